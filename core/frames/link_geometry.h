@@ -1,0 +1,28 @@
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "core/frames/arm_in_r0.h"
+
+namespace stiffscope {
+
+/// Distance and angle between two consecutive joint axes at zero.
+struct LinkGeometry {
+  double distance = 0.0;  ///< m
+  double angle = 0.0;     ///< rad, 0..pi/2
+  bool near_parallel = false;  ///< within a degree: `distance` is that across the first axis at `at_point`
+  Eigen::Vector3d at_point_in_r0 = Eigen::Vector3d::Zero();  ///< on the first axis; only meant for near_parallel
+  std::optional<double> distance_sd;  ///< standard uncertainty; empty where an axis was not measured
+  std::optional<double> angle_sd;
+  double nominal_distance = 0.0;  ///< of the URDF, by the same rule
+  double nominal_angle = 0.0;
+};
+
+/// Link i between axes i+1 and i+2 of the arm (paper, II.D: link lengths by circle-point). For axes within a degree of
+/// parallel the common perpendicular's place is undetermined: their distance is taken in the plane normal to the first,
+/// at the foot on it of the common perpendicular with the axis before (Hayati).
+std::array<LinkGeometry, 5> linkGeometry(const Robot& nominal, const ArmInR0& arm,
+                                         const std::array<MeasuredAxis, 6>& axes);
+
+}  // namespace stiffscope

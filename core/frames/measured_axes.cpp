@@ -1,0 +1,132 @@
+#include "core/frames/measured_axes.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <map>
+
+namespace stiffscope {
+
+namespace {
+
+constexpr double kStandsStill = 1e-5;  // rad: a controller's read-back resolution
+
+Eigen::Isometry3d turnAbout(const Line& axis, double angle) {
+  const Eigen::Matrix3d turn = Eigen::AngleAxisd(angle, axis.direction).toRotationMatrix();
+  Eigen::Isometry3d motion = Eigen::Isometry3d::Identity();
+  motion.linear() = turn;
+  motion.translation() = axis.point - turn * axis.point;
+  return motion;
+}
+
+struct Sweep {
+  std::vector<CirclePoints> circles;
+  std::vector<std::vector<double>> angles;  ///< of the turning joint, per circle and point
+  std::vector<int> targets;
+  Vector6d q = Vector6d::Zero();  ///< of the first reading
+  bool others_moved = false;
+};
+
+Sweep collect(const Campaign& campaign, int axis, const RigidPoints& points) {
+  Sweep sweep;
+  std::map<int, std::size_t> circle_of;
+  const bool weighted = campaign.tracker.has_value();
+  const TrackerNoise noise = weighted ? trackerNoise(*campaign.tracker) : TrackerNoise{};
+  bool first = true;
+  for (std::size_t row = 0; row < campaign.circle_sweeps->rows.size(); ++row) {
+    const CircleReading& reading = campaign.circle_sweeps->rows[row];
+    if (reading.axis != axis) continue;
+    if (first) sweep.q = reading.q, first = false;
+    for (int joint = 0; joint < 6; ++joint) {
+      if (joint != axis && std::abs(reading.q[joint] - sweep.q[joint]) > kStandsStill) sweep.others_moved = true;
+    }
+    const auto [place, added] = circle_of.try_emplace(reading.target, sweep.circles.size());
+    if (added) {
+      sweep.circles.emplace_back();
+      sweep.angles.emplace_back();
+      sweep.targets.push_back(reading.target);
+    }
+    sweep.circles[place->second].points.push_back(points.circle_sweeps[row]);
+    if (weighted) sweep.circles[place->second].covariances.push_back(noise.covarianceAt(reading.point));
+    sweep.angles[place->second].push_back(reading.q[axis]);
+  }
+  return sweep;
+}
+
+/// How far the readings scatter when each is turned back by its joint angle: least for the right sense of the axis.
+double scatterTurnedBack(const Sweep& sweep, const Line& axis, double sense) {
+  double scatter = 0.0;
+  for (std::size_t k = 0; k < sweep.circles.size(); ++k) {
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    double squares = 0.0;
+    for (std::size_t i = 0; i < sweep.circles[k].points.size(); ++i) {
+      const Eigen::Vector3d back =
+          Eigen::AngleAxisd(-sense * sweep.angles[k][i], axis.direction) * (sweep.circles[k].points[i] - axis.point);
+      sum += back;
+      squares += back.squaredNorm();
+    }
+    scatter += squares - sum.squaredNorm() / static_cast<double>(sweep.circles[k].points.size());
+  }
+  return scatter;
+}
+
+void moveBy(const Eigen::Isometry3d& motion, MeasuredLine& line) {
+  line.line = {motion * line.line.point, motion.linear() * line.line.direction};
+  line.across_u = motion.linear() * line.across_u;
+  line.across_v = motion.linear() * line.across_v;
+}
+
+/// Turns the measured axis back through the axes before it; false with the reason where one of those is unknown.
+bool turnBackToZero(const std::array<MeasuredAxis, 6>& axes, const Vector6d& q, int axis, MeasuredAxis& measured) {
+  for (int before = 0; before < axis; ++before) {
+    if (q[before] == 0.0) continue;
+    const MeasuredAxis& earlier = axes[static_cast<std::size_t>(before)];
+    if (!earlier.measured) {
+      measured.reason = fmt::format("axis {} stood away from zero during its sweep and is not measured itself",
+                                    before + 1);
+      return false;
+    }
+    moveBy(turnAbout(earlier.at_zero.line, -q[before]), measured.at_zero);
+  }
+  return true;
+}
+
+}  // namespace
+
+TrackerNoise trackerNoise(const Tracker& tracker) {
+  return {tracker.range_fixed, tracker.range_per_m, tracker.angle_fixed, tracker.angle_per_m, tracker.station};
+}
+
+std::array<MeasuredAxis, 6> measureAxes(const Campaign& campaign, const RigidPoints& points) {
+  std::array<MeasuredAxis, 6> axes;
+  for (int axis = 0; axis < 6; ++axis) {
+    MeasuredAxis& measured = axes[static_cast<std::size_t>(axis)];
+    if (!campaign.circle_sweeps) {
+      measured.reason = "the campaign has no circle sweeps";
+      continue;
+    }
+    const Sweep sweep = collect(campaign, axis, points);
+    if (sweep.circles.empty()) {
+      measured.reason = "it was not swept";
+      continue;
+    }
+    if (sweep.others_moved) {
+      measured.reason = "other joints moved during its sweep";
+      continue;
+    }
+    measured.fit = fitAxis(sweep.circles);
+    measured.targets = sweep.targets;
+    if (!measured.fit.determined) {
+      measured.reason = measured.fit.reason;
+      continue;
+    }
+    measured.at_zero = measured.fit.axis;
+    Line& line = measured.at_zero.line;
+    if (scatterTurnedBack(sweep, line, -1.0) < scatterTurnedBack(sweep, line, 1.0)) line.direction = -line.direction;
+    measured.measured = turnBackToZero(axes, sweep.q, axis, measured);
+  }
+  return axes;
+}
+
+}  // namespace stiffscope

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <array>
+#include <string>
+
+#include "core/campaign/campaign.h"
+#include "core/frames/rigid_points.h"
+#include "metrology/axis_fit.h"
+#include "metrology/tracker_noise.h"
+
+namespace stiffscope {
+
+/// One joint axis from its circle sweeps.
+struct MeasuredAxis {
+  bool measured = false;
+  std::string reason;      ///< why not measured
+  AxisFit fit;             ///< circles in the order of `targets`
+  std::vector<int> targets;
+  /// The axis with all joints at zero, in the frame of the readings, directed as the joint turns positively.
+  MeasuredLine at_zero;
+};
+
+/// Circle-point (paper, II.D): fits the common axis of each joint's circles, on the readings referred to
+/// the rigid arm, gives it the sense of the joint's turning, and turns it back to zero through the axes before it.
+/// An axis without sweeps, or whose sweep moves other joints too, is not measured and says why.
+std::array<MeasuredAxis, 6> measureAxes(const Campaign& campaign, const RigidPoints& points);
+
+/// The tracker's noise as the metrology package takes it.
+TrackerNoise trackerNoise(const Tracker& tracker);
+
+}  // namespace stiffscope

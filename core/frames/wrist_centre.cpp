@@ -1,0 +1,124 @@
+#include "core/frames/wrist_centre.h"
+
+#include <cmath>
+#include <limits>
+
+#include "core/robot/kinematics.h"
+#include "metrology/common_perpendicular.h"
+#include "metrology/line_pair_uncertainty.h"
+
+namespace stiffscope {
+
+namespace {
+
+constexpr double kStandsStill = 1e-5;  // rad
+
+struct SweepOfTargets {
+  std::vector<SpherePoints> spheres;
+  std::vector<int> targets;
+};
+
+SweepOfTargets collect(const Campaign& campaign, const ArmInR0& arm, const RigidPoints& points) {
+  SweepOfTargets sweep;
+  std::vector<int> sphere_of(campaign.targets.size(), -1);
+  const bool weighted = campaign.tracker.has_value();
+  const TrackerNoise noise = weighted ? trackerNoise(*campaign.tracker) : TrackerNoise{};
+  const Eigen::Matrix3d turn = arm.r0_from_points.linear();
+  for (std::size_t row = 0; row < campaign.wrist_sweep->rows.size(); ++row) {
+    const WristReading& reading = campaign.wrist_sweep->rows[row];
+    int& k = sphere_of[static_cast<std::size_t>(reading.target)];
+    if (k < 0) {
+      k = static_cast<int>(sweep.spheres.size());
+      sweep.spheres.emplace_back();
+      sweep.targets.push_back(reading.target);
+    }
+    SpherePoints& sphere = sweep.spheres[static_cast<std::size_t>(k)];
+    sphere.points.push_back(arm.r0_from_points * points.wrist_sweep[row]);
+    if (weighted) sphere.covariances.push_back(turn * noise.covarianceAt(reading.point) * turn.transpose());
+  }
+  return sweep;
+}
+
+bool armStoodStill(const WristSweep& sweep) {
+  const Vector6d& first = sweep.rows.front().q;
+  for (const WristReading& reading : sweep.rows) {
+    if ((reading.q.head<3>() - first.head<3>()).cwiseAbs().maxCoeff() > kStandsStill) return false;
+  }
+  return true;
+}
+
+void fillTable(const SweepOfTargets& sweep, WristCentre& wrist) {
+  for (std::size_t k = 0; k < sweep.spheres.size(); ++k) {
+    const SphereFit own = fitSpheres({sweep.spheres[k]});
+    if (!own.determined) continue;
+    wrist.table.push_back({sweep.targets[k], own.centre, own.radii[0], 0.0, own.rms,
+                           static_cast<int>(sweep.spheres[k].points.size())});
+    wrist.table_mean_in_r0 += own.centre;
+  }
+  if (wrist.table.empty()) return;
+  wrist.table_mean_in_r0 /= static_cast<double>(wrist.table.size());
+  for (WristTableRow& row : wrist.table) row.offset = (row.centre_in_r0 - wrist.table_mean_in_r0).norm();
+}
+
+void compareWithAxes(const ArmInR0& arm, const std::array<MeasuredAxis, 6>& axes, const ArmPosture& posture,
+                     WristCentre& wrist) {
+  const Line axis_4 = axisAt(arm.arm, posture, 3), axis_5 = axisAt(arm.arm, posture, 4),
+             axis_6 = axisAt(arm.arm, posture, 5);
+  const CommonPerpendicular wrist_56 = commonPerpendicular(axis_5, axis_6);
+  wrist.nearest_axes_56_in_r0 = 0.5 * (wrist_56.foot_on_first + wrist_56.foot_on_second);
+  wrist.miss_45 = commonPerpendicular(axis_4, axis_5).distance;
+  wrist.miss_56 = wrist_56.distance;
+  if (axes[3].measured && axes[4].measured) {
+    wrist.miss_45_sd = distanceUncertainty(axes[3].at_zero, axes[4].at_zero);
+  }
+  if (axes[4].measured && axes[5].measured) {
+    wrist.miss_56_sd = distanceUncertainty(axes[4].at_zero, axes[5].at_zero);
+  }
+}
+
+}  // namespace
+
+WristCentre measureWristCentre(const Campaign& campaign, const ArmInR0& arm, const std::array<MeasuredAxis, 6>& axes,
+                               const RigidPoints& points,
+                               const std::vector<std::optional<Eigen::Vector3d>>& targets_at_zero) {
+  WristCentre wrist;
+  if (campaign.wrist_sweep) wrist.q.head<3>() = campaign.wrist_sweep->rows.front().q.head<3>();
+  const ArmPosture posture = postureAt(arm.arm, wrist.q);
+  compareWithAxes(arm, axes, posture, wrist);
+  int seen = 0;
+  for (const auto& target : targets_at_zero) {
+    if (target) wrist.reflector_barycentre_in_r0 += posture.motion[6] * *target, ++seen;
+  }
+  if (seen > 0) wrist.reflector_barycentre_in_r0 /= seen;
+
+  if (!campaign.wrist_sweep) {
+    wrist.reason = "the campaign has no wrist sweep";
+    return wrist;
+  }
+  if (!arm.points_placed) {
+    wrist.reason = "R0 is not known in the frame of the readings: axes 1 and 2 were not swept";
+    return wrist;
+  }
+  if (!armStoodStill(*campaign.wrist_sweep)) {
+    wrist.reason = "axes 1-3 moved during the wrist sweep";
+    return wrist;
+  }
+  const SweepOfTargets sweep = collect(campaign, arm, points);
+  wrist.spheres = fitSpheres(sweep.spheres);
+  if (!wrist.spheres.determined) {
+    wrist.reason = wrist.spheres.reason;
+    return wrist;
+  }
+  wrist.centre_in_r0 = wrist.spheres.centre;
+  wrist.covariance = wrist.spheres.covariance.topLeftCorner<3, 3>();
+  wrist.centre_at_zero_in_r0 = posture.motion[3].inverse() * wrist.centre_in_r0;
+  wrist.radii.assign(campaign.targets.size(), std::numeric_limits<double>::quiet_NaN());
+  for (std::size_t k = 0; k < sweep.targets.size(); ++k) {
+    wrist.radii[static_cast<std::size_t>(sweep.targets[k])] = wrist.spheres.radii[k];
+  }
+  fillTable(sweep, wrist);
+  wrist.measured = true;
+  return wrist;
+}
+
+}  // namespace stiffscope

@@ -1,1 +1,0 @@
-#include "metrology/line.h"
