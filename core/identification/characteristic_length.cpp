@@ -1,0 +1,58 @@
+#include "core/identification/characteristic_length.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+
+#include "core/robot/kinematics.h"
+
+namespace stiffscope {
+
+namespace {
+
+/// J^T J of the stacked Jacobian, displacement and rotation rows apart: its condition number at any L is that of
+/// linear / L^2 + angular, square root taken.
+struct StackedJacobian {
+  Matrix6d linear = Matrix6d::Zero(), angular = Matrix6d::Zero();
+
+  double condition(double length) const {
+    const Matrix6d gram = linear / (length * length) + angular;
+    const Eigen::SelfAdjointEigenSolver<Matrix6d> eigen(gram, Eigen::EigenvaluesOnly);
+    return std::sqrt(eigen.eigenvalues()[5] / eigen.eigenvalues()[0]);
+  }
+};
+
+}  // namespace
+
+CharacteristicLength characteristicLength(const LoadingGeometry& geometry, const std::vector<LoadCase>& cases,
+                                          const Eigen::Vector3d& tcp_in_flange) {
+  StackedJacobian stacked;
+  for (const LoadCase& load_case : cases) {
+    const Matrix6d jacobian =
+        jacobianAt(geometry.arm, load_case.posture, *load_case.flange_unloaded * tcp_in_flange);
+    stacked.linear += jacobian.topRows<3>().transpose() * jacobian.topRows<3>();
+    stacked.angular += jacobian.bottomRows<3>().transpose() * jacobian.bottomRows<3>();
+  }
+  CharacteristicLength result;
+  constexpr int kPoints = 61;
+  const double low = std::log(0.05), high = std::log(20.0), step = (high - low) / (kPoints - 1);
+  int best = 0;
+  for (int i = 0; i < kPoints; ++i) {
+    const double length = std::exp(low + i * step);
+    result.curve.emplace_back(length, stacked.condition(length));
+    if (result.curve.back().second < result.curve[static_cast<std::size_t>(best)].second) best = i;
+  }
+  const double golden = (std::sqrt(5.0) - 1.0) / 2.0;
+  double left = low + (best - 1) * step, right = low + (best + 1) * step;
+  constexpr double kClose = 1e-6;
+  while (right - left > kClose) {
+    const double a = right - golden * (right - left), b = left + golden * (right - left);
+    (stacked.condition(std::exp(a)) < stacked.condition(std::exp(b)) ? right : left) =
+        stacked.condition(std::exp(a)) < stacked.condition(std::exp(b)) ? b : a;
+  }
+  result.length = std::exp(0.5 * (left + right));
+  result.condition = stacked.condition(result.length);
+  return result;
+}
+
+}  // namespace stiffscope

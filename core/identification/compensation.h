@@ -1,0 +1,41 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "core/identification/equations.h"
+
+namespace stiffscope {
+
+/// How much of the deflection a model takes away at some points: 1 - sum |residual| / sum |displacement|, over postures
+/// (method: Before and after). Prepared for many evaluations: rows sorted by coordinate, so that norms vectorise.
+class DeflectionJudge {
+ public:
+  DeflectionJudge() = default;
+  /// `equations`: one a posture, three rows a point, positions only.
+  explicit DeflectionJudge(const std::vector<CaseEquations>& equations);
+
+  std::size_t postures() const { return displacement_.size(); }
+
+  /// Per posture: sum over its points of |displacement|, m.
+  const std::vector<double>& displacement() const { return displacement_; }
+
+  /// Per posture: sum over its points of |b - A c|, m.
+  void residual(const Vector6d& compliance, std::vector<double>& per_posture) const;
+  std::vector<double> residual(const Vector6d& compliance) const;
+
+  /// Over all postures.
+  double compensated(const Vector6d& compliance) const;
+
+  /// Points of a posture, for turning sums into means.
+  int pointsOf(std::size_t posture) const { return points_[posture]; }
+
+ private:
+  std::array<Eigen::Array<double, Eigen::Dynamic, 6>, 3> matrix_;  // by coordinate: one row a point
+  std::array<Eigen::ArrayXd, 3> right_;
+  std::vector<std::size_t> posture_of_point_;
+  std::vector<int> points_;
+  std::vector<double> displacement_;
+};
+
+}  // namespace stiffscope

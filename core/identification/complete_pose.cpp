@@ -1,0 +1,47 @@
+#include "core/identification/complete_pose.h"
+
+#include "core/robot/kinematics.h"
+
+namespace stiffscope {
+
+CaseEquations completePoseEquations(const LoadingGeometry& geometry, const LoadCase& load_case,
+                                    const Eigen::Vector3d& tcp_in_flange, const Vector6d& torque) {
+  const Eigen::Isometry3d &before = *load_case.flange_unloaded, &after = *load_case.flange_loaded;
+  const Eigen::AngleAxisd rotation(after.linear() * before.linear().transpose());
+  const Eigen::Vector3d tcp = before * tcp_in_flange;
+  CaseEquations equations;
+  equations.matrix = jacobianAt(geometry.arm, load_case.posture, tcp) * torque.asDiagonal();
+  equations.right.resize(6);
+  equations.right << after * tcp_in_flange - tcp, rotation.angle() * rotation.axis();
+  return equations;
+}
+
+CaseEquations normalised(const CaseEquations& pose_equations, double characteristic_length) {
+  CaseEquations scaled = pose_equations;
+  scaled.matrix.topRows<3>() /= characteristic_length;
+  scaled.right.head<3>() /= characteristic_length;
+  return scaled;
+}
+
+StiffnessEstimate completePose(const std::vector<CaseEquations>& pose_equations, double characteristic_length,
+                               const JointMask& unknown) {
+  StiffnessEstimate estimate;
+  estimate.identifiable = unknown;
+  std::vector<CaseEquations> scaled, displacements;
+  NormalEquations sum;
+  for (const CaseEquations& one : pose_equations) {
+    scaled.push_back(normalised(one, characteristic_length));
+    displacements.push_back({one.matrix.topRows<3>(), one.right.head<3>()});
+    sum += normalEquations(scaled.back());
+  }
+  estimate.compliance = solveNormal(sum, unknown);
+  estimate.condition = conditionNumber(scaled, unknown);
+  std::vector<Vector6d> influences;
+  for (const CaseEquations& one : scaled) influences.push_back(influence(one, sum, estimate.compliance, unknown));
+  estimate.covariance =
+      scatterCovariance(influences, static_cast<int>(std::count(unknown.begin(), unknown.end(), true)));
+  describeResiduals(displacements, estimate);
+  return estimate;
+}
+
+}  // namespace stiffscope

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "core/identification/load_case.h"
+
+namespace stiffscope {
+
+/// The linear equations of one load case, A c = b, c = (1/k_1 .. 1/k_6): paper (12) with one column a joint,
+/// A_j = J_m,j (J_w^T W)_j. Rows are displacements in R0 (m), and rotations (rad) where a method uses them.
+struct CaseEquations {
+  Eigen::Matrix<double, Eigen::Dynamic, 6> matrix;
+  Eigen::VectorXd right;
+};
+
+/// Joint torques of each load case, paper (2), Nm: J_w^T W.
+std::vector<Vector6d> jointTorques(const LoadingGeometry& geometry, const std::vector<LoadCase>& cases);
+
+/// The same plus K_c c (J_w^T W + K_c ...): the torque by which the springs really are turned when the load's and the own weight's
+/// torque changes as the joints give, so that A c = J_m (K - K_c)^-1 J_w^T W (method: Unknowns). `compliance` c is the
+/// current estimate; the equations stay linear for the next one.
+std::vector<Vector6d> jointTorquesWithGeometricStiffness(const LoadingGeometry& geometry,
+                                                         const std::vector<LoadCase>& cases,
+                                                         const Vector6d& compliance);
+
+/// J_m diag(torque) of the positional rows of a point of the flange body.
+Matrix36d pointRows(const LoadingGeometry& geometry, const LoadCase& load_case, const Eigen::Vector3d& point,
+                    const Vector6d& torque);
+
+}  // namespace stiffscope

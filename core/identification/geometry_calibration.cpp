@@ -1,0 +1,266 @@
+#include "core/identification/geometry_calibration.h"
+
+#include <ceres/ceres.h>
+#include <ceres/rotation.h>
+#include <fmt/format.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "core/frames/arm_in_r0.h"
+#include "core/identification/base_from_postures.h"
+#include "core/identification/unloaded_positions.h"
+#include "metrology/measured_line.h"
+
+namespace stiffscope {
+
+namespace {
+
+/// Estimated numbers, as steps from the start: per axis shift_u, shift_v (m), tilt_u, tilt_v (rad); the base's small
+/// motion, rotation vector then translation, in the readings' frame; the reflectors' places at zero (m).
+struct Parameters {
+  std::array<double, 24> axes{};
+  std::array<double, 6> base{};
+  std::vector<std::array<double, 3>> targets;
+};
+
+struct Start {
+  std::array<Line, 6> axes;
+  std::array<Eigen::Vector3d, 6> across_u, across_v;
+  Eigen::Isometry3d points_from_base;
+};
+
+/// Residual: measured minus modelled place of one reflector, in the readings' frame, whitened.
+struct PositionResidual {
+  const Start& start;
+  Vector6d q;  // with the sag in
+  Eigen::Vector3d measured;
+  Eigen::Matrix3d whiten;
+
+  template <class T>
+  bool operator()(const T* axes, const T* base, const T* target, T* residual) const {
+    using Vector = Eigen::Matrix<T, 3, 1>;
+    Vector x(target[0], target[1], target[2]);
+    for (int joint = 5; joint >= 0; --joint) {  // innermost turn first: exp(xi_1 q_1) ... exp(xi_6 q_6) x
+      const auto j = static_cast<std::size_t>(joint);
+      const T* own = axes + 4 * joint;
+      const Vector point = start.axes[j].point.cast<T>() + start.across_u[j].cast<T>() * own[0] +
+                           start.across_v[j].cast<T>() * own[1];
+      const Vector direction = (start.axes[j].direction.cast<T>() + start.across_u[j].cast<T>() * own[2] +
+                                start.across_v[j].cast<T>() * own[3])
+                                   .normalized();
+      const Vector from = x - point;
+      const double cosine = std::cos(q[joint]), sine = std::sin(q[joint]);
+      x = point + from * T(cosine) + direction.cross(from) * T(sine) +
+          direction * (direction.dot(from) * T(1.0 - cosine));
+    }
+    const Vector placed = start.points_from_base.linear().cast<T>() * x +
+                          start.points_from_base.translation().cast<T>();
+    Vector turned;
+    ceres::AngleAxisRotatePoint(base, placed.data(), turned.data());
+    const Vector modelled = turned + Vector(base[3], base[4], base[5]);
+    Eigen::Map<Vector>(residual, 3) = whiten.cast<T>() * (measured.cast<T>() - modelled);
+    return true;
+  }
+};
+
+std::string axisParameterName(int k) {
+  static const std::array<const char*, 4> kKinds{"place (u)", "place (v)", "direction (u)", "direction (v)"};
+  return fmt::format("axis {} {}", k / 4 + 1, kKinds[static_cast<std::size_t>(k % 4)]);
+}
+
+class Calibration {
+ public:
+  Calibration(const Campaign& campaign, const LoadingGeometry& start) : campaign_(campaign), begin_(start) {}
+
+  GeometryCalibration run() {
+    GeometryCalibration result;
+    positions_ = unloadedPositions(campaign_);
+    result.positions = static_cast<int>(positions_.size());
+    if (positions_.empty()) {
+      result.reason = "there are no absolute unloaded positions (loading, step 0) to calibrate on";
+      return result;
+    }
+    if (!begin(result)) return result;
+    build();
+    result.rms_before = plainRms();
+    const std::vector<int> unseen_axes = findUnseen();
+    result.parameters = 24 + 6 + 3 * static_cast<int>(used_targets_.size()) - static_cast<int>(unseen_axes.size());
+    if (3 * result.positions <= result.parameters) {
+      result.reason = fmt::format("{} unloaded positions do not determine {} parameters", result.positions,
+                                  result.parameters);
+      return result;
+    }
+    for (const int k : unseen_axes) result.fixed.push_back(axisParameterName(k));
+    if (!unseen_axes.empty() && unseen_axes.size() < 24) {
+      problem_.SetManifold(parameters_.axes.data(), new ceres::SubsetManifold(24, unseen_axes));
+    } else if (unseen_axes.size() == 24) {
+      problem_.SetParameterBlockConstant(parameters_.axes.data());
+    }
+    ceres::Solver::Options options;
+    options.linear_solver_type = ceres::DENSE_NORMAL_CHOLESKY;
+    options.num_threads = 1;
+    options.logging_type = ceres::SILENT;
+    options.function_tolerance = 1e-12;
+    options.parameter_tolerance = 1e-12;
+    options.max_num_iterations = 50;
+    ceres::Solver::Summary summary;
+    ceres::Solve(options, &problem_, &summary);
+    result.summary = fmt::format("{} iterations, cost {:.6g} to {:.6g}", summary.iterations.size(),
+                                 summary.initial_cost, summary.final_cost);
+    if (!summary.IsSolutionUsable()) {
+      result.reason = "the calibration did not converge: " + summary.message;
+      return result;
+    }
+    result.rms_after = plainRms();
+    result.geometry = calibrated();
+    result.done = true;
+    return result;
+  }
+
+ private:
+  bool begin(GeometryCalibration& result) {
+    targets_ = begin_.targets_at_zero;
+    if (begin_.r0_from_loading) {
+      start_.points_from_base = begin_.r0_from_loading->inverse();
+    }
+    const bool placed = begin_.r0_from_loading.has_value() &&
+                        std::all_of(positions_.begin(), positions_.end(), [&](const UnloadedPosition& p) {
+                          return targets_[static_cast<std::size_t>(p.target)].has_value();
+                        });
+    if (!placed) {
+      const auto found = baseFromPostures(begin_, positions_, campaign_.targets.size());
+      if (!found) {
+        result.reason = "the base's place is not known from sweeps, and finding it from postures needs three "
+                        "reflectors in three postures that turn the flange about different axes";
+        return false;
+      }
+      start_.points_from_base = found->points_from_base;
+      targets_ = found->targets_at_zero;
+    }
+    start_.axes = begin_.arm.axes_in_base_at_zero;
+    for (std::size_t j = 0; j < 6; ++j) {
+      basisAcross(start_.axes[j].direction, start_.across_u[j], start_.across_v[j]);
+    }
+    return true;
+  }
+
+  void build() {
+    parameters_.targets.resize(targets_.size());
+    for (std::size_t k = 0; k < targets_.size(); ++k) {
+      if (targets_[k]) parameters_.targets[k] = {targets_[k]->x(), targets_[k]->y(), targets_[k]->z()};
+    }
+    for (const UnloadedPosition& position : positions_) {
+      const auto k = static_cast<std::size_t>(position.target);
+      if (std::find(used_targets_.begin(), used_targets_.end(), k) == used_targets_.end()) used_targets_.push_back(k);
+      auto* residual = new PositionResidual{start_, begin_.sagged(position.q), position.point, whitening(position)};
+      residuals_.push_back(residual);
+      problem_.AddResidualBlock(new ceres::AutoDiffCostFunction<PositionResidual, 3, 24, 6, 3>(residual), nullptr,
+                                parameters_.axes.data(), parameters_.base.data(), parameters_.targets[k].data());
+    }
+    std::sort(used_targets_.begin(), used_targets_.end());
+  }
+
+  Eigen::Matrix3d whitening(const UnloadedPosition& position) const {
+    if (!campaign_.tracker) return Eigen::Matrix3d::Identity();
+    const Eigen::Matrix3d covariance =
+        trackerNoise(*campaign_.tracker).covarianceAt(position.point) / position.readings;
+    return covariance.inverse().llt().matrixU();
+  }
+
+  double plainRms() const {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < positions_.size(); ++i) {
+      PositionResidual plain = *residuals_[i];
+      plain.whiten.setIdentity();
+      Eigen::Vector3d residual;
+      plain(parameters_.axes.data(), parameters_.base.data(),
+            parameters_.targets[static_cast<std::size_t>(positions_[i].target)].data(), residual.data());
+      sum += residual.squaredNorm();
+    }
+    return std::sqrt(sum / (3.0 * static_cast<double>(positions_.size())));
+  }
+
+  /// Axis parameters whose column of the Jacobian lies in the span of those before it. Base and reflectors come first and
+  /// the axes from the tip inwards, so that what is free by choice of frame is fixed in axes 1 and 2, which define R0.
+  std::vector<int> findUnseen() {
+    ceres::Problem::EvaluateOptions options;
+    options.parameter_blocks = {parameters_.base.data()};
+    for (const std::size_t k : used_targets_) options.parameter_blocks.push_back(parameters_.targets[k].data());
+    options.parameter_blocks.push_back(parameters_.axes.data());
+    ceres::CRSMatrix sparse;
+    problem_.Evaluate(options, nullptr, nullptr, nullptr, &sparse);
+    Eigen::MatrixXd jacobian = Eigen::MatrixXd::Zero(sparse.num_rows, sparse.num_cols);
+    for (int row = 0; row < sparse.num_rows; ++row) {
+      for (int at = sparse.rows[static_cast<std::size_t>(row)]; at < sparse.rows[static_cast<std::size_t>(row) + 1];
+           ++at) {
+        jacobian(row, sparse.cols[static_cast<std::size_t>(at)]) = sparse.values[static_cast<std::size_t>(at)];
+      }
+    }
+    const int axes_at = 6 + 3 * static_cast<int>(used_targets_.size());
+    std::vector<int> order;
+    for (int k = 0; k < axes_at; ++k) order.push_back(k);
+    for (int axis = 5; axis >= 0; --axis) {
+      for (int k = 0; k < 4; ++k) order.push_back(axes_at + 4 * axis + k);
+    }
+    constexpr double kUnseen = 1e-5;  // share of a column's length that is new
+    std::vector<int> unseen;
+    std::vector<Eigen::VectorXd> span;
+    for (const int column : order) {
+      Eigen::VectorXd rest = jacobian.col(column);
+      const double length = rest.norm();
+      for (int pass = 0; pass < 2; ++pass) {
+        for (const Eigen::VectorXd& direction : span) rest -= direction.dot(rest) * direction;
+      }
+      if (rest.norm() > kUnseen * length) {
+        span.push_back(rest.normalized());
+      } else if (column >= axes_at) {
+        unseen.push_back(column - axes_at);
+      }
+    }
+    std::sort(unseen.begin(), unseen.end());
+    return unseen;
+  }
+
+  LoadingGeometry calibrated() const {
+    LoadingGeometry geometry = begin_;
+    for (std::size_t j = 0; j < 6; ++j) {
+      const MeasuredLine from{start_.axes[j], start_.across_u[j], start_.across_v[j], Eigen::Matrix4d::Zero()};
+      geometry.arm.axes_in_base_at_zero[j] = from.moved(Eigen::Map<const Eigen::Vector4d>(&parameters_.axes[4 * j]));
+    }
+    const Eigen::Isometry3d carry = flangeCarry(start_.axes, geometry.arm.axes_in_base_at_zero);
+    geometry.arm.base_from_flange_at_zero = carry * geometry.arm.base_from_flange_at_zero;
+    for (LinkFrame& link : geometry.arm.links) {
+      if (link.body == 6) link.base_from_link_at_zero = carry * link.base_from_link_at_zero;
+    }
+    for (const std::size_t k : used_targets_) {
+      geometry.targets_at_zero[k] = Eigen::Map<const Eigen::Vector3d>(parameters_.targets[k].data());
+    }
+    Eigen::Isometry3d moved = Eigen::Isometry3d::Identity();
+    const Eigen::Map<const Eigen::Vector3d> turn(parameters_.base.data());
+    if (turn.norm() > 0.0) moved.linear() = Eigen::AngleAxisd(turn.norm(), turn.normalized()).toRotationMatrix();
+    moved.translation() = Eigen::Map<const Eigen::Vector3d>(parameters_.base.data() + 3);
+    geometry.r0_from_loading = (moved * start_.points_from_base).inverse();
+    return geometry;
+  }
+
+  const Campaign& campaign_;
+  const LoadingGeometry& begin_;
+  std::vector<UnloadedPosition> positions_;
+  std::vector<std::optional<Eigen::Vector3d>> targets_;
+  std::vector<std::size_t> used_targets_;
+  std::vector<PositionResidual*> residuals_;  // owned by the problem's cost functions
+  Start start_;
+  Parameters parameters_;
+  ceres::Problem problem_;
+};
+
+}  // namespace
+
+GeometryCalibration calibrateGeometry(const Campaign& campaign, const LoadingGeometry& start) {
+  return Calibration(campaign, start).run();
+}
+
+}  // namespace stiffscope

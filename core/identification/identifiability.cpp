@@ -1,0 +1,131 @@
+#include "core/identification/identifiability.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Dense>
+#include <cmath>
+
+#include "core/robot/kinematics.h"
+#include "core/statics/joint_torque.h"
+
+namespace stiffscope {
+
+namespace {
+
+double square(double x) { return x * x; }
+
+/// The load as it were if it hung exactly: the force along gravity, no moment about it.
+Wrench hangingPart(const Wrench& wrench, const Eigen::Vector3d& down) {
+  Wrench part = wrench;
+  part.force = down * down.dot(wrench.force);
+  part.moment -= down * down.dot(wrench.moment);
+  return part;
+}
+
+/// Variance of each joint's torque by the uncertainties of wrench, direction and place.
+Vector6d torqueVariance(const LoadingGeometry& geometry, const LoadCase& load_case, const LoadCell& cell,
+                        const TrustLimits& limits) {
+  const Matrix6d jacobian = jacobianAt(geometry.arm, load_case.posture, load_case.wrench.point);
+  Vector6d variance;
+  for (int j = 0; j < 6; ++j) {
+    const Eigen::Vector3d lever = jacobian.block<3, 1>(0, j), axis = jacobian.block<3, 1>(3, j);
+    const Eigen::Vector3d by_turn = load_case.wrench.force.cross(lever) + load_case.wrench.moment.cross(axis);
+    variance[j] = square(cell.force_sigma) * lever.squaredNorm() + square(cell.moment_sigma) +
+                  square(limits.direction) * by_turn.squaredNorm() +
+                  square(limits.position) * axis.cross(load_case.wrench.force).squaredNorm();
+  }
+  return variance;
+}
+
+void judgeHanging(const LoadingGeometry& geometry, const std::vector<LoadCase>& cases, const TrustLimits& limits,
+                  Identifiability& result) {
+  if (geometry.weight.gravity_in_base.squaredNorm() == 0.0) return;
+  const Eigen::Vector3d down = geometry.weight.gravity_in_base.normalized();
+  double sum = 0.0;
+  int forces = 0;
+  for (const LoadCase& load_case : cases) {
+    const Eigen::Vector3d& force = load_case.wrench.force;
+    if (force.norm() == 0.0) continue;
+    sum += square(std::atan2(force.cross(down).norm(), force.dot(down)));
+    ++forces;
+  }
+  if (forces == 0) return;
+  result.gravity_angle_rms = std::sqrt(sum / forces);
+  result.load_hangs = result.gravity_angle_rms < limits.hanging_within;
+}
+
+/// Marks joints that take part in a combination which the equations do not see.
+void judgeRank(const std::vector<CaseEquations>& equations, Identifiability& result) {
+  NormalEquations sum;
+  for (const CaseEquations& one : equations) sum += normalEquations(one);
+  Matrix6d scaled = Matrix6d::Identity();
+  const JointMask mask = result.mask();
+  for (int a = 0; a < 6; ++a) {
+    for (int b = 0; b < 6; ++b) {
+      if (mask[static_cast<std::size_t>(a)] && mask[static_cast<std::size_t>(b)]) {
+        scaled(a, b) = sum.matrix(a, b) / std::sqrt(sum.matrix(a, a) * sum.matrix(b, b));
+      }
+    }
+  }
+  const Eigen::SelfAdjointEigenSolver<Matrix6d> eigen(scaled);
+  constexpr double kUnseen = 1e-8;     // squared singular value of unit columns: a condition number of 1e4
+  constexpr double kTakesPart = 0.05;  // share of a joint in the unseen combination
+  for (int k = 0; k < 6; ++k) {
+    if (eigen.eigenvalues()[k] > kUnseen) break;
+    std::string joints;
+    for (int j = 0; j < 6; ++j) {
+      if (std::abs(eigen.eigenvectors()(j, k)) > kTakesPart) joints += fmt::format("{}{}", joints.empty() ? "" : ", ", j + 1);
+    }
+    for (int j = 0; j < 6; ++j) {
+      if (std::abs(eigen.eigenvectors()(j, k)) <= kTakesPart) continue;
+      JointIdentifiability& joint = result.joints[static_cast<std::size_t>(j)];
+      joint.identifiable = false;
+      joint.reason = fmt::format("these postures only see a combination of joints {}", joints);
+    }
+  }
+}
+
+}  // namespace
+
+JointMask Identifiability::mask() const {
+  JointMask unknown{};
+  for (std::size_t j = 0; j < 6; ++j) unknown[j] = joints[j].identifiable;
+  return unknown;
+}
+
+Identifiability judgeJoints(const LoadingGeometry& geometry, const std::vector<LoadCase>& cases, const LoadCell& cell,
+                            const std::vector<CaseEquations>& equations, const TrustLimits& limits) {
+  Identifiability result;
+  if (cases.empty()) return result;
+  judgeHanging(geometry, cases, limits, result);
+  const Eigen::Vector3d down = geometry.weight.gravity_in_base.normalized();
+  Vector6d torque = Vector6d::Zero(), trusted = Vector6d::Zero(), variance = Vector6d::Zero();
+  for (const LoadCase& load_case : cases) {
+    const Vector6d full = jointTorque(geometry.arm, load_case.posture, load_case.wrench);
+    const Vector6d hanging =
+        result.load_hangs ? jointTorque(geometry.arm, load_case.posture, hangingPart(load_case.wrench, down)) : full;
+    torque += full.cwiseAbs2();
+    trusted += hanging.cwiseAbs2();
+    variance += torqueVariance(geometry, load_case, cell, limits);
+  }
+  const double n = static_cast<double>(cases.size());
+  for (int j = 0; j < 6; ++j) {
+    JointIdentifiability& joint = result.joints[static_cast<std::size_t>(j)];
+    joint.torque_rms = std::sqrt(torque[j] / n);
+    joint.trusted_rms = std::sqrt(trusted[j] / n);
+    joint.uncertainty_rms = std::sqrt(variance[j] / n);
+    joint.identifiable = joint.trusted_rms > 0.0 && joint.trusted_rms > limits.least_ratio * joint.uncertainty_rms;
+    if (joint.identifiable) continue;
+    joint.reason = result.load_hangs && joint.torque_rms > joint.trusted_rms
+                       ? fmt::format("the load only hangs and does not turn axis {}: {:.1f} Nm rms of torque, of which "
+                                     "a load along gravity gives {:.1f} Nm",
+                                     j + 1, joint.torque_rms, joint.trusted_rms)
+                       : fmt::format("the load turns axis {} by {:.1f} Nm rms, no more than {:g} times the {:.1f} Nm "
+                                     "that wrench, frame and angle uncertainty put there",
+                                     j + 1, joint.trusted_rms, limits.least_ratio, joint.uncertainty_rms);
+  }
+  judgeRank(equations, result);
+  return result;
+}
+
+}  // namespace stiffscope

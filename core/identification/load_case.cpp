@@ -1,0 +1,201 @@
+#include "core/identification/load_case.h"
+
+#include <fmt/format.h>
+
+#include <map>
+
+#include "metrology/rigid_registration.h"
+
+namespace stiffscope {
+
+namespace {
+
+/// Sums of the readings of one state, by target.
+struct StateReadings {
+  std::map<int, std::pair<Eigen::Vector3d, int>> by_target;
+};
+
+/// Readings of the asked step and of step 0, by pose.
+struct PoseReadings {
+  StateReadings unloaded, loaded;
+};
+
+std::vector<PoseReadings> gatherPoints(const Campaign& campaign, int step) {
+  std::vector<PoseReadings> poses(campaign.pose_ids.size());
+  for (const LoadingReading& reading : campaign.loading->rows) {
+    if (reading.step != 0 && reading.step != step) continue;
+    PoseReadings& pose = poses[static_cast<std::size_t>(reading.pose)];
+    auto& sums = (reading.step == 0 ? pose.unloaded : pose.loaded).by_target;
+    const auto place = sums.try_emplace(reading.target, Eigen::Vector3d::Zero(), 0).first;
+    place->second.first += reading.point;
+    ++place->second.second;
+  }
+  return poses;
+}
+
+std::vector<TargetMove> measuredMoves(const PoseReadings& readings, const Eigen::Isometry3d& r0_from_loading) {
+  std::vector<TargetMove> moves;
+  for (const auto& [target, unloaded] : readings.unloaded.by_target) {
+    const auto loaded = readings.loaded.by_target.find(target);
+    if (loaded == readings.loaded.by_target.end()) continue;
+    TargetMove move;
+    move.target = target;
+    move.unloaded = r0_from_loading * (unloaded.first / unloaded.second);
+    move.loaded = r0_from_loading * (loaded->second.first / loaded->second.second);
+    move.unloaded_readings = unloaded.second;
+    move.loaded_readings = loaded->second.second;
+    moves.push_back(move);
+  }
+  return moves;
+}
+
+/// base_from_flange from the reflectors: their places on the arm at zero brought onto where they are measured.
+std::optional<Eigen::Isometry3d> measuredFlange(const LoadingGeometry& geometry, const std::vector<TargetMove>& moves,
+                                                bool loaded) {
+  std::vector<Eigen::Vector3d> at_zero, measured;
+  for (const TargetMove& move : moves) {
+    const auto& target = geometry.targets_at_zero[static_cast<std::size_t>(move.target)];
+    if (!target) continue;
+    at_zero.push_back(*target);
+    measured.push_back(loaded ? move.loaded : move.unloaded);
+  }
+  const RigidRegistration registration = registerRigid(at_zero, measured);
+  if (!registration.determined) return std::nullopt;
+  return registration.to_from_source * geometry.arm.base_from_flange_at_zero;
+}
+
+const LinkFrame* findLink(const Robot& arm, const std::string& name) {
+  for (const LinkFrame& link : arm.links) {
+    if (link.name == name) return &link;
+  }
+  return nullptr;
+}
+
+/// The load cell's reading as a wrench in R0 (paper (30)).
+Wrench wrenchInR0(const LoadCell& cell, const LoadingGeometry& geometry, const LoadCase& load_case,
+                  const Vector6d& reading) {
+  const LinkFrame* parent = findLink(geometry.arm, cell.parent);
+  const auto placeAt = [&](const LinkFrame& link, const std::optional<Eigen::Isometry3d>& flange) -> Eigen::Isometry3d {
+    if (link.body == 6 && flange) {
+      return *flange * geometry.arm.base_from_flange_at_zero.inverse() * link.base_from_link_at_zero;
+    }
+    return load_case.posture.motion[static_cast<std::size_t>(link.body)] * link.base_from_link_at_zero;
+  };
+  Wrench wrench;
+  if (parent == nullptr) return wrench;  // the reader has refused such a campaign
+  wrench.point = placeAt(*parent, load_case.flange_unloaded) * cell.parent_from_cell.translation();
+  Eigen::Matrix3d axes = placeAt(*parent, load_case.flange_loaded).linear() * cell.parent_from_cell.linear();
+  if (cell.axes_link) {
+    if (const LinkFrame* link = findLink(geometry.arm, *cell.axes_link)) {
+      axes = placeAt(*link, load_case.flange_loaded).linear();
+    }
+  }
+  wrench.force = axes * reading.head<3>();
+  wrench.moment = axes * reading.tail<3>();
+  return wrench;
+}
+
+using PoseDisplacements = std::vector<std::vector<const Displacement*>>;
+
+PoseDisplacements gatherDisplacements(const Campaign& campaign, int step) {
+  PoseDisplacements poses(campaign.pose_ids.size());
+  for (const Displacement& row : campaign.displacements->rows) {
+    if (row.step == step) poses[static_cast<std::size_t>(row.pose)].push_back(&row);
+  }
+  return poses;
+}
+
+/// Displacements without absolute points: put on the model's place of the reflector.
+std::vector<TargetMove> declaredMoves(const LoadingGeometry& geometry, const std::vector<const Displacement*>& rows,
+                                      const Eigen::Matrix3d& r0_from_table, const ArmPosture& posture) {
+  std::vector<TargetMove> moves;
+  for (const Displacement* row : rows) {
+    const auto& target = geometry.targets_at_zero[static_cast<std::size_t>(row->target)];
+    if (!target) continue;
+    TargetMove move;
+    move.target = row->target;
+    move.unloaded = posture.motion[6] * *target;
+    move.loaded = move.unloaded + r0_from_table * row->displacement;
+    moves.push_back(move);
+  }
+  return moves;
+}
+
+struct PoseStates {
+  const State* unloaded = nullptr;
+  const State* loaded = nullptr;
+};
+
+std::vector<PoseStates> gatherStates(const Campaign& campaign, int step) {
+  std::vector<PoseStates> states(campaign.pose_ids.size());
+  for (const State& state : campaign.states->rows) {
+    if (state.step == 0) states[static_cast<std::size_t>(state.pose)].unloaded = &state;
+    if (state.step == step) states[static_cast<std::size_t>(state.pose)].loaded = &state;
+  }
+  return states;
+}
+
+}  // namespace
+
+std::optional<int> heaviestStep(const Campaign& campaign) {
+  if (!campaign.states) return std::nullopt;
+  std::map<int, std::pair<double, int>> force_by_step;
+  for (const State& state : campaign.states->rows) {
+    if (state.step == 0) continue;
+    auto& [sum, count] = force_by_step[state.step];
+    sum += state.wrench_in_cell.head<3>().norm();
+    ++count;
+  }
+  std::optional<int> heaviest;
+  double most = 0.0;
+  for (const auto& [step, force] : force_by_step) {
+    const double mean = force.first / force.second;
+    if (mean > most) most = mean, heaviest = step;
+  }
+  return heaviest;
+}
+
+std::vector<LoadCase> loadCases(const Campaign& campaign, const LoadingGeometry& geometry, int step,
+                                std::vector<std::string>* left_out) {
+  std::vector<LoadCase> cases;
+  if (!campaign.states || !campaign.load_cell) return cases;
+  const bool absolute = campaign.loading.has_value() && geometry.r0_from_loading.has_value();
+  if (!absolute && (!campaign.displacements || !geometry.displacements_in_r0)) return cases;
+  const std::vector<PoseStates> states = gatherStates(campaign, step);
+  const std::vector<PoseReadings> readings = absolute ? gatherPoints(campaign, step) : std::vector<PoseReadings>();
+  const PoseDisplacements differences = absolute ? PoseDisplacements() : gatherDisplacements(campaign, step);
+  const Eigen::Matrix3d r0_from_table = geometry.displacements_in_r0.value_or(Eigen::Matrix3d::Identity());
+  const auto leaveOut = [&](std::size_t pose, const char* reason) {
+    if (left_out) left_out->push_back(fmt::format("pose {}: {}", campaign.pose_ids[pose], reason));
+  };
+  for (std::size_t pose = 0; pose < states.size(); ++pose) {
+    const auto& [unloaded, loaded] = states[pose];
+    if (loaded == nullptr) {
+      leaveOut(pose, "no state of this load step");
+      continue;
+    }
+    LoadCase load_case;
+    load_case.pose = static_cast<int>(pose);
+    load_case.step = step;
+    load_case.q = unloaded ? unloaded->q : loaded->q;
+    load_case.servo = loaded->q - load_case.q;
+    load_case.absolute = absolute;
+    load_case.posture = postureAt(geometry.arm, geometry.sagged(load_case.q));
+    if (absolute) {
+      load_case.targets = measuredMoves(readings[pose], *geometry.r0_from_loading);
+      load_case.flange_unloaded = measuredFlange(geometry, load_case.targets, false);
+      load_case.flange_loaded = measuredFlange(geometry, load_case.targets, true);
+    } else {
+      load_case.targets = declaredMoves(geometry, differences[pose], r0_from_table, load_case.posture);
+    }
+    if (load_case.targets.empty()) {
+      leaveOut(pose, "no reflector was read both unloaded and in this load step");
+      continue;
+    }
+    load_case.wrench = wrenchInR0(*campaign.load_cell, geometry, load_case, loaded->wrench_in_cell);
+    cases.push_back(std::move(load_case));
+  }
+  return cases;
+}
+
+}  // namespace stiffscope

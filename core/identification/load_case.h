@@ -1,0 +1,47 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/campaign/campaign.h"
+#include "core/identification/loading_geometry.h"
+#include "core/statics/wrench.h"
+
+namespace stiffscope {
+
+/// One reflector in one load state: means over the repeats, in R0, m.
+struct TargetMove {
+  int target = 0;
+  Eigen::Vector3d unloaded = Eigen::Vector3d::Zero();
+  Eigen::Vector3d loaded = Eigen::Vector3d::Zero();
+  int unloaded_readings = 0;  ///< 0 where the campaign gives displacements only
+  int loaded_readings = 0;
+
+  Eigen::Vector3d displacement() const { return loaded - unloaded; }
+};
+
+/// One load state of one posture against its unloaded state: what every method starts from. In R0.
+struct LoadCase {
+  int pose = 0;
+  int step = 0;
+  Vector6d q = Vector6d::Zero();       ///< as the controller reports it unloaded, rad
+  Vector6d servo = Vector6d::Zero();   ///< change of the reported angles under load: apart, not subtracted
+  ArmPosture posture;                  ///< of the unloaded arm, its own sag in
+  Wrench wrench;                       ///< forces directed as the flange is measured loaded; point where it stands unloaded
+  std::vector<TargetMove> targets;
+  bool absolute = false;               ///< unloaded and loaded are measured points, not differences put on the model
+  std::optional<Eigen::Isometry3d> flange_unloaded;  ///< base_from_flange by the reflectors (three or more)
+  std::optional<Eigen::Isometry3d> flange_loaded;
+};
+
+/// The load step to identify from where none is asked for: the one with the largest mean force.
+/// Empty where no step has a force.
+std::optional<int> heaviestStep(const Campaign& campaign);
+
+/// The load cases of one step, a posture each, in the order of the campaign's poses. A posture without that step, without an
+/// unloaded state or without a common reflector has none, and is named in `left_out`.
+std::vector<LoadCase> loadCases(const Campaign& campaign, const LoadingGeometry& geometry, int step,
+                                std::vector<std::string>* left_out = nullptr);
+
+}  // namespace stiffscope

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/frames/frames.h"
+
+namespace stiffscope {
+
+/// What a method takes as the geometry of the loaded arm, all in its base frame (R0): the arm, where the reflectors
+/// stand on it, how the loading's readings come into it, and the stiffnesses by which its own weight bends it.
+struct LoadingGeometry {
+  Robot arm;
+  std::vector<std::optional<Eigen::Vector3d>> targets_at_zero;
+  std::optional<Eigen::Isometry3d> r0_from_loading;  ///< empty: absolute points of the loading cannot be used
+  std::optional<Eigen::Matrix3d> displacements_in_r0;  ///< turns the `displacements` table's vectors into R0
+  Eigen::Isometry3d r0_from_base_link = Eigen::Isometry3d::Identity();
+  OwnWeight weight;
+  Vector6d compliance = Vector6d::Zero();  ///< for the own weight's sag, rad/Nm; zero: rigid
+
+  /// Joint angles with the sag in.
+  Vector6d sagged(const Vector6d& q) const { return saggedAngles(arm, q, weight, compliance); }
+};
+
+/// The geometry as the sweeps give it, for Complete Pose and Decoupled Partial Pose.
+LoadingGeometry sweptGeometry(const Campaign& campaign, const Frames& frames, const Vector6d& compliance);
+
+}  // namespace stiffscope

@@ -1,0 +1,61 @@
+#include "core/identification/normal_equations.h"
+
+#include <Eigen/Dense>
+#include <cmath>
+#include <limits>
+
+namespace stiffscope {
+
+NormalEquations& NormalEquations::operator+=(const NormalEquations& other) {
+  matrix += other.matrix;
+  right += other.right;
+  return *this;
+}
+
+NormalEquations normalEquations(const CaseEquations& equations) {
+  return {equations.matrix.transpose() * equations.matrix, equations.matrix.transpose() * equations.right};
+}
+
+Vector6d solveNormal(const NormalEquations& sum, const JointMask& unknown) {
+  // Joints left out get a unit diagonal and a zero right side: one fixed-size solve serves every mask.
+  Matrix6d matrix = sum.matrix;
+  Vector6d right = sum.right, scale = Vector6d::Ones();
+  for (int j = 0; j < 6; ++j) {
+    if (unknown[static_cast<std::size_t>(j)] && matrix(j, j) > 0.0) {
+      scale[j] = 1.0 / std::sqrt(matrix(j, j));
+    } else {
+      matrix.row(j).setZero();
+      matrix.col(j).setZero();
+      matrix(j, j) = 1.0;
+      right[j] = 0.0;
+    }
+  }
+  matrix = scale.asDiagonal() * matrix * scale.asDiagonal();
+  return scale.cwiseProduct(matrix.ldlt().solve(scale.cwiseProduct(right)).eval());
+}
+
+double conditionNumber(const std::vector<CaseEquations>& equations, const JointMask& unknown) {
+  Eigen::Index rows = 0;
+  for (const CaseEquations& one : equations) rows += one.matrix.rows();
+  Eigen::MatrixXd stacked(rows, 6);
+  rows = 0;
+  for (const CaseEquations& one : equations) {
+    stacked.middleRows(rows, one.matrix.rows()) = one.matrix;
+    rows += one.matrix.rows();
+  }
+  Eigen::Index columns = 0;
+  for (int j = 0; j < 6; ++j) {
+    if (!unknown[static_cast<std::size_t>(j)]) continue;
+    const double length = stacked.col(j).norm();
+    if (length == 0.0) return std::numeric_limits<double>::infinity();
+    const Eigen::VectorXd column = stacked.col(j) / length;
+    stacked.col(columns++) = column;
+  }
+  if (columns == 0 || rows < columns) return std::numeric_limits<double>::infinity();
+  const Eigen::MatrixXd reduced = stacked.leftCols(columns).householderQr().matrixQR().topRows(columns)
+                                      .triangularView<Eigen::Upper>();
+  const Eigen::VectorXd values = reduced.jacobiSvd().singularValues();
+  return values[0] / values[columns - 1];
+}
+
+}  // namespace stiffscope

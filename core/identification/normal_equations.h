@@ -1,0 +1,30 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <vector>
+
+#include "core/identification/equations.h"
+
+namespace stiffscope {
+
+/// Which joints' compliances are unknowns; the others' columns are left out (their compliance taken as 0).
+using JointMask = std::array<bool, 6>;
+
+/// A^T A and A^T b of one load case or of a sum of them.
+struct NormalEquations {
+  Matrix6d matrix = Matrix6d::Zero();
+  Vector6d right = Vector6d::Zero();
+
+  NormalEquations& operator+=(const NormalEquations& other);
+};
+
+NormalEquations normalEquations(const CaseEquations& equations);
+
+/// Least squares over the joints of the mask, the others zero. Columns are scaled to unit length first.
+Vector6d solveNormal(const NormalEquations& sum, const JointMask& unknown);
+
+/// Condition number (2-norm) of the stacked matrix over the joints of the mask, columns scaled to unit length.
+double conditionNumber(const std::vector<CaseEquations>& equations, const JointMask& unknown);
+
+}  // namespace stiffscope

@@ -1,0 +1,39 @@
+#include "core/identification/partial_pose.h"
+
+#include <algorithm>
+
+namespace stiffscope {
+
+CaseEquations partialPoseEquations(const LoadingGeometry& geometry, const LoadCase& load_case,
+                                   const Vector6d& torque) {
+  CaseEquations equations;
+  const auto rows = static_cast<Eigen::Index>(3 * load_case.targets.size());
+  equations.matrix.resize(rows, 6);
+  equations.right.resize(rows);
+  Eigen::Index row = 0;
+  for (const TargetMove& move : load_case.targets) {
+    equations.matrix.middleRows<3>(row) = pointRows(geometry, load_case, move.unloaded, torque);
+    equations.right.segment<3>(row) = move.displacement();
+    row += 3;
+  }
+  return equations;
+}
+
+StiffnessEstimate partialPose(const std::vector<CaseEquations>& equations, const JointMask& unknown) {
+  StiffnessEstimate estimate;
+  estimate.identifiable = unknown;
+  NormalEquations sum;
+  for (const CaseEquations& one : equations) sum += normalEquations(one);
+  estimate.compliance = solveNormal(sum, unknown);
+  estimate.condition = conditionNumber(equations, unknown);
+  std::vector<Vector6d> influences;
+  for (const CaseEquations& one : equations) {
+    influences.push_back(influence(one, sum, estimate.compliance, unknown));
+  }
+  estimate.covariance =
+      scatterCovariance(influences, static_cast<int>(std::count(unknown.begin(), unknown.end(), true)));
+  describeResiduals(equations, estimate);
+  return estimate;
+}
+
+}  // namespace stiffscope

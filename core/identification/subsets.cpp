@@ -1,0 +1,222 @@
+#include "core/identification/subsets.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <random>
+#include <thread>
+
+#include "core/identification/decoupled_partial_pose.h"
+
+namespace stiffscope {
+
+namespace {
+
+/// Results of the subsets of one chunk, in their order.
+struct Chunk {
+  std::vector<Vector6d> compliances;
+  SubsetCompensation at_wrist, at_targets;  // sums
+};
+
+/// Solves and judges one subset after another; each thread has its own.
+class Solver {
+ public:
+  explicit Solver(const SubsetMethod& method) : method_(method) {}
+
+  void add(const NormalEquations& normal, const NormalEquations& reflectors, const std::vector<char>& used,
+           Chunk& chunk) {
+    const Vector6d compliance = method_.reflectors.empty() ? solveNormal(normal, method_.unknown)
+                                                           : solveDecoupled(normal, reflectors, method_.unknown);
+    chunk.compliances.push_back(compliance);
+    judge(method_.at_wrist, compliance, used, chunk.at_wrist);
+    judge(method_.at_targets, compliance, used, chunk.at_targets);
+  }
+
+ private:
+  void judge(const DeflectionJudge& judge, const Vector6d& compliance, const std::vector<char>& used,
+             SubsetCompensation& sum) {
+    if (judge.postures() == 0) return;
+    judge.residual(compliance, residual_);
+    std::array<double, 2> left{}, whole{};
+    for (std::size_t p = 0; p < residual_.size(); ++p) {
+      const auto side = static_cast<std::size_t>(used[p] != 0);
+      left[side] += residual_[p];
+      whole[side] += judge.displacement()[p];
+    }
+    sum.used += 1.0 - left[1] / whole[1];
+    sum.held_out += 1.0 - left[0] / whole[0];
+    sum.all += 1.0 - (left[0] + left[1]) / (whole[0] + whole[1]);
+  }
+
+  const SubsetMethod& method_;
+  std::vector<double> residual_;
+};
+
+/// All subsets whose two lowest postures are given: a depth-first walk that carries the sums of normal equations along,
+/// about two additions a subset.
+class Walk {
+ public:
+  Walk(const SubsetMethod& method, int size)
+      : method_(method), solver_(method), n_(static_cast<int>(method.normal.size())), size_(size),
+        normal_(static_cast<std::size_t>(size) + 1), reflectors_(static_cast<std::size_t>(size) + 1),
+        used_(method.normal.size(), 0) {}
+
+  void from(int first, Chunk& chunk) {
+    take(0, first);
+    descend(1, first + 1, chunk);
+    used_[static_cast<std::size_t>(first)] = 0;
+  }
+
+ private:
+  void take(int depth, int posture) {
+    const auto d = static_cast<std::size_t>(depth), p = static_cast<std::size_t>(posture);
+    normal_[d + 1] = normal_[d];
+    normal_[d + 1] += method_.normal[p];
+    if (!method_.reflectors.empty()) {
+      reflectors_[d + 1] = reflectors_[d];
+      reflectors_[d + 1] += method_.reflectors[p];
+    }
+    used_[p] = 1;
+  }
+
+  void descend(int depth, int next, Chunk& chunk) {
+    if (depth == size_) {
+      solver_.add(normal_.back(), reflectors_.back(), used_, chunk);
+      return;
+    }
+    for (int posture = next; posture <= n_ - (size_ - depth); ++posture) {
+      take(depth, posture);
+      descend(depth + 1, posture + 1, chunk);
+      used_[static_cast<std::size_t>(posture)] = 0;
+    }
+  }
+
+  const SubsetMethod& method_;
+  Solver solver_;
+  int n_, size_;
+  std::vector<NormalEquations> normal_, reflectors_;
+  std::vector<char> used_;
+};
+
+std::vector<Chunk> walkAll(const SubsetMethod& method, int size) {
+  const int n = static_cast<int>(method.normal.size());
+  std::vector<Chunk> chunks(static_cast<std::size_t>(n - size + 1));
+  std::atomic<std::size_t> next{0};
+  const auto work = [&] {
+    Walk walk(method, size);
+    for (std::size_t at = next++; at < chunks.size(); at = next++) walk.from(static_cast<int>(at), chunks[at]);
+  };
+  std::thread helper(work);
+  work();
+  helper.join();
+  return chunks;
+}
+
+Chunk drawSample(const SubsetMethod& method, int size, std::uint64_t count, std::uint64_t seed) {
+  Chunk chunk;
+  Solver solver(method);
+  std::mt19937_64 random(seed);
+  const std::size_t n = method.normal.size();
+  std::vector<std::size_t> order(n);
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::vector<char> used(n);
+  for (std::uint64_t k = 0; k < count; ++k) {
+    NormalEquations normal, reflectors;
+    std::fill(used.begin(), used.end(), 0);
+    for (std::size_t i = 0; i < static_cast<std::size_t>(size); ++i) {
+      std::swap(order[i], order[i + random() % (n - i)]);  // Fisher-Yates; the bias of % is below 1e-15 here
+      used[order[i]] = 1;
+      normal += method.normal[order[i]];
+      if (!method.reflectors.empty()) reflectors += method.reflectors[order[i]];
+    }
+    solver.add(normal, reflectors, used, chunk);
+  }
+  return chunk;
+}
+
+void addTo(SubsetCompensation& sum, const SubsetCompensation& other) {
+  sum.used += other.used;
+  sum.held_out += other.held_out;
+  sum.all += other.all;
+}
+
+double quantile(std::vector<double>& values, double share) {
+  const auto at = static_cast<std::size_t>(share * static_cast<double>(values.size() - 1) + 0.5);
+  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(at), values.end());
+  return values[at];
+}
+
+}  // namespace
+
+std::uint64_t subsetCount(int n, int m) {
+  std::uint64_t count = 1;
+  for (int i = 1; i <= m; ++i) {
+    const auto factor = static_cast<std::uint64_t>(n - m + i);
+    if (count > std::numeric_limits<std::uint64_t>::max() / factor) return std::numeric_limits<std::uint64_t>::max();
+    count = count * factor / static_cast<std::uint64_t>(i);
+  }
+  return count;
+}
+
+SubsetStudy studySubsets(const SubsetMethod& method, const SubsetOptions& options) {
+  SubsetStudy study;
+  study.of = static_cast<int>(method.normal.size());
+  study.size = options.size > 0 ? options.size : static_cast<int>(std::lround(study.of * 10.0 / 19.0));
+  if (study.size < 1 || study.size >= study.of) return study;
+  study.every_subset = subsetCount(study.of, study.size) <= options.most_all;
+  std::vector<Chunk> chunks;
+  if (study.every_subset) {
+    chunks = walkAll(method, study.size);
+  } else {
+    constexpr std::uint64_t kWork = 2'000'000;  // postures added in all: keeps ten thousand postures quick
+    const std::uint64_t affordable = std::max<std::uint64_t>(200, kWork / static_cast<std::uint64_t>(study.of));
+    chunks.push_back(drawSample(method, study.size, std::min(options.sample, affordable), options.seed));
+  }
+  for (const Chunk& chunk : chunks) {
+    study.compliances.insert(study.compliances.end(), chunk.compliances.begin(), chunk.compliances.end());
+    addTo(study.at_wrist, chunk.at_wrist);
+    addTo(study.at_targets, chunk.at_targets);
+  }
+  const double count = static_cast<double>(study.compliances.size());
+  for (SubsetCompensation* mean : {&study.at_wrist, &study.at_targets}) {
+    mean->used /= count;
+    mean->held_out /= count;
+    mean->all /= count;
+  }
+  return study;
+}
+
+StiffnessSpread spreadOf(const SubsetStudy& study, int joint) {
+  StiffnessSpread spread;
+  std::vector<double> stiffness;
+  stiffness.reserve(study.compliances.size());
+  double sum = 0.0, square = 0.0, c_sum = 0.0, c_square = 0.0;
+  for (const Vector6d& compliance : study.compliances) {
+    const double c = compliance[joint], k = 1.0 / c;
+    stiffness.push_back(k);
+    sum += k;
+    c_sum += c;
+    if (c < 0.0) spread.share_negative += 1.0;
+  }
+  const double n = static_cast<double>(stiffness.size());
+  if (stiffness.size() < 2) return spread;
+  spread.mean = sum / n;
+  spread.compliance_mean = c_sum / n;
+  for (const Vector6d& compliance : study.compliances) {
+    square += std::pow(1.0 / compliance[joint] - spread.mean, 2);
+    c_square += std::pow(compliance[joint] - spread.compliance_mean, 2);
+  }
+  spread.sd = std::sqrt(square / (n - 1.0));
+  spread.compliance_sd = std::sqrt(c_square / (n - 1.0));
+  spread.share_negative /= n;
+  spread.median = quantile(stiffness, 0.5);
+  spread.low = quantile(stiffness, 0.05);
+  spread.high = quantile(stiffness, 0.95);
+  spread.quartile_low = quantile(stiffness, 0.25);
+  spread.quartile_high = quantile(stiffness, 0.75);
+  return spread;
+}
+
+}  // namespace stiffscope
