@@ -89,7 +89,6 @@ class Identifier {
     completePoseMethod();
     partialPoseMethod();
     decoupledMethod();
-    for (MethodResult& method : result_.methods) describe(method);
     describeCampaign();
     return std::move(result_);
   }
@@ -203,9 +202,7 @@ class Identifier {
         out.reason = "the geometry cannot be calibrated: " + result_.calibration.reason;
         return;
       }
-      WristCentre wrist = result_.frames.wrist;
-      wrist.centre_at_zero_in_r0 = wristPointOf(result_.calibration.geometry);
-      system = makeSystem(campaign_, result_.calibration.geometry, wrist, result_.step, nullptr);
+      system = makeSystem(campaign_, result_.calibration.geometry, result_.frames.wrist, result_.step, nullptr);
     } else {
       result_.calibration.reason = "the campaign has displacements only, no absolute positions: the URDF's geometry stands";
     }
@@ -261,14 +258,6 @@ class Identifier {
     return whole > 0.0 ? leak / whole : 0.0;
   }
 
-  /// P_wrist at zero in a calibrated geometry: the point whose distances from the reflectors the wrist sweep gave.
-  Eigen::Vector3d wristPointOf(const LoadingGeometry& geometry) const {
-    return geometry.arm.axes_in_base_at_zero[4].point +
-           geometry.arm.axes_in_base_at_zero[4].direction *
-               geometry.arm.axes_in_base_at_zero[4].direction.dot(result_.frames.wrist.centre_at_zero_in_r0 -
-                                                                  geometry.arm.axes_in_base_at_zero[4].point);
-  }
-
   /// Judges a solved method on all postures and on subsets. `fitted` are the equations that the method solves: CP's pose
   /// equations (with the length), PP's reflectors, DPP's P_wrist.
   void study(MethodResult& out, const System& system, const std::vector<CaseEquations>& fitted, double length) {
@@ -296,10 +285,6 @@ class Identifier {
     for (std::size_t i = 0; i < out.target_residual.size(); ++i) {
       out.target_residual[i] /= subset.at_targets.pointsOf(i);
     }
-  }
-
-  void describe(MethodResult& out) const {
-    if (out.available) out.reason.clear();
   }
 
   void describeCampaign() {
