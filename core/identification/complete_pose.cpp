@@ -8,11 +8,11 @@ CaseEquations completePoseEquations(const LoadingGeometry& geometry, const LoadC
                                     const Eigen::Vector3d& tcp_in_flange, const Vector6d& torque) {
   const Eigen::Isometry3d &before = *load_case.flange_unloaded, &after = *load_case.flange_loaded;
   const Eigen::AngleAxisd rotation(after.linear() * before.linear().transpose());
-  const Eigen::Vector3d tcp = before * tcp_in_flange;
+  const Eigen::Vector3d unloaded = before * tcp_in_flange, loaded = after * tcp_in_flange;
   CaseEquations equations;
-  equations.matrix = jacobianAt(geometry.arm, load_case.posture, tcp) * torque.asDiagonal();
+  equations.matrix = jacobianAt(geometry.arm, jacobianPosture(load_case), jacobianPoint(load_case, unloaded, loaded)) * torque.asDiagonal();
   equations.right.resize(6);
-  equations.right << after * tcp_in_flange - tcp, rotation.angle() * rotation.axis();
+  equations.right << loaded - unloaded, rotation.angle() * rotation.axis();
   return equations;
 }
 

@@ -29,9 +29,16 @@ std::vector<Vector6d> jointTorquesWithGeometricStiffness(const LoadingGeometry& 
   return torques;
 }
 
+void takeJacobiansAtMiddle(const LoadingGeometry& geometry, const Vector6d& compliance,
+                           const std::vector<Vector6d>& torques, std::vector<LoadCase>& cases) {
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    cases[i].middle = postureAt(geometry.arm, cases[i].q_sagged + 0.5 * compliance.cwiseProduct(torques[i]));
+  }
+}
+
 Matrix36d pointRows(const LoadingGeometry& geometry, const LoadCase& load_case, const Eigen::Vector3d& point,
                     const Vector6d& torque) {
-  return jacobianAt(geometry.arm, load_case.posture, point).topRows<3>() * torque.asDiagonal();
+  return jacobianAt(geometry.arm, jacobianPosture(load_case), point).topRows<3>() * torque.asDiagonal();
 }
 
 }  // namespace stiffscope

@@ -24,6 +24,10 @@ std::vector<Vector6d> jointTorquesWithGeometricStiffness(const LoadingGeometry& 
                                                          const std::vector<LoadCase>& cases,
                                                          const Vector6d& compliance);
 
+/// Puts each case's Jacobian posture at the middle of its displacement: q_sagged + c torque / 2.
+void takeJacobiansAtMiddle(const LoadingGeometry& geometry, const Vector6d& compliance,
+                           const std::vector<Vector6d>& torques, std::vector<LoadCase>& cases);
+
 /// J_m diag(torque) of the positional rows of a point of the flange body.
 Matrix36d pointRows(const LoadingGeometry& geometry, const LoadCase& load_case, const Eigen::Vector3d& point,
                     const Vector6d& torque);

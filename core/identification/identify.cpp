@@ -65,14 +65,17 @@ std::vector<CaseEquations> poseEquations(const System& system, const Eigen::Vect
   return equations;
 }
 
-/// Solves by one method; with K_c the equations are made again with the torque that the last estimate implies.
+/// Solves by one method. For the finite deflection the equations are made again with the torque (K_c) and the middle
+/// posture that the last estimate implies.
 template <class Solve>
-StiffnessEstimate solveWith(System& system, bool geometric_stiffness, const Solve& solve) {
+StiffnessEstimate solveWith(System& system, bool finite_deflection, const Solve& solve) {
   system.torques = jointTorques(system.geometry, system.cases);
+  for (LoadCase& load_case : system.cases) load_case.middle.reset();
   StiffnessEstimate estimate = solve(system);
   constexpr int kRounds = 2;  // K_c is about a hundredth: two rounds leave a millionth
-  for (int round = 0; geometric_stiffness && round < kRounds; ++round) {
+  for (int round = 0; finite_deflection && round < kRounds; ++round) {
     system.torques = jointTorquesWithGeometricStiffness(system.geometry, system.cases, estimate.compliance);
+    takeJacobiansAtMiddle(system.geometry, estimate.compliance, system.torques, system.cases);
     estimate = solve(system);
   }
   return estimate;
@@ -96,14 +99,16 @@ class Identifier {
  private:
   MethodResult& method(Method which) { return result_.methods[static_cast<std::size_t>(which)]; }
 
+  InputPlace inFile(const std::string& file) const { return {(campaign_.folder / file).string(), 0, {}}; }
+
   void chooseStep() {
     if (!campaign_.states || !campaign_.load_cell) {
-      throw InputError({(campaign_.folder / "campaign.xml").string()}, "",
+      throw InputError(inFile("campaign.xml"), "",
                        !campaign_.states ? "no 'states': joint angles and load-cell readings are needed to identify"
                                          : "no 'load_cell': where the measured wrench acts is needed to identify");
     }
     if (!campaign_.loading && !campaign_.displacements) {
-      throw InputError({(campaign_.folder / "campaign.xml").string()}, "",
+      throw InputError(inFile("campaign.xml"), "",
                        "neither 'loading' nor 'displacements': readings under load are needed to identify");
     }
     const auto heaviest = heaviestStep(campaign_);
@@ -113,13 +118,13 @@ class Identifier {
         return state.step == *options_.step;
       });
       if (!known) {
-        throw InputError({campaign_.states->file}, std::to_string(*options_.step), "not a load step of this campaign");
+        throw InputError(inFile(campaign_.states->file), std::to_string(*options_.step), "not a load step of this campaign");
       }
     } else if (!heaviest) {
-      throw InputError({campaign_.states->file}, "", "no load step has a force");
+      throw InputError(inFile(campaign_.states->file), "", "no load step has a force");
     }
     result_.step = options_.step ? *options_.step : *heaviest;
-    result_.geometric_stiffness = options_.geometric_stiffness;
+    result_.finite_deflection = options_.finite_deflection;
   }
 
   /// Frames and a first stiffness in turns, until the sag in the sweeps is that of the stiffness.
@@ -132,7 +137,7 @@ class Identifier {
       if (last) break;
       const JointMask seen = judgeJoints(swept_.geometry, swept_.cases, *campaign_.load_cell,
                                          reflectorEquations(swept_), options_.trust).mask();
-      const Vector6d next = solveWith(swept_, options_.geometric_stiffness, [&](const System& system) {
+      const Vector6d next = solveWith(swept_, options_.finite_deflection, [&](const System& system) {
         return swept_.wrist.empty()
                    ? partialPose(reflectorEquations(system), seen)
                    : decoupledPartialPose(wristPointEquations(system), reflectorEquations(system), seen);
@@ -181,7 +186,7 @@ class Identifier {
     const Eigen::Vector3d tcp = result_.frames.tcp_in_flange;
     result_.characteristic_length = characteristicLength(swept_.geometry, swept_.cases, tcp);
     const double length = result_.characteristic_length.length;
-    out.estimate = solveWith(swept_, options_.geometric_stiffness, [&](const System& system) {
+    out.estimate = solveWith(swept_, options_.finite_deflection, [&](const System& system) {
       return completePose(poseEquations(system, tcp), length, unknown_);
     });
     constexpr int kEvery = 5;
@@ -213,7 +218,7 @@ class Identifier {
     }
     out.reason = commonReason(system);
     if (!out.reason.empty()) return;
-    out.estimate = solveWith(system, options_.geometric_stiffness, [&](const System& one) {
+    out.estimate = solveWith(system, options_.finite_deflection, [&](const System& one) {
       return partialPose(reflectorEquations(one), unknown_);
     });
     study(out, system, reflectorEquations(system), 0.0);
@@ -232,7 +237,7 @@ class Identifier {
       }
       return;
     }
-    out.estimate = solveWith(swept_, options_.geometric_stiffness, [&](const System& system) {
+    out.estimate = solveWith(swept_, options_.finite_deflection, [&](const System& system) {
       return decoupledPartialPose(wristPointEquations(system), reflectorEquations(system), unknown_);
     });
     const double leak = wristLeak(out.estimate.compliance);

@@ -19,7 +19,9 @@ inline constexpr std::array<Method, 3> kMethods{Method::complete_pose, Method::p
 
 struct IdentifyOptions {
   std::optional<int> step;          ///< load step; empty: the one with the largest mean force
-  bool geometric_stiffness = true;  ///< include K_c of (4) (no free parameter); false: neglect it, as the paper does
+  /// Include K_c of (4), which has no free parameter, and take Jacobians at the middle of the displacement; false:
+  /// neglect K_c and take them unloaded, as the paper does.
+  bool finite_deflection = true;
   SubsetOptions subsets;
   TrustLimits trust;
 };
@@ -67,7 +69,7 @@ struct Identification {
   std::optional<NoiseShare> noise;
   double servo_change = 0.0;            ///< largest change of a reported joint angle under load, rad
   double geometric_stiffness_share = 0.0;  ///< rms change of the joint torques by K_c, relative
-  bool geometric_stiffness = true;
+  bool finite_deflection = true;
 
   const MethodResult& of(Method method) const { return methods[static_cast<std::size_t>(method)]; }
 };

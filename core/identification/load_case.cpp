@@ -137,6 +137,15 @@ std::vector<PoseStates> gatherStates(const Campaign& campaign, int step) {
 
 }  // namespace
 
+const ArmPosture& jacobianPosture(const LoadCase& load_case) {
+  return load_case.middle ? *load_case.middle : load_case.posture;
+}
+
+Eigen::Vector3d jacobianPoint(const LoadCase& load_case, const Eigen::Vector3d& unloaded,
+                              const Eigen::Vector3d& loaded) {
+  return load_case.middle ? Eigen::Vector3d(0.5 * (unloaded + loaded)) : unloaded;
+}
+
 std::optional<int> heaviestStep(const Campaign& campaign) {
   if (!campaign.states) return std::nullopt;
   std::map<int, std::pair<double, int>> force_by_step;
@@ -180,7 +189,8 @@ std::vector<LoadCase> loadCases(const Campaign& campaign, const LoadingGeometry&
     load_case.q = unloaded ? unloaded->q : loaded->q;
     load_case.servo = loaded->q - load_case.q;
     load_case.absolute = absolute;
-    load_case.posture = postureAt(geometry.arm, geometry.sagged(load_case.q));
+    load_case.q_sagged = geometry.sagged(load_case.q);
+    load_case.posture = postureAt(geometry.arm, load_case.q_sagged);
     if (absolute) {
       load_case.targets = measuredMoves(readings[pose], *geometry.r0_from_loading);
       load_case.flange_unloaded = measuredFlange(geometry, load_case.targets, false);

@@ -27,13 +27,22 @@ struct LoadCase {
   int step = 0;
   Vector6d q = Vector6d::Zero();       ///< as the controller reports it unloaded, rad
   Vector6d servo = Vector6d::Zero();   ///< change of the reported angles under load: apart, not subtracted
-  ArmPosture posture;                  ///< of the unloaded arm, its own sag in
+  Vector6d q_sagged = Vector6d::Zero();  ///< q with the own weight's sag in
+  ArmPosture posture;                  ///< at q_sagged: the unloaded arm
+  /// Where Jacobians of measured points are taken: empty, at the unloaded arm; else at the middle of the displacement,
+  /// which makes J c tau the displacement to third order in the deflection.
+  std::optional<ArmPosture> middle;
   Wrench wrench;                       ///< forces directed as the flange is measured loaded; point where it stands unloaded
   std::vector<TargetMove> targets;
   bool absolute = false;               ///< unloaded and loaded are measured points, not differences put on the model
   std::optional<Eigen::Isometry3d> flange_unloaded;  ///< base_from_flange by the reflectors (three or more)
   std::optional<Eigen::Isometry3d> flange_loaded;
 };
+
+/// The posture and the point at which the Jacobian of a reflector is taken.
+const ArmPosture& jacobianPosture(const LoadCase& load_case);
+Eigen::Vector3d jacobianPoint(const LoadCase& load_case, const Eigen::Vector3d& unloaded,
+                              const Eigen::Vector3d& loaded);
 
 /// The load step to identify from where none is asked for: the one with the largest mean force.
 /// Empty where no step has a force.

@@ -12,7 +12,8 @@ CaseEquations partialPoseEquations(const LoadingGeometry& geometry, const LoadCa
   equations.right.resize(rows);
   Eigen::Index row = 0;
   for (const TargetMove& move : load_case.targets) {
-    equations.matrix.middleRows<3>(row) = pointRows(geometry, load_case, move.unloaded, torque);
+    equations.matrix.middleRows<3>(row) = 
+        pointRows(geometry, load_case, jacobianPoint(load_case, move.unloaded, move.loaded), torque);
     equations.right.segment<3>(row) = move.displacement();
     row += 3;
   }

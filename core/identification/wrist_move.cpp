@@ -49,7 +49,7 @@ std::optional<WristMove> wristMove(const LoadCase& load_case,
 
 CaseEquations wristEquations(const LoadingGeometry& geometry, const LoadCase& load_case, const WristMove& wrist,
                              const Vector6d& torque) {
-  return {pointRows(geometry, load_case, wrist.unloaded, torque), wrist.displacement()};
+  return {pointRows(geometry, load_case, jacobianPoint(load_case, wrist.unloaded, wrist.loaded), torque), wrist.displacement()};
 }
 
 }  // namespace stiffscope
