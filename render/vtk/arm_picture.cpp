@@ -1,0 +1,68 @@
+#include "render/vtk/arm_picture.h"
+
+#include <vtkRenderer.h>
+
+#include <optional>
+
+#include "render/vtk/arm_shape.h"
+#include "render/vtk/flat_picture.h"
+#include "render/vtk/offscreen_context.h"
+#include "render/vtk/scene_check.h"
+#include "render/vtk/scene_stage.h"
+
+namespace stiffscope {
+
+namespace {
+
+SceneStage stageIn(const Canvas& canvas, const ArmScene& scene, Size size, const Box& room) {
+  const double magnification = scene.magnification.value_or(automaticMagnification(scene));
+  const ViewAxes axes = viewAxesOf(scene);
+  Eigen::Matrix3d base_to_view;
+  base_to_view << axes.right.transpose(), axes.up.transpose(), axes.to_viewer.transpose();
+  // Labels stand outside of the outermost points.
+  const double beside = 60 * canvas.unit(), above = 24 * canvas.unit();
+  const Box inner{room.left + beside, room.top + above, room.right - beside, room.bottom - above};
+  return {scene,
+          size,
+          canvas.unit(),
+          magnification,
+          axes,
+          room,
+          Projection(axes, extentOf(scene, magnification, base_to_view), inner)};
+}
+
+}  // namespace
+
+Image drawArmScene(const ArmScene& scene, Size size) {
+  requireUsable(size);
+  requireDrawable(scene);
+  // From back to front. Vectors are in front of the arm, so that none is hidden, the thin ones before the
+  // thick.
+  std::vector<vtkSmartPointer<vtkRenderer>> layers(5);
+  for (auto& layer : layers) {
+    layer = vtkSmartPointer<vtkRenderer>::New();
+    layer->SetBackground(1, 1, 1);
+  }
+  // How much room titles leave is known once they are measured, which takes a canvas; so the painting of the
+  // back layer, which VTK renders first, sets up the layers before it.
+  std::optional<SceneStage> stage;
+  const Painting back(*layers[0], size, [&](Canvas& canvas) {
+    const SceneLayout layout = paintSurroundings(canvas, scene);
+    stage.emplace(stageIn(canvas, scene, size, layout.room));
+    paintFloor(canvas, *stage);
+    paintScale(canvas, *stage, layout.strip);
+    addArmTo(*layers[1], *stage);
+    addVectorsTo(*layers[2], *stage, &ScenePoint::measured, colours::kMeasured, kMeasuredWidth);
+    addVectorsTo(*layers[3], *stage, &ScenePoint::predicted, colours::kPredicted, kPredictedWidth);
+    addWristCentresTo(*layers[4], *stage);
+  });
+  const Painting front(*layers[4], size, [&](Canvas& canvas) {
+    if (stage) paintLabels(canvas, *stage);
+  });
+  Image image = renderOffscreen(layers, size);
+  back.rethrow();
+  front.rethrow();
+  return image;
+}
+
+}  // namespace stiffscope

@@ -1,0 +1,51 @@
+#include <vtkActor.h>
+#include <vtkRenderer.h>
+
+#include "render/vtk/arm_shape.h"
+#include "render/vtk/marks.h"
+#include "render/vtk/scene_stage.h"
+
+namespace stiffscope {
+
+namespace {
+
+Eigen::Vector3d lightOf(const ViewAxes& axes) {
+  return (-0.45 * axes.right + 0.65 * axes.up + 0.7 * axes.to_viewer).normalized();
+}
+
+void show(vtkRenderer& layer, const SceneStage& stage, const Mesh& mesh) {
+  stage.projection.setCamera(layer, stage.size);
+  layer.AddActor(mesh.actor());
+}
+
+}  // namespace
+
+void addArmTo(vtkRenderer& layer, const SceneStage& stage) {
+  Mesh mesh(lightOf(stage.axes));
+  for (const ArmPose& pose : stage.scene.poses) addArm(mesh, pose);
+  show(layer, stage, mesh);
+}
+
+void addVectorsTo(vtkRenderer& layer, const SceneStage& stage, SceneVector vector, Colour colour,
+                  double width) {
+  Mesh mesh(lightOf(stage.axes));
+  const double metres = stage.unit / stage.projection.pixelsPerMetre();
+  forEachPoint(stage.scene, [&](const ScenePoint& point, const ArmPose&) {
+    if (!(point.*vector)) return;
+    const Eigen::Vector3d tip = point.position + stage.magnification * *(point.*vector);
+    mesh.addArrow(point.position, tip, width / 2 * metres, kHeadLength * metres, colour);
+  });
+  show(layer, stage, mesh);
+}
+
+void addWristCentresTo(vtkRenderer& layer, const SceneStage& stage) {
+  Mesh mesh(lightOf(stage.axes));
+  const double radius = 6 * stage.unit / stage.projection.pixelsPerMetre();
+  for (const ArmPose& pose : stage.scene.poses) {
+    if (pose.wrist)
+      mesh.addSphere(pose.wrist->position, radius, paler(colours::kWrist, pose.ghost ? 0.6 : 1));
+  }
+  show(layer, stage, mesh);
+}
+
+}  // namespace stiffscope
