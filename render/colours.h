@@ -28,8 +28,8 @@ inline constexpr Colour kPredicted{28, 74, 150};  ///< predicted vectors
 
 inline constexpr Colour kTarget{38, 40, 46};    ///< reflectors
 inline constexpr Colour kWrist{232, 168, 32};   ///< the wrist centre
-inline constexpr Colour kLink{186, 192, 202};   ///< the arm between its joints
-inline constexpr Colour kJoint{128, 137, 152};  ///< drums along the joint axes
+inline constexpr Colour kLink{214, 218, 225};   ///< the arm between its joints
+inline constexpr Colour kJoint{166, 174, 188};  ///< drums along the joint axes
 
 inline constexpr Colour kPaper{255, 255, 255};
 inline constexpr Colour kInk{32, 32, 36};

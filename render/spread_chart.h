@@ -21,8 +21,9 @@ struct SpreadPanel {
   std::string title;  ///< "k_{2}"
   std::vector<std::optional<Spread>>
       spreads;  ///< one per method; none: the method cannot identify this joint
-  std::vector<std::optional<double>> references;  ///< empty, or one per method: a dashed line across its box
-  std::optional<double> axis_min;                 ///< fixes the axis where the default does not please
+  std::vector<std::optional<double>>
+      references;  ///< empty, or one per method: a dashed line across its box, where there is one
+  std::optional<double> axis_min;  ///< fixes the axis where the default does not please
   std::optional<double> axis_max;
 };
 

@@ -14,7 +14,7 @@ namespace {
 constexpr double kSlack = 1e-9;
 
 // Beyond these, numbers are written with powers of ten.
-constexpr double kLarge = 1e5;
+constexpr double kLarge = 1e4;
 constexpr double kSmall = 1e-4;
 
 // U+2212, the minus sign proper; the hyphen is too short beside digits.
@@ -33,9 +33,11 @@ std::string superscript(int exponent) {
   return text;
 }
 
-std::string tickLabel(double value, double step) {
+// All labels of an axis are written the same way: with as many decimals as the step has, or with powers of
+// ten.
+std::string tickLabel(double value, double step, double largest) {
   if (value == 0) return "0";
-  if (std::abs(value) >= kLarge || step < kSmall) return shortNumber(value);
+  if (largest >= 10 * kLarge || step < kSmall) return shortNumber(value);
   const int decimals = std::max(0, static_cast<int>(std::ceil(-std::log10(step) - kSlack)));
   return withMinus(fmt::format("{:.{}f}", value, decimals));
 }
@@ -64,7 +66,7 @@ Ticks linearTicks(double lower, double upper, int most) {
   const double last = std::floor(upper / step + kSlack);
   for (double i = std::ceil(lower / step - kSlack); i <= last; ++i) {
     ticks.positions.push_back(i * step);
-    ticks.labels.push_back(tickLabel(i * step, step));
+    ticks.labels.push_back(tickLabel(i * step, step, std::max(std::abs(lower), std::abs(upper))));
   }
   return ticks;
 }

@@ -19,16 +19,15 @@ SceneStage stageIn(const Canvas& canvas, const ArmScene& scene, Size size, const
   const ViewAxes axes = viewAxesOf(scene);
   Eigen::Matrix3d base_to_view;
   base_to_view << axes.right.transpose(), axes.up.transpose(), axes.to_viewer.transpose();
+  Eigen::AlignedBox3d extent = extentOf(scene, magnification, base_to_view);
+  const FloorGrid floor = floorOf(scene);
+  for (const int x : {floor.x_first, floor.x_last}) {
+    for (const int y : {floor.y_first, floor.y_last}) extent.extend(base_to_view * floor.at(x, y));
+  }
   // Labels stand outside of the outermost points.
-  const double beside = 60 * canvas.unit(), above = 24 * canvas.unit();
+  const double beside = 36 * canvas.unit(), above = 10 * canvas.unit();
   const Box inner{room.left + beside, room.top + above, room.right - beside, room.bottom - above};
-  return {scene,
-          size,
-          canvas.unit(),
-          magnification,
-          axes,
-          room,
-          Projection(axes, extentOf(scene, magnification, base_to_view), inner)};
+  return {scene, size, canvas.unit(), magnification, axes, room, Projection(axes, extent, inner)};
 }
 
 }  // namespace

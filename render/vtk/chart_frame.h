@@ -23,8 +23,9 @@ void takeMargin(const Canvas& canvas, Box& free);
 void takeHeader(Canvas& canvas, Box& free, const std::string& title, const std::string& subtitle);
 void takeLegend(Canvas& canvas, Box& free, const std::vector<LegendEntry>& entries);
 void takeNote(Canvas& canvas, Box& free, const std::string& note);
-/// The title of the y axis at the left, upright.
-void takeYTitle(Canvas& canvas, Box& free, const std::string& title);
+/// The title of the y axis at the left, upright: first its room, then itself, centred on `plot`.
+std::vector<std::string> takeYTitle(const Canvas& canvas, Box& free, const std::string& title);
+void drawYTitle(Canvas& canvas, double left, const Box& plot, const std::vector<std::string>& lines);
 
 /// A vertical axis: which value stands where.
 struct YAxis {

@@ -81,7 +81,8 @@ void paintChart(Canvas& canvas, const GroupedBarChart& chart) {
   std::vector<LegendEntry> legend;
   for (const BarSeries& series : chart.series) legend.push_back({Key::Square, series.colour, series.name});
   takeLegend(canvas, free, legend);
-  takeYTitle(canvas, free, chart.y_title);
+  const double title_left = free.left;
+  const std::vector<std::string> y_title = takeYTitle(canvas, free, chart.y_title);
 
   const double u = canvas.unit();
   YAxis axis = axisFor(canvas, chart, free.height() - 60 * u);
@@ -93,6 +94,7 @@ void paintChart(Canvas& canvas, const GroupedBarChart& chart) {
                         0.25 * free.height());
   plot.bottom -=
       labels.height + 10 * u + (chart.category_title.empty() ? 0 : 1.2 * axisTitleStyle(canvas).size);
+  drawYTitle(canvas, title_left, plot, y_title);
   drawYAxis(canvas, plot, axis);
   drawBars(canvas, plot, axis, chart);
   drawCategories(canvas, plot, chart.categories, labels, chart.category_title);

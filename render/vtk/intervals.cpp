@@ -100,10 +100,6 @@ void drawSeries(Canvas& canvas, const Box& plot, const YAxis& axis, const Interv
   const double radius = std::clamp(0.3 * step, 2.0 * u, 6.5 * u);
   for (std::size_t i = 0; i < chart.categories.size(); ++i) {
     const double middle = plot.left + (static_cast<double>(i) + 0.5) * band;
-    if (i > 0) {
-      const double edge = Canvas::snapped(middle - band / 2);
-      canvas.fill({edge - 0.5, plot.top, edge + 0.5, plot.bottom}, colours::kGrid);
-    }
     if (i < chart.references.size() && placeable(chart.references[i], axis.logarithmic)) {
       const double y = axis.at(chart.references[i]);
       canvas.line({middle - 0.45 * band, y}, {middle + 0.45 * band, y}, colours::kInk, 1.75 * u, 5 * u);
@@ -136,7 +132,8 @@ void paintChart(Canvas& canvas, const IntervalChart& chart) {
     takeNote(canvas, free,
              "Arrow: value or interval reaches zero or below, which has no place on a logarithmic axis.");
   }
-  takeYTitle(canvas, free, chart.y_title);
+  const double title_left = free.left;
+  const std::vector<std::string> y_title = takeYTitle(canvas, free, chart.y_title);
 
   YAxis axis = axisFor(canvas, chart, free.height() - 60 * u);
   Box plot = free;
@@ -146,7 +143,13 @@ void paintChart(Canvas& canvas, const IntervalChart& chart) {
                         0.25 * free.height());
   plot.bottom -=
       labels.height + 10 * u + (chart.category_title.empty() ? 0 : 1.2 * axisTitleStyle(canvas).size);
+  drawYTitle(canvas, title_left, plot, y_title);
   drawYAxis(canvas, plot, axis);
+  const double band = plot.width() / static_cast<double>(chart.categories.size());
+  for (std::size_t i = 1; i < chart.categories.size(); ++i) {
+    const double edge = Canvas::snapped(plot.left + static_cast<double>(i) * band);
+    canvas.fill({edge - 0.5, plot.top, edge + 0.5, plot.bottom}, colours::kGrid);
+  }
   canvas.fill({plot.left, plot.bottom - 0.5 * u, plot.right, plot.bottom + 0.5 * u}, colours::kAxis);
   if (!axis.logarithmic && axis.lower < 0 && axis.upper > 0) {
     canvas.fill({plot.left, axis.at(0) - 0.5 * u, plot.right, axis.at(0) + 0.5 * u}, colours::kAxis);

@@ -19,12 +19,11 @@ namespace stiffscope {
 namespace {
 
 constexpr int kSides = 40;
-constexpr double kAmbient = 0.55;
 
 }  // namespace
 
 int Mesh::addVertex(const Eigen::Vector3d& point, const Eigen::Vector3d& normal, Colour colour) {
-  const double light = kAmbient + (1.08 - kAmbient) * std::max(0.0, normal.dot(light_));
+  const double light = ambient_ + (1.06 - ambient_) * std::max(0.0, normal.dot(light_));
   for (int i = 0; i < 3; ++i) points_.push_back(static_cast<float>(point[i]));
   for (const std::uint8_t channel : {colour.red, colour.green, colour.blue}) {
     colours_.push_back(static_cast<std::uint8_t>(std::min(255.0, std::round(channel * light))));

@@ -13,10 +13,11 @@ class vtkActor;
 namespace stiffscope {
 
 /// Solids of revolution gathered into one surface, so that an arm is one draw call. The light is part of the
-/// vertex colours: it comes from `light` (unit vector towards it), whatever the renderer has.
+/// vertex colours: it comes from `light` (unit vector towards it), whatever the renderer has;
+/// `ambient` (0 to 1) is the share of it that reaches every side.
 class Mesh {
  public:
-  explicit Mesh(const Eigen::Vector3d& light) : light_(light) {}
+  Mesh(const Eigen::Vector3d& light, double ambient) : light_(light), ambient_(ambient) {}
 
   /// From the circle of radius `from_radius` at `from` to that at `to`, closed at both ends. Nothing when
   /// they coincide.
@@ -34,6 +35,7 @@ class Mesh {
   void addQuad(int a, int b, int c, int d);
 
   Eigen::Vector3d light_;
+  double ambient_;
   std::vector<float> points_;
   std::vector<std::uint8_t> colours_;
   std::vector<int> triangles_;

@@ -55,6 +55,12 @@ void LabelPlacer::place(const std::string& text, Spot spot, double clearance, co
     const Spot end{std::clamp(spot.x, best.left, best.right), std::clamp(spot.y, best.top, best.bottom)};
     canvas_.line(spot, end, style.colour, canvas_.unit());
   }
+  // A rim of paper sets the letters off from the arm.
+  TextStyle rim = style;
+  rim.colour = colours::kPaper;
+  for (const Spot& side : kSides) {
+    canvas_.text(text, {best.left + 1.5 * side.x, best.top + 1.5 * side.y}, AlignX::Left, AlignY::Top, rim);
+  }
   canvas_.text(text, {best.left, best.top}, AlignX::Left, AlignY::Top, style);
   take(best);
 }

@@ -9,6 +9,10 @@ namespace stiffscope {
 
 namespace {
 
+// Vectors and ghosts are nearly flat: their colour is what counts.
+constexpr double kArmAmbient = 0.55;
+constexpr double kFlatAmbient = 0.86;
+
 Eigen::Vector3d lightOf(const ViewAxes& axes) {
   return (-0.45 * axes.right + 0.65 * axes.up + 0.7 * axes.to_viewer).normalized();
 }
@@ -21,14 +25,16 @@ void show(vtkRenderer& layer, const SceneStage& stage, const Mesh& mesh) {
 }  // namespace
 
 void addArmTo(vtkRenderer& layer, const SceneStage& stage) {
-  Mesh mesh(lightOf(stage.axes));
-  for (const ArmPose& pose : stage.scene.poses) addArm(mesh, pose);
-  show(layer, stage, mesh);
+  Mesh solid(lightOf(stage.axes), kArmAmbient);
+  Mesh ghosts(lightOf(stage.axes), kFlatAmbient);
+  for (const ArmPose& pose : stage.scene.poses) addArm(pose.ghost ? ghosts : solid, pose);
+  show(layer, stage, solid);
+  show(layer, stage, ghosts);
 }
 
 void addVectorsTo(vtkRenderer& layer, const SceneStage& stage, SceneVector vector, Colour colour,
                   double width) {
-  Mesh mesh(lightOf(stage.axes));
+  Mesh mesh(lightOf(stage.axes), kFlatAmbient);
   const double metres = stage.unit / stage.projection.pixelsPerMetre();
   forEachPoint(stage.scene, [&](const ScenePoint& point, const ArmPose&) {
     if (!(point.*vector)) return;
@@ -39,7 +45,7 @@ void addVectorsTo(vtkRenderer& layer, const SceneStage& stage, SceneVector vecto
 }
 
 void addWristCentresTo(vtkRenderer& layer, const SceneStage& stage) {
-  Mesh mesh(lightOf(stage.axes));
+  Mesh mesh(lightOf(stage.axes), kFlatAmbient);
   const double radius = 6 * stage.unit / stage.projection.pixelsPerMetre();
   for (const ArmPose& pose : stage.scene.poses) {
     if (pose.wrist)

@@ -26,6 +26,21 @@ std::string lengthText(double metres) {
   return metres < 1e-4 ? shortNumber(metres * 1e6) + " \u00b5m" : shortNumber(metres * 1e3) + " mm";
 }
 
+void takeArm(LabelPlacer& labels, const SceneStage& stage, const ArmPose& pose) {
+  const ArmProportions proportions(pose);
+  const auto take = [&](const Eigen::Vector3d& from, const Eigen::Vector3d& to, double radius) {
+    labels.takeLine(stage.projection.spotOf(from), stage.projection.spotOf(to),
+                    std::max(4.0, 2 * radius * stage.projection.pixelsPerMetre()));
+  };
+  double along = 0;
+  for (std::size_t i = 1; i < pose.joint_points.size(); ++i) {
+    take(pose.joint_points[i - 1], pose.joint_points[i], proportions.radiusAt(along));
+    along += (pose.joint_points[i] - pose.joint_points[i - 1]).norm();
+  }
+  for (const ScenePoint& target : pose.targets)
+    take(pose.joint_points.back(), target.position, proportions.tip_radius);
+}
+
 void paintTriad(Canvas& canvas, const SceneStage& stage, LabelPlacer& labels) {
   const double length = 70 * stage.unit / stage.projection.pixelsPerMetre();
   const Spot origin = stage.projection.spotOf(Eigen::Vector3d::Zero());
@@ -60,18 +75,15 @@ SceneLayout paintSurroundings(Canvas& canvas, const ArmScene& scene) {
 }
 
 void paintFloor(Canvas& canvas, const SceneStage& stage) {
-  Eigen::AlignedBox3d footprint = extentOf(stage.scene, 0, Eigen::Matrix3d::Identity());
-  const double step = std::max(0.5, roundUp125(footprint.sizes().head<2>().maxCoeff() / 12));
-  const int x0 = static_cast<int>(std::floor(footprint.min().x() / step)),
-            x1 = static_cast<int>(std::ceil(footprint.max().x() / step));
-  const int y0 = static_cast<int>(std::floor(footprint.min().y() / step)),
-            y1 = static_cast<int>(std::ceil(footprint.max().y() / step));
-  const auto line = [&](double ax, double ay, double bx, double by) {
-    canvas.line(stage.projection.spotOf({ax, ay, 0}), stage.projection.spotOf({bx, by, 0}), colours::kGrid,
+  const FloorGrid floor = floorOf(stage.scene);
+  const auto line = [&](const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
+    canvas.line(stage.projection.spotOf(from), stage.projection.spotOf(to), colours::kGrid,
                 1.25 * stage.unit);
   };
-  for (int i = x0; i <= x1; ++i) line(i * step, y0 * step, i * step, y1 * step);
-  for (int j = y0; j <= y1; ++j) line(x0 * step, j * step, x1 * step, j * step);
+  for (int i = floor.x_first; i <= floor.x_last; ++i)
+    line(floor.at(i, floor.y_first), floor.at(i, floor.y_last));
+  for (int j = floor.y_first; j <= floor.y_last; ++j)
+    line(floor.at(floor.x_first, j), floor.at(floor.x_last, j));
 }
 
 void paintScale(Canvas& canvas, const SceneStage& stage, const Box& strip) {
@@ -99,6 +111,9 @@ void paintLabels(Canvas& canvas, const SceneStage& stage) {
                       12 * stage.unit);
     }
   });
+  for (const ArmPose& pose : stage.scene.poses) {
+    if (!pose.ghost) takeArm(labels, stage, pose);
+  }
   paintTriad(canvas, stage, labels);
   forEachPoint(stage.scene, [&](const ScenePoint& point, const ArmPose& pose) {
     if (pose.ghost || point.label.empty()) return;

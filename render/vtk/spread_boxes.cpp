@@ -137,7 +137,8 @@ void drawPanel(Canvas& canvas, Box cell, const SpreadChart& chart, std::size_t i
     } else {
       canvas.text("none", {column.x, plot.bottom - 3 * u}, AlignX::Centre, AlignY::Bottom, noteStyle(canvas));
     }
-    if (m < panel.references.size() && panel.references[m] && axis.shows(*panel.references[m])) {
+    if (panel.spreads[m] && m < panel.references.size() && panel.references[m] &&
+        axis.shows(*panel.references[m])) {
       const double y = axis.at(*panel.references[m]);
       canvas.line({column.x - 0.48 * band, y}, {column.x + 0.48 * band, y}, colours::kInk, 1.75 * u, 5 * u);
     }
@@ -159,7 +160,9 @@ void paintChart(Canvas& canvas, const SpreadChart& chart) {
   legend.push_back({Key::Dashes, colours::kInk, chart.reference_name});
   takeLegend(canvas, free, legend);
   takeNote(canvas, free, noteOn(chart, ranges));
-  takeYTitle(canvas, free, chart.y_title);
+  const double title_left = free.left;
+  const std::vector<std::string> y_title = takeYTitle(canvas, free, chart.y_title);
+  drawYTitle(canvas, title_left, free, y_title);
 
   const std::size_t count = chart.panels.size();
   const std::size_t rows = count > 6 ? (count > 14 ? 3 : 2) : 1;

@@ -19,13 +19,12 @@ ValueRange rangeOf(const SpreadPanel& panel) {
   const auto include = [](ValueRange& range, double x) {
     range = {std::min(range.lower, x), std::max(range.upper, x)};
   };
-  for (const auto& spread : panel.spreads) {
-    if (!spread) continue;
-    include(boxes, spread->p25);
-    include(boxes, spread->p75);
-  }
-  for (const auto& reference : panel.references) {
-    if (reference && std::isfinite(*reference)) include(boxes, *reference);
+  for (std::size_t m = 0; m < panel.spreads.size(); ++m) {
+    if (!panel.spreads[m]) continue;
+    include(boxes, panel.spreads[m]->p25);
+    include(boxes, panel.spreads[m]->p75);
+    const bool has_reference = m < panel.references.size() && panel.references[m].has_value();
+    if (has_reference && std::isfinite(*panel.references[m])) include(boxes, *panel.references[m]);
   }
   if (boxes.lower > boxes.upper) boxes = {0, 1};
 

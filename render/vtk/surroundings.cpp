@@ -25,7 +25,7 @@ void takeLines(Canvas& canvas, Box& free, const std::string& text, const TextSty
 void takeHeader(Canvas& canvas, Box& free, const std::string& title, const std::string& subtitle) {
   takeLines(canvas, free, title, titleStyle(canvas));
   if (!subtitle.empty()) {
-    free.top += 2 * canvas.unit();
+    free.top += 4 * canvas.unit();
     takeLines(canvas, free, subtitle, subtitleStyle(canvas));
   }
   free.top += 8 * canvas.unit();
@@ -51,7 +51,7 @@ void takeLegend(Canvas& canvas, Box& free, const std::vector<LegendEntry>& entri
     x += width + apart;
     any = true;
   }
-  if (any) free.top += row + 8 * u;
+  if (any) free.top += row + 12 * u;
 }
 
 void takeNote(Canvas& canvas, Box& free, const std::string& note) {
@@ -65,14 +65,23 @@ void takeNote(Canvas& canvas, Box& free, const std::string& note) {
   free.bottom -= 6 * canvas.unit();
 }
 
-void takeYTitle(Canvas& canvas, Box& free, const std::string& title) {
-  if (title.empty()) return;
+std::vector<std::string> takeYTitle(const Canvas& canvas, Box& free, const std::string& title) {
+  if (title.empty()) return {};
   const TextStyle style = axisTitleStyle(canvas);
-  for (const std::string& line : canvas.wrapped(title, free.height(), style)) {
-    canvas.text(line, {free.left, free.middleY()}, AlignX::Left, AlignY::Centre, style, Direction::Up);
-    free.left += canvas.measure(line, style).y;
+  // The plot is going to be lower than the room, by its category labels.
+  std::vector<std::string> lines = canvas.wrapped(title, 0.8 * free.height(), style);
+  free.left += static_cast<double>(lines.size()) * canvas.measure("0", style).y + 6 * canvas.unit();
+  return lines;
+}
+
+void drawYTitle(Canvas& canvas, double left, const Box& plot, const std::vector<std::string>& lines) {
+  const TextStyle style = axisTitleStyle(canvas);
+  for (const std::string& line : lines) {
+    // A title longer than the plot is high leans to the bottom of the picture, where there is room.
+    const double top = std::max(plot.middleY() - canvas.measure(line, style).x / 2, plot.top);
+    canvas.text(line, {left, top}, AlignX::Left, AlignY::Top, style, Direction::Up);
+    left += canvas.measure(line, style).y;
   }
-  free.left += 6 * canvas.unit();
 }
 
 }  // namespace stiffscope
