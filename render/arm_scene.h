@@ -26,7 +26,7 @@ struct ArmPose {
   std::vector<Eigen::Vector3d> axis_directions;
   std::vector<ScenePoint> targets;  ///< reflectors, drawn as small spheres
   std::optional<ScenePoint> wrist;  ///< the wrist centre, drawn as a larger one
-  bool ghost = false;               ///< drawn pale, without labels: one of several postures
+  bool ghost = false;  ///< drawn pale, behind the others, without labels: one of several postures
 };
 
 /// From where the scene is seen, in parallel projection. The base z axis points up, except from the top,

@@ -35,9 +35,9 @@ SceneStage stageIn(const Canvas& canvas, const ArmScene& scene, Size size, const
 Image drawArmScene(const ArmScene& scene, Size size) {
   requireUsable(size);
   requireDrawable(scene);
-  // From back to front. Vectors are in front of the arm, so that none is hidden, the thin ones before the
-  // thick.
-  std::vector<vtkSmartPointer<vtkRenderer>> layers(5);
+  // From back to front: words and floor, ghosts, the arm, vectors thick and thin, wrist centres and labels.
+  // Vectors are in front of the arm so that none is hidden, ghosts behind the posture that matters.
+  std::vector<vtkSmartPointer<vtkRenderer>> layers(6);
   for (auto& layer : layers) {
     layer = vtkSmartPointer<vtkRenderer>::New();
     layer->SetBackground(1, 1, 1);
@@ -50,12 +50,13 @@ Image drawArmScene(const ArmScene& scene, Size size) {
     stage.emplace(stageIn(canvas, scene, size, layout.room));
     paintFloor(canvas, *stage);
     paintScale(canvas, *stage, layout.strip);
-    addArmTo(*layers[1], *stage);
-    addVectorsTo(*layers[2], *stage, &ScenePoint::measured, colours::kMeasured, kMeasuredWidth);
-    addVectorsTo(*layers[3], *stage, &ScenePoint::predicted, colours::kPredicted, kPredictedWidth);
-    addWristCentresTo(*layers[4], *stage);
+    addArmsTo(*layers[1], *stage, true);
+    addArmsTo(*layers[2], *stage, false);
+    addVectorsTo(*layers[3], *stage, &ScenePoint::measured, colours::kMeasured, kMeasuredWidth);
+    addVectorsTo(*layers[4], *stage, &ScenePoint::predicted, colours::kPredicted, kPredictedWidth);
+    addWristCentresTo(*layers[5], *stage);
   });
-  const Painting front(*layers[4], size, [&](Canvas& canvas) {
+  const Painting front(*layers[5], size, [&](Canvas& canvas) {
     if (stage) paintLabels(canvas, *stage);
   });
   Image image = renderOffscreen(layers, size);

@@ -16,6 +16,7 @@ GlWindow::GlWindow() : window_(vtkSmartPointer<vtkOSOpenGLRenderWindow>::New()) 
 GlWindow::~GlWindow() = default;
 
 vtkRenderWindow& GlWindow::makeCurrent() { return *window_; }
+void GlWindow::release() {}
 
 }  // namespace stiffscope
 
@@ -78,6 +79,8 @@ vtkRenderWindow& GlWindow::makeCurrent() {
   if (!context_->makeCurrent()) throw std::runtime_error("cannot draw pictures: OSMesa refuses its context");
   return *window_;
 }
+
+void GlWindow::release() { OSMesaMakeCurrent(nullptr, nullptr, 0, 0, 0); }
 
 }  // namespace stiffscope
 

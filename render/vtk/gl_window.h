@@ -18,6 +18,8 @@ class GlWindow {
 
   /// Makes the context that of the calling thread. Throws std::runtime_error when it cannot.
   vtkRenderWindow& makeCurrent();
+  /// Takes the context from the calling thread, so that another may have it.
+  void release();
 
  private:
   struct Context;

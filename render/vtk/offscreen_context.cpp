@@ -7,7 +7,6 @@
 #include <vtkRenderer.h>
 #include <vtkUnsignedCharArray.h>
 
-#include <array>
 #include <mutex>
 #include <stdexcept>
 #include <string>
@@ -45,6 +44,34 @@ class CollectErrors {
   vtkNew<ErrorCollector> collector_;
 };
 
+// The context belongs to this thread.
+struct Current {
+  explicit Current(GlWindow& context) : gl(context), window(context.makeCurrent()) {}
+  ~Current() { gl.release(); }
+  Current(const Current&) = delete;
+  Current& operator=(const Current&) = delete;
+  GlWindow& gl;
+  vtkRenderWindow& window;
+};
+
+// The layers are in the window; leaving it frees what they hold of the context.
+struct Shown {
+  Shown(vtkRenderWindow& w, const std::vector<vtkSmartPointer<vtkRenderer>>& l) : window(w), layers(l) {
+    window.SetNumberOfLayers(static_cast<int>(layers.size()));
+    for (std::size_t i = 0; i < layers.size(); ++i) {
+      layers[i]->SetLayer(static_cast<int>(i));
+      window.AddRenderer(layers[i]);
+    }
+  }
+  ~Shown() {
+    for (const auto& layer : layers) window.RemoveRenderer(layer);
+  }
+  Shown(const Shown&) = delete;
+  Shown& operator=(const Shown&) = delete;
+  vtkRenderWindow& window;
+  const std::vector<vtkSmartPointer<vtkRenderer>>& layers;
+};
+
 // Means over squares of kSupersampling pixels. VTK's rows run from bottom to top.
 Image averageDown(const std::uint8_t* pixels, Size size) {
   constexpr int k = kSupersampling;
@@ -75,22 +102,19 @@ Image renderOffscreen(const std::vector<vtkSmartPointer<vtkRenderer>>& layers, S
   const CollectErrors vtk_messages;
   // Never destroyed: at the end of a process the libraries under the context may be gone before it.
   static GlWindow* const gl = new GlWindow;
-  vtkRenderWindow& window = gl->makeCurrent();
+  const Current current(*gl);
+  vtkRenderWindow& window = current.window;
 
   const int width = kSupersampling * size.width;
   const int height = kSupersampling * size.height;
   window.SetSize(width, height);
-  window.SetNumberOfLayers(static_cast<int>(layers.size()));
-  for (std::size_t i = 0; i < layers.size(); ++i) {
-    layers[i]->SetLayer(static_cast<int>(i));
-    window.AddRenderer(layers[i]);
-  }
-  window.Render();
   vtkNew<vtkUnsignedCharArray> pixels;
-  const int front = 0;
-  window.GetPixelData(0, 0, width - 1, height - 1, front, pixels);
-  for (const auto& layer : layers) window.RemoveRenderer(layer);
-
+  {
+    const Shown shown(window, layers);
+    window.Render();
+    const int front = 0;
+    window.GetPixelData(0, 0, width - 1, height - 1, front, pixels);
+  }
   vtk_messages.throwIfAny();
   if (pixels->GetNumberOfValues() != vtkIdType{3} * width * height) {
     throw std::runtime_error(

@@ -24,12 +24,12 @@ void show(vtkRenderer& layer, const SceneStage& stage, const Mesh& mesh) {
 
 }  // namespace
 
-void addArmTo(vtkRenderer& layer, const SceneStage& stage) {
-  Mesh solid(lightOf(stage.axes), kArmAmbient);
-  Mesh ghosts(lightOf(stage.axes), kFlatAmbient);
-  for (const ArmPose& pose : stage.scene.poses) addArm(pose.ghost ? ghosts : solid, pose);
-  show(layer, stage, solid);
-  show(layer, stage, ghosts);
+void addArmsTo(vtkRenderer& layer, const SceneStage& stage, bool ghosts) {
+  Mesh mesh(lightOf(stage.axes), ghosts ? kFlatAmbient : kArmAmbient);
+  for (const ArmPose& pose : stage.scene.poses) {
+    if (pose.ghost == ghosts) addArm(mesh, pose);
+  }
+  show(layer, stage, mesh);
 }
 
 void addVectorsTo(vtkRenderer& layer, const SceneStage& stage, SceneVector vector, Colour colour,

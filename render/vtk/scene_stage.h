@@ -33,8 +33,9 @@ void forEachPoint(const ArmScene& scene, Visit visit) {
   }
 }
 
-/// The solids of the arm, and the arrows of one kind of vector; each puts them and the camera into `layer`.
-void addArmTo(vtkRenderer& layer, const SceneStage& stage);
+/// The solids of the arms, ghosts or others, and the arrows of one kind of vector; each puts them and the
+/// camera into `layer`.
+void addArmsTo(vtkRenderer& layer, const SceneStage& stage, bool ghosts);
 void addVectorsTo(vtkRenderer& layer, const SceneStage& stage, SceneVector vector, Colour colour,
                   double width);
 void addWristCentresTo(vtkRenderer& layer, const SceneStage& stage);
