@@ -59,9 +59,13 @@ TEST(GroupedBars, SeriesStandInTheirOrderInEachGroup) {
   for (std::size_t group = 0; group < 3; ++group) {
     for (std::size_t s = 0; s < 4; ++s) {
       ASSERT_EQ(bars[s].size(), 3u);
-      if (s > 0) EXPECT_GE(bars[s][group].x, bars[s - 1][group].br().x);
+      if (s > 0) {
+        EXPECT_GE(bars[s][group].x, bars[s - 1][group].br().x);
+      }
     }
-    if (group > 0) EXPECT_GT(bars[0][group].x, bars[3][group - 1].br().x);
+    if (group > 0) {
+      EXPECT_GT(bars[0][group].x, bars[3][group - 1].br().x);
+    }
   }
 }
 
