@@ -111,10 +111,11 @@ void paintLabels(Canvas& canvas, const SceneStage& stage) {
                       12 * stage.unit);
     }
   });
+  // The axes stand on the arm's foot and so do their labels; those of the points keep clear of the arm.
+  paintTriad(canvas, stage, labels);
   for (const ArmPose& pose : stage.scene.poses) {
     if (!pose.ghost) takeArm(labels, stage, pose);
   }
-  paintTriad(canvas, stage, labels);
   forEachPoint(stage.scene, [&](const ScenePoint& point, const ArmPose& pose) {
     if (pose.ghost || point.label.empty()) return;
     TextStyle style = labelStyle(canvas);

@@ -121,6 +121,13 @@ TEST(ArmPicture, TargetsAreLabelled) {
   const cv::Rect label = cv::boundingRect(difference > 60);
   EXPECT_GT(label.area(), 200);
   EXPECT_LT(label.width, 80);
+  // It stands beside its target, the one nearly black ball: labels are projected as the solids are.
+  cv::Mat dark;
+  cv::inRange(without, cv::Scalar(0, 0, 0), cv::Scalar(50, 50, 50), dark);
+  cv::erode(dark, dark, cv::getStructuringElement(cv::MORPH_RECT, {5, 5}));
+  const cv::Rect ball = cv::boundingRect(dark.rowRange(60, 600));
+  ASSERT_GT(ball.area(), 20);
+  EXPECT_LT(cv::norm(middle(ball) + cv::Point(0, 60) - middle(label)), 90);
 }
 
 TEST(ArmPicture, GhostsAndTargetsAreNotClipped) {
