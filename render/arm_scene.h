@@ -1,0 +1,65 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "render/colours.h"
+#include "render/image.h"
+
+namespace stiffscope {
+
+/// A point with its displacement under load. Position and vectors in the base frame, m.
+struct ScenePoint {
+  std::string label;
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();
+  std::optional<Eigen::Vector3d> measured;
+  std::optional<Eigen::Vector3d> predicted;
+};
+
+/// The arm in one posture. Points and directions in the base frame.
+struct ArmPose {
+  /// From the first joint to the flange, m; the flange is last. Points may coincide (a spherical wrist).
+  std::vector<Eigen::Vector3d> joint_points;
+  /// The axis of each joint, that is of every joint point but the last.
+  std::vector<Eigen::Vector3d> axis_directions;
+  std::vector<ScenePoint> targets;  ///< reflectors, drawn as small spheres
+  std::optional<ScenePoint> wrist;  ///< the wrist centre, drawn as a larger one
+  bool ghost = false;  ///< drawn pale, behind the others, without labels: one of several postures
+};
+
+/// From where the scene is seen, in parallel projection. The base z axis points up, except from the top,
+/// where y does.
+enum class View {
+  Oblique,  ///< from above, between Front and Side: x to the right and towards the viewer, y away
+  Front,    ///< against x0: y to the right
+  Side,     ///< along y0: x to the right
+  Top       ///< against z0: x to the right, y up
+};
+
+/// Deflection vectors on the arm, to scale in direction and magnified in length: the factor and a reference
+/// arrow are printed on the picture. Arrows start at their point and are drawn over the arm, so none is
+/// hidden. Floor: z = 0 of the base frame, with a grid of 0.5 m (or the step that fits). In every text
+/// `x_{abc}` sets abc as a subscript.
+struct ArmScene {
+  std::string title;
+  std::string subtitle;
+  std::vector<ArmPose> poses;
+  std::optional<double> magnification;  ///< of all vectors; none: automaticMagnification
+  View view = View::Oblique;
+  std::optional<Eigen::Vector3d> view_direction;  ///< from the viewer into the scene, instead of `view`
+  std::string measured_name = "measured";
+  std::string predicted_name = "predicted";
+};
+
+/// The factor of the series 1-2-5 with which the longest vector of the scene is at most a fifth of the
+/// largest side of the box around all its points; 1 when there is no vector that is not zero.
+double automaticMagnification(const ArmScene& scene);
+
+/// Draws the scene. Throws std::invalid_argument when there is no pose, when a pose has fewer than two joint
+/// points or not one axis a joint, when a number is not finite or the magnification not positive, or when
+/// `size` is too small; std::runtime_error when offscreen rendering is not to be had.
+Image render(const ArmScene& scene, Size size = {1200, 800});
+
+}  // namespace stiffscope

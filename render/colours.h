@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstdint>
+
+namespace stiffscope {
+
+/// An sRGB colour.
+struct Colour {
+  std::uint8_t red = 0;
+  std::uint8_t green = 0;
+  std::uint8_t blue = 0;
+
+  friend bool operator==(const Colour&, const Colour&) = default;
+};
+
+/// The colours of all pictures. The four of the methods are those of the paper's Fig. 7 (grey, red, blue,
+/// green), with lightness L* of 77, 51, 33 and 66, so that they stay apart in a grey print and to the
+/// colour-blind.
+namespace colours {
+
+inline constexpr Colour kNone{190, 190, 190};  ///< no compensation
+inline constexpr Colour kCp{216, 72, 60};      ///< Complete Pose
+inline constexpr Colour kPp{28, 74, 150};      ///< Partial Pose
+inline constexpr Colour kDpp{72, 178, 104};    ///< Decoupled Partial Pose
+
+inline constexpr Colour kMeasured{206, 60, 48};   ///< measured vectors
+inline constexpr Colour kPredicted{28, 74, 150};  ///< predicted vectors
+
+inline constexpr Colour kTarget{38, 40, 46};    ///< reflectors
+inline constexpr Colour kWrist{232, 168, 32};   ///< the wrist centre
+inline constexpr Colour kLink{214, 218, 225};   ///< the arm between its joints
+inline constexpr Colour kJoint{166, 174, 188};  ///< drums along the joint axes
+
+inline constexpr Colour kPaper{255, 255, 255};
+inline constexpr Colour kInk{32, 32, 36};
+inline constexpr Colour kFaintInk{96, 98, 104};
+inline constexpr Colour kAxis{120, 122, 128};
+inline constexpr Colour kGrid{226, 228, 232};
+
+}  // namespace colours
+
+}  // namespace stiffscope

@@ -1,0 +1,85 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "render/colours.h"
+#include "render/image.h"
+#include "render/vtk/font.h"
+
+class vtkContext2D;
+
+namespace stiffscope {
+
+/// A place on the picture: pixels from the left and from the top.
+struct Spot {
+  double x = 0;
+  double y = 0;
+};
+
+/// An upright rectangle on the picture; top < bottom.
+struct Box {
+  double left = 0;
+  double top = 0;
+  double right = 0;
+  double bottom = 0;
+
+  double width() const { return right - left; }
+  double height() const { return bottom - top; }
+  double middleX() const { return (left + right) / 2; }
+  double middleY() const { return (top + bottom) / 2; }
+  bool overlaps(const Box& other) const {
+    return left < other.right && other.left < right && top < other.bottom && other.top < bottom;
+  }
+};
+
+enum class AlignX { Left, Centre, Right };
+enum class AlignY { Top, Centre, Bottom };
+enum class Direction { Across, Up };
+
+struct TextStyle {
+  double size = 14;  ///< of the font, pixels
+  bool bold = false;
+  Colour colour = colours::kInk;
+};
+
+/// Draws on the picture through VTK's 2-D context, in pixels of the finished picture; text measures what it
+/// will take. In every text `x_{abc}` sets abc as a subscript. Colours are opaque.
+class Canvas {
+ public:
+  Canvas(vtkContext2D& context, Size size, Fonts fonts);
+
+  Box all() const;
+  /// 1 at 1200 x 700; every length that is not given by the data is multiplied by it.
+  double unit() const { return unit_; }
+  /// To the nearest rendered pixel, so that edges are sharp.
+  static double snapped(double x);
+
+  void fill(const Box& box, Colour colour);
+  void outline(const Box& box, Colour colour, double width);
+  /// Straight from one spot to the other; dashes of `dash` pixels when that is positive.
+  void line(Spot from, Spot to, Colour colour, double width, double dash = 0);
+  void polygon(const std::vector<Spot>& corners, Colour colour);
+  void disc(Spot centre, double radius, Colour colour);
+
+  /// Width and height of `text` written across; the height depends on the style only.
+  Spot measure(const std::string& text, const TextStyle& style) const;
+  /// `text` placed with the named side or centre at `anchor`. Direction::Up runs from bottom to top.
+  void text(const std::string& text, Spot anchor, AlignX x, AlignY y, const TextStyle& style,
+            Direction direction = Direction::Across);
+  /// `text` cut with an ellipsis, if need be, to be no wider than `width`.
+  std::string shortened(const std::string& text, double width, const TextStyle& style) const;
+  /// `text` broken between words into lines no wider than `width`; a single longer word is cut.
+  std::vector<std::string> wrapped(const std::string& text, double width, const TextStyle& style) const;
+
+ private:
+  void setStyle(double size, bool bold, Colour colour, Direction direction) const;
+  double runWidth(const std::string& run, double size, bool bold) const;
+
+  vtkContext2D& context_;
+  Size size_;
+  Fonts fonts_;
+  double unit_;
+};
+
+}  // namespace stiffscope

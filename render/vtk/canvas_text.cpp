@@ -1,0 +1,136 @@
+// The text of the canvas: measured, with subscripts, cut and wrapped.
+#include <vtkContext2D.h>
+#include <vtkTextProperty.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "render/vtk/canvas.h"
+#include "render/vtk/offscreen_context.h"
+
+namespace stiffscope {
+
+namespace {
+
+constexpr float kScale = kSupersampling;
+
+}  // namespace
+
+void Canvas::setStyle(double size, bool bold, Colour colour, Direction direction) const {
+  vtkTextProperty* style = context_.GetTextProp();
+  style->SetFontFamily(VTK_FONT_FILE);
+  style->SetFontFile((bold ? fonts_.bold : fonts_.regular).c_str());
+  style->SetFontSize(std::max(1, static_cast<int>(std::lround(size * kScale))));
+  style->SetColor(colour.red / 255.0, colour.green / 255.0, colour.blue / 255.0);
+  style->SetJustificationToLeft();
+  style->SetVerticalJustificationToBottom();
+  style->SetOrientation(direction == Direction::Up ? 90 : 0);
+}
+
+double Canvas::runWidth(const std::string& run, double size, bool bold) const {
+  setStyle(size, bold, colours::kInk, Direction::Across);
+  std::array<float, 4> bounds{};
+  context_.ComputeStringBounds(run.c_str(), bounds.data());
+  return bounds[2] / kScale;
+}
+
+namespace {
+
+constexpr double kSubscriptSize = 0.72;
+constexpr double kSubscriptDrop = 0.28;
+
+struct Run {
+  std::string text;
+  bool subscript = false;
+};
+
+std::vector<Run> runsOf(const std::string& text) {
+  std::vector<Run> runs;
+  std::size_t at = 0;
+  while (at < text.size()) {
+    const std::size_t open = text.find("_{", at);
+    const std::size_t close = open == std::string::npos ? open : text.find('}', open);
+    if (close == std::string::npos) {
+      runs.push_back({text.substr(at)});
+      break;
+    }
+    if (open > at) runs.push_back({text.substr(at, open - at)});
+    if (close > open + 2) runs.push_back({text.substr(open + 2, close - open - 2), true});
+    at = close + 1;
+  }
+  return runs;
+}
+
+}  // namespace
+
+Spot Canvas::measure(const std::string& text, const TextStyle& style) const {
+  double width = 0;
+  for (const Run& run : runsOf(text)) {
+    width += runWidth(run.text, style.size * (run.subscript ? kSubscriptSize : 1), style.bold);
+  }
+  return {width, 1.2 * style.size};
+}
+
+void Canvas::text(const std::string& text, Spot anchor, AlignX x, AlignY y, const TextStyle& style,
+                  Direction direction) {
+  const bool up = direction == Direction::Up;
+  const Spot extent = measure(text, style);
+  const double width = up ? extent.y : extent.x;
+  const double height = up ? extent.x : extent.y;
+  const double left = anchor.x - (x == AlignX::Left ? 0 : x == AlignX::Centre ? width / 2 : width);
+  const double top = anchor.y - (y == AlignY::Top ? 0 : y == AlignY::Centre ? height / 2 : height);
+
+  double along = 0;
+  for (const Run& run : runsOf(text)) {
+    const double size = style.size * (run.subscript ? kSubscriptSize : 1);
+    const double drop = run.subscript ? kSubscriptDrop * style.size : 0;
+    const double run_width = runWidth(run.text, size, style.bold);
+    setStyle(size, style.bold, style.colour, direction);
+    // VTK's text box is as high as the font; its lower edge is the descenders'. Keep one base line.
+    const double descent = 0.22 * style.size;
+    const double below = up ? left + width - descent - 0.02 * style.size + 0.24 * size + drop
+                            : top + height - descent - 0.02 * style.size + 0.24 * size + drop;
+    const double at_x = up ? below : left + along;
+    const double at_y = up ? top + height - along : below;
+    context_.DrawString(static_cast<float>(std::round(at_x * kScale)),
+                        static_cast<float>(std::round((size_.height - at_y) * kScale)), run.text.c_str());
+    along += run_width;
+  }
+}
+
+std::string Canvas::shortened(const std::string& text, double width, const TextStyle& style) const {
+  if (measure(text, style).x <= width) return text;
+  std::string start = text;
+  while (!start.empty()) {
+    // A whole UTF-8 character goes: its last byte is the first that is not a continuation.
+    while (start.size() > 1 && (static_cast<unsigned char>(start.back()) & 0xC0) == 0x80) start.pop_back();
+    start.pop_back();
+    const std::string cut = start + "\u2026";
+    if (measure(cut, style).x <= width) return cut;
+  }
+  return "";
+}
+
+std::vector<std::string> Canvas::wrapped(const std::string& text, double width,
+                                         const TextStyle& style) const {
+  std::vector<std::string> lines;
+  std::string line;
+  std::size_t at = 0;
+  while (at < text.size()) {
+    const std::size_t space = std::min(text.find(' ', at), text.size());
+    const std::string word = text.substr(at, space - at);
+    const std::string longer = line.empty() ? word : line + " " + word;
+    if (!line.empty() && measure(longer, style).x > width) {
+      lines.push_back(shortened(line, width, style));
+      line = word;
+    } else {
+      line = longer;
+    }
+    at = space + 1;
+  }
+  if (!line.empty()) lines.push_back(shortened(line, width, style));
+  return lines;
+}
+
+}  // namespace stiffscope

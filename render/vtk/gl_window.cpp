@@ -1,0 +1,87 @@
+#include "render/vtk/gl_window.h"
+
+#include <stdexcept>
+
+#ifdef STIFFSCOPE_VTK_HAS_OSMESA
+
+#include <vtkOSOpenGLRenderWindow.h>
+
+namespace stiffscope {
+
+struct GlWindow::Context {};
+
+GlWindow::GlWindow() : window_(vtkSmartPointer<vtkOSOpenGLRenderWindow>::New()) {
+  window_->SetMultiSamples(0);
+}
+GlWindow::~GlWindow() = default;
+
+vtkRenderWindow& GlWindow::makeCurrent() { return *window_; }
+void GlWindow::release() {}
+
+}  // namespace stiffscope
+
+#else
+
+#include <GL/osmesa.h>
+#include <vtkGenericOpenGLRenderWindow.h>
+
+#include <array>
+
+namespace stiffscope {
+
+// OSMesa wants a buffer to draw on; VTK draws on one of its own, so this one is as small as may be.
+struct GlWindow::Context {
+  static constexpr int kSide = 16;
+  OSMesaContext handle = nullptr;
+  std::array<unsigned char, kSide * kSide * 4> buffer{};
+
+  bool makeCurrent() {
+    return OSMesaMakeCurrent(handle, buffer.data(), GL_UNSIGNED_BYTE, kSide, kSide) == GL_TRUE;
+  }
+  ~Context() {
+    if (handle != nullptr) OSMesaDestroyContext(handle);
+  }
+};
+
+GlWindow::GlWindow() : context_(std::make_unique<Context>()) {
+  const std::array<int, 11> attributes = {OSMESA_FORMAT,
+                                          OSMESA_RGBA,
+                                          OSMESA_DEPTH_BITS,
+                                          24,
+                                          OSMESA_PROFILE,
+                                          OSMESA_CORE_PROFILE,
+                                          OSMESA_CONTEXT_MAJOR_VERSION,
+                                          3,
+                                          OSMESA_CONTEXT_MINOR_VERSION,
+                                          2,
+                                          0};
+  context_->handle = OSMesaCreateContextAttribs(attributes.data(), nullptr);
+  if (context_->handle == nullptr) {
+    throw std::runtime_error("cannot draw pictures: OSMesa has no OpenGL 3.2 core context");
+  }
+  if (!context_->makeCurrent()) throw std::runtime_error("cannot draw pictures: OSMesa refuses its context");
+
+  const auto window = vtkSmartPointer<vtkGenericOpenGLRenderWindow>::New();
+  window->SetReadyForRendering(true);
+  window->SetIsCurrent(true);
+  window->SetSupportsOpenGL(true);
+  window->SetMultiSamples(0);
+  window->SetFrameBlitModeToNoBlit();
+  if (!window->InitializeFromCurrentContext()) {
+    throw std::runtime_error("cannot draw pictures: VTK does not accept the OSMesa context");
+  }
+  window_ = window;
+}
+
+GlWindow::~GlWindow() = default;
+
+vtkRenderWindow& GlWindow::makeCurrent() {
+  if (!context_->makeCurrent()) throw std::runtime_error("cannot draw pictures: OSMesa refuses its context");
+  return *window_;
+}
+
+void GlWindow::release() { OSMesaMakeCurrent(nullptr, nullptr, 0, 0, 0); }
+
+}  // namespace stiffscope
+
+#endif

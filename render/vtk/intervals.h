@@ -1,0 +1,9 @@
+#pragma once
+
+#include "render/interval_chart.h"
+
+namespace stiffscope {
+
+Image drawIntervals(const IntervalChart& chart, Size size);
+
+}  // namespace stiffscope

@@ -1,0 +1,28 @@
+// The entry of the module: what the loader in render/backend.cpp looks for.
+#include "render/backend.h"
+#include "render/vtk/arm_picture.h"
+#include "render/vtk/grouped_bars.h"
+#include "render/vtk/intervals.h"
+#include "render/vtk/spread_boxes.h"
+
+namespace stiffscope {
+
+namespace {
+
+class VtkBackend : public Backend {
+ public:
+  Image draw(const GroupedBarChart& chart, Size size) override { return drawGroupedBars(chart, size); }
+  Image draw(const SpreadChart& chart, Size size) override { return drawSpreads(chart, size); }
+  Image draw(const IntervalChart& chart, Size size) override { return drawIntervals(chart, size); }
+  Image draw(const ArmScene& scene, Size size) override { return drawArmScene(scene, size); }
+};
+
+}  // namespace
+
+}  // namespace stiffscope
+
+// The name must be that of kBackendSymbol.
+extern "C" __attribute__((visibility("default"))) stiffscope::Backend* stiffscope_render_backend_1() {
+  static stiffscope::VtkBackend backend;
+  return &backend;
+}

@@ -1,0 +1,156 @@
+#include "render/vtk/spread_boxes.h"
+
+#include <algorithm>
+
+#include "render/vtk/chart_frame.h"
+#include "render/vtk/flat_picture.h"
+#include "render/vtk/marks.h"
+#include "render/vtk/spread_range.h"
+
+namespace stiffscope {
+
+namespace {
+
+std::vector<ValueRange> rangesOf(const SpreadChart& chart) {
+  std::vector<ValueRange> ranges;
+  for (const SpreadPanel& panel : chart.panels) ranges.push_back(rangeOf(panel));
+  if (chart.axis == SpreadAxis::Shared) {
+    ValueRange all = ranges[0];
+    for (const ValueRange& range : ranges)
+      all = {std::min(all.lower, range.lower), std::max(all.upper, range.upper)};
+    ranges.assign(ranges.size(), all);
+  }
+  return ranges;
+}
+
+bool meanOff(const std::optional<Spread>& spread, const ValueRange& range, bool upwards) {
+  return spread && (upwards ? spread->mean > range.upper : spread->mean < range.lower);
+}
+
+struct Column {
+  double x;
+  double half;
+};
+
+void drawBox(Canvas& canvas, const Column& column, const YAxis& axis, const Spread& spread, Colour colour) {
+  const double u = canvas.unit();
+  const double x = column.x, half = column.half;
+  const auto at = [&axis](double value) { return axis.at(std::clamp(value, axis.lower, axis.upper)); };
+  drawWhisker(canvas, x, at(spread.p75), at(spread.p95), half / 2, colour, false, axis.shows(spread.p95));
+  drawWhisker(canvas, x, at(spread.p25), at(spread.p5), half / 2, colour, false, axis.shows(spread.p5));
+  const Box box{x - half, at(spread.p75), x + half, std::max(at(spread.p25), at(spread.p75) + 2 * u)};
+  canvas.fill(box, paler(colour, 0.45));
+  canvas.outline(box, colour, std::min(1.5 * u, box.height() / 2));
+  if (axis.shows(spread.p50))
+    canvas.line({box.left, at(spread.p50)}, {box.right, at(spread.p50)}, colour, 3 * u);
+  if (axis.shows(spread.mean)) drawDiamond(canvas, {x, at(spread.mean)}, 5 * u, colour);
+  if (!axis.shows(spread.p95) || spread.mean > axis.upper) {
+    drawArrowMark(canvas, {x, axis.top}, 11 * u, colour, true);
+  }
+  if (!axis.shows(spread.p5) || spread.mean < axis.lower) {
+    drawArrowMark(canvas, {x, axis.bottom}, 11 * u, colour, false);
+  }
+}
+
+// Means that lie off the axis, one under the other, in the strip kept free for them at the edge.
+void printMeansOff(Canvas& canvas, const Box& plot, double first, const SpreadChart& chart,
+                   const SpreadPanel& panel, const ValueRange& range, bool upwards) {
+  TextStyle style = noteStyle(canvas);
+  for (std::size_t m = 0; m < panel.spreads.size(); ++m) {
+    if (!meanOff(panel.spreads[m], range, upwards)) continue;
+    style.colour = chart.methods[m].colour;
+    canvas.text("mean " + shortNumber(panel.spreads[m]->mean), {plot.middleX(), first}, AlignX::Centre,
+                AlignY::Top, style);
+    first += 1.25 * style.size;
+  }
+}
+
+double stripHeight(const Canvas& canvas, const SpreadChart& chart, const std::vector<ValueRange>& ranges,
+                   bool upwards) {
+  std::ptrdiff_t most = 0;
+  for (std::size_t i = 0; i < ranges.size(); ++i) {
+    const auto& spreads = chart.panels[i].spreads;
+    most = std::max(most, std::count_if(spreads.begin(), spreads.end(), [&](const auto& spread) {
+                      return meanOff(spread, ranges[i], upwards);
+                    }));
+  }
+  return static_cast<double>(most) * 1.25 * noteStyle(canvas).size;
+}
+
+void drawPanel(Canvas& canvas, Box cell, const SpreadChart& chart, std::size_t index, const ValueRange& range,
+               double strip_above, double strip_below) {
+  const double u = canvas.unit();
+  const SpreadPanel& panel = chart.panels[index];
+  TextStyle title = axisTitleStyle(canvas);
+  title.bold = true;
+  const double title_height = canvas.measure("0", title).y;
+  Box plot{cell.left, cell.top + title_height + strip_above + 6 * u, cell.right,
+           cell.bottom - strip_below - 8 * u};
+  YAxis axis = linearAxis(canvas, range.lower, range.upper, plot.height(), false);
+  plot.left = Canvas::snapped(plot.left + tickLabelWidth(canvas, axis));
+  canvas.text(canvas.shortened(panel.title, plot.width(), title), {plot.middleX(), cell.top}, AlignX::Centre,
+              AlignY::Top, title);
+  drawYAxis(canvas, plot, axis);
+  canvas.fill({plot.left, plot.bottom - 0.5 * u, plot.right, plot.bottom + 0.5 * u}, colours::kAxis);
+  if (axis.lower < 0 && axis.upper > 0) {
+    canvas.fill({plot.left, axis.at(0) - 0.5 * u, plot.right, axis.at(0) + 0.5 * u}, colours::kAxis);
+  }
+
+  const double band = plot.width() / static_cast<double>(chart.methods.size());
+  for (std::size_t m = 0; m < chart.methods.size(); ++m) {
+    const Column column{plot.left + (static_cast<double>(m) + 0.5) * band, std::min(0.3 * band, 36 * u)};
+    if (panel.spreads[m]) {
+      drawBox(canvas, column, axis, *panel.spreads[m], chart.methods[m].colour);
+    } else {
+      canvas.text("none", {column.x, plot.bottom - 3 * u}, AlignX::Centre, AlignY::Bottom, noteStyle(canvas));
+    }
+    if (panel.spreads[m] && m < panel.references.size() && panel.references[m] &&
+        axis.shows(*panel.references[m])) {
+      const double y = axis.at(*panel.references[m]);
+      canvas.line({column.x - 0.48 * band, y}, {column.x + 0.48 * band, y}, colours::kInk, 1.75 * u, 5 * u);
+    }
+  }
+  printMeansOff(canvas, plot, cell.top + title_height + 2 * u, chart, panel, range, true);
+  printMeansOff(canvas, plot, plot.bottom + 4 * u, chart, panel, range, false);
+}
+
+void paintChart(Canvas& canvas, const SpreadChart& chart) {
+  const std::vector<ValueRange> ranges = rangesOf(chart);
+  Box free = canvas.all();
+  takeMargin(canvas, free);
+  takeHeader(canvas, free, chart.title, chart.subtitle);
+  std::vector<LegendEntry> legend;
+  for (const SpreadMethod& method : chart.methods)
+    legend.push_back({Key::Square, method.colour, method.name});
+  legend.push_back({Key::Median, colours::kFaintInk, "median"});
+  legend.push_back({Key::Diamond, colours::kFaintInk, "mean"});
+  legend.push_back({Key::Dashes, colours::kInk, chart.reference_name});
+  takeLegend(canvas, free, legend);
+  takeNote(canvas, free, noteOn(chart, ranges));
+  const double title_left = free.left;
+  const std::vector<std::string> y_title = takeYTitle(canvas, free, chart.y_title);
+  drawYTitle(canvas, title_left, free, y_title);
+
+  const std::size_t count = chart.panels.size();
+  const std::size_t rows = count > 6 ? (count > 14 ? 3 : 2) : 1;
+  const std::size_t columns = (count + rows - 1) / rows;
+  const double gap = 10 * canvas.unit();
+  const double width = (free.width() + gap) / static_cast<double>(columns);
+  const double height = (free.height() + gap) / static_cast<double>(rows);
+  const double above = stripHeight(canvas, chart, ranges, true);
+  const double below = stripHeight(canvas, chart, ranges, false);
+  for (std::size_t i = 0; i < count; ++i) {
+    const double left = free.left + static_cast<double>(i % columns) * width;
+    const double top = free.top + static_cast<double>(i / columns) * height;
+    drawPanel(canvas, {left, top, left + width - gap, top + height - gap}, chart, i, ranges[i], above, below);
+  }
+}
+
+}  // namespace
+
+Image drawSpreads(const SpreadChart& chart, Size size) {
+  requireConsistent(chart);
+  return drawFlat(size, [&chart](Canvas& canvas) { paintChart(canvas, chart); });
+}
+
+}  // namespace stiffscope

@@ -1,0 +1,9 @@
+#pragma once
+
+#include "render/spread_chart.h"
+
+namespace stiffscope {
+
+Image drawSpreads(const SpreadChart& chart, Size size);
+
+}  // namespace stiffscope

@@ -1,0 +1,177 @@
+#include "render/arm_scene.h"
+
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+#include "tests/render/picture.h"
+
+namespace stiffscope {
+namespace {
+
+using Eigen::Vector3d;
+
+// An arm in the x-z plane, its wrist centre well away from all else that is drawn. No names: no legend.
+ArmScene scene(View view) {
+  ArmScene scene;
+  scene.view = view;
+  scene.measured_name.clear();
+  scene.predicted_name.clear();
+  ArmPose pose;
+  pose.joint_points = {{0, 0, 0},   {0.4, 0, 0.9}, {0.4, 0, 2.0}, {0.6, 0, 2.1},
+                       {2, 0, 2.1}, {2, 0, 2.1},   {2.3, 0, 2.1}};
+  pose.axis_directions = {Vector3d::UnitZ(), Vector3d::UnitY(), Vector3d::UnitY(),
+                          Vector3d::UnitX(), Vector3d::UnitY(), Vector3d::UnitX()};
+  pose.wrist = ScenePoint{"P_{wrist}", {2, 0, 2.1}, {}, {}};
+  scene.poses = {pose};
+  scene.magnification = 100;
+  return scene;
+}
+
+enum class Hue { Red, Blue, Amber };
+
+// Solids are shaded, so a vector is told by its hue.
+cv::Mat hueMask(const cv::Mat& picture, Hue hue) {
+  std::vector<cv::Mat> bgr;
+  cv::split(picture, bgr);
+  cv::Mat blue, green, red;
+  bgr[0].convertTo(blue, CV_32S);
+  bgr[1].convertTo(green, CV_32S);
+  bgr[2].convertTo(red, CV_32S);
+  if (hue == Hue::Red) return (red - green > 70) & (red - blue > 70) & (green - blue < 40);
+  if (hue == Hue::Blue) return (blue - red > 50) & (blue - green > 40);
+  return (red - blue > 100) & (green - blue > 60);
+}
+
+cv::Rect extentOfHue(const cv::Mat& picture, Hue hue) { return cv::boundingRect(hueMask(picture, hue)); }
+
+cv::Point middle(const cv::Rect& r) { return (r.tl() + r.br()) / 2; }
+
+struct Case {
+  View view;
+  Vector3d vector;
+  cv::Point towards;  // on the picture, y downwards
+};
+
+TEST(ArmPicture, VectorsPointTheRightWayInEveryView) {
+  const std::vector<Case> cases = {
+      {View::Side, {0.004, 0, 0}, {1, 0}},   {View::Side, {0, 0, -0.004}, {0, 1}},
+      {View::Side, {-0.004, 0, 0}, {-1, 0}}, {View::Front, {0, 0.004, 0}, {1, 0}},
+      {View::Front, {0, 0, 0.004}, {0, -1}}, {View::Top, {0.004, 0, 0}, {1, 0}},
+      {View::Top, {0, 0.004, 0}, {0, -1}},   {View::Oblique, {0, 0, -0.004}, {0, 1}},
+  };
+  for (const Case& c : cases) {
+    SCOPED_TRACE(testing::Message() << static_cast<int>(c.view) << ": " << c.vector.transpose());
+    for (const bool measured : {true, false}) {
+      ArmScene drawn = scene(c.view);
+      (measured ? drawn.poses[0].wrist->measured : drawn.poses[0].wrist->predicted) = c.vector;
+      const cv::Mat picture = decoded(render(drawn));
+      const cv::Point from = middle(extentOfHue(picture, Hue::Amber));
+      const cv::Rect arrow = extentOfHue(picture, measured ? Hue::Red : Hue::Blue);
+      ASSERT_GT(arrow.area(), 100);
+      const cv::Point way = middle(arrow) - from;
+      const cv::Point across(-c.towards.y, c.towards.x);
+      EXPECT_GT(way.dot(c.towards), 15);
+      EXPECT_LT(std::abs(way.dot(across)), 4);
+      expectNothingClipped(picture);
+    }
+  }
+}
+
+TEST(ArmPicture, LengthIsMagnificationTimesVector) {
+  // The magnification does not move the picture here: arrows stay inside of what the arm covers anyway.
+  const auto lengthOf = [](double metres, double magnification) {
+    ArmScene drawn = scene(View::Side);
+    drawn.magnification = magnification;
+    drawn.poses[0].wrist->measured = Vector3d(0, 0, -metres);
+    const cv::Mat picture = decoded(render(drawn));
+    return extentOfHue(picture, Hue::Red).br().y - middle(extentOfHue(picture, Hue::Amber)).y;
+  };
+  const int once = lengthOf(0.004, 100);
+  EXPECT_GT(once, 50);
+  EXPECT_NEAR(lengthOf(0.008, 100), 2 * once, 3);
+  EXPECT_NEAR(lengthOf(0.004, 200), 2 * once, 3);
+}
+
+TEST(ArmPicture, ReferenceArrowIsToTheSameScale) {
+  ArmScene drawn = scene(View::Side);
+  drawn.poses[0].wrist->measured = Vector3d(0, 0, -0.005);
+  const cv::Mat picture = decoded(render(drawn));
+  const double five_mm = extentOfHue(picture, Hue::Red).br().y - middle(extentOfHue(picture, Hue::Amber)).y;
+  // The arrow stands lowest at the left; its text begins ten pixels right of its tip.
+  const cv::Rect strip(0, picture.rows - 40, picture.cols, 40);
+  const auto pieces = piecesOf(maskOf(picture(strip), colours::kInk), 100);
+  ASSERT_FALSE(pieces.empty());
+  const double ratio = pieces[0].width / (five_mm / 5);
+  // It stands for 1, 2, 5 or 10 mm.
+  double nearest = 1e9;
+  for (const double mm : {1.0, 2.0, 5.0, 10.0}) nearest = std::min(nearest, std::abs(ratio / mm - 1));
+  EXPECT_LT(nearest, 0.03) << ratio;
+}
+
+TEST(ArmPicture, TargetsAreLabelled) {
+  ArmScene drawn = scene(View::Side);
+  drawn.poses[0].targets = {{"P_{10}", {2.4, 0, 2.5}, {}, {}}};
+  const cv::Mat with = decoded(render(drawn));
+  drawn.poses[0].targets[0].label.clear();
+  const cv::Mat without = decoded(render(drawn));
+  cv::Mat difference;
+  cv::absdiff(with, without, difference);
+  cv::cvtColor(difference, difference, cv::COLOR_BGR2GRAY);
+  const cv::Rect label = cv::boundingRect(difference > 60);
+  EXPECT_GT(label.area(), 200);
+  EXPECT_LT(label.width, 80);
+  // It stands beside its target, the one nearly black ball: labels are projected as the solids are.
+  cv::Mat dark;
+  cv::inRange(without, cv::Scalar(0, 0, 0), cv::Scalar(50, 50, 50), dark);
+  cv::erode(dark, dark, cv::getStructuringElement(cv::MORPH_RECT, {5, 5}));
+  const cv::Rect ball = cv::boundingRect(dark.rowRange(0, dark.rows / 2));
+  ASSERT_GT(ball.area(), 20);
+  EXPECT_LT(cv::norm(middle(ball) - middle(label)), 90);
+}
+
+TEST(ArmPicture, GhostsAndTargetsAreNotClipped) {
+  for (const View view : {View::Oblique, View::Front, View::Side, View::Top}) {
+    ArmScene drawn = scene(view);
+    drawn.title = "Deflection";
+    drawn.poses[0].targets = {
+        {"P_{10}", {2.4, 0.2, 2.3}, Vector3d(0.001, 0, -0.003), Vector3d(0.001, 0, -0.002)}};
+    drawn.poses.push_back(drawn.poses[0]);
+    drawn.poses[1].ghost = true;
+    for (Vector3d& point : drawn.poses[1].joint_points) point = {-point.y(), point.x(), point.z()};
+    for (const Size size : {Size{1200, 800}, Size{480, 320}})
+      expectNothingClipped(decoded(render(drawn, size)));
+    EXPECT_LT(encodePng(render(drawn)).size(), 300'000u);
+  }
+}
+
+TEST(ArmPicture, MagnificationMakesTheLongestAFifth) {
+  ArmScene drawn = scene(View::Side);
+  // The box of all points is 2.3 m long; a fifth of it is 0.46 m = 230 x 2 mm; 1-2-5 below: 200.
+  drawn.poses[0].wrist->measured = Vector3d(0, 0, -0.002);
+  drawn.poses[0].wrist->predicted = Vector3d(0, 0, 0.001);
+  EXPECT_DOUBLE_EQ(automaticMagnification(drawn), 200);
+  drawn.poses[0].wrist->measured = drawn.poses[0].wrist->predicted = std::nullopt;
+  EXPECT_DOUBLE_EQ(automaticMagnification(drawn), 1);
+}
+
+TEST(ArmPicture, RefusesWhatCannotBeDrawn) {
+  ArmScene drawn = scene(View::Side);
+  drawn.poses[0].axis_directions.pop_back();
+  try {
+    render(drawn);
+    FAIL() << "accepted";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_NE(std::string(error.what()).find("7 joint points and 5 axes"), std::string::npos) << error.what();
+  }
+  drawn = scene(View::Side);
+  drawn.poses[0].wrist->measured = Vector3d(0, 0, std::numeric_limits<double>::quiet_NaN());
+  EXPECT_THROW(render(drawn), std::invalid_argument);
+  drawn = scene(View::Side);
+  drawn.magnification = 0;
+  EXPECT_THROW(render(drawn), std::invalid_argument);
+  EXPECT_THROW(render(ArmScene{}), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace stiffscope
