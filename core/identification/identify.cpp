@@ -256,9 +256,11 @@ class Identifier {
     Vector6d wrist_only = compliance;
     wrist_only.head<3>().setZero();
     double leak = 0.0, whole = 0.0;
-    for (const CaseEquations& one : wristPointEquations(swept_)) {
-      leak += (one.matrix * wrist_only).norm();
-      whole += one.right.norm();
+    for (std::size_t i = 0; i < swept_.cases.size(); ++i) {
+      // The wrist centre where the arm's geometry has it, so that only the axes' miss counts.
+      const Eigen::Vector3d centre = swept_.cases[i].posture.motion[3] * result_.frames.wrist.centre_at_zero_in_r0;
+      leak += (pointRows(swept_.geometry, swept_.cases[i], centre, swept_.torques[i]) * wrist_only).norm();
+      whole += swept_.wrist[i].displacement().norm();
     }
     return whole > 0.0 ? leak / whole : 0.0;
   }
