@@ -4,6 +4,7 @@
 
 #include <map>
 
+#include "core/identification/cell_wrench.h"
 #include "metrology/rigid_registration.h"
 
 namespace stiffscope {
@@ -62,37 +63,6 @@ std::optional<Eigen::Isometry3d> measuredFlange(const LoadingGeometry& geometry,
   const RigidRegistration registration = registerRigid(at_zero, measured);
   if (!registration.determined) return std::nullopt;
   return registration.to_from_source * geometry.arm.base_from_flange_at_zero;
-}
-
-const LinkFrame* findLink(const Robot& arm, const std::string& name) {
-  for (const LinkFrame& link : arm.links) {
-    if (link.name == name) return &link;
-  }
-  return nullptr;
-}
-
-/// The load cell's reading as a wrench in R0 (paper (30)).
-Wrench wrenchInR0(const LoadCell& cell, const LoadingGeometry& geometry, const LoadCase& load_case,
-                  const Vector6d& reading) {
-  const LinkFrame* parent = findLink(geometry.arm, cell.parent);
-  const auto placeAt = [&](const LinkFrame& link, const std::optional<Eigen::Isometry3d>& flange) -> Eigen::Isometry3d {
-    if (link.body == 6 && flange) {
-      return *flange * geometry.arm.base_from_flange_at_zero.inverse() * link.base_from_link_at_zero;
-    }
-    return load_case.posture.motion[static_cast<std::size_t>(link.body)] * link.base_from_link_at_zero;
-  };
-  Wrench wrench;
-  if (parent == nullptr) return wrench;  // the reader has refused such a campaign
-  wrench.point = placeAt(*parent, load_case.flange_unloaded) * cell.parent_from_cell.translation();
-  Eigen::Matrix3d axes = placeAt(*parent, load_case.flange_loaded).linear() * cell.parent_from_cell.linear();
-  if (cell.axes_link) {
-    if (const LinkFrame* link = findLink(geometry.arm, *cell.axes_link)) {
-      axes = placeAt(*link, load_case.flange_loaded).linear();
-    }
-  }
-  wrench.force = axes * reading.head<3>();
-  wrench.moment = axes * reading.tail<3>();
-  return wrench;
 }
 
 using PoseDisplacements = std::vector<std::vector<const Displacement*>>;
@@ -202,7 +172,8 @@ std::vector<LoadCase> loadCases(const Campaign& campaign, const LoadingGeometry&
       leaveOut(pose, "no reflector was read both unloaded and in this load step");
       continue;
     }
-    load_case.wrench = wrenchInR0(*campaign.load_cell, geometry, load_case, loaded->wrench_in_cell);
+    load_case.wrench = cellWrench(*campaign.load_cell, geometry, load_case.posture, load_case.flange_unloaded,
+                                  load_case.flange_loaded, loaded->wrench_in_cell);
     cases.push_back(std::move(load_case));
   }
   return cases;
