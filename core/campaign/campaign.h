@@ -32,11 +32,11 @@ struct Target {
 
 /// Where the wrench in `states` acts and in which axes it is written.
 struct LoadCell {
-  std::string parent;        ///< link name
+  std::string parent;                                                  ///< link name
   Eigen::Isometry3d parent_from_cell = Eigen::Isometry3d::Identity();  ///< xyz_mm, rpy_deg
   std::optional<std::string> axes_link;  ///< wrench components parallel to this link's axes, rpy ignored
-  double force_sigma = 0.0;   ///< N; 0: not stated
-  double moment_sigma = 0.0;  ///< Nm; 0: not stated
+  double force_sigma = 0.0;              ///< N; 0: not stated
+  double moment_sigma = 0.0;             ///< Nm; 0: not stated
 };
 
 /// What hangs on the flange all the time.

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 
 namespace stiffscope {
 
@@ -12,6 +13,10 @@ struct InputPlace {
   std::size_t line = 0;  ///< counted from 1, the header line included
   std::string column;    ///< a table's column name, or an XML attribute or element
 };
+
+/// `FILE:LINE: COLUMN: 'VALUE': FINDING`, with the parts that apply, always one line: every part is stripped
+/// of control characters, and a long value is shortened. Errors and warnings about input are written with it.
+std::string inputMessage(const InputPlace& place, std::string_view value, std::string_view finding);
 
 /// The one error for bad input. what() is one line:
 /// `FILE:LINE: COLUMN: 'VALUE': EXPECTATION`, with the parts that apply.

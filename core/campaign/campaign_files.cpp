@@ -1,0 +1,64 @@
+#include "core/campaign/campaign_files.h"
+
+#include <algorithm>
+
+#include "core/input/input_error.h"
+#include "core/input/read_file.h"
+#include "core/input/sha256.h"
+
+namespace stiffscope {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+bool leadsInside(const fs::path& folder, const fs::path& path) {
+  const fs::path root = fs::weakly_canonical(folder);
+  const fs::path file = fs::weakly_canonical(path);
+  return std::mismatch(root.begin(), root.end(), file.begin(), file.end()).first == root.end();
+}
+
+}  // namespace
+
+CampaignFiles::CampaignFiles(const fs::path& folder_or_xml) {
+  std::error_code error;
+  const fs::file_status status = fs::status(folder_or_xml, error);
+  if (!fs::exists(status)) {
+    throw InputError({folder_or_xml.string(), 0, ""}, "",
+                     "expected a campaign folder or its campaign.xml; there is none");
+  }
+  const bool is_folder = fs::is_directory(status);
+  xml_ = is_folder ? folder_or_xml / "campaign.xml" : folder_or_xml;
+  folder_ = is_folder ? folder_or_xml : folder_or_xml.parent_path();
+  if (folder_.empty()) folder_ = ".";
+  if (is_folder && !fs::exists(xml_, error)) {
+    throw InputError({folder_or_xml.string(), 0, ""}, "",
+                     "expected a campaign folder; it holds no campaign.xml");
+  }
+}
+
+std::string CampaignFiles::readXml() { return readAndRecord(xml_, xml_.filename().string()); }
+
+std::string CampaignFiles::read(const FileReference& reference) {
+  const auto refuse = [&](const std::string& why) {
+    throw InputError({xmlName(), reference.line, reference.attribute}, reference.name,
+                     "expected a file inside the campaign's folder; " + why);
+  };
+  const fs::path name(reference.name);
+  if (name.is_absolute()) refuse("this path is absolute");
+  const fs::path normal = name.lexically_normal();
+  if (!normal.empty() && *normal.begin() == "..") refuse("this path leads out of it");
+  const fs::path path = folder_ / normal;
+  std::error_code error;
+  if (!fs::exists(path, error)) refuse("there is none of this name");
+  if (!leadsInside(folder_, path)) refuse("a link leads out of it");
+  return readAndRecord(path, reference.name);
+}
+
+std::string CampaignFiles::readAndRecord(const fs::path& path, const std::string& name) {
+  std::string bytes = readTextFile(path);
+  inputs_.push_back({name, sha256Hex(bytes)});
+  return bytes;
+}
+
+}  // namespace stiffscope

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/campaign/campaign.h"
+#include "core/campaign/campaign_xml.h"
+
+namespace stiffscope {
+
+/// The files of one campaign folder. Each is read once, so that the hash that the report lists is the hash of
+/// the very bytes that were used; none outside the folder is read.
+class CampaignFiles {
+ public:
+  /// Throws InputError where the path is neither a folder with a campaign.xml nor such a file.
+  explicit CampaignFiles(const std::filesystem::path& folder_or_xml);
+
+  const std::filesystem::path& folder() const { return folder_; }
+  std::string xmlName() const { return xml_.string(); }  ///< for messages
+
+  std::string readXml();
+
+  /// Bytes of a file that campaign.xml names. Throws InputError where it is missing or not a text file, or
+  /// where its path is absolute or leads out of the folder, through ".." or through a link.
+  std::string read(const FileReference& reference);
+
+  /// The name of such a file for messages: the folder as the user gave it, and the name.
+  std::string shown(const FileReference& reference) const { return (folder_ / reference.name).string(); }
+
+  const std::vector<InputFile>& inputs() const { return inputs_; }
+
+ private:
+  std::string readAndRecord(const std::filesystem::path& path, const std::string& name);
+
+  std::filesystem::path folder_, xml_;
+  std::vector<InputFile> inputs_;
+};
+
+}  // namespace stiffscope

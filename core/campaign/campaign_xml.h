@@ -1,0 +1,41 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/campaign/campaign.h"
+
+namespace stiffscope {
+
+/// A file that campaign.xml names, and where.
+struct FileReference {
+  std::string name;  ///< as written
+  std::string attribute;
+  std::size_t line = 0;
+};
+
+struct TableReference {
+  FileReference file;
+  PointFrame frame = PointFrame::tracker;
+};
+
+/// What campaign.xml itself says: `campaign` without its robot and tables, and the files that hold those.
+struct CampaignXml {
+  Campaign campaign;
+  FileReference urdf;
+  std::map<std::string, TableReference> tables;  ///< by element name
+  std::size_t load_cell_line = 0;
+};
+
+/// Elements of campaign.xml that name a table, in the order of the format.
+const std::vector<std::string>& tableElements();
+
+/// Reads the bytes of a campaign.xml (format 1); `file` is its name for messages. What the format does not
+/// know is ignored with a warning. Throws InputError with line and attribute for everything the format does
+/// not allow; whether links and files exist is not looked at here.
+CampaignXml readCampaignXml(const std::string& file, std::string_view bytes,
+                            std::vector<std::string>& warnings);
+
+}  // namespace stiffscope

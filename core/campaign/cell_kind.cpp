@@ -1,0 +1,75 @@
+#include "core/campaign/cell_kind.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "core/input/input_error.h"
+#include "core/input/nearest_name.h"
+#include "core/input/numbers.h"
+#include "core/input/units.h"
+
+namespace stiffscope {
+
+namespace {
+
+constexpr double kAny = std::numeric_limits<double>::infinity();
+
+// In the order of CellKind.
+constexpr std::array<NumberKind, 6> kNumberKinds{{
+    {kMillimetre, 200e3, "expected a coordinate in mm, within +-200 m", 4},
+    {kMillimetre, 1e3, "expected a displacement from step 0 in mm, within +-1 m", 4},
+    {kDegree, 720.0, "expected an angle in degrees, within +-720", 5},
+    {1.0, kAny, "expected a time in seconds", 1},
+    {1.0, 1e6, "expected a force in N, within +-1e6", 3},
+    {1.0, 1e6, "expected a moment in Nm, within +-1e6", 4},
+}};
+
+[[noreturn]] void refuse(const CellPlace& place, std::string_view value, const std::string& expectation) {
+  throw InputError({place.file, place.line, std::string(place.column)}, std::string(value), expectation);
+}
+
+int readTarget(std::string_view cell, const CellPlace& place, const CampaignNames& names) {
+  const int target = names.targets.find(cell);
+  if (target >= 0) return target;
+  const auto& known = names.targets.names();
+  const std::string list = fmt::format("{}", fmt::join(known, ", "));
+  refuse(place, cell,
+         "expected a target that campaign.xml declares: " + (known.empty() ? "there is none" : list) +
+             nearestNameHint(cell, known));
+}
+
+}  // namespace
+
+const NumberKind& numberKind(CellKind kind) { return kNumberKinds.at(static_cast<std::size_t>(kind)); }
+
+double readNumberCell(CellKind kind, std::string_view cell, const CellPlace& place) {
+  const ParsedNumber number = parseNumber(cell);
+  if (!number.expectation.empty()) refuse(place, cell, number.expectation);
+  const NumberKind& info = numberKind(kind);
+  if (std::abs(number.value) > info.limit) refuse(place, cell, info.expectation);
+  return number.value * info.si_per_unit;
+}
+
+int readIndexCell(CellKind kind, std::string_view cell, const CellPlace& place, CampaignNames& names) {
+  if (cell.empty()) refuse(place, cell, "expected a value; the cell is empty");
+  if (kind == CellKind::target) return readTarget(cell, place, names);
+  if (kind == CellKind::pose) return names.poses.add(cell);
+  if (kind == CellKind::nest) return names.nests.add(cell);
+  const std::optional<int> number = parseInteger(cell);
+  if (kind == CellKind::axis) {
+    if (!number || *number < 1 || *number > 6) refuse(place, cell, "expected an axis, 1 to 6");
+    return *number - 1;
+  }
+  if (!number || *number < 0) refuse(place, cell, "expected a whole number, 0 or more");
+  return *number;
+}
+
+std::string readTextCell(std::string_view cell, const CellPlace& place) {
+  if (cell.empty()) refuse(place, cell, "expected a value; the cell is empty");
+  return std::string(cell);
+}
+
+}  // namespace stiffscope

@@ -1,0 +1,126 @@
+#include "core/campaign/check_campaign.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstdint>
+#include <unordered_set>
+
+#include "core/input/input_error.h"
+#include "core/input/units.h"
+
+namespace stiffscope {
+
+namespace {
+
+std::string shown(const Campaign& campaign, const std::string& table_file) {
+  return (campaign.folder / table_file).string();
+}
+
+std::uint64_t loadState(int pose, int step) {
+  return (static_cast<std::uint64_t>(pose) << 32) | static_cast<std::uint32_t>(step);
+}
+
+template <class Row>
+void requireStates(const Campaign& campaign, const Table<Row>& table,
+                   const std::unordered_set<std::uint64_t>& states) {
+  for (const Row& row : table.rows) {
+    if (states.contains(loadState(row.pose, row.step))) continue;
+    const std::string& pose = campaign.pose_ids[static_cast<std::size_t>(row.pose)];
+    throw InputError({shown(campaign, table.file), row.line, "pose, step"},
+                     fmt::format("{}, {}", pose, row.step),
+                     fmt::format("expected a load state that {} has a row for", campaign.states->file));
+  }
+}
+
+void checkStatesCoverReadings(const Campaign& campaign) {
+  if (!campaign.states) return;
+  std::unordered_set<std::uint64_t> states;
+  for (const State& row : campaign.states->rows) states.insert(loadState(row.pose, row.step));
+  if (campaign.loading) requireStates(campaign, *campaign.loading, states);
+  if (campaign.displacements) requireStates(campaign, *campaign.displacements, states);
+}
+
+void checkDisplacedTargetsHavePlaces(const Campaign& campaign) {
+  if (!campaign.displacements) return;
+  for (const Displacement& row : campaign.displacements->rows) {
+    const Target& target = campaign.targets[static_cast<std::size_t>(row.target)];
+    if (target.position_in_flange) continue;
+    throw InputError({shown(campaign, campaign.displacements->file), row.line, "target"}, target.id,
+                     "expected a target whose place on the flange campaign.xml gives as x_mm, y_mm, z_mm");
+  }
+}
+
+void warnOfPosesWithoutStepZero(const Campaign& campaign, std::vector<std::string>& warnings) {
+  if (!campaign.loading) return;
+  std::unordered_set<int> unloaded, missing;
+  for (const LoadingReading& row : campaign.loading->rows) {
+    if (row.step == 0) unloaded.insert(row.pose);
+  }
+  const LoadingReading* first = nullptr;
+  for (const LoadingReading& row : campaign.loading->rows) {
+    if (unloaded.contains(row.pose)) continue;
+    if (first == nullptr) first = &row;
+    missing.insert(row.pose);
+  }
+  if (first == nullptr) return;
+  warnings.push_back(inputMessage(
+      {shown(campaign, campaign.loading->file), first->line, "pose"},
+      campaign.pose_ids[static_cast<std::size_t>(first->pose)],
+      fmt::format("no unloaded step 0, so no displacement; poses without one: {}", missing.size())));
+}
+
+void warnOfAnglesOutsideLimits(const Campaign& campaign, std::vector<std::string>& warnings) {
+  if (!campaign.states) return;
+  // Controllers and URDFs differ by a few degrees at the stops; more is a wrong column or a wrong robot.
+  constexpr double kMargin = 5.0 * kDegree;
+  for (Eigen::Index joint = 0; joint < 6; ++joint) {
+    const auto j = static_cast<std::size_t>(joint);
+    const JointLimits& limits = campaign.robot.limits[j];
+    const State* first = nullptr;
+    std::size_t rows = 0;
+    for (const State& row : campaign.states->rows) {
+      if (row.q[joint] >= limits.lower - kMargin && row.q[joint] <= limits.upper + kMargin) continue;
+      if (first == nullptr) first = &row;
+      ++rows;
+    }
+    if (first == nullptr) continue;
+    warnings.push_back(inputMessage(
+        {shown(campaign, campaign.states->file), first->line, fmt::format("q{}_deg", joint + 1)},
+        fmt::format("{:.2f}", first->q[joint] / kDegree),
+        fmt::format("more than 5 deg outside the limits of {} ({:.2f} to {:.2f} deg); rows like this: {}",
+                    campaign.robot.joint_names[j], limits.lower / kDegree, limits.upper / kDegree, rows)));
+  }
+}
+
+// Angles in radians stay below 2 pi, and a campaign that keeps all six joints within six degrees is rare.
+template <class Row>
+void warnOfRadians(const Campaign& campaign, const std::optional<Table<Row>>& table,
+                   std::vector<std::string>& warnings) {
+  constexpr std::size_t kFewestRows = 10;
+  if (!table || table->rows.size() < kFewestRows) return;
+  double largest = 0.0;
+  for (const Row& row : table->rows) largest = std::max(largest, row.q.cwiseAbs().maxCoeff() / kDegree);
+  if (largest == 0.0 || largest > 2.0 * std::numbers::pi) return;
+  warnings.push_back(inputMessage(
+      {shown(campaign, table->file), 0, "q1_deg..q6_deg"}, "",
+      fmt::format("no joint angle is larger than {:.3f} deg; were they written in radians?", largest)));
+}
+
+}  // namespace
+
+void checkCampaign(const Campaign& campaign, std::vector<std::string>& warnings) {
+  checkStatesCoverReadings(campaign);
+  checkDisplacedTargetsHavePlaces(campaign);
+  warnOfPosesWithoutStepZero(campaign, warnings);
+  warnOfAnglesOutsideLimits(campaign, warnings);
+  warnOfRadians(campaign, campaign.circle_sweeps, warnings);
+  warnOfRadians(campaign, campaign.wrist_sweep, warnings);
+  warnOfRadians(campaign, campaign.states, warnings);
+  if (campaign.states && !campaign.load_cell) {
+    warnings.push_back(inputMessage({shown(campaign, campaign.states->file), 0, ""}, "",
+                                    "no load_cell in campaign.xml says where these wrenches act"));
+  }
+}
+
+}  // namespace stiffscope

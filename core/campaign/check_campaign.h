@@ -1,0 +1,17 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/campaign/campaign.h"
+
+namespace stiffscope {
+
+/// What no table shows alone, on a campaign as it was read.
+/// Throws InputError for a load state without a row in `states` (where that table is present), and for
+/// a displacement of a target whose place on the flange is not given. Warns of poses of `loading` without
+/// a step 0, of joint angles more than 5 degrees outside the URDF's limits (one warning a joint), of tables
+/// whose angles look like radians, and of states without a load cell.
+void checkCampaign(const Campaign& campaign, std::vector<std::string>& warnings);
+
+}  // namespace stiffscope

@@ -1,0 +1,80 @@
+#include "core/campaign/table_header.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/input/input_error.h"
+#include "core/input/nearest_name.h"
+
+namespace stiffscope {
+
+namespace {
+
+void refuseOtherSeparators(const std::string& file, std::size_t line,
+                           const std::vector<std::string_view>& cells) {
+  for (const std::string_view cell : cells) {
+    for (const auto& [separator, name] : {std::pair{';', "semicolons"}, std::pair{'\t', "tabs"}}) {
+      if (cell.find(separator) == std::string_view::npos) continue;
+      throw InputError({file, line, ""}, std::string(cell),
+                       fmt::format("expected columns separated by commas and numbers with a decimal point; "
+                                   "this header has {}",
+                                   name));
+    }
+  }
+}
+
+std::vector<std::string> unknownColumns(const std::vector<std::string_view>& cells,
+                                        const std::vector<WantedColumn>& wanted) {
+  std::vector<std::string> unknown;
+  for (const std::string_view cell : cells) {
+    const auto matches = [&](const WantedColumn& column) { return column.name == cell; };
+    if (std::none_of(wanted.begin(), wanted.end(), matches)) unknown.emplace_back(cell);
+  }
+  return unknown;
+}
+
+std::string unknownColumnsWarning(const std::vector<std::string>& unknown,
+                                  const std::vector<std::string>& absent) {
+  std::string list;
+  for (const std::string& name : unknown) {
+    list += fmt::format("{}'{}'{}", list.empty() ? "" : ", ", name, nearestNameHint(name, absent));
+  }
+  return fmt::format("unknown column{} ignored: {}", unknown.size() > 1 ? "s" : "", list);
+}
+
+}  // namespace
+
+std::vector<std::size_t> matchHeader(const std::string& file, std::size_t line,
+                                     const std::vector<std::string_view>& cells,
+                                     const std::vector<WantedColumn>& wanted,
+                                     std::vector<std::string>& warnings) {
+  refuseOtherSeparators(file, line, cells);
+  const std::vector<std::string> unknown = unknownColumns(cells, wanted);
+  std::vector<std::size_t> places;
+  std::vector<std::string> absent;
+  for (const WantedColumn& column : wanted) {
+    const auto found = std::find(cells.begin(), cells.end(), column.name);
+    if (found == cells.end()) {
+      const std::string near = nearestName(column.name, unknown);
+      if (column.required) {
+        throw InputError({file, line, column.name}, "",
+                         "expected this column; the header lacks it" +
+                             (near.empty() ? "" : fmt::format(" and has '{}'", near)));
+      }
+      absent.push_back(column.name);
+      places.push_back(kAbsentColumn);
+      continue;
+    }
+    if (std::find(found + 1, cells.end(), column.name) != cells.end()) {
+      throw InputError({file, line, column.name}, "", "expected this column once; the header has it twice");
+    }
+    places.push_back(static_cast<std::size_t>(found - cells.begin()));
+  }
+  if (!unknown.empty()) {
+    warnings.push_back(inputMessage({file, line, ""}, "", unknownColumnsWarning(unknown, absent)));
+  }
+  return places;
+}
+
+}  // namespace stiffscope

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/campaign/table_header.h"
+#include "core/input/csv_lines.h"
+
+namespace stiffscope {
+
+/// A table's bytes and its name for messages.
+struct TableSource {
+  std::string file;
+  std::string_view bytes;
+};
+
+/// The data lines of a table: reads the header and hands out line after line, each with as many cells as the
+/// header has. Throws InputError where a line has more or fewer, where there is no header or no data line.
+/// A last line without a line end, but with all its cells, gives a warning: its last number may be cut short.
+class TableLines {
+ public:
+  TableLines(const TableSource& source, const std::vector<WantedColumn>& wanted,
+             std::vector<std::string>& warnings);
+
+  bool next();
+  std::size_t line() const { return lines_.line(); }
+  bool has(std::size_t column) const { return places_[column] != kAbsentColumn; }
+
+  /// Cell of the current line in the column that is the `column`-th of those wanted.
+  std::string_view cell(std::size_t column) const { return cells_[places_[column]]; }
+
+ private:
+  void requireCellCount() const;
+
+  const TableSource& source_;
+  CsvLines lines_;
+  std::vector<std::string_view> cells_;
+  std::vector<std::size_t> places_;
+  std::size_t cells_in_header_ = 0;
+  std::size_t rows_ = 0;
+  std::vector<std::string>& warnings_;
+};
+
+}  // namespace stiffscope

@@ -1,0 +1,51 @@
+#include "core/campaign/write_campaign.h"
+
+#include "core/campaign/circle_sweeps_table.h"
+#include "core/campaign/displacements_table.h"
+#include "core/campaign/loading_table.h"
+#include "core/campaign/nests_table.h"
+#include "core/campaign/states_table.h"
+#include "core/campaign/wrist_sweep_table.h"
+#include "core/campaign/write_campaign_xml.h"
+#include "core/campaign/write_table.h"
+#include "core/input/read_file.h"
+#include "core/input/write_file.h"
+
+namespace stiffscope {
+
+namespace {
+
+template <class Row>
+void writeTable(const std::filesystem::path& folder, const TableLayout<Row>& layout,
+                const std::optional<Table<Row>>& table, const CampaignNames& names) {
+  if (!table) return;
+  writeFileWhole(folder / (layout.element + ".csv"), writtenTable(layout, table->rows, names));
+}
+
+CampaignNames namesOf(const Campaign& campaign) {
+  CampaignNames names;
+  for (const Target& target : campaign.targets) names.targets.add(target.id);
+  for (const std::string& pose : campaign.pose_ids) names.poses.add(pose);
+  for (const std::string& nest : campaign.nest_ids) names.nests.add(nest);
+  return names;
+}
+
+}  // namespace
+
+void writeCampaign(const Campaign& campaign, const std::filesystem::path& urdf_file,
+                   const std::filesystem::path& folder) {
+  const std::string urdf = readTextFile(urdf_file);
+  const CampaignNames names = namesOf(campaign);
+  std::filesystem::create_directories(folder);
+  writeFileWhole(folder / "robot.urdf", urdf);
+  writeTable(folder, circleSweepsLayout(), campaign.circle_sweeps, names);
+  writeTable(folder, wristSweepLayout(), campaign.wrist_sweep, names);
+  writeTable(folder, loadingLayout(), campaign.loading, names);
+  writeTable(folder, statesLayout(), campaign.states, names);
+  writeTable(folder, displacementsLayout(), campaign.displacements, names);
+  writeTable(folder, nestsLayout(), campaign.nests, names);
+  // Last, because a folder with a campaign.xml passes for a campaign.
+  writeFileWhole(folder / "campaign.xml", writtenCampaignXml(campaign));
+}
+
+}  // namespace stiffscope

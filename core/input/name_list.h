@@ -1,0 +1,40 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+namespace stiffscope {
+
+/// Names in order of first appearance, each with its index; looking one up makes no string.
+class NameList {
+ public:
+  /// Index of `name`, -1 where it is not listed.
+  int find(std::string_view name) const {
+    const auto found = index_.find(name);
+    return found == index_.end() ? -1 : found->second;
+  }
+
+  /// Index of `name`, which is appended where it is not listed yet.
+  int add(std::string_view name) {
+    const int known = find(name);
+    if (known >= 0) return known;
+    names_.emplace_back(name);
+    return index_.emplace(names_.back(), static_cast<int>(names_.size()) - 1).first->second;
+  }
+
+  const std::vector<std::string>& names() const { return names_; }
+
+ private:
+  struct Hash {
+    using is_transparent = void;
+    std::size_t operator()(std::string_view text) const { return std::hash<std::string_view>{}(text); }
+  };
+
+  std::vector<std::string> names_;
+  std::unordered_map<std::string, int, Hash, std::equal_to<>> index_;
+};
+
+}  // namespace stiffscope

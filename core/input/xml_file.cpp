@@ -1,0 +1,76 @@
+#include <fmt/format.h>
+#include <tinyxml2.h>
+
+#include <set>
+
+#include "core/input/xml_node.h"
+
+namespace stiffscope {
+
+namespace {
+
+// A DOCTYPE may only stand before the root. It is looked for in the bytes, because one that declares entities
+// is mostly not even well-formed for tinyxml2, and the reason should be named.
+bool hasDoctype(std::string_view bytes) {
+  std::size_t at = bytes.find('<');
+  while (at != std::string_view::npos) {
+    const std::string_view rest = bytes.substr(at);
+    if (rest.starts_with("<!DOCTYPE")) return true;
+    const std::string_view closing = rest.starts_with("<!--") ? "-->" : rest.starts_with("<?") ? "?>" : "";
+    if (closing.empty()) return false;
+    const std::size_t end = bytes.find(closing, at);
+    at = end == std::string_view::npos ? end : bytes.find('<', end);
+  }
+  return false;
+}
+
+std::string whyNotWellFormed(const tinyxml2::XMLDocument& document) {
+  switch (document.ErrorID()) {
+    case tinyxml2::XML_ERROR_MISMATCHED_ELEMENT:
+      return "expected well-formed XML: an element is not closed, or another one is";
+    case tinyxml2::XML_ERROR_PARSING_ATTRIBUTE:
+      return "expected well-formed XML: an attribute needs a value in quotes";
+    case tinyxml2::XML_ERROR_EMPTY_DOCUMENT:
+      return "expected an XML element; there is none";
+    case tinyxml2::XML_ELEMENT_DEPTH_EXCEEDED:
+      return "expected elements nested less deeply";
+    default: {
+      std::string name = document.ErrorName();
+      if (name.starts_with("XML_ERROR_")) name = name.substr(10);
+      return fmt::format("expected well-formed XML: {}", name);
+    }
+  }
+}
+
+void refuseRepeatedAttributes(const XmlNode& node) {
+  std::set<std::string> seen;
+  for (const std::string& name : node.attributeNames()) {
+    if (!seen.insert(name).second) node.refuse(name, "", "expected an attribute once in an element");
+  }
+  for (const XmlNode& child : node.children()) refuseRepeatedAttributes(child);
+}
+
+}  // namespace
+
+XmlFile::XmlFile(std::string file, std::string_view bytes)
+    : file_(std::move(file)), document_(new tinyxml2::XMLDocument) {
+  if (hasDoctype(bytes)) {
+    throw InputError({file_, 0, ""}, "DOCTYPE", "expected XML without a document type or entities");
+  }
+  if (document_->Parse(bytes.data(), bytes.size()) != tinyxml2::XML_SUCCESS) {
+    throw InputError({file_, static_cast<std::size_t>(document_->ErrorLineNum()), ""}, "",
+                     whyNotWellFormed(*document_));
+  }
+  const tinyxml2::XMLElement* root_element = document_->RootElement();
+  if (root_element == nullptr) throw InputError({file_, 0, ""}, "", "expected an XML element; there is none");
+  if (const auto* second = root_element->NextSiblingElement()) {
+    XmlNode(file_, *second).refuse(second->Name(), "", "expected the end of the file after the root element");
+  }
+  refuseRepeatedAttributes(root());
+}
+
+XmlFile::~XmlFile() = default;
+
+XmlNode XmlFile::root() const { return {file_, *document_->RootElement()}; }
+
+}  // namespace stiffscope
