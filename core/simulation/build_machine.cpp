@@ -1,6 +1,7 @@
 #include <cmath>
 
 #include "core/input/input_error.h"
+#include "core/simulation/axis_errors.h"
 #include "core/simulation/beam.h"
 #include "core/simulation/machine.h"
 #include "core/simulation/random.h"
@@ -13,49 +14,6 @@ namespace simulation {
 namespace {
 
 constexpr double kStandardGravity = 9.80665;  ///< m/s^2
-constexpr double kMeets = 1e-6;  ///< m: nominal axes closer than this meet
-
-/// The point where axes 4, 5 and 6 meet at zero, if they do.
-std::optional<Eigen::Vector3d> wristCentre(const Robot& robot) {
-  // The point with the least sum of squared distances from the three lines.
-  Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
-  Eigen::Vector3d right = Eigen::Vector3d::Zero();
-  for (int i = 3; i < 6; ++i) {
-    const Line& axis = robot.axes_in_base_at_zero[i];
-    const Eigen::Matrix3d across =
-        Eigen::Matrix3d::Identity() - axis.direction * axis.direction.transpose();
-    normal += across;
-    right += across * axis.point;
-  }
-  const Eigen::Vector3d centre = normal.ldlt().solve(right);
-  for (int i = 3; i < 6; ++i) {
-    const Line& axis = robot.axes_in_base_at_zero[i];
-    if ((centre - axis.point).cross(axis.direction).norm() > kMeets) return std::nullopt;
-  }
-  return centre;
-}
-
-std::array<AxisError, 6> drawAxisErrors(const SimulationSpec& spec) {
-  const GeometryErrors& geometry = spec.machine.geometry;
-  RandomStream random(spec.seed, "geometry");
-  std::array<AxisError, 6> errors;
-  for (int i = 0; i < 6; ++i) {
-    const Line& axis = spec.nominal.axes_in_base_at_zero[i];
-    const Eigen::Matrix3d frame = frameAlong(axis.point, axis.direction).linear();
-    const double position_sigma =
-        i >= 4 ? geometry.wrist_position_sigma.value_or(geometry.position_sigma) : geometry.position_sigma;
-    const auto across = [&](double sigma) -> Eigen::Vector3d {
-      const double x = random.normal(), y = random.normal();
-      return sigma * (frame.col(0) * x + frame.col(1) * y);
-    };
-    // Drawn for listed axes too, so that listing one leaves the others' draws as they were.
-    errors[i].offset = across(position_sigma);
-    errors[i].tilt = across(geometry.direction_sigma);
-    errors[i].zero = geometry.zero_sigma * random.normal();
-    if (geometry.listed[i]) errors[i] = *geometry.listed[i];
-  }
-  return errors;
-}
 
 ElasticElement jointElement(const Robot& robot, int joint, const JointStiffness& stiffness) {
   ElasticElement element;
@@ -82,7 +40,7 @@ ElasticElement linkElement(const SimulationSpec& spec, const LinkBeam& beam) {
   const double length = (tip - root).norm();
   if (length < 1e-3) {
     throw InputError({spec.file.string(), 0, "after_joint"}, std::to_string(beam.joint + 1),
-                     "a joint whose point and the next one's are at least 1 mm apart in the URDF");
+                     "expected a joint whose point and the next one's are at least 1 mm apart in the URDF");
   }
   ElasticElement element;
   element.name = "link " + std::to_string(beam.joint + 1);
@@ -135,10 +93,8 @@ ElasticMachine buildMachine(const SimulationSpec& spec) {
   machine.elements = elasticElements(spec);
 
   const std::array<AxisError, 6> errors = drawAxisErrors(spec);
-  const std::optional<Eigen::Vector3d> wrist = wristCentre(spec.nominal);
   for (int i = 0; i < 6; ++i) {
-    const Eigen::Vector3d pivot = i >= 3 && wrist ? *wrist : spec.nominal.axes_in_base_at_zero[i].point;
-    machine.axis_errors[i] = Eigen::Translation3d(errors[i].offset) * turnAbout(pivot, errors[i].tilt);
+    machine.axis_errors[i] = frameError(spec.nominal, i, errors[i]);
     machine.zeros[i] = errors[i].zero;
   }
 

@@ -82,8 +82,8 @@ double potentialEnergy(const ElasticMachine& machine, const Vector6d& q, const A
   }
   for (int b = 1; b < 7; ++b) {
     const BodyMass& body = machine.bodies[b];
-    energy -= body.mass_kg *
-              machine.gravity_in_base.dot(placement.body_motions[b] * body.com_in_base_at_zero);
+    energy -=
+        body.mass_kg * machine.gravity_in_base.dot(placement.body_motions[b] * body.com_in_base_at_zero);
   }
   energy -= machine.tool.mass_kg *
             machine.gravity_in_base.dot(toolPoint(machine, placement, machine.tool.com_in_flange));

@@ -12,8 +12,8 @@ namespace simulation {
 namespace {
 
 constexpr int kMostIterations = 100;
-constexpr double kConverged = 1e-12;   ///< m and rad
-constexpr double kDifference = 1e-5;   ///< m and rad: truncation and rounding both near 1e-10 of the Hessian
+constexpr double kConverged = 1e-12;  ///< m and rad
+constexpr double kDifference = 1e-5;  ///< m and rad: truncation and rounding both near 1e-10 of the Hessian
 
 Eigen::MatrixXd energyHessian(const ElasticMachine& machine, const Vector6d& q, const AppliedLoad& load,
                               const Eigen::VectorXd& x) {
@@ -33,7 +33,8 @@ struct Descent {
   bool shifted = false;  ///< the Hessian was not positive definite
 };
 
-/// Newton's step, or with the smallest tried multiple of the Hessian's diagonal added that makes it a descent.
+/// Newton's step, or with the smallest tried multiple of the Hessian's diagonal added that makes it a
+/// descent.
 Descent descentStep(const Eigen::MatrixXd& hessian, const Eigen::VectorXd& gradient) {
   const Eigen::VectorXd scale = hessian.diagonal().cwiseAbs().cwiseMax(1e-300);
   for (double shift = 0.0; shift < 1e12; shift = shift == 0.0 ? 1e-3 : 10.0 * shift) {

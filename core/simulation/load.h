@@ -33,8 +33,8 @@ int loadSteps(const LoadingSpec& loading);
 AppliedLoad loadAtStep(const LoadingSpec& loading, int step, const Eigen::Vector3d& gravity_in_base,
                        const std::optional<Eigen::Vector3d>& pull_direction);
 
-/// Where the load acts (flange axes), the force on the machine when that point is at `point_in_base`, and its potential (J),
-/// whose gradient in the point is minus the force. Zero for monostate.
+/// Where the load acts (flange axes), the force on the machine when that point is at `point_in_base`, and its
+/// potential (J), whose gradient in the point is minus the force. Zero for monostate.
 Eigen::Vector3d loadPointInFlange(const AppliedLoad& load);
 Eigen::Vector3d loadForce(const AppliedLoad& load, const Eigen::Vector3d& point_in_base);
 double loadPotential(const AppliedLoad& load, const Eigen::Vector3d& point_in_base);

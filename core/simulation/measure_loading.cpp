@@ -14,7 +14,7 @@ const LinkFrame& cellParent(const SimulationSpec& spec) {
   const auto found = std::find_if(spec.nominal.links.begin(), spec.nominal.links.end(),
                                   [&](const LinkFrame& link) { return link.name == name; });
   if (found == spec.nominal.links.end()) {
-    throw InputError({spec.file.string(), 0, "parent"}, name, "a link on the chain of the URDF");
+    throw InputError({spec.file.string(), 0, "parent"}, name, "expected a link on the chain of the URDF");
   }
   return *found;
 }
@@ -27,8 +27,7 @@ void measureState(Session& session, const MachineState& state, int pose, int ste
   row.time_s = session.now_s;
   row.q = session.reported(state.q);
   if (spec.load_cell) {
-    row.wrench_in_cell =
-        loadWrenchInCell(session.machine, state, cellParent(spec), spec.load_cell->declared);
+    row.wrench_in_cell = loadWrenchInCell(session.machine, state, cellParent(spec), spec.load_cell->declared);
   }
   session.campaign.states->rows.push_back(row);
   for (int repeat = 1; repeat <= spec.loading->repeats; ++repeat) {

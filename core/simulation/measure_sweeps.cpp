@@ -56,9 +56,9 @@ void measureWristSweep(Session& session) {
     const MachineState state = session.rest(q);
     // One target after the other: the first `readings % targets` of them get one reading more.
     const int share = sweep.readings / targets, longer = sweep.readings % targets;
-    const int first = !one                                ? 0
+    const int first = !one                          ? 0
                       : stop < longer * (share + 1) ? stop / (share + 1)
-                                                          : longer + (stop - longer * (share + 1)) / share;
+                                                    : longer + (stop - longer * (share + 1)) / share;
     for (int t = first; t < (one ? first + 1 : targets); ++t) {
       table.rows.push_back(reading<WristReading>(session, state, stop, t));
     }

@@ -25,7 +25,10 @@ bool keepsRules(const SimulationSpec& spec, const PostureDraw& draw, const Vecto
     if (q[i] < spec.nominal.limits[i].lower || q[i] > spec.nominal.limits[i].upper) return false;
   }
   if (std::abs(std::sin(q[4])) < draw.min_abs_sin_q5) return false;
-  const Eigen::Vector3d flange = nominalFlange(spec.nominal, q).translation();
+  const Eigen::Isometry3d base_from_flange = nominalFlange(spec.nominal, q);
+  const double up = std::asin(std::clamp(base_from_flange.linear()(2, 2), -1.0, 1.0));
+  if (draw.max_flange_up && up > *draw.max_flange_up) return false;
+  const Eigen::Vector3d flange = base_from_flange.translation();
   if (!within(flange.z(), draw.min_height, draw.max_height)) return false;
   const double distance = (flange - spec.tracker.base_from_tracker.translation()).norm();
   if (!within(distance, draw.min_tracker_distance, draw.max_tracker_distance)) return false;
@@ -39,8 +42,9 @@ Vector6d drawOne(const SimulationSpec& spec, const PostureDraw& draw, RandomStre
     for (int i = 0; i < 6; ++i) q[i] = random.uniform(draw.low[i], draw.high[i]);
     if (keepsRules(spec, draw, q)) return q;
   }
-  throw InputError({spec.file.string(), 0, "draw"}, "",
-                   fmt::format("rules that some posture of the box keeps; {} random ones did not", kMostTries));
+  throw InputError(
+      {spec.file.string(), 0, "draw"}, "",
+      fmt::format("expected rules that some posture of the box keeps; {} random ones did not", kMostTries));
 }
 
 /// Least distance from q to the postures before it, in widths of the box.

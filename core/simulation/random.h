@@ -7,14 +7,14 @@
 
 namespace stiffscope::simulation {
 
-/// x with Phi(x) = p, Phi the standard normal distribution, 0 < p < 1, to about 16 digits. M. J. Wichura, Algorithm AS 241
-/// (PPND16), Applied Statistics 37 (1988). Written out because the standard library leaves its normal distribution's
-/// algorithm open, and a seed must mean the same draws everywhere.
+/// x with Phi(x) = p, Phi the standard normal distribution, 0 < p < 1, to about 16 digits. M. J. Wichura,
+/// Algorithm AS 241 (PPND16), Applied Statistics 37 (1988). Written out because the standard library leaves
+/// its normal distribution's algorithm open, and a seed must mean the same draws everywhere.
 double inverseNormal(double p);
 
-/// Independent random numbers for one purpose. Streams of different names are independent, so that asking one section of a
-/// specification for more draws leaves every other section's as they were. The engine, std::mt19937_64, is fully specified
-/// by the standard; one 64-bit word makes one number, uniform or normal.
+/// Independent random numbers for one purpose. Streams of different names are independent, so that asking one
+/// section of a specification for more draws leaves every other section's as they were. The engine,
+/// std::mt19937_64, is fully specified by the standard; one 64-bit word makes one number, uniform or normal.
 class RandomStream {
  public:
   RandomStream(std::uint64_t seed, std::string_view name);

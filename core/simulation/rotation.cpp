@@ -6,7 +6,8 @@ namespace stiffscope::simulation {
 
 namespace {
 
-/// sin a / a, (1 - cos a) / a^2, (a - sin a) / a^3. Below 0.1 rad by their series, whose first term left out is below 1e-17.
+/// sin a / a, (1 - cos a) / a^2, (a - sin a) / a^3. Below 0.1 rad by their series, whose first term left out
+/// is below 1e-17.
 struct RotationSeries {
   double sine, versine, third;
 

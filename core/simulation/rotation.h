@@ -10,7 +10,8 @@ namespace stiffscope::simulation {
 
 Eigen::Matrix3d skew(const Eigen::Vector3d& v);  ///< skew(v) x = v cross x
 
-/// Exp(v) = I + sin a / a [v] + (1 - cos a) / a^2 [v]^2, a = |v|; exact to rounding at every a, zero included.
+/// Exp(v) = I + sin a / a [v] + (1 - cos a) / a^2 [v]^2, a = |v|; exact to rounding at every a, zero
+/// included.
 Eigen::Matrix3d rotationExp(const Eigen::Vector3d& v);
 
 /// J_l(v) = I + (1 - cos a) / a^2 [v] + (a - sin a) / a^3 [v]^2: Exp(v + dv) = Exp(J_l(v) dv) Exp(v) to first

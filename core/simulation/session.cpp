@@ -13,11 +13,12 @@ MachineState Session::rest(const Vector6d& q, const AppliedLoad& load) const {
   MachineState state = equilibrium(machine, q, load);
   if (!state.converged) {
     const Vector6d deg = q / kDegree;
-    throw InputError({spec.file.string(), 0, "q_deg"},
-                     fmt::format("{:.3f} {:.3f} {:.3f} {:.3f} {:.3f} {:.3f}", deg[0], deg[1], deg[2], deg[3],
-                                 deg[4], deg[5]),
-                     "a posture where the machine rests stably under its load; stiffness too low or load too "
-                     "large");
+    throw InputError(
+        {spec.file.string(), 0, "q_deg"},
+        fmt::format("{:.3f} {:.3f} {:.3f} {:.3f} {:.3f} {:.3f}", deg[0], deg[1], deg[2], deg[3], deg[4],
+                    deg[5]),
+        "expected a posture where the machine rests stably under its load; stiffness too low or load too "
+        "large");
   }
   return state;
 }

@@ -12,8 +12,8 @@
 #include "core/campaign/campaign.h"
 #include "core/robot/robot.h"
 
-// A described machine and the day it is measured, in SI and radians: what read_spec.h reads from XML. Everything that is
-// drawn at random is a sigma here; build_machine.h and simulate.h draw it from `seed`.
+// A described machine and the day it is measured, in SI and radians: what read_spec.h reads from XML.
+// Everything that is drawn at random is a sigma here; build_machine.h and simulate.h draw it from `seed`.
 
 namespace stiffscope {
 
@@ -25,8 +25,8 @@ struct JointStiffness {
   std::optional<double> bearing;  ///< about each direction across its axis, at the axis's point, Nm/rad
 };
 
-/// A link as a uniform straight beam from the point of joint `joint` to that of the next one (after the last: to the
-/// flange). Absent: rigid in that respect.
+/// A link as a uniform straight beam from the point of joint `joint` to that of the next one (after the last:
+/// to the flange). Absent: rigid in that respect.
 struct LinkBeam {
   int joint = 0;                  ///< 0..5
   std::optional<double> bending;  ///< E I, the same in both planes, Nm^2
@@ -35,22 +35,23 @@ struct LinkBeam {
   std::optional<double> axial;    ///< E A, N
 };
 
-/// How joint frame i, and all that it carries, differs from nominal: moved by `offset`, turned by the rotation
-/// vector `tilt`, base_link axes at all joints zero; and the motor stands at `zero` + the reported angle.
-/// The tilt pivots on the axis's point; for axes 4-6 of a wrist whose nominal axes meet, on that meeting point.
+/// How joint frame i, and all that it carries, differs from nominal: moved by `offset`, turned by the
+/// rotation vector `tilt`, base_link axes at all joints zero; and the motor stands at `zero` + the reported
+/// angle. The tilt pivots on the axis's point; for axes 4-6 of a wrist whose nominal axes meet, on that
+/// meeting point.
 struct AxisError {
   Eigen::Vector3d offset = Eigen::Vector3d::Zero();  ///< m
   Eigen::Vector3d tilt = Eigen::Vector3d::Zero();    ///< rad
   double zero = 0.0;                                 ///< rad
 };
 
-/// Listed errors stand as they are; the other axes' are drawn: offset and tilt in the two directions across the
-/// axis, each with its sigma.
+/// Listed errors stand as they are; the other axes' are drawn: offset and tilt in the two directions across
+/// the axis, each with its sigma.
 struct GeometryErrors {
-  double position_sigma = 0.0;                  ///< m
-  double direction_sigma = 0.0;                 ///< rad
-  double zero_sigma = 0.0;                      ///< rad
-  std::optional<double> wrist_position_sigma;   ///< m; for axes 5 and 6: how far they miss the one before
+  double position_sigma = 0.0;                 ///< m
+  double direction_sigma = 0.0;                ///< rad
+  double zero_sigma = 0.0;                     ///< rad
+  std::optional<double> wrist_position_sigma;  ///< m; for axes 5 and 6: how far they miss the one before
   std::array<std::optional<AxisError>, 6> listed;
 };
 
@@ -79,7 +80,8 @@ struct TrackerSpec {
 
 struct LoadCellSpec {
   LoadCell declared;
-  Eigen::Vector3d misalignment = Eigen::Vector3d::Zero();  ///< rotation vector, declared axes to true axes, rad
+  Eigen::Vector3d misalignment =
+      Eigen::Vector3d::Zero();       ///< rotation vector, declared axes to true axes, rad
   Vector6d bias = Vector6d::Zero();  ///< added to readings under load (N, Nm; cell axes)
   double gain_error = 0.0;           ///< reading / truth - 1, all six components
 };
@@ -89,8 +91,8 @@ struct HangingWeights {
   std::vector<double> masses_kg;  ///< one a step
 };
 
-/// A cable at constant tension, towards a fixed anchor or, without one, in a fixed direction of base_link: the
-/// posture's own, else `direction`.
+/// A cable at constant tension, towards a fixed anchor or, without one, in a fixed direction of base_link:
+/// the posture's own, else `direction`.
 struct CablePull {
   std::vector<double> tensions;              ///< N, one a step
   std::optional<Eigen::Vector3d> anchor;     ///< in base_link, m
@@ -109,12 +111,14 @@ struct ListedPosture {
   std::optional<Eigen::Vector3d> pull_direction;  ///< unit, in base_link
 };
 
-/// Random postures in a box, by the rules a person at the robot would keep. All judged on the nominal rigid arm.
+/// Random postures in a box, by the rules a person at the robot would keep. All judged on the nominal rigid
+/// arm.
 struct PostureDraw {
   int count = 0;
   int candidates = 1;  ///< of this many that keep the rules, the one farthest from the postures chosen before
   Vector6d low = Vector6d::Zero(), high = Vector6d::Zero();
   double min_abs_sin_q5 = 0.0;
+  std::optional<double> max_flange_up;  ///< rad, of the flange's z axis above the horizontal of base_link
   std::optional<double> min_height, max_height;                      ///< of the flange in base_link, m
   std::optional<double> min_tracker_distance, max_tracker_distance;  ///< of the flange, m
   /// The line below the hook stays this far (m, horizontally) from every part of the arm's skeleton below it.
@@ -136,7 +140,7 @@ enum class WristScheme {
 struct WristSweepSpec {
   int readings = 0;  ///< rows in all
   WristScheme scheme = WristScheme::one_target;
-  Eigen::Vector3d arm = Eigen::Vector3d::Zero();  ///< q1..q3
+  Eigen::Vector3d arm = Eigen::Vector3d::Zero();                                  ///< q1..q3
   Eigen::Vector3d low = Eigen::Vector3d::Zero(), high = Eigen::Vector3d::Zero();  ///< q4..q6
 };
 
@@ -157,8 +161,8 @@ struct SimulationSpec {
   std::filesystem::path file;  ///< as read; empty when made in memory
   std::string name, date;
   std::uint64_t seed = 0;  ///< the machine and every posture
-  /// Which measurement of that machine: noise is drawn from seed and this, so that two measurements of one machine
-  /// (encoders active, inactive) do not share their noise.
+  /// Which measurement of that machine: noise is drawn from seed and this, so that two measurements of one
+  /// machine (encoders active, inactive) do not share their noise.
   std::uint64_t measurement = 1;
 
   std::filesystem::path urdf_file;

@@ -7,7 +7,8 @@ namespace stiffscope::simulation {
 namespace {
 
 template <class Row>
-void addToTable(const Tracker& tracker, double factor, RandomStream random, std::optional<Table<Row>>& table) {
+void addToTable(const Tracker& tracker, double factor, RandomStream random,
+                std::optional<Table<Row>>& table) {
   if (!table) return;
   for (Row& row : table->rows) row.point += trackerError(tracker, factor, row.point, random);
 }
