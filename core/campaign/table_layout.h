@@ -37,7 +37,7 @@ struct TableLayout {
 template <class Row>
 std::vector<Column<Row>> jointColumns() {
   return []<int... I>(std::integer_sequence<int, I...>) {
-    return std::vector<Column<Row>>{{"q" + std::to_string(I + 1) + "_deg", CellKind::degree,
+    return std::vector<Column<Row>>{{std::string{'q', static_cast<char>('1' + I)} + "_deg", CellKind::degree,
                                      [](Row& row) -> double& { return row.q[I]; }}...};
   }
   (std::make_integer_sequence<int, 6>());

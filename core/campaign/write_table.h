@@ -50,7 +50,8 @@ std::string writtenTable(const TableLayout<Row>& layout, std::vector<Row> rows, 
   std::string text;
   for (const Column<Row>& column : layout.columns) {
     if (!column.required && !isComplete(column, rows)) continue;
-    text += (columns.empty() ? "" : ",") + column.name;
+    if (!columns.empty()) text += ',';
+    text += column.name;
     columns.push_back(&column);
   }
   text += '\n';

@@ -1,8 +1,6 @@
 #include <fmt/format.h>
 #include <tinyxml2.h>
 
-#include <set>
-
 #include "core/input/xml_node.h"
 
 namespace stiffscope {
@@ -29,7 +27,7 @@ std::string whyNotWellFormed(const tinyxml2::XMLDocument& document) {
     case tinyxml2::XML_ERROR_MISMATCHED_ELEMENT:
       return "expected well-formed XML: an element is not closed, or another one is";
     case tinyxml2::XML_ERROR_PARSING_ATTRIBUTE:
-      return "expected well-formed XML: an attribute needs a value in quotes";
+      return "expected well-formed XML: an attribute needs a value in quotes, and to be there once";
     case tinyxml2::XML_ERROR_EMPTY_DOCUMENT:
       return "expected an XML element; there is none";
     case tinyxml2::XML_ELEMENT_DEPTH_EXCEEDED:
@@ -40,14 +38,6 @@ std::string whyNotWellFormed(const tinyxml2::XMLDocument& document) {
       return fmt::format("expected well-formed XML: {}", name);
     }
   }
-}
-
-void refuseRepeatedAttributes(const XmlNode& node) {
-  std::set<std::string> seen;
-  for (const std::string& name : node.attributeNames()) {
-    if (!seen.insert(name).second) node.refuse(name, "", "expected an attribute once in an element");
-  }
-  for (const XmlNode& child : node.children()) refuseRepeatedAttributes(child);
 }
 
 }  // namespace
@@ -66,7 +56,6 @@ XmlFile::XmlFile(std::string file, std::string_view bytes)
   if (const auto* second = root_element->NextSiblingElement()) {
     XmlNode(file_, *second).refuse(second->Name(), "", "expected the end of the file after the root element");
   }
-  refuseRepeatedAttributes(root());
 }
 
 XmlFile::~XmlFile() = default;

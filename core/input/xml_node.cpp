@@ -28,6 +28,15 @@ std::vector<std::string_view> words(std::string_view text) {
   return found;
 }
 
+// Names what was probably meant to be `wanted`. Two edits at most: a longer way mostly leads to another name
+// that is right as it is (range_fixed_um, angle_fixed_um).
+std::string misspelling(const std::string& wanted, const std::vector<std::string>& present) {
+  constexpr std::size_t kMostEdits = 2;
+  const std::string near = nearestName(wanted, present);
+  if (near.empty() || editDistance(wanted, near) > kMostEdits) return {};
+  return fmt::format("; there is '{}' (did you mean '{}'?)", near, wanted);
+}
+
 }  // namespace
 
 std::string XmlNode::name() const { return element_->Name(); }
@@ -70,10 +79,7 @@ XmlNode XmlNode::requiredChild(const std::string& wanted) const {
   if (const auto found = child(wanted)) return *found;
   std::vector<std::string> present;
   for (const XmlNode& other : children()) present.push_back(other.name());
-  const std::string near = nearestName(wanted, present);
-  refuse(wanted, "",
-         fmt::format("expected this element in <{}>{}", name(),
-                     near.empty() ? "" : fmt::format("; there is '{}' (did you mean '{}'?)", near, wanted)));
+  refuse(wanted, "", fmt::format("expected this element in <{}>{}", name(), misspelling(wanted, present)));
 }
 
 std::vector<std::string> XmlNode::attributeNames() const {
@@ -93,10 +99,8 @@ std::optional<std::string> XmlNode::attribute(const std::string& name) const {
 
 std::string XmlNode::requiredAttribute(const std::string& wanted) const {
   if (const auto value = attribute(wanted)) return *value;
-  const std::string near = nearestName(wanted, attributeNames());
   refuse(wanted, "",
-         fmt::format("expected this attribute of <{}>{}", name(),
-                     near.empty() ? "" : fmt::format("; there is '{}' (did you mean '{}'?)", near, wanted)));
+         fmt::format("expected this attribute of <{}>{}", name(), misspelling(wanted, attributeNames())));
 }
 
 std::string XmlNode::requiredName(const std::string& wanted) const {
@@ -119,12 +123,12 @@ Eigen::Vector3d XmlNode::vector(const std::string& wanted) const {
   for (std::size_t i = 0; i < parts.size(); ++i) {
     const ParsedNumber parsed = parseNumber(parts[i]);
     if (!parsed.expectation.empty()) {
-      refuse(wanted, value, fmt::format("{} as each of three, separated by blanks", parsed.expectation));
+      refuse(wanted, value, fmt::format("{} (three, separated by blanks)", parsed.expectation));
     }
     if (i < 3) numbers[static_cast<Eigen::Index>(i)] = parsed.value;
   }
   if (parts.size() != 3) {
-    refuse(wanted, value, fmt::format("expected three numbers; there are {}", parts.size()));
+    refuse(wanted, value, fmt::format("expected three numbers; found {}", parts.size()));
   }
   return numbers;
 }

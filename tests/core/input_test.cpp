@@ -1,0 +1,111 @@
+#include <gtest/gtest.h>
+
+#include <clocale>
+#include <fstream>
+
+#include "core/input/input_error.h"
+#include "core/input/nearest_name.h"
+#include "core/input/numbers.h"
+#include "core/input/utf8.h"
+#include "core/input/write_file.h"
+#include "tests/core/small_campaign.h"
+
+namespace stiffscope {
+namespace {
+
+std::string contentOf(const std::filesystem::path& file) {
+  std::string text;
+  std::getline(std::ifstream(file), text, '\0');
+  return text;
+}
+
+TEST(NearestName, CountsEdits) {
+  EXPECT_EQ(editDistance("", "abc"), 3u);
+  EXPECT_EQ(editDistance("kitten", "sitting"), 3u);  // Wagner and Fischer's example
+  EXPECT_EQ(editDistance("flnage", "flange"), 1u);   // two neighbours swapped
+  EXPECT_EQ(editDistance("Robot", "robot"), 0u);
+}
+
+TEST(NearestName, NamesOnlyWhatIsNear) {
+  const std::vector<std::string> names{"link_compliance", "bearing_tilt", "x", "backlash"};
+  EXPECT_EQ(nearestName("link_complience", names), "link_compliance");
+  EXPECT_EQ(nearestName("baklash", names), "backlash");
+  EXPECT_EQ(nearestName("hysteresis", names), "");
+  EXPECT_EQ(nearestName("y", names), "");  // every letter differs
+  EXPECT_EQ(nearestName("", names), "");
+  EXPECT_EQ(nearestNameHint("bearingtilt", names), " (did you mean 'bearing_tilt'?)");
+  EXPECT_EQ(nearestNameHint("zzz", names), "");
+}
+
+TEST(Numbers, AreReadWholeAndTheSameInEveryLocale) {
+  const char* const before = std::setlocale(LC_NUMERIC, nullptr);
+  const std::string restored = before;
+  for (const char* locale : {"C", "de_DE.UTF-8"}) {
+    std::setlocale(LC_NUMERIC, locale);  // where it is not installed nothing changes
+    EXPECT_EQ(parseNumber("-1.5e3").value, -1500.0);
+    EXPECT_EQ(parseNumber("+.5").value, 0.5);
+    EXPECT_NE(parseNumber("1,5").expectation, "");
+  }
+  std::setlocale(LC_NUMERIC, restored.c_str());
+  for (const char* text :
+       {"", " 1", "1 ", "+", "-", "+-1", "++1", "1.2.3", "1e", "inf", "NaN", "1e400", "0x10"}) {
+    EXPECT_NE(parseNumber(text).expectation, "") << text;
+  }
+  EXPECT_EQ(parseInteger("+7"), 7);
+  for (const char* text : {"", "7.0", "7a", "99999999999"}) EXPECT_FALSE(parseInteger(text)) << text;
+}
+
+TEST(InputErrorMessage, IsOneLineWhateverTheValueHolds) {
+  const InputError error({"a\nb.csv", 7, "x\tmm"}, std::string(78, 'v') + "\xC3\xBC\xC3\xBC",
+                         "expected\nthis");
+  EXPECT_EQ(std::string(error.what()),
+            "a?b.csv:7: x?mm: '" + std::string(78, 'v') + "\xC3\xBC...': expected?this");
+  EXPECT_EQ(std::string(InputError({"", 0, ""}, "\xE9\x1B[2J", "no").what()), "'??[2J': no");
+}
+
+TEST(Utf8, FindsTheFirstByteThatIsNone) {
+  EXPECT_EQ(findNotUtf8("a\xC3\xBC\xE2\x82\xAC\xF0\x9F\x98\x80"), std::string_view::npos);
+  EXPECT_EQ(findNotUtf8("ab\xFF"), 2u);
+  EXPECT_EQ(findNotUtf8("\xC0\x80"), 0u);          // longer than needed
+  EXPECT_EQ(findNotUtf8("\xED\xA0\x80"), 0u);      // a surrogate
+  EXPECT_EQ(findNotUtf8("\xF4\x90\x80\x80"), 0u);  // beyond the last character
+  EXPECT_EQ(findNotUtf8("a\xE2\x82"), 1u);         // cut short
+}
+
+TEST(WriteFile, ReplacesWholeFilesAndLeavesNothingBehind) {
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "a.json";
+  writeFileWhole(file, "one");
+  writeFileWhole(file, "two");
+  EXPECT_EQ(contentOf(file), "two");
+  std::filesystem::create_symlink("a.json", folder.path() / "link");
+  writeFileWhole(folder.path() / "link", "three");
+  EXPECT_EQ(contentOf(file), "three");
+  EXPECT_TRUE(std::filesystem::is_symlink(folder.path() / "link"));
+  writeFileWhole("/dev/null", "gone");
+  EXPECT_TRUE(std::filesystem::is_character_file("/dev/null"));
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 2);
+}
+
+TEST(WriteFile, SaysWhichFileAndWhy) {
+  const TemporaryFolder folder;
+  const auto why = [](const std::filesystem::path& path) -> std::string {
+    try {
+      writeFileWhole(path, "x");
+    } catch (const std::runtime_error& error) {
+      return error.what();
+    }
+    return "";
+  };
+  const std::string name = folder.path().string();
+  EXPECT_EQ(why(folder.path() / "no" / "a"), name + "/no/a: cannot be written: No such file or directory");
+  EXPECT_EQ(why(folder.path()), name + ": cannot be written: it is a directory");
+  EXPECT_EQ(why(""), ": cannot be written: it names no file");
+  if (std::filesystem::exists("/dev/full")) {
+    EXPECT_EQ(why("/dev/full"), "/dev/full: cannot be written: No space left on device");
+  }
+  EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+}
+
+}  // namespace
+}  // namespace stiffscope

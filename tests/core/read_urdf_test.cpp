@@ -1,0 +1,219 @@
+#include "core/robot/read_urdf.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <numbers>
+
+#include "core/input/input_error.h"
+#include "core/input/roll_pitch_yaw.h"
+
+namespace stiffscope {
+namespace {
+
+constexpr double kRounding = 1e-12;
+
+// Six joints, the third turned by its rpy, a chain with an intermediate fixed joint, and all the clutter that
+// exported URDFs have.
+const char* const kRobot = R"(<?xml version="1.0"?>
+<robot name="odd" xmlns:xacro="http://www.ros.org/wiki/xacro">
+  <xacro:property name="unused" value="${pi}"/>
+  <material name="grey"/>
+  <link name="world"/>
+  <link name="base"><visual><geometry><mesh filename="package://x.stl"/></geometry></visual></link>
+  <link name="l1"><inertial><mass value="100"/><origin xyz="0.1 0 0" rpy="1 2 3"/></inertial></link>
+  <link name="l2"><inertial><mass value="0"/></inertial></link>
+  <link name="l3"/>
+  <link name="motor"><inertial><origin xyz="0 0 0.5"/><mass value="20"/></inertial></link>
+  <link name="forearm"><inertial><mass value="60"/></inertial></link>
+  <link name="l4"/><link name="l5"/><link name="l6"/>
+  <link name="tool0"/>
+  <link name="finger"/><link name="wheel"/>
+  <joint name="stand" type="fixed"><parent link="world"/><child link="base"/><origin xyz="0 0 -1"/></joint>
+  <joint name="j1" type="continuous"><parent link="base"/><child link="l1"/><origin xyz="0 0 0.5"/>
+    <axis xyz="0 0 2"/></joint>
+  <joint name="j2" type="revolute"><parent link="l1"/><child link="l2"/><origin xyz="0.3 0 0"/>
+    <axis xyz="0 1 0"/><limit lower="-1" upper="2" effort="0" velocity="0"/></joint>
+  <joint name="j3" type="revolute"><parent link="l2"/><child link="l3"/>
+    <origin xyz="0 0 1" rpy="0 0 1.5707963267948966"/><limit lower="-1" upper="1"/></joint>
+  <joint name="mount" type="fixed"><parent link="l3"/><child link="forearm"/><origin xyz="1 0 0"/></joint>
+  <joint name="bolt" type="fixed"><parent link="l3"/><child link="motor"/><origin xyz="0 0 0"/></joint>
+  <joint name="j4" type="revolute"><parent link="forearm"/><child link="l4"/><axis xyz="1 0 0"/>
+    <limit lower="-3" upper="3"/></joint>
+  <joint name="j5" type="revolute"><parent link="l4"/><child link="l5"/><axis xyz="0 1 0"/>
+    <limit lower="-2" upper="2"/></joint>
+  <joint name="j6" type="revolute"><parent link="l5"/><child link="l6"/><origin xyz="0.2 0 0"/>
+    <axis xyz="1 0 0"/><limit/></joint>
+  <joint name="face" type="fixed"><parent link="l6"/><child link="tool0"/></joint>
+  <joint name="grip" type="prismatic"><parent link="tool0"/><child link="finger"/><axis xyz="${a} 0 0"/></joint>
+  <joint name="belt" type="revolute"><parent link="l4"/><child link="wheel"/><mimic joint="j4"/></joint>
+  <transmission name="t"><joint name="j1"/></transmission>
+  <gazebo reference="l1"><plugin/></gazebo>
+</robot>
+)";
+
+Robot odd() { return parseUrdf(kRobot, "odd.urdf", "base", "tool0"); }
+
+const LinkFrame& link(const Robot& robot, const std::string& name) {
+  for (const LinkFrame& frame : robot.links) {
+    if (frame.name == name) return frame;
+  }
+  throw std::out_of_range(name);
+}
+
+TEST(ReadUrdf, PlacesAxesInTheBaseAtZero) {
+  const Robot robot = odd();
+  EXPECT_EQ(robot.name, "odd");
+  EXPECT_EQ(robot.joint_names[3], "j4");
+  const auto expectAxis = [&](std::size_t i, const Eigen::Vector3d& point, const Eigen::Vector3d& direction) {
+    EXPECT_NEAR((robot.axes_in_base_at_zero[i].point - point).norm(), 0.0, kRounding) << i;
+    EXPECT_NEAR((robot.axes_in_base_at_zero[i].direction - direction).norm(), 0.0, kRounding) << i;
+  };
+  expectAxis(0, {0, 0, 0.5}, {0, 0, 1});
+  expectAxis(1, {0.3, 0, 0.5}, {0, 1, 0});
+  expectAxis(2, {0.3, 0, 1.5}, {0, 1, 0});  // the default axis x, turned by 90 deg about z
+  expectAxis(3, {0.3, 1, 1.5}, {0, 1, 0});
+  expectAxis(4, {0.3, 1, 1.5}, {-1, 0, 0});
+  expectAxis(5, {0.3, 1.2, 1.5}, {0, 1, 0});
+  EXPECT_NEAR((robot.base_from_flange_at_zero.translation() - Eigen::Vector3d(0.3, 1.2, 1.5)).norm(), 0,
+              kRounding);
+}
+
+TEST(ReadUrdf, ReadsLimits) {
+  const Robot robot = odd();
+  EXPECT_EQ(robot.limits[0].lower, -std::numeric_limits<double>::infinity());
+  EXPECT_EQ(robot.limits[0].upper, std::numeric_limits<double>::infinity());
+  EXPECT_EQ(robot.limits[1].lower, -1.0);
+  EXPECT_EQ(robot.limits[1].upper, 2.0);
+  EXPECT_EQ(robot.limits[5].upper, 0.0);
+}
+
+TEST(ReadUrdf, ListsTheLinksThatMoveWithTheChain) {
+  const Robot robot = odd();
+  EXPECT_EQ(robot.links.size(), 11u);  // all but finger and wheel
+  EXPECT_EQ(link(robot, "world").body, 0);
+  EXPECT_NEAR(link(robot, "world").base_from_link_at_zero.translation().z(), 1.0, kRounding);
+  EXPECT_EQ(link(robot, "motor").body, 3);
+  EXPECT_EQ(link(robot, "forearm").body, 3);
+  EXPECT_EQ(link(robot, "tool0").body, 6);
+  EXPECT_THROW(link(robot, "finger"), std::out_of_range);
+}
+
+TEST(ReadUrdf, LumpsTheMassesThatAreFixedTogether) {
+  const Robot robot = odd();
+  EXPECT_EQ(robot.bodies[1].mass_kg, 100.0);
+  EXPECT_NEAR((robot.bodies[1].com_in_base_at_zero - Eigen::Vector3d(0.1, 0, 0.5)).norm(), 0, kRounding);
+  EXPECT_EQ(robot.bodies[2].mass_kg, 0.0);
+  // Forearm 60 kg at (0.3, 1, 1.5) and motor 20 kg at (0.3, 0, 2).
+  EXPECT_EQ(robot.bodies[3].mass_kg, 80.0);
+  EXPECT_NEAR((robot.bodies[3].com_in_base_at_zero - Eigen::Vector3d(0.3, 0.75, 1.625)).norm(), 0, kRounding);
+}
+
+struct RejectedUrdf {
+  const char *find, *replace, *message;
+};
+
+const RejectedUrdf kRejected[] = {
+    {"<robot name", "<sdf name", "odd.urdf"},
+    {"name=\"j2\" type=\"revolute\"", "name=\"j2\" type=\"prismatic\"",
+     "type: 'prismatic': expected revolute joints between 'base' and 'tool0'; joint 'j2' is not"},
+    {"name=\"j2\" type=\"revolute\"", "name=\"j2\" type=\"floating\"",
+     "type: 'floating': expected revolute joints"},
+    {"name=\"j2\" type=\"revolute\"", "name=\"j2\" type=\"planar\"",
+     "type: 'planar': expected revolute joints"},
+    {"name=\"j2\" type=\"revolute\"", "name=\"j2\" type=\"fixed\"",
+     "expected six revolute joints between 'base' and 'tool0'; there are 5: j1, j3, j4, j5, j6"},
+    {"name=\"face\" type=\"fixed\"", "name=\"face\" type=\"continuous\"",
+     "there are 7: j1, j2, j3, j4, j5, j6, face"},
+    {"<axis xyz=\"0 0 2\"/>", "<mimic joint=\"j2\"/>",
+     "mimic: 'j1': expected six joints with angles of their own; this one follows another joint"},
+    {"<axis xyz=\"0 0 2\"/>", "<axis xyz=\"0 0 0\"/>", "xyz: '0 0 0': expected an axis that is not zero"},
+    {"<axis xyz=\"0 0 2\"/>", "<axis xyz=\"0 ${s} 1\"/>",
+     "xyz: '0 ${s} 1': expected a number; expand xacro first"},
+    {"<origin xyz=\"0.3 0 0\"/>", "<origin xyz=\"${length} 0 0\"/>", "expand xacro first"},
+    {"<origin xyz=\"0.3 0 0\"/>", "<origin xyz=\"300 0 0\"/>",
+     "xyz: '300 0 0': expected metres, within +-200 m"},
+    {"<origin xyz=\"0.3 0 0\"/>", "<origin xyz=\"0.3 0\"/>", "xyz: '0.3 0': expected three numbers; found 2"},
+    {"<limit lower=\"-1\" upper=\"2\" effort=\"0\" velocity=\"0\"/>", "",
+     "limit: expected this element in <joint>"},
+    {"lower=\"-1\" upper=\"2\"", "lower=\"3\" upper=\"2\"",
+     "lower: '3': expected at most the upper limit of joint 'j2', 2"},
+    {"<mass value=\"100\"/>", "<mass value=\"-100\"/>", "value: '-100': expected a mass of 0 or more"},
+    {"<mass value=\"100\"/>", "<mass value=\"heavy\"/>", "value: 'heavy': expected a number"},
+    {"<mass value=\"100\"/>", "", "mass: expected this element in <inertial>"},
+    {"<link name=\"l3\"/>", "", "'l3': expected a link of the robot"},
+    {"<link name=\"l3\"/>", "<link name=\"l3\"/><link name=\"l2\"/>",
+     "link: 'l2': expected a name of its own"},
+    {"<link name=\"l3\"/>", "<link/>", "name: expected this attribute of <link>"},
+    {"<link name=\"motor\">", "<link name=\"motr\">",
+     "child: 'motor': expected a link of the robot (did you mean"},
+    {"<child link=\"finger\"/>", "<child link=\"l2\"/>",
+     "child: 'l2': expected a link with one parent; joints 'j2' and 'grip' both carry it"},
+    {"<parent link=\"base\"/><child link=\"l1\"/>", "<parent link=\"l6\"/><child link=\"l1\"/>",
+     "expected a chain without a loop; this joint is part of one"},
+    {"<parent link=\"l1\"/><child link=\"l2\"/>", "<parent link=\"finger\"/><child link=\"l2\"/>",
+     "without a loop"},
+    {"<parent link=\"base\"/><child link=\"l1\"/>", "<parent link=\"pillar\"/><child link=\"l1\"/>",
+     "parent: 'pillar': expected a link of the robot"},
+    {"<parent link=\"l1\"/><child link=\"l2\"/>", "<child link=\"l2\"/>",
+     "parent: expected this element in <joint>"},
+    {"<joint name=\"j1\" type=\"continuous\"><parent link=\"base\"/>",
+     "<joint name=\"j1\" type=\"continuous\"><parent link=\"wheel2\"/>", "expected a link of the robot"},
+    {"<joint name=\"j3\"", "<joint name=\"j2\"",
+     "joint: 'j2': expected a name of its own; another joint has it"},
+    {"<link name=\"world\"/>", "<link name=\"world\"/><!--", "expected well-formed XML"},
+};
+
+TEST(ReadUrdf, RefusesWhatIsNoChainOfSixJoints) {
+  for (const RejectedUrdf& test : kRejected) {
+    std::string text = kRobot;
+    const std::size_t at = text.find(test.find);
+    ASSERT_NE(at, std::string::npos) << test.find;
+    text.replace(at, std::string(test.find).size(), test.replace);
+    try {
+      parseUrdf(text, "odd.urdf", "base", "tool0");
+      ADD_FAILURE() << "read on instead of: " << test.message;
+    } catch (const InputError& error) {
+      const std::string what = error.what();
+      EXPECT_NE(what.find(test.message), std::string::npos)
+          << "expected: " << test.message << "\ngot: " << what;
+      EXPECT_TRUE(what.starts_with("odd.urdf:") && what.find('\n') == std::string::npos) << what;
+    }
+  }
+}
+
+TEST(ReadUrdf, RefusesLinksThatAreNotOnOneChain) {
+  const auto why = [](const char* base, const char* flange) -> std::string {
+    try {
+      parseUrdf(kRobot, "odd.urdf", base, flange);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(why("base", "tol0"),
+            "odd.urdf:2: flange_link: 'tol0': expected a link of the robot (did you mean 'tool0'?)");
+  EXPECT_EQ(why("tool0", "base"),
+            "odd.urdf:2: flange_link: 'base': expected a link beyond 'tool0'; the way back from it ends at "
+            "'world'");
+  EXPECT_EQ(why("base", "base"),
+            "odd.urdf:2: joint: expected six revolute joints between 'base' and 'base'; there are 0");
+  EXPECT_EQ(why("world", "tool0"), "");
+}
+
+TEST(RollPitchYaw, TurnsAboutFixedAxesInThatOrder) {
+  const double quarter = std::numbers::pi / 2;
+  // Roll takes y to z, then yaw leaves z: by hand from R = Rz Ry Rx.
+  const Eigen::Matrix3d r = rotationFromRpy({quarter, 0, quarter});
+  EXPECT_NEAR((r * Eigen::Vector3d::UnitY() - Eigen::Vector3d::UnitZ()).norm(), 0, kRounding);
+  EXPECT_NEAR((r * Eigen::Vector3d::UnitX() - Eigen::Vector3d::UnitY()).norm(), 0, kRounding);
+  for (const Eigen::Vector3d& rpy :
+       {Eigen::Vector3d(0.1, -0.2, 3), Eigen::Vector3d(3, quarter, -1), Eigen::Vector3d(1, -quarter, 2)}) {
+    const Eigen::Matrix3d once = rotationFromRpy(rpy);
+    // At +-90 deg the cosine of the pitch keeps 1e-16, which the square root of rounding makes 1e-8 at worst.
+    EXPECT_NEAR((rotationFromRpy(rpyFromRotation(once)) - once).norm(), 0, 1e-8);
+  }
+}
+
+}  // namespace
+}  // namespace stiffscope
