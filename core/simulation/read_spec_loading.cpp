@@ -59,7 +59,7 @@ PostureDraw readDraw(const XmlNode& node) {
   if ((draw.high - draw.low).minCoeff() < 0.0) {
     node.refuse("max_deg", node.requiredAttribute("max_deg"), "expected no angle below that of min_deg");
   }
-  draw.min_abs_sin_q5 = nonNegativeOr(node, "min_abs_sin_q5", "max_flange_up_deg", 1.0, 0.0);
+  draw.min_abs_sin_q5 = nonNegativeOr(node, "min_abs_sin_q5", 1.0, 0.0);
   draw.max_flange_up = optionalNumber(node, "max_flange_up_deg", kDegree);
   draw.min_height = optionalNumber(node, "min_height_mm", kMillimetre);
   draw.max_height = optionalNumber(node, "max_height_mm", kMillimetre);
