@@ -28,7 +28,7 @@ struct MachineState {
 /// potential energy, with finite rotations, that Newton's method reaches from the unstrained machine. The
 /// Hessian is taken by central differences of the exact gradient; where it is not positive definite it is
 /// shifted until it is, and a step that raises the energy is halved. A load beyond buckling has no such
-/// minimum nearby: `converged` is then false.
+/// minimum nearby: either one far away is found (see `deformation`), or `converged` is false.
 MachineState equilibrium(const ElasticMachine& machine, const Vector6d& q, const AppliedLoad& load = {});
 
 /// Place of one of nominal.links in that state.

@@ -9,16 +9,24 @@
 
 namespace stiffscope::simulation {
 
+namespace {
+
+constexpr double kLargest =
+    0.1;  ///< m and rad: what gives more has collapsed, and linear springs no longer hold
+
+}  // namespace
+
 MachineState Session::rest(const Vector6d& q, const AppliedLoad& load) const {
   MachineState state = equilibrium(machine, q, load);
-  if (!state.converged) {
+  const bool small = state.deformation.size() == 0 || state.deformation.cwiseAbs().maxCoeff() < kLargest;
+  if (!state.converged || !small) {
     const Vector6d deg = q / kDegree;
-    throw InputError(
-        {spec.file.string(), 0, "q_deg"},
-        fmt::format("{:.3f} {:.3f} {:.3f} {:.3f} {:.3f} {:.3f}", deg[0], deg[1], deg[2], deg[3], deg[4],
-                    deg[5]),
-        "expected a posture where the machine rests stably under its load; stiffness too low or load too "
-        "large");
+    throw InputError({spec.file.string(), 0, "q_deg"},
+                     fmt::format("{:.3f} {:.3f} {:.3f} {:.3f} {:.3f} {:.3f}", deg[0], deg[1], deg[2], deg[3],
+                                 deg[4], deg[5]),
+                     "expected a posture where the machine rests stably, giving less than 0.1 rad; stiffness "
+                     "is too low or the "
+                     "load too large");
   }
   return state;
 }

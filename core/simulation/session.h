@@ -16,7 +16,7 @@ struct Session {
   double now_s = 0.0;
   double last_nests_s = 0.0;
 
-  /// The machine at rest at reported angles q. Throws InputError where it is not stable.
+  /// The machine at rest at reported angles q. Throws InputError where it is not stable or collapses.
   MachineState rest(const Vector6d& q, const AppliedLoad& load = {}) const;
   Vector6d reported(const Vector6d& q) const;  ///< rounded to the read-back resolution
   /// The time a reading is finished; the clock moves on to it.
