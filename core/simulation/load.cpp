@@ -1,0 +1,50 @@
+#include "core/simulation/load.h"
+
+namespace stiffscope::simulation {
+
+int loadSteps(const LoadingSpec& loading) {
+  const auto* weights = std::get_if<HangingWeights>(&loading.load);
+  const std::size_t loaded =
+      weights ? weights->masses_kg.size() : std::get<CablePull>(loading.load).tensions.size();
+  return static_cast<int>(loaded) + (loading.return_to_zero ? 1 : 0);
+}
+
+AppliedLoad loadAtStep(const LoadingSpec& loading, int step, const Eigen::Vector3d& gravity_in_base,
+                       const std::optional<Eigen::Vector3d>& pull_direction) {
+  if (step == 0) return {};
+  const std::size_t index = static_cast<std::size_t>(step) - 1;
+  if (const auto* weights = std::get_if<HangingWeights>(&loading.load)) {
+    if (index >= weights->masses_kg.size()) return {};
+    return DeadForce{loading.hook_in_flange, weights->masses_kg[index] * gravity_in_base};
+  }
+  const auto& cable = std::get<CablePull>(loading.load);
+  if (index >= cable.tensions.size()) return {};
+  if (cable.anchor) return AnchoredCable{loading.hook_in_flange, *cable.anchor, cable.tensions[index]};
+  const Eigen::Vector3d direction =
+      pull_direction ? *pull_direction : cable.direction.value_or(Eigen::Vector3d::Zero());
+  return DeadForce{loading.hook_in_flange, cable.tensions[index] * direction};
+}
+
+Eigen::Vector3d loadPointInFlange(const AppliedLoad& load) {
+  if (const auto* force = std::get_if<DeadForce>(&load)) return force->point_in_flange;
+  if (const auto* cable = std::get_if<AnchoredCable>(&load)) return cable->point_in_flange;
+  return Eigen::Vector3d::Zero();
+}
+
+Eigen::Vector3d loadForce(const AppliedLoad& load, const Eigen::Vector3d& point_in_base) {
+  if (const auto* force = std::get_if<DeadForce>(&load)) return force->force_in_base;
+  if (const auto* cable = std::get_if<AnchoredCable>(&load)) {
+    return cable->tension * (cable->anchor_in_base - point_in_base).normalized();
+  }
+  return Eigen::Vector3d::Zero();
+}
+
+double loadPotential(const AppliedLoad& load, const Eigen::Vector3d& point_in_base) {
+  if (const auto* force = std::get_if<DeadForce>(&load)) return -force->force_in_base.dot(point_in_base);
+  if (const auto* cable = std::get_if<AnchoredCable>(&load)) {
+    return cable->tension * (cable->anchor_in_base - point_in_base).norm();
+  }
+  return 0.0;
+}
+
+}  // namespace stiffscope::simulation
