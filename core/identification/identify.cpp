@@ -85,6 +85,12 @@ class Identifier {
  public:
   Identifier(const Campaign& campaign, const IdentifyOptions& options) : campaign_(campaign), options_(options) {}
 
+  Frames frames() {
+    chooseStep();
+    settleFrames();
+    return std::move(result_.frames);
+  }
+
   Identification run() {
     chooseStep();
     settleFrames();
@@ -327,7 +333,7 @@ class Identifier {
   }
 
   const Campaign& campaign_;
-  const IdentifyOptions& options_;
+  const IdentifyOptions options_;
   Identification result_;
   System swept_;
   Vector6d sag_ = Vector6d::Zero();
@@ -335,6 +341,11 @@ class Identifier {
 };
 
 }  // namespace
+
+Frames settledFrames(const Campaign& campaign) {
+  const bool loads = campaign.states && campaign.load_cell && campaign.loading && heaviestStep(campaign);
+  return loads ? Identifier(campaign, {}).frames() : measureFrames(campaign);
+}
 
 Identification identify(const Campaign& campaign, const IdentifyOptions& options) {
   return Identifier(campaign, options).run();
