@@ -17,14 +17,11 @@ void printWarnings(const std::vector<std::string>& warnings) {
   for (const std::string& warning : warnings) std::fprintf(stderr, "stiffscope: warning: %s\n", warning.c_str());
 }
 
-void deliver(const Json& json, const std::string& text, const std::string& json_file) {
-  if (json_file == "-") {
-    const std::string dumped = json.dump(1) + '\n';
-    std::fwrite(dumped.data(), 1, dumped.size(), stdout);
-    return;
-  }
-  if (!json_file.empty()) writeFileWhole(json_file, json.dump(1) + '\n');
-  std::fwrite(text.data(), 1, text.size(), stdout);
+void deliver(const std::function<Json()>& json, const std::function<std::string()>& text, const std::string& json_file) {
+  const bool json_only = json_file == "-";
+  if (!json_file.empty() && !json_only) writeFileWhole(json_file, json().dump(1) + '\n');
+  const std::string shown = json_only ? json().dump(1) + '\n' : text();
+  std::fwrite(shown.data(), 1, shown.size(), stdout);
 }
 
 }  // namespace stiffscope

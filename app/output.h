@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -18,8 +19,8 @@ Campaign openCampaign(const std::string& folder_or_xml);
 
 void printWarnings(const std::vector<std::string>& warnings);
 
-/// The result: as JSON to `json_file` (`-` is standard output) if one is named, else `text` to standard output. With a
-/// file named, `text` goes to standard output too.
-void deliver(const Json& json, const std::string& text, const std::string& json_file);
+/// The result: as JSON alone to standard output where `json_file` is `-`; else as text there, and as JSON to the file that
+/// is named, if any. Only what is asked for is made.
+void deliver(const std::function<Json()>& json, const std::function<std::string()>& text, const std::string& json_file);
 
 }  // namespace stiffscope

@@ -37,8 +37,8 @@ int compensateCampaign(const Arguments& arguments, bool step_given) {
   printWarnings(warnings);
   const std::vector<CompensatedPosture> rows =
       compensate(campaign, method.geometry, method.estimate, result.frames.tcp_in_flange, asked);
-  deliver(compensationJson(campaign, methods.front(), rows), compensationText(campaign, methods.front(), rows),
-          arguments.json);
+  deliver([&] { return compensationJson(campaign, methods.front(), rows); },
+          [&] { return compensationText(campaign, methods.front(), rows); }, arguments.json);
   const bool any = std::any_of(rows.begin(), rows.end(), [](const CompensatedPosture& row) { return row.solved; });
   return any ? kDone : kNotUsable;
 }

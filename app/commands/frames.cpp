@@ -21,7 +21,7 @@ void addFrames(CLI::App& app, Run& run) {
     run = [arguments] {
       const Campaign campaign = openCampaign(arguments->campaign);
       const Frames frames = settledFrames(campaign);
-      deliver(framesJson(campaign, frames), framesText(campaign, frames), arguments->json);
+      deliver([&] { return framesJson(campaign, frames); }, [&] { return framesText(campaign, frames); }, arguments->json);
       return frames.arm.points_placed ? kDone : kNotUsable;
     };
   });

@@ -27,7 +27,8 @@ int identifyCampaign(const Arguments& arguments, bool step_given) {
   options.finite_deflection = !arguments.neglect_kc;
   options.subsets.size = arguments.subset_size;
   const Identification result = identify(campaign, options);
-  deliver(identificationJson(campaign, result, methods), identificationText(campaign, result, methods), arguments.json);
+  deliver([&] { return identificationJson(campaign, result, methods); },
+          [&] { return identificationText(campaign, result, methods); }, arguments.json);
   const bool usable = std::any_of(methods.begin(), methods.end(), [&](Method m) { return result.of(m).available; });
   return usable ? kDone : kNotUsable;
 }
