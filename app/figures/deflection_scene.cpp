@@ -33,6 +33,15 @@ std::string framesWords(const ReportCampaign& one) {
       page::fixed(kMmPerM * heightOfR0(one.identification), 0));
 }
 
+/// "The same load moves", or the range of loads where they differ by more than a fiftieth.
+std::string loadWords(const Identification& identification) {
+  std::vector<double> forces;
+  for (const LoadCase& load_case : identification.cases) forces.push_back(load_case.wrench.force.norm());
+  const auto [least, most] = std::minmax_element(forces.begin(), forces.end());
+  if (*most <= 1.02 * *least) return "The same load moves";
+  return fmt::format("Loads of {} to {} move", kilonewtons(*least), kilonewtons(*most));
+}
+
 /// The point whose vectors the scene of all postures shows.
 std::string vectorPoint(const ReportCampaign& one) {
   if (page::judgedPoint(one).at_wrist) return "P_{wrist}";
@@ -113,10 +122,10 @@ Figure describeAllPostures(const ReportCampaign& one, double magnification) {
   figure.id = "all-postures";
   figure.title = fmt::format("Deflection of {} in all postures", vectorPoint(one));
   figure.caption = fmt::format(
-      "The same load moves {} by {} to {}\u00a0mm, depending on the posture; vectors magnified {} "
+      "{} {} by {} to {}\u00a0mm, depending on the posture; vectors magnified {} "
       "times. {}",
-      point.name, page::fixed(kMmPerM * *least, 2), page::fixed(kMmPerM * *most, 2),
-      page::fixed(magnification, 0), framesWords(one));
+      loadWords(one.identification), point.name, page::fixed(kMmPerM * *least, 2),
+      page::fixed(kMmPerM * *most, 2), page::fixed(magnification, 0), framesWords(one));
   figure.alt =
       fmt::format("All {} postures of the arm, pale, with an arrow for the displacement of {} in each.",
                   values.size(), page::plain(vectorPoint(one)));

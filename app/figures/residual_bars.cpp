@@ -26,7 +26,7 @@ GroupedBarChart emptyChart(const ReportCampaign& one, const char* what) {
   chart.title = fmt::format("{} of {}", what, point.name);
   chart.subtitle = fmt::format("{}; identified from and judged on all {} postures", one.campaign.name,
                                one.identification.cases.size());
-  chart.y_title = fmt::format("Displacement of {} (mm)", point.at_wrist ? point.name : "the reflectors");
+  chart.y_title = fmt::format("Displacement of {} (mm)", point.name);
   chart.category_title = "Posture";
   for (const LoadCase& load_case : one.identification.cases) {
     chart.categories.push_back(one.campaign.pose_ids[static_cast<std::size_t>(load_case.pose)]);

@@ -43,7 +43,10 @@ void writeTable(Html& html, const Table& table) {
                                  [](const RowGroup& group) { return group.rows.empty(); });
   if (empty) return;
   const auto scroll = html.element("div", {{"class", "scroll"}});
-  const auto element = html.element("table", table.words ? Attributes{{"class", "words"}} : Attributes{});
+  const bool grouped = std::any_of(table.groups.begin(), table.groups.end(),
+                                   [](const RowGroup& group) { return !group.header.empty(); });
+  const char* kind = table.words ? "words" : grouped ? "grouped" : "numeric";
+  const auto element = html.element("table", {{"class", kind}});
   html.leaf("caption", table.caption);
   {
     const auto head = html.element("thead");

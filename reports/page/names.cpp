@@ -41,9 +41,14 @@ std::string pointName(const std::string& target_id) {
   return numbered ? fmt::format("{}_{{{}}}", target_id[0], target_id.substr(1)) : target_id;
 }
 
+std::string encoderState(DoubleEncoder state) {
+  if (state == DoubleEncoder::unspecified) return "not declared";
+  return state == DoubleEncoder::active ? "active" : "inactive";
+}
+
 std::string encoderWords(DoubleEncoder state) {
-  if (state == DoubleEncoder::active) return "double encoders active";
-  return state == DoubleEncoder::inactive ? "double encoders inactive" : "";
+  return state == DoubleEncoder::unspecified ? std::string()
+                                             : fmt::format("double encoders {}", encoderState(state));
 }
 
 JudgedPoint judgedPoint(const ReportCampaign& one) {

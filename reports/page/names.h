@@ -14,6 +14,7 @@ std::string longName(Method method);                  ///< "Decoupled Partial Po
 std::string shortName(Method method);                 ///< "DPP"
 std::string jointName(int joint);                     ///< 0-based: "k_{1}"
 std::string pointName(const std::string& target_id);  ///< "P10" as "P_{10}"; other names as they are
+std::string encoderState(DoubleEncoder state);        ///< "active", "inactive", "not declared"
 std::string encoderWords(DoubleEncoder state);        ///< "double encoders active"; empty where not declared
 
 /// Where deflections of a campaign are judged: P_wrist where it is measured, else the reflectors (mean over

@@ -40,6 +40,7 @@ std::string fixed(double value, int decimals) {
 
 std::string significant(double value, int digits) {
   if (!std::isfinite(value)) return kNoNumber;
+  if (value == 0.0) return "0";
   if (std::abs(value) < 1e7) return fixed(value, placesFor(value, digits));
   const int exponent = exponentOf(value);
   return withMinus(fmt::format("{:.{}f}e{}", value / std::pow(10.0, exponent), digits - 1, exponent));
@@ -54,6 +55,8 @@ std::string withUncertainty(double value, double standard_uncertainty) {
   const int places = placesFor(standard_uncertainty, 2);
   return fmt::format("{} ± {}", fixed(value, places), fixed(standard_uncertainty, places));
 }
+
+std::string asPrinted(double value) { return withMinus(fmt::format("{}", value)); }
 
 std::string percent(double share, int decimals) {
   return std::isfinite(share) ? fmt::format("{}\u00a0%", fixed(100.0 * share, decimals)) : kNoNumber;

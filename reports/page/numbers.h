@@ -16,6 +16,9 @@ std::string significant(double value, int digits);
 /// place. Without a finite positive uncertainty the value to four digits.
 std::string withUncertainty(double value, double standard_uncertainty);
 
+/// As few digits as tell the number: for one that comes from print.
+std::string asPrinted(double value);
+
 /// A share as "84.3 %".
 std::string percent(double share, int decimals = 1);
 

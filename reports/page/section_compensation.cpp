@@ -10,15 +10,17 @@ namespace stiffscope::page {
 
 namespace {
 
-Row shareRow(const ReportContent& content, const Identification& result, Method method, bool at_wrist) {
-  const MethodResult& one = result.of(method);
+Row shareRow(const ReportContent& content, const ReportCampaign& campaign, Method method, bool at_wrist) {
+  const MethodResult& one = campaign.identification.of(method);
   const Compensation& compensation = *compensationAt(one, at_wrist);
   const bool subsets = !one.subsets.compliances.empty();
   const auto ofSubsets = [&](double share) { return subsets ? percent(share) : std::string("–"); };
   Row row{longName(method), percent(compensation.all_postures), ofSubsets(compensation.subsets.used),
           ofSubsets(compensation.subsets.held_out), ofSubsets(compensation.subsets.all)};
   if (content.compare_with_paper) {
-    row.emplace_back(at_wrist ? percent(kPaperCompensated[static_cast<std::size_t>(method)], 0) : "–");
+    // The paper compensates what the active double encoders leave, and judges at P_wrist.
+    const bool comparable = at_wrist && campaign.campaign.double_encoder == DoubleEncoder::active;
+    row.emplace_back(comparable ? percent(kPaperCompensated[static_cast<std::size_t>(method)], 0) : "–");
   }
   return row;
 }
@@ -34,7 +36,7 @@ Table shareTable(const ReportContent& content, const ReportCampaign& one) {
     for (const Method method : kMethods) {
       const MethodResult& result = one.identification.of(method);
       if (result.available && compensationAt(result, at_wrist)) {
-        group.rows.push_back(shareRow(content, one.identification, method, at_wrist));
+        group.rows.push_back(shareRow(content, one, method, at_wrist));
       }
     }
     table.groups.push_back(std::move(group));
@@ -42,9 +44,14 @@ Table shareTable(const ReportContent& content, const ReportCampaign& one) {
   return table;
 }
 
-std::string noiseWords(const Identification& result) {
-  if (!result.noise)
-    return "What noise alone forbids is not known: no tracker is declared, or there are displacements only.";
+std::string noiseWords(const ReportCampaign& one) {
+  const Identification& result = one.identification;
+  if (!result.noise) {
+    return fmt::format("What noise alone forbids is not known: {}.",
+                       one.campaign.tracker
+                           ? "the campaign has displacements only, not the readings they come from"
+                           : "the tracker's noise is not declared");
+  }
   const std::string at_targets = percent(result.noise->at_targets);
   if (result.wrist_displacement.empty()) {
     return fmt::format(
@@ -88,7 +95,7 @@ void writeCompensation(Html& html, const ReportContent& content) {
     if (one.identification.wrist_displacement.empty()) {
       html.paragraph("P_{wrist} is not measured in the load states: shares are given at the reflectors.");
     }
-    html.paragraph(noiseWords(one.identification));
+    html.paragraph(noiseWords(one));
   }
   if (content.avoided) writeAvoided(html, content);
 }

@@ -52,8 +52,7 @@ RowGroup conditions(const ReportCampaign& one) {
   const Identification& result = one.identification;
   RowGroup group;
   add(group, "Machine", campaign.robot.name);
-  add(group, "Double encoders",
-      encoderWords(campaign.double_encoder).empty() ? "not declared" : encoderWords(campaign.double_encoder));
+  add(group, "Double encoders", encoderState(campaign.double_encoder));
   add(group, "Item", campaign.texts.item);
   add(group, "Laboratory", campaign.texts.laboratory);
   add(group, "Customer", campaign.texts.customer);
@@ -77,26 +76,6 @@ RowGroup conditions(const ReportCampaign& one) {
   return group;
 }
 
-/// CP's result against the characteristic length, which is not unique.
-Table lengthTable(const Identification& result) {
-  Table table{"Complete Pose against the characteristic length L: stiffness in 10⁶ Nm/rad",
-              {"L (m)", "Condition"},
-              {{}}};
-  const auto& seen = result.of(Method::complete_pose).estimate.identifiable;
-  for (int joint = 0; joint < 6; ++joint) {
-    if (seen[static_cast<std::size_t>(joint)]) table.columns.push_back(jointName(joint));
-  }
-  for (const LengthSensitivity& at : result.length_sensitivity) {
-    Row row{significant(at.length, 3), significant(at.condition, 3)};
-    for (int joint = 0; joint < 6; ++joint) {
-      if (seen[static_cast<std::size_t>(joint)])
-        row.emplace_back(significant(1e-6 / at.compliance[joint], 3));
-    }
-    table.groups.front().rows.push_back(std::move(row));
-  }
-  return table;
-}
-
 }  // namespace
 
 void writeConditions(Html& html, const ReportContent& content) {
@@ -114,7 +93,6 @@ void writeConditions(Html& html, const ReportContent& content) {
   for (const ReportCampaign& one : content.campaigns) {
     if (content.campaigns.size() > 1) html.leaf("h3", one.campaign.name);
     writeTable(html, {"Conditions of the measurement", {"What", "As measured"}, {conditions(one)}, true});
-    if (!one.identification.length_sensitivity.empty()) writeTable(html, lengthTable(one.identification));
   }
 }
 

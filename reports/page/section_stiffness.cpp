@@ -39,7 +39,7 @@ Cell stiffnessCell(const Identification& result, Method method, int joint, Notes
 }
 
 Table stiffnessTable(const Identification& result, Notes& notes) {
-  Table table{"Joint stiffness, 10⁶ Nm/rad, from all postures", {"Joint"}, {{}}};
+  Table table{"Joint stiffness, 10⁶\u00a0Nm/rad, from all postures", {"Joint"}, {{}}};
   for (const Method method : kMethods) table.columns.push_back(longName(method));
   for (int joint = 0; joint < 6; ++joint) {
     Row row{jointName(joint)};
@@ -51,7 +51,7 @@ Table stiffnessTable(const Identification& result, Notes& notes) {
 
 /// Compliances are what the methods solve for: their uncertainty is symmetric where a stiffness's is not.
 Table complianceTable(const Identification& result) {
-  Table table{"Joint compliance, 10⁻⁹ rad/Nm", {"Joint"}, {{}}};
+  Table table{"Joint compliance, 10⁻⁹\u00a0rad/Nm", {"Joint"}, {{}}};
   for (const Method method : kMethods) {
     if (result.of(method).available) table.columns.push_back(longName(method));
   }
@@ -82,6 +82,28 @@ Table fitTable(const Identification& result) {
   return table;
 }
 
+/// CP's result against the characteristic length, which is not unique.
+Table lengthTable(const Identification& result) {
+  Table table{"Complete Pose against the characteristic length L: stiffness in 10⁶\u00a0Nm/rad",
+              {"L (m)", "Condition"},
+              {{}}};
+  const auto& seen = result.of(Method::complete_pose).estimate.identifiable;
+  for (int joint = 0; joint < 6; ++joint) {
+    if (seen[static_cast<std::size_t>(joint)]) table.columns.push_back(jointName(joint));
+  }
+  constexpr std::size_t kEvery = 2;  // a dozen rows would say no more
+  for (std::size_t i = 0; i < result.length_sensitivity.size(); i += kEvery) {
+    const LengthSensitivity& at = result.length_sensitivity[i];
+    Row row{significant(at.length, 3), significant(at.condition, 3)};
+    for (int joint = 0; joint < 6; ++joint) {
+      if (seen[static_cast<std::size_t>(joint)])
+        row.emplace_back(significant(1e-6 / at.compliance[joint], 3));
+    }
+    table.groups.front().rows.push_back(std::move(row));
+  }
+  return table;
+}
+
 }  // namespace
 
 void writeStiffness(Html& html, const ReportContent& content) {
@@ -95,10 +117,10 @@ void writeStiffness(Html& html, const ReportContent& content) {
     if (shownMethod(one.identification)) {
       html.paragraph(
           "Residuals per coordinate, of the positions that the method fits: P_{TCP} for CP, the reflectors "
-          "for "
-          "PP and DPP.",
+          "for PP and DPP.",
           "faint");
     }
+    writeTable(html, lengthTable(one.identification));
   });
 }
 

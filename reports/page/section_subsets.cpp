@@ -14,23 +14,20 @@ constexpr double kMega = 1e6;
 
 Row spreadRow(const ReportContent& content, const ReportCampaign& one, Method method, int joint) {
   const StiffnessSpread spread = spreadOf(one.identification.of(method).subsets, joint);
-  Row row{longName(method),
-          significant(spread.mean / kMega, 3),
-          significant(spread.sd / kMega, 2),
+  Row row{longName(method), withUncertainty(spread.mean / kMega, spread.sd / kMega),
           significant(spread.median / kMega, 3),
           fmt::format("{} to {}", significant(spread.low / kMega, 3), significant(spread.high / kMega, 3)),
           percent(spread.share_negative)};
   if (content.compare_with_paper) {
     const auto paper = paperStiffness(one.campaign.double_encoder, method, joint);
-    row.emplace_back(paper ? fmt::format("{} & {}", significant(paper->mean, 2), significant(paper->sd, 2))
-                           : "–");
+    row.emplace_back(paper ? fmt::format("{} & {}", asPrinted(paper->mean), asPrinted(paper->sd)) : "–");
   }
   return row;
 }
 
 Table tableTwo(const ReportContent& content, const ReportCampaign& one, const SubsetStudy& any) {
-  Table table{fmt::format("Table II: joint stiffness over {}, 10⁶ Nm/rad", subsetWords(any)),
-              {"Joint", "Method", "Mean", "Standard deviation", "Median", "5 to 95\u00a0%", "Negative"},
+  Table table{fmt::format("Table II: joint stiffness over {}, 10⁶\u00a0Nm/rad", subsetWords(any)),
+              {"Joint", "Method", "Mean ± sd", "Median", "5 to 95\u00a0%", "Negative"},
               {}};
   if (content.compare_with_paper) table.columns.emplace_back("Paper, mean & sd");
   for (int joint = 0; joint < 6; ++joint) {

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "reports/page/names.h"
 #include "reports/page/numbers.h"
 
@@ -9,15 +11,22 @@ namespace stiffscope {
 
 namespace {
 
-std::string jointsSentence(const Identification& identification, const MethodResult& method,
-                           const char* name) {
+/// What the shown method finds, or why there is none.
+std::string jointsSentence(const Identification& identification) {
+  const auto shown = page::shownMethod(identification);
+  if (!shown) {
+    return fmt::format("no joint stiffness can be identified: {}.",
+                       identification.of(Method::partial_pose).reason);
+  }
+  const StiffnessEstimate& estimate = identification.of(*shown).estimate;
   std::vector<std::string> unseen, doubtful;
   for (int joint = 0; joint < 6; ++joint) {
-    const bool seen = method.estimate.identifiable[static_cast<std::size_t>(joint)];
+    const bool seen = estimate.identifiable[static_cast<std::size_t>(joint)];
     if (!seen) unseen.push_back(page::jointName(joint));
-    if (seen && !method.estimate.mark(joint).empty()) doubtful.push_back(page::jointName(joint));
+    if (seen && !estimate.mark(joint).empty()) doubtful.push_back(page::jointName(joint));
   }
-  std::string text = fmt::format("{} finds the stiffness of {} of 6 joints", name, 6 - unseen.size());
+  std::string text =
+      fmt::format("{} finds the stiffness of {} of 6 joints", page::longName(*shown), 6 - unseen.size());
   if (!unseen.empty()) {
     text += fmt::format(
         "; {} cannot be seen{}", fmt::join(unseen, ", "),
@@ -27,41 +36,69 @@ std::string jointsSentence(const Identification& identification, const MethodRes
   return text + ".";
 }
 
-std::string compensationSentence(const ReportCampaign& one, const MethodResult& method) {
+/// "92 % of the deflection at P_{wrist} in postures it has not seen"; empty without a method.
+std::string compensatedWords(const ReportCampaign& one) {
+  const auto shown = page::shownMethod(one.identification);
   const page::JudgedPoint point = page::judgedPoint(one);
-  const auto& compensation = page::compensationAt(method, point.at_wrist);
-  if (!compensation) return {};
+  if (!shown || !page::compensationAt(one.identification.of(*shown), point.at_wrist)) return {};
+  const MethodResult& method = one.identification.of(*shown);
   if (const auto held_out = page::heldOut(method, point.at_wrist)) {
-    return fmt::format(" It takes away {} of the deflection at {} in postures it has not seen.",
-                       page::percent(*held_out, 0), point.name);
+    return fmt::format("{} of the deflection at {} in postures it has not seen", page::percent(*held_out, 0),
+                       point.name);
   }
-  return fmt::format(
-      " It takes away {} of the deflection at {} in the postures it was fitted to; there are too few to "
-      "hold some out.",
-      page::percent(compensation->all_postures, 0), point.name);
+  return fmt::format("{} of the deflection at {} in the postures it was fitted to, too few to hold some out",
+                     page::percent(page::compensationAt(method, point.at_wrist)->all_postures, 0),
+                     point.name);
 }
 
-std::string verdictOf(const ReportCampaign& one) {
-  const auto shown = page::shownMethod(one.identification);
-  if (!shown) {
-    return fmt::format("No joint stiffness can be identified: {}.",
-                       one.identification.of(Method::partial_pose).reason);
+/// What tells the campaigns of a report apart: the state of the double encoders, else the name.
+std::string labelOf(const ReportCampaign& one) {
+  const std::string state = page::encoderWords(one.campaign.double_encoder);
+  return state.empty() ? fmt::format("in {}", one.campaign.name) : fmt::format("with {}", state);
+}
+
+std::string capitalised(std::string text) {
+  if (!text.empty() && text[0] >= 'a' && text[0] <= 'z') text[0] = static_cast<char>(text[0] - 'a' + 'A');
+  return text;
+}
+
+bool sameJoints(const std::vector<ReportCampaign>& campaigns) {
+  return std::all_of(campaigns.begin(), campaigns.end(), [&](const ReportCampaign& one) {
+    return jointsSentence(one.identification) == jointsSentence(campaigns.front().identification);
+  });
+}
+
+/// Said once where it is the same in all campaigns.
+std::string together(const std::vector<ReportCampaign>& campaigns) {
+  std::string text = capitalised(jointsSentence(campaigns.front().identification));
+  std::vector<std::string> shares;
+  for (const ReportCampaign& one : campaigns) {
+    const std::string words = compensatedWords(one);
+    if (words.empty()) continue;
+    const std::string label = campaigns.size() > 1 ? fmt::format("{} ", labelOf(one)) : std::string();
+    shares.push_back(fmt::format("{}it takes away {}", label, words));
   }
-  const MethodResult& method = one.identification.of(*shown);
-  return jointsSentence(one.identification, method, page::longName(*shown).c_str()) +
-         compensationSentence(one, method);
+  if (!shares.empty()) text += fmt::format(" {}.", capitalised(fmt::format("{}", fmt::join(shares, "; "))));
+  return text;
+}
+
+std::string oneByOne(const std::vector<ReportCampaign>& campaigns) {
+  std::string text;
+  for (const ReportCampaign& one : campaigns) {
+    text += fmt::format("{}{}, {}", text.empty() ? "" : " ", capitalised(labelOf(one)),
+                        jointsSentence(one.identification));
+    const std::string words = compensatedWords(one);
+    if (!words.empty()) text += fmt::format(" It takes away {}.", words);
+  }
+  return text;
 }
 
 }  // namespace
 
 std::string verdictOf(const std::vector<ReportCampaign>& campaigns,
                       const std::optional<AvoidedShare>& avoided) {
-  std::string text;
-  for (const ReportCampaign& one : campaigns) {
-    if (!text.empty()) text += ' ';
-    if (campaigns.size() > 1) text += fmt::format("{}: ", one.campaign.name);
-    text += verdictOf(one);
-  }
+  if (campaigns.empty()) return {};
+  std::string text = sameJoints(campaigns) ? together(campaigns) : oneByOne(campaigns);
   if (avoided) {
     text += fmt::format(" The double encoders avoid {} of the deflection at {}.",
                         page::percent(avoided->share, 0), avoided->point);
