@@ -1,0 +1,135 @@
+#include "app/figures/deflection_scene.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numeric>
+
+#include "app/figures/arm_pose.h"
+#include "reports/page/html.h"
+#include "reports/page/names.h"
+#include "reports/page/numbers.h"
+
+namespace stiffscope {
+
+namespace {
+
+constexpr double kMmPerM = 1e3;
+
+std::string poseName(const ReportCampaign& one, std::size_t index) {
+  return one.campaign.pose_ids[static_cast<std::size_t>(one.identification.cases[index].pose)];
+}
+
+std::string predictedName(const ReportCampaign& one) {
+  const auto shown = page::shownMethod(one.identification);
+  return shown ? fmt::format("predicted by {}", page::shortName(*shown)) : "predicted";
+}
+
+std::string kilonewtons(double newtons) { return fmt::format("{}\u00a0kN", page::fixed(1e-3 * newtons, 2)); }
+
+std::string framesWords(const ReportCampaign& one) {
+  return fmt::format(
+      "The axes drawn are those of R_{{0}}, at the foot of axis 1; R_{{0}} itself stands {} mm higher.",
+      page::fixed(kMmPerM * heightOfR0(one.identification), 0));
+}
+
+/// "The same load moves", or the range of loads where they differ by more than a fiftieth.
+std::string loadWords(const Identification& identification) {
+  std::vector<double> forces;
+  for (const LoadCase& load_case : identification.cases) forces.push_back(load_case.wrench.force.norm());
+  const auto [least, most] = std::minmax_element(forces.begin(), forces.end());
+  if (*most <= 1.02 * *least) return "The same load moves";
+  return fmt::format("Loads of {} to {} move", kilonewtons(*least), kilonewtons(*most));
+}
+
+/// The point whose vectors the scene of all postures shows.
+std::string vectorPoint(const ReportCampaign& one) {
+  if (page::judgedPoint(one).at_wrist) return "P_{wrist}";
+  return page::pointName(one.campaign.targets.front().id);
+}
+
+}  // namespace
+
+std::size_t medianCase(const ReportCampaign& one) {
+  const auto& values = page::displacementAt(one.identification, page::judgedPoint(one).at_wrist);
+  std::vector<std::size_t> order(values.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  const auto middle = order.begin() + static_cast<std::ptrdiff_t>((order.size() - 1) / 2);
+  std::nth_element(order.begin(), middle, order.end(), [&](std::size_t a, std::size_t b) {
+    return values[a] != values[b] ? values[a] < values[b] : a < b;
+  });
+  return *middle;
+}
+
+ArmScene deflectionScene(const ReportCampaign& one) {
+  const std::size_t index = medianCase(one);
+  const double force = one.identification.cases[index].wrench.force.norm();
+  ArmScene scene;
+  scene.title = fmt::format("Deflection in posture {} under {}", poseName(one, index), kilonewtons(force));
+  scene.subtitle = one.campaign.name;
+  scene.poses = {armPose(one, index)};
+  scene.predicted_name = predictedName(one);
+  return scene;
+}
+
+ArmScene allPosturesScene(const ReportCampaign& one) {
+  ArmScene scene;
+  scene.title =
+      fmt::format("Deflection of {} in all {} postures", vectorPoint(one), one.identification.cases.size());
+  scene.subtitle = one.campaign.name;
+  scene.predicted_name = predictedName(one);
+  for (std::size_t i = 0; i < one.identification.cases.size(); ++i) {
+    ArmPose pose = armPose(one, i);
+    pose.ghost = true;
+    if (pose.wrist) {
+      pose.targets.clear();
+    } else {
+      pose.targets.resize(std::min<std::size_t>(1, pose.targets.size()));
+    }
+    scene.poses.push_back(std::move(pose));
+  }
+  return scene;
+}
+
+Figure describeDeflectionScene(const ReportCampaign& one, double magnification) {
+  const std::size_t index = medianCase(one);
+  const page::JudgedPoint point = page::judgedPoint(one);
+  const double displacement = kMmPerM * page::displacementAt(one.identification, point.at_wrist)[index];
+  Figure figure;
+  figure.id = "deflection";
+  figure.title = fmt::format("Deflection in posture {}", poseName(one, index));
+  figure.caption =
+      fmt::format("The posture with the median displacement of {}, {}\u00a0mm, magnified {} times.",
+                  point.name, page::fixed(displacement, 2), page::fixed(magnification, 0));
+  if (const auto shown = page::shownMethod(one.identification)) {
+    const double left = kMmPerM * page::residualAt(one.identification.of(*shown), point.at_wrist)[index];
+    figure.caption += fmt::format(" Where the arrows part is what {} leaves: {}\u00a0mm at {}.",
+                                  page::shortName(*shown), page::significant(left, 2), point.name);
+  }
+  figure.caption += fmt::format(" {}", framesWords(one));
+  figure.alt = fmt::format(
+      "The arm in posture {} with arrows for the measured and predicted displacement of its reflectors{}, "
+      "magnified {} times.",
+      poseName(one, index), point.at_wrist ? " and wrist centre" : "", page::fixed(magnification, 0));
+  return figure;
+}
+
+Figure describeAllPostures(const ReportCampaign& one, double magnification) {
+  const page::JudgedPoint point = page::judgedPoint(one);
+  const auto& values = page::displacementAt(one.identification, point.at_wrist);
+  const auto [least, most] = std::minmax_element(values.begin(), values.end());
+  Figure figure;
+  figure.id = "all-postures";
+  figure.title = fmt::format("Deflection of {} in all postures", vectorPoint(one));
+  figure.caption = fmt::format(
+      "{} {} by {} to {}\u00a0mm, depending on the posture; vectors magnified {} "
+      "times. {}",
+      loadWords(one.identification), point.name, page::fixed(kMmPerM * *least, 2),
+      page::fixed(kMmPerM * *most, 2), page::fixed(magnification, 0), framesWords(one));
+  figure.alt =
+      fmt::format("All {} postures of the arm, pale, with an arrow for the displacement of {} in each.",
+                  values.size(), page::plain(vectorPoint(one)));
+  return figure;
+}
+
+}  // namespace stiffscope

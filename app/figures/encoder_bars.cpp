@@ -1,0 +1,55 @@
+#include "app/figures/encoder_bars.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "reports/page/html.h"
+#include "reports/page/numbers.h"
+
+namespace stiffscope {
+
+namespace {
+
+constexpr double kMmPerM = 1e3;
+constexpr Colour kActive{70, 78, 96};  // slate: no method's colour
+
+}  // namespace
+
+GroupedBarChart encoderBars(const AvoidedShare& avoided) {
+  GroupedBarChart chart;
+  chart.title = fmt::format("Displacement of {} without and with double encoders", avoided.point);
+  chart.subtitle = fmt::format("{} of it avoided over {} postures; no compensation",
+                               page::percent(avoided.share), avoided.postures.size());
+  chart.y_title = fmt::format("Displacement of {} (mm)", avoided.point);
+  chart.category_title = "Posture";
+  chart.series = {{"double encoders inactive", colours::kNone, {}, {}},
+                  {"double encoders active", kActive, {}, {}}};
+  for (const AvoidedPosture& posture : avoided.postures) {
+    chart.categories.push_back(posture.pose);
+    chart.series[0].values.push_back(kMmPerM * posture.inactive);
+    chart.series[1].values.push_back(kMmPerM * posture.active);
+  }
+  return chart;
+}
+
+Figure describeEncoderBars(const AvoidedShare& avoided) {
+  const auto share = [](const AvoidedPosture& posture) { return 1.0 - posture.active / posture.inactive; };
+  const auto [least, most] = std::minmax_element(
+      avoided.postures.begin(), avoided.postures.end(),
+      [&](const AvoidedPosture& a, const AvoidedPosture& b) { return share(a) < share(b); });
+  Figure figure;
+  figure.id = "double-encoders";
+  figure.title = fmt::format("Displacement of {} without and with double encoders", avoided.point);
+  figure.caption = fmt::format(
+      "Active double encoders avoid {} of the deflection in all; least in posture {} ({}), most in "
+      "posture {} ({}).",
+      page::percent(avoided.share), least->pose, page::percent(share(*least), 0), most->pose,
+      page::percent(share(*most), 0));
+  figure.alt = fmt::format(
+      "Bars by posture: length of the displacement of {} with the double encoders inactive and active.",
+      page::plain(avoided.point));
+  return figure;
+}
+
+}  // namespace stiffscope

@@ -1,0 +1,64 @@
+#include "app/figures/make_figures.h"
+
+#include <fmt/format.h>
+
+#include "app/figures/deflection_scene.h"
+#include "app/figures/encoder_bars.h"
+#include "app/figures/residual_bars.h"
+#include "app/figures/stiffness_intervals.h"
+#include "app/figures/subset_spreads.h"
+#include "render/png.h"
+#include "reports/page/avoided_share.h"
+
+namespace stiffscope {
+
+namespace {
+
+constexpr Size kChart{1200, 700};
+constexpr Size kScene{1200, 800};
+
+template <class Picture>
+Figure drawn(Figure figure, const Picture& picture, Size size) {
+  const Image image = render(picture, size);
+  figure.png = encodePng(image);
+  figure.width = image.width;
+  figure.height = image.height;
+  return figure;
+}
+
+std::vector<Figure> figuresOf(const ReportCampaign& one, const FigureOptions& options) {
+  std::vector<Figure> figures;
+  if (one.identification.cases.empty()) return figures;
+  const ArmScene scene = deflectionScene(one), all = allPosturesScene(one);
+  figures.push_back(drawn(describeDeflectionScene(one, automaticMagnification(scene)), scene, kScene));
+  figures.push_back(drawn(describeAllPostures(one, automaticMagnification(all)), all, kScene));
+  figures.push_back(drawn(describeResidualBars(one), residualBars(one), kChart));
+  const GroupedBarChart zoom = residualZoom(one);
+  if (zoom.series.size() == 2) figures.push_back(drawn(describeResidualZoom(one), zoom, kChart));
+  const SpreadChart spreads = subsetSpreads(one, options.with_paper);
+  if (!spreads.panels.empty()) figures.push_back(drawn(describeSubsetSpreads(one), spreads, kChart));
+  const IntervalChart intervals = stiffnessIntervals(one);
+  if (!intervals.series.empty()) figures.push_back(drawn(describeStiffnessIntervals(one), intervals, kChart));
+  return figures;
+}
+
+}  // namespace
+
+std::vector<Figure> makeFigures(const std::vector<ReportCampaign>& campaigns, const FigureOptions& options) {
+  std::vector<Figure> figures;
+  for (std::size_t i = 0; i < campaigns.size(); ++i) {
+    for (Figure& figure : figuresOf(campaigns[i], options)) {
+      if (campaigns.size() > 1) {
+        figure.id += fmt::format("-{}", i + 1);
+        figure.title = fmt::format("{}: {}", campaigns[i].campaign.name, figure.title);
+      }
+      figures.push_back(std::move(figure));
+    }
+  }
+  if (const auto avoided = avoidedShare(campaigns)) {
+    figures.push_back(drawn(describeEncoderBars(*avoided), encoderBars(*avoided), kChart));
+  }
+  return figures;
+}
+
+}  // namespace stiffscope

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <vector>
+
+#include "reports/page/figure.h"
+#include "reports/page/report_campaign.h"
+
+namespace stiffscope {
+
+struct FigureOptions {
+  bool with_paper =
+      false;  ///< the paper's means as dashed lines where the campaign's double encoders are declared
+};
+
+/// All pictures of a report, drawn: per campaign the deflection scene, all postures, Fig. 7, Fig. 8 (where PP
+/// and DPP both are available), the spread over subsets, the stiffnesses; then the double encoders where both
+/// states are there. What the data does not have is left out. With several campaigns ids end in "-1", "-2",
+/// in their order, and titles begin with the campaign's name. Throws std::runtime_error when offscreen
+/// rendering is not to be had.
+std::vector<Figure> makeFigures(const std::vector<ReportCampaign>& campaigns,
+                                const FigureOptions& options = {});
+
+}  // namespace stiffscope

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace tinyxml2 {
+class XMLPrinter;
+}
+
+namespace stiffscope::page {
+
+struct Attribute {
+  const char* name;
+  std::string value;
+};
+
+using Attributes = std::vector<Attribute>;
+
+/// Writes HTML5 that is well-formed XML too. Text and attributes are escaped; control characters and bytes
+/// that are not UTF-8 become '?'. Elements other than void ones get an end tag even when empty, because HTML
+/// reads <div/> as <div>.
+class Html {
+ public:
+  /// Closes its element when it goes out of scope.
+  class Element {
+   public:
+    explicit Element(Html& html) : html_(html) {}
+    ~Element();
+    Element(const Element&) = delete;
+    Element& operator=(const Element&) = delete;
+
+   private:
+    Html& html_;
+  };
+
+  Html();
+  ~Html();
+  Html(const Html&) = delete;
+  Html& operator=(const Html&) = delete;
+
+  [[nodiscard]] Element element(const char* name, const Attributes& attributes = {});
+  void voidElement(const char* name, const Attributes& attributes = {});  ///< meta, img
+  void text(const std::string& text);
+  void rich(const std::string& text);  ///< `x_{abc}` sets abc as a subscript
+  void leaf(const char* name, const std::string& rich_text, const Attributes& attributes = {});
+  void paragraph(const std::string& rich_text, const char* css_class = "");
+  void list(const std::vector<std::string>& rich_items);  ///< nothing where there is none
+
+  std::string bytes() const;
+
+ private:
+  void open(const char* name, const Attributes& attributes);
+  std::unique_ptr<tinyxml2::XMLPrinter> printer_;
+};
+
+/// `x_{abc}` as plain text: xabc without the marks, for alt texts and places that cannot have a subscript.
+std::string plain(const std::string& rich_text);
+
+}  // namespace stiffscope::page

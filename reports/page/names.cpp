@@ -1,0 +1,103 @@
+#include "reports/page/names.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <numeric>
+
+namespace stiffscope::page {
+
+namespace {
+
+std::string grouped(std::size_t count) {
+  std::string digits = std::to_string(count);
+  for (std::ptrdiff_t at = static_cast<std::ptrdiff_t>(digits.size()) - 3; at > 0; at -= 3) {
+    digits.insert(static_cast<std::size_t>(at), "\u00a0");
+  }
+  return digits;
+}
+
+}  // namespace
+
+std::string longName(Method method) {
+  constexpr std::array<const char*, 3> kNames{"Complete Pose (CP)", "Partial Pose (PP)",
+                                              "Decoupled Partial Pose (DPP)"};
+  return kNames[static_cast<std::size_t>(method)];
+}
+
+std::string shortName(Method method) {
+  constexpr std::array<const char*, 3> kNames{"CP", "PP", "DPP"};
+  return kNames[static_cast<std::size_t>(method)];
+}
+
+std::string jointName(int joint) { return fmt::format("k_{{{}}}", joint + 1); }
+
+std::string pointName(const std::string& target_id) {
+  const bool numbered = target_id.size() > 1 && std::isalpha(static_cast<unsigned char>(target_id[0])) != 0 &&
+                        std::all_of(target_id.begin() + 1, target_id.end(),
+                                    [](unsigned char c) { return std::isdigit(c) != 0; });
+  return numbered ? fmt::format("{}_{{{}}}", target_id[0], target_id.substr(1)) : target_id;
+}
+
+std::string encoderState(DoubleEncoder state) {
+  if (state == DoubleEncoder::unspecified) return "not declared";
+  return state == DoubleEncoder::active ? "active" : "inactive";
+}
+
+std::string encoderWords(DoubleEncoder state) {
+  return state == DoubleEncoder::unspecified ? std::string()
+                                             : fmt::format("double encoders {}", encoderState(state));
+}
+
+JudgedPoint judgedPoint(const ReportCampaign& one) {
+  if (!one.identification.wrist_displacement.empty()) return {true, "P_{wrist}"};
+  const std::size_t count = one.campaign.targets.size();
+  if (count == 1) return {false, fmt::format("the reflector {}", pointName(one.campaign.targets.front().id))};
+  return {false, fmt::format("the reflectors (mean of {})", count)};
+}
+
+const std::vector<double>& displacementAt(const Identification& identification, bool at_wrist) {
+  return at_wrist ? identification.wrist_displacement : identification.target_displacement;
+}
+
+const std::vector<double>& residualAt(const MethodResult& method, bool at_wrist) {
+  return at_wrist ? method.wrist_residual : method.target_residual;
+}
+
+const std::optional<Compensation>& compensationAt(const MethodResult& method, bool at_wrist) {
+  return at_wrist ? method.at_wrist : method.at_targets;
+}
+
+std::optional<double> heldOut(const MethodResult& method, bool at_wrist) {
+  const auto& compensation = compensationAt(method, at_wrist);
+  if (!compensation || method.subsets.compliances.empty()) return std::nullopt;
+  return compensation->subsets.held_out;
+}
+
+std::optional<Method> shownMethod(const Identification& identification) {
+  for (const Method method : {Method::decoupled_partial_pose, Method::partial_pose, Method::complete_pose}) {
+    if (identification.of(method).available) return method;
+  }
+  return std::nullopt;
+}
+
+double meanForce(const Identification& identification) {
+  std::vector<double> forces;
+  for (const LoadCase& load_case : identification.cases) forces.push_back(load_case.wrench.force.norm());
+  return mean(forces);
+}
+
+double mean(const std::vector<double>& values) {
+  if (values.empty()) return 0.0;
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+std::string subsetWords(const SubsetStudy& study) {
+  if (study.compliances.empty()) return {};
+  return fmt::format("{} {} subsets of {} of {} postures", study.every_subset ? "all" : "a sample of",
+                     grouped(study.compliances.size()), study.size, study.of);
+}
+
+}  // namespace stiffscope::page

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "reports/page/report_campaign.h"
+
+// What things are called on the page and in its pictures; rich texts (`x_{abc}` is a subscript).
+
+namespace stiffscope::page {
+
+std::string longName(Method method);                  ///< "Decoupled Partial Pose (DPP)"
+std::string shortName(Method method);                 ///< "DPP"
+std::string jointName(int joint);                     ///< 0-based: "k_{1}"
+std::string pointName(const std::string& target_id);  ///< "P10" as "P_{10}"; other names as they are
+std::string encoderState(DoubleEncoder state);        ///< "active", "inactive", "not declared"
+std::string encoderWords(DoubleEncoder state);        ///< "double encoders active"; empty where not declared
+
+/// Where deflections of a campaign are judged: P_wrist where it is measured, else the reflectors (mean over
+/// them).
+struct JudgedPoint {
+  bool at_wrist = false;
+  std::string name;  ///< "P_{wrist}", "the reflector TIP", "the reflectors (mean of 3)"
+};
+JudgedPoint judgedPoint(const ReportCampaign& one);
+
+const std::vector<double>& displacementAt(const Identification& identification,
+                                          bool at_wrist);                          ///< m, per case
+const std::vector<double>& residualAt(const MethodResult& method, bool at_wrist);  ///< m, per case
+const std::optional<Compensation>& compensationAt(const MethodResult& method, bool at_wrist);
+
+/// Compensated on the postures held out, mean over the subsets; empty where there are no subsets.
+std::optional<double> heldOut(const MethodResult& method, bool at_wrist);
+
+/// The method to show first: of those available the paper's order of trust, DPP, PP, CP.
+std::optional<Method> shownMethod(const Identification& identification);
+
+double meanForce(const Identification& identification);  ///< N, over the load cases; 0 without one
+double mean(const std::vector<double>& values);          ///< 0 of none
+
+/// "all 92 378 subsets of 10 of 19 postures"; empty where there are none.
+std::string subsetWords(const SubsetStudy& study);
+
+}  // namespace stiffscope::page

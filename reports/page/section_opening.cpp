@@ -1,0 +1,99 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "reports/page/names.h"
+#include "reports/page/numbers.h"
+#include "reports/page/sections.h"
+
+namespace stiffscope::page {
+
+namespace {
+
+constexpr double kMmPerM = 1e3;
+
+struct KeyNumber {
+  std::string value, words;
+};
+
+/// Name, date, machine and tracker of a campaign in a line.
+std::string campaignLine(const Campaign& campaign) {
+  std::vector<std::string> parts{campaign.name, campaign.date, campaign.robot.name};
+  parts.push_back(encoderWords(campaign.double_encoder));
+  parts.push_back(campaign.tracker ? campaign.tracker->model : "tracker not declared");
+  std::erase(parts, "");
+  return fmt::format("{}", fmt::join(parts, " · "));
+}
+
+/// The campaign the first numbers are of: the one with active double encoders where there are several, as in
+/// the paper.
+const ReportCampaign& leading(const ReportContent& content) {
+  const auto active = std::find_if(
+      content.campaigns.begin(), content.campaigns.end(),
+      [](const ReportCampaign& one) { return one.campaign.double_encoder == DoubleEncoder::active; });
+  return active == content.campaigns.end() ? content.campaigns.front() : *active;
+}
+
+KeyNumber deflection(const ReportCampaign& one, const JudgedPoint& point) {
+  const auto& displacement = displacementAt(one.identification, point.at_wrist);
+  if (displacement.empty()) return {"–", "deflection: no posture could be used"};
+  return {fmt::format("{}\u00a0mm", fixed(kMmPerM * mean(displacement), 2)),
+          fmt::format("mean deflection at {} under {}\u00a0kN, {} postures", point.name,
+                      fixed(1e-3 * meanForce(one.identification), 2), displacement.size())};
+}
+
+KeyNumber compensated(const ReportCampaign& one, const JudgedPoint& point) {
+  const auto shown = shownMethod(one.identification);
+  if (!shown) return {"–", "compensated: no method is available, see the stiffnesses"};
+  const MethodResult& method = one.identification.of(*shown);
+  if (const auto share = heldOut(method, point.at_wrist)) {
+    return {percent(*share, 0),
+            fmt::format("of it compensated by {} in postures held out", shortName(*shown))};
+  }
+  const auto& compensation = compensationAt(method, point.at_wrist);
+  return {percent(compensation ? compensation->all_postures : std::nan(""), 0),
+          fmt::format("of it compensated by {}, judged on the postures used", shortName(*shown))};
+}
+
+KeyNumber third(const ReportContent& content, const ReportCampaign& one) {
+  if (content.avoided) {
+    return {percent(content.avoided->share, 0),
+            fmt::format("of the deflection at {} avoided by the double encoders", content.avoided->point)};
+  }
+  const auto& joints = one.identification.identifiability.joints;
+  const auto seen =
+      std::count_if(joints.begin(), joints.end(), [](const auto& joint) { return joint.identifiable; });
+  return {fmt::format("{} of 6", seen), "joint stiffnesses that this data can see"};
+}
+
+}  // namespace
+
+void writeOpening(Html& html, const ReportContent& content) {
+  const auto header = html.element("header");
+  html.leaf("h1", content.title);
+  for (const ReportCampaign& one : content.campaigns)
+    html.leaf("p", campaignLine(one.campaign), {{"class", "faint"}});
+  html.paragraph(content.verdict, "verdict");
+  if (content.campaigns.empty()) return;
+  const ReportCampaign& one = leading(content);
+  const JudgedPoint point = judgedPoint(one);
+  const auto list = html.element("ul", {{"class", "numbers"}});
+  for (const KeyNumber& number : {deflection(one, point), compensated(one, point), third(content, one)}) {
+    const auto item = html.element("li");
+    html.leaf("b", number.value);
+    html.leaf("span", number.words);
+  }
+}
+
+void writeForEach(Html& html, const ReportContent& content, const char* id, const char* heading,
+                  const std::function<void(const ReportCampaign&)>& write) {
+  const auto section = html.element("section", {{"id", id}});
+  html.leaf("h2", heading);
+  for (const ReportCampaign& one : content.campaigns) {
+    if (content.campaigns.size() > 1) html.leaf("h3", one.campaign.name);
+    write(one);
+  }
+}
+
+}  // namespace stiffscope::page

@@ -1,0 +1,127 @@
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "core/input/units.h"
+#include "reports/page/html_table.h"
+#include "reports/page/names.h"
+#include "reports/page/numbers.h"
+#include "reports/page/sections.h"
+
+namespace stiffscope::page {
+
+namespace {
+
+constexpr double kMega = 1e6;
+
+std::string unavailable(const Identification& result, Method method) {
+  return fmt::format("{} is not available: {}.", longName(method), result.of(method).reason);
+}
+
+std::string markNote(const std::string& mark) {
+  return mark == "negative" ? "Negative: the data fits this joint with a stiffness that no spring has; "
+                              "printed as found, not clamped."
+                            : "Imprecise: the standard uncertainty exceeds the value.";
+}
+
+Cell stiffnessCell(const Identification& result, Method method, int joint, Notes& notes) {
+  const MethodResult& one = result.of(method);
+  if (!one.available) return {"not available", notes.mark(unavailable(result, method))};
+  if (!one.estimate.identifiable[static_cast<std::size_t>(joint)]) {
+    const std::string& reason = result.identifiability.joints[static_cast<std::size_t>(joint)].reason;
+    return {"not identifiable",
+            notes.mark(fmt::format("{} is not identifiable: {}.", jointName(joint), reason))};
+  }
+  const std::string value =
+      withUncertainty(one.estimate.stiffness(joint) / kMega, one.estimate.stiffnessSd(joint) / kMega);
+  const std::string mark = one.estimate.mark(joint);
+  return mark.empty() ? Cell(value) : Cell(value, fmt::format("{} {}", mark, notes.mark(markNote(mark))));
+}
+
+Table stiffnessTable(const Identification& result, Notes& notes) {
+  Table table{"Joint stiffness, 10⁶\u00a0Nm/rad, from all postures", {"Joint"}, {{}}};
+  for (const Method method : kMethods) table.columns.push_back(longName(method));
+  for (int joint = 0; joint < 6; ++joint) {
+    Row row{jointName(joint)};
+    for (const Method method : kMethods) row.push_back(stiffnessCell(result, method, joint, notes));
+    table.groups.front().rows.push_back(std::move(row));
+  }
+  return table;
+}
+
+/// Compliances are what the methods solve for: their uncertainty is symmetric where a stiffness's is not.
+Table complianceTable(const Identification& result) {
+  Table table{"Joint compliance, 10⁻⁹\u00a0rad/Nm", {"Joint"}, {{}}};
+  for (const Method method : kMethods) {
+    if (result.of(method).available) table.columns.push_back(longName(method));
+  }
+  for (int joint = 0; joint < 6 && table.columns.size() > 1; ++joint) {
+    if (!result.identifiability.joints[static_cast<std::size_t>(joint)].identifiable) continue;
+    Row row{fmt::format("1/{}", jointName(joint))};
+    for (const Method method : kMethods) {
+      const StiffnessEstimate& estimate = result.of(method).estimate;
+      if (!result.of(method).available) continue;
+      row.emplace_back(withUncertainty(1e9 * estimate.compliance[joint],
+                                       1e9 * std::sqrt(estimate.covariance(joint, joint))));
+    }
+    table.groups.front().rows.push_back(std::move(row));
+  }
+  return table;
+}
+
+Table fitTable(const Identification& result) {
+  Table table{
+      "The fits", {"Method", "Condition number", "rms residual (mm)", "Over degrees of freedom (mm)"}, {{}}};
+  for (const Method method : kMethods) {
+    if (!result.of(method).available) continue;
+    const StiffnessEstimate& estimate = result.of(method).estimate;
+    table.groups.front().rows.push_back({longName(method), significant(estimate.condition, 3),
+                                         significant(estimate.rms_residual / kMillimetre, 3),
+                                         significant(estimate.sigma / kMillimetre, 3)});
+  }
+  return table;
+}
+
+/// CP's result against the characteristic length, which is not unique.
+Table lengthTable(const Identification& result) {
+  Table table{"Complete Pose against the characteristic length L: stiffness in 10⁶\u00a0Nm/rad",
+              {"L (m)", "Condition"},
+              {{}}};
+  const auto& seen = result.of(Method::complete_pose).estimate.identifiable;
+  for (int joint = 0; joint < 6; ++joint) {
+    if (seen[static_cast<std::size_t>(joint)]) table.columns.push_back(jointName(joint));
+  }
+  constexpr std::size_t kEvery = 2;  // a dozen rows would say no more
+  for (std::size_t i = 0; i < result.length_sensitivity.size(); i += kEvery) {
+    const LengthSensitivity& at = result.length_sensitivity[i];
+    Row row{significant(at.length, 3), significant(at.condition, 3)};
+    for (int joint = 0; joint < 6; ++joint) {
+      if (seen[static_cast<std::size_t>(joint)])
+        row.emplace_back(significant(1e-6 / at.compliance[joint], 3));
+    }
+    table.groups.front().rows.push_back(std::move(row));
+  }
+  return table;
+}
+
+}  // namespace
+
+void writeStiffness(Html& html, const ReportContent& content) {
+  writeForEach(html, content, "stiffness", "Joint stiffness", [&](const ReportCampaign& one) {
+    Notes notes;
+    writeTable(html, stiffnessTable(one.identification, notes));
+    html.paragraph("± is one standard uncertainty, from the scatter between postures.", "faint");
+    notes.write(html);
+    writeTable(html, complianceTable(one.identification));
+    writeTable(html, fitTable(one.identification));
+    if (shownMethod(one.identification)) {
+      html.paragraph(
+          "Residuals per coordinate, of the positions that the method fits: P_{TCP} for CP, the reflectors "
+          "for PP and DPP.",
+          "faint");
+    }
+    writeTable(html, lengthTable(one.identification));
+  });
+}
+
+}  // namespace stiffscope::page

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <functional>
+
+#include "reports/page/html.h"
+#include "reports/page/report_content.h"
+
+// The sections of the report page, in their order. Each writes one <section> with an h2 of its own.
+
+namespace stiffscope::page {
+
+void writeOpening(Html& html, const ReportContent& content);       ///< title, verdict, the three numbers
+void writeConditions(Html& html, const ReportContent& content);    ///< method and conditions
+void writeWrist(Html& html, const ReportContent& content);         ///< Table I
+void writeLinks(Html& html, const ReportContent& content);         ///< link lengths and angles
+void writeStiffness(Html& html, const ReportContent& content);     ///< by method, from all postures
+void writeSubsets(Html& html, const ReportContent& content);       ///< Table II
+void writeCompensation(Html& html, const ReportContent& content);  ///< compensated and avoided shares
+void writeFigures(Html& html, const ReportContent& content);
+void writeLeftOut(Html& html, const ReportContent& content);     ///< what was not used or not found, and why
+void writeProvenance(Html& html, const ReportContent& content);  ///< inputs, versions, settings
+
+/// A section with its heading; `write` is called for each campaign, under an h3 with its name where there are
+/// several.
+void writeForEach(Html& html, const ReportContent& content, const char* id, const char* heading,
+                  const std::function<void(const ReportCampaign&)>& write);
+
+}  // namespace stiffscope::page
