@@ -65,15 +65,20 @@ std::vector<CaseEquations> poseEquations(const System& system, const Eigen::Vect
   return equations;
 }
 
-/// Solves by one method. For the finite deflection the equations are made again with the torque (K_c) and the middle
-/// posture that the last estimate implies.
+/// Solves by one method. For the finite deflection the equations are made again with the torque (K_c, and the wrench
+/// turned with the flange where its turn is not measured) and the middle posture that the last estimate implies.
 template <class Solve>
 StiffnessEstimate solveWith(System& system, bool finite_deflection, const Solve& solve) {
+  for (LoadCase& load_case : system.cases) {
+    load_case.middle.reset();
+    if (load_case.wrench_turns_with != 0) load_case.wrench = load_case.wrench_unturned;
+  }
   system.torques = jointTorques(system.geometry, system.cases);
-  for (LoadCase& load_case : system.cases) load_case.middle.reset();
   StiffnessEstimate estimate = solve(system);
   constexpr int kRounds = 2;  // K_c is about a hundredth: two rounds leave a millionth
   for (int round = 0; finite_deflection && round < kRounds; ++round) {
+    system.torques = jointTorquesWithGeometricStiffness(system.geometry, system.cases, estimate.compliance);
+    turnWrenches(system.geometry, estimate.compliance, system.torques, system.cases);
     system.torques = jointTorquesWithGeometricStiffness(system.geometry, system.cases, estimate.compliance);
     takeJacobiansAtMiddle(system.geometry, estimate.compliance, system.torques, system.cases);
     estimate = solve(system);

@@ -71,28 +71,23 @@ const LinkFrame* findLink(const Robot& arm, const std::string& name) {
   return nullptr;
 }
 
-/// The load cell's reading as a wrench in R0 (paper (30)).
-Wrench wrenchInR0(const LoadCell& cell, const LoadingGeometry& geometry, const LoadCase& load_case,
-                  const Vector6d& reading) {
+/// Brings the load cell's reading into R0 (paper (30)).
+void setWrench(const LoadCell& cell, const LoadingGeometry& geometry, const Vector6d& reading, LoadCase& load_case) {
   const LinkFrame* parent = findLink(geometry.arm, cell.parent);
+  const LinkFrame* turning = cell.axes_link ? findLink(geometry.arm, *cell.axes_link) : parent;
   const auto placeAt = [&](const LinkFrame& link, const std::optional<Eigen::Isometry3d>& flange) -> Eigen::Isometry3d {
     if (link.body == 6 && flange) {
       return *flange * geometry.arm.base_from_flange_at_zero.inverse() * link.base_from_link_at_zero;
     }
     return load_case.posture.motion[static_cast<std::size_t>(link.body)] * link.base_from_link_at_zero;
   };
-  Wrench wrench;
-  if (parent == nullptr) return wrench;  // the reader has refused such a campaign
-  wrench.point = placeAt(*parent, load_case.flange_unloaded) * cell.parent_from_cell.translation();
-  Eigen::Matrix3d axes = placeAt(*parent, load_case.flange_loaded).linear() * cell.parent_from_cell.linear();
-  if (cell.axes_link) {
-    if (const LinkFrame* link = findLink(geometry.arm, *cell.axes_link)) {
-      axes = placeAt(*link, load_case.flange_loaded).linear();
-    }
-  }
-  wrench.force = axes * reading.head<3>();
-  wrench.moment = axes * reading.tail<3>();
-  return wrench;
+  if (parent == nullptr || turning == nullptr) return;  // the reader has refused such a campaign
+  Eigen::Matrix3d axes = placeAt(*turning, load_case.flange_loaded).linear();
+  if (!cell.axes_link) axes = axes * cell.parent_from_cell.linear();
+  load_case.wrench = {placeAt(*parent, load_case.flange_unloaded) * cell.parent_from_cell.translation(),
+                      axes * reading.head<3>(), axes * reading.tail<3>()};
+  load_case.wrench_turns_with = turning->body == 6 && load_case.flange_loaded ? 0 : turning->body;
+  load_case.wrench_unturned = load_case.wrench;
 }
 
 using PoseDisplacements = std::vector<std::vector<const Displacement*>>;
@@ -202,7 +197,7 @@ std::vector<LoadCase> loadCases(const Campaign& campaign, const LoadingGeometry&
       leaveOut(pose, "no reflector was read both unloaded and in this load step");
       continue;
     }
-    load_case.wrench = wrenchInR0(*campaign.load_cell, geometry, load_case, loaded->wrench_in_cell);
+    setWrench(*campaign.load_cell, geometry, loaded->wrench_in_cell, load_case);
     cases.push_back(std::move(load_case));
   }
   return cases;

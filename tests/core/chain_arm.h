@@ -9,14 +9,15 @@
 
 namespace stiffscope {
 
-/// The tests' own arm: joint frames one in the other, multiplied out joint by joint as a URDF has them. Nothing of it
-/// is the product-of-exponentials form that it is to check.
+/// The tests' own arm: joint frames one in the other, multiplied out joint by joint as a URDF has them.
+/// Nothing of it is the product-of-exponentials form that it is to check.
 struct ChainArm {
-  std::array<Eigen::Isometry3d, 6> to_joint;  ///< from the frame of the body before to the joint's frame, joint at zero
-  std::array<Eigen::Vector3d, 6> axis;        ///< in the joint's frame
+  std::array<Eigen::Isometry3d, 6>
+      to_joint;  ///< from the frame of the body before to the joint's frame, joint at zero
+  std::array<Eigen::Vector3d, 6> axis;  ///< in the joint's frame
   Eigen::Isometry3d to_flange = Eigen::Isometry3d::Identity();
-  std::array<double, 6> mass{};               ///< of the body beyond each joint, kg
-  std::array<Eigen::Vector3d, 6> centre{};    ///< of mass, in the joint's frame
+  std::array<double, 6> mass{};             ///< of the body beyond each joint, kg
+  std::array<Eigen::Vector3d, 6> centre{};  ///< of mass, in the joint's frame
 
   /// base_from_joint of every joint, turned; [6] is base_from_flange.
   std::array<Eigen::Isometry3d, 7> framesAt(const Vector6d& q) const {
@@ -32,8 +33,8 @@ struct ChainArm {
   }
   Eigen::Isometry3d flangeAt(const Vector6d& q) const { return framesAt(q)[6]; }
 
-  /// Torque on each joint of a force that acts at a point of body `body` (1..6) and a moment, statics by hand:
-  /// axis . (M + (point - joint) x F).
+  /// Torque on each joint of a force that acts at a point of body `body` (1..6) and a moment, statics by
+  /// hand: axis . (M + (point - joint) x F).
   Vector6d torqueOf(const Vector6d& q, int body, const Eigen::Vector3d& point, const Eigen::Vector3d& force,
                     const Eigen::Vector3d& moment) const {
     const auto frames = framesAt(q);
@@ -86,9 +87,11 @@ struct ChainArm {
 /// An arm of the size of a FANUC M-900iB/700, masses round numbers; wrist axes that meet.
 inline ChainArm exampleChain() {
   ChainArm arm;
-  const Eigen::Vector3d steps[6] = {{0, 0, 0.94}, {0.41, 0, 0}, {0, 0, 1.12}, {0, 0, 0.25}, {1.285, 0, 0}, {0.3, 0, 0}};
+  const Eigen::Vector3d steps[6] = {{0, 0, 0.94}, {0.41, 0, 0},  {0, 0, 1.12},
+                                    {0, 0, 0.25}, {1.285, 0, 0}, {0.3, 0, 0}};
   const Eigen::Vector3d axes[6] = {{0, 0, 1}, {0, 1, 0}, {0, -1, 0}, {-1, 0, 0}, {0, -1, 0}, {-1, 0, 0}};
-  const Eigen::Vector3d centres[6] = {{0.15, 0, -0.2}, {0, 0, 0.5}, {-0.1, 0, 0.15}, {0.7, 0, 0}, {0.05, 0, 0}, {0, 0, 0}};
+  const Eigen::Vector3d centres[6] = {{0.15, 0, -0.2}, {0, 0, 0.5},  {-0.1, 0, 0.15},
+                                      {0.7, 0, 0},     {0.05, 0, 0}, {0, 0, 0}};
   arm.mass = {1000, 550, 650, 160, 60, 15};
   for (std::size_t j = 0; j < 6; ++j) {
     arm.to_joint[j].setIdentity();

@@ -8,8 +8,8 @@
 
 namespace stiffscope {
 
-/// Load cases of a machine with linear joint springs: each joint turned by c times its torque, both by the tests' own
-/// kinematics; reflectors, flange and wrist carried along by finite turns.
+/// Load cases of a machine with linear joint springs: each joint turned by c times its torque, both by the
+/// tests' own kinematics; reflectors, flange and wrist carried along by finite turns.
 struct LinearMachine {
   ChainArm chain = exampleChain();
   Vector6d compliance = exampleCompliance();
@@ -31,7 +31,8 @@ struct LinearMachine {
     }
     Noise noise(seed);
     for (int pose = 0; pose < postures; ++pose) {
-      const Eigen::Vector3d force = load_scale * 1500.0 * noise.normal3(), moment = load_scale * 300.0 * noise.normal3();
+      const Eigen::Vector3d force = load_scale * 1500.0 * noise.normal3(),
+                            moment = load_scale * 300.0 * noise.normal3();
       add(somePosture(noise), force, moment);
     }
   }
@@ -48,7 +49,8 @@ struct LinearMachine {
     one.posture = postureAt(geometry.arm, q);
     one.wrench = {point, force, moment};
     for (std::size_t k = 0; k < targets_in_flange.size(); ++k) {
-      one.targets.push_back({static_cast<int>(k), before * targets_in_flange[k], after * targets_in_flange[k], 1, 1});
+      one.targets.push_back(
+          {static_cast<int>(k), before * targets_in_flange[k], after * targets_in_flange[k], 1, 1});
     }
     one.absolute = true;
     one.flange_unloaded = before;
@@ -61,7 +63,8 @@ struct LinearMachine {
   std::vector<CaseEquations> reflectorEquations() const {
     std::vector<CaseEquations> equations;
     const auto torque = torques();
-    for (std::size_t i = 0; i < cases.size(); ++i) equations.push_back(partialPoseEquations(geometry, cases[i], torque[i]));
+    for (std::size_t i = 0; i < cases.size(); ++i)
+      equations.push_back(partialPoseEquations(geometry, cases[i], torque[i]));
     return equations;
   }
   std::vector<CaseEquations> poseEquations(const Eigen::Vector3d& tcp_in_flange = {0, 0, 0}) const {
@@ -76,7 +79,8 @@ struct LinearMachine {
     std::vector<CaseEquations> equations;
     const auto torque = torques();
     for (std::size_t i = 0; i < cases.size(); ++i) {
-      equations.push_back(wristEquations(geometry, cases[i], wristMove(cases[i], radii, wrist_at_zero).value(), torque[i]));
+      equations.push_back(
+          wristEquations(geometry, cases[i], wristMove(cases[i], radii, wrist_at_zero).value(), torque[i]));
     }
     return equations;
   }

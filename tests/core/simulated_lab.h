@@ -9,8 +9,8 @@
 
 namespace stiffscope {
 
-/// A day in a laboratory, noise free, made with the tests' own kinematics and statics: an arm that is not quite the
-/// nominal one, joint springs that give under its own weight and under loads, a tracker somewhere.
+/// A day in a laboratory, noise free, made with the tests' own kinematics and statics: an arm that is not
+/// quite the nominal one, joint springs that give under its own weight and under loads, a tracker somewhere.
 struct SimulatedLab {
   ChainArm nominal = exampleChain();
   ChainArm actual = exampleChain();
@@ -21,8 +21,9 @@ struct SimulatedLab {
   Vector6d compliance = Vector6d::Zero();
 
   SimulatedLab() {
-    tracker_from_base.linear() = (Eigen::AngleAxisd(2.1, Eigen::Vector3d::UnitZ()) *
-                                  Eigen::AngleAxisd(0.02, Eigen::Vector3d::UnitX())).toRotationMatrix();
+    tracker_from_base.linear() =
+        (Eigen::AngleAxisd(2.1, Eigen::Vector3d::UnitZ()) * Eigen::AngleAxisd(0.02, Eigen::Vector3d::UnitX()))
+            .toRotationMatrix();
     tracker_from_base.translation() << 3.1, -1.2, -0.7;
     flange_from_cell.translation() << 0.0, 0.0, 0.09;
     flange_from_cell.rotate(Eigen::AngleAxisd(0.3, Eigen::Vector3d::UnitZ()));
@@ -30,12 +31,14 @@ struct SimulatedLab {
 
   void withoutMasses() { nominal.mass.fill(0.0), actual.mass.fill(0.0); }
 
-  /// Joint angles of equilibrium under own weight and a dead force at the hook: springs and loads on the moved arm.
+  /// Joint angles of equilibrium under own weight and a dead force at the hook: springs and loads on the
+  /// moved arm.
   Vector6d settled(const Vector6d& q, const Eigen::Vector3d& force) const {
     Vector6d at = q;
     for (int i = 0; i < 40; ++i) {  // contracts a hundredfold a turn
       at = q + compliance.cwiseProduct(actual.weightTorque(at) +
-                                       actual.torqueOf(at, 6, actual.flangeAt(at) * hook_in_flange, force, Eigen::Vector3d::Zero()));
+                                       actual.torqueOf(at, 6, actual.flangeAt(at) * hook_in_flange, force,
+                                                       Eigen::Vector3d::Zero()));
     }
     return at;
   }
@@ -45,7 +48,8 @@ struct SimulatedLab {
     return tracker_from_base * (actual.flangeAt(settled_q) * targets_in_flange[target]);
   }
 
-  /// What the load cell reads: the dead force at the hook, about the cell's point, in the cell's axes as they stand.
+  /// What the load cell reads: the dead force at the hook, about the cell's point, in the cell's axes as they
+  /// stand.
   Vector6d cellReading(const Vector6d& settled_q, const Eigen::Vector3d& force) const {
     const Eigen::Isometry3d flange = actual.flangeAt(settled_q), cell = flange * flange_from_cell;
     const Eigen::Vector3d moment = (flange * hook_in_flange - cell.translation()).cross(force);
@@ -58,7 +62,8 @@ struct SimulatedLab {
     campaign.robot = nominal.robot();
     campaign.base_link = "base_link";
     campaign.flange_link = "tool0";
-    for (std::size_t k = 0; k < targets_in_flange.size(); ++k) campaign.targets.push_back({"P1" + std::to_string(k), {}});
+    for (std::size_t k = 0; k < targets_in_flange.size(); ++k)
+      campaign.targets.push_back({"P1" + std::to_string(k), {}});
     campaign.load_cell = LoadCell{"tool0", flange_from_cell, {}, 0.0, 0.0};
     return campaign;
   }
@@ -68,12 +73,14 @@ struct SimulatedLab {
     campaign.circle_sweeps = CircleSweeps{"circle_sweeps.csv", PointFrame::tracker, {}};
     constexpr int kStops = 9;
     for (int axis = 0; axis < 6; ++axis) {
-      const Vector6d start = axis == 0 ? Vector6d(Vector6d::Zero()) : degrees(-14, axis > 2 ? 8 : 0, 0, 0, 0, 0);
+      const Vector6d start =
+          axis == 0 ? Vector6d(Vector6d::Zero()) : degrees(-14, axis > 2 ? 8 : 0, 0, 0, 0, 0);
       for (int stop = 0; stop < kStops; ++stop) {
         Vector6d q = start;
         q[axis] += radians(-45.0 + 90.0 * stop / (kStops - 1));
         for (std::size_t k = 0; k < targets_in_flange.size(); ++k) {
-          campaign.circle_sweeps->rows.push_back({axis, std::to_string(stop), static_cast<int>(k), q, seen(settled(q), k)});
+          campaign.circle_sweeps->rows.push_back(
+              {axis, std::to_string(stop), static_cast<int>(k), q, seen(settled(q), k)});
         }
       }
     }
@@ -83,9 +90,11 @@ struct SimulatedLab {
     campaign.wrist_sweep = WristSweep{"wrist_sweep.csv", PointFrame::tracker, {}};
     Noise noise(5);
     for (int i = 0; i < 30; ++i) {
-      const Vector6d q = degrees(10, 5, -8, 120 * (2 * noise.uniform() - 1), 80 * (2 * noise.uniform() - 1), 120 * (2 * noise.uniform() - 1));
+      const Vector6d q = degrees(10, 5, -8, 120 * (2 * noise.uniform() - 1), 80 * (2 * noise.uniform() - 1),
+                                 120 * (2 * noise.uniform() - 1));
       for (std::size_t k = 0; k < targets_in_flange.size(); ++k) {
-        campaign.wrist_sweep->rows.push_back({std::to_string(i), static_cast<int>(k), q, seen(settled(q), k)});
+        campaign.wrist_sweep->rows.push_back(
+            {std::to_string(i), static_cast<int>(k), q, seen(settled(q), k)});
       }
     }
   }
