@@ -32,7 +32,8 @@ double distanceToLine(const JointLine& line, const Eigen::Vector3d& point) {
   return (point - line.point).cross(line.direction).norm();
 }
 
-/// R0 of the actual arm in its base: z along axis 1 upwards, x towards the flange, which stands ahead along +x.
+/// R0 of the actual arm in its base: z along axis 1 upwards, x towards the flange, which stands ahead along
+/// +x.
 Frame baseFromR0(const ChainArm& arm) {
   const JointLine one = jointLine(arm, 0), two = jointLine(arm, 1);
   Frame frame = Frame::Identity();
@@ -53,11 +54,13 @@ SimulatedLab labWithErrors() {
 TEST(MeasuredFrames, AnArmWithGeometryErrorsComesBack) {
   SimulatedLab lab = labWithErrors();
   lab.withoutMasses();
-  // The tool sits on the actual flange; its wrist axes do not quite meet, so the wrist sweep is of an arm whose do.
+  // The tool sits on the actual flange; its wrist axes do not quite meet, so the wrist sweep is of an arm
+  // whose do.
   Campaign campaign = lab.empty();
   lab.addCircleSweeps(campaign);
   const Frames frames = measureFrames(campaign);
-  constexpr double kExact = 1e-9;  // m and rad: rounding of 4 m by circle fits over 90 degrees, turned back five times
+  constexpr double kExact =
+      1e-9;  // m and rad: rounding of 4 m by circle fits over 90 degrees, turned back five times
 
   ASSERT_TRUE(frames.arm.points_placed);
   const Frame base_from_r0 = baseFromR0(lab.actual);
@@ -74,8 +77,9 @@ TEST(MeasuredFrames, AnArmWithGeometryErrorsComesBack) {
   for (std::size_t j = 0; j < 5; ++j) {
     const JointLine a = jointLine(lab.actual, j), b = jointLine(lab.actual, j + 1);
     const double angle = std::asin(std::min(1.0, a.direction.cross(b.direction).norm()));
-    EXPECT_NEAR(frames.links[j].angle, angle, j == 1 ? kExact : 1e-6) << j;  // asin loses half the digits at 90 degrees
-    if (j == 1) continue;                                                    // nearly parallel: below
+    EXPECT_NEAR(frames.links[j].angle, angle, j == 1 ? kExact : 1e-6)
+        << j;              // asin loses half the digits at 90 degrees
+    if (j == 1) continue;  // nearly parallel: below
     const auto [on_a, on_b] = feet(a, b);
     EXPECT_NEAR(frames.links[j].distance, (on_a - on_b).norm(), kExact) << j;
     EXPECT_FALSE(frames.links[j].near_parallel);
@@ -93,10 +97,13 @@ TEST(MeasuredFrames, AnArmWithGeometryErrorsComesBack) {
   const auto at_zero = lab.actual.framesAt(Vector6d::Zero());
   for (std::size_t k = 0; k < 3; ++k) {
     ASSERT_TRUE(frames.targets_in_r0_at_zero[k]);
-    EXPECT_LT((base_from_r0 * *frames.targets_in_r0_at_zero[k] - at_zero[6] * lab.targets_in_flange[k]).norm(), kExact);
+    EXPECT_LT(
+        (base_from_r0 * *frames.targets_in_r0_at_zero[k] - at_zero[6] * lab.targets_in_flange[k]).norm(),
+        kExact);
   }
 
-  // P_TCP: the flange plane stands 0.3 m from axis 5 along axis 6, as it does nominally; joint 6 points back at the arm.
+  // P_TCP: the flange plane stands 0.3 m from axis 5 along axis 6, as it does nominally; joint 6 points back
+  // at the arm.
   const JointLine five = jointLine(lab.actual, 4), six = jointLine(lab.actual, 5);
   const Eigen::Vector3d tcp = feet(five, six).second - 0.3 * six.direction;
   const Frame r0_from_flange = frames.arm.arm.base_from_flange_at_zero;
@@ -109,7 +116,8 @@ TEST(MeasuredFrames, WristCentreAndTableOne) {
   lab.withoutMasses();
   Noise noise(32);
   ChainArm disturbed = lab.nominal.disturbed(noise, 1e-3, 1e-3);
-  for (std::size_t j = 0; j < 4; ++j) lab.actual.to_joint[j] = disturbed.to_joint[j];  // the wrist's axes still meet
+  for (std::size_t j = 0; j < 4; ++j)
+    lab.actual.to_joint[j] = disturbed.to_joint[j];  // the wrist's axes still meet
   Campaign campaign = lab.empty();
   lab.addCircleSweeps(campaign);
   lab.addWristSweep(campaign);
@@ -117,12 +125,15 @@ TEST(MeasuredFrames, WristCentreAndTableOne) {
   ASSERT_TRUE(frames.wrist.measured) << frames.wrist.reason;
   const Vector6d q = campaign.wrist_sweep->rows.front().q;
   const Frame base_from_r0 = baseFromR0(lab.actual);
-  const Eigen::Vector3d centre = lab.actual.framesAt(q)[4].translation();  // joint 5's origin: on all three axes
+  const Eigen::Vector3d centre =
+      lab.actual.framesAt(q)[4].translation();  // joint 5's origin: on all three axes
   constexpr double kExact = 1e-9;
   EXPECT_LT((base_from_r0 * frames.wrist.centre_in_r0 - centre).norm(), kExact);
   EXPECT_LT((base_from_r0 * frames.wrist.nearest_axes_56_in_r0 - centre).norm(), kExact);
   EXPECT_LT((base_from_r0 * frames.wrist.centre_at_zero_in_r0 -
-             lab.actual.framesAt(Vector6d::Zero())[4].translation()).norm(), kExact);
+             lab.actual.framesAt(Vector6d::Zero())[4].translation())
+                .norm(),
+            kExact);
   EXPECT_LT(frames.wrist.miss_45, kExact);
   EXPECT_LT(frames.wrist.miss_56, kExact);
   ASSERT_EQ(frames.wrist.table.size(), 3u);
@@ -132,7 +143,8 @@ TEST(MeasuredFrames, WristCentreAndTableOne) {
   for (std::size_t k = 0; k < 3; ++k) {
     EXPECT_LT(frames.wrist.table[k].offset, kExact);
     EXPECT_EQ(frames.wrist.table[k].readings, 30);
-    EXPECT_NEAR(frames.wrist.radii[k], (lab.actual.flangeAt(q) * lab.targets_in_flange[k] - centre).norm(), kExact);
+    EXPECT_NEAR(frames.wrist.radii[k], (lab.actual.flangeAt(q) * lab.targets_in_flange[k] - centre).norm(),
+                kExact);
     barycentre += lab.actual.flangeAt(q_arm) * lab.targets_in_flange[k] / 3.0;
   }
   EXPECT_LT((base_from_r0 * frames.wrist.reflector_barycentre_in_r0 - barycentre).norm(), kExact);
@@ -154,7 +166,9 @@ TEST(MeasuredFrames, OwnWeightIsTakenOffByTheRightCompliance) {
     }
     const auto at_zero = lab.actual.framesAt(Vector6d::Zero());
     for (std::size_t k = 0; k < 3; ++k) {
-      worst = std::max(worst, (base_from_r0 * *frames.targets_in_r0_at_zero[k] - at_zero[6] * lab.targets_in_flange[k]).norm());
+      worst = std::max(
+          worst,
+          (base_from_r0 * *frames.targets_in_r0_at_zero[k] - at_zero[6] * lab.targets_in_flange[k]).norm());
     }
     return worst;
   };
@@ -164,10 +178,11 @@ TEST(MeasuredFrames, OwnWeightIsTakenOffByTheRightCompliance) {
   EXPECT_GT(with_sag, 1e-3);  // a ton of arm on springs of 3e6 Nm/rad sags by millimetres
   frames = refineFrames(campaign, frames, lab.compliance);
   EXPECT_TRUE(frames.sag_removed);
-  EXPECT_LT(error(frames), with_sag / 100.0);  // the sag is that of the arm known to some millimetres in metres
+  EXPECT_LT(error(frames),
+            with_sag / 100.0);  // the sag is that of the arm known to some millimetres in metres
   for (int round = 0; round < 3; ++round) frames = refineFrames(campaign, frames, lab.compliance);
-  // Masses keep their place in base_link, and gravity its direction, though the arm's links are a millimetre and a
-  // milliradian elsewhere: a thousandth or two each of 5 mm is left.
+  // Masses keep their place in base_link, and gravity its direction, though the arm's links are a millimetre
+  // and a milliradian elsewhere: a thousandth or two each of 5 mm is left.
   EXPECT_LT(error(frames), 3e-5);
 }
 
@@ -179,7 +194,8 @@ TEST(MeasuredFrames, WithTheNominalArmTheSagGoesCompletely) {
   Frames frames = measureFrames(campaign);
   for (int round = 0; round < 4; ++round) frames = refineFrames(campaign, frames, lab.compliance);
   const Frame r0_from_tracker = (lab.tracker_from_base * baseFromR0(lab.actual)).inverse();
-  // Base leans 0.02 rad in the tracker's frame, not in gravity's: nothing else is unknown. Three sag steps leave 1e-9 rad.
+  // Base leans 0.02 rad in the tracker's frame, not in gravity's: nothing else is unknown. Three sag steps
+  // leave 1e-9 rad.
   EXPECT_LT((frames.arm.r0_from_points.matrix() - r0_from_tracker.matrix()).norm(), 2e-8);
 }
 
@@ -265,7 +281,8 @@ TEST(RealSweeps, LinkLengths) {
   const auto folder = std::filesystem::path(STIFFSCOPE_SHARED_DIR) / "real" / "fanuc-r2000ic-sweeps";
   if (!std::filesystem::exists(folder)) GTEST_SKIP() << "the real sweeps are not beside the checkout";
   const Frames frames = measureFrames(readCampaign(folder).campaign);
-  // Real machine, 36 stops: the maker's 312 and 1075 mm, and what three programs make of the readings, within 0.3 mm.
+  // Real machine, 36 stops: the maker's 312 and 1075 mm, and what three programs make of the readings, within
+  // 0.3 mm.
   EXPECT_NEAR(1e3 * frames.links[0].distance, 311.4, 0.3);
   EXPECT_NEAR(1e3 * frames.links[1].distance, 1075.6, 0.3);
   EXPECT_TRUE(frames.links[1].near_parallel);

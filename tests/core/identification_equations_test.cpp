@@ -7,8 +7,9 @@
 namespace stiffscope {
 namespace {
 
-// A tenth of a newton: joints turn by 1e-7 rad, whose second order, and rounding of 1e-16 m in displacements of 1e-8 m
-// (3 m places: 5e-16), leave about 1e-6 of a compliance; ill-conditioned postures multiply that by some tens.
+// A tenth of a newton: joints turn by 1e-7 rad, whose second order, and rounding of 1e-16 m in displacements
+// of 1e-8 m (3 m places: 5e-16), leave about 1e-6 of a compliance; ill-conditioned postures multiply that by
+// some tens.
 constexpr double kLinear = 1e-5;
 constexpr int kPostures = 8;
 
@@ -17,11 +18,13 @@ TEST(LinearMachine, TorqueIsTheTestsOwn) {
   const auto torques = machine.torques();
   for (std::size_t i = 0; i < machine.cases.size(); ++i) {
     const Wrench& wrench = machine.cases[i].wrench;
-    const Vector6d own = machine.chain.torqueOf(machine.cases[i].q, 6, wrench.point, wrench.force, wrench.moment);
+    const Vector6d own =
+        machine.chain.torqueOf(machine.cases[i].q, 6, wrench.point, wrench.force, wrench.moment);
     EXPECT_LT((torques[i] - own).norm(), 1e-10 * own.norm());  // rounding of sums of 1e4 Nm
     const Eigen::Vector3d wrist = machine.cases[i].posture.motion[3] * machine.wrist_at_zero;
     for (const Eigen::Vector3d& elsewhere : {wrist, Eigen::Vector3d(5, -7, 9)}) {
-      const Vector6d there = jointTorque(machine.geometry.arm, machine.cases[i].posture, wrench.about(elsewhere));
+      const Vector6d there =
+          jointTorque(machine.geometry.arm, machine.cases[i].posture, wrench.about(elsewhere));
       EXPECT_LT((there - own).norm(), 1e-10 * own.norm());
     }
   }
@@ -49,7 +52,8 @@ TEST(CompletePose, OnlyTheDisplacementRowsAreDividedByTheLength) {
 
 TEST(PartialPose, GivesTheSpringsBack) {
   const LinearMachine machine(kPostures);
-  EXPECT_LT(worstError(partialPose(machine.reflectorEquations(), kAllJoints).compliance, machine.compliance), kLinear);
+  EXPECT_LT(worstError(partialPose(machine.reflectorEquations(), kAllJoints).compliance, machine.compliance),
+            kLinear);
 }
 
 TEST(DecoupledPartialPose, GivesTheSpringsBack) {
@@ -60,17 +64,22 @@ TEST(DecoupledPartialPose, GivesTheSpringsBack) {
 }
 
 TEST(FullLoad, WithoutTheMiddleOfTheDisplacementTheSecondOrderShows) {
-  // 1.5 kN: turns of 1e-3 rad. Jacobians unloaded leave their half; at the middle of the displacement its square.
+  // 1.5 kN: turns of 1e-3 rad. Jacobians unloaded leave their half; at the middle of the displacement its
+  // square.
   LinearMachine machine(kPostures, 1.0);
-  const double unloaded = worstError(partialPose(machine.reflectorEquations(), kAllJoints).compliance, machine.compliance);
+  const double unloaded =
+      worstError(partialPose(machine.reflectorEquations(), kAllJoints).compliance, machine.compliance);
   takeJacobiansAtMiddle(machine.geometry, machine.compliance, machine.torques(), machine.cases);
-  const double middle = worstError(partialPose(machine.reflectorEquations(), kAllJoints).compliance, machine.compliance);
+  const double middle =
+      worstError(partialPose(machine.reflectorEquations(), kAllJoints).compliance, machine.compliance);
   EXPECT_GT(unloaded, 1e-4);
   EXPECT_LT(middle, 1e-4);
 }
 
-/// Stacks equations and solves for the joints from `first` to `last` by QR, the right side less A c of the others.
-Eigen::VectorXd byHand(const std::vector<CaseEquations>& equations, int first, int count, const Vector6d& others) {
+/// Stacks equations and solves for the joints from `first` to `last` by QR, the right side less A c of the
+/// others.
+Eigen::VectorXd byHand(const std::vector<CaseEquations>& equations, int first, int count,
+                       const Vector6d& others) {
   Eigen::Index rows = 0;
   for (const CaseEquations& one : equations) rows += one.right.size();
   Eigen::MatrixXd matrix(rows, 6);
@@ -91,7 +100,8 @@ LinearMachine noisyMachine(int postures, std::uint64_t seed) {
   LinearMachine machine(postures, 1.0, seed);
   Noise noise(seed + 100);
   for (LoadCase& one : machine.cases) {
-    for (TargetMove& move : one.targets) move.loaded += 2e-5 * noise.normal3(), move.unloaded += 2e-5 * noise.normal3();
+    for (TargetMove& move : one.targets)
+      move.loaded += 2e-5 * noise.normal3(), move.unloaded += 2e-5 * noise.normal3();
   }
   return machine;
 }
@@ -128,8 +138,9 @@ TEST(MaskedJoint, IsLeftOutAndZero) {
   EXPECT_EQ(found.covariance(0, 0), 0.0);
 }
 
-// Coverage of the stated standard uncertainties: many machines, same springs, other noise; the truth must lie within 1.96
-// of them in about 95 %. Scatter between n postures estimates a covariance no better than n degrees of freedom do.
+// Coverage of the stated standard uncertainties: many machines, same springs, other noise; the truth must lie
+// within 1.96 of them in about 95 %. Scatter between n postures estimates a covariance no better than n
+// degrees of freedom do.
 
 std::array<double, 6> coverage(int postures, bool decoupled) {
   constexpr int kMachines = 500;
@@ -145,12 +156,13 @@ std::array<double, 6> coverage(int postures, bool decoupled) {
         move.unloaded += 2e-5 * noise.normal3();
       }
     }
-    const StiffnessEstimate found =
-        decoupled ? decoupledPartialPose(machine.wristEquationsOfAll(), machine.reflectorEquations(), kAllJoints)
-                  : partialPose(machine.reflectorEquations(), kAllJoints);
+    const StiffnessEstimate found = decoupled ? decoupledPartialPose(machine.wristEquationsOfAll(),
+                                                                     machine.reflectorEquations(), kAllJoints)
+                                              : partialPose(machine.reflectorEquations(), kAllJoints);
     for (int j = 0; j < 6; ++j) {
       const double sd = std::sqrt(found.covariance(j, j));
-      inside[static_cast<std::size_t>(j)] += std::abs(found.compliance[j] - machine.compliance[j]) < 1.96 * sd;
+      inside[static_cast<std::size_t>(j)] +=
+          std::abs(found.compliance[j] - machine.compliance[j]) < 1.96 * sd;
     }
   }
   for (double& one : inside) one /= kMachines;
@@ -190,8 +202,10 @@ TEST(Mark, NegativeAndImprecise) {
 
 TEST(WristMove, TakesTheLargestTriangleAndTheRootByTheArm) {
   LinearMachine machine(3, 1.0);
-  // A fourth reflector close to the first: the triangle with it is thin. Its reading is spoilt: it must not be used.
-  machine.geometry.targets_at_zero.push_back(*machine.geometry.targets_at_zero[0] + Eigen::Vector3d(0.001, 0, 0));
+  // A fourth reflector close to the first: the triangle with it is thin. Its reading is spoilt: it must not
+  // be used.
+  machine.geometry.targets_at_zero.push_back(*machine.geometry.targets_at_zero[0] +
+                                             Eigen::Vector3d(0.001, 0, 0));
   machine.radii.push_back((*machine.geometry.targets_at_zero[3] - machine.wrist_at_zero).norm());
   for (LoadCase& one : machine.cases) {
     one.targets.push_back(one.targets[0]);
@@ -221,7 +235,8 @@ TEST(CharacteristicLength, IsWhereTheStackedJacobianIsBestConditioned) {
       const auto frames = machine.chain.framesAt(one.q);
       for (std::size_t j = 0; j < 6; ++j) {
         const Eigen::Vector3d axis = frames[j].linear() * machine.chain.axis[j];
-        stacked.block<3, 1>(6 * i, static_cast<int>(j)) = axis.cross(frames[6].translation() - frames[j].translation()) / length;
+        stacked.block<3, 1>(6 * i, static_cast<int>(j)) =
+            axis.cross(frames[6].translation() - frames[j].translation()) / length;
         stacked.block<3, 1>(6 * i + 3, static_cast<int>(j)) = axis;
       }
     }
@@ -229,7 +244,8 @@ TEST(CharacteristicLength, IsWhereTheStackedJacobianIsBestConditioned) {
     return values[0] / values[5];
   };
   EXPECT_NEAR(found.condition, condition(found.length), 1e-8 * found.condition);
-  for (const double factor : {0.2, 0.8, 0.99, 1.01, 1.25, 5.0}) EXPECT_GT(condition(factor * found.length), found.condition);
+  for (const double factor : {0.2, 0.8, 0.99, 1.01, 1.25, 5.0})
+    EXPECT_GT(condition(factor * found.length), found.condition);
 }
 
 }  // namespace

@@ -10,7 +10,9 @@
 namespace stiffscope {
 namespace {
 
-double apart(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) { return (a.matrix() - b.matrix()).norm(); }
+double apart(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) {
+  return (a.matrix() - b.matrix()).norm();
+}
 
 Vector6d anyPosture(Noise& noise) {
   return Vector6d::NullaryExpr([&] { return 3.1 * (2.0 * noise.uniform() - 1.0); });
@@ -49,10 +51,10 @@ TEST(Kinematics, AgainstAUrdfsTransforms) {
     origin.rotate(Eigen::AngleAxisd(rpy.z(), Eigen::Vector3d::UnitZ()));
     origin.rotate(Eigen::AngleAxisd(rpy.y(), Eigen::Vector3d::UnitY()));
     origin.rotate(Eigen::AngleAxisd(rpy.x(), Eigen::Vector3d::UnitX()));
-    urdf << "<link name=\"l" << j + 1 << "\"/><joint name=\"j" << j + 1 << "\" type=\"" << (j < 6 ? "revolute" : "fixed")
-         << "\"><parent link=\"l" << j << "\"/><child link=\"l" << j + 1 << "\"/><origin xyz=\"" << xyz.transpose()
-         << "\" rpy=\"" << rpy.transpose() << "\"/><axis xyz=\"" << axis.transpose()
-         << "\"/><limit lower=\"-3\" upper=\"3\"/></joint>";
+    urdf << "<link name=\"l" << j + 1 << "\"/><joint name=\"j" << j + 1 << "\" type=\""
+         << (j < 6 ? "revolute" : "fixed") << "\"><parent link=\"l" << j << "\"/><child link=\"l" << j + 1
+         << "\"/><origin xyz=\"" << xyz.transpose() << "\" rpy=\"" << rpy.transpose() << "\"/><axis xyz=\""
+         << axis.transpose() << "\"/><limit lower=\"-3\" upper=\"3\"/></joint>";
     if (j == 6) {
       chain.to_flange = origin;
     } else {
@@ -80,14 +82,15 @@ Eigen::Matrix4d dh(double theta, double d, double a, double alpha) {
 }
 
 TEST(Kinematics, AgainstDenavitHartenberg) {
-  // The example arm in DH numbers, worked out by hand from its drawing: offsets of theta bring DH's zero to it.
+  // The example arm in DH numbers, worked out by hand from its drawing: offsets of theta bring DH's zero to
+  // it.
   constexpr double kQuarter = std::numbers::pi / 2.0;
   const Robot arm = exampleChain().robot();
   Noise noise(3);
   for (int k = 0; k < 100; ++k) {
     const Vector6d q = anyPosture(noise);
-    // z1 = -y so that joint 2 (about +y) turns it by -q2; z2 = -y too, joint 3 turns about -y; z3 = x ahead, joint 4
-    // turns about -x; z4 = -y, joint 5 about -y; z5 = x, joint 6 about -x.
+    // z1 = -y so that joint 2 (about +y) turns it by -q2; z2 = -y too, joint 3 turns about -y; z3 = x ahead,
+    // joint 4 turns about -x; z4 = -y, joint 5 about -y; z5 = x, joint 6 about -x.
     const Eigen::Matrix4d flange = dh(q[0], 0.94, 0.41, kQuarter) * dh(kQuarter - q[1], 0, 1.12, 0) *
                                    dh(q[2], 0, 0.25, kQuarter) * dh(-q[3], 1.285, 0, -kQuarter) *
                                    dh(q[4], 0, 0, kQuarter) * dh(-q[5], 0.3, 0, 0);
@@ -96,8 +99,9 @@ TEST(Kinematics, AgainstDenavitHartenberg) {
     // The flange's z is along z5 both ways; its x and y are those of DH up to a fixed turn about it.
     EXPECT_LT((found.linear().col(2) - flange.block<3, 1>(0, 2)).norm(), 1e-13);
     const Eigen::Matrix3d at_zero = exampleChain().flangeAt(Vector6d::Zero()).linear();
-    const Eigen::Matrix4d dh_zero = dh(0, 0.94, 0.41, kQuarter) * dh(kQuarter, 0, 1.12, 0) * dh(0, 0, 0.25, kQuarter) *
-                                    dh(0, 1.285, 0, -kQuarter) * dh(0, 0, 0, kQuarter) * dh(0, 0.3, 0, 0);
+    const Eigen::Matrix4d dh_zero = dh(0, 0.94, 0.41, kQuarter) * dh(kQuarter, 0, 1.12, 0) *
+                                    dh(0, 0, 0.25, kQuarter) * dh(0, 1.285, 0, -kQuarter) *
+                                    dh(0, 0, 0, kQuarter) * dh(0, 0.3, 0, 0);
     const Eigen::Matrix3d fixed = dh_zero.topLeftCorner<3, 3>().transpose() * at_zero;
     EXPECT_LT((found.linear() - flange.topLeftCorner<3, 3>() * fixed).norm(), 1e-13);
   }
@@ -118,7 +122,8 @@ TEST(Jacobian, AgainstFiniteDifferencesOfTheChain) {
       const Eigen::Vector3d velocity = (ahead * in_flange - behind * in_flange) / (2 * kStep);
       const Eigen::AngleAxisd turn(ahead.linear() * behind.linear().transpose());
       const Eigen::Vector3d rate = turn.angle() * turn.axis() / (2 * kStep);
-      // Rounding of 1e-16 m over 2e-6 rad, and the third derivative of 2 m times the step squared: 1e-9 together.
+      // Rounding of 1e-16 m over 2e-6 rad, and the third derivative of 2 m times the step squared: 1e-9
+      // together.
       EXPECT_LT((jacobian.block<3, 1>(0, j) - velocity).norm(), 1e-8);
       EXPECT_LT((jacobian.block<3, 1>(3, j) - rate).norm(), 1e-8);
     }

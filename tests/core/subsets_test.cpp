@@ -24,7 +24,8 @@ struct Problem {
     wrist = machine.wristEquationsOfAll();
     reflectors = machine.reflectorEquations();
     method.unknown = kAllJoints;
-    for (const CaseEquations& one : decoupled ? wrist : reflectors) method.normal.push_back(normalEquations(one));
+    for (const CaseEquations& one : decoupled ? wrist : reflectors)
+      method.normal.push_back(normalEquations(one));
     if (decoupled) {
       for (const CaseEquations& one : reflectors) method.reflectors.push_back(normalEquations(one));
     }
@@ -46,12 +47,15 @@ double compensated(const std::vector<CaseEquations>& all, unsigned bits, const V
   double left = 0.0, whole = 0.0;
   for (const CaseEquations& one : chosen(all, bits)) {
     const Eigen::VectorXd rest = one.right - one.matrix * c;
-    for (Eigen::Index at = 0; at < rest.size(); at += 3) left += rest.segment<3>(at).norm(), whole += one.right.segment<3>(at).norm();
+    for (Eigen::Index at = 0; at < rest.size(); at += 3)
+      left += rest.segment<3>(at).norm(), whole += one.right.segment<3>(at).norm();
   }
   return 1.0 - left / whole;
 }
 
-bool before(const Vector6d& a, const Vector6d& b) { return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end()); }
+bool before(const Vector6d& a, const Vector6d& b) {
+  return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end());
+}
 
 TEST(Subsets, FourOfSevenAreThoseSolvedOneByOne) {
   for (const bool decoupled : {false, true}) {
@@ -61,8 +65,9 @@ TEST(Subsets, FourOfSevenAreThoseSolvedOneByOne) {
     for (unsigned bits = 0; bits < 1U << 7; ++bits) {
       if (std::popcount(bits) != 4) continue;
       const auto reflectors = chosen(problem.reflectors, bits);
-      const Vector6d c = decoupled ? decoupledPartialPose(chosen(problem.wrist, bits), reflectors, kAllJoints).compliance
-                                   : partialPose(reflectors, kAllJoints).compliance;
+      const Vector6d c =
+          decoupled ? decoupledPartialPose(chosen(problem.wrist, bits), reflectors, kAllJoints).compliance
+                    : partialPose(reflectors, kAllJoints).compliance;
       direct.push_back(c);
       sum.used += compensated(problem.wrist, bits, c) / 35.0;
       sum.held_out += compensated(problem.wrist, ~bits & 127U, c) / 35.0;
@@ -97,7 +102,8 @@ TEST(Subsets, ThePapersTenOfNineteenAreAll92378) {
   const SubsetStudy again = studySubsets(problem.method);
   EXPECT_TRUE(std::equal(study.compliances.begin(), study.compliances.end(), again.compliances.begin()));
   EXPECT_EQ(study.at_targets.held_out, again.at_targets.held_out);
-  // Every posture is drawn equally often, so the mean over the subsets is near the whole's: within the noise's size.
+  // Every posture is drawn equally often, so the mean over the subsets is near the whole's: within the
+  // noise's size.
   Vector6d mean = Vector6d::Zero();
   for (const Vector6d& one : study.compliances) mean += one / static_cast<double>(study.compliances.size());
   EXPECT_LT(worstError(mean, exampleCompliance()), 0.05);
@@ -113,7 +119,8 @@ TEST(Subsets, ASampleIsTheSameForTheSameSeed) {
   ASSERT_EQ(one.compliances.size(), 500u);
   EXPECT_TRUE(std::equal(one.compliances.begin(), one.compliances.end(), two.compliances.begin()));
   options.seed = 2;
-  EXPECT_FALSE(std::equal(one.compliances.begin(), one.compliances.end(), studySubsets(problem.method, options).compliances.begin()));
+  EXPECT_FALSE(std::equal(one.compliances.begin(), one.compliances.end(),
+                          studySubsets(problem.method, options).compliances.begin()));
 }
 
 TEST(Subsets, OfAllOrMoreThereIsNothingToStudy) {
@@ -146,7 +153,8 @@ TEST(StiffnessSpread, ByHand) {
   EXPECT_DOUBLE_EQ(spread.quartile_high, 0.5);
   EXPECT_DOUBLE_EQ(spread.share_negative, 0.2);
   EXPECT_NEAR(spread.compliance_mean, 1.6, 1e-15);
-  EXPECT_NEAR(spread.compliance_sd, std::sqrt((2.4 * 2.4 + 0.36 + 5.6 * 5.6 + 0.16 + 3.4 * 3.4) / 4.0), 1e-12);
+  EXPECT_NEAR(spread.compliance_sd, std::sqrt((2.4 * 2.4 + 0.36 + 5.6 * 5.6 + 0.16 + 3.4 * 3.4) / 4.0),
+              1e-12);
 }
 
 TEST(DeflectionJudge, ByHand) {

@@ -4,9 +4,10 @@
 #include "metrology/sphere_fit.h"
 #include "tests/metrology/simulated_points.h"
 
-// Do the stated covariances say the truth? Many measurements are made of one known axis or centre; the 95 % region of
-// each fit (chi-square of as many degrees of freedom as parameters) must hold the truth in 93-97 % of them: 2000 draws
-// have a standard error of 0.5 % on 95 %, and the factor chi2/dof, which is applied only where above 1, adds about 1 % (here 68 and 54 degrees of freedom).
+// Do the stated covariances say the truth? Many measurements are made of one known axis or centre; the 95 %
+// region of each fit (chi-square of as many degrees of freedom as parameters) must hold the truth in 93-97 %
+// of them: 2000 draws have a standard error of 0.5 % on 95 %, and the factor chi2/dof, which is applied only
+// where above 1, adds about 1 % (here 68 and 54 degrees of freedom).
 
 namespace stiffscope {
 namespace {
@@ -37,8 +38,8 @@ double axisCoverage(double degrees) {
     std::vector<CirclePoints> circles(3);
     for (std::size_t target = 0; target < 3; ++target) {
       for (int i = 0; i < kStops; ++i) {
-        const Eigen::Vector3d point =
-            onCircle(kCentre, kAxis, radii[target], heights[target], from[target] + radians(degrees) * i / kStops);
+        const Eigen::Vector3d point = onCircle(kCentre, kAxis, radii[target], heights[target],
+                                               from[target] + radians(degrees) * i / kStops);
         const Eigen::Matrix3d covariance = seenFromOrigin(point, kAlong, kAcross);
         circles[target].points.push_back(point + noise.draw(covariance));
         circles[target].covariances.push_back(covariance);
@@ -94,7 +95,8 @@ TEST(Coverage, CommonCentreOfSpheres) {
     Eigen::VectorXd error(6);
     error << kCentre - fit.centre, radii[0] - fit.radii[0], radii[1] - fit.radii[1], radii[2] - fit.radii[2];
     const Eigen::Vector3d of_centre = error.head<3>();
-    centre_inside += of_centre.dot(fit.covariance.topLeftCorner<3, 3>().ldlt().solve(of_centre)) < kChiSquare3;
+    centre_inside +=
+        of_centre.dot(fit.covariance.topLeftCorner<3, 3>().ldlt().solve(of_centre)) < kChiSquare3;
     all_inside += error.dot(fit.covariance.ldlt().solve(error)) < kChiSquare6;
   }
   EXPECT_GT(centre_inside, 0.93 * kFits);

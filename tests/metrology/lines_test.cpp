@@ -48,17 +48,21 @@ TEST(DistanceAcross, ByHand) {
   const Line upright{{0, 0, -9}, {0, 0, 1}};
   const Line leaning{{1, 0, 0}, Eigen::Vector3d(0.1, 0, 1).normalized()};
   EXPECT_NEAR(distanceAcross(upright, leaning, {0, 0, 2}), 1.2, 1e-15);
-  EXPECT_NEAR(distanceAcross(upright, leaning, {7, -5, 2}), 1.2, 1e-15);  // only the place along the axis counts
+  EXPECT_NEAR(distanceAcross(upright, leaning, {7, -5, 2}), 1.2,
+              1e-15);  // only the place along the axis counts
   EXPECT_NEAR(distanceAcross(upright, {{3, 4, 1}, {0, 0, -1}}, {0, 0, 2}), 5.0, 1e-15);  // parallel
 }
 
 TEST(AngleBetween, SmallAnglesKeepTheirDigits) {
-  EXPECT_NEAR(angleBetween({{0, 0, 0}, {0, 0, 1}}, {{1, 0, 0}, {std::sin(1e-7), 0, -std::cos(1e-7)}}), 1e-7, 1e-16);
+  EXPECT_NEAR(angleBetween({{0, 0, 0}, {0, 0, 1}}, {{1, 0, 0}, {std::sin(1e-7), 0, -std::cos(1e-7)}}), 1e-7,
+              1e-16);
 }
 
 TEST(SweptArc, ByHand) {
   const Line axis{{0, 0, 0}, {0, 0, 1}};
-  const auto at = [](double degrees) { return Eigen::Vector3d(std::cos(radians(degrees)), std::sin(radians(degrees)), 0.3); };
+  const auto at = [](double degrees) {
+    return Eigen::Vector3d(std::cos(radians(degrees)), std::sin(radians(degrees)), 0.3);
+  };
   EXPECT_DOUBLE_EQ(sweptArc(axis, {}), 0.0);
   EXPECT_DOUBLE_EQ(sweptArc(axis, {at(10)}), 0.0);
   EXPECT_NEAR(sweptArc(axis, {at(10), at(50), at(30)}), radians(40), 1e-14);
@@ -68,7 +72,8 @@ TEST(SweptArc, ByHand) {
 }
 
 TEST(BaseFrame, ByHand) {
-  // Axis 1 upright at (1, 2); axis 2 along y, 0.3 ahead in x, 0.7 up, leaning up a little: z0, y0, origin are seen.
+  // Axis 1 upright at (1, 2); axis 2 along y, 0.3 ahead in x, 0.7 up, leaning up a little: z0, y0, origin are
+  // seen.
   const Line axis_1{{1, 2, -5}, {0, 0, 1}};
   const Line axis_2{{1.3, 9, 0.7 + 7 * 0.01}, Eigen::Vector3d(0, 1, 0.01).normalized()};
   const Eigen::Isometry3d frame = baseFrame(axis_1, axis_2);
@@ -111,8 +116,7 @@ double monteCarlo(const MeasuredLine& first, const MeasuredLine& second,
   double sum = 0.0, square = 0.0;
   const auto draw = [&](const MeasuredLine& line, const Eigen::Matrix4d& root) {
     const Eigen::Vector4d step = root * Eigen::Vector4d::NullaryExpr([&] { return noise.normal(); }).eval();
-    const Eigen::Vector3d direction =
-        line.line.direction + step[2] * line.across_u + step[3] * line.across_v;
+    const Eigen::Vector3d direction = line.line.direction + step[2] * line.across_u + step[3] * line.across_v;
     return Line{line.line.point + step[0] * line.across_u + step[1] * line.across_v, direction.normalized()};
   };
   for (int k = 0; k < kDraws; ++k) {
@@ -134,9 +138,11 @@ TEST(PropagatePair, AgreesWithMonteCarlo) {
   const auto angle = [](const Line& a, const Line& b) { return angleBetween(a, b); };
   // Differences are taken about a metre's distance: subtract it before squaring.
   const double d0 = distance(first.line, second.line), a0 = angle(first.line, second.line);
-  const double by_draws = monteCarlo(first, second, [&](const Line& a, const Line& b) { return distance(a, b) - d0; });
+  const double by_draws =
+      monteCarlo(first, second, [&](const Line& a, const Line& b) { return distance(a, b) - d0; });
   EXPECT_NEAR(distanceUncertainty(first, second), by_draws, kMonteCarlo * by_draws);
-  const double of_angle = monteCarlo(first, second, [&](const Line& a, const Line& b) { return angle(a, b) - a0; });
+  const double of_angle =
+      monteCarlo(first, second, [&](const Line& a, const Line& b) { return angle(a, b) - a0; });
   EXPECT_NEAR(angleUncertainty(first, second), of_angle, kMonteCarlo * of_angle);
 }
 

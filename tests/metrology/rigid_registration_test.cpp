@@ -24,7 +24,8 @@ Points moved(const Eigen::Isometry3d& motion, const Points& points) {
 }
 
 TEST(RegisterRigid, AQuarterTurnByHand) {
-  const RigidRegistration found = registerRigid({{1, 0, 0}, {0, 1, 0}, {-1, 0, 0}}, {{5, 1, 2}, {4, 0, 2}, {5, -1, 2}});
+  const RigidRegistration found =
+      registerRigid({{1, 0, 0}, {0, 1, 0}, {-1, 0, 0}}, {{5, 1, 2}, {4, 0, 2}, {5, -1, 2}});
   ASSERT_TRUE(found.determined);
   EXPECT_LT((found.to_from_source * Eigen::Vector3d(2, 0, 3) - Eigen::Vector3d(5, 2, 5)).norm(), 1e-14);
   EXPECT_LT(found.rms, 1e-15);
@@ -71,7 +72,9 @@ TEST(RegisterRigid, NeverAReflection) {
   // A mirror image of a solid: the best proper motion leaves a misfit.
   Noise noise(3);
   Points solid, mirrored;
-  for (int i = 0; i < 5; ++i) solid.push_back(noise.normal3()), mirrored.push_back(solid.back().cwiseProduct(Eigen::Vector3d(1, 1, -1)));
+  for (int i = 0; i < 5; ++i)
+    solid.push_back(noise.normal3()),
+        mirrored.push_back(solid.back().cwiseProduct(Eigen::Vector3d(1, 1, -1)));
   const RigidRegistration found = registerRigid(solid, mirrored);
   ASSERT_TRUE(found.determined);
   EXPECT_NEAR(found.to_from_source.linear().determinant(), 1.0, 1e-12);
@@ -79,9 +82,9 @@ TEST(RegisterRigid, NeverAReflection) {
 }
 
 TEST(RegisterRigid, UmeyamasReflectionCase) {
-  // Umeyama's example is plane and asks for a similarity; its rotation is also that of the rigid motion, for scale does
-  // not turn. His scale and shift do not apply here. In space a triangle may be turned over instead, so two more points
-  // above and below the centroids keep the motion in the plane, as it is in his.
+  // Umeyama's example is plane and asks for a similarity; its rotation is also that of the rigid motion, for
+  // scale does not turn. His scale and shift do not apply here. In space a triangle may be turned over
+  // instead, so two more points above and below the centroids keep the motion in the plane, as it is in his.
   const auto file = reference("published-vectors.json");
   if (!file) GTEST_SKIP() << "reference data are not beside the checkout";
   const auto& one = (*file)["similarity_umeyama_1991"];
@@ -102,7 +105,8 @@ TEST(RegisterRigid, UmeyamasReflectionCase) {
   for (int row = 0; row < 2; ++row) {
     for (int column = 0; column < 2; ++column) {
       EXPECT_NEAR(found.to_from_source.linear()(row, column),
-                  one["R"][static_cast<std::size_t>(row)][static_cast<std::size_t>(column)].get<double>(), 1e-6);  // as printed
+                  one["R"][static_cast<std::size_t>(row)][static_cast<std::size_t>(column)].get<double>(),
+                  1e-6);  // as printed
     }
   }
   EXPECT_NEAR(found.to_from_source.linear()(2, 2), 1.0, 1e-12);

@@ -12,8 +12,8 @@ namespace stiffscope {
 
 inline double radians(double degrees) { return degrees * std::numbers::pi / 180.0; }
 
-/// Normal numbers that are the same on every machine: Box-Muller on the generator's bits, because the standard library's
-/// normal_distribution may differ between libraries.
+/// Normal numbers that are the same on every machine: Box-Muller on the generator's bits, because the
+/// standard library's normal_distribution may differ between libraries.
 class Noise {
  public:
   explicit Noise(std::uint64_t seed) : random_(seed) {}
@@ -46,10 +46,11 @@ inline Eigen::Matrix3d seenFromOrigin(const Eigen::Vector3d& point, double along
 }
 
 /// A point at `angle` on a circle about `axis` (unit) through `centre`, `height` along it.
-inline Eigen::Vector3d onCircle(const Eigen::Vector3d& centre, const Eigen::Vector3d& axis, double radius, double height,
-                                double angle) {
+inline Eigen::Vector3d onCircle(const Eigen::Vector3d& centre, const Eigen::Vector3d& axis, double radius,
+                                double height, double angle) {
   // Any perpendicular serves; this one is made without the library's.
-  const Eigen::Vector3d helper = std::abs(axis.x()) < 0.6 ? Eigen::Vector3d::UnitX() : Eigen::Vector3d::UnitY();
+  const Eigen::Vector3d helper =
+      std::abs(axis.x()) < 0.6 ? Eigen::Vector3d::UnitX() : Eigen::Vector3d::UnitY();
   const Eigen::Vector3d u = (helper - helper.dot(axis) * axis).normalized();
   return centre + height * axis + radius * (std::cos(angle) * u + std::sin(angle) * axis.cross(u));
 }

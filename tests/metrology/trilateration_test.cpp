@@ -12,7 +12,8 @@ using Points = std::array<Eigen::Vector3d, 3>;
 using Radii = std::array<double, 3>;
 
 TEST(Trilaterate, ByHand) {
-  // P10 at the origin, P11 on x, P12 on y: e_x, e_y, e_z are the axes. The point (1, 2, 3) of the sides 4 and 5.
+  // P10 at the origin, P11 on x, P12 on y: e_x, e_y, e_z are the axes. The point (1, 2, 3) of the sides 4
+  // and 5.
   const Points points{Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(4, 0, 0), Eigen::Vector3d(0, 5, 0)};
   const auto both = trilaterate(points, {std::sqrt(14.0), std::sqrt(22.0), std::sqrt(19.0)});
   ASSERT_TRUE(both);
@@ -50,7 +51,8 @@ TEST(Trilaterate, TheSamePointWhicheverReflectorIsTheOrigin) {
       const auto turned = trilaterate({points[shift], points[(shift + 1) % 3], points[(shift + 2) % 3]},
                                       {radii[shift], radii[(shift + 1) % 3], radii[(shift + 2) % 3]});
       ASSERT_TRUE(turned);
-      // A cyclic permutation keeps the side of e_z, so the roots keep their order. Rounding, over sides of decimetres.
+      // A cyclic permutation keeps the side of e_z, so the roots keep their order. Rounding, over sides of
+      // decimetres.
       EXPECT_LT((turned->roots[0] - first->roots[0]).norm(), 1e-10);
       EXPECT_LT((turned->roots[1] - first->roots[1]).norm(), 1e-10);
     }
@@ -66,7 +68,8 @@ TEST(Trilaterate, RootsLieOnAllThreeSpheres) {
     const Eigen::Vector3d wrist = noise.normal3();
     Points points;
     Radii radii;
-    for (std::size_t i = 0; i < 3; ++i) points[i] = wrist + noise.normal3(), radii[i] = (points[i] - wrist).norm();
+    for (std::size_t i = 0; i < 3; ++i)
+      points[i] = wrist + noise.normal3(), radii[i] = (points[i] - wrist).norm();
     const auto both = trilaterate(points, radii);
     ASSERT_TRUE(both);
     for (const Eigen::Vector3d& root : both->roots) {
@@ -76,8 +79,8 @@ TEST(Trilaterate, RootsLieOnAllThreeSpheres) {
 }
 
 TEST(Trilaterate, SpheresThatDoNotMeet) {
-  const auto both = trilaterate({Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(0, 1, 0)},
-                                {0.1, 0.1, 0.1});
+  const auto both = trilaterate(
+      {Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(0, 1, 0)}, {0.1, 0.1, 0.1});
   ASSERT_TRUE(both);
   EXPECT_LT(both->height_squared, 0.0);
   EXPECT_EQ(both->roots[0], both->roots[1]);
@@ -85,9 +88,12 @@ TEST(Trilaterate, SpheresThatDoNotMeet) {
 }
 
 TEST(Trilaterate, RefusesReflectorsInOneLineOrPlace) {
-  EXPECT_FALSE(trilaterate({Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(1, 1, 0), Eigen::Vector3d(3, 3, 0)}, {1, 1, 1}));
-  EXPECT_FALSE(trilaterate({Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(3, 3, 0)}, {1, 1, 1}));
-  EXPECT_FALSE(trilaterate({Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(0, 2, 0), Eigen::Vector3d(1, 0, 0)}, {1, 1, 1}));
+  EXPECT_FALSE(
+      trilaterate({Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(1, 1, 0), Eigen::Vector3d(3, 3, 0)}, {1, 1, 1}));
+  EXPECT_FALSE(
+      trilaterate({Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(3, 3, 0)}, {1, 1, 1}));
+  EXPECT_FALSE(
+      trilaterate({Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(0, 2, 0), Eigen::Vector3d(1, 0, 0)}, {1, 1, 1}));
 }
 
 TEST(NearerRoot, TakesTheOneAsked) {
@@ -117,10 +123,12 @@ TEST(Trilaterate, PublishedPlaneCaseFindsTheTruthNotTheMirrorMinimum) {
   const Eigen::Vector3d truth = vector(one["truth"]);
   Points points;
   Radii radii;
-  for (std::size_t i = 0; i < 3; ++i) points[i] = vector(one["anchors"][i]), radii[i] = (points[i] - truth).norm();
+  for (std::size_t i = 0; i < 3; ++i)
+    points[i] = vector(one["anchors"][i]), radii[i] = (points[i] - truth).norm();
   const auto both = trilaterate(points, radii);
   ASSERT_TRUE(both);
-  for (const Eigen::Vector3d& root : both->roots) EXPECT_LT((root - truth).norm(), 1e-6);  // root of rounding, 1e-13
+  for (const Eigen::Vector3d& root : both->roots)
+    EXPECT_LT((root - truth).norm(), 1e-6);  // root of rounding, 1e-13
 }
 
 }  // namespace
