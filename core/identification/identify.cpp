@@ -203,16 +203,34 @@ class Identifier {
     study(out, swept_, equations, length);
   }
 
+  /// The system in the calibrated geometry. Where no sweep gave stiffnesses for the own weight's sag, calibration and
+  /// stiffnesses are found in turns here, or the sag would be taken for geometry.
+  System calibratedSystem() {
+    LoadingGeometry start = swept_.geometry;
+    const bool settle_sag = swept_.cases.empty() && result_.frames.weight.links_known;
+    for (int round = 0;; ++round) {
+      result_.calibration = calibrateGeometry(campaign_, start);
+      if (!result_.calibration.done) return swept_;
+      System system =
+          makeSystem(campaign_, result_.calibration.geometry, result_.frames.wrist, result_.step, nullptr);
+      if (!settle_sag || round == kSagRounds || system.cases.empty()) return system;
+      const JointMask seen = judgeJoints(system.geometry, system.cases, *campaign_.load_cell,
+                                         reflectorEquations(system), options_.trust).mask();
+      start.compliance = solveWith(system, options_.finite_deflection, [&](const System& one) {
+        return partialPose(reflectorEquations(one), seen);
+      }).compliance.cwiseMax(0.0);
+    }
+  }
+
   void partialPoseMethod() {
     MethodResult& out = method(Method::partial_pose);
     System system = swept_;
     if (campaign_.loading) {
-      result_.calibration = calibrateGeometry(campaign_, swept_.geometry);
+      system = calibratedSystem();
       if (!result_.calibration.done) {
         out.reason = "the geometry cannot be calibrated: " + result_.calibration.reason;
         return;
       }
-      system = makeSystem(campaign_, result_.calibration.geometry, result_.frames.wrist, result_.step, nullptr);
     } else {
       result_.calibration.reason = "the campaign has displacements only, no absolute positions: the URDF's geometry stands";
     }

@@ -147,6 +147,18 @@ TEST(Identify, WithoutAnySweepPartialPoseCalibratesItsBaseFromThePostures) {
   EXPECT_NE(found.of(Method::complete_pose).reason.find("circle sweeps"), std::string::npos);
 }
 
+TEST(Identify, WithoutAnySweepTheOwnWeightIsTakenIntoAccountToo) {
+  // The sag of millimetres must not be taken for geometry: springs and calibration are found in turns.
+  SimulatedLab lab;
+  lab.compliance = exampleCompliance();
+  Campaign campaign = lab.empty();
+  lab.addLoading(campaign, 25, pulledForce);
+  const Identification found = identify(campaign, quick());
+  ASSERT_TRUE(found.of(Method::partial_pose).available) << found.of(Method::partial_pose).reason;
+  EXPECT_LT(found.calibration.rms_after, 1e-6);
+  EXPECT_LT(worstError(found.of(Method::partial_pose).estimate.compliance, lab.compliance), 3e-4);
+}
+
 TEST(Identify, DisplacementsInTheRobotsAxes) {
   // One point of known place, displacements only, no sweep: Partial Pose alone, and says of the others why
   // not. The wrench is read in axes that turn with the flange by some milliradians, which only the model
