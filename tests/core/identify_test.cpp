@@ -284,6 +284,23 @@ TEST(JudgeJoints, AJointSeenOnlyInCombination) {
   }
 }
 
+TEST(JudgeJoints, PointsOnAnAxisDoNotShowIt) {
+  // One reflector on axis 6, or a tenth of a millimetre beside it, which is less than the axis is known to:
+  // the load turns joint 6 well, but nothing that is measured moves by it.
+  const LoadCell cell{"tool0", Eigen::Isometry3d::Identity(), {}, 1.0, 0.3};
+  for (const double beside : {0.0, 1e-4}) {
+    LinearMachine machine(0, 1.0);
+    machine.targets_in_flange = {{beside, 0.0, 0.2}};
+    Noise noise(4);
+    for (int i = 0; i < 10; ++i)
+      machine.add(somePosture(noise), 1000.0 * noise.normal3(), 200.0 * noise.normal3());
+    const Identifiability found =
+        judgeJoints(machine.geometry, machine.cases, cell, machine.reflectorEquations());
+    EXPECT_EQ(found.mask(), (JointMask{true, true, true, true, true, false})) << beside;
+    EXPECT_NE(found.joints[5].reason.find("measured"), std::string::npos) << found.joints[5].reason;
+  }
+}
+
 TEST(JudgeJoints, ATorqueBelowItsUncertaintyDoesNotCount) {
   LinearMachine machine(10, 1.0);
   const LoadCell vague{"tool0", Eigen::Isometry3d::Identity(), {}, 0.0, 1e5};  // a moment known to 1e5 Nm
