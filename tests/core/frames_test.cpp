@@ -212,6 +212,24 @@ TEST(MeasuredFrames, AnAxisTurnedBackThroughOneThatIsMissingIsNotMeasured) {
   EXPECT_NE(frames.axes[1].reason.find("axis 1"), std::string::npos) << frames.axes[1].reason;
 }
 
+TEST(MeasuredFrames, AWristSweepInAnotherFrameIsNotMixedIn) {
+  // Circle sweeps by the tracker, a wrist sweep written in base_link: R0 is only known in the former.
+  SimulatedLab lab;
+  lab.withoutMasses();
+  Campaign campaign = lab.empty();
+  lab.addCircleSweeps(campaign);
+  const Frames alone = measureFrames(campaign);
+  lab.addWristSweep(campaign);
+  campaign.wrist_sweep->frame = PointFrame::base_link;
+  for (WristReading& reading : campaign.wrist_sweep->rows) {
+    reading.point = lab.tracker_from_base.inverse() * reading.point;
+  }
+  const Frames frames = measureFrames(campaign);
+  EXPECT_FALSE(frames.wrist.measured);
+  EXPECT_NE(frames.wrist.reason.find("another frame"), std::string::npos) << frames.wrist.reason;
+  for (std::size_t k = 0; k < 3; ++k) EXPECT_EQ(*frames.targets_in_r0_at_zero[k], *alone.targets_in_r0_at_zero[k]);
+}
+
 TEST(MeasuredFrames, OtherJointsMovingIsSeen) {
   SimulatedLab lab;
   lab.withoutMasses();
