@@ -159,6 +159,10 @@ AxisFit fitAxis(const std::vector<CirclePoints>& circles) {
     fit.reason = "no reflector has three readings or more";
     return fit;
   }
+  if (std::any_of(circles.begin(), circles.end(), [](const CirclePoints& circle) { return circle.points.empty(); })) {
+    fit.reason = "a reflector has no readings";
+    return fit;
+  }
   if (!pooledNormal(circles, fit.axis.line.direction)) {
     fit.reason = "the readings lie on one line or in one place";
     return fit;

@@ -38,7 +38,8 @@ struct AxisFit {
 /// freedom and each circle's radius and height; weighted by the covariance of (radial, axial) where covariances
 /// are given. Covariance of the result: inverse normal matrix, times chi2/dof where that exceeds 1 (or times the
 /// residual variance where no covariances are given). Start: pooled plane normal and a common algebraic centre.
-/// Undetermined with a reason: fewer than 3 points in every circle, points that all lie on one line or in one place.
+/// Undetermined with a reason: fewer than 3 points in every circle, none in one of them, points that all lie on one line
+/// or in one place.
 AxisFit fitAxis(const std::vector<CirclePoints>& circles);
 
 }  // namespace stiffscope

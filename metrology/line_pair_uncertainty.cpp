@@ -1,6 +1,7 @@
 #include "metrology/line_pair_uncertainty.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 
 #include "metrology/common_perpendicular.h"
@@ -37,7 +38,18 @@ double distanceAcrossUncertainty(const MeasuredLine& first, const MeasuredLine& 
 }
 
 double angleUncertainty(const MeasuredLine& first, const MeasuredLine& second) {
-  return propagatePair(first, second, [](const Line& a, const Line& b) { return angleBetween(a, b); });
+  // The angle has no derivative where it is 0: the tilt about the common normal has, and is the angle to first order.
+  // Exactly parallel lines have no common normal: there the larger of the tilts in two planes.
+  const auto tiltAbout = [&](const Eigen::Vector3d& normal) {
+    return propagatePair(first, second, [&](const Line& a, const Line& b) {
+      const double cosine = a.direction.dot(b.direction);
+      return std::atan2(normal.dot(a.direction.cross(b.direction)) * (cosine < 0.0 ? -1.0 : 1.0), std::abs(cosine));
+    });
+  };
+  const Eigen::Vector3d cross = first.line.direction.cross(second.line.direction);
+  constexpr double kParallel = 1e-12;
+  if (cross.norm() > kParallel) return tiltAbout(cross.normalized());
+  return std::max(tiltAbout(first.across_u), tiltAbout(first.across_v));
 }
 
 }  // namespace stiffscope

@@ -108,6 +108,10 @@ SphereFit fitSpheres(const std::vector<SpherePoints>& spheres) {
   const int size = static_cast<int>(step.right.size());
   fit.degrees_of_freedom = step.residuals - size;
   const bool weighted = !spheres.front().covariances.empty();
+  if (!weighted && fit.degrees_of_freedom < 1) {
+    fit.reason = "too few readings for a centre with its uncertainty";
+    return fit;
+  }
   const double variance = fit.degrees_of_freedom > 0 ? step.chi2 / fit.degrees_of_freedom : 0.0;
   fit.chi2_per_dof = weighted ? variance : 1.0;
   fit.covariance = (weighted ? std::max(1.0, variance) : variance) *

@@ -27,7 +27,7 @@ struct SphereFit {
 /// Least squares on the radial residuals |x - centre| - r_k of the readings of one or more reflectors about one
 /// centre, weighted by the variance along the radius where covariances are given. Start: the linear (algebraic)
 /// common centre. Covariance as in fitAxis. Undetermined with a reason: fewer than four points for a reflector's
-/// sphere, or points in one plane.
+/// sphere, points in one plane, or, without covariances, no more readings than unknowns.
 SphereFit fitSpheres(const std::vector<SpherePoints>& spheres);
 
 }  // namespace stiffscope

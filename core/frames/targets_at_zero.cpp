@@ -24,7 +24,9 @@ std::vector<std::optional<Eigen::Vector3d>> targetsAtZero(const Campaign& campai
     }
   };
   if (campaign.circle_sweeps) add(campaign.circle_sweeps->rows, points.circle_sweeps);
-  if (campaign.wrist_sweep) add(campaign.wrist_sweep->rows, points.wrist_sweep);
+  if (campaign.wrist_sweep && campaign.wrist_sweep->frame == campaign.circle_sweeps->frame) {
+    add(campaign.wrist_sweep->rows, points.wrist_sweep);
+  }
   for (std::size_t k = 0; k < targets.size(); ++k) {
     if (counts[k] > 0) targets[k] = sums[k] / counts[k];
   }

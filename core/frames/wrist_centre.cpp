@@ -99,6 +99,11 @@ WristCentre measureWristCentre(const Campaign& campaign, const ArmInR0& arm, con
     wrist.reason = "R0 is not known in the frame of the readings: axes 1 and 2 were not swept";
     return wrist;
   }
+  // R0 is placed, so there are circle sweeps.
+  if (campaign.wrist_sweep->frame != campaign.circle_sweeps->frame) {
+    wrist.reason = "the wrist sweep's readings are in another frame than the circle sweeps'";
+    return wrist;
+  }
   if (!armStoodStill(*campaign.wrist_sweep)) {
     wrist.reason = "axes 1-3 moved during the wrist sweep";
     return wrist;

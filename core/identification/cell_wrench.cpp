@@ -24,6 +24,10 @@ Eigen::Isometry3d placeOf(const LinkFrame& link, const LoadingGeometry& geometry
 
 }  // namespace
 
+int bodyOfCellAxes(const LoadCell& cell, const LoadingGeometry& geometry) {
+  return linkNamed(geometry.arm, cell.axes_link ? *cell.axes_link : cell.parent).body;
+}
+
 Wrench cellWrench(const LoadCell& cell, const LoadingGeometry& geometry, const ArmPosture& posture,
                   const std::optional<Eigen::Isometry3d>& flange_unloaded,
                   const std::optional<Eigen::Isometry3d>& flange_loaded, const Vector6d& reading) {

@@ -14,4 +14,7 @@ Wrench cellWrench(const LoadCell& cell, const LoadingGeometry& geometry, const A
                   const std::optional<Eigen::Isometry3d>& flange_unloaded,
                   const std::optional<Eigen::Isometry3d>& flange_loaded, const Vector6d& reading);
 
+/// The body whose turn directs the load cell's axes: 0 where they stand still, 6 where they turn with the flange.
+int bodyOfCellAxes(const LoadCell& cell, const LoadingGeometry& geometry);
+
 }  // namespace stiffscope

@@ -24,6 +24,11 @@ std::vector<Vector6d> jointTorquesWithGeometricStiffness(const LoadingGeometry& 
                                                          const std::vector<LoadCase>& cases,
                                                          const Vector6d& compliance);
 
+/// Directs wrenches whose turn is not measured by that of the model: force and moment were read in axes that have turned
+/// with their body by c torque. First order in the deflection, as K_c is.
+void turnWrenches(const LoadingGeometry& geometry, const Vector6d& compliance, const std::vector<Vector6d>& torques,
+                  std::vector<LoadCase>& cases);
+
 /// Puts each case's Jacobian posture at the middle of its displacement: q_sagged + c torque / 2.
 void takeJacobiansAtMiddle(const LoadingGeometry& geometry, const Vector6d& compliance,
                            const std::vector<Vector6d>& torques, std::vector<LoadCase>& cases);

@@ -54,6 +54,25 @@ void judgeHanging(const LoadingGeometry& geometry, const std::vector<LoadCase>& 
   result.load_hangs = result.gravity_angle_rms < limits.hanging_within;
 }
 
+/// Marks joints about whose axis the measured points hardly move: their distance from it is no more than the place of
+/// the axis is trusted to. A column of the equations is that distance times the torque.
+void judgeLever(const std::vector<CaseEquations>& equations, const std::vector<Vector6d>& torques,
+                const TrustLimits& limits, Identifiability& result) {
+  Vector6d columns = Vector6d::Zero(), weights = Vector6d::Zero();
+  for (std::size_t i = 0; i < equations.size(); ++i) {
+    columns += equations[i].matrix.colwise().squaredNorm().transpose();
+    weights += torques[i].cwiseAbs2() * static_cast<double>(equations[i].matrix.rows() / 3);
+  }
+  for (int j = 0; j < 6; ++j) {
+    JointIdentifiability& joint = result.joints[static_cast<std::size_t>(j)];
+    const double lever = weights[j] > 0.0 ? std::sqrt(columns[j] / weights[j]) : 0.0;
+    if (!joint.identifiable || lever > limits.least_ratio * limits.position) continue;
+    joint.identifiable = false;
+    joint.reason = fmt::format("the measured points stand {:.2f} mm rms from axis {}: its turning does not move them",
+                               1e3 * lever, j + 1);
+  }
+}
+
 /// Marks joints that take part in a combination which the equations do not see.
 void judgeRank(const std::vector<CaseEquations>& equations, Identifiability& result) {
   NormalEquations sum;
@@ -99,11 +118,13 @@ Identifiability judgeJoints(const LoadingGeometry& geometry, const std::vector<L
   if (cases.empty()) return result;
   judgeHanging(geometry, cases, limits, result);
   const Eigen::Vector3d down = geometry.weight.gravity_in_base.normalized();
+  std::vector<Vector6d> torques;
   Vector6d torque = Vector6d::Zero(), trusted = Vector6d::Zero(), variance = Vector6d::Zero();
   for (const LoadCase& load_case : cases) {
     const Vector6d full = jointTorque(geometry.arm, load_case.posture, load_case.wrench);
     const Vector6d hanging =
         result.load_hangs ? jointTorque(geometry.arm, load_case.posture, hangingPart(load_case.wrench, down)) : full;
+    torques.push_back(full);
     torque += full.cwiseAbs2();
     trusted += hanging.cwiseAbs2();
     variance += torqueVariance(geometry, load_case, cell, limits);
@@ -124,6 +145,7 @@ Identifiability judgeJoints(const LoadingGeometry& geometry, const std::vector<L
                                      "that wrench, frame and angle uncertainty put there",
                                      j + 1, joint.trusted_rms, limits.least_ratio, joint.uncertainty_rms);
   }
+  judgeLever(equations, torques, limits, result);
   judgeRank(equations, result);
   return result;
 }

@@ -121,16 +121,29 @@ class Identifier {
     study(out, swept_, equations, length);
   }
 
+  /// The loaded arm in the calibrated geometry. Where no sweep gave stiffnesses for the own weight's sag, calibration
+  /// and stiffnesses are found in turns here, or the sag would be taken for geometry.
+  LoadedArm calibratedArm() {
+    LoadingGeometry start = swept_.geometry;
+    const bool settle_sag = swept_.cases.empty() && result_.frames.weight.links_known;
+    for (int round = 0;; ++round) {
+      result_.calibration = calibrateGeometry(campaign_, start);
+      if (!result_.calibration.done) return swept_;
+      LoadedArm arm = loadedArm(campaign_, result_.calibration.geometry, result_.frames.wrist, result_.step);
+      if (!settle_sag || round == kSagRounds || arm.cases.empty()) return arm;
+      start.compliance = sagCompliance(campaign_, options_, arm);
+    }
+  }
+
   void partialPoseMethod() {
     MethodResult& out = method(Method::partial_pose);
     LoadedArm arm = swept_;
     if (campaign_.loading) {
-      result_.calibration = calibrateGeometry(campaign_, swept_.geometry);
+      arm = calibratedArm();
       if (!result_.calibration.done) {
         out.reason = "the geometry cannot be calibrated: " + result_.calibration.reason;
         return;
       }
-      arm = loadedArm(campaign_, result_.calibration.geometry, result_.frames.wrist, result_.step, nullptr);
     } else {
       result_.calibration.reason =
           "the campaign has displacements only, no absolute positions: the URDF's geometry stands";

@@ -174,6 +174,9 @@ std::vector<LoadCase> loadCases(const Campaign& campaign, const LoadingGeometry&
     }
     load_case.wrench = cellWrench(*campaign.load_cell, geometry, load_case.posture, load_case.flange_unloaded,
                                   load_case.flange_loaded, loaded->wrench_in_cell);
+    load_case.wrench_unturned = load_case.wrench;
+    const int turning = bodyOfCellAxes(*campaign.load_cell, geometry);
+    load_case.wrench_turns_with = turning == 6 && load_case.flange_loaded ? 0 : turning;
     cases.push_back(std::move(load_case));
   }
   return cases;

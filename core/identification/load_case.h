@@ -33,6 +33,10 @@ struct LoadCase {
   /// which makes J c tau the displacement to third order in the deflection.
   std::optional<ArmPosture> middle;
   Wrench wrench;                       ///< forces directed as the flange is measured loaded; point where it stands unloaded
+  /// Body whose turn under load directs the wrench but is not measured: `wrench` is then directed as at `posture`, until
+  /// turnWrenches directs it by the model. 0: directed as measured, or by axes that stand still.
+  int wrench_turns_with = 0;
+  Wrench wrench_unturned;              ///< the same as at `posture`; only meant where wrench_turns_with is not 0
   std::vector<TargetMove> targets;
   bool absolute = false;               ///< unloaded and loaded are measured points, not differences put on the model
   std::optional<Eigen::Isometry3d> flange_unloaded;  ///< base_from_flange by the reflectors (three or more)

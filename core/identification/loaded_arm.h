@@ -30,15 +30,20 @@ std::vector<CaseEquations> wristPointEquations(const LoadedArm& arm);
 std::vector<CaseEquations> poseEquations(const LoadedArm& arm, const Eigen::Vector3d& tcp_in_flange);
 
 /// Solves by one method, `solve(arm)`. With `finite_deflection` the equations are made again with the torque
-/// (K_c) and the middle posture that the last estimate implies; K_c is about a hundredth, so two rounds leave
-/// a millionth.
+/// (K_c, and the wrench turned with the flange where its turn is not measured) and the middle posture that the
+/// last estimate implies; K_c is about a hundredth, so two rounds leave a millionth.
 template <class Solve>
 StiffnessEstimate solveSettled(LoadedArm& arm, bool finite_deflection, const Solve& solve) {
+  for (LoadCase& load_case : arm.cases) {
+    load_case.middle.reset();
+    if (load_case.wrench_turns_with != 0) load_case.wrench = load_case.wrench_unturned;
+  }
   arm.torques = jointTorques(arm.geometry, arm.cases);
-  for (LoadCase& load_case : arm.cases) load_case.middle.reset();
   StiffnessEstimate estimate = solve(arm);
   constexpr int kRounds = 2;
   for (int round = 0; finite_deflection && round < kRounds; ++round) {
+    arm.torques = jointTorquesWithGeometricStiffness(arm.geometry, arm.cases, estimate.compliance);
+    turnWrenches(arm.geometry, estimate.compliance, arm.torques, arm.cases);
     arm.torques = jointTorquesWithGeometricStiffness(arm.geometry, arm.cases, estimate.compliance);
     takeJacobiansAtMiddle(arm.geometry, estimate.compliance, arm.torques, arm.cases);
     estimate = solve(arm);

@@ -5,11 +5,6 @@
 
 namespace stiffscope {
 
-namespace {
-
-constexpr int kRounds = 3;
-
-/// The stiffnesses that bend the arm under its own weight: by the decoupled method where P_wrist is measured.
 Vector6d sagCompliance(const Campaign& campaign, const IdentifyOptions& options, LoadedArm& arm) {
   const JointMask seen =
       judgeJoints(arm.geometry, arm.cases, *campaign.load_cell, reflectorEquations(arm), options.trust)
@@ -21,8 +16,6 @@ Vector6d sagCompliance(const Campaign& campaign, const IdentifyOptions& options,
   return estimate.compliance.cwiseMax(0.0);  // a negative compliance would lift the arm
 }
 
-}  // namespace
-
 SettledFrames settleFrames(const Campaign& campaign, int step, const IdentifyOptions& options) {
   SettledFrames settled;
   settled.frames = measureFrames(campaign);
@@ -31,7 +24,7 @@ SettledFrames settleFrames(const Campaign& campaign, int step, const IdentifyOpt
     return loadedArm(campaign, sweptGeometry(campaign, settled.frames, compliance), settled.frames.wrist,
                      step, left_out);
   };
-  for (int round = 0; round < kRounds && settled.frames.weight.links_known; ++round) {
+  for (int round = 0; round < kSagRounds && settled.frames.weight.links_known; ++round) {
     LoadedArm arm = armNow(nullptr);
     if (arm.cases.empty()) break;
     compliance = sagCompliance(campaign, options, arm);

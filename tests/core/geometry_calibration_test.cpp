@@ -1,0 +1,172 @@
+#include "core/identification/geometry_calibration.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "core/identification/base_from_postures.h"
+#include "core/identification/unloaded_positions.h"
+#include "tests/core/linear_machine.h"
+
+namespace stiffscope {
+namespace {
+
+SimulatedLab labWithErrors() {
+  SimulatedLab lab;
+  lab.withoutMasses();
+  Noise noise(51);
+  lab.actual = lab.nominal.disturbed(noise, 1e-3, 1e-3);
+  return lab;
+}
+
+/// Where the calibrated geometry puts a reflector, in the tracker's frame.
+Eigen::Vector3d predicted(const LoadingGeometry& geometry, const Vector6d& q, std::size_t target) {
+  return geometry.r0_from_loading->inverse() *
+         (postureAt(geometry.arm, q).motion[6] * *geometry.targets_at_zero[target]);
+}
+
+double worstPrediction(const SimulatedLab& lab, const LoadingGeometry& geometry) {
+  Noise noise(99);
+  double worst = 0.0;
+  for (int i = 0; i < 30; ++i) {
+    const Vector6d q = somePosture(noise);
+    for (std::size_t k = 0; k < 3; ++k)
+      worst = std::max(worst, (predicted(geometry, q, k) - lab.seen(q, k)).norm());
+  }
+  return worst;
+}
+
+LoadingGeometry nominalStart(const Campaign& campaign) {
+  return sweptGeometry(campaign, measureFrames(campaign), Vector6d::Zero());
+}
+
+TEST(CalibrateGeometry, FindsTheArmFromPosturesAlone) {
+  const SimulatedLab lab = labWithErrors();
+  Campaign campaign = lab.empty();
+  lab.addLoading(campaign, 25, pulledForce);
+  const LoadingGeometry start = nominalStart(campaign);
+  EXPECT_FALSE(start.r0_from_loading);
+  const GeometryCalibration found = calibrateGeometry(campaign, start);
+  ASSERT_TRUE(found.done) << found.reason;
+  EXPECT_EQ(found.positions, 75);
+  EXPECT_GT(found.rms_before, 1e-4);  // axes a millimetre and a milliradian off
+  EXPECT_LT(found.rms_after, 1e-9);   // noise free: what Ceres stops at
+  // At postures it has not seen: exact but for the stop, carried over 3 m.
+  EXPECT_LT(worstPrediction(lab, found.geometry), 1e-7);
+}
+
+TEST(CalibrateGeometry, FixesAndNamesWhatIsFreeByChoiceOfFrame) {
+  // 24 axis parameters, the base and the reflectors: to move base, axes and reflectors together changes
+  // nothing, so six are free by choice of frame. R0 is defined by axes 1 and 2: it is theirs that are kept.
+  const SimulatedLab lab = labWithErrors();
+  Campaign campaign = lab.empty();
+  lab.addLoading(campaign, 25, pulledForce);
+  const GeometryCalibration found = calibrateGeometry(campaign, nominalStart(campaign));
+  ASSERT_TRUE(found.done) << found.reason;
+  EXPECT_EQ(found.fixed.size(), 6u);
+  for (const std::string& name : found.fixed) {
+    EXPECT_TRUE(name.starts_with("axis 1 ") || name.starts_with("axis 2 ")) << name;
+  }
+  EXPECT_EQ(std::count_if(found.fixed.begin(), found.fixed.end(),
+                          [](const std::string& name) { return name.starts_with("axis 1 "); }),
+            4);
+  EXPECT_EQ(found.parameters, 24 + 6 + 9 - 6);
+}
+
+TEST(CalibrateGeometry, AJointThatNeverMovesIsFoundToo) {
+  // Joint 4 stands still in all postures: its four parameters are not seen, beside the six.
+  const SimulatedLab lab = labWithErrors();
+  Campaign campaign = lab.empty();
+  lab.addLoading(campaign, 25, pulledForce);
+  for (std::size_t i = 0; i < campaign.states->rows.size(); ++i) campaign.states->rows[i].q[3] = 0.3;
+  for (LoadingReading& row : campaign.loading->rows) {
+    const Vector6d& q = campaign.states->rows[2 * static_cast<std::size_t>(row.pose)].q;
+    row.point = lab.seen(q, static_cast<std::size_t>(row.target));
+  }
+  const GeometryCalibration found = calibrateGeometry(campaign, nominalStart(campaign));
+  ASSERT_TRUE(found.done) << found.reason;
+  EXPECT_EQ(found.fixed.size(), 10u);
+  EXPECT_LT(found.rms_after, 1e-9);
+}
+
+TEST(CalibrateGeometry, StartsFromSweepsWhereThereAreAny) {
+  const SimulatedLab lab = labWithErrors();
+  Campaign campaign = lab.empty();
+  lab.addCircleSweeps(campaign);
+  lab.addLoading(campaign, 25, pulledForce);
+  const GeometryCalibration found = calibrateGeometry(campaign, nominalStart(campaign));
+  ASSERT_TRUE(found.done) << found.reason;
+  EXPECT_LT(found.rms_before, 1e-8);  // noise free, the sweeps have it already
+  EXPECT_LT(worstPrediction(lab, found.geometry), 1e-7);
+}
+
+TEST(CalibrateGeometry, NoiseIsNotFitted) {
+  // 20 um: what is left over degrees of freedom is the noise, and unseen postures are predicted to a few of
+  // it.
+  SimulatedLab lab = labWithErrors();
+  Campaign campaign = lab.empty();
+  lab.addLoading(campaign, 40, pulledForce);
+  Noise noise(3);
+  for (LoadingReading& row : campaign.loading->rows) row.point += 2e-5 * noise.normal3();
+  const GeometryCalibration found = calibrateGeometry(campaign, nominalStart(campaign));
+  ASSERT_TRUE(found.done) << found.reason;
+  const double sigma = found.rms_after * std::sqrt(360.0 / (360.0 - found.parameters));
+  EXPECT_NEAR(sigma, 2e-5, 3e-6);  // 327 degrees of freedom: 4 % at one sigma
+  EXPECT_LT(worstPrediction(lab, found.geometry), 1.5e-4);
+}
+
+TEST(CalibrateGeometry, RefusesWithAReason) {
+  const SimulatedLab lab = labWithErrors();
+  Campaign campaign = lab.empty();
+  EXPECT_FALSE(calibrateGeometry(campaign, nominalStart(campaign)).reason.empty());
+  lab.addLoading(campaign, 2, pulledForce);
+  const GeometryCalibration two = calibrateGeometry(campaign, nominalStart(campaign));
+  EXPECT_FALSE(two.done);
+  EXPECT_NE(two.reason.find("three postures"), std::string::npos) << two.reason;
+}
+
+TEST(CalibrateGeometry, FewPosturesFixMoreThanTheChoiceOfFrame) {
+  // Three postures of a rigid triangle give 3 x 6 + 3 independent numbers: 21 of 39 parameters, 18 axis
+  // parameters fixed.
+  const SimulatedLab lab = labWithErrors();
+  Campaign campaign = lab.empty();
+  lab.addLoading(campaign, 3, pulledForce);
+  const GeometryCalibration found = calibrateGeometry(campaign, nominalStart(campaign));
+  ASSERT_TRUE(found.done) << found.reason;
+  EXPECT_EQ(found.parameters, 21);
+  EXPECT_EQ(found.fixed.size(), 18u);
+}
+
+TEST(BaseFromPostures, NominalArmExactly) {
+  SimulatedLab lab;
+  lab.withoutMasses();
+  Campaign campaign = lab.empty();
+  lab.addLoading(campaign, 5, pulledForce);
+  const LoadingGeometry start = nominalStart(campaign);
+  const auto found = baseFromPostures(start, unloadedPositions(campaign), 3);
+  ASSERT_TRUE(found);
+  // The arm's base frame is R0 by the nominal rule: 0.94 m up.
+  const Eigen::Isometry3d tracker_from_r0 = lab.tracker_from_base * start.r0_from_base_link.inverse();
+  EXPECT_LT((found->points_from_base.matrix() - tracker_from_r0.matrix()).norm(), 1e-9);
+  for (std::size_t k = 0; k < 3; ++k) {
+    EXPECT_LT((start.r0_from_base_link.inverse() * *found->targets_at_zero[k] -
+               lab.actual.flangeAt(Vector6d::Zero()) * lab.targets_in_flange[k])
+                  .norm(),
+              1e-9);
+  }
+}
+
+TEST(BaseFromPostures, TurnsAboutOneAxisAreNotEnough) {
+  SimulatedLab lab;
+  lab.withoutMasses();
+  Campaign campaign = lab.empty();
+  lab.addLoading(campaign, 6, pulledForce);
+  for (State& state : campaign.states->rows) state.q = degrees(10.0 * state.pose, 10, 0, 20, 40, 30);
+  for (LoadingReading& row : campaign.loading->rows) {
+    row.point = lab.seen(degrees(10.0 * row.pose, 10, 0, 20, 40, 30), static_cast<std::size_t>(row.target));
+  }
+  EXPECT_FALSE(baseFromPostures(nominalStart(campaign), unloadedPositions(campaign), 3));
+}
+
+}  // namespace
+}  // namespace stiffscope

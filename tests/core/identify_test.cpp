@@ -1,0 +1,314 @@
+#include "core/identification/identify.h"
+
+#include <gtest/gtest.h>
+
+#include "core/input/input_error.h"
+#include "tests/core/linear_machine.h"
+
+namespace stiffscope {
+namespace {
+
+/// Few subsets: these tests do not look at them.
+IdentifyOptions quick(bool finite_deflection = true) {
+  IdentifyOptions options;
+  options.finite_deflection = finite_deflection;
+  options.subsets.most_all = 1;
+  options.subsets.sample = 5;
+  return options;
+}
+
+constexpr JointMask kWithoutFirst{false, true, true, true, true, true};
+
+SimulatedLab springyLab() {
+  SimulatedLab lab;
+  lab.compliance = exampleCompliance();
+  lab.withoutMasses();
+  return lab;
+}
+
+Campaign fullDay(const SimulatedLab& lab, const std::function<Eigen::Vector3d(int)>& force,
+                 int postures = 10) {
+  Campaign campaign = lab.empty();
+  lab.addCircleSweeps(campaign);
+  lab.addWristSweep(campaign);
+  lab.addLoading(campaign, postures, force);
+  return campaign;
+}
+
+TEST(Identify, TheNonlinearEquilibriumGivesTheSpringsBack) {
+  // Springs and loads in equilibrium on the moved arm, by the test's iteration. With K_c and Jacobians at the
+  // middle what is left is of the third order of turns of 1e-3 to 1e-2 rad; neglected, it is of the first.
+  const SimulatedLab lab = springyLab();
+  const Campaign campaign = fullDay(lab, pulledForce);
+  const Identification found = identify(campaign, quick());
+  for (const Method method : kMethods) {
+    ASSERT_TRUE(found.of(method).available) << found.of(method).reason;
+    EXPECT_LT(worstError(found.of(method).estimate.compliance, lab.compliance), 1e-4)
+        << static_cast<int>(method);
+    EXPECT_GT(found.of(method).at_wrist->all_postures, 0.999);
+    EXPECT_GT(found.of(method).at_targets->all_postures, 0.999);
+  }
+  EXPECT_GT(found.geometric_stiffness_share, 1e-4);
+  const Identification neglected = identify(campaign, quick(false));
+  EXPECT_GT(worstError(neglected.of(Method::partial_pose).estimate.compliance, lab.compliance), 5e-4);
+}
+
+TEST(Identify, OwnWeightAndSpringsAreFoundInTurns) {
+  SimulatedLab lab;
+  lab.compliance = exampleCompliance();
+  const Identification found = identify(fullDay(lab, pulledForce), quick());
+  EXPECT_TRUE(found.frames.sag_removed);
+  for (const Method method : kMethods) {
+    ASSERT_TRUE(found.of(method).available) << found.of(method).reason;
+    EXPECT_LT(worstError(found.of(method).estimate.compliance, lab.compliance), 3e-4)
+        << static_cast<int>(method);
+  }
+}
+
+TEST(Identify, AnArmWithGeometryErrorsGivesItsSpringsBack) {
+  SimulatedLab lab = springyLab();
+  Noise noise(32);
+  const ChainArm disturbed = lab.nominal.disturbed(noise, 1e-3, 1e-3);
+  for (std::size_t j = 0; j < 4; ++j)
+    lab.actual.to_joint[j] = disturbed.to_joint[j];  // the wrist's axes still meet
+  const Identification found = identify(fullDay(lab, pulledForce, 14), quick());
+  for (const Method method : kMethods) {
+    ASSERT_TRUE(found.of(method).available) << found.of(method).reason;
+    EXPECT_LT(worstError(found.of(method).estimate.compliance, lab.compliance), 2e-4)
+        << static_cast<int>(method);
+  }
+}
+
+TEST(Identify, AWristWhoseAxesMissEachOtherRefusesTheDecoupled) {
+  SimulatedLab lab = springyLab();
+  lab.actual.to_joint[5].translation().z() += 0.03;  // axis 6 passes axis 5 by 30 mm
+  const Identification found = identify(fullDay(lab, pulledForce), quick());
+  EXPECT_TRUE(found.of(Method::partial_pose).available);
+  const MethodResult& decoupled = found.of(Method::decoupled_partial_pose);
+  EXPECT_FALSE(decoupled.available);
+  EXPECT_FALSE(decoupled.reason.empty());
+  // And one that misses by a hundredth of a millimetre does not.
+  lab.actual.to_joint[5].translation().z() = 1e-5;
+  EXPECT_TRUE(identify(fullDay(lab, pulledForce), quick()).of(Method::decoupled_partial_pose).available);
+}
+
+TEST(Identify, AHangingLoadSaysNothingOfJointOne) {
+  const SimulatedLab lab = springyLab();
+  const Identification found = identify(fullDay(lab, hangingForce), quick());
+  EXPECT_TRUE(found.identifiability.load_hangs);
+  EXPECT_FALSE(found.identifiability.joints[0].identifiable);
+  EXPECT_NE(found.identifiability.joints[0].reason.find("hangs"), std::string::npos);
+  for (const Method method : kMethods) {
+    ASSERT_TRUE(found.of(method).available) << found.of(method).reason;
+    EXPECT_EQ(found.of(method).estimate.compliance[0], 0.0);
+    EXPECT_LT(worstError(found.of(method).estimate.compliance, lab.compliance, kWithoutFirst), 1e-4);
+  }
+}
+
+TEST(Identify, ALoadCellTwoDegreesAskewGivesNoFirstJointEither) {
+  // The readings are of a cell turned by 2 degrees about an oblique axis; the campaign does not know.
+  for (const int axis : {0, 1, 2}) {
+    SimulatedLab lab = springyLab();
+    const Eigen::Isometry3d declared = lab.flange_from_cell;
+    lab.flange_from_cell.rotate(Eigen::AngleAxisd(radians(2.0), Eigen::Vector3d::Unit(axis)));
+    Campaign campaign = fullDay(lab, hangingForce, 19);
+    campaign.load_cell->parent_from_cell = declared;
+    const Identification found = identify(campaign, quick());
+    EXPECT_TRUE(found.identifiability.load_hangs);
+    EXPECT_FALSE(found.identifiability.joints[0].identifiable) << axis;
+    EXPECT_EQ(found.of(Method::partial_pose).estimate.compliance[0], 0.0);
+  }
+}
+
+TEST(Identify, APulledLoadShowsJointOne) {
+  EXPECT_TRUE(identify(fullDay(springyLab(), pulledForce), quick()).identifiability.joints[0].identifiable);
+}
+
+TEST(Identify, WithoutWristSweepTheDecoupledSaysWhatToMeasure) {
+  const SimulatedLab lab = springyLab();
+  Campaign campaign = fullDay(lab, pulledForce);
+  campaign.wrist_sweep.reset();
+  const Identification found = identify(campaign, quick());
+  EXPECT_TRUE(found.of(Method::complete_pose).available);
+  EXPECT_TRUE(found.of(Method::partial_pose).available);
+  EXPECT_FALSE(found.of(Method::decoupled_partial_pose).available);
+  EXPECT_NE(found.of(Method::decoupled_partial_pose).reason.find("wrist sweep"), std::string::npos);
+  EXPECT_FALSE(found.of(Method::partial_pose).at_wrist);
+}
+
+TEST(Identify, WithoutAnySweepPartialPoseCalibratesItsBaseFromThePostures) {
+  const SimulatedLab lab = springyLab();
+  Campaign campaign = lab.empty();
+  lab.addLoading(campaign, 16, pulledForce);
+  const Identification found = identify(campaign, quick());
+  ASSERT_TRUE(found.of(Method::partial_pose).available) << found.of(Method::partial_pose).reason;
+  EXPECT_LT(worstError(found.of(Method::partial_pose).estimate.compliance, lab.compliance), 2e-4);
+  EXPECT_FALSE(found.of(Method::complete_pose).available);
+  EXPECT_NE(found.of(Method::complete_pose).reason.find("circle sweeps"), std::string::npos);
+}
+
+TEST(Identify, WithoutAnySweepTheOwnWeightIsTakenIntoAccountToo) {
+  // The sag of millimetres must not be taken for geometry: springs and calibration are found in turns.
+  SimulatedLab lab;
+  lab.compliance = exampleCompliance();
+  Campaign campaign = lab.empty();
+  lab.addLoading(campaign, 25, pulledForce);
+  const Identification found = identify(campaign, quick());
+  ASSERT_TRUE(found.of(Method::partial_pose).available) << found.of(Method::partial_pose).reason;
+  EXPECT_LT(found.calibration.rms_after, 1e-6);
+  EXPECT_LT(worstError(found.of(Method::partial_pose).estimate.compliance, lab.compliance), 3e-4);
+}
+
+TEST(Identify, DisplacementsInTheRobotsAxes) {
+  // One point of known place, displacements only, no sweep: Partial Pose alone, and says of the others why
+  // not. The wrench is read in axes that turn with the flange by some milliradians, which only the model
+  // knows.
+  SimulatedLab lab = springyLab();
+  Campaign campaign = lab.empty();
+  lab.addLoading(campaign, 16, pulledForce);
+  campaign.targets.resize(1);
+  campaign.targets[0].position_in_flange = lab.targets_in_flange[0];
+  campaign.displacements = Displacements{"displacements.csv", PointFrame::base_link, {}};
+  for (std::size_t row = 0; row + 1 < campaign.loading->rows.size(); row += 2) {
+    const LoadingReading &before = campaign.loading->rows[row], &after = campaign.loading->rows[row + 1];
+    if (before.target != 0) continue;
+    campaign.displacements->rows.push_back(
+        {before.pose, 1, 0, lab.tracker_from_base.linear().transpose() * (after.point - before.point)});
+  }
+  campaign.loading.reset();
+  const Identification found = identify(campaign, quick());
+  ASSERT_TRUE(found.of(Method::partial_pose).available) << found.of(Method::partial_pose).reason;
+  EXPECT_LT(worstError(found.of(Method::partial_pose).estimate.compliance, lab.compliance), 1e-4);
+  EXPECT_FALSE(found.of(Method::complete_pose).available);
+  EXPECT_FALSE(found.of(Method::decoupled_partial_pose).available);
+  EXPECT_FALSE(found.noise);
+}
+
+TEST(Identify, DisplacementsInTheTrackersAxesNeedSweeps) {
+  SimulatedLab lab = springyLab();
+  Campaign campaign = lab.empty();
+  lab.addLoading(campaign, 16, pulledForce);
+  campaign.displacements = Displacements{"displacements.csv", PointFrame::tracker, {}};
+  for (std::size_t k = 0; k < 3; ++k) campaign.targets[k].position_in_flange = lab.targets_in_flange[k];
+  for (std::size_t row = 0; row + 1 < campaign.loading->rows.size(); row += 2) {
+    const LoadingReading &before = campaign.loading->rows[row], &after = campaign.loading->rows[row + 1];
+    campaign.displacements->rows.push_back({before.pose, 1, before.target, after.point - before.point});
+  }
+  campaign.loading.reset();
+  const Identification lost = identify(campaign, quick());
+  EXPECT_FALSE(lost.of(Method::partial_pose).available);
+  EXPECT_FALSE(lost.of(Method::partial_pose).reason.empty());
+  lab.addCircleSweeps(campaign);
+  const Identification found = identify(campaign, quick());
+  ASSERT_TRUE(found.of(Method::partial_pose).available) << found.of(Method::partial_pose).reason;
+  EXPECT_LT(worstError(found.of(Method::partial_pose).estimate.compliance, lab.compliance), 1e-4);
+}
+
+TEST(Identify, AReflectorMissingInSomePostures) {
+  // Complete Pose and Decoupled need three; Partial Pose takes what is there.
+  const SimulatedLab lab = springyLab();
+  Campaign campaign = fullDay(lab, pulledForce);
+  std::erase_if(campaign.loading->rows,
+                [](const LoadingReading& row) { return row.pose == 3 && row.target == 1; });
+  const Identification found = identify(campaign, quick());
+  ASSERT_TRUE(found.of(Method::partial_pose).available) << found.of(Method::partial_pose).reason;
+  EXPECT_LT(worstError(found.of(Method::partial_pose).estimate.compliance, lab.compliance), 1e-4);
+  for (const Method method : {Method::complete_pose, Method::decoupled_partial_pose}) {
+    if (found.of(method).available) {
+      EXPECT_LT(worstError(found.of(method).estimate.compliance, lab.compliance), 1e-3);
+    } else {
+      EXPECT_NE(found.of(method).reason.find("every posture"), std::string::npos) << found.of(method).reason;
+    }
+  }
+}
+
+TEST(Identify, FiveReflectors) {
+  SimulatedLab lab = springyLab();
+  lab.targets_in_flange.push_back({0.1, 0.2, 0.3});
+  lab.targets_in_flange.push_back({-0.2, -0.1, 0.0});
+  const Identification found = identify(fullDay(lab, pulledForce), quick());
+  for (const Method method : kMethods) {
+    ASSERT_TRUE(found.of(method).available) << found.of(method).reason;
+    EXPECT_LT(worstError(found.of(method).estimate.compliance, lab.compliance), 1e-4);
+  }
+}
+
+TEST(Identify, OnePostureOnly) {
+  // Never a crash, never a number that is none, and no confident answer.
+  const SimulatedLab lab = springyLab();
+  const Identification found = identify(fullDay(lab, pulledForce, 1), quick());
+  for (const Method method : kMethods) {
+    const MethodResult& result = found.of(method);
+    if (!result.available) {
+      EXPECT_FALSE(result.reason.empty());
+      continue;
+    }
+    EXPECT_TRUE(result.estimate.compliance.allFinite());
+    EXPECT_TRUE(result.estimate.covariance.allFinite());
+    EXPECT_TRUE(result.subsets.compliances.empty());
+  }
+}
+
+TEST(Identify, ThrowsWhereThereAreNoLoadStates) {
+  const SimulatedLab lab = springyLab();
+  Campaign campaign = lab.empty();
+  lab.addCircleSweeps(campaign);
+  EXPECT_THROW(identify(campaign, quick()), InputError);
+  campaign = fullDay(lab, pulledForce, 3);
+  IdentifyOptions options = quick();
+  options.step = 7;
+  try {
+    identify(campaign, options);
+    FAIL() << "step 7 was taken";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("not a load step"), std::string::npos) << error.what();
+  }
+}
+
+TEST(JudgeJoints, AJointSeenOnlyInCombination) {
+  // Joint 5 straight in every posture: axes 4 and 6 fall together, and so do their columns.
+  LinearMachine machine(0, 1.0);
+  Noise noise(4);
+  for (int i = 0; i < 10; ++i) {
+    Vector6d q = somePosture(noise);
+    q[4] = 0.0;
+    machine.add(q, 1000.0 * noise.normal3(), 200.0 * noise.normal3());
+  }
+  const LoadCell cell{"tool0", Eigen::Isometry3d::Identity(), {}, 1.0, 0.3};
+  const Identifiability found =
+      judgeJoints(machine.geometry, machine.cases, cell, machine.reflectorEquations());
+  EXPECT_EQ(found.mask(), (JointMask{true, true, true, false, true, false}));
+  for (const std::size_t joint : {3u, 5u}) {
+    EXPECT_NE(found.joints[joint].reason.find("combination of joints 4, 6"), std::string::npos)
+        << found.joints[joint].reason;
+  }
+}
+
+TEST(JudgeJoints, PointsOnAnAxisDoNotShowIt) {
+  // One reflector on axis 6, or a tenth of a millimetre beside it, which is less than the axis is known to:
+  // the load turns joint 6 well, but nothing that is measured moves by it.
+  const LoadCell cell{"tool0", Eigen::Isometry3d::Identity(), {}, 1.0, 0.3};
+  for (const double beside : {0.0, 1e-4}) {
+    LinearMachine machine(0, 1.0);
+    machine.targets_in_flange = {{beside, 0.0, 0.2}};
+    Noise noise(4);
+    for (int i = 0; i < 10; ++i)
+      machine.add(somePosture(noise), 1000.0 * noise.normal3(), 200.0 * noise.normal3());
+    const Identifiability found =
+        judgeJoints(machine.geometry, machine.cases, cell, machine.reflectorEquations());
+    EXPECT_EQ(found.mask(), (JointMask{true, true, true, true, true, false})) << beside;
+    EXPECT_NE(found.joints[5].reason.find("measured"), std::string::npos) << found.joints[5].reason;
+  }
+}
+
+TEST(JudgeJoints, ATorqueBelowItsUncertaintyDoesNotCount) {
+  LinearMachine machine(10, 1.0);
+  const LoadCell vague{"tool0", Eigen::Isometry3d::Identity(), {}, 0.0, 1e5};  // a moment known to 1e5 Nm
+  const Identifiability found =
+      judgeJoints(machine.geometry, machine.cases, vague, machine.reflectorEquations());
+  EXPECT_EQ(found.mask(), JointMask{});
+  EXPECT_NE(found.joints[2].reason.find("uncertainty"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace stiffscope

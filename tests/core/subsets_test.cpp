@@ -1,0 +1,176 @@
+#include "core/identification/subsets.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <bit>
+
+#include "tests/core/linear_machine.h"
+
+namespace stiffscope {
+namespace {
+
+/// Equations with noise, to have subsets that differ.
+struct Problem {
+  std::vector<CaseEquations> wrist, reflectors;
+  SubsetMethod method;
+
+  Problem(int postures, bool decoupled) {
+    LinearMachine machine(postures, 1.0, 9);
+    Noise noise(10);
+    for (LoadCase& one : machine.cases) {
+      for (TargetMove& move : one.targets) move.loaded += 1e-4 * noise.normal3();
+    }
+    wrist = machine.wristEquationsOfAll();
+    reflectors = machine.reflectorEquations();
+    method.unknown = kAllJoints;
+    for (const CaseEquations& one : decoupled ? wrist : reflectors)
+      method.normal.push_back(normalEquations(one));
+    if (decoupled) {
+      for (const CaseEquations& one : reflectors) method.reflectors.push_back(normalEquations(one));
+    }
+    method.at_wrist = DeflectionJudge(wrist);
+    method.at_targets = DeflectionJudge(reflectors);
+  }
+};
+
+std::vector<CaseEquations> chosen(const std::vector<CaseEquations>& all, unsigned bits) {
+  std::vector<CaseEquations> some;
+  for (std::size_t p = 0; p < all.size(); ++p) {
+    if (bits >> p & 1U) some.push_back(all[p]);
+  }
+  return some;
+}
+
+/// 1 - sum |residual| / sum |displacement| over the points of the postures whose bit is set, by loops.
+double compensated(const std::vector<CaseEquations>& all, unsigned bits, const Vector6d& c) {
+  double left = 0.0, whole = 0.0;
+  for (const CaseEquations& one : chosen(all, bits)) {
+    const Eigen::VectorXd rest = one.right - one.matrix * c;
+    for (Eigen::Index at = 0; at < rest.size(); at += 3)
+      left += rest.segment<3>(at).norm(), whole += one.right.segment<3>(at).norm();
+  }
+  return 1.0 - left / whole;
+}
+
+bool before(const Vector6d& a, const Vector6d& b) {
+  return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end());
+}
+
+TEST(Subsets, FourOfSevenAreThoseSolvedOneByOne) {
+  for (const bool decoupled : {false, true}) {
+    const Problem problem(7, decoupled);
+    std::vector<Vector6d> direct;
+    SubsetCompensation sum;
+    for (unsigned bits = 0; bits < 1U << 7; ++bits) {
+      if (std::popcount(bits) != 4) continue;
+      const auto reflectors = chosen(problem.reflectors, bits);
+      const Vector6d c =
+          decoupled ? decoupledPartialPose(chosen(problem.wrist, bits), reflectors, kAllJoints).compliance
+                    : partialPose(reflectors, kAllJoints).compliance;
+      direct.push_back(c);
+      sum.used += compensated(problem.wrist, bits, c) / 35.0;
+      sum.held_out += compensated(problem.wrist, ~bits & 127U, c) / 35.0;
+      sum.all += compensated(problem.wrist, 127U, c) / 35.0;
+    }
+    SubsetOptions options;
+    options.size = 4;
+    SubsetStudy study = studySubsets(problem.method, options);
+    EXPECT_TRUE(study.every_subset);
+    EXPECT_EQ(study.of, 7);
+    ASSERT_EQ(study.compliances.size(), 35u);
+    std::sort(direct.begin(), direct.end(), before);
+    std::sort(study.compliances.begin(), study.compliances.end(), before);
+    for (std::size_t k = 0; k < direct.size(); ++k) {
+      // Sums taken in another order: rounding times the condition squared.
+      EXPECT_LT((direct[k] - study.compliances[k]).norm(), 1e-9 * direct[k].norm());
+    }
+    EXPECT_NEAR(study.at_wrist.used, sum.used, 1e-10);
+    EXPECT_NEAR(study.at_wrist.held_out, sum.held_out, 1e-10);
+    EXPECT_NEAR(study.at_wrist.all, sum.all, 1e-10);
+  }
+}
+
+TEST(Subsets, ThePapersTenOfNineteenAreAll92378) {
+  const Problem problem(19, true);
+  const SubsetStudy study = studySubsets(problem.method);
+  EXPECT_EQ(study.size, 10);
+  EXPECT_TRUE(study.every_subset);
+  EXPECT_EQ(study.compliances.size(), 92378u);
+  EXPECT_EQ(subsetCount(19, 10), 92378u);
+  // However the two threads shared the work, a second run gives the same numbers in the same order.
+  const SubsetStudy again = studySubsets(problem.method);
+  EXPECT_TRUE(std::equal(study.compliances.begin(), study.compliances.end(), again.compliances.begin()));
+  EXPECT_EQ(study.at_targets.held_out, again.at_targets.held_out);
+  // Every posture is drawn equally often, so the mean over the subsets is near the whole's: within the
+  // noise's size.
+  Vector6d mean = Vector6d::Zero();
+  for (const Vector6d& one : study.compliances) mean += one / static_cast<double>(study.compliances.size());
+  EXPECT_LT(worstError(mean, exampleCompliance()), 0.05);
+}
+
+TEST(Subsets, ASampleIsTheSameForTheSameSeed) {
+  const Problem problem(14, false);
+  SubsetOptions options;
+  options.most_all = 100;
+  options.sample = 500;
+  const SubsetStudy one = studySubsets(problem.method, options), two = studySubsets(problem.method, options);
+  EXPECT_FALSE(one.every_subset);
+  ASSERT_EQ(one.compliances.size(), 500u);
+  EXPECT_TRUE(std::equal(one.compliances.begin(), one.compliances.end(), two.compliances.begin()));
+  options.seed = 2;
+  EXPECT_FALSE(std::equal(one.compliances.begin(), one.compliances.end(),
+                          studySubsets(problem.method, options).compliances.begin()));
+}
+
+TEST(Subsets, OfAllOrMoreThereIsNothingToStudy) {
+  const Problem problem(7, false);
+  SubsetOptions options;
+  options.size = 7;
+  EXPECT_TRUE(studySubsets(problem.method, options).compliances.empty());
+  EXPECT_TRUE(studySubsets(SubsetMethod{}).compliances.empty());
+}
+
+TEST(SubsetCount, ByHand) {
+  EXPECT_EQ(subsetCount(5, 2), 10u);
+  EXPECT_EQ(subsetCount(7, 7), 1u);
+  EXPECT_EQ(subsetCount(7, 0), 1u);
+  EXPECT_EQ(subsetCount(500, 250), std::numeric_limits<std::uint64_t>::max());
+}
+
+TEST(StiffnessSpread, ByHand) {
+  // Compliances 1, 2, 4, -4, 5 : stiffnesses 1, 0.5, 0.25, -0.25, 0.2.
+  SubsetStudy study;
+  for (const double c : {4.0, 1.0, -4.0, 2.0, 5.0}) study.compliances.push_back(Vector6d::Constant(c));
+  const StiffnessSpread spread = spreadOf(study, 2);
+  EXPECT_NEAR(spread.mean, 1.7 / 5.0, 1e-15);
+  // Squares of 0.66, 0.16, -0.09, -0.59, -0.14 sum to 0.837, over n - 1 = 4.
+  EXPECT_NEAR(spread.sd, std::sqrt(0.837 / 4.0), 1e-12);
+  EXPECT_DOUBLE_EQ(spread.median, 0.25);
+  EXPECT_DOUBLE_EQ(spread.low, -0.25);
+  EXPECT_DOUBLE_EQ(spread.high, 1.0);
+  EXPECT_DOUBLE_EQ(spread.quartile_low, 0.2);
+  EXPECT_DOUBLE_EQ(spread.quartile_high, 0.5);
+  EXPECT_DOUBLE_EQ(spread.share_negative, 0.2);
+  EXPECT_NEAR(spread.compliance_mean, 1.6, 1e-15);
+  EXPECT_NEAR(spread.compliance_sd, std::sqrt((2.4 * 2.4 + 0.36 + 5.6 * 5.6 + 0.16 + 3.4 * 3.4) / 4.0),
+              1e-12);
+}
+
+TEST(DeflectionJudge, ByHand) {
+  // Two postures of one and two points; joint 1 moves x by 1 m a unit.
+  CaseEquations one{Eigen::Matrix<double, 3, 6>::Zero(), Eigen::Vector3d(3, 4, 0)};
+  CaseEquations two{Eigen::Matrix<double, 6, 6>::Zero(), (Eigen::VectorXd(6) << 0, 0, 2, 1, 0, 0).finished()};
+  one.matrix(0, 0) = 1.0;
+  two.matrix(3, 0) = 1.0;
+  const DeflectionJudge judge({one, two});
+  EXPECT_EQ(judge.displacement(), (std::vector<double>{5.0, 3.0}));
+  const std::vector<double> left = judge.residual(Vector6d::Unit(0));
+  EXPECT_NEAR(left[0], std::sqrt(20.0), 1e-15);
+  EXPECT_NEAR(left[1], 2.0, 1e-15);
+  EXPECT_NEAR(judge.compensated(Vector6d::Unit(0)), 1.0 - (std::sqrt(20.0) + 2.0) / 8.0, 1e-15);
+  EXPECT_EQ(judge.pointsOf(1), 2);
+}
+
+}  // namespace
+}  // namespace stiffscope
