@@ -36,6 +36,13 @@ SweepOfTargets collect(const Campaign& campaign, const ArmInR0& arm, const Rigid
     sphere.points.push_back(arm.r0_from_points * points.wrist_sweep[row]);
     if (weighted) sphere.covariances.push_back(turn * noise.covarianceAt(reading.point) * turn.transpose());
   }
+  // A reflector with fewer than four readings has no sphere of its own; the others give the centre.
+  constexpr std::size_t kSphere = 4;
+  for (std::size_t k = sweep.spheres.size(); k-- > 0;) {
+    if (sweep.spheres[k].points.size() >= kSphere) continue;
+    sweep.spheres.erase(sweep.spheres.begin() + static_cast<std::ptrdiff_t>(k));
+    sweep.targets.erase(sweep.targets.begin() + static_cast<std::ptrdiff_t>(k));
+  }
   return sweep;
 }
 
@@ -109,6 +116,10 @@ WristCentre measureWristCentre(const Campaign& campaign, const ArmInR0& arm, con
     return wrist;
   }
   const SweepOfTargets sweep = collect(campaign, arm, points);
+  if (sweep.spheres.empty()) {
+    wrist.reason = "no reflector has four readings in the wrist sweep";
+    return wrist;
+  }
   wrist.spheres = fitSpheres(sweep.spheres);
   if (!wrist.spheres.determined) {
     wrist.reason = wrist.spheres.reason;

@@ -35,8 +35,15 @@ std::vector<Spoilt> spoiltCampaigns() {
          std::ofstream(c / "states.csv", std::ios::binary) << text.substr(0, text.size() - 30);
        },
        {"states.csv:96:"}},
-      {"NaN", [](const fs::path& c) { replaceOnce(c / "loading.csv", "\n1,0,1,P10,", "\n1,0,1,P10,nan,"); },
-       {"loading.csv:2:", "nan"}},
+      {"NaN",
+       [](const fs::path& c) {
+         std::string text = contentsOf(c / "loading.csv");
+         const auto end = text.find('\n', text.find('\n') + 1);
+         const auto cell = text.rfind(',', end) + 1;
+         text.replace(cell, end - cell, "nan");
+         std::ofstream(c / "loading.csv", std::ios::binary) << text;
+       },
+       {"loading.csv:2:", "z_mm", "'nan'"}},
       {"duplicate key",
        [](const fs::path& c) {
          const std::string text = contentsOf(c / "states.csv");
