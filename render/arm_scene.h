@@ -49,6 +49,8 @@ struct ArmScene {
   std::optional<double> magnification;  ///< of all vectors; none: automaticMagnification
   View view = View::Oblique;
   std::optional<Eigen::Vector3d> view_direction;  ///< from the viewer into the scene, instead of `view`
+  /// Where the frame x0, y0, z0 is drawn, its axes parallel to the base frame's, m.
+  Eigen::Vector3d frame_origin = Eigen::Vector3d::Zero();
   std::string measured_name = "measured";
   std::string predicted_name = "predicted";
 };

@@ -43,10 +43,10 @@ void takeArm(LabelPlacer& labels, const SceneStage& stage, const ArmPose& pose) 
 
 void paintTriad(Canvas& canvas, const SceneStage& stage, LabelPlacer& labels) {
   const double length = 70 * stage.unit / stage.projection.pixelsPerMetre();
-  const Spot origin = stage.projection.spotOf(Eigen::Vector3d::Zero());
+  const Spot origin = stage.projection.spotOf(stage.scene.frame_origin);
   const char* names[] = {"x_{0}", "y_{0}", "z_{0}"};
   for (int i = 0; i < 3; ++i) {
-    const Spot tip = stage.projection.spotOf(length * Eigen::Vector3d::Unit(i));
+    const Spot tip = stage.projection.spotOf(stage.scene.frame_origin + length * Eigen::Vector3d::Unit(i));
     // An axis seen end on has no direction to draw.
     if (std::hypot(tip.x - origin.x, tip.y - origin.y) < 12 * stage.unit) continue;
     drawArrow(canvas, origin, tip, colours::kInk, 2 * stage.unit, 10 * stage.unit);
