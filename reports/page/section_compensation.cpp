@@ -67,9 +67,9 @@ void writeAvoided(Html& html, const ReportContent& content) {
   const AvoidedShare& avoided = *content.avoided;
   html.leaf("h3", "Avoided by the double encoders");
   std::string words = fmt::format(
-      "Active double encoders avoid {} of the deflection at {} with them inactive, over {} postures "
-      "(mean force {} N inactive, {} N active).",
-      percent(avoided.share), avoided.point, avoided.postures.size(), fixed(avoided.force_inactive, 0),
+      "With the double encoders active the deflection at {} is {} smaller than with them inactive, over {} "
+      "postures (mean force {} N inactive, {} N active).",
+      avoided.point, percent(avoided.share), avoided.postures.size(), fixed(avoided.force_inactive, 0),
       fixed(avoided.force_active, 0));
   if (content.compare_with_paper) words += fmt::format(" The paper: {}.", percent(kPaperAvoided, 0));
   html.paragraph(words);

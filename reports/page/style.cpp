@@ -53,7 +53,7 @@ const char* pageStyle() {
          "h2,h3,caption,thead{break-after:avoid}"
          "figure,tr,.numbers,.verdict,.notes li{break-inside:avoid}"
          "table{font-size:8.5pt}th,td{padding:.2rem .45rem}tbody th{white-space:normal}"
-         "figure img{width:auto;max-width:100%;max-height:200mm}"
+         "figure img{width:auto;max-width:100%;max-height:98mm}"
          ".scroll{overflow:visible}"
          "p,ul,ol,figcaption{max-width:none}"
          ".numbers{grid-template-columns:repeat(3,1fr)}.numbers b{font-size:17pt}"
