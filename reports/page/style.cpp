@@ -51,7 +51,7 @@ const char* pageStyle() {
          "main{max-width:none;padding:0}"
          "h1{font-size:18pt}h2{font-size:13pt;margin-top:7mm}h3{font-size:11pt}"
          "h2,h3,caption,thead{break-after:avoid}"
-         "figure,tr,.numbers,.verdict,.notes li{break-inside:avoid}"
+         "figure,table,tr,.numbers,.verdict,.notes li{break-inside:avoid}"
          "table{font-size:8.5pt}th,td{padding:.2rem .45rem}tbody th{white-space:normal}"
          "figure img{width:auto;max-width:100%;max-height:98mm}"
          ".scroll{overflow:visible}"
