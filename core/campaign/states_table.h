@@ -14,12 +14,7 @@ inline const TableLayout<State>& statesLayout() {
           {poseAndStepColumns<Row>(),
            {timeColumn<Row>(true)},
            jointColumns<Row>(),
-           {{"fx_n", CellKind::newton, [](Row& row) -> double& { return row.wrench_in_cell[0]; }},
-            {"fy_n", CellKind::newton, [](Row& row) -> double& { return row.wrench_in_cell[1]; }},
-            {"fz_n", CellKind::newton, [](Row& row) -> double& { return row.wrench_in_cell[2]; }},
-            {"mx_nm", CellKind::newton_metre, [](Row& row) -> double& { return row.wrench_in_cell[3]; }},
-            {"my_nm", CellKind::newton_metre, [](Row& row) -> double& { return row.wrench_in_cell[4]; }},
-            {"mz_nm", CellKind::newton_metre, [](Row& row) -> double& { return row.wrench_in_cell[5]; }}}}),
+           wrenchColumns<Row>()}),
       {"pose", "step"}};
   return layout;
 }

@@ -43,6 +43,17 @@ std::vector<Column<Row>> jointColumns() {
   (std::make_integer_sequence<int, 6>());
 }
 
+/// fx_n..mz_nm, of a row with a member wrench_in_cell.
+template <class Row>
+std::vector<Column<Row>> wrenchColumns() {
+  return {{"fx_n", CellKind::newton, [](Row& row) -> double& { return row.wrench_in_cell[0]; }},
+          {"fy_n", CellKind::newton, [](Row& row) -> double& { return row.wrench_in_cell[1]; }},
+          {"fz_n", CellKind::newton, [](Row& row) -> double& { return row.wrench_in_cell[2]; }},
+          {"mx_nm", CellKind::newton_metre, [](Row& row) -> double& { return row.wrench_in_cell[3]; }},
+          {"my_nm", CellKind::newton_metre, [](Row& row) -> double& { return row.wrench_in_cell[4]; }},
+          {"mz_nm", CellKind::newton_metre, [](Row& row) -> double& { return row.wrench_in_cell[5]; }}};
+}
+
 /// x_mm, y_mm, z_mm, of a row with a member point.
 template <class Row>
 std::vector<Column<Row>> pointColumns() {

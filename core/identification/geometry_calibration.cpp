@@ -1,7 +1,6 @@
 #include "core/identification/geometry_calibration.h"
 
 #include <ceres/ceres.h>
-#include <ceres/rotation.h>
 #include <fmt/format.h>
 
 #include <Eigen/Dense>
@@ -11,60 +10,14 @@
 
 #include "core/frames/arm_in_r0.h"
 #include "core/identification/base_from_postures.h"
+#include "core/identification/position_residual.h"
 #include "core/identification/unloaded_positions.h"
+#include "core/identification/unseen_parameters.h"
 #include "metrology/measured_line.h"
 
 namespace stiffscope {
 
 namespace {
-
-/// Estimated numbers, as steps from the start: per axis shift_u, shift_v (m), tilt_u, tilt_v (rad); the base's small
-/// motion, rotation vector then translation, in the readings' frame; the reflectors' places at zero (m).
-struct Parameters {
-  std::array<double, 24> axes{};
-  std::array<double, 6> base{};
-  std::vector<std::array<double, 3>> targets;
-};
-
-struct Start {
-  std::array<Line, 6> axes;
-  std::array<Eigen::Vector3d, 6> across_u, across_v;
-  Eigen::Isometry3d points_from_base;
-};
-
-/// Residual: measured minus modelled place of one reflector, in the readings' frame, whitened.
-struct PositionResidual {
-  const Start& start;
-  Vector6d q;  // with the sag in
-  Eigen::Vector3d measured;
-  Eigen::Matrix3d whiten;
-
-  template <class T>
-  bool operator()(const T* axes, const T* base, const T* target, T* residual) const {
-    using Vector = Eigen::Matrix<T, 3, 1>;
-    Vector x(target[0], target[1], target[2]);
-    for (int joint = 5; joint >= 0; --joint) {  // innermost turn first: exp(xi_1 q_1) ... exp(xi_6 q_6) x
-      const auto j = static_cast<std::size_t>(joint);
-      const T* own = axes + 4 * joint;
-      const Vector point = start.axes[j].point.cast<T>() + start.across_u[j].cast<T>() * own[0] +
-                           start.across_v[j].cast<T>() * own[1];
-      const Vector direction = (start.axes[j].direction.cast<T>() + start.across_u[j].cast<T>() * own[2] +
-                                start.across_v[j].cast<T>() * own[3])
-                                   .normalized();
-      const Vector from = x - point;
-      const double cosine = std::cos(q[joint]), sine = std::sin(q[joint]);
-      x = point + from * T(cosine) + direction.cross(from) * T(sine) +
-          direction * (direction.dot(from) * T(1.0 - cosine));
-    }
-    const Vector placed = start.points_from_base.linear().cast<T>() * x +
-                          start.points_from_base.translation().cast<T>();
-    Vector turned;
-    ceres::AngleAxisRotatePoint(base, placed.data(), turned.data());
-    const Vector modelled = turned + Vector(base[3], base[4], base[5]);
-    Eigen::Map<Vector>(residual, 3) = whiten.cast<T>() * (measured.cast<T>() - modelled);
-    return true;
-  }
-};
 
 std::string axisParameterName(int k) {
   static const std::array<const char*, 4> kKinds{"place (u)", "place (v)", "direction (u)", "direction (v)"};
@@ -87,7 +40,8 @@ class Calibration {
     build();
     result.rms_before = plainRms();
     const std::vector<int> unseen_axes = findUnseen();
-    result.parameters = 24 + 6 + 3 * static_cast<int>(used_targets_.size()) - static_cast<int>(unseen_axes.size());
+    result.parameters =
+        24 + 6 + 3 * static_cast<int>(used_targets_.size()) - static_cast<int>(unseen_axes.size());
     if (3 * result.positions <= result.parameters) {
       result.reason = fmt::format("{} unloaded positions do not determine {} parameters", result.positions,
                                   result.parameters);
@@ -133,8 +87,9 @@ class Calibration {
     if (!placed) {
       const auto found = baseFromPostures(begin_, positions_, campaign_.targets.size());
       if (!found) {
-        result.reason = "the base's place is not known from sweeps, and finding it from postures needs three "
-                        "reflectors in three postures that turn the flange about different axes";
+        result.reason =
+            "the base's place is not known from sweeps, and finding it from postures needs three "
+            "reflectors in three postures that turn the flange about different axes";
         return false;
       }
       start_.points_from_base = found->points_from_base;
@@ -154,11 +109,14 @@ class Calibration {
     }
     for (const UnloadedPosition& position : positions_) {
       const auto k = static_cast<std::size_t>(position.target);
-      if (std::find(used_targets_.begin(), used_targets_.end(), k) == used_targets_.end()) used_targets_.push_back(k);
-      auto* residual = new PositionResidual{start_, begin_.sagged(position.q), position.point, whitening(position)};
+      if (std::find(used_targets_.begin(), used_targets_.end(), k) == used_targets_.end())
+        used_targets_.push_back(k);
+      auto* residual =
+          new PositionResidual{start_, begin_.sagged(position.q), position.point, whitening(position)};
       residuals_.push_back(residual);
-      problem_.AddResidualBlock(new ceres::AutoDiffCostFunction<PositionResidual, 3, 24, 6, 3>(residual), nullptr,
-                                parameters_.axes.data(), parameters_.base.data(), parameters_.targets[k].data());
+      problem_.AddResidualBlock(new ceres::AutoDiffCostFunction<PositionResidual, 3, 24, 6, 3>(residual),
+                                nullptr, parameters_.axes.data(), parameters_.base.data(),
+                                parameters_.targets[k].data());
     }
     std::sort(used_targets_.begin(), used_targets_.end());
   }
@@ -183,20 +141,23 @@ class Calibration {
     return std::sqrt(sum / (3.0 * static_cast<double>(positions_.size())));
   }
 
-  /// Axis parameters whose column of the Jacobian lies in the span of those before it. Base and reflectors come first and
-  /// the axes from the tip inwards, so that what is free by choice of frame is fixed in axes 1 and 2, which define R0.
+  /// Axis parameters whose column of the Jacobian lies in the span of those before it. Base and reflectors
+  /// come first and the axes from the tip inwards, so that what is free by choice of frame is fixed in axes 1
+  /// and 2, which define R0.
   std::vector<int> findUnseen() {
     ceres::Problem::EvaluateOptions options;
     options.parameter_blocks = {parameters_.base.data()};
-    for (const std::size_t k : used_targets_) options.parameter_blocks.push_back(parameters_.targets[k].data());
+    for (const std::size_t k : used_targets_)
+      options.parameter_blocks.push_back(parameters_.targets[k].data());
     options.parameter_blocks.push_back(parameters_.axes.data());
     ceres::CRSMatrix sparse;
     problem_.Evaluate(options, nullptr, nullptr, nullptr, &sparse);
     Eigen::MatrixXd jacobian = Eigen::MatrixXd::Zero(sparse.num_rows, sparse.num_cols);
     for (int row = 0; row < sparse.num_rows; ++row) {
-      for (int at = sparse.rows[static_cast<std::size_t>(row)]; at < sparse.rows[static_cast<std::size_t>(row) + 1];
-           ++at) {
-        jacobian(row, sparse.cols[static_cast<std::size_t>(at)]) = sparse.values[static_cast<std::size_t>(at)];
+      for (int at = sparse.rows[static_cast<std::size_t>(row)];
+           at < sparse.rows[static_cast<std::size_t>(row) + 1]; ++at) {
+        jacobian(row, sparse.cols[static_cast<std::size_t>(at)]) =
+            sparse.values[static_cast<std::size_t>(at)];
       }
     }
     const int axes_at = 6 + 3 * static_cast<int>(used_targets_.size());
@@ -205,20 +166,9 @@ class Calibration {
     for (int axis = 5; axis >= 0; --axis) {
       for (int k = 0; k < 4; ++k) order.push_back(axes_at + 4 * axis + k);
     }
-    constexpr double kUnseen = 1e-5;  // share of a column's length that is new
     std::vector<int> unseen;
-    std::vector<Eigen::VectorXd> span;
-    for (const int column : order) {
-      Eigen::VectorXd rest = jacobian.col(column);
-      const double length = rest.norm();
-      for (int pass = 0; pass < 2; ++pass) {
-        for (const Eigen::VectorXd& direction : span) rest -= direction.dot(rest) * direction;
-      }
-      if (rest.norm() > kUnseen * length) {
-        span.push_back(rest.normalized());
-      } else if (column >= axes_at) {
-        unseen.push_back(column - axes_at);
-      }
+    for (const int column : columnsInSpanOfEarlier(jacobian, order)) {
+      if (column >= axes_at) unseen.push_back(column - axes_at);
     }
     std::sort(unseen.begin(), unseen.end());
     return unseen;
@@ -227,8 +177,10 @@ class Calibration {
   LoadingGeometry calibrated() const {
     LoadingGeometry geometry = begin_;
     for (std::size_t j = 0; j < 6; ++j) {
-      const MeasuredLine from{start_.axes[j], start_.across_u[j], start_.across_v[j], Eigen::Matrix4d::Zero()};
-      geometry.arm.axes_in_base_at_zero[j] = from.moved(Eigen::Map<const Eigen::Vector4d>(&parameters_.axes[4 * j]));
+      const MeasuredLine from{start_.axes[j], start_.across_u[j], start_.across_v[j],
+                              Eigen::Matrix4d::Zero()};
+      geometry.arm.axes_in_base_at_zero[j] =
+          from.moved(Eigen::Map<const Eigen::Vector4d>(&parameters_.axes[4 * j]));
     }
     const Eigen::Isometry3d carry = flangeCarry(start_.axes, geometry.arm.axes_in_base_at_zero);
     geometry.arm.base_from_flange_at_zero = carry * geometry.arm.base_from_flange_at_zero;
@@ -240,7 +192,8 @@ class Calibration {
     }
     Eigen::Isometry3d moved = Eigen::Isometry3d::Identity();
     const Eigen::Map<const Eigen::Vector3d> turn(parameters_.base.data());
-    if (turn.norm() > 0.0) moved.linear() = Eigen::AngleAxisd(turn.norm(), turn.normalized()).toRotationMatrix();
+    if (turn.norm() > 0.0)
+      moved.linear() = Eigen::AngleAxisd(turn.norm(), turn.normalized()).toRotationMatrix();
     moved.translation() = Eigen::Map<const Eigen::Vector3d>(parameters_.base.data() + 3);
     geometry.r0_from_loading = (moved * start_.points_from_base).inverse();
     return geometry;
@@ -252,8 +205,8 @@ class Calibration {
   std::vector<std::optional<Eigen::Vector3d>> targets_;
   std::vector<std::size_t> used_targets_;
   std::vector<PositionResidual*> residuals_;  // owned by the problem's cost functions
-  Start start_;
-  Parameters parameters_;
+  CalibrationStart start_;
+  CalibrationParameters parameters_;
   ceres::Problem problem_;
 };
 

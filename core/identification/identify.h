@@ -81,4 +81,7 @@ struct Identification {
 /// found in turns, from the rigid arm on; three rounds settle to 1e-4 of a stiffness.
 Identification identify(const Campaign& campaign, const IdentifyOptions& options = {});
 
+/// The frames alone: with the own weight taken off where the campaign has what identifies the stiffnesses, else without.
+Frames settledFrames(const Campaign& campaign);
+
 }  // namespace stiffscope

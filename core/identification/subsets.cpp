@@ -1,6 +1,7 @@
 #include "core/identification/subsets.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
 #include <limits>
@@ -142,10 +143,18 @@ void addTo(SubsetCompensation& sum, const SubsetCompensation& other) {
   sum.all += other.all;
 }
 
-double quantile(std::vector<double>& values, double share) {
-  const auto at = static_cast<std::size_t>(share * static_cast<double>(values.size() - 1) + 0.5);
-  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(at), values.end());
-  return values[at];
+/// The order statistics at `shares` (ascending), each by partitioning only what lies above the one before.
+template <std::size_t N>
+std::array<double, N> quantiles(std::vector<double>& values, const std::array<double, N>& shares) {
+  std::array<double, N> found{};
+  auto from = values.begin();
+  for (std::size_t k = 0; k < N; ++k) {
+    const auto at = values.begin() + std::lround(shares[k] * static_cast<double>(values.size() - 1));
+    std::nth_element(from, at, values.end());
+    found[k] = *at;
+    from = at;
+  }
+  return found;
 }
 
 }  // namespace
@@ -211,11 +220,12 @@ StiffnessSpread spreadOf(const SubsetStudy& study, int joint) {
   spread.sd = std::sqrt(square / (n - 1.0));
   spread.compliance_sd = std::sqrt(c_square / (n - 1.0));
   spread.share_negative /= n;
-  spread.median = quantile(stiffness, 0.5);
-  spread.low = quantile(stiffness, 0.05);
-  spread.high = quantile(stiffness, 0.95);
-  spread.quartile_low = quantile(stiffness, 0.25);
-  spread.quartile_high = quantile(stiffness, 0.75);
+  const auto at = quantiles<5>(stiffness, {0.05, 0.25, 0.5, 0.75, 0.95});
+  spread.low = at[0];
+  spread.quartile_low = at[1];
+  spread.median = at[2];
+  spread.quartile_high = at[3];
+  spread.high = at[4];
   return spread;
 }
 

@@ -11,7 +11,7 @@ namespace stiffscope {
 struct InputPlace {
   std::string file;
   std::size_t line = 0;  ///< counted from 1, the header line included
-  std::string column;    ///< a table's column name, or an XML attribute or element
+  std::string column = {};  ///< a table's column name, or an XML attribute or element
 };
 
 /// `FILE:LINE: COLUMN: 'VALUE': FINDING`, with the parts that apply, always one line: every part is stripped

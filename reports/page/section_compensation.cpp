@@ -64,13 +64,16 @@ std::string noiseWords(const ReportCampaign& one) {
 }
 
 void writeAvoided(Html& html, const ReportContent& content) {
-  const AvoidedShare& avoided = *content.avoided;
+  const AvoidedDeflection& avoided = *content.avoided;
   html.leaf("h3", "Avoided by the double encoders");
+  if (!avoided.available) {
+    html.paragraph(fmt::format("Not known: {}.", avoided.reason));
+    return;
+  }
   std::string words = fmt::format(
-      "With the double encoders active the deflection at {} is {} smaller than with them inactive, over {} "
-      "postures (mean force {} N inactive, {} N active).",
-      avoided.point, percent(avoided.share), avoided.postures.size(), fixed(avoided.force_inactive, 0),
-      fixed(avoided.force_active, 0));
+      "With the double encoders active the deflection at {} is {} smaller than with them "
+      "inactive, over {} postures at the same joint angles under the same load.",
+      avoidedPoint(avoided), percent(avoided.share), avoided.postures.size());
   if (content.compare_with_paper) words += fmt::format(" The paper: {}.", percent(kPaperAvoided, 0));
   html.paragraph(words);
 }
@@ -81,10 +84,9 @@ void writeCompensation(Html& html, const ReportContent& content) {
   const auto section = html.element("section", {{"id", "compensation"}});
   html.leaf("h2", "Deflection compensated and avoided");
   html.paragraph(
-      "Compensated is 1 − Σ|what is left| / Σ|displacement|. Over the subsets of postures it is the mean: on "
-      "the "
-      "postures a subset used, on those it held out, and on all. P_{wrist} sees joints 1 to 3 only, the "
-      "reflectors all six.");
+      "Compensated is 1 − Σ|what is left| / Σ|displacement|. Over the subsets of postures it is "
+      "the mean: on the postures a subset used, on those it held out, and on all. P_{wrist} sees "
+      "joints 1 to 3 only, the reflectors all six.");
   for (const ReportCampaign& one : content.campaigns) {
     if (content.campaigns.size() > 1) html.leaf("h3", one.campaign.name);
     if (!shownMethod(one.identification)) {

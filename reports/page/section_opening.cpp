@@ -57,9 +57,10 @@ KeyNumber compensated(const ReportCampaign& one, const JudgedPoint& point) {
 }
 
 KeyNumber third(const ReportContent& content, const ReportCampaign& one) {
-  if (content.avoided) {
+  if (content.avoided && content.avoided->available) {
     return {percent(content.avoided->share, 0),
-            fmt::format("of the deflection at {} avoided by the double encoders", content.avoided->point)};
+            fmt::format("of the deflection at {} avoided by the double encoders",
+                        avoidedPoint(*content.avoided))};
   }
   const auto& joints = one.identification.identifiability.joints;
   const auto seen =

@@ -194,23 +194,26 @@ TEST(Avoided, AgainstTheSumsByHand) {
   const SmallResult inactive(DoubleEncoder::inactive, 2.0), active(DoubleEncoder::active, 1.0);
   const std::vector<ReportCampaign> both{{active.campaign, active.identification},
                                          {inactive.campaign, inactive.identification}};
-  const auto avoided = avoidedShare(both);
+  const auto avoided = avoidedByDoubleEncoders(both);
   ASSERT_TRUE(avoided.has_value());
   EXPECT_DOUBLE_EQ(avoided->share, 0.5);
   EXPECT_TRUE(avoided->at_wrist);
   EXPECT_EQ(avoided->postures.size(), 3u);
-  EXPECT_DOUBLE_EQ(avoided->force_active, 1000.0);
   const std::string verdict = verdictOf(both, avoided);
   EXPECT_TRUE(has(verdict, "The double encoders avoid 50\u00a0% of the deflection at P_{wrist}.")) << verdict;
 }
 
 TEST(Avoided, NeedsBothStatesAndACommonPosture) {
   SmallResult inactive(DoubleEncoder::inactive), active(DoubleEncoder::active);
-  EXPECT_FALSE(avoidedShare({{active.campaign, active.identification}}).has_value());
+  EXPECT_FALSE(avoidedByDoubleEncoders({{active.campaign, active.identification}}).has_value());
   active.campaign.pose_ids = {"X", "Y", "Z"};
-  EXPECT_FALSE(
-      avoidedShare({{active.campaign, active.identification}, {inactive.campaign, inactive.identification}})
-          .has_value());
+  ReportContent content = contentOf(active);
+  content.campaigns.push_back({inactive.campaign, inactive.identification});
+  content.avoided = avoidedByDoubleEncoders(content.campaigns);
+  ASSERT_TRUE(content.avoided.has_value());
+  EXPECT_FALSE(content.avoided->available);
+  EXPECT_TRUE(has(reportPage(content), "Not known: the two campaigns have no posture in common"));
+  EXPECT_FALSE(has(verdictOf(content.campaigns, content.avoided), "avoid"));
 }
 
 TEST(Page, ARealCampaignWithoutWrist) {

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <functional>
+#include <string>
+
+namespace CLI {
+class App;
+}
+
+namespace stiffscope {
+
+/// What a parsed command line asks for; returns the exit status.
+using Run = std::function<int()>;
+
+/// Each adds its command to the command line and puts what it does into `run` when it is chosen.
+void addFrames(CLI::App& app, Run& run);
+void addIdentify(CLI::App& app, Run& run);
+void addCompensate(CLI::App& app, Run& run);
+void addSimulate(CLI::App& app, Run& run);
+void addReport(CLI::App& app, Run& run);
+
+}  // namespace stiffscope

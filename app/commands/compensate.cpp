@@ -1,0 +1,64 @@
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <memory>
+
+#include "app/command.h"
+#include "app/method_option.h"
+#include "app/output.h"
+#include "core/compensation/postures_table.h"
+#include "core/input/input_error.h"
+#include "reports/json/compensation_json.h"
+#include "reports/text/compensation_text.h"
+
+namespace stiffscope {
+
+namespace {
+
+struct Arguments {
+  std::string campaign, postures, json, method = "dpp";
+  int step = 0;
+};
+
+int compensateCampaign(const Arguments& arguments, bool step_given) {
+  const std::vector<Method> methods = methodsNamed(arguments.method);
+  if (methods.size() != 1) throw InputError({"--method"}, arguments.method, "expected one of cp, pp or dpp");
+  const Campaign campaign = openCampaign(arguments.campaign);
+  IdentifyOptions options;
+  if (step_given) options.step = arguments.step;
+  const Identification result = identify(campaign, options);
+  const MethodResult& method = result.of(methods.front());
+  if (!method.available) {
+    throw InputError({arguments.campaign}, "", "this method is unavailable here: " + method.reason);
+  }
+  std::vector<std::string> warnings;
+  const std::vector<PostureToCompensate> asked = arguments.postures.empty()
+                                                     ? campaignPostures(campaign, result.step)
+                                                     : readPostures(arguments.postures, warnings);
+  printWarnings(warnings);
+  const std::vector<CompensatedPosture> rows =
+      compensate(campaign, method.geometry, method.estimate, result.frames.tcp_in_flange, asked);
+  deliver([&] { return compensationJson(campaign, methods.front(), rows); },
+          [&] { return compensationText(campaign, methods.front(), rows); }, arguments.json);
+  const bool any = std::any_of(rows.begin(), rows.end(), [](const CompensatedPosture& row) { return row.solved; });
+  return any ? kDone : kNotUsable;
+}
+
+}  // namespace
+
+void addCompensate(CLI::App& app, Run& run) {
+  const auto arguments = std::make_shared<Arguments>();
+  CLI::App* command =
+      app.add_subcommand("compensate", "Predicted deflection, and the joint commands that cancel it");
+  command->add_option("CAMPAIGN", arguments->campaign, "campaign folder or its campaign.xml")->required();
+  command->add_option("--postures", arguments->postures,
+                      "CSV with pose, q1_deg..q6_deg and the load-cell reading fx_n..mz_nm expected there; without it the "
+                      "campaign's own");
+  command->add_option("--method", arguments->method, "cp, pp or dpp")->capture_default_str();
+  const CLI::Option* step = command->add_option("--step", arguments->step, "load step to identify from");
+  command->add_option("--json", arguments->json, "write the result to this file, - for standard output");
+  command->callback([arguments, step, &run] {
+    run = [arguments, step_given = step->count() > 0] { return compensateCampaign(*arguments, step_given); };
+  });
+}
+
+}  // namespace stiffscope

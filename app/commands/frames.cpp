@@ -1,0 +1,30 @@
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "app/command.h"
+#include "app/output.h"
+#include "core/identification/identify.h"
+#include "reports/json/frames_json.h"
+#include "reports/text/frames_text.h"
+
+namespace stiffscope {
+
+void addFrames(CLI::App& app, Run& run) {
+  struct Arguments {
+    std::string campaign, json;
+  };
+  const auto arguments = std::make_shared<Arguments>();
+  CLI::App* command = app.add_subcommand("frames", "Axes, R0, link lengths, P_TCP and the wrist centre from the sweeps");
+  command->add_option("CAMPAIGN", arguments->campaign, "campaign folder or its campaign.xml")->required();
+  command->add_option("--json", arguments->json, "write the result to this file, - for standard output");
+  command->callback([arguments, &run] {
+    run = [arguments] {
+      const Campaign campaign = openCampaign(arguments->campaign);
+      const Frames frames = settledFrames(campaign);
+      deliver([&] { return framesJson(campaign, frames); }, [&] { return framesText(campaign, frames); }, arguments->json);
+      return frames.arm.points_placed ? kDone : kNotUsable;
+    };
+  });
+}
+
+}  // namespace stiffscope

@@ -1,0 +1,27 @@
+#include "app/output.h"
+
+#include <cstdio>
+
+#include "core/campaign/read_campaign.h"
+#include "core/input/write_file.h"
+
+namespace stiffscope {
+
+Campaign openCampaign(const std::string& folder_or_xml) {
+  CampaignReading reading = readCampaign(folder_or_xml);
+  printWarnings(reading.warnings);
+  return std::move(reading.campaign);
+}
+
+void printWarnings(const std::vector<std::string>& warnings) {
+  for (const std::string& warning : warnings) std::fprintf(stderr, "stiffscope: warning: %s\n", warning.c_str());
+}
+
+void deliver(const std::function<Json()>& json, const std::function<std::string()>& text, const std::string& json_file) {
+  const bool json_only = json_file == "-";
+  if (!json_file.empty() && !json_only) writeFileWhole(json_file, json().dump(1) + '\n');
+  const std::string shown = json_only ? json().dump(1) + '\n' : text();
+  std::fwrite(shown.data(), 1, shown.size(), stdout);
+}
+
+}  // namespace stiffscope

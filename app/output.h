@@ -1,0 +1,26 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "core/campaign/campaign.h"
+#include "reports/json/json_values.h"
+
+namespace stiffscope {
+
+/// Exit statuses of the command line.
+inline constexpr int kDone = 0;
+inline constexpr int kNotUsable = 1;  ///< done, but the result does not serve its purpose
+inline constexpr int kBadInput = 2;
+
+/// Reads a campaign; its warnings go to standard error.
+Campaign openCampaign(const std::string& folder_or_xml);
+
+void printWarnings(const std::vector<std::string>& warnings);
+
+/// The result: as JSON alone to standard output where `json_file` is `-`; else as text there, and as JSON to the file that
+/// is named, if any. Only what is asked for is made.
+void deliver(const std::function<Json()>& json, const std::function<std::string()>& text, const std::string& json_file);
+
+}  // namespace stiffscope

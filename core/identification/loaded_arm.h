@@ -1,0 +1,49 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/frames/frames.h"
+#include "core/identification/stiffness_estimate.h"
+#include "core/identification/wrist_move.h"
+
+namespace stiffscope {
+
+/// The arm under one load step in one geometry: what every method's equations are made from.
+struct LoadedArm {
+  LoadingGeometry geometry;
+  std::vector<LoadCase> cases;
+  std::vector<WristMove> wrist;   ///< one a case; empty where P_wrist is not measured
+  std::vector<Vector6d> torques;  ///< one a case: J_w^T W, with K_c's share where a method has put it in
+
+  bool hasFlangePoses() const;
+};
+
+/// Where reflectors in most postures give a flange pose, or P_wrist, a posture that lacks it is left out, so
+/// that all methods see the same postures; `left_out` names it.
+LoadedArm loadedArm(const Campaign& campaign, const LoadingGeometry& geometry, const WristCentre& wrist,
+                    int step, std::vector<std::string>* left_out = nullptr);
+
+/// Equations of all cases: the reflectors', P_wrist's, the pose's at P_TCP.
+std::vector<CaseEquations> reflectorEquations(const LoadedArm& arm);
+std::vector<CaseEquations> wristPointEquations(const LoadedArm& arm);
+std::vector<CaseEquations> poseEquations(const LoadedArm& arm, const Eigen::Vector3d& tcp_in_flange);
+
+/// Solves by one method, `solve(arm)`. With `finite_deflection` the equations are made again with the torque
+/// (K_c) and the middle posture that the last estimate implies; K_c is about a hundredth, so two rounds leave
+/// a millionth.
+template <class Solve>
+StiffnessEstimate solveSettled(LoadedArm& arm, bool finite_deflection, const Solve& solve) {
+  arm.torques = jointTorques(arm.geometry, arm.cases);
+  for (LoadCase& load_case : arm.cases) load_case.middle.reset();
+  StiffnessEstimate estimate = solve(arm);
+  constexpr int kRounds = 2;
+  for (int round = 0; finite_deflection && round < kRounds; ++round) {
+    arm.torques = jointTorquesWithGeometricStiffness(arm.geometry, arm.cases, estimate.compliance);
+    takeJacobiansAtMiddle(arm.geometry, estimate.compliance, arm.torques, arm.cases);
+    estimate = solve(arm);
+  }
+  return estimate;
+}
+
+}  // namespace stiffscope

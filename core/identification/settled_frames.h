@@ -1,0 +1,20 @@
+#pragma once
+
+#include "core/identification/identify.h"
+#include "core/identification/loaded_arm.h"
+
+namespace stiffscope {
+
+/// Frames from which the own weight's sag is taken off, and the loaded arm in them.
+struct SettledFrames {
+  Frames frames;
+  LoadedArm arm;                      ///< in the swept geometry
+  std::vector<std::string> left_out;  ///< postures that cannot be used, with the reason
+};
+
+/// The own weight needs stiffnesses to be taken off the sweeps, and the stiffnesses need the sweeps: the two
+/// are found in turns, from the rigid arm on; three rounds settle to 1e-4 of a stiffness. Without known
+/// masses, the rigid arm's frames.
+SettledFrames settleFrames(const Campaign& campaign, int step, const IdentifyOptions& options);
+
+}  // namespace stiffscope

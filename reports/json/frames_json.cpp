@@ -1,0 +1,121 @@
+#include "reports/json/frames_json.h"
+
+#include <cmath>
+
+#include "core/input/units.h"
+
+namespace stiffscope {
+
+namespace {
+
+Json optionalNumber(const std::optional<double>& value, double factor) {
+  return value ? number(*value * factor) : Json(nullptr);
+}
+
+Json circlesJson(const Campaign& campaign, const MeasuredAxis& axis) {
+  Json circles = Json::array();
+  for (std::size_t k = 0; k < axis.fit.circles.size(); ++k) {
+    const AxisCircle& circle = axis.fit.circles[k];
+    circles.push_back({{"target", campaign.targets[static_cast<std::size_t>(axis.targets[k])].id},
+                       {"radius_mm", circle.radius / kMillimetre},
+                       {"arc_deg", circle.arc / kDegree},
+                       {"rms_um", circle.rms / kMicrometre}});
+  }
+  return circles;
+}
+
+Json axisJson(const Campaign& campaign, const Frames& frames, std::size_t i) {
+  const MeasuredAxis& axis = frames.axes[i];
+  const Line& line = frames.arm.arm.axes_in_base_at_zero[i];
+  Json json{{"axis", i + 1}, {"measured", axis.measured}};
+  if (!axis.measured) json["reason"] = axis.reason;
+  json["point_m"] = array(line.point);
+  json["direction"] = array(line.direction);
+  if (!axis.measured) return json;
+  double arc = 0.0;
+  for (const AxisCircle& circle : axis.fit.circles) arc = std::max(arc, circle.arc);
+  json["arc_deg"] = arc / kDegree;
+  json["rms_um"] = axis.fit.rms / kMicrometre;
+  // One number a kind: the root of the mean of the two variances across the axis, at the fit's own point.
+  json["sd_point_um"] = std::sqrt(axis.at_zero.covariance.topLeftCorner<2, 2>().trace() / 2.0) / kMicrometre;
+  json["sd_direction_deg"] = std::sqrt(axis.at_zero.covariance.bottomRightCorner<2, 2>().trace() / 2.0) / kDegree;
+  json["chi2_per_dof"] = number(axis.fit.chi2_per_dof);
+  json["circles"] = circlesJson(campaign, axis);
+  return json;
+}
+
+Json linkJson(const LinkGeometry& link, std::size_t i) {
+  Json json{{"between_axes", {i + 1, i + 2}},
+            {"length_mm", link.distance / kMillimetre},
+            {"sd_length_mm", optionalNumber(link.distance_sd, 1.0 / kMillimetre)},
+            {"nominal_length_mm", link.nominal_distance / kMillimetre},
+            {"angle_deg", link.angle / kDegree},
+            {"sd_angle_deg", optionalNumber(link.angle_sd, 1.0 / kDegree)},
+            {"nominal_angle_deg", link.nominal_angle / kDegree},
+            {"near_parallel", link.near_parallel}};
+  if (link.near_parallel) json["length_at_point_m"] = array(link.at_point_in_r0);
+  return json;
+}
+
+Json wristJson(const Campaign& campaign, const WristCentre& wrist) {
+  Json json{{"measured", wrist.measured}};
+  if (!wrist.measured) json["reason"] = wrist.reason;
+  json["center_m"] = wrist.measured ? array(wrist.centre_in_r0) : Json(nullptr);
+  json["center_at_q1_q2_q3_deg"] = array(Eigen::Vector3d(wrist.q.head<3>()), 1.0 / kDegree);
+  json["miss_mm"] = {{"axes_4_5", wrist.miss_45 / kMillimetre},
+                     {"sd_axes_4_5", wrist.miss_45_sd / kMillimetre},
+                     {"axes_5_6", wrist.miss_56 / kMillimetre},
+                     {"sd_axes_5_6", wrist.miss_56_sd / kMillimetre}};
+  json["nearest_axes_5_6_m"] = array(wrist.nearest_axes_56_in_r0);
+  json["reflector_barycenter_m"] = array(wrist.reflector_barycentre_in_r0);
+  if (!wrist.measured) return json;
+  json["sd_center_um"] = array(Eigen::Vector3d(wrist.covariance.diagonal().cwiseSqrt()), 1.0 / kMicrometre);
+  Json radii = Json::object();
+  for (std::size_t k = 0; k < wrist.radii.size(); ++k) radii[campaign.targets[k].id] = number(wrist.radii[k] / kMillimetre);
+  json["radii_mm"] = radii;
+  json["rms_um"] = wrist.spheres.rms / kMicrometre;
+  Json table = Json::array();
+  for (const WristTableRow& row : wrist.table) {
+    table.push_back({{"target", campaign.targets[static_cast<std::size_t>(row.target)].id},
+                     {"center_mm", array(row.centre_in_r0, 1.0 / kMillimetre)},
+                     {"offset_mm", row.offset / kMillimetre},
+                     {"radius_mm", row.radius / kMillimetre},
+                     {"rms_um", row.rms / kMicrometre},
+                     {"readings", row.readings}});
+  }
+  json["table"] = table;
+  json["table_mean_mm"] = array(wrist.table_mean_in_r0, 1.0 / kMillimetre);
+  return json;
+}
+
+}  // namespace
+
+Json framesJson(const Campaign& campaign, const Frames& frames) {
+  Json json{{"campaign", campaignJson(campaign)}};
+  const bool tracker = frames.arm.points_placed && frames.points_frame == PointFrame::tracker;
+  json["r0_from_tracker"] = tracker ? matrix(frames.arm.r0_from_points) : Json(nullptr);
+  const bool measured_in_base = frames.arm.points_placed && frames.points_frame == PointFrame::base_link;
+  json["r0_from_base_link"] = matrix(measured_in_base ? frames.arm.r0_from_points : frames.arm.r0_from_base_link);
+  json["own_weight"] = {{"removed", frames.sag_removed}, {"note", frames.sag_note}};
+  Json axes = Json::array();
+  for (std::size_t i = 0; i < 6; ++i) axes.push_back(axisJson(campaign, frames, i));
+  json["axes"] = axes;
+  Json lengths = Json::array(), links = Json::array();
+  for (std::size_t i = 0; i < frames.links.size(); ++i) {
+    lengths.push_back(frames.links[i].distance / kMillimetre);
+    links.push_back(linkJson(frames.links[i], i));
+  }
+  json["link_lengths_mm"] = lengths;
+  json["links"] = links;
+  json["wrist"] = wristJson(campaign, frames.wrist);
+  json["tcp_in_flange_m"] = array(frames.tcp_in_flange);
+  Json targets = Json::object();
+  for (std::size_t k = 0; k < campaign.targets.size(); ++k) {
+    const auto& target = frames.targets_in_r0_at_zero[k];
+    targets[campaign.targets[k].id] = target ? array(*target) : Json(nullptr);
+  }
+  json["targets_in_r0_at_zero_m"] = targets;
+  return json;
+}
+
+}  // namespace stiffscope

@@ -1,0 +1,13 @@
+#pragma once
+
+#include "core/campaign/campaign.h"
+#include "core/frames/frames.h"
+#include "reports/json/campaign_json.h"
+
+namespace stiffscope {
+
+/// The result of `frames`: R0, axes, link lengths, wrist centre with Table I, P_TCP. Axes, points and the wrist stand in
+/// R0 with all joints at zero unless the key says otherwise; what was not measured is null with a reason.
+Json framesJson(const Campaign& campaign, const Frames& frames);
+
+}  // namespace stiffscope

@@ -1,0 +1,14 @@
+#pragma once
+
+#include "core/identification/identify.h"
+#include "reports/json/campaign_json.h"
+
+namespace stiffscope {
+
+/// The result of `identify`. `methods` may leave some out: those asked for.
+Json identificationJson(const Campaign& campaign, const Identification& result, const std::vector<Method>& methods);
+
+/// `cp`, `pp`, `dpp`.
+const char* keyOf(Method method);
+
+}  // namespace stiffscope

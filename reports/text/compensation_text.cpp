@@ -1,0 +1,32 @@
+#include "reports/text/compensation_text.h"
+
+#include <fmt/format.h>
+
+#include <iterator>
+
+#include "core/input/units.h"
+#include "reports/text/identification_text.h"
+
+namespace stiffscope {
+
+std::string compensationText(const Campaign& campaign, Method method, const std::vector<CompensatedPosture>& postures) {
+  std::string text;
+  auto out = std::back_inserter(text);
+  fmt::format_to(out, "{}: predicted deflection of P_TCP and the commands that cancel it, by {}\n\n", campaign.name,
+                 longName(method));
+  fmt::format_to(out, "  {:<10}{:>27}{:>9}   {}\n", "pose", "deflection in R0 (mm)", "+-", "command (deg)");
+  for (const CompensatedPosture& posture : postures) {
+    const Eigen::Vector3d mm = posture.deflection / kMillimetre;
+    fmt::format_to(out, "  {:<10}{:>9.3f}{:>9.3f}{:>9.3f}{:>9.3f}   ", posture.posture.id, mm.x(), mm.y(), mm.z(),
+                   posture.deflection_sd.norm() / kMillimetre);
+    if (posture.solved) {
+      for (int joint = 0; joint < 6; ++joint) fmt::format_to(out, "{:>10.4f}", posture.commands[joint] / kDegree);
+      fmt::format_to(out, "\n");
+    } else {
+      fmt::format_to(out, "refused: {}\n", posture.reason);
+    }
+  }
+  return text;
+}
+
+}  // namespace stiffscope

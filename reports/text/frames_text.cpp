@@ -1,0 +1,115 @@
+#include "reports/text/frames_text.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include "core/input/units.h"
+#include "reports/text/wrapped.h"
+
+namespace stiffscope {
+
+namespace {
+
+using Out = std::back_insert_iterator<std::string>;
+
+std::string plusMinus(double value, const std::optional<double>& sd, int decimals) {
+  return sd ? fmt::format("{:.{}f} +- {:.{}f}", value, decimals, *sd, decimals) : fmt::format("{:.{}f}", value, decimals);
+}
+
+void writeAxes(const Frames& frames, Out out) {
+  fmt::format_to(out, "\nAxes, in R0 with all joints at zero\n");
+  fmt::format_to(out, "  {:<5}{:>32}{:>34}{:>7}{:>9}\n", "axis", "point (m)", "direction", "arc", "rms");
+  for (std::size_t i = 0; i < 6; ++i) {
+    const Line& line = frames.arm.arm.axes_in_base_at_zero[i];
+    fmt::format_to(out, "  {:<5}{:>12.6f}{:>10.6f}{:>10.6f}{:>12.6f}{:>11.6f}{:>11.6f}", i + 1, line.point.x(),
+                   line.point.y(), line.point.z(), line.direction.x(), line.direction.y(), line.direction.z());
+    const MeasuredAxis& axis = frames.axes[i];
+    if (axis.measured) {
+      double arc = 0.0;
+      for (const AxisCircle& circle : axis.fit.circles) arc = std::max(arc, circle.arc);
+      fmt::format_to(out, "{:>6.0f}d{:>6.1f} um\n", arc / kDegree, axis.fit.rms / kMicrometre);
+    } else {
+      fmt::format_to(out, "  nominal: {}\n", axis.reason);
+    }
+  }
+}
+
+void writeLinks(const Frames& frames, Out out) {
+  fmt::format_to(out, "\nBetween consecutive axes\n  {:<7}{:>24}{:>12}{:>26}{:>12}\n", "axes", "distance (mm)", "nominal",
+                 "angle (deg)", "nominal");
+  for (std::size_t i = 0; i < frames.links.size(); ++i) {
+    const LinkGeometry& link = frames.links[i];
+    const auto length_sd = link.distance_sd ? std::optional(*link.distance_sd / kMillimetre) : std::nullopt;
+    const auto angle_sd = link.angle_sd ? std::optional(*link.angle_sd / kDegree) : std::nullopt;
+    fmt::format_to(out, "  {}-{:<5}{:>24}{:>12.1f}{:>26}{:>12.1f}{}\n", i + 1, i + 2,
+                   plusMinus(link.distance / kMillimetre, length_sd, 3), link.nominal_distance / kMillimetre,
+                   plusMinus(link.angle / kDegree, angle_sd, 4), link.nominal_angle / kDegree,
+                   link.near_parallel ? "  *" : "");
+  }
+  for (std::size_t i = 0; i < frames.links.size(); ++i) {
+    const LinkGeometry& link = frames.links[i];
+    if (!link.near_parallel) continue;
+    fmt::format_to(out, "  * nearly parallel: distance in the plane across axis {} at R0 ({:.3f}, {:.3f}, {:.3f}) m\n",
+                   i + 1, link.at_point_in_r0.x(), link.at_point_in_r0.y(), link.at_point_in_r0.z());
+  }
+}
+
+void writeWrist(const Campaign& campaign, const WristCentre& wrist, Out out) {
+  if (!wrist.measured) {
+    fmt::format_to(out, "\nWrist centre: not measured: {}\n", wrist.reason);
+    return;
+  }
+  fmt::format_to(out, "\nWrist centre in R0 by reflector (Table I), mm\n  {:<12}{:>11}{:>11}{:>11}{:>9}{:>10}{:>10}\n",
+                 "reflector", "x", "y", "z", "offset", "radius", "readings");
+  for (const WristTableRow& row : wrist.table) {
+    const Eigen::Vector3d mm = row.centre_in_r0 / kMillimetre;
+    fmt::format_to(out, "  {:<12}{:>11.3f}{:>11.3f}{:>11.3f}{:>9.3f}{:>10.3f}{:>10}\n",
+                   campaign.targets[static_cast<std::size_t>(row.target)].id, mm.x(), mm.y(), mm.z(),
+                   row.offset / kMillimetre, row.radius / kMillimetre, row.readings);
+  }
+  const auto place = [&](const char* name, const Eigen::Vector3d& point) {
+    const Eigen::Vector3d mm = point / kMillimetre;
+    fmt::format_to(out, "  {:<42}{:>11.3f}{:>11.3f}{:>11.3f}\n", name, mm.x(), mm.y(), mm.z());
+  };
+  place("mean of the rows", wrist.table_mean_in_r0);
+  place("common sphere centre", wrist.centre_in_r0);
+  place("nearest to axes 5 and 6", wrist.nearest_axes_56_in_r0);
+  place("barycentre of the reflectors (Dumas et al.)", wrist.reflector_barycentre_in_r0);
+  fmt::format_to(out, "  axes 4 and 5 miss by {:.3f} +- {:.3f} mm, 5 and 6 by {:.3f} +- {:.3f} mm\n",
+                 wrist.miss_45 / kMillimetre, wrist.miss_45_sd / kMillimetre, wrist.miss_56 / kMillimetre,
+                 wrist.miss_56_sd / kMillimetre);
+}
+
+void writeR0(const Frames& frames, Out out) {
+  if (!frames.arm.points_placed) {
+    fmt::format_to(out, "R0 stands on the URDF's axes: axes 1 and 2 are not both measured.\n");
+    return;
+  }
+  fmt::format_to(out, "r0_from_{} (m)\n", frames.points_frame == PointFrame::tracker ? "tracker" : "base_link");
+  for (int row = 0; row < 3; ++row) {
+    const Eigen::Vector4d values = frames.arm.r0_from_points.matrix().row(row);
+    fmt::format_to(out, "  {:>13.9f}{:>13.9f}{:>13.9f}{:>13.6f}\n", values[0], values[1], values[2], values[3]);
+  }
+}
+
+}  // namespace
+
+std::string framesText(const Campaign& campaign, const Frames& frames) {
+  std::string text;
+  Out out(text);
+  fmt::format_to(out, "{}: frames and geometry\n\n", campaign.name);
+  writeR0(frames, out);
+  writeAxes(frames, out);
+  writeLinks(frames, out);
+  const Eigen::Vector3d tcp = frames.tcp_in_flange / kMillimetre;
+  fmt::format_to(out, "\nP_TCP, where axis 6 pierces the flange plane: ({:.3f}, {:.3f}, {:.3f}) mm in the flange\n", tcp.x(),
+                 tcp.y(), tcp.z());
+  writeWrist(campaign, frames.wrist, out);
+  fmt::format_to(out, "\n{}\n", wrapped("Own weight: " + frames.sag_note + ".", 0));
+  return text;
+}
+
+}  // namespace stiffscope

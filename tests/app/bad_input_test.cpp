@@ -1,0 +1,89 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <functional>
+
+#include "tests/app/command.h"
+
+namespace stiffscope {
+namespace {
+
+namespace fs = std::filesystem;
+
+void replaceOnce(const fs::path& file, const std::string& from, const std::string& to) {
+  std::string text = contentsOf(file);
+  const auto at = text.find(from);
+  ASSERT_NE(at, std::string::npos) << file << " has no " << from;
+  text.replace(at, from.size(), to);
+  std::ofstream(file, std::ios::binary) << text;
+}
+
+struct Spoilt {
+  const char* name;
+  std::function<void(const fs::path& campaign)> spoil;
+  std::vector<std::string> said;  ///< what the one line must hold
+};
+
+std::vector<Spoilt> spoiltCampaigns() {
+  return {
+      {"malformed XML", [](const fs::path& c) { replaceOnce(c / "campaign.xml", "</campaign>", ""); }, {"campaign.xml:"}},
+      {"no XML at all", [](const fs::path& c) { std::ofstream(c / "campaign.xml") << "hello\n"; }, {"campaign.xml"}},
+      {"missing table", [](const fs::path& c) { fs::remove(c / "loading.csv"); }, {"loading.csv"}},
+      {"truncated last line",
+       [](const fs::path& c) {
+         const std::string text = contentsOf(c / "states.csv");
+         std::ofstream(c / "states.csv", std::ios::binary) << text.substr(0, text.size() - 30);
+       },
+       {"states.csv:96:"}},
+      {"NaN", [](const fs::path& c) { replaceOnce(c / "loading.csv", "\n1,0,1,P10,", "\n1,0,1,P10,nan,"); },
+       {"loading.csv:2:", "nan"}},
+      {"duplicate key",
+       [](const fs::path& c) {
+         const std::string text = contentsOf(c / "states.csv");
+         const auto second = text.find('\n') + 1;
+         std::ofstream(c / "states.csv", std::ios::binary) << text << text.substr(second, text.find('\n', second) + 1 - second);
+       },
+       {"states.csv:97:", "pose, step", "line 2"}},
+      {"unknown target", [](const fs::path& c) { replaceOnce(c / "loading.csv", ",P11,", ",P13,"); },
+       {"loading.csv:", "target", "'P13'"}},
+      {"forces in the columns of angles",
+       [](const fs::path& c) { replaceOnce(c / "states.csv", "q1_deg,q2_deg,q3_deg,q4_deg,q5_deg,q6_deg,fx_n,fy_n,fz_n",
+                                           "fx_n,fy_n,fz_n,q4_deg,q5_deg,q6_deg,q1_deg,q2_deg,q3_deg"); },
+       {"states.csv:", "q"}},
+  };
+}
+
+TEST(BadInput, StatusTwoOneLineAndNothingLeftBehind) {
+  for (const Spoilt& spoilt : spoiltCampaigns()) {
+    SCOPED_TRACE(spoilt.name);
+    const ScratchFolder scratch;
+    const fs::path campaign = scratch.path() / "campaign";
+    fs::copy(STIFFSCOPE_SOURCE_DIR "/samples/active", campaign);
+    spoilt.spoil(campaign);
+    for (const std::string& words :
+         {"identify '" + campaign.string() + "' --json '" + (scratch.path() / "result.json").string() + "'",
+          "report '" + campaign.string() + "' --out '" + (scratch.path() / "report").string() + "'"}) {
+      const Ran ran = runProgram(words, scratch.path());
+      EXPECT_EQ(ran.status, 2);
+      EXPECT_EQ(std::count(ran.err.begin(), ran.err.end(), '\n'), 1) << ran.err;
+      for (const std::string& word : spoilt.said) EXPECT_NE(ran.err.find(word), std::string::npos) << ran.err;
+      EXPECT_TRUE(ran.out.empty()) << ran.out;
+    }
+    EXPECT_FALSE(fs::exists(scratch.path() / "result.json"));
+    EXPECT_FALSE(fs::exists(scratch.path() / "report"));
+  }
+}
+
+TEST(BadInput, AnUnreadableFileIsNamed) {
+  if (geteuid() == 0) GTEST_SKIP() << "root reads everything: permissions cannot be tested as root";
+  const ScratchFolder scratch;
+  const fs::path campaign = scratch.path() / "campaign";
+  fs::copy(STIFFSCOPE_SOURCE_DIR "/samples/active", campaign);
+  fs::permissions(campaign / "campaign.xml", fs::perms::none);
+  const Ran ran = runProgram("identify '" + campaign.string() + "'", scratch.path());
+  EXPECT_EQ(ran.status, 2);
+  EXPECT_NE(ran.err.find("campaign.xml"), std::string::npos) << ran.err;
+}
+
+}  // namespace
+}  // namespace stiffscope

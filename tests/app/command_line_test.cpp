@@ -1,0 +1,99 @@
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/app/command.h"
+
+namespace stiffscope {
+namespace {
+
+const std::string kActive = STIFFSCOPE_SOURCE_DIR "/samples/active";
+
+TEST(CommandLine, HelpAndVersionSucceed) {
+  const ScratchFolder scratch;
+  for (const char* words : {"--help", "--version", "frames --help", "identify --help", "compensate --help",
+                            "simulate --help", "report --help"}) {
+    const Ran ran = runProgram(words, scratch.path());
+    EXPECT_EQ(ran.status, 0) << words;
+    EXPECT_FALSE(ran.out.empty()) << words;
+  }
+}
+
+TEST(CommandLine, WrongWordsGetTheNearestKnownOneAndStatusTwo) {
+  const ScratchFolder scratch;
+  const std::pair<const char*, const char*> cases[] = {
+      {"identfy x", "did you mean 'identify'?"},
+      {"identify x --stp 3", "did you mean '--step'?"},
+      {"identify x --method dppp", "did you mean 'dpp'?"},
+      {"identify", "CAMPAIGN"},
+      {"identify nowhere", "expected a campaign folder"},
+  };
+  for (const auto& [words, hint] : cases) {
+    const Ran ran = runProgram(words, scratch.path());
+    EXPECT_EQ(ran.status, 2) << words;
+    EXPECT_NE(ran.err.find(hint), std::string::npos) << ran.err;
+    EXPECT_EQ(std::count(ran.err.begin(), ran.err.end(), '\n'), 1) << ran.err;
+  }
+}
+
+TEST(CommandLine, TheSameInputGivesTheSameBytes) {
+  const ScratchFolder scratch;
+  for (const std::string command : {"identify", "frames", "compensate"}) {
+    const Ran first = runProgram(command + " '" + kActive + "' --json -", scratch.path());
+    const Ran second = runProgram(command + " '" + kActive + "/campaign.xml' --json -", scratch.path());
+    ASSERT_EQ(first.status, 0) << first.err;
+    EXPECT_EQ(first.out, second.out) << command;
+    EXPECT_TRUE(nlohmann::json::accept(first.out)) << command;
+  }
+}
+
+TEST(CommandLine, JsonHasWhatTheContractPromises) {
+  const ScratchFolder scratch;
+  const auto identify = nlohmann::json::parse(runProgram("identify '" + kActive + "' --json -", scratch.path()).out);
+  for (const char* method : {"cp", "pp", "dpp"}) {
+    const auto& result = identify["methods"][method];
+    EXPECT_TRUE(result["stiffness_nm_per_rad"][0].is_null()) << "the load only hangs";
+    EXPECT_GT(result["stiffness_nm_per_rad"][1].get<double>(), 1e6);
+    EXPECT_TRUE(result["sd_nm_per_rad"][0].is_null());
+    EXPECT_EQ(result["identifiable"], nlohmann::json({false, true, true, true, true, true}));
+    for (const char* key : {"condition", "rms_residual_mm", "sigma_mm"}) EXPECT_TRUE(result[key].is_number()) << key;
+    for (const char* place : {"compensated", "compensated_at_targets"}) {
+      for (const char* key : {"used", "held_out", "all"}) EXPECT_TRUE(result[place][key].is_number()) << place << key;
+    }
+  }
+  const auto frames = nlohmann::json::parse(runProgram("frames '" + kActive + "' --json -", scratch.path()).out);
+  EXPECT_EQ(frames["r0_from_tracker"].size(), 4u);
+  EXPECT_EQ(frames["r0_from_base_link"].size(), 4u);
+  EXPECT_EQ(frames["axes"].size(), 6u);
+  EXPECT_EQ(frames["link_lengths_mm"].size(), 5u);
+  EXPECT_EQ(frames["wrist"]["table"].size(), 3u);
+  EXPECT_EQ(frames["tcp_in_flange_m"].size(), 3u);
+  for (const char* key : {"center_m", "miss_mm", "radii_mm"}) EXPECT_TRUE(frames["wrist"].contains(key)) << key;
+}
+
+TEST(CommandLine, OneMethodAloneAndAnotherStep) {
+  const ScratchFolder scratch;
+  const Ran ran = runProgram("identify '" + kActive + "' --method pp --step 1 --json -", scratch.path());
+  const auto json = nlohmann::json::parse(ran.out);
+  EXPECT_EQ(json["step"], 1);
+  EXPECT_EQ(json["methods"].size(), 1u);
+  EXPECT_TRUE(json["methods"].contains("pp"));
+}
+
+TEST(CommandLine, CompensateTakesPosturesFromAFile) {
+  const ScratchFolder scratch;
+  const std::filesystem::path file = scratch.path() / "postures.csv";
+  std::ofstream(file) << "pose,q1_deg,q2_deg,q3_deg,q4_deg,q5_deg,q6_deg,fx_n,fy_n,fz_n,mx_nm,my_nm,mz_nm\n"
+                         "near,10,20,-10,40,60,30,-1000,300,200,10,20,5\n"
+                         "singular,10,20,-10,40,0,30,-1000,300,200,10,20,5\n";
+  const Ran ran = runProgram("compensate '" + kActive + "' --postures '" + file.string() + "' --json -", scratch.path());
+  const auto rows = nlohmann::json::parse(ran.out)["rows"];
+  ASSERT_EQ(rows.size(), 2u);
+  EXPECT_LT(rows[0]["remaining_mm"].get<double>(), 1e-5);
+  EXPECT_GT(rows[0]["tcp_deflection_mm"].size(), 2u);
+  EXPECT_TRUE(rows[1]["command_deg"].is_null());
+  EXPECT_NE(rows[1]["refused"].get<std::string>().find("singularity"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace stiffscope
