@@ -50,6 +50,7 @@ int runCommandLine(int count, char** words) {
   addIdentify(app, run);
   addCompensate(app, run);
   addSimulate(app, run);
+  addReport(app, run);
   try {
     app.parse(count, words);
   } catch (const CLI::Success& asked) {  // --help, --version
