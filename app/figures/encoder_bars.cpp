@@ -16,33 +16,31 @@ constexpr Colour kActive{70, 78, 96};  // slate: no method's colour
 
 }  // namespace
 
-GroupedBarChart encoderBars(const AvoidedDeflection& avoided) {
+GroupedBarChart encoderBars(const AvoidedShare& avoided) {
   GroupedBarChart chart;
-  chart.title =
-      fmt::format("Displacement of {} without and with double encoders", page::avoidedPoint(avoided));
+  chart.title = fmt::format("Displacement of {} without and with double encoders", avoided.point);
   chart.subtitle = fmt::format("{} of it avoided over {} postures; no compensation",
                                page::percent(avoided.share), avoided.postures.size());
-  chart.y_title = fmt::format("Displacement of {} (mm)", page::avoidedPoint(avoided));
+  chart.y_title = fmt::format("Displacement of {} (mm)", avoided.point);
   chart.category_title = "Posture";
   chart.series = {{"double encoders inactive", colours::kNone, {}, {}},
                   {"double encoders active", kActive, {}, {}}};
-  for (const AvoidedAtPosture& posture : avoided.postures) {
+  for (const AvoidedPosture& posture : avoided.postures) {
     chart.categories.push_back(posture.pose);
-    chart.series[0].values.push_back(kMmPerM * posture.before);
-    chart.series[1].values.push_back(kMmPerM * posture.after);
+    chart.series[0].values.push_back(kMmPerM * posture.inactive);
+    chart.series[1].values.push_back(kMmPerM * posture.active);
   }
   return chart;
 }
 
-Figure describeEncoderBars(const AvoidedDeflection& avoided) {
-  const auto share = [](const AvoidedAtPosture& posture) { return 1.0 - posture.after / posture.before; };
+Figure describeEncoderBars(const AvoidedShare& avoided) {
+  const auto share = [](const AvoidedPosture& posture) { return 1.0 - posture.active / posture.inactive; };
   const auto [least, most] = std::minmax_element(
       avoided.postures.begin(), avoided.postures.end(),
-      [&](const AvoidedAtPosture& a, const AvoidedAtPosture& b) { return share(a) < share(b); });
+      [&](const AvoidedPosture& a, const AvoidedPosture& b) { return share(a) < share(b); });
   Figure figure;
   figure.id = "double-encoders";
-  figure.title =
-      fmt::format("Displacement of {} without and with double encoders", page::avoidedPoint(avoided));
+  figure.title = fmt::format("Displacement of {} without and with double encoders", avoided.point);
   figure.caption = fmt::format(
       "Active double encoders avoid {} of the deflection in all; least in posture {} ({}), most in "
       "posture {} ({}).",
@@ -50,7 +48,7 @@ Figure describeEncoderBars(const AvoidedDeflection& avoided) {
       page::percent(share(*most), 0));
   figure.alt = fmt::format(
       "Bars by posture: length of the displacement of {} with the double encoders inactive and active.",
-      page::plain(page::avoidedPoint(avoided)));
+      page::plain(avoided.point));
   return figure;
 }
 

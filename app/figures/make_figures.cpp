@@ -8,7 +8,7 @@
 #include "app/figures/stiffness_intervals.h"
 #include "app/figures/subset_spreads.h"
 #include "render/png.h"
-#include "reports/page/avoided.h"
+#include "reports/page/avoided_share.h"
 
 namespace stiffscope {
 
@@ -59,8 +59,7 @@ std::vector<Figure> makeFigures(const std::vector<ReportCampaign>& campaigns, co
       figures.push_back(std::move(figure));
     }
   }
-  const auto avoided = avoidedByDoubleEncoders(campaigns);
-  if (avoided && avoided->available) {
+  if (const auto avoided = avoidedShare(campaigns)) {
     figures.push_back(drawn(describeEncoderBars(*avoided), encoderBars(*avoided), kChart));
   }
   return figures;

@@ -64,17 +64,20 @@ std::string noiseWords(const ReportCampaign& one) {
 }
 
 void writeAvoided(Html& html, const ReportContent& content) {
-  const AvoidedDeflection& avoided = *content.avoided;
-  html.leaf("h3", "Avoided by the double encoders");
-  if (!avoided.available) {
-    html.paragraph(fmt::format("Not known: {}.", avoided.reason));
-    return;
+  std::string words;
+  if (content.avoided) {
+    words = fmt::format(
+        "With the double encoders active the deflection at {} is {} smaller than with them inactive, over "
+        "{} postures at the same joint angles under the same load.",
+        content.avoided->point, percent(content.avoided->share), content.avoided->postures.size());
+    if (content.compare_with_paper) words += fmt::format(" The paper: {}.", percent(kPaperAvoided, 0));
+  } else {
+    std::string reason;
+    avoidedShare(content.campaigns, &reason);
+    if (reason.empty()) return;  // the two states were not both measured: there is nothing to explain
+    words = fmt::format("Not known: {}.", reason);
   }
-  std::string words = fmt::format(
-      "With the double encoders active the deflection at {} is {} smaller than with them "
-      "inactive, over {} postures at the same joint angles under the same load.",
-      avoidedPoint(avoided), percent(avoided.share), avoided.postures.size());
-  if (content.compare_with_paper) words += fmt::format(" The paper: {}.", percent(kPaperAvoided, 0));
+  html.leaf("h3", "Avoided by the double encoders");
   html.paragraph(words);
 }
 
@@ -99,7 +102,7 @@ void writeCompensation(Html& html, const ReportContent& content) {
     }
     html.paragraph(noiseWords(one));
   }
-  if (content.avoided) writeAvoided(html, content);
+  writeAvoided(html, content);
 }
 
 }  // namespace stiffscope::page

@@ -57,10 +57,9 @@ KeyNumber compensated(const ReportCampaign& one, const JudgedPoint& point) {
 }
 
 KeyNumber third(const ReportContent& content, const ReportCampaign& one) {
-  if (content.avoided && content.avoided->available) {
+  if (content.avoided) {
     return {percent(content.avoided->share, 0),
-            fmt::format("of the deflection at {} avoided by the double encoders",
-                        avoidedPoint(*content.avoided))};
+            fmt::format("of the deflection at {} avoided by the double encoders", content.avoided->point)};
   }
   const auto& joints = one.identification.identifiability.joints;
   const auto seen =

@@ -96,12 +96,12 @@ std::string oneByOne(const std::vector<ReportCampaign>& campaigns) {
 }  // namespace
 
 std::string verdictOf(const std::vector<ReportCampaign>& campaigns,
-                      const std::optional<AvoidedDeflection>& avoided) {
+                      const std::optional<AvoidedShare>& avoided) {
   if (campaigns.empty()) return {};
   std::string text = sameJoints(campaigns) ? together(campaigns) : oneByOne(campaigns);
-  if (avoided && avoided->available) {
+  if (avoided) {
     text += fmt::format(" The double encoders avoid {} of the deflection at {}.",
-                        page::percent(avoided->share, 0), page::avoidedPoint(*avoided));
+                        page::percent(avoided->share, 0), avoided->point);
   }
   return text;
 }
