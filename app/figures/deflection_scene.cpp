@@ -81,11 +81,8 @@ ArmScene allPosturesScene(const ReportCampaign& one) {
   for (std::size_t i = 0; i < one.identification.cases.size(); ++i) {
     ArmPose pose = armPose(one, i);
     pose.ghost = true;
-    if (pose.wrist) {
-      pose.targets.clear();
-    } else {
-      pose.targets.resize(std::min<std::size_t>(1, pose.targets.size()));
-    }
+    const std::string shown = vectorPoint(one);  // P_wrist is not among the targets: none of them stays
+    std::erase_if(pose.targets, [&](const ScenePoint& target) { return target.label != shown; });
     scene.poses.push_back(std::move(pose));
   }
   return scene;

@@ -16,6 +16,7 @@ namespace {
 
 constexpr Size kChart{1200, 700};
 constexpr Size kScene{1200, 800};
+constexpr std::size_t kMostGhosts = 60;  // more postures in one picture hide each other
 
 template <class Picture>
 Figure drawn(Figure figure, const Picture& picture, Size size) {
@@ -29,9 +30,12 @@ Figure drawn(Figure figure, const Picture& picture, Size size) {
 std::vector<Figure> figuresOf(const ReportCampaign& one, const FigureOptions& options) {
   std::vector<Figure> figures;
   if (one.identification.cases.empty()) return figures;
-  const ArmScene scene = deflectionScene(one), all = allPosturesScene(one);
+  const ArmScene scene = deflectionScene(one);
   figures.push_back(drawn(describeDeflectionScene(one, automaticMagnification(scene)), scene, kScene));
-  figures.push_back(drawn(describeAllPostures(one, automaticMagnification(all)), all, kScene));
+  if (one.identification.cases.size() <= kMostGhosts) {
+    const ArmScene all = allPosturesScene(one);
+    figures.push_back(drawn(describeAllPostures(one, automaticMagnification(all)), all, kScene));
+  }
   figures.push_back(drawn(describeResidualBars(one), residualBars(one), kChart));
   const GroupedBarChart zoom = residualZoom(one);
   if (zoom.series.size() == 2) figures.push_back(drawn(describeResidualZoom(one), zoom, kChart));

@@ -35,8 +35,9 @@ std::string disagreement(const Identification& result) {
     if (*most / *least > worst) worst = *most / *least, at = joint;
   }
   if (at < 0) return {};
-  return fmt::format(" The methods differ most on {}: by a factor of {}.", page::jointName(at),
-                     page::significant(worst, 3));
+  return fmt::format(
+      " The methods differ most on {}: by {}.", page::jointName(at),
+      worst < 2.0 ? page::percent(worst - 1.0) : fmt::format("a factor of {}", page::significant(worst, 2)));
 }
 
 }  // namespace

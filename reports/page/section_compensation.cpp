@@ -64,14 +64,20 @@ std::string noiseWords(const ReportCampaign& one) {
 }
 
 void writeAvoided(Html& html, const ReportContent& content) {
-  const AvoidedShare& avoided = *content.avoided;
+  std::string words;
+  if (content.avoided) {
+    words = fmt::format(
+        "With the double encoders active the deflection at {} is {} smaller than with them inactive, over "
+        "{} postures at the same joint angles under the same load.",
+        content.avoided->point, percent(content.avoided->share), content.avoided->postures.size());
+    if (content.compare_with_paper) words += fmt::format(" The paper: {}.", percent(kPaperAvoided, 0));
+  } else {
+    std::string reason;
+    avoidedShare(content.campaigns, &reason);
+    if (reason.empty()) return;  // the two states were not both measured: there is nothing to explain
+    words = fmt::format("Not known: {}.", reason);
+  }
   html.leaf("h3", "Avoided by the double encoders");
-  std::string words = fmt::format(
-      "Active double encoders avoid {} of the deflection at {} with them inactive, over {} postures "
-      "(mean force {} N inactive, {} N active).",
-      percent(avoided.share), avoided.point, avoided.postures.size(), fixed(avoided.force_inactive, 0),
-      fixed(avoided.force_active, 0));
-  if (content.compare_with_paper) words += fmt::format(" The paper: {}.", percent(kPaperAvoided, 0));
   html.paragraph(words);
 }
 
@@ -81,10 +87,9 @@ void writeCompensation(Html& html, const ReportContent& content) {
   const auto section = html.element("section", {{"id", "compensation"}});
   html.leaf("h2", "Deflection compensated and avoided");
   html.paragraph(
-      "Compensated is 1 − Σ|what is left| / Σ|displacement|. Over the subsets of postures it is the mean: on "
-      "the "
-      "postures a subset used, on those it held out, and on all. P_{wrist} sees joints 1 to 3 only, the "
-      "reflectors all six.");
+      "Compensated is 1 − Σ|what is left| / Σ|displacement|. Over the subsets of postures it is "
+      "the mean: on the postures a subset used, on those it held out, and on all. P_{wrist} sees "
+      "joints 1 to 3 only, the reflectors all six.");
   for (const ReportCampaign& one : content.campaigns) {
     if (content.campaigns.size() > 1) html.leaf("h3", one.campaign.name);
     if (!shownMethod(one.identification)) {
@@ -97,7 +102,7 @@ void writeCompensation(Html& html, const ReportContent& content) {
     }
     html.paragraph(noiseWords(one));
   }
-  if (content.avoided) writeAvoided(html, content);
+  writeAvoided(html, content);
 }
 
 }  // namespace stiffscope::page

@@ -82,14 +82,12 @@ void writeConditions(Html& html, const ReportContent& content) {
   const auto section = html.element("section", {{"id", "conditions"}});
   html.leaf("h2", "Method and conditions");
   html.paragraph(
-      "Displacements of the reflectors under a known load, read by a laser tracker, give the compliance of "
-      "each "
-      "joint by least squares. Complete Pose (CP) uses position and rotation of P_{TCP}; Partial Pose (PP) "
-      "the "
-      "reflectors' positions on a calibrated geometry; Decoupled Partial Pose (DPP) first joints 1 to 3 from "
-      "P_{wrist}, which joints 4 to 6 do not move, then joints 4 to 6 from what is left. Stiffness is that "
-      "of "
-      "the closed loop, at the joint angles which the controller reports.");
+      "Displacements of the reflectors under a known load, read by a laser tracker, give the "
+      "compliance of each joint by least squares. Complete Pose (CP) uses position and rotation of "
+      "P_{TCP}; Partial Pose (PP) the reflectors' positions on a calibrated geometry; Decoupled "
+      "Partial Pose (DPP) first joints 1 to 3 from P_{wrist}, which joints 4 to 6 do not move, "
+      "then joints 4 to 6 from what is left. Stiffness is that of the closed loop, at the joint "
+      "angles which the controller reports.");
   for (const ReportCampaign& one : content.campaigns) {
     if (content.campaigns.size() > 1) html.leaf("h3", one.campaign.name);
     writeTable(html, {"Conditions of the measurement", {"What", "As measured"}, {conditions(one)}, true});

@@ -20,9 +20,9 @@ std::vector<std::string> leftOut(const Identification& result) {
   }
   if (!result.frames.wrist.measured)
     items.push_back(fmt::format("Wrist centre: {}.", result.frames.wrist.reason));
-  for (const std::string& parameter : result.calibration.fixed) {
-    items.push_back(
-        fmt::format("PP's geometry, kept at its start because the positions do not see it: {}.", parameter));
+  if (!result.calibration.fixed.empty()) {
+    items.push_back(fmt::format("PP's geometry, kept at its start because the positions do not see it: {}.",
+                                fmt::join(result.calibration.fixed, ", ")));
   }
   return items;
 }

@@ -16,6 +16,7 @@ Table namedTable(const char* caption, const char* name, const char* value,
 
 void writeProvenance(Html& html, const ReportContent& content) {
   writeForEach(html, content, "provenance", "Inputs", [&](const ReportCampaign& one) {
+    if (one.campaign.inputs.empty()) html.paragraph("No file was read: the campaign comes from memory.");
     Table table{"Files read", {"File", "SHA-256 of its bytes"}, {{}}, true};
     for (const InputFile& file : one.campaign.inputs)
       table.groups.front().rows.push_back({file.name, file.sha256});

@@ -60,9 +60,9 @@ void writeSubsets(Html& html, const ReportContent& content) {
     }
     writeTable(html, tableTwo(content, one, study));
     html.paragraph(
-        "A stiffness is one over a compliance: where the compliance comes near zero in some subsets, the "
-        "mean of "
-        "the stiffness is carried off by a few of them, and the median is the number to read.",
+        "A stiffness is one over a compliance: where the compliance comes near zero in some "
+        "subsets, the mean of the stiffness is carried off by a few of them, and the median is the "
+        "number to read.",
         "faint");
   });
 }

@@ -1,0 +1,232 @@
+#include <gtest/gtest.h>
+#include <tinyxml2.h>
+
+#include <filesystem>
+#include <functional>
+
+#include "core/campaign/read_campaign.h"
+#include "reports/page/report_page.h"
+#include "reports/page/verdict.h"
+#include "tests/reports/small_result.h"
+
+namespace stiffscope {
+namespace {
+
+ReportContent contentOf(const SmallResult& small) {
+  ReportContent content;
+  content.title = "A report";
+  content.campaigns.push_back({small.campaign, small.identification});
+  content.verdict = verdictOf(content.campaigns, content.avoided);
+  content.figures.push_back({"one", "A title", "See P_{wrist}", "plain words", {1, 2, 3}, 12, 7});
+  content.versions = {{"stiffscope", "0.1.0"}};
+  content.settings = {{"Load step", "1"}};
+  content.command_line = "stiffscope report small --out out";
+  return content;
+}
+
+/// Parses the page; fails the test where it is not well-formed.
+void parse(const std::string& page, tinyxml2::XMLDocument& document) {
+  ASSERT_EQ(document.Parse(page.c_str(), page.size()), tinyxml2::XML_SUCCESS) << document.ErrorStr();
+}
+
+void eachElement(const tinyxml2::XMLElement* from,
+                 const std::function<void(const tinyxml2::XMLElement&)>& see) {
+  for (; from != nullptr; from = from->NextSiblingElement()) {
+    see(*from);
+    eachElement(from->FirstChildElement(), see);
+  }
+}
+
+bool has(const std::string& page, const std::string& text) { return page.find(text) != std::string::npos; }
+
+TEST(Page, BeginsWithTheDoctypeAndSaysItsLanguage) {
+  const SmallResult small;
+  EXPECT_EQ(reportPage(contentOf(small)).rfind("<!DOCTYPE html><html lang=\"en\">", 0), 0u);
+}
+
+TEST(Page, EverySectionIsThereInOrder) {
+  const SmallResult small;
+  const std::string page = reportPage(contentOf(small));
+  std::size_t at = 0;
+  for (const char* id : {"conditions", "wrist", "links", "stiffness", "subsets", "compensation", "figures",
+                         "left-out", "provenance", "versions"}) {
+    const std::size_t found = page.find("<section id=\"" + std::string(id) + "\">", at);
+    ASSERT_NE(found, std::string::npos) << id;
+    at = found;
+  }
+}
+
+TEST(Page, HeadingsAreInOrderTablesHaveScopesAndPicturesWords) {
+  const SmallResult small;
+  tinyxml2::XMLDocument document;
+  parse(reportPage(contentOf(small)), document);
+  int level = 0, pictures = 0;
+  eachElement(document.RootElement(), [&](const tinyxml2::XMLElement& element) {
+    const std::string name = element.Name();
+    if (name.size() == 2 && name[0] == 'h' && name[1] >= '1' && name[1] <= '6') {
+      EXPECT_LE(name[1] - '0', level + 1) << "a heading skips a level";
+      level = name[1] - '0';
+    }
+    if (name == "th") {
+      EXPECT_NE(element.Attribute("scope"), nullptr);
+    }
+    if (name == "img") {
+      ++pictures;
+      EXPECT_STREQ(element.Attribute("alt"), "plain words");
+      EXPECT_STREQ(element.Attribute("src"), "data:image/png;base64,AQID");
+    }
+  });
+  EXPECT_EQ(pictures, 1);
+}
+
+TEST(Page, NothingIsLoadedFromElsewhere) {
+  const SmallResult small;
+  tinyxml2::XMLDocument document;
+  const std::string page = reportPage(contentOf(small));
+  parse(page, document);
+  eachElement(document.RootElement(), [](const tinyxml2::XMLElement& element) {
+    EXPECT_STRNE(element.Name(), "script");
+    EXPECT_STRNE(element.Name(), "link");
+    EXPECT_EQ(element.Attribute("href"), nullptr);
+    if (const char* source = element.Attribute("src")) {
+      EXPECT_EQ(std::string(source).rfind("data:", 0), 0u);
+    }
+  });
+  EXPECT_FALSE(has(page, "http"));
+  EXPECT_FALSE(has(page, "url("));
+}
+
+TEST(Page, TheStyleNeedsNoEscaping) {
+  const SmallResult small;
+  const std::string page = reportPage(contentOf(small));
+  const std::size_t begin = page.find("<style>"), end = page.find("</style>");
+  EXPECT_EQ(page.substr(begin, end - begin).find('&'), std::string::npos);
+}
+
+TEST(Page, AHostileNameStaysText) {
+  SmallResult small;
+  const std::string hostile = "<script>alert(\"1\")</script> & 'quotes'\x01\xff";
+  small.campaign.name = small.campaign.targets[0].id = small.campaign.robot.name = hostile;
+  small.campaign.texts.conditions = small.campaign.inputs[0].name = hostile;
+  small.identification.left_out = {hostile};
+  ReportContent content = contentOf(small);
+  content.title = content.command_line = content.figures[0].alt = content.figures[0].caption = hostile;
+  const std::string page = reportPage(content);
+  EXPECT_FALSE(has(page, "<script"));
+  EXPECT_TRUE(has(page, "&lt;script&gt;"));
+  EXPECT_FALSE(has(page, "\x01"));
+  tinyxml2::XMLDocument document;
+  parse(page, document);
+  const auto* title = document.RootElement()->FirstChildElement("head")->FirstChildElement("title");
+  EXPECT_STREQ(title->GetText(), "<script>alert(\"1\")</script> & 'quotes'??");
+  eachElement(document.RootElement(), [](const tinyxml2::XMLElement& element) {
+    if (std::string(element.Name()) == "img") {
+      EXPECT_STREQ(element.Attribute("alt"), "<script>alert(\"1\")</script> & 'quotes'??");
+    }
+  });
+}
+
+TEST(Page, OnlyVoidElementsCloseThemselves) {
+  const SmallResult small;
+  ReportContent content = contentOf(small);
+  content.verdict.clear();
+  const std::string page = reportPage(content);
+  for (std::size_t at = page.find("/>"); at != std::string::npos; at = page.find("/>", at + 1)) {
+    const std::size_t begin = page.rfind('<', at);
+    const std::string name = page.substr(begin + 1, page.find_first_of(" /", begin) - begin - 1);
+    EXPECT_TRUE(name == "meta" || name == "img") << name;
+  }
+}
+
+TEST(Page, WhatIsMissingSaysWhy) {
+  const SmallResult small;
+  const std::string page = reportPage(contentOf(small));
+  EXPECT_TRUE(has(page, "is not measured: the campaign has no wrist sweep."));
+  EXPECT_TRUE(has(page, "No axis was measured (the campaign has no circle sweeps)"));
+  EXPECT_TRUE(has(page, "Complete Pose (CP) is not available: a flange pose needs three reflectors."));
+  EXPECT_TRUE(has(page, "</sub> is not identifiable: the load only hangs."));
+  EXPECT_TRUE(has(page, "Negative: "));
+  EXPECT_FALSE(has(page, ">nan"));
+  EXPECT_FALSE(has(page, " nan"));
+  EXPECT_FALSE(has(page, ">inf"));
+}
+
+TEST(Page, NumbersAreThoseOfTheResult) {
+  const SmallResult small;
+  const std::string page = reportPage(contentOf(small));
+  EXPECT_TRUE(has(page, "2.00\u00a0mm"));    // the mean of 1, 3 and 2
+  EXPECT_TRUE(has(page, ">85\u00a0%<"));     // held out
+  EXPECT_TRUE(has(page, "5.00 ± 0.50"));     // 1/0.2e-6, a tenth of it
+  EXPECT_TRUE(has(page, "−0.250 ± 0.013"));  // joint 4 by PP: the sd is that of 2e-6 rad/Nm, over c squared
+  EXPECT_TRUE(has(page, "all 3 subsets of 2 of 3 postures"));
+  EXPECT_TRUE(has(page, "0123456789abcdef"));
+}
+
+TEST(Page, ThePaperStandsBesideOnlyWhereAskedFor) {
+  const SmallResult small;
+  ReportContent content = contentOf(small);
+  EXPECT_FALSE(has(reportPage(content), "Paper"));
+  content.compare_with_paper = true;
+  EXPECT_TRUE(has(reportPage(content), "5.6 &amp; 0.1"));
+  EXPECT_TRUE(has(reportPage(content), ">84\u00a0%<"));
+}
+
+TEST(Page, NoMethodAtAll) {
+  SmallResult small;
+  for (MethodResult& method : small.identification.methods) method = {};
+  for (MethodResult& method : small.identification.methods) method.reason = "the load turns no joint";
+  small.identification.cases.clear();
+  small.identification.wrist.clear();
+  small.identification.wrist_displacement.clear();
+  small.identification.target_displacement.clear();
+  const ReportContent content = contentOf(small);
+  EXPECT_EQ(content.verdict, "No joint stiffness can be identified: the load turns no joint.");
+  tinyxml2::XMLDocument document;
+  parse(reportPage(content), document);
+}
+
+TEST(Page, TheSameContentGivesTheSameBytes) {
+  const SmallResult small;
+  EXPECT_EQ(reportPage(contentOf(small)), reportPage(contentOf(small)));
+}
+
+TEST(Avoided, AgainstTheSumsByHand) {
+  const SmallResult inactive(DoubleEncoder::inactive, 2.0), active(DoubleEncoder::active, 1.0);
+  const std::vector<ReportCampaign> both{{active.campaign, active.identification},
+                                         {inactive.campaign, inactive.identification}};
+  const auto avoided = avoidedShare(both);
+  ASSERT_TRUE(avoided.has_value());
+  EXPECT_DOUBLE_EQ(avoided->share, 0.5);
+  EXPECT_TRUE(avoided->at_wrist);
+  EXPECT_EQ(avoided->postures.size(), 3u);
+  const std::string verdict = verdictOf(both, avoided);
+  EXPECT_TRUE(has(verdict, "The double encoders avoid 50\u00a0% of the deflection at P_{wrist}.")) << verdict;
+}
+
+TEST(Avoided, NeedsBothStatesAndACommonPosture) {
+  SmallResult inactive(DoubleEncoder::inactive), active(DoubleEncoder::active);
+  EXPECT_FALSE(avoidedShare({{active.campaign, active.identification}}).has_value());
+  active.campaign.pose_ids = {"X", "Y", "Z"};
+  ReportContent content = contentOf(active);
+  content.campaigns.push_back({inactive.campaign, inactive.identification});
+  content.avoided = avoidedShare(content.campaigns);
+  EXPECT_FALSE(content.avoided.has_value());
+  EXPECT_TRUE(has(reportPage(content), "Not known: the two campaigns have no posture in common"));
+  EXPECT_FALSE(has(verdictOf(content.campaigns, content.avoided), "avoid"));
+}
+
+TEST(Page, ARealCampaignWithoutWrist) {
+  const std::filesystem::path folder = STIFFSCOPE_SHARED_DIR "/real/fanuc-r2000ic-cable";
+  if (!std::filesystem::exists(folder)) GTEST_SKIP() << "the campaigns at hand are not here";
+  SmallResult real;
+  real.campaign = readCampaign(folder).campaign;
+  real.identification = identify(real.campaign);
+  const std::string page = reportPage(contentOf(real));
+  tinyxml2::XMLDocument document;
+  parse(page, document);
+  EXPECT_TRUE(has(page, "mean deflection at the reflector TIP"));
+  EXPECT_LT(page.size(), 100'000u);  // without pictures
+}
+
+}  // namespace
+}  // namespace stiffscope
