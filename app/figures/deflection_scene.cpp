@@ -27,10 +27,12 @@ std::string predictedName(const ReportCampaign& one) {
 
 std::string kilonewtons(double newtons) { return fmt::format("{}\u00a0kN", page::fixed(1e-3 * newtons, 2)); }
 
+/// R0 in the scene, whose floor is at the foot of axis 1.
+Eigen::Vector3d placeOfR0(const ReportCampaign& one) { return {0.0, 0.0, heightOfR0(one.identification)}; }
+
 std::string framesWords(const ReportCampaign& one) {
-  return fmt::format(
-      "The axes drawn are those of R_{{0}}, at the foot of axis 1; R_{{0}} itself stands {} mm higher.",
-      page::fixed(kMmPerM * heightOfR0(one.identification), 0));
+  return fmt::format("The axes drawn are R_{{0}}, {} mm above the foot of axis 1.",
+                     page::fixed(kMmPerM * heightOfR0(one.identification), 0));
 }
 
 /// "The same load moves", or the range of loads where they differ by more than a fiftieth.
@@ -69,6 +71,7 @@ ArmScene deflectionScene(const ReportCampaign& one) {
   scene.subtitle = one.campaign.name;
   scene.poses = {armPose(one, index)};
   scene.predicted_name = predictedName(one);
+  scene.frame_origin = placeOfR0(one);
   return scene;
 }
 
@@ -78,6 +81,7 @@ ArmScene allPosturesScene(const ReportCampaign& one) {
       fmt::format("Deflection of {} in all {} postures", vectorPoint(one), one.identification.cases.size());
   scene.subtitle = one.campaign.name;
   scene.predicted_name = predictedName(one);
+  scene.frame_origin = placeOfR0(one);
   for (std::size_t i = 0; i < one.identification.cases.size(); ++i) {
     ArmPose pose = armPose(one, i);
     pose.ghost = true;
