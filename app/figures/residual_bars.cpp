@@ -20,12 +20,22 @@ std::vector<double> inMm(std::vector<double> values) {
   return values;
 }
 
+/// How the bars were judged: "each posture by 10 of the others".
+std::string judgedWords(const ReportCampaign& one) {
+  for (const Method method : kMethods) {
+    const SubsetStudy& study = one.identification.of(method).subsets;
+    if (study.compliances.empty()) continue;
+    return fmt::format("each posture by stiffnesses from {} of the others, mean over {} subsets", study.size,
+                       study.every_subset ? "all" : "the drawn");
+  }
+  return fmt::format("identified from and judged on all {} postures", one.identification.cases.size());
+}
+
 GroupedBarChart emptyChart(const ReportCampaign& one, const char* what) {
   const page::JudgedPoint point = page::judgedPoint(one);
   GroupedBarChart chart;
   chart.title = fmt::format("{} of {}", what, point.name);
-  chart.subtitle = fmt::format("{}; identified from and judged on all {} postures", one.campaign.name,
-                               one.identification.cases.size());
+  chart.subtitle = fmt::format("{}; {}", one.campaign.name, judgedWords(one));
   chart.y_title = fmt::format("Displacement of {} (mm)", point.name);
   chart.category_title = "Posture";
   for (const LoadCase& load_case : one.identification.cases) {
@@ -38,10 +48,8 @@ void addMethod(const ReportCampaign& one, Method method, GroupedBarChart& chart)
   const MethodResult& result = one.identification.of(method);
   const bool at_wrist = page::judgedPoint(one).at_wrist;
   if (!result.available || page::residualAt(result, at_wrist).empty()) return;
-  chart.series.push_back({fmt::format("after {}", page::longName(method)),
-                          colourOf(method),
-                          inMm(page::residualAt(result, at_wrist)),
-                          {}});
+  const std::vector<double> left = page::heldOutResidualAt(one, method, at_wrist);
+  chart.series.push_back({fmt::format("after {}", page::longName(method)), colourOf(method), inMm(left), {}});
 }
 
 /// "CP leaves 0.12, PP 0.08 and DPP 0.05 mm in the mean"
@@ -51,9 +59,9 @@ std::string leftWords(const ReportCampaign& one, std::initializer_list<Method> m
   for (const Method method : methods) {
     const MethodResult& result = one.identification.of(method);
     if (!result.available) continue;
-    parts.push_back(
-        fmt::format("{} {}", page::shortName(method),
-                    page::significant(kMmPerM * page::mean(page::residualAt(result, at_wrist)), 2)));
+    parts.push_back(fmt::format(
+        "{} {}", page::shortName(method),
+        page::significant(kMmPerM * page::mean(page::heldOutResidualAt(one, method, at_wrist)), 2)));
   }
   return fmt::format("{}", fmt::join(parts, ", "));
 }

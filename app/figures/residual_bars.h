@@ -7,8 +7,8 @@
 namespace stiffscope {
 
 /// The paper's Fig. 7: per posture |displacement| of P_wrist without compensation and after each available
-/// method, mm; where P_wrist is not measured, at the reflectors, and the title says so. Identified from all
-/// postures.
+/// method, mm; where P_wrist is not measured, at the reflectors, and the title says so. Each posture is
+/// judged by stiffnesses that it took no part in.
 GroupedBarChart residualBars(const ReportCampaign& one);
 
 /// The paper's Fig. 8: what PP and DPP leave, by themselves. No series where neither is available.

@@ -226,11 +226,11 @@ class Identifier {
     subset.at_targets = DeflectionJudge(out.target_rows);
     out.subsets = studySubsets(subset, options_.subsets);
     if (!out.wrist_rows.empty()) {
-      out.at_wrist = Compensation{subset.at_wrist.compensated(out.estimate.compliance), out.subsets.at_wrist};
+      out.at_wrist = Compensation{subset.at_wrist.compensated(out.estimate.compliance), out.subsets.at_wrist.compensated};
       out.wrist_residual = subset.at_wrist.residual(out.estimate.compliance);
     }
     out.at_targets =
-        Compensation{subset.at_targets.compensated(out.estimate.compliance), out.subsets.at_targets};
+        Compensation{subset.at_targets.compensated(out.estimate.compliance), out.subsets.at_targets.compensated};
     out.target_residual = subset.at_targets.residual(out.estimate.compliance);
     for (std::size_t i = 0; i < out.target_residual.size(); ++i) {
       out.target_residual[i] /= subset.at_targets.pointsOf(i);

@@ -18,7 +18,8 @@ namespace {
 /// Results of the subsets of one chunk, in their order.
 struct Chunk {
   std::vector<Vector6d> compliances;
-  SubsetCompensation at_wrist, at_targets;  // sums
+  SubsetJudgement at_wrist, at_targets;  // sums
+  std::vector<std::uint64_t> held_out;   // subsets that leave each posture out
 };
 
 /// Solves and judges one subset after another; each thread has its own.
@@ -28,40 +29,49 @@ class Solver {
 
   void add(const NormalEquations& normal, const NormalEquations& reflectors, const std::vector<char>& used,
            Chunk& chunk) {
-    const Vector6d compliance = method_.reflectors.empty() ? solveNormal(normal, method_.unknown)
-                                                           : solveDecoupled(normal, reflectors, method_.unknown);
+    const Vector6d compliance = method_.reflectors.empty()
+                                    ? solveNormal(normal, method_.unknown)
+                                    : solveDecoupled(normal, reflectors, method_.unknown);
     chunk.compliances.push_back(compliance);
+    chunk.held_out.resize(used.size(), 0);
+    for (std::size_t p = 0; p < used.size(); ++p) chunk.held_out[p] += used[p] == 0;
     judge(method_.at_wrist, compliance, used, chunk.at_wrist);
     judge(method_.at_targets, compliance, used, chunk.at_targets);
   }
 
  private:
   void judge(const DeflectionJudge& judge, const Vector6d& compliance, const std::vector<char>& used,
-             SubsetCompensation& sum) {
+             SubsetJudgement& sum) {
     if (judge.postures() == 0) return;
     judge.residual(compliance, residual_);
+    sum.left_held_out.resize(residual_.size(), 0.0);
     std::array<double, 2> left{}, whole{};
     for (std::size_t p = 0; p < residual_.size(); ++p) {
       const auto side = static_cast<std::size_t>(used[p] != 0);
       left[side] += residual_[p];
       whole[side] += judge.displacement()[p];
+      if (side == 0) sum.left_held_out[p] += residual_[p];
     }
-    sum.used += 1.0 - left[1] / whole[1];
-    sum.held_out += 1.0 - left[0] / whole[0];
-    sum.all += 1.0 - (left[0] + left[1]) / (whole[0] + whole[1]);
+    sum.compensated.used += 1.0 - left[1] / whole[1];
+    sum.compensated.held_out += 1.0 - left[0] / whole[0];
+    sum.compensated.all += 1.0 - (left[0] + left[1]) / (whole[0] + whole[1]);
   }
 
   const SubsetMethod& method_;
   std::vector<double> residual_;
 };
 
-/// All subsets whose two lowest postures are given: a depth-first walk that carries the sums of normal equations along,
-/// about two additions a subset.
+/// All subsets whose two lowest postures are given: a depth-first walk that carries the sums of normal
+/// equations along, about two additions a subset.
 class Walk {
  public:
   Walk(const SubsetMethod& method, int size)
-      : method_(method), solver_(method), n_(static_cast<int>(method.normal.size())), size_(size),
-        normal_(static_cast<std::size_t>(size) + 1), reflectors_(static_cast<std::size_t>(size) + 1),
+      : method_(method),
+        solver_(method),
+        n_(static_cast<int>(method.normal.size())),
+        size_(size),
+        normal_(static_cast<std::size_t>(size) + 1),
+        reflectors_(static_cast<std::size_t>(size) + 1),
         used_(method.normal.size(), 0) {}
 
   void from(int first, Chunk& chunk) {
@@ -107,7 +117,8 @@ std::vector<Chunk> walkAll(const SubsetMethod& method, int size) {
   std::atomic<std::size_t> next{0};
   const auto work = [&] {
     Walk walk(method, size);
-    for (std::size_t at = next++; at < chunks.size(); at = next++) walk.from(static_cast<int>(at), chunks[at]);
+    for (std::size_t at = next++; at < chunks.size(); at = next++)
+      walk.from(static_cast<int>(at), chunks[at]);
   };
   std::thread helper(work);
   work();
@@ -137,10 +148,21 @@ Chunk drawSample(const SubsetMethod& method, int size, std::uint64_t count, std:
   return chunk;
 }
 
-void addTo(SubsetCompensation& sum, const SubsetCompensation& other) {
-  sum.used += other.used;
-  sum.held_out += other.held_out;
-  sum.all += other.all;
+void addTo(SubsetJudgement& sum, const SubsetJudgement& other) {
+  sum.compensated.used += other.compensated.used;
+  sum.compensated.held_out += other.compensated.held_out;
+  sum.compensated.all += other.compensated.all;
+  sum.left_held_out.resize(other.left_held_out.size(), 0.0);
+  for (std::size_t p = 0; p < other.left_held_out.size(); ++p) sum.left_held_out[p] += other.left_held_out[p];
+}
+
+void divide(SubsetJudgement& sum, double subsets, const std::vector<std::uint64_t>& held_out) {
+  sum.compensated.used /= subsets;
+  sum.compensated.held_out /= subsets;
+  sum.compensated.all /= subsets;
+  for (std::size_t p = 0; p < sum.left_held_out.size(); ++p) {
+    sum.left_held_out[p] /= static_cast<double>(held_out[p]);
+  }
 }
 
 /// The order statistics at `shares` (ascending), each by partitioning only what lies above the one before.
@@ -163,7 +185,8 @@ std::uint64_t subsetCount(int n, int m) {
   std::uint64_t count = 1;
   for (int i = 1; i <= m; ++i) {
     const auto factor = static_cast<std::uint64_t>(n - m + i);
-    if (count > std::numeric_limits<std::uint64_t>::max() / factor) return std::numeric_limits<std::uint64_t>::max();
+    if (count > std::numeric_limits<std::uint64_t>::max() / factor)
+      return std::numeric_limits<std::uint64_t>::max();
     count = count * factor / static_cast<std::uint64_t>(i);
   }
   return count;
@@ -180,20 +203,20 @@ SubsetStudy studySubsets(const SubsetMethod& method, const SubsetOptions& option
     chunks = walkAll(method, study.size);
   } else {
     constexpr std::uint64_t kWork = 2'000'000;  // postures added in all: keeps ten thousand postures quick
-    const std::uint64_t affordable = std::max<std::uint64_t>(200, kWork / static_cast<std::uint64_t>(study.of));
+    const std::uint64_t affordable =
+        std::max<std::uint64_t>(200, kWork / static_cast<std::uint64_t>(study.of));
     chunks.push_back(drawSample(method, study.size, std::min(options.sample, affordable), options.seed));
   }
+  std::vector<std::uint64_t> held_out(static_cast<std::size_t>(study.of), 0);
   for (const Chunk& chunk : chunks) {
     study.compliances.insert(study.compliances.end(), chunk.compliances.begin(), chunk.compliances.end());
+    for (std::size_t p = 0; p < held_out.size(); ++p) held_out[p] += chunk.held_out[p];
     addTo(study.at_wrist, chunk.at_wrist);
     addTo(study.at_targets, chunk.at_targets);
   }
-  const double count = static_cast<double>(study.compliances.size());
-  for (SubsetCompensation* mean : {&study.at_wrist, &study.at_targets}) {
-    mean->used /= count;
-    mean->held_out /= count;
-    mean->all /= count;
-  }
+  const double subsets = static_cast<double>(study.compliances.size());
+  divide(study.at_wrist, subsets, held_out);
+  divide(study.at_targets, subsets, held_out);
   return study;
 }
 

@@ -30,12 +30,19 @@ struct SubsetCompensation {
   double used = 0.0, held_out = 0.0, all = 0.0;
 };
 
+/// A method judged at one kind of point over the subsets.
+struct SubsetJudgement {
+  SubsetCompensation compensated;
+  /// Per posture: what is left of its displacement (sum over its points, m), mean over the subsets that leave it out.
+  std::vector<double> left_held_out;
+};
+
 struct SubsetStudy {
   int size = 0;                         ///< m
   int of = 0;                           ///< n
   bool every_subset = false;            ///< false: a sample
   std::vector<Vector6d> compliances;    ///< one a subset, in a fixed order
-  SubsetCompensation at_wrist, at_targets;
+  SubsetJudgement at_wrist, at_targets;
 };
 
 /// Solves the method on every subset (or a sample) from per-posture normal equations and judges each result on the postures

@@ -66,6 +66,17 @@ const std::vector<double>& residualAt(const MethodResult& method, bool at_wrist)
   return at_wrist ? method.wrist_residual : method.target_residual;
 }
 
+std::vector<double> heldOutResidualAt(const ReportCampaign& one, Method method, bool at_wrist) {
+  const MethodResult& result = one.identification.of(method);
+  std::vector<double> left =
+      at_wrist ? result.subsets.at_wrist.left_held_out : result.subsets.at_targets.left_held_out;
+  if (left.empty()) return residualAt(result, at_wrist);
+  for (std::size_t i = 0; !at_wrist && i < left.size(); ++i) {
+    left[i] /= static_cast<double>(one.identification.cases[i].targets.size());
+  }
+  return left;
+}
+
 const std::optional<Compensation>& compensationAt(const MethodResult& method, bool at_wrist) {
   return at_wrist ? method.at_wrist : method.at_targets;
 }

@@ -28,6 +28,10 @@ JudgedPoint judgedPoint(const ReportCampaign& one);
 const std::vector<double>& displacementAt(const Identification& identification,
                                           bool at_wrist);                          ///< m, per case
 const std::vector<double>& residualAt(const MethodResult& method, bool at_wrist);  ///< m, per case
+
+/// What is left in each posture by stiffnesses identified on others, mean over the subsets that leave it out; without
+/// subsets, by those from all postures. m, per case; at the reflectors the mean over them.
+std::vector<double> heldOutResidualAt(const ReportCampaign& one, Method method, bool at_wrist);
 const std::optional<Compensation>& compensationAt(const MethodResult& method, bool at_wrist);
 
 /// Compensated on the postures held out, mean over the subsets; empty where there are no subsets.

@@ -85,9 +85,9 @@ TEST(Subsets, FourOfSevenAreThoseSolvedOneByOne) {
       // Sums taken in another order: rounding times the condition squared.
       EXPECT_LT((direct[k] - study.compliances[k]).norm(), 1e-9 * direct[k].norm());
     }
-    EXPECT_NEAR(study.at_wrist.used, sum.used, 1e-10);
-    EXPECT_NEAR(study.at_wrist.held_out, sum.held_out, 1e-10);
-    EXPECT_NEAR(study.at_wrist.all, sum.all, 1e-10);
+    EXPECT_NEAR(study.at_wrist.compensated.used, sum.used, 1e-10);
+    EXPECT_NEAR(study.at_wrist.compensated.held_out, sum.held_out, 1e-10);
+    EXPECT_NEAR(study.at_wrist.compensated.all, sum.all, 1e-10);
   }
 }
 
@@ -101,7 +101,7 @@ TEST(Subsets, ThePapersTenOfNineteenAreAll92378) {
   // However the two threads shared the work, a second run gives the same numbers in the same order.
   const SubsetStudy again = studySubsets(problem.method);
   EXPECT_TRUE(std::equal(study.compliances.begin(), study.compliances.end(), again.compliances.begin()));
-  EXPECT_EQ(study.at_targets.held_out, again.at_targets.held_out);
+  EXPECT_EQ(study.at_targets.compensated.held_out, again.at_targets.compensated.held_out);
   // Every posture is drawn equally often, so the mean over the subsets is near the whole's: within the
   // noise's size.
   Vector6d mean = Vector6d::Zero();
