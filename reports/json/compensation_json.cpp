@@ -1,7 +1,7 @@
 #include "reports/json/compensation_json.h"
 
 #include "core/input/units.h"
-#include "reports/json/identification_json.h"
+#include "reports/method_names.h"
 
 namespace stiffscope {
 
@@ -24,7 +24,7 @@ Json compensationJson(const Campaign& campaign, Method method, const std::vector
     }
     rows.push_back(row);
   }
-  return {{"campaign", campaignJson(campaign)}, {"method", keyOf(method)}, {"rows", rows}};
+  return {{"campaign", campaignJson(campaign)}, {"method", namesOf(method).key}, {"rows", rows}};
 }
 
 }  // namespace stiffscope

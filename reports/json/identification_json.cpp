@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/input/units.h"
+#include "reports/method_names.h"
 
 namespace stiffscope {
 
@@ -103,7 +104,7 @@ Json perPostureJson(const Campaign& campaign, const Identification& result, cons
     for (const Method which : methods) {
       const MethodResult& method = result.of(which);
       if (!method.available) continue;
-      const std::string key = keyOf(which);
+      const std::string key = namesOf(which).key;
       if (i < method.wrist_residual.size()) posture["wrist_after_" + key + "_mm"] = method.wrist_residual[i] / kMillimetre;
       if (i < method.target_residual.size()) {
         posture["targets_mean_after_" + key + "_mm"] = method.target_residual[i] / kMillimetre;
@@ -116,23 +117,11 @@ Json perPostureJson(const Campaign& campaign, const Identification& result, cons
 
 }  // namespace
 
-const char* keyOf(Method method) {
-  switch (method) {
-    case Method::complete_pose:
-      return "cp";
-    case Method::partial_pose:
-      return "pp";
-    case Method::decoupled_partial_pose:
-      break;
-  }
-  return "dpp";
-}
-
 Json identificationJson(const Campaign& campaign, const Identification& result, const std::vector<Method>& methods) {
   Json json{{"campaign", campaignJson(campaign)}, {"step", result.step}, {"postures", result.cases.size()}};
   json["left_out"] = result.left_out;
   Json by_method = Json::object();
-  for (const Method which : methods) by_method[keyOf(which)] = methodJson(result.of(which));
+  for (const Method which : methods) by_method[namesOf(which).key] = methodJson(result.of(which));
   json["methods"] = by_method;
   json["identifiability"] = identifiabilityJson(result.identifiability);
   json["noise_share"] = result.noise ? Json{{"wrist", result.noise->at_wrist}, {"targets", result.noise->at_targets}}

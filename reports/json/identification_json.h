@@ -8,7 +8,4 @@ namespace stiffscope {
 /// The result of `identify`. `methods` may leave some out: those asked for.
 Json identificationJson(const Campaign& campaign, const Identification& result, const std::vector<Method>& methods);
 
-/// `cp`, `pp`, `dpp`.
-const char* keyOf(Method method);
-
 }  // namespace stiffscope

@@ -7,6 +7,8 @@
 #include <cctype>
 #include <numeric>
 
+#include "reports/method_names.h"
+
 namespace stiffscope::page {
 
 namespace {
@@ -22,15 +24,10 @@ std::string grouped(std::size_t count) {
 }  // namespace
 
 std::string longName(Method method) {
-  constexpr std::array<const char*, 3> kNames{"Complete Pose (CP)", "Partial Pose (PP)",
-                                              "Decoupled Partial Pose (DPP)"};
-  return kNames[static_cast<std::size_t>(method)];
+  return fmt::format("{} ({})", namesOf(method).full, namesOf(method).brief);
 }
 
-std::string shortName(Method method) {
-  constexpr std::array<const char*, 3> kNames{"CP", "PP", "DPP"};
-  return kNames[static_cast<std::size_t>(method)];
-}
+std::string shortName(Method method) { return namesOf(method).brief; }
 
 std::string jointName(int joint) { return fmt::format("k_{{{}}}", joint + 1); }
 

@@ -5,7 +5,7 @@
 #include <iterator>
 
 #include "core/input/units.h"
-#include "reports/text/identification_text.h"
+#include "reports/method_names.h"
 
 namespace stiffscope {
 
@@ -13,7 +13,7 @@ std::string compensationText(const Campaign& campaign, Method method, const std:
   std::string text;
   auto out = std::back_inserter(text);
   fmt::format_to(out, "{}: predicted deflection of P_TCP and the commands that cancel it, by {}\n\n", campaign.name,
-                 longName(method));
+                 namesOf(method).full);
   fmt::format_to(out, "  {:<10}{:>27}{:>9}   {}\n", "pose", "deflection in R0 (mm)", "+-", "command (deg)");
   for (const CompensatedPosture& posture : postures) {
     const Eigen::Vector3d mm = posture.deflection / kMillimetre;

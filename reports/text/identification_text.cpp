@@ -6,6 +6,7 @@
 #include <iterator>
 
 #include "core/input/units.h"
+#include "reports/method_names.h"
 #include "reports/text/wrapped.h"
 
 namespace stiffscope {
@@ -28,7 +29,7 @@ void writeStiffness(const Identification& result, const std::vector<Method>& met
   for (const Method which : methods) {
     const MethodResult& method = result.of(which);
     if (!method.available) continue;
-    fmt::format_to(out, "  {:<5}", shortName(which));
+    fmt::format_to(out, "  {:<5}", namesOf(which).brief);
     for (int joint = 0; joint < 6; ++joint) {
       fmt::format_to(out, "{:>17}", stiffnessCell(method.estimate, joint));
       if (!method.estimate.identifiable[static_cast<std::size_t>(joint)]) continue;
@@ -47,7 +48,7 @@ void writeStiffness(const Identification& result, const std::vector<Method>& met
   for (const Method which : methods) {
     const MethodResult& method = result.of(which);
     if (method.available) continue;
-    fmt::format_to(out, "  {}\n", wrapped(fmt::format("{} is unavailable: {}", longName(which), method.reason), 4));
+    fmt::format_to(out, "  {}\n", wrapped(fmt::format("{} is unavailable: {}", namesOf(which).full, method.reason), 4));
   }
 }
 
@@ -56,7 +57,7 @@ void writeResiduals(const Identification& result, const std::vector<Method>& met
   for (const Method which : methods) {
     const MethodResult& method = result.of(which);
     if (!method.available) continue;
-    fmt::format_to(out, "  {:<5}{:>12.2f}{:>20.1f}{:>24.1f}\n", shortName(which), method.estimate.condition,
+    fmt::format_to(out, "  {:<5}{:>12.2f}{:>20.1f}{:>24.1f}\n", namesOf(which).brief, method.estimate.condition,
                    method.estimate.rms_residual / kMicrometre, method.estimate.sigma / kMicrometre);
   }
 }
@@ -74,11 +75,11 @@ void writeCompensation(const Identification& result, const std::vector<Method>& 
       if (!method.available || !(method.*member)) continue;
       const Compensation& share = *(method.*member);
       if (method.subsets.compliances.empty()) {
-        fmt::format_to(out, "  {:<5}{:>8}{:>10}{:>8}{:>16.2f}\n", shortName(which), "-", "-", "-",
+        fmt::format_to(out, "  {:<5}{:>8}{:>10}{:>8}{:>16.2f}\n", namesOf(which).brief, "-", "-", "-",
                        100.0 * share.all_postures);
         continue;
       }
-      fmt::format_to(out, "  {:<5}{:>8.2f}{:>10.2f}{:>8.2f}{:>16.2f}\n", shortName(which), 100.0 * share.subsets.used,
+      fmt::format_to(out, "  {:<5}{:>8.2f}{:>10.2f}{:>8.2f}{:>16.2f}\n", namesOf(which).brief, 100.0 * share.subsets.used,
                      100.0 * share.subsets.held_out, 100.0 * share.subsets.all, 100.0 * share.all_postures);
     }
   };
@@ -100,30 +101,6 @@ void writeCompensation(const Identification& result, const std::vector<Method>& 
 }
 
 }  // namespace
-
-const char* shortName(Method method) {
-  switch (method) {
-    case Method::complete_pose:
-      return "CP";
-    case Method::partial_pose:
-      return "PP";
-    case Method::decoupled_partial_pose:
-      break;
-  }
-  return "DPP";
-}
-
-const char* longName(Method method) {
-  switch (method) {
-    case Method::complete_pose:
-      return "Complete Pose";
-    case Method::partial_pose:
-      return "Partial Pose";
-    case Method::decoupled_partial_pose:
-      break;
-  }
-  return "Decoupled Partial Pose";
-}
 
 std::string identificationText(const Campaign& campaign, const Identification& result,
                                const std::vector<Method>& methods) {
