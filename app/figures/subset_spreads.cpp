@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "app/figures/method_colours.h"
+#include "core/identification/stiffness_spread.h"
 #include "reports/page/names.h"
 #include "reports/page/numbers.h"
 #include "reports/page/paper_values.h"
@@ -63,7 +64,8 @@ SpreadChart subsetSpreads(const ReportCampaign& one, bool with_paper) {
   for (int joint = 0; joint < 6; ++joint) {
     SpreadPanel panel;
     panel.title = page::jointName(joint);
-    for (const Method method : methods) panel.spreads.push_back(spreadIn(one.identification.of(method), joint));
+    for (const Method method : methods)
+      panel.spreads.push_back(spreadIn(one.identification.of(method), joint));
     for (const Method method : methods) {
       if (!with_paper) break;
       const auto paper = page::paperStiffness(one.campaign.double_encoder, method, joint);

@@ -14,7 +14,8 @@ struct AvoidedAtPosture {
   double after = 0.0;   ///< the same, active
 };
 
-/// What active double encoders keep away of the deflection: 1 - sum |after| / sum |before| over common postures.
+/// What active double encoders keep away of the deflection: 1 - sum |after| / sum |before| over common
+/// postures.
 struct AvoidedDeflection {
   bool available = false;
   std::string reason;
@@ -23,8 +24,8 @@ struct AvoidedDeflection {
   std::vector<AvoidedAtPosture> postures;
 };
 
-/// Postures are common where the pose id is the same, the joint angles agree within 0.01 deg and the forces within 2 %.
-/// Unavailable, with the reason, where none is.
+/// Postures are common where the pose id is the same, the joint angles agree within 0.01 deg and the forces
+/// within 2 %. Unavailable, with the reason, where none is.
 AvoidedDeflection avoidedDeflection(const Campaign& before_campaign, const Identification& before,
                                     const Campaign& after_campaign, const Identification& after);
 

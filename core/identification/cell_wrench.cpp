@@ -33,9 +33,10 @@ Wrench cellWrench(const LoadCell& cell, const LoadingGeometry& geometry, const A
                   const std::optional<Eigen::Isometry3d>& flange_loaded, const Vector6d& reading) {
   const LinkFrame& parent = linkNamed(geometry.arm, cell.parent);
   const Eigen::Matrix3d axes =
-      cell.axes_link ? placeOf(linkNamed(geometry.arm, *cell.axes_link), geometry, posture, flange_loaded).linear()
-                     : Eigen::Matrix3d(placeOf(parent, geometry, posture, flange_loaded).linear() *
-                                       cell.parent_from_cell.linear());
+      cell.axes_link
+          ? placeOf(linkNamed(geometry.arm, *cell.axes_link), geometry, posture, flange_loaded).linear()
+          : Eigen::Matrix3d(placeOf(parent, geometry, posture, flange_loaded).linear() *
+                            cell.parent_from_cell.linear());
   return {placeOf(parent, geometry, posture, flange_unloaded) * cell.parent_from_cell.translation(),
           axes * reading.head<3>(), axes * reading.tail<3>()};
 }

@@ -10,8 +10,8 @@ namespace stiffscope {
 
 namespace {
 
-/// J^T J of the stacked Jacobian, displacement and rotation rows apart: its condition number at any L is that of
-/// linear / L^2 + angular, square root taken.
+/// J^T J of the stacked Jacobian, displacement and rotation rows apart: its condition number at any L is that
+/// of linear / L^2 + angular, square root taken.
 struct StackedJacobian {
   Matrix6d linear = Matrix6d::Zero(), angular = Matrix6d::Zero();
 

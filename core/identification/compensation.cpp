@@ -41,14 +41,15 @@ void DeflectionJudge::residual(const Vector6d& compliance, std::vector<double>& 
     squares.setZero();
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const auto rows = matrix_[axis].middleRows(from, size);
-      squares += (right_[axis].segment(from, size) - rows.col(0) * compliance[0] - rows.col(1) * compliance[1] -
-                  rows.col(2) * compliance[2] - rows.col(3) * compliance[3] - rows.col(4) * compliance[4] -
-                  rows.col(5) * compliance[5])
+      squares += (right_[axis].segment(from, size) - rows.col(0) * compliance[0] -
+                  rows.col(1) * compliance[1] - rows.col(2) * compliance[2] - rows.col(3) * compliance[3] -
+                  rows.col(4) * compliance[4] - rows.col(5) * compliance[5])
                      .square();
     }
     squares = squares.sqrt();
     for (Eigen::Index point = 0; point < size; ++point) {
-      per_posture[posture_of_point_[static_cast<std::size_t>(from + point)]] += norms[static_cast<std::size_t>(point)];
+      per_posture[posture_of_point_[static_cast<std::size_t>(from + point)]] +=
+          norms[static_cast<std::size_t>(point)];
     }
   }
 }

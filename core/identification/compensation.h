@@ -7,8 +7,9 @@
 
 namespace stiffscope {
 
-/// How much of the deflection a model takes away at some points: 1 - sum |residual| / sum |displacement|, over postures
-/// (method: Before and after). Prepared for many evaluations: rows sorted by coordinate, so that norms vectorise.
+/// How much of the deflection a model takes away at some points: 1 - sum |residual| / sum |displacement|,
+/// over postures (method: Before and after). Prepared for many evaluations: rows sorted by coordinate, so
+/// that norms vectorise.
 class DeflectionJudge {
  public:
   DeflectionJudge() = default;

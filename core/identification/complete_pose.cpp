@@ -10,7 +10,9 @@ CaseEquations completePoseEquations(const LoadingGeometry& geometry, const LoadC
   const Eigen::AngleAxisd rotation(after.linear() * before.linear().transpose());
   const Eigen::Vector3d unloaded = before * tcp_in_flange, loaded = after * tcp_in_flange;
   CaseEquations equations;
-  equations.matrix = jacobianAt(geometry.arm, jacobianPosture(load_case), jacobianPoint(load_case, unloaded, loaded)) * torque.asDiagonal();
+  equations.matrix =
+      jacobianAt(geometry.arm, jacobianPosture(load_case), jacobianPoint(load_case, unloaded, loaded)) *
+      torque.asDiagonal();
   equations.right.resize(6);
   equations.right << loaded - unloaded, rotation.angle() * rotation.axis();
   return equations;
@@ -37,9 +39,9 @@ StiffnessEstimate completePose(const std::vector<CaseEquations>& pose_equations,
   estimate.compliance = solveNormal(sum, unknown);
   estimate.condition = conditionNumber(scaled, unknown);
   std::vector<Vector6d> influences;
-  for (const CaseEquations& one : scaled) influences.push_back(influence(one, sum, estimate.compliance, unknown));
-  estimate.covariance =
-      scatterCovariance(influences, static_cast<int>(std::count(unknown.begin(), unknown.end(), true)));
+  for (const CaseEquations& one : scaled)
+    influences.push_back(influence(one, sum, estimate.compliance, unknown));
+  estimate.covariance = scatterCovariance(influences);
   describeResiduals(displacements, estimate);
   return estimate;
 }

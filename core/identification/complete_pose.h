@@ -5,10 +5,10 @@
 
 namespace stiffscope {
 
-/// Complete Pose equations of one load case (Dumas et al.; paper (39), read as J K^-1 J^T W with only the displacement
-/// rows divided by L): the displacement of P_TCP and the small rotation of the flange, both from the rigid motion of
-/// the reflectors between unloaded and loaded. Rows 0-2 in m, rows 3-5 in rad, not yet normalised.
-/// Needs load_case.flange_unloaded and flange_loaded.
+/// Complete Pose equations of one load case (Dumas et al.; paper (39), read as J K^-1 J^T W with only the
+/// displacement rows divided by L): the displacement of P_TCP and the small rotation of the flange, both from
+/// the rigid motion of the reflectors between unloaded and loaded. Rows 0-2 in m, rows 3-5 in rad, not yet
+/// normalised. Needs load_case.flange_unloaded and flange_loaded.
 CaseEquations completePoseEquations(const LoadingGeometry& geometry, const LoadCase& load_case,
                                     const Eigen::Vector3d& tcp_in_flange, const Vector6d& torque);
 

@@ -6,8 +6,12 @@ namespace stiffscope {
 
 namespace {
 
-JointMask armOf(const JointMask& unknown) { return {unknown[0], unknown[1], unknown[2], false, false, false}; }
-JointMask wristOf(const JointMask& unknown) { return {false, false, false, unknown[3], unknown[4], unknown[5]}; }
+JointMask armOf(const JointMask& unknown) {
+  return {unknown[0], unknown[1], unknown[2], false, false, false};
+}
+JointMask wristOf(const JointMask& unknown) {
+  return {false, false, false, unknown[3], unknown[4], unknown[5]};
+}
 
 }  // namespace
 
@@ -35,13 +39,13 @@ StiffnessEstimate decoupledPartialPose(const std::vector<CaseEquations>& wrist_e
   std::vector<Vector6d> influences;
   for (std::size_t p = 0; p < wrist_equations.size(); ++p) {
     const Vector6d arm = influence(wrist_equations[p], wrist_sum, arm_only, armOf(unknown));
-    const Vector6d reflectors = influence(reflector_equations[p], reflector_sum, estimate.compliance, wristOf(unknown));
+    const Vector6d reflectors =
+        influence(reflector_equations[p], reflector_sum, estimate.compliance, wristOf(unknown));
     const Vector6d through_arm =
         solveNormal({reflector_sum.matrix, reflector_sum.matrix * arm}, wristOf(unknown));
     influences.push_back(arm + reflectors - through_arm);
   }
-  estimate.covariance =
-      scatterCovariance(influences, static_cast<int>(std::count(unknown.begin(), unknown.end(), true)));
+  estimate.covariance = scatterCovariance(influences);
   estimate.condition = std::max(conditionNumber(wrist_equations, armOf(unknown)),
                                 conditionNumber(reflector_equations, wristOf(unknown)));
   describeResiduals(reflector_equations, estimate);

@@ -29,13 +29,14 @@ std::vector<Vector6d> jointTorquesWithGeometricStiffness(const LoadingGeometry& 
   return torques;
 }
 
-void turnWrenches(const LoadingGeometry& geometry, const Vector6d& compliance, const std::vector<Vector6d>& torques,
-                  std::vector<LoadCase>& cases) {
+void turnWrenches(const LoadingGeometry& geometry, const Vector6d& compliance,
+                  const std::vector<Vector6d>& torques, std::vector<LoadCase>& cases) {
   for (std::size_t i = 0; i < cases.size(); ++i) {
     LoadCase& load_case = cases[i];
     if (load_case.wrench_turns_with == 0) continue;
     const auto body = static_cast<std::size_t>(load_case.wrench_turns_with);
-    const ArmPosture loaded = postureAt(geometry.arm, load_case.q_sagged + compliance.cwiseProduct(torques[i]));
+    const ArmPosture loaded =
+        postureAt(geometry.arm, load_case.q_sagged + compliance.cwiseProduct(torques[i]));
     const Eigen::Matrix3d turn =
         loaded.motion[body].linear() * load_case.posture.motion[body].linear().transpose();
     load_case.wrench.force = turn * load_case.wrench_unturned.force;

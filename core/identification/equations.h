@@ -17,17 +17,17 @@ struct CaseEquations {
 /// Joint torques of each load case, paper (2), Nm: J_w^T W.
 std::vector<Vector6d> jointTorques(const LoadingGeometry& geometry, const std::vector<LoadCase>& cases);
 
-/// The same plus K_c c (J_w^T W + K_c ...): the torque by which the springs really are turned when the load's and the own weight's
-/// torque changes as the joints give, so that A c = J_m (K - K_c)^-1 J_w^T W (method: Unknowns). `compliance` c is the
-/// current estimate; the equations stay linear for the next one.
+/// The same plus K_c c (J_w^T W + K_c ...): the torque by which the springs really are turned when the load's
+/// and the own weight's torque changes as the joints give, so that A c = J_m (K - K_c)^-1 J_w^T W (method:
+/// Unknowns). `compliance` c is the current estimate; the equations stay linear for the next one.
 std::vector<Vector6d> jointTorquesWithGeometricStiffness(const LoadingGeometry& geometry,
                                                          const std::vector<LoadCase>& cases,
                                                          const Vector6d& compliance);
 
-/// Directs wrenches whose turn is not measured by that of the model: force and moment were read in axes that have turned
-/// with their body by c torque. First order in the deflection, as K_c is.
-void turnWrenches(const LoadingGeometry& geometry, const Vector6d& compliance, const std::vector<Vector6d>& torques,
-                  std::vector<LoadCase>& cases);
+/// Directs wrenches whose turn is not measured by that of the model: force and moment were read in axes that
+/// have turned with their body by c torque. First order in the deflection, as K_c is.
+void turnWrenches(const LoadingGeometry& geometry, const Vector6d& compliance,
+                  const std::vector<Vector6d>& torques, std::vector<LoadCase>& cases);
 
 /// Puts each case's Jacobian posture at the middle of its displacement: q_sagged + c torque / 2.
 void takeJacobiansAtMiddle(const LoadingGeometry& geometry, const Vector6d& compliance,

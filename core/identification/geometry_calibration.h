@@ -10,24 +10,24 @@ namespace stiffscope {
 /// Result of calibrating geometry, base and tool points on unloaded absolute positions.
 struct GeometryCalibration {
   bool done = false;
-  std::string reason;               ///< why not
-  LoadingGeometry geometry;         ///< the calibrated one; its compliance is that of the start
-  double rms_before = 0.0;          ///< plain, per coordinate, m: the starting geometry
+  std::string reason;        ///< why not
+  LoadingGeometry geometry;  ///< the calibrated one; its compliance is that of the start
+  double rms_before = 0.0;   ///< plain, per coordinate, m: the starting geometry
   double rms_after = 0.0;
-  int positions = 0;                ///< unloaded reflector positions used
-  int parameters = 0;               ///< that were estimated
-  std::vector<std::string> fixed;   ///< parameters that the data cannot see, kept at their start
-  std::string summary;              ///< the solver's brief report
+  int positions = 0;               ///< unloaded reflector positions used
+  int parameters = 0;              ///< that were estimated
+  std::vector<std::string> fixed;  ///< parameters that the data cannot see, kept at their start
+  std::string summary;             ///< the solver's brief report
 };
 
-/// Partial Pose's first step (Wu, Klimchik et al.; paper IV.B): the four parameters of each joint axis, the pose of the
-/// base in the loading's readings and the reflectors' places, by least squares on where the reflectors stand unloaded in
-/// all postures (step 0), with the own weight's sag at `start.compliance` in the model; weighted by the tracker's
-/// covariance where it is declared. Solved by Ceres (Levenberg-Marquardt, automatic derivatives). Parameters that the
-/// positions do not see (the axes can be shifted against base and tool) are found from the rank of the Jacobian,
-/// fixed and named.
-/// Not done, with the reason: without absolute unloaded points, with fewer positions than parameters, or where the
-/// base's place can neither be taken from the sweeps nor from three or more reflectors.
+/// Partial Pose's first step (Wu, Klimchik et al.; paper IV.B): the four parameters of each joint axis, the
+/// pose of the base in the loading's readings and the reflectors' places, by least squares on where the
+/// reflectors stand unloaded in all postures (step 0), with the own weight's sag at `start.compliance` in the
+/// model; weighted by the tracker's covariance where it is declared. Solved by Ceres (Levenberg-Marquardt,
+/// automatic derivatives). Parameters that the positions do not see (the axes can be shifted against base and
+/// tool) are found from the rank of the Jacobian, fixed and named. Not done, with the reason: without
+/// absolute unloaded points, with fewer positions than parameters, or where the base's place can neither be
+/// taken from the sweeps nor from three or more reflectors.
 GeometryCalibration calibrateGeometry(const Campaign& campaign, const LoadingGeometry& start);
 
 }  // namespace stiffscope

@@ -37,8 +37,8 @@ Vector6d torqueVariance(const LoadingGeometry& geometry, const LoadCase& load_ca
   return variance;
 }
 
-void judgeHanging(const LoadingGeometry& geometry, const std::vector<LoadCase>& cases, const TrustLimits& limits,
-                  Identifiability& result) {
+void judgeHanging(const LoadingGeometry& geometry, const std::vector<LoadCase>& cases,
+                  const TrustLimits& limits, Identifiability& result) {
   if (geometry.weight.gravity_in_base.squaredNorm() == 0.0) return;
   const Eigen::Vector3d down = geometry.weight.gravity_in_base.normalized();
   double sum = 0.0;
@@ -54,8 +54,8 @@ void judgeHanging(const LoadingGeometry& geometry, const std::vector<LoadCase>& 
   result.load_hangs = result.gravity_angle_rms < limits.hanging_within;
 }
 
-/// Marks joints about whose axis the measured points hardly move: their distance from it is no more than the place of
-/// the axis is trusted to. A column of the equations is that distance times the torque.
+/// Marks joints about whose axis the measured points hardly move: their distance from it is no more than the
+/// place of the axis is trusted to. A column of the equations is that distance times the torque.
 void judgeLever(const std::vector<CaseEquations>& equations, const std::vector<Vector6d>& torques,
                 const TrustLimits& limits, Identifiability& result) {
   Vector6d columns = Vector6d::Zero(), weights = Vector6d::Zero();
@@ -68,8 +68,9 @@ void judgeLever(const std::vector<CaseEquations>& equations, const std::vector<V
     const double lever = weights[j] > 0.0 ? std::sqrt(columns[j] / weights[j]) : 0.0;
     if (!joint.identifiable || lever > limits.least_ratio * limits.position) continue;
     joint.identifiable = false;
-    joint.reason = fmt::format("the measured points stand {:.2f} mm rms from axis {}: its turning does not move them",
-                               1e3 * lever, j + 1);
+    joint.reason =
+        fmt::format("the measured points stand {:.2f} mm rms from axis {}: its turning does not move them",
+                    1e3 * lever, j + 1);
   }
 }
 
@@ -93,7 +94,8 @@ void judgeRank(const std::vector<CaseEquations>& equations, Identifiability& res
     if (eigen.eigenvalues()[k] > kUnseen) break;
     std::string joints;
     for (int j = 0; j < 6; ++j) {
-      if (std::abs(eigen.eigenvectors()(j, k)) > kTakesPart) joints += fmt::format("{}{}", joints.empty() ? "" : ", ", j + 1);
+      if (std::abs(eigen.eigenvectors()(j, k)) > kTakesPart)
+        joints += fmt::format("{}{}", joints.empty() ? "" : ", ", j + 1);
     }
     for (int j = 0; j < 6; ++j) {
       if (std::abs(eigen.eigenvectors()(j, k)) <= kTakesPart) continue;
@@ -112,8 +114,9 @@ JointMask Identifiability::mask() const {
   return unknown;
 }
 
-Identifiability judgeJoints(const LoadingGeometry& geometry, const std::vector<LoadCase>& cases, const LoadCell& cell,
-                            const std::vector<CaseEquations>& equations, const TrustLimits& limits) {
+Identifiability judgeJoints(const LoadingGeometry& geometry, const std::vector<LoadCase>& cases,
+                            const LoadCell& cell, const std::vector<CaseEquations>& equations,
+                            const TrustLimits& limits) {
   Identifiability result;
   if (cases.empty()) return result;
   judgeHanging(geometry, cases, limits, result);
@@ -123,7 +126,8 @@ Identifiability judgeJoints(const LoadingGeometry& geometry, const std::vector<L
   for (const LoadCase& load_case : cases) {
     const Vector6d full = jointTorque(geometry.arm, load_case.posture, load_case.wrench);
     const Vector6d hanging =
-        result.load_hangs ? jointTorque(geometry.arm, load_case.posture, hangingPart(load_case.wrench, down)) : full;
+        result.load_hangs ? jointTorque(geometry.arm, load_case.posture, hangingPart(load_case.wrench, down))
+                          : full;
     torques.push_back(full);
     torque += full.cwiseAbs2();
     trusted += hanging.cwiseAbs2();
@@ -135,15 +139,19 @@ Identifiability judgeJoints(const LoadingGeometry& geometry, const std::vector<L
     joint.torque_rms = std::sqrt(torque[j] / n);
     joint.trusted_rms = std::sqrt(trusted[j] / n);
     joint.uncertainty_rms = std::sqrt(variance[j] / n);
-    joint.identifiable = joint.trusted_rms > 0.0 && joint.trusted_rms > limits.least_ratio * joint.uncertainty_rms;
+    joint.identifiable =
+        joint.trusted_rms > 0.0 && joint.trusted_rms > limits.least_ratio * joint.uncertainty_rms;
     if (joint.identifiable) continue;
-    joint.reason = result.load_hangs && joint.torque_rms > joint.trusted_rms
-                       ? fmt::format("the load only hangs and does not turn axis {}: {:.1f} Nm rms of torque, of which "
-                                     "a load along gravity gives {:.1f} Nm",
-                                     j + 1, joint.torque_rms, joint.trusted_rms)
-                       : fmt::format("the load turns axis {} by {:.1f} Nm rms, no more than {:g} times the {:.1f} Nm "
-                                     "that wrench, frame and angle uncertainty put there",
-                                     j + 1, joint.trusted_rms, limits.least_ratio, joint.uncertainty_rms);
+    joint.reason =
+        result.load_hangs && joint.torque_rms > joint.trusted_rms
+            ? fmt::format(
+                  "the load only hangs and does not turn axis {}: {:.1f} Nm rms of torque, of which "
+                  "a load along gravity gives {:.1f} Nm",
+                  j + 1, joint.torque_rms, joint.trusted_rms)
+            : fmt::format(
+                  "the load turns axis {} by {:.1f} Nm rms, no more than {:g} times the {:.1f} Nm "
+                  "that wrench, frame and angle uncertainty put there",
+                  j + 1, joint.trusted_rms, limits.least_ratio, joint.uncertainty_rms);
   }
   judgeLever(equations, torques, limits, result);
   judgeRank(equations, result);

@@ -10,10 +10,10 @@ namespace stiffscope {
 
 /// What wrench, frames and angles are trusted to, for judging which joint the load really turns.
 struct TrustLimits {
-  double direction = 2e-3;       ///< rad: the load cell's axes against the arm's, one sigma
-  double position = 0.2e-3;      ///< m: the load cell's point against the arm's axes, one sigma
+  double direction = 2e-3;         ///< rad: the load cell's axes against the arm's, one sigma
+  double position = 0.2e-3;        ///< m: the load cell's point against the arm's axes, one sigma
   double hanging_within = 0.0873;  ///< rad (5 deg): forces this near gravity, rms, are a load that hangs
-  double least_ratio = 3.0;      ///< a joint's torque must exceed this times its own uncertainty
+  double least_ratio = 3.0;        ///< a joint's torque must exceed this times its own uncertainty
 };
 
 /// Whether this data turns a joint enough for its compliance to be seen.
@@ -33,12 +33,14 @@ struct Identifiability {
   JointMask mask() const;
 };
 
-/// A joint counts only if the load turns it by more than wrench, frame and angle uncertainty alone would. Where every
-/// force lies along gravity the load hangs: only its part along gravity is trusted then, because a slightly turned load
-/// cell or base would else put a little torque on a vertical axis and a number on its stiffness (method: What every
-/// method reports). Nor is a joint identifiable whose axis the measured points stand on, or whose column is a combination
-/// of others'. `equations`: positions only, one a case, made with the cases' torques.
-Identifiability judgeJoints(const LoadingGeometry& geometry, const std::vector<LoadCase>& cases, const LoadCell& cell,
-                            const std::vector<CaseEquations>& equations, const TrustLimits& limits = {});
+/// A joint counts only if the load turns it by more than wrench, frame and angle uncertainty alone would.
+/// Where every force lies along gravity the load hangs: only its part along gravity is trusted then, because
+/// a slightly turned load cell or base would else put a little torque on a vertical axis and a number on its
+/// stiffness (method: What every method reports). Nor is a joint identifiable whose axis the measured points
+/// stand on, or whose column is a combination of others'. `equations`: positions only, one a case, made with
+/// the cases' torques.
+Identifiability judgeJoints(const LoadingGeometry& geometry, const std::vector<LoadCase>& cases,
+                            const LoadCell& cell, const std::vector<CaseEquations>& equations,
+                            const TrustLimits& limits = {});
 
 }  // namespace stiffscope

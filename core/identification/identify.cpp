@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/identification/decoupled_partial_pose.h"
+#include "core/identification/judge_method.h"
 #include "core/identification/partial_pose.h"
 #include "core/identification/settled_frames.h"
 #include "core/input/input_error.h"
@@ -15,6 +16,12 @@ namespace stiffscope {
 namespace {
 
 constexpr double kMissMatters = 0.02;  // share of P_wrist's displacement that a wrist's miss may put there
+
+std::vector<NormalEquations> normalOf(const std::vector<CaseEquations>& equations) {
+  std::vector<NormalEquations> normal;
+  for (const CaseEquations& one : equations) normal.push_back(normalEquations(one));
+  return normal;
+}
 
 class Identifier {
  public:
@@ -118,11 +125,13 @@ class Identifier {
       const auto& [at, condition] = result_.characteristic_length.curve[i];
       result_.length_sensitivity.push_back({at, condition, completePose(equations, at, unknown_).compliance});
     }
-    study(out, swept_, equations, length);
+    std::vector<NormalEquations> normal;
+    for (const CaseEquations& one : equations) normal.push_back(normalEquations(normalised(one, length)));
+    judgeMethod(swept_, std::move(normal), false, options_.subsets, out);
   }
 
-  /// The loaded arm in the calibrated geometry. Where no sweep gave stiffnesses for the own weight's sag, calibration
-  /// and stiffnesses are found in turns here, or the sag would be taken for geometry.
+  /// The loaded arm in the calibrated geometry. Where no sweep gave stiffnesses for the own weight's sag,
+  /// calibration and stiffnesses are found in turns here, or the sag would be taken for geometry.
   LoadedArm calibratedArm() {
     LoadingGeometry start = swept_.geometry;
     const bool settle_sag = swept_.cases.empty() && result_.frames.weight.links_known;
@@ -158,7 +167,7 @@ class Identifier {
     out.estimate = solveSettled(arm, options_.finite_deflection, [&](const LoadedArm& one) {
       return partialPose(reflectorEquations(one), unknown_);
     });
-    study(out, arm, reflectorEquations(arm), 0.0);
+    judgeMethod(arm, normalOf(reflectorEquations(arm)), false, options_.subsets, out);
   }
 
   void decoupledMethod() {
@@ -188,7 +197,7 @@ class Identifier {
           100.0 * kMissMatters);
       return;
     }
-    study(out, swept_, wristPointEquations(swept_), 0.0);
+    judgeMethod(swept_, normalOf(wristPointEquations(swept_)), true, options_.subsets, out);
   }
 
   /// Share of P_wrist's displacement that joints 4-6 put there because their axes miss each other.
@@ -204,37 +213,6 @@ class Identifier {
       whole += swept_.wrist[i].displacement().norm();
     }
     return whole > 0.0 ? leak / whole : 0.0;
-  }
-
-  /// Judges a solved method on all postures and on subsets. `fitted` are the equations that the method
-  /// solves: CP's pose equations (with the length), PP's reflectors, DPP's P_wrist.
-  void study(MethodResult& out, const LoadedArm& arm, const std::vector<CaseEquations>& fitted,
-             double length) {
-    out.available = true;
-    out.geometry = arm.geometry;
-    out.wrist_rows = wristPointEquations(arm);
-    out.target_rows = reflectorEquations(arm);
-    SubsetMethod subset;
-    subset.unknown = unknown_;
-    for (const CaseEquations& one : fitted) {
-      subset.normal.push_back(normalEquations(length > 0.0 ? normalised(one, length) : one));
-    }
-    if (&out == &method(Method::decoupled_partial_pose)) {
-      for (const CaseEquations& one : out.target_rows) subset.reflectors.push_back(normalEquations(one));
-    }
-    if (!out.wrist_rows.empty()) subset.at_wrist = DeflectionJudge(out.wrist_rows);
-    subset.at_targets = DeflectionJudge(out.target_rows);
-    out.subsets = studySubsets(subset, options_.subsets);
-    if (!out.wrist_rows.empty()) {
-      out.at_wrist = Compensation{subset.at_wrist.compensated(out.estimate.compliance), out.subsets.at_wrist.compensated};
-      out.wrist_residual = subset.at_wrist.residual(out.estimate.compliance);
-    }
-    out.at_targets =
-        Compensation{subset.at_targets.compensated(out.estimate.compliance), out.subsets.at_targets.compensated};
-    out.target_residual = subset.at_targets.residual(out.estimate.compliance);
-    for (std::size_t i = 0; i < out.target_residual.size(); ++i) {
-      out.target_residual[i] /= subset.at_targets.pointsOf(i);
-    }
   }
 
   void describeCampaign() {

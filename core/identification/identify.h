@@ -18,9 +18,9 @@ inline constexpr std::array<Method, 3> kMethods{Method::complete_pose, Method::p
                                                 Method::decoupled_partial_pose};
 
 struct IdentifyOptions {
-  std::optional<int> step;          ///< load step; empty: the one with the largest mean force
-  /// Include K_c of (4), which has no free parameter, and take Jacobians at the middle of the displacement; false:
-  /// neglect K_c and take them unloaded, as the paper does.
+  std::optional<int> step;  ///< load step; empty: the one with the largest mean force
+  /// Include K_c of (4), which has no free parameter, and take Jacobians at the middle of the displacement;
+  /// false: neglect K_c and take them unloaded, as the paper does.
   bool finite_deflection = true;
   SubsetOptions subsets;
   TrustLimits trust;
@@ -28,20 +28,20 @@ struct IdentifyOptions {
 
 /// Deflection compensated by the estimate from all postures, and over the subsets.
 struct Compensation {
-  double all_postures = 0.0;  ///< identified on all, judged on all
-  SubsetCompensation subsets; ///< means over the subsets: on the postures used, on those held out, on all
+  double all_postures = 0.0;   ///< identified on all, judged on all
+  SubsetCompensation subsets;  ///< means over the subsets: on the postures used, on those held out, on all
 };
 
 struct MethodResult {
   bool available = false;
   std::string reason;  ///< why not, and what measurement would make it available
   StiffnessEstimate estimate;
-  LoadingGeometry geometry;                  ///< the method's own
-  std::vector<CaseEquations> wrist_rows;     ///< P_wrist's equations in that geometry; empty where not measured
-  std::vector<CaseEquations> target_rows;    ///< the reflectors'
-  std::vector<double> wrist_residual;        ///< |displacement left| of P_wrist, per load case, m
-  std::vector<double> target_residual;       ///< the same, mean over the reflectors
-  std::optional<Compensation> at_wrist;      ///< empty where P_wrist is not measured
+  LoadingGeometry geometry;                ///< the method's own
+  std::vector<CaseEquations> wrist_rows;   ///< P_wrist's equations in that geometry; empty where not measured
+  std::vector<CaseEquations> target_rows;  ///< the reflectors'
+  std::vector<double> wrist_residual;      ///< |displacement left| of P_wrist, per load case, m
+  std::vector<double> target_residual;     ///< the same, mean over the reflectors
+  std::optional<Compensation> at_wrist;    ///< empty where P_wrist is not measured
   std::optional<Compensation> at_targets;
   SubsetStudy subsets;
 };
@@ -55,10 +55,10 @@ struct LengthSensitivity {
 
 struct Identification {
   int step = 0;
-  Frames frames;                     ///< the own weight's sag taken off where it can be
-  std::vector<LoadCase> cases;       ///< in the swept geometry
-  std::vector<std::string> left_out; ///< postures that are not used, with the reason
-  std::vector<WristMove> wrist;      ///< one a case; empty where P_wrist is not measured
+  Frames frames;                            ///< the own weight's sag taken off where it can be
+  std::vector<LoadCase> cases;              ///< in the swept geometry
+  std::vector<std::string> left_out;        ///< postures that are not used, with the reason
+  std::vector<WristMove> wrist;             ///< one a case; empty where P_wrist is not measured
   std::vector<double> wrist_displacement;   ///< |displacement| of P_wrist, uncompensated, per case, m
   std::vector<double> target_displacement;  ///< the same, mean over the reflectors
   Identifiability identifiability;
@@ -67,21 +67,22 @@ struct Identification {
   std::vector<LengthSensitivity> length_sensitivity;
   std::array<MethodResult, 3> methods;  ///< by Method
   std::optional<NoiseShare> noise;
-  double servo_change = 0.0;            ///< largest change of a reported joint angle under load, rad
+  double servo_change = 0.0;               ///< largest change of a reported joint angle under load, rad
   double geometric_stiffness_share = 0.0;  ///< rms change of the joint torques by K_c, relative
   bool finite_deflection = true;
 
   const MethodResult& of(Method method) const { return methods[static_cast<std::size_t>(method)]; }
 };
 
-/// Identifies by all three methods from one load step. Never throws for what the data lacks: a method that cannot be had
-/// says why. Throws InputError where the campaign has no load states at all.
+/// Identifies by all three methods from one load step. Never throws for what the data lacks: a method that
+/// cannot be had says why. Throws InputError where the campaign has no load states at all.
 ///
-/// The own weight needs stiffnesses to be taken off the sweeps, and the stiffnesses need the sweeps: the two are
-/// found in turns, from the rigid arm on; three rounds settle to 1e-4 of a stiffness.
+/// The own weight needs stiffnesses to be taken off the sweeps, and the stiffnesses need the sweeps: the two
+/// are found in turns, from the rigid arm on; three rounds settle to 1e-4 of a stiffness.
 Identification identify(const Campaign& campaign, const IdentifyOptions& options = {});
 
-/// The frames alone: with the own weight taken off where the campaign has what identifies the stiffnesses, else without.
+/// The frames alone: with the own weight taken off where the campaign has what identifies the stiffnesses,
+/// else without.
 Frames settledFrames(const Campaign& campaign);
 
 }  // namespace stiffscope

@@ -34,7 +34,8 @@ std::vector<PoseReadings> gatherPoints(const Campaign& campaign, int step) {
   return poses;
 }
 
-std::vector<TargetMove> measuredMoves(const PoseReadings& readings, const Eigen::Isometry3d& r0_from_loading) {
+std::vector<TargetMove> measuredMoves(const PoseReadings& readings,
+                                      const Eigen::Isometry3d& r0_from_loading) {
   std::vector<TargetMove> moves;
   for (const auto& [target, unloaded] : readings.unloaded.by_target) {
     const auto loaded = readings.loaded.by_target.find(target);
@@ -50,9 +51,10 @@ std::vector<TargetMove> measuredMoves(const PoseReadings& readings, const Eigen:
   return moves;
 }
 
-/// base_from_flange from the reflectors: their places on the arm at zero brought onto where they are measured.
-std::optional<Eigen::Isometry3d> measuredFlange(const LoadingGeometry& geometry, const std::vector<TargetMove>& moves,
-                                                bool loaded) {
+/// base_from_flange from the reflectors: their places on the arm at zero brought onto where they are
+/// measured.
+std::optional<Eigen::Isometry3d> measuredFlange(const LoadingGeometry& geometry,
+                                                const std::vector<TargetMove>& moves, bool loaded) {
   std::vector<Eigen::Vector3d> at_zero, measured;
   for (const TargetMove& move : moves) {
     const auto& target = geometry.targets_at_zero[static_cast<std::size_t>(move.target)];
@@ -76,7 +78,8 @@ PoseDisplacements gatherDisplacements(const Campaign& campaign, int step) {
 }
 
 /// Displacements without absolute points: put on the model's place of the reflector.
-std::vector<TargetMove> declaredMoves(const LoadingGeometry& geometry, const std::vector<const Displacement*>& rows,
+std::vector<TargetMove> declaredMoves(const LoadingGeometry& geometry,
+                                      const std::vector<const Displacement*>& rows,
                                       const Eigen::Matrix3d& r0_from_table, const ArmPosture& posture) {
   std::vector<TargetMove> moves;
   for (const Displacement* row : rows) {
@@ -141,7 +144,8 @@ std::vector<LoadCase> loadCases(const Campaign& campaign, const LoadingGeometry&
   const bool absolute = campaign.loading.has_value() && geometry.r0_from_loading.has_value();
   if (!absolute && (!campaign.displacements || !geometry.displacements_in_r0)) return cases;
   const std::vector<PoseStates> states = gatherStates(campaign, step);
-  const std::vector<PoseReadings> readings = absolute ? gatherPoints(campaign, step) : std::vector<PoseReadings>();
+  const std::vector<PoseReadings> readings =
+      absolute ? gatherPoints(campaign, step) : std::vector<PoseReadings>();
   const PoseDisplacements differences = absolute ? PoseDisplacements() : gatherDisplacements(campaign, step);
   const Eigen::Matrix3d r0_from_table = geometry.displacements_in_r0.value_or(Eigen::Matrix3d::Identity());
   const auto leaveOut = [&](std::size_t pose, const char* reason) {

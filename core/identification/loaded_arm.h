@@ -30,8 +30,8 @@ std::vector<CaseEquations> wristPointEquations(const LoadedArm& arm);
 std::vector<CaseEquations> poseEquations(const LoadedArm& arm, const Eigen::Vector3d& tcp_in_flange);
 
 /// Solves by one method, `solve(arm)`. With `finite_deflection` the equations are made again with the torque
-/// (K_c, and the wrench turned with the flange where its turn is not measured) and the middle posture that the
-/// last estimate implies; K_c is about a hundredth, so two rounds leave a millionth.
+/// (K_c, and the wrench turned with the flange where its turn is not measured) and the middle posture that
+/// the last estimate implies; K_c is about a hundredth, so two rounds leave a millionth.
 template <class Solve>
 StiffnessEstimate solveSettled(LoadedArm& arm, bool finite_deflection, const Solve& solve) {
   for (LoadCase& load_case : arm.cases) {

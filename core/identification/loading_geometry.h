@@ -8,8 +8,9 @@
 
 namespace stiffscope {
 
-/// What a method takes as the geometry of the loaded arm, all in its base frame (R0): the arm, where the reflectors
-/// stand on it, how the loading's readings come into it, and the stiffnesses by which its own weight bends it.
+/// What a method takes as the geometry of the loaded arm, all in its base frame (R0): the arm, where the
+/// reflectors stand on it, how the loading's readings come into it, and the stiffnesses by which its own
+/// weight bends it.
 struct LoadingGeometry {
   Robot arm;
   std::vector<std::optional<Eigen::Vector3d>> targets_at_zero;

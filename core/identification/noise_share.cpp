@@ -10,8 +10,9 @@ namespace {
 
 constexpr double kMeanNorm = 0.921;  // E|e| / sqrt(trace) for an isotropic normal vector: sqrt(8/(3 pi))
 
-double wristErrorVariance(const Campaign& campaign, const LoadingGeometry& geometry, const LoadCase& load_case,
-                          const std::vector<double>& radii, const Eigen::Vector3d& centre_at_zero) {
+double wristErrorVariance(const Campaign& campaign, const LoadingGeometry& geometry,
+                          const LoadCase& load_case, const std::vector<double>& radii,
+                          const Eigen::Vector3d& centre_at_zero) {
   constexpr double kStep = 1e-6;  // m
   double trace = 0.0;
   for (std::size_t k = 0; k < load_case.targets.size(); ++k) {
@@ -20,7 +21,8 @@ double wristErrorVariance(const Campaign& campaign, const LoadingGeometry& geome
       LoadCase forward = load_case, backward = load_case;
       forward.targets[k].loaded[axis] += kStep;
       backward.targets[k].loaded[axis] -= kStep;
-      const auto ahead = wristMove(forward, radii, centre_at_zero), behind = wristMove(backward, radii, centre_at_zero);
+      const auto ahead = wristMove(forward, radii, centre_at_zero),
+                 behind = wristMove(backward, radii, centre_at_zero);
       if (!ahead || !behind) return 0.0;
       by_point.col(axis) = (ahead->loaded - behind->loaded) / (2.0 * kStep);
     }
@@ -45,8 +47,10 @@ Eigen::Matrix3d displacementCovariance(const Tracker& tracker, const Eigen::Isom
 
 std::optional<NoiseShare> noiseShare(const Campaign& campaign, const LoadingGeometry& geometry,
                                      const std::vector<LoadCase>& cases, const std::vector<WristMove>& wrist,
-                                     const std::vector<double>& radii, const Eigen::Vector3d& centre_at_zero) {
-  if (!campaign.tracker || !geometry.r0_from_loading || cases.empty() || !cases.front().absolute) return std::nullopt;
+                                     const std::vector<double>& radii,
+                                     const Eigen::Vector3d& centre_at_zero) {
+  if (!campaign.tracker || !geometry.r0_from_loading || cases.empty() || !cases.front().absolute)
+    return std::nullopt;
   double wrist_error = 0.0, wrist_sum = 0.0, target_error = 0.0, target_sum = 0.0;
   for (std::size_t i = 0; i < cases.size(); ++i) {
     if (!wrist.empty()) {

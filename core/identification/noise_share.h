@@ -8,8 +8,8 @@
 
 namespace stiffscope {
 
-/// What the tracker's declared noise alone puts into displacements: the expected norm of the error, summed as the
-/// compensated fraction sums, so that its ratio to the displacement is the share no model can take away.
+/// What the tracker's declared noise alone puts into displacements: the expected norm of the error, summed as
+/// the compensated fraction sums, so that its ratio to the displacement is the share no model can take away.
 struct NoiseShare {
   double at_wrist = 0.0;    ///< sum of E|error| / sum |displacement| at P_wrist
   double at_targets = 0.0;  ///< the same at the reflectors
@@ -19,8 +19,9 @@ struct NoiseShare {
 Eigen::Matrix3d displacementCovariance(const Tracker& tracker, const Eigen::Isometry3d& r0_from_loading,
                                        const TargetMove& move);
 
-/// Empty without a tracker or without absolute points. P_wrist's error is that of the reflectors through (13)-(20), by
-/// central differences; E|error| of a 3-D normal error is taken as 0.921 sqrt(trace), exact for an isotropic one.
+/// Empty without a tracker or without absolute points. P_wrist's error is that of the reflectors through
+/// (13)-(20), by central differences; E|error| of a 3-D normal error is taken as 0.921 sqrt(trace), exact for
+/// an isotropic one.
 std::optional<NoiseShare> noiseShare(const Campaign& campaign, const LoadingGeometry& geometry,
                                      const std::vector<LoadCase>& cases, const std::vector<WristMove>& wrist,
                                      const std::vector<double>& radii, const Eigen::Vector3d& centre_at_zero);

@@ -16,22 +16,23 @@ NormalEquations normalEquations(const CaseEquations& equations) {
   return {equations.matrix.transpose() * equations.matrix, equations.matrix.transpose() * equations.right};
 }
 
-Vector6d solveNormal(const NormalEquations& sum, const JointMask& unknown) {
-  // Joints left out get a unit diagonal and a zero right side: one fixed-size solve serves every mask.
-  Matrix6d matrix = sum.matrix;
-  Vector6d right = sum.right, scale = Vector6d::Ones();
+ScaledNormal scaledNormal(const Matrix6d& matrix, const JointMask& unknown) {
+  // Joints left out get a unit diagonal: one fixed-size solve serves every mask.
+  ScaledNormal scaled{matrix, Vector6d::Zero()};
   for (int j = 0; j < 6; ++j) {
-    if (unknown[static_cast<std::size_t>(j)] && matrix(j, j) > 0.0) {
-      scale[j] = 1.0 / std::sqrt(matrix(j, j));
-    } else {
-      matrix.row(j).setZero();
-      matrix.col(j).setZero();
-      matrix(j, j) = 1.0;
-      right[j] = 0.0;
-    }
+    if (unknown[static_cast<std::size_t>(j)] && matrix(j, j) > 0.0)
+      scaled.scale[j] = 1.0 / std::sqrt(matrix(j, j));
   }
-  matrix = scale.asDiagonal() * matrix * scale.asDiagonal();
-  return scale.cwiseProduct(matrix.ldlt().solve(scale.cwiseProduct(right)).eval());
+  scaled.matrix = scaled.scale.asDiagonal() * matrix * scaled.scale.asDiagonal();
+  for (int j = 0; j < 6; ++j) {
+    if (scaled.scale[j] == 0.0) scaled.matrix(j, j) = 1.0;
+  }
+  return scaled;
+}
+
+Vector6d solveNormal(const NormalEquations& sum, const JointMask& unknown) {
+  const ScaledNormal scaled = scaledNormal(sum.matrix, unknown);
+  return scaled.scale.cwiseProduct(scaled.matrix.ldlt().solve(scaled.scale.cwiseProduct(sum.right)).eval());
 }
 
 double conditionNumber(const std::vector<CaseEquations>& equations, const JointMask& unknown) {
@@ -52,8 +53,8 @@ double conditionNumber(const std::vector<CaseEquations>& equations, const JointM
     stacked.col(columns++) = column;
   }
   if (columns == 0 || rows < columns) return std::numeric_limits<double>::infinity();
-  const Eigen::MatrixXd reduced = stacked.leftCols(columns).householderQr().matrixQR().topRows(columns)
-                                      .triangularView<Eigen::Upper>();
+  const Eigen::MatrixXd reduced =
+      stacked.leftCols(columns).householderQr().matrixQR().topRows(columns).triangularView<Eigen::Upper>();
   const Eigen::VectorXd values = reduced.jacobiSvd().singularValues();
   return values[0] / values[columns - 1];
 }

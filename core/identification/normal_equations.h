@@ -21,10 +21,20 @@ struct NormalEquations {
 
 NormalEquations normalEquations(const CaseEquations& equations);
 
+/// A normal matrix with columns scaled to unit length; joints that are no unknowns have scale 0 and a unit
+/// diagonal.
+struct ScaledNormal {
+  Matrix6d matrix;
+  Vector6d scale;
+};
+
+ScaledNormal scaledNormal(const Matrix6d& matrix, const JointMask& unknown);
+
 /// Least squares over the joints of the mask, the others zero. Columns are scaled to unit length first.
 Vector6d solveNormal(const NormalEquations& sum, const JointMask& unknown);
 
-/// Condition number (2-norm) of the stacked matrix over the joints of the mask, columns scaled to unit length.
+/// Condition number (2-norm) of the stacked matrix over the joints of the mask, columns scaled to unit
+/// length.
 double conditionNumber(const std::vector<CaseEquations>& equations, const JointMask& unknown);
 
 }  // namespace stiffscope

@@ -12,7 +12,7 @@ CaseEquations partialPoseEquations(const LoadingGeometry& geometry, const LoadCa
   equations.right.resize(rows);
   Eigen::Index row = 0;
   for (const TargetMove& move : load_case.targets) {
-    equations.matrix.middleRows<3>(row) = 
+    equations.matrix.middleRows<3>(row) =
         pointRows(geometry, load_case, jacobianPoint(load_case, move.unloaded, move.loaded), torque);
     equations.right.segment<3>(row) = move.displacement();
     row += 3;
@@ -31,8 +31,7 @@ StiffnessEstimate partialPose(const std::vector<CaseEquations>& equations, const
   for (const CaseEquations& one : equations) {
     influences.push_back(influence(one, sum, estimate.compliance, unknown));
   }
-  estimate.covariance =
-      scatterCovariance(influences, static_cast<int>(std::count(unknown.begin(), unknown.end(), true)));
+  estimate.covariance = scatterCovariance(influences);
   describeResiduals(equations, estimate);
   return estimate;
 }

@@ -1,5 +1,6 @@
 #include "core/identification/stiffness_estimate.h"
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 
@@ -15,18 +16,26 @@ std::string StiffnessEstimate::mark(int joint) const {
   return {};
 }
 
-Matrix6d scatterCovariance(const std::vector<Vector6d>& influences, int unknowns) {
+Matrix6d scatterCovariance(const std::vector<Vector6d>& influences) {
   Matrix6d sum = Matrix6d::Zero();
   for (const Vector6d& one : influences) sum += one * one.transpose();
-  const double n = static_cast<double>(influences.size());
-  const double spent = std::max(1.0, unknowns / 3.0);
-  return n > spent ? Matrix6d(sum * n / (n - spent)) : sum;
+  return sum;
 }
 
 Vector6d influence(const CaseEquations& equations, const NormalEquations& sum, const Vector6d& compliance,
                    const JointMask& unknown) {
-  const NormalEquations own{sum.matrix, equations.matrix.transpose() * (equations.right - equations.matrix * compliance)};
-  return solveNormal(own, unknown);
+  // With N = L L^T the root acts on six numbers: L^-1 A^T (I - H)^-1/2 r = (I - G)^-1/2 L^-1 A^T r, G = L^-1
+  // A^T A L^-T.
+  const ScaledNormal scaled = scaledNormal(sum.matrix, unknown);
+  const Eigen::LLT<Matrix6d> cholesky(scaled.matrix);
+  const Eigen::Matrix<double, 6, Eigen::Dynamic> rows =
+      cholesky.matrixL().solve(scaled.scale.asDiagonal() * equations.matrix.transpose());
+  const Vector6d pull = rows * (equations.right - equations.matrix * compliance);
+  const Eigen::SelfAdjointEigenSolver<Matrix6d> own(rows * rows.transpose());
+  constexpr double kMost = 0.95;  // a posture that alone determines a combination has no residual to correct
+  const Vector6d root = (1.0 - own.eigenvalues().array().min(kMost)).rsqrt();
+  const Vector6d corrected = own.eigenvectors() * root.cwiseProduct(own.eigenvectors().transpose() * pull);
+  return scaled.scale.cwiseProduct(cholesky.matrixU().solve(corrected).eval());
 }
 
 void describeResiduals(const std::vector<CaseEquations>& equations, StiffnessEstimate& estimate) {

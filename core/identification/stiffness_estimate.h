@@ -18,16 +18,18 @@ struct StiffnessEstimate {
   double stiffness(int joint) const { return 1.0 / compliance[joint]; }
   /// Standard uncertainty of k to first order, sd(c) / c^2.
   double stiffnessSd(int joint) const;
-  /// What a reader must know of the entry: "negative", "imprecise" (standard deviation above the value), or empty.
+  /// What a reader must know of the entry: "negative", "imprecise" (standard deviation above the value), or
+  /// empty.
   std::string mark(int joint) const;
 };
 
-/// Covariance of least squares c = N^-1 sum A_p^T b_p from the scatter between postures, which errors shared within a
-/// posture (its unloaded readings, its wrench) do not fool: sum of g_p g_p^T, g_p = N^-1 A_p^T (b_p - A_p c), times
-/// n/(n - u), n postures and u unknowns divided among three coordinates.
-Matrix6d scatterCovariance(const std::vector<Vector6d>& influences, int unknowns);
+/// Covariance of least squares from the scatter between postures, which errors shared within a posture (its
+/// unloaded readings, its wrench) do not fool: the sum of g_p g_p^T over the influences g_p of the postures.
+Matrix6d scatterCovariance(const std::vector<Vector6d>& influences);
 
-/// g_p of one posture.
+/// g_p = N^-1 A_p^T (I - H_p)^-1/2 (b_p - A_p c), H_p = A_p N^-1 A_p^T: how one posture moves the estimate.
+/// The root makes up for what the posture pulled the fit towards itself (Bell and McCaffrey 2002, CR2), which
+/// matters for few postures.
 Vector6d influence(const CaseEquations& equations, const NormalEquations& sum, const Vector6d& compliance,
                    const JointMask& unknown);
 

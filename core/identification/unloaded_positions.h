@@ -6,7 +6,8 @@
 
 namespace stiffscope {
 
-/// One reflector in the unloaded state of one posture: the mean of its readings, in the frame of the loading table.
+/// One reflector in the unloaded state of one posture: the mean of its readings, in the frame of the loading
+/// table.
 struct UnloadedPosition {
   int pose = 0;
   int target = 0;

@@ -31,8 +31,8 @@ std::optional<Three> largestTriangle(const LoadCase& load_case, const std::vecto
 
 }  // namespace
 
-std::optional<WristMove> wristMove(const LoadCase& load_case,
-                                   const std::vector<double>& radii, const Eigen::Vector3d& centre_at_zero) {
+std::optional<WristMove> wristMove(const LoadCase& load_case, const std::vector<double>& radii,
+                                   const Eigen::Vector3d& centre_at_zero) {
   if (!load_case.absolute) return std::nullopt;
   const auto three = largestTriangle(load_case, radii);
   if (!three) return std::nullopt;
@@ -47,9 +47,10 @@ std::optional<WristMove> wristMove(const LoadCase& load_case,
   return WristMove{nearerRoot(*unloaded, expected), nearerRoot(*loaded, expected)};
 }
 
-CaseEquations wristEquations(const LoadingGeometry& geometry, const LoadCase& load_case, const WristMove& wrist,
-                             const Vector6d& torque) {
-  return {pointRows(geometry, load_case, jacobianPoint(load_case, wrist.unloaded, wrist.loaded), torque), wrist.displacement()};
+CaseEquations wristEquations(const LoadingGeometry& geometry, const LoadCase& load_case,
+                             const WristMove& wrist, const Vector6d& torque) {
+  return {pointRows(geometry, load_case, jacobianPoint(load_case, wrist.unloaded, wrist.loaded), torque),
+          wrist.displacement()};
 }
 
 }  // namespace stiffscope

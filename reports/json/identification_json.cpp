@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/identification/stiffness_spread.h"
 #include "core/input/units.h"
 #include "reports/method_names.h"
 

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include "core/identification/stiffness_spread.h"
 #include "reports/page/html_table.h"
 #include "reports/page/names.h"
 #include "reports/page/numbers.h"

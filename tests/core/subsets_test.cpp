@@ -1,4 +1,4 @@
-#include "core/identification/subsets.h"
+#include "core/identification/stiffness_spread.h"
 
 #include <gtest/gtest.h>
 
