@@ -8,6 +8,7 @@
 #include "core/compensation/postures_table.h"
 #include "core/input/input_error.h"
 #include "reports/json/compensation_json.h"
+#include "reports/method_names.h"
 #include "reports/text/compensation_text.h"
 
 namespace stiffscope {
@@ -15,20 +16,30 @@ namespace stiffscope {
 namespace {
 
 struct Arguments {
-  std::string campaign, postures, json, method = "dpp";
+  std::string campaign, postures, json, method;
   int step = 0;
 };
 
+/// The decoupled method where it can be had, else Partial Pose, else Complete Pose.
+Method bestAvailable(const Identification& result) {
+  for (const Method method : {Method::decoupled_partial_pose, Method::partial_pose}) {
+    if (result.of(method).available) return method;
+  }
+  return Method::complete_pose;
+}
+
 int compensateCampaign(const Arguments& arguments, bool step_given) {
-  const std::vector<Method> methods = methodsNamed(arguments.method);
-  if (methods.size() != 1) throw InputError({"--method"}, arguments.method, "expected one of cp, pp or dpp");
+  std::vector<Method> methods;
+  if (!arguments.method.empty()) methods = methodsNamed(arguments.method);
+  if (methods.size() > 1) throw InputError({"--method"}, arguments.method, "expected one of cp, pp or dpp");
   const Campaign campaign = openCampaign(arguments.campaign);
   IdentifyOptions options;
   if (step_given) options.step = arguments.step;
   const Identification result = identify(campaign, options);
+  if (methods.empty()) methods = {bestAvailable(result)};
   const MethodResult& method = result.of(methods.front());
   if (!method.available) {
-    throw InputError({arguments.campaign}, "", "this method is unavailable here: " + method.reason);
+    throw InputError({arguments.campaign}, "", std::string(namesOf(methods.front()).full) + " is unavailable here: " + method.reason);
   }
   std::vector<std::string> warnings;
   const std::vector<PostureToCompensate> asked = arguments.postures.empty()
@@ -53,7 +64,7 @@ void addCompensate(CLI::App& app, Run& run) {
   command->add_option("--postures", arguments->postures,
                       "CSV with pose, q1_deg..q6_deg and the load-cell reading fx_n..mz_nm expected there; without it the "
                       "campaign's own");
-  command->add_option("--method", arguments->method, "cp, pp or dpp")->capture_default_str();
+  command->add_option("--method", arguments->method, "cp, pp or dpp; without it the best that is available, dpp first");
   const CLI::Option* step = command->add_option("--step", arguments->step, "load step to identify from");
   command->add_option("--json", arguments->json, "write the result to this file, - for standard output");
   command->callback([arguments, step, &run] {

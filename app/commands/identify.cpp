@@ -1,11 +1,11 @@
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <memory>
 
 #include "app/command.h"
 #include "app/method_option.h"
 #include "app/output.h"
-#include "core/identification/identify.h"
+#include "core/identification/cautions.h"
+#include "core/input/input_error.h"
 #include "reports/json/identification_json.h"
 #include "reports/text/identification_text.h"
 
@@ -19,18 +19,20 @@ struct Arguments {
   bool neglect_kc = false;
 };
 
-int identifyCampaign(const Arguments& arguments, bool step_given) {
+int identifyCampaign(const Arguments& arguments, bool step_given, bool subset_given) {
   const std::vector<Method> methods = methodsNamed(arguments.method);
   const Campaign campaign = openCampaign(arguments.campaign);
   IdentifyOptions options;
   if (step_given) options.step = arguments.step;
   options.finite_deflection = !arguments.neglect_kc;
+  if (subset_given && arguments.subset_size < 1) {
+    throw InputError({"--subset-size"}, std::to_string(arguments.subset_size), "expected 1 or more postures");
+  }
   options.subsets.size = arguments.subset_size;
   const Identification result = identify(campaign, options);
   deliver([&] { return identificationJson(campaign, result, methods); },
           [&] { return identificationText(campaign, result, methods); }, arguments.json);
-  const bool usable = std::any_of(methods.begin(), methods.end(), [&](Method m) { return result.of(m).available; });
-  return usable ? kDone : kNotUsable;
+  return anyUsable(result, methods) ? kDone : kNotUsable;
 }
 
 }  // namespace
@@ -42,13 +44,15 @@ void addIdentify(CLI::App& app, Run& run) {
   command->add_option("--method", arguments->method, "cp, pp, dpp or all")->capture_default_str();
   const CLI::Option* step = command->add_option(
       "--step", arguments->step, "load step to identify from; without it the one with the largest mean force");
-  command->add_option("--subset-size", arguments->subset_size,
+  const CLI::Option* subset = command->add_option("--subset-size", arguments->subset_size,
                       "postures that identify in Table II's subsets; without it 10 of 19, in proportion");
   command->add_flag("--neglect-kc", arguments->neglect_kc,
                     "neglect K_c and take Jacobians at the unloaded arm, as the paper does");
   command->add_option("--json", arguments->json, "write the result to this file, - for standard output");
-  command->callback([arguments, step, &run] {
-    run = [arguments, step_given = step->count() > 0] { return identifyCampaign(*arguments, step_given); };
+  command->callback([arguments, step, subset, &run] {
+    run = [arguments, step_given = step->count() > 0, subset_given = subset->count() > 0] {
+      return identifyCampaign(*arguments, step_given, subset_given);
+    };
   });
 }
 

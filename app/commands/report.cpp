@@ -8,6 +8,7 @@
 #include "app/figures/make_figures.h"
 #include "app/output.h"
 #include "app/versions.h"
+#include "core/identification/cautions.h"
 #include "core/input/write_file.h"
 #include "reports/json/results_json.h"
 #include "reports/page/report_page.h"
@@ -54,7 +55,7 @@ int writeReport(const Arguments& arguments, bool step_given) {
   const std::string page = reportPage(content);
   const std::string results = resultsJson(content).dump(1) + '\n';
   const std::filesystem::path folder = arguments.out;
-  std::filesystem::create_directories(folder);
+  makeFolder(folder);
   for (const Figure& figure : content.figures) {
     writeFileWhole(folder / (figure.id + ".png"),
                    {reinterpret_cast<const char*>(figure.png.data()), figure.png.size()});
@@ -63,7 +64,7 @@ int writeReport(const Arguments& arguments, bool step_given) {
   writeFileWhole(folder / "report.html", page);
   std::printf("%s\n", (folder / "report.html").c_str());
   const bool usable = std::any_of(identifications.begin(), identifications.end(), [](const Identification& one) {
-    return std::any_of(kMethods.begin(), kMethods.end(), [&](Method method) { return one.of(method).available; });
+    return anyUsable(one, {kMethods.begin(), kMethods.end()});
   });
   return usable ? kDone : kNotUsable;
 }

@@ -31,7 +31,7 @@ std::string kilonewtons(double newtons) { return fmt::format("{}\u00a0kN", page:
 Eigen::Vector3d placeOfR0(const ReportCampaign& one) { return {0.0, 0.0, heightOfR0(one.identification)}; }
 
 std::string framesWords(const ReportCampaign& one) {
-  return fmt::format("The axes drawn are R_{{0}}, {} mm above the foot of axis 1.",
+  return fmt::format("The axes drawn are R_{{0}}, {} mm above base_link.",
                      page::fixed(kMmPerM * heightOfR0(one.identification), 0));
 }
 

@@ -36,7 +36,7 @@ void writeCampaign(const Campaign& campaign, const std::filesystem::path& urdf_f
                    const std::filesystem::path& folder) {
   const std::string urdf = readTextFile(urdf_file);
   const CampaignNames names = namesOf(campaign);
-  std::filesystem::create_directories(folder);
+  makeFolder(folder);
   writeFileWhole(folder / "robot.urdf", urdf);
   writeTable(folder, circleSweepsLayout(), campaign.circle_sweeps, names);
   writeTable(folder, wristSweepLayout(), campaign.wrist_sweep, names);

@@ -35,6 +35,8 @@ class Compensator {
     const Eigen::Isometry3d wanted = flangeAt(geometry_.arm, unloaded);
     const FlangeLoad load = loadAt(unloaded, wanted, asked.wrench_in_cell);
     predict(asked, unloaded, wanted, load, result);
+    result.reason = turnsUnknownJoint(unloaded, wanted, load);
+    if (!result.reason.empty()) return result;
     if (result.conditioning < options_.least_conditioning) {
       result.reason = fmt::format("too near a singularity: conditioning {:.4f}, at least {:g} is asked for",
                                   result.conditioning, options_.least_conditioning);
@@ -48,6 +50,19 @@ class Compensator {
   FlangeLoad loadAt(const ArmPosture& posture, const Eigen::Isometry3d& flange, const Vector6d& reading) const {
     const Wrench wrench = cellWrench(*campaign_.load_cell, geometry_, posture, flange, flange, reading);
     return {flange.inverse() * wrench.point, wrench.force, wrench.moment};
+  }
+
+  /// The reason to refuse where a joint of unknown stiffness, which counts as rigid here, is turned by the load.
+  std::string turnsUnknownJoint(const ArmPosture& unloaded, const Eigen::Isometry3d& flange, const FlangeLoad& load) const {
+    const Vector6d torque =
+        jointTorque(geometry_.arm, unloaded, {flange * load.point_in_flange, load.force, load.moment});
+    for (int joint = 0; joint < 6; ++joint) {
+      if (estimate_.identifiable[static_cast<std::size_t>(joint)]) continue;
+      if (std::abs(torque[joint]) <= options_.share_unknown * torque.cwiseAbs().maxCoeff()) continue;
+      return fmt::format("the load turns axis {} by {:.0f} Nm and k{} is not known: the deflection shown lacks its part",
+                         joint + 1, std::abs(torque[joint]), joint + 1);
+    }
+    return {};
   }
 
   void predict(const PostureToCompensate& asked, const ArmPosture& unloaded, const Eigen::Isometry3d& wanted,

@@ -31,12 +31,14 @@ struct CompensatedPosture {
 
 struct CompensateOptions {
   double least_conditioning = 0.01;  ///< below it a posture is too near a singularity
+  double share_unknown = 0.02;       ///< of the largest joint torque: what may turn a joint of unknown stiffness
 };
 
 /// For each posture: the nonlinear model (finite rotations, own weight and load on the moved arm) gives the loaded
 /// pose; Newton steps on the commands bring the loaded flange back onto the pose that the unloaded arm has at q. The wrench is taken
 /// into R0 at the unloaded flange and keeps its direction. No commands, with the reason, near a singularity, where a
-/// command leaves the joint limits, or where the steps do not converge. Joints without a stiffness count as rigid.
+/// command leaves the joint limits, or where the steps do not converge, or where the load turns a joint whose stiffness is not known by more
+/// than `trusted_torque`.
 std::vector<CompensatedPosture> compensate(const Campaign& campaign, const LoadingGeometry& geometry,
                                            const StiffnessEstimate& estimate, const Eigen::Vector3d& tcp_in_flange,
                                            const std::vector<PostureToCompensate>& postures,

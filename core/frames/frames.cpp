@@ -17,6 +17,7 @@ Eigen::Vector3d tcpInFlange(const Robot& arm) {
 Frames measureOnce(const Campaign& campaign, const SagModel& sag) {
   const RigidPoints points = rigidPoints(campaign, sag);
   Frames frames;
+  frames.largest_sag = points.largest_sag;
   if (campaign.circle_sweeps) frames.points_frame = campaign.circle_sweeps->frame;
   frames.axes = measureAxes(campaign, points);
   frames.arm = armInR0(campaign.robot, frames.axes);

@@ -24,6 +24,7 @@ struct Frames {
   Eigen::Vector3d tcp_in_flange = Eigen::Vector3d::Zero();  ///< P_TCP: where axis 6 pierces the flange plane
   OwnWeight weight;              ///< in R0
   bool sag_removed = false;      ///< readings were referred to the rigid arm
+  double largest_sag = 0.0;      ///< of a reading of the sweeps, taken off, m
   std::string sag_note;          ///< why not, or with which stiffnesses
 };
 

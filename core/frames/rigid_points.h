@@ -12,6 +12,7 @@ namespace stiffscope {
 struct RigidPoints {
   std::vector<Eigen::Vector3d> circle_sweeps;
   std::vector<Eigen::Vector3d> wrist_sweep;
+  double largest_sag = 0.0;  ///< taken off a reading, m
 };
 
 RigidPoints rigidPoints(const Campaign& campaign, const SagModel& sag);

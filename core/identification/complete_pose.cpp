@@ -41,7 +41,7 @@ StiffnessEstimate completePose(const std::vector<CaseEquations>& pose_equations,
   std::vector<Vector6d> influences;
   for (const CaseEquations& one : scaled)
     influences.push_back(influence(one, sum, estimate.compliance, unknown));
-  estimate.covariance = scatterCovariance(influences);
+  estimate.covariance = scatterCovariance(influences, unknown);
   describeResiduals(displacements, estimate);
   return estimate;
 }

@@ -45,7 +45,7 @@ StiffnessEstimate decoupledPartialPose(const std::vector<CaseEquations>& wrist_e
         solveNormal({reflector_sum.matrix, reflector_sum.matrix * arm}, wristOf(unknown));
     influences.push_back(arm + reflectors - through_arm);
   }
-  estimate.covariance = scatterCovariance(influences);
+  estimate.covariance = scatterCovariance(influences, unknown);
   estimate.condition = std::max(conditionNumber(wrist_equations, armOf(unknown)),
                                 conditionNumber(reflector_equations, wristOf(unknown)));
   describeResiduals(reflector_equations, estimate);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/identification/cautions.h"
 #include "core/identification/decoupled_partial_pose.h"
 #include "core/identification/judge_method.h"
 #include "core/identification/partial_pose.h"
@@ -44,6 +45,7 @@ class Identifier {
     partialPoseMethod();
     decoupledMethod();
     describeCampaign();
+    result_.cautions = cautionsOf(result_);
     return std::move(result_);
   }
 
@@ -89,6 +91,10 @@ class Identifier {
   /// What all methods need; the reason where it is not there.
   std::string commonReason(const LoadedArm& arm) const {
     if (arm.cases.empty()) {
+      if (!campaign_.loading && campaign_.displacements && !arm.geometry.displacements_in_r0) {
+        return "the displacements are in the tracker's frame: circle sweeps of axes 1 and 2 would place it, or "
+               "frame=\"base_link\" if they are in the robot's";
+      }
       return campaign_.loading && !arm.geometry.r0_from_loading
                  ? "the loading's readings cannot be brought into R0: circle sweeps of axes 1 and 2 would "
                    "place them"
@@ -168,6 +174,7 @@ class Identifier {
       return partialPose(reflectorEquations(one), unknown_);
     });
     judgeMethod(arm, normalOf(reflectorEquations(arm)), false, options_.subsets, out);
+    if (swept_.cases.empty()) shown_ = std::move(arm);
   }
 
   void decoupledMethod() {
@@ -216,23 +223,24 @@ class Identifier {
   }
 
   void describeCampaign() {
+    const LoadedArm& shown = swept_.cases.empty() ? shown_ : swept_;
     const MethodResult& reference = firstAvailable();
-    result_.cases = swept_.cases;
-    result_.wrist = swept_.wrist;
-    for (const WristMove& move : swept_.wrist)
+    result_.cases = shown.cases;
+    result_.wrist = shown.wrist;
+    for (const WristMove& move : shown.wrist)
       result_.wrist_displacement.push_back(move.displacement().norm());
-    for (const LoadCase& load_case : swept_.cases) {
+    for (const LoadCase& load_case : shown.cases) {
       double sum = 0.0;
       for (const TargetMove& move : load_case.targets) sum += move.displacement().norm();
       result_.target_displacement.push_back(sum / static_cast<double>(load_case.targets.size()));
       result_.servo_change = std::max(result_.servo_change, load_case.servo.cwiseAbs().maxCoeff());
     }
-    result_.noise = noiseShare(campaign_, swept_.geometry, swept_.cases, swept_.wrist,
+    result_.noise = noiseShare(campaign_, shown.geometry, shown.cases, shown.wrist,
                                result_.frames.wrist.radii, result_.frames.wrist.centre_at_zero_in_r0);
     if (!reference.available) return;
-    const auto plain = jointTorques(swept_.geometry, swept_.cases);
+    const auto plain = jointTorques(shown.geometry, shown.cases);
     const auto full =
-        jointTorquesWithGeometricStiffness(swept_.geometry, swept_.cases, reference.estimate.compliance);
+        jointTorquesWithGeometricStiffness(shown.geometry, shown.cases, reference.estimate.compliance);
     double change = 0.0, whole = 0.0;
     for (std::size_t i = 0; i < plain.size(); ++i) {
       change += (full[i] - plain[i]).squaredNorm();
@@ -252,7 +260,7 @@ class Identifier {
   const IdentifyOptions options_;
   Identification result_;
   LoadedArm swept_;
-  Vector6d sag_ = Vector6d::Zero();
+  LoadedArm shown_;  // the calibrated arm, where no sweep gives one
   JointMask unknown_{};
 };
 

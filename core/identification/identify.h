@@ -67,6 +67,7 @@ struct Identification {
   std::vector<LengthSensitivity> length_sensitivity;
   std::array<MethodResult, 3> methods;  ///< by Method
   std::optional<NoiseShare> noise;
+  std::vector<std::string> cautions;       ///< cautionsOf this result
   double servo_change = 0.0;               ///< largest change of a reported joint angle under load, rad
   double geometric_stiffness_share = 0.0;  ///< rms change of the joint torques by K_c, relative
   bool finite_deflection = true;

@@ -51,7 +51,8 @@ std::optional<NoiseShare> noiseShare(const Campaign& campaign, const LoadingGeom
                                      const Eigen::Vector3d& centre_at_zero) {
   if (!campaign.tracker || !geometry.r0_from_loading || cases.empty() || !cases.front().absolute)
     return std::nullopt;
-  double wrist_error = 0.0, wrist_sum = 0.0, target_error = 0.0, target_sum = 0.0;
+  double wrist_error = 0.0, wrist_sum = 0.0, target_error = 0.0, target_sum = 0.0, trace = 0.0;
+  int moves = 0;
   for (std::size_t i = 0; i < cases.size(); ++i) {
     if (!wrist.empty()) {
       wrist_error +=
@@ -59,14 +60,16 @@ std::optional<NoiseShare> noiseShare(const Campaign& campaign, const LoadingGeom
       wrist_sum += wrist[i].displacement().norm();
     }
     for (const TargetMove& move : cases[i].targets) {
-      target_error +=
-          kMeanNorm *
-          std::sqrt(displacementCovariance(*campaign.tracker, *geometry.r0_from_loading, move).trace());
+      const double own = displacementCovariance(*campaign.tracker, *geometry.r0_from_loading, move).trace();
+      target_error += kMeanNorm * std::sqrt(own);
+      trace += own;
+      ++moves;
       target_sum += move.displacement().norm();
     }
   }
   NoiseShare share;
   if (wrist_sum > 0.0) share.at_wrist = wrist_error / wrist_sum;
+  if (moves > 0) share.per_coordinate = std::sqrt(trace / (3.0 * moves));
   if (target_sum > 0.0) share.at_targets = target_error / target_sum;
   return share;
 }

@@ -11,8 +11,9 @@ namespace stiffscope {
 /// What the tracker's declared noise alone puts into displacements: the expected norm of the error, summed as
 /// the compensated fraction sums, so that its ratio to the displacement is the share no model can take away.
 struct NoiseShare {
-  double at_wrist = 0.0;    ///< sum of E|error| / sum |displacement| at P_wrist
-  double at_targets = 0.0;  ///< the same at the reflectors
+  std::optional<double> at_wrist;  ///< sum of E|error| / sum |displacement| at P_wrist; empty where not measured
+  double at_targets = 0.0;         ///< the same at the reflectors
+  double per_coordinate = 0.0;     ///< rms noise of a reflector's displacement, per coordinate, m
 };
 
 /// Covariance of one reflector's displacement, by the reading counts of both states; R0 axes, m^2.

@@ -31,7 +31,7 @@ StiffnessEstimate partialPose(const std::vector<CaseEquations>& equations, const
   for (const CaseEquations& one : equations) {
     influences.push_back(influence(one, sum, estimate.compliance, unknown));
   }
-  estimate.covariance = scatterCovariance(influences);
+  estimate.covariance = scatterCovariance(influences, unknown);
   describeResiduals(equations, estimate);
   return estimate;
 }

@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace stiffscope {
 
@@ -16,7 +17,11 @@ std::string StiffnessEstimate::mark(int joint) const {
   return {};
 }
 
-Matrix6d scatterCovariance(const std::vector<Vector6d>& influences) {
+Matrix6d scatterCovariance(const std::vector<Vector6d>& influences, const JointMask& unknown) {
+  const double unknowns = static_cast<double>(std::count(unknown.begin(), unknown.end(), true));
+  if (static_cast<double>(influences.size()) < unknowns / 3.0 + 2.0) {
+    return Matrix6d::Constant(std::numeric_limits<double>::quiet_NaN());
+  }
   Matrix6d sum = Matrix6d::Zero();
   for (const Vector6d& one : influences) sum += one * one.transpose();
   return sum;

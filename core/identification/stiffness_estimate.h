@@ -25,7 +25,8 @@ struct StiffnessEstimate {
 
 /// Covariance of least squares from the scatter between postures, which errors shared within a posture (its
 /// unloaded readings, its wrench) do not fool: the sum of g_p g_p^T over the influences g_p of the postures.
-Matrix6d scatterCovariance(const std::vector<Vector6d>& influences);
+/// Not a number with fewer than two postures beyond those that `unknowns` take up (a posture gives three coordinates).
+Matrix6d scatterCovariance(const std::vector<Vector6d>& influences, const JointMask& unknown);
 
 /// g_p = N^-1 A_p^T (I - H_p)^-1/2 (b_p - A_p c), H_p = A_p N^-1 A_p^T: how one posture moves the estimate.
 /// The root makes up for what the posture pulled the fit towards itself (Bell and McCaffrey 2002, CR2), which

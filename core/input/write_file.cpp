@@ -47,4 +47,10 @@ void writeFileWhole(const fs::path& path, std::string_view bytes) {
   }
 }
 
+void makeFolder(const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) throw std::runtime_error(folder.string() + ": expected a folder that can be written: " + error.message());
+}
+
 }  // namespace stiffscope

@@ -11,4 +11,7 @@ namespace stiffscope {
 /// removed then.
 void writeFileWhole(const std::filesystem::path& path, std::string_view bytes);
 
+/// Makes a folder and those above it where they are absent. Throws std::runtime_error with path and reason.
+void makeFolder(const std::filesystem::path& folder);
+
 }  // namespace stiffscope

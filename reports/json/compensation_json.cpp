@@ -24,7 +24,7 @@ Json compensationJson(const Campaign& campaign, Method method, const std::vector
     }
     rows.push_back(row);
   }
-  return {{"campaign", campaignJson(campaign)}, {"method", namesOf(method).key}, {"rows", rows}};
+  return {{"campaign", campaignJson(campaign)}, {"method", namesOf(method).key}, {"frame", "r0"}, {"rows", rows}};
 }
 
 }  // namespace stiffscope

@@ -121,11 +121,14 @@ Json perPostureJson(const Campaign& campaign, const Identification& result, cons
 Json identificationJson(const Campaign& campaign, const Identification& result, const std::vector<Method>& methods) {
   Json json{{"campaign", campaignJson(campaign)}, {"step", result.step}, {"postures", result.cases.size()}};
   json["left_out"] = result.left_out;
+  json["cautions"] = result.cautions;
   Json by_method = Json::object();
   for (const Method which : methods) by_method[namesOf(which).key] = methodJson(result.of(which));
   json["methods"] = by_method;
   json["identifiability"] = identifiabilityJson(result.identifiability);
-  json["noise_share"] = result.noise ? Json{{"wrist", result.noise->at_wrist}, {"targets", result.noise->at_targets}}
+  json["noise_share"] = result.noise ? Json{{"wrist", result.noise->at_wrist ? number(*result.noise->at_wrist) : Json(nullptr)},
+                                          {"targets", number(result.noise->at_targets)},
+                                          {"per_coordinate_um", result.noise->per_coordinate / kMicrometre}}
                                      : Json(nullptr);
   json["geometric_stiffness"] = {{"included", result.finite_deflection},
                                  {"torque_change_share", result.geometric_stiffness_share}};

@@ -53,14 +53,14 @@ std::string noiseWords(const ReportCampaign& one) {
                            : "the tracker's noise is not declared");
   }
   const std::string at_targets = percent(result.noise->at_targets);
-  if (result.wrist_displacement.empty()) {
+  if (!result.noise->at_wrist) {
     return fmt::format(
-        "Noise of the tracker alone forbids {} at the reflectors: no model can take that away.", at_targets);
+        "Noise of the tracker alone forbids about {} at the reflectors: no model can take that away.", at_targets);
   }
   return fmt::format(
-      "Noise of the tracker alone forbids {} at P_{{wrist}} and {} at the reflectors: no model can take that "
+      "Noise of the tracker alone forbids about {} at P_{{wrist}} and {} at the reflectors: no model can take that "
       "away.",
-      percent(result.noise->at_wrist), at_targets);
+      percent(*result.noise->at_wrist), at_targets);
 }
 
 void writeAvoided(Html& html, const ReportContent& content) {

@@ -35,12 +35,18 @@ const ReportCampaign& leading(const ReportContent& content) {
   return active == content.campaigns.end() ? content.campaigns.front() : *active;
 }
 
+/// ", double encoders active", where that is declared.
+std::string stateOf(const ReportCampaign& one) {
+  const std::string words = encoderWords(one.campaign.double_encoder);
+  return words.empty() ? words : ", " + words;
+}
+
 KeyNumber deflection(const ReportCampaign& one, const JudgedPoint& point) {
   const auto& displacement = displacementAt(one.identification, point.at_wrist);
   if (displacement.empty()) return {"–", "deflection: no posture could be used"};
   return {fmt::format("{}\u00a0mm", fixed(kMmPerM * mean(displacement), 2)),
-          fmt::format("mean deflection at {} under {}\u00a0kN, {} postures", point.name,
-                      fixed(1e-3 * meanForce(one.identification), 2), displacement.size())};
+          fmt::format("mean deflection at {} under {}\u00a0kN, {} postures{}", point.name,
+                      fixed(1e-3 * meanForce(one.identification), 2), displacement.size(), stateOf(one))};
 }
 
 KeyNumber compensated(const ReportCampaign& one, const JudgedPoint& point) {
@@ -59,12 +65,24 @@ KeyNumber compensated(const ReportCampaign& one, const JudgedPoint& point) {
 KeyNumber third(const ReportContent& content, const ReportCampaign& one) {
   if (content.avoided) {
     return {percent(content.avoided->share, 0),
-            fmt::format("of the deflection at {} avoided by the double encoders", content.avoided->point)};
+            fmt::format("of the deflection at {} with double encoders inactive is avoided by active ones", content.avoided->point)};
   }
   const auto& joints = one.identification.identifiability.joints;
   const auto seen =
       std::count_if(joints.begin(), joints.end(), [](const auto& joint) { return joint.identifiable; });
   return {fmt::format("{} of 6", seen), "joint stiffnesses that this data can see"};
+}
+
+/// What a reader must know before believing the numbers.
+void writeCautions(Html& html, const ReportContent& content) {
+  std::vector<std::string> items;
+  for (const ReportCampaign& one : content.campaigns) {
+    const std::string label = content.campaigns.size() > 1 ? one.campaign.name + ": " : std::string();
+    for (const std::string& caution : one.identification.cautions) items.push_back(label + caution + ".");
+  }
+  if (items.empty()) return;
+  html.paragraph("Before you believe these numbers:");
+  html.list(items);
 }
 
 }  // namespace
@@ -76,6 +94,7 @@ void writeOpening(Html& html, const ReportContent& content) {
     html.leaf("p", campaignLine(one.campaign), {{"class", "faint"}});
   html.paragraph(content.verdict, "verdict");
   if (content.campaigns.empty()) return;
+  writeCautions(html, content);
   const ReportCampaign& one = leading(content);
   const JudgedPoint point = judgedPoint(one);
   const auto list = html.element("ul", {{"class", "numbers"}});

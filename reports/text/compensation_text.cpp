@@ -26,6 +26,8 @@ std::string compensationText(const Campaign& campaign, Method method, const std:
       fmt::format_to(out, "refused: {}\n", posture.reason);
     }
   }
+  fmt::format_to(out, "\n  Deflection of P_TCP under each row's load; +- is its standard uncertainty (mm, length of the three) from the\n"
+                      "  stiffnesses. Commands are joints 1 to 6.\n");
   return text;
 }
 

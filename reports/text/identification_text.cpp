@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 
 #include "core/input/units.h"
@@ -18,12 +19,14 @@ using Out = std::back_insert_iterator<std::string>;
 std::string stiffnessCell(const StiffnessEstimate& estimate, int joint) {
   if (!estimate.identifiable[static_cast<std::size_t>(joint)]) return "-";
   const char* mark = estimate.mark(joint).empty() ? "" : (estimate.mark(joint) == "negative" ? "!" : "?");
-  return fmt::format("{:.4f} +-{:.4f}{}", estimate.stiffness(joint) * 1e-6, estimate.stiffnessSd(joint) * 1e-6, mark);
+  const double sd = estimate.stiffnessSd(joint) * 1e-6;
+  return fmt::format("{:.4f} +-{}{}", estimate.stiffness(joint) * 1e-6, std::isfinite(sd) ? fmt::format("{:.4f}", sd) : "?",
+                     mark);
 }
 
 void writeStiffness(const Identification& result, const std::vector<Method>& methods, Out out) {
   fmt::format_to(out, "\nStiffness, 1e6 Nm/rad, with its standard uncertainty from the scatter between postures\n  {:<5}", "");
-  for (int joint = 1; joint <= 6; ++joint) fmt::format_to(out, "{:>17}", fmt::format("k{}", joint));
+  for (int joint = 1; joint <= 6; ++joint) fmt::format_to(out, " {:>17}", fmt::format("k{}", joint));
   fmt::format_to(out, "\n");
   bool negative = false, imprecise = false;
   for (const Method which : methods) {
@@ -31,7 +34,7 @@ void writeStiffness(const Identification& result, const std::vector<Method>& met
     if (!method.available) continue;
     fmt::format_to(out, "  {:<5}", namesOf(which).brief);
     for (int joint = 0; joint < 6; ++joint) {
-      fmt::format_to(out, "{:>17}", stiffnessCell(method.estimate, joint));
+      fmt::format_to(out, " {:>17}", stiffnessCell(method.estimate, joint));
       if (!method.estimate.identifiable[static_cast<std::size_t>(joint)]) continue;
       negative |= method.estimate.mark(joint) == "negative";
       imprecise |= method.estimate.mark(joint) == "imprecise";
@@ -94,9 +97,12 @@ void writeCompensation(const Identification& result, const std::vector<Method>& 
                    study.size, study.of);
     break;
   }
-  if (result.noise) {
-    fmt::format_to(out, "  the tracker's noise alone forbids {:.2f} % at P_wrist, {:.2f} % at the reflectors\n",
-                   100.0 * result.noise->at_wrist, 100.0 * result.noise->at_targets);
+  if (result.noise && result.noise->at_wrist) {
+    fmt::format_to(out, "  the tracker's noise alone forbids about {:.2f} % at P_wrist, {:.2f} % at the reflectors\n",
+                   100.0 * std::min(1.0, *result.noise->at_wrist), 100.0 * std::min(1.0, result.noise->at_targets));
+  } else if (result.noise) {
+    fmt::format_to(out, "  the tracker's noise alone forbids about {:.2f} % at the reflectors\n",
+                   100.0 * std::min(1.0, result.noise->at_targets));
   }
 }
 
@@ -113,6 +119,9 @@ std::string identificationText(const Campaign& campaign, const Identification& r
   writeResiduals(result, methods, out);
   writeCompensation(result, methods, out);
   fmt::format_to(out, "\n");
+  for (const std::string& caution : result.cautions) {
+    fmt::format_to(out, "{}\n", wrapped("Caution: " + caution + ".", 2));
+  }
   if (result.calibration.done) {
     fmt::format_to(out, "{}\n", wrapped(fmt::format("Partial Pose's geometry: unloaded positions missed by {:.3f} mm rms "
                                                     "before and {:.3f} mm after calibration of {} parameters.",

@@ -83,16 +83,47 @@ TEST(CommandLine, OneMethodAloneAndAnotherStep) {
 TEST(CommandLine, CompensateTakesPosturesFromAFile) {
   const ScratchFolder scratch;
   const std::filesystem::path file = scratch.path() / "postures.csv";
+  // The first row is the sample's pose 1, step 3, where the load hangs; nothing turns axis 1 there.
+  std::istringstream states(contentsOf(kActive + "/states.csv"));
+  std::string header, row;
+  std::getline(states, header);
+  for (int line = 0; line < 4; ++line) std::getline(states, row);
+  ASSERT_EQ(row.rfind("1,3,", 0), 0u) << row;
+  const std::string posture = row.substr(row.find(',', 4) + 1);
   std::ofstream(file) << "pose,q1_deg,q2_deg,q3_deg,q4_deg,q5_deg,q6_deg,fx_n,fy_n,fz_n,mx_nm,my_nm,mz_nm\n"
-                         "near,10,20,-10,40,60,30,-1000,300,200,10,20,5\n"
-                         "singular,10,20,-10,40,0,30,-1000,300,200,10,20,5\n";
+                      << "hanging," << posture << "\nsingular,10,20,-10,40,0,30,0,0,0,0,0,0\n"
+                      << "aside,0,10,10,0,-60,0,0,1000,0,0,0,0\n";
   const Ran ran = runProgram("compensate '" + kActive + "' --postures '" + file.string() + "' --json -", scratch.path());
   const auto rows = nlohmann::json::parse(ran.out)["rows"];
-  ASSERT_EQ(rows.size(), 2u);
+  ASSERT_EQ(rows.size(), 3u);
   EXPECT_LT(rows[0]["remaining_mm"].get<double>(), 1e-5);
-  EXPECT_GT(rows[0]["tcp_deflection_mm"].size(), 2u);
-  EXPECT_TRUE(rows[1]["command_deg"].is_null());
+  EXPECT_EQ(rows[0]["tcp_deflection_mm"].size(), 3u);
+  for (const int refused : {1, 2}) EXPECT_TRUE(rows[refused]["command_deg"].is_null());
   EXPECT_NE(rows[1]["refused"].get<std::string>().find("singularity"), std::string::npos);
+  EXPECT_NE(rows[2]["refused"].get<std::string>().find("k1 is not known"), std::string::npos);
+}
+
+TEST(CommandLine, NegativeStiffnessesAreNotASuccess) {
+  const ScratchFolder scratch;
+  const std::filesystem::path campaign = scratch.path() / "negative";
+  std::filesystem::copy(kActive, campaign);
+  std::istringstream states(contentsOf(campaign / "states.csv"));
+  std::ostringstream turned;
+  std::string line;
+  std::getline(states, line);
+  turned << line << '\n';
+  while (std::getline(states, line)) {  // the last six cells, force and moment, change sign
+    std::size_t at = line.size();
+    for (int cell = 0; cell < 6; ++cell) {
+      at = line.rfind(',', at - 1);
+      line[at + 1] == '-' ? line.erase(at + 1, 1) : line.insert(at + 1, "-");
+    }
+    turned << line << '\n';
+  }
+  std::ofstream(campaign / "states.csv") << turned.str();
+  const Ran ran = runProgram("identify '" + campaign.string() + "'", scratch.path());
+  EXPECT_EQ(ran.status, 1);
+  EXPECT_NE(ran.out.find("every stiffness is negative"), std::string::npos) << ran.out;
 }
 
 }  // namespace

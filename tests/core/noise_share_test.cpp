@@ -48,7 +48,7 @@ TEST(NoiseShare, AgreesWithMonteCarlo) {
   // E|error| from the trace is exact for an isotropic error; a flat one, as a tracker's, is some per cent less. For
   // P_wrist the loaded and unloaded states are taken to magnify alike.
   EXPECT_NEAR(stated->at_targets, target_error / target_whole, 0.05 * stated->at_targets);
-  EXPECT_NEAR(stated->at_wrist, wrist_error / wrist_whole, 0.08 * stated->at_wrist);
+  EXPECT_NEAR(*stated->at_wrist, wrist_error / wrist_whole, 0.08 * *stated->at_wrist);
 }
 
 TEST(NoiseShare, NeedsATrackerAndAbsolutePoints) {

@@ -1,0 +1,92 @@
+#include "core/identification/cautions.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/input/units.h"
+
+namespace stiffscope {
+
+namespace {
+
+constexpr double kAboveNoise = 3.0;
+constexpr double kMissedGeometry = 0.020;  // m
+constexpr double kMostNoise = 0.5;
+
+const MethodResult* bestAvailable(const Identification& result) {
+  for (const Method which : {Method::decoupled_partial_pose, Method::partial_pose, Method::complete_pose}) {
+    if (result.of(which).available) return &result.of(which);
+  }
+  return nullptr;
+}
+
+bool hasPositive(const StiffnessEstimate& estimate) {
+  for (int joint = 0; joint < 6; ++joint) {
+    if (estimate.identifiable[static_cast<std::size_t>(joint)] && estimate.compliance[joint] > 0.0) return true;
+  }
+  return false;
+}
+
+std::string residualCaution(const Identification& result, const MethodResult& method) {
+  if (!result.noise || method.estimate.sigma < kAboveNoise * result.noise->per_coordinate) return {};
+  return fmt::format(
+      "the residual of {:.0f} um per coordinate is {:.0f} times the {:.1f} um of the tracker's noise: something other than "
+      "joint springs is in the data, and the stated uncertainties are of scatter only",
+      method.estimate.sigma / kMicrometre, method.estimate.sigma / result.noise->per_coordinate,
+      result.noise->per_coordinate / kMicrometre);
+}
+
+void addSweepCautions(const Frames& frames, std::vector<std::string>& cautions) {
+  for (std::size_t i = 0; i < frames.axes.size(); ++i) {
+    const AxisFit& fit = frames.axes[i].fit;
+    if (!frames.axes[i].measured || fit.chi2_per_dof < kAboveNoise * kAboveNoise) continue;
+    cautions.push_back(fmt::format(
+        "the circles of axis {} leave {:.0f} um, {:.0f} times the tracker's noise: the axis bent during its sweep or a "
+        "reading is wrong, and its uncertainty is of scatter only",
+        i + 1, fit.rms / kMicrometre, std::sqrt(fit.chi2_per_dof)));
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> cautionsOf(const Identification& result) {
+  std::vector<std::string> cautions;
+  const MethodResult* method = bestAvailable(result);
+  if (result.calibration.done && result.calibration.rms_before > kMissedGeometry) {
+    cautions.push_back(fmt::format(
+        "the unloaded reflectors stand {:.0f} mm rms from where sweeps and joint angles put them: units, angles or the "
+        "tracker's place are wrong in one of the tables",
+        result.calibration.rms_before / kMillimetre));
+  }
+  if (method != nullptr) {
+    if (!hasPositive(method->estimate)) {
+      cautions.push_back("every stiffness is negative: is the wrench that of the robot on the load, not of the load on the robot?");
+    }
+    if (std::string text = residualCaution(result, *method); !text.empty()) cautions.push_back(std::move(text));
+    if (!method->estimate.covariance.allFinite()) {
+      cautions.push_back(fmt::format("{} posture{} too few to state uncertainties from scatter", result.cases.size(),
+                                     result.cases.size() == 1 ? " is" : "s are"));
+    }
+  }
+  if (result.noise && result.noise->at_targets > kMostNoise) {
+    cautions.push_back("the tracker's noise is more than half of the deflection: this load step hardly moves the arm");
+  }
+  if (result.frames.sag_removed) {
+    cautions.push_back(fmt::format(
+        "axes and lengths stand on sweeps from which up to {:.1f} mm of the arm's own sag was taken off by the identified "
+        "stiffnesses; what those get wrong of it is not in the stated uncertainties",
+        result.frames.largest_sag / kMillimetre));
+  }
+  addSweepCautions(result.frames, cautions);
+  return cautions;
+}
+
+bool anyUsable(const Identification& result, const std::vector<Method>& methods) {
+  return std::any_of(methods.begin(), methods.end(), [&](Method which) {
+    return result.of(which).available && hasPositive(result.of(which).estimate);
+  });
+}
+
+}  // namespace stiffscope
