@@ -244,7 +244,7 @@ TEST(Identify, OnePostureOnly) {
       continue;
     }
     EXPECT_TRUE(result.estimate.compliance.allFinite());
-    EXPECT_TRUE(result.estimate.covariance.allFinite());
+    EXPECT_TRUE(result.estimate.covariance.array().isNaN().all());  // one posture has no scatter: nothing is stated
     EXPECT_TRUE(result.subsets.compliances.empty());
   }
 }
