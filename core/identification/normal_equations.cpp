@@ -32,7 +32,13 @@ ScaledNormal scaledNormal(const Matrix6d& matrix, const JointMask& unknown) {
 
 Vector6d solveNormal(const NormalEquations& sum, const JointMask& unknown) {
   const ScaledNormal scaled = scaledNormal(sum.matrix, unknown);
-  return scaled.scale.cwiseProduct(scaled.matrix.ldlt().solve(scaled.scale.cwiseProduct(sum.right)).eval());
+  const Vector6d right = scaled.scale.cwiseProduct(sum.right);
+  // The plain Cholesky factors are twice as quick, which counts over 92,378 subsets; the pivoted ones bear a
+  // rank loss.
+  const Eigen::LLT<Matrix6d> quick(scaled.matrix);
+  const Vector6d solution =
+      quick.info() == Eigen::Success ? quick.solve(right).eval() : scaled.matrix.ldlt().solve(right).eval();
+  return scaled.scale.cwiseProduct(solution);
 }
 
 double conditionNumber(const std::vector<CaseEquations>& equations, const JointMask& unknown) {

@@ -65,7 +65,8 @@ KeyNumber compensated(const ReportCampaign& one, const JudgedPoint& point) {
 KeyNumber third(const ReportContent& content, const ReportCampaign& one) {
   if (content.avoided) {
     return {percent(content.avoided->share, 0),
-            fmt::format("of the deflection at {} with double encoders inactive is avoided by active ones", content.avoided->point)};
+            fmt::format("of the deflection at {} with double encoders inactive is avoided by active ones",
+                        content.avoided->point)};
   }
   const auto& joints = one.identification.identifiability.joints;
   const auto seen =
@@ -94,15 +95,17 @@ void writeOpening(Html& html, const ReportContent& content) {
     html.leaf("p", campaignLine(one.campaign), {{"class", "faint"}});
   html.paragraph(content.verdict, "verdict");
   if (content.campaigns.empty()) return;
-  writeCautions(html, content);
   const ReportCampaign& one = leading(content);
   const JudgedPoint point = judgedPoint(one);
-  const auto list = html.element("ul", {{"class", "numbers"}});
-  for (const KeyNumber& number : {deflection(one, point), compensated(one, point), third(content, one)}) {
-    const auto item = html.element("li");
-    html.leaf("b", number.value);
-    html.leaf("span", number.words);
+  {
+    const auto list = html.element("ul", {{"class", "numbers"}});
+    for (const KeyNumber& number : {deflection(one, point), compensated(one, point), third(content, one)}) {
+      const auto item = html.element("li");
+      html.leaf("b", number.value);
+      html.leaf("span", number.words);
+    }
   }
+  writeCautions(html, content);
 }
 
 void writeForEach(Html& html, const ReportContent& content, const char* id, const char* heading,
