@@ -5,7 +5,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <set>
+#include <map>
 
 #include "core/audit/absolute_rows.h"
 #include "core/audit/chance.h"
@@ -25,14 +25,18 @@ struct Normal {
   int rows = 0;
 };
 
-Normal sumUp(const AbsoluteRows& rows, const std::set<int>& left_out) {
+/// Weight of each posture in the common fit; 0 for one that is left out.
+using Weights = std::map<int, double>;
+
+Normal sumUp(const AbsoluteRows& rows, const Weights& weights) {
   const auto size = static_cast<Eigen::Index>(rows.parameters);
   Normal normal{rows.prior, Eigen::VectorXd::Zero(size)};
   for (const AbsoluteRow& row : rows.rows) {
-    if (left_out.contains(row.pose)) continue;
-    normal.matrix += row.jacobian.transpose() * row.weight * row.jacobian;
-    normal.right += row.jacobian.transpose() * row.weight * row.residual;
-    normal.squares += row.residual.dot(row.weight * row.residual);
+    const double weight = weights.at(row.pose);
+    if (weight == 0.0) continue;
+    normal.matrix += weight * row.jacobian.transpose() * row.weight * row.jacobian;
+    normal.right += weight * row.jacobian.transpose() * row.weight * row.residual;
+    normal.squares += weight * row.residual.dot(row.weight * row.residual);
     normal.rows += 3;
   }
   // A reflector that no row of the postures left shows stays where it is.
@@ -48,15 +52,19 @@ double leastSquares(const Normal& normal, Eigen::Index from) {
   return normal.squares - right.dot(normal.matrix.bottomRightCorner(size, size).ldlt().solve(right));
 }
 
+constexpr double kSigmas = 3.0;  // of the share to which the sag is trusted
+
 /// Joint angles of one posture from what the fit leaves of its reflectors.
 PostureReadBack readBackOf(const AbsoluteRows& rows, const Eigen::VectorXd& parameters, int pose) {
   PostureReadBack result;
   result.pose = pose;
   Matrix6d normal = Matrix6d::Zero();
   Vector6d right = Vector6d::Zero();
+  Vector6d sag = Vector6d::Zero();
   double squares = 0.0;
   for (const AbsoluteRow& row : rows.rows) {
     if (row.pose != pose) continue;
+    sag = row.sag;
     const Eigen::Vector3d left = row.residual - row.jacobian * parameters;
     normal += row.by_angles.transpose() * row.weight * row.by_angles;
     right += row.by_angles.transpose() * row.weight * left;
@@ -74,6 +82,7 @@ PostureReadBack readBackOf(const AbsoluteRows& rows, const Eigen::VectorXd& para
     result.joint = j;
     result.joint_correction = right[j] / normal(j, j);
   }
+  result.sag_doubt = kSigmas * kSagShare * std::abs(sag[result.joint]);
   result.explained = squares > 0.0 ? right.dot(result.correction) / squares : 0.0;
   return result;
 }
@@ -82,6 +91,30 @@ double median(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
   return *middle;
+}
+
+/// A fit that one posture cannot pull: each is weighted down by its own misfit against the median one
+/// (Cauchy's weights, 2.385 being their usual constant), again and again.
+Eigen::VectorXd robustFit(const AbsoluteRows& rows) {
+  Weights weights;
+  for (const int pose : rows.poses) weights[pose] = 1.0;
+  Eigen::VectorXd parameters;
+  constexpr int kRounds = 20;
+  for (int round = 0; round < kRounds; ++round) {
+    const Normal normal = sumUp(rows, weights);
+    parameters = normal.matrix.ldlt().solve(normal.right);
+    std::map<int, double> misfits;
+    for (const AbsoluteRow& row : rows.rows) {
+      const Eigen::Vector3d left = row.residual - row.jacobian * parameters;
+      misfits[row.pose] += left.dot(row.weight * left);
+    }
+    std::vector<double> sorted;
+    for (const auto& [pose, misfit] : misfits) sorted.push_back(misfit);
+    constexpr double kCauchy = 2.385;
+    const double scale = kCauchy * kCauchy * std::max(median(sorted), 1e-300);
+    for (const auto& [pose, misfit] : misfits) weights[pose] = 1.0 / (1.0 + misfit / scale);
+  }
+  return parameters;
 }
 
 /// Scores against the campaign's own scatter of each joint (median absolute deviation, never below the
@@ -99,7 +132,9 @@ void scorePostures(std::vector<PostureReadBack>& postures, double limit) {
       posture.score = std::max(posture.score, std::abs(posture.significance[j] - middle) / scale);
     }
   }
-  for (PostureReadBack& posture : postures) posture.outlier = posture.score > limit;
+  for (PostureReadBack& posture : postures) {
+    posture.outlier = posture.score > limit && std::abs(posture.joint_correction) > posture.sag_doubt;
+  }
 }
 
 /// Limit of a score: Student's t, the median absolute deviation being worth 0.37 of its sample (its
@@ -109,8 +144,9 @@ double scoreLimit(std::size_t postures) {
   return studentLimit(kLevel / (6.0 * count), std::max(1.0, 0.37 * (count - 1.0)));
 }
 
-void describe(const AbsoluteRows& rows, const Normal& normal, const std::set<int>& left_out,
-              const Eigen::VectorXd& parameters, AbsoluteFit& fit) {
+void describe(const AbsoluteRows& rows, const Weights& weights, AbsoluteFit& fit) {
+  const Normal normal = sumUp(rows, weights);
+  const Eigen::VectorXd parameters = normal.matrix.ldlt().solve(normal.right);
   fit.shift = parameters.head<6>();
   fit.shift_covariance = normal.matrix.ldlt()
                              .solve(Eigen::MatrixXd::Identity(normal.right.size(), normal.right.size()))
@@ -120,7 +156,7 @@ void describe(const AbsoluteRows& rows, const Normal& normal, const std::set<int
   fit.positions = normal.rows / 3;
   fit.dof = normal.rows - 6 - 3 * rows.targets;
   for (const AbsoluteRow& row : rows.rows) {
-    if (left_out.contains(row.pose)) continue;
+    if (weights.at(row.pose) == 0.0) continue;
     fit.rms_before += row.residual.squaredNorm() / normal.rows;
     fit.rms_after += (row.residual - row.jacobian * parameters).squaredNorm() / normal.rows;
   }
@@ -146,28 +182,12 @@ AbsoluteFit fitAbsolutePositions(const Campaign& campaign, const Frames& frames,
     return fit;
   }
   fit.score_limit = scoreLimit(rows.poses.size());
-  // An outlier pulls the common fit, so the fit is made again without those found; each round finds fewer.
-  std::set<int> left_out;
-  constexpr int kRounds = 6;
-  for (int round = 0; round < kRounds; ++round) {
-    const Normal normal = sumUp(rows, left_out);
-    const Eigen::VectorXd parameters = normal.matrix.ldlt().solve(normal.right);
-    fit.postures.clear();
-    for (const int pose : rows.poses) fit.postures.push_back(readBackOf(rows, parameters, pose));
-    scorePostures(fit.postures, fit.score_limit);
-    std::set<int> outliers;
-    for (const PostureReadBack& posture : fit.postures) {
-      if (posture.outlier) outliers.insert(posture.pose);
-    }
-    const bool settled =
-        outliers == left_out || 2 * outliers.size() > rows.poses.size() || round + 1 == kRounds;
-    if (settled) {
-      fit.rms_before = fit.rms_after = 0.0;
-      describe(rows, normal, left_out, parameters, fit);
-      break;
-    }
-    left_out = outliers;
-  }
+  const Eigen::VectorXd robust = robustFit(rows);
+  for (const int pose : rows.poses) fit.postures.push_back(readBackOf(rows, robust, pose));
+  scorePostures(fit.postures, fit.score_limit);
+  Weights weights;
+  for (const PostureReadBack& posture : fit.postures) weights[posture.pose] = posture.outlier ? 0.0 : 1.0;
+  describe(rows, weights, fit);
   fit.done = true;
   return fit;
 }

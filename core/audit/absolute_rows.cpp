@@ -74,6 +74,7 @@ class RowMaker {
             (moved[static_cast<std::size_t>(k)].motion[6] * *at_zero - modelled) / kStep;
       }
       // The sag is proportional to each compliance: q_sagged = q + c tau.
+      row.sag = sag;
       row.jacobian.rightCols<6>() = row.by_angles * sag.asDiagonal();
       result.rows.push_back(std::move(row));
     }

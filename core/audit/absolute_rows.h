@@ -20,6 +20,7 @@ struct AbsoluteRow {
   Eigen::Vector3d residual = Eigen::Vector3d::Zero();
   Eigen::Matrix3d weight = Eigen::Matrix3d::Zero();  ///< inverse covariance of the reading
   Eigen::MatrixXd jacobian;                          ///< 3 x parameters
+  Vector6d sag = Vector6d::Zero();                   ///< of the posture's joints by the own weight, rad
   Matrix36d by_angles = Matrix36d::Zero();           ///< by the posture's joint angles
 };
 

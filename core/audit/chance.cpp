@@ -1,6 +1,7 @@
 #include "core/audit/chance.h"
 
 #include <cmath>
+#include <numbers>
 
 namespace stiffscope {
 
@@ -35,7 +36,7 @@ double upperGamma(double a, double x) {
 /// over v = sqrt(u), in which the integrand is smooth at 0.
 double studentTail(double limit, double dof) {
   const double scale =
-      2.0 * std::exp(std::lgamma(0.5 * (dof + 1.0)) - std::lgamma(0.5 * dof)) / std::sqrt(M_PI);
+      2.0 * std::exp(std::lgamma(0.5 * (dof + 1.0)) - std::lgamma(0.5 * dof)) / std::sqrt(std::numbers::pi);
   const double end = std::sqrt(dof / (dof + limit * limit));
   const auto density = [&](double v) { return std::pow(v, dof - 1.0) / std::sqrt(1.0 - v * v); };
   constexpr int kSteps = 2000;

@@ -39,10 +39,15 @@ AuditCheck driftCheck(const Evidence& evidence) {
   check.verdict = displacement.squaredNorm() > kFailVarianceRatio * reading_variance ? AuditVerdict::fail
                                                                                      : AuditVerdict::warn;
   check.where = fmt::format("{:.0f} s", worst->time_s);
-  check.message += fmt::format(
-      "; over the day {:.2f} um/min on average; readings with a time were referred to the first "
-      "round for the other checks, motion between rounds taken as steady",
-      1e6 * displacement.norm() / std::max(1.0, (worst->time_s - station.epochs.front().time_s) / 60.0));
+  std::string jumps;
+  for (const StationEpoch& epoch : station.epochs) {
+    if (epoch.jumped_at) jumps += fmt::format("{}{:.0f} s", jumps.empty() ? "" : ", ", *epoch.jumped_at);
+  }
+  const double minutes = std::max(1.0, (worst->time_s - station.epochs.front().time_s) / 60.0);
+  check.message += jumps.empty()
+                       ? fmt::format("; a drift of {:.2f} um/min on average", *check.value / minutes)
+                       : fmt::format("; it jumped at about {}: the tracker was moved", jumps);
+  check.message += "; readings with a time were referred to the first round for the other checks";
   return check;
 }
 

@@ -1,5 +1,6 @@
 #include "core/audit/evidence.h"
 
+#include "core/audit/station_jumps.h"
 #include "core/identification/settled_frames.h"
 
 namespace stiffscope {
@@ -37,6 +38,7 @@ Evidence gatherEvidence(const Campaign& original, const Campaign& screened) {
   Evidence evidence{original, screened, {}, {}, {}, {}, {}, {}, {}, {}};
   if (original.tracker && declared(*original.tracker)) evidence.noise = trackerNoise(*original.tracker);
   evidence.station = stationMotion(evidence.campaign, evidence.noise);
+  if (evidence.station.moved) findJumps(evidence.campaign, *evidence.noise, evidence.station);
   if (evidence.station.moved) takeOffDrift(evidence.station, evidence.campaign);
   evidence.states = statePoints(evidence.campaign, evidence.noise);
   settle(evidence);

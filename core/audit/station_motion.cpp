@@ -82,6 +82,8 @@ Eigen::Isometry3d StationMotion::firstFrom(double time_s) const {
   const auto after =
       std::find_if(epochs.begin(), epochs.end(), [&](const auto& e) { return e.time_s > time_s; });
   const auto before = std::prev(after);
+  if (after->jumped_at)
+    return motionAbout(centre, time_s < *after->jumped_at ? before->motion : after->motion);
   const double share = (time_s - before->time_s) / (after->time_s - before->time_s);
   return motionAbout(centre, (1.0 - share) * before->motion + share * after->motion);
 }

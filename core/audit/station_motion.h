@@ -17,6 +17,8 @@ struct StationEpoch {
   /// first's.
   Eigen::Matrix<double, 6, 1> motion = Eigen::Matrix<double, 6, 1>::Zero();
   Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();  ///< by the declared noise
+  /// Where the station jumped between the round before and this one instead of drifting: when, s.
+  std::optional<double> jumped_at;
 };
 
 /// The station's motion by floor nests, split from motion of the nests themselves: nests' places and one
@@ -39,7 +41,8 @@ struct StationMotion {
   /// Squared displacement at the centre in parts of its variance.
   double significance(const StationEpoch& epoch) const;
 
-  /// Brings a reading at this time onto the first round, motion between rounds taken as steady.
+  /// Brings a reading at this time onto the first round: motion between rounds is steady, or a jump where one
+  /// was seen.
   Eigen::Isometry3d firstFrom(double time_s) const;
 };
 
