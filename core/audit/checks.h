@@ -29,8 +29,11 @@ Findings checkRigidTool(const Evidence& evidence);
 /// nests.
 Findings checkNests(const Evidence& evidence);
 
-/// circle_arc, circle_count, circle_residual, axis_agreement, reflector_on_axis: the sweeps of each axis.
+/// circle_arc (one an axis), circle_count, circle_residual: the sweeps of each axis.
 Findings checkCircleSweeps(const Evidence& evidence);
+
+/// axis_agreement, reflector_on_axis: what each reflector says of the axes it turns about.
+Findings checkSweptReflectors(const Evidence& evidence);
 
 /// wrist_sphere, wrist_axes_meet.
 Findings checkWrist(const Evidence& evidence);

@@ -31,6 +31,15 @@ void writeTable(const AuditReport& report, Out out) {
   }
 }
 
+/// Short arcs that still suffice pass, but a reader should know what they cost.
+void writeShortArcs(const AuditReport& report, Out out) {
+  for (const AuditCheck& check : report.checks) {
+    if (check.id != "circle_arc" || check.verdict != AuditVerdict::pass || *check.value >= *check.limit)
+      continue;
+    fmt::format_to(out, "\n{}\n", wrapped(fmt::format("Passes below its limit: {}.", check.message), 2));
+  }
+}
+
 void writeMessages(const AuditReport& report, AuditVerdict verdict, const char* title, Out out) {
   bool first = true;
   for (const AuditCheck& check : report.checks) {
@@ -57,6 +66,7 @@ std::string auditText(const Campaign& campaign, const AuditReport& report) {
   writeMessages(report, AuditVerdict::fail, "Fails", out);
   writeMessages(report, AuditVerdict::warn, "Warns", out);
   writeMessages(report, AuditVerdict::not_testable, "Not testable", out);
+  writeShortArcs(report, out);
   if (!report.rejected.empty()) fmt::format_to(out, "\nReadings to leave out\n");
   for (const RejectedReading& reading : report.rejected) {
     fmt::format_to(out, "  {}\n",
