@@ -35,11 +35,15 @@ AuditCheck frameCheck(const AbsoluteFit& fit) {
       "{:.0f} urad",
       1e3 * displacement.x(), 1e3 * displacement.y(), 1e3 * displacement.z(),
       1e6 * fit.shift.head<3>().norm());
-  if (*check.value <= *check.limit) return check;
+  // A shift that leaves most of the misfit goes along with another fault (geometry, sag) and is not its
+  // cause.
+  const double explained = fit.shift_chi2 / (fit.shift_chi2 + fit.chi2);
+  check.message +=
+      fmt::format(", which explains {:.0f} % of the misfit of the unloaded positions", 100.0 * explained);
+  if (*check.value <= *check.limit || explained < kExplains) return check;
   check.verdict = *check.value > 2.0 * *check.limit ? AuditVerdict::fail : AuditVerdict::warn;
   check.where = "loading";
-  check.message +=
-      "; it explains the misfit of the unloaded positions: tracker or robot moved between sweeps and loading";
+  check.message += ": tracker or robot moved between sweeps and loading";
   return check;
 }
 

@@ -31,6 +31,9 @@ inline constexpr double kFailArcDeg = 45.0;
 /// (TrustLimits::position, 0.2 mm).
 inline constexpr double kShareOfTolerance = 1.0 / 3.0;
 
+/// A cause is named for a misfit only where it explains the larger part of it (in variance).
+inline constexpr double kExplains = 0.5;
+
 /// Readings of one circle: three make it, twice as many leave as many again to check it by.
 inline constexpr int kLeastCircleReadings = 6;
 
