@@ -1,0 +1,32 @@
+#include "core/audit/audit.h"
+
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "app/command.h"
+#include "app/output.h"
+#include "reports/json/audit_json.h"
+#include "reports/text/audit_text.h"
+
+namespace stiffscope {
+
+void addAudit(CLI::App& app, Run& run) {
+  struct Arguments {
+    std::string campaign, json;
+  };
+  const auto arguments = std::make_shared<Arguments>();
+  CLI::App* command = app.add_subcommand("audit", "Is this data fit to identify from?");
+  command->add_option("CAMPAIGN", arguments->campaign, "campaign folder or its campaign.xml")->required();
+  command->add_option("--json", arguments->json, "write the result to this file, - for standard output");
+  command->callback([arguments, &run] {
+    run = [arguments] {
+      const Campaign campaign = openCampaign(arguments->campaign);
+      const AuditReport report = audit(campaign);
+      deliver([&] { return auditJson(campaign, report); }, [&] { return auditText(campaign, report); },
+              arguments->json);
+      return report.verdict == AuditVerdict::fail ? kNotUsable : kDone;
+    };
+  });
+}
+
+}  // namespace stiffscope

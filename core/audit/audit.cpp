@@ -1,0 +1,55 @@
+#include "core/audit/audit.h"
+
+#include <algorithm>
+#include <array>
+#include <iterator>
+
+#include "core/audit/checks.h"
+#include "core/audit/screening.h"
+
+namespace stiffscope {
+
+namespace {
+
+using Check = Findings (*)(const Evidence&);
+
+/// In the order in which the day goes, which is that of the report.
+constexpr std::array<Check, 13> kAllChecks{
+    checkTimeOrder,    checkCompleteness,    checkRepeatability, checkRigidTool,         checkNests,
+    checkCircleSweeps, checkSweptReflectors, checkWrist,         checkUnloadedPositions, checkServo,
+    checkReturnToZero, checkLoadCell,        checkPostureSet};
+
+AuditVerdict worst(const std::vector<AuditCheck>& checks) {
+  const auto any = [&](AuditVerdict verdict) {
+    return std::any_of(checks.begin(), checks.end(),
+                       [&](const AuditCheck& check) { return check.verdict == verdict; });
+  };
+  if (any(AuditVerdict::fail)) return AuditVerdict::fail;
+  return any(AuditVerdict::warn) ? AuditVerdict::warn : AuditVerdict::pass;
+}
+
+}  // namespace
+
+AuditCheck notTestable(const std::string& id, const std::string& missing) {
+  AuditCheck check;
+  check.id = id;
+  check.verdict = AuditVerdict::not_testable;
+  check.message = missing;
+  return check;
+}
+
+AuditReport audit(const Campaign& campaign) {
+  AuditReport report;
+  Screening screening = screenReadings(campaign);
+  report.checks = std::move(screening.checks);
+  report.rejected = std::move(screening.rejected);
+  const Evidence evidence = gatherEvidence(campaign, screening.campaign);
+  for (const Check check : kAllChecks) {
+    Findings findings = check(evidence);
+    std::move(findings.begin(), findings.end(), std::back_inserter(report.checks));
+  }
+  report.verdict = worst(report.checks);
+  return report;
+}
+
+}  // namespace stiffscope

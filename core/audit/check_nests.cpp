@@ -1,0 +1,96 @@
+#include <algorithm>
+#include <cmath>
+
+#include "core/audit/chance.h"
+#include "core/audit/checks.h"
+#include "core/audit/limits.h"
+#include "core/audit/rows.h"
+
+namespace stiffscope {
+
+namespace {
+
+using namespace audit_limits;
+
+AuditCheck driftCheck(const Evidence& evidence) {
+  const StationMotion& station = evidence.station;
+  const auto worst = std::max_element(station.epochs.begin(), station.epochs.end(),
+                                      [&](const StationEpoch& a, const StationEpoch& b) {
+                                        return station.significance(a) < station.significance(b);
+                                      });
+  const Eigen::Vector3d displacement = worst->motion.tail<3>();
+  const double sigmas = std::sqrt(station.significance(*worst));
+  AuditCheck check;
+  check.id = "station_drift";
+  check.value = 1e6 * displacement.norm();
+  // What noise alone could show in the direction in which the station went.
+  check.limit =
+      sigmas > 0.0
+          ? *check.value * std::sqrt(station.moved_limit) / sigmas
+          : 1e6 * std::sqrt(station.moved_limit * worst->covariance.bottomRightCorner<3, 3>().trace() / 3.0);
+  check.unit = "um";
+  check.limit_source =
+      byChance("chi-square of the displacement where the arm stands, by the nests' declared noise");
+  check.message =
+      fmt::format("at the arm the station moved by {:.0f} um and turned by {:.1f} urad at most, at {:.0f} s",
+                  *check.value, 1e6 * worst->motion.head<3>().norm(), worst->time_s);
+  if (!station.moved) return check;
+  const double reading_variance = evidence.noise->covarianceAt(station.centre).trace();
+  check.verdict = displacement.squaredNorm() > kFailVarianceRatio * reading_variance ? AuditVerdict::fail
+                                                                                     : AuditVerdict::warn;
+  check.where = fmt::format("{:.0f} s", worst->time_s);
+  std::string jumps;
+  for (const StationEpoch& epoch : station.epochs) {
+    if (epoch.jumped_at) jumps += fmt::format("{}{:.0f} s", jumps.empty() ? "" : ", ", *epoch.jumped_at);
+  }
+  const double minutes = std::max(1.0, (worst->time_s - station.epochs.front().time_s) / 60.0);
+  check.message += jumps.empty()
+                       ? fmt::format("; a drift of {:.2f} um/min on average", *check.value / minutes)
+                       : fmt::format("; it jumped at about {}: the tracker was moved", jumps);
+  check.message += "; readings with a time were referred to the first round for the other checks";
+  return check;
+}
+
+AuditCheck nestCheck(const Evidence& evidence) {
+  const StationMotion& station = evidence.station;
+  if (station.deformation_dof <= 0) {
+    return notTestable("nest_moved",
+                       "too few nests or rounds to tell a moving nest from the station: measure four");
+  }
+  AuditCheck check;
+  check.id = "nest_moved";
+  check.value = std::sqrt(station.deformation_chi2 / station.deformation_dof);
+  check.limit = std::sqrt(station.deformation_limit / station.deformation_dof);
+  check.unit = "of declared sd";
+  check.limit_source = byChance(fmt::format("chi-square of {} degrees of freedom", station.deformation_dof));
+  check.message =
+      fmt::format("what no motion of the station explains is {:.2f} of the declared noise", *check.value);
+  if (*check.value <= *check.limit) return check;
+  check.verdict = AuditVerdict::warn;
+  if (station.moved_nest) {
+    const std::string& name = evidence.campaign.nest_ids[static_cast<std::size_t>(*station.moved_nest)];
+    check.where =
+        station.moved_nest_line > 0 ? rowName(evidence.campaign.nests->file, station.moved_nest_line) : name;
+    check.message += fmt::format(
+        "; nest {} moved by up to {:.0f} um against the others and is left out of the station's "
+        "motion",
+        name, 1e6 * station.moved_nest_by);
+  } else {
+    check.verdict = AuditVerdict::fail;
+    check.message +=
+        "; leaving out any one nest does not mend it: more than one moved, or the readings are wrong";
+  }
+  return check;
+}
+
+}  // namespace
+
+Findings checkNests(const Evidence& evidence) {
+  if (!evidence.station.tested) {
+    return {notTestable("station_drift", evidence.station.reason),
+            notTestable("nest_moved", evidence.station.reason)};
+  }
+  return {driftCheck(evidence), nestCheck(evidence)};
+}
+
+}  // namespace stiffscope

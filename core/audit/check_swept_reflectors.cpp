@@ -1,0 +1,138 @@
+#include <algorithm>
+#include <cmath>
+
+#include "core/audit/chance.h"
+#include "core/audit/checks.h"
+#include "core/audit/limits.h"
+#include "core/audit/rows.h"
+#include "core/audit/swept_circles.h"
+
+namespace stiffscope {
+
+namespace {
+
+using namespace audit_limits;
+
+std::string axisName(std::size_t axis) { return fmt::format("axis {}", axis + 1); }
+
+/// Squared difference of two lines in parts of its variance: place at the middle between the circles, and
+/// direction.
+double disagreement(const MeasuredLine& common, const AxisFit& a, const AxisFit& b, double height) {
+  Eigen::Vector4d difference;
+  Eigen::Matrix4d covariance = Eigen::Matrix4d::Zero();
+  const Eigen::Vector3d at = common.line.point + height * common.line.direction;
+  const auto add = [&](const AxisFit& fit, double sign) {
+    const Line& line = fit.axis.line;
+    const double sense = line.direction.dot(common.line.direction) < 0.0 ? -1.0 : 1.0;
+    const Eigen::Vector3d direction = sense * line.direction;
+    const double along = (at - line.point).dot(direction);
+    const Eigen::Vector3d place = line.point + along * direction;
+    Eigen::Matrix2d turn;  // from the fit's own directions across to the common ones
+    turn << common.across_u.dot(fit.axis.across_u), common.across_u.dot(fit.axis.across_v),
+        common.across_v.dot(fit.axis.across_u), common.across_v.dot(fit.axis.across_v);
+    Eigen::Matrix4d to_common = Eigen::Matrix4d::Zero();
+    to_common.topLeftCorner<2, 2>() = turn;
+    to_common.topRightCorner<2, 2>() = sense * along * turn;
+    to_common.bottomRightCorner<2, 2>() = sense * turn;
+    covariance += to_common * fit.axis.covariance * to_common.transpose();
+    difference.head<2>() +=
+        sign * Eigen::Vector2d(common.across_u.dot(place - at), common.across_v.dot(place - at));
+    difference.tail<2>() +=
+        sign * Eigen::Vector2d(common.across_u.dot(direction), common.across_v.dot(direction));
+  };
+  difference.setZero();
+  add(a, 1.0);
+  add(b, -1.0);
+  return difference.dot(covariance.ldlt().solve(difference));
+}
+
+AuditCheck agreementCheck(const Evidence& evidence, const std::array<std::vector<SweptCircle>, 6>& axes) {
+  AuditCheck check;
+  check.id = "axis_agreement";
+  check.unit = "of its sd";
+  double worst = 0.0;
+  int pairs = 0;
+  for (std::size_t axis = 0; axis < 6; ++axis) {
+    const MeasuredAxis& measured = evidence.frames.axes[axis];
+    if (!measured.fit.determined) continue;
+    std::vector<std::pair<std::size_t, AxisFit>> own;
+    for (std::size_t k = 0; k < axes[axis].size(); ++k) {
+      if (measured.fit.circles[k].radius < kReflectorRadius) continue;
+      AxisFit fit = fitAxis({axes[axis][k].readings});
+      if (fit.determined) own.emplace_back(k, std::move(fit));
+    }
+    for (std::size_t a = 0; a < own.size(); ++a) {
+      for (std::size_t b = a + 1; b < own.size(); ++b) {
+        ++pairs;
+        const double height =
+            0.5 * (measured.fit.circles[own[a].first].height + measured.fit.circles[own[b].first].height);
+        const double chi2 = disagreement(measured.fit.axis, own[a].second, own[b].second, height);
+        if (chi2 <= worst) continue;
+        worst = chi2;
+        check.where = fmt::format("{}, {} and {}", axisName(axis),
+                                  targetName(evidence.campaign, axes[axis][own[a].first].target),
+                                  targetName(evidence.campaign, axes[axis][own[b].first].target));
+      }
+    }
+  }
+  if (pairs == 0) return notTestable("axis_agreement", "no axis was swept with two reflectors well off it");
+  const double limit = chiSquareLimit(kLevel / pairs, 4.0);
+  check.value = std::sqrt(worst / 4.0);
+  check.limit = std::sqrt(limit / 4.0);
+  check.limit_source =
+      byChance(fmt::format("chi-square of place and direction, {} pairs of reflectors", pairs));
+  check.message = fmt::format(
+      "reflectors that turn about one axis agree on it within {:.2f} of the difference's sd", *check.value);
+  if (worst > limit) {
+    check.verdict = AuditVerdict::warn;
+    check.message = fmt::format(
+        "reflectors that turn about one axis place it apart by {:.2f} of the difference's sd: a "
+        "reflector moved, or the own weight bends more than the joints",
+        *check.value);
+  }
+  return check;
+}
+
+AuditCheck onAxisCheck(const Evidence& evidence, const std::array<std::vector<SweptCircle>, 6>& axes) {
+  AuditCheck check;
+  check.id = "reflector_on_axis";
+  check.unit = "mm";
+  check.limit = 1e3 * kReflectorRadius;
+  check.limit_source = "radius of a 1.5 inch reflector: nearer, the axis passes through the reflector itself";
+  double least = INFINITY;
+  std::string near;
+  for (std::size_t axis = 0; axis < 6; ++axis) {
+    const AxisFit& fit = evidence.frames.axes[axis].fit;
+    if (!fit.determined) continue;
+    for (std::size_t k = 0; k < axes[axis].size(); ++k) {
+      const double radius = fit.circles[k].radius;
+      const std::string name =
+          fmt::format("{}, {}", targetName(evidence.campaign, axes[axis][k].target), axisName(axis));
+      if (radius < kReflectorRadius) {
+        near += fmt::format("{}{} at {:.2f} mm", near.empty() ? "" : "; ", name, 1e3 * radius);
+        check.where += (check.where.empty() ? "" : "; ") + name;
+      }
+      least = std::min(least, radius);
+    }
+  }
+  check.value = 1e3 * least;
+  check.message =
+      near.empty()
+          ? "every reflector stands well off the axes"
+          : "says next to nothing about the axis it stands on, nor about that joint's stiffness: " + near;
+  if (!near.empty()) check.verdict = AuditVerdict::warn;
+  return check;
+}
+
+}  // namespace
+
+Findings checkSweptReflectors(const Evidence& evidence) {
+  if (!evidence.campaign.circle_sweeps) {
+    const char* const missing = "no circle sweeps: turn each axis by itself (`circle_sweeps`)";
+    return {notTestable("axis_agreement", missing), notTestable("reflector_on_axis", missing)};
+  }
+  const auto axes = sweptCircles(evidence);
+  return {agreementCheck(evidence, axes), onAxisCheck(evidence, axes)};
+}
+
+}  // namespace stiffscope

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <vector>
+
+#include "core/audit/audit.h"
+#include "core/audit/evidence.h"
+
+// The checks. Each takes the evidence and gives one or more findings; none changes anything. Lost beams,
+// duplicates and outlying repeats are found beforehand (core/audit/screening.h), because the others work
+// without them.
+
+namespace stiffscope {
+
+using Findings = std::vector<AuditCheck>;
+
+/// time_order: within a posture, steps follow each other in time, the states' rows as well as the readings.
+Findings checkTimeOrder(const Evidence& evidence);
+
+/// completeness: each posture has every step that most have, each state every reflector and repeat.
+Findings checkCompleteness(const Evidence& evidence);
+
+/// repeatability_along, repeatability_across: scatter of the repeats against the declared noise.
+Findings checkRepeatability(const Evidence& evidence);
+
+/// rigid_tool: distances between reflectors, over sweeps, postures and loads.
+Findings checkRigidTool(const Evidence& evidence);
+
+/// station_drift, nest_moved: the floor nests' motion as that of the station, and what is left as that of
+/// nests.
+Findings checkNests(const Evidence& evidence);
+
+/// circle_arc (one an axis), circle_count, circle_residual: the sweeps of each axis.
+Findings checkCircleSweeps(const Evidence& evidence);
+
+/// axis_agreement, reflector_on_axis: what each reflector says of the axes it turns about.
+Findings checkSweptReflectors(const Evidence& evidence);
+
+/// wrist_sphere, wrist_axes_meet.
+Findings checkWrist(const Evidence& evidence);
+
+/// frame_moved, unloaded_positions, joint_read_back: unloaded absolute positions against forward kinematics.
+Findings checkUnloadedPositions(const Evidence& evidence);
+
+/// servo_change: reported angles that change under load.
+Findings checkServo(const Evidence& evidence);
+
+/// return_to_zero: reflectors back where step 0 had them once the load is off.
+Findings checkReturnToZero(const Evidence& evidence);
+
+/// tare, gravity_direction, moment_lever.
+Findings checkLoadCell(const Evidence& evidence);
+
+/// posture_set: condition number and what it can identify.
+Findings checkPostureSet(const Evidence& evidence);
+
+/// A finding that cannot be had, with what is missing.
+AuditCheck notTestable(const std::string& id, const std::string& missing);
+
+}  // namespace stiffscope

@@ -1,0 +1,135 @@
+#include "core/audit/repeat_scatter.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <tuple>
+
+#include "core/audit/chance.h"
+#include "core/audit/limits.h"
+#include "core/audit/rows.h"
+#include "core/frames/measured_axes.h"
+
+namespace stiffscope {
+
+namespace {
+
+using Repeats = std::vector<const LoadingReading*>;
+
+std::vector<Repeats> statesWithRepeats(const Loading& loading) {
+  std::map<std::tuple<int, int, int>, Repeats> states;
+  for (const LoadingReading& row : loading.rows) states[{row.pose, row.step, row.target}].push_back(&row);
+  std::vector<Repeats> repeated;
+  for (auto& [key, rows] : states) {
+    if (rows.size() >= 2) repeated.push_back(std::move(rows));
+  }
+  return repeated;
+}
+
+Eigen::Vector3d sumOf(const Repeats& repeats) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (const LoadingReading* row : repeats) sum += row->point;
+  return sum;
+}
+
+void addScatter(const TrackerNoise& noise, const Repeats& repeats, RepeatScatter& scatter) {
+  const double n = static_cast<double>(repeats.size());
+  const Eigen::Vector3d mean = sumOf(repeats) / n;
+  const Eigen::Vector3d sight = mean - noise.station;
+  const double distance = sight.norm();
+  const double along_sd = noise.range_fixed + noise.range_per_m * distance;
+  const double across_sd = noise.angle_fixed + noise.angle_per_m * distance;
+  for (const LoadingReading* row : repeats) {
+    const Eigen::Vector3d off = row->point - mean;
+    const double along = off.dot(sight) / distance;
+    const double across_square = off.squaredNorm() - along * along;
+    scatter.along_rms += along * along;
+    scatter.across_rms += across_square;
+    scatter.along_chi2 += along * along / (along_sd * along_sd);
+    scatter.across_chi2 += across_square / (across_sd * across_sd);
+  }
+  scatter.along_dof += static_cast<int>(repeats.size()) - 1;
+  scatter.across_dof += 2 * (static_cast<int>(repeats.size()) - 1);
+}
+
+/// Squared distance of each repeat from the mean of the others, by the declared noise.
+std::vector<std::pair<const LoadingReading*, double>> distances(const TrackerNoise& noise,
+                                                                const std::vector<Repeats>& states) {
+  std::vector<std::pair<const LoadingReading*, double>> result;
+  for (const Repeats& repeats : states) {
+    const double others = static_cast<double>(repeats.size()) - 1.0;
+    const Eigen::Vector3d sum = sumOf(repeats);
+    for (const LoadingReading* row : repeats) {
+      const Eigen::Vector3d off = row->point - (sum - row->point) / others;
+      const Eigen::Matrix3d covariance = (1.0 + 1.0 / others) * noise.covarianceAt(row->point);
+      result.emplace_back(row, off.dot(covariance.ldlt().solve(off)));
+    }
+  }
+  return result;
+}
+
+std::vector<RejectedReading> outliers(const std::string& file, const TrackerNoise& noise,
+                                      std::vector<Repeats> states) {
+  using namespace audit_limits;
+  std::vector<RejectedReading> found;
+  auto all = distances(noise, states);
+  auto sorted = all;
+  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+  std::nth_element(sorted.begin(), middle, sorted.end(),
+                   [](const auto& a, const auto& b) { return a.second < b.second; });
+  const double scale = std::max(1.0, middle->second / chiSquareLimit(0.5, 3.0));
+  const double limit = scale * chiSquareLimit(kLevel / static_cast<double>(all.size()), 3.0);
+  // The worst first, and its state judged again without it: one bad repeat pulls the mean of the others.
+  for (Repeats& repeats : states) {
+    while (repeats.size() >= 2) {
+      const auto own = distances(noise, {repeats});
+      const auto worst = std::max_element(own.begin(), own.end(),
+                                          [](const auto& a, const auto& b) { return a.second < b.second; });
+      if (worst->second <= limit) break;
+      const auto reject = [&](const LoadingReading* row) {
+        found.push_back({file, row->line,
+                         fmt::format("stands {:.3f} mm from the mean of its state's other repeats",
+                                     1e3 * (row->point - (sumOf(repeats) - row->point) /
+                                                             (static_cast<double>(repeats.size()) - 1.0))
+                                               .norm())});
+      };
+      if (repeats.size() == 2) {
+        for (const LoadingReading* row : repeats) reject(row);
+        break;
+      }
+      reject(worst->first);
+      repeats.erase(std::find(repeats.begin(), repeats.end(), worst->first));
+    }
+  }
+  return found;
+}
+
+}  // namespace
+
+RepeatScatter repeatScatter(const Campaign& campaign) {
+  RepeatScatter scatter;
+  if (!campaign.loading) {
+    scatter.reason = "no absolute readings under load: measure `loading`";
+    return scatter;
+  }
+  if (!campaign.tracker || campaign.tracker->angle_fixed + campaign.tracker->angle_per_m <= 0.0 ||
+      campaign.tracker->range_fixed + campaign.tracker->range_per_m <= 0.0) {
+    scatter.reason = "the tracker's noise is not declared: state `tracker` in campaign.xml";
+    return scatter;
+  }
+  const std::vector<Repeats> states = statesWithRepeats(*campaign.loading);
+  if (states.empty()) {
+    scatter.reason = "no state was read more than once: measure each at least twice";
+    return scatter;
+  }
+  const TrackerNoise noise = trackerNoise(*campaign.tracker);
+  for (const Repeats& repeats : states) addScatter(noise, repeats, scatter);
+  scatter.along_rms = std::sqrt(scatter.along_rms / scatter.along_dof);
+  scatter.across_rms = std::sqrt(scatter.across_rms / scatter.across_dof);
+  scatter.outliers = outliers(campaign.loading->file, noise, states);
+  scatter.tested = true;
+  return scatter;
+}
+
+}  // namespace stiffscope

@@ -1,0 +1,116 @@
+#include "core/audit/screening.h"
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <set>
+
+#include "core/audit/limits.h"
+#include "core/audit/repeat_scatter.h"
+#include "core/audit/rows.h"
+
+namespace stiffscope {
+
+namespace {
+
+using Place = std::array<double, 3>;
+
+Place placeOf(const Eigen::Vector3d& point) { return {point.x(), point.y(), point.z()}; }
+
+void dropRejected(const std::vector<RejectedReading>& rejected, Campaign& campaign) {
+  std::map<std::string, std::set<std::size_t>> lines;
+  for (const RejectedReading& reading : rejected) lines[reading.file].insert(reading.line);
+  forEachPointTable(campaign, [&](auto& table) {
+    std::erase_if(table.rows, [&](const auto& row) { return lines[table.file].contains(row.line); });
+  });
+  // A table whose every reading was rejected is a measurement that the day did not produce.
+  if (campaign.circle_sweeps && campaign.circle_sweeps->rows.empty()) campaign.circle_sweeps.reset();
+  if (campaign.wrist_sweep && campaign.wrist_sweep->rows.empty()) campaign.wrist_sweep.reset();
+  if (campaign.loading && campaign.loading->rows.empty()) campaign.loading.reset();
+  if (campaign.nests && campaign.nests->rows.empty()) campaign.nests.reset();
+}
+
+std::vector<RejectedReading> lostBeams(const Campaign& campaign) {
+  std::vector<RejectedReading> found;
+  forEachPointTable(campaign, [&](const auto& table) {
+    for (const auto& row : table.rows) {
+      if (row.point.isZero(0.0)) found.push_back({table.file, row.line, "lost beam: the point is (0, 0, 0)"});
+    }
+  });
+  return found;
+}
+
+std::vector<RejectedReading> duplicates(const Campaign& campaign) {
+  std::vector<RejectedReading> found;
+  forEachPointTable(campaign, [&](const auto& table) {
+    std::map<Place, std::size_t> first_line;
+    for (const auto& row : table.rows) {
+      const auto [first, added] = first_line.try_emplace(placeOf(row.point), row.line);
+      if (added) continue;
+      found.push_back(
+          {table.file, row.line, fmt::format("the same point to the last digit as line {}", first->second)});
+    }
+  });
+  return found;
+}
+
+AuditCheck countCheck(const std::string& id, const std::vector<RejectedReading>& found, AuditVerdict verdict,
+                      const std::string& what, const std::string& source) {
+  AuditCheck check;
+  check.id = id;
+  check.value = static_cast<double>(found.size());
+  check.limit = 0.0;
+  check.unit = "readings";
+  check.limit_source = source;
+  check.message = found.empty() ? "none" : fmt::format("{} {}", found.size(), what);
+  if (found.empty()) return check;
+  check.verdict = verdict;
+  check.where = rowName(found.front().file, found.front().line);
+  return check;
+}
+
+}  // namespace
+
+Screening screenReadings(const Campaign& campaign) {
+  Screening result{campaign, {}, {}};
+  const auto screen = [&](const std::string& id, AuditVerdict verdict,
+                          const std::vector<RejectedReading>& found, const std::string& what,
+                          const std::string& source) {
+    result.checks.push_back(countCheck(id, found, verdict, what, source));
+    result.rejected.insert(result.rejected.end(), found.begin(), found.end());
+    dropRejected(found, result.campaign);
+  };
+  bool any_points = false;
+  forEachPointTable(campaign, [&](const auto&) { any_points = true; });
+  if (!any_points) {
+    for (const char* id : {"lost_beam", "duplicate_readings", "repeat_outliers"}) {
+      AuditCheck check;
+      check.id = id;
+      check.verdict = AuditVerdict::not_testable;
+      check.message = "no readings of points: measure `circle_sweeps`, `wrist_sweep` or `loading`";
+      result.checks.push_back(check);
+    }
+    return result;
+  }
+  screen("lost_beam", AuditVerdict::fail, lostBeams(campaign),
+         "readings at (0, 0, 0): the beam was lost; take them out", "no reflector stands inside the station");
+  screen("duplicate_readings", AuditVerdict::warn, duplicates(result.campaign),
+         "readings repeat another's coordinates to the last digit: copied, or the beam still on another "
+         "reflector",
+         "two readings do not agree to the last digit by chance");
+  const RepeatScatter scatter = repeatScatter(result.campaign);
+  if (scatter.tested) {
+    screen("repeat_outliers", AuditVerdict::warn, scatter.outliers,
+           "repeats stand apart from the others of their state",
+           audit_limits::byChance("chi-square of a reading against its state's others, three coordinates"));
+  } else {
+    AuditCheck check;
+    check.id = "repeat_outliers";
+    check.verdict = AuditVerdict::not_testable;
+    check.message = scatter.reason;
+    result.checks.push_back(check);
+  }
+  return result;
+}
+
+}  // namespace stiffscope

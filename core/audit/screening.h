@@ -1,0 +1,22 @@
+#pragma once
+
+#include <vector>
+
+#include "core/audit/audit.h"
+
+namespace stiffscope {
+
+/// A campaign without the readings that should not be used, and the checks that found them.
+struct Screening {
+  Campaign campaign;
+  std::vector<RejectedReading> rejected;
+  std::vector<AuditCheck> checks;  ///< lost_beam, duplicate_readings, repeat_outliers
+};
+
+/// Takes out, one kind after the other: points at exactly (0, 0, 0), which a tracker writes when it has lost
+/// its beam; points that repeat another's coordinates to the last digit, which is the other reading copied or
+/// the beam still on the other reflector; and repeats of one state that stand apart from the others by more
+/// than noise.
+Screening screenReadings(const Campaign& campaign);
+
+}  // namespace stiffscope

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/campaign/campaign.h"
+#include "metrology/tracker_noise.h"
+
+namespace stiffscope {
+
+/// One reflector in one state of the arm: the mean of its readings and the covariance of that mean by the
+/// declared noise (zero where none is declared).
+struct ReflectorMean {
+  int target = 0;
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+  int readings = 0;
+  std::size_t line = 0;  ///< of its first reading
+};
+
+/// The reflectors while the arm stood still: one index of a sweep, or one load state.
+struct StatePoints {
+  std::string file;
+  std::string name;  ///< for people: "pose 3, step 1", "axis 4, index 7"
+  int pose = -1;     ///< -1 in sweeps
+  int step = 0;      ///< 0 in sweeps: no load
+  std::vector<ReflectorMean> reflectors;
+
+  const ReflectorMean* of(int target) const;
+};
+
+/// All states of circle sweeps, wrist sweep and loading, in that order; for the loading in the order of its
+/// rows.
+std::vector<StatePoints> statePoints(const Campaign& campaign, const std::optional<TrackerNoise>& noise);
+
+}  // namespace stiffscope

@@ -1,0 +1,15 @@
+#pragma once
+
+#include "core/audit/station_motion.h"
+
+namespace stiffscope {
+
+/// Tells a jump of the station between two rounds from drift, and says when it jumped.
+///
+/// Repeats of one state follow each other within seconds: had the station drifted steadily as far as the
+/// nests say, they would show it; where they scatter less as they were read, it jumped. When: between two
+/// postures, where the unloaded positions then best fit forward kinematics, or before the first or after the
+/// last of the interval.
+void findJumps(const Campaign& campaign, const TrackerNoise& noise, StationMotion& station);
+
+}  // namespace stiffscope

@@ -1,0 +1,78 @@
+#include "reports/text/audit_text.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+
+#include "reports/json/audit_json.h"
+#include "reports/text/wrapped.h"
+
+namespace stiffscope {
+
+namespace {
+
+using Out = std::back_insert_iterator<std::string>;
+
+const char* worded(AuditVerdict verdict) {
+  return verdict == AuditVerdict::not_testable ? "not testable" : nameOf(verdict);
+}
+
+std::string figure(const std::optional<double>& value) { return value ? fmt::format("{:.4g}", *value) : "-"; }
+
+void writeTable(const AuditReport& report, Out out) {
+  fmt::format_to(out, "  {:<21}{:<14}{:>9}{:>9}  {:<16}{}\n", "check", "verdict", "figure", "limit", "unit",
+                 "where");
+  for (const AuditCheck& check : report.checks) {
+    std::string line = fmt::format("  {:<21}{:<14}{:>9}{:>9}  {:<16}{}", check.id, worded(check.verdict),
+                                   figure(check.value), figure(check.limit), check.unit, check.where);
+    line.erase(line.find_last_not_of(' ') + 1);
+    fmt::format_to(out, "{}\n", line);
+  }
+}
+
+/// Short arcs that still suffice pass, but a reader should know what they cost.
+void writeShortArcs(const AuditReport& report, Out out) {
+  for (const AuditCheck& check : report.checks) {
+    if (check.id != "circle_arc" || check.verdict != AuditVerdict::pass || *check.value >= *check.limit)
+      continue;
+    fmt::format_to(out, "\n{}\n", wrapped(fmt::format("Passes below its limit: {}.", check.message), 2));
+  }
+}
+
+void writeMessages(const AuditReport& report, AuditVerdict verdict, const char* title, Out out) {
+  bool first = true;
+  for (const AuditCheck& check : report.checks) {
+    if (check.verdict != verdict) continue;
+    if (first) fmt::format_to(out, "\n{}\n", title);
+    first = false;
+    fmt::format_to(out, "  {}\n", wrapped(fmt::format("{}: {}", check.id, check.message), 4));
+    if (!check.limit_source.empty()) {
+      fmt::format_to(out, "    {}\n", wrapped(fmt::format("Limit: {}.", check.limit_source), 6));
+    }
+  }
+}
+
+}  // namespace
+
+std::string auditText(const Campaign& campaign, const AuditReport& report) {
+  std::string text;
+  Out out(text);
+  fmt::format_to(out, "{}: {}\n\n", campaign.name,
+                 report.verdict == AuditVerdict::pass   ? "pass: fit to identify from"
+                 : report.verdict == AuditVerdict::warn ? "warn: fit to identify from with what is said below"
+                                                        : "fail: not fit to identify from");
+  writeTable(report, out);
+  writeMessages(report, AuditVerdict::fail, "Fails", out);
+  writeMessages(report, AuditVerdict::warn, "Warns", out);
+  writeMessages(report, AuditVerdict::not_testable, "Not testable", out);
+  writeShortArcs(report, out);
+  if (!report.rejected.empty()) fmt::format_to(out, "\nReadings to leave out\n");
+  for (const RejectedReading& reading : report.rejected) {
+    fmt::format_to(out, "  {}\n",
+                   wrapped(fmt::format("{}:{}: {}", reading.file, reading.line, reading.reason), 4));
+  }
+  return text;
+}
+
+}  // namespace stiffscope

@@ -1,0 +1,60 @@
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/app/command.h"
+
+namespace stiffscope {
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path kSample = fs::path(STIFFSCOPE_SOURCE_DIR) / "samples" / "active";
+
+TEST(AuditCommand, GivesEveryCheckItsFigureLimitAndSource) {
+  const ScratchFolder scratch;
+  const Ran ran = runProgram("audit '" + kSample.string() + "' --json -", scratch.path());
+  EXPECT_EQ(ran.status, 0) << ran.err;
+  const auto json = nlohmann::json::parse(ran.out);
+  EXPECT_EQ(json["verdict"], "warn");
+  EXPECT_TRUE(json["rejected"].empty());
+  for (const auto& check : json["checks"]) {
+    for (const char* key : {"id", "verdict", "value", "limit", "unit", "where", "message"})
+      EXPECT_TRUE(check.contains(key)) << key;
+    EXPECT_FALSE(check["message"].get<std::string>().empty()) << check["id"];
+    if (check["verdict"] == "not_testable") continue;
+    EXPECT_TRUE(check["value"].is_number()) << check["id"];
+    EXPECT_TRUE(check["limit"].is_number()) << check["id"];
+    EXPECT_FALSE(check["limit_source"].get<std::string>().empty()) << check["id"];
+  }
+}
+
+TEST(AuditCommand, AFailedAuditExitsWithOneAndNamesTheRow) {
+  const ScratchFolder scratch;
+  const fs::path spoilt = scratch.path() / "spoilt";
+  fs::copy(kSample, spoilt);
+  std::istringstream lines(contentsOf(spoilt / "loading.csv"));
+  std::ofstream out(spoilt / "loading.csv", std::ios::binary);
+  std::string line;
+  for (int number = 1; std::getline(lines, line); ++number) {
+    if (number == 100) {  // pose,step,repeat,target,time_s stay; the tracker lost its beam
+      std::size_t comma = 0;
+      for (int k = 0; k < 5; ++k) comma = line.find(',', comma) + 1;
+      line = line.substr(0, comma) + "0.0000,0.0000,0.0000";
+    }
+    out << line << '\n';
+  }
+  out.close();
+  const Ran ran = runProgram("audit '" + spoilt.string() + "'", scratch.path());
+  EXPECT_EQ(ran.status, 1) << ran.err;
+  EXPECT_NE(ran.out.find("not fit to identify from"), std::string::npos) << ran.out;
+  EXPECT_NE(ran.out.find("loading.csv:100: lost beam"), std::string::npos) << ran.out;
+}
+
+TEST(AuditCommand, ACampaignThatIsNotThereIsBadInput) {
+  const ScratchFolder scratch;
+  EXPECT_EQ(runProgram("audit nowhere", scratch.path()).status, 2);
+}
+
+}  // namespace
+}  // namespace stiffscope

@@ -1,0 +1,92 @@
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "core/audit/audit.h"
+#include "core/campaign/read_campaign.h"
+
+// The audit of the campaigns kept beside the checkout: their causes are known, and readings alone show some
+// of them.
+
+namespace stiffscope {
+namespace {
+
+std::filesystem::path shared(const std::string& folder) {
+  return std::filesystem::path(STIFFSCOPE_SHARED_DIR) / folder;
+}
+
+AuditReport auditOf(const std::string& folder) { return audit(readCampaign(shared(folder)).campaign); }
+
+std::vector<AuditCheck> found(const AuditReport& report) {
+  std::vector<AuditCheck> beyond;
+  for (const AuditCheck& check : report.checks) {
+    if (check.verdict == AuditVerdict::warn || check.verdict == AuditVerdict::fail) beyond.push_back(check);
+  }
+  return beyond;
+}
+
+bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+class PracticeAudit : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (!std::filesystem::exists(shared("practice")))
+      GTEST_SKIP() << "the practice campaigns are not beside the checkout";
+  }
+};
+
+TEST_F(PracticeAudit, CleanCampaignsPass) {
+  for (const char* number : {"01", "18"}) {
+    const AuditReport report = auditOf(fmt::format("practice/{}", number));
+    EXPECT_EQ(report.verdict, AuditVerdict::pass) << number;
+    EXPECT_TRUE(report.rejected.empty()) << number;
+  }
+}
+
+TEST_F(PracticeAudit, OneCauseGivesOneFinding) {
+  const std::vector<std::pair<const char*, const char*>> known{{"08", "return_to_zero"},
+                                                               {"12", "moment_lever"},
+                                                               {"13", "station_drift"},
+                                                               {"15", "station_drift"},
+                                                               {"16", "rigid_tool"}};
+  for (const auto& [number, id] : known) {
+    const auto beyond = found(auditOf(fmt::format("practice/{}", number)));
+    ASSERT_EQ(beyond.size(), 1u) << number;
+    EXPECT_EQ(beyond[0].id, id) << number;
+  }
+}
+
+TEST_F(PracticeAudit, SaysWhatMoved) {
+  EXPECT_TRUE(contains(found(auditOf("practice/13")).at(0).message, "it jumped"));
+  EXPECT_TRUE(contains(found(auditOf("practice/15")).at(0).message, "a drift of"));
+  const AuditCheck tool = found(auditOf("practice/16")).at(0);
+  EXPECT_TRUE(contains(tool.message, "reflector P12 moves")) << tool.message;
+  EXPECT_TRUE(contains(tool.where, "P12")) << tool.where;
+}
+
+TEST(RealSweeps, ReflectorOnTheAxisAndTheShortArc) {
+  if (!std::filesystem::exists(shared("real")))
+    GTEST_SKIP() << "the real campaigns are not beside the checkout";
+  const AuditReport report = auditOf("real/fanuc-r2000ic-sweeps");
+  bool arc = false, on_axis = false;
+  for (const AuditCheck& check : report.checks) {
+    if (check.id == "circle_arc" && check.where == "axis 1") {
+      arc = true;
+      EXPECT_EQ(check.verdict, AuditVerdict::warn);
+      EXPECT_NEAR(*check.value, 60.0, 0.1);  // six stops of 12 deg
+      EXPECT_TRUE(contains(check.message, "urad in direction")) << check.message;
+      EXPECT_TRUE(contains(check.message, "2.2 times what as many readings over 90 deg")) << check.message;
+    }
+    if (check.id == "reflector_on_axis") {
+      on_axis = true;
+      EXPECT_EQ(check.verdict, AuditVerdict::warn);
+      EXPECT_EQ(check.where, "P10, axis 4; P10, axis 6");
+      EXPECT_LT(*check.value, 2.0);  // mm
+    }
+  }
+  EXPECT_TRUE(arc && on_axis);
+}
+
+}  // namespace
+}  // namespace stiffscope
