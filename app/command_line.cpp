@@ -46,6 +46,7 @@ int runCommandLine(int count, char** words) {
   app.set_version_flag("--version", "stiffscope " STIFFSCOPE_VERSION);
   app.require_subcommand(0, 1);
   Run run;
+  addFit(app, run);
   addFrames(app, run);
   addIdentify(app, run);
   addCompensate(app, run);
