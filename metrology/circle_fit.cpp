@@ -38,6 +38,14 @@ FittedCircle fitInSpace(const LocalPoints& local) {
   return fit;
 }
 
+/// Points on one line but for their scatter have no plane. Points that are exactly on one are told apart
+/// later.
+bool flatEnough(const LocalPoints& local) {
+  const PrincipalAxes axes = principalAxes(local);
+  return !spreads(axes.spread[1], axes.spread[2], local) ||
+         standsOut(axes.spread[1], axes.spread[0], local.count());
+}
+
 /// A number that its own uncertainty contradicts is none.
 void refuseWhatIsNotSignificant(FittedCircle& fit) {
   if (!fit.determined || !fit.covariance) return;
@@ -59,7 +67,9 @@ void refuseWhatIsNotSignificant(FittedCircle& fit) {
 FittedCircle fitCircle(const MeasuredPoints& points, CircleStrategy strategy) {
   const LocalPoints local = localPoints(&points, 1);
   FittedCircle fit;
-  if (local.flaw.empty()) {
+  if (local.flaw.empty() && !flatEnough(local)) {
+    fit.reason = "the normal is undetermined: the readings lie on one line within their scatter";
+  } else if (local.flaw.empty()) {
     fit = strategy == CircleStrategy::full ? fitInSpace(local) : fitPlaneFirst(local);
   } else {
     fit.reason = local.flaw;

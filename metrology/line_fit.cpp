@@ -11,9 +11,9 @@ FittedLine fitLine(const MeasuredPoints& points) {
   fit.reason = local.flaw;
   if (!fit.reason.empty()) return fit;
   const PrincipalAxes axes = principalAxes(local);
-  constexpr double kAlike = 1e-9;
-  if (axes.spread[2] - axes.spread[1] < kAlike * axes.spread[2]) {
-    fit.reason = "the direction is undetermined: the readings spread alike in two directions";
+  if (!standsOut(axes.spread[2], axes.spread[1], local.count())) {
+    fit.reason =
+        "the direction is undetermined: the readings spread alike in two directions, within their scatter";
     return fit;
   }
   Estimate<LineModel, 1> estimate{{AxisFrame(Eigen::Vector3d::Zero(), axes.directions.col(2))}};

@@ -111,4 +111,10 @@ bool spreads(double small, double large, const LocalPoints& local) {
   return small > kFlat * large && small > rounding * rounding * static_cast<double>(local.count());
 }
 
+bool standsOut(double greater, double lesser, std::size_t count) {
+  constexpr double kOfOneScatter = 4.9;
+  const double both = std::sqrt(std::max(0.0, lesser) * greater / static_cast<double>(count));
+  return greater - lesser > std::max(kOfOneScatter * both, 1e-9 * greater);
+}
+
 }  // namespace stiffscope

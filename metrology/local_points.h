@@ -46,4 +46,9 @@ PrincipalAxes principalAxes(const LocalPoints& local);
 /// than a millionth of `large` in length, and more than the coordinates' rounding.
 bool spreads(double small, double large, const LocalPoints& local);
 
+/// Do the greater of two neighbouring spreads and its direction stand out from the lesser? For `count` points
+/// of one scatter in both directions the difference of the two lies, at 95 %, below 4.9 times the root of
+/// their product over the count (the spread of a 2x2 Wishart matrix: twice a Rayleigh variable).
+bool standsOut(double greater, double lesser, std::size_t count);
+
 }  // namespace stiffscope

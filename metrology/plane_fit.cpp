@@ -15,9 +15,9 @@ FittedPlane fitPlane(const MeasuredPoints& points) {
     fit.reason = "the normal is undetermined: the readings lie on one line";
     return fit;
   }
-  constexpr double kAlike = 1e-9;
-  if (axes.spread[1] - axes.spread[0] < kAlike * axes.spread[1]) {
-    fit.reason = "the normal is undetermined: the readings spread alike in two directions";
+  if (!standsOut(axes.spread[1], axes.spread[0], local.count())) {
+    fit.reason =
+        "the normal is undetermined: the readings spread alike in two directions, within their scatter";
     return fit;
   }
   using PlaneEstimate = Estimate<PlanesModel, 1>;
