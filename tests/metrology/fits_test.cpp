@@ -78,7 +78,8 @@ TEST(Fits, AnExactShapeHasNoCovarianceUnlessTheReadingsHave) {
   EXPECT_FALSE(bare.covariance);
   points.covariances.assign(3, 1e-10 * Eigen::Matrix3d::Identity());
   ASSERT_TRUE(fitCircle(points).covariance);
-  EXPECT_NEAR((*fitCircle(points).covariance)(2, 2), 0.5e-10, 1e-20);  // between the first point and the third
+  EXPECT_NEAR((*fitCircle(points).covariance)(2, 2), 0.5e-10,
+              1e-20);  // between the first point and the third
 }
 
 /// What every fit says of points: reason, empty where it is determined.
@@ -164,7 +165,8 @@ TEST(Fits, RefuseWhatTheScatterContradicts) {
   }
   EXPECT_FALSE(fitPlane({line, {}}).determined);
   const FittedSphere sphere = fitSphere({plane, {}});
-  EXPECT_FALSE(sphere.determined) << sphere.sphere.radius << " " << sphere.rms << " " << (*sphere.covariance)(3, 3);
+  EXPECT_FALSE(sphere.determined) << sphere.sphere.radius << " " << sphere.rms << " "
+                                  << (*sphere.covariance)(3, 3);
 }
 
 TEST(FitSphere, RefusesFewerThanFourAndWrongCovariances) {
@@ -223,6 +225,82 @@ TEST(FitCircle, PublishedGeometricCirclesInAnyPlane) {
       EXPECT_NEAR(fit.circle.radius, answer["r"].get<double>(), 2e-8) << name;
     }
   }
+}
+
+/// What an OpenIndy entry expects of a fit, by the names of its list; directions up to their sense.
+struct Found {
+  Eigen::Vector3d direction = Eigen::Vector3d::Zero();
+  double radius = 0.0, stdev = 0.0;
+};
+
+void compare(const nlohmann::json& test, Found found) {
+  Eigen::Vector3d expected = Eigen::Vector3d::Zero();
+  for (const auto& one : test["expected"]) {
+    if (one["what"][0] == "direction")
+      expected[one["what"][1].get<Eigen::Index>()] = one["value"].get<double>();
+  }
+  if (expected.dot(found.direction) < 0.0) found.direction *= -1.0;
+  for (const auto& one : test["expected"]) {
+    const std::string what = one["what"][0];
+    const double value = one["value"].get<double>(), tolerance = one["tol"].get<double>();
+    if (what == "direction") {
+      EXPECT_NEAR(found.direction[one["what"][1].get<Eigen::Index>()], value, tolerance);
+    }
+    if (what == "radius") {
+      EXPECT_NEAR(found.radius, value, tolerance);
+    }
+    if (what == "stdev") {
+      EXPECT_NEAR(found.stdev, value, tolerance);
+    }
+  }
+}
+
+TEST(Fits, OpenIndyVectorsWithinTheirOwnTolerances) {
+  const auto file = reference("openindy-fit-vectors.json");
+  if (!file) GTEST_SKIP() << "reference data are not beside the checkout";
+  int compared = 0;
+  for (const auto& test : (*file)["tests"]) {
+    const std::string name = test["test"];
+    SCOPED_TRACE(name);
+    MeasuredPoints points;
+    for (const auto& point : test["points"]) points.points.push_back(vector(point));
+    const auto named = [&name](const char* part) { return name.find(part) != std::string::npos; };
+    if (test["skipped_upstream"].get<bool>() || named("BestFitPoint")) continue;
+    ++compared;
+    if (named("Plane") && !named("Circle")) {
+      const FittedPlane fit = fitPlane(points);
+      ASSERT_TRUE(fit.determined) << fit.reason;
+      compare(test, {fit.plane.normal, 0.0, fit.residual_sd});
+    } else if (named("Line")) {
+      const FittedLine fit = fitLine(points);
+      ASSERT_TRUE(fit.determined) << fit.reason;
+      // OpenIndy counts a point's distance as one residual (n - 2), not as its two components (2 n - 4).
+      compare(test, {fit.line.direction, 0.0, std::sqrt(2.0) * fit.residual_sd});
+    } else if (named("Circle")) {
+      const FittedCircle fit = fitCircle(points, CircleStrategy::plane_first);
+      ASSERT_TRUE(fit.determined) << fit.reason;
+      compare(test, {fit.circle.normal, fit.circle.radius, fit.residual_sd});
+    } else if (named("Sphere")) {
+      const FittedSphere fit = fitSphere(points);
+      ASSERT_TRUE(fit.determined) << fit.reason;
+      // Of a sphere it counts three coordinates a point (3 n - 4); its residuals, printed to 1e-5, say the
+      // same.
+      const double coordinates = 3.0 * static_cast<double>(points.points.size()) - 4.0;
+      compare(test, {Eigen::Vector3d::Zero(), fit.sphere.radius,
+                     fit.residual_sd * std::sqrt(fit.degrees_of_freedom / coordinates)});
+      for (const auto& one : test["expected"]) {
+        if (one["what"][0] != "residual" || one["what"][1] >= 3000)
+          continue;  // 3000: points that were not fitted
+        const Eigen::Vector3d& point = points.points[one["what"][1].get<std::size_t>() - 1000];
+        EXPECT_NEAR((point - fit.sphere.centre).norm() - fit.sphere.radius, one["value"].get<double>(), 1e-5);
+      }
+    } else {
+      const FittedCylinder fit = fitCylinder(points);
+      ASSERT_TRUE(fit.determined) << fit.reason;
+      compare(test, {fit.cylinder.axis.direction, fit.cylinder.radius, fit.residual_sd});
+    }
+  }
+  EXPECT_GE(compared, 10);
 }
 
 }  // namespace
