@@ -47,6 +47,7 @@ int runCommandLine(int count, char** words) {
   app.require_subcommand(0, 1);
   Run run;
   addAudit(app, run);
+  addFit(app, run);
   addFrames(app, run);
   addIdentify(app, run);
   addCompensate(app, run);

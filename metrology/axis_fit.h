@@ -1,45 +1,42 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <string>
 #include <vector>
 
 #include "metrology/measured_line.h"
+#include "metrology/measured_points.h"
 
 namespace stiffscope {
 
-/// The readings of one reflector while one axis turns. `covariances` is empty, or one a point (m^2).
-struct CirclePoints {
-  std::vector<Eigen::Vector3d> points;
-  std::vector<Eigen::Matrix3d> covariances;
-};
+/// The readings of one reflector while one axis turns (m, m^2).
+using CirclePoints = MeasuredPoints;
 
 /// Circle of one reflector about the common axis.
 struct AxisCircle {
-  double radius = 0.0;        ///< m
-  double height = 0.0;        ///< place of its plane along the axis, from MeasuredLine::line.point, m
-  double arc = 0.0;           ///< rad between the ends of the swept arc, 0..2 pi
-  double rms = 0.0;           ///< of the radial and axial residuals, per coordinate, m
+  double radius = 0.0;  ///< m
+  double height = 0.0;  ///< place of its plane along the axis, from MeasuredLine::line.point, m
+  double arc = 0.0;     ///< rad between the ends of the swept arc, 0..2 pi
+  double rms = 0.0;     ///< of the radial and axial residuals, per coordinate, m
 };
 
 /// Result of the circle-point method for one axis (paper, II.D).
 struct AxisFit {
   bool determined = false;
-  std::string reason;      ///< why not determined
-  MeasuredLine axis;       ///< direction sense as the fit found it: the caller gives it a sign
+  std::string reason;  ///< why not determined
+  MeasuredLine axis;   ///< direction sense as the fit found it: the caller gives it a sign
   std::vector<AxisCircle> circles;
-  double rms = 0.0;        ///< plain, over radial and axial residuals of all points, m
+  double rms = 0.0;           ///< plain, over radial and axial residuals of all points, m
   double chi2_per_dof = 0.0;  ///< with covariances given: weighted; 1 without
   int degrees_of_freedom = 0;
 };
 
-/// Circle-point: the circles that several reflectors describe about one axis share that axis. Least squares on
-/// the residuals of every point, radial (rho - r_k) and along the axis (h - h_k), over the line's four degrees of
-/// freedom and each circle's radius and height; weighted by the covariance of (radial, axial) where covariances
-/// are given. Covariance of the result: inverse normal matrix, times chi2/dof where that exceeds 1 (or times the
-/// residual variance where no covariances are given). Start: pooled plane normal and a common algebraic centre.
-/// Undetermined with a reason: fewer than 3 points in every circle, none in one of them, points that all lie on one line
-/// or in one place.
+/// Circle-point: the circles that several reflectors describe about one axis share that axis. Least squares
+/// on the residuals of every point, radial (rho - r_k) and along the axis (h - h_k), over the line's four
+/// degrees of freedom and each circle's radius and height; weighted by the covariance of (radial, axial)
+/// where covariances are given. Covariance of the result: inverse normal matrix, times chi2/dof where that
+/// exceeds 1 (or times the residual variance where no covariances are given). Start: pooled plane normal and
+/// Taubin's common centre. Undetermined with a reason: fewer than 3 points in every circle, none in one of
+/// them, points that all lie on one line or in one place.
 AxisFit fitAxis(const std::vector<CirclePoints>& circles);
 
 }  // namespace stiffscope

@@ -1,122 +1,100 @@
 #include "metrology/sphere_fit.h"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+
+#include "metrology/algebraic_centre.h"
+#include "metrology/finish_fit.h"
+#include "metrology/sphere_model.h"
 
 namespace stiffscope {
 
 namespace {
 
-/// |x|^2 - 2 c.x + s_k = 0 is linear in the centre; subtracting each sphere's means removes s_k.
-bool algebraicCentre(const std::vector<SpherePoints>& spheres, Eigen::Vector3d& centre) {
-  Eigen::Vector3d origin = Eigen::Vector3d::Zero();
-  double count = 0.0;
-  for (const auto& sphere : spheres) {
-    for (const auto& point : sphere.points) origin += point, count += 1.0;
+constexpr const char* kInOnePlane = "the readings of a reflector lie in one plane";
+
+/// Taubin's common centre; empty, with the reason, where the points lie in one plane.
+std::optional<SpheresModel> spheresStart(const LocalPoints& local, std::string& reason) {
+  const PrincipalAxes axes = principalAxes(local);
+  const bool thick = spreads(axes.spread[0], axes.spread[2], local);
+  const auto centre = thick ? algebraicCentre<3>(local, axes.directions) : std::nullopt;
+  if (!centre) {
+    reason = kInOnePlane;
+    return std::nullopt;
   }
-  origin /= count;
-  Eigen::Matrix3d normal_matrix = Eigen::Matrix3d::Zero();
-  Eigen::Vector3d right = Eigen::Vector3d::Zero();
-  for (const auto& sphere : spheres) {
-    const double n = static_cast<double>(sphere.points.size());
-    Eigen::Vector3d mean = Eigen::Vector3d::Zero();
-    double mean_square = 0.0;
-    for (const auto& point : sphere.points) {
-      mean += (point - origin) / n;
-      mean_square += (point - origin).squaredNorm() / n;
-    }
-    for (const auto& point : sphere.points) {
-      const Eigen::Vector3d from_mean = point - origin - mean;
-      normal_matrix += from_mean * from_mean.transpose();
-      right += 0.5 * ((point - origin).squaredNorm() - mean_square) * from_mean;
-    }
-  }
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(normal_matrix);
-  constexpr double kFlat = 1e-12;  // squared ratio of the least to the largest spread: points in one plane
-  if (!(eigen.eigenvalues()[0] > kFlat * eigen.eigenvalues()[2])) return false;
-  centre = origin + normal_matrix.ldlt().solve(right);
-  return true;
+  return SpheresModel{axes.directions * *centre};
 }
 
-struct Step {
-  Eigen::MatrixXd normal_matrix;
-  Eigen::VectorXd right;
-  double chi2 = 0.0, plain = 0.0;
-  int residuals = 0;
-};
-
-Step linearise(const std::vector<SpherePoints>& spheres, const SphereFit& fit) {
-  const int size = 3 + static_cast<int>(spheres.size());
-  Step step{Eigen::MatrixXd::Zero(size, size), Eigen::VectorXd::Zero(size)};
-  for (std::size_t k = 0; k < spheres.size(); ++k) {
-    const int at = 3 + static_cast<int>(k);
-    for (std::size_t i = 0; i < spheres[k].points.size(); ++i) {
-      const Eigen::Vector3d from_centre = spheres[k].points[i] - fit.centre;
-      const double radius = from_centre.norm();
-      const Eigen::Vector3d outward = from_centre / radius;
-      const double residual = radius - fit.radii[k];
-      const double weight =
-          spheres[k].covariances.empty() ? 1.0 : 1.0 / (outward.dot(spheres[k].covariances[i] * outward));
-      step.plain += residual * residual;
-      step.chi2 += weight * residual * residual;
-      ++step.residuals;
-      step.normal_matrix.topLeftCorner<3, 3>() += weight * outward * outward.transpose();
-      step.normal_matrix.block<3, 1>(0, at) += weight * outward;
-      step.normal_matrix(at, at) += weight;
-      step.right.head<3>() += weight * residual * outward;
-      step.right[at] += weight * residual;
-    }
-    step.normal_matrix.block<1, 3>(at, 0) = step.normal_matrix.block<3, 1>(0, at).transpose();
+/// Mean distance of each group from the centre.
+Eigen::RowVectorXd firstRadii(const Eigen::Vector3d& centre, const LocalPoints& local) {
+  Eigen::RowVectorXd radii = Eigen::RowVectorXd::Zero(static_cast<Eigen::Index>(local.groups.size()));
+  for (std::size_t k = 0; k < local.groups.size(); ++k) {
+    double sum = 0.0;
+    for (const Eigen::Vector3d& point : local.groups[k].points) sum += (point - centre).norm();
+    radii[static_cast<Eigen::Index>(k)] = sum / static_cast<double>(local.groups[k].points.size());
   }
-  return step;
+  return radii;
 }
 
 }  // namespace
 
 SphereFit fitSpheres(const std::vector<SpherePoints>& spheres) {
   SphereFit fit;
-  for (const auto& sphere : spheres) {
-    if (sphere.points.size() < 4) {
-      fit.reason = "fewer than four readings of a reflector";
-      return fit;
-    }
+  for (const SpherePoints& sphere : spheres) {
+    if (sphere.points.size() < 4) fit.reason = "fewer than four readings of a reflector";
   }
-  if (spheres.empty() || !algebraicCentre(spheres, fit.centre)) {
-    fit.reason = spheres.empty() ? "no readings" : "the readings of a reflector lie in one plane";
-    return fit;
-  }
-  for (const auto& sphere : spheres) {
-    double sum = 0.0;
-    for (const auto& point : sphere.points) sum += (point - fit.centre).norm();
-    fit.radii.push_back(sum / static_cast<double>(sphere.points.size()));
-  }
-  Step step;
-  constexpr int kMostSteps = 50;
-  for (int iteration = 0; iteration < kMostSteps; ++iteration) {
-    step = linearise(spheres, fit);
-    const Eigen::VectorXd change = step.normal_matrix.ldlt().solve(step.right);
-    if (!change.allFinite()) {
-      fit.reason = "the readings do not determine the centre";
-      return fit;
-    }
-    fit.centre += change.head<3>();
-    for (std::size_t k = 0; k < fit.radii.size(); ++k) fit.radii[k] += change[3 + static_cast<int>(k)];
-    if (change.cwiseAbs().maxCoeff() < 1e-12) break;
-  }
-  step = linearise(spheres, fit);
-  const int size = static_cast<int>(step.right.size());
-  fit.degrees_of_freedom = step.residuals - size;
-  const bool weighted = !spheres.front().covariances.empty();
-  if (!weighted && fit.degrees_of_freedom < 1) {
+  if (!fit.reason.empty()) return fit;
+  const LocalPoints local = localPoints(spheres.data(), spheres.size());
+  fit.reason = local.flaw;
+  if (!fit.reason.empty()) return fit;
+  const auto start = spheresStart(local, fit.reason);
+  if (!start) return fit;
+
+  Estimate<SpheresModel, Eigen::Dynamic> estimate{*start, firstRadii(start->centre, local)};
+  refine(estimate, local);
+  fit.degrees_of_freedom = estimate.degreesOfFreedom();
+  if (!tellsUncertainty(estimate, local)) {
     fit.reason = "too few readings for a centre with its uncertainty";
     return fit;
   }
-  const double variance = fit.degrees_of_freedom > 0 ? step.chi2 / fit.degrees_of_freedom : 0.0;
-  fit.chi2_per_dof = weighted ? variance : 1.0;
-  fit.covariance = (weighted ? std::max(1.0, variance) : variance) *
-                   step.normal_matrix.ldlt().solve(Eigen::MatrixXd::Identity(size, size));
-  fit.rms = std::sqrt(step.plain / step.residuals);
+  if (!estimate.determined) {
+    fit.reason = "the readings do not determine the centre";
+    return fit;
+  }
+  fit.centre = local.origin + local.scale * estimate.model.centre;
+  for (const double radius : estimate.own.reshaped()) fit.radii.push_back(local.scale * radius);
+  fit.covariance = local.scale * local.scale * varianceFactor(estimate, local.weighted()) * estimate.cofactor;
+  fit.rms = local.scale * std::sqrt(estimate.plain / estimate.residuals);
+  const int dof = fit.degrees_of_freedom;
+  fit.chi2_per_dof = !local.weighted() ? 1.0 : dof > 0 ? estimate.chi2 / dof : 0.0;
+  fit.determined = true;
+  return fit;
+}
+
+FittedSphere fitSphere(const MeasuredPoints& points) {
+  FittedSphere fit;
+  fit.method = "orthogonal distances, Gauss-Newton from Taubin's sphere";
+  const LocalPoints local = localPoints(&points, 1);
+  fit.reason = local.flaw;
+  if (!fit.reason.empty()) return fit;
+  const auto start = spheresStart(local, fit.reason);
+  if (!start) {
+    fit.reason = "the centre is undetermined: the readings lie in one plane";
+    return fit;
+  }
+  Estimate<SpheresModel, 1> estimate{*start, firstRadii(start->centre, local)};
+  refine(estimate, local);
+  if (!describeQuality(estimate, local, fit)) return fit;
+  if (tellsUncertainty(estimate, local)) {
+    fit.covariance =
+        local.scale * local.scale * varianceFactor(estimate, local.weighted()) * estimate.cofactor;
+    if (!curved(local.scale * estimate.own[0], std::sqrt((*fit.covariance)(3, 3)))) {
+      fit.reason = "the radius is undetermined: against their scatter the readings could lie in a plane";
+      fit.covariance.reset();
+      return fit;
+    }
+  }
+  fit.sphere = {local.origin + local.scale * estimate.model.centre, local.scale * estimate.own[0]};
   fit.determined = true;
   return fit;
 }

@@ -1,6 +1,11 @@
 #include <gtest/gtest.h>
 
+#include <cstdio>
+#include <string>
+
 #include "metrology/axis_fit.h"
+#include "metrology/circle_fit.h"
+#include "metrology/cylinder_fit.h"
 #include "metrology/sphere_fit.h"
 #include "tests/metrology/simulated_points.h"
 
@@ -103,6 +108,102 @@ TEST(Coverage, CommonCentreOfSpheres) {
   EXPECT_LT(centre_inside, 0.97 * kFits);
   EXPECT_GT(all_inside, 0.93 * kFits);
   EXPECT_LT(all_inside, 0.97 * kFits);
+}
+
+constexpr double kChiSquare5 = 11.0705, kChiSquare6 = 12.5916;
+
+/// error' C^+ error with the inverse taken on the `rank` directions in which the covariance has an extent.
+/// Rows are brought to one size first: lengths of micrometres stand beside angles.
+double squaredDistance(const Eigen::VectorXd& error, const Eigen::MatrixXd& covariance, Eigen::Index rank) {
+  const Eigen::VectorXd scale = covariance.diagonal().cwiseSqrt().cwiseInverse();
+  const Eigen::MatrixXd even = scale.asDiagonal() * covariance * scale.asDiagonal();
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(even);
+  const Eigen::VectorXd along = (eigen.eigenvectors().transpose() * (scale.asDiagonal() * error)).tail(rank);
+  return along.cwiseAbs2().cwiseQuotient(eigen.eigenvalues().tail(rank)).sum();
+}
+
+/// Readings of a tracker in the origin: 6 um along its beam, 25 um across.
+MeasuredPoints measured(const std::vector<Eigen::Vector3d>& ideal, Noise& noise) {
+  MeasuredPoints points;
+  for (const Eigen::Vector3d& point : ideal) {
+    points.covariances.push_back(seenFromOrigin(point, kAlong, kAcross));
+    points.points.push_back(point + noise.draw(points.covariances.back()));
+  }
+  return points;
+}
+
+std::vector<Eigen::Vector3d> arcPoints(double degrees, double height) {
+  std::vector<Eigen::Vector3d> ideal;
+  constexpr int kStops = 60;
+  for (int i = 0; i < kStops; ++i) {
+    ideal.push_back(onCircle(kCentre, kAxis, 1.2, height * ((i % 5) - 2.0), radians(degrees) * i / kStops));
+  }
+  return ideal;
+}
+
+void expectCoverage(const std::string& what, int inside) {
+  std::printf("coverage of %s: %.1f %%\n", what.c_str(), 100.0 * inside / kFits);
+  EXPECT_GT(inside, 0.93 * kFits) << what;
+  EXPECT_LT(inside, 0.97 * kFits) << what;
+}
+
+TEST(Coverage, Circles) {
+  for (const CircleStrategy strategy : {CircleStrategy::full, CircleStrategy::plane_first}) {
+    for (const double degrees : {40.0, 90.0, 360.0}) {
+      Noise noise(static_cast<std::uint64_t>(degrees));
+      const auto ideal = arcPoints(degrees, 0.0);
+      int inside = 0;
+      for (int k = 0; k < kFits; ++k) {
+        const FittedCircle fit = fitCircle(measured(ideal, noise), strategy);
+        if (!fit.determined) continue;
+        Eigen::VectorXd error(7);
+        error << fit.circle.centre - kCentre, fit.circle.normal - kAxis, fit.circle.radius - 1.2;
+        inside += squaredDistance(error, *fit.covariance, 6) < kChiSquare6;
+      }
+      expectCoverage(std::string(strategy == CircleStrategy::full ? "full" : "plane-first") +
+                         " circles over " + std::to_string(static_cast<int>(degrees)) + " degrees",
+                     inside);
+    }
+  }
+}
+
+TEST(Coverage, Spheres) {
+  for (const double degrees : {40.0, 90.0, 360.0}) {  // opening of the cap
+    Noise noise(static_cast<std::uint64_t>(degrees));
+    std::vector<Eigen::Vector3d> ideal;
+    while (ideal.size() < 60) {
+      const Eigen::Vector3d outward = noise.direction();
+      if (outward.dot(kAxis) > std::cos(radians(0.5 * degrees))) ideal.push_back(kCentre + 0.6 * outward);
+    }
+    int inside = 0;
+    for (int k = 0; k < kFits; ++k) {
+      const FittedSphere fit = fitSphere(measured(ideal, noise));
+      if (!fit.determined) continue;
+      Eigen::VectorXd error(4);
+      error << fit.sphere.centre - kCentre, fit.sphere.radius - 0.6;
+      inside += squaredDistance(error, *fit.covariance, 4) < kChiSquare4;
+    }
+    expectCoverage("spheres, caps of " + std::to_string(static_cast<int>(degrees)) + " degrees", inside);
+  }
+}
+
+TEST(Coverage, CylinderAxes) {
+  for (const double degrees : {40.0, 90.0, 360.0}) {
+    Noise noise(static_cast<std::uint64_t>(degrees));
+    const auto ideal = arcPoints(degrees, 0.2);
+    int inside = 0;
+    for (int k = 0; k < kFits; ++k) {
+      const FittedCylinder fit = fitCylinder(measured(ideal, noise));
+      if (!fit.determined) continue;
+      // The true axis where it pierces the plane across the fitted one at the fitted point.
+      const Line& axis = fit.cylinder.axis;
+      const double along = axis.direction.dot(axis.point - kCentre) / axis.direction.dot(kAxis);
+      Eigen::VectorXd error(7);
+      error << axis.point - (kCentre + along * kAxis), axis.direction - kAxis, fit.cylinder.radius - 1.2;
+      inside += squaredDistance(error, *fit.covariance, 5) < kChiSquare5;
+    }
+    expectCoverage("cylinders over " + std::to_string(static_cast<int>(degrees)) + " degrees", inside);
+  }
 }
 
 }  // namespace

@@ -72,7 +72,7 @@ TEST(FitSpheres, RefusesWhatDeterminesNoCentre) {
   expectRefused({cap(0.5, 60, 3, 1)}, "four");
   expectRefused({cap(0.5, 60, 10, 1), cap(0.5, 60, 3, 2)}, "four");
   expectRefused({flat}, "plane");
-  expectRefused({place}, "plane");
+  expectRefused({place}, "one place");
 }
 
 TEST(FitSpheres, FourPointsLeaveNothingToTellTheUncertaintyBy) {

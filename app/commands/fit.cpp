@@ -1,0 +1,90 @@
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <memory>
+
+#include "app/command.h"
+#include "app/output.h"
+#include "core/fit_points/read_points.h"
+#include "core/input/input_error.h"
+#include "core/input/nearest_name.h"
+#include "metrology/robust_fit.h"
+#include "reports/json/fit_json.h"
+#include "reports/text/fit_text.h"
+
+namespace stiffscope {
+
+namespace {
+
+const std::vector<std::string> kShapes{"line", "plane", "circle", "sphere", "cylinder"};
+const std::vector<std::string> kStrategies{"full", "plane-first"};
+
+void requireKnown(const std::string& what, const std::string& name, const std::vector<std::string>& known) {
+  if (std::find(known.begin(), known.end(), name) != known.end()) return;
+  std::string list;
+  for (const std::string& one : known)
+    list += (list.empty() ? "" : &one == &known.back() ? " or " : ", ") + one;
+  throw InputError({what}, name, "expected " + list + nearestNameHint(name, known));
+}
+
+template <class FitFunction>
+ShapeFit fitWith(const FitFunction& fitTo, const std::string& shape, const MeasuredPoints& points,
+                 bool robust) {
+  if (!robust) return {shape, points.points.size(), fitTo(points), std::nullopt};
+  const auto found = fitRobustly(points, fitTo);
+  return {shape, points.points.size() - found.rejected.size(), found.fit,
+          Snooping{found.family_level, found.critical_w, found.rejected}};
+}
+
+ShapeFit fitShape(const std::string& shape, CircleStrategy strategy, const MeasuredPoints& points,
+                  bool robust) {
+  const auto circle = [strategy](const MeasuredPoints& readings) { return fitCircle(readings, strategy); };
+  if (shape == "line") return fitWith(fitLine, shape, points, robust);
+  if (shape == "plane") return fitWith(fitPlane, shape, points, robust);
+  if (shape == "circle") return fitWith(circle, shape, points, robust);
+  if (shape == "sphere") return fitWith(fitSphere, shape, points, robust);
+  return fitWith(fitCylinder, shape, points, robust);
+}
+
+}  // namespace
+
+void addFit(CLI::App& app, Run& run) {
+  struct Arguments {
+    std::string shape, file, json, strategy = "full";
+    bool robust = false;
+  };
+  const auto arguments = std::make_shared<Arguments>();
+  CLI::App* command =
+      app.add_subcommand("fit", "A line, plane, circle, sphere or cylinder through points of a file");
+  command->add_option("SHAPE", arguments->shape, "line, plane, circle, sphere or cylinder")->required();
+  command
+      ->add_option("FILE", arguments->file,
+                   "points, x y z a line; a first line with only their count is accepted")
+      ->required();
+  command->add_option("--strategy", arguments->strategy,
+                      "of a circle: full (distances in space) or plane-first (a plane, then a circle in it)");
+  command->add_flag("--robust", arguments->robust,
+                    "leave out and list the readings that the others contradict (Baarda's w-test)");
+  command->add_option("--json", arguments->json, "write the result to this file, - for standard output");
+  command->callback([arguments, &run] {
+    run = [arguments] {
+      requireKnown("SHAPE", arguments->shape, kShapes);
+      requireKnown("--strategy", arguments->strategy, kStrategies);
+      if (arguments->shape != "circle" && arguments->strategy != "full") {
+        throw InputError({"--strategy"}, arguments->strategy,
+                         "expected with circle only: other shapes have no second one");
+      }
+      const auto strategy =
+          arguments->strategy == "full" ? CircleStrategy::full : CircleStrategy::plane_first;
+      const ShapeFit fitted =
+          fitShape(arguments->shape, strategy, {readPoints(arguments->file), {}}, arguments->robust);
+      deliver([&] { return fitJson(fitted); }, [&] { return fitText(fitted); }, arguments->json);
+      if (fitted.quality().determined) return kDone;
+      std::fprintf(stderr, "stiffscope: %s: %s: %s\n", arguments->file.c_str(), arguments->shape.c_str(),
+                   fitted.quality().reason.c_str());
+      return kNotUsable;
+    };
+  });
+}
+
+}  // namespace stiffscope

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <filesystem>
+#include <vector>
+
+namespace stiffscope {
+
+/// Points from a text file, one `x y z` a line, separated by blanks, tabs, commas or semicolons, in whatever
+/// unit the file is. Empty lines and what follows a '#' are skipped; a first line of one whole number is the
+/// count of points and must be it. Throws InputError with file, line, column, value and expectation.
+std::vector<Eigen::Vector3d> readPoints(const std::filesystem::path& file);
+
+}  // namespace stiffscope

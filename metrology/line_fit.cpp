@@ -1,0 +1,45 @@
+#include "metrology/line_fit.h"
+
+#include "metrology/line_model.h"
+
+namespace stiffscope {
+
+FittedLine fitLine(const MeasuredPoints& points) {
+  FittedLine fit;
+  fit.method = "orthogonal distances, Gauss-Newton from the first principal axis";
+  const LocalPoints local = localPoints(&points, 1);
+  fit.reason = local.flaw;
+  if (!fit.reason.empty()) return fit;
+  const PrincipalAxes axes = principalAxes(local);
+  if (!standsOut(axes.spread[2], axes.spread[1], local.count())) {
+    fit.reason =
+        "the direction is undetermined: the readings spread alike in two directions, within their scatter";
+    return fit;
+  }
+  Estimate<LineModel, 1> estimate{{AxisFrame(Eigen::Vector3d::Zero(), axes.directions.col(2))}};
+  refine(estimate, local);
+  if (!describeQuality(estimate, local, fit)) return fit;
+
+  const AxisFrame& axis = estimate.model.axis;
+  const double along = -axis.direction().dot(axis.point());
+  const Eigen::Vector3d direction = largestPositive(axis.direction());
+  const double sense = direction.dot(axis.direction()) < 0.0 ? -1.0 : 1.0;
+  Eigen::Matrix<double, 6, 4> full;                                // (point, direction) by (shifts, tilts)
+  full << axis.u(), axis.v(), along * axis.u(), along * axis.v(),  //
+      Eigen::Matrix<double, 3, 2>::Zero(), sense * axis.u(), sense * axis.v();
+  full.topRows<3>() *= local.scale;
+  if (tellsUncertainty(estimate, local)) {
+    const double factor = varianceFactor(estimate, local.weighted());
+    if (std::sqrt(factor * estimate.cofactor.bottomRightCorner<2, 2>().diagonal().maxCoeff()) >
+        kNoDirection) {
+      fit.reason = "the direction is undetermined: the readings scatter across as they spread along";
+      return fit;
+    }
+    fit.covariance = factor * full * estimate.cofactor * full.transpose();
+  }
+  fit.line = {local.origin + local.scale * (axis.point() + along * axis.direction()), direction};
+  fit.determined = true;
+  return fit;
+}
+
+}  // namespace stiffscope

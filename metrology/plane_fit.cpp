@@ -1,0 +1,48 @@
+#include "metrology/plane_fit.h"
+
+#include "metrology/plane_model.h"
+
+namespace stiffscope {
+
+FittedPlane fitPlane(const MeasuredPoints& points) {
+  FittedPlane fit;
+  fit.method = "orthogonal distances, Gauss-Newton from the last principal axis";
+  const LocalPoints local = localPoints(&points, 1);
+  fit.reason = local.flaw;
+  if (!fit.reason.empty()) return fit;
+  const PrincipalAxes axes = principalAxes(local);
+  if (!spreads(axes.spread[1], axes.spread[2], local)) {
+    fit.reason = "the normal is undetermined: the readings lie on one line";
+    return fit;
+  }
+  if (!standsOut(axes.spread[1], axes.spread[0], local.count())) {
+    fit.reason =
+        "the normal is undetermined: the readings spread alike in two directions, within their scatter";
+    return fit;
+  }
+  using PlaneEstimate = Estimate<PlanesModel, 1>;
+  PlaneEstimate estimate{{AxisFrame(Eigen::Vector3d::Zero(), axes.directions.col(0))},
+                         PlaneEstimate::Own::Zero()};
+  refine(estimate, local);
+  if (!describeQuality(estimate, local, fit)) return fit;
+
+  const AxisFrame& frame = estimate.model.normal;
+  const Eigen::Vector3d normal = largestPositive(frame.direction());
+  const double sense = normal.dot(frame.direction()) < 0.0 ? -1.0 : 1.0;
+  Eigen::Matrix<double, 6, 3> full;  // (point, normal) by (tilts, height)
+  full << Eigen::Matrix<double, 3, 2>::Zero(), local.scale * frame.direction(),  //
+      sense * frame.u(), sense * frame.v(), Eigen::Vector3d::Zero();
+  if (tellsUncertainty(estimate, local)) {
+    const double factor = varianceFactor(estimate, local.weighted());
+    if (std::sqrt(factor * estimate.cofactor.topLeftCorner<2, 2>().diagonal().maxCoeff()) > kNoDirection) {
+      fit.reason = "the normal is undetermined: the readings lie on one line within their scatter";
+      return fit;
+    }
+    fit.covariance = factor * full * estimate.cofactor * full.transpose();
+  }
+  fit.plane = {local.origin + local.scale * estimate.own[0] * frame.direction(), normal};
+  fit.determined = true;
+  return fit;
+}
+
+}  // namespace stiffscope

@@ -1,0 +1,81 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <type_traits>
+#include <vector>
+
+#include "metrology/reading_tests.h"
+
+namespace stiffscope {
+
+/// A reading that was left out, as it stood when it was.
+struct RejectedReading {
+  std::size_t group = 0, index = 0;  ///< in the readings as they were given, from 0
+  double w = 0.0;
+  double critical_w = 0.0;  ///< above which a reading was rejected then
+};
+
+template <class Fit>
+struct RobustFit {
+  Fit fit;  ///< of the readings that are left: its degrees of freedom are theirs
+  std::vector<RejectedReading> rejected;  ///< in the order of their rejection
+  double family_level = 0.0;  ///< probability that a set of good readings loses one at the first test
+  double critical_w = 0.0;    ///< of the last test: every reading that is left lies below; 0: none made
+};
+
+/// One good set in a hundred loses a reading; for 20 readings that is a critical w of 3.5, near Baarda's 3.3.
+inline constexpr double kFamilyLevel = 0.01;
+
+/// Data snooping: the reading with the largest w (see reading_tests.h) is rejected where w lies above the
+/// critical value for a level of 1 - (1 - family_level)^(1/n) a reading (Sidak), n the readings left; then
+/// the fit is repeated, until none does. One at a time, since a wrong reading spoils the residuals of good
+/// ones. Where more than a third would go it cannot be told which are wrong, and the fit is not determined.
+/// Small wrong readings can hide, and several that agree with each other can outvote good ones.
+///
+/// `fitTo` fits readings (one MeasuredPoints, or a vector of them by reflector) with a result for which there
+/// is a `readingTests`.
+template <class Readings, class FitFunction>
+auto fitRobustly(Readings readings, const FitFunction& fitTo, double family_level = kFamilyLevel) {
+  constexpr bool kSingle = std::is_same_v<Readings, MeasuredPoints>;
+  const auto group = [&readings](std::size_t k) -> MeasuredPoints& {
+    if constexpr (kSingle) {
+      return (void)k, readings;
+    } else {
+      return readings[k];
+    }
+  };
+  std::size_t groups = 1, given = 0;
+  if constexpr (!kSingle) groups = readings.size();
+  std::vector<std::vector<std::size_t>> index(groups);
+  for (std::size_t k = 0; k < groups; ++k) {
+    for (std::size_t i = 0; i < group(k).points.size(); ++i) index[k].push_back(i);
+    given += index[k].size();
+  }
+
+  RobustFit<decltype(fitTo(readings))> robust{fitTo(readings), {}, family_level, 0.0};
+  while (robust.fit.determined) {
+    const ReadingTests tests = readingTests(robust.fit, readings);
+    if (tests.readings.empty()) break;
+    const double level = -std::expm1(std::log1p(-family_level) / static_cast<double>(tests.readings.size()));
+    robust.critical_w = tests.criticalW(level);
+    const ReadingTest worst = *std::max_element(tests.readings.begin(), tests.readings.end(),
+                                                [](const auto& a, const auto& b) { return a.w < b.w; });
+    if (!(worst.w > robust.critical_w)) break;
+    const auto at = static_cast<std::ptrdiff_t>(worst.index);
+    MeasuredPoints& from = group(worst.group);
+    robust.rejected.push_back({worst.group, index[worst.group][worst.index], worst.w, robust.critical_w});
+    index[worst.group].erase(index[worst.group].begin() + at);
+    from.points.erase(from.points.begin() + at);
+    if (!from.covariances.empty()) from.covariances.erase(from.covariances.begin() + at);
+    robust.fit = fitTo(readings);
+    if (3 * robust.rejected.size() > given) {
+      robust.fit = {};
+      robust.fit.reason =
+          "more than a third of the readings contradict the others: it cannot be told which are wrong";
+    }
+  }
+  return robust;
+}
+
+}  // namespace stiffscope
