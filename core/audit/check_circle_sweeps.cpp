@@ -104,7 +104,7 @@ std::string worstRow(const MeasuredAxis& axis, const std::vector<SweptCircle>& c
 AuditCheck residualCheck(const Evidence& evidence, const std::array<std::vector<SweptCircle>, 6>& axes) {
   AuditCheck check;
   check.id = "circle_residual";
-  check.unit = "of declared sd";
+  check.unit = "of noise sd";
   check.limit_source = byChance("chi-square of each axis's residuals");
   check.value = 0.0;
   std::string beyond;

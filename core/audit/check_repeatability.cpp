@@ -25,14 +25,15 @@ AuditCheck scatterCheck(const std::string& id, const char* direction, double chi
   check.message = fmt::format(
       "repeats scatter {} the beam by {:.1f} um (one sigma), {:.2f} of what is declared{}", direction,
       1e6 * rms, *check.value,
-      check.verdict == AuditVerdict::pass ? "" : ": every stated uncertainty is too small by as much");
+      check.verdict == AuditVerdict::pass ? "" : ": every stated uncertainty is too small by as much; the other checks take the noise "
+                                             "as the repeats show it");
   return check;
 }
 
 }  // namespace
 
 Findings checkRepeatability(const Evidence& evidence) {
-  const RepeatScatter scatter = repeatScatter(evidence.campaign);
+  const RepeatScatter& scatter = evidence.scatter;
   if (!scatter.tested) {
     return {notTestable("repeatability_along", scatter.reason),
             notTestable("repeatability_across", scatter.reason)};

@@ -53,10 +53,6 @@ inline constexpr double kReturnShare = 0.05;
 /// either.
 inline constexpr double kSagShare = 0.1;
 
-/// Share of P_wrist's displacement that joints 4-6 may put there because their axes miss each other;
-/// identification refuses Decoupled Partial Pose beyond it.
-inline constexpr double kWristLeak = 0.02;
-
 /// For limit_source.
 inline std::string byChance(const std::string& statistic) {
   return statistic + "; 1 % false findings over the whole audit, shared by all that is tried";

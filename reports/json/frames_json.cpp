@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "core/input/units.h"
+#include "reports/geometry_source.h"
 
 namespace stiffscope {
 
@@ -27,7 +28,7 @@ Json circlesJson(const Campaign& campaign, const MeasuredAxis& axis) {
 Json axisJson(const Campaign& campaign, const Frames& frames, std::size_t i) {
   const MeasuredAxis& axis = frames.axes[i];
   const Line& line = frames.arm.arm.axes_in_base_at_zero[i];
-  Json json{{"axis", i + 1}, {"measured", axis.measured}};
+  Json json{{"axis", i + 1}, {"measured", axis.measured}, {"from", sourceOf(frames, {i})}};
   if (!axis.measured) json["reason"] = axis.reason;
   json["point_m"] = array(line.point);
   json["direction"] = array(line.direction);
@@ -44,8 +45,10 @@ Json axisJson(const Campaign& campaign, const Frames& frames, std::size_t i) {
   return json;
 }
 
-Json linkJson(const LinkGeometry& link, std::size_t i) {
+Json linkJson(const Frames& frames, std::size_t i) {
+  const LinkGeometry& link = frames.links[i];
   Json json{{"between_axes", {i + 1, i + 2}},
+            {"from", sourceOf(frames, {i, i + 1})},
             {"length_mm", link.distance / kMillimetre},
             {"sd_length_mm", optionalNumber(link.distance_sd, 1.0 / kMillimetre)},
             {"nominal_length_mm", link.nominal_distance / kMillimetre},
@@ -57,15 +60,19 @@ Json linkJson(const LinkGeometry& link, std::size_t i) {
   return json;
 }
 
-Json wristJson(const Campaign& campaign, const WristCentre& wrist) {
+Json wristJson(const Campaign& campaign, const Frames& frames) {
+  const WristCentre& wrist = frames.wrist;
   Json json{{"measured", wrist.measured}};
   if (!wrist.measured) json["reason"] = wrist.reason;
   json["center_m"] = wrist.measured ? array(wrist.centre_in_r0) : Json(nullptr);
   json["center_at_q1_q2_q3_deg"] = array(Eigen::Vector3d(wrist.q.head<3>()), 1.0 / kDegree);
   json["miss_mm"] = {{"axes_4_5", wrist.miss_45 / kMillimetre},
                      {"sd_axes_4_5", wrist.miss_45_sd / kMillimetre},
+                     {"from_axes_4_5", sourceOf(frames, {3, 4})},
                      {"axes_5_6", wrist.miss_56 / kMillimetre},
-                     {"sd_axes_5_6", wrist.miss_56_sd / kMillimetre}};
+                     {"sd_axes_5_6", wrist.miss_56_sd / kMillimetre},
+                     {"from_axes_5_6", sourceOf(frames, {4, 5})}};
+  json["nearest_axes_5_6_from"] = sourceOf(frames, {4, 5});
   json["nearest_axes_5_6_m"] = array(wrist.nearest_axes_56_in_r0);
   json["reflector_barycenter_m"] = array(wrist.reflector_barycentre_in_r0);
   if (!wrist.measured) return json;
@@ -93,6 +100,7 @@ Json wristJson(const Campaign& campaign, const WristCentre& wrist) {
 Json framesJson(const Campaign& campaign, const Frames& frames) {
   Json json{{"campaign", campaignJson(campaign)}};
   const bool tracker = frames.arm.points_placed && frames.points_frame == PointFrame::tracker;
+  json["r0_placed_by"] = frames.arm.points_placed ? "sweeps" : "nominal";
   json["r0_from_tracker"] = tracker ? matrix(frames.arm.r0_from_points) : Json(nullptr);
   const bool measured_in_base = frames.arm.points_placed && frames.points_frame == PointFrame::base_link;
   json["r0_from_base_link"] = matrix(measured_in_base ? frames.arm.r0_from_points : frames.arm.r0_from_base_link);
@@ -100,15 +108,18 @@ Json framesJson(const Campaign& campaign, const Frames& frames) {
   Json axes = Json::array();
   for (std::size_t i = 0; i < 6; ++i) axes.push_back(axisJson(campaign, frames, i));
   json["axes"] = axes;
-  Json lengths = Json::array(), links = Json::array();
+  Json lengths = Json::array(), sources = Json::array(), links = Json::array();
   for (std::size_t i = 0; i < frames.links.size(); ++i) {
     lengths.push_back(frames.links[i].distance / kMillimetre);
-    links.push_back(linkJson(frames.links[i], i));
+    sources.push_back(sourceOf(frames, {i, i + 1}));
+    links.push_back(linkJson(frames, i));
   }
   json["link_lengths_mm"] = lengths;
+  json["link_lengths_from"] = sources;
   json["links"] = links;
-  json["wrist"] = wristJson(campaign, frames.wrist);
+  json["wrist"] = wristJson(campaign, frames);
   json["tcp_in_flange_m"] = array(frames.tcp_in_flange);
+  json["tcp_in_flange_from"] = sourceOf(frames, {4, 5});
   Json targets = Json::object();
   for (std::size_t k = 0; k < campaign.targets.size(); ++k) {
     const auto& target = frames.targets_in_r0_at_zero[k];

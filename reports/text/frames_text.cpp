@@ -7,6 +7,7 @@
 #include <iterator>
 
 #include "core/input/units.h"
+#include "reports/geometry_source.h"
 #include "reports/text/wrapped.h"
 
 namespace stiffscope {
@@ -47,7 +48,7 @@ void writeLinks(const Frames& frames, Out out) {
     fmt::format_to(out, "  {}-{:<5}{:>24}{:>12.1f}{:>26}{:>12.1f}{}\n", i + 1, i + 2,
                    plusMinus(link.distance / kMillimetre, length_sd, 3), link.nominal_distance / kMillimetre,
                    plusMinus(link.angle / kDegree, angle_sd, 4), link.nominal_angle / kDegree,
-                   link.near_parallel ? "  *" : "");
+                   (link.near_parallel ? "  *" : "") + sourceMark(frames, {i, i + 1}));
   }
   for (std::size_t i = 0; i < frames.links.size(); ++i) {
     const LinkGeometry& link = frames.links[i];
@@ -57,7 +58,8 @@ void writeLinks(const Frames& frames, Out out) {
   }
 }
 
-void writeWrist(const Campaign& campaign, const WristCentre& wrist, Out out) {
+void writeWrist(const Campaign& campaign, const Frames& frames, Out out) {
+  const WristCentre& wrist = frames.wrist;
   if (!wrist.measured) {
     fmt::format_to(out, "\nWrist centre: not measured: {}\n", wrist.reason);
     return;
@@ -78,9 +80,11 @@ void writeWrist(const Campaign& campaign, const WristCentre& wrist, Out out) {
   place("common sphere centre", wrist.centre_in_r0);
   place("nearest to axes 5 and 6", wrist.nearest_axes_56_in_r0);
   place("barycentre of the reflectors (Dumas et al.)", wrist.reflector_barycentre_in_r0);
-  fmt::format_to(out, "  axes 4 and 5 miss by {:.3f} +- {:.3f} mm, 5 and 6 by {:.3f} +- {:.3f} mm\n",
-                 wrist.miss_45 / kMillimetre, wrist.miss_45_sd / kMillimetre, wrist.miss_56 / kMillimetre,
-                 wrist.miss_56_sd / kMillimetre);
+  const auto miss = [](double value, double sd) {
+    return fmt::format("{:.3f} +- {:.3f} mm", value / kMillimetre, sd / kMillimetre);
+  };
+  fmt::format_to(out, "  axes 4 and 5 miss by {}{}, 5 and 6 by {}{}\n", miss(wrist.miss_45, wrist.miss_45_sd),
+                 sourceMark(frames, {3, 4}), miss(wrist.miss_56, wrist.miss_56_sd), sourceMark(frames, {4, 5}));
 }
 
 void writeR0(const Frames& frames, Out out) {
@@ -105,9 +109,9 @@ std::string framesText(const Campaign& campaign, const Frames& frames) {
   writeAxes(frames, out);
   writeLinks(frames, out);
   const Eigen::Vector3d tcp = frames.tcp_in_flange / kMillimetre;
-  fmt::format_to(out, "\nP_TCP, where axis 6 pierces the flange plane: ({:.3f}, {:.3f}, {:.3f}) mm in the flange\n", tcp.x(),
-                 tcp.y(), tcp.z());
-  writeWrist(campaign, frames.wrist, out);
+  fmt::format_to(out, "\nP_TCP, where axis 6 pierces the flange plane: ({:.3f}, {:.3f}, {:.3f}) mm in the flange{}\n",
+                 tcp.x(), tcp.y(), tcp.z(), sourceMark(frames, {4, 5}));
+  writeWrist(campaign, frames, out);
   fmt::format_to(out, "\n{}\n", wrapped("Own weight: " + frames.sag_note + ".", 0));
   return text;
 }

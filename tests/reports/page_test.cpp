@@ -194,7 +194,7 @@ TEST(Avoided, AgainstTheSumsByHand) {
   const SmallResult inactive(DoubleEncoder::inactive, 2.0), active(DoubleEncoder::active, 1.0);
   const std::vector<ReportCampaign> both{{active.campaign, active.identification},
                                          {inactive.campaign, inactive.identification}};
-  const auto avoided = avoidedShare(both);
+  const auto avoided = avoidedByEncoders(both);
   ASSERT_TRUE(avoided.has_value());
   EXPECT_DOUBLE_EQ(avoided->share, 0.5);
   EXPECT_TRUE(avoided->at_wrist);
@@ -205,12 +205,13 @@ TEST(Avoided, AgainstTheSumsByHand) {
 
 TEST(Avoided, NeedsBothStatesAndACommonPosture) {
   SmallResult inactive(DoubleEncoder::inactive), active(DoubleEncoder::active);
-  EXPECT_FALSE(avoidedShare({{active.campaign, active.identification}}).has_value());
+  EXPECT_FALSE(avoidedByEncoders({{active.campaign, active.identification}}).has_value());
   active.campaign.pose_ids = {"X", "Y", "Z"};
   ReportContent content = contentOf(active);
   content.campaigns.push_back({inactive.campaign, inactive.identification});
-  content.avoided = avoidedShare(content.campaigns);
-  EXPECT_FALSE(content.avoided.has_value());
+  content.avoided = avoidedByEncoders(content.campaigns);
+  ASSERT_TRUE(content.avoided.has_value());
+  EXPECT_FALSE(content.avoided->available);
   EXPECT_TRUE(has(reportPage(content), "Not known: the two campaigns have no posture in common"));
   EXPECT_FALSE(has(verdictOf(content.campaigns, content.avoided), "avoid"));
 }
