@@ -12,7 +12,7 @@ namespace stiffscope {
 std::optional<TrackerNoise> declaredNoise(const Campaign& campaign);
 
 /// By how much the repeats scatter beyond the declared noise where that is more than chance explains
-/// (chi-square at the audit's level); else 1.
+/// (chi-square at the audit's level), at the upper end of what they leave open; else 1.
 struct NoiseFactors {
   double along = 1.0, across = 1.0;
 };
