@@ -7,9 +7,10 @@
 namespace stiffscope {
 
 void addRawOption(CLI::App& command, bool& raw) {
-  command.add_flag("--raw", raw,
-                   "take the readings as they were read: leave out none that the audit rejects, take off no drift "
-                   "that the floor nests show");
+  command.add_flag(
+      "--raw", raw,
+      "take the readings as they were read: leave out none that the audit rejects, take off no drift "
+      "that the floor nests show");
 }
 
 PreparedCampaign openPrepared(const std::string& folder_or_xml, bool raw) {

@@ -13,10 +13,10 @@ namespace {
 using Check = Findings (*)(const Evidence&);
 
 /// In the order in which the day goes, which is that of the report.
-constexpr std::array<Check, 13> kAllChecks{
-    checkTimeOrder,    checkCompleteness,    checkRepeatability, checkRigidTool,         checkNests,
-    checkCircleSweeps, checkSweptReflectors, checkWrist,         checkUnloadedPositions, checkServo,
-    checkReturnToZero, checkLoadCell,        checkPostureSet};
+constexpr std::array<Check, 14> kAllChecks{
+    checkTimeOrder,    checkCompleteness,   checkRepeatability,   checkRigidTool, checkNests,
+    checkCircleSweeps, checkCircleResidual, checkSweptReflectors, checkWrist,     checkUnloadedPositions,
+    checkServo,        checkReturnToZero,   checkLoadCell,        checkPostureSet};
 
 AuditVerdict worst(const std::vector<AuditCheck>& checks) {
   const auto any = [&](AuditVerdict verdict) {

@@ -13,8 +13,8 @@ namespace {
 /// "joint 2: identifiable: turned by 812 Nm rms, known to 3.1 Nm", or why not.
 std::string described(std::size_t joint, const JointIdentifiability& judged) {
   if (!judged.identifiable) return fmt::format("joint {}: not identifiable: {}", joint + 1, judged.reason);
-  return fmt::format("joint {}: identifiable: the load turns it by {:.4g} Nm rms, known to {:.2g} Nm", joint + 1,
-                     judged.trusted_rms, judged.uncertainty_rms);
+  return fmt::format("joint {}: identifiable: the load turns it by {:.4g} Nm rms, known to {:.2g} Nm",
+                     joint + 1, judged.trusted_rms, judged.uncertainty_rms);
 }
 
 }  // namespace
@@ -54,8 +54,9 @@ Findings checkPostureSet(const Evidence& evidence) {
     return {check};
   }
   check.value = partialPose(equations, judged.mask()).condition;
-  check.message = fmt::format("{} postures at load step {} identify joints {} with a condition number of {:.3g}{}",
-                              arm.cases.size(), *evidence.step, fmt::join(seen, ", "), *check.value, why);
+  check.message =
+      fmt::format("{} postures at load step {} identify joints {} with a condition number of {:.3g}{}",
+                  arm.cases.size(), *evidence.step, fmt::join(seen, ", "), *check.value, why);
   if (*check.value > *check.limit || expected_missing) check.verdict = AuditVerdict::warn;
   return {check};
 }

@@ -32,8 +32,9 @@ AuditCheck sphereCheck(const Evidence& evidence) {
   if (*check.value <= *check.limit) return check;
   check.verdict = AuditVerdict::warn;
   check.where = rowName(evidence.campaign.wrist_sweep->file, left.worst);
-  check.message += fmt::format("; farthest {}: a wrong reading, or the own weight bends more than the joints",
-                               check.where);
+  check.message += fmt::format(
+      "; farthest {}: a wrong reading, or the own weight bends more than the joints (bearings, links)",
+      check.where);
   return check;
 }
 

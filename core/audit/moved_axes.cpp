@@ -6,8 +6,7 @@ MovedAxes::MovedAxes(const Frames& frames) {
   const Eigen::Isometry3d& r0_from_points = frames.arm.r0_from_points;
   for (std::size_t j = 0; j < 6; ++j) {
     axes_[j] = frames.axes[j].at_zero;
-    axes_[j].line = {r0_from_points * axes_[j].line.point,
-                     r0_from_points.linear() * axes_[j].line.direction};
+    axes_[j].line = {r0_from_points * axes_[j].line.point, r0_from_points.linear() * axes_[j].line.direction};
     axes_[j].across_u = r0_from_points.linear() * axes_[j].across_u;
     axes_[j].across_v = r0_from_points.linear() * axes_[j].across_v;
   }

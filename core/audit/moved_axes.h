@@ -8,7 +8,8 @@
 namespace stiffscope {
 
 /// The six swept axes in R0, each with the covariance of its four parameters, and the arm with one of these
-/// moved: how a model's prediction hangs on what the sweeps leave open. Only meant for axes that were measured.
+/// moved: how a model's prediction hangs on what the sweeps leave open. Only meant for axes that were
+/// measured.
 class MovedAxes {
  public:
   explicit MovedAxes(const Frames& frames);

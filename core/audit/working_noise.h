@@ -19,9 +19,9 @@ struct NoiseFactors {
 
 NoiseFactors noiseFactors(const RepeatScatter& scatter);
 
-/// The tracker with its noise along and across the beam multiplied. The repeats' check names a tracker that is
-/// noisier than declared; the other checks then hold the readings against what the repeats show, so that one
-/// cause gives one finding (GUM 4.2: an evaluation from repeats outweighs a data sheet).
+/// The tracker with its noise along and across the beam multiplied. The repeats' check names a tracker that
+/// is noisier than declared; the other checks then hold the readings against what the repeats show, so that
+/// one cause gives one finding (GUM 4.2: an evaluation from repeats outweighs a data sheet).
 Tracker asNoisyAs(Tracker tracker, const NoiseFactors& factors);
 
 }  // namespace stiffscope

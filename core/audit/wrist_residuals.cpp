@@ -59,8 +59,7 @@ Eigen::MatrixXd priorOf(const Frames& frames, Eigen::Index targets) {
   const Eigen::Index at = kCentre + targets;
   Eigen::MatrixXd prior = Eigen::MatrixXd::Zero(at + kAxes, at + kAxes);
   for (Eigen::Index j = 0; j < 3; ++j) {
-    prior.block<4, 4>(at + 4 * j, at + 4 * j) =
-        axes.covariance(static_cast<std::size_t>(3 + j)).inverse();
+    prior.block<4, 4>(at + 4 * j, at + 4 * j) = axes.covariance(static_cast<std::size_t>(3 + j)).inverse();
   }
   return prior;
 }

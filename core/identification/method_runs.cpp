@@ -31,8 +31,7 @@ LoadedArm calibratedArm(const MethodRuns& runs, Identification& result) {
   for (int round = 0;; ++round) {
     result.calibration = calibrateGeometry(runs.campaign, start);
     if (!result.calibration.done) return runs.swept;
-    LoadedArm arm =
-        loadedArm(runs.campaign, result.calibration.geometry, result.frames.wrist, result.step);
+    LoadedArm arm = loadedArm(runs.campaign, result.calibration.geometry, result.frames.wrist, result.step);
     if (!settle_sag || round == kSagRounds || arm.cases.empty()) return arm;
     start.compliance = sagCompliance(runs.campaign, runs.options, arm);
   }

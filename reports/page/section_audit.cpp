@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "reports/page/html_table.h"
 #include "reports/page/names.h"
@@ -27,20 +28,23 @@ const char* meaningOf(AuditVerdict verdict) {
 
 std::string withUnit(const std::optional<double>& value, const std::string& unit) {
   if (!value) return "–";
-  return fmt::format("{}\u00a0{}", *value == 0.0 ? "0" : significant(*value, 3), unit);
+  const bool whole = std::abs(*value) < 1e6 && *value == std::round(*value);
+  return fmt::format("{}\u00a0{}", whole ? fixed(*value, 0) : significant(*value, 3), unit);
 }
 
 Row rowOf(const AuditCheck& check) {
   const std::string where = check.where.empty() ? "" : fmt::format(" ({})", check.where);
+  const std::string source = check.limit_source.empty() ? "" : fmt::format("Limit: {}.", check.limit_source);
   return {auditName(check.id), auditWord(check.verdict), withUnit(check.value, check.unit),
-          withUnit(check.limit, check.unit), check.message + where,
-          check.limit_source.empty() ? "–" : check.limit_source};
+          withUnit(check.limit, check.unit), Cell(check.message + where + ".", source)};
 }
 
 /// Worst first: a reader looks for what is wrong.
 Table checksTable(const AuditReport& report) {
-  Table table{"Checks", {"Check", "Verdict", "Found", "Limit", "What was found", "Where the limit comes from"},
-              {}, true};
+  Table table{"Checks",
+              {"Check", "Verdict", "Found", "Limit", "What was found, and where the limit comes from"},
+              {},
+              true};
   for (const AuditVerdict verdict :
        {AuditVerdict::fail, AuditVerdict::warn, AuditVerdict::pass, AuditVerdict::not_testable}) {
     RowGroup group;
@@ -79,7 +83,7 @@ void writeAudit(Html& html, const ReportContent& content) {
     writeTable(html, checksTable(*one.audit));
     for (const AuditCheck& check : one.audit->checks) {
       if (check.details.empty()) continue;
-      html.paragraph(fmt::format("{}, one by one:", auditName(check.id)));
+      html.paragraph(fmt::format("{}, in detail:", auditName(check.id)));
       html.list(check.details);
     }
     writeRejected(html, one);

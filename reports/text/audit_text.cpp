@@ -41,11 +41,11 @@ void writeShortArcs(const AuditReport& report, Out out) {
   }
 }
 
-/// What a check found one by one: which joints the postures can identify.
+/// What a check found one by one: which joints the postures can identify, say.
 void writeDetails(const AuditReport& report, Out out) {
   for (const AuditCheck& check : report.checks) {
     if (check.details.empty()) continue;
-    fmt::format_to(out, "\n{}, one by one\n", check.id);
+    fmt::format_to(out, "\n{}, in detail\n", check.id);
     for (const std::string& detail : check.details) fmt::format_to(out, "  {}\n", wrapped(detail, 4));
   }
 }

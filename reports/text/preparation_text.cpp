@@ -12,9 +12,9 @@ namespace {
 
 std::string driftWords(const DriftCorrection& drift) {
   if (!drift.taken_off) return fmt::format("no drift of the station taken off: {}", drift.reason);
-  std::string text =
-      fmt::format("the station's motion by the floor nests taken off {} of them: at most {:.3f} mm and {:.0f} urad",
-                  drift.readings, drift.displacement / kMillimetre, 1e6 * drift.turn);
+  std::string text = fmt::format(
+      "the station's motion by the floor nests taken off {} of them: at most {:.3f} mm and {:.0f} urad",
+      drift.readings, drift.displacement / kMillimetre, 1e6 * drift.turn);
   if (drift.jumps_s.empty()) {
     text += fmt::format(", a drift over {:.0f} s", drift.until_s);
   } else {

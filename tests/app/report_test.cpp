@@ -72,7 +72,8 @@ TEST(Report, SweepsAloneGiveFramesAuditAndReasons) {
     EXPECT_NE(reason.find("no 'states'"), std::string::npos) << reason;
   }
   const std::string page = contentsOf(out / "report.html");
-  EXPECT_NE(page.find("no 'states': joint angles and load-cell readings are needed to identify"), std::string::npos);
+  EXPECT_NE(page.find("no 'states': joint angles and load-cell readings are needed to identify"),
+            std::string::npos);
   EXPECT_NE(page.find("<section id=\"audit\">"), std::string::npos);
   EXPECT_EQ(page.find(">nan"), std::string::npos);
   EXPECT_TRUE(picturesIn(out).empty());

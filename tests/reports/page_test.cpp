@@ -175,9 +175,9 @@ TEST(Page, TheAuditWithItsLimitsAndRejectedReadings) {
   const SmallResult small;
   AuditReport audited;
   audited.verdict = AuditVerdict::fail;
-  audited.checks = {{"station_drift", AuditVerdict::warn, 12.5, 10.0, "um", "900 s", "it moved", "chi-square"},
-                    {"lost_beam", AuditVerdict::fail, 1.0, 0.0, "readings", "loading.csv:7", "one lost", "none is"},
-                    {"tare", AuditVerdict::not_testable, {}, {}, "", "", "no load cell", ""},
+  audited.checks = {{"station_drift", AuditVerdict::warn, 12.5, 10.0, "um", "900 s", "it moved", "chi-square", {}},
+                    {"lost_beam", AuditVerdict::fail, 1.0, 0.0, "readings", "loading.csv:7", "one lost", "none is", {}},
+                    {"tare", AuditVerdict::not_testable, {}, {}, "", "", "no load cell", "", {}},
                     {"posture_set", AuditVerdict::pass, 2.6, 100.0, "condition", "", "fine", "practice", {"joint 1: seen"}}};
   audited.rejected = {{"loading.csv", 7, "lost beam"}};
   Preparation preparation;
