@@ -52,6 +52,7 @@ int runCommandLine(int count, char** words) {
   addIdentify(app, run);
   addCompensate(app, run);
   addCompare(app, run);
+  addPlan(app, run);
   addSimulate(app, run);
   addReport(app, run);
   try {
