@@ -27,8 +27,8 @@ inline constexpr double kFailVarianceRatio = 4.0;
 inline constexpr double kWarnArcDeg = 90.0;
 inline constexpr double kFailArcDeg = 45.0;
 
-/// What one contribution may use of a tolerance: a third, which raises a root sum of squares by 5 % (the
-/// "golden rule" behind ISO 14253-1). The tolerance here is how far identification trusts places
+/// What one contribution may use of a tolerance: a third, which raises a root sum of squares by 5 % (Berndt's
+/// golden rule of metrology: a tenth to a third). The tolerance here is how far identification trusts places
 /// (TrustLimits::position, 0.2 mm).
 inline constexpr double kShareOfTolerance = 1.0 / 3.0;
 

@@ -6,6 +6,7 @@
 #include "reports/page/names.h"
 #include "reports/page/numbers.h"
 #include "reports/page/sections.h"
+#include "reports/text/preparation_text.h"
 
 namespace stiffscope::page {
 
@@ -96,6 +97,9 @@ void writeCautions(Html& html, const ReportContent& content) {
   for (const ReportCampaign& one : content.campaigns) {
     const std::string label = content.campaigns.size() > 1 ? one.campaign.name + ": " : std::string();
     if (one.audit != nullptr) addAuditCautions(*one.audit, label, items);
+    if (one.preparation != nullptr && (one.preparation->drift.taken_off || !one.preparation->rejected.empty())) {
+      items.push_back(fmt::format("{}readings: {}.", label, preparationWords(*one.preparation)));
+    }
     for (const std::string& caution : one.identification.cautions) items.push_back(label + caution + ".");
   }
   if (items.empty()) return;

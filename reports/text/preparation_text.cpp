@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+
 #include "core/input/units.h"
 #include "reports/text/wrapped.h"
 
@@ -43,9 +45,12 @@ std::string preparationWords(const Preparation& preparation) {
 
 std::string preparationText(const Preparation& preparation) {
   std::string text = wrapped(fmt::format("Readings: {}.", preparationWords(preparation)), 0) + '\n';
-  for (const RejectedReading& reading : preparation.rejected) {
-    text += fmt::format("  {}\n", wrapped("left out: " + rejectedWords(reading), 4));
+  constexpr std::size_t kShown = 20;  // a screen; a reflector that lost its beam all day has hundreds
+  const std::size_t count = preparation.rejected.size();
+  for (std::size_t i = 0; i < std::min(count, kShown); ++i) {
+    text += fmt::format("  {}\n", wrapped("left out: " + rejectedWords(preparation.rejected[i]), 4));
   }
+  if (count > kShown) text += fmt::format("  and {} more, which --json lists\n", count - kShown);
   return text;
 }
 

@@ -10,7 +10,8 @@ namespace stiffscope {
 /// none; "raw" where that was asked for.
 std::string preparationWords(const Preparation& preparation);
 
-/// The same for people, wrapped, with each rejected reading's file, line and reason on a line of its own.
+/// The same for people, wrapped, with file, line and reason of each rejected reading (of the first twenty) on
+/// a line of its own.
 std::string preparationText(const Preparation& preparation);
 
 /// "loading.csv:100: lost beam: the point is (0, 0, 0)"

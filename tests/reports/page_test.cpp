@@ -193,6 +193,7 @@ TEST(Page, TheAuditWithItsLimitsAndRejectedReadings) {
   EXPECT_TRUE(has(page, "The audit fails"));
   EXPECT_TRUE(has(page, "the audit of the readings fails on: lost beam."));
   EXPECT_TRUE(has(page, "the audit of the readings warns on: station drift."));
+  EXPECT_TRUE(has(page, "<li>readings: 1 left out; the station's motion"));
   EXPECT_TRUE(has(page, "12.5\u00a0um"));
   EXPECT_TRUE(has(page, "it moved (900 s)"));
   EXPECT_TRUE(has(page, "joint 1: seen"));
