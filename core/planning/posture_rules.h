@@ -12,7 +12,7 @@ struct PostureRules {
   Vector6d low = Vector6d::Constant(-3.14159265358979);   ///< the box that postures are drawn from, cut by
   Vector6d high = Vector6d::Constant(3.14159265358979);   ///< the URDF's limits less `limit_margin`
   double limit_margin = 0.0873;      ///< 5 deg: room for compensation, and URDFs differ from controllers
-  double least_dexterity = 0.1;      ///< 1 / kappa of Dumas et al., lengths over 1 m
+  double least_dexterity = 0.15;     ///< 1 / kappa of Dumas et al., lengths over 1 m
   double most_outward_up = 0.349;    ///< 20 deg: a hanging load stays clear of the flange (not asked of a pull)
   double least_hook_height = 0.8;    ///< above base_link's origin: weights hang below (not asked of a pull)
   double least_height = 0.2;         ///< of reflectors and arm beyond axis 3, above base_link's origin
