@@ -69,7 +69,8 @@ TEST(PlanCommand, PlansBeforeTheDayForCompensateAndTheSimulator) {
   EXPECT_GE(json["assumed"].size(), 2u);  // no tracker, no reflector places
 
   // What `compensate` is told to expect is what the plan wrote.
-  const Ran used = runProgram("compensate '" + kActive + "' --postures '" + csv.string() + "' --json -", scratch.path());
+  const Ran used =
+      runProgram("compensate '" + kActive + "' --postures '" + csv.string() + "' --json -", scratch.path());
   ASSERT_EQ(used.status, 0) << used.err;
   EXPECT_EQ(nlohmann::json::parse(used.out)["rows"].size(), 4u);
   const Ran again = runProgram(words + "--load 1500 --json -", scratch.path());

@@ -34,7 +34,8 @@ TEST(ExchangeDesign, FindsWhatTryingAllFinds) {
       for (unsigned k = 0; k < 12; ++k) {
         if ((bits >> k & 1U) != 0) chosen.push_back(k);
       }
-      if (chosen.size() == 4) best = std::max(best, logDeterminant(informationOf(problem, chosen), problem.unknown));
+      if (chosen.size() == 4)
+        best = std::max(best, logDeterminant(informationOf(problem, chosen), problem.unknown));
     }
     ExchangeOptions options;
     options.starts = 20;
@@ -45,7 +46,8 @@ TEST(ExchangeDesign, FindsWhatTryingAllFinds) {
 }
 
 TEST(ExchangeDesign, AddsWhatIsMissingAndKeepsApart) {
-  // Joints 1 and 2 alone. What is known sees joint 1; candidates 0 to 2 see joint 1 better than 3 and 4 see joint 2.
+  // Joints 1 and 2 alone. What is known sees joint 1; candidates 0 to 2 see joint 1 better than 3 and 4 see
+  // joint 2.
   DesignProblem problem;
   problem.unknown = {true, true, false, false, false, false};
   problem.known(0, 0) = 100.0, problem.known(1, 1) = 1.0;
@@ -107,7 +109,8 @@ TEST(Plan, KeepsLimitsRulesAndDistance) {
   const PlanOptions options = optionsFor(spec, 8);
   const Plan plan = planCampaign(campaign, nullptr, options);
   ASSERT_EQ(plan.postures.size(), 8u);
-  EXPECT_EQ(plan.unknown, (JointMask{false, true, true, true, true, true}));  // a hanging load never turns axis 1
+  EXPECT_EQ(plan.unknown,
+            (JointMask{false, true, true, true, true, true}));  // a hanging load never turns axis 1
   const double margin = options.rules.limit_margin;
   for (const PlannedPosture& one : plan.postures) {
     const Vector6d& q = one.candidate.q;
@@ -135,10 +138,12 @@ TEST(Plan, KeepsLimitsRulesAndDistance) {
       EXPECT_EQ(alike(plan.arm, one.candidate, other.candidate, options.least_separation), same);
     }
   }
-  for (std::size_t k = 2; k < plan.postures.size(); ++k) {  // each next one adds no more than the one before it
+  for (std::size_t k = 2; k < plan.postures.size();
+       ++k) {  // each next one adds no more than the one before it
     EXPECT_LE(plan.postures[k].log_det_gain, plan.postures[k - 1].log_det_gain + 1e-9);
   }
-  EXPECT_EQ(planCampaign(campaign, nullptr, options).postures.back().candidate.q, plan.postures.back().candidate.q);
+  EXPECT_EQ(planCampaign(campaign, nullptr, options).postures.back().candidate.q,
+            plan.postures.back().candidate.q);
 }
 
 TEST(Plan, APullShowsJointOneToo) {
@@ -175,14 +180,16 @@ TEST(Plan, RefusesWithTheReason) {
             "--add: no measured postures that identify: --postures plans the day before");
   options = optionsFor(spec, 5);
   options.rules.low[2] = 1.5, options.rules.high[2] = 1.6;
-  EXPECT_NE(refusal(campaign, options).find("expected a range of joint 3 within its limits"), std::string::npos)
+  EXPECT_NE(refusal(campaign, options).find("expected a range of joint 3 within its limits"),
+            std::string::npos)
       << refusal(campaign, options);
   // A wrist that stays straight: every posture is near its singularity, and the message counts them.
   options = optionsFor(spec, 5);
   options.candidates = 10;
   campaign.robot.limits[4] = {-0.09, 0.09};
-  EXPECT_EQ(refusal(campaign, options), "plan: expected limits within which some posture keeps the rules; of 4000 drawn; "
-                                        "too near a singularity: 4000");
+  EXPECT_EQ(refusal(campaign, options),
+            "plan: expected limits within which some posture keeps the rules; of 4000 drawn; "
+            "too near a singularity: 4000");
   // A tracker in the middle of the arm's own column sees nothing past it.
   campaign = dayBefore(spec);
   options.inputs.tracker_in_base = Eigen::Vector3d(0.0, 0.0, 30.0);
@@ -204,7 +211,8 @@ TEST(Plan, ALineOfSightThroughTheArmIsNoSight) {
   EXPECT_STREQ(wordsFor(brokenRule(arm, options.rules, posture, seen.direction)),
                "a reflector hidden from the tracker by the arm");
   arm.station = target + Eigen::Vector3d(0.3, 0.2, 0.1);
-  EXPECT_STREQ(wordsFor(brokenRule(arm, options.rules, posture, seen.direction)), "outside the tracker's reach");
+  EXPECT_STREQ(wordsFor(brokenRule(arm, options.rules, posture, seen.direction)),
+               "outside the tracker's reach");
 }
 
 TEST(Plan, AddsToACampaignWhatItLacks) {
@@ -242,13 +250,14 @@ Vector6d squaresOf(const SimulationSpec& spec) {
   const StiffnessEstimate estimate = identify(simulate(spec), quick).of(Method::partial_pose).estimate;
   Vector6d squares = Vector6d::Zero();
   for (int j = 1; j < 6; ++j) {
-    squares[j] = estimate.covariance(j, j) * std::pow(*spec.machine.joints[static_cast<std::size_t>(j)].torsion, 2);
+    squares[j] =
+        estimate.covariance(j, j) * std::pow(*spec.machine.joints[static_cast<std::size_t>(j)].torsion, 2);
   }
   return squares;
 }
 
-// Postures chosen against twice as many drawn at random within the same limits and rules, on machines of joint springs
-// with geometry errors and noise of their own; the plan knows neither.
+// Postures chosen against twice as many drawn at random within the same limits and rules, on machines of
+// joint springs with geometry errors and noise of their own; the plan knows neither.
 TEST(Plan, TenChosenPosturesAreWorthTwentyRandomOnes) {
   const SimulationSpec spec = sample();
   const Campaign before = dayBefore(spec);
@@ -264,7 +273,8 @@ TEST(Plan, TenChosenPosturesAreWorthTwentyRandomOnes) {
     machine.posture_draw.reset();
     for (auto& joint : machine.machine.joints) joint.bearing.reset();
     SimulationSpec drawn = machine;
-    for (const PlannedPosture& one : plan.postures) machine.postures.push_back({one.candidate.q, std::nullopt});
+    for (const PlannedPosture& one : plan.postures)
+      machine.postures.push_back({one.candidate.q, std::nullopt});
     for (const Candidate& one : drawCandidates(plan.arm, options.rules, 20, 500 + seed).kept) {
       drawn.postures.push_back({one.q, std::nullopt});
     }
@@ -281,8 +291,9 @@ TEST(Plan, TenChosenPosturesAreWorthTwentyRandomOnes) {
     worst = std::max(worst, ratio);
     logarithms += std::log(ratio) / 5.0;
   }
-  // A stated sd of ten postures and five unknowns is itself known to about 25 %, of eight machines together to 9 %, of
-  // the ratio to 11 %: none above 1 by more than that, and below 1 on average over the joints (5 %).
+  // A stated sd of ten postures and five unknowns is itself known to about 25 %, of eight machines together
+  // to 9 %, of the ratio to 11 %: none above 1 by more than that, and below 1 on average over the joints (5
+  // %).
   EXPECT_LE(worst, 1.11);
   EXPECT_LE(std::exp(logarithms), 0.95);
 }
