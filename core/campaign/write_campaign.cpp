@@ -34,7 +34,7 @@ CampaignNames namesOf(const Campaign& campaign) {
 
 void writeCampaign(const Campaign& campaign, const std::filesystem::path& urdf_file,
                    const std::filesystem::path& folder) {
-  const std::string urdf = readTextFile(urdf_file);
+  const std::string urdf = readTextFile(urdf_file, kLargestXml);
   const CampaignNames names = namesOf(campaign);
   makeFolder(folder);
   writeFileWhole(folder / "robot.urdf", urdf);

@@ -31,7 +31,7 @@ void readRobot(const XmlNode& root, const std::filesystem::path& folder, Simulat
 
 SimulationSpec readSimulationSpec(const std::filesystem::path& file) {
   using namespace simulation;
-  const XmlFile xml(file.string(), readTextFile(file));
+  const XmlFile xml(file.string(), readTextFile(file, kLargestXml));
   const XmlNode root = xml.root();
   if (root.name() != "simulation") root.refuse(root.name(), "", "expected the root element 'simulation'");
   refuseUnknown(root, {"format", "name", "date", "seed", "measurement"},
