@@ -9,7 +9,7 @@
 #include "app/output.h"
 #include "app/versions.h"
 #include "core/identification/cautions.h"
-#include "core/input/write_file.h"
+#include "core/input/write_folder.h"
 #include "reports/json/results_json.h"
 #include "reports/page/report_page.h"
 #include "reports/page/verdict.h"
@@ -51,18 +51,18 @@ int writeReport(const Arguments& arguments, bool step_given) {
   content.verdict = verdictOf(content.campaigns, content.avoided);
   content.figures = makeFigures(content.campaigns, {arguments.paper});
 
-  // Everything is made before the first file is written; the page comes last.
+  // Everything is made before the first file is written, and appears at once.
   const std::string page = reportPage(content);
   const std::string results = resultsJson(content).dump(1) + '\n';
   const std::filesystem::path folder = arguments.out;
-  makeFolder(folder);
+  std::vector<FileToWrite> files;
   for (const Figure& figure : content.figures) {
-    writeFileWhole(folder / (figure.id + ".png"),
-                   {reinterpret_cast<const char*>(figure.png.data()), figure.png.size()});
+    files.push_back({figure.id + ".png", {figure.png.begin(), figure.png.end()}});
   }
-  writeFileWhole(folder / "results.json", results);
-  writeFileWhole(folder / "report.html", page);
-  std::printf("%s\n", (folder / "report.html").c_str());
+  files.push_back({"results.json", results});
+  files.push_back({"report.html", page});
+  writeFolderWhole(folder, files);
+  printText((folder / "report.html").string() + '\n');
   const bool usable = std::any_of(identifications.begin(), identifications.end(), [](const Identification& one) {
     return anyUsable(one, {kMethods.begin(), kMethods.end()});
   });
