@@ -4,7 +4,7 @@
 #include <set>
 #include <vector>
 
-#include "core/input/write_file.h"
+#include "core/input/write_folder.h"
 #include "reports/json/json_values.h"
 
 namespace stiffscope {
@@ -37,22 +37,17 @@ std::vector<std::string> earlierPictures(const fs::path& folder) {
 
 void writeReportFiles(const fs::path& folder, const ReportContent& content, const std::string& page,
                       const std::string& results) {
-  makeFolder(folder);
-  const std::vector<std::string> earlier = earlierPictures(folder);
+  std::vector<FileToWrite> files;
   std::set<std::string> made;
   for (const Figure& figure : content.figures) {
     made.insert(pictureFile(figure));
-    writeFileWhole(folder / pictureFile(figure),
-                   {reinterpret_cast<const char*>(figure.png.data()), figure.png.size()});
+    files.push_back({pictureFile(figure), {figure.png.begin(), figure.png.end()}});
   }
-  writeFileWhole(folder / "results.json", results);
-  writeFileWhole(folder / "report.html", page);
-  for (const std::string& name : earlier) {
-    std::error_code ignored;  // one that is gone already, or may not be removed, is no reason to fail
-    if (!made.contains(name) && fs::is_regular_file(fs::symlink_status(folder / name, ignored))) {
-      fs::remove(folder / name, ignored);
-    }
-  }
+  files.push_back({"results.json", results});
+  files.push_back({"report.html", page});
+  std::vector<std::string> superseded = earlierPictures(folder);
+  std::erase_if(superseded, [&](const std::string& name) { return made.contains(name); });
+  writeFolderWhole(folder, files, superseded);
 }
 
 }  // namespace stiffscope

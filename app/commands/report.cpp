@@ -75,10 +75,10 @@ int writeReport(const Arguments& arguments, bool step_given) {
   content.verdict = verdictOf(content.campaigns, content.avoided);
   content.figures = makeFigures(content.campaigns, {arguments.paper});
 
-  // Everything is made before the first file is written; the page comes last.
+  // Everything is made before the first file is written, and appears at once.
   const std::string page = reportPage(content);
   writeReportFiles(arguments.out, content, page, resultsJson(content).dump(1) + '\n');
-  std::printf("%s\n", (std::filesystem::path(arguments.out) / "report.html").c_str());
+  printText((std::filesystem::path(arguments.out) / "report.html").string() + '\n');
   const bool usable =
       std::any_of(results.begin(), results.end(), [](const Result& one) { return one.usable(); });
   return usable ? kDone : kNotUsable;
