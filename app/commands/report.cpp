@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <filesystem>
@@ -25,10 +27,25 @@ struct Arguments {
   bool neglect_kc = false, paper = false;
 };
 
-std::vector<NamedText> settingsOf(const IdentifyOptions& options) {
+/// "10 of 19, 12 of 24": of each campaign that has subsets.
+std::string subsetSizes(const std::list<Identification>& identifications) {
+  std::string sizes;
+  for (const Identification& one : identifications) {
+    for (const MethodResult& method : one.methods) {
+      if (method.subsets.compliances.empty()) continue;
+      sizes += fmt::format("{}{} of {}", sizes.empty() ? "" : ", ", method.subsets.size, method.subsets.of);
+      break;
+    }
+  }
+  return sizes.empty() ? "too few" : sizes;
+}
+
+std::vector<NamedText> settingsOf(const IdentifyOptions& options,
+                                  const std::list<Identification>& identifications) {
   return {{"load step", options.step ? std::to_string(*options.step) : "the one with the largest mean force"},
           {"geometric stiffness K_{c}", options.finite_deflection ? "included" : "neglected"},
-          {"subsets", "10 of 19 postures, in proportion; all up to 250 000, else a sample with seed 1"}};
+          {"postures in a subset", subsetSizes(identifications)},
+          {"subsets", "all up to 250 000, else a sample with seed 1"}};
 }
 
 int writeReport(const Arguments& arguments, bool step_given) {
@@ -46,13 +63,13 @@ int writeReport(const Arguments& arguments, bool step_given) {
   content.avoided = avoidedShare(content.campaigns);
   content.compare_with_paper = arguments.paper;
   content.versions = versions();
-  content.settings = settingsOf(options);
+  content.settings = settingsOf(options, identifications);
   content.title = "Joint stiffness";
   content.verdict = verdictOf(content.campaigns, content.avoided);
   content.figures = makeFigures(content.campaigns, {arguments.paper});
 
   // Everything is made before the first file is written; the page comes last.
-  const std::string page = reportPage(content);
+  const ReportPage page = makeReportPage(content);
   const std::string results = resultsJson(content).dump(1) + '\n';
   const std::filesystem::path folder = arguments.out;
   makeFolder(folder);
@@ -61,7 +78,9 @@ int writeReport(const Arguments& arguments, bool step_given) {
                    {reinterpret_cast<const char*>(figure.png.data()), figure.png.size()});
   }
   writeFileWhole(folder / "results.json", results);
-  writeFileWhole(folder / "report.html", page);
+  makeFolder(folder / "tables");
+  for (const TableFile& table : page.tables) writeFileWhole(folder / "tables" / (table.name + ".csv"), table.csv);
+  writeFileWhole(folder / "report.html", page.html);
   std::printf("%s\n", (folder / "report.html").c_str());
   const bool usable = std::any_of(identifications.begin(), identifications.end(), [](const Identification& one) {
     return anyUsable(one, {kMethods.begin(), kMethods.end()});
@@ -77,7 +96,7 @@ void addReport(CLI::App& app, Run& run) {
   command->add_option("CAMPAIGN", arguments->campaigns, "campaign folders; two of one machine are compared")
       ->required()
       ->expected(1, 8);
-  command->add_option("--out", arguments->out, "folder for report.html, results.json and the pictures")->required();
+  command->add_option("--out", arguments->out, "folder for report.html, results.json, the pictures and the tables as CSV")->required();
   const CLI::Option* step = command->add_option("--step", arguments->step, "load step to identify from");
   command->add_flag("--neglect-kc", arguments->neglect_kc, "neglect K_c, as the paper does");
   command->add_flag("--paper", arguments->paper, "put the figures of Ambiehl et al. (IROS 2017) beside these");

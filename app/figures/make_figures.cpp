@@ -14,6 +14,7 @@
 #include "app/figures/wrist_sphere.h"
 #include "render/png.h"
 #include "reports/page/avoided_share.h"
+#include "reports/page/html.h"
 
 namespace stiffscope {
 
@@ -75,7 +76,7 @@ std::vector<Figure> makeFigures(const std::vector<ReportCampaign>& campaigns, co
     for (Figure& figure : figuresOf(campaigns[i], options)) {
       if (campaigns.size() > 1) {
         figure.id += fmt::format("-{}", i + 1);
-        figure.title = fmt::format("{}: {}", campaigns[i].campaign.name, figure.title);
+        figure.title = fmt::format("{}: {}", page::asIs(campaigns[i].campaign.name), figure.title);
       }
       figures.push_back(std::move(figure));
     }
