@@ -26,7 +26,9 @@ PointPanel motionPanel(const StationMotion& station, int first, double unit) {
     series.name = kAxes[static_cast<std::size_t>(k)];
     series.joined = true;
     for (const StationEpoch& epoch : station.epochs) {
-      series.points.push_back({epoch.time_s / kHour, epoch.motion[first + k] / unit});
+      // Side by side, so that no whisker hides another.
+      const double span_h = (station.epochs.back().time_s - station.epochs.front().time_s) / kHour;
+      series.points.push_back({epoch.time_s / kHour + 0.006 * span_h * (k - 1), epoch.motion[first + k] / unit});
       series.errors.push_back(2.0 * std::sqrt(epoch.covariance(first + k, first + k)) / unit);
     }
     panel.series.push_back(std::move(series));

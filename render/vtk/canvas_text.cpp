@@ -45,7 +45,9 @@ struct Run {
   bool subscript = false;
 };
 
-std::vector<Run> runsOf(const std::string& text) {
+std::vector<Run> runsOf(std::string text) {
+  // A line break would begin a second line where there is no room for it.
+  std::replace_if(text.begin(), text.end(), [](unsigned char c) { return c < 0x20 || c == 0x7F; }, ' ');
   std::vector<Run> runs;
   std::size_t at = 0;
   while (at < text.size()) {

@@ -87,6 +87,7 @@ void writeCautions(Html& html, const ReportContent& content) {
   }
   if (items.empty()) return;
   html.paragraph("Before you believe these numbers:");
+  const auto cautions = html.element("div", {{"class", "cautions"}});
   html.list(items);
 }
 
