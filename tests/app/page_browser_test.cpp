@@ -36,6 +36,9 @@ addEventListener('load',function(){
  boxes.forEach(function(a){if(!a.e.closest('.scroll')&&a.r>document.documentElement.clientWidth+1)
   out.clipped.push(a.e.tagName+':'+a.e.textContent.slice(0,40));});
  performance.getEntriesByType('resource').forEach(function(e){if(!e.name.startsWith('data:'))out.requests.push(e.name);});
+ document.querySelectorAll('[src],[href],[srcset],[data]').forEach(function(e){
+  ['src','href','srcset','data'].forEach(function(n){var v=e.getAttribute(n);
+   if(v&&!v.startsWith('data:')&&!v.startsWith('#'))out.requests.push(v);});});
  out.wide=document.documentElement.scrollWidth-document.documentElement.clientWidth;
  out.boxes=boxes.length;
  out.unscoped=document.querySelectorAll('th:not([scope])').length;
@@ -63,24 +66,28 @@ class PageInABrowser : public ::testing::Test {
   static std::filesystem::path out() { return scratch_->path() / "out"; }
   static const std::filesystem::path& scratch() { return scratch_->path(); }
 
-  /// What kMeasure says of a copy of the page at this width.
-  static nlohmann::json measured(int width) {
+  struct Seen {
+    nlohmann::json found;  ///< what kMeasure says
+    bool console = false;  ///< something was written to the console
+  };
+
+  /// Of a copy of the page at this width, with `extra` at its end.
+  static Seen measured(int width, const std::string& extra = {}) {
     std::string page = contentsOf(out() / "report.html");
     const std::size_t end = page.rfind("</body>");
-    page.replace(end, 7, kMeasure);
+    page.replace(end, 7, extra + kMeasure);
     const auto copy = scratch() / "copy.html";
     std::ofstream(copy, std::ios::binary) << page;
-    // A window is 500 wide at least; a frame in it may be narrower.
-    const Ran ran = runBrowser("--window-size=" + std::to_string(std::max(width, 500)) + ",2000 --dump-dom 'file://" +
+    const Ran ran = runBrowser("--window-size=" + std::to_string(width) + ",2000 --dump-dom 'file://" +
                                    copy.string() + "'",
                                scratch());
-    EXPECT_EQ(ran.err.find("CONSOLE"), std::string::npos) << ran.err.substr(0, 2000);
+    const bool console = ran.err.find("CONSOLE") != std::string::npos;
     // The script names the marks too; the verdict comes last.
     const std::size_t close = ran.out.rfind("@@"), open = ran.out.rfind("@@{", close);
-    if (open == std::string::npos) return {};
+    if (open == std::string::npos) return {{}, console};
     std::string verdict = ran.out.substr(open + 2, close - open - 2);
     for (std::size_t at = verdict.find("&lt;"); at != std::string::npos; at = verdict.find("&lt;")) verdict.replace(at, 4, "<");
-    return nlohmann::json::parse(verdict, nullptr, false);
+    return {nlohmann::json::parse(verdict, nullptr, false), console};
   }
 
   static inline ScratchFolder* scratch_ = nullptr;
@@ -88,9 +95,10 @@ class PageInABrowser : public ::testing::Test {
 };
 
 TEST_F(PageInABrowser, NothingOverlapsNothingIsFetched) {
-  for (const int width : {500, 1000, 1700}) {
+  for (const int width : {500, 1000, 1700}) {  // 500 is the narrowest window of this browser
     SCOPED_TRACE(width);
-    const nlohmann::json found = measured(width);
+    const auto [found, console] = measured(width);
+    EXPECT_FALSE(console);
     ASSERT_TRUE(found.is_object());
     EXPECT_GT(found["boxes"], 500);  // it looked at something
     EXPECT_EQ(found["overlaps"].dump(), "[]");
@@ -101,6 +109,20 @@ TEST_F(PageInABrowser, NothingOverlapsNothingIsFetched) {
     EXPECT_EQ(found["alts"], 0);
     EXPECT_EQ(found["landmarks"], 4);
   }
+}
+
+TEST_F(PageInABrowser, TheMeasureSeesFaults) {
+  const auto [found, console] = measured(1000,
+                                         "<p style='position:absolute;top:30px;left:20px'>over the title</p>"
+                                         "<p style='width:2000px'>wide</p><p style='white-space:nowrap'>" +
+                                             std::string(400, 'w') +
+                                             "</p><img src='file:///nowhere.png'><script>console.error('x')</script>");
+  ASSERT_TRUE(found.is_object());
+  EXPECT_TRUE(console);
+  EXPECT_NE(found["overlaps"].dump().find("over the title"), std::string::npos);
+  EXPECT_NE(found["requests"].dump().find("nowhere"), std::string::npos);
+  EXPECT_GT(found["wide"], 0);
+  EXPECT_EQ(found["alts"], 1);
 }
 
 TEST_F(PageInABrowser, PrintsOnFullPagesWithItsIdOnEach) {
