@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 namespace stiffscope {
@@ -36,6 +37,12 @@ inline constexpr Colour kInk{32, 32, 36};
 inline constexpr Colour kFaintInk{96, 98, 104};
 inline constexpr Colour kAxis{120, 122, 128};
 inline constexpr Colour kGrid{226, 228, 232};
+inline constexpr Colour kBand{232, 237, 244};  ///< behind points: what is expected
+
+/// Things that are told apart but have no colour of their own (reflectors, directions, nests), in this order:
+/// L* of 17, 52, 70 and 36, apart in a grey print and to protan, deutan and tritan readers. After four they come again;
+/// marks differ as well.
+inline constexpr std::array<Colour, 4> kSeries{{{20, 40, 80}, {213, 80, 0}, {86, 180, 233}, {0, 96, 72}}};
 
 }  // namespace colours
 
