@@ -25,6 +25,7 @@ inline constexpr Colour kDpp{72, 178, 104};    ///< Decoupled Partial Pose
 
 inline constexpr Colour kMeasured{206, 60, 48};   ///< measured vectors
 inline constexpr Colour kPredicted{28, 74, 150};  ///< predicted vectors
+inline constexpr Colour kResidual{20, 170, 120};  ///< measured - predicted
 
 inline constexpr Colour kTarget{38, 40, 46};    ///< reflectors
 inline constexpr Colour kWrist{232, 168, 32};   ///< the wrist centre
@@ -38,5 +39,22 @@ inline constexpr Colour kAxis{120, 122, 128};
 inline constexpr Colour kGrid{226, 228, 232};
 
 }  // namespace colours
+
+/// The colours of a scene, on light paper or on dark. Of each, measured, predicted and residual vectors differ
+/// by 14 in lightness L* at least and stay apart for red-, green- and blue-blind eyes (a test).
+struct Palette {
+  Colour paper, ink, faint_ink, grid;
+  Colour measured, predicted, residual;
+  Colour target, wrist, link, joint;
+};
+
+inline constexpr Palette kLightPalette{
+    colours::kPaper,     colours::kInk,      colours::kFaintInk, colours::kGrid,  colours::kMeasured,
+    colours::kPredicted, colours::kResidual, colours::kTarget,   colours::kWrist, colours::kLink,
+    colours::kJoint};
+
+inline constexpr Palette kDarkPalette{{24, 26, 31},    {236, 238, 242}, {166, 170, 180}, {58, 62, 70},
+                                      {226, 86, 70},   {118, 172, 255}, {170, 240, 200}, {222, 224, 230},
+                                      {232, 168, 32},  {124, 130, 143}, {90, 97, 111}};
 
 }  // namespace stiffscope

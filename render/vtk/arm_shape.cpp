@@ -65,11 +65,11 @@ double ArmProportions::radiusAt(double along) const {
   return std::lerp(base_radius, tip_radius, length > 0 ? along / length : 0);
 }
 
-void addArm(Mesh& mesh, const ArmPose& pose) {
+void addArm(Mesh& mesh, const ArmPose& pose, const Palette& palette) {
   const ArmProportions proportions(pose);
   const double faint = pose.ghost ? 0.4 : 1;
-  const Paint paint{paler(colours::kLink, faint), paler(colours::kJoint, faint),
-                    paler(colours::kTarget, faint)};
+  const Paint paint{paler(palette.link, faint, palette.paper), paler(palette.joint, faint, palette.paper),
+                    paler(palette.target, faint, palette.paper)};
   const auto& points = pose.joint_points;
   addPedestal(mesh, points.front(), proportions.base_radius, paint.joint);
   double along = 0;
@@ -95,19 +95,15 @@ Eigen::AlignedBox3d extentOf(const ArmScene& scene, double magnification,
     box.extend(p - Eigen::Vector3d::Constant(around));
     box.extend(p + Eigen::Vector3d::Constant(around));
   };
-  const auto includePoint = [&](const ScenePoint& point, double radius) {
-    include(point.position, radius);
-    if (point.measured) include(point.position + magnification * *point.measured, radius);
-    if (point.predicted) include(point.position + magnification * *point.predicted, radius);
-  };
   for (const ArmPose& pose : scene.poses) {
     const ArmProportions proportions(pose);
     for (const auto& point : pose.joint_points) include(point, 1.8 * proportions.base_radius);
     const Eigen::Vector3d& first = pose.joint_points.front();
     include({first.x(), first.y(), std::min(0.0, first.z())}, 2.2 * proportions.base_radius);
-    for (const ScenePoint& target : pose.targets) includePoint(target, proportions.tip_radius);
-    if (pose.wrist) includePoint(*pose.wrist, proportions.tip_radius);
   }
+  const double around = ArmProportions(scene.poses.front()).tip_radius;
+  for (const auto& point : pointsOf(scene, magnification)) include(point, around);
+  for (const auto& point : scene.also_fitted) include(point, around);
   return box;
 }
 

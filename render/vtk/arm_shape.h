@@ -20,7 +20,7 @@ struct ArmProportions {
 };
 
 /// Pedestal, links, drums, flange, holders of the targets, targets and wrist centre of one posture.
-void addArm(Mesh& mesh, const ArmPose& pose);
+void addArm(Mesh& mesh, const ArmPose& pose, const Palette& palette);
 
 /// The lines of the floor: multiples of `step` (m) from first to last, under all that is drawn.
 struct FloorGrid {

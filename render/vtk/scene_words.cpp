@@ -15,13 +15,6 @@ namespace stiffscope {
 
 namespace {
 
-bool hasVectors(const ArmScene& scene, SceneVector vector) {
-  bool any = false;
-  forEachPoint(scene,
-               [&](const ScenePoint& point, const ArmPose&) { any = any || (point.*vector).has_value(); });
-  return any;
-}
-
 std::string lengthText(double metres) {
   return metres < 1e-4 ? shortNumber(metres * 1e6) + " \u00b5m" : shortNumber(metres * 1e3) + " mm";
 }
@@ -49,7 +42,7 @@ void paintTriad(Canvas& canvas, const SceneStage& stage, LabelPlacer& labels) {
     const Spot tip = stage.projection.spotOf(stage.scene.frame_origin + length * Eigen::Vector3d::Unit(i));
     // An axis seen end on has no direction to draw.
     if (std::hypot(tip.x - origin.x, tip.y - origin.y) < 12 * stage.unit) continue;
-    drawArrow(canvas, origin, tip, colours::kInk, 2 * stage.unit, 10 * stage.unit);
+    drawArrow(canvas, origin, tip, stage.surface.palette.ink, 2 * stage.unit, 10 * stage.unit);
     labels.takeLine(origin, tip, 6 * stage.unit);
     labels.place(names[i], tip, 4 * stage.unit, labelStyle(canvas));
   }
@@ -62,22 +55,27 @@ SceneLayout paintSurroundings(Canvas& canvas, const ArmScene& scene) {
   takeMargin(canvas, free);
   takeHeader(canvas, free, scene.title, scene.subtitle);
   std::vector<LegendEntry> legend;
-  if (hasVectors(scene, &ScenePoint::measured)) {
-    legend.push_back({Key::ThickArrow, colours::kMeasured, scene.measured_name});
+  constexpr std::array kKeys{Key::ThickArrow, Key::ThinArrow, Key::MediumArrow};
+  const auto kinds = vectorKinds(scene);
+  for (std::size_t i = 0; i < kinds.size(); ++i) {
+    if (!hasVectors(scene, kinds[i])) continue;
+    const std::string longer =
+        kinds[i].factor == 1 ? "" : fmt::format(", {} times longer", shortNumber(kinds[i].factor));
+    legend.push_back({kKeys[i], kinds[i].colour, kinds[i].name.empty() ? "" : kinds[i].name + longer});
   }
-  if (hasVectors(scene, &ScenePoint::predicted)) {
-    legend.push_back({Key::ThinArrow, colours::kPredicted, scene.predicted_name});
-  }
+  if (!scene.traces.empty()) legend.push_back({Key::Point, canvas.palette().measured, scene.trace_name});
   takeLegend(canvas, free, legend);
+  takeNote(canvas, free, scene.note);
   const double top = free.bottom - 26 * canvas.unit();
-  return {{free.left, free.top, free.right, top - 6 * canvas.unit()},
-          {free.left, top, free.right, free.bottom}};
+  Box room{free.left, free.top, free.right, top - 6 * canvas.unit()};
+  takePanels(canvas, room, scene.panels);
+  return {room, {free.left, top, free.right, free.bottom}};
 }
 
 void paintFloor(Canvas& canvas, const SceneStage& stage) {
   const FloorGrid floor = floorOf(stage.scene);
   const auto line = [&](const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
-    canvas.line(stage.projection.spotOf(from), stage.projection.spotOf(to), colours::kGrid,
+    canvas.line(stage.projection.spotOf(from), stage.projection.spotOf(to), stage.surface.palette.grid,
                 1.25 * stage.unit);
   };
   for (int i = floor.x_first; i <= floor.x_last; ++i)
@@ -86,29 +84,76 @@ void paintFloor(Canvas& canvas, const SceneStage& stage) {
     line(floor.at(floor.x_first, j), floor.at(floor.x_last, j));
 }
 
-void paintScale(Canvas& canvas, const SceneStage& stage, const Box& strip) {
-  const double pixels_per_deflection = stage.magnification * stage.projection.pixelsPerMetre();
+namespace {
+
+/// One reference arrow from `left` on with its words; returns where it ends.
+double paintReference(Canvas& canvas, const SceneStage& stage, double factor, const VectorKind& look,
+                      const std::string& what, Spot left) {
+  const double pixels_per_deflection = factor * stage.projection.pixelsPerMetre();
   const double reference = roundDown125(150 * stage.unit / pixels_per_deflection);
-  const double length = reference * pixels_per_deflection;
-  const double y = strip.middleY();
-  const TextStyle style = labelStyle(canvas);
-  drawArrow(canvas, {strip.left, y}, {strip.left + length, y}, colours::kInk, kMeasuredWidth * stage.unit,
-            kHeadLength * stage.unit);
-  const std::string text =
-      fmt::format("{}   vectors \u00d7 {}", lengthText(reference), shortNumber(stage.magnification));
-  canvas.text(text, {strip.left + length + 10 * stage.unit, y}, AlignX::Left, AlignY::Centre, style);
+  const Spot tip{left.x + reference * pixels_per_deflection, left.y};
+  drawArrow(canvas, left, tip, look.colour, look.width * stage.unit, kHeadLength * stage.unit);
+  const std::string text = fmt::format("{}   {} \u00d7 {}", lengthText(reference), what, shortNumber(factor));
+  const Spot at{tip.x + 10 * stage.unit, left.y};
+  canvas.text(text, at, AlignX::Left, AlignY::Centre, labelStyle(canvas));
+  return at.x + canvas.measure(text, labelStyle(canvas)).x;
 }
 
+}  // namespace
+
+void paintScale(Canvas& canvas, const SceneStage& stage, const Box& strip) {
+  auto kinds = vectorKinds(stage.scene);
+  const bool residual = hasVectors(stage.scene, kinds[2]);
+  const bool others = hasVectors(stage.scene, kinds[0]) || hasVectors(stage.scene, kinds[1]);
+  if (!residual && !others && !stage.scene.traces.empty()) return;
+  double left = strip.left;
+  if (others || !residual) {
+    kinds[0].colour = stage.surface.palette.ink;  // stands for measured and predicted ones
+    left = paintReference(canvas, stage, stage.magnification, kinds[0], "vectors", {left, strip.middleY()});
+    left += 40 * stage.unit;
+  }
+  if (residual && (!others || kinds[2].factor != 1)) {
+    paintReference(canvas, stage, stage.magnification * kinds[2].factor, kinds[2], "residual",
+                   {left, strip.middleY()});
+  }
+}
+
+namespace {
+
+bool inRoom(const SceneStage& stage, const Eigen::Vector3d& point) {
+  const Spot spot = stage.projection.spotOf(point);
+  return spot.x >= stage.room.left && spot.x <= stage.room.right && spot.y >= stage.room.top &&
+         spot.y <= stage.room.bottom;
+}
+
+void paintRing(Canvas& canvas, const SceneStage& stage, const Eigen::Vector3d& point) {
+  const Spot centre = stage.projection.spotOf(point);
+  const double radius = 15 * stage.unit;
+  constexpr int kPieces = 40;
+  const auto at = [&](int i) {
+    const double angle = 2 * M_PI * i / kPieces;
+    return Spot{centre.x + radius * std::cos(angle), centre.y + radius * std::sin(angle)};
+  };
+  for (const auto& [colour, width] :
+       {std::pair{canvas.palette().paper, 5.0}, std::pair{canvas.palette().ink, 2.5}}) {
+    for (int i = 0; i < kPieces; ++i) canvas.line(at(i), at(i + 1), colour, width * stage.unit);
+  }
+}
+
+}  // namespace
+
 void paintLabels(Canvas& canvas, const SceneStage& stage) {
+  if (stage.scene.picked) paintRing(canvas, stage, *stage.scene.picked);
   LabelPlacer labels(canvas, stage.room);
+  const auto kinds = vectorKinds(stage.scene);
   forEachPoint(stage.scene, [&](const ScenePoint& point, const ArmPose&) {
     const Spot spot = stage.projection.spotOf(point.position);
     const double r = 8 * stage.unit;
     labels.take({spot.x - r, spot.y - r, spot.x + r, spot.y + r});
-    for (const auto& vector : {point.measured, point.predicted}) {
-      if (!vector) continue;
-      labels.takeLine(spot, stage.projection.spotOf(point.position + stage.magnification * *vector),
-                      12 * stage.unit);
+    for (const VectorKind& kind : kinds) {
+      if (!(point.*kind.vector)) continue;
+      const Eigen::Vector3d drawn = stage.magnification * kind.factor * *(point.*kind.vector);
+      labels.takeLine(spot, stage.projection.spotOf(point.position + drawn), 12 * stage.unit);
     }
   });
   // The axes stand on the arm's foot and so do their labels; those of the points keep clear of the arm.
@@ -117,11 +162,17 @@ void paintLabels(Canvas& canvas, const SceneStage& stage) {
     if (!pose.ghost) takeArm(labels, stage, pose);
   }
   forEachPoint(stage.scene, [&](const ScenePoint& point, const ArmPose& pose) {
-    if (pose.ghost || point.label.empty()) return;
+    if (pose.ghost || point.label.empty() || !inRoom(stage, point.position)) return;
     TextStyle style = labelStyle(canvas);
     style.bold = true;
     labels.place(point.label, stage.projection.spotOf(point.position), 11 * stage.unit, style);
   });
+  for (const SceneTrace& trace : stage.scene.traces) {
+    if (trace.faint || trace.points.empty() || trace.label.empty()) continue;
+    if (!inRoom(stage, trace.points.back())) continue;
+    labels.place(trace.label, stage.projection.spotOf(trace.points.back()), 11 * stage.unit,
+                 labelStyle(canvas));
+  }
 }
 
 }  // namespace stiffscope
