@@ -23,7 +23,7 @@ const std::vector<ViewKey>& viewKeys() {
       {{"p"}, "p", "predicted on/off", [](Viewer& v) { v.settings_.predicted = !v.settings_.predicted; }},
       {{"r"}, "r", "residual on/off", [](Viewer& v) { v.settings_.residual = !v.settings_.residual; }},
       {{"plus", "equal", "KP_Add"}, "+ \u2212", "longer, shorter vectors",
-       [](Viewer& v) { v.settings_.magnification = std::min(2 * v.settings_.magnification, 1e9); }},
+       [](Viewer& v) { v.settings_.magnification = std::min(2 * v.settings_.magnification, 1e6); }},
       {{"minus", "underscore", "KP_Subtract"}, "", "",
        [](Viewer& v) { v.settings_.magnification = std::max(v.settings_.magnification / 2, 1e-3); }},
       {{"a"}, "a", "length to suit", [](Viewer& v) { v.suitMagnification(); }},

@@ -146,7 +146,7 @@ void Viewer::suitMagnification() {
 
 void Viewer::changeResidualFactor(bool longer) {
   const double now = settings_.residual_factor;
-  settings_.residual_factor = longer ? roundUp125(1.5 * now) : std::max(1.0, roundDown125(now / 1.5));
+  settings_.residual_factor = longer ? std::min(1000.0, roundUp125(1.5 * now)) : std::max(1.0, roundDown125(now / 1.5));
 }
 
 void Viewer::reset() {
