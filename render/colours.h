@@ -54,7 +54,7 @@ inline constexpr Palette kLightPalette{
     colours::kJoint};
 
 inline constexpr Palette kDarkPalette{{24, 26, 31},    {236, 238, 242}, {166, 170, 180}, {58, 62, 70},
-                                      {226, 86, 70},   {118, 172, 255}, {170, 240, 200}, {222, 224, 230},
+                                      {226, 86, 70},   {118, 172, 255}, {170, 240, 200}, {180, 186, 198},
                                       {232, 168, 32},  {124, 130, 143}, {90, 97, 111}};
 
 }  // namespace stiffscope

@@ -40,7 +40,7 @@ ScenePanel pointPanel(const ViewFrame& frame, const ScenePoint& point, bool dark
   for (const Vector& vector : vectorsOf(point, dark ? kDarkPalette : kLightPalette)) {
     if (vector.value) panel.rows.push_back({cells(vector.name, kMmPerM * *vector.value, 3), vector.colour});
   }
-  panel.rows.push_back({cells("stands at", kMmPerM * point.position, 1), std::nullopt});
+  panel.rows.push_back({cells("stands at", kMmPerM * (point.position - frame.scene.frame_origin), 1), std::nullopt});
   panel.rows.back().cells.pop_back();
   if (frame.force) panel.rows.push_back({cells("force, N", *frame.force, 0), std::nullopt});
   return panel;

@@ -4,46 +4,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <iterator>
 #include <set>
 #include <utility>
 
 #include "app/view/point_numbers.h"
+#include "app/view/suiting_lengths.h"
 #include "app/view/view_keys.h"
 #include "render/ticks.h"
 
 namespace stiffscope {
 
 namespace {
-
-/// The median over the postures of a load step, so that one posture with much deflection does not make the others'
-/// arrows short; 1 where no posture has a value.
-double medianOverStep(const std::vector<ViewFrame>& frames, int step,
-                      const std::function<std::optional<double>(const ArmScene&)>& value) {
-  std::vector<double> values;
-  for (const ViewFrame& frame : frames) {
-    if (frame.step != step) continue;
-    if (const auto one = value(frame.scene)) values.push_back(*one);
-  }
-  if (values.empty()) return 1;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>((values.size() - 1) / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
-double magnificationForStep(const std::vector<ViewFrame>& frames, int step, double residual_factor) {
-  return medianOverStep(frames, step, [&](ArmScene scene) -> std::optional<double> {
-    scene.residual_factor = residual_factor;
-    const double suits = automaticMagnification(scene);
-    return suits == 1 ? std::nullopt : std::optional(suits);  // 1: there is no vector
-  });
-}
-
-double residualFactorForStep(const std::vector<ViewFrame>& frames, int step) {
-  return medianOverStep(frames, step,
-                        [](const ArmScene& scene) { return std::optional(automaticResidualFactor(scene)); });
-}
 
 std::vector<const ScenePoint*> pointsToPick(const ArmScene& scene) {
   std::vector<const ScenePoint*> points;

@@ -14,6 +14,7 @@ ArmProportions::ArmProportions(const ArmPose& pose) {
   }
   base_radius = 0.042 * length;
   tip_radius = 0.018 * length;
+  target_radius = 0.6 * tip_radius;
 }
 
 namespace {
@@ -47,7 +48,8 @@ void addWaist(Mesh& mesh, const ArmPose& pose, double radius, double next, const
   mesh.addCone(corner, 1.05 * radius, shoulder, next, paint.link);
 }
 
-void addFlange(Mesh& mesh, const ArmPose& pose, double radius, const Paint& paint) {
+void addFlange(Mesh& mesh, const ArmPose& pose, const ArmProportions& proportions, const Paint& paint) {
+  const double radius = proportions.tip_radius;
   const Eigen::Vector3d& flange = pose.joint_points.back();
   const Eigen::Vector3d axis = pose.axis_directions.back().normalized();
   // It faces away from the arm, whichever way its axis was counted.
@@ -55,7 +57,7 @@ void addFlange(Mesh& mesh, const ArmPose& pose, double radius, const Paint& pain
   mesh.addCone(flange - 0.6 * side * radius * axis, 1.7 * radius, flange, 1.7 * radius, paint.joint);
   for (const ScenePoint& target : pose.targets) {
     mesh.addCone(flange, 0.25 * radius, target.position, 0.25 * radius, paint.joint);
-    mesh.addSphere(target.position, 0.6 * radius, paint.target);
+    mesh.addSphere(target.position, proportions.target_radius, paint.target);
   }
 }
 
@@ -84,7 +86,7 @@ void addArm(Mesh& mesh, const ArmPose& pose, const Palette& palette) {
     addDrum(mesh, points[i], pose.axis_directions[i], radius, paint.joint);
     mesh.addCone(points[i], radius, points[i + 1], next, paint.link);
   }
-  addFlange(mesh, pose, proportions.tip_radius, paint);
+  addFlange(mesh, pose, proportions, paint);
 }
 
 Eigen::AlignedBox3d extentOf(const ArmScene& scene, double magnification,

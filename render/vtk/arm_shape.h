@@ -17,6 +17,7 @@ struct ArmProportions {
   double length = 0;
   double base_radius = 0;
   double tip_radius = 0;
+  double target_radius = 0;
 };
 
 /// Pedestal, links, drums, flange, holders of the targets, targets and wrist centre of one posture.

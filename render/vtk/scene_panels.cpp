@@ -49,14 +49,17 @@ void paintRow(Canvas& canvas, const ScenePanel& panel, const ScenePanel::Row& ro
   }
 }
 
-double paintPanel(Canvas& canvas, const ScenePanel& panel, const PanelLayout& layout, Spot corner) {
+/// Returns where the panel ends. What would be lower than `bottom` is left out.
+double paintPanel(Canvas& canvas, const ScenePanel& panel, const PanelLayout& layout, Spot corner,
+                  double bottom) {
   const double line = kLine * canvas.unit();
   double y = corner.y + line / 2;
-  if (!panel.title.empty()) {
+  if (!panel.title.empty() && y + line / 2 <= bottom) {
     canvas.text(panel.title, {corner.x, y}, AlignX::Left, AlignY::Centre, panelTitleStyle(canvas));
     y += 1.1 * line;
   }
   for (const ScenePanel::Row& row : panel.rows) {
+    if (y + line / 2 > bottom) break;
     paintRow(canvas, panel, row, layout, corner.x, y);
     y += line;
   }
@@ -76,7 +79,7 @@ void takePanels(Canvas& canvas, Box& free, const std::vector<ScenePanel>& panels
   const double left = free.right - widest;
   double top = free.top;
   for (std::size_t i = 0; i < panels.size(); ++i) {
-    top = paintPanel(canvas, panels[i], layouts[i], {left, top}) + kApart * canvas.unit();
+    top = paintPanel(canvas, panels[i], layouts[i], {left, top}, free.bottom) + kApart * canvas.unit();
   }
   free.right = left - kApart * canvas.unit();
 }

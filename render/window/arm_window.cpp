@@ -5,20 +5,18 @@
 #include <vtkNew.h>
 #include <vtkRenderWindow.h>
 #include <vtkRenderWindowInteractor.h>
-#include <vtkRenderer.h>
 #include <vtkSmartPointer.h>
-#include <vtkUnsignedCharArray.h>
 
+#include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <exception>
 #include <utility>
 
 #include "render/view_camera.h"
-#include "render/vtk/arm_layers.h"
-#include "render/vtk/collect_errors.h"
+#include "render/vtk/arm_shape.h"
 #include "render/window/display.h"
 #include "render/window/hand.h"
+#include "render/window/shown_layers.h"
 #include "render/window/x_window.h"
 
 namespace stiffscope {
@@ -28,14 +26,16 @@ namespace {
 constexpr int kAntialiasing = 4;  // samples a pixel
 constexpr double kPickRadius = 16;  // pixels at 1200 x 700
 
+vtkSmartPointer<vtkRenderWindow> newWindow() {
+  requireDisplay();
+  return vtkSmartPointer<vtkRenderWindow>::New();
+}
+
 }  // namespace
 
 class ArmWindow::Implementation {
  public:
   explicit Implementation(Size size);
-  ~Implementation() { forgetLayers(); }
-  Implementation(const Implementation&) = delete;
-  Implementation& operator=(const Implementation&) = delete;
 
   void show(const ArmScene& scene, const std::string& title) {
     scene_ = scene;
@@ -47,14 +47,13 @@ class ArmWindow::Implementation {
     change(camera_);
     if (!scene_.poses.empty()) changed();
   }
-  Image picture();
+  Image picture() { return shown_.picture(); }
   void run(const Events& events);
   void close() { interactor_->TerminateApp(); }
 
  private:
   void changed();
   void draw();
-  void forgetLayers();
   void observe();
   void handle(unsigned long event);
   void move(Hand::Motion motion);
@@ -68,29 +67,21 @@ class ArmWindow::Implementation {
   vtkSmartPointer<vtkRenderWindow> window_;
   vtkSmartPointer<vtkRenderWindowInteractor> interactor_;
   vtkNew<vtkCallbackCommand> command_;
-  std::unique_ptr<ArmLayers> layers_;
+  ShownLayers shown_;
   const Events* events_ = nullptr;
   std::exception_ptr failure_;
   bool handling_ = false, stale_ = false;
 };
 
-ArmWindow::Implementation::Implementation(Size size) {
-  requireDisplay();
+ArmWindow::Implementation::Implementation(Size size) : window_(newWindow()), shown_(*window_) {
   // VTK's errors are thrown (CollectErrors); its warnings, as of having no interactor style, are not for users.
   vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);
-  window_ = vtkSmartPointer<vtkRenderWindow>::New();
   window_->SetSize(size.width, size.height);
   window_->SetMultiSamples(kAntialiasing);
   interactor_ = vtkSmartPointer<vtkRenderWindowInteractor>::New();
   interactor_->SetRenderWindow(window_);
   interactor_->SetInteractorStyle(nullptr);  // its keys and its camera are not ours
   interactor_->EnableRenderOff();            // what is to be drawn, and when, is decided here
-}
-
-void ArmWindow::Implementation::forgetLayers() {
-  if (!layers_) return;
-  for (const auto& layer : layers_->renderers()) window_->RemoveRenderer(layer);
-  layers_.reset();
 }
 
 void ArmWindow::Implementation::changed() {
@@ -100,42 +91,10 @@ void ArmWindow::Implementation::changed() {
 
 void ArmWindow::Implementation::draw() {
   stale_ = false;
-  const int* size = window_->GetSize();
-  if (size[0] < 240 || size[1] < 160) return;  // squeezed to nothing
-  const CollectErrors vtk_messages;
   camera_.apply(scene_);
-  auto next = std::make_unique<ArmLayers>(scene_, Surface{{size[0], size[1]}, 1});
-  forgetLayers();
-  layers_ = std::move(next);
-  window_->SetNumberOfLayers(static_cast<int>(layers_->renderers().size()));
-  int at = 0;
-  for (const auto& layer : layers_->renderers()) {
-    layer->SetLayer(at++);
-    window_->AddRenderer(layer);
-  }
-  window_->Render();
-  layers_->rethrow();
-  vtk_messages.throwIfAny();
-  camera_.framedAs(layers_->stage().projection.framingOf(layers_->stage().room));
+  shown_.show(scene_);
+  if (const SceneStage* stage = shown_.stage()) camera_.framedAs(stage->projection.framingOf(stage->room));
   nameWindow(*window_, title_);
-}
-
-Image ArmWindow::Implementation::picture() {
-  const int* size = window_->GetSize();
-  Image image{size[0], size[1], {}};
-  vtkNew<vtkUnsignedCharArray> pixels;
-  const int front = 0;
-  window_->GetPixelData(0, 0, image.width - 1, image.height - 1, front, pixels);
-  const std::ptrdiff_t row = std::ptrdiff_t{3} * image.width;
-  if (pixels->GetNumberOfValues() != row * image.height) {
-    throw std::runtime_error("cannot draw pictures: no pixels came back from the window");
-  }
-  image.rgb.reserve(static_cast<std::size_t>(row * image.height));
-  for (int y = image.height - 1; y >= 0; --y) {  // VTK's rows run from bottom to top
-    const std::uint8_t* from = pixels->GetPointer(row * y);
-    image.rgb.insert(image.rgb.end(), from, from + row);
-  }
-  return image;
 }
 
 void ArmWindow::Implementation::observe() {
@@ -198,7 +157,7 @@ void ArmWindow::Implementation::handle(unsigned long event) {
 }
 
 void ArmWindow::Implementation::move(Hand::Motion motion) {
-  const double height = layers_ ? layers_->stage().room.height() : window_->GetSize()[1];
+  const double height = shown_.stage() != nullptr ? shown_.stage()->room.height() : window_->GetSize()[1];
   switch (motion.kind) {
     case Hand::Kind::Nothing:
       break;
@@ -218,10 +177,11 @@ void ArmWindow::Implementation::move(Hand::Motion motion) {
 }
 
 std::optional<std::size_t> ArmWindow::Implementation::pointAt(Spot spot) const {
-  if (!layers_ || scene_.poses.empty()) return std::nullopt;
-  const SceneStage& stage = layers_->stage();
+  if (shown_.stage() == nullptr) return std::nullopt;
+  const SceneStage& stage = *shown_.stage();
   std::optional<std::size_t> nearest;
-  double least = kPickRadius * stage.unit;
+  const double ball = ArmProportions(scene_.poses.front()).target_radius * stage.projection.pixelsPerMetre();
+  double least = std::max(kPickRadius * stage.unit, ball);
   std::size_t index = 0;
   const auto consider = [&](const ScenePoint& point) {
     const Spot at = stage.projection.spotOf(point.position);
