@@ -29,7 +29,8 @@ std::string hintFor(const CLI::App& app, const std::string& word) {
 
 int explainUsageError(const CLI::App& app, const CLI::ParseError& error) {
   std::string message = error.what();
-  const std::vector<std::string> unknown = chosen(app).remaining().empty() ? app.remaining() : chosen(app).remaining();
+  const std::vector<std::string> unknown =
+      chosen(app).remaining().empty() ? app.remaining() : chosen(app).remaining();
   if (!unknown.empty()) {
     message = "'" + unknown.front() + "' is not known" + hintFor(chosen(app), unknown.front());
   }

@@ -17,8 +17,8 @@ class NoDisplay : public std::runtime_error {
 };
 
 /// A window on the desktop (X11) with one ArmScene, drawn by the code of `render`. Left drag turns about the
-/// vertical and tips, right or middle drag shifts, the wheel zooms; a click picks the point under it. The view
-/// is the window's: `view_direction` and `framing` of the scenes it shows are not looked at. Until it is
+/// vertical and tips, right or middle drag shifts, the wheel zooms; a click picks the point under it. The
+/// view is the window's: `view_direction` and `framing` of the scenes it shows are not looked at. Until it is
 /// turned, shifted or zoomed the picture fits the window, as it does again after `look`.
 class ArmWindow {
  public:

@@ -15,15 +15,16 @@ LoadingGeometry shownGeometry(const Campaign& campaign, const Identification& id
     if (identified.of(method).available) return identified.of(method).geometry;
   }
   const MethodResult& partial = identified.of(Method::partial_pose);
-  const Vector6d sag = partial.available ? Vector6d(partial.estimate.compliance.cwiseMax(0.0)) : Vector6d::Zero();
+  const Vector6d sag =
+      partial.available ? Vector6d(partial.estimate.compliance.cwiseMax(0.0)) : Vector6d::Zero();
   LoadingGeometry swept = sweptGeometry(campaign, identified.frames, sag);
   if (partial.available && loadCases(campaign, swept, identified.step).empty()) return partial.geometry;
   return swept;
 }
 
 /// `rows` of `from`'s cases in the order of `to`'s, by posture.
-std::vector<CaseEquations> alignedRows(const std::vector<CaseEquations>& rows, const std::vector<LoadCase>& from,
-                                       const std::vector<LoadCase>& to) {
+std::vector<CaseEquations> alignedRows(const std::vector<CaseEquations>& rows,
+                                       const std::vector<LoadCase>& from, const std::vector<LoadCase>& to) {
   std::vector<CaseEquations> aligned;
   for (const LoadCase& wanted : to) {
     aligned.emplace_back();
@@ -50,8 +51,8 @@ Identification underLoadStep(const Campaign& campaign, const Identification& ide
   other.step = step;
   other.frames = identified.frames;
   other.finite_deflection = identified.finite_deflection;
-  const LoadedArm shown =
-      loadedArm(campaign, shownGeometry(campaign, identified), identified.frames.wrist, step, &other.left_out);
+  const LoadedArm shown = loadedArm(campaign, shownGeometry(campaign, identified), identified.frames.wrist,
+                                    step, &other.left_out);
   other.cases = shown.cases;
   other.wrist = shown.wrist;
   for (const Method which : kMethods) {

@@ -25,8 +25,9 @@ View viewNamed(const std::string& name) {
   if (name == "side") return View::Side;
   if (name == "top") return View::Top;
   if (name == "oblique") return View::Oblique;
-  throw InputError({"--view"}, name,
-                   "expected front, side, top or oblique" + nearestNameHint(name, {"front", "side", "top", "oblique"}));
+  throw InputError(
+      {"--view"}, name,
+      "expected front, side, top or oblique" + nearestNameHint(name, {"front", "side", "top", "oblique"}));
 }
 
 Size sizeOf(const std::vector<int>& words) {
@@ -46,15 +47,18 @@ int run(int count, char** arguments) {
   Words words;
   app.add_option("CAMPAIGN", options.campaign, "campaign folder or its campaign.xml")->required();
   app.add_option("--method", options.method, "cp, pp or dpp to predict by; without it as in the report");
-  const CLI::Option* step =
-      app.add_option("--step", words.step, "load step to identify from and to start with; without it the heaviest");
-  app.add_option("--pose", options.pose, "posture to start with; without it the one with the median displacement");
-  const CLI::Option* magnification =
-      app.add_option("--magnification", words.magnification, "of the vectors; without it one that suits all postures");
+  const CLI::Option* step = app.add_option(
+      "--step", words.step, "load step to identify from and to start with; without it the heaviest");
+  app.add_option("--pose", options.pose,
+                 "posture to start with; without it the one with the median displacement");
+  const CLI::Option* magnification = app.add_option("--magnification", words.magnification,
+                                                    "of the vectors; without it one that suits all postures");
   app.add_option("--view", words.view, "front, side, top or oblique")->capture_default_str();
   app.add_option("--point", options.point, "reflector whose numbers to show, P10 say, or Pwrist");
   app.add_flag("--dark", options.dark, "dark background");
-  app.add_option("--size", words.size, "width and height of the window in pixels")->expected(2)->capture_default_str();
+  app.add_option("--size", words.size, "width and height of the window in pixels")
+      ->expected(2)
+      ->capture_default_str();
   app.add_option("--screenshot", options.screenshot, "draw once in the window, write this PNG file and end");
   try {
     app.parse(count, arguments);

@@ -35,8 +35,7 @@ std::vector<Method> methodsToShow(const Identification& result, const std::strin
   }
   const auto shown = page::shownMethod(result);
   if (shown && methods.empty()) methods.push_back(*shown);
-  for (const Method method :
-       {Method::decoupled_partial_pose, Method::partial_pose, Method::complete_pose}) {
+  for (const Method method : {Method::decoupled_partial_pose, Method::partial_pose, Method::complete_pose}) {
     if (result.of(method).available && std::find(methods.begin(), methods.end(), method) == methods.end()) {
       methods.push_back(method);
     }
@@ -47,7 +46,8 @@ std::vector<Method> methodsToShow(const Identification& result, const std::strin
 int postureNamed(const Campaign& campaign, const std::string& id) {
   const auto found = std::find(campaign.pose_ids.begin(), campaign.pose_ids.end(), id);
   if (found == campaign.pose_ids.end()) {
-    throw InputError({"--pose"}, id, "not a posture of this campaign" + nearestNameHint(id, campaign.pose_ids));
+    throw InputError({"--pose"}, id,
+                     "not a posture of this campaign" + nearestNameHint(id, campaign.pose_ids));
   }
   return static_cast<int>(found - campaign.pose_ids.begin());
 }
@@ -55,11 +55,12 @@ int postureNamed(const Campaign& campaign, const std::string& id) {
 /// Of the frames of `step`, or of any where that has none, the one with this posture.
 std::size_t frameToStart(const ViewMaterial& material, int step, int posture) {
   const auto at = [&](const auto& fits) {
-    return static_cast<std::size_t>(
-        std::find_if(material.frames.begin(), material.frames.end(), fits) - material.frames.begin());
+    return static_cast<std::size_t>(std::find_if(material.frames.begin(), material.frames.end(), fits) -
+                                    material.frames.begin());
   };
   std::size_t found = at([&](const ViewFrame& one) { return one.step == step && one.posture == posture; });
-  if (found == material.frames.size()) found = at([&](const ViewFrame& one) { return one.posture == posture; });
+  if (found == material.frames.size())
+    found = at([&](const ViewFrame& one) { return one.posture == posture; });
   return found;
 }
 
@@ -77,19 +78,20 @@ OpenedMaterial openLoads(const Campaign& campaign, const Identification& result,
       throw InputError({"--pose"}, options.pose, "this posture has no readings under load");
     }
   } else if (!result.cases.empty()) {
-    opened.first =
-        frameToStart(material, result.step, result.cases[medianCase({campaign, result})].pose);
+    opened.first = frameToStart(material, result.step, result.cases[medianCase({campaign, result})].pose);
   }
   return opened;
 }
 
 OpenedMaterial openSweeps(const Campaign& campaign, const ViewOptions& options, const std::string& why) {
   if (!options.method.empty() || options.step || !options.pose.empty()) {
-    throw InputError({campaign.folder / "campaign.xml"}, "", "no loads to show, so no method, step or posture: " + why);
+    throw InputError({campaign.folder / "campaign.xml"}, "",
+                     "no loads to show, so no method, step or posture: " + why);
   }
   ViewMaterial sweeps = sweepMaterial(campaign, measureFrames(campaign));
   if (sweeps.frames.empty()) {
-    throw InputError({campaign.folder / "campaign.xml"}, "", "nothing to show: " + why + "; " + sweeps.lacking);
+    throw InputError({campaign.folder / "campaign.xml"}, "",
+                     "nothing to show: " + why + "; " + sweeps.lacking);
   }
   return {{std::move(sweeps)}, 0};
 }

@@ -40,7 +40,8 @@ ScenePanel pointPanel(const ViewFrame& frame, const ScenePoint& point, bool dark
   for (const Vector& vector : vectorsOf(point, dark ? kDarkPalette : kLightPalette)) {
     if (vector.value) panel.rows.push_back({cells(vector.name, kMmPerM * *vector.value, 3), vector.colour});
   }
-  panel.rows.push_back({cells("stands at", kMmPerM * (point.position - frame.scene.frame_origin), 1), std::nullopt});
+  panel.rows.push_back(
+      {cells("stands at", kMmPerM * (point.position - frame.scene.frame_origin), 1), std::nullopt});
   panel.rows.back().cells.pop_back();
   if (frame.force) panel.rows.push_back({cells("force, N", *frame.force, 0), std::nullopt});
   return panel;
@@ -50,14 +51,15 @@ std::string pointText(const ViewFrame& frame, const ScenePoint& point) {
   std::string text = fmt::format("{}, {}", page::plain(point.label), frame.where);
   if (!frame.load.empty()) text += ", " + frame.load;
   if (frame.force) {
-    text += fmt::format(", force {:.1f} {:.1f} {:.1f} N", frame.force->x(), frame.force->y(), frame.force->z());
+    text +=
+        fmt::format(", force {:.1f} {:.1f} {:.1f} N", frame.force->x(), frame.force->y(), frame.force->z());
   }
   text += '\n';
   for (const Vector& vector : vectorsOf(point, kLightPalette)) {
     if (!vector.value) continue;
     const Eigen::Vector3d mm = kMmPerM * *vector.value;
-    text += fmt::format("  {:<9} {:>9.4f} {:>9.4f} {:>9.4f}  length {:.4f} mm\n", vector.name, mm.x(), mm.y(), mm.z(),
-                        mm.norm());
+    text += fmt::format("  {:<9} {:>9.4f} {:>9.4f} {:>9.4f}  length {:.4f} mm\n", vector.name, mm.x(), mm.y(),
+                        mm.z(), mm.norm());
   }
   return text;
 }

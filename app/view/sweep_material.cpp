@@ -40,7 +40,8 @@ std::vector<SceneTrace> tracesOf(const Campaign& campaign, const std::vector<Cir
     SceneTrace trace;
     trace.label = page::pointName(campaign.targets[static_cast<std::size_t>(circle.target)].id);
     trace.faint = circle.axis != axis;
-    for (const CircleReading* reading : circle.readings) trace.points.push_back(scene_from_points * reading->point);
+    for (const CircleReading* reading : circle.readings)
+      trace.points.push_back(scene_from_points * reading->point);
     traces.push_back(std::move(trace));
   }
   return traces;
@@ -65,7 +66,9 @@ ViewMaterial sweepMaterial(const Campaign& campaign, const Frames& frames) {
   }
   const auto r0_from_points = r0FromTable(frames, campaign.circle_sweeps->frame);
   if (!r0_from_points) {
-    material.lacking = "the sweeps do not place R0 (axes 1 and 2 must be measured), so their readings cannot be shown on the arm";
+    material.lacking =
+        "the sweeps do not place R0 (axes 1 and 2 must be measured), so their readings cannot be shown on "
+        "the arm";
     return material;
   }
   const Eigen::Isometry3d scene_from_points =
@@ -78,7 +81,8 @@ ViewMaterial sweepMaterial(const Campaign& campaign, const Frames& frames) {
     const CircleReading& middle = *of_axis->readings[of_axis->readings.size() / 2];
     ViewFrame frame;
     frame.scene.title = fmt::format("Circle sweep of axis {}", axis + 1);
-    frame.scene.subtitle = fmt::format("{}; {}", campaign.name, axisWords(frames.axes[static_cast<std::size_t>(axis)]));
+    frame.scene.subtitle =
+        fmt::format("{}; {}", campaign.name, axisWords(frames.axes[static_cast<std::size_t>(axis)]));
     frame.scene.poses = {bareArm(frames, postureAt(frames.arm.arm, middle.q))};
     frame.scene.traces = tracesOf(campaign, circles, axis, scene_from_points);
     frame.scene.trace_name = "tracker readings of this sweep, the others pale";

@@ -47,10 +47,14 @@ ViewWindow handlesOf(ArmWindow& window) {
   handles.turn = [&](double about_vertical, double towards) { window.turn(about_vertical, towards); };
   handles.zoom = [&](double factor) { window.zoom(factor); };
   handles.save = [&](const std::string& name) {
-    const std::filesystem::path file = freeFile(name);
-    savePicture(window.picture(), file);
-    say(file.string() + "\n");
-    return file.string();
+    try {
+      const std::filesystem::path file = freeFile(name);
+      savePicture(window.picture(), file);
+      say(file.string() + "\n");
+      return "saved " + file.string();
+    } catch (const std::exception& error) {  // a full or foreign folder is no reason to close the window
+      return std::string("not saved: ") + error.what();
+    }
   };
   handles.close = [&] { window.close(); };
   handles.say = say;
@@ -77,7 +81,7 @@ int viewCampaign(const ViewOptions& options) {
   OpenedMaterial opened = openMaterial(campaign, options);
   Viewer viewer(std::move(opened.by_method), opened.first, options.magnification, handlesOf(window));
   viewer.settings().dark = options.dark;
-  viewer.settings().keys_listed = options.screenshot.empty();
+  viewer.settings().keys_listed = viewer.settings().keys_work = options.screenshot.empty();
   if (!options.point.empty()) pickNamed(viewer, options.point);
   window.look(options.view);
   window.show(viewer.scene(), viewer.title());

@@ -59,7 +59,8 @@ void Viewer::stepPosture(int by) {
   const auto count = static_cast<std::ptrdiff_t>(frames.size());
   // Around the end, back to the first.
   for (std::ptrdiff_t away = 1; away <= count; ++away) {
-    const auto at = static_cast<std::size_t>(((static_cast<std::ptrdiff_t>(at_) + by * away) % count + count) % count);
+    const auto at =
+        static_cast<std::size_t>(((static_cast<std::ptrdiff_t>(at_) + by * away) % count + count) % count);
     if (!same(at)) continue;
     at_ = at;
     return;
@@ -105,7 +106,8 @@ const ScenePoint* Viewer::pickedPoint() const {
 }
 
 void Viewer::nextMethod() {
-  if (by_method_.size() < 2) message_ = material().method.empty() ? material().lacking : "this is the only method";
+  if (by_method_.size() < 2)
+    message_ = material().method.empty() ? material().lacking : "this is the only method";
   method_ = (method_ + 1) % by_method_.size();
 }
 
@@ -118,7 +120,8 @@ void Viewer::suitMagnification() {
 
 void Viewer::changeResidualFactor(bool longer) {
   const double now = settings_.residual_factor;
-  settings_.residual_factor = longer ? std::min(1000.0, roundUp125(1.5 * now)) : std::max(1.0, roundDown125(now / 1.5));
+  settings_.residual_factor =
+      longer ? std::min(1000.0, roundUp125(1.5 * now)) : std::max(1.0, roundDown125(now / 1.5));
 }
 
 void Viewer::reset() {
@@ -129,7 +132,7 @@ void Viewer::reset() {
   window_.look(View::Oblique);
 }
 
-void Viewer::save() { message_ = "saved " + window_.save(frame().name); }
+void Viewer::save() { message_ = window_.save(frame().name); }
 
 void Viewer::showOnlyWanted(ArmScene& scene) const {
   const auto strip = [&](ScenePoint& point) {
@@ -151,7 +154,7 @@ ArmScene Viewer::scene() const {
   scene.also_fitted = also_fitted_;
   scene.dark = settings_.dark;
   scene.note = message_.empty() ? status() : message_;
-  if (!settings_.keys_listed) scene.note += "   \u00b7   h: keys";
+  if (!settings_.keys_listed && settings_.keys_work) scene.note += "   \u00b7   h: keys";
   if (const ScenePoint* point = pickedPoint()) {
     scene.picked = point->position;
     scene.panels.push_back(pointPanel(frame(), *point, settings_.dark));
@@ -165,18 +168,21 @@ std::string Viewer::status() const {
   for (const ViewFrame& one : material().frames) {
     if (one.step == frame().step) postures.insert(one.posture);
   }
-  std::string text = fmt::format("{} ({} of {})", frame().where,
-                                 std::distance(postures.begin(), postures.find(frame().posture)) + 1, postures.size());
+  std::string text =
+      fmt::format("{} ({} of {})", frame().where,
+                  std::distance(postures.begin(), postures.find(frame().posture)) + 1, postures.size());
   if (frame().load.empty()) return text;
-  text += fmt::format("   \u00b7   {}   \u00b7   vectors \u00d7 {}", frame().load, shortNumber(settings_.magnification));
-  text += "   \u00b7   " + (material().method.empty() ? material().lacking : "predicted by " + material().method);
+  text += fmt::format("   \u00b7   {}   \u00b7   vectors \u00d7 {}", frame().load,
+                      factorText(settings_.magnification));
+  text +=
+      "   \u00b7   " + (material().method.empty() ? material().lacking : "predicted by " + material().method);
   return text;
 }
 
 std::string Viewer::title() const {
   std::string text = frame().where;
   if (!frame().load.empty()) {
-    text += fmt::format(", {}, vectors \u00d7 {}", frame().load, shortNumber(settings_.magnification));
+    text += fmt::format(", {}, vectors \u00d7 {}", frame().load, factorText(settings_.magnification));
   }
   return fmt::format("{} \u2013 {} \u2013 stiffscope", text, material().campaign);
 }

@@ -18,6 +18,7 @@ struct ViewSettings {
   double residual_factor = 1;
   bool dark = false;
   bool keys_listed = true;
+  bool keys_work = true;  ///< not so in a screenshot, which does not name them then
 };
 
 /// What a window does for the viewer.
@@ -25,7 +26,7 @@ struct ViewWindow {
   std::function<void(View)> look;
   std::function<void(double about_vertical, double towards)> turn;  ///< rad
   std::function<void(double factor)> zoom;
-  std::function<std::string(const std::string& name)> save;  ///< what is shown; returns the file
+  std::function<std::string(const std::string& name)> save;  ///< what is shown; returns what came of it
   std::function<void()> close;
   std::function<void(const std::string& text)> say;  ///< to standard output
 };
@@ -34,9 +35,9 @@ struct ViewWindow {
 /// `pick`, `scene` and `title` are what is to be shown.
 class Viewer {
  public:
-  /// `by_method`: the same pictures with the predictions of each method, the first to start with; not empty, and not
-  /// without frames. `first`: the frame to start with. `magnification`: empty for the one that suits all postures of
-  /// that frame's step.
+  /// `by_method`: the same pictures with the predictions of each method, the first to start with; not empty,
+  /// and not without frames. `first`: the frame to start with. `magnification`: empty for the one that suits
+  /// all postures of that frame's step.
   Viewer(std::vector<ViewMaterial> by_method, std::size_t first, std::optional<double> magnification,
          ViewWindow window);
 

@@ -15,7 +15,8 @@ namespace stiffscope {
 /// hidden, ghosts behind the posture that matters.
 class ArmLayers {
  public:
-  /// Throws std::invalid_argument as `render` does. `surface.palette` is that of the scene, whatever is given.
+  /// Throws std::invalid_argument as `render` does. `surface.palette` is that of the scene, whatever is
+  /// given.
   ArmLayers(ArmScene scene, const Surface& surface);
   ArmLayers(const ArmLayers&) = delete;
   ArmLayers& operator=(const ArmLayers&) = delete;

@@ -31,7 +31,8 @@ PanelLayout layoutOf(const Canvas& canvas, const ScenePanel& panel) {
   }
   layout.width = layout.mark;
   for (const double column : layout.columns) layout.width += column;
-  if (!layout.columns.empty()) layout.width += static_cast<double>(layout.columns.size() - 1) * kColumnGap * u;
+  if (!layout.columns.empty())
+    layout.width += static_cast<double>(layout.columns.size() - 1) * kColumnGap * u;
   layout.width = std::max(layout.width, canvas.measure(panel.title, panelTitleStyle(canvas)).x);
   return layout;
 }

@@ -65,7 +65,7 @@ double paintReference(Canvas& canvas, const SceneStage& stage, double factor, co
   const double reference = roundDown125(150 * stage.unit / pixels_per_deflection);
   const Spot tip{left.x + reference * pixels_per_deflection, left.y};
   drawArrow(canvas, left, tip, look.colour, look.width * stage.unit, kHeadLength * stage.unit);
-  const std::string text = fmt::format("{}   {} \u00d7 {}", lengthText(reference), what, shortNumber(factor));
+  const std::string text = fmt::format("{}   {} \u00d7 {}", lengthText(reference), what, factorText(factor));
   const Spot at{tip.x + 10 * stage.unit, left.y};
   canvas.text(text, at, AlignX::Left, AlignY::Centre, labelStyle(canvas));
   return at.x + canvas.measure(text, labelStyle(canvas)).x;

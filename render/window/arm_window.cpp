@@ -23,7 +23,7 @@ namespace stiffscope {
 
 namespace {
 
-constexpr int kAntialiasing = 4;  // samples a pixel
+constexpr int kAntialiasing = 4;    // samples a pixel
 constexpr double kPickRadius = 16;  // pixels at 1200 x 700
 
 vtkSmartPointer<vtkRenderWindow> newWindow() {
@@ -74,7 +74,8 @@ class ArmWindow::Implementation {
 };
 
 ArmWindow::Implementation::Implementation(Size size) : window_(newWindow()), shown_(*window_) {
-  // VTK's errors are thrown (CollectErrors); its warnings, as of having no interactor style, are not for users.
+  // VTK's errors are thrown (CollectErrors); its warnings, as of having no interactor style, are not for
+  // users.
   vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);
   window_->SetSize(size.width, size.height);
   window_->SetMultiSamples(kAntialiasing);
@@ -92,9 +93,11 @@ void ArmWindow::Implementation::changed() {
 void ArmWindow::Implementation::draw() {
   stale_ = false;
   camera_.apply(scene_);
+  const bool first = shown_.stage() == nullptr;  // the window is made by drawing
+  if (!first) nameWindow(*window_, title_);
   shown_.show(scene_);
+  if (first) nameWindow(*window_, title_);
   if (const SceneStage* stage = shown_.stage()) camera_.framedAs(stage->projection.framingOf(stage->room));
-  nameWindow(*window_, title_);
 }
 
 void ArmWindow::Implementation::observe() {
@@ -102,13 +105,12 @@ void ArmWindow::Implementation::observe() {
   command_->SetCallback([](vtkObject*, unsigned long event, void* self, void*) {
     static_cast<Implementation*>(self)->handle(event);
   });
-  for (const auto event :
-       {vtkCommand::KeyPressEvent, vtkCommand::MouseMoveEvent, vtkCommand::LeftButtonPressEvent,
-        vtkCommand::LeftButtonReleaseEvent, vtkCommand::MiddleButtonPressEvent,
-        vtkCommand::MiddleButtonReleaseEvent, vtkCommand::RightButtonPressEvent,
-        vtkCommand::RightButtonReleaseEvent, vtkCommand::MouseWheelForwardEvent,
-        vtkCommand::MouseWheelBackwardEvent, vtkCommand::ConfigureEvent, vtkCommand::ExposeEvent,
-        vtkCommand::ExitEvent}) {
+  for (const auto event : {vtkCommand::KeyPressEvent, vtkCommand::MouseMoveEvent,
+                           vtkCommand::LeftButtonPressEvent, vtkCommand::LeftButtonReleaseEvent,
+                           vtkCommand::MiddleButtonPressEvent, vtkCommand::MiddleButtonReleaseEvent,
+                           vtkCommand::RightButtonPressEvent, vtkCommand::RightButtonReleaseEvent,
+                           vtkCommand::MouseWheelForwardEvent, vtkCommand::MouseWheelBackwardEvent,
+                           vtkCommand::ConfigureEvent, vtkCommand::ExposeEvent, vtkCommand::ExitEvent}) {
     interactor_->AddObserver(event, command_);
   }
 }
@@ -162,7 +164,8 @@ void ArmWindow::Implementation::move(Hand::Motion motion) {
     case Hand::Kind::Nothing:
       break;
     case Hand::Kind::Turn:  // half a turn over the height of the room
-      changeView([&](ViewCamera& camera) { camera.turn(M_PI * motion.x / height, M_PI * motion.y / height); });
+      changeView(
+          [&](ViewCamera& camera) { camera.turn(M_PI * motion.x / height, M_PI * motion.y / height); });
       break;
     case Hand::Kind::Shift:
       changeView([&](ViewCamera& camera) { camera.shift(motion.x / height, -motion.y / height); });

@@ -16,8 +16,8 @@ class ShownLayers {
   ShownLayers(const ShownLayers&) = delete;
   ShownLayers& operator=(const ShownLayers&) = delete;
 
-  /// Draws the scene instead of the one before, in the window's present size; a window squeezed to nothing keeps
-  /// what it has. Throws what ArmLayers throws, and std::runtime_error for errors of VTK.
+  /// Draws the scene instead of the one before, in the window's present size; a window squeezed to nothing
+  /// keeps what it has. Throws what ArmLayers throws, and std::runtime_error for errors of VTK.
   void show(const ArmScene& scene);
   /// How the last scene was projected; none before the first.
   const SceneStage* stage() const { return layers_ ? &layers_->stage() : nullptr; }

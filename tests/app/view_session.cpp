@@ -72,7 +72,8 @@ struct ViewSession::Connection {
     unsigned long count = 0, rest_of_it = 0;
     unsigned char* data = nullptr;
     XGetWindowProperty(display, id, XInternAtom(display, "_NET_WM_NAME", False), 0, 1000, False,
-                       XInternAtom(display, "UTF8_STRING", False), &type, &format, &count, &rest_of_it, &data);
+                       XInternAtom(display, "UTF8_STRING", False), &type, &format, &count, &rest_of_it,
+                       &data);
     std::string name = data == nullptr ? "" : std::string(reinterpret_cast<char*>(data), count);
     if (data != nullptr) XFree(data);
     return name;
@@ -147,7 +148,7 @@ void ViewSession::waitForChange(const cv::Mat& before) {
   const auto same = [](const cv::Mat& a, const cv::Mat& b) {
     return a.size() == b.size() && cv::norm(a, b, cv::NORM_INF) == 0;
   };
-  const auto deadline = Clock::now() + std::chrono::milliseconds(1500);
+  const auto deadline = Clock::now() + std::chrono::seconds(8);
   cv::Mat last = picture();
   while (Clock::now() < deadline) {
     rest(60);
@@ -167,6 +168,17 @@ void ViewSession::press(const char* key, bool shift) {
   if (shift) XTestFakeKeyEvent(x_->display, shift_key, False, CurrentTime);
   x_->flush();
   if (std::string(key) != "q" && std::string(key) != "Escape") waitForChange(before);
+}
+
+void ViewSession::close() {
+  XEvent event{};
+  event.xclient.type = ClientMessage;
+  event.xclient.window = x_->window;
+  event.xclient.message_type = XInternAtom(x_->display, "WM_PROTOCOLS", False);
+  event.xclient.format = 32;
+  event.xclient.data.l[0] = static_cast<long>(XInternAtom(x_->display, "WM_DELETE_WINDOW", False));
+  XSendEvent(x_->display, x_->window, False, NoEventMask, &event);
+  x_->flush();
 }
 
 void ViewSession::click(cv::Point at) { drag(at, at); }

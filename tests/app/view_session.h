@@ -30,16 +30,19 @@ class VirtualDisplay {
 class ViewSession {
  public:
   /// Starts the program with these words in `folder`, and waits until its window is drawn.
-  ViewSession(const std::string& display, std::vector<std::string> words, const std::filesystem::path& folder);
+  ViewSession(const std::string& display, std::vector<std::string> words,
+              const std::filesystem::path& folder);
   ~ViewSession();
   ViewSession(const ViewSession&) = delete;
   ViewSession& operator=(const ViewSession&) = delete;
 
   bool opened() const;
-  /// A key by its X name, with Shift where wanted; waits until the picture has changed and stands still, or for a
-  /// second and a half if it does not change.
+  /// A key by its X name, with Shift where wanted; waits until the picture has changed and stands still,
+  /// eight seconds at most.
   void press(const char* key, bool shift = false);
   void click(cv::Point at);
+  /// As a window manager closes it.
+  void close();
   void drag(cv::Point from, cv::Point to);
   void wheel(cv::Point at, bool forward);
 
@@ -47,7 +50,8 @@ class ViewSession {
   cv::Mat picture();
   /// The window's name.
   std::string title();
-  /// The exit status after `press` of "q" or "Escape", -1 if it has not ended within five seconds; standard output and error.
+  /// The exit status after `press` of "q" or "Escape" or `close`, -1 if it has not ended within five seconds;
+  /// standard output and error.
   Ran ended();
   /// What the program has written to standard output so far.
   std::string out() const;

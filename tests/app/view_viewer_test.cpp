@@ -33,7 +33,8 @@ struct Hand {
     }
   }
 
-  Viewer viewer(std::vector<std::optional<Method>> methods = {Method::decoupled_partial_pose, Method::partial_pose},
+  Viewer viewer(std::vector<std::optional<Method>> methods = {Method::decoupled_partial_pose,
+                                                              Method::partial_pose},
                 std::optional<double> magnification = std::nullopt) {
     std::vector<ViewMaterial> by_method;
     for (const auto& method : methods) {
@@ -43,7 +44,7 @@ struct Hand {
     window.look = [this](View view) { looked.push_back(view); };
     window.turn = [](double, double) {};
     window.zoom = [](double) {};
-    window.save = [](const std::string& name) { return name + ".png"; };
+    window.save = [](const std::string& name) { return "saved " + name + ".png"; };
     window.close = [this] { closed = true; };
     window.say = [this](const std::string& text) { said += text; };
     return Viewer(std::move(by_method), 0, magnification, window);
@@ -81,6 +82,8 @@ TEST(Viewer, KeysTakeVectorsAwayAndBringThemBack) {
   viewer.press("0");
   EXPECT_TRUE(wrist().measured && wrist().predicted && wrist().residual);
   EXPECT_EQ(hand.looked, std::vector<View>{View::Oblique});
+  viewer.press("s");
+  EXPECT_EQ(viewer.scene().note, "saved posture-A-step-1.png");
   viewer.press("q");
   EXPECT_TRUE(hand.closed);
 }
@@ -159,7 +162,8 @@ TEST(LoadStep, TheIdentifiedStepComesOutAgain) {
   }
 }
 
-// The springs are linear: under another step the prediction goes with the force, but for K_c (below a hundredth).
+// The springs are linear: under another step the prediction goes with the force, but for K_c (below a
+// hundredth).
 TEST(LoadStep, PredictionGoesWithTheLoad) {
   const Campaign campaign = readCampaign(STIFFSCOPE_SOURCE_DIR "/samples/active").campaign;
   IdentifyOptions options;
@@ -174,8 +178,8 @@ TEST(LoadStep, PredictionGoesWithTheLoad) {
     const double share = lighter.cases[i].wrench.force.norm() / identified.cases[i].wrench.force.norm();
     EXPECT_LT(share, 0.9);
     const Eigen::VectorXd full = method.target_rows[i].matrix * method.estimate.compliance;
-    const Eigen::VectorXd less = lighter.of(Method::decoupled_partial_pose).target_rows[i].matrix *
-                                 method.estimate.compliance;
+    const Eigen::VectorXd less =
+        lighter.of(Method::decoupled_partial_pose).target_rows[i].matrix * method.estimate.compliance;
     EXPECT_LT((less - share * full).norm(), 0.02 * full.norm()) << i;
   }
 }
@@ -191,7 +195,8 @@ TEST(SweepMaterial, EachAxisWithItsReadingsOnTheArm) {
       if (!trace.faint) readings += trace.points.size();
     }
     const auto& rows = campaign.circle_sweeps->rows;
-    EXPECT_EQ(readings, static_cast<std::size_t>(std::count_if(rows.begin(), rows.end(), [&](const CircleReading& one) {
+    EXPECT_EQ(readings,
+              static_cast<std::size_t>(std::count_if(rows.begin(), rows.end(), [&](const CircleReading& one) {
                 return one.axis == frame.posture;
               })));
     // A reflector is on the tool: at the middle of its sweep less than a metre from the flange.

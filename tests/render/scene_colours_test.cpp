@@ -33,7 +33,8 @@ std::array<Eigen::Matrix3d, 3> blindnesses() {
   return {red, green, blue};
 }
 
-// A difference of 20 in L*a*b* is about ten times what is just seen side by side, 14 in L* tells two greys of a print.
+// A difference of 20 in L*a*b* is about ten times what is just seen side by side, 14 in L* tells two greys of
+// a print.
 TEST(SceneColours, VectorsStayApartInGreyAndToTheColourBlind) {
   for (const Palette& palette : {kLightPalette, kDarkPalette}) {
     const std::array<Colour, 3> vectors{palette.measured, palette.predicted, palette.residual};

@@ -30,7 +30,8 @@ TEST(ViewCamera, FitsUntilTheHandTakesIt) {
   EXPECT_FALSE(seenBy(camera).framing);
 }
 
-// From the front y is to the right and z up: pulled by a quarter of a room 4 m high, the centre goes the other way.
+// From the front y is to the right and z up: pulled by a quarter of a room 4 m high, the centre goes the
+// other way.
 TEST(ViewCamera, ShiftingMovesTheCentreAgainstTheHand) {
   ViewCamera camera;
   camera.look(View::Front);
@@ -39,8 +40,8 @@ TEST(ViewCamera, ShiftingMovesTheCentreAgainstTheHand) {
   EXPECT_LT((seenBy(camera).framing->centre - Eigen::Vector3d(0, -1, 2)).norm(), kRounding);
 }
 
-// Pulled to the right by a quarter turn, what was in front is at the right: then the view is from the left side, along
-// the turned y axis.
+// Pulled to the right by a quarter turn, what was in front is at the right: then the view is from the left
+// side, along the turned y axis.
 TEST(ViewCamera, TurnsTheSceneWithTheHand) {
   ViewCamera camera;
   camera.look(View::Front);  // against x
