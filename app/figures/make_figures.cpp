@@ -8,7 +8,7 @@
 #include "app/figures/stiffness_intervals.h"
 #include "app/figures/subset_spreads.h"
 #include "render/png.h"
-#include "reports/page/avoided_share.h"
+#include "reports/page/avoided_by_encoders.h"
 
 namespace stiffscope {
 
@@ -59,7 +59,7 @@ std::vector<Figure> makeFigures(const std::vector<ReportCampaign>& campaigns, co
       figures.push_back(std::move(figure));
     }
   }
-  if (const auto avoided = avoidedShare(campaigns)) {
+  if (const auto avoided = avoidedByEncoders(campaigns); avoided && avoided->available) {
     figures.push_back(drawn(describeEncoderBars(*avoided), encoderBars(*avoided), kChart));
   }
   return figures;

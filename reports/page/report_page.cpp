@@ -34,6 +34,7 @@ std::string reportPage(const ReportContent& content) {
     page::writeSubsets(html, content);
     page::writeCompensation(html, content);
     page::writeFigures(html, content);
+    page::writeAudit(html, content);
     page::writeLeftOut(html, content);
     page::writeProvenance(html, content);
   }

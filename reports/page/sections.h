@@ -17,6 +17,7 @@ void writeStiffness(Html& html, const ReportContent& content);     ///< by metho
 void writeSubsets(Html& html, const ReportContent& content);       ///< Table II
 void writeCompensation(Html& html, const ReportContent& content);  ///< compensated and avoided shares
 void writeFigures(Html& html, const ReportContent& content);
+void writeAudit(Html& html, const ReportContent& content);       ///< checks with their limits; rejected readings
 void writeLeftOut(Html& html, const ReportContent& content);     ///< what was not used or not found, and why
 void writeProvenance(Html& html, const ReportContent& content);  ///< inputs, versions, settings
 

@@ -37,7 +37,7 @@ const char* pageStyle() {
          "tbody th:first-child,thead th:first-child{padding-left:0}"
          "tbody+tbody tr:first-child th,tbody+tbody tr:first-child td{border-top:1px solid var(--faint)}"
          ".grouped tbody th{padding-left:.7rem}.grouped tbody th[scope=rowgroup]{padding-left:0}"
-         ".words td{overflow-wrap:anywhere}"
+         ".words td:last-child{overflow-wrap:anywhere}"
          "tbody th{white-space:nowrap}"
          ".notes{font-size:.85rem;color:var(--faint);padding-left:1.4rem}"
          "figure{margin:1.6rem 0;padding:0}"
