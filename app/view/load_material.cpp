@@ -3,7 +3,8 @@
 #include <fmt/format.h>
 
 #include "app/figures/deflection_scene.h"
-#include "app/view/load_step.h"
+#include "app/view/under_load_step.h"
+#include "core/identification/load_step.h"
 #include "reports/page/names.h"
 #include "reports/page/numbers.h"
 
@@ -27,10 +28,6 @@ ViewFrame frameOf(const ReportCampaign& one, std::size_t index, std::optional<Me
 }
 
 }  // namespace
-
-bool hasLoads(const Campaign& campaign) {
-  return campaign.states && campaign.load_cell && (campaign.loading || campaign.displacements);
-}
 
 ViewMaterial loadMaterial(const Campaign& campaign, const Identification& identified,
                           std::optional<Method> method) {

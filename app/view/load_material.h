@@ -8,9 +8,6 @@
 
 namespace stiffscope {
 
-/// The campaign has what a load case takes: states, a load cell, and readings under load.
-bool hasLoads(const Campaign& campaign);
-
 /// Every posture under every load step, the scenes by the code of the report's deflection picture. Vectors
 /// are predicted by `method` with the stiffnesses of `identified`, from whichever step they were identified;
 /// none: measured vectors only.

@@ -5,8 +5,8 @@
 #include "app/figures/deflection_scene.h"
 #include "app/method_option.h"
 #include "app/view/load_material.h"
-#include "app/view/load_step.h"
 #include "app/view/sweep_material.h"
+#include "core/identification/load_step.h"
 #include "core/input/input_error.h"
 #include "core/input/nearest_name.h"
 #include "reports/page/names.h"
@@ -99,9 +99,9 @@ OpenedMaterial openSweeps(const Campaign& campaign, const ViewOptions& options, 
 }  // namespace
 
 OpenedMaterial openMaterial(const Campaign& campaign, const ViewOptions& options) {
-  if (!hasLoads(campaign) || !heaviestStep(campaign)) {
-    return openSweeps(campaign, options, "no load with joint angles, load cell and readings is stated");
-  }
+  const std::string lacking = whatLoadsLack(campaign);
+  if (!lacking.empty()) return openSweeps(campaign, options, lacking);
+  if (!heaviestStep(campaign)) return openSweeps(campaign, options, "no load step has a force");
   const Identification result = identified(campaign, options);
   OpenedMaterial opened = openLoads(campaign, result, options);
   if (!opened.by_method.empty()) return opened;

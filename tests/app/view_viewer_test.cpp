@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
 #include "app/view/load_material.h"
-#include "app/view/load_step.h"
 #include "app/view/sweep_material.h"
+#include "app/view/under_load_step.h"
 #include "app/view/viewer.h"
 #include "core/campaign/read_campaign.h"
 #include "tests/reports/small_result.h"

@@ -1,6 +1,4 @@
-#include "app/view/load_step.h"
-
-#include <set>
+#include "app/view/under_load_step.h"
 
 #include "core/identification/loaded_arm.h"
 
@@ -36,15 +34,6 @@ std::vector<CaseEquations> alignedRows(const std::vector<CaseEquations>& rows,
 }
 
 }  // namespace
-
-std::vector<int> loadSteps(const Campaign& campaign) {
-  std::set<int> steps;
-  if (campaign.states) {
-    for (const State& state : campaign.states->rows) steps.insert(state.step);
-  }
-  steps.erase(0);
-  return {steps.begin(), steps.end()};
-}
 
 Identification underLoadStep(const Campaign& campaign, const Identification& identified, int step) {
   Identification other;

@@ -11,7 +11,4 @@ namespace stiffscope {
 /// case for which a method has no rows gets empty ones.
 Identification underLoadStep(const Campaign& campaign, const Identification& identified, int step);
 
-/// The load steps of the campaign's states but 0, ascending.
-std::vector<int> loadSteps(const Campaign& campaign);
-
 }  // namespace stiffscope
