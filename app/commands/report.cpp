@@ -15,7 +15,6 @@
 #include "core/audit/audit.h"
 #include "core/identification/cautions.h"
 #include "core/identification/load_step.h"
-#include "reports/json/results_json.h"
 #include "reports/page/report_page.h"
 #include "reports/page/verdict.h"
 

@@ -7,21 +7,14 @@
 #include <cmath>
 
 #include "render/vtk/canvas.h"
-#include "render/vtk/offscreen_context.h"
 
 namespace stiffscope {
-
-namespace {
-
-constexpr float kScale = kSupersampling;
-
-}  // namespace
 
 void Canvas::setStyle(double size, bool bold, Colour colour, Direction direction) const {
   vtkTextProperty* style = context_.GetTextProp();
   style->SetFontFamily(VTK_FONT_FILE);
   style->SetFontFile((bold ? fonts_.bold : fonts_.regular).c_str());
-  style->SetFontSize(std::max(1, static_cast<int>(std::lround(size * kScale))));
+  style->SetFontSize(std::max(1, static_cast<int>(std::lround(size * surface_.scale))));
   style->SetColor(colour.red / 255.0, colour.green / 255.0, colour.blue / 255.0);
   style->SetJustificationToLeft();
   style->SetVerticalJustificationToBottom();
@@ -32,7 +25,7 @@ double Canvas::runWidth(const std::string& run, double size, bool bold) const {
   setStyle(size, bold, colours::kInk, Direction::Across);
   std::array<float, 4> bounds{};
   context_.ComputeStringBounds(run.c_str(), bounds.data());
-  return bounds[2] / kScale;
+  return bounds[2] / surface_.scale;
 }
 
 namespace {
@@ -95,8 +88,8 @@ void Canvas::text(const std::string& text, Spot anchor, AlignX x, AlignY y, cons
                             : top + height - descent - 0.02 * style.size + 0.24 * size + drop;
     const double at_x = up ? below : left + along;
     const double at_y = up ? top + height - along : below;
-    context_.DrawString(static_cast<float>(std::round(at_x * kScale)),
-                        static_cast<float>(std::round((size_.height - at_y) * kScale)), run.text.c_str());
+    context_.DrawString(static_cast<float>(std::round(at_x * surface_.scale)),
+                        static_cast<float>(std::round((surface_.size.height - at_y) * surface_.scale)), run.text.c_str());
     along += run_width;
   }
 }

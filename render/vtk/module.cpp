@@ -24,7 +24,7 @@ class VtkBackend : public Backend {
 }  // namespace stiffscope
 
 // The name must be that of kBackendSymbol.
-extern "C" __attribute__((visibility("default"))) stiffscope::Backend* stiffscope_render_backend_4() {
+extern "C" __attribute__((visibility("default"))) stiffscope::Backend* stiffscope_render_backend_5() {
   static stiffscope::VtkBackend backend;
   return &backend;
 }

@@ -64,7 +64,7 @@ TEST(DeflectionScene, EveryJointPointIsOnItsAxis) {
   SmallResult small;
   LoadCase& load_case = small.identification.cases[0];
   load_case.posture = postureAt(small.campaign.robot, Vector6d::Constant(0.4));
-  const ArmPose pose = armPose(of(small), 0);
+  const ArmPose pose = armPose(of(small), 0, Method::decoupled_partial_pose);
   for (int joint = 0; joint < 6; ++joint) {
     const Line axis = axisAt(small.campaign.robot, load_case.posture, joint);
     const Eigen::Vector3d off = pose.joint_points[static_cast<std::size_t>(joint)] - axis.point;
@@ -75,8 +75,8 @@ TEST(DeflectionScene, EveryJointPointIsOnItsAxis) {
 TEST(DeflectionScene, TheFloorIsWhereTheRobotStands) {
   SmallResult small;
   small.identification.frames.arm.r0_from_base_link.translation() << 0, 0, -0.94;
-  EXPECT_DOUBLE_EQ(heightOfR0(small.identification), 0.94);
-  const ArmPose pose = armPose(of(small), 0);
+  EXPECT_DOUBLE_EQ(heightOfR0(small.identification.frames), 0.94);
+  const ArmPose pose = armPose(of(small), 0, Method::decoupled_partial_pose);
   EXPECT_NEAR(pose.wrist->position.z(), 2.31 + 0.94, 1e-12);
 }
 
