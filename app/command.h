@@ -18,6 +18,8 @@ void addFit(CLI::App& app, Run& run);
 void addFrames(CLI::App& app, Run& run);
 void addIdentify(CLI::App& app, Run& run);
 void addCompensate(CLI::App& app, Run& run);
+void addCompare(CLI::App& app, Run& run);
+void addPlan(CLI::App& app, Run& run);
 void addSimulate(CLI::App& app, Run& run);
 void addReport(CLI::App& app, Run& run);
 

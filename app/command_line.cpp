@@ -51,6 +51,8 @@ int runCommandLine(int count, char** words) {
   addFrames(app, run);
   addIdentify(app, run);
   addCompensate(app, run);
+  addCompare(app, run);
+  addPlan(app, run);
   addSimulate(app, run);
   addReport(app, run);
   try {

@@ -5,11 +5,14 @@
 #include "app/command.h"
 #include "app/method_option.h"
 #include "app/output.h"
+#include "app/prepared.h"
 #include "core/compensation/postures_table.h"
 #include "core/input/input_error.h"
 #include "reports/json/compensation_json.h"
+#include "reports/json/preparation_json.h"
 #include "reports/method_names.h"
 #include "reports/text/compensation_text.h"
+#include "reports/text/preparation_text.h"
 
 namespace stiffscope {
 
@@ -18,6 +21,7 @@ namespace {
 struct Arguments {
   std::string campaign, postures, json, method;
   int step = 0;
+  bool raw = false;
 };
 
 /// The decoupled method where it can be had, else Partial Pose, else Complete Pose.
@@ -32,7 +36,8 @@ int compensateCampaign(const Arguments& arguments, bool step_given) {
   std::vector<Method> methods;
   if (!arguments.method.empty()) methods = methodsNamed(arguments.method);
   if (methods.size() > 1) throw InputError({"--method"}, arguments.method, "expected one of cp, pp or dpp");
-  const Campaign campaign = openCampaign(arguments.campaign);
+  const PreparedCampaign prepared = openPrepared(arguments.campaign, arguments.raw);
+  const Campaign& campaign = prepared.campaign;
   IdentifyOptions options;
   if (step_given) options.step = arguments.step;
   const Identification result = identify(campaign, options);
@@ -48,8 +53,9 @@ int compensateCampaign(const Arguments& arguments, bool step_given) {
   printWarnings(warnings);
   const std::vector<CompensatedPosture> rows =
       compensate(campaign, method.geometry, method.estimate, result.frames.tcp_in_flange, asked);
-  deliver([&] { return compensationJson(campaign, methods.front(), rows); },
-          [&] { return compensationText(campaign, methods.front(), rows); }, arguments.json);
+  deliver([&] { return withPreparation(compensationJson(campaign, methods.front(), rows), prepared.preparation); },
+          [&] { return compensationText(campaign, methods.front(), rows) + preparationText(prepared.preparation); },
+          arguments.json);
   const bool any = std::any_of(rows.begin(), rows.end(), [](const CompensatedPosture& row) { return row.solved; });
   return any ? kDone : kNotUsable;
 }
@@ -66,6 +72,7 @@ void addCompensate(CLI::App& app, Run& run) {
                       "campaign's own");
   command->add_option("--method", arguments->method, "cp, pp or dpp; without it the best that is available, dpp first");
   const CLI::Option* step = command->add_option("--step", arguments->step, "load step to identify from");
+  addRawOption(*command, arguments->raw);
   command->add_option("--json", arguments->json, "write the result to this file, - for standard output");
   command->callback([arguments, step, &run] {
     run = [arguments, step_given = step->count() > 0] { return compensateCampaign(*arguments, step_given); };

@@ -3,25 +3,32 @@
 
 #include "app/command.h"
 #include "app/output.h"
+#include "app/prepared.h"
 #include "core/identification/identify.h"
 #include "reports/json/frames_json.h"
+#include "reports/json/preparation_json.h"
 #include "reports/text/frames_text.h"
+#include "reports/text/preparation_text.h"
 
 namespace stiffscope {
 
 void addFrames(CLI::App& app, Run& run) {
   struct Arguments {
     std::string campaign, json;
+    bool raw = false;
   };
   const auto arguments = std::make_shared<Arguments>();
   CLI::App* command = app.add_subcommand("frames", "Axes, R0, link lengths, P_TCP and the wrist centre from the sweeps");
   command->add_option("CAMPAIGN", arguments->campaign, "campaign folder or its campaign.xml")->required();
+  addRawOption(*command, arguments->raw);
   command->add_option("--json", arguments->json, "write the result to this file, - for standard output");
   command->callback([arguments, &run] {
     run = [arguments] {
-      const Campaign campaign = openCampaign(arguments->campaign);
+      const PreparedCampaign prepared = openPrepared(arguments->campaign, arguments->raw);
+      const Campaign& campaign = prepared.campaign;
       const Frames frames = settledFrames(campaign);
-      deliver([&] { return framesJson(campaign, frames); }, [&] { return framesText(campaign, frames); }, arguments->json);
+      deliver([&] { return withPreparation(framesJson(campaign, frames), prepared.preparation); },
+              [&] { return framesText(campaign, frames) + preparationText(prepared.preparation); }, arguments->json);
       return frames.arm.points_placed ? kDone : kNotUsable;
     };
   });

@@ -4,10 +4,13 @@
 #include "app/command.h"
 #include "app/method_option.h"
 #include "app/output.h"
+#include "app/prepared.h"
 #include "core/identification/cautions.h"
 #include "core/input/input_error.h"
 #include "reports/json/identification_json.h"
+#include "reports/json/preparation_json.h"
 #include "reports/text/identification_text.h"
+#include "reports/text/preparation_text.h"
 
 namespace stiffscope {
 
@@ -16,12 +19,13 @@ namespace {
 struct Arguments {
   std::string campaign, json, method = "all";
   int step = 0, subset_size = 0;
-  bool neglect_kc = false;
+  bool neglect_kc = false, raw = false;
 };
 
 int identifyCampaign(const Arguments& arguments, bool step_given, bool subset_given) {
   const std::vector<Method> methods = methodsNamed(arguments.method);
-  const Campaign campaign = openCampaign(arguments.campaign);
+  const PreparedCampaign prepared = openPrepared(arguments.campaign, arguments.raw);
+  const Campaign& campaign = prepared.campaign;
   IdentifyOptions options;
   if (step_given) options.step = arguments.step;
   options.finite_deflection = !arguments.neglect_kc;
@@ -30,8 +34,9 @@ int identifyCampaign(const Arguments& arguments, bool step_given, bool subset_gi
   }
   options.subsets.size = arguments.subset_size;
   const Identification result = identify(campaign, options);
-  deliver([&] { return identificationJson(campaign, result, methods); },
-          [&] { return identificationText(campaign, result, methods); }, arguments.json);
+  deliver([&] { return withPreparation(identificationJson(campaign, result, methods), prepared.preparation); },
+          [&] { return identificationText(campaign, result, methods) + preparationText(prepared.preparation); },
+          arguments.json);
   return anyUsable(result, methods) ? kDone : kNotUsable;
 }
 
@@ -48,6 +53,7 @@ void addIdentify(CLI::App& app, Run& run) {
                       "postures that identify in Table II's subsets; without it 10 of 19, in proportion");
   command->add_flag("--neglect-kc", arguments->neglect_kc,
                     "neglect K_c and take Jacobians at the unloaded arm, as the paper does");
+  addRawOption(*command, arguments->raw);
   command->add_option("--json", arguments->json, "write the result to this file, - for standard output");
   command->callback([arguments, step, subset, &run] {
     run = [arguments, step_given = step->count() > 0, subset_given = subset->count() > 0] {

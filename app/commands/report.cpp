@@ -9,9 +9,12 @@
 #include "app/command.h"
 #include "app/figures/make_figures.h"
 #include "app/output.h"
+#include "app/prepared.h"
+#include "app/report_files.h"
 #include "app/versions.h"
+#include "core/audit/audit.h"
 #include "core/identification/cautions.h"
-#include "core/input/write_file.h"
+#include "core/identification/load_step.h"
 #include "reports/json/results_json.h"
 #include "reports/page/report_page.h"
 #include "reports/page/verdict.h"
@@ -24,14 +27,14 @@ struct Arguments {
   std::vector<std::string> campaigns;
   std::string out;
   int step = 0;
-  bool neglect_kc = false, paper = false;
+  bool neglect_kc = false, paper = false, raw = false;
 };
 
 /// "10 of 19, 12 of 24": of each campaign that has subsets.
-std::string subsetSizes(const std::list<Identification>& identifications) {
+std::string subsetSizes(const std::vector<ReportCampaign>& campaigns) {
   std::string sizes;
-  for (const Identification& one : identifications) {
-    for (const MethodResult& method : one.methods) {
+  for (const ReportCampaign& one : campaigns) {
+    for (const MethodResult& method : one.identification.methods) {
       if (method.subsets.compliances.empty()) continue;
       sizes += fmt::format("{}{} of {}", sizes.empty() ? "" : ", ", method.subsets.size, method.subsets.of);
       break;
@@ -41,50 +44,60 @@ std::string subsetSizes(const std::list<Identification>& identifications) {
 }
 
 std::vector<NamedText> settingsOf(const IdentifyOptions& options,
-                                  const std::list<Identification>& identifications) {
+                                  const std::vector<ReportCampaign>& campaigns) {
   return {{"load step", options.step ? std::to_string(*options.step) : "the one with the largest mean force"},
           {"geometric stiffness K_{c}", options.finite_deflection ? "included" : "neglected"},
-          {"postures in a subset", subsetSizes(identifications)},
+          {"postures in a subset", subsetSizes(campaigns)},
           {"subsets", "all up to 250 000, else a sample with seed 1"}};
 }
+
+/// What is used of one campaign and what comes of it. A campaign without loads gives its frames.
+struct Result {
+  PreparedCampaign prepared;
+  AuditReport audited;
+  Identification identification;
+  bool loaded = false;
+
+  Result(const std::string& folder, bool raw, const IdentifyOptions& options) {
+    const Campaign read = openCampaign(folder);
+    prepared = raw ? leaveRaw(read) : prepareCampaign(read);
+    loaded = whatLoadsLack(prepared.campaign).empty();
+    identification = loaded ? identify(prepared.campaign, options) : framesAlone(prepared.campaign);
+    audited = audit(read);
+  }
+
+  /// Of loads, stiffnesses are the purpose; of a day of sweeps alone, the frames.
+  bool usable() const {
+    return loaded ? anyUsable(identification, {kMethods.begin(), kMethods.end()})
+                  : identification.frames.arm.points_placed;
+  }
+};
 
 int writeReport(const Arguments& arguments, bool step_given) {
   IdentifyOptions options;
   if (step_given) options.step = arguments.step;
   options.finite_deflection = !arguments.neglect_kc;
-  std::list<Campaign> campaigns;  // lists: the content refers to their elements
-  std::list<Identification> identifications;
+  std::list<Result> results;  // a list: the content refers to its elements
   ReportContent content;
   for (const std::string& folder : arguments.campaigns) {
-    campaigns.push_back(openCampaign(folder));
-    identifications.push_back(identify(campaigns.back(), options));
-    content.campaigns.push_back({campaigns.back(), identifications.back()});
+    const Result& one = results.emplace_back(folder, arguments.raw, options);
+    content.campaigns.push_back(
+        {one.prepared.campaign, one.identification, &one.audited, &one.prepared.preparation});
   }
-  content.avoided = avoidedShare(content.campaigns);
+  content.avoided = avoidedByEncoders(content.campaigns);
   content.compare_with_paper = arguments.paper;
   content.versions = versions();
-  content.settings = settingsOf(options, identifications);
+  content.settings = settingsOf(options, content.campaigns);
   content.title = "Joint stiffness";
   content.verdict = verdictOf(content.campaigns, content.avoided);
   content.figures = makeFigures(content.campaigns, {arguments.paper});
 
   // Everything is made before the first file is written; the page comes last.
   const ReportPage page = makeReportPage(content);
-  const std::string results = resultsJson(content).dump(1) + '\n';
-  const std::filesystem::path folder = arguments.out;
-  makeFolder(folder);
-  for (const Figure& figure : content.figures) {
-    writeFileWhole(folder / (figure.id + ".png"),
-                   {reinterpret_cast<const char*>(figure.png.data()), figure.png.size()});
-  }
-  writeFileWhole(folder / "results.json", results);
-  makeFolder(folder / "tables");
-  for (const TableFile& table : page.tables) writeFileWhole(folder / "tables" / (table.name + ".csv"), table.csv);
-  writeFileWhole(folder / "report.html", page.html);
-  std::printf("%s\n", (folder / "report.html").c_str());
-  const bool usable = std::any_of(identifications.begin(), identifications.end(), [](const Identification& one) {
-    return anyUsable(one, {kMethods.begin(), kMethods.end()});
-  });
+  writeReportFiles(arguments.out, content, page, resultsJson(content));
+  std::printf("%s\n", (std::filesystem::path(arguments.out) / "report.html").c_str());
+  const bool usable =
+      std::any_of(results.begin(), results.end(), [](const Result& one) { return one.usable(); });
   return usable ? kDone : kNotUsable;
 }
 
@@ -99,6 +112,7 @@ void addReport(CLI::App& app, Run& run) {
   command->add_option("--out", arguments->out, "folder for report.html, results.json, the pictures and the tables as CSV")->required();
   const CLI::Option* step = command->add_option("--step", arguments->step, "load step to identify from");
   command->add_flag("--neglect-kc", arguments->neglect_kc, "neglect K_c, as the paper does");
+  addRawOption(*command, arguments->raw);
   command->add_flag("--paper", arguments->paper, "put the figures of Ambiehl et al. (IROS 2017) beside these");
   command->callback([arguments, step, &run] {
     run = [arguments, step_given = step->count() > 0] { return writeReport(*arguments, step_given); };

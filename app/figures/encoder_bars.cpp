@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "reports/page/avoided_by_encoders.h"
 #include "reports/page/html.h"
 #include "reports/page/numbers.h"
 
@@ -16,31 +17,31 @@ constexpr Colour kActive{70, 78, 96};  // slate: no method's colour
 
 }  // namespace
 
-GroupedBarChart encoderBars(const AvoidedShare& avoided) {
+GroupedBarChart encoderBars(const AvoidedDeflection& avoided) {
   GroupedBarChart chart;
-  chart.title = fmt::format("Displacement of {} without and with double encoders", avoided.point);
+  chart.title = fmt::format("Displacement of {} without and with double encoders", pointOf(avoided));
   chart.subtitle = fmt::format("{} of it avoided over {} postures; no compensation",
                                page::percent(avoided.share), avoided.postures.size());
-  chart.y_title = fmt::format("Displacement of {} (mm)", avoided.point);
+  chart.y_title = fmt::format("Displacement of {} (mm)", pointOf(avoided));
   chart.category_title = "Posture";
   chart.series = {{"double encoders inactive", colours::kNone, {}, {}},
                   {"double encoders active", kActive, {}, {}}};
-  for (const AvoidedPosture& posture : avoided.postures) {
+  for (const AvoidedAtPosture& posture : avoided.postures) {
     chart.categories.push_back(posture.pose);
-    chart.series[0].values.push_back(kMmPerM * posture.inactive);
-    chart.series[1].values.push_back(kMmPerM * posture.active);
+    chart.series[0].values.push_back(kMmPerM * posture.before);
+    chart.series[1].values.push_back(kMmPerM * posture.after);
   }
   return chart;
 }
 
-Figure describeEncoderBars(const AvoidedShare& avoided) {
-  const auto share = [](const AvoidedPosture& posture) { return 1.0 - posture.active / posture.inactive; };
+Figure describeEncoderBars(const AvoidedDeflection& avoided) {
+  const auto share = [](const AvoidedAtPosture& posture) { return 1.0 - posture.after / posture.before; };
   const auto [least, most] = std::minmax_element(
       avoided.postures.begin(), avoided.postures.end(),
-      [&](const AvoidedPosture& a, const AvoidedPosture& b) { return share(a) < share(b); });
+      [&](const AvoidedAtPosture& a, const AvoidedAtPosture& b) { return share(a) < share(b); });
   Figure figure;
   figure.id = "double-encoders";
-  figure.title = fmt::format("Displacement of {} without and with double encoders", avoided.point);
+  figure.title = fmt::format("Displacement of {} without and with double encoders", pointOf(avoided));
   figure.caption = fmt::format(
       "Active double encoders avoid {} of the deflection in all; least in posture {} ({}), most in "
       "posture {} ({}).",
@@ -48,7 +49,7 @@ Figure describeEncoderBars(const AvoidedShare& avoided) {
       page::percent(share(*most), 0));
   figure.alt = fmt::format(
       "Bars by posture: length of the displacement of {} with the double encoders inactive and active.",
-      page::plain(avoided.point));
+      page::plain(pointOf(avoided)));
   return figure;
 }
 

@@ -1,14 +1,14 @@
 #pragma once
 
 #include "render/grouped_bar_chart.h"
-#include "reports/page/avoided_share.h"
+#include "core/identification/avoided.h"
 #include "reports/page/figure.h"
 
 namespace stiffscope {
 
-/// |displacement| per posture with the double encoders inactive and active, mm.
-GroupedBarChart encoderBars(const AvoidedShare& avoided);
+/// |displacement| per posture with the double encoders inactive and active, mm. Of an available one.
+GroupedBarChart encoderBars(const AvoidedDeflection& avoided);
 
-Figure describeEncoderBars(const AvoidedShare& avoided);
+Figure describeEncoderBars(const AvoidedDeflection& avoided);
 
 }  // namespace stiffscope

@@ -13,7 +13,7 @@
 #include "app/figures/sweep_circles.h"
 #include "app/figures/wrist_sphere.h"
 #include "render/png.h"
-#include "reports/page/avoided_share.h"
+#include "reports/page/avoided_by_encoders.h"
 #include "reports/page/html.h"
 
 namespace stiffscope {
@@ -81,7 +81,7 @@ std::vector<Figure> makeFigures(const std::vector<ReportCampaign>& campaigns, co
       figures.push_back(std::move(figure));
     }
   }
-  if (const auto avoided = avoidedShare(campaigns)) {
+  if (const auto avoided = avoidedByEncoders(campaigns); avoided && avoided->available) {
     figures.push_back(drawn(describeEncoderBars(*avoided), encoderBars(*avoided), kChart));
   }
   return figures;

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "core/audit/limits.h"
+#include "core/audit/moved_axes.h"
 #include "core/statics/own_weight.h"
 
 namespace stiffscope {
@@ -13,21 +14,11 @@ namespace stiffscope {
 namespace {
 
 constexpr Eigen::Index kShift = 6, kAxes = 24, kCompliances = 6;
-constexpr double kStep = 1e-6;  // m and rad: far above rounding, far below where the model curves
 
 class RowMaker {
  public:
   RowMaker(const Frames& frames, const LoadingGeometry& geometry, std::size_t targets)
-      : geometry_(geometry), targets_(static_cast<Eigen::Index>(targets)) {
-    for (std::size_t j = 0; j < 6; ++j) {
-      axes_[j] = frames.axes[j].at_zero;
-      const Eigen::Isometry3d& r0_from_points = frames.arm.r0_from_points;
-      axes_[j].line = {r0_from_points * axes_[j].line.point,
-                       r0_from_points.linear() * axes_[j].line.direction};
-      axes_[j].across_u = r0_from_points.linear() * axes_[j].across_u;
-      axes_[j].across_v = r0_from_points.linear() * axes_[j].across_v;
-    }
-  }
+      : geometry_(geometry), targets_(static_cast<Eigen::Index>(targets)), axes_(frames) {}
 
   Eigen::Index parameters() const { return kShift + 3 * targets_ + kAxes + kCompliances; }
 
@@ -35,7 +26,7 @@ class RowMaker {
     Eigen::MatrixXd prior = Eigen::MatrixXd::Zero(parameters(), parameters());
     const Eigen::Index at = kShift + 3 * targets_;
     for (Eigen::Index j = 0; j < 6; ++j) {
-      prior.block<4, 4>(at + 4 * j, at + 4 * j) = axes_[static_cast<std::size_t>(j)].covariance.inverse();
+      prior.block<4, 4>(at + 4 * j, at + 4 * j) = axes_.covariance(static_cast<std::size_t>(j)).inverse();
     }
     prior.bottomRightCorner<6, 6>() =
         Matrix6d::Identity() / (audit_limits::kSagShare * audit_limits::kSagShare);
@@ -51,7 +42,7 @@ class RowMaker {
     const ArmPosture posture = postureAt(arm, sagged);
     std::vector<ArmPosture> moved;  // by each axis parameter, then by each compliance
     for (std::size_t j = 0; j < 6; ++j) {
-      for (int k = 0; k < 4; ++k) moved.push_back(withAxisMoved(j, k, sagged));
+      for (int k = 0; k < 4; ++k) moved.push_back(axes_.postureWithMoved(arm, sagged, j, k));
     }
     const Vector6d sag = sagged - q;
     for (const ReflectorMean& mean : state.reflectors) {
@@ -71,7 +62,7 @@ class RowMaker {
       row.jacobian.block<3, 3>(0, kShift + 3 * mean.target) = posture.motion[6].linear();
       for (Eigen::Index k = 0; k < kAxes; ++k) {
         row.jacobian.col(kShift + 3 * targets_ + k) =
-            (moved[static_cast<std::size_t>(k)].motion[6] * *at_zero - modelled) / kStep;
+            (moved[static_cast<std::size_t>(k)].motion[6] * *at_zero - modelled) / MovedAxes::kStep;
       }
       // The sag is proportional to each compliance: q_sagged = q + c tau.
       row.sag = sag;
@@ -81,17 +72,9 @@ class RowMaker {
   }
 
  private:
-  ArmPosture withAxisMoved(std::size_t axis, int parameter, const Vector6d& q) const {
-    Robot arm = geometry_.arm;
-    const Line moved = axes_[axis].moved(kStep * Eigen::Vector4d::Unit(parameter));
-    arm.axes_in_base_at_zero[axis].point += moved.point - axes_[axis].line.point;
-    arm.axes_in_base_at_zero[axis].direction += moved.direction - axes_[axis].line.direction;
-    return postureAt(arm, q);
-  }
-
   const LoadingGeometry& geometry_;
   Eigen::Index targets_;
-  std::array<MeasuredLine, 6> axes_;
+  MovedAxes axes_;
 };
 
 std::string missing(const Campaign& campaign, const Frames& frames, const LoadingGeometry& geometry,

@@ -5,7 +5,6 @@
 #include <iterator>
 
 #include "core/audit/checks.h"
-#include "core/audit/screening.h"
 
 namespace stiffscope {
 
@@ -14,10 +13,10 @@ namespace {
 using Check = Findings (*)(const Evidence&);
 
 /// In the order in which the day goes, which is that of the report.
-constexpr std::array<Check, 13> kAllChecks{
-    checkTimeOrder,    checkCompleteness,    checkRepeatability, checkRigidTool,         checkNests,
-    checkCircleSweeps, checkSweptReflectors, checkWrist,         checkUnloadedPositions, checkServo,
-    checkReturnToZero, checkLoadCell,        checkPostureSet};
+constexpr std::array<Check, 14> kAllChecks{
+    checkTimeOrder,    checkCompleteness,   checkRepeatability,   checkRigidTool, checkNests,
+    checkCircleSweeps, checkCircleResidual, checkSweptReflectors, checkWrist,     checkUnloadedPositions,
+    checkServo,        checkReturnToZero,   checkLoadCell,        checkPostureSet};
 
 AuditVerdict worst(const std::vector<AuditCheck>& checks) {
   const auto any = [&](AuditVerdict verdict) {
@@ -40,10 +39,10 @@ AuditCheck notTestable(const std::string& id, const std::string& missing) {
 
 AuditReport audit(const Campaign& campaign) {
   AuditReport report;
-  Screening screening = screenReadings(campaign);
-  report.checks = std::move(screening.checks);
-  report.rejected = std::move(screening.rejected);
-  const Evidence evidence = gatherEvidence(campaign, screening.campaign);
+  PreparedCampaign prepared = prepareCampaign(campaign);
+  report.checks = std::move(prepared.screening);
+  report.rejected = prepared.preparation.rejected;
+  const Evidence evidence = gatherEvidence(std::move(prepared));
   for (const Check check : kAllChecks) {
     Findings findings = check(evidence);
     std::move(findings.begin(), findings.end(), std::back_inserter(report.checks));

@@ -20,6 +20,8 @@ struct AuditCheck {
   std::string where;         ///< `FILE:LINE` where a row is guilty; else the axis, posture, reflector or nest
   std::string message;       ///< what was found; what is missing where the check is not testable
   std::string limit_source;  ///< where the limit comes from, in words
+  std::vector<std::string>
+      details;  ///< more to know, a sentence each: joint by joint where a check is of several
 };
 
 /// A reading that should not be used, and why.
@@ -40,9 +42,10 @@ struct AuditReport {
 /// what is missing; nothing here throws for what data lacks. Limits and their sources are those of
 /// core/audit/limits.h.
 ///
-/// Readings are screened first; every later check works without those rejected. Where floor nests show that
-/// the station moved, that motion is taken off the readings that state a time, so that one cause gives one
-/// finding.
+/// The checks look at the campaign that identification sees (core/audit/prepare.h): without rejected
+/// readings, the station's motion taken off where floor nests show it, so that one cause gives one finding;
+/// for the same reason repeats that scatter by more than is declared replace the declared noise in the other
+/// checks.
 AuditReport audit(const Campaign& campaign);
 
 }  // namespace stiffscope

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/audit/chance.h"
 #include "core/audit/checks.h"
 #include "core/audit/limits.h"
 #include "core/audit/rows.h"
@@ -14,8 +13,6 @@ namespace stiffscope {
 namespace {
 
 using namespace audit_limits;
-
-std::string axisName(std::size_t axis) { return fmt::format("axis {}", axis + 1); }
 
 /// The circle that says most about its axis.
 const AxisCircle& widest(const AxisFit& fit) {
@@ -53,7 +50,15 @@ AuditCheck arcCheck(const MeasuredAxis& axis, std::size_t number, double reach, 
       "{:.0f} um at the reach of {:.2f} m",
       axisName(number), *check.value, 1e6 * uncertainty.direction, 1e6 * uncertainty.place, 1e6 * at_reach,
       reach);
-  if (*check.value >= kWarnArcDeg) return check;
+  if (*check.value >= kWarnArcDeg) {
+    // Residuals widen the stated uncertainty; they are circle_residual's to name.
+    if (at_reach <= tolerance * std::max(1.0, std::sqrt(axis.fit.chi2_per_dof))) return check;
+    check.verdict = AuditVerdict::warn;
+    check.message +=
+        "; does not suffice for identification, wide as it is: take more readings, or reflectors farther "
+        "from the axis and along it";
+    return check;
+  }
   const bool enough = at_reach <= tolerance;
   check.message +=
       fmt::format(", {:.1f} times what as many readings over {:.0f} deg would give; {} for identification",
@@ -84,60 +89,12 @@ AuditCheck countCheck(const std::array<std::vector<SweptCircle>, 6>& axes, const
   return check;
 }
 
-/// The reading that is farthest from its circle, in parts of its noise.
-std::string worstRow(const MeasuredAxis& axis, const std::vector<SweptCircle>& circles,
-                     const std::string& file) {
-  double farthest = -1.0;
-  std::size_t line = 0;
-  for (std::size_t k = 0; k < circles.size(); ++k) {
-    for (std::size_t i = 0; i < circles[k].lines.size(); ++i) {
-      const Eigen::Vector3d from_axis = circles[k].readings.points[i] - axis.fit.axis.line.point;
-      const double height = axis.fit.axis.line.direction.dot(from_axis);
-      const double radius = (from_axis - height * axis.fit.axis.line.direction).norm();
-      const double off = std::hypot(radius - axis.fit.circles[k].radius, height - axis.fit.circles[k].height);
-      if (off > farthest) farthest = off, line = circles[k].lines[i];
-    }
-  }
-  return rowName(file, line);
-}
-
-AuditCheck residualCheck(const Evidence& evidence, const std::array<std::vector<SweptCircle>, 6>& axes) {
-  AuditCheck check;
-  check.id = "circle_residual";
-  check.unit = "of declared sd";
-  check.limit_source = byChance("chi-square of each axis's residuals");
-  check.value = 0.0;
-  std::string beyond;
-  for (std::size_t axis = 0; axis < 6; ++axis) {
-    const AxisFit& fit = evidence.frames.axes[axis].fit;
-    if (!fit.determined) continue;
-    const double limit = chiSquareLimit(kLevel / 6.0, fit.degrees_of_freedom) / fit.degrees_of_freedom;
-    if (fit.chi2_per_dof > limit) {
-      beyond += fmt::format("{}axis {} by {:.1f} um rms, {:.2f} of the noise", beyond.empty() ? "" : ", ",
-                            axis + 1, 1e6 * fit.rms, std::sqrt(fit.chi2_per_dof));
-    }
-    if (std::sqrt(fit.chi2_per_dof) <= *check.value) continue;
-    check.value = std::sqrt(fit.chi2_per_dof);
-    check.limit = std::sqrt(limit);
-    check.where =
-        fmt::format("{}, {}", axisName(axis),
-                    worstRow(evidence.frames.axes[axis], axes[axis], evidence.campaign.circle_sweeps->file));
-  }
-  check.message = beyond.empty() ? "readings lie on their circles within the noise"
-                                 : "readings leave their circles by more than noise: " + beyond +
-                                       "; the stated uncertainties of the axes are widened by it";
-  if (!beyond.empty()) check.verdict = AuditVerdict::warn;
-  return check;
-}
-
 }  // namespace
 
 Findings checkCircleSweeps(const Evidence& evidence) {
   if (!evidence.campaign.circle_sweeps) {
     Findings missing;
-    for (const char* id : {"circle_arc", "circle_count", "circle_residual"}) {
-      missing.push_back(notTestable(id, "no circle sweeps: turn each axis by itself (`circle_sweeps`)"));
-    }
+    for (const char* id : {"circle_arc", "circle_count"}) missing.push_back(notTestable(id, kNoSweeps));
     return missing;
   }
   const auto axes = sweptCircles(evidence);
@@ -153,12 +110,6 @@ Findings checkCircleSweeps(const Evidence& evidence) {
     }
   }
   findings.push_back(countCheck(axes, evidence.campaign.circle_sweeps->file));
-  if (evidence.noise) {
-    findings.push_back(residualCheck(evidence, axes));
-  } else {
-    findings.push_back(
-        notTestable("circle_residual", "the tracker's noise is not declared: state `tracker`"));
-  }
   return findings;
 }
 

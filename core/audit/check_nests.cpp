@@ -47,7 +47,9 @@ AuditCheck driftCheck(const Evidence& evidence) {
   check.message += jumps.empty()
                        ? fmt::format("; a drift of {:.2f} um/min on average", *check.value / minutes)
                        : fmt::format("; it jumped at about {}: the tracker was moved", jumps);
-  check.message += "; readings with a time were referred to the first round for the other checks";
+  check.message += evidence.drift.taken_off
+                       ? "; readings with a time are referred to the first round, here and in identification"
+                       : "; not taken off the readings: " + evidence.drift.reason;
   return check;
 }
 
@@ -61,10 +63,10 @@ AuditCheck nestCheck(const Evidence& evidence) {
   check.id = "nest_moved";
   check.value = std::sqrt(station.deformation_chi2 / station.deformation_dof);
   check.limit = std::sqrt(station.deformation_limit / station.deformation_dof);
-  check.unit = "of declared sd";
+  check.unit = "of noise sd";
   check.limit_source = byChance(fmt::format("chi-square of {} degrees of freedom", station.deformation_dof));
   check.message =
-      fmt::format("what no motion of the station explains is {:.2f} of the declared noise", *check.value);
+      fmt::format("what no motion of the station explains is {:.2f} of the noise", *check.value);
   if (*check.value <= *check.limit) return check;
   check.verdict = AuditVerdict::warn;
   if (station.moved_nest) {

@@ -1,3 +1,5 @@
+#include <fmt/ranges.h>
+
 #include "core/audit/checks.h"
 #include "core/audit/limits.h"
 #include "core/audit/rows.h"
@@ -5,6 +7,17 @@
 #include "core/identification/partial_pose.h"
 
 namespace stiffscope {
+
+namespace {
+
+/// "joint 2: identifiable: turned by 812 Nm rms, known to 3.1 Nm", or why not.
+std::string described(std::size_t joint, const JointIdentifiability& judged) {
+  if (!judged.identifiable) return fmt::format("joint {}: not identifiable: {}", joint + 1, judged.reason);
+  return fmt::format("joint {}: identifiable: the load turns it by {:.4g} Nm rms, known to {:.2g} Nm",
+                     joint + 1, judged.trusted_rms, judged.uncertainty_rms);
+}
+
+}  // namespace
 
 Findings checkPostureSet(const Evidence& evidence) {
   const LoadedArm& arm = evidence.arm;
@@ -21,26 +34,29 @@ Findings checkPostureSet(const Evidence& evidence) {
   check.unit = "condition";
   check.limit = audit_limits::kCondition;
   check.limit_source = "calibration practice: condition number, columns of unit length, below 100";
-  std::string seen, reasons;
+  std::vector<std::string> seen, reasons;
   bool expected_missing = false;
   for (std::size_t j = 0; j < 6; ++j) {
     const JointIdentifiability& joint = judged.joints[j];
+    check.details.push_back(described(j, joint));
     if (joint.identifiable) {
-      seen += fmt::format("{}{}", seen.empty() ? "" : ", ", j + 1);
+      seen.push_back(std::to_string(j + 1));
       continue;
     }
-    reasons += fmt::format("; joint {}: {}", j + 1, joint.reason);
+    reasons.push_back(fmt::format("joint {}: {}", j + 1, joint.reason));
     // A load that hangs never turns an upright axis 1: every day with weights is like that, and is no fault.
     expected_missing |= !(j == 0 && judged.load_hangs);
   }
+  const std::string why = reasons.empty() ? "" : fmt::format("; {}", fmt::join(reasons, "; "));
   if (seen.empty()) {
     check.verdict = AuditVerdict::fail;
-    check.message = "no joint can be identified" + reasons;
+    check.message = "no joint can be identified" + why;
     return {check};
   }
   check.value = partialPose(equations, judged.mask()).condition;
-  check.message = fmt::format("{} postures at load step {} identify joints {}{}", arm.cases.size(),
-                              *evidence.step, seen, reasons);
+  check.message =
+      fmt::format("{} postures at load step {} identify joints {} with a condition number of {:.3g}{}",
+                  arm.cases.size(), *evidence.step, fmt::join(seen, ", "), *check.value, why);
   if (*check.value > *check.limit || expected_missing) check.verdict = AuditVerdict::warn;
   return {check};
 }

@@ -13,8 +13,6 @@ namespace {
 
 using namespace audit_limits;
 
-std::string axisName(std::size_t axis) { return fmt::format("axis {}", axis + 1); }
-
 /// Squared difference of two lines in parts of its variance: place at the middle between the circles, and
 /// direction.
 double disagreement(const MeasuredLine& common, const AxisFit& a, const AxisFit& b, double height) {
@@ -86,8 +84,9 @@ AuditCheck agreementCheck(const Evidence& evidence, const std::array<std::vector
   if (worst > limit) {
     check.verdict = AuditVerdict::warn;
     check.message = fmt::format(
-        "reflectors that turn about one axis place it apart by {:.2f} of the difference's sd: a "
-        "reflector moved, or the own weight bends more than the joints",
+        "reflectors that turn about one axis place it apart by {:.2f} of the difference's sd: the own "
+        "weight bends more than the joints (bearings, links) or is not what the URDF's masses make it, or a "
+        "reflector moved (rigid_tool then shows it too)",
         *check.value);
   }
   return check;
@@ -128,8 +127,7 @@ AuditCheck onAxisCheck(const Evidence& evidence, const std::array<std::vector<Sw
 
 Findings checkSweptReflectors(const Evidence& evidence) {
   if (!evidence.campaign.circle_sweeps) {
-    const char* const missing = "no circle sweeps: turn each axis by itself (`circle_sweeps`)";
-    return {notTestable("axis_agreement", missing), notTestable("reflector_on_axis", missing)};
+    return {notTestable("axis_agreement", kNoSweeps), notTestable("reflector_on_axis", kNoSweeps)};
   }
   const auto axes = sweptCircles(evidence);
   return {agreementCheck(evidence, axes), onAxisCheck(evidence, axes)};

@@ -66,7 +66,7 @@ AuditCheck positionsCheck(const AbsoluteFit& fit) {
   check.verdict = AuditVerdict::warn;
   check.message +=
       "; the swept geometry does not carry over to the postures: joint zeros, gear errors, or the own weight "
-      "bends more than the joints";
+      "bends more than the joints (bearings, links)";
   return check;
 }
 

@@ -29,8 +29,11 @@ Findings checkRigidTool(const Evidence& evidence);
 /// nests.
 Findings checkNests(const Evidence& evidence);
 
-/// circle_arc (one an axis), circle_count, circle_residual: the sweeps of each axis.
+/// circle_arc (one an axis), circle_count: the sweeps of each axis.
 Findings checkCircleSweeps(const Evidence& evidence);
+
+/// circle_residual: how the readings lie on their circles.
+Findings checkCircleResidual(const Evidence& evidence);
 
 /// axis_agreement, reflector_on_axis: what each reflector says of the axes it turns about.
 Findings checkSweptReflectors(const Evidence& evidence);
@@ -50,8 +53,11 @@ Findings checkReturnToZero(const Evidence& evidence);
 /// tare, gravity_direction, moment_lever.
 Findings checkLoadCell(const Evidence& evidence);
 
-/// posture_set: condition number and what it can identify.
+/// posture_set: condition number, and joint by joint whether it can be identified or why not.
 Findings checkPostureSet(const Evidence& evidence);
+
+/// What is missing where there are no sweeps.
+inline constexpr const char* kNoSweeps = "no circle sweeps: turn each axis by itself (`circle_sweeps`)";
 
 /// A finding that cannot be had, with what is missing.
 AuditCheck notTestable(const std::string& id, const std::string& missing);

@@ -1,6 +1,6 @@
 #include "core/audit/evidence.h"
 
-#include "core/audit/station_jumps.h"
+#include "core/audit/working_noise.h"
 #include "core/identification/settled_frames.h"
 
 namespace stiffscope {
@@ -28,18 +28,18 @@ SagModel sagOf(const Evidence& evidence) {
                   frames.targets_in_r0_at_zero, frames.arm.r0_from_points.inverse());
 }
 
-bool declared(const Tracker& tracker) {
-  return tracker.range_fixed + tracker.range_per_m > 0.0 && tracker.angle_fixed + tracker.angle_per_m > 0.0;
-}
-
 }  // namespace
 
-Evidence gatherEvidence(const Campaign& original, const Campaign& screened) {
-  Evidence evidence{original, screened, {}, {}, {}, {}, {}, {}, {}, {}};
-  if (original.tracker && declared(*original.tracker)) evidence.noise = trackerNoise(*original.tracker);
-  evidence.station = stationMotion(evidence.campaign, evidence.noise);
-  if (evidence.station.moved) findJumps(evidence.campaign, *evidence.noise, evidence.station);
-  if (evidence.station.moved) takeOffDrift(evidence.station, evidence.campaign);
+Evidence gatherEvidence(PreparedCampaign prepared) {
+  Evidence evidence;
+  evidence.campaign = std::move(prepared.campaign);
+  evidence.drift = std::move(prepared.preparation.drift);
+  evidence.station = std::move(prepared.station);
+  evidence.scatter = std::move(prepared.scatter);
+  if (declaredNoise(evidence.campaign)) {
+    evidence.campaign.tracker = asNoisyAs(*evidence.campaign.tracker, noiseFactors(evidence.scatter));
+    evidence.noise = trackerNoise(*evidence.campaign.tracker);
+  }
   evidence.states = statePoints(evidence.campaign, evidence.noise);
   settle(evidence);
   evidence.rigid = rigidPoints(evidence.campaign, sagOf(evidence));

@@ -9,7 +9,7 @@
 #include "core/audit/chance.h"
 #include "core/audit/limits.h"
 #include "core/audit/rows.h"
-#include "core/frames/measured_axes.h"
+#include "core/audit/working_noise.h"
 
 namespace stiffscope {
 
@@ -113,8 +113,8 @@ RepeatScatter repeatScatter(const Campaign& campaign) {
     scatter.reason = "no absolute readings under load: measure `loading`";
     return scatter;
   }
-  if (!campaign.tracker || campaign.tracker->angle_fixed + campaign.tracker->angle_per_m <= 0.0 ||
-      campaign.tracker->range_fixed + campaign.tracker->range_per_m <= 0.0) {
+  const std::optional<TrackerNoise> noise = declaredNoise(campaign);
+  if (!noise) {
     scatter.reason = "the tracker's noise is not declared: state `tracker` in campaign.xml";
     return scatter;
   }
@@ -123,11 +123,10 @@ RepeatScatter repeatScatter(const Campaign& campaign) {
     scatter.reason = "no state was read more than once: measure each at least twice";
     return scatter;
   }
-  const TrackerNoise noise = trackerNoise(*campaign.tracker);
-  for (const Repeats& repeats : states) addScatter(noise, repeats, scatter);
+  for (const Repeats& repeats : states) addScatter(*noise, repeats, scatter);
   scatter.along_rms = std::sqrt(scatter.along_rms / scatter.along_dof);
   scatter.across_rms = std::sqrt(scatter.across_rms / scatter.across_dof);
-  scatter.outliers = outliers(campaign.loading->file, noise, states);
+  scatter.outliers = outliers(campaign.loading->file, *noise, states);
   scatter.tested = true;
   return scatter;
 }

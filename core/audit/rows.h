@@ -14,6 +14,9 @@ inline std::string rowName(const std::string& file, std::size_t line) {
   return fmt::format("{}:{}", file, line);
 }
 
+/// Of a 0-based axis: "axis 1".
+inline std::string axisName(std::size_t axis) { return fmt::format("axis {}", axis + 1); }
+
 inline const std::string& targetName(const Campaign& campaign, int target) {
   return campaign.targets[static_cast<std::size_t>(target)].id;
 }

@@ -93,7 +93,7 @@ Screening screenReadings(const Campaign& campaign) {
     return result;
   }
   screen("lost_beam", AuditVerdict::fail, lostBeams(campaign),
-         "readings at (0, 0, 0): the beam was lost; take them out", "no reflector stands inside the station");
+         "readings at (0, 0, 0): the beam was lost", "no reflector stands inside the station");
   screen("duplicate_readings", AuditVerdict::warn, duplicates(result.campaign),
          "readings repeat another's coordinates to the last digit: copied, or the beam still on another "
          "reflector",

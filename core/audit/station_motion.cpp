@@ -121,15 +121,11 @@ StationMotion stationMotion(const Campaign& campaign, const std::optional<Tracke
 }
 
 void takeOffDrift(const StationMotion& station, Campaign& campaign) {
-  const auto correct = [&](auto& table) {
-    if (table.frame != PointFrame::tracker) return;
+  forEachDriftingTable(campaign, [&](auto& table) {
     for (auto& row : table.rows) {
       if (std::isfinite(row.time_s)) row.point = station.firstFrom(row.time_s) * row.point;
     }
-  };
-  if (campaign.circle_sweeps) correct(*campaign.circle_sweeps);
-  if (campaign.wrist_sweep) correct(*campaign.wrist_sweep);
-  if (campaign.loading) correct(*campaign.loading);
+  });
 }
 
 }  // namespace stiffscope

@@ -38,6 +38,12 @@ struct StationMotion {
   double moved_nest_by = 0.0;       ///< how far it went at most against the others, m
   std::size_t moved_nest_line = 0;  ///< of its first reading away from its place
 
+  /// Whether the nests lose their shape and no single one explains it: they are then no reference for the
+  /// station.
+  bool deforming() const {
+    return deformation_dof > 0 && deformation_chi2 > deformation_limit && !moved_nest;
+  }
+
   /// Squared displacement at the centre in parts of its variance.
   double significance(const StationEpoch& epoch) const;
 
@@ -49,6 +55,18 @@ struct StationMotion {
 /// Rounds are told apart by nests that come again. A round of fewer than three nests is left out.
 /// Not tested: no nests, no declared noise, fewer than three nests or two rounds.
 StationMotion stationMotion(const Campaign& campaign, const std::optional<TrackerNoise>& noise);
+
+/// Calls `visit(table)` with each table of the arm's readings that stand in the tracker's frame: those that a
+/// moving station takes along.
+template <class CampaignType, class Visit>
+void forEachDriftingTable(CampaignType& campaign, const Visit& visit) {
+  const auto inTrackerFrame = [&](auto& table) {
+    if (table && table->frame == PointFrame::tracker) visit(*table);
+  };
+  inTrackerFrame(campaign.circle_sweeps);
+  inTrackerFrame(campaign.wrist_sweep);
+  inTrackerFrame(campaign.loading);
+}
 
 /// Takes the motion off the readings that state a time and are in the tracker's frame; the rest stays.
 void takeOffDrift(const StationMotion& station, Campaign& campaign);

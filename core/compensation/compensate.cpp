@@ -3,18 +3,19 @@
 #include <fmt/format.h>
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
-#include <numbers>
-#include <stdexcept>
 
 #include "core/identification/cell_wrench.h"
+#include "core/input/units.h"
 #include "core/statics/joint_torque.h"
 
 namespace stiffscope {
 
 namespace {
 
-double toDegrees(double radians) { return radians * 180.0 / std::numbers::pi; }
+const char* const kNoRest =
+    "the loaded arm does not come to rest: the load is too large for these stiffnesses";
 
 Eigen::Vector3d rotationVector(const Eigen::Matrix3d& rotation) {
   const Eigen::AngleAxisd turn(rotation);
@@ -25,90 +26,153 @@ class Compensator {
  public:
   Compensator(const Campaign& campaign, const LoadingGeometry& geometry, const StiffnessEstimate& estimate,
               const Eigen::Vector3d& tcp_in_flange, const CompensateOptions& options)
-      : campaign_(campaign), geometry_(geometry), estimate_(estimate), tcp_(tcp_in_flange), options_(options) {}
+      : campaign_(campaign),
+        geometry_(geometry),
+        estimate_(estimate),
+        tcp_(tcp_in_flange),
+        options_(options) {}
 
   CompensatedPosture run(const PostureToCompensate& asked) const {
     CompensatedPosture result;
     result.posture = asked;
-    const Vector6d unloaded_angles = loadedAngles(geometry_, estimate_.compliance, asked.q, FlangeLoad());
-    const ArmPosture unloaded = postureAt(geometry_.arm, unloaded_angles);
-    const Eigen::Isometry3d wanted = flangeAt(geometry_.arm, unloaded);
-    const FlangeLoad load = loadAt(unloaded, wanted, asked.wrench_in_cell);
-    predict(asked, unloaded, wanted, load, result);
-    result.reason = turnsUnknownJoint(unloaded, wanted, load);
-    if (!result.reason.empty()) return result;
-    if (result.conditioning < options_.least_conditioning) {
-      result.reason = fmt::format("too near a singularity: conditioning {:.4f}, at least {:g} is asked for",
-                                  result.conditioning, options_.least_conditioning);
+    const auto unloaded_angles = loadedAngles(geometry_, estimate_.compliance, asked.q, FlangeLoad());
+    if (!unloaded_angles) {
+      result.reason = "the unloaded arm does not come to rest under its own weight";
       return result;
     }
-    solve(asked, wanted, load, result);
+    const ArmPosture unloaded = postureAt(geometry_.arm, *unloaded_angles);
+    const Eigen::Isometry3d wanted = flangeAt(geometry_.arm, unloaded);
+    const FlangeLoad load = loadAt(unloaded, wanted, asked.wrench_in_cell);
+    predict(unloaded, wanted, load, result);
+    if (!result.predicted) return result;
+    result.reason = refusal(asked, unloaded, wanted, load, result.conditioning);
+    if (result.reason.empty()) solve(asked, *unloaded_angles, wanted, load, result);
     return result;
   }
 
  private:
-  FlangeLoad loadAt(const ArmPosture& posture, const Eigen::Isometry3d& flange, const Vector6d& reading) const {
+  FlangeLoad loadAt(const ArmPosture& posture, const Eigen::Isometry3d& flange,
+                    const Vector6d& reading) const {
     const Wrench wrench = cellWrench(*campaign_.load_cell, geometry_, posture, flange, flange, reading);
     return {flange.inverse() * wrench.point, wrench.force, wrench.moment};
   }
 
-  /// The reason to refuse where a joint of unknown stiffness, which counts as rigid here, is turned by the load.
-  std::string turnsUnknownJoint(const ArmPosture& unloaded, const Eigen::Isometry3d& flange, const FlangeLoad& load) const {
-    const Vector6d torque =
-        jointTorque(geometry_.arm, unloaded, {flange * load.point_in_flange, load.force, load.moment});
+  Vector6d torqueOf(const ArmPosture& posture, const Eigen::Isometry3d& flange,
+                    const FlangeLoad& load) const {
+    return jointTorque(geometry_.arm, posture, {flange * load.point_in_flange, load.force, load.moment});
+  }
+
+  /// Where the loaded arm stands with these commands; empty where it does not come to rest.
+  std::optional<ArmPosture> loadedPosture(const Vector6d& commands, const FlangeLoad& load) const {
+    const auto angles = loadedAngles(geometry_, estimate_.compliance, commands, load);
+    return angles ? std::optional<ArmPosture>(postureAt(geometry_.arm, *angles)) : std::nullopt;
+  }
+
+  std::string refusal(const PostureToCompensate& asked, const ArmPosture& unloaded,
+                      const Eigen::Isometry3d& wanted, const FlangeLoad& load, double conditioning) const {
+    const std::string outside =
+        outsideLimits(asked.q, "joint {} stands at {:.3f} deg, outside its limits {:.1f} to {:.1f} deg");
+    if (!outside.empty()) return outside;
+    if (conditioning < options_.least_conditioning) {
+      return fmt::format("too near a singularity: conditioning {:.4f}, at least {:g} is asked for",
+                         conditioning, options_.least_conditioning);
+    }
+    return turnsUnusableJoint(torqueOf(unloaded, wanted, load));
+  }
+
+  /// The reason to refuse where the load turns a joint of unknown stiffness, which counts as rigid here, or
+  /// of a negative one, by which the commands would go the wrong way.
+  std::string turnsUnusableJoint(const Vector6d& torque) const {
     for (int joint = 0; joint < 6; ++joint) {
-      if (estimate_.identifiable[static_cast<std::size_t>(joint)]) continue;
+      const bool known = estimate_.identifiable[static_cast<std::size_t>(joint)];
+      if (known && estimate_.compliance[joint] >= 0.0) continue;
       if (std::abs(torque[joint]) <= options_.share_unknown * torque.cwiseAbs().maxCoeff()) continue;
-      return fmt::format("the load turns axis {} by {:.0f} Nm and k{} is not known: the deflection shown lacks its part",
-                         joint + 1, std::abs(torque[joint]), joint + 1);
+      return known
+                 ? fmt::format(
+                       "the load turns axis {} by {:.0f} Nm and k{} came out negative: no spring has that",
+                       joint + 1, std::abs(torque[joint]), joint + 1)
+                 : fmt::format(
+                       "the load turns axis {} by {:.0f} Nm and k{} is not known: the deflection shown lacks "
+                       "its part",
+                       joint + 1, std::abs(torque[joint]), joint + 1);
     }
     return {};
   }
 
-  void predict(const PostureToCompensate& asked, const ArmPosture& unloaded, const Eigen::Isometry3d& wanted,
-               const FlangeLoad& load, CompensatedPosture& result) const {
-    const Eigen::Isometry3d loaded =
-        flangeAt(geometry_.arm, postureAt(geometry_.arm, loadedAngles(geometry_, estimate_.compliance, asked.q, load)));
-    result.deflection = loaded * tcp_ - wanted * tcp_;
-    result.rotation = rotationVector(loaded.linear() * wanted.linear().transpose());
-    const Matrix6d jacobian = jacobianAt(geometry_.arm, unloaded, wanted * tcp_);
-    const Vector6d torque =
-        jointTorque(geometry_.arm, unloaded, {wanted * load.point_in_flange, load.force, load.moment});
-    const Matrix36d rows = jacobian.topRows<3>() * torque.asDiagonal();
-    result.deflection_sd = (rows * estimate_.covariance * rows.transpose()).diagonal().cwiseMax(0.0).cwiseSqrt();
-    const Eigen::JacobiSVD<Matrix6d> svd(jacobian);
-    result.conditioning = svd.singularValues()[5] / svd.singularValues()[0];
+  Eigen::Vector3d sdOf(const Matrix36d& rows) const {
+    const Eigen::Vector3d variance = (rows * estimate_.covariance * rows.transpose()).diagonal();
+    return variance.unaryExpr(
+        [](double v) { return v < 0.0 ? 0.0 : std::sqrt(v); });  // keeps what is no number
   }
 
-  void solve(const PostureToCompensate& asked, const Eigen::Isometry3d& wanted, const FlangeLoad& load,
-             CompensatedPosture& result) const {
-    Vector6d commands = asked.q;
+  PointDeflection deflectionOf(const Eigen::Vector3d& point_in_flange, const Eigen::Isometry3d& wanted,
+                               const Eigen::Isometry3d& loaded, const ArmPosture& unloaded,
+                               const Vector6d& torque) const {
+    const Eigen::Vector3d place = wanted * point_in_flange;
+    const Matrix36d rows = jacobianAt(geometry_.arm, unloaded, place).topRows<3>() * torque.asDiagonal();
+    return {loaded * point_in_flange - place, sdOf(rows)};
+  }
+
+  void predict(const ArmPosture& unloaded, const Eigen::Isometry3d& wanted, const FlangeLoad& load,
+               CompensatedPosture& result) const {
+    const auto posture = loadedPosture(result.posture.q, load);
+    if (!posture) {
+      result.reason = kNoRest;
+      return;
+    }
+    result.predicted = true;
+    const Eigen::Isometry3d loaded = flangeAt(geometry_.arm, *posture);
+    const Vector6d torque = torqueOf(unloaded, wanted, load);
+    const Matrix6d jacobian = jacobianAt(geometry_.arm, unloaded, wanted * tcp_);
+    result.tcp = deflectionOf(tcp_, wanted, loaded, unloaded, torque);
+    result.rotation = rotationVector(loaded.linear() * wanted.linear().transpose());
+    result.rotation_sd = sdOf(jacobian.bottomRows<3>() * torque.asDiagonal());
+    const auto& places = geometry_.targets_at_zero;
+    if (std::all_of(places.begin(), places.end(), [](const auto& place) { return place.has_value(); })) {
+      const Eigen::Isometry3d flange_from_zero = geometry_.arm.base_from_flange_at_zero.inverse();
+      for (const auto& place : places) {
+        result.targets.push_back(deflectionOf(flange_from_zero * *place, wanted, loaded, unloaded, torque));
+      }
+    }
+    const Vector6d singular = Eigen::JacobiSVD<Matrix6d>(jacobian).singularValues();
+    result.conditioning = singular[5] / singular[0];
+  }
+
+  void solve(const PostureToCompensate& asked, const Vector6d& unloaded_angles,
+             const Eigen::Isometry3d& wanted, const FlangeLoad& load, CompensatedPosture& result) const {
+    const auto once = loadedAngles(geometry_, estimate_.compliance, asked.q, load);
+    Vector6d commands = asked.q - (*once - unloaded_angles);  // the predicted turn, mirrored: the first try
     constexpr int kMostSteps = 20;
     constexpr double kThere = 1e-9;  // m and rad
     for (int step = 0; step < kMostSteps; ++step) {
-      const ArmPosture posture =
-          postureAt(geometry_.arm, loadedAngles(geometry_, estimate_.compliance, commands, load));
-      const Eigen::Isometry3d flange = flangeAt(geometry_.arm, posture);
+      const auto posture = loadedPosture(commands, load);
+      if (!posture) {
+        result.reason = kNoRest;
+        return;
+      }
+      const Eigen::Isometry3d flange = flangeAt(geometry_.arm, *posture);
       Vector6d error;
       error << wanted * tcp_ - flange * tcp_, rotationVector(wanted.linear() * flange.linear().transpose());
       result.remaining = error.head<3>().norm();
+      if (step == 0) result.mirrored_remaining = result.remaining;
       if (error.cwiseAbs().maxCoeff() < kThere) {
         result.commands = commands;
-        result.reason = outsideLimits(commands);
+        result.reason = outsideLimits(
+            commands, "joint {} would have to go to {:.3f} deg, outside its limits {:.1f} to {:.1f} deg");
         result.solved = result.reason.empty();
         return;
       }
-      commands += jacobianAt(geometry_.arm, posture, flange * tcp_).partialPivLu().solve(error);
+      commands += jacobianAt(geometry_.arm, *posture, flange * tcp_).partialPivLu().solve(error);
     }
     result.reason = "the steps towards the wanted pose do not converge";
   }
 
-  std::string outsideLimits(const Vector6d& commands) const {
+  std::string outsideLimits(const Vector6d& angles, const char* words) const {
     for (int joint = 0; joint < 6; ++joint) {
       const JointLimits& limits = geometry_.arm.limits[static_cast<std::size_t>(joint)];
-      if (commands[joint] < limits.lower || commands[joint] > limits.upper) {
-        return fmt::format("joint {} would have to go to {:.3f} deg, outside its limits {:.1f} to {:.1f} deg", joint + 1,
-                           toDegrees(commands[joint]), toDegrees(limits.lower), toDegrees(limits.upper));
+      if (angles[joint] < limits.lower || angles[joint] > limits.upper) {
+        return fmt::format(fmt::runtime(words), joint + 1, angles[joint] / kDegree, limits.lower / kDegree,
+                           limits.upper / kDegree);
       }
     }
     return {};
@@ -124,21 +188,14 @@ class Compensator {
 }  // namespace
 
 std::vector<CompensatedPosture> compensate(const Campaign& campaign, const LoadingGeometry& geometry,
-                                           const StiffnessEstimate& estimate, const Eigen::Vector3d& tcp_in_flange,
+                                           const StiffnessEstimate& estimate,
+                                           const Eigen::Vector3d& tcp_in_flange,
                                            const std::vector<PostureToCompensate>& postures,
                                            const CompensateOptions& options) {
   const Compensator compensator(campaign, geometry, estimate, tcp_in_flange, options);
   std::vector<CompensatedPosture> results;
   results.reserve(postures.size());
-  for (const PostureToCompensate& posture : postures) {
-    try {
-      results.push_back(compensator.run(posture));
-    } catch (const std::runtime_error& error) {  // a load beyond what the springs bear: this posture only
-      results.emplace_back();
-      results.back().posture = posture;
-      results.back().reason = error.what();
-    }
-  }
+  for (const PostureToCompensate& posture : postures) results.push_back(compensator.run(posture));
   return results;
 }
 

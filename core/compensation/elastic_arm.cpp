@@ -1,13 +1,11 @@
 #include "core/compensation/elastic_arm.h"
 
-#include <stdexcept>
-
 #include "core/statics/joint_torque.h"
 
 namespace stiffscope {
 
-Vector6d loadedAngles(const LoadingGeometry& geometry, const Vector6d& compliance, const Vector6d& q,
-                      const FlangeLoad& load) {
+std::optional<Vector6d> loadedAngles(const LoadingGeometry& geometry, const Vector6d& compliance,
+                                     const Vector6d& q, const FlangeLoad& load) {
   constexpr int kMostSteps = 100;
   constexpr double kSettled = 1e-12;  // rad
   Vector6d angles = q;
@@ -21,7 +19,7 @@ Vector6d loadedAngles(const LoadingGeometry& geometry, const Vector6d& complianc
     angles = next;
     if (change < kSettled) return angles;
   }
-  throw std::runtime_error("the loaded arm does not come to rest: the load is too large for these stiffnesses");
+  return std::nullopt;
 }
 
 }  // namespace stiffscope

@@ -86,4 +86,8 @@ Identification identify(const Campaign& campaign, const IdentifyOptions& options
 /// else without.
 Frames settledFrames(const Campaign& campaign);
 
+/// The result for a campaign without loads (core/identification/load_step.h, whatLoadsLack): its frames, step
+/// 0, no load case, and for every method and joint what is missing.
+Identification framesAlone(const Campaign& campaign);
+
 }  // namespace stiffscope

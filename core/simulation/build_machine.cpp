@@ -1,8 +1,10 @@
+#include <algorithm>
 #include <cmath>
 
 #include "core/input/input_error.h"
 #include "core/simulation/axis_errors.h"
 #include "core/simulation/beam.h"
+#include "core/simulation/element_curves.h"
 #include "core/simulation/machine.h"
 #include "core/simulation/random.h"
 #include "core/simulation/rotation.h"
@@ -27,9 +29,45 @@ ElasticElement jointElement(const Robot& robot, int joint, const JointStiffness&
   }
   if (stiffness.torsion) {
     element.free.push_back(5);
-    element.stiffness(5, 5) = *stiffness.torsion;
+    // Where the drive has stages or a gap its whole torque is in the curve.
+    if (!stiffness.stages && !stiffness.backlash) element.stiffness(5, 5) = *stiffness.torsion;
   }
   return element;
+}
+
+ElasticElement plateElement(const Robot& robot, const ToolPlate& plate) {
+  ElasticElement element;
+  element.name = "tool plate";
+  element.joint = 6;
+  element.base_from_element_at_zero = robot.base_from_flange_at_zero;
+  element.free = {0, 1, 2, 3, 4, 5};
+  element.stiffness.diagonal() << plate.translation, plate.rotation;
+  return element;
+}
+
+/// Torsion coordinates, and the curves of joints and base.
+void addCurves(const MachineSpec& spec, ElasticMachine& machine) {
+  Eigen::Index at = 0;
+  for (const ElasticElement& element : machine.elements) {
+    const auto torsion = std::find(element.free.begin(), element.free.end(), 5);
+    if (element.joint >= 0 && element.joint < 6 && !element.is_link && torsion != element.free.end()) {
+      const std::size_t joint = static_cast<std::size_t>(element.joint);
+      machine.torsion_coordinates[joint] = at + (torsion - element.free.begin());
+      TorqueCurve curve = jointCurve(spec.joints[joint]);
+      if (curve.acts()) {
+        machine.curves.push_back({machine.torsion_coordinates[joint], element.joint, std::move(curve)});
+      }
+    }
+    if (element.joint == -1) {
+      for (const OneSidedContact& contact : spec.base_contacts) {
+        const auto turn = std::find(element.free.begin(), element.free.end(), 3 + contact.axis);
+        if (turn != element.free.end()) {
+          machine.curves.push_back({at + (turn - element.free.begin()), -1, contactCurve(contact)});
+        }
+      }
+    }
+    at += static_cast<Eigen::Index>(element.free.size());
+  }
 }
 
 ElasticElement linkElement(const SimulationSpec& spec, const LinkBeam& beam) {
@@ -56,11 +94,17 @@ ElasticElement linkElement(const SimulationSpec& spec, const LinkBeam& beam) {
 
 std::vector<ElasticElement> elasticElements(const SimulationSpec& spec) {
   std::vector<ElasticElement> elements;
-  if (spec.machine.base_rotation) {
+  if (spec.machine.base_rotation || spec.machine.base_translation) {
     ElasticElement base;
     base.name = "base";
-    base.free = {3, 4, 5};
-    base.stiffness.diagonal().tail<3>() = *spec.machine.base_rotation;
+    if (spec.machine.base_translation) {
+      base.free = {0, 1, 2};
+      base.stiffness.diagonal().head<3>() = *spec.machine.base_translation;
+    }
+    if (spec.machine.base_rotation) {
+      base.free.insert(base.free.end(), {3, 4, 5});
+      base.stiffness.diagonal().tail<3>() = *spec.machine.base_rotation;
+    }
     elements.push_back(base);
   }
   for (int i = 0; i < 6; ++i) {
@@ -70,6 +114,7 @@ std::vector<ElasticElement> elasticElements(const SimulationSpec& spec) {
       if (beam.joint == i) elements.push_back(linkElement(spec, beam));
     }
   }
+  if (spec.machine.tool_plate) elements.push_back(plateElement(spec.nominal, *spec.machine.tool_plate));
   return elements;
 }
 
@@ -83,6 +128,12 @@ int ElasticMachine::coordinateCount() const {
   return static_cast<int>(count);
 }
 
+Eigen::Index ElasticMachine::sliderCount() const {
+  std::size_t count = 0;
+  for (const auto& one : curves) count += one.curve.sliders.size();
+  return static_cast<Eigen::Index>(count);
+}
+
 ElasticMachine buildMachine(const SimulationSpec& spec) {
   using namespace simulation;
   ElasticMachine machine;
@@ -91,6 +142,7 @@ ElasticMachine buildMachine(const SimulationSpec& spec) {
   machine.tool = spec.machine.tool;
   machine.targets = spec.targets;
   machine.elements = elasticElements(spec);
+  addCurves(spec.machine, machine);
 
   const std::array<AxisError, 6> errors = drawAxisErrors(spec);
   for (int i = 0; i < 6; ++i) {

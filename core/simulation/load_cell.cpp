@@ -5,12 +5,13 @@
 namespace stiffscope::simulation {
 
 Vector6d loadWrenchInCell(const ElasticMachine& machine, const MachineState& state, const LinkFrame& parent,
-                          const LoadCell& cell) {
+                          const LoadCell& cell, const Eigen::Vector3d& place_error) {
   const Eigen::Isometry3d base_from_cell = baseFromLink(machine, state, parent) * cell.parent_from_cell;
   const Eigen::Matrix3d cell_from_base = base_from_cell.linear().transpose();
-  const Eigen::Vector3d arm = state.load_point_in_base - base_from_cell.translation();
+  const Eigen::Vector3d arm = state.load_point_in_base - base_from_cell * place_error;
+  const Eigen::Vector3d force = state.load_force_in_base - state.unread_force_in_base;
   Vector6d wrench;
-  wrench << cell_from_base * state.load_force_in_base, cell_from_base * arm.cross(state.load_force_in_base);
+  wrench << cell_from_base * force, cell_from_base * arm.cross(force);
   return wrench;
 }
 

@@ -12,8 +12,9 @@ Row reading(Session& session, const MachineState& state, int index, int target) 
   row.index = std::to_string(index);
   row.target = target;
   row.q = session.reported(state.q);
-  row.point = session.tracker_from_base * state.targets_in_base[static_cast<std::size_t>(target)];
   row.time_s = session.takeReading();
+  row.point =
+      session.station.readRobot(state.targets_in_base[static_cast<std::size_t>(target)], session.now_s);
   return row;
 }
 

@@ -35,8 +35,10 @@ SimulationSpec readSimulationSpec(const std::filesystem::path& file) {
   const XmlNode root = xml.root();
   if (root.name() != "simulation") root.refuse(root.name(), "", "expected the root element 'simulation'");
   refuseUnknown(root, {"format", "name", "date", "seed", "measurement"},
-                {"robot", "joints", "base", "link", "geometry", "tool", "targets", "tracker", "load_cell",
-                 "hanging_load", "cable_load", "postures", "circle_sweep", "wrist_sweep", "nests", "times"});
+                {"robot",        "joints",      "base",      "link",         "geometry",   "tool",
+                 "tool_plate",   "coupling",    "spring",    "growth",       "creep",      "targets",
+                 "tracker",      "station",     "load_cell", "hanging_load", "cable_load", "postures",
+                 "circle_sweep", "wrist_sweep", "nests",     "times"});
   integer(root, "format", 1, 1);
 
   SimulationSpec spec;
@@ -49,6 +51,7 @@ SimulationSpec readSimulationSpec(const std::filesystem::path& file) {
   spec.machine = readMachine(root);
   spec.targets = readTargets(root);
   spec.tracker = readTracker(root);
+  spec.station = readStation(root);
   spec.load_cell = readLoadCell(root, spec.nominal);
   spec.loading = readLoading(root);
   readPostures(root, spec);

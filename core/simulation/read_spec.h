@@ -15,21 +15,50 @@ namespace stiffscope {
 ///   robot: urdf base_link flange_link [double_encoder=unspecified] [read_back_resolution_deg=0]
 ///   [joints]: [mass_relative_sigma=0] (of the URDF's link masses)
 ///     joint: index (1..6) [stiffness_nm_per_rad=rigid] [bearing_nm_per_rad=rigid] (across the axis)
-///   [base]: [rotation_nm_per_rad=rigid] (about x, y, z) [tilt_declared=false]
-///       [tilt_deg=0] (against gravity) [tilt_azimuth_deg=0] (of the axis it is tilted about)
+///         [cubic_nm_per_rad3=0] (times twist cubed, besides)
+///       [stages]: torques_nm (rising) stiffness_nm_per_rad (one more; instead of the joint's)
+///       [backlash]: width_deg (in all) [rest_share=0.001] (of the stiffness, felt inside)
+///       [friction]: torque_nm (held in all) stiffness_nm_per_rad (added while it sticks) [sliders=4]
+///       [stiffness_ripple]: share (of the stiffness) [cycles=1] (a turn) [phase_deg=0]
+///       [angle_error]: amplitude_deg (true less reported) [cycles=1] [phase_deg=0]
+///       [softening]: share (of the stiffness, lost) time_constant_s (as the drive gets warm)
+///   [base]: [rotation_nm_per_rad=rigid] (about x, y, z) [translation_n_per_m=rigid] (along them)
+///       [tilt_declared=false] [tilt_deg=0] (against gravity) [tilt_azimuth_deg=0] (of the axis it is tilted
+///       about)
+///     [contact]...: axis (x, y, z) side (positive, negative) stiffness_nm_per_rad (besides, on that side)
+///         [gap_deg=0]
 ///   [link]...: after_joint (1..6; a beam from this joint's point to the next one's)
 ///       [bending_nm2=rigid] (EI) [torsion_nm2=rigid] (GJ) [shear_n=rigid] (kGA) [axial_n=rigid] (EA)
 ///   [geometry]: [position_sigma_mm=0] [direction_sigma_deg=0] [zero_sigma_deg=0]
 ///       [wrist_position_sigma_mm=position_sigma_mm]
 ///     [axis]...: index [offset_mm=0] [tilt_deg=0] (rotation vector) [zero_deg=0] (listed, not drawn)
 ///   [tool]: mass_kg [com_mm=0]
+///   [tool_plate]: translation_n_per_m rotation_nm_per_rad (between flange and all that is on it; flange
+///   axes) [coupling]...: joints (two) rod_n_per_m crank_mm (two, signed), or shaft_nm_per_rad ratios (two):
+///   a spring
+///       that both joints' twists stretch
+///   [spring]...: from_body to_body (0..6) from_mm to_mm (base_link at all joints zero) [rate_n_per_m=0]
+///       [tension_n=0] (at all joints zero): gravity compensator, dress pack
+///   [growth]...: after_joint (1..5) growth_mm time_constant_s (of a link, as the day goes on)
+///   [creep]: share time_constant_s (of every change under load, late)
 ///   targets
 ///     target...: id xyz_mm (the true place on the flange)
+///       [motion]: kind (proportional, slip) shift_um (flange axes) at_n, or kind (compliant)
+///           compliance_um_per_kn: the reflector leaves its nest under load
 ///   tracker: model xyz_mm rpy_deg (the true base_from_tracker) [true_noise_factor=1]
 ///       [range_fixed_um=0] [range_per_m_um=0] [angle_fixed_um=0] [angle_per_m_um=0] (one sigma)
 ///   [load_cell]: parent [xyz_mm=0] [rpy_deg=0] force_sigma_n moment_sigma_nm
 ///       [true_misalignment_deg=0] (rotation vector) [true_bias_n=0] [true_bias_nm=0] [true_gain_error=0]
+///       [true_place_error_mm=0] (true less declared place, cell axes)
+///       [unread_force_n=0] (base_link; on the hook in every loaded state, past the cell)
+///   [station] (after the first reading, the tracker's axes)
+///     [drift]: [ramp_mm_per_h=0] [ramp_deg_per_h=0] [walk_mm_per_sqrt_h=0] [walk_deg_per_sqrt_h=0] (three
+///     each)
+///         [knot_s=600] (the walk is drawn this often)
+///     [tracker_moved] [robot_moved]: [xyz_mm=0] [rpy_deg=0] (once, between wrist sweep and loading)
+///     [refraction]: [scale_ppm=0] [scale_ppm_per_h=0] (distances read too long)
 ///   [hanging_load]: masses_kg (one a step) hook_mm (on the flange) [return_to_zero=true] [repeats=3]
+///     [swing]: angle_deg period_s (of the weight, about base_link x)
 ///   [cable_load], instead: tensions_n (one a step) hook_mm [anchor_mm] (in the base) or [direction]
 ///       [return_to_zero=true] [repeats=3]
 ///   [postures]
@@ -40,7 +69,7 @@ namespace stiffscope {
 ///   [circle_sweep]...: axis start_deg stop_deg count [others_deg=0] (six)
 ///   [wrist_sweep]: readings (rows in all) [scheme=one_target] (or all_targets) [arm_deg=0] (three)
 ///       min_deg max_deg (three each, axes 4-6)
-///   [nests]: [interval_s=3600]
+///   [nests]: [interval_s=3600] [after_sweeps=false] (read once more between wrist sweep and loading)
 ///     nest...: id xyz_mm (in the base)
 ///   [times]: [reading_s=2] [move_s=10] [load_change_s=60]
 ///

@@ -12,12 +12,13 @@ std::vector<TrueTarget> readTargets(const XmlNode& root) {
   refuseUnknown(list, {}, {"target"});
   std::vector<TrueTarget> targets;
   for (const XmlNode& node : list.children("target")) {
-    refuseUnknown(node, {"id", "xyz_mm"});
+    refuseUnknown(node, {"id", "xyz_mm"}, {"motion"});
     const std::string id = node.requiredName("id");
     for (const TrueTarget& other : targets) {
       if (other.id == id) node.refuse("id", id, "expected every target once");
     }
     targets.push_back({id, node.vector("xyz_mm") * kMillimetre});
+    if (const auto motion = node.child("motion")) targets.back().motion = readTargetMotion(*motion);
   }
   if (targets.empty()) list.refuse("target", "", "expected at least one target");
   return targets;
@@ -43,8 +44,9 @@ TrackerSpec readTracker(const XmlNode& root) {
 std::optional<LoadCellSpec> readLoadCell(const XmlNode& root, const Robot& robot) {
   const std::optional<XmlNode> node = root.child("load_cell");
   if (!node) return std::nullopt;
-  refuseUnknown(*node, {"parent", "xyz_mm", "rpy_deg", "force_sigma_n", "moment_sigma_nm",
-                        "true_misalignment_deg", "true_bias_n", "true_bias_nm", "true_gain_error"});
+  refuseUnknown(*node,
+                {"parent", "xyz_mm", "rpy_deg", "force_sigma_n", "moment_sigma_nm", "true_misalignment_deg",
+                 "true_bias_n", "true_bias_nm", "true_gain_error", "true_place_error_mm", "unread_force_n"});
   LoadCellSpec cell;
   cell.declared.parent = node->requiredName("parent");
   std::vector<std::string> links;
@@ -62,6 +64,8 @@ std::optional<LoadCellSpec> readLoadCell(const XmlNode& root, const Robot& robot
   cell.misalignment = vectorOr(*node, "true_misalignment_deg", kDegree, zero);
   cell.bias << vectorOr(*node, "true_bias_n", 1.0, zero), vectorOr(*node, "true_bias_nm", 1.0, zero);
   cell.gain_error = numberOr(*node, "true_gain_error", 1.0, 0.0);
+  cell.place_error = vectorOr(*node, "true_place_error_mm", kMillimetre, zero);
+  cell.unread_force = vectorOr(*node, "unread_force_n", 1.0, zero);
   return cell;
 }
 

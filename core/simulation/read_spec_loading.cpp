@@ -90,7 +90,8 @@ std::optional<LoadingSpec> readLoading(const XmlNode& root) {
   const XmlNode& node = hanging ? *hanging : *cable;
   LoadingSpec loading;
   if (hanging) {
-    refuseUnknown(node, {"masses_kg", "hook_mm", "return_to_zero", "repeats"});
+    refuseUnknown(node, {"masses_kg", "hook_mm", "return_to_zero", "repeats"}, {"swing"});
+    readSwing(node, loading);
     loading.load = HangingWeights{steps(node, "masses_kg")};
   } else {
     refuseUnknown(node, {"tensions_n", "hook_mm", "anchor_mm", "direction", "return_to_zero", "repeats"});

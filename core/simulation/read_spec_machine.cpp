@@ -13,28 +13,31 @@ void readJoints(const XmlNode& root, MachineSpec& machine) {
   machine.mass_relative_sigma = nonNegativeOr(*joints, "mass_relative_sigma", 1.0, 0.0);
   std::array<bool, 6> seen{};
   for (const XmlNode& node : joints->children("joint")) {
-    refuseUnknown(node, {"index", "stiffness_nm_per_rad", "bearing_nm_per_rad"});
     const int joint = integer(node, "index", 1, 6) - 1;
     if (seen[joint])
       node.refuse("index", node.requiredAttribute("index"), "expected every joint at most once");
     seen[joint] = true;
-    machine.joints[joint] = {optionalPositive(node, "stiffness_nm_per_rad", 1.0),
-                             optionalPositive(node, "bearing_nm_per_rad", 1.0)};
+    machine.joints[joint] = readJoint(node);
   }
 }
 
 void readBase(const XmlNode& root, MachineSpec& machine) {
   const std::optional<XmlNode> base = root.child("base");
   if (!base) return;
-  refuseUnknown(*base, {"rotation_nm_per_rad", "tilt_deg", "tilt_azimuth_deg", "tilt_declared"});
-  if (base->has("rotation_nm_per_rad")) {
-    const Eigen::Vector3d rotation = base->vector("rotation_nm_per_rad");
-    if (!(rotation.minCoeff() > 0.0)) {
-      base->refuse("rotation_nm_per_rad", base->requiredAttribute("rotation_nm_per_rad"),
-                   "expected three numbers above 0");
+  refuseUnknown(
+      *base, {"rotation_nm_per_rad", "translation_n_per_m", "tilt_deg", "tilt_azimuth_deg", "tilt_declared"},
+      {"contact"});
+  const auto stiffness = [&](const char* name) -> std::optional<Eigen::Vector3d> {
+    if (!base->has(name)) return std::nullopt;
+    const Eigen::Vector3d three = base->vector(name);
+    if (!(three.minCoeff() > 0.0)) {
+      base->refuse(name, base->requiredAttribute(name), "expected three numbers above 0");
     }
-    machine.base_rotation = rotation;
-  }
+    return three;
+  };
+  machine.base_rotation = stiffness("rotation_nm_per_rad");
+  machine.base_translation = stiffness("translation_n_per_m");
+  readBaseContacts(*base, machine);
   machine.base_tilt = numberOr(*base, "tilt_deg", kDegree, 0.0);
   machine.base_tilt_azimuth = numberOr(*base, "tilt_azimuth_deg", kDegree, 0.0);
   machine.base_tilt_declared = flag(*base, "tilt_declared", false);
@@ -102,6 +105,9 @@ MachineSpec readMachine(const XmlNode& root) {
     machine.tool.mass_kg = positive(*tool, "mass_kg", 1.0);
     machine.tool.com_in_flange = vectorOr(*tool, "com_mm", kMillimetre, Eigen::Vector3d::Zero());
   }
+  if (const auto plate = root.child("tool_plate")) machine.tool_plate = readToolPlate(*plate);
+  readSprings(root, machine);
+  readSlowChanges(root, machine);
   return machine;
 }
 

@@ -54,7 +54,8 @@ std::optional<WristSweepSpec> readWristSweep(const XmlNode& root, std::size_t ta
 
 void readNestsAndTimes(const XmlNode& root, SimulationSpec& spec) {
   if (const auto nests = root.child("nests")) {
-    refuseUnknown(*nests, {"interval_s"}, {"nest"});
+    refuseUnknown(*nests, {"interval_s", "after_sweeps"}, {"nest"});
+    spec.nests_after_sweeps = flag(*nests, "after_sweeps", false);
     spec.timing.nest_interval_s = optionalPositive(*nests, "interval_s", 1.0).value_or(3600.0);
     for (const XmlNode& node : nests->children("nest")) {
       refuseUnknown(node, {"id", "xyz_mm"});

@@ -16,8 +16,9 @@ constexpr double kLargest =
 
 }  // namespace
 
-MachineState Session::rest(const Vector6d& q, const AppliedLoad& load) const {
-  MachineState state = equilibrium(machine, q, load);
+MachineState Session::rest(const Vector6d& q, const AppliedLoad& load, const Eigen::VectorXd* anchors) const {
+  MachineState state = machine.changes() ? equilibrium(machineAt(machine, q, now_s), q, load, anchors)
+                                         : equilibrium(machine, q, load, anchors);
   const bool small = state.deformation.size() == 0 || state.deformation.cwiseAbs().maxCoeff() < kLargest;
   if (!state.converged || !small) {
     const Vector6d deg = q / kDegree;
@@ -49,7 +50,7 @@ void measureNests(Session& session) {
     NestReading reading;
     reading.time_s = session.takeReading();
     reading.nest = static_cast<int>(n);
-    reading.point = session.tracker_from_base * session.spec.nests[n].position_in_base;
+    reading.point = session.station.readFloor(session.spec.nests[n].position_in_base, session.now_s);
     session.campaign.nests->rows.push_back(reading);
   }
   session.last_nests_s = session.now_s;

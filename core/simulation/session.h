@@ -4,6 +4,7 @@
 #include "core/simulation/elastic_equilibrium.h"
 #include "core/simulation/machine.h"
 #include "core/simulation/spec.h"
+#include "core/simulation/station.h"
 
 namespace stiffscope::simulation {
 
@@ -12,12 +13,13 @@ struct Session {
   const SimulationSpec& spec;
   const ElasticMachine& machine;
   Campaign campaign;
-  Eigen::Isometry3d tracker_from_base;
+  Station station;
   double now_s = 0.0;
   double last_nests_s = 0.0;
 
-  /// The machine at rest at reported angles q. Throws InputError where it is not stable or collapses.
-  MachineState rest(const Vector6d& q, const AppliedLoad& load = {}) const;
+  /// The machine at rest at reported angles q, now. Throws InputError where it is not stable or collapses.
+  MachineState rest(const Vector6d& q, const AppliedLoad& load = {},
+                    const Eigen::VectorXd* anchors = nullptr) const;
   Vector6d reported(const Vector6d& q) const;  ///< rounded to the read-back resolution
   /// The time a reading is finished; the clock moves on to it.
   double takeReading();

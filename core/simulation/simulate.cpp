@@ -30,10 +30,12 @@ Campaign declared(const ElasticMachine& machine, const SimulationSpec& spec) {
 
 Campaign measureWithoutNoise(const ElasticMachine& machine, const SimulationSpec& spec) {
   using namespace simulation;
-  Session session{spec, machine, declared(machine, spec), spec.tracker.base_from_tracker.inverse()};
+  Session session{spec, machine, declared(machine, spec), Station(spec)};
   measureNests(session);
   measureCircleSweeps(session);
   measureWristSweep(session);
+  if (spec.nests_after_sweeps) measureNests(session);
+  session.station.startLoading();
   measureLoading(session);
   measureNests(session);
   return std::move(session.campaign);
@@ -42,8 +44,7 @@ Campaign measureWithoutNoise(const ElasticMachine& machine, const SimulationSpec
 Campaign simulate(const SimulationSpec& spec) {
   using namespace simulation;
   Campaign campaign = measureWithoutNoise(buildMachine(spec), spec);
-  // Golden-ratio steps keep the seeds of two measurements apart; the streams mix them further.
-  const std::uint64_t noise_seed = spec.seed + 0x9e3779b97f4a7c15ULL * spec.measurement;
+  const std::uint64_t noise_seed = noiseSeed(spec);
   if (spec.load_cell && campaign.states) addLoadCellErrors(*spec.load_cell, noise_seed, *campaign.states);
   addTrackerNoise(spec.tracker.true_noise_factor, noise_seed, campaign);
   return campaign;

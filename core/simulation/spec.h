@@ -20,9 +20,38 @@ namespace stiffscope {
 
 namespace simulation {
 
+/// A reflector that does not stay in its nest when the load (N, its size F) comes on.
+struct TargetMotion {
+  enum class Kind {
+    proportional,  ///< moves by shift F / at_force
+    slip,          ///< sits until F reaches at_force, then has moved by shift until the next posture
+    compliant,     ///< moves along the force, by compliance F
+  };
+  Kind kind = Kind::proportional;
+  Eigen::Vector3d shift = Eigen::Vector3d::Zero();  ///< flange axes, m
+  double at_force = 1.0;                            ///< N
+  double compliance = 0.0;                          ///< m/N
+};
+
 struct TrueTarget {
   std::string id;
   Eigen::Vector3d position_in_flange = Eigen::Vector3d::Zero();
+  std::optional<TargetMotion> motion = std::nullopt;
+};
+
+/// The station after the first reading of the day, in the tracker's axes at its origin. What it does not
+/// share with the floor is in every reading, the nests' included; the frame at the first reading is the
+/// file's.
+struct StationSpec {
+  Vector6d ramp = Vector6d::Zero();  ///< shift (m/s) and turn (rad/s), steady
+  Vector6d walk = Vector6d::Zero();  ///< the same as a random walk: sigma after one second (m, rad)
+  double knot_s = 600.0;             ///< the walk is drawn this often and joined by straight lines
+  /// Somebody pushed it, or the robot, after the wrist sweep and before the loading.
+  std::optional<Eigen::Isometry3d> tracker_moved;  ///< place before -> place after, tracker axes
+  std::optional<Eigen::Isometry3d> robot_moved;    ///< the same, base_link axes; the direction of gravity in
+                                                 ///< the robot is kept, nests do not see it
+  double scale = 0.0;             ///< distances read / true - 1, from a wrong index of the air
+  double scale_per_second = 0.0;  ///< as the hall gets warm
 };
 
 struct TrackerSpec {
@@ -37,6 +66,10 @@ struct LoadCellSpec {
       Eigen::Vector3d::Zero();       ///< rotation vector, declared axes to true axes, rad
   Vector6d bias = Vector6d::Zero();  ///< added to readings under load (N, Nm; cell axes)
   double gain_error = 0.0;           ///< reading / truth - 1, all six components
+  Eigen::Vector3d place_error =
+      Eigen::Vector3d::Zero();  ///< true place less declared place, in the declared axes, m
+  Eigen::Vector3d unread_force =
+      Eigen::Vector3d::Zero();  ///< on the hook in every loaded state but never read (base_link, N)
 };
 
 /// Weights hung from a shackle that swings freely: the force is vertical at the hook.
@@ -57,6 +90,10 @@ struct LoadingSpec {
   Eigen::Vector3d hook_in_flange = Eigen::Vector3d::Zero();
   bool return_to_zero = true;  ///< a last step without load
   int repeats = 3;             ///< readings of every target in every state
+  /// A weight that swings: its force is turned by swing sin(2 pi t / swing_period) about base_link x while
+  /// targets are read; the load cell's row is its mean.
+  double swing = 0.0;         ///< rad
+  double swing_period = 1.0;  ///< s
 };
 
 struct ListedPosture {
@@ -127,6 +164,7 @@ struct SimulationSpec {
   simulation::MachineSpec machine;
   std::vector<simulation::TrueTarget> targets;
   simulation::TrackerSpec tracker;
+  simulation::StationSpec station;
   std::optional<simulation::LoadCellSpec> load_cell;
   std::optional<simulation::LoadingSpec> loading;
   std::vector<simulation::ListedPosture> postures;  ///< before the drawn ones
@@ -134,7 +172,18 @@ struct SimulationSpec {
   std::vector<simulation::CircleSweepSpec> circle_sweeps;
   std::optional<simulation::WristSweepSpec> wrist_sweep;
   std::vector<simulation::NestSpec> nests;
+  bool nests_after_sweeps = false;  ///< read once more between wrist sweep and loading
   simulation::Timing timing;
 };
+
+namespace simulation {
+
+/// What everything is drawn from that belongs to the measurement and not to the machine.
+inline std::uint64_t noiseSeed(const SimulationSpec& spec) {
+  // Golden-ratio steps keep the seeds of two measurements apart; the streams mix them further.
+  return spec.seed + 0x9e3779b97f4a7c15ULL * spec.measurement;
+}
+
+}  // namespace simulation
 
 }  // namespace stiffscope

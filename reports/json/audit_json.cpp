@@ -1,6 +1,7 @@
 #include "reports/json/audit_json.h"
 
 #include "reports/json/campaign_json.h"
+#include "reports/json/preparation_json.h"
 
 namespace stiffscope {
 
@@ -25,7 +26,7 @@ const char* nameOf(AuditVerdict verdict) {
 }
 
 Json auditJson(const Campaign& campaign, const AuditReport& report) {
-  Json checks = Json::array(), rejected = Json::array();
+  Json checks = Json::array();
   for (const AuditCheck& check : report.checks) {
     checks.push_back({{"id", check.id},
                       {"verdict", nameOf(check.verdict)},
@@ -35,14 +36,12 @@ Json auditJson(const Campaign& campaign, const AuditReport& report) {
                       {"where", check.where},
                       {"message", check.message},
                       {"limit_source", check.limit_source}});
-  }
-  for (const RejectedReading& reading : report.rejected) {
-    rejected.push_back({{"file", reading.file}, {"line", reading.line}, {"reason", reading.reason}});
+    if (!check.details.empty()) checks.back()["details"] = check.details;
   }
   return {{"campaign", campaignJson(campaign)},
           {"verdict", nameOf(report.verdict)},
           {"checks", checks},
-          {"rejected", rejected}};
+          {"rejected", rejectedJson(report.rejected)}};
 }
 
 }  // namespace stiffscope

@@ -5,26 +5,52 @@
 
 namespace stiffscope {
 
-Json compensationJson(const Campaign& campaign, Method method, const std::vector<CompensatedPosture>& postures) {
+namespace {
+
+Json targetsJson(const Campaign& campaign, const std::vector<PointDeflection>& targets) {
+  Json list = Json::array();
+  for (std::size_t k = 0; k < targets.size(); ++k) {
+    list.push_back({{"target", campaign.targets[k].id},
+                    {"deflection_mm", array(targets[k].deflection, 1.0 / kMillimetre)},
+                    {"sd_deflection_mm", array(targets[k].sd, 1.0 / kMillimetre)}});
+  }
+  return list;
+}
+
+Json rowJson(const Campaign& campaign, const CompensatedPosture& posture) {
+  Json row{{"pose", posture.posture.id}, {"q_deg", array(posture.posture.q, 1.0 / kDegree)}};
+  if (posture.predicted) {
+    row["tcp_deflection_mm"] = array(posture.tcp.deflection, 1.0 / kMillimetre);
+    row["sd_tcp_deflection_mm"] = array(posture.tcp.sd, 1.0 / kMillimetre);
+    row["flange_rotation_deg"] = array(posture.rotation, 1.0 / kDegree);
+    row["sd_flange_rotation_deg"] = array(posture.rotation_sd, 1.0 / kDegree);
+    row["targets"] = targetsJson(campaign, posture.targets);
+    row["conditioning"] = posture.conditioning;
+  } else {
+    row["tcp_deflection_mm"] = nullptr;
+  }
+  if (posture.solved) {
+    row["command_deg"] = array(posture.commands, 1.0 / kDegree);
+    row["change_deg"] = array(Vector6d(posture.commands - posture.posture.q), 1.0 / kDegree);
+    row["remaining_mm"] = posture.remaining / kMillimetre;
+    row["remaining_mirrored_once_mm"] = posture.mirrored_remaining / kMillimetre;
+  } else {
+    row["command_deg"] = nullptr;
+    row["refused"] = posture.reason;
+  }
+  return row;
+}
+
+}  // namespace
+
+Json compensationJson(const Campaign& campaign, Method method,
+                      const std::vector<CompensatedPosture>& postures) {
   Json rows = Json::array();
   for (const CompensatedPosture& posture : postures) {
-    Json row{{"pose", posture.posture.id},
-             {"q_deg", array(posture.posture.q, 1.0 / kDegree)},
-             {"tcp_deflection_mm", array(posture.deflection, 1.0 / kMillimetre)},
-             {"sd_tcp_deflection_mm", array(posture.deflection_sd, 1.0 / kMillimetre)},
-             {"flange_rotation_deg", array(posture.rotation, 1.0 / kDegree)},
-             {"conditioning", posture.conditioning}};
-    if (posture.solved) {
-      row["command_deg"] = array(posture.commands, 1.0 / kDegree);
-      row["change_deg"] = array(Vector6d(posture.commands - posture.posture.q), 1.0 / kDegree);
-      row["remaining_mm"] = posture.remaining / kMillimetre;
-    } else {
-      row["command_deg"] = nullptr;
-      row["refused"] = posture.reason;
-    }
-    rows.push_back(row);
+    rows.push_back(rowJson(campaign, posture));
   }
-  return {{"campaign", campaignJson(campaign)}, {"method", namesOf(method).key}, {"frame", "r0"}, {"rows", rows}};
+  return {
+      {"campaign", campaignJson(campaign)}, {"method", namesOf(method).key}, {"frame", "r0"}, {"rows", rows}};
 }
 
 }  // namespace stiffscope

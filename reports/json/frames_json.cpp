@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "core/input/units.h"
+#include "reports/geometry_source.h"
 
 namespace stiffscope {
 
@@ -10,6 +11,31 @@ namespace {
 
 Json optionalNumber(const std::optional<double>& value, double factor) {
   return value ? number(*value * factor) : Json(nullptr);
+}
+
+template <class Derived>
+Json rows(const Eigen::MatrixBase<Derived>& matrix, double factor) {
+  Json list = Json::array();
+  for (Eigen::Index row = 0; row < matrix.rows(); ++row) {
+    list.push_back(array(Eigen::VectorXd(matrix.row(row).transpose()), factor));
+  }
+  return list;
+}
+
+/// Of R0's error in its own axes, and how the distances between axes go together: consecutive ones share an axis.
+void addCovariances(const Frames& frames, Json& json) {
+  if (!frames.arm.points_placed) {
+    json["r0_covariance"] = nullptr;
+    return;
+  }
+  const Eigen::MatrixXd total = frames.covariance.total();
+  json["r0_covariance"] = {
+      {"order", {"rotation_x_rad", "rotation_y_rad", "rotation_z_rad", "origin_x_m", "origin_y_m", "origin_z_m"}},
+      {"frame", "R0: rotation vector and origin of R0 as measured against the true one, in its own axes"},
+      {"matrix", rows(total.topLeftCorner<6, 6>(), 1.0)}};
+  json["link_lengths_covariance_mm2"] =
+      rows(total.block<5, 5>(FramesCovariance::kDistances, FramesCovariance::kDistances),
+           1.0 / (kMillimetre * kMillimetre));
 }
 
 Json circlesJson(const Campaign& campaign, const MeasuredAxis& axis) {
@@ -27,7 +53,7 @@ Json circlesJson(const Campaign& campaign, const MeasuredAxis& axis) {
 Json axisJson(const Campaign& campaign, const Frames& frames, std::size_t i) {
   const MeasuredAxis& axis = frames.axes[i];
   const Line& line = frames.arm.arm.axes_in_base_at_zero[i];
-  Json json{{"axis", i + 1}, {"measured", axis.measured}};
+  Json json{{"axis", i + 1}, {"measured", axis.measured}, {"from", sourceOf(frames, {i})}};
   if (!axis.measured) json["reason"] = axis.reason;
   json["point_m"] = array(line.point);
   json["direction"] = array(line.direction);
@@ -44,10 +70,14 @@ Json axisJson(const Campaign& campaign, const Frames& frames, std::size_t i) {
   return json;
 }
 
-Json linkJson(const LinkGeometry& link, std::size_t i) {
+Json linkJson(const Frames& frames, std::size_t i) {
+  const LinkGeometry& link = frames.links[i];
   Json json{{"between_axes", {i + 1, i + 2}},
+            {"from", sourceOf(frames, {i, i + 1})},
             {"length_mm", link.distance / kMillimetre},
             {"sd_length_mm", optionalNumber(link.distance_sd, 1.0 / kMillimetre)},
+            {"sd_length_by_sag_stiffness_mm", number(link.distance_sag_sd / kMillimetre)},
+            {"length_moved_by_sag_mm", number(link.distance_by_sag / kMillimetre)},
             {"nominal_length_mm", link.nominal_distance / kMillimetre},
             {"angle_deg", link.angle / kDegree},
             {"sd_angle_deg", optionalNumber(link.angle_sd, 1.0 / kDegree)},
@@ -57,27 +87,43 @@ Json linkJson(const LinkGeometry& link, std::size_t i) {
   return json;
 }
 
-Json wristJson(const Campaign& campaign, const WristCentre& wrist) {
+Json wristJson(const Campaign& campaign, const Frames& frames) {
+  const WristCentre& wrist = frames.wrist;
   Json json{{"measured", wrist.measured}};
   if (!wrist.measured) json["reason"] = wrist.reason;
   json["center_m"] = wrist.measured ? array(wrist.centre_in_r0) : Json(nullptr);
   json["center_at_q1_q2_q3_deg"] = array(Eigen::Vector3d(wrist.q.head<3>()), 1.0 / kDegree);
   json["miss_mm"] = {{"axes_4_5", wrist.miss_45 / kMillimetre},
                      {"sd_axes_4_5", wrist.miss_45_sd / kMillimetre},
+                     {"from_axes_4_5", sourceOf(frames, {3, 4})},
                      {"axes_5_6", wrist.miss_56 / kMillimetre},
-                     {"sd_axes_5_6", wrist.miss_56_sd / kMillimetre}};
+                     {"sd_axes_5_6", wrist.miss_56_sd / kMillimetre},
+                     {"from_axes_5_6", sourceOf(frames, {4, 5})}};
+  json["nearest_axes_5_6_from"] = sourceOf(frames, {4, 5});
   json["nearest_axes_5_6_m"] = array(wrist.nearest_axes_56_in_r0);
   json["reflector_barycenter_m"] = array(wrist.reflector_barycentre_in_r0);
   if (!wrist.measured) return json;
   json["sd_center_um"] = array(Eigen::Vector3d(wrist.covariance.diagonal().cwiseSqrt()), 1.0 / kMicrometre);
-  Json radii = Json::object();
+  json["sd_mm"] = array(Eigen::Vector3d(wrist.covariance.diagonal().cwiseSqrt()), 1.0 / kMillimetre);
+  json["covariance_mm2"] = rows(wrist.covariance, 1.0 / (kMillimetre * kMillimetre));
+  json["covariance_of_readings_alone_mm2"] =
+      rows(wrist.spheres.covariance.topLeftCorner<3, 3>(), 1.0 / (kMillimetre * kMillimetre));
+  Json radii = Json::object(), radii_sd = Json::object();
   for (std::size_t k = 0; k < wrist.radii.size(); ++k) radii[campaign.targets[k].id] = number(wrist.radii[k] / kMillimetre);
+  for (std::size_t k = 0; k < wrist.targets.size(); ++k) {
+    const auto at = static_cast<Eigen::Index>(3 + k);
+    radii_sd[campaign.targets[static_cast<std::size_t>(wrist.targets[k])].id] =
+        number(std::sqrt(wrist.spheres.covariance(at, at)) / kMillimetre);
+  }
   json["radii_mm"] = radii;
+  json["sd_radii_mm"] = radii_sd;
   json["rms_um"] = wrist.spheres.rms / kMicrometre;
   Json table = Json::array();
   for (const WristTableRow& row : wrist.table) {
     table.push_back({{"target", campaign.targets[static_cast<std::size_t>(row.target)].id},
                      {"center_mm", array(row.centre_in_r0, 1.0 / kMillimetre)},
+                     {"sd_center_by_own_readings_mm",
+                      array(Eigen::Vector3d(row.covariance.diagonal().cwiseSqrt()), 1.0 / kMillimetre)},
                      {"offset_mm", row.offset / kMillimetre},
                      {"radius_mm", row.radius / kMillimetre},
                      {"rms_um", row.rms / kMicrometre},
@@ -85,6 +131,8 @@ Json wristJson(const Campaign& campaign, const WristCentre& wrist) {
   }
   json["table"] = table;
   json["table_mean_mm"] = array(wrist.table_mean_in_r0, 1.0 / kMillimetre);
+  json["sd_table_mean_mm"] =
+      array(Eigen::Vector3d(wrist.table_mean_covariance.diagonal().cwiseSqrt()), 1.0 / kMillimetre);
   return json;
 }
 
@@ -93,22 +141,27 @@ Json wristJson(const Campaign& campaign, const WristCentre& wrist) {
 Json framesJson(const Campaign& campaign, const Frames& frames) {
   Json json{{"campaign", campaignJson(campaign)}};
   const bool tracker = frames.arm.points_placed && frames.points_frame == PointFrame::tracker;
+  json["r0_placed_by"] = frames.arm.points_placed ? "sweeps" : "nominal";
   json["r0_from_tracker"] = tracker ? matrix(frames.arm.r0_from_points) : Json(nullptr);
   const bool measured_in_base = frames.arm.points_placed && frames.points_frame == PointFrame::base_link;
   json["r0_from_base_link"] = matrix(measured_in_base ? frames.arm.r0_from_points : frames.arm.r0_from_base_link);
+  addCovariances(frames, json);
   json["own_weight"] = {{"removed", frames.sag_removed}, {"note", frames.sag_note}};
   Json axes = Json::array();
   for (std::size_t i = 0; i < 6; ++i) axes.push_back(axisJson(campaign, frames, i));
   json["axes"] = axes;
-  Json lengths = Json::array(), links = Json::array();
+  Json lengths = Json::array(), sources = Json::array(), links = Json::array();
   for (std::size_t i = 0; i < frames.links.size(); ++i) {
     lengths.push_back(frames.links[i].distance / kMillimetre);
-    links.push_back(linkJson(frames.links[i], i));
+    sources.push_back(sourceOf(frames, {i, i + 1}));
+    links.push_back(linkJson(frames, i));
   }
   json["link_lengths_mm"] = lengths;
+  json["link_lengths_from"] = sources;
   json["links"] = links;
-  json["wrist"] = wristJson(campaign, frames.wrist);
+  json["wrist"] = wristJson(campaign, frames);
   json["tcp_in_flange_m"] = array(frames.tcp_in_flange);
+  json["tcp_in_flange_from"] = sourceOf(frames, {4, 5});
   Json targets = Json::object();
   for (std::size_t k = 0; k < campaign.targets.size(); ++k) {
     const auto& target = frames.targets_in_r0_at_zero[k];

@@ -1,21 +1,40 @@
 #include "reports/json/results_json.h"
 
 #include "core/input/units.h"
+#include "reports/json/audit_json.h"
 #include "reports/json/frames_json.h"
 #include "reports/json/identification_json.h"
+#include "reports/json/preparation_json.h"
 
 namespace stiffscope {
 
 namespace {
 
-Json avoidedJson(const AvoidedShare& avoided) {
+Json avoidedJson(const AvoidedDeflection& avoided) {
   Json postures = Json::array();
-  for (const AvoidedPosture& posture : avoided.postures) {
+  for (const AvoidedAtPosture& posture : avoided.postures) {
     postures.push_back({{"pose", posture.pose},
-                        {"inactive_mm", posture.inactive / kMillimetre},
-                        {"active_mm", posture.active / kMillimetre}});
+                        {"inactive_mm", posture.before / kMillimetre},
+                        {"active_mm", posture.after / kMillimetre}});
   }
   return {{"share", avoided.share}, {"at", avoided.at_wrist ? "P_wrist" : "reflectors"}, {"postures", postures}};
+}
+
+/// Bare names, so that a later report in the same folder knows which files are this one's.
+Json filesJson(const ReportContent& content) {
+  Json files = Json::array({"results.json", "report.html"});
+  for (const Figure& figure : content.figures) files.push_back(pictureFile(figure));
+  return files;
+}
+
+Json campaignResults(const ReportCampaign& one) {
+  Json json;
+  if (one.preparation != nullptr) json["preparation"] = preparationJson(*one.preparation);
+  if (one.audit != nullptr) json["audit"] = auditJson(one.campaign, *one.audit);
+  json["frames"] = framesJson(one.campaign, one.identification.frames);
+  json["identify"] =
+      identificationJson(one.campaign, one.identification, {kMethods.begin(), kMethods.end()});
+  return json;
 }
 
 }  // namespace
@@ -25,12 +44,10 @@ Json resultsJson(const ReportContent& content) {
   for (const NamedText& version : content.versions) versions[version.name] = version.text;
   Json campaigns = Json::array();
   for (const ReportCampaign& one : content.campaigns) {
-    campaigns.push_back({{"frames", framesJson(one.campaign, one.identification.frames)},
-                         {"identify", identificationJson(one.campaign, one.identification,
-                                                         {kMethods.begin(), kMethods.end()})}});
+    campaigns.push_back(campaignResults(one));
   }
-  Json json{{"versions", versions}, {"campaigns", campaigns}};
-  json["avoided"] = content.avoided ? avoidedJson(*content.avoided) : Json(nullptr);
+  Json json{{"files", filesJson(content)}, {"versions", versions}, {"campaigns", campaigns}};
+  json["avoided"] = content.avoided && content.avoided->available ? avoidedJson(*content.avoided) : Json(nullptr);
   return json;
 }
 

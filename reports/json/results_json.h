@@ -5,7 +5,8 @@
 
 namespace stiffscope {
 
-/// `results.json` of a report: per campaign the results of `frames` and `identify`, and what the double encoders avoid.
+/// `results.json` of a report: the names of the files it wrote, per campaign what was done to the readings and the results
+/// of `audit`, `frames` and `identify`, and what the double encoders avoid.
 Json resultsJson(const ReportContent& content);
 
 }  // namespace stiffscope

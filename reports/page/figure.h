@@ -18,4 +18,7 @@ struct Figure {
   int height = 0;  ///< pixels
 };
 
+/// The name of its file in a report's folder.
+inline std::string pictureFile(const Figure& figure) { return figure.id + ".png"; }
+
 }  // namespace stiffscope

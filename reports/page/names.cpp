@@ -38,6 +38,26 @@ std::string pointName(const std::string& target_id) {
   return numbered ? fmt::format("{}_{{{}}}", target_id[0], target_id.substr(1)) : target_id;
 }
 
+std::string auditName(const std::string& check_id) {
+  std::string name = check_id;
+  std::replace(name.begin(), name.end(), '_', ' ');
+  return name;
+}
+
+std::string auditWord(AuditVerdict verdict) {
+  switch (verdict) {
+    case AuditVerdict::pass:
+      return "passes";
+    case AuditVerdict::warn:
+      return "warns";
+    case AuditVerdict::fail:
+      return "fails";
+    case AuditVerdict::not_testable:
+      break;
+  }
+  return "not testable";
+}
+
 std::string encoderState(DoubleEncoder state) {
   if (state == DoubleEncoder::unspecified) return "not declared";
   return state == DoubleEncoder::active ? "active" : "inactive";

@@ -14,6 +14,8 @@ std::string longName(Method method);                  ///< "Decoupled Partial Po
 std::string shortName(Method method);                 ///< "DPP"
 std::string jointName(int joint);                     ///< 0-based: "k_{1}"
 std::string pointName(const std::string& target_id);  ///< "P10" as "P_{10}"; other names as they are
+std::string auditName(const std::string& check_id);   ///< "station drift"
+std::string auditWord(AuditVerdict verdict);          ///< "warns"
 std::string encoderState(DoubleEncoder state);        ///< "active", "inactive", "not declared"
 std::string encoderWords(DoubleEncoder state);        ///< "double encoders active"; empty where not declared
 

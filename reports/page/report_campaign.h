@@ -1,14 +1,19 @@
 #pragma once
 
+#include "core/audit/audit.h"
+#include "core/audit/prepare.h"
 #include "core/campaign/campaign.h"
 #include "core/identification/identify.h"
 
 namespace stiffscope {
 
-/// A campaign with what was identified from it. Refers to both.
+/// A campaign as it was used, with what was identified from it, how the audit judges the readings, and what was
+/// done to them beforehand. Refers to all of these; the last two may be absent.
 struct ReportCampaign {
   const Campaign& campaign;
   const Identification& identification;
+  const AuditReport* audit = nullptr;
+  const Preparation* preparation = nullptr;
 };
 
 }  // namespace stiffscope

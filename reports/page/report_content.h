@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/identification/identify.h"
-#include "reports/page/avoided_share.h"
+#include "reports/page/avoided_by_encoders.h"
 #include "reports/page/figure.h"
 #include "reports/page/report_campaign.h"
 
@@ -22,7 +22,7 @@ struct ReportContent {
   std::string title;
   std::string verdict;  ///< one to three sentences; verdictOf makes them
   std::vector<ReportCampaign> campaigns;
-  std::optional<AvoidedShare> avoided;  ///< by the double encoders, where both states were measured
+  std::optional<AvoidedDeflection> avoided;  ///< by the double encoders, where both states were measured
   std::vector<Figure> figures;
   std::vector<NamedText> versions;  ///< stiffscope and its libraries
   std::vector<NamedText> settings;

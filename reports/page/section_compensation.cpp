@@ -66,17 +66,15 @@ std::string noiseWords(const ReportCampaign& one) {
 
 void writeAvoided(Html& html, const ReportContent& content) {
   std::string words;
-  if (content.avoided) {
+  if (!content.avoided) return;  // the two states were not both measured: there is nothing to explain
+  if (content.avoided->available) {
     words = fmt::format(
         "With the double encoders active the deflection at {} is {} smaller than with them inactive, over "
         "{} postures at the same joint angles under the same load.",
-        content.avoided->point, percent(content.avoided->share), content.avoided->postures.size());
+        pointOf(*content.avoided), percent(content.avoided->share), content.avoided->postures.size());
     if (content.compare_with_paper) words += fmt::format(" The paper: {}.", percent(kPaperAvoided, 0));
   } else {
-    std::string reason;
-    avoidedShare(content.campaigns, &reason);
-    if (reason.empty()) return;  // the two states were not both measured: there is nothing to explain
-    words = fmt::format("Not known: {}.", reason);
+    words = fmt::format("Not known: {}.", content.avoided->reason);
   }
   html.leaf("h3", "Avoided by the double encoders");
   html.paragraph(words);

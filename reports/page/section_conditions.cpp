@@ -5,6 +5,7 @@
 #include "reports/page/names.h"
 #include "reports/page/numbers.h"
 #include "reports/page/sections.h"
+#include "reports/text/preparation_text.h"
 
 namespace stiffscope::page {
 
@@ -64,11 +65,12 @@ RowGroup conditions(const ReportCampaign& one) {
   add(group, "Conditions", own(campaign.texts.conditions));
   add(group, "Tracker",
       campaign.tracker ? trackerWords(*campaign.tracker) : "not declared: no noise is known");
+  if (one.preparation != nullptr) add(group, "Readings", preparationWords(*one.preparation));
   add(group, "Postures", fmt::format("{} used, {} left out", result.cases.size(), result.left_out.size()));
-  add(group, "Load", loadWords(result));
+  add(group, "Load", result.cases.empty() ? "none was measured that could be used" : loadWords(result));
   add(group, "Own weight", result.frames.sag_note);
-  add(group, "Deflection", deflectionWords(result));
-  add(group, "Servo",
+  if (!result.cases.empty()) add(group, "Deflection", deflectionWords(result));
+  if (!result.cases.empty()) add(group, "Servo",
       fmt::format("reported joint angles change by at most {}° under load; not subtracted",
                   significant(result.servo_change / kDegree, 2)));
   if (result.of(Method::complete_pose).available) {

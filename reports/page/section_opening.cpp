@@ -7,6 +7,7 @@
 #include "reports/page/numbers.h"
 #include "reports/page/report_id.h"
 #include "reports/page/sections.h"
+#include "reports/text/preparation_text.h"
 
 namespace stiffscope::page {
 
@@ -67,10 +68,10 @@ KeyNumber compensated(const ReportCampaign& one, const JudgedPoint& point) {
 }
 
 KeyNumber third(const ReportContent& content, const ReportCampaign& one) {
-  if (content.avoided) {
+  if (content.avoided && content.avoided->available) {
     return {percent(content.avoided->share, 0),
             fmt::format("of the deflection at {} with double encoders inactive is avoided by active ones",
-                        content.avoided->point)};
+                        pointOf(*content.avoided))};
   }
   const auto& joints = one.identification.identifiability.joints;
   const auto seen =
@@ -78,11 +79,31 @@ KeyNumber third(const ReportContent& content, const ReportCampaign& one) {
   return {fmt::format("{} of 6", seen), "joint stiffnesses that this data can see"};
 }
 
+/// The checks of the audit that found something, by name; the audit's own section explains them.
+void addAuditCautions(const AuditReport& audit, const std::string& label, std::vector<std::string>& items) {
+  for (const AuditVerdict verdict : {AuditVerdict::fail, AuditVerdict::warn}) {
+    std::vector<std::string> names;
+    for (const AuditCheck& check : audit.checks) {
+      if (check.verdict != verdict) continue;
+      names.push_back(auditName(check.id));
+      if (!check.where.empty() && check.id == "circle_arc") names.back() += " of " + check.where;
+    }
+    if (!names.empty()) {
+      items.push_back(fmt::format("{}the audit of the readings {} on: {}.", label,
+                                  auditWord(verdict), fmt::join(names, ", ")));
+    }
+  }
+}
+
 /// What a reader must know before believing the numbers.
 void writeCautions(Html& html, const ReportContent& content) {
   std::vector<std::string> items;
   for (const ReportCampaign& one : content.campaigns) {
     const std::string label = content.campaigns.size() > 1 ? asIs(one.campaign.name) + ": " : std::string();
+    if (one.audit != nullptr) addAuditCautions(*one.audit, label, items);
+    if (one.preparation != nullptr && (one.preparation->drift.taken_off || !one.preparation->rejected.empty())) {
+      items.push_back(fmt::format("{}readings: {}.", label, preparationWords(*one.preparation)));
+    }
     for (const std::string& caution : one.identification.cautions) items.push_back(label + caution + ".");
   }
   if (items.empty()) return;

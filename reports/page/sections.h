@@ -18,6 +18,7 @@ void writeSubsets(Html& html, const ReportContent& content);       ///< Table II
 void writeCompensation(Html& html, const ReportContent& content);  ///< compensated and avoided shares
 void writeFigures(Html& html, const ReportContent& content);
 void writeScope(Html& html, const ReportContent& content);  ///< uncertainty, decision rule, what results relate to
+void writeAudit(Html& html, const ReportContent& content);       ///< checks with their limits; rejected readings
 void writeLeftOut(Html& html, const ReportContent& content);     ///< what was not used or not found, and why
 void writeProvenance(Html& html, const ReportContent& content);  ///< inputs, versions, settings
 

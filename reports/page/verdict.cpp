@@ -97,12 +97,12 @@ std::string oneByOne(const std::vector<ReportCampaign>& campaigns) {
 }  // namespace
 
 std::string verdictOf(const std::vector<ReportCampaign>& campaigns,
-                      const std::optional<AvoidedShare>& avoided) {
+                      const std::optional<AvoidedDeflection>& avoided) {
   if (campaigns.empty()) return {};
   std::string text = sameJoints(campaigns) ? together(campaigns) : oneByOne(campaigns);
-  if (avoided) {
+  if (avoided && avoided->available) {
     text += fmt::format(" The double encoders avoid {} of the deflection at {}.",
-                        page::percent(avoided->share, 0), avoided->point);
+                        page::percent(avoided->share, 0), pointOf(*avoided));
   }
   return text;
 }

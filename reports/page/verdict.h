@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "reports/page/avoided_share.h"
+#include "reports/page/avoided_by_encoders.h"
 #include "reports/page/report_campaign.h"
 
 namespace stiffscope {
@@ -12,6 +12,6 @@ namespace stiffscope {
 /// The result in plain words, one or two sentences a campaign: which joint stiffnesses are known, by which
 /// method, what share of the deflection they compensate at which point; then what the double encoders avoid.
 std::string verdictOf(const std::vector<ReportCampaign>& campaigns,
-                      const std::optional<AvoidedShare>& avoided);
+                      const std::optional<AvoidedDeflection>& avoided);
 
 }  // namespace stiffscope

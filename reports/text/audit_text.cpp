@@ -6,6 +6,7 @@
 #include <iterator>
 
 #include "reports/json/audit_json.h"
+#include "reports/text/preparation_text.h"
 #include "reports/text/wrapped.h"
 
 namespace stiffscope {
@@ -21,10 +22,10 @@ const char* worded(AuditVerdict verdict) {
 std::string figure(const std::optional<double>& value) { return value ? fmt::format("{:.4g}", *value) : "-"; }
 
 void writeTable(const AuditReport& report, Out out) {
-  fmt::format_to(out, "  {:<21}{:<14}{:>9}{:>9}  {:<16}{}\n", "check", "verdict", "figure", "limit", "unit",
+  fmt::format_to(out, "  {:<21}{:<13}{:>10}{:>10}  {:<16}{}\n", "check", "verdict", "figure", "limit", "unit",
                  "where");
   for (const AuditCheck& check : report.checks) {
-    std::string line = fmt::format("  {:<21}{:<14}{:>9}{:>9}  {:<16}{}", check.id, worded(check.verdict),
+    std::string line = fmt::format("  {:<21}{:<13}{:>10}{:>10}  {:<16}{}", check.id, worded(check.verdict),
                                    figure(check.value), figure(check.limit), check.unit, check.where);
     line.erase(line.find_last_not_of(' ') + 1);
     fmt::format_to(out, "{}\n", line);
@@ -37,6 +38,15 @@ void writeShortArcs(const AuditReport& report, Out out) {
     if (check.id != "circle_arc" || check.verdict != AuditVerdict::pass || *check.value >= *check.limit)
       continue;
     fmt::format_to(out, "\n{}\n", wrapped(fmt::format("Passes below its limit: {}.", check.message), 2));
+  }
+}
+
+/// What a check found one by one: which joints the postures can identify, say.
+void writeDetails(const AuditReport& report, Out out) {
+  for (const AuditCheck& check : report.checks) {
+    if (check.details.empty()) continue;
+    fmt::format_to(out, "\n{}, in detail\n", check.id);
+    for (const std::string& detail : check.details) fmt::format_to(out, "  {}\n", wrapped(detail, 4));
   }
 }
 
@@ -67,10 +77,10 @@ std::string auditText(const Campaign& campaign, const AuditReport& report) {
   writeMessages(report, AuditVerdict::warn, "Warns", out);
   writeMessages(report, AuditVerdict::not_testable, "Not testable", out);
   writeShortArcs(report, out);
-  if (!report.rejected.empty()) fmt::format_to(out, "\nReadings to leave out\n");
+  writeDetails(report, out);
+  if (!report.rejected.empty()) fmt::format_to(out, "\nReadings to leave out, as the other commands do without --raw\n");
   for (const RejectedReading& reading : report.rejected) {
-    fmt::format_to(out, "  {}\n",
-                   wrapped(fmt::format("{}:{}: {}", reading.file, reading.line, reading.reason), 4));
+    fmt::format_to(out, "  {}\n", wrapped(rejectedWords(reading), 4));
   }
   return text;
 }

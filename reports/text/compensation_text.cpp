@@ -16,9 +16,14 @@ std::string compensationText(const Campaign& campaign, Method method, const std:
                  namesOf(method).full);
   fmt::format_to(out, "  {:<10}{:>27}{:>9}   {}\n", "pose", "deflection in R0 (mm)", "+-", "command (deg)");
   for (const CompensatedPosture& posture : postures) {
-    const Eigen::Vector3d mm = posture.deflection / kMillimetre;
+    if (!posture.predicted) {
+      fmt::format_to(out, "  {:<10}{:>9}{:>9}{:>9}{:>9}   refused: {}\n", posture.posture.id, "-", "-", "-", "-",
+                     posture.reason);
+      continue;
+    }
+    const Eigen::Vector3d mm = posture.tcp.deflection / kMillimetre;
     fmt::format_to(out, "  {:<10}{:>9.3f}{:>9.3f}{:>9.3f}{:>9.3f}   ", posture.posture.id, mm.x(), mm.y(), mm.z(),
-                   posture.deflection_sd.norm() / kMillimetre);
+                   posture.tcp.sd.norm() / kMillimetre);
     if (posture.solved) {
       for (int joint = 0; joint < 6; ++joint) fmt::format_to(out, "{:>10.4f}", posture.commands[joint] / kDegree);
       fmt::format_to(out, "\n");

@@ -7,6 +7,7 @@
 #include <iterator>
 
 #include "core/input/units.h"
+#include "reports/geometry_source.h"
 #include "reports/text/wrapped.h"
 
 namespace stiffscope {
@@ -37,6 +38,17 @@ void writeAxes(const Frames& frames, Out out) {
   }
 }
 
+/// The uncertainties hold what the stiffnesses leave open, not what a sag by joint springs alone gets wrong.
+void writeSagStake(const Frames& frames, Out out) {
+  fmt::format_to(out, "  taking off the sag moved the distances by");
+  for (std::size_t i = 0; i < frames.links.size(); ++i) {
+    const LinkGeometry& link = frames.links[i];
+    fmt::format_to(out, "{} {:.3f} +- {:.3f}", i == 0 ? "" : ",", link.distance_by_sag / kMillimetre,
+                   link.distance_sag_sd / kMillimetre);
+  }
+  fmt::format_to(out, " mm;\n  +- holds the stiffnesses' uncertainty, not bearings that give across their axes\n");
+}
+
 void writeLinks(const Frames& frames, Out out) {
   fmt::format_to(out, "\nBetween consecutive axes\n  {:<7}{:>24}{:>12}{:>26}{:>12}\n", "axes", "distance (mm)", "nominal",
                  "angle (deg)", "nominal");
@@ -47,8 +59,9 @@ void writeLinks(const Frames& frames, Out out) {
     fmt::format_to(out, "  {}-{:<5}{:>24}{:>12.1f}{:>26}{:>12.1f}{}\n", i + 1, i + 2,
                    plusMinus(link.distance / kMillimetre, length_sd, 3), link.nominal_distance / kMillimetre,
                    plusMinus(link.angle / kDegree, angle_sd, 4), link.nominal_angle / kDegree,
-                   link.near_parallel ? "  *" : "");
+                   (link.near_parallel ? "  *" : "") + sourceMark(frames, {i, i + 1}));
   }
+  if (frames.sag_removed) writeSagStake(frames, out);
   for (std::size_t i = 0; i < frames.links.size(); ++i) {
     const LinkGeometry& link = frames.links[i];
     if (!link.near_parallel) continue;
@@ -57,7 +70,8 @@ void writeLinks(const Frames& frames, Out out) {
   }
 }
 
-void writeWrist(const Campaign& campaign, const WristCentre& wrist, Out out) {
+void writeWrist(const Campaign& campaign, const Frames& frames, Out out) {
+  const WristCentre& wrist = frames.wrist;
   if (!wrist.measured) {
     fmt::format_to(out, "\nWrist centre: not measured: {}\n", wrist.reason);
     return;
@@ -74,13 +88,21 @@ void writeWrist(const Campaign& campaign, const WristCentre& wrist, Out out) {
     const Eigen::Vector3d mm = point / kMillimetre;
     fmt::format_to(out, "  {:<42}{:>11.3f}{:>11.3f}{:>11.3f}\n", name, mm.x(), mm.y(), mm.z());
   };
+  const auto uncertain = [&](const Eigen::Matrix3d& covariance) {
+    const Eigen::Vector3d mm = covariance.diagonal().cwiseSqrt() / kMillimetre;
+    fmt::format_to(out, "  {:<42}{:>11.3f}{:>11.3f}{:>11.3f}\n", "  +-, with R0's", mm.x(), mm.y(), mm.z());
+  };
   place("mean of the rows", wrist.table_mean_in_r0);
+  uncertain(wrist.table_mean_covariance);
   place("common sphere centre", wrist.centre_in_r0);
+  uncertain(wrist.covariance);
   place("nearest to axes 5 and 6", wrist.nearest_axes_56_in_r0);
   place("barycentre of the reflectors (Dumas et al.)", wrist.reflector_barycentre_in_r0);
-  fmt::format_to(out, "  axes 4 and 5 miss by {:.3f} +- {:.3f} mm, 5 and 6 by {:.3f} +- {:.3f} mm\n",
-                 wrist.miss_45 / kMillimetre, wrist.miss_45_sd / kMillimetre, wrist.miss_56 / kMillimetre,
-                 wrist.miss_56_sd / kMillimetre);
+  const auto miss = [](double value, double sd) {
+    return fmt::format("{:.3f} +- {:.3f} mm", value / kMillimetre, sd / kMillimetre);
+  };
+  fmt::format_to(out, "  axes 4 and 5 miss by {}{}, 5 and 6 by {}{}\n", miss(wrist.miss_45, wrist.miss_45_sd),
+                 sourceMark(frames, {3, 4}), miss(wrist.miss_56, wrist.miss_56_sd), sourceMark(frames, {4, 5}));
 }
 
 void writeR0(const Frames& frames, Out out) {
@@ -93,6 +115,10 @@ void writeR0(const Frames& frames, Out out) {
     const Eigen::Vector4d values = frames.arm.r0_from_points.matrix().row(row);
     fmt::format_to(out, "  {:>13.9f}{:>13.9f}{:>13.9f}{:>13.6f}\n", values[0], values[1], values[2], values[3]);
   }
+  const FrameError sd = frames.covariance.r0().diagonal().cwiseSqrt();
+  const Eigen::Vector3d turn = 1e6 * sd.head<3>(), origin = sd.tail<3>() / kMillimetre;
+  fmt::format_to(out, "  standard uncertainty about x0, y0, z0 {:.1f}, {:.1f}, {:.1f} urad; of the origin "
+                 "{:.4f}, {:.4f}, {:.4f} mm\n", turn.x(), turn.y(), turn.z(), origin.x(), origin.y(), origin.z());
 }
 
 }  // namespace
@@ -105,9 +131,9 @@ std::string framesText(const Campaign& campaign, const Frames& frames) {
   writeAxes(frames, out);
   writeLinks(frames, out);
   const Eigen::Vector3d tcp = frames.tcp_in_flange / kMillimetre;
-  fmt::format_to(out, "\nP_TCP, where axis 6 pierces the flange plane: ({:.3f}, {:.3f}, {:.3f}) mm in the flange\n", tcp.x(),
-                 tcp.y(), tcp.z());
-  writeWrist(campaign, frames.wrist, out);
+  fmt::format_to(out, "\nP_TCP, where axis 6 pierces the flange plane: ({:.3f}, {:.3f}, {:.3f}) mm in the flange{}\n",
+                 tcp.x(), tcp.y(), tcp.z(), sourceMark(frames, {4, 5}));
+  writeWrist(campaign, frames, out);
   fmt::format_to(out, "\n{}\n", wrapped("Own weight: " + frames.sag_note + ".", 0));
   return text;
 }

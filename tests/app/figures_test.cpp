@@ -122,7 +122,7 @@ TEST(StiffnessIntervals, ExpandedUncertaintyAndAGapForWhatIsNotSeen) {
 
 TEST(EncoderBars, BothStatesInMillimetres) {
   const SmallResult inactive(DoubleEncoder::inactive, 2.0), active(DoubleEncoder::active);
-  const auto avoided = avoidedShare({of(inactive), of(active)});
+  const auto avoided = avoidedByEncoders({of(inactive), of(active)});
   ASSERT_TRUE(avoided.has_value());
   const GroupedBarChart chart = encoderBars(*avoided);
   EXPECT_EQ(chart.series[0].values, (std::vector<double>{2.0, 6.0, 4.0}));

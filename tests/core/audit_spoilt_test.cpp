@@ -251,6 +251,56 @@ TEST(SpoiltCampaign, ShortArc) {
   EXPECT_TRUE(contains(check.message, "does not suffice")) << check.message;
 }
 
+TEST(SpoiltCampaign, WideArcsOfFewReadingsOfOneReflector) {
+  const AuditReport report = auditSpoilt([](Campaign& campaign) {
+    int count = 0;
+    std::erase_if(campaign.circle_sweeps->rows, [&](const CircleReading& row) {
+      return row.axis == 2 && (row.target != 0 || count++ % 5 != 0);
+    });
+  });
+  const AuditCheck& check = checkNamed(report, "circle_arc", "axis 3");
+  EXPECT_EQ(check.verdict, AuditVerdict::warn);
+  EXPECT_GT(*check.value, 80.0);
+  EXPECT_TRUE(contains(check.message, "does not suffice")) << check.message;
+}
+
+TEST(SpoiltCampaign, OneReadingOffItsCircleIsNamed) {
+  // The bearings' misfit runs along the sweep; a reading 2 mm off is another matter.
+  EXPECT_TRUE(contains(checkNamed(goodReport(), "circle_residual").message, "that of axes 3, 4, 5 runs along the sweep"));
+  std::size_t line = 0;
+  const AuditReport report = auditSpoilt([&](Campaign& campaign) {
+    for (CircleReading& row : campaign.circle_sweeps->rows) {
+      if (row.axis != 5 || row.target != 1 || line != 0) continue;
+      row.point += Eigen::Vector3d(2e-3, 2e-3, 2e-3);
+      line = row.line;
+    }
+  });
+  const AuditCheck& check = checkNamed(report, "circle_residual");
+  EXPECT_TRUE(contains(check.message, fmt::format("most of that of axis 6 is the one reading circle_sweeps.csv:{}", line)))
+      << check.message;
+}
+
+TEST(SpoiltCampaign, AMaximumPermissibleErrorDeclaredAsSigma) {
+  const AuditReport report = auditSpoilt([](Campaign& campaign) {
+    Tracker& tracker = *campaign.tracker;
+    for (double* figure :
+         {&tracker.range_fixed, &tracker.range_per_m, &tracker.angle_fixed, &tracker.angle_per_m})
+      *figure *= 2.5;
+  });
+  const AuditCheck& check = checkNamed(report, "repeatability_across");
+  EXPECT_EQ(check.verdict, AuditVerdict::pass);  // a cautious declaration is no fault
+  ASSERT_EQ(check.details.size(), 1u);
+  EXPECT_TRUE(contains(check.details[0], "maximum permissible error")) << check.details[0];
+}
+
+TEST(SpoiltCampaign, EveryJointIsJudgedInThePostureSet) {
+  const AuditCheck& check = checkNamed(goodReport(), "posture_set");
+  ASSERT_EQ(check.details.size(), 6u);
+  EXPECT_TRUE(contains(check.details[0], "joint 1: not identifiable: the load only hangs")) << check.details[0];
+  for (std::size_t j = 1; j < 6; ++j) EXPECT_TRUE(contains(check.details[j], ": identifiable")) << check.details[j];
+  EXPECT_TRUE(contains(check.message, "with a condition number of")) << check.message;
+}
+
 TEST(SpoiltCampaign, AngleOfOneStepChanged) {
   std::size_t line = 0;
   const AuditReport report = auditSpoilt([&](Campaign& campaign) {

@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include "core/identification/wrist_leak.h"
 #include "core/input/input_error.h"
+#include "metrology/measured_line.h"
+#include "tests/core/example_arm.h"
 #include "tests/core/linear_machine.h"
 
 namespace stiffscope {
@@ -261,8 +264,42 @@ TEST(Identify, ThrowsWhereThereAreNoLoadStates) {
     identify(campaign, options);
     FAIL() << "step 7 was taken";
   } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("not a load step"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("'7': not a load step of this campaign, which has 1"),
+              std::string::npos)
+        << error.what();
   }
+}
+
+TEST(Identify, SweepsAloneGiveFramesAndSayWhatIsMissing) {
+  const SimulatedLab lab = springyLab();
+  Campaign campaign = lab.empty();
+  lab.addCircleSweeps(campaign);
+  const Identification result = framesAlone(campaign);
+  EXPECT_TRUE(result.frames.arm.points_placed);
+  EXPECT_TRUE(result.cases.empty());
+  for (const MethodResult& method : result.methods) {
+    EXPECT_FALSE(method.available);
+    EXPECT_NE(method.reason.find("no 'states'"), std::string::npos) << method.reason;
+  }
+}
+
+TEST(WristLeak, OnlyWhatJointsFourToSixPutThere) {
+  // P_wrist moves by 2 mm; joint 5 turns by 1 mrad, and P_wrist stands on its axis, or 0.1 m off it.
+  LoadedArm arm;
+  arm.geometry.arm = exampleArm();
+  LoadCase load_case;
+  load_case.posture = postureAt(arm.geometry.arm, Vector6d::Zero());
+  arm.cases = {load_case};
+  arm.wrist = {{Eigen::Vector3d::Zero(), Eigen::Vector3d(0, 0, 2e-3)}};
+  arm.torques = {Vector6d::Constant(1000.0)};
+  const Line& axis = arm.geometry.arm.axes_in_base_at_zero[4];
+  Eigen::Vector3d across, other;
+  basisAcross(axis.direction, across, other);
+  Vector6d compliance = Vector6d::Constant(1e-6);
+  compliance[3] = compliance[5] = 0.0;  // joint 5 alone: 1e-6 rad/Nm times 1000 Nm turns it by 1 mrad
+  EXPECT_NEAR(wristLeak(arm, axis.point, compliance), 0.0, 1e-12);  // on the axis: rounding
+  // 1 mrad over 0.1 m is 0.1 mm of 2 mm.
+  EXPECT_NEAR(wristLeak(arm, axis.point + 0.1 * across, compliance), 0.05, 1e-9);
 }
 
 TEST(JudgeJoints, AJointSeenOnlyInCombination) {

@@ -174,6 +174,40 @@ TEST(Page, ThePaperStandsBesideOnlyWhereAskedFor) {
   EXPECT_TRUE(has(reportPage(content), ">84\u00a0%<"));
 }
 
+TEST(Page, TheAuditWithItsLimitsAndRejectedReadings) {
+  const SmallResult small;
+  AuditReport audited;
+  audited.verdict = AuditVerdict::fail;
+  audited.checks = {{"station_drift", AuditVerdict::warn, 12.5, 10.0, "um", "900 s", "it moved", "chi-square", {}},
+                    {"lost_beam", AuditVerdict::fail, 1.0, 0.0, "readings", "loading.csv:7", "one lost", "none is", {}},
+                    {"tare", AuditVerdict::not_testable, {}, {}, "", "", "no load cell", "", {}},
+                    {"posture_set", AuditVerdict::pass, 2.6, 100.0, "condition", "", "fine", "practice", {"joint 1: seen"}}};
+  audited.rejected = {{"loading.csv", 7, "lost beam"}};
+  Preparation preparation;
+  preparation.rejected = audited.rejected;
+  preparation.drift = {true, "", 0.5e-3, 20e-6, 3600.0, {}, 100, 4};
+  ReportContent content = contentOf(small);
+  EXPECT_FALSE(has(reportPage(content), "id=\"audit\""));  // nothing is said of an audit that was not made
+  content.campaigns[0].audit = &audited;
+  content.campaigns[0].preparation = &preparation;
+  const std::string page = reportPage(content);
+  tinyxml2::XMLDocument document;
+  parse(page, document);
+  EXPECT_TRUE(has(page, "The audit fails"));
+  EXPECT_TRUE(has(page, "the audit of the readings fails on: lost beam."));
+  EXPECT_TRUE(has(page, "the audit of the readings warns on: station drift."));
+  EXPECT_TRUE(has(page, "<li>readings: 1 left out; the station's motion"));
+  EXPECT_TRUE(has(page, "12.5\u00a0um"));
+  EXPECT_TRUE(has(page, "it moved (900 s)"));
+  EXPECT_TRUE(has(page, "joint 1: seen"));
+  EXPECT_TRUE(has(page, "1 reading rejected and left out of everything on this page"));
+  EXPECT_TRUE(has(page, "loading.csv:7: lost beam"));
+  EXPECT_TRUE(has(page, "1 left out; the station's motion by the floor nests taken off 100 of them: at most 0.500 mm and "
+                        "20 urad, a drift over 3600 s; 4 state no time and stay as they were read"));
+  preparation.raw = true;
+  EXPECT_TRUE(has(reportPage(content), "but used all the same"));
+}
+
 TEST(Page, NoMethodAtAll) {
   SmallResult small;
   for (MethodResult& method : small.identification.methods) method = {};
@@ -197,7 +231,7 @@ TEST(Avoided, AgainstTheSumsByHand) {
   const SmallResult inactive(DoubleEncoder::inactive, 2.0), active(DoubleEncoder::active, 1.0);
   const std::vector<ReportCampaign> both{{active.campaign, active.identification},
                                          {inactive.campaign, inactive.identification}};
-  const auto avoided = avoidedShare(both);
+  const auto avoided = avoidedByEncoders(both);
   ASSERT_TRUE(avoided.has_value());
   EXPECT_DOUBLE_EQ(avoided->share, 0.5);
   EXPECT_TRUE(avoided->at_wrist);
@@ -208,12 +242,13 @@ TEST(Avoided, AgainstTheSumsByHand) {
 
 TEST(Avoided, NeedsBothStatesAndACommonPosture) {
   SmallResult inactive(DoubleEncoder::inactive), active(DoubleEncoder::active);
-  EXPECT_FALSE(avoidedShare({{active.campaign, active.identification}}).has_value());
+  EXPECT_FALSE(avoidedByEncoders({{active.campaign, active.identification}}).has_value());
   active.campaign.pose_ids = {"X", "Y", "Z"};
   ReportContent content = contentOf(active);
   content.campaigns.push_back({inactive.campaign, inactive.identification});
-  content.avoided = avoidedShare(content.campaigns);
-  EXPECT_FALSE(content.avoided.has_value());
+  content.avoided = avoidedByEncoders(content.campaigns);
+  ASSERT_TRUE(content.avoided.has_value());
+  EXPECT_FALSE(content.avoided->available);
   EXPECT_TRUE(has(reportPage(content), "Not known: the two campaigns have no posture in common"));
   EXPECT_FALSE(has(verdictOf(content.campaigns, content.avoided), "avoid"));
 }

@@ -1,0 +1,135 @@
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+
+#include "app/command.h"
+#include "app/output.h"
+#include "core/input/input_error.h"
+#include "core/input/nearest_name.h"
+#include "core/input/units.h"
+#include "core/input/write_file.h"
+#include "core/planning/plan.h"
+#include "reports/json/plan_json.h"
+#include "reports/text/plan_text.h"
+
+namespace stiffscope {
+
+namespace {
+
+struct Arguments {
+  std::string campaign, json, out, criterion = "balanced";
+  double load = 0.0, pull = 0.0;
+  int add = 0;
+  std::vector<double> hook_mm, tracker_mm, min_deg, max_deg;
+  PlanOptions options;
+};
+
+/// Which options were given.
+struct Given {
+  const CLI::Option *load, *pull, *add, *postures;
+};
+
+std::optional<Eigen::Vector3d> millimetres(const std::vector<double>& values) {
+  if (values.empty()) return std::nullopt;
+  return Eigen::Vector3d(values[0], values[1], values[2]) * kMillimetre;
+}
+
+PlanOptions optionsOf(const Arguments& arguments, const Given& given) {
+  PlanOptions options = arguments.options;
+  const bool pull = given.pull->count() > 0;
+  if (pull || given.load->count() > 0) {
+    options.inputs.load = pull ? arguments.pull : arguments.load;
+    options.inputs.pull = pull;
+  }
+  options.inputs.hook_in_flange = millimetres(arguments.hook_mm);
+  options.inputs.tracker_in_base = millimetres(arguments.tracker_mm);
+  for (std::size_t j = 0; j < arguments.min_deg.size(); ++j) {
+    options.rules.low[static_cast<Eigen::Index>(j)] = arguments.min_deg[j] * kDegree;
+  }
+  for (std::size_t j = 0; j < arguments.max_deg.size(); ++j) {
+    options.rules.high[static_cast<Eigen::Index>(j)] = arguments.max_deg[j] * kDegree;
+  }
+  if (arguments.criterion == "determinant") {
+    options.criterion = PlanCriterion::determinant;
+  } else if (arguments.criterion != "balanced") {
+    throw InputError({"--criterion"}, arguments.criterion,
+                     "expected balanced or determinant" +
+                         nearestNameHint(arguments.criterion, {"balanced", "determinant"}));
+  }
+  options.augment = given.add->count() > 0;
+  if (options.augment) options.postures = arguments.add;
+  return options;
+}
+
+/// The campaign's identification, where it has been measured.
+std::optional<Identification> identified(const Campaign& campaign) {
+  const bool measured = campaign.states && campaign.load_cell && (campaign.loading || campaign.displacements);
+  if (!measured || !heaviestStep(campaign)) return std::nullopt;
+  return identify(campaign);
+}
+
+int planDay(const Arguments& arguments, const Given& given) {
+  const PlanOptions options = optionsOf(arguments, given);
+  const Campaign campaign = openCampaign(arguments.campaign);
+  const std::optional<Identification> result = identified(campaign);
+  const Plan plan = planCampaign(campaign, result ? &*result : nullptr, options);
+  if (!arguments.out.empty()) {
+    const bool xml = std::filesystem::path(arguments.out).extension() == ".xml";
+    writeFileWhole(arguments.out, xml ? planXml(plan) : planCsv(plan));
+  }
+  deliver([&] { return planJson(campaign, plan); }, [&] { return planText(campaign, plan); }, arguments.json);
+  return plan.usable && !plan.postures.empty() ? kDone : kNotUsable;
+}
+
+}  // namespace
+
+void addPlan(CLI::App& app, Run& run) {
+  const auto arguments = std::make_shared<Arguments>();
+  PlanOptions& options = arguments->options;
+  CLI::App* command = app.add_subcommand("plan", "Postures and loads to measure, before the day or after it");
+  command
+      ->add_option("CAMPAIGN", arguments->campaign,
+                   "campaign folder or its campaign.xml; before the day it needs no tables")
+      ->required();
+  Given given{};
+  given.postures = command->add_option("--postures", options.postures, "how many")->capture_default_str();
+  given.add =
+      command->add_option("--add", arguments->add, "how many to add to those that the campaign has measured")
+          ->excludes(const_cast<CLI::Option*>(given.postures));
+  given.load = command->add_option("--load", arguments->load,
+                                   "newtons that hang; without it, and without --pull, as measured");
+  given.pull =
+      command->add_option("--pull", arguments->pull, "newtons of a cable, pulling in any of nine directions")
+          ->excludes(const_cast<CLI::Option*>(given.load));
+  command->add_option("--hook", arguments->hook_mm, "x,y,z (mm) on the flange where the load acts")
+      ->delimiter(',')
+      ->expected(3);
+  command->add_option("--tracker", arguments->tracker_mm, "x,y,z (mm) of the tracker in base_link")
+      ->delimiter(',')
+      ->expected(3);
+  command->add_option("--min-deg", arguments->min_deg, "least joint angles, six")
+      ->delimiter(',')
+      ->expected(6);
+  command->add_option("--max-deg", arguments->max_deg, "largest joint angles, six")
+      ->delimiter(',')
+      ->expected(6);
+  command->add_option("--repeats", options.inputs.repeats, "readings of each reflector in a state")
+      ->capture_default_str();
+  command
+      ->add_option("--criterion", arguments->criterion,
+                   "balanced (no joint pays for another) or determinant (D-optimal)")
+      ->capture_default_str();
+  command->add_option("--candidates", options.candidates, "random postures to choose from")
+      ->capture_default_str();
+  command->add_option("--seed", options.seed, "of the random postures")->capture_default_str();
+  command->add_option("--out", arguments->out,
+                      "write the postures to this file: CSV, or a simulation's XML by its name");
+  command->add_option("--json", arguments->json, "write the result to this file, - for standard output");
+  command->callback(
+      [arguments, given, &run] { run = [arguments, given] { return planDay(*arguments, given); }; });
+}
+
+}  // namespace stiffscope

@@ -1,0 +1,21 @@
+#include "app/prepared.h"
+
+#include <CLI/CLI.hpp>
+
+#include "app/output.h"
+
+namespace stiffscope {
+
+void addRawOption(CLI::App& command, bool& raw) {
+  command.add_flag(
+      "--raw", raw,
+      "take the readings as they were read: leave out none that the audit rejects, take off no drift "
+      "that the floor nests show");
+}
+
+PreparedCampaign openPrepared(const std::string& folder_or_xml, bool raw) {
+  const Campaign campaign = openCampaign(folder_or_xml);
+  return raw ? leaveRaw(campaign) : prepareCampaign(campaign);
+}
+
+}  // namespace stiffscope

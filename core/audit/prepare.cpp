@@ -1,0 +1,76 @@
+#include "core/audit/prepare.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/audit/rows.h"
+#include "core/audit/station_jumps.h"
+#include "core/audit/working_noise.h"
+#include "core/frames/measured_axes.h"
+
+namespace stiffscope {
+
+namespace {
+
+/// Why the station's motion cannot or need not be taken off; empty where it should be.
+std::string whyNot(const StationMotion& station) {
+  if (!station.tested) return station.reason;
+  if (station.deforming()) {
+    return "the nests themselves moved against each other, more than one of them: they are no reference";
+  }
+  if (!station.moved) return "the nests show no motion of the station beyond their noise";
+  return {};
+}
+
+void countReadings(const Campaign& campaign, DriftCorrection& drift) {
+  forEachDriftingTable(campaign, [&](const auto& table) {
+    for (const auto& row : table.rows) ++(std::isfinite(row.time_s) ? drift.readings : drift.without_time);
+  });
+}
+
+DriftCorrection correctDrift(const StationMotion& station, Campaign& campaign) {
+  DriftCorrection drift;
+  drift.reason = whyNot(station);
+  if (!drift.reason.empty()) return drift;
+  drift.taken_off = true;
+  for (const StationEpoch& epoch : station.epochs) {
+    drift.displacement = std::max(drift.displacement, epoch.motion.tail<3>().norm());
+    drift.turn = std::max(drift.turn, epoch.motion.head<3>().norm());
+    if (epoch.jumped_at) drift.jumps_s.push_back(*epoch.jumped_at);
+  }
+  drift.until_s = station.epochs.back().time_s;
+  countReadings(campaign, drift);
+  takeOffDrift(station, campaign);
+  return drift;
+}
+
+}  // namespace
+
+PreparedCampaign prepareCampaign(const Campaign& read) {
+  Screening screening = screenReadings(read);
+  PreparedCampaign prepared;
+  prepared.campaign = std::move(screening.campaign);
+  prepared.screening = std::move(screening.checks);
+  prepared.preparation.rejected = std::move(screening.rejected);
+  prepared.scatter = repeatScatter(prepared.campaign);
+  std::optional<TrackerNoise> noise;
+  if (declaredNoise(read)) noise = trackerNoise(asNoisyAs(*read.tracker, noiseFactors(prepared.scatter)));
+  prepared.station = stationMotion(prepared.campaign, noise);
+  if (prepared.station.moved && !prepared.station.deforming()) {
+    findJumps(prepared.campaign, *noise, prepared.station);
+  }
+  prepared.preparation.drift = correctDrift(prepared.station, prepared.campaign);
+  return prepared;
+}
+
+PreparedCampaign leaveRaw(const Campaign& read) {
+  PreparedCampaign prepared;
+  prepared.campaign = read;
+  prepared.preparation.raw = true;
+  prepared.preparation.drift.reason = "raw readings were asked for";
+  return prepared;
+}
+
+}  // namespace stiffscope

@@ -1,0 +1,104 @@
+#include "core/comparison/matched_postures.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <unordered_map>
+
+#include "core/input/units.h"
+
+namespace stiffscope {
+
+namespace {
+
+using CaseByPose = std::unordered_map<std::string, std::size_t>;
+
+const std::string& poseOf(const Campaign& campaign, const LoadCase& load_case) {
+  return campaign.pose_ids[static_cast<std::size_t>(load_case.pose)];
+}
+
+CaseByPose casesOf(const Campaign& campaign, const Identification& result) {
+  CaseByPose places;
+  for (std::size_t i = 0; i < result.cases.size(); ++i) places[poseOf(campaign, result.cases[i])] = i;
+  return places;
+}
+
+/// Why a posture is not among the load cases of a campaign.
+std::string whyAbsent(const Campaign& campaign, const Identification& result, const std::string& pose,
+                      const char* when) {
+  const std::string head = "pose " + pose + ": ";
+  for (const std::string& left_out : result.left_out) {
+    if (left_out.rfind(head, 0) == 0)
+      return fmt::format("left out {}: {}", when, left_out.substr(head.size()));
+  }
+  const auto& ids = campaign.pose_ids;
+  return std::find(ids.begin(), ids.end(), pose) == ids.end()
+             ? fmt::format("not measured {}", when)
+             : fmt::format("no usable load state {} in load step {}", when, result.step);
+}
+
+/// Why two load cases of one pose id are not the same; empty where they are.
+std::string difference(const LoadCase& before, const LoadCase& after, const MatchLimits& limits) {
+  Eigen::Index joint = 0;
+  const double angle = (after.q - before.q).cwiseAbs().maxCoeff(&joint);
+  if (angle > limits.angle) {
+    return fmt::format("joint {} stands {:.3f} deg apart, at most {:.3f} is the same posture", joint + 1,
+                       angle / kDegree, limits.angle / kDegree);
+  }
+  const Eigen::Vector3d &force = before.wrench.force, &other = after.wrench.force;
+  const double larger = std::max(force.norm(), other.norm());
+  if ((other - force).norm() > limits.force * larger) {
+    return fmt::format(
+        "the loads differ by {:.1f} % ({:.0f} N before, {:.0f} N after), at most {:.0f} % is the same load",
+        100.0 * (other - force).norm() / larger, force.norm(), other.norm(), 100.0 * limits.force);
+  }
+  return {};
+}
+
+}  // namespace
+
+MatchedPostures matchPostures(const Campaign& before_campaign, const Identification& before,
+                              const Campaign& after_campaign, const Identification& after,
+                              const MatchLimits& limits) {
+  MatchedPostures result;
+  const CaseByPose places = casesOf(after_campaign, after), own = casesOf(before_campaign, before);
+  for (std::size_t i = 0; i < before.cases.size(); ++i) {
+    const std::string& pose = poseOf(before_campaign, before.cases[i]);
+    const auto place = places.find(pose);
+    const std::string reason = place == places.end()
+                                   ? whyAbsent(after_campaign, after, pose, "after")
+                                   : difference(before.cases[i], after.cases[place->second], limits);
+    if (reason.empty()) {
+      result.pairs.push_back({pose, i, place->second});
+    } else {
+      result.unmatched.push_back({pose, reason});
+    }
+  }
+  for (const LoadCase& load_case : after.cases) {
+    const std::string& pose = poseOf(after_campaign, load_case);
+    if (!own.contains(pose))
+      result.unmatched.push_back({pose, whyAbsent(before_campaign, before, pose, "before")});
+  }
+  return result;
+}
+
+std::string differenceOfMachines(const Robot& before, const Robot& after) {
+  constexpr double kSamePlace = 1e-3,
+                   kSameDirection = 1e-3;  // m, rad: beyond what two files of one arm round to
+  for (std::size_t j = 0; j < 6; ++j) {
+    const Line &a = before.axes_in_base_at_zero[j], &b = after.axes_in_base_at_zero[j];
+    const double turn = (a.direction - b.direction).norm();
+    const double apart = (b.point - a.point).cross(a.direction).norm();  // points slide along their axis
+    if (turn <= kSameDirection && apart <= kSamePlace) continue;
+    return turn > kSameDirection
+               ? fmt::format("the URDFs describe different machines: axis {} is turned by {:.2f} deg", j + 1,
+                             2.0 * std::asin(std::min(1.0, 0.5 * turn)) / kDegree)
+               : fmt::format("the URDFs describe different machines: axis {} stands {:.1f} mm elsewhere",
+                             j + 1, apart / kMillimetre);
+  }
+  return {};
+}
+
+}  // namespace stiffscope

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/identification/identify.h"
+
+namespace stiffscope {
+
+/// One posture that both campaigns measured under the same load: its place among the load cases of each.
+struct PosturePair {
+  std::string pose;
+  std::size_t before = 0, after = 0;
+};
+
+/// A posture of either campaign that the other lacks, or has otherwise.
+struct UnmatchedPosture {
+  std::string pose;
+  std::string reason;
+};
+
+struct MatchLimits {
+  double angle = 1.745e-4;  ///< rad (0.01 deg): a robot comes back to a taught posture to a few thousandths
+  double force = 0.02;  ///< of the larger force: the deflection goes with it, and 2 % is lost in the scatter
+};
+
+struct MatchedPostures {
+  std::vector<PosturePair> pairs;  ///< in the order of the campaign before
+  std::vector<UnmatchedPosture> unmatched;
+};
+
+/// Postures correspond where the pose id is the same, no joint angle differs by more than `limits.angle` and
+/// the force vectors (R0) by more than `limits.force`. Every other posture is named with the reason.
+MatchedPostures matchPostures(const Campaign& before_campaign, const Identification& before,
+                              const Campaign& after_campaign, const Identification& after,
+                              const MatchLimits& limits = {});
+
+/// Why the two nominal arms are not one machine: an axis that stands more than 1 mm or 1 mrad elsewhere in
+/// base_link. Empty where they are.
+std::string differenceOfMachines(const Robot& before, const Robot& after);
+
+}  // namespace stiffscope

@@ -1,0 +1,49 @@
+#include "core/identification/describe_loads.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace stiffscope {
+
+namespace {
+
+const MethodResult& firstAvailable(const Identification& result) {
+  for (const Method which : {Method::decoupled_partial_pose, Method::partial_pose, Method::complete_pose}) {
+    if (result.of(which).available) return result.of(which);
+  }
+  return result.of(Method::partial_pose);
+}
+
+/// Root mean square change of the joint torques by K_c, relative.
+double geometricStiffnessShare(const LoadedArm& arm, const Vector6d& compliance) {
+  const auto plain = jointTorques(arm.geometry, arm.cases);
+  const auto full = jointTorquesWithGeometricStiffness(arm.geometry, arm.cases, compliance);
+  double change = 0.0, whole = 0.0;
+  for (std::size_t i = 0; i < plain.size(); ++i) {
+    change += (full[i] - plain[i]).squaredNorm();
+    whole += plain[i].squaredNorm();
+  }
+  return whole > 0.0 ? std::sqrt(change / whole) : 0.0;
+}
+
+}  // namespace
+
+void describeLoads(const Campaign& campaign, const LoadedArm& shown, Identification& result) {
+  result.cases = shown.cases;
+  result.wrist = shown.wrist;
+  for (const WristMove& move : shown.wrist) result.wrist_displacement.push_back(move.displacement().norm());
+  for (const LoadCase& load_case : shown.cases) {
+    double sum = 0.0;
+    for (const TargetMove& move : load_case.targets) sum += move.displacement().norm();
+    result.target_displacement.push_back(sum / static_cast<double>(load_case.targets.size()));
+    result.servo_change = std::max(result.servo_change, load_case.servo.cwiseAbs().maxCoeff());
+  }
+  result.noise = noiseShare(campaign, shown.geometry, shown.cases, shown.wrist, result.frames.wrist.radii,
+                            result.frames.wrist.centre_at_zero_in_r0);
+  const MethodResult& reference = firstAvailable(result);
+  if (reference.available) {
+    result.geometric_stiffness_share = geometricStiffnessShare(shown, reference.estimate.compliance);
+  }
+}
+
+}  // namespace stiffscope

@@ -1,0 +1,58 @@
+#include "core/identification/load_step.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <set>
+
+#include "core/identification/load_case.h"
+#include "core/input/input_error.h"
+
+namespace stiffscope {
+
+namespace {
+
+InputPlace inFile(const Campaign& campaign, const std::string& file) {
+  return {(campaign.folder / file).string(), 0, {}};
+}
+
+}  // namespace
+
+std::string whatLoadsLack(const Campaign& campaign) {
+  if (!campaign.states) return "no 'states': joint angles and load-cell readings are needed to identify";
+  if (!campaign.load_cell) return "no 'load_cell': where the measured wrench acts is needed to identify";
+  if (!campaign.loading && !campaign.displacements) {
+    return "neither 'loading' nor 'displacements': readings under load are needed to identify";
+  }
+  return {};
+}
+
+std::vector<int> loadSteps(const Campaign& campaign) {
+  std::set<int> steps;
+  if (campaign.states) {
+    for (const State& state : campaign.states->rows) steps.insert(state.step);
+  }
+  steps.erase(0);
+  return {steps.begin(), steps.end()};
+}
+
+int chosenStep(const Campaign& campaign, const std::optional<int>& asked) {
+  const std::string lacking = whatLoadsLack(campaign);
+  if (!lacking.empty()) throw InputError(inFile(campaign, "campaign.xml"), "", lacking);
+  if (asked) {
+    const std::vector<int> steps = loadSteps(campaign);
+    if (std::find(steps.begin(), steps.end(), *asked) == steps.end()) {
+      throw InputError(inFile(campaign, campaign.states->file), std::to_string(*asked),
+                       steps.empty() ? "not a load step of this campaign, which has none"
+                                     : fmt::format("not a load step of this campaign, which has {}",
+                                                   fmt::join(steps, ", ")));
+    }
+    return *asked;
+  }
+  const auto heaviest = heaviestStep(campaign);
+  if (!heaviest) throw InputError(inFile(campaign, campaign.states->file), "", "no load step has a force");
+  return *heaviest;
+}
+
+}  // namespace stiffscope

@@ -1,0 +1,110 @@
+#include "core/identification/method_runs.h"
+
+#include <fmt/format.h>
+
+#include "core/identification/decoupled_partial_pose.h"
+#include "core/identification/judge_method.h"
+#include "core/identification/partial_pose.h"
+#include "core/identification/settled_frames.h"
+#include "core/identification/unavailable.h"
+#include "core/identification/wrist_leak.h"
+
+namespace stiffscope {
+
+namespace {
+
+MethodResult& methodOf(Identification& result, Method which) {
+  return result.methods[static_cast<std::size_t>(which)];
+}
+
+std::vector<NormalEquations> normalOf(const std::vector<CaseEquations>& equations) {
+  std::vector<NormalEquations> normal;
+  for (const CaseEquations& one : equations) normal.push_back(normalEquations(one));
+  return normal;
+}
+
+/// The loaded arm in the calibrated geometry. Where no sweep gave stiffnesses for the own weight's sag,
+/// calibration and stiffnesses are found in turns here, or the sag would be taken for geometry.
+LoadedArm calibratedArm(const MethodRuns& runs, Identification& result) {
+  LoadingGeometry start = runs.swept.geometry;
+  const bool settle_sag = runs.swept.cases.empty() && result.frames.weight.links_known;
+  for (int round = 0;; ++round) {
+    result.calibration = calibrateGeometry(runs.campaign, start);
+    if (!result.calibration.done) return runs.swept;
+    LoadedArm arm = loadedArm(runs.campaign, result.calibration.geometry, result.frames.wrist, result.step);
+    if (!settle_sag || round == kSagRounds || arm.cases.empty()) return arm;
+    start.compliance = sagCompliance(runs.campaign, runs.options, arm);
+  }
+}
+
+}  // namespace
+
+void judgeJointsIn(const LoadedArm& arm, MethodRuns& runs, Identification& result) {
+  result.identifiability = judgeJoints(arm.geometry, arm.cases, *runs.campaign.load_cell,
+                                       reflectorEquations(arm), runs.options.trust);
+  runs.unknown = result.identifiability.mask();
+}
+
+void runCompletePose(MethodRuns& runs, Identification& result) {
+  MethodResult& out = methodOf(result, Method::complete_pose);
+  out.reason = whyNoPositions(runs.campaign, runs.swept, runs.unknown);
+  if (out.reason.empty()) out.reason = whyNoFlangePoses(runs.campaign, runs.swept);
+  if (!out.reason.empty()) return;
+  const Eigen::Vector3d tcp = result.frames.tcp_in_flange;
+  result.characteristic_length = characteristicLength(runs.swept.geometry, runs.swept.cases, tcp);
+  const double length = result.characteristic_length.length;
+  out.estimate = solveSettled(runs.swept, runs.options.finite_deflection, [&](const LoadedArm& arm) {
+    return completePose(poseEquations(arm, tcp), length, runs.unknown);
+  });
+  constexpr int kEvery = 5;
+  const std::vector<CaseEquations> equations = poseEquations(runs.swept, tcp);
+  for (std::size_t i = 0; i < result.characteristic_length.curve.size(); i += kEvery) {
+    const auto& [at, condition] = result.characteristic_length.curve[i];
+    result.length_sensitivity.push_back(
+        {at, condition, completePose(equations, at, runs.unknown).compliance});
+  }
+  std::vector<NormalEquations> normal;
+  for (const CaseEquations& one : equations) normal.push_back(normalEquations(normalised(one, length)));
+  judgeMethod(runs.swept, std::move(normal), false, runs.options.subsets, out);
+}
+
+void runPartialPose(MethodRuns& runs, Identification& result) {
+  MethodResult& out = methodOf(result, Method::partial_pose);
+  LoadedArm arm = runs.swept;
+  if (runs.campaign.loading) {
+    arm = calibratedArm(runs, result);
+    if (!result.calibration.done) {
+      out.reason = "the geometry cannot be calibrated: " + result.calibration.reason;
+      return;
+    }
+  } else {
+    result.calibration.reason =
+        "the campaign has displacements only, no absolute positions: the URDF's geometry stands";
+  }
+  // No swept geometry to judge by: judge in this one.
+  if (runs.unknown == JointMask{}) judgeJointsIn(arm, runs, result);
+  out.reason = whyNoPositions(runs.campaign, arm, runs.unknown);
+  if (!out.reason.empty()) return;
+  out.estimate = solveSettled(arm, runs.options.finite_deflection, [&](const LoadedArm& one) {
+    return partialPose(reflectorEquations(one), runs.unknown);
+  });
+  judgeMethod(arm, normalOf(reflectorEquations(arm)), false, runs.options.subsets, out);
+  if (runs.swept.cases.empty()) runs.calibrated = std::move(arm);
+}
+
+void runDecoupledPartialPose(MethodRuns& runs, Identification& result) {
+  MethodResult& out = methodOf(result, Method::decoupled_partial_pose);
+  out.reason = whyNoPositions(runs.campaign, runs.swept, runs.unknown);
+  if (out.reason.empty()) out.reason = whyNoWristPoint(runs.campaign, runs.swept, result.frames.wrist);
+  if (!out.reason.empty()) return;
+  out.estimate = solveSettled(runs.swept, runs.options.finite_deflection, [&](const LoadedArm& arm) {
+    return decoupledPartialPose(wristPointEquations(arm), reflectorEquations(arm), runs.unknown);
+  });
+  const WristCentre& wrist = result.frames.wrist;
+  out.reason =
+      whyNotDecoupled(wrist, wristLeak(runs.swept, wrist.centre_at_zero_in_r0, out.estimate.compliance));
+  if (!out.reason.empty()) return;
+  judgeMethod(runs.swept, normalOf(wristPointEquations(runs.swept)), true, runs.options.subsets, out);
+}
+
+}  // namespace stiffscope

@@ -1,0 +1,225 @@
+#include "core/planning/plan.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/cartesian_stiffness/posture_conditioning.h"
+#include "core/input/input_error.h"
+#include "core/planning/refine_design.h"
+
+namespace stiffscope {
+
+namespace {
+
+/// The method whose geometry the plan takes.
+const MethodResult* referenceOf(const Identification* identified) {
+  if (identified == nullptr) return nullptr;
+  for (const Method method : {Method::decoupled_partial_pose, Method::partial_pose, Method::complete_pose}) {
+    if (identified->of(method).available) return &identified->of(method);
+  }
+  return nullptr;
+}
+
+CaseEquations equationsOf(const PlanningArm& arm, const Candidate& candidate) {
+  const LoadCase& load_case = candidate.load_case;
+  const Vector6d torque = jointTorques(arm.geometry, {load_case}).front();
+  const Eigen::Isometry3d flange = flangeAt(arm.geometry.arm, load_case.posture);
+  CaseEquations equations;
+  equations.matrix.resize(static_cast<Eigen::Index>(3 * arm.targets_in_flange.size()), 6);
+  for (std::size_t k = 0; k < arm.targets_in_flange.size(); ++k) {
+    equations.matrix.middleRows<3>(static_cast<Eigen::Index>(3 * k)) =
+        pointRows(arm.geometry, load_case, flange * arm.targets_in_flange[k], torque);
+  }
+  equations.right = Eigen::VectorXd::Zero(equations.matrix.rows());
+  return equations;
+}
+
+class Planner {
+ public:
+  Planner(const Campaign& campaign, const Identification* identified, const PlanOptions& options)
+      : campaign_(campaign),
+        identified_(identified),
+        reference_(referenceOf(identified)),
+        options_(options) {}
+
+  Plan run() {
+    checkOptions();
+    plan_.arm = planningArm(campaign_, identified_, options_.inputs);
+    plan_.asked = options_.postures;
+    if (reference_ != nullptr) plan_.compliance = reference_->estimate.compliance;
+    CandidateDraw draw = drawCandidates(plan_.arm, options_.rules, options_.candidates, options_.seed);
+    plan_.candidates = static_cast<int>(draw.kept.size()), plan_.drawn = draw.drawn;
+    candidates_ = std::move(draw.kept);
+    judge();
+    if (!plan_.usable) return std::move(plan_);
+    pose();
+    choose();
+    return std::move(plan_);
+  }
+
+ private:
+  void checkOptions() const {
+    const auto refuse = [](const char* option, int value, const char* expected) {
+      throw InputError({option}, std::to_string(value), expected);
+    };
+    if (options_.postures < 1) {
+      refuse(options_.augment ? "--add" : "--postures", options_.postures, "expected 1 or more postures");
+    }
+    if (options_.candidates < options_.postures) {
+      refuse("--candidates", options_.candidates, "expected at least as many candidates as postures");
+    }
+    if (options_.augment && (identified_ == nullptr || reference_ == nullptr || identified_->cases.empty())) {
+      throw InputError({"--add"}, "", "no measured postures that identify: --postures plans the day before");
+    }
+  }
+
+  /// Which joints the candidates (with what is measured) would show.
+  void judge() {
+    std::vector<LoadCase> cases;
+    std::vector<CaseEquations> equations;
+    for (const Candidate& one : candidates_) {
+      cases.push_back(one.load_case);
+      equations.push_back(equationsOf(plan_.arm, one));
+    }
+    if (options_.augment) {
+      cases.insert(cases.end(), identified_->cases.begin(), identified_->cases.end());
+      equations.insert(equations.end(), reference_->target_rows.begin(), reference_->target_rows.end());
+    }
+    const Identifiability judged = judgeJoints(plan_.arm.geometry, cases, plan_.arm.cell, equations);
+    plan_.unknown = judged.mask();
+    for (std::size_t j = 0; j < 6; ++j) plan_.not_seen[j] = judged.joints[j].reason;
+    plan_.usable = std::any_of(plan_.unknown.begin(), plan_.unknown.end(), [](bool one) { return one; });
+    if (!plan_.usable) plan_.reason = "this load turns no joint enough to see its stiffness";
+  }
+
+  /// The problem for the exchange: information, what is measured, which are alike.
+  void pose() {
+    const std::size_t n = candidates_.size();
+    problem_.unknown = plan_.unknown;
+    problem_.barred.assign(n, 0);
+    problem_.excludes.assign(n, std::vector<char>(n, 0));
+    for (std::size_t a = 0; a < n; ++a) {
+      problem_.information.push_back(candidates_[a].information);
+      for (std::size_t b = 0; b < a; ++b) {
+        const bool same = alike(plan_.arm, candidates_[a], candidates_[b], options_.least_separation);
+        problem_.excludes[a][b] = problem_.excludes[b][a] = same;
+      }
+    }
+    if (!options_.augment) return;
+    plan_.measured = static_cast<int>(identified_->cases.size());
+    for (std::size_t i = 0; i < identified_->cases.size(); ++i)
+      addMeasured(identified_->cases[i], reference_->target_rows[i]);
+    plan_.sd_measured = standardDeviations(problem_.known, plan_.unknown);
+  }
+
+  void addMeasured(const LoadCase& load_case, const CaseEquations& rows) {
+    for (std::size_t k = 0; k < load_case.targets.size(); ++k) {
+      const Matrix36d own = rows.matrix.middleRows<3>(static_cast<Eigen::Index>(3 * k));
+      problem_.known +=
+          own.transpose() * plan_.arm.displacementCovariance(load_case.targets[k].unloaded).llt().solve(own);
+    }
+    Candidate measured;
+    measured.q = load_case.q;
+    measured.direction = load_case.wrench.force.normalized();
+    for (std::size_t a = 0; a < candidates_.size(); ++a) {
+      if (alike(plan_.arm, candidates_[a], measured, options_.least_separation)) problem_.barred[a] = 1;
+    }
+    measured_.push_back(std::move(measured));
+  }
+
+  std::string freeId(int& number) const {
+    const auto& used = campaign_.pose_ids;
+    std::string id;
+    do {
+      id = fmt::format("plan{}", ++number);
+    } while (options_.augment && std::find(used.begin(), used.end(), id) != used.end());
+    return id;
+  }
+
+  void choose() {
+    ExchangeOptions exchange;
+    exchange.seed = options_.seed;
+    Design design = exchangeDesign(problem_, options_.postures, exchange);
+    const int count = static_cast<int>(design.chosen.size());
+    plan_.random_same = randomPostures(problem_, count, options_.random_sets, options_.seed + 1);
+    plan_.random_double = randomPostures(problem_, 2 * count, options_.random_sets, options_.seed + 1);
+    if (options_.criterion == PlanCriterion::balanced && allFinite(plan_.random_same.sd)) {
+      problem_.reference = plan_.random_same.sd;
+      exchange.from = design.chosen;
+      design = exchangeDesign(problem_, options_.postures, exchange);
+    }
+    std::vector<Candidate> chosen;
+    for (const std::size_t one : design.chosen) chosen.push_back(candidates_[one]);
+    RefineOptions refine;
+    refine.least_separation = options_.least_separation;
+    refine.reference = problem_.reference;
+    refineDesign(plan_.arm, options_.rules, problem_.known, plan_.unknown, measured_, refine, chosen);
+    DesignProblem order = problem_;  // once more, for the order
+    order.information.clear(), order.excludes.clear(), order.barred.clear();
+    order.reference.reset();
+    exchange.from.clear();
+    for (const Candidate& one : chosen) order.information.push_back(one.information);
+    const Design last = exchangeDesign(order, count, exchange);
+    plan_.log_determinant = last.log_determinant;
+    for (RandomPostures* random : {&plan_.random_same, &plan_.random_double}) compareWith(*random);
+    std::vector<Candidate> ordered;
+    for (const std::size_t one : last.chosen) ordered.push_back(chosen[one]);
+    describe(ordered);
+  }
+
+  bool allFinite(const Vector6d& sd) const {
+    for (std::size_t j = 0; j < 6; ++j) {
+      if (plan_.unknown[j] && !std::isfinite(sd[static_cast<Eigen::Index>(j)])) return false;
+    }
+    return true;
+  }
+
+  void compareWith(RandomPostures& random) const {
+    const auto unknowns = std::count(plan_.unknown.begin(), plan_.unknown.end(), true);
+    random.efficiency =
+        std::exp((plan_.log_determinant - random.log_determinant) / static_cast<double>(unknowns));
+  }
+
+  void describe(const std::vector<Candidate>& chosen) {
+    Matrix6d sum = problem_.known;
+    double before = logDeterminant(sum, plan_.unknown);
+    int number = 0;
+    for (const Candidate& one : chosen) {
+      PlannedPosture posture;
+      posture.id = freeId(number);
+      posture.candidate = one;
+      posture.reading = expectedReading(plan_.arm, posture.candidate);
+      posture.pull_in_base =
+          plan_.arm.geometry.r0_from_base_link.linear().transpose() * posture.candidate.direction;
+      const ArmPosture& at = posture.candidate.load_case.posture;
+      const Eigen::Vector3d flange = flangeAt(plan_.arm.geometry.arm, at).translation();
+      posture.dexterity = postureConditioning(jacobianAt(plan_.arm.geometry.arm, at, flange), 1.0).dexterity;
+      if (plan_.arm.station) posture.tracker_distance = (flange - *plan_.arm.station).norm();
+      sum += one.information;
+      const double after = logDeterminant(sum, plan_.unknown);
+      posture.log_det_gain = std::isfinite(before) ? after - before : std::numeric_limits<double>::infinity();
+      posture.sd = standardDeviations(sum, plan_.unknown);
+      before = after;
+      plan_.postures.push_back(std::move(posture));
+    }
+  }
+
+  const Campaign& campaign_;
+  const Identification* identified_;
+  const MethodResult* reference_;
+  const PlanOptions& options_;
+  std::vector<Candidate> candidates_, measured_;
+  DesignProblem problem_;
+  Plan plan_;
+};
+
+}  // namespace
+
+Plan planCampaign(const Campaign& campaign, const Identification* identified, const PlanOptions& options) {
+  return Planner(campaign, identified, options).run();
+}
+
+}  // namespace stiffscope

@@ -1,0 +1,80 @@
+#include "reports/json/comparison_json.h"
+
+#include "core/input/units.h"
+#include "reports/method_names.h"
+
+namespace stiffscope {
+
+namespace {
+
+Json jointsJson(const StiffnessChange& change) {
+  Json joints = Json::array();
+  for (std::size_t j = 0; j < 6; ++j) {
+    const JointChange& joint = change.joints[j];
+    Json row{{"joint", j + 1}};
+    if (joint.comparable) {
+      row["before"] = number(joint.before);
+      row["sd_before"] = number(joint.before_sd);
+      row["after"] = number(joint.after);
+      row["sd_after"] = number(joint.after_sd);
+      row["unit"] = "Nm/rad";
+      row["ratio"] = number(joint.ratio);
+      row["sd_ratio"] = number(joint.ratio_sd);
+      row["p_value"] = number(joint.p_value);
+      row["correlation"] = number(joint.correlation);
+      if (!joint.mark.empty()) row["mark"] = joint.mark;
+    } else {
+      for (const char* key : {"before", "after", "ratio", "p_value"}) row[key] = nullptr;
+      row["reason"] = joint.reason;
+    }
+    joints.push_back(row);
+  }
+  return joints;
+}
+
+Json avoidedJson(const DeflectionAvoided& avoided, const char* place) {
+  if (!avoided.available) return {{"at", place}, {"unavailable", avoided.reason}};
+  Json postures = Json::array();
+  for (const PostureDeflection& one : avoided.postures) {
+    postures.push_back({{"pose", one.pose},
+                        {"before_um", one.before / kMicrometre},
+                        {"after_um", one.after / kMicrometre},
+                        {"share", number(one.share())}});
+  }
+  return {{"at", place},
+          {"share", avoided.share},
+          {"low", number(avoided.low)},
+          {"high", number(avoided.high)},
+          {"postures", postures}};
+}
+
+}  // namespace
+
+Json comparisonJson(const Campaign& before, const Campaign& after, const Comparison& comparison) {
+  Json json{{"before", campaignJson(before)}, {"after", campaignJson(after)}};
+  json["comparable"] = comparison.comparable;
+  if (!comparison.comparable) json["reason"] = comparison.reason;
+  const Method best = comparison.best();
+  const bool any = comparison.of(best).available;
+  json["method"] = any ? Json(namesOf(best).key) : Json(nullptr);
+  json["joints"] = any ? jointsJson(comparison.of(best)) : Json::array();
+  Json methods;
+  for (const Method method : kMethods) {
+    const StiffnessChange& change = comparison.of(method);
+    methods[namesOf(method).key] =
+        change.available ? Json{{"joints", jointsJson(change)}} : Json{{"unavailable", change.reason}};
+  }
+  json["methods"] = methods;
+  const bool wrist = comparison.judgedAtWrist();
+  json["avoided"] = avoidedJson(comparison.avoided(), wrist ? "P_wrist" : "reflectors");
+  json["avoided_at_targets"] = avoidedJson(comparison.at_targets, "reflectors");
+  Json unmatched = Json::array();
+  for (const UnmatchedPosture& one : comparison.matched.unmatched) {
+    unmatched.push_back({{"pose", one.pose}, {"reason", one.reason}});
+  }
+  json["unmatched"] = unmatched;
+  json["cautions"] = comparison.cautions;
+  return json;
+}
+
+}  // namespace stiffscope

@@ -1,0 +1,78 @@
+#include "reports/json/plan_json.h"
+
+#include "core/input/units.h"
+
+namespace stiffscope {
+
+namespace {
+
+/// Standard deviations of c, and of k = 1/c where an identified campaign has c.
+void addUncertainties(const Plan& plan, const Vector6d& sd, Json& row) {
+  row["sd_compliance_rad_per_nm"] = array(sd);
+  if (!plan.compliance) return;
+  Vector6d of_k = sd;
+  for (int j = 0; j < 6; ++j) of_k[j] /= (*plan.compliance)[j] * (*plan.compliance)[j];
+  row["sd_nm_per_rad"] = array(of_k);
+}
+
+Json rowJson(const Plan& plan, const PlannedPosture& posture) {
+  Json row{
+      {"pose", posture.id},
+      {"q_deg", array(posture.candidate.q, 1.0 / kDegree)},
+      {"load_n", plan.arm.load},
+      {"direction_in_base_link", array(posture.pull_in_base)},
+      {"expected_force_in_cell_n", array(posture.reading.head<3>())},
+      {"expected_moment_in_cell_nm", array(posture.reading.tail<3>())},
+      {"dexterity", posture.dexterity},
+      {"tracker_distance_m", posture.tracker_distance ? Json(*posture.tracker_distance) : Json(nullptr)}};
+  Json gain{{"log_det", number(posture.log_det_gain)}};
+  addUncertainties(plan, posture.sd, gain);
+  row["gain"] = gain;
+  row["separates"] = posture.separates;
+  return row;
+}
+
+Json randomJson(const Plan& plan, const RandomPostures& random) {
+  Json json{{"postures", random.postures}, {"log_det", number(random.log_determinant)}};
+  addUncertainties(plan, random.sd, json);
+  json["d_efficiency_of_plan"] = number(random.efficiency);
+  return json;
+}
+
+}  // namespace
+
+Json planJson(const Campaign& campaign, const Plan& plan) {
+  Json json{{"campaign", campaignJson(campaign)},
+            {"load_n", plan.arm.load},
+            {"load", plan.arm.pull ? "pull" : "hanging"},
+            {"hook_in_flange_mm", array(plan.arm.hook_in_flange, 1.0 / kMillimetre)},
+            {"candidates", plan.candidates},
+            {"drawn", plan.drawn},
+            {"assumed", plan.arm.assumed}};
+  if (!plan.usable) {
+    json["unavailable"] = plan.reason;
+    return json;
+  }
+  Json identifiable = Json::array(), reasons = Json::object();
+  for (std::size_t j = 0; j < 6; ++j) {
+    identifiable.push_back(static_cast<bool>(plan.unknown[j]));
+    if (!plan.unknown[j]) reasons["k" + std::to_string(j + 1)] = plan.not_seen[j];
+  }
+  json["identifiable"] = identifiable;
+  json["not_identifiable"] = reasons;
+  json["measured_postures"] = plan.measured;
+  if (plan.measured > 0) {
+    Json measured;
+    addUncertainties(plan, plan.sd_measured, measured);
+    json["measured"] = measured;
+  }
+  json["log_det"] = number(plan.log_determinant);
+  Json rows = Json::array();
+  for (const PlannedPosture& posture : plan.postures) rows.push_back(rowJson(plan, posture));
+  json["rows"] = rows;
+  json["random"] = randomJson(plan, plan.random_same);
+  json["random_twice"] = randomJson(plan, plan.random_double);
+  return json;
+}
+
+}  // namespace stiffscope

@@ -1,0 +1,97 @@
+#include "reports/text/comparison_text.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <iterator>
+
+#include "core/input/units.h"
+#include "reports/method_names.h"
+#include "reports/text/wrapped.h"
+
+namespace stiffscope {
+
+namespace {
+
+using Out = std::back_insert_iterator<std::string>;
+
+std::string withSd(double value, double sd) {
+  return fmt::format("{:.4f} +-{}", value, std::isfinite(sd) ? fmt::format("{:.4f}", sd) : "?");
+}
+
+std::string pText(double p) {
+  if (!std::isfinite(p)) return "-";
+  return p < 1e-4 ? "< 0.0001" : fmt::format("{:.4f}", p);
+}
+
+void writeMethod(const StiffnessChange& change, Method method, Out out) {
+  if (!change.available) {
+    fmt::format_to(out, "\n{}\n",
+                   wrapped(fmt::format("{}: not comparable: {}", namesOf(method).full, change.reason), 2));
+    return;
+  }
+  fmt::format_to(out, "\n{}, 1e6 Nm/rad\n  {:<4}{:>20}{:>20}{:>18}{:>10}{:>8}\n", namesOf(method).full, "",
+                 "before", "after", "ratio", "p", "corr.");
+  for (std::size_t j = 0; j < 6; ++j) {
+    const JointChange& joint = change.joints[j];
+    if (!joint.comparable) {
+      fmt::format_to(out, "  {}\n", wrapped(fmt::format("k{}  {}", j + 1, joint.reason), 6));
+      continue;
+    }
+    fmt::format_to(out, "  k{:<3}{:>20}{:>20}{:>18}{:>10}{:>8.2f}{}\n", j + 1,
+                   withSd(joint.before * 1e-6, joint.before_sd * 1e-6),
+                   withSd(joint.after * 1e-6, joint.after_sd * 1e-6), withSd(joint.ratio, joint.ratio_sd),
+                   pText(joint.p_value), joint.correlation, joint.mark.empty() ? "" : "  " + joint.mark);
+  }
+}
+
+void writeShare(const DeflectionAvoided& avoided, const char* place, Out out) {
+  if (!avoided.available) {
+    fmt::format_to(out, "\n{}\n",
+                   wrapped(fmt::format("Deflection avoided at {}: {}", place, avoided.reason), 2));
+    return;
+  }
+  fmt::format_to(out, "\nDeflection avoided at {}: {:.1f} %", place, 100.0 * avoided.share);
+  if (std::isfinite(avoided.low)) {
+    fmt::format_to(out, " (95 % interval over postures {:.1f} to {:.1f} %)", 100.0 * avoided.low,
+                   100.0 * avoided.high);
+  }
+  fmt::format_to(out, ", {} postures\n", avoided.postures.size());
+}
+
+void writePostures(const DeflectionAvoided& avoided, Out out) {
+  fmt::format_to(out, "  {:<12}{:>14}{:>14}{:>12}\n", "pose", "before (um)", "after (um)", "avoided, %");
+  for (const PostureDeflection& one : avoided.postures) {
+    fmt::format_to(out, "  {:<12}{:>14.1f}{:>14.1f}{:>12.1f}\n", one.pose, one.before / kMicrometre,
+                   one.after / kMicrometre, 100.0 * one.share());
+  }
+}
+
+}  // namespace
+
+std::string comparisonText(const Campaign& before, const Campaign& after, const Comparison& comparison) {
+  std::string text;
+  Out out(text);
+  fmt::format_to(out, "before: {}\nafter:  {}\n", before.name, after.name);
+  if (!comparison.comparable) {
+    fmt::format_to(out, "\n{}\n", wrapped("Nothing is comparable: " + comparison.reason, 2));
+  }
+  for (const std::string& caution : comparison.cautions)
+    fmt::format_to(out, "  {}\n", wrapped("caution: " + caution, 4));
+  if (comparison.comparable) {
+    for (const Method method : kMethods) writeMethod(comparison.of(method), method, out);
+    fmt::format_to(
+        out,
+        "  p: probability of a difference as large without any change; the errors' correlation (corr.), by\n"
+        "  the postures measured in both campaigns, is counted\n");
+    if (comparison.judgedAtWrist()) writeShare(comparison.at_wrist, "P_wrist", out);
+    writeShare(comparison.at_targets, "the reflectors", out);
+    if (comparison.avoided().available) writePostures(comparison.avoided(), out);
+  }
+  for (const UnmatchedPosture& one : comparison.matched.unmatched) {
+    fmt::format_to(out, "  {}\n", wrapped(fmt::format("not compared: pose {}: {}", one.pose, one.reason), 4));
+  }
+  return text;
+}
+
+}  // namespace stiffscope

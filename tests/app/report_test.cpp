@@ -1,0 +1,119 @@
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <regex>
+
+#include "tests/app/command.h"
+
+// The report's folder: what is written, and what of an earlier report is taken away.
+
+namespace stiffscope {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+const fs::path kSample = fs::path(STIFFSCOPE_SOURCE_DIR) / "samples" / "active";
+
+/// The sample without its loads: a day of sweeps alone, with the sweeps that `keep` names.
+fs::path sweepsOnly(const ScratchFolder& scratch, const std::string& without = {}) {
+  const fs::path folder = scratch.path() / "sweeps";
+  fs::copy(kSample, folder);
+  std::string xml = contentsOf(folder / "campaign.xml");
+  for (const std::string element : {"loading", "states", "load_cell", without.c_str()}) {
+    if (!element.empty()) xml = std::regex_replace(xml, std::regex("\\s*<" + element + "\\s[^>]*/>"), "");
+  }
+  std::ofstream(folder / "campaign.xml", std::ios::binary) << xml;
+  return folder;
+}
+
+Ran report(const fs::path& campaign, const fs::path& out, const ScratchFolder& scratch) {
+  return runProgram("report '" + campaign.string() + "' --out '" + out.string() + "'", scratch.path());
+}
+
+std::vector<std::string> picturesIn(const fs::path& folder) {
+  std::vector<std::string> names;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    if (entry.path().extension() == ".png") names.push_back(entry.path().filename().string());
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+TEST(Report, HasTheAuditItsRejectedReadingsAndItsFiles) {
+  const ScratchFolder scratch;
+  const fs::path out = scratch.path() / "out";
+  const Ran ran = report(kSample, out, scratch);
+  ASSERT_EQ(ran.status, 0) << ran.err;
+  const json results = json::parse(contentsOf(out / "results.json"));
+  const json& campaign = results["campaigns"][0];
+  EXPECT_EQ(campaign["audit"]["verdict"], "warn");
+  EXPECT_GT(campaign["audit"]["checks"].size(), 20u);
+  EXPECT_EQ(campaign["preparation"]["raw"], false);
+  for (const json& name : results["files"]) EXPECT_TRUE(fs::exists(out / name.get<std::string>())) << name;
+  const std::string page = contentsOf(out / "report.html");
+  EXPECT_NE(page.find("<section id=\"audit\">"), std::string::npos);
+  EXPECT_NE(page.find("The audit warns"), std::string::npos);
+  EXPECT_NE(page.find("No reading was rejected."), std::string::npos);
+  EXPECT_NE(page.find("none left out; no drift of the station taken off"), std::string::npos);
+}
+
+TEST(Report, SweepsAloneGiveFramesAuditAndReasons) {
+  const ScratchFolder scratch;
+  const fs::path out = scratch.path() / "out";
+  const Ran ran = report(sweepsOnly(scratch), out, scratch);
+  ASSERT_EQ(ran.status, 0) << ran.err;
+  const json results = json::parse(contentsOf(out / "results.json"));
+  const json& campaign = results["campaigns"][0];
+  EXPECT_EQ(campaign["frames"]["axes"].size(), 6u);
+  EXPECT_EQ(campaign["frames"]["axes"][0]["from"], "sweeps");
+  for (const char* method : {"cp", "pp", "dpp"}) {
+    const auto reason = campaign["identify"]["methods"][method]["unavailable"].get<std::string>();
+    EXPECT_NE(reason.find("no 'states'"), std::string::npos) << reason;
+  }
+  const std::string page = contentsOf(out / "report.html");
+  EXPECT_NE(page.find("no 'states': joint angles and load-cell readings are needed to identify"),
+            std::string::npos);
+  EXPECT_NE(page.find("<section id=\"audit\">"), std::string::npos);
+  EXPECT_EQ(page.find(">nan"), std::string::npos);
+  EXPECT_TRUE(picturesIn(out).empty());
+}
+
+TEST(Report, TakesAwayTheEarlierOnesPicturesAndNothingElse) {
+  const ScratchFolder scratch;
+  const fs::path out = scratch.path() / "out";
+  ASSERT_EQ(report(kSample, out, scratch).status, 0);
+  const auto first = picturesIn(out);
+  ASSERT_FALSE(first.empty());
+  std::ofstream(out / "mine.png") << "a picture of somebody else's";
+  std::ofstream(scratch.path() / "outside.png") << "not even here";
+  // A list that names what is not a picture of its own does not reach it.
+  json earlier = json::parse(contentsOf(out / "results.json"));
+  earlier["files"].push_back("../outside.png");
+  std::ofstream(out / "notes.txt") << "notes";
+  earlier["files"].push_back("notes.txt");
+  std::ofstream(out / "results.json") << earlier;
+  ASSERT_EQ(report(sweepsOnly(scratch), out, scratch).status, 0);
+  EXPECT_EQ(picturesIn(out), std::vector<std::string>{"mine.png"});
+  EXPECT_TRUE(fs::exists(scratch.path() / "outside.png"));
+  EXPECT_TRUE(fs::exists(out / "notes.txt"));
+}
+
+TEST(Frames, NominalValuesAreMarked) {
+  const ScratchFolder scratch;
+  const fs::path folder = sweepsOnly(scratch, "circle_sweeps");
+  const json frames =
+      json::parse(runProgram("frames '" + folder.string() + "' --json -", scratch.path()).out);
+  EXPECT_EQ(frames["r0_placed_by"], "nominal");
+  for (const json& axis : frames["axes"]) EXPECT_EQ(axis["from"], "nominal");
+  for (const json& link : frames["links"]) EXPECT_EQ(link["from"], "nominal");
+  for (const json& source : frames["link_lengths_from"]) EXPECT_EQ(source, "nominal");
+  EXPECT_EQ(frames["tcp_in_flange_from"], "nominal");
+  const Ran text = runProgram("frames '" + folder.string() + "'", scratch.path());
+  EXPECT_EQ(text.status, 1);
+  EXPECT_NE(text.out.find("mm in the flange (nominal)"), std::string::npos) << text.out;
+  EXPECT_NE(text.out.find("1-2"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace stiffscope
