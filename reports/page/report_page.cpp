@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "reports/page/html.h"
 #include "reports/page/report_id.h"
 #include "reports/page/sections.h"
@@ -34,6 +36,9 @@ void writeContents(page::Html& html, const ReportContent& content) {
   entry("subsets", "Spread");
   entry("compensation", "Compensation");
   if (!content.figures.empty()) entry("figures", "Figures");
+  const bool audited = std::any_of(content.campaigns.begin(), content.campaigns.end(),
+                                   [](const ReportCampaign& one) { return one.audit != nullptr; });
+  if (audited) entry("audit", "Audit");
   entry("left-out", "Left out");
   entry("scope", "Uncertainty and scope");
   entry("provenance", "Inputs");
