@@ -46,11 +46,19 @@ EffectSize tried(const EffectDraw& draw, double strength, const SimulationSpec& 
   return sizer.measure(spec);
 }
 
-PlacedEffect place(const EffectDraw& draw, double size, SimulationSpec& spec, const SimulationSpec& clean,
-                   const EffectSizer& sizer) {
-  PlacedEffect placed{draw.effect, draw.detail, draw.shows, {}};
-  draw.apply(strengthFor(draw, clean, sizer, size, placed.sizes), spec);
-  return placed;
+/// Draws until the effect can show on this machine: friction in an axis that no load turns cannot.
+PlacedEffect place(const std::function<EffectDraw()>& draw, double size, SimulationSpec& spec,
+                   const SimulationSpec& clean, const EffectSizer& sizer) {
+  constexpr int kMostDraws = 8;
+  constexpr double kEnough = 0.8;  // of the size sought
+  for (int attempt = 1;; ++attempt) {
+    const EffectDraw drawn = draw();
+    PlacedEffect placed{drawn.effect, drawn.detail, drawn.shows, {}};
+    const double strength = strengthFor(drawn, clean, sizer, size, placed.sizes);
+    if (placed.size() < kEnough * size && attempt < kMostDraws) continue;
+    drawn.apply(strength, spec);
+    return placed;
+  }
 }
 
 }  // namespace
@@ -169,11 +177,13 @@ BlindCase drawCase(const CasePlan& plan, std::uint64_t seed, const std::string& 
   const auto drawSize = [&] { return least * std::pow(10.0 / least, random.uniform()); };
   for (const Effect effect : plan.effects) {
     const double size = drawSize();
-    one.effects.push_back(place(drawEffect(effect, clean, random), size, machine.spec, clean, sizer));
+    one.effects.push_back(
+        place([&] { return drawEffect(effect, clean, random); }, size, machine.spec, clean, sizer));
   }
   if (plan.kind == CaseKind::outside) {
     const double size = drawSize();
-    one.effects.push_back(place(drawOutside(plan.outside, clean, random), size, machine.spec, clean, sizer));
+    one.effects.push_back(
+        place([&] { return drawOutside(plan.outside, clean, random); }, size, machine.spec, clean, sizer));
   }
   if (!one.effects.empty()) one.together = sizer.measure(machine.spec);
   one.spec = std::move(machine.spec);
