@@ -8,10 +8,12 @@ namespace stiffscope::page {
 
 namespace {
 
-std::string shaded(int count, int row_total, bool right) {
-  if (count == 0) return "";
+std::string styleOf(int count, int row_total, bool right) {
+  constexpr const char* kNarrow = "padding:.28rem .4rem;text-align:center";
+  if (count == 0) return kNarrow;
   const double share = static_cast<double>(count) / row_total;
-  return fmt::format("background:rgba({},{:.2f})", right ? "40,140,80" : "200,80,40", 0.12 + 0.6 * share);
+  return fmt::format("{};background:rgba({},{:.2f})", kNarrow, right ? "40,140,80" : "200,80,40",
+                     0.12 + 0.6 * share);
 }
 
 }  // namespace
@@ -28,7 +30,7 @@ void writeBlindConfusion(Html& html, const blind::Confusion& confusion) {
     const auto row = html.element("tr");
     html.leaf("th", "", {{"scope", "col"}});
     for (const std::string& name : confusion.answers) {
-      html.leaf("th", name, {{"scope", "col"}, {"style", "writing-mode:vertical-rl"}});
+      html.leaf("th", name, {{"scope", "col"}, {"style", "writing-mode:vertical-rl;padding:.3rem .2rem"}});
     }
   }
   const auto body = html.element("tbody");
@@ -41,9 +43,8 @@ void writeBlindConfusion(Html& html, const blind::Confusion& confusion) {
     for (std::size_t c = 0; c < counts.size(); ++c) {
       const bool right = confusion.answers[c] == confusion.truths[r] ||
                          (confusion.truths[r] == "outside" && confusion.answers[c] == "unknown");
-      const std::string style = shaded(counts[c], total, right);
       html.leaf("td", counts[c] > 0 ? std::to_string(counts[c]) : "",
-                style.empty() ? Attributes{} : Attributes{{"style", style}});
+                {{"style", styleOf(counts[c], total, right)}});
     }
   }
 }
