@@ -51,6 +51,7 @@ int runCommandLine(int count, char** words) {
   addFrames(app, run);
   addIdentify(app, run);
   addCompensate(app, run);
+  addDiagnose(app, run);
   addSimulate(app, run);
   addReport(app, run);
   try {
