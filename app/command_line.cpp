@@ -22,6 +22,7 @@ int runCommandLine(int count, char** words) {
   addCompare(app, run);
   addPlan(app, run);
   addDiagnose(app, run);
+  addBlind(app, run);
   addSimulate(app, run);
   addReport(app, run);
   try {

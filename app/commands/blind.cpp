@@ -1,7 +1,6 @@
-#if __has_include("core/diagnosis/diagnose.h")  // the command waits for the diagnosis
 #include <unistd.h>
-#include <CLI/CLI.hpp>
 
+#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>
 
@@ -76,4 +75,3 @@ void addBlind(CLI::App& app, Run& run) {
 }
 
 }  // namespace stiffscope
-#endif

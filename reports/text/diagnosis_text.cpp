@@ -5,6 +5,7 @@
 #include <iterator>
 
 #include "core/input/units.h"
+#include "reports/diagnosis_words.h"
 #include "reports/text/wrapped.h"
 
 namespace stiffscope {
@@ -15,29 +16,12 @@ using Out = std::back_insert_iterator<std::string>;
 
 double um(double metres) { return metres / kMicrometre; }
 
-std::string namesOf(const std::vector<Effect>& effects) {
-  std::string names;
-  for (const Effect effect : effects) names += (names.empty() ? "" : " or ") + std::string(idOf(effect));
-  return names;
-}
-
-std::string verdictLine(const Verdict& verdict) {
-  if (verdict.entries.empty()) return "none";
-  std::string line;
-  for (const VerdictEntry& entry : verdict.entries) {
-    line += line.empty() ? "" : ", and ";
-    line += entry.effects.empty() ? "unknown" : namesOf(entry.effects);
-    if (!entry.detail.empty()) line += " (" + entry.detail + ")";
-  }
-  return line;
-}
-
 void writeClasses(const Diagnosis& diagnosis, Out out) {
   if (diagnosis.classes.empty()) return;
   fmt::format_to(out, "\nWhich: candidates, and what each takes off the deflection's gap on postures held out\n");
   fmt::format_to(out, "  {:<2}{:<44}{:>12}{:>9}  {:<17}{:>10}\n", "", "effect", "score", "shrink", "95 %", "explained");
   for (const EffectClass& one : diagnosis.classes) {
-    fmt::format_to(out, "  {:<2}{:<44}{:>12.0f}{:>9.3f}  {:<17}{:>10.3f}\n", one.in_verdict ? "*" : "", namesOf(one.effects),
+    fmt::format_to(out, "  {:<2}{:<44}{:>12.0f}{:>9.3f}  {:<17}{:>10.3f}\n", one.in_verdict ? "*" : "", effectNames(one.effects),
                    one.score, one.shrink.value, fmt::format("{:.3f} to {:.3f}", one.shrink.low, one.shrink.high),
                    one.explained);
     if (!one.in_verdict) continue;
@@ -98,7 +82,7 @@ std::string diagnosisText(const Campaign& campaign, const Diagnosis& diagnosis) 
   std::string text;
   Out out(text);
   if (!diagnosis.usable) return fmt::format("{}: no diagnosis: {}\n", campaign.name, diagnosis.unusable_reason);
-  fmt::format_to(out, "{}: {}\n\n", campaign.name, verdictLine(diagnosis.verdict));
+  fmt::format_to(out, "{}: {}\n\n", campaign.name, verdictWords(diagnosis.verdict));
   fmt::format_to(out, "{}\n", wrapped(diagnosis.verdict.reason, 0));
   fmt::format_to(out, "\nGap of the deflection ({:.0f} um rms): {:.1f} um before, {:.1f} um after, noise {:.1f} um\n",
                  um(diagnosis.gap.deflection), um(diagnosis.gap.before), um(diagnosis.gap.after), um(diagnosis.gap.noise));
@@ -108,7 +92,7 @@ std::string diagnosisText(const Campaign& campaign, const Diagnosis& diagnosis) 
   }
   writeClasses(diagnosis, out);
   for (const auto& group : diagnosis.aliases)
-    fmt::format_to(out, "  These postures and loads cannot always separate: {}\n", wrapped(namesOf(group), 4));
+    fmt::format_to(out, "  These postures and loads cannot always separate: {}\n", wrapped(effectNames(group), 4));
   writeTables(diagnosis.where, "Where the deflection's gap lies", out);
   writeTables(diagnosis.where_positions, "Where the gap of unloaded positions lies", out);
   writeStiffnesses(diagnosis, out);
