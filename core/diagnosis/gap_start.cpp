@@ -103,7 +103,7 @@ GapStart gapStart(const Campaign& campaign, bool take_off_station) {
   if (moved && take_off_station) takeOffDrift(start.station.motion, start.campaign);
   start.campaign.nests.reset();  // they have said what they know
   start.noise = noiseFloor(start.campaign);
-  const Evidence evidence = gatherEvidence(start.campaign, start.campaign);
+  const Evidence evidence = gatherEvidence(leaveRaw(start.campaign));
   start.geometry = evidence.arm.geometry;
   start.absolute = start.campaign.loading && start.geometry.r0_from_loading.has_value();
   start.sweeps = start.absolute && evidence.frames.arm.points_placed && sameFrame(start.campaign);

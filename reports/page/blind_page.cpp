@@ -14,13 +14,13 @@ namespace {
 using namespace blind;
 using page::Html;
 
-void writeHead(Html& html) {
+void writeHead(Html& html, const std::string& seal) {
   const auto head = html.element("head");
   html.voidElement("meta", {{"charset", "utf-8"}});
   html.voidElement("meta", {{"name", "viewport"}, {"content", "width=device-width, initial-scale=1"}});
   html.voidElement("meta", {{"name", "color-scheme"}, {"content", "light dark"}});
   html.leaf("title", "stiffscope: the diagnosis on machines whose effect was withheld");
-  html.leaf("style", page::pageStyle());
+  html.leaf("style", page::pageStyle(seal.substr(0, 12)));
 }
 
 void writeNumber(Html& html, const Rate& rate, const char* words) {
@@ -55,7 +55,7 @@ std::string blindPage(const BlindOptions& options, const BlindResult& result) {
   Html html;
   {
     const auto root = html.element("html", {{"lang", "en"}});
-    writeHead(html);
+    writeHead(html, result.seal);
     const auto body = html.element("body");
     const auto main = html.element("main");
     writeOpening(html, options, result);
