@@ -21,5 +21,6 @@ void addCompensate(CLI::App& app, Run& run);
 void addDiagnose(CLI::App& app, Run& run);
 void addSimulate(CLI::App& app, Run& run);
 void addReport(CLI::App& app, Run& run);
+void addBlind(CLI::App& app, Run& run);
 
 }  // namespace stiffscope

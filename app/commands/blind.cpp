@@ -1,4 +1,3 @@
-#if __has_include("core/diagnosis/diagnose.h")  // the command waits for the diagnosis
 #include <unistd.h>
 #include <CLI/CLI.hpp>
 
@@ -76,4 +75,3 @@ void addBlind(CLI::App& app, Run& run) {
 }
 
 }  // namespace stiffscope
-#endif
