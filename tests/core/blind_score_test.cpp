@@ -159,8 +159,10 @@ TEST(BlindTables, labelsAndAnswersSurviveWriting) {
 
   Verdict verdict;
   verdict.entries = {{{Effect::hysteresis, Effect::backlash}, "joint 2, the way + back"}, {{}, ""}};
-  const std::vector<EffectClass> classes{
-      {{Effect::hysteresis, Effect::backlash}, "", 1.0, {0.5, 0.25, 0.75}, 0.5}};
+  EffectClass best;
+  best.effects = {Effect::hysteresis, Effect::backlash};
+  best.shrink = {0.5, 0.25, 0.75};
+  const std::vector<EffectClass> classes{best};
   const std::vector<Answer> given{answerOf("0001", {verdict, classes}), answerOf("0002", {})};
   const std::vector<Answer> frozen = readAnswers("answers.csv", answersCsv(given));
   ASSERT_EQ(frozen.size(), 2u);
