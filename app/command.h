@@ -24,6 +24,5 @@ void addDiagnose(CLI::App& app, Run& run);
 void addBlind(CLI::App& app, Run& run);
 void addSimulate(CLI::App& app, Run& run);
 void addReport(CLI::App& app, Run& run);
-void addBlind(CLI::App& app, Run& run);
 
 }  // namespace stiffscope

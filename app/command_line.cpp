@@ -25,7 +25,6 @@ int runCommandLine(int count, char** words) {
   addBlind(app, run);
   addSimulate(app, run);
   addReport(app, run);
-  addBlind(app, run);
   try {
     app.parse(count, words);
   } catch (const CLI::Success& asked) {  // --help, --version
