@@ -17,8 +17,8 @@ Projection withField(const Projection& projection, const Eigen::VectorXd& field)
   return made;
 }
 
-double leftBy(const GapInput& input, const GapFit& fit, const Projection& made, const std::vector<ChosenModel>& others,
-              std::size_t model, const std::vector<bool>& allowed) {
+double leftBy(const GapInput& input, const GapFit& fit, const Projection& made,
+              const std::vector<ChosenModel>& others, std::size_t model, const std::vector<bool>& allowed) {
   std::vector<bool> only(allowed.size(), false);
   only[model] = true;
   // No price for parts here: the question is what the effect can imitate at all.
@@ -43,8 +43,9 @@ double leftBy(const GapInput& input, const GapFit& fit, const Projection& made, 
 
 }  // namespace
 
-double separation(const GapInput& input, const GapFit& fit, const Projection& projection, const Eigen::VectorXd& field,
-                  const std::vector<ChosenModel>& others, std::size_t by_model, const std::vector<bool>& allowed) {
+double separation(const GapInput& input, const GapFit& fit, const Projection& projection,
+                  const Eigen::VectorXd& field, const std::vector<ChosenModel>& others, std::size_t by_model,
+                  const std::vector<bool>& allowed) {
   return std::max(0.0, leftBy(input, fit, withField(projection, field), others, by_model, allowed));
 }
 
@@ -71,10 +72,12 @@ std::vector<std::vector<Effect>> designAliases(const GapInput& input, const GapF
       for (std::size_t other = 0; other < input.models.size(); ++other) {
         const Effect effect = input.models[other].effect;
         if (!allowed[other] || std::find(group.begin(), group.end(), effect) != group.end()) continue;
-        if (separation(input, fit, fit.projection, field, {}, other, allowed) < kSeparated) group.push_back(effect);
+        if (separation(input, fit, fit.projection, field, {}, other, allowed) < kSeparated)
+          group.push_back(effect);
       }
       std::sort(group.begin(), group.end());
-      if (group.size() > 1 && std::find(groups.begin(), groups.end(), group) == groups.end()) groups.push_back(group);
+      if (group.size() > 1 && std::find(groups.begin(), groups.end(), group) == groups.end())
+        groups.push_back(group);
     }
   }
   std::sort(groups.begin(), groups.end());

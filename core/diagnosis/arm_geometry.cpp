@@ -6,7 +6,8 @@
 
 namespace stiffscope {
 
-LoadingGeometry moved(const LoadingGeometry& geometry, const Eigen::VectorXd& steps, const Eigen::Vector3d& centre) {
+LoadingGeometry moved(const LoadingGeometry& geometry, const Eigen::VectorXd& steps,
+                      const Eigen::Vector3d& centre) {
   LoadingGeometry result = geometry;
   Robot& arm = result.arm;
   for (std::size_t j = 0; j < 6; ++j) {

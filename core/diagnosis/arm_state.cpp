@@ -9,7 +9,8 @@ ArmState stateAt(const LoadingGeometry& geometry, const Vector6d& q, const Vecto
   state.q = q;
   state.turned = geometry.sagged(q) + joint_offset;
   state.posture = postureAt(geometry.arm, state.turned);
-  for (int j = 0; j < 6; ++j) state.axes[static_cast<std::size_t>(j)] = axisAt(geometry.arm, state.posture, j);
+  for (int j = 0; j < 6; ++j)
+    state.axes[static_cast<std::size_t>(j)] = axisAt(geometry.arm, state.posture, j);
   state.flange = flangeAt(geometry.arm, state.posture);
   if (!geometry.weight.links_known) return state;
   state.weight_torque = weightTorque(geometry.arm, state.posture, geometry.weight);

@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "core/diagnosis/aliasing.h"
 #include "core/diagnosis/chance_limit.h"
@@ -24,14 +26,17 @@ void requireLoads(const Campaign& campaign) {
   const InputPlace place{(campaign.folder / "campaign.xml").string(), 0, {}};
   if (!campaign.states || !campaign.load_cell) {
     throw InputError(place, "",
-                     !campaign.states ? "no 'states': joint angles and load-cell readings are needed to diagnose"
-                                      : "no 'load_cell': where the measured wrench acts is needed to diagnose");
+                     !campaign.states
+                         ? "no 'states': joint angles and load-cell readings are needed to diagnose"
+                         : "no 'load_cell': where the measured wrench acts is needed to diagnose");
   }
   if (!campaign.loading && !campaign.displacements) {
-    throw InputError(place, "", "neither 'loading' nor 'displacements': readings under load are needed to diagnose");
+    throw InputError(place, "",
+                     "neither 'loading' nor 'displacements': readings under load are needed to diagnose");
   }
   if (!heaviestStep(campaign)) {
-    throw InputError({(campaign.folder / campaign.states->file).string(), 0, {}}, "", "no load step has a force");
+    throw InputError({(campaign.folder / campaign.states->file).string(), 0, {}}, "",
+                     "no load step has a force");
   }
 }
 
@@ -50,9 +55,15 @@ Eigen::VectorXd whole(const Eigen::VectorXd& nuisances, const Eigen::VectorXd& e
 class Diagnoser {
  public:
   Diagnoser(const Campaign& campaign, const DiagnoseOptions& options)
-      : original_(campaign), options_(options), start_(gapStart(campaign, true)),
-        input_{start_.campaign, start_.noise.noise, campaign.load_cell->force_sigma,
-               campaign.load_cell->moment_sigma, effectModels(targetNames(campaign)), start_.absolute,
+      : original_(campaign),
+        options_(options),
+        start_(gapStart(campaign, true)),
+        input_{start_.campaign,
+               start_.noise.noise,
+               campaign.load_cell->force_sigma,
+               campaign.load_cell->moment_sigma,
+               effectModels(targetNames(campaign)),
+               start_.absolute,
                start_.sweeps} {}
 
   Diagnosis run() {
@@ -86,8 +97,8 @@ class Diagnoser {
         if (input_.models[m].effect == effect) allowed_[m] = false;
       }
     }
-    // Nests that stood still through the day leave no drift to look for.
-    if (start_.station.course == StationCourse::still || start_.station.course == StationCourse::jumped)
+    if (start_.station.course == StationCourse::still) nestsAsReadings();
+    if (start_.station.course == StationCourse::jumped)
       allowed_[modelOf(input_.models, Effect::tracker_drift)] = false;
     if (start_.station.course == StationCourse::jumped)
       given_ = {modelOf(input_.models, Effect::frame_error)};
@@ -95,11 +106,24 @@ class Diagnoser {
       given_ = {modelOf(input_.models, Effect::tracker_drift), modelOf(input_.models, Effect::frame_error)};
   }
 
+  /// Nests that show no motion by themselves still bound a drift: their rate takes part in the fit. Readings
+  /// move against what brings them back.
+  void nestsAsReadings() {
+    if (!input_.absolute || start_.station.rate_weight.isZero()) return;
+    Matrix6d turn = Matrix6d::Zero();
+    turn.topLeftCorner<3, 3>() = turn.bottomRightCorner<3, 3>() = start_.state.r0_from_sweeps.linear();
+    const double span = start_.state.at.time_span;
+    input_.drift = -span * (turn * start_.station.rate);
+    input_.drift_weight = turn * start_.station.rate_weight * turn.transpose() / (span * span);
+    start_.state.at.sweep_time =
+        0.5 * (start_.station.motion.epochs.front().time_s + start_.state.at.first_time);
+  }
+
   void fit() {
     const FitRules rules{options_.noise_share, options_.deflection_share, start_.noise.degrees, given_};
     fit_ = fitGap(input_, start_.state, allowed_, rules);
-    fit_.rules.detect = std::max(
-        fit_.rules.detect, chanceLimit(input_, fit_, allowed_, options_.chance_draws, options_.false_alarm, options_.seed));
+    fit_.rules.detect = std::max(fit_.rules.detect, chanceLimit(input_, fit_, allowed_, options_.chance_draws,
+                                                                options_.false_alarm, options_.seed));
   }
 
   void describe() {
@@ -107,7 +131,8 @@ class Diagnoser {
     const Selector selector = selectorOf(input_, fit_, fit_.projection, postures, allowed_);
     result_.usable = true;
     result_.postures = static_cast<int>(fit_.data.postures.size());
-    for (const GapPosture& posture : fit_.data.postures) result_.states += static_cast<int>(posture.states.size());
+    for (const GapPosture& posture : fit_.data.postures)
+      result_.states += static_cast<int>(posture.states.size());
     result_.state_noise = fit_.data.state_noise;
     result_.noise_source = start_.noise.source;
     result_.noise_factor_along = start_.noise.along_factor;
@@ -137,31 +162,34 @@ class Diagnoser {
     const GapStart raw = gapStart(original_, false);
     if (!raw.reason.empty()) return;
     // Stiffnesses alone in the arm as the sweeps have it: a geometry left free would follow the station.
-    const GapInput input{raw.campaign, raw.noise.noise, input_.force_sigma, input_.moment_sigma,
-                         input_.models, false, false};
+    const GapInput input{
+        raw.campaign, raw.noise.noise, input_.force_sigma, input_.moment_sigma, input_.models, false, false};
     const GapData data = gapData(input, raw.state, {});
-    const Projection projection =
-        project(sumOf(data, std::vector<double>(data.postures.size(), 1.0)), data.layout.effects);
-    const Eigen::VectorXd parameters = whole(projection.by_nothing, Eigen::VectorXd::Zero(projection.right.size()));
-    double deflection = 0.0, position = 0.0, rows = 0.0, rests = 0.0;
+    const Eigen::MatrixXd normal = sumOf(data, std::vector<double>(data.postures.size(), 1.0));
+    Eigen::VectorXd parameters = Eigen::VectorXd::Zero(data.layout.end);
+    parameters.head<6>() = normal.topLeftCorner<6, 6>().completeOrthogonalDecomposition().solve(
+        normal.col(data.layout.end).head<6>());
+    std::map<int, HeldOut> left;
+    double rows = 0.0, rests = 0.0, deflection = 0.0, position = 0.0;
     for (const GapPosture& posture : data.postures) {
-      deflection += leftIn(posture, parameters, parameters).deflection_before;
+      left[posture.pose].deflection_before = leftIn(posture, parameters, parameters).deflection_before;
+      deflection += left[posture.pose].deflection_before;
       rows += static_cast<double>(posture.right.size());
     }
     for (const GapRows& one : loadingRows(raw.campaign, raw.state.geometry, raw.state.at, {})) {
-      position += one.position.squaredNorm();
+      left[one.pose].position_before = one.position.squaredNorm();
+      position += left[one.pose].position_before;
       rests += static_cast<double>(one.position.size());
     }
-    taken_off_ = {result_.gap.before, result_.positions.before};
     if (rows > 0.0) result_.gap.before = std::sqrt(deflection / rows);
     if (rests > 0.0) result_.positions.before = std::sqrt(position / rests);
-    taken_off_ = {taken_off_.first / result_.gap.before,
-                  result_.positions.before > 0.0 ? taken_off_.second / result_.positions.before : 1.0};
-  }
-
-  /// A shrink of the readings with the station's motion off, as one of the readings as they are.
-  static void withStation(Shrink& shrink, double share) {
-    for (double* value : {&shrink.value, &shrink.low, &shrink.high}) *value = 1.0 - (1.0 - *value) * share;
+    for (const GapPosture& posture : fit_.data.postures) {
+      HeldOut& one = left[posture.pose];
+      const HeldOut now = leftIn(posture, after_, after_);
+      one.deflection_after = now.deflection_after;
+      one.position_after = now.position_after;
+      station_.push_back(one);
+    }
   }
 
   double sizeOf(double drop) const {
@@ -184,9 +212,10 @@ class Diagnoser {
             std::sqrt(whole_squares / count)};
   }
 
-  /// Per effect: what the median of its parts must be before the projection for what is left of it to pass the limits.
+  /// Per effect: what the median of its parts must be before the projection for what is left of it to pass
+  /// the limits.
   void detectable() {
-    const double drop = std::max(fit_.rules.least_drop, fit_.rules.detect) ;
+    const double drop = std::max(fit_.rules.least_drop, fit_.rules.detect);
     for (std::size_t e = 0; e < kEffectCount; ++e) {
       const auto effect = static_cast<Effect>(e);
       std::vector<double> sizes;
@@ -204,7 +233,8 @@ class Diagnoser {
       }
       DetectableSize size{effect, std::nullopt};
       if (!sizes.empty()) {
-        std::nth_element(sizes.begin(), sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2), sizes.end());
+        std::nth_element(sizes.begin(), sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2),
+                         sizes.end());
         size.size = sizes[sizes.size() / 2];
       }
       if (effect == Effect::kinematic_error && input_.absolute) size.size = kGeometryTolerance;
@@ -228,13 +258,15 @@ class Diagnoser {
 
   void decide() {
     geometry_ = geometryError(input_, fit_.state);
-    const VerdictInput input{input_, fit_, allowed_, start_.station, geometry_, start_.noise, result_.gap, result_.positions};
+    const VerdictInput input{input_,    fit_,         allowed_,    start_.station,
+                             geometry_, start_.noise, result_.gap, result_.positions};
     Decision decision = decideVerdict(input);
     result_.verdict = std::move(decision.verdict);
     result_.classes = std::move(decision.classes);
     recipes_ = std::move(decision.recipes);
     for (const Tie& tie : decision.ties) {
-      if (auto one = nextFor(input_, fit_, allowed_, tie, options_.seed)) result_.next.push_back(std::move(*one));
+      if (auto one = nextFor(input_, fit_, allowed_, tie, options_.seed))
+        result_.next.push_back(std::move(*one));
     }
   }
 
@@ -243,7 +275,11 @@ class Diagnoser {
     for (const auto& models : recipes_) recipes.push_back({false, models});
     const auto held_out = heldOutShrinks(input_, fit_, allowed_, recipes, options_.resamples, options_.seed);
     result_.shrink_together = held_out[0].deflection;
-    withStation(result_.shrink_together, taken_off_.first);
+    HeldOutShrink station;
+    if (!station_.empty()) {
+      station = shrinkOver(station_, options_.resamples, options_.seed);
+      result_.shrink_together = station.deflection;
+    }
     const auto named = std::count_if(result_.classes.begin(), result_.classes.end(),
                                      [](const EffectClass& one) { return one.in_verdict; });
     for (std::size_t i = 0; i < result_.classes.size(); ++i) {
@@ -253,13 +289,16 @@ class Diagnoser {
       one.shrink = own.deflection;
       one.shrink_of_positions = own.position;
       one.explained = own.explained;
-      const bool station = one.in_verdict && !given_.empty() &&
-                           (one.effects.front() == Effect::frame_error || one.effects.front() == Effect::tracker_drift);
-      if (!station) continue;
-      withStation(one.shrink, taken_off_.first);
-      withStation(one.shrink_of_positions, taken_off_.second);
-      const double noise = result_.gap.noise * result_.gap.noise, whole = result_.gap.before * result_.gap.before;
-      if (whole > 1.05 * noise) one.explained = (whole - result_.gap.after * result_.gap.after) / (whole - noise);
+      const bool by_station =
+          one.in_verdict && !given_.empty() &&
+          (one.effects.front() == Effect::frame_error || one.effects.front() == Effect::tracker_drift);
+      if (!by_station) continue;
+      one.shrink = station.deflection;
+      one.shrink_of_positions = station.position;
+      const double noise = result_.gap.noise * result_.gap.noise,
+                   whole = result_.gap.before * result_.gap.before;
+      if (whole > 1.05 * noise)
+        one.explained = (whole - result_.gap.after * result_.gap.after) / (whole - noise);
     }
   }
 
@@ -273,7 +312,8 @@ class Diagnoser {
   GeometryError geometry_;
   Eigen::VectorXd before_, after_;
   std::vector<std::vector<ChosenModel>> recipes_;
-  std::pair<double, double> taken_off_{1.0, 1.0};  // gap with the station's motion off over that as measured
+  std::vector<HeldOut>
+      station_;  // by posture: readings as they are, and with the station's motion off and the verdict in
   Diagnosis result_;
 };
 

@@ -10,19 +10,20 @@
 
 namespace stiffscope {
 
-/// What the models of the effects are linearised at. Effects that multiply another unknown (a wrong load point times a
-/// compliance) or bend with their own size (friction) take that other one from here and are fitted again and again.
+/// What the models of the effects are linearised at. Effects that multiply another unknown (a wrong load
+/// point times a compliance) or bend with their own size (friction) take that other one from here and are
+/// fitted again and again.
 struct PresentTurn;
 
 struct WorkingPoint {
   Vector6d compliance = Vector6d::Zero();  ///< of the joints, rad/Nm, none negative
-  Vector6d friction = Vector6d::Zero();    ///< Nm; 0: not known yet, the joint lags from the first newton metre
-  int targets = 0;                         ///< of the campaign
+  Vector6d friction = Vector6d::Zero();  ///< Nm; 0: not known yet, the joint lags from the first newton metre
+  int targets = 0;                       ///< of the campaign
   Eigen::VectorXd compensator;  ///< torque on joint 2: sin, cos of q_2, of 2 q_2 and so on, Nm; empty: none
-  Vector6d play = Vector6d::Zero();        ///< backlash of the joints, rad; zero: not known yet
-  double passage = 20.0;                   ///< Nm over which the backlash passes from side to side
-  std::vector<PresentTurn> turns;          ///< effects in the model that turn joints unloaded
-  double largest_force = 1.0;              ///< N, of the campaign: scales what is proportional to the load
+  Vector6d play = Vector6d::Zero();  ///< backlash of the joints, rad; zero: not known yet
+  double passage = 20.0;             ///< Nm over which the backlash passes from side to side
+  std::vector<PresentTurn> turns;    ///< effects in the model that turn joints unloaded
+  double largest_force = 1.0;        ///< N, of the campaign: scales what is proportional to the load
   Eigen::Vector3d epoch_centre = Eigen::Vector3d::Zero();  ///< about which frames turn
   double first_time = 0.0, time_span = 1.0;                ///< s, of the loading
   double sweep_time = 0.0;                                 ///< s; the sweeps' epoch as far as it is known
@@ -31,10 +32,10 @@ struct WorkingPoint {
 
 /// Parameters of an effect that come or stay away together: one joint's, one pair's, one reflector's.
 struct EffectPart {
-  std::string detail;             ///< "joint 3", "joints 2 and 3", "P12"; empty where nothing is to be named
-  std::vector<double> most;       ///< physical bound of each parameter's magnitude
-  bool positive = false;          ///< a compliance, a width: never negative
-  std::string unit;               ///< of the parameters
+  std::string detail;        ///< "joint 3", "joints 2 and 3", "P12"; empty where nothing is to be named
+  std::vector<double> most;  ///< physical bound of each parameter's magnitude
+  bool positive = false;     ///< a compliance, a width: never negative
+  std::string unit;          ///< of the parameters
 };
 
 /// Joint angles of an effect that only turns joints, one column a parameter, rad per unit.
@@ -53,7 +54,8 @@ struct EffectModel {
   std::vector<EffectPart> parts;
   std::size_t most_parts = 1;  ///< that may be present together
   /// 3 rows a reflector, one column a parameter, parts in their order, m per unit.
-  Eigen::MatrixXd (*offset)(const WorkingPoint& at, const PostureStates& posture, std::size_t state) = nullptr;
+  Eigen::MatrixXd (*offset)(const WorkingPoint& at, const PostureStates& posture,
+                            std::size_t state) = nullptr;
   /// Instead of `offset` where the effect only turns joints.
   JointAngles (*angles)(const WorkingPoint& at, const PostureStates& posture, std::size_t state) = nullptr;
 

@@ -7,12 +7,15 @@ namespace stiffscope {
 
 namespace {
 
-constexpr double kGeometryPrior = 0.1;   // m and rad: wide; holds only what is free by choice of frame
-constexpr double kWeightPrior = 0.1;     // of a body's weight: masses of a URDF are no better
-constexpr double kStep = 1e-6;           // m and rad: far above rounding, far below where the model curves
+constexpr double kGeometryPrior = 0.1;  // m and rad: wide; holds only what is free by choice of frame
+constexpr double kSweptGeometry =
+    1e-3;  // m and rad: where nothing absolute is fitted, as a calibrated or sagging arm has it
+constexpr double kWeightPrior = 0.1;  // of a body's weight: masses of a URDF are no better
+constexpr double kStep = 1e-6;        // m and rad: far above rounding, far below where the model curves
 constexpr Eigen::Index kBodies = 6;
 
-Eigen::Matrix3d inR0(const TrackerNoise& noise, const Eigen::Isometry3d& r0_from_points, const Eigen::Vector3d& point) {
+Eigen::Matrix3d inR0(const TrackerNoise& noise, const Eigen::Isometry3d& r0_from_points,
+                     const Eigen::Vector3d& point) {
   const Eigen::Matrix3d turn = r0_from_points.linear();
   return turn * noise.covarianceAt(r0_from_points.inverse() * point) * turn.transpose();
 }
@@ -45,7 +48,7 @@ class Filler {
   GapData run() {
     const auto rows = loadingRows(input_.campaign, state_.geometry, state_.at, state_.corrections);
     for (const GapRows& one : rows) addPosture(one);
-    if (input_.absolute) addGeometry(rows);
+    addGeometry(rows);
     double noise = 0.0, count = 0.0;
     for (std::size_t i = 0; i < rows.size(); ++i) whiten(rows[i], data_.postures[i], noise, count);
     data_.state_noise = count > 0.0 ? std::sqrt(noise / count) : 0.0;
@@ -71,8 +74,9 @@ class Filler {
       const Eigen::MatrixXd rest = input_.models[m].columns(state_.at, rows.states, 0);
       if (at_rest > 0) posture.columns.block(0, data_.layout.model_at[m], at_rest, rest.cols()) = rest;
       for (std::size_t s = 1; s < rows.states.size(); ++s) {
-        posture.columns.block(at_rest + static_cast<Eigen::Index>(s - 1) * per_state, data_.layout.model_at[m],
-                              per_state, rest.cols()) = input_.models[m].columns(state_.at, rows.states, s) - rest;
+        posture.columns.block(at_rest + static_cast<Eigen::Index>(s - 1) * per_state,
+                              data_.layout.model_at[m], per_state, rest.cols()) =
+            input_.models[m].columns(state_.at, rows.states, s) - rest;
       }
     }
     if (at_rest > 0) {
@@ -91,7 +95,8 @@ class Filler {
     data_.postures.push_back(std::move(posture));
   }
 
-  /// Derivatives of measured less modelled by the geometry's steps: central differences of the rows themselves.
+  /// Derivatives of measured less modelled by the geometry's steps: central differences of the rows
+  /// themselves.
   void addGeometry(const std::vector<GapRows>& rows) {
     for (Eigen::Index k = 0; k < geometrySteps(); ++k) {
       const LoadingGeometry there =
@@ -147,14 +152,17 @@ class Filler {
     data_.loading_rows += size;
   }
 
-  /// What the model is not good for: more noise in absolute positions; in a deflection an error that grows with the load, one
-  /// number a posture, reflector and direction, so that it counts once however many load steps show it.
+  /// What the model is not good for: more noise in absolute positions; in a deflection an error that grows
+  /// with the load, one number a posture, reflector and direction, so that it counts once however many load
+  /// steps show it.
   void addModelError(const GapRows& rows, const GapPosture& posture, Eigen::MatrixXd& covariance) const {
     const Eigen::Index per_state = rows.states.front().rows(), at_rest = posture.position_rows;
     covariance.topLeftCorner(at_rest, at_rest) *= state_.position_slack;
     const double variance = state_.model_error * state_.model_error;
     if (variance == 0.0) return;
-    const auto share = [&](std::size_t s) { return rows.states[s].load.force.norm() / state_.at.largest_force; };
+    const auto share = [&](std::size_t s) {
+      return rows.states[s].load.force.norm() / state_.at.largest_force;
+    };
     for (std::size_t s = 1; s < rows.states.size(); ++s) {
       for (std::size_t r = 1; r < rows.states.size(); ++r) {
         covariance
@@ -181,12 +189,14 @@ class Filler {
     data_.sweeps.setZero(size, size);
     for (Eigen::Index k = 0; k < geometrySteps(); ++k) {
       const Eigen::Index at = data_.layout.geometry + k;
-      data_.sweeps(at, at) += 1.0 / (kGeometryPrior * kGeometryPrior);
+      const double prior = input_.absolute ? kGeometryPrior : kSweptGeometry;
+      data_.sweeps(at, at) += 1.0 / (prior * prior);
     }
     for (Eigen::Index k = 0; k < kBodies; ++k) {
       const Eigen::Index at = data_.layout.weights + k;
       data_.sweeps(at, at) += 1.0 / (kWeightPrior * kWeightPrior);
     }
+    addNests();
     if (!input_.sweeps) return;
     const auto rows = sweepRows(input_.campaign, state_.geometry, state_.r0_from_sweeps, state_.at);
     Eigen::Index total = 0;
@@ -209,7 +219,21 @@ class Filler {
       }
     }
     data_.sweeps.noalias() += both.transpose() * both;
-    data_.sweep_rows = total;
+    data_.sweep_rows += total;
+  }
+
+  void addNests() {
+    if (input_.drift_weight.isZero()) return;
+    for (std::size_t m = 0; m < input_.models.size(); ++m) {
+      if (input_.models[m].effect != Effect::tracker_drift) continue;
+      const Eigen::Index at = data_.layout.model_at[m], end = data_.layout.end;
+      const Vector6d right = input_.drift_weight * input_.drift;
+      data_.sweeps.block<6, 6>(at, at) += input_.drift_weight;
+      data_.sweeps.block<6, 1>(at, end) += right;
+      data_.sweeps.block<1, 6>(end, at) += right.transpose();
+      data_.sweeps(end, end) += input_.drift.dot(right);
+      data_.sweep_rows += 6;
+    }
   }
 
   template <class Rows>

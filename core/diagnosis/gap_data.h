@@ -12,8 +12,8 @@
 
 namespace stiffscope {
 
-/// Where everything stands in the parameter vector: joint compliances, geometry steps, own-weight factors by body
-/// (nuisances), then the effects' models in their order.
+/// Where everything stands in the parameter vector: joint compliances, geometry steps, own-weight factors by
+/// body (nuisances), then the effects' models in their order.
 struct GapLayout {
   Eigen::Index geometry = 6, weights = 0, effects = 0, end = 0;
   std::vector<Eigen::Index> model_at;  ///< first parameter of each model
@@ -21,12 +21,15 @@ struct GapLayout {
 
 /// What the gap stands on, fixed for one diagnosis.
 struct GapInput {
-  const Campaign& campaign;                 ///< screened; the station's motion taken off where nests show it
-  TrackerNoise noise;                       ///< by the repeats where there are enough, else as declared
+  const Campaign& campaign;  ///< screened; the station's motion taken off where nests show it
+  TrackerNoise noise;        ///< by the repeats where there are enough, else as declared
   double force_sigma = 0.0, moment_sigma = 0.0;
   std::vector<EffectModel> models;
-  bool absolute = false;                    ///< unloaded absolute positions can be held against the arm
-  bool sweeps = false;                      ///< and the sweeps too
+  bool absolute = false;  ///< unloaded absolute positions can be held against the arm
+  bool sweeps = false;    ///< and the sweeps too
+  /// What nests say of trackerDrift's parameters: their values, and the inverse covariance of these.
+  Vector6d drift = Vector6d::Zero();
+  Matrix6d drift_weight = Matrix6d::Zero();
 };
 
 /// Where one round of linearisation stands.
@@ -43,11 +46,11 @@ struct GapState {
 struct GapPosture {
   int pose = 0;
   PostureStates states;
-  Eigen::MatrixXd columns;       ///< unwhitened: position rows first, then deflection rows
+  Eigen::MatrixXd columns;  ///< unwhitened: position rows first, then deflection rows
   Eigen::VectorXd right;
   Eigen::Index position_rows = 0;
-  Eigen::MatrixXd noise;         ///< covariance of these rows by readings and wrench
-  Eigen::MatrixXd lower;         ///< Cholesky factor of that, with the slack and the model's own error
+  Eigen::MatrixXd noise;  ///< covariance of these rows by readings and wrench
+  Eigen::MatrixXd lower;  ///< Cholesky factor of that, with the slack and the model's own error
   Eigen::MatrixXd normal;
 };
 
@@ -55,19 +58,20 @@ struct GapPosture {
 struct GapData {
   GapLayout layout;
   std::vector<GapPosture> postures;
-  Eigen::MatrixXd sweeps;   ///< [A y]^T [A y] of the sweeps, and of what is known beforehand
+  Eigen::MatrixXd sweeps;  ///< [A y]^T [A y] of the sweeps, and of what is known beforehand
   Eigen::Index sweep_rows = 0;
   Eigen::Index loading_rows = 0;
   double state_noise = 0.0;  ///< rms noise of one state's displacement, per coordinate, m
 };
 
-/// Effect parameters (all of them, zero where not) whose effect `state` already contains: in the unloaded arm's places,
-/// in the displacements' equations. Empty: none.
+/// Effect parameters (all of them, zero where not) whose effect `state` already contains: in the unloaded
+/// arm's places, in the displacements' equations. Empty: none.
 struct ContainedEffects {
   Eigen::VectorXd in_positions, in_deflections;
 };
 
-/// Fills the equations. What `state` contains is added back: the right sides are those of whole effects, not of the rest.
+/// Fills the equations. What `state` contains is added back: the right sides are those of whole effects, not
+/// of the rest.
 GapData gapData(const GapInput& input, const GapState& state, const ContainedEffects& effects_now);
 
 GapLayout gapLayout(const std::vector<EffectModel>& models, std::size_t targets);

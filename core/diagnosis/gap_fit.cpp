@@ -16,7 +16,8 @@ constexpr int kAlone = 2;  // rounds for the largest effect by itself
 std::vector<double> ones(const GapData& data) { return std::vector<double>(data.postures.size(), 1.0); }
 
 /// Parameters of one model in a vector of all effects' parameters.
-Eigen::VectorXd ownOf(const GapInput& input, const GapLayout& layout, const Eigen::VectorXd& effects, std::size_t m) {
+Eigen::VectorXd ownOf(const GapInput& input, const GapLayout& layout, const Eigen::VectorXd& effects,
+                      std::size_t m) {
   return effects.segment(layout.model_at[m] - layout.effects,
                          static_cast<Eigen::Index>(input.models[m].parameters()));
 }
@@ -24,12 +25,14 @@ Eigen::VectorXd ownOf(const GapInput& input, const GapLayout& layout, const Eige
 /// Effects that the equations contain once they are estimated: a corrected wrench, frame or unloaded place.
 bool isCorrection(Effect effect) {
   return effect == Effect::load_point_error || effect == Effect::load_cell_misalignment ||
-         effect == Effect::load_cell_bias || effect == Effect::frame_error || effect == Effect::gravity_compensator;
+         effect == Effect::load_cell_bias || effect == Effect::frame_error ||
+         effect == Effect::gravity_compensator;
 }
 
-/// Puts the estimates into what the next linearisation starts from; returns those that its equations then contain.
+/// Puts the estimates into what the next linearisation starts from; returns those that its equations then
+/// contain.
 ContainedEffects correct(const GapInput& input, const GapLayout& layout, const FittedSet& set,
-                        const Eigen::VectorXd& nuisances, GapState& state) {
+                         const Eigen::VectorXd& nuisances, GapState& state) {
   const Vector6d before = state.at.compliance;
   state.at.compliance = nuisances.head<6>().cwiseMax(0.0);
   state.geometry.compliance = state.geometry.weight.links_known ? state.at.compliance : Vector6d::Zero();
@@ -42,7 +45,8 @@ ContainedEffects correct(const GapInput& input, const GapLayout& layout, const F
   }
   state.corrections = {};
   state.at.compensator.resize(0);
-  ContainedEffects contained{Eigen::VectorXd::Zero(set.effects.size()), Eigen::VectorXd::Zero(set.effects.size())};
+  ContainedEffects contained{Eigen::VectorXd::Zero(set.effects.size()),
+                             Eigen::VectorXd::Zero(set.effects.size())};
   state.at.turns.clear();
   for (const ChosenModel& one : set.models) {
     const EffectModel& model = input.models[one.model];
@@ -101,10 +105,12 @@ void findSlack(const GapInput& input, const GapData& data, GapState& state) {
       for (const double most : part.most) normal(at, at) += 1.0 / (most * most), ++at;
     }
   }
-  Eigen::VectorXd scale = normal.diagonal().head(end).unaryExpr([](double d) { return d > 0.0 ? 1.0 / std::sqrt(d) : 0.0; });
+  Eigen::VectorXd scale =
+      normal.diagonal().head(end).unaryExpr([](double d) { return d > 0.0 ? 1.0 / std::sqrt(d) : 0.0; });
   Eigen::MatrixXd even = scale.asDiagonal() * normal.topLeftCorner(end, end) * scale.asDiagonal();
   even.diagonal().setConstant(1.0 + 1e-10);
-  const Eigen::VectorXd all = scale.asDiagonal() * even.ldlt().solve(Eigen::VectorXd(scale.asDiagonal() * normal.col(end).head(end)));
+  const Eigen::VectorXd all =
+      scale.asDiagonal() * even.ldlt().solve(Eigen::VectorXd(scale.asDiagonal() * normal.col(end).head(end)));
   double squares = 0.0, count = 0.0;
   for (const GapPosture& posture : data.postures) {
     const Eigen::Index rows = posture.position_rows;
@@ -134,7 +140,9 @@ SelectionRules rulesFor(const GapData& data, const FitRules& rules) {
     count += static_cast<double>(rows);
   }
   const double deflection = count > 0.0 ? std::sqrt(squares / count) : 0.0;
-  const double limit = std::max(rules.noise_share, data.state_noise > 0.0 ? rules.deflection_share * deflection / data.state_noise : 0.0);
+  const double limit =
+      std::max(rules.noise_share,
+               data.state_noise > 0.0 ? rules.deflection_share * deflection / data.state_noise : 0.0);
   out.least_drop = limit * limit * out.loading_rows;
   return out;
 }
@@ -177,7 +185,8 @@ Vector6d complianceVariance(const GapFit& fit, const GapInput& input) {
     }
   }
   Eigen::MatrixXd matrix = normal(kept, kept);
-  const Eigen::VectorXd scale = matrix.diagonal().unaryExpr([](double d) { return d > 0.0 ? 1.0 / std::sqrt(d) : 0.0; });
+  const Eigen::VectorXd scale =
+      matrix.diagonal().unaryExpr([](double d) { return d > 0.0 ? 1.0 / std::sqrt(d) : 0.0; });
   matrix = scale.asDiagonal() * matrix * scale.asDiagonal();
   matrix.diagonal().setConstant(1.0 + 1e-10);
   const Eigen::MatrixXd inverse = matrix.ldlt().solve(Eigen::MatrixXd::Identity(matrix.rows(), 6));
@@ -206,8 +215,7 @@ ModelsAndParts namesOf(const FittedSet& set) {
 }
 
 /// One linearisation where `fit.state` stands, and the selection on it.
-void fitOnce(const GapInput& input, const std::vector<bool>& allowed, const FitRules& rules,
-             GapFit& fit) {
+void fitOnce(const GapInput& input, const std::vector<bool>& allowed, const FitRules& rules, GapFit& fit) {
   fit.rules = rulesFor(fit.data, rules);
   fit.rules.given = rules.given;
   // A large effect bends what the others are judged by: it is settled before a second one is looked for.
@@ -219,7 +227,8 @@ void fitOnce(const GapInput& input, const std::vector<bool>& allowed, const FitR
   fit.nuisances = fit.projection.by_nothing - fit.projection.by_effects * fit.set.effects;
 }
 
-GapFit settle(const GapInput& input, const GapState& start, const std::vector<bool>& allowed, const FitRules& rules) {
+GapFit settle(const GapInput& input, const GapState& start, const std::vector<bool>& allowed,
+              const FitRules& rules) {
   GapFit fit;
   fit.state = start;
   ContainedEffects contained;
@@ -241,7 +250,8 @@ GapFit settle(const GapInput& input, const GapState& start, const std::vector<bo
     if (fit.rounds >= kAlone + 2 && settled) break;
     last = now;
     last_chi2 = fit.set.chi2;
-    if (fit.rounds < kMostRounds) contained = correct(input, fit.data.layout, fit.set, fit.nuisances, fit.state);
+    if (fit.rounds < kMostRounds)
+      contained = correct(input, fit.data.layout, fit.set, fit.nuisances, fit.state);
   }
   return fit;
 }
@@ -257,7 +267,8 @@ double leftAtLargestLoad(const GapFit& fit) {
     if (s == 0) continue;
     const Eigen::Index per_state = posture.states.front().rows();
     const Eigen::Index at = posture.position_rows + static_cast<Eigen::Index>(s - 1) * per_state;
-    squares += left.segment(at, per_state).squaredNorm() - posture.noise.diagonal().segment(at, per_state).sum();
+    squares +=
+        left.segment(at, per_state).squaredNorm() - posture.noise.diagonal().segment(at, per_state).sum();
     count += static_cast<double>(per_state);
   }
   return count > 0.0 ? std::sqrt(std::max(0.0, squares / count)) : 0.0;
@@ -283,22 +294,26 @@ double modelError(const GapFit& fit, const FitRules& rules) {
   constexpr double kShareOfRemoved = 0.1;  // linear models of large effects are not exact to more
   const double limit =
       std::max(std::sqrt(fit.rules.least_drop / rows) * fit.data.state_noise, kShareOfRemoved * removed);
-  const double error = fit.state.model_error == 0.0
-                           ? std::max(leftAtLargestLoad(fit), std::sqrt(std::max(0.0, left - 1.0)) * fit.data.state_noise)
-                           : leftAtLargestLoad(fit);
+  const double error =
+      fit.state.model_error == 0.0
+          ? std::max(leftAtLargestLoad(fit), std::sqrt(std::max(0.0, left - 1.0)) * fit.data.state_noise)
+          : leftAtLargestLoad(fit);
   return error > limit ? error : 0.0;
 }
 
 }  // namespace
 
-GapFit fitGap(const GapInput& input, const GapState& start, const std::vector<bool>& allowed, const FitRules& rules) {
+GapFit fitGap(const GapInput& input, const GapState& start, const std::vector<bool>& allowed,
+              const FitRules& rules) {
   GapFit fit = settle(input, start, allowed, rules);
   GapState with_error = start;
   constexpr int kRounds = 3;
   for (int round = 0; round < kRounds; ++round) {
     fit.model_error = modelError(fit, rules);
-    // What no effect explains is noise to every effect from here on, and stays the same however often it is measured.
-    if (std::abs(fit.model_error - with_error.model_error) < 0.02 * fit.model_error || fit.model_error == 0.0) break;
+    // What no effect explains is noise to every effect from here on, and stays the same however often it is
+    // measured.
+    if (std::abs(fit.model_error - with_error.model_error) < 0.02 * fit.model_error || fit.model_error == 0.0)
+      break;
     with_error.model_error = fit.model_error;
     fit = settle(input, with_error, allowed, rules);
   }

@@ -53,7 +53,8 @@ Wrench corrected(const Wrench& read, const ArmState& state, const Corrections& b
   wrench.moment += turn.cross(read.moment);
   wrench.point += state.flange.linear() * by.load_point;
   if (state.loaded) {
-    wrench.force += state.cell_axes * by.cell_force - at.r0_from_base_link.linear().col(2) * by.missing_weight;
+    wrench.force +=
+        state.cell_axes * by.cell_force - at.r0_from_base_link.linear().col(2) * by.missing_weight;
   }
   return wrench;
 }
@@ -62,7 +63,11 @@ class LoadingRowMaker {
  public:
   LoadingRowMaker(const Campaign& campaign, const LoadingGeometry& geometry, const WorkingPoint& at,
                   const Corrections& corrections)
-      : campaign_(campaign), geometry_(geometry), at_(at), corrections_(corrections), times_(timesOf(campaign)) {
+      : campaign_(campaign),
+        geometry_(geometry),
+        at_(at),
+        corrections_(corrections),
+        times_(timesOf(campaign)) {
     for (const int step : stepsOf(campaign)) {
       for (LoadCase& one : loadCases(campaign, geometry, step)) cases_[one.pose].push_back(std::move(one));
     }
@@ -134,13 +139,15 @@ class LoadingRowMaker {
     state.cell_axes = cellAxes(*campaign_.load_cell, geometry_, one);
     state.load = corrected(one.wrench, state, corrections_, at_);
     state.load_torque = jointTorque(geometry_.arm, rest.posture, state.load);
-    // Springs' torque s = tau + K_c c s, and the Jacobian at the middle of the displacement (see equations.h).
+    // Springs' torque s = tau + K_c c s, and the Jacobian at the middle of the displacement (see
+    // equations.h).
     Matrix6d change = geometricStiffness(geometry_.arm, rest.posture, state.load) +
                       geometricStiffness(geometry_.arm, rest.posture, geometry_.weight);
     change(1, 1) += compensatorSlope(at_, rest_angles);
     const Matrix6d system = Matrix6d::Identity() - change * at_.compliance.asDiagonal();
     const Vector6d torque = system.partialPivLu().solve(state.load_torque);
-    const ArmPosture middle = postureAt(geometry_.arm, rest_angles + 0.5 * at_.compliance.cwiseProduct(torque));
+    const ArmPosture middle =
+        postureAt(geometry_.arm, rest_angles + 0.5 * at_.compliance.cwiseProduct(torque));
     Eigen::Matrix<double, Eigen::Dynamic, 6> by_wrench(rest.rows(), 6);
     Matrix6d wrench_to_torque = jacobianAt(geometry_.arm, rest.posture, state.load.point).transpose();
     for (std::size_t t = 0; t < rest.targets.size(); ++t) {
@@ -203,16 +210,18 @@ double compensatorSlope(const WorkingPoint& at, const Vector6d& turned) {
   double slope = 0.0;
   for (Eigen::Index k = 0; k + 1 < at.compensator.size(); k += 2) {
     const double n = static_cast<double>(k / 2 + 1);
-    slope += n * (at.compensator[k] * std::cos(n * turned[1]) - at.compensator[k + 1] * std::sin(n * turned[1]));
+    slope +=
+        n * (at.compensator[k] * std::cos(n * turned[1]) - at.compensator[k + 1] * std::sin(n * turned[1]));
   }
   return slope;
 }
 
-std::vector<GapRows> loadingRows(const Campaign& campaign, const LoadingGeometry& geometry, const WorkingPoint& at,
-                                 const Corrections& corrections) {
+std::vector<GapRows> loadingRows(const Campaign& campaign, const LoadingGeometry& geometry,
+                                 const WorkingPoint& at, const Corrections& corrections) {
   LoadingGeometry shifted = geometry;
   if (shifted.r0_from_loading) {
-    shifted.r0_from_loading = motionAbout(at.epoch_centre, corrections.frame).inverse() * *geometry.r0_from_loading;
+    shifted.r0_from_loading =
+        motionAbout(at.epoch_centre, corrections.frame).inverse() * *geometry.r0_from_loading;
   }
   return LoadingRowMaker(campaign, shifted, at, corrections).run();
 }
@@ -224,7 +233,8 @@ std::vector<SweepRows> sweepRows(const Campaign& campaign, const LoadingGeometry
     const auto& at_zero = geometry.targets_at_zero[static_cast<std::size_t>(reading.target)];
     if (!at_zero) return;
     SweepRows& rows = by_index[{axis, reading.index}];
-    if (rows.state.points.empty()) rows.state = stateAt(geometry, reading.q, unloadedTurn(geometry, at, reading.q));
+    if (rows.state.points.empty())
+      rows.state = stateAt(geometry, reading.q, unloadedTurn(geometry, at, reading.q));
     rows.state.time_s = reading.time_s;
     rows.state.targets.push_back(reading.target);
     rows.state.points.push_back(r0_from_points * reading.point);

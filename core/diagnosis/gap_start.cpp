@@ -31,12 +31,13 @@ Vector6d startCompliance(const Campaign& campaign, LoadedArm arm) {
 }
 
 bool sameFrame(const Campaign& campaign) {
-  return campaign.circle_sweeps && campaign.loading && campaign.circle_sweeps->frame == campaign.loading->frame &&
+  return campaign.circle_sweeps && campaign.loading &&
+         campaign.circle_sweeps->frame == campaign.loading->frame &&
          (!campaign.wrist_sweep || campaign.wrist_sweep->frame == campaign.loading->frame);
 }
 
-/// Sweeps that state no time are taken to have been read row by row, evenly, between the first round of the nests and the
-/// last one before the loading: what a drift did to them is then known to a part of itself.
+/// Sweeps that state no time are taken to have been read row by row, evenly, between the first round of the
+/// nests and the last one before the loading: what a drift did to them is then known to a part of itself.
 void spreadSweepTimes(const StationMotion& station, Campaign& campaign) {
   if (!campaign.circle_sweeps || !campaign.loading) return;
   double loading = std::numeric_limits<double>::infinity();
@@ -54,7 +55,8 @@ void spreadSweepTimes(const StationMotion& station, Campaign& campaign) {
   const auto spread = [&](auto& rows) {
     for (auto& row : rows) {
       ++at;
-      if (!std::isfinite(row.time_s)) row.time_s = first + (last - first) * static_cast<double>(at) / static_cast<double>(count);
+      if (!std::isfinite(row.time_s))
+        row.time_s = first + (last - first) * static_cast<double>(at) / static_cast<double>(count);
     }
   };
   spread(circles);
@@ -87,8 +89,9 @@ NoiseFloor noiseFloor(const Campaign& campaign) {
   floor.noise.angle_fixed *= floor.across_factor;
   floor.noise.angle_per_m *= floor.across_factor;
   floor.degrees = scatter.along_dof + scatter.across_dof;
-  floor.source = fmt::format("repeats ({} degrees of freedom), {:.2f} of the declared noise along the beam, {:.2f} across",
-                             scatter.along_dof + scatter.across_dof, floor.along_factor, floor.across_factor);
+  floor.source = fmt::format(
+      "repeats ({} degrees of freedom), {:.2f} of the declared noise along the beam, {:.2f} across",
+      scatter.along_dof + scatter.across_dof, floor.along_factor, floor.across_factor);
   return floor;
 }
 
@@ -98,7 +101,8 @@ GapStart gapStart(const Campaign& campaign, bool take_off_station) {
   std::optional<TrackerNoise> declared;
   if (campaign.tracker) declared = trackerNoise(*campaign.tracker);
   start.station = stationCourse(start.campaign, declared);
-  const bool moved = start.station.course == StationCourse::jumped || start.station.course == StationCourse::drifted;
+  const bool moved =
+      start.station.course == StationCourse::jumped || start.station.course == StationCourse::drifted;
   if (start.station.course == StationCourse::drifted) spreadSweepTimes(start.station.motion, start.campaign);
   if (moved && take_off_station) takeOffDrift(start.station.motion, start.campaign);
   start.campaign.nests.reset();  // they have said what they know
@@ -106,11 +110,13 @@ GapStart gapStart(const Campaign& campaign, bool take_off_station) {
   const Evidence evidence = gatherEvidence(leaveRaw(start.campaign));
   start.geometry = evidence.arm.geometry;
   start.absolute = start.campaign.loading && start.geometry.r0_from_loading.has_value();
+  // A sag that is not known would be taken for geometry, frames and springs.
+  if (!start.geometry.weight.links_known) start.absolute = false;
   start.sweeps = start.absolute && evidence.frames.arm.points_placed && sameFrame(start.campaign);
   LoadedArm arm = evidence.arm;
-  if (start.campaign.loading && !start.absolute) {
+  if (start.campaign.loading && !start.geometry.r0_from_loading) {
     const GeometryCalibration calibration = calibrateGeometry(start.campaign, start.geometry);
-    start.absolute = calibration.done;
+    start.absolute = calibration.done && start.geometry.weight.links_known;
     if (!calibration.done) {
       start.reason = "the readings cannot be brought into the robot's frame: " + calibration.reason;
       return start;
@@ -119,7 +125,8 @@ GapStart gapStart(const Campaign& campaign, bool take_off_station) {
     arm = loadedArm(start.campaign, start.geometry, evidence.frames.wrist, *heaviestStep(start.campaign));
   }
   if (arm.cases.empty()) {
-    start.reason = "no posture has readings unloaded and under load that can be brought into the robot's frame";
+    start.reason =
+        "no posture has readings unloaded and under load that can be brought into the robot's frame";
     return start;
   }
   const Vector6d compliance = startCompliance(start.campaign, arm);
@@ -127,7 +134,8 @@ GapStart gapStart(const Campaign& campaign, bool take_off_station) {
   if (start.geometry.weight.links_known) start.geometry.compliance = compliance;
   start.state = startState(evidence, start.geometry);
   start.state.at.compliance = compliance;
-  if (!start.noise.known) start.reason = start.noise.source + ": effects cannot be told from noise; state `tracker`";
+  if (!start.noise.known)
+    start.reason = start.noise.source + ": effects cannot be told from noise; state `tracker`";
   return start;
 }
 

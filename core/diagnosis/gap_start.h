@@ -18,12 +18,12 @@ struct NoiseFloor {
   std::string source;
 };
 
-/// By the scatter of repeats where there are enough of them (30 degrees of freedom along and across the beam), in the shape
-/// of the declared noise; else as declared. Not known without a declared tracker.
+/// By the scatter of repeats where there are enough of them (30 degrees of freedom along and across the
+/// beam), in the shape of the declared noise; else as declared. Not known without a declared tracker.
 NoiseFloor noiseFloor(const Campaign& campaign);
 
-/// A campaign made ready: screened, the station's motion taken off, frames and stiffnesses found, the arm's geometry from
-/// the sweeps or, without them, calibrated on the unloaded positions.
+/// A campaign made ready: screened, the station's motion taken off, frames and stiffnesses found, the arm's
+/// geometry from the sweeps or, without them, calibrated on the unloaded positions.
 struct GapStart {
   Campaign campaign;
   Station station;

@@ -42,7 +42,8 @@ GeometryError geometryError(const GapInput& input, const GapState& state) {
   const auto& found_axes = state.geometry.arm.axes_in_base_at_zero;
   Eigen::Isometry3d base = Eigen::Isometry3d::Identity();
   std::vector<Eigen::Vector3d> targets;
-  for (const auto& target : state.geometry.targets_at_zero) targets.push_back(target.value_or(Eigen::Vector3d::Zero()));
+  for (const auto& target : state.geometry.targets_at_zero)
+    targets.push_back(target.value_or(Eigen::Vector3d::Zero()));
   const auto found = targets;
   const auto count = static_cast<Eigen::Index>(targets.size());
   const auto rows = 3 * count * static_cast<Eigen::Index>(postures.size());
@@ -74,7 +75,8 @@ GeometryError geometryError(const GapInput& input, const GapState& state) {
     error.rms = (left - columns * step).norm() / std::sqrt(static_cast<double>(rows));
     base = motionAbout(Eigen::Vector3d::Zero(), step.head<6>()) * base;
     zero += step[6 + 3 * count];
-    for (Eigen::Index t = 0; t < count; ++t) targets[static_cast<std::size_t>(t)] += step.segment<3>(6 + 3 * t);
+    for (Eigen::Index t = 0; t < count; ++t)
+      targets[static_cast<std::size_t>(t)] += step.segment<3>(6 + 3 * t);
   }
   for (std::size_t j = 0; j < 6; ++j) {
     const Line& axis = nominal.axes_in_base_at_zero[j];

@@ -42,7 +42,8 @@ std::vector<Trained> train(const GapInput& input, const GapFit& fit, const std::
 /// Calls `work(i)` for i in 0..count-1 on all cores.
 template <class Work>
 void onAllCores(int count, const Work& work) {
-  const int threads = std::max(1, std::min<int>(count, static_cast<int>(std::thread::hardware_concurrency())));
+  const int threads =
+      std::max(1, std::min<int>(count, static_cast<int>(std::thread::hardware_concurrency())));
   std::vector<std::thread> pool;
   for (int t = 0; t < threads; ++t) {
     pool.emplace_back([&, t] {
@@ -63,10 +64,12 @@ double quantile(std::vector<double> sorted, double share) {
   return sorted[low] + (at - static_cast<double>(low)) * (sorted[high] - sorted[low]);
 }
 
-/// Spread of the bootstrap about its median, narrowed by the root of judged over all postures, put on the value.
+/// Spread of the bootstrap about its median, narrowed by the root of judged over all postures, put on the
+/// value.
 Shrink withInterval(double value, const std::vector<double>& drawn, double judged_share) {
   const double middle = quantile(drawn, 0.5), narrow = std::sqrt(judged_share);
-  return {value, value + narrow * (quantile(drawn, 0.025) - middle), value + narrow * (quantile(drawn, 0.975) - middle)};
+  return {value, value + narrow * (quantile(drawn, 0.025) - middle),
+          value + narrow * (quantile(drawn, 0.975) - middle)};
 }
 
 void add(HeldOut& sum, const HeldOut& one) {
@@ -79,10 +82,29 @@ void add(HeldOut& sum, const HeldOut& one) {
 }  // namespace
 
 HeldOut leftIn(const GapPosture& posture, const Eigen::VectorXd& before, const Eigen::VectorXd& after) {
-  const Eigen::VectorXd old = posture.right - posture.columns * before, now = posture.right - posture.columns * after;
+  const Eigen::VectorXd old = posture.right - posture.columns * before,
+                        now = posture.right - posture.columns * after;
   const Eigen::Index rest = posture.position_rows, rows = posture.right.size() - rest;
   return {old.tail(rows).squaredNorm(), now.tail(rows).squaredNorm(), old.head(rest).squaredNorm(),
           now.head(rest).squaredNorm()};
+}
+
+HeldOutShrink shrinkOver(const std::vector<HeldOut>& postures, int resamples, std::uint64_t seed) {
+  HeldOut sum;
+  for (const HeldOut& one : postures) add(sum, one);
+  std::mt19937_64 random(seed);
+  std::vector<double> deflections, positions;
+  for (int b = 0; b < resamples; ++b) {
+    HeldOut drawn;
+    for (std::size_t draw = 0; draw < postures.size(); ++draw)
+      add(drawn, postures[random() % postures.size()]);
+    deflections.push_back(shrinkOf(drawn.deflection_before, drawn.deflection_after));
+    positions.push_back(shrinkOf(drawn.position_before, drawn.position_after));
+  }
+  HeldOutShrink result;
+  result.deflection = withInterval(shrinkOf(sum.deflection_before, sum.deflection_after), deflections, 1.0);
+  result.position = withInterval(shrinkOf(sum.position_before, sum.position_after), positions, 1.0);
+  return result;
 }
 
 double noiseSquares(const GapPosture& posture) {
@@ -90,8 +112,10 @@ double noiseSquares(const GapPosture& posture) {
   return posture.noise.diagonal().tail(rows).sum();
 }
 
-std::vector<HeldOutShrink> heldOutShrinks(const GapInput& input, const GapFit& fit, const std::vector<bool>& allowed,
-                                          const std::vector<FitRecipe>& recipes, int resamples, std::uint64_t seed) {
+std::vector<HeldOutShrink> heldOutShrinks(const GapInput& input, const GapFit& fit,
+                                          const std::vector<bool>& allowed,
+                                          const std::vector<FitRecipe>& recipes, int resamples,
+                                          std::uint64_t seed) {
   const std::size_t postures = fit.data.postures.size();
   std::vector<HeldOutShrink> result(recipes.size());
   if (postures < 4) return result;
@@ -105,13 +129,15 @@ std::vector<HeldOutShrink> heldOutShrinks(const GapInput& input, const GapFit& f
           leftIn(fit.data.postures[static_cast<std::size_t>(p)], trained[r].before, trained[r].after);
   });
   std::mt19937_64 random(seed);
-  std::vector<std::vector<double>> samples(static_cast<std::size_t>(resamples), std::vector<double>(postures, 0.0));
+  std::vector<std::vector<double>> samples(static_cast<std::size_t>(resamples),
+                                           std::vector<double>(postures, 0.0));
   double judged = 0.0;
   for (auto& weights : samples) {
     for (std::size_t draw = 0; draw < postures; ++draw) weights[random() % postures] += 1.0;
     judged += static_cast<double>(std::count(weights.begin(), weights.end(), 0.0));
   }
-  const double judged_share = resamples > 0 ? judged / static_cast<double>(resamples) / static_cast<double>(postures) : 0.0;
+  const double judged_share =
+      resamples > 0 ? judged / static_cast<double>(resamples) / static_cast<double>(postures) : 0.0;
   std::vector<std::vector<HeldOut>> drawn(samples.size(), std::vector<HeldOut>(recipes.size()));
   onAllCores(resamples, [&](int b) {
     const auto& weights = samples[static_cast<std::size_t>(b)];
@@ -119,7 +145,8 @@ std::vector<HeldOutShrink> heldOutShrinks(const GapInput& input, const GapFit& f
     for (std::size_t p = 0; p < postures; ++p) {
       if (weights[p] != 0.0) continue;
       for (std::size_t r = 0; r < recipes.size(); ++r)
-        add(drawn[static_cast<std::size_t>(b)][r], leftIn(fit.data.postures[p], trained[r].before, trained[r].after));
+        add(drawn[static_cast<std::size_t>(b)][r],
+            leftIn(fit.data.postures[p], trained[r].before, trained[r].after));
     }
   });
   double noise = 0.0;
@@ -129,14 +156,19 @@ std::vector<HeldOutShrink> heldOutShrinks(const GapInput& input, const GapFit& f
     for (const auto& one : left) add(sum, one[r]);
     std::vector<double> deflections, positions;
     for (const auto& one : drawn) {
-      if (one[r].deflection_before > 0.0) deflections.push_back(shrinkOf(one[r].deflection_before, one[r].deflection_after));
-      if (one[r].position_before > 0.0) positions.push_back(shrinkOf(one[r].position_before, one[r].position_after));
+      if (one[r].deflection_before > 0.0)
+        deflections.push_back(shrinkOf(one[r].deflection_before, one[r].deflection_after));
+      if (one[r].position_before > 0.0)
+        positions.push_back(shrinkOf(one[r].position_before, one[r].position_after));
     }
-    result[r].deflection = withInterval(shrinkOf(sum.deflection_before, sum.deflection_after), deflections, judged_share);
-    result[r].position = withInterval(shrinkOf(sum.position_before, sum.position_after), positions, judged_share);
+    result[r].deflection =
+        withInterval(shrinkOf(sum.deflection_before, sum.deflection_after), deflections, judged_share);
+    result[r].position =
+        withInterval(shrinkOf(sum.position_before, sum.position_after), positions, judged_share);
     const double gap = sum.deflection_before - noise;
-    result[r].explained =
-        gap > 0.05 * noise ? std::clamp((sum.deflection_before - sum.deflection_after) / gap, -1.0, 1.0) : 0.0;
+    result[r].explained = gap > 0.05 * noise
+                              ? std::clamp((sum.deflection_before - sum.deflection_after) / gap, -1.0, 1.0)
+                              : 0.0;
   }
   return result;
 }

@@ -15,20 +15,26 @@ struct HeldOut {
 
 /// A way to fit: everything chosen anew, or one set of models with its parameters fitted anew.
 struct FitRecipe {
-  bool choose = false;                 ///< run the whole selection
-  std::vector<ChosenModel> models;     ///< else these
+  bool choose = false;              ///< run the whole selection
+  std::vector<ChosenModel> models;  ///< else these
 };
 
 struct HeldOutShrink {
   Shrink deflection, position;
-  double explained = 0.0;  ///< 1 - (after^2 - noise^2) / (before^2 - noise^2) of the deflection, in held-out postures
+  double explained =
+      0.0;  ///< 1 - (after^2 - noise^2) / (before^2 - noise^2) of the deflection, in held-out postures
 };
 
-/// Leave-one-posture-out for the values. The interval: bootstrap samples of postures, each fitted (and, where the recipe says
-/// so, selected) on the postures drawn and judged on those not drawn, so that no posture stands on both sides; their
-/// spread is brought from the number of postures judged to that of all of them.
-std::vector<HeldOutShrink> heldOutShrinks(const GapInput& input, const GapFit& fit, const std::vector<bool>& allowed,
-                                          const std::vector<FitRecipe>& recipes, int resamples, std::uint64_t seed);
+/// Leave-one-posture-out for the values. The interval: bootstrap samples of postures, each fitted (and, where
+/// the recipe says so, selected) on the postures drawn and judged on those not drawn, so that no posture
+/// stands on both sides; their spread is brought from the number of postures judged to that of all of them.
+std::vector<HeldOutShrink> heldOutShrinks(const GapInput& input, const GapFit& fit,
+                                          const std::vector<bool>& allowed,
+                                          const std::vector<FitRecipe>& recipes, int resamples,
+                                          std::uint64_t seed);
+
+/// The same from squares a posture that are there already, judged on bootstrap samples of the postures.
+HeldOutShrink shrinkOver(const std::vector<HeldOut>& postures, int resamples, std::uint64_t seed);
 
 /// Squares of deflection and position rows that parameters leave in a posture.
 HeldOut leftIn(const GapPosture& posture, const Eigen::VectorXd& before, const Eigen::VectorXd& after);

@@ -23,14 +23,16 @@ Vector6d somePosture(const Robot& arm, std::mt19937_64& random) {
   Vector6d q;
   for (Eigen::Index j = 0; j < 6; ++j) {
     const JointLimits& limits = arm.limits[static_cast<std::size_t>(j)];
-    const double low = std::max(limits.lower, -std::numbers::pi), high = std::min(limits.upper, std::numbers::pi);
+    const double low = std::max(limits.lower, -std::numbers::pi),
+                 high = std::min(limits.upper, std::numbers::pi);
     q[j] = low + share(random) * (high - low);
   }
   return q;
 }
 
 /// Whitened normal equations of one more posture: unloaded, and under one force.
-Eigen::MatrixXd normalOf(const GapInput& input, const GapFit& fit, const Vector6d& q, const Eigen::Vector3d& force) {
+Eigen::MatrixXd normalOf(const GapInput& input, const GapFit& fit, const Vector6d& q,
+                         const Eigen::Vector3d& force) {
   const GapPosture& like = fit.data.postures.front();
   const ArmState& seen = like.states[heaviestState(like.states)];
   ArmState rest = stateAt(fit.state.geometry, q, Vector6d::Zero());
@@ -38,7 +40,8 @@ Eigen::MatrixXd normalOf(const GapInput& input, const GapFit& fit, const Vector6
   rest.targets = like.states.front().targets;
   for (const int target : rest.targets) {
     rest.points.push_back(rest.posture.motion[6] *
-                          fit.state.geometry.targets_at_zero[static_cast<std::size_t>(target)].value_or(Eigen::Vector3d::Zero()));
+                          fit.state.geometry.targets_at_zero[static_cast<std::size_t>(target)].value_or(
+                              Eigen::Vector3d::Zero()));
   }
   ArmState loaded = rest;
   loaded.loaded = true;
@@ -60,8 +63,8 @@ Eigen::MatrixXd normalOf(const GapInput& input, const GapFit& fit, const Vector6
   return columns.transpose() * columns;
 }
 
-double leastSeparation(const GapInput& input, const GapFit& fit, const std::vector<bool>& allowed, const Tie& tie,
-                       const Projection& projection) {
+double leastSeparation(const GapInput& input, const GapFit& fit, const std::vector<bool>& allowed,
+                       const Tie& tie, const Projection& projection) {
   const ChosenModel& chosen = fit.set.models[tie.chosen];
   const Eigen::Index at = fit.data.layout.model_at[chosen.model] - fit.data.layout.effects;
   const auto size = static_cast<Eigen::Index>(input.models[chosen.model].parameters());
@@ -81,8 +84,8 @@ double leastSeparation(const GapInput& input, const GapFit& fit, const std::vect
 
 }  // namespace
 
-std::optional<NextMeasurement> nextFor(const GapInput& input, const GapFit& fit, const std::vector<bool>& allowed,
-                                       const Tie& tie, std::uint64_t seed) {
+std::optional<NextMeasurement> nextFor(const GapInput& input, const GapFit& fit,
+                                       const std::vector<bool>& allowed, const Tie& tie, std::uint64_t seed) {
   const Eigen::MatrixXd now = sumOf(fit.data, std::vector<double>(fit.data.postures.size(), 1.0));
   const double before = leastSeparation(input, fit, allowed, tie, project(now, fit.data.layout.effects));
   std::mt19937_64 random(seed);
@@ -100,10 +103,11 @@ std::optional<NextMeasurement> nextFor(const GapInput& input, const GapFit& fit,
       if (apart <= best) continue;
       best = apart;
       const Vector6d degrees = q * (180.0 / std::numbers::pi);
-      next.what = fmt::format("a posture at ({:.0f}, {:.0f}, {:.0f}, {:.0f}, {:.0f}, {:.0f}) deg, pulled by {:.0f} N along {}0: "
-                              "it raises the least separation (chi2, {:.0f} tells apart) from {:.1f} to {:.1f}",
-                              degrees[0], degrees[1], degrees[2], degrees[3], degrees[4], degrees[5], force,
-                              "xyz"[axis], kSeparated, before, apart);
+      next.what = fmt::format(
+          "a posture at ({:.0f}, {:.0f}, {:.0f}, {:.0f}, {:.0f}, {:.0f}) deg, pulled by {:.0f} N along {}0: "
+          "it raises the least separation (chi2, {:.0f} tells apart) from {:.1f} to {:.1f}",
+          degrees[0], degrees[1], degrees[2], degrees[3], degrees[4], degrees[5], force, "xyz"[axis],
+          kSeparated, before, apart);
     }
   }
   if (best <= before) return std::nullopt;

@@ -7,13 +7,13 @@
 
 namespace stiffscope {
 
-/// The equations of the effects with everything else (stiffnesses, geometry, weights) fitted away, from normal equations
-/// N over (nuisances n, effects e): S = N_ee - N_en N_nn^-1 N_ne, s = b_e - N_en N_nn^-1 b_n. chi2 of a set K of
-/// effect parameters is chi2_none - s_K' S_KK^-1 s_K.
+/// The equations of the effects with everything else (stiffnesses, geometry, weights) fitted away, from
+/// normal equations N over (nuisances n, effects e): S = N_ee - N_en N_nn^-1 N_ne, s = b_e - N_en N_nn^-1
+/// b_n. chi2 of a set K of effect parameters is chi2_none - s_K' S_KK^-1 s_K.
 struct Projection {
-  Eigen::MatrixXd matrix;   ///< S
-  Eigen::VectorXd right;    ///< s
-  Eigen::VectorXd before;   ///< diagonal of N_ee: what the columns are before the projection
+  Eigen::MatrixXd matrix;  ///< S
+  Eigen::VectorXd right;   ///< s
+  Eigen::VectorXd before;  ///< diagonal of N_ee: what the columns are before the projection
   double chi2_none = 0.0;
   Eigen::MatrixXd by_effects;  ///< nuisances = by_nothing - by_effects * effects
   Eigen::VectorXd by_nothing;
@@ -30,8 +30,8 @@ struct SubsetFit {
   double drop = 0.0;      ///< of chi2
 };
 
-/// Bounded below by zero where `positive` says so (active set). `prior` is 1/most^2 of each: keeps what the data does not
-/// see from running away.
+/// Bounded below by zero where `positive` says so (active set). `prior` is 1/most^2 of each: keeps what the
+/// data does not see from running away.
 SubsetFit fitSubset(const Projection& projection, const std::vector<Eigen::Index>& indices,
                     const std::vector<bool>& positive, const Eigen::VectorXd& prior);
 

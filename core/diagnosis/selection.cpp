@@ -10,10 +10,16 @@ bool FittedSet::has(const std::vector<EffectModel>& table, Effect effect) const 
                      [&](const ChosenModel& one) { return table[one.model].effect == effect; });
 }
 
-Selector::Selector(const std::vector<EffectModel>& models, const GapLayout& layout, const Projection& projection,
-                   double postures, const SelectionRules& rules, const std::vector<bool>& allowed)
-    : models_(models), layout_(layout), projection_(projection), postures_(postures), rules_(rules),
-      allowed_(allowed), prior_(projection.right.size()) {
+Selector::Selector(const std::vector<EffectModel>& models, const GapLayout& layout,
+                   const Projection& projection, double postures, const SelectionRules& rules,
+                   const std::vector<bool>& allowed)
+    : models_(models),
+      layout_(layout),
+      projection_(projection),
+      postures_(postures),
+      rules_(rules),
+      allowed_(allowed),
+      prior_(projection.right.size()) {
   for (std::size_t m = 0; m < models.size(); ++m) {
     Eigen::Index at = layout.model_at[m] - layout.effects;
     part_at_.emplace_back();

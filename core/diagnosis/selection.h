@@ -19,21 +19,21 @@ struct FittedSet {
   std::vector<ChosenModel> models;
   Eigen::VectorXd effects;  ///< all effect parameters, those not in the set zero
   double chi2 = 0.0;
-  double penalty = 0.0;     ///< BIC's, postures counted, with the choice of parts and models
-  bool plausible = true;    ///< within the physical bounds
+  double penalty = 0.0;   ///< BIC's, postures counted, with the choice of parts and models
+  bool plausible = true;  ///< within the physical bounds
 
   double score() const { return chi2 + penalty; }  ///< the smaller the better
   bool has(const std::vector<EffectModel>& table, Effect effect) const;
 };
 
 struct SelectionRules {
-  double detect = 20.0;        ///< least fall of the score (noise regime) that a first effect must bring
-  double least_drop = 0.0;     ///< least fall of chi2 that matters
-  double kept_share = 1e-4;    ///< a column of which less (in squares) is left by the projection is not tried
+  double detect = 20.0;      ///< least fall of the score (noise regime) that a first effect must bring
+  double least_drop = 0.0;   ///< least fall of chi2 that matters
+  double kept_share = 1e-4;  ///< a column of which less (in squares) is left by the projection is not tried
   std::size_t most_effects = 3;
   std::vector<std::size_t> given;  ///< models that other evidence puts in
-  double loading_rows = 1.0;   ///< equations of the loading
-  double other_rows = 0.0;     ///< chi2 that is expected of the sweeps
+  double loading_rows = 1.0;       ///< equations of the loading
+  double other_rows = 0.0;         ///< chi2 that is expected of the sweeps
 };
 
 /// Chooses effects: forward, then backward, then all pairs of the best few, by BIC counting postures.

@@ -12,7 +12,8 @@ namespace stiffscope {
 
 namespace {
 
-/// Least squares of motion = share * m over the rounds; the first round defines zero and has its noise in all others.
+/// Least squares of motion = share * m over the rounds; the first round defines zero and has its noise in all
+/// others.
 struct Course {
   std::vector<double> share;
   Vector6d motion = Vector6d::Zero();
@@ -49,6 +50,19 @@ Course bestJump(const StationMotion& station, std::size_t& at) {
   return best;
 }
 
+void findRate(Station& station) {
+  const auto& epochs = station.motion.epochs;
+  Vector6d right = Vector6d::Zero();
+  for (std::size_t e = 1; e < epochs.size(); ++e) {
+    const double since = epochs[e].time_s - epochs.front().time_s;
+    const Matrix6d weight = epochs[e].covariance.inverse();
+    station.rate_weight += since * since * weight;
+    right += since * weight * epochs[e].motion;
+  }
+  station.rate = station.rate_weight.ldlt().solve(right);
+  if (!station.rate.allFinite()) station.rate.setZero(), station.rate_weight.setZero();
+}
+
 }  // namespace
 
 Station stationCourse(const Campaign& campaign, const std::optional<TrackerNoise>& noise) {
@@ -58,9 +72,11 @@ Station stationCourse(const Campaign& campaign, const std::optional<TrackerNoise
     result.in_words = result.motion.reason;
     return result;
   }
+  findRate(result);
   if (!result.motion.moved) {
     result.course = StationCourse::still;
-    result.in_words = fmt::format("{} rounds of floor nests: the tracker stood still", result.motion.epochs.size());
+    result.in_words =
+        fmt::format("{} rounds of floor nests: the tracker stood still", result.motion.epochs.size());
     return result;
   }
   findJumps(campaign, *noise, result.motion);
@@ -90,8 +106,9 @@ Station stationCourse(const Campaign& campaign, const std::optional<TrackerNoise
   }
   result.in_words =
       jumped && fits
-          ? fmt::format("the floor nests show that the tracker moved once, by {:.3f} mm where the arm was read",
-                        1e3 * result.moved_by)
+          ? fmt::format(
+                "the floor nests show that the tracker moved once, by {:.3f} mm where the arm was read",
+                1e3 * result.moved_by)
           : fmt::format("the floor nests show that the tracker wandered, by {:.3f} mm where the arm was read",
                         1e3 * result.moved_by);
   return result;

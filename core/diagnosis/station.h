@@ -9,13 +9,18 @@ enum class StationCourse { not_tested, still, jumped, drifted };
 
 struct Station {
   StationCourse course = StationCourse::not_tested;
-  StationMotion motion;      ///< its epochs smoothed: one jump, or a steady drift, where either fits them
-  double moved_by = 0.0;     ///< largest displacement where the arm was read, m
+  StationMotion motion;  ///< its epochs smoothed: one jump, or a steady drift, where either fits them
+  /// A steady motion by all rounds: per second, rotation vector then displacement at `motion.centre`, in the
+  /// axes of the readings; with its weight (inverse covariance). Zero where not tested.
+  Eigen::Matrix<double, 6, 1> rate = Eigen::Matrix<double, 6, 1>::Zero();
+  Eigen::Matrix<double, 6, 6> rate_weight = Eigen::Matrix<double, 6, 6>::Zero();
+  double moved_by = 0.0;  ///< largest displacement where the arm was read, m
   std::string in_words;
 };
 
-/// Holds one jump (6 parameters and when) and a steady drift (6) against the rounds of the nests, by weighted least squares;
-/// the better one is taken where it fits within its noise, else the rounds stay as they are and the course is a drift.
+/// Holds one jump (6 parameters and when) and a steady drift (6) against the rounds of the nests, by weighted
+/// least squares; the better one is taken where it fits within its noise, else the rounds stay as they are
+/// and the course is a drift.
 Station stationCourse(const Campaign& campaign, const std::optional<TrackerNoise>& noise);
 
 }  // namespace stiffscope

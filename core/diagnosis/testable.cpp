@@ -5,7 +5,8 @@
 
 namespace stiffscope {
 
-CampaignHas whatIsThere(const GapInput& input, const GapData& data, const GapState& state, const Station& station) {
+CampaignHas whatIsThere(const GapInput& input, const GapData& data, const GapState& state,
+                        const Station& station) {
   CampaignHas has;
   has.absolute = input.absolute;
   has.sweeps = input.sweeps;
@@ -29,35 +30,47 @@ CampaignHas whatIsThere(const GapInput& input, const GapData& data, const GapSta
 std::string missingFor(Effect effect, const CampaignHas& has) {
   switch (effect) {
     case Effect::joint_hardening:
-      if (has.load_steps < 2) return "one load step: two or more loads of different size in each posture are needed";
+      if (has.load_steps < 2)
+        return "one load step: two or more loads of different size in each posture are needed";
       break;
     case Effect::load_cell_bias:
-      if (has.load_steps < 2) return "one load step: a constant part of the force needs two or more loads of different size";
+      if (has.load_steps < 2)
+        return "one load step: a constant part of the force needs two or more loads of different size";
       break;
     case Effect::hysteresis:
       if (!has.return_to_zero) return "no return to zero: a last, unloaded step in each posture is needed";
       break;
     case Effect::backlash:
       if (has.load_steps < 2 && !has.weights)
-        return "one load step and no masses: lost motion needs torques that pass zero, from two or more loads";
+        return "one load step and no masses: lost motion needs torques that pass zero, from two or more "
+               "loads";
       break;
     case Effect::gravity_compensator:
-      if (!has.absolute) return "displacements only: unloaded absolute positions against forward kinematics are needed";
-      if (!has.weights) return "the masses of the links are not known: the spring cannot be told from the own weight";
+      if (!has.weights)
+        return "the masses of the links are not known: the spring cannot be told from the own weight";
+      if (!has.absolute)
+        return "displacements only: unloaded absolute positions against forward kinematics are needed";
       break;
     case Effect::frame_error:
-      if (!has.absolute || !has.sweeps)
+      if (!has.weights && !has.nests)
+        return "the masses of the links are not known: the sag in absolute positions hides it; state them, "
+               "or read nests";
+      if (has.weights && (!has.absolute || !has.sweeps))
         return "needs circle sweeps and absolute unloaded positions in the same frame of the tracker";
       break;
     case Effect::kinematic_error:
-      if (!has.absolute) return "displacements only: unloaded absolute positions or circle sweeps of all axes are needed";
+      if (!has.weights) return "the masses of the links are not known: the sag cannot be told from geometry";
+      if (!has.absolute)
+        return "displacements only: unloaded absolute positions or circle sweeps of all axes are needed";
       break;
     case Effect::tracker_drift:
       if (!has.nests && (!has.times || !has.absolute))
-        return "no floor nests and no absolute positions with times: read three nests before, during and after";
+        return "no floor nests and no absolute positions with times: read three nests before, during and "
+               "after";
       break;
     case Effect::target_motion:
-      if (has.reflectors < 3) return "fewer than three reflectors: one that moves shows only against two others";
+      if (has.reflectors < 3)
+        return "fewer than three reflectors: one that moves shows only against two others";
       break;
     case Effect::tool_compliance:
       if (has.reflectors < 2 && !has.moments)

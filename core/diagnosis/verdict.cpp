@@ -23,7 +23,8 @@ std::string detailOf(const EffectModel& model, const std::vector<std::size_t>& p
   return detail;
 }
 
-std::string parametersOf(const EffectModel& model, const std::vector<std::size_t>& parts, const Eigen::VectorXd& own) {
+std::string parametersOf(const EffectModel& model, const std::vector<std::size_t>& parts,
+                         const Eigen::VectorXd& own) {
   std::string words;
   Eigen::Index at = 0;
   for (std::size_t p = 0; p < model.parts.size(); ++p) {
@@ -42,7 +43,8 @@ std::string parametersOf(const EffectModel& model, const std::vector<std::size_t
 class Decider {
  public:
   explicit Decider(const VerdictInput& from)
-      : from_(from), models_(from.input.models),
+      : from_(from),
+        models_(from.input.models),
         selector_(selectorOf(from.input, from.fit, from.fit.projection,
                              static_cast<double>(from.fit.data.postures.size()), from.allowed)) {}
 
@@ -82,17 +84,20 @@ class Decider {
     decision_.verdict.entries.push_back({one.effects, ""});
     decision_.classes.push_back(one);
     decision_.recipes.emplace_back();
-    reasons_.push_back(fmt::format("the axes found by the sweeps and the unloaded positions put the reflectors {:.2f} mm rms "
-                                   "from where the nominal geometry does ({:.2f} mm is allowed)",
-                                   1e3 * from_.geometry.rms, 1e3 * kGeometryTolerance));
+    reasons_.push_back(fmt::format(
+        "the axes found by the sweeps and the unloaded positions put the reflectors {:.2f} mm rms "
+        "from where the nominal geometry does ({:.2f} mm is allowed)",
+        1e3 * from_.geometry.rms, 1e3 * kGeometryTolerance));
   }
 
-  /// A geometry that is wrong puts the flange, and with it the load cell, elsewhere along axis 6, which sweeps do not see.
+  /// A geometry that is wrong puts the flange, and with it the load cell, elsewhere along axis 6, which
+  /// sweeps do not see.
   bool followsFromGeometry(Effect effect, const Eigen::VectorXd& parameters) const {
     if (!geometry_named_) return false;
     constexpr double kAsMuch = 2.0;
     if (effect == Effect::load_point_error) return parameters.norm() < kAsMuch * from_.geometry.largest_shift;
-    if (effect == Effect::load_cell_misalignment) return parameters.norm() < kAsMuch * from_.geometry.largest_tilt;
+    if (effect == Effect::load_cell_misalignment)
+      return parameters.norm() < kAsMuch * from_.geometry.largest_tilt;
     return false;
   }
 
@@ -110,8 +115,9 @@ class Decider {
       // A drift has moved the frame by the time of the loading: one cause, not two.
       if (from_.station.course == StationCourse::drifted && model.effect == Effect::frame_error) continue;
       if (followsFromGeometry(model.effect, parameters)) {
-        reasons_.push_back(fmt::format("what looks like {} ({}) is no more than the wrong geometry puts there",
-                                       idOf(model.effect), parametersOf(model, chosen.parts, parameters)));
+        reasons_.push_back(
+            fmt::format("what looks like {} ({}) is no more than the wrong geometry puts there",
+                        idOf(model.effect), parametersOf(model, chosen.parts, parameters)));
         continue;
       }
       EffectClass one;
@@ -151,13 +157,15 @@ class Decider {
     std::vector<Effect> effects{models_[chosen.model].effect};
     Eigen::VectorXd field = Eigen::VectorXd::Zero(set().effects.size());
     const Eigen::Index at = from_.fit.data.layout.model_at[chosen.model] - from_.fit.data.layout.effects;
-    field.segment(at, static_cast<Eigen::Index>(models_[chosen.model].parameters())) = own(set().effects, chosen.model);
+    field.segment(at, static_cast<Eigen::Index>(models_[chosen.model].parameters())) =
+        own(set().effects, chosen.model);
     const double scale = selector_.misfit(set());
     for (std::size_t m = 0; m < models_.size(); ++m) {
       const Effect effect = models_[m].effect;
       if (!from_.allowed[m] || set().has(models_, effect)) continue;
       if (std::find(effects.begin(), effects.end(), effect) != effects.end()) continue;
-      const double apart = separation(from_.input, from_.fit, from_.fit.projection, field, without(i), m, from_.allowed);
+      const double apart =
+          separation(from_.input, from_.fit, from_.fit.projection, field, without(i), m, from_.allowed);
       if (apart < kSeparated * scale) effects.push_back(effect);
     }
     return effects;
@@ -167,8 +175,9 @@ class Decider {
     nameUnknownPositions();
     if (from_.fit.model_error == 0.0) return;
     nameUnknownOnce();
-    reasons_.push_back(fmt::format("{:.1f} um rms of the deflection at the largest load are explained by no effect of the vocabulary",
-                                   1e6 * from_.fit.model_error));
+    reasons_.push_back(fmt::format(
+        "{:.1f} um rms of the deflection at the largest load are explained by no effect of the vocabulary",
+        1e6 * from_.fit.model_error));
   }
 
   /// Unloaded positions that scatter beyond what noise and the repeatability of an arm put there.
@@ -180,8 +189,9 @@ class Decider {
     const double limit = std::max(kStates * from_.fit.data.state_noise, kShareOfRemoved * removed);
     if (left <= limit) return;
     nameUnknownOnce();
-    reasons_.push_back(fmt::format("{:.1f} um rms of the unloaded positions are explained by no effect (limit {:.1f} um)",
-                                   1e6 * left, 1e6 * limit));
+    reasons_.push_back(
+        fmt::format("{:.1f} um rms of the unloaded positions are explained by no effect (limit {:.1f} um)",
+                    1e6 * left, 1e6 * limit));
   }
 
   void nameUnknownOnce() {
@@ -213,12 +223,14 @@ class Decider {
     std::string& reason = decision_.verdict.reason;
     const auto& rules = from_.fit.rules;
     const double lack = (from_.fit.projection.chi2_none - rules.other_rows) / rules.loading_rows;
-    reason = fmt::format("Stiffnesses alone leave {:.1f} um rms per coordinate of the deflection, noise alone {:.1f} um "
-                         "(chi2 per equation {:.2f}).",
-                         1e6 * from_.gap.before, 1e6 * from_.gap.noise, lack);
+    reason = fmt::format(
+        "Stiffnesses alone leave {:.1f} um rms per coordinate of the deflection, noise alone {:.1f} um "
+        "(chi2 per equation {:.2f}).",
+        1e6 * from_.gap.before, 1e6 * from_.gap.noise, lack);
     if (decision_.verdict.entries.empty()) {
-      reason += fmt::format(" No effect passes both limits: a fall of BIC of {:.0f}, {:.1f} um rms after the stiffnesses.",
-                            rules.detect, 1e6 * std::sqrt(rules.least_drop / rules.loading_rows) * from_.fit.data.state_noise);
+      reason += fmt::format(
+          " No effect passes both limits: a fall of BIC of {:.0f}, {:.1f} um rms after the stiffnesses.",
+          rules.detect, 1e6 * std::sqrt(rules.least_drop / rules.loading_rows) * from_.fit.data.state_noise);
     }
     for (const std::string& one : reasons_) reason += " Besides, " + one + ".";
     reason += " Floor nests: " + from_.station.in_words + ".";

@@ -32,8 +32,8 @@ struct Decision {
   std::vector<Tie> ties;
 };
 
-/// Names what the fit chose, each with the effects that this data cannot tell from it; the geometry against the nominal one;
-/// `unknown` where what is left is significant and matters; nothing where neither.
+/// Names what the fit chose, each with the effects that this data cannot tell from it; the geometry against
+/// the nominal one; `unknown` where what is left is significant and matters; nothing where neither.
 Decision decideVerdict(const VerdictInput& from);
 
 }  // namespace stiffscope

@@ -28,7 +28,8 @@ std::vector<LeftOver> leftOvers(const GapFit& fit, const Eigen::VectorXd& parame
     const std::size_t first = deflection ? 1 : 0, last = deflection ? posture.states.size() : 1;
     if (!deflection && posture.position_rows == 0) continue;
     for (std::size_t s = first; s < last; ++s) {
-      const Eigen::Index at = deflection ? posture.position_rows + static_cast<Eigen::Index>(s - 1) * per_state : 0;
+      const Eigen::Index at =
+          deflection ? posture.position_rows + static_cast<Eigen::Index>(s - 1) * per_state : 0;
       for (std::size_t t = 0; t < posture.states[s].points.size(); ++t) {
         const Eigen::Index row = at + 3 * static_cast<Eigen::Index>(t);
         all.push_back({left.segment<3>(row), posture.noise.block<3, 3>(row, row), posture.states[s].points[t],
@@ -55,7 +56,8 @@ struct Sum {
 WhereRow rowOf(const std::string& name, const Sum& sum, double whole) {
   WhereRow row;
   row.name = name;
-  if (sum.count > 0.0) row.rms = std::sqrt(sum.squares / sum.count), row.noise = std::sqrt(sum.noise / sum.count);
+  if (sum.count > 0.0)
+    row.rms = std::sqrt(sum.squares / sum.count), row.noise = std::sqrt(sum.noise / sum.count);
   row.share = whole > 0.0 ? sum.squares / whole : 0.0;
   row.significance = sum.variance > 0.0 ? (sum.squares - sum.noise) / std::sqrt(sum.variance) : 0.0;
   return row;
@@ -69,8 +71,8 @@ double wholeOf(const std::vector<LeftOver>& all) {
 
 /// One row a name, in the order of `names`; `place(one)` is the index of the name, negative to leave out.
 template <class Place>
-WhereTable tableBy(const std::string& by, const std::vector<std::string>& names, const std::vector<LeftOver>& all,
-                   const Place& place) {
+WhereTable tableBy(const std::string& by, const std::vector<std::string>& names,
+                   const std::vector<LeftOver>& all, const Place& place) {
   std::vector<Sum> sums(names.size());
   for (const LeftOver& one : all) {
     const int at = place(one);
@@ -85,8 +87,8 @@ WhereTable tableBy(const std::string& by, const std::vector<std::string>& names,
 
 /// One row a direction; `axes(one)` has them as columns of the frame at hand.
 template <class Axes>
-WhereTable tableAlong(const std::string& by, const std::vector<std::string>& names, const std::vector<LeftOver>& all,
-                      const Axes& axes) {
+WhereTable tableAlong(const std::string& by, const std::vector<std::string>& names,
+                      const std::vector<LeftOver>& all, const Axes& axes) {
   std::vector<Sum> sums(names.size());
   for (const LeftOver& one : all) {
     const Eigen::Matrix3d frame = axes(one);
@@ -102,7 +104,8 @@ WhereTable tableAlong(const std::string& by, const std::vector<std::string>& nam
 }
 
 Eigen::Matrix3d beamAxes(const GapFit& fit, const GapInput& input, const Eigen::Vector3d& point) {
-  const Eigen::Isometry3d from_points = fit.state.geometry.r0_from_loading.value_or(fit.state.at.r0_from_base_link);
+  const Eigen::Isometry3d from_points =
+      fit.state.geometry.r0_from_loading.value_or(fit.state.at.r0_from_base_link);
   const Eigen::Vector3d along = (point - from_points * input.noise.station).normalized();
   Eigen::Matrix3d axes;
   axes.col(0) = along;
@@ -111,15 +114,17 @@ Eigen::Matrix3d beamAxes(const GapFit& fit, const GapInput& input, const Eigen::
   return axes;
 }
 
-std::vector<WhereTable> commonTables(const GapInput& input, const GapFit& fit, const std::vector<LeftOver>& all) {
+std::vector<WhereTable> commonTables(const GapInput& input, const GapFit& fit,
+                                     const std::vector<LeftOver>& all) {
   std::vector<WhereTable> tables;
   std::vector<std::string> reflectors;
   for (const Target& target : input.campaign.targets) reflectors.push_back(target.id);
   tables.push_back(tableBy("reflector", reflectors, all, [](const LeftOver& one) { return one.target; }));
   tables.push_back(tableAlong("base axes", {"x0", "y0", "z0"}, all,
                               [](const LeftOver&) { return Eigen::Matrix3d(Eigen::Matrix3d::Identity()); }));
-  tables.push_back(tableAlong("flange axes", {"x", "y", "z"}, all,
-                              [](const LeftOver& one) { return Eigen::Matrix3d(one.state->flange.linear()); }));
+  tables.push_back(tableAlong("flange axes", {"x", "y", "z"}, all, [](const LeftOver& one) {
+    return Eigen::Matrix3d(one.state->flange.linear());
+  }));
   tables.push_back(tableAlong("tracker's beam", {"along", "across"}, all,
                               [&](const LeftOver& one) { return beamAxes(fit, input, one.point); }));
   tables.push_back(
@@ -137,7 +142,8 @@ WhereTable byJoint(const GapFit& fit, const Eigen::VectorXd& parameters, const s
       const Eigen::Index per_state = posture.states.front().rows();
       for (std::size_t s = 1; s < posture.states.size(); ++s) {
         const Eigen::Index at = posture.position_rows + static_cast<Eigen::Index>(s - 1) * per_state;
-        const Eigen::VectorXd column = byEachJoint(posture.states[s], Vector6d::Unit(joint)).col(joint).normalized();
+        const Eigen::VectorXd column =
+            byEachJoint(posture.states[s], Vector6d::Unit(joint)).col(joint).normalized();
         const double noise = column.dot(posture.noise.block(at, at, per_state, per_state) * column);
         const double along = column.dot(left.segment(at, per_state));
         sum.squares += along * along;
@@ -153,7 +159,8 @@ WhereTable byJoint(const GapFit& fit, const Eigen::VectorXd& parameters, const s
 
 }  // namespace
 
-std::vector<WhereTable> whereDeflection(const GapInput& input, const GapFit& fit, const Eigen::VectorXd& parameters) {
+std::vector<WhereTable> whereDeflection(const GapInput& input, const GapFit& fit,
+                                        const Eigen::VectorXd& parameters) {
   const std::vector<LeftOver> all = leftOvers(fit, parameters, true);
   std::vector<WhereTable> tables = commonTables(input, fit, all);
   tables.insert(tables.begin(), byJoint(fit, parameters, all));
@@ -176,7 +183,8 @@ std::vector<WhereTable> whereDeflection(const GapInput& input, const GapFit& fit
   return tables;
 }
 
-std::vector<WhereTable> wherePosition(const GapInput& input, const GapFit& fit, const Eigen::VectorXd& parameters) {
+std::vector<WhereTable> wherePosition(const GapInput& input, const GapFit& fit,
+                                      const Eigen::VectorXd& parameters) {
   const std::vector<LeftOver> all = leftOvers(fit, parameters, false);
   if (all.empty()) return {};
   return commonTables(input, fit, all);

@@ -21,7 +21,8 @@
 namespace stiffscope {
 namespace {
 
-constexpr double kRounding = 1e-9;  // m per unit parameter times lever and load: far below a micrometre of the field
+constexpr double kRounding =
+    1e-9;  // m per unit parameter times lever and load: far below a micrometre of the field
 
 /// A state of the example arm with a load on the tool, no own weight.
 struct Bench {
@@ -48,18 +49,23 @@ struct Bench {
     return one;
   }
   PostureStates outAndBack() const { return {state(0.0), state(0.5), state(1.0), state(0.0)}; }
-  Eigen::Vector3d jointOrigin(int j) const { return chain.framesAt(q)[static_cast<std::size_t>(j)].translation(); }
+  Eigen::Vector3d jointOrigin(int j) const {
+    return chain.framesAt(q)[static_cast<std::size_t>(j)].translation();
+  }
   Eigen::Vector3d jointAxis(int j) const {
     return chain.framesAt(q)[static_cast<std::size_t>(j)].linear() * chain.axis[static_cast<std::size_t>(j)];
   }
-  Eigen::Vector3d momentAt(const Eigen::Vector3d& x) const { return load.moment + (load.point - x).cross(load.force); }
+  Eigen::Vector3d momentAt(const Eigen::Vector3d& x) const {
+    return load.moment + (load.point - x).cross(load.force);
+  }
 };
 
 TEST(BearingTilt, TurnsAcrossTheAxisByTheMomentThere) {
   const Bench bench;
   const Eigen::MatrixXd field = bearingTilt().columns(bench.at, bench.outAndBack(), 2);
   for (int j = 0; j < 6; ++j) {
-    const Eigen::Vector3d origin = bench.jointOrigin(j), axis = bench.jointAxis(j), moment = bench.momentAt(origin);
+    const Eigen::Vector3d origin = bench.jointOrigin(j), axis = bench.jointAxis(j),
+                          moment = bench.momentAt(origin);
     const Eigen::Vector3d across = moment - axis * axis.dot(moment);
     for (int t = 0; t < 2; ++t) {
       const Eigen::Vector3d expected = across.cross(bench.points[static_cast<std::size_t>(t)] - origin);
@@ -69,8 +75,9 @@ TEST(BearingTilt, TurnsAcrossTheAxisByTheMomentThere) {
   }
 }
 
-// With wrist axes that meet and the tilt taken at the wrist, the tilt of axis 4 has two directions: one is joint 5's own,
-// driven by joint 5's own torque. A load without a moment about the other direction leaves nothing else.
+// With wrist axes that meet and the tilt taken at the wrist, the tilt of axis 4 has two directions: one is
+// joint 5's own, driven by joint 5's own torque. A load without a moment about the other direction leaves
+// nothing else.
 TEST(BearingTilt, OfAxis4IsJoint5sOwnComplianceInASphericalWrist) {
   Bench bench;
   const auto frames = bench.chain.framesAt(bench.q);
@@ -94,8 +101,8 @@ TEST(LinkCompliance, IsACantileverAtItsTip) {
   const Eigen::MatrixXd field = linkCompliance().columns(bench.at, bench.outAndBack(), 2);
   const double length = 1.12;
   const Eigen::Vector3d bend = field.block<3, 1>(0, 2), beyond = field.block<3, 1>(3, 2);
-  EXPECT_NEAR(bend.x(), 1000.0 * std::pow(length, 3) / 3.0, 1e-6);               // F L^3 / 3
-  EXPECT_NEAR(beyond.x() - bend.x(), 1000.0 * length * length / 2.0, 1e-6);      // slope F L^2 / 2 over 1 m
+  EXPECT_NEAR(bend.x(), 1000.0 * std::pow(length, 3) / 3.0, 1e-6);           // F L^3 / 3
+  EXPECT_NEAR(beyond.x() - bend.x(), 1000.0 * length * length / 2.0, 1e-6);  // slope F L^2 / 2 over 1 m
   const Eigen::Vector3d twist = field.block<3, 1>(0, 3);
   EXPECT_LT(twist.norm(), 1e-9);  // leaves the tip where it is
 }
@@ -116,7 +123,8 @@ TEST(JointCoupling, IsReciprocal) {
 TEST(JointHardening, TakesTheCubeOfTheTorque) {
   const Bench bench;
   const PostureStates posture = bench.outAndBack();
-  const Eigen::MatrixXd half = jointHardening().columns(bench.at, posture, 1), full = jointHardening().columns(bench.at, posture, 2);
+  const Eigen::MatrixXd half = jointHardening().columns(bench.at, posture, 1),
+                        full = jointHardening().columns(bench.at, posture, 2);
   EXPECT_LT((full - 8.0 * half).norm(), 1e-9 * full.norm());
   const Eigen::MatrixXd other = jointHardeningLinear().columns(bench.at, posture, 2);
   EXPECT_LT((other - 4.0 * jointHardeningLinear().columns(bench.at, posture, 1)).norm(), 1e-9 * other.norm());
@@ -135,7 +143,8 @@ TEST(Hysteresis, LagsOutAndBackByTheFriction) {
   Bench bench;
   bench.at.friction.setConstant(10.0);
   const PostureStates posture = bench.outAndBack();
-  const JointAngles out = hysteresis().angles(bench.at, posture, 2), back = hysteresis().angles(bench.at, posture, 3);
+  const JointAngles out = hysteresis().angles(bench.at, posture, 2),
+                    back = hysteresis().angles(bench.at, posture, 3);
   for (int j = 0; j < 6; ++j) {
     const double torque = posture[2].load_torque[j];
     if (std::abs(torque) < 20.0) continue;  // sticks on the way back
@@ -146,14 +155,16 @@ TEST(Hysteresis, LagsOutAndBackByTheFriction) {
   EXPECT_EQ(hysteresis().angles(bench.at, posture, 0).norm(), 0.0);
 }
 
-// A load point that is off by r changes the moment by (R r) x F: the same as the field of the moved wrench less the declared.
+// A load point that is off by r changes the moment by (R r) x F: the same as the field of the moved wrench
+// less the declared.
 TEST(LoadPointError, IsTheMovedWrenchThroughTheSprings) {
   const Bench bench;
   const PostureStates posture = bench.outAndBack();
   const Eigen::Vector3d off(0.02, -0.01, 0.03);
   const Eigen::VectorXd field = loadPointError().columns(bench.at, posture, 2) * off;
   const Eigen::Vector3d moved = bench.load.point + posture[2].flange.linear() * off;
-  const Vector6d change = bench.chain.torqueOf(bench.q, 6, moved, bench.load.force, bench.load.moment) - posture[2].load_torque;
+  const Vector6d change =
+      bench.chain.torqueOf(bench.q, 6, moved, bench.load.force, bench.load.moment) - posture[2].load_torque;
   const Eigen::VectorXd expected = byJoints(posture[2], bench.at.compliance.cwiseProduct(change));
   EXPECT_LT((field - expected).norm(), 1e-9 * expected.norm());
 }
@@ -180,7 +191,8 @@ TEST(EffectTable, NothingMovesWithoutACause) {
     if (model.effect == Effect::gravity_compensator) continue;  // a spring pulls always
     EXPECT_EQ(field.norm(), 0.0) << idOf(model.effect);
   }
-  listed[static_cast<std::size_t>(Effect::kinematic_error)] = true;  // held against the nominal geometry, see effect_table.h
+  listed[static_cast<std::size_t>(Effect::kinematic_error)] =
+      true;  // held against the nominal geometry, see effect_table.h
   for (std::size_t e = 0; e < kEffectCount; ++e) EXPECT_TRUE(listed[e]) << kEffectIds[e];
 }
 

@@ -56,8 +56,7 @@ class Practice : public testing::TestWithParam<Answer> {};
 
 TEST_P(Practice, VerdictIsTheAnswer) {
   const Answer& answer = GetParam();
-  const Diagnosis diagnosis =
-      diagnose(readCampaign(shared("practice/" + answer.campaign)).campaign, quick());
+  const Diagnosis diagnosis = diagnose(readCampaign(shared("practice/" + answer.campaign)).campaign, quick());
   ASSERT_TRUE(diagnosis.usable) << diagnosis.unusable_reason;
   std::set<std::string> found;
   bool detail = answer.detail.empty();
@@ -74,7 +73,9 @@ TEST_P(Practice, VerdictIsTheAnswer) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Campaigns, Practice, testing::ValuesIn(answers()),
-                         [](const testing::TestParamInfo<Answer>& info) { return "c" + info.param.campaign; });
+                         [](const testing::TestParamInfo<Answer>& info) {
+                           return "c" + info.param.campaign;
+                         });
 GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(Practice);
 
 TEST(RealCable, ClaimsNoMoreThanATiltOrABendAndSaysThatMostIsUnknown) {
@@ -100,8 +101,8 @@ TEST(RealCable, ClaimsNoMoreThanATiltOrABendAndSaysThatMostIsUnknown) {
   // One point, one load step, displacements only.
   std::set<Effect> not_testable;
   for (const NotTestable& one : diagnosis.not_testable) not_testable.insert(one.effect);
-  for (const Effect effect : {Effect::joint_hardening, Effect::hysteresis, Effect::target_motion, Effect::frame_error,
-                              Effect::kinematic_error, Effect::tracker_drift}) {
+  for (const Effect effect : {Effect::joint_hardening, Effect::hysteresis, Effect::target_motion,
+                              Effect::frame_error, Effect::kinematic_error, Effect::tracker_drift}) {
     EXPECT_TRUE(not_testable.count(effect)) << idOf(effect);
   }
 }

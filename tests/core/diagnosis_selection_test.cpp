@@ -13,8 +13,8 @@ namespace {
 /// Six effects of two models each would hide what is tested: one model an effect, three parts of one column.
 std::vector<EffectModel> models() {
   std::vector<EffectModel> all;
-  for (const Effect effect : {Effect::link_compliance, Effect::bearing_tilt, Effect::base_compliance, Effect::joint_coupling,
-                              Effect::joint_hardening, Effect::backlash}) {
+  for (const Effect effect : {Effect::link_compliance, Effect::bearing_tilt, Effect::base_compliance,
+                              Effect::joint_coupling, Effect::joint_hardening, Effect::backlash}) {
     EffectModel model;
     model.effect = effect;
     for (int part = 0; part < 3; ++part) model.parts.push_back({std::to_string(part), {1e6}, false, "1"});
@@ -62,9 +62,11 @@ TEST(Projection, IsLeastSquaresWithTheNuisancesIn) {
   const Eigen::VectorXd right = white(noise);
   const Projection projection = made.projection(right);
   const std::vector<Eigen::Index> some{2, 7, 11};
-  const SubsetFit fit = fitSubset(projection, some, {false, false, false}, Eigen::VectorXd::Zero(Made::kEffects));
+  const SubsetFit fit =
+      fitSubset(projection, some, {false, false, false}, Eigen::VectorXd::Zero(Made::kEffects));
   Eigen::MatrixXd all(Made::kRows, Made::kNuisances + 3);
-  all << made.columns.leftCols(Made::kNuisances), made.columns.col(8), made.columns.col(13), made.columns.col(17);
+  all << made.columns.leftCols(Made::kNuisances), made.columns.col(8), made.columns.col(13),
+      made.columns.col(17);
   const Eigen::VectorXd direct = all.colPivHouseholderQr().solve(right);
   EXPECT_LT((fit.value - direct.tail(3)).norm(), 1e-8);  // the ridge of 1e-12 and rounding
   EXPECT_NEAR(projection.chi2_none - fit.drop, (right - all * direct).squaredNorm(), 1e-6);
@@ -80,8 +82,9 @@ TEST(Projection, ACompliancesSignIsKept) {
   EXPECT_EQ(fit.drop, 0.0);
 }
 
-// 10 units of BIC beyond the price of the search (24 postures): chi-square of one degree must exceed 22 somewhere in 18
-// columns, a chance of 5e-5; 300 clean draws see none in all but one of sixty runs, and the seed is fixed.
+// 10 units of BIC beyond the price of the search (24 postures): chi-square of one degree must exceed 22
+// somewhere in 18 columns, a chance of 5e-5; 300 clean draws see none in all but one of sixty runs, and the
+// seed is fixed.
 TEST(Selector, CleanNoiseHasNoEffect) {
   Noise noise(7);
   const auto table = models();
@@ -116,7 +119,8 @@ TEST(Selector, FindsBothOfTwo) {
 TEST(Selector, AColumnThatTheStiffnessesSoakUpIsNotTried) {
   Noise noise(9);
   Made made(noise);
-  made.columns.col(6) = made.columns.col(0) + 1e-3 * made.columns.col(6);  // a millionth of its squares is its own
+  made.columns.col(6) =
+      made.columns.col(0) + 1e-3 * made.columns.col(6);  // a millionth of its squares is its own
   const auto table = models();
   std::vector<bool> only(table.size(), false);
   only[0] = true;

@@ -18,7 +18,8 @@ Eigen::MatrixXd offset(const WorkingPoint& at, const PostureStates& posture, std
 }  // namespace
 
 EffectModel frameError() {
-  return {Effect::frame_error, "", {{"", {0.1, 0.1, 0.1, 0.1, 0.1, 0.1}, false, "rad, m"}}, 1, &offset, nullptr};
+  return {
+      Effect::frame_error, "", {{"", {0.1, 0.1, 0.1, 0.1, 0.1, 0.1}, false, "rad, m"}}, 1, &offset, nullptr};
 }
 
 }  // namespace stiffscope

@@ -23,6 +23,8 @@ JointAngles angles(const WorkingPoint& at, const PostureStates& posture, std::si
 
 }  // namespace
 
-EffectModel hysteresis() { return {Effect::hysteresis, "", jointParts(20e-3, true, "rad"), 6, nullptr, &angles}; }
+EffectModel hysteresis() {
+  return {Effect::hysteresis, "", jointParts(20e-3, true, "rad"), 6, nullptr, &angles};
+}
 
 }  // namespace stiffscope

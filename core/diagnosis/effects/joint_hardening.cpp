@@ -17,13 +17,21 @@ JointAngles square(const WorkingPoint&, const PostureStates& posture, std::size_
 }  // namespace
 
 EffectModel jointHardening() {
-  return {Effect::joint_hardening, "stiffness with the square of the torque", jointParts(1e-6, false, "rad/Nm^3"),
-          6, nullptr, &cubic};
+  return {Effect::joint_hardening,
+          "stiffness with the square of the torque",
+          jointParts(1e-6, false, "rad/Nm^3"),
+          6,
+          nullptr,
+          &cubic};
 }
 
 EffectModel jointHardeningLinear() {
-  return {Effect::joint_hardening, "stiffness with the size of the torque", jointParts(1e-6, false, "rad/Nm^2"), 6,
-          nullptr, &square};
+  return {Effect::joint_hardening,
+          "stiffness with the size of the torque",
+          jointParts(1e-6, false, "rad/Nm^2"),
+          6,
+          nullptr,
+          &square};
 }
 
 }  // namespace stiffscope

@@ -22,9 +22,8 @@ Eigen::MatrixXd offset(const WorkingPoint&, const PostureStates& posture, std::s
     const Eigen::Vector3d force = load.force - along * along.dot(load.force);
     const Eigen::Vector3d moment = load.moment - along * along.dot(load.moment);
     const double square = length * length;
-    columns.col(2 * link) =
-        byMotion(state, tip, square / 2.0 * along.cross(force) + length * moment,
-                 square * length / 3.0 * force + square / 2.0 * moment.cross(along));
+    columns.col(2 * link) = byMotion(state, tip, square / 2.0 * along.cross(force) + length * moment,
+                                     square * length / 3.0 * force + square / 2.0 * moment.cross(along));
     columns.col(2 * link + 1) =
         byMotion(state, tip, length * along * along.dot(load.moment), Eigen::Vector3d::Zero());
   }

@@ -24,11 +24,17 @@ Eigen::MatrixXd alongGravity(const WorkingPoint& at, const PostureStates& postur
 }  // namespace
 
 EffectModel loadCellBias() {
-  return {Effect::load_cell_bias, "constant in the cell's axes", {{"", {2e3, 2e3, 2e3}, false, "N"}}, 1, &inCell, nullptr};
+  return {Effect::load_cell_bias,
+          "constant in the cell's axes",
+          {{"", {2e3, 2e3, 2e3}, false, "N"}},
+          1,
+          &inCell,
+          nullptr};
 }
 
 EffectModel loadCellMissingWeight() {
-  return {Effect::load_cell_bias, "constant along gravity", {{"", {2e3}, false, "N"}}, 1, &alongGravity, nullptr};
+  return {
+      Effect::load_cell_bias, "constant along gravity", {{"", {2e3}, false, "N"}}, 1, &alongGravity, nullptr};
 }
 
 }  // namespace stiffscope

@@ -9,8 +9,8 @@ Eigen::MatrixXd offset(const WorkingPoint& at, const PostureStates& posture, std
   Eigen::MatrixXd columns(state.rows(), 3);
   for (int k = 0; k < 3; ++k) {
     const Eigen::Vector3d axis = state.cell_axes.col(k);
-    columns.col(k) = bySprings(
-        at, state, {state.load.point, axis.cross(state.load.force), axis.cross(state.load.moment)});
+    columns.col(k) =
+        bySprings(at, state, {state.load.point, axis.cross(state.load.force), axis.cross(state.load.moment)});
   }
   return columns;
 }

@@ -12,8 +12,10 @@ Eigen::MatrixXd offset(const WorkingPoint& at, const PostureStates& posture, std
   if (!std::isfinite(state.time_s)) return columns;
   const double since = (state.time_s - at.sweep_time) / at.time_span;
   for (int k = 0; k < 3; ++k) {
-    columns.col(k) = since * byMotion(state, at.epoch_centre, Eigen::Vector3d::Unit(k), Eigen::Vector3d::Zero());
-    columns.col(3 + k) = since * byMotion(state, at.epoch_centre, Eigen::Vector3d::Zero(), Eigen::Vector3d::Unit(k));
+    columns.col(k) =
+        since * byMotion(state, at.epoch_centre, Eigen::Vector3d::Unit(k), Eigen::Vector3d::Zero());
+    columns.col(3 + k) =
+        since * byMotion(state, at.epoch_centre, Eigen::Vector3d::Zero(), Eigen::Vector3d::Unit(k));
   }
   return columns;
 }
@@ -21,7 +23,12 @@ Eigen::MatrixXd offset(const WorkingPoint& at, const PostureStates& posture, std
 }  // namespace
 
 EffectModel trackerDrift() {
-  return {Effect::tracker_drift, "", {{"", {0.05, 0.05, 0.05, 0.05, 0.05, 0.05}, false, "rad, m"}}, 1, &offset, nullptr};
+  return {Effect::tracker_drift,
+          "",
+          {{"", {0.05, 0.05, 0.05, 0.05, 0.05, 0.05}, false, "rad, m"}},
+          1,
+          &offset,
+          nullptr};
 }
 
 }  // namespace stiffscope
