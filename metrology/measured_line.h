@@ -17,6 +17,13 @@ struct MeasuredLine {
 
   /// The line moved by a small step of its four parameters.
   Line moved(const Eigen::Vector4d& step) const;
+
+  /// The same line directed the other way: its tilts change their sign, so that their covariance with the shifts does.
+  MeasuredLine reversed() const;
+
+  /// The four parameters that bring the line onto another nearby, whichever way that one is directed: what `moved`
+  /// undoes.
+  Eigen::Vector4d stepTo(const Line& other) const;
 };
 
 /// Two unit vectors that make a right-handed frame (u, v, direction).

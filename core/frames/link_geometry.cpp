@@ -3,7 +3,6 @@
 #include <numbers>
 
 #include "metrology/common_perpendicular.h"
-#include "metrology/line_pair_uncertainty.h"
 
 namespace stiffscope {
 
@@ -11,22 +10,13 @@ namespace {
 
 constexpr double kNearParallel = std::numbers::pi / 180.0;
 
+}  // namespace
+
 Eigen::Vector3d hayatiPoint(const std::array<Line, 6>& axes, std::size_t first) {
   return first == 0 ? axes[0].point : commonPerpendicular(axes[first - 1], axes[first]).foot_on_second;
 }
 
-MeasuredLine inR0(const Eigen::Isometry3d& r0_from_points, const MeasuredLine& line) {
-  MeasuredLine moved = line;
-  moved.line = {r0_from_points * line.line.point, r0_from_points.linear() * line.line.direction};
-  moved.across_u = r0_from_points.linear() * line.across_u;
-  moved.across_v = r0_from_points.linear() * line.across_v;
-  return moved;
-}
-
-}  // namespace
-
-std::array<LinkGeometry, 5> linkGeometry(const Robot& nominal, const ArmInR0& arm,
-                                         const std::array<MeasuredAxis, 6>& axes) {
+std::array<LinkGeometry, 5> linkGeometry(const Robot& nominal, const ArmInR0& arm) {
   std::array<LinkGeometry, 5> links;
   const auto& actual = arm.arm.axes_in_base_at_zero;
   const auto& urdf = nominal.axes_in_base_at_zero;
@@ -43,12 +33,6 @@ std::array<LinkGeometry, 5> linkGeometry(const Robot& nominal, const ArmInR0& ar
       link.distance = commonPerpendicular(actual[i], actual[i + 1]).distance;
       link.nominal_distance = commonPerpendicular(urdf[i], urdf[i + 1]).distance;
     }
-    if (!axes[i].measured || !axes[i + 1].measured || !arm.points_placed) continue;
-    const MeasuredLine first = inR0(arm.r0_from_points, axes[i].at_zero);
-    const MeasuredLine second = inR0(arm.r0_from_points, axes[i + 1].at_zero);
-    link.angle_sd = angleUncertainty(first, second);
-    link.distance_sd = link.near_parallel ? distanceAcrossUncertainty(first, second, link.at_point_in_r0)
-                                          : distanceUncertainty(first, second);
   }
   return links;
 }

@@ -13,8 +13,10 @@ struct LinkGeometry {
   double angle = 0.0;     ///< rad, 0..pi/2
   bool near_parallel = false;  ///< within a degree: `distance` is that across the first axis at `at_point`
   Eigen::Vector3d at_point_in_r0 = Eigen::Vector3d::Zero();  ///< on the first axis; only meant for near_parallel
-  std::optional<double> distance_sd;  ///< standard uncertainty; empty where an axis was not measured
-  std::optional<double> angle_sd;
+  /// Standard uncertainties by FramesCovariance; empty where an axis was not measured.
+  std::optional<double> distance_sd, angle_sd;
+  double distance_sag_sd = 0.0;  ///< what of distance_sd comes from the stiffnesses by which the sag was taken off, m
+  double distance_by_sag = 0.0;  ///< how far taking off the sag moved the distance, m: an error of its model is of this
   double nominal_distance = 0.0;  ///< of the URDF, by the same rule
   double nominal_angle = 0.0;
 };
@@ -22,7 +24,9 @@ struct LinkGeometry {
 /// Link i between axes i+1 and i+2 of the arm (paper, II.D: link lengths by circle-point). For axes within a degree of
 /// parallel the common perpendicular's place is undetermined: their distance is taken in the plane normal to the first,
 /// at the foot on it of the common perpendicular with the axis before (Hayati).
-std::array<LinkGeometry, 5> linkGeometry(const Robot& nominal, const ArmInR0& arm,
-                                         const std::array<MeasuredAxis, 6>& axes);
+std::array<LinkGeometry, 5> linkGeometry(const Robot& nominal, const ArmInR0& arm);
+
+/// Where on axis `first` the distance to a nearly parallel next one is taken.
+Eigen::Vector3d hayatiPoint(const std::array<Line, 6>& axes, std::size_t first);
 
 }  // namespace stiffscope

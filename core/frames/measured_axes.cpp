@@ -6,6 +6,8 @@
 #include <cmath>
 #include <map>
 
+#include "core/frames/axes_covariance.h"
+
 namespace stiffscope {
 
 namespace {
@@ -71,28 +73,36 @@ double scatterTurnedBack(const Sweep& sweep, const Line& axis, double sense) {
   return scatter;
 }
 
-void moveBy(const Eigen::Isometry3d& motion, MeasuredLine& line) {
-  line.line = {motion * line.line.point, motion.linear() * line.line.direction};
-  line.across_u = motion.linear() * line.across_u;
-  line.across_v = motion.linear() * line.across_v;
-}
-
 /// Turns the measured axis back through the axes before it; false with the reason where one of those is unknown.
-bool turnBackToZero(const std::array<MeasuredAxis, 6>& axes, const Vector6d& q, int axis, MeasuredAxis& measured) {
+bool turnBackToZero(const std::array<MeasuredAxis, 6>& axes, int axis, MeasuredAxis& measured) {
+  Eigen::Isometry3d back = Eigen::Isometry3d::Identity();
   for (int before = 0; before < axis; ++before) {
-    if (q[before] == 0.0) continue;
+    if (measured.swept_at[before] == 0.0) continue;
     const MeasuredAxis& earlier = axes[static_cast<std::size_t>(before)];
     if (!earlier.measured) {
       measured.reason = fmt::format("axis {} stood away from zero during its sweep and is not measured itself",
                                     before + 1);
       return false;
     }
-    moveBy(turnAbout(earlier.at_zero.line, -q[before]), measured.at_zero);
+    back = turnAbout(earlier.at_zero.line, -measured.swept_at[before]) * back;
   }
+  MeasuredLine& line = measured.at_zero;
+  line = measured.as_swept;
+  line.line = {back * line.line.point, back.linear() * line.line.direction};
+  line.across_u = back.linear() * line.across_u;
+  line.across_v = back.linear() * line.across_v;
   return true;
 }
 
 }  // namespace
+
+Line turnedBack(const std::vector<Line>& axes_at_zero, const Vector6d& q, Line line) {
+  for (std::size_t before = 0; before < axes_at_zero.size(); ++before) {
+    const Eigen::Isometry3d back = turnAbout(axes_at_zero[before], -q[static_cast<Eigen::Index>(before)]);
+    line = {back * line.point, back.linear() * line.direction};
+  }
+  return line;
+}
 
 TrackerNoise trackerNoise(const Tracker& tracker) {
   return {tracker.range_fixed, tracker.range_per_m, tracker.angle_fixed, tracker.angle_per_m, tracker.station};
@@ -121,10 +131,18 @@ std::array<MeasuredAxis, 6> measureAxes(const Campaign& campaign, const RigidPoi
       measured.reason = measured.fit.reason;
       continue;
     }
-    measured.at_zero = measured.fit.axis;
-    Line& line = measured.at_zero.line;
-    if (scatterTurnedBack(sweep, line, -1.0) < scatterTurnedBack(sweep, line, 1.0)) line.direction = -line.direction;
-    measured.measured = turnBackToZero(axes, sweep.q, axis, measured);
+    measured.swept_at = sweep.q;
+    measured.as_swept = measured.fit.axis;
+    const Line& line = measured.as_swept.line;
+    if (scatterTurnedBack(sweep, line, -1.0) < scatterTurnedBack(sweep, line, 1.0)) {
+      measured.as_swept = measured.as_swept.reversed();
+    }
+    measured.measured = turnBackToZero(axes, axis, measured);
+  }
+  const AxesCovariance covariance = axesCovariance(axes);
+  for (std::size_t axis = 0; axis < axes.size(); ++axis) {
+    const auto at = static_cast<Eigen::Index>(4 * axis);
+    axes[axis].at_zero.covariance = covariance.block<4, 4>(at, at);
   }
   return axes;
 }

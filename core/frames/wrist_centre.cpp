@@ -5,7 +5,6 @@
 
 #include "core/robot/kinematics.h"
 #include "metrology/common_perpendicular.h"
-#include "metrology/line_pair_uncertainty.h"
 
 namespace stiffscope {
 
@@ -58,8 +57,8 @@ void fillTable(const SweepOfTargets& sweep, WristCentre& wrist) {
   for (std::size_t k = 0; k < sweep.spheres.size(); ++k) {
     const SphereFit own = fitSpheres({sweep.spheres[k]});
     if (!own.determined) continue;
-    wrist.table.push_back({sweep.targets[k], own.centre, own.radii[0], 0.0, own.rms,
-                           static_cast<int>(sweep.spheres[k].points.size())});
+    wrist.table.push_back({sweep.targets[k], own.centre, own.covariance.topLeftCorner<3, 3>(), own.radii[0], 0.0,
+                           own.rms, static_cast<int>(sweep.spheres[k].points.size())});
     wrist.table_mean_in_r0 += own.centre;
   }
   if (wrist.table.empty()) return;
@@ -67,31 +66,23 @@ void fillTable(const SweepOfTargets& sweep, WristCentre& wrist) {
   for (WristTableRow& row : wrist.table) row.offset = (row.centre_in_r0 - wrist.table_mean_in_r0).norm();
 }
 
-void compareWithAxes(const ArmInR0& arm, const std::array<MeasuredAxis, 6>& axes, const ArmPosture& posture,
-                     WristCentre& wrist) {
+void compareWithAxes(const ArmInR0& arm, const ArmPosture& posture, WristCentre& wrist) {
   const Line axis_4 = axisAt(arm.arm, posture, 3), axis_5 = axisAt(arm.arm, posture, 4),
              axis_6 = axisAt(arm.arm, posture, 5);
   const CommonPerpendicular wrist_56 = commonPerpendicular(axis_5, axis_6);
   wrist.nearest_axes_56_in_r0 = 0.5 * (wrist_56.foot_on_first + wrist_56.foot_on_second);
   wrist.miss_45 = commonPerpendicular(axis_4, axis_5).distance;
   wrist.miss_56 = wrist_56.distance;
-  if (axes[3].measured && axes[4].measured) {
-    wrist.miss_45_sd = distanceUncertainty(axes[3].at_zero, axes[4].at_zero);
-  }
-  if (axes[4].measured && axes[5].measured) {
-    wrist.miss_56_sd = distanceUncertainty(axes[4].at_zero, axes[5].at_zero);
-  }
 }
 
 }  // namespace
 
-WristCentre measureWristCentre(const Campaign& campaign, const ArmInR0& arm, const std::array<MeasuredAxis, 6>& axes,
-                               const RigidPoints& points,
+WristCentre measureWristCentre(const Campaign& campaign, const ArmInR0& arm, const RigidPoints& points,
                                const std::vector<std::optional<Eigen::Vector3d>>& targets_at_zero) {
   WristCentre wrist;
   if (campaign.wrist_sweep) wrist.q.head<3>() = campaign.wrist_sweep->rows.front().q.head<3>();
   const ArmPosture posture = postureAt(arm.arm, wrist.q);
-  compareWithAxes(arm, axes, posture, wrist);
+  compareWithAxes(arm, posture, wrist);
   int seen = 0;
   for (const auto& target : targets_at_zero) {
     if (target) wrist.reflector_barycentre_in_r0 += posture.motion[6] * *target, ++seen;
@@ -126,7 +117,7 @@ WristCentre measureWristCentre(const Campaign& campaign, const ArmInR0& arm, con
     return wrist;
   }
   wrist.centre_in_r0 = wrist.spheres.centre;
-  wrist.covariance = wrist.spheres.covariance.topLeftCorner<3, 3>();
+  wrist.targets = sweep.targets;
   wrist.centre_at_zero_in_r0 = posture.motion[3].inverse() * wrist.centre_in_r0;
   wrist.radii.assign(campaign.targets.size(), std::numeric_limits<double>::quiet_NaN());
   for (std::size_t k = 0; k < sweep.targets.size(); ++k) {

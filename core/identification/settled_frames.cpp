@@ -5,15 +5,20 @@
 
 namespace stiffscope {
 
-Vector6d sagCompliance(const Campaign& campaign, const IdentifyOptions& options, LoadedArm& arm) {
+StiffnessEstimate sagStiffness(const Campaign& campaign, const IdentifyOptions& options, LoadedArm& arm) {
   const JointMask seen =
       judgeJoints(arm.geometry, arm.cases, *campaign.load_cell, reflectorEquations(arm), options.trust)
           .mask();
-  const StiffnessEstimate estimate = solveSettled(arm, options.finite_deflection, [&](const LoadedArm& now) {
+  StiffnessEstimate estimate = solveSettled(arm, options.finite_deflection, [&](const LoadedArm& now) {
     return now.wrist.empty() ? partialPose(reflectorEquations(now), seen)
                              : decoupledPartialPose(wristPointEquations(now), reflectorEquations(now), seen);
   });
-  return estimate.compliance.cwiseMax(0.0);  // a negative compliance would lift the arm
+  estimate.compliance = estimate.compliance.cwiseMax(0.0);  // a negative compliance would lift the arm
+  return estimate;
+}
+
+Vector6d sagCompliance(const Campaign& campaign, const IdentifyOptions& options, LoadedArm& arm) {
+  return sagStiffness(campaign, options, arm).compliance;
 }
 
 SettledFrames settleFrames(const Campaign& campaign, int step, const IdentifyOptions& options) {
@@ -27,8 +32,11 @@ SettledFrames settleFrames(const Campaign& campaign, int step, const IdentifyOpt
   for (int round = 0; round < kSagRounds && settled.frames.weight.links_known; ++round) {
     LoadedArm arm = armNow(nullptr);
     if (arm.cases.empty()) break;
-    compliance = sagCompliance(campaign, options, arm);
-    settled.frames = refineFrames(campaign, settled.frames, compliance);
+    const StiffnessEstimate springs = sagStiffness(campaign, options, arm);
+    compliance = springs.compliance;
+    const bool last = round + 1 == kSagRounds;  // earlier rounds' uncertainties nobody sees
+    settled.frames = refineFrames(campaign, settled.frames, compliance,
+                                  last ? std::optional(springs.covariance) : std::nullopt);
   }
   settled.arm = armNow(&settled.left_out);
   return settled;

@@ -17,8 +17,11 @@ struct SettledFrames {
 /// masses, the rigid arm's frames.
 SettledFrames settleFrames(const Campaign& campaign, int step, const IdentifyOptions& options);
 
-/// Compliances of the springs that the own weight bends, from the loads: by the decoupled method where
-/// P_wrist is measured, else Partial Pose; none negative.
+/// The springs that the own weight bends, from the loads: by the decoupled method where P_wrist is measured, else
+/// Partial Pose; no compliance negative. The covariance is from the scatter between postures.
+StiffnessEstimate sagStiffness(const Campaign& campaign, const IdentifyOptions& options, LoadedArm& arm);
+
+/// The compliances of sagStiffness.
 Vector6d sagCompliance(const Campaign& campaign, const IdentifyOptions& options, LoadedArm& arm);
 
 /// Rounds in which sag and stiffnesses are found in turns.

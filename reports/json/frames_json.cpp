@@ -13,6 +13,31 @@ Json optionalNumber(const std::optional<double>& value, double factor) {
   return value ? number(*value * factor) : Json(nullptr);
 }
 
+template <class Derived>
+Json rows(const Eigen::MatrixBase<Derived>& matrix, double factor) {
+  Json list = Json::array();
+  for (Eigen::Index row = 0; row < matrix.rows(); ++row) {
+    list.push_back(array(Eigen::VectorXd(matrix.row(row).transpose()), factor));
+  }
+  return list;
+}
+
+/// Of R0's error in its own axes, and how the distances between axes go together: consecutive ones share an axis.
+void addCovariances(const Frames& frames, Json& json) {
+  if (!frames.arm.points_placed) {
+    json["r0_covariance"] = nullptr;
+    return;
+  }
+  const Eigen::MatrixXd total = frames.covariance.total();
+  json["r0_covariance"] = {
+      {"order", {"rotation_x_rad", "rotation_y_rad", "rotation_z_rad", "origin_x_m", "origin_y_m", "origin_z_m"}},
+      {"frame", "R0: rotation vector and origin of R0 as measured against the true one, in its own axes"},
+      {"matrix", rows(total.topLeftCorner<6, 6>(), 1.0)}};
+  json["link_lengths_covariance_mm2"] =
+      rows(total.block<5, 5>(FramesCovariance::kDistances, FramesCovariance::kDistances),
+           1.0 / (kMillimetre * kMillimetre));
+}
+
 Json circlesJson(const Campaign& campaign, const MeasuredAxis& axis) {
   Json circles = Json::array();
   for (std::size_t k = 0; k < axis.fit.circles.size(); ++k) {
@@ -51,6 +76,8 @@ Json linkJson(const Frames& frames, std::size_t i) {
             {"from", sourceOf(frames, {i, i + 1})},
             {"length_mm", link.distance / kMillimetre},
             {"sd_length_mm", optionalNumber(link.distance_sd, 1.0 / kMillimetre)},
+            {"sd_length_by_sag_stiffness_mm", number(link.distance_sag_sd / kMillimetre)},
+            {"length_moved_by_sag_mm", number(link.distance_by_sag / kMillimetre)},
             {"nominal_length_mm", link.nominal_distance / kMillimetre},
             {"angle_deg", link.angle / kDegree},
             {"sd_angle_deg", optionalNumber(link.angle_sd, 1.0 / kDegree)},
@@ -77,14 +104,26 @@ Json wristJson(const Campaign& campaign, const Frames& frames) {
   json["reflector_barycenter_m"] = array(wrist.reflector_barycentre_in_r0);
   if (!wrist.measured) return json;
   json["sd_center_um"] = array(Eigen::Vector3d(wrist.covariance.diagonal().cwiseSqrt()), 1.0 / kMicrometre);
-  Json radii = Json::object();
+  json["sd_mm"] = array(Eigen::Vector3d(wrist.covariance.diagonal().cwiseSqrt()), 1.0 / kMillimetre);
+  json["covariance_mm2"] = rows(wrist.covariance, 1.0 / (kMillimetre * kMillimetre));
+  json["covariance_of_readings_alone_mm2"] =
+      rows(wrist.spheres.covariance.topLeftCorner<3, 3>(), 1.0 / (kMillimetre * kMillimetre));
+  Json radii = Json::object(), radii_sd = Json::object();
   for (std::size_t k = 0; k < wrist.radii.size(); ++k) radii[campaign.targets[k].id] = number(wrist.radii[k] / kMillimetre);
+  for (std::size_t k = 0; k < wrist.targets.size(); ++k) {
+    const auto at = static_cast<Eigen::Index>(3 + k);
+    radii_sd[campaign.targets[static_cast<std::size_t>(wrist.targets[k])].id] =
+        number(std::sqrt(wrist.spheres.covariance(at, at)) / kMillimetre);
+  }
   json["radii_mm"] = radii;
+  json["sd_radii_mm"] = radii_sd;
   json["rms_um"] = wrist.spheres.rms / kMicrometre;
   Json table = Json::array();
   for (const WristTableRow& row : wrist.table) {
     table.push_back({{"target", campaign.targets[static_cast<std::size_t>(row.target)].id},
                      {"center_mm", array(row.centre_in_r0, 1.0 / kMillimetre)},
+                     {"sd_center_by_own_readings_mm",
+                      array(Eigen::Vector3d(row.covariance.diagonal().cwiseSqrt()), 1.0 / kMillimetre)},
                      {"offset_mm", row.offset / kMillimetre},
                      {"radius_mm", row.radius / kMillimetre},
                      {"rms_um", row.rms / kMicrometre},
@@ -92,6 +131,8 @@ Json wristJson(const Campaign& campaign, const Frames& frames) {
   }
   json["table"] = table;
   json["table_mean_mm"] = array(wrist.table_mean_in_r0, 1.0 / kMillimetre);
+  json["sd_table_mean_mm"] =
+      array(Eigen::Vector3d(wrist.table_mean_covariance.diagonal().cwiseSqrt()), 1.0 / kMillimetre);
   return json;
 }
 
@@ -104,6 +145,7 @@ Json framesJson(const Campaign& campaign, const Frames& frames) {
   json["r0_from_tracker"] = tracker ? matrix(frames.arm.r0_from_points) : Json(nullptr);
   const bool measured_in_base = frames.arm.points_placed && frames.points_frame == PointFrame::base_link;
   json["r0_from_base_link"] = matrix(measured_in_base ? frames.arm.r0_from_points : frames.arm.r0_from_base_link);
+  addCovariances(frames, json);
   json["own_weight"] = {{"removed", frames.sag_removed}, {"note", frames.sag_note}};
   Json axes = Json::array();
   for (std::size_t i = 0; i < 6; ++i) axes.push_back(axisJson(campaign, frames, i));

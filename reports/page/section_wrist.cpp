@@ -33,7 +33,10 @@ Table tableOne(const ReportCampaign& one, const WristCentre& wrist) {
     table.groups.front().rows.push_back(std::move(row));
   }
   Row mean_row{"Mean of the centres"};
-  addPoint(mean_row, wrist.table_mean_in_r0);
+  for (int k = 0; k < 3; ++k) {
+    mean_row.emplace_back(withUncertainty(wrist.table_mean_in_r0[k] / kMillimetre,
+                                          std::sqrt(wrist.table_mean_covariance(k, k)) / kMillimetre));
+  }
   for (int k = 0; k < 4; ++k) mean_row.emplace_back("–");
   table.groups.push_back({"", {std::move(mean_row)}});
   return table;

@@ -38,6 +38,17 @@ void writeAxes(const Frames& frames, Out out) {
   }
 }
 
+/// The uncertainties hold what the stiffnesses leave open, not what a sag by joint springs alone gets wrong.
+void writeSagStake(const Frames& frames, Out out) {
+  fmt::format_to(out, "  taking off the sag moved the distances by");
+  for (std::size_t i = 0; i < frames.links.size(); ++i) {
+    const LinkGeometry& link = frames.links[i];
+    fmt::format_to(out, "{} {:.3f} +- {:.3f}", i == 0 ? "" : ",", link.distance_by_sag / kMillimetre,
+                   link.distance_sag_sd / kMillimetre);
+  }
+  fmt::format_to(out, " mm;\n  +- holds the stiffnesses' uncertainty, not bearings that give across their axes\n");
+}
+
 void writeLinks(const Frames& frames, Out out) {
   fmt::format_to(out, "\nBetween consecutive axes\n  {:<7}{:>24}{:>12}{:>26}{:>12}\n", "axes", "distance (mm)", "nominal",
                  "angle (deg)", "nominal");
@@ -50,6 +61,7 @@ void writeLinks(const Frames& frames, Out out) {
                    plusMinus(link.angle / kDegree, angle_sd, 4), link.nominal_angle / kDegree,
                    (link.near_parallel ? "  *" : "") + sourceMark(frames, {i, i + 1}));
   }
+  if (frames.sag_removed) writeSagStake(frames, out);
   for (std::size_t i = 0; i < frames.links.size(); ++i) {
     const LinkGeometry& link = frames.links[i];
     if (!link.near_parallel) continue;
@@ -76,8 +88,14 @@ void writeWrist(const Campaign& campaign, const Frames& frames, Out out) {
     const Eigen::Vector3d mm = point / kMillimetre;
     fmt::format_to(out, "  {:<42}{:>11.3f}{:>11.3f}{:>11.3f}\n", name, mm.x(), mm.y(), mm.z());
   };
+  const auto uncertain = [&](const Eigen::Matrix3d& covariance) {
+    const Eigen::Vector3d mm = covariance.diagonal().cwiseSqrt() / kMillimetre;
+    fmt::format_to(out, "  {:<42}{:>11.3f}{:>11.3f}{:>11.3f}\n", "  +-, with R0's", mm.x(), mm.y(), mm.z());
+  };
   place("mean of the rows", wrist.table_mean_in_r0);
+  uncertain(wrist.table_mean_covariance);
   place("common sphere centre", wrist.centre_in_r0);
+  uncertain(wrist.covariance);
   place("nearest to axes 5 and 6", wrist.nearest_axes_56_in_r0);
   place("barycentre of the reflectors (Dumas et al.)", wrist.reflector_barycentre_in_r0);
   const auto miss = [](double value, double sd) {
@@ -97,6 +115,10 @@ void writeR0(const Frames& frames, Out out) {
     const Eigen::Vector4d values = frames.arm.r0_from_points.matrix().row(row);
     fmt::format_to(out, "  {:>13.9f}{:>13.9f}{:>13.9f}{:>13.6f}\n", values[0], values[1], values[2], values[3]);
   }
+  const FrameError sd = frames.covariance.r0().diagonal().cwiseSqrt();
+  const Eigen::Vector3d turn = 1e6 * sd.head<3>(), origin = sd.tail<3>() / kMillimetre;
+  fmt::format_to(out, "  standard uncertainty about x0, y0, z0 {:.1f}, {:.1f}, {:.1f} urad; of the origin "
+                 "{:.4f}, {:.4f}, {:.4f} mm\n", turn.x(), turn.y(), turn.z(), origin.x(), origin.y(), origin.z());
 }
 
 }  // namespace
