@@ -1,6 +1,9 @@
 #include "app/output.h"
 
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
+#include <stdexcept>
 
 #include "core/campaign/read_campaign.h"
 #include "core/input/write_file.h"
@@ -21,7 +24,14 @@ void deliver(const std::function<Json()>& json, const std::function<std::string(
   const bool json_only = json_file == "-";
   if (!json_file.empty() && !json_only) writeFileWhole(json_file, json().dump(1) + '\n');
   const std::string shown = json_only ? json().dump(1) + '\n' : text();
-  std::fwrite(shown.data(), 1, shown.size(), stdout);
+  printText(shown);
+}
+
+void printText(const std::string& text) {
+  errno = 0;
+  std::fwrite(text.data(), 1, text.size(), stdout);
+  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return;
+  throw std::runtime_error(std::string("standard output: cannot be written: ") + std::strerror(errno));
 }
 
 }  // namespace stiffscope

@@ -19,6 +19,9 @@ Campaign openCampaign(const std::string& folder_or_xml);
 
 void printWarnings(const std::vector<std::string>& warnings);
 
+/// Prints to standard output; throws std::runtime_error with the reason where that fails (a full disk, a closed file).
+void printText(const std::string& text);
+
 /// The result: as JSON alone to standard output where `json_file` is `-`; else as text there, and as JSON to the file that
 /// is named, if any. Only what is asked for is made.
 void deliver(const std::function<Json()>& json, const std::function<std::string()>& text, const std::string& json_file);

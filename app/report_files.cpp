@@ -4,8 +4,9 @@
 #include <set>
 #include <vector>
 
-#include "core/input/write_file.h"
+#include "core/input/write_folder.h"
 #include "reports/json/json_values.h"
+#include "reports/json/results_json.h"
 
 namespace stiffscope {
 
@@ -13,46 +14,43 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A picture's bare name: a results.json that names something else was not written here.
-bool isPicture(const std::string& name) {
+/// A picture's or a table's bare name: a results.json that names something else was not written here.
+bool isPictureOrTable(const std::string& name) {
   const fs::path path(name);
-  return path.extension() == ".png" && path.filename() == path && !path.stem().empty();
+  return (path.extension() == ".png" || path.extension() == ".csv") && path.filename() == path && !path.stem().empty();
 }
 
-/// Pictures that the report which is there now lists as its own.
-std::vector<std::string> earlierPictures(const fs::path& folder) {
+/// Pictures and tables that the report which is there now lists as its own.
+std::vector<std::string> earlierFiles(const fs::path& folder) {
   std::ifstream file(folder / "results.json", std::ios::binary);
   if (!file) return {};
   constexpr bool kThrow = false;
   const Json results = Json::parse(file, nullptr, kThrow);
   if (!results.is_object() || !results.contains("files") || !results["files"].is_array()) return {};
-  std::vector<std::string> pictures;
+  std::vector<std::string> names;
   for (const Json& name : results["files"]) {
-    if (name.is_string() && isPicture(name.get<std::string>())) pictures.push_back(name.get<std::string>());
+    if (name.is_string() && isPictureOrTable(name.get<std::string>())) names.push_back(name.get<std::string>());
   }
-  return pictures;
+  return names;
 }
 
 }  // namespace
 
-void writeReportFiles(const fs::path& folder, const ReportContent& content, const std::string& page,
-                      const std::string& results) {
-  makeFolder(folder);
-  const std::vector<std::string> earlier = earlierPictures(folder);
-  std::set<std::string> made;
+void writeReportFiles(const fs::path& folder, const ReportContent& content, const ReportPage& page) {
+  std::vector<FileToWrite> files;
   for (const Figure& figure : content.figures) {
-    made.insert(pictureFile(figure));
-    writeFileWhole(folder / pictureFile(figure),
-                   {reinterpret_cast<const char*>(figure.png.data()), figure.png.size()});
+    files.push_back({pictureFile(figure), {figure.png.begin(), figure.png.end()}});
   }
-  writeFileWhole(folder / "results.json", results);
-  writeFileWhole(folder / "report.html", page);
-  for (const std::string& name : earlier) {
-    std::error_code ignored;  // one that is gone already, or may not be removed, is no reason to fail
-    if (!made.contains(name) && fs::is_regular_file(fs::symlink_status(folder / name, ignored))) {
-      fs::remove(folder / name, ignored);
-    }
-  }
+  for (const TableFile& table : page.tables) files.push_back({table.name + ".csv", table.csv});
+  std::set<std::string> made{"results.json", "report.html"};
+  for (const FileToWrite& file : files) made.insert(file.name);
+  Json results = resultsJson(content);
+  results["files"] = made;
+  files.push_back({"results.json", results.dump(1) + '\n'});
+  files.push_back({"report.html", page.html});
+  std::vector<std::string> superseded = earlierFiles(folder);
+  std::erase_if(superseded, [&](const std::string& name) { return made.contains(name); });
+  writeFolderWhole(folder, files, superseded);
 }
 
 }  // namespace stiffscope

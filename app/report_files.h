@@ -3,14 +3,13 @@
 #include <filesystem>
 #include <string>
 
-#include "reports/page/report_content.h"
+#include "reports/page/report_page.h"
 
 namespace stiffscope {
 
-/// Writes pictures, results.json and, last, report.html into a folder that is made where it is absent.
-/// Pictures that an earlier report there listed as its own (`files` of its results.json) and that this one
-/// does not make are removed; nothing else is.
-void writeReportFiles(const std::filesystem::path& folder, const ReportContent& content,
-                      const std::string& page, const std::string& results);
+/// Writes pictures, tables (CSV), results.json and report.html into a folder that is made where it is absent; they
+/// appear together. Pictures and tables that an earlier report there listed as its own (`files` of its results.json)
+/// and that this one does not make are removed; nothing else is.
+void writeReportFiles(const std::filesystem::path& folder, const ReportContent& content, const ReportPage& page);
 
 }  // namespace stiffscope

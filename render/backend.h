@@ -3,6 +3,7 @@
 #include "render/arm_scene.h"
 #include "render/grouped_bar_chart.h"
 #include "render/interval_chart.h"
+#include "render/point_chart.h"
 #include "render/spread_chart.h"
 
 namespace stiffscope {
@@ -14,12 +15,13 @@ class Backend {
   virtual Image draw(const GroupedBarChart& chart, Size size) = 0;
   virtual Image draw(const SpreadChart& chart, Size size) = 0;
   virtual Image draw(const IntervalChart& chart, Size size) = 0;
+  virtual Image draw(const PointChart& chart, Size size) = 0;
   virtual Image draw(const ArmScene& scene, Size size) = 0;
 };
 
 /// The one symbol that is looked up in the module. Its number goes up whenever Backend or the data structures
 /// change, so that a module left over from another version is refused instead of misread.
-inline constexpr const char* kBackendSymbol = "stiffscope_render_backend_2";
+inline constexpr const char* kBackendSymbol = "stiffscope_render_backend_5";
 using BackendFunction = Backend*();
 
 }  // namespace stiffscope

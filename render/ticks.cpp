@@ -102,4 +102,10 @@ std::string shortNumber(double x) {
   return withMinus(fmt::format("{:.4g}", mantissa)) + "\u00d7" + power;
 }
 
+std::string factorText(double x) {
+  if (!(x >= 1e4 && x < 1e6) || x != std::round(x)) return shortNumber(x);
+  const long whole = std::lround(x);
+  return fmt::format("{}\u00a0{:03}", whole / 1000, whole % 1000);
+}
+
 }  // namespace stiffscope

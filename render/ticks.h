@@ -26,4 +26,7 @@ Ticks logTicks(double lower, double upper);
 /// `x` in at most four significant digits, without trailing zeros: for numbers beside marks.
 std::string shortNumber(double x);
 
+/// A factor as people write it: "40 000" (no-break spaces) where shortNumber has powers of ten, up to a million.
+std::string factorText(double x);
+
 }  // namespace stiffscope

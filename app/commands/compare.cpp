@@ -23,8 +23,8 @@ int compareTwo(const Arguments& arguments, bool step_given) {
   IdentifyOptions options;
   if (step_given) options.step = arguments.step;
   options.finite_deflection = !arguments.neglect_kc;
-  const Comparison comparison =
-      compareCampaigns(before, identify(before, options), after, identify(after, options), arguments.bootstrap);
+  const Comparison comparison = compareCampaigns(before, identify(before, options), after,
+                                                 identify(after, options), arguments.bootstrap);
   deliver([&] { return comparisonJson(before, after, comparison); },
           [&] { return comparisonText(before, after, comparison); }, arguments.json);
   return comparison.comparable ? kDone : kNotUsable;
@@ -34,12 +34,17 @@ int compareTwo(const Arguments& arguments, bool step_given) {
 
 void addCompare(CLI::App& app, Run& run) {
   const auto arguments = std::make_shared<Arguments>();
-  CLI::App* command = app.add_subcommand("compare", "Two states of one machine: stiffness, and deflection avoided");
-  command->add_option("BEFORE", arguments->before, "campaign before, or with the double encoders inactive")->required();
-  command->add_option("AFTER", arguments->after, "campaign after, or with the double encoders active")->required();
-  const CLI::Option* step = command->add_option("--step", arguments->step, "load step of both to identify from");
+  CLI::App* command =
+      app.add_subcommand("compare", "Two states of one machine: stiffness, and deflection avoided");
+  command->add_option("BEFORE", arguments->before, "campaign before, or with the double encoders inactive")
+      ->required();
+  command->add_option("AFTER", arguments->after, "campaign after, or with the double encoders active")
+      ->required();
+  const CLI::Option* step =
+      command->add_option("--step", arguments->step, "load step of both to identify from");
   command->add_flag("--neglect-kc", arguments->neglect_kc, "neglect K_c, as the paper does");
-  command->add_option("--seed", arguments->bootstrap.seed, "of the bootstrap over postures")->capture_default_str();
+  command->add_option("--seed", arguments->bootstrap.seed, "of the bootstrap over postures")
+      ->capture_default_str();
   command->add_option("--json", arguments->json, "write the result to this file, - for standard output");
   command->callback([arguments, step, &run] {
     run = [arguments, step_given = step->count() > 0] { return compareTwo(*arguments, step_given); };

@@ -1,5 +1,5 @@
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <filesystem>
@@ -40,8 +40,10 @@ std::optional<Eigen::Vector3d> millimetres(const std::vector<double>& values) {
 PlanOptions optionsOf(const Arguments& arguments, const Given& given) {
   PlanOptions options = arguments.options;
   const bool pull = given.pull->count() > 0;
-  if (pull || given.load->count() > 0) options.inputs.load = pull ? arguments.pull : arguments.load;
-  options.inputs.pull = pull;
+  if (pull || given.load->count() > 0) {
+    options.inputs.load = pull ? arguments.pull : arguments.load;
+    options.inputs.pull = pull;
+  }
   options.inputs.hook_in_flange = millimetres(arguments.hook_mm);
   options.inputs.tracker_in_base = millimetres(arguments.tracker_mm);
   for (std::size_t j = 0; j < arguments.min_deg.size(); ++j) {
@@ -54,7 +56,8 @@ PlanOptions optionsOf(const Arguments& arguments, const Given& given) {
     options.criterion = PlanCriterion::determinant;
   } else if (arguments.criterion != "balanced") {
     throw InputError({"--criterion"}, arguments.criterion,
-                     "expected balanced or determinant" + nearestNameHint(arguments.criterion, {"balanced", "determinant"}));
+                     "expected balanced or determinant" +
+                         nearestNameHint(arguments.criterion, {"balanced", "determinant"}));
   }
   options.augment = given.add->count() > 0;
   if (options.augment) options.postures = arguments.add;
@@ -87,32 +90,46 @@ void addPlan(CLI::App& app, Run& run) {
   const auto arguments = std::make_shared<Arguments>();
   PlanOptions& options = arguments->options;
   CLI::App* command = app.add_subcommand("plan", "Postures and loads to measure, before the day or after it");
-  command->add_option("CAMPAIGN", arguments->campaign, "campaign folder or its campaign.xml; before the day it needs no tables")
+  command
+      ->add_option("CAMPAIGN", arguments->campaign,
+                   "campaign folder or its campaign.xml; before the day it needs no tables")
       ->required();
   Given given{};
   given.postures = command->add_option("--postures", options.postures, "how many")->capture_default_str();
-  given.add = command->add_option("--add", arguments->add, "how many to add to those that the campaign has measured")
-                  ->excludes(const_cast<CLI::Option*>(given.postures));
-  given.load = command->add_option("--load", arguments->load, "newtons that hang; without it the measured load");
-  given.pull = command->add_option("--pull", arguments->pull, "newtons of a cable, pulling in any of nine directions")
-                   ->excludes(const_cast<CLI::Option*>(given.load));
+  given.add =
+      command->add_option("--add", arguments->add, "how many to add to those that the campaign has measured")
+          ->excludes(const_cast<CLI::Option*>(given.postures));
+  given.load = command->add_option("--load", arguments->load,
+                                   "newtons that hang; without it, and without --pull, as measured");
+  given.pull =
+      command->add_option("--pull", arguments->pull, "newtons of a cable, pulling in any of nine directions")
+          ->excludes(const_cast<CLI::Option*>(given.load));
   command->add_option("--hook", arguments->hook_mm, "x,y,z (mm) on the flange where the load acts")
       ->delimiter(',')
       ->expected(3);
   command->add_option("--tracker", arguments->tracker_mm, "x,y,z (mm) of the tracker in base_link")
       ->delimiter(',')
       ->expected(3);
-  command->add_option("--min-deg", arguments->min_deg, "least joint angles, six")->delimiter(',')->expected(6);
-  command->add_option("--max-deg", arguments->max_deg, "largest joint angles, six")->delimiter(',')->expected(6);
-  command->add_option("--repeats", options.inputs.repeats, "readings of each reflector in a state")->capture_default_str();
-  command->add_option("--criterion", arguments->criterion,
-                      "balanced (no joint pays for another) or determinant (D-optimal)")
+  command->add_option("--min-deg", arguments->min_deg, "least joint angles, six")
+      ->delimiter(',')
+      ->expected(6);
+  command->add_option("--max-deg", arguments->max_deg, "largest joint angles, six")
+      ->delimiter(',')
+      ->expected(6);
+  command->add_option("--repeats", options.inputs.repeats, "readings of each reflector in a state")
       ->capture_default_str();
-  command->add_option("--candidates", options.candidates, "random postures to choose from")->capture_default_str();
+  command
+      ->add_option("--criterion", arguments->criterion,
+                   "balanced (no joint pays for another) or determinant (D-optimal)")
+      ->capture_default_str();
+  command->add_option("--candidates", options.candidates, "random postures to choose from")
+      ->capture_default_str();
   command->add_option("--seed", options.seed, "of the random postures")->capture_default_str();
-  command->add_option("--out", arguments->out, "write the postures to this file: CSV, or a simulation's XML by its name");
+  command->add_option("--out", arguments->out,
+                      "write the postures to this file: CSV, or a simulation's XML by its name");
   command->add_option("--json", arguments->json, "write the result to this file, - for standard output");
-  command->callback([arguments, given, &run] { run = [arguments, given] { return planDay(*arguments, given); }; });
+  command->callback(
+      [arguments, given, &run] { run = [arguments, given] { return planDay(*arguments, given); }; });
 }
 
 }  // namespace stiffscope

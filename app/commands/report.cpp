@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <filesystem>
@@ -13,7 +15,6 @@
 #include "core/audit/audit.h"
 #include "core/identification/cautions.h"
 #include "core/identification/load_step.h"
-#include "reports/json/results_json.h"
 #include "reports/page/report_page.h"
 #include "reports/page/verdict.h"
 
@@ -27,12 +28,6 @@ struct Arguments {
   int step = 0;
   bool neglect_kc = false, paper = false, raw = false;
 };
-
-std::vector<NamedText> settingsOf(const IdentifyOptions& options) {
-  return {{"load step", options.step ? std::to_string(*options.step) : "the one with the largest mean force"},
-          {"geometric stiffness K_{c}", options.finite_deflection ? "included" : "neglected"},
-          {"subsets", "10 of 19 postures, in proportion; all up to 250 000, else a sample with seed 1"}};
-}
 
 /// What is used of one campaign and what comes of it. A campaign without loads gives its frames.
 struct Result {
@@ -56,6 +51,26 @@ struct Result {
   }
 };
 
+/// "10 of 19, 12 of 24": of each campaign that has subsets.
+std::string subsetSizes(const std::list<Result>& results) {
+  std::string sizes;
+  for (const Result& one : results) {
+    for (const MethodResult& method : one.identification.methods) {
+      if (method.subsets.compliances.empty()) continue;
+      sizes += fmt::format("{}{} of {}", sizes.empty() ? "" : ", ", method.subsets.size, method.subsets.of);
+      break;
+    }
+  }
+  return sizes.empty() ? "too few" : sizes;
+}
+
+std::vector<NamedText> settingsOf(const IdentifyOptions& options, const std::list<Result>& results) {
+  return {{"load step", options.step ? std::to_string(*options.step) : "the one with the largest mean force"},
+          {"geometric stiffness K_{c}", options.finite_deflection ? "included" : "neglected"},
+          {"postures in a subset", subsetSizes(results)},
+          {"subsets", "all up to 250 000, else a sample with seed 1"}};
+}
+
 int writeReport(const Arguments& arguments, bool step_given) {
   IdentifyOptions options;
   if (step_given) options.step = arguments.step;
@@ -65,20 +80,20 @@ int writeReport(const Arguments& arguments, bool step_given) {
   for (const std::string& folder : arguments.campaigns) {
     const Result& one = results.emplace_back(folder, arguments.raw, options);
     content.campaigns.push_back(
-        {one.prepared.campaign, one.identification, &one.audited, &one.prepared.preparation});
+        {one.prepared.campaign, one.identification, &one.audited, &one.prepared.preparation, &one.prepared.station});
   }
   content.avoided = avoidedByEncoders(content.campaigns);
   content.compare_with_paper = arguments.paper;
   content.versions = versions();
-  content.settings = settingsOf(options);
+  content.settings = settingsOf(options, results);
   content.title = "Joint stiffness";
   content.verdict = verdictOf(content.campaigns, content.avoided);
   content.figures = makeFigures(content.campaigns, {arguments.paper});
 
-  // Everything is made before the first file is written; the page comes last.
-  const std::string page = reportPage(content);
-  writeReportFiles(arguments.out, content, page, resultsJson(content).dump(1) + '\n');
-  std::printf("%s\n", (std::filesystem::path(arguments.out) / "report.html").c_str());
+  // Everything is made before the first file is written, and appears at once.
+  const ReportPage page = makeReportPage(content);
+  writeReportFiles(arguments.out, content, page);
+  printText((std::filesystem::path(arguments.out) / "report.html").string() + '\n');
   const bool usable =
       std::any_of(results.begin(), results.end(), [](const Result& one) { return one.usable(); });
   return usable ? kDone : kNotUsable;
@@ -92,7 +107,7 @@ void addReport(CLI::App& app, Run& run) {
   command->add_option("CAMPAIGN", arguments->campaigns, "campaign folders; two of one machine are compared")
       ->required()
       ->expected(1, 8);
-  command->add_option("--out", arguments->out, "folder for report.html, results.json and the pictures")->required();
+  command->add_option("--out", arguments->out, "folder for report.html, results.json, the pictures and the tables as CSV")->required();
   const CLI::Option* step = command->add_option("--step", arguments->step, "load step to identify from");
   command->add_flag("--neglect-kc", arguments->neglect_kc, "neglect K_c, as the paper does");
   addRawOption(*command, arguments->raw);

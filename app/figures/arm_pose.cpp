@@ -1,6 +1,7 @@
 #include "app/figures/arm_pose.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "core/robot/kinematics.h"
 #include "metrology/common_perpendicular.h"
@@ -30,37 +31,47 @@ std::optional<Eigen::Vector3d> predicted(const std::vector<CaseEquations>& rows,
 
 }  // namespace
 
-double heightOfR0(const Identification& identification) {
-  return std::max(0.0, -identification.frames.arm.r0_from_base_link.translation().z());
+double heightOfR0(const Frames& frames) {
+  return std::max(0.0, -frames.arm.r0_from_base_link.translation().z());
 }
 
-ArmPose armPose(const ReportCampaign& one, std::size_t index) {
-  const Identification& result = one.identification;
-  const Robot& arm = result.frames.arm.arm;
-  const LoadCase& load_case = result.cases[index];
-  const Eigen::Vector3d up(0.0, 0.0, heightOfR0(result));  // from R0's origin to the scene's
-  const auto shown = page::shownMethod(result);
-  const MethodResult* method = shown ? &result.of(*shown) : nullptr;
-
+ArmPose bareArm(const Frames& frames, const ArmPosture& posture) {
+  const Robot& arm = frames.arm.arm;
+  const Eigen::Vector3d up(0.0, 0.0, heightOfR0(frames));  // from R0's origin to the scene's
   ArmPose pose;
   const auto points = jointPointsAtZero(arm, -up);
   for (int joint = 0; joint < 6; ++joint) {
     const auto j = static_cast<std::size_t>(joint);
-    pose.joint_points.push_back(load_case.posture.motion[j] * points[j] + up);
-    pose.axis_directions.push_back(axisAt(arm, load_case.posture, joint).direction);
+    pose.joint_points.push_back(posture.motion[j] * points[j] + up);
+    pose.axis_directions.push_back(axisAt(arm, posture, joint).direction);
   }
-  pose.joint_points.push_back(flangeAt(arm, load_case.posture).translation() + up);
+  pose.joint_points.push_back(flangeAt(arm, posture).translation() + up);
+  return pose;
+}
+
+ArmPose armPose(const ReportCampaign& one, std::size_t index, std::optional<Method> which) {
+  const Identification& result = one.identification;
+  const LoadCase& load_case = result.cases[index];
+  const Eigen::Vector3d up(0.0, 0.0, heightOfR0(result.frames));
+  const MethodResult* method = which && result.of(*which).available ? &result.of(*which) : nullptr;
+  const auto pointOf = [&](std::string label, const Eigen::Vector3d& unloaded,
+                           const Eigen::Vector3d& displacement, const auto& rows, std::size_t at) {
+    ScenePoint point{std::move(label), unloaded + up, displacement, std::nullopt, std::nullopt};
+    if (method) point.predicted = predicted(method->*rows, index, at, method->estimate.compliance);
+    if (point.predicted) point.residual = displacement - *point.predicted;
+    return point;
+  };
+
+  ArmPose pose = bareArm(result.frames, load_case.posture);
   for (std::size_t t = 0; t < load_case.targets.size(); ++t) {
     const TargetMove& move = load_case.targets[t];
-    ScenePoint point{page::pointName(one.campaign.targets[static_cast<std::size_t>(move.target)].id),
-                     move.unloaded + up, move.displacement(), std::nullopt};
-    if (method) point.predicted = predicted(method->target_rows, index, t, method->estimate.compliance);
-    pose.targets.push_back(std::move(point));
+    pose.targets.push_back(
+        pointOf(page::pointName(one.campaign.targets[static_cast<std::size_t>(move.target)].id), move.unloaded,
+                move.displacement(), &MethodResult::target_rows, t));
   }
   if (index < result.wrist.size()) {
     const WristMove& move = result.wrist[index];
-    pose.wrist = ScenePoint{"P_{wrist}", move.unloaded + up, move.displacement(), std::nullopt};
-    if (method) pose.wrist->predicted = predicted(method->wrist_rows, index, 0, method->estimate.compliance);
+    pose.wrist = pointOf("P_{wrist}", move.unloaded, move.displacement(), &MethodResult::wrist_rows, 0);
   }
   return pose;
 }

@@ -20,19 +20,20 @@ std::string poseName(const ReportCampaign& one, std::size_t index) {
   return one.campaign.pose_ids[static_cast<std::size_t>(one.identification.cases[index].pose)];
 }
 
-std::string predictedName(const ReportCampaign& one) {
-  const auto shown = page::shownMethod(one.identification);
-  return shown ? fmt::format("predicted by {}", page::shortName(*shown)) : "predicted";
+void nameVectors(ArmScene& scene, std::optional<Method> method) {
+  if (!method) return;
+  scene.predicted_name = fmt::format("predicted by {}", page::shortName(*method));
+  scene.residual_name = fmt::format("residual of {}", page::shortName(*method));
 }
 
 std::string kilonewtons(double newtons) { return fmt::format("{}\u00a0kN", page::fixed(1e-3 * newtons, 2)); }
 
 /// R0 in the scene, whose floor is at the foot of axis 1.
-Eigen::Vector3d placeOfR0(const ReportCampaign& one) { return {0.0, 0.0, heightOfR0(one.identification)}; }
+Eigen::Vector3d placeOfR0(const ReportCampaign& one) { return {0.0, 0.0, heightOfR0(one.identification.frames)}; }
 
 std::string framesWords(const ReportCampaign& one) {
   return fmt::format("The axes drawn are R_{{0}}, {} mm above base_link.",
-                     page::fixed(kMmPerM * heightOfR0(one.identification), 0));
+                     page::fixed(kMmPerM * heightOfR0(one.identification.frames), 0));
 }
 
 /// "The same load moves", or the range of loads where they differ by more than a fiftieth.
@@ -63,16 +64,20 @@ std::size_t medianCase(const ReportCampaign& one) {
   return *middle;
 }
 
-ArmScene deflectionScene(const ReportCampaign& one) {
-  const std::size_t index = medianCase(one);
+ArmScene postureScene(const ReportCampaign& one, std::size_t index, std::optional<Method> method) {
   const double force = one.identification.cases[index].wrench.force.norm();
   ArmScene scene;
   scene.title = fmt::format("Deflection in posture {} under {}", poseName(one, index), kilonewtons(force));
   scene.subtitle = one.campaign.name;
-  scene.poses = {armPose(one, index)};
-  scene.predicted_name = predictedName(one);
+  scene.poses = {armPose(one, index, method)};
+  nameVectors(scene, method);
+  scene.residual_factor = automaticResidualFactor(scene);
   scene.frame_origin = placeOfR0(one);
   return scene;
+}
+
+ArmScene deflectionScene(const ReportCampaign& one) {
+  return postureScene(one, medianCase(one), page::shownMethod(one.identification));
 }
 
 ArmScene allPosturesScene(const ReportCampaign& one) {
@@ -80,13 +85,17 @@ ArmScene allPosturesScene(const ReportCampaign& one) {
   scene.title =
       fmt::format("Deflection of {} in all {} postures", vectorPoint(one), one.identification.cases.size());
   scene.subtitle = one.campaign.name;
-  scene.predicted_name = predictedName(one);
+  const auto method = page::shownMethod(one.identification);
+  nameVectors(scene, method);
   scene.frame_origin = placeOfR0(one);
   for (std::size_t i = 0; i < one.identification.cases.size(); ++i) {
-    ArmPose pose = armPose(one, i);
+    ArmPose pose = armPose(one, i, method);
     pose.ghost = true;
     const std::string shown = vectorPoint(one);  // P_wrist is not among the targets: none of them stays
     std::erase_if(pose.targets, [&](const ScenePoint& target) { return target.label != shown; });
+    // What is left is too small beside so many arrows.
+    for (ScenePoint& target : pose.targets) target.residual.reset();
+    if (pose.wrist) pose.wrist->residual.reset();
     scene.poses.push_back(std::move(pose));
   }
   return scene;
@@ -104,12 +113,14 @@ Figure describeDeflectionScene(const ReportCampaign& one, double magnification) 
                   point.name, page::fixed(displacement, 2), page::fixed(magnification, 0));
   if (const auto shown = page::shownMethod(one.identification)) {
     const double left = kMmPerM * page::residualAt(one.identification.of(*shown), point.at_wrist)[index];
-    figure.caption += fmt::format(" Where the arrows part is what {} leaves: {}\u00a0mm at {}.",
+    figure.caption += fmt::format(" Where the arrows part is what {} leaves: {}\u00a0mm at {}",
                                   page::shortName(*shown), page::significant(left, 2), point.name);
+    const double factor = deflectionScene(one).residual_factor;
+    figure.caption += factor > 1 ? fmt::format(", drawn {} times longer than the others.", page::fixed(factor, 0)) : ".";
   }
   figure.caption += fmt::format(" {}", framesWords(one));
   figure.alt = fmt::format(
-      "The arm in posture {} with arrows for the measured and predicted displacement of its reflectors{}, "
+      "The arm in posture {} with arrows for the measured, predicted and residual displacement of its reflectors{}, "
       "magnified {} times.",
       poseName(one, index), point.at_wrist ? " and wrist centre" : "", page::fixed(magnification, 0));
   return figure;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 
 #include "render/arm_scene.h"
 #include "reports/page/figure.h"
@@ -12,7 +13,11 @@ namespace stiffscope {
 /// measured (of an even number of cases the lower of the two in the middle). There must be a case.
 std::size_t medianCase(const ReportCampaign& one);
 
-/// The arm in that posture with the measured and predicted displacement vectors.
+/// The arm in the posture of load case `index` with measured, predicted and residual displacement vectors; the
+/// last two by `method`, and none without. The residual ones are longer by automaticResidualFactor.
+ArmScene postureScene(const ReportCampaign& one, std::size_t index, std::optional<Method> method);
+
+/// The same of that median posture, by the method that the report shows.
 ArmScene deflectionScene(const ReportCampaign& one);
 
 /// All postures, pale, with the displacement vectors of P_wrist alone (of the first reflector where P_wrist

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "app/figures/method_colours.h"
+#include "reports/page/coverage.h"
 #include "reports/page/names.h"
 #include "reports/page/numbers.h"
 
@@ -12,9 +13,9 @@ namespace stiffscope {
 
 namespace {
 
-Interval intervalOf(const StiffnessEstimate& estimate, int joint) {
+Interval intervalOf(const StiffnessEstimate& estimate, int joint, double coverage_factor) {
   if (!estimate.identifiable[static_cast<std::size_t>(joint)]) return {};
-  const double value = estimate.stiffness(joint), reach = 2.0 * estimate.stiffnessSd(joint);
+  const double value = estimate.stiffness(joint), reach = coverage_factor * estimate.stiffnessSd(joint);
   return {value, value - reach, value + reach, !estimate.mark(joint).empty()};
 }
 
@@ -45,7 +46,7 @@ std::string disagreement(const Identification& result) {
 IntervalChart stiffnessIntervals(const ReportCampaign& one) {
   IntervalChart chart;
   chart.title = "Joint stiffness by method";
-  chart.subtitle = fmt::format("{}; {} postures; whiskers: 2 standard uncertainties", one.campaign.name,
+  chart.subtitle = fmt::format("{}; {} postures; whiskers: expanded uncertainty U, about 95\u00a0%", one.campaign.name,
                                one.identification.cases.size());
   chart.y_title = "Stiffness (Nm/rad)";
   chart.category_title = "Joint";
@@ -55,8 +56,9 @@ IntervalChart stiffnessIntervals(const ReportCampaign& one) {
     const MethodResult& result = one.identification.of(method);
     if (!result.available) continue;
     IntervalSeries series{page::longName(method), colourOf(method), {}};
+    const double factor = page::coverageOf(one.identification, result.estimate).factor;
     for (int joint = 0; joint < 6; ++joint) {
-      series.intervals.push_back(intervalOf(result.estimate, joint));
+      series.intervals.push_back(intervalOf(result.estimate, joint, factor));
       if (series.intervals.back().doubtful) chart.doubtful_name = "negative or imprecise";
     }
     chart.series.push_back(std::move(series));
@@ -73,7 +75,7 @@ Figure describeStiffnessIntervals(const ReportCampaign& one) {
   Figure figure;
   figure.id = "stiffness";
   figure.title = "Joint stiffness by method";
-  figure.caption = fmt::format("From all {} postures, with 2 standard uncertainties either way.{}",
+  figure.caption = fmt::format("From all {} postures, with the expanded uncertainty U (about 95\u00a0%) either way.{}",
                                one.identification.cases.size(), disagreement(one.identification));
   if (!unseen.empty())
     figure.caption += fmt::format(" Not identifiable in this data: {}.", fmt::join(unseen, ", "));

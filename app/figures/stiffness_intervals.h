@@ -6,8 +6,8 @@
 
 namespace stiffscope {
 
-/// Joint stiffnesses from all postures by method, value +- 2 standard uncertainties, Nm/rad, logarithmic
-/// axis. A joint that is not identifiable leaves a gap; negative and imprecise values are hollow. No series
+/// Joint stiffnesses from all postures by method, value +- expanded uncertainty (page::coverageOf), Nm/rad,
+/// logarithmic axis. A joint that is not identifiable leaves a gap; negative and imprecise values are hollow. No series
 /// where no method is available.
 IntervalChart stiffnessIntervals(const ReportCampaign& one);
 

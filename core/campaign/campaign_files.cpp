@@ -37,9 +37,9 @@ CampaignFiles::CampaignFiles(const fs::path& folder_or_xml) {
   }
 }
 
-std::string CampaignFiles::readXml() { return readAndRecord(xml_, xml_.filename().string()); }
+std::string CampaignFiles::readXml() { return readAndRecord(xml_, xml_.filename().string(), kLargestXml); }
 
-std::string CampaignFiles::read(const FileReference& reference) {
+std::string CampaignFiles::read(const FileReference& reference, std::size_t largest) {
   const auto refuse = [&](const std::string& why) {
     throw InputError({xmlName(), reference.line, reference.attribute}, reference.name,
                      "expected a file inside the campaign's folder; " + why);
@@ -52,13 +52,22 @@ std::string CampaignFiles::read(const FileReference& reference) {
   std::error_code error;
   if (!fs::exists(path, error)) refuse("there is none of this name");
   if (!leadsInside(folder_, path)) refuse("a link leads out of it");
-  return readAndRecord(path, reference.name);
+  return readAndRecord(path, reference.name, largest);
 }
 
-std::string CampaignFiles::readAndRecord(const fs::path& path, const std::string& name) {
-  std::string bytes = readTextFile(path);
-  inputs_.push_back({name, sha256Hex(bytes)});
-  return bytes;
+std::string CampaignFiles::readAndRecord(const fs::path& path, const std::string& name, std::size_t largest) {
+  TextFile file = readTextFileWithStamp(path, largest);
+  inputs_.push_back({name, sha256Hex(file.bytes)});
+  read_.emplace_back(path, file.stamp);
+  return std::move(file.bytes);
+}
+
+void CampaignFiles::requireUnchanged() const {
+  for (const auto& [path, stamp] : read_) {
+    if (stampOf(path) == stamp) continue;
+    throw InputError({path.string(), 0, ""}, "",
+                     "expected a file that stays as it is; it changed while the campaign was read");
+  }
 }
 
 }  // namespace stiffscope

@@ -2,10 +2,12 @@
 
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/campaign/campaign.h"
 #include "core/campaign/campaign_xml.h"
+#include "core/input/file_stamp.h"
 
 namespace stiffscope {
 
@@ -21,9 +23,13 @@ class CampaignFiles {
 
   std::string readXml();
 
-  /// Bytes of a file that campaign.xml names. Throws InputError where it is missing or not a text file, or
-  /// where its path is absolute or leads out of the folder, through ".." or through a link.
-  std::string read(const FileReference& reference);
+  /// Bytes of a file that campaign.xml names. Throws InputError where it is missing, larger than `largest` or
+  /// not a text file, or where its path is absolute or leads out of the folder, through ".." or through a link.
+  std::string read(const FileReference& reference, std::size_t largest);
+
+  /// Throws InputError where a file that was read is no longer as it was: tables of two different moments
+  /// are no campaign.
+  void requireUnchanged() const;
 
   /// The name of such a file for messages: the folder as the user gave it, and the name.
   std::string shown(const FileReference& reference) const { return (folder_ / reference.name).string(); }
@@ -31,10 +37,11 @@ class CampaignFiles {
   const std::vector<InputFile>& inputs() const { return inputs_; }
 
  private:
-  std::string readAndRecord(const std::filesystem::path& path, const std::string& name);
+  std::string readAndRecord(const std::filesystem::path& path, const std::string& name, std::size_t largest);
 
   std::filesystem::path folder_, xml_;
   std::vector<InputFile> inputs_;
+  std::vector<std::pair<std::filesystem::path, FileStamp>> read_;
 };
 
 }  // namespace stiffscope

@@ -15,6 +15,7 @@
 #include "core/campaign/wrist_sweep_table.h"
 #include "core/input/input_error.h"
 #include "core/input/nearest_name.h"
+#include "core/input/read_file.h"
 #include "core/robot/read_urdf.h"
 
 namespace stiffscope {
@@ -33,7 +34,7 @@ void requireLink(const CampaignFiles& files, const Robot& robot, std::size_t lin
 }
 
 void readRobot(CampaignFiles& files, const CampaignXml& xml, Campaign& campaign) {
-  const std::string bytes = files.read(xml.urdf);
+  const std::string bytes = files.read(xml.urdf, kLargestXml);
   campaign.robot = parseUrdf(bytes, files.shown(xml.urdf), campaign.base_link, campaign.flange_link);
   if (!campaign.load_cell) return;
   requireLink(files, campaign.robot, xml.load_cell_line, "parent", campaign.load_cell->parent);
@@ -55,7 +56,7 @@ class TableReader {
     const auto reference = xml_.tables.find(layout.element);
     if (reference == xml_.tables.end()) return;
     const FileReference& file = reference->second.file;
-    const std::string bytes = files_.read(file);
+    const std::string bytes = files_.read(file, kLargestTable);
     table = Table<Row>{file.name, reference->second.frame,
                        readTable<Row>({files_.shown(file), bytes}, layout, names_, warnings_)};
   }
@@ -89,6 +90,7 @@ CampaignReading readCampaign(const std::filesystem::path& folder_or_xml) {
   tables.read(nestsLayout(), campaign.nests);
   campaign.pose_ids = tables.names().poses.names();
   campaign.nest_ids = tables.names().nests.names();
+  files.requireUnchanged();
   campaign.inputs = files.inputs();
 
   checkCampaign(campaign, reading.warnings);

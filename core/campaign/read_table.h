@@ -26,13 +26,44 @@ void readCell(const Column<Row>& column, std::string_view cell, const CellPlace&
   }
 }
 
-/// Line that had this row's key first, 0 where the key is new.
+/// The columns of a layout that together must not repeat, and their places in it.
 template <class Row>
-std::size_t lineWithSameKey(const std::vector<const Column<Row>*>& key, Row& row, RepeatCheck& seen) {
-  for (const Column<Row>* column : key) {
-    std::visit([&](auto member) { seen.add(member(row)); }, column->member);
+struct KeyColumns {
+  explicit KeyColumns(const TableLayout<Row>& layout) {
+    for (std::size_t i = 0; i < layout.columns.size(); ++i) {
+      const std::string& name = layout.columns[i].name;
+      if (std::find(layout.key.begin(), layout.key.end(), name) == layout.key.end()) continue;
+      columns.push_back(&layout.columns[i]);
+      places.push_back(i);
+    }
   }
-  return seen.finish(row.line);
+
+  KeyHash hash(Row& row) const {
+    KeyHash hash;
+    for (const Column<Row>* column : columns) {
+      std::visit([&](auto member) { hash.add(member(row)); }, column->member);
+    }
+    return hash;
+  }
+
+  bool same(Row& a, Row& b) const {
+    return std::all_of(columns.begin(), columns.end(), [&](const Column<Row>* column) {
+      return std::visit([&](auto member) { return member(a) == member(b); }, column->member);
+    });
+  }
+
+  std::vector<const Column<Row>*> columns;
+  std::vector<std::size_t> places;
+};
+
+template <class Row>
+[[noreturn]] void refuseRepeat(const TableSource& source, const TableLayout<Row>& layout,
+                               const KeyColumns<Row>& key, const TableLines& lines, std::size_t first_line) {
+  std::vector<std::string_view> cells;
+  for (const std::size_t i : key.places) cells.push_back(lines.cell(i));
+  throw InputError({source.file, lines.line(), fmt::format("{}", fmt::join(layout.key, ", "))},
+                   fmt::format("{}", fmt::join(cells, ", ")),
+                   fmt::format("expected a key that does not repeat; line {} has it first", first_line));
 }
 
 /// Rows of a table that `layout` describes, in the order of the file. Throws InputError with file, line,
@@ -41,34 +72,27 @@ template <class Row>
 std::vector<Row> readTable(const TableSource& source, const TableLayout<Row>& layout, CampaignNames& names,
                            std::vector<std::string>& warnings) {
   std::vector<WantedColumn> wanted;
-  std::vector<const Column<Row>*> key;
-  std::vector<std::size_t> key_places;
-  for (std::size_t i = 0; i < layout.columns.size(); ++i) {
-    const Column<Row>& column = layout.columns[i];
-    wanted.push_back({column.name, column.required});
-    if (std::find(layout.key.begin(), layout.key.end(), column.name) == layout.key.end()) continue;
-    key.push_back(&column);
-    key_places.push_back(i);
-  }
+  for (const Column<Row>& column : layout.columns) wanted.push_back({column.name, column.required});
+  const KeyColumns<Row> key(layout);
 
   TableLines lines(source, wanted, warnings);
-  RepeatCheck seen;
+  RepeatCheck seen(lines.expectedRows());
   std::vector<Row> rows;
+  rows.reserve(lines.expectedRows());
   while (lines.next()) {
-    Row row;
+    Row& row = rows.emplace_back();
     row.line = lines.line();
+    KeyHash hash;
     for (std::size_t i = 0; i < layout.columns.size(); ++i) {
       if (!lines.has(i)) continue;
       readCell(layout.columns[i], lines.cell(i), {source.file, row.line, layout.columns[i].name}, names, row);
+      if (i != key.places.back()) continue;
+      hash = key.hash(row);
+      seen.prepare(hash);
     }
-    if (const std::size_t first = lineWithSameKey(key, row, seen); first > 0) {
-      std::vector<std::string_view> cells;
-      for (const std::size_t i : key_places) cells.push_back(lines.cell(i));
-      throw InputError({source.file, row.line, fmt::format("{}", fmt::join(layout.key, ", "))},
-                       fmt::format("{}", fmt::join(cells, ", ")),
-                       fmt::format("expected a key that does not repeat; line {} has it first", first));
-    }
-    rows.push_back(std::move(row));
+    const auto same = [&](std::size_t other) { return key.same(row, rows[other]); };
+    const std::size_t first = seen.add(rows.size() - 1, hash, same);
+    if (first != RepeatCheck::kNew) refuseRepeat(source, layout, key, lines, rows[first].line);
   }
   return rows;
 }

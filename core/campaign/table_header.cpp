@@ -29,7 +29,7 @@ std::vector<std::string> unknownColumns(const std::vector<std::string_view>& cel
   std::vector<std::string> unknown;
   for (const std::string_view cell : cells) {
     const auto matches = [&](const WantedColumn& column) { return column.name == cell; };
-    if (std::none_of(wanted.begin(), wanted.end(), matches)) unknown.emplace_back(cell);
+    if (!cell.empty() && std::none_of(wanted.begin(), wanted.end(), matches)) unknown.emplace_back(cell);
   }
   return unknown;
 }

@@ -10,7 +10,18 @@ namespace stiffscope {
 
 namespace {
 
-bool endsWithLineEnd(std::string_view bytes) { return !bytes.empty() && bytes.back() == '\n'; }
+std::size_t countOf(std::string_view bytes, char wanted) {
+  std::size_t count = 0;
+  for (auto at = bytes.find(wanted); at != std::string_view::npos; at = bytes.find(wanted, at + 1)) ++count;
+  return count;
+}
+
+// The shortest row has one character and a separator a column: that bounds the rows of a file of empty lines.
+std::size_t rowsIn(std::string_view bytes, std::size_t columns) {
+  const std::size_t line_feeds = countOf(bytes, '\n');
+  const std::size_t line_ends = line_feeds > 1 ? line_feeds : countOf(bytes, '\r');
+  return std::min(line_ends, bytes.size() / (2 * columns)) + 1;
+}
 
 }  // namespace
 
@@ -19,24 +30,33 @@ TableLines::TableLines(const TableSource& source, const std::vector<WantedColumn
     : source_(source), lines_(source.file, source.bytes), warnings_(warnings) {
   if (!lines_.next(cells_))
     throw InputError({source.file, 0, ""}, "", "expected a header line; there is none");
+  constexpr std::size_t kMostColumns = 1000;
+  if (cells_.size() > kMostColumns) {
+    throw InputError({source.file, line(), ""}, fmt::format("{} columns", cells_.size()),
+                     fmt::format("expected at most {} columns", kMostColumns));
+  }
   cells_in_header_ = cells_.size();
   places_ = matchHeader(source.file, line(), cells_, wanted, warnings);
+  for (std::size_t i = 0; i < cells_.size(); ++i) {
+    if (cells_[i].empty()) nameless_.push_back(i);
+  }
+  expected_rows_ = rowsIn(source.bytes, places_.size());
 }
 
 bool TableLines::next() {
-  const std::size_t previous = line();
   if (!lines_.next(cells_)) {
     if (rows_ == 0) {
       throw InputError({source_.file, 0, ""}, "", "expected at least one row below the header");
     }
-    if (!endsWithLineEnd(source_.bytes)) {
+    if (lines_.endsWithoutLineEnd()) {
       warnings_.push_back(
-          inputMessage({source_.file, previous, ""}, "",
+          inputMessage({source_.file, line(), ""}, "",
                        "the last line has no line end; its last cell may have been cut short"));
     }
     return false;
   }
   requireCellCount();
+  requireNothingWithoutName();
   ++rows_;
   return true;
 }
@@ -48,9 +68,16 @@ void TableLines::requireCellCount() const {
                      fmt::format("expected {} cells, as the header has{}", cells_in_header_, why));
   };
   if (cells_.size() > cells_in_header_) refuse("; a decimal comma splits a number in two, write a point");
-  const auto line_ends = std::count(source_.bytes.begin(), source_.bytes.end(), '\n');
-  const bool cut = !endsWithLineEnd(source_.bytes) && line() == static_cast<std::size_t>(line_ends) + 1;
-  refuse(cut ? "; the file ends in the middle of this line" : "");
+  refuse(lines_.endsWithoutLineEnd() ? "; the file ends in the middle of this line" : "");
+}
+
+// With decimal commas a row may have as many cells as a header with nameless columns, all in the wrong place.
+void TableLines::requireNothingWithoutName() const {
+  for (const std::size_t i : nameless_) {
+    if (cells_[i].empty()) continue;
+    throw InputError({source_.file, line(), fmt::format("column {}", i + 1)}, std::string(cells_[i]),
+                     "expected nothing in a column without a name; a decimal comma splits a number in two");
+  }
 }
 
 }  // namespace stiffscope

@@ -16,7 +16,9 @@ struct TableSource {
 };
 
 /// The data lines of a table: reads the header and hands out line after line, each with as many cells as the
-/// header has. Throws InputError where a line has more or fewer, where there is no header or no data line.
+/// header has. Throws InputError where a line has more or fewer, where there is no header or no data line, where the header
+/// has more than a thousand columns, and where something stands in a column without a name (columns without a name are
+/// what a spreadsheet leaves behind the last one).
 /// A last line without a line end, but with all its cells, gives a warning: its last number may be cut short.
 class TableLines {
  public:
@@ -24,6 +26,10 @@ class TableLines {
              std::vector<std::string>& warnings);
 
   bool next();
+
+  /// As many rows as there are, or a few more, where all lines end alike and none is blank; a guess elsewhere.
+  std::size_t expectedRows() const { return expected_rows_; }
+
   std::size_t line() const { return lines_.line(); }
   bool has(std::size_t column) const { return places_[column] != kAbsentColumn; }
 
@@ -32,12 +38,14 @@ class TableLines {
 
  private:
   void requireCellCount() const;
+  void requireNothingWithoutName() const;
 
   const TableSource& source_;
   CsvLines lines_;
   std::vector<std::string_view> cells_;
-  std::vector<std::size_t> places_;
+  std::vector<std::size_t> places_, nameless_;
   std::size_t cells_in_header_ = 0;
+  std::size_t expected_rows_ = 0;
   std::size_t rows_ = 0;
   std::vector<std::string>& warnings_;
 };

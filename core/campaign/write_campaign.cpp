@@ -9,17 +9,16 @@
 #include "core/campaign/write_campaign_xml.h"
 #include "core/campaign/write_table.h"
 #include "core/input/read_file.h"
-#include "core/input/write_file.h"
+#include "core/input/write_folder.h"
 
 namespace stiffscope {
 
 namespace {
 
 template <class Row>
-void writeTable(const std::filesystem::path& folder, const TableLayout<Row>& layout,
-                const std::optional<Table<Row>>& table, const CampaignNames& names) {
-  if (!table) return;
-  writeFileWhole(folder / (layout.element + ".csv"), writtenTable(layout, table->rows, names));
+void addTable(const TableLayout<Row>& layout, const std::optional<Table<Row>>& table, const CampaignNames& names,
+              std::vector<FileToWrite>& files) {
+  if (table) files.push_back({layout.element + ".csv", writtenTable(layout, table->rows, names)});
 }
 
 CampaignNames namesOf(const Campaign& campaign) {
@@ -34,18 +33,18 @@ CampaignNames namesOf(const Campaign& campaign) {
 
 void writeCampaign(const Campaign& campaign, const std::filesystem::path& urdf_file,
                    const std::filesystem::path& folder) {
-  const std::string urdf = readTextFile(urdf_file);
+  const std::string urdf = readTextFile(urdf_file, kLargestXml);
   const CampaignNames names = namesOf(campaign);
-  makeFolder(folder);
-  writeFileWhole(folder / "robot.urdf", urdf);
-  writeTable(folder, circleSweepsLayout(), campaign.circle_sweeps, names);
-  writeTable(folder, wristSweepLayout(), campaign.wrist_sweep, names);
-  writeTable(folder, loadingLayout(), campaign.loading, names);
-  writeTable(folder, statesLayout(), campaign.states, names);
-  writeTable(folder, displacementsLayout(), campaign.displacements, names);
-  writeTable(folder, nestsLayout(), campaign.nests, names);
+  std::vector<FileToWrite> files{{"robot.urdf", urdf}};
+  addTable(circleSweepsLayout(), campaign.circle_sweeps, names, files);
+  addTable(wristSweepLayout(), campaign.wrist_sweep, names, files);
+  addTable(loadingLayout(), campaign.loading, names, files);
+  addTable(statesLayout(), campaign.states, names, files);
+  addTable(displacementsLayout(), campaign.displacements, names, files);
+  addTable(nestsLayout(), campaign.nests, names, files);
   // Last, because a folder with a campaign.xml passes for a campaign.
-  writeFileWhole(folder / "campaign.xml", writtenCampaignXml(campaign));
+  files.push_back({"campaign.xml", writtenCampaignXml(campaign)});
+  writeFolderWhole(folder, files);
 }
 
 }  // namespace stiffscope

@@ -26,13 +26,14 @@ std::array<PrincipalStiffness, 3> principalStiffness(const Eigen::Matrix3d& comp
 
 }  // namespace
 
-CartesianStiffness cartesianStiffness(const Eigen::Vector3d& point, const Matrix6d& jacobian, const Vector6d& compliance,
-                                      const Matrix6d& geometric) {
+CartesianStiffness cartesianStiffness(const Eigen::Vector3d& point, const Matrix6d& jacobian,
+                                      const Vector6d& compliance, const Matrix6d& geometric) {
   CartesianStiffness result;
   result.point = point;
   // (K - K_c)^-1 = (I - C K_c)^-1 C, which bears rigid joints.
-  const Matrix6d joints =
-      (Matrix6d::Identity() - compliance.asDiagonal() * geometric).partialPivLu().solve(Matrix6d(compliance.asDiagonal()));
+  const Matrix6d joints = (Matrix6d::Identity() - compliance.asDiagonal() * geometric)
+                              .partialPivLu()
+                              .solve(Matrix6d(compliance.asDiagonal()));
   result.compliance = jacobian * joints * jacobian.transpose();
   result.principal = principalStiffness(result.compliance.topLeftCorner<3, 3>());
   const Eigen::FullPivLU<Matrix6d> jacobian_lu(jacobian);

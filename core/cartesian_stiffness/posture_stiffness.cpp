@@ -6,8 +6,8 @@ namespace stiffscope {
 
 namespace {
 
-/// The campaign's characteristic length; where Complete Pose had no flange poses to find it from, the one by the
-/// arm's model.
+/// The campaign's characteristic length; where Complete Pose had no flange poses to find it from, the one by
+/// the arm's model.
 double lengthOf(const Identification& result, const LoadingGeometry& geometry) {
   if (result.characteristic_length.condition > 0.0) return result.characteristic_length.length;
   std::vector<LoadCase> cases = result.cases;
@@ -18,8 +18,8 @@ double lengthOf(const Identification& result, const LoadingGeometry& geometry) {
 }  // namespace
 
 PostureStiffness postureStiffness(const LoadingGeometry& geometry, const StiffnessEstimate& estimate,
-                                  const ArmPosture& posture, const Wrench& wrench, const Eigen::Vector3d& tcp_in_flange,
-                                  double length) {
+                                  const ArmPosture& posture, const Wrench& wrench,
+                                  const Eigen::Vector3d& tcp_in_flange, double length) {
   PostureStiffness result;
   const Eigen::Vector3d point = flangeAt(geometry.arm, posture) * tcp_in_flange;
   const Matrix6d jacobian = jacobianAt(geometry.arm, posture, point);

@@ -20,13 +20,15 @@ std::vector<std::string> cautionsOf(const Campaign& before_campaign, const Campa
   std::vector<std::string> cautions;
   if (before_campaign.double_encoder == after_campaign.double_encoder &&
       before_campaign.double_encoder != DoubleEncoder::unspecified) {
-    cautions.push_back(fmt::format("both campaigns were measured with double encoders {}",
-                                   before_campaign.double_encoder == DoubleEncoder::active ? "active" : "inactive"));
+    cautions.push_back(
+        fmt::format("both campaigns were measured with double encoders {}",
+                    before_campaign.double_encoder == DoubleEncoder::active ? "active" : "inactive"));
   }
   if (before_campaign.double_encoder == DoubleEncoder::active &&
       after_campaign.double_encoder == DoubleEncoder::inactive) {
-    cautions.push_back("the first campaign has the double encoders active and the second inactive: the other way "
-                       "round, `avoided` is what the encoders avoid");
+    cautions.push_back(
+        "the first campaign has the double encoders active and the second inactive: the other way "
+        "round, `avoided` is what the encoders avoid");
   }
   const std::size_t all = result.matched.pairs.size() + result.matched.unmatched.size();
   if (!result.matched.pairs.empty() && 2 * result.matched.pairs.size() < all) {
@@ -49,13 +51,14 @@ Comparison compareCampaigns(const Campaign& before_campaign, const Identificatio
   }
   result.matched = matchPostures(before_campaign, before, after_campaign, after);
   for (const Method method : kMethods) {
-    result.methods[static_cast<std::size_t>(method)] = compareStiffness(before, after, method, result.matched);
+    result.methods[static_cast<std::size_t>(method)] =
+        compareStiffness(before, after, method, result.matched);
   }
   result.at_wrist = deflectionAvoidedAtWrist(before, after, result.matched, options);
   result.at_targets = deflectionAvoidedAtTargets(before, after, result.matched, options);
-  result.comparable = result.avoided().available ||
-                      std::any_of(result.methods.begin(), result.methods.end(),
-                                  [](const StiffnessChange& one) { return one.available; });
+  result.comparable =
+      result.avoided().available || std::any_of(result.methods.begin(), result.methods.end(),
+                                                [](const StiffnessChange& one) { return one.available; });
   if (!result.comparable) {
     result.reason = result.at_targets.reason + "; " + result.of(result.best()).reason;
   }

@@ -5,10 +5,11 @@
 
 namespace stiffscope {
 
-/// Two campaigns of one machine side by side: double encoders inactive and active, or before and after a repair.
+/// Two campaigns of one machine side by side: double encoders inactive and active, or before and after a
+/// repair.
 struct Comparison {
-  bool comparable = false;           ///< some stiffness or some deflection is
-  std::string reason;                ///< why nothing is
+  bool comparable = false;            ///< some stiffness or some deflection is
+  std::string reason;                 ///< why nothing is
   std::vector<std::string> cautions;  ///< what a reader must know before believing the numbers
   MatchedPostures matched;
   std::array<StiffnessChange, 3> methods;  ///< by Method

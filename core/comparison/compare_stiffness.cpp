@@ -48,7 +48,8 @@ std::string markOf(const StiffnessEstimate& before, const StiffnessEstimate& aft
 void judge(const StiffnessEstimate& before, const StiffnessEstimate& after, int joint, double degrees,
            JointChange& change) {
   const double c_before = before.compliance[joint], c_after = after.compliance[joint];
-  const double u_before = std::sqrt(before.covariance(joint, joint)), u_after = std::sqrt(after.covariance(joint, joint));
+  const double u_before = std::sqrt(before.covariance(joint, joint)),
+               u_after = std::sqrt(after.covariance(joint, joint));
   change.comparable = true;
   change.before = before.stiffness(joint), change.before_sd = before.stiffnessSd(joint);
   change.after = after.stiffness(joint), change.after_sd = after.stiffnessSd(joint);

@@ -11,7 +11,8 @@ namespace stiffscope {
 struct JointChange {
   bool comparable = false;
   std::string reason;  ///< why not: which campaign does not identify it, and why
-  double before = 0.0, before_sd = 0.0;  ///< k and its standard uncertainty, Nm/rad; sd not a number: none stated
+  double before = 0.0,
+         before_sd = 0.0;  ///< k and its standard uncertainty, Nm/rad; sd not a number: none stated
   double after = 0.0, after_sd = 0.0;
   double ratio = 0.0;        ///< after / before
   double ratio_sd = 0.0;     ///< to first order, correlation included
@@ -26,12 +27,12 @@ struct StiffnessChange {
   std::array<JointChange, 6> joints;
 };
 
-/// Compares by one method. The test is on compliances, whose errors are nearly normal where those of k = 1/c are
-/// heavy-tailed: t = (c_a - c_b) / sqrt(u_b^2 + u_a^2 - 2 r u_b u_a), u the stated standard uncertainties, against
-/// Student's distribution with the degrees of freedom of the smaller campaign (postures less a third of the
-/// unknowns, a posture giving three coordinates). What the model misses recurs in a posture that is measured twice,
-/// so the errors are correlated: r = sum over pairs d_b d_a / sqrt(sum d_b^2 sum d_a^2), d how leaving out a posture
-/// moves c (moveByEachPosture).
+/// Compares by one method. The test is on compliances, whose errors are nearly normal where those of k = 1/c
+/// are heavy-tailed: t = (c_a - c_b) / sqrt(u_b^2 + u_a^2 - 2 r u_b u_a), u the stated standard
+/// uncertainties, against Student's distribution with the degrees of freedom of the smaller campaign
+/// (postures less a third of the unknowns, a posture giving three coordinates). What the model misses recurs
+/// in a posture that is measured twice, so the errors are correlated: r = sum over pairs d_b d_a / sqrt(sum
+/// d_b^2 sum d_a^2), d how leaving out a posture moves c (moveByEachPosture).
 StiffnessChange compareStiffness(const Identification& before, const Identification& after, Method method,
                                  const MatchedPostures& matched);
 

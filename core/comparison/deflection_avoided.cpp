@@ -16,7 +16,8 @@ DeflectionAvoided ofPairs(const std::vector<double>& before, const std::vector<d
     return none;
   }
   std::vector<PostureDeflection> postures;
-  for (const PosturePair& pair : matched.pairs) postures.push_back({pair.pose, before[pair.before], after[pair.after]});
+  for (const PosturePair& pair : matched.pairs)
+    postures.push_back({pair.pose, before[pair.before], after[pair.after]});
   return shareAvoided(std::move(postures), options);
 }
 
@@ -65,14 +66,16 @@ DeflectionAvoided deflectionAvoidedAtWrist(const Identification& before, const I
                                            const MatchedPostures& matched, const BootstrapOptions& options) {
   if (before.wrist_displacement.empty() || after.wrist_displacement.empty()) {
     DeflectionAvoided none;
-    none.reason = std::string("P_wrist is not measured ") + (before.wrist_displacement.empty() ? "before" : "after");
+    none.reason =
+        std::string("P_wrist is not measured ") + (before.wrist_displacement.empty() ? "before" : "after");
     return none;
   }
   return ofPairs(before.wrist_displacement, after.wrist_displacement, matched, options);
 }
 
 DeflectionAvoided deflectionAvoidedAtTargets(const Identification& before, const Identification& after,
-                                             const MatchedPostures& matched, const BootstrapOptions& options) {
+                                             const MatchedPostures& matched,
+                                             const BootstrapOptions& options) {
   return ofPairs(before.target_displacement, after.target_displacement, matched, options);
 }
 

@@ -15,8 +15,8 @@ struct PostureDeflection {
   double share() const { return 1.0 - after / before; }
 };
 
-/// The share of the deflection that the second campaign no longer has (paper, IV.E): 1 - sum |after| / sum |before|
-/// over matched postures. Negative where it has more.
+/// The share of the deflection that the second campaign no longer has (paper, IV.E): 1 - sum |after| / sum
+/// |before| over matched postures. Negative where it has more.
 struct DeflectionAvoided {
   bool available = false;
   std::string reason;
@@ -26,19 +26,22 @@ struct DeflectionAvoided {
 };
 
 struct BootstrapOptions {
-  int samples = 4000;      ///< 2.5 % of them are 100: the ends of the interval settle to a twentieth of its width
+  int samples = 4000;  ///< 2.5 % of them are 100: the ends of the interval settle to a twentieth of its width
   std::uint64_t seed = 1;
 };
 
 /// At P_wrist; unavailable, with the reason, where it is not measured in both campaigns.
 DeflectionAvoided deflectionAvoidedAtWrist(const Identification& before, const Identification& after,
-                                           const MatchedPostures& matched, const BootstrapOptions& options = {});
+                                           const MatchedPostures& matched,
+                                           const BootstrapOptions& options = {});
 
 /// At the reflectors, the mean over those of a posture.
 DeflectionAvoided deflectionAvoidedAtTargets(const Identification& before, const Identification& after,
-                                             const MatchedPostures& matched, const BootstrapOptions& options = {});
+                                             const MatchedPostures& matched,
+                                             const BootstrapOptions& options = {});
 
-/// The share of sums and its percentile bootstrap over postures (seeded): what other postures would have given.
+/// The share of sums and its percentile bootstrap over postures (seeded): what other postures would have
+/// given.
 DeflectionAvoided shareAvoided(std::vector<PostureDeflection> postures, const BootstrapOptions& options = {});
 
 }  // namespace stiffscope

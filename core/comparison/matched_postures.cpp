@@ -30,7 +30,8 @@ std::string whyAbsent(const Campaign& campaign, const Identification& result, co
                       const char* when) {
   const std::string head = "pose " + pose + ": ";
   for (const std::string& left_out : result.left_out) {
-    if (left_out.rfind(head, 0) == 0) return fmt::format("left out {}: {}", when, left_out.substr(head.size()));
+    if (left_out.rfind(head, 0) == 0)
+      return fmt::format("left out {}: {}", when, left_out.substr(head.size()));
   }
   const auto& ids = campaign.pose_ids;
   return std::find(ids.begin(), ids.end(), pose) == ids.end()
@@ -49,8 +50,9 @@ std::string difference(const LoadCase& before, const LoadCase& after, const Matc
   const Eigen::Vector3d &force = before.wrench.force, &other = after.wrench.force;
   const double larger = std::max(force.norm(), other.norm());
   if ((other - force).norm() > limits.force * larger) {
-    return fmt::format("the loads differ by {:.1f} % ({:.0f} N before, {:.0f} N after), at most {:.0f} % is the same load",
-                       100.0 * (other - force).norm() / larger, force.norm(), other.norm(), 100.0 * limits.force);
+    return fmt::format(
+        "the loads differ by {:.1f} % ({:.0f} N before, {:.0f} N after), at most {:.0f} % is the same load",
+        100.0 * (other - force).norm() / larger, force.norm(), other.norm(), 100.0 * limits.force);
   }
   return {};
 }
@@ -65,8 +67,9 @@ MatchedPostures matchPostures(const Campaign& before_campaign, const Identificat
   for (std::size_t i = 0; i < before.cases.size(); ++i) {
     const std::string& pose = poseOf(before_campaign, before.cases[i]);
     const auto place = places.find(pose);
-    const std::string reason = place == places.end() ? whyAbsent(after_campaign, after, pose, "after")
-                                                     : difference(before.cases[i], after.cases[place->second], limits);
+    const std::string reason = place == places.end()
+                                   ? whyAbsent(after_campaign, after, pose, "after")
+                                   : difference(before.cases[i], after.cases[place->second], limits);
     if (reason.empty()) {
       result.pairs.push_back({pose, i, place->second});
     } else {
@@ -75,13 +78,15 @@ MatchedPostures matchPostures(const Campaign& before_campaign, const Identificat
   }
   for (const LoadCase& load_case : after.cases) {
     const std::string& pose = poseOf(after_campaign, load_case);
-    if (!own.contains(pose)) result.unmatched.push_back({pose, whyAbsent(before_campaign, before, pose, "before")});
+    if (!own.contains(pose))
+      result.unmatched.push_back({pose, whyAbsent(before_campaign, before, pose, "before")});
   }
   return result;
 }
 
 std::string differenceOfMachines(const Robot& before, const Robot& after) {
-  constexpr double kSamePlace = 1e-3, kSameDirection = 1e-3;  // m, rad: beyond what two files of one arm round to
+  constexpr double kSamePlace = 1e-3,
+                   kSameDirection = 1e-3;  // m, rad: beyond what two files of one arm round to
   for (std::size_t j = 0; j < 6; ++j) {
     const Line &a = before.axes_in_base_at_zero[j], &b = after.axes_in_base_at_zero[j];
     const double turn = (a.direction - b.direction).norm();
@@ -90,8 +95,8 @@ std::string differenceOfMachines(const Robot& before, const Robot& after) {
     return turn > kSameDirection
                ? fmt::format("the URDFs describe different machines: axis {} is turned by {:.2f} deg", j + 1,
                              2.0 * std::asin(std::min(1.0, 0.5 * turn)) / kDegree)
-               : fmt::format("the URDFs describe different machines: axis {} stands {:.1f} mm elsewhere", j + 1,
-                             apart / kMillimetre);
+               : fmt::format("the URDFs describe different machines: axis {} stands {:.1f} mm elsewhere",
+                             j + 1, apart / kMillimetre);
   }
   return {};
 }

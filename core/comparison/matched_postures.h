@@ -21,7 +21,7 @@ struct UnmatchedPosture {
 
 struct MatchLimits {
   double angle = 1.745e-4;  ///< rad (0.01 deg): a robot comes back to a taught posture to a few thousandths
-  double force = 0.02;      ///< of the larger force: the deflection goes with it, and 2 % is lost in the scatter
+  double force = 0.02;  ///< of the larger force: the deflection goes with it, and 2 % is lost in the scatter
 };
 
 struct MatchedPostures {
@@ -29,8 +29,8 @@ struct MatchedPostures {
   std::vector<UnmatchedPosture> unmatched;
 };
 
-/// Postures correspond where the pose id is the same, no joint angle differs by more than `limits.angle` and the
-/// force vectors (R0) by more than `limits.force`. Every other posture is named with the reason.
+/// Postures correspond where the pose id is the same, no joint angle differs by more than `limits.angle` and
+/// the force vectors (R0) by more than `limits.force`. Every other posture is named with the reason.
 MatchedPostures matchPostures(const Campaign& before_campaign, const Identification& before,
                               const Campaign& after_campaign, const Identification& after,
                               const MatchLimits& limits = {});

@@ -17,9 +17,10 @@ Normals normalOf(const std::vector<CaseEquations>& equations) {
 /// Complete Pose's equations, which its result does not keep, from the load cases.
 Normals completePoseNormals(const Identification& result) {
   const MethodResult& method = result.of(Method::complete_pose);
-  const auto torques = result.finite_deflection
-                           ? jointTorquesWithGeometricStiffness(method.geometry, result.cases, method.estimate.compliance)
-                           : jointTorques(method.geometry, result.cases);
+  const auto torques =
+      result.finite_deflection
+          ? jointTorquesWithGeometricStiffness(method.geometry, result.cases, method.estimate.compliance)
+          : jointTorques(method.geometry, result.cases);
   Normals normal;
   for (std::size_t i = 0; i < result.cases.size(); ++i) {
     const CaseEquations pose =
@@ -47,7 +48,8 @@ std::vector<Vector6d> movesOf(const Normals& normals, const JointMask& unknown) 
   return moves;
 }
 
-std::vector<Vector6d> decoupledMoves(const Normals& wrist, const Normals& reflectors, const JointMask& unknown) {
+std::vector<Vector6d> decoupledMoves(const Normals& wrist, const Normals& reflectors,
+                                     const JointMask& unknown) {
   const NormalEquations wrist_sum = sumOf(wrist), reflector_sum = sumOf(reflectors);
   const Vector6d all = solveDecoupled(wrist_sum, reflector_sum, unknown);
   std::vector<Vector6d> moves;

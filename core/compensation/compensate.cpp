@@ -14,7 +14,8 @@ namespace stiffscope {
 
 namespace {
 
-const char* const kNoRest = "the loaded arm does not come to rest: the load is too large for these stiffnesses";
+const char* const kNoRest =
+    "the loaded arm does not come to rest: the load is too large for these stiffnesses";
 
 Eigen::Vector3d rotationVector(const Eigen::Matrix3d& rotation) {
   const Eigen::AngleAxisd turn(rotation);
@@ -25,7 +26,11 @@ class Compensator {
  public:
   Compensator(const Campaign& campaign, const LoadingGeometry& geometry, const StiffnessEstimate& estimate,
               const Eigen::Vector3d& tcp_in_flange, const CompensateOptions& options)
-      : campaign_(campaign), geometry_(geometry), estimate_(estimate), tcp_(tcp_in_flange), options_(options) {}
+      : campaign_(campaign),
+        geometry_(geometry),
+        estimate_(estimate),
+        tcp_(tcp_in_flange),
+        options_(options) {}
 
   CompensatedPosture run(const PostureToCompensate& asked) const {
     CompensatedPosture result;
@@ -46,12 +51,14 @@ class Compensator {
   }
 
  private:
-  FlangeLoad loadAt(const ArmPosture& posture, const Eigen::Isometry3d& flange, const Vector6d& reading) const {
+  FlangeLoad loadAt(const ArmPosture& posture, const Eigen::Isometry3d& flange,
+                    const Vector6d& reading) const {
     const Wrench wrench = cellWrench(*campaign_.load_cell, geometry_, posture, flange, flange, reading);
     return {flange.inverse() * wrench.point, wrench.force, wrench.moment};
   }
 
-  Vector6d torqueOf(const ArmPosture& posture, const Eigen::Isometry3d& flange, const FlangeLoad& load) const {
+  Vector6d torqueOf(const ArmPosture& posture, const Eigen::Isometry3d& flange,
+                    const FlangeLoad& load) const {
     return jointTorque(geometry_.arm, posture, {flange * load.point_in_flange, load.force, load.moment});
   }
 
@@ -61,40 +68,46 @@ class Compensator {
     return angles ? std::optional<ArmPosture>(postureAt(geometry_.arm, *angles)) : std::nullopt;
   }
 
-  std::string refusal(const PostureToCompensate& asked, const ArmPosture& unloaded, const Eigen::Isometry3d& wanted,
-                      const FlangeLoad& load, double conditioning) const {
-    const std::string outside = outsideLimits(asked.q, "joint {} stands at {:.3f} deg, outside its limits {:.1f} to {:.1f} deg");
+  std::string refusal(const PostureToCompensate& asked, const ArmPosture& unloaded,
+                      const Eigen::Isometry3d& wanted, const FlangeLoad& load, double conditioning) const {
+    const std::string outside =
+        outsideLimits(asked.q, "joint {} stands at {:.3f} deg, outside its limits {:.1f} to {:.1f} deg");
     if (!outside.empty()) return outside;
     if (conditioning < options_.least_conditioning) {
-      return fmt::format("too near a singularity: conditioning {:.4f}, at least {:g} is asked for", conditioning,
-                         options_.least_conditioning);
+      return fmt::format("too near a singularity: conditioning {:.4f}, at least {:g} is asked for",
+                         conditioning, options_.least_conditioning);
     }
     return turnsUnusableJoint(torqueOf(unloaded, wanted, load));
   }
 
-  /// The reason to refuse where the load turns a joint of unknown stiffness, which counts as rigid here, or of a
-  /// negative one, by which the commands would go the wrong way.
+  /// The reason to refuse where the load turns a joint of unknown stiffness, which counts as rigid here, or
+  /// of a negative one, by which the commands would go the wrong way.
   std::string turnsUnusableJoint(const Vector6d& torque) const {
     for (int joint = 0; joint < 6; ++joint) {
       const bool known = estimate_.identifiable[static_cast<std::size_t>(joint)];
       if (known && estimate_.compliance[joint] >= 0.0) continue;
       if (std::abs(torque[joint]) <= options_.share_unknown * torque.cwiseAbs().maxCoeff()) continue;
-      return known ? fmt::format("the load turns axis {} by {:.0f} Nm and k{} came out negative: no spring has that",
-                                 joint + 1, std::abs(torque[joint]), joint + 1)
-                   : fmt::format("the load turns axis {} by {:.0f} Nm and k{} is not known: the deflection shown lacks "
-                                 "its part",
-                                 joint + 1, std::abs(torque[joint]), joint + 1);
+      return known
+                 ? fmt::format(
+                       "the load turns axis {} by {:.0f} Nm and k{} came out negative: no spring has that",
+                       joint + 1, std::abs(torque[joint]), joint + 1)
+                 : fmt::format(
+                       "the load turns axis {} by {:.0f} Nm and k{} is not known: the deflection shown lacks "
+                       "its part",
+                       joint + 1, std::abs(torque[joint]), joint + 1);
     }
     return {};
   }
 
   Eigen::Vector3d sdOf(const Matrix36d& rows) const {
     const Eigen::Vector3d variance = (rows * estimate_.covariance * rows.transpose()).diagonal();
-    return variance.unaryExpr([](double v) { return v < 0.0 ? 0.0 : std::sqrt(v); });  // keeps what is no number
+    return variance.unaryExpr(
+        [](double v) { return v < 0.0 ? 0.0 : std::sqrt(v); });  // keeps what is no number
   }
 
   PointDeflection deflectionOf(const Eigen::Vector3d& point_in_flange, const Eigen::Isometry3d& wanted,
-                               const Eigen::Isometry3d& loaded, const ArmPosture& unloaded, const Vector6d& torque) const {
+                               const Eigen::Isometry3d& loaded, const ArmPosture& unloaded,
+                               const Vector6d& torque) const {
     const Eigen::Vector3d place = wanted * point_in_flange;
     const Matrix36d rows = jacobianAt(geometry_.arm, unloaded, place).topRows<3>() * torque.asDiagonal();
     return {loaded * point_in_flange - place, sdOf(rows)};
@@ -125,8 +138,8 @@ class Compensator {
     result.conditioning = singular[5] / singular[0];
   }
 
-  void solve(const PostureToCompensate& asked, const Vector6d& unloaded_angles, const Eigen::Isometry3d& wanted,
-             const FlangeLoad& load, CompensatedPosture& result) const {
+  void solve(const PostureToCompensate& asked, const Vector6d& unloaded_angles,
+             const Eigen::Isometry3d& wanted, const FlangeLoad& load, CompensatedPosture& result) const {
     const auto once = loadedAngles(geometry_, estimate_.compliance, asked.q, load);
     Vector6d commands = asked.q - (*once - unloaded_angles);  // the predicted turn, mirrored: the first try
     constexpr int kMostSteps = 20;
@@ -144,8 +157,8 @@ class Compensator {
       if (step == 0) result.mirrored_remaining = result.remaining;
       if (error.cwiseAbs().maxCoeff() < kThere) {
         result.commands = commands;
-        result.reason =
-            outsideLimits(commands, "joint {} would have to go to {:.3f} deg, outside its limits {:.1f} to {:.1f} deg");
+        result.reason = outsideLimits(
+            commands, "joint {} would have to go to {:.3f} deg, outside its limits {:.1f} to {:.1f} deg");
         result.solved = result.reason.empty();
         return;
       }
@@ -175,7 +188,8 @@ class Compensator {
 }  // namespace
 
 std::vector<CompensatedPosture> compensate(const Campaign& campaign, const LoadingGeometry& geometry,
-                                           const StiffnessEstimate& estimate, const Eigen::Vector3d& tcp_in_flange,
+                                           const StiffnessEstimate& estimate,
+                                           const Eigen::Vector3d& tcp_in_flange,
                                            const std::vector<PostureToCompensate>& postures,
                                            const CompensateOptions& options) {
   const Compensator compensator(campaign, geometry, estimate, tcp_in_flange, options);

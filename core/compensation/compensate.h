@@ -17,8 +17,8 @@ struct PostureToCompensate {
   Vector6d wrench_in_cell = Vector6d::Zero();  ///< N, Nm, in the load cell's axes
 };
 
-/// Predicted move of one point of the flange body by the load, loaded less unloaded, and its standard uncertainty
-/// from the stiffnesses' covariance: R0 axes, m.
+/// Predicted move of one point of the flange body by the load, loaded less unloaded, and its standard
+/// uncertainty from the stiffnesses' covariance: R0 axes, m.
 struct PointDeflection {
   Eigen::Vector3d deflection = Eigen::Vector3d::Zero();
   Eigen::Vector3d sd = Eigen::Vector3d::Zero();
@@ -27,32 +27,36 @@ struct PointDeflection {
 /// Predicted deflection by the load, and the joint commands that cancel it.
 struct CompensatedPosture {
   PostureToCompensate posture;
-  bool predicted = false;  ///< false: the arm does not come to rest under this load, and nothing below is given
-  PointDeflection tcp;     ///< of P_TCP
+  bool predicted =
+      false;            ///< false: the arm does not come to rest under this load, and nothing below is given
+  PointDeflection tcp;  ///< of P_TCP
   Eigen::Vector3d rotation = Eigen::Vector3d::Zero();     ///< of the flange, rotation vector in R0, rad
   Eigen::Vector3d rotation_sd = Eigen::Vector3d::Zero();  ///< its standard uncertainty, rad
-  std::vector<PointDeflection> targets;  ///< of the reflectors, in the order of the campaign's; empty: places not known
+  std::vector<PointDeflection>
+      targets;  ///< of the reflectors, in the order of the campaign's; empty: places not known
   bool solved = false;
   std::string reason;                    ///< why there are no commands
   Vector6d commands = Vector6d::Zero();  ///< joint angles to command, rad
-  double mirrored_remaining = 0.0;       ///< |move of P_TCP| left where the predicted turn is subtracted once, m
-  double remaining = 0.0;                ///< the same by the commands: |P_TCP(loaded, commands) - P_TCP(unloaded, q)|, m
-  double conditioning = 0.0;             ///< least over largest singular value of J at P_TCP, lengths over 1 m
+  double mirrored_remaining = 0.0;  ///< |move of P_TCP| left where the predicted turn is subtracted once, m
+  double remaining = 0.0;     ///< the same by the commands: |P_TCP(loaded, commands) - P_TCP(unloaded, q)|, m
+  double conditioning = 0.0;  ///< least over largest singular value of J at P_TCP, lengths over 1 m
 };
 
 struct CompensateOptions {
   double least_conditioning = 0.01;  ///< below it a posture is too near a singularity
-  double share_unknown = 0.02;       ///< of the largest joint torque: what may turn a joint of unusable stiffness
+  double share_unknown = 0.02;  ///< of the largest joint torque: what may turn a joint of unusable stiffness
 };
 
-/// For each posture: the nonlinear model (finite rotations, own weight and load on the moved arm) gives the loaded
-/// pose; Newton steps on the commands bring the loaded flange back onto the pose that the unloaded arm has at q. The
-/// wrench is taken into R0 at the unloaded flange and keeps its direction. No commands, with the reason, where the
-/// posture is outside the joint limits or a command would be, near a singularity, where the steps do not converge, and
-/// where more than `share_unknown` of the largest joint torque turns a joint whose stiffness is not known or came out
-/// negative. Uncertainties are first order, J diag(tau) U_c diag(tau) J^T; not a number where U_c is not.
+/// For each posture: the nonlinear model (finite rotations, own weight and load on the moved arm) gives the
+/// loaded pose; Newton steps on the commands bring the loaded flange back onto the pose that the unloaded arm
+/// has at q. The wrench is taken into R0 at the unloaded flange and keeps its direction. No commands, with
+/// the reason, where the posture is outside the joint limits or a command would be, near a singularity, where
+/// the steps do not converge, and where more than `share_unknown` of the largest joint torque turns a joint
+/// whose stiffness is not known or came out negative. Uncertainties are first order, J diag(tau) U_c
+/// diag(tau) J^T; not a number where U_c is not.
 std::vector<CompensatedPosture> compensate(const Campaign& campaign, const LoadingGeometry& geometry,
-                                           const StiffnessEstimate& estimate, const Eigen::Vector3d& tcp_in_flange,
+                                           const StiffnessEstimate& estimate,
+                                           const Eigen::Vector3d& tcp_in_flange,
                                            const std::vector<PostureToCompensate>& postures,
                                            const CompensateOptions& options = {});
 

@@ -4,8 +4,8 @@
 
 namespace stiffscope {
 
-std::optional<Vector6d> loadedAngles(const LoadingGeometry& geometry, const Vector6d& compliance, const Vector6d& q,
-                                     const FlangeLoad& load) {
+std::optional<Vector6d> loadedAngles(const LoadingGeometry& geometry, const Vector6d& compliance,
+                                     const Vector6d& q, const FlangeLoad& load) {
   constexpr int kMostSteps = 100;
   constexpr double kSettled = 1e-12;  // rad
   Vector6d angles = q;

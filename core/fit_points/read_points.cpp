@@ -68,8 +68,7 @@ Eigen::Vector3d pointIn(const std::vector<std::string_view>& cells, const std::s
 
 }  // namespace
 
-std::vector<Eigen::Vector3d> readPoints(const std::filesystem::path& file) {
-  const std::string bytes = readTextFile(file);
+std::vector<Eigen::Vector3d> parsePoints(std::string_view bytes, const std::string& file) {
   constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
   std::string_view rest = bytes;
   if (rest.starts_with(kByteOrderMark)) rest.remove_prefix(kByteOrderMark.size());
@@ -86,15 +85,19 @@ std::vector<Eigen::Vector3d> readPoints(const std::filesystem::path& file) {
       count_line = line;
       continue;
     }
-    points.push_back(pointIn(cells, file.string(), line));
+    points.push_back(pointIn(cells, file, line));
   }
   if (points.empty())
-    throw InputError({file.string(), 0, ""}, "", "expected points, x y z on each line; there are none");
+    throw InputError({file, 0, ""}, "", "expected points, x y z on each line; there are none");
   if (count && (*count < 0 || static_cast<std::size_t>(*count) != points.size())) {
-    throw InputError({file.string(), count_line, "count"}, fmt::format("{}", *count),
+    throw InputError({file, count_line, "count"}, fmt::format("{}", *count),
                      fmt::format("expected the number of points that follow, {}", points.size()));
   }
   return points;
+}
+
+std::vector<Eigen::Vector3d> readPoints(const std::filesystem::path& file) {
+  return parsePoints(readTextFile(file), file.string());
 }
 
 }  // namespace stiffscope

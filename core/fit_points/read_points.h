@@ -2,6 +2,8 @@
 
 #include <Eigen/Core>
 #include <filesystem>
+#include <string>
+#include <string_view>
 #include <vector>
 
 namespace stiffscope {
@@ -10,5 +12,8 @@ namespace stiffscope {
 /// unit the file is. Empty lines and what follows a '#' are skipped; a first line of one whole number is the
 /// count of points and must be it. Throws InputError with file, line, column, value and expectation.
 std::vector<Eigen::Vector3d> readPoints(const std::filesystem::path& file);
+
+/// The same from the bytes of such a file; `file` is its name for messages.
+std::vector<Eigen::Vector3d> parsePoints(std::string_view bytes, const std::string& file);
 
 }  // namespace stiffscope

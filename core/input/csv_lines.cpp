@@ -1,54 +1,102 @@
 #include "core/input/csv_lines.h"
 
-// The reader's own thread would only read ahead in memory.
-#define CSV_IO_NO_THREAD
-// It cuts file names at 255 bytes on purpose, which the compiler takes for a slip.
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wstringop-truncation"
-#include <libfccp/csv.h>
-#pragma GCC diagnostic pop
-
 #include <cstring>
-#include <limits>
 
 #include "core/input/input_error.h"
 
 namespace stiffscope {
 
-struct CsvLines::Reader {
-  io::LineReader lines;
-};
+namespace {
 
-CsvLines::CsvLines(std::string file, std::string_view bytes)
-    : file_(std::move(file)),
-      reader_(new Reader{io::LineReader(file_, bytes.data(), bytes.data() + bytes.size())}) {}
+constexpr bool isBlank(char c) { return c == ' ' || c == '\t'; }
 
-CsvLines::~CsvLines() = default;
+const char* endOf(std::string_view text) { return text.data() + text.size(); }
 
-std::size_t CsvLines::line() const { return reader_->lines.get_file_line(); }
+const char* find(const char* begin, const char* end, char wanted) {
+  const void* found = begin == end ? nullptr : std::memchr(begin, wanted, static_cast<std::size_t>(end - begin));
+  return found == nullptr ? end : static_cast<const char*>(found);
+}
+
+void skipBlanks(std::string_view& text) {
+  std::size_t blanks = 0;
+  while (blanks < text.size() && isBlank(text[blanks])) ++blanks;
+  text.remove_prefix(blanks);
+}
+
+// Cells have some ten bytes, where a plain loop is quicker than a call of memchr.
+std::string_view plainCell(std::string_view& line) {
+  std::size_t size = 0;
+  while (size < line.size() && line[size] != ',') ++size;
+  std::string_view cell = line.substr(0, size);
+  line.remove_prefix(size);
+  while (!cell.empty() && isBlank(cell.back())) cell.remove_suffix(1);
+  return cell;
+}
+
+}  // namespace
+
+CsvLines::CsvLines(std::string file, std::string_view bytes) : file_(std::move(file)), rest_(bytes) {
+  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+  if (rest_.starts_with(kByteOrderMark)) rest_.remove_prefix(kByteOrderMark.size());
+  next_lf_ = find(rest_.data(), endOf(rest_), '\n');
+}
+
+bool CsvLines::nextLine(std::string_view& line) {
+  if (rest_.empty()) return false;
+  const char* const begin = rest_.data();
+  const char* const end = endOf(rest_);
+  if (next_lf_ < begin) next_lf_ = find(begin, end, '\n');
+  const char* const line_end = find(begin, next_lf_, '\r');
+  line = {begin, static_cast<std::size_t>(line_end - begin)};
+  line_ended_ = line_end != end;
+  const bool crlf = line_ended_ && *line_end == '\r' && line_end + 1 != end && line_end[1] == '\n';
+  rest_.remove_prefix(line.size() + (crlf ? 2 : line_ended_ ? 1 : 0));
+  ++line_;
+  return true;
+}
+
+std::string_view CsvLines::quotedCell(std::string_view& line) {
+  line.remove_prefix(1);
+  bool doubled = false;
+  std::size_t size = 0;
+  for (;; ++size) {
+    size = line.find('"', size);
+    if (size == std::string_view::npos) {
+      throw InputError({file_, line_, ""}, "\"", "expected a closing quote on the same line");
+    }
+    if (size + 1 == line.size() || line[size + 1] != '"') break;
+    doubled = true;
+    ++size;
+  }
+  std::string_view cell = line.substr(0, size);
+  line.remove_prefix(size + 1);
+  skipBlanks(line);
+  if (!line.empty() && line.front() != ',') {
+    throw InputError({file_, line_, ""}, std::string(line.substr(0, line.find(','))),
+                     "expected a comma, or the end of the line, after a closing quote");
+  }
+  if (!doubled) return cell;
+  std::string& text = unescaped_.emplace_back();
+  for (std::size_t i = 0; i < cell.size(); ++i) {
+    text += cell[i];
+    if (cell[i] == '"') ++i;
+  }
+  return text;
+}
 
 bool CsvLines::next(std::vector<std::string_view>& cells) {
-  using Quotes = io::double_quote_escape<',', '"'>;
   cells.clear();
-  try {
-    char* rest = nullptr;
-    do {
-      rest = reader_->lines.next_line();
-      if (rest == nullptr) return false;
-    } while (io::empty_line_comment::is_comment(rest));
-    while (rest != nullptr) {
-      char* begin = nullptr;
-      char* end = nullptr;
-      io::detail::chop_next_column<Quotes>(rest, begin, end);
-      io::trim_chars<' ', '\t'>::trim(begin, end);
-      Quotes::unescape(begin, end);
-      cells.emplace_back(begin, static_cast<std::size_t>(end - begin));
-    }
-    return true;
-  } catch (const io::error::escaped_string_not_closed&) {
-    throw InputError({file_, line(), ""}, "\"", "expected a closing quote on the same line");
-  } catch (const io::error::line_length_limit_exceeded&) {
-    throw InputError({file_, line(), ""}, "", "expected lines shorter than 16 MB");
+  unescaped_.clear();
+  std::string_view line;
+  do {
+    if (!nextLine(line)) return false;
+    skipBlanks(line);
+  } while (line.empty());
+  while (true) {
+    skipBlanks(line);
+    cells.push_back(!line.empty() && line.front() == '"' ? quotedCell(line) : plainCell(line));
+    if (line.empty()) return true;
+    line.remove_prefix(1);
   }
 }
 

@@ -1,35 +1,42 @@
 #pragma once
 
 #include <cstddef>
-#include <memory>
+#include <deque>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace stiffscope {
 
-/// Cuts a comma-separated table in memory into lines and cells. Line ends may be LF or CRLF, a UTF-8 byte
-/// order mark is skipped, blank lines are skipped (but counted), blanks around a cell are cut off, and a cell
-/// may stand in double quotes. The cells are views that hold until the next call.
+/// Cuts a comma-separated table in memory into lines and cells, in one pass and without a copy of the text. Line ends
+/// may be LF, CRLF or CR, a UTF-8 byte-order mark is skipped, blank lines are skipped (but counted), blanks around a
+/// cell are cut off, and a cell may stand in double quotes, where two of them mean one. The cells are views that hold
+/// until the next call.
 class CsvLines {
  public:
   /// `file` is the name for messages; `bytes` must outlive this object.
   CsvLines(std::string file, std::string_view bytes);
-  ~CsvLines();
-  CsvLines(const CsvLines&) = delete;
-  CsvLines& operator=(const CsvLines&) = delete;
 
-  /// Cells of the next line that is not blank; false at the end. Throws InputError where a line is longer
-  /// than the tokenizer holds (16 MB) or a quote is not closed.
+  /// Cells of the next line that is not blank; false at the end. Throws InputError where a quote is not closed on its
+  /// line, or something else than a comma follows one that is.
   bool next(std::vector<std::string_view>& cells);
 
   /// Line of the cells last given, counted from 1.
-  std::size_t line() const;
+  std::size_t line() const { return line_; }
+
+  /// Whether nothing stands behind the line last given, not even the end of that line.
+  bool endsWithoutLineEnd() const { return rest_.empty() && !line_ended_; }
 
  private:
-  struct Reader;
+  bool nextLine(std::string_view& line);
+  std::string_view quotedCell(std::string_view& line);
+
   std::string file_;
-  std::unique_ptr<Reader> reader_;
+  std::string_view rest_;
+  std::size_t line_ = 0;
+  bool line_ended_ = true;
+  const char* next_lf_ = nullptr;      ///< first LF in rest_; sought again only when it is passed
+  std::deque<std::string> unescaped_;  ///< cells of this line that had doubled quotes
 };
 
 }  // namespace stiffscope

@@ -19,10 +19,14 @@ class NameList {
 
   /// Index of `name`, which is appended where it is not listed yet.
   int add(std::string_view name) {
-    const int known = find(name);
-    if (known >= 0) return known;
+    // Rows of one posture follow one another.
+    if (!names_.empty() && names_[static_cast<std::size_t>(latest_)] == name) return latest_;
+    latest_ = find(name);
+    if (latest_ >= 0) return latest_;
+    latest_ = static_cast<int>(names_.size());
     names_.emplace_back(name);
-    return index_.emplace(names_.back(), static_cast<int>(names_.size()) - 1).first->second;
+    index_.emplace(names_.back(), latest_);
+    return latest_;
   }
 
   const std::vector<std::string>& names() const { return names_; }
@@ -34,6 +38,7 @@ class NameList {
   };
 
   std::vector<std::string> names_;
+  int latest_ = 0;
   std::unordered_map<std::string, int, Hash, std::equal_to<>> index_;
 };
 

@@ -13,11 +13,25 @@ std::string_view withoutPlus(std::string_view text) {
   return plus ? text.substr(1) : text;
 }
 
+bool hasDigit(std::string_view text) { return text.find_first_of("0123456789") != std::string_view::npos; }
+
+// What people and programs write that is a number to them.
 std::string whyNoNumber(std::string_view text) {
   if (text.empty()) return "expected a number; there is nothing";
   if (text.find("${") != std::string_view::npos) return "expected a number; expand xacro first";
   if (text.find(',') != std::string_view::npos) {
     return "expected a number with a decimal point, not a decimal comma";
+  }
+  if (text.find("\xE2\x88\x92") != std::string_view::npos || text.find("\xE2\x80\x93") != std::string_view::npos) {
+    return "expected a number; its minus sign is a typographic one, write '-'";
+  }
+  if (!hasDigit(text)) return "expected a number";
+  if (text.find_first_of("xX") != std::string_view::npos) return "expected a number, decimal and not hexadecimal";
+  if (text.find_first_of("dD") != std::string_view::npos) {
+    return "expected a number; an exponent is written with e, not with d";
+  }
+  if (text.find_first_of(" '\t") != std::string_view::npos || text.find("\xC2\xA0") != std::string_view::npos) {
+    return "expected a number without blanks or marks between its digits";
   }
   return "expected a number";
 }

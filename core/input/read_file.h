@@ -1,12 +1,28 @@
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <string>
 
+#include "core/input/file_stamp.h"
+
 namespace stiffscope {
 
-/// The bytes of a text file, read once. Throws InputError, naming the file and what was expected, where it is
-/// missing, a directory or device, unreadable, empty, or no text in UTF-8.
-std::string readTextFile(const std::filesystem::path& path);
+/// Largest files that are read: tables of some ten million readings, and XML that no person and no exporter exceeds. A
+/// larger file is refused by its size, before any of it is in memory.
+inline constexpr std::size_t kLargestTable = std::size_t{1} << 30;
+inline constexpr std::size_t kLargestXml = std::size_t{1} << 24;
+
+struct TextFile {
+  std::string bytes;
+  FileStamp stamp;  ///< before and after the reading
+};
+
+/// A text file, read once. Throws InputError, naming the file and what was expected, where it is missing, a directory,
+/// a device or a pipe, unreadable, empty, larger than `largest`, no text in UTF-8, or changes while it is read.
+TextFile readTextFileWithStamp(const std::filesystem::path& path, std::size_t largest = kLargestTable);
+
+/// The bytes alone.
+std::string readTextFile(const std::filesystem::path& path, std::size_t largest = kLargestTable);
 
 }  // namespace stiffscope

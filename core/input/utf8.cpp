@@ -1,6 +1,21 @@
 #include "core/input/utf8.h"
 
+#include <cstdint>
+#include <cstring>
+
 namespace stiffscope {
+
+namespace {
+
+// Most text is ASCII, of which eight bytes are looked at in one go.
+bool startsWithEightAscii(std::string_view text) {
+  std::uint64_t eight = 0;
+  if (text.size() < sizeof eight) return false;
+  std::memcpy(&eight, text.data(), sizeof eight);
+  return (eight & 0x8080808080808080ull) == 0;
+}
+
+}  // namespace
 
 std::size_t utf8CharacterLength(std::string_view text) {
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
@@ -22,6 +37,10 @@ std::size_t utf8CharacterLength(std::string_view text) {
 std::size_t findNotUtf8(std::string_view text) {
   std::size_t at = 0;
   while (at < text.size()) {
+    if (startsWithEightAscii(text.substr(at))) {
+      at += 8;
+      continue;
+    }
     const std::size_t length = utf8CharacterLength(text.substr(at, 4));
     if (length == 0) return at;
     at += length;

@@ -1,11 +1,11 @@
 #include "core/input/write_file.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <cstring>
-#include <fstream>
 #include <stdexcept>
 
 namespace stiffscope {
@@ -18,27 +18,41 @@ namespace {
   throw std::runtime_error(fmt::format("{}: cannot be written: {}", path.string(), reason));
 }
 
-void writeInto(const fs::path& file, std::string_view bytes, const fs::path& named) {
-  errno = 0;
-  std::ofstream out(file, std::ios::binary | std::ios::trunc);
-  out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  out.close();
-  if (!out) fail(named, errno != 0 ? std::strerror(errno) : "the write failed");
+void writeAll(int file, std::string_view bytes, const fs::path& named) {
+  while (!bytes.empty()) {
+    const ssize_t some = ::write(file, bytes.data(), bytes.size());
+    if (some < 0 && errno != EINTR) fail(named, std::strerror(errno));
+    if (some > 0) bytes.remove_prefix(static_cast<std::size_t>(some));
+  }
+  // A device or a pipe cannot be synchronised, and need not be.
+  if (::fsync(file) != 0 && errno != EINVAL && errno != EROFS) fail(named, std::strerror(errno));
 }
 
 }  // namespace
+
+void writeFileNamed(const fs::path& file, std::string_view bytes, const fs::path& named) {
+  const int descriptor = ::open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  if (descriptor < 0) fail(named, std::strerror(errno));
+  try {
+    writeAll(descriptor, bytes, named);
+  } catch (...) {
+    ::close(descriptor);
+    throw;
+  }
+  if (::close(descriptor) != 0) fail(named, std::strerror(errno));
+}
 
 void writeFileWhole(const fs::path& path, std::string_view bytes) {
   std::error_code error;
   if (path.filename().empty()) fail(path, "it names no file");
   const fs::file_status status = fs::status(path, error);
   if (fs::is_directory(status)) fail(path, "it is a directory");
-  if (fs::exists(status) && !fs::is_regular_file(status)) return writeInto(path, bytes, path);
+  if (fs::exists(status) && !fs::is_regular_file(status)) return writeFileNamed(path, bytes, path);
 
   const fs::path file = fs::is_symlink(fs::symlink_status(path, error)) ? fs::weakly_canonical(path) : path;
   const fs::path temporary = file.string() + fmt::format(".{}.part", ::getpid());
   try {
-    writeInto(temporary, bytes, path);
+    writeFileNamed(temporary, bytes, path);
     fs::rename(temporary, file, error);
     if (error) fail(path, error.message());
   } catch (...) {

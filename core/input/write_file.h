@@ -11,6 +11,10 @@ namespace stiffscope {
 /// removed then.
 void writeFileWhole(const std::filesystem::path& path, std::string_view bytes);
 
+/// Writes `bytes` to `file` directly and waits until they are on the disk; messages name `named`. For files that another
+/// step puts in their place.
+void writeFileNamed(const std::filesystem::path& file, std::string_view bytes, const std::filesystem::path& named);
+
 /// Makes a folder and those above it where they are absent. Throws std::runtime_error with path and reason.
 void makeFolder(const std::filesystem::path& folder);
 

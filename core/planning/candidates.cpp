@@ -19,7 +19,8 @@ double uniform(std::mt19937_64& random, double low, double high) {
 }
 
 std::string whyNone(const CandidateDraw& draw) {
-  std::string text = fmt::format("expected limits within which some posture keeps the rules; of {} drawn", draw.drawn);
+  std::string text =
+      fmt::format("expected limits within which some posture keeps the rules; of {} drawn", draw.drawn);
   for (std::size_t rule = 1; rule < kPostureRules; ++rule) {
     if (draw.broken[rule] == 0) continue;
     text += fmt::format("; {}: {}", wordsFor(static_cast<PostureRule>(rule)), draw.broken[rule]);
@@ -65,7 +66,8 @@ Candidate candidateAt(const PlanningArm& arm, const Vector6d& q, const Eigen::Ve
   return candidate;
 }
 
-CandidateDraw drawCandidates(const PlanningArm& arm, const PostureRules& rules, int count, std::uint64_t seed) {
+CandidateDraw drawCandidates(const PlanningArm& arm, const PostureRules& rules, int count,
+                             std::uint64_t seed) {
   const std::array<JointLimits, 6> box = postureBox(arm.geometry.arm, rules);
   const std::vector<Eigen::Vector3d> directions = loadDirections(arm);
   std::mt19937_64 random(seed);
@@ -73,7 +75,8 @@ CandidateDraw drawCandidates(const PlanningArm& arm, const PostureRules& rules, 
   constexpr int kTriesEach = 400;
   while (static_cast<int>(draw.kept.size()) < count && draw.drawn < kTriesEach * count) {
     Vector6d q;
-    for (std::size_t j = 0; j < 6; ++j) q[static_cast<Eigen::Index>(j)] = uniform(random, box[j].lower, box[j].upper);
+    for (std::size_t j = 0; j < 6; ++j)
+      q[static_cast<Eigen::Index>(j)] = uniform(random, box[j].lower, box[j].upper);
     const Eigen::Vector3d& direction = directions[random() % directions.size()];
     ++draw.drawn;
     const PostureRule broken =

@@ -13,31 +13,12 @@ namespace {
 
 constexpr double kNever = -std::numeric_limits<double>::infinity();
 
-/// log det of a matrix over the mask with unit diagonals elsewhere, which add nothing.
-double logOf(const Matrix6d& matrix) {
-  const Eigen::LLT<Matrix6d> cholesky(matrix);
-  if (cholesky.info() != Eigen::Success) return kNever;
-  double sum = 0.0;
-  for (int j = 0; j < 6; ++j) sum += std::log(cholesky.matrixLLT()(j, j));
-  return 2.0 * sum;
-}
-
-/// Minus the logarithm of the 8-norm of the ratios.
-double balanceOf(const Vector6d& sd, const Vector6d& reference, const JointMask& unknown) {
-  double sum = 0.0;
-  for (int j = 0; j < 6; ++j) {
-    if (!unknown[static_cast<std::size_t>(j)]) continue;
-    const double square = sd[j] * sd[j] / (reference[j] * reference[j]);
-    sum += square * square * square * square;
-  }
-  return -std::log(sum) / 8.0;
-}
-
 class Exchange {
  public:
   explicit Exchange(const DesignProblem& problem) : problem_(problem) {
     Vector6d mean = problem.known.diagonal();
-    for (const Matrix6d& one : problem.information) mean += one.diagonal() / static_cast<double>(problem.information.size());
+    for (const Matrix6d& one : problem.information)
+      mean += one.diagonal() / static_cast<double>(problem.information.size());
     for (int j = 0; j < 6; ++j) {
       const bool counts = problem.unknown[static_cast<std::size_t>(j)] && mean[j] > 0.0;
       scale_[j] = counts ? 1.0 / std::sqrt(mean[j]) : 0.0;
@@ -57,11 +38,12 @@ class Exchange {
 
   /// designValue, on scaled sums.
   double valueOf(const Matrix6d& sum) const {
-    if (!problem_.reference) return logOf(sum);
+    if (!problem_.reference) return choleskyLogDeterminant(sum);
     const Eigen::LLT<Matrix6d> cholesky(sum);
     if (cholesky.info() != Eigen::Success) return kNever;
     const Matrix6d inverse = cholesky.solve(Matrix6d::Identity());
-    return balanceOf(scale_.cwiseProduct(inverse.diagonal().cwiseSqrt()), *problem_.reference, problem_.unknown);
+    return balanceOf(scale_.cwiseProduct(inverse.diagonal().cwiseSqrt()), *problem_.reference,
+                     problem_.unknown);
   }
 
   /// The best candidate to join `others`; the candidate count where none may.
@@ -105,7 +87,7 @@ class Exchange {
     Matrix6d sum = base_;
     while (!chosen.empty()) {
       const auto best = std::max_element(chosen.begin(), chosen.end(), [&](std::size_t a, std::size_t b) {
-        return logOf(sum + information_[a]) < logOf(sum + information_[b]);
+        return choleskyLogDeterminant(sum + information_[a]) < choleskyLogDeterminant(sum + information_[b]);
       });
       sum += information_[*best];
       order.push_back(*best);
@@ -123,48 +105,19 @@ class Exchange {
   std::vector<Matrix6d> information_;
 };
 
-std::vector<std::size_t> randomChoice(const Exchange& exchange, std::size_t candidates, int count, std::mt19937_64& random) {
+std::vector<std::size_t> randomChoice(const Exchange& exchange, std::size_t candidates, int count,
+                                      std::mt19937_64& random) {
   std::vector<std::size_t> order(candidates), chosen;
   std::iota(order.begin(), order.end(), std::size_t{0});
   for (std::size_t i = 0; i < candidates && static_cast<int>(chosen.size()) < count; ++i) {
-    std::swap(order[i], order[i + random() % (candidates - i)]);  // Fisher-Yates; the bias of % is below 1e-15 here
+    std::swap(order[i],
+              order[i + random() % (candidates - i)]);  // Fisher-Yates; the bias of % is below 1e-15 here
     if (exchange.mayJoin(order[i], chosen)) chosen.push_back(order[i]);
   }
   return chosen;
 }
 
 }  // namespace
-
-double logDeterminant(const Matrix6d& information, const JointMask& unknown) {
-  const ScaledNormal normal = scaledNormal(information, unknown);
-  double logarithm = logOf(normal.matrix);
-  for (std::size_t j = 0; j < 6; ++j) {
-    if (!unknown[j]) continue;
-    const double scale = normal.scale[static_cast<Eigen::Index>(j)];
-    if (scale == 0.0) return kNever;
-    logarithm -= 2.0 * std::log(scale);
-  }
-  return logarithm;
-}
-
-Vector6d standardDeviations(const Matrix6d& information, const JointMask& unknown) {
-  const ScaledNormal normal = scaledNormal(information, unknown);
-  const Eigen::LLT<Matrix6d> cholesky(normal.matrix);
-  Vector6d sd = Vector6d::Constant(std::numeric_limits<double>::quiet_NaN());
-  const bool determined = cholesky.info() == Eigen::Success;
-  const Matrix6d inverse = determined ? Matrix6d(cholesky.solve(Matrix6d::Identity())) : Matrix6d::Zero().eval();
-  for (int j = 0; j < 6; ++j) {
-    if (!unknown[static_cast<std::size_t>(j)]) continue;
-    const bool seen = determined && normal.scale[j] > 0.0;
-    sd[j] = seen ? normal.scale[j] * std::sqrt(inverse(j, j)) : std::numeric_limits<double>::infinity();
-  }
-  return sd;
-}
-
-double designValue(const Matrix6d& information, const JointMask& unknown, const std::optional<Vector6d>& reference) {
-  if (!reference) return logDeterminant(information, unknown);
-  return balanceOf(standardDeviations(information, unknown), *reference, unknown);
-}
 
 Matrix6d informationOf(const DesignProblem& problem, const std::vector<std::size_t>& chosen) {
   Matrix6d sum = problem.known;
@@ -184,11 +137,13 @@ Design exchangeDesign(const DesignProblem& problem, int count, const ExchangeOpt
   double best_value = kNever;
   const bool given = !options.from.empty();
   for (int start = 0; start < std::max(1, options.starts + (given ? 1 : 0)); ++start) {
-    std::vector<std::size_t> chosen =
-        given && start == 0 ? options.from : randomChoice(exchange, problem.information.size(), count, random);
+    std::vector<std::size_t> chosen = given && start == 0
+                                          ? options.from
+                                          : randomChoice(exchange, problem.information.size(), count, random);
     best.passes += exchange.improve(chosen, options.most_passes);
     const double value = exchange.valueOf(exchange.sumOf(chosen));
-    if (start > 0 && (chosen.size() < best.chosen.size() || (chosen.size() == best.chosen.size() && value <= best_value)))
+    if (start > 0 &&
+        (chosen.size() < best.chosen.size() || (chosen.size() == best.chosen.size() && value <= best_value)))
       continue;
     best_value = value;
     best.chosen = std::move(chosen);

@@ -4,22 +4,9 @@
 #include <optional>
 #include <vector>
 
-#include "core/identification/normal_equations.h"
+#include "core/planning/design_value.h"
 
 namespace stiffscope {
-
-/// Natural logarithm of the determinant of an information matrix over the joints of the mask; minus infinity where
-/// it is singular.
-double logDeterminant(const Matrix6d& information, const JointMask& unknown);
-
-/// Standard deviations of the compliances, rad/Nm: roots of the inverse's diagonal; infinite where it is singular, not a
-/// number for a joint that is no unknown.
-Vector6d standardDeviations(const Matrix6d& information, const JointMask& unknown);
-
-/// What a design is judged by; larger is better. Without `reference`: logDeterminant (D-optimal). With it, standard
-/// deviations s_j of the compliances that would be welcome: minus the logarithm of the 8-norm of sd_j / s_j, nearly their
-/// largest, so that no joint pays for another (D-optimal designs trade a joint that is hard to see for easy ones).
-double designValue(const Matrix6d& information, const JointMask& unknown, const std::optional<Vector6d>& reference);
 
 struct DesignProblem {
   std::vector<Matrix6d> information;  ///< of each candidate
@@ -32,7 +19,7 @@ struct DesignProblem {
 };
 
 struct ExchangeOptions {
-  int starts = 4;            ///< random ones: exchanges end in a local optimum
+  int starts = 4;                 ///< random ones: exchanges end in a local optimum
   std::vector<std::size_t> from;  ///< one start more, if not empty, before the random ones
   int most_passes = 60;
   std::uint64_t seed = 1;
@@ -44,9 +31,10 @@ struct Design {
   int passes = 0;                   ///< over all starts
 };
 
-/// The best choice of `count` candidates by designValue, none twice: exchanges of each chosen one for the candidate that
-/// raises it most, until no exchange does. V. V. Fedorov, Theory of Optimal Experiments, 1972, in the form of R. D.
-/// Cook and C. J. Nachtsheim, Technometrics 22 (1980) 315. Fewer are chosen where the exclusions leave no more.
+/// The best choice of `count` candidates by designValue, none twice: exchanges of each chosen one for the
+/// candidate that raises it most, until no exchange does. V. V. Fedorov, Theory of Optimal Experiments, 1972,
+/// in the form of R. D. Cook and C. J. Nachtsheim, Technometrics 22 (1980) 315. Fewer are chosen where the
+/// exclusions leave no more.
 Design exchangeDesign(const DesignProblem& problem, int count, const ExchangeOptions& options = {});
 
 /// A random choice that keeps the exclusions.

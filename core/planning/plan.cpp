@@ -40,7 +40,10 @@ CaseEquations equationsOf(const PlanningArm& arm, const Candidate& candidate) {
 class Planner {
  public:
   Planner(const Campaign& campaign, const Identification* identified, const PlanOptions& options)
-      : campaign_(campaign), identified_(identified), reference_(referenceOf(identified)), options_(options) {}
+      : campaign_(campaign),
+        identified_(identified),
+        reference_(referenceOf(identified)),
+        options_(options) {}
 
   Plan run() {
     checkOptions();
@@ -107,7 +110,8 @@ class Planner {
     }
     if (!options_.augment) return;
     plan_.measured = static_cast<int>(identified_->cases.size());
-    for (std::size_t i = 0; i < identified_->cases.size(); ++i) addMeasured(identified_->cases[i], reference_->target_rows[i]);
+    for (std::size_t i = 0; i < identified_->cases.size(); ++i)
+      addMeasured(identified_->cases[i], reference_->target_rows[i]);
     plan_.sd_measured = standardDeviations(problem_.known, plan_.unknown);
   }
 
@@ -140,8 +144,8 @@ class Planner {
     exchange.seed = options_.seed;
     Design design = exchangeDesign(problem_, options_.postures, exchange);
     const int count = static_cast<int>(design.chosen.size());
-    plan_.random_same = random(count);
-    plan_.random_double = random(2 * count);
+    plan_.random_same = randomPostures(problem_, count, options_.random_sets, options_.seed + 1);
+    plan_.random_double = randomPostures(problem_, 2 * count, options_.random_sets, options_.seed + 1);
     if (options_.criterion == PlanCriterion::balanced && allFinite(plan_.random_same.sd)) {
       problem_.reference = plan_.random_same.sd;
       exchange.from = design.chosen;
@@ -175,7 +179,8 @@ class Planner {
 
   void compareWith(RandomPostures& random) const {
     const auto unknowns = std::count(plan_.unknown.begin(), plan_.unknown.end(), true);
-    random.efficiency = std::exp((plan_.log_determinant - random.log_determinant) / static_cast<double>(unknowns));
+    random.efficiency =
+        std::exp((plan_.log_determinant - random.log_determinant) / static_cast<double>(unknowns));
   }
 
   void describe(const std::vector<Candidate>& chosen) {
@@ -187,7 +192,8 @@ class Planner {
       posture.id = freeId(number);
       posture.candidate = one;
       posture.reading = expectedReading(plan_.arm, posture.candidate);
-      posture.pull_in_base = plan_.arm.geometry.r0_from_base_link.linear().transpose() * posture.candidate.direction;
+      posture.pull_in_base =
+          plan_.arm.geometry.r0_from_base_link.linear().transpose() * posture.candidate.direction;
       const ArmPosture& at = posture.candidate.load_case.posture;
       const Eigen::Vector3d flange = flangeAt(plan_.arm.geometry.arm, at).translation();
       posture.dexterity = postureConditioning(jacobianAt(plan_.arm.geometry.arm, at, flange), 1.0).dexterity;
@@ -199,28 +205,6 @@ class Planner {
       before = after;
       plan_.postures.push_back(std::move(posture));
     }
-  }
-
-  RandomPostures random(int count) const {
-    RandomPostures result;
-    std::array<std::vector<double>, 6> sds;
-    double sum = 0.0;
-    for (int set = 0; set < options_.random_sets; ++set) {
-      const auto chosen = randomDesign(problem_, count, options_.seed + 1 + static_cast<std::uint64_t>(set));
-      result.postures = static_cast<int>(chosen.size());
-      const Matrix6d information = informationOf(problem_, chosen);
-      sum += logDeterminant(information, plan_.unknown);
-      const Vector6d sd = standardDeviations(information, plan_.unknown);
-      for (std::size_t j = 0; j < 6; ++j) sds[j].push_back(sd[static_cast<Eigen::Index>(j)]);
-    }
-    if (options_.random_sets < 1) return result;
-    result.log_determinant = sum / options_.random_sets;
-    for (std::size_t j = 0; j < 6; ++j) {
-      const auto middle = sds[j].begin() + static_cast<std::ptrdiff_t>(sds[j].size() / 2);
-      if (plan_.unknown[j]) std::nth_element(sds[j].begin(), middle, sds[j].end());
-      result.sd[static_cast<Eigen::Index>(j)] = *middle;
-    }
-    return result;
   }
 
   const Campaign& campaign_;

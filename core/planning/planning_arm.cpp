@@ -48,12 +48,14 @@ void placeTargets(const Campaign& campaign, PlanningArm& arm) {
     const Eigen::AngleAxisd turn(2.0 * std::numbers::pi * k / 3.0, arm.outward_in_flange);
     arm.targets_in_flange.push_back(kAhead * arm.outward_in_flange + kRadius * (turn * across));
   }
-  arm.assumed.push_back("three reflectors on a ring of 250 mm radius, 50 mm ahead of the flange: the campaign gives no "
-                        "x_mm, y_mm, z_mm of its targets and no sweep places them");
+  arm.assumed.push_back(
+      "three reflectors on a ring of 250 mm radius, 50 mm ahead of the flange: the campaign gives no "
+      "x_mm, y_mm, z_mm of its targets and no sweep places them");
 }
 
 /// The measured wrenches of the identified load step, in R0.
-std::vector<std::pair<ArmPosture, Wrench>> measuredWrenches(const Campaign& campaign, const PlanningArm& arm, int step) {
+std::vector<std::pair<ArmPosture, Wrench>> measuredWrenches(const Campaign& campaign, const PlanningArm& arm,
+                                                            int step) {
   std::vector<std::pair<ArmPosture, Wrench>> wrenches;
   for (const State& state : campaign.states->rows) {
     if (state.step != step) continue;
@@ -63,7 +65,8 @@ std::vector<std::pair<ArmPosture, Wrench>> measuredWrenches(const Campaign& camp
   return wrenches;
 }
 
-/// The point of the flange on the measured forces' lines, by least squares of M = (hook - point) x F in flange axes.
+/// The point of the flange on the measured forces' lines, by least squares of M = (hook - point) x F in
+/// flange axes.
 Eigen::Vector3d hookOf(const std::vector<std::pair<ArmPosture, Wrench>>& wrenches, const Robot& arm) {
   Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
   Eigen::Vector3d right = Eigen::Vector3d::Zero();
@@ -77,24 +80,28 @@ Eigen::Vector3d hookOf(const std::vector<std::pair<ArmPosture, Wrench>>& wrenche
     right += force.cross(moment);
   }
   Eigen::CompleteOrthogonalDecomposition<Eigen::Matrix3d> solver;
-  solver.setThreshold(1e-4);  // forces within half a degree of one line of the flange leave the place along it open: nearest
+  solver.setThreshold(
+      1e-4);  // forces within half a degree of one line of the flange leave the place along it open: nearest
   solver.compute(normal);
   return solver.solve(right);
 }
 
 void placeLoad(const Campaign& campaign, const Identification* identified, const PlanningInputs& inputs,
                PlanningArm& arm) {
-  arm.pull = inputs.pull;
+  arm.pull = inputs.pull.value_or(identified != nullptr && !identified->identifiability.load_hangs);
   std::vector<std::pair<ArmPosture, Wrench>> measured;
   if (identified != nullptr) measured = measuredWrenches(campaign, arm, identified->step);
   if (inputs.load) {
     arm.load = *inputs.load;
   } else if (!measured.empty()) {
-    for (const auto& one : measured) arm.load += one.second.force.norm() / static_cast<double>(measured.size());
-    arm.assumed.push_back(fmt::format("the load of the measured step {}: {:.0f} N", identified->step, arm.load));
+    for (const auto& one : measured)
+      arm.load += one.second.force.norm() / static_cast<double>(measured.size());
+    arm.assumed.push_back(
+        fmt::format("the load of the measured step {}: {:.0f} N", identified->step, arm.load));
   }
   if (!(arm.load > 0.0) || !std::isfinite(arm.load)) {
-    throw InputError({inputs.pull ? "--pull" : "--load"}, inputs.load ? fmt::format("{:g}", *inputs.load) : "",
+    throw InputError({inputs.pull.value_or(false) ? "--pull" : "--load"},
+                     inputs.load ? fmt::format("{:g}", *inputs.load) : "",
                      "expected the load in newtons, above 0: this campaign has no measured one to take");
   }
   if (inputs.hook_in_flange) {
@@ -102,14 +109,17 @@ void placeLoad(const Campaign& campaign, const Identification* identified, const
   } else if (!measured.empty()) {
     arm.hook_in_flange = hookOf(measured, arm.geometry.arm);
     const Eigen::Vector3d mm = 1e3 * arm.hook_in_flange;
-    arm.assumed.push_back(fmt::format("the load acts at {:.0f} {:.0f} {:.0f} mm on the flange, where the measured "
-                                      "wrenches have it", mm.x(), mm.y(), mm.z()));
+    arm.assumed.push_back(
+        fmt::format("the load acts at {:.0f} {:.0f} {:.0f} mm on the flange, where the measured "
+                    "wrenches have it",
+                    mm.x(), mm.y(), mm.z()));
   } else {
     const ArmPosture zero = postureAt(arm.geometry.arm, Vector6d::Zero());
     const Wrench at_cell = cellWrench(arm.cell, arm.geometry, zero, {}, {}, Vector6d::Zero());
     arm.hook_in_flange = arm.geometry.arm.base_from_flange_at_zero.inverse() * at_cell.point;
-    arm.assumed.push_back("the load acts at the load cell's point: --hook says where it does, and a hook aside of axis 6 "
-                          "is what turns joint 6");
+    arm.assumed.push_back(
+        "the load acts at the load cell's point: --hook says where it does, and a hook aside of axis 6 "
+        "is what turns joint 6");
   }
 }
 
@@ -121,8 +131,9 @@ void placeTracker(const Campaign& campaign, const Identification* identified, co
   } else if (campaign.tracker && frames.arm.points_placed && frames.points_frame == PointFrame::tracker) {
     arm.station = frames.arm.r0_from_points * campaign.tracker->station;
   } else {
-    arm.assumed.push_back("no line of sight is looked at, and noise is the same everywhere: where the tracker will stand "
-                          "is not known (--tracker)");
+    arm.assumed.push_back(
+        "no line of sight is looked at, and noise is the same everywhere: where the tracker will stand "
+        "is not known (--tracker)");
   }
   arm.sigma = inputs.tracker_sigma;
   if (campaign.tracker) {
@@ -133,8 +144,8 @@ void placeTracker(const Campaign& campaign, const Identification* identified, co
   }
   if (arm.sigma <= 0.0) arm.sigma = inputs.tracker_sigma, arm.noise.reset();
   if (!campaign.tracker) {
-    arm.assumed.push_back(fmt::format("{:.0f} um of noise in each coordinate of a reading: no tracker is declared",
-                                      1e6 * arm.sigma));
+    arm.assumed.push_back(fmt::format(
+        "{:.0f} um of noise in each coordinate of a reading: no tracker is declared", 1e6 * arm.sigma));
   }
 }
 
@@ -146,8 +157,10 @@ Eigen::Matrix3d PlanningArm::displacementCovariance(const Eigen::Vector3d& point
   return 2.0 / repeats * reading + misfit * misfit * Eigen::Matrix3d::Identity();
 }
 
-PlanningArm planningArm(const Campaign& campaign, const Identification* identified, const PlanningInputs& inputs) {
-  if (inputs.repeats < 1) throw InputError({"--repeats"}, std::to_string(inputs.repeats), "expected 1 or more readings");
+PlanningArm planningArm(const Campaign& campaign, const Identification* identified,
+                        const PlanningInputs& inputs) {
+  if (inputs.repeats < 1)
+    throw InputError({"--repeats"}, std::to_string(inputs.repeats), "expected 1 or more readings");
   PlanningArm arm;
   arm.geometry = geometryFor(campaign, identified);
   arm.repeats = inputs.repeats;

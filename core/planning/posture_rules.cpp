@@ -34,9 +34,10 @@ Skeleton skeletonOf(const PlanningArm& arm, const ArmPosture& posture) {
   return skeleton;
 }
 
-/// Distance of a point from the part of a line that starts at `from` and is `length` long; infinite beside its ends.
-double distanceFromLine(const Eigen::Vector3d& point, const Eigen::Vector3d& from, const Eigen::Vector3d& direction,
-                        double length) {
+/// Distance of a point from the part of a line that starts at `from` and is `length` long; infinite beside
+/// its ends.
+double distanceFromLine(const Eigen::Vector3d& point, const Eigen::Vector3d& from,
+                        const Eigen::Vector3d& direction, double length) {
   const double along = (point - from).dot(direction);
   if (along <= 0.0 || along >= length) return std::numeric_limits<double>::infinity();
   return (point - from - along * direction).norm();
@@ -52,7 +53,8 @@ double clearanceOfLine(const std::vector<Eigen::Vector3d>& points, const Eigen::
 }
 
 bool nearBody(const Skeleton& skeleton, const Eigen::Vector3d& point, double clearance) {
-  return std::any_of(skeleton.points.begin(), skeleton.points.begin() + static_cast<std::ptrdiff_t>(skeleton.forearm),
+  return std::any_of(skeleton.points.begin(),
+                     skeleton.points.begin() + static_cast<std::ptrdiff_t>(skeleton.forearm),
                      [&](const Eigen::Vector3d& own) { return (own - point).norm() < clearance; });
 }
 
@@ -105,7 +107,9 @@ PostureRule brokenRule(const PlanningArm& arm, const PostureRules& rules, const 
   const Eigen::Vector3d hook = flange * arm.hook_in_flange;
   std::vector<Eigen::Vector3d> targets;
   for (const Eigen::Vector3d& target : arm.targets_in_flange) targets.push_back(flange * target);
-  const auto lower = [&](const Eigen::Vector3d& point, double height) { return (base_from_r0 * point).z() < height; };
+  const auto lower = [&](const Eigen::Vector3d& point, double height) {
+    return (base_from_r0 * point).z() < height;
+  };
   if (!arm.pull && lower(hook, rules.least_hook_height)) return PostureRule::low;
   for (const Eigen::Vector3d& target : targets) {
     if (lower(target, rules.least_height)) return PostureRule::low;
@@ -113,11 +117,13 @@ PostureRule brokenRule(const PlanningArm& arm, const PostureRules& rules, const 
   for (std::size_t k = skeleton.forearm; k < skeleton.points.size(); ++k) {
     if (lower(skeleton.points[k], rules.least_height)) return PostureRule::low;
   }
-  if (!arm.pull && -direction.dot(flange.linear() * arm.outward_in_flange) > std::sin(rules.most_outward_up)) {
+  if (!arm.pull &&
+      -direction.dot(flange.linear() * arm.outward_in_flange) > std::sin(rules.most_outward_up)) {
     return PostureRule::hanging;
   }
   constexpr double kLine = 3.0;  // m of cable or chain
-  if (clearanceOfLine(skeleton.points, hook, direction, kLine) < rules.line_clearance) return PostureRule::load_line;
+  if (clearanceOfLine(skeleton.points, hook, direction, kLine) < rules.line_clearance)
+    return PostureRule::load_line;
   if (nearBody(skeleton, hook, rules.body_clearance)) return PostureRule::body;
   for (const Eigen::Vector3d& target : targets) {
     if (nearBody(skeleton, target, rules.body_clearance)) return PostureRule::body;
@@ -132,10 +138,12 @@ std::array<JointLimits, 6> postureBox(const Robot& arm, const PostureRules& rule
     box[j].lower = std::max(arm.limits[j].lower + rules.limit_margin, rules.low[joint]);
     box[j].upper = std::min(arm.limits[j].upper - rules.limit_margin, rules.high[joint]);
     if (box[j].lower <= box[j].upper) continue;
-    throw InputError({"--min-deg"}, fmt::format("{:g}", rules.low[joint] / kDegree),
-                     fmt::format("expected a range of joint {} within its limits {:.1f} to {:.1f} deg less {:.0f} deg "
-                                 "at each end", j + 1, arm.limits[j].lower / kDegree, arm.limits[j].upper / kDegree,
-                                 rules.limit_margin / kDegree));
+    throw InputError(
+        {"--min-deg"}, fmt::format("{:g}", rules.low[joint] / kDegree),
+        fmt::format("expected a range of joint {} within its limits {:.1f} to {:.1f} deg less {:.0f} deg "
+                    "at each end",
+                    j + 1, arm.limits[j].lower / kDegree, arm.limits[j].upper / kDegree,
+                    rules.limit_margin / kDegree));
   }
   return box;
 }

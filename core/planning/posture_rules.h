@@ -9,16 +9,16 @@ namespace stiffscope {
 
 /// What a person at the robot would keep to. Lengths m, angles rad.
 struct PostureRules {
-  Vector6d low = Vector6d::Constant(-3.14159265358979);   ///< the box that postures are drawn from, cut by
-  Vector6d high = Vector6d::Constant(3.14159265358979);   ///< the URDF's limits less `limit_margin`
-  double limit_margin = 0.0873;      ///< 5 deg: room for compensation, and URDFs differ from controllers
-  double least_dexterity = 0.1;      ///< 1 / kappa of Dumas et al., lengths over 1 m
-  double most_outward_up = 0.349;    ///< 20 deg: a hanging load stays clear of the flange (not asked of a pull)
-  double least_hook_height = 0.8;    ///< above base_link's origin: weights hang below (not asked of a pull)
-  double least_height = 0.2;         ///< of reflectors and arm beyond axis 3, above base_link's origin
-  double line_clearance = 0.2;       ///< between the load's line beyond the hook and the arm's skeleton
-  double body_clearance = 0.35;      ///< between hook or reflectors and the skeleton from the base to axis 3
-  double sight_clearance = 0.1;      ///< between a line of sight and the skeleton
+  Vector6d low = Vector6d::Constant(-3.14159265358979);  ///< the box that postures are drawn from, cut by
+  Vector6d high = Vector6d::Constant(3.14159265358979);  ///< the URDF's limits less `limit_margin`
+  double limit_margin = 0.0873;    ///< 5 deg: room for compensation, and URDFs differ from controllers
+  double least_dexterity = 0.15;   ///< 1 / kappa of Dumas et al., lengths over 1 m
+  double most_outward_up = 0.349;  ///< 20 deg: a hanging load stays clear of the flange (not asked of a pull)
+  double least_hook_height = 0.8;  ///< above base_link's origin: weights hang below (not asked of a pull)
+  double least_height = 0.2;       ///< of reflectors and arm beyond axis 3, above base_link's origin
+  double line_clearance = 0.2;     ///< between the load's line beyond the hook and the arm's skeleton
+  double body_clearance = 0.35;    ///< between hook or reflectors and the skeleton from the base to axis 3
+  double sight_clearance = 0.1;    ///< between a line of sight and the skeleton
   double least_distance = 1.0, most_distance = 15.0;  ///< between tracker and reflectors
 };
 
@@ -29,8 +29,9 @@ inline constexpr std::size_t kPostureRules = 8;
 /// In words, as in `n of m postures: WORDS`.
 const char* wordsFor(PostureRule rule);
 
-/// The first rule that a posture breaks under a load along `direction` (unit, R0); none where it keeps all. The arm
-/// is taken as straight lines from base_link's origin over the points of axes 1-6 to the flange; it is rigid here.
+/// The first rule that a posture breaks under a load along `direction` (unit, R0); none where it keeps all.
+/// The arm is taken as straight lines from base_link's origin over the points of axes 1-6 to the flange; it
+/// is rigid here.
 PostureRule brokenRule(const PlanningArm& arm, const PostureRules& rules, const ArmPosture& posture,
                        const Eigen::Vector3d& direction);
 

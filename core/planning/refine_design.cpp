@@ -14,8 +14,9 @@ bool alike(const PlanningArm& arm, const Candidate& a, const Candidate& b, doubl
   return true;
 }
 
-void refineDesign(const PlanningArm& arm, const PostureRules& rules, const Matrix6d& known, const JointMask& unknown,
-                  const std::vector<Candidate>& measured, const RefineOptions& options, std::vector<Candidate>& chosen) {
+void refineDesign(const PlanningArm& arm, const PostureRules& rules, const Matrix6d& known,
+                  const JointMask& unknown, const std::vector<Candidate>& measured,
+                  const RefineOptions& options, std::vector<Candidate>& chosen) {
   const std::array<JointLimits, 6> box = postureBox(arm.geometry.arm, rules);
   Matrix6d sum = known;
   for (const Candidate& one : chosen) sum += one.information;

@@ -154,7 +154,7 @@ Robot parseUrdf(std::string_view bytes, const std::string& file, const std::stri
 
 Robot readUrdf(const std::filesystem::path& file, const std::string& base_link,
                const std::string& flange_link) {
-  return parseUrdf(readTextFile(file), file.string(), base_link, flange_link);
+  return parseUrdf(readTextFile(file, kLargestXml), file.string(), base_link, flange_link);
 }
 
 }  // namespace stiffscope

@@ -30,8 +30,12 @@ void readRobot(const XmlNode& root, const std::filesystem::path& folder, Simulat
 }  // namespace
 
 SimulationSpec readSimulationSpec(const std::filesystem::path& file) {
+  return parseSimulationSpec(readTextFile(file, kLargestXml), file);
+}
+
+SimulationSpec parseSimulationSpec(std::string_view bytes, const std::filesystem::path& file) {
   using namespace simulation;
-  const XmlFile xml(file.string(), readTextFile(file));
+  const XmlFile xml(file.string(), bytes);
   const XmlNode root = xml.root();
   if (root.name() != "simulation") root.refuse(root.name(), "", "expected the root element 'simulation'");
   refuseUnknown(root, {"format", "name", "date", "seed", "measurement"},

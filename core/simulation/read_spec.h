@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string_view>
 
 #include "core/simulation/spec.h"
 
@@ -76,5 +77,8 @@ namespace stiffscope {
 /// Throws InputError with file, line, attribute, value and what was expected; unknown elements and attributes
 /// are refused, naming the nearest known one.
 SimulationSpec readSimulationSpec(const std::filesystem::path& file);
+
+/// The same from the bytes of such a file; `file` is its name, and its folder is where the URDF is looked for.
+SimulationSpec parseSimulationSpec(std::string_view bytes, const std::filesystem::path& file);
 
 }  // namespace stiffscope

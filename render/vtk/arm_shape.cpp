@@ -14,6 +14,7 @@ ArmProportions::ArmProportions(const ArmPose& pose) {
   }
   base_radius = 0.042 * length;
   tip_radius = 0.018 * length;
+  target_radius = 0.6 * tip_radius;
 }
 
 namespace {
@@ -47,7 +48,8 @@ void addWaist(Mesh& mesh, const ArmPose& pose, double radius, double next, const
   mesh.addCone(corner, 1.05 * radius, shoulder, next, paint.link);
 }
 
-void addFlange(Mesh& mesh, const ArmPose& pose, double radius, const Paint& paint) {
+void addFlange(Mesh& mesh, const ArmPose& pose, const ArmProportions& proportions, const Paint& paint) {
+  const double radius = proportions.tip_radius;
   const Eigen::Vector3d& flange = pose.joint_points.back();
   const Eigen::Vector3d axis = pose.axis_directions.back().normalized();
   // It faces away from the arm, whichever way its axis was counted.
@@ -55,7 +57,7 @@ void addFlange(Mesh& mesh, const ArmPose& pose, double radius, const Paint& pain
   mesh.addCone(flange - 0.6 * side * radius * axis, 1.7 * radius, flange, 1.7 * radius, paint.joint);
   for (const ScenePoint& target : pose.targets) {
     mesh.addCone(flange, 0.25 * radius, target.position, 0.25 * radius, paint.joint);
-    mesh.addSphere(target.position, 0.6 * radius, paint.target);
+    mesh.addSphere(target.position, proportions.target_radius, paint.target);
   }
 }
 
@@ -65,11 +67,11 @@ double ArmProportions::radiusAt(double along) const {
   return std::lerp(base_radius, tip_radius, length > 0 ? along / length : 0);
 }
 
-void addArm(Mesh& mesh, const ArmPose& pose) {
+void addArm(Mesh& mesh, const ArmPose& pose, const Palette& palette) {
   const ArmProportions proportions(pose);
   const double faint = pose.ghost ? 0.4 : 1;
-  const Paint paint{paler(colours::kLink, faint), paler(colours::kJoint, faint),
-                    paler(colours::kTarget, faint)};
+  const Paint paint{paler(palette.link, faint, palette.paper), paler(palette.joint, faint, palette.paper),
+                    paler(palette.target, faint, palette.paper)};
   const auto& points = pose.joint_points;
   addPedestal(mesh, points.front(), proportions.base_radius, paint.joint);
   double along = 0;
@@ -84,7 +86,7 @@ void addArm(Mesh& mesh, const ArmPose& pose) {
     addDrum(mesh, points[i], pose.axis_directions[i], radius, paint.joint);
     mesh.addCone(points[i], radius, points[i + 1], next, paint.link);
   }
-  addFlange(mesh, pose, proportions.tip_radius, paint);
+  addFlange(mesh, pose, proportions, paint);
 }
 
 Eigen::AlignedBox3d extentOf(const ArmScene& scene, double magnification,
@@ -95,19 +97,15 @@ Eigen::AlignedBox3d extentOf(const ArmScene& scene, double magnification,
     box.extend(p - Eigen::Vector3d::Constant(around));
     box.extend(p + Eigen::Vector3d::Constant(around));
   };
-  const auto includePoint = [&](const ScenePoint& point, double radius) {
-    include(point.position, radius);
-    if (point.measured) include(point.position + magnification * *point.measured, radius);
-    if (point.predicted) include(point.position + magnification * *point.predicted, radius);
-  };
   for (const ArmPose& pose : scene.poses) {
     const ArmProportions proportions(pose);
     for (const auto& point : pose.joint_points) include(point, 1.8 * proportions.base_radius);
     const Eigen::Vector3d& first = pose.joint_points.front();
     include({first.x(), first.y(), std::min(0.0, first.z())}, 2.2 * proportions.base_radius);
-    for (const ScenePoint& target : pose.targets) includePoint(target, proportions.tip_radius);
-    if (pose.wrist) includePoint(*pose.wrist, proportions.tip_radius);
   }
+  const double around = ArmProportions(scene.poses.front()).tip_radius;
+  for (const auto& point : pointsOf(scene, magnification)) include(point, around);
+  for (const auto& point : scene.also_fitted) include(point, around);
   return box;
 }
 

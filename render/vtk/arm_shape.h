@@ -17,10 +17,11 @@ struct ArmProportions {
   double length = 0;
   double base_radius = 0;
   double tip_radius = 0;
+  double target_radius = 0;
 };
 
 /// Pedestal, links, drums, flange, holders of the targets, targets and wrist centre of one posture.
-void addArm(Mesh& mesh, const ArmPose& pose);
+void addArm(Mesh& mesh, const ArmPose& pose, const Palette& palette);
 
 /// The lines of the floor: multiples of `step` (m) from first to last, under all that is drawn.
 struct FloorGrid {

@@ -8,26 +8,18 @@
 #include <cmath>
 #include <utility>
 
-#include "render/vtk/offscreen_context.h"
-
 namespace stiffscope {
 
-namespace {
-
-constexpr float kScale = kSupersampling;
-
-}  // namespace
-
-Canvas::Canvas(vtkContext2D& context, Size size, Fonts fonts)
+Canvas::Canvas(vtkContext2D& context, const Surface& surface, Fonts fonts)
     : context_(context),
-      size_(size),
+      surface_(surface),
       fonts_(std::move(fonts)),
-      unit_(std::clamp(std::min(size.width / 1200.0, size.height / 700.0), 0.7, 4.0)) {
+      unit_(std::clamp(std::min(surface.size.width / 1200.0, surface.size.height / 700.0), 0.7, 4.0)) {
   context_.GetPen()->SetLineType(vtkPen::NO_PEN);
 }
 
 Box Canvas::all() const {
-  return {0, 0, static_cast<double>(size_.width), static_cast<double>(size_.height)};
+  return {0, 0, static_cast<double>(surface_.size.width), static_cast<double>(surface_.size.height)};
 }
 
 double Canvas::snapped(double x) { return std::round(x * kSupersampling) / kSupersampling; }
@@ -36,8 +28,8 @@ void Canvas::polygon(const std::vector<Spot>& corners, Colour colour) {
   std::vector<float> points;
   points.reserve(2 * corners.size());
   for (const Spot& corner : corners) {
-    points.push_back(static_cast<float>(corner.x) * kScale);
-    points.push_back(static_cast<float>(size_.height - corner.y) * kScale);
+    points.push_back(static_cast<float>(corner.x * surface_.scale));
+    points.push_back(static_cast<float>((surface_.size.height - corner.y) * surface_.scale));
   }
   context_.GetBrush()->SetColor(colour.red, colour.green, colour.blue, 255);
   context_.DrawPolygon(points.data(), static_cast<int>(corners.size()));

@@ -11,6 +11,17 @@ class vtkContext2D;
 
 namespace stiffscope {
 
+/// How many rendered pixels a pixel of an offscreen picture is averaged from, in each direction: its
+/// antialiasing.
+inline constexpr int kSupersampling = 2;
+
+/// What a canvas paints on.
+struct Surface {
+  Size size;                       ///< of the picture
+  double scale = kSupersampling;   ///< rendered pixels to one of the picture, in each direction
+  Palette palette = kLightPalette;
+};
+
 /// A place on the picture: pixels from the left and from the top.
 struct Spot {
   double x = 0;
@@ -47,12 +58,13 @@ struct TextStyle {
 /// will take. In every text `x_{abc}` sets abc as a subscript. Colours are opaque.
 class Canvas {
  public:
-  Canvas(vtkContext2D& context, Size size, Fonts fonts);
+  Canvas(vtkContext2D& context, const Surface& surface, Fonts fonts);
 
   Box all() const;
   /// 1 at 1200 x 700; every length that is not given by the data is multiplied by it.
   double unit() const { return unit_; }
-  /// To the nearest rendered pixel, so that edges are sharp.
+  const Palette& palette() const { return surface_.palette; }
+  /// To the nearest rendered pixel of an offscreen picture, so that edges are sharp.
   static double snapped(double x);
 
   void fill(const Box& box, Colour colour);
@@ -77,7 +89,7 @@ class Canvas {
   double runWidth(const std::string& run, double size, bool bold) const;
 
   vtkContext2D& context_;
-  Size size_;
+  Surface surface_;
   Fonts fonts_;
   double unit_;
 };

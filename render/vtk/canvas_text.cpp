@@ -7,21 +7,14 @@
 #include <cmath>
 
 #include "render/vtk/canvas.h"
-#include "render/vtk/offscreen_context.h"
 
 namespace stiffscope {
-
-namespace {
-
-constexpr float kScale = kSupersampling;
-
-}  // namespace
 
 void Canvas::setStyle(double size, bool bold, Colour colour, Direction direction) const {
   vtkTextProperty* style = context_.GetTextProp();
   style->SetFontFamily(VTK_FONT_FILE);
   style->SetFontFile((bold ? fonts_.bold : fonts_.regular).c_str());
-  style->SetFontSize(std::max(1, static_cast<int>(std::lround(size * kScale))));
+  style->SetFontSize(std::max(1, static_cast<int>(std::lround(size * surface_.scale))));
   style->SetColor(colour.red / 255.0, colour.green / 255.0, colour.blue / 255.0);
   style->SetJustificationToLeft();
   style->SetVerticalJustificationToBottom();
@@ -32,7 +25,7 @@ double Canvas::runWidth(const std::string& run, double size, bool bold) const {
   setStyle(size, bold, colours::kInk, Direction::Across);
   std::array<float, 4> bounds{};
   context_.ComputeStringBounds(run.c_str(), bounds.data());
-  return bounds[2] / kScale;
+  return bounds[2] / surface_.scale;
 }
 
 namespace {
@@ -45,7 +38,9 @@ struct Run {
   bool subscript = false;
 };
 
-std::vector<Run> runsOf(const std::string& text) {
+std::vector<Run> runsOf(std::string text) {
+  // A line break would begin a second line where there is no room for it.
+  std::replace_if(text.begin(), text.end(), [](unsigned char c) { return c < 0x20 || c == 0x7F; }, ' ');
   std::vector<Run> runs;
   std::size_t at = 0;
   while (at < text.size()) {
@@ -93,23 +88,25 @@ void Canvas::text(const std::string& text, Spot anchor, AlignX x, AlignY y, cons
                             : top + height - descent - 0.02 * style.size + 0.24 * size + drop;
     const double at_x = up ? below : left + along;
     const double at_y = up ? top + height - along : below;
-    context_.DrawString(static_cast<float>(std::round(at_x * kScale)),
-                        static_cast<float>(std::round((size_.height - at_y) * kScale)), run.text.c_str());
+    context_.DrawString(static_cast<float>(std::round(at_x * surface_.scale)),
+                        static_cast<float>(std::round((surface_.size.height - at_y) * surface_.scale)), run.text.c_str());
     along += run_width;
   }
 }
 
 std::string Canvas::shortened(const std::string& text, double width, const TextStyle& style) const {
-  if (measure(text, style).x <= width) return text;
-  std::string start = text;
-  while (!start.empty()) {
-    // A whole UTF-8 character goes: its last byte is the first that is not a continuation.
-    while (start.size() > 1 && (static_cast<unsigned char>(start.back()) & 0xC0) == 0x80) start.pop_back();
-    start.pop_back();
-    const std::string cut = start + "\u2026";
-    if (measure(cut, style).x <= width) return cut;
+  // No text of interest is longer, and measuring takes time in proportion to the length.
+  constexpr std::size_t kLongest = 1000;
+  if (text.size() <= kLongest && measure(text, style).x <= width) return text;
+  std::vector<std::size_t> ends;  // where a whole UTF-8 character begins: there the text may be cut
+  for (std::size_t at = 1; at < std::min(text.size(), kLongest); ++at) {
+    if ((static_cast<unsigned char>(text[at]) & 0xC0) != 0x80) ends.push_back(at);
   }
-  return "";
+  const auto cut = [&text](std::size_t end) { return text.substr(0, end) + "\u2026"; };
+  const auto first_too_long = std::partition_point(ends.begin(), ends.end(), [&](std::size_t end) {
+    return measure(cut(end), style).x <= width;
+  });
+  return first_too_long == ends.begin() ? "" : cut(*std::prev(first_too_long));
 }
 
 std::vector<std::string> Canvas::wrapped(const std::string& text, double width,
@@ -117,9 +114,10 @@ std::vector<std::string> Canvas::wrapped(const std::string& text, double width,
   std::vector<std::string> lines;
   std::string line;
   std::size_t at = 0;
-  while (at < text.size()) {
+  constexpr std::size_t kMostLines = 20;  // no picture has room for more
+  while (at < text.size() && lines.size() < kMostLines) {
     const std::size_t space = std::min(text.find(' ', at), text.size());
-    const std::string word = text.substr(at, space - at);
+    const std::string word = shortened(text.substr(at, space - at), width, style);
     const std::string longer = line.empty() ? word : line + " " + word;
     if (!line.empty() && measure(longer, style).x > width) {
       lines.push_back(shortened(line, width, style));

@@ -8,7 +8,7 @@
 
 namespace stiffscope {
 
-enum class Key { Square, Point, HollowPoint, Dashes, Diamond, Median, ThickArrow, ThinArrow };
+enum class Key { Square, Point, HollowPoint, Dashes, Diamond, Median, ThickArrow, MediumArrow, ThinArrow };
 
 /// A legend entry: a sign and what it means.
 struct LegendEntry {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "render/vtk/chart_frame.h"
+#include "render/vtk/category_frame.h"
 #include "render/vtk/flat_picture.h"
 #include "render/vtk/marks.h"
 
@@ -75,29 +75,14 @@ void drawBars(Canvas& canvas, const Box& plot, const YAxis& axis, const GroupedB
 }
 
 void paintChart(Canvas& canvas, const GroupedBarChart& chart) {
-  Box free = canvas.all();
-  takeMargin(canvas, free);
-  takeHeader(canvas, free, chart.title, chart.subtitle);
-  std::vector<LegendEntry> legend;
-  for (const BarSeries& series : chart.series) legend.push_back({Key::Square, series.colour, series.name});
-  takeLegend(canvas, free, legend);
-  const double title_left = free.left;
-  const std::vector<std::string> y_title = takeYTitle(canvas, free, chart.y_title);
-
-  const double u = canvas.unit();
-  YAxis axis = axisFor(canvas, chart, free.height() - 60 * u);
-  Box plot = free;
-  plot.left += tickLabelWidth(canvas, axis);
-  plot.left = Canvas::snapped(plot.left);
-  const CategoryLabels labels =
-      fitCategoryLabels(canvas, chart.categories, plot.width() / static_cast<double>(chart.categories.size()),
-                        0.25 * free.height());
-  plot.bottom -=
-      labels.height + 10 * u + (chart.category_title.empty() ? 0 : 1.2 * axisTitleStyle(canvas).size);
-  drawYTitle(canvas, title_left, plot, y_title);
-  drawYAxis(canvas, plot, axis);
-  drawBars(canvas, plot, axis, chart);
-  drawCategories(canvas, plot, chart.categories, labels, chart.category_title);
+  CategoryFrame frame{chart.title,  chart.subtitle, "", chart.y_title, chart.category_title,
+                      chart.categories, {}, {}};
+  for (const BarSeries& series : chart.series)
+    frame.legend.push_back({Key::Square, series.colour, series.name});
+  frame.axis = [&](double height) { return axisFor(canvas, chart, height); };
+  drawInCategoryFrame(canvas, frame, [&](const Box& plot, const YAxis& axis) {
+    drawBars(canvas, plot, axis, chart);
+  });
 }
 
 }  // namespace

@@ -7,7 +7,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "render/vtk/chart_frame.h"
+#include "render/vtk/category_frame.h"
 #include "render/vtk/flat_picture.h"
 #include "render/vtk/marks.h"
 
@@ -114,37 +114,8 @@ void drawSeries(Canvas& canvas, const Box& plot, const YAxis& axis, const Interv
   }
 }
 
-void paintChart(Canvas& canvas, const IntervalChart& chart) {
+void drawBandEdges(Canvas& canvas, const Box& plot, const YAxis& axis, const IntervalChart& chart) {
   const double u = canvas.unit();
-  Box free = canvas.all();
-  takeMargin(canvas, free);
-  takeHeader(canvas, free, chart.title, chart.subtitle);
-  std::vector<LegendEntry> legend;
-  bool any_off = false;
-  for (const IntervalSeries& series : chart.series) {
-    legend.push_back({Key::Point, series.colour, series.name});
-    any_off = any_off || std::any_of(series.intervals.begin(), series.intervals.end(), offLogAxis);
-  }
-  legend.push_back({Key::HollowPoint, colours::kFaintInk, chart.doubtful_name});
-  if (!chart.references.empty()) legend.push_back({Key::Dashes, colours::kInk, chart.reference_name});
-  takeLegend(canvas, free, legend);
-  if (chart.logarithmic && any_off) {
-    takeNote(canvas, free,
-             "Arrow: value or interval reaches zero or below, which has no place on a logarithmic axis.");
-  }
-  const double title_left = free.left;
-  const std::vector<std::string> y_title = takeYTitle(canvas, free, chart.y_title);
-
-  YAxis axis = axisFor(canvas, chart, free.height() - 60 * u);
-  Box plot = free;
-  plot.left = Canvas::snapped(plot.left + tickLabelWidth(canvas, axis));
-  const CategoryLabels labels =
-      fitCategoryLabels(canvas, chart.categories, plot.width() / static_cast<double>(chart.categories.size()),
-                        0.25 * free.height());
-  plot.bottom -=
-      labels.height + 10 * u + (chart.category_title.empty() ? 0 : 1.2 * axisTitleStyle(canvas).size);
-  drawYTitle(canvas, title_left, plot, y_title);
-  drawYAxis(canvas, plot, axis);
   const double band = plot.width() / static_cast<double>(chart.categories.size());
   for (std::size_t i = 1; i < chart.categories.size(); ++i) {
     const double edge = Canvas::snapped(plot.left + static_cast<double>(i) * band);
@@ -154,8 +125,26 @@ void paintChart(Canvas& canvas, const IntervalChart& chart) {
   if (!axis.logarithmic && axis.lower < 0 && axis.upper > 0) {
     canvas.fill({plot.left, axis.at(0) - 0.5 * u, plot.right, axis.at(0) + 0.5 * u}, colours::kAxis);
   }
-  drawSeries(canvas, plot, axis, chart);
-  drawCategories(canvas, plot, chart.categories, labels, chart.category_title);
+}
+
+void paintChart(Canvas& canvas, const IntervalChart& chart) {
+  CategoryFrame frame{chart.title, chart.subtitle, "", chart.y_title, chart.category_title,
+                      chart.categories, {}, {}};
+  bool any_off = false;
+  for (const IntervalSeries& series : chart.series) {
+    frame.legend.push_back({Key::Point, series.colour, series.name});
+    any_off = any_off || std::any_of(series.intervals.begin(), series.intervals.end(), offLogAxis);
+  }
+  frame.legend.push_back({Key::HollowPoint, colours::kFaintInk, chart.doubtful_name});
+  if (!chart.references.empty()) frame.legend.push_back({Key::Dashes, colours::kInk, chart.reference_name});
+  if (chart.logarithmic && any_off) {
+    frame.note = "Arrow: value or interval reaches zero or below, which has no place on a logarithmic axis.";
+  }
+  frame.axis = [&](double height) { return axisFor(canvas, chart, height); };
+  drawInCategoryFrame(canvas, frame, [&](const Box& plot, const YAxis& axis) {
+    drawBandEdges(canvas, plot, axis, chart);
+    drawSeries(canvas, plot, axis, chart);
+  });
 }
 
 }  // namespace

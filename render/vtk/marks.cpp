@@ -5,24 +5,24 @@
 
 namespace stiffscope {
 
-Colour paler(Colour colour, double share) {
-  const auto mix = [share](std::uint8_t channel) {
-    return static_cast<std::uint8_t>(std::lround(255 + share * (channel - 255.0)));
+Colour paler(Colour colour, double share, Colour paper) {
+  const auto mix = [share](double channel, double ground) {
+    return static_cast<std::uint8_t>(std::lround(ground + share * (channel - ground)));
   };
-  return {mix(colour.red), mix(colour.green), mix(colour.blue)};
+  return {mix(colour.red, paper.red), mix(colour.green, paper.green), mix(colour.blue, paper.blue)};
 }
 
 void drawDiamond(Canvas& canvas, Spot c, double radius, Colour colour) {
   const auto diamond = [c](double r) {
     return std::vector<Spot>{{c.x, c.y - r}, {c.x + r, c.y}, {c.x, c.y + r}, {c.x - r, c.y}};
   };
-  canvas.polygon(diamond(radius + 2 * canvas.unit()), colours::kPaper);
+  canvas.polygon(diamond(radius + 2 * canvas.unit()), canvas.palette().paper);
   canvas.polygon(diamond(radius), colour);
 }
 
 void drawPoint(Canvas& canvas, Spot centre, double radius, Colour colour, bool hollow) {
   canvas.disc(centre, radius, colour);
-  if (hollow) canvas.disc(centre, 0.6 * radius, colours::kPaper);
+  if (hollow) canvas.disc(centre, 0.6 * radius, canvas.palette().paper);
 }
 
 void drawArrowMark(Canvas& canvas, Spot tip, double size, Colour colour, bool upwards) {
@@ -73,9 +73,10 @@ void drawKey(Canvas& canvas, Key key, const Box& box, Colour colour) {
       canvas.line({box.left, centre.y}, {box.right, centre.y}, colour, 3 * canvas.unit());
       break;
     case Key::ThickArrow:
+    case Key::MediumArrow:
     case Key::ThinArrow:
       drawArrow(canvas, {box.left - 0.4 * r, centre.y}, {box.right + 0.4 * r, centre.y}, colour,
-                (key == Key::ThickArrow ? 5 : 2.5) * canvas.unit(), 1.2 * r);
+                (key == Key::ThickArrow ? 5 : key == Key::MediumArrow ? 3.5 : 2.5) * canvas.unit(), 1.2 * r);
       break;
   }
 }

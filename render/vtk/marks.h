@@ -18,6 +18,6 @@ void drawWhisker(Canvas& canvas, double x, double from, double to, double cap, C
 /// An arrow as long as stated by its ends; its head takes at most `head` of it.
 void drawArrow(Canvas& canvas, Spot from, Spot to, Colour colour, double width, double head);
 /// Between the paper and `colour`, for the inside of boxes.
-Colour paler(Colour colour, double share);
+Colour paler(Colour colour, double share, Colour paper = colours::kPaper);
 
 }  // namespace stiffscope

@@ -62,22 +62,30 @@ void Mesh::addCone(const Eigen::Vector3d& from, double from_radius, const Eigen:
 }
 
 void Mesh::addSphere(const Eigen::Vector3d& centre, double radius, Colour colour) {
-  constexpr int kRings = kSides / 2;
+  addSphere(centre, radius, colour, kSides);
+}
+
+void Mesh::addDot(const Eigen::Vector3d& centre, double radius, Colour colour) {
+  addSphere(centre, radius, colour, 8);
+}
+
+void Mesh::addSphere(const Eigen::Vector3d& centre, double radius, Colour colour, int sides) {
+  const int rings = sides / 2;
   const int first = static_cast<int>(points_.size() / 3);
-  for (int ring = 0; ring <= kRings; ++ring) {
-    const double latitude = M_PI * ring / kRings;
-    for (int i = 0; i < kSides; ++i) {
-      const double angle = 2 * M_PI * i / kSides;
+  for (int ring = 0; ring <= rings; ++ring) {
+    const double latitude = M_PI * ring / rings;
+    for (int i = 0; i < sides; ++i) {
+      const double angle = 2 * M_PI * i / sides;
       const Eigen::Vector3d normal(std::sin(latitude) * std::cos(angle), std::sin(latitude) * std::sin(angle),
                                    std::cos(latitude));
       addVertex(centre + radius * normal, normal, colour);
     }
   }
-  for (int ring = 0; ring < kRings; ++ring) {
-    for (int i = 0; i < kSides; ++i) {
-      const int a = first + kSides * ring + i;
-      const int b = first + kSides * ring + (i + 1) % kSides;
-      addQuad(a, a + kSides, b + kSides, b);
+  for (int ring = 0; ring < rings; ++ring) {
+    for (int i = 0; i < sides; ++i) {
+      const int a = first + sides * ring + i;
+      const int b = first + sides * ring + (i + 1) % sides;
+      addQuad(a, a + sides, b + sides, b);
     }
   }
 }
@@ -89,7 +97,7 @@ void Mesh::addArrow(const Eigen::Vector3d& from, const Eigen::Vector3d& to, doub
   const double head = std::min(head_length, 0.6 * length);
   const Eigen::Vector3d neck = to - head * (to - from) / length;
   addCone(from, radius, neck, radius, colour);
-  addCone(neck, 0.4 * head_length, to, 0, colour);
+  addCone(neck, std::max(0.4 * head, 1.4 * radius), to, 0, colour);
 }
 
 vtkSmartPointer<vtkActor> Mesh::actor() const {

@@ -24,7 +24,10 @@ class Mesh {
   void addCone(const Eigen::Vector3d& from, double from_radius, const Eigen::Vector3d& to, double to_radius,
                Colour colour);
   void addSphere(const Eigen::Vector3d& centre, double radius, Colour colour);
-  /// From `from` to `to`; the head takes `head_length` of it, or 60 % where the arrow is short.
+  /// A sphere so small that few corners do: there may be thousands.
+  void addDot(const Eigen::Vector3d& centre, double radius, Colour colour);
+  /// From `from` to `to`; the head takes `head_length` of it, or 60 % where the arrow is short, and
+  /// is thinner then.
   void addArrow(const Eigen::Vector3d& from, const Eigen::Vector3d& to, double radius, double head_length,
                 Colour colour);
 
@@ -33,6 +36,7 @@ class Mesh {
  private:
   int addVertex(const Eigen::Vector3d& point, const Eigen::Vector3d& normal, Colour colour);
   void addQuad(int a, int b, int c, int d);
+  void addSphere(const Eigen::Vector3d& centre, double radius, Colour colour, int sides);
 
   Eigen::Vector3d light_;
   double ambient_;

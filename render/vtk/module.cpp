@@ -3,6 +3,7 @@
 #include "render/vtk/arm_picture.h"
 #include "render/vtk/grouped_bars.h"
 #include "render/vtk/intervals.h"
+#include "render/vtk/point_panels.h"
 #include "render/vtk/spread_boxes.h"
 
 namespace stiffscope {
@@ -14,6 +15,7 @@ class VtkBackend : public Backend {
   Image draw(const GroupedBarChart& chart, Size size) override { return drawGroupedBars(chart, size); }
   Image draw(const SpreadChart& chart, Size size) override { return drawSpreads(chart, size); }
   Image draw(const IntervalChart& chart, Size size) override { return drawIntervals(chart, size); }
+  Image draw(const PointChart& chart, Size size) override { return drawPoints(chart, size); }
   Image draw(const ArmScene& scene, Size size) override { return drawArmScene(scene, size); }
 };
 
@@ -22,7 +24,7 @@ class VtkBackend : public Backend {
 }  // namespace stiffscope
 
 // The name must be that of kBackendSymbol.
-extern "C" __attribute__((visibility("default"))) stiffscope::Backend* stiffscope_render_backend_2() {
+extern "C" __attribute__((visibility("default"))) stiffscope::Backend* stiffscope_render_backend_5() {
   static stiffscope::VtkBackend backend;
   return &backend;
 }

@@ -2,47 +2,18 @@
 
 #include <fmt/format.h>
 #include <vtkNew.h>
-#include <vtkObjectFactory.h>
-#include <vtkOutputWindow.h>
 #include <vtkRenderer.h>
 #include <vtkUnsignedCharArray.h>
 
 #include <mutex>
 #include <stdexcept>
-#include <string>
 
+#include "render/vtk/collect_errors.h"
 #include "render/vtk/gl_window.h"
 
 namespace stiffscope {
 
 namespace {
-
-// Gathers what VTK would print to the terminal; a library does not.
-class ErrorCollector : public vtkOutputWindow {
- public:
-  static ErrorCollector* New();
-  vtkTypeMacro(ErrorCollector, vtkOutputWindow);
-  void DisplayText(const char*) override {}
-  void DisplayErrorText(const char* text) override { errors += text; }
-  std::string errors;
-};
-vtkStandardNewMacro(ErrorCollector);
-
-class CollectErrors {
- public:
-  CollectErrors() : before_(vtkOutputWindow::GetInstance()) { vtkOutputWindow::SetInstance(collector_); }
-  ~CollectErrors() { vtkOutputWindow::SetInstance(before_); }
-  CollectErrors(const CollectErrors&) = delete;
-  CollectErrors& operator=(const CollectErrors&) = delete;
-  void throwIfAny() const {
-    if (collector_->errors.empty()) return;
-    throw std::runtime_error(fmt::format("cannot draw pictures: VTK says: {}", collector_->errors));
-  }
-
- private:
-  vtkSmartPointer<vtkOutputWindow> before_;
-  vtkNew<ErrorCollector> collector_;
-};
 
 // The context belongs to this thread.
 struct Current {

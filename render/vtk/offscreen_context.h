@@ -5,13 +5,11 @@
 #include <vector>
 
 #include "render/image.h"
+#include "render/vtk/canvas.h"
 
 class vtkRenderer;
 
 namespace stiffscope {
-
-/// How many rendered pixels a pixel of the picture is averaged from, in each direction: the antialiasing.
-inline constexpr int kSupersampling = 2;
 
 /// Renders `layers`, the first at the back, into a picture of `size` without display or GPU, at
 /// kSupersampling times the size, averaged down. One software GL context serves all pictures of the process;

@@ -7,27 +7,9 @@
 
 namespace stiffscope {
 
-namespace {
-
-Eigen::Vector3d directionOf(const ArmScene& scene) {
-  if (scene.view_direction) return scene.view_direction->normalized();
-  switch (scene.view) {
-    case View::Front:
-      return {-1, 0, 0};
-    case View::Side:
-      return {0, 1, 0};
-    case View::Top:
-      return {0, 0, -1};
-    case View::Oblique:
-      break;
-  }
-  return Eigen::Vector3d(-0.5, 0.85, -0.42).normalized();
-}
-
-}  // namespace
-
 ViewAxes viewAxesOf(const ArmScene& scene) {
-  const Eigen::Vector3d direction = directionOf(scene);
+  const Eigen::Vector3d direction =
+      scene.view_direction ? scene.view_direction->normalized() : directionOf(scene.view);
   const bool vertical = std::abs(direction.z()) > 0.999;
   const Eigen::Vector3d upwards = vertical ? Eigen::Vector3d::UnitY() : Eigen::Vector3d::UnitZ();
   const Eigen::Vector3d right = direction.cross(upwards).normalized();
@@ -41,6 +23,21 @@ Projection::Projection(const ViewAxes& axes, const Eigen::AlignedBox3d& extent, 
       middle_{room.middleX(), room.middleY()},
       scale_(std::min(room.width() / std::max(extent.sizes().x(), 1e-3),
                       room.height() / std::max(extent.sizes().y(), 1e-3))) {}
+
+Projection::Projection(const ViewAxes& axes, const Eigen::AlignedBox3d& extent, const Box& room,
+                       const SceneFraming& framing)
+    : Projection(axes, extent, room) {
+  // The depth stays that of the scene, so that nothing is clipped.
+  const Eigen::Vector3d centre = axes.inView(framing.centre);
+  centre_in_view_.head<2>() = centre.head<2>();
+  scale_ = room.height() / framing.metres_high;
+}
+
+SceneFraming Projection::framingOf(const Box& room) const {
+  return {axes_.right * centre_in_view_.x() + axes_.up * centre_in_view_.y() +
+              axes_.to_viewer * centre_in_view_.z(),
+          room.height() / scale_};
+}
 
 Spot Projection::spotOf(const Eigen::Vector3d& point) const {
   const Eigen::Vector3d offset = axes_.inView(point) - centre_in_view_;

@@ -28,6 +28,12 @@ ViewAxes viewAxesOf(const ArmScene& scene);
 class Projection {
  public:
   Projection(const ViewAxes& axes, const Eigen::AlignedBox3d& extent_in_view, const Box& room);
+  /// The same with scale and middle as `framing` wants them, whether all of `extent` is in the room or not.
+  Projection(const ViewAxes& axes, const Eigen::AlignedBox3d& extent_in_view, const Box& room,
+             const SceneFraming& framing);
+
+  /// The framing that a picture with this room had to state to look the same.
+  SceneFraming framingOf(const Box& room) const;
 
   double pixelsPerMetre() const { return scale_; }
   Spot spotOf(const Eigen::Vector3d& point) const;

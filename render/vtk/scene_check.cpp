@@ -20,6 +20,12 @@ void requireFinite(const ScenePoint& point) {
   if (point.measured) requireFinite(*point.measured, fmt::format("the measured vector of '{}'", point.label));
   if (point.predicted)
     requireFinite(*point.predicted, fmt::format("the predicted vector of '{}'", point.label));
+  if (point.residual) requireFinite(*point.residual, fmt::format("the residual vector of '{}'", point.label));
+}
+
+void requirePositive(double number, const std::string& what) {
+  if (std::isfinite(number) && number > 0) return;
+  throw std::invalid_argument(fmt::format("arm scene: {} {}, expected above zero", what, number));
 }
 
 void requireDrawable(const ArmPose& pose) {
@@ -44,9 +50,16 @@ void requireDrawable(const ArmPose& pose) {
 void requireDrawable(const ArmScene& scene) {
   if (scene.poses.empty()) throw std::invalid_argument("arm scene: no pose");
   for (const ArmPose& pose : scene.poses) requireDrawable(pose);
-  if (scene.magnification && !(std::isfinite(*scene.magnification) && *scene.magnification > 0)) {
-    throw std::invalid_argument(
-        fmt::format("arm scene: magnification {}, expected above zero", *scene.magnification));
+  for (const SceneTrace& trace : scene.traces) {
+    for (const auto& point : trace.points) requireFinite(point, fmt::format("a point of '{}'", trace.label));
+  }
+  for (const auto& point : scene.also_fitted) requireFinite(point, "a point that is to fit");
+  if (scene.magnification) requirePositive(*scene.magnification, "magnification");
+  requirePositive(scene.residual_factor, "residual factor");
+  if (scene.picked) requireFinite(*scene.picked, "the picked point");
+  if (scene.framing) {
+    requireFinite(scene.framing->centre, "the centre of the framing");
+    requirePositive(scene.framing->metres_high, "height of the framing");
   }
   if (scene.view_direction) {
     requireFinite(*scene.view_direction, "the view direction");

@@ -57,7 +57,7 @@ void LabelPlacer::place(const std::string& text, Spot spot, double clearance, co
   }
   // A rim of paper sets the letters off from the arm.
   TextStyle rim = style;
-  rim.colour = colours::kPaper;
+  rim.colour = canvas_.palette().paper;
   for (const Spot& side : kSides) {
     canvas_.text(text, {best.left + 1.5 * side.x, best.top + 1.5 * side.y}, AlignX::Left, AlignY::Top, rim);
   }

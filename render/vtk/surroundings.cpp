@@ -13,8 +13,15 @@ void takeMargin(const Canvas& canvas, Box& free) {
 
 namespace {
 
+/// At most two lines: the names of a campaign are not ours, and the plot must keep its room.
 void takeLines(Canvas& canvas, Box& free, const std::string& text, const TextStyle& style) {
-  for (const std::string& line : canvas.wrapped(text, free.width(), style)) {
+  constexpr std::size_t kMostLines = 2;
+  std::vector<std::string> lines = canvas.wrapped(text, free.width(), style);
+  if (lines.size() > kMostLines) {
+    lines.resize(kMostLines);
+    lines.back() = canvas.shortened(lines.back() + " \u2026", free.width(), style);
+  }
+  for (const std::string& line : lines) {
     canvas.text(line, {free.left, free.top}, AlignX::Left, AlignY::Top, style);
     free.top += canvas.measure(line, style).y;
   }

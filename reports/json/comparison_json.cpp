@@ -41,7 +41,10 @@ Json avoidedJson(const DeflectionAvoided& avoided, const char* place) {
                         {"after_um", one.after / kMicrometre},
                         {"share", number(one.share())}});
   }
-  return {{"at", place}, {"share", avoided.share}, {"low", number(avoided.low)}, {"high", number(avoided.high)},
+  return {{"at", place},
+          {"share", avoided.share},
+          {"low", number(avoided.low)},
+          {"high", number(avoided.high)},
           {"postures", postures}};
 }
 

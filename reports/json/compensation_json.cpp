@@ -43,12 +43,14 @@ Json rowJson(const Campaign& campaign, const CompensatedPosture& posture) {
 
 }  // namespace
 
-Json compensationJson(const Campaign& campaign, Method method, const std::vector<CompensatedPosture>& postures) {
+Json compensationJson(const Campaign& campaign, Method method,
+                      const std::vector<CompensatedPosture>& postures) {
   Json rows = Json::array();
   for (const CompensatedPosture& posture : postures) {
     rows.push_back(rowJson(campaign, posture));
   }
-  return {{"campaign", campaignJson(campaign)}, {"method", namesOf(method).key}, {"frame", "r0"}, {"rows", rows}};
+  return {
+      {"campaign", campaignJson(campaign)}, {"method", namesOf(method).key}, {"frame", "r0"}, {"rows", rows}};
 }
 
 }  // namespace stiffscope

@@ -9,6 +9,7 @@
 namespace stiffscope {
 
 /// The result of `compensate`: a row a posture.
-Json compensationJson(const Campaign& campaign, Method method, const std::vector<CompensatedPosture>& postures);
+Json compensationJson(const Campaign& campaign, Method method,
+                      const std::vector<CompensatedPosture>& postures);
 
 }  // namespace stiffscope

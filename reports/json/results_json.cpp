@@ -20,13 +20,6 @@ Json avoidedJson(const AvoidedDeflection& avoided) {
   return {{"share", avoided.share}, {"at", avoided.at_wrist ? "P_wrist" : "reflectors"}, {"postures", postures}};
 }
 
-/// Bare names, so that a later report in the same folder knows which files are this one's.
-Json filesJson(const ReportContent& content) {
-  Json files = Json::array({"results.json", "report.html"});
-  for (const Figure& figure : content.figures) files.push_back(pictureFile(figure));
-  return files;
-}
-
 Json campaignResults(const ReportCampaign& one) {
   Json json;
   if (one.preparation != nullptr) json["preparation"] = preparationJson(*one.preparation);
@@ -46,7 +39,7 @@ Json resultsJson(const ReportContent& content) {
   for (const ReportCampaign& one : content.campaigns) {
     campaigns.push_back(campaignResults(one));
   }
-  Json json{{"files", filesJson(content)}, {"versions", versions}, {"campaigns", campaigns}};
+  Json json{{"versions", versions}, {"campaigns", campaigns}};
   json["avoided"] = content.avoided && content.avoided->available ? avoidedJson(*content.avoided) : Json(nullptr);
   return json;
 }

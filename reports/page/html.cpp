@@ -2,6 +2,8 @@
 
 #include <tinyxml2.h>
 
+#include <algorithm>
+#include <array>
 #include <limits>
 #include <string_view>
 
@@ -13,20 +15,39 @@ namespace {
 
 std::string clean(const std::string& text) { return oneLine(text, std::numeric_limits<std::size_t>::max()); }
 
-/// Calls `normal` and `subscript` with the stretches of a rich text, in order.
-template <class Normal, class Subscript>
-void eachStretch(std::string_view text, const Normal& normal, const Subscript& subscript) {
+constexpr char kAsIs = '\x1b';  // a campaign's own texts have no control characters left once they stand in a rich text
+
+/// Where a stretch of another kind begins in `text`, and how it is marked.
+struct Mark {
+  const char* open;
+  const char* close;
+};
+constexpr std::array<Mark, 3> kMarks{{{"_{", "}"}, {"`", "`"}, {"\x1b", "\x1b"}}};
+enum Stretch { kSubscript = 0, kCode = 1, kVerbatim = 2, kNormal = 3 };
+
+/// Calls `write` with the stretches of a rich text and their kind, in order. A mark without its end is text.
+template <class Write>
+void eachStretch(std::string_view text, const Write& write) {
+  std::size_t from = 0;  // marks before it are text
   while (!text.empty()) {
-    const std::size_t open = text.find("_{");
-    const std::size_t close = open == std::string_view::npos ? open : text.find('}', open);
-    if (close == std::string_view::npos) {
-      normal(std::string(text));
-      return;
+    std::size_t open = std::string_view::npos, kind = kNormal;
+    for (std::size_t i = 0; i < kMarks.size(); ++i) {
+      const std::size_t at = text.find(kMarks[i].open, from);
+      if (at < open) open = at, kind = i;
     }
-    if (open > 0) normal(std::string(text.substr(0, open)));
-    subscript(std::string(text.substr(open + 2, close - open - 2)));
+    if (kind == kNormal) break;
+    const std::size_t begin = open + std::string_view(kMarks[kind].open).size();
+    const std::size_t close = text.find(kMarks[kind].close, begin);
+    if (close == std::string_view::npos) {
+      from = begin;
+      continue;
+    }
+    if (open > 0) write(std::string(text.substr(0, open)), kNormal);
+    write(std::string(text.substr(begin, close - begin)), static_cast<Stretch>(kind));
     text.remove_prefix(close + 1);
+    from = 0;
   }
+  if (!text.empty()) write(std::string(text), kNormal);
 }
 
 }  // namespace
@@ -62,13 +83,12 @@ void Html::voidElement(const char* name, const Attributes& attributes) {
 void Html::text(const std::string& text) { printer_->PushText(clean(text).c_str()); }
 
 void Html::rich(const std::string& text) {
-  eachStretch(
-      text, [this](const std::string& normal) { this->text(normal); },
-      [this](const std::string& subscript) {
-        open("sub", {});
-        this->text(subscript);
-        printer_->CloseElement(true);
-      });
+  eachStretch(text, [this](const std::string& part, Stretch kind) {
+    const bool marked = kind == kSubscript || kind == kCode;
+    if (marked) open(kind == kSubscript ? "sub" : "code", {});
+    this->text(part);
+    if (marked) printer_->CloseElement(true);
+  });
 }
 
 void Html::leaf(const char* name, const std::string& rich_text, const Attributes& attributes) {
@@ -92,9 +112,19 @@ std::string Html::bytes() const { return printer_->CStr(); }
 
 std::string plain(const std::string& rich_text) {
   std::string text;
-  const auto append = [&text](const std::string& part) { text += part; };
-  eachStretch(rich_text, append, append);
+  eachStretch(rich_text, [&text](const std::string& part, Stretch) { text += part; });
   return text;
+}
+
+std::string asIs(const std::string& text) {
+  std::string inside = text;
+  std::erase(inside, kAsIs);
+  return kAsIs + inside + kAsIs;
+}
+
+void Html::keepTable(const std::string& id, std::string csv) {
+  const std::string name = id.empty() ? "table-" + std::to_string(tables_.size() + 1) : id + table_suffix_;
+  tables_.push_back({name, std::move(csv)});
 }
 
 }  // namespace stiffscope::page

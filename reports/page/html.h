@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "reports/page/report_page.h"
+
 namespace tinyxml2 {
 class XMLPrinter;
 }
@@ -42,19 +44,31 @@ class Html {
   [[nodiscard]] Element element(const char* name, const Attributes& attributes = {});
   void voidElement(const char* name, const Attributes& attributes = {});  ///< meta, img
   void text(const std::string& text);
-  void rich(const std::string& text);  ///< `x_{abc}` sets abc as a subscript
+  /// `x_{abc}` sets abc as a subscript, a word between backticks is set as code; what asIs made stays.
+  void rich(const std::string& text);
   void leaf(const char* name, const std::string& rich_text, const Attributes& attributes = {});
   void paragraph(const std::string& rich_text, const char* css_class = "");
   void list(const std::vector<std::string>& rich_items);  ///< nothing where there is none
 
   std::string bytes() const;
 
+  /// What tables written from now on are of, for the names of their files: "-2" for the second campaign.
+  void setTableSuffix(const std::string& suffix) { table_suffix_ = suffix; }
+  /// Keeps a table that is on the page as a file; `id` is letters, digits and hyphens, empty: by its number.
+  void keepTable(const std::string& id, std::string csv);
+  const std::vector<TableFile>& tables() const { return tables_; }
+
  private:
   void open(const char* name, const Attributes& attributes);
   std::unique_ptr<tinyxml2::XMLPrinter> printer_;
+  std::string table_suffix_;
+  std::vector<TableFile> tables_;
 };
 
-/// `x_{abc}` as plain text: xabc without the marks, for alt texts and places that cannot have a subscript.
+/// A text of a campaign, to stand in a rich text to the letter, whatever is in it.
+std::string asIs(const std::string& text);
+
+/// A rich text without its marks: for alt texts and places that cannot have a subscript.
 std::string plain(const std::string& rich_text);
 
 }  // namespace stiffscope::page

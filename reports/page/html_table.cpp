@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "reports/csv/csv_table.h"
+
 namespace stiffscope::page {
 
 namespace {
@@ -42,10 +44,18 @@ void writeTable(Html& html, const Table& table) {
   const bool empty = std::all_of(table.groups.begin(), table.groups.end(),
                                  [](const RowGroup& group) { return group.rows.empty(); });
   if (empty) return;
-  const auto scroll = html.element("div", {{"class", "scroll"}});
+  const std::string name = plain(table.caption);
+  // A wide table is scrolled by keyboard too.
+  const auto scroll = html.element(
+      "div", {{"class", "scroll"}, {"role", "region"}, {"aria-label", name}, {"tabindex", "0"}});
   const bool grouped = std::any_of(table.groups.begin(), table.groups.end(),
                                    [](const RowGroup& group) { return !group.header.empty(); });
-  const char* kind = table.words ? "words" : grouped ? "grouped" : "numeric";
+  std::size_t rows = 0;
+  for (const RowGroup& group : table.groups) rows += group.rows.size();
+  constexpr std::size_t kMostOnAPage = 24;  // a longer table is broken between groups, its head repeated
+  std::string kind = table.words ? "words" : grouped ? "grouped" : "numeric";
+  if (rows > kMostOnAPage) kind += " long";
+  html.keepTable(table.id, csvTable(table));
   const auto element = html.element("table", {{"class", kind}});
   html.leaf("caption", table.caption);
   {

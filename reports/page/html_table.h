@@ -30,6 +30,7 @@ struct Table {
   std::vector<std::string> columns;  ///< headers; one more than a row is wide where groups have headers
   std::vector<RowGroup> groups;
   bool words = false;  ///< cells hold words, set flush left, not numbers
+  std::string id = {};  ///< of its file beside the page, without ".csv"; empty: by its number
 };
 
 /// Writes it with <caption> and a scope on every header. Empty tables (no rows) are not written.

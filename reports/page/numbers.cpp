@@ -56,6 +56,11 @@ std::string withUncertainty(double value, double standard_uncertainty) {
   return fmt::format("{} ± {}", fixed(value, places), fixed(standard_uncertainty, places));
 }
 
+std::string toPlaceOf(double value, double width) {
+  if (!std::isfinite(width) || width <= 0.0 || std::abs(value) >= 1e7) return significant(value, 4);
+  return fixed(value, placesFor(width, 2));
+}
+
 std::string asPrinted(double value) { return withMinus(fmt::format("{}", value)); }
 
 std::string percent(double share, int decimals) {

@@ -16,6 +16,10 @@ std::string significant(double value, int digits);
 /// place. Without a finite positive uncertainty the value to four digits.
 std::string withUncertainty(double value, double standard_uncertainty);
 
+/// `value` to the place of the second digit of `width`, a range or an uncertainty: numbers beside it have the
+/// same digits. Without a finite positive width four significant digits.
+std::string toPlaceOf(double value, double width);
+
 /// As few digits as tell the number: for one that comes from print.
 std::string asPrinted(double value);
 

@@ -8,12 +8,13 @@
 namespace stiffscope {
 
 /// A campaign as it was used, with what was identified from it, how the audit judges the readings, and what was
-/// done to them beforehand. Refers to all of these; the last two may be absent.
+/// done to them beforehand, and how the station moved before that was taken off. Refers to all of these; the last three may be absent.
 struct ReportCampaign {
   const Campaign& campaign;
   const Identification& identification;
   const AuditReport* audit = nullptr;
   const Preparation* preparation = nullptr;
+  const StationMotion* station = nullptr;
 };
 
 }  // namespace stiffscope

@@ -1,6 +1,9 @@
 #include "reports/page/report_page.h"
 
+#include <fmt/format.h>
+
 #include "reports/page/html.h"
+#include "reports/page/report_id.h"
 #include "reports/page/sections.h"
 #include "reports/page/style.h"
 
@@ -14,19 +17,45 @@ void writeHead(page::Html& html, const ReportContent& content) {
   html.voidElement("meta", {{"name", "viewport"}, {"content", "width=device-width, initial-scale=1"}});
   html.voidElement("meta", {{"name", "color-scheme"}, {"content", "light dark"}});
   html.leaf("title", page::plain(content.title));
-  html.leaf("style", page::pageStyle());
+  html.leaf("style", page::pageStyle(reportId(content)));
+}
+
+void writeContents(page::Html& html, const ReportContent& content) {
+  const auto nav = html.element("nav", {{"aria-label", "Contents"}});
+  const auto list = html.element("ul");
+  const auto entry = [&html](const char* id, const char* name) {
+    const auto item = html.element("li");
+    html.leaf("a", name, {{"href", std::string("#") + id}});
+  };
+  entry("conditions", "Conditions");
+  entry("wrist", "Wrist centre");
+  entry("links", "Links");
+  entry("stiffness", "Stiffness");
+  entry("subsets", "Spread");
+  entry("compensation", "Compensation");
+  if (!content.figures.empty()) entry("figures", "Figures");
+  entry("left-out", "Left out");
+  entry("scope", "Uncertainty and scope");
+  entry("provenance", "Inputs");
+}
+
+void writeEnd(page::Html& html, const ReportContent& content) {
+  const auto footer = html.element("footer");
+  html.paragraph(fmt::format("End of report {}.", reportId(content)), "faint");
 }
 
 }  // namespace
 
-std::string reportPage(const ReportContent& content) {
+ReportPage makeReportPage(const ReportContent& content) {
   page::Html html;
   {
     const auto root = html.element("html", {{"lang", "en"}});
     writeHead(html, content);
     const auto body = html.element("body");
-    const auto main = html.element("main");
+    html.leaf("a", "To the results", {{"class", "skip"}, {"href", "#results"}});
     page::writeOpening(html, content);
+    writeContents(html, content);
+    const auto main = html.element("main", {{"id", "results"}, {"tabindex", "-1"}});
     page::writeConditions(html, content);
     page::writeWrist(html, content);
     page::writeLinks(html, content);
@@ -36,9 +65,13 @@ std::string reportPage(const ReportContent& content) {
     page::writeFigures(html, content);
     page::writeAudit(html, content);
     page::writeLeftOut(html, content);
+    page::writeScope(html, content);
     page::writeProvenance(html, content);
+    writeEnd(html, content);
   }
-  return html.bytes();
+  return {html.bytes(), html.tables()};
 }
+
+std::string reportPage(const ReportContent& content) { return makeReportPage(content).html; }
 
 }  // namespace stiffscope

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "reports/page/report_content.h"
 
@@ -9,5 +10,18 @@ namespace stiffscope {
 /// The report as one HTML5 page that needs nothing beside it: pictures as data: URIs, style inside, no
 /// script, no network. Well-formed as XML after its doctype. Every text of a campaign is escaped.
 std::string reportPage(const ReportContent& content);
+
+/// A table of the page as a file (RFC 4180).
+struct TableFile {
+  std::string name;  ///< without ".csv"
+  std::string csv;
+};
+
+/// The page, and every table on it.
+struct ReportPage {
+  std::string html;
+  std::vector<TableFile> tables;
+};
+ReportPage makeReportPage(const ReportContent& content);
 
 }  // namespace stiffscope

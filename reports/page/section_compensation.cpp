@@ -30,6 +30,7 @@ Table shareTable(const ReportContent& content, const ReportCampaign& one) {
               {"At", "Method", "All postures: fitted and judged", "Subsets: used", "Subsets: held out",
                "Subsets: all"},
               {}};
+  table.id = "compensation";
   if (content.compare_with_paper) table.columns.emplace_back("Paper: all");
   for (const bool at_wrist : {true, false}) {
     RowGroup group{at_wrist ? "P_{wrist}" : "Reflectors", {}};
@@ -88,18 +89,17 @@ void writeCompensation(Html& html, const ReportContent& content) {
       "Compensated is 1 − Σ|what is left| / Σ|displacement|. Over the subsets of postures it is "
       "the mean: on the postures a subset used, on those it held out, and on all. P_{wrist} sees "
       "joints 1 to 3 only, the reflectors all six.");
-  for (const ReportCampaign& one : content.campaigns) {
-    if (content.campaigns.size() > 1) html.leaf("h3", one.campaign.name);
+  writeEach(html, content, [&](const ReportCampaign& one) {
     if (!shownMethod(one.identification)) {
       html.paragraph("No method is available, so nothing is compensated.");
-      continue;
+      return;
     }
     writeTable(html, shareTable(content, one));
     if (one.identification.wrist_displacement.empty()) {
       html.paragraph("P_{wrist} is not measured in the load states: shares are given at the reflectors.");
     }
     html.paragraph(noiseWords(one));
-  }
+  });
   writeAvoided(html, content);
 }
 

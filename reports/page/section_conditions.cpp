@@ -15,9 +15,12 @@ void add(RowGroup& group, const char* name, const std::string& text) {
   if (!text.empty()) group.rows.push_back({name, text});
 }
 
+/// A text of the campaign; empty stays empty, so that its row is left out.
+std::string own(const std::string& text) { return text.empty() ? text : asIs(text); }
+
 std::string trackerWords(const Tracker& tracker) {
   return fmt::format(
-      "{}; one sigma {} µm + {} µm/m along the beam, {} µm + {} µm/m across it", tracker.model,
+      "{}; one sigma {} µm + {} µm/m along the beam, {} µm + {} µm/m across it", asIs(tracker.model),
       significant(tracker.range_fixed / kMicrometre, 2), significant(tracker.range_per_m / kMicrometre, 2),
       significant(tracker.angle_fixed / kMicrometre, 2), significant(tracker.angle_per_m / kMicrometre, 2));
 }
@@ -52,13 +55,14 @@ RowGroup conditions(const ReportCampaign& one) {
   const Campaign& campaign = one.campaign;
   const Identification& result = one.identification;
   RowGroup group;
-  add(group, "Machine", campaign.robot.name);
+  add(group, "Machine", own(campaign.robot.name));
+  add(group, "Measured on", own(campaign.date));
   add(group, "Double encoders", encoderState(campaign.double_encoder));
-  add(group, "Item", campaign.texts.item);
-  add(group, "Laboratory", campaign.texts.laboratory);
-  add(group, "Customer", campaign.texts.customer);
-  add(group, "Operator", campaign.texts.operator_name);
-  add(group, "Conditions", campaign.texts.conditions);
+  add(group, "Item", own(campaign.texts.item));
+  add(group, "Laboratory", own(campaign.texts.laboratory));
+  add(group, "Customer", own(campaign.texts.customer));
+  add(group, "Operator", own(campaign.texts.operator_name));
+  add(group, "Conditions", own(campaign.texts.conditions));
   add(group, "Tracker",
       campaign.tracker ? trackerWords(*campaign.tracker) : "not declared: no noise is known");
   if (one.preparation != nullptr) add(group, "Readings", preparationWords(*one.preparation));
@@ -90,10 +94,9 @@ void writeConditions(Html& html, const ReportContent& content) {
       "Partial Pose (DPP) first joints 1 to 3 from P_{wrist}, which joints 4 to 6 do not move, "
       "then joints 4 to 6 from what is left. Stiffness is that of the closed loop, at the joint "
       "angles which the controller reports.");
-  for (const ReportCampaign& one : content.campaigns) {
-    if (content.campaigns.size() > 1) html.leaf("h3", one.campaign.name);
-    writeTable(html, {"Conditions of the measurement", {"What", "As measured"}, {conditions(one)}, true});
-  }
+  writeEach(html, content, [&](const ReportCampaign& one) {
+    writeTable(html, {"Conditions of the measurement", {"What", "As measured"}, {conditions(one)}, true, "conditions"});
+  });
 }
 
 }  // namespace stiffscope::page

@@ -16,6 +16,7 @@ Table linkTable(const Frames& frames, Notes& notes) {
               {"Axes", "Distance (mm)", "Nominal (mm)", "Difference (mm)", "Angle (°)", "Nominal (°)",
                "Difference (°)"},
               {{}}};
+  table.id = "links";
   for (std::size_t i = 0; i < frames.links.size(); ++i) {
     const LinkGeometry& link = frames.links[i];
     Row row{
@@ -39,6 +40,7 @@ Table linkTable(const Frames& frames, Notes& notes) {
 
 Table axisTable(const Frames& frames) {
   Table table{"Circle-point: the sweeps of each axis", {"Axis", "Arc (°)", "Circles", "rms (µm)"}, {{}}};
+  table.id = "axes";
   for (std::size_t i = 0; i < frames.axes.size(); ++i) {
     const MeasuredAxis& axis = frames.axes[i];
     if (!axis.measured) continue;
@@ -69,7 +71,7 @@ void writeLinks(Html& html, const ReportContent& content) {
     }
     Notes notes;
     writeTable(html, linkTable(frames, notes));
-    html.paragraph("± is one standard uncertainty.", "faint");
+    html.paragraph("± is one standard uncertainty (k = 1).", "faint");
     notes.write(html);
     writeTable(html, axisTable(frames));
     html.list(unmeasured);

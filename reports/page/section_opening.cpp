@@ -5,6 +5,7 @@
 
 #include "reports/page/names.h"
 #include "reports/page/numbers.h"
+#include "reports/page/report_id.h"
 #include "reports/page/sections.h"
 #include "reports/text/preparation_text.h"
 
@@ -20,9 +21,12 @@ struct KeyNumber {
 
 /// Name, date, machine and tracker of a campaign in a line.
 std::string campaignLine(const Campaign& campaign) {
-  std::vector<std::string> parts{campaign.name, campaign.date, campaign.robot.name};
+  std::vector<std::string> parts;
+  for (const std::string& text : {campaign.name, campaign.date, campaign.robot.name}) {
+    if (!text.empty()) parts.push_back(asIs(text));
+  }
   parts.push_back(encoderWords(campaign.double_encoder));
-  parts.push_back(campaign.tracker ? campaign.tracker->model : "tracker not declared");
+  parts.push_back(campaign.tracker ? asIs(campaign.tracker->model) : "tracker not declared");
   std::erase(parts, "");
   return fmt::format("{}", fmt::join(parts, " · "));
 }
@@ -95,7 +99,7 @@ void addAuditCautions(const AuditReport& audit, const std::string& label, std::v
 void writeCautions(Html& html, const ReportContent& content) {
   std::vector<std::string> items;
   for (const ReportCampaign& one : content.campaigns) {
-    const std::string label = content.campaigns.size() > 1 ? one.campaign.name + ": " : std::string();
+    const std::string label = content.campaigns.size() > 1 ? asIs(one.campaign.name) + ": " : std::string();
     if (one.audit != nullptr) addAuditCautions(*one.audit, label, items);
     if (one.preparation != nullptr && (one.preparation->drift.taken_off || !one.preparation->rejected.empty())) {
       items.push_back(fmt::format("{}readings: {}.", label, preparationWords(*one.preparation)));
@@ -104,6 +108,7 @@ void writeCautions(Html& html, const ReportContent& content) {
   }
   if (items.empty()) return;
   html.paragraph("Before you believe these numbers:");
+  const auto cautions = html.element("div", {{"class", "cautions"}});
   html.list(items);
 }
 
@@ -112,6 +117,7 @@ void writeCautions(Html& html, const ReportContent& content) {
 void writeOpening(Html& html, const ReportContent& content) {
   const auto header = html.element("header");
   html.leaf("h1", content.title);
+  html.paragraph(fmt::format("Report {}", reportId(content)), "faint");
   for (const ReportCampaign& one : content.campaigns)
     html.leaf("p", campaignLine(one.campaign), {{"class", "faint"}});
   html.paragraph(content.verdict, "verdict");
@@ -133,10 +139,20 @@ void writeForEach(Html& html, const ReportContent& content, const char* id, cons
                   const std::function<void(const ReportCampaign&)>& write) {
   const auto section = html.element("section", {{"id", id}});
   html.leaf("h2", heading);
-  for (const ReportCampaign& one : content.campaigns) {
-    if (content.campaigns.size() > 1) html.leaf("h3", one.campaign.name);
-    write(one);
+  writeEach(html, content, write);
+}
+
+void writeEach(Html& html, const ReportContent& content, const std::function<void(const ReportCampaign&)>& write) {
+  const auto row = html.element("div", {{"class", content.campaigns.size() > 1 ? "several" : "one"}});
+  for (std::size_t i = 0; i < content.campaigns.size(); ++i) {
+    const auto column = html.element("div", {{"class", "each"}});
+    if (content.campaigns.size() > 1) {
+      html.leaf("h3", asIs(content.campaigns[i].campaign.name));
+      html.setTableSuffix(fmt::format("-{}", i + 1));
+    }
+    write(content.campaigns[i]);
   }
+  html.setTableSuffix("");
 }
 
 }  // namespace stiffscope::page

@@ -5,9 +5,9 @@ namespace stiffscope::page {
 
 namespace {
 
-Table namedTable(const char* caption, const char* name, const char* value,
+Table namedTable(const char* id, const char* caption, const char* name, const char* value,
                  const std::vector<NamedText>& lines) {
-  Table table{caption, {name, value}, {{}}, true};
+  Table table{caption, {name, value}, {{}}, true, id};
   for (const NamedText& line : lines) table.groups.front().rows.push_back({line.name, line.text});
   return table;
 }
@@ -17,9 +17,9 @@ Table namedTable(const char* caption, const char* name, const char* value,
 void writeProvenance(Html& html, const ReportContent& content) {
   writeForEach(html, content, "provenance", "Inputs", [&](const ReportCampaign& one) {
     if (one.campaign.inputs.empty()) html.paragraph("No file was read: the campaign comes from memory.");
-    Table table{"Files read", {"File", "SHA-256 of its bytes"}, {{}}, true};
+    Table table{"Files read", {"File", "SHA-256 of its bytes"}, {{}}, true, "inputs"};
     for (const InputFile& file : one.campaign.inputs)
-      table.groups.front().rows.push_back({file.name, file.sha256});
+      table.groups.front().rows.push_back({asIs(file.name), file.sha256});
     writeTable(html, table);
   });
   if (content.versions.empty() && content.settings.empty() && content.command_line.empty()) return;
@@ -32,8 +32,8 @@ void writeProvenance(Html& html, const ReportContent& content) {
     const auto code = html.element("code");
     html.text(content.command_line);
   }
-  writeTable(html, namedTable("Versions", "Program or library", "Version", content.versions));
-  writeTable(html, namedTable("Settings", "Setting", "Value", content.settings));
+  writeTable(html, namedTable("versions", "Versions", "Program or library", "Version", content.versions));
+  writeTable(html, namedTable("settings", "Settings", "Setting", "Value", content.settings));
 }
 
 }  // namespace stiffscope::page

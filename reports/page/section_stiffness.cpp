@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "core/input/units.h"
+#include "reports/page/coverage.h"
 #include "reports/page/html_table.h"
 #include "reports/page/names.h"
 #include "reports/page/numbers.h"
@@ -32,14 +33,15 @@ Cell stiffnessCell(const Identification& result, Method method, int joint, Notes
     return {"not identifiable",
             notes.mark(fmt::format("{} is not identifiable: {}.", jointName(joint), reason))};
   }
-  const std::string value =
-      withUncertainty(one.estimate.stiffness(joint) / kMega, one.estimate.stiffnessSd(joint) / kMega);
+  const double expanded = coverageOf(result, one.estimate).factor * one.estimate.stiffnessSd(joint);
+  const std::string value = withUncertainty(one.estimate.stiffness(joint) / kMega, expanded / kMega);
   const std::string mark = one.estimate.mark(joint);
   return mark.empty() ? Cell(value) : Cell(value, fmt::format("{} {}", mark, notes.mark(markNote(mark))));
 }
 
 Table stiffnessTable(const Identification& result, Notes& notes) {
-  Table table{"Joint stiffness, 10⁶\u00a0Nm/rad, from all postures", {"Joint"}, {{}}};
+  Table table{"Joint stiffness k ± U, 10⁶\u00a0Nm/rad, from all postures", {"Joint"}, {{}}};
+  table.id = "stiffness";
   for (const Method method : kMethods) table.columns.push_back(longName(method));
   for (int joint = 0; joint < 6; ++joint) {
     Row row{jointName(joint)};
@@ -51,7 +53,8 @@ Table stiffnessTable(const Identification& result, Notes& notes) {
 
 /// Compliances are what the methods solve for: their uncertainty is symmetric where a stiffness's is not.
 Table complianceTable(const Identification& result) {
-  Table table{"Joint compliance, 10⁻⁹\u00a0rad/Nm", {"Joint"}, {{}}};
+  Table table{"Joint compliance c ± u (standard uncertainty), 10⁻⁹\u00a0rad/Nm", {"Joint"}, {{}}};
+  table.id = "compliance";
   for (const Method method : kMethods) {
     if (result.of(method).available) table.columns.push_back(longName(method));
   }
@@ -72,6 +75,7 @@ Table complianceTable(const Identification& result) {
 Table fitTable(const Identification& result) {
   Table table{
       "The fits", {"Method", "Condition number", "rms residual (mm)", "Over degrees of freedom (mm)"}, {{}}};
+  table.id = "fits";
   for (const Method method : kMethods) {
     if (!result.of(method).available) continue;
     const StiffnessEstimate& estimate = result.of(method).estimate;
@@ -87,6 +91,7 @@ Table lengthTable(const Identification& result) {
   Table table{"Complete Pose against the characteristic length L: stiffness in 10⁶\u00a0Nm/rad",
               {"L (m)", "Condition"},
               {{}}};
+  table.id = "characteristic-length";
   const auto& seen = result.of(Method::complete_pose).estimate.identifiable;
   for (int joint = 0; joint < 6; ++joint) {
     if (seen[static_cast<std::size_t>(joint)]) table.columns.push_back(jointName(joint));
@@ -104,13 +109,29 @@ Table lengthTable(const Identification& result) {
   return table;
 }
 
+std::string uncertaintyWords(const Identification& result) {
+  std::vector<std::string> factors;
+  for (const Method method : kMethods) {
+    if (!result.of(method).available) continue;
+    const Coverage coverage = coverageOf(result, result.of(method).estimate);
+    if (coverage.degrees_of_freedom < 1) continue;
+    factors.push_back(fmt::format("{} for {} ({} degrees of freedom)", fixed(coverage.factor, 2), shortName(method),
+                                  coverage.degrees_of_freedom));
+  }
+  if (factors.empty()) return "Too few postures for an uncertainty.";
+  return fmt::format(
+      "± is the expanded uncertainty U = k u, coverage about 95\u00a0%, with the coverage factor k from Student's t: "
+      "{}. The standard uncertainty u is from the scatter between postures.",
+      fmt::join(factors, ", "));
+}
+
 }  // namespace
 
 void writeStiffness(Html& html, const ReportContent& content) {
   writeForEach(html, content, "stiffness", "Joint stiffness", [&](const ReportCampaign& one) {
     Notes notes;
     writeTable(html, stiffnessTable(one.identification, notes));
-    html.paragraph("± is one standard uncertainty, from the scatter between postures.", "faint");
+    html.paragraph(uncertaintyWords(one.identification), "faint");
     notes.write(html);
     writeTable(html, complianceTable(one.identification));
     writeTable(html, fitTable(one.identification));

@@ -15,9 +15,10 @@ constexpr double kMega = 1e6;
 
 Row spreadRow(const ReportContent& content, const ReportCampaign& one, Method method, int joint) {
   const StiffnessSpread spread = spreadOf(one.identification.of(method).subsets, joint);
+  const double width = (spread.high - spread.low) / kMega;
   Row row{longName(method), withUncertainty(spread.mean / kMega, spread.sd / kMega),
-          significant(spread.median / kMega, 3),
-          fmt::format("{} to {}", significant(spread.low / kMega, 3), significant(spread.high / kMega, 3)),
+          toPlaceOf(spread.median / kMega, width),
+          fmt::format("{} to {}", toPlaceOf(spread.low / kMega, width), toPlaceOf(spread.high / kMega, width)),
           percent(spread.share_negative)};
   if (content.compare_with_paper) {
     const auto paper = paperStiffness(one.campaign.double_encoder, method, joint);
@@ -30,6 +31,7 @@ Table tableTwo(const ReportContent& content, const ReportCampaign& one, const Su
   Table table{fmt::format("Table II: joint stiffness over {}, 10⁶\u00a0Nm/rad", subsetWords(any)),
               {"Joint", "Method", "Mean ± sd", "Median", "5 to 95\u00a0%", "Negative"},
               {}};
+  table.id = "subsets";
   if (content.compare_with_paper) table.columns.emplace_back("Paper, mean & sd");
   for (int joint = 0; joint < 6; ++joint) {
     RowGroup group{jointName(joint), {}};

@@ -23,6 +23,7 @@ Table tableOne(const ReportCampaign& one, const WristCentre& wrist) {
       "Table I: centre of the sphere of each reflector's own sweep, in R_{0}",
       {"Reflector", "X (mm)", "Y (mm)", "Z (mm)", "Offset (mm)", "Radius (mm)", "rms (µm)", "Readings"},
       {{}}};
+  table.id = "wrist-spheres";
   for (const WristTableRow& line : wrist.table) {
     Row row{pointName(one.campaign.targets[static_cast<std::size_t>(line.target)].id)};
     addPoint(row, line.centre_in_r0);
@@ -46,6 +47,7 @@ Table sideBySide(const WristCentre& wrist) {
   Table table{"Three ways to a wrist centre, in R_{0}",
               {"Point", "X (mm)", "Y (mm)", "Z (mm)", "From the sphere centre (mm)"},
               {{}}};
+  table.id = "wrist-centres";
   const auto add = [&](const char* name, const Eigen::Vector3d& point) {
     Row row{name};
     addPoint(row, point);
@@ -83,7 +85,7 @@ void writeMeasured(Html& html, const ReportContent& content, const ReportCampaig
   writeTable(html, tableOne(one, wrist));
   writeTable(html, sideBySide(wrist));
   html.paragraph(
-      fmt::format("Axes 4 and 5 miss each other by {}, axes 5 and 6 by {}; ± is one standard uncertainty.",
+      fmt::format("Axes 4 and 5 miss each other by {}, axes 5 and 6 by {}; ± is one standard uncertainty (k = 1).",
                   missWords(wrist.miss_45, wrist.miss_45_sd), missWords(wrist.miss_56, wrist.miss_56_sd)));
 }
 

@@ -18,6 +18,7 @@ void writeSubsets(Html& html, const ReportContent& content);       ///< Table II
 void writeCompensation(Html& html, const ReportContent& content);  ///< compensated and avoided shares
 void writeFigures(Html& html, const ReportContent& content);
 void writeAudit(Html& html, const ReportContent& content);       ///< checks with their limits; rejected readings
+void writeScope(Html& html, const ReportContent& content);  ///< uncertainty, decision rule, what results relate to
 void writeLeftOut(Html& html, const ReportContent& content);     ///< what was not used or not found, and why
 void writeProvenance(Html& html, const ReportContent& content);  ///< inputs, versions, settings
 
@@ -25,5 +26,8 @@ void writeProvenance(Html& html, const ReportContent& content);  ///< inputs, ve
 /// several.
 void writeForEach(Html& html, const ReportContent& content, const char* id, const char* heading,
                   const std::function<void(const ReportCampaign&)>& write);
+
+/// The same without a section of its own.
+void writeEach(Html& html, const ReportContent& content, const std::function<void(const ReportCampaign&)>& write);
 
 }  // namespace stiffscope::page

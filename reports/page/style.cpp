@@ -1,64 +1,89 @@
 #include "reports/page/style.h"
 
+#include <fmt/format.h>
+
 namespace stiffscope::page {
 
+namespace {
+
 // Pictures are drawn on white paper; in the dark they keep it, with a little room around.
-const char* pageStyle() {
-  return ":root{--paper:#fff;--ink:#202024;--faint:#5f6168;--line:#dcdfe4;--band:#f4f6f8;--accent:#1c4a96}"
-         "@media "
-         "(prefers-color-scheme:dark){:root{--paper:#17181b;--ink:#e6e7ea;--faint:#a3a6ad;--line:#3a3d43;"
-         "--band:#212328;--accent:#8fb4f0}}"
-         "*{box-sizing:border-box}"
-         "body{margin:0;background:var(--paper);color:var(--ink);font:16px/1.5 system-ui,sans-serif}"
-         "main{max-width:62rem;margin:0 auto;padding:2rem 1.25rem 4rem}"
-         "h1{font-size:1.9rem;line-height:1.2;margin:0 0 .4rem}"
-         "h2{font-size:1.3rem;margin:2.8rem 0 .6rem;padding-top:.7rem;border-top:1px solid var(--line)}"
-         "h3{font-size:1.05rem;margin:1.8rem 0 .5rem}"
-         "p,ul,ol{max-width:46rem;margin:.6rem 0}"
-         "header p{max-width:none}"
-         "sub,sup{line-height:0}"
-         ".faint,small{color:var(--faint)}"
-         ".verdict{font-size:1.2rem;line-height:1.45;max-width:none;margin:1.2rem 0}"
-         ".numbers{display:grid;grid-template-columns:repeat(auto-fit,minmax(14rem,1fr));gap:1rem;margin:1."
-         "4rem 0;"
-         "padding:0;list-style:none;max-width:none}"
-         ".numbers li{background:var(--band);border-left:4px solid var(--accent);padding:.8rem 1rem}"
-         ".numbers b{display:block;font-size:1.9rem;line-height:1.25;font-weight:600;"
-         "font-variant-numeric:tabular-nums}"
-         ".numbers span{display:block;color:var(--faint);font-size:.9rem;line-height:1.4}"
-         ".scroll{overflow-x:auto;margin:1rem 0}"
-         "table{min-width:22rem;border-collapse:collapse;font-size:.9rem;font-variant-numeric:tabular-nums}"
-         "caption{text-align:left;font-weight:600;padding:0 0 .35rem}"
-         "th,td{padding:.28rem .7rem;text-align:right;vertical-align:baseline;border-bottom:1px solid "
-         "var(--line)}"
-         "th{font-weight:500}td{white-space:nowrap}.words td{white-space:normal}"
-         "thead th{color:var(--faint);vertical-align:bottom;border-bottom:2px solid var(--line)}"
-         "tbody th,th:first-child,.grouped thead th:nth-child(2),.words td,.words th{text-align:left}"
-         "tbody th:first-child,thead th:first-child{padding-left:0}"
-         "tbody+tbody tr:first-child th,tbody+tbody tr:first-child td{border-top:1px solid var(--faint)}"
-         ".grouped tbody th{padding-left:.7rem}.grouped tbody th[scope=rowgroup]{padding-left:0}"
-         ".words td:last-child{overflow-wrap:anywhere}"
-         "tbody th{white-space:nowrap}"
-         ".notes{font-size:.85rem;color:var(--faint);padding-left:1.4rem}"
-         "figure{margin:1.6rem 0;padding:0}"
-         "figure img{display:block;width:100%;height:auto;background:#fff;border:1px solid var(--line)}"
-         "figcaption{font-size:.92rem;margin-top:.5rem;max-width:52rem}"
-         "code{font-family:ui-monospace,monospace;font-size:.85em;overflow-wrap:anywhere}"
-         "@page{size:A4;margin:16mm 15mm}"
-         "@media print{"
-         ":root{--paper:#fff;--ink:#000;--faint:#444;--line:#bbb;--band:#f4f6f8;--accent:#1c4a96}"
-         "body{font-size:10pt}"
-         "main{max-width:none;padding:0}"
-         "h1{font-size:18pt}h2{font-size:13pt;margin-top:7mm}h3{font-size:11pt}"
-         "h2,h3,caption,thead{break-after:avoid}"
-         "figure,table,tr,.numbers,.verdict,.notes li{break-inside:avoid}"
-         "table{font-size:8.5pt}figcaption,.notes,p.faint{font-size:9pt}.verdict{font-size:13pt}th,td{"
-         "padding:.2rem .45rem}tbody th{white-space:normal}"
-         "figure img{width:auto;max-width:100%;max-height:98mm}"
-         ".scroll{overflow:visible}"
-         "p,ul,ol,figcaption{max-width:none}"
-         ".numbers{grid-template-columns:repeat(3,1fr)}.numbers b{font-size:17pt}"
-         "}";
+constexpr const char* kScreen =
+    ":root{--paper:#fff;--ink:#202024;--faint:#55575e;--line:#dcdfe4;--band:#f4f6f8;--accent:#1c4a96}"
+    "@media (prefers-color-scheme:dark){:root{--paper:#17181b;--ink:#e6e7ea;--faint:#a9acb3;--line:#3a3d43;"
+    "--band:#212328;--accent:#8fb4f0}}"
+    "*{box-sizing:border-box}"
+    "body{margin:0;background:var(--paper);color:var(--ink);font:16px/1.5 system-ui,sans-serif}"
+    "main,header,nav{max-width:104rem;margin:0 auto;padding:0 1.25rem}"
+    "header{padding-top:1.6rem}main{padding-bottom:3rem}main:focus{outline:none}"
+    ".skip{position:absolute;left:-99rem}.skip:focus{left:1rem;top:.5rem;background:var(--paper);padding:.4rem .8rem}"
+    "a{color:var(--accent)}:focus-visible{outline:3px solid var(--accent);outline-offset:2px}"
+    "nav ul{display:flex;flex-wrap:wrap;gap:.3rem 1.2rem;list-style:none;padding:0;margin:1rem 0 0;max-width:none;"
+    "font-size:.92rem}"
+    "h1{font-size:1.9rem;line-height:1.2;margin:0 0 .3rem}"
+    "h2{font-size:1.3rem;margin:2.4rem 0 .6rem;padding-top:.7rem;border-top:1px solid var(--line)}"
+    "h3{font-size:1.05rem;margin:1.2rem 0 .5rem}"
+    "h1,h2,h3,p,li,b{overflow-wrap:anywhere}"
+    "p,ul,ol{max-width:60rem;margin:.6rem 0}"
+    "header p{max-width:none}header ul{max-width:none}header .cautions{columns:36rem 2;column-gap:2.5rem}header .faint{margin:.2rem 0;font-size:.95rem}"
+    "sub,sup{line-height:0}"
+    ".faint,small{color:var(--faint)}"
+    ".verdict{font-size:1.2rem;line-height:1.45;max-width:none;margin:1rem 0}"
+    ".numbers{display:grid;grid-template-columns:repeat(auto-fit,minmax(14rem,1fr));gap:1rem;margin:1.2rem 0;"
+    "padding:0;list-style:none;max-width:none}"
+    ".numbers li{background:var(--band);border-left:4px solid var(--accent);padding:.8rem 1rem}"
+    ".numbers b{display:block;font-size:1.9rem;line-height:1.25;font-weight:600;"
+    "font-variant-numeric:tabular-nums}"
+    ".numbers span{display:block;color:var(--faint);font-size:.9rem;line-height:1.4}"
+    // Campaigns side by side where there is room; the tables of a single one in columns.
+    ".several{display:grid;grid-template-columns:repeat(auto-fit,minmax(min(100%,44rem),1fr));gap:0 2.5rem}"
+    ".each{min-width:0}.one .each{columns:46rem 2;column-gap:2.5rem}.scroll,.notes,.each p,.each li{break-inside:avoid}"
+    ".scroll{overflow-x:auto;margin:0 0 1.1rem;padding-top:.1rem}"
+    "table{min-width:min(100%,22rem);border-collapse:collapse;font-size:.9rem;font-variant-numeric:tabular-nums}"
+    "caption{text-align:left;font-weight:600;padding:0 0 .35rem}"
+    "th,td{padding:.28rem .7rem;text-align:right;vertical-align:baseline;border-bottom:1px solid var(--line)}"
+    "th{font-weight:500}td{white-space:nowrap}.words td{white-space:normal}"
+    "thead th{color:var(--faint);vertical-align:bottom;border-bottom:2px solid var(--line)}"
+    "tbody th,th:first-child,.grouped thead th:nth-child(2),.words td,.words th{text-align:left}"
+    "tbody th:first-child,thead th:first-child{padding-left:0}"
+    "tbody+tbody tr:first-child th,tbody+tbody tr:first-child td{border-top:1px solid var(--faint)}"
+    ".grouped tbody th{padding-left:.7rem}.grouped tbody th[scope=rowgroup]{padding-left:0}"
+    ".words td{overflow-wrap:anywhere}"
+        ".numeric tbody th{min-width:4.8rem}.each .faint,.notes{break-before:avoid}"
+    ".notes{font-size:.85rem;color:var(--faint);padding-left:1.4rem}"
+    ".figures{display:grid;grid-template-columns:repeat(auto-fit,minmax(min(100%,44rem),1fr));gap:1.8rem 2rem;"
+    "align-items:start}"
+    "figure{margin:0;padding:0}"
+    "figure img{display:block;width:100%;height:auto;background:#fff;border:1px solid var(--line)}"
+    "figcaption{font-size:.92rem;margin-top:.5rem;max-width:56rem;overflow-wrap:anywhere}"
+    "code{font-family:ui-monospace,monospace;font-size:.85em;overflow-wrap:anywhere}";
+
+constexpr const char* kPrint =
+    "@media print{"
+    ":root{--paper:#fff;--ink:#000;--faint:#444;--line:#bbb;--band:#f4f6f8;--accent:#1c4a96}"
+    "body{font-size:9.5pt}nav,.skip{display:none}"
+    "main,header{max-width:none;padding:0}"
+    "h1{font-size:18pt}h2{font-size:13pt;margin-top:5mm}h3{font-size:10.5pt;margin:3mm 0 1mm}"
+    "h2,h3,caption,thead{break-after:avoid}"
+    "figure,table,tr,.numbers,.verdict,.notes li{break-inside:avoid}table.long{break-inside:auto}"
+    "p,li{orphans:3;widows:3}"
+    ".several,.figures{display:block}.one .each,header .cautions{columns:auto}.scroll{break-inside:auto}"
+    "figcaption,.notes,p.faint{font-size:8.5pt}.verdict{font-size:12pt}"
+    "table{font-size:8pt}th,td{padding:.2rem .36rem}"
+    "figure{margin:4mm 0}figure img{width:auto;max-width:100%;max-height:96mm}"
+    ".scroll{overflow:visible;margin-bottom:3mm}"
+    "p,ul,ol,figcaption{max-width:none}"
+    ".numbers{grid-template-columns:repeat(3,1fr)}.numbers b{font-size:16pt}"
+    "}";
+
+}  // namespace
+
+std::string pageStyle(const std::string& report_id) {
+  return kScreen +
+         fmt::format(
+             "@page{{size:A4;margin:15mm 15mm 17mm;@bottom-left{{content:'Report {}';font:8pt sans-serif}}"
+             "@bottom-right{{content:'Page ' counter(page) ' of ' counter(pages);font:8pt sans-serif}}}}",
+             report_id) +
+         kPrint;
 }
 
 }  // namespace stiffscope::page

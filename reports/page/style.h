@@ -1,9 +1,12 @@
 #pragma once
 
+#include <string>
+
 namespace stiffscope::page {
 
-/// The style sheet of the page: light and dark, on a screen and on A4. It has no '<', '>' or '&', which would
+/// The style sheet of the page: light and dark, on a screen and on A4, there with the report's id (hex digits and
+/// hyphens) and the page's number at the foot. It has no '<', '>' or '&', which would
 /// be escaped, because HTML does not unescape inside <style>.
-const char* pageStyle();
+std::string pageStyle(const std::string& report_id);
 
 }  // namespace stiffscope::page

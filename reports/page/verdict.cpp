@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "reports/page/html.h"
 #include "reports/page/names.h"
 #include "reports/page/numbers.h"
 
@@ -54,7 +55,7 @@ std::string compensatedWords(const ReportCampaign& one) {
 /// What tells the campaigns of a report apart: the state of the double encoders, else the name.
 std::string labelOf(const ReportCampaign& one) {
   const std::string state = page::encoderWords(one.campaign.double_encoder);
-  return state.empty() ? fmt::format("in {}", one.campaign.name) : fmt::format("with {}", state);
+  return state.empty() ? fmt::format("in {}", page::asIs(one.campaign.name)) : fmt::format("with {}", state);
 }
 
 std::string capitalised(std::string text) {

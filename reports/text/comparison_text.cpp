@@ -26,11 +26,12 @@ std::string pText(double p) {
 
 void writeMethod(const StiffnessChange& change, Method method, Out out) {
   if (!change.available) {
-    fmt::format_to(out, "\n{}\n", wrapped(fmt::format("{}: not comparable: {}", namesOf(method).full, change.reason), 2));
+    fmt::format_to(out, "\n{}\n",
+                   wrapped(fmt::format("{}: not comparable: {}", namesOf(method).full, change.reason), 2));
     return;
   }
-  fmt::format_to(out, "\n{}, 1e6 Nm/rad\n  {:<4}{:>20}{:>20}{:>18}{:>10}{:>8}\n", namesOf(method).full, "", "before",
-                 "after", "ratio", "p", "corr.");
+  fmt::format_to(out, "\n{}, 1e6 Nm/rad\n  {:<4}{:>20}{:>20}{:>18}{:>10}{:>8}\n", namesOf(method).full, "",
+                 "before", "after", "ratio", "p", "corr.");
   for (std::size_t j = 0; j < 6; ++j) {
     const JointChange& joint = change.joints[j];
     if (!joint.comparable) {
@@ -46,12 +47,14 @@ void writeMethod(const StiffnessChange& change, Method method, Out out) {
 
 void writeShare(const DeflectionAvoided& avoided, const char* place, Out out) {
   if (!avoided.available) {
-    fmt::format_to(out, "\n{}\n", wrapped(fmt::format("Deflection avoided at {}: {}", place, avoided.reason), 2));
+    fmt::format_to(out, "\n{}\n",
+                   wrapped(fmt::format("Deflection avoided at {}: {}", place, avoided.reason), 2));
     return;
   }
   fmt::format_to(out, "\nDeflection avoided at {}: {:.1f} %", place, 100.0 * avoided.share);
   if (std::isfinite(avoided.low)) {
-    fmt::format_to(out, " (95 % interval over postures {:.1f} to {:.1f} %)", 100.0 * avoided.low, 100.0 * avoided.high);
+    fmt::format_to(out, " (95 % interval over postures {:.1f} to {:.1f} %)", 100.0 * avoided.low,
+                   100.0 * avoided.high);
   }
   fmt::format_to(out, ", {} postures\n", avoided.postures.size());
 }
@@ -73,12 +76,14 @@ std::string comparisonText(const Campaign& before, const Campaign& after, const 
   if (!comparison.comparable) {
     fmt::format_to(out, "\n{}\n", wrapped("Nothing is comparable: " + comparison.reason, 2));
   }
-  for (const std::string& caution : comparison.cautions) fmt::format_to(out, "  {}\n", wrapped("caution: " + caution, 4));
+  for (const std::string& caution : comparison.cautions)
+    fmt::format_to(out, "  {}\n", wrapped("caution: " + caution, 4));
   if (comparison.comparable) {
     for (const Method method : kMethods) writeMethod(comparison.of(method), method, out);
-    fmt::format_to(out,
-                   "  p: probability of a difference as large without any change; the errors' correlation (corr.), by\n"
-                   "  the postures measured in both campaigns, is counted\n");
+    fmt::format_to(
+        out,
+        "  p: probability of a difference as large without any change; the errors' correlation (corr.), by\n"
+        "  the postures measured in both campaigns, is counted\n");
     if (comparison.judgedAtWrist()) writeShare(comparison.at_wrist, "P_wrist", out);
     writeShare(comparison.at_targets, "the reflectors", out);
     if (comparison.avoided().available) writePostures(comparison.avoided(), out);

@@ -36,8 +36,10 @@ void writePostures(const Plan& plan, Out out) {
   fmt::format_to(out, "{:>11}{}\n", "log det +", plan.arm.pull ? "   pull in base_link" : "");
   for (const PlannedPosture& posture : plan.postures) {
     fmt::format_to(out, "  {:<8}", posture.id);
-    for (int joint = 0; joint < 6; ++joint) fmt::format_to(out, "{:>9.2f}", posture.candidate.q[joint] / kDegree);
-    fmt::format_to(out, "{:>11}", std::isfinite(posture.log_det_gain) ? fmt::format("{:.2f}", posture.log_det_gain) : "-");
+    for (int joint = 0; joint < 6; ++joint)
+      fmt::format_to(out, "{:>9.2f}", posture.candidate.q[joint] / kDegree);
+    fmt::format_to(out, "{:>11}",
+                   std::isfinite(posture.log_det_gain) ? fmt::format("{:.2f}", posture.log_det_gain) : "-");
     if (plan.arm.pull) {
       const Eigen::Vector3d& pull = posture.pull_in_base;
       fmt::format_to(out, "   {:>5.2f} {:>5.2f} {:>5.2f}", pull.x(), pull.y(), pull.z());
@@ -51,11 +53,13 @@ void writeGain(const Plan& plan, Out out) {
                  plan.compliance ? "per cent of the identified k" : "of 1/k, 1e-9 rad/Nm", "");
   for (int joint = 1; joint <= 6; ++joint) fmt::format_to(out, "{:>10}", fmt::format("k{}", joint));
   fmt::format_to(out, "\n");
-  if (plan.measured > 0) writeUncertainties(plan, fmt::format("measured, {} postures", plan.measured), plan.sd_measured, out);
+  if (plan.measured > 0)
+    writeUncertainties(plan, fmt::format("measured, {} postures", plan.measured), plan.sd_measured, out);
   writeUncertainties(plan, fmt::format("{}{} planned", plan.measured > 0 ? "and " : "", plan.postures.size()),
                      plan.postures.back().sd, out);
   for (const RandomPostures* random : {&plan.random_same, &plan.random_double}) {
-    writeUncertainties(plan, fmt::format("{}{} random (median)", plan.measured > 0 ? "and " : "", random->postures),
+    writeUncertainties(plan,
+                       fmt::format("{}{} random (median)", plan.measured > 0 ? "and " : "", random->postures),
                        random->sd, out);
   }
   if (plan.measured == 0) {
@@ -64,7 +68,8 @@ void writeGain(const Plan& plan, Out out) {
   }
 }
 
-std::string joined(const Eigen::Ref<const Eigen::VectorXd>& values, int decimals, const char* between, double factor = 1.0) {
+std::string joined(const Eigen::Ref<const Eigen::VectorXd>& values, int decimals, const char* between,
+                   double factor = 1.0) {
   std::string text;
   for (Eigen::Index i = 0; i < values.size(); ++i) {
     text += fmt::format("{}{:.{}f}", i > 0 ? between : "", values[i] * factor, decimals);
@@ -77,21 +82,24 @@ std::string joined(const Eigen::Ref<const Eigen::VectorXd>& values, int decimals
 std::string planText(const Campaign& campaign, const Plan& plan) {
   std::string text;
   Out out(text);
-  fmt::format_to(out, "{}: {} postures {}, {:.0f} N {}; chosen from {} of {} drawn\n", campaign.name, plan.asked,
-                 plan.measured > 0 ? "to add" : "to measure", plan.arm.load, plan.arm.pull ? "of pull" : "hanging",
-                 plan.candidates, plan.drawn);
-  for (const std::string& assumed : plan.arm.assumed) fmt::format_to(out, "  {}\n", wrapped("taken: " + assumed, 4));
+  fmt::format_to(out, "{}: {} postures {}, {:.0f} N {}; chosen from {} of {} drawn\n", campaign.name,
+                 plan.asked, plan.measured > 0 ? "to add" : "to measure", plan.arm.load,
+                 plan.arm.pull ? "of pull" : "hanging", plan.candidates, plan.drawn);
+  for (const std::string& assumed : plan.arm.assumed)
+    fmt::format_to(out, "  {}\n", wrapped("taken: " + assumed, 4));
   if (!plan.usable) {
     fmt::format_to(out, "  no plan: {}\n", plan.reason);
     return text;
   }
   for (std::size_t j = 0; j < 6; ++j) {
     if (!plan.unknown[j]) {
-      fmt::format_to(out, "  {}\n", wrapped(fmt::format("k{} will not be seen: {}", j + 1, plan.not_seen[j]), 4));
+      fmt::format_to(out, "  {}\n",
+                     wrapped(fmt::format("k{} will not be seen: {}", j + 1, plan.not_seen[j]), 4));
     }
   }
   if (static_cast<int>(plan.postures.size()) < plan.asked) {
-    fmt::format_to(out, "  only {} postures keep apart from each other within the limits\n", plan.postures.size());
+    fmt::format_to(out, "  only {} postures keep apart from each other within the limits\n",
+                   plan.postures.size());
   }
   if (plan.postures.empty()) return text;
   writePostures(plan, out);
@@ -100,7 +108,9 @@ std::string planText(const Campaign& campaign, const Plan& plan) {
 }
 
 std::string planCsv(const Plan& plan) {
-  std::string text = "pose,q1_deg,q2_deg,q3_deg,q4_deg,q5_deg,q6_deg,fx_n,fy_n,fz_n,mx_nm,my_nm,mz_nm,pull_x,pull_y,pull_z\n";
+  std::string text =
+      "pose,q1_deg,q2_deg,q3_deg,q4_deg,q5_deg,q6_deg,fx_n,fy_n,fz_n,mx_nm,my_nm,mz_nm,pull_x,pull_y,pull_"
+      "z\n";
   for (const PlannedPosture& posture : plan.postures) {
     text += fmt::format("{},{},{},{}\n", posture.id, joined(posture.candidate.q, 5, ",", 1.0 / kDegree),
                         joined(posture.reading, 3, ","), joined(posture.pull_in_base, 6, ","));

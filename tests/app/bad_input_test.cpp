@@ -81,6 +81,33 @@ TEST(BadInput, StatusTwoOneLineAndNothingLeftBehind) {
   }
 }
 
+TEST(BadInput, AFullStandardOutputIsNoSuccess) {
+  if (!fs::exists("/dev/full")) GTEST_SKIP() << "no /dev/full here";
+  const ScratchFolder scratch;
+  const std::string line = "'" STIFFSCOPE_BINARY "' frames '" STIFFSCOPE_SOURCE_DIR "/samples/active' >/dev/full 2>'" +
+                           (scratch.path() / "stderr").string() + "'";
+  const int raw = std::system(line.c_str());
+  EXPECT_EQ(WEXITSTATUS(raw), 2);
+  EXPECT_EQ(contentsOf(scratch.path() / "stderr"),
+            "stiffscope: standard output: cannot be written: No space left on device\n");
+}
+
+// A limit on the size of files stands for a full disk. The pictures of a report are larger.
+TEST(BadInput, AReportThatDoesNotFitLeavesTheEarlierOne) {
+  const ScratchFolder scratch;
+  const fs::path out = scratch.path() / "report";
+  const std::string words = " report '" STIFFSCOPE_SOURCE_DIR "/samples/inactive' --out '" + out.string() + "'";
+  ASSERT_EQ(runProgram(words, scratch.path()).status, 0);
+  const std::string page = contentsOf(out / "report.html"), results = contentsOf(out / "results.json");
+  const std::string line = "trap '' XFSZ; ulimit -f 8; env -u DISPLAY '" STIFFSCOPE_BINARY "'" + words +
+                           " --neglect-kc >/dev/null 2>'" + (scratch.path() / "stderr").string() + "'";
+  const int raw = std::system(line.c_str());
+  EXPECT_EQ(WEXITSTATUS(raw), 2);
+  const std::string said = contentsOf(scratch.path() / "stderr");
+  EXPECT_NE(said.find("cannot be written: File too large"), std::string::npos) << said;
+  EXPECT_TRUE(contentsOf(out / "report.html") == page && contentsOf(out / "results.json") == results);
+}
+
 TEST(BadInput, AnUnreadableFileIsNamed) {
   if (geteuid() == 0) GTEST_SKIP() << "root reads everything: permissions cannot be tested as root";
   const ScratchFolder scratch;

@@ -64,7 +64,7 @@ TEST(DeflectionScene, EveryJointPointIsOnItsAxis) {
   SmallResult small;
   LoadCase& load_case = small.identification.cases[0];
   load_case.posture = postureAt(small.campaign.robot, Vector6d::Constant(0.4));
-  const ArmPose pose = armPose(of(small), 0);
+  const ArmPose pose = armPose(of(small), 0, Method::decoupled_partial_pose);
   for (int joint = 0; joint < 6; ++joint) {
     const Line axis = axisAt(small.campaign.robot, load_case.posture, joint);
     const Eigen::Vector3d off = pose.joint_points[static_cast<std::size_t>(joint)] - axis.point;
@@ -75,8 +75,8 @@ TEST(DeflectionScene, EveryJointPointIsOnItsAxis) {
 TEST(DeflectionScene, TheFloorIsWhereTheRobotStands) {
   SmallResult small;
   small.identification.frames.arm.r0_from_base_link.translation() << 0, 0, -0.94;
-  EXPECT_DOUBLE_EQ(heightOfR0(small.identification), 0.94);
-  const ArmPose pose = armPose(of(small), 0);
+  EXPECT_DOUBLE_EQ(heightOfR0(small.identification.frames), 0.94);
+  const ArmPose pose = armPose(of(small), 0, Method::decoupled_partial_pose);
   EXPECT_NEAR(pose.wrist->position.z(), 2.31 + 0.94, 1e-12);
 }
 
@@ -106,15 +106,16 @@ TEST(SubsetSpreads, APanelForEachJointThatIsSeen) {
   EXPECT_TRUE(subsetSpreads(of(undeclared), true).reference_name.empty());
 }
 
-TEST(StiffnessIntervals, TwoStandardUncertaintiesAndAGapForWhatIsNotSeen) {
+TEST(StiffnessIntervals, ExpandedUncertaintyAndAGapForWhatIsNotSeen) {
   const SmallResult small;
   const IntervalChart chart = stiffnessIntervals(of(small));
   ASSERT_EQ(chart.series.size(), 2u);
   EXPECT_TRUE(std::isnan(chart.series[1].intervals[0].value));
   const Interval& second = chart.series[1].intervals[1];
   EXPECT_NEAR(second.value, 5e6, 1e-3);
-  EXPECT_NEAR(second.lower, 4e6, 1e-3);  // the standard uncertainty is a tenth
-  EXPECT_NEAR(second.upper, 6e6, 1e-3);
+  // The standard uncertainty is a tenth; t for one degree of freedom is 12.706 (tables give as many digits).
+  EXPECT_NEAR(second.lower, 5e6 - 12.706 * 0.5e6, 500);
+  EXPECT_NEAR(second.upper, 5e6 + 12.706 * 0.5e6, 500);
   EXPECT_TRUE(chart.series[0].intervals[3].doubtful);  // negative
   EXPECT_FALSE(chart.doubtful_name.empty());
 }
@@ -151,7 +152,7 @@ TEST(Figures, APracticeCampaignFillsAPage) {
     EXPECT_EQ(figure.alt.find("_{"), std::string::npos) << figure.alt;
   }
   EXPECT_EQ(ids, (std::vector<std::string>{"deflection", "all-postures", "compensation", "compensation-zoom",
-                                           "subsets", "stiffness"}));
+                                           "subsets", "stiffness", "residuals", "circles", "wrist-sphere", "station"}));
   EXPECT_LT(reportPage(content).size(), 5'000'000u);
   const GroupedBarChart chart = residualBars(content.campaigns[0]);
   EXPECT_EQ(chart.series.size(), 4u);

@@ -11,11 +11,12 @@
 namespace stiffscope {
 namespace {
 
-/// Axes 1 and 2 of the arm as a planar two-bar arm in the x-y plane, bars of length a and b along x at zero; the other
-/// axes pass through the flange and are rigid.
+/// Axes 1 and 2 of the arm as a planar two-bar arm in the x-y plane, bars of length a and b along x at zero;
+/// the other axes pass through the flange and are rigid.
 Robot planarArm(double a, double b) {
   Robot arm;
-  const Eigen::Vector3d x = Eigen::Vector3d::UnitX(), y = Eigen::Vector3d::UnitY(), z = Eigen::Vector3d::UnitZ();
+  const Eigen::Vector3d x = Eigen::Vector3d::UnitX(), y = Eigen::Vector3d::UnitY(),
+                        z = Eigen::Vector3d::UnitZ();
   arm.axes_in_base_at_zero = {Line{{0, 0, 0}, z},     Line{{a, 0, 0}, z},     Line{{a + b, 0, 0}, y},
                               Line{{a + b, 0, 0}, x}, Line{{a + b, 0, 0}, y}, Line{{a + b, 0, 0}, x}};
   arm.base_from_flange_at_zero.translation() << a + b, 0, 0;
@@ -23,9 +24,9 @@ Robot planarArm(double a, double b) {
 }
 
 TEST(CartesianStiffness, TwoBarArmByHand) {
-  // Elbow at 90 deg, bars 1 m and 0.5 m along x and y: the tip stands at (1, 0.5), 0.5 m beyond the elbow. A turn of
-  // joint 1 moves it by (-0.5, 1), of joint 2 by (-0.5, 0), so
-  // C = c1 [0.25 -0.5; -0.5 1] + c2 [0.25 0; 0 0].
+  // Elbow at 90 deg, bars 1 m and 0.5 m along x and y: the tip stands at (1, 0.5), 0.5 m beyond the elbow. A
+  // turn of joint 1 moves it by (-0.5, 1), of joint 2 by (-0.5, 0), so C = c1 [0.25 -0.5; -0.5 1] + c2 [0.25
+  // 0; 0 0].
   const Robot arm = planarArm(1.0, 0.5);
   Vector6d q = Vector6d::Zero(), c = Vector6d::Zero();
   q[1] = std::numbers::pi / 2.0;
@@ -35,7 +36,8 @@ TEST(CartesianStiffness, TwoBarArmByHand) {
   const CartesianStiffness found = cartesianStiffness(tip, jacobianAt(arm, posture, tip), c);
   Eigen::Matrix3d expected = Eigen::Matrix3d::Zero();
   expected.topLeftCorner<2, 2>() << 1.25e-6, -0.5e-6, -0.5e-6, 1e-6;
-  EXPECT_LT((found.compliance.topLeftCorner<3, 3>() - expected).norm(), 1e-20);  // rounding of numbers near 1e-6
+  EXPECT_LT((found.compliance.topLeftCorner<3, 3>() - expected).norm(),
+            1e-20);  // rounding of numbers near 1e-6
   EXPECT_LT((found.point - Eigen::Vector3d(1.0, 0.5, 0.0)).norm(), 1e-15);
   // Eigenvalues of the 2 x 2 block: 1.125e-6 +- sqrt(0.125^2 + 0.5^2)e-6.
   const double root = std::sqrt(0.125 * 0.125 + 0.25);
@@ -89,7 +91,8 @@ TEST(CartesianStiffness, IsTheDerivativeOfTheEquilibriumWithKc) {
       measured.col(axis) = (hook(more) - hook(less)) / (2.0 * kStep);
     }
     const double scale = measured.norm();
-    // Central differences over 10 N leave the square of a hundredth of the load's own second order: under 1e-6.
+    // Central differences over 10 N leave the square of a hundredth of the load's own second order: under
+    // 1e-6.
     EXPECT_LT((with.compliance.topLeftCorner<3, 3>() - measured).norm(), 1e-6 * scale) << seed;
     EXPECT_GT((without.compliance.topLeftCorner<3, 3>() - measured).norm(), 1e-4 * scale) << seed;
     const Eigen::Matrix3d plain = without.compliance.topLeftCorner<3, 3>();
@@ -102,7 +105,8 @@ TEST(CartesianStiffness, IsReciprocalAndInvertsToPaper4) {
     const LoadedExample arm(seed);
     const ArmPosture posture = arm.rest(arm.load);
     const Eigen::Vector3d point = flangeAt(arm.geometry.arm, posture) * arm.tcp;
-    const Wrench wrench{flangeAt(arm.geometry.arm, posture) * arm.load.point_in_flange, arm.load.force, Eigen::Vector3d::Zero()};
+    const Wrench wrench{flangeAt(arm.geometry.arm, posture) * arm.load.point_in_flange, arm.load.force,
+                        Eigen::Vector3d::Zero()};
     const Matrix6d jacobian = jacobianAt(arm.geometry.arm, posture, point);
     const CartesianStiffness found =
         cartesianStiffness(point, jacobian, arm.c, geometricStiffness(arm.geometry.arm, posture, wrench));
@@ -111,7 +115,8 @@ TEST(CartesianStiffness, IsReciprocalAndInvertsToPaper4) {
     // A force at one place and a moment at another do the same work each on the other's displacement (Betti).
     EXPECT_LT((compliance - compliance.transpose()).norm(), 1e-12 * compliance.norm());
     EXPECT_LT((k - k.transpose()).norm(), 1e-12 * k.norm());
-    EXPECT_LT((k * compliance - Matrix6d::Identity()).norm(), 1e-8);  // rounding times a condition number of 1e5
+    EXPECT_LT((k * compliance - Matrix6d::Identity()).norm(),
+              1e-8);  // rounding times a condition number of 1e5
     for (const PrincipalStiffness& one : found.principal) {
       const Eigen::Vector3d moved = compliance.topLeftCorner<3, 3>() * one.direction;
       EXPECT_LT((moved - one.direction / one.stiffness).norm(), 1e-12 * moved.norm());

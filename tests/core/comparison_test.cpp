@@ -17,8 +17,8 @@ IdentifyOptions quick() {
   return options;
 }
 
-/// One day in the tests' own laboratory, `misfit` m of something unmodelled at each reflector that is the same
-/// whenever `misfit_seed` is, and `noise` m of the tracker's.
+/// One day in the tests' own laboratory, `misfit` m of something unmodelled at each reflector that is the
+/// same whenever `misfit_seed` is, and `noise` m of the tracker's.
 Campaign day(const Vector6d& compliance, std::uint64_t misfit_seed, double misfit, std::uint64_t noise_seed,
              double noise, int postures = 12) {
   SimulatedLab lab;
@@ -43,7 +43,8 @@ Comparison compared(const Campaign& before, const Campaign& after) {
 TEST(Comparison, FindsWhichJointWasStiffened) {
   Vector6d stiffened = exampleCompliance();
   stiffened[2] /= 1.5;
-  const Comparison found = compared(day(exampleCompliance(), 1, 0.0, 2, 5e-6), day(stiffened, 1, 0.0, 3, 5e-6));
+  const Comparison found =
+      compared(day(exampleCompliance(), 1, 0.0, 2, 5e-6), day(stiffened, 1, 0.0, 3, 5e-6));
   EXPECT_TRUE(found.comparable);
   EXPECT_EQ(found.matched.pairs.size(), 12u);
   for (const Method method : {Method::partial_pose, Method::decoupled_partial_pose}) {
@@ -59,9 +60,10 @@ TEST(Comparison, FindsWhichJointWasStiffened) {
 }
 
 TEST(Comparison, ThePValueIsUniformWhereNothingChanged) {
-  // 40 pairs of days of one machine whose unmodelled 60 um recur and whose noise does not, 6 joints. Uniform on
-  // (0, 1), the mean over independent values has a standard deviation of 0.289 / sqrt(40) = 0.046 if the joints of a
-  // day moved together; rejections at 5 % would be 12 of 240, a binomial of joints together leaves 2 to 34 at 3 sigma.
+  // 40 pairs of days of one machine whose unmodelled 60 um recur and whose noise does not, 6 joints. Uniform
+  // on (0, 1), the mean over independent values has a standard deviation of 0.289 / sqrt(40) = 0.046 if the
+  // joints of a day moved together; rejections at 5 % would be 12 of 240, a binomial of joints together
+  // leaves 2 to 34 at 3 sigma.
   int rejected = 0, all = 0;
   double sum = 0.0, correlation = 0.0;
   std::vector<Identification> days;
@@ -88,7 +90,8 @@ TEST(Comparison, ThePValueIsUniformWhereNothingChanged) {
 }
 
 TEST(Comparison, WithoutSharedPosturesNoCorrelationIsCounted) {
-  Campaign before = day(exampleCompliance(), 1, 60e-6, 2, 5e-6), after = day(exampleCompliance(), 1, 60e-6, 3, 5e-6);
+  Campaign before = day(exampleCompliance(), 1, 60e-6, 2, 5e-6),
+           after = day(exampleCompliance(), 1, 60e-6, 3, 5e-6);
   const Comparison shared = compared(before, after);
   for (std::string& id : after.pose_ids) id = "other " + id;
   const Comparison apart = compared(before, after);
@@ -96,8 +99,10 @@ TEST(Comparison, WithoutSharedPosturesNoCorrelationIsCounted) {
   EXPECT_EQ(apart.matched.unmatched.size(), 24u);
   EXPECT_EQ(apart.matched.unmatched.front().reason, "not measured after");
   EXPECT_FALSE(apart.avoided().available);
-  EXPECT_EQ(apart.avoided().reason, "no posture was measured in both campaigns with the same joint angles and load");
-  const JointChange &with = shared.of(Method::partial_pose).joints[1], &no = apart.of(Method::partial_pose).joints[1];
+  EXPECT_EQ(apart.avoided().reason,
+            "no posture was measured in both campaigns with the same joint angles and load");
+  const JointChange &with = shared.of(Method::partial_pose).joints[1],
+                    &no = apart.of(Method::partial_pose).joints[1];
   EXPECT_GT(with.correlation, 0.9);
   EXPECT_EQ(no.correlation, 0.0);
   EXPECT_NEAR(no.ratio_sd, std::hypot(no.before_sd / no.before, no.after_sd / no.after) * no.ratio, 1e-12);
@@ -113,20 +118,24 @@ TEST(Comparison, LeavingOutAPostureIsSolvingWithoutIt) {
   std::vector<CaseEquations> others(method.target_rows.begin() + 1, method.target_rows.end());
   const Vector6d again = partialPose(others, method.estimate.identifiable).compliance;
   // Sums of ten equations less one against sums of nine: rounding, at a condition number of a few hundred.
-  EXPECT_LT((method.estimate.compliance - moves[0] - again).cwiseQuotient(again).cwiseAbs().maxCoeff(), 1e-10);
+  EXPECT_LT((method.estimate.compliance - moves[0] - again).cwiseQuotient(again).cwiseAbs().maxCoeff(),
+            1e-10);
 }
 
 TEST(Comparison, AnotherPostureOrLoadIsNamed) {
-  Campaign before = day(exampleCompliance(), 1, 0.0, 2, 0.0), after = day(exampleCompliance(), 1, 0.0, 2, 0.0);
+  Campaign before = day(exampleCompliance(), 1, 0.0, 2, 0.0),
+           after = day(exampleCompliance(), 1, 0.0, 2, 0.0);
   for (State& state : after.states->rows) {
     if (state.pose == 0) state.q[3] += 0.5 * std::numbers::pi / 180.0;
     if (state.pose == 1) state.wrench_in_cell *= 1.1;
   }
-  std::erase_if(after.loading->rows, [](const LoadingReading& row) { return row.pose == 2 && row.step == 1; });
+  std::erase_if(after.loading->rows,
+                [](const LoadingReading& row) { return row.pose == 2 && row.step == 1; });
   const Comparison found = compared(before, after);
   EXPECT_EQ(found.matched.pairs.size(), 9u);
   ASSERT_EQ(found.matched.unmatched.size(), 3u);
-  EXPECT_EQ(found.matched.unmatched[0].reason, "joint 4 stands 0.500 deg apart, at most 0.010 is the same posture");
+  EXPECT_EQ(found.matched.unmatched[0].reason,
+            "joint 4 stands 0.500 deg apart, at most 0.010 is the same posture");
   EXPECT_EQ(found.matched.unmatched[1].reason.substr(0, 27), "the loads differ by 9.1 % (");
   EXPECT_EQ(found.matched.unmatched[2].reason,
             "left out after: no reflector was read both unloaded and in this load step");
@@ -149,8 +158,9 @@ TEST(DeflectionAvoided, SharesOfSumsByHand) {
 }
 
 TEST(DeflectionAvoided, TheIntervalCoversWhatMorePosturesWouldGive) {
-  // Postures drawn from one population whose share is 0.4; 200 campaigns of 19. A percentile bootstrap of 19 falls
-  // a little short of 95 % (about 93 %); binomial of 200 at 93 %: 1.8 %, so at least 87 % at 3 sigma, and not all.
+  // Postures drawn from one population whose share is 0.4; 200 campaigns of 19. A percentile bootstrap of 19
+  // falls a little short of 95 % (about 93 %); binomial of 200 at 93 %: 1.8 %, so at least 87 % at 3 sigma,
+  // and not all.
   int covered = 0;
   Noise noise(11);
   for (int campaign = 0; campaign < 200; ++campaign) {

@@ -25,7 +25,8 @@ struct KnownArm {
 
   KnownArm() {
     lab.compliance = exampleCompliance();
-    lab.flange_from_cell.translation() = lab.hook_in_flange;  // then no moment, which would turn with the cable
+    lab.flange_from_cell.translation() =
+        lab.hook_in_flange;  // then no moment, which would turn with the cable
     campaign = lab.empty();
     geometry.arm = lab.actual.robot();
     geometry.weight = ownWeight(campaign, geometry.arm, Eigen::Isometry3d::Identity());
@@ -90,7 +91,7 @@ TEST(Compensate, UncertaintiesAreThoseOfRandomStiffnesses) {
   expected << stated.tcp.sd, stated.rotation_sd, stated.targets[0].sd;
   // A standard deviation of 2000 draws is known to 1.6 %; first order neglects about 1 % of K_c: 6 % in all.
   EXPECT_LT((sd.cwiseQuotient(expected).array() - 1.0).abs().maxCoeff(), 0.06) << sd.transpose() << "\n"
-                                                                                << expected.transpose();
+                                                                               << expected.transpose();
 }
 
 TEST(Compensate, RefusesWithTheReason) {
@@ -128,8 +129,8 @@ double meanMove(const std::vector<Eigen::Vector3d>& from, const std::vector<Eige
   return sum / static_cast<double>(from.size());
 }
 
-// The sample's machine gives across its axes too, which the six springs do not know: commands from the springs that
-// its campaign shows, put back into the machine.
+// The sample's machine gives across its axes too, which the six springs do not know: commands from the
+// springs that its campaign shows, put back into the machine.
 TEST(Compensate, RemovesInTheSimulatorWhatTheIdentificationClaims) {
   for (const std::string sample : {"inactive", "active"}) {
     SimulationSpec spec = readSimulationSpec(STIFFSCOPE_SOURCE_DIR "/samples/" + sample + ".xml");
@@ -147,7 +148,8 @@ TEST(Compensate, RemovesInTheSimulatorWhatTheIdentificationClaims) {
     std::vector<PostureDeflection> true_moves, claimed;
     for (std::size_t i = 0; i < rows.size(); ++i) {
       ASSERT_TRUE(rows[i].solved) << rows[i].reason;
-      const AppliedLoad load = simulation::loadAtStep(*spec.loading, result.step, machine.gravity_in_base, {});
+      const AppliedLoad load =
+          simulation::loadAtStep(*spec.loading, result.step, machine.gravity_in_base, {});
       const MachineState unloaded = equilibrium(machine, rows[i].posture.q);
       const MachineState loaded = equilibrium(machine, rows[i].posture.q, load);
       const MachineState commanded = equilibrium(machine, rows[i].commands, load);
@@ -161,8 +163,9 @@ TEST(Compensate, RemovesInTheSimulatorWhatTheIdentificationClaims) {
     EXPECT_GE(removed.share, claim.low) << sample;
     EXPECT_GE(claim.low, 0.5);  // the claim is no empty one
     EXPECT_LE(removed.share, 1.0);
-    std::printf("%s: identification claims %.2f %% (%.2f to %.2f), the commands remove %.2f %%\n", sample.c_str(),
-                100.0 * claim.share, 100.0 * claim.low, 100.0 * claim.high, 100.0 * removed.share);
+    std::printf("%s: identification claims %.2f %% (%.2f to %.2f), the commands remove %.2f %%\n",
+                sample.c_str(), 100.0 * claim.share, 100.0 * claim.low, 100.0 * claim.high,
+                100.0 * removed.share);
   }
 }
 

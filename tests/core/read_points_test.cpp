@@ -71,7 +71,7 @@ TEST(ReadPoints, DecimalCommas) {
 }
 
 TEST(ReadPoints, Empty) {
-  expectSays("", {"expected points"});
+  expectSays("", {"expected a file that is not empty"});
   expectSays("# nothing\n\n", {"expected points"});
   expectSays("3\n", {"expected points"});
 }

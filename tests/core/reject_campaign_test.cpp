@@ -1,9 +1,12 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <fstream>
+#include <sstream>
 
 #include "core/campaign/read_campaign.h"
 #include "core/input/input_error.h"
+#include "core/input/one_line.h"
 #include "tests/core/small_campaign.h"
 
 namespace stiffscope {
@@ -13,6 +16,13 @@ namespace {
 struct Rejected {
   const char *file, *find, *replace, *message;
 };
+
+const std::string kManyColumns = std::string(1000, ',') + "\n1\n";
+const std::string kDeep = [] {
+  std::string text;
+  for (int i = 0; i < 1000; ++i) text += "<a>";
+  return text;
+}();
 
 const Rejected kTables[] = {
     // Header lines.
@@ -38,6 +48,14 @@ const Rejected kTables[] = {
     {"nests.csv", ",1315.5592,-1180.4804\n", ",1315.5",
      "nests.csv:3: '4 cells': expected 5 cells, as the header has; the file ends in the middle of this line"},
     {"nests.csv", "0.0,N1", "0.0,\"N1", "nests.csv:2: '\"': expected a closing quote on the same line"},
+    {"nests.csv", "0.0,N1", "0.0,\"N1\"x",
+     "nests.csv:2: 'x': expected a comma, or the end of the line, after a closing quote"},
+    {"nests.csv", "-1209.9495", "-1209.9495,",
+     "nests.csv:2: '6 cells': expected 5 cells, as the header has; a decimal comma"},
+    {"nests.csv", "-1209.9495\n", "-1209.9495\n,,,,\n", "nests.csv:3: time_s: expected a number; there is nothing"},
+    {"nests.csv", "", "time_s,nest,x_mm,y_mm,z_mm,,\n0,N1,1,5,2,3,\n",
+     "nests.csv:2: column 6: '3': expected nothing in a column without a name; a decimal comma splits"},
+    {"nests.csv", "", kManyColumns.c_str(), "nests.csv:1: '1001 columns': expected at most 1000 columns"},
     // Numbers.
     {"nests.csv", "3349.2176", "abc", "nests.csv:2: x_mm: 'abc': expected a number"},
     {"nests.csv", "3349.2176", "", "nests.csv:2: x_mm: expected a number; there is nothing"},
@@ -51,6 +69,18 @@ const Rejected kTables[] = {
      "nests.csv:2: x_mm: '1e999': expected a number that double precision"},
     {"nests.csv", "3349.2176", "0x1p3", "nests.csv:2: x_mm: '0x1p3': expected a number"},
     {"nests.csv", "3349.2176", "+-1", "nests.csv:2: x_mm: '+-1': expected a number"},
+    {"nests.csv", "3349.2176", "3.3492176D+03",
+     "nests.csv:2: x_mm: '3.3492176D+03': expected a number; an exponent is written with e, not with d"},
+    {"nests.csv", "3349.2176", "\xE2\x88\x92" "3349.2",
+     "nests.csv:2: x_mm: '\xE2\x88\x92" "3349.2': expected a number; its minus sign is a typographic one"},
+    {"nests.csv", "3349.2176", "3'349.2176",
+     "nests.csv:2: x_mm: '3'349.2176': expected a number without blanks or marks between its digits"},
+    {"nests.csv", "3349.2176", "\"3,349.2176\"", "nests.csv:2: x_mm: '3,349.2176': expected a number with a decimal"},
+    {"nests.csv", "3349.2176", "3349.2176e", "nests.csv:2: x_mm: '3349.2176e': expected a number"},
+    {"nests.csv", "3349.2176", "1e-999",
+     "nests.csv:2: x_mm: '1e-999': expected a number that double precision can hold"},
+    {"nests.csv", "3349.2176", "#N/A", "nests.csv:2: x_mm: '#N/A': expected a number"},
+    {"nests.csv", "3349.2176", "=A1*2", "nests.csv:2: x_mm: '=A1*2': expected a number"},
     {"nests.csv", "0.0,N1", "soon,N1", "nests.csv:2: time_s: 'soon': expected a number"},
     {"wrist_sweep.csv", "952.1996,5.5", "952.1996,",
      "wrist_sweep.csv:2: time_s: expected a number; there is"},
@@ -108,6 +138,12 @@ const Rejected kTables[] = {
     // Files.
     {"nests.csv", "", "", "nests.csv: expected a file that is not empty"},
     {"nests.csv", "N1", "N\xE9", "nests.csv:2: expected text in UTF-8"},
+    {"nests.csv", "", "\xFF\xFEt", "nests.csv: expected text in UTF-8; this file is UTF-16 by its byte-order mark"},
+    {"nests.csv", "", "\xFE\xFFt", "nests.csv: expected text in UTF-8; this file is UTF-16 by its byte-order mark"},
+    {"robot.urdf", "link_6\"/>", "link_7\"/>", "robot.urdf:"},
+    {"robot.urdf", "0.1 0 0.5", "0,1 0 0.5",
+     "robot.urdf:11: xyz: '0,1 0 0.5': expected a number with a decimal point, not a decimal comma (three"},
+    {"robot.urdf", "", "solid part\n", "robot.urdf:1: expected well-formed XML"},
     {"nests.csv", nullptr, nullptr,
      "campaign.xml:21: file: 'nests.csv': expected a file inside the campaign's folder; there is none of "
      "this name"},
@@ -128,6 +164,12 @@ const Rejected kXml[] = {
      "campaign.xml:15: expected well-formed XML: an attribute needs a value in quotes, and to be there once"},
     {"campaign.xml", "<campaign ", "<!DOCTYPE campaign [<!ENTITY x SYSTEM \"/etc/hostname\">]>\n<campaign ",
      "campaign.xml: 'DOCTYPE': expected XML without a document type or entities"},
+    {"campaign.xml", "",
+     "<?xml version=\"1.0\"?><!DOCTYPE lolz [<!ENTITY a \"ha\"><!ENTITY b \"&a;&a;&a;\">]><campaign>&b;</campaign>",
+     "campaign.xml: 'DOCTYPE': expected XML without a document type or entities"},
+    {"campaign.xml", "", kDeep.c_str(), "campaign.xml:1: expected elements nested less deeply"},
+    {"campaign.xml", "<laboratory>", "<laboratory", "campaign.xml:3: expected well-formed XML"},
+    {"campaign.xml", "</campaign>", "<!--", "campaign.xml:22: expected well-formed XML"},
     {"campaign.xml", "</campaign>\n", "</campaign>\n<campaign/>",
      "campaign.xml:23: campaign: expected the end of the file after the root element"},
     {"campaign.xml", "", "<robot name=\"r\"/>", "campaign.xml:1: robot: expected <campaign> as the root"},
@@ -206,6 +248,8 @@ const Rejected kXml[] = {
     {"campaign.xml", "file=\"nests.csv\"", "file=\"a/../../nests.csv\"",
      "campaign.xml:21: file: 'a/../../nests.csv': expected a file inside the campaign's folder; this path "
      "leads out"},
+    {"campaign.xml", "file=\"nests.csv\"", "file=\"robot.urdf\"", "robot.urdf:1: time_s: expected this column"},
+    {"campaign.xml", "file=\"nests.csv\"", "file=\"..\"", "this path leads out of it"},
     {"campaign.xml", "file=\"nests.csv\"", "file=\".\"", "expected a file; this is a directory"},
     {"campaign.xml", "file=\"nests.csv\"", "file=\"ne&#10;sts.csv\"",
      "campaign.xml:21: file: 'ne?sts.csv': expected"},
@@ -223,7 +267,26 @@ void change(const SmallCampaign& files, const Rejected& test) {
   }
 }
 
-void expectRejected(const Rejected& test) {
+/// A text of any length as it can stand in a table of Markdown.
+std::string cell(const std::string& text) {
+  std::string shown;
+  for (const char c : oneLine(text, 100)) shown += c == '|' ? std::string("\\|") : std::string(1, c);
+  return shown;
+}
+
+/// The change and the message as one row of bad_inputs.md.
+std::string listed(const Rejected& test, const SmallCampaign& files, std::string message) {
+  const std::string folder = files.folder().string();
+  for (auto at = message.find(folder); at != std::string::npos; at = message.find(folder)) {
+    message.replace(at, folder.size(), "campaign");
+  }
+  const std::string what = test.find == nullptr  ? "no such file"
+                           : *test.find == '\0' ? "all of it `" + cell(test.replace) + "`"
+                                                : "`" + cell(test.find) + "` became `" + cell(test.replace) + "`";
+  return "| " + std::string(test.file) + " | " + what + " | " + oneLine(message, 1000) + " |\n";
+}
+
+std::string expectRejected(const Rejected& test) {
   const SmallCampaign files;
   change(files, test);
   try {
@@ -235,15 +298,25 @@ void expectRejected(const Rejected& test) {
         << "expected: " << test.message << "\ngot: " << text;
     EXPECT_EQ(text.find('\n'), std::string::npos) << text;
     EXPECT_LT(text.size(), 500u) << text;
+    return listed(test, files, text);
   }
+  return "";
 }
 
-TEST(RejectCampaign, NamesWhatIsWrongInATable) {
-  for (const Rejected& test : kTables) expectRejected(test);
-}
-
-TEST(RejectCampaign, NamesWhatIsWrongInTheXml) {
-  for (const Rejected& test : kXml) expectRejected(test);
+// The list is documentation, and this keeps it true: it is made from what the program says. Where it differs, the new one
+// is written beside the test program, to be looked at and copied.
+TEST(RejectCampaign, SaysWhatTheListOfBadInputsHas) {
+  std::string list =
+      "# What bad input is told\n\nOne change each to a small campaign that is right, and the message. Made and checked by "
+      "tests/core/reject_campaign_test.cpp.\n\n| file | change | message |\n|---|---|---|\n";
+  for (const Rejected& test : kTables) list += expectRejected(test);
+  for (const Rejected& test : kXml) list += expectRejected(test);
+  std::ostringstream kept;
+  kept << std::ifstream(STIFFSCOPE_SOURCE_DIR "/tests/core/bad_inputs.md").rdbuf();
+  if (kept.str() == list) return;
+  const auto made = std::filesystem::read_symlink("/proc/self/exe").parent_path() / "bad_inputs.md";
+  std::ofstream(made) << list;
+  ADD_FAILURE() << "tests/core/bad_inputs.md is not what the program says now, which is in " << made;
 }
 
 TEST(RejectCampaign, NamesTheForcesThatStandWhereAnglesBelong) {

@@ -28,7 +28,7 @@ ArmScene scene(View view) {
   return scene;
 }
 
-enum class Hue { Red, Blue, Amber };
+enum class Hue { Red, Blue, Green, Amber };
 
 // Solids are shaded, so a vector is told by its hue.
 cv::Mat hueMask(const cv::Mat& picture, Hue hue) {
@@ -40,6 +40,7 @@ cv::Mat hueMask(const cv::Mat& picture, Hue hue) {
   bgr[2].convertTo(red, CV_32S);
   if (hue == Hue::Red) return (red - green > 70) & (red - blue > 70) & (green - blue < 40);
   if (hue == Hue::Blue) return (blue - red > 50) & (blue - green > 40);
+  if (hue == Hue::Green) return (green - red > 60) & (green - blue > 20);
   return (red - blue > 100) & (green - blue > 60);
 }
 
@@ -109,6 +110,83 @@ TEST(ArmPicture, ReferenceArrowIsToTheSameScale) {
   EXPECT_LT(nearest, 0.03) << ratio;
 }
 
+TEST(ArmPicture, ResidualVectorsHaveTheirOwnFactorAndReferenceArrow) {
+  const auto drawnWith = [](double factor) {
+    ArmScene drawn = scene(View::Side);
+    drawn.poses[0].wrist->residual = Vector3d(0, 0, -0.001);
+    drawn.poses[0].wrist->measured = Vector3d(0.004, 0, 0);
+    drawn.residual_factor = factor;
+    return decoded(render(drawn));
+  };
+  // Above the strip of the scale.
+  const auto lengthIn = [](const cv::Mat& picture) {
+    const cv::Mat above = picture.rowRange(0, picture.rows - 60);
+    return extentOfHue(above, Hue::Green).br().y - middle(extentOfHue(above, Hue::Amber)).y;
+  };
+  const cv::Mat once = drawnWith(2), twice = drawnWith(4);
+  EXPECT_GT(lengthIn(once), 20);
+  EXPECT_NEAR(lengthIn(twice), 2 * lengthIn(once), 3);  // pixels: edges of both
+  // The reference arrow of the residual stands in the strip, in its colour, where the factor is not 1.
+  const auto inStrip = [](const cv::Mat& picture) {
+    return cv::countNonZero(hueMask(picture.rowRange(picture.rows - 40, picture.rows), Hue::Green));
+  };
+  EXPECT_GT(inStrip(once), 100);
+  EXPECT_EQ(inStrip(drawnWith(1)), 0);
+}
+
+TEST(ArmPicture, ResidualFactorIsTheLargestThatStaysBelowTheOthers) {
+  ArmScene drawn = scene(View::Side);
+  ScenePoint& wrist = *drawn.poses[0].wrist;
+  wrist.measured = Vector3d(0, 0, -0.002);
+  wrist.residual = Vector3d(0.0003, 0, 0);  // 6.7 times: 5
+  EXPECT_DOUBLE_EQ(automaticResidualFactor(drawn), 5);
+  wrist.residual = Vector3d(0.0015, 0, 0);
+  EXPECT_DOUBLE_EQ(automaticResidualFactor(drawn), 1);
+  wrist.residual = Vector3d(1e-9, 0, 0);
+  EXPECT_DOUBLE_EQ(automaticResidualFactor(drawn), 100);
+  wrist.measured.reset();
+  EXPECT_DOUBLE_EQ(automaticResidualFactor(drawn), 1);
+}
+
+TEST(ArmPicture, FramingFixesScaleAndMiddle) {
+  ArmScene drawn = scene(View::Side);
+  const Vector3d wrist = drawn.poses[0].wrist->position;
+  const auto amberAt = [&](const Vector3d& centre, double metres_high) {
+    drawn.framing = SceneFraming{centre, metres_high};
+    return middle(extentOfHue(decoded(render(drawn)), Hue::Amber));
+  };
+  const cv::Point centred = amberAt(wrist, 3);
+  const cv::Point aside = amberAt(wrist + Vector3d(0.5, 0, 0), 3);
+  const cv::Point nearer = amberAt(wrist + Vector3d(0.5, 0, 0), 1.5);
+  EXPECT_LT(aside.x, centred.x - 50);
+  EXPECT_NEAR(nearer.x - centred.x, 2 * (aside.x - centred.x), 2);  // pixels: middles of balls
+  EXPECT_NEAR(aside.y, centred.y, 1);
+  EXPECT_NEAR(centred.x, 600, 2);
+}
+
+TEST(ArmPicture, WhatIsZoomedInStaysInItsRoom) {
+  ArmScene drawn = scene(View::Side);
+  drawn.title = "Deflection";
+  drawn.panels = {{"Keys", {{{"q", "quit"}, std::nullopt}}, false}};
+  drawn.framing = SceneFraming{{0.4, 0, 1.4}, 0.3};  // nothing but the upper arm
+  const cv::Mat picture = decoded(render(drawn));
+  expectNothingClipped(picture);
+  const cv::Mat right = picture.colRange(1100, 1200).rowRange(200, 780);  // below the one line of the panel
+  EXPECT_EQ(cv::countNonZero(inkOf(right)), 0);
+}
+
+TEST(ArmPicture, TracesAndPanelsAndDarkPaper) {
+  ArmScene drawn = scene(View::Side);
+  drawn.traces = {{"P_{10}", {{1, 0, 1}, {1.2, 0, 1.1}, {1.4, 0, 1.3}}, false}};
+  drawn.dark = true;
+  drawn.panels = {{"P_{10}", {{{"measured", "1.000"}, colours::kPredicted}}, true}};
+  const cv::Mat picture = decoded(render(drawn));
+  EXPECT_EQ(piecesOf(hueMask(picture, Hue::Red), 15).size(), 3u);
+  EXPECT_EQ(piecesOf(maskOf(picture, colours::kPredicted), 50).size(), 1u);
+  const Colour paper = kDarkPalette.paper;
+  EXPECT_EQ(picture.at<cv::Vec3b>(2, 2), cv::Vec3b(paper.blue, paper.green, paper.red));
+}
+
 TEST(ArmPicture, TargetsAreLabelled) {
   ArmScene drawn = scene(View::Side);
   drawn.poses[0].targets = {{"P_{10}", {2.4, 0, 2.5}, {}, {}}};
@@ -169,6 +247,12 @@ TEST(ArmPicture, RefusesWhatCannotBeDrawn) {
   EXPECT_THROW(render(drawn), std::invalid_argument);
   drawn = scene(View::Side);
   drawn.magnification = 0;
+  EXPECT_THROW(render(drawn), std::invalid_argument);
+  drawn = scene(View::Side);
+  drawn.residual_factor = -1;
+  EXPECT_THROW(render(drawn), std::invalid_argument);
+  drawn = scene(View::Side);
+  drawn.framing = SceneFraming{{0, 0, 0}, 0};
   EXPECT_THROW(render(drawn), std::invalid_argument);
   EXPECT_THROW(render(ArmScene{}), std::invalid_argument);
 }

@@ -40,6 +40,14 @@ TEST(Ticks, LogTicksAreDecades) {
   EXPECT_GE(logTicks(3, 6).positions.size(), 3u);
 }
 
+TEST(Ticks, FactorsAreWrittenOut) {
+  EXPECT_EQ(factorText(40000), "40\u00a0000");
+  EXPECT_EQ(factorText(12050), "12\u00a0050");
+  EXPECT_EQ(factorText(500), shortNumber(500));
+  EXPECT_EQ(factorText(5e6), shortNumber(5e6));
+  EXPECT_EQ(factorText(0.5), shortNumber(0.5));
+}
+
 TEST(Ticks, ShortNumbers) {
   EXPECT_EQ(shortNumber(200), "200");
   EXPECT_EQ(shortNumber(-2.5), "\u22122.5");

@@ -1,0 +1,99 @@
+#include "app/figures/station_drift.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+
+#include "app/figures/series_look.h"
+#include "core/frames/measured_axes.h"
+#include "core/input/units.h"
+#include "reports/page/numbers.h"
+
+namespace stiffscope {
+
+namespace {
+
+constexpr double kHour = 3600.0;
+constexpr double kMicroradian = 1e-6;
+
+/// Three of the six parameters of the motion against time, in `unit`.
+PointPanel motionPanel(const StationMotion& station, int first, double unit) {
+  constexpr std::array<const char*, 3> kAxes{"x", "y", "z"};
+  PointPanel panel;
+  for (int k = 0; k < 3; ++k) {
+    PointSeries series = seriesLook(static_cast<std::size_t>(k));
+    series.name = kAxes[static_cast<std::size_t>(k)];
+    series.joined = true;
+    for (const StationEpoch& epoch : station.epochs) {
+      // Side by side, so that no whisker hides another.
+      const double span_h = (station.epochs.back().time_s - station.epochs.front().time_s) / kHour;
+      series.points.push_back({epoch.time_s / kHour + 0.006 * span_h * (k - 1), epoch.motion[first + k] / unit});
+      series.errors.push_back(2.0 * std::sqrt(epoch.covariance(first + k, first + k)) / unit);
+    }
+    panel.series.push_back(std::move(series));
+  }
+  panel.x_title = "Time (h)";
+  return panel;
+}
+
+PointPanel nestPanel(const Campaign& campaign) {
+  PointPanel panel;
+  for (std::size_t nest = 0; nest < campaign.nest_ids.size(); ++nest) {
+    PointSeries series = seriesLook(nest);
+    series.name = "nest " + campaign.nest_ids[nest];
+    series.joined = true;
+    std::optional<Eigen::Vector3d> first;
+    for (const NestReading& reading : campaign.nests->rows) {
+      if (reading.nest != static_cast<int>(nest)) continue;
+      if (!first) first = reading.point;
+      series.points.push_back({reading.time_s / kHour, (reading.point - *first).norm() / kMicrometre});
+    }
+    panel.series.push_back(std::move(series));
+  }
+  panel.title = "Each nest from its first reading";
+  panel.x_title = "Time (h)";
+  panel.y_title = "Distance (µm)";
+  return panel;
+}
+
+}  // namespace
+
+std::optional<PointChart> stationDrift(const ReportCampaign& one, const StationMotion& station) {
+  if (!station.tested) return std::nullopt;
+  PointChart chart;
+  chart.title = "Motion of the station over the day, by the floor nests";
+  chart.subtitle = fmt::format("{}; whiskers: 2 standard uncertainties by the declared noise", one.campaign.name);
+  chart.columns = 3;
+  PointPanel displacement = motionPanel(station, 3, kMicrometre), rotation = motionPanel(station, 0, kMicroradian);
+  displacement.title = "Displacement at the arm";
+  displacement.y_title = "Displacement (µm)";
+  rotation.title = "Rotation";
+  rotation.y_title = "Rotation (µrad)";
+  chart.diagrams = {std::move(displacement), std::move(rotation), nestPanel(one.campaign)};
+  return chart;
+}
+
+Figure describeStationDrift(const StationMotion& station) {
+  double largest = 0.0;
+  for (const StationEpoch& epoch : station.epochs) largest = std::max(largest, epoch.motion.tail<3>().norm());
+  Figure figure;
+  figure.id = "station";
+  figure.title = "Motion of the tracker's station";
+  figure.caption = fmt::format("At the arm the station moved by at most {}\u00a0µm against the first of {} rounds: {}.",
+                               page::significant(largest / kMicrometre, 2), station.epochs.size(),
+                               station.moved ? "more than noise explains" : "no more than noise explains");
+  figure.alt = "Lines over time: displacement and rotation of the station, and how far each nest was read from its "
+               "first reading.";
+  return figure;
+}
+
+StationMotion stationMotionOf(const Campaign& campaign) {
+  if (!campaign.tracker) return stationMotion(campaign, std::nullopt);
+  const Tracker& tracker = *campaign.tracker;
+  const bool declared =
+      tracker.range_fixed + tracker.range_per_m > 0.0 && tracker.angle_fixed + tracker.angle_per_m > 0.0;
+  return stationMotion(campaign, declared ? std::optional(trackerNoise(tracker)) : std::nullopt);
+}
+
+}  // namespace stiffscope

@@ -1,0 +1,105 @@
+#include "app/view/view_window.h"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <filesystem>
+
+#include "app/output.h"
+#include "app/view/open_material.h"
+#include "app/view/viewer.h"
+#include "core/input/input_error.h"
+#include "core/input/nearest_name.h"
+#include "core/input/write_file.h"
+#include "render/arm_window.h"
+#include "render/png.h"
+#include "reports/page/html.h"
+
+namespace stiffscope {
+
+namespace {
+
+void savePicture(const Image& image, const std::filesystem::path& file) {
+  const auto png = encodePng(image);
+  writeFileWhole(file, {reinterpret_cast<const char*>(png.data()), png.size()});
+}
+
+/// A file that is not there yet, in the folder where the program was started.
+std::filesystem::path freeFile(std::string name) {
+  for (char& c : name) {
+    if (c == '/' || static_cast<unsigned char>(c) < ' ') c = '_';
+  }
+  std::filesystem::path file = fmt::format("stiffscope-{}.png", name);
+  for (int number = 2; std::filesystem::exists(file); ++number) {
+    file = fmt::format("stiffscope-{}-{}.png", name, number);
+  }
+  return file;
+}
+
+void say(const std::string& text) {
+  std::fputs(text.c_str(), stdout);
+  std::fflush(stdout);
+}
+
+ViewWindow handlesOf(ArmWindow& window) {
+  ViewWindow handles;
+  handles.look = [&](View view) { window.look(view); };
+  handles.turn = [&](double about_vertical, double towards) { window.turn(about_vertical, towards); };
+  handles.zoom = [&](double factor) { window.zoom(factor); };
+  handles.save = [&](const std::string& name) {
+    try {
+      const std::filesystem::path file = freeFile(name);
+      savePicture(window.picture(), file);
+      say(file.string() + "\n");
+      return "saved " + file.string();
+    } catch (const std::exception& error) {  // a full or foreign folder is no reason to close the window
+      return std::string("not saved: ") + error.what();
+    }
+  };
+  handles.close = [&] { window.close(); };
+  handles.say = say;
+  return handles;
+}
+
+/// Shows the numbers of the point that is named by its id ("P10") or as it is labelled ("Pwrist").
+void pickNamed(Viewer& viewer, const std::string& name) {
+  const ArmPose pose = viewer.scene().poses.front();
+  std::vector<std::string> names;
+  for (const ScenePoint& target : pose.targets) names.push_back(page::plain(target.label));
+  if (pose.wrist) names.push_back(page::plain(pose.wrist->label));
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (names[i] == name) return viewer.pick(i);
+  }
+  throw InputError({"--point"}, name, "not a point of this picture" + nearestNameHint(name, names));
+}
+
+}  // namespace
+
+int viewCampaign(const ViewOptions& options) {
+  ArmWindow window(options.size);  // first: without a display there is no point in reading
+  const Campaign campaign = openCampaign(options.campaign);
+  OpenedMaterial opened = openMaterial(campaign, options);
+  Viewer viewer(std::move(opened.by_method), opened.first, options.magnification, handlesOf(window));
+  viewer.settings().dark = options.dark;
+  viewer.settings().keys_listed = viewer.settings().keys_work = options.screenshot.empty();
+  if (!options.point.empty()) pickNamed(viewer, options.point);
+  window.look(options.view);
+  window.show(viewer.scene(), viewer.title());
+  if (!options.screenshot.empty()) {
+    savePicture(window.picture(), options.screenshot);
+    return kDone;
+  }
+  ArmWindow::Events events;
+  events.key = [&](const std::string& key) {
+    viewer.press(key);
+    window.show(viewer.scene(), viewer.title());
+  };
+  events.pick = [&](std::optional<std::size_t> point) {
+    viewer.pick(point);
+    window.show(viewer.scene(), viewer.title());
+  };
+  window.run(events);
+  return kDone;
+}
+
+}  // namespace stiffscope

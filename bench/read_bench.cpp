@@ -1,0 +1,101 @@
+#include <benchmark/benchmark.h>
+#include <malloc.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+#include <vtkDelimitedTextReader.h>
+#include <vtkSmartPointer.h>
+#include <vtkTable.h>
+
+#include "bench/large_campaign.h"
+#include "core/campaign/read_campaign.h"
+
+// Reading of large campaigns from files that are in the page cache, checks and hashes included: megabytes of input a
+// second, and the peak memory of a process that reads once and does nothing else, as a multiple of the input. Beside it
+// VTK's reader of delimited text with its numbers detected, which checks no key, unit, name or encoding.
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A folder with both campaigns, written once and removed at the end.
+class Campaigns {
+ public:
+  Campaigns() {
+    std::string name = (fs::temp_directory_path() / "stiffscope-bench-XXXXXX").string();
+    if (::mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder: " + name);
+    folder_ = name;
+    stiffscope::bench::writeManyPostures(postures(), 10000);
+    stiffscope::bench::writeLongWristSweep(sweep(), 1000000);
+  }
+  ~Campaigns() { fs::remove_all(folder_); }
+
+  fs::path postures() const { return folder_ / "postures"; }
+  fs::path sweep() const { return folder_ / "sweep"; }
+
+ private:
+  fs::path folder_;
+};
+
+const Campaigns& campaigns() {
+  static const Campaigns written;
+  return written;
+}
+
+double bytesIn(const fs::path& folder) {
+  double bytes = 0.0;
+  for (const auto& entry : fs::directory_iterator(folder)) bytes += static_cast<double>(entry.file_size());
+  return bytes;
+}
+
+/// Peak resident memory of a child that runs `work`, beyond what a child has that does nothing.
+template <class Work>
+double peakBytes(const Work& work) {
+  const auto peak = [](const auto& task) {
+    ::malloc_trim(0);  // what earlier runs left behind is no part of the baseline
+    const pid_t child = ::fork();
+    if (child == 0) {
+      task();
+      ::_exit(0);
+    }
+    rusage usage{};
+    ::wait4(child, nullptr, 0, &usage);
+    return 1024.0 * static_cast<double>(usage.ru_maxrss);
+  };
+  return peak(work) - peak([] {});
+}
+
+template <class Work>
+void reading(benchmark::State& state, double bytes, const Work& work) {
+  for (auto _ : state) work();
+  state.counters["MB/s"] = benchmark::Counter(1e-6 * bytes, benchmark::Counter::kIsIterationInvariantRate);
+  state.counters["MB"] = 1e-6 * bytes;
+  state.counters["peak/input"] = peakBytes(work) / bytes;
+}
+
+void readingCampaign(benchmark::State& state, const fs::path& folder) {
+  reading(state, bytesIn(folder), [&] { benchmark::DoNotOptimize(stiffscope::readCampaign(folder)); });
+}
+
+void TenThousandPostures(benchmark::State& state) { readingCampaign(state, campaigns().postures()); }
+BENCHMARK(TenThousandPostures)->Unit(benchmark::kMillisecond);
+
+void WristSweepOfAMillionReadings(benchmark::State& state) { readingCampaign(state, campaigns().sweep()); }
+BENCHMARK(WristSweepOfAMillionReadings)->Unit(benchmark::kMillisecond);
+
+void WristSweepByVtk(benchmark::State& state) {
+  const fs::path file = campaigns().sweep() / "wrist_sweep.csv";
+  reading(state, static_cast<double>(fs::file_size(file)), [&] {
+    const auto reader = vtkSmartPointer<vtkDelimitedTextReader>::New();
+    reader->SetFileName(file.c_str());
+    reader->SetHaveHeaders(true);
+    reader->SetDetectNumericColumns(true);
+    reader->Update();
+    benchmark::DoNotOptimize(reader->GetOutput()->GetNumberOfRows());
+  });
+}
+BENCHMARK(WristSweepByVtk)->Unit(benchmark::kMillisecond)->Iterations(1);
+
+}  // namespace
+
+BENCHMARK_MAIN();

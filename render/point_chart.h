@@ -1,0 +1,65 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "render/colours.h"
+#include "render/image.h"
+
+namespace stiffscope {
+
+struct PlotPoint {
+  double x = 0.0;
+  double y = 0.0;
+};
+
+enum class PointMark { Disc, Ring, Diamond, Square, None };
+
+/// Points of one kind. A point that is not finite is left out, and breaks the line.
+struct PointSeries {
+  std::string name;  ///< in the legend; what has the same name in several panels stands there once; empty: not
+  Colour colour;
+  PointMark mark = PointMark::Disc;
+  bool joined = false;  ///< a line from each point to the next
+  std::vector<PlotPoint> points;
+  std::vector<double> errors;  ///< half-length of each whisker along y; empty, or one a point (0: none)
+};
+
+/// One diagram. `categories` name the places x = 0, 1, 2, ...; without them x is a number.
+struct PointPanel {
+  std::string title;
+  std::string x_title;
+  std::string y_title;  ///< with its unit
+  std::vector<PointSeries> series;
+  std::vector<std::string> categories;
+  std::optional<double> band;  ///< a pale band from -band to +band, behind the points
+  std::string band_name;       ///< what it is, in the legend
+};
+
+/// A shape true to scale, without axes: a circle with what lies about it. x and y have one scale; a bar at the
+/// lower left, `scale_bar` long in the panel's unit, says how long that is.
+struct ShapePanel {
+  std::string title;
+  std::vector<PointSeries> series;
+  double scale_bar = 0.0;
+  std::string scale_name;
+};
+
+/// Points and lines in panels, all diagrams or all shapes, side by side in rows of `columns`. From 1 to 60
+/// categories; crowded labels turn upright or thin out. In every text `x_{abc}` sets abc as a subscript.
+struct PointChart {
+  std::string title;
+  std::string subtitle;
+  std::string note;  ///< under the picture
+  int columns = 1;
+  std::vector<PointPanel> diagrams;
+  std::vector<ShapePanel> shapes;
+};
+
+/// Draws the chart. Throws std::invalid_argument when there is no panel or both kinds, when errors and points
+/// of a series differ in number, or when `size` is too small; std::runtime_error when offscreen rendering is
+/// not to be had.
+Image render(const PointChart& chart, Size size = {1200, 700});
+
+}  // namespace stiffscope

@@ -1,0 +1,89 @@
+#include "render/vtk/arm_layers.h"
+
+#include <vtkRenderer.h>
+
+#include <utility>
+
+#include "render/vtk/arm_shape.h"
+#include "render/vtk/scene_check.h"
+
+namespace stiffscope {
+
+namespace {
+
+constexpr std::size_t kGhosts = 1, kArms = 2, kVectors = 3, kFront = 6;
+
+Projection projectionIn(const Box& room, const ArmScene& scene, double unit, double magnification) {
+  const ViewAxes axes = viewAxesOf(scene);
+  Eigen::Matrix3d base_to_view;
+  base_to_view << axes.right.transpose(), axes.up.transpose(), axes.to_viewer.transpose();
+  Eigen::AlignedBox3d extent = extentOf(scene, magnification, base_to_view);
+  if (scene.framing) return Projection(axes, extent, room, *scene.framing);
+  const FloorGrid floor = floorOf(scene);
+  for (const int x : {floor.x_first, floor.x_last}) {
+    // With others of a series, the floor may go on behind the words; what stands on it is what matters.
+    for (const int y : {floor.y_first, floor.y_last}) {
+      if (scene.also_fitted.empty()) extent.extend(base_to_view * floor.at(x, y));
+    }
+  }
+  // Labels stand outside of the outermost points.
+  const double beside = 36 * unit, above = 10 * unit;
+  const Box inner{room.left + beside, room.top + above, room.right - beside, room.bottom - above};
+  return Projection(axes, extent, inner);
+}
+
+}  // namespace
+
+ArmLayers::ArmLayers(ArmScene scene, const Surface& surface)
+    : scene_(std::move(scene)), surface_(surface), layers_(kFront + 1) {
+  requireDrawable(scene_);
+  surface_.palette = paletteOf(scene_);
+  const Colour paper = surface_.palette.paper;
+  for (auto& layer : layers_) {
+    layer = vtkSmartPointer<vtkRenderer>::New();
+    layer->SetBackground(paper.red / 255.0, paper.green / 255.0, paper.blue / 255.0);
+  }
+  // How much room titles leave is known once they are measured, which takes a canvas; so the painting of the
+  // back layer, which VTK renders first, sets up the layers before it.
+  paintings_.emplace_back(*layers_.front(), surface_, [this](Canvas& canvas) { paintBack(canvas); });
+  paintings_.emplace_back(*layers_.back(), surface_, [this](Canvas& canvas) {
+    if (stage_) paintFront(canvas);
+  });
+}
+
+void ArmLayers::paintFront(Canvas& canvas) {
+  paintLabels(canvas, *stage_);
+  if (!scene_.framing && scene_.also_fitted.empty()) return;
+  // What was drawn may reach out of its room: paper over it, and the words once more.
+  const Box all = canvas.all(), room = stage_->room;
+  const Colour paper = surface_.palette.paper;
+  canvas.fill({all.left, all.top, all.right, room.top}, paper);
+  canvas.fill({all.left, room.bottom, all.right, all.bottom}, paper);
+  canvas.fill({all.left, room.top, room.left, room.bottom}, paper);
+  canvas.fill({room.right, room.top, all.right, room.bottom}, paper);
+  paintScale(canvas, *stage_, paintSurroundings(canvas, scene_).strip);
+}
+
+void ArmLayers::paintBack(Canvas& canvas) {
+  const SceneLayout layout = paintSurroundings(canvas, scene_);
+  if (!stage_) addSolids(layout.room, canvas.unit());
+  paintFloor(canvas, *stage_);
+  paintScale(canvas, *stage_, layout.strip);
+}
+
+void ArmLayers::addSolids(const Box& room, double unit) {
+  const double magnification = scene_.magnification.value_or(automaticMagnification(scene_));
+  stage_ = std::make_unique<SceneStage>(SceneStage{scene_, surface_, unit, magnification, viewAxesOf(scene_),
+                                                   room, projectionIn(room, scene_, unit, magnification)});
+  addArmsTo(*layers_[kGhosts], *stage_, true);
+  addArmsTo(*layers_[kArms], *stage_, false);
+  const auto kinds = vectorKinds(scene_);
+  for (std::size_t i = 0; i < kinds.size(); ++i) addVectorsTo(*layers_[kVectors + i], *stage_, kinds[i]);
+  addDotsTo(*layers_[kFront], *stage_);
+}
+
+void ArmLayers::rethrow() const {
+  for (const Painting& painting : paintings_) painting.rethrow();
+}
+
+}  // namespace stiffscope

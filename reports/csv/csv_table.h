@@ -1,0 +1,14 @@
+#pragma once
+
+#include <string>
+
+#include "reports/page/html_table.h"
+
+namespace stiffscope::page {
+
+/// A table of the page as CSV (RFC 4180: comma, CRLF, quotes doubled), UTF-8, headers first. Numbers as a
+/// program reads them: an ASCII minus, nothing for what is no number; a column of "value ± uncertainty" becomes
+/// two. Remarks follow in a column of their own where there are any.
+std::string csvTable(const Table& table);
+
+}  // namespace stiffscope::page

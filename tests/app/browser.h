@@ -1,0 +1,30 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "tests/app/command.h"
+
+namespace stiffscope {
+
+/// Whether a shell finds this program.
+inline bool installed(const std::string& program) {
+  return std::system(("command -v " + program + " >/dev/null 2>&1").c_str()) == 0;
+}
+
+/// Runs a command of the shell; what it prints.
+inline Ran runShell(const std::string& line, const std::filesystem::path& scratch) {
+  const std::string out = (scratch / "shell.out").string(), err = (scratch / "shell.err").string();
+  const int raw = std::system(("( " + line + " ) >'" + out + "' 2>'" + err + "'").c_str());
+  return {WIFEXITED(raw) ? WEXITSTATUS(raw) : -1, contentsOf(out), contentsOf(err)};
+}
+
+/// Chromium without a window, with a profile of its own in `scratch`; its console goes to standard error.
+inline Ran runBrowser(const std::string& words, const std::filesystem::path& scratch) {
+  return runShell("timeout 60 chromium --headless --no-sandbox --disable-gpu --no-first-run --hide-scrollbars "
+                  "--disable-background-networking --enable-logging=stderr --user-data-dir='" +
+                      (scratch / "profile").string() + "' " + words,
+                  scratch);
+}
+
+}  // namespace stiffscope

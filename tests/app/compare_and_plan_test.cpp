@@ -1,0 +1,87 @@
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "tests/app/command.h"
+
+namespace stiffscope {
+namespace {
+
+const std::string kInactive = STIFFSCOPE_SOURCE_DIR "/samples/inactive";
+const std::string kActive = STIFFSCOPE_SOURCE_DIR "/samples/active";
+
+TEST(CompareCommand, TheSamplesAvoidAThirdOfTheDeflection) {
+  const ScratchFolder scratch;
+  const Ran ran = runProgram("compare '" + kInactive + "' '" + kActive + "' --json -", scratch.path());
+  ASSERT_EQ(ran.status, 0) << ran.err;
+  const auto json = nlohmann::json::parse(ran.out);
+  EXPECT_NEAR(json["avoided"]["share"].get<double>(), 0.332, 0.0005);
+  EXPECT_LT(json["avoided"]["low"].get<double>(), json["avoided"]["share"].get<double>());
+  EXPECT_EQ(json["avoided"]["postures"].size(), 19u);
+  EXPECT_TRUE(json["unmatched"].empty());
+  ASSERT_EQ(json["joints"].size(), 6u);
+  EXPECT_EQ(json["method"], "dpp");
+  EXPECT_TRUE(json["joints"][0]["p_value"].is_null());  // the load only hangs
+  for (const int joint : {1, 2}) {
+    const auto& row = json["joints"][joint];
+    EXPECT_NEAR(row["ratio"].get<double>(), row["after"].get<double>() / row["before"].get<double>(), 1e-9);
+    EXPECT_LT(row["p_value"].get<double>(), 1e-4);
+  }
+}
+
+TEST(CompareCommand, NothingComparableIsSaidAndNoSuccess) {
+  const ScratchFolder scratch;
+  const std::filesystem::path other = scratch.path() / "other";
+  std::filesystem::copy(kActive, other);
+  std::string urdf = contentsOf(other / "robot.urdf");
+  // Joint 3 of another arm: the first origin after its name, put half a metre aside.
+  const std::size_t joint = urdf.find("<origin", urdf.find("joint_3")), xyz = urdf.find("xyz=\"", joint) + 5;
+  urdf.replace(xyz, urdf.find('"', xyz) - xyz, "0.5 0 1.5");
+  std::ofstream(other / "robot.urdf") << urdf;
+  const Ran ran = runProgram("compare '" + kInactive + "' '" + other.string() + "' --json -", scratch.path());
+  EXPECT_EQ(ran.status, 1) << ran.err;
+  const auto json = nlohmann::json::parse(ran.out);
+  EXPECT_FALSE(json["comparable"].get<bool>());
+  EXPECT_EQ(json["reason"].get<std::string>().rfind("the URDFs describe different machines: axis ", 0), 0u);
+}
+
+TEST(PlanCommand, PlansBeforeTheDayForCompensateAndTheSimulator) {
+  const ScratchFolder scratch;
+  const std::filesystem::path day = scratch.path() / "day", csv = scratch.path() / "postures.csv";
+  std::filesystem::create_directory(day);
+  std::filesystem::copy(kActive + "/robot.urdf", day / "robot.urdf");
+  std::ofstream(day / "campaign.xml")
+      << R"(<campaign format="1" name="before" date="2026-11-20"><robot urdf="robot.urdf" base_link="base_link" )"
+      << R"(flange_link="tool0" double_encoder="active"/><targets/><load_cell parent="tool0" xyz_mm="0 0 110" )"
+      << R"(rpy_deg="0 0 0" force_sigma_n="1" moment_sigma_nm="0.3"/></campaign>)";
+  const std::string words = "plan '" + day.string() + "' --postures 4 --candidates 300 --hook 100,60,200 ";
+  const Ran without = runProgram(words, scratch.path());
+  EXPECT_EQ(without.status, 2);
+  EXPECT_NE(without.err.find("--load: expected the load in newtons"), std::string::npos) << without.err;
+
+  const Ran ran = runProgram(words + "--load 1500 --out '" + csv.string() + "' --json -", scratch.path());
+  ASSERT_EQ(ran.status, 0) << ran.err;
+  const auto json = nlohmann::json::parse(ran.out);
+  ASSERT_EQ(json["rows"].size(), 4u);
+  EXPECT_EQ(json["rows"][0]["separates"].size(), 0u);
+  EXPECT_GT(json["random"]["d_efficiency_of_plan"].get<double>(), 1.0);
+  EXPECT_GE(json["assumed"].size(), 2u);  // no tracker, no reflector places
+
+  // What `compensate` is told to expect is what the plan wrote.
+  const Ran used =
+      runProgram("compensate '" + kActive + "' --postures '" + csv.string() + "' --json -", scratch.path());
+  ASSERT_EQ(used.status, 0) << used.err;
+  EXPECT_EQ(nlohmann::json::parse(used.out)["rows"].size(), 4u);
+  const Ran again = runProgram(words + "--load 1500 --json -", scratch.path());
+  EXPECT_EQ(again.out, ran.out);
+
+  const std::filesystem::path xml = scratch.path() / "postures.xml";
+  ASSERT_EQ(runProgram(words + "--pull 1500 --out '" + xml.string() + "'", scratch.path()).status, 0);
+  const std::string written = contentsOf(xml);
+  EXPECT_EQ(written.rfind("<postures>\n  <posture q_deg=\"", 0), 0u);
+  EXPECT_NE(written.find("pull=\""), std::string::npos);
+}
+
+}  // namespace
+}  // namespace stiffscope

@@ -1,0 +1,160 @@
+// The page of the samples in a real browser. Skipped where chromium or poppler-utils is not installed:
+// 300 MB that nothing else needs, so scripts/setup does not bring them (apt-get install chromium poppler-utils).
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "tests/app/browser.h"
+
+namespace stiffscope {
+namespace {
+
+/// Measures what is drawn and writes it into the page as JSON. Text is measured by its own boxes; two overlap
+/// where they share more than a pixel each way and neither holds the other.
+constexpr const char* kMeasure = R"js(<script>
+addEventListener('load',function(){
+ var boxes=[],out={overlaps:[],clipped:[],requests:[],tabs:0};
+ document.querySelectorAll('h1,h2,h3,p,li,caption,th,td,figcaption,img,b,span').forEach(function(e){
+  if(e.closest('.skip'))return;
+  if(e.tagName=='LI'&&e.querySelector('b'))return;
+  var r;
+  if(e.tagName=='IMG')r=e.getBoundingClientRect();
+  else{var range=document.createRange();range.selectNodeContents(e);r=range.getBoundingClientRect();}
+  if(r.width>0&&r.height>0)boxes.push({e:e,l:r.left,t:r.top,r:r.right,b:r.bottom});
+ });
+ for(var i=0;i<boxes.length;i++)for(var k=0;k<i;k++){
+  var a=boxes[i],b=boxes[k];
+  if(a.e.contains(b.e)||b.e.contains(a.e))continue;
+  if(Math.min(a.r,b.r)-Math.max(a.l,b.l)>1&&Math.min(a.b,b.b)-Math.max(a.t,b.t)>1){
+   var sa=a.e.closest('.scroll'),sb=b.e.closest('.scroll');
+   if(sa!=sb){if(sa){var q=sa.getBoundingClientRect();if(b.l>=q.right-1)continue;}
+              if(sb){var q=sb.getBoundingClientRect();if(a.l>=q.right-1)continue;}}
+   out.overlaps.push(a.e.tagName+':'+a.e.textContent.slice(0,40)+' / '+b.e.tagName+':'+b.e.textContent.slice(0,40));}
+ }
+ boxes.forEach(function(a){if(!a.e.closest('.scroll')&&a.r>document.documentElement.clientWidth+1)
+  out.clipped.push(a.e.tagName+':'+a.e.textContent.slice(0,40));});
+ performance.getEntriesByType('resource').forEach(function(e){if(!e.name.startsWith('data:'))out.requests.push(e.name);});
+ document.querySelectorAll('[src],[href],[srcset],[data]').forEach(function(e){
+  ['src','href','srcset','data'].forEach(function(n){var v=e.getAttribute(n);
+   if(v&&!v.startsWith('data:')&&!v.startsWith('#'))out.requests.push(v);});});
+ out.wide=document.documentElement.scrollWidth-document.documentElement.clientWidth;
+ out.boxes=boxes.length;
+ out.unscoped=document.querySelectorAll('th:not([scope])').length;
+ out.alts=document.querySelectorAll('img:not([alt])').length;
+ out.landmarks=['header','nav','main','footer'].filter(function(n){return document.querySelector(n);}).length;
+ var v=document.createElement('pre');v.id='verdict';v.textContent='@@'+JSON.stringify(out)+'@@';
+ document.body.appendChild(v);});
+</script></body>)js";
+
+class PageInABrowser : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    scratch_ = new ScratchFolder();
+    const std::string samples = STIFFSCOPE_SOURCE_DIR "/samples/";
+    status_ = runProgram("report '" + samples + "inactive' '" + samples + "active' --paper --out '" + out().string() + "'",
+                         scratch_->path())
+                  .status;
+  }
+  static void TearDownTestSuite() { delete scratch_; }
+  void SetUp() override {
+    if (!installed("chromium")) GTEST_SKIP() << "chromium is not installed";
+    ASSERT_EQ(status_, 0);
+  }
+
+  static std::filesystem::path out() { return scratch_->path() / "out"; }
+  static const std::filesystem::path& scratch() { return scratch_->path(); }
+
+  struct Seen {
+    nlohmann::json found;  ///< what kMeasure says
+    bool console = false;  ///< something was written to the console
+  };
+
+  /// Of a copy of the page at this width, with `extra` at its end.
+  static Seen measured(int width, const std::string& extra = {}) {
+    std::string page = contentsOf(out() / "report.html");
+    const std::size_t end = page.rfind("</body>");
+    page.replace(end, 7, extra + kMeasure);
+    const auto copy = scratch() / "copy.html";
+    std::ofstream(copy, std::ios::binary) << page;
+    const Ran ran = runBrowser("--window-size=" + std::to_string(width) + ",2000 --dump-dom 'file://" +
+                                   copy.string() + "'",
+                               scratch());
+    const bool console = ran.err.find("CONSOLE") != std::string::npos;
+    // The script names the marks too; the verdict comes last.
+    const std::size_t close = ran.out.rfind("@@"), open = ran.out.rfind("@@{", close);
+    if (open == std::string::npos) return {{}, console};
+    std::string verdict = ran.out.substr(open + 2, close - open - 2);
+    for (std::size_t at = verdict.find("&lt;"); at != std::string::npos; at = verdict.find("&lt;")) verdict.replace(at, 4, "<");
+    return {nlohmann::json::parse(verdict, nullptr, false), console};
+  }
+
+  static inline ScratchFolder* scratch_ = nullptr;
+  static inline int status_ = -1;
+};
+
+TEST_F(PageInABrowser, NothingOverlapsNothingIsFetched) {
+  for (const int width : {500, 1000, 1700}) {  // 500 is the narrowest window of this browser
+    SCOPED_TRACE(width);
+    const auto [found, console] = measured(width);
+    EXPECT_FALSE(console);
+    ASSERT_TRUE(found.is_object());
+    EXPECT_GT(found["boxes"], 500);  // it looked at something
+    EXPECT_EQ(found["overlaps"].dump(), "[]");
+    EXPECT_EQ(found["clipped"].dump(), "[]");
+    EXPECT_EQ(found["requests"].dump(), "[]");
+    EXPECT_EQ(found["wide"], 0);
+    EXPECT_EQ(found["unscoped"], 0);
+    EXPECT_EQ(found["alts"], 0);
+    EXPECT_EQ(found["landmarks"], 4);
+  }
+}
+
+TEST_F(PageInABrowser, TheMeasureSeesFaults) {
+  const auto [found, console] = measured(1000,
+                                         "<p style='position:absolute;top:30px;left:20px'>over the title</p>"
+                                         "<p style='width:2000px'>wide</p><p style='white-space:nowrap'>" +
+                                             std::string(400, 'w') +
+                                             "</p><img src='file:///nowhere.png'><script>console.error('x')</script>");
+  ASSERT_TRUE(found.is_object());
+  EXPECT_TRUE(console);
+  EXPECT_NE(found["overlaps"].dump().find("over the title"), std::string::npos);
+  EXPECT_NE(found["requests"].dump().find("nowhere"), std::string::npos);
+  EXPECT_GT(found["wide"], 0);
+  EXPECT_EQ(found["alts"], 1);
+}
+
+TEST_F(PageInABrowser, PrintsOnFullPagesWithItsIdOnEach) {
+  if (!installed("pdfinfo") || !installed("pdftotext")) GTEST_SKIP() << "poppler-utils is not installed";
+  const auto pdf = (scratch() / "report.pdf").string(), page = (out() / "report.html").string();
+  runBrowser("--no-pdf-header-footer --print-to-pdf='" + pdf + "' 'file://" + page + "'", scratch());
+  const Ran info = runShell("pdfinfo '" + pdf + "'", scratch());
+  ASSERT_EQ(info.status, 0) << info.err;
+  EXPECT_NE(info.out.find("(A4)"), std::string::npos) << info.out;
+  const int pages = std::stoi(info.out.substr(info.out.find("Pages:") + 6));
+  // 21 figures two a page and a dozen tables a campaign; other fonts may move a page or two.
+  EXPECT_GE(pages, 17);
+  EXPECT_LE(pages, 25);
+  const std::string html = contentsOf(page);
+  const std::string id = html.substr(html.find("content:'Report ") + 16, 14);
+  runShell("pdftoppm -r 20 -gray '" + pdf + "' '" + (scratch() / "page").string() + "'", scratch());
+  int half_empty = 0;
+  for (int i = 1; i <= pages; ++i) {
+    const std::string n = std::to_string(i);
+    const Ran text = runShell("pdftotext -f " + n + " -l " + n + " '" + pdf + "' -", scratch());
+    EXPECT_NE(text.out.find(id), std::string::npos) << "page " << n;
+    EXPECT_NE(text.out.find("Page " + n + " of " + std::to_string(pages)), std::string::npos) << "page " << n;
+    const cv::Mat picture =
+        cv::imread((scratch() / ("page-" + (i < 10 ? "0" + n : n) + ".pgm")).string(), cv::IMREAD_GRAYSCALE);
+    ASSERT_FALSE(picture.empty());
+    // Above the foot: the lowest row with ink.
+    int lowest = static_cast<int>(0.93 * picture.rows);
+    while (lowest > 0 && cv::countNonZero(picture.row(lowest) < 200) == 0) --lowest;
+    if (i < pages && lowest < picture.rows / 2) ++half_empty;
+  }
+  EXPECT_EQ(half_empty, 0);
+}
+
+}  // namespace
+}  // namespace stiffscope

@@ -1,0 +1,142 @@
+#include "core/input/read_file.h"
+
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include <atomic>
+#include <clocale>
+#include <fstream>
+#include <locale>
+#include <thread>
+
+#include "core/campaign/campaign_files.h"
+#include "core/campaign/read_campaign.h"
+#include "core/input/csv_lines.h"
+#include "core/input/input_error.h"
+#include "core/input/xml_node.h"
+#include "tests/core/small_campaign.h"
+
+namespace stiffscope {
+namespace {
+
+namespace fs = std::filesystem;
+
+template <class Read>
+std::string whyRefused(const Read& read) {
+  try {
+    read();
+  } catch (const InputError& error) {
+    return error.expectation();
+  }
+  return "";
+}
+
+std::string whyRefused(const fs::path& file, std::size_t largest = kLargestTable) {
+  return whyRefused([&] { readTextFile(file, largest); });
+}
+
+TEST(ReadFile, RefusesWhatIsNoFile) {
+  const TemporaryFolder folder;
+  EXPECT_EQ(whyRefused(folder.path()), "expected a file; this is a directory");
+  EXPECT_EQ(whyRefused(folder.path() / "none"), "expected a file; there is none");
+  EXPECT_EQ(whyRefused("/dev/zero"), "expected an ordinary file");
+  ASSERT_EQ(::mkfifo((folder.path() / "pipe").c_str(), 0600), 0);
+  EXPECT_EQ(whyRefused(folder.path() / "pipe"), "expected an ordinary file");  // and does not wait for a writer
+}
+
+// The file is sparse: two gigabytes by its size, nothing on the disk.
+TEST(ReadFile, RefusesAFileOfTwoGigabytesBeforeItIsInMemory) {
+  const TemporaryFolder folder;
+  const fs::path file = folder.path() / "large.csv";
+  std::ofstream(file) << "x";
+  fs::resize_file(file, std::uintmax_t{2} << 30);
+  EXPECT_EQ(whyRefused(file), "expected a file of at most 1024 MiB; this one has 2048");
+  fs::resize_file(file, 17 << 20);
+  EXPECT_EQ(whyRefused(file, kLargestXml), "expected a file of at most 16 MiB; this one has 17");
+}
+
+// Somebody appends without a pause while the file is read again and again: some reading must notice.
+TEST(ReadFile, NoticesAFileThatChangesWhileItIsRead) {
+  const TemporaryFolder folder;
+  const fs::path file = folder.path() / "growing.csv";
+  std::ofstream(file) << std::string(8 << 20, 'x');
+  std::atomic<bool> done = false;
+  std::thread writer([&] {
+    std::ofstream more(file, std::ios::app);
+    while (!done) more << "x" << std::flush;
+  });
+  std::string why;
+  for (int i = 0; i < 1000 && why.empty(); ++i) why = whyRefused(file);
+  done = true;
+  writer.join();
+  EXPECT_EQ(why, "expected a file that stays as it is; it changed while it was read");
+}
+
+TEST(CampaignFiles, NoticesAFileThatChangesBeforeTheLastIsRead) {
+  const SmallCampaign files;
+  CampaignFiles reading(files.folder());
+  reading.readXml();
+  reading.read({"nests.csv", "file", 1}, kLargestTable);
+  EXPECT_EQ(whyRefused([&] { reading.requireUnchanged(); }), "");
+  files.write("nests.csv", files.read("nests.csv") + "3.0,N1,1,2,3\n");
+  EXPECT_EQ(whyRefused([&] { reading.requireUnchanged(); }),
+            "expected a file that stays as it is; it changed while the campaign was read");
+}
+
+std::vector<std::vector<std::string>> linesOf(std::string_view bytes) {
+  CsvLines lines("t.csv", bytes);
+  std::vector<std::vector<std::string>> all;
+  for (std::vector<std::string_view> cells; lines.next(cells);) all.emplace_back(cells.begin(), cells.end());
+  return all;
+}
+
+TEST(CsvLines, EndsLinesAtLfCrlfAndCr) {
+  const std::vector<std::vector<std::string>> expected{{"a", "b"}, {"1", "2"}, {"3", ""}};
+  EXPECT_EQ(linesOf("a,b\n1,2\n3,\n"), expected);
+  EXPECT_EQ(linesOf("a,b\r\n1,2\r\n3,"), expected);
+  EXPECT_EQ(linesOf("a,b\r1,2\r3,\r"), expected);
+  EXPECT_EQ(linesOf("\xEF\xBB\xBF" "a,b\r\r\n\n 1 ,\t2\n3, \r"), expected);
+}
+
+TEST(CsvLines, UnquotesCells) {
+  const std::vector<std::vector<std::string>> expected{{"a,b", "say \"x\"", "", "5\""}};
+  EXPECT_EQ(linesOf("\"a,b\" , \"say \"\"x\"\"\",\"\",5\""), expected);
+}
+
+// The cost of a line must not grow with the rest of the file, whatever its ends.
+TEST(CsvLines, ReadsManyShortLinesOfEveryEndInLinearTime) {
+  for (const std::string end : {"\n", "\r\n", "\r"}) {
+    std::string bytes;
+    for (int i = 0; i < 500000; ++i) bytes += "1" + end;
+    EXPECT_EQ(linesOf(bytes).size(), 500000u);
+  }
+}
+
+// A locale with a decimal comma and grouped thousands, which need not be installed.
+struct CommaPunctuation : std::numpunct<char> {
+  char do_decimal_point() const override { return ','; }
+  char do_thousands_sep() const override { return '.'; }
+  std::string do_grouping() const override { return "\3"; }
+};
+
+TEST(ReadCampaign, IsTheSameInALocaleWithDecimalCommas) {
+  const SmallCampaign files;
+  const Campaign plain = readCampaign(files.folder()).campaign;
+  const std::locale before = std::locale::global(std::locale(std::locale(), new CommaPunctuation));
+  std::setlocale(LC_NUMERIC, "de_DE.UTF-8");  // where it is installed
+  const Campaign comma = readCampaign(files.folder()).campaign;
+  std::locale::global(before);
+  std::setlocale(LC_NUMERIC, "C");
+  EXPECT_EQ(plain.loading->rows[1].point, comma.loading->rows[1].point);
+  EXPECT_EQ(plain.tracker->angle_per_m, comma.tracker->angle_per_m);
+  EXPECT_EQ(plain.robot.base_from_flange_at_zero.matrix(), comma.robot.base_from_flange_at_zero.matrix());
+}
+
+TEST(XmlFile, ExpandsNoEntityButTheFiveOfXml) {
+  const XmlFile xml("x.xml", "<a b=\"&lt;&x;&#65;\">&file;</a>");
+  EXPECT_EQ(xml.root().requiredAttribute("b"), "<&x;A");
+  EXPECT_EQ(xml.root().text(), "&file;");
+}
+
+}  // namespace
+}  // namespace stiffscope
