@@ -36,7 +36,7 @@ double quantile(const std::vector<double>& sorted, double share) {
 
 }  // namespace
 
-Interval PostureBootstrap::compliance(int joint, double coverage) const {
+CoverageInterval PostureBootstrap::compliance(int joint, double coverage) const {
   if (compliances.empty()) return {};
   std::vector<double> sorted;
   for (const Vector6d& one : compliances) sorted.push_back(one[joint]);
@@ -44,7 +44,7 @@ Interval PostureBootstrap::compliance(int joint, double coverage) const {
   return {quantile(sorted, 0.5 * (1.0 - coverage)), quantile(sorted, 0.5 * (1.0 + coverage))};
 }
 
-PostureBootstrap bootstrapPostures(const SubsetMethod& method, const BootstrapOptions& options) {
+PostureBootstrap bootstrapPostures(const SubsetMethod& method, const PostureBootstrapOptions& options) {
   PostureBootstrap result;
   if (method.normal.empty() || options.draws <= 0) return result;
   result.compliances.resize(static_cast<std::size_t>(options.draws));

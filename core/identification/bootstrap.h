@@ -11,19 +11,19 @@ struct PostureBootstrap {
   std::vector<Vector6d> compliances;  ///< one a draw, in the order of the draws
 
   /// Percentile interval of a joint's compliance.
-  Interval compliance(int joint, double coverage = kStatedCoverage) const;
-  Interval stiffness(int joint, double coverage = kStatedCoverage) const {
+  CoverageInterval compliance(int joint, double coverage = kStatedCoverage) const;
+  CoverageInterval stiffness(int joint, double coverage = kStatedCoverage) const {
     return stiffnessInterval(compliance(joint, coverage));
   }
 };
 
-struct BootstrapOptions {
+struct PostureBootstrapOptions {
   int draws = 0;  ///< 0: none
   std::uint64_t seed = 1;
   int threads = 2;  ///< the result does not depend on it
 };
 
 /// Draw i is seeded by (seed, i).
-PostureBootstrap bootstrapPostures(const SubsetMethod& method, const BootstrapOptions& options);
+PostureBootstrap bootstrapPostures(const SubsetMethod& method, const PostureBootstrapOptions& options);
 
 }  // namespace stiffscope

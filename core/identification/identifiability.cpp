@@ -88,9 +88,9 @@ std::string combinationReason(const Vector6d& unseen, const Vector6d& lengths) {
     const double ratio = -(unseen[a] / lengths[a]) / (unseen[b] / lengths[b]);
     return fmt::format(
         "these postures only see a combination of joints {}, {}: the two move the reflectors in proportion in every posture, so "
-        "that only 1/k{} {} {:.3g}/k{} is determined; postures in which axis {} stands otherwise to the load than axis {} "
+        "that only 1/k{} {} {}/k{} is determined; postures in which axis {} stands otherwise to the load than axis {} "
         "would part them",
-        a + 1, b + 1, a + 1, ratio < 0.0 ? "-" : "+", std::abs(ratio), b + 1, a + 1, b + 1);
+        a + 1, b + 1, a + 1, ratio < 0.0 ? "-" : "+", fmt::format("{:.3g}", std::abs(ratio)), b + 1, a + 1, b + 1);
   }
   std::string names, terms;
   for (const int j : joints) {

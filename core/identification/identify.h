@@ -26,7 +26,7 @@ struct IdentifyOptions {
   /// false: neglect K_c and take them unloaded, as the paper does.
   bool finite_deflection = true;
   SubsetOptions subsets;
-  BootstrapOptions bootstrap;
+  PostureBootstrapOptions bootstrap;
   TrustLimits trust;
   bool robust = false;  ///< leave postures out that disagree with the rest (outlying_postures.h); they are always named
 };

@@ -13,20 +13,20 @@ constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
-Interval complianceInterval(const StiffnessEstimate& estimate, int joint, double coverage) {
+CoverageInterval complianceInterval(const StiffnessEstimate& estimate, int joint, double coverage) {
   const double sd = std::sqrt(estimate.covariance(joint, joint)), dof = estimate.dof(joint);
   if (!std::isfinite(sd) || !(dof > 0.0)) return {-kInfinite, kInfinite};
   const double reach = sd == 0.0 ? 0.0 : studentLimit(1.0 - coverage, dof) * sd;
   return {estimate.compliance[joint] - reach, estimate.compliance[joint] + reach};
 }
 
-Interval stiffnessInterval(const Interval& compliance) {
+CoverageInterval stiffnessInterval(const CoverageInterval& compliance) {
   if (!std::isfinite(compliance.low) || !std::isfinite(compliance.high)) return {-kInfinite, kInfinite};
   if (compliance.low > 0.0 || compliance.high < 0.0) return {1.0 / compliance.high, 1.0 / compliance.low};
   return {compliance.high > 0.0 ? 1.0 / compliance.high : -kInfinite, kInfinite};
 }
 
-Interval stiffnessInterval(const StiffnessEstimate& estimate, int joint, double coverage) {
+CoverageInterval stiffnessInterval(const StiffnessEstimate& estimate, int joint, double coverage) {
   return stiffnessInterval(complianceInterval(estimate, joint, coverage));
 }
 

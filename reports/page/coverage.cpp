@@ -1,19 +1,16 @@
 #include "reports/page/coverage.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "core/audit/chance.h"
+#include "core/identification/stiffness_interval.h"
 
 namespace stiffscope::page {
 
-Coverage coverageOf(const Identification& identification, const StiffnessEstimate& estimate) {
-  constexpr double kOutside = 0.05;
-  const auto unknowns =
-      static_cast<int>(std::count(estimate.identifiable.begin(), estimate.identifiable.end(), true));
-  const int left = static_cast<int>(identification.cases.size()) - (unknowns + 2) / 3;
-  if (left < 1) return {std::nan(""), 0};
-  return {studentLimit(kOutside, left), left};
+Coverage coverageOf(const StiffnessEstimate& estimate, int joint) {
+  const double dof = estimate.dof(joint);
+  if (!(dof > 0.0) || !std::isfinite(estimate.covariance(joint, joint))) return {std::nan(""), 0.0};
+  return {studentLimit(1.0 - kStatedCoverage, dof), dof};
 }
 
 }  // namespace stiffscope::page
