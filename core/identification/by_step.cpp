@@ -40,7 +40,7 @@ std::vector<Solved> solveSteps(const Campaign& campaign, const IdentifyOptions& 
     one.result.step = step;
     one.result.mean_force = meanForce(arm.cases);
     const MethodSolution how{method, result.frames.tcp_in_flange, result.characteristic_length.length,
-                             own.estimate.identifiable};
+                             own.estimate.identifiable, campaign.tracker ? &*campaign.tracker : nullptr};
     one.result.estimate = solveSettled(arm, options.finite_deflection,
                                        [&](const LoadedArm& now) { return how.estimate(now); });
     for (const LoadCase& load_case : arm.cases) one.poses.push_back(load_case.pose);

@@ -18,7 +18,8 @@ MethodResult& methodOf(Identification& result, Method which) {
 }
 
 MethodSolution solutionOf(Method which, const MethodRuns& runs, const Identification& result) {
-  return {which, result.frames.tcp_in_flange, result.characteristic_length.length, runs.unknown};
+  return {which, result.frames.tcp_in_flange, result.characteristic_length.length, runs.unknown,
+          runs.campaign.tracker ? &*runs.campaign.tracker : nullptr};
 }
 
 StiffnessEstimate solved(Method which, LoadedArm& arm, const MethodRuns& runs, const Identification& result) {

@@ -3,6 +3,7 @@
 #include "core/identification/decoupled_partial_pose.h"
 #include "core/identification/partial_pose.h"
 #include "core/identification/posture_influence.h"
+#include "core/identification/working_noise.h"
 
 namespace stiffscope {
 
@@ -25,7 +26,12 @@ StiffnessEstimate MethodSolution::estimate(const LoadedArm& arm) const {
     case Method::partial_pose:
       break;
   }
-  return partialPose(reflectorEquations(arm), unknown);
+  const std::vector<CaseEquations> equations = reflectorEquations(arm);
+  StiffnessEstimate estimate = partialPose(equations, unknown);
+  // With several load steps a posture's rows share step 0: there the plain correction stands.
+  const bool one_step = byPosture(equations).size() == equations.size();
+  if (tracker != nullptr && one_step) correctForNoise(equations, reflectorNoise(*tracker, arm), estimate);
+  return estimate;
 }
 
 Vector6d MethodSolution::compliance(const LoadedArm& arm) const {

@@ -11,6 +11,7 @@ struct MethodSolution {
   Eigen::Vector3d tcp_in_flange = Eigen::Vector3d::Zero();  ///< Complete Pose
   double length = 1.0;                                      ///< the same: the characteristic length, m
   JointMask unknown{};
+  const Tracker* tracker = nullptr;  ///< Partial Pose: whose noise is the working model of the scatter; may be none
 
   StiffnessEstimate estimate(const LoadedArm& arm) const;
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/identification/coverage_factor.h"
 #include "core/identification/posture_influence.h"
 
 namespace stiffscope {
@@ -56,7 +57,7 @@ void setScatterOfOneStage(const std::vector<CaseEquations>& equations, const Nor
   Vector6d dof = Vector6d::Zero();
   for (int j = 0; j < 6; ++j) {
     if (estimate.identifiable[static_cast<std::size_t>(j)]) {
-      dof[j] = satterthwaite(influenceCovariance(gains, equations, inverse, j));
+      dof[j] = matchedDof(influenceCovariance(gains, equations, inverse, j));
     }
   }
   setScatter(std::move(influences), dof, estimate);

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/audit/chance.h"
+#include "core/identification/coverage_factor.h"
 
 namespace stiffscope {
 
@@ -14,9 +14,8 @@ constexpr double kInfinite = std::numeric_limits<double>::infinity();
 }  // namespace
 
 CoverageInterval complianceInterval(const StiffnessEstimate& estimate, int joint, double coverage) {
-  const double sd = std::sqrt(estimate.covariance(joint, joint)), dof = estimate.dof(joint);
-  if (!std::isfinite(sd) || !(dof > 0.0)) return {-kInfinite, kInfinite};
-  const double reach = sd == 0.0 ? 0.0 : studentLimit(1.0 - coverage, dof) * sd;
+  const double reach = coverageFactor(estimate, joint, coverage) * std::sqrt(estimate.covariance(joint, joint));
+  if (!std::isfinite(reach)) return {-kInfinite, kInfinite};
   return {estimate.compliance[joint] - reach, estimate.compliance[joint] + reach};
 }
 

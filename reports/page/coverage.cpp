@@ -2,15 +2,14 @@
 
 #include <cmath>
 
-#include "core/audit/chance.h"
+#include "core/identification/coverage_factor.h"
 #include "core/identification/stiffness_interval.h"
 
 namespace stiffscope::page {
 
 Coverage coverageOf(const StiffnessEstimate& estimate, int joint) {
-  const double dof = estimate.dof(joint);
-  if (!(dof > 0.0) || !std::isfinite(estimate.covariance(joint, joint))) return {std::nan(""), 0.0};
-  return {studentLimit(1.0 - kStatedCoverage, dof), dof};
+  const double factor = coverageFactor(estimate, joint, kStatedCoverage);
+  return {factor, std::isfinite(factor) ? estimate.dof(joint) : 0.0};
 }
 
 }  // namespace stiffscope::page

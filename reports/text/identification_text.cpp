@@ -7,7 +7,7 @@
 #include <cmath>
 #include <iterator>
 
-#include "core/audit/chance.h"
+#include "core/identification/coverage_factor.h"
 #include "core/identification/posture_count.h"
 #include "core/identification/stiffness_interval.h"
 #include "core/input/units.h"
@@ -24,9 +24,7 @@ using Out = std::back_insert_iterator<std::string>;
 std::string stiffnessCell(const StiffnessEstimate& estimate, int joint) {
   if (!estimate.identifiable[static_cast<std::size_t>(joint)]) return "-";
   const char* mark = estimate.mark(joint).empty() ? "" : (estimate.mark(joint) == "negative" ? "!" : "?");
-  const double dof = estimate.dof(joint);
-  const double expanded =
-      dof > 0.0 ? studentLimit(1.0 - kStatedCoverage, dof) * estimate.stiffnessSd(joint) * 1e-6 : std::nan("");
+  const double expanded = coverageFactor(estimate, joint, kStatedCoverage) * estimate.stiffnessSd(joint) * 1e-6;
   return fmt::format("{:.4f} +-{}{}", estimate.stiffness(joint) * 1e-6,
                      std::isfinite(expanded) ? fmt::format("{:.4f}", expanded) : "?", mark);
 }
