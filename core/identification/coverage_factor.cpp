@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "core/identification/stiffness_interval.h"
+#include "metrology/tail_probability.h"
 
 namespace stiffscope {
 
@@ -36,6 +37,7 @@ double crossing(double low, double high, double level, const Falling& falling) {
 
 constexpr double kLeast = 0.1, kMost = 1e3;  // factors
 
+/// The same integral for Student's t: dof weights of 1 / dof.
 double studentTail(double factor, double dof) {
   return (1.0 + factor * factor / dof * inverseSquares()).pow(-0.5 * dof).mean();
 }
@@ -52,7 +54,7 @@ double coverageFactor(const Eigen::VectorXd& weights, double coverage) {
 }
 
 double studentFactor(double dof, double coverage) {
-  return crossing(kLeast, kMost, 1.0 - coverage, [&](double factor) { return studentTail(factor, dof); });
+  return crossing(kLeast, kMost, 1.0 - coverage, [&](double factor) { return fTail(factor * factor, 1, dof); });
 }
 
 double coverageFactor(const StiffnessEstimate& estimate, int joint, double coverage) {
@@ -66,7 +68,7 @@ double matchedDof(const Eigen::MatrixXd& influence_covariance) {
   const Eigen::VectorXd weights =
       Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(influence_covariance, Eigen::EigenvaluesOnly).eigenvalues().cwiseMax(0.0);
   const double factor = coverageFactor(weights, kStatedCoverage);
-  // The tail at a given factor falls as the degrees of freedom grow.
+  // By the same rule as the factor, so that its error drops out. The tail at a given factor falls as the degrees of freedom grow.
   return crossing(0.3, 1e4, 1.0 - kStatedCoverage, [&](double dof) { return studentTail(factor, dof); });
 }
 

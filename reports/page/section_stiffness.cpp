@@ -111,6 +111,10 @@ Table lengthTable(const Identification& result) {
   return table;
 }
 
+std::string range(const std::string& low, const std::string& high) {
+  return low == high ? low : fmt::format("{} to {}", low, high);
+}
+
 std::string uncertaintyWords(const Identification& result) {
   std::vector<std::string> factors;
   for (const Method method : kMethods) {
@@ -123,8 +127,9 @@ std::string uncertaintyWords(const Identification& result) {
       if (own.factor > most.factor) most = own;
     }
     if (most.factor == 0.0) continue;
-    factors.push_back(fmt::format("{} to {} for {} ({} to {} degrees of freedom)", fixed(least.factor, 2), fixed(most.factor, 2),
-                                  shortName(method), fixed(most.degrees_of_freedom, 1), fixed(least.degrees_of_freedom, 1)));
+    factors.push_back(fmt::format("{} for {} ({} degrees of freedom)",
+                                  range(fixed(least.factor, 2), fixed(most.factor, 2)), shortName(method),
+                                  range(fixed(most.degrees_of_freedom, 1), fixed(least.degrees_of_freedom, 1))));
   }
   if (factors.empty()) return "Too few postures for an uncertainty.";
   return fmt::format(

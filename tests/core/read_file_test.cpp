@@ -22,7 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 
 template <class Read>
-std::string whyRefused(const Read& read) {
+std::string whyRefusedBy(const Read& read) {
   try {
     read();
   } catch (const InputError& error) {
@@ -32,7 +32,7 @@ std::string whyRefused(const Read& read) {
 }
 
 std::string whyRefused(const fs::path& file, std::size_t largest = kLargestTable) {
-  return whyRefused([&] { readTextFile(file, largest); });
+  return whyRefusedBy([&] { readTextFile(file, largest); });
 }
 
 TEST(ReadFile, RefusesWhatIsNoFile) {
@@ -77,9 +77,9 @@ TEST(CampaignFiles, NoticesAFileThatChangesBeforeTheLastIsRead) {
   CampaignFiles reading(files.folder());
   reading.readXml();
   reading.read({"nests.csv", "file", 1}, kLargestTable);
-  EXPECT_EQ(whyRefused([&] { reading.requireUnchanged(); }), "");
+  EXPECT_EQ(whyRefusedBy([&] { reading.requireUnchanged(); }), "");
   files.write("nests.csv", files.read("nests.csv") + "3.0,N1,1,2,3\n");
-  EXPECT_EQ(whyRefused([&] { reading.requireUnchanged(); }),
+  EXPECT_EQ(whyRefusedBy([&] { reading.requireUnchanged(); }),
             "expected a file that stays as it is; it changed while the campaign was read");
 }
 
@@ -132,10 +132,13 @@ TEST(ReadCampaign, IsTheSameInALocaleWithDecimalCommas) {
   EXPECT_EQ(plain.robot.base_from_flange_at_zero.matrix(), comma.robot.base_from_flange_at_zero.matrix());
 }
 
-TEST(XmlFile, ExpandsNoEntityButTheFiveOfXml) {
-  const XmlFile xml("x.xml", "<a b=\"&lt;&x;&#65;\">&file;</a>");
-  EXPECT_EQ(xml.root().requiredAttribute("b"), "<&x;A");
-  EXPECT_EQ(xml.root().text(), "&file;");
+TEST(XmlFile, KnowsTheFiveReferencesOfXmlAndCharacters) {
+  const XmlFile xml("x.xml", "<a b=\"&lt;&amp;&#65;&#x42;\"><!-- &c; --><![CDATA[&d;]]></a>");
+  EXPECT_EQ(xml.root().requiredAttribute("b"), "<&AB");
+  for (const char* text : {"<a>&file;</a>", "<a b=\"&x;\"/>", "<a>A & B</a>", "<a>&#;</a>", "<a>&</a>", "<a>&amp</a>"}) {
+    EXPECT_EQ(whyRefusedBy([&] { XmlFile("x.xml", text); }),
+              "expected &amp; for an ampersand; XML without a document type has no entities of its own");
+  }
 }
 
 }  // namespace

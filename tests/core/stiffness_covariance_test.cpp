@@ -5,6 +5,7 @@
 
 #include "core/identification/bootstrap.h"
 #include "core/identification/by_step.h"
+#include "core/identification/coverage_factor.h"
 #include "core/identification/identify.h"
 #include "core/identification/posture_influence.h"
 #include "core/identification/stiffness_interval.h"
@@ -43,7 +44,7 @@ StiffnessEstimate meanOf(const std::vector<double>& values) {
 TEST(StiffnessCovariance, OfAMeanIsTheBooks) {
   const StiffnessEstimate estimate = meanOf({1.0, 2.0, 4.0, 7.0, 11.0});  // mean 5, sum of squares 66
   EXPECT_NEAR(estimate.covariance(0, 0), 66.0 / (5.0 * 4.0), 1e-12);      // rounding
-  EXPECT_NEAR(estimate.dof(0), 4.0, 1e-12);
+  EXPECT_NEAR(estimate.dof(0), 4.0, 1e-6);  // bisection
   const CoverageInterval interval = complianceInterval(estimate, 0);
   EXPECT_NEAR(interval.high - 5.0, 2.776445105 * std::sqrt(3.3), 1e-6);  // Student's t, 4 degrees, tables
   EXPECT_NEAR(interval.low + interval.high, 10.0, 1e-12);
@@ -67,14 +68,43 @@ TEST(StiffnessCovariance, StepsOfAPostureCountOnce) {
   estimate.compliance = solveNormal(sum, kFirstOnly);
   setScatterOfOneStage(joined, sum, estimate);
   EXPECT_NEAR(estimate.covariance(0, 0), 3.3, 1e-12);
-  EXPECT_NEAR(estimate.dof(0), 4.0, 1e-12);
+  EXPECT_NEAR(estimate.dof(0), 4.0, 1e-6);
 }
 
 TEST(StiffnessCovariance, SharedPartsRaiseTheDegreesOfFreedom) {
   StiffnessEstimate estimate = meanOf({1.0, 2.0, 4.0, 7.0, 11.0});
   estimate.parts.frames(0, 0) = estimate.parts.scatter(0, 0);  // as large again, and known
   estimate.covariance = estimate.parts.total();
-  EXPECT_NEAR(estimate.dof(0), 16.0, 1e-12);  // (2 V)^2 / (V^2 / 4)
+  EXPECT_NEAR(estimate.dof(0), 16.0, 1e-5);  // (2 V)^2 / (V^2 / 4)
+}
+
+TEST(CoverageFactor, IsStudentsForEqualWeightsAndMonteCarlosForOthers) {
+  for (const int dof : {3, 6, 15}) {
+    // Midpoint rule of 32 nodes against the incomplete beta function.
+    EXPECT_NEAR(coverageFactor(Eigen::VectorXd::Ones(dof), 0.95) / studentFactor(dof, 0.95), 1.0, 1e-3) << dof;
+    EXPECT_NEAR(matchedDof(Eigen::MatrixXd::Identity(dof, dof)), dof, 1e-3 * dof);
+  }
+  EXPECT_NEAR(studentFactor(1.0, 0.95), 12.7062, 1e-3);  // tables
+  EXPECT_NEAR(studentFactor(4.0, 0.95), 2.776445, 1e-5);
+  // One posture makes 60 % of the scatter: 2.7 degrees by Satterthwaite, whose factor would hold the truth in 98.4 %
+  // (400,000 draws in numpy).
+  Eigen::VectorXd weights = Eigen::VectorXd::Constant(16, 0.4 / 15.0);
+  weights[0] = 0.6;
+  const double factor = coverageFactor(weights, 0.95);
+  std::mt19937_64 random(5);
+  std::normal_distribution<double> normal;
+  constexpr int kDraws = 100'000;
+  int held = 0;
+  for (int draw = 0; draw < kDraws; ++draw) {
+    double variance = 0.0;
+    for (const double weight : weights) {
+      const double one = normal(random);
+      variance += weight * one * one;
+    }
+    held += std::abs(normal(random)) <= factor * std::sqrt(variance);
+  }
+  // Five standard deviations of a binomial of 100,000: 0.0035.
+  EXPECT_NEAR(static_cast<double>(held) / kDraws, 0.95, 0.0035);
 }
 
 TEST(StiffnessInterval, IsOpenWhereTheComplianceMayBeZero) {
