@@ -159,9 +159,10 @@ TEST(StiffnessCovariance, OfTheSweepsIsWhatNoisySweepsScatter) {
     for (int j = 1; j < 6; ++j) {  // the load hangs: no first joint
       const double mean = sum[m][j] / kDays, variance = (squares[m][j] - kDays * mean * mean) / (kDays - 1);
       // A variance from 40 has a relative standard deviation of sqrt(2/39) = 0.23; four and a half of them, upwards
-      // as far on a log scale. Reflectors' places at zero and P_TCP, which are left out, move it less.
+      // as far on a log scale. Complete Pose's part is overstated by up to two in standard deviation, because the
+      // reflectors' places at zero really follow the axes they are turned back about (shared_uncertainty.h).
       const double ratio = variance / (stated[m][j] / kDays);
-      EXPECT_GT(ratio, 1.0 / 2.5) << m << " k" << j + 1;
+      EXPECT_GT(ratio, 1.0 / (m == 0 ? 4.0 * 2.5 : 2.5)) << m << " k" << j + 1;
       EXPECT_LT(ratio, 2.5) << m << " k" << j + 1;
     }
   }
@@ -226,7 +227,7 @@ TEST(ByStep, LinearSpringsStayAndStiffeningOnesAreSeen) {
   const Campaign linear = simulate(spec);
   const Identification of_linear = identify(linear, quick());
   const StepStudy same = studySteps(linear, quick(), of_linear);
-  spec.machine.joints[1].cubic = 1e12;  // at 1e-3 rad a fifth of the linear torque
+  spec.machine.joints[1].cubic = 1e13;  // at 5e-4 rad a third of the linear torque
   const Campaign stiffening = simulate(spec);
   const StepStudy other = studySteps(stiffening, quick(), identify(stiffening, quick()));
   for (std::size_t m = 0; m < 3; ++m) {
