@@ -21,6 +21,8 @@ int runCommandLine(int count, char** words) {
   addCompensate(app, run);
   addCompare(app, run);
   addPlan(app, run);
+  addDiagnose(app, run);
+  addBlind(app, run);
   addSimulate(app, run);
   addReport(app, run);
   try {

@@ -3,9 +3,12 @@
 
 #include "app/command.h"
 #include "app/output.h"
+#include "app/prepared.h"
 #include "core/comparison/compare_campaigns.h"
 #include "reports/json/comparison_json.h"
+#include "reports/json/preparation_json.h"
 #include "reports/text/comparison_text.h"
+#include "reports/text/preparation_text.h"
 
 namespace stiffscope {
 
@@ -14,19 +17,32 @@ namespace {
 struct Arguments {
   std::string before, after, json;
   int step = 0;
-  bool neglect_kc = false;
+  bool neglect_kc = false, raw = false;
   BootstrapOptions bootstrap;
 };
 
 int compareTwo(const Arguments& arguments, bool step_given) {
-  const Campaign before = openCampaign(arguments.before), after = openCampaign(arguments.after);
+  const PreparedCampaign prepared_before = openPrepared(arguments.before, arguments.raw);
+  const PreparedCampaign prepared_after = openPrepared(arguments.after, arguments.raw);
+  const Campaign &before = prepared_before.campaign, &after = prepared_after.campaign;
   IdentifyOptions options;
   if (step_given) options.step = arguments.step;
   options.finite_deflection = !arguments.neglect_kc;
   const Comparison comparison = compareCampaigns(before, identify(before, options), after,
                                                  identify(after, options), arguments.bootstrap);
-  deliver([&] { return comparisonJson(before, after, comparison); },
-          [&] { return comparisonText(before, after, comparison); }, arguments.json);
+  deliver(
+          [&] {
+            Json json = comparisonJson(before, after, comparison);
+            json["preparation"] = {preparationJson(prepared_before.preparation),
+                                   preparationJson(prepared_after.preparation)};
+            return json;
+          },
+          [&] {
+            return comparisonText(before, after, comparison) + before.name + ". " +
+                   preparationText(prepared_before.preparation) + after.name + ". " +
+                   preparationText(prepared_after.preparation);
+          },
+          arguments.json);
   return comparison.comparable ? kDone : kNotUsable;
 }
 
@@ -43,6 +59,7 @@ void addCompare(CLI::App& app, Run& run) {
   const CLI::Option* step =
       command->add_option("--step", arguments->step, "load step of both to identify from");
   command->add_flag("--neglect-kc", arguments->neglect_kc, "neglect K_c, as the paper does");
+  addRawOption(*command, arguments->raw);
   command->add_option("--seed", arguments->bootstrap.seed, "of the bootstrap over postures")
       ->capture_default_str();
   command->add_option("--json", arguments->json, "write the result to this file, - for standard output");

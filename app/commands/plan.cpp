@@ -7,6 +7,7 @@
 
 #include "app/command.h"
 #include "app/output.h"
+#include "core/audit/prepare.h"
 #include "core/input/input_error.h"
 #include "core/input/nearest_name.h"
 #include "core/input/units.h"
@@ -73,7 +74,7 @@ std::optional<Identification> identified(const Campaign& campaign) {
 
 int planDay(const Arguments& arguments, const Given& given) {
   const PlanOptions options = optionsOf(arguments, given);
-  const Campaign campaign = openCampaign(arguments.campaign);
+  const Campaign campaign = prepareCampaign(openCampaign(arguments.campaign)).campaign;
   const std::optional<Identification> result = identified(campaign);
   const Plan plan = planCampaign(campaign, result ? &*result : nullptr, options);
   if (!arguments.out.empty()) {

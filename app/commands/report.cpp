@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <list>
 #include <memory>
+#include <optional>
 
 #include "app/command.h"
 #include "app/figures/make_figures.h"
@@ -13,6 +14,7 @@
 #include "app/report_files.h"
 #include "app/versions.h"
 #include "core/audit/audit.h"
+#include "core/diagnosis/diagnose.h"
 #include "core/identification/cautions.h"
 #include "core/identification/load_step.h"
 #include "reports/page/report_page.h"
@@ -33,6 +35,7 @@ struct Arguments {
 struct Result {
   PreparedCampaign prepared;
   AuditReport audited;
+  std::optional<Diagnosis> diagnosis;
   Identification identification;
   bool loaded = false;
 
@@ -42,6 +45,7 @@ struct Result {
     loaded = whatLoadsLack(prepared.campaign).empty();
     identification = loaded ? identify(prepared.campaign, options) : framesAlone(prepared.campaign);
     audited = audit(read);
+    if (loaded) diagnosis = diagnose(read);
   }
 
   /// Of loads, stiffnesses are the purpose; of a day of sweeps alone, the frames.
@@ -80,7 +84,7 @@ int writeReport(const Arguments& arguments, bool step_given) {
   for (const std::string& folder : arguments.campaigns) {
     const Result& one = results.emplace_back(folder, arguments.raw, options);
     content.campaigns.push_back(
-        {one.prepared.campaign, one.identification, &one.audited, &one.prepared.preparation, &one.prepared.station});
+        {one.prepared.campaign, one.identification, &one.audited, &one.prepared.preparation, &one.prepared.station, one.diagnosis ? &*one.diagnosis : nullptr});
   }
   content.avoided = avoidedByEncoders(content.campaigns);
   content.compare_with_paper = arguments.paper;

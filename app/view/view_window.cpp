@@ -8,6 +8,7 @@
 #include "app/output.h"
 #include "app/view/open_material.h"
 #include "app/view/viewer.h"
+#include "core/audit/prepare.h"
 #include "core/input/input_error.h"
 #include "core/input/nearest_name.h"
 #include "core/input/write_file.h"
@@ -77,7 +78,7 @@ void pickNamed(Viewer& viewer, const std::string& name) {
 
 int viewCampaign(const ViewOptions& options) {
   ArmWindow window(options.size);  // first: without a display there is no point in reading
-  const Campaign campaign = openCampaign(options.campaign);
+  const Campaign campaign = prepareCampaign(openCampaign(options.campaign)).campaign;
   OpenedMaterial opened = openMaterial(campaign, options);
   Viewer viewer(std::move(opened.by_method), opened.first, options.magnification, handlesOf(window));
   viewer.settings().dark = options.dark;

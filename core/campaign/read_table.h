@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -52,8 +53,56 @@ struct KeyColumns {
     });
   }
 
+  /// An order of keys, of texts by length first, so that numbers are in the order of their values.
+  bool less(Row& a, Row& b) const {
+    int order = 0;
+    for (const Column<Row>* column : columns) {
+      std::visit([&](auto member) { order = ordered(member(a), member(b)); }, column->member);
+      if (order != 0) break;
+    }
+    return order < 0;
+  }
+
   std::vector<const Column<Row>*> columns;
   std::vector<std::size_t> places;
+
+ private:
+  template <class Number>
+  static int ordered(Number a, Number b) {
+    return a < b ? -1 : b < a ? 1 : 0;
+  }
+  static int ordered(const std::string& a, const std::string& b) {
+    return a.size() == b.size() ? a.compare(b) : a.size() < b.size() ? -1 : 1;
+  }
+};
+
+/// Finds the row that the last one repeats. As long as the keys ascend, as they do in most tables, a look at the row
+/// before is enough; from the first that does not on, every key is looked up.
+template <class Row>
+class RowRepeats {
+ public:
+  RowRepeats(const KeyColumns<Row>& key, std::vector<Row>& rows) : key_(key), rows_(rows) {}
+
+  /// Place of the row that has the key of the last one, or RepeatCheck::kNew.
+  std::size_t ofLast() {
+    const std::size_t last = rows_.size() - 1;
+    if (!seen_) {
+      if (last == 0 || key_.less(rows_[last - 1], rows_[last])) return RepeatCheck::kNew;
+      seen_.emplace(rows_.capacity());
+      for (std::size_t row = 0; row < last; ++row) add(row);
+    }
+    return add(last);
+  }
+
+ private:
+  std::size_t add(std::size_t row) {
+    const auto same = [&](std::size_t other) { return key_.same(rows_[row], rows_[other]); };
+    return seen_->add(row, key_.hash(rows_[row]), same);
+  }
+
+  const KeyColumns<Row>& key_;
+  std::vector<Row>& rows_;
+  std::optional<RepeatCheck> seen_;
 };
 
 template <class Row>
@@ -76,22 +125,17 @@ std::vector<Row> readTable(const TableSource& source, const TableLayout<Row>& la
   const KeyColumns<Row> key(layout);
 
   TableLines lines(source, wanted, warnings);
-  RepeatCheck seen(lines.expectedRows());
   std::vector<Row> rows;
   rows.reserve(lines.expectedRows());
+  RowRepeats<Row> repeats(key, rows);
   while (lines.next()) {
     Row& row = rows.emplace_back();
     row.line = lines.line();
-    KeyHash hash;
     for (std::size_t i = 0; i < layout.columns.size(); ++i) {
       if (!lines.has(i)) continue;
       readCell(layout.columns[i], lines.cell(i), {source.file, row.line, layout.columns[i].name}, names, row);
-      if (i != key.places.back()) continue;
-      hash = key.hash(row);
-      seen.prepare(hash);
     }
-    const auto same = [&](std::size_t other) { return key.same(row, rows[other]); };
-    const std::size_t first = seen.add(rows.size() - 1, hash, same);
+    const std::size_t first = repeats.ofLast();
     if (first != RepeatCheck::kNew) refuseRepeat(source, layout, key, lines, rows[first].line);
   }
   return rows;

@@ -1,10 +1,12 @@
 #pragma once
 
-#include <map>
+#include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/diagnosis/effect.h"
+#include "core/robot/robot.h"
 
 namespace stiffscope {
 
@@ -18,9 +20,12 @@ struct Shrink {
 struct EffectClass {
   std::vector<Effect> effects;
   std::string detail;      ///< the pair, the reflector, the joint that it names; empty where nothing is named
-  double score = 0.0;      ///< what the ranking goes by; larger is better
-  Shrink shrink;
+  double score = 0.0;      ///< fall of BIC against the model without it; larger is better
+  Shrink shrink;           ///< of the deflection's rms
   double explained = 0.0;  ///< the same in variance, less noise
+  Shrink shrink_of_positions;  ///< of unloaded absolute positions' misfit; all zero where they are not held against the arm
+  bool in_verdict = false;
+  std::string parameters;  ///< fitted values in words, of the first effect
 };
 
 /// One member of a verdict: effects that cannot be told apart, or `unknown` where `effects` is empty.
@@ -38,6 +43,68 @@ struct Verdict {
 /// The gap of the deflection, rms per coordinate, m.
 struct Gap {
   double before = 0.0, noise = 0.0, after = 0.0;
+  double deflection = 0.0;  ///< what was to be explained
+};
+
+/// A part of the gap: its rms per coordinate, what noise alone would leave there, its share of the gap's squares, and how
+/// many standard deviations of noise it stands above it.
+struct WhereRow {
+  std::string name;
+  double rms = 0.0, noise = 0.0;  ///< m
+  double share = 0.0;
+  double significance = 0.0;
+};
+
+struct WhereTable {
+  std::string by;  ///< "reflector", "base axes", ...
+  std::vector<WhereRow> rows;
+};
+
+struct DetectableSize {
+  Effect effect = Effect::link_compliance;
+  std::optional<double> size;  ///< rms per coordinate of its displacements, m; empty: not testable here
+};
+
+struct NotTestable {
+  Effect effect = Effect::link_compliance;
+  std::string missing;
+};
+
+/// A measurement that would separate what is tied, or make something testable.
+struct NextMeasurement {
+  std::vector<Effect> separates;
+  std::string what;
+  double gain = 0.0;  ///< of chi2 between the tied effects, expected; 0 where it makes something testable
+};
+
+/// Answer of `diagnose`.
+struct Diagnosis {
+  bool usable = false;
+  std::string unusable_reason;
+  Verdict verdict;
+  std::vector<EffectClass> classes;  ///< the verdict's first, then the others; best first
+  std::vector<std::vector<Effect>> aliases;  ///< by the postures and loads alone, before any residual
+  std::vector<DetectableSize> detectable;
+  std::vector<NotTestable> not_testable;
+  Gap gap, positions;  ///< of the deflection; of unloaded absolute positions (deflection 0)
+  bool positions_tested = false;
+  std::vector<WhereTable> where, where_positions;
+  std::vector<NextMeasurement> next;
+
+  double state_noise = 0.0;           ///< rms noise of one state's displacement, per coordinate, m
+  std::string noise_source;
+  double noise_factor_along = 1.0, noise_factor_across = 1.0;  ///< found against declared
+  double significance_limit = 0.0;    ///< fall of BIC that chance reaches in 1 % of clean campaigns
+  double size_limit = 0.0;            ///< below it an effect is too small to matter, m
+  double lack_of_fit = 0.0;           ///< chi2 per equation of the loading without any effect
+  double left_over = 0.0;             ///< the same with the verdict's effects
+  double model_error = 0.0;           ///< rms per coordinate that no effect explains, at the largest load, m; 0: none
+  double geometric_stiffness_share = 0.0;
+  Shrink shrink_together;             ///< by all that the verdict names
+  Vector6d stiffness_before = Vector6d::Zero(), stiffness_after = Vector6d::Zero();  ///< Nm/rad
+  Vector6d stiffness_after_sd = Vector6d::Zero();
+  std::array<bool, 6> identifiable{};
+  int postures = 0, states = 0;
 };
 
 }  // namespace stiffscope

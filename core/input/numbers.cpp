@@ -2,6 +2,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <cstdint>
 
 namespace stiffscope {
 
@@ -50,6 +51,30 @@ ParsedNumber parseNumber(std::string_view text) {
     number.expectation = "expected a finite number";
   }
   return number;
+}
+
+std::optional<double> parsePlainNumber(std::string_view text) {
+  constexpr std::size_t kMostDigits = 15;
+  static constexpr double kPowersOfTen[kMostDigits + 1] = {1e0, 1e1, 1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
+                                                           1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15};
+  const bool minus = !text.empty() && text[0] == '-';
+  std::int64_t digits = 0;
+  std::size_t count = 0, decimals = 0;
+  bool point = false;
+  for (std::size_t i = minus ? 1 : 0; i < text.size(); ++i) {
+    const auto digit = static_cast<unsigned char>(text[i] - '0');
+    if (digit > 9) {
+      if (text[i] != '.' || point) return std::nullopt;
+      point = true;
+      continue;
+    }
+    digits = 10 * digits + digit;
+    decimals += point ? 1 : 0;
+    if (++count > kMostDigits) return std::nullopt;
+  }
+  if (count == 0) return std::nullopt;
+  const double value = static_cast<double>(digits) / kPowersOfTen[decimals];
+  return minus ? -value : value;
 }
 
 std::optional<int> parseInteger(std::string_view text) {

@@ -1,6 +1,9 @@
 #include <fmt/format.h>
 #include <tinyxml2.h>
 
+#include <algorithm>
+#include <utility>
+
 #include "core/input/xml_node.h"
 
 namespace stiffscope {
@@ -20,6 +23,45 @@ bool hasDoctype(std::string_view bytes) {
     at = end == std::string_view::npos ? end : bytes.find('<', end);
   }
   return false;
+}
+
+// Text that XML does not look into, by what opens and what closes it.
+constexpr std::pair<std::string_view, std::string_view> kVerbatim[] = {
+    {"<!--", "-->"}, {"<![CDATA[", "]]>"}, {"<?", "?>"}};
+
+// Place behind the comment, CDATA section or instruction that starts at `at`; `at` where none does.
+std::size_t behindVerbatim(std::string_view bytes, std::size_t at) {
+  for (const auto& [opening, closing] : kVerbatim) {
+    if (!bytes.substr(at).starts_with(opening)) continue;
+    const std::size_t end = bytes.find(closing, at + opening.size());
+    return end == std::string_view::npos ? bytes.size() : end + closing.size();
+  }
+  return at;
+}
+
+bool isKnownReference(std::string_view name) {
+  if (name.starts_with("#x")) return name.size() > 2 && name.find_first_not_of("0123456789abcdefABCDEF", 2) == name.npos;
+  if (name.starts_with("#")) return name.size() > 1 && name.find_first_not_of("0123456789", 1) == name.npos;
+  return name == "amp" || name == "lt" || name == "gt" || name == "quot" || name == "apos";
+}
+
+// XML knows no other '&' without a DOCTYPE, and tinyxml2 mixes up the letters behind one that follows a known reference.
+void refuseOtherReferences(const std::string& file, std::string_view bytes) {
+  constexpr std::size_t kLongestReference = 12;
+  for (std::size_t at = bytes.find_first_of("<&"); at < bytes.size(); at = bytes.find_first_of("<&", at)) {
+    const std::size_t behind = behindVerbatim(bytes, at);
+    if (behind > at) {
+      at = behind;
+      continue;
+    }
+    // No further than a reference is long: the rest of the file may have no semicolon.
+    const std::string_view window = bytes.substr(at + 1, kLongestReference);
+    const std::string_view name = window.substr(0, window.find(';'));
+    if (bytes[at++] == '<' || (name.size() < window.size() && isKnownReference(name))) continue;
+    const auto line = 1 + std::count(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(at), '\n');
+    throw InputError({file, static_cast<std::size_t>(line), ""}, "&" + std::string(name.substr(0, name.find_first_of(" <\"\n"))),
+                     "expected &amp; for an ampersand; XML without a document type has no entities of its own");
+  }
 }
 
 std::string whyNotWellFormed(const tinyxml2::XMLDocument& document) {
@@ -51,6 +93,7 @@ XmlFile::XmlFile(std::string file, std::string_view bytes)
     throw InputError({file_, static_cast<std::size_t>(document_->ErrorLineNum()), ""}, "",
                      whyNotWellFormed(*document_));
   }
+  refuseOtherReferences(file_, bytes);
   const tinyxml2::XMLElement* root_element = document_->RootElement();
   if (root_element == nullptr) throw InputError({file_, 0, ""}, "", "expected an XML element; there is none");
   if (const auto* second = root_element->NextSiblingElement()) {

@@ -55,7 +55,7 @@ class XmlNode {
 class XmlFile {
  public:
   /// `file` is the name for messages. Throws InputError where `bytes` are not well-formed XML, have a
-  /// DOCTYPE, more than one root, or an attribute twice in one element.
+  /// DOCTYPE, more than one root, an attribute twice in one element, or an entity that is not one of the five of XML.
   XmlFile(std::string file, std::string_view bytes);
   ~XmlFile();
   XmlFile(const XmlFile&) = delete;

@@ -24,8 +24,8 @@ namespace stiffscope {
 ///       [angle_error]: amplitude_deg (true less reported) [cycles=1] [phase_deg=0]
 ///       [softening]: share (of the stiffness, lost) time_constant_s (as the drive gets warm)
 ///   [base]: [rotation_nm_per_rad=rigid] (about x, y, z) [translation_n_per_m=rigid] (along them)
-///       [tilt_declared=false] [tilt_deg=0] (against gravity) [tilt_azimuth_deg=0] (of the axis it is tilted
-///       about)
+///       [tilt_declared=false] [tilt_deg=0] (against gravity)
+///       [tilt_azimuth_deg=0] (of the axis it is tilted about)
 ///     [contact]...: axis (x, y, z) side (positive, negative) stiffness_nm_per_rad (besides, on that side)
 ///         [gap_deg=0]
 ///   [link]...: after_joint (1..6; a beam from this joint's point to the next one's)
@@ -34,10 +34,10 @@ namespace stiffscope {
 ///       [wrist_position_sigma_mm=position_sigma_mm]
 ///     [axis]...: index [offset_mm=0] [tilt_deg=0] (rotation vector) [zero_deg=0] (listed, not drawn)
 ///   [tool]: mass_kg [com_mm=0]
-///   [tool_plate]: translation_n_per_m rotation_nm_per_rad (between flange and all that is on it; flange
-///   axes) [coupling]...: joints (two) rod_n_per_m crank_mm (two, signed), or shaft_nm_per_rad ratios (two):
-///   a spring
-///       that both joints' twists stretch
+///   [tool_plate]: translation_n_per_m rotation_nm_per_rad
+///       (between flange and all that is on it; flange axes)
+///   [coupling]...: joints (two) rod_n_per_m crank_mm (two, signed), or shaft_nm_per_rad ratios (two)
+///       (a spring that both joints' twists stretch)
 ///   [spring]...: from_body to_body (0..6) from_mm to_mm (base_link at all joints zero) [rate_n_per_m=0]
 ///       [tension_n=0] (at all joints zero): gravity compensator, dress pack
 ///   [growth]...: after_joint (1..5) growth_mm time_constant_s (of a link, as the day goes on)
@@ -53,9 +53,8 @@ namespace stiffscope {
 ///       [true_place_error_mm=0] (true less declared place, cell axes)
 ///       [unread_force_n=0] (base_link; on the hook in every loaded state, past the cell)
 ///   [station] (after the first reading, the tracker's axes)
-///     [drift]: [ramp_mm_per_h=0] [ramp_deg_per_h=0] [walk_mm_per_sqrt_h=0] [walk_deg_per_sqrt_h=0] (three
-///     each)
-///         [knot_s=600] (the walk is drawn this often)
+///     [drift]: [ramp_mm_per_h=0] [ramp_deg_per_h=0] [walk_mm_per_sqrt_h=0] [walk_deg_per_sqrt_h=0]
+///         (three each) [knot_s=600] (the walk is drawn this often)
 ///     [tracker_moved] [robot_moved]: [xyz_mm=0] [rpy_deg=0] (once, between wrist sweep and loading)
 ///     [refraction]: [scale_ppm=0] [scale_ppm_per_h=0] (distances read too long)
 ///   [hanging_load]: masses_kg (one a step) hook_mm (on the flange) [return_to_zero=true] [repeats=3]

@@ -2,6 +2,7 @@
 
 #include "core/input/units.h"
 #include "reports/json/audit_json.h"
+#include "reports/json/diagnosis_json.h"
 #include "reports/json/frames_json.h"
 #include "reports/json/identification_json.h"
 #include "reports/json/preparation_json.h"
@@ -27,6 +28,7 @@ Json campaignResults(const ReportCampaign& one) {
   json["frames"] = framesJson(one.campaign, one.identification.frames);
   json["identify"] =
       identificationJson(one.campaign, one.identification, {kMethods.begin(), kMethods.end()});
+  if (one.diagnosis != nullptr) json["diagnose"] = diagnosisJson(one.campaign, *one.diagnosis);
   return json;
 }
 

@@ -3,18 +3,20 @@
 #include "core/audit/audit.h"
 #include "core/audit/prepare.h"
 #include "core/campaign/campaign.h"
+#include "core/diagnosis/diagnosis.h"
 #include "core/identification/identify.h"
 
 namespace stiffscope {
 
 /// A campaign as it was used, with what was identified from it, how the audit judges the readings, and what was
-/// done to them beforehand, and how the station moved before that was taken off. Refers to all of these; the last three may be absent.
+/// done to them beforehand, how the station moved before that was taken off, and what the model misses. Refers to all of these; the pointers may be null.
 struct ReportCampaign {
   const Campaign& campaign;
   const Identification& identification;
   const AuditReport* audit = nullptr;
   const Preparation* preparation = nullptr;
   const StationMotion* station = nullptr;
+  const Diagnosis* diagnosis = nullptr;
 };
 
 }  // namespace stiffscope

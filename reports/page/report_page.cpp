@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "reports/page/html.h"
 #include "reports/page/report_id.h"
 #include "reports/page/sections.h"
@@ -33,7 +35,13 @@ void writeContents(page::Html& html, const ReportContent& content) {
   entry("stiffness", "Stiffness");
   entry("subsets", "Spread");
   entry("compensation", "Compensation");
+  const bool diagnosed = std::any_of(content.campaigns.begin(), content.campaigns.end(),
+                                     [](const ReportCampaign& one) { return one.diagnosis != nullptr; });
+  if (diagnosed) entry("gap", "What the model misses");
   if (!content.figures.empty()) entry("figures", "Figures");
+  const bool audited = std::any_of(content.campaigns.begin(), content.campaigns.end(),
+                                   [](const ReportCampaign& one) { return one.audit != nullptr; });
+  if (audited) entry("audit", "Audit");
   entry("left-out", "Left out");
   entry("scope", "Uncertainty and scope");
   entry("provenance", "Inputs");
@@ -62,6 +70,7 @@ ReportPage makeReportPage(const ReportContent& content) {
     page::writeStiffness(html, content);
     page::writeSubsets(html, content);
     page::writeCompensation(html, content);
+    page::writeGap(html, content);
     page::writeFigures(html, content);
     page::writeAudit(html, content);
     page::writeLeftOut(html, content);

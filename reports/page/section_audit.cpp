@@ -44,7 +44,8 @@ Table checksTable(const AuditReport& report) {
   Table table{"Checks",
               {"Check", "Verdict", "Found", "Limit", "What was found, and where the limit comes from"},
               {},
-              true};
+              true,
+              "audit"};
   for (const AuditVerdict verdict :
        {AuditVerdict::fail, AuditVerdict::warn, AuditVerdict::pass, AuditVerdict::not_testable}) {
     RowGroup group;

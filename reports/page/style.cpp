@@ -47,7 +47,7 @@ constexpr const char* kScreen =
     "tbody th:first-child,thead th:first-child{padding-left:0}"
     "tbody+tbody tr:first-child th,tbody+tbody tr:first-child td{border-top:1px solid var(--faint)}"
     ".grouped tbody th{padding-left:.7rem}.grouped tbody th[scope=rowgroup]{padding-left:0}"
-    ".words td{overflow-wrap:anywhere}"
+    ".words td:last-child{overflow-wrap:anywhere}"
         ".numeric tbody th{min-width:4.8rem}.each .faint,.notes{break-before:avoid}"
     ".notes{font-size:.85rem;color:var(--faint);padding-left:1.4rem}"
     ".figures{display:grid;grid-template-columns:repeat(auto-fit,minmax(min(100%,44rem),1fr));gap:1.8rem 2rem;"

@@ -15,7 +15,7 @@ std::map<std::string, std::string> filesIn(const std::filesystem::path& folder) 
   return files;
 }
 
-TEST(ReportTwice, TheSameCampaignGivesTheSameBytes) {
+TEST(PageTwice, TheSameCampaignGivesTheSameBytes) {
   const ScratchFolder scratch;
   const std::filesystem::path sample = STIFFSCOPE_SOURCE_DIR "/samples/active";
   const auto elsewhere = scratch.path() / "another name";

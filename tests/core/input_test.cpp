@@ -1,7 +1,10 @@
 #include <gtest/gtest.h>
 
+#include <bit>
 #include <clocale>
+#include <cmath>
 #include <fstream>
+#include <random>
 
 #include "core/input/input_error.h"
 #include "core/input/nearest_name.h"
@@ -53,6 +56,23 @@ TEST(Numbers, AreReadWholeAndTheSameInEveryLocale) {
   }
   EXPECT_EQ(parseInteger("+7"), 7);
   for (const char* text : {"", "7.0", "7a", "99999999999"}) EXPECT_FALSE(parseInteger(text)) << text;
+}
+
+// The short way must give the very bits of the long one, wherever it gives a value at all.
+TEST(Numbers, PlainOnesAreTheSameBitsAsByTheGeneralWay) {
+  std::mt19937_64 random(1);
+  for (int i = 0; i < 200000; ++i) {
+    std::string text = std::to_string(random() % static_cast<std::uint64_t>(std::pow(10.0, 1.0 + static_cast<double>(random() % 15))));
+    if (random() % 4 != 0) text.insert(random() % (text.size() + 1), ".");
+    if (random() % 2 != 0) text.insert(0, "-");
+    const auto plain = parsePlainNumber(text);
+    ASSERT_TRUE(plain) << text;
+    ASSERT_EQ(std::bit_cast<std::uint64_t>(*plain), std::bit_cast<std::uint64_t>(parseNumber(text).value)) << text;
+  }
+  EXPECT_EQ(std::signbit(*parsePlainNumber("-0")), true);
+  for (const char* text : {"", "-", ".", "-.", "1.2.3", "--1", "+1", "1e3", "1 ", "nan", "1234567890123456", "1,5"}) {
+    EXPECT_FALSE(parsePlainNumber(text)) << text;
+  }
 }
 
 TEST(InputErrorMessage, IsOneLineWhateverTheValueHolds) {

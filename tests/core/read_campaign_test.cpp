@@ -169,7 +169,7 @@ TEST(ReadCampaign, WarnsOfAnglesInRadians) {
 TEST(ReadCampaign, ReadsALargeTableInLinearTime) {
   const SmallCampaign files;
   std::string rows = "pose,step,repeat,target,time_s,x_mm,y_mm,z_mm\n";
-  // About 40 MB, more than the tokenizer's buffer of 32; a cost that grows with the square would take hours.
+  // About 40 MB; a cost that grows with the square would take hours.
   constexpr int kRows = 800000;
   for (int i = 0; i < kRows; ++i)
     rows += "A,0," + std::to_string(i) + ",P10,1078.0,2136.9015,156.1428,412.2275\n";
@@ -179,6 +179,31 @@ TEST(ReadCampaign, ReadsALargeTableInLinearTime) {
   for (int i = 0; i < kRows; ++i) {
     const LoadingReading& row = read[static_cast<std::size_t>(i)];
     ASSERT_TRUE(row.repeat == std::to_string(i) && row.point.z() == read[0].point.z()) << row.line;
+  }
+}
+
+// Keys in any order, and the one that repeats far from its first: found by the hash, where the order does not show it.
+TEST(ReadCampaign, FindsARepeatedKeyFarApartInAnyOrder) {
+  const SmallCampaign files;
+  constexpr int kRows = 20000;
+  for (const int repeated : {0, 9999, 19999}) {
+    std::string rows = "pose,step,repeat,target,time_s,x_mm,y_mm,z_mm\n";
+    const auto row = [&](int i) {
+      rows += "A,0," + std::to_string(i * 7919 % kRows) + ",P10,1078.0,2136.9015,156.1428,412.2275\n";  // a prime: all
+    };
+    for (int i = 0; i < kRows; ++i) row(i);
+    files.write("loading.csv", rows);
+    EXPECT_EQ(readCampaign(files.folder()).campaign.loading->rows.size(), static_cast<std::size_t>(kRows));
+    row(repeated);
+    files.write("loading.csv", rows);
+    try {
+      readCampaign(files.folder());
+      ADD_FAILURE() << "read a key twice";
+    } catch (const InputError& error) {
+      EXPECT_EQ(error.place().line, static_cast<std::size_t>(kRows + 2));
+      EXPECT_EQ(error.expectation(), "expected a key that does not repeat; line " + std::to_string(repeated + 2) +
+                                         " has it first");
+    }
   }
 }
 

@@ -1,0 +1,33 @@
+#include "core/diagnosis/diagnose.h"
+
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "app/command.h"
+#include "app/output.h"
+#include "reports/json/diagnosis_json.h"
+#include "reports/text/diagnosis_text.h"
+
+namespace stiffscope {
+
+void addDiagnose(CLI::App& app, Run& run) {
+  struct Arguments {
+    std::string campaign, json;
+  };
+  const auto arguments = std::make_shared<Arguments>();
+  CLI::App* command =
+      app.add_subcommand("diagnose", "What the stiffness model misses: where, which effect, how far it shrinks");
+  command->add_option("CAMPAIGN", arguments->campaign, "campaign folder or its campaign.xml")->required();
+  command->add_option("--json", arguments->json, "write the result to this file, - for standard output");
+  command->callback([arguments, &run] {
+    run = [arguments] {
+      const Campaign campaign = openCampaign(arguments->campaign);
+      const Diagnosis diagnosis = diagnose(campaign);
+      deliver([&] { return diagnosisJson(campaign, diagnosis); }, [&] { return diagnosisText(campaign, diagnosis); },
+              arguments->json);
+      return diagnosis.usable ? kDone : kNotUsable;
+    };
+  });
+}
+
+}  // namespace stiffscope

@@ -1,0 +1,131 @@
+#include "core/blind/run_blind.h"
+
+#include <fmt/format.h>
+
+#include <atomic>
+#include <mutex>
+#include <stdexcept>
+#include <thread>
+
+#include "core/blind/case_draw.h"
+#include "core/campaign/read_campaign.h"
+#include "core/campaign/write_campaign.h"
+#include "core/input/read_file.h"
+#include "core/input/sha256.h"
+#include "core/input/write_file.h"
+#include "core/simulation/simulate.h"
+
+namespace stiffscope::blind {
+
+namespace {
+
+/// splitmix64: unrelated seeds for neighbouring cases.
+std::uint64_t caseSeed(std::uint64_t seed, int index) {
+  std::uint64_t z = seed + 0x9e3779b97f4a7c15ULL * (static_cast<std::uint64_t>(index) + 1);
+  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ULL;
+  z = (z ^ (z >> 27)) * 0x94d049bb133111ebULL;
+  return z ^ (z >> 31);
+}
+
+std::string nameOf(int index) { return fmt::format("{:04}", index + 1); }
+
+/// Runs work(index) for all of them on so many threads. The first exception is thrown again.
+void forAll(int count, int threads, const char* stage, const BlindEvents& events,
+            const std::function<void(int)>& work) {
+  std::atomic<int> next{0};
+  std::mutex mutex;
+  int done = 0;
+  std::exception_ptr failure;
+  const auto worker = [&] {
+    for (int index = next++; index < count; index = next++) {
+      try {
+        work(index);
+      } catch (...) {
+        const std::lock_guard lock(mutex);
+        if (!failure) failure = std::current_exception();
+        next = count;
+        return;
+      }
+      const std::lock_guard lock(mutex);
+      ++done;
+      if (events.progress) events.progress(stage, done, count);
+    }
+  };
+  {
+    std::vector<std::jthread> pool;
+    for (int t = 0; t < std::max(1, threads); ++t) pool.emplace_back(worker);
+  }
+  if (failure) std::rethrow_exception(failure);
+}
+
+Answer answerTo(const std::string& name, const std::filesystem::path& folder, const Diagnose& diagnose) {
+  try {
+    return answerOf(name, diagnose(readCampaign(folder).campaign));
+  } catch (const std::exception& error) {
+    Answer answer;
+    answer.name = name;
+    answer.failure = error.what();
+    return answer;
+  }
+}
+
+}  // namespace
+
+std::string openSealed(const std::filesystem::path& file, const std::string& hash) {
+  std::string bytes = readTextFile(file);
+  if (sha256Hex(bytes) != hash) {
+    throw std::runtime_error(file.string() + ": not what was sealed: its SHA-256 is no longer " + hash);
+  }
+  return bytes;
+}
+
+BlindResult runBlind(const BlindOptions& options, const Diagnose& diagnose, const BlindEvents& events) {
+  namespace fs = std::filesystem;
+  const fs::path folder = options.out / "cases";
+  if (fs::exists(folder) && !fs::exists(options.out / "seal.txt")) {
+    throw std::runtime_error(folder.string() + ": exists and is not an earlier run's; expected a new folder");
+  }
+  fs::remove_all(folder);
+  makeFolder(folder);
+  const std::vector<CasePlan> plans = planCases(options.cases, options.seed);
+  const std::size_t count = plans.size();
+
+  BlindResult result;
+  {
+    std::vector<Label> labels(count);
+    forAll(options.cases, options.threads, "simulated", events, [&](int index) {
+      const std::size_t at = static_cast<std::size_t>(index);
+      const fs::path urdf = folder / nameOf(index) / "robot.urdf";
+      const BlindCase one = drawCase(plans[at], caseSeed(options.seed, index), "case " + nameOf(index), urdf);
+      writeCampaign(simulate(one.spec), urdf, folder / nameOf(index));
+      labels[at] = labelOf(nameOf(index), one);
+    });
+    const std::string csv = labelsCsv(labels);
+    writeFileWhole(options.out / "labels.csv", csv);
+    result.seal = sha256Hex(csv);
+  }
+  std::string seals = result.seal + "  labels.csv\n";
+  writeFileWhole(options.out / "seal.txt", seals);
+  if (events.sealed) events.sealed(result.seal);
+
+  {
+    std::vector<Answer> answers(count);
+    forAll(options.cases, options.threads, "diagnosed", events, [&](int index) {
+      answers[static_cast<std::size_t>(index)] = answerTo(nameOf(index), folder / nameOf(index), diagnose);
+    });
+    const std::string csv = answersCsv(answers);
+    writeFileWhole(options.out / "answers.csv", csv);
+    result.answers_hash = sha256Hex(csv);
+  }
+  seals += result.answers_hash + "  answers.csv\n";
+  writeFileWhole(options.out / "seal.txt", seals);
+  if (events.frozen) events.frozen(result.answers_hash);
+
+  const std::string labels = openSealed(options.out / "labels.csv", result.seal);
+  const std::string answers = openSealed(options.out / "answers.csv", result.answers_hash);
+  result.score = score(readLabels("labels.csv", labels), readAnswers("answers.csv", answers));
+  if (options.discard) fs::remove_all(folder);
+  return result;
+}
+
+}  // namespace stiffscope::blind

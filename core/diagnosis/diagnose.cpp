@@ -1,0 +1,287 @@
+#include "core/diagnosis/diagnose.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/diagnosis/aliasing.h"
+#include "core/diagnosis/chance_limit.h"
+#include "core/diagnosis/gap_start.h"
+#include "core/diagnosis/geometry_error.h"
+#include "core/diagnosis/held_out.h"
+#include "core/diagnosis/next.h"
+#include "core/diagnosis/testable.h"
+#include "core/diagnosis/verdict.h"
+#include "core/diagnosis/where.h"
+#include "core/input/input_error.h"
+
+namespace stiffscope {
+
+namespace {
+
+void requireLoads(const Campaign& campaign) {
+  const InputPlace place{(campaign.folder / "campaign.xml").string(), 0, {}};
+  if (!campaign.states || !campaign.load_cell) {
+    throw InputError(place, "",
+                     !campaign.states ? "no 'states': joint angles and load-cell readings are needed to diagnose"
+                                      : "no 'load_cell': where the measured wrench acts is needed to diagnose");
+  }
+  if (!campaign.loading && !campaign.displacements) {
+    throw InputError(place, "", "neither 'loading' nor 'displacements': readings under load are needed to diagnose");
+  }
+  if (!heaviestStep(campaign)) {
+    throw InputError({(campaign.folder / campaign.states->file).string(), 0, {}}, "", "no load step has a force");
+  }
+}
+
+std::size_t modelOf(const std::vector<EffectModel>& models, Effect effect) {
+  return static_cast<std::size_t>(std::find_if(models.begin(), models.end(),
+                                               [&](const EffectModel& one) { return one.effect == effect; }) -
+                                  models.begin());
+}
+
+Eigen::VectorXd whole(const Eigen::VectorXd& nuisances, const Eigen::VectorXd& effects) {
+  Eigen::VectorXd all(nuisances.size() + effects.size());
+  all << nuisances, effects;
+  return all;
+}
+
+class Diagnoser {
+ public:
+  Diagnoser(const Campaign& campaign, const DiagnoseOptions& options)
+      : original_(campaign), options_(options), start_(gapStart(campaign, true)),
+        input_{start_.campaign, start_.noise.noise, campaign.load_cell->force_sigma,
+               campaign.load_cell->moment_sigma, effectModels(targetNames(campaign)), start_.absolute,
+               start_.sweeps} {}
+
+  Diagnosis run() {
+    result_.unusable_reason = start_.reason;
+    if (!start_.reason.empty()) return std::move(result_);
+    judgeTestable();
+    fit();
+    describe();
+    decide();
+    shrink();
+    return std::move(result_);
+  }
+
+ private:
+  static std::vector<std::string> targetNames(const Campaign& campaign) {
+    std::vector<std::string> names;
+    for (const Target& target : campaign.targets) names.push_back(target.id);
+    return names;
+  }
+
+  void judgeTestable() {
+    const GapData data = gapData(input_, start_.state, {});
+    const CampaignHas has = whatIsThere(input_, data, start_.state, start_.station);
+    allowed_.assign(input_.models.size(), true);
+    for (std::size_t e = 0; e < kEffectCount; ++e) {
+      const auto effect = static_cast<Effect>(e);
+      const std::string missing = missingFor(effect, has);
+      if (missing.empty()) continue;
+      result_.not_testable.push_back({effect, missing});
+      for (std::size_t m = 0; m < input_.models.size(); ++m) {
+        if (input_.models[m].effect == effect) allowed_[m] = false;
+      }
+    }
+    // Nests that stood still through the day leave no drift to look for.
+    if (start_.station.course == StationCourse::still || start_.station.course == StationCourse::jumped)
+      allowed_[modelOf(input_.models, Effect::tracker_drift)] = false;
+    if (start_.station.course == StationCourse::jumped)
+      given_ = {modelOf(input_.models, Effect::frame_error)};
+    if (start_.station.course == StationCourse::drifted)
+      given_ = {modelOf(input_.models, Effect::tracker_drift), modelOf(input_.models, Effect::frame_error)};
+  }
+
+  void fit() {
+    const FitRules rules{options_.noise_share, options_.deflection_share, start_.noise.degrees, given_};
+    fit_ = fitGap(input_, start_.state, allowed_, rules);
+    fit_.rules.detect = std::max(
+        fit_.rules.detect, chanceLimit(input_, fit_, allowed_, options_.chance_draws, options_.false_alarm, options_.seed));
+  }
+
+  void describe() {
+    const double postures = static_cast<double>(fit_.data.postures.size());
+    const Selector selector = selectorOf(input_, fit_, fit_.projection, postures, allowed_);
+    result_.usable = true;
+    result_.postures = static_cast<int>(fit_.data.postures.size());
+    for (const GapPosture& posture : fit_.data.postures) result_.states += static_cast<int>(posture.states.size());
+    result_.state_noise = fit_.data.state_noise;
+    result_.noise_source = start_.noise.source;
+    result_.noise_factor_along = start_.noise.along_factor;
+    result_.noise_factor_across = start_.noise.across_factor;
+    result_.significance_limit = fit_.rules.detect;
+    result_.size_limit = sizeOf(fit_.rules.least_drop);
+    result_.lack_of_fit = (fit_.projection.chi2_none - fit_.rules.other_rows) / fit_.rules.loading_rows;
+    result_.left_over = leftPerEquation(fit_);
+    result_.model_error = fit_.model_error;
+    result_.geometric_stiffness_share = start_.geometric_stiffness_share;
+    before_ = whole(fit_.nuisances_before, Eigen::VectorXd::Zero(fit_.set.effects.size()));
+    after_ = whole(fit_.nuisances, fit_.set.effects);
+    result_.gap = gapOf(true);
+    result_.positions = gapOf(false);
+    result_.positions_tested = input_.absolute;
+    asMeasured();
+    result_.where = whereDeflection(input_, fit_, before_);
+    result_.where_positions = wherePosition(input_, fit_, before_);
+    result_.aliases = designAliases(input_, fit_, allowed_);
+    detectable();
+    stiffnesses();
+  }
+
+  /// Where the station's motion was taken off, the gap before is that of the readings as they are.
+  void asMeasured() {
+    if (given_.empty()) return;
+    const GapStart raw = gapStart(original_, false);
+    if (!raw.reason.empty()) return;
+    // Stiffnesses alone in the arm as the sweeps have it: a geometry left free would follow the station.
+    const GapInput input{raw.campaign, raw.noise.noise, input_.force_sigma, input_.moment_sigma,
+                         input_.models, false, false};
+    const GapData data = gapData(input, raw.state, {});
+    const Projection projection =
+        project(sumOf(data, std::vector<double>(data.postures.size(), 1.0)), data.layout.effects);
+    const Eigen::VectorXd parameters = whole(projection.by_nothing, Eigen::VectorXd::Zero(projection.right.size()));
+    double deflection = 0.0, position = 0.0, rows = 0.0, rests = 0.0;
+    for (const GapPosture& posture : data.postures) {
+      deflection += leftIn(posture, parameters, parameters).deflection_before;
+      rows += static_cast<double>(posture.right.size());
+    }
+    for (const GapRows& one : loadingRows(raw.campaign, raw.state.geometry, raw.state.at, {})) {
+      position += one.position.squaredNorm();
+      rests += static_cast<double>(one.position.size());
+    }
+    taken_off_ = {result_.gap.before, result_.positions.before};
+    if (rows > 0.0) result_.gap.before = std::sqrt(deflection / rows);
+    if (rests > 0.0) result_.positions.before = std::sqrt(position / rests);
+    taken_off_ = {taken_off_.first / result_.gap.before,
+                  result_.positions.before > 0.0 ? taken_off_.second / result_.positions.before : 1.0};
+  }
+
+  /// A shrink of the readings with the station's motion off, as one of the readings as they are.
+  static void withStation(Shrink& shrink, double share) {
+    for (double* value : {&shrink.value, &shrink.low, &shrink.high}) *value = 1.0 - (1.0 - *value) * share;
+  }
+
+  double sizeOf(double drop) const {
+    return std::sqrt(std::max(0.0, drop) / fit_.rules.loading_rows) * fit_.data.state_noise;
+  }
+
+  Gap gapOf(bool deflection) const {
+    double before = 0.0, after = 0.0, noise = 0.0, whole_squares = 0.0, count = 0.0;
+    for (const GapPosture& posture : fit_.data.postures) {
+      const HeldOut left = leftIn(posture, before_, after_);
+      const Eigen::Index rest = posture.position_rows, rows = posture.right.size() - rest;
+      before += deflection ? left.deflection_before : left.position_before;
+      after += deflection ? left.deflection_after : left.position_after;
+      noise += deflection ? noiseSquares(posture) : posture.noise.diagonal().head(rest).sum();
+      whole_squares += deflection ? posture.right.tail(rows).squaredNorm() : 0.0;
+      count += static_cast<double>(deflection ? rows : rest);
+    }
+    if (count == 0.0) return {};
+    return {std::sqrt(before / count), std::sqrt(noise / count), std::sqrt(after / count),
+            std::sqrt(whole_squares / count)};
+  }
+
+  /// Per effect: what the median of its parts must be before the projection for what is left of it to pass the limits.
+  void detectable() {
+    const double drop = std::max(fit_.rules.least_drop, fit_.rules.detect) ;
+    for (std::size_t e = 0; e < kEffectCount; ++e) {
+      const auto effect = static_cast<Effect>(e);
+      std::vector<double> sizes;
+      for (std::size_t m = 0; m < input_.models.size(); ++m) {
+        if (input_.models[m].effect != effect || !allowed_[m]) continue;
+        Eigen::Index at = fit_.data.layout.model_at[m] - fit_.data.layout.effects;
+        for (const EffectPart& part : input_.models[m].parts) {
+          double kept = 0.0;
+          for (std::size_t k = 0; k < part.most.size(); ++k, ++at) {
+            if (fit_.projection.before[at] > 0.0)
+              kept = std::max(kept, fit_.projection.matrix(at, at) / fit_.projection.before[at]);
+          }
+          if (kept > fit_.rules.kept_share) sizes.push_back(sizeOf(drop / kept));
+        }
+      }
+      DetectableSize size{effect, std::nullopt};
+      if (!sizes.empty()) {
+        std::nth_element(sizes.begin(), sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2), sizes.end());
+        size.size = sizes[sizes.size() / 2];
+      }
+      if (effect == Effect::kinematic_error && input_.absolute) size.size = kGeometryTolerance;
+      result_.detectable.push_back(size);
+    }
+  }
+
+  void stiffnesses() {
+    Eigen::VectorXd variance = complianceVariance(fit_, input_);
+    const double scale = std::max(1.0, result_.left_over);
+    for (Eigen::Index j = 0; j < 6; ++j) {
+      const double before = fit_.nuisances_before[j], after = fit_.nuisances[j];
+      const double sd = std::sqrt(scale * std::max(0.0, variance[j]));
+      constexpr double kSeen = 3.0;  // standard deviations
+      result_.identifiable[static_cast<std::size_t>(j)] = after > kSeen * sd;
+      result_.stiffness_before[j] = before != 0.0 ? 1.0 / before : 0.0;
+      result_.stiffness_after[j] = after != 0.0 ? 1.0 / after : 0.0;
+      result_.stiffness_after_sd[j] = after != 0.0 ? sd / (after * after) : 0.0;
+    }
+  }
+
+  void decide() {
+    geometry_ = geometryError(input_, fit_.state);
+    const VerdictInput input{input_, fit_, allowed_, start_.station, geometry_, start_.noise, result_.gap, result_.positions};
+    Decision decision = decideVerdict(input);
+    result_.verdict = std::move(decision.verdict);
+    result_.classes = std::move(decision.classes);
+    recipes_ = std::move(decision.recipes);
+    for (const Tie& tie : decision.ties) {
+      if (auto one = nextFor(input_, fit_, allowed_, tie, options_.seed)) result_.next.push_back(std::move(*one));
+    }
+  }
+
+  void shrink() {
+    std::vector<FitRecipe> recipes{{true, {}}};
+    for (const auto& models : recipes_) recipes.push_back({false, models});
+    const auto held_out = heldOutShrinks(input_, fit_, allowed_, recipes, options_.resamples, options_.seed);
+    result_.shrink_together = held_out[0].deflection;
+    withStation(result_.shrink_together, taken_off_.first);
+    const auto named = std::count_if(result_.classes.begin(), result_.classes.end(),
+                                     [](const EffectClass& one) { return one.in_verdict; });
+    for (std::size_t i = 0; i < result_.classes.size(); ++i) {
+      EffectClass& one = result_.classes[i];
+      // A verdict of one class is what the whole selection finds: its interval repeats that selection.
+      const HeldOutShrink& own = one.in_verdict && named == 1 ? held_out[0] : held_out[i + 1];
+      one.shrink = own.deflection;
+      one.shrink_of_positions = own.position;
+      one.explained = own.explained;
+      const bool station = one.in_verdict && !given_.empty() &&
+                           (one.effects.front() == Effect::frame_error || one.effects.front() == Effect::tracker_drift);
+      if (!station) continue;
+      withStation(one.shrink, taken_off_.first);
+      withStation(one.shrink_of_positions, taken_off_.second);
+      const double noise = result_.gap.noise * result_.gap.noise, whole = result_.gap.before * result_.gap.before;
+      if (whole > 1.05 * noise) one.explained = (whole - result_.gap.after * result_.gap.after) / (whole - noise);
+    }
+  }
+
+  const Campaign& original_;
+  DiagnoseOptions options_;
+  GapStart start_;
+  GapInput input_;
+  std::vector<bool> allowed_;
+  std::vector<std::size_t> given_;
+  GapFit fit_;
+  GeometryError geometry_;
+  Eigen::VectorXd before_, after_;
+  std::vector<std::vector<ChosenModel>> recipes_;
+  std::pair<double, double> taken_off_{1.0, 1.0};  // gap with the station's motion off over that as measured
+  Diagnosis result_;
+};
+
+}  // namespace
+
+Diagnosis diagnose(const Campaign& campaign, const DiagnoseOptions& options) {
+  requireLoads(campaign);
+  return Diagnoser(campaign, options).run();
+}
+
+}  // namespace stiffscope

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <cstdint>
+
+#include "core/campaign/campaign.h"
+#include "core/diagnosis/diagnosis.h"
+
+namespace stiffscope {
+
+struct DiagnoseOptions {
+  int resamples = 120;       ///< bootstrap samples of postures for the intervals
+  int chance_draws = 200;    ///< draws of pure noise for the limit of significance
+  double false_alarm = 0.01; ///< chance that noise alone passes that limit
+  std::uint64_t seed = 1;    ///< of both; the same input gives the same answer
+  double noise_share = 0.5;        ///< see FitRules
+  double deflection_share = 0.002;
+};
+
+/// Where the gap between the joint-stiffness model and the machine lies, which effects cause it, and how far it shrinks.
+/// Never throws for what the data lacks: effects that cannot be tested say what is missing. Throws InputError where the
+/// campaign has no loads at all, as identify does.
+Diagnosis diagnose(const Campaign& campaign, const DiagnoseOptions& options = {});
+
+}  // namespace stiffscope

@@ -1,0 +1,77 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <string>
+#include <vector>
+
+#include "core/diagnosis/arm_state.h"
+#include "core/diagnosis/effect.h"
+
+namespace stiffscope {
+
+/// What the models of the effects are linearised at. Effects that multiply another unknown (a wrong load point times a
+/// compliance) or bend with their own size (friction) take that other one from here and are fitted again and again.
+struct PresentTurn;
+
+struct WorkingPoint {
+  Vector6d compliance = Vector6d::Zero();  ///< of the joints, rad/Nm, none negative
+  Vector6d friction = Vector6d::Zero();    ///< Nm; 0: not known yet, the joint lags from the first newton metre
+  int targets = 0;                         ///< of the campaign
+  Eigen::VectorXd compensator;  ///< torque on joint 2: sin, cos of q_2, of 2 q_2 and so on, Nm; empty: none
+  Vector6d play = Vector6d::Zero();        ///< backlash of the joints, rad; zero: not known yet
+  double passage = 20.0;                   ///< Nm over which the backlash passes from side to side
+  std::vector<PresentTurn> turns;          ///< effects in the model that turn joints unloaded
+  double largest_force = 1.0;              ///< N, of the campaign: scales what is proportional to the load
+  Eigen::Vector3d epoch_centre = Eigen::Vector3d::Zero();  ///< about which frames turn
+  double first_time = 0.0, time_span = 1.0;                ///< s, of the loading
+  double sweep_time = 0.0;                                 ///< s; the sweeps' epoch as far as it is known
+  Eigen::Isometry3d r0_from_base_link = Eigen::Isometry3d::Identity();
+};
+
+/// Parameters of an effect that come or stay away together: one joint's, one pair's, one reflector's.
+struct EffectPart {
+  std::string detail;             ///< "joint 3", "joints 2 and 3", "P12"; empty where nothing is to be named
+  std::vector<double> most;       ///< physical bound of each parameter's magnitude
+  bool positive = false;          ///< a compliance, a width: never negative
+  std::string unit;               ///< of the parameters
+};
+
+/// Joint angles of an effect that only turns joints, one column a parameter, rad per unit.
+using JointAngles = Eigen::Matrix<double, 6, Eigen::Dynamic>;
+
+/// An effect that turns joints by the own weight alone, with its size: part of where the unloaded arm stands.
+struct PresentTurn {
+  JointAngles (*angles)(const WorkingPoint& at, const PostureStates& posture, std::size_t state) = nullptr;
+  Eigen::VectorXd parameters;
+};
+
+/// One effect as a model of the offset u of every reflector in a state: u = columns * parameters.
+struct EffectModel {
+  Effect effect = Effect::link_compliance;
+  std::string shape;  ///< which of the effect's equations, where it has several
+  std::vector<EffectPart> parts;
+  std::size_t most_parts = 1;  ///< that may be present together
+  /// 3 rows a reflector, one column a parameter, parts in their order, m per unit.
+  Eigen::MatrixXd (*offset)(const WorkingPoint& at, const PostureStates& posture, std::size_t state) = nullptr;
+  /// Instead of `offset` where the effect only turns joints.
+  JointAngles (*angles)(const WorkingPoint& at, const PostureStates& posture, std::size_t state) = nullptr;
+
+  Eigen::MatrixXd columns(const WorkingPoint& at, const PostureStates& posture, std::size_t state) const {
+    return angles ? byJoints(posture[state], angles(at, posture, state)) : offset(at, posture, state);
+  }
+
+  std::size_t parameters() const {
+    std::size_t count = 0;
+    for (const EffectPart& part : parts) count += part.most.size();
+    return count;
+  }
+};
+
+/// Parts of one parameter each for the six joints.
+std::vector<EffectPart> jointParts(double most, bool positive, const std::string& unit);
+
+/// The wrench's own displacement field: joint springs turned by the torque of a changed wrench on the tool.
+Eigen::VectorXd bySprings(const WorkingPoint& at, const ArmState& state, const Wrench& change);
+
+}  // namespace stiffscope

@@ -1,0 +1,45 @@
+#include "core/diagnosis/effect_table.h"
+
+#include "core/diagnosis/effects/backlash.h"
+#include "core/diagnosis/effects/base_compliance.h"
+#include "core/diagnosis/effects/bearing_tilt.h"
+#include "core/diagnosis/effects/frame_error.h"
+#include "core/diagnosis/effects/gravity_compensator.h"
+#include "core/diagnosis/effects/hysteresis.h"
+#include "core/diagnosis/effects/joint_coupling.h"
+#include "core/diagnosis/effects/joint_hardening.h"
+#include "core/diagnosis/effects/link_compliance.h"
+#include "core/diagnosis/effects/load_cell_bias.h"
+#include "core/diagnosis/effects/load_cell_misalignment.h"
+#include "core/diagnosis/effects/load_point_error.h"
+#include "core/diagnosis/effects/target_motion.h"
+#include "core/diagnosis/effects/tool_compliance.h"
+#include "core/diagnosis/effects/tracker_drift.h"
+
+namespace stiffscope {
+
+std::vector<EffectModel> effectModels(const std::vector<std::string>& targets) {
+  return {
+      linkCompliance(),
+      bearingTilt(),
+      baseCompliance(),
+      jointCoupling(),
+      jointHardening(),
+      jointHardeningLinear(),
+      backlash(),
+      hysteresis(),
+      gravityCompensator(),
+      loadPointError(),
+      loadCellMisalignment(),
+      loadCellBias(),
+      loadCellMissingWeight(),
+      frameError(),
+      trackerDrift(),
+      targetMotion(targets),
+      targetSlip(targets),
+      toolCompliance(),
+      toolComplianceByLoad(),
+  };
+}
+
+}  // namespace stiffscope

@@ -1,0 +1,75 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/diagnosis/arm_geometry.h"
+#include "core/diagnosis/effect_table.h"
+#include "core/diagnosis/gap_rows.h"
+#include "metrology/tracker_noise.h"
+
+namespace stiffscope {
+
+/// Where everything stands in the parameter vector: joint compliances, geometry steps, own-weight factors by body
+/// (nuisances), then the effects' models in their order.
+struct GapLayout {
+  Eigen::Index geometry = 6, weights = 0, effects = 0, end = 0;
+  std::vector<Eigen::Index> model_at;  ///< first parameter of each model
+};
+
+/// What the gap stands on, fixed for one diagnosis.
+struct GapInput {
+  const Campaign& campaign;                 ///< screened; the station's motion taken off where nests show it
+  TrackerNoise noise;                       ///< by the repeats where there are enough, else as declared
+  double force_sigma = 0.0, moment_sigma = 0.0;
+  std::vector<EffectModel> models;
+  bool absolute = false;                    ///< unloaded absolute positions can be held against the arm
+  bool sweeps = false;                      ///< and the sweeps too
+};
+
+/// Where one round of linearisation stands.
+struct GapState {
+  LoadingGeometry geometry;
+  Eigen::Isometry3d r0_from_sweeps = Eigen::Isometry3d::Identity();
+  WorkingPoint at;
+  Corrections corrections;
+  double sweep_slack = 1.0, position_slack = 1.0;  ///< factors on the variances of absolute positions
+  double model_error = 0.0;  ///< rms per coordinate of what no effect explains, at the largest load, m
+};
+
+/// Whitened normal equations of one posture of the loading: [A y]^T [A y].
+struct GapPosture {
+  int pose = 0;
+  PostureStates states;
+  Eigen::MatrixXd columns;       ///< unwhitened: position rows first, then deflection rows
+  Eigen::VectorXd right;
+  Eigen::Index position_rows = 0;
+  Eigen::MatrixXd noise;         ///< covariance of these rows by readings and wrench
+  Eigen::MatrixXd lower;         ///< Cholesky factor of that, with the slack and the model's own error
+  Eigen::MatrixXd normal;
+};
+
+/// All equations of the gap at one point of linearisation.
+struct GapData {
+  GapLayout layout;
+  std::vector<GapPosture> postures;
+  Eigen::MatrixXd sweeps;   ///< [A y]^T [A y] of the sweeps, and of what is known beforehand
+  Eigen::Index sweep_rows = 0;
+  Eigen::Index loading_rows = 0;
+  double state_noise = 0.0;  ///< rms noise of one state's displacement, per coordinate, m
+};
+
+/// Effect parameters (all of them, zero where not) whose effect `state` already contains: in the unloaded arm's places,
+/// in the displacements' equations. Empty: none.
+struct ContainedEffects {
+  Eigen::VectorXd in_positions, in_deflections;
+};
+
+/// Fills the equations. What `state` contains is added back: the right sides are those of whole effects, not of the rest.
+GapData gapData(const GapInput& input, const GapState& state, const ContainedEffects& effects_now);
+
+GapLayout gapLayout(const std::vector<EffectModel>& models, std::size_t targets);
+
+}  // namespace stiffscope

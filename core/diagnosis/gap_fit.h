@@ -1,0 +1,51 @@
+#pragma once
+
+#include "core/audit/evidence.h"
+#include "core/audit/repeat_scatter.h"
+#include "core/diagnosis/selection.h"
+
+namespace stiffscope {
+
+/// The gap with its effects, linearised where the best set of them stands.
+struct GapFit {
+  GapState state;
+  GapData data;
+  Projection projection;
+  SelectionRules rules;
+  FittedSet set;
+  Eigen::VectorXd nuisances;         ///< compliances, geometry steps, weights, with the set in the model
+  Eigen::VectorXd nuisances_before;  ///< without any effect
+  double model_error = 0.0;  ///< rms per coordinate that the set leaves at the largest load beyond noise, m; 0: within it
+  int rounds = 0;
+};
+
+/// What the fit starts from: geometry and stiffnesses as identification has them.
+GapState startState(const Evidence& evidence, const LoadingGeometry& geometry);
+
+struct FitRules {
+  double noise_share = 0.5;       ///< of the noise of one state's displacement: an effect below it is too small to matter
+  double deflection_share = 0.002;  ///< of the deflection: the same; the larger of the two is the limit
+  double noise_degrees = 0.0;       ///< of freedom of the noise's own estimate; 0: taken as declared
+  std::vector<std::size_t> given;   ///< models that other evidence puts in
+};
+
+/// Linearises, selects, corrects and linearises again until the set stays: wrong load points, frames, friction and a
+/// compensator multiply what else is estimated, so one linear step does not do.
+///
+/// Where a gap stays that no effect explains, it is taken as an error of the model that grows with the load, one a posture and
+/// reflector, and everything is fitted and selected again with that error in the covariance: an effect must then stand out
+/// of it, posture by posture.
+GapFit fitGap(const GapInput& input, const GapState& start, const std::vector<bool>& allowed, const FitRules& rules);
+
+/// chi2 of the loading per equation that the set leaves.
+double leftPerEquation(const GapFit& fit);
+
+
+
+/// Variances of the six compliances with the set in the model, by the noise alone.
+Vector6d complianceVariance(const GapFit& fit, const GapInput& input);
+
+Selector selectorOf(const GapInput& input, const GapFit& fit, const Projection& projection, double postures,
+                    const std::vector<bool>& allowed);
+
+}  // namespace stiffscope

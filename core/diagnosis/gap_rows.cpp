@@ -1,0 +1,248 @@
+#include "core/diagnosis/gap_rows.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "core/audit/limits.h"
+#include "core/audit/nest_network.h"
+#include "core/identification/cell_wrench.h"
+#include "core/identification/load_case.h"
+#include "core/statics/geometric_stiffness.h"
+#include "core/statics/joint_torque.h"
+
+namespace stiffscope {
+
+namespace {
+
+std::vector<int> stepsOf(const Campaign& campaign) {
+  std::vector<int> steps;
+  for (const State& state : campaign.states->rows) {
+    if (state.step != 0 && std::find(steps.begin(), steps.end(), state.step) == steps.end())
+      steps.push_back(state.step);
+  }
+  std::sort(steps.begin(), steps.end());
+  return steps;
+}
+
+struct TimesOfPose {
+  std::map<int, double> by_step;
+};
+
+std::vector<TimesOfPose> timesOf(const Campaign& campaign) {
+  std::vector<TimesOfPose> times(campaign.pose_ids.size());
+  for (const State& state : campaign.states->rows)
+    times[static_cast<std::size_t>(state.pose)].by_step[state.step] = state.time_s;
+  return times;
+}
+
+Eigen::Matrix3d cellAxes(const LoadCell& cell, const LoadingGeometry& geometry, const LoadCase& one) {
+  Eigen::Matrix3d axes;
+  for (int k = 0; k < 3; ++k) {
+    const Vector6d unit = Vector6d::Unit(k);
+    axes.col(k) = cellWrench(cell, geometry, one.posture, one.flange_unloaded, one.flange_loaded, unit).force;
+  }
+  return axes;
+}
+
+/// The wrench as the corrections have it.
+Wrench corrected(const Wrench& read, const ArmState& state, const Corrections& by, const WorkingPoint& at) {
+  Wrench wrench = read;
+  const Eigen::Vector3d turn = state.cell_axes * by.cell_turn;
+  wrench.force += turn.cross(read.force);
+  wrench.moment += turn.cross(read.moment);
+  wrench.point += state.flange.linear() * by.load_point;
+  if (state.loaded) {
+    wrench.force += state.cell_axes * by.cell_force - at.r0_from_base_link.linear().col(2) * by.missing_weight;
+  }
+  return wrench;
+}
+
+class LoadingRowMaker {
+ public:
+  LoadingRowMaker(const Campaign& campaign, const LoadingGeometry& geometry, const WorkingPoint& at,
+                  const Corrections& corrections)
+      : campaign_(campaign), geometry_(geometry), at_(at), corrections_(corrections), times_(timesOf(campaign)) {
+    for (const int step : stepsOf(campaign)) {
+      for (LoadCase& one : loadCases(campaign, geometry, step)) cases_[one.pose].push_back(std::move(one));
+    }
+  }
+
+  std::vector<GapRows> run() const {
+    std::vector<GapRows> rows;
+    for (const auto& [pose, cases] : cases_) {
+      const std::vector<int> targets = commonTargets(cases);
+      double largest = 0.0;
+      for (const LoadCase& one : cases) largest = std::max(largest, one.wrench.force.norm());
+      if (targets.empty() || largest <= 0.0) continue;
+      rows.push_back(rowsOf(pose, cases, targets, largest));
+    }
+    return rows;
+  }
+
+ private:
+  static std::vector<int> commonTargets(const std::vector<LoadCase>& cases) {
+    std::map<int, std::size_t> seen;
+    for (const LoadCase& one : cases) {
+      for (const TargetMove& move : one.targets) ++seen[move.target];
+    }
+    std::vector<int> common;
+    for (const auto& [target, count] : seen) {
+      if (count == cases.size()) common.push_back(target);
+    }
+    return common;
+  }
+
+  static const TargetMove& moveOf(const LoadCase& one, int target) {
+    return *std::find_if(one.targets.begin(), one.targets.end(),
+                         [&](const TargetMove& move) { return move.target == target; });
+  }
+
+  GapRows rowsOf(int pose, const std::vector<LoadCase>& cases, const std::vector<int>& targets,
+                 double largest) const {
+    const auto per_state = 3 * static_cast<Eigen::Index>(targets.size());
+    const auto states = static_cast<Eigen::Index>(cases.size());
+    GapRows rows;
+    rows.pose = pose;
+    rows.displacement.resize(per_state * states);
+    rows.by_compliance.resize(per_state * states, 6);
+    const Vector6d turn = unloadedTurn(geometry_, at_, cases.front().q);
+    const Vector6d rest_angles = geometry_.sagged(cases.front().q) + turn;
+    ArmState rest = stateAt(geometry_, cases.front().q, turn);
+    rest.pose = pose;
+    rest.targets = targets;
+    rest.time_s = timeOf(pose, 0);
+    for (const int target : targets) rest.points.push_back(moveOf(cases.front(), target).unloaded);
+    if (cases.front().flange_unloaded) rest.flange = *cases.front().flange_unloaded;
+    rows.unloaded_readings = std::max(1, cases.front().targets.front().unloaded_readings);
+    rows.loaded_readings = std::max(1, cases.front().targets.front().loaded_readings);
+    rows.states.push_back(rest);
+    for (std::size_t k = 0; k < cases.size(); ++k) {
+      addState(cases[k], rest, rest_angles, largest, static_cast<Eigen::Index>(k) * per_state, rows);
+    }
+    rows.states.front().cell_axes = rows.states[1].cell_axes;
+    if (cases.front().absolute) addPosition(rest, rows);
+    return rows;
+  }
+
+  void addState(const LoadCase& one, const ArmState& rest, const Vector6d& rest_angles, double largest,
+                Eigen::Index at_row, GapRows& rows) const {
+    ArmState state = rest;
+    state.step = one.step;
+    state.time_s = timeOf(one.pose, one.step);
+    state.loaded = one.wrench.force.norm() > audit_limits::kReturnShare * largest;
+    state.cell_axes = cellAxes(*campaign_.load_cell, geometry_, one);
+    state.load = corrected(one.wrench, state, corrections_, at_);
+    state.load_torque = jointTorque(geometry_.arm, rest.posture, state.load);
+    // Springs' torque s = tau + K_c c s, and the Jacobian at the middle of the displacement (see equations.h).
+    Matrix6d change = geometricStiffness(geometry_.arm, rest.posture, state.load) +
+                      geometricStiffness(geometry_.arm, rest.posture, geometry_.weight);
+    change(1, 1) += compensatorSlope(at_, rest_angles);
+    const Matrix6d system = Matrix6d::Identity() - change * at_.compliance.asDiagonal();
+    const Vector6d torque = system.partialPivLu().solve(state.load_torque);
+    const ArmPosture middle = postureAt(geometry_.arm, rest_angles + 0.5 * at_.compliance.cwiseProduct(torque));
+    Eigen::Matrix<double, Eigen::Dynamic, 6> by_wrench(rest.rows(), 6);
+    Matrix6d wrench_to_torque = jacobianAt(geometry_.arm, rest.posture, state.load.point).transpose();
+    for (std::size_t t = 0; t < rest.targets.size(); ++t) {
+      const TargetMove& move = moveOf(one, rest.targets[t]);
+      const Matrix36d jacobian =
+          jacobianAt(geometry_.arm, middle, 0.5 * (move.unloaded + move.loaded)).topRows<3>();
+      const Eigen::Index row = at_row + 3 * static_cast<Eigen::Index>(t);
+      rows.displacement.segment<3>(row) = move.displacement();
+      rows.by_compliance.middleRows<3>(row) = jacobian * torque.asDiagonal();
+      by_wrench.middleRows<3>(3 * static_cast<Eigen::Index>(t)) =
+          jacobian * at_.compliance.asDiagonal() * wrench_to_torque;
+    }
+    rows.by_wrench.push_back(std::move(by_wrench));
+    rows.states.push_back(std::move(state));
+  }
+
+  void addPosition(const ArmState& rest, GapRows& rows) const {
+    rows.position.resize(rest.rows());
+    for (std::size_t t = 0; t < rest.targets.size(); ++t) {
+      const auto& at_zero = geometry_.targets_at_zero[static_cast<std::size_t>(rest.targets[t])];
+      if (!at_zero) {
+        rows.position.resize(0);
+        return;
+      }
+      rows.position.segment<3>(3 * static_cast<Eigen::Index>(t)) =
+          rest.points[t] - rest.posture.motion[6] * *at_zero;
+    }
+    rows.sag_by_compliance = byEachJoint(rest, rest.weight_torque);
+  }
+
+  double timeOf(int pose, int step) const {
+    const auto& by_step = times_[static_cast<std::size_t>(pose)].by_step;
+    const auto found = by_step.find(step);
+    return found == by_step.end() ? kNoTime : found->second;
+  }
+
+  const Campaign& campaign_;
+  const LoadingGeometry& geometry_;
+  const WorkingPoint& at_;
+  const Corrections& corrections_;
+  std::vector<TimesOfPose> times_;
+  std::map<int, std::vector<LoadCase>> cases_;
+};
+
+}  // namespace
+
+Vector6d unloadedTurn(const LoadingGeometry& geometry, const WorkingPoint& at, const Vector6d& q) {
+  Vector6d turn = Vector6d::Zero();
+  if (at.turns.empty()) return turn;
+  constexpr int kRounds = 4;  // the torque changes with the turn, by a hundredth with a strong spring
+  for (int round = 0; round < kRounds; ++round) {
+    const PostureStates rest{stateAt(geometry, q, turn)};
+    turn.setZero();
+    for (const PresentTurn& one : at.turns) turn += one.angles(at, rest, 0) * one.parameters;
+  }
+  return turn;
+}
+
+double compensatorSlope(const WorkingPoint& at, const Vector6d& turned) {
+  double slope = 0.0;
+  for (Eigen::Index k = 0; k + 1 < at.compensator.size(); k += 2) {
+    const double n = static_cast<double>(k / 2 + 1);
+    slope += n * (at.compensator[k] * std::cos(n * turned[1]) - at.compensator[k + 1] * std::sin(n * turned[1]));
+  }
+  return slope;
+}
+
+std::vector<GapRows> loadingRows(const Campaign& campaign, const LoadingGeometry& geometry, const WorkingPoint& at,
+                                 const Corrections& corrections) {
+  LoadingGeometry shifted = geometry;
+  if (shifted.r0_from_loading) {
+    shifted.r0_from_loading = motionAbout(at.epoch_centre, corrections.frame).inverse() * *geometry.r0_from_loading;
+  }
+  return LoadingRowMaker(campaign, shifted, at, corrections).run();
+}
+
+std::vector<SweepRows> sweepRows(const Campaign& campaign, const LoadingGeometry& geometry,
+                                 const Eigen::Isometry3d& r0_from_points, const WorkingPoint& at) {
+  std::map<std::pair<int, std::string>, SweepRows> by_index;
+  const auto add = [&](int axis, const auto& reading) {
+    const auto& at_zero = geometry.targets_at_zero[static_cast<std::size_t>(reading.target)];
+    if (!at_zero) return;
+    SweepRows& rows = by_index[{axis, reading.index}];
+    if (rows.state.points.empty()) rows.state = stateAt(geometry, reading.q, unloadedTurn(geometry, at, reading.q));
+    rows.state.time_s = reading.time_s;
+    rows.state.targets.push_back(reading.target);
+    rows.state.points.push_back(r0_from_points * reading.point);
+    rows.position.conservativeResize(rows.state.rows());
+    rows.position.tail<3>() = rows.state.points.back() - rows.state.posture.motion[6] * *at_zero;
+  };
+  if (campaign.circle_sweeps) {
+    for (const CircleReading& reading : campaign.circle_sweeps->rows) add(reading.axis, reading);
+  }
+  if (campaign.wrist_sweep) {
+    for (const WristReading& reading : campaign.wrist_sweep->rows) add(6, reading);
+  }
+  std::vector<SweepRows> all;
+  for (auto& [key, rows] : by_index) {
+    rows.sag_by_compliance = byEachJoint(rows.state, rows.state.weight_torque);
+    all.push_back(std::move(rows));
+  }
+  return all;
+}
+
+}  // namespace stiffscope

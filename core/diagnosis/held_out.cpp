@@ -1,0 +1,144 @@
+#include "core/diagnosis/held_out.h"
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <thread>
+
+namespace stiffscope {
+
+namespace {
+
+struct Trained {
+  Eigen::VectorXd before, after;
+};
+
+Eigen::VectorXd whole(const Eigen::VectorXd& nuisances, const Eigen::VectorXd& effects) {
+  Eigen::VectorXd all(nuisances.size() + effects.size());
+  all << nuisances, effects;
+  return all;
+}
+
+/// One training sample (weights of the postures): every recipe fitted.
+std::vector<Trained> train(const GapInput& input, const GapFit& fit, const std::vector<bool>& allowed,
+                           const std::vector<FitRecipe>& recipes, const std::vector<double>& weights) {
+  double postures = 0.0;
+  for (const double weight : weights) postures += weight;
+  const Projection projection = project(sumOf(fit.data, weights), fit.data.layout.effects);
+  GapFit there = fit;
+  const double share = postures / static_cast<double>(fit.data.postures.size());
+  there.rules.loading_rows *= share;
+  there.rules.least_drop *= share;
+  const Selector selector = selectorOf(input, there, projection, std::max(2.0, postures), allowed);
+  std::vector<Trained> trained;
+  for (const FitRecipe& recipe : recipes) {
+    const FittedSet set = recipe.choose ? selector.select() : selector.fit(recipe.models);
+    trained.push_back({whole(projection.by_nothing, Eigen::VectorXd::Zero(set.effects.size())),
+                       whole(projection.by_nothing - projection.by_effects * set.effects, set.effects)});
+  }
+  return trained;
+}
+
+/// Calls `work(i)` for i in 0..count-1 on all cores.
+template <class Work>
+void onAllCores(int count, const Work& work) {
+  const int threads = std::max(1, std::min<int>(count, static_cast<int>(std::thread::hardware_concurrency())));
+  std::vector<std::thread> pool;
+  for (int t = 0; t < threads; ++t) {
+    pool.emplace_back([&, t] {
+      for (int i = t; i < count; i += threads) work(i);
+    });
+  }
+  for (std::thread& one : pool) one.join();
+}
+
+double shrinkOf(double before, double after) { return before > 0.0 ? 1.0 - std::sqrt(after / before) : 0.0; }
+
+double quantile(std::vector<double> sorted, double share) {
+  if (sorted.empty()) return 0.0;
+  std::sort(sorted.begin(), sorted.end());
+  const double at = share * static_cast<double>(sorted.size() - 1);
+  const auto low = static_cast<std::size_t>(at);
+  const std::size_t high = std::min(low + 1, sorted.size() - 1);
+  return sorted[low] + (at - static_cast<double>(low)) * (sorted[high] - sorted[low]);
+}
+
+/// Spread of the bootstrap about its median, narrowed by the root of judged over all postures, put on the value.
+Shrink withInterval(double value, const std::vector<double>& drawn, double judged_share) {
+  const double middle = quantile(drawn, 0.5), narrow = std::sqrt(judged_share);
+  return {value, value + narrow * (quantile(drawn, 0.025) - middle), value + narrow * (quantile(drawn, 0.975) - middle)};
+}
+
+void add(HeldOut& sum, const HeldOut& one) {
+  sum.deflection_before += one.deflection_before;
+  sum.deflection_after += one.deflection_after;
+  sum.position_before += one.position_before;
+  sum.position_after += one.position_after;
+}
+
+}  // namespace
+
+HeldOut leftIn(const GapPosture& posture, const Eigen::VectorXd& before, const Eigen::VectorXd& after) {
+  const Eigen::VectorXd old = posture.right - posture.columns * before, now = posture.right - posture.columns * after;
+  const Eigen::Index rest = posture.position_rows, rows = posture.right.size() - rest;
+  return {old.tail(rows).squaredNorm(), now.tail(rows).squaredNorm(), old.head(rest).squaredNorm(),
+          now.head(rest).squaredNorm()};
+}
+
+double noiseSquares(const GapPosture& posture) {
+  const Eigen::Index rows = posture.right.size() - posture.position_rows;
+  return posture.noise.diagonal().tail(rows).sum();
+}
+
+std::vector<HeldOutShrink> heldOutShrinks(const GapInput& input, const GapFit& fit, const std::vector<bool>& allowed,
+                                          const std::vector<FitRecipe>& recipes, int resamples, std::uint64_t seed) {
+  const std::size_t postures = fit.data.postures.size();
+  std::vector<HeldOutShrink> result(recipes.size());
+  if (postures < 4) return result;
+  std::vector<std::vector<HeldOut>> left(postures, std::vector<HeldOut>(recipes.size()));
+  onAllCores(static_cast<int>(postures), [&](int p) {
+    std::vector<double> weights(postures, 1.0);
+    weights[static_cast<std::size_t>(p)] = 0.0;
+    const auto trained = train(input, fit, allowed, recipes, weights);
+    for (std::size_t r = 0; r < recipes.size(); ++r)
+      left[static_cast<std::size_t>(p)][r] =
+          leftIn(fit.data.postures[static_cast<std::size_t>(p)], trained[r].before, trained[r].after);
+  });
+  std::mt19937_64 random(seed);
+  std::vector<std::vector<double>> samples(static_cast<std::size_t>(resamples), std::vector<double>(postures, 0.0));
+  double judged = 0.0;
+  for (auto& weights : samples) {
+    for (std::size_t draw = 0; draw < postures; ++draw) weights[random() % postures] += 1.0;
+    judged += static_cast<double>(std::count(weights.begin(), weights.end(), 0.0));
+  }
+  const double judged_share = resamples > 0 ? judged / static_cast<double>(resamples) / static_cast<double>(postures) : 0.0;
+  std::vector<std::vector<HeldOut>> drawn(samples.size(), std::vector<HeldOut>(recipes.size()));
+  onAllCores(resamples, [&](int b) {
+    const auto& weights = samples[static_cast<std::size_t>(b)];
+    const auto trained = train(input, fit, allowed, recipes, weights);
+    for (std::size_t p = 0; p < postures; ++p) {
+      if (weights[p] != 0.0) continue;
+      for (std::size_t r = 0; r < recipes.size(); ++r)
+        add(drawn[static_cast<std::size_t>(b)][r], leftIn(fit.data.postures[p], trained[r].before, trained[r].after));
+    }
+  });
+  double noise = 0.0;
+  for (const GapPosture& posture : fit.data.postures) noise += noiseSquares(posture);
+  for (std::size_t r = 0; r < recipes.size(); ++r) {
+    HeldOut sum;
+    for (const auto& one : left) add(sum, one[r]);
+    std::vector<double> deflections, positions;
+    for (const auto& one : drawn) {
+      if (one[r].deflection_before > 0.0) deflections.push_back(shrinkOf(one[r].deflection_before, one[r].deflection_after));
+      if (one[r].position_before > 0.0) positions.push_back(shrinkOf(one[r].position_before, one[r].position_after));
+    }
+    result[r].deflection = withInterval(shrinkOf(sum.deflection_before, sum.deflection_after), deflections, judged_share);
+    result[r].position = withInterval(shrinkOf(sum.position_before, sum.position_after), positions, judged_share);
+    const double gap = sum.deflection_before - noise;
+    result[r].explained =
+        gap > 0.05 * noise ? std::clamp((sum.deflection_before - sum.deflection_after) / gap, -1.0, 1.0) : 0.0;
+  }
+  return result;
+}
+
+}  // namespace stiffscope

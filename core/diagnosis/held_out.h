@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstdint>
+
+#include "core/diagnosis/diagnosis.h"
+#include "core/diagnosis/gap_fit.h"
+
+namespace stiffscope {
+
+/// Squares of what is left in the postures that a fit did not see.
+struct HeldOut {
+  double deflection_before = 0.0, deflection_after = 0.0;
+  double position_before = 0.0, position_after = 0.0;
+};
+
+/// A way to fit: everything chosen anew, or one set of models with its parameters fitted anew.
+struct FitRecipe {
+  bool choose = false;                 ///< run the whole selection
+  std::vector<ChosenModel> models;     ///< else these
+};
+
+struct HeldOutShrink {
+  Shrink deflection, position;
+  double explained = 0.0;  ///< 1 - (after^2 - noise^2) / (before^2 - noise^2) of the deflection, in held-out postures
+};
+
+/// Leave-one-posture-out for the values. The interval: bootstrap samples of postures, each fitted (and, where the recipe says
+/// so, selected) on the postures drawn and judged on those not drawn, so that no posture stands on both sides; their
+/// spread is brought from the number of postures judged to that of all of them.
+std::vector<HeldOutShrink> heldOutShrinks(const GapInput& input, const GapFit& fit, const std::vector<bool>& allowed,
+                                          const std::vector<FitRecipe>& recipes, int resamples, std::uint64_t seed);
+
+/// Squares of deflection and position rows that parameters leave in a posture.
+HeldOut leftIn(const GapPosture& posture, const Eigen::VectorXd& before, const Eigen::VectorXd& after);
+
+/// Expected squares of the deflection rows by noise alone.
+double noiseSquares(const GapPosture& posture);
+
+}  // namespace stiffscope

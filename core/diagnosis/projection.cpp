@@ -1,0 +1,89 @@
+#include "core/diagnosis/projection.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+
+namespace stiffscope {
+
+namespace {
+
+/// Unit diagonal; a column that is nothing keeps its unknown at zero.
+Eigen::VectorXd scaleOf(const Eigen::VectorXd& diagonal) {
+  return diagonal.unaryExpr([](double d) { return d > 0.0 ? 1.0 / std::sqrt(d) : 0.0; });
+}
+
+Eigen::LDLT<Eigen::MatrixXd> factorised(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& scale) {
+  Eigen::MatrixXd even = scale.asDiagonal() * matrix * scale.asDiagonal();
+  constexpr double kRounding = 1e-12;
+  for (Eigen::Index i = 0; i < even.rows(); ++i) even(i, i) = 1.0 + kRounding;
+  return even.ldlt();
+}
+
+}  // namespace
+
+Eigen::MatrixXd sumOf(const GapData& data, const std::vector<double>& weights) {
+  Eigen::MatrixXd sum = data.sweeps;
+  for (std::size_t p = 0; p < data.postures.size(); ++p) {
+    if (weights[p] != 0.0) sum += weights[p] * data.postures[p].normal;
+  }
+  return sum;
+}
+
+Projection project(const Eigen::MatrixXd& normal, Eigen::Index effects_at) {
+  const Eigen::Index end = normal.rows() - 1, effects = end - effects_at;
+  const Eigen::MatrixXd nuisance = normal.topLeftCorner(effects_at, effects_at);
+  const Eigen::VectorXd scale = scaleOf(nuisance.diagonal());
+  const auto factor = factorised(nuisance, scale);
+  Eigen::MatrixXd across(effects_at, effects + 1);
+  across << normal.block(0, effects_at, effects_at, effects), normal.col(end).head(effects_at);
+  const Eigen::MatrixXd solved = scale.asDiagonal() * factor.solve(scale.asDiagonal() * across);
+  Projection result;
+  result.by_effects = solved.leftCols(effects);
+  result.by_nothing = solved.col(effects);
+  const Eigen::MatrixXd transposed = across.leftCols(effects).transpose();
+  result.matrix = normal.block(effects_at, effects_at, effects, effects) - transposed * result.by_effects;
+  result.right = normal.col(end).segment(effects_at, effects) - transposed * result.by_nothing;
+  result.before = normal.diagonal().segment(effects_at, effects);
+  result.chi2_none = normal(end, end) - across.col(effects).dot(result.by_nothing);
+  return result;
+}
+
+SubsetFit fitSubset(const Projection& projection, const std::vector<Eigen::Index>& indices,
+                    const std::vector<bool>& positive, const Eigen::VectorXd& prior) {
+  SubsetFit fit;
+  fit.value = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(indices.size()));
+  std::vector<std::size_t> active(indices.size());
+  for (std::size_t i = 0; i < active.size(); ++i) active[i] = i;
+  while (!active.empty()) {
+    const auto size = static_cast<Eigen::Index>(active.size());
+    Eigen::MatrixXd matrix(size, size);
+    Eigen::VectorXd right(size);
+    for (Eigen::Index a = 0; a < size; ++a) {
+      const Eigen::Index ia = indices[active[static_cast<std::size_t>(a)]];
+      right[a] = projection.right[ia];
+      for (Eigen::Index b = 0; b < size; ++b)
+        matrix(a, b) = projection.matrix(ia, indices[active[static_cast<std::size_t>(b)]]);
+      matrix(a, a) = std::max(matrix(a, a), 0.0) + prior[ia];
+    }
+    const Eigen::VectorXd scale = scaleOf(matrix.diagonal());
+    const Eigen::VectorXd value =
+        scale.asDiagonal() * factorised(matrix, scale).solve(Eigen::VectorXd(scale.asDiagonal() * right));
+    // A compliance that comes out negative is nothing: the most negative one first, in its own scale.
+    Eigen::Index worst = -1;
+    double least = 0.0;
+    for (Eigen::Index a = 0; a < size; ++a) {
+      const double own = scale[a] > 0.0 ? value[a] / scale[a] : 0.0;
+      if (positive[active[static_cast<std::size_t>(a)]] && own < least) least = own, worst = a;
+    }
+    if (worst < 0) {
+      for (Eigen::Index a = 0; a < size; ++a)
+        fit.value[static_cast<Eigen::Index>(active[static_cast<std::size_t>(a)])] = value[a];
+      fit.drop = right.dot(value);
+      break;
+    }
+    active.erase(active.begin() + worst);
+  }
+  return fit;
+}
+
+}  // namespace stiffscope

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "core/diagnosis/gap_data.h"
+
+namespace stiffscope {
+
+/// The equations of the effects with everything else (stiffnesses, geometry, weights) fitted away, from normal equations
+/// N over (nuisances n, effects e): S = N_ee - N_en N_nn^-1 N_ne, s = b_e - N_en N_nn^-1 b_n. chi2 of a set K of
+/// effect parameters is chi2_none - s_K' S_KK^-1 s_K.
+struct Projection {
+  Eigen::MatrixXd matrix;   ///< S
+  Eigen::VectorXd right;    ///< s
+  Eigen::VectorXd before;   ///< diagonal of N_ee: what the columns are before the projection
+  double chi2_none = 0.0;
+  Eigen::MatrixXd by_effects;  ///< nuisances = by_nothing - by_effects * effects
+  Eigen::VectorXd by_nothing;
+};
+
+/// Sum of the postures' normal equations, each times its weight, plus the sweeps'.
+Eigen::MatrixXd sumOf(const GapData& data, const std::vector<double>& weights);
+
+Projection project(const Eigen::MatrixXd& normal, Eigen::Index effects_at);
+
+/// A least-squares solution over some effect parameters, others zero.
+struct SubsetFit {
+  Eigen::VectorXd value;  ///< one an index given
+  double drop = 0.0;      ///< of chi2
+};
+
+/// Bounded below by zero where `positive` says so (active set). `prior` is 1/most^2 of each: keeps what the data does not
+/// see from running away.
+SubsetFit fitSubset(const Projection& projection, const std::vector<Eigen::Index>& indices,
+                    const std::vector<bool>& positive, const Eigen::VectorXd& prior);
+
+}  // namespace stiffscope

@@ -1,0 +1,179 @@
+#include "core/diagnosis/selection.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace stiffscope {
+
+bool FittedSet::has(const std::vector<EffectModel>& table, Effect effect) const {
+  return std::any_of(models.begin(), models.end(),
+                     [&](const ChosenModel& one) { return table[one.model].effect == effect; });
+}
+
+Selector::Selector(const std::vector<EffectModel>& models, const GapLayout& layout, const Projection& projection,
+                   double postures, const SelectionRules& rules, const std::vector<bool>& allowed)
+    : models_(models), layout_(layout), projection_(projection), postures_(postures), rules_(rules),
+      allowed_(allowed), prior_(projection.right.size()) {
+  for (std::size_t m = 0; m < models.size(); ++m) {
+    Eigen::Index at = layout.model_at[m] - layout.effects;
+    part_at_.emplace_back();
+    for (const EffectPart& part : models[m].parts) {
+      part_at_.back().push_back(at);
+      for (const double most : part.most) prior_[at++] = 1.0 / (most * most);
+    }
+  }
+}
+
+FittedSet Selector::nothing() const {
+  FittedSet none;
+  none.effects = Eigen::VectorXd::Zero(projection_.right.size());
+  none.chi2 = projection_.chi2_none;
+  return none;
+}
+
+FittedSet Selector::fit(const std::vector<ChosenModel>& models) const {
+  FittedSet set = nothing();
+  set.models = models;
+  std::vector<Eigen::Index> indices;
+  std::vector<bool> positive;
+  for (const ChosenModel& one : models) {
+    const EffectModel& model = models_[one.model];
+    // Which model, and which of its parts, was looked for: a choice among so many.
+    set.penalty += 2.0 * std::log(static_cast<double>(models_.size()));
+    for (const std::size_t p : one.parts) {
+      const EffectPart& part = model.parts[p];
+      set.penalty += 2.0 * std::log(static_cast<double>(model.parts.size()));
+      set.penalty += std::log(postures_) * static_cast<double>(part.most.size());
+      for (std::size_t k = 0; k < part.most.size(); ++k) {
+        indices.push_back(part_at_[one.model][p] + static_cast<Eigen::Index>(k));
+        positive.push_back(part.positive);
+      }
+    }
+  }
+  const SubsetFit fitted = fitSubset(projection_, indices, positive, prior_);
+  set.chi2 -= fitted.drop;
+  for (std::size_t i = 0; i < indices.size(); ++i) {
+    const double value = fitted.value[static_cast<Eigen::Index>(i)];
+    set.effects[indices[i]] = value;
+    if (value * value * prior_[indices[i]] > 1.0) set.plausible = false;
+  }
+  return set;
+}
+
+double Selector::misfit(const FittedSet& set) const {
+  return std::max(1.0, (set.chi2 - rules_.other_rows) / rules_.loading_rows);
+}
+
+bool Selector::isGiven(std::size_t model) const {
+  return std::find(rules_.given.begin(), rules_.given.end(), model) != rules_.given.end();
+}
+
+FittedSet Selector::given() const {
+  std::vector<ChosenModel> models;
+  for (const std::size_t m : rules_.given) {
+    models.push_back({m, {}});
+    for (std::size_t p = 0; p < models_[m].parts.size(); ++p) models.back().parts.push_back(p);
+  }
+  return fit(models);
+}
+
+std::optional<FittedSet> Selector::grown(const FittedSet& base, std::size_t model) const {
+  std::optional<FittedSet> best;
+  std::vector<ChosenModel> models = base.models;
+  models.push_back({model, {}});
+  while (models.back().parts.size() < models_[model].most_parts) {
+    std::optional<FittedSet> next;
+    for (std::size_t p = 0; p < models_[model].parts.size(); ++p) {
+      auto& parts = models.back().parts;
+      if (std::find(parts.begin(), parts.end(), p) != parts.end()) continue;
+      double kept = 0.0;
+      for (std::size_t k = 0; k < models_[model].parts[p].most.size(); ++k) {
+        const Eigen::Index i = part_at_[model][p] + static_cast<Eigen::Index>(k);
+        if (projection_.before[i] > 0.0)
+          kept = std::max(kept, projection_.matrix(i, i) / projection_.before[i]);
+      }
+      if (kept < rules_.kept_share) continue;
+      parts.push_back(p);
+      FittedSet tried = fit(models);
+      parts.pop_back();
+      if (!next || tried.chi2 < next->chi2) next = std::move(tried);
+    }
+    if (!next) break;
+    // What the whole set cannot explain counts as noise when a further part asks to be let in.
+    if (best && (best->chi2 - next->chi2) / misfit(*next) <= next->penalty - best->penalty) break;
+    best = std::move(next);
+    models = best->models;
+  }
+  if (best && !best->plausible) return std::nullopt;
+  return best;
+}
+
+std::vector<FittedSet> Selector::ranked(const FittedSet& base) const {
+  std::vector<FittedSet> sets;
+  for (std::size_t m = 0; m < models_.size(); ++m) {
+    if (!allowed_[m] || base.has(models_, models_[m].effect)) continue;
+    if (auto set = grown(base, m)) sets.push_back(std::move(*set));
+  }
+  std::stable_sort(sets.begin(), sets.end(),
+                   [](const FittedSet& a, const FittedSet& b) { return a.score() < b.score(); });
+  return sets;
+}
+
+bool Selector::worth(const FittedSet& with, const FittedSet& without) const {
+  const double scale = misfit(with);
+  return (without.chi2 - with.chi2) / scale - (with.penalty - without.penalty) > rules_.detect &&
+         without.chi2 - with.chi2 > rules_.least_drop * scale;
+}
+
+FittedSet Selector::regrown(FittedSet set) const {
+  for (std::size_t i = 0; i < set.models.size() && set.models.size() > 1; ++i) {
+    if (isGiven(set.models[i].model)) continue;
+    std::vector<ChosenModel> others = set.models;
+    others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
+    const auto again = grown(fit(others), set.models[i].model);
+    if (!again || again->score() >= set.score()) continue;
+    set.models[i] = again->models.back();
+    set = fit(set.models);
+  }
+  return set;
+}
+
+FittedSet Selector::pruned(FittedSet set) const {
+  for (bool again = true; again && !set.models.empty();) {
+    again = false;
+    for (std::size_t i = 0; i < set.models.size(); ++i) {
+      std::vector<ChosenModel> fewer = set.models;
+      fewer.erase(fewer.begin() + static_cast<std::ptrdiff_t>(i));
+      if (isGiven(set.models[i].model)) continue;
+      FittedSet without = fit(fewer);
+      if (worth(set, without)) continue;
+      set = std::move(without);
+      again = true;
+      break;
+    }
+  }
+  return set;
+}
+
+FittedSet Selector::select() const {
+  FittedSet current = given();
+  constexpr std::size_t kFew = 6;
+  for (std::size_t count = 0; count < rules_.most_effects; ++count) {
+    const std::vector<FittedSet> next = ranked(current);
+    if (next.empty()) break;
+    FittedSet best = next.front();
+    if (count == 1) {
+      // All pairs of the best few, single and second, may beat the forward pair.
+      const std::vector<FittedSet> singles = ranked(given());
+      for (std::size_t a = 0; a < std::min(kFew, singles.size()); ++a) {
+        const std::vector<FittedSet> pairs = ranked(singles[a]);
+        if (!pairs.empty() && pairs.front().score() < best.score()) best = pairs.front();
+      }
+    }
+    if (!worth(best, current)) break;
+    current = pruned(regrown(std::move(best)));
+  }
+  return current;
+}
+
+}  // namespace stiffscope

@@ -1,0 +1,72 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/diagnosis/projection.h"
+
+namespace stiffscope {
+
+/// One model of an effect with the parts of it that are present.
+struct ChosenModel {
+  std::size_t model = 0;
+  std::vector<std::size_t> parts;
+};
+
+/// A set of models fitted together.
+struct FittedSet {
+  std::vector<ChosenModel> models;
+  Eigen::VectorXd effects;  ///< all effect parameters, those not in the set zero
+  double chi2 = 0.0;
+  double penalty = 0.0;     ///< BIC's, postures counted, with the choice of parts and models
+  bool plausible = true;    ///< within the physical bounds
+
+  double score() const { return chi2 + penalty; }  ///< the smaller the better
+  bool has(const std::vector<EffectModel>& table, Effect effect) const;
+};
+
+struct SelectionRules {
+  double detect = 20.0;        ///< least fall of the score (noise regime) that a first effect must bring
+  double least_drop = 0.0;     ///< least fall of chi2 that matters
+  double kept_share = 1e-4;    ///< a column of which less (in squares) is left by the projection is not tried
+  std::size_t most_effects = 3;
+  std::vector<std::size_t> given;  ///< models that other evidence puts in
+  double loading_rows = 1.0;   ///< equations of the loading
+  double other_rows = 0.0;     ///< chi2 that is expected of the sweeps
+};
+
+/// Chooses effects: forward, then backward, then all pairs of the best few, by BIC counting postures.
+class Selector {
+ public:
+  Selector(const std::vector<EffectModel>& models, const GapLayout& layout, const Projection& projection,
+           double postures, const SelectionRules& rules, const std::vector<bool>& allowed);
+
+  /// Every model alone on top of `base`, its parts chosen greedily; best score first.
+  std::vector<FittedSet> ranked(const FittedSet& base) const;
+  FittedSet nothing() const;
+  FittedSet given() const;
+  FittedSet select() const;
+  FittedSet fit(const std::vector<ChosenModel>& models) const;
+
+  /// How far beyond noise the best set leaves the loading: chi2 per degree of freedom, at least 1.
+  double misfit(const FittedSet& set) const;
+
+ private:
+  std::optional<FittedSet> grown(const FittedSet& base, std::size_t model) const;
+  bool worth(const FittedSet& with, const FittedSet& without) const;
+  FittedSet regrown(FittedSet set) const;  ///< parts of each model chosen again beside the others
+  FittedSet pruned(FittedSet set) const;
+  bool isGiven(std::size_t model) const;
+
+  const std::vector<EffectModel>& models_;
+  const GapLayout& layout_;
+  const Projection& projection_;
+  double postures_;
+  SelectionRules rules_;
+  std::vector<bool> allowed_;
+  Eigen::VectorXd prior_;
+  std::vector<std::vector<Eigen::Index>> part_at_;  // first parameter of each part, from the first effect's
+};
+
+}  // namespace stiffscope

@@ -1,0 +1,26 @@
+#pragma once
+
+#include "core/diagnosis/diagnosis.h"
+#include "core/diagnosis/gap_data.h"
+#include "core/diagnosis/station.h"
+
+namespace stiffscope {
+
+/// What a campaign has that effects need.
+struct CampaignHas {
+  std::size_t reflectors = 0;
+  std::size_t load_steps = 0;   ///< with a force, beyond the return share
+  bool return_to_zero = false;
+  bool moments = false;         ///< some moment was measured
+  bool times = false;
+  bool weights = false;         ///< masses of the arm are known
+  bool absolute = false, sweeps = false;
+  bool nests = false;
+};
+
+CampaignHas whatIsThere(const GapInput& input, const GapData& data, const GapState& state, const Station& station);
+
+/// Why an effect cannot be tested with this, in words that name what is missing; empty where it can.
+std::string missingFor(Effect effect, const CampaignHas& has);
+
+}  // namespace stiffscope

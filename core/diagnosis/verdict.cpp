@@ -1,0 +1,243 @@
+#include "core/diagnosis/verdict.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/diagnosis/aliasing.h"
+
+namespace stiffscope {
+
+namespace {
+
+std::string detailOf(const EffectModel& model, const std::vector<std::size_t>& parts) {
+  std::vector<std::size_t> sorted = parts;
+  std::sort(sorted.begin(), sorted.end());
+  std::string detail;
+  for (const std::size_t p : sorted) {
+    const std::string& name = model.parts[p].detail;
+    if (name.empty()) continue;
+    detail += (detail.empty() ? "" : ", ") + name;
+  }
+  return detail;
+}
+
+std::string parametersOf(const EffectModel& model, const std::vector<std::size_t>& parts, const Eigen::VectorXd& own) {
+  std::string words;
+  Eigen::Index at = 0;
+  for (std::size_t p = 0; p < model.parts.size(); ++p) {
+    const EffectPart& part = model.parts[p];
+    if (std::find(parts.begin(), parts.end(), p) != parts.end()) {
+      words += fmt::format("{}{}{}", words.empty() ? "" : "; ", part.detail, part.detail.empty() ? "" : ": ");
+      for (std::size_t k = 0; k < part.most.size(); ++k)
+        words += fmt::format("{}{:.4g}", k > 0 ? ", " : "", own[at + static_cast<Eigen::Index>(k)]);
+      words += " " + part.unit;
+    }
+    at += static_cast<Eigen::Index>(part.most.size());
+  }
+  return words;
+}
+
+class Decider {
+ public:
+  explicit Decider(const VerdictInput& from)
+      : from_(from), models_(from.input.models),
+        selector_(selectorOf(from.input, from.fit, from.fit.projection,
+                             static_cast<double>(from.fit.data.postures.size()), from.allowed)) {}
+
+  Decision run() {
+    nameGeometry();
+    nameChosen();
+    nameUnknown();
+    listOthers();
+    explain();
+    return std::move(decision_);
+  }
+
+ private:
+  const FittedSet& set() const { return from_.fit.set; }
+
+  std::vector<ChosenModel> without(std::size_t i) const {
+    std::vector<ChosenModel> others = set().models;
+    others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
+    return others;
+  }
+
+  Eigen::VectorXd own(const Eigen::VectorXd& effects, std::size_t model) const {
+    return effects.segment(from_.fit.data.layout.model_at[model] - from_.fit.data.layout.effects,
+                           static_cast<Eigen::Index>(models_[model].parameters()));
+  }
+
+  void nameGeometry() {
+    if (!from_.geometry.tested || from_.geometry.rms <= kGeometryTolerance) return;
+    geometry_named_ = true;
+    EffectClass one;
+    one.effects = {Effect::kinematic_error};
+    const double size = from_.geometry.rms / kGeometryTolerance;
+    one.score = size * size * static_cast<double>(from_.fit.rules.loading_rows);
+    one.in_verdict = true;
+    one.parameters = fmt::format("axes up to {:.3f} mm and {:.3f} mrad from the nominal ones",
+                                 1e3 * from_.geometry.largest_shift, 1e3 * from_.geometry.largest_tilt);
+    decision_.verdict.entries.push_back({one.effects, ""});
+    decision_.classes.push_back(one);
+    decision_.recipes.emplace_back();
+    reasons_.push_back(fmt::format("the axes found by the sweeps and the unloaded positions put the reflectors {:.2f} mm rms "
+                                   "from where the nominal geometry does ({:.2f} mm is allowed)",
+                                   1e3 * from_.geometry.rms, 1e3 * kGeometryTolerance));
+  }
+
+  /// A geometry that is wrong puts the flange, and with it the load cell, elsewhere along axis 6, which sweeps do not see.
+  bool followsFromGeometry(Effect effect, const Eigen::VectorXd& parameters) const {
+    if (!geometry_named_) return false;
+    constexpr double kAsMuch = 2.0;
+    if (effect == Effect::load_point_error) return parameters.norm() < kAsMuch * from_.geometry.largest_shift;
+    if (effect == Effect::load_cell_misalignment) return parameters.norm() < kAsMuch * from_.geometry.largest_tilt;
+    return false;
+  }
+
+  void nameChosen() {
+    std::vector<std::pair<double, std::size_t>> order;
+    for (std::size_t i = 0; i < set().models.size(); ++i) {
+      const FittedSet fewer = selector_.fit(without(i));
+      order.emplace_back(set().score() - fewer.score(), i);
+    }
+    std::sort(order.begin(), order.end());
+    for (const auto& [change, i] : order) {
+      const ChosenModel& chosen = set().models[i];
+      const EffectModel& model = models_[chosen.model];
+      const Eigen::VectorXd parameters = own(set().effects, chosen.model);
+      // A drift has moved the frame by the time of the loading: one cause, not two.
+      if (from_.station.course == StationCourse::drifted && model.effect == Effect::frame_error) continue;
+      if (followsFromGeometry(model.effect, parameters)) {
+        reasons_.push_back(fmt::format("what looks like {} ({}) is no more than the wrong geometry puts there",
+                                       idOf(model.effect), parametersOf(model, chosen.parts, parameters)));
+        continue;
+      }
+      EffectClass one;
+      one.effects = classOf(i);
+      one.detail = detailOf(model, chosen.parts) + otherParts(i);
+      one.score = -change;
+      one.in_verdict = true;
+      one.parameters = parametersOf(model, chosen.parts, parameters);
+      decision_.verdict.entries.push_back({one.effects, one.detail});
+      decision_.classes.push_back(one);
+      decision_.recipes.push_back({chosen});
+      if (one.effects.size() > 1) decision_.ties.push_back({i, one.effects});
+      named_.insert(named_.end(), one.effects.begin(), one.effects.end());
+    }
+  }
+
+  /// Parts of the same effect that would do as well as the one chosen: " or joint 3".
+  std::string otherParts(std::size_t i) const {
+    const ChosenModel& chosen = set().models[i];
+    const EffectModel& model = models_[chosen.model];
+    if (chosen.parts.size() != 1) return {};
+    std::string others;
+    for (std::size_t p = 0; p < model.parts.size(); ++p) {
+      if (p == chosen.parts.front()) continue;
+      std::vector<ChosenModel> instead = set().models;
+      instead[i].parts = {p};
+      const FittedSet other = selector_.fit(instead);
+      if (other.plausible && other.score() - set().score() < kSeparated * selector_.misfit(set()))
+        others += " or " + model.parts[p].detail;
+    }
+    return others;
+  }
+
+  /// The chosen effect and those whose best imitation of its fitted field cannot be told from it.
+  std::vector<Effect> classOf(std::size_t i) const {
+    const ChosenModel& chosen = set().models[i];
+    std::vector<Effect> effects{models_[chosen.model].effect};
+    Eigen::VectorXd field = Eigen::VectorXd::Zero(set().effects.size());
+    const Eigen::Index at = from_.fit.data.layout.model_at[chosen.model] - from_.fit.data.layout.effects;
+    field.segment(at, static_cast<Eigen::Index>(models_[chosen.model].parameters())) = own(set().effects, chosen.model);
+    const double scale = selector_.misfit(set());
+    for (std::size_t m = 0; m < models_.size(); ++m) {
+      const Effect effect = models_[m].effect;
+      if (!from_.allowed[m] || set().has(models_, effect)) continue;
+      if (std::find(effects.begin(), effects.end(), effect) != effects.end()) continue;
+      const double apart = separation(from_.input, from_.fit, from_.fit.projection, field, without(i), m, from_.allowed);
+      if (apart < kSeparated * scale) effects.push_back(effect);
+    }
+    return effects;
+  }
+
+  void nameUnknown() {
+    nameUnknownPositions();
+    if (from_.fit.model_error == 0.0) return;
+    nameUnknownOnce();
+    reasons_.push_back(fmt::format("{:.1f} um rms of the deflection at the largest load are explained by no effect of the vocabulary",
+                                   1e6 * from_.fit.model_error));
+  }
+
+  /// Unloaded positions that scatter beyond what noise and the repeatability of an arm put there.
+  void nameUnknownPositions() {
+    const Gap& gap = from_.positions;
+    const double left = std::sqrt(std::max(0.0, gap.after * gap.after - gap.noise * gap.noise));
+    const double removed = std::sqrt(std::max(0.0, gap.before * gap.before - gap.after * gap.after));
+    constexpr double kStates = 2.0, kShareOfRemoved = 0.1;
+    const double limit = std::max(kStates * from_.fit.data.state_noise, kShareOfRemoved * removed);
+    if (left <= limit) return;
+    nameUnknownOnce();
+    reasons_.push_back(fmt::format("{:.1f} um rms of the unloaded positions are explained by no effect (limit {:.1f} um)",
+                                   1e6 * left, 1e6 * limit));
+  }
+
+  void nameUnknownOnce() {
+    const auto& entries = decision_.verdict.entries;
+    if (entries.empty() || !entries.back().effects.empty()) decision_.verdict.entries.push_back({{}, ""});
+  }
+
+  void listOthers() {
+    constexpr std::size_t kListed = 8;
+    const FittedSet base = selector_.given();
+    for (const FittedSet& single : selector_.ranked(base)) {
+      if (decision_.classes.size() >= kListed) break;
+      const ChosenModel& chosen = single.models.back();
+      const EffectModel& model = models_[chosen.model];
+      if (std::find(named_.begin(), named_.end(), model.effect) != named_.end()) continue;
+      if (base.score() - single.score() <= 0.0) continue;
+      EffectClass one;
+      one.effects = {model.effect};
+      one.detail = detailOf(model, chosen.parts);
+      one.score = base.score() - single.score();
+      one.parameters = parametersOf(model, chosen.parts, own(single.effects, chosen.model));
+      decision_.classes.push_back(one);
+      decision_.recipes.push_back(single.models);
+      named_.push_back(model.effect);
+    }
+  }
+
+  void explain() {
+    std::string& reason = decision_.verdict.reason;
+    const auto& rules = from_.fit.rules;
+    const double lack = (from_.fit.projection.chi2_none - rules.other_rows) / rules.loading_rows;
+    reason = fmt::format("Stiffnesses alone leave {:.1f} um rms per coordinate of the deflection, noise alone {:.1f} um "
+                         "(chi2 per equation {:.2f}).",
+                         1e6 * from_.gap.before, 1e6 * from_.gap.noise, lack);
+    if (decision_.verdict.entries.empty()) {
+      reason += fmt::format(" No effect passes both limits: a fall of BIC of {:.0f}, {:.1f} um rms after the stiffnesses.",
+                            rules.detect, 1e6 * std::sqrt(rules.least_drop / rules.loading_rows) * from_.fit.data.state_noise);
+    }
+    for (const std::string& one : reasons_) reason += " Besides, " + one + ".";
+    reason += " Floor nests: " + from_.station.in_words + ".";
+    if (from_.input.absolute)
+      reason += fmt::format(" Unloaded absolute positions{} take part in every fit.",
+                            from_.input.sweeps ? " and the sweeps" : "");
+  }
+
+  const VerdictInput& from_;
+  const std::vector<EffectModel>& models_;
+  Selector selector_;
+  Decision decision_;
+  bool geometry_named_ = false;
+  std::vector<Effect> named_;
+  std::vector<std::string> reasons_;
+};
+
+}  // namespace
+
+Decision decideVerdict(const VerdictInput& from) { return Decider(from).run(); }
+
+}  // namespace stiffscope

@@ -1,0 +1,119 @@
+#include "reports/json/diagnosis_json.h"
+
+#include "core/input/units.h"
+
+namespace stiffscope {
+
+namespace {
+
+Json micrometres(double metres) { return number(metres / kMicrometre); }
+
+Json idsOf(const std::vector<Effect>& effects) {
+  Json ids = Json::array();
+  for (const Effect effect : effects) ids.push_back(std::string(idOf(effect)));
+  return ids;
+}
+
+Json verdictJson(const Verdict& verdict) {
+  Json entries = Json::array();
+  if (verdict.entries.empty()) entries.push_back({"none"});
+  for (const VerdictEntry& entry : verdict.entries) {
+    entries.push_back(entry.effects.empty() ? Json::array({"unknown"}) : idsOf(entry.effects));
+  }
+  return entries;
+}
+
+Json shrinkJson(const Shrink& shrink) {
+  return {{"value", number(shrink.value)}, {"low", number(shrink.low)}, {"high", number(shrink.high)}};
+}
+
+Json classJson(const EffectClass& one, bool positions) {
+  Json json{{"effects", idsOf(one.effects)},
+            {"detail", one.detail},
+            {"score", number(one.score)},
+            {"in_verdict", one.in_verdict},
+            {"shrink", shrinkJson(one.shrink)},
+            {"explained", number(one.explained)}};
+  if (positions) json["shrink_of_positions"] = shrinkJson(one.shrink_of_positions);
+  json["parameters"] = one.parameters;
+  return json;
+}
+
+Json gapJson(const Gap& gap) {
+  return {{"deflection_um", micrometres(gap.deflection)},
+          {"before_um", micrometres(gap.before)},
+          {"noise_um", micrometres(gap.noise)},
+          {"after_um", micrometres(gap.after)}};
+}
+
+Json tablesJson(const std::vector<WhereTable>& tables) {
+  Json json = Json::object();
+  for (const WhereTable& table : tables) {
+    Json rows = Json::array();
+    for (const WhereRow& row : table.rows) {
+      rows.push_back({{"name", row.name},
+                      {"rms_um", micrometres(row.rms)},
+                      {"noise_um", micrometres(row.noise)},
+                      {"share", number(row.share)},
+                      {"significance", number(row.significance)}});
+    }
+    json[table.by] = rows;
+  }
+  return json;
+}
+
+Json stiffnessJson(const Diagnosis& diagnosis, const Vector6d& values) {
+  Json list = Json::array();
+  for (int j = 0; j < 6; ++j) {
+    list.push_back(diagnosis.identifiable[static_cast<std::size_t>(j)] ? number(values[j]) : Json(nullptr));
+  }
+  return list;
+}
+
+}  // namespace
+
+Json diagnosisJson(const Campaign& campaign, const Diagnosis& diagnosis) {
+  Json json{{"campaign", campaignJson(campaign)}, {"usable", diagnosis.usable}};
+  if (!diagnosis.usable) {
+    json["reason"] = diagnosis.unusable_reason;
+    return json;
+  }
+  json["verdict"] = verdictJson(diagnosis.verdict);
+  Json details = Json::array();
+  for (const VerdictEntry& entry : diagnosis.verdict.entries) details.push_back(entry.detail);
+  json["verdict_details"] = details;
+  json["reason"] = diagnosis.verdict.reason;
+  Json classes = Json::array(), aliases = Json::array(), next = Json::array();
+  for (const EffectClass& one : diagnosis.classes) classes.push_back(classJson(one, diagnosis.positions_tested));
+  for (const auto& group : diagnosis.aliases) aliases.push_back(idsOf(group));
+  json["classes"] = classes;
+  json["shrink_together"] = shrinkJson(diagnosis.shrink_together);
+  json["gap"] = gapJson(diagnosis.gap);
+  if (diagnosis.positions_tested) json["gap_of_positions"] = gapJson(diagnosis.positions);
+  json["aliases"] = aliases;
+  Json detectable = Json::object(), not_testable = Json::object();
+  for (const DetectableSize& one : diagnosis.detectable)
+    detectable[std::string(idOf(one.effect))] = one.size ? micrometres(*one.size) : Json(nullptr);
+  for (const NotTestable& one : diagnosis.not_testable) not_testable[std::string(idOf(one.effect))] = one.missing;
+  json["detectable_um"] = detectable;
+  json["not_testable"] = not_testable;
+  json["limits"] = {{"significance_bic", number(diagnosis.significance_limit)},
+                    {"size_um", micrometres(diagnosis.size_limit)}};
+  json["noise"] = {{"state_um", micrometres(diagnosis.state_noise)},
+                   {"source", diagnosis.noise_source},
+                   {"factor_along_beam", number(diagnosis.noise_factor_along)},
+                   {"factor_across_beam", number(diagnosis.noise_factor_across)}};
+  json["chi2_per_equation"] = {{"before", number(diagnosis.lack_of_fit)}, {"after", number(diagnosis.left_over)}};
+  json["geometric_stiffness_share"] = number(diagnosis.geometric_stiffness_share);
+  json["stiffness_before_nm_per_rad"] = stiffnessJson(diagnosis, diagnosis.stiffness_before);
+  json["stiffness_after_nm_per_rad"] = stiffnessJson(diagnosis, diagnosis.stiffness_after);
+  json["stiffness_after_sd_nm_per_rad"] = stiffnessJson(diagnosis, diagnosis.stiffness_after_sd);
+  json["where"] = tablesJson(diagnosis.where);
+  if (diagnosis.positions_tested) json["where_positions"] = tablesJson(diagnosis.where_positions);
+  for (const NextMeasurement& one : diagnosis.next)
+    next.push_back({{"separates", idsOf(one.separates)}, {"measure", one.what}, {"gain_chi2", number(one.gain)}});
+  json["next"] = next;
+  return json;
+}
+
+}  // namespace stiffscope

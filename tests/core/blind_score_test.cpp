@@ -1,0 +1,193 @@
+#include <gtest/gtest.h>
+
+#include "core/blind/score.h"
+#include "core/input/input_error.h"
+
+namespace stiffscope {
+
+using namespace blind;
+
+namespace {
+
+Label single(const std::string& name, const std::string& effect, double size,
+             const std::string& detail = "") {
+  Label label;
+  label.name = name;
+  label.kind = CaseKind::single;
+  label.effects = {{effect, detail, "deflection", size, size, 0.0}};
+  label.shrink = 0.9;
+  label.shrink_seen = 0.5;
+  return label;
+}
+
+Answer says(const std::string& name, std::vector<std::vector<std::string>> entries,
+            const std::string& detail = "") {
+  Answer answer;
+  answer.name = name;
+  for (auto& effects : entries) answer.entries.push_back({std::move(effects), detail});
+  return answer;
+}
+
+}  // namespace
+
+// 0 of 10: 1 - 0.025^(1/10). 5 of 10: 18.71 % to 81.29 %, and 81 of 263: 25.27 % to 36.76 % (A. Agresti and
+// B. A. Coull, The American Statistician 52, 1998, give the former; the latter is that of the 1934 paper's
+// method as R's binom.test prints it).
+TEST(BlindInterval, tableValues) {
+  const Rate none = binomialRate(0, 10);
+  EXPECT_EQ(none.low, 0.0);
+  EXPECT_NEAR(none.high, 0.3084971, 1e-7);
+  const Rate half = binomialRate(5, 10);
+  EXPECT_NEAR(half.low, 0.1870860, 1e-7);
+  EXPECT_NEAR(half.high, 0.8129140, 1e-7);
+  const Rate all = binomialRate(10, 10);
+  EXPECT_NEAR(all.low, 1 - 0.3084971, 1e-7);
+  EXPECT_EQ(all.high, 1.0);
+  EXPECT_EQ(binomialRate(0, 0).high, 1.0);
+  EXPECT_THROW(binomialRate(3, 2), std::invalid_argument);
+}
+
+// The interval holds the truth at least 95 times in a hundred, whatever the truth: P over all outcomes.
+TEST(BlindInterval, holdsTheTruthOftenEnough) {
+  const int trials = 25;
+  for (const double share : {0.03, 0.2, 0.5, 0.91}) {
+    double held = 0.0, probability = std::pow(1 - share, trials);
+    for (int hits = 0; hits <= trials; ++hits) {
+      const Rate rate = binomialRate(hits, trials);
+      if (rate.low <= share && share <= rate.high) held += probability;
+      probability *= share / (1 - share) * (trials - hits) / (hits + 1);
+    }
+    EXPECT_GE(held, 0.95) << share;
+  }
+}
+
+TEST(BlindScore, singlesByHand) {
+  const std::vector<Label> labels{single("1", "hysteresis", 0.7), single("2", "hysteresis", 3.0),
+                                  single("3", "bearing_tilt", 6.0), single("4", "backlash", 6.0),
+                                  single("5", "joint_coupling", 8.0, "joints 2 and 3")};
+  const std::vector<Answer> answers{says("1", {}), says("2", {{"hysteresis"}, {"base_compliance"}}),
+                                    says("3", {{"link_compliance", "bearing_tilt"}}), says("4", {{}}),
+                                    says("5", {{"joint_coupling"}}, "joints 2 and 3")};
+  const Score result = score(labels, answers);
+  EXPECT_EQ(result.rate("singles").hits, 2);
+  EXPECT_EQ(result.rate("singles").trials, 5);
+  EXPECT_EQ(result.rate("singles_from_2").trials, 4);
+  EXPECT_EQ(result.rate("singles_from_5").hits, 2);
+  EXPECT_EQ(result.rate("singles_from_5").trials, 3);
+  EXPECT_EQ(result.rate("singles_found_from_2").hits, 3);  // the one with something beside it too
+  EXPECT_EQ(result.rate("detail").hits, 1);
+  const auto& confusion = result.confusion;
+  const auto at = [&](const std::string& truth, const std::string& said) {
+    const auto row = std::find(confusion.truths.begin(), confusion.truths.end(), truth);
+    const auto column = std::find(confusion.answers.begin(), confusion.answers.end(), said);
+    return confusion.counts.at(static_cast<std::size_t>(row - confusion.truths.begin()))
+        .at(static_cast<std::size_t>(column - confusion.answers.begin()));
+  };
+  EXPECT_EQ(at("hysteresis", "none"), 1);
+  EXPECT_EQ(at("hysteresis", "several"), 1);
+  EXPECT_EQ(at("bearing_tilt", "bearing_tilt"), 1);  // its class
+  EXPECT_EQ(at("backlash", "unknown"), 1);
+  EXPECT_EQ(result.effects[static_cast<std::size_t>(Effect::bearing_tilt)].mean_class_size, 2.0);
+  EXPECT_EQ(result.effects[static_cast<std::size_t>(Effect::hysteresis)].answered_none, 1);
+  EXPECT_EQ(result.by_size[0].second.trials, 1);
+  EXPECT_EQ(result.by_size[3].second.hits, 2);
+}
+
+TEST(BlindScore, cleanUnknownAndDoublesByHand) {
+  std::vector<Label> labels(6);
+  for (std::size_t i = 0; i < labels.size(); ++i) labels[i].name = std::to_string(i);
+  labels[1].noise_factor = 1.2;
+  labels[2].kind = labels[3].kind = CaseKind::outside;
+  labels[2].effects = {{"creep", "creep", "deflection", 4.0, 4.0, 0.0}};
+  labels[3].effects = {{"refraction", "refraction", "nests", 4.0, 0.0, 4.0}};
+  labels[4].kind = labels[5].kind = CaseKind::pair;
+  labels[4].effects = labels[5].effects = {{"hysteresis", "", "deflection", 4.0, 4.0, 0.0},
+                                           {"load_cell_bias", "", "deflection", 4.0, 4.0, 0.0}};
+  const std::vector<Answer> answers{says("0", {}),
+                                    says("1", {{"backlash"}}),
+                                    says("2", {{"backlash"}, {}}),
+                                    says("3", {{"tracker_drift"}}),
+                                    says("4", {{"load_cell_bias", "backlash"}, {"hysteresis"}}),
+                                    says("5", {{"hysteresis"}})};
+  const Score result = score(labels, answers);
+  EXPECT_EQ(result.rate("false_alarms").hits, 1);
+  EXPECT_EQ(result.rate("false_alarms_noise_right").hits, 0);
+  EXPECT_EQ(result.rate("false_alarms_noise_right").trials, 1);
+  EXPECT_EQ(result.rate("false_alarms_noise_wrong").hits, 1);
+  EXPECT_EQ(result.rate("unknown").hits, 1);
+  EXPECT_EQ(result.rate("unknown").trials, 2);
+  EXPECT_FALSE(result.cases[2].right);  // unknown was said, and more
+  EXPECT_EQ(result.rate("doubles_both_found").hits, 1);
+  EXPECT_EQ(result.rate("doubles").hits, 1);
+  EXPECT_EQ(result.rate("doubles_one_found").hits, 2);
+}
+
+TEST(BlindScore, shrinkIsHeldAgainstWhatCanBeSeen) {
+  const std::vector<Label> labels{single("1", "hysteresis", 3.0), single("2", "hysteresis", 3.0)};
+  std::vector<Answer> answers{says("1", {{"hysteresis"}}), says("2", {{"hysteresis"}})};
+  answers[0].promises = {{{"backlash"}, 0.1, 0.0, 0.2, 0.1}, {{"hysteresis"}, 0.48, 0.4, 0.55, 0.9}};
+  answers[1].promises = {{{"hysteresis"}, 0.85, 0.8, 0.95, 0.9}};
+  const Score result = score(labels, answers);
+  EXPECT_EQ(result.rate("shrink_covered").hits, 1);
+  EXPECT_EQ(result.rate("shrink_covered").trials, 2);
+  EXPECT_EQ(result.rate("shrink_covered_noise_free").hits, 1);
+  EXPECT_EQ(result.shrinks[0].promised, 0.48);
+}
+
+TEST(BlindScore, anAnswerThatFailedIsWrongEverywhere) {
+  std::vector<Label> labels{single("1", "hysteresis", 3.0)};
+  std::vector<Answer> answers{says("1", {})};
+  answers[0].failure = "no states";
+  const Score result = score(labels, answers);
+  EXPECT_EQ(result.rate("failed").hits, 1);
+  EXPECT_EQ(result.rate("singles").hits, 0);
+  EXPECT_THROW(score({single("2", "hysteresis", 1.0)}, answers), std::invalid_argument);
+}
+
+TEST(BlindTables, labelsAndAnswersSurviveWriting) {
+  std::vector<Label> labels{single("0001", "joint_coupling", 3.25, "joints 2 and 3"), {}};
+  labels[0].noise_factor = 0.875;
+  labels[0].arm = "m20ia";
+  labels[1].name = "0002";
+  const std::vector<Label> read = readLabels("labels.csv", labelsCsv(labels));
+  ASSERT_EQ(read.size(), 2u);
+  EXPECT_EQ(read[0].effects.at(0).detail, "joints 2 and 3");
+  EXPECT_EQ(read[0].effects[0].size, 3.25);
+  EXPECT_EQ(read[0].noise_factor, 0.875);
+  EXPECT_EQ(read[1].kind, CaseKind::none);
+  EXPECT_TRUE(read[1].effects.empty());
+
+  Verdict verdict;
+  verdict.entries = {{{Effect::hysteresis, Effect::backlash}, "joint 2, the way + back"}, {{}, ""}};
+  EffectClass best;
+  best.effects = {Effect::hysteresis, Effect::backlash};
+  best.shrink = {0.5, 0.25, 0.75};
+  const std::vector<EffectClass> classes{best};
+  const std::vector<Answer> given{answerOf("0001", {verdict, classes}), answerOf("0002", {})};
+  const std::vector<Answer> frozen = readAnswers("answers.csv", answersCsv(given));
+  ASSERT_EQ(frozen.size(), 2u);
+  EXPECT_EQ(frozen[0].entries.at(0).effects, (std::vector<std::string>{"hysteresis", "backlash"}));
+  EXPECT_EQ(frozen[0].entries[0].detail, "joint 2  the way   back");  // what separates is taken out
+  EXPECT_TRUE(frozen[0].entries.at(1).effects.empty());
+  EXPECT_EQ(frozen[0].promises.at(0).high, 0.75);
+  EXPECT_TRUE(frozen[1].entries.empty());
+}
+
+TEST(BlindTables, refusesWhatIsNoLabel) {
+  const std::string header = labelsCsv({});
+  const auto complaint = [&](const std::string& bytes) -> std::string {
+    try {
+      readLabels("labels.csv", bytes);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "no complaint";
+  };
+  EXPECT_EQ(complaint(header + "1,nothing,,,,,,,0,0,1,0,a,b\n"),
+            "labels.csv:2: kind: 'nothing': expected none, single, double or outside");
+  EXPECT_EQ(complaint(header + "1,single,backlash,,deflection,,,,0,0,1,0,a,b\n"),
+            "labels.csv:2: effects: 'backlash': expected as many effects as sizes");
+  EXPECT_NE(complaint("case,kind\n").find("expected the header case,kind,effects"), std::string::npos);
+}
+
+}  // namespace stiffscope

@@ -1,0 +1,188 @@
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+
+#include "core/diagnosis/effect_table.h"
+#include "core/diagnosis/effects/backlash.h"
+#include "core/diagnosis/effects/base_compliance.h"
+#include "core/diagnosis/effects/bearing_tilt.h"
+#include "core/diagnosis/effects/hysteresis.h"
+#include "core/diagnosis/effects/joint_coupling.h"
+#include "core/diagnosis/effects/joint_hardening.h"
+#include "core/diagnosis/effects/link_compliance.h"
+#include "core/diagnosis/effects/load_cell_bias.h"
+#include "core/diagnosis/effects/load_point_error.h"
+#include "core/diagnosis/effects/tool_compliance.h"
+#include "tests/core/chain_arm.h"
+
+// Each effect's displacement field against a case worked by hand, on the tests' own kinematics.
+
+namespace stiffscope {
+namespace {
+
+constexpr double kRounding = 1e-9;  // m per unit parameter times lever and load: far below a micrometre of the field
+
+/// A state of the example arm with a load on the tool, no own weight.
+struct Bench {
+  ChainArm chain = exampleChain();
+  LoadingGeometry geometry;
+  WorkingPoint at;
+  Vector6d q = degrees(10, 20, -15, 40, 50, -30);
+  Wrench load{{2.0, 0.1, 1.9}, {300.0, -500.0, -900.0}, {40.0, 20.0, -10.0}};
+  std::vector<Eigen::Vector3d> points{{2.1, 0.3, 1.8}, {2.0, -0.2, 2.1}};
+
+  Bench() {
+    geometry.arm = chain.robot();
+    at.compliance = exampleCompliance();
+    at.targets = 2;
+    at.largest_force = load.force.norm();
+  }
+  ArmState state(double share) const {
+    ArmState one = stateAt(geometry, q, Vector6d::Zero());
+    one.load = {load.point, share * load.force, share * load.moment};
+    one.load_torque = chain.torqueOf(q, 6, load.point, one.load.force, one.load.moment);
+    one.loaded = share > 0.05;
+    one.points = points;
+    one.targets = {0, 1};
+    return one;
+  }
+  PostureStates outAndBack() const { return {state(0.0), state(0.5), state(1.0), state(0.0)}; }
+  Eigen::Vector3d jointOrigin(int j) const { return chain.framesAt(q)[static_cast<std::size_t>(j)].translation(); }
+  Eigen::Vector3d jointAxis(int j) const {
+    return chain.framesAt(q)[static_cast<std::size_t>(j)].linear() * chain.axis[static_cast<std::size_t>(j)];
+  }
+  Eigen::Vector3d momentAt(const Eigen::Vector3d& x) const { return load.moment + (load.point - x).cross(load.force); }
+};
+
+TEST(BearingTilt, TurnsAcrossTheAxisByTheMomentThere) {
+  const Bench bench;
+  const Eigen::MatrixXd field = bearingTilt().columns(bench.at, bench.outAndBack(), 2);
+  for (int j = 0; j < 6; ++j) {
+    const Eigen::Vector3d origin = bench.jointOrigin(j), axis = bench.jointAxis(j), moment = bench.momentAt(origin);
+    const Eigen::Vector3d across = moment - axis * axis.dot(moment);
+    for (int t = 0; t < 2; ++t) {
+      const Eigen::Vector3d expected = across.cross(bench.points[static_cast<std::size_t>(t)] - origin);
+      const Eigen::Vector3d found = field.block<3, 1>(3 * t, j);
+      EXPECT_LT((found - expected).norm(), kRounding * expected.norm() + kRounding) << j;
+    }
+  }
+}
+
+// With wrist axes that meet and the tilt taken at the wrist, the tilt of axis 4 has two directions: one is joint 5's own,
+// driven by joint 5's own torque. A load without a moment about the other direction leaves nothing else.
+TEST(BearingTilt, OfAxis4IsJoint5sOwnComplianceInASphericalWrist) {
+  Bench bench;
+  const auto frames = bench.chain.framesAt(bench.q);
+  const Eigen::Vector3d wrist = frames[4].translation(), z4 = bench.jointAxis(3), z5 = bench.jointAxis(4);
+  const Eigen::Vector3d other = z4.cross(z5).normalized();
+  bench.geometry.arm.axes_in_base_at_zero[3].point =
+      bench.chain.framesAt(Vector6d::Zero())[4].translation();  // on axis 4: the same line
+  bench.load.moment -= other * other.dot(bench.momentAt(wrist));
+  const PostureStates posture = bench.outAndBack();
+  const Eigen::VectorXd tilt = bearingTilt().columns(bench.at, posture, 2).col(3);
+  const Eigen::VectorXd own = byEachJoint(posture[2], posture[2].load_torque).col(4);
+  EXPECT_LT((tilt - own).norm(), 1e-9 * own.norm());
+}
+
+TEST(LinkCompliance, IsACantileverAtItsTip) {
+  Bench bench;
+  bench.q.setZero();  // link 2 stands upright, 1.12 m; its tip is joint 3
+  const Eigen::Vector3d tip = bench.jointOrigin(2);
+  bench.points = {tip, tip + Eigen::Vector3d(0, 0, 1)};
+  bench.load = {tip, {1000.0, 0, 0}, {0, 0, 50.0}};
+  const Eigen::MatrixXd field = linkCompliance().columns(bench.at, bench.outAndBack(), 2);
+  const double length = 1.12;
+  const Eigen::Vector3d bend = field.block<3, 1>(0, 2), beyond = field.block<3, 1>(3, 2);
+  EXPECT_NEAR(bend.x(), 1000.0 * std::pow(length, 3) / 3.0, 1e-6);               // F L^3 / 3
+  EXPECT_NEAR(beyond.x() - bend.x(), 1000.0 * length * length / 2.0, 1e-6);      // slope F L^2 / 2 over 1 m
+  const Eigen::Vector3d twist = field.block<3, 1>(0, 3);
+  EXPECT_LT(twist.norm(), 1e-9);  // leaves the tip where it is
+}
+
+TEST(JointCoupling, IsReciprocal) {
+  const Bench bench;
+  const PostureStates posture = bench.outAndBack();
+  const Eigen::MatrixXd field = jointCoupling().columns(bench.at, posture, 2);
+  ASSERT_EQ(field.cols(), 15);
+  const Vector6d torque = posture[2].load_torque;
+  Vector6d turn = Vector6d::Zero();
+  turn[1] = torque[2];
+  turn[2] = torque[1];
+  EXPECT_LT((field.col(5) - byJoints(posture[2], turn)).norm(), kRounding);  // pairs 12 13 14 15 16 23
+  EXPECT_EQ(jointCoupling().parts[5].detail, "joints 2 and 3");
+}
+
+TEST(JointHardening, TakesTheCubeOfTheTorque) {
+  const Bench bench;
+  const PostureStates posture = bench.outAndBack();
+  const Eigen::MatrixXd half = jointHardening().columns(bench.at, posture, 1), full = jointHardening().columns(bench.at, posture, 2);
+  EXPECT_LT((full - 8.0 * half).norm(), 1e-9 * full.norm());
+  const Eigen::MatrixXd other = jointHardeningLinear().columns(bench.at, posture, 2);
+  EXPECT_LT((other - 4.0 * jointHardeningLinear().columns(bench.at, posture, 1)).norm(), 1e-9 * other.norm());
+}
+
+TEST(Backlash, ChangesSideWithTheTorque) {
+  Bench bench;
+  bench.at.passage = 1e-3;  // sharp
+  const PostureStates posture = bench.outAndBack();
+  const JointAngles turn = backlash().angles(bench.at, posture, 2);
+  for (int j = 0; j < 6; ++j) EXPECT_NEAR(turn(j, j), posture[2].load_torque[j] > 0.0 ? 0.5 : -0.5, 1e-12);
+  EXPECT_EQ(backlash().angles(bench.at, posture, 0).norm(), 0.0);
+}
+
+TEST(Hysteresis, LagsOutAndBackByTheFriction) {
+  Bench bench;
+  bench.at.friction.setConstant(10.0);
+  const PostureStates posture = bench.outAndBack();
+  const JointAngles out = hysteresis().angles(bench.at, posture, 2), back = hysteresis().angles(bench.at, posture, 3);
+  for (int j = 0; j < 6; ++j) {
+    const double torque = posture[2].load_torque[j];
+    if (std::abs(torque) < 20.0) continue;  // sticks on the way back
+    const double side = torque > 0.0 ? 1.0 : -1.0;
+    EXPECT_NEAR(out(j, j), -side, 1e-12) << j;
+    EXPECT_NEAR(back(j, j), side, 1e-12) << j;
+  }
+  EXPECT_EQ(hysteresis().angles(bench.at, posture, 0).norm(), 0.0);
+}
+
+// A load point that is off by r changes the moment by (R r) x F: the same as the field of the moved wrench less the declared.
+TEST(LoadPointError, IsTheMovedWrenchThroughTheSprings) {
+  const Bench bench;
+  const PostureStates posture = bench.outAndBack();
+  const Eigen::Vector3d off(0.02, -0.01, 0.03);
+  const Eigen::VectorXd field = loadPointError().columns(bench.at, posture, 2) * off;
+  const Eigen::Vector3d moved = bench.load.point + posture[2].flange.linear() * off;
+  const Vector6d change = bench.chain.torqueOf(bench.q, 6, moved, bench.load.force, bench.load.moment) - posture[2].load_torque;
+  const Eigen::VectorXd expected = byJoints(posture[2], bench.at.compliance.cwiseProduct(change));
+  EXPECT_LT((field - expected).norm(), 1e-9 * expected.norm());
+}
+
+TEST(LoadCellBias, IsInLoadedStatesOnly) {
+  const Bench bench;
+  const PostureStates posture = bench.outAndBack();
+  const EffectModel model = loadCellBias();
+  EXPECT_EQ(model.columns(bench.at, posture, 0).norm(), 0.0);
+  EXPECT_EQ(model.columns(bench.at, posture, 3).norm(), 0.0);
+  EXPECT_GT(model.columns(bench.at, posture, 1).norm(), 0.0);
+  EXPECT_LT((model.columns(bench.at, posture, 1) - model.columns(bench.at, posture, 2)).norm(), kRounding);
+}
+
+// Every effect is nothing without a cause: no load, no own weight, no time, no sweeps apart.
+TEST(EffectTable, NothingMovesWithoutACause) {
+  const Bench bench;
+  PostureStates rest{bench.state(0.0)};
+  std::array<bool, kEffectCount> listed{};
+  for (const EffectModel& model : effectModels({"A", "B"})) {
+    listed[static_cast<std::size_t>(model.effect)] = true;
+    const Eigen::MatrixXd field = model.columns(bench.at, rest, 0);
+    EXPECT_EQ(static_cast<std::size_t>(field.cols()), model.parameters()) << idOf(model.effect);
+    if (model.effect == Effect::gravity_compensator) continue;  // a spring pulls always
+    EXPECT_EQ(field.norm(), 0.0) << idOf(model.effect);
+  }
+  listed[static_cast<std::size_t>(Effect::kinematic_error)] = true;  // held against the nominal geometry, see effect_table.h
+  for (std::size_t e = 0; e < kEffectCount; ++e) EXPECT_TRUE(listed[e]) << kEffectIds[e];
+}
+
+}  // namespace
+}  // namespace stiffscope
