@@ -13,9 +13,9 @@ namespace stiffscope {
 
 namespace {
 
-Interval intervalOf(const StiffnessEstimate& estimate, int joint, double coverage_factor) {
+Interval intervalOf(const StiffnessEstimate& estimate, int joint) {
   if (!estimate.identifiable[static_cast<std::size_t>(joint)]) return {};
-  const double value = estimate.stiffness(joint), reach = coverage_factor * estimate.stiffnessSd(joint);
+  const double value = estimate.stiffness(joint), reach = page::coverageOf(estimate, joint).factor * estimate.stiffnessSd(joint);
   return {value, value - reach, value + reach, !estimate.mark(joint).empty()};
 }
 
@@ -56,9 +56,8 @@ IntervalChart stiffnessIntervals(const ReportCampaign& one) {
     const MethodResult& result = one.identification.of(method);
     if (!result.available) continue;
     IntervalSeries series{page::longName(method), colourOf(method), {}};
-    const double factor = page::coverageOf(one.identification, result.estimate).factor;
     for (int joint = 0; joint < 6; ++joint) {
-      series.intervals.push_back(intervalOf(result.estimate, joint, factor));
+      series.intervals.push_back(intervalOf(result.estimate, joint));
       if (series.intervals.back().doubtful) chart.doubtful_name = "negative or imprecise";
     }
     chart.series.push_back(std::move(series));

@@ -38,16 +38,17 @@ std::vector<CaseEquations> alignedRows(const std::vector<CaseEquations>& rows,
 Identification underLoadStep(const Campaign& campaign, const Identification& identified, int step) {
   Identification other;
   other.step = step;
+  other.steps = {step};
   other.frames = identified.frames;
   other.finite_deflection = identified.finite_deflection;
   const LoadedArm shown = loadedArm(campaign, shownGeometry(campaign, identified), identified.frames.wrist,
-                                    step, &other.left_out);
+                                    {step}, &other.left_out);
   other.cases = shown.cases;
   other.wrist = shown.wrist;
   for (const Method which : kMethods) {
     const MethodResult& known = identified.of(which);
     if (!known.available) continue;
-    LoadedArm arm = loadedArm(campaign, known.geometry, identified.frames.wrist, step);
+    LoadedArm arm = loadedArm(campaign, known.geometry, identified.frames.wrist, {step});
     // Nothing is solved: the known estimate stands in for every round's.
     solveSettled(arm, identified.finite_deflection, [&](const LoadedArm&) { return known.estimate; });
     MethodResult& out = other.methods[static_cast<std::size_t>(which)];

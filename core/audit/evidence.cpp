@@ -12,7 +12,7 @@ void settle(Evidence& evidence) {
   const Campaign& campaign = evidence.campaign;
   if (campaign.states && campaign.load_cell) evidence.step = heaviestStep(campaign);
   if (evidence.step && (campaign.loading || campaign.displacements)) {
-    SettledFrames settled = settleFrames(campaign, *evidence.step, {});
+    SettledFrames settled = settleFrames(campaign, {*evidence.step}, {});
     evidence.frames = std::move(settled.frames);
     evidence.arm = std::move(settled.arm);
     return;

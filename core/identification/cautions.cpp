@@ -33,9 +33,23 @@ std::string residualCaution(const Identification& result, const MethodResult& me
   if (!result.noise || method.estimate.sigma < kAboveNoise * result.noise->per_coordinate) return {};
   return fmt::format(
       "the residual of {:.0f} um per coordinate is {:.0f} times the {:.1f} um of the tracker's noise: something other than "
-      "joint springs is in the data, and the stated uncertainties are of scatter only",
+      "joint springs is in the data, and the stated uncertainties hold it only as far as it scatters between postures",
       method.estimate.sigma / kMicrometre, method.estimate.sigma / result.noise->per_coordinate,
       result.noise->per_coordinate / kMicrometre);
+}
+
+/// Always said, whether they are left out or not.
+std::string outlyingCaution(const Campaign& campaign, const Identification& result) {
+  if (result.outlying.empty()) return {};
+  std::string postures;
+  for (const OutlyingPosture& one : result.outlying) {
+    postures += fmt::format("{}{} ({:.0f} um per coordinate against {:.0f} um of the others)", postures.empty() ? "" : ", ",
+                            campaign.pose_ids[static_cast<std::size_t>(one.posture)], one.rms / kMicrometre,
+                            one.others / kMicrometre);
+  }
+  return fmt::format("outlying posture{}: {}: the springs of the other postures do not explain {}; {}",
+                     result.outlying.size() == 1 ? "" : "s", postures, result.outlying.size() == 1 ? "it" : "them",
+                     result.robust ? "left out as asked" : "used nevertheless, --robust leaves out");
 }
 
 void addSweepCautions(const Frames& frames, std::vector<std::string>& cautions) {
@@ -51,7 +65,7 @@ void addSweepCautions(const Frames& frames, std::vector<std::string>& cautions) 
 
 }  // namespace
 
-std::vector<std::string> cautionsOf(const Identification& result) {
+std::vector<std::string> cautionsOf(const Campaign& campaign, const Identification& result) {
   std::vector<std::string> cautions;
   const MethodResult* method = bestAvailable(result);
   if (result.calibration.done && result.calibration.rms_before > kMissedGeometry) {
@@ -70,6 +84,7 @@ std::vector<std::string> cautionsOf(const Identification& result) {
                                      result.cases.size() == 1 ? " is" : "s are"));
     }
   }
+  if (std::string text = outlyingCaution(campaign, result); !text.empty()) cautions.push_back(std::move(text));
   if (result.noise && result.noise->at_targets > kMostNoise) {
     cautions.push_back("the tracker's noise is more than half of the deflection: this load step hardly moves the arm");
   }

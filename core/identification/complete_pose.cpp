@@ -1,5 +1,6 @@
 #include "core/identification/complete_pose.h"
 
+#include "core/identification/posture_influence.h"
 #include "core/robot/kinematics.h"
 
 namespace stiffscope {
@@ -13,6 +14,7 @@ CaseEquations completePoseEquations(const LoadingGeometry& geometry, const LoadC
   equations.matrix =
       jacobianAt(geometry.arm, jacobianPosture(load_case), jacobianPoint(load_case, unloaded, loaded)) *
       torque.asDiagonal();
+  equations.posture = load_case.pose;
   equations.right.resize(6);
   equations.right << loaded - unloaded, rotation.angle() * rotation.axis();
   return equations;
@@ -33,15 +35,12 @@ StiffnessEstimate completePose(const std::vector<CaseEquations>& pose_equations,
   NormalEquations sum;
   for (const CaseEquations& one : pose_equations) {
     scaled.push_back(normalised(one, characteristic_length));
-    displacements.push_back({one.matrix.topRows<3>(), one.right.head<3>()});
+    displacements.push_back({one.matrix.topRows<3>(), one.right.head<3>(), one.posture});
     sum += normalEquations(scaled.back());
   }
   estimate.compliance = solveNormal(sum, unknown);
   estimate.condition = conditionNumber(scaled, unknown);
-  std::vector<Vector6d> influences;
-  for (const CaseEquations& one : scaled)
-    influences.push_back(influence(one, sum, estimate.compliance, unknown));
-  estimate.covariance = scatterCovariance(influences, unknown);
+  setScatterOfOneStage(byPosture(scaled), sum, estimate);
   describeResiduals(displacements, estimate);
   return estimate;
 }

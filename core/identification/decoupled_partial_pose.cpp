@@ -2,6 +2,9 @@
 
 #include <algorithm>
 
+#include "core/identification/coverage_factor.h"
+#include "core/identification/posture_influence.h"
+
 namespace stiffscope {
 
 namespace {
@@ -11,6 +14,45 @@ JointMask armOf(const JointMask& unknown) {
 }
 JointMask wristOf(const JointMask& unknown) {
   return {false, false, false, unknown[3], unknown[4], unknown[5]};
+}
+
+double variance(const std::vector<CaseEquations>& equations, const Vector6d& compliance) {
+  double sum = 0.0;
+  Eigen::Index rows = 0;
+  for (const CaseEquations& one : equations) {
+    sum += (one.right - one.matrix * compliance).squaredNorm();
+    rows += one.right.size();
+  }
+  return rows > 0 ? sum / static_cast<double>(rows) : 0.0;
+}
+
+/// A posture acts on the arm through P_wrist, and on the wrist through its reflectors and, the arm's model being
+/// subtracted, through the arm: its uncertainty reaches the wrist's.
+void setDecoupledScatter(const std::vector<CaseEquations>& wrist, const std::vector<CaseEquations>& reflectors,
+                         const NormalEquations& wrist_sum, const NormalEquations& reflector_sum,
+                         StiffnessEstimate& estimate) {
+  const JointMask arm_joints = armOf(estimate.identifiable), wrist_joints = wristOf(estimate.identifiable);
+  Vector6d arm_only = estimate.compliance;
+  arm_only.tail<3>().setZero();
+  const Matrix6d arm_inverse = inverseNormal(wrist_sum, arm_joints);
+  const Matrix6d wrist_inverse = inverseNormal(reflector_sum, wrist_joints);
+  const Matrix6d carried = Matrix6d::Identity() - wrist_inverse * reflector_sum.matrix;
+  std::vector<PostureGain> by_wrist, by_reflectors;
+  std::vector<Vector6d> influences;
+  for (std::size_t p = 0; p < wrist.size(); ++p) {
+    by_wrist.emplace_back(carried * correctedGain(wrist[p], wrist_sum, arm_joints));
+    by_reflectors.push_back(correctedGain(reflectors[p], reflector_sum, wrist_joints));
+    influences.emplace_back(by_wrist[p] * (wrist[p].right - wrist[p].matrix * arm_only) +
+                            by_reflectors[p] * (reflectors[p].right - reflectors[p].matrix * estimate.compliance));
+  }
+  const double wrist_variance = variance(wrist, arm_only), reflector_variance = variance(reflectors, estimate.compliance);
+  Vector6d dof = Vector6d::Zero();
+  for (int j = 0; j < 6; ++j) {
+    if (!estimate.identifiable[static_cast<std::size_t>(j)]) continue;
+    dof[j] = matchedDof(wrist_variance * influenceCovariance(by_wrist, wrist, arm_inverse, j) +
+                           reflector_variance * influenceCovariance(by_reflectors, reflectors, wrist_inverse, j));
+  }
+  setScatter(std::move(influences), dof, estimate);
 }
 
 }  // namespace
@@ -33,19 +75,7 @@ StiffnessEstimate decoupledPartialPose(const std::vector<CaseEquations>& wrist_e
   for (const CaseEquations& one : reflector_equations) reflector_sum += normalEquations(one);
   estimate.compliance = solveDecoupled(wrist_sum, reflector_sum, unknown);
 
-  // A posture acts on the arm through P_wrist, and on the wrist through its reflectors and through the arm.
-  Vector6d arm_only = estimate.compliance;
-  arm_only.tail<3>().setZero();
-  std::vector<Vector6d> influences;
-  for (std::size_t p = 0; p < wrist_equations.size(); ++p) {
-    const Vector6d arm = influence(wrist_equations[p], wrist_sum, arm_only, armOf(unknown));
-    const Vector6d reflectors =
-        influence(reflector_equations[p], reflector_sum, estimate.compliance, wristOf(unknown));
-    const Vector6d through_arm =
-        solveNormal({reflector_sum.matrix, reflector_sum.matrix * arm}, wristOf(unknown));
-    influences.push_back(arm + reflectors - through_arm);
-  }
-  estimate.covariance = scatterCovariance(influences, unknown);
+  setDecoupledScatter(byPosture(wrist_equations), byPosture(reflector_equations), wrist_sum, reflector_sum, estimate);
   estimate.condition = std::max(conditionNumber(wrist_equations, armOf(unknown)),
                                 conditionNumber(reflector_equations, wristOf(unknown)));
   describeResiduals(reflector_equations, estimate);

@@ -12,6 +12,7 @@ namespace stiffscope {
 struct CaseEquations {
   Eigen::Matrix<double, Eigen::Dynamic, 6> matrix;
   Eigen::VectorXd right;
+  int posture = -1;  ///< equations of the same one (LoadCase::pose) share its errors; -1: nothing shared
 };
 
 /// Joint torques of each load case, paper (2), Nm: J_w^T W.

@@ -70,6 +70,7 @@ class Calibration {
     }
     result.rms_after = plainRms();
     result.geometry = calibrated();
+    spread(unseen_axes, 2.0 * summary.final_cost / (3.0 * result.positions - result.parameters), result);
     result.done = true;
     return result;
   }
@@ -141,10 +142,8 @@ class Calibration {
     return std::sqrt(sum / (3.0 * static_cast<double>(positions_.size())));
   }
 
-  /// Axis parameters whose column of the Jacobian lies in the span of those before it. Base and reflectors
-  /// come first and the axes from the tip inwards, so that what is free by choice of frame is fixed in axes 1
-  /// and 2, which define R0.
-  std::vector<int> findUnseen() {
+  /// Of the whitened residuals by base, reflectors, axes, in this order.
+  Eigen::MatrixXd jacobian() {
     ceres::Problem::EvaluateOptions options;
     options.parameter_blocks = {parameters_.base.data()};
     for (const std::size_t k : used_targets_)
@@ -152,14 +151,66 @@ class Calibration {
     options.parameter_blocks.push_back(parameters_.axes.data());
     ceres::CRSMatrix sparse;
     problem_.Evaluate(options, nullptr, nullptr, nullptr, &sparse);
-    Eigen::MatrixXd jacobian = Eigen::MatrixXd::Zero(sparse.num_rows, sparse.num_cols);
+    Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(sparse.num_rows, sparse.num_cols);
     for (int row = 0; row < sparse.num_rows; ++row) {
       for (int at = sparse.rows[static_cast<std::size_t>(row)];
            at < sparse.rows[static_cast<std::size_t>(row) + 1]; ++at) {
-        jacobian(row, sparse.cols[static_cast<std::size_t>(at)]) =
-            sparse.values[static_cast<std::size_t>(at)];
+        dense(row, sparse.cols[static_cast<std::size_t>(at)]) = sparse.values[static_cast<std::size_t>(at)];
       }
     }
+    return dense;
+  }
+
+  /// The numbers of a column of the Jacobian with the axes' fixed parameters taken out.
+  std::vector<double*> freeNumbers(const std::vector<int>& unseen_axes) {
+    std::vector<double*> numbers;
+    for (double& one : parameters_.base) numbers.push_back(&one);
+    for (const std::size_t k : used_targets_) {
+      for (double& one : parameters_.targets[k]) numbers.push_back(&one);
+    }
+    for (int k = 0; k < 24; ++k) {
+      if (std::find(unseen_axes.begin(), unseen_axes.end(), k) == unseen_axes.end()) {
+        numbers.push_back(&parameters_.axes[static_cast<std::size_t>(k)]);
+      }
+    }
+    return numbers;
+  }
+
+  void spread(const std::vector<int>& unseen_axes, double chi2_per_dof, GeometryCalibration& result) {
+    const std::vector<double*> numbers = freeNumbers(unseen_axes);
+    const auto free = static_cast<Eigen::Index>(numbers.size());
+    // The manifold has taken the fixed columns out; without one all are free, or the axes' block is constant.
+    const Eigen::MatrixXd columns = jacobian();
+    if (columns.cols() != free) return;
+    const Eigen::VectorXd scale = columns.colwise().norm().cwiseInverse();
+    if (!scale.allFinite()) return;
+    const Eigen::MatrixXd scaled = columns * scale.asDiagonal();
+    const double factor = campaign_.tracker ? std::max(1.0, chi2_per_dof) : chi2_per_dof;
+    const Eigen::LLT<Eigen::MatrixXd> normal(scaled.transpose() * scaled);
+    if (normal.info() != Eigen::Success) return;
+    // (L L^T)^-1 = S S^T, S = L^-T.
+    const Eigen::MatrixXd root = std::sqrt(factor) * scale.asDiagonal() *
+                                 normal.matrixU().solve(Eigen::MatrixXd::Identity(free, free));
+    const CalibrationParameters found = parameters_;
+    for (Eigen::Index k = 0; k < free; ++k) {
+      for (Eigen::Index i = 0; i < free; ++i) *numbers[static_cast<std::size_t>(i)] += root(i, k);
+      result.spread.push_back(calibrated());
+      restore(found);
+    }
+  }
+
+  /// In place: the solver and freeNumbers hold addresses.
+  void restore(const CalibrationParameters& from) {
+    parameters_.axes = from.axes;
+    parameters_.base = from.base;
+    std::copy(from.targets.begin(), from.targets.end(), parameters_.targets.begin());
+  }
+
+  /// Axis parameters whose column of the Jacobian lies in the span of those before it. Base and reflectors
+  /// come first and the axes from the tip inwards, so that what is free by choice of frame is fixed in axes 1
+  /// and 2, which define R0.
+  std::vector<int> findUnseen() {
+    const Eigen::MatrixXd columns = jacobian();
     const int axes_at = 6 + 3 * static_cast<int>(used_targets_.size());
     std::vector<int> order;
     for (int k = 0; k < axes_at; ++k) order.push_back(k);
@@ -167,7 +218,7 @@ class Calibration {
       for (int k = 0; k < 4; ++k) order.push_back(axes_at + 4 * axis + k);
     }
     std::vector<int> unseen;
-    for (const int column : columnsInSpanOfEarlier(jacobian, order)) {
+    for (const int column : columnsInSpanOfEarlier(columns, order)) {
       if (column >= axes_at) unseen.push_back(column - axes_at);
     }
     std::sort(unseen.begin(), unseen.end());

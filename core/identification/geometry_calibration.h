@@ -12,6 +12,9 @@ struct GeometryCalibration {
   bool done = false;
   std::string reason;        ///< why not
   LoadingGeometry geometry;  ///< the calibrated one; its compliance is that of the start
+  /// The geometry moved along each column of a root S of its covariance C = S S^T: by (J^T J)^-1 of the whitened
+  /// residuals, times chi^2 over degrees of freedom where that is above one, or no tracker is declared.
+  std::vector<LoadingGeometry> spread;
   double rms_before = 0.0;   ///< plain, per coordinate, m: the starting geometry
   double rms_after = 0.0;
   int positions = 0;               ///< unloaded reflector positions used

@@ -74,6 +74,35 @@ void judgeLever(const std::vector<CaseEquations>& equations, const std::vector<V
   }
 }
 
+constexpr double kTakesPart = 0.05;  // share of a joint in an unseen combination
+
+/// `unseen`: of the columns at unit length, the combination that moves no measured point; `lengths` of the columns. Two
+/// joints whose columns are parallel: what is seen is c_a + ratio c_b.
+std::string combinationReason(const Vector6d& unseen, const Vector6d& lengths) {
+  std::vector<int> joints;
+  for (int j = 0; j < 6; ++j) {
+    if (std::abs(unseen[j]) > kTakesPart) joints.push_back(j);
+  }
+  if (joints.size() == 2) {
+    const int a = joints[0], b = joints[1];
+    const double ratio = -(unseen[a] / lengths[a]) / (unseen[b] / lengths[b]);
+    return fmt::format(
+        "these postures only see a combination of joints {}, {}: the two move the reflectors in proportion in every posture, so "
+        "that only 1/k{} {} {}/k{} is determined; postures in which axis {} stands otherwise to the load than axis {} "
+        "would part them",
+        a + 1, b + 1, a + 1, ratio < 0.0 ? "-" : "+", fmt::format("{:.3g}", std::abs(ratio)), b + 1, a + 1, b + 1);
+  }
+  std::string names, terms;
+  for (const int j : joints) {
+    const double share = unseen[j] / lengths[j] / (unseen[joints[0]] / lengths[joints[0]]);
+    names += fmt::format("{}{}", names.empty() ? "" : ", ", j + 1);
+    terms += terms.empty() ? fmt::format("1/k{}", j + 1)
+                           : fmt::format(" {} {:.3g} at 1/k{}", share < 0.0 ? "and -" : "and +", std::abs(share), j + 1);
+  }
+  return fmt::format(
+      "these postures only see a combination of joints {}: adding +1 at {} changes no displacement", names, terms);
+}
+
 /// Marks joints that take part in a combination which the equations do not see.
 void judgeRank(const std::vector<CaseEquations>& equations, Identifiability& result) {
   NormalEquations sum;
@@ -89,19 +118,15 @@ void judgeRank(const std::vector<CaseEquations>& equations, Identifiability& res
   }
   const Eigen::SelfAdjointEigenSolver<Matrix6d> eigen(scaled);
   constexpr double kUnseen = 1e-8;     // squared singular value of unit columns: a condition number of 1e4
-  constexpr double kTakesPart = 0.05;  // share of a joint in the unseen combination
   for (int k = 0; k < 6; ++k) {
     if (eigen.eigenvalues()[k] > kUnseen) break;
-    std::string joints;
+    const Vector6d unseen = eigen.eigenvectors().col(k);
+    const std::string reason = combinationReason(unseen, sum.matrix.diagonal().cwiseSqrt());
     for (int j = 0; j < 6; ++j) {
-      if (std::abs(eigen.eigenvectors()(j, k)) > kTakesPart)
-        joints += fmt::format("{}{}", joints.empty() ? "" : ", ", j + 1);
-    }
-    for (int j = 0; j < 6; ++j) {
-      if (std::abs(eigen.eigenvectors()(j, k)) <= kTakesPart) continue;
+      if (std::abs(unseen[j]) <= kTakesPart) continue;
       JointIdentifiability& joint = result.joints[static_cast<std::size_t>(j)];
       joint.identifiable = false;
-      joint.reason = fmt::format("these postures only see a combination of joints {}", joints);
+      joint.reason = reason;
     }
   }
 }

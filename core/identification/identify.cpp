@@ -4,7 +4,9 @@
 #include "core/identification/describe_loads.h"
 #include "core/identification/load_step.h"
 #include "core/identification/method_runs.h"
+#include "core/identification/posture_influence.h"
 #include "core/identification/settled_frames.h"
+#include "core/identification/without_postures.h"
 
 namespace stiffscope {
 
@@ -12,14 +14,22 @@ Frames settledFrames(const Campaign& campaign) {
   if (!campaign.loading || !whatLoadsLack(campaign).empty() || !heaviestStep(campaign)) {
     return measureFrames(campaign);
   }
-  return settleFrames(campaign, chosenStep(campaign, {}), {}).frames;
+  return settleFrames(campaign, {chosenStep(campaign, {})}, {}).frames;
 }
 
-Identification identify(const Campaign& campaign, const IdentifyOptions& options) {
+namespace {
+
+/// One fit to each posture's reflectors by all joints together, whatever the methods do: a wrong reading shows there.
+std::vector<OutlyingPosture> outlyingOf(const LoadedArm& arm, const JointMask& unknown) {
+  return outlyingPostures(byPosture(reflectorEquations(arm)), unknown);
+}
+
+Identification identifyOnce(const Campaign& campaign, const IdentifyOptions& options) {
   Identification result;
   result.step = chosenStep(campaign, options.step);
+  result.steps = options.all_steps ? loadedSteps(campaign) : std::vector<int>{result.step};
   result.finite_deflection = options.finite_deflection;
-  SettledFrames settled = settleFrames(campaign, result.step, options);
+  SettledFrames settled = settleFrames(campaign, result.steps, options);
   result.frames = std::move(settled.frames);
   result.left_out = std::move(settled.left_out);
   MethodRuns runs{campaign, options, std::move(settled.arm), {}, {}};
@@ -27,8 +37,25 @@ Identification identify(const Campaign& campaign, const IdentifyOptions& options
   runCompletePose(runs, result);
   runPartialPose(runs, result);
   runDecoupledPartialPose(runs, result);
-  describeLoads(campaign, runs.swept.cases.empty() ? runs.calibrated : runs.swept, result);
-  result.cautions = cautionsOf(result);
+  addSharedUncertainty(runs, result);
+  const LoadedArm& shown = runs.swept.cases.empty() ? runs.calibrated : runs.swept;
+  describeLoads(campaign, shown, result);
+  result.outlying = outlyingOf(shown, runs.unknown);
+  return result;
+}
+
+}  // namespace
+
+Identification identify(const Campaign& campaign, const IdentifyOptions& options) {
+  Identification result = identifyOnce(campaign, options);
+  if (options.robust && !result.outlying.empty()) {
+    const std::vector<OutlyingPosture> outlying = result.outlying;
+    result = identifyOnce(withoutPostures(campaign, outlying), options);
+    result.outlying = outlying;
+    result.robust = true;
+    nameLeftOut(campaign, outlying, result.left_out);
+  }
+  result.cautions = cautionsOf(campaign, result);
   return result;
 }
 
@@ -39,7 +66,7 @@ Identification framesAlone(const Campaign& campaign) {
   for (MethodResult& method : result.methods) method.reason = lacking;
   for (JointIdentifiability& joint : result.identifiability.joints) joint.reason = lacking;
   result.calibration.reason = lacking;
-  result.cautions = cautionsOf(result);
+  result.cautions = cautionsOf(campaign, result);
   return result;
 }
 

@@ -5,9 +5,11 @@
 #include <string>
 #include <vector>
 
+#include "core/identification/bootstrap.h"
 #include "core/identification/complete_pose.h"
 #include "core/identification/geometry_calibration.h"
 #include "core/identification/noise_share.h"
+#include "core/identification/outlying_postures.h"
 #include "core/identification/subsets.h"
 
 namespace stiffscope {
@@ -19,11 +21,14 @@ inline constexpr std::array<Method, 3> kMethods{Method::complete_pose, Method::p
 
 struct IdentifyOptions {
   std::optional<int> step;  ///< load step; empty: the one with the largest mean force
+  bool all_steps = false;   ///< all load steps together, a posture's as one block; returns to zero are none
   /// Include K_c of (4), which has no free parameter, and take Jacobians at the middle of the displacement;
   /// false: neglect K_c and take them unloaded, as the paper does.
   bool finite_deflection = true;
   SubsetOptions subsets;
+  PostureBootstrapOptions bootstrap;
   TrustLimits trust;
+  bool robust = false;  ///< leave postures out that disagree with the rest (outlying_postures.h); they are always named
 };
 
 /// Deflection compensated by the estimate from all postures, and over the subsets.
@@ -44,6 +49,7 @@ struct MethodResult {
   std::optional<Compensation> at_wrist;    ///< empty where P_wrist is not measured
   std::optional<Compensation> at_targets;
   SubsetStudy subsets;
+  PostureBootstrap bootstrap;  ///< empty where it is not asked for
 };
 
 /// Complete Pose's result against the characteristic length (L is not unique).
@@ -54,10 +60,13 @@ struct LengthSensitivity {
 };
 
 struct Identification {
-  int step = 0;
+  int step = 0;            ///< the one with the largest mean force of those used
+  std::vector<int> steps;  ///< used, together
   Frames frames;                            ///< the own weight's sag taken off where it can be
   std::vector<LoadCase> cases;              ///< in the swept geometry
   std::vector<std::string> left_out;        ///< postures that are not used, with the reason
+  std::vector<OutlyingPosture> outlying;    ///< disagree with the rest; used nevertheless, unless `robust`
+  bool robust = false;                      ///< `outlying` are left out
   std::vector<WristMove> wrist;             ///< one a case; empty where P_wrist is not measured
   std::vector<double> wrist_displacement;   ///< |displacement| of P_wrist, uncompensated, per case, m
   std::vector<double> target_displacement;  ///< the same, mean over the reflectors

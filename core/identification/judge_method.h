@@ -6,9 +6,9 @@
 namespace stiffscope {
 
 /// Judges a solved method, `out.estimate`, on all postures and on subsets, and fills the rest of `out`.
-/// `normal` are the method's normal equations, one a posture; the decoupled method's are those of P_wrist,
+/// `normal` are the method's normal equations, one a posture (byPosture); the decoupled method's are those of P_wrist,
 /// and its second stage takes the reflectors'.
 void judgeMethod(const LoadedArm& arm, std::vector<NormalEquations> normal, bool decoupled,
-                 const SubsetOptions& options, MethodResult& out);
+                 const IdentifyOptions& options, MethodResult& out);
 
 }  // namespace stiffscope

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <map>
 #include <set>
 
 #include "core/identification/load_case.h"
@@ -35,6 +36,27 @@ std::vector<int> loadSteps(const Campaign& campaign) {
   }
   steps.erase(0);
   return {steps.begin(), steps.end()};
+}
+
+std::vector<int> loadedSteps(const Campaign& campaign) {
+  std::map<int, std::pair<double, int>> forces;
+  if (campaign.states) {
+    for (const State& state : campaign.states->rows) {
+      auto& [sum, count] = forces[state.step];
+      sum += state.wrench_in_cell.head<3>().norm();
+      ++count;
+    }
+  }
+  constexpr double kReturn = 0.05;
+  double most = 0.0;
+  for (const auto& [step, force] : forces) {
+    if (step != 0) most = std::max(most, force.first / force.second);
+  }
+  std::vector<int> steps;
+  for (const auto& [step, force] : forces) {
+    if (step != 0 && most > 0.0 && force.first / force.second >= kReturn * most) steps.push_back(step);
+  }
+  return steps;
 }
 
 int chosenStep(const Campaign& campaign, const std::optional<int>& asked) {

@@ -15,6 +15,9 @@ std::string whatLoadsLack(const Campaign& campaign);
 /// The load steps that `states` has, in order; 0, the unloaded one, is none.
 std::vector<int> loadSteps(const Campaign& campaign);
 
+/// The load steps whose mean force is at least 5 % of the largest step's: the others are returns to zero.
+std::vector<int> loadedSteps(const Campaign& campaign);
+
 /// The step to identify from: the one asked for, else the one with the largest mean force.
 /// Throws InputError where the campaign has no loads, where it does not have that step (the message lists
 /// those it has), or where no step has a force.

@@ -30,6 +30,23 @@ void keepMost(const Campaign& campaign, const Has& has, const char* reason, std:
   });
 }
 
+/// Of all the steps, by pose. With several steps a case that cannot be used says of which step it is.
+std::vector<LoadCase> casesOf(const Campaign& campaign, const LoadingGeometry& geometry, const std::vector<int>& steps,
+                              std::vector<std::string>* left_out) {
+  std::vector<LoadCase> cases;
+  for (const int step : steps) {
+    std::vector<std::string> lacking;
+    for (LoadCase& one : loadCases(campaign, geometry, step, &lacking)) cases.push_back(std::move(one));
+    for (const std::string& reason : lacking) {
+      if (left_out) left_out->push_back(steps.size() == 1 ? reason : fmt::format("{} (step {})", reason, step));
+    }
+  }
+  if (steps.size() > 1) {
+    std::stable_sort(cases.begin(), cases.end(), [](const LoadCase& a, const LoadCase& b) { return a.pose < b.pose; });
+  }
+  return cases;
+}
+
 }  // namespace
 
 bool LoadedArm::hasFlangePoses() const {
@@ -37,8 +54,8 @@ bool LoadedArm::hasFlangePoses() const {
 }
 
 LoadedArm loadedArm(const Campaign& campaign, const LoadingGeometry& geometry, const WristCentre& wrist,
-                    int step, std::vector<std::string>* left_out) {
-  LoadedArm arm{geometry, loadCases(campaign, geometry, step, left_out), {}, {}};
+                    const std::vector<int>& steps, std::vector<std::string>* left_out) {
+  LoadedArm arm{geometry, casesOf(campaign, geometry, steps, left_out), {}, {}};
   keepMost(campaign, hasPose, "fewer than three reflectors read in both states", arm.cases, left_out);
   const auto moveOf = [&](const LoadCase& load_case) {
     return wristMove(load_case, wrist.radii, wrist.centre_at_zero_in_r0);

@@ -9,7 +9,7 @@
 
 namespace stiffscope {
 
-/// The arm under one load step in one geometry: what every method's equations are made from.
+/// The arm under one load step, or several, in one geometry: what every method's equations are made from.
 struct LoadedArm {
   LoadingGeometry geometry;
   std::vector<LoadCase> cases;
@@ -20,9 +20,9 @@ struct LoadedArm {
 };
 
 /// Where reflectors in most postures give a flange pose, or P_wrist, a posture that lacks it is left out, so
-/// that all methods see the same postures; `left_out` names it.
+/// that all methods see the same postures; `left_out` names it. Cases in the order of poses, then of `steps`.
 LoadedArm loadedArm(const Campaign& campaign, const LoadingGeometry& geometry, const WristCentre& wrist,
-                    int step, std::vector<std::string>* left_out = nullptr);
+                    const std::vector<int>& steps, std::vector<std::string>* left_out = nullptr);
 
 /// Equations of all cases: the reflectors', P_wrist's, the pose's at P_TCP.
 std::vector<CaseEquations> reflectorEquations(const LoadedArm& arm);

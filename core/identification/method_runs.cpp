@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 
-#include "core/identification/decoupled_partial_pose.h"
 #include "core/identification/judge_method.h"
-#include "core/identification/partial_pose.h"
+#include "core/identification/method_solution.h"
 #include "core/identification/settled_frames.h"
+#include "core/identification/shared_uncertainty.h"
 #include "core/identification/unavailable.h"
 #include "core/identification/wrist_leak.h"
 
@@ -17,10 +17,14 @@ MethodResult& methodOf(Identification& result, Method which) {
   return result.methods[static_cast<std::size_t>(which)];
 }
 
-std::vector<NormalEquations> normalOf(const std::vector<CaseEquations>& equations) {
-  std::vector<NormalEquations> normal;
-  for (const CaseEquations& one : equations) normal.push_back(normalEquations(one));
-  return normal;
+MethodSolution solutionOf(Method which, const MethodRuns& runs, const Identification& result) {
+  return {which, result.frames.tcp_in_flange, result.characteristic_length.length, runs.unknown,
+          runs.campaign.tracker ? &*runs.campaign.tracker : nullptr};
+}
+
+StiffnessEstimate solved(Method which, LoadedArm& arm, const MethodRuns& runs, const Identification& result) {
+  const MethodSolution how = solutionOf(which, runs, result);
+  return solveSettled(arm, runs.options.finite_deflection, [&](const LoadedArm& now) { return how.estimate(now); });
 }
 
 /// The loaded arm in the calibrated geometry. Where no sweep gave stiffnesses for the own weight's sag,
@@ -31,7 +35,7 @@ LoadedArm calibratedArm(const MethodRuns& runs, Identification& result) {
   for (int round = 0;; ++round) {
     result.calibration = calibrateGeometry(runs.campaign, start);
     if (!result.calibration.done) return runs.swept;
-    LoadedArm arm = loadedArm(runs.campaign, result.calibration.geometry, result.frames.wrist, result.step);
+    LoadedArm arm = loadedArm(runs.campaign, result.calibration.geometry, result.frames.wrist, result.steps);
     if (!settle_sag || round == kSagRounds || arm.cases.empty()) return arm;
     start.compliance = sagCompliance(runs.campaign, runs.options, arm);
   }
@@ -53,9 +57,7 @@ void runCompletePose(MethodRuns& runs, Identification& result) {
   const Eigen::Vector3d tcp = result.frames.tcp_in_flange;
   result.characteristic_length = characteristicLength(runs.swept.geometry, runs.swept.cases, tcp);
   const double length = result.characteristic_length.length;
-  out.estimate = solveSettled(runs.swept, runs.options.finite_deflection, [&](const LoadedArm& arm) {
-    return completePose(poseEquations(arm, tcp), length, runs.unknown);
-  });
+  out.estimate = solved(Method::complete_pose, runs.swept, runs, result);
   constexpr int kEvery = 5;
   const std::vector<CaseEquations> equations = poseEquations(runs.swept, tcp);
   for (std::size_t i = 0; i < result.characteristic_length.curve.size(); i += kEvery) {
@@ -63,9 +65,9 @@ void runCompletePose(MethodRuns& runs, Identification& result) {
     result.length_sensitivity.push_back(
         {at, condition, completePose(equations, at, runs.unknown).compliance});
   }
-  std::vector<NormalEquations> normal;
-  for (const CaseEquations& one : equations) normal.push_back(normalEquations(normalised(one, length)));
-  judgeMethod(runs.swept, std::move(normal), false, runs.options.subsets, out);
+  std::vector<CaseEquations> scaled;
+  for (const CaseEquations& one : equations) scaled.push_back(normalised(one, length));
+  judgeMethod(runs.swept, normalByPosture(scaled), false, runs.options, out);
 }
 
 void runPartialPose(MethodRuns& runs, Identification& result) {
@@ -85,10 +87,8 @@ void runPartialPose(MethodRuns& runs, Identification& result) {
   if (runs.unknown == JointMask{}) judgeJointsIn(arm, runs, result);
   out.reason = whyNoPositions(runs.campaign, arm, runs.unknown);
   if (!out.reason.empty()) return;
-  out.estimate = solveSettled(arm, runs.options.finite_deflection, [&](const LoadedArm& one) {
-    return partialPose(reflectorEquations(one), runs.unknown);
-  });
-  judgeMethod(arm, normalOf(reflectorEquations(arm)), false, runs.options.subsets, out);
+  out.estimate = solved(Method::partial_pose, arm, runs, result);
+  judgeMethod(arm, normalByPosture(reflectorEquations(arm)), false, runs.options, out);
   if (runs.swept.cases.empty()) runs.calibrated = std::move(arm);
 }
 
@@ -97,14 +97,37 @@ void runDecoupledPartialPose(MethodRuns& runs, Identification& result) {
   out.reason = whyNoPositions(runs.campaign, runs.swept, runs.unknown);
   if (out.reason.empty()) out.reason = whyNoWristPoint(runs.campaign, runs.swept, result.frames.wrist);
   if (!out.reason.empty()) return;
-  out.estimate = solveSettled(runs.swept, runs.options.finite_deflection, [&](const LoadedArm& arm) {
-    return decoupledPartialPose(wristPointEquations(arm), reflectorEquations(arm), runs.unknown);
-  });
+  out.estimate = solved(Method::decoupled_partial_pose, runs.swept, runs, result);
   const WristCentre& wrist = result.frames.wrist;
   out.reason =
       whyNotDecoupled(wrist, wristLeak(runs.swept, wrist.centre_at_zero_in_r0, out.estimate.compliance));
   if (!out.reason.empty()) return;
-  judgeMethod(runs.swept, normalOf(wristPointEquations(runs.swept)), true, runs.options.subsets, out);
+  judgeMethod(runs.swept, normalByPosture(wristPointEquations(runs.swept)), true, runs.options, out);
+}
+
+void addSharedUncertainty(const MethodRuns& runs, Identification& result) {
+  std::vector<Method> swept;
+  std::vector<ComplianceOf> solves;
+  for (const Method which : kMethods) {
+    MethodResult& method = methodOf(result, which);
+    if (!method.available || (which == Method::partial_pose && result.calibration.done)) continue;
+    swept.push_back(which);
+    solves.emplace_back([how = solutionOf(which, runs, result)](const LoadedArm& arm) { return how.compliance(arm); });
+  }
+  const std::vector<SweptParts> parts =
+      sweptParts(runs.campaign, result.frames, runs.swept.geometry, result.steps, solves);
+  for (std::size_t k = 0; k < swept.size(); ++k) {
+    CovarianceParts& own = methodOf(result, swept[k]).estimate.parts;
+    own.frames = parts[k].frames, own.wrist = parts[k].wrist;
+  }
+  MethodResult& partial = methodOf(result, Method::partial_pose);
+  if (partial.available && result.calibration.done) {
+    const MethodSolution how = solutionOf(Method::partial_pose, runs, result);
+    partial.estimate.parts.geometry =
+        calibratedPart(runs.campaign, result.calibration, result.frames.wrist, result.steps,
+                       [&](const LoadedArm& arm) { return how.compliance(arm); });
+  }
+  for (MethodResult& method : result.methods) method.estimate.covariance = method.estimate.parts.total();
 }
 
 }  // namespace stiffscope

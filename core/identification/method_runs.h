@@ -23,4 +23,7 @@ void runCompletePose(MethodRuns& runs, Identification& result);
 void runPartialPose(MethodRuns& runs, Identification& result);
 void runDecoupledPartialPose(MethodRuns& runs, Identification& result);
 
+/// Adds what all postures share to the covariances of the methods that have run (shared_uncertainty.h).
+void addSharedUncertainty(const MethodRuns& runs, Identification& result);
+
 }  // namespace stiffscope

@@ -1,6 +1,6 @@
 #include "core/identification/partial_pose.h"
 
-#include <algorithm>
+#include "core/identification/posture_influence.h"
 
 namespace stiffscope {
 
@@ -8,6 +8,7 @@ CaseEquations partialPoseEquations(const LoadingGeometry& geometry, const LoadCa
                                    const Vector6d& torque) {
   CaseEquations equations;
   const auto rows = static_cast<Eigen::Index>(3 * load_case.targets.size());
+  equations.posture = load_case.pose;
   equations.matrix.resize(rows, 6);
   equations.right.resize(rows);
   Eigen::Index row = 0;
@@ -27,11 +28,7 @@ StiffnessEstimate partialPose(const std::vector<CaseEquations>& equations, const
   for (const CaseEquations& one : equations) sum += normalEquations(one);
   estimate.compliance = solveNormal(sum, unknown);
   estimate.condition = conditionNumber(equations, unknown);
-  std::vector<Vector6d> influences;
-  for (const CaseEquations& one : equations) {
-    influences.push_back(influence(one, sum, estimate.compliance, unknown));
-  }
-  estimate.covariance = scatterCovariance(influences, unknown);
+  setScatterOfOneStage(byPosture(equations), sum, estimate);
   describeResiduals(equations, estimate);
   return estimate;
 }

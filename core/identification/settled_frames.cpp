@@ -21,13 +21,13 @@ Vector6d sagCompliance(const Campaign& campaign, const IdentifyOptions& options,
   return sagStiffness(campaign, options, arm).compliance;
 }
 
-SettledFrames settleFrames(const Campaign& campaign, int step, const IdentifyOptions& options) {
+SettledFrames settleFrames(const Campaign& campaign, const std::vector<int>& steps, const IdentifyOptions& options) {
   SettledFrames settled;
   settled.frames = measureFrames(campaign);
   Vector6d compliance = Vector6d::Zero();
   const auto armNow = [&](std::vector<std::string>* left_out) {
     return loadedArm(campaign, sweptGeometry(campaign, settled.frames, compliance), settled.frames.wrist,
-                     step, left_out);
+                     steps, left_out);
   };
   for (int round = 0; round < kSagRounds && settled.frames.weight.links_known; ++round) {
     LoadedArm arm = armNow(nullptr);

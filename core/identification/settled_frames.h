@@ -15,7 +15,7 @@ struct SettledFrames {
 /// The own weight needs stiffnesses to be taken off the sweeps, and the stiffnesses need the sweeps: the two
 /// are found in turns, from the rigid arm on; three rounds settle to 1e-4 of a stiffness. Without known
 /// masses, the rigid arm's frames.
-SettledFrames settleFrames(const Campaign& campaign, int step, const IdentifyOptions& options);
+SettledFrames settleFrames(const Campaign& campaign, const std::vector<int>& steps, const IdentifyOptions& options);
 
 /// The springs that the own weight bends, from the loads: by the decoupled method where P_wrist is measured, else
 /// Partial Pose; no compliance negative. The covariance is from the scatter between postures.

@@ -5,10 +5,20 @@
 #include <cmath>
 #include <limits>
 
+#include "core/identification/coverage_factor.h"
+#include "core/identification/posture_influence.h"
+
 namespace stiffscope {
 
 double StiffnessEstimate::stiffnessSd(int joint) const {
   return std::sqrt(covariance(joint, joint)) / (compliance[joint] * compliance[joint]);
+}
+
+double StiffnessEstimate::dof(int joint) const {
+  const double scatter = parts.scatter(joint, joint);
+  if (scatter <= 0.0) return scatter_dof[joint];
+  const double ratio = covariance(joint, joint) / scatter;
+  return scatter_dof[joint] * ratio * ratio;
 }
 
 std::string StiffnessEstimate::mark(int joint) const {
@@ -27,20 +37,30 @@ Matrix6d scatterCovariance(const std::vector<Vector6d>& influences, const JointM
   return sum;
 }
 
-Vector6d influence(const CaseEquations& equations, const NormalEquations& sum, const Vector6d& compliance,
-                   const JointMask& unknown) {
-  // With N = L L^T the root acts on six numbers: L^-1 A^T (I - H)^-1/2 r = (I - G)^-1/2 L^-1 A^T r, G = L^-1
-  // A^T A L^-T.
-  const ScaledNormal scaled = scaledNormal(sum.matrix, unknown);
-  const Eigen::LLT<Matrix6d> cholesky(scaled.matrix);
-  const Eigen::Matrix<double, 6, Eigen::Dynamic> rows =
-      cholesky.matrixL().solve(scaled.scale.asDiagonal() * equations.matrix.transpose());
-  const Vector6d pull = rows * (equations.right - equations.matrix * compliance);
-  const Eigen::SelfAdjointEigenSolver<Matrix6d> own(rows * rows.transpose());
-  constexpr double kMost = 0.95;  // a posture that alone determines a combination has no residual to correct
-  const Vector6d root = (1.0 - own.eigenvalues().array().min(kMost)).rsqrt();
-  const Vector6d corrected = own.eigenvectors() * root.cwiseProduct(own.eigenvectors().transpose() * pull);
-  return scaled.scale.cwiseProduct(cholesky.matrixU().solve(corrected).eval());
+void setScatter(std::vector<Vector6d> influences, const Vector6d& dof, StiffnessEstimate& estimate) {
+  estimate.parts = {};
+  estimate.parts.scatter = scatterCovariance(influences, estimate.identifiable);
+  estimate.covariance = estimate.parts.scatter;
+  estimate.scatter_dof = dof;
+  estimate.influences = std::move(influences);
+}
+
+void setScatterOfOneStage(const std::vector<CaseEquations>& equations, const NormalEquations& sum,
+                          StiffnessEstimate& estimate) {
+  std::vector<PostureGain> gains;
+  std::vector<Vector6d> influences;
+  for (const CaseEquations& one : equations) {
+    gains.push_back(correctedGain(one, sum, estimate.identifiable));
+    influences.emplace_back(gains.back() * (one.right - one.matrix * estimate.compliance));
+  }
+  const Matrix6d inverse = inverseNormal(sum, estimate.identifiable);
+  Vector6d dof = Vector6d::Zero();
+  for (int j = 0; j < 6; ++j) {
+    if (estimate.identifiable[static_cast<std::size_t>(j)]) {
+      dof[j] = matchedDof(influenceCovariance(gains, equations, inverse, j));
+    }
+  }
+  setScatter(std::move(influences), dof, estimate);
 }
 
 void describeResiduals(const std::vector<CaseEquations>& equations, StiffnessEstimate& estimate) {

@@ -2,8 +2,13 @@
 
 #include <algorithm>
 
+#include "core/cartesian_stiffness/posture_stiffness.h"
+#include "core/identification/geometric_stiffness_cost.h"
+#include "core/identification/posture_count.h"
 #include "core/identification/stiffness_spread.h"
 #include "core/input/units.h"
+#include "reports/json/posture_stiffness_json.h"
+#include "reports/json/uncertainty_json.h"
 #include "reports/method_names.h"
 
 namespace stiffscope {
@@ -61,6 +66,7 @@ Json methodJson(const MethodResult& method) {
   json["compliance_rad_per_nm"] = byJoint(estimate, [&](int j) { return number(estimate.compliance[j]); });
   json["identifiable"] = estimate.identifiable;
   json["mark"] = byJoint(estimate, [&](int j) { return Json(estimate.mark(j)); });
+  addUncertainty(method, json);
   json["condition"] = number(estimate.condition);
   json["rms_residual_mm"] = estimate.rms_residual / kMillimetre;
   json["sigma_mm"] = estimate.sigma / kMillimetre;
@@ -100,6 +106,7 @@ Json perPostureJson(const Campaign& campaign, const Identification& result, cons
   Json postures = Json::array();
   for (std::size_t i = 0; i < result.cases.size(); ++i) {
     Json posture{{"pose", campaign.pose_ids[static_cast<std::size_t>(result.cases[i].pose)]}};
+    if (result.steps.size() > 1) posture["step"] = result.cases[i].step;
     if (!result.wrist_displacement.empty()) posture["wrist_mm"] = result.wrist_displacement[i] / kMillimetre;
     posture["targets_mean_mm"] = result.target_displacement[i] / kMillimetre;
     for (const Method which : methods) {
@@ -116,11 +123,40 @@ Json perPostureJson(const Campaign& campaign, const Identification& result, cons
   return postures;
 }
 
+/// Cartesian stiffness and what neglecting K_c costs, by the best of the methods there is.
+Json cartesianJson(const Campaign& campaign, const Identification& result, const std::vector<Method>& methods) {
+  for (const Method which : {Method::decoupled_partial_pose, Method::partial_pose, Method::complete_pose}) {
+    if (!result.of(which).available || std::find(methods.begin(), methods.end(), which) == methods.end()) continue;
+    Json rows = postureStiffnessJson(postureStiffnesses(campaign, result, which));
+    const std::vector<GeometricStiffnessCost> costs = geometricStiffnessCosts(result, which);
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      rows[i]["k_c_cost_um"] = costs[i].at_targets / kMicrometre;
+      rows[i]["k_c_cost_share"] = costs[i].share;
+    }
+    return {{"method", namesOf(which).key}, {"rows", rows}};
+  }
+  return nullptr;
+}
+
+Json outlyingJson(const Campaign& campaign, const Identification& result) {
+  Json list = Json::array();
+  for (const OutlyingPosture& one : result.outlying) {
+    list.push_back({{"pose", campaign.pose_ids[static_cast<std::size_t>(one.posture)]},
+                    {"rms_um", one.rms / kMicrometre},
+                    {"others_rms_um", one.others / kMicrometre},
+                    {"f_ratio", number(one.f)},
+                    {"p_value", number(one.p_value)},
+                    {"left_out", result.robust}});
+  }
+  return list;
+}
+
 }  // namespace
 
 Json identificationJson(const Campaign& campaign, const Identification& result, const std::vector<Method>& methods) {
-  Json json{{"campaign", campaignJson(campaign)}, {"step", result.step}, {"postures", result.cases.size()}};
+  Json json{{"campaign", campaignJson(campaign)}, {"step", result.step}, {"steps", result.steps}, {"postures", postureCount(result)}};
   json["left_out"] = result.left_out;
+  json["outlying"] = outlyingJson(campaign, result);
   json["cautions"] = result.cautions;
   Json by_method = Json::object();
   for (const Method which : methods) by_method[namesOf(which).key] = methodJson(result.of(which));
@@ -147,6 +183,7 @@ Json identificationJson(const Campaign& campaign, const Identification& result, 
                                      {"sensitivity", curve}};
   }
   json["per_posture"] = perPostureJson(campaign, result, methods);
+  json["posture_stiffness"] = cartesianJson(campaign, result, methods);
   return json;
 }
 

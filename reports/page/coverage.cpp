@@ -1,19 +1,15 @@
 #include "reports/page/coverage.h"
 
-#include <algorithm>
 #include <cmath>
 
-#include "core/audit/chance.h"
+#include "core/identification/coverage_factor.h"
+#include "core/identification/stiffness_interval.h"
 
 namespace stiffscope::page {
 
-Coverage coverageOf(const Identification& identification, const StiffnessEstimate& estimate) {
-  constexpr double kOutside = 0.05;
-  const auto unknowns =
-      static_cast<int>(std::count(estimate.identifiable.begin(), estimate.identifiable.end(), true));
-  const int left = static_cast<int>(identification.cases.size()) - (unknowns + 2) / 3;
-  if (left < 1) return {std::nan(""), 0};
-  return {studentLimit(kOutside, left), left};
+Coverage coverageOf(const StiffnessEstimate& estimate, int joint) {
+  const double factor = coverageFactor(estimate, joint, kStatedCoverage);
+  return {factor, std::isfinite(factor) ? estimate.dof(joint) : 0.0};
 }
 
 }  // namespace stiffscope::page

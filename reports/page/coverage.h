@@ -1,16 +1,15 @@
 #pragma once
 
-#include "core/identification/identify.h"
+#include "core/identification/stiffness_estimate.h"
 
 namespace stiffscope::page {
 
-/// From standard to expanded uncertainty, U = k u (GUM, annex G): Student's t for 95 % at the degrees of
-/// freedom that the scatter between postures leaves, postures less those that the unknowns take up (a posture
-/// gives three coordinates). NaN where none is left.
+/// From standard to expanded uncertainty, U = k u (GUM, annex G): Student's t for 95 % at the effective degrees of
+/// freedom of a joint's compliance. NaN where none is left.
 struct Coverage {
   double factor = 0.0;
-  int degrees_of_freedom = 0;
+  double degrees_of_freedom = 0.0;
 };
-Coverage coverageOf(const Identification& identification, const StiffnessEstimate& estimate);
+Coverage coverageOf(const StiffnessEstimate& estimate, int joint);
 
 }  // namespace stiffscope::page

@@ -1,7 +1,9 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <limits>
 
+#include "core/identification/stiffness_interval.h"
 #include "core/input/units.h"
 #include "reports/page/coverage.h"
 #include "reports/page/html_table.h"
@@ -33,7 +35,7 @@ Cell stiffnessCell(const Identification& result, Method method, int joint, Notes
     return {"not identifiable",
             notes.mark(fmt::format("{} is not identifiable: {}.", jointName(joint), reason))};
   }
-  const double expanded = coverageOf(result, one.estimate).factor * one.estimate.stiffnessSd(joint);
+  const double expanded = coverageOf(one.estimate, joint).factor * one.estimate.stiffnessSd(joint);
   const std::string value = withUncertainty(one.estimate.stiffness(joint) / kMega, expanded / kMega);
   const std::string mark = one.estimate.mark(joint);
   return mark.empty() ? Cell(value) : Cell(value, fmt::format("{} {}", mark, notes.mark(markNote(mark))));
@@ -109,20 +111,55 @@ Table lengthTable(const Identification& result) {
   return table;
 }
 
+std::string range(const std::string& low, const std::string& high) {
+  return low == high ? low : fmt::format("{} to {}", low, high);
+}
+
 std::string uncertaintyWords(const Identification& result) {
   std::vector<std::string> factors;
   for (const Method method : kMethods) {
-    if (!result.of(method).available) continue;
-    const Coverage coverage = coverageOf(result, result.of(method).estimate);
-    if (coverage.degrees_of_freedom < 1) continue;
-    factors.push_back(fmt::format("{} for {} ({} degrees of freedom)", fixed(coverage.factor, 2), shortName(method),
-                                  coverage.degrees_of_freedom));
+    const StiffnessEstimate& estimate = result.of(method).estimate;
+    Coverage least{std::numeric_limits<double>::infinity(), 0.0}, most;
+    for (int joint = 0; joint < 6 && result.of(method).available; ++joint) {
+      if (!estimate.identifiable[static_cast<std::size_t>(joint)]) continue;
+      const Coverage own = coverageOf(estimate, joint);
+      if (own.factor < least.factor) least = own;
+      if (own.factor > most.factor) most = own;
+    }
+    if (most.factor == 0.0) continue;
+    factors.push_back(fmt::format("{} for {} ({} degrees of freedom)",
+                                  range(fixed(least.factor, 2), fixed(most.factor, 2)), shortName(method),
+                                  range(fixed(most.degrees_of_freedom, 1), fixed(least.degrees_of_freedom, 1))));
   }
   if (factors.empty()) return "Too few postures for an uncertainty.";
   return fmt::format(
-      "± is the expanded uncertainty U = k u, coverage about 95\u00a0%, with the coverage factor k from Student's t: "
-      "{}. The standard uncertainty u is from the scatter between postures.",
+      "± is the expanded uncertainty U = k u, coverage about 95\u00a0%, with the coverage factor k from Student's t, joint by "
+      "joint: {}. The standard uncertainty u is from the scatter between postures and from what they all share: frames, "
+      "wrist radii, calibrated geometry.",
       fmt::join(factors, ", "));
+}
+
+/// Where the interval of the stiffness is far from symmetric, or open.
+std::string wideIntervals(const Identification& result) {
+  std::vector<std::string> wide;
+  for (const Method method : kMethods) {
+    const StiffnessEstimate& estimate = result.of(method).estimate;
+    for (int joint = 0; joint < 6 && result.of(method).available; ++joint) {
+      if (!estimate.identifiable[static_cast<std::size_t>(joint)]) continue;
+      const CoverageInterval compliance = complianceInterval(estimate, joint);
+      const double c = estimate.compliance[joint];
+      constexpr double kWide = 0.2;
+      if (!std::isfinite(compliance.low) || compliance.high - c < kWide * std::abs(c)) continue;
+      const CoverageInterval own = stiffnessInterval(compliance);
+      wide.push_back(std::isfinite(own.high)
+                         ? fmt::format("{} by {} is between {} and {}", jointName(joint), shortName(method),
+                                       significant(own.low / kMega, 3), significant(own.high / kMega, 3))
+                         : fmt::format("{} by {} is only known to be above {}", jointName(joint), shortName(method),
+                                       significant(own.low / kMega, 3)));
+    }
+  }
+  if (wide.empty()) return {};
+  return fmt::format("Wide 95\u00a0% intervals, 10⁶\u00a0Nm/rad: {}.", fmt::join(wide, "; "));
 }
 
 }  // namespace
@@ -132,6 +169,7 @@ void writeStiffness(Html& html, const ReportContent& content) {
     Notes notes;
     writeTable(html, stiffnessTable(one.identification, notes));
     html.paragraph(uncertaintyWords(one.identification), "faint");
+    if (const std::string wide = wideIntervals(one.identification); !wide.empty()) html.paragraph(wide);
     notes.write(html);
     writeTable(html, complianceTable(one.identification));
     writeTable(html, fitTable(one.identification));

@@ -1,13 +1,18 @@
 #include "reports/text/identification_text.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <iterator>
 
+#include "core/identification/coverage_factor.h"
+#include "core/identification/posture_count.h"
+#include "core/identification/stiffness_interval.h"
 #include "core/input/units.h"
 #include "reports/method_names.h"
+#include "reports/text/uncertainty_text.h"
 #include "reports/text/wrapped.h"
 
 namespace stiffscope {
@@ -19,13 +24,13 @@ using Out = std::back_insert_iterator<std::string>;
 std::string stiffnessCell(const StiffnessEstimate& estimate, int joint) {
   if (!estimate.identifiable[static_cast<std::size_t>(joint)]) return "-";
   const char* mark = estimate.mark(joint).empty() ? "" : (estimate.mark(joint) == "negative" ? "!" : "?");
-  const double sd = estimate.stiffnessSd(joint) * 1e-6;
-  return fmt::format("{:.4f} +-{}{}", estimate.stiffness(joint) * 1e-6, std::isfinite(sd) ? fmt::format("{:.4f}", sd) : "?",
-                     mark);
+  const double expanded = coverageFactor(estimate, joint, kStatedCoverage) * estimate.stiffnessSd(joint) * 1e-6;
+  return fmt::format("{:.4f} +-{}{}", estimate.stiffness(joint) * 1e-6,
+                     std::isfinite(expanded) ? fmt::format("{:.4f}", expanded) : "?", mark);
 }
 
 void writeStiffness(const Identification& result, const std::vector<Method>& methods, Out out) {
-  fmt::format_to(out, "\nStiffness, 1e6 Nm/rad, with its standard uncertainty from the scatter between postures\n  {:<5}", "");
+  fmt::format_to(out, "\nStiffness, 1e6 Nm/rad, with its expanded uncertainty U (coverage 95 %, Student's t)\n  {:<5}", "");
   for (int joint = 1; joint <= 6; ++joint) fmt::format_to(out, " {:>17}", fmt::format("k{}", joint));
   fmt::format_to(out, "\n");
   bool negative = false, imprecise = false;
@@ -41,6 +46,7 @@ void writeStiffness(const Identification& result, const std::vector<Method>& met
     }
     fmt::format_to(out, "\n");
   }
+  fmt::format_to(out, "{}", wideIntervals(result, methods));
   if (negative) fmt::format_to(out, "  ! negative: no spring has that, something else is in the data\n");
   if (imprecise) fmt::format_to(out, "  ? imprecise: the standard uncertainty exceeds the value\n");
   for (std::size_t j = 0; j < 6; ++j) {
@@ -112,12 +118,13 @@ std::string identificationText(const Campaign& campaign, const Identification& r
                                const std::vector<Method>& methods) {
   std::string text;
   Out out(text);
-  fmt::format_to(out, "{}: joint stiffness from load step {}, {} postures\n", campaign.name, result.step,
-                 result.cases.size());
+  fmt::format_to(out, "{}: joint stiffness from load step{} {}, {} postures\n", campaign.name,
+                 result.steps.size() > 1 ? "s" : "", fmt::join(result.steps, ", "), postureCount(result));
   for (const std::string& left_out : result.left_out) fmt::format_to(out, "  left out: {}\n", left_out);
   writeStiffness(result, methods, out);
   writeResiduals(result, methods, out);
   writeCompensation(result, methods, out);
+  fmt::format_to(out, "{}", bootstrapText(result, methods));
   fmt::format_to(out, "\n");
   for (const std::string& caution : result.cautions) {
     fmt::format_to(out, "{}\n", wrapped("Caution: " + caution + ".", 2));

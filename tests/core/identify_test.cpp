@@ -318,6 +318,9 @@ TEST(JudgeJoints, AJointSeenOnlyInCombination) {
   for (const std::size_t joint : {3u, 5u}) {
     EXPECT_NE(found.joints[joint].reason.find("combination of joints 4, 6"), std::string::npos)
         << found.joints[joint].reason;
+    // One axis for both: what the load turns is their sum.
+    EXPECT_NE(found.joints[joint].reason.find("only 1/k4 + 1/k6 is determined"), std::string::npos)
+        << found.joints[joint].reason;
   }
 }
 

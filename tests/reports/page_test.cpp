@@ -156,8 +156,8 @@ TEST(Page, NumbersAreThoseOfTheResult) {
   const std::string page = reportPage(contentOf(small));
   EXPECT_TRUE(has(page, "2.00\u00a0mm"));    // the mean of 1, 3 and 2
   EXPECT_TRUE(has(page, ">85\u00a0%<"));     // held out
-  // Three postures, of which five unknowns take up two: one degree of freedom, t = 12.71 (any table).
-  EXPECT_TRUE(has(page, "12.71 for PP (1 degrees of freedom)"));
+  // One degree of freedom, t = 12.71 (any table).
+  EXPECT_TRUE(has(page, "12.71 for PP (1.0 degrees of freedom)"));
   EXPECT_TRUE(has(page, "5.0 ± 6.4"));     // 1/0.2e-6, a tenth of it times 12.71
   EXPECT_TRUE(has(page, "−0.25 ± 0.16"));  // joint 4 by PP: u is that of 2e-6 rad/Nm, over c squared
   EXPECT_TRUE(has(page, "200 ± 20"));      // its compliance with the standard uncertainty

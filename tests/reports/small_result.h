@@ -64,6 +64,7 @@ struct SmallResult {
     StiffnessEstimate& estimate = result.estimate;
     estimate.compliance << 0, 0.2e-6, 0.25e-6, 2e-6, 4e-6, 10e-6;
     estimate.covariance = Matrix6d::Zero();
+    estimate.scatter_dof.setOnes();
     for (int j = 1; j < 6; ++j) estimate.covariance(j, j) = std::pow(0.1 * estimate.compliance[j], 2);
     estimate.identifiable = {false, true, true, true, true, true};
     for (std::size_t i = 0; i < identification.cases.size(); ++i) {

@@ -1,0 +1,25 @@
+#pragma once
+
+#include "core/identification/identify.h"
+#include "core/identification/loaded_arm.h"
+
+namespace stiffscope {
+
+/// How a method solves a loaded arm, once what it needs is known.
+struct MethodSolution {
+  Method method = Method::partial_pose;
+  Eigen::Vector3d tcp_in_flange = Eigen::Vector3d::Zero();  ///< Complete Pose
+  double length = 1.0;                                      ///< the same: the characteristic length, m
+  JointMask unknown{};
+  const Tracker* tracker = nullptr;  ///< Partial Pose: whose noise is the working model of the scatter; may be none
+
+  StiffnessEstimate estimate(const LoadedArm& arm) const;
+
+  /// The compliances alone, without their covariance and at a twentieth of the time.
+  Vector6d compliance(const LoadedArm& arm) const;
+};
+
+/// Normal equations, one a posture.
+std::vector<NormalEquations> normalByPosture(const std::vector<CaseEquations>& equations);
+
+}  // namespace stiffscope

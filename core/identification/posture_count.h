@@ -1,0 +1,10 @@
+#pragma once
+
+#include "core/identification/identify.h"
+
+namespace stiffscope {
+
+/// The postures that were used: with all load steps together a posture has several load cases.
+std::size_t postureCount(const Identification& result);
+
+}  // namespace stiffscope

@@ -1,0 +1,106 @@
+#include "core/identification/shared_uncertainty.h"
+
+#include "core/frames/axes_covariance.h"
+#include "metrology/line_derivatives.h"
+
+namespace stiffscope {
+
+namespace {
+
+/// What the loading takes from the frames, with axes and radii moved.
+class MovedFrames {
+ public:
+  MovedFrames(const Campaign& campaign, const Frames& frames, const LoadingGeometry& geometry,
+              const std::vector<int>& steps)
+      : campaign_(campaign), frames_(frames), compliance_(geometry.compliance), steps_(steps), moved_(frames) {}
+
+  /// `axes`: lines of the axes that are measured, in their order.
+  LoadedArm withAxes(const std::vector<Line>& axes) {
+    std::size_t next = 0;
+    for (MeasuredAxis& axis : moved_.axes) {
+      if (axis.measured) axis.at_zero.line = axes[next++];
+    }
+    moved_.arm = armInR0(campaign_.robot, moved_.axes);
+    const Eigen::Isometry3d carry = moved_.arm.r0_from_points * frames_.arm.r0_from_points.inverse();
+    for (std::size_t k = 0; k < moved_.targets_in_r0_at_zero.size(); ++k) {
+      if (frames_.targets_in_r0_at_zero[k]) moved_.targets_in_r0_at_zero[k] = carry * *frames_.targets_in_r0_at_zero[k];
+    }
+    return load(moved_);
+  }
+
+  LoadedArm withRadius(std::size_t target, double step) const {
+    Frames one = frames_;
+    one.wrist.radii[target] += step;
+    return load(one);
+  }
+
+  LoadedArm unmoved() const { return load(frames_); }
+
+ private:
+  LoadedArm load(const Frames& frames) const {
+    return loadedArm(campaign_, sweptGeometry(campaign_, frames, compliance_), frames.wrist, steps_);
+  }
+
+  const Campaign& campaign_;
+  const Frames& frames_;
+  const Vector6d compliance_;
+  const std::vector<int>& steps_;
+  Frames moved_;
+};
+
+Eigen::VectorXd solveAll(const std::vector<ComplianceOf>& solves, const LoadedArm& arm) {
+  Eigen::VectorXd all(6 * static_cast<Eigen::Index>(solves.size()));
+  for (std::size_t k = 0; k < solves.size(); ++k) all.segment<6>(6 * static_cast<Eigen::Index>(k)) = solves[k](arm);
+  return all;
+}
+
+}  // namespace
+
+std::vector<SweptParts> sweptParts(const Campaign& campaign, const Frames& frames, const LoadingGeometry& geometry,
+                                   const std::vector<int>& steps, const std::vector<ComplianceOf>& solves) {
+  std::vector<SweptParts> parts(solves.size());
+  if (solves.empty() || !frames.arm.points_placed) return parts;
+  MovedFrames moved(campaign, frames, geometry, steps);
+  const AxesCovariance all_axes = axesCovariance(frames.axes);
+  std::vector<MeasuredLine> lines;
+  std::vector<Eigen::Index> rows;
+  for (std::size_t axis = 0; axis < frames.axes.size(); ++axis) {
+    if (!frames.axes[axis].measured) continue;
+    lines.push_back(frames.axes[axis].at_zero);
+    for (Eigen::Index k = 0; k < 4; ++k) rows.push_back(4 * static_cast<Eigen::Index>(axis) + k);
+  }
+  const Eigen::MatrixXd by_axes = derivativesByLines(
+      lines, [&](const std::vector<Line>& axes) { return solveAll(solves, moved.withAxes(axes)); });
+  const Eigen::MatrixXd of_axes = all_axes(rows, rows);
+
+  const WristCentre& wrist = frames.wrist;
+  const auto swept = static_cast<Eigen::Index>(wrist.measured ? wrist.targets.size() : 0);
+  Eigen::MatrixXd by_radii = Eigen::MatrixXd::Zero(by_axes.rows(), swept);
+  constexpr double kStep = 1e-5;  // m
+  const Eigen::VectorXd unmoved = swept > 0 ? solveAll(solves, moved.unmoved()) : Eigen::VectorXd();
+  for (Eigen::Index k = 0; k < swept; ++k) {
+    const auto target = static_cast<std::size_t>(wrist.targets[static_cast<std::size_t>(k)]);
+    by_radii.col(k) = (solveAll(solves, moved.withRadius(target, kStep)) - unmoved) / kStep;
+  }
+  for (std::size_t k = 0; k < solves.size(); ++k) {
+    const auto at = 6 * static_cast<Eigen::Index>(k);
+    parts[k].frames = by_axes.middleRows<6>(at) * of_axes * by_axes.middleRows<6>(at).transpose();
+    if (swept == 0) continue;
+    parts[k].wrist = by_radii.middleRows<6>(at) * wrist.spheres.covariance.bottomRightCorner(swept, swept) *
+                     by_radii.middleRows<6>(at).transpose();
+  }
+  return parts;
+}
+
+Matrix6d calibratedPart(const Campaign& campaign, const GeometryCalibration& calibration, const WristCentre& wrist,
+                        const std::vector<int>& steps, const ComplianceOf& solve) {
+  const Vector6d unmoved = solve(loadedArm(campaign, calibration.geometry, wrist, steps));
+  Matrix6d covariance = Matrix6d::Zero();
+  for (const LoadingGeometry& moved : calibration.spread) {
+    const Vector6d change = solve(loadedArm(campaign, moved, wrist, steps)) - unmoved;
+    covariance += change * change.transpose();
+  }
+  return covariance;
+}
+
+}  // namespace stiffscope

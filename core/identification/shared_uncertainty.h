@@ -1,0 +1,32 @@
+#pragma once
+
+#include <functional>
+
+#include "core/identification/geometry_calibration.h"
+#include "core/identification/loaded_arm.h"
+#include "core/identification/stiffness_estimate.h"
+
+namespace stiffscope {
+
+// What all postures have in common, and no scatter between them shows, carried to the compliances by differences of the
+// whole solution: J C J^T. Solutions here neglect K_c, which changes a derivative by as little as it changes the
+// torques (about a hundredth).
+
+/// Compliances by one method from a loaded arm.
+using ComplianceOf = std::function<Vector6d(const LoadedArm&)>;
+
+/// Of the compliances that `solve` gives in the swept geometry: by the six axes as they were measured (AxesCovariance),
+/// from which R0, links and the flange's place follow, and by the radii of the wrist sweep. The reflectors'
+/// places at zero go along with R0, as if they were not turned back about the measured axes, and P_TCP's place in the
+/// flange is kept: that overstates Complete Pose's part by up to two, of some thousandths of the whole.
+struct SweptParts {
+  Matrix6d frames = Matrix6d::Zero(), wrist = Matrix6d::Zero();
+};
+std::vector<SweptParts> sweptParts(const Campaign& campaign, const Frames& frames, const LoadingGeometry& geometry,
+                                   const std::vector<int>& steps, const std::vector<ComplianceOf>& solves);
+
+/// Of the compliances in the calibrated geometry, by its covariance (GeometryCalibration::spread).
+Matrix6d calibratedPart(const Campaign& campaign, const GeometryCalibration& calibration, const WristCentre& wrist,
+                        const std::vector<int>& steps, const ComplianceOf& solve);
+
+}  // namespace stiffscope

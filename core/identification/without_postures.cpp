@@ -1,0 +1,41 @@
+#include "core/identification/without_postures.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/input/units.h"
+
+namespace stiffscope {
+
+namespace {
+
+template <class Table>
+void drop(Table& table, const std::vector<OutlyingPosture>& postures) {
+  if (!table) return;
+  std::erase_if(table->rows, [&](const auto& row) {
+    return std::any_of(postures.begin(), postures.end(), [&](const OutlyingPosture& one) { return one.posture == row.pose; });
+  });
+}
+
+}  // namespace
+
+Campaign withoutPostures(const Campaign& campaign, const std::vector<OutlyingPosture>& postures) {
+  Campaign rest = campaign;
+  drop(rest.loading, postures);
+  drop(rest.states, postures);
+  drop(rest.displacements, postures);
+  return rest;
+}
+
+void nameLeftOut(const Campaign& campaign, const std::vector<OutlyingPosture>& postures,
+                 std::vector<std::string>& left_out) {
+  for (const OutlyingPosture& one : postures) {
+    const std::string start = fmt::format("pose {}:", campaign.pose_ids[static_cast<std::size_t>(one.posture)]);
+    std::erase_if(left_out, [&](const std::string& text) { return text.starts_with(start); });
+    left_out.push_back(fmt::format("{} disagrees with the other postures by {:.0f} um per coordinate, {:.1f} times theirs",
+                                   start, one.rms / kMicrometre, one.rms / one.others));
+  }
+}
+
+}  // namespace stiffscope
