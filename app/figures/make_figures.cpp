@@ -4,6 +4,7 @@
 
 #include "app/figures/deflection_scene.h"
 #include "app/figures/encoder_bars.h"
+#include "app/figures/gap_bars.h"
 #include "app/figures/residual_bars.h"
 #include "app/figures/residual_directions.h"
 #include "app/figures/rigid_sweeps.h"
@@ -64,6 +65,7 @@ std::vector<Figure> figuresOf(const ReportCampaign& one, const FigureOptions& op
   if (!spreads.panels.empty()) figures.push_back(drawn(describeSubsetSpreads(one), spreads, kChart));
   const IntervalChart intervals = stiffnessIntervals(one);
   if (!intervals.series.empty()) figures.push_back(drawn(describeStiffnessIntervals(one), intervals, kChart));
+  if (const auto gap = gapBars(one)) figures.push_back(drawn(describeGapBars(one), *gap, kChart));
   addReadings(one, figures);
   return figures;
 }

@@ -150,6 +150,7 @@ class Diagnoser {
     result_.positions_tested = input_.absolute;
     asMeasured();
     result_.where = whereDeflection(input_, fit_, before_);
+    result_.where_after = whereDeflection(input_, fit_, after_);
     result_.where_positions = wherePosition(input_, fit_, before_);
     result_.aliases = designAliases(input_, fit_, allowed_);
     detectable();

@@ -89,7 +89,8 @@ struct Diagnosis {
   std::vector<NotTestable> not_testable;
   Gap gap, positions;  ///< of the deflection; of unloaded absolute positions (deflection 0)
   bool positions_tested = false;
-  std::vector<WhereTable> where, where_positions;
+  std::vector<WhereTable> where, where_positions;  ///< of what stiffnesses alone leave
+  std::vector<WhereTable> where_after;  ///< of the deflection, with the verdict's effects in the model
   std::vector<NextMeasurement> next;
 
   double state_noise = 0.0;  ///< rms noise of one state's displacement, per coordinate, m

@@ -32,7 +32,7 @@ bool hasPositive(const StiffnessEstimate& estimate) {
 std::string residualCaution(const Identification& result, const MethodResult& method) {
   if (!result.noise || method.estimate.sigma < kAboveNoise * result.noise->per_coordinate) return {};
   return fmt::format(
-      "the residual of {:.0f} um per coordinate is {:.0f} times the {:.1f} um of the tracker's noise: something other than "
+      "the residual of {:.0f} µm per coordinate is {:.0f} times the {:.1f} µm of the tracker's noise: something other than "
       "joint springs is in the data, and the stated uncertainties hold it only as far as it scatters between postures",
       method.estimate.sigma / kMicrometre, method.estimate.sigma / result.noise->per_coordinate,
       result.noise->per_coordinate / kMicrometre);
@@ -43,7 +43,7 @@ std::string outlyingCaution(const Campaign& campaign, const Identification& resu
   if (result.outlying.empty()) return {};
   std::string postures;
   for (const OutlyingPosture& one : result.outlying) {
-    postures += fmt::format("{}{} ({:.0f} um per coordinate against {:.0f} um of the others)", postures.empty() ? "" : ", ",
+    postures += fmt::format("{}{} ({:.0f} µm per coordinate against {:.0f} µm of the others)", postures.empty() ? "" : ", ",
                             campaign.pose_ids[static_cast<std::size_t>(one.posture)], one.rms / kMicrometre,
                             one.others / kMicrometre);
   }
@@ -57,7 +57,7 @@ void addSweepCautions(const Frames& frames, std::vector<std::string>& cautions) 
     const AxisFit& fit = frames.axes[i].fit;
     if (!frames.axes[i].measured || fit.chi2_per_dof < kAboveNoise * kAboveNoise) continue;
     cautions.push_back(fmt::format(
-        "the circles of axis {} leave {:.0f} um, {:.0f} times the tracker's noise: the axis bent during its sweep or a "
+        "the circles of axis {} leave {:.0f} µm, {:.0f} times the tracker's noise: the axis bent during its sweep or a "
         "reading is wrong, and its uncertainty is of scatter only",
         i + 1, fit.rms / kMicrometre, std::sqrt(fit.chi2_per_dof)));
   }

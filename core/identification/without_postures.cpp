@@ -33,7 +33,7 @@ void nameLeftOut(const Campaign& campaign, const std::vector<OutlyingPosture>& p
   for (const OutlyingPosture& one : postures) {
     const std::string start = fmt::format("pose {}:", campaign.pose_ids[static_cast<std::size_t>(one.posture)]);
     std::erase_if(left_out, [&](const std::string& text) { return text.starts_with(start); });
-    left_out.push_back(fmt::format("{} disagrees with the other postures by {:.0f} um per coordinate, {:.1f} times theirs",
+    left_out.push_back(fmt::format("{} disagrees with the other postures by {:.0f} µm per coordinate, {:.1f} times theirs",
                                    start, one.rms / kMicrometre, one.rms / one.others));
   }
 }

@@ -109,6 +109,7 @@ Json diagnosisJson(const Campaign& campaign, const Diagnosis& diagnosis) {
   json["stiffness_after_nm_per_rad"] = stiffnessJson(diagnosis, diagnosis.stiffness_after);
   json["stiffness_after_sd_nm_per_rad"] = stiffnessJson(diagnosis, diagnosis.stiffness_after_sd);
   json["where"] = tablesJson(diagnosis.where);
+  json["where_after"] = tablesJson(diagnosis.where_after);
   if (diagnosis.positions_tested) json["where_positions"] = tablesJson(diagnosis.where_positions);
   for (const NextMeasurement& one : diagnosis.next)
     next.push_back({{"separates", idsOf(one.separates)}, {"measure", one.what}, {"gain_chi2", number(one.gain)}});

@@ -71,8 +71,10 @@ RowGroup conditions(const ReportCampaign& one) {
   add(group, "Own weight", result.frames.sag_note);
   if (!result.cases.empty()) add(group, "Deflection", deflectionWords(result));
   if (!result.cases.empty()) add(group, "Servo",
-      fmt::format("reported joint angles change by at most {}° under load; not subtracted",
-                  significant(result.servo_change / kDegree, 2)));
+      result.servo_change == 0.0
+          ? std::string("reported joint angles do not change under load")
+          : fmt::format("reported joint angles change by at most {}° under load; not subtracted",
+                        significant(result.servo_change / kDegree, 2)));
   if (result.of(Method::complete_pose).available) {
     add(group, "Characteristic length",
         fmt::format("{} m, condition number {} there", significant(result.characteristic_length.length, 3),

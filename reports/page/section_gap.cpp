@@ -59,6 +59,7 @@ Table classesTable(const Diagnosis& diagnosis) {
 Table whereTable(const std::vector<WhereTable>& tables, const std::string& caption, const std::string& id) {
   Table table{caption, {"By", "", "rms (µm)", "Noise (µm)", "Share (%)", "Above noise (sd)"}, {}, false, id};
   for (const WhereTable& one : tables) {
+    if (one.by == "posture") continue;  // a figure, and results.json
     RowGroup group{one.by, {}};
     for (const WhereRow& row : one.rows) {
       group.rows.push_back({row.name, inUm(row.rms), inUm(row.noise), fixed(100.0 * row.share, 0), fixed(row.significance, 1)});

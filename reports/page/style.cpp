@@ -24,7 +24,7 @@ constexpr const char* kScreen =
     "h3{font-size:1.05rem;margin:1.2rem 0 .5rem}"
     "h1,h2,h3,p,li,b{overflow-wrap:anywhere}"
     "p,ul,ol{max-width:60rem;margin:.6rem 0}"
-    "header p{max-width:none}header ul{max-width:none}header .cautions{columns:36rem 2;column-gap:2.5rem}header .faint{margin:.2rem 0;font-size:.95rem}"
+    "header p{max-width:none}header ul{max-width:none}header .cautions{columns:36rem 2;column-gap:2.5rem}.cautions li{break-inside:avoid}header .faint{margin:.2rem 0;font-size:.95rem}"
     "sub,sup{line-height:0}"
     ".faint,small{color:var(--faint)}"
     ".verdict{font-size:1.2rem;line-height:1.45;max-width:none;margin:1rem 0}"
