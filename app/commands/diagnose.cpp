@@ -15,16 +15,16 @@ void addDiagnose(CLI::App& app, Run& run) {
     std::string campaign, json;
   };
   const auto arguments = std::make_shared<Arguments>();
-  CLI::App* command =
-      app.add_subcommand("diagnose", "What the stiffness model misses: where, which effect, how far it shrinks");
+  CLI::App* command = app.add_subcommand(
+      "diagnose", "What the stiffness model misses: where, which effect, how far it shrinks");
   command->add_option("CAMPAIGN", arguments->campaign, "campaign folder or its campaign.xml")->required();
   command->add_option("--json", arguments->json, "write the result to this file, - for standard output");
   command->callback([arguments, &run] {
     run = [arguments] {
       const Campaign campaign = openCampaign(arguments->campaign);
       const Diagnosis diagnosis = diagnose(campaign);
-      deliver([&] { return diagnosisJson(campaign, diagnosis); }, [&] { return diagnosisText(campaign, diagnosis); },
-              arguments->json);
+      deliver([&] { return diagnosisJson(campaign, diagnosis); },
+              [&] { return diagnosisText(campaign, diagnosis); }, arguments->json);
       return diagnosis.usable ? kDone : kNotUsable;
     };
   });

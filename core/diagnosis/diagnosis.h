@@ -96,10 +96,11 @@ struct Diagnosis {
   double state_noise = 0.0;  ///< rms noise of one state's displacement, per coordinate, m
   std::string noise_source;
   double noise_factor_along = 1.0, noise_factor_across = 1.0;  ///< found against declared
-  double significance_limit = 0.0;  ///< fall of BIC that chance reaches in 1 % of clean campaigns
-  double size_limit = 0.0;          ///< below it an effect is too small to matter, m
-  double lack_of_fit = 0.0;         ///< chi2 per equation of the loading without any effect
-  double left_over = 0.0;           ///< the same with the verdict's effects
+  double significance_limit =
+      0.0;                   ///< least fall of BIC that counts: 20, or more where chance reaches more in 1 %
+  double size_limit = 0.0;   ///< below it an effect is too small to matter, m
+  double lack_of_fit = 0.0;  ///< chi2 per equation of the loading without any effect
+  double left_over = 0.0;    ///< the same with the verdict's effects
   double model_error = 0.0;  ///< rms per coordinate that no effect explains, at the largest load, m; 0: none
   double geometric_stiffness_share = 0.0;
   Shrink shrink_together;  ///< by all that the verdict names

@@ -75,8 +75,7 @@ Station stationCourse(const Campaign& campaign, const std::optional<TrackerNoise
   findRate(result);
   if (!result.motion.moved) {
     result.course = StationCourse::still;
-    result.in_words =
-        fmt::format("{} rounds of floor nests: the tracker stood still", result.motion.epochs.size());
+    result.in_words = fmt::format("{} rounds, the tracker stood still", result.motion.epochs.size());
     return result;
   }
   findJumps(campaign, *noise, result.motion);
@@ -106,11 +105,8 @@ Station stationCourse(const Campaign& campaign, const std::optional<TrackerNoise
   }
   result.in_words =
       jumped && fits
-          ? fmt::format(
-                "the floor nests show that the tracker moved once, by {:.3f} mm where the arm was read",
-                1e3 * result.moved_by)
-          : fmt::format("the floor nests show that the tracker wandered, by {:.3f} mm where the arm was read",
-                        1e3 * result.moved_by);
+          ? fmt::format("the tracker moved once, by {:.3f} mm where the arm was read", 1e3 * result.moved_by)
+          : fmt::format("the tracker wandered, by {:.3f} mm where the arm was read", 1e3 * result.moved_by);
   return result;
 }
 

@@ -28,12 +28,9 @@ Json shrinkJson(const Shrink& shrink) {
 }
 
 Json classJson(const EffectClass& one, bool positions) {
-  Json json{{"effects", idsOf(one.effects)},
-            {"detail", one.detail},
-            {"score", number(one.score)},
-            {"in_verdict", one.in_verdict},
-            {"shrink", shrinkJson(one.shrink)},
-            {"explained", number(one.explained)}};
+  Json json{{"effects", idsOf(one.effects)},    {"detail", one.detail},
+            {"score", number(one.score)},       {"in_verdict", one.in_verdict},
+            {"shrink", shrinkJson(one.shrink)}, {"explained", number(one.explained)}};
   if (positions) json["shrink_of_positions"] = shrinkJson(one.shrink_of_positions);
   json["parameters"] = one.parameters;
   return json;
@@ -84,7 +81,8 @@ Json diagnosisJson(const Campaign& campaign, const Diagnosis& diagnosis) {
   json["verdict_details"] = details;
   json["reason"] = diagnosis.verdict.reason;
   Json classes = Json::array(), aliases = Json::array(), next = Json::array();
-  for (const EffectClass& one : diagnosis.classes) classes.push_back(classJson(one, diagnosis.positions_tested));
+  for (const EffectClass& one : diagnosis.classes)
+    classes.push_back(classJson(one, diagnosis.positions_tested));
   for (const auto& group : diagnosis.aliases) aliases.push_back(idsOf(group));
   json["classes"] = classes;
   json["shrink_together"] = shrinkJson(diagnosis.shrink_together);
@@ -94,7 +92,8 @@ Json diagnosisJson(const Campaign& campaign, const Diagnosis& diagnosis) {
   Json detectable = Json::object(), not_testable = Json::object();
   for (const DetectableSize& one : diagnosis.detectable)
     detectable[std::string(idOf(one.effect))] = one.size ? micrometres(*one.size) : Json(nullptr);
-  for (const NotTestable& one : diagnosis.not_testable) not_testable[std::string(idOf(one.effect))] = one.missing;
+  for (const NotTestable& one : diagnosis.not_testable)
+    not_testable[std::string(idOf(one.effect))] = one.missing;
   json["detectable_um"] = detectable;
   json["not_testable"] = not_testable;
   json["limits"] = {{"significance_bic", number(diagnosis.significance_limit)},
@@ -103,7 +102,8 @@ Json diagnosisJson(const Campaign& campaign, const Diagnosis& diagnosis) {
                    {"source", diagnosis.noise_source},
                    {"factor_along_beam", number(diagnosis.noise_factor_along)},
                    {"factor_across_beam", number(diagnosis.noise_factor_across)}};
-  json["chi2_per_equation"] = {{"before", number(diagnosis.lack_of_fit)}, {"after", number(diagnosis.left_over)}};
+  json["chi2_per_equation"] = {{"before", number(diagnosis.lack_of_fit)},
+                               {"after", number(diagnosis.left_over)}};
   json["geometric_stiffness_share"] = number(diagnosis.geometric_stiffness_share);
   json["stiffness_before_nm_per_rad"] = stiffnessJson(diagnosis, diagnosis.stiffness_before);
   json["stiffness_after_nm_per_rad"] = stiffnessJson(diagnosis, diagnosis.stiffness_after);
@@ -112,7 +112,8 @@ Json diagnosisJson(const Campaign& campaign, const Diagnosis& diagnosis) {
   json["where_after"] = tablesJson(diagnosis.where_after);
   if (diagnosis.positions_tested) json["where_positions"] = tablesJson(diagnosis.where_positions);
   for (const NextMeasurement& one : diagnosis.next)
-    next.push_back({{"separates", idsOf(one.separates)}, {"measure", one.what}, {"gain_chi2", number(one.gain)}});
+    next.push_back(
+        {{"separates", idsOf(one.separates)}, {"measure", one.what}, {"gain_chi2", number(one.gain)}});
   json["next"] = next;
   return json;
 }

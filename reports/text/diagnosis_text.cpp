@@ -18,18 +18,21 @@ double um(double metres) { return metres / kMicrometre; }
 
 void writeClasses(const Diagnosis& diagnosis, Out out) {
   if (diagnosis.classes.empty()) return;
-  fmt::format_to(out, "\nWhich: candidates, and what each takes off the deflection's gap on postures held out\n");
-  fmt::format_to(out, "  {:<2}{:<44}{:>12}{:>9}  {:<17}{:>10}\n", "", "effect", "score", "shrink", "95 %", "explained");
+  fmt::format_to(out,
+                 "\nWhich: candidates, and what each takes off the deflection's gap on postures held out\n");
+  fmt::format_to(out, "  {:<2}{:<44}{:>12}{:>9}  {:<17}{:>10}\n", "", "effect", "score", "shrink", "95 %",
+                 "explained");
   for (const EffectClass& one : diagnosis.classes) {
-    fmt::format_to(out, "  {:<2}{:<44}{:>12.0f}{:>9.3f}  {:<17}{:>10.3f}\n", one.in_verdict ? "*" : "", effectNames(one.effects),
-                   one.score, one.shrink.value, fmt::format("{:.3f} to {:.3f}", one.shrink.low, one.shrink.high),
-                   one.explained);
+    fmt::format_to(out, "  {:<2}{:<44}{:>12.0f}{:>9.3f}  {:<17}{:>10.3f}\n", one.in_verdict ? "*" : "",
+                   effectNames(one.effects), one.score, one.shrink.value,
+                   fmt::format("{:.3f} to {:.3f}", one.shrink.low, one.shrink.high), one.explained);
     if (!one.in_verdict) continue;
     if (!one.detail.empty()) fmt::format_to(out, "    {}\n", wrapped(one.detail, 4));
     if (!one.parameters.empty()) fmt::format_to(out, "    {}\n", wrapped(one.parameters, 4));
     if (diagnosis.positions_tested)
-      fmt::format_to(out, "    absolute positions: shrink {:.3f} ({:.3f} to {:.3f})\n", one.shrink_of_positions.value,
-                     one.shrink_of_positions.low, one.shrink_of_positions.high);
+      fmt::format_to(out, "    absolute positions: shrink {:.3f} ({:.3f} to {:.3f})\n",
+                     one.shrink_of_positions.value, one.shrink_of_positions.low,
+                     one.shrink_of_positions.high);
   }
 }
 
@@ -39,10 +42,11 @@ void writeTables(const std::vector<WhereTable>& tables, const char* title, Out o
   constexpr std::size_t kMostRows = 8;
   for (const WhereTable& table : tables) {
     if (table.rows.size() > kMostRows) continue;  // postures: in the JSON
-    fmt::format_to(out, "  {:<24}{:>10}{:>10}{:>9}{:>14}\n", "by " + table.by, "rms, um", "noise", "share", "sd above");
+    fmt::format_to(out, "  {:<24}{:>10}{:>10}{:>9}{:>14}\n", "by " + table.by, "rms, um", "noise", "share",
+                   "sd above");
     for (const WhereRow& row : table.rows) {
-      fmt::format_to(out, "    {:<22}{:>10.1f}{:>10.1f}{:>8.0f}%{:>14.1f}\n", row.name, um(row.rms), um(row.noise),
-                     100.0 * row.share, row.significance);
+      fmt::format_to(out, "    {:<22}{:>10.1f}{:>10.1f}{:>8.0f}%{:>14.1f}\n", row.name, um(row.rms),
+                     um(row.noise), 100.0 * row.share, row.significance);
     }
   }
 }
@@ -54,8 +58,9 @@ void writeStiffnesses(const Diagnosis& diagnosis, Out out) {
       fmt::format_to(out, "  joint {}           not identifiable\n", j + 1);
       continue;
     }
-    fmt::format_to(out, "  joint {}              {:>10.4f}{:>10.4f}{:>10.4f}\n", j + 1, 1e-6 * diagnosis.stiffness_before[j],
-                   1e-6 * diagnosis.stiffness_after[j], 1e-6 * diagnosis.stiffness_after_sd[j]);
+    fmt::format_to(out, "  joint {}              {:>10.4f}{:>10.4f}{:>10.4f}\n", j + 1,
+                   1e-6 * diagnosis.stiffness_before[j], 1e-6 * diagnosis.stiffness_after[j],
+                   1e-6 * diagnosis.stiffness_after_sd[j]);
   }
   fmt::format_to(out, "  K_c (no free parameter) changes the joint torques by {:.2f} %\n",
                  100.0 * diagnosis.geometric_stiffness_share);
@@ -69,11 +74,13 @@ void writeLimits(const Diagnosis& diagnosis, Out out) {
   fmt::format_to(out, "Smallest size that would have been seen, um rms per coordinate:\n");
   std::string sizes;
   for (const DetectableSize& one : diagnosis.detectable) {
-    if (one.size) sizes += fmt::format("{}{} {:.0f}", sizes.empty() ? "" : ", ", idOf(one.effect), um(*one.size));
+    if (one.size)
+      sizes += fmt::format("{}{} {:.0f}", sizes.empty() ? "" : ", ", idOf(one.effect), um(*one.size));
   }
   fmt::format_to(out, "  {}\n", wrapped(sizes, 2));
   for (const NotTestable& one : diagnosis.not_testable)
-    fmt::format_to(out, "  {}\n", wrapped(fmt::format("{} not testable here: {}", idOf(one.effect), one.missing), 4));
+    fmt::format_to(out, "  {}\n",
+                   wrapped(fmt::format("{} not testable here: {}", idOf(one.effect), one.missing), 4));
 }
 
 }  // namespace
@@ -81,18 +88,23 @@ void writeLimits(const Diagnosis& diagnosis, Out out) {
 std::string diagnosisText(const Campaign& campaign, const Diagnosis& diagnosis) {
   std::string text;
   Out out(text);
-  if (!diagnosis.usable) return fmt::format("{}: no diagnosis: {}\n", campaign.name, diagnosis.unusable_reason);
+  if (!diagnosis.usable)
+    return fmt::format("{}: no diagnosis: {}\n", campaign.name, diagnosis.unusable_reason);
   fmt::format_to(out, "{}: {}\n\n", campaign.name, verdictWords(diagnosis.verdict));
   fmt::format_to(out, "{}\n", wrapped(diagnosis.verdict.reason, 0));
-  fmt::format_to(out, "\nGap of the deflection ({:.0f} um rms): {:.1f} um before, {:.1f} um after, noise {:.1f} um\n",
-                 um(diagnosis.gap.deflection), um(diagnosis.gap.before), um(diagnosis.gap.after), um(diagnosis.gap.noise));
+  fmt::format_to(
+      out, "\nGap of the deflection ({:.0f} um rms): {:.1f} um before, {:.1f} um after, noise {:.1f} um\n",
+      um(diagnosis.gap.deflection), um(diagnosis.gap.before), um(diagnosis.gap.after),
+      um(diagnosis.gap.noise));
   if (diagnosis.positions_tested) {
     fmt::format_to(out, "Gap of unloaded positions: {:.1f} um before, {:.1f} um after, noise {:.1f} um\n",
-                   um(diagnosis.positions.before), um(diagnosis.positions.after), um(diagnosis.positions.noise));
+                   um(diagnosis.positions.before), um(diagnosis.positions.after),
+                   um(diagnosis.positions.noise));
   }
   writeClasses(diagnosis, out);
   for (const auto& group : diagnosis.aliases)
-    fmt::format_to(out, "  These postures and loads cannot always separate: {}\n", wrapped(effectNames(group), 4));
+    fmt::format_to(out, "  These postures and loads cannot always separate: {}\n",
+                   wrapped(effectNames(group), 4));
   writeTables(diagnosis.where, "Where the deflection's gap lies", out);
   writeTables(diagnosis.where_positions, "Where the gap of unloaded positions lies", out);
   writeStiffnesses(diagnosis, out);

@@ -7,8 +7,8 @@
 
 namespace stiffscope {
 
-/// The diagnosis for people: the verdict with its reason, the candidates with how far each shrinks the gap, where the gap
-/// lies, stiffnesses before and after, what could not be tested and what to measure next.
+/// The diagnosis for people: the verdict with its reason, the candidates with how far each shrinks the gap,
+/// where the gap lies, stiffnesses before and after, what could not be tested and what to measure next.
 std::string diagnosisText(const Campaign& campaign, const Diagnosis& diagnosis);
 
 }  // namespace stiffscope
