@@ -116,7 +116,7 @@ GapStart gapStart(const Campaign& campaign, bool take_off_station) {
       return start;
     }
     start.geometry = calibration.geometry;
-    arm = loadedArm(start.campaign, start.geometry, evidence.frames.wrist, *heaviestStep(start.campaign));
+    arm = loadedArm(start.campaign, start.geometry, evidence.frames.wrist, {*heaviestStep(start.campaign)});
   }
   if (arm.cases.empty()) {
     start.reason = "no posture has readings unloaded and under load that can be brought into the robot's frame";
