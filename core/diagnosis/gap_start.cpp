@@ -122,7 +122,7 @@ GapStart gapStart(const Campaign& campaign, bool take_off_station) {
       return start;
     }
     start.geometry = calibration.geometry;
-    arm = loadedArm(start.campaign, start.geometry, evidence.frames.wrist, *heaviestStep(start.campaign));
+    arm = loadedArm(start.campaign, start.geometry, evidence.frames.wrist, {*heaviestStep(start.campaign)});
   }
   if (arm.cases.empty()) {
     start.reason =

@@ -95,6 +95,9 @@ void runPartialPose(MethodRuns& runs, Identification& result) {
 void runDecoupledPartialPose(MethodRuns& runs, Identification& result) {
   MethodResult& out = methodOf(result, Method::decoupled_partial_pose);
   out.reason = whyNoPositions(runs.campaign, runs.swept, runs.unknown);
+  if (!out.reason.empty() && !runs.campaign.wrist_sweep) {
+    out.reason += "; and P_wrist needs a wrist sweep (axes 4-6 moving) with three reflectors";
+  }
   if (out.reason.empty()) out.reason = whyNoWristPoint(runs.campaign, runs.swept, result.frames.wrist);
   if (!out.reason.empty()) return;
   out.estimate = solved(Method::decoupled_partial_pose, runs.swept, runs, result);

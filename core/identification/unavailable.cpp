@@ -39,7 +39,8 @@ std::string whyNoFlangePoses(const Campaign& campaign, const LoadedArm& arm) {
 std::string whyNoWristPoint(const Campaign& campaign, const LoadedArm& arm, const WristCentre& wrist) {
   if (!arm.wrist.empty()) return {};
   std::string reason =
-      wrist.measured ? "P_wrist needs absolute readings of three reflectors of known radius in every posture"
+      wrist.measured ? "P_wrist needs absolute readings of three reflectors of known radius in every posture: measure "
+                       "`loading` and the wrist sweep with three"
                      : "the wrist centre is not measured: " + wrist.reason;
   if (!campaign.wrist_sweep) {
     reason += "; measure a wrist sweep (axes 4-6 moving) and `loading` with three reflectors";
