@@ -98,6 +98,7 @@ class Diagnoser {
       }
     }
     if (start_.station.course == StationCourse::still) nestsAsReadings();
+    if (start_.station.course == StationCourse::drifted) input_.wandering = &start_.station;
     if (start_.station.course == StationCourse::jumped)
       allowed_[modelOf(input_.models, Effect::tracker_drift)] = false;
     if (start_.station.course == StationCourse::jumped)
@@ -143,15 +144,15 @@ class Diagnoser {
     result_.left_over = leftPerEquation(fit_);
     result_.model_error = fit_.model_error;
     result_.geometric_stiffness_share = start_.geometric_stiffness_share;
-    before_ = whole(fit_.nuisances_before, Eigen::VectorXd::Zero(fit_.set.effects.size()));
+    before_ = stiffnessesAlone(fit_.data, std::vector<double>(fit_.data.postures.size(), 1.0), fit_.projection);
     after_ = whole(fit_.nuisances, fit_.set.effects);
     result_.gap = gapOf(true);
     result_.positions = gapOf(false);
     result_.positions_tested = input_.absolute;
     asMeasured();
-    result_.where = whereDeflection(input_, fit_, before_);
+    result_.where = whereDeflection(input_, fit_, before_.for_deflection);
     result_.where_after = whereDeflection(input_, fit_, after_);
-    result_.where_positions = wherePosition(input_, fit_, before_);
+    result_.where_positions = wherePosition(input_, fit_, before_.for_position);
     result_.aliases = designAliases(input_, fit_, allowed_);
     detectable();
     stiffnesses();
@@ -173,7 +174,7 @@ class Diagnoser {
     std::map<int, HeldOut> left;
     double rows = 0.0, rests = 0.0, deflection = 0.0, position = 0.0;
     for (const GapPosture& posture : data.postures) {
-      left[posture.pose].deflection_before = leftIn(posture, parameters, parameters).deflection_before;
+      left[posture.pose].deflection_before = leftIn(posture, {parameters, parameters}, parameters).deflection_before;
       deflection += left[posture.pose].deflection_before;
       rows += static_cast<double>(posture.right.size());
     }
@@ -186,7 +187,7 @@ class Diagnoser {
     if (rests > 0.0) result_.positions.before = std::sqrt(position / rests);
     for (const GapPosture& posture : fit_.data.postures) {
       HeldOut& one = left[posture.pose];
-      const HeldOut now = leftIn(posture, after_, after_);
+      const HeldOut now = leftIn(posture, {after_, after_}, after_);
       one.deflection_after = now.deflection_after;
       one.position_after = now.position_after;
       station_.push_back(one);
@@ -247,7 +248,7 @@ class Diagnoser {
     Eigen::VectorXd variance = complianceVariance(fit_, input_);
     const double scale = std::max(1.0, result_.left_over);
     for (Eigen::Index j = 0; j < 6; ++j) {
-      const double before = fit_.nuisances_before[j], after = fit_.nuisances[j];
+      const double before = before_.for_deflection[j], after = fit_.nuisances[j];
       const double sd = std::sqrt(scale * std::max(0.0, variance[j]));
       constexpr double kSeen = 3.0;  // standard deviations
       result_.identifiable[static_cast<std::size_t>(j)] = after > kSeen * sd;
@@ -311,7 +312,8 @@ class Diagnoser {
   std::vector<std::size_t> given_;
   GapFit fit_;
   GeometryError geometry_;
-  Eigen::VectorXd before_, after_;
+  StiffnessesAlone before_;
+  Eigen::VectorXd after_;
   std::vector<std::vector<ChosenModel>> recipes_;
   std::vector<HeldOut>
       station_;  // by posture: readings as they are, and with the station's motion off and the verdict in

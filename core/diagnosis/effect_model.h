@@ -21,6 +21,8 @@ struct WorkingPoint {
   int targets = 0;                       ///< of the campaign
   Eigen::VectorXd compensator;  ///< torque on joint 2: sin, cos of q_2, of 2 q_2 and so on, Nm; empty: none
   Vector6d play = Vector6d::Zero();  ///< backlash of the joints, rad; zero: not known yet
+  Vector6d harder_by_square = Vector6d::Zero();  ///< stiffness k (1 + a tau^2) of the joints: a, 1/Nm^2
+  Vector6d harder_by_size = Vector6d::Zero();    ///< stiffness k (1 + a |tau|): a, 1/Nm
   double passage = 20.0;             ///< Nm over which the backlash passes from side to side
   std::vector<PresentTurn> turns;    ///< effects in the model that turn joints unloaded
   double largest_force = 1.0;        ///< N, of the campaign: scales what is proportional to the load

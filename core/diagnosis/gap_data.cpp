@@ -145,11 +145,55 @@ class Filler {
       covariance.block(at_rest + s * per_state, at_rest + s * per_state, per_state, per_state) +=
           by_wrench * variances.asDiagonal() * by_wrench.transpose();
     }
+    addWander(posture, r0_from_points, covariance);
     posture.noise = covariance;
     addModelError(rows, posture, covariance);
     posture.lower = covariance.llt().matrixL();
     posture.normal = normalOf(posture);
+    posture.stiffness_normal = stiffnessNormalOf(posture, covariance);
     data_.loading_rows += size;
+  }
+
+  /// The station between two rounds of the nests, where it was interpolated: one rigid motion of all
+  /// reflectors in a state, a Brownian bridge over time. Postures share it; that is left out.
+  void addWander(const GapPosture& posture, const Eigen::Isometry3d& r0_from_points,
+                 Eigen::MatrixXd& covariance) const {
+    if (input_.wandering == nullptr || input_.wandering->wander.isZero()) return;
+    const StationMotion& station = input_.wandering->motion;
+    const ArmState& rest = posture.states.front();
+    const Eigen::Vector3d centre = r0_from_points * station.centre;
+    Eigen::MatrixXd motion(rest.rows(), 6);
+    for (int k = 0; k < 3; ++k) {
+      const Eigen::Vector3d axis = r0_from_points.linear().col(k);
+      motion.col(k) = byMotion(rest, centre, axis, Eigen::Vector3d::Zero());
+      motion.col(3 + k) = byMotion(rest, centre, Eigen::Vector3d::Zero(), axis);
+    }
+    const Eigen::MatrixXd a_second = motion * input_.wandering->wander * motion.transpose();
+    const auto bridge = [&](std::size_t s, std::size_t r) {
+      return bridgeBetweenRounds(station, posture.states[s].time_s, posture.states[r].time_s);
+    };
+    const Eigen::Index per_state = rest.rows(), at_rest = posture.position_rows;
+    const std::size_t first = at_rest > 0 ? 0 : 1;
+    for (std::size_t s = first; s < posture.states.size(); ++s) {
+      for (std::size_t r = first; r < posture.states.size(); ++r) {
+        double seconds = bridge(s, r);
+        if (s > 0) seconds -= bridge(0, r);
+        if (r > 0) seconds -= bridge(s, 0);
+        if (s > 0 && r > 0) seconds += bridge(0, 0);
+        covariance.block(static_cast<Eigen::Index>(s - first) * per_state,
+                         static_cast<Eigen::Index>(r - first) * per_state, per_state, per_state) +=
+            seconds * a_second;
+      }
+    }
+  }
+
+  static Eigen::Matrix<double, 7, 7> stiffnessNormalOf(const GapPosture& posture,
+                                                       const Eigen::MatrixXd& covariance) {
+    const Eigen::Index rows = posture.right.size() - posture.position_rows;
+    Eigen::MatrixXd both(rows, 7);
+    both << posture.columns.bottomLeftCorner(rows, 6), posture.right.tail(rows);
+    covariance.bottomRightCorner(rows, rows).llt().matrixL().solveInPlace(both);
+    return both.transpose() * both;
   }
 
   /// What the model is not good for: more noise in absolute positions; in a deflection an error that grows

@@ -8,6 +8,7 @@
 #include "core/diagnosis/arm_geometry.h"
 #include "core/diagnosis/effect_table.h"
 #include "core/diagnosis/gap_rows.h"
+#include "core/diagnosis/station.h"
 #include "metrology/tracker_noise.h"
 
 namespace stiffscope {
@@ -30,6 +31,7 @@ struct GapInput {
   /// What nests say of trackerDrift's parameters: their values, and the inverse covariance of these.
   Vector6d drift = Vector6d::Zero();
   Matrix6d drift_weight = Matrix6d::Zero();
+  const Station* wandering = nullptr;  ///< of which the interpolated motion was taken off; null: none
 };
 
 /// Where one round of linearisation stands.
@@ -49,9 +51,10 @@ struct GapPosture {
   Eigen::MatrixXd columns;  ///< unwhitened: position rows first, then deflection rows
   Eigen::VectorXd right;
   Eigen::Index position_rows = 0;
-  Eigen::MatrixXd noise;  ///< covariance of these rows by readings and wrench
+  Eigen::MatrixXd noise;  ///< covariance of these rows by readings, wrench and a station between its rounds
   Eigen::MatrixXd lower;  ///< Cholesky factor of that, with the slack and the model's own error
   Eigen::MatrixXd normal;
+  Eigen::Matrix<double, 7, 7> stiffness_normal;  ///< the same of deflection rows alone, over the compliances
 };
 
 /// All equations of the gap at one point of linearisation.

@@ -48,6 +48,8 @@ ContainedEffects correct(const GapInput& input, const GapLayout& layout, const F
   ContainedEffects contained{Eigen::VectorXd::Zero(set.effects.size()),
                              Eigen::VectorXd::Zero(set.effects.size())};
   state.at.turns.clear();
+  state.at.harder_by_square.setZero();
+  state.at.harder_by_size.setZero();
   for (const ChosenModel& one : set.models) {
     const EffectModel& model = input.models[one.model];
     Eigen::VectorXd own = ownOf(input, layout, set.effects, one.model);
@@ -76,6 +78,10 @@ ContainedEffects correct(const GapInput& input, const GapLayout& layout, const F
         state.at.play = own.head<6>();
         state.at.passage = std::clamp(state.at.passage + own[6], 1.0, 1000.0);
         own[6] = 0.0;
+        break;
+      case Effect::joint_hardening:
+        (model.parts.front().unit == "rad/Nm^3" ? state.at.harder_by_square : state.at.harder_by_size) =
+            (state.at.compliance.array() > 0.0).select(own.array() / state.at.compliance.array(), 0.0);
         break;
       case Effect::hysteresis:
         for (Eigen::Index j = 0; j < 6; ++j) {

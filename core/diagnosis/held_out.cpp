@@ -10,7 +10,8 @@ namespace stiffscope {
 namespace {
 
 struct Trained {
-  Eigen::VectorXd before, after;
+  StiffnessesAlone before;
+  Eigen::VectorXd after;
 };
 
 Eigen::VectorXd whole(const Eigen::VectorXd& nuisances, const Eigen::VectorXd& effects) {
@@ -30,10 +31,11 @@ std::vector<Trained> train(const GapInput& input, const GapFit& fit, const std::
   there.rules.loading_rows *= share;
   there.rules.least_drop *= share;
   const Selector selector = selectorOf(input, there, projection, std::max(2.0, postures), allowed);
+  const StiffnessesAlone alone = stiffnessesAlone(fit.data, weights, projection);
   std::vector<Trained> trained;
   for (const FitRecipe& recipe : recipes) {
     const FittedSet set = recipe.choose ? selector.select() : selector.fit(recipe.models);
-    trained.push_back({whole(projection.by_nothing, Eigen::VectorXd::Zero(set.effects.size())),
+    trained.push_back({alone,
                        whole(projection.by_nothing - projection.by_effects * set.effects, set.effects)});
   }
   return trained;
@@ -81,11 +83,12 @@ void add(HeldOut& sum, const HeldOut& one) {
 
 }  // namespace
 
-HeldOut leftIn(const GapPosture& posture, const Eigen::VectorXd& before, const Eigen::VectorXd& after) {
-  const Eigen::VectorXd old = posture.right - posture.columns * before,
-                        now = posture.right - posture.columns * after;
+HeldOut leftIn(const GapPosture& posture, const StiffnessesAlone& before, const Eigen::VectorXd& after) {
+  const Eigen::VectorXd now = posture.right - posture.columns * after;
   const Eigen::Index rest = posture.position_rows, rows = posture.right.size() - rest;
-  return {old.tail(rows).squaredNorm(), now.tail(rows).squaredNorm(), old.head(rest).squaredNorm(),
+  const auto left = [&](const Eigen::VectorXd& old) { return posture.right - posture.columns * old; };
+  return {left(before.for_deflection).tail(rows).squaredNorm(), now.tail(rows).squaredNorm(),
+          left(before.for_position).head(rest).squaredNorm(),
           now.head(rest).squaredNorm()};
 }
 

@@ -37,7 +37,7 @@ std::vector<HeldOutShrink> heldOutShrinks(const GapInput& input, const GapFit& f
 HeldOutShrink shrinkOver(const std::vector<HeldOut>& postures, int resamples, std::uint64_t seed);
 
 /// Squares of deflection and position rows that parameters leave in a posture.
-HeldOut leftIn(const GapPosture& posture, const Eigen::VectorXd& before, const Eigen::VectorXd& after);
+HeldOut leftIn(const GapPosture& posture, const StiffnessesAlone& before, const Eigen::VectorXd& after);
 
 /// Expected squares of the deflection rows by noise alone.
 double noiseSquares(const GapPosture& posture);

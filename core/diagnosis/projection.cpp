@@ -48,6 +48,21 @@ Projection project(const Eigen::MatrixXd& normal, Eigen::Index effects_at) {
   return result;
 }
 
+StiffnessesAlone stiffnessesAlone(const GapData& data, const std::vector<double>& weights,
+                                  const Projection& projection) {
+  Eigen::Matrix<double, 7, 7> sum = Eigen::Matrix<double, 7, 7>::Zero();
+  for (std::size_t p = 0; p < data.postures.size(); ++p) sum += weights[p] * data.postures[p].stiffness_normal;
+  const Eigen::VectorXd scale = scaleOf(sum.diagonal().head<6>());
+  StiffnessesAlone alone;
+  alone.for_deflection = Eigen::VectorXd::Zero(data.layout.end);
+  alone.for_deflection.head<6>() =
+      scale.asDiagonal() * factorised(sum.topLeftCorner<6, 6>(), scale)
+                               .solve(Eigen::VectorXd(scale.asDiagonal() * sum.col(6).head<6>()));
+  alone.for_position = Eigen::VectorXd::Zero(data.layout.end);
+  alone.for_position.head(projection.by_nothing.size()) = projection.by_nothing;
+  return alone;
+}
+
 SubsetFit fitSubset(const Projection& projection, const std::vector<Eigen::Index>& indices,
                     const std::vector<bool>& positive, const Eigen::VectorXd& prior) {
   SubsetFit fit;

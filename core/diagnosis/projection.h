@@ -22,6 +22,15 @@ struct Projection {
 /// Sum of the postures' normal equations, each times its weight, plus the sweeps'.
 Eigen::MatrixXd sumOf(const GapData& data, const std::vector<double>& weights);
 
+/// What the model of stiffnesses alone is, a parameter vector for each of the two gaps.
+struct StiffnessesAlone {
+  Eigen::VectorXd for_deflection;  ///< compliances fitted to the deflections alone: no position in it
+  Eigen::VectorXd for_position;    ///< all nuisances fitted to everything
+};
+
+StiffnessesAlone stiffnessesAlone(const GapData& data, const std::vector<double>& weights,
+                                  const Projection& projection);
+
 Projection project(const Eigen::MatrixXd& normal, Eigen::Index effects_at);
 
 /// A least-squares solution over some effect parameters, others zero.

@@ -63,7 +63,31 @@ void findRate(Station& station) {
   if (!station.rate.allFinite()) station.rate.setZero(), station.rate_weight.setZero();
 }
 
+/// Mean square of the steps from round to round about the steady drift, each over its time. The rounds' own
+/// noise is in it: it is in what is interpolated, too.
+Matrix6d wanderOf(const std::vector<StationEpoch>& epochs) {
+  Matrix6d sum = Matrix6d::Zero();
+  if (epochs.size() < 3) return sum;
+  const Vector6d steady = (epochs.back().motion - epochs.front().motion) /
+                          (epochs.back().time_s - epochs.front().time_s);
+  for (std::size_t e = 1; e < epochs.size(); ++e) {
+    const double time = epochs[e].time_s - epochs[e - 1].time_s;
+    const Vector6d step = epochs[e].motion - epochs[e - 1].motion - time * steady;
+    sum += step * step.transpose() / time;
+  }
+  return sum / static_cast<double>(epochs.size() - 2);
+}
+
 }  // namespace
+
+double bridgeBetweenRounds(const StationMotion& station, double one, double other) {
+  const double early = std::min(one, other), late = std::max(one, other);
+  for (std::size_t e = 1; e < station.epochs.size(); ++e) {
+    const double before = station.epochs[e - 1].time_s, after = station.epochs[e].time_s;
+    if (early >= before && late <= after) return (early - before) * (after - late) / (after - before);
+  }
+  return 0.0;
+}
 
 Station stationCourse(const Campaign& campaign, const std::optional<TrackerNoise>& noise) {
   Station result;
@@ -94,6 +118,7 @@ Station stationCourse(const Campaign& campaign, const std::optional<TrackerNoise
   for (const StationEpoch& epoch : motion.epochs)
     result.moved_by = std::max(result.moved_by, epoch.motion.tail<3>().norm());
   result.course = jumped && fits ? StationCourse::jumped : StationCourse::drifted;
+  if (!fits) result.wander = wanderOf(motion.epochs);
   if (fits) {
     for (std::size_t e = 0; e < motion.epochs.size(); ++e) {
       StationEpoch& epoch = motion.epochs[e];

@@ -13,7 +13,9 @@
 #include "core/diagnosis/effects/link_compliance.h"
 #include "core/diagnosis/effects/load_cell_bias.h"
 #include "core/diagnosis/effects/load_point_error.h"
+#include "core/diagnosis/effects/target_motion.h"
 #include "core/diagnosis/effects/tool_compliance.h"
+#include "core/diagnosis/station.h"
 #include "tests/core/chain_arm.h"
 
 // Each effect's displacement field against a case worked by hand, on the tests' own kinematics.
@@ -107,6 +109,59 @@ TEST(LinkCompliance, IsACantileverAtItsTip) {
   EXPECT_LT(twist.norm(), 1e-9);  // leaves the tip where it is
 }
 
+// A nest that gives along x of the flange only, and a slip along the pull: both by the force alone, on the
+// reflector that moves; unloading takes the first back and leaves the second.
+TEST(TargetMotion, FollowsTheForceInTheNest) {
+  const Bench bench;
+  const PostureStates posture = bench.outAndBack();
+  const Eigen::Matrix3d axes = posture[2].flange.linear();
+  const Eigen::Vector3d along_x = axes.col(0) * axes.col(0).dot(bench.load.force) / bench.load.force.norm();
+  const EffectModel spring = targetNestSpring({"P1", "P2"}), slip = targetPulledAlong({"P1", "P2"});
+  for (const std::size_t state : {std::size_t{1}, std::size_t{2}, std::size_t{3}}) {
+    const double share = state == 1 ? 0.5 : state == 2 ? 1.0 : 0.0, most = state == 1 ? 0.5 : 1.0;
+    const Eigen::MatrixXd by_spring = spring.columns(bench.at, posture, state),
+                          by_slip = slip.columns(bench.at, posture, state);
+    ASSERT_EQ(by_spring.cols(), 12);
+    ASSERT_EQ(by_slip.cols(), 2);
+    EXPECT_LT((by_spring.block<3, 1>(3, 6) - share * along_x).norm(), kRounding);  // xx of the second
+    EXPECT_LT((by_slip.block<3, 1>(0, 0) - most * bench.load.force.normalized()).norm(), kRounding);
+    EXPECT_TRUE(by_spring.block(0, 6, 3, 6).isZero(0.0));  // the second's leaves the first where it is
+    EXPECT_EQ(by_slip.block(3, 0, 3, 1).norm(), 0.0);
+  }
+  EXPECT_TRUE(slip.columns(bench.at, posture, 0).isZero(0.0));
+}
+
+// An isotropic nest moves its reflector along the force, whichever way the flange is turned.
+TEST(TargetMotion, IsotropicNestMovesAlongTheForce) {
+  const Bench bench;
+  const Eigen::MatrixXd field = targetNestSpring({"P1", "P2"}).columns(bench.at, bench.outAndBack(), 2);
+  const Eigen::Vector3d sum = field.block<3, 3>(0, 0).rowwise().sum();
+  EXPECT_LT((sum - bench.load.force.normalized()).norm(), kRounding);
+}
+
+TEST(TargetMotion, LastingSlipStaysThroughTheReturnToZero) {
+  const Bench bench;
+  const PostureStates posture = bench.outAndBack();
+  const EffectModel slip = targetLastingSlip({"P1", "P2"});
+  EXPECT_TRUE(slip.columns(bench.at, posture, 0).isZero(0.0));
+  EXPECT_TRUE(slip.columns(bench.at, posture, 3).isApprox(slip.columns(bench.at, posture, 1), kRounding));
+  EXPECT_TRUE((slip.columns(bench.at, posture, 3).block<3, 3>(0, 0).isApprox(posture[3].flange.linear())));
+}
+
+// Between rounds at 0 and 10 s a bridge is 0 at both ends and largest, 10/4, in the middle; times between
+// different rounds know nothing of each other.
+TEST(Station, WandersLeastNextToARound) {
+  StationMotion station;
+  station.epochs.resize(3);
+  for (std::size_t e = 0; e < 3; ++e) station.epochs[e].time_s = 10.0 * static_cast<double>(e);
+  EXPECT_DOUBLE_EQ(bridgeBetweenRounds(station, 5.0, 5.0), 2.5);
+  EXPECT_DOUBLE_EQ(bridgeBetweenRounds(station, 2.0, 5.0), 1.0);
+  EXPECT_DOUBLE_EQ(bridgeBetweenRounds(station, 5.0, 2.0), 1.0);
+  EXPECT_DOUBLE_EQ(bridgeBetweenRounds(station, 0.0, 10.0), 0.0);
+  EXPECT_DOUBLE_EQ(bridgeBetweenRounds(station, 8.0, 12.0), 0.0);
+  EXPECT_DOUBLE_EQ(bridgeBetweenRounds(station, kNoTime, 5.0), 0.0);
+}
+
 TEST(JointCoupling, IsReciprocal) {
   const Bench bench;
   const PostureStates posture = bench.outAndBack();
@@ -118,6 +173,25 @@ TEST(JointCoupling, IsReciprocal) {
   turn[2] = torque[1];
   EXPECT_LT((field.col(5) - byJoints(posture[2], turn)).norm(), kRounding);  // pairs 12 13 14 15 16 23
   EXPECT_EQ(jointCoupling().parts[5].detail, "joints 2 and 3");
+}
+
+// theta = c tau - c a * column must solve k theta + k_3 theta^3 = tau with k = 1/c, k_3 = a / c^3, and theta k
+// (1 + a tau^2) = tau, where a tau^2 is about 1.
+TEST(JointHardening, WholeFormsSolveTheirSprings) {
+  Bench bench;
+  const PostureStates posture = bench.outAndBack();
+  const double tau = posture[2].load_torque[1], c = bench.at.compliance[1], a = 0.9 / (tau * tau);
+  bench.at.harder_by_square[1] = a;
+  bench.at.harder_by_size[1] = a * std::abs(tau);
+  const auto angleBy = [&](const EffectModel& model) {
+    return c * tau + c * a * model.angles(bench.at, posture, 2)(1, 1);
+  };
+  const double spring = angleBy(jointHardeningCubicSpring()) / c, whole = angleBy(jointHardeningWhole()) / c;
+  EXPECT_NEAR(spring + a * spring * spring * spring, tau, 1e-9 * std::abs(tau));  // Newton, to rounding
+  EXPECT_NEAR(whole * (1.0 + a * tau * tau), tau, 1e-9 * std::abs(tau));
+  const double linear = c * tau + c * a * std::abs(tau) *
+                                      jointHardeningLinearWhole().angles(bench.at, posture, 2)(1, 1);
+  EXPECT_NEAR(linear / c * 1.9, tau, 1e-9 * std::abs(tau));
 }
 
 TEST(JointHardening, TakesTheCubeOfTheTorque) {

@@ -6,8 +6,14 @@ namespace stiffscope {
 
 /// Stiffness grows (or drops) with torque: theta_j = c_j tau - h_j tau^3 (even stiffness k(tau), first term
 /// of its series), or, the other usual form, theta_j = c_j tau - h_j tau |tau|; tau of own weight and load
-/// together. Parameters h_j of either sign, one a joint: rad/Nm^3 or rad/Nm^2.
+/// together. Parameters h_j of either sign, one a joint: rad/Nm^3 or rad/Nm^2. The further forms are whole
+/// where the first two are the start of a series: a spring tau = k theta + k_3 theta^3, of which theta = c
+/// tau g, g + a tau^2 g^3 = 1; and stiffnesses k (1 + a tau^2), k (1 + a |tau|). Their h_j = c_j a_j; the
+/// shape takes a_j from the working point.
 EffectModel jointHardening();
 EffectModel jointHardeningLinear();
+EffectModel jointHardeningCubicSpring();
+EffectModel jointHardeningWhole();
+EffectModel jointHardeningLinearWhole();
 
 }  // namespace stiffscope
