@@ -144,7 +144,8 @@ class Diagnoser {
     result_.left_over = leftPerEquation(fit_);
     result_.model_error = fit_.model_error;
     result_.geometric_stiffness_share = start_.geometric_stiffness_share;
-    before_ = stiffnessesAlone(fit_.data, std::vector<double>(fit_.data.postures.size(), 1.0), fit_.projection);
+    before_ =
+        stiffnessesAlone(fit_.data, std::vector<double>(fit_.data.postures.size(), 1.0), fit_.projection);
     after_ = whole(fit_.nuisances, fit_.set.effects);
     result_.gap = gapOf(true);
     result_.positions = gapOf(false);
@@ -174,7 +175,8 @@ class Diagnoser {
     std::map<int, HeldOut> left;
     double rows = 0.0, rests = 0.0, deflection = 0.0, position = 0.0;
     for (const GapPosture& posture : data.postures) {
-      left[posture.pose].deflection_before = leftIn(posture, {parameters, parameters}, parameters).deflection_before;
+      left[posture.pose].deflection_before =
+          leftIn(posture, {parameters, parameters}, parameters).deflection_before;
       deflection += left[posture.pose].deflection_before;
       rows += static_cast<double>(posture.right.size());
     }

@@ -20,12 +20,12 @@ struct WorkingPoint {
   Vector6d friction = Vector6d::Zero();  ///< Nm; 0: not known yet, the joint lags from the first newton metre
   int targets = 0;                       ///< of the campaign
   Eigen::VectorXd compensator;  ///< torque on joint 2: sin, cos of q_2, of 2 q_2 and so on, Nm; empty: none
-  Vector6d play = Vector6d::Zero();  ///< backlash of the joints, rad; zero: not known yet
+  Vector6d play = Vector6d::Zero();              ///< backlash of the joints, rad; zero: not known yet
   Vector6d harder_by_square = Vector6d::Zero();  ///< stiffness k (1 + a tau^2) of the joints: a, 1/Nm^2
   Vector6d harder_by_size = Vector6d::Zero();    ///< stiffness k (1 + a |tau|): a, 1/Nm
-  double passage = 20.0;             ///< Nm over which the backlash passes from side to side
-  std::vector<PresentTurn> turns;    ///< effects in the model that turn joints unloaded
-  double largest_force = 1.0;        ///< N, of the campaign: scales what is proportional to the load
+  double passage = 20.0;                         ///< Nm over which the backlash passes from side to side
+  std::vector<PresentTurn> turns;                ///< effects in the model that turn joints unloaded
+  double largest_force = 1.0;  ///< N, of the campaign: scales what is proportional to the load
   Eigen::Vector3d epoch_centre = Eigen::Vector3d::Zero();  ///< about which frames turn
   double first_time = 0.0, time_span = 1.0;                ///< s, of the loading
   double sweep_time = 0.0;                                 ///< s; the sweeps' epoch as far as it is known

@@ -35,8 +35,8 @@ std::vector<Trained> train(const GapInput& input, const GapFit& fit, const std::
   std::vector<Trained> trained;
   for (const FitRecipe& recipe : recipes) {
     const FittedSet set = recipe.choose ? selector.select() : selector.fit(recipe.models);
-    trained.push_back({alone,
-                       whole(projection.by_nothing - projection.by_effects * set.effects, set.effects)});
+    trained.push_back(
+        {alone, whole(projection.by_nothing - projection.by_effects * set.effects, set.effects)});
   }
   return trained;
 }
@@ -88,8 +88,7 @@ HeldOut leftIn(const GapPosture& posture, const StiffnessesAlone& before, const 
   const Eigen::Index rest = posture.position_rows, rows = posture.right.size() - rest;
   const auto left = [&](const Eigen::VectorXd& old) { return posture.right - posture.columns * old; };
   return {left(before.for_deflection).tail(rows).squaredNorm(), now.tail(rows).squaredNorm(),
-          left(before.for_position).head(rest).squaredNorm(),
-          now.head(rest).squaredNorm()};
+          left(before.for_position).head(rest).squaredNorm(), now.head(rest).squaredNorm()};
 }
 
 HeldOutShrink shrinkOver(const std::vector<HeldOut>& postures, int resamples, std::uint64_t seed) {

@@ -51,7 +51,8 @@ Projection project(const Eigen::MatrixXd& normal, Eigen::Index effects_at) {
 StiffnessesAlone stiffnessesAlone(const GapData& data, const std::vector<double>& weights,
                                   const Projection& projection) {
   Eigen::Matrix<double, 7, 7> sum = Eigen::Matrix<double, 7, 7>::Zero();
-  for (std::size_t p = 0; p < data.postures.size(); ++p) sum += weights[p] * data.postures[p].stiffness_normal;
+  for (std::size_t p = 0; p < data.postures.size(); ++p)
+    sum += weights[p] * data.postures[p].stiffness_normal;
   const Eigen::VectorXd scale = scaleOf(sum.diagonal().head<6>());
   StiffnessesAlone alone;
   alone.for_deflection = Eigen::VectorXd::Zero(data.layout.end);

@@ -68,8 +68,8 @@ void findRate(Station& station) {
 Matrix6d wanderOf(const std::vector<StationEpoch>& epochs) {
   Matrix6d sum = Matrix6d::Zero();
   if (epochs.size() < 3) return sum;
-  const Vector6d steady = (epochs.back().motion - epochs.front().motion) /
-                          (epochs.back().time_s - epochs.front().time_s);
+  const Vector6d steady =
+      (epochs.back().motion - epochs.front().motion) / (epochs.back().time_s - epochs.front().time_s);
   for (std::size_t e = 1; e < epochs.size(); ++e) {
     const double time = epochs[e].time_s - epochs[e - 1].time_s;
     const Vector6d step = epochs[e].motion - epochs[e - 1].motion - time * steady;

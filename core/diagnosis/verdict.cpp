@@ -121,8 +121,11 @@ class Decider {
         continue;
       }
       EffectClass one;
-      one.effects = classOf(i);
-      one.detail = detailOf(model, chosen.parts) + otherParts(i);
+      // What the nests show was taken off: the little that is left of it looks like anything.
+      const auto& given = from_.fit.rules.given;
+      const bool by_nests = std::find(given.begin(), given.end(), chosen.model) != given.end();
+      one.effects = by_nests ? std::vector<Effect>{model.effect} : classOf(i);
+      one.detail = detailOf(model, chosen.parts) + (by_nests ? "" : otherParts(i));
       one.score = -change;
       one.in_verdict = true;
       one.parameters = parametersOf(model, chosen.parts, parameters);

@@ -175,8 +175,8 @@ TEST(JointCoupling, IsReciprocal) {
   EXPECT_EQ(jointCoupling().parts[5].detail, "joints 2 and 3");
 }
 
-// theta = c tau - c a * column must solve k theta + k_3 theta^3 = tau with k = 1/c, k_3 = a / c^3, and theta k
-// (1 + a tau^2) = tau, where a tau^2 is about 1.
+// theta = c tau - c a * column must solve k theta + k_3 theta^3 = tau with k = 1/c, k_3 = a / c^3, and theta
+// k (1 + a tau^2) = tau, where a tau^2 is about 1.
 TEST(JointHardening, WholeFormsSolveTheirSprings) {
   Bench bench;
   const PostureStates posture = bench.outAndBack();
@@ -189,8 +189,8 @@ TEST(JointHardening, WholeFormsSolveTheirSprings) {
   const double spring = angleBy(jointHardeningCubicSpring()) / c, whole = angleBy(jointHardeningWhole()) / c;
   EXPECT_NEAR(spring + a * spring * spring * spring, tau, 1e-9 * std::abs(tau));  // Newton, to rounding
   EXPECT_NEAR(whole * (1.0 + a * tau * tau), tau, 1e-9 * std::abs(tau));
-  const double linear = c * tau + c * a * std::abs(tau) *
-                                      jointHardeningLinearWhole().angles(bench.at, posture, 2)(1, 1);
+  const double linear =
+      c * tau + c * a * std::abs(tau) * jointHardeningLinearWhole().angles(bench.at, posture, 2)(1, 1);
   EXPECT_NEAR(linear / c * 1.9, tau, 1e-9 * std::abs(tau));
 }
 
