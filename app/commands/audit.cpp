@@ -5,6 +5,9 @@
 
 #include "app/command.h"
 #include "app/output.h"
+#include "core/diagnosis/diagnose.h"
+#include "core/diagnosis/separable_effects.h"
+#include "core/identification/load_step.h"
 #include "reports/json/audit_json.h"
 #include "reports/text/audit_text.h"
 
@@ -21,7 +24,10 @@ void addAudit(CLI::App& app, Run& run) {
   command->callback([arguments, &run] {
     run = [arguments] {
       const Campaign campaign = openCampaign(arguments->campaign);
-      const AuditReport report = audit(campaign);
+      AuditReport report = audit(campaign);
+      DiagnoseOptions design;  // what could be told apart is asked, not what is there
+      design.resamples = design.chance_draws = 0;
+      if (whatLoadsLack(campaign).empty()) addSeparableEffects(diagnose(campaign, design), report);
       deliver([&] { return auditJson(campaign, report); }, [&] { return auditText(campaign, report); },
               arguments->json);
       return report.verdict == AuditVerdict::fail ? kNotUsable : kDone;

@@ -15,6 +15,7 @@
 #include "app/versions.h"
 #include "core/audit/audit.h"
 #include "core/diagnosis/diagnose.h"
+#include "core/diagnosis/separable_effects.h"
 #include "core/identification/cautions.h"
 #include "core/identification/load_step.h"
 #include "reports/page/report_page.h"
@@ -46,6 +47,7 @@ struct Result {
     identification = loaded ? identify(prepared.campaign, options) : framesAlone(prepared.campaign);
     audited = audit(read);
     if (loaded) diagnosis = diagnose(read);
+    if (diagnosis) addSeparableEffects(*diagnosis, audited);
   }
 
   /// Of loads, stiffnesses are the purpose; of a day of sweeps alone, the frames.

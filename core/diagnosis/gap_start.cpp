@@ -8,22 +8,12 @@
 
 #include "core/audit/repeat_scatter.h"
 #include "core/audit/screening.h"
+#include "core/identification/describe_loads.h"
 #include "core/identification/geometry_calibration.h"
 
 namespace stiffscope {
 
 namespace {
-
-double geometricShare(const LoadedArm& arm, const Vector6d& compliance) {
-  const auto plain = jointTorques(arm.geometry, arm.cases);
-  const auto full = jointTorquesWithGeometricStiffness(arm.geometry, arm.cases, compliance);
-  double change = 0.0, whole = 0.0;
-  for (std::size_t i = 0; i < plain.size(); ++i) {
-    change += (full[i] - plain[i]).squaredNorm();
-    whole += plain[i].squaredNorm();
-  }
-  return whole > 0.0 ? std::sqrt(change / whole) : 0.0;
-}
 
 /// Stiffnesses to start from: those of identification on the largest load.
 Vector6d startCompliance(const Campaign& campaign, LoadedArm arm) {
@@ -130,7 +120,7 @@ GapStart gapStart(const Campaign& campaign, bool take_off_station) {
     return start;
   }
   const Vector6d compliance = startCompliance(start.campaign, arm);
-  start.geometric_stiffness_share = geometricShare(arm, compliance);
+  start.geometric_stiffness_share = geometricStiffnessShare(arm, compliance);
   if (start.geometry.weight.links_known) start.geometry.compliance = compliance;
   start.state = startState(evidence, start.geometry);
   start.state.at.compliance = compliance;

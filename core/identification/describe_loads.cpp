@@ -14,7 +14,8 @@ const MethodResult& firstAvailable(const Identification& result) {
   return result.of(Method::partial_pose);
 }
 
-/// Root mean square change of the joint torques by K_c, relative.
+}  // namespace
+
 double geometricStiffnessShare(const LoadedArm& arm, const Vector6d& compliance) {
   const auto plain = jointTorques(arm.geometry, arm.cases);
   const auto full = jointTorquesWithGeometricStiffness(arm.geometry, arm.cases, compliance);
@@ -25,8 +26,6 @@ double geometricStiffnessShare(const LoadedArm& arm, const Vector6d& compliance)
   }
   return whole > 0.0 ? std::sqrt(change / whole) : 0.0;
 }
-
-}  // namespace
 
 void describeLoads(const Campaign& campaign, const LoadedArm& shown, Identification& result) {
   result.cases = shown.cases;

@@ -10,4 +10,7 @@ namespace stiffscope {
 /// there is. `shown`: the arm in the swept geometry, else in the calibrated one.
 void describeLoads(const Campaign& campaign, const LoadedArm& shown, Identification& result);
 
+/// Root mean square change of the joint torques by K_c at these compliances, relative to J_w^T W.
+double geometricStiffnessShare(const LoadedArm& arm, const Vector6d& compliance);
+
 }  // namespace stiffscope

@@ -227,14 +227,16 @@ TEST(ByStep, LinearSpringsStayAndStiffeningOnesAreSeen) {
   const Campaign linear = simulate(spec);
   const Identification of_linear = identify(linear, quick());
   const StepStudy same = studySteps(linear, quick(), of_linear);
-  spec.machine.joints[1].cubic = 1e13;  // at 5e-4 rad a third of the linear torque
+  // Joint 5: the arm's own weight, which differs between postures, hardly bends it beforehand as it does joints 2 and 3.
+  spec.machine.joints[4].cubic = 2e10;  // at 1.7e-3 rad a sixth of the linear torque
   const Campaign stiffening = simulate(spec);
   const StepStudy other = studySteps(stiffening, quick(), identify(stiffening, quick()));
   for (std::size_t m = 0; m < 3; ++m) {
     ASSERT_EQ(same.methods[m].steps.size(), 3u);
-    for (std::size_t j = 1; j < 6; ++j) EXPECT_GT(same.methods[m].joints[j].p_linear, 1e-3) << m << j;  // fixed seed
-    EXPECT_LT(other.methods[m].joints[1].p_linear, 1e-3);
-    EXPECT_LT(other.methods[m].joints[1].change, 0.0);
+    for (std::size_t j = 1; j < 6; ++j) EXPECT_GT(same.methods[m].joints[j].p_linear, 0.03) << m << j;  // fixed seed
+    // On the same day with linear springs none is below 0.03; Complete Pose, whose rotations are noisier, sees it least.
+    EXPECT_LT(other.methods[m].joints[4].p_linear, m == 0 ? 0.02 : 1e-3) << m;
+    EXPECT_LT(other.methods[m].joints[4].change, 0.0);
   }
 }
 

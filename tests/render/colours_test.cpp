@@ -55,6 +55,28 @@ TEST(Colours, OfSeriesSurviveColourBlindnessAndGreyPrint) {
   expectApart({colours::kSeries.begin(), colours::kSeries.end()});
 }
 
+// A difference of 20 in L*a*b* is about ten times what is just seen side by side, 14 in L* tells two greys of
+// a print; vectors also stand off the paper.
+TEST(Colours, OfASceneStayApartOnLightAndDark) {
+  for (const Palette& palette : {kLightPalette, kDarkPalette}) {
+    const std::vector<Colour> vectors{palette.measured, palette.predicted, palette.residual};
+    for (std::size_t a = 0; a < vectors.size(); ++a) {
+      for (std::size_t b = 0; b < vectors.size(); ++b) {
+        if (a == b) continue;
+        SCOPED_TRACE(testing::Message() << a << " and " << b);
+        EXPECT_GE(std::abs(lab(linear(vectors[a])).x() - lab(linear(vectors[b])).x()), 14.0);
+        for (const Eigen::Matrix3d& vision : visions()) {
+          const auto seen = [&](Colour colour) {
+            return lab((vision * linear(colour)).cwiseMax(0.0).cwiseMin(1.0));
+          };
+          EXPECT_GE((seen(vectors[a]) - seen(vectors[b])).norm(), 20.0);
+          EXPECT_GE((seen(vectors[a]) - seen(palette.paper)).norm(), 40.0);
+        }
+      }
+    }
+  }
+}
+
 TEST(Colours, OfTheMethodsToo) { expectApart({colours::kNone, colours::kCp, colours::kPp, colours::kDpp}); }
 
 }  // namespace
