@@ -7,6 +7,7 @@
 #include "app/output.h"
 #include "app/prepared.h"
 #include "core/compensation/postures_table.h"
+#include "core/identification/best_method.h"
 #include "core/input/input_error.h"
 #include "reports/json/compensation_json.h"
 #include "reports/json/preparation_json.h"
@@ -24,14 +25,6 @@ struct Arguments {
   bool raw = false;
 };
 
-/// The decoupled method where it can be had, else Partial Pose, else Complete Pose.
-Method bestAvailable(const Identification& result) {
-  for (const Method method : {Method::decoupled_partial_pose, Method::partial_pose}) {
-    if (result.of(method).available) return method;
-  }
-  return Method::complete_pose;
-}
-
 int compensateCampaign(const Arguments& arguments, bool step_given) {
   std::vector<Method> methods;
   if (!arguments.method.empty()) methods = methodsNamed(arguments.method);
@@ -41,7 +34,7 @@ int compensateCampaign(const Arguments& arguments, bool step_given) {
   IdentifyOptions options;
   if (step_given) options.step = arguments.step;
   const Identification result = identify(campaign, options);
-  if (methods.empty()) methods = {bestAvailable(result)};
+  if (methods.empty()) methods = {bestMethod(result)};
   const MethodResult& method = result.of(methods.front());
   if (!method.available) {
     throw InputError({arguments.campaign}, "", std::string(namesOf(methods.front()).full) + " is unavailable here: " + method.reason);

@@ -59,6 +59,10 @@ Figure describeGapBars(const ReportCampaign& one) {
       "hold.",
       page::fixed(gap.before / kMicrometre, 1), page::fixed(gap.after / kMicrometre, 1),
       page::fixed(gap.noise / kMicrometre, 1));
+  if (one.preparation != nullptr && one.preparation->drift.taken_off) {
+    figure.caption +=
+        " Bars are of readings with the station's motion taken off; the first figure is of the readings as they were.";
+  }
   figure.alt = "Bars by posture: what the model leaves of the deflection before and after, and noise.";
   return figure;
 }

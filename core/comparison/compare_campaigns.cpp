@@ -4,14 +4,11 @@
 
 #include <algorithm>
 
+#include "core/identification/best_method.h"
+
 namespace stiffscope {
 
-Method Comparison::best() const {
-  for (const Method method : {Method::decoupled_partial_pose, Method::partial_pose}) {
-    if (of(method).available) return method;
-  }
-  return Method::complete_pose;
-}
+Method Comparison::best() const { return bestMethod(*this); }
 
 namespace {
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/identification/best_method.h"
 #include "core/input/units.h"
 
 namespace stiffscope {
@@ -14,13 +15,6 @@ namespace {
 constexpr double kAboveNoise = 3.0;
 constexpr double kMissedGeometry = 0.020;  // m
 constexpr double kMostNoise = 0.5;
-
-const MethodResult* bestAvailable(const Identification& result) {
-  for (const Method which : {Method::decoupled_partial_pose, Method::partial_pose, Method::complete_pose}) {
-    if (result.of(which).available) return &result.of(which);
-  }
-  return nullptr;
-}
 
 bool hasPositive(const StiffnessEstimate& estimate) {
   for (int joint = 0; joint < 6; ++joint) {
@@ -67,7 +61,8 @@ void addSweepCautions(const Frames& frames, std::vector<std::string>& cautions) 
 
 std::vector<std::string> cautionsOf(const Campaign& campaign, const Identification& result) {
   std::vector<std::string> cautions;
-  const MethodResult* method = bestAvailable(result);
+  const MethodResult& best = result.of(bestMethod(result));
+  const MethodResult* method = best.available ? &best : nullptr;
   if (result.calibration.done && result.calibration.rms_before > kMissedGeometry) {
     cautions.push_back(fmt::format(
         "the unloaded reflectors stand {:.0f} mm rms from where sweeps and joint angles put them: units, angles or the "

@@ -3,18 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/identification/best_method.h"
+
 namespace stiffscope {
-
-namespace {
-
-const MethodResult& firstAvailable(const Identification& result) {
-  for (const Method which : {Method::decoupled_partial_pose, Method::partial_pose, Method::complete_pose}) {
-    if (result.of(which).available) return result.of(which);
-  }
-  return result.of(Method::partial_pose);
-}
-
-}  // namespace
 
 double geometricStiffnessShare(const LoadedArm& arm, const Vector6d& compliance) {
   const auto plain = jointTorques(arm.geometry, arm.cases);
@@ -39,7 +30,7 @@ void describeLoads(const Campaign& campaign, const LoadedArm& shown, Identificat
   }
   result.noise = noiseShare(campaign, shown.geometry, shown.cases, shown.wrist, result.frames.wrist.radii,
                             result.frames.wrist.centre_at_zero_in_r0);
-  const MethodResult& reference = firstAvailable(result);
+  const MethodResult& reference = result.of(bestMethod(result));
   if (reference.available) {
     result.geometric_stiffness_share = geometricStiffnessShare(shown, reference.estimate.compliance);
   }
