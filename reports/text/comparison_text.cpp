@@ -30,7 +30,7 @@ void writeMethod(const StiffnessChange& change, Method method, Out out) {
                    wrapped(fmt::format("{}: not comparable: {}", namesOf(method).full, change.reason), 2));
     return;
   }
-  fmt::format_to(out, "\n{}, 1e6 Nm/rad\n  {:<4}{:>20}{:>20}{:>18}{:>10}{:>8}\n", namesOf(method).full, "",
+  fmt::format_to(out, "\n{}, 1e6 Nm/rad, +- one standard uncertainty\n  {:<4}{:>20}{:>20}{:>18}{:>10}{:>8}\n", namesOf(method).full, "",
                  "before", "after", "ratio", "p", "corr.");
   for (std::size_t j = 0; j < 6; ++j) {
     const JointChange& joint = change.joints[j];
