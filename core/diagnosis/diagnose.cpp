@@ -261,9 +261,9 @@ class Diagnoser {
   }
 
   void decide() {
-    geometry_ = geometryError(input_, fit_.state);
+    result_.geometry = geometryError(input_, fit_.state);
     const VerdictInput input{input_,    fit_,         allowed_,    start_.station,
-                             geometry_, start_.noise, result_.gap, result_.positions};
+                             result_.geometry, start_.noise, result_.gap, result_.positions};
     Decision decision = decideVerdict(input);
     result_.verdict = std::move(decision.verdict);
     result_.classes = std::move(decision.classes);
@@ -313,7 +313,6 @@ class Diagnoser {
   std::vector<bool> allowed_;
   std::vector<std::size_t> given_;
   GapFit fit_;
-  GeometryError geometry_;
   StiffnessesAlone before_;
   Eigen::VectorXd after_;
   std::vector<std::vector<ChosenModel>> recipes_;

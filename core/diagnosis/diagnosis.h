@@ -78,6 +78,18 @@ struct NextMeasurement {
   double gain = 0.0;  ///< of chi2 between the tied effects, expected; 0 where it makes something testable
 };
 
+/// The geometry found against the nominal one (kinematic_error): where the URDF's axes would put the
+/// reflectors at the postures of the loading (of the sweeps without any), base and reflectors placed as well
+/// as can be, against where the axes that were found put them. No load, no own weight.
+struct GeometryError {
+  bool tested = false;
+  std::string reason;          ///< why not
+  double rms = 0.0;            ///< per coordinate, m
+  double limit = 0.0;          ///< above it, it is named
+  double largest_shift = 0.0;  ///< of an axis, across it, m
+  double largest_tilt = 0.0;   ///< of an axis, rad
+};
+
 /// Answer of `diagnose`.
 struct Diagnosis {
   bool usable = false;
@@ -92,6 +104,7 @@ struct Diagnosis {
   std::vector<WhereTable> where, where_positions;  ///< of what stiffnesses alone leave
   std::vector<WhereTable> where_after;  ///< of the deflection, with the verdict's effects in the model
   std::vector<NextMeasurement> next;
+  GeometryError geometry;
 
   double state_noise = 0.0;  ///< rms noise of one state's displacement, per coordinate, m
   std::string noise_source;

@@ -18,14 +18,18 @@ struct PresentTurn;
 struct WorkingPoint {
   Vector6d compliance = Vector6d::Zero();  ///< of the joints, rad/Nm, none negative
   Vector6d friction = Vector6d::Zero();  ///< Nm; 0: not known yet, the joint lags from the first newton metre
+  double sticking = 1.0;  ///< stiffness with which friction holds before it slips, over the joint's own
   int targets = 0;                       ///< of the campaign
   Eigen::VectorXd compensator;  ///< torque on joint 2: sin, cos of q_2, of 2 q_2 and so on, Nm; empty: none
   Vector6d play = Vector6d::Zero();              ///< backlash of the joints, rad; zero: not known yet
   Vector6d harder_by_square = Vector6d::Zero();  ///< stiffness k (1 + a tau^2) of the joints: a, 1/Nm^2
   Vector6d harder_by_size = Vector6d::Zero();    ///< stiffness k (1 + a |tau|): a, 1/Nm
+  Vector6d largest_torque = Vector6d::Zero();    ///< own weight and load, largest of all states, Nm
   double passage = 20.0;                         ///< Nm over which the backlash passes from side to side
   std::vector<PresentTurn> turns;                ///< effects in the model that turn joints unloaded
   double largest_force = 1.0;  ///< N, of the campaign: scales what is proportional to the load
+  /// From the declared point of the wrench to where the load itself pulls, flange axes, m.
+  Eigen::Vector3d load_offset = Eigen::Vector3d::Zero();
   Eigen::Vector3d epoch_centre = Eigen::Vector3d::Zero();  ///< about which frames turn
   double first_time = 0.0, time_span = 1.0;                ///< s, of the loading
   double sweep_time = 0.0;                                 ///< s; the sweeps' epoch as far as it is known
@@ -60,6 +64,9 @@ struct EffectModel {
                             std::size_t state) = nullptr;
   /// Instead of `offset` where the effect only turns joints.
   JointAngles (*angles)(const WorkingPoint& at, const PostureStates& posture, std::size_t state) = nullptr;
+  /// Where its equations bend with their own parameters: moves the working point to these, and leaves in
+  /// `own` those that are sizes of the effect (not shapes). Null: they do not bend.
+  void (*settle)(WorkingPoint& at, Eigen::VectorXd& own) = nullptr;
 
   Eigen::MatrixXd columns(const WorkingPoint& at, const PostureStates& posture, std::size_t state) const {
     return angles ? byJoints(posture[state], angles(at, posture, state)) : offset(at, posture, state);

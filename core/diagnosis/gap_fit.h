@@ -1,7 +1,5 @@
 #pragma once
 
-#include "core/audit/evidence.h"
-#include "core/audit/repeat_scatter.h"
 #include "core/diagnosis/selection.h"
 
 namespace stiffscope {
@@ -19,9 +17,6 @@ struct GapFit {
       0.0;  ///< rms per coordinate that the set leaves at the largest load beyond noise, m; 0: within it
   int rounds = 0;
 };
-
-/// What the fit starts from: geometry and stiffnesses as identification has them.
-GapState startState(const Evidence& evidence, const LoadingGeometry& geometry);
 
 struct FitRules {
   double noise_share =

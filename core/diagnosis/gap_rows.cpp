@@ -48,13 +48,17 @@ Eigen::Matrix3d cellAxes(const LoadCell& cell, const LoadingGeometry& geometry, 
 /// The wrench as the corrections have it.
 Wrench corrected(const Wrench& read, const ArmState& state, const Corrections& by, const WorkingPoint& at) {
   Wrench wrench = read;
-  const Eigen::Vector3d turn = state.cell_axes * by.cell_turn;
-  wrench.force += turn.cross(read.force);
-  wrench.moment += turn.cross(read.moment);
+  const Eigen::Matrix3d turn =
+      motionAbout(Eigen::Vector3d::Zero(),
+                  (Vector6d() << state.cell_axes * by.cell_turn, Eigen::Vector3d::Zero()).finished())
+          .linear();
+  wrench.force = turn * read.force;
+  wrench.moment = turn * read.moment;
   wrench.point += state.flange.linear() * by.load_point;
   if (state.loaded) {
-    wrench.force +=
-        state.cell_axes * by.cell_force - at.r0_from_base_link.linear().col(2) * by.missing_weight;
+    const Eigen::Vector3d weight = -at.r0_from_base_link.linear().col(2) * by.missing_weight;
+    wrench.force += state.cell_axes * by.cell_force + weight;
+    wrench.moment += (state.flange.linear() * at.load_offset).cross(weight);
   }
   return wrench;
 }

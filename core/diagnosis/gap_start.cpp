@@ -6,8 +6,10 @@
 #include <cmath>
 #include <limits>
 
+#include "core/audit/evidence.h"
 #include "core/audit/repeat_scatter.h"
 #include "core/audit/screening.h"
+#include "core/diagnosis/start_state.h"
 #include "core/identification/describe_loads.h"
 #include "core/identification/geometry_calibration.h"
 
@@ -122,7 +124,7 @@ GapStart gapStart(const Campaign& campaign, bool take_off_station) {
   const Vector6d compliance = startCompliance(start.campaign, arm);
   start.geometric_stiffness_share = geometricStiffnessShare(arm, compliance);
   if (start.geometry.weight.links_known) start.geometry.compliance = compliance;
-  start.state = startState(evidence, start.geometry);
+  start.state = startState(start.campaign, start.geometry, arm.cases);
   start.state.at.compliance = compliance;
   if (!start.noise.known)
     start.reason = start.noise.source + ": effects cannot be told from noise; state `tracker`";

@@ -33,6 +33,7 @@ std::vector<Vector6d> posturesOf(const Campaign& campaign) {
 
 GeometryError geometryError(const GapInput& input, const GapState& state) {
   GeometryError error;
+  error.limit = kGeometryTolerance;
   const std::vector<Vector6d> postures = posturesOf(input.campaign);
   if (!input.absolute || postures.size() < 4) {
     error.reason = "absolute unloaded positions (`loading`, or circle sweeps of all axes) are needed";

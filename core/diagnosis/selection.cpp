@@ -28,6 +28,7 @@ Selector::Selector(const std::vector<EffectModel>& models, const GapLayout& layo
       for (const double most : part.most) prior_[at++] = 1.0 / (most * most);
     }
   }
+  given_chi2_ = given().chi2;
 }
 
 FittedSet Selector::nothing() const {
@@ -127,8 +128,10 @@ std::vector<FittedSet> Selector::ranked(const FittedSet& base) const {
 
 bool Selector::worth(const FittedSet& with, const FittedSet& without) const {
   const double scale = misfit(with);
-  return (without.chi2 - with.chi2) / scale - (with.penalty - without.penalty) > rules_.detect &&
-         without.chi2 - with.chi2 > rules_.least_drop * scale;
+  const double drop = without.chi2 - with.chi2;
+  const double removed = given_chi2_ - with.chi2;
+  return drop / scale - (with.penalty - without.penalty) > rules_.detect &&
+         drop > rules_.least_drop * scale && drop > rules_.share_of_removed * removed;
 }
 
 FittedSet Selector::regrown(FittedSet set) const {

@@ -29,6 +29,9 @@ struct FittedSet {
 struct SelectionRules {
   double detect = 20.0;      ///< least fall of the score (noise regime) that a first effect must bring
   double least_drop = 0.0;   ///< least fall of chi2 that matters
+  /// Least share of what the whole set removes (of chi2) that each of its effects must bring: models of large
+  /// effects are not exact to a tenth of their size, and what they leave looks like others.
+  double share_of_removed = 0.01;
   double kept_share = 1e-4;  ///< a column of which less (in squares) is left by the projection is not tried
   std::size_t most_effects = 3;
   std::vector<std::size_t> given;  ///< models that other evidence puts in
@@ -66,6 +69,7 @@ class Selector {
   SelectionRules rules_;
   std::vector<bool> allowed_;
   Eigen::VectorXd prior_;
+  double given_chi2_ = 0.0;
   std::vector<std::vector<Eigen::Index>> part_at_;  // first parameter of each part, from the first effect's
 };
 

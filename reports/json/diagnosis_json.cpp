@@ -96,6 +96,13 @@ Json diagnosisJson(const Campaign& campaign, const Diagnosis& diagnosis) {
     not_testable[std::string(idOf(one.effect))] = one.missing;
   json["detectable_um"] = detectable;
   json["not_testable"] = not_testable;
+  if (diagnosis.geometry.tested) {
+    const GeometryError& geometry = diagnosis.geometry;
+    json["geometry"] = {{"rms_um", micrometres(geometry.rms)},
+                        {"limit_um", micrometres(geometry.limit)},
+                        {"largest_shift_um", micrometres(geometry.largest_shift)},
+                        {"largest_tilt_urad", micrometres(geometry.largest_tilt)}};
+  }
   json["limits"] = {{"significance_bic", number(diagnosis.significance_limit)},
                     {"size_um", micrometres(diagnosis.size_limit)}};
   json["noise"] = {{"state_um", micrometres(diagnosis.state_noise)},

@@ -1,5 +1,6 @@
 #include "core/diagnosis/effects/backlash.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace stiffscope {
@@ -17,10 +18,16 @@ JointAngles angles(const WorkingPoint& at, const PostureStates& posture, std::si
   return result;
 }
 
+void settle(WorkingPoint& at, Eigen::VectorXd& own) {
+  at.play = own.head<6>();
+  at.passage = std::clamp(at.passage + own[6], 1.0, 1000.0);
+  own[6] = 0.0;
+}
+
 }  // namespace
 
 EffectModel backlash() {
-  EffectModel model{Effect::backlash, "", jointParts(20e-3, true, "rad"), 7, nullptr, &angles};
+  EffectModel model{Effect::backlash, "", jointParts(20e-3, true, "rad"), 7, nullptr, &angles, &settle};
   model.parts.push_back({"width of the passage", {100.0}, false, "Nm"});
   return model;
 }

@@ -41,8 +41,23 @@ JointAngles squareWhole(const WorkingPoint& at, const PostureStates& posture, st
   return Matrix6d((-torque * torque.abs() / by).matrix().asDiagonal());
 }
 
-EffectModel modelOf(const char* shape, const char* unit, decltype(EffectModel::angles) angles) {
-  return {Effect::joint_hardening, shape, jointParts(1e-6, false, unit), 6, nullptr, angles};
+/// a_j = h_j / c_j.
+Vector6d overCompliance(const WorkingPoint& at, const Eigen::VectorXd& own) {
+  return (at.compliance.array() > 0.0).select(own.array() / at.compliance.array(), 0.0);
+}
+
+void settleSquare(WorkingPoint& at, Eigen::VectorXd& own) { at.harder_by_square = overCompliance(at, own); }
+
+void settleSize(WorkingPoint& at, Eigen::VectorXd& own) { at.harder_by_size = overCompliance(at, own); }
+
+EffectModel bySquare(const char* shape, decltype(EffectModel::angles) angles) {
+  return {Effect::joint_hardening, shape,  jointParts(1e-6, false, "rad/Nm^3"), 6, nullptr,
+          angles,                  &settleSquare};
+}
+
+EffectModel bySize(const char* shape, decltype(EffectModel::angles) angles) {
+  return {Effect::joint_hardening, shape, jointParts(1e-6, false, "rad/Nm^2"), 6, nullptr, angles,
+          &settleSize};
 }
 
 JointAngles cubic(const WorkingPoint&, const PostureStates& posture, std::size_t i) {
@@ -55,26 +70,42 @@ JointAngles square(const WorkingPoint&, const PostureStates& posture, std::size_
   return Matrix6d((-torque.cwiseProduct(torque.cwiseAbs())).asDiagonal());
 }
 
+constexpr int kKnots = 3;
+
+JointAngles stages(const WorkingPoint& at, const PostureStates& posture, std::size_t i) {
+  const Vector6d torque = totalTorque(posture[i]);
+  JointAngles result = JointAngles::Zero(6, 6 * kKnots);
+  for (Eigen::Index j = 0; j < 6; ++j) {
+    for (int b = 0; b < kKnots; ++b) {
+      const double knot = at.largest_torque[j] * (b + 1) / (kKnots + 1);
+      result(j, kKnots * j + b) = -std::copysign(std::max(std::abs(torque[j]) - knot, 0.0), torque[j]);
+    }
+  }
+  return result;
+}
+
 }  // namespace
 
-EffectModel jointHardening() {
-  return modelOf("stiffness with the square of the torque", "rad/Nm^3", &cubic);
-}
+EffectModel jointHardening() { return bySquare("stiffness with the square of the torque", &cubic); }
 
-EffectModel jointHardeningLinear() {
-  return modelOf("stiffness with the size of the torque", "rad/Nm^2", &square);
-}
+EffectModel jointHardeningLinear() { return bySize("stiffness with the size of the torque", &square); }
 
-EffectModel jointHardeningCubicSpring() {
-  return modelOf("a spring with a cubic term", "rad/Nm^3", &cubicSpring);
-}
+EffectModel jointHardeningCubicSpring() { return bySquare("a spring with a cubic term", &cubicSpring); }
 
 EffectModel jointHardeningWhole() {
-  return modelOf("stiffness with the square of the torque, to any size", "rad/Nm^3", &cubicWhole);
+  return bySquare("stiffness with the square of the torque, to any size", &cubicWhole);
 }
 
 EffectModel jointHardeningLinearWhole() {
-  return modelOf("stiffness with the size of the torque, to any size", "rad/Nm^2", &squareWhole);
+  return bySize("stiffness with the size of the torque, to any size", &squareWhole);
+}
+
+EffectModel jointHardeningByStages() {
+  constexpr double kMost = 1e-3;  // rad/Nm
+  EffectModel model{Effect::joint_hardening, "by stages of the torque", jointParts(kMost, false, "rad/Nm"), 6,
+                    nullptr,                 &stages};
+  for (EffectPart& part : model.parts) part.most.assign(kKnots, kMost);
+  return model;
 }
 
 }  // namespace stiffscope

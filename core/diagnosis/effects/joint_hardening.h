@@ -10,10 +10,14 @@ namespace stiffscope {
 /// where the first two are the start of a series: a spring tau = k theta + k_3 theta^3, of which theta = c
 /// tau g, g + a tau^2 g^3 = 1; and stiffnesses k (1 + a tau^2), k (1 + a |tau|). Their h_j = c_j a_j; the
 /// shape takes a_j from the working point.
+///
+/// By stages, as gear makers' catalogues give it: theta_j = c_j tau - sum_b h_jb sign(tau) max(|tau| - t_b, 0),
+/// three knots t_b at a quarter, half and three quarters of the largest torque the joint sees; h_jb in rad/Nm.
 EffectModel jointHardening();
 EffectModel jointHardeningLinear();
 EffectModel jointHardeningCubicSpring();
 EffectModel jointHardeningWhole();
 EffectModel jointHardeningLinearWhole();
+EffectModel jointHardeningByStages();
 
 }  // namespace stiffscope
