@@ -57,20 +57,43 @@ std::vector<double> pauses(const Loading& loading, double from_s, double to_s) {
   return {times.begin(), times.end()};
 }
 
-/// Squared misfit of the unloaded positions with the station's motion taken off, the arm taken as rigid.
+/// Whitened squared misfit of the unloaded positions with the station's motion taken off; places, axes and the
+/// sag of each joint are free, because they are larger than a jump may be.
 double misfitOf(const Campaign& campaign, const TrackerNoise& noise, const StationMotion& station) {
   Campaign corrected = campaign;
   takeOffDrift(station, corrected);
   const Frames frames = measureFrames(corrected);
-  const LoadingGeometry geometry = sweptGeometry(corrected, frames, Vector6d::Zero());
+  constexpr double kAnyCompliance = 1e-6;  // rad/Nm; what it really is, is fitted
+  const LoadingGeometry geometry = sweptGeometry(corrected, frames, Vector6d::Constant(kAnyCompliance));
   const AbsoluteRows rows = absoluteRows(corrected, frames, geometry, statePoints(corrected, noise), noise);
   if (!rows.reason.empty()) return INFINITY;
-  double sum = 0.0;
-  for (const AbsoluteRow& row : rows.rows) sum += row.residual.squaredNorm();
-  return sum;
+  Eigen::MatrixXd columns(3 * static_cast<Eigen::Index>(rows.rows.size()), rows.parameters);
+  Eigen::VectorXd left(columns.rows());
+  Eigen::Index at = 0;
+  for (const AbsoluteRow& row : rows.rows) {
+    const Eigen::Matrix3d root = row.weight.llt().matrixU();
+    columns.middleRows<3>(at) = root * row.jacobian;
+    left.segment<3>(at) = root * row.residual;
+    at += 3;
+  }
+  const Eigen::VectorXd scale = columns.colwise().norm().cwiseMax(1e-300);
+  columns = columns * scale.cwiseInverse().asDiagonal();
+  return (left - columns * columns.completeOrthogonalDecomposition().solve(left)).squaredNorm();
 }
 
 }  // namespace
+
+double jumpTime(const Campaign& campaign, const TrackerNoise& noise, StationMotion station, std::size_t round) {
+  const double from = station.epochs[round - 1].time_s, to = station.epochs[round].time_s;
+  if (!campaign.loading || campaign.loading->frame != PointFrame::tracker) return 0.5 * (from + to);
+  double best = INFINITY, best_time = 0.5 * (from + to);
+  for (const double time : pauses(*campaign.loading, from, to)) {
+    station.epochs[round].jumped_at = time;
+    const double misfit = misfitOf(campaign, noise, station);
+    if (misfit < best) best = misfit, best_time = time;
+  }
+  return best_time;
+}
 
 void findJumps(const Campaign& campaign, const TrackerNoise& noise, StationMotion& station) {
   if (!campaign.loading || campaign.loading->frame != PointFrame::tracker) return;
@@ -83,13 +106,7 @@ void findJumps(const Campaign& campaign, const TrackerNoise& noise, StationMotio
       return Eigen::Vector3d(station.firstFrom(row.time_s) * row.point);
     });
     if (if_steady - as_read < kDecisive) continue;
-    double best = INFINITY, best_time = from;
-    for (const double time : pauses(*campaign.loading, from, to)) {
-      station.epochs[e].jumped_at = time;
-      const double misfit = misfitOf(campaign, noise, station);
-      if (misfit < best) best = misfit, best_time = time;
-    }
-    station.epochs[e].jumped_at = best_time;
+    station.epochs[e].jumped_at = jumpTime(campaign, noise, station, e);
   }
 }
 

@@ -39,10 +39,10 @@ void addSprings(const ArmModel& model, RandomStream& random, SimulationSpec& spe
     spec.machine.joints[i].torsion = model.stiffness[i];
     spec.machine.joints[i].bearing = 1200.0 * model.stiffness[i] * std::exp(0.3 * random.normal());
   }
-  spec.machine.geometry.position_sigma = 3e-5;
-  spec.machine.geometry.direction_sigma = 0.002 * kDegree;
-  spec.machine.geometry.zero_sigma = 0.002 * kDegree;
-  spec.machine.geometry.wrist_position_sigma = 1e-5;
+  spec.machine.geometry.position_sigma = 1e-4;
+  spec.machine.geometry.direction_sigma = 0.006 * kDegree;
+  spec.machine.geometry.zero_sigma = 0.006 * kDegree;
+  spec.machine.geometry.wrist_position_sigma = 3e-5;
   spec.machine.tool = {model.tool_kg, Vector3d(0, 0, 0.1)};
 }
 

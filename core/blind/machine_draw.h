@@ -9,9 +9,9 @@
 namespace stiffscope::blind {
 
 /// One machine and its day, with nothing wrong beyond what every machine has: link lengths within 10 % of a
-/// catalogue arm's, joint stiffness spread by a quarter, and weakly, well under what the tracker sees in a
-/// deflection, axes a few hundredths of a mm and thousandths of a degree from nominal and bearings that give
-/// a thousandth of what the joints do.
+/// catalogue arm's, joint stiffness spread by a quarter; axes a tenth of a mm and six thousandths of a degree
+/// from nominal, as an arm has them that nobody calibrated; and, well under what the tracker sees in a
+/// deflection, bearings that give a thousandth of what the joints do.
 /// The day: circle sweeps of six axes (24 stops), a wrist sweep (120 stops), 24 postures with three loads and
 /// a return to zero, three reflectors, three repeats, four nests. The load hangs, or a cable pulls it towards
 /// one of six directions, another one a posture.

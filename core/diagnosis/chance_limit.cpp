@@ -24,6 +24,7 @@ double chanceLimit(const GapInput& input, const GapFit& fit, const std::vector<b
     for (double& number : numbers) number = normal(random);
     noise.right = root * numbers;
     noise.chi2_none = 0.0;
+    noise.by_effects.resize(0, 0);  // the data's own stiffnesses say nothing here
     GapFit plain;
     plain.data.layout = fit.data.layout;
     plain.rules = fit.rules;

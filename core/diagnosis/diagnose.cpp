@@ -64,7 +64,8 @@ class Diagnoser {
                campaign.load_cell->moment_sigma,
                effectModels(targetNames(campaign)),
                start_.absolute,
-               start_.sweeps} {}
+               start_.sweeps,
+               complianceExpected(start_.state.at.compliance)} {}
 
   Diagnosis run() {
     result_.unusable_reason = start_.reason;
@@ -166,7 +167,8 @@ class Diagnoser {
     if (!raw.reason.empty()) return;
     // Stiffnesses alone in the arm as the sweeps have it: a geometry left free would follow the station.
     const GapInput input{
-        raw.campaign, raw.noise.noise, input_.force_sigma, input_.moment_sigma, input_.models, false, false};
+        raw.campaign, raw.noise.noise, input_.force_sigma, input_.moment_sigma, input_.models, false, false,
+        {}};
     const GapData data = gapData(input, raw.state, {});
     const Eigen::MatrixXd normal = sumOf(data, std::vector<double>(data.postures.size(), 1.0));
     Eigen::VectorXd parameters = Eigen::VectorXd::Zero(data.layout.end);

@@ -25,7 +25,7 @@ struct WorkingPoint {
   Vector6d harder_by_square = Vector6d::Zero();  ///< stiffness k (1 + a tau^2) of the joints: a, 1/Nm^2
   Vector6d harder_by_size = Vector6d::Zero();    ///< stiffness k (1 + a |tau|): a, 1/Nm
   Vector6d largest_torque = Vector6d::Zero();    ///< own weight and load, largest of all states, Nm
-  double passage = 20.0;                         ///< Nm over which the backlash passes from side to side
+  double passage = 0.05;  ///< part of the largest torque over which the backlash passes from side to side
   std::vector<PresentTurn> turns;                ///< effects in the model that turn joints unloaded
   double largest_force = 1.0;  ///< N, of the campaign: scales what is proportional to the load
   /// From the declared point of the wrench to where the load itself pulls, flange axes, m.

@@ -44,6 +44,8 @@ std::vector<EffectModel> effectModels(const std::vector<std::string>& targets) {
       targetMotion(targets),
       targetSlip(targets),
       targetLastingSlip(targets),
+      targetSlipFromHalf(targets),
+      targetSlipAtFull(targets),
       targetNestSpring(targets),
       targetPulledAlong(targets),
       toolCompliance(),

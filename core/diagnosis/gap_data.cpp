@@ -7,7 +7,9 @@ namespace stiffscope {
 
 namespace {
 
-constexpr double kGeometryPrior = 0.1;  // m and rad: wide; holds only what is free by choice of frame
+/// m and rad, a round: wide beside what a round corrects, and narrow enough that a motion of everything, which
+/// is free by choice of frame, stays where linear steps and rounding are good.
+constexpr double kGeometryPrior = 3e-3;
 constexpr double kSweptGeometry =
     1e-3;  // m and rad: where nothing absolute is fitted, as a calibrated or sagging arm has it
 constexpr double kWeightPrior = 0.1;  // of a body's weight: masses of a URDF are no better
@@ -240,6 +242,7 @@ class Filler {
       const Eigen::Index at = data_.layout.weights + k;
       data_.sweeps(at, at) += 1.0 / (kWeightPrior * kWeightPrior);
     }
+    addCompliances();
     addNests();
     if (!input_.sweeps) return;
     const auto rows = sweepRows(input_.campaign, state_.geometry, state_.r0_from_sweeps, state_.at);
@@ -264,6 +267,19 @@ class Filler {
     }
     data_.sweeps.noalias() += both.transpose() * both;
     data_.sweep_rows += total;
+  }
+
+  void addCompliances() {
+    const Eigen::Index end = data_.layout.end;
+    for (Eigen::Index j = 0; j < 6; ++j) {
+      const double value = input_.expected.value[j], sd = input_.expected.sd[j];
+      if (sd <= 0.0) continue;
+      const double weight = 1.0 / (sd * sd);
+      data_.sweeps(j, j) += weight;
+      data_.sweeps(j, end) += weight * value;
+      data_.sweeps(end, j) += weight * value;
+      data_.sweeps(end, end) += weight * value * value;
+    }
   }
 
   void addNests() {
@@ -319,6 +335,20 @@ class Filler {
 };
 
 }  // namespace
+
+ComplianceExpected complianceExpected(const Vector6d& identified) {
+  constexpr double kNothing = 0.05;  // of the neighbours': not identified
+  constexpr double kHalf = 0.5, kThrice = 3.0;
+  ComplianceExpected expected;
+  for (Eigen::Index j = 0; j < 6; ++j) {
+    const double neighbour =
+        std::max(j > 0 ? identified[j - 1] : 0.0, j < 5 ? identified[j + 1] : 0.0);
+    const bool known = identified[j] > kNothing * neighbour;
+    expected.value[j] = known ? identified[j] : kHalf * neighbour;
+    expected.sd[j] = known ? kThrice * identified[j] : kHalf * neighbour;
+  }
+  return expected;
+}
 
 GapLayout gapLayout(const std::vector<EffectModel>& models, std::size_t targets) {
   GapLayout layout;

@@ -20,6 +20,16 @@ struct GapLayout {
   std::vector<Eigen::Index> model_at;  ///< first parameter of each model
 };
 
+/// What is known of the six compliances before the gap is looked at, and how well (sd), rad/Nm: as
+/// identification has them, give or take three times as much; where the load says nothing of a joint, half of
+/// its weaker neighbour's, give or take as much. Without it a joint that no load turns takes any stiffness,
+/// and what is computed with it anything.
+struct ComplianceExpected {
+  Vector6d value = Vector6d::Zero(), sd = Vector6d::Zero();  ///< sd 0: nothing is known
+};
+
+ComplianceExpected complianceExpected(const Vector6d& identified);
+
 /// What the gap stands on, fixed for one diagnosis.
 struct GapInput {
   const Campaign& campaign;  ///< screened; the station's motion taken off where nests show it
@@ -28,6 +38,7 @@ struct GapInput {
   std::vector<EffectModel> models;
   bool absolute = false;  ///< unloaded absolute positions can be held against the arm
   bool sweeps = false;    ///< and the sweeps too
+  ComplianceExpected expected;
   /// What nests say of trackerDrift's parameters: their values, and the inverse covariance of these.
   Vector6d drift = Vector6d::Zero();
   Matrix6d drift_weight = Matrix6d::Zero();

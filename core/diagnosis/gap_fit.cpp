@@ -93,7 +93,7 @@ void fitOnce(const GapInput& input, const std::vector<bool>& allowed, const FitR
 
 GapFit settle(const GapInput& input, const GapState& start, const std::vector<bool>& allowed,
               const FitRules& rules) {
-  GapFit fit;
+  GapFit fit, best;
   fit.state = start;
   ContainedEffects contained;
   ModelsAndParts last;
@@ -109,13 +109,13 @@ GapFit settle(const GapInput& input, const GapState& start, const std::vector<bo
     }
     fitOnce(input, allowed, rules, fit);
     const ModelsAndParts now = namesOf(fit.set);
-    constexpr double kSettled = 0.003;  // of chi2: far below what a verdict turns on
     const bool settled = now == last && std::abs(fit.set.chi2 - last_chi2) < kSettled * fit.set.chi2;
     if (fit.rounds >= kAlone + 2 && settled) break;
     last = now;
     last_chi2 = fit.set.chi2;
-    if (fit.rounds < kMostRounds)
-      contained = correct(input, fit.data.layout, fit.set, fit.nuisances, fit.state);
+    if (best.rounds == 0 || fit.set.score() < best.set.score()) best = fit;
+    if (fit.rounds == kMostRounds) return best;
+    contained = correct(input, fit.data.layout, fit.set, fit.nuisances, fit.state);
   }
   return fit;
 }

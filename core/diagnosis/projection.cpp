@@ -2,6 +2,7 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <cmath>
 
 namespace stiffscope {
 
@@ -44,6 +45,8 @@ Projection project(const Eigen::MatrixXd& normal, Eigen::Index effects_at) {
   result.matrix = normal.block(effects_at, effects_at, effects, effects) - transposed * result.by_effects;
   result.right = normal.col(end).segment(effects_at, effects) - transposed * result.by_nothing;
   result.before = normal.diagonal().segment(effects_at, effects);
+  const Eigen::MatrixXd inverse = factor.solve(Eigen::MatrixXd::Identity(effects_at, 6));
+  for (Eigen::Index j = 0; j < 6; ++j) result.compliance_variance[j] = scale[j] * scale[j] * inverse(j, j);
   result.chi2_none = normal(end, end) - across.col(effects).dot(result.by_nothing);
   return result;
 }
@@ -62,6 +65,24 @@ StiffnessesAlone stiffnessesAlone(const GapData& data, const std::vector<double>
   alone.for_position = Eigen::VectorXd::Zero(data.layout.end);
   alone.for_position.head(projection.by_nothing.size()) = projection.by_nothing;
   return alone;
+}
+
+double complianceSd(const Projection& projection, const std::vector<Eigen::Index>& indices,
+                    const Eigen::VectorXd& prior, Eigen::Index joint) {
+  const auto size = static_cast<Eigen::Index>(indices.size());
+  double variance = projection.compliance_variance[joint];
+  if (size > 0) {
+    Eigen::MatrixXd matrix = projection.matrix(indices, indices);
+    Eigen::VectorXd across(size);
+    for (Eigen::Index a = 0; a < size; ++a) {
+      matrix(a, a) += prior[indices[static_cast<std::size_t>(a)]];
+      across[a] = projection.by_effects(joint, indices[static_cast<std::size_t>(a)]);
+    }
+    const Eigen::VectorXd scale = scaleOf(matrix.diagonal());
+    variance += across.dot(scale.asDiagonal() *
+                           factorised(matrix, scale).solve(Eigen::VectorXd(scale.asDiagonal() * across)));
+  }
+  return std::sqrt(std::max(0.0, variance));
 }
 
 SubsetFit fitSubset(const Projection& projection, const std::vector<Eigen::Index>& indices,

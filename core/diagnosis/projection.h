@@ -15,8 +15,9 @@ struct Projection {
   Eigen::VectorXd right;   ///< s
   Eigen::VectorXd before;  ///< diagonal of N_ee: what the columns are before the projection
   double chi2_none = 0.0;
-  Eigen::MatrixXd by_effects;  ///< nuisances = by_nothing - by_effects * effects
+  Eigen::MatrixXd by_effects;  ///< nuisances = by_nothing - by_effects * effects; empty: not asked for
   Eigen::VectorXd by_nothing;
+  Vector6d compliance_variance = Vector6d::Zero();  ///< of the first six nuisances, no effect in the model
 };
 
 /// Sum of the postures' normal equations, each times its weight, plus the sweeps'.
@@ -32,6 +33,10 @@ StiffnessesAlone stiffnessesAlone(const GapData& data, const std::vector<double>
                                   const Projection& projection);
 
 Projection project(const Eigen::MatrixXd& normal, Eigen::Index effects_at);
+
+/// Standard deviation of a joint's compliance by the noise, with these effect parameters in the model.
+double complianceSd(const Projection& projection, const std::vector<Eigen::Index>& indices,
+                    const Eigen::VectorXd& prior, Eigen::Index joint);
 
 /// A least-squares solution over some effect parameters, others zero.
 struct SubsetFit {

@@ -64,7 +64,24 @@ FittedSet Selector::fit(const std::vector<ChosenModel>& models) const {
     set.effects[indices[i]] = value;
     if (value * value * prior_[indices[i]] > 1.0) set.plausible = false;
   }
+  if (negativeCompliance(set, indices)) set.plausible = false;
   return set;
+}
+
+bool Selector::negativeCompliance(const FittedSet& set, const std::vector<Eigen::Index>& indices) const {
+  if (projection_.by_effects.size() == 0) return false;
+  constexpr double kSure = 4.0;  // standard deviations
+  std::vector<Eigen::Index> present;
+  for (const Eigen::Index i : indices) {
+    if (set.effects[i] != 0.0) present.push_back(i);
+  }
+  for (Eigen::Index j = 0; j < 6; ++j) {
+    const double compliance = projection_.by_nothing[j] - projection_.by_effects.row(j).dot(set.effects);
+    if (compliance >= 0.0) continue;
+    const double sd = std::sqrt(misfit(set)) * complianceSd(projection_, present, prior_, j);
+    if (compliance < -kSure * sd) return true;
+  }
+  return false;
 }
 
 double Selector::misfit(const FittedSet& set) const {

@@ -20,7 +20,7 @@ struct FittedSet {
   Eigen::VectorXd effects;  ///< all effect parameters, those not in the set zero
   double chi2 = 0.0;
   double penalty = 0.0;   ///< BIC's, postures counted, with the choice of parts and models
-  bool plausible = true;  ///< within the physical bounds
+  bool plausible = true;  ///< within the physical bounds; no joint's compliance is surely negative
 
   double score() const { return chi2 + penalty; }  ///< the smaller the better
   bool has(const std::vector<EffectModel>& table, Effect effect) const;
@@ -60,6 +60,7 @@ class Selector {
   bool worth(const FittedSet& with, const FittedSet& without) const;
   FittedSet regrown(FittedSet set) const;  ///< parts of each model chosen again beside the others
   FittedSet pruned(FittedSet set) const;
+  bool negativeCompliance(const FittedSet& set, const std::vector<Eigen::Index>& indices) const;
   bool isGiven(std::size_t model) const;
 
   const std::vector<EffectModel>& models_;

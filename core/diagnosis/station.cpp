@@ -125,8 +125,7 @@ Station stationCourse(const Campaign& campaign, const std::optional<TrackerNoise
       epoch.motion = best.share[e] * best.motion;
       if (!jumped || e != at) epoch.jumped_at.reset();
     }
-    if (jumped && !motion.epochs[at].jumped_at)
-      motion.epochs[at].jumped_at = 0.5 * (motion.epochs[at - 1].time_s + motion.epochs[at].time_s);
+    if (jumped) motion.epochs[at].jumped_at = jumpTime(campaign, *noise, motion, at);
   }
   result.in_words =
       jumped && fits

@@ -70,7 +70,7 @@ JointAngles square(const WorkingPoint&, const PostureStates& posture, std::size_
   return Matrix6d((-torque.cwiseProduct(torque.cwiseAbs())).asDiagonal());
 }
 
-constexpr int kKnots = 3;
+constexpr int kKnots = 6;
 
 JointAngles stages(const WorkingPoint& at, const PostureStates& posture, std::size_t i) {
   const Vector6d torque = totalTorque(posture[i]);

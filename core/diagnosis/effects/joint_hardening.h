@@ -12,7 +12,7 @@ namespace stiffscope {
 /// shape takes a_j from the working point.
 ///
 /// By stages, as gear makers' catalogues give it: theta_j = c_j tau - sum_b h_jb sign(tau) max(|tau| - t_b, 0),
-/// three knots t_b at a quarter, half and three quarters of the largest torque the joint sees; h_jb in rad/Nm.
+/// six knots t_b evenly up to the largest torque the joint sees; h_jb in rad/Nm.
 EffectModel jointHardening();
 EffectModel jointHardeningLinear();
 EffectModel jointHardeningCubicSpring();

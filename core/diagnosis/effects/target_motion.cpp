@@ -1,5 +1,7 @@
 #include "core/diagnosis/effects/target_motion.h"
 
+#include <algorithm>
+
 namespace stiffscope {
 
 namespace {
@@ -12,6 +14,15 @@ Eigen::MatrixXd forEach(const WorkingPoint& at, const ArmState& state,
     columns.block(3 * static_cast<Eigen::Index>(t), field.cols() * state.targets[t], 3, field.cols()) = field;
   }
   return columns;
+}
+
+/// The reflector slips once the force has passed this share of the campaign's largest, and stays there.
+template <int kPercent>
+Eigen::MatrixXd lastingFrom(const WorkingPoint& at, const PostureStates& posture, std::size_t i) {
+  double largest = 0.0;
+  for (std::size_t k = 1; k <= i; ++k) largest = std::max(largest, posture[k].load.force.norm());
+  const double slipped = largest > 0.01 * kPercent * at.largest_force ? 1.0 : 0.0;
+  return forEach(at, posture[i], slipped * posture[i].flange.linear());
 }
 
 /// Index of the largest force from the unloaded state to state `last`; 0 before the first load.
@@ -72,6 +83,14 @@ EffectModel targetSlip(const std::vector<std::string>& targets) {
 
 EffectModel targetLastingSlip(const std::vector<std::string>& targets) {
   return modelOf(targets, "by a slip that stays", 3, &lasting);
+}
+
+EffectModel targetSlipFromHalf(const std::vector<std::string>& targets) {
+  return modelOf(targets, "by a slip beyond half the load that stays", 3, &lastingFrom<50>);
+}
+
+EffectModel targetSlipAtFull(const std::vector<std::string>& targets) {
+  return modelOf(targets, "by a slip near the full load that stays", 3, &lastingFrom<80>);
 }
 
 EffectModel targetNestSpring(const std::vector<std::string>& targets) {
