@@ -4,11 +4,29 @@
 
 namespace stiffscope {
 
+BodyMotions noBodyMotions() {
+  BodyMotions none;
+  none.fill(Eigen::Isometry3d::Identity());
+  return none;
+}
+
+ArmPosture movedPosture(const Robot& arm, const Vector6d& turned, const BodyMotions& moved) {
+  ArmPosture posture = postureAt(arm, turned);
+  for (std::size_t b = 0; b < moved.size(); ++b) posture.motion[b] = moved[b] * posture.motion[b];
+  return posture;
+}
+
 ArmState stateAt(const LoadingGeometry& geometry, const Vector6d& q, const Vector6d& joint_offset) {
+  return stateMoved(geometry, q, geometry.sagged(q) + joint_offset, noBodyMotions());
+}
+
+ArmState stateMoved(const LoadingGeometry& geometry, const Vector6d& q, const Vector6d& turned,
+                    const BodyMotions& moved) {
   ArmState state;
   state.q = q;
-  state.turned = geometry.sagged(q) + joint_offset;
-  state.posture = postureAt(geometry.arm, state.turned);
+  state.turned = turned;
+  state.moved = moved;
+  state.posture = movedPosture(geometry.arm, turned, moved);
   for (int j = 0; j < 6; ++j)
     state.axes[static_cast<std::size_t>(j)] = axisAt(geometry.arm, state.posture, j);
   state.flange = flangeAt(geometry.arm, state.posture);

@@ -8,6 +8,11 @@
 
 namespace stiffscope {
 
+/// Rigid motions of the arm's bodies beyond what its joints do, in R0: where effects in the model have moved
+/// them.
+using BodyMotions = std::array<Eigen::Isometry3d, 7>;
+BodyMotions noBodyMotions();
+
 /// The arm at rest in one state, in R0: everything that drives an effect. Own weight and load are kept apart,
 /// because a deflection is the state less the unloaded one, and an absolute position has the own weight
 /// alone.
@@ -19,7 +24,8 @@ struct ArmState {
       false;  ///< its force is above the share of the posture's largest that makes it a return to zero
   Vector6d q = Vector6d::Zero();
   Vector6d turned = Vector6d::Zero();  ///< joint angles with the sag in
-  ArmPosture posture;                  ///< at `turned`
+  BodyMotions moved = noBodyMotions();
+  ArmPosture posture;                  ///< at `turned`, its bodies moved
   std::array<Line, 6> axes;            ///< joint axes there; the point of each is the joint's origin
   Eigen::Isometry3d flange = Eigen::Isometry3d::Identity();
   Eigen::Matrix3d cell_axes =
@@ -41,6 +47,13 @@ using PostureStates = std::vector<ArmState>;
 /// The geometry's part of a state: posture, axes, flange and own weight at q with the own weight's sag, its
 /// joints turned by `joint_offset` (rad) besides.
 ArmState stateAt(const LoadingGeometry& geometry, const Vector6d& q, const Vector6d& joint_offset);
+
+/// The same at joint angles `turned`, its bodies moved.
+ArmState stateMoved(const LoadingGeometry& geometry, const Vector6d& q, const Vector6d& turned,
+                    const BodyMotions& moved);
+
+/// The posture at these angles with its bodies moved.
+ArmPosture movedPosture(const Robot& arm, const Vector6d& turned, const BodyMotions& moved);
 
 /// What body `body` carries beyond its inner joint, about `about`: own weight from that body outwards, plus
 /// the load.

@@ -39,6 +39,7 @@ ContainedEffects correct(const GapInput& input, const GapLayout& layout, const F
   ContainedEffects contained{Eigen::VectorXd::Zero(set.effects.size()),
                              Eigen::VectorXd::Zero(set.effects.size())};
   state.at.turns.clear();
+  state.at.motions.clear();
   state.at.harder_by_square.setZero();
   state.at.harder_by_size.setZero();
   for (const ChosenModel& one : set.models) {
@@ -70,8 +71,10 @@ ContainedEffects correct(const GapInput& input, const GapLayout& layout, const F
     }
     if (model.settle) model.settle(state.at, own);
     if (model.angles) state.at.turns.push_back({model.angles, own});
+    if (!model.first_body.empty()) state.at.motions.push_back({model.offset, model.first_body, own});
     const bool in_deflections = model.effect == Effect::gravity_compensator || !model.angles;
-    if (model.angles || isCorrection(model.effect)) contained.in_positions.segment(at, own.size()) = own;
+    const bool in_positions = model.angles || !model.first_body.empty() || isCorrection(model.effect);
+    if (in_positions) contained.in_positions.segment(at, own.size()) = own;
     if (in_deflections && isCorrection(model.effect)) contained.in_deflections.segment(at, own.size()) = own;
   }
   return contained;

@@ -14,6 +14,7 @@ namespace stiffscope {
 /// point times a compliance) or bend with their own size (friction) take that other one from here and are
 /// fitted again and again.
 struct PresentTurn;
+struct PresentMotion;
 
 struct WorkingPoint {
   Vector6d compliance = Vector6d::Zero();  ///< of the joints, rad/Nm, none negative
@@ -27,6 +28,7 @@ struct WorkingPoint {
   Vector6d largest_torque = Vector6d::Zero();    ///< own weight and load, largest of all states, Nm
   double passage = 0.05;  ///< part of the largest torque over which the backlash passes from side to side
   std::vector<PresentTurn> turns;                ///< effects in the model that turn joints unloaded
+  std::vector<PresentMotion> motions;            ///< and those that move bodies
   double largest_force = 1.0;  ///< N, of the campaign: scales what is proportional to the load
   /// From the declared point of the wrench to where the load itself pulls, flange axes, m.
   Eigen::Vector3d load_offset = Eigen::Vector3d::Zero();
@@ -47,6 +49,16 @@ struct EffectPart {
 /// Joint angles of an effect that only turns joints, one column a parameter, rad per unit.
 using JointAngles = Eigen::Matrix<double, 6, Eigen::Dynamic>;
 
+/// Offset of every reflector in a state: 3 rows a reflector, one column a parameter, m per unit.
+using Offset = Eigen::MatrixXd (*)(const WorkingPoint& at, const PostureStates& posture, std::size_t state);
+
+/// An effect that moves the arm's bodies by the own weight alone, with its size.
+struct PresentMotion {
+  Offset offset = nullptr;
+  std::vector<int> first_body;  ///< by parameter: it and all bodies beyond it move as one
+  Eigen::VectorXd parameters;
+};
+
 /// An effect that turns joints by the own weight alone, with its size: part of where the unloaded arm stands.
 struct PresentTurn {
   JointAngles (*angles)(const WorkingPoint& at, const PostureStates& posture, std::size_t state) = nullptr;
@@ -60,13 +72,14 @@ struct EffectModel {
   std::vector<EffectPart> parts;
   std::size_t most_parts = 1;  ///< that may be present together
   /// 3 rows a reflector, one column a parameter, parts in their order, m per unit.
-  Eigen::MatrixXd (*offset)(const WorkingPoint& at, const PostureStates& posture,
-                            std::size_t state) = nullptr;
+  Offset offset = nullptr;
   /// Instead of `offset` where the effect only turns joints.
   JointAngles (*angles)(const WorkingPoint& at, const PostureStates& posture, std::size_t state) = nullptr;
   /// Where its equations bend with their own parameters: moves the working point to these, and leaves in
   /// `own` those that are sizes of the effect (not shapes). Null: they do not bend.
   void (*settle)(WorkingPoint& at, Eigen::VectorXd& own) = nullptr;
+  /// By parameter, where `offset` is a rigid motion of the arm from this body outwards; else empty.
+  std::vector<int> first_body = {};
 
   Eigen::MatrixXd columns(const WorkingPoint& at, const PostureStates& posture, std::size_t state) const {
     return angles ? byJoints(posture[state], angles(at, posture, state)) : offset(at, posture, state);

@@ -6,6 +6,7 @@
 
 #include "core/audit/limits.h"
 #include "core/audit/nest_network.h"
+#include "core/diagnosis/rest_state.h"
 #include "core/identification/cell_wrench.h"
 #include "core/identification/load_case.h"
 #include "core/statics/geometric_stiffness.h"
@@ -115,9 +116,7 @@ class LoadingRowMaker {
     rows.pose = pose;
     rows.displacement.resize(per_state * states);
     rows.by_compliance.resize(per_state * states, 6);
-    const Vector6d turn = unloadedTurn(geometry_, at_, cases.front().q);
-    const Vector6d rest_angles = geometry_.sagged(cases.front().q) + turn;
-    ArmState rest = stateAt(geometry_, cases.front().q, turn);
+    ArmState rest = restState(geometry_, at_, cases.front().q);
     rest.pose = pose;
     rest.targets = targets;
     rest.time_s = timeOf(pose, 0);
@@ -127,15 +126,15 @@ class LoadingRowMaker {
     rows.loaded_readings = std::max(1, cases.front().targets.front().loaded_readings);
     rows.states.push_back(rest);
     for (std::size_t k = 0; k < cases.size(); ++k) {
-      addState(cases[k], rest, rest_angles, largest, static_cast<Eigen::Index>(k) * per_state, rows);
+      addState(cases[k], rest, largest, static_cast<Eigen::Index>(k) * per_state, rows);
     }
     rows.states.front().cell_axes = rows.states[1].cell_axes;
     if (cases.front().absolute) addPosition(rest, rows);
     return rows;
   }
 
-  void addState(const LoadCase& one, const ArmState& rest, const Vector6d& rest_angles, double largest,
-                Eigen::Index at_row, GapRows& rows) const {
+  void addState(const LoadCase& one, const ArmState& rest, double largest, Eigen::Index at_row,
+                GapRows& rows) const {
     ArmState state = rest;
     state.step = one.step;
     state.time_s = timeOf(one.pose, one.step);
@@ -147,11 +146,11 @@ class LoadingRowMaker {
     // equations.h).
     Matrix6d change = geometricStiffness(geometry_.arm, rest.posture, state.load) +
                       geometricStiffness(geometry_.arm, rest.posture, geometry_.weight);
-    change(1, 1) += compensatorSlope(at_, rest_angles);
+    change(1, 1) += compensatorSlope(at_, rest.turned);
     const Matrix6d system = Matrix6d::Identity() - change * at_.compliance.asDiagonal();
     const Vector6d torque = system.partialPivLu().solve(state.load_torque);
-    const ArmPosture middle =
-        postureAt(geometry_.arm, rest_angles + 0.5 * at_.compliance.cwiseProduct(torque));
+    const ArmPosture middle = movedPosture(
+        geometry_.arm, rest.turned + 0.5 * at_.compliance.cwiseProduct(torque), rest.moved);
     Eigen::Matrix<double, Eigen::Dynamic, 6> by_wrench(rest.rows(), 6);
     Matrix6d wrench_to_torque = jacobianAt(geometry_.arm, rest.posture, state.load.point).transpose();
     for (std::size_t t = 0; t < rest.targets.size(); ++t) {
@@ -198,18 +197,6 @@ class LoadingRowMaker {
 
 }  // namespace
 
-Vector6d unloadedTurn(const LoadingGeometry& geometry, const WorkingPoint& at, const Vector6d& q) {
-  Vector6d turn = Vector6d::Zero();
-  if (at.turns.empty()) return turn;
-  constexpr int kRounds = 4;  // the torque changes with the turn, by a hundredth with a strong spring
-  for (int round = 0; round < kRounds; ++round) {
-    const PostureStates rest{stateAt(geometry, q, turn)};
-    turn.setZero();
-    for (const PresentTurn& one : at.turns) turn += one.angles(at, rest, 0) * one.parameters;
-  }
-  return turn;
-}
-
 double compensatorSlope(const WorkingPoint& at, const Vector6d& turned) {
   double slope = 0.0;
   for (Eigen::Index k = 0; k + 1 < at.compensator.size(); k += 2) {
@@ -238,7 +225,7 @@ std::vector<SweepRows> sweepRows(const Campaign& campaign, const LoadingGeometry
     if (!at_zero) return;
     SweepRows& rows = by_index[{axis, reading.index}];
     if (rows.state.points.empty())
-      rows.state = stateAt(geometry, reading.q, unloadedTurn(geometry, at, reading.q));
+      rows.state = restState(geometry, at, reading.q);
     rows.state.time_s = reading.time_s;
     rows.state.targets.push_back(reading.target);
     rows.state.points.push_back(r0_from_points * reading.point);

@@ -49,10 +49,7 @@ std::vector<GapRows> loadingRows(const Campaign& campaign, const LoadingGeometry
 std::vector<SweepRows> sweepRows(const Campaign& campaign, const LoadingGeometry& geometry,
                                  const Eigen::Isometry3d& r0_from_points, const WorkingPoint& at);
 
-/// Turn of the joints unloaded beyond the sag of the own weight: by the effects in the model, rad.
-Vector6d unloadedTurn(const LoadingGeometry& geometry, const WorkingPoint& at, const Vector6d& q);
-
-/// How its torque on joint 2 changes as the joint turns, Nm/rad.
+/// How the compensator's torque on joint 2 changes as the joint turns, Nm/rad.
 double compensatorSlope(const WorkingPoint& at, const Vector6d& turned);
 
 }  // namespace stiffscope

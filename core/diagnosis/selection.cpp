@@ -70,7 +70,9 @@ FittedSet Selector::fit(const std::vector<ChosenModel>& models) const {
 
 bool Selector::negativeCompliance(const FittedSet& set, const std::vector<Eigen::Index>& indices) const {
   if (projection_.by_effects.size() == 0) return false;
-  constexpr double kSure = 4.0;  // standard deviations
+  constexpr double kSure = 4.0;       // standard deviations
+  constexpr double kExplained = 2.0;  // chi2 per equation: with more left, stiffnesses are not to be judged
+  if (misfit(set) > kExplained) return false;
   std::vector<Eigen::Index> present;
   for (const Eigen::Index i : indices) {
     if (set.effects[i] != 0.0) present.push_back(i);

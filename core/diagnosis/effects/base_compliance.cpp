@@ -31,6 +31,7 @@ EffectModel baseCompliance() {
   for (const char* name : {"shift along x", "shift along y", "shift along z"}) {
     model.parts.push_back({name, {1e-5}, true, "m/N"});
   }
+  model.first_body.assign(5, 1);
   return model;
 }
 

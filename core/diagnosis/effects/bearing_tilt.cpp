@@ -19,7 +19,9 @@ Eigen::MatrixXd offset(const WorkingPoint&, const PostureStates& posture, std::s
 }  // namespace
 
 EffectModel bearingTilt() {
-  return {Effect::bearing_tilt, "", jointParts(1e-5, true, "rad/Nm"), 6, &offset, nullptr};
+  EffectModel model{Effect::bearing_tilt, "", jointParts(1e-5, true, "rad/Nm"), 6, &offset, nullptr};
+  model.first_body = {1, 2, 3, 4, 5, 6};
+  return model;
 }
 
 }  // namespace stiffscope

@@ -36,6 +36,7 @@ EffectModel linkCompliance() {
   EffectModel model{Effect::link_compliance, "", {}, kLinks, &offset, nullptr};
   for (int link = 1; link <= kLinks; ++link) {
     model.parts.push_back({fmt::format("link {}", link), {1e-4, 1e-4}, true, "1/(N m^2)"});
+    model.first_body.insert(model.first_body.end(), 2, link + 1);
   }
   return model;
 }

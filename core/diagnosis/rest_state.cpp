@@ -1,0 +1,79 @@
+#include "core/diagnosis/rest_state.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <numeric>
+
+#include "core/audit/nest_network.h"
+
+namespace stiffscope {
+
+namespace {
+
+/// Rotation vector and displacement at the origin of each parameter's motion, per unit: from what the effect
+/// does to four points.
+Eigen::Matrix<double, 6, Eigen::Dynamic> twistsOf(const PresentMotion& motion, const WorkingPoint& at,
+                                                  const ArmState& rest) {
+  ArmState probe = rest;
+  probe.targets = {0, 0, 0, 0};
+  probe.points = {Eigen::Vector3d::Zero(), Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitY(),
+                  Eigen::Vector3d::UnitZ()};
+  const Eigen::MatrixXd offset = motion.offset(at, {probe}, 0);
+  Eigen::Matrix<double, 6, Eigen::Dynamic> twists(6, offset.cols());
+  for (Eigen::Index k = 0; k < offset.cols(); ++k) {
+    const Eigen::Vector3d origin = offset.col(k).head<3>();
+    Eigen::Vector3d turn = Eigen::Vector3d::Zero();
+    for (int axis = 0; axis < 3; ++axis)
+      turn += 0.5 * Eigen::Vector3d::Unit(axis).cross(offset.col(k).segment<3>(3 + 3 * axis) - origin);
+    twists.col(k) << turn, origin;
+  }
+  return twists;
+}
+
+/// Inner bodies first, so that an outer motion turns about where the inner ones have brought its pivot.
+BodyMotions motionsOf(const WorkingPoint& at, const ArmState& rest) {
+  BodyMotions all = noBodyMotions();
+  for (int first = 1; first <= 6; ++first) {
+    Vector6d twist = Vector6d::Zero();
+    for (const PresentMotion& motion : at.motions) {
+      const auto twists = twistsOf(motion, at, rest);
+      for (Eigen::Index k = 0; k < twists.cols(); ++k) {
+        if (motion.first_body[static_cast<std::size_t>(k)] == first)
+          twist += twists.col(k) * motion.parameters[k];
+      }
+    }
+    if (twist.isZero(0.0)) continue;
+    // A screw: the rotation about its own axis, not about the origin, so that large arms do not bend it.
+    const Eigen::Vector3d turn = twist.head<3>(), shift = twist.tail<3>();
+    const double square = turn.squaredNorm();
+    const Eigen::Vector3d centre =
+        square > 0.0 ? Eigen::Vector3d(turn.cross(shift) / square) : Eigen::Vector3d(Eigen::Vector3d::Zero());
+    Vector6d about_centre;
+    about_centre << turn, shift + turn.cross(centre);
+    const Eigen::Isometry3d own = motionAbout(centre, about_centre);
+    for (std::size_t b = static_cast<std::size_t>(first); b < all.size(); ++b) all[b] = own * all[b];
+  }
+  return all;
+}
+
+}  // namespace
+
+ArmState restState(const LoadingGeometry& geometry, const WorkingPoint& at, const Vector6d& q) {
+  ArmState state = stateAt(geometry, q, Vector6d::Zero());
+  if (at.turns.empty() && at.motions.empty()) return state;
+  constexpr int kRounds = 5;  // torques change with turns and motions by a hundredth with a strong effect
+  for (int round = 0; round < kRounds; ++round) {
+    Vector6d turn = Vector6d::Zero();
+    const PostureStates rest{state};
+    for (const PresentTurn& one : at.turns) turn += one.angles(at, rest, 0) * one.parameters;
+    if (at.motions.empty()) {
+      state = stateAt(geometry, q, turn);
+      continue;
+    }
+    const Vector6d sag = geometry.compliance.cwiseProduct(state.weight_torque);
+    state = stateMoved(geometry, q, q + sag + turn, motionsOf(at, state));
+  }
+  return state;
+}
+
+}  // namespace stiffscope
