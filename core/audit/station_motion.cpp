@@ -79,8 +79,8 @@ double StationMotion::significance(const StationEpoch& epoch) const {
 Eigen::Isometry3d StationMotion::firstFrom(double time_s) const {
   if (epochs.empty() || time_s <= epochs.front().time_s) return Eigen::Isometry3d::Identity();
   if (time_s >= epochs.back().time_s) return motionAbout(centre, epochs.back().motion);
-  const auto after =
-      std::find_if(epochs.begin(), epochs.end(), [&](const auto& e) { return e.time_s > time_s; });
+  const auto after = std::upper_bound(epochs.begin(), epochs.end(), time_s,
+                                      [](double time, const StationEpoch& epoch) { return time < epoch.time_s; });
   const auto before = std::prev(after);
   if (after->jumped_at)
     return motionAbout(centre, time_s < *after->jumped_at ? before->motion : after->motion);

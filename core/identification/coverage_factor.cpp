@@ -44,11 +44,15 @@ double studentTail(double factor, double dof) {
 
 }  // namespace
 
-double coverageFactor(const Eigen::VectorXd& weights, double coverage) {
-  const Eigen::VectorXd shares = weights / weights.sum();
+double coverageFactor(const Eigen::VectorXd& weights, double coverage) { return coverageFactor(weights, {}, coverage); }
+
+double coverageFactor(const Eigen::VectorXd& weights, const EqualWeights& more, double coverage) {
+  const double sum = weights.sum() + more.count * more.weight;
+  const Eigen::VectorXd shares = weights / sum;
   return crossing(kLeast, kMost, 1.0 - coverage, [&](double factor) {
     Eigen::Array<double, kNodes, 1> product = Eigen::Array<double, kNodes, 1>::Ones();
     for (const double share : shares) product *= 1.0 + factor * factor * share * inverseSquares();
+    if (more.count > 0.0) product *= (1.0 + factor * factor * more.weight / sum * inverseSquares()).pow(more.count);
     return product.rsqrt().mean();
   });
 }
@@ -63,11 +67,11 @@ double coverageFactor(const StiffnessEstimate& estimate, int joint, double cover
   return studentFactor(dof, coverage);
 }
 
-double matchedDof(const Eigen::MatrixXd& influence_covariance) {
+double matchedDof(const Eigen::MatrixXd& influence_covariance, const EqualWeights& more) {
   if (!(influence_covariance.trace() > 0.0)) return 0.0;
   const Eigen::VectorXd weights =
       Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(influence_covariance, Eigen::EigenvaluesOnly).eigenvalues().cwiseMax(0.0);
-  const double factor = coverageFactor(weights, kStatedCoverage);
+  const double factor = coverageFactor(weights, more, kStatedCoverage);
   // By the same rule as the factor, so that its error drops out. The tail at a given factor falls as the degrees of freedom grow.
   return crossing(0.3, 1e4, 1.0 - kStatedCoverage, [&](double dof) { return studentTail(factor, dof); });
 }

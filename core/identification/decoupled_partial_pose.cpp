@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/identification/coverage_factor.h"
+#include "core/identification/influence_covariance.h"
 #include "core/identification/posture_influence.h"
 
 namespace stiffscope {
@@ -49,8 +49,8 @@ void setDecoupledScatter(const std::vector<CaseEquations>& wrist, const std::vec
   Vector6d dof = Vector6d::Zero();
   for (int j = 0; j < 6; ++j) {
     if (!estimate.identifiable[static_cast<std::size_t>(j)]) continue;
-    dof[j] = matchedDof(wrist_variance * influenceCovariance(by_wrist, wrist, arm_inverse, j) +
-                           reflector_variance * influenceCovariance(by_reflectors, reflectors, wrist_inverse, j));
+    dof[j] = matchedDof(combined(wrist_variance, influenceCovariance(by_wrist, wrist, arm_inverse, j),
+                                 reflector_variance, influenceCovariance(by_reflectors, reflectors, wrist_inverse, j)));
   }
   setScatter(std::move(influences), dof, estimate);
 }

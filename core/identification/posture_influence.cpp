@@ -22,21 +22,6 @@ Matrix6d inverseNormal(const NormalEquations& sum, const JointMask& unknown) {
   return scaled.scale.asDiagonal() * scaled.matrix.inverse() * scaled.scale.asDiagonal();
 }
 
-Eigen::MatrixXd influenceCovariance(const std::vector<PostureGain>& gains, const std::vector<CaseEquations>& equations,
-                                    const Matrix6d& inverse, int joint) {
-  const auto n = static_cast<Eigen::Index>(gains.size());
-  Eigen::Matrix<double, 6, Eigen::Dynamic> through(6, n);
-  Eigen::VectorXd own(n);
-  for (Eigen::Index p = 0; p < n; ++p) {
-    const auto row = gains[static_cast<std::size_t>(p)].row(joint);
-    through.col(p) = (row * equations[static_cast<std::size_t>(p)].matrix).transpose();
-    own[p] = row.squaredNorm();
-  }
-  Eigen::MatrixXd covariance = -through.transpose() * inverse * through;
-  covariance.diagonal() += own;
-  return covariance;
-}
-
 double satterthwaite(const Eigen::MatrixXd& covariance) {
   const double trace = covariance.trace();
   return trace > 0.0 ? trace * trace / covariance.squaredNorm() : 0.0;

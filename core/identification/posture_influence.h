@@ -18,11 +18,6 @@ PostureGain correctedGain(const CaseEquations& equations, const NormalEquations&
 /// N^-1 over the joints of the mask, the others' rows and columns zero.
 Matrix6d inverseNormal(const NormalEquations& sum, const JointMask& unknown);
 
-/// Covariances between the influences of the postures on one joint, n x n, if all residuals came from errors that are
-/// independent and have variance 1: with l_p the gain's row and U_p = A_p^T l_p, delta_pq |l_p|^2 - U_p^T N^-1 U_q.
-Eigen::MatrixXd influenceCovariance(const std::vector<PostureGain>& gains, const std::vector<CaseEquations>& equations,
-                                    const Matrix6d& inverse, int joint);
-
 /// Degrees of freedom of a sum of squares of numbers with that covariance: tr^2 / tr(square), Satterthwaite's, as
 /// Bell and McCaffrey (2002) give a scatter covariance its Student quantile.
 double satterthwaite(const Eigen::MatrixXd& covariance);

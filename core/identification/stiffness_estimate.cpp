@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/identification/coverage_factor.h"
+#include "core/identification/influence_covariance.h"
 #include "core/identification/posture_influence.h"
 
 namespace stiffscope {

@@ -3,35 +3,30 @@
 #include <cmath>
 
 #include "core/identification/noise_share.h"
-#include "core/identification/coverage_factor.h"
+#include "core/identification/influence_covariance.h"
 #include "core/identification/posture_influence.h"
 
 namespace stiffscope {
 
 namespace {
 
-using Columns = Eigen::Matrix<double, 6, Eigen::Dynamic>;
-
 /// Covariance between the influences of the postures on one joint, for errors W: with r = (I - H) e,
 /// l_p^T [(I - H) W (I - H)^T]_pq l_q.
-Eigen::MatrixXd covarianceByNoise(const std::vector<PostureGain>& gains, const std::vector<CaseEquations>& equations,
+InfluenceCovariance covarianceByNoise(const std::vector<PostureGain>& gains, const std::vector<CaseEquations>& equations,
                                   const std::vector<Eigen::MatrixXd>& noise, const Matrix6d& inverse,
                                   const Matrix6d& inner, int joint) {
   const auto n = static_cast<Eigen::Index>(gains.size());
-  Columns plain(6, n), weighted(6, n);
-  Eigen::VectorXd own(n);
+  InfluenceCovariance covariance{Eigen::VectorXd(n), Eigen::MatrixXd(12, n), Eigen::MatrixXd::Zero(12, 12)};
   for (Eigen::Index p = 0; p < n; ++p) {
     const auto at = static_cast<std::size_t>(p);
     const Eigen::VectorXd row = gains[at].row(joint).transpose();
     const Eigen::VectorXd by_noise = noise[at] * row;
-    plain.col(p) = equations[at].matrix.transpose() * row;
-    weighted.col(p) = equations[at].matrix.transpose() * by_noise;
-    own[p] = row.dot(by_noise);
+    covariance.through.col(p) << inverse * equations[at].matrix.transpose() * row, equations[at].matrix.transpose() * by_noise;
+    covariance.own[p] = row.dot(by_noise);
   }
-  const Columns through = inverse * plain;
-  const Eigen::MatrixXd crossed = through.transpose() * weighted;
-  Eigen::MatrixXd covariance = through.transpose() * inner * through - crossed - crossed.transpose();
-  covariance.diagonal() += own;
+  covariance.middle.topLeftCorner<6, 6>() = inner;
+  covariance.middle.topRightCorner<6, 6>() = -Matrix6d::Identity();
+  covariance.middle.bottomLeftCorner<6, 6>() = -Matrix6d::Identity();
   return covariance;
 }
 
@@ -69,7 +64,7 @@ void correctForNoise(const std::vector<CaseEquations>& equations, const std::vec
   Vector6d factor = Vector6d::Zero(), dof = Vector6d::Zero();
   for (int j = 0; j < 6; ++j) {
     if (!unknown[static_cast<std::size_t>(j)]) continue;
-    const Eigen::MatrixXd covariance = covarianceByNoise(gains, equations, noise, inverse, inner, j);
+    const InfluenceCovariance covariance = covarianceByNoise(gains, equations, noise, inverse, inner, j);
     if (!(covariance.trace() > 0.0)) return;
     factor[j] = std::sqrt(truth(j, j) / covariance.trace());
     dof[j] = matchedDof(covariance);

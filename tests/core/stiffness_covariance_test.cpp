@@ -1,12 +1,14 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numeric>
 #include <random>
 
 #include "core/identification/bootstrap.h"
 #include "core/identification/by_step.h"
 #include "core/identification/coverage_factor.h"
 #include "core/identification/identify.h"
+#include "core/identification/influence_covariance.h"
 #include "core/identification/posture_influence.h"
 #include "core/identification/stiffness_interval.h"
 #include "core/simulation/read_spec.h"
@@ -105,6 +107,47 @@ TEST(CoverageFactor, IsStudentsForEqualWeightsAndMonteCarlosForOthers) {
   }
   // Five standard deviations of a binomial of 100,000: 0.0035.
   EXPECT_NEAR(static_cast<double>(held) / kDraws, 0.95, 0.0035);
+}
+
+/// Two hundred postures that share six parameters; `heavy` of them count forty times as much as the rest.
+InfluenceCovariance manyPostures(int heavy) {
+  std::mt19937_64 random(11);
+  std::normal_distribution<double> normal;
+  constexpr int kPostures = 200;
+  InfluenceCovariance covariance{Eigen::VectorXd(kPostures), Eigen::MatrixXd(6, kPostures), Matrix6d::Zero()};
+  for (int p = 0; p < kPostures; ++p) {
+    const double size = p % (kPostures / heavy) == 0 ? 6.0 : 1.0;
+    const Vector6d row = size * Vector6d::NullaryExpr([&] { return normal(random); });
+    covariance.own[p] = row.squaredNorm();
+    covariance.through.col(p) = row.squaredNorm() * row;
+  }
+  // What a fit of six parameters takes away: no posture's variance becomes negative.
+  covariance.middle = -(covariance.through * covariance.own.cwiseInverse().asDiagonal() * covariance.through.transpose())
+                           .inverse();
+  return covariance;
+}
+
+TEST(InfluenceCovariance, IsTheDenseMatrixWithoutItsEntries) {
+  const InfluenceCovariance covariance = manyPostures(4);
+  std::vector<Eigen::Index> all(200);
+  std::iota(all.begin(), all.end(), Eigen::Index{0});
+  const Eigen::MatrixXd dense = covariance.between(all);
+  // Rounding of sums of 200 terms.
+  EXPECT_NEAR(covariance.trace() / dense.trace(), 1.0, 1e-12);
+  EXPECT_NEAR(covariance.squaredNorm() / dense.squaredNorm(), 1.0, 1e-12);
+  const InfluenceCovariance sum = combined(2.0, covariance, 3.0, covariance);
+  EXPECT_NEAR((sum.between(all) - 5.0 * dense).norm() / dense.norm(), 0.0, 1e-12);
+}
+
+TEST(InfluenceCovariance, DegreesOfFreedomOfManyPosturesAreThoseOfAllEigenvalues) {
+  for (const int heavy : {1, 4, 20, 100}) {
+    const InfluenceCovariance covariance = manyPostures(heavy);
+    std::vector<Eigen::Index> all(200);
+    std::iota(all.begin(), all.end(), Eigen::Index{0});
+    const double exact = matchedDof(covariance.between(all));
+    // 2 % of the degrees are below 0.5 % of the factor from four degrees on.
+    EXPECT_NEAR(matchedDof(covariance) / exact, 1.0, 0.02) << heavy << " heavy, " << exact;
+  }
 }
 
 TEST(StiffnessInterval, IsOpenWhereTheComplianceMayBeZero) {
