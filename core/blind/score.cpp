@@ -38,7 +38,7 @@ std::string columnOf(const Label& label, const Answer& answer) {
 }
 
 ScoredCase scoreCase(const Label& label, const Answer& answer) {
-  ScoredCase one{label, answer, false, false, 0, columnOf(label, answer)};
+  ScoredCase one{label, answer, false, false, false, 0, columnOf(label, answer)};
   if (!answer.failure.empty()) return one;
   switch (label.kind) {
     case CaseKind::none:
@@ -60,6 +60,11 @@ ScoredCase scoreCase(const Label& label, const Answer& answer) {
   one.right = one.found && answer.entries.size() <= expected;
   if (one.found && !label.effects.empty() && label.kind != CaseKind::outside) {
     one.class_size = static_cast<int>(entryWith(answer, label.effects.front().id)->effects.size());
+  }
+  constexpr std::size_t kMostInClass = 3;
+  if (!label.effects.empty() && !answer.entries.empty()) {
+    const auto& said = answer.entries.front().effects;
+    one.first = said.size() <= kMostInClass && has(said, label.effects.front().id);
   }
   return one;
 }
@@ -113,11 +118,16 @@ std::vector<NamedRate> allRates(const std::vector<ScoredCase>& cases) {
     return names && (one.label.effects.front().id == "joint_coupling" ||
                      one.label.effects.front().id == "target_motion");
   };
+  const Choose first = [](const ScoredCase& one) { return one.first; };
   const Choose everything = [](const ScoredCase&) { return true; };
   const Choose failed = [](const ScoredCase& one) { return !one.answer.failure.empty(); };
   return {
       {"singles", "singles: the effect and nothing else", rateOf(cases, kind(CaseKind::single), right)},
-      {"singles_from_2", "the same, of size 2 and more", rateOf(cases, kind(CaseKind::single, 2.0), right)},
+      {"singles_first_from_2", "size 2 and more: the effect first, in a class of at most three",
+       rateOf(cases, kind(CaseKind::single, 2.0), first)},
+      {"singles_first_from_5", "the same, of size 5 and more",
+       rateOf(cases, kind(CaseKind::single, 5.0), first)},
+      {"singles_from_2", "alone, of size 2 and more", rateOf(cases, kind(CaseKind::single, 2.0), right)},
       {"singles_from_5", "the same, of size 5 and more", rateOf(cases, kind(CaseKind::single, 5.0), right)},
       {"singles_found_from_2", "size 2 and more: the effect, perhaps with others",
        rateOf(cases, kind(CaseKind::single, 2.0), found)},

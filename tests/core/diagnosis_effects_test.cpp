@@ -229,6 +229,70 @@ TEST(Hysteresis, LagsOutAndBackByTheFriction) {
   EXPECT_EQ(hysteresis().angles(bench.at, posture, 0).norm(), 0.0);
 }
 
+// One slider of friction f on a spring r k beside the joint's k. Out by tau: k theta = tau - f once r k theta
+// > f. Back to nothing: the slider gives way after 2 f / (r k), or the joint stops where (1 + r) k theta holds it.
+TEST(Hysteresis, ASliderOnASpringWorkedByHand) {
+  Bench bench;
+  const PostureStates posture = bench.outAndBack();
+  const double tau = std::abs(posture[2].load_torque[1]);
+  for (const double share : {0.1, 0.4}) {
+    const double friction = share * tau, firm = 1.0;
+    bench.at.friction.setConstant(friction);
+    bench.at.sticking = firm;
+    const double side = posture[2].load_torque[1] > 0.0 ? 1.0 : -1.0;
+    // Out, by half the load: in the grip while firm / (1 + firm) tau / 2 < f.
+    const double held_at_half = std::min(friction, 0.5 * tau * firm / (1.0 + firm));
+    const EffectModel model = hysteresisOneSlider();
+    EXPECT_NEAR(model.angles(bench.at, posture, 1)(1, 1), -side * held_at_half / friction, 1e-12) << share;
+    const double held_at_full = std::min(friction, tau * firm / (1.0 + firm));
+    EXPECT_NEAR(model.angles(bench.at, posture, 2)(1, 1), -side * held_at_full / friction, 1e-12) << share;
+    // Back: the slider's force falls by r times the turn (in torque) until it has turned round.
+    const double turn_at_full = tau - held_at_full;
+    double turn = (firm * turn_at_full - held_at_full) / (1.0 + firm);  // still gripping
+    double held = held_at_full + firm * (turn - turn_at_full);
+    if (held < -friction) held = -friction;
+    EXPECT_NEAR(model.angles(bench.at, posture, 3)(1, 1), -side * held / friction, 1e-12) << share;
+  }
+}
+
+// Far beyond all their limits, sliders hold their whole friction, however they share it; a firm grip is the
+// rigid one.
+TEST(Hysteresis, ManySlidersHoldTheWholeFrictionInTheEnd) {
+  Bench bench;
+  const PostureStates posture = bench.outAndBack();
+  const double tau = posture[2].load_torque[1];
+  bench.at.friction.setConstant(0.01 * std::abs(tau));
+  EXPECT_NEAR(std::abs(hysteresisManySliders().angles(bench.at, posture, 2)(1, 1)), 1.0, 1e-12);
+  bench.at.friction.setConstant(0.3 * std::abs(tau));
+  bench.at.sticking = 1e7;  // a ten-millionth of the torque goes into the grip
+  for (const std::size_t state : {1U, 2U, 3U}) {
+    EXPECT_NEAR(hysteresisOneSlider().angles(bench.at, posture, state)(1, 1),
+                hysteresis().angles(bench.at, posture, state)(1, 1), 1e-6);
+  }
+}
+
+// k to T/7, then twice as stiff: theta = c t_1 + c/2 (tau - t_1), which is c tau less half of c times the first
+// hinge.
+TEST(JointHardening, AStageIsAHingeAtItsKnot) {
+  Bench bench;
+  const PostureStates posture = bench.outAndBack();
+  bench.at.largest_torque = posture[2].load_torque.cwiseAbs();
+  const double tau = posture[2].load_torque[1], knot = std::abs(tau) / 7.0, c = bench.at.compliance[1];
+  const JointAngles angles = jointHardeningByStages().angles(bench.at, posture, 2);
+  const double by_hand = std::copysign(c * knot + 0.5 * c * (std::abs(tau) - knot), tau);
+  EXPECT_NEAR(c * tau + 0.5 * c * angles(1, 6), by_hand, 1e-15);
+  EXPECT_EQ(angles(2, 6), 0.0);  // another joint's
+}
+
+TEST(TargetMotion, SlipsOnceTheForceHasPassedItsShare) {
+  const Bench bench;
+  const PostureStates posture = bench.outAndBack();  // loads 0, 0.5, 1, 0
+  const std::vector<std::string> names{"A", "B"};
+  EXPECT_EQ(targetSlipFromHalf(names).columns(bench.at, posture, 1).norm(), 0.0);
+  EXPECT_GT(targetSlipFromHalf(names).columns(bench.at, posture, 2).norm(), 0.0);
+  EXPECT_GT(targetSlipAtFull(names).columns(bench.at, posture, 3).norm(), 0.0);  // stays
+}
+
 // A load point that is off by r changes the moment by (R r) x F: the same as the field of the moved wrench
 // less the declared.
 TEST(LoadPointError, IsTheMovedWrenchThroughTheSprings) {
