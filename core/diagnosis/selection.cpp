@@ -150,7 +150,8 @@ bool Selector::worth(const FittedSet& with, const FittedSet& without) const {
   const double drop = without.chi2 - with.chi2;
   const double removed = given_chi2_ - with.chi2;
   return drop / scale - (with.penalty - without.penalty) > rules_.detect &&
-         drop > rules_.least_drop * scale && drop > rules_.share_of_removed * removed;
+         drop > rules_.least_drop * scale &&
+         drop > std::min(rules_.share_of_removed * removed, rules_.loading_rows);
 }
 
 FittedSet Selector::regrown(FittedSet set) const {
