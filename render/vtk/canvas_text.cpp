@@ -38,10 +38,10 @@ struct Run {
   bool subscript = false;
 };
 
-std::vector<Run> runsOf(std::string text) {
-  // A line break would begin a second line where there is no room for it.
-  std::replace_if(text.begin(), text.end(), [](unsigned char c) { return c < 0x20 || c == 0x7F; }, ' ');
-  std::vector<Run> runs;
+constexpr char kVerbatim = '\x1b';
+
+/// Appends the runs of a text whose `_{` mean subscripts.
+void addRich(const std::string& text, std::vector<Run>& runs) {
   std::size_t at = 0;
   while (at < text.size()) {
     const std::size_t open = text.find("_{", at);
@@ -54,7 +54,32 @@ std::vector<Run> runsOf(std::string text) {
     if (close > open + 2) runs.push_back({text.substr(open + 2, close - open - 2), true});
     at = close + 1;
   }
+}
+
+std::vector<Run> runsOf(const std::string& text) {
+  std::vector<Run> runs;
+  bool verbatim = false;
+  for (std::size_t at = 0; at <= text.size(); verbatim = !verbatim) {
+    const std::size_t end = std::min(text.find(kVerbatim, at), text.size());
+    if (verbatim && end > at) runs.push_back({text.substr(at, end - at)});
+    if (!verbatim) addRich(text.substr(at, end - at), runs);
+    at = end + 1;
+  }
+  // A line break would begin a second line where there is no room for it.
+  for (Run& run : runs) {
+    std::replace_if(run.text.begin(), run.text.end(), [](unsigned char c) { return c < 0x20 || c == 0x7F; }, ' ');
+  }
   return runs;
+}
+
+/// A verbatim stretch that goes on beyond the end of its line is ended there and begun again in the next.
+void mendStretches(std::vector<std::string>& lines) {
+  bool open = false;
+  for (std::string& line : lines) {
+    if (open) line.insert(line.begin(), kVerbatim);
+    open = std::count(line.begin(), line.end(), kVerbatim) % 2 != 0;
+    if (open) line += kVerbatim;
+  }
 }
 
 }  // namespace
@@ -128,6 +153,7 @@ std::vector<std::string> Canvas::wrapped(const std::string& text, double width,
     at = space + 1;
   }
   if (!line.empty()) lines.push_back(shortened(line, width, style));
+  mendStretches(lines);
   return lines;
 }
 

@@ -7,6 +7,7 @@
 #include "reports/page/html.h"
 #include "reports/page/report_id.h"
 #include "reports/page/sections.h"
+#include "reports/page/sort_script.h"
 #include "reports/page/style.h"
 
 namespace stiffscope {
@@ -38,7 +39,7 @@ void writeContents(page::Html& html, const ReportContent& content) {
   const bool diagnosed = std::any_of(content.campaigns.begin(), content.campaigns.end(),
                                      [](const ReportCampaign& one) { return one.diagnosis != nullptr; });
   if (diagnosed) entry("gap", "What the model misses");
-  if (!content.figures.empty()) entry("figures", "Figures");
+  if (page::hasFigures(content, "figures")) entry("figures", "Figures");
   const bool audited = std::any_of(content.campaigns.begin(), content.campaigns.end(),
                                    [](const ReportCampaign& one) { return one.audit != nullptr; });
   if (audited) entry("audit", "Audit");
@@ -77,6 +78,7 @@ ReportPage makeReportPage(const ReportContent& content) {
     page::writeScope(html, content);
     page::writeProvenance(html, content);
     writeEnd(html, content);
+    html.leaf("script", page::kSortScript);
   }
   return {html.bytes(), html.tables()};
 }
