@@ -98,6 +98,7 @@ void drawAxis(Canvas& canvas, const DotRowChart& chart, const RowFrame& frame) {
     canvas.fill({x - 0.5 * u, frame.plot.top, x + 0.5 * u, frame.plot.bottom}, colours::kGrid);
     const double half = canvas.measure(ticks.labels[i], style).x / 2;
     if (x - half < free_from) continue;
+    if (x + half > frame.plot.right) break;
     canvas.text(ticks.labels[i], {x, frame.plot.bottom + 6 * u}, AlignX::Centre, AlignY::Top, style);
     free_from = x + half + 10 * u;
   }
@@ -126,7 +127,7 @@ void drawRow(Canvas& canvas, const RowFrame& frame, const DotRow& row, double y,
   if (!hasDot(row)) {
     TextStyle faint = labelStyle(canvas);
     faint.colour = canvas.palette().faint_ink;
-    const std::string words = canvas.shortened(row.words, frame.plot.width() - 8 * u, faint);
+    const std::string words = canvas.shortened(row.words, frame.plot.width() - 16 * u, faint);
     const Spot extent = canvas.measure(words, faint);
     // Over grid and reference line, which would strike the words through.
     canvas.fill({frame.plot.left + 4 * u, y - extent.y / 2, frame.plot.left + 12 * u + extent.x, y + extent.y / 2}, ground);
@@ -138,8 +139,9 @@ void drawRow(Canvas& canvas, const RowFrame& frame, const DotRow& row, double y,
   canvas.line({frame.plot.left, y}, {x, y}, colour, 2 * u);
   if (row.marked) drawDiamond(canvas, {x, y}, 1.35 * radius, colour);
   else drawPoint(canvas, {x, y}, radius, colour, false);
-  canvas.text(fmt::format("{:.{}f}", row.size, row.size < 10 ? 1 : 0), {x + 1.35 * radius + 7 * u, y}, AlignX::Left,
-              AlignY::Centre, style);
+  const std::string number = fmt::format("{:.{}f}", row.size, row.size < 9.95 ? 1 : 0);
+  const double beside = std::min(x + 1.35 * radius + 7 * u, frame.plot.right - canvas.measure(number, style).x);
+  canvas.text(number, {beside, y}, AlignX::Left, AlignY::Centre, style);
 }
 
 std::vector<LegendEntry> legendOf(const DotRowChart& chart) {
