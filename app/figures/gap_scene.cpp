@@ -16,7 +16,13 @@ namespace stiffscope {
 
 namespace {
 
-constexpr std::size_t kMostPostures = 60;  // more in one picture hide each other
+constexpr std::size_t kMostArrows = 90;  // more in one picture hide each other
+
+/// Every so many postures are drawn.
+std::size_t everyOf(const ReportCampaign& one) {
+  const std::size_t arrows = one.diagnosis->at_points.size();
+  return std::max<std::size_t>(1, (arrows + kMostArrows - 1) / kMostArrows);
+}
 
 const PointGap* gapOf(const Diagnosis& diagnosis, int pose, int target) {
   const auto found = std::find_if(
@@ -29,7 +35,7 @@ const PointGap* gapOf(const Diagnosis& diagnosis, int pose, int target) {
 ArmScene sceneOf(const ReportCampaign& one, Eigen::Vector3d PointGap::*left) {
   ArmScene scene;
   scene.frame_origin = {0.0, 0.0, heightOfR0(one.identification.frames)};
-  for (std::size_t i = 0; i < one.identification.cases.size(); ++i) {
+  for (std::size_t i = 0; i < one.identification.cases.size(); i += everyOf(one)) {
     const LoadCase& load_case = one.identification.cases[i];
     ArmPose pose = armPose(one, i, std::nullopt);
     pose.ghost = true;
@@ -59,8 +65,7 @@ std::string largestWords(const ReportCampaign& one, Eigen::Vector3d PointGap::*l
 }  // namespace
 
 std::optional<GapScenes> gapScenes(const ReportCampaign& one) {
-  if (one.diagnosis == nullptr || one.diagnosis->verdict.entries.empty() || one.diagnosis->at_points.empty() ||
-      one.identification.cases.size() > kMostPostures) {
+  if (one.diagnosis == nullptr || one.diagnosis->verdict.entries.empty() || one.diagnosis->at_points.empty()) {
     return std::nullopt;
   }
   GapScenes scenes{sceneOf(one, &PointGap::before), sceneOf(one, &PointGap::after)};
@@ -89,7 +94,9 @@ Figure describeGapBefore(const ReportCampaign& one, const GapScenes& scenes) {
       "{} times; {}. Arrows that turn with the posture, alike at all reflectors, are the machine's; noise would point "
       "anywhere.",
       factorText(*scenes.before.magnification), largestWords(one, &PointGap::before));
-  figure.alt = "All postures of the arm, pale, with an arrow at each reflector for what the stiffnesses leave.";
+  if (everyOf(one) > 1)
+    figure.caption += fmt::format(" Drawn: one posture in {}; the longest is of all.", everyOf(one));
+  figure.alt = "Postures of the arm, pale, with an arrow at each reflector for what the stiffnesses leave.";
   return figure;
 }
 

@@ -15,7 +15,7 @@ struct GapScenes {
   ArmScene before, after;
 };
 
-/// Empty where nothing was diagnosed or nothing found, or where postures are too many for one picture.
+/// Empty where nothing was diagnosed or nothing found. Of very many arrows only every so many postures' are drawn.
 std::optional<GapScenes> gapScenes(const ReportCampaign& one);
 
 Figure describeGapBefore(const ReportCampaign& one, const GapScenes& scenes);

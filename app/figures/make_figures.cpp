@@ -99,12 +99,12 @@ class FigureList {
 };
 
 std::vector<Figure> figuresOf(const ReportCampaign& one, const FigureOptions& options) {
-  if (one.identification.cases.empty()) return {};
   FigureList list(one);
-  list.addDeflection();
-  list.addStiffness(options);
+  const bool loaded = !one.identification.cases.empty();
+  if (loaded) list.addDeflection();
+  if (loaded) list.addStiffness(options);
   list.addReadings();
-  list.addGap();
+  if (loaded) list.addGap();
   return list.take();
 }
 

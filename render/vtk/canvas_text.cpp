@@ -14,7 +14,9 @@ void Canvas::setStyle(double size, bool bold, Colour colour, Direction direction
   vtkTextProperty* style = context_.GetTextProp();
   style->SetFontFamily(VTK_FONT_FILE);
   style->SetFontFile((bold ? fonts_.bold : fonts_.regular).c_str());
-  style->SetFontSize(std::max(1, static_cast<int>(std::lround(size * surface_.scale))));
+  int pixels = std::max(1, static_cast<int>(std::lround(size * surface_.scale)));
+  if (pixels == 16) pixels = 17;  // VTK 9.1 draws the top row of text of 16 pixels below it
+  style->SetFontSize(pixels);
   style->SetColor(colour.red / 255.0, colour.green / 255.0, colour.blue / 255.0);
   style->SetJustificationToLeft();
   style->SetVerticalJustificationToBottom();

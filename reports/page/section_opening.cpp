@@ -80,6 +80,27 @@ KeyNumber third(const ReportContent& content, const ReportCampaign& one) {
   return {fmt::format("{} of 6", seen), "joint stiffnesses that this data can see"};
 }
 
+/// What a day of sweeps alone gives: axes and the lengths between them.
+std::vector<KeyNumber> sweepNumbers(const Frames& frames) {
+  const auto measured = std::count_if(frames.axes.begin(), frames.axes.end(), [](const auto& axis) { return axis.measured; });
+  double rms = 0.0, off = 0.0;
+  for (const MeasuredAxis& axis : frames.axes) rms = std::max(rms, axis.measured ? axis.fit.rms : 0.0);
+  for (const LinkGeometry& link : frames.links) {
+    if (link.distance_sd) off = std::max(off, std::abs(link.distance - link.nominal_distance));
+  }
+  return {{fmt::format("{} of 6", measured), "joint axes found from their sweeps"},
+          {fmt::format("{}\u00a0mm", significant(kMmPerM * off, 2)), "largest difference of a distance between axes from the nominal one"},
+          {fmt::format("{}\u00a0µm", significant(1e6 * rms, 2)), "rms by which readings leave their circles, of the worst axis"}};
+}
+
+std::vector<KeyNumber> keyNumbers(const ReportContent& content) {
+  const ReportCampaign& one = leading(content);
+  const JudgedPoint point = judgedPoint(one);
+  const bool sweeps_alone = one.identification.cases.empty() && one.identification.frames.axes.front().measured;
+  if (sweeps_alone) return sweepNumbers(one.identification.frames);
+  return {deflection(one, point), compensated(one, point), third(content, one)};
+}
+
 /// The checks of the audit that found something, by name; the audit's own section explains them.
 void addAuditCautions(const AuditReport& audit, std::vector<std::string>& items) {
   for (const AuditVerdict verdict : {AuditVerdict::fail, AuditVerdict::warn}) {
@@ -130,11 +151,9 @@ void writeOpening(Html& html, const ReportContent& content) {
     html.leaf("p", campaignLine(one.campaign), {{"class", "faint"}});
   html.paragraph(content.verdict, "verdict");
   if (content.campaigns.empty()) return;
-  const ReportCampaign& one = leading(content);
-  const JudgedPoint point = judgedPoint(one);
   {
     const auto list = html.element("ul", {{"class", "numbers"}});
-    for (const KeyNumber& number : {deflection(one, point), compensated(one, point), third(content, one)}) {
+    for (const KeyNumber& number : keyNumbers(content)) {
       const auto item = html.element("li");
       html.leaf("b", number.value);
       html.leaf("span", number.words);

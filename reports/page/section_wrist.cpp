@@ -21,7 +21,7 @@ void addPoint(Row& row, const Eigen::Vector3d& point) {
 Table tableOne(const ReportCampaign& one, const WristCentre& wrist) {
   Table table{
       "Table I: centre of the sphere of each reflector's own sweep, in R_{0}",
-      {"Reflector", "X (mm)", "Y (mm)", "Z (mm)", "Offset (mm)", "Radius (mm)", "rms (µm)", "Readings"},
+      {"Reflector", "X (mm)", "Y (mm)", "Z (mm)", "Offset (mm)", "Radius (mm)", "rms (µm)", "Count"},
       {{}}};
   table.id = "wrist-spheres";
   for (const WristTableRow& line : wrist.table) {

@@ -41,7 +41,7 @@ constexpr const char* kScreen =
     ".each table{font-size:.84rem}.grouped tbody th{white-space:nowrap}"
     ".scroll{overflow-x:auto;margin:0 0 1.1rem;padding-top:.1rem}"
     "table{min-width:min(100%,30rem);border-collapse:collapse;font-size:.9rem;font-variant-numeric:tabular-nums}"
-    "caption{text-align:left;font-weight:600;padding:0 0 .35rem}"
+    "caption{text-align:left;font-weight:600;padding:0 0 .35rem;position:sticky;left:0;max-width:calc(100vw - 2.6rem)}"
     "th,td{padding:.28rem .42rem;text-align:right;vertical-align:baseline;border-bottom:1px solid var(--line)}"
     "th{font-weight:500}td{white-space:nowrap}.words td{white-space:normal}"
     "thead th{color:var(--faint);vertical-align:bottom;border-bottom:2px solid var(--line)}"
@@ -76,7 +76,7 @@ constexpr const char* kPrint =
     "figcaption,.notes,p.faint{font-size:8.5pt}.verdict{font-size:12pt}"
     "table,.each table{font-size:7.5pt}th,td{padding:.15rem .36rem}"
     ".figures{margin:0}figure{margin:3mm 0}figure img{width:auto;max-width:100%;max-height:90mm}"
-    ".scroll{overflow:visible;margin-bottom:3mm}"
+    ".scroll{overflow:visible;margin-bottom:3mm}caption{max-width:none}"
     "p,ul,ol,figcaption{max-width:none}"
     ".numbers{grid-template-columns:repeat(3,1fr)}.numbers b{font-size:16pt}"
     "}";
