@@ -26,14 +26,14 @@ int becomeViewer(std::vector<std::string> words) {
 }  // namespace
 
 void addView(CLI::App& app, Run& run) {
-  CLI::App* command = app.add_subcommand("view", "The arm with its deflection vectors, in a window (stiffscope-view)");
+  CLI::App* command =
+      app.add_subcommand("view", "The arm with its deflection vectors, in a window (stiffscope-view)");
   // Everything after it, --help too, is the window's.
   command->set_help_flag();
   command->prefix_command();
   command->allow_extras();
-  command->callback([command, &run] {
-    run = [words = command->remaining()] { return becomeViewer(words); };
-  });
+  command->callback(
+      [command, &run] { run = [words = command->remaining()] { return becomeViewer(words); }; });
 }
 
 }  // namespace stiffscope

@@ -48,17 +48,20 @@ std::vector<std::vector<std::size_t>> groupsOf(const Diagnosis& diagnosis) {
 }  // namespace
 
 std::optional<DotRowChart> effectClasses(const ReportCampaign& one) {
-  if (one.diagnosis == nullptr || !one.diagnosis->usable || one.diagnosis->detectable.empty()) return std::nullopt;
+  if (one.diagnosis == nullptr || !one.diagnosis->usable || one.diagnosis->detectable.empty())
+    return std::nullopt;
   const Diagnosis& diagnosis = *one.diagnosis;
   DotRowChart chart;
   chart.title = "Which effects this data can tell apart, and from what size on";
-  chart.subtitle = fmt::format("{}; {} postures, {} states", page::asIs(one.campaign.name), diagnosis.postures,
-                               diagnosis.states);
+  chart.subtitle = fmt::format("{}; {} postures, {} states", page::asIs(one.campaign.name),
+                               diagnosis.postures, diagnosis.states);
   chart.x_title = "Smallest size that would have been seen, rms per coordinate (µm)";
   for (const DetectableSize& size : diagnosis.detectable) {
     DotRow row{page::effectName(size.effect), NAN, {}, present(diagnosis.verdict, size.effect)};
-    if (size.size) row.size = *size.size / kMicrometre;
-    else row.words = withoutSize(diagnosis, size.effect);
+    if (size.size)
+      row.size = *size.size / kMicrometre;
+    else
+      row.words = withoutSize(diagnosis, size.effect);
     chart.rows.push_back(std::move(row));
   }
   chart.groups = groupsOf(diagnosis);
@@ -82,19 +85,21 @@ Figure describeEffectClasses(const ReportCampaign& one) {
   figure.caption = "Found from the postures and loads alone, before any residual was looked at. ";
   figure.caption += classes.empty()
                         ? "No two effects look alike here: whatever is large enough is named alone."
-                        : fmt::format("A line joins effects that can look alike here, at twice the noise of one "
-                                      "state: {}. The others are told apart.",
-                                      fmt::join(classes, "; "));
+                        : fmt::format(
+                              "A line joins effects that can look alike here, at twice the noise of one "
+                              "state: {}. The others are told apart.",
+                              fmt::join(classes, "; "));
   figure.caption += fmt::format(
-      " An effect smaller than its dot would have passed unseen; one below {}\u00a0µm (dashed) is too small to matter.",
+      " An effect smaller than its dot would have passed unseen; one below {}\u00a0µm (dashed) is too small "
+      "to matter.",
       page::fixed(diagnosis.size_limit / kMicrometre, 1));
-  const bool geometry = std::any_of(diagnosis.detectable.begin(), diagnosis.detectable.end(), [](const auto& size) {
-    return size.effect == Effect::kinematic_error && size.size;
-  });
+  const bool geometry =
+      std::any_of(diagnosis.detectable.begin(), diagnosis.detectable.end(),
+                  [](const auto& size) { return size.effect == Effect::kinematic_error && size.size; });
   if (geometry) figure.caption += " That of the kinematic error is a tolerance of unloaded positions.";
   if (!diagnosis.not_testable.empty())
-    figure.caption += fmt::format(" Not testable with this data: {} of {} effects.", diagnosis.not_testable.size(),
-                                  diagnosis.detectable.size());
+    figure.caption += fmt::format(" Not testable with this data: {} of {} effects.",
+                                  diagnosis.not_testable.size(), diagnosis.detectable.size());
   figure.alt = "A row an effect: the smallest size that would have been seen, and which effects look alike.";
   return figure;
 }

@@ -37,7 +37,8 @@ std::optional<GroupedBarChart> gapBars(const ReportCampaign& one) {
   if (before == nullptr || before->rows.empty()) return std::nullopt;
   GroupedBarChart chart;
   chart.title = "Gap between model and machine";
-  chart.subtitle = fmt::format("{}; in the verdict: {}", page::asIs(one.campaign.name), page::asIs(page::presentWords(one.diagnosis->verdict)));
+  chart.subtitle = fmt::format("{}; in the verdict: {}", page::asIs(one.campaign.name),
+                               page::asIs(page::presentWords(one.diagnosis->verdict)));
   chart.y_title = "Left of the deflection, rms per coordinate (µm)";
   chart.category_title = "Posture";
   for (const WhereRow& row : before->rows) chart.categories.push_back(page::asIs(row.name));
@@ -60,12 +61,16 @@ Figure describeGapBars(const ReportCampaign& one) {
   figure.id = "gap-by-posture";
   figure.title = found ? "Gap between model and machine, before and after" : "Gap between model and machine";
   figure.caption = fmt::format(
-      "Over all postures, rms per coordinate: {}\u00a0µm by joint stiffnesses alone, {}{}\u00a0µm by noise alone.",
+      "Over all postures, rms per coordinate: {}\u00a0µm by joint stiffnesses alone, {}{}\u00a0µm by noise "
+      "alone.",
       page::fixed(gap.before / kMicrometre, 1),
-      found ? fmt::format("{}\u00a0µm with the verdict's effects in the model, ", page::fixed(gap.after / kMicrometre, 1)) : "",
+      found ? fmt::format("{}\u00a0µm with the verdict's effects in the model, ",
+                          page::fixed(gap.after / kMicrometre, 1))
+            : "",
       page::fixed(gap.noise / kMicrometre, 1));
-  figure.caption += found ? " A posture that stays high is one where the verdict does not hold."
-                          : " Postures that stand out of the noise show what joint stiffnesses do not explain.";
+  figure.caption += found
+                        ? " A posture that stays high is one where the verdict does not hold."
+                        : " Postures that stand out of the noise show what joint stiffnesses do not explain.";
   if (!one.diagnosis->as_measured.rows.empty())
     figure.caption += " Grey bars are of the readings as they were, the station's motion in them.";
   figure.alt = "Bars by posture: what the model leaves of the deflection before and after, and noise.";

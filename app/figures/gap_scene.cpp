@@ -25,9 +25,9 @@ std::size_t everyOf(const ReportCampaign& one) {
 }
 
 const PointGap* gapOf(const Diagnosis& diagnosis, int pose, int target) {
-  const auto found = std::find_if(
-      diagnosis.at_points.begin(), diagnosis.at_points.end(),
-      [pose, target](const PointGap& gap) { return gap.pose == pose && gap.target == target; });
+  const auto found =
+      std::find_if(diagnosis.at_points.begin(), diagnosis.at_points.end(),
+                   [pose, target](const PointGap& gap) { return gap.pose == pose && gap.target == target; });
   return found == diagnosis.at_points.end() ? nullptr : &*found;
 }
 
@@ -43,7 +43,8 @@ ArmScene sceneOf(const ReportCampaign& one, Eigen::Vector3d PointGap::*left) {
     std::vector<ScenePoint> shown;
     for (std::size_t t = 0; t < pose.targets.size(); ++t) {
       const PointGap* gap = gapOf(*one.diagnosis, load_case.pose, load_case.targets[t].target);
-      if (gap != nullptr) shown.push_back({"", pose.targets[t].position, std::nullopt, std::nullopt, gap->*left});
+      if (gap != nullptr)
+        shown.push_back({"", pose.targets[t].position, std::nullopt, std::nullopt, gap->*left});
     }
     pose.targets = std::move(shown);
     if (!pose.targets.empty()) scene.poses.push_back(std::move(pose));
@@ -65,7 +66,8 @@ std::string largestWords(const ReportCampaign& one, Eigen::Vector3d PointGap::*l
 }  // namespace
 
 std::optional<GapScenes> gapScenes(const ReportCampaign& one) {
-  if (one.diagnosis == nullptr || one.diagnosis->verdict.entries.empty() || one.diagnosis->at_points.empty()) {
+  if (one.diagnosis == nullptr || one.diagnosis->verdict.entries.empty() ||
+      one.diagnosis->at_points.empty()) {
     return std::nullopt;
   }
   GapScenes scenes{sceneOf(one, &PointGap::before), sceneOf(one, &PointGap::after)};
@@ -90,8 +92,10 @@ Figure describeGapBefore(const ReportCampaign& one, const GapScenes& scenes) {
   figure.id = "gap-before";
   figure.title = "What joint stiffnesses alone leave, on the arm";
   figure.caption = fmt::format(
-      "Arrows: measured less model at each reflector, in the load state of each posture that leaves the most, magnified "
-      "{} times; {}. Arrows that turn with the posture, alike at all reflectors, are the machine's; noise would point "
+      "Arrows: measured less model at each reflector, in the load state of each posture that leaves the "
+      "most, magnified "
+      "{} times; {}. Arrows that turn with the posture, alike at all reflectors, are the machine's; noise "
+      "would point "
       "anywhere.",
       factorText(*scenes.before.magnification), largestWords(one, &PointGap::before));
   if (everyOf(one) > 1)
@@ -105,7 +109,8 @@ Figure describeGapAfter(const ReportCampaign& one, const GapScenes& scenes) {
   figure.id = "gap-after";
   figure.title = "What is left with the verdict's effects in the model";
   figure.caption = fmt::format(
-      "The same as the figure before, to the same scale ({} times), with {} in the model; {}. Where long arrows stay, "
+      "The same as the figure before, to the same scale ({} times), with {} in the model; {}. Where long "
+      "arrows stay, "
       "the verdict does not hold.",
       factorText(*scenes.after.magnification), page::asIs(page::namedWords(one.diagnosis->verdict)),
       largestWords(one, &PointGap::after));

@@ -54,7 +54,8 @@ class FigureList {
     if (const auto residuals = residualDirections(one_))
       add("stiffness", describeResidualDirections(one_, *residuals), *residuals);
     const RigidPoints points = rigidSweeps(one_);
-    if (const auto circles = sweepCircles(one_, points)) add("links", describeSweepCircles(one_), *circles, kScene);
+    if (const auto circles = sweepCircles(one_, points))
+      add("links", describeSweepCircles(one_), *circles, kScene);
     if (const auto sphere = wristSphere(one_, points)) add("wrist", describeWristSphere(one_), *sphere);
     const StationMotion station = one_.station != nullptr ? *one_.station : stationMotionOf(one_.campaign);
     if (const auto drift = stationDrift(one_, station))

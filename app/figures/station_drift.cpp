@@ -37,7 +37,8 @@ PointPanel motionPanel(const StationMotion& station, int first, double unit) {
     for (const StationEpoch& epoch : station.epochs) {
       // Side by side, so that no whisker hides another.
       const double span_h = (station.epochs.back().time_s - station.epochs.front().time_s) / kHour;
-      series.points.push_back({epoch.time_s / kHour + 0.006 * span_h * (k - 1), epoch.motion[first + k] / unit});
+      series.points.push_back(
+          {epoch.time_s / kHour + 0.006 * span_h * (k - 1), epoch.motion[first + k] / unit});
       series.errors.push_back(2.0 * std::sqrt(epoch.covariance(first + k, first + k)) / unit);
     }
     panel.series.push_back(std::move(series));
@@ -72,7 +73,8 @@ std::optional<PointChart> stationDrift(const ReportCampaign& one, const StationM
   if (!station.tested) return std::nullopt;
   PointChart chart;
   chart.title = "Motion of the station over the day, by the floor nests";
-  chart.subtitle = fmt::format("{}; whiskers: 2 standard uncertainties by the declared noise", page::asIs(one.campaign.name));
+  chart.subtitle = fmt::format("{}; whiskers: 2 standard uncertainties by the declared noise",
+                               page::asIs(one.campaign.name));
   chart.columns = 3;
   const bool far = inMillimetres(station);
   const double unit = far ? kMillimetre : kMicrometre;
@@ -93,11 +95,12 @@ Figure describeStationDrift(const StationMotion& station) {
   Figure figure;
   figure.id = "station";
   figure.title = "Motion of the tracker's station";
-  figure.caption = fmt::format("At the arm the station moved by at most {} against the first of {} rounds: {}.",
-                               words, station.epochs.size(),
-                               station.moved ? "more than noise explains" : "no more than noise explains");
-  figure.alt = "Lines over time: displacement and rotation of the station, and how far each nest was read from its "
-               "first reading.";
+  figure.caption = fmt::format(
+      "At the arm the station moved by at most {} against the first of {} rounds: {}.", words,
+      station.epochs.size(), station.moved ? "more than noise explains" : "no more than noise explains");
+  figure.alt =
+      "Lines over time: displacement and rotation of the station, and how far each nest was read from its "
+      "first reading.";
   return figure;
 }
 

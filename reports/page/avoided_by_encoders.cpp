@@ -32,7 +32,8 @@ std::optional<AvoidedByEncoders> avoidedByEncoders(const std::vector<ReportCampa
   const MatchedPostures matched = matchPostures(inactive->campaign, before, active->campaign, after);
   static_cast<DeflectionAvoided&>(avoided) = deflectionAvoidedAtWrist(before, after, matched);
   avoided.at_wrist = avoided.available;
-  if (!avoided.available) static_cast<DeflectionAvoided&>(avoided) = deflectionAvoidedAtTargets(before, after, matched);
+  if (!avoided.available)
+    static_cast<DeflectionAvoided&>(avoided) = deflectionAvoidedAtTargets(before, after, matched);
   return avoided;
 }
 
@@ -43,7 +44,8 @@ std::string pointOf(const AvoidedByEncoders& avoided) {
 std::string shareWords(const AvoidedByEncoders& avoided) {
   const std::string share = page::percent(avoided.share);
   if (!std::isfinite(avoided.low)) return share;
-  return fmt::format("{} (95\u00a0%: {} to {})", share, page::fixed(100.0 * avoided.low, 1), page::percent(avoided.high));
+  return fmt::format("{} (95\u00a0%: {} to {})", share, page::fixed(100.0 * avoided.low, 1),
+                     page::percent(avoided.high));
 }
 
 }  // namespace stiffscope

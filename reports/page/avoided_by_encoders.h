@@ -13,9 +13,9 @@ struct AvoidedByEncoders : DeflectionAvoided {
   bool at_wrist = false;  ///< judged at P_wrist; else at the reflectors (means)
 };
 
-/// Of the first campaign with the double encoders inactive (before) against the first with them active (after).
-/// Empty without such a pair; not available, with the reason, where they are of two machines or have no posture in
-/// common.
+/// Of the first campaign with the double encoders inactive (before) against the first with them active
+/// (after). Empty without such a pair; not available, with the reason, where they are of two machines or have
+/// no posture in common.
 std::optional<AvoidedByEncoders> avoidedByEncoders(const std::vector<ReportCampaign>& campaigns);
 
 /// The point at which it is judged, rich text: "P_{wrist}" or "the reflectors".

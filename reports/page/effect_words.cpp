@@ -23,8 +23,10 @@ constexpr std::array<Words, kEffectCount> kWords{{
     {"a joint also gives about the two directions across its axis", kIntoTheModel},
     {"pedestal or floor gives",
      "check the anchors, with one reflector on the pedestal and one on the floor beside it under load"},
-    {"torque at one joint turns another", "ask the maker how the named joints are coupled, and keep it in the model"},
-    {"stiffness changes with torque", "identify at the loads of the process: one stiffness does not hold for all"},
+    {"torque at one joint turns another",
+     "ask the maker how the named joints are coupled, and keep it in the model"},
+    {"stiffness changes with torque",
+     "identify at the loads of the process: one stiffness does not hold for all"},
     {"motion is lost as a joint's torque passes zero",
      "keep the torque on one side of zero where it matters, and have the gear looked at"},
     {"friction makes the way back differ from the way out",
@@ -42,8 +44,10 @@ constexpr std::array<Words, kEffectCount> kWords{{
     {"lengths or joint zeros differ from the nominal geometry",
      "calibrate the geometry before absolute positions are trusted; displacements hardly feel it"},
     {"readings wander with time", "let the tracker warm up, and read the floor nests more often"},
-    {"one reflector moves in its nest under load", "seat that reflector anew or leave it out, and measure again"},
-    {"the plate between flange and reflectors gives", "stiffen the plate or put the reflectors on the flange itself"},
+    {"one reflector moves in its nest under load",
+     "seat that reflector anew or leave it out, and measure again"},
+    {"the plate between flange and reflectors gives",
+     "stiffen the plate or put the reflectors on the flange itself"},
 }};
 
 const Words& wordsOf(Effect effect) { return kWords[static_cast<std::size_t>(effect)]; }
@@ -99,7 +103,8 @@ std::string presentWords(const Verdict& verdict) {
   const bool unknown = std::any_of(verdict.entries.begin(), verdict.entries.end(),
                                    [](const VerdictEntry& entry) { return entry.effects.empty(); });
   std::string words = namedWords(verdict);
-  if (unknown) words += std::string(words.empty() ? "" : ", and ") + "something that no known effect explains";
+  if (unknown)
+    words += std::string(words.empty() ? "" : ", and ") + "something that no known effect explains";
   return words.empty() ? "nothing" : words;
 }
 

@@ -9,7 +9,7 @@
 
 namespace stiffscope::page {
 
-std::string effectName(Effect effect);     ///< "bearing tilt"
+std::string effectName(Effect effect);  ///< "bearing tilt"
 /// "bearing tilt or link compliance".
 std::string effectNames(const std::vector<Effect>& effects, const char* between = " or ");
 std::string effectMeaning(Effect effect);  ///< what the machine then does
@@ -21,7 +21,8 @@ std::string shortDetail(const std::string& detail);
 /// "bearing tilt (joints 1 and 2), and hysteresis": those that can be in a model; empty where there is none.
 std::string namedWords(const Verdict& verdict);
 
-/// "bearing tilt (joints 1 and 2), and something that no known effect explains"; "nothing" where nothing is present.
+/// "bearing tilt (joints 1 and 2), and something that no known effect explains"; "nothing" where nothing is
+/// present.
 std::string presentWords(const Verdict& verdict);
 
 }  // namespace stiffscope::page

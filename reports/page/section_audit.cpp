@@ -51,8 +51,10 @@ bool anyByChance(const AuditReport& report) {
 Row findingRow(const AuditCheck& check) {
   const std::string where = check.where.empty() ? "" : fmt::format(" ({})", check.where);
   const std::string source = sourceOf(check);
-  return {auditName(check.id), auditWord(check.verdict), withUnit(check.value, check.unit), withUnit(check.limit, check.unit),
-          Cell(withMicro(check.message) + where + ".", source.empty() ? "" : fmt::format("Limit: {}.", source))};
+  return {
+      auditName(check.id), auditWord(check.verdict), withUnit(check.value, check.unit),
+      withUnit(check.limit, check.unit),
+      Cell(withMicro(check.message) + where + ".", source.empty() ? "" : fmt::format("Limit: {}.", source))};
 }
 
 /// Worst first: a reader looks for what is wrong.
@@ -74,9 +76,10 @@ Table findingsTable(const AuditReport& report) {
 
 /// "100 to 300 deg" of checks that are made several times, axis by axis, against one limit.
 std::string rangeOf(const std::vector<const AuditCheck*>& same) {
-  const auto [least, most] = std::minmax_element(same.begin(), same.end(), [](const AuditCheck* a, const AuditCheck* b) {
-    return a->value.value_or(0.0) < b->value.value_or(0.0);
-  });
+  const auto [least, most] =
+      std::minmax_element(same.begin(), same.end(), [](const AuditCheck* a, const AuditCheck* b) {
+        return a->value.value_or(0.0) < b->value.value_or(0.0);
+      });
   const std::string low = withUnit((*least)->value, ""), high = withUnit((*most)->value, (*most)->unit);
   return same.size() == 1 ? high : fmt::format("{}to {}", low, high);
 }
@@ -90,8 +93,10 @@ Table passedTable(const AuditReport& report) {
     const auto same = std::find_if(lines.begin(), lines.end(), [&check](const auto& line) {
       return line.front()->id == check.id && line.front()->limit == check.limit;
     });
-    if (same == lines.end()) lines.push_back({&check});
-    else same->push_back(&check);
+    if (same == lines.end())
+      lines.push_back({&check});
+    else
+      same->push_back(&check);
   }
   for (const auto& line : lines) {
     const AuditCheck& check = *line.front();
@@ -114,7 +119,8 @@ std::vector<std::string> furtherWords(const AuditReport& report, bool diagnosed)
       const bool told = diagnosed && detail.rfind("effects that", 0) == 0;
       if (!told) details.push_back(withMicro(detail));
     }
-    if (!details.empty()) items.push_back(fmt::format("{}: {}.", auditName(check.id), fmt::join(details, "; ")));
+    if (!details.empty())
+      items.push_back(fmt::format("{}: {}.", auditName(check.id), fmt::join(details, "; ")));
   }
   return items;
 }
@@ -147,8 +153,10 @@ void writeAudit(Html& html, const ReportContent& content) {
     writeTable(html, passedTable(*one.audit));
     html.list(furtherWords(*one.audit, one.diagnosis != nullptr && one.diagnosis->usable));
     if (anyByChance(*one.audit)) {
-      html.paragraph("Limits by chi-square, normal deviates or Student's t share 1\u00a0% of false findings over the "
-                     "whole audit.", "faint");
+      html.paragraph(
+          "Limits by chi-square, normal deviates or Student's t share 1\u00a0% of false findings over the "
+          "whole audit.",
+          "faint");
     }
     writeRejected(html, one);
   });

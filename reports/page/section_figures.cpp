@@ -33,8 +33,9 @@ void writeFiguresOf(Html& html, const ReportContent& content, const std::string&
   int number = 0;
   for (const char* earlier : kFigureSections) {
     if (section == earlier) break;
-    number += static_cast<int>(std::count_if(content.figures.begin(), content.figures.end(),
-                                             [&](const Figure& figure) { return figure.section == earlier; }));
+    number +=
+        static_cast<int>(std::count_if(content.figures.begin(), content.figures.end(),
+                                       [&](const Figure& figure) { return figure.section == earlier; }));
   }
   const auto grid = html.element("div", {{"class", "figures"}});
   for (const Figure& figure : content.figures) {

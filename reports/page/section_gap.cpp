@@ -27,17 +27,21 @@ std::string interval(const Shrink& shrink) {
 std::string findingOf(const Diagnosis& diagnosis) {
   const auto& entries = diagnosis.verdict.entries;
   if (entries.empty()) {
-    return fmt::format("Joint springs are enough for this machine on this day: what they leave is noise, or too small to "
-                       "matter (below {}\u00a0µm rms).",
-                       inUm(diagnosis.size_limit));
+    return fmt::format(
+        "Joint springs are enough for this machine on this day: what they leave is noise, or too small to "
+        "matter (below {}\u00a0µm rms).",
+        inUm(diagnosis.size_limit));
   }
-  const std::string present = fmt::format("Besides joint springs the readings show {}", presentWords(diagnosis.verdict));
+  const std::string present =
+      fmt::format("Besides joint springs the readings show {}", presentWords(diagnosis.verdict));
   std::vector<Effect> effects;
-  for (const VerdictEntry& entry : entries) effects.insert(effects.end(), entry.effects.begin(), entry.effects.end());
+  for (const VerdictEntry& entry : entries)
+    effects.insert(effects.end(), entry.effects.begin(), entry.effects.end());
   if (effects.empty()) return present + ".";
   if (effects.size() == 1) return fmt::format("{}: {}.", present, effectMeaning(effects.front()));
   std::vector<std::string> meanings;
-  for (const Effect effect : effects) meanings.push_back(fmt::format("{}: {}", effectName(effect), effectMeaning(effect)));
+  for (const Effect effect : effects)
+    meanings.push_back(fmt::format("{}: {}", effectName(effect), effectMeaning(effect)));
   return fmt::format("{}. That is, {}.", present, fmt::join(meanings, "; "));
 }
 
@@ -48,10 +52,11 @@ std::string figuresOf(const Diagnosis& diagnosis) {
     return fmt::format("The gap is {}\u00a0µm rms per coordinate, {}.", inUm(diagnosis.gap.before), noise);
   }
   return fmt::format(
-      "With it in the model the gap falls from {} to {}\u00a0µm rms per coordinate, {}; on postures that took no part "
+      "With it in the model the gap falls from {} to {}\u00a0µm rms per coordinate, {}; on postures that "
+      "took no part "
       "it shrinks by {}\u00a0% (95\u00a0%: {}\u00a0%).",
-      inUm(diagnosis.gap.before), inUm(diagnosis.gap.after), noise, fixed(100.0 * diagnosis.shrink_together.value, 0),
-      interval(diagnosis.shrink_together));
+      inUm(diagnosis.gap.before), inUm(diagnosis.gap.after), noise,
+      fixed(100.0 * diagnosis.shrink_together.value, 0), interval(diagnosis.shrink_together));
 }
 
 /// What a laboratory can do with the verdict: remedies, each once, and measurements. Rich texts.
@@ -59,24 +64,29 @@ std::vector<std::string> actionsOf(const Diagnosis& diagnosis) {
   std::vector<std::string> actions;
   for (const VerdictEntry& entry : diagnosis.verdict.entries) {
     if (entry.effects.empty()) {
-      actions.push_back("Look for what is not in the list of effects (the figures below show where) before the "
-                        "stiffnesses are used for compensation.");
+      actions.push_back(
+          "Look for what is not in the list of effects (the figures below show where) before the "
+          "stiffnesses are used for compensation.");
     }
     std::vector<std::string> of_class;
     for (const Effect effect : entry.effects) {
       std::string remedy = effectRemedy(effect);
-      if (std::find(of_class.begin(), of_class.end(), remedy) == of_class.end()) of_class.push_back(std::move(remedy));
+      if (std::find(of_class.begin(), of_class.end(), remedy) == of_class.end())
+        of_class.push_back(std::move(remedy));
     }
     for (const std::string& remedy : of_class) {
       const std::string action =
           of_class.size() > 1
-              ? fmt::format("If it is {}: {}.", effectName(entry.effects[static_cast<std::size_t>(&remedy - of_class.data())]), remedy)
+              ? fmt::format("If it is {}: {}.",
+                            effectName(entry.effects[static_cast<std::size_t>(&remedy - of_class.data())]),
+                            remedy)
               : capitalised(remedy) + ".";
       if (std::find(actions.begin(), actions.end(), action) == actions.end()) actions.push_back(action);
     }
   }
   for (const NextMeasurement& one : diagnosis.next) {
-    actions.push_back(fmt::format("To tell {} apart, measure {}.", effectNames(one.separates, " and "), withMicro(one.what)));
+    actions.push_back(fmt::format("To tell {} apart, measure {}.", effectNames(one.separates, " and "),
+                                  withMicro(one.what)));
   }
   return actions;
 }
@@ -89,8 +99,10 @@ Table classesTable(const Diagnosis& diagnosis) {
               "diagnosis"};
   RowGroup group;
   for (const EffectClass& one : diagnosis.classes) {
-    group.rows.push_back({Cell(effectNames(one.effects), asIs(shortDetail(one.detail))), one.in_verdict ? "yes" : "no", fixed(one.score, 0),
-                          fixed(100.0 * one.shrink.value, 1), interval(one.shrink), fixed(100.0 * one.explained, 0)});
+    group.rows.push_back({Cell(effectNames(one.effects), asIs(shortDetail(one.detail))),
+                          one.in_verdict ? "yes" : "no", fixed(one.score, 0),
+                          fixed(100.0 * one.shrink.value, 1), interval(one.shrink),
+                          fixed(100.0 * one.explained, 0)});
   }
   table.groups.push_back(std::move(group));
   return table;
@@ -137,11 +149,13 @@ Table whereTable(const Diagnosis& diagnosis) {
 }
 
 Table stiffnessTable(const Diagnosis& diagnosis) {
-  Table table{"Joint stiffness by joint springs alone, and k ± u with the verdict's effects in the model, 10⁶\u00a0Nm/rad",
-              {"Joint", "Alone", "With the effects"},
-              {},
-              false,
-              "diagnosis-stiffness"};
+  Table table{
+      "Joint stiffness by joint springs alone, and k ± u with the verdict's effects in the model, "
+      "10⁶\u00a0Nm/rad",
+      {"Joint", "Alone", "With the effects"},
+      {},
+      false,
+      "diagnosis-stiffness"};
   RowGroup group;
   for (int j = 0; j < 6; ++j) {
     if (!diagnosis.identifiable[static_cast<std::size_t>(j)]) continue;

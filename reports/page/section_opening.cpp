@@ -82,21 +82,25 @@ KeyNumber third(const ReportContent& content, const ReportCampaign& one) {
 
 /// What a day of sweeps alone gives: axes and the lengths between them.
 std::vector<KeyNumber> sweepNumbers(const Frames& frames) {
-  const auto measured = std::count_if(frames.axes.begin(), frames.axes.end(), [](const auto& axis) { return axis.measured; });
+  const auto measured =
+      std::count_if(frames.axes.begin(), frames.axes.end(), [](const auto& axis) { return axis.measured; });
   double rms = 0.0, off = 0.0;
   for (const MeasuredAxis& axis : frames.axes) rms = std::max(rms, axis.measured ? axis.fit.rms : 0.0);
   for (const LinkGeometry& link : frames.links) {
     if (link.distance_sd) off = std::max(off, std::abs(link.distance - link.nominal_distance));
   }
   return {{fmt::format("{} of 6", measured), "joint axes found from their sweeps"},
-          {fmt::format("{}\u00a0mm", significant(kMmPerM * off, 2)), "largest difference of a distance between axes from the nominal one"},
-          {fmt::format("{}\u00a0µm", significant(1e6 * rms, 2)), "rms by which readings leave their circles, of the worst axis"}};
+          {fmt::format("{}\u00a0mm", significant(kMmPerM * off, 2)),
+           "largest difference of a distance between axes from the nominal one"},
+          {fmt::format("{}\u00a0µm", significant(1e6 * rms, 2)),
+           "rms by which readings leave their circles, of the worst axis"}};
 }
 
 std::vector<KeyNumber> keyNumbers(const ReportContent& content) {
   const ReportCampaign& one = leading(content);
   const JudgedPoint point = judgedPoint(one);
-  const bool sweeps_alone = one.identification.cases.empty() && one.identification.frames.axes.front().measured;
+  const bool sweeps_alone =
+      one.identification.cases.empty() && one.identification.frames.axes.front().measured;
   if (sweeps_alone) return sweepNumbers(one.identification.frames);
   return {deflection(one, point), compensated(one, point), third(content, one)};
 }
@@ -111,7 +115,8 @@ void addAuditCautions(const AuditReport& audit, std::vector<std::string>& items)
       if (!check.where.empty() && check.id == "circle_arc") names.back() += " of " + check.where;
     }
     if (!names.empty()) {
-      items.push_back(fmt::format("The audit of the readings {} on: {}.", auditWord(verdict), fmt::join(names, ", ")));
+      items.push_back(
+          fmt::format("The audit of the readings {} on: {}.", auditWord(verdict), fmt::join(names, ", ")));
     }
   }
 }
@@ -120,10 +125,12 @@ void addAuditCautions(const AuditReport& audit, std::vector<std::string>& items)
 std::vector<std::string> cautionsOf(const ReportCampaign& one) {
   std::vector<std::string> items;
   if (one.audit != nullptr) addAuditCautions(*one.audit, items);
-  if (one.preparation != nullptr && (one.preparation->drift.taken_off || !one.preparation->rejected.empty())) {
+  if (one.preparation != nullptr &&
+      (one.preparation->drift.taken_off || !one.preparation->rejected.empty())) {
     items.push_back(fmt::format("Readings: {}.", withMicro(preparationWords(*one.preparation))));
   }
-  for (const std::string& caution : one.identification.cautions) items.push_back(capitalised(withMicro(caution)) + ".");
+  for (const std::string& caution : one.identification.cautions)
+    items.push_back(capitalised(withMicro(caution)) + ".");
   return items;
 }
 

@@ -60,7 +60,9 @@ TEST(DotRows, FitsWhateverItIsGiven) {
   chart.group_title = "not told apart";
   chart.reference = 3.0;
   chart.reference_name = "limit";
-  for (int i = 0; i < 16; ++i) chart.rows.push_back({std::string(80, 'w'), i % 3 ? std::pow(10.0, i % 5) : NAN, std::string(400, 'x'), i == 4});
+  for (int i = 0; i < 16; ++i)
+    chart.rows.push_back(
+        {std::string(80, 'w'), i % 3 ? std::pow(10.0, i % 5) : NAN, std::string(400, 'x'), i == 4});
   for (std::size_t i = 0; i < 20; ++i) chart.groups.push_back({i % 16, (i + 5) % 16});
   expectNothingClipped(decoded(render(chart)));
   expectNothingClipped(decoded(render(chart, {480, 320})));
@@ -73,13 +75,15 @@ TEST(DotRows, RefusesAGroupOfARowThatThereIsNot) {
     render(chart);
     FAIL() << "accepted";
   } catch (const std::invalid_argument& error) {
-    EXPECT_NE(std::string(error.what()).find("a group of rows 0, 7, expected two or more of 3"), std::string::npos)
+    EXPECT_NE(std::string(error.what()).find("a group of rows 0, 7, expected two or more of 3"),
+              std::string::npos)
         << error.what();
   }
 }
 
 TEST(RichText, WhatStandsBetweenEscapesIsTakenToTheLetter) {
-  // A subscript is set smaller: read to the letter the same name is wider, and the stems begin farther to the right.
+  // A subscript is set smaller: read to the letter the same name is wider, and the stems begin farther to the
+  // right.
   const auto stemsBeginAt = [](const std::string& name) {
     DotRowChart chart = threeRows();
     chart.rows[0].name = name;
