@@ -37,7 +37,7 @@ constexpr const char* kScreen =
     ".numbers span{display:block;color:var(--faint);font-size:.9rem;line-height:1.4}"
     // Campaigns side by side where there is room; the tables of a single one in columns.
     ".several{display:grid;grid-template-columns:repeat(auto-fit,minmax(min(100%,44rem),1fr));gap:0 2.5rem}"
-    ".each{min-width:0}.one .each{columns:42rem 2;column-gap:2.5rem}.scroll,.notes,.each p,.each li,.each figure{break-inside:avoid}#conditions .each{columns:auto}"
+    ".each{min-width:0}.one .each{columns:42rem 2;column-gap:2.5rem}.scroll,.notes,.each p,.each li,.each figure{break-inside:avoid}#conditions .each{columns:auto}#versions{columns:16rem 2;column-gap:2.5rem}#versions h2{column-span:all}"
     ".each table{font-size:.84rem}.grouped tbody th{white-space:nowrap}"
     ".scroll{overflow-x:auto;margin:0 0 1.1rem;padding-top:.1rem}"
     "table{min-width:min(100%,30rem);border-collapse:collapse;font-size:.9rem;font-variant-numeric:tabular-nums}"
