@@ -76,7 +76,7 @@ std::optional<DotRowChart> effectClasses(const ReportCampaign& one) {
 Figure describeEffectClasses(const ReportCampaign& one) {
   const Diagnosis& diagnosis = *one.diagnosis;
   Figure figure;
-  figure.id = "effects";
+  figure.id = "effect-classes";
   figure.title = "Which effects this data can tell apart";
   std::vector<std::string> classes;
   for (const auto& alias : diagnosis.aliases) {
