@@ -24,5 +24,6 @@ void addDiagnose(CLI::App& app, Run& run);
 void addBlind(CLI::App& app, Run& run);
 void addSimulate(CLI::App& app, Run& run);
 void addReport(CLI::App& app, Run& run);
+void addView(CLI::App& app, Run& run);
 
 }  // namespace stiffscope

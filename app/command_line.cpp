@@ -25,6 +25,7 @@ int runCommandLine(int count, char** words) {
   addBlind(app, run);
   addSimulate(app, run);
   addReport(app, run);
+  addView(app, run);
   try {
     app.parse(count, words);
   } catch (const CLI::Success& asked) {  // --help, --version

@@ -58,6 +58,7 @@ Image render(const GroupedBarChart& chart, Size size) { return backend().draw(ch
 Image render(const SpreadChart& chart, Size size) { return backend().draw(chart, size); }
 Image render(const IntervalChart& chart, Size size) { return backend().draw(chart, size); }
 Image render(const PointChart& chart, Size size) { return backend().draw(chart, size); }
+Image render(const DotRowChart& chart, Size size) { return backend().draw(chart, size); }
 Image render(const ArmScene& scene, Size size) { return backend().draw(scene, size); }
 
 }  // namespace stiffscope

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "render/arm_scene.h"
+#include "render/dot_row_chart.h"
 #include "render/grouped_bar_chart.h"
 #include "render/interval_chart.h"
 #include "render/point_chart.h"
@@ -16,12 +17,13 @@ class Backend {
   virtual Image draw(const SpreadChart& chart, Size size) = 0;
   virtual Image draw(const IntervalChart& chart, Size size) = 0;
   virtual Image draw(const PointChart& chart, Size size) = 0;
+  virtual Image draw(const DotRowChart& chart, Size size) = 0;
   virtual Image draw(const ArmScene& scene, Size size) = 0;
 };
 
 /// The one symbol that is looked up in the module. Its number goes up whenever Backend or the data structures
 /// change, so that a module left over from another version is refused instead of misread.
-inline constexpr const char* kBackendSymbol = "stiffscope_render_backend_5";
+inline constexpr const char* kBackendSymbol = "stiffscope_render_backend_6";
 using BackendFunction = Backend*();
 
 }  // namespace stiffscope

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "app/figures/arm_pose.h"
+#include "render/ticks.h"
 #include "reports/page/html.h"
 #include "reports/page/names.h"
 #include "reports/page/numbers.h"
@@ -17,7 +18,7 @@ namespace {
 constexpr double kMmPerM = 1e3;
 
 std::string poseName(const ReportCampaign& one, std::size_t index) {
-  return one.campaign.pose_ids[static_cast<std::size_t>(one.identification.cases[index].pose)];
+  return page::asIs(one.campaign.pose_ids[static_cast<std::size_t>(one.identification.cases[index].pose)]);
 }
 
 void nameVectors(ArmScene& scene, std::optional<Method> method) {
@@ -68,7 +69,7 @@ ArmScene postureScene(const ReportCampaign& one, std::size_t index, std::optiona
   const double force = one.identification.cases[index].wrench.force.norm();
   ArmScene scene;
   scene.title = fmt::format("Deflection in posture {} under {}", poseName(one, index), kilonewtons(force));
-  scene.subtitle = one.campaign.name;
+  scene.subtitle = page::asIs(one.campaign.name);
   scene.poses = {armPose(one, index, method)};
   nameVectors(scene, method);
   scene.residual_factor = automaticResidualFactor(scene);
@@ -84,7 +85,7 @@ ArmScene allPosturesScene(const ReportCampaign& one) {
   ArmScene scene;
   scene.title =
       fmt::format("Deflection of {} in all {} postures", vectorPoint(one), one.identification.cases.size());
-  scene.subtitle = one.campaign.name;
+  scene.subtitle = page::asIs(one.campaign.name);
   const auto method = page::shownMethod(one.identification);
   nameVectors(scene, method);
   scene.frame_origin = placeOfR0(one);
@@ -110,7 +111,7 @@ Figure describeDeflectionScene(const ReportCampaign& one, double magnification) 
   figure.title = fmt::format("Deflection in posture {}", poseName(one, index));
   figure.caption =
       fmt::format("The posture with the median displacement of {}, {}\u00a0mm, magnified {} times.",
-                  point.name, page::fixed(displacement, 2), page::fixed(magnification, 0));
+                  point.name, page::fixed(displacement, 2), factorText(magnification));
   if (const auto shown = page::shownMethod(one.identification)) {
     const double left = kMmPerM * page::residualAt(one.identification.of(*shown), point.at_wrist)[index];
     figure.caption += fmt::format(" Where the arrows part is what {} leaves: {}\u00a0mm at {}",
@@ -122,7 +123,7 @@ Figure describeDeflectionScene(const ReportCampaign& one, double magnification) 
   figure.alt = fmt::format(
       "The arm in posture {} with arrows for the measured, predicted and residual displacement of its reflectors{}, "
       "magnified {} times.",
-      poseName(one, index), point.at_wrist ? " and wrist centre" : "", page::fixed(magnification, 0));
+      page::plain(poseName(one, index)), point.at_wrist ? " and wrist centre" : "", factorText(magnification));
   return figure;
 }
 
@@ -137,7 +138,7 @@ Figure describeAllPostures(const ReportCampaign& one, double magnification) {
       "{} {} by {} to {}\u00a0mm, depending on the posture; vectors magnified {} "
       "times. {}",
       loadWords(one.identification), point.name, page::fixed(kMmPerM * *least, 2),
-      page::fixed(kMmPerM * *most, 2), page::fixed(magnification, 0), framesWords(one));
+      page::fixed(kMmPerM * *most, 2), factorText(magnification), framesWords(one));
   figure.alt =
       fmt::format("All {} postures of the arm, pale, with an arrow for the displacement of {} in each.",
                   values.size(), page::plain(vectorPoint(one)));

@@ -17,36 +17,35 @@ constexpr Colour kActive{70, 78, 96};  // slate: no method's colour
 
 }  // namespace
 
-GroupedBarChart encoderBars(const AvoidedDeflection& avoided) {
+GroupedBarChart encoderBars(const AvoidedByEncoders& avoided) {
   GroupedBarChart chart;
   chart.title = fmt::format("Displacement of {} without and with double encoders", pointOf(avoided));
   chart.subtitle = fmt::format("{} of it avoided over {} postures; no compensation",
-                               page::percent(avoided.share), avoided.postures.size());
+                               shareWords(avoided), avoided.postures.size());
   chart.y_title = fmt::format("Displacement of {} (mm)", pointOf(avoided));
   chart.category_title = "Posture";
   chart.series = {{"double encoders inactive", colours::kNone, {}, {}},
                   {"double encoders active", kActive, {}, {}}};
-  for (const AvoidedAtPosture& posture : avoided.postures) {
-    chart.categories.push_back(posture.pose);
+  for (const PostureDeflection& posture : avoided.postures) {
+    chart.categories.push_back(page::asIs(posture.pose));
     chart.series[0].values.push_back(kMmPerM * posture.before);
     chart.series[1].values.push_back(kMmPerM * posture.after);
   }
   return chart;
 }
 
-Figure describeEncoderBars(const AvoidedDeflection& avoided) {
-  const auto share = [](const AvoidedAtPosture& posture) { return 1.0 - posture.after / posture.before; };
+Figure describeEncoderBars(const AvoidedByEncoders& avoided) {
   const auto [least, most] = std::minmax_element(
       avoided.postures.begin(), avoided.postures.end(),
-      [&](const AvoidedAtPosture& a, const AvoidedAtPosture& b) { return share(a) < share(b); });
+      [](const PostureDeflection& a, const PostureDeflection& b) { return a.share() < b.share(); });
   Figure figure;
   figure.id = "double-encoders";
   figure.title = fmt::format("Displacement of {} without and with double encoders", pointOf(avoided));
   figure.caption = fmt::format(
       "Active double encoders avoid {} of the deflection in all; least in posture {} ({}), most in "
       "posture {} ({}).",
-      page::percent(avoided.share), least->pose, page::percent(share(*least), 0), most->pose,
-      page::percent(share(*most), 0));
+      shareWords(avoided), page::asIs(least->pose), page::percent(least->share(), 0), page::asIs(most->pose),
+      page::percent(most->share(), 0));
   figure.alt = fmt::format(
       "Bars by posture: length of the displacement of {} with the double encoders inactive and active.",
       page::plain(pointOf(avoided)));

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "core/input/units.h"
-#include "reports/diagnosis_words.h"
+#include "reports/page/effect_words.h"
 #include "reports/page/html.h"
 #include "reports/page/numbers.h"
 
@@ -18,6 +18,9 @@ const WhereTable* byPosture(const std::vector<WhereTable>& tables) {
       std::find_if(tables.begin(), tables.end(), [](const WhereTable& one) { return one.by == "posture"; });
   return found == tables.end() ? nullptr : &*found;
 }
+
+/// Whether the verdict names something that can be in a model.
+bool named(const ReportCampaign& one) { return !page::namedWords(one.diagnosis->verdict).empty(); }
 
 std::vector<double> rmsOf(const WhereTable& table) {
   std::vector<double> values;
@@ -34,12 +37,15 @@ std::optional<GroupedBarChart> gapBars(const ReportCampaign& one) {
   if (before == nullptr || before->rows.empty()) return std::nullopt;
   GroupedBarChart chart;
   chart.title = "Gap between model and machine";
-  chart.subtitle = fmt::format("{}; verdict: {}", one.campaign.name, verdictWords(one.diagnosis->verdict));
+  chart.subtitle = fmt::format("{}; in the verdict: {}", page::asIs(one.campaign.name),
+                               page::asIs(page::presentWords(one.diagnosis->verdict)));
   chart.y_title = "Left of the deflection, rms per coordinate (µm)";
   chart.category_title = "Posture";
-  for (const WhereRow& row : before->rows) chart.categories.push_back(row.name);
-  chart.series.push_back({"stiffnesses alone", colours::kNone, rmsOf(*before), {}});
-  if (after != nullptr && after->rows.size() == before->rows.size() && !one.diagnosis->verdict.entries.empty()) {
+  for (const WhereRow& row : before->rows) chart.categories.push_back(page::asIs(row.name));
+  const WhereTable& as_measured = one.diagnosis->as_measured;
+  const bool raw = as_measured.rows.size() == before->rows.size();  // the station's motion is part of the gap
+  chart.series.push_back({"joint stiffnesses alone", colours::kNone, rmsOf(raw ? as_measured : *before), {}});
+  if (after != nullptr && after->rows.size() == before->rows.size() && named(one)) {
     chart.series.push_back({"with the verdict's effects", colours::kSeries[1], rmsOf(*after), {}});
   }
   BarSeries noise{"noise alone", colours::kSeries[2], {}, {}};
@@ -50,19 +56,23 @@ std::optional<GroupedBarChart> gapBars(const ReportCampaign& one) {
 
 Figure describeGapBars(const ReportCampaign& one) {
   const Gap& gap = one.diagnosis->gap;
+  const bool found = named(one);
   Figure figure;
   figure.id = "gap-by-posture";
-  figure.title = "Gap between model and machine, before and after";
+  figure.title = found ? "Gap between model and machine, before and after" : "Gap between model and machine";
   figure.caption = fmt::format(
-      "Over all postures, rms per coordinate: {}\u00a0µm by joint stiffnesses alone, {}\u00a0µm with the verdict's "
-      "effects in the model, {}\u00a0µm by noise alone. A posture that stays high is one where the verdict does not "
-      "hold.",
-      page::fixed(gap.before / kMicrometre, 1), page::fixed(gap.after / kMicrometre, 1),
+      "Over all postures, rms per coordinate: {}\u00a0µm by joint stiffnesses alone, {}{}\u00a0µm by noise "
+      "alone.",
+      page::fixed(gap.before / kMicrometre, 1),
+      found ? fmt::format("{}\u00a0µm with the verdict's effects in the model, ",
+                          page::fixed(gap.after / kMicrometre, 1))
+            : "",
       page::fixed(gap.noise / kMicrometre, 1));
-  if (one.preparation != nullptr && one.preparation->drift.taken_off) {
-    figure.caption +=
-        " Bars are of readings with the station's motion taken off; the first figure is of the readings as they were.";
-  }
+  figure.caption += found
+                        ? " A posture that stays high is one where the verdict does not hold."
+                        : " Postures that stand out of the noise show what joint stiffnesses do not explain.";
+  if (!one.diagnosis->as_measured.rows.empty())
+    figure.caption += " Grey bars are of the readings as they were, the station's motion in them.";
   figure.alt = "Bars by posture: what the model leaves of the deflection before and after, and noise.";
   return figure;
 }

@@ -14,10 +14,10 @@ struct FigureOptions {
 
 /// All pictures of a report, drawn: per campaign the deflection scene, all postures (up to 60), Fig. 7, Fig.
 /// 8 (where PP and DPP both are available), the spread over subsets, the stiffnesses; what
-/// is left by direction, the sweeps' circles and spheres, the station by the floor nests; then the double
-/// encoders where both states are there. What the data does not have is left out. With several campaigns ids
-/// end in "-1", "-2", in their order, and titles begin with the campaign's name. Throws std::runtime_error
-/// when offscreen rendering is not to be had.
+/// is left by direction, the sweeps' circles and spheres, the station by the floor nests; what the model
+/// misses, on the arm, by posture and by effect; then the double encoders where both states are there. What
+/// the data does not have is left out. With several campaigns ids end in "-1", "-2", in their order, and
+/// titles say which campaign. Throws std::runtime_error when offscreen rendering is not to be had.
 std::vector<Figure> makeFigures(const std::vector<ReportCampaign>& campaigns,
                                 const FigureOptions& options = {});
 

@@ -31,15 +31,15 @@ std::string judgedWords(const ReportCampaign& one) {
   return fmt::format("identified from and judged on all {} postures", one.identification.cases.size());
 }
 
-GroupedBarChart emptyChart(const ReportCampaign& one, const char* what) {
+GroupedBarChart emptyChart(const ReportCampaign& one, const char* what, const char* axis) {
   const page::JudgedPoint point = page::judgedPoint(one);
   GroupedBarChart chart;
   chart.title = fmt::format("{} of {}", what, point.name);
-  chart.subtitle = fmt::format("{}; {}", one.campaign.name, judgedWords(one));
-  chart.y_title = fmt::format("Displacement of {} (mm)", point.name);
+  chart.subtitle = fmt::format("{}; {}", page::asIs(one.campaign.name), judgedWords(one));
+  chart.y_title = fmt::format("{} of {} (mm)", axis, point.name);
   chart.category_title = "Posture";
   for (const LoadCase& load_case : one.identification.cases) {
-    chart.categories.push_back(one.campaign.pose_ids[static_cast<std::size_t>(load_case.pose)]);
+    chart.categories.push_back(page::asIs(one.campaign.pose_ids[static_cast<std::size_t>(load_case.pose)]));
   }
   return chart;
 }
@@ -69,7 +69,7 @@ std::string leftWords(const ReportCampaign& one, std::initializer_list<Method> m
 }  // namespace
 
 GroupedBarChart residualBars(const ReportCampaign& one) {
-  GroupedBarChart chart = emptyChart(one, "Displacement");
+  GroupedBarChart chart = emptyChart(one, "Displacement", "Displacement");
   const bool at_wrist = page::judgedPoint(one).at_wrist;
   chart.series.push_back(
       {"without compensation", colours::kNone, inMm(page::displacementAt(one.identification, at_wrist)), {}});
@@ -78,7 +78,7 @@ GroupedBarChart residualBars(const ReportCampaign& one) {
 }
 
 GroupedBarChart residualZoom(const ReportCampaign& one) {
-  GroupedBarChart chart = emptyChart(one, "What is left of the displacement");
+  GroupedBarChart chart = emptyChart(one, "What is left of the displacement", "Left of the displacement");
   for (const Method method : {Method::partial_pose, Method::decoupled_partial_pose})
     addMethod(one, method, chart);
   return chart;

@@ -72,7 +72,7 @@ PointPanel panelOf(const ReportCampaign& one, const std::vector<ResidualVector>&
                    bool normalised) {
   PointPanel panel;
   for (const LoadCase& load_case : one.identification.cases)
-    panel.categories.push_back(one.campaign.pose_ids[static_cast<std::size_t>(load_case.pose)]);
+    panel.categories.push_back(page::asIs(one.campaign.pose_ids[static_cast<std::size_t>(load_case.pose)]));
   const std::size_t targets = one.campaign.targets.size();
   for (std::size_t target = 0; target < targets; ++target) {
     PointSeries series = seriesLook(target);
@@ -101,7 +101,7 @@ std::optional<PointChart> residualDirections(const ReportCampaign& one) {
   const bool beam = hasBeam(one, method);
   PointChart chart;
   chart.title = fmt::format("What {} leaves at the reflectors, by posture and direction", page::longName(*shown));
-  chart.subtitle = one.campaign.name;
+  chart.subtitle = page::asIs(one.campaign.name);
   chart.columns = 3;
   constexpr std::array<const char*, 3> kBeam{"Along the beam", "Across it, level", "Across it, upright"};
   constexpr std::array<const char*, 3> kAxes{"Along x of R_{0}", "Along y of R_{0}", "Along z of R_{0}"};

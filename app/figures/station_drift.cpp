@@ -8,6 +8,7 @@
 #include "app/figures/series_look.h"
 #include "core/frames/measured_axes.h"
 #include "core/input/units.h"
+#include "reports/page/html.h"
 #include "reports/page/numbers.h"
 
 namespace stiffscope {
@@ -16,6 +17,14 @@ namespace {
 
 constexpr double kHour = 3600.0;
 constexpr double kMicroradian = 1e-6;
+
+double largestMotion(const StationMotion& station) {
+  double largest = 0.0;
+  for (const StationEpoch& epoch : station.epochs) largest = std::max(largest, epoch.motion.tail<3>().norm());
+  return largest;
+}
+
+bool inMillimetres(const StationMotion& station) { return largestMotion(station) > 2e-3; }
 
 /// Three of the six parameters of the motion against time, in `unit`.
 PointPanel motionPanel(const StationMotion& station, int first, double unit) {
@@ -28,7 +37,8 @@ PointPanel motionPanel(const StationMotion& station, int first, double unit) {
     for (const StationEpoch& epoch : station.epochs) {
       // Side by side, so that no whisker hides another.
       const double span_h = (station.epochs.back().time_s - station.epochs.front().time_s) / kHour;
-      series.points.push_back({epoch.time_s / kHour + 0.006 * span_h * (k - 1), epoch.motion[first + k] / unit});
+      series.points.push_back(
+          {epoch.time_s / kHour + 0.006 * span_h * (k - 1), epoch.motion[first + k] / unit});
       series.errors.push_back(2.0 * std::sqrt(epoch.covariance(first + k, first + k)) / unit);
     }
     panel.series.push_back(std::move(series));
@@ -37,23 +47,23 @@ PointPanel motionPanel(const StationMotion& station, int first, double unit) {
   return panel;
 }
 
-PointPanel nestPanel(const Campaign& campaign) {
+PointPanel nestPanel(const Campaign& campaign, double unit) {
   PointPanel panel;
   for (std::size_t nest = 0; nest < campaign.nest_ids.size(); ++nest) {
     PointSeries series = seriesLook(nest);
-    series.name = "nest " + campaign.nest_ids[nest];
+    series.name = "nest " + page::asIs(campaign.nest_ids[nest]);
     series.joined = true;
     std::optional<Eigen::Vector3d> first;
     for (const NestReading& reading : campaign.nests->rows) {
       if (reading.nest != static_cast<int>(nest)) continue;
       if (!first) first = reading.point;
-      series.points.push_back({reading.time_s / kHour, (reading.point - *first).norm() / kMicrometre});
+      series.points.push_back({reading.time_s / kHour, (reading.point - *first).norm() / unit});
     }
     panel.series.push_back(std::move(series));
   }
   panel.title = "Each nest from its first reading";
   panel.x_title = "Time (h)";
-  panel.y_title = "Distance (µm)";
+  panel.y_title = unit == kMillimetre ? "Distance (mm)" : "Distance (µm)";
   return panel;
 }
 
@@ -63,28 +73,34 @@ std::optional<PointChart> stationDrift(const ReportCampaign& one, const StationM
   if (!station.tested) return std::nullopt;
   PointChart chart;
   chart.title = "Motion of the station over the day, by the floor nests";
-  chart.subtitle = fmt::format("{}; whiskers: 2 standard uncertainties by the declared noise", one.campaign.name);
+  chart.subtitle = fmt::format("{}; whiskers: 2 standard uncertainties by the declared noise",
+                               page::asIs(one.campaign.name));
   chart.columns = 3;
-  PointPanel displacement = motionPanel(station, 3, kMicrometre), rotation = motionPanel(station, 0, kMicroradian);
+  const bool far = inMillimetres(station);
+  const double unit = far ? kMillimetre : kMicrometre;
+  PointPanel displacement = motionPanel(station, 3, unit), rotation = motionPanel(station, 0, kMicroradian);
   displacement.title = "Displacement at the arm";
-  displacement.y_title = "Displacement (µm)";
+  displacement.y_title = far ? "Displacement (mm)" : "Displacement (µm)";
   rotation.title = "Rotation";
   rotation.y_title = "Rotation (µrad)";
-  chart.diagrams = {std::move(displacement), std::move(rotation), nestPanel(one.campaign)};
+  chart.diagrams = {std::move(displacement), std::move(rotation), nestPanel(one.campaign, unit)};
   return chart;
 }
 
 Figure describeStationDrift(const StationMotion& station) {
-  double largest = 0.0;
-  for (const StationEpoch& epoch : station.epochs) largest = std::max(largest, epoch.motion.tail<3>().norm());
+  const double largest = largestMotion(station);
+  const std::string words = inMillimetres(station)
+                                ? fmt::format("{}\u00a0mm", page::significant(largest / kMillimetre, 2))
+                                : fmt::format("{}\u00a0µm", page::significant(largest / kMicrometre, 2));
   Figure figure;
   figure.id = "station";
   figure.title = "Motion of the tracker's station";
-  figure.caption = fmt::format("At the arm the station moved by at most {}\u00a0µm against the first of {} rounds: {}.",
-                               page::significant(largest / kMicrometre, 2), station.epochs.size(),
-                               station.moved ? "more than noise explains" : "no more than noise explains");
-  figure.alt = "Lines over time: displacement and rotation of the station, and how far each nest was read from its "
-               "first reading.";
+  figure.caption = fmt::format(
+      "At the arm the station moved by at most {} against the first of {} rounds: {}.", words,
+      station.epochs.size(), station.moved ? "more than noise explains" : "no more than noise explains");
+  figure.alt =
+      "Lines over time: displacement and rotation of the station, and how far each nest was read from its "
+      "first reading.";
   return figure;
 }
 

@@ -6,6 +6,7 @@
 
 #include "app/figures/method_colours.h"
 #include "reports/page/coverage.h"
+#include "reports/page/html.h"
 #include "reports/page/names.h"
 #include "reports/page/numbers.h"
 
@@ -46,12 +47,15 @@ std::string disagreement(const Identification& result) {
 IntervalChart stiffnessIntervals(const ReportCampaign& one) {
   IntervalChart chart;
   chart.title = "Joint stiffness by method";
-  chart.subtitle = fmt::format("{}; {} postures; whiskers: expanded uncertainty U, about 95\u00a0%", one.campaign.name,
+  chart.subtitle = fmt::format("{}; {} postures; whiskers: expanded uncertainty U, about 95\u00a0%", page::asIs(one.campaign.name),
                                one.identification.cases.size());
   chart.y_title = "Stiffness (Nm/rad)";
   chart.category_title = "Joint";
   chart.logarithmic = true;
-  for (int joint = 0; joint < 6; ++joint) chart.categories.push_back(page::jointName(joint));
+  for (int joint = 0; joint < 6; ++joint) {
+    const bool seen = one.identification.identifiability.joints[static_cast<std::size_t>(joint)].identifiable;
+    chart.categories.push_back(page::jointName(joint) + (seen ? "" : ": not seen"));
+  }
   for (const Method method : kMethods) {
     const MethodResult& result = one.identification.of(method);
     if (!result.available) continue;

@@ -7,6 +7,7 @@
 
 #include "app/figures/method_colours.h"
 #include "core/identification/stiffness_spread.h"
+#include "reports/page/html.h"
 #include "reports/page/names.h"
 #include "reports/page/numbers.h"
 #include "reports/page/paper_values.h"
@@ -52,7 +53,7 @@ std::string subsetsOf(const ReportCampaign& one) {
 SpreadChart subsetSpreads(const ReportCampaign& one, bool with_paper) {
   SpreadChart chart;
   chart.title = fmt::format("Joint stiffness over {}", subsetsOf(one));
-  chart.subtitle = one.campaign.name;
+  chart.subtitle = page::asIs(one.campaign.name);
   chart.y_title = "Stiffness (10⁶ Nm/rad)";
   std::vector<Method> methods;
   for (const Method method : kMethods) {

@@ -9,6 +9,7 @@
 #include "app/figures/series_look.h"
 #include "core/input/units.h"
 #include "render/ticks.h"
+#include "reports/page/html.h"
 #include "reports/page/names.h"
 #include "reports/page/numbers.h"
 
@@ -85,7 +86,7 @@ std::optional<PointChart> sweepCircles(const ReportCampaign& one, const RigidPoi
   if (!one.campaign.circle_sweeps) return std::nullopt;
   PointChart chart;
   chart.title = "Circles of the axes with their radial residuals magnified";
-  chart.subtitle = one.campaign.name;
+  chart.subtitle = page::asIs(one.campaign.name);
   chart.note = "A ring a reflector; rings are not to scale, residuals are, by the bar. Angle zero is at the right.";
   chart.columns = 3;
   for (int axis = 0; axis < 6; ++axis) {

@@ -7,6 +7,7 @@
 
 #include "app/figures/series_look.h"
 #include "core/input/units.h"
+#include "reports/page/html.h"
 #include "reports/page/names.h"
 #include "reports/page/numbers.h"
 
@@ -83,7 +84,7 @@ std::optional<PointChart> wristSphere(const ReportCampaign& one, const RigidPoin
   if (residuals.empty()) return std::nullopt;
   PointChart chart;
   chart.title = "Radial residuals of the wrist's spheres";
-  chart.subtitle = one.campaign.name;
+  chart.subtitle = page::asIs(one.campaign.name);
   chart.columns = 2;
   PointPanel azimuth = panelOf(one, residuals, &SphereResidual::azimuth_deg);
   azimuth.series.push_back(sectorMeans(residuals, &SphereResidual::azimuth_deg, -180.0, 180.0, 18));

@@ -7,6 +7,7 @@
 #include "app/figures/arm_pose.h"
 #include "core/input/units.h"
 #include "core/robot/kinematics.h"
+#include "reports/page/html.h"
 #include "reports/page/names.h"
 #include "reports/page/numbers.h"
 
@@ -82,7 +83,7 @@ ViewMaterial sweepMaterial(const Campaign& campaign, const Frames& frames) {
     ViewFrame frame;
     frame.scene.title = fmt::format("Circle sweep of axis {}", axis + 1);
     frame.scene.subtitle =
-        fmt::format("{}; {}", campaign.name, axisWords(frames.axes[static_cast<std::size_t>(axis)]));
+        fmt::format("{}; {}", page::asIs(campaign.name), axisWords(frames.axes[static_cast<std::size_t>(axis)]));
     frame.scene.poses = {bareArm(frames, postureAt(frames.arm.arm, middle.q))};
     frame.scene.traces = tracesOf(campaign, circles, axis, scene_from_points);
     frame.scene.trace_name = "tracker readings of this sweep, the others pale";

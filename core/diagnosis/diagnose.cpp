@@ -151,6 +151,7 @@ class Diagnoser {
     result_.gap = gapOf(true);
     result_.positions = gapOf(false);
     result_.positions_tested = input_.absolute;
+    result_.at_points = gapAtPoints(fit_.data, before_.for_deflection, fit_.data, after_);
     asMeasured();
     result_.where = whereDeflection(input_, fit_, before_.for_deflection);
     result_.where_after = whereDeflection(input_, fit_, after_);
@@ -181,6 +182,12 @@ class Diagnoser {
           leftIn(posture, {parameters, parameters}, parameters).deflection_before;
       deflection += left[posture.pose].deflection_before;
       rows += static_cast<double>(posture.right.size());
+    }
+    result_.at_points = gapAtPoints(data, parameters, fit_.data, after_);
+    for (const GapPosture& posture : data.postures) {
+      const double squares = left[posture.pose].deflection_before;
+      result_.as_measured.rows.push_back({original_.pose_ids[static_cast<std::size_t>(posture.pose)],
+                                          std::sqrt(squares / static_cast<double>(posture.right.size()))});
     }
     for (const GapRows& one : loadingRows(raw.campaign, raw.state.geometry, raw.state.at, {})) {
       left[one.pose].position_before = one.position.squaredNorm();

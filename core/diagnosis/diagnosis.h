@@ -61,6 +61,14 @@ struct WhereTable {
   std::vector<WhereRow> rows;
 };
 
+/// What is left of one reflector's displacement in the load state of its posture that leaves the most, R0, m.
+struct PointGap {
+  int pose = 0;    ///< index into Campaign::pose_ids
+  int target = 0;  ///< index into Campaign::targets
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();  ///< where it stands
+  Eigen::Vector3d before = Eigen::Vector3d::Zero(), after = Eigen::Vector3d::Zero();
+};
+
 struct DetectableSize {
   Effect effect = Effect::link_compliance;
   std::optional<double> size;  ///< rms per coordinate of its displacements, m; empty: not testable here
@@ -103,6 +111,10 @@ struct Diagnosis {
   bool positions_tested = false;
   std::vector<WhereTable> where, where_positions;  ///< of what stiffnesses alone leave
   std::vector<WhereTable> where_after;  ///< of the deflection, with the verdict's effects in the model
+  /// By stiffnesses alone (where the station's motion was taken off: of the readings as they were), and with the
+  /// verdict's effects.
+  std::vector<PointGap> at_points;
+  WhereTable as_measured;  ///< by posture, of the readings as they were; no rows where nothing was taken off
   std::vector<NextMeasurement> next;
   GeometryError geometry;
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <utility>
 
 namespace stiffscope {
 
@@ -20,9 +21,9 @@ struct LeftOver {
   int target = 0;
 };
 
-std::vector<LeftOver> leftOvers(const GapFit& fit, const Eigen::VectorXd& parameters, bool deflection) {
+std::vector<LeftOver> leftOvers(const GapData& data, const Eigen::VectorXd& parameters, bool deflection) {
   std::vector<LeftOver> all;
-  for (const GapPosture& posture : fit.data.postures) {
+  for (const GapPosture& posture : data.postures) {
     const Eigen::VectorXd left = posture.right - posture.columns * parameters;
     const Eigen::Index per_state = posture.states.front().rows();
     const std::size_t first = deflection ? 1 : 0, last = deflection ? posture.states.size() : 1;
@@ -161,7 +162,7 @@ WhereTable byJoint(const GapFit& fit, const Eigen::VectorXd& parameters, const s
 
 std::vector<WhereTable> whereDeflection(const GapInput& input, const GapFit& fit,
                                         const Eigen::VectorXd& parameters) {
-  const std::vector<LeftOver> all = leftOvers(fit, parameters, true);
+  const std::vector<LeftOver> all = leftOvers(fit.data, parameters, true);
   std::vector<WhereTable> tables = commonTables(input, fit, all);
   tables.insert(tables.begin(), byJoint(fit, parameters, all));
   int last_step = 0;
@@ -185,9 +186,34 @@ std::vector<WhereTable> whereDeflection(const GapInput& input, const GapFit& fit
 
 std::vector<WhereTable> wherePosition(const GapInput& input, const GapFit& fit,
                                       const Eigen::VectorXd& parameters) {
-  const std::vector<LeftOver> all = leftOvers(fit, parameters, false);
+  const std::vector<LeftOver> all = leftOvers(fit.data, parameters, false);
   if (all.empty()) return {};
   return commonTables(input, fit, all);
+}
+
+std::vector<PointGap> gapAtPoints(const GapData& data_before, const Eigen::VectorXd& before, const GapData& data_after,
+                                  const Eigen::VectorXd& after) {
+  using State = std::pair<int, int>;  // pose, step
+  std::map<State, std::vector<LeftOver>> left_after;
+  for (const LeftOver& one : leftOvers(data_after, after, true))
+    left_after[{one.state->pose, one.state->step}].push_back(one);
+  std::map<int, std::map<int, std::vector<LeftOver>>> left_before;  // by pose and step
+  for (const LeftOver& one : leftOvers(data_before, before, true))
+    left_before[one.state->pose][one.state->step].push_back(one);
+  std::vector<PointGap> gaps;
+  for (const auto& [pose, steps] : left_before) {
+    const auto most = std::max_element(steps.begin(), steps.end(), [](const auto& a, const auto& b) {
+      return wholeOf(a.second) < wholeOf(b.second);
+    });
+    const auto same = left_after.find({pose, most->first});
+    if (same == left_after.end()) continue;
+    for (const LeftOver& one : most->second) {
+      const auto other = std::find_if(same->second.begin(), same->second.end(),
+                                      [&one](const LeftOver& two) { return two.target == one.target; });
+      if (other != same->second.end()) gaps.push_back({pose, one.target, one.point, one.left, other->left});
+    }
+  }
+  return gaps;
 }
 
 }  // namespace stiffscope

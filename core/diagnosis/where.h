@@ -14,4 +14,9 @@ std::vector<WhereTable> whereDeflection(const GapInput& input, const GapFit& fit
 std::vector<WhereTable> wherePosition(const GapInput& input, const GapFit& fit,
                                       const Eigen::VectorXd& parameters);
 
+/// What is left at each reflector, in the state of each posture that leaves the most before. The two data are of the same
+/// readings, as they were and as they are used; a posture that either lacks is left out.
+std::vector<PointGap> gapAtPoints(const GapData& data_before, const Eigen::VectorXd& before, const GapData& data_after,
+                                  const Eigen::VectorXd& after);
+
 }  // namespace stiffscope

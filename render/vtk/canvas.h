@@ -55,7 +55,8 @@ struct TextStyle {
 };
 
 /// Draws on the picture through VTK's 2-D context, in pixels of the finished picture; text measures what it
-/// will take. In every text `x_{abc}` sets abc as a subscript. Colours are opaque.
+/// will take. In every text `x_{abc}` sets abc as a subscript; what stands between two escape characters (0x1B) is
+/// taken to the letter: the names of a campaign are not ours. Colours are opaque.
 class Canvas {
  public:
   Canvas(vtkContext2D& context, const Surface& surface, Fonts fonts);

@@ -14,7 +14,9 @@ void Canvas::setStyle(double size, bool bold, Colour colour, Direction direction
   vtkTextProperty* style = context_.GetTextProp();
   style->SetFontFamily(VTK_FONT_FILE);
   style->SetFontFile((bold ? fonts_.bold : fonts_.regular).c_str());
-  style->SetFontSize(std::max(1, static_cast<int>(std::lround(size * surface_.scale))));
+  int pixels = std::max(1, static_cast<int>(std::lround(size * surface_.scale)));
+  if (pixels == 16) pixels = 17;  // VTK 9.1 draws the top row of text of 16 pixels below it
+  style->SetFontSize(pixels);
   style->SetColor(colour.red / 255.0, colour.green / 255.0, colour.blue / 255.0);
   style->SetJustificationToLeft();
   style->SetVerticalJustificationToBottom();
@@ -38,10 +40,10 @@ struct Run {
   bool subscript = false;
 };
 
-std::vector<Run> runsOf(std::string text) {
-  // A line break would begin a second line where there is no room for it.
-  std::replace_if(text.begin(), text.end(), [](unsigned char c) { return c < 0x20 || c == 0x7F; }, ' ');
-  std::vector<Run> runs;
+constexpr char kVerbatim = '\x1b';
+
+/// Appends the runs of a text whose `_{` mean subscripts.
+void addRich(const std::string& text, std::vector<Run>& runs) {
   std::size_t at = 0;
   while (at < text.size()) {
     const std::size_t open = text.find("_{", at);
@@ -54,7 +56,32 @@ std::vector<Run> runsOf(std::string text) {
     if (close > open + 2) runs.push_back({text.substr(open + 2, close - open - 2), true});
     at = close + 1;
   }
+}
+
+std::vector<Run> runsOf(const std::string& text) {
+  std::vector<Run> runs;
+  bool verbatim = false;
+  for (std::size_t at = 0; at <= text.size(); verbatim = !verbatim) {
+    const std::size_t end = std::min(text.find(kVerbatim, at), text.size());
+    if (verbatim && end > at) runs.push_back({text.substr(at, end - at)});
+    if (!verbatim) addRich(text.substr(at, end - at), runs);
+    at = end + 1;
+  }
+  // A line break would begin a second line where there is no room for it.
+  for (Run& run : runs) {
+    std::replace_if(run.text.begin(), run.text.end(), [](unsigned char c) { return c < 0x20 || c == 0x7F; }, ' ');
+  }
   return runs;
+}
+
+/// A verbatim stretch that goes on beyond the end of its line is ended there and begun again in the next.
+void mendStretches(std::vector<std::string>& lines) {
+  bool open = false;
+  for (std::string& line : lines) {
+    if (open) line.insert(line.begin(), kVerbatim);
+    open = std::count(line.begin(), line.end(), kVerbatim) % 2 != 0;
+    if (open) line += kVerbatim;
+  }
 }
 
 }  // namespace
@@ -128,6 +155,7 @@ std::vector<std::string> Canvas::wrapped(const std::string& text, double width,
     at = space + 1;
   }
   if (!line.empty()) lines.push_back(shortened(line, width, style));
+  mendStretches(lines);
   return lines;
 }
 

@@ -1,6 +1,7 @@
 // The entry of the module: what the loader in render/backend.cpp looks for.
 #include "render/backend.h"
 #include "render/vtk/arm_picture.h"
+#include "render/vtk/dot_rows.h"
 #include "render/vtk/grouped_bars.h"
 #include "render/vtk/intervals.h"
 #include "render/vtk/point_panels.h"
@@ -16,6 +17,7 @@ class VtkBackend : public Backend {
   Image draw(const SpreadChart& chart, Size size) override { return drawSpreads(chart, size); }
   Image draw(const IntervalChart& chart, Size size) override { return drawIntervals(chart, size); }
   Image draw(const PointChart& chart, Size size) override { return drawPoints(chart, size); }
+  Image draw(const DotRowChart& chart, Size size) override { return drawDotRows(chart, size); }
   Image draw(const ArmScene& scene, Size size) override { return drawArmScene(scene, size); }
 };
 
@@ -24,7 +26,7 @@ class VtkBackend : public Backend {
 }  // namespace stiffscope
 
 // The name must be that of kBackendSymbol.
-extern "C" __attribute__((visibility("default"))) stiffscope::Backend* stiffscope_render_backend_5() {
+extern "C" __attribute__((visibility("default"))) stiffscope::Backend* stiffscope_render_backend_6() {
   static stiffscope::VtkBackend backend;
   return &backend;
 }

@@ -53,7 +53,7 @@ Range rangeOfX(const PointPanel& panel) {
 void drawNumbers(Canvas& canvas, const Box& plot, const Range& range, const std::string& title) {
   const double u = canvas.unit();
   const TextStyle style = labelStyle(canvas);
-  const int most = std::max(2, static_cast<int>(plot.width() / (64 * u)));
+  const int most = std::max(2, static_cast<int>(plot.width() / (56 * u)));
   const Ticks ticks = linearTicks(range.lower, range.upper, most);
   for (std::size_t i = 0; i < ticks.positions.size(); ++i) {
     const double share = (ticks.positions[i] - range.lower) / (range.upper - range.lower);

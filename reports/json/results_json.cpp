@@ -11,14 +11,14 @@ namespace stiffscope {
 
 namespace {
 
-Json avoidedJson(const AvoidedDeflection& avoided) {
+Json avoidedJson(const AvoidedByEncoders& avoided) {
   Json postures = Json::array();
-  for (const AvoidedAtPosture& posture : avoided.postures) {
+  for (const PostureDeflection& posture : avoided.postures) {
     postures.push_back({{"pose", posture.pose},
                         {"inactive_mm", posture.before / kMillimetre},
                         {"active_mm", posture.after / kMillimetre}});
   }
-  return {{"share", avoided.share}, {"at", avoided.at_wrist ? "P_wrist" : "reflectors"}, {"postures", postures}};
+  return {{"share", avoided.share}, {"low", number(avoided.low)}, {"high", number(avoided.high)}, {"at", avoided.at_wrist ? "P_wrist" : "reflectors"}, {"postures", postures}};
 }
 
 Json campaignResults(const ReportCampaign& one) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -16,7 +17,12 @@ struct Figure {
   std::vector<std::uint8_t> png;
   int width = 0;   ///< pixels
   int height = 0;  ///< pixels
+  std::string section = "figures";  ///< id of the section of the page that it stands in; see kFigureSections
 };
+
+/// The sections that have figures, in the order of the page: figures are counted in it.
+inline constexpr std::array kFigureSections{"wrist", "links", "stiffness", "subsets", "compensation",
+                                            "gap",   "figures", "audit"};
 
 /// The name of its file in a report's folder.
 inline std::string pictureFile(const Figure& figure) { return figure.id + ".png"; }

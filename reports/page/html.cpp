@@ -119,7 +119,8 @@ std::string plain(const std::string& rich_text) {
 std::string asIs(const std::string& text) {
   std::string inside = text;
   std::erase(inside, kAsIs);
-  return kAsIs + inside + kAsIs;
+  const bool marks = inside.find("_{") != std::string::npos || inside.find('`') != std::string::npos || inside.ends_with('_');
+  return marks ? kAsIs + inside + kAsIs : inside;
 }
 
 void Html::keepTable(const std::string& id, std::string csv) {

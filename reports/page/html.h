@@ -65,7 +65,7 @@ class Html {
   std::vector<TableFile> tables_;
 };
 
-/// A text of a campaign, to stand in a rich text to the letter, whatever is in it.
+/// A text of a campaign, to stand in a rich text to the letter, whatever is in it; pictures draw it so, too.
 std::string asIs(const std::string& text);
 
 /// A rich text without its marks: for alt texts and places that cannot have a subscript.

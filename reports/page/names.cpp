@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "reports/method_names.h"
+#include "reports/page/html.h"
 
 namespace stiffscope::page {
 
@@ -35,7 +36,7 @@ std::string pointName(const std::string& target_id) {
   const bool numbered = target_id.size() > 1 && std::isalpha(static_cast<unsigned char>(target_id[0])) != 0 &&
                         std::all_of(target_id.begin() + 1, target_id.end(),
                                     [](unsigned char c) { return std::isdigit(c) != 0; });
-  return numbered ? fmt::format("{}_{{{}}}", target_id[0], target_id.substr(1)) : target_id;
+  return numbered ? fmt::format("{}_{{{}}}", target_id[0], target_id.substr(1)) : asIs(target_id);
 }
 
 std::string auditName(const std::string& check_id) {
@@ -109,6 +110,11 @@ std::optional<Method> shownMethod(const Identification& identification) {
     if (identification.of(method).available) return method;
   }
   return std::nullopt;
+}
+
+std::string capitalised(std::string text) {
+  if (!text.empty() && text[0] >= 'a' && text[0] <= 'z') text[0] = static_cast<char>(text[0] - 'a' + 'A');
+  return text;
 }
 
 double meanForce(const Identification& identification) {

@@ -13,7 +13,7 @@ namespace stiffscope::page {
 std::string longName(Method method);                  ///< "Decoupled Partial Pose (DPP)"
 std::string shortName(Method method);                 ///< "DPP"
 std::string jointName(int joint);                     ///< 0-based: "k_{1}"
-std::string pointName(const std::string& target_id);  ///< "P10" as "P_{10}"; other names as they are
+std::string pointName(const std::string& target_id);  ///< "P10" as "P_{10}"; other names to the letter
 std::string auditName(const std::string& check_id);   ///< "station drift"
 std::string auditWord(AuditVerdict verdict);          ///< "warns"
 std::string encoderState(DoubleEncoder state);        ///< "active", "inactive", "not declared"
@@ -41,6 +41,8 @@ std::optional<double> heldOut(const MethodResult& method, bool at_wrist);
 
 /// The method to show first: of those available the paper's order of trust, DPP, PP, CP.
 std::optional<Method> shownMethod(const Identification& identification);
+
+std::string capitalised(std::string text);  ///< its first letter, where that is of the alphabet
 
 double meanForce(const Identification& identification);  ///< N, over the load cases; 0 without one
 double mean(const std::vector<double>& values);          ///< 0 of none

@@ -22,7 +22,7 @@ struct ReportContent {
   std::string title;
   std::string verdict;  ///< one to three sentences; verdictOf makes them
   std::vector<ReportCampaign> campaigns;
-  std::optional<AvoidedDeflection> avoided;  ///< by the double encoders, where both states were measured
+  std::optional<AvoidedByEncoders> avoided;  ///< by the double encoders, where both states were measured
   std::vector<Figure> figures;
   std::vector<NamedText> versions;  ///< stiffscope and its libraries
   std::vector<NamedText> settings;

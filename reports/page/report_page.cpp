@@ -7,6 +7,7 @@
 #include "reports/page/html.h"
 #include "reports/page/report_id.h"
 #include "reports/page/sections.h"
+#include "reports/page/sort_script.h"
 #include "reports/page/style.h"
 
 namespace stiffscope {
@@ -22,6 +23,12 @@ void writeHead(page::Html& html, const ReportContent& content) {
   html.leaf("style", page::pageStyle(reportId(content)));
 }
 
+/// Without a load case there is no spread and nothing to compensate; the stiffnesses' section says why.
+bool anyLoads(const ReportContent& content) {
+  return std::any_of(content.campaigns.begin(), content.campaigns.end(),
+                     [](const ReportCampaign& one) { return !one.identification.cases.empty(); });
+}
+
 void writeContents(page::Html& html, const ReportContent& content) {
   const auto nav = html.element("nav", {{"aria-label", "Contents"}});
   const auto list = html.element("ul");
@@ -33,12 +40,12 @@ void writeContents(page::Html& html, const ReportContent& content) {
   entry("wrist", "Wrist centre");
   entry("links", "Links");
   entry("stiffness", "Stiffness");
-  entry("subsets", "Spread");
-  entry("compensation", "Compensation");
+  if (anyLoads(content)) entry("subsets", "Spread");
+  if (anyLoads(content)) entry("compensation", "Compensation");
   const bool diagnosed = std::any_of(content.campaigns.begin(), content.campaigns.end(),
                                      [](const ReportCampaign& one) { return one.diagnosis != nullptr; });
   if (diagnosed) entry("gap", "What the model misses");
-  if (!content.figures.empty()) entry("figures", "Figures");
+  if (page::hasFigures(content, "figures")) entry("figures", "Figures");
   const bool audited = std::any_of(content.campaigns.begin(), content.campaigns.end(),
                                    [](const ReportCampaign& one) { return one.audit != nullptr; });
   if (audited) entry("audit", "Audit");
@@ -68,8 +75,8 @@ ReportPage makeReportPage(const ReportContent& content) {
     page::writeWrist(html, content);
     page::writeLinks(html, content);
     page::writeStiffness(html, content);
-    page::writeSubsets(html, content);
-    page::writeCompensation(html, content);
+    if (anyLoads(content)) page::writeSubsets(html, content);
+    if (anyLoads(content)) page::writeCompensation(html, content);
     page::writeGap(html, content);
     page::writeFigures(html, content);
     page::writeAudit(html, content);
@@ -77,6 +84,7 @@ ReportPage makeReportPage(const ReportContent& content) {
     page::writeScope(html, content);
     page::writeProvenance(html, content);
     writeEnd(html, content);
+    html.leaf("script", page::kSortScript);
   }
   return {html.bytes(), html.tables()};
 }

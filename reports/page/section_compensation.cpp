@@ -15,7 +15,7 @@ Row shareRow(const ReportContent& content, const ReportCampaign& campaign, Metho
   const Compensation& compensation = *compensationAt(one, at_wrist);
   const bool subsets = !one.subsets.compliances.empty();
   const auto ofSubsets = [&](double share) { return subsets ? percent(share) : std::string("–"); };
-  Row row{longName(method), percent(compensation.all_postures), ofSubsets(compensation.subsets.used),
+  Row row{shortName(method), percent(compensation.all_postures), ofSubsets(compensation.subsets.used),
           ofSubsets(compensation.subsets.held_out), ofSubsets(compensation.subsets.all)};
   if (content.compare_with_paper) {
     // The paper compensates what the active double encoders leave, and judges at P_wrist.
@@ -69,9 +69,9 @@ void writeAvoided(Html& html, const ReportContent& content) {
   if (!content.avoided) return;  // the two states were not both measured: there is nothing to explain
   if (content.avoided->available) {
     words = fmt::format(
-        "With the double encoders active the deflection at {} is {} smaller than with them inactive, over "
-        "{} postures at the same joint angles under the same load.",
-        pointOf(*content.avoided), percent(content.avoided->share), content.avoided->postures.size());
+        "With the double encoders active the deflection at {} is smaller than with them inactive by {}, over {} "
+        "postures at the same joint angles under the same load; the interval is of what other postures would give.",
+        pointOf(*content.avoided), shareWords(*content.avoided), content.avoided->postures.size());
     if (content.compare_with_paper) words += fmt::format(" The paper: {}.", percent(kPaperAvoided, 0));
   } else {
     words = fmt::format("Not known: {}.", content.avoided->reason);
@@ -89,7 +89,8 @@ void writeCompensation(Html& html, const ReportContent& content) {
       "Compensated is 1 − Σ|what is left| / Σ|displacement|. Over the subsets of postures it is "
       "the mean: on the postures a subset used, on those it held out, and on all. P_{wrist} sees "
       "joints 1 to 3 only, the reflectors all six.");
-  writeEach(html, content, [&](const ReportCampaign& one) {
+  writeAvoided(html, content);
+  writeEach(html, content, "compensation", [&](const ReportCampaign& one) {
     if (!shownMethod(one.identification)) {
       html.paragraph("No method is available, so nothing is compensated.");
       return;
@@ -100,7 +101,6 @@ void writeCompensation(Html& html, const ReportContent& content) {
     }
     html.paragraph(noiseWords(one));
   });
-  writeAvoided(html, content);
 }
 
 }  // namespace stiffscope::page

@@ -5,6 +5,7 @@
 #include "reports/page/names.h"
 #include "reports/page/numbers.h"
 #include "reports/page/sections.h"
+#include "reports/page/with_micro.h"
 #include "reports/text/preparation_text.h"
 
 namespace stiffscope::page {
@@ -65,7 +66,7 @@ RowGroup conditions(const ReportCampaign& one) {
   add(group, "Conditions", own(campaign.texts.conditions));
   add(group, "Tracker",
       campaign.tracker ? trackerWords(*campaign.tracker) : "not declared: no noise is known");
-  if (one.preparation != nullptr) add(group, "Readings", preparationWords(*one.preparation));
+  if (one.preparation != nullptr) add(group, "Readings", withMicro(preparationWords(*one.preparation)));
   add(group, "Postures", fmt::format("{} used, {} left out", result.cases.size(), result.left_out.size()));
   add(group, "Load", result.cases.empty() ? "none was measured that could be used" : loadWords(result));
   add(group, "Own weight", result.frames.sag_note);
@@ -96,7 +97,7 @@ void writeConditions(Html& html, const ReportContent& content) {
       "Partial Pose (DPP) first joints 1 to 3 from P_{wrist}, which joints 4 to 6 do not move, "
       "then joints 4 to 6 from what is left. Stiffness is that of the closed loop, at the joint "
       "angles which the controller reports.");
-  writeEach(html, content, [&](const ReportCampaign& one) {
+  writeEach(html, content, "conditions", [&](const ReportCampaign& one) {
     writeTable(html, {"Conditions of the measurement", {"What", "As measured"}, {conditions(one)}, true, "conditions"});
   });
 }

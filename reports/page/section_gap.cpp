@@ -1,16 +1,21 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/input/units.h"
-#include "reports/diagnosis_words.h"
+#include "reports/page/effect_words.h"
 #include "reports/page/html_table.h"
+#include "reports/page/names.h"
 #include "reports/page/numbers.h"
 #include "reports/page/sections.h"
+#include "reports/page/with_micro.h"
 
 namespace stiffscope::page {
 
 namespace {
+
+constexpr double kMega = 1e-6;  // to 10^6 Nm/rad
 
 std::string inUm(double metres) { return fixed(metres / kMicrometre, 1); }
 
@@ -18,27 +23,72 @@ std::string interval(const Shrink& shrink) {
   return fmt::format("{} to {}", fixed(100.0 * shrink.low, 0), fixed(100.0 * shrink.high, 0));
 }
 
-/// What a laboratory can do with the verdict.
-std::string actionOf(const Diagnosis& diagnosis) {
+/// What is present, with what it means.
+std::string findingOf(const Diagnosis& diagnosis) {
   const auto& entries = diagnosis.verdict.entries;
   if (entries.empty()) {
-    return fmt::format("The joint-stiffness model is enough for this machine on this day: what it leaves is noise, or too "
-                       "small to matter (below {}\u00a0µm rms).",
-                       inUm(diagnosis.size_limit));
+    return fmt::format(
+        "Joint springs are enough for this machine on this day: what they leave is noise, or too small to "
+        "matter (below {}\u00a0µm rms).",
+        inUm(diagnosis.size_limit));
   }
-  const bool unknown = std::any_of(entries.begin(), entries.end(),
-                                   [](const VerdictEntry& one) { return one.effects.empty(); });
-  std::string words = fmt::format(
-      "The machine does what the joint-stiffness model does not: {}. With it in the model the gap falls from {} to "
-      "{}\u00a0µm rms per coordinate, of which noise is {}\u00a0µm; on postures that took no part it shrinks by {} % "
-      "(95 %: {} %).",
-      verdictWords(diagnosis.verdict), inUm(diagnosis.gap.before), inUm(diagnosis.gap.after), inUm(diagnosis.gap.noise),
+  const std::string present =
+      fmt::format("Besides joint springs the readings show {}", presentWords(diagnosis.verdict));
+  std::vector<Effect> effects;
+  for (const VerdictEntry& entry : entries)
+    effects.insert(effects.end(), entry.effects.begin(), entry.effects.end());
+  if (effects.empty()) return present + ".";
+  if (effects.size() == 1) return fmt::format("{}: {}.", present, effectMeaning(effects.front()));
+  std::vector<std::string> meanings;
+  for (const Effect effect : effects)
+    meanings.push_back(fmt::format("{}: {}", effectName(effect), effectMeaning(effect)));
+  return fmt::format("{}. That is, {}.", present, fmt::join(meanings, "; "));
+}
+
+std::string figuresOf(const Diagnosis& diagnosis) {
+  const bool named = !namedWords(diagnosis.verdict).empty();
+  const std::string noise = fmt::format("of which noise is {}\u00a0µm", inUm(diagnosis.gap.noise));
+  if (!named) {
+    return fmt::format("The gap is {}\u00a0µm rms per coordinate, {}.", inUm(diagnosis.gap.before), noise);
+  }
+  return fmt::format(
+      "With it in the model the gap falls from {} to {}\u00a0µm rms per coordinate, {}; on postures that "
+      "took no part "
+      "it shrinks by {}\u00a0% (95\u00a0%: {}\u00a0%).",
+      inUm(diagnosis.gap.before), inUm(diagnosis.gap.after), noise,
       fixed(100.0 * diagnosis.shrink_together.value, 0), interval(diagnosis.shrink_together));
-  if (unknown) {
-    words += " Part of it is explained by no effect of the vocabulary: look for what is not in the list before the "
-             "stiffnesses are used for compensation.";
+}
+
+/// What a laboratory can do with the verdict: remedies, each once, and measurements. Rich texts.
+std::vector<std::string> actionsOf(const Diagnosis& diagnosis) {
+  std::vector<std::string> actions;
+  for (const VerdictEntry& entry : diagnosis.verdict.entries) {
+    if (entry.effects.empty()) {
+      actions.push_back(
+          "Look for what is not in the list of effects (the figures below show where) before the "
+          "stiffnesses are used for compensation.");
+    }
+    std::vector<std::string> of_class;
+    for (const Effect effect : entry.effects) {
+      std::string remedy = effectRemedy(effect);
+      if (std::find(of_class.begin(), of_class.end(), remedy) == of_class.end())
+        of_class.push_back(std::move(remedy));
+    }
+    for (const std::string& remedy : of_class) {
+      const std::string action =
+          of_class.size() > 1
+              ? fmt::format("If it is {}: {}.",
+                            effectName(entry.effects[static_cast<std::size_t>(&remedy - of_class.data())]),
+                            remedy)
+              : capitalised(remedy) + ".";
+      if (std::find(actions.begin(), actions.end(), action) == actions.end()) actions.push_back(action);
+    }
   }
-  return words;
+  for (const NextMeasurement& one : diagnosis.next) {
+    actions.push_back(fmt::format("To tell {} apart, measure {}.", effectNames(one.separates, " and "),
+                                  withMicro(one.what)));
+  }
+  return actions;
 }
 
 Table classesTable(const Diagnosis& diagnosis) {
@@ -49,20 +99,49 @@ Table classesTable(const Diagnosis& diagnosis) {
               "diagnosis"};
   RowGroup group;
   for (const EffectClass& one : diagnosis.classes) {
-    group.rows.push_back({Cell(effectNames(one.effects), one.detail), one.in_verdict ? "yes" : "no", fixed(one.score, 0),
-                          fixed(100.0 * one.shrink.value, 1), interval(one.shrink), fixed(100.0 * one.explained, 0)});
+    group.rows.push_back({Cell(effectNames(one.effects), asIs(shortDetail(one.detail))),
+                          one.in_verdict ? "yes" : "no", fixed(one.score, 0),
+                          fixed(100.0 * one.shrink.value, 1), interval(one.shrink),
+                          fixed(100.0 * one.explained, 0)});
   }
   table.groups.push_back(std::move(group));
   return table;
 }
 
-Table whereTable(const std::vector<WhereTable>& tables, const std::string& caption, const std::string& id) {
-  Table table{caption, {"By", "", "rms (µm)", "Noise (µm)", "Share (%)", "Above noise (sd)"}, {}, false, id};
-  for (const WhereTable& one : tables) {
+const WhereRow* rowOf(const std::vector<WhereTable>& tables, const std::string& by, const std::string& name) {
+  for (const WhereTable& table : tables) {
+    if (table.by != by) continue;
+    for (const WhereRow& row : table.rows) {
+      if (row.name == name) return &row;
+    }
+  }
+  return nullptr;
+}
+
+/// The deflection's gap, and beside it that of unloaded positions where these were tested.
+Table whereTable(const Diagnosis& diagnosis) {
+  const bool positions = !diagnosis.where_positions.empty();
+  Table table{"Where the gap lies that joint stiffnesses leave, rms per coordinate",
+              {"By", "Part", "Deflection (µm)", "Noise (µm)", "Share (%)", "Above noise (sd)"},
+              {},
+              false,
+              "gap"};
+  if (positions) {
+    for (const char* column : {"Unloaded (µm)", "Noise (µm)"}) table.columns.emplace_back(column);
+  }
+  if (!diagnosis.as_measured.rows.empty()) table.caption += ", the station's motion taken off";
+  for (const WhereTable& one : diagnosis.where) {
     if (one.by == "posture") continue;  // a figure, and results.json
     RowGroup group{one.by, {}};
     for (const WhereRow& row : one.rows) {
-      group.rows.push_back({row.name, inUm(row.rms), inUm(row.noise), fixed(100.0 * row.share, 0), fixed(row.significance, 1)});
+      Row cells{asIs(row.name), inUm(row.rms), inUm(row.noise), fixed(100.0 * row.share, 0),
+                fixed(row.significance, std::abs(row.significance) < 10.0 ? 1 : 0)};
+      if (positions) {
+        const WhereRow* at_rest = rowOf(diagnosis.where_positions, one.by, row.name);
+        cells.emplace_back(at_rest ? inUm(at_rest->rms) : "–");
+        cells.emplace_back(at_rest ? inUm(at_rest->noise) : "–");
+      }
+      group.rows.push_back(std::move(cells));
     }
     table.groups.push_back(std::move(group));
   }
@@ -70,16 +149,19 @@ Table whereTable(const std::vector<WhereTable>& tables, const std::string& capti
 }
 
 Table stiffnessTable(const Diagnosis& diagnosis) {
-  Table table{"Stiffness before and after the effect is in the model, 10^{6}\u00a0Nm/rad",
-              {"Joint", "Before", "After", "u(after)"},
-              {},
-              false,
-              "diagnosis-stiffness"};
+  Table table{
+      "Joint stiffness by joint springs alone, and k ± u with the verdict's effects in the model, "
+      "10⁶\u00a0Nm/rad",
+      {"Joint", "Alone", "With the effects"},
+      {},
+      false,
+      "diagnosis-stiffness"};
   RowGroup group;
   for (int j = 0; j < 6; ++j) {
     if (!diagnosis.identifiable[static_cast<std::size_t>(j)]) continue;
-    group.rows.push_back({fmt::format("k_{{{}}}", j + 1), fixed(1e-6 * diagnosis.stiffness_before[j], 4),
-                          fixed(1e-6 * diagnosis.stiffness_after[j], 4), fixed(1e-6 * diagnosis.stiffness_after_sd[j], 4)});
+    const double sd = kMega * diagnosis.stiffness_after_sd[j];
+    group.rows.push_back({jointName(j), toPlaceOf(kMega * diagnosis.stiffness_before[j], sd),
+                          withUncertainty(kMega * diagnosis.stiffness_after[j], sd)});
   }
   table.groups.push_back(std::move(group));
   return table;
@@ -93,10 +175,19 @@ Table detectableTable(const Diagnosis& diagnosis) {
               "diagnosis-detectable"};
   RowGroup group;
   for (const DetectableSize& one : diagnosis.detectable) {
-    if (one.size) group.rows.push_back({std::string(idOf(one.effect)), inUm(*one.size)});
+    if (one.size) group.rows.push_back({effectName(one.effect), inUm(*one.size)});
   }
   table.groups.push_back(std::move(group));
   return table;
+}
+
+void writeNotTestable(Html& html, const Diagnosis& diagnosis) {
+  if (diagnosis.not_testable.empty()) return;
+  html.paragraph("Not testable with this data:");
+  std::vector<std::string> missing;
+  for (const NotTestable& one : diagnosis.not_testable)
+    missing.push_back(fmt::format("{}: {}.", effectName(one.effect), withMicro(one.missing)));
+  html.list(missing);
 }
 
 void writeDiagnosis(Html& html, const Diagnosis& diagnosis) {
@@ -104,26 +195,19 @@ void writeDiagnosis(Html& html, const Diagnosis& diagnosis) {
     html.paragraph(fmt::format("No diagnosis: {}.", asIs(diagnosis.unusable_reason)));
     return;
   }
-  html.paragraph(asIs(actionOf(diagnosis)));
-  html.paragraph(asIs(diagnosis.verdict.reason), "faint");
+  html.paragraph(asIs(findingOf(diagnosis)), "finding");
+  html.paragraph(figuresOf(diagnosis));
+  const std::vector<std::string> actions = actionsOf(diagnosis);
+  if (!actions.empty()) html.paragraph("What to do:");
+  html.list(actions);
+  html.paragraph(withMicro(diagnosis.verdict.reason), "faint");
   writeTable(html, classesTable(diagnosis));
-  for (const auto& group : diagnosis.aliases) {
-    html.paragraph(asIs(fmt::format("These postures and loads cannot always separate {}.", effectNames(group))), "faint");
-  }
-  writeTable(html, whereTable(diagnosis.where, "Where the deflection's gap lies", "gap"));
-  writeTable(html, whereTable(diagnosis.where_positions, "Where the gap of unloaded positions lies", "gap-positions"));
-  if (!diagnosis.verdict.entries.empty()) writeTable(html, stiffnessTable(diagnosis));
+  if (!namedWords(diagnosis.verdict).empty()) writeTable(html, stiffnessTable(diagnosis));
+  writeTable(html, whereTable(diagnosis));
+  writeNotTestable(html, diagnosis);
+  const auto fold = html.element("details");  // the figure has these numbers, too
+  html.leaf("summary", "The smallest sizes as a table");
   writeTable(html, detectableTable(diagnosis));
-  std::vector<std::string> missing;
-  for (const NotTestable& one : diagnosis.not_testable) {
-    missing.push_back(asIs(fmt::format("{} is not testable here: {}.", idOf(one.effect), one.missing)));
-  }
-  html.list(missing);
-  if (diagnosis.next.empty()) return;
-  html.leaf("h3", "What to measure next");
-  std::vector<std::string> next;
-  for (const NextMeasurement& one : diagnosis.next) next.push_back(asIs(one.what));
-  html.list(next);
 }
 
 }  // namespace

@@ -1,25 +1,14 @@
 #include <fmt/format.h>
 
-#include "reports/page/names.h"
 #include "reports/page/sections.h"
 
 namespace stiffscope::page {
 
 namespace {
 
+/// Postures and parameters; joints, methods and the wrist centre say so where their numbers would stand.
 std::vector<std::string> leftOut(const Identification& result) {
   std::vector<std::string> items = result.left_out;
-  for (const Method method : kMethods) {
-    if (!result.of(method).available)
-      items.push_back(fmt::format("{}: {}.", longName(method), result.of(method).reason));
-  }
-  for (int joint = 0; joint < 6; ++joint) {
-    const JointIdentifiability& one = result.identifiability.joints[static_cast<std::size_t>(joint)];
-    if (!one.identifiable && !one.reason.empty())
-      items.push_back(fmt::format("{}: {}.", jointName(joint), one.reason));
-  }
-  if (!result.frames.wrist.measured)
-    items.push_back(fmt::format("Wrist centre: {}.", result.frames.wrist.reason));
   if (!result.calibration.fixed.empty()) {
     items.push_back(fmt::format("PP's geometry, kept at its start because the positions do not see it: {}.",
                                 fmt::join(result.calibration.fixed, ", ")));
@@ -32,7 +21,7 @@ std::vector<std::string> leftOut(const Identification& result) {
 void writeLeftOut(Html& html, const ReportContent& content) {
   writeForEach(html, content, "left-out", "What was left out, and why", [&](const ReportCampaign& one) {
     const std::vector<std::string> items = leftOut(one.identification);
-    if (items.empty()) html.paragraph("Nothing: every posture, joint and method is in.");
+    if (one.identification.left_out.empty()) html.paragraph("No posture was left out.");
     html.list(items);
   });
 }

@@ -7,6 +7,7 @@
 #include "reports/page/numbers.h"
 #include "reports/page/report_id.h"
 #include "reports/page/sections.h"
+#include "reports/page/with_micro.h"
 #include "reports/text/preparation_text.h"
 
 namespace stiffscope::page {
@@ -79,8 +80,33 @@ KeyNumber third(const ReportContent& content, const ReportCampaign& one) {
   return {fmt::format("{} of 6", seen), "joint stiffnesses that this data can see"};
 }
 
+/// What a day of sweeps alone gives: axes and the lengths between them.
+std::vector<KeyNumber> sweepNumbers(const Frames& frames) {
+  const auto measured =
+      std::count_if(frames.axes.begin(), frames.axes.end(), [](const auto& axis) { return axis.measured; });
+  double rms = 0.0, off = 0.0;
+  for (const MeasuredAxis& axis : frames.axes) rms = std::max(rms, axis.measured ? axis.fit.rms : 0.0);
+  for (const LinkGeometry& link : frames.links) {
+    if (link.distance_sd) off = std::max(off, std::abs(link.distance - link.nominal_distance));
+  }
+  return {{fmt::format("{} of 6", measured), "joint axes found from their sweeps"},
+          {fmt::format("{}\u00a0mm", significant(kMmPerM * off, 2)),
+           "largest difference of a distance between axes from the nominal one"},
+          {fmt::format("{}\u00a0µm", significant(1e6 * rms, 2)),
+           "rms by which readings leave their circles, of the worst axis"}};
+}
+
+std::vector<KeyNumber> keyNumbers(const ReportContent& content) {
+  const ReportCampaign& one = leading(content);
+  const JudgedPoint point = judgedPoint(one);
+  const bool sweeps_alone =
+      one.identification.cases.empty() && one.identification.frames.axes.front().measured;
+  if (sweeps_alone) return sweepNumbers(one.identification.frames);
+  return {deflection(one, point), compensated(one, point), third(content, one)};
+}
+
 /// The checks of the audit that found something, by name; the audit's own section explains them.
-void addAuditCautions(const AuditReport& audit, const std::string& label, std::vector<std::string>& items) {
+void addAuditCautions(const AuditReport& audit, std::vector<std::string>& items) {
   for (const AuditVerdict verdict : {AuditVerdict::fail, AuditVerdict::warn}) {
     std::vector<std::string> names;
     for (const AuditCheck& check : audit.checks) {
@@ -89,27 +115,37 @@ void addAuditCautions(const AuditReport& audit, const std::string& label, std::v
       if (!check.where.empty() && check.id == "circle_arc") names.back() += " of " + check.where;
     }
     if (!names.empty()) {
-      items.push_back(fmt::format("{}the audit of the readings {} on: {}.", label,
-                                  auditWord(verdict), fmt::join(names, ", ")));
+      items.push_back(
+          fmt::format("The audit of the readings {} on: {}.", auditWord(verdict), fmt::join(names, ", ")));
     }
   }
 }
 
-/// What a reader must know before believing the numbers.
-void writeCautions(Html& html, const ReportContent& content) {
+/// What a reader must know before believing the numbers of a campaign.
+std::vector<std::string> cautionsOf(const ReportCampaign& one) {
   std::vector<std::string> items;
-  for (const ReportCampaign& one : content.campaigns) {
-    const std::string label = content.campaigns.size() > 1 ? asIs(one.campaign.name) + ": " : std::string();
-    if (one.audit != nullptr) addAuditCautions(*one.audit, label, items);
-    if (one.preparation != nullptr && (one.preparation->drift.taken_off || !one.preparation->rejected.empty())) {
-      items.push_back(fmt::format("{}readings: {}.", label, preparationWords(*one.preparation)));
-    }
-    for (const std::string& caution : one.identification.cautions) items.push_back(label + caution + ".");
+  if (one.audit != nullptr) addAuditCautions(*one.audit, items);
+  if (one.preparation != nullptr &&
+      (one.preparation->drift.taken_off || !one.preparation->rejected.empty())) {
+    items.push_back(fmt::format("Readings: {}.", withMicro(preparationWords(*one.preparation))));
   }
-  if (items.empty()) return;
+  for (const std::string& caution : one.identification.cautions)
+    items.push_back(capitalised(withMicro(caution)) + ".");
+  return items;
+}
+
+void writeCautions(Html& html, const ReportContent& content) {
+  const auto& campaigns = content.campaigns;
+  const bool any = std::any_of(campaigns.begin(), campaigns.end(),
+                               [](const ReportCampaign& one) { return !cautionsOf(one).empty(); });
+  if (!any) return;
   html.paragraph("Before you believe these numbers:");
-  const auto cautions = html.element("div", {{"class", "cautions"}});
-  html.list(items);
+  const auto cautions = html.element("div", {{"class", campaigns.size() > 1 ? "several" : "cautions"}});
+  for (const ReportCampaign& one : campaigns) {
+    const auto column = html.element("div");
+    if (campaigns.size() > 1) html.paragraph(asIs(one.campaign.name), "name");
+    html.list(cautionsOf(one));
+  }
 }
 
 }  // namespace
@@ -122,11 +158,9 @@ void writeOpening(Html& html, const ReportContent& content) {
     html.leaf("p", campaignLine(one.campaign), {{"class", "faint"}});
   html.paragraph(content.verdict, "verdict");
   if (content.campaigns.empty()) return;
-  const ReportCampaign& one = leading(content);
-  const JudgedPoint point = judgedPoint(one);
   {
     const auto list = html.element("ul", {{"class", "numbers"}});
-    for (const KeyNumber& number : {deflection(one, point), compensated(one, point), third(content, one)}) {
+    for (const KeyNumber& number : keyNumbers(content)) {
       const auto item = html.element("li");
       html.leaf("b", number.value);
       html.leaf("span", number.words);
@@ -139,20 +173,26 @@ void writeForEach(Html& html, const ReportContent& content, const char* id, cons
                   const std::function<void(const ReportCampaign&)>& write) {
   const auto section = html.element("section", {{"id", id}});
   html.leaf("h2", heading);
-  writeEach(html, content, write);
+  writeEach(html, content, id, write);
 }
 
-void writeEach(Html& html, const ReportContent& content, const std::function<void(const ReportCampaign&)>& write) {
-  const auto row = html.element("div", {{"class", content.campaigns.size() > 1 ? "several" : "one"}});
-  for (std::size_t i = 0; i < content.campaigns.size(); ++i) {
-    const auto column = html.element("div", {{"class", "each"}});
-    if (content.campaigns.size() > 1) {
-      html.leaf("h3", asIs(content.campaigns[i].campaign.name));
-      html.setTableSuffix(fmt::format("-{}", i + 1));
+void writeEach(Html& html, const ReportContent& content, const char* id,
+               const std::function<void(const ReportCampaign&)>& write) {
+  const bool several = content.campaigns.size() > 1;
+  {
+    const auto row = html.element("div", {{"class", several ? "several" : "one"}});
+    for (std::size_t i = 0; i < content.campaigns.size(); ++i) {
+      const auto column = html.element("div", {{"class", "each"}});
+      if (several) {
+        html.leaf("h3", asIs(content.campaigns[i].campaign.name));
+        html.setTableSuffix(fmt::format("-{}", i + 1));
+      }
+      write(content.campaigns[i]);
+      if (!several) writeFiguresOf(html, content, id);
     }
-    write(content.campaigns[i]);
+    html.setTableSuffix("");
   }
-  html.setTableSuffix("");
+  if (several) writeFiguresOf(html, content, id);
 }
 
 }  // namespace stiffscope::page

@@ -19,7 +19,7 @@ void writeProvenance(Html& html, const ReportContent& content) {
     if (one.campaign.inputs.empty()) html.paragraph("No file was read: the campaign comes from memory.");
     Table table{"Files read", {"File", "SHA-256 of its bytes"}, {{}}, true, "inputs"};
     for (const InputFile& file : one.campaign.inputs)
-      table.groups.front().rows.push_back({asIs(file.name), file.sha256});
+      table.groups.front().rows.push_back({asIs(file.name), "`" + file.sha256 + "`"});
     writeTable(html, table);
   });
   if (content.versions.empty() && content.settings.empty() && content.command_line.empty()) return;

@@ -127,9 +127,9 @@ std::string uncertaintyWords(const Identification& result) {
       if (own.factor > most.factor) most = own;
     }
     if (most.factor == 0.0) continue;
-    factors.push_back(fmt::format("{} for {} ({} degrees of freedom)",
-                                  range(fixed(least.factor, 2), fixed(most.factor, 2)), shortName(method),
-                                  range(fixed(most.degrees_of_freedom, 1), fixed(least.degrees_of_freedom, 1))));
+    const std::string freedom = range(fixed(most.degrees_of_freedom, 1), fixed(least.degrees_of_freedom, 1));
+    factors.push_back(fmt::format("{} for {} ({} degree{} of freedom)", range(fixed(least.factor, 2), fixed(most.factor, 2)),
+                                  shortName(method), freedom, freedom == "1.0" ? "" : "s"));
   }
   if (factors.empty()) return "Too few postures for an uncertainty.";
   return fmt::format(

@@ -16,7 +16,7 @@ constexpr double kMega = 1e6;
 Row spreadRow(const ReportContent& content, const ReportCampaign& one, Method method, int joint) {
   const StiffnessSpread spread = spreadOf(one.identification.of(method).subsets, joint);
   const double width = (spread.high - spread.low) / kMega;
-  Row row{longName(method), withUncertainty(spread.mean / kMega, spread.sd / kMega),
+  Row row{shortName(method), withUncertainty(spread.mean / kMega, spread.sd / kMega),
           toPlaceOf(spread.median / kMega, width),
           fmt::format("{} to {}", toPlaceOf(spread.low / kMega, width), toPlaceOf(spread.high / kMega, width)),
           percent(spread.share_negative)};

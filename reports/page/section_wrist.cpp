@@ -21,7 +21,7 @@ void addPoint(Row& row, const Eigen::Vector3d& point) {
 Table tableOne(const ReportCampaign& one, const WristCentre& wrist) {
   Table table{
       "Table I: centre of the sphere of each reflector's own sweep, in R_{0}",
-      {"Reflector", "X (mm)", "Y (mm)", "Z (mm)", "Offset (mm)", "Radius (mm)", "rms (µm)", "Readings"},
+      {"Reflector", "X (mm)", "Y (mm)", "Z (mm)", "Offset (mm)", "Radius (mm)", "rms (µm)", "Count"},
       {{}}};
   table.id = "wrist-spheres";
   for (const WristTableRow& line : wrist.table) {
@@ -33,7 +33,7 @@ Table tableOne(const ReportCampaign& one, const WristCentre& wrist) {
     row.emplace_back(std::to_string(line.readings));
     table.groups.front().rows.push_back(std::move(row));
   }
-  Row mean_row{"Mean of the centres"};
+  Row mean_row{"Mean of them"};
   for (int k = 0; k < 3; ++k) {
     mean_row.emplace_back(withUncertainty(wrist.table_mean_in_r0[k] / kMillimetre,
                                           std::sqrt(wrist.table_mean_covariance(k, k)) / kMillimetre));

@@ -18,6 +18,9 @@ void writeSubsets(Html& html, const ReportContent& content);       ///< Table II
 void writeCompensation(Html& html, const ReportContent& content);  ///< compensated and avoided shares
 void writeGap(Html& html, const ReportContent& content);  ///< the diagnosis: where, which, how far, what next
 void writeFigures(Html& html, const ReportContent& content);
+bool hasFigures(const ReportContent& content, const std::string& section);
+/// The figures of a section; nothing where there is none.
+void writeFiguresOf(Html& html, const ReportContent& content, const std::string& section);
 void writeAudit(Html& html, const ReportContent& content);       ///< checks with their limits; rejected readings
 void writeScope(Html& html, const ReportContent& content);  ///< uncertainty, decision rule, what results relate to
 void writeLeftOut(Html& html, const ReportContent& content);     ///< what was not used or not found, and why
@@ -28,7 +31,9 @@ void writeProvenance(Html& html, const ReportContent& content);  ///< inputs, ve
 void writeForEach(Html& html, const ReportContent& content, const char* id, const char* heading,
                   const std::function<void(const ReportCampaign&)>& write);
 
-/// The same without a section of its own.
-void writeEach(Html& html, const ReportContent& content, const std::function<void(const ReportCampaign&)>& write);
+/// The same without a section of its own; then the figures of the section `id`: of a single campaign in its columns, of
+/// several below them.
+void writeEach(Html& html, const ReportContent& content, const char* id,
+               const std::function<void(const ReportCampaign&)>& write);
 
 }  // namespace stiffscope::page

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "reports/page/effect_words.h"
 #include "reports/page/html.h"
 #include "reports/page/names.h"
 #include "reports/page/numbers.h"
@@ -58,11 +59,6 @@ std::string labelOf(const ReportCampaign& one) {
   return state.empty() ? fmt::format("in {}", page::asIs(one.campaign.name)) : fmt::format("with {}", state);
 }
 
-std::string capitalised(std::string text) {
-  if (!text.empty() && text[0] >= 'a' && text[0] <= 'z') text[0] = static_cast<char>(text[0] - 'a' + 'A');
-  return text;
-}
-
 bool sameJoints(const std::vector<ReportCampaign>& campaigns) {
   return std::all_of(campaigns.begin(), campaigns.end(), [&](const ReportCampaign& one) {
     return jointsSentence(one.identification) == jointsSentence(campaigns.front().identification);
@@ -71,7 +67,7 @@ bool sameJoints(const std::vector<ReportCampaign>& campaigns) {
 
 /// Said once where it is the same in all campaigns.
 std::string together(const std::vector<ReportCampaign>& campaigns) {
-  std::string text = capitalised(jointsSentence(campaigns.front().identification));
+  std::string text = page::capitalised(jointsSentence(campaigns.front().identification));
   std::vector<std::string> shares;
   for (const ReportCampaign& one : campaigns) {
     const std::string words = compensatedWords(one);
@@ -79,14 +75,14 @@ std::string together(const std::vector<ReportCampaign>& campaigns) {
     const std::string label = campaigns.size() > 1 ? fmt::format("{} ", labelOf(one)) : std::string();
     shares.push_back(fmt::format("{}it takes away {}", label, words));
   }
-  if (!shares.empty()) text += fmt::format(" {}.", capitalised(fmt::format("{}", fmt::join(shares, "; "))));
+  if (!shares.empty()) text += fmt::format(" {}.", page::capitalised(fmt::format("{}", fmt::join(shares, "; "))));
   return text;
 }
 
 std::string oneByOne(const std::vector<ReportCampaign>& campaigns) {
   std::string text;
   for (const ReportCampaign& one : campaigns) {
-    text += fmt::format("{}{}, {}", text.empty() ? "" : " ", capitalised(labelOf(one)),
+    text += fmt::format("{}{}, {}", text.empty() ? "" : " ", page::capitalised(labelOf(one)),
                         jointsSentence(one.identification));
     const std::string words = compensatedWords(one);
     if (!words.empty()) text += fmt::format(" It takes away {}.", words);
@@ -94,16 +90,39 @@ std::string oneByOne(const std::vector<ReportCampaign>& campaigns) {
   return text;
 }
 
+/// What is there besides joint springs; empty without a diagnosis.
+std::string gapSentence(const ReportCampaign& one) {
+  if (one.diagnosis == nullptr || !one.diagnosis->usable) return {};
+  if (one.diagnosis->verdict.entries.empty()) return "What joint springs leave is noise, or too small to matter.";
+  return page::asIs(fmt::format("Besides joint springs the readings show {} (see What the model misses).",
+                                page::presentWords(one.diagnosis->verdict)));
+}
+
+/// Said once where it is the same in all campaigns.
+std::string gapSentences(const std::vector<ReportCampaign>& campaigns) {
+  const std::string first = gapSentence(campaigns.front());
+  const bool same = std::all_of(campaigns.begin(), campaigns.end(),
+                                [&](const ReportCampaign& one) { return gapSentence(one) == first; });
+  if (same) return first.empty() ? first : " " + first;
+  std::string text;
+  for (const ReportCampaign& one : campaigns) {
+    const std::string words = gapSentence(one);
+    if (!words.empty()) text += fmt::format(" {}: {}", page::capitalised(labelOf(one)), words);
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string verdictOf(const std::vector<ReportCampaign>& campaigns,
-                      const std::optional<AvoidedDeflection>& avoided) {
+                      const std::optional<AvoidedByEncoders>& avoided) {
   if (campaigns.empty()) return {};
   std::string text = sameJoints(campaigns) ? together(campaigns) : oneByOne(campaigns);
   if (avoided && avoided->available) {
     text += fmt::format(" The double encoders avoid {} of the deflection at {}.",
                         page::percent(avoided->share, 0), pointOf(*avoided));
   }
+  text += gapSentences(campaigns);
   return text;
 }
 

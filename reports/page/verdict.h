@@ -10,8 +10,9 @@
 namespace stiffscope {
 
 /// The result in plain words, one or two sentences a campaign: which joint stiffnesses are known, by which
-/// method, what share of the deflection they compensate at which point; then what the double encoders avoid.
+/// method, what share of the deflection they compensate at which point; then what the double encoders avoid, and what the
+/// diagnosis finds besides joint springs.
 std::string verdictOf(const std::vector<ReportCampaign>& campaigns,
-                      const std::optional<AvoidedDeflection>& avoided);
+                      const std::optional<AvoidedByEncoders>& avoided);
 
 }  // namespace stiffscope

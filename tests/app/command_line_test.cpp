@@ -36,6 +36,18 @@ TEST(CommandLine, WrongWordsGetTheNearestKnownOneAndStatusTwo) {
   }
 }
 
+TEST(CommandLine, ViewIsTheWindowBesideIt) {
+  const ScratchFolder scratch;
+  if (!std::filesystem::exists(std::filesystem::path(STIFFSCOPE_BINARY).parent_path() / "stiffscope-view"))
+    GTEST_SKIP() << "the window was not built";
+  const Ran help = runProgram("view --help", scratch.path());
+  EXPECT_EQ(help.status, 0);
+  EXPECT_NE(help.out.find("Usage: stiffscope-view [OPTIONS] CAMPAIGN"), std::string::npos) << help.out;
+  const Ran wrong = runProgram("view '" + kActive + "' --metod dpp", scratch.path());
+  EXPECT_EQ(wrong.status, 2);
+  EXPECT_NE(wrong.err.find("did you mean '--method'?"), std::string::npos) << wrong.err;
+}
+
 TEST(CommandLine, TheSameInputGivesTheSameBytes) {
   const ScratchFolder scratch;
   for (const std::string command : {"identify", "frames", "compensate"}) {

@@ -48,7 +48,8 @@ TEST(WholeFigures, LookAsTheyDid) {
     const double similarity = same_size ? cv::quality::QualitySSIM::compute(drawn, baseline, map)[0] : 0.0;
     EXPECT_GT(similarity, kAlike);
     if (similarity > kAlike) continue;
-    const std::filesystem::path beside = std::filesystem::temp_directory_path();
+    const std::filesystem::path beside = STIFFSCOPE_TEST_OUTPUT "/pictures";
+    std::filesystem::create_directories(beside);
     cv::imwrite((beside / (std::string(id) + "-candidate.png")).string(), drawn);
     if (same_size) {
       cv::Mat difference;

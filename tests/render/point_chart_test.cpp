@@ -51,7 +51,7 @@ TEST(PointChart, LabelsUnderTheAxisStandApart) {
     int gap = 0, narrowest = ink.cols, begun = 0;
     for (int x = 80; x < ink.cols; ++x) {
       const bool any = cv::countNonZero(strip.col(x)) > 0;
-      if (any && gap > 0 && begun > 0 && gap > 3) narrowest = std::min(narrowest, gap);  // up to 3: within a number
+      if (any && gap > 0 && begun > 0 && gap > 5) narrowest = std::min(narrowest, gap);  // up to 5: within a number
       gap = any ? 0 : gap + 1;
       begun += any ? 1 : 0;
     }

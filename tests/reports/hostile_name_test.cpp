@@ -2,6 +2,7 @@
 #include <tinyxml2.h>
 
 #include "reports/page/html.h"
+#include "reports/page/names.h"
 #include "reports/page/report_id.h"
 #include "reports/page/report_page.h"
 #include "reports/page/verdict.h"
@@ -61,6 +62,12 @@ TEST(HostileName, StandsOnThePageToTheLetter) {
   hostile.campaign.name = "a_{b} `c` <d>";
   EXPECT_NE(reportPage(contentOf(hostile)).find("<h3>a_{b} `c` &lt;d&gt;</h3>"), std::string::npos);
   EXPECT_EQ(page::plain(page::asIs("a_{b} `c`")), "a_{b} `c`");
+}
+
+TEST(HostileName, AReflectorIsNoMarkup) {
+  EXPECT_EQ(page::plain(page::pointName("P_{x}")), "P_{x}");
+  EXPECT_EQ(page::pointName("P12"), "P_{12}");
+  EXPECT_EQ(page::pointName("TIP"), "TIP");
 }
 
 TEST(RichText, BackticksAreSetAsCodeAndUnfinishedMarksAreText) {
