@@ -1,4 +1,5 @@
 #include <cmath>
+#include <limits>
 #include <map>
 
 #include "core/audit/checks.h"
@@ -52,8 +53,10 @@ std::vector<std::string> statesApart(const Campaign& campaign) {
   for (const State& state : campaign.states->rows) {
     const auto own = readings.find({state.pose, state.step});
     if (own == readings.end() || !std::isfinite(state.time_s)) continue;
-    for (const auto& [key, span] : readings) {
-      if (key.first != state.pose || key.second == state.step) continue;
+    const auto end = readings.upper_bound({state.pose, std::numeric_limits<int>::max()});
+    for (auto other = readings.lower_bound({state.pose, std::numeric_limits<int>::min()}); other != end; ++other) {
+      const auto& [key, span] = *other;
+      if (key.second == state.step) continue;
       const bool within = state.time_s > span.first && state.time_s < span.last;
       const bool beyond = (span.first > own->second.last && state.time_s >= span.first) ||
                           (span.last < own->second.first && state.time_s <= span.last);

@@ -26,11 +26,11 @@ std::vector<Trained> train(const GapInput& input, const GapFit& fit, const std::
   double postures = 0.0;
   for (const double weight : weights) postures += weight;
   const Projection projection = project(sumOf(fit.data, weights), fit.data.layout.effects);
-  GapFit there = fit;
+  SelectionRules rules = fit.rules;
   const double share = postures / static_cast<double>(fit.data.postures.size());
-  there.rules.loading_rows *= share;
-  there.rules.least_drop *= share;
-  const Selector selector = selectorOf(input, there, projection, std::max(2.0, postures), allowed);
+  rules.loading_rows *= share;
+  rules.least_drop *= share;
+  const Selector selector(input.models, fit.data.layout, projection, std::max(2.0, postures), rules, allowed);
   const StiffnessesAlone alone = stiffnessesAlone(fit.data, weights, projection);
   std::vector<Trained> trained;
   for (const FitRecipe& recipe : recipes) {

@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "core/identification/load_step.h"
 #include "core/identification/loaded_arm.h"
@@ -51,29 +52,27 @@ std::vector<Solved> solveSteps(const Campaign& campaign, const IdentifyOptions& 
   return solved;
 }
 
-double influenceOf(const Solved& solved, int pose, int joint) {
-  const auto at = std::find(solved.poses.begin(), solved.poses.end(), pose);
-  return at == solved.poses.end()
-             ? 0.0
-             : solved.result.estimate.influences[static_cast<std::size_t>(at - solved.poses.begin())][joint];
+/// By pose; zero where the step has none.
+Eigen::VectorXd influencesOn(int joint, const Solved& solved, int poses) {
+  Eigen::VectorXd influences = Eigen::VectorXd::Zero(poses);
+  for (std::size_t p = 0; p < solved.poses.size(); ++p) {
+    influences[solved.poses[p]] = solved.result.estimate.influences[p][joint];
+  }
+  return influences;
 }
 
 /// Covariance of the differences of every step to the first.
 Eigen::MatrixXd differenceCovariance(const std::vector<Solved>& solved, int joint) {
-  std::vector<int> poses;
-  for (const Solved& one : solved) poses.insert(poses.end(), one.poses.begin(), one.poses.end());
-  std::sort(poses.begin(), poses.end());
-  poses.erase(std::unique(poses.begin(), poses.end()), poses.end());
-  const auto q = static_cast<Eigen::Index>(solved.size()) - 1;
-  Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(q, q);
-  for (const int pose : poses) {
-    Eigen::VectorXd moves(q);
-    for (Eigen::Index s = 0; s < q; ++s) {
-      moves[s] = influenceOf(solved[static_cast<std::size_t>(s) + 1], pose, joint) - influenceOf(solved[0], pose, joint);
-    }
-    covariance += moves * moves.transpose();
+  int poses = 0;
+  for (const Solved& one : solved) {
+    for (const int pose : one.poses) poses = std::max(poses, pose + 1);
   }
-  return covariance;
+  const Eigen::VectorXd first = influencesOn(joint, solved[0], poses);
+  Eigen::MatrixXd moves(poses, static_cast<Eigen::Index>(solved.size()) - 1);
+  for (std::size_t s = 1; s < solved.size(); ++s) {
+    moves.col(static_cast<Eigen::Index>(s) - 1) = influencesOn(joint, solved[s], poses) - first;
+  }
+  return moves.transpose() * moves;
 }
 
 LoadDependence dependence(const std::vector<Solved>& solved, int joint) {
@@ -104,7 +103,9 @@ LoadDependence dependence(const std::vector<Solved>& solved, int joint) {
 
 StepStudy studySteps(const Campaign& campaign, const IdentifyOptions& options, const Identification& result) {
   StepStudy study;
-  const Campaign used = result.robust ? withoutPostures(campaign, result.outlying) : campaign;
+  std::optional<Campaign> rest;
+  if (result.robust) rest = withoutPostures(campaign, result.outlying);
+  const Campaign& used = rest ? *rest : campaign;
   for (const Method method : kMethods) {
     std::vector<Solved> solved = solveSteps(used, options, result, method);
     if (solved.size() < 2) continue;

@@ -14,17 +14,63 @@ namespace {
 constexpr double kLevel = 0.001;
 constexpr std::size_t kFewest = 5;
 
+/// One posture in a fit of all: residual at the common compliances.
 struct Posture {
   const CaseEquations* equations;
-  NormalEquations normal;
+  Eigen::VectorXd residual;
 };
 
-NormalEquations sumWithout(const std::vector<Posture>& postures, std::size_t left_out) {
-  NormalEquations sum;
-  for (std::size_t p = 0; p < postures.size(); ++p) {
-    if (p != left_out) sum += postures[p].normal;
+/// What a pass over the postures needs of all of them, so that leaving one out costs nothing of the others. With
+/// c(without p) = c + d the residual of another posture q is r_q - A_q d: sums over q are quadratic in d.
+class Sums {
+ public:
+  Sums(const std::vector<Posture>& postures, bool common_rows) {
+    const Eigen::Index rows = common_rows ? postures.front().residual.size() : 0;
+    moments_.setZero(7 * rows, 7 * rows);
+    for (const Posture& one : postures) {
+      normal += normalEquations({one.equations->matrix, one.residual, one.equations->posture});
+      squares += one.residual.squaredNorm();
+      this->rows += one.residual.size();
+      if (rows > 0) moments_ += products(one);
+    }
   }
-  return sum;
+
+  /// Sum over the other postures of the squared residuals.
+  double squaresWithout(const NormalEquations& others, const Posture& own, const Vector6d& d) const {
+    return squares - own.residual.squaredNorm() - 2.0 * d.dot(others.right) + d.dot(others.matrix * d);
+  }
+
+  /// Second moments of the other postures' residuals; empty without common coordinates.
+  Eigen::MatrixXd momentsWithout(const Posture& own, const Vector6d& d) const {
+    const Eigen::Index rows = moments_.rows() / 7;
+    Eigen::Matrix<double, 7, 1> mix;
+    mix << -d, 1.0;
+    Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(rows, rows);
+    for (Eigen::Index k = 0; k < 7; ++k) {
+      for (Eigen::Index l = 0; l < 7; ++l) sum += mix[k] * mix[l] * moments_.block(k * rows, l * rows, rows, rows);
+    }
+    const Eigen::VectorXd moved = own.residual - own.equations->matrix * d;
+    if (rows > 0) sum -= moved * moved.transpose();
+    return sum;
+  }
+
+  NormalEquations normal;
+  double squares = 0.0;
+  Eigen::Index rows = 0;
+
+ private:
+  static Eigen::MatrixXd products(const Posture& one) {
+    Eigen::MatrixXd columns(one.residual.size(), 7);
+    columns << one.equations->matrix, one.residual;
+    return columns.reshaped() * columns.reshaped().transpose();
+  }
+
+  Eigen::MatrixXd moments_;  ///< of [A r], all its entries with all
+};
+
+NormalEquations without(const NormalEquations& sum, const Posture& own) {
+  const CaseEquations& one = *own.equations;
+  return {sum.matrix - one.matrix.transpose() * one.matrix, sum.right - one.matrix.transpose() * own.residual};
 }
 
 /// r^T (I - H)^-1 r of a posture in a fit that has it in, by the fit without it: e^T (I - H) e, with
@@ -36,62 +82,62 @@ double studentised(const Eigen::VectorXd& deleted, const CaseEquations& own, con
   return deleted.dot(spread.llt().solve(deleted));
 }
 
-/// How many independent numbers a posture's residual is.
-double degreesOf(const std::vector<Posture>& postures, const Vector6d& compliance) {
-  const Eigen::Index rows = postures.front().equations->right.size();
-  Eigen::MatrixXd moments = Eigen::MatrixXd::Zero(rows, rows);
-  for (const Posture& one : postures) {
-    if (one.equations->right.size() != rows) return 1.0;  // no common coordinates: the least there can be
-    const Eigen::VectorXd residual = one.equations->right - one.equations->matrix * compliance;
-    moments += residual * residual.transpose();
-  }
-  return std::max(1.0, satterthwaite(moments));
+OutlyingPosture judge(const Sums& all, const Posture& own, const JointMask& unknown, double unknowns, double postures) {
+  const NormalEquations others = without(all.normal, own);
+  const Vector6d step = solveNormal(others, unknown);
+  const Eigen::VectorXd deleted = own.residual - own.equations->matrix * step;
+  const double coordinates = static_cast<double>(deleted.size());
+  OutlyingPosture result;
+  result.posture = own.equations->posture;
+  result.rms = std::sqrt(deleted.squaredNorm() / coordinates);
+  const double sum = all.squaresWithout(others, own, step), rows = static_cast<double>(all.rows) - coordinates;
+  result.others = std::sqrt(std::max(0.0, sum) / rows);
+  const double left = rows - unknowns;
+  if (!(left > 0.0) || !(sum > 0.0)) return result;
+  // How many independent numbers a posture's residual is; without common coordinates the least there can be.
+  const double per_posture = std::max(1.0, satterthwaite(all.momentsWithout(own, step)));
+  result.f = studentised(deleted, *own.equations, inverseNormal(others, unknown)) / coordinates / (sum / left);
+  const double below = per_posture * left / coordinates;
+  const double tail = fTail(result.f, std::max(1, static_cast<int>(per_posture)), std::max(1.0, below));
+  result.p_value = std::min(1.0, tail * postures);
+  return result;
 }
 
-OutlyingPosture judge(const std::vector<Posture>& postures, std::size_t at, const JointMask& unknown, double unknowns) {
-  const NormalEquations others = sumWithout(postures, at);
-  const Vector6d compliance = solveNormal(others, unknown);
-  const Matrix6d inverse = inverseNormal(others, unknown);
-  const CaseEquations& own = *postures[at].equations;
-  const Eigen::VectorXd deleted = own.right - own.matrix * compliance;
-  OutlyingPosture result;
-  result.posture = own.posture;
-  result.rms = std::sqrt(deleted.squaredNorm() / static_cast<double>(deleted.size()));
-  double sum = 0.0;
-  Eigen::Index rows = 0;
-  std::vector<Posture> rest;
+/// Residuals at the least squares solution of these equations.
+std::vector<Posture> fitAll(const std::vector<const CaseEquations*>& equations, const JointMask& unknown) {
+  NormalEquations sum;
+  for (const CaseEquations* one : equations) sum += normalEquations(*one);
+  const Vector6d compliance = solveNormal(sum, unknown);
+  std::vector<Posture> postures;
+  for (const CaseEquations* one : equations) postures.push_back({one, one->right - one->matrix * compliance});
+  return postures;
+}
+
+/// The one that disagrees most with the rest.
+OutlyingPosture worstOf(const std::vector<Posture>& postures, const JointMask& unknown, double unknowns, std::size_t& worst) {
+  const auto rows = postures.front().residual.size();
+  const bool common = std::all_of(postures.begin(), postures.end(),
+                                  [&](const Posture& one) { return one.residual.size() == rows; });
+  const Sums sums(postures, common);
+  OutlyingPosture most;
   for (std::size_t p = 0; p < postures.size(); ++p) {
-    if (p == at) continue;
-    rest.push_back(postures[p]);
-    sum += (postures[p].equations->right - postures[p].equations->matrix * compliance).squaredNorm();
-    rows += postures[p].equations->right.size();
+    const OutlyingPosture one = judge(sums, postures[p], unknown, unknowns, static_cast<double>(postures.size()));
+    if (one.p_value < most.p_value) most = one, worst = p;
   }
-  result.others = std::sqrt(sum / static_cast<double>(rows));
-  const double left = static_cast<double>(rows) - unknowns;
-  if (!(left > 0.0) || !(sum > 0.0)) return result;
-  const double per_posture = degreesOf(rest, compliance);
-  result.f = studentised(deleted, own, inverse) / static_cast<double>(deleted.size()) / (sum / left);
-  const double below = per_posture * left / static_cast<double>(deleted.size());
-  const double tail = fTail(result.f, std::max(1, static_cast<int>(per_posture)), std::max(1.0, below));
-  result.p_value = std::min(1.0, tail * static_cast<double>(postures.size()));
-  return result;
+  return most;
 }
 
 }  // namespace
 
 std::vector<OutlyingPosture> outlyingPostures(const std::vector<CaseEquations>& equations, const JointMask& unknown) {
   std::vector<OutlyingPosture> found;
-  std::vector<Posture> postures;
-  for (const CaseEquations& one : equations) postures.push_back({&one, normalEquations(one)});
+  std::vector<const CaseEquations*> postures;
+  for (const CaseEquations& one : equations) postures.push_back(&one);
   const auto unknowns = static_cast<double>(std::count(unknown.begin(), unknown.end(), true));
   if (unknowns == 0.0) return found;
   while (postures.size() >= kFewest && 2 * postures.size() > equations.size()) {
     std::size_t worst = 0;
-    OutlyingPosture most;
-    for (std::size_t p = 0; p < postures.size(); ++p) {
-      const OutlyingPosture one = judge(postures, p, unknown, unknowns);
-      if (one.p_value < most.p_value) most = one, worst = p;
-    }
+    const OutlyingPosture most = worstOf(fitAll(postures, unknown), unknown, unknowns, worst);
     if (most.p_value >= kLevel) break;
     found.push_back(most);
     postures.erase(postures.begin() + static_cast<std::ptrdiff_t>(worst));

@@ -11,20 +11,24 @@ namespace stiffscope {
 namespace {
 
 template <class Table>
-void drop(Table& table, const std::vector<OutlyingPosture>& postures) {
+void drop(Table& table, const std::vector<bool>& dropped) {
   if (!table) return;
-  std::erase_if(table->rows, [&](const auto& row) {
-    return std::any_of(postures.begin(), postures.end(), [&](const OutlyingPosture& one) { return one.posture == row.pose; });
-  });
+  std::erase_if(table->rows, [&](const auto& row) { return dropped[static_cast<std::size_t>(row.pose)]; });
 }
 
 }  // namespace
 
+void dropPostures(const std::vector<bool>& dropped, Campaign& campaign) {
+  drop(campaign.loading, dropped);
+  drop(campaign.states, dropped);
+  drop(campaign.displacements, dropped);
+}
+
 Campaign withoutPostures(const Campaign& campaign, const std::vector<OutlyingPosture>& postures) {
+  std::vector<bool> dropped(campaign.pose_ids.size(), false);
+  for (const OutlyingPosture& one : postures) dropped[static_cast<std::size_t>(one.posture)] = true;
   Campaign rest = campaign;
-  drop(rest.loading, postures);
-  drop(rest.states, postures);
-  drop(rest.displacements, postures);
+  dropPostures(dropped, rest);
   return rest;
 }
 

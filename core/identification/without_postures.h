@@ -8,6 +8,9 @@
 
 namespace stiffscope {
 
+/// Takes away the load states and readings of the postures marked, by pose; their ids keep their places.
+void dropPostures(const std::vector<bool>& dropped, Campaign& campaign);
+
 /// The campaign without the load states and readings of these postures; their ids keep their places.
 Campaign withoutPostures(const Campaign& campaign, const std::vector<OutlyingPosture>& postures);
 

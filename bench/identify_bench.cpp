@@ -1,0 +1,144 @@
+#include <benchmark/benchmark.h>
+
+#include <cmath>
+#include <kdl/chain.hpp>
+#include <kdl/chainjnttojacsolver.hpp>
+#include <map>
+#include <random>
+#include <stdexcept>
+
+#include "core/diagnosis/diagnose.h"
+#include "core/frames/frames.h"
+#include "core/identification/identify.h"
+#include "core/robot/kinematics.h"
+#include "core/simulation/read_spec.h"
+#include "core/simulation/simulate.h"
+
+// What is computed from a campaign, at 19, 190 and 1,900 postures of the sample's machine: frames, the three methods with
+// their uncertainties, all subsets, the diagnosis. Beside them KDL's Jacobian, whose numbers are checked against ours.
+
+namespace {
+
+using namespace stiffscope;
+
+SimulationSpec spec() { return readSimulationSpec(STIFFSCOPE_SOURCE_DIR "/samples/active.xml"); }
+
+const Campaign& campaign(int postures) {
+  static std::map<int, Campaign> made;
+  const auto found = made.find(postures);
+  if (found != made.end()) return found->second;
+  SimulationSpec one = spec();
+  one.posture_draw->count = postures;
+  return made.emplace(postures, simulate(one)).first->second;
+}
+
+void sizes(benchmark::internal::Benchmark* one) { one->Arg(19)->Arg(190)->Arg(1900)->Unit(benchmark::kMillisecond); }
+
+void Frames(benchmark::State& state) {
+  const Campaign& read = campaign(static_cast<int>(state.range(0)));
+  for (auto _ : state) benchmark::DoNotOptimize(settledFrames(read));
+}
+BENCHMARK(Frames)->Apply(sizes);
+
+/// Complete, Partial and Decoupled Partial Pose with uncertainties, and one subset in place of all.
+void ThreeMethods(benchmark::State& state) {
+  const Campaign& read = campaign(static_cast<int>(state.range(0)));
+  IdentifyOptions options;
+  options.subsets.most_all = 0;
+  options.subsets.sample = 1;
+  for (auto _ : state) benchmark::DoNotOptimize(identify(read, options));
+}
+BENCHMARK(ThreeMethods)->Apply(sizes);
+
+/// All subsets of half of 10, 14 and 18 postures: 252, 3,432 and 48,620.
+void AllSubsets(benchmark::State& state) {
+  const int n = static_cast<int>(state.range(0));
+  std::mt19937_64 random(1);
+  std::normal_distribution<double> normal;
+  SubsetMethod method;
+  method.unknown.fill(true);
+  for (int p = 0; p < n; ++p) {
+    CaseEquations one{Eigen::MatrixXd::NullaryExpr(9, 6, [&] { return normal(random); }),
+                      Eigen::VectorXd::NullaryExpr(9, [&] { return normal(random); }), p};
+    method.normal.push_back(normalEquations(one));
+  }
+  SubsetOptions options;
+  options.size = n / 2;
+  for (auto _ : state) benchmark::DoNotOptimize(studySubsets(method, options));
+  state.counters["per_subset"] =
+      benchmark::Counter(static_cast<double>(subsetCount(n, n / 2)),
+                         benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+}
+BENCHMARK(AllSubsets)->Arg(10)->Arg(14)->Arg(18)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime();
+
+void Diagnosis(benchmark::State& state) {
+  const Campaign& read = campaign(static_cast<int>(state.range(0)));
+  for (auto _ : state) benchmark::DoNotOptimize(diagnose(read));
+}
+BENCHMARK(Diagnosis)->Apply(sizes)->MeasureProcessCPUTime()->Iterations(1);
+
+std::vector<Vector6d> drawnPostures(std::int64_t count) {
+  std::mt19937_64 random(2);
+  std::uniform_real_distribution<double> angle(-2.0, 2.0);
+  std::vector<Vector6d> postures;
+  for (std::int64_t i = 0; i < count; ++i) postures.push_back(Vector6d::NullaryExpr([&] { return angle(random); }));
+  return postures;
+}
+
+Matrix6d ownJacobian(const Robot& robot, const Vector6d& q) {
+  const ArmPosture posture = postureAt(robot, q);
+  return jacobianAt(robot, posture, flangeAt(robot, posture).translation());
+}
+
+/// The same arm for KDL: a joint about each axis where it stands at zero, the flange behind the last.
+KDL::Chain kdlChain(const Robot& robot) {
+  KDL::Chain chain;
+  for (std::size_t i = 0; i < 6; ++i) {
+    const Line& axis = robot.axes_in_base_at_zero[i];
+    const KDL::Vector point(axis.point.x(), axis.point.y(), axis.point.z());
+    const KDL::Vector direction(axis.direction.x(), axis.direction.y(), axis.direction.z());
+    const Eigen::Vector3d flange = robot.base_from_flange_at_zero.translation();
+    const KDL::Vector tip = i == 5 ? KDL::Vector(flange.x(), flange.y(), flange.z()) : KDL::Vector::Zero();
+    chain.addSegment(KDL::Segment(KDL::Joint("joint", point, direction, KDL::Joint::RotAxis), KDL::Frame(tip)));
+  }
+  return chain;
+}
+
+void Jacobian(benchmark::State& state) {
+  const Robot robot = spec().nominal;
+  const auto postures = drawnPostures(state.range(0));
+  for (auto _ : state) {
+    for (const Vector6d& q : postures) benchmark::DoNotOptimize(ownJacobian(robot, q));
+  }
+}
+BENCHMARK(Jacobian)->Arg(100)->Arg(1000)->Arg(10000)->Unit(benchmark::kMicrosecond);
+
+void JacobianByKdl(benchmark::State& state) {
+  const Robot robot = spec().nominal;
+  const auto postures = drawnPostures(state.range(0));
+  KDL::Chain chain = kdlChain(robot);
+  KDL::ChainJntToJacSolver solver(chain);
+  KDL::JntArray angles(6);
+  KDL::Jacobian jacobian(6);
+  double apart = 0.0;
+  for (const Vector6d& q : postures) {
+    angles.data = q;
+    solver.JntToJac(angles, jacobian);
+    apart = std::max(apart, (jacobian.data - ownJacobian(robot, q)).cwiseAbs().maxCoeff());
+  }
+  // Metres and pure numbers of size one to three: a hundred roundings.
+  if (!(apart < 1e-12)) state.SkipWithError("KDL and stiffscope disagree");
+  for (auto _ : state) {
+    for (const Vector6d& q : postures) {
+      angles.data = q;
+      solver.JntToJac(angles, jacobian);
+      benchmark::DoNotOptimize(jacobian.data.data());
+    }
+  }
+  state.counters["largest_difference"] = apart;
+}
+BENCHMARK(JacobianByKdl)->Arg(100)->Arg(1000)->Arg(10000)->Unit(benchmark::kMicrosecond);
+
+}  // namespace
+
+BENCHMARK_MAIN();
