@@ -42,6 +42,9 @@ using PostureStates = std::vector<ArmState>;
 /// joints turned by `joint_offset` (rad) besides.
 ArmState stateAt(const LoadingGeometry& geometry, const Vector6d& q, const Vector6d& joint_offset);
 
+/// The same from `state.posture`, wherever that came from: fills axes, flange and own weight.
+void placeByPosture(const LoadingGeometry& geometry, ArmState& state);
+
 /// What body `body` carries beyond its inner joint, about `about`: own weight from that body outwards, plus
 /// the load.
 Wrench carried(const ArmState& state, int body, const Eigen::Vector3d& about);

@@ -168,9 +168,9 @@ class MethodJudge {
       Eigen::VectorXd parameters = model_.effects.parameters();
       for (std::size_t i = 0; i < model_.effects.free.size(); ++i)
         parameters[model_.effects.free[i]] += columns(static_cast<Eigen::Index>(i), k);
-      moved.push_back(rowsAt(measured, parameters, TakenOff::everything));
+      moved.push_back(rowsAt(measured, parameters, TakenOff::loads));
     }
-    return {rowsAt(measured, model_.effects.parameters(), TakenOff::everything), std::move(moved)};
+    return {rowsAt(measured, model_.effects.parameters(), TakenOff::loads), std::move(moved)};
   }
 
   MethodRows trueRows(const Campaign& measured) const {
