@@ -20,6 +20,8 @@ namespace stiffscope {
 namespace {
 
 const InputPlace kOption{"--with"};
+const char* const kNotTold =
+    "these postures and loads cannot tell it from stiffnesses and geometry, or only with sizes that no machine has";
 
 std::vector<EffectModel> modelsOf(const std::vector<WantedEffect>& wanted, const Campaign& campaign) {
   std::vector<EffectModel> models = effectModels(campaign);
@@ -52,6 +54,35 @@ std::vector<ChosenModel> asAsked(const WantedEffect& wanted, const std::vector<E
     if (!choice.parts.empty()) choices.push_back(choice);
   }
   return choices;
+}
+
+/// The one way to fit what was asked for, where there is only one.
+std::optional<std::vector<ChosenModel>> withoutChoice(const std::vector<WantedEffect>& wanted,
+                                                      const std::vector<EffectModel>& models) {
+  std::vector<ChosenModel> chosen;
+  for (const WantedEffect& one : wanted) {
+    std::vector<ChosenModel> choices = asAsked(one, models);
+    for (std::size_t m = 0; choices.empty() && m < models.size(); ++m) {
+      if (models[m].effect == one.effect && models[m].parts.size() > 1) return std::nullopt;
+    }
+    for (std::size_t m = 0; one.parts.empty() && m < models.size(); ++m) {
+      if (models[m].effect == one.effect) choices.push_back({m, {0}});
+    }
+    if (choices.size() != 1) return std::nullopt;
+    chosen.push_back(choices.front());
+  }
+  return chosen;
+}
+
+/// An effect of which stiffnesses and geometry leave nothing in these postures has no size.
+void requireSeen(const GapFit& fit, const GapInput& input) {
+  for (const ChosenModel& one : fit.set.models) {
+    const Eigen::Index first = fit.data.layout.model_at[one.model] - fit.data.layout.effects;
+    bool seen = false;
+    for (Eigen::Index i = first; i < first + static_cast<Eigen::Index>(input.models[one.model].parameters()); ++i)
+      seen = seen || fit.projection.matrix(i, i) > fit.rules.kept_share * fit.projection.before[i];
+    if (!seen) throw InputError(kOption, std::string(idOf(input.models[one.model].effect)), kNotTold);
+  }
 }
 
 class Chooser {
@@ -91,9 +122,7 @@ class Chooser {
   ChosenModel bestOf(const std::vector<ChosenModel>& choices, const WantedEffect& wanted,
                      const std::vector<ChosenModel>& others) const {
     if (choices.empty())
-      throw InputError(kOption, std::string(idOf(wanted.effect)),
-                       "these postures and loads cannot tell it from stiffnesses and geometry, or only with sizes that "
-                       "no machine has");
+      throw InputError(kOption, std::string(idOf(wanted.effect)), kNotTold);
     std::vector<double> scores;
     for (const ChosenModel& choice : choices) {
       std::vector<ChosenModel> all = others;
@@ -108,7 +137,11 @@ class Chooser {
   Selector selector_;
 };
 
-/// Rows and columns of the joint normal matrix: all nuisances, then the free effect parameters.
+/// How well an effect's equation describes a machine that has it: sizes of single effects came back within one per cent from
+/// the simulator, which solves the loaded equilibrium of another mechanism with finite rotations.
+constexpr double kModelShare = 0.01;
+
+/// Of the joint fit with all nuisances, and of the equations themselves.
 Eigen::MatrixXd covarianceOfFree(const EffectFit& effects) {
   const GapLayout& layout = effects.fit.data.layout;
   const std::vector<double> ones(effects.fit.data.postures.size(), 1.0);
@@ -119,7 +152,20 @@ Eigen::MatrixXd covarianceOfFree(const EffectFit& effects) {
   matrix = scale.asDiagonal() * matrix * scale.asDiagonal();
   matrix.diagonal().setConstant(1.0 + 1e-12);
   const Eigen::MatrixXd inverse = matrix.ldlt().solve(Eigen::MatrixXd::Identity(matrix.rows(), matrix.cols()));
-  return std::max(1.0, leftPerEquation(effects.fit)) * (scale.asDiagonal() * inverse * scale.asDiagonal());
+  Eigen::MatrixXd covariance =
+      std::max(1.0, leftPerEquation(effects.fit)) * (scale.asDiagonal() * inverse * scale.asDiagonal());
+  for (const ChosenModel& one : effects.fit.set.models) {
+    const EffectModel& model = effects.input->models[one.model];
+    if (natureOf(model.effect) != EffectNature::machine) continue;
+    const Eigen::Index first = layout.model_at[one.model] - layout.effects;
+    const Eigen::Index end = first + static_cast<Eigen::Index>(model.parameters());
+    for (std::size_t i = 0; i < effects.free.size(); ++i) {
+      if (effects.free[i] < first || effects.free[i] >= end) continue;
+      const double size = kModelShare * effects.parameters()[effects.free[i]];
+      covariance(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(i)) += size * size;
+    }
+  }
+  return covariance;
 }
 
 Eigen::VectorXd stacked(const Eigen::VectorXd& nuisances, const Eigen::VectorXd& own) {
@@ -191,8 +237,10 @@ void fitBeyondLinear(const std::vector<bool>& allowed, const FitRules& rules, Ef
   options.offsets = [](const PostureOffsets& posture, int target, const Eigen::Vector3d& place) {
     return posture.beyondLinear(target, place);
   };
-  constexpr int kRounds = 2;
+  constexpr int kRounds = 3;
+  constexpr double kSettled = 1e-3;  // of the parameters
   for (int round = 0; round < kRounds; ++round) {
+    const Eigen::VectorXd before = effects.parameters();
     auto start = std::make_unique<GapStart>(*effects.start);
     start->campaign = measured;
     shiftReadings(effects, effects.parameters(), options, start->campaign);
@@ -202,6 +250,8 @@ void fitBeyondLinear(const std::vector<bool>& allowed, const FitRules& rules, Ef
     effects.fit = fitGap(*input, start->state, allowed, rules);
     effects.start = std::move(start);
     effects.input = std::move(input);
+    const Eigen::ArrayXd change = (effects.parameters() - before).array().abs();
+    if ((change <= kSettled * before.array().abs()).all()) break;
   }
 }
 
@@ -231,9 +281,13 @@ EffectFit fitEffects(const Campaign& campaign, const WantedEffects& asked) {
   const std::vector<bool> allowed(input->models.size(), true);
   FitRules rules;
   rules.noise_degrees = start->noise.degrees;
-  const GapFit free = fitGap(*input, start->state, allowed, rules);
-  rules.fixed = Chooser(*input, free, allowed).run(wanted);
+  rules.fixed = withoutChoice(wanted, input->models);
+  if (!rules.fixed) {
+    const GapFit free = fitGap(*input, start->state, allowed, rules);
+    rules.fixed = Chooser(*input, free, allowed).run(wanted);
+  }
   effects.fit = fitGap(*input, start->state, allowed, rules);
+  requireSeen(effects.fit, *input);
   effects.start = std::move(start);
   effects.input = std::move(input);
   fitBeyondLinear(allowed, rules, effects);

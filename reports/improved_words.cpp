@@ -1,0 +1,40 @@
+#include "reports/improved_words.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "core/input/units.h"
+
+namespace stiffscope {
+
+std::string addedNames(const EffectFit& effects) {
+  if (effects.added.empty()) return "nothing";
+  std::vector<std::string> names;
+  for (const AddedEffect& one : effects.added) {
+    names.push_back(one.detail.empty() ? std::string(idOf(one.effect)) : fmt::format("{} ({})", idOf(one.effect), one.detail));
+  }
+  return fmt::format("{}", fmt::join(names, " and "));
+}
+
+std::string explainedWords(const EffectFit& effects) {
+  const Gap& gap = effects.gap;
+  const Shrink& shrink = effects.shrink;
+  return fmt::format(
+      "Stiffnesses alone leave {:.1f} um rms per coordinate of the deflection in all load steps, {} {:.1f} um; noise alone "
+      "{:.1f} um. On postures held out the rms shrinks by {:.0f} % ({:.0f} to {:.0f} %), and {:.0f} % of what is above the noise "
+      "is explained.",
+      gap.before / kMicrometre, addedNames(effects), gap.after / kMicrometre, gap.noise / kMicrometre, 100.0 * shrink.value,
+      100.0 * shrink.low, 100.0 * shrink.high, 100.0 * effects.explained);
+}
+
+std::string doubtOf(const AddedEffect& effect) {
+  if (!effect.plausible) return "its size is beyond what a machine can have: do not believe it";
+  constexpr double kStandsOut = 20.0;  // of BIC, the diagnosis's own limit
+  if (effect.score < kStandsOut)
+    return fmt::format("it does not stand out of the noise here (a fall of BIC of {:.1f}, {:.0f} would count): it was added "
+                       "because it was asked for",
+                       effect.score, kStandsOut);
+  return {};
+}
+
+}  // namespace stiffscope
