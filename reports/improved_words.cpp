@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "core/identification/best_method.h"
 #include "core/input/units.h"
+#include "reports/method_names.h"
 
 namespace stiffscope {
 
@@ -23,8 +25,30 @@ std::string explainedWords(const EffectFit& effects) {
       "Stiffnesses alone leave {:.1f} um rms per coordinate of the deflection in all load steps, {} {:.1f} um; noise alone "
       "{:.1f} um. On postures held out the rms shrinks by {:.0f} % ({:.0f} to {:.0f} %), and {:.0f} % of what is above the noise "
       "is explained.",
-      gap.before / kMicrometre, addedNames(effects), gap.after / kMicrometre, gap.noise / kMicrometre, 100.0 * shrink.value,
+      gap.before / kMicrometre, "with the effects", gap.after / kMicrometre, gap.noise / kMicrometre, 100.0 * shrink.value,
       100.0 * shrink.low, 100.0 * shrink.high, 100.0 * effects.explained);
+}
+
+std::string gainWords(const ImprovedModel& model) {
+  if (model.effects.added.empty()) {
+    std::string words = "No effect was added to the joint springs.";
+    for (const std::string& note : model.effects.notes) words += " Note: " + note + ".";
+    return words;
+  }
+  const Method which = bestMethod(model.with);
+  const MethodResult &without = model.without.of(which), &with = model.with.of(which);
+  if (!without.available || !with.available)
+    return fmt::format("With {} in the model no method can be compared.", addedNames(model.effects));
+  const auto share = [](const MethodResult& method) {
+    return 100.0 * (method.subsets.compliances.empty() ? method.at_targets->all_postures
+                                                       : method.at_targets->subsets.held_out);
+  };
+  return fmt::format(
+      "With {} in the model {} leaves {:.0f} um rms per coordinate instead of {:.0f} um, and compensates {:.1f} % instead of "
+      "{:.1f} % of the reflectors' deflection{}.",
+      addedNames(model.effects), namesOf(which).brief, with.estimate.rms_residual / kMicrometre,
+      without.estimate.rms_residual / kMicrometre, share(with), share(without),
+      with.subsets.compliances.empty() ? "" : " in postures held out");
 }
 
 std::string doubtOf(const AddedEffect& effect) {

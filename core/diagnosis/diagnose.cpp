@@ -63,7 +63,7 @@ class Diagnoser {
                start_.noise.noise,
                campaign.load_cell->force_sigma,
                campaign.load_cell->moment_sigma,
-               effectModels(campaign),
+               effectModelsOf(campaign),
                start_.absolute,
                start_.sweeps} {}
 

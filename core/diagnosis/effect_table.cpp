@@ -48,7 +48,7 @@ std::vector<EffectModel> effectModels(const std::vector<std::string>& targets) {
   };
 }
 
-std::vector<EffectModel> effectModels(const Campaign& campaign) {
+std::vector<EffectModel> effectModelsOf(const Campaign& campaign) {
   std::vector<std::string> targets;
   for (const Target& target : campaign.targets) targets.push_back(target.id);
   return effectModels(targets);

@@ -14,6 +14,6 @@ namespace stiffscope {
 std::vector<EffectModel> effectModels(const std::vector<std::string>& targets);
 
 /// The same with the campaign's reflectors.
-std::vector<EffectModel> effectModels(const Campaign& campaign);
+std::vector<EffectModel> effectModelsOf(const Campaign& campaign);
 
 }  // namespace stiffscope

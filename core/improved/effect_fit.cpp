@@ -24,7 +24,7 @@ const char* const kNotTold =
     "these postures and loads cannot tell it from stiffnesses and geometry, or only with sizes that no machine has";
 
 std::vector<EffectModel> modelsOf(const std::vector<WantedEffect>& wanted, const Campaign& campaign) {
-  std::vector<EffectModel> models = effectModels(campaign);
+  std::vector<EffectModel> models = effectModelsOf(campaign);
   std::erase_if(models, [&](const EffectModel& model) {
     return std::none_of(wanted.begin(), wanted.end(),
                         [&](const WantedEffect& one) { return one.effect == model.effect; });

@@ -27,7 +27,7 @@ Effect effectNamed(const std::string& id, const std::string& word) {
 
 std::vector<std::string> partsOf(Effect effect, const Campaign& campaign) {
   std::vector<std::string> names;
-  for (const EffectModel& model : effectModels(campaign)) {
+  for (const EffectModel& model : effectModelsOf(campaign)) {
     if (model.effect != effect) continue;
     for (const EffectPart& part : model.parts) {
       if (!part.detail.empty() && std::find(names.begin(), names.end(), part.detail) == names.end())

@@ -35,6 +35,9 @@ void writeContents(page::Html& html, const ReportContent& content) {
   entry("stiffness", "Stiffness");
   entry("subsets", "Spread");
   entry("compensation", "Compensation");
+  const bool improved = std::any_of(content.campaigns.begin(), content.campaigns.end(),
+                                    [](const ReportCampaign& one) { return one.improved != nullptr; });
+  if (improved) entry("effects", "Effects in the model");
   const bool diagnosed = std::any_of(content.campaigns.begin(), content.campaigns.end(),
                                      [](const ReportCampaign& one) { return one.diagnosis != nullptr; });
   if (diagnosed) entry("gap", "What the model misses");
@@ -70,6 +73,7 @@ ReportPage makeReportPage(const ReportContent& content) {
     page::writeStiffness(html, content);
     page::writeSubsets(html, content);
     page::writeCompensation(html, content);
+    page::writeImproved(html, content);
     page::writeGap(html, content);
     page::writeFigures(html, content);
     page::writeAudit(html, content);

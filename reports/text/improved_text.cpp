@@ -46,7 +46,7 @@ std::string heldOut(const MethodResult& method, const std::optional<Compensation
   return fmt::format("{:.2f}", 100.0 * (method.subsets.compliances.empty() ? share->all_postures : share->subsets.held_out));
 }
 
-/// Half of its half width that the effects make: sd by effects alone over the whole.
+/// The standard uncertainty that the effects alone make.
 std::string byEffects(const StiffnessEstimate& estimate, int joint) {
   if (!estimate.identifiable[static_cast<std::size_t>(joint)]) return "-";
   return fmt::format("{:.4f}", std::sqrt(estimate.parts.effects(joint, joint)) /
@@ -54,7 +54,7 @@ std::string byEffects(const StiffnessEstimate& estimate, int joint) {
 }
 
 void writeStiffnesses(const ImprovedModel& model, const std::vector<Method>& methods, Out out) {
-  fmt::format_to(out, "\nStiffness without and with, 1e6 Nm/rad, with its expanded uncertainty U; of it by the effects alone (standard)\n  {:<14}", "");
+  fmt::format_to(out, "\nStiffness without and with, 1e6 Nm/rad, with its expanded uncertainty U; by effects: their part of the\n  standard uncertainty\n  {:<14}", "");
   for (int joint = 1; joint <= 6; ++joint) fmt::format_to(out, " {:>17}", fmt::format("k{}", joint));
   fmt::format_to(out, "\n");
   for (const Method which : methods) {
