@@ -22,8 +22,8 @@ std::string explainedWords(const EffectFit& effects) {
   const Gap& gap = effects.gap;
   const Shrink& shrink = effects.shrink;
   return fmt::format(
-      "Stiffnesses alone leave {:.1f} um rms per coordinate of the deflection in all load steps, {} {:.1f} um; noise alone "
-      "{:.1f} um. On postures held out the rms shrinks by {:.0f} % ({:.0f} to {:.0f} %), and {:.0f} % of what is above the noise "
+      "Stiffnesses alone leave {:.1f} µm rms per coordinate of the deflection in all load steps, {} {:.1f} µm; noise alone "
+      "{:.1f} µm. On postures held out the rms shrinks by {:.0f} % ({:.0f} to {:.0f} %), and {:.0f} % of what is above the noise "
       "is explained.",
       gap.before / kMicrometre, "with the effects", gap.after / kMicrometre, gap.noise / kMicrometre, 100.0 * shrink.value,
       100.0 * shrink.low, 100.0 * shrink.high, 100.0 * effects.explained);
@@ -44,7 +44,7 @@ std::string gainWords(const ImprovedModel& model) {
                                                        : method.at_targets->subsets.held_out);
   };
   return fmt::format(
-      "With {} in the model {} leaves {:.0f} um rms per coordinate instead of {:.0f} um, and compensates {:.1f} % instead of "
+      "With {} in the model {} leaves {:.0f} µm rms per coordinate instead of {:.0f} µm, and compensates {:.1f} % instead of "
       "{:.1f} % of the reflectors' deflection{}.",
       addedNames(model.effects), namesOf(which).brief, with.estimate.rms_residual / kMicrometre,
       without.estimate.rms_residual / kMicrometre, share(with), share(without),

@@ -12,7 +12,7 @@ std::string addedNames(const EffectFit& effects);
 /// What the effects explain of the gap, in a sentence.
 std::string explainedWords(const EffectFit& effects);
 
-/// "With bearing_tilt (joint 3) in the model DPP leaves 9 um rms at the reflectors instead of 42 um, and compensates ..."; by
+/// "With bearing_tilt (joint 3) in the model DPP leaves 9 µm rms instead of 42 µm, and compensates ..."; by
 /// the method that stands for the campaign. Where nothing was added, that and why.
 std::string gainWords(const ImprovedModel& model);
 

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "core/input/input_error.h"
 
 namespace stiffscope {
@@ -27,6 +29,13 @@ void moveLoadPoint(const Eigen::Vector3d& by, Campaign& campaign) {
   }
   cell.parent_from_cell.pretranslate(parent->base_from_link_at_zero.linear().transpose() *
                                      campaign.robot.base_from_flange_at_zero.linear() * by);
+}
+
+/// The rotation whose first order I + [w]x the fit has: it keeps lengths, so its angle is atan |w|.
+Eigen::Matrix3d turnOf(const Eigen::Vector3d& w) {
+  const double size = w.norm();
+  if (size == 0.0) return Eigen::Matrix3d::Identity();
+  return Eigen::AngleAxisd(std::atan(size), w / size).toRotationMatrix();
 }
 
 /// The state of a row under load; null where the fit does not have it.
@@ -58,9 +67,9 @@ void correctWrenches(const EffectFit& effects, const Eigen::VectorXd& parameters
       auto force = row.wrench_in_cell.head<3>();
       auto moment = row.wrench_in_cell.tail<3>();
       if (turned) {
-        const Eigen::Vector3d angle = own.head<3>();
-        force += angle.cross(Eigen::Vector3d(force));
-        moment += angle.cross(Eigen::Vector3d(moment));
+        const Eigen::Matrix3d turn = turnOf(own.head<3>());
+        force = turn * Eigen::Vector3d(force);
+        moment = turn * Eigen::Vector3d(moment);
       } else if (state->loaded) {
         if (own.size() == 3) force += own;
         if (own.size() == 1) force -= own[0] * (state->cell_axes.transpose() * up);

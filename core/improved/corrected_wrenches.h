@@ -4,8 +4,8 @@
 
 namespace stiffscope {
 
-/// Corrects the load cell's declared point by load_point_error, and the readings in `states` by misalignment (to first
-/// order in its angle, as the fit has it) and bias. Throws InputError where the point does not move with the flange.
+/// Corrects the load cell's declared point by load_point_error, and the readings in `states` by misalignment (a
+/// finite rotation) and bias. Throws InputError where the point does not move with the flange.
 void correctWrenches(const EffectFit& effects, const Eigen::VectorXd& parameters, Campaign& campaign);
 
 }  // namespace stiffscope

@@ -22,8 +22,8 @@ Table parametersTable(const EffectFit& effects) {
   for (const AddedEffect& one : effects.added) {
     RowGroup group{std::string(idOf(one.effect)), {}};
     for (const EffectParameter& parameter : one.parameters) {
-      group.rows.push_back({asIs(parameter.name.empty() ? "size" : parameter.name), significant(parameter.value, 4),
-                            significant(parameter.sd, 2), parameter.unit});
+      group.rows.push_back({asIs(parameter.name.empty() ? "size" : parameter.name), fmt::format("{:.4g}", parameter.value),
+                            fmt::format("{:.2g}", parameter.sd), parameter.unit});
     }
     table.groups.push_back(std::move(group));
   }
@@ -91,7 +91,7 @@ void writeModel(Html& html, const ImprovedModel& model) {
   writeTable(html, stiffnessTable(model));
   writeTable(html, residualTable(model));
   html.paragraph(
-      "Every other number and picture of this page is of the model with the effects: what they do is taken off the readings, "
+      "Every other number and picture of this page, the diagnosis aside, is of the model with the effects: what they do is taken off the readings, "
       "and stiffnesses are those of the joint springs beside them. Their own uncertainty is in every ±. Shares are of the "
       "machine's deflection, effects of the machine in it; the effects were fitted anew on the postures of every subset.",
       "faint");

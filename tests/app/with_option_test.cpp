@@ -86,7 +86,7 @@ TEST(WithOption, TheReportIsOfTheImprovedModel) {
             identify["methods"]["dpp"]["stiffness_nm_per_rad"]);
   const std::string page = contentsOf(out + "/report.html");
   EXPECT_NE(page.find("id=\"effects\""), std::string::npos);
-  EXPECT_NE(page.find("in the model DPP leaves"), std::string::npos);
+  EXPECT_NE(page.find("in the model DPP leaves 9 µm rms"), std::string::npos);
 }
 
 }  // namespace

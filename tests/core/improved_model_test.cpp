@@ -52,6 +52,12 @@ Missed missedBy(const MethodResult& method, const SimulationSpec& spec) {
 
 void tiltJoint3(SimulationSpec& spec) { spec.machine.joints[2].bearing = 4e6; }
 
+/// P12 moves along the pull by 0.45 mm under 1.5 kN: as if the arm gave more.
+void softNest(SimulationSpec& spec) {
+  spec.targets[2].motion =
+      simulation::TargetMotion{simulation::TargetMotion::Kind::compliant, Eigen::Vector3d::Zero(), 1.0, 3e-7};
+}
+
 class HiddenEffect : public testing::TestWithParam<Hidden> {};
 
 TEST_P(HiddenEffect, TrueStiffnessesComeBackWithItAndNotWithoutIt) {
@@ -87,15 +93,10 @@ INSTANTIATE_TEST_SUITE_P(
         Hidden{"LoadPoint", "load_point_error",
                [](SimulationSpec& spec) { spec.load_cell->place_error = {0.03, -0.02, 0.04}; },
                {0.03, -0.02, 0.04}},
-        Hidden{"CellBias", "load_cell_bias",
-               [](SimulationSpec& spec) { spec.load_cell->bias << 60.0, -40.0, 120.0, 0.0, 0.0, 0.0; },
-               {-60.0, 40.0, -120.0}},
-        Hidden{"ReflectorMoves", "target_motion:P12",
-               [](SimulationSpec& spec) {
-                 spec.targets[2].motion = simulation::TargetMotion{
-                     simulation::TargetMotion::Kind::proportional, {3e-4, 6e-4, 0.0}, 1000.0, 0.0};
-               },
-               {}}),
+        Hidden{"CellTurned", "load_cell_misalignment",
+               [](SimulationSpec& spec) { spec.load_cell->misalignment = {0.05, -0.08, 0.03}; },
+               {0.05, -0.08, 0.03}},
+        Hidden{"ReflectorMoves", "target_motion:P12", &softNest, {}}),
     [](const testing::TestParamInfo<Hidden>& info) { return info.param.name; });
 
 TEST(ImprovedModel, StatedIntervalsHoldTheTruth) {
@@ -170,18 +171,19 @@ TEST(ImprovedModel, CommandsWithAnEffectOfTheMachineLeaveLessOfTheTrueDeflection
 
 TEST(ImprovedModel, AFaultOfTheMeasurementIsNoPartOfADeflection) {
   SimulationSpec spec = springsAlone(3);
-  spec.targets[2].motion = simulation::TargetMotion{
-      simulation::TargetMotion::Kind::proportional, {3e-4, 6e-4, 0.0}, 1000.0, 0.0};
-  const ImprovedModel model = improvedDay(spec, {"target_motion:P12"});
+  softNest(spec);
+  const ImprovedModel model = improvedDay(spec, {"target_motion:P12"}, 2);
   EXPECT_FALSE(givesFurther(model.effects));
-  // The displacements that shares are of: those of reflectors that sit still in their nests.
+  // The displacements that shares are of: those of reflectors that sit still in their nests, read on the same day.
   spec.targets[2].motion.reset();
   const Identification still = identify(simulate(spec), fewSubsets(2));
+  double added = 0.0;
   for (std::size_t i = 0; i < still.target_displacement.size(); ++i) {
-    // Six standard deviations of noise, which differs between the two days by the sum of both.
-    EXPECT_NEAR(model.with.target_displacement[i], still.target_displacement[i], 40e-6);
-    EXPECT_GT(model.without.target_displacement[i], still.target_displacement[i] + 100e-6);
+    // The same noise; 4 um are 1 % of what one of three reflectors moved, mean 150 um, its parameters known to half of that.
+    EXPECT_NEAR(model.with.target_displacement[i], still.target_displacement[i], 4e-6);
+    added += model.without.target_displacement[i] - still.target_displacement[i];
   }
+  EXPECT_GT(added / static_cast<double>(still.target_displacement.size()), 50e-6);
 }
 
 TEST(ImprovedModel, WithoutEffectsNothingChanges) {
