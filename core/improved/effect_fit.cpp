@@ -92,28 +92,33 @@ class Chooser {
         fit_(fit),
         selector_(selectorOf(input, fit, fit.projection, static_cast<double>(fit.data.postures.size()), allowed)) {}
 
-  /// What the free selection took, with every effect that was asked for and did not make it put in.
+  /// What was asked for by its parts, what the free selection took of the rest, and then, put in beside these, what that did
+  /// not make.
   std::vector<ChosenModel> run(const std::vector<WantedEffect>& wanted) const {
     std::vector<ChosenModel> chosen;
+    std::vector<WantedEffect> missing;
     for (const WantedEffect& one : wanted) {
       const auto choices = asAsked(one, models_);
-      if (!choices.empty()) {
-        chosen.push_back(bestOf(choices, one, chosen));
-        continue;
-      }
       const auto& found = fit_.set.models;
       const auto own = std::find_if(found.begin(), found.end(),
                                     [&](const ChosenModel& m) { return models_[m.model].effect == one.effect; });
-      chosen.push_back(own != found.end() ? *own : bestOf(singles(one), one, chosen));
+      if (!choices.empty()) {
+        chosen.push_back(bestOf(choices, one, chosen));
+      } else if (own != found.end()) {
+        chosen.push_back(*own);
+      } else {
+        missing.push_back(one);
+      }
     }
+    for (const WantedEffect& one : missing) chosen.push_back(bestOf(beside(chosen, one), one, chosen));
     return chosen;
   }
 
  private:
-  /// The effect alone, its parts chosen greedily, by each of its equations.
-  std::vector<ChosenModel> singles(const WantedEffect& wanted) const {
+  /// The effect beside the others, its parts chosen greedily, by each of its equations.
+  std::vector<ChosenModel> beside(const std::vector<ChosenModel>& others, const WantedEffect& wanted) const {
     std::vector<ChosenModel> choices;
-    for (const FittedSet& set : selector_.ranked(selector_.nothing())) {
+    for (const FittedSet& set : selector_.ranked(selector_.fit(others))) {
       if (models_[set.models.back().model].effect == wanted.effect) choices.push_back(set.models.back());
     }
     return choices;
@@ -176,15 +181,18 @@ Eigen::VectorXd stacked(const Eigen::VectorXd& nuisances, const Eigen::VectorXd&
 
 Gap gapOf(const EffectFit& effects) {
   const GapFit& fit = effects.fit;
-  const StiffnessesAlone before =
-      stiffnessesAlone(fit.data, std::vector<double>(fit.data.postures.size(), 1.0), fit.projection);
   const Eigen::VectorXd after = stacked(fit.nuisances, fit.set.effects);
+  // Stiffnesses alone have the wrenches as declared, no effect corrects them.
+  const GapData declared = gapData(*effects.input, effects.start->state, {});
+  const std::vector<double> ones(declared.postures.size(), 1.0);
+  const StiffnessesAlone before =
+      stiffnessesAlone(declared, ones, project(sumOf(declared, ones), declared.layout.effects));
   Gap sum;
   double count = 0.0;
+  for (const GapPosture& posture : declared.postures) sum.before += leftIn(posture, before, after).deflection_before;
   for (const GapPosture& posture : fit.data.postures) {
-    const HeldOut left = leftIn(posture, before, after);
     const Eigen::Index rows = posture.right.size() - posture.position_rows;
-    sum.before += left.deflection_before, sum.after += left.deflection_after;
+    sum.after += leftIn(posture, before, after).deflection_after;
     sum.noise += noiseSquares(posture);
     sum.deflection += posture.right.tail(rows).squaredNorm();
     count += static_cast<double>(rows);
@@ -225,13 +233,15 @@ void describe(EffectFit& effects, const std::vector<bool>& allowed) {
 }
 
 /// The fit's equations are linear in the effects. What the machine does beyond that (a bearing that tilts under the own
-/// weight turns the axes beyond it) is taken off the readings at the sizes found so far, and all is fitted again: two
-/// rounds leave a thousandth of it.
+/// weight turns the axes beyond it) is taken off the readings at the sizes found so far, and all is fitted again, until the
+/// sizes stay within a thousandth.
 void fitBeyondLinear(const std::vector<bool>& allowed, const FitRules& rules, EffectFit& effects) {
   const auto& models = effects.input->models;
   if (std::none_of(models.begin(), models.end(),
                    [](const EffectModel& one) { return natureOf(one.effect) == EffectNature::machine; }))
     return;
+  // A gap that no effect explains is larger than what the equations lack.
+  if (effects.fit.model_error > 0.0) return;
   const Campaign measured = effects.start->campaign;
   ShiftOptions options;
   options.offsets = [](const PostureOffsets& posture, int target, const Eigen::Vector3d& place) {

@@ -67,11 +67,12 @@ TEST(WithOption, BadNamesAreRefusedInOneLine) {
 
 TEST(WithOption, CompensateSaysWhatEnters) {
   const ScratchFolder scratch;
-  const Ran ran = runProgram("compensate " + kActive + " --with bearing_tilt:3 --with load_point_error --json -", scratch.path());
+  const Ran ran = runProgram("compensate " + kActive + " --with bearing_tilt,load_point_error --json -", scratch.path());
   ASSERT_EQ(ran.status, 0) << ran.err;
   const auto json = nlohmann::json::parse(ran.out);
   EXPECT_EQ(json["rows"].size(), 19u);
   ASSERT_EQ(json["with"]["effects"].size(), 2u);
+  EXPECT_EQ(json["with"]["effects"][0]["nature"], "machine");
   EXPECT_EQ(json["with"]["effects"][1]["nature"], "load");
 }
 
