@@ -6,13 +6,17 @@
 #include "app/method_option.h"
 #include "app/output.h"
 #include "app/prepared.h"
+#include "app/with_option.h"
 #include "core/compensation/postures_table.h"
 #include "core/identification/best_method.h"
+#include "core/improved/predicted_give.h"
 #include "core/input/input_error.h"
 #include "reports/json/compensation_json.h"
+#include "reports/json/improved_json.h"
 #include "reports/json/preparation_json.h"
 #include "reports/method_names.h"
 #include "reports/text/compensation_text.h"
+#include "reports/text/improved_text.h"
 #include "reports/text/preparation_text.h"
 
 namespace stiffscope {
@@ -23,6 +27,7 @@ struct Arguments {
   std::string campaign, postures, json, method;
   int step = 0;
   bool raw = false;
+  std::vector<std::string> with;
 };
 
 int compensateCampaign(const Arguments& arguments, bool step_given) {
@@ -30,10 +35,12 @@ int compensateCampaign(const Arguments& arguments, bool step_given) {
   if (!arguments.method.empty()) methods = methodsNamed(arguments.method);
   if (methods.size() > 1) throw InputError({"--method"}, arguments.method, "expected one of cp, pp or dpp");
   const PreparedCampaign prepared = openPrepared(arguments.campaign, arguments.raw);
-  const Campaign& campaign = prepared.campaign;
   IdentifyOptions options;
   if (step_given) options.step = arguments.step;
-  const Identification result = identify(campaign, options);
+  std::optional<ImprovedModel> improved;
+  if (!arguments.with.empty()) improved = improveModel(prepared.campaign, effectsAsked(prepared, arguments.with), options);
+  const Campaign& campaign = improved ? improved->campaign : prepared.campaign;
+  const Identification result = improved ? improved->with : identify(campaign, options);
   if (methods.empty()) methods = {bestMethod(result)};
   const MethodResult& method = result.of(methods.front());
   if (!method.available) {
@@ -44,11 +51,21 @@ int compensateCampaign(const Arguments& arguments, bool step_given) {
                                                      ? campaignPostures(campaign, result.step)
                                                      : readPostures(arguments.postures, warnings);
   printWarnings(warnings);
-  const std::vector<CompensatedPosture> rows =
-      compensate(campaign, method.geometry, method.estimate, result.frames.tcp_in_flange, asked);
-  deliver([&] { return withPreparation(compensationJson(campaign, methods.front(), rows), prepared.preparation); },
-          [&] { return compensationText(campaign, methods.front(), rows) + preparationText(prepared.preparation); },
-          arguments.json);
+  std::optional<FurtherGive> give;
+  if (improved && givesFurther(improved->effects)) give = furtherGive(*improved, methods.front());
+  const std::vector<CompensatedPosture> rows = compensate(campaign, method.geometry, method.estimate,
+                                                          result.frames.tcp_in_flange, asked, {}, give ? &*give : nullptr);
+  deliver(
+      [&] {
+        Json json = compensationJson(campaign, methods.front(), rows);
+        if (improved) json = withEffects(std::move(json), *improved, methods);
+        return withPreparation(std::move(json), prepared.preparation);
+      },
+      [&] {
+        return compensationText(campaign, methods.front(), rows) + (improved ? improvedText(*improved, methods) : "") +
+               preparationText(prepared.preparation);
+      },
+      arguments.json);
   const bool any = std::any_of(rows.begin(), rows.end(), [](const CompensatedPosture& row) { return row.solved; });
   return any ? kDone : kNotUsable;
 }
@@ -65,6 +82,7 @@ void addCompensate(CLI::App& app, Run& run) {
                       "campaign's own");
   command->add_option("--method", arguments->method, "cp, pp or dpp; without it the best that is available, dpp first");
   const CLI::Option* step = command->add_option("--step", arguments->step, "load step to identify from");
+  addWithOption(*command, arguments->with);
   addRawOption(*command, arguments->raw);
   command->add_option("--json", arguments->json, "write the result to this file, - for standard output");
   command->callback([arguments, step, &run] {

@@ -7,13 +7,16 @@
 #include "app/method_option.h"
 #include "app/output.h"
 #include "app/prepared.h"
+#include "app/with_option.h"
 #include "core/identification/by_step.h"
 #include "core/identification/cautions.h"
 #include "core/input/input_error.h"
 #include "reports/json/identification_json.h"
+#include "reports/json/improved_json.h"
 #include "reports/json/preparation_json.h"
 #include "reports/json/uncertainty_json.h"
 #include "reports/text/identification_text.h"
+#include "reports/text/improved_text.h"
 #include "reports/text/preparation_text.h"
 #include "reports/text/uncertainty_text.h"
 
@@ -25,6 +28,7 @@ struct Arguments {
   std::string campaign, json, method = "all", step;
   int subset_size = 0, bootstrap = 0;
   bool neglect_kc = false, raw = false, robust = false, postures = false;
+  std::vector<std::string> with;
 };
 
 IdentifyOptions optionsOf(const Arguments& arguments, bool subset_given) {
@@ -63,17 +67,22 @@ int identifyCampaign(const Arguments& arguments, bool subset_given) {
   const std::vector<Method> methods = methodsNamed(arguments.method);
   const IdentifyOptions options = optionsOf(arguments, subset_given);
   const PreparedCampaign prepared = openPrepared(arguments.campaign, arguments.raw);
-  const Campaign& campaign = prepared.campaign;
-  const Identification result = identify(campaign, options);
+  std::optional<ImprovedModel> improved;
+  if (!arguments.with.empty()) improved = improveModel(prepared.campaign, effectsAsked(prepared, arguments.with), options);
+  const Campaign& campaign = improved ? improved->campaign : prepared.campaign;
+  const Identification result = improved ? improved->with : identify(campaign, options);
   const StepStudy steps = studySteps(campaign, options, result);
   const auto text = [&] {
     std::string all = identificationText(campaign, result, methods);
     if (options.all_steps) all += stepsText(steps, result, methods);
     if (const auto best = bestOf(result, methods); best && arguments.postures) all += posturesText(campaign, result, *best);
+    if (improved) all += improvedText(*improved, methods);
     return all + preparationText(prepared.preparation);
   };
   deliver([&] {
-    return withPreparation(withSteps(identificationJson(campaign, result, methods), steps, result, methods), prepared.preparation);
+    Json json = withSteps(identificationJson(campaign, result, methods), steps, result, methods);
+    if (improved) json = withEffects(std::move(json), *improved, methods);
+    return withPreparation(std::move(json), prepared.preparation);
   }, text, arguments.json);
   return anyUsable(result, methods) ? kDone : kNotUsable;
 }
@@ -96,6 +105,7 @@ void addIdentify(CLI::App& app, Run& run) {
   command->add_option("--bootstrap", arguments->bootstrap,
                       "draws of the postures for percentile intervals beside the stated ones");
   command->add_flag("--postures", arguments->postures, "Cartesian stiffness and the share of K_c, posture by posture");
+  addWithOption(*command, arguments->with);
   addRawOption(*command, arguments->raw);
   command->add_option("--json", arguments->json, "write the result to this file, - for standard output");
   command->callback([arguments, subset, &run] {

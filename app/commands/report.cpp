@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
@@ -13,11 +14,14 @@
 #include "app/prepared.h"
 #include "app/report_files.h"
 #include "app/versions.h"
+#include "app/with_option.h"
 #include "core/audit/audit.h"
 #include "core/diagnosis/diagnose.h"
 #include "core/diagnosis/separable_effects.h"
 #include "core/identification/cautions.h"
 #include "core/identification/load_step.h"
+#include "reports/improved_words.h"
+#include "reports/page/html.h"
 #include "reports/page/report_page.h"
 #include "reports/page/verdict.h"
 
@@ -30,6 +34,7 @@ struct Arguments {
   std::string out;
   int step = 0;
   bool neglect_kc = false, paper = false, raw = false;
+  std::vector<std::string> with;
 };
 
 /// What is used of one campaign and what comes of it. A campaign without loads gives its frames.
@@ -37,14 +42,22 @@ struct Result {
   PreparedCampaign prepared;
   AuditReport audited;
   std::optional<Diagnosis> diagnosis;
-  Identification identification;
+  std::optional<ImprovedModel> improved;  ///< effects were asked for
+  Identification own;                     ///< without any
   bool loaded = false;
 
-  Result(const std::string& folder, bool raw, const IdentifyOptions& options) {
+  const Campaign& campaign() const { return improved ? improved->campaign : prepared.campaign; }
+  const Identification& identification() const { return improved ? improved->with : own; }
+
+  Result(const std::string& folder, const Arguments& arguments, const IdentifyOptions& options) {
     const Campaign read = openCampaign(folder);
-    prepared = raw ? leaveRaw(read) : prepareCampaign(read);
+    prepared = arguments.raw ? leaveRaw(read) : prepareCampaign(read);
     loaded = whatLoadsLack(prepared.campaign).empty();
-    identification = loaded ? identify(prepared.campaign, options) : framesAlone(prepared.campaign);
+    if (loaded && !arguments.with.empty()) {
+      improved = improveModel(prepared.campaign, effectsAsked(prepared, arguments.with), options);
+    } else {
+      own = loaded ? identify(prepared.campaign, options) : framesAlone(prepared.campaign);
+    }
     audited = audit(read);
     if (loaded) diagnosis = diagnose(read);
     if (diagnosis) addSeparableEffects(*diagnosis, audited);
@@ -52,8 +65,8 @@ struct Result {
 
   /// Of loads, stiffnesses are the purpose; of a day of sweeps alone, the frames.
   bool usable() const {
-    return loaded ? anyUsable(identification, {kMethods.begin(), kMethods.end()})
-                  : identification.frames.arm.points_placed;
+    return loaded ? anyUsable(identification(), {kMethods.begin(), kMethods.end()})
+                  : identification().frames.arm.points_placed;
   }
 };
 
@@ -61,7 +74,7 @@ struct Result {
 std::string subsetSizes(const std::list<Result>& results) {
   std::string sizes;
   for (const Result& one : results) {
-    for (const MethodResult& method : one.identification.methods) {
+    for (const MethodResult& method : one.identification().methods) {
       if (method.subsets.compliances.empty()) continue;
       sizes += fmt::format("{}{} of {}", sizes.empty() ? "" : ", ", method.subsets.size, method.subsets.of);
       break;
@@ -77,6 +90,16 @@ std::vector<NamedText> settingsOf(const IdentifyOptions& options, const std::lis
           {"subsets", "all up to 250 000, else a sample with seed 1"}};
 }
 
+/// What the page says first of the effects in the model, campaign by campaign.
+void addImproved(const std::vector<std::string>& words, const std::list<Result>& results, ReportContent& content) {
+  if (words.empty()) return;
+  content.settings.push_back({"effects in the model", page::asIs(fmt::format("{}", fmt::join(words, ", ")))});
+  content.settings.push_back({"subsets with effects", "all up to 1000, else a sample with seed 1"});
+  for (const Result& one : results) {
+    if (one.improved) content.verdict += " " + page::asIs(gainWords(*one.improved));
+  }
+}
+
 int writeReport(const Arguments& arguments, bool step_given) {
   IdentifyOptions options;
   if (step_given) options.step = arguments.step;
@@ -84,9 +107,10 @@ int writeReport(const Arguments& arguments, bool step_given) {
   std::list<Result> results;  // a list: the content refers to its elements
   ReportContent content;
   for (const std::string& folder : arguments.campaigns) {
-    const Result& one = results.emplace_back(folder, arguments.raw, options);
+    const Result& one = results.emplace_back(folder, arguments, options);
     content.campaigns.push_back(
-        {one.prepared.campaign, one.identification, &one.audited, &one.prepared.preparation, &one.prepared.station, one.diagnosis ? &*one.diagnosis : nullptr});
+        {one.campaign(), one.identification(), &one.audited, &one.prepared.preparation, &one.prepared.station,
+         one.diagnosis ? &*one.diagnosis : nullptr, one.improved ? &*one.improved : nullptr});
   }
   content.avoided = avoidedByEncoders(content.campaigns);
   content.compare_with_paper = arguments.paper;
@@ -94,6 +118,7 @@ int writeReport(const Arguments& arguments, bool step_given) {
   content.settings = settingsOf(options, results);
   content.title = "Joint stiffness";
   content.verdict = verdictOf(content.campaigns, content.avoided);
+  addImproved(arguments.with, results, content);
   content.figures = makeFigures(content.campaigns, {arguments.paper});
 
   // Everything is made before the first file is written, and appears at once.
@@ -116,6 +141,7 @@ void addReport(CLI::App& app, Run& run) {
   command->add_option("--out", arguments->out, "folder for report.html, results.json, the pictures and the tables as CSV")->required();
   const CLI::Option* step = command->add_option("--step", arguments->step, "load step to identify from");
   command->add_flag("--neglect-kc", arguments->neglect_kc, "neglect K_c, as the paper does");
+  addWithOption(*command, arguments->with);
   addRawOption(*command, arguments->raw);
   command->add_flag("--paper", arguments->paper, "put the figures of Ambiehl et al. (IROS 2017) beside these");
   command->callback([arguments, step, &run] {

@@ -22,15 +22,21 @@ Eigen::Vector3d rotationVector(const Eigen::Matrix3d& rotation) {
   return turn.angle() * turn.axis();
 }
 
+/// The flange unloaded and loaded.
+struct Moved {
+  Eigen::Isometry3d unloaded, loaded;
+};
+
 class Compensator {
  public:
   Compensator(const Campaign& campaign, const LoadingGeometry& geometry, const StiffnessEstimate& estimate,
-              const Eigen::Vector3d& tcp_in_flange, const CompensateOptions& options)
+              const Eigen::Vector3d& tcp_in_flange, const CompensateOptions& options, const FurtherGive* with)
       : campaign_(campaign),
         geometry_(geometry),
         estimate_(estimate),
         tcp_(tcp_in_flange),
-        options_(options) {}
+        options_(options),
+        with_(with) {}
 
   CompensatedPosture run(const PostureToCompensate& asked) const {
     CompensatedPosture result;
@@ -41,7 +47,12 @@ class Compensator {
       return result;
     }
     const ArmPosture unloaded = postureAt(geometry_.arm, *unloaded_angles);
-    const Eigen::Isometry3d wanted = flangeAt(geometry_.arm, unloaded);
+    const auto resting = with_ ? with_->flange(asked.q, FlangeLoad()) : flangeAt(geometry_.arm, unloaded);
+    if (!resting) {
+      result.reason = "the unloaded arm does not come to rest under its own weight";
+      return result;
+    }
+    const Eigen::Isometry3d wanted = *resting;
     const FlangeLoad load = loadAt(unloaded, wanted, asked.wrench_in_cell);
     predict(unloaded, wanted, load, result);
     if (!result.predicted) return result;
@@ -66,6 +77,12 @@ class Compensator {
   std::optional<ArmPosture> loadedPosture(const Vector6d& commands, const FlangeLoad& load) const {
     const auto angles = loadedAngles(geometry_, estimate_.compliance, commands, load);
     return angles ? std::optional<ArmPosture>(postureAt(geometry_.arm, *angles)) : std::nullopt;
+  }
+
+  /// Where the flange of the loaded arm stands with these commands, `posture` the one of its springs alone.
+  std::optional<Eigen::Isometry3d> loadedFlange(const Vector6d& commands, const ArmPosture& posture,
+                                                const FlangeLoad& load) const {
+    return with_ ? with_->flange(commands, load) : flangeAt(geometry_.arm, posture);
   }
 
   std::string refusal(const PostureToCompensate& asked, const ArmPosture& unloaded,
@@ -99,39 +116,62 @@ class Compensator {
     return {};
   }
 
-  Eigen::Vector3d sdOf(const Matrix36d& rows) const {
-    const Eigen::Vector3d variance = (rows * estimate_.covariance * rows.transpose()).diagonal();
+  /// `changes`: of the result by what else is uncertain, one column each.
+  Eigen::Vector3d sdOf(const Matrix36d& rows, const Eigen::Matrix3Xd& changes) const {
+    const Matrix6d& covariance = with_ ? with_->spring_covariance : estimate_.covariance;
+    Eigen::Vector3d variance = (rows * covariance * rows.transpose()).diagonal();
+    if (changes.cols() > 0) variance += changes.rowwise().squaredNorm();
     return variance.unaryExpr(
         [](double v) { return v < 0.0 ? 0.0 : std::sqrt(v); });  // keeps what is no number
   }
 
   PointDeflection deflectionOf(const Eigen::Vector3d& point_in_flange, const Eigen::Isometry3d& wanted,
                                const Eigen::Isometry3d& loaded, const ArmPosture& unloaded,
-                               const Vector6d& torque) const {
-    const Eigen::Vector3d place = wanted * point_in_flange;
+                               const Vector6d& torque, const std::vector<Moved>& varied) const {
+    const Eigen::Vector3d place = wanted * point_in_flange, deflection = loaded * point_in_flange - place;
     const Matrix36d rows = jacobianAt(geometry_.arm, unloaded, place).topRows<3>() * torque.asDiagonal();
-    return {loaded * point_in_flange - place, sdOf(rows)};
+    Eigen::Matrix3Xd changes(3, static_cast<Eigen::Index>(varied.size()));
+    for (std::size_t k = 0; k < varied.size(); ++k)
+      changes.col(static_cast<Eigen::Index>(k)) =
+          varied[k].loaded * point_in_flange - varied[k].unloaded * point_in_flange - deflection;
+    return {deflection, sdOf(rows, changes)};
+  }
+
+  /// The flange of the arm with what is uncertain moved; those that do not come to rest are left out.
+  std::vector<Moved> variedBy(const Vector6d& q, const FlangeLoad& load) const {
+    std::vector<Moved> moved;
+    for (std::size_t k = 0; with_ != nullptr && k < with_->varied.size(); ++k) {
+      const auto unloaded = with_->varied[k](q, FlangeLoad()), loaded = with_->varied[k](q, load);
+      if (unloaded && loaded) moved.push_back({*unloaded, *loaded});
+    }
+    return moved;
   }
 
   void predict(const ArmPosture& unloaded, const Eigen::Isometry3d& wanted, const FlangeLoad& load,
                CompensatedPosture& result) const {
     const auto posture = loadedPosture(result.posture.q, load);
-    if (!posture) {
+    const auto resting = posture ? loadedFlange(result.posture.q, *posture, load) : std::nullopt;
+    if (!resting) {
       result.reason = kNoRest;
       return;
     }
     result.predicted = true;
-    const Eigen::Isometry3d loaded = flangeAt(geometry_.arm, *posture);
+    const Eigen::Isometry3d& loaded = *resting;
     const Vector6d torque = torqueOf(unloaded, wanted, load);
     const Matrix6d jacobian = jacobianAt(geometry_.arm, unloaded, wanted * tcp_);
-    result.tcp = deflectionOf(tcp_, wanted, loaded, unloaded, torque);
+    const std::vector<Moved> varied = variedBy(result.posture.q, load);
+    result.tcp = deflectionOf(tcp_, wanted, loaded, unloaded, torque, varied);
     result.rotation = rotationVector(loaded.linear() * wanted.linear().transpose());
-    result.rotation_sd = sdOf(jacobian.bottomRows<3>() * torque.asDiagonal());
+    Eigen::Matrix3Xd turns(3, static_cast<Eigen::Index>(varied.size()));
+    for (std::size_t k = 0; k < varied.size(); ++k)
+      turns.col(static_cast<Eigen::Index>(k)) =
+          rotationVector(varied[k].loaded.linear() * varied[k].unloaded.linear().transpose()) - result.rotation;
+    result.rotation_sd = sdOf(jacobian.bottomRows<3>() * torque.asDiagonal(), turns);
     const auto& places = geometry_.targets_at_zero;
     if (std::all_of(places.begin(), places.end(), [](const auto& place) { return place.has_value(); })) {
       const Eigen::Isometry3d flange_from_zero = geometry_.arm.base_from_flange_at_zero.inverse();
       for (const auto& place : places) {
-        result.targets.push_back(deflectionOf(flange_from_zero * *place, wanted, loaded, unloaded, torque));
+        result.targets.push_back(deflectionOf(flange_from_zero * *place, wanted, loaded, unloaded, torque, varied));
       }
     }
     const Vector6d singular = Eigen::JacobiSVD<Matrix6d>(jacobian).singularValues();
@@ -146,11 +186,12 @@ class Compensator {
     constexpr double kThere = 1e-9;  // m and rad
     for (int step = 0; step < kMostSteps; ++step) {
       const auto posture = loadedPosture(commands, load);
-      if (!posture) {
+      const auto resting = posture ? loadedFlange(commands, *posture, load) : std::nullopt;
+      if (!resting) {
         result.reason = kNoRest;
         return;
       }
-      const Eigen::Isometry3d flange = flangeAt(geometry_.arm, *posture);
+      const Eigen::Isometry3d& flange = *resting;
       Vector6d error;
       error << wanted * tcp_ - flange * tcp_, rotationVector(wanted.linear() * flange.linear().transpose());
       result.remaining = error.head<3>().norm();
@@ -183,6 +224,7 @@ class Compensator {
   const StiffnessEstimate& estimate_;
   Eigen::Vector3d tcp_;
   CompensateOptions options_;
+  const FurtherGive* with_;
 };
 
 }  // namespace
@@ -191,8 +233,8 @@ std::vector<CompensatedPosture> compensate(const Campaign& campaign, const Loadi
                                            const StiffnessEstimate& estimate,
                                            const Eigen::Vector3d& tcp_in_flange,
                                            const std::vector<PostureToCompensate>& postures,
-                                           const CompensateOptions& options) {
-  const Compensator compensator(campaign, geometry, estimate, tcp_in_flange, options);
+                                           const CompensateOptions& options, const FurtherGive* with) {
+  const Compensator compensator(campaign, geometry, estimate, tcp_in_flange, options, with);
   std::vector<CompensatedPosture> results;
   results.reserve(postures.size());
   for (const PostureToCompensate& posture : postures) results.push_back(compensator.run(posture));

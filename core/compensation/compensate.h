@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/campaign/campaign.h"
-#include "core/compensation/elastic_arm.h"
+#include "core/compensation/further_give.h"
 #include "core/identification/stiffness_estimate.h"
 
 namespace stiffscope {
@@ -54,10 +54,13 @@ struct CompensateOptions {
 /// the steps do not converge, and where more than `share_unknown` of the largest joint torque turns a joint
 /// whose stiffness is not known or came out negative. Uncertainties are first order, J diag(tau) U_c
 /// diag(tau) J^T; not a number where U_c is not.
+///
+/// `with`: an arm that gives at more than its joint springs takes the place of these; its uncertainty adds in squares.
 std::vector<CompensatedPosture> compensate(const Campaign& campaign, const LoadingGeometry& geometry,
                                            const StiffnessEstimate& estimate,
                                            const Eigen::Vector3d& tcp_in_flange,
                                            const std::vector<PostureToCompensate>& postures,
-                                           const CompensateOptions& options = {});
+                                           const CompensateOptions& options = {},
+                                           const FurtherGive* with = nullptr);
 
 }  // namespace stiffscope

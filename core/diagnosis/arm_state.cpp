@@ -27,10 +27,15 @@ ArmState stateMoved(const LoadingGeometry& geometry, const Vector6d& q, const Ve
   state.turned = turned;
   state.moved = moved;
   state.posture = movedPosture(geometry.arm, turned, moved);
+  placeByPosture(geometry, state);
+  return state;
+}
+
+void placeByPosture(const LoadingGeometry& geometry, ArmState& state) {
   for (int j = 0; j < 6; ++j)
     state.axes[static_cast<std::size_t>(j)] = axisAt(geometry.arm, state.posture, j);
   state.flange = flangeAt(geometry.arm, state.posture);
-  if (!geometry.weight.links_known) return state;
+  if (!geometry.weight.links_known) return;
   state.weight_torque = weightTorque(geometry.arm, state.posture, geometry.weight);
   Wrench sum;
   for (std::size_t b = 6; b >= 1; --b) {
@@ -41,7 +46,6 @@ ArmState stateMoved(const LoadingGeometry& geometry, const Vector6d& q, const Ve
     state.weight_from_body[b] = sum;
   }
   state.weight_from_body[0] = sum;
-  return state;
 }
 
 Wrench carried(const ArmState& state, int body, const Eigen::Vector3d& about) {

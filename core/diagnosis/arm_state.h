@@ -55,6 +55,9 @@ ArmState stateMoved(const LoadingGeometry& geometry, const Vector6d& q, const Ve
 /// The posture at these angles with its bodies moved.
 ArmPosture movedPosture(const Robot& arm, const Vector6d& turned, const BodyMotions& moved);
 
+/// The same from `state.posture`, wherever that came from: fills axes, flange and own weight.
+void placeByPosture(const LoadingGeometry& geometry, ArmState& state);
+
 /// What body `body` carries beyond its inner joint, about `about`: own weight from that body outwards, plus
 /// the load.
 Wrench carried(const ArmState& state, int body, const Eigen::Vector3d& about);

@@ -9,6 +9,7 @@
 
 #include "core/diagnosis/aliasing.h"
 #include "core/diagnosis/chance_limit.h"
+#include "core/diagnosis/drift_bound.h"
 #include "core/diagnosis/gap_start.h"
 #include "core/diagnosis/geometry_error.h"
 #include "core/diagnosis/held_out.h"
@@ -62,7 +63,7 @@ class Diagnoser {
                start_.noise.noise,
                campaign.load_cell->force_sigma,
                campaign.load_cell->moment_sigma,
-               effectModels(targetNames(campaign)),
+               effectModelsOf(campaign),
                start_.absolute,
                start_.sweeps,
                complianceExpected(start_.state.at.compliance)} {}
@@ -79,12 +80,6 @@ class Diagnoser {
   }
 
  private:
-  static std::vector<std::string> targetNames(const Campaign& campaign) {
-    std::vector<std::string> names;
-    for (const Target& target : campaign.targets) names.push_back(target.id);
-    return names;
-  }
-
   void judgeTestable() {
     const GapData data = gapData(input_, start_.state, {});
     const CampaignHas has = whatIsThere(input_, data, start_.state, start_.station);
@@ -98,7 +93,7 @@ class Diagnoser {
         if (input_.models[m].effect == effect) allowed_[m] = false;
       }
     }
-    if (start_.station.course == StationCourse::still) nestsAsReadings();
+    boundDriftByNests(start_, input_);
     if (start_.station.course == StationCourse::drifted) input_.wandering = &start_.station;
     if (start_.station.course == StationCourse::jumped)
       allowed_[modelOf(input_.models, Effect::tracker_drift)] = false;
@@ -106,19 +101,6 @@ class Diagnoser {
       given_ = {modelOf(input_.models, Effect::frame_error)};
     if (start_.station.course == StationCourse::drifted)
       given_ = {modelOf(input_.models, Effect::tracker_drift), modelOf(input_.models, Effect::frame_error)};
-  }
-
-  /// Nests that show no motion by themselves still bound a drift: their rate takes part in the fit. Readings
-  /// move against what brings them back.
-  void nestsAsReadings() {
-    if (!input_.absolute || start_.station.rate_weight.isZero()) return;
-    Matrix6d turn = Matrix6d::Zero();
-    turn.topLeftCorner<3, 3>() = turn.bottomRightCorner<3, 3>() = start_.state.r0_from_sweeps.linear();
-    const double span = start_.state.at.time_span;
-    input_.drift = -span * (turn * start_.station.rate);
-    input_.drift_weight = turn * start_.station.rate_weight * turn.transpose() / (span * span);
-    start_.state.at.sweep_time =
-        0.5 * (start_.station.motion.epochs.front().time_s + start_.state.at.first_time);
   }
 
   void fit() {

@@ -53,4 +53,10 @@ std::vector<EffectModel> effectModels(const std::vector<std::string>& targets) {
   };
 }
 
+std::vector<EffectModel> effectModelsOf(const Campaign& campaign) {
+  std::vector<std::string> targets;
+  for (const Target& target : campaign.targets) targets.push_back(target.id);
+  return effectModels(targets);
+}
+
 }  // namespace stiffscope

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "core/campaign/campaign.h"
 #include "core/diagnosis/effect_model.h"
 
 namespace stiffscope {
@@ -11,5 +12,8 @@ namespace stiffscope {
 /// here. kinematic_error has no columns: the geometry is a nuisance of every fit, and what the fit finds is
 /// held against the nominal one (see geometry_error.h).
 std::vector<EffectModel> effectModels(const std::vector<std::string>& targets);
+
+/// The same with the campaign's reflectors.
+std::vector<EffectModel> effectModelsOf(const Campaign& campaign);
 
 }  // namespace stiffscope

@@ -86,7 +86,8 @@ void fitOnce(const GapInput& input, const std::vector<bool>& allowed, const FitR
   if (fit.rounds <= kAlone) fit.rules.most_effects = 1;
   fit.projection = project(sumOf(fit.data, ones(fit.data)), fit.data.layout.effects);
   const double postures = static_cast<double>(fit.data.postures.size());
-  fit.set = selectorOf(input, fit, fit.projection, postures, allowed).select();
+  const Selector selector = selectorOf(input, fit, fit.projection, postures, allowed);
+  fit.set = rules.fixed ? selector.fit(*rules.fixed) : selector.select();
   fit.nuisances_before = fit.projection.by_nothing;
   fit.nuisances = fit.projection.by_nothing - fit.projection.by_effects * fit.set.effects;
 }

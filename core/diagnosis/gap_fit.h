@@ -24,6 +24,8 @@ struct FitRules {
   double deflection_share = 0.002;  ///< of the deflection: the same; the larger of the two is the limit
   double noise_degrees = 0.0;       ///< of freedom of the noise's own estimate; 0: taken as declared
   std::vector<std::size_t> given;   ///< models that other evidence puts in
+  /// Where it is there nothing is chosen: these models with these parts are fitted, whatever they bring.
+  std::optional<std::vector<ChosenModel>> fixed = std::nullopt;
 };
 
 /// Linearises, selects, corrects and linearises again until the set stays: wrong load points, frames,

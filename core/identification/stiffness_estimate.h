@@ -20,8 +20,9 @@ struct CovarianceParts {
   Matrix6d frames = Matrix6d::Zero();    ///< the measured axes: R0, links, the flange's place
   Matrix6d wrist = Matrix6d::Zero();     ///< radii about the wrist centre
   Matrix6d geometry = Matrix6d::Zero();  ///< calibrated on the unloaded positions, Partial Pose only
+  Matrix6d effects = Matrix6d::Zero();   ///< fitted to the same data and taken off it; zero without any
 
-  Matrix6d total() const { return scatter + frames + wrist + geometry; }
+  Matrix6d total() const { return scatter + frames + wrist + geometry + effects; }
 };
 
 /// Joint stiffnesses by one method, from one set of load cases.

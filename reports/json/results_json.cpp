@@ -5,6 +5,7 @@
 #include "reports/json/diagnosis_json.h"
 #include "reports/json/frames_json.h"
 #include "reports/json/identification_json.h"
+#include "reports/json/improved_json.h"
 #include "reports/json/preparation_json.h"
 
 namespace stiffscope {
@@ -28,6 +29,7 @@ Json campaignResults(const ReportCampaign& one) {
   json["frames"] = framesJson(one.campaign, one.identification.frames);
   json["identify"] =
       identificationJson(one.campaign, one.identification, {kMethods.begin(), kMethods.end()});
+  if (one.improved != nullptr) json["identify"]["with"] = improvedJson(*one.improved, {kMethods.begin(), kMethods.end()});
   if (one.diagnosis != nullptr) json["diagnose"] = diagnosisJson(one.campaign, *one.diagnosis);
   return json;
 }

@@ -30,10 +30,12 @@ Json contributionsJson(const StiffnessEstimate& estimate) {
   const auto part = [&](const Matrix6d& covariance) {
     return byJoint(estimate.identifiable, [&](int j) { return number(std::sqrt(covariance(j, j))); });
   };
-  return {{"scatter_rad_per_nm", part(estimate.parts.scatter)},
-          {"frames_rad_per_nm", part(estimate.parts.frames)},
-          {"wrist_rad_per_nm", part(estimate.parts.wrist)},
-          {"geometry_rad_per_nm", part(estimate.parts.geometry)}};
+  Json json{{"scatter_rad_per_nm", part(estimate.parts.scatter)},
+            {"frames_rad_per_nm", part(estimate.parts.frames)},
+            {"wrist_rad_per_nm", part(estimate.parts.wrist)},
+            {"geometry_rad_per_nm", part(estimate.parts.geometry)}};
+  if (!estimate.parts.effects.isZero(0.0)) json["effects_rad_per_nm"] = part(estimate.parts.effects);
+  return json;
 }
 
 Json stepsJson(const StepsOfMethod& steps, const JointMask& identifiable) {

@@ -5,6 +5,7 @@
 #include "core/campaign/campaign.h"
 #include "core/diagnosis/diagnosis.h"
 #include "core/identification/identify.h"
+#include "core/improved/improved_model.h"
 
 namespace stiffscope {
 
@@ -17,6 +18,7 @@ struct ReportCampaign {
   const Preparation* preparation = nullptr;
   const StationMotion* station = nullptr;
   const Diagnosis* diagnosis = nullptr;
+  const ImprovedModel* improved = nullptr;  ///< effects were asked for: `campaign` and `identification` are of it
 };
 
 }  // namespace stiffscope

@@ -42,6 +42,9 @@ void writeContents(page::Html& html, const ReportContent& content) {
   entry("stiffness", "Stiffness");
   if (anyLoads(content)) entry("subsets", "Spread");
   if (anyLoads(content)) entry("compensation", "Compensation");
+  const bool improved = std::any_of(content.campaigns.begin(), content.campaigns.end(),
+                                    [](const ReportCampaign& one) { return one.improved != nullptr; });
+  if (improved) entry("effects", "Effects in the model");
   const bool diagnosed = std::any_of(content.campaigns.begin(), content.campaigns.end(),
                                      [](const ReportCampaign& one) { return one.diagnosis != nullptr; });
   if (diagnosed) entry("gap", "What the model misses");
@@ -77,6 +80,7 @@ ReportPage makeReportPage(const ReportContent& content) {
     page::writeStiffness(html, content);
     if (anyLoads(content)) page::writeSubsets(html, content);
     if (anyLoads(content)) page::writeCompensation(html, content);
+    page::writeImproved(html, content);
     page::writeGap(html, content);
     page::writeFigures(html, content);
     page::writeAudit(html, content);

@@ -16,6 +16,7 @@ void writeLinks(Html& html, const ReportContent& content);         ///< link len
 void writeStiffness(Html& html, const ReportContent& content);     ///< by method, from all postures
 void writeSubsets(Html& html, const ReportContent& content);       ///< Table II
 void writeCompensation(Html& html, const ReportContent& content);  ///< compensated and avoided shares
+void writeImproved(Html& html, const ReportContent& content);  ///< effects in the model: without and with them
 void writeGap(Html& html, const ReportContent& content);  ///< the diagnosis: where, which, how far, what next
 void writeFigures(Html& html, const ReportContent& content);
 bool hasFigures(const ReportContent& content, const std::string& section);

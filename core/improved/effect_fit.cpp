@@ -1,0 +1,294 @@
+#include "core/improved/effect_fit.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+
+#include "core/diagnosis/drift_bound.h"
+#include "core/diagnosis/held_out.h"
+#include "core/diagnosis/testable.h"
+#include "core/improved/effect_names.h"
+#include "core/improved/effect_nature.h"
+#include "core/improved/shifted_readings.h"
+#include "core/input/input_error.h"
+
+namespace stiffscope {
+
+namespace {
+
+const InputPlace kOption{"--with"};
+const char* const kNotTold =
+    "these postures and loads cannot tell it from stiffnesses and geometry, or only with sizes that no machine has";
+
+std::vector<EffectModel> modelsOf(const std::vector<WantedEffect>& wanted, const Campaign& campaign) {
+  std::vector<EffectModel> models = effectModelsOf(campaign);
+  std::erase_if(models, [&](const EffectModel& model) {
+    return std::none_of(wanted.begin(), wanted.end(),
+                        [&](const WantedEffect& one) { return one.effect == model.effect; });
+  });
+  return models;
+}
+
+void requireTestable(const std::vector<WantedEffect>& wanted, const GapInput& input, const GapStart& start) {
+  const CampaignHas has = whatIsThere(input, gapData(input, start.state, {}), start.state, start.station);
+  for (const WantedEffect& one : wanted) {
+    const std::string missing = missingFor(one.effect, has);
+    if (!missing.empty())
+      throw InputError(kOption, std::string(idOf(one.effect)), "this campaign cannot show that effect: " + missing);
+  }
+}
+
+/// The models of an effect with the parts asked for, each in full.
+std::vector<ChosenModel> asAsked(const WantedEffect& wanted, const std::vector<EffectModel>& models) {
+  std::vector<ChosenModel> choices;
+  for (std::size_t m = 0; m < models.size(); ++m) {
+    if (models[m].effect != wanted.effect) continue;
+    ChosenModel choice{m, {}};
+    for (std::size_t p = 0; p < models[m].parts.size(); ++p) {
+      const auto& parts = wanted.parts;
+      if (std::find(parts.begin(), parts.end(), models[m].parts[p].detail) != parts.end()) choice.parts.push_back(p);
+    }
+    if (!choice.parts.empty()) choices.push_back(choice);
+  }
+  return choices;
+}
+
+/// The one way to fit what was asked for, where there is only one.
+std::optional<std::vector<ChosenModel>> withoutChoice(const std::vector<WantedEffect>& wanted,
+                                                      const std::vector<EffectModel>& models) {
+  std::vector<ChosenModel> chosen;
+  for (const WantedEffect& one : wanted) {
+    std::vector<ChosenModel> choices = asAsked(one, models);
+    for (std::size_t m = 0; choices.empty() && m < models.size(); ++m) {
+      if (models[m].effect == one.effect && models[m].parts.size() > 1) return std::nullopt;
+    }
+    for (std::size_t m = 0; one.parts.empty() && m < models.size(); ++m) {
+      if (models[m].effect == one.effect) choices.push_back({m, {0}});
+    }
+    if (choices.size() != 1) return std::nullopt;
+    chosen.push_back(choices.front());
+  }
+  return chosen;
+}
+
+/// An effect of which stiffnesses and geometry leave nothing in these postures has no size.
+void requireSeen(const GapFit& fit, const GapInput& input) {
+  for (const ChosenModel& one : fit.set.models) {
+    const Eigen::Index first = fit.data.layout.model_at[one.model] - fit.data.layout.effects;
+    bool seen = false;
+    for (Eigen::Index i = first; i < first + static_cast<Eigen::Index>(input.models[one.model].parameters()); ++i)
+      seen = seen || fit.projection.matrix(i, i) > fit.rules.kept_share * fit.projection.before[i];
+    if (!seen) throw InputError(kOption, std::string(idOf(input.models[one.model].effect)), kNotTold);
+  }
+}
+
+class Chooser {
+ public:
+  Chooser(const GapInput& input, const GapFit& fit, const std::vector<bool>& allowed)
+      : models_(input.models),
+        fit_(fit),
+        selector_(selectorOf(input, fit, fit.projection, static_cast<double>(fit.data.postures.size()), allowed)) {}
+
+  /// What was asked for by its parts, what the free selection took of the rest, and then, put in beside these, what that did
+  /// not make.
+  std::vector<ChosenModel> run(const std::vector<WantedEffect>& wanted) const {
+    std::vector<ChosenModel> chosen;
+    std::vector<WantedEffect> missing;
+    for (const WantedEffect& one : wanted) {
+      const auto choices = asAsked(one, models_);
+      const auto& found = fit_.set.models;
+      const auto own = std::find_if(found.begin(), found.end(),
+                                    [&](const ChosenModel& m) { return models_[m.model].effect == one.effect; });
+      if (!choices.empty()) {
+        chosen.push_back(bestOf(choices, one, chosen));
+      } else if (own != found.end()) {
+        chosen.push_back(*own);
+      } else {
+        missing.push_back(one);
+      }
+    }
+    for (const WantedEffect& one : missing) chosen.push_back(bestOf(beside(chosen, one), one, chosen));
+    return chosen;
+  }
+
+ private:
+  /// The effect beside the others, its parts chosen greedily, by each of its equations.
+  std::vector<ChosenModel> beside(const std::vector<ChosenModel>& others, const WantedEffect& wanted) const {
+    std::vector<ChosenModel> choices;
+    for (const FittedSet& set : selector_.ranked(selector_.fit(others))) {
+      if (models_[set.models.back().model].effect == wanted.effect) choices.push_back(set.models.back());
+    }
+    return choices;
+  }
+
+  ChosenModel bestOf(const std::vector<ChosenModel>& choices, const WantedEffect& wanted,
+                     const std::vector<ChosenModel>& others) const {
+    if (choices.empty())
+      throw InputError(kOption, std::string(idOf(wanted.effect)), kNotTold);
+    std::vector<double> scores;
+    for (const ChosenModel& choice : choices) {
+      std::vector<ChosenModel> all = others;
+      all.push_back(choice);
+      scores.push_back(selector_.fit(all).score());
+    }
+    return choices[static_cast<std::size_t>(std::min_element(scores.begin(), scores.end()) - scores.begin())];
+  }
+
+  const std::vector<EffectModel>& models_;
+  const GapFit& fit_;
+  Selector selector_;
+};
+
+/// How well an effect's equation describes a machine that has it: sizes of single effects came back within one per cent from
+/// the simulator, which solves the loaded equilibrium of another mechanism with finite rotations.
+constexpr double kModelShare = 0.01;
+
+/// Of the joint fit with all nuisances, and of the equations themselves.
+Eigen::MatrixXd covarianceOfFree(const EffectFit& effects) {
+  const GapLayout& layout = effects.fit.data.layout;
+  const std::vector<double> ones(effects.fit.data.postures.size(), 1.0);
+  const Projection projection = project(sumOf(effects.fit.data, ones), layout.effects);
+  Eigen::MatrixXd matrix = projection.matrix(effects.free, effects.free);
+  const Eigen::VectorXd scale =
+      matrix.diagonal().unaryExpr([](double d) { return d > 0.0 ? 1.0 / std::sqrt(d) : 0.0; });
+  matrix = scale.asDiagonal() * matrix * scale.asDiagonal();
+  matrix.diagonal().setConstant(1.0 + 1e-12);
+  const Eigen::MatrixXd inverse = matrix.ldlt().solve(Eigen::MatrixXd::Identity(matrix.rows(), matrix.cols()));
+  Eigen::MatrixXd covariance =
+      std::max(1.0, leftPerEquation(effects.fit)) * (scale.asDiagonal() * inverse * scale.asDiagonal());
+  for (const ChosenModel& one : effects.fit.set.models) {
+    const EffectModel& model = effects.input->models[one.model];
+    if (natureOf(model.effect) != EffectNature::machine) continue;
+    const Eigen::Index first = layout.model_at[one.model] - layout.effects;
+    const Eigen::Index end = first + static_cast<Eigen::Index>(model.parameters());
+    for (std::size_t i = 0; i < effects.free.size(); ++i) {
+      if (effects.free[i] < first || effects.free[i] >= end) continue;
+      const double size = kModelShare * effects.parameters()[effects.free[i]];
+      covariance(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(i)) += size * size;
+    }
+  }
+  return covariance;
+}
+
+Eigen::VectorXd stacked(const Eigen::VectorXd& nuisances, const Eigen::VectorXd& own) {
+  Eigen::VectorXd all(nuisances.size() + own.size());
+  all << nuisances, own;
+  return all;
+}
+
+Gap gapOf(const EffectFit& effects) {
+  const GapFit& fit = effects.fit;
+  const Eigen::VectorXd after = stacked(fit.nuisances, fit.set.effects);
+  // Stiffnesses alone have the wrenches as declared, no effect corrects them.
+  const GapData declared = gapData(*effects.input, effects.start->state, {});
+  const std::vector<double> ones(declared.postures.size(), 1.0);
+  const StiffnessesAlone before =
+      stiffnessesAlone(declared, ones, project(sumOf(declared, ones), declared.layout.effects));
+  Gap sum;
+  double count = 0.0;
+  for (const GapPosture& posture : declared.postures) sum.before += leftIn(posture, before, after).deflection_before;
+  for (const GapPosture& posture : fit.data.postures) {
+    const Eigen::Index rows = posture.right.size() - posture.position_rows;
+    sum.after += leftIn(posture, before, after).deflection_after;
+    sum.noise += noiseSquares(posture);
+    sum.deflection += posture.right.tail(rows).squaredNorm();
+    count += static_cast<double>(rows);
+  }
+  const auto rms = [&](double squares) { return count > 0.0 ? std::sqrt(squares / count) : 0.0; };
+  return {rms(sum.before), rms(sum.noise), rms(sum.after), rms(sum.deflection)};
+}
+
+void describe(EffectFit& effects, const std::vector<bool>& allowed) {
+  const GapFit& fit = effects.fit;
+  const GapInput& input = *effects.input;
+  const Selector selector =
+      selectorOf(input, fit, fit.projection, static_cast<double>(fit.data.postures.size()), allowed);
+  for (std::size_t i = 0; i < fit.set.models.size(); ++i) {
+    const ChosenModel& chosen = fit.set.models[i];
+    const EffectModel& model = input.models[chosen.model];
+    std::vector<ChosenModel> others = fit.set.models;
+    others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
+    AddedEffect one{model.effect, {}, model.shape, selector.fit(others).score() - fit.set.score(), true, {}};
+    std::vector<std::string> details;
+    Eigen::Index at = fit.data.layout.model_at[chosen.model] - fit.data.layout.effects;
+    for (std::size_t p = 0; p < model.parts.size(); ++p) {
+      const EffectPart& part = model.parts[p];
+      const bool there = std::find(chosen.parts.begin(), chosen.parts.end(), p) != chosen.parts.end();
+      if (there && !part.detail.empty()) details.push_back(part.detail);
+      for (std::size_t k = 0; k < part.most.size(); ++k, ++at) {
+        if (!there) continue;
+        EffectParameter parameter{parameterName(model, part, k), parameterUnit(part, k), fit.set.effects[at], 0.0};
+        const auto free = std::find(effects.free.begin(), effects.free.end(), at) - effects.free.begin();
+        if (free < effects.covariance.rows()) parameter.sd = std::sqrt(effects.covariance(free, free));
+        if (std::abs(parameter.value) > part.most[k]) one.plausible = false;
+        one.parameters.push_back(parameter);
+      }
+    }
+    one.detail = fmt::format("{}", fmt::join(details, ", "));
+    effects.added.push_back(std::move(one));
+  }
+}
+
+}  // namespace
+
+EffectFit fitEffects(const Campaign& campaign, const WantedEffects& asked) {
+  EffectFit effects;
+  effects.notes = asked.notes;
+  std::vector<WantedEffect> wanted;
+  for (const WantedEffect& one : asked.effects) {
+    if (natureOf(one.effect) == EffectNature::geometry) {
+      effects.geometry.push_back(one.effect);
+    } else {
+      wanted.push_back(one);
+    }
+  }
+  if (asked.effects.empty()) return effects;
+  auto start = std::make_unique<GapStart>(gapStart(campaign, true));
+  if (!start->reason.empty())
+    throw InputError(kOption, std::string(idOf(asked.effects.front().effect)), "there is no gap to fit it to: " + start->reason);
+  auto input = std::make_unique<GapInput>(GapInput{start->campaign, start->noise.noise, campaign.load_cell->force_sigma,
+                                                   campaign.load_cell->moment_sigma, modelsOf(wanted, campaign),
+                                                   start->absolute, start->sweeps,
+                                                   complianceExpected(start->state.at.compliance)});
+  requireTestable(asked.effects, *input, *start);
+  if (wanted.empty()) return effects;
+  boundDriftByNests(*start, *input);
+  const std::vector<bool> allowed(input->models.size(), true);
+  FitRules rules;
+  rules.noise_degrees = start->noise.degrees;
+  rules.fixed = withoutChoice(wanted, input->models);
+  if (!rules.fixed) {
+    const GapFit free = fitGap(*input, start->state, allowed, rules);
+    rules.fixed = Chooser(*input, free, allowed).run(wanted);
+  }
+  effects.fit = fitGap(*input, start->state, allowed, rules);
+  requireSeen(effects.fit, *input);
+  effects.start = std::move(start);
+  effects.input = std::move(input);
+  for (Eigen::Index i = 0; i < effects.fit.set.effects.size(); ++i) {
+    if (effects.fit.set.effects[i] != 0.0) effects.free.push_back(i);
+  }
+  effects.covariance = covarianceOfFree(effects);
+  effects.gap = gapOf(effects);
+  describe(effects, allowed);
+  const FitRecipe recipe{false, effects.fit.set.models};
+  constexpr int kResamples = 120;
+  const HeldOutShrink held_out = heldOutShrinks(*effects.input, effects.fit, allowed, {recipe}, kResamples, 1).front();
+  effects.shrink = held_out.deflection;
+  effects.explained = held_out.explained;
+  return effects;
+}
+
+Eigen::VectorXd parametersFrom(const EffectFit& effects, const std::vector<double>& weights) {
+  const GapFit& fit = effects.fit;
+  const Projection projection = project(sumOf(fit.data, weights), fit.data.layout.effects);
+  double postures = 0.0;
+  for (const double weight : weights) postures += weight;
+  const std::vector<bool> allowed(effects.input->models.size(), true);
+  return selectorOf(*effects.input, fit, projection, std::max(2.0, postures), allowed).fit(fit.set.models).effects;
+}
+
+}  // namespace stiffscope

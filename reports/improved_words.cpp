@@ -1,0 +1,64 @@
+#include "reports/improved_words.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "core/identification/best_method.h"
+#include "core/input/units.h"
+#include "reports/method_names.h"
+
+namespace stiffscope {
+
+std::string addedNames(const EffectFit& effects) {
+  if (effects.added.empty()) return "nothing";
+  std::vector<std::string> names;
+  for (const AddedEffect& one : effects.added) {
+    names.push_back(one.detail.empty() ? std::string(idOf(one.effect)) : fmt::format("{} ({})", idOf(one.effect), one.detail));
+  }
+  return fmt::format("{}", fmt::join(names, " and "));
+}
+
+std::string explainedWords(const EffectFit& effects) {
+  const Gap& gap = effects.gap;
+  const Shrink& shrink = effects.shrink;
+  return fmt::format(
+      "Stiffnesses alone leave {:.1f} µm rms per coordinate of the deflection in all load steps, {} {:.1f} µm; noise alone "
+      "{:.1f} µm. On postures held out the rms shrinks by {:.0f} % ({:.0f} to {:.0f} %), and {:.0f} % of what is above the noise "
+      "is explained.",
+      gap.before / kMicrometre, "with the effects", gap.after / kMicrometre, gap.noise / kMicrometre, 100.0 * shrink.value,
+      100.0 * shrink.low, 100.0 * shrink.high, 100.0 * effects.explained);
+}
+
+std::string gainWords(const ImprovedModel& model) {
+  if (model.effects.added.empty()) {
+    std::string words = "No effect was added to the joint springs.";
+    for (const std::string& note : model.effects.notes) words += " Note: " + note + ".";
+    return words;
+  }
+  const Method which = bestMethod(model.with);
+  const MethodResult &without = model.without.of(which), &with = model.with.of(which);
+  if (!without.available || !with.available)
+    return fmt::format("With {} in the model no method can be compared.", addedNames(model.effects));
+  const auto share = [](const MethodResult& method) {
+    return 100.0 * (method.subsets.compliances.empty() ? method.at_targets->all_postures
+                                                       : method.at_targets->subsets.held_out);
+  };
+  return fmt::format(
+      "With {} in the model {} leaves {:.0f} µm rms per coordinate instead of {:.0f} µm, and compensates {:.1f} % instead of "
+      "{:.1f} % of the reflectors' deflection{}.",
+      addedNames(model.effects), namesOf(which).brief, with.estimate.rms_residual / kMicrometre,
+      without.estimate.rms_residual / kMicrometre, share(with), share(without),
+      with.subsets.compliances.empty() ? "" : " in postures held out");
+}
+
+std::string doubtOf(const AddedEffect& effect) {
+  if (!effect.plausible) return "its size is beyond what a machine can have: do not believe it";
+  constexpr double kStandsOut = 20.0;  // of BIC, the diagnosis's own limit
+  if (effect.score < kStandsOut)
+    return fmt::format("it does not stand out of the noise here (a fall of BIC of {:.1f}, {:.0f} would count): it was added "
+                       "because it was asked for",
+                       effect.score, kStandsOut);
+  return {};
+}
+
+}  // namespace stiffscope

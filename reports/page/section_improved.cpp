@@ -1,0 +1,111 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/improved/effect_nature.h"
+#include "core/input/units.h"
+#include "reports/improved_words.h"
+#include "reports/page/coverage.h"
+#include "reports/page/html_table.h"
+#include "reports/page/names.h"
+#include "reports/page/numbers.h"
+#include "reports/page/sections.h"
+
+namespace stiffscope::page {
+
+namespace {
+
+Table parametersTable(const EffectFit& effects) {
+  Table table{"Effects in the model, fitted jointly with the stiffnesses", {"Effect", "Parameter", "Value", "u", "Unit"}, {}};
+  table.id = "effects";
+  for (const AddedEffect& one : effects.added) {
+    RowGroup group{std::string(idOf(one.effect)), {}};
+    for (const EffectParameter& parameter : one.parameters) {
+      group.rows.push_back({asIs(parameter.name.empty() ? "size" : parameter.name), fmt::format("{:.4g}", parameter.value),
+                            fmt::format("{:.2g}", parameter.sd), parameter.unit});
+    }
+    table.groups.push_back(std::move(group));
+  }
+  return table;
+}
+
+Cell stiffnessOf(const MethodResult& method, int joint) {
+  if (!method.available || !method.estimate.identifiable[static_cast<std::size_t>(joint)]) return "–";
+  const double expanded = coverageOf(method.estimate, joint).factor * method.estimate.stiffnessSd(joint);
+  return withUncertainty(1e-6 * method.estimate.stiffness(joint), 1e-6 * expanded);
+}
+
+Table stiffnessTable(const ImprovedModel& model) {
+  Table table{"Stiffness k ± U without and with the effects, 10⁶\u00a0Nm/rad", {"Joint"}, {{}}};
+  table.id = "effects-stiffness";
+  for (const Method method : kMethods) {
+    table.columns.push_back(shortName(method) + " without");
+    table.columns.push_back(shortName(method) + " with");
+  }
+  for (int joint = 0; joint < 6; ++joint) {
+    Row row{jointName(joint)};
+    for (const Method method : kMethods) {
+      row.push_back(stiffnessOf(model.without.of(method), joint));
+      row.push_back(stiffnessOf(model.with.of(method), joint));
+    }
+    table.groups.front().rows.push_back(std::move(row));
+  }
+  return table;
+}
+
+Table residualTable(const ImprovedModel& model) {
+  Table table{"What is left without and with the effects",
+              {"Method", "rms without (µm)", "rms with (µm)", "Compensated without, held out", "with, held out"},
+              {{}}};
+  table.id = "effects-residuals";
+  const auto share = [](const MethodResult& method) {
+    const auto held_out = heldOut(method, false);
+    return held_out ? percent(*held_out) : std::string("–");
+  };
+  for (const Method method : kMethods) {
+    const MethodResult &without = model.without.of(method), &with = model.with.of(method);
+    if (!without.available || !with.available) continue;
+    table.groups.front().rows.push_back({longName(method), fixed(without.estimate.rms_residual / kMicrometre, 1),
+                                         fixed(with.estimate.rms_residual / kMicrometre, 1), share(without), share(with)});
+  }
+  return table;
+}
+
+void writeModel(Html& html, const ImprovedModel& model) {
+  html.paragraph(asIs(gainWords(model)));
+  std::vector<std::string> uses;
+  for (const AddedEffect& one : model.effects.added) {
+    const std::string doubt = doubtOf(one);
+    uses.push_back(asIs(fmt::format("{}: {}{}.", idOf(one.effect), useOf(one.effect), doubt.empty() ? "" : "; " + doubt)));
+  }
+  for (const Effect effect : model.effects.geometry)
+    uses.push_back(asIs(fmt::format("{}: {}.", idOf(effect), useOf(effect))));
+  if (!model.effects.added.empty()) {
+    for (const std::string& note : model.effects.notes) uses.push_back(asIs(note + "."));
+  }
+  html.list(uses);
+  if (model.effects.added.empty()) return;
+  writeTable(html, parametersTable(model.effects));
+  html.paragraph(asIs(explainedWords(model.effects)), "faint");
+  writeTable(html, stiffnessTable(model));
+  writeTable(html, residualTable(model));
+  html.paragraph(
+      "Every other number and picture of this page, the diagnosis aside, is of the model with the effects: what they do is taken off the readings, "
+      "and stiffnesses are those of the joint springs beside them. Their own uncertainty is in every ±. Shares are of the "
+      "machine's deflection, effects of the machine in it; the effects were fitted anew on the postures of every subset.",
+      "faint");
+}
+
+}  // namespace
+
+void writeImproved(Html& html, const ReportContent& content) {
+  const bool any = std::any_of(content.campaigns.begin(), content.campaigns.end(),
+                               [](const ReportCampaign& one) { return one.improved != nullptr; });
+  if (!any) return;
+  writeForEach(html, content, "effects", "Effects in the model", [&](const ReportCampaign& one) {
+    if (one.improved != nullptr) writeModel(html, *one.improved);
+  });
+}
+
+}  // namespace stiffscope::page
