@@ -110,6 +110,7 @@ GapFit settle(const GapInput& input, const GapState& start, const std::vector<bo
     }
     fitOnce(input, allowed, rules, fit);
     const ModelsAndParts now = namesOf(fit.set);
+    constexpr double kSettled = 0.003;  // of chi2: far below what a verdict turns on
     const bool settled = now == last && std::abs(fit.set.chi2 - last_chi2) < kSettled * fit.set.chi2;
     if (fit.rounds >= kAlone + 2 && settled) break;
     last = now;

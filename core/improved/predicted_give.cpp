@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/diagnosis/gap_rows.h"
+#include "core/diagnosis/rest_state.h"
 #include "core/improved/effect_nature.h"
 #include "core/improved/improved_arm.h"
 
@@ -15,7 +15,7 @@ RestingFlange flangeOf(const ImprovedModel& model, const LoadingGeometry& geomet
   const auto arm = std::make_shared<const ImprovedArm>(model.effects, parameters, geometry, compliance);
   return [&model, &geometry, arm](const Vector6d& commands, const FlangeLoad& load) -> std::optional<Eigen::Isometry3d> {
     const Eigen::Isometry3d& at_zero = geometry.arm.base_from_flange_at_zero;
-    const ArmState rest = stateAt(geometry, commands, unloadedTurn(geometry, model.effects.fit.state.at, commands));
+    const ArmState rest = restState(geometry, model.effects.fit.state.at, commands);
     PostureStates states{rest, rest};
     states[1].step = 1;
     states[1].loaded = true;

@@ -3,6 +3,7 @@
 #include <map>
 
 #include "core/audit/nest_network.h"
+#include "core/diagnosis/rest_state.h"
 
 namespace stiffscope {
 
@@ -57,7 +58,7 @@ class Shifter {
 
   /// The arm at rest, not loaded, with the effects' own turns in.
   ArmState atRest(int pose, const Vector6d& q, double time_s) const {
-    ArmState state = stateAt(state_.geometry, q, unloadedTurn(state_.geometry, state_.at, q));
+    ArmState state = restState(state_.geometry, state_.at, q);
     state.pose = pose;
     state.time_s = time_s;
     return state;
