@@ -9,6 +9,7 @@
 
 #include "core/diagnosis/aliasing.h"
 #include "core/diagnosis/chance_limit.h"
+#include "core/diagnosis/evenly_spread.h"
 #include "core/diagnosis/drift_bound.h"
 #include "core/diagnosis/gap_start.h"
 #include "core/diagnosis/geometry_error.h"
@@ -316,7 +317,12 @@ class Diagnoser {
 
 Diagnosis diagnose(const Campaign& campaign, const DiagnoseOptions& options) {
   requireLoads(campaign);
-  return Diagnoser(campaign, options).run();
+  if (campaign.pose_ids.size() <= kMostDiagnosed) return Diagnoser(campaign, options).run();
+  const Campaign spread = evenlySpread(campaign, kMostDiagnosed);
+  Diagnosis diagnosis = Diagnoser(spread, options).run();
+  diagnosis.verdict.reason += fmt::format(" Of {} postures {} took part, spread evenly over the day.",
+                                          campaign.pose_ids.size(), diagnosis.postures);
+  return diagnosis;
 }
 
 }  // namespace stiffscope

@@ -12,7 +12,6 @@
 #include "core/diagnosis/start_state.h"
 #include "core/identification/describe_loads.h"
 #include "core/identification/geometry_calibration.h"
-#include "core/identification/without_postures.h"
 
 namespace stiffscope {
 
@@ -54,17 +53,6 @@ void spreadSweepTimes(const StationMotion& station, Campaign& campaign) {
   };
   spread(circles);
   if (campaign.wrist_sweep) spread(campaign.wrist_sweep->rows);
-}
-
-/// Every posture costs a megabyte of equations and a fit without it, so a long day is judged by so many of its postures,
-/// spread evenly over it: an effect that a hundred do not show is below anybody's interest.
-void keepEvenly(Campaign& campaign) {
-  constexpr std::size_t kMost = 100;
-  const std::size_t postures = campaign.pose_ids.size();
-  if (postures <= kMost) return;
-  std::vector<bool> dropped(postures, true);
-  for (std::size_t k = 0; k < kMost; ++k) dropped[k * postures / kMost] = false;
-  dropPostures(dropped, campaign);
 }
 
 }  // namespace
@@ -111,7 +99,6 @@ GapStart gapStart(const Campaign& campaign, bool take_off_station) {
   if (moved && take_off_station) takeOffDrift(start.station.motion, start.campaign);
   start.campaign.nests.reset();  // they have said what they know
   start.noise = noiseFloor(start.campaign);
-  keepEvenly(start.campaign);
   const Evidence evidence = gatherEvidence(leaveRaw(start.campaign));
   start.geometry = evidence.arm.geometry;
   start.absolute = start.campaign.loading && start.geometry.r0_from_loading.has_value();

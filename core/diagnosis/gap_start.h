@@ -23,8 +23,7 @@ struct NoiseFloor {
 NoiseFloor noiseFloor(const Campaign& campaign);
 
 /// A campaign made ready: screened, the station's motion taken off, frames and stiffnesses found, the arm's
-/// geometry from the sweeps or, without them, calibrated on the unloaded positions. Of more than 100 postures 100 are
-/// looked at, spread evenly over the campaign.
+/// geometry from the sweeps or, without them, calibrated on the unloaded positions.
 struct GapStart {
   Campaign campaign;
   Station station;
