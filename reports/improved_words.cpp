@@ -6,6 +6,7 @@
 #include "core/identification/best_method.h"
 #include "core/input/units.h"
 #include "reports/method_names.h"
+#include "reports/page/effect_words.h"
 
 namespace stiffscope {
 
@@ -29,6 +30,20 @@ std::string explainedWords(const EffectFit& effects) {
       100.0 * shrink.low, 100.0 * shrink.high, 100.0 * effects.explained);
 }
 
+namespace {
+
+/// As the page says them: "bearing tilt (joints 2 to 6)".
+std::string addedWords(const EffectFit& effects) {
+  std::vector<std::string> names;
+  for (const AddedEffect& one : effects.added) {
+    const std::string name = page::effectName(one.effect);
+    names.push_back(one.detail.empty() ? name : fmt::format("{} ({})", name, page::shortDetail(one.detail)));
+  }
+  return fmt::format("{}", fmt::join(names, " and "));
+}
+
+}  // namespace
+
 std::string gainWords(const ImprovedModel& model) {
   if (model.effects.added.empty()) {
     std::string words = "No effect was added to the joint springs.";
@@ -38,7 +53,7 @@ std::string gainWords(const ImprovedModel& model) {
   const Method which = bestMethod(model.with);
   const MethodResult &without = model.without.of(which), &with = model.with.of(which);
   if (!without.available || !with.available)
-    return fmt::format("With {} in the model no method can be compared.", addedNames(model.effects));
+    return fmt::format("With {} in the model no method can be compared.", addedWords(model.effects));
   const auto share = [](const MethodResult& method) {
     return 100.0 * (method.subsets.compliances.empty() ? method.at_targets->all_postures
                                                        : method.at_targets->subsets.held_out);
@@ -46,7 +61,7 @@ std::string gainWords(const ImprovedModel& model) {
   return fmt::format(
       "With {} in the model {} leaves {:.0f} µm rms per coordinate instead of {:.0f} µm, and compensates {:.1f} % instead of "
       "{:.1f} % of the reflectors' deflection{}.",
-      addedNames(model.effects), namesOf(which).brief, with.estimate.rms_residual / kMicrometre,
+      addedWords(model.effects), namesOf(which).brief, with.estimate.rms_residual / kMicrometre,
       without.estimate.rms_residual / kMicrometre, share(with), share(without),
       with.subsets.compliances.empty() ? "" : " in postures held out");
 }

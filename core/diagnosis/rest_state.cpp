@@ -1,8 +1,7 @@
 #include "core/diagnosis/rest_state.h"
 
 #include <Eigen/Geometry>
-#include <algorithm>
-#include <numeric>
+#include <array>
 
 #include "core/audit/nest_network.h"
 
@@ -32,16 +31,18 @@ Eigen::Matrix<double, 6, Eigen::Dynamic> twistsOf(const PresentMotion& motion, c
 
 /// Inner bodies first, so that an outer motion turns about where the inner ones have brought its pivot.
 BodyMotions motionsOf(const WorkingPoint& at, const ArmState& rest) {
-  BodyMotions all = noBodyMotions();
-  for (int first = 1; first <= 6; ++first) {
-    Vector6d twist = Vector6d::Zero();
-    for (const PresentMotion& motion : at.motions) {
-      const auto twists = twistsOf(motion, at, rest);
-      for (Eigen::Index k = 0; k < twists.cols(); ++k) {
-        if (motion.first_body[static_cast<std::size_t>(k)] == first)
-          twist += twists.col(k) * motion.parameters[k];
-      }
+  std::array<Vector6d, 7> by_body;
+  by_body.fill(Vector6d::Zero());
+  for (const PresentMotion& motion : at.motions) {
+    const auto twists = twistsOf(motion, at, rest);
+    for (Eigen::Index k = 0; k < twists.cols(); ++k) {
+      const auto first = static_cast<std::size_t>(motion.first_body[static_cast<std::size_t>(k)]);
+      by_body[first] += twists.col(k) * motion.parameters[k];
     }
+  }
+  BodyMotions all = noBodyMotions();
+  for (std::size_t first = 1; first < by_body.size(); ++first) {
+    const Vector6d& twist = by_body[first];
     if (twist.isZero(0.0)) continue;
     // A screw: the rotation about its own axis, not about the origin, so that large arms do not bend it.
     const Eigen::Vector3d turn = twist.head<3>(), shift = twist.tail<3>();
@@ -51,7 +52,7 @@ BodyMotions motionsOf(const WorkingPoint& at, const ArmState& rest) {
     Vector6d about_centre;
     about_centre << turn, shift + turn.cross(centre);
     const Eigen::Isometry3d own = motionAbout(centre, about_centre);
-    for (std::size_t b = static_cast<std::size_t>(first); b < all.size(); ++b) all[b] = own * all[b];
+    for (std::size_t b = first; b < all.size(); ++b) all[b] = own * all[b];
   }
   return all;
 }
@@ -71,7 +72,10 @@ ArmState restState(const LoadingGeometry& geometry, const WorkingPoint& at, cons
       continue;
     }
     const Vector6d sag = geometry.compliance.cwiseProduct(state.weight_torque);
+    const Eigen::Matrix4d before = state.flange.matrix();
     state = stateMoved(geometry, q, q + sag + turn, motionsOf(at, state));
+    constexpr double kSettled = 1e-10;  // m and rad
+    if ((state.flange.matrix() - before).cwiseAbs().maxCoeff() < kSettled) break;
   }
   return state;
 }

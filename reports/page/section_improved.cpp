@@ -7,6 +7,7 @@
 #include "core/input/units.h"
 #include "reports/improved_words.h"
 #include "reports/page/coverage.h"
+#include "reports/page/effect_words.h"
 #include "reports/page/html_table.h"
 #include "reports/page/names.h"
 #include "reports/page/numbers.h"
@@ -20,7 +21,7 @@ Table parametersTable(const EffectFit& effects) {
   Table table{"Effects in the model, fitted jointly with the stiffnesses", {"Effect", "Parameter", "Value", "u", "Unit"}, {}};
   table.id = "effects";
   for (const AddedEffect& one : effects.added) {
-    RowGroup group{std::string(idOf(one.effect)), {}};
+    RowGroup group{effectName(one.effect), {}};
     for (const EffectParameter& parameter : one.parameters) {
       group.rows.push_back({asIs(parameter.name.empty() ? "size" : parameter.name), fmt::format("{:.4g}", parameter.value),
                             fmt::format("{:.2g}", parameter.sd), parameter.unit});
@@ -77,10 +78,10 @@ void writeModel(Html& html, const ImprovedModel& model) {
   std::vector<std::string> uses;
   for (const AddedEffect& one : model.effects.added) {
     const std::string doubt = doubtOf(one);
-    uses.push_back(asIs(fmt::format("{}: {}{}.", idOf(one.effect), useOf(one.effect), doubt.empty() ? "" : "; " + doubt)));
+    uses.push_back(asIs(fmt::format("{}: {}{}.", effectName(one.effect), useOf(one.effect), doubt.empty() ? "" : "; " + doubt)));
   }
   for (const Effect effect : model.effects.geometry)
-    uses.push_back(asIs(fmt::format("{}: {}.", idOf(effect), useOf(effect))));
+    uses.push_back(asIs(fmt::format("{}: {}.", effectName(effect), useOf(effect))));
   if (!model.effects.added.empty()) {
     for (const std::string& note : model.effects.notes) uses.push_back(asIs(note + "."));
   }
