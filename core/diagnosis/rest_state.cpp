@@ -4,28 +4,21 @@
 #include <array>
 
 #include "core/audit/nest_network.h"
+#include "core/diagnosis/probed_motion.h"
 
 namespace stiffscope {
 
 namespace {
 
-/// Rotation vector and displacement at the origin of each parameter's motion, per unit: from what the effect
-/// does to four points.
+/// Rotation vector and displacement at the origin of each parameter's motion, per unit.
 Eigen::Matrix<double, 6, Eigen::Dynamic> twistsOf(const PresentMotion& motion, const WorkingPoint& at,
                                                   const ArmState& rest) {
   ArmState probe = rest;
   probe.targets = {0, 0, 0, 0};
-  probe.points = {Eigen::Vector3d::Zero(), Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitY(),
-                  Eigen::Vector3d::UnitZ()};
+  probe.points = probesAt(Eigen::Vector3d::Zero());
   const Eigen::MatrixXd offset = motion.offset(at, {probe}, 0);
   Eigen::Matrix<double, 6, Eigen::Dynamic> twists(6, offset.cols());
-  for (Eigen::Index k = 0; k < offset.cols(); ++k) {
-    const Eigen::Vector3d origin = offset.col(k).head<3>();
-    Eigen::Vector3d turn = Eigen::Vector3d::Zero();
-    for (int axis = 0; axis < 3; ++axis)
-      turn += 0.5 * Eigen::Vector3d::Unit(axis).cross(offset.col(k).segment<3>(3 + 3 * axis) - origin);
-    twists.col(k) << turn, origin;
-  }
+  for (Eigen::Index k = 0; k < offset.cols(); ++k) twists.col(k) = probedMotion(offset.col(k));
   return twists;
 }
 

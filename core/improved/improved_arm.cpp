@@ -3,6 +3,7 @@
 #include <array>
 
 #include "core/audit/nest_network.h"
+#include "core/diagnosis/probed_motion.h"
 #include "core/improved/effect_nature.h"
 #include "core/statics/joint_torque.h"
 
@@ -40,20 +41,6 @@ Eigen::Vector3d pivotOf(Effect effect, std::size_t part, const ArmState& state, 
   }
 }
 
-/// Four points that show a rigid motion: the first, and one metre from it along each axis.
-std::vector<Eigen::Vector3d> probesAt(const Eigen::Vector3d& first) {
-  return {first, first + Eigen::Vector3d::UnitX(), first + Eigen::Vector3d::UnitY(), first + Eigen::Vector3d::UnitZ()};
-}
-
-/// The small motion by which the probes were displaced: rotation vector, then shift of the first. Of a field u + w x r
-/// the sum of e_k x (w x e_k) is 2 w.
-Vector6d motionOf(const Eigen::VectorXd& moved) {
-  Eigen::Vector3d turn = Eigen::Vector3d::Zero();
-  for (int k = 0; k < 3; ++k)
-    turn += 0.5 * Eigen::Vector3d::Unit(k).cross(moved.segment<3>(3 * (k + 1)) - moved.head<3>());
-  return (Vector6d() << turn, moved.head<3>()).finished();
-}
-
 }  // namespace
 
 /// What the effects do at one place of the arm.
@@ -89,7 +76,7 @@ ImprovedArm::Give ImprovedArm::giveOf(const PostureStates& posture, std::size_t 
     Eigen::Index next = 0;
     for (std::size_t part = 0; part < model->parts.size(); ++part) {
       const auto count = static_cast<Eigen::Index>(model->parts[part].most.size());
-      Vector6d motion = motionOf(columns.middleCols(next, count) * own.segment(next, count));
+      Vector6d motion = probedMotion(columns.middleCols(next, count) * own.segment(next, count));
       next += count;
       if (motion.isZero(0.0)) continue;
       const Eigen::Vector3d pivot = pivotOf(model->effect, part, posture[s], at);

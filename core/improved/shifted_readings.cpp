@@ -49,7 +49,7 @@ class Shifter {
     for (Row& row : rows) {
       const PostureStates states{atRest(-1, row.q, row.time_s)};
       const PostureOffsets offsets(effects_, parameters_, states, options_.which);
-      row.point -= sweeps_from_r0 * options_.offsets(offsets, row.target, state_.r0_from_sweeps * row.point).front();
+      row.point -= sweeps_from_r0 * offsets.of(row.target, state_.r0_from_sweeps * row.point).front();
     }
   }
 
@@ -90,7 +90,7 @@ class Shifter {
     if (offsets_.count(key) == 0) {
       const PostureOffsets& own =
           by_pose_.try_emplace(pose, effects_, parameters_, states, options_.which).first->second;
-      offsets_[key] = options_.offsets(own, target, place);
+      offsets_[key] = own.of(target, place);
     }
     for (std::size_t s = 0; s < states.size(); ++s) {
       if (states[s].step == step) return offsets_[key][s];

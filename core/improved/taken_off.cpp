@@ -49,9 +49,6 @@ Campaign withoutEffects(const Campaign& campaign, const EffectFit& effects, cons
   correctWrenches(effects, parameters, result);
   ShiftOptions options;
   options.which.machine = which != TakenOff::measurement;
-  options.offsets = [](const PostureOffsets& posture, int target, const Eigen::Vector3d& place) {
-    return posture.of(target, place);
-  };
   options.frame = frameMotion(effects, parameters);
   options.sweeps = which == TakenOff::everything;
   shiftReadings(effects, parameters, options, result);
