@@ -51,14 +51,21 @@ PlacedEffect place(const std::function<EffectDraw()>& draw, double size, Simulat
                    const SimulationSpec& clean, const EffectSizer& sizer) {
   constexpr int kMostDraws = 8;
   constexpr double kEnough = 0.8;  // of the size sought
-  for (int attempt = 1;; ++attempt) {
-    const EffectDraw drawn = draw();
-    PlacedEffect placed{drawn.effect, drawn.detail, drawn.shows, {}};
-    const double strength = strengthFor(drawn, clean, sizer, size, placed.sizes);
-    if (placed.size() < kEnough * size && attempt < kMostDraws) continue;
-    drawn.apply(strength, spec);
-    return placed;
+  std::optional<EffectDraw> best;
+  PlacedEffect placed;
+  double strength = 0.0;
+  for (int attempt = 0; attempt < kMostDraws; ++attempt) {
+    EffectDraw drawn = draw();
+    PlacedEffect now{drawn.effect, drawn.detail, drawn.shows, {}};
+    const double found = strengthFor(drawn, clean, sizer, size, now.sizes);
+    if (best && now.size() <= placed.size()) continue;
+    best = std::move(drawn);
+    placed = std::move(now);
+    strength = found;
+    if (placed.size() >= kEnough * size) break;
   }
+  best->apply(strength, spec);
+  return placed;
 }
 
 }  // namespace

@@ -46,7 +46,7 @@ struct BlindCase {
 /// Machine, effects and strengths. Sizes are drawn evenly in their logarithm from 0.5 to 10 (doubles from 2),
 /// and the strength that gives that size is sought on the noise-free machine to a tenth. Where no strength a
 /// real machine might have comes near it, joint, direction and mechanism are drawn again, up to eight times;
-/// then what there is stays, and its label says how little that is. In three cases of ten the tracker's true
+/// then the one that shows most stays, and its label says how little that is. In three cases of ten the tracker's true
 /// noise is 0.75 to 1.25 times the declared.
 BlindCase drawCase(const CasePlan& plan, std::uint64_t seed, const std::string& name,
                    const std::filesystem::path& urdf_file);

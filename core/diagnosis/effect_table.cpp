@@ -30,6 +30,7 @@ std::vector<EffectModel> effectModels(const std::vector<std::string>& targets) {
       jointHardeningWhole(),
       jointHardeningLinearWhole(),
       jointHardeningByStages(),
+      jointHardeningSmooth(),
       backlash(),
       hysteresis(),
       hysteresisOneSlider(),

@@ -5,6 +5,8 @@
 #include <random>
 #include <thread>
 
+#include "core/identification/coverage_factor.h"
+
 namespace stiffscope {
 
 namespace {
@@ -66,12 +68,19 @@ double quantile(std::vector<double> sorted, double share) {
   return sorted[low] + (at - static_cast<double>(low)) * (sorted[high] - sorted[low]);
 }
 
-/// Spread of the bootstrap about its median, narrowed by the root of judged over all postures, put on the
-/// value.
-Shrink withInterval(double value, const std::vector<double>& drawn, double judged_share) {
-  const double middle = quantile(drawn, 0.5), narrow = std::sqrt(judged_share);
-  return {value, value + narrow * (quantile(drawn, 0.025) - middle),
-          value + narrow * (quantile(drawn, 0.975) - middle)};
+/// What the spread of a bootstrap over `postures` lacks: drawing with replacement shrinks the variance by
+/// (n - 1) / n, and a quantile of draws knows nothing of the variance's own error, which Student's t does.
+double fewPostures(double postures) {
+  return std::sqrt(postures / (postures - 1.0)) * studentFactor(postures - 1.0, 0.95) / studentFactor(1e6, 0.95);
+}
+
+/// Spread of the bootstrap about its median, narrowed by the root of judged over all postures and widened for
+/// their small number, put on the value.
+Shrink withInterval(double value, const std::vector<double>& drawn, double judged_share, std::size_t postures) {
+  const double middle = quantile(drawn, 0.5);
+  const double scale = std::sqrt(judged_share) * fewPostures(std::max(2.0, static_cast<double>(postures)));
+  return {value, value + scale * (quantile(drawn, 0.025) - middle),
+          value + scale * (quantile(drawn, 0.975) - middle)};
 }
 
 void add(HeldOut& sum, const HeldOut& one) {
@@ -104,8 +113,10 @@ HeldOutShrink shrinkOver(const std::vector<HeldOut>& postures, int resamples, st
     positions.push_back(shrinkOf(drawn.position_before, drawn.position_after));
   }
   HeldOutShrink result;
-  result.deflection = withInterval(shrinkOf(sum.deflection_before, sum.deflection_after), deflections, 1.0);
-  result.position = withInterval(shrinkOf(sum.position_before, sum.position_after), positions, 1.0);
+  result.deflection = withInterval(shrinkOf(sum.deflection_before, sum.deflection_after), deflections, 1.0,
+                                   postures.size());
+  result.position = withInterval(shrinkOf(sum.position_before, sum.position_after), positions, 1.0,
+                                 postures.size());
   return result;
 }
 
@@ -164,9 +175,9 @@ std::vector<HeldOutShrink> heldOutShrinks(const GapInput& input, const GapFit& f
         positions.push_back(shrinkOf(one[r].position_before, one[r].position_after));
     }
     result[r].deflection =
-        withInterval(shrinkOf(sum.deflection_before, sum.deflection_after), deflections, judged_share);
+        withInterval(shrinkOf(sum.deflection_before, sum.deflection_after), deflections, judged_share, postures);
     result[r].position =
-        withInterval(shrinkOf(sum.position_before, sum.position_after), positions, judged_share);
+        withInterval(shrinkOf(sum.position_before, sum.position_after), positions, judged_share, postures);
     const double gap = sum.deflection_before - noise;
     result[r].explained = gap > 0.05 * noise
                               ? std::clamp((sum.deflection_before - sum.deflection_after) / gap, -1.0, 1.0)

@@ -104,7 +104,7 @@ FittedSet Selector::given() const {
 }
 
 std::optional<FittedSet> Selector::grown(const FittedSet& base, std::size_t model) const {
-  std::optional<FittedSet> best;
+  std::optional<FittedSet> best, plausible;
   std::vector<ChosenModel> models = base.models;
   models.push_back({model, {}});
   while (models.back().parts.size() < models_[model].most_parts) {
@@ -129,9 +129,9 @@ std::optional<FittedSet> Selector::grown(const FittedSet& base, std::size_t mode
     if (best && (best->chi2 - next->chi2) / misfit(*next) <= next->penalty - best->penalty) break;
     best = std::move(next);
     models = best->models;
+    if (best->plausible) plausible = best;
   }
-  if (best && !best->plausible) return std::nullopt;
-  return best;
+  return plausible;
 }
 
 std::vector<FittedSet> Selector::ranked(const FittedSet& base) const {

@@ -49,7 +49,9 @@ constexpr const char* kScreen =
     "tbody th:first-child,thead th:first-child{padding-left:0}"
     "tbody+tbody tr:first-child th,tbody+tbody tr:first-child td{border-top:1px solid var(--faint)}"
     ".grouped tbody th{padding-left:.5rem}.grouped tbody th[scope=rowgroup]{padding-left:0}"
-    ".words td:last-child{overflow-wrap:anywhere}.words td:nth-child(4):last-child,.words td:nth-child(5):last-child{width:55%}p:has(+ ul){break-after:avoid}"
+    ".words td:last-child{overflow-wrap:anywhere}.words td:nth-child(4):last-child,.words td:nth-child(5):last-child{width:55%}"
+    // On a narrow screen a table of words rather scrolls than sets a sentence one word a line.
+    "@media screen{.words td:nth-child(4):last-child,.words td:nth-child(5):last-child{min-width:17rem}}p:has(+ ul){break-after:avoid}"
     ".numeric tbody th{min-width:4.8rem}.each .faint,.notes{break-before:avoid}"
     "th button{font:inherit;color:inherit;text-align:inherit;background:none;border:0;padding:0;cursor:pointer}"
     "th button:hover{text-decoration:underline}"

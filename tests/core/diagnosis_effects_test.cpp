@@ -284,6 +284,21 @@ TEST(JointHardening, AStageIsAHingeAtItsKnot) {
   EXPECT_EQ(angles(2, 6), 0.0);  // another joint's
 }
 
+// A compliance that falls in a straight line from no torque to T/4 by c/3 and stays: its integral by hand is the first
+// hinge's curve less that of T/4's.
+TEST(JointHardening, ASmoothCurveIsTheIntegralOfARampedCompliance) {
+  Bench bench;
+  const PostureStates posture = bench.outAndBack();
+  bench.at.largest_torque = posture[2].load_torque.cwiseAbs();
+  const double tau = posture[2].load_torque[1], whole = std::abs(tau), c = bench.at.compliance[1];
+  const JointAngles angles = jointHardeningSmooth().angles(bench.at, posture, 2);
+  const double ramp = whole / 4.0, fall = c / 3.0;
+  const double by_hand = std::copysign((c - 0.5 * fall) * ramp + (c - fall) * (whole - ramp), tau);
+  const double slope = fall / ramp * whole;  // knots at 0, T/32, T/16, T/8, T/4, T/2
+  EXPECT_NEAR(c * tau + slope * (angles(1, 6) - angles(1, 6 + 4)), by_hand, 1e-12 * std::abs(by_hand));
+  EXPECT_EQ(angles(2, 6), 0.0);  // another joint's
+}
+
 TEST(TargetMotion, SlipsOnceTheForceHasPassedItsShare) {
   const Bench bench;
   const PostureStates posture = bench.outAndBack();  // loads 0, 0.5, 1, 0

@@ -84,6 +84,28 @@ JointAngles stages(const WorkingPoint& at, const PostureStates& posture, std::si
   return result;
 }
 
+JointAngles smoothCurve(const WorkingPoint& at, const PostureStates& posture, std::size_t i) {
+  const Vector6d torque = totalTorque(posture[i]);
+  JointAngles result = JointAngles::Zero(6, 6 * kKnots);
+  for (Eigen::Index j = 0; j < 6; ++j) {
+    const double largest = at.largest_torque[j];
+    if (!(largest > 0.0)) continue;
+    for (int b = 0; b < kKnots; ++b) {
+      const double knot = b == 0 ? 0.0 : std::ldexp(largest, b - kKnots);
+      const double over = std::max(std::abs(torque[j]) - knot, 0.0);
+      result(j, kKnots * j + b) = -std::copysign(0.5 * over * over / largest, torque[j]);
+    }
+  }
+  return result;
+}
+
+EffectModel byKnots(const char* shape, decltype(EffectModel::angles) angles) {
+  constexpr double kMost = 1e-3;  // rad/Nm
+  EffectModel model{Effect::joint_hardening, shape, jointParts(kMost, false, "rad/Nm"), 6, nullptr, angles};
+  for (EffectPart& part : model.parts) part.most.assign(kKnots, kMost);
+  return model;
+}
+
 }  // namespace
 
 EffectModel jointHardening() { return bySquare("stiffness with the square of the torque", &cubic); }
@@ -100,12 +122,8 @@ EffectModel jointHardeningLinearWhole() {
   return bySize("stiffness with the size of the torque, to any size", &squareWhole);
 }
 
-EffectModel jointHardeningByStages() {
-  constexpr double kMost = 1e-3;  // rad/Nm
-  EffectModel model{Effect::joint_hardening, "by stages of the torque", jointParts(kMost, false, "rad/Nm"), 6,
-                    nullptr,                 &stages};
-  for (EffectPart& part : model.parts) part.most.assign(kKnots, kMost);
-  return model;
-}
+EffectModel jointHardeningByStages() { return byKnots("by stages of the torque", &stages); }
+
+EffectModel jointHardeningSmooth() { return byKnots("by a smooth curve of the torque", &smoothCurve); }
 
 }  // namespace stiffscope
