@@ -8,6 +8,7 @@
 #include "app/output.h"
 #include "core/blind/run_blind.h"
 #include "core/diagnosis/diagnose.h"
+#include "core/diagnosis/effect_distance.h"
 #include "core/input/write_file.h"
 #include "reports/json/blind_json.h"
 #include "reports/page/blind_page.h"
@@ -64,7 +65,7 @@ void addBlind(CLI::App& app, Run& run) {
   command->callback([arguments, &run] {
     run = [arguments] {
       arguments->options.out = arguments->out;
-      const blind::BlindResult result = blind::runBlind(arguments->options, diagnosed, eventsOnStderr());
+      const blind::BlindResult result = blind::runBlind(arguments->options, diagnosed, eventsOnStderr(), distanceFromVocabulary);
       const Json json = blindJson(arguments->options, result);
       writeFileWhole(arguments->options.out / "results.json", json.dump(1) + '\n');
       writeFileWhole(arguments->options.out / "blind.html", blindPage(arguments->options, result));

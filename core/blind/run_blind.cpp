@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <atomic>
+#include <map>
 #include <mutex>
 #include <stdexcept>
 #include <thread>
@@ -69,6 +70,30 @@ Answer answerTo(const std::string& name, const std::filesystem::path& folder, co
   }
 }
 
+std::map<std::string, double> distancesOf(const std::vector<Label>& labels, const std::filesystem::path& folder,
+                                          const BlindOptions& options, const BlindEvents& events,
+                                          const Distance& distance) {
+  std::vector<std::string> names;
+  for (const Label& label : labels) {
+    // Every effect comes with the joint stiffnesses: nothing lies farther from it than from those alone.
+    if (label.kind == CaseKind::outside && label.effects.front().size >= kApart) names.push_back(label.name);
+  }
+  std::vector<double> found(names.size());
+  forAll(static_cast<int>(names.size()), options.threads, "measured", events, [&](int index) {
+    const auto at = static_cast<std::size_t>(index);
+    found[at] = distance(readCampaign(folder / names[at]).campaign);
+  });
+  std::map<std::string, double> distances;
+  for (std::size_t i = 0; i < names.size(); ++i) distances[names[i]] = found[i];
+  return distances;
+}
+
+std::string distancesCsv(const std::map<std::string, double>& distances) {
+  std::string csv = "case,noises\n";
+  for (const auto& [name, value] : distances) csv += fmt::format("{},{:.6g}\n", name, value);
+  return csv;
+}
+
 }  // namespace
 
 std::string openSealed(const std::filesystem::path& file, const std::string& hash) {
@@ -79,7 +104,8 @@ std::string openSealed(const std::filesystem::path& file, const std::string& has
   return bytes;
 }
 
-BlindResult runBlind(const BlindOptions& options, const Diagnose& diagnose, const BlindEvents& events) {
+BlindResult runBlind(const BlindOptions& options, const Diagnose& diagnose, const BlindEvents& events,
+                     const Distance& distance) {
   namespace fs = std::filesystem;
   const fs::path folder = options.out / "cases";
   if (fs::exists(folder) && !fs::exists(options.out / "seal.txt")) {
@@ -123,7 +149,13 @@ BlindResult runBlind(const BlindOptions& options, const Diagnose& diagnose, cons
 
   const std::string labels = openSealed(options.out / "labels.csv", result.seal);
   const std::string answers = openSealed(options.out / "answers.csv", result.answers_hash);
-  result.score = score(readLabels("labels.csv", labels), readAnswers("answers.csv", answers));
+  const std::vector<Label> truths = readLabels("labels.csv", labels);
+  std::map<std::string, double> distances;
+  if (distance) {
+    distances = distancesOf(truths, folder, options, events, distance);
+    writeFileWhole(options.out / "distances.csv", distancesCsv(distances));
+  }
+  result.score = score(truths, readAnswers("answers.csv", answers), distances);
   if (options.discard) fs::remove_all(folder);
   return result;
 }

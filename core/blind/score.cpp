@@ -38,7 +38,7 @@ std::string columnOf(const Label& label, const Answer& answer) {
 }
 
 ScoredCase scoreCase(const Label& label, const Answer& answer) {
-  ScoredCase one{label, answer, false, false, false, 0, columnOf(label, answer)};
+  ScoredCase one{label, answer, false, false, false, 0, columnOf(label, answer), {}};
   if (!answer.failure.empty()) return one;
   switch (label.kind) {
     case CaseKind::none:
@@ -119,6 +119,9 @@ std::vector<NamedRate> allRates(const std::vector<ScoredCase>& cases) {
                      one.label.effects.front().id == "target_motion");
   };
   const Choose first = [](const ScoredCase& one) { return one.first; };
+  const Choose apart = [](const ScoredCase& one) {
+    return one.label.kind == CaseKind::outside && one.distance.value_or(0.0) >= kApart;
+  };
   const Choose everything = [](const ScoredCase&) { return true; };
   const Choose failed = [](const ScoredCase& one) { return !one.answer.failure.empty(); };
   return {
@@ -139,6 +142,8 @@ std::vector<NamedRate> allRates(const std::vector<ScoredCase>& cases) {
        rateOf(cases, kind(CaseKind::outside), unknown)},
       {"unknown_from_2", "the same, of size 2 and more",
        rateOf(cases, kind(CaseKind::outside, 2.0), unknown)},
+      {"unknown_apart", "the same, two noises and more from what any effect can do",
+       rateOf(cases, apart, unknown)},
       {"outside_none_from_2", "outside the vocabulary, size 2 and more: none was said",
        rateOf(cases, kind(CaseKind::outside, 2.0), none)},
       {"doubles", "doubles: both and nothing else", rateOf(cases, kind(CaseKind::pair), right)},
@@ -223,7 +228,8 @@ const Rate& Score::rate(const std::string& id) const {
   throw std::out_of_range("no rate is called '" + id + "'");
 }
 
-Score score(const std::vector<Label>& labels, const std::vector<Answer>& answers) {
+Score score(const std::vector<Label>& labels, const std::vector<Answer>& answers,
+            const std::map<std::string, double>& distances) {
   std::map<std::string, const Answer*> given;
   for (const Answer& answer : answers) given[answer.name] = &answer;
   Score result;
@@ -231,6 +237,8 @@ Score score(const std::vector<Label>& labels, const std::vector<Answer>& answers
     const auto answer = given.find(label.name);
     if (answer == given.end()) throw std::invalid_argument("case " + label.name + " has no answer");
     result.cases.push_back(scoreCase(label, *answer->second));
+    const auto distance = distances.find(label.name);
+    if (distance != distances.end()) result.cases.back().distance = distance->second;
   }
   result.rates = allRates(result.cases);
   for (const std::string_view id : kEffectIds) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -21,7 +22,13 @@ struct ScoredCase {
   bool first = false;  ///< the first entry has the (first) true effect, beside at most two others
   int class_size = 0;  ///< members of the entry with the (first) true effect; 0 where not found
   std::string column;  ///< of the confusion matrix
+  /// Outside the vocabulary: noises away from what any one effect can do; empty where that was not measured,
+  /// because its size is less.
+  std::optional<double> distance;
 };
+
+/// Noises away from what any one effect can do: from there on `unknown` is the answer to expect.
+constexpr double kApart = 2.0;
 
 struct NamedRate {
   std::string id, meaning;
@@ -60,7 +67,8 @@ struct Score {
 
 /// Answers against labels, case by case in the labels' order. A class of effects that cannot be told apart
 /// counts as right when the true one is among them; how many it had is reported beside it. Throws
-/// std::invalid_argument where a label has no answer.
-Score score(const std::vector<Label>& labels, const std::vector<Answer>& answers);
+/// std::invalid_argument where a label has no answer. `distances`: by case, see ScoredCase.
+Score score(const std::vector<Label>& labels, const std::vector<Answer>& answers,
+            const std::map<std::string, double>& distances = {});
 
 }  // namespace stiffscope::blind

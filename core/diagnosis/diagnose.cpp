@@ -54,6 +54,15 @@ Eigen::VectorXd whole(const Eigen::VectorXd& nuisances, const Eigen::VectorXd& e
   return all;
 }
 
+/// With one effect wanted: its models, and those of a station that moved, which nests may put in.
+std::vector<EffectModel> modelsFor(const Campaign& campaign, const std::optional<Effect>& only) {
+  std::vector<EffectModel> models = effectModelsOf(campaign);
+  std::erase_if(models, [&](const EffectModel& one) {
+    return only && one.effect != *only && one.effect != Effect::tracker_drift && one.effect != Effect::frame_error;
+  });
+  return models;
+}
+
 class Diagnoser {
  public:
   Diagnoser(const Campaign& campaign, const DiagnoseOptions& options)
@@ -64,7 +73,7 @@ class Diagnoser {
                start_.noise.noise,
                campaign.load_cell->force_sigma,
                campaign.load_cell->moment_sigma,
-               effectModelsOf(campaign),
+               modelsFor(campaign, options.only),
                start_.absolute,
                start_.sweeps,
                complianceExpected(start_.state.at.compliance)} {}
@@ -76,7 +85,7 @@ class Diagnoser {
     fit();
     describe();
     decide();
-    shrink();
+    if (options_.resamples > 0) shrink();
     return std::move(result_);
   }
 
@@ -94,6 +103,9 @@ class Diagnoser {
         if (input_.models[m].effect == effect) allowed_[m] = false;
       }
     }
+    for (std::size_t m = 0; options_.only && m < input_.models.size(); ++m) {
+      if (input_.models[m].effect != *options_.only) allowed_[m] = false;
+    }
     boundDriftByNests(start_, input_);
     if (start_.station.course == StationCourse::drifted) input_.wandering = &start_.station;
     if (start_.station.course == StationCourse::jumped)
@@ -105,7 +117,7 @@ class Diagnoser {
   }
 
   void fit() {
-    const FitRules rules{options_.noise_share, options_.deflection_share, start_.noise.degrees, given_};
+    const FitRules rules{options_.noise_share, options_.deflection_share, start_.noise.degrees, given_, !options_.only};
     fit_ = fitGap(input_, start_.state, allowed_, rules);
     fit_.rules.detect = std::max(fit_.rules.detect, chanceLimit(input_, fit_, allowed_, options_.chance_draws,
                                                                 options_.false_alarm, options_.seed));

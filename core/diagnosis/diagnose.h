@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "core/campaign/campaign.h"
 #include "core/diagnosis/diagnosis.h"
@@ -8,12 +9,13 @@
 namespace stiffscope {
 
 struct DiagnoseOptions {
-  int resamples = 120;        ///< bootstrap samples of postures for the intervals
+  int resamples = 120;        ///< bootstrap samples of postures for the intervals; 0: no shrink is judged
   int chance_draws = 200;     ///< draws of pure noise for the limit of significance
   double false_alarm = 0.01;  ///< chance that noise alone passes that limit
   std::uint64_t seed = 1;     ///< of both; the same input gives the same answer
   double noise_share = 0.5;   ///< see FitRules
   double deflection_share = 0.002;
+  std::optional<Effect> only;  ///< the one effect that may be chosen; what it leaves is then left as it is
 };
 
 /// Where the gap between the joint-stiffness model and the machine lies, which effects cause it, and how far

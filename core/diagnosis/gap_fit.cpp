@@ -127,6 +127,7 @@ GapFit settle(const GapInput& input, const GapState& start, const std::vector<bo
 GapFit fitGap(const GapInput& input, const GapState& start, const std::vector<bool>& allowed,
               const FitRules& rules) {
   GapFit fit = settle(input, start, allowed, rules);
+  if (!rules.error_of_model) return fit;
   GapState with_error = start;
   constexpr int kRounds = 3;
   for (int round = 0; round < kRounds; ++round) {

@@ -23,7 +23,8 @@ struct FitRules {
       0.5;  ///< of the noise of one state's displacement: an effect below it is too small to matter
   double deflection_share = 0.002;  ///< of the deflection: the same; the larger of the two is the limit
   double noise_degrees = 0.0;       ///< of freedom of the noise's own estimate; 0: taken as declared
-  std::vector<std::size_t> given;   ///< models that other evidence puts in
+  std::vector<std::size_t> given = {};  ///< models that other evidence puts in
+  bool error_of_model = true;       ///< take what no effect explains as an error of the model, see fitGap
   /// Where it is there nothing is chosen: these models with these parts are fitted, whatever they bring.
   std::optional<std::vector<ChosenModel>> fixed = std::nullopt;
 };

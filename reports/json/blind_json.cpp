@@ -42,6 +42,7 @@ Json caseJson(const ScoredCase& one) {
             {"background", one.label.background},
             {"verdict", one.answer.failure.empty() ? verdictJson(one.answer) : Json(nullptr)}};
   if (!one.answer.failure.empty()) json["failure"] = one.answer.failure;
+  if (one.distance) json["noises_from_any_effect"] = *one.distance;
   json["found"] = one.found;
   json["right"] = one.right;
   return json;

@@ -119,6 +119,29 @@ TEST_F(BlindRun, aDiagnosisThatThrowsHasNotAnswered) {
   EXPECT_FALSE(fs::exists(asked.out / "cases"));
 }
 
+// Asked after the answers are frozen, of large effects outside the vocabulary alone.
+TEST_F(BlindRun, distancesAreKeptBesideTheAnswers) {
+  const BlindOptions asked = options(9, 2, "run");
+  const fs::path file = asked.out / "distances.csv";
+  bool frozen = false;
+  BlindEvents events;
+  events.frozen = [&](const std::string&) { frozen = true; };
+  const BlindResult result = runBlind(asked, standIn, events, [&](const Campaign&) {
+    EXPECT_TRUE(frozen);
+    return 2.5;
+  });
+  std::string expected = "case,noises\n";
+  int large = 0;
+  for (const ScoredCase& one : result.score.cases) {
+    const bool is_large = one.label.kind == CaseKind::outside && one.label.effects.front().size >= 2.0;
+    EXPECT_EQ(one.distance.has_value(), is_large);
+    if (is_large) expected += one.label.name + ",2.5\n";
+    large += is_large ? 1 : 0;
+  }
+  EXPECT_EQ(bytesOf(file), expected);
+  EXPECT_EQ(result.score.rate("unknown_apart").trials, large);
+}
+
 TEST_F(BlindRun, leavesSomebodyElsesFolderAlone) {
   fs::create_directories(folder / "run" / "cases");
   EXPECT_THROW(runBlind(options(1, 1, "run"), standIn), std::runtime_error);

@@ -109,7 +109,9 @@ TEST(BlindScore, cleanUnknownAndDoublesByHand) {
                                     says("3", {{"tracker_drift"}}),
                                     says("4", {{"load_cell_bias", "backlash"}, {"hysteresis"}}),
                                     says("5", {{"hysteresis"}})};
-  const Score result = score(labels, answers);
+  const Score result = score(labels, answers, {{"2", 2.5}, {"3", 0.4}});
+  EXPECT_EQ(result.rate("unknown_apart").trials, 1);  // the other one is what a drift can do
+  EXPECT_EQ(result.rate("unknown_apart").hits, 1);
   EXPECT_EQ(result.rate("false_alarms").hits, 1);
   EXPECT_EQ(result.rate("false_alarms_noise_right").hits, 0);
   EXPECT_EQ(result.rate("false_alarms_noise_right").trials, 1);

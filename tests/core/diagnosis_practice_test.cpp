@@ -8,6 +8,8 @@
 
 #include "core/campaign/read_campaign.h"
 #include "core/diagnosis/diagnose.h"
+#include "core/diagnosis/effect_distance.h"
+#include "core/diagnosis/evenly_spread.h"
 
 // The practice campaigns kept beside the checkout: made by another simulator, their causes in answers.csv.
 
@@ -105,6 +107,25 @@ TEST(RealCable, ClaimsNoMoreThanATiltOrABendAndSaysThatMostIsUnknown) {
                               Effect::frame_error, Effect::kinematic_error, Effect::tracker_drift}) {
     EXPECT_TRUE(not_testable.count(effect)) << idOf(effect);
   }
+}
+
+// 03 is one effect of the vocabulary, within a noise of what that effect's equations can do; 20 is two, hysteresis and a
+// bias, and no one of the sixteen reaches it.
+TEST(PracticeDistance, OneEffectIsNearAndTwoAreFar) {
+  if (!std::filesystem::exists(shared("practice"))) GTEST_SKIP() << "the practice campaigns are not beside the checkout";
+  const auto few = [](const char* name) {
+    return evenlySpread(readCampaign(shared(std::string("practice/") + name)).campaign, 8);
+  };
+  DiagnoseOptions tilt;
+  tilt.resamples = tilt.chance_draws = 0;
+  tilt.only = Effect::bearing_tilt;
+  const Diagnosis near = diagnose(few("03"), tilt);
+  EXPECT_LT(near.gap.after, 1.4 * near.gap.noise);
+  EXPECT_LT(near.positions.after, 1.4 * near.positions.noise);
+  tilt.only = Effect::hysteresis;
+  const Diagnosis far = diagnose(few("03"), tilt);
+  EXPECT_GT(far.gap.after, 2.3 * far.gap.noise);
+  EXPECT_GT(distanceFromVocabulary(few("20")), 2.0);
 }
 
 }  // namespace

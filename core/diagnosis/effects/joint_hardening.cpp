@@ -70,7 +70,7 @@ JointAngles square(const WorkingPoint&, const PostureStates& posture, std::size_
   return Matrix6d((-torque.cwiseProduct(torque.cwiseAbs())).asDiagonal());
 }
 
-constexpr int kKnots = 6;
+constexpr int kKnots = 6, kBends = 4;
 
 JointAngles stages(const WorkingPoint& at, const PostureStates& posture, std::size_t i) {
   const Vector6d torque = totalTorque(posture[i]);
@@ -86,23 +86,23 @@ JointAngles stages(const WorkingPoint& at, const PostureStates& posture, std::si
 
 JointAngles smoothCurve(const WorkingPoint& at, const PostureStates& posture, std::size_t i) {
   const Vector6d torque = totalTorque(posture[i]);
-  JointAngles result = JointAngles::Zero(6, 6 * kKnots);
+  JointAngles result = JointAngles::Zero(6, 6 * kBends);
   for (Eigen::Index j = 0; j < 6; ++j) {
     const double largest = at.largest_torque[j];
     if (!(largest > 0.0)) continue;
-    for (int b = 0; b < kKnots; ++b) {
-      const double knot = b == 0 ? 0.0 : std::ldexp(largest, b - kKnots);
+    for (int b = 0; b < kBends; ++b) {
+      const double knot = b == 0 ? 0.0 : std::ldexp(largest, b - kBends);
       const double over = std::max(std::abs(torque[j]) - knot, 0.0);
-      result(j, kKnots * j + b) = -std::copysign(0.5 * over * over / largest, torque[j]);
+      result(j, kBends * j + b) = -std::copysign(0.5 * over * over / largest, torque[j]);
     }
   }
   return result;
 }
 
-EffectModel byKnots(const char* shape, decltype(EffectModel::angles) angles) {
+EffectModel byKnots(const char* shape, int knots, decltype(EffectModel::angles) angles) {
   constexpr double kMost = 1e-3;  // rad/Nm
   EffectModel model{Effect::joint_hardening, shape, jointParts(kMost, false, "rad/Nm"), 6, nullptr, angles};
-  for (EffectPart& part : model.parts) part.most.assign(kKnots, kMost);
+  for (EffectPart& part : model.parts) part.most.assign(static_cast<std::size_t>(knots), kMost);
   return model;
 }
 
@@ -122,8 +122,8 @@ EffectModel jointHardeningLinearWhole() {
   return bySize("stiffness with the size of the torque, to any size", &squareWhole);
 }
 
-EffectModel jointHardeningByStages() { return byKnots("by stages of the torque", &stages); }
+EffectModel jointHardeningByStages() { return byKnots("by stages of the torque", kKnots, &stages); }
 
-EffectModel jointHardeningSmooth() { return byKnots("by a smooth curve of the torque", &smoothCurve); }
+EffectModel jointHardeningSmooth() { return byKnots("by a smooth curve of the torque", kBends, &smoothCurve); }
 
 }  // namespace stiffscope

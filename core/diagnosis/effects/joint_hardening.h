@@ -14,7 +14,7 @@ namespace stiffscope {
 /// By stages, as gear makers' catalogues give it: theta_j = c_j tau - sum_b h_jb sign(tau) max(|tau| - t_b, 0),
 /// six knots t_b evenly up to the largest torque T the joint sees; h_jb in rad/Nm. By a smooth curve: the compliance
 /// is continuous and its slope is by stages, theta_j = c_j tau - sum_b h_jb sign(tau) max(|tau| - t_b, 0)^2 / (2 T),
-/// knots at 0, T/32, T/16 ... T/2: what a gear gives way at its first loads takes a twentieth of its range.
+/// knots at 0, T/8, T/4, T/2, closer where gears give way at their first loads; closer still they would pass for backlash.
 EffectModel jointHardening();
 EffectModel jointHardeningLinear();
 EffectModel jointHardeningCubicSpring();

@@ -1,0 +1,32 @@
+#include "core/diagnosis/effect_distance.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/diagnosis/diagnose.h"
+
+namespace stiffscope {
+
+namespace {
+
+double beyondNoise(const Gap& gap) {
+  return gap.noise > 0.0 ? std::sqrt(std::max(0.0, gap.after * gap.after / (gap.noise * gap.noise) - 1.0)) : 0.0;
+}
+
+}  // namespace
+
+double distanceFromVocabulary(const Campaign& campaign) {
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t e = 0; e < kEffectCount; ++e) {
+    DiagnoseOptions options;
+    options.resamples = options.chance_draws = 0;
+    options.only = static_cast<Effect>(e);
+    const Diagnosis with_it = diagnose(campaign, options);
+    if (!with_it.usable) return 0.0;
+    least = std::min(least, std::max(beyondNoise(with_it.gap), beyondNoise(with_it.positions)));
+  }
+  return least;
+}
+
+}  // namespace stiffscope
