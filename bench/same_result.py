@@ -3,6 +3,8 @@ of the difference where each draws its own subsets."""
 import math
 
 RELATIVE = 1e-6
+# A factor found to 5e-10 tells thousands of degrees of freedom apart to 4e-6 only: it goes as 1 + 1.2 / dof.
+DOF = 1e-5
 # By draws of their own: a mean's difference has sd sqrt(2/n) of the spread, an sd's sqrt(1/n), a median's 1.253 sqrt(2/n)
 # and a 5 % quantile's 2.11 sqrt(2/n) of a normal spread; six of each.
 DRAWN = {"mean_nm_per_rad": 6 * 2 ** 0.5, "sd_nm_per_rad": 6.0, "median_nm_per_rad": 7.52 * 2 ** 0.5,
@@ -41,6 +43,8 @@ class Comparison:
                 return
             for k, (a, b) in enumerate(zip(ours, theirs)):
                 self.all_of(a, b, f"{place}[{k}]")
+        elif isinstance(theirs, float) and "/dof[" in place:
+            self.number(ours, theirs, DOF * abs(ours), place)
         elif isinstance(theirs, float):
             # Zeros: servo angles, torques that hang away; below 1e-9 of their units both are rounding.
             self.number(ours, theirs, max(RELATIVE * abs(ours), 1e-9 if abs(ours) < 1e-9 else 0.0), place)
