@@ -38,9 +38,10 @@ def differences(binary, work, postures):
         run(sys.executable, HERE / "make_displacements.py", simulated, part)
         shutil.rmtree(simulated)
 
-    return made(folder, [('count="19" candidates="20"', f'count="{postures}" candidates="1"'),
-                         ('masses_kg="51 102 153"', f'masses_kg="{masses}"'), ('repeats="3"', 'repeats="1"'),
-                         ('return_to_zero="true"', 'return_to_zero="false"'), ('rpy_deg="0.3 -0.2 152"', 'rpy_deg="0 0 0"')], make)
+    changes = [('count="19" candidates="20"', f'count="{postures}" candidates="1"'), ('repeats="3"', 'repeats="1"'),
+               ('masses_kg="51 102 153"', f'masses_kg="{masses}"'), ('return_to_zero="true"', 'return_to_zero="false"'),
+               ('rpy_deg="0.3 -0.2 152"', 'rpy_deg="0 0 0"')]
+    return made(folder, changes, make)
 
 
 def day(binary, work, postures):

@@ -16,7 +16,8 @@ def noise(tracker, points):
     along = tracker["range_fixed_um"] + tracker["range_per_m_um"] * distance
     across = tracker["angle_fixed_um"] + tracker["angle_per_m_um"] * distance
     beam = points / distance[:, None]
-    return 1e-12 * (across[:, None, None] ** 2 * np.eye(3) + (along ** 2 - across ** 2)[:, None, None] * beam[:, :, None] * beam[:, None, :])
+    isotropic, beams = (across ** 2)[:, None, None] * np.eye(3), beam[:, :, None] * beam[:, None, :]
+    return 1e-12 * (isotropic + (along ** 2 - across ** 2)[:, None, None] * beams)
 
 
 def solve(residual, start):
@@ -54,8 +55,8 @@ def axis(points, which, tracker):
     basis = np.stack([out, np.broadcast_to(direction, out.shape)], 1) @ frame.T
     whiten = np.linalg.inv(np.linalg.cholesky(basis @ noise(tracker, points) @ np.swapaxes(basis, 1, 2)))
     p, sd = solve(residual, p)
-    direction = frame @ np.array([1.0, p[0], p[1]])
-    return middles[0] + frame @ np.array([0.0, p[2], p[3]]), direction / np.linalg.norm(direction), p[4:4 + count], sd[4:4 + count]
+    place = middles[0] + frame @ np.array([0.0, p[2], p[3]])
+    return place, frame @ parts(p)[0], p[4:4 + count], sd[4:4 + count]
 
 
 def spheres(points, which, tracker):

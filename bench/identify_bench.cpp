@@ -119,7 +119,7 @@ void Diagnosis(benchmark::State& state) {
   const Campaign& read = campaign(static_cast<int>(state.range(0)));
   for (auto _ : state) benchmark::DoNotOptimize(diagnose(read));
 }
-BENCHMARK(Diagnosis)->Apply(sizes)->MeasureProcessCPUTime()->Iterations(1);
+BENCHMARK(Diagnosis)->Apply(sizes)->MeasureProcessCPUTime()->Iterations(1)->Repetitions(1);
 
 std::vector<Vector6d> drawnPostures(std::int64_t count) {
   std::mt19937_64 random(2);

@@ -1,5 +1,6 @@
 """Which joints the loads turn and the postures see, from sums over the load cases: the same for both scripts."""
 import numpy as np
+from scipy import optimize
 
 DIRECTION, PLACE, HANGING_WITHIN, LEAST_RATIO = 2e-3, 0.2e-3, 0.0873, 3.0
 TAKES_PART, UNSEEN = 0.05, 1e-8
@@ -31,8 +32,6 @@ def judged_joints(n, hangs, torque, trusted, variance, columns, weights, normal)
 
 def best_length(linear, angular):
     """Characteristic length: the one that makes the stacked Jacobian's condition number least."""
-    from scipy import optimize
-
     def condition(log_length):
         values = np.linalg.eigvalsh(linear * np.exp(-2 * log_length) + angular)
         return np.sqrt(values[5] / values[0])
