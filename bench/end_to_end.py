@@ -33,26 +33,39 @@ def loaded(file):
     return json.loads(pathlib.Path(file).read_text())
 
 
-def identify(folder, row, plain_runs=1):
-    """The default command, and the scripts that compute the same."""
+def identify(folder, row):
+    """The command with --json, and the scripts that compute the same."""
+    row["ours"].append(least(3, binary, "identify", folder, "--json", work / "identify.json"))
+    beside_identify(folder, row, "")
+
+
+def printed(folder, row):
+    """The command as it stands: numbers of the scripts are compared with what it writes with --json."""
+    row["ours"].append(least(3, binary, "identify", folder))
+    timed(binary, "identify", folder, "--json", work / "identify.json")
+    beside_identify(folder, row, "printed-")
+
+
+def beside_identify(folder, row, mode):
+    """Processor time of the scripts, and whether their numbers are those in identify.json."""
     result, theirs = work / "identify.json", work / "by-script.json"
-    row["ours"].append(least(3, binary, "identify", folder, "--json", result))
-    for name, how, runs in (("pandas and numpy, vectorised", "vectorised", 3), ("pandas and numpy, plain", "plain", plain_runs)):
-        row["against"].setdefault(name, []).append(least(runs, sys.executable, IDENTIFY, how, folder, theirs))
+    for name, how, runs in (("pandas and numpy, vectorised", "vectorised", 3), ("pandas and numpy, plain", "plain", 1)):
+        row["against"].setdefault(name, []).append(least(runs, sys.executable, IDENTIFY, mode + how, folder, theirs))
         comparison = compared(loaded(result), loaded(theirs))
         if comparison.wrong:
-            sys.exit(f"{folder}, {how}: {len(comparison.wrong)} of {comparison.numbers} numbers are not ours:\n"
+            sys.exit(f"{folder}, {mode}{how}: {len(comparison.wrong)} of {comparison.numbers} numbers are not ours:\n"
                      + "\n".join(comparison.wrong[:10]))
-        print(f"{folder.name}, {name}: {comparison.numbers} numbers the same, {comparison.drawn} of them of own draws", flush=True)
+        print(f"{folder.name}, {mode}{how}: {comparison.numbers} numbers the same, {comparison.drawn} of them of own draws", flush=True)
 
 
 def estimate_only(folder, row):
     """Ours gives all the rest too; the script the stiffnesses alone."""
-    command = (binary, "identify", folder, "--method", "pp", "--neglect-kc", "--json", work / "estimate.json")
+    command = (binary, "identify", folder, "--method", "pp", "--neglect-kc")
     row["ours"].append(least(3, *command))
+    timed(*command, "--json", work / "estimate.json")
     reference = loaded(work / "estimate.json")["methods"]["pp"]["stiffness_nm_per_rad"]
     joints = "".join(str(j + 1) for j, k in enumerate(reference) if k is not None)
-    for name, how, runs in (("vectorised, estimate only", "estimate-vectorised", 3), ("plain, estimate only", "estimate-plain", 1)):
+    for name, how, runs in (("stiffnesses alone, vectorised", "estimate-vectorised", 3), ("stiffnesses alone, plain", "estimate-plain", 1)):
         seconds = []
         for _ in range(runs):
             output, time = timed(sys.executable, IDENTIFY, how, folder, joints)
@@ -86,8 +99,9 @@ def report(folder, row):
 rows = []
 for what, sizes, make, measure in (
         ("`frames`", (20, 200, 2000), campaigns.sweeps, frames), ("`report`", (19, 190, 1900), campaigns.day, report),
-        ("`identify`, only its stiffnesses compared", (100, 1000, 10000), campaigns.differences, estimate_only),
-        ("`identify`", (100, 1000, 10000), campaigns.differences, identify)):
+        ("`identify --neglect-kc`, beside scripts of the stiffnesses alone", (100, 1000, 10000), campaigns.differences, estimate_only),
+        ("`identify`", (100, 1000, 10000), campaigns.differences, printed),
+        ("`identify --json`", (100, 1000, 10000), campaigns.differences, identify)):
     row = {"what": what, "sizes": [str(size) for size in sizes], "ours": [], "against": {}}
     for size in sizes:
         measure(make(binary, work, size), row)

@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 """identify.py vectorised|plain CAMPAIGN RESULT.json: what `stiffscope identify CAMPAIGN --json` computes by Partial Pose, as
 one would write it with pandas, numpy and scipy: identifiability, stiffnesses with K_c, their uncertainties with degrees of
-freedom, every load step and linearity, outlying postures, random subsets, Cartesian stiffness by posture. `plain` loops over
-rows and postures with numpy for each small matrix. estimate-vectorised and estimate-plain: the shortest script, stiffnesses
+freedom, outlying postures, random subsets, every load step and linearity, Cartesian stiffness by posture. `plain` loops over
+rows and postures with numpy for each small matrix. printed-vectorised and printed-plain: only what the command prints without
+--json, without load steps and posture by posture. estimate-vectorised and estimate-plain: the shortest script, stiffnesses
 of the heaviest step without K_c and nothing else, over the joints after CAMPAIGN (23456). Both for campaigns with
 `displacements` in base_link, all postures with all steps and reflectors, no link masses, flange on axis 6."""
 import pathlib, sys
@@ -23,7 +24,7 @@ def main(how, folder, last):
             print(*(1 / way.estimate_only(about).solve(seen)).tolist())
         return
     from written import write
-    write(about, folder, way.identify(about), pathlib.Path(last))
+    write(about, folder, way.identify(about, everything=not how.startswith("printed-")), pathlib.Path(last))
 
 
 if __name__ == "__main__":

@@ -3,7 +3,7 @@ import numpy as np
 from arm import Posture, spring_torque
 from campaign import Rows
 from judged import HANGING_WITHIN, judged_joints, torque_variance
-from plain_studies import cartesian, outlying, subsets
+from plain_studies import cartesian, outlying, subsets, torque_change_share
 from student import influence_dof, load_dependence
 
 
@@ -138,7 +138,7 @@ def estimate_only(about):
     return Step(about, tables, bases, max(force, key=force.get))
 
 
-def identify(about):
+def identify(about, everything):
     tables = Rows(about)
     force = mean_forces(tables)
     heaviest = max(force, key=force.get)
@@ -147,19 +147,23 @@ def identify(about):
     seen, joints = judge(step)
     out = outlying(step, seen)
     solved = Estimate(step, seen)
+    moved, left, servo = [], [], 0.0
+    for case, residual, pose in zip(step.cases, solved.residual, tables.poses):
+        moved.append(np.linalg.norm(case.moves, axis=1).mean())
+        left.append(np.linalg.norm(residual.reshape(-1, 3), axis=1).mean())
+        servo = max(servo, np.abs(tables.angles[heaviest, pose] - tables.angles[0, pose]).max())
+    plain = Step(about, tables, bases, heaviest)
+    found = {"poses": tables.poses, "step": heaviest, "seen": seen, "joints": joints, "estimate": solved,
+             "described": solved.describe(step, seen), "outlying": out, "subsets": subsets(step, seen), "moved": np.array(moved),
+             "torque_change_share": torque_change_share(plain, solved.compliance), "left": np.array(left),
+             "compensated": 1 - sum(left) / sum(moved), "servo": np.degrees(servo)}
+    if not everything:
+        return found
     loaded = sorted((s for s in force if force[s] >= 0.05 * force[heaviest]), key=force.get)
     steps = [solved if s == heaviest else Estimate(Step(about, tables, bases, s), seen) for s in loaded]
     changes = []
     for j, joint in enumerate(np.flatnonzero(seen)):
         influences = np.array([one.influences[:, j] for one in steps])
         changes.append(load_dependence(np.array([one.compliance[joint] for one in steps]), influences, [one.dof[j] for one in steps]))
-    moved, left, servo = [], [], 0.0
-    for case, residual, pose in zip(step.cases, solved.residual, tables.poses):
-        moved.append(np.linalg.norm(case.moves, axis=1).mean())
-        left.append(np.linalg.norm(residual.reshape(-1, 3), axis=1).mean())
-        servo = max(servo, np.abs(tables.angles[heaviest, pose] - tables.angles[0, pose]).max())
-    return {"poses": tables.poses, "step": heaviest, "seen": seen, "joints": joints, "estimate": solved,
-            "described": solved.describe(step, seen), "steps": [(s, force[s]) for s in loaded], "by_step": steps, "changes": changes,
-            "outlying": out, "subsets": subsets(step, seen),
-            "cartesian": cartesian(Step(about, tables, bases, heaviest), solved.compliance), "moved": np.array(moved),
-            "left": np.array(left), "compensated": 1 - sum(left) / sum(moved), "servo": np.degrees(servo)}
+    return found | {"steps": [(s, force[s]) for s in loaded], "by_step": steps, "changes": changes,
+                    "cartesian": cartesian(plain, solved.compliance)}

@@ -79,7 +79,7 @@ def cartesian(step, compliance):
     jacobians = [case.base.jacobian(case.base.origin) for case in step.cases]
     length = best_length(sum(j[:3].T @ j[:3] for j in jacobians), sum(j[3:].T @ j[3:] for j in jacobians))
     columns = {name: [] for name in ("kappa", "kappa_2_norm", "kc_share", "k_c_cost_um", "k_c_cost_share")}
-    with_kc, without_kc, changed, plain_torque = [], [], 0.0, 0.0
+    with_kc, without_kc = [], []
     for case, jacobian in zip(step.cases, jacobians):
         values = np.linalg.svd(np.vstack([jacobian[:3] / length, jacobian[3:]]), compute_uv=False)
         geometric, moving = case.geometric_stiffness(), jacobian[:3]
@@ -88,8 +88,6 @@ def cartesian(step, compliance):
         change = spring_torque(case.torque, geometric, compliance)
         cost, whole = [np.linalg.norm((case.base.rows(case.unloaded, t) @ compliance).reshape(-1, 3), axis=1)
                        for t in (change - case.torque, change)]
-        changed += ((change - case.torque) ** 2).sum()
-        plain_torque += (case.torque ** 2).sum()
         columns["kappa"].append(np.linalg.norm(values) * np.linalg.norm(1 / values) / 6)
         columns["kappa_2_norm"].append(values[0] / values[-1])
         columns["kc_share"].append(np.linalg.norm(one - other) / np.linalg.norm(other))
@@ -100,8 +98,16 @@ def cartesian(step, compliance):
     found = {name: np.array(values) for name, values in columns.items()}
     for name, values in (("k_x", with_kc), ("k_x_without_kc", without_kc)):
         found[name] = np.array([k for k, _ in values]), np.array([d for _, d in values])
-    found["torque_change_share"] = np.sqrt(changed / plain_torque)
     return found
+
+
+def torque_change_share(step, compliance):
+    """Root mean square change of the joint torques by K_c."""
+    changed, whole = 0.0, 0.0
+    for case in step.cases:
+        changed += ((case.with_geometric_stiffness(compliance) - case.torque) ** 2).sum()
+        whole += (case.torque ** 2).sum()
+    return np.sqrt(changed / whole)
 
 
 def principal(compliance):

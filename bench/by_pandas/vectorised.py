@@ -4,7 +4,7 @@ from arm import Posture, spring_torque, times
 from campaign import Tables
 from judged import HANGING_WITHIN, judged_joints, torque_variance
 from student import influence_dof, load_dependence
-from vectorised_studies import cartesian, outlying, subsets
+from vectorised_studies import cartesian, outlying, subsets, torque_change_share
 
 
 def squares(values):
@@ -105,7 +105,7 @@ def estimate_only(about):
     return Step(about, tables, Posture(about.joints, tables.q), int(np.argmax(force)))
 
 
-def identify(about):
+def identify(about, everything):
     tables = Tables(about)
     force = np.linalg.norm(tables.wrench[:, :, :3], axis=2).mean(1)
     base, heaviest = Posture(about.joints, tables.q), int(np.argmax(force))
@@ -114,15 +114,18 @@ def identify(about):
     out = outlying(step, seen)
     solved = Estimate(step, seen)
     plain = Step(about, tables, base, heaviest)
+    length = np.linalg.norm(step.moves, axis=2)
+    left = np.linalg.norm(solved.residual.reshape(length.shape + (3,)), axis=2)
+    found = {"poses": tables.poses.tolist(), "step": tables.steps[heaviest], "seen": seen, "joints": joints, "estimate": solved,
+             "described": solved.describe(step, seen), "outlying": out, "subsets": subsets(step, seen), "moved": length.mean(1),
+             "torque_change_share": torque_change_share(plain, solved.compliance), "left": left.mean(1),
+             "compensated": 1 - left.sum() / length.sum(), "servo": np.degrees(np.abs(tables.servo[heaviest]).max())}
+    if not everything:
+        return found
     loaded = [s for s in np.argsort(force, kind="stable") if force[s] >= 0.05 * force.max()]
     steps = [solved if s == heaviest else Estimate(Step(about, tables, base, s), seen) for s in loaded]
     influences = np.stack([one.influences for one in steps])
     changes = [load_dependence(np.array([one.compliance[joint] for one in steps]), influences[:, :, j], [one.dof[j] for one in steps])
                for j, joint in enumerate(np.flatnonzero(seen))]
-    length = np.linalg.norm(step.moves, axis=2)
-    left = np.linalg.norm(solved.residual.reshape(length.shape + (3,)), axis=2)
-    return {"poses": tables.poses.tolist(), "step": tables.steps[heaviest], "seen": seen, "joints": joints, "estimate": solved,
-            "described": solved.describe(step, seen), "steps": [(tables.steps[s], force[s]) for s in loaded], "by_step": steps,
-            "changes": changes, "outlying": out, "subsets": subsets(step, seen), "cartesian": cartesian(plain, solved.compliance),
-            "moved": length.mean(1), "left": left.mean(1), "compensated": 1 - left.sum() / length.sum(),
-            "servo": np.degrees(np.abs(tables.servo[heaviest]).max())}
+    return found | {"steps": [(tables.steps[s], force[s]) for s in loaded], "by_step": steps, "changes": changes,
+                    "cartesian": cartesian(plain, solved.compliance)}

@@ -86,8 +86,13 @@ def cartesian(step, compliance):
     return {"kappa": np.linalg.norm(values, axis=1) * np.linalg.norm(1 / values, axis=1) / 6,
             "kappa_2_norm": values[:, 0] / values[:, -1], "k_x": principal(with_kc), "k_x_without_kc": principal(without),
             "kc_share": np.linalg.norm(with_kc - without, axis=(1, 2)) / np.linalg.norm(without, axis=(1, 2)),
-            "k_c_cost_um": 1e6 * cost.mean(1), "k_c_cost_share": cost.sum(1) / whole.sum(1),
-            "torque_change_share": np.sqrt(((change - step.torque) ** 2).sum() / (step.torque ** 2).sum())}
+            "k_c_cost_um": 1e6 * cost.mean(1), "k_c_cost_share": cost.sum(1) / whole.sum(1)}
+
+
+def torque_change_share(step, compliance):
+    """Root mean square change of the joint torques by K_c."""
+    change = step.with_geometric_stiffness(compliance) - step.torque
+    return np.sqrt((change ** 2).sum() / (step.torque ** 2).sum())
 
 
 def principal(compliance):

@@ -53,15 +53,15 @@ def write(about, folder, found, file):
     pp["compensated_sd"] = dict(zip(("used", "held_out", "all"), shares.std(0, ddof=1)))
     pp["subsets"] = {"postures_used": size, "of": len(found["poses"]), "subsets": len(compliances),
                      "joints": by_joint(seen, [spread(one) for one in compliances.T])}
-    steps = [step_json(*one, of, seen) for one, of in zip(found["steps"], found["by_step"])]
-    by_step = dict(zip(("compliance_change", "compliance_change_sd", "p_change", "p_linear"),
-                       (by_joint(seen, one) for one in zip(*found["changes"]))), steps=steps)
-    postures = [{"pose": str(p), "targets_mean_mm": m, "targets_mean_after_pp_mm": r}
-                for p, m, r in zip(found["poses"], (1e3 * found["moved"]).tolist(), (1e3 * found["left"]).tolist())]
     result = {"campaign": {"inputs": about.hashes(folder)}, "step": found["step"], "postures": len(found["poses"]),
               "outlying": [{"pose": str(found["poses"][p]), "f_ratio": f, "p_value": tail} for p, f, tail in found["outlying"]],
               "methods": {"pp": pp}, "identifiability": found["joints"], "servo_change_deg": found["servo"],
-              "geometric_stiffness": {"torque_change_share": found["cartesian"]["torque_change_share"]},
-              "per_posture": postures, "by_step": {"pp": by_step},
-              "posture_stiffness": {"rows": stiffness_json(found["poses"], seen, found["cartesian"])}}
+              "geometric_stiffness": {"torque_change_share": found["torque_change_share"]}}
+    if "steps" in found:
+        steps = [step_json(*one, of, seen) for one, of in zip(found["steps"], found["by_step"])]
+        words = ("compliance_change", "compliance_change_sd", "p_change", "p_linear")
+        result["by_step"] = {"pp": dict(zip(words, (by_joint(seen, one) for one in zip(*found["changes"]))), steps=steps)}
+        result["per_posture"] = [{"pose": str(p), "targets_mean_mm": m, "targets_mean_after_pp_mm": r} for p, m, r in zip(
+            found["poses"], (1e3 * found["moved"]).tolist(), (1e3 * found["left"]).tolist())]
+        result["posture_stiffness"] = {"rows": stiffness_json(found["poses"], seen, found["cartesian"])}
     file.write_text(json.dumps(result, default=lambda value: value.item() if value.ndim == 0 else value.tolist()))
