@@ -25,7 +25,7 @@ ROWS = (
     ("Diagnosis", "diagnosis", "postures", {}),
     ("Chart", "chart as PNG", "postures of four bars", {"matplotlib": "chart"}),
 )
-COMMANDS = {"`frames`": "readings a circle, 50 times as many of the wrist", "`report`": "postures"}
+COMMANDS = {"`frames`": "readings a circle, 50 times as many of the wrist", "`report`": "postures"}  # commands' sizes
 
 
 def spoken(seconds):
@@ -39,7 +39,8 @@ def measured(folder):
     """Seconds and MB/s by benchmark and size."""
     seconds, rates = {}, {}
     for file in folder.glob("*_bench.json"):
-        for run in json.loads(file.read_text())["benchmarks"]:
+        text = file.read_text()  # nothing where a filter left no benchmark
+        for run in json.loads(text)["benchmarks"] if text else ():
             if run.get("error_occurred"):
                 sys.exit(f"{run['name']}: {run['error_message']}")
             if run["run_type"] != "iteration":
