@@ -1,73 +1,109 @@
 #!/usr/bin/env python3
-"""end_to_end.py STIFFSCOPE FOLDER: whole commands at 100, 1,000 and 10,000 postures of 14 loads (10,000: 32 MB), processor time
-of the process (the children's rusage), beside the scripts of identify_by_pandas.py. Stops where a script's stiffnesses and
-ours are not the same to 1e-6: both solve the same least squares, so only rounding is between them."""
-import json, pathlib, resource, subprocess, sys
+"""end_to_end.py STIFFSCOPE FOLDER OUT.json: whole commands at three sizes, processor time of the process (the children's
+rusage), the least of some runs, beside the scripts that do the same on the same campaign. Stops where their numbers are not
+ours."""
+import json, os, pathlib, resource, subprocess, sys
+import campaigns
+from same_result import compared
 
-TOLERANCE = 1e-6
-HERE = pathlib.Path(__file__).parent
-binary, work = pathlib.Path(sys.argv[1]), pathlib.Path(sys.argv[2])
-SIZES = (100, 1000, 10000)
+# Least squares in both: only rounding is between them.
+ESTIMATE = 1e-6
+# Of a standard uncertainty: both weigh by the tracker's noise, along directions that differ by the noise.
+FRAMES = 0.5
+binary, work, out = map(pathlib.Path, sys.argv[1:4])
+IDENTIFY = campaigns.HERE / "by_pandas/identify.py"
+ONE_THREAD = {**os.environ, "OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1", "MKL_NUM_THREADS": "1"}
 
 
 def timed(*command):
     """Output and processor seconds."""
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
-    done = subprocess.run([str(word) for word in command], capture_output=True, text=True)
+    done = subprocess.run([str(word) for word in command], capture_output=True, text=True, env=ONE_THREAD)
     after = resource.getrusage(resource.RUSAGE_CHILDREN)
-    if done.returncode > 1:
+    if done.returncode > 1 or (done.returncode and command[0] == sys.executable):
         sys.exit(f"{command}: {done.stderr}")
     return done.stdout, after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
 
 
-def campaign(postures):
-    folder = work / f"differences{postures}"
-    if folder.exists():
-        return folder
-    work.mkdir(parents=True, exist_ok=True)
-    spec = (HERE.parent / "samples/active.xml").read_text()
-    masses = " ".join(f"{10.9 * i:.1f}" for i in range(1, 15))
-    for old, new in (('count="19" candidates="20"', f'count="{postures}" candidates="1"'),
-                     ('masses_kg="51 102 153"', f'masses_kg="{masses}"'), ('repeats="3"', 'repeats="1"'),
-                     ('return_to_zero="true"', 'return_to_zero="false"'), ('rpy_deg="0.3 -0.2 152"', 'rpy_deg="0 0 0"'),
-                     ('urdf="', f'urdf="{(HERE.parent / "samples").resolve()}/')):
-        assert old in spec, old
-        spec = spec.replace(old, new, 1)
-    file = work / f"spec{postures}.xml"
-    file.write_text(spec)
-    timed(binary, "simulate", file, "--out", work / f"day{postures}")
-    timed(sys.executable, HERE / "make_displacements.py", work / f"day{postures}", folder)
-    return folder
+def least(runs, *command):
+    return min(timed(*command)[1] for _ in range(runs))
 
 
-def ours(folder):
-    output, seconds = timed(binary, "identify", folder, "--method", "pp", "--neglect-kc", "--json", "-")
-    found = json.loads(output)["methods"]["pp"]
-    return found["stiffness_nm_per_rad"], seconds
+def loaded(file):
+    return json.loads(pathlib.Path(file).read_text())
 
 
-def by_script(how, folder, reference):
+def identify(folder, row):
+    """The command with --json, and the scripts that compute the same."""
+    row["ours"].append(least(3, binary, "identify", folder, "--json", work / "identify.json"))
+    beside_identify(folder, row, "")
+
+
+def printed(folder, row):
+    """The command as it stands: numbers of the scripts are compared with what it writes with --json."""
+    row["ours"].append(least(3, binary, "identify", folder))
+    timed(binary, "identify", folder, "--json", work / "identify.json")
+    beside_identify(folder, row, "printed-")
+
+
+def beside_identify(folder, row, mode):
+    """Processor time of the scripts, and whether their numbers are those in identify.json."""
+    result, theirs = work / "identify.json", work / "by-script.json"
+    for name, how, runs in (("pandas and numpy, vectorised", "vectorised", 3), ("pandas and numpy, plain", "plain", 1)):
+        row["against"].setdefault(name, []).append(least(runs, sys.executable, IDENTIFY, mode + how, folder, theirs))
+        comparison = compared(loaded(result), loaded(theirs))
+        if comparison.wrong:
+            sys.exit(f"{folder}, {mode}{how}: {len(comparison.wrong)} of {comparison.numbers} numbers are not ours:\n"
+                     + "\n".join(comparison.wrong[:10]))
+        print(f"{folder.name}, {mode}{how}: {comparison.numbers} numbers the same, {comparison.drawn} of them of own draws", flush=True)
+
+
+def estimate_only(folder, row):
+    """Ours gives all the rest too; the script the stiffnesses alone."""
+    command = (binary, "identify", folder, "--method", "pp", "--neglect-kc")
+    row["ours"].append(least(3, *command))
+    timed(*command, "--json", work / "estimate.json")
+    reference = loaded(work / "estimate.json")["methods"]["pp"]["stiffness_nm_per_rad"]
     joints = "".join(str(j + 1) for j, k in enumerate(reference) if k is not None)
-    output, seconds = timed(sys.executable, HERE / "identify_by_pandas.py", how, folder, joints)
-    for j, (k, word) in enumerate(zip(reference, output.split())):
-        if k is not None and abs(float(word) / k - 1.0) > TOLERANCE:
-            sys.exit(f"{how}: k{j + 1} is {word}, ours {k}")
-    return seconds
+    for name, how, runs in (("stiffnesses alone, vectorised", "estimate-vectorised", 3), ("stiffnesses alone, plain", "estimate-plain", 1)):
+        seconds = []
+        for _ in range(runs):
+            output, time = timed(sys.executable, IDENTIFY, how, folder, joints)
+            seconds.append(time)
+        for k, word in zip(reference, output.split()):
+            if k is not None and not abs(float(word) / k - 1.0) < ESTIMATE:
+                sys.exit(f"{folder}, {how}: {word}, ours {k}")
+        row["against"].setdefault(name, []).append(min(seconds))
 
 
-rows = {"stiffscope identify": [], "pandas and numpy, vectorised": [], "pandas and numpy, plain": []}
-for size in SIZES:
-    folder = campaign(size)
-    stiffness, seconds = ours(folder)
-    pairs = [(seconds, by_script("vectorised", folder, stiffness))]
-    for _ in range(2):
-        pairs.append((ours(folder)[1], by_script("vectorised", folder, stiffness)))
-    rows["stiffscope identify"].append(sorted(p[0] for p in pairs)[1])
-    rows["pandas and numpy, vectorised"].append(sorted(p[1] for p in pairs)[1])
-    rows["pandas and numpy, plain"].append(by_script("plain", folder, stiffness))
-print(f"\nProcessor time, median of three (plain: one); all stiffnesses the same to {TOLERANCE:g}. Ours also gives uncertainties,\n"
-      "subsets, load steps and outliers, and checks its input; the scripts only the estimate.\n")
-print("| end to end | " + " | ".join(f"{size} postures" for size in SIZES) + " | growth |\n|---|---|---|---|---|")
-for name, times in rows.items():
-    growth = ", ".join(f"{b / a:.1f}" for a, b in zip(times, times[1:]))
-    print(f"| {name} | " + " | ".join(f"{t:.2f} s" for t in times) + f" | {growth} |")
+def frames(folder, row):
+    result, theirs = work / "frames.json", work / "by-script.json"
+    row["ours"].append(least(3, binary, "frames", folder, "--json", result))
+    row["against"].setdefault("pandas and scipy", []).append(
+        least(3, sys.executable, campaigns.HERE / "frames_by_scipy.py", folder, theirs))
+    a, b = loaded(result), loaded(theirs)
+    apart = [abs(circle["radius_mm"] - r) / sd for axis, other in zip(a["axes"], b["axes"])
+             for circle, r, sd in zip(axis["circles"], other["radii_mm"], other["sd_radii_mm"])]
+    apart += [abs(link["length_mm"] - length) / link["sd_length_mm"]
+              for link, length in zip(a["links"], b["lengths_mm"]) if not link["near_parallel"]]
+    apart += [abs(a["wrist"]["radii_mm"][name] - r) / a["wrist"]["sd_radii_mm"][name]
+              for name, r in zip(a["wrist"]["radii_mm"], b["wrist"]["radii_mm"])]
+    if not max(apart) < FRAMES:
+        sys.exit(f"{folder}: radii or lengths {max(apart):.2g} standard uncertainties apart")
+
+
+def report(folder, row):
+    row["ours"].append(least(1, binary, "report", folder, "--out", work / "report"))
+
+
+rows = []
+for what, sizes, make, measure in (
+        ("`frames`", (20, 200, 2000), campaigns.sweeps, frames), ("`report`", (19, 190, 1900), campaigns.day, report),
+        ("`identify --neglect-kc`, beside scripts of the stiffnesses alone", (100, 1000, 10000), campaigns.differences, estimate_only),
+        ("`identify`", (100, 1000, 10000), campaigns.differences, printed),
+        ("`identify --json`", (100, 1000, 10000), campaigns.differences, identify)):
+    row = {"what": what, "sizes": [str(size) for size in sizes], "ours": [], "against": {}}
+    for size in sizes:
+        measure(make(binary, work, size), row)
+    rows.append(row)
+out.write_text(json.dumps(rows))

@@ -7,6 +7,7 @@
 #include <random>
 #include <vector>
 
+#include "bench/shared_data.h"
 #include "metrology/circle_fit.h"
 #include "metrology/cylinder_fit.h"
 #include "metrology/plane_fit.h"
@@ -14,7 +15,7 @@
 
 // Fits at 20, 1,000 and 1,000,000 points of a metre-sized shape, 20 um noise, 3 m from the tracker. Beside
 // them what libraries offer: OpenCV's ellipse, Eigen's eigen-decomposition for the plane and its least
-// squares for Kasa's sphere.
+// squares for Kasa's sphere; and, by fits_by_scipy.py on the same points, scipy's least squares.
 
 namespace {
 
@@ -55,10 +56,15 @@ void sizes(benchmark::internal::Benchmark* one) {
   one->Arg(20)->Arg(1000)->Arg(1000000)->Unit(benchmark::kMicrosecond);
 }
 
-/// The figure that is promised: 10,000 circles of 20 points in under 0.1 s.
-void TenThousandCirclesOf20Points(benchmark::State& state) {
+std::vector<MeasuredPoints> tenThousandCircles() {
   std::vector<MeasuredPoints> circles;
   for (std::uint64_t seed = 0; seed < 10000; ++seed) circles.push_back(noisy(20, onQuarterCircle, seed));
+  return circles;
+}
+
+/// The figure that is promised: 10,000 circles of 20 points in under 0.1 s.
+void TenThousandCirclesOf20Points(benchmark::State& state) {
+  const std::vector<MeasuredPoints> circles = tenThousandCircles();
   for (auto _ : state) {
     for (const MeasuredPoints& circle : circles) benchmark::DoNotOptimize(fitCircle(circle));
   }
@@ -146,6 +152,45 @@ void FlatEllipseByOpenCv(benchmark::State& state) {
 }
 BENCHMARK(FlatEllipseByOpenCv)->Apply(sizes);
 
+void append(const MeasuredPoints& points, std::vector<double>& all) {
+  for (const Eigen::Vector3d& point : points.points) all.insert(all.end(), point.begin(), point.end());
+}
+
+template <class Shape>
+void appendRound(const Shape& shape, std::vector<double>& all) {
+  all.insert(all.end(), shape.centre.begin(), shape.centre.end());
+  all.push_back(shape.radius);
+}
+
+/// Points, and the centres and radii we find, as NAME.points and NAME.fits.
+void writeFits(const std::filesystem::path& folder) {
+  std::vector<double> points, fits;
+  const auto write = [&](const std::string& name) {
+    stiffscope::bench::writeDoubles(folder / (name + ".points"), points);
+    stiffscope::bench::writeDoubles(folder / (name + ".fits"), fits);
+    points.clear(), fits.clear();
+  };
+  for (const MeasuredPoints& circle : tenThousandCircles()) {
+    append(circle, points);
+    appendRound(fitCircle(circle).circle, fits);
+  }
+  write("TenThousandCirclesOf20Points");
+  for (const std::size_t count : {20, 1000, 1000000}) {
+    const MeasuredPoints circle = noisy(count, onQuarterCircle), sphere = noisy(count, onCap);
+    append(circle, points);
+    appendRound(fitCircle(circle).circle, fits);
+    write("Circle_" + std::to_string(count));
+    append(sphere, points);
+    appendRound(stiffscope::fitSphere(sphere).sphere, fits);
+    write("Sphere_" + std::to_string(count));
+  }
+}
+
 }  // namespace
 
-BENCHMARK_MAIN();
+int main(int argc, char** argv) {
+  if (const auto folder = stiffscope::bench::dataFolder(argc, argv)) writeFits(*folder);
+  benchmark::Initialize(&argc, argv);
+  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;
+  benchmark::RunSpecifiedBenchmarks();
+}

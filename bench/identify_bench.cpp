@@ -7,15 +7,20 @@
 #include <random>
 #include <stdexcept>
 
+#include "bench/shared_data.h"
 #include "core/diagnosis/diagnose.h"
 #include "core/frames/frames.h"
 #include "core/identification/identify.h"
+#include "core/identification/load_step.h"
+#include "core/identification/method_solution.h"
+#include "core/identification/settled_frames.h"
 #include "core/robot/kinematics.h"
 #include "core/simulation/read_spec.h"
 #include "core/simulation/simulate.h"
 
-// What is computed from a campaign, at 19, 190 and 1,900 postures of the sample's machine: frames, the three methods with
-// their uncertainties, all subsets, the diagnosis. Beside them KDL's Jacobian, whose numbers are checked against ours.
+// What is computed from a campaign, at 19, 190 and 1,900 postures of the sample's machine: frames, each method and all
+// three with their uncertainties, all subsets, the diagnosis. Beside them KDL's Jacobian, whose numbers are checked against
+// ours, and, by subsets_by_numpy.py on the same equations, all subsets.
 
 namespace {
 
@@ -50,21 +55,60 @@ void ThreeMethods(benchmark::State& state) {
 }
 BENCHMARK(ThreeMethods)->Apply(sizes);
 
+/// One method from the readings on, in the frames that are settled before: load cases, equations, compliances and their
+/// uncertainty by scatter, K_c neglected. Partial Pose without its calibration, which stands apart.
+void method(benchmark::State& state, Method which) {
+  const Campaign& read = campaign(static_cast<int>(state.range(0)));
+  const std::vector<int> steps{chosenStep(read, {})};
+  const SettledFrames settled = settleFrames(read, steps, {});
+  const LoadingGeometry& geometry = settled.arm.geometry;
+  const double length = characteristicLength(geometry, settled.arm.cases, settled.frames.tcp_in_flange).length;
+  const JointMask unknown = judgeJoints(geometry, settled.arm.cases, *read.load_cell, reflectorEquations(settled.arm)).mask();
+  const MethodSolution how{which, settled.frames.tcp_in_flange, length, unknown, &*read.tracker};
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(how.estimate(loadedArm(read, geometry, settled.frames.wrist, steps)));
+  }
+}
+void CompletePose(benchmark::State& state) { method(state, Method::complete_pose); }
+BENCHMARK(CompletePose)->Apply(sizes);
+void PartialPose(benchmark::State& state) { method(state, Method::partial_pose); }
+BENCHMARK(PartialPose)->Apply(sizes);
+void DecoupledPartialPose(benchmark::State& state) { method(state, Method::decoupled_partial_pose); }
+BENCHMARK(DecoupledPartialPose)->Apply(sizes);
+
+/// Partial Pose's geometry on the unloaded positions.
+void Calibration(benchmark::State& state) {
+  const Campaign& read = campaign(static_cast<int>(state.range(0)));
+  const SettledFrames settled = settleFrames(read, {chosenStep(read, {})}, {});
+  for (auto _ : state) benchmark::DoNotOptimize(calibrateGeometry(read, settled.arm.geometry));
+}
+BENCHMARK(Calibration)->Apply(sizes);
+
+std::vector<CaseEquations> drawnEquations(int n) {
+  std::mt19937_64 random(1);
+  std::normal_distribution<double> normal;
+  std::vector<CaseEquations> equations;
+  for (int p = 0; p < n; ++p) {
+    equations.push_back({Eigen::MatrixXd::NullaryExpr(9, 6, [&] { return normal(random); }),
+                         Eigen::VectorXd::NullaryExpr(9, [&] { return normal(random); }), p});
+  }
+  return equations;
+}
+
+SubsetStudy allSubsets(const std::vector<CaseEquations>& equations) {
+  SubsetMethod method;
+  method.unknown.fill(true);
+  for (const CaseEquations& one : equations) method.normal.push_back(normalEquations(one));
+  SubsetOptions options;
+  options.size = static_cast<int>(equations.size()) / 2;
+  return studySubsets(method, options);
+}
+
 /// All subsets of half of 10, 14 and 18 postures: 252, 3,432 and 48,620.
 void AllSubsets(benchmark::State& state) {
   const int n = static_cast<int>(state.range(0));
-  std::mt19937_64 random(1);
-  std::normal_distribution<double> normal;
-  SubsetMethod method;
-  method.unknown.fill(true);
-  for (int p = 0; p < n; ++p) {
-    CaseEquations one{Eigen::MatrixXd::NullaryExpr(9, 6, [&] { return normal(random); }),
-                      Eigen::VectorXd::NullaryExpr(9, [&] { return normal(random); }), p};
-    method.normal.push_back(normalEquations(one));
-  }
-  SubsetOptions options;
-  options.size = n / 2;
-  for (auto _ : state) benchmark::DoNotOptimize(studySubsets(method, options));
+  const std::vector<CaseEquations> equations = drawnEquations(n);
+  for (auto _ : state) benchmark::DoNotOptimize(allSubsets(equations));
   state.counters["per_subset"] =
       benchmark::Counter(static_cast<double>(subsetCount(n, n / 2)),
                          benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
@@ -75,7 +119,7 @@ void Diagnosis(benchmark::State& state) {
   const Campaign& read = campaign(static_cast<int>(state.range(0)));
   for (auto _ : state) benchmark::DoNotOptimize(diagnose(read));
 }
-BENCHMARK(Diagnosis)->Apply(sizes)->MeasureProcessCPUTime()->Iterations(1);
+BENCHMARK(Diagnosis)->Apply(sizes)->MeasureProcessCPUTime()->Iterations(1)->Repetitions(1);
 
 std::vector<Vector6d> drawnPostures(std::int64_t count) {
   std::mt19937_64 random(2);
@@ -139,6 +183,31 @@ void JacobianByKdl(benchmark::State& state) {
 }
 BENCHMARK(JacobianByKdl)->Arg(100)->Arg(1000)->Arg(10000)->Unit(benchmark::kMicrosecond);
 
+/// Rows [A b] of every posture as AllSubsets_N.equations, and the mean compliances over the subsets as .mean.
+void writeSubsets(const std::filesystem::path& folder) {
+  for (const int n : {10, 14, 18}) {
+    const std::string name = "AllSubsets_" + std::to_string(n);
+    const std::vector<CaseEquations> equations = drawnEquations(n);
+    std::vector<double> rows;
+    for (const CaseEquations& one : equations) {
+      for (Eigen::Index row = 0; row < one.right.size(); ++row) {
+        for (Eigen::Index column = 0; column < 6; ++column) rows.push_back(one.matrix(row, column));
+        rows.push_back(one.right[row]);
+      }
+    }
+    const SubsetStudy study = allSubsets(equations);
+    Vector6d mean = Vector6d::Zero();
+    for (const Vector6d& one : study.compliances) mean += one / static_cast<double>(study.compliances.size());
+    bench::writeDoubles(folder / (name + ".equations"), rows);
+    bench::writeDoubles(folder / (name + ".mean"), {mean.begin(), mean.end()});
+  }
+}
+
 }  // namespace
 
-BENCHMARK_MAIN();
+int main(int argc, char** argv) {
+  if (const auto folder = bench::dataFolder(argc, argv)) writeSubsets(*folder);
+  benchmark::Initialize(&argc, argv);
+  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;
+  benchmark::RunSpecifiedBenchmarks();
+}

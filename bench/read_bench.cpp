@@ -18,22 +18,31 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A folder with both campaigns, written once and removed at the end.
+/// A folder of campaigns, each written when it is first asked for, removed at the end.
 class Campaigns {
  public:
   Campaigns() {
     std::string name = (fs::temp_directory_path() / "stiffscope-bench-XXXXXX").string();
     if (::mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder: " + name);
     folder_ = name;
-    stiffscope::bench::writeManyPostures(postures(), 10000);
-    stiffscope::bench::writeLongWristSweep(sweep(), 1000000);
   }
   ~Campaigns() { fs::remove_all(folder_); }
 
-  fs::path postures() const { return folder_ / "postures"; }
-  fs::path sweep() const { return folder_ / "sweep"; }
+  fs::path postures(std::int64_t count) const {
+    return written("postures", count, stiffscope::bench::writeManyPostures);
+  }
+  fs::path sweep(std::int64_t readings) const {
+    return written("sweep", readings, stiffscope::bench::writeLongWristSweep);
+  }
 
  private:
+  template <class Write>
+  fs::path written(const char* kind, std::int64_t count, const Write& write) const {
+    fs::path folder = folder_ / (kind + std::to_string(count));
+    if (!fs::exists(folder)) write(folder, static_cast<int>(count));
+    return folder;
+  }
+
   fs::path folder_;
 };
 
@@ -77,14 +86,14 @@ void readingCampaign(benchmark::State& state, const fs::path& folder) {
   reading(state, bytesIn(folder), [&] { benchmark::DoNotOptimize(stiffscope::readCampaign(folder)); });
 }
 
-void TenThousandPostures(benchmark::State& state) { readingCampaign(state, campaigns().postures()); }
-BENCHMARK(TenThousandPostures)->Unit(benchmark::kMillisecond);
+void ReadPostures(benchmark::State& state) { readingCampaign(state, campaigns().postures(state.range(0))); }
+BENCHMARK(ReadPostures)->Arg(100)->Arg(1000)->Arg(10000)->Unit(benchmark::kMillisecond);
 
-void WristSweepOfAMillionReadings(benchmark::State& state) { readingCampaign(state, campaigns().sweep()); }
-BENCHMARK(WristSweepOfAMillionReadings)->Unit(benchmark::kMillisecond);
+void ReadWristSweep(benchmark::State& state) { readingCampaign(state, campaigns().sweep(state.range(0))); }
+BENCHMARK(ReadWristSweep)->Arg(10000)->Arg(100000)->Arg(1000000)->Unit(benchmark::kMillisecond);
 
-void WristSweepByVtk(benchmark::State& state) {
-  const fs::path file = campaigns().sweep() / "wrist_sweep.csv";
+void ReadWristSweepByVtk(benchmark::State& state) {
+  const fs::path file = campaigns().sweep(state.range(0)) / "wrist_sweep.csv";
   reading(state, static_cast<double>(fs::file_size(file)), [&] {
     const auto reader = vtkSmartPointer<vtkDelimitedTextReader>::New();
     reader->SetFileName(file.c_str());
@@ -94,7 +103,7 @@ void WristSweepByVtk(benchmark::State& state) {
     benchmark::DoNotOptimize(reader->GetOutput()->GetNumberOfRows());
   });
 }
-BENCHMARK(WristSweepByVtk)->Unit(benchmark::kMillisecond)->Iterations(1);
+BENCHMARK(ReadWristSweepByVtk)->Arg(10000)->Arg(100000)->Arg(1000000)->Unit(benchmark::kMillisecond)->Iterations(1);
 
 }  // namespace
 
