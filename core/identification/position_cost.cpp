@@ -6,8 +6,11 @@ namespace stiffscope {
 
 namespace {
 
-template <int Rows, int Columns>
-using RowMajor = Eigen::Matrix<double, Rows, Columns, Eigen::RowMajor>;
+/// A block of derivatives as the solver keeps it: row by row.
+template <int Columns>
+auto derivatives(double* at) {
+  return Eigen::Map<Eigen::Matrix<double, 3, Columns, Eigen::RowMajor>>(at);
+}
 
 /// Derivatives of a step of the chain by its own numbers and by the point that comes in.
 template <int Own>
@@ -50,16 +53,16 @@ bool PositionCost::Evaluate(const double* const* parameters, double* residuals, 
       differentiated<6>(base, x, [&](const auto* own, const auto& point) { return residual_.placed(own, point); });
   Eigen::Map<Eigen::Vector3d> left(residuals);
   left = residual_.whiten * (residual_.measured - placed.out);
-  if (jacobians[1] != nullptr) Eigen::Map<RowMajor<3, 6>>(jacobians[1]) = -residual_.whiten * placed.by_own;
+  if (jacobians[1] != nullptr) derivatives<6>(jacobians[1]) = -residual_.whiten * placed.by_own;
   Eigen::Matrix3d chain = -residual_.whiten * placed.by_point;
   for (int joint = 0; joint < 6; ++joint) {
     const Step<4>& step = joints[static_cast<std::size_t>(joint)];
     if (jacobians[0] != nullptr) {
-      Eigen::Map<RowMajor<3, 24>>(jacobians[0]).middleCols<4>(4 * joint) = chain * step.by_own;
+      derivatives<24>(jacobians[0]).middleCols<4>(4 * joint) = chain * step.by_own;
     }
     chain = (chain * step.by_point).eval();
   }
-  if (jacobians[2] != nullptr) Eigen::Map<RowMajor<3, 3>>(jacobians[2]) = chain;
+  if (jacobians[2] != nullptr) derivatives<3>(jacobians[2]) = chain;
   return true;
 }
 

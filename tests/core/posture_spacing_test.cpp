@@ -46,7 +46,9 @@ TEST(PostureSpacing, IsTheLeastOfAllDistances) {
     // Where the nearest is near enough, some posture that is; else the nearest.
     const double enough = 0.05, found = spacing.squaredToNearest(q, enough);
     EXPECT_EQ(found <= enough, least <= enough) << n;
-    if (least > enough) EXPECT_EQ(found, least) << n;
+    if (least > enough) {
+      EXPECT_EQ(found, least) << n;
+    }
     before.push_back(q);
     spacing.add(q);
   }
