@@ -16,11 +16,13 @@ using Source = StatePoints::Source;
 /// Gathers readings by their state, in order of first appearance. Most follow one of the same state.
 class Gatherer {
  public:
+  explicit Gatherer(std::size_t targets) : targets_(targets) {}
+
   template <class Row>
   void add(Source source, int axis, const std::string& index, int pose, int step, const Row& row) {
     if (states_.empty() || !isOf(states_[last_], source, axis, index, pose, step)) {
       const auto [found, added] = places_.try_emplace({source, axis, index, pose, step}, states_.size());
-      if (added) states_.push_back({source, axis, index, pose, step, {}});
+      if (added) states_.emplace_back(StatePoints{source, axis, index, pose, step, {}}).reflectors.reserve(targets_);
       last_ = found->second;
     }
     ReflectorMean& mean = of(states_[last_].reflectors, row);
@@ -34,8 +36,8 @@ class Gatherer {
         mean.point /= mean.readings;
         if (noise) mean.covariance = noise->covarianceAt(mean.point) / mean.readings;
       }
-      state.reflectors.shrink_to_fit();
     }
+    states_.shrink_to_fit();
     return std::move(states_);
   }
 
@@ -53,6 +55,7 @@ class Gatherer {
         ReflectorMean{row.target, Eigen::Vector3d::Zero(), Eigen::Matrix3d::Zero(), 0, row.line});
   }
 
+  std::size_t targets_;
   std::vector<StatePoints> states_;
   std::size_t last_ = 0;
   std::map<std::tuple<Source, int, std::string, int, int>, std::size_t> places_;
@@ -79,7 +82,7 @@ std::string nameOf(const Campaign& campaign, const StatePoints& state) {
 }
 
 std::vector<StatePoints> statePoints(const Campaign& campaign, const std::optional<TrackerNoise>& noise) {
-  Gatherer gatherer;
+  Gatherer gatherer(campaign.targets.size());
   if (campaign.circle_sweeps) {
     for (const CircleReading& row : campaign.circle_sweeps->rows) {
       gatherer.add(Source::circle_sweeps, row.axis, row.index, -1, 0, row);
