@@ -71,7 +71,7 @@ int identifyCampaign(const Arguments& arguments, bool subset_given) {
   if (!arguments.with.empty()) improved = improveModel(prepared.campaign, effectsAsked(prepared, arguments.with), options);
   const Campaign& campaign = improved ? improved->campaign : prepared.campaign;
   const Identification result = improved ? improved->with : identify(campaign, options);
-  // Ten times the work of the rest with a dozen load steps, and only shown where asked for.
+  // With a dozen load steps several times the work of the rest, and only shown where asked for.
   const bool steps_shown = options.all_steps || !arguments.json.empty();
   const StepStudy steps = steps_shown ? studySteps(campaign, options, result) : StepStudy{};
   const auto text = [&] {

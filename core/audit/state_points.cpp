@@ -22,7 +22,8 @@ class Gatherer {
   void add(Source source, int axis, const std::string& index, int pose, int step, const Row& row) {
     if (states_.empty() || !isOf(states_[last_], source, axis, index, pose, step)) {
       const auto [found, added] = places_.try_emplace({source, axis, index, pose, step}, states_.size());
-      if (added) states_.emplace_back(StatePoints{source, axis, index, pose, step, {}}).reflectors.reserve(targets_);
+      if (added)
+        states_.emplace_back(StatePoints{source, axis, index, pose, step, {}}).reflectors.reserve(targets_);
       last_ = found->second;
     }
     ReflectorMean& mean = of(states_[last_].reflectors, row);
@@ -42,8 +43,10 @@ class Gatherer {
   }
 
  private:
-  static bool isOf(const StatePoints& state, Source source, int axis, const std::string& index, int pose, int step) {
-    return state.source == source && state.axis == axis && state.index == index && state.pose == pose && state.step == step;
+  static bool isOf(const StatePoints& state, Source source, int axis, const std::string& index, int pose,
+                   int step) {
+    return state.source == source && state.axis == axis && state.index == index && state.pose == pose &&
+           state.step == step;
   }
 
   template <class Row>
@@ -76,7 +79,8 @@ const std::string& fileOf(const Campaign& campaign, const StatePoints& state) {
 }
 
 std::string nameOf(const Campaign& campaign, const StatePoints& state) {
-  if (state.source == Source::circle_sweeps) return fmt::format("axis {}, index {}", state.axis + 1, state.index);
+  if (state.source == Source::circle_sweeps)
+    return fmt::format("axis {}, index {}", state.axis + 1, state.index);
   if (state.source == Source::wrist_sweep) return fmt::format("wrist sweep, index {}", state.index);
   return fmt::format("pose {}, step {}", poseName(campaign, state.pose), state.step);
 }

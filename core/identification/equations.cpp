@@ -36,10 +36,12 @@ Wrench turnedWrench(const Robot& arm, const LoadCase& load_case, const Vector6d&
   const auto body = static_cast<std::size_t>(load_case.wrench_turns_with);
   const Eigen::Matrix3d turn =
       postureAt(arm, loaded).motion[body].linear() * load_case.posture.motion[body].linear().transpose();
-  return {load_case.wrench.point, turn * load_case.wrench_unturned.force, turn * load_case.wrench_unturned.moment};
+  return {load_case.wrench.point, turn * load_case.wrench_unturned.force,
+          turn * load_case.wrench_unturned.moment};
 }
 
-ArmPosture middleOf(const Robot& arm, const LoadCase& load_case, const Vector6d& compliance, const Vector6d& torque) {
+ArmPosture middleOf(const Robot& arm, const LoadCase& load_case, const Vector6d& compliance,
+                    const Vector6d& torque) {
   return postureAt(arm, load_case.q_sagged + 0.5 * compliance.cwiseProduct(torque));
 }
 

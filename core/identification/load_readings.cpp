@@ -18,7 +18,8 @@ LoadReadings::LoadReadings(const Campaign& campaign, std::vector<int> steps)
   }
   const auto add = [&](const auto& row, const Eigen::Vector3d& value, std::vector<ReadingSum>& table) {
     if (!asked(row.step)) return;
-    ReadingSum& sum = table[at(static_cast<std::size_t>(row.pose), row.step) * targets_ + static_cast<std::size_t>(row.target)];
+    ReadingSum& sum = table[at(static_cast<std::size_t>(row.pose), row.step) * targets_ +
+                            static_cast<std::size_t>(row.target)];
     sum.sum += value;
     ++sum.readings;
   };
@@ -37,7 +38,8 @@ std::size_t LoadReadings::slot(int step) const {
   return 1 + static_cast<std::size_t>(std::find(steps_.begin(), steps_.end(), step) - steps_.begin());
 }
 
-std::span<const ReadingSum> LoadReadings::of(const std::vector<ReadingSum>& table, std::size_t pose, int step) const {
+std::span<const ReadingSum> LoadReadings::of(const std::vector<ReadingSum>& table, std::size_t pose,
+                                             int step) const {
   if (table.empty()) return {};
   return {table.data() + at(pose, step) * targets_, targets_};
 }

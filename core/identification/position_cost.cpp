@@ -26,7 +26,8 @@ Step<Own> differentiated(const double* own, const Eigen::Vector3d& point, const 
   using Jet = ceres::Jet<double, Own + 3>;
   std::array<Jet, Own> numbers;
   for (int k = 0; k < Own; ++k) numbers[static_cast<std::size_t>(k)] = Jet(own[k], k);
-  const Eigen::Matrix<Jet, 3, 1> moving(Jet(point.x(), Own), Jet(point.y(), Own + 1), Jet(point.z(), Own + 2));
+  const Eigen::Matrix<Jet, 3, 1> moving(Jet(point.x(), Own), Jet(point.y(), Own + 1),
+                                        Jet(point.z(), Own + 2));
   const Eigen::Matrix<Jet, 3, 1> moved = step(numbers.data(), moving);
   Step<Own> result;
   for (int row = 0; row < 3; ++row) {
@@ -46,11 +47,12 @@ bool PositionCost::Evaluate(const double* const* parameters, double* residuals, 
   std::array<Step<4>, 6> joints;
   for (int joint = 5; joint >= 0; --joint) {
     joints[static_cast<std::size_t>(joint)] = differentiated<4>(
-        axes + 4 * joint, x, [&](const auto* own, const auto& point) { return residual_.turned(joint, own, point); });
+        axes + 4 * joint, x,
+        [&](const auto* own, const auto& point) { return residual_.turned(joint, own, point); });
     x = joints[static_cast<std::size_t>(joint)].out;
   }
-  const Step<6> placed =
-      differentiated<6>(base, x, [&](const auto* own, const auto& point) { return residual_.placed(own, point); });
+  const Step<6> placed = differentiated<6>(
+      base, x, [&](const auto* own, const auto& point) { return residual_.placed(own, point); });
   Eigen::Map<Eigen::Vector3d> left(residuals);
   left = residual_.whiten * (residual_.measured - placed.out);
   if (jacobians[1] != nullptr) derivatives<6>(jacobians[1]) = -residual_.whiten * placed.by_own;

@@ -10,9 +10,10 @@ namespace stiffscope {
 
 namespace {
 
-/// Covariance between the influences of the postures on one joint, for errors W: with r = (I - H) e and l_p the row of
-/// M_p A_p^T, l_p^T [(I - H) W (I - H)^T]_pq l_q. `inner`: A^T W A of all.
-InfluenceCovariance covarianceByNoise(const std::vector<PostureGain>& gains, const std::vector<NormalEquations>& normal,
+/// Covariance between the influences of the postures on one joint, for errors W: with r = (I - H) e and l_p
+/// the row of M_p A_p^T, l_p^T [(I - H) W (I - H)^T]_pq l_q. `inner`: A^T W A of all.
+InfluenceCovariance covarianceByNoise(const std::vector<PostureGain>& gains,
+                                      const std::vector<NormalEquations>& normal,
                                       const std::vector<Matrix6d>& noise, const Matrix6d& inverse,
                                       const Matrix6d& inner, int joint) {
   const auto n = static_cast<Eigen::Index>(gains.size());
@@ -31,7 +32,8 @@ InfluenceCovariance covarianceByNoise(const std::vector<PostureGain>& gains, con
 
 }  // namespace
 
-std::vector<Matrix6d> reflectorNoise(const Tracker& tracker, const LoadedArm& arm, const std::vector<CaseEquations>& equations) {
+std::vector<Matrix6d> reflectorNoise(const Tracker& tracker, const LoadedArm& arm,
+                                     const std::vector<CaseEquations>& equations) {
   std::vector<Matrix6d> noise;
   noise.reserve(arm.cases.size());
   for (std::size_t i = 0; i < arm.cases.size(); ++i) {
@@ -40,7 +42,8 @@ std::vector<Matrix6d> reflectorNoise(const Tracker& tracker, const LoadedArm& ar
     Matrix6d sum = Matrix6d::Zero();
     for (std::size_t k = 0; k < load_case.targets.size(); ++k) {
       const Matrix36d rows = equations[i].matrix.middleRows<3>(static_cast<Eigen::Index>(3 * k));
-      sum += rows.transpose() * displacementCovariance(tracker, *arm.geometry.r0_from_loading, load_case.targets[k]) * rows;
+      sum += rows.transpose() *
+             displacementCovariance(tracker, *arm.geometry.r0_from_loading, load_case.targets[k]) * rows;
     }
     noise.push_back(sum);
   }

@@ -38,7 +38,8 @@ double PostureSpacing::squared(const Vector6d& a, const Vector6d& b) const {
   return sum;
 }
 
-void PostureSpacing::search(std::size_t node, std::size_t depth, const Vector6d& q, double enough, double& least) const {
+void PostureSpacing::search(std::size_t node, std::size_t depth, const Vector6d& q, double enough,
+                            double& least) const {
   const Node& here = nodes_[node];
   least = std::min(least, squared(q, here.q));
   const int joint = jointOf(depth);
