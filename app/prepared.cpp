@@ -1,6 +1,7 @@
 #include "app/prepared.h"
 
 #include <CLI/CLI.hpp>
+#include <utility>
 
 #include "app/output.h"
 
@@ -14,8 +15,8 @@ void addRawOption(CLI::App& command, bool& raw) {
 }
 
 PreparedCampaign openPrepared(const std::string& folder_or_xml, bool raw) {
-  const Campaign campaign = openCampaign(folder_or_xml);
-  return raw ? leaveRaw(campaign) : prepareCampaign(campaign);
+  Campaign campaign = openCampaign(folder_or_xml);
+  return raw ? leaveRaw(std::move(campaign)) : prepareCampaign(std::move(campaign));
 }
 
 }  // namespace stiffscope

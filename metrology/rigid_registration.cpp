@@ -2,6 +2,7 @@
 
 #include <Eigen/Dense>
 #include <cmath>
+#include <optional>
 
 namespace stiffscope {
 
@@ -13,9 +14,47 @@ Eigen::Vector3d mean(const std::vector<Eigen::Vector3d>& points) {
   return sum / static_cast<double>(points.size());
 }
 
+/// Axes of a triangle: along its first side, across it in its plane, normal to it. Columns.
+Eigen::Matrix3d axesOf(const std::vector<Eigen::Vector3d>& triangle) {
+  const Eigen::Vector3d side = (triangle[1] - triangle[0]).normalized();
+  const Eigen::Vector3d normal = side.cross(triangle[2] - triangle[0]).normalized();
+  Eigen::Matrix3d axes;
+  axes << side, normal.cross(side), normal;
+  return axes;
+}
+
+/// The rotation of two triangles, `cross` as below: it brings plane onto plane, and within the plane a polar
+/// factor of two by two numbers has its angle in closed form. Empty where a triangle is nearly a line, or
+/// turned over in the plane.
+std::optional<Eigen::Matrix3d> rotationOfTriangles(const std::vector<Eigen::Vector3d>& source,
+                                                   const std::vector<Eigen::Vector3d>& to,
+                                                   const Eigen::Matrix3d& cross) {
+  const Eigen::Matrix3d from_axes = axesOf(source), to_axes = axesOf(to);
+  const Eigen::Matrix2d plane = (to_axes.transpose() * cross * from_axes).topLeftCorner<2, 2>();
+  constexpr double kSlender = 1e-6;  // of the two sizes of the cross products
+  if (!(plane.determinant() > kSlender * plane.squaredNorm())) return std::nullopt;
+  const double sine = plane(1, 0) - plane(0, 1), cosine = plane(0, 0) + plane(1, 1),
+               size = std::hypot(sine, cosine);
+  Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
+  turn.topLeftCorner<2, 2>() << cosine / size, -sine / size, sine / size, cosine / size;
+  return to_axes * turn * from_axes.transpose();
+}
+
+/// Of least squares by the singular vectors of `cross`; empty for points on one line.
+std::optional<Eigen::Matrix3d> rotationOf(const Eigen::Matrix3d& cross) {
+  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(cross, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  constexpr double kOnOneLine = 1e-12;
+  if (!(svd.singularValues()[1] > kOnOneLine * svd.singularValues()[0])) return std::nullopt;
+  // The sign on the least singular direction keeps the rotation proper (Umeyama 1991).
+  const Eigen::Vector3d signs(1.0, 1.0,
+                              (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0.0 ? -1.0 : 1.0);
+  return svd.matrixU() * signs.asDiagonal() * svd.matrixV().transpose();
+}
+
 }  // namespace
 
-RigidRegistration registerRigid(const std::vector<Eigen::Vector3d>& source, const std::vector<Eigen::Vector3d>& to) {
+RigidRegistration registerRigid(const std::vector<Eigen::Vector3d>& source,
+                                const std::vector<Eigen::Vector3d>& to) {
   RigidRegistration result;
   if (source.size() < 3 || source.size() != to.size()) {
     result.reason = "fewer than three common points";
@@ -26,18 +65,18 @@ RigidRegistration registerRigid(const std::vector<Eigen::Vector3d>& source, cons
   for (std::size_t i = 0; i < source.size(); ++i) {
     cross += (to[i] - to_mean) * (source[i] - source_mean).transpose();
   }
-  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(cross, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  constexpr double kOnOneLine = 1e-12;
-  if (!(svd.singularValues()[1] > kOnOneLine * svd.singularValues()[0])) {
+  std::optional<Eigen::Matrix3d> rotation;
+  if (source.size() == 3) rotation = rotationOfTriangles(source, to, cross);
+  if (!rotation) rotation = rotationOf(cross);
+  if (!rotation) {
     result.reason = "the points lie on one line";
     return result;
   }
-  // The sign on the least singular direction keeps the rotation proper (Umeyama 1991).
-  Eigen::Vector3d signs(1.0, 1.0, (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0.0 ? -1.0 : 1.0);
-  result.to_from_source.linear() = svd.matrixU() * signs.asDiagonal() * svd.matrixV().transpose();
+  result.to_from_source.linear() = *rotation;
   result.to_from_source.translation() = to_mean - result.to_from_source.linear() * source_mean;
   double sum = 0.0;
-  for (std::size_t i = 0; i < source.size(); ++i) sum += (result.to_from_source * source[i] - to[i]).squaredNorm();
+  for (std::size_t i = 0; i < source.size(); ++i)
+    sum += (result.to_from_source * source[i] - to[i]).squaredNorm();
   result.rms = std::sqrt(sum / (3.0 * static_cast<double>(source.size())));
   result.determined = true;
   return result;

@@ -71,7 +71,9 @@ int identifyCampaign(const Arguments& arguments, bool subset_given) {
   if (!arguments.with.empty()) improved = improveModel(prepared.campaign, effectsAsked(prepared, arguments.with), options);
   const Campaign& campaign = improved ? improved->campaign : prepared.campaign;
   const Identification result = improved ? improved->with : identify(campaign, options);
-  const StepStudy steps = studySteps(campaign, options, result);
+  // With a dozen load steps several times the work of the rest, and only shown where asked for.
+  const bool steps_shown = options.all_steps || !arguments.json.empty();
+  const StepStudy steps = steps_shown ? studySteps(campaign, options, result) : StepStudy{};
   const auto text = [&] {
     std::string all = identificationText(campaign, result, methods);
     if (options.all_steps) all += stepsText(steps, result, methods);

@@ -50,7 +50,7 @@ Identification underLoadStep(const Campaign& campaign, const Identification& ide
     if (!known.available) continue;
     LoadedArm arm = loadedArm(campaign, known.geometry, identified.frames.wrist, {step});
     // Nothing is solved: the known estimate stands in for every round's.
-    solveSettled(arm, identified.finite_deflection, [&](const LoadedArm&) { return known.estimate; });
+    settleArm(arm, identified.finite_deflection, [&](const LoadedArm&) { return known.estimate.compliance; });
     MethodResult& out = other.methods[static_cast<std::size_t>(which)];
     out.available = true;
     out.estimate = known.estimate;

@@ -55,20 +55,19 @@ double leastSquares(const Normal& normal, Eigen::Index from) {
 constexpr double kSigmas = 3.0;  // of the share to which the sag is trusted
 
 /// Joint angles of one posture from what the fit leaves of its reflectors.
-PostureReadBack readBackOf(const AbsoluteRows& rows, const Eigen::VectorXd& parameters, int pose) {
+PostureReadBack readBackOf(const std::vector<const AbsoluteRow*>& rows, const Eigen::VectorXd& parameters) {
   PostureReadBack result;
-  result.pose = pose;
+  result.pose = rows.front()->pose;
   Matrix6d normal = Matrix6d::Zero();
   Vector6d right = Vector6d::Zero();
   Vector6d sag = Vector6d::Zero();
   double squares = 0.0;
-  for (const AbsoluteRow& row : rows.rows) {
-    if (row.pose != pose) continue;
-    sag = row.sag;
-    const Eigen::Vector3d left = row.residual - row.jacobian * parameters;
-    normal += row.by_angles.transpose() * row.weight * row.by_angles;
-    right += row.by_angles.transpose() * row.weight * left;
-    squares += left.dot(row.weight * left);
+  for (const AbsoluteRow* row : rows) {
+    sag = row->sag;
+    const Eigen::Vector3d left = row->residual - row->jacobian * parameters;
+    normal += row->by_angles.transpose() * row->weight * row->by_angles;
+    right += row->by_angles.transpose() * row->weight * left;
+    squares += left.dot(row->weight * left);
   }
   const Eigen::CompleteOrthogonalDecomposition<Matrix6d> solver(normal);
   result.correction = solver.solve(right);
@@ -85,6 +84,18 @@ PostureReadBack readBackOf(const AbsoluteRows& rows, const Eigen::VectorXd& para
   result.sag_doubt = kSigmas * kSagShare * std::abs(sag[result.joint]);
   result.explained = squares > 0.0 ? right.dot(result.correction) / squares : 0.0;
   return result;
+}
+
+/// Of every posture that has rows, in the order of `rows.poses`.
+std::vector<PostureReadBack> readBacks(const AbsoluteRows& rows, const Eigen::VectorXd& parameters) {
+  std::map<int, std::vector<const AbsoluteRow*>> by_pose;
+  for (const AbsoluteRow& row : rows.rows) by_pose[row.pose].push_back(&row);
+  std::vector<PostureReadBack> postures;
+  for (const int pose : rows.poses) {
+    const auto own = by_pose.find(pose);
+    postures.push_back(own == by_pose.end() ? PostureReadBack{pose} : readBackOf(own->second, parameters));
+  }
+  return postures;
 }
 
 double median(std::vector<double> values) {
@@ -182,8 +193,7 @@ AbsoluteFit fitAbsolutePositions(const Campaign& campaign, const Frames& frames,
     return fit;
   }
   fit.score_limit = scoreLimit(rows.poses.size());
-  const Eigen::VectorXd robust = robustFit(rows);
-  for (const int pose : rows.poses) fit.postures.push_back(readBackOf(rows, robust, pose));
+  fit.postures = readBacks(rows, robustFit(rows));
   scorePostures(fit.postures, fit.score_limit);
   Weights weights;
   for (const PostureReadBack& posture : fit.postures) weights[posture.pose] = posture.outlier ? 0.0 : 1.0;

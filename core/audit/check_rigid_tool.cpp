@@ -87,7 +87,7 @@ class Inquiry {
     check_.limit_source = byChance(fmt::format("largest of {} normal deviates", tool_.distances.size()));
     check_.message = fmt::format("largest change of a distance: {} to {} by {:.0f} um at {}",
                                  targetName(campaign_, worst->first), targetName(campaign_, worst->second),
-                                 1e6 * worst->change, evidence_.states[worst->state].name);
+                                 1e6 * worst->change, nameOf(campaign_, evidence_.states[worst->state]));
     findExchanges();
     const Sum all = sumOf(tool_, [&](const ToolDistance& one) { return counts(one); });
     const bool spread = all.ratio() > all.limit();
@@ -115,9 +115,9 @@ class Inquiry {
   void nameExchanges() {
     for (const auto& [state, names] : exchanged_) {
       const StatePoints& points = evidence_.states[state];
-      const std::string row = rowName(points.file, points.reflectors.front().line);
+      const std::string row = rowName(fileOf(campaign_, points), points.reflectors.front().line);
       if (state == exchanged_.begin()->first) check_.where = row;
-      check_.message += fmt::format("; reflectors exchanged at {} ({}): {}", row, points.name, names);
+      check_.message += fmt::format("; reflectors exchanged at {} ({}): {}", row, nameOf(campaign_, points), names);
     }
   }
 
@@ -162,7 +162,7 @@ class Inquiry {
     check_.where = name;
     if (first != nullptr) {
       const StatePoints& state = evidence_.states[first->state];
-      check_.where = fmt::format("{}, {}", name, rowName(state.file, state.of(culprit)->line));
+      check_.where = fmt::format("{}, {}", name, rowName(fileOf(campaign_, state), state.of(culprit)->line));
     }
     const auto rms = [&](bool loaded) {
       const auto& [sum, count] = by_load[loaded];

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/audit/rows.h"
 #include "core/audit/station_jumps.h"
@@ -48,15 +49,15 @@ DriftCorrection correctDrift(const StationMotion& station, Campaign& campaign) {
 
 }  // namespace
 
-PreparedCampaign prepareCampaign(const Campaign& read) {
-  Screening screening = screenReadings(read);
+PreparedCampaign prepareCampaign(Campaign read) {
+  Screening screening = screenReadings(std::move(read));
   PreparedCampaign prepared;
   prepared.campaign = std::move(screening.campaign);
   prepared.screening = std::move(screening.checks);
   prepared.preparation.rejected = std::move(screening.rejected);
   prepared.scatter = repeatScatter(prepared.campaign);
   std::optional<TrackerNoise> noise;
-  if (declaredNoise(read)) noise = trackerNoise(asNoisyAs(*read.tracker, noiseFactors(prepared.scatter)));
+  if (declaredNoise(prepared.campaign)) noise = trackerNoise(asNoisyAs(*prepared.campaign.tracker, noiseFactors(prepared.scatter)));
   prepared.station = stationMotion(prepared.campaign, noise);
   if (prepared.station.moved && !prepared.station.deforming()) {
     findJumps(prepared.campaign, *noise, prepared.station);
@@ -65,9 +66,9 @@ PreparedCampaign prepareCampaign(const Campaign& read) {
   return prepared;
 }
 
-PreparedCampaign leaveRaw(const Campaign& read) {
+PreparedCampaign leaveRaw(Campaign read) {
   PreparedCampaign prepared;
-  prepared.campaign = read;
+  prepared.campaign = std::move(read);
   prepared.preparation.raw = true;
   prepared.preparation.drift.reason = "raw readings were asked for";
   return prepared;

@@ -41,9 +41,9 @@ struct PreparedCampaign {
 /// the station moved. The motion is taken off only where it is larger than noise explains (chi-square at the
 /// audit's level) and where the nests, one that moved left out, keep their shape: nests that do not are no
 /// reference. The audit looks at the same campaign.
-PreparedCampaign prepareCampaign(const Campaign& read);
+PreparedCampaign prepareCampaign(Campaign read);
 
 /// The same campaign untouched, with a preparation that says so.
-PreparedCampaign leaveRaw(const Campaign& read);
+PreparedCampaign leaveRaw(Campaign read);
 
 }  // namespace stiffscope

@@ -3,7 +3,6 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <tuple>
 
 #include "core/audit/chance.h"
@@ -18,11 +17,16 @@ namespace {
 using Repeats = std::vector<const LoadingReading*>;
 
 std::vector<Repeats> statesWithRepeats(const Loading& loading) {
-  std::map<std::tuple<int, int, int>, Repeats> states;
-  for (const LoadingReading& row : loading.rows) states[{row.pose, row.step, row.target}].push_back(&row);
+  const auto state = [](const LoadingReading* row) { return std::tuple(row->pose, row->step, row->target); };
+  Repeats rows;
+  rows.reserve(loading.rows.size());
+  for (const LoadingReading& row : loading.rows) rows.push_back(&row);
+  std::stable_sort(rows.begin(), rows.end(), [&](const auto* a, const auto* b) { return state(a) < state(b); });
   std::vector<Repeats> repeated;
-  for (auto& [key, rows] : states) {
-    if (rows.size() >= 2) repeated.push_back(std::move(rows));
+  for (auto first = rows.begin(); first != rows.end();) {
+    const auto end = std::find_if(first, rows.end(), [&](const auto* row) { return state(row) != state(*first); });
+    if (end - first >= 2) repeated.emplace_back(first, end);
+    first = end;
   }
   return repeated;
 }

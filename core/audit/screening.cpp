@@ -1,27 +1,27 @@
 #include "core/audit/screening.h"
 
 #include <algorithm>
-#include <array>
 #include <map>
 #include <set>
+#include <utility>
 
 #include "core/audit/limits.h"
 #include "core/audit/repeat_scatter.h"
 #include "core/audit/rows.h"
+#include "core/campaign/repeat_check.h"
 
 namespace stiffscope {
 
 namespace {
 
-using Place = std::array<double, 3>;
-
-Place placeOf(const Eigen::Vector3d& point) { return {point.x(), point.y(), point.z()}; }
-
 void dropRejected(const std::vector<RejectedReading>& rejected, Campaign& campaign) {
+  if (rejected.empty()) return;
   std::map<std::string, std::set<std::size_t>> lines;
   for (const RejectedReading& reading : rejected) lines[reading.file].insert(reading.line);
   forEachPointTable(campaign, [&](auto& table) {
-    std::erase_if(table.rows, [&](const auto& row) { return lines[table.file].contains(row.line); });
+    const auto found = lines.find(table.file);
+    if (found == lines.end()) return;
+    std::erase_if(table.rows, [&](const auto& row) { return found->second.contains(row.line); });
   });
   // A table whose every reading was rejected is a measurement that the day did not produce.
   if (campaign.circle_sweeps && campaign.circle_sweeps->rows.empty()) campaign.circle_sweeps.reset();
@@ -43,12 +43,16 @@ std::vector<RejectedReading> lostBeams(const Campaign& campaign) {
 std::vector<RejectedReading> duplicates(const Campaign& campaign) {
   std::vector<RejectedReading> found;
   forEachPointTable(campaign, [&](const auto& table) {
-    std::map<Place, std::size_t> first_line;
-    for (const auto& row : table.rows) {
-      const auto [first, added] = first_line.try_emplace(placeOf(row.point), row.line);
-      if (added) continue;
-      found.push_back(
-          {table.file, row.line, fmt::format("the same point to the last digit as line {}", first->second)});
+    RepeatCheck seen(table.rows.size());
+    for (std::size_t i = 0; i < table.rows.size(); ++i) {
+      const auto& row = table.rows[i];
+      KeyHash place;
+      for (const double coordinate : row.point) place.add(coordinate);
+      const std::size_t first =
+          seen.add(i, place, [&](std::size_t other) { return table.rows[other].point == row.point; });
+      if (first == RepeatCheck::kNew) continue;
+      found.push_back({table.file, row.line,
+                       fmt::format("the same point to the last digit as line {}", table.rows[first].line)});
     }
   });
   return found;
@@ -71,8 +75,8 @@ AuditCheck countCheck(const std::string& id, const std::vector<RejectedReading>&
 
 }  // namespace
 
-Screening screenReadings(const Campaign& campaign) {
-  Screening result{campaign, {}, {}};
+Screening screenReadings(Campaign campaign) {
+  Screening result{std::move(campaign), {}, {}};
   const auto screen = [&](const std::string& id, AuditVerdict verdict,
                           const std::vector<RejectedReading>& found, const std::string& what,
                           const std::string& source) {
@@ -81,7 +85,7 @@ Screening screenReadings(const Campaign& campaign) {
     dropRejected(found, result.campaign);
   };
   bool any_points = false;
-  forEachPointTable(campaign, [&](const auto&) { any_points = true; });
+  forEachPointTable(result.campaign, [&](const auto&) { any_points = true; });
   if (!any_points) {
     for (const char* id : {"lost_beam", "duplicate_readings", "repeat_outliers"}) {
       AuditCheck check;
@@ -92,7 +96,7 @@ Screening screenReadings(const Campaign& campaign) {
     }
     return result;
   }
-  screen("lost_beam", AuditVerdict::fail, lostBeams(campaign),
+  screen("lost_beam", AuditVerdict::fail, lostBeams(result.campaign),
          "readings at (0, 0, 0): the beam was lost", "no reflector stands inside the station");
   screen("duplicate_readings", AuditVerdict::warn, duplicates(result.campaign),
          "readings repeat another's coordinates to the last digit: copied, or the beam still on another "

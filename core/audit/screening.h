@@ -17,6 +17,6 @@ struct Screening {
 /// its beam; points that repeat another's coordinates to the last digit, which is the other reading copied or
 /// the beam still on the other reflector; and repeats of one state that stand apart from the others by more
 /// than noise.
-Screening screenReadings(const Campaign& campaign);
+Screening screenReadings(Campaign campaign);
 
 }  // namespace stiffscope

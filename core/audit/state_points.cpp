@@ -3,47 +3,65 @@
 #include <fmt/format.h>
 
 #include <map>
+#include <tuple>
+
+#include "core/audit/rows.h"
 
 namespace stiffscope {
 
 namespace {
 
-/// Gathers readings by the name of their state, in order of first appearance.
+using Source = StatePoints::Source;
+
+/// Gathers readings by their state, in order of first appearance. Most follow one of the same state.
 class Gatherer {
  public:
-  explicit Gatherer(const std::optional<TrackerNoise>& noise) : noise_(noise) {}
+  explicit Gatherer(std::size_t targets) : targets_(targets) {}
 
   template <class Row>
-  void add(const std::string& file, std::string name, int pose, int step, const Row& row) {
-    const auto [found, added] = place_.try_emplace(file + '\n' + name, states_.size());
-    if (added) states_.push_back({file, std::move(name), pose, step, {}});
-    std::vector<ReflectorMean>& reflectors = states_[found->second].reflectors;
-    ReflectorMean* mean = nullptr;
-    for (ReflectorMean& one : reflectors) {
-      if (one.target == row.target) mean = &one;
+  void add(Source source, int axis, const std::string& index, int pose, int step, const Row& row) {
+    if (states_.empty() || !isOf(states_[last_], source, axis, index, pose, step)) {
+      const auto [found, added] = places_.try_emplace({source, axis, index, pose, step}, states_.size());
+      if (added)
+        states_.emplace_back(StatePoints{source, axis, index, pose, step, {}}).reflectors.reserve(targets_);
+      last_ = found->second;
     }
-    if (mean == nullptr) {
-      reflectors.push_back({row.target, Eigen::Vector3d::Zero(), Eigen::Matrix3d::Zero(), 0, row.line});
-      mean = &reflectors.back();
-    }
-    mean->point += row.point;
-    ++mean->readings;
+    ReflectorMean& mean = of(states_[last_].reflectors, row);
+    mean.point += row.point;
+    ++mean.readings;
   }
 
-  std::vector<StatePoints> finish() {
+  std::vector<StatePoints> finish(const std::optional<TrackerNoise>& noise) {
     for (StatePoints& state : states_) {
       for (ReflectorMean& mean : state.reflectors) {
         mean.point /= mean.readings;
-        if (noise_) mean.covariance = noise_->covarianceAt(mean.point) / mean.readings;
+        if (noise) mean.covariance = noise->covarianceAt(mean.point) / mean.readings;
       }
     }
+    states_.shrink_to_fit();
     return std::move(states_);
   }
 
  private:
-  std::optional<TrackerNoise> noise_;
+  static bool isOf(const StatePoints& state, Source source, int axis, const std::string& index, int pose,
+                   int step) {
+    return state.source == source && state.axis == axis && state.index == index && state.pose == pose &&
+           state.step == step;
+  }
+
+  template <class Row>
+  static ReflectorMean& of(std::vector<ReflectorMean>& reflectors, const Row& row) {
+    for (ReflectorMean& one : reflectors) {
+      if (one.target == row.target) return one;
+    }
+    return reflectors.emplace_back(
+        ReflectorMean{row.target, Eigen::Vector3d::Zero(), Eigen::Matrix3d::Zero(), 0, row.line});
+  }
+
+  std::size_t targets_;
   std::vector<StatePoints> states_;
-  std::map<std::string, std::size_t> place_;
+  std::size_t last_ = 0;
+  std::map<std::tuple<Source, int, std::string, int, int>, std::size_t> places_;
 };
 
 }  // namespace
@@ -55,27 +73,36 @@ const ReflectorMean* StatePoints::of(int target) const {
   return nullptr;
 }
 
+const std::string& fileOf(const Campaign& campaign, const StatePoints& state) {
+  if (state.source == Source::circle_sweeps) return campaign.circle_sweeps->file;
+  return state.source == Source::wrist_sweep ? campaign.wrist_sweep->file : campaign.loading->file;
+}
+
+std::string nameOf(const Campaign& campaign, const StatePoints& state) {
+  if (state.source == Source::circle_sweeps)
+    return fmt::format("axis {}, index {}", state.axis + 1, state.index);
+  if (state.source == Source::wrist_sweep) return fmt::format("wrist sweep, index {}", state.index);
+  return fmt::format("pose {}, step {}", poseName(campaign, state.pose), state.step);
+}
+
 std::vector<StatePoints> statePoints(const Campaign& campaign, const std::optional<TrackerNoise>& noise) {
-  Gatherer gatherer(noise);
+  Gatherer gatherer(campaign.targets.size());
   if (campaign.circle_sweeps) {
     for (const CircleReading& row : campaign.circle_sweeps->rows) {
-      gatherer.add(campaign.circle_sweeps->file, fmt::format("axis {}, index {}", row.axis + 1, row.index),
-                   -1, 0, row);
+      gatherer.add(Source::circle_sweeps, row.axis, row.index, -1, 0, row);
     }
   }
   if (campaign.wrist_sweep) {
     for (const WristReading& row : campaign.wrist_sweep->rows) {
-      gatherer.add(campaign.wrist_sweep->file, fmt::format("wrist sweep, index {}", row.index), -1, 0, row);
+      gatherer.add(Source::wrist_sweep, 0, row.index, -1, 0, row);
     }
   }
   if (campaign.loading) {
     for (const LoadingReading& row : campaign.loading->rows) {
-      const std::string& pose = campaign.pose_ids[static_cast<std::size_t>(row.pose)];
-      gatherer.add(campaign.loading->file, fmt::format("pose {}, step {}", pose, row.step), row.pose,
-                   row.step, row);
+      gatherer.add(Source::loading, 0, {}, row.pose, row.step, row);
     }
   }
-  return gatherer.finish();
+  return gatherer.finish(noise);
 }
 
 }  // namespace stiffscope

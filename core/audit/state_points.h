@@ -20,14 +20,20 @@ struct ReflectorMean {
 
 /// The reflectors while the arm stood still: one index of a sweep, or one load state.
 struct StatePoints {
-  std::string file;
-  std::string name;  ///< for people: "pose 3, step 1", "axis 4, index 7"
-  int pose = -1;     ///< -1 in sweeps
-  int step = 0;      ///< 0 in sweeps: no load
+  enum class Source { circle_sweeps, wrist_sweep, loading };
+  Source source = Source::loading;
+  int axis = 0;       ///< of a circle sweep
+  std::string index;  ///< of a sweep
+  int pose = -1;      ///< -1 in sweeps
+  int step = 0;       ///< 0 in sweeps: no load
   std::vector<ReflectorMean> reflectors;
 
   const ReflectorMean* of(int target) const;
 };
+
+/// The table a state is from, and its name for people: "pose 3, step 1", "axis 4, index 7".
+const std::string& fileOf(const Campaign& campaign, const StatePoints& state);
+std::string nameOf(const Campaign& campaign, const StatePoints& state);
 
 /// All states of circle sweeps, wrist sweep and loading, in that order; for the loading in the order of its
 /// rows.

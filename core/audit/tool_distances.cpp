@@ -13,6 +13,7 @@ namespace {
 /// Distances of one pair; `change` holds the distance itself until the reference is known.
 std::vector<ToolDistance> distancesOf(const std::vector<StatePoints>& states, int first, int second) {
   std::vector<ToolDistance> found;
+  found.reserve(states.size());
   for (std::size_t s = 0; s < states.size(); ++s) {
     const ReflectorMean* a = states[s].of(first);
     const ReflectorMean* b = states[s].of(second);
@@ -80,6 +81,7 @@ ToolDistances toolDistances(const std::vector<StatePoints>& states, int targets)
   ToolDistances result;
   if (count == 0) return result;
   result.limit = normalLimit(audit_limits::kLevel / static_cast<double>(count));
+  result.distances.reserve(count);
   for (std::vector<ToolDistance>& distances : by_pair) {
     const ToolDistances::Pair pair = referenceOf(states, distances, result.limit);
     result.pairs.push_back(pair);
@@ -90,6 +92,7 @@ ToolDistances toolDistances(const std::vector<StatePoints>& states, int targets)
       one.sd = std::hypot(one.sd, pair.reference_sd);
       result.distances.push_back(one);
     }
+    std::vector<ToolDistance>().swap(distances);
   }
   return result;
 }

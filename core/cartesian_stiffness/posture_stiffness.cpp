@@ -23,8 +23,8 @@ PostureStiffness postureStiffness(const LoadingGeometry& geometry, const Stiffne
   PostureStiffness result;
   const Eigen::Vector3d point = flangeAt(geometry.arm, posture) * tcp_in_flange;
   const Matrix6d jacobian = jacobianAt(geometry.arm, posture, point);
-  const Matrix6d geometric = geometricStiffness(geometry.arm, posture, wrench) +
-                             geometricStiffness(geometry.arm, posture, geometry.weight);
+  const ArmAxes axes = axesAt(geometry.arm, posture);
+  const Matrix6d geometric = geometricStiffness(axes, wrench) + geometricStiffness(axes, posture, geometry.weight);
   result.conditioning = postureConditioning(jacobian, length);
   result.without_kc = cartesianStiffness(point, jacobian, estimate.compliance);
   result.with_kc = cartesianStiffness(point, jacobian, estimate.compliance, geometric);

@@ -30,12 +30,6 @@ Normals completePoseNormals(const Identification& result) {
   return normal;
 }
 
-NormalEquations sumOf(const Normals& normals) {
-  NormalEquations sum;
-  for (const NormalEquations& one : normals) sum += one;
-  return sum;
-}
-
 NormalEquations without(const NormalEquations& sum, const NormalEquations& one) {
   return {sum.matrix - one.matrix, sum.right - one.right};
 }

@@ -211,7 +211,7 @@ class Diagnoser {
       const Eigen::Index rest = posture.position_rows, rows = posture.right.size() - rest;
       before += deflection ? left.deflection_before : left.position_before;
       after += deflection ? left.deflection_after : left.position_after;
-      noise += deflection ? noiseSquares(posture) : posture.noise.diagonal().head(rest).sum();
+      noise += deflection ? noiseSquares(posture) : posture.noiseSquares(0, rest);
       whole_squares += deflection ? posture.right.tail(rows).squaredNorm() : 0.0;
       count += static_cast<double>(deflection ? rows : rest);
     }

@@ -148,10 +148,14 @@ class Filler {
           by_wrench * variances.asDiagonal() * by_wrench.transpose();
     }
     addWander(posture, r0_from_points, covariance);
-    posture.noise = covariance;
+    posture.noise.resize(size, per_state);
+    for (Eigen::Index at = 0; at < size; at += per_state) {
+      posture.noise.middleRows(at, per_state) = covariance.block(at, at, per_state, per_state);
+    }
     addModelError(rows, posture, covariance);
-    posture.lower = covariance.llt().matrixL();
-    posture.normal = normalOf(posture);
+    const Eigen::LLT<Eigen::MatrixXd> cholesky(covariance);
+    posture.position_lower = cholesky.matrixLLT().topLeftCorner(at_rest, at_rest).triangularView<Eigen::Lower>();
+    posture.normal = normalOf(posture, cholesky);
     posture.stiffness_normal = stiffnessNormalOf(posture, covariance);
     data_.loading_rows += size;
   }
@@ -223,10 +227,10 @@ class Filler {
   /// Displacements alone: the frame of their station.
   Eigen::Isometry3d pointsFrame() const { return state_.at.r0_from_base_link; }
 
-  static Eigen::MatrixXd normalOf(const GapPosture& posture) {
+  static Eigen::MatrixXd normalOf(const GapPosture& posture, const Eigen::LLT<Eigen::MatrixXd>& noise) {
     Eigen::MatrixXd both(posture.columns.rows(), posture.columns.cols() + 1);
     both << posture.columns, posture.right;
-    posture.lower.triangularView<Eigen::Lower>().solveInPlace(both);
+    noise.matrixL().solveInPlace(both);
     return both.transpose() * both;
   }
 
@@ -335,6 +339,12 @@ class Filler {
 };
 
 }  // namespace
+
+double GapPosture::noiseSquares(Eigen::Index first, Eigen::Index rows) const {
+  double sum = 0.0;
+  for (Eigen::Index row = first; row < first + rows; ++row) sum += noise(row, row % noise.cols());
+  return sum;
+}
 
 ComplianceExpected complianceExpected(const Vector6d& identified) {
   constexpr double kNothing = 0.05;  // of the neighbours': not identified

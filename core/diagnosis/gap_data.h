@@ -62,10 +62,15 @@ struct GapPosture {
   Eigen::MatrixXd columns;  ///< unwhitened: position rows first, then deflection rows
   Eigen::VectorXd right;
   Eigen::Index position_rows = 0;
-  Eigen::MatrixXd noise;  ///< covariance of these rows by readings, wrench and a station between its rounds
-  Eigen::MatrixXd lower;  ///< Cholesky factor of that, with the slack and the model's own error
+  /// Covariance of these rows by readings, wrench and a station between its rounds, within each state: its block of the
+  /// diagonal, one state's under another's.
+  Eigen::MatrixXd noise;
+  Eigen::MatrixXd position_lower;  ///< Cholesky factor of that of the position rows, with the slack
   Eigen::MatrixXd normal;
   Eigen::Matrix<double, 7, 7> stiffness_normal;  ///< the same of deflection rows alone, over the compliances
+
+  /// Sum of the noise's variances of `rows` rows from `first` on, m^2.
+  double noiseSquares(Eigen::Index first, Eigen::Index rows) const;
 };
 
 /// All equations of the gap at one point of linearisation.

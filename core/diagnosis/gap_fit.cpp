@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/diagnosis/corrections.h"
 #include "core/diagnosis/model_error.h"
@@ -92,34 +93,47 @@ void fitOnce(const GapInput& input, const std::vector<bool>& allowed, const FitR
   fit.nuisances = fit.projection.by_nothing - fit.projection.by_effects * fit.set.effects;
 }
 
+/// The equations where the fit stands, the ones it had let go first.
+void remake(const GapInput& input, const ContainedEffects& contained, GapFit& fit) {
+  fit.data = {};
+  fit.data = gapData(input, fit.state, contained);
+}
+
 GapFit settle(const GapInput& input, const GapState& start, const std::vector<bool>& allowed,
               const FitRules& rules) {
-  GapFit fit, best;
+  GapFit fit, best;  // the best without its equations, of which a long day has many: they can be made again
   fit.state = start;
-  ContainedEffects contained;
+  ContainedEffects contained, best_contained;
   ModelsAndParts last;
   double last_chi2 = 0.0;
   constexpr int kMostRounds = 9;
   for (fit.rounds = 1; fit.rounds <= kMostRounds; ++fit.rounds) {
-    fit.data = gapData(input, fit.state, contained);
+    remake(input, contained, fit);
     if (fit.rounds > kAlone) {
       const GapState before = fit.state;
       findSlack(input, fit.data, fit.state);
       if (fit.state.position_slack != before.position_slack || fit.state.sweep_slack != before.sweep_slack)
-        fit.data = gapData(input, fit.state, contained);
+        remake(input, contained, fit);
     }
     fitOnce(input, allowed, rules, fit);
     const ModelsAndParts now = namesOf(fit.set);
     constexpr double kSettled = 0.003;  // of chi2: far below what a verdict turns on
     const bool settled = now == last && std::abs(fit.set.chi2 - last_chi2) < kSettled * fit.set.chi2;
-    if (fit.rounds >= kAlone + 2 && settled) break;
+    if (fit.rounds >= kAlone + 2 && settled) return fit;
     last = now;
     last_chi2 = fit.set.chi2;
-    if (best.rounds == 0 || fit.set.score() < best.set.score()) best = fit;
-    if (fit.rounds == kMostRounds) return best;
+    if (best.rounds == 0 || fit.set.score() < best.set.score()) {
+      GapData data = std::move(fit.data);
+      best = fit;
+      best_contained = contained;
+      fit.data = std::move(data);
+    }
+    if (fit.rounds == kMostRounds) break;
     contained = correct(input, fit.data.layout, fit.set, fit.nuisances, fit.state);
   }
-  return fit;
+  fit.data = {};
+  remake(input, best_contained, best);
+  return best;
 }
 
 }  // namespace
@@ -137,6 +151,7 @@ GapFit fitGap(const GapInput& input, const GapState& start, const std::vector<bo
     if (std::abs(fit.model_error - with_error.model_error) < 0.02 * fit.model_error || fit.model_error == 0.0)
       break;
     with_error.model_error = fit.model_error;
+    fit = {};
     fit = settle(input, with_error, allowed, rules);
   }
   fit.model_error = modelError(fit, rules);

@@ -9,22 +9,13 @@
 #include "core/diagnosis/rest_state.h"
 #include "core/identification/cell_wrench.h"
 #include "core/identification/load_case.h"
+#include "core/identification/load_step.h"
 #include "core/statics/geometric_stiffness.h"
 #include "core/statics/joint_torque.h"
 
 namespace stiffscope {
 
 namespace {
-
-std::vector<int> stepsOf(const Campaign& campaign) {
-  std::vector<int> steps;
-  for (const State& state : campaign.states->rows) {
-    if (state.step != 0 && std::find(steps.begin(), steps.end(), state.step) == steps.end())
-      steps.push_back(state.step);
-  }
-  std::sort(steps.begin(), steps.end());
-  return steps;
-}
 
 struct TimesOfPose {
   std::map<int, double> by_step;
@@ -73,8 +64,9 @@ class LoadingRowMaker {
         at_(at),
         corrections_(corrections),
         times_(timesOf(campaign)) {
-    for (const int step : stepsOf(campaign)) {
-      for (LoadCase& one : loadCases(campaign, geometry, step)) cases_[one.pose].push_back(std::move(one));
+    const LoadReadings readings(campaign, loadSteps(campaign));
+    for (const int step : readings.steps()) {
+      for (LoadCase& one : loadCases(campaign, readings, geometry, step)) cases_[one.pose].push_back(std::move(one));
     }
   }
 
@@ -141,22 +133,22 @@ class LoadingRowMaker {
     state.loaded = one.wrench.force.norm() > audit_limits::kReturnShare * largest;
     state.cell_axes = cellAxes(*campaign_.load_cell, geometry_, one);
     state.load = corrected(one.wrench, state, corrections_, at_);
-    state.load_torque = jointTorque(geometry_.arm, rest.posture, state.load);
+    const ArmAxes axes = axesAt(geometry_.arm, rest.posture);
+    state.load_torque = jointTorque(axes, state.load);
     // Springs' torque s = tau + K_c c s, and the Jacobian at the middle of the displacement (see
     // equations.h).
-    Matrix6d change = geometricStiffness(geometry_.arm, rest.posture, state.load) +
-                      geometricStiffness(geometry_.arm, rest.posture, geometry_.weight);
+    Matrix6d change = geometricStiffness(axes, state.load) + geometricStiffness(axes, rest.posture, geometry_.weight);
     change(1, 1) += compensatorSlope(at_, rest.turned);
     const Matrix6d system = Matrix6d::Identity() - change * at_.compliance.asDiagonal();
     const Vector6d torque = system.partialPivLu().solve(state.load_torque);
     const ArmPosture middle = movedPosture(
         geometry_.arm, rest.turned + 0.5 * at_.compliance.cwiseProduct(torque), rest.moved);
+    const ArmAxes middle_axes = axesAt(geometry_.arm, middle);
     Eigen::Matrix<double, Eigen::Dynamic, 6> by_wrench(rest.rows(), 6);
     Matrix6d wrench_to_torque = jacobianAt(geometry_.arm, rest.posture, state.load.point).transpose();
     for (std::size_t t = 0; t < rest.targets.size(); ++t) {
       const TargetMove& move = moveOf(one, rest.targets[t]);
-      const Matrix36d jacobian =
-          jacobianAt(geometry_.arm, middle, 0.5 * (move.unloaded + move.loaded)).topRows<3>();
+      const Matrix36d jacobian = pointJacobianAt(middle_axes, 0.5 * (move.unloaded + move.loaded));
       const Eigen::Index row = at_row + 3 * static_cast<Eigen::Index>(t);
       rows.displacement.segment<3>(row) = move.displacement();
       rows.by_compliance.middleRows<3>(row) = jacobian * torque.asDiagonal();

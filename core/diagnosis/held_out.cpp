@@ -122,7 +122,7 @@ HeldOutShrink shrinkOver(const std::vector<HeldOut>& postures, int resamples, st
 
 double noiseSquares(const GapPosture& posture) {
   const Eigen::Index rows = posture.right.size() - posture.position_rows;
-  return posture.noise.diagonal().tail(rows).sum();
+  return posture.noiseSquares(posture.position_rows, rows);
 }
 
 std::vector<HeldOutShrink> heldOutShrinks(const GapInput& input, const GapFit& fit,

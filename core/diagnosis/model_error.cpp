@@ -19,7 +19,7 @@ double leftAtLargestLoad(const GapFit& fit) {
     const Eigen::Index per_state = posture.states.front().rows();
     const Eigen::Index at = posture.position_rows + static_cast<Eigen::Index>(s - 1) * per_state;
     squares +=
-        left.segment(at, per_state).squaredNorm() - posture.noise.diagonal().segment(at, per_state).sum();
+        left.segment(at, per_state).squaredNorm() - posture.noiseSquares(at, per_state);
     count += static_cast<double>(per_state);
   }
   return count > 0.0 ? std::sqrt(std::max(0.0, squares / count)) : 0.0;

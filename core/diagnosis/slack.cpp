@@ -30,7 +30,7 @@ void findSlack(const GapInput& input, const GapData& data, GapState& state) {
     const Eigen::Index rows = posture.position_rows;
     if (rows == 0) continue;
     Eigen::VectorXd left = posture.right.head(rows) - posture.columns.topRows(rows) * all;
-    posture.lower.topLeftCorner(rows, rows).triangularView<Eigen::Lower>().solveInPlace(left);
+    posture.position_lower.triangularView<Eigen::Lower>().solveInPlace(left);
     squares += left.squaredNorm();
     count += static_cast<double>(rows);
   }

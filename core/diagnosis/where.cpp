@@ -33,7 +33,7 @@ std::vector<LeftOver> leftOvers(const GapData& data, const Eigen::VectorXd& para
           deflection ? posture.position_rows + static_cast<Eigen::Index>(s - 1) * per_state : 0;
       for (std::size_t t = 0; t < posture.states[s].points.size(); ++t) {
         const Eigen::Index row = at + 3 * static_cast<Eigen::Index>(t);
-        all.push_back({left.segment<3>(row), posture.noise.block<3, 3>(row, row), posture.states[s].points[t],
+        all.push_back({left.segment<3>(row), posture.noise.block<3, 3>(row, row - at), posture.states[s].points[t],
                        &posture.states[s], posture.states[s].targets[t]});
       }
     }
@@ -145,7 +145,7 @@ WhereTable byJoint(const GapFit& fit, const Eigen::VectorXd& parameters, const s
         const Eigen::Index at = posture.position_rows + static_cast<Eigen::Index>(s - 1) * per_state;
         const Eigen::VectorXd column =
             byEachJoint(posture.states[s], Vector6d::Unit(joint)).col(joint).normalized();
-        const double noise = column.dot(posture.noise.block(at, at, per_state, per_state) * column);
+        const double noise = column.dot(posture.noise.middleRows(at, per_state) * column);
         const double along = column.dot(left.segment(at, per_state));
         sum.squares += along * along;
         sum.noise += noise;

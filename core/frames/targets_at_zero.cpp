@@ -17,9 +17,12 @@ std::vector<std::optional<Eigen::Vector3d>> targetsAtZero(const Campaign& campai
   std::vector<Eigen::Vector3d> sums(targets.size(), Eigen::Vector3d::Zero());
   std::vector<int> counts(targets.size(), 0);
   const auto add = [&](const auto& rows, const std::vector<Eigen::Vector3d>& rigid) {
+    Eigen::Isometry3d zero_from_now = Eigen::Isometry3d::Identity();
     for (std::size_t row = 0; row < rows.size(); ++row) {
+      // The reflectors of one stop follow each other.
+      if (row == 0 || rows[row].q != rows[row - 1].q) zero_from_now = postureAt(arm.arm, rows[row].q).motion[6].inverse();
       const auto k = static_cast<std::size_t>(rows[row].target);
-      sums[k] += postureAt(arm.arm, rows[row].q).motion[6].inverse() * (arm.r0_from_points * rigid[row]);
+      sums[k] += zero_from_now * (arm.r0_from_points * rigid[row]);
       ++counts[k];
     }
   };

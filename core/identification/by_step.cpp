@@ -27,13 +27,13 @@ double meanForce(const std::vector<LoadCase>& cases) {
   return cases.empty() ? 0.0 : sum / static_cast<double>(cases.size());
 }
 
-std::vector<Solved> solveSteps(const Campaign& campaign, const IdentifyOptions& options, const Identification& result,
-                               Method method) {
+std::vector<Solved> solveSteps(const Campaign& campaign, const LoadReadings& readings, const IdentifyOptions& options,
+                               const Identification& result, Method method) {
   std::vector<Solved> solved;
   const MethodResult& own = result.of(method);
   if (!own.available) return solved;
-  for (const int step : loadedSteps(campaign)) {
-    LoadedArm arm = loadedArm(campaign, own.geometry, result.frames.wrist, {step});
+  for (const int step : readings.steps()) {
+    LoadedArm arm = loadedArm(campaign, readings, own.geometry, result.frames.wrist, {step});
     if (arm.cases.empty()) continue;
     if (method == Method::complete_pose && !arm.hasFlangePoses()) continue;
     if (method == Method::decoupled_partial_pose && arm.wrist.empty()) continue;
@@ -42,8 +42,7 @@ std::vector<Solved> solveSteps(const Campaign& campaign, const IdentifyOptions& 
     one.result.mean_force = meanForce(arm.cases);
     const MethodSolution how{method, result.frames.tcp_in_flange, result.characteristic_length.length,
                              own.estimate.identifiable, campaign.tracker ? &*campaign.tracker : nullptr};
-    one.result.estimate = solveSettled(arm, options.finite_deflection,
-                                       [&](const LoadedArm& now) { return how.estimate(now); });
+    one.result.estimate = how.settledEstimate(arm, options.finite_deflection);
     for (const LoadCase& load_case : arm.cases) one.poses.push_back(load_case.pose);
     solved.push_back(std::move(one));
   }
@@ -106,8 +105,9 @@ StepStudy studySteps(const Campaign& campaign, const IdentifyOptions& options, c
   std::optional<Campaign> rest;
   if (result.robust) rest = withoutPostures(campaign, result.outlying);
   const Campaign& used = rest ? *rest : campaign;
+  const LoadReadings readings(used, loadedSteps(used));
   for (const Method method : kMethods) {
-    std::vector<Solved> solved = solveSteps(used, options, result, method);
+    std::vector<Solved> solved = solveSteps(used, readings, options, result, method);
     if (solved.size() < 2) continue;
     StepsOfMethod& out = study.methods[static_cast<std::size_t>(method)];
     const JointMask& seen = result.of(method).estimate.identifiable;

@@ -32,17 +32,27 @@ StiffnessEstimate completePose(const std::vector<CaseEquations>& pose_equations,
   StiffnessEstimate estimate;
   estimate.identifiable = unknown;
   std::vector<CaseEquations> scaled, displacements;
-  NormalEquations sum;
   for (const CaseEquations& one : pose_equations) {
     scaled.push_back(normalised(one, characteristic_length));
     displacements.push_back({one.matrix.topRows<3>(), one.right.head<3>(), one.posture});
-    sum += normalEquations(scaled.back());
   }
+  const std::vector<NormalEquations> normal = normalByPosture(scaled);
+  const NormalEquations sum = sumOf(normal);
   estimate.compliance = solveNormal(sum, unknown);
   estimate.condition = conditionNumber(scaled, unknown);
-  setScatterOfOneStage(byPosture(scaled), sum, estimate);
+  setScatterOfOneStage(normal, sum, estimate);
   describeResiduals(displacements, estimate);
   return estimate;
+}
+
+void PoseNormal::add(const CaseEquations& pose_equations) {
+  displacements.add(pose_equations.matrix.topRows<3>(), pose_equations.right.head<3>());
+  rotations.add(pose_equations.matrix.bottomRows<3>(), pose_equations.right.tail<3>());
+}
+
+NormalEquations PoseNormal::at(double characteristic_length) const {
+  const double weight = 1.0 / (characteristic_length * characteristic_length);
+  return {weight * displacements.matrix + rotations.matrix, weight * displacements.right + rotations.right};
 }
 
 }  // namespace stiffscope

@@ -19,4 +19,12 @@ CaseEquations normalised(const CaseEquations& pose_equations, double characteris
 StiffnessEstimate completePose(const std::vector<CaseEquations>& pose_equations, double characteristic_length,
                                const JointMask& unknown);
 
+/// The normal equations of pose equations, displacements and rotations apart, so that any L is a sum of two.
+struct PoseNormal {
+  NormalEquations displacements, rotations;
+
+  void add(const CaseEquations& pose_equations);
+  NormalEquations at(double characteristic_length) const;
+};
+
 }  // namespace stiffscope

@@ -16,6 +16,8 @@ JointMask wristOf(const JointMask& unknown) {
   return {false, false, false, unknown[3], unknown[4], unknown[5]};
 }
 
+Vector6d armPartOf(const Vector6d& compliance) { return (Vector6d() << compliance.head<3>(), Eigen::Vector3d::Zero()).finished(); }
+
 double variance(const std::vector<CaseEquations>& equations, const Vector6d& compliance) {
   double sum = 0.0;
   Eigen::Index rows = 0;
@@ -28,24 +30,23 @@ double variance(const std::vector<CaseEquations>& equations, const Vector6d& com
 
 /// A posture acts on the arm through P_wrist, and on the wrist through its reflectors and, the arm's model being
 /// subtracted, through the arm: its uncertainty reaches the wrist's.
-void setDecoupledScatter(const std::vector<CaseEquations>& wrist, const std::vector<CaseEquations>& reflectors,
+void setDecoupledScatter(const std::vector<NormalEquations>& wrist, const std::vector<NormalEquations>& reflectors,
                          const NormalEquations& wrist_sum, const NormalEquations& reflector_sum,
-                         StiffnessEstimate& estimate) {
+                         double wrist_variance, double reflector_variance, StiffnessEstimate& estimate) {
   const JointMask arm_joints = armOf(estimate.identifiable), wrist_joints = wristOf(estimate.identifiable);
-  Vector6d arm_only = estimate.compliance;
-  arm_only.tail<3>().setZero();
+  const Vector6d arm_only = armPartOf(estimate.compliance);
   const Matrix6d arm_inverse = inverseNormal(wrist_sum, arm_joints);
   const Matrix6d wrist_inverse = inverseNormal(reflector_sum, wrist_joints);
   const Matrix6d carried = Matrix6d::Identity() - wrist_inverse * reflector_sum.matrix;
+  const PostureGains arm_gain(wrist_sum, arm_joints), wrist_gain(reflector_sum, wrist_joints);
   std::vector<PostureGain> by_wrist, by_reflectors;
   std::vector<Vector6d> influences;
   for (std::size_t p = 0; p < wrist.size(); ++p) {
-    by_wrist.emplace_back(carried * correctedGain(wrist[p], wrist_sum, arm_joints));
-    by_reflectors.push_back(correctedGain(reflectors[p], reflector_sum, wrist_joints));
+    by_wrist.emplace_back(carried * arm_gain.of(wrist[p].matrix));
+    by_reflectors.push_back(wrist_gain.of(reflectors[p].matrix));
     influences.emplace_back(by_wrist[p] * (wrist[p].right - wrist[p].matrix * arm_only) +
                             by_reflectors[p] * (reflectors[p].right - reflectors[p].matrix * estimate.compliance));
   }
-  const double wrist_variance = variance(wrist, arm_only), reflector_variance = variance(reflectors, estimate.compliance);
   Vector6d dof = Vector6d::Zero();
   for (int j = 0; j < 6; ++j) {
     if (!estimate.identifiable[static_cast<std::size_t>(j)]) continue;
@@ -70,12 +71,12 @@ StiffnessEstimate decoupledPartialPose(const std::vector<CaseEquations>& wrist_e
                                        const JointMask& unknown) {
   StiffnessEstimate estimate;
   estimate.identifiable = unknown;
-  NormalEquations wrist_sum, reflector_sum;
-  for (const CaseEquations& one : wrist_equations) wrist_sum += normalEquations(one);
-  for (const CaseEquations& one : reflector_equations) reflector_sum += normalEquations(one);
+  const std::vector<NormalEquations> wrist = normalByPosture(wrist_equations), reflectors = normalByPosture(reflector_equations);
+  const NormalEquations wrist_sum = sumOf(wrist), reflector_sum = sumOf(reflectors);
   estimate.compliance = solveDecoupled(wrist_sum, reflector_sum, unknown);
-
-  setDecoupledScatter(byPosture(wrist_equations), byPosture(reflector_equations), wrist_sum, reflector_sum, estimate);
+  setDecoupledScatter(wrist, reflectors, wrist_sum, reflector_sum,
+                      variance(wrist_equations, armPartOf(estimate.compliance)),
+                      variance(reflector_equations, estimate.compliance), estimate);
   estimate.condition = std::max(conditionNumber(wrist_equations, armOf(unknown)),
                                 conditionNumber(reflector_equations, wristOf(unknown)));
   describeResiduals(reflector_equations, estimate);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/identification/best_method.h"
 
@@ -18,9 +19,7 @@ double geometricStiffnessShare(const LoadedArm& arm, const Vector6d& compliance)
   return whole > 0.0 ? std::sqrt(change / whole) : 0.0;
 }
 
-void describeLoads(const Campaign& campaign, const LoadedArm& shown, Identification& result) {
-  result.cases = shown.cases;
-  result.wrist = shown.wrist;
+void describeLoads(const Campaign& campaign, LoadedArm shown, Identification& result) {
   for (const WristMove& move : shown.wrist) result.wrist_displacement.push_back(move.displacement().norm());
   for (const LoadCase& load_case : shown.cases) {
     double sum = 0.0;
@@ -34,6 +33,8 @@ void describeLoads(const Campaign& campaign, const LoadedArm& shown, Identificat
   if (reference.available) {
     result.geometric_stiffness_share = geometricStiffnessShare(shown, reference.estimate.compliance);
   }
+  result.cases = std::move(shown.cases);
+  result.wrist = std::move(shown.wrist);
 }
 
 }  // namespace stiffscope

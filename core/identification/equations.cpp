@@ -1,10 +1,51 @@
 #include "core/identification/equations.h"
 
+#include <Eigen/LU>
+
 #include "core/robot/kinematics.h"
 #include "core/statics/geometric_stiffness.h"
 #include "core/statics/joint_torque.h"
 
 namespace stiffscope {
+
+namespace {
+
+/// By how K_c turns torques into torques, K_c c; the own weight's part depends on the posture alone.
+class SpringTorque {
+ public:
+  SpringTorque(const LoadingGeometry& geometry, const LoadCase& load_case, const Vector6d& compliance)
+      : axes_(axesAt(geometry.arm, load_case.posture)),
+        by_weight_(geometricStiffness(axes_, load_case.posture, geometry.weight)),
+        compliance_(compliance) {}
+
+  /// Solves s = tau + K_c c s.
+  Vector6d under(const Wrench& wrench) const {
+    const Matrix6d change = geometricStiffness(axes_, wrench) + by_weight_;
+    const Matrix6d system = Matrix6d::Identity() - change * compliance_.asDiagonal();
+    return system.partialPivLu().solve(jointTorque(axes_, wrench));
+  }
+
+ private:
+  ArmAxes axes_;
+  Matrix6d by_weight_;
+  const Vector6d& compliance_;
+};
+
+/// The wrench as the model's turn of its body by these joint angles directs it.
+Wrench turnedWrench(const Robot& arm, const LoadCase& load_case, const Vector6d& loaded) {
+  const auto body = static_cast<std::size_t>(load_case.wrench_turns_with);
+  const Eigen::Matrix3d turn =
+      postureAt(arm, loaded).motion[body].linear() * load_case.posture.motion[body].linear().transpose();
+  return {load_case.wrench.point, turn * load_case.wrench_unturned.force,
+          turn * load_case.wrench_unturned.moment};
+}
+
+ArmPosture middleOf(const Robot& arm, const LoadCase& load_case, const Vector6d& compliance,
+                    const Vector6d& torque) {
+  return postureAt(arm, load_case.q_sagged + 0.5 * compliance.cwiseProduct(torque));
+}
+
+}  // namespace
 
 std::vector<Vector6d> jointTorques(const LoadingGeometry& geometry, const std::vector<LoadCase>& cases) {
   std::vector<Vector6d> torques;
@@ -18,42 +59,43 @@ std::vector<Vector6d> jointTorques(const LoadingGeometry& geometry, const std::v
 std::vector<Vector6d> jointTorquesWithGeometricStiffness(const LoadingGeometry& geometry,
                                                          const std::vector<LoadCase>& cases,
                                                          const Vector6d& compliance) {
-  std::vector<Vector6d> torques = jointTorques(geometry, cases);
-  for (std::size_t i = 0; i < cases.size(); ++i) {
-    const Matrix6d change = geometricStiffness(geometry.arm, cases[i].posture, cases[i].wrench) +
-                            geometricStiffness(geometry.arm, cases[i].posture, geometry.weight);
-    // Springs' torque s solves s = tau + K_c c s.
-    const Matrix6d system = Matrix6d::Identity() - change * compliance.asDiagonal();
-    torques[i] = system.partialPivLu().solve(torques[i]).eval();
+  std::vector<Vector6d> torques;
+  torques.reserve(cases.size());
+  for (const LoadCase& load_case : cases) {
+    torques.push_back(SpringTorque(geometry, load_case, compliance).under(load_case.wrench));
   }
   return torques;
 }
 
-void turnWrenches(const LoadingGeometry& geometry, const Vector6d& compliance,
-                  const std::vector<Vector6d>& torques, std::vector<LoadCase>& cases) {
+void settleLoads(const LoadingGeometry& geometry, const Vector6d& compliance, std::vector<LoadCase>& cases,
+                 std::vector<Vector6d>& torques) {
+  torques.resize(cases.size());
   for (std::size_t i = 0; i < cases.size(); ++i) {
     LoadCase& load_case = cases[i];
-    if (load_case.wrench_turns_with == 0) continue;
-    const auto body = static_cast<std::size_t>(load_case.wrench_turns_with);
-    const ArmPosture loaded =
-        postureAt(geometry.arm, load_case.q_sagged + compliance.cwiseProduct(torques[i]));
-    const Eigen::Matrix3d turn =
-        loaded.motion[body].linear() * load_case.posture.motion[body].linear().transpose();
-    load_case.wrench.force = turn * load_case.wrench_unturned.force;
-    load_case.wrench.moment = turn * load_case.wrench_unturned.moment;
+    const SpringTorque springs(geometry, load_case, compliance);
+    torques[i] = springs.under(load_case.wrench);
+    if (load_case.wrench_turns_with != 0) {
+      load_case.wrench =
+          turnedWrench(geometry.arm, load_case, load_case.q_sagged + compliance.cwiseProduct(torques[i]));
+      torques[i] = springs.under(load_case.wrench);
+    }
+    load_case.middle = middleOf(geometry.arm, load_case, compliance, torques[i]);
   }
 }
 
 void takeJacobiansAtMiddle(const LoadingGeometry& geometry, const Vector6d& compliance,
                            const std::vector<Vector6d>& torques, std::vector<LoadCase>& cases) {
   for (std::size_t i = 0; i < cases.size(); ++i) {
-    cases[i].middle = postureAt(geometry.arm, cases[i].q_sagged + 0.5 * compliance.cwiseProduct(torques[i]));
+    cases[i].middle = middleOf(geometry.arm, cases[i], compliance, torques[i]);
   }
 }
 
-Matrix36d pointRows(const LoadingGeometry& geometry, const LoadCase& load_case, const Eigen::Vector3d& point,
-                    const Vector6d& torque) {
-  return jacobianAt(geometry.arm, jacobianPosture(load_case), point).topRows<3>() * torque.asDiagonal();
+ArmAxes jacobianAxes(const LoadingGeometry& geometry, const LoadCase& load_case) {
+  return axesAt(geometry.arm, jacobianPosture(load_case));
+}
+
+Matrix36d pointRows(const ArmAxes& axes, const Eigen::Vector3d& point, const Vector6d& torque) {
+  return pointJacobianAt(axes, point) * torque.asDiagonal();
 }
 
 }  // namespace stiffscope

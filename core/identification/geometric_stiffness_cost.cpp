@@ -11,12 +11,13 @@ std::vector<GeometricStiffnessCost> geometricStiffnessCosts(const Identification
   const std::vector<Vector6d> full = jointTorquesWithGeometricStiffness(solved.geometry, result.cases, compliance);
   for (std::size_t i = 0; i < result.cases.size(); ++i) {
     const LoadCase& load_case = result.cases[i];
+    const ArmAxes axes = jacobianAxes(solved.geometry, load_case);
     GeometricStiffnessCost cost;
     double whole = 0.0;
     for (const TargetMove& move : load_case.targets) {
       const Eigen::Vector3d point = jacobianPoint(load_case, move.unloaded, move.loaded);
-      cost.at_targets += (pointRows(solved.geometry, load_case, point, full[i] - plain[i]) * compliance).norm();
-      whole += (pointRows(solved.geometry, load_case, point, full[i]) * compliance).norm();
+      cost.at_targets += (pointRows(axes, point, full[i] - plain[i]) * compliance).norm();
+      whole += (pointRows(axes, point, full[i]) * compliance).norm();
     }
     if (whole > 0.0) cost.share = cost.at_targets / whole;
     cost.at_targets /= static_cast<double>(load_case.targets.size());

@@ -10,7 +10,7 @@
 
 #include "core/frames/arm_in_r0.h"
 #include "core/identification/base_from_postures.h"
-#include "core/identification/position_residual.h"
+#include "core/identification/position_cost.h"
 #include "core/identification/unloaded_positions.h"
 #include "core/identification/unseen_parameters.h"
 #include "metrology/measured_line.h"
@@ -112,11 +112,9 @@ class Calibration {
       const auto k = static_cast<std::size_t>(position.target);
       if (std::find(used_targets_.begin(), used_targets_.end(), k) == used_targets_.end())
         used_targets_.push_back(k);
-      auto* residual =
-          new PositionResidual{start_, begin_.sagged(position.q), position.point, whitening(position)};
-      residuals_.push_back(residual);
-      problem_.AddResidualBlock(new ceres::AutoDiffCostFunction<PositionResidual, 3, 24, 6, 3>(residual),
-                                nullptr, parameters_.axes.data(), parameters_.base.data(),
+      auto* cost = new PositionCost({start_, begin_.sagged(position.q), position.point, whitening(position)});
+      costs_.push_back(cost);
+      problem_.AddResidualBlock(cost, nullptr, parameters_.axes.data(), parameters_.base.data(),
                                 parameters_.targets[k].data());
     }
     std::sort(used_targets_.begin(), used_targets_.end());
@@ -132,7 +130,7 @@ class Calibration {
   double plainRms() const {
     double sum = 0.0;
     for (std::size_t i = 0; i < positions_.size(); ++i) {
-      PositionResidual plain = *residuals_[i];
+      PositionResidual plain = costs_[i]->residual();
       plain.whiten.setIdentity();
       Eigen::Vector3d residual;
       plain(parameters_.axes.data(), parameters_.base.data(),
@@ -255,7 +253,7 @@ class Calibration {
   std::vector<UnloadedPosition> positions_;
   std::vector<std::optional<Eigen::Vector3d>> targets_;
   std::vector<std::size_t> used_targets_;
-  std::vector<PositionResidual*> residuals_;  // owned by the problem's cost functions
+  std::vector<const PositionCost*> costs_;  // owned by the problem
   CalibrationStart start_;
   CalibrationParameters parameters_;
   ceres::Problem problem_;

@@ -23,16 +23,15 @@ Wrench hangingPart(const Wrench& wrench, const Eigen::Vector3d& down) {
 }
 
 /// Variance of each joint's torque by the uncertainties of wrench, direction and place.
-Vector6d torqueVariance(const LoadingGeometry& geometry, const LoadCase& load_case, const LoadCell& cell,
-                        const TrustLimits& limits) {
-  const Matrix6d jacobian = jacobianAt(geometry.arm, load_case.posture, load_case.wrench.point);
+Vector6d torqueVariance(const ArmAxes& axes, const Wrench& wrench, const LoadCell& cell, const TrustLimits& limits) {
+  const Matrix36d levers = pointJacobianAt(axes, wrench.point);
   Vector6d variance;
   for (int j = 0; j < 6; ++j) {
-    const Eigen::Vector3d lever = jacobian.block<3, 1>(0, j), axis = jacobian.block<3, 1>(3, j);
-    const Eigen::Vector3d by_turn = load_case.wrench.force.cross(lever) + load_case.wrench.moment.cross(axis);
+    const Eigen::Vector3d lever = levers.col(j), &axis = axes[static_cast<std::size_t>(j)].direction;
+    const Eigen::Vector3d by_turn = wrench.force.cross(lever) + wrench.moment.cross(axis);
     variance[j] = square(cell.force_sigma) * lever.squaredNorm() + square(cell.moment_sigma) +
                   square(limits.direction) * by_turn.squaredNorm() +
-                  square(limits.position) * axis.cross(load_case.wrench.force).squaredNorm();
+                  square(limits.position) * axis.cross(wrench.force).squaredNorm();
   }
   return variance;
 }
@@ -149,14 +148,14 @@ Identifiability judgeJoints(const LoadingGeometry& geometry, const std::vector<L
   std::vector<Vector6d> torques;
   Vector6d torque = Vector6d::Zero(), trusted = Vector6d::Zero(), variance = Vector6d::Zero();
   for (const LoadCase& load_case : cases) {
-    const Vector6d full = jointTorque(geometry.arm, load_case.posture, load_case.wrench);
+    const ArmAxes axes = axesAt(geometry.arm, load_case.posture);
+    const Vector6d full = jointTorque(axes, load_case.wrench);
     const Vector6d hanging =
-        result.load_hangs ? jointTorque(geometry.arm, load_case.posture, hangingPart(load_case.wrench, down))
-                          : full;
+        result.load_hangs ? jointTorque(axes, hangingPart(load_case.wrench, down)) : full;
     torques.push_back(full);
     torque += full.cwiseAbs2();
     trusted += hanging.cwiseAbs2();
-    variance += torqueVariance(geometry, load_case, cell, limits);
+    variance += torqueVariance(axes, load_case.wrench, cell, limits);
   }
   const double n = static_cast<double>(cases.size());
   for (int j = 0; j < 6; ++j) {

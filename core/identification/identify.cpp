@@ -38,9 +38,9 @@ Identification identifyOnce(const Campaign& campaign, const IdentifyOptions& opt
   runPartialPose(runs, result);
   runDecoupledPartialPose(runs, result);
   addSharedUncertainty(runs, result);
-  const LoadedArm& shown = runs.swept.cases.empty() ? runs.calibrated : runs.swept;
-  describeLoads(campaign, shown, result);
+  LoadedArm& shown = runs.swept.cases.empty() ? runs.calibrated : runs.swept;
   result.outlying = outlyingOf(shown, runs.unknown);
+  describeLoads(campaign, std::move(shown), result);
   return result;
 }
 

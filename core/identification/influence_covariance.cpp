@@ -54,14 +54,15 @@ InfluenceCovariance combined(double a, const InfluenceCovariance& first, double 
   return sum;
 }
 
-InfluenceCovariance influenceCovariance(const std::vector<PostureGain>& gains,
-                                        const std::vector<CaseEquations>& equations, const Matrix6d& inverse, int joint) {
+InfluenceCovariance influenceCovariance(const std::vector<PostureGain>& gains, const std::vector<NormalEquations>& normal,
+                                        const Matrix6d& inverse, int joint) {
   const auto n = static_cast<Eigen::Index>(gains.size());
   InfluenceCovariance covariance{Eigen::VectorXd(n), Eigen::MatrixXd(6, n), -inverse};
   for (Eigen::Index p = 0; p < n; ++p) {
-    const auto row = gains[static_cast<std::size_t>(p)].row(joint);
-    covariance.through.col(p) = (row * equations[static_cast<std::size_t>(p)].matrix).transpose();
-    covariance.own[p] = row.squaredNorm();
+    const auto at = static_cast<std::size_t>(p);
+    const Vector6d row = gains[at].row(joint).transpose(), through = normal[at].matrix * row;
+    covariance.through.col(p) = through;
+    covariance.own[p] = row.dot(through);
   }
   return covariance;
 }

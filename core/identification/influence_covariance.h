@@ -25,10 +25,10 @@ struct InfluenceCovariance {
 /// a first + b second, of the same postures.
 InfluenceCovariance combined(double a, const InfluenceCovariance& first, double b, const InfluenceCovariance& second);
 
-/// If all residuals came from errors that are independent and have variance 1: with l_p the gain's row and
-/// U_p = A_p^T l_p, C_pq = delta_pq |l_p|^2 - U_p^T N^-1 U_q.
-InfluenceCovariance influenceCovariance(const std::vector<PostureGain>& gains,
-                                        const std::vector<CaseEquations>& equations, const Matrix6d& inverse, int joint);
+/// If all residuals came from errors that are independent and have variance 1: with l_p the row of M_p A_p^T (PostureGain)
+/// and U_p = A_p^T l_p, C_pq = delta_pq |l_p|^2 - U_p^T N^-1 U_q. `normal`: A_p^T A_p.
+InfluenceCovariance influenceCovariance(const std::vector<PostureGain>& gains, const std::vector<NormalEquations>& normal,
+                                        const Matrix6d& inverse, int joint);
 
 /// Degrees of freedom of Student's t with the same factor at the stated coverage as a sum of squares of influences with
 /// that covariance. Up to 64 postures by the eigenvalues of C. Of more, the 64 with the largest influence are taken so and

@@ -30,9 +30,7 @@ void judgeMethod(const LoadedArm& arm, std::vector<NormalEquations> normal, bool
   SubsetMethod subset;
   subset.unknown = out.estimate.identifiable;
   subset.normal = std::move(normal);
-  if (decoupled) {
-    for (const CaseEquations& one : byPosture(out.target_rows)) subset.reflectors.push_back(normalEquations(one));
-  }
+  if (decoupled) subset.reflectors = normalByPosture(out.target_rows);
   if (!out.wrist_rows.empty()) subset.at_wrist = DeflectionJudge(byPosture(out.wrist_rows));
   subset.at_targets = DeflectionJudge(byPosture(out.target_rows));
   out.subsets = studySubsets(subset, options.subsets);

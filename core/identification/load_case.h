@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/campaign/campaign.h"
+#include "core/identification/load_readings.h"
 #include "core/identification/loading_geometry.h"
 #include "core/statics/wrench.h"
 
@@ -34,7 +35,7 @@ struct LoadCase {
   std::optional<ArmPosture> middle;
   Wrench wrench;  ///< forces directed as the flange is measured loaded; point where it stands unloaded
   /// Body whose turn under load directs the wrench but is not measured: `wrench` is then directed as at
-  /// `posture`, until turnWrenches directs it by the model. 0: directed as measured, or by axes that stand
+  /// `posture`, until settleLoads directs it by the model. 0: directed as measured, or by axes that stand
   /// still.
   int wrench_turns_with = 0;
   Wrench wrench_unturned;  ///< the same as at `posture`; only meant where wrench_turns_with is not 0
@@ -53,8 +54,10 @@ Eigen::Vector3d jacobianPoint(const LoadCase& load_case, const Eigen::Vector3d& 
 /// Empty where no step has a force.
 std::optional<int> heaviestStep(const Campaign& campaign);
 
-/// The load cases of one step, a posture each, in the order of the campaign's poses. A posture without that
-/// step, without an unloaded state or without a common reflector has none, and is named in `left_out`.
+/// The load cases of one of the readings' steps, a posture each, in the order of the campaign's poses. A posture
+/// without that step, without an unloaded state or without a common reflector has none, and is named in `left_out`.
+std::vector<LoadCase> loadCases(const Campaign& campaign, const LoadReadings& readings, const LoadingGeometry& geometry,
+                                int step, std::vector<std::string>* left_out = nullptr);
 std::vector<LoadCase> loadCases(const Campaign& campaign, const LoadingGeometry& geometry, int step,
                                 std::vector<std::string>* left_out = nullptr);
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 
 #include "core/identification/complete_pose.h"
 #include "core/identification/partial_pose.h"
@@ -13,38 +14,54 @@ namespace {
 
 bool hasPose(const LoadCase& load_case) { return load_case.flange_unloaded && load_case.flange_loaded; }
 
-/// Keeps the cases for which `has` holds, if most do: then it is those others that lack something, not the
-/// campaign.
-template <class Has>
-void keepMost(const Campaign& campaign, const Has& has, const char* reason, std::vector<LoadCase>& cases,
+/// Keeps the cases that have something, if most do: then it is those others that lack it, not the campaign.
+void keepMost(const Campaign& campaign, const std::vector<bool>& has, const char* reason, std::vector<LoadCase>& cases,
               std::vector<std::string>* left_out) {
-  const auto count = static_cast<std::size_t>(std::count_if(cases.begin(), cases.end(), has));
+  const auto count = static_cast<std::size_t>(std::count(has.begin(), has.end(), true));
   if (count == cases.size() || 2 * count <= cases.size()) return;
-  std::erase_if(cases, [&](const LoadCase& load_case) {
-    if (has(load_case)) return false;
-    if (left_out) {
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    if (has[i]) {
+      if (kept != i) cases[kept] = std::move(cases[i]);
+      ++kept;
+    } else if (left_out) {
       left_out->push_back(
-          fmt::format("pose {}: {}", campaign.pose_ids[static_cast<std::size_t>(load_case.pose)], reason));
+          fmt::format("pose {}: {}", campaign.pose_ids[static_cast<std::size_t>(cases[i].pose)], reason));
     }
-    return true;
-  });
+  }
+  cases.resize(kept);
 }
 
 /// Of all the steps, by pose. With several steps a case that cannot be used says of which step it is.
-std::vector<LoadCase> casesOf(const Campaign& campaign, const LoadingGeometry& geometry, const std::vector<int>& steps,
-                              std::vector<std::string>* left_out) {
+std::vector<LoadCase> casesOf(const Campaign& campaign, const LoadReadings& readings, const LoadingGeometry& geometry,
+                              const std::vector<int>& steps, std::vector<std::string>* left_out) {
+  if (steps.size() == 1) return loadCases(campaign, readings, geometry, steps.front(), left_out);
   std::vector<LoadCase> cases;
   for (const int step : steps) {
     std::vector<std::string> lacking;
-    for (LoadCase& one : loadCases(campaign, geometry, step, &lacking)) cases.push_back(std::move(one));
+    for (LoadCase& one : loadCases(campaign, readings, geometry, step, &lacking)) cases.push_back(std::move(one));
     for (const std::string& reason : lacking) {
-      if (left_out) left_out->push_back(steps.size() == 1 ? reason : fmt::format("{} (step {})", reason, step));
+      if (left_out) left_out->push_back(fmt::format("{} (step {})", reason, step));
     }
   }
-  if (steps.size() > 1) {
-    std::stable_sort(cases.begin(), cases.end(), [](const LoadCase& a, const LoadCase& b) { return a.pose < b.pose; });
-  }
+  std::stable_sort(cases.begin(), cases.end(), [](const LoadCase& a, const LoadCase& b) { return a.pose < b.pose; });
   return cases;
+}
+
+/// P_wrist in all the cases; those that do not give it are left out if most do, else there is none of any.
+void addWristMoves(const Campaign& campaign, const WristCentre& wrist, std::vector<std::string>* left_out, LoadedArm& arm) {
+  std::vector<std::optional<WristMove>> moves;
+  std::vector<bool> has;
+  moves.reserve(arm.cases.size());
+  for (const LoadCase& load_case : arm.cases) {
+    moves.push_back(wristMove(load_case, wrist.radii, wrist.centre_at_zero_in_r0));
+    has.push_back(moves.back().has_value());
+  }
+  keepMost(campaign, has, "no P_wrist from reflectors of known radius", arm.cases, left_out);
+  std::erase_if(moves, [](const auto& move) { return !move; });
+  if (moves.size() != arm.cases.size()) return;
+  arm.wrist.reserve(moves.size());
+  for (const auto& move : moves) arm.wrist.push_back(*move);
 }
 
 }  // namespace
@@ -53,32 +70,25 @@ bool LoadedArm::hasFlangePoses() const {
   return !cases.empty() && std::all_of(cases.begin(), cases.end(), hasPose);
 }
 
-LoadedArm loadedArm(const Campaign& campaign, const LoadingGeometry& geometry, const WristCentre& wrist,
-                    const std::vector<int>& steps, std::vector<std::string>* left_out) {
-  LoadedArm arm{geometry, casesOf(campaign, geometry, steps, left_out), {}, {}};
-  keepMost(campaign, hasPose, "fewer than three reflectors read in both states", arm.cases, left_out);
-  const auto moveOf = [&](const LoadCase& load_case) {
-    return wristMove(load_case, wrist.radii, wrist.centre_at_zero_in_r0);
-  };
-  if (wrist.measured) {
-    keepMost(
-        campaign, [&](const LoadCase& load_case) { return moveOf(load_case).has_value(); },
-        "no P_wrist from reflectors of known radius", arm.cases, left_out);
-    for (const LoadCase& load_case : arm.cases) {
-      const auto move = moveOf(load_case);
-      if (!move) {
-        arm.wrist.clear();
-        break;
-      }
-      arm.wrist.push_back(*move);
-    }
-  }
+LoadedArm loadedArm(const Campaign& campaign, const LoadReadings& readings, const LoadingGeometry& geometry,
+                    const WristCentre& wrist, const std::vector<int>& steps, std::vector<std::string>* left_out) {
+  LoadedArm arm{geometry, casesOf(campaign, readings, geometry, steps, left_out), {}, {}};
+  std::vector<bool> poses;
+  for (const LoadCase& load_case : arm.cases) poses.push_back(hasPose(load_case));
+  keepMost(campaign, poses, "fewer than three reflectors read in both states", arm.cases, left_out);
+  if (wrist.measured) addWristMoves(campaign, wrist, left_out, arm);
   arm.torques = jointTorques(geometry, arm.cases);
   return arm;
 }
 
+LoadedArm loadedArm(const Campaign& campaign, const LoadingGeometry& geometry, const WristCentre& wrist,
+                    const std::vector<int>& steps, std::vector<std::string>* left_out) {
+  return loadedArm(campaign, LoadReadings(campaign, steps), geometry, wrist, steps, left_out);
+}
+
 std::vector<CaseEquations> reflectorEquations(const LoadedArm& arm) {
   std::vector<CaseEquations> equations;
+  equations.reserve(arm.cases.size());
   for (std::size_t i = 0; i < arm.cases.size(); ++i) {
     equations.push_back(partialPoseEquations(arm.geometry, arm.cases[i], arm.torques[i]));
   }
@@ -87,6 +97,7 @@ std::vector<CaseEquations> reflectorEquations(const LoadedArm& arm) {
 
 std::vector<CaseEquations> wristPointEquations(const LoadedArm& arm) {
   std::vector<CaseEquations> equations;
+  equations.reserve(arm.wrist.size());
   for (std::size_t i = 0; i < arm.wrist.size(); ++i) {
     equations.push_back(wristEquations(arm.geometry, arm.cases[i], arm.wrist[i], arm.torques[i]));
   }
@@ -95,6 +106,7 @@ std::vector<CaseEquations> wristPointEquations(const LoadedArm& arm) {
 
 std::vector<CaseEquations> poseEquations(const LoadedArm& arm, const Eigen::Vector3d& tcp_in_flange) {
   std::vector<CaseEquations> equations;
+  equations.reserve(arm.cases.size());
   for (std::size_t i = 0; i < arm.cases.size(); ++i) {
     equations.push_back(completePoseEquations(arm.geometry, arm.cases[i], tcp_in_flange, arm.torques[i]));
   }

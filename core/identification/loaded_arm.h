@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/frames/frames.h"
+#include "core/identification/load_readings.h"
 #include "core/identification/stiffness_estimate.h"
 #include "core/identification/wrist_move.h"
 
@@ -20,7 +21,11 @@ struct LoadedArm {
 };
 
 /// Where reflectors in most postures give a flange pose, or P_wrist, a posture that lacks it is left out, so
-/// that all methods see the same postures; `left_out` names it. Cases in the order of poses, then of `steps`.
+/// that all methods see the same postures; `left_out` names it. Cases in the order of poses, then of `steps`,
+/// which the readings have.
+LoadedArm loadedArm(const Campaign& campaign, const LoadReadings& readings, const LoadingGeometry& geometry,
+                    const WristCentre& wrist, const std::vector<int>& steps,
+                    std::vector<std::string>* left_out = nullptr);
 LoadedArm loadedArm(const Campaign& campaign, const LoadingGeometry& geometry, const WristCentre& wrist,
                     const std::vector<int>& steps, std::vector<std::string>* left_out = nullptr);
 
@@ -29,26 +34,20 @@ std::vector<CaseEquations> reflectorEquations(const LoadedArm& arm);
 std::vector<CaseEquations> wristPointEquations(const LoadedArm& arm);
 std::vector<CaseEquations> poseEquations(const LoadedArm& arm, const Eigen::Vector3d& tcp_in_flange);
 
-/// Solves by one method, `solve(arm)`. With `finite_deflection` the equations are made again with the torque
-/// (K_c, and the wrench turned with the flange where its turn is not measured) and the middle posture that
-/// the last estimate implies; K_c is about a hundredth, so two rounds leave a millionth.
-template <class Solve>
-StiffnessEstimate solveSettled(LoadedArm& arm, bool finite_deflection, const Solve& solve) {
+/// The loads settled: torques (K_c, and the wrench turned with the flange where its turn is not measured) and middle
+/// postures that the compliances imply which `compliance(arm)` gives, round by round; K_c is about a hundredth, so two
+/// rounds leave a millionth. Without `finite_deflection` the unloaded arm's torques and postures.
+template <class Compliance>
+void settleArm(LoadedArm& arm, bool finite_deflection, const Compliance& compliance) {
   for (LoadCase& load_case : arm.cases) {
     load_case.middle.reset();
     if (load_case.wrench_turns_with != 0) load_case.wrench = load_case.wrench_unturned;
   }
   arm.torques = jointTorques(arm.geometry, arm.cases);
-  StiffnessEstimate estimate = solve(arm);
   constexpr int kRounds = 2;
   for (int round = 0; finite_deflection && round < kRounds; ++round) {
-    arm.torques = jointTorquesWithGeometricStiffness(arm.geometry, arm.cases, estimate.compliance);
-    turnWrenches(arm.geometry, estimate.compliance, arm.torques, arm.cases);
-    arm.torques = jointTorquesWithGeometricStiffness(arm.geometry, arm.cases, estimate.compliance);
-    takeJacobiansAtMiddle(arm.geometry, estimate.compliance, arm.torques, arm.cases);
-    estimate = solve(arm);
+    settleLoads(arm.geometry, compliance(arm), arm.cases, arm.torques);
   }
-  return estimate;
 }
 
 }  // namespace stiffscope

@@ -4,6 +4,7 @@
 
 #include "core/identification/judge_method.h"
 #include "core/identification/method_solution.h"
+#include "core/identification/posture_influence.h"
 #include "core/identification/settled_frames.h"
 #include "core/identification/shared_uncertainty.h"
 #include "core/identification/unavailable.h"
@@ -23,8 +24,7 @@ MethodSolution solutionOf(Method which, const MethodRuns& runs, const Identifica
 }
 
 StiffnessEstimate solved(Method which, LoadedArm& arm, const MethodRuns& runs, const Identification& result) {
-  const MethodSolution how = solutionOf(which, runs, result);
-  return solveSettled(arm, runs.options.finite_deflection, [&](const LoadedArm& now) { return how.estimate(now); });
+  return solutionOf(which, runs, result).settledEstimate(arm, runs.options.finite_deflection);
 }
 
 /// The loaded arm in the calibrated geometry. Where no sweep gave stiffnesses for the own weight's sag,
@@ -32,10 +32,11 @@ StiffnessEstimate solved(Method which, LoadedArm& arm, const MethodRuns& runs, c
 LoadedArm calibratedArm(const MethodRuns& runs, Identification& result) {
   LoadingGeometry start = runs.swept.geometry;
   const bool settle_sag = runs.swept.cases.empty() && result.frames.weight.links_known;
+  const LoadReadings readings(runs.campaign, result.steps);
   for (int round = 0;; ++round) {
     result.calibration = calibrateGeometry(runs.campaign, start);
     if (!result.calibration.done) return runs.swept;
-    LoadedArm arm = loadedArm(runs.campaign, result.calibration.geometry, result.frames.wrist, result.steps);
+    LoadedArm arm = loadedArm(runs.campaign, readings, result.calibration.geometry, result.frames.wrist, result.steps);
     if (!settle_sag || round == kSagRounds || arm.cases.empty()) return arm;
     start.compliance = sagCompliance(runs.campaign, runs.options, arm);
   }
@@ -59,14 +60,16 @@ void runCompletePose(MethodRuns& runs, Identification& result) {
   const double length = result.characteristic_length.length;
   out.estimate = solved(Method::complete_pose, runs.swept, runs, result);
   constexpr int kEvery = 5;
-  const std::vector<CaseEquations> equations = poseEquations(runs.swept, tcp);
+  PoseNormal sum;
+  std::vector<CaseEquations> scaled;
+  for (const CaseEquations& one : poseEquations(runs.swept, tcp)) {
+    sum.add(one);
+    scaled.push_back(normalised(one, length));
+  }
   for (std::size_t i = 0; i < result.characteristic_length.curve.size(); i += kEvery) {
     const auto& [at, condition] = result.characteristic_length.curve[i];
-    result.length_sensitivity.push_back(
-        {at, condition, completePose(equations, at, runs.unknown).compliance});
+    result.length_sensitivity.push_back({at, condition, solveNormal(sum.at(at), runs.unknown)});
   }
-  std::vector<CaseEquations> scaled;
-  for (const CaseEquations& one : equations) scaled.push_back(normalised(one, length));
   judgeMethod(runs.swept, normalByPosture(scaled), false, runs.options, out);
 }
 

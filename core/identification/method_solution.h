@@ -17,9 +17,10 @@ struct MethodSolution {
 
   /// The compliances alone, without their covariance and at a twentieth of the time.
   Vector6d compliance(const LoadedArm& arm) const;
-};
 
-/// Normal equations, one a posture.
-std::vector<NormalEquations> normalByPosture(const std::vector<CaseEquations>& equations);
+  /// The same of the arm settled (settleArm) by this method's compliances.
+  StiffnessEstimate settledEstimate(LoadedArm& arm, bool finite_deflection) const;
+  Vector6d settledCompliance(LoadedArm& arm, bool finite_deflection) const;
+};
 
 }  // namespace stiffscope

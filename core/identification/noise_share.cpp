@@ -15,14 +15,17 @@ double wristErrorVariance(const Campaign& campaign, const LoadingGeometry& geome
                           const Eigen::Vector3d& centre_at_zero) {
   constexpr double kStep = 1e-6;  // m
   double trace = 0.0;
+  LoadCase moved = load_case;
   for (std::size_t k = 0; k < load_case.targets.size(); ++k) {
+    const Eigen::Vector3d& loaded = load_case.targets[k].loaded;
     Eigen::Matrix3d by_point;
     for (int axis = 0; axis < 3; ++axis) {
-      LoadCase forward = load_case, backward = load_case;
-      forward.targets[k].loaded[axis] += kStep;
-      backward.targets[k].loaded[axis] -= kStep;
-      const auto ahead = wristMove(forward, radii, centre_at_zero),
-                 behind = wristMove(backward, radii, centre_at_zero);
+      const auto movedBy = [&](double step) {
+        moved.targets[k].loaded = loaded + step * Eigen::Vector3d::Unit(axis);
+        return wristMove(moved, radii, centre_at_zero);
+      };
+      const auto ahead = movedBy(kStep), behind = movedBy(-kStep);
+      moved.targets[k].loaded = loaded;
       if (!ahead || !behind) return 0.0;
       by_point.col(axis) = (ahead->loaded - behind->loaded) / (2.0 * kStep);
     }

@@ -1,10 +1,45 @@
 #include "core/identification/normal_equations.h"
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
 namespace stiffscope {
+
+namespace {
+
+/// R of A = Q R, A given in blocks of rows: the rows at hand under what the earlier ones left.
+class TriangularFactor {
+ public:
+  void add(const Eigen::Matrix<double, Eigen::Dynamic, 6>& rows) {
+    for (Eigen::Index from = 0; from < rows.rows();) {
+      const Eigen::Index count = std::min(rows.rows() - from, kRows - filled_);
+      work_.middleRows(filled_, count) = rows.middleRows(from, count);
+      filled_ += count, from += count;
+      if (filled_ == kRows) reduce();
+    }
+  }
+
+  Matrix6d triangle() {
+    reduce();
+    return work_.topRows<6>();
+  }
+
+ private:
+  void reduce() {
+    work_.bottomRows(kRows - filled_).setZero();
+    const Matrix6d triangle = work_.householderQr().matrixQR().topRows<6>().triangularView<Eigen::Upper>();
+    work_.topRows<6>() = triangle;
+    filled_ = 6;
+  }
+
+  static constexpr Eigen::Index kRows = 96;
+  Eigen::Matrix<double, kRows, 6> work_;
+  Eigen::Index filled_ = 0;
+};
+
+}  // namespace
 
 NormalEquations& NormalEquations::operator+=(const NormalEquations& other) {
   matrix += other.matrix;
@@ -13,7 +48,28 @@ NormalEquations& NormalEquations::operator+=(const NormalEquations& other) {
 }
 
 NormalEquations normalEquations(const CaseEquations& equations) {
-  return {equations.matrix.transpose() * equations.matrix, equations.matrix.transpose() * equations.right};
+  // By columns: for few rows a general matrix product costs more in its preparations than it computes.
+  NormalEquations normal;
+  for (int i = 0; i < 6; ++i) {
+    const auto column = equations.matrix.col(i);
+    for (int j = 0; j <= i; ++j) {
+      normal.matrix(i, j) = normal.matrix(j, i) = column.dot(equations.matrix.col(j));
+    }
+    normal.right[i] = column.dot(equations.right);
+  }
+  return normal;
+}
+
+NormalEquations normalEquations(const std::vector<CaseEquations>& equations) {
+  NormalEquations sum;
+  for (const CaseEquations& one : equations) sum += normalEquations(one);
+  return sum;
+}
+
+NormalEquations sumOf(const std::vector<NormalEquations>& normal) {
+  NormalEquations sum;
+  for (const NormalEquations& one : normal) sum += one;
+  return sum;
 }
 
 ScaledNormal scaledNormal(const Matrix6d& matrix, const JointMask& unknown) {
@@ -42,27 +98,25 @@ Vector6d solveNormal(const NormalEquations& sum, const JointMask& unknown) {
 }
 
 double conditionNumber(const std::vector<CaseEquations>& equations, const JointMask& unknown) {
+  TriangularFactor factor;
   Eigen::Index rows = 0;
-  for (const CaseEquations& one : equations) rows += one.matrix.rows();
-  Eigen::MatrixXd stacked(rows, 6);
-  rows = 0;
   for (const CaseEquations& one : equations) {
-    stacked.middleRows(rows, one.matrix.rows()) = one.matrix;
+    factor.add(one.matrix);
     rows += one.matrix.rows();
   }
-  Eigen::Index columns = 0;
+  // Q turns columns and leaves their lengths: the triangular factor has those of the stacked matrix.
+  const Matrix6d triangle = factor.triangle();
+  Eigen::Matrix<double, 6, Eigen::Dynamic, 0, 6, 6> unit(6, 0);
   for (int j = 0; j < 6; ++j) {
     if (!unknown[static_cast<std::size_t>(j)]) continue;
-    const double length = stacked.col(j).norm();
+    const double length = triangle.col(j).norm();
     if (length == 0.0) return std::numeric_limits<double>::infinity();
-    const Eigen::VectorXd column = stacked.col(j) / length;
-    stacked.col(columns++) = column;
+    unit.conservativeResize(6, unit.cols() + 1);
+    unit.rightCols<1>() = triangle.col(j) / length;
   }
-  if (columns == 0 || rows < columns) return std::numeric_limits<double>::infinity();
-  const Eigen::MatrixXd reduced =
-      stacked.leftCols(columns).householderQr().matrixQR().topRows(columns).triangularView<Eigen::Upper>();
-  const Eigen::VectorXd values = reduced.jacobiSvd().singularValues();
-  return values[0] / values[columns - 1];
+  if (unit.cols() == 0 || rows < unit.cols()) return std::numeric_limits<double>::infinity();
+  const Eigen::VectorXd values = unit.jacobiSvd().singularValues();
+  return values[0] / values[unit.cols() - 1];
 }
 
 }  // namespace stiffscope

@@ -17,9 +17,16 @@ struct NormalEquations {
   Vector6d right = Vector6d::Zero();
 
   NormalEquations& operator+=(const NormalEquations& other);
+  /// Of three rows more, a point's.
+  void add(const Matrix36d& rows, const Eigen::Vector3d& values) {
+    matrix.noalias() += rows.transpose() * rows;
+    right.noalias() += rows.transpose() * values;
+  }
 };
 
 NormalEquations normalEquations(const CaseEquations& equations);
+NormalEquations normalEquations(const std::vector<CaseEquations>& equations);
+NormalEquations sumOf(const std::vector<NormalEquations>& normal);
 
 /// A normal matrix with columns scaled to unit length; joints that are no unknowns have scale 0 and a unit
 /// diagonal.

@@ -11,10 +11,11 @@ CaseEquations partialPoseEquations(const LoadingGeometry& geometry, const LoadCa
   equations.posture = load_case.pose;
   equations.matrix.resize(rows, 6);
   equations.right.resize(rows);
+  const ArmAxes axes = jacobianAxes(geometry, load_case);
   Eigen::Index row = 0;
   for (const TargetMove& move : load_case.targets) {
     equations.matrix.middleRows<3>(row) =
-        pointRows(geometry, load_case, jacobianPoint(load_case, move.unloaded, move.loaded), torque);
+        pointRows(axes, jacobianPoint(load_case, move.unloaded, move.loaded), torque);
     equations.right.segment<3>(row) = move.displacement();
     row += 3;
   }
@@ -24,11 +25,11 @@ CaseEquations partialPoseEquations(const LoadingGeometry& geometry, const LoadCa
 StiffnessEstimate partialPose(const std::vector<CaseEquations>& equations, const JointMask& unknown) {
   StiffnessEstimate estimate;
   estimate.identifiable = unknown;
-  NormalEquations sum;
-  for (const CaseEquations& one : equations) sum += normalEquations(one);
+  const std::vector<NormalEquations> normal = normalByPosture(equations);
+  const NormalEquations sum = sumOf(normal);
   estimate.compliance = solveNormal(sum, unknown);
   estimate.condition = conditionNumber(equations, unknown);
-  setScatterOfOneStage(byPosture(equations), sum, estimate);
+  setScatterOfOneStage(normal, sum, estimate);
   describeResiduals(equations, estimate);
   return estimate;
 }

@@ -33,29 +33,40 @@ struct PositionResidual {
   Eigen::Vector3d measured;
   Eigen::Matrix3d whiten;
 
+  /// A point turned about a joint's axis by its angle, the axis moved by its four numbers `own`.
+  template <class T>
+  Eigen::Matrix<T, 3, 1> turned(int joint, const T* own, const Eigen::Matrix<T, 3, 1>& x) const {
+    using Vector = Eigen::Matrix<T, 3, 1>;
+    const auto j = static_cast<std::size_t>(joint);
+    const Vector point = start.axes[j].point.cast<T>() + start.across_u[j].cast<T>() * own[0] +
+                         start.across_v[j].cast<T>() * own[1];
+    const Vector direction = (start.axes[j].direction.cast<T>() + start.across_u[j].cast<T>() * own[2] +
+                              start.across_v[j].cast<T>() * own[3])
+                                 .normalized();
+    const Vector from = x - point;
+    const double cosine = std::cos(q[joint]), sine = std::sin(q[joint]);
+    return point + from * T(cosine) + direction.cross(from) * T(sine) +
+           direction * (direction.dot(from) * T(1.0 - cosine));
+  }
+
+  /// A point of the arm's base in the readings' frame, that moved by `base`.
+  template <class T>
+  Eigen::Matrix<T, 3, 1> placed(const T* base, const Eigen::Matrix<T, 3, 1>& x) const {
+    using Vector = Eigen::Matrix<T, 3, 1>;
+    const Vector at_start =
+        start.points_from_base.linear().cast<T>() * x + start.points_from_base.translation().cast<T>();
+    Vector moved;
+    ceres::AngleAxisRotatePoint(base, at_start.data(), moved.data());
+    return moved + Vector(base[3], base[4], base[5]);
+  }
+
   template <class T>
   bool operator()(const T* axes, const T* base, const T* target, T* residual) const {
     using Vector = Eigen::Matrix<T, 3, 1>;
     Vector x(target[0], target[1], target[2]);
-    for (int joint = 5; joint >= 0; --joint) {  // innermost turn first: exp(xi_1 q_1) ... exp(xi_6 q_6) x
-      const auto j = static_cast<std::size_t>(joint);
-      const T* own = axes + 4 * joint;
-      const Vector point = start.axes[j].point.cast<T>() + start.across_u[j].cast<T>() * own[0] +
-                           start.across_v[j].cast<T>() * own[1];
-      const Vector direction = (start.axes[j].direction.cast<T>() + start.across_u[j].cast<T>() * own[2] +
-                                start.across_v[j].cast<T>() * own[3])
-                                   .normalized();
-      const Vector from = x - point;
-      const double cosine = std::cos(q[joint]), sine = std::sin(q[joint]);
-      x = point + from * T(cosine) + direction.cross(from) * T(sine) +
-          direction * (direction.dot(from) * T(1.0 - cosine));
-    }
-    const Vector placed =
-        start.points_from_base.linear().cast<T>() * x + start.points_from_base.translation().cast<T>();
-    Vector turned;
-    ceres::AngleAxisRotatePoint(base, placed.data(), turned.data());
-    const Vector modelled = turned + Vector(base[3], base[4], base[5]);
-    Eigen::Map<Vector>(residual, 3) = whiten.cast<T>() * (measured.cast<T>() - modelled);
+    // Innermost turn first: exp(xi_1 q_1) ... exp(xi_6 q_6) x.
+    for (int joint = 5; joint >= 0; --joint) x = turned(joint, axes + 4 * joint, x);
+    Eigen::Map<Vector>(residual, 3) = whiten.cast<T>() * (measured.cast<T>() - placed(base, x));
     return true;
   }
 };

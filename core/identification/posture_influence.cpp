@@ -1,20 +1,43 @@
 #include "core/identification/posture_influence.h"
 
 #include <Eigen/Dense>
+#include <array>
 
 namespace stiffscope {
 
-PostureGain correctedGain(const CaseEquations& equations, const NormalEquations& sum, const JointMask& unknown) {
-  // With N = L L^T the root acts on six numbers: L^-1 A^T (I - H)^-1/2 r = (I - G)^-1/2 L^-1 A^T r, G = L^-1
-  // A^T A L^-T.
-  const ScaledNormal scaled = scaledNormal(sum.matrix, unknown);
-  const Eigen::LLT<Matrix6d> cholesky(scaled.matrix);
-  const PostureGain rows = cholesky.matrixL().solve(scaled.scale.asDiagonal() * equations.matrix.transpose());
-  const Eigen::SelfAdjointEigenSolver<Matrix6d> own(rows * rows.transpose());
+namespace {
+
+/// (I - G)^-1/2 of a symmetric G with eigenvalues in 0 .. 1, a thousand postures' as well as two's.
+Matrix6d inverseRootOfRest(const Matrix6d& g) {
+  // With many postures G is small: by the series sum (2k)! / (4^k k!^2) G^k, the rest of which is below 1e-16.
+  constexpr double kSmall = 0.006;
+  if (g.trace() < kSmall) {
+    constexpr std::array<double, 6> kSeries{0.5, 3.0 / 8.0, 5.0 / 16.0, 35.0 / 128.0, 63.0 / 256.0, 231.0 / 1024.0};
+    Matrix6d sum = kSeries.back() * g;
+    for (std::size_t k = kSeries.size() - 1; k-- > 0;) {
+      sum.diagonal().array() += kSeries[k];
+      sum = (sum * g).eval();
+    }
+    return Matrix6d::Identity() + sum;
+  }
+  const Eigen::SelfAdjointEigenSolver<Matrix6d> own(g);
   constexpr double kMost = 0.95;  // a posture that alone determines a combination has no residual to correct
   const Vector6d root = (1.0 - own.eigenvalues().array().min(kMost)).rsqrt();
-  const Matrix6d corrected = own.eigenvectors() * root.asDiagonal() * own.eigenvectors().transpose();
-  return scaled.scale.asDiagonal() * cholesky.matrixU().solve((corrected * rows).eval());
+  return own.eigenvectors() * root.asDiagonal() * own.eigenvectors().transpose();
+}
+
+bool sharePosture(const CaseEquations& a, const CaseEquations& b) { return a.posture >= 0 && a.posture == b.posture; }
+
+}  // namespace
+
+PostureGains::PostureGains(const NormalEquations& sum, const JointMask& unknown) {
+  const ScaledNormal scaled = scaledNormal(sum.matrix, unknown);
+  const Eigen::LLT<Matrix6d> cholesky(scaled.matrix);
+  whiten_ = cholesky.matrixL().solve(Matrix6d(scaled.scale.asDiagonal()));
+}
+
+PostureGain PostureGains::of(const Matrix6d& own) const {
+  return whiten_.transpose() * inverseRootOfRest(whiten_ * own * whiten_.transpose()) * whiten_;
 }
 
 Matrix6d inverseNormal(const NormalEquations& sum, const JointMask& unknown) {
@@ -29,8 +52,9 @@ double satterthwaite(const Eigen::MatrixXd& covariance) {
 
 std::vector<CaseEquations> byPosture(const std::vector<CaseEquations>& equations) {
   std::vector<CaseEquations> joined;
+  joined.reserve(equations.size());
   for (const CaseEquations& one : equations) {
-    if (joined.empty() || one.posture < 0 || joined.back().posture != one.posture) {
+    if (joined.empty() || !sharePosture(joined.back(), one)) {
       joined.push_back(one);
       continue;
     }
@@ -42,6 +66,20 @@ std::vector<CaseEquations> byPosture(const std::vector<CaseEquations>& equations
     last.right.tail(more) = one.right;
   }
   return joined;
+}
+
+std::vector<NormalEquations> normalByPosture(const std::vector<CaseEquations>& equations) {
+  std::vector<NormalEquations> normal;
+  normal.reserve(equations.size());
+  for (std::size_t i = 0; i < equations.size(); ++i) {
+    const NormalEquations own = normalEquations(equations[i]);
+    if (i > 0 && sharePosture(equations[i - 1], equations[i])) {
+      normal.back() += own;
+    } else {
+      normal.push_back(own);
+    }
+  }
+  return normal;
 }
 
 }  // namespace stiffscope

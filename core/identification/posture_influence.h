@@ -7,13 +7,23 @@
 
 namespace stiffscope {
 
-/// 6 x rows of a posture: how its residuals move the compliances.
-using PostureGain = Eigen::Matrix<double, 6, Eigen::Dynamic>;
+/// How the residuals of a posture move the compliances, M_p in g_p = M_p A_p^T (b_p - A_p c), g_p its influence:
+/// M_p A_p^T = N^-1 A_p^T (I - H_p)^-1/2, H_p = A_p N^-1 A_p^T. The root makes up for what the posture pulled the fit
+/// towards itself (Bell and McCaffrey 2002, CR2), which matters for few postures. With N = L L^T and G = L^-1 A_p^T A_p L^-T
+/// it acts on six numbers: M_p = L^-T (I - G)^-1/2 L^-1.
+using PostureGain = Matrix6d;
 
-/// N^-1 A_p^T (I - H_p)^-1/2, H_p = A_p N^-1 A_p^T. Times the residual b_p - A_p c it is the influence g_p of a
-/// posture. The root makes up for what the posture pulled the fit towards itself (Bell and McCaffrey 2002, CR2), which
-/// matters for few postures.
-PostureGain correctedGain(const CaseEquations& equations, const NormalEquations& sum, const JointMask& unknown);
+/// Gains in one least-squares problem.
+class PostureGains {
+ public:
+  PostureGains(const NormalEquations& sum, const JointMask& unknown);
+
+  /// Of a posture by its own A_p^T A_p.
+  PostureGain of(const Matrix6d& own) const;
+
+ private:
+  Matrix6d whiten_;  ///< L^-1 with the columns' scales; rows of joints that are no unknowns zero
+};
 
 /// N^-1 over the joints of the mask, the others' rows and columns zero.
 Matrix6d inverseNormal(const NormalEquations& sum, const JointMask& unknown);
@@ -25,5 +35,8 @@ double satterthwaite(const Eigen::MatrixXd& covariance);
 /// Equations of equal `posture` in a row, joined to one: the errors of a posture (its unloaded readings above all) are in
 /// all its load steps, so it acts as one.
 std::vector<CaseEquations> byPosture(const std::vector<CaseEquations>& equations);
+
+/// The normal equations of those, one a posture.
+std::vector<NormalEquations> normalByPosture(const std::vector<CaseEquations>& equations);
 
 }  // namespace stiffscope

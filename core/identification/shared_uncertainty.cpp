@@ -12,7 +12,7 @@ class MovedFrames {
  public:
   MovedFrames(const Campaign& campaign, const Frames& frames, const LoadingGeometry& geometry,
               const std::vector<int>& steps)
-      : campaign_(campaign), frames_(frames), compliance_(geometry.compliance), steps_(steps), moved_(frames) {}
+      : campaign_(campaign), frames_(frames), compliance_(geometry.compliance), readings_(campaign, steps), moved_(frames) {}
 
   /// `axes`: lines of the axes that are measured, in their order.
   LoadedArm withAxes(const std::vector<Line>& axes) {
@@ -38,13 +38,13 @@ class MovedFrames {
 
  private:
   LoadedArm load(const Frames& frames) const {
-    return loadedArm(campaign_, sweptGeometry(campaign_, frames, compliance_), frames.wrist, steps_);
+    return loadedArm(campaign_, readings_, sweptGeometry(campaign_, frames, compliance_), frames.wrist, readings_.steps());
   }
 
   const Campaign& campaign_;
   const Frames& frames_;
   const Vector6d compliance_;
-  const std::vector<int>& steps_;
+  const LoadReadings readings_;
   Frames moved_;
 };
 
@@ -94,10 +94,11 @@ std::vector<SweptParts> sweptParts(const Campaign& campaign, const Frames& frame
 
 Matrix6d calibratedPart(const Campaign& campaign, const GeometryCalibration& calibration, const WristCentre& wrist,
                         const std::vector<int>& steps, const ComplianceOf& solve) {
-  const Vector6d unmoved = solve(loadedArm(campaign, calibration.geometry, wrist, steps));
+  const LoadReadings readings(campaign, steps);
+  const Vector6d unmoved = solve(loadedArm(campaign, readings, calibration.geometry, wrist, steps));
   Matrix6d covariance = Matrix6d::Zero();
   for (const LoadingGeometry& moved : calibration.spread) {
-    const Vector6d change = solve(loadedArm(campaign, moved, wrist, steps)) - unmoved;
+    const Vector6d change = solve(loadedArm(campaign, readings, moved, wrist, steps)) - unmoved;
     covariance += change * change.transpose();
   }
   return covariance;

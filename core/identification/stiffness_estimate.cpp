@@ -45,19 +45,22 @@ void setScatter(std::vector<Vector6d> influences, const Vector6d& dof, Stiffness
   estimate.influences = std::move(influences);
 }
 
-void setScatterOfOneStage(const std::vector<CaseEquations>& equations, const NormalEquations& sum,
+void setScatterOfOneStage(const std::vector<NormalEquations>& normal, const NormalEquations& sum,
                           StiffnessEstimate& estimate) {
+  const PostureGains gain(sum, estimate.identifiable);
   std::vector<PostureGain> gains;
   std::vector<Vector6d> influences;
-  for (const CaseEquations& one : equations) {
-    gains.push_back(correctedGain(one, sum, estimate.identifiable));
-    influences.emplace_back(gains.back() * (one.right - one.matrix * estimate.compliance));
+  gains.reserve(normal.size());
+  influences.reserve(normal.size());
+  for (const NormalEquations& one : normal) {
+    gains.push_back(gain.of(one.matrix));
+    influences.push_back(gains.back() * (one.right - one.matrix * estimate.compliance));
   }
   const Matrix6d inverse = inverseNormal(sum, estimate.identifiable);
   Vector6d dof = Vector6d::Zero();
   for (int j = 0; j < 6; ++j) {
     if (estimate.identifiable[static_cast<std::size_t>(j)]) {
-      dof[j] = matchedDof(influenceCovariance(gains, equations, inverse, j));
+      dof[j] = matchedDof(influenceCovariance(gains, normal, inverse, j));
     }
   }
   setScatter(std::move(influences), dof, estimate);

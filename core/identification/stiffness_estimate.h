@@ -59,7 +59,7 @@ Matrix6d scatterCovariance(const std::vector<Vector6d>& influences, const JointM
 void setScatter(std::vector<Vector6d> influences, const Vector6d& dof, StiffnessEstimate& estimate);
 
 /// The same of one least-squares problem, a posture each, solved by `estimate.compliance` over `estimate.identifiable`.
-void setScatterOfOneStage(const std::vector<CaseEquations>& equations, const NormalEquations& sum,
+void setScatterOfOneStage(const std::vector<NormalEquations>& normal, const NormalEquations& sum,
                           StiffnessEstimate& estimate);
 
 /// Fills rms_residual and sigma from the positional residuals of `equations`.

@@ -14,6 +14,7 @@ template <class Table>
 void drop(Table& table, const std::vector<bool>& dropped) {
   if (!table) return;
   std::erase_if(table->rows, [&](const auto& row) { return dropped[static_cast<std::size_t>(row.pose)]; });
+  table->rows.shrink_to_fit();  // most of a long day may go
 }
 
 }  // namespace

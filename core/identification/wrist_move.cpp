@@ -49,8 +49,8 @@ std::optional<WristMove> wristMove(const LoadCase& load_case, const std::vector<
 
 CaseEquations wristEquations(const LoadingGeometry& geometry, const LoadCase& load_case,
                              const WristMove& wrist, const Vector6d& torque) {
-  return {pointRows(geometry, load_case, jacobianPoint(load_case, wrist.unloaded, wrist.loaded), torque),
-          wrist.displacement(), load_case.pose};
+  const Eigen::Vector3d point = jacobianPoint(load_case, wrist.unloaded, wrist.loaded);
+  return {pointRows(jacobianAxes(geometry, load_case), point, torque), wrist.displacement(), load_case.pose};
 }
 
 }  // namespace stiffscope

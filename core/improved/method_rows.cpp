@@ -37,9 +37,7 @@ MethodRows methodRows(const Campaign& campaign, const Identification& result, Me
   const MethodResult& own = result.of(method);
   LoadedArm arm = loadedArm(campaign, own.geometry, result.frames.wrist, result.steps);
   // One settling with the compliances as they are: only the equations are wanted.
-  StiffnessEstimate known;
-  known.compliance = own.estimate.compliance;
-  solveSettled(arm, result.finite_deflection, [&](const LoadedArm&) { return known; });
+  settleArm(arm, result.finite_deflection, [&](const LoadedArm&) { return own.estimate.compliance; });
   MethodRows rows;
   rows.targets = byPosture(reflectorEquations(arm));
   rows.wrist = byPosture(wristPointEquations(arm));

@@ -57,10 +57,11 @@ Candidate candidateAt(const PlanningArm& arm, const Vector6d& q, const Eigen::Ve
   load_case.posture = postureAt(arm.geometry.arm, load_case.q_sagged);
   const Eigen::Isometry3d flange = flangeAt(arm.geometry.arm, load_case.posture);
   load_case.wrench = {flange * arm.hook_in_flange, arm.load * direction, Eigen::Vector3d::Zero()};
-  const Vector6d torque = jointTorque(arm.geometry.arm, load_case.posture, load_case.wrench);
+  const ArmAxes axes = axesAt(arm.geometry.arm, load_case.posture);
+  const Vector6d torque = jointTorque(axes, load_case.wrench);
   for (const Eigen::Vector3d& target : arm.targets_in_flange) {
     const Eigen::Vector3d point = flange * target;
-    const Matrix36d rows = pointRows(arm.geometry, load_case, point, torque);
+    const Matrix36d rows = pointRows(axes, point, torque);
     candidate.information += rows.transpose() * arm.displacementCovariance(point).llt().solve(rows);
   }
   return candidate;

@@ -9,6 +9,7 @@
 #include "core/cartesian_stiffness/posture_conditioning.h"
 #include "core/input/input_error.h"
 #include "core/planning/refine_design.h"
+#include "core/statics/joint_torque.h"
 
 namespace stiffscope {
 
@@ -25,13 +26,14 @@ const MethodResult* referenceOf(const Identification* identified) {
 
 CaseEquations equationsOf(const PlanningArm& arm, const Candidate& candidate) {
   const LoadCase& load_case = candidate.load_case;
-  const Vector6d torque = jointTorques(arm.geometry, {load_case}).front();
+  const ArmAxes axes = axesAt(arm.geometry.arm, load_case.posture);
+  const Vector6d torque = jointTorque(axes, load_case.wrench);
   const Eigen::Isometry3d flange = flangeAt(arm.geometry.arm, load_case.posture);
   CaseEquations equations;
   equations.matrix.resize(static_cast<Eigen::Index>(3 * arm.targets_in_flange.size()), 6);
   for (std::size_t k = 0; k < arm.targets_in_flange.size(); ++k) {
     equations.matrix.middleRows<3>(static_cast<Eigen::Index>(3 * k)) =
-        pointRows(arm.geometry, load_case, flange * arm.targets_in_flange[k], torque);
+        pointRows(axes, flange * arm.targets_in_flange[k], torque);
   }
   equations.right = Eigen::VectorXd::Zero(equations.matrix.rows());
   return equations;

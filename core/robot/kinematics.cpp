@@ -23,15 +23,31 @@ Line axisAt(const Robot& robot, const ArmPosture& posture, int joint) {
   return {motion * axis.point, motion.linear() * axis.direction};
 }
 
+ArmAxes axesAt(const Robot& robot, const ArmPosture& posture) {
+  ArmAxes axes;
+  for (int joint = 0; joint < 6; ++joint) axes[static_cast<std::size_t>(joint)] = axisAt(robot, posture, joint);
+  return axes;
+}
+
 Eigen::Isometry3d flangeAt(const Robot& robot, const ArmPosture& posture) {
   return posture.motion[6] * robot.base_from_flange_at_zero;
 }
 
 Matrix6d jacobianAt(const Robot& robot, const ArmPosture& posture, const Eigen::Vector3d& point_in_base) {
+  const ArmAxes axes = axesAt(robot, posture);
   Matrix6d jacobian;
+  jacobian.topRows<3>() = pointJacobianAt(axes, point_in_base);
   for (int joint = 0; joint < 6; ++joint) {
-    const Line axis = axisAt(robot, posture, joint);
-    jacobian.col(joint) << axis.direction.cross(point_in_base - axis.point), axis.direction;
+    jacobian.col(joint).tail<3>() = axes[static_cast<std::size_t>(joint)].direction;
+  }
+  return jacobian;
+}
+
+Matrix36d pointJacobianAt(const ArmAxes& axes, const Eigen::Vector3d& point_in_base) {
+  Matrix36d jacobian;
+  for (int joint = 0; joint < 6; ++joint) {
+    const Line& axis = axes[static_cast<std::size_t>(joint)];
+    jacobian.col(joint) = axis.direction.cross(point_in_base - axis.point);
   }
   return jacobian;
 }

@@ -19,6 +19,10 @@ ArmPosture postureAt(const Robot& robot, const Vector6d& q);
 /// Joint axis `joint` (0..5) in the base frame at this posture.
 Line axisAt(const Robot& robot, const ArmPosture& posture, int joint);
 
+/// All six of them: what Jacobians of several points at one posture have in common.
+using ArmAxes = std::array<Line, 6>;
+ArmAxes axesAt(const Robot& robot, const ArmPosture& posture);
+
 /// base_from_flange at this posture.
 Eigen::Isometry3d flangeAt(const Robot& robot, const ArmPosture& posture);
 
@@ -28,5 +32,8 @@ using Matrix36d = Eigen::Matrix<double, 3, 6>;
 /// Jacobian of a point of the flange body, paper (1): rows 0-2 the velocity of the point at `point_in_base`, rows
 /// 3-5 the angular velocity, both in base axes; column j is [z_j x (p - p_j); z_j].
 Matrix6d jacobianAt(const Robot& robot, const ArmPosture& posture, const Eigen::Vector3d& point_in_base);
+
+/// Its rows 0-2, by the axes at that posture.
+Matrix36d pointJacobianAt(const ArmAxes& axes, const Eigen::Vector3d& point_in_base);
 
 }  // namespace stiffscope

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "core/input/input_error.h"
+#include "core/simulation/posture_spacing.h"
 #include "core/simulation/random.h"
 #include "core/simulation/rotation.h"
 
@@ -47,20 +48,6 @@ Vector6d drawOne(const SimulationSpec& spec, const PostureDraw& draw, RandomStre
       fmt::format("expected rules that some posture of the box keeps; {} random ones did not", kMostTries));
 }
 
-/// Least distance from q to the postures before it, in widths of the box.
-double separation(const PostureDraw& draw, const Vector6d& q, const std::vector<Posture>& before) {
-  double least = std::numeric_limits<double>::infinity();
-  for (const Posture& posture : before) {
-    double sum = 0.0;
-    for (int i = 0; i < 6; ++i) {
-      const double width = draw.high[i] - draw.low[i];
-      if (width > 0.0) sum += std::pow((q[i] - posture.q[i]) / width, 2);
-    }
-    least = std::min(least, sum);
-  }
-  return std::sqrt(least);
-}
-
 }  // namespace
 
 Eigen::Isometry3d nominalFlange(const Robot& robot, const Vector6d& q) {
@@ -99,18 +86,21 @@ std::vector<Posture> loadingPostures(const SimulationSpec& spec) {
 
   const PostureDraw& draw = *spec.posture_draw;
   RandomStream random(spec.seed, "postures");
+  PostureSpacing spacing(draw.low, draw.high);
+  for (const Posture& listed : postures) spacing.add(listed.q);
   for (int n = 0; n < draw.count; ++n) {
     Vector6d best = drawOne(spec, draw, random);
-    double best_separation = separation(draw, best, postures);
+    double farthest = draw.candidates > 1 ? spacing.squaredToNearest(best, 0.0) : 0.0;
     for (int c = 1; c < draw.candidates; ++c) {
       const Vector6d q = drawOne(spec, draw, random);
-      const double apart = separation(draw, q, postures);
-      if (apart > best_separation) {
+      const double apart = spacing.squaredToNearest(q, farthest);
+      if (apart > farthest) {
         best = q;
-        best_separation = apart;
+        farthest = apart;
       }
     }
     postures.push_back({best, std::nullopt});
+    spacing.add(best);
   }
   return postures;
 }

@@ -1,21 +1,11 @@
 #include "core/statics/geometric_stiffness.h"
 
-#include <algorithm>
-
 namespace stiffscope {
 
 namespace {
 
-using Axes = std::array<Line, 6>;
-
-Axes axesAt(const Robot& robot, const ArmPosture& posture) {
-  Axes axes;
-  for (int joint = 0; joint < 6; ++joint) axes[static_cast<std::size_t>(joint)] = axisAt(robot, posture, joint);
-  return axes;
-}
-
 /// A force at `point` of body `body`: joints 0..body-1 carry it.
-void addForce(const Axes& axes, int body, const Eigen::Vector3d& point, const Eigen::Vector3d& force,
+void addForce(const ArmAxes& axes, int body, const Eigen::Vector3d& point, const Eigen::Vector3d& force,
               Matrix6d& stiffness) {
   for (int outer = 0; outer < body; ++outer) {
     const Line& far = axes[static_cast<std::size_t>(outer)];
@@ -30,8 +20,7 @@ void addForce(const Axes& axes, int body, const Eigen::Vector3d& point, const Ei
 
 }  // namespace
 
-Matrix6d geometricStiffness(const Robot& robot, const ArmPosture& posture, const Wrench& wrench_in_base) {
-  const Axes axes = axesAt(robot, posture);
+Matrix6d geometricStiffness(const ArmAxes& axes, const Wrench& wrench_in_base) {
   Matrix6d stiffness = Matrix6d::Zero();
   addForce(axes, 6, wrench_in_base.point, wrench_in_base.force, stiffness);
   for (std::size_t turned = 1; turned < 6; ++turned) {  // joint `turning` carries axis `turned` round
@@ -43,9 +32,9 @@ Matrix6d geometricStiffness(const Robot& robot, const ArmPosture& posture, const
   return stiffness;
 }
 
-Matrix6d geometricStiffness(const Robot& robot, const ArmPosture& posture, const OwnWeight& weight) {
-  const Axes axes = axesAt(robot, posture);
+Matrix6d geometricStiffness(const ArmAxes& axes, const ArmPosture& posture, const OwnWeight& weight) {
   Matrix6d stiffness = Matrix6d::Zero();
+  if (!weight.any()) return stiffness;
   for (int body = 1; body <= 6; ++body) {
     const BodyMass& mass = weight.bodies[static_cast<std::size_t>(body)];
     addForce(axes, body, posture.motion[static_cast<std::size_t>(body)] * mass.com_in_base_at_zero,

@@ -75,7 +75,7 @@ TEST(CartesianStiffness, IsTheDerivativeOfTheEquilibriumWithKc) {
     const ArmPosture posture = arm.rest(arm.load);
     const Eigen::Isometry3d flange = flangeAt(arm.geometry.arm, posture);
     const Wrench wrench{flange * arm.load.point_in_flange, arm.load.force, arm.load.moment};
-    const Matrix6d kc = geometricStiffness(arm.geometry.arm, posture, wrench);
+    const Matrix6d kc = geometricStiffness(axesAt(arm.geometry.arm, posture), wrench);
     // The force changes at its own point: C_x there.
     const Matrix6d jacobian = jacobianAt(arm.geometry.arm, posture, wrench.point);
     const CartesianStiffness with = cartesianStiffness(wrench.point, jacobian, arm.c, kc);
@@ -109,7 +109,7 @@ TEST(CartesianStiffness, IsReciprocalAndInvertsToPaper4) {
                         Eigen::Vector3d::Zero()};
     const Matrix6d jacobian = jacobianAt(arm.geometry.arm, posture, point);
     const CartesianStiffness found =
-        cartesianStiffness(point, jacobian, arm.c, geometricStiffness(arm.geometry.arm, posture, wrench));
+        cartesianStiffness(point, jacobian, arm.c, geometricStiffness(axesAt(arm.geometry.arm, posture), wrench));
     ASSERT_TRUE(found.invertible);
     const Matrix6d &k = found.stiffness, &compliance = found.compliance;
     // A force at one place and a moment at another do the same work each on the other's displacement (Betti).

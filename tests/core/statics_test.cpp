@@ -67,7 +67,8 @@ TEST(GeometricStiffness, IsTheDerivativeOfTheTorques) {
   const ArmPosture posture = postureAt(arm, kPosture);
   Wrench load = hanging(posture, hook, 1500.0);
   load.moment = {100.0, -50.0, 70.0};
-  const Matrix6d stiffness = geometricStiffness(arm, posture, load) + geometricStiffness(arm, posture, weight);
+  const ArmAxes axes = axesAt(arm, posture);
+  const Matrix6d stiffness = geometricStiffness(axes, load) + geometricStiffness(axes, posture, weight);
   Matrix6d numeric;
   constexpr double kStep = 1e-6;
   for (int k = 0; k < 6; ++k) {
@@ -104,7 +105,8 @@ TEST(GeometricStiffness, LeavesSecondOrderOfTheNonlinearDisplacement) {
     const Vector6d turn = settle(newton) - unloaded;
     const Wrench load = hanging(posture, hook, newton);
     const Vector6d torque = jointTorque(arm, posture, load);
-    const Matrix6d change = geometricStiffness(arm, posture, load) + geometricStiffness(arm, posture, weight);
+    const ArmAxes axes = axesAt(arm, posture);
+    const Matrix6d change = geometricStiffness(axes, load) + geometricStiffness(axes, posture, weight);
     const Vector6d neglected = kCompliance.cwiseProduct(torque);
     const Vector6d included = kCompliance.cwiseProduct(
         (Matrix6d::Identity() - change * kCompliance.asDiagonal().toDenseMatrix()).inverse() * torque);

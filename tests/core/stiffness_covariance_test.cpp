@@ -39,7 +39,7 @@ StiffnessEstimate meanOf(const std::vector<double>& values) {
   StiffnessEstimate estimate;
   estimate.identifiable = kFirstOnly;
   estimate.compliance = solveNormal(sum, kFirstOnly);
-  setScatterOfOneStage(equations, sum, estimate);
+  setScatterOfOneStage(normalByPosture(equations), sum, estimate);
   return estimate;
 }
 
@@ -68,7 +68,7 @@ TEST(StiffnessCovariance, StepsOfAPostureCountOnce) {
   StiffnessEstimate estimate;
   estimate.identifiable = kFirstOnly;
   estimate.compliance = solveNormal(sum, kFirstOnly);
-  setScatterOfOneStage(joined, sum, estimate);
+  setScatterOfOneStage(normalByPosture(doubled), sum, estimate);
   EXPECT_NEAR(estimate.covariance(0, 0), 3.3, 1e-12);
   EXPECT_NEAR(estimate.dof(0), 4.0, 1e-6);
 }

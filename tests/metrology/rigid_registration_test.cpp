@@ -115,6 +115,26 @@ TEST(RegisterRigid, UmeyamasReflectionCase) {
   EXPECT_LT(registerRigid(source, to).rms, 1e-14);
 }
 
+TEST(RegisterRigid, OfThreePointsIsThatOfTheSingularVectors) {
+  // Three points go by the closed form in their planes, four by singular vectors: each point twice is the same problem.
+  Noise noise(11);
+  for (int n = 0; n < 50; ++n) {
+    Points source;
+    for (int i = 0; i < 3; ++i) source.push_back(0.3 * noise.normal3());
+    Points to = moved(someMotion(noise), source);
+    for (auto& point : to) point += 0.02 * noise.normal3();
+    Points twice = source, twice_to = to;
+    twice.insert(twice.end(), source.begin(), source.end());
+    twice_to.insert(twice_to.end(), to.begin(), to.end());
+    const RigidRegistration three = registerRigid(source, to), six = registerRigid(twice, twice_to);
+    ASSERT_TRUE(three.determined && six.determined);
+    // Rounding over the least singular value that counts, a hundredth of the largest at worst here.
+    EXPECT_TRUE(three.to_from_source.isApprox(six.to_from_source, 1e-11)) << n;
+    EXPECT_NEAR(three.rms, six.rms, 1e-13) << n;
+    EXPECT_NEAR(three.to_from_source.linear().determinant(), 1.0, 1e-12) << n;
+  }
+}
+
 TEST(RegisterRigid, RefusesTooFewAndCollinear) {
   EXPECT_FALSE(registerRigid({}, {}).determined);
   EXPECT_FALSE(registerRigid({{0, 0, 0}, {1, 0, 0}}, {{0, 0, 0}, {1, 0, 0}}).determined);

@@ -1,0 +1,58 @@
+#include <gtest/gtest.h>
+#include <sched.h>
+
+#include "core/campaign/read_campaign.h"
+#include "core/diagnosis/diagnose.h"
+#include "core/diagnosis/evenly_spread.h"
+
+namespace stiffscope {
+namespace {
+
+/// This process on one of its cores until the end of the scope.
+class OnOneCore {
+ public:
+  OnOneCore() {
+    sched_getaffinity(0, sizeof(before_), &before_);
+    int core = 0;
+    while (!CPU_ISSET(core, &before_)) ++core;
+    cpu_set_t one;
+    CPU_ZERO(&one);
+    CPU_SET(core, &one);
+    sched_setaffinity(0, sizeof(one), &one);
+  }
+  ~OnOneCore() { sched_setaffinity(0, sizeof(before_), &before_); }
+
+ private:
+  cpu_set_t before_;
+};
+
+void expectSame(const Shrink& a, const Shrink& b) {
+  EXPECT_EQ(a.value, b.value);
+  EXPECT_EQ(a.low, b.low);
+  EXPECT_EQ(a.high, b.high);
+}
+
+TEST(Diagnose, DoesNotDependOnTheNumberOfCores) {
+  // The postures held out are shared among as many threads as there are cores; every digit stays.
+  const Campaign campaign =
+      evenlySpread(readCampaign(std::string(STIFFSCOPE_SOURCE_DIR) + "/samples/active").campaign, 8);
+  DiagnoseOptions quick;
+  quick.resamples = 6;
+  quick.chance_draws = 20;
+  const Diagnosis all = diagnose(campaign, quick);
+  const OnOneCore alone;
+  const Diagnosis one = diagnose(campaign, quick);
+  EXPECT_EQ(all.gap.before, one.gap.before);
+  EXPECT_EQ(all.gap.after, one.gap.after);
+  expectSame(all.shrink_together, one.shrink_together);
+  ASSERT_EQ(all.classes.size(), one.classes.size());
+  ASSERT_FALSE(all.classes.empty());
+  for (std::size_t i = 0; i < all.classes.size(); ++i) {
+    EXPECT_EQ(all.classes[i].effects, one.classes[i].effects);
+    expectSame(all.classes[i].shrink, one.classes[i].shrink);
+    expectSame(all.classes[i].shrink_of_positions, one.classes[i].shrink_of_positions);
+  }
+}
+
+}  // namespace
+}  // namespace stiffscope
