@@ -122,12 +122,16 @@ EffectSizer::EffectSizer(const SimulationSpec& clean)
   const auto means = stateMeans(reference_);
   displacement_sigma_.resize(undisturbed_.displacement.size());
   Index row = 0;
+  int pose = -1;
   for (const auto& [key, mean] : means) {
     if (key[1] == 0) continue;
     const Mean& zero = means.at({key[0], 0, key[2]});
     displacement_sigma_.segment<3>(row) =
         std::sqrt(1.0 / mean.count + 1.0 / zero.count) * sigmaAt(*reference_.tracker, zero.value());
     row += 3;
+    if (pose_ends_.empty() || key[0] != pose) pose_ends_.push_back(row);
+    pose_ends_.back() = row;
+    pose = key[0];
   }
   for (Index i = 0; i < 6; ++i) {
     if (whitened(undisturbed_.columns.col(i) * compliance_[i]) > 1.0) identifiable_.push_back(i);
@@ -183,6 +187,26 @@ VectorXd EffectSizer::leftOver(const Deflections& of, const VectorXd& gap) const
   return gap - columns * change;
 }
 
+VectorXd EffectSizer::leftHeldOut(const Deflections& of, const VectorXd& gap) const {
+  if (identifiable_.empty()) return gap;
+  const VectorXd weight = displacement_sigma_.cwiseInverse();
+  const Eigen::MatrixXd columns = of.columns(Eigen::all, identifiable_);
+  const Eigen::MatrixXd scaled = weight.asDiagonal() * columns;
+  const VectorXd right = weight.cwiseProduct(gap);
+  VectorXd left = gap;
+  Index from = 0;
+  for (const Index end : pose_ends_) {
+    Eigen::MatrixXd others = scaled;
+    VectorXd theirs = right;
+    others.middleRows(from, end - from).setZero();
+    theirs.segment(from, end - from).setZero();
+    const VectorXd change = others.colPivHouseholderQr().solve(theirs);
+    left.segment(from, end - from) -= columns.middleRows(from, end - from) * change;
+    from = end;
+  }
+  return left;
+}
+
 double EffectSizer::whitened(const VectorXd& residual) const {
   return rms(residual.cwiseQuotient(displacement_sigma_));
 }
@@ -226,7 +250,8 @@ EffectSize EffectSizer::measure(const SimulationSpec& with) const {
   const VectorXd after = undisturbed_.displacement - undisturbed_.columns * compliance_;
   EffectSize size;
   size.deflection = whitened(leftOver(disturbed, before - after));
-  const double rms_before = rms(leftOver(disturbed, before)), rms_after = rms(leftOver(undisturbed_, after));
+  const double rms_before = rms(leftHeldOut(disturbed, before)),
+               rms_after = rms(leftHeldOut(undisturbed_, after));
   const double noise = true_noise_factor_ * rms(displacement_sigma_);
   size.shrink = rms_before > 0.0 ? 1.0 - rms_after / rms_before : 0.0;
   size.shrink_seen = 1.0 - std::hypot(rms_after, noise) / std::hypot(rms_before, noise);

@@ -29,8 +29,9 @@ struct EffectSize {
   double positions = 0.0;
   double nests = 0.0;  ///< positions over tracker noise alone
   /// 1 - rms after / rms before of the displacements' residuals (plain, m) when the effect is known and taken
-  /// out, six compliances refitted both times: without noise, and as it can be seen with the tracker's true
-  /// noise in both.
+  /// out, six compliances fitted both times to the other postures than the one judged, as a promise for
+  /// postures that took no part is: without noise, and as it can be seen with the tracker's true noise in
+  /// both.
   double shrink = 0.0, shrink_seen = 0.0;
 };
 
@@ -53,10 +54,13 @@ class EffectSizer {
   };
   Deflections deflections(const Campaign& campaign) const;
   Eigen::VectorXd leftOver(const Deflections& of, const Eigen::VectorXd& gap) const;  ///< m
+  Eigen::VectorXd leftHeldOut(const Deflections& of,
+                              const Eigen::VectorXd& gap) const;  ///< m; posture by posture
   double whitened(const Eigen::VectorXd& residual) const;                             ///< rms
   double positionsLeft(const Eigen::VectorXd& difference) const;                      ///< m
   void designPositions();
 
+  std::vector<Eigen::Index> pose_ends_;  ///< rows of the deflections, past the last of each pose
   Eigen::Matrix3d base_from_tracker_;
   Eigen::Vector3d station_in_base_;
   double true_noise_factor_ = 1.0;

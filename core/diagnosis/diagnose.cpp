@@ -124,6 +124,7 @@ class Diagnoser {
   }
 
   void describe() {
+    alone_ = withoutEffects(input_, start_.state, fit_);
     const double postures = static_cast<double>(fit_.data.postures.size());
     const Selector selector = selectorOf(input_, fit_, fit_.projection, postures, allowed_);
     result_.usable = true;
@@ -136,21 +137,21 @@ class Diagnoser {
     result_.noise_factor_across = start_.noise.across_factor;
     result_.significance_limit = fit_.rules.detect;
     result_.size_limit = sizeOf(fit_.rules.least_drop);
-    result_.lack_of_fit = (fit_.projection.chi2_none - fit_.rules.other_rows) / fit_.rules.loading_rows;
+    result_.lack_of_fit = (alone_.projection.chi2_none - fit_.rules.other_rows) / fit_.rules.loading_rows;
     result_.left_over = leftPerEquation(fit_);
     result_.model_error = fit_.model_error;
     result_.geometric_stiffness_share = start_.geometric_stiffness_share;
-    before_ =
-        stiffnessesAlone(fit_.data, std::vector<double>(fit_.data.postures.size(), 1.0), fit_.projection);
+    before_ = stiffnessesAlone(alone_.data, std::vector<double>(alone_.data.postures.size(), 1.0),
+                               alone_.projection);
     after_ = whole(fit_.nuisances, fit_.set.effects);
     result_.gap = gapOf(true);
     result_.positions = gapOf(false);
     result_.positions_tested = input_.absolute;
-    result_.at_points = gapAtPoints(fit_.data, before_.for_deflection, fit_.data, after_);
+    result_.at_points = gapAtPoints(alone_.data, before_.for_deflection, fit_.data, after_);
     asMeasured();
-    result_.where = whereDeflection(input_, fit_, before_.for_deflection);
+    result_.where = whereDeflection(input_, alone_, before_.for_deflection);
     result_.where_after = whereDeflection(input_, fit_, after_);
-    result_.where_positions = wherePosition(input_, fit_, before_.for_position);
+    result_.where_positions = wherePosition(input_, alone_, before_.for_position);
     result_.aliases = designAliases(input_, fit_, allowed_);
     detectable();
     stiffnesses();
@@ -174,7 +175,7 @@ class Diagnoser {
     double rows = 0.0, rests = 0.0, deflection = 0.0, position = 0.0;
     for (const GapPosture& posture : data.postures) {
       left[posture.pose].deflection_before =
-          leftIn(posture, {parameters, parameters}, parameters).deflection_before;
+          leftIn(posture, {parameters, parameters}, posture, parameters).deflection_before;
       deflection += left[posture.pose].deflection_before;
       rows += static_cast<double>(posture.right.size());
     }
@@ -193,7 +194,7 @@ class Diagnoser {
     if (rests > 0.0) result_.positions.before = std::sqrt(position / rests);
     for (const GapPosture& posture : fit_.data.postures) {
       HeldOut& one = left[posture.pose];
-      const HeldOut now = leftIn(posture, {after_, after_}, after_);
+      const HeldOut now = leftIn(posture, {after_, after_}, posture, after_);
       one.deflection_after = now.deflection_after;
       one.position_after = now.position_after;
       station_.push_back(one);
@@ -206,8 +207,9 @@ class Diagnoser {
 
   Gap gapOf(bool deflection) const {
     double before = 0.0, after = 0.0, noise = 0.0, whole_squares = 0.0, count = 0.0;
-    for (const GapPosture& posture : fit_.data.postures) {
-      const HeldOut left = leftIn(posture, before_, after_);
+    for (std::size_t p = 0; p < fit_.data.postures.size(); ++p) {
+      const GapPosture& posture = fit_.data.postures[p];
+      const HeldOut left = leftIn(alone_.data.postures[p], before_, posture, after_);
       const Eigen::Index rest = posture.position_rows, rows = posture.right.size() - rest;
       before += deflection ? left.deflection_before : left.position_before;
       after += deflection ? left.deflection_after : left.position_after;
@@ -281,7 +283,8 @@ class Diagnoser {
   void shrink() {
     std::vector<FitRecipe> recipes{{true, {}}};
     for (const auto& models : recipes_) recipes.push_back({false, models});
-    const auto held_out = heldOutShrinks(input_, fit_, allowed_, recipes, options_.resamples, options_.seed);
+    const auto held_out =
+        heldOutShrinks(input_, alone_, fit_, allowed_, recipes, options_.resamples, options_.seed);
     result_.shrink_together = held_out[0].deflection;
     HeldOutShrink station;
     if (!station_.empty()) {
@@ -316,7 +319,7 @@ class Diagnoser {
   GapInput input_;
   std::vector<bool> allowed_;
   std::vector<std::size_t> given_;
-  GapFit fit_;
+  GapFit fit_, alone_;  // with the effects chosen, and joint stiffnesses alone
   StiffnessesAlone before_;
   Eigen::VectorXd after_;
   std::vector<std::vector<ChosenModel>> recipes_;

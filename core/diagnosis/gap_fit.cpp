@@ -138,6 +138,21 @@ GapFit settle(const GapInput& input, const GapState& start, const std::vector<bo
 
 }  // namespace
 
+GapFit withoutEffects(const GapInput& input, const GapState& start, const GapFit& fit) {
+  GapInput bare = input;
+  bare.models.clear();
+  GapFit alone;
+  alone.rules = fit.rules;
+  alone.state = start;
+  alone.state.position_slack = fit.state.position_slack;
+  alone.state.sweep_slack = fit.state.sweep_slack;
+  alone.state.model_error = fit.state.model_error;
+  alone.data = gapData(bare, alone.state, {});
+  alone.projection = project(sumOf(alone.data, ones(alone.data)), alone.data.layout.effects);
+  alone.nuisances = alone.nuisances_before = alone.projection.by_nothing;
+  return alone;
+}
+
 GapFit fitGap(const GapInput& input, const GapState& start, const std::vector<bool>& allowed,
               const FitRules& rules) {
   GapFit fit = settle(input, start, allowed, rules);

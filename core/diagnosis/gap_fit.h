@@ -38,6 +38,11 @@ struct FitRules {
 GapFit fitGap(const GapInput& input, const GapState& start, const std::vector<bool>& allowed,
               const FitRules& rules);
 
+/// The gap that joint stiffnesses alone leave: wrenches and places as declared in `start`, no effect in the
+/// equations; where `fit` stands its bilinear effects have corrected both, so that a zero parameter there is
+/// not a machine without the effect. Weighted as `fit` is.
+GapFit withoutEffects(const GapInput& input, const GapState& start, const GapFit& fit);
+
 /// chi2 of the loading per equation that the set leaves.
 double leftPerEquation(const GapFit& fit);
 

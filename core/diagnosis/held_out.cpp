@@ -23,8 +23,9 @@ Eigen::VectorXd whole(const Eigen::VectorXd& nuisances, const Eigen::VectorXd& e
 }
 
 /// One training sample (weights of the postures): every recipe fitted.
-std::vector<Trained> train(const GapInput& input, const GapFit& fit, const std::vector<bool>& allowed,
-                           const std::vector<FitRecipe>& recipes, const std::vector<double>& weights) {
+std::vector<Trained> train(const GapInput& input, const GapFit& alone, const GapFit& fit,
+                           const std::vector<bool>& allowed, const std::vector<FitRecipe>& recipes,
+                           const std::vector<double>& weights) {
   double postures = 0.0;
   for (const double weight : weights) postures += weight;
   const Projection projection = project(sumOf(fit.data, weights), fit.data.layout.effects);
@@ -33,12 +34,13 @@ std::vector<Trained> train(const GapInput& input, const GapFit& fit, const std::
   rules.loading_rows *= share;
   rules.least_drop *= share;
   const Selector selector(input.models, fit.data.layout, projection, std::max(2.0, postures), rules, allowed);
-  const StiffnessesAlone alone = stiffnessesAlone(fit.data, weights, projection);
+  const StiffnessesAlone before =
+      stiffnessesAlone(alone.data, weights, project(sumOf(alone.data, weights), alone.data.layout.effects));
   std::vector<Trained> trained;
   for (const FitRecipe& recipe : recipes) {
     const FittedSet set = recipe.choose ? selector.select() : selector.fit(recipe.models);
     trained.push_back(
-        {alone, whole(projection.by_nothing - projection.by_effects * set.effects, set.effects)});
+        {before, whole(projection.by_nothing - projection.by_effects * set.effects, set.effects)});
   }
   return trained;
 }
@@ -92,10 +94,11 @@ void add(HeldOut& sum, const HeldOut& one) {
 
 }  // namespace
 
-HeldOut leftIn(const GapPosture& posture, const StiffnessesAlone& before, const Eigen::VectorXd& after) {
+HeldOut leftIn(const GapPosture& alone, const StiffnessesAlone& before, const GapPosture& posture,
+               const Eigen::VectorXd& after) {
   const Eigen::VectorXd now = posture.right - posture.columns * after;
   const Eigen::Index rest = posture.position_rows, rows = posture.right.size() - rest;
-  const auto left = [&](const Eigen::VectorXd& old) { return posture.right - posture.columns * old; };
+  const auto left = [&](const Eigen::VectorXd& old) { return alone.right - alone.columns * old; };
   return {left(before.for_deflection).tail(rows).squaredNorm(), now.tail(rows).squaredNorm(),
           left(before.for_position).head(rest).squaredNorm(), now.head(rest).squaredNorm()};
 }
@@ -125,7 +128,7 @@ double noiseSquares(const GapPosture& posture) {
   return posture.noiseSquares(posture.position_rows, rows);
 }
 
-std::vector<HeldOutShrink> heldOutShrinks(const GapInput& input, const GapFit& fit,
+std::vector<HeldOutShrink> heldOutShrinks(const GapInput& input, const GapFit& alone, const GapFit& fit,
                                           const std::vector<bool>& allowed,
                                           const std::vector<FitRecipe>& recipes, int resamples,
                                           std::uint64_t seed) {
@@ -136,10 +139,11 @@ std::vector<HeldOutShrink> heldOutShrinks(const GapInput& input, const GapFit& f
   onAllCores(static_cast<int>(postures), [&](int p) {
     std::vector<double> weights(postures, 1.0);
     weights[static_cast<std::size_t>(p)] = 0.0;
-    const auto trained = train(input, fit, allowed, recipes, weights);
+    const auto trained = train(input, alone, fit, allowed, recipes, weights);
     for (std::size_t r = 0; r < recipes.size(); ++r)
       left[static_cast<std::size_t>(p)][r] =
-          leftIn(fit.data.postures[static_cast<std::size_t>(p)], trained[r].before, trained[r].after);
+          leftIn(alone.data.postures[static_cast<std::size_t>(p)], trained[r].before,
+                 fit.data.postures[static_cast<std::size_t>(p)], trained[r].after);
   });
   std::mt19937_64 random(seed);
   std::vector<std::vector<double>> samples(static_cast<std::size_t>(resamples),
@@ -154,12 +158,12 @@ std::vector<HeldOutShrink> heldOutShrinks(const GapInput& input, const GapFit& f
   std::vector<std::vector<HeldOut>> drawn(samples.size(), std::vector<HeldOut>(recipes.size()));
   onAllCores(resamples, [&](int b) {
     const auto& weights = samples[static_cast<std::size_t>(b)];
-    const auto trained = train(input, fit, allowed, recipes, weights);
+    const auto trained = train(input, alone, fit, allowed, recipes, weights);
     for (std::size_t p = 0; p < postures; ++p) {
       if (weights[p] != 0.0) continue;
       for (std::size_t r = 0; r < recipes.size(); ++r)
         add(drawn[static_cast<std::size_t>(b)][r],
-            leftIn(fit.data.postures[p], trained[r].before, trained[r].after));
+            leftIn(alone.data.postures[p], trained[r].before, fit.data.postures[p], trained[r].after));
     }
   });
   double noise = 0.0;

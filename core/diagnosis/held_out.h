@@ -28,7 +28,8 @@ struct HeldOutShrink {
 /// Leave-one-posture-out for the values. The interval: bootstrap samples of postures, each fitted (and, where
 /// the recipe says so, selected) on the postures drawn and judged on those not drawn, so that no posture
 /// stands on both sides; their spread is brought from the number of postures judged to that of all of them.
-std::vector<HeldOutShrink> heldOutShrinks(const GapInput& input, const GapFit& fit,
+/// `alone`: withoutEffects.
+std::vector<HeldOutShrink> heldOutShrinks(const GapInput& input, const GapFit& alone, const GapFit& fit,
                                           const std::vector<bool>& allowed,
                                           const std::vector<FitRecipe>& recipes, int resamples,
                                           std::uint64_t seed);
@@ -36,8 +37,10 @@ std::vector<HeldOutShrink> heldOutShrinks(const GapInput& input, const GapFit& f
 /// The same from squares a posture that are there already, judged on bootstrap samples of the postures.
 HeldOutShrink shrinkOver(const std::vector<HeldOut>& postures, int resamples, std::uint64_t seed);
 
-/// Squares of deflection and position rows that parameters leave in a posture.
-HeldOut leftIn(const GapPosture& posture, const StiffnessesAlone& before, const Eigen::VectorXd& after);
+/// Squares of deflection and position rows that parameters leave in a posture: of its equations without
+/// effects, and of those with them.
+HeldOut leftIn(const GapPosture& alone, const StiffnessesAlone& before, const GapPosture& posture,
+               const Eigen::VectorXd& after);
 
 /// Expected squares of the deflection rows by noise alone.
 double noiseSquares(const GapPosture& posture);

@@ -179,20 +179,19 @@ Eigen::VectorXd stacked(const Eigen::VectorXd& nuisances, const Eigen::VectorXd&
   return all;
 }
 
-Gap gapOf(const EffectFit& effects) {
+Gap gapOf(const EffectFit& effects, const GapFit& alone) {
   const GapFit& fit = effects.fit;
   const Eigen::VectorXd after = stacked(fit.nuisances, fit.set.effects);
-  // Stiffnesses alone have the wrenches as declared, no effect corrects them.
-  const GapData declared = gapData(*effects.input, effects.start->state, {});
-  const std::vector<double> ones(declared.postures.size(), 1.0);
   const StiffnessesAlone before =
-      stiffnessesAlone(declared, ones, project(sumOf(declared, ones), declared.layout.effects));
+      stiffnessesAlone(alone.data, std::vector<double>(alone.data.postures.size(), 1.0), alone.projection);
   Gap sum;
   double count = 0.0;
-  for (const GapPosture& posture : declared.postures) sum.before += leftIn(posture, before, after).deflection_before;
-  for (const GapPosture& posture : fit.data.postures) {
+  for (std::size_t p = 0; p < fit.data.postures.size(); ++p) {
+    const GapPosture& posture = fit.data.postures[p];
+    const HeldOut left = leftIn(alone.data.postures[p], before, posture, after);
     const Eigen::Index rows = posture.right.size() - posture.position_rows;
-    sum.after += leftIn(posture, before, after).deflection_after;
+    sum.before += left.deflection_before;
+    sum.after += left.deflection_after;
     sum.noise += noiseSquares(posture);
     sum.deflection += posture.right.tail(rows).squaredNorm();
     count += static_cast<double>(rows);
@@ -272,11 +271,13 @@ EffectFit fitEffects(const Campaign& campaign, const WantedEffects& asked) {
     if (effects.fit.set.effects[i] != 0.0) effects.free.push_back(i);
   }
   effects.covariance = covarianceOfFree(effects);
-  effects.gap = gapOf(effects);
+  const GapFit alone = withoutEffects(*effects.input, effects.start->state, effects.fit);
+  effects.gap = gapOf(effects, alone);
   describe(effects, allowed);
   const FitRecipe recipe{false, effects.fit.set.models};
   constexpr int kResamples = 120;
-  const HeldOutShrink held_out = heldOutShrinks(*effects.input, effects.fit, allowed, {recipe}, kResamples, 1).front();
+  const HeldOutShrink held_out =
+      heldOutShrinks(*effects.input, alone, effects.fit, allowed, {recipe}, kResamples, 1).front();
   effects.shrink = held_out.deflection;
   effects.explained = held_out.explained;
   return effects;
