@@ -133,9 +133,7 @@ EffectSizer::EffectSizer(const SimulationSpec& clean)
     pose_ends_.back() = row;
     pose = key[0];
   }
-  for (Index i = 0; i < 6; ++i) {
-    if (whitened(undisturbed_.columns.col(i) * compliance_[i]) > 1.0) identifiable_.push_back(i);
-  }
+  identifiable_ = identifiableBy(undisturbed_);
   background_ =
       whitened(leftOver(undisturbed_, undisturbed_.displacement - undisturbed_.columns * compliance_));
   designPositions();
@@ -178,6 +176,14 @@ EffectSizer::Deflections EffectSizer::deflections(const Campaign& campaign) cons
   return all;
 }
 
+std::vector<Index> EffectSizer::identifiableBy(const Deflections& of) const {
+  std::vector<Index> joints;
+  for (Index i = 0; i < 6; ++i) {
+    if (whitened(of.columns.col(i) * compliance_[i]) > 1.0) joints.push_back(i);
+  }
+  return joints;
+}
+
 VectorXd EffectSizer::leftOver(const Deflections& of, const VectorXd& gap) const {
   if (identifiable_.empty()) return gap;
   const Eigen::MatrixXd columns = of.columns(Eigen::all, identifiable_);
@@ -188,9 +194,12 @@ VectorXd EffectSizer::leftOver(const Deflections& of, const VectorXd& gap) const
 }
 
 VectorXd EffectSizer::leftHeldOut(const Deflections& of, const VectorXd& gap) const {
-  if (identifiable_.empty()) return gap;
+  // By these wrenches: a misread one may turn joints that the true one leaves alone, and who fits knows no
+  // better.
+  const std::vector<Index> joints = identifiableBy(of);
+  if (joints.empty()) return gap;
   const VectorXd weight = displacement_sigma_.cwiseInverse();
-  const Eigen::MatrixXd columns = of.columns(Eigen::all, identifiable_);
+  const Eigen::MatrixXd columns = of.columns(Eigen::all, joints);
   const Eigen::MatrixXd scaled = weight.asDiagonal() * columns;
   const VectorXd right = weight.cwiseProduct(gap);
   VectorXd left = gap;

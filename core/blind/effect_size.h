@@ -53,6 +53,7 @@ class EffectSizer {
     Eigen::MatrixXd columns;       ///< times compliance, m
   };
   Deflections deflections(const Campaign& campaign) const;
+  std::vector<Eigen::Index> identifiableBy(const Deflections& of) const;  ///< joints that noise does not hide
   Eigen::VectorXd leftOver(const Deflections& of, const Eigen::VectorXd& gap) const;  ///< m
   Eigen::VectorXd leftHeldOut(const Deflections& of,
                               const Eigen::VectorXd& gap) const;  ///< m; posture by posture
