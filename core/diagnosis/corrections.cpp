@@ -22,6 +22,12 @@ bool isCorrection(Effect effect) {
 
 }  // namespace
 
+bool becomesPart(const EffectModel& model) {
+  return model.angles || !model.first_body.empty() || isCorrection(model.effect);
+}
+
+bool isBilinear(const EffectModel& model) { return isCorrection(model.effect); }
+
 ContainedEffects correct(const GapInput& input, const GapLayout& layout, const FittedSet& set,
                          const Eigen::VectorXd& nuisances, GapState& state) {
   const Vector6d before = state.at.compliance;
@@ -73,8 +79,7 @@ ContainedEffects correct(const GapInput& input, const GapLayout& layout, const F
     if (model.angles) state.at.turns.push_back({model.angles, own});
     if (!model.first_body.empty()) state.at.motions.push_back({model.offset, model.first_body, own});
     const bool in_deflections = model.effect == Effect::gravity_compensator || !model.angles;
-    const bool in_positions = model.angles || !model.first_body.empty() || isCorrection(model.effect);
-    if (in_positions) contained.in_positions.segment(at, own.size()) = own;
+    if (becomesPart(model)) contained.in_positions.segment(at, own.size()) = own;
     if (in_deflections && isCorrection(model.effect)) contained.in_deflections.segment(at, own.size()) = own;
   }
   return contained;

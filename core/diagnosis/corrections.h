@@ -11,4 +11,11 @@ namespace stiffscope {
 ContainedEffects correct(const GapInput& input, const GapLayout& layout, const FittedSet& set,
                          const Eigen::VectorXd& nuisances, GapState& state);
 
+/// Whether the effect, once estimated, is part of what the equations are made with: of the unloaded arm's places at least.
+bool becomesPart(const EffectModel& model);
+
+/// Whether its parameters multiply other unknowns: a wrong wrench or a compensator's torque the compliances, a frame the
+/// geometry.
+bool isBilinear(const EffectModel& model);
+
 }  // namespace stiffscope

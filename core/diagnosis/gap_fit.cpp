@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/diagnosis/corrections.h"
+#include "core/diagnosis/joint_fit.h"
 #include "core/diagnosis/model_error.h"
 #include "core/diagnosis/slack.h"
 
@@ -136,6 +137,23 @@ GapFit settle(const GapInput& input, const GapState& start, const std::vector<bo
   return best;
 }
 
+/// The chosen set at the minimum of the nonlinear problem, where that is lower than what relinearising came
+/// to.
+void polish(const GapInput& input, const std::vector<bool>& allowed, const FitRules& rules, GapFit& fit) {
+  const auto fitted = fitJointly(input, fit.state, fit.data.layout, fit.set, fit.nuisances);
+  if (!fitted) return;
+  FitRules same = rules;
+  same.fixed = fit.set.models;
+  GapFit finer;
+  finer.state = fitted->state;
+  finer.rounds = fit.rounds + 1;
+  remake(input, fitted->contained, finer);
+  fitOnce(input, allowed, same, finer);
+  if (finer.set.chi2 >= fit.set.chi2 || !finer.set.plausible) return;
+  finer.model_error = fit.model_error;
+  fit = std::move(finer);
+}
+
 }  // namespace
 
 GapFit withoutEffects(const GapInput& input, const GapState& start, const GapFit& fit) {
@@ -156,7 +174,10 @@ GapFit withoutEffects(const GapInput& input, const GapState& start, const GapFit
 GapFit fitGap(const GapInput& input, const GapState& start, const std::vector<bool>& allowed,
               const FitRules& rules) {
   GapFit fit = settle(input, start, allowed, rules);
-  if (!rules.error_of_model) return fit;
+  if (!rules.error_of_model) {
+    polish(input, allowed, rules, fit);
+    return fit;
+  }
   GapState with_error = start;
   constexpr int kRounds = 3;
   for (int round = 0; round < kRounds; ++round) {
@@ -169,6 +190,7 @@ GapFit fitGap(const GapInput& input, const GapState& start, const std::vector<bo
     fit = {};
     fit = settle(input, with_error, allowed, rules);
   }
+  polish(input, allowed, rules, fit);
   fit.model_error = modelError(fit, rules);
   return fit;
 }
