@@ -5,12 +5,14 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 #include "core/diagnosis/aliasing.h"
 #include "core/diagnosis/chance_limit.h"
-#include "core/diagnosis/evenly_spread.h"
+#include "core/diagnosis/detectable.h"
 #include "core/diagnosis/drift_bound.h"
+#include "core/diagnosis/evenly_spread.h"
+#include "core/diagnosis/gap_as_measured.h"
+#include "core/diagnosis/gap_size.h"
 #include "core/diagnosis/gap_start.h"
 #include "core/diagnosis/geometry_error.h"
 #include "core/diagnosis/held_out.h"
@@ -46,12 +48,6 @@ std::size_t modelOf(const std::vector<EffectModel>& models, Effect effect) {
   return static_cast<std::size_t>(std::find_if(models.begin(), models.end(),
                                                [&](const EffectModel& one) { return one.effect == effect; }) -
                                   models.begin());
-}
-
-Eigen::VectorXd whole(const Eigen::VectorXd& nuisances, const Eigen::VectorXd& effects) {
-  Eigen::VectorXd all(nuisances.size() + effects.size());
-  all << nuisances, effects;
-  return all;
 }
 
 /// With one effect wanted: its models, and those of a station that moved, which nests may put in.
@@ -136,16 +132,16 @@ class Diagnoser {
     result_.noise_factor_along = start_.noise.along_factor;
     result_.noise_factor_across = start_.noise.across_factor;
     result_.significance_limit = fit_.rules.detect;
-    result_.size_limit = sizeOf(fit_.rules.least_drop);
+    result_.size_limit = sizeOfDrop(fit_, fit_.rules.least_drop);
     result_.lack_of_fit = (alone_.projection.chi2_none - fit_.rules.other_rows) / fit_.rules.loading_rows;
     result_.left_over = leftPerEquation(fit_);
     result_.model_error = fit_.model_error;
     result_.geometric_stiffness_share = start_.geometric_stiffness_share;
     before_ = stiffnessesAlone(alone_.data, std::vector<double>(alone_.data.postures.size(), 1.0),
                                alone_.projection);
-    after_ = whole(fit_.nuisances, fit_.set.effects);
-    result_.gap = gapOf(true);
-    result_.positions = gapOf(false);
+    after_ = allParameters(fit_.nuisances, fit_.set.effects);
+    result_.gap = deflectionGap(alone_, before_, fit_, after_);
+    result_.positions = positionGap(alone_, before_, fit_, after_);
     result_.positions_tested = input_.absolute;
     result_.at_points = gapAtPoints(alone_.data, before_.for_deflection, fit_.data, after_);
     asMeasured();
@@ -153,103 +149,20 @@ class Diagnoser {
     result_.where_after = whereDeflection(input_, fit_, after_);
     result_.where_positions = wherePosition(input_, alone_, before_.for_position);
     result_.aliases = designAliases(input_, fit_, allowed_);
-    detectable();
+    result_.detectable = detectableSizes(input_, fit_, allowed_);
     stiffnesses();
   }
 
   /// Where the station's motion was taken off, the gap before is that of the readings as they are.
   void asMeasured() {
     if (given_.empty()) return;
-    const GapStart raw = gapStart(original_, false);
-    if (!raw.reason.empty()) return;
-    // Stiffnesses alone in the arm as the sweeps have it: a geometry left free would follow the station.
-    const GapInput input{
-        raw.campaign, raw.noise.noise, input_.force_sigma, input_.moment_sigma, input_.models, false, false,
-        {}};
-    const GapData data = gapData(input, raw.state, {});
-    const Eigen::MatrixXd normal = sumOf(data, std::vector<double>(data.postures.size(), 1.0));
-    Eigen::VectorXd parameters = Eigen::VectorXd::Zero(data.layout.end);
-    parameters.head<6>() = normal.topLeftCorner<6, 6>().completeOrthogonalDecomposition().solve(
-        normal.col(data.layout.end).head<6>());
-    std::map<int, HeldOut> left;
-    double rows = 0.0, rests = 0.0, deflection = 0.0, position = 0.0;
-    for (const GapPosture& posture : data.postures) {
-      left[posture.pose].deflection_before =
-          leftIn(posture, {parameters, parameters}, posture, parameters).deflection_before;
-      deflection += left[posture.pose].deflection_before;
-      rows += static_cast<double>(posture.right.size());
-    }
-    result_.at_points = gapAtPoints(data, parameters, fit_.data, after_);
-    for (const GapPosture& posture : data.postures) {
-      const double squares = left[posture.pose].deflection_before;
-      result_.as_measured.rows.push_back({original_.pose_ids[static_cast<std::size_t>(posture.pose)],
-                                          std::sqrt(squares / static_cast<double>(posture.right.size()))});
-    }
-    for (const GapRows& one : loadingRows(raw.campaign, raw.state.geometry, raw.state.at, {})) {
-      left[one.pose].position_before = one.position.squaredNorm();
-      position += left[one.pose].position_before;
-      rests += static_cast<double>(one.position.size());
-    }
-    if (rows > 0.0) result_.gap.before = std::sqrt(deflection / rows);
-    if (rests > 0.0) result_.positions.before = std::sqrt(position / rests);
-    for (const GapPosture& posture : fit_.data.postures) {
-      HeldOut& one = left[posture.pose];
-      const HeldOut now = leftIn(posture, {after_, after_}, posture, after_);
-      one.deflection_after = now.deflection_after;
-      one.position_after = now.position_after;
-      station_.push_back(one);
-    }
-  }
-
-  double sizeOf(double drop) const {
-    return std::sqrt(std::max(0.0, drop) / fit_.rules.loading_rows) * fit_.data.state_noise;
-  }
-
-  Gap gapOf(bool deflection) const {
-    double before = 0.0, after = 0.0, noise = 0.0, whole_squares = 0.0, count = 0.0;
-    for (std::size_t p = 0; p < fit_.data.postures.size(); ++p) {
-      const GapPosture& posture = fit_.data.postures[p];
-      const HeldOut left = leftIn(alone_.data.postures[p], before_, posture, after_);
-      const Eigen::Index rest = posture.position_rows, rows = posture.right.size() - rest;
-      before += deflection ? left.deflection_before : left.position_before;
-      after += deflection ? left.deflection_after : left.position_after;
-      noise += deflection ? noiseSquares(posture) : posture.noiseSquares(0, rest);
-      whole_squares += deflection ? posture.right.tail(rows).squaredNorm() : 0.0;
-      count += static_cast<double>(deflection ? rows : rest);
-    }
-    if (count == 0.0) return {};
-    return {std::sqrt(before / count), std::sqrt(noise / count), std::sqrt(after / count),
-            std::sqrt(whole_squares / count)};
-  }
-
-  /// Per effect: what the median of its parts must be before the projection for what is left of it to pass
-  /// the limits.
-  void detectable() {
-    const double drop = std::max(fit_.rules.least_drop, fit_.rules.detect);
-    for (std::size_t e = 0; e < kEffectCount; ++e) {
-      const auto effect = static_cast<Effect>(e);
-      std::vector<double> sizes;
-      for (std::size_t m = 0; m < input_.models.size(); ++m) {
-        if (input_.models[m].effect != effect || !allowed_[m]) continue;
-        Eigen::Index at = fit_.data.layout.model_at[m] - fit_.data.layout.effects;
-        for (const EffectPart& part : input_.models[m].parts) {
-          double kept = 0.0;
-          for (std::size_t k = 0; k < part.most.size(); ++k, ++at) {
-            if (fit_.projection.before[at] > 0.0)
-              kept = std::max(kept, fit_.projection.matrix(at, at) / fit_.projection.before[at]);
-          }
-          if (kept > fit_.rules.kept_share) sizes.push_back(sizeOf(drop / kept));
-        }
-      }
-      DetectableSize size{effect, std::nullopt};
-      if (!sizes.empty()) {
-        std::nth_element(sizes.begin(), sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2),
-                         sizes.end());
-        size.size = sizes[sizes.size() / 2];
-      }
-      if (effect == Effect::kinematic_error && input_.absolute) size.size = kGeometryTolerance;
-      result_.detectable.push_back(size);
-    }
+    std::optional<GapAsMeasured> raw = gapAsMeasured(original_, input_, fit_, after_);
+    if (!raw) return;
+    if (raw->deflection) result_.gap.before = *raw->deflection;
+    if (raw->position) result_.positions.before = *raw->position;
+    result_.as_measured = std::move(raw->by_posture);
+    result_.at_points = std::move(raw->at_points);
+    station_ = std::move(raw->left);
   }
 
   void stiffnesses() {

@@ -16,12 +16,6 @@ struct Trained {
   Eigen::VectorXd after;
 };
 
-Eigen::VectorXd whole(const Eigen::VectorXd& nuisances, const Eigen::VectorXd& effects) {
-  Eigen::VectorXd all(nuisances.size() + effects.size());
-  all << nuisances, effects;
-  return all;
-}
-
 /// One training sample (weights of the postures): every recipe fitted.
 std::vector<Trained> train(const GapInput& input, const GapFit& alone, const GapFit& fit,
                            const std::vector<bool>& allowed, const std::vector<FitRecipe>& recipes,
@@ -40,7 +34,7 @@ std::vector<Trained> train(const GapInput& input, const GapFit& alone, const Gap
   for (const FitRecipe& recipe : recipes) {
     const FittedSet set = recipe.choose ? selector.select() : selector.fit(recipe.models);
     trained.push_back(
-        {before, whole(projection.by_nothing - projection.by_effects * set.effects, set.effects)});
+        {before, allParameters(projection.by_nothing - projection.by_effects * set.effects, set.effects)});
   }
   return trained;
 }

@@ -30,6 +30,12 @@ Eigen::MatrixXd sumOf(const GapData& data, const std::vector<double>& weights) {
   return sum;
 }
 
+Eigen::VectorXd allParameters(const Eigen::VectorXd& nuisances, const Eigen::VectorXd& effects) {
+  Eigen::VectorXd all(nuisances.size() + effects.size());
+  all << nuisances, effects;
+  return all;
+}
+
 Projection project(const Eigen::MatrixXd& normal, Eigen::Index effects_at) {
   const Eigen::Index end = normal.rows() - 1, effects = end - effects_at;
   const Eigen::MatrixXd nuisance = normal.topLeftCorner(effects_at, effects_at);

@@ -32,6 +32,9 @@ struct StiffnessesAlone {
 StiffnessesAlone stiffnessesAlone(const GapData& data, const std::vector<double>& weights,
                                   const Projection& projection);
 
+/// Nuisances, then all effects' parameters, as the columns of the equations stand.
+Eigen::VectorXd allParameters(const Eigen::VectorXd& nuisances, const Eigen::VectorXd& effects);
+
 Projection project(const Eigen::MatrixXd& normal, Eigen::Index effects_at);
 
 /// Standard deviation of a joint's compliance by the noise, with these effect parameters in the model.

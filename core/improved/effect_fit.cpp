@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "core/diagnosis/drift_bound.h"
+#include "core/diagnosis/gap_size.h"
 #include "core/diagnosis/held_out.h"
 #include "core/diagnosis/testable.h"
 #include "core/improved/effect_names.h"
@@ -173,33 +174,6 @@ Eigen::MatrixXd covarianceOfFree(const EffectFit& effects) {
   return covariance;
 }
 
-Eigen::VectorXd stacked(const Eigen::VectorXd& nuisances, const Eigen::VectorXd& own) {
-  Eigen::VectorXd all(nuisances.size() + own.size());
-  all << nuisances, own;
-  return all;
-}
-
-Gap gapOf(const EffectFit& effects, const GapFit& alone) {
-  const GapFit& fit = effects.fit;
-  const Eigen::VectorXd after = stacked(fit.nuisances, fit.set.effects);
-  const StiffnessesAlone before =
-      stiffnessesAlone(alone.data, std::vector<double>(alone.data.postures.size(), 1.0), alone.projection);
-  Gap sum;
-  double count = 0.0;
-  for (std::size_t p = 0; p < fit.data.postures.size(); ++p) {
-    const GapPosture& posture = fit.data.postures[p];
-    const HeldOut left = leftIn(alone.data.postures[p], before, posture, after);
-    const Eigen::Index rows = posture.right.size() - posture.position_rows;
-    sum.before += left.deflection_before;
-    sum.after += left.deflection_after;
-    sum.noise += noiseSquares(posture);
-    sum.deflection += posture.right.tail(rows).squaredNorm();
-    count += static_cast<double>(rows);
-  }
-  const auto rms = [&](double squares) { return count > 0.0 ? std::sqrt(squares / count) : 0.0; };
-  return {rms(sum.before), rms(sum.noise), rms(sum.after), rms(sum.deflection)};
-}
-
 void describe(EffectFit& effects, const std::vector<bool>& allowed) {
   const GapFit& fit = effects.fit;
   const GapInput& input = *effects.input;
@@ -272,7 +246,10 @@ EffectFit fitEffects(const Campaign& campaign, const WantedEffects& asked) {
   }
   effects.covariance = covarianceOfFree(effects);
   const GapFit alone = withoutEffects(*effects.input, effects.start->state, effects.fit);
-  effects.gap = gapOf(effects, alone);
+  const StiffnessesAlone before =
+      stiffnessesAlone(alone.data, std::vector<double>(alone.data.postures.size(), 1.0), alone.projection);
+  effects.gap = deflectionGap(alone, before, effects.fit,
+                              allParameters(effects.fit.nuisances, effects.fit.set.effects));
   describe(effects, allowed);
   const FitRecipe recipe{false, effects.fit.set.models};
   constexpr int kResamples = 120;
