@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """table.py FOLDER: one Markdown table of what the benchmarks wrote there, printed and as table.md: a row a benchmark, ours at
 each size, its growth from size to size, and what a user would otherwise take on the same data in the same run. Processor
-time, the least of the runs."""
+time, of whole commands the clock's, the least of the runs."""
 import json, pathlib, sys
 
 UNITS = {"ns": 1e-9, "us": 1e-6, "ms": 1e-3, "s": 1.0}
@@ -93,4 +93,4 @@ folder = pathlib.Path(sys.argv[1])
 table = "\n".join(["| what | sizes | stiffscope | growth | beside it | its time | its growth | times ours |", "|" + "---|" * 8,
                    *lines(folder)])
 (folder / "table.md").write_text(table + "\n")
-print("\n" + table + f"\n\nProcessor time, the least of the runs; as {folder / 'table.md'}.")
+print("\n" + table + f"\n\nProcessor time, of whole commands (`...`) the clock's, the least of the runs; as {folder / 'table.md'}.")
