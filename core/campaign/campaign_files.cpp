@@ -37,11 +37,9 @@ CampaignFiles::CampaignFiles(const fs::path& folder_or_xml) {
   }
 }
 
-std::shared_ptr<const std::string> CampaignFiles::readXml() {
-  return readAndRecord(xml_, xml_.filename().string(), kLargestXml);
-}
+TextFile CampaignFiles::readXml() { return readAndRecord(xml_, xml_.filename().string(), kLargestXml); }
 
-std::shared_ptr<const std::string> CampaignFiles::read(const FileReference& reference, std::size_t largest) {
+TextFile CampaignFiles::read(const FileReference& reference, std::size_t largest) {
   const auto refuse = [&](const std::string& why) {
     throw InputError({xmlName(), reference.line, reference.attribute}, reference.name,
                      "expected a file inside the campaign's folder; " + why);
@@ -57,15 +55,13 @@ std::shared_ptr<const std::string> CampaignFiles::read(const FileReference& refe
   return readAndRecord(path, reference.name, largest);
 }
 
-std::shared_ptr<const std::string> CampaignFiles::readAndRecord(const fs::path& path, const std::string& name,
-                                                                std::size_t largest) {
+TextFile CampaignFiles::readAndRecord(const fs::path& path, const std::string& name, std::size_t largest) {
   TextFile file = readTextFileWithStamp(path, largest);
-  const auto bytes = std::make_shared<const std::string>(std::move(file.bytes));
   constexpr std::size_t kOwnThread = 1 << 20;  // hashed in a millisecond
   // Where no thread is to be had, either policy lets it be hashed when the hash is asked for.
-  const auto when = bytes->size() < kOwnThread ? std::launch::deferred : std::launch::async | std::launch::deferred;
-  read_.push_back({path, name, file.stamp, std::async(when, [bytes] { return sha256Hex(*bytes); })});
-  return bytes;
+  const auto when = file.size < kOwnThread ? std::launch::deferred : std::launch::async | std::launch::deferred;
+  read_.push_back({path, name, file.stamp, std::async(when, [file] { return sha256Hex(file.text()); })});
+  return file;
 }
 
 std::vector<InputFile> CampaignFiles::takeInputs() {

@@ -2,14 +2,13 @@
 
 #include <filesystem>
 #include <future>
-#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "core/campaign/campaign.h"
 #include "core/campaign/campaign_xml.h"
-#include "core/input/file_stamp.h"
+#include "core/input/read_file.h"
 
 namespace stiffscope {
 
@@ -24,11 +23,11 @@ class CampaignFiles {
   const std::filesystem::path& folder() const { return folder_; }
   std::string xmlName() const { return xml_.string(); }  ///< for messages
 
-  std::shared_ptr<const std::string> readXml();
+  TextFile readXml();
 
   /// Bytes of a file that campaign.xml names. Throws InputError where it is missing, larger than `largest` or
   /// not a text file, or where its path is absolute or leads out of the folder, through ".." or through a link.
-  std::shared_ptr<const std::string> read(const FileReference& reference, std::size_t largest);
+  TextFile read(const FileReference& reference, std::size_t largest);
 
   /// Throws InputError where a file that was read is no longer as it was: tables of two different moments
   /// are no campaign.
@@ -49,8 +48,7 @@ class CampaignFiles {
     std::future<std::string> sha256;
   };
 
-  std::shared_ptr<const std::string> readAndRecord(const std::filesystem::path& path, const std::string& name,
-                                                   std::size_t largest);
+  TextFile readAndRecord(const std::filesystem::path& path, const std::string& name, std::size_t largest);
 
   std::filesystem::path folder_, xml_;
   std::vector<Read> read_;

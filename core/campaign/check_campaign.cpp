@@ -9,6 +9,7 @@
 
 #include "core/input/input_error.h"
 #include "core/input/units.h"
+#include "core/parallel/on_all_cores.h"
 
 namespace stiffscope {
 
@@ -142,20 +143,32 @@ void warnOfRadians(const Campaign& campaign, const std::optional<Table<Row>>& ta
       fmt::format("no joint angle is larger than {:.3f} deg; were they written in radians?", largest)));
 }
 
+void warnOfCellWithoutPlace(const Campaign& campaign, std::vector<std::string>& warnings) {
+  if (!campaign.states || campaign.load_cell) return;
+  warnings.push_back(inputMessage({shown(campaign, campaign.states->file), 0, ""}, "",
+                                  "no load_cell in campaign.xml says where these wrenches act"));
+}
+
+using Check = void (*)(const Campaign&, std::vector<std::string>&);
+
+// In the order of their errors and warnings.
+constexpr Check kChecks[] = {
+    [](const Campaign& campaign, std::vector<std::string>&) { checkStatesCoverReadings(campaign); },
+    [](const Campaign& campaign, std::vector<std::string>&) { checkDisplacedTargetsHavePlaces(campaign); },
+    warnOfPosesWithoutStepZero,
+    warnOfAnglesOutsideLimits,
+    [](const Campaign& campaign, std::vector<std::string>& warnings) { warnOfRadians(campaign, campaign.circle_sweeps, warnings); },
+    [](const Campaign& campaign, std::vector<std::string>& warnings) { warnOfRadians(campaign, campaign.wrist_sweep, warnings); },
+    [](const Campaign& campaign, std::vector<std::string>& warnings) { warnOfRadians(campaign, campaign.states, warnings); },
+    warnOfCellWithoutPlace};
+
 }  // namespace
 
 void checkCampaign(const Campaign& campaign, std::vector<std::string>& warnings) {
-  checkStatesCoverReadings(campaign);
-  checkDisplacedTargetsHavePlaces(campaign);
-  warnOfPosesWithoutStepZero(campaign, warnings);
-  warnOfAnglesOutsideLimits(campaign, warnings);
-  warnOfRadians(campaign, campaign.circle_sweeps, warnings);
-  warnOfRadians(campaign, campaign.wrist_sweep, warnings);
-  warnOfRadians(campaign, campaign.states, warnings);
-  if (campaign.states && !campaign.load_cell) {
-    warnings.push_back(inputMessage({shown(campaign, campaign.states->file), 0, ""}, "",
-                                    "no load_cell in campaign.xml says where these wrenches act"));
-  }
+  std::array<std::vector<std::string>, std::size(kChecks)> found;
+  const bool worth_it = campaign.states && campaign.states->rows.size() >= kWorthThreads;
+  onAllCores(found.size(), [&](std::size_t i) { kChecks[i](campaign, found[i]); }, worth_it);
+  for (const std::vector<std::string>& some : found) warnings.insert(warnings.end(), some.begin(), some.end());
 }
 
 }  // namespace stiffscope

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <algorithm>
-#include <numeric>
+#include <mutex>
 #include <optional>
 #include <span>
 #include <vector>
@@ -21,23 +21,61 @@ template <class Row>
 struct TablePart {
   TableLines lines;
   CampaignNames names;    ///< poses and nests by their first appearance in this part
-  std::span<Row> room{};  ///< where its rows belong, one a line
-  std::size_t rows = 0;
+  std::size_t from = 0;   ///< place among the rows of all parts where its own belong
+  std::size_t room = 0;   ///< as many as there can be
+  std::span<Row> rows{};  ///< those read
   bool done = false;      ///< to its end, without an error
   bool ascending = true;  ///< its keys
-
-  std::span<Row> filled() const { return room.first(rows); }
 };
+
+/// The rows of all parts. They are made part by part, by the thread that is about to read one.
+template <class Row>
+class RowsInMaking {
+ public:
+  explicit RowsInMaking(std::size_t rows) { rows_.reserve(rows); }
+
+  /// The first of all rows, of which there are `count` then at least. None moves: there is room for all.
+  Row* made(std::size_t count) {
+    const std::lock_guard lock(making_);
+    if (rows_.size() < count) rows_.resize(count);
+    return rows_.data();
+  }
+
+  std::vector<Row> take() { return std::move(rows_); }
+
+ private:
+  std::mutex making_;
+  std::vector<Row> rows_;
+};
+
+/// The parts of the lines behind the header.
+template <class Row>
+std::vector<TablePart<Row>> partsOf(const TableLines& header, const CampaignNames& names, std::size_t part_bytes) {
+  const std::vector<std::string_view> texts = partsOfLines(header.rest(), part_bytes);
+  std::vector<std::size_t> lines(texts.size());
+  onAllCores(texts.size(), [&](std::size_t i) { lines[i] = linesIn(texts[i]); });
+  std::vector<TablePart<Row>> parts;
+  parts.reserve(texts.size());
+  std::size_t before = header.line(), from = 0;
+  for (std::size_t i = 0; i < texts.size(); ++i) {
+    const std::size_t room = header.mostRows(texts[i].size(), lines[i]);
+    parts.push_back({TableLines(header, texts[i], before), {names.targets, {}, {}}, from, room});
+    before += lines[i];
+    from += room;
+  }
+  return parts;
+}
 
 template <class Row>
 void readPart(const std::string& file, const TableLayout<Row>& layout, const KeyColumns<Row>& key,
-              TablePart<Row>& part) try {
+              RowsInMaking<Row>& rows, TablePart<Row>& part) try {
+  Row* const first = rows.made(part.from + part.room) + part.from;
   while (part.lines.next()) {
-    if (part.rows == part.room.size()) return;
-    Row& row = part.room[part.rows];
-    readRow(file, layout, part.lines, part.names, row);
-    if (part.rows > 0 && !key.less(part.room[part.rows - 1], row)) part.ascending = false;
-    ++part.rows;
+    const std::size_t read = part.rows.size();
+    if (read == part.room) return;
+    readRow(file, layout, part.lines, part.names, first[read]);
+    if (read > 0 && !key.less(first[read - 1], first[read])) part.ascending = false;
+    part.rows = {first, read + 1};
   }
   part.done = true;
 } catch (const InputError&) {
@@ -53,44 +91,10 @@ void renumber(const TableLayout<Row>& layout, const std::vector<int>& poses, con
     if ((column.kind != CellKind::pose && column.kind != CellKind::nest) || !part.lines.has(i)) continue;
     const std::vector<int>& indices = column.kind == CellKind::pose ? poses : nests;
     const auto member = std::get<typename Column<Row>::Index>(column.member);
-    for (Row& row : part.filled()) member(row) = indices[static_cast<std::size_t>(member(row))];
+    for (Row& row : part.rows) member(row) = indices[static_cast<std::size_t>(member(row))];
     // An order of keys by the part's own indices is one by all only if the two go up together.
     if (!std::is_sorted(indices.begin(), indices.end())) part.ascending = false;
   }
-}
-
-/// The parts of the lines behind the header, each with room among `rows`.
-template <class Row>
-std::vector<TablePart<Row>> partsOf(const TableLines& header, const CampaignNames& names, std::size_t part_bytes,
-                                    std::vector<Row>& rows) {
-  const std::vector<std::string_view> texts = partsOfLines(header.rest(), part_bytes);
-  std::vector<std::size_t> lines(texts.size()), rooms(texts.size());
-  onAllCores(texts.size(), [&](std::size_t i) {
-    lines[i] = linesIn(texts[i]);
-    rooms[i] = header.mostRows(texts[i].size(), lines[i]);
-  });
-  rows.resize(std::accumulate(rooms.begin(), rooms.end(), std::size_t{0}));
-  std::vector<TablePart<Row>> parts;
-  parts.reserve(texts.size());
-  std::size_t before = header.line(), from = 0;
-  for (std::size_t i = 0; i < texts.size(); ++i) {
-    parts.push_back({TableLines(header, texts[i], before), {names.targets, {}, {}}, {rows.data() + from, rooms[i]}});
-    before += lines[i];
-    from += rooms[i];
-  }
-  return parts;
-}
-
-/// Moves the rows of all parts together, where lines were blank.
-template <class Row>
-void closeUp(const std::vector<TablePart<Row>>& parts, std::vector<Row>& rows) {
-  auto end = rows.begin();
-  for (const TablePart<Row>& part : parts) {
-    const auto from = rows.begin() + (part.room.data() - rows.data());
-    end = from == end ? end + static_cast<std::ptrdiff_t>(part.rows)
-                      : std::move(from, from + static_cast<std::ptrdiff_t>(part.rows), end);
-  }
-  rows.erase(end, rows.end());
 }
 
 /// Whether keys ascend in all parts and from each to the next.
@@ -98,11 +102,24 @@ template <class Row>
 bool keysAscend(const std::vector<TablePart<Row>>& parts, const KeyColumns<Row>& key) {
   Row* last = nullptr;
   for (const TablePart<Row>& part : parts) {
-    if (part.rows == 0) continue;
-    if (!part.ascending || (last != nullptr && !key.less(*last, part.room.front()))) return false;
-    last = &part.filled().back();
+    if (part.rows.empty()) continue;
+    if (!part.ascending || (last != nullptr && !key.less(*last, part.rows.front()))) return false;
+    last = &part.rows.back();
   }
   return true;
+}
+
+/// Moves the rows of all parts together, where lines were blank.
+template <class Row>
+void closeUp(const std::vector<TablePart<Row>>& parts, std::vector<Row>& rows) {
+  std::size_t end = 0;
+  for (const TablePart<Row>& part : parts) {
+    const auto from = rows.begin() + static_cast<std::ptrdiff_t>(part.from);
+    const auto count = static_cast<std::ptrdiff_t>(part.rows.size());
+    if (end != part.from) std::move(from, from + count, rows.begin() + static_cast<std::ptrdiff_t>(end));
+    end += part.rows.size();
+  }
+  rows.resize(end);
 }
 
 /// readTable of a large text: its lines in parts of some `part_bytes`, shared among the cores. The parts depend on the text
@@ -114,9 +131,10 @@ std::optional<std::vector<Row>> readTableInParts(const TableSource& source, cons
                                                  std::size_t part_bytes) {
   const KeyColumns<Row> key(layout);
   const TableLines header(source, wantedColumns(layout), warnings);
-  std::vector<Row> rows;
-  std::vector<TablePart<Row>> parts = partsOf(header, names, part_bytes, rows);
-  onAllCores(parts.size(), [&](std::size_t i) { readPart(source.file, layout, key, parts[i]); });
+  std::vector<TablePart<Row>> parts = partsOf<Row>(header, names, part_bytes);
+  if (parts.empty()) return std::nullopt;
+  RowsInMaking<Row> making(parts.back().from + parts.back().room);
+  onAllCores(parts.size(), [&](std::size_t i) { readPart(source.file, layout, key, making, parts[i]); });
   if (!std::all_of(parts.begin(), parts.end(), [](const auto& part) { return part.done; })) return std::nullopt;
 
   std::vector<std::vector<int>> poses, nests;
@@ -126,6 +144,7 @@ std::optional<std::vector<Row>> readTableInParts(const TableSource& source, cons
   }
   onAllCores(parts.size(), [&](std::size_t i) { renumber(layout, poses[i], nests[i], parts[i]); });
   const bool ascending = keysAscend(parts, key);
+  std::vector<Row> rows = making.take();
   closeUp(parts, rows);
   if (rows.empty()) return std::nullopt;
   RowRepeats<Row> repeats(key, rows);

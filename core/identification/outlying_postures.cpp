@@ -110,9 +110,11 @@ OutlyingPosture judge(const Sums& all, const Posture& own, const JointMask& unkn
   result.others = std::sqrt(std::max(0.0, sum) / rows);
   const double left = rows - unknowns;
   if (!(left > 0.0) || !(sum > 0.0)) return result;
+  result.f = studentised(deleted, *own.equations, inverseNormal(others, unknown)) / coordinates / (sum / left);
+  // No F distribution has less than 0.3 above 1: such a posture is none, and most are such.
+  if (result.f <= 1.0) return result;
   // How many independent numbers a posture's residual is; without common coordinates the least there can be.
   const double per_posture = std::max(1.0, satterthwaite(all.momentsWithout(own, step)));
-  result.f = studentised(deleted, *own.equations, inverseNormal(others, unknown)) / coordinates / (sum / left);
   const double below = per_posture * left / coordinates;
   const double tail = fTail(result.f, std::max(1, static_cast<int>(per_posture)), std::max(1.0, below));
   result.p_value = std::min(1.0, tail * postures);
