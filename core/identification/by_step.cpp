@@ -9,7 +9,6 @@
 #include "core/identification/loaded_arm.h"
 #include "core/identification/method_solution.h"
 #include "core/identification/without_postures.h"
-#include "core/parallel/on_all_cores.h"
 #include "metrology/tail_probability.h"
 
 namespace stiffscope {
@@ -50,13 +49,9 @@ std::vector<Solved> solveSteps(const Campaign& campaign, const LoadReadings& rea
                                const Identification& result, Method method) {
   std::vector<Solved> solved;
   if (!result.of(method).available) return solved;
-  const std::vector<int>& steps = readings.steps();
-  std::vector<std::optional<Solved>> by_step(steps.size());
-  onAllCores(steps.size(), [&](std::size_t s) {
-    by_step[s] = solveStep(campaign, readings, options, result, method, steps[s]);
-  }, steps.size() * readings.poses() >= kWorthThreads);
-  for (std::optional<Solved>& one : by_step) {
-    if (one) solved.push_back(std::move(*one));
+  // One at a time, each on all cores: the loaded arms of many postures take megabytes.
+  for (const int step : readings.steps()) {
+    if (auto one = solveStep(campaign, readings, options, result, method, step)) solved.push_back(std::move(*one));
   }
   std::stable_sort(solved.begin(), solved.end(),
                    [](const Solved& a, const Solved& b) { return a.result.mean_force < b.result.mean_force; });
