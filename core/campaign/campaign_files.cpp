@@ -37,9 +37,9 @@ CampaignFiles::CampaignFiles(const fs::path& folder_or_xml) {
   }
 }
 
-std::string CampaignFiles::readXml() { return readAndRecord(xml_, xml_.filename().string(), kLargestXml); }
+TextFile CampaignFiles::readXml() { return readAndRecord(xml_, xml_.filename().string(), kLargestXml); }
 
-std::string CampaignFiles::read(const FileReference& reference, std::size_t largest) {
+TextFile CampaignFiles::read(const FileReference& reference, std::size_t largest) {
   const auto refuse = [&](const std::string& why) {
     throw InputError({xmlName(), reference.line, reference.attribute}, reference.name,
                      "expected a file inside the campaign's folder; " + why);
@@ -55,17 +55,26 @@ std::string CampaignFiles::read(const FileReference& reference, std::size_t larg
   return readAndRecord(path, reference.name, largest);
 }
 
-std::string CampaignFiles::readAndRecord(const fs::path& path, const std::string& name, std::size_t largest) {
+TextFile CampaignFiles::readAndRecord(const fs::path& path, const std::string& name, std::size_t largest) {
   TextFile file = readTextFileWithStamp(path, largest);
-  inputs_.push_back({name, sha256Hex(file.bytes)});
-  read_.emplace_back(path, file.stamp);
-  return std::move(file.bytes);
+  constexpr std::size_t kOwnThread = 1 << 20;  // hashed in a millisecond
+  // Where no thread is to be had, either policy lets it be hashed when the hash is asked for.
+  const auto when = file.size < kOwnThread ? std::launch::deferred : std::launch::async | std::launch::deferred;
+  read_.push_back({path, name, file.stamp, std::async(when, [file] { return sha256Hex(file.text()); })});
+  return file;
+}
+
+std::vector<InputFile> CampaignFiles::takeInputs() {
+  std::vector<InputFile> inputs;
+  for (Read& file : read_) inputs.push_back({file.name, file.sha256.get()});
+  read_.clear();
+  return inputs;
 }
 
 void CampaignFiles::requireUnchanged() const {
-  for (const auto& [path, stamp] : read_) {
-    if (stampOf(path) == stamp) continue;
-    throw InputError({path.string(), 0, ""}, "",
+  for (const Read& file : read_) {
+    if (stampOf(file.path) == file.stamp) continue;
+    throw InputError({file.path.string(), 0, ""}, "",
                      "expected a file that stays as it is; it changed while the campaign was read");
   }
 }

@@ -32,9 +32,14 @@ constexpr std::array<NumberKind, 6> kNumberKinds{{
 }
 
 int readTarget(std::string_view cell, const CellPlace& place, const CampaignNames& names) {
+  const auto& known = names.targets.names();
+  // Tools have a few reflectors: comparing with each is quicker than a hash.
+  constexpr std::size_t kFew = 8;
+  for (std::size_t k = 0; k < known.size() && known.size() <= kFew; ++k) {
+    if (known[k] == cell) return static_cast<int>(k);
+  }
   const int target = names.targets.find(cell);
   if (target >= 0) return target;
-  const auto& known = names.targets.names();
   const std::string list = fmt::format("{}", fmt::join(known, ", "));
   refuse(place, cell,
          "expected a target that campaign.xml declares: " + (known.empty() ? "there is none" : list) +

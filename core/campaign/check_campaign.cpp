@@ -2,12 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
-#include <unordered_set>
 
 #include "core/input/input_error.h"
 #include "core/input/units.h"
+#include "core/parallel/on_all_cores.h"
 
 namespace stiffscope {
 
@@ -17,15 +19,42 @@ std::string shown(const Campaign& campaign, const std::string& table_file) {
   return (campaign.folder / table_file).string();
 }
 
-std::uint64_t loadState(int pose, int step) {
-  return (static_cast<std::uint64_t>(pose) << 32) | static_cast<std::uint32_t>(step);
-}
+/// The load states that a table has rows for.
+class LoadStates {
+ public:
+  explicit LoadStates(const std::vector<State>& rows) {
+    states_.reserve(rows.size());
+    for (const State& row : rows) states_.push_back(of(row.pose, row.step));
+    if (!std::is_sorted(states_.begin(), states_.end())) std::sort(states_.begin(), states_.end());
+  }
+
+  /// Rows of readings follow those of states mostly: the state last found and the one behind it are looked at first.
+  bool has(int pose, int step) {
+    const std::uint64_t wanted = of(pose, step);
+    for (std::size_t ahead = 0; ahead < 2; ++ahead) {
+      if (last_ + ahead < states_.size() && states_[last_ + ahead] == wanted) {
+        last_ += ahead;
+        return true;
+      }
+    }
+    const auto found = std::lower_bound(states_.begin(), states_.end(), wanted);
+    last_ = static_cast<std::size_t>(found - states_.begin());
+    return found != states_.end() && *found == wanted;
+  }
+
+ private:
+  static std::uint64_t of(int pose, int step) {
+    return (static_cast<std::uint64_t>(pose) << 32) | static_cast<std::uint32_t>(step);
+  }
+
+  std::vector<std::uint64_t> states_;
+  std::size_t last_ = 0;
+};
 
 template <class Row>
-void requireStates(const Campaign& campaign, const Table<Row>& table,
-                   const std::unordered_set<std::uint64_t>& states) {
+void requireStates(const Campaign& campaign, const Table<Row>& table, LoadStates& states) {
   for (const Row& row : table.rows) {
-    if (states.contains(loadState(row.pose, row.step))) continue;
+    if (states.has(row.pose, row.step)) continue;
     const std::string& pose = campaign.pose_ids[static_cast<std::size_t>(row.pose)];
     throw InputError({shown(campaign, table.file), row.line, "pose, step"},
                      fmt::format("{}, {}", pose, row.step),
@@ -35,8 +64,7 @@ void requireStates(const Campaign& campaign, const Table<Row>& table,
 
 void checkStatesCoverReadings(const Campaign& campaign) {
   if (!campaign.states) return;
-  std::unordered_set<std::uint64_t> states;
-  for (const State& row : campaign.states->rows) states.insert(loadState(row.pose, row.step));
+  LoadStates states(campaign.states->rows);
   if (campaign.loading) requireStates(campaign, *campaign.loading, states);
   if (campaign.displacements) requireStates(campaign, *campaign.displacements, states);
 }
@@ -53,41 +81,49 @@ void checkDisplacedTargetsHavePlaces(const Campaign& campaign) {
 
 void warnOfPosesWithoutStepZero(const Campaign& campaign, std::vector<std::string>& warnings) {
   if (!campaign.loading) return;
-  std::unordered_set<int> unloaded, missing;
+  std::vector<bool> unloaded(campaign.pose_ids.size());
   for (const LoadingReading& row : campaign.loading->rows) {
-    if (row.step == 0) unloaded.insert(row.pose);
+    if (row.step == 0) unloaded[static_cast<std::size_t>(row.pose)] = true;
   }
   const LoadingReading* first = nullptr;
+  std::size_t missing = 0;
   for (const LoadingReading& row : campaign.loading->rows) {
-    if (unloaded.contains(row.pose)) continue;
+    if (unloaded[static_cast<std::size_t>(row.pose)]) continue;
     if (first == nullptr) first = &row;
-    missing.insert(row.pose);
+    unloaded[static_cast<std::size_t>(row.pose)] = true;  // counted once
+    ++missing;
   }
   if (first == nullptr) return;
   warnings.push_back(inputMessage(
       {shown(campaign, campaign.loading->file), first->line, "pose"},
       campaign.pose_ids[static_cast<std::size_t>(first->pose)],
-      fmt::format("no unloaded step 0, so no displacement; poses without one: {}", missing.size())));
+      fmt::format("no unloaded step 0, so no displacement; poses without one: {}", missing)));
 }
 
 void warnOfAnglesOutsideLimits(const Campaign& campaign, std::vector<std::string>& warnings) {
   if (!campaign.states) return;
   // Controllers and URDFs differ by a few degrees at the stops; more is a wrong column or a wrong robot.
   constexpr double kMargin = 5.0 * kDegree;
-  for (Eigen::Index joint = 0; joint < 6; ++joint) {
-    const auto j = static_cast<std::size_t>(joint);
-    const JointLimits& limits = campaign.robot.limits[j];
+  struct Outside {
     const State* first = nullptr;
     std::size_t rows = 0;
-    for (const State& row : campaign.states->rows) {
-      if (row.q[joint] >= limits.lower - kMargin && row.q[joint] <= limits.upper + kMargin) continue;
-      if (first == nullptr) first = &row;
-      ++rows;
+  };
+  std::array<Outside, 6> outside;
+  for (const State& row : campaign.states->rows) {
+    for (std::size_t j = 0; j < 6; ++j) {
+      const JointLimits& limits = campaign.robot.limits[j];
+      const double q = row.q[static_cast<Eigen::Index>(j)];
+      if (q >= limits.lower - kMargin && q <= limits.upper + kMargin) continue;
+      if (outside[j].rows++ == 0) outside[j].first = &row;
     }
+  }
+  for (std::size_t j = 0; j < 6; ++j) {
+    const auto& [first, rows] = outside[j];
+    const JointLimits& limits = campaign.robot.limits[j];
     if (first == nullptr) continue;
     warnings.push_back(inputMessage(
-        {shown(campaign, campaign.states->file), first->line, fmt::format("q{}_deg", joint + 1)},
-        fmt::format("{:.2f}", first->q[joint] / kDegree),
+        {shown(campaign, campaign.states->file), first->line, fmt::format("q{}_deg", j + 1)},
+        fmt::format("{:.2f}", first->q[static_cast<Eigen::Index>(j)] / kDegree),
         fmt::format("more than 5 deg outside the limits of {} ({:.2f} to {:.2f} deg); rows like this: {}",
                     campaign.robot.joint_names[j], limits.lower / kDegree, limits.upper / kDegree, rows)));
   }
@@ -107,20 +143,32 @@ void warnOfRadians(const Campaign& campaign, const std::optional<Table<Row>>& ta
       fmt::format("no joint angle is larger than {:.3f} deg; were they written in radians?", largest)));
 }
 
+void warnOfCellWithoutPlace(const Campaign& campaign, std::vector<std::string>& warnings) {
+  if (!campaign.states || campaign.load_cell) return;
+  warnings.push_back(inputMessage({shown(campaign, campaign.states->file), 0, ""}, "",
+                                  "no load_cell in campaign.xml says where these wrenches act"));
+}
+
+using Check = void (*)(const Campaign&, std::vector<std::string>&);
+
+// In the order of their errors and warnings.
+constexpr Check kChecks[] = {
+    [](const Campaign& campaign, std::vector<std::string>&) { checkStatesCoverReadings(campaign); },
+    [](const Campaign& campaign, std::vector<std::string>&) { checkDisplacedTargetsHavePlaces(campaign); },
+    warnOfPosesWithoutStepZero,
+    warnOfAnglesOutsideLimits,
+    [](const Campaign& campaign, std::vector<std::string>& warnings) { warnOfRadians(campaign, campaign.circle_sweeps, warnings); },
+    [](const Campaign& campaign, std::vector<std::string>& warnings) { warnOfRadians(campaign, campaign.wrist_sweep, warnings); },
+    [](const Campaign& campaign, std::vector<std::string>& warnings) { warnOfRadians(campaign, campaign.states, warnings); },
+    warnOfCellWithoutPlace};
+
 }  // namespace
 
 void checkCampaign(const Campaign& campaign, std::vector<std::string>& warnings) {
-  checkStatesCoverReadings(campaign);
-  checkDisplacedTargetsHavePlaces(campaign);
-  warnOfPosesWithoutStepZero(campaign, warnings);
-  warnOfAnglesOutsideLimits(campaign, warnings);
-  warnOfRadians(campaign, campaign.circle_sweeps, warnings);
-  warnOfRadians(campaign, campaign.wrist_sweep, warnings);
-  warnOfRadians(campaign, campaign.states, warnings);
-  if (campaign.states && !campaign.load_cell) {
-    warnings.push_back(inputMessage({shown(campaign, campaign.states->file), 0, ""}, "",
-                                    "no load_cell in campaign.xml says where these wrenches act"));
-  }
+  std::array<std::vector<std::string>, std::size(kChecks)> found;
+  const bool worth_it = campaign.states && campaign.states->rows.size() >= kWorthThreads;
+  onAllCores(found.size(), [&](std::size_t i) { kChecks[i](campaign, found[i]); }, worth_it);
+  for (const std::vector<std::string>& some : found) warnings.insert(warnings.end(), some.begin(), some.end());
 }
 
 }  // namespace stiffscope

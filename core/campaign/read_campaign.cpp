@@ -34,8 +34,8 @@ void requireLink(const CampaignFiles& files, const Robot& robot, std::size_t lin
 }
 
 void readRobot(CampaignFiles& files, const CampaignXml& xml, Campaign& campaign) {
-  const std::string bytes = files.read(xml.urdf, kLargestXml);
-  campaign.robot = parseUrdf(bytes, files.shown(xml.urdf), campaign.base_link, campaign.flange_link);
+  const TextFile file = files.read(xml.urdf, kLargestXml);
+  campaign.robot = parseUrdf(file.text(), files.shown(xml.urdf), campaign.base_link, campaign.flange_link);
   if (!campaign.load_cell) return;
   requireLink(files, campaign.robot, xml.load_cell_line, "parent", campaign.load_cell->parent);
   if (campaign.load_cell->axes_link) {
@@ -56,9 +56,9 @@ class TableReader {
     const auto reference = xml_.tables.find(layout.element);
     if (reference == xml_.tables.end()) return;
     const FileReference& file = reference->second.file;
-    const std::string bytes = files_.read(file, kLargestTable);
+    const TextFile bytes = files_.read(file, kLargestTable);
     table = Table<Row>{file.name, reference->second.frame,
-                       readTable<Row>({files_.shown(file), bytes}, layout, names_, warnings_)};
+                       readTable<Row>({files_.shown(file), bytes.text()}, layout, names_, warnings_)};
   }
 
   const CampaignNames& names() const { return names_; }
@@ -75,7 +75,7 @@ class TableReader {
 CampaignReading readCampaign(const std::filesystem::path& folder_or_xml) {
   CampaignReading reading;
   CampaignFiles files(folder_or_xml);
-  const CampaignXml xml = readCampaignXml(files.xmlName(), files.readXml(), reading.warnings);
+  const CampaignXml xml = readCampaignXml(files.xmlName(), files.readXml().text(), reading.warnings);
   Campaign& campaign = reading.campaign;
   campaign = xml.campaign;
   campaign.folder = files.folder();
@@ -91,7 +91,7 @@ CampaignReading readCampaign(const std::filesystem::path& folder_or_xml) {
   campaign.pose_ids = tables.names().poses.names();
   campaign.nest_ids = tables.names().nests.names();
   files.requireUnchanged();
-  campaign.inputs = files.inputs();
+  campaign.inputs = files.takeInputs();
 
   checkCampaign(campaign, reading.warnings);
   return reading;

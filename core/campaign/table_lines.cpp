@@ -8,23 +8,6 @@
 
 namespace stiffscope {
 
-namespace {
-
-std::size_t countOf(std::string_view bytes, char wanted) {
-  std::size_t count = 0;
-  for (auto at = bytes.find(wanted); at != std::string_view::npos; at = bytes.find(wanted, at + 1)) ++count;
-  return count;
-}
-
-// The shortest row has one character and a separator a column: that bounds the rows of a file of empty lines.
-std::size_t rowsIn(std::string_view bytes, std::size_t columns) {
-  const std::size_t line_feeds = countOf(bytes, '\n');
-  const std::size_t line_ends = line_feeds > 1 ? line_feeds : countOf(bytes, '\r');
-  return std::min(line_ends, bytes.size() / (2 * columns)) + 1;
-}
-
-}  // namespace
-
 TableLines::TableLines(const TableSource& source, const std::vector<WantedColumn>& wanted,
                        std::vector<std::string>& warnings)
     : source_(source), lines_(source.file, source.bytes), warnings_(warnings) {
@@ -40,12 +23,25 @@ TableLines::TableLines(const TableSource& source, const std::vector<WantedColumn
   for (std::size_t i = 0; i < cells_.size(); ++i) {
     if (cells_[i].empty()) nameless_.push_back(i);
   }
-  expected_rows_ = rowsIn(source.bytes, places_.size());
+}
+
+TableLines::TableLines(const TableLines& table, std::string_view part, std::size_t lines_before)
+    : source_(table.source_),
+      lines_(table.source_.file, part, lines_before),
+      places_(table.places_),
+      nameless_(table.nameless_),
+      cells_in_header_(table.cells_in_header_),
+      row_required_(false),
+      warnings_(table.warnings_) {}
+
+// The shortest row has one character and a separator a column: that bounds the rows of a file of empty lines.
+std::size_t TableLines::mostRows(std::size_t bytes, std::size_t lines) const {
+  return std::min(lines, bytes / (2 * places_.size()) + 1);
 }
 
 bool TableLines::next() {
   if (!lines_.next(cells_)) {
-    if (rows_ == 0) {
+    if (rows_ == 0 && row_required_) {
       throw InputError({source_.file, 0, ""}, "", "expected at least one row below the header");
     }
     if (lines_.endsWithoutLineEnd()) {

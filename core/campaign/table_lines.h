@@ -25,10 +25,18 @@ class TableLines {
   TableLines(const TableSource& source, const std::vector<WantedColumn>& wanted,
              std::vector<std::string>& warnings);
 
+  /// A part of the lines behind `table`'s header, `lines_before` of the file before it: read as the whole is, but one
+  /// without a row is no error. Only the last part can have a last line without a line end, so that no two of them
+  /// read in different threads give a warning.
+  TableLines(const TableLines& table, std::string_view part, std::size_t lines_before);
+
   bool next();
 
-  /// As many rows as there are, or a few more, where all lines end alike and none is blank; a guess elsewhere.
-  std::size_t expectedRows() const { return expected_rows_; }
+  /// What stands behind the line last given.
+  std::string_view rest() const { return lines_.rest(); }
+
+  /// As many rows as there can be in `lines` lines of so many bytes; a guess where an optional column is absent.
+  std::size_t mostRows(std::size_t bytes, std::size_t lines) const;
 
   std::size_t line() const { return lines_.line(); }
   bool has(std::size_t column) const { return places_[column] != kAbsentColumn; }
@@ -45,8 +53,8 @@ class TableLines {
   std::vector<std::string_view> cells_;
   std::vector<std::size_t> places_, nameless_;
   std::size_t cells_in_header_ = 0;
-  std::size_t expected_rows_ = 0;
   std::size_t rows_ = 0;
+  bool row_required_ = true;
   std::vector<std::string>& warnings_;
 };
 

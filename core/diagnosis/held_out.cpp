@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
-#include <thread>
 
 #include "core/identification/coverage_factor.h"
+#include "core/parallel/on_all_cores.h"
 
 namespace stiffscope {
 
@@ -37,20 +37,6 @@ std::vector<Trained> train(const GapInput& input, const GapFit& alone, const Gap
         {before, allParameters(projection.by_nothing - projection.by_effects * set.effects, set.effects)});
   }
   return trained;
-}
-
-/// Calls `work(i)` for i in 0..count-1 on all cores.
-template <class Work>
-void onAllCores(int count, const Work& work) {
-  const int threads =
-      std::max(1, std::min<int>(count, static_cast<int>(std::thread::hardware_concurrency())));
-  std::vector<std::thread> pool;
-  for (int t = 0; t < threads; ++t) {
-    pool.emplace_back([&, t] {
-      for (int i = t; i < count; i += threads) work(i);
-    });
-  }
-  for (std::thread& one : pool) one.join();
 }
 
 double shrinkOf(double before, double after) { return before > 0.0 ? 1.0 - std::sqrt(after / before) : 0.0; }
@@ -130,14 +116,12 @@ std::vector<HeldOutShrink> heldOutShrinks(const GapInput& input, const GapFit& a
   std::vector<HeldOutShrink> result(recipes.size());
   if (postures < 4) return result;
   std::vector<std::vector<HeldOut>> left(postures, std::vector<HeldOut>(recipes.size()));
-  onAllCores(static_cast<int>(postures), [&](int p) {
+  onAllCores(postures, [&](std::size_t p) {
     std::vector<double> weights(postures, 1.0);
-    weights[static_cast<std::size_t>(p)] = 0.0;
+    weights[p] = 0.0;
     const auto trained = train(input, alone, fit, allowed, recipes, weights);
     for (std::size_t r = 0; r < recipes.size(); ++r)
-      left[static_cast<std::size_t>(p)][r] =
-          leftIn(alone.data.postures[static_cast<std::size_t>(p)], trained[r].before,
-                 fit.data.postures[static_cast<std::size_t>(p)], trained[r].after);
+      left[p][r] = leftIn(alone.data.postures[p], trained[r].before, fit.data.postures[p], trained[r].after);
   });
   std::mt19937_64 random(seed);
   std::vector<std::vector<double>> samples(static_cast<std::size_t>(resamples),
@@ -150,13 +134,13 @@ std::vector<HeldOutShrink> heldOutShrinks(const GapInput& input, const GapFit& a
   const double judged_share =
       resamples > 0 ? judged / static_cast<double>(resamples) / static_cast<double>(postures) : 0.0;
   std::vector<std::vector<HeldOut>> drawn(samples.size(), std::vector<HeldOut>(recipes.size()));
-  onAllCores(resamples, [&](int b) {
-    const auto& weights = samples[static_cast<std::size_t>(b)];
+  onAllCores(samples.size(), [&](std::size_t b) {
+    const auto& weights = samples[b];
     const auto trained = train(input, alone, fit, allowed, recipes, weights);
     for (std::size_t p = 0; p < postures; ++p) {
       if (weights[p] != 0.0) continue;
       for (std::size_t r = 0; r < recipes.size(); ++r)
-        add(drawn[static_cast<std::size_t>(b)][r],
+        add(drawn[b][r],
             leftIn(alone.data.postures[p], trained[r].before, fit.data.postures[p], trained[r].after));
     }
   });

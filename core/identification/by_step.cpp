@@ -27,24 +27,31 @@ double meanForce(const std::vector<LoadCase>& cases) {
   return cases.empty() ? 0.0 : sum / static_cast<double>(cases.size());
 }
 
+/// Empty where the step lacks what the method needs.
+std::optional<Solved> solveStep(const Campaign& campaign, const LoadReadings& readings, const IdentifyOptions& options,
+                                const Identification& result, Method method, int step) {
+  const MethodResult& own = result.of(method);
+  LoadedArm arm = loadedArm(campaign, readings, own.geometry, result.frames.wrist, {step});
+  if (arm.cases.empty()) return std::nullopt;
+  if (method == Method::complete_pose && !arm.hasFlangePoses()) return std::nullopt;
+  if (method == Method::decoupled_partial_pose && arm.wrist.empty()) return std::nullopt;
+  Solved one;
+  one.result.step = step;
+  one.result.mean_force = meanForce(arm.cases);
+  const MethodSolution how{method, result.frames.tcp_in_flange, result.characteristic_length.length,
+                           own.estimate.identifiable, campaign.tracker ? &*campaign.tracker : nullptr};
+  one.result.estimate = how.settledEstimate(arm, options.finite_deflection);
+  for (const LoadCase& load_case : arm.cases) one.poses.push_back(load_case.pose);
+  return one;
+}
+
 std::vector<Solved> solveSteps(const Campaign& campaign, const LoadReadings& readings, const IdentifyOptions& options,
                                const Identification& result, Method method) {
   std::vector<Solved> solved;
-  const MethodResult& own = result.of(method);
-  if (!own.available) return solved;
+  if (!result.of(method).available) return solved;
+  // One at a time, each on all cores: the loaded arms of many postures take megabytes.
   for (const int step : readings.steps()) {
-    LoadedArm arm = loadedArm(campaign, readings, own.geometry, result.frames.wrist, {step});
-    if (arm.cases.empty()) continue;
-    if (method == Method::complete_pose && !arm.hasFlangePoses()) continue;
-    if (method == Method::decoupled_partial_pose && arm.wrist.empty()) continue;
-    Solved one;
-    one.result.step = step;
-    one.result.mean_force = meanForce(arm.cases);
-    const MethodSolution how{method, result.frames.tcp_in_flange, result.characteristic_length.length,
-                             own.estimate.identifiable, campaign.tracker ? &*campaign.tracker : nullptr};
-    one.result.estimate = how.settledEstimate(arm, options.finite_deflection);
-    for (const LoadCase& load_case : arm.cases) one.poses.push_back(load_case.pose);
-    solved.push_back(std::move(one));
+    if (auto one = solveStep(campaign, readings, options, result, method, step)) solved.push_back(std::move(*one));
   }
   std::stable_sort(solved.begin(), solved.end(),
                    [](const Solved& a, const Solved& b) { return a.result.mean_force < b.result.mean_force; });

@@ -30,33 +30,46 @@ DeflectionJudge::DeflectionJudge(const std::vector<CaseEquations>& equations) {
   }
 }
 
-void DeflectionJudge::residual(const Vector6d& compliance, std::vector<double>& per_posture) const {
-  per_posture.assign(displacement_.size(), 0.0);
-  constexpr Eigen::Index kBlock = 64;  // points at a time, on the stack
+namespace {
+
+constexpr Eigen::Index kBlock = 64;  // points at a time, on the stack
+
+}  // namespace
+
+void DeflectionJudge::addResidual(Eigen::Index from, Eigen::Index size, const Vector6d& compliance,
+                                  std::vector<double>& per_posture) const {
   std::array<double, kBlock> norms;
+  Eigen::Map<Eigen::ArrayXd> squares(norms.data(), size);
+  squares.setZero();
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto rows = matrix_[axis].middleRows(from, size);
+    squares += (right_[axis].segment(from, size) - rows.col(0) * compliance[0] -
+                rows.col(1) * compliance[1] - rows.col(2) * compliance[2] - rows.col(3) * compliance[3] -
+                rows.col(4) * compliance[4] - rows.col(5) * compliance[5])
+                   .square();
+  }
+  squares = squares.sqrt();
+  for (Eigen::Index point = 0; point < size; ++point) {
+    per_posture[posture_of_point_[static_cast<std::size_t>(from + point)]] +=
+        norms[static_cast<std::size_t>(point)];
+  }
+}
+
+void DeflectionJudge::residuals(std::span<const Vector6d> compliances,
+                                std::span<std::vector<double>* const> per_posture) const {
+  for (std::vector<double>* one : per_posture) one->assign(displacement_.size(), 0.0);
   const Eigen::Index count = right_[0].size();
   for (Eigen::Index from = 0; from < count; from += kBlock) {
-    const Eigen::Index size = std::min(kBlock, count - from);
-    Eigen::Map<Eigen::ArrayXd> squares(norms.data(), size);
-    squares.setZero();
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const auto rows = matrix_[axis].middleRows(from, size);
-      squares += (right_[axis].segment(from, size) - rows.col(0) * compliance[0] -
-                  rows.col(1) * compliance[1] - rows.col(2) * compliance[2] - rows.col(3) * compliance[3] -
-                  rows.col(4) * compliance[4] - rows.col(5) * compliance[5])
-                     .square();
-    }
-    squares = squares.sqrt();
-    for (Eigen::Index point = 0; point < size; ++point) {
-      per_posture[posture_of_point_[static_cast<std::size_t>(from + point)]] +=
-          norms[static_cast<std::size_t>(point)];
+    for (std::size_t k = 0; k < compliances.size(); ++k) {
+      addResidual(from, std::min(kBlock, count - from), compliances[k], *per_posture[k]);
     }
   }
 }
 
 std::vector<double> DeflectionJudge::residual(const Vector6d& compliance) const {
   std::vector<double> per_posture;
-  residual(compliance, per_posture);
+  std::vector<double>* const into = &per_posture;
+  residuals({&compliance, 1}, {&into, 1});
   return per_posture;
 }
 

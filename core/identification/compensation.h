@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <vector>
 
 #include "core/identification/equations.h"
@@ -22,8 +23,9 @@ class DeflectionJudge {
   const std::vector<double>& displacement() const { return displacement_; }
 
   /// Per posture: sum over its points of |b - A c|, m.
-  void residual(const Vector6d& compliance, std::vector<double>& per_posture) const;
   std::vector<double> residual(const Vector6d& compliance) const;
+  /// The same of some compliances, for each into its vector: quicker than one by one.
+  void residuals(std::span<const Vector6d> compliances, std::span<std::vector<double>* const> per_posture) const;
 
   /// Over all postures.
   double compensated(const Vector6d& compliance) const;
@@ -32,6 +34,8 @@ class DeflectionJudge {
   int pointsOf(std::size_t posture) const { return points_[posture]; }
 
  private:
+  void addResidual(Eigen::Index from, Eigen::Index size, const Vector6d& compliance, std::vector<double>& per_posture) const;
+
   std::array<Eigen::Array<double, Eigen::Dynamic, 6>, 3> matrix_;  // by coordinate: one row a point
   std::array<Eigen::ArrayXd, 3> right_;
   std::vector<std::size_t> posture_of_point_;

@@ -2,6 +2,7 @@
 
 #include <Eigen/LU>
 
+#include "core/parallel/on_all_cores.h"
 #include "core/robot/kinematics.h"
 #include "core/statics/geometric_stiffness.h"
 #include "core/statics/joint_torque.h"
@@ -48,29 +49,27 @@ ArmPosture middleOf(const Robot& arm, const LoadCase& load_case, const Vector6d&
 }  // namespace
 
 std::vector<Vector6d> jointTorques(const LoadingGeometry& geometry, const std::vector<LoadCase>& cases) {
-  std::vector<Vector6d> torques;
-  torques.reserve(cases.size());
-  for (const LoadCase& load_case : cases) {
-    torques.push_back(jointTorque(geometry.arm, load_case.posture, load_case.wrench));
-  }
+  std::vector<Vector6d> torques(cases.size());
+  smallWorkOnAllCores(cases.size(), [&](std::size_t i) {
+    torques[i] = jointTorque(geometry.arm, cases[i].posture, cases[i].wrench);
+  });
   return torques;
 }
 
 std::vector<Vector6d> jointTorquesWithGeometricStiffness(const LoadingGeometry& geometry,
                                                          const std::vector<LoadCase>& cases,
                                                          const Vector6d& compliance) {
-  std::vector<Vector6d> torques;
-  torques.reserve(cases.size());
-  for (const LoadCase& load_case : cases) {
-    torques.push_back(SpringTorque(geometry, load_case, compliance).under(load_case.wrench));
-  }
+  std::vector<Vector6d> torques(cases.size());
+  smallWorkOnAllCores(cases.size(), [&](std::size_t i) {
+    torques[i] = SpringTorque(geometry, cases[i], compliance).under(cases[i].wrench);
+  });
   return torques;
 }
 
 void settleLoads(const LoadingGeometry& geometry, const Vector6d& compliance, std::vector<LoadCase>& cases,
                  std::vector<Vector6d>& torques) {
   torques.resize(cases.size());
-  for (std::size_t i = 0; i < cases.size(); ++i) {
+  smallWorkOnAllCores(cases.size(), [&](std::size_t i) {
     LoadCase& load_case = cases[i];
     const SpringTorque springs(geometry, load_case, compliance);
     torques[i] = springs.under(load_case.wrench);
@@ -80,7 +79,7 @@ void settleLoads(const LoadingGeometry& geometry, const Vector6d& compliance, st
       torques[i] = springs.under(load_case.wrench);
     }
     load_case.middle = middleOf(geometry.arm, load_case, compliance, torques[i]);
-  }
+  });
 }
 
 void takeJacobiansAtMiddle(const LoadingGeometry& geometry, const Vector6d& compliance,

@@ -5,6 +5,7 @@
 #include <Eigen/Dense>
 #include <cmath>
 
+#include "core/parallel/on_all_cores.h"
 #include "core/robot/kinematics.h"
 #include "core/statics/joint_torque.h"
 
@@ -104,8 +105,9 @@ std::string combinationReason(const Vector6d& unseen, const Vector6d& lengths) {
 
 /// Marks joints that take part in a combination which the equations do not see.
 void judgeRank(const std::vector<CaseEquations>& equations, Identifiability& result) {
-  NormalEquations sum;
-  for (const CaseEquations& one : equations) sum += normalEquations(one);
+  std::vector<NormalEquations> own(equations.size());
+  smallWorkOnAllCores(equations.size(), [&](std::size_t i) { own[i] = normalEquations(equations[i]); });
+  const NormalEquations sum = sumOf(own);
   Matrix6d scaled = Matrix6d::Identity();
   const JointMask mask = result.mask();
   for (int a = 0; a < 6; ++a) {
@@ -145,17 +147,19 @@ Identifiability judgeJoints(const LoadingGeometry& geometry, const std::vector<L
   if (cases.empty()) return result;
   judgeHanging(geometry, cases, limits, result);
   const Eigen::Vector3d down = geometry.weight.gravity_in_base.normalized();
-  std::vector<Vector6d> torques;
-  Vector6d torque = Vector6d::Zero(), trusted = Vector6d::Zero(), variance = Vector6d::Zero();
-  for (const LoadCase& load_case : cases) {
+  std::vector<Vector6d> torques(cases.size()), hanging(cases.size()), variances(cases.size());
+  smallWorkOnAllCores(cases.size(), [&](std::size_t i) {
+    const LoadCase& load_case = cases[i];
     const ArmAxes axes = axesAt(geometry.arm, load_case.posture);
-    const Vector6d full = jointTorque(axes, load_case.wrench);
-    const Vector6d hanging =
-        result.load_hangs ? jointTorque(axes, hangingPart(load_case.wrench, down)) : full;
-    torques.push_back(full);
-    torque += full.cwiseAbs2();
-    trusted += hanging.cwiseAbs2();
-    variance += torqueVariance(axes, load_case.wrench, cell, limits);
+    torques[i] = jointTorque(axes, load_case.wrench);
+    hanging[i] = result.load_hangs ? jointTorque(axes, hangingPart(load_case.wrench, down)) : torques[i];
+    variances[i] = torqueVariance(axes, load_case.wrench, cell, limits);
+  });
+  Vector6d torque = Vector6d::Zero(), trusted = Vector6d::Zero(), variance = Vector6d::Zero();
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    torque += torques[i].cwiseAbs2();
+    trusted += hanging[i].cwiseAbs2();
+    variance += variances[i];
   }
   const double n = static_cast<double>(cases.size());
   for (int j = 0; j < 6; ++j) {

@@ -5,6 +5,7 @@
 #include <map>
 
 #include "core/identification/cell_wrench.h"
+#include "core/parallel/on_all_cores.h"
 #include "metrology/rigid_registration.h"
 
 namespace stiffscope {
@@ -98,17 +99,10 @@ std::vector<LoadCase> loadCases(const Campaign& campaign, const LoadReadings& re
   const bool absolute = campaign.loading.has_value() && geometry.r0_from_loading.has_value();
   if (!absolute && (!campaign.displacements || !geometry.displacements_in_r0)) return cases;
   const int turns_with = bodyOfCellAxes(*campaign.load_cell, geometry);
-  const auto leaveOut = [&](std::size_t pose, const char* reason) {
-    if (left_out) left_out->push_back(fmt::format("pose {}: {}", campaign.pose_ids[pose], reason));
-  };
-  cases.reserve(readings.poses());
-  for (std::size_t pose = 0; pose < readings.poses(); ++pose) {
+  // Why a posture has no case; null where it has.
+  const auto fill = [&](std::size_t pose, LoadCase& load_case) -> const char* {
     const State *unloaded = readings.state(pose, 0), *loaded = readings.state(pose, step);
-    if (loaded == nullptr) {
-      leaveOut(pose, "no state of this load step");
-      continue;
-    }
-    LoadCase& load_case = cases.emplace_back();
+    if (loaded == nullptr) return "no state of this load step";
     load_case.pose = static_cast<int>(pose);
     load_case.step = step;
     load_case.q = unloaded ? unloaded->q : loaded->q;
@@ -124,16 +118,26 @@ std::vector<LoadCase> loadCases(const Campaign& campaign, const LoadReadings& re
       load_case.targets = declaredMoves(geometry, readings.differences(pose, step), *geometry.displacements_in_r0,
                                         load_case.posture);
     }
-    if (load_case.targets.empty()) {
-      leaveOut(pose, "no reflector was read both unloaded and in this load step");
-      cases.pop_back();
-      continue;
-    }
+    if (load_case.targets.empty()) return "no reflector was read both unloaded and in this load step";
     load_case.wrench = cellWrench(*campaign.load_cell, geometry, load_case.posture, load_case.flange_unloaded,
                                   load_case.flange_loaded, loaded->wrench_in_cell);
     load_case.wrench_unturned = load_case.wrench;
     load_case.wrench_turns_with = turns_with == 6 && load_case.flange_loaded ? 0 : turns_with;
+    return nullptr;
+  };
+  cases.resize(readings.poses());
+  std::vector<const char*> lacking(cases.size());
+  smallWorkOnAllCores(cases.size(), [&](std::size_t pose) { lacking[pose] = fill(pose, cases[pose]); });
+  std::size_t kept = 0;
+  for (std::size_t pose = 0; pose < cases.size(); ++pose) {
+    if (lacking[pose] == nullptr) {
+      if (kept != pose) cases[kept] = std::move(cases[pose]);
+      ++kept;
+    } else if (left_out) {
+      left_out->push_back(fmt::format("pose {}: {}", campaign.pose_ids[pose], lacking[pose]));
+    }
   }
+  cases.resize(kept);
   return cases;
 }
 

@@ -7,6 +7,7 @@
 
 #include "core/identification/complete_pose.h"
 #include "core/identification/partial_pose.h"
+#include "core/parallel/on_all_cores.h"
 
 namespace stiffscope {
 
@@ -87,29 +88,26 @@ LoadedArm loadedArm(const Campaign& campaign, const LoadingGeometry& geometry, c
 }
 
 std::vector<CaseEquations> reflectorEquations(const LoadedArm& arm) {
-  std::vector<CaseEquations> equations;
-  equations.reserve(arm.cases.size());
-  for (std::size_t i = 0; i < arm.cases.size(); ++i) {
-    equations.push_back(partialPoseEquations(arm.geometry, arm.cases[i], arm.torques[i]));
-  }
+  std::vector<CaseEquations> equations(arm.cases.size());
+  smallWorkOnAllCores(arm.cases.size(), [&](std::size_t i) {
+    equations[i] = partialPoseEquations(arm.geometry, arm.cases[i], arm.torques[i]);
+  });
   return equations;
 }
 
 std::vector<CaseEquations> wristPointEquations(const LoadedArm& arm) {
-  std::vector<CaseEquations> equations;
-  equations.reserve(arm.wrist.size());
-  for (std::size_t i = 0; i < arm.wrist.size(); ++i) {
-    equations.push_back(wristEquations(arm.geometry, arm.cases[i], arm.wrist[i], arm.torques[i]));
-  }
+  std::vector<CaseEquations> equations(arm.wrist.size());
+  smallWorkOnAllCores(arm.wrist.size(), [&](std::size_t i) {
+    equations[i] = wristEquations(arm.geometry, arm.cases[i], arm.wrist[i], arm.torques[i]);
+  });
   return equations;
 }
 
 std::vector<CaseEquations> poseEquations(const LoadedArm& arm, const Eigen::Vector3d& tcp_in_flange) {
-  std::vector<CaseEquations> equations;
-  equations.reserve(arm.cases.size());
-  for (std::size_t i = 0; i < arm.cases.size(); ++i) {
-    equations.push_back(completePoseEquations(arm.geometry, arm.cases[i], tcp_in_flange, arm.torques[i]));
-  }
+  std::vector<CaseEquations> equations(arm.cases.size());
+  smallWorkOnAllCores(arm.cases.size(), [&](std::size_t i) {
+    equations[i] = completePoseEquations(arm.geometry, arm.cases[i], tcp_in_flange, arm.torques[i]);
+  });
   return equations;
 }
 

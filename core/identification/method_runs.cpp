@@ -75,9 +75,10 @@ void runCompletePose(MethodRuns& runs, Identification& result) {
 
 void runPartialPose(MethodRuns& runs, Identification& result) {
   MethodResult& out = methodOf(result, Method::partial_pose);
-  LoadedArm arm = runs.swept;
+  LoadedArm own;  // in the calibrated geometry; differences are used in the swept one, as they are there
+  LoadedArm& arm = runs.campaign.loading ? own : runs.swept;
   if (runs.campaign.loading) {
-    arm = calibratedArm(runs, result);
+    own = calibratedArm(runs, result);
     if (!result.calibration.done) {
       out.reason = "the geometry cannot be calibrated: " + result.calibration.reason;
       return;
@@ -92,6 +93,7 @@ void runPartialPose(MethodRuns& runs, Identification& result) {
   if (!out.reason.empty()) return;
   out.estimate = solved(Method::partial_pose, arm, runs, result);
   judgeMethod(arm, normalByPosture(reflectorEquations(arm)), false, runs.options, out);
+  if (!runs.campaign.loading) settleArm(arm, false, [](const LoadedArm&) { return Vector6d(); });  // unloaded again
   if (runs.swept.cases.empty()) runs.calibrated = std::move(arm);
 }
 

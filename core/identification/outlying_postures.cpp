@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/identification/posture_influence.h"
+#include "core/parallel/on_all_cores.h"
 #include "metrology/tail_probability.h"
 
 namespace stiffscope {
@@ -25,14 +26,16 @@ struct Posture {
 class Sums {
  public:
   Sums(const std::vector<Posture>& postures, bool common_rows) {
-    const Eigen::Index rows = common_rows ? postures.front().residual.size() : 0;
-    moments_.setZero(7 * rows, 7 * rows);
+    std::vector<NormalEquations> own(postures.size());
+    smallWorkOnAllCores(postures.size(), [&](std::size_t p) {
+      own[p] = normalEquations({postures[p].equations->matrix, postures[p].residual, postures[p].equations->posture});
+    });
+    normal = sumOf(own);
     for (const Posture& one : postures) {
-      normal += normalEquations({one.equations->matrix, one.residual, one.equations->posture});
       squares += one.residual.squaredNorm();
-      this->rows += one.residual.size();
-      if (rows > 0) moments_ += products(one);
+      rows += one.residual.size();
     }
+    if (common_rows) addMoments(postures);
   }
 
   /// Sum over the other postures of the squared residuals.
@@ -59,10 +62,23 @@ class Sums {
   Eigen::Index rows = 0;
 
  private:
-  static Eigen::MatrixXd products(const Posture& one) {
-    Eigen::MatrixXd columns(one.residual.size(), 7);
-    columns << one.equations->matrix, one.residual;
-    return columns.reshaped() * columns.reshaped().transpose();
+  /// Some columns of the sum at a time, each over the postures in their order.
+  void addMoments(const std::vector<Posture>& postures) {
+    const Eigen::Index rows = postures.front().residual.size(), size = 7 * rows;
+    Eigen::MatrixXd entries(size, static_cast<Eigen::Index>(postures.size()));
+    smallWorkOnAllCores(postures.size(), [&](std::size_t p) {
+      entries.col(static_cast<Eigen::Index>(p)) << postures[p].equations->matrix.reshaped(), postures[p].residual;
+    });
+    moments_.setZero(size, size);
+    constexpr Eigen::Index kColumns = 7;
+    onAllCores(static_cast<std::size_t>(rows), [&](std::size_t block) {
+      const Eigen::Index from = kColumns * static_cast<Eigen::Index>(block);
+      for (Eigen::Index p = 0; p < entries.cols(); ++p) {
+        const auto own = entries.col(p);
+        for (Eigen::Index c = from; c < from + kColumns; ++c) moments_.col(c).tail(size - c) += own[c] * own.tail(size - c);
+      }
+    }, postures.size() >= kWorthThreads);
+    moments_.triangularView<Eigen::StrictlyUpper>() = moments_.transpose().eval();
   }
 
   Eigen::MatrixXd moments_;  ///< of [A r], all its entries with all
@@ -94,9 +110,11 @@ OutlyingPosture judge(const Sums& all, const Posture& own, const JointMask& unkn
   result.others = std::sqrt(std::max(0.0, sum) / rows);
   const double left = rows - unknowns;
   if (!(left > 0.0) || !(sum > 0.0)) return result;
+  result.f = studentised(deleted, *own.equations, inverseNormal(others, unknown)) / coordinates / (sum / left);
+  // No F distribution has less than 0.3 above 1: such a posture is none, and most are such.
+  if (result.f <= 1.0) return result;
   // How many independent numbers a posture's residual is; without common coordinates the least there can be.
   const double per_posture = std::max(1.0, satterthwaite(all.momentsWithout(own, step)));
-  result.f = studentised(deleted, *own.equations, inverseNormal(others, unknown)) / coordinates / (sum / left);
   const double below = per_posture * left / coordinates;
   const double tail = fTail(result.f, std::max(1, static_cast<int>(per_posture)), std::max(1.0, below));
   result.p_value = std::min(1.0, tail * postures);
@@ -105,11 +123,13 @@ OutlyingPosture judge(const Sums& all, const Posture& own, const JointMask& unkn
 
 /// Residuals at the least squares solution of these equations.
 std::vector<Posture> fitAll(const std::vector<const CaseEquations*>& equations, const JointMask& unknown) {
-  NormalEquations sum;
-  for (const CaseEquations* one : equations) sum += normalEquations(*one);
-  const Vector6d compliance = solveNormal(sum, unknown);
-  std::vector<Posture> postures;
-  for (const CaseEquations* one : equations) postures.push_back({one, one->right - one->matrix * compliance});
+  std::vector<NormalEquations> own(equations.size());
+  smallWorkOnAllCores(equations.size(), [&](std::size_t p) { own[p] = normalEquations(*equations[p]); });
+  const Vector6d compliance = solveNormal(sumOf(own), unknown);
+  std::vector<Posture> postures(equations.size());
+  smallWorkOnAllCores(equations.size(), [&](std::size_t p) {
+    postures[p] = {equations[p], equations[p]->right - equations[p]->matrix * compliance};
+  });
   return postures;
 }
 
@@ -119,10 +139,13 @@ OutlyingPosture worstOf(const std::vector<Posture>& postures, const JointMask& u
   const bool common = std::all_of(postures.begin(), postures.end(),
                                   [&](const Posture& one) { return one.residual.size() == rows; });
   const Sums sums(postures, common);
+  std::vector<OutlyingPosture> judged(postures.size());
+  smallWorkOnAllCores(postures.size(), [&](std::size_t p) {
+    judged[p] = judge(sums, postures[p], unknown, unknowns, static_cast<double>(postures.size()));
+  });
   OutlyingPosture most;
   for (std::size_t p = 0; p < postures.size(); ++p) {
-    const OutlyingPosture one = judge(sums, postures[p], unknown, unknowns, static_cast<double>(postures.size()));
-    if (one.p_value < most.p_value) most = one, worst = p;
+    if (judged[p].p_value < most.p_value) most = judged[p], worst = p;
   }
   return most;
 }

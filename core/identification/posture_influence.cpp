@@ -3,6 +3,8 @@
 #include <Eigen/Dense>
 #include <array>
 
+#include "core/parallel/on_all_cores.h"
+
 namespace stiffscope {
 
 namespace {
@@ -69,16 +71,18 @@ std::vector<CaseEquations> byPosture(const std::vector<CaseEquations>& equations
 }
 
 std::vector<NormalEquations> normalByPosture(const std::vector<CaseEquations>& equations) {
-  std::vector<NormalEquations> normal;
-  normal.reserve(equations.size());
+  std::vector<NormalEquations> normal(equations.size());
+  smallWorkOnAllCores(equations.size(), [&](std::size_t i) { normal[i] = normalEquations(equations[i]); });
+  std::size_t postures = 0;
   for (std::size_t i = 0; i < equations.size(); ++i) {
-    const NormalEquations own = normalEquations(equations[i]);
     if (i > 0 && sharePosture(equations[i - 1], equations[i])) {
-      normal.back() += own;
+      normal[postures - 1] += normal[i];
     } else {
-      normal.push_back(own);
+      if (postures != i) normal[postures] = normal[i];
+      ++postures;
     }
   }
+  normal.resize(postures);
   return normal;
 }
 

@@ -7,6 +7,7 @@
 
 #include "core/identification/influence_covariance.h"
 #include "core/identification/posture_influence.h"
+#include "core/parallel/on_all_cores.h"
 
 namespace stiffscope {
 
@@ -48,21 +49,19 @@ void setScatter(std::vector<Vector6d> influences, const Vector6d& dof, Stiffness
 void setScatterOfOneStage(const std::vector<NormalEquations>& normal, const NormalEquations& sum,
                           StiffnessEstimate& estimate) {
   const PostureGains gain(sum, estimate.identifiable);
-  std::vector<PostureGain> gains;
-  std::vector<Vector6d> influences;
-  gains.reserve(normal.size());
-  influences.reserve(normal.size());
-  for (const NormalEquations& one : normal) {
-    gains.push_back(gain.of(one.matrix));
-    influences.push_back(gains.back() * (one.right - one.matrix * estimate.compliance));
-  }
+  std::vector<PostureGain> gains(normal.size());
+  std::vector<Vector6d> influences(normal.size());
+  smallWorkOnAllCores(normal.size(), [&](std::size_t p) {
+    gains[p] = gain.of(normal[p].matrix);
+    influences[p] = gains[p] * (normal[p].right - normal[p].matrix * estimate.compliance);
+  });
   const Matrix6d inverse = inverseNormal(sum, estimate.identifiable);
   Vector6d dof = Vector6d::Zero();
-  for (int j = 0; j < 6; ++j) {
-    if (estimate.identifiable[static_cast<std::size_t>(j)]) {
-      dof[j] = matchedDof(influenceCovariance(gains, normal, inverse, j));
-    }
-  }
+  onAllCores(6, [&](std::size_t j) {
+    if (!estimate.identifiable[j]) return;
+    const auto joint = static_cast<int>(j);
+    dof[joint] = matchedDof(influenceCovariance(gains, normal, inverse, joint));
+  }, normal.size() >= kWorthThreads);
   setScatter(std::move(influences), dof, estimate);
 }
 

@@ -1,5 +1,6 @@
 #include "core/input/csv_lines.h"
 
+#include <algorithm>
 #include <cstring>
 
 #include "core/input/input_error.h"
@@ -33,11 +34,35 @@ std::string_view plainCell(std::string_view& line) {
   return cell;
 }
 
+std::size_t countOf(std::string_view bytes, char wanted) {
+  return static_cast<std::size_t>(std::count(bytes.begin(), bytes.end(), wanted));
+}
+
 }  // namespace
 
-CsvLines::CsvLines(std::string file, std::string_view bytes) : file_(std::move(file)), rest_(bytes) {
+std::size_t linesIn(std::string_view bytes) {
+  std::size_t ends = countOf(bytes, '\n');
+  for (auto at = bytes.find('\r'); at != std::string_view::npos; at = bytes.find('\r', at + 1)) {
+    if (at + 1 == bytes.size() || bytes[at + 1] != '\n') ++ends;
+  }
+  const bool last_has_no_end = !bytes.empty() && bytes.back() != '\n' && bytes.back() != '\r';
+  return ends + (last_has_no_end ? 1 : 0);
+}
+
+std::vector<std::string_view> partsOfLines(std::string_view bytes, std::size_t least) {
+  std::vector<std::string_view> parts;
+  while (!bytes.empty()) {
+    const std::size_t last = bytes.find('\n', std::max<std::size_t>(least, 1) - 1);
+    parts.push_back(bytes.substr(0, last == std::string_view::npos ? last : last + 1));
+    bytes.remove_prefix(parts.back().size());
+  }
+  return parts;
+}
+
+CsvLines::CsvLines(std::string file, std::string_view bytes, std::size_t lines_before)
+    : file_(std::move(file)), rest_(bytes), line_(lines_before) {
   constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
-  if (rest_.starts_with(kByteOrderMark)) rest_.remove_prefix(kByteOrderMark.size());
+  if (lines_before == 0 && rest_.starts_with(kByteOrderMark)) rest_.remove_prefix(kByteOrderMark.size());
   next_lf_ = find(rest_.data(), endOf(rest_), '\n');
 }
 

@@ -14,8 +14,9 @@ namespace stiffscope {
 /// until the next call.
 class CsvLines {
  public:
-  /// `file` is the name for messages; `bytes` must outlive this object.
-  CsvLines(std::string file, std::string_view bytes);
+  /// `file` is the name for messages; `bytes` must outlive this object. `lines_before`: where `bytes` do not start the
+  /// file, but stand behind that many lines of it.
+  CsvLines(std::string file, std::string_view bytes, std::size_t lines_before = 0);
 
   /// Cells of the next line that is not blank; false at the end. Throws InputError where a quote is not closed on its
   /// line, or something else than a comma follows one that is.
@@ -26,6 +27,9 @@ class CsvLines {
 
   /// Whether nothing stands behind the line last given, not even the end of that line.
   bool endsWithoutLineEnd() const { return rest_.empty() && !line_ended_; }
+
+  /// What stands behind the line last given.
+  std::string_view rest() const { return rest_; }
 
  private:
   bool nextLine(std::string_view& line);
@@ -38,5 +42,12 @@ class CsvLines {
   const char* next_lf_ = nullptr;      ///< first LF in rest_; sought again only when it is passed
   std::deque<std::string> unescaped_;  ///< cells of this line that had doubled quotes
 };
+
+/// Lines as CsvLines cuts them, blank ones too.
+std::size_t linesIn(std::string_view bytes);
+
+/// `bytes`, whole lines as CsvLines cuts them, in parts of `least` bytes or a few more (the last may be smaller). Each but
+/// the last ends with a LF, behind which a line starts whatever the others end with.
+std::vector<std::string_view> partsOfLines(std::string_view bytes, std::size_t least);
 
 }  // namespace stiffscope

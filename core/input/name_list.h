@@ -29,6 +29,14 @@ class NameList {
     return latest_;
   }
 
+  /// Adds those of another list, in their order; the index here of each of them.
+  std::vector<int> addAll(const NameList& others) {
+    std::vector<int> indices;
+    indices.reserve(others.names_.size());
+    for (const std::string& name : others.names_) indices.push_back(add(name));
+    return indices;
+  }
+
   const std::vector<std::string>& names() const { return names_; }
 
  private:

@@ -7,9 +7,12 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <numeric>
+#include <vector>
 
 #include "core/input/input_error.h"
 #include "core/input/utf8.h"
+#include "core/parallel/on_all_cores.h"
 
 namespace stiffscope {
 
@@ -43,11 +46,11 @@ class OpenFile {
     return status;
   }
 
-  /// Bytes that were there; fewer than asked for only at the end of the file.
-  std::size_t read(char* into, std::size_t size) const {
+  /// Bytes that were there behind the first `from`; fewer than asked for only at the end of the file.
+  std::size_t read(char* into, std::size_t size, std::size_t from) const {
     std::size_t done = 0;
     while (done < size) {
-      const ssize_t some = ::read(descriptor_, into + done, size - done);
+      const ssize_t some = ::pread(descriptor_, into + done, size - done, static_cast<off_t>(from + done));
       if (some < 0 && errno == EINTR) continue;
       if (some < 0) refuseUnreadable(path_);
       if (some == 0) break;
@@ -69,19 +72,48 @@ void requireOrdinary(const fs::path& path, const struct ::stat& status, std::siz
   refuse(path, fmt::format("expected a file of at most {} MiB; this one has {}", largest >> 20, size >> 20));
 }
 
-void requireUtf8(const fs::path& path, const std::string& bytes) {
+void requireUtf8(const fs::path& path, std::string_view bytes) {
   for (const std::string_view mark : {"\xFF\xFE", "\xFE\xFF"}) {
     if (bytes.starts_with(mark)) {
       refuse(path, "expected text in UTF-8; this file is UTF-16 by its byte-order mark, save it as UTF-8");
     }
   }
-  if (bytes.find('\0') != std::string::npos) {
+  if (bytes.find('\0') != std::string_view::npos) {
     refuse(path, "expected text in UTF-8; this file holds a byte 0 (UTF-16 or binary?)");
   }
   const std::size_t at = findNotUtf8(bytes);
-  if (at == std::string::npos) return;
+  if (at == std::string_view::npos) return;
   const auto line = 1 + std::count(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(at), '\n');
   refuse(path, "expected text in UTF-8; save the file in that encoding", static_cast<std::size_t>(line));
+}
+
+/// ASCII without a byte 0, as most text is.
+bool isPlain(std::string_view bytes) {
+  unsigned char odd = 0;
+  for (const char c : bytes) odd |= static_cast<unsigned char>((c & 0x80) | (c == 0 ? 1 : 0));
+  return odd == 0;
+}
+
+struct Bytes {
+  std::shared_ptr<char[]> bytes;
+  std::size_t size = 0;  ///< that were there
+  bool plain = true;
+};
+
+/// The first `size` bytes, in blocks on all cores: each writes, and looks at, its own.
+Bytes readBlocks(const OpenFile& file, std::size_t size) {
+  constexpr std::size_t kBlock = std::size_t{1} << 20;
+  Bytes all{std::make_shared_for_overwrite<char[]>(size)};
+  std::vector<std::size_t> sizes((size + kBlock - 1) / kBlock);
+  std::vector<char> plain(sizes.size());
+  onAllCores(sizes.size(), [&](std::size_t i) {
+    char* const into = all.bytes.get() + i * kBlock;
+    sizes[i] = file.read(into, std::min(kBlock, size - i * kBlock), i * kBlock);
+    plain[i] = isPlain({into, sizes[i]});
+  });
+  all.size = std::accumulate(sizes.begin(), sizes.end(), std::size_t{0});
+  all.plain = std::all_of(plain.begin(), plain.end(), [](char one) { return one != 0; });
+  return all;
 }
 
 }  // namespace
@@ -90,18 +122,19 @@ TextFile readTextFileWithStamp(const fs::path& path, std::size_t largest) {
   const OpenFile file(path);
   const struct ::stat status = file.status();
   requireOrdinary(path, status, largest);
-  TextFile text{std::string(static_cast<std::size_t>(status.st_size), '\0'), stampFrom(status)};
-  const std::size_t size = file.read(text.bytes.data(), text.bytes.size());
-  if (size != text.bytes.size() || stampFrom(file.status()) != text.stamp) {
+  const auto size = static_cast<std::size_t>(status.st_size);
+  const Bytes read = readBlocks(file, size);
+  const TextFile text{read.bytes, size, stampFrom(status)};
+  if (read.size != size || stampFrom(file.status()) != text.stamp) {
     refuse(path, "expected a file that stays as it is; it changed while it was read");
   }
-  if (text.bytes.empty()) refuse(path, "expected a file that is not empty");
-  requireUtf8(path, text.bytes);
+  if (size == 0) refuse(path, "expected a file that is not empty");
+  if (!read.plain) requireUtf8(path, text.text());
   return text;
 }
 
 std::string readTextFile(const fs::path& path, std::size_t largest) {
-  return readTextFileWithStamp(path, largest).bytes;
+  return std::string(readTextFileWithStamp(path, largest).text());
 }
 
 }  // namespace stiffscope
