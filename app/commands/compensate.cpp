@@ -7,6 +7,7 @@
 #include "app/output.h"
 #include "app/prepared.h"
 #include "app/with_option.h"
+#include "core/compensation/implausible_commands.h"
 #include "core/compensation/postures_table.h"
 #include "core/identification/best_method.h"
 #include "core/improved/predicted_give.h"
@@ -55,15 +56,18 @@ int compensateCampaign(const Arguments& arguments, bool step_given) {
   if (improved && givesFurther(improved->effects)) give = furtherGive(*improved, methods.front());
   const std::vector<CompensatedPosture> rows = compensate(campaign, method.geometry, method.estimate,
                                                           result.frames.tcp_in_flange, asked, {}, give ? &*give : nullptr);
+  std::vector<std::string> cautions = result.cautions;
+  for (std::string& sentence : implausibleCommands(rows)) cautions.push_back(std::move(sentence));
   deliver(
       [&] {
         Json json = compensationJson(campaign, methods.front(), rows);
+        json["cautions"] = cautions;
         if (improved) json = withEffects(std::move(json), *improved, methods);
         return withPreparation(std::move(json), prepared.preparation);
       },
       [&] {
-        return compensationText(campaign, methods.front(), rows) + (improved ? improvedText(*improved, methods) : "") +
-               preparationText(prepared.preparation);
+        return compensationText(campaign, methods.front(), rows, cautions) +
+               (improved ? improvedText(*improved, methods) : "") + preparationText(prepared.preparation);
       },
       arguments.json);
   const bool any = std::any_of(rows.begin(), rows.end(), [](const CompensatedPosture& row) { return row.solved; });

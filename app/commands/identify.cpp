@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <charconv>
@@ -71,6 +72,10 @@ int identifyCampaign(const Arguments& arguments, bool subset_given) {
   if (!arguments.with.empty()) improved = improveModel(prepared.campaign, effectsAsked(prepared, arguments.with), options);
   const Campaign& campaign = improved ? improved->campaign : prepared.campaign;
   const Identification result = improved ? improved->with : identify(campaign, options);
+  if (options.subsets.size >= static_cast<int>(result.cases.size()) && !result.cases.empty()) {
+    throw InputError({"--subset-size"}, std::to_string(options.subsets.size),
+                     fmt::format("expected fewer than the {} postures that identify", result.cases.size()));
+  }
   // With a dozen load steps several times the work of the rest, and only shown where asked for.
   const bool steps_shown = options.all_steps || !arguments.json.empty();
   const StepStudy steps = steps_shown ? studySteps(campaign, options, result) : StepStudy{};

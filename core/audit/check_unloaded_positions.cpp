@@ -63,6 +63,12 @@ AuditCheck positionsCheck(const AbsoluteFit& fit) {
       "of what these leave open)",
       fit.positions, 1e3 * fit.rms_before, 1e3 * fit.rms_after, std::sqrt(fit.chi2 / fit.dof));
   if (*check.value <= *check.limit) return check;
+  if (fit.rms_after > kImpossibleGeometry) {
+    check.verdict = AuditVerdict::fail;
+    check.message +=
+        "; no arm bends so far: units, angles or the tracker's place are wrong in one of the tables";
+    return check;
+  }
   check.verdict = AuditVerdict::warn;
   check.message +=
       "; the swept geometry does not carry over to the postures: joint zeros, gear errors, or the own weight "

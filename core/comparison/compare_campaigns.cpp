@@ -34,6 +34,11 @@ std::vector<std::string> cautionsOf(const Campaign& before_campaign, const Campa
   return cautions;
 }
 
+/// What identification itself cautions of, which ratios and p-values inherit.
+void addCautions(const char* when, const Identification& one, std::vector<std::string>& cautions) {
+  for (const std::string& caution : one.cautions) cautions.push_back(fmt::format("{}: {}", when, caution));
+}
+
 }  // namespace
 
 Comparison compareCampaigns(const Campaign& before_campaign, const Identification& before,
@@ -60,6 +65,8 @@ Comparison compareCampaigns(const Campaign& before_campaign, const Identificatio
     result.reason = result.at_targets.reason + "; " + result.of(result.best()).reason;
   }
   result.cautions = cautionsOf(before_campaign, after_campaign, result);
+  addCautions("before", before, result.cautions);
+  addCautions("after", after, result.cautions);
   return result;
 }
 

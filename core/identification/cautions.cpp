@@ -41,9 +41,10 @@ std::string outlyingCaution(const Campaign& campaign, const Identification& resu
                             campaign.pose_ids[static_cast<std::size_t>(one.posture)], one.rms / kMicrometre,
                             one.others / kMicrometre);
   }
-  return fmt::format("outlying posture{}: {}: the springs of the other postures do not explain {}; {}",
-                     result.outlying.size() == 1 ? "" : "s", postures, result.outlying.size() == 1 ? "it" : "them",
-                     result.robust ? "left out as asked" : "used nevertheless, --robust leaves out");
+  return fmt::format(
+      "outlying posture{}: {}: the springs of the other postures do not explain {}; {}",
+      result.outlying.size() == 1 ? "" : "s", postures, result.outlying.size() == 1 ? "it" : "them",
+      result.robust ? "left out as asked" : "used nevertheless; `identify --robust` leaves out");
 }
 
 void addSweepCautions(const Frames& frames, std::vector<std::string>& cautions) {
@@ -71,7 +72,9 @@ std::vector<std::string> cautionsOf(const Campaign& campaign, const Identificati
   }
   if (method != nullptr) {
     if (!hasPositive(method->estimate)) {
-      cautions.push_back("every stiffness is negative: is the wrench that of the robot on the load, not of the load on the robot?");
+      cautions.push_back(
+          "every stiffness is negative: the wrench may be that of the robot on the load, not of the load on "
+          "the robot");
     }
     if (std::string text = residualCaution(result, *method); !text.empty()) cautions.push_back(std::move(text));
     if (!method->estimate.covariance.allFinite()) {

@@ -92,7 +92,7 @@ std::vector<std::string> actionsOf(const Diagnosis& diagnosis) {
 }
 
 Table classesTable(const Diagnosis& diagnosis) {
-  Table table{"Which effect: candidates, best first",
+  Table table{"Which effect: the verdict's first, then the other candidates, best first",
               {"Effect", "In the verdict", "Fall of BIC", "Shrink held out (%)", "95 % (%)", "Explained (%)"},
               {},
               false,

@@ -59,8 +59,9 @@ void writeShare(const DeflectionAvoided& avoided, const char* place, Out out) {
   fmt::format_to(out, ", {} postures\n", avoided.postures.size());
 }
 
-void writePostures(const DeflectionAvoided& avoided, Out out) {
-  fmt::format_to(out, "  {:<12}{:>14}{:>14}{:>12}\n", "pose", "before (um)", "after (um)", "avoided, %");
+void writePostures(const DeflectionAvoided& avoided, const char* place, Out out) {
+  fmt::format_to(out, "\nThe deflection at {}, posture by posture\n  {:<12}{:>14}{:>14}{:>12}\n", place,
+                 "pose", "before (um)", "after (um)", "avoided, %");
   for (const PostureDeflection& one : avoided.postures) {
     fmt::format_to(out, "  {:<12}{:>14.1f}{:>14.1f}{:>12.1f}\n", one.pose, one.before / kMicrometre,
                    one.after / kMicrometre, 100.0 * one.share());
@@ -86,7 +87,8 @@ std::string comparisonText(const Campaign& before, const Campaign& after, const 
         "  the postures measured in both campaigns, is counted\n");
     if (comparison.judgedAtWrist()) writeShare(comparison.at_wrist, "P_wrist", out);
     writeShare(comparison.at_targets, "the reflectors", out);
-    if (comparison.avoided().available) writePostures(comparison.avoided(), out);
+    if (comparison.avoided().available)
+      writePostures(comparison.avoided(), comparison.judgedAtWrist() ? "P_wrist" : "the reflectors", out);
   }
   for (const UnmatchedPosture& one : comparison.matched.unmatched) {
     fmt::format_to(out, "  {}\n", wrapped(fmt::format("not compared: pose {}: {}", one.pose, one.reason), 4));

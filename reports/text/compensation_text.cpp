@@ -6,10 +6,13 @@
 
 #include "core/input/units.h"
 #include "reports/method_names.h"
+#include "reports/text/wrapped.h"
 
 namespace stiffscope {
 
-std::string compensationText(const Campaign& campaign, Method method, const std::vector<CompensatedPosture>& postures) {
+std::string compensationText(const Campaign& campaign, Method method,
+                             const std::vector<CompensatedPosture>& postures,
+                             const std::vector<std::string>& cautions) {
   std::string text;
   auto out = std::back_inserter(text);
   fmt::format_to(out, "{}: predicted deflection of P_TCP and the commands that cancel it, by {}\n\n", campaign.name,
@@ -31,8 +34,12 @@ std::string compensationText(const Campaign& campaign, Method method, const std:
       fmt::format_to(out, "refused: {}\n", posture.reason);
     }
   }
-  fmt::format_to(out, "\n  Deflection of P_TCP under each row's load; +- is its standard uncertainty (mm, length of the three) from the\n"
-                      "  stiffnesses. Commands are joints 1 to 6.\n");
+  fmt::format_to(out,
+                 "\n  Deflection of P_TCP under each row's load; +- is its standard uncertainty (mm, length "
+                 "of the three) from\n"
+                 "  what was fitted. Commands are joints 1 to 6.\n");
+  for (const std::string& caution : cautions)
+    fmt::format_to(out, "{}\n", wrapped("Caution: " + caution + ".", 2));
   return text;
 }
 

@@ -325,5 +325,16 @@ TEST(SpoiltCampaign, DoesNotComeBackToZero) {
   EXPECT_ONLY(report, {"return_to_zero"});
 }
 
+// Angles that a script wrote in radians under q1_deg..q6_deg.
+TEST(SpoiltCampaign, AnglesInAnotherUnitFail) {
+  const AuditReport report = auditSpoilt([](Campaign& campaign) {
+    for (State& row : campaign.states->rows) row.q *= kDegree;
+  });
+  EXPECT_EQ(report.verdict, AuditVerdict::fail);
+  const AuditCheck& check = checkNamed(report, "unloaded_positions");
+  EXPECT_EQ(check.verdict, AuditVerdict::fail);
+  EXPECT_TRUE(contains(check.message, "units, angles or the tracker's place are wrong")) << check.message;
+}
+
 }  // namespace
 }  // namespace stiffscope

@@ -141,6 +141,16 @@ TEST(Comparison, AnotherPostureOrLoadIsNamed) {
             "left out after: no reflector was read both unloaded and in this load step");
 }
 
+TEST(Comparison, InheritsTheCautionsOfIdentification) {
+  const Campaign clean = day(exampleCompliance(), 1, 0.0, 2, 5e-6);
+  Campaign turned = clean;
+  for (State& row : turned.states->rows) row.wrench_in_cell *= -1.0;
+  EXPECT_TRUE(compared(clean, clean).cautions.empty());
+  const Comparison found = compared(clean, turned);
+  ASSERT_EQ(found.cautions.size(), 1u);
+  EXPECT_EQ(found.cautions[0].rfind("after: every stiffness is negative", 0), 0u) << found.cautions[0];
+}
+
 TEST(Comparison, DifferentMachinesAreNotCompared) {
   Campaign before = day(exampleCompliance(), 1, 0.0, 2, 0.0), after = before;
   after.robot.axes_in_base_at_zero[2].point.x() += 0.2;

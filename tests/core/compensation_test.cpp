@@ -6,6 +6,7 @@
 
 #include "core/comparison/deflection_avoided.h"
 #include "core/compensation/compensate.h"
+#include "core/compensation/implausible_commands.h"
 #include "core/compensation/postures_table.h"
 #include "core/identification/identify.h"
 #include "core/simulation/read_spec.h"
@@ -92,6 +93,21 @@ TEST(Compensate, UncertaintiesAreThoseOfRandomStiffnesses) {
   // A standard deviation of 2000 draws is known to 1.6 %; first order neglects about 1 % of K_c: 6 % in all.
   EXPECT_LT((sd.cwiseQuotient(expected).array() - 1.0).abs().maxCoeff(), 0.06) << sd.transpose() << "\n"
                                                                                << expected.transpose();
+}
+
+// Moments given in Nmm turn joints by tens of degrees; the right ones by hundredths.
+TEST(Compensate, AMomentInNewtonMillimetresIsCautionedOf) {
+  const KnownArm arm;
+  Noise noise(6);
+  PostureToCompensate asked = arm.asked(somePosture(noise));
+  asked.wrench_in_cell.tail<3>() = Eigen::Vector3d(0.0, 0.0, 4.0);
+  EXPECT_TRUE(implausibleCommands({arm.run(asked)}).empty());
+  CompensatedPosture turned = arm.run(asked);
+  ASSERT_TRUE(turned.solved) << turned.reason;
+  turned.commands[5] += 0.1;
+  const std::vector<std::string> sentences = implausibleCommands({turned});
+  ASSERT_EQ(sentences.size(), 1u);
+  EXPECT_NE(sentences[0].find("turn joint 6 by 5."), std::string::npos) << sentences[0];
 }
 
 TEST(Compensate, RefusesWithTheReason) {
