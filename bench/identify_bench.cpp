@@ -43,7 +43,7 @@ void Frames(benchmark::State& state) {
   const Campaign& read = campaign(static_cast<int>(state.range(0)));
   for (auto _ : state) benchmark::DoNotOptimize(settledFrames(read));
 }
-BENCHMARK(Frames)->Apply(sizes);
+BENCHMARK(Frames)->Apply(sizes)->MeasureProcessCPUTime();
 
 /// Complete, Partial and Decoupled Partial Pose with uncertainties, and one subset in place of all.
 void ThreeMethods(benchmark::State& state) {
@@ -53,7 +53,7 @@ void ThreeMethods(benchmark::State& state) {
   options.subsets.sample = 1;
   for (auto _ : state) benchmark::DoNotOptimize(identify(read, options));
 }
-BENCHMARK(ThreeMethods)->Apply(sizes);
+BENCHMARK(ThreeMethods)->Apply(sizes)->MeasureProcessCPUTime();
 
 /// One method from the readings on, in the frames that are settled before: load cases, equations, compliances and their
 /// uncertainty by scatter, K_c neglected. Partial Pose without its calibration, which stands apart.
@@ -70,11 +70,11 @@ void method(benchmark::State& state, Method which) {
   }
 }
 void CompletePose(benchmark::State& state) { method(state, Method::complete_pose); }
-BENCHMARK(CompletePose)->Apply(sizes);
+BENCHMARK(CompletePose)->Apply(sizes)->MeasureProcessCPUTime();
 void PartialPose(benchmark::State& state) { method(state, Method::partial_pose); }
-BENCHMARK(PartialPose)->Apply(sizes);
+BENCHMARK(PartialPose)->Apply(sizes)->MeasureProcessCPUTime();
 void DecoupledPartialPose(benchmark::State& state) { method(state, Method::decoupled_partial_pose); }
-BENCHMARK(DecoupledPartialPose)->Apply(sizes);
+BENCHMARK(DecoupledPartialPose)->Apply(sizes)->MeasureProcessCPUTime();
 
 /// Partial Pose's geometry on the unloaded positions.
 void Calibration(benchmark::State& state) {
@@ -82,7 +82,7 @@ void Calibration(benchmark::State& state) {
   const SettledFrames settled = settleFrames(read, {chosenStep(read, {})}, {});
   for (auto _ : state) benchmark::DoNotOptimize(calibrateGeometry(read, settled.arm.geometry));
 }
-BENCHMARK(Calibration)->Apply(sizes);
+BENCHMARK(Calibration)->Apply(sizes)->MeasureProcessCPUTime();
 
 std::vector<CaseEquations> drawnEquations(int n) {
   std::mt19937_64 random(1);

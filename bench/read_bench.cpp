@@ -87,10 +87,10 @@ void readingCampaign(benchmark::State& state, const fs::path& folder) {
 }
 
 void ReadPostures(benchmark::State& state) { readingCampaign(state, campaigns().postures(state.range(0))); }
-BENCHMARK(ReadPostures)->Arg(100)->Arg(1000)->Arg(10000)->Unit(benchmark::kMillisecond);
+BENCHMARK(ReadPostures)->Arg(100)->Arg(1000)->Arg(10000)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime();
 
 void ReadWristSweep(benchmark::State& state) { readingCampaign(state, campaigns().sweep(state.range(0))); }
-BENCHMARK(ReadWristSweep)->Arg(10000)->Arg(100000)->Arg(1000000)->Unit(benchmark::kMillisecond);
+BENCHMARK(ReadWristSweep)->Arg(10000)->Arg(100000)->Arg(1000000)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime();
 
 void ReadWristSweepByVtk(benchmark::State& state) {
   const fs::path file = campaigns().sweep(state.range(0)) / "wrist_sweep.csv";
@@ -103,7 +103,7 @@ void ReadWristSweepByVtk(benchmark::State& state) {
     benchmark::DoNotOptimize(reader->GetOutput()->GetNumberOfRows());
   });
 }
-BENCHMARK(ReadWristSweepByVtk)->Arg(10000)->Arg(100000)->Arg(1000000)->Unit(benchmark::kMillisecond)->Iterations(1);
+BENCHMARK(ReadWristSweepByVtk)->Arg(10000)->Arg(100000)->Arg(1000000)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()->Iterations(1);
 
 }  // namespace
 
