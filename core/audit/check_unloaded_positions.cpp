@@ -5,6 +5,7 @@
 #include "core/audit/checks.h"
 #include "core/audit/limits.h"
 #include "core/audit/rows.h"
+#include "core/identification/cautions.h"
 #include "core/identification/identifiability.h"
 #include "core/input/units.h"
 
@@ -63,10 +64,11 @@ AuditCheck positionsCheck(const AbsoluteFit& fit) {
       "of what these leave open)",
       fit.positions, 1e3 * fit.rms_before, 1e3 * fit.rms_after, std::sqrt(fit.chi2 / fit.dof));
   if (*check.value <= *check.limit) return check;
-  if (fit.rms_after > kImpossibleGeometry) {
+  if (fit.rms_after > kMissedGeometry) {
     check.verdict = AuditVerdict::fail;
     check.message +=
-        "; no arm bends so far: units, angles or the tracker's place are wrong in one of the tables";
+        "; far more than own weight leaves once it is taken off: units, angles or the tracker's place are wrong in "
+        "one of the tables";
     return check;
   }
   check.verdict = AuditVerdict::warn;

@@ -32,10 +32,6 @@ inline constexpr double kFailArcDeg = 45.0;
 /// (TrustLimits::position, 0.2 mm).
 inline constexpr double kShareOfTolerance = 1.0 / 3.0;
 
-/// Unloaded positions that miss by more, m: ten times the sag of a heavy arm. Angles, units or the tracker's
-/// place are wrong.
-inline constexpr double kImpossibleGeometry = 0.020;
-
 /// A cause is named for a misfit only where it explains more of it than everything else together (in
 /// variance).
 inline constexpr double kExplains = 0.5;

@@ -13,7 +13,6 @@ namespace stiffscope {
 namespace {
 
 constexpr double kAboveNoise = 3.0;
-constexpr double kMissedGeometry = 0.020;  // m
 constexpr double kMostNoise = 0.5;
 
 bool hasPositive(const StiffnessEstimate& estimate) {

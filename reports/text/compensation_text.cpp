@@ -35,9 +35,8 @@ std::string compensationText(const Campaign& campaign, Method method,
     }
   }
   fmt::format_to(out,
-                 "\n  Deflection of P_TCP under each row's load; +- is its standard uncertainty (mm, length "
-                 "of the three) from\n"
-                 "  what was fitted. Commands are joints 1 to 6.\n");
+                 "\n  Deflection of P_TCP under each row's load; +- is its standard uncertainty (mm, length of the "
+                 "three)\n  from the stiffnesses and the effects in the model. Commands are joints 1 to 6.\n");
   for (const std::string& caution : cautions)
     fmt::format_to(out, "{}\n", wrapped("Caution: " + caution + ".", 2));
   return text;
