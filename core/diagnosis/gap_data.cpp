@@ -3,6 +3,8 @@
 #include <Eigen/Dense>
 #include <cmath>
 
+#include "core/diagnosis/position_by_geometry.h"
+
 namespace stiffscope {
 
 namespace {
@@ -38,6 +40,14 @@ Matrix6d sagByBody(const WorkingPoint& at, const ArmState& state) {
     }
   }
   return angles;
+}
+
+/// A^T A, half of it computed.
+Eigen::MatrixXd squareOf(const Eigen::MatrixXd& both) {
+  Eigen::MatrixXd square = Eigen::MatrixXd::Zero(both.cols(), both.cols());
+  square.selfadjointView<Eigen::Lower>().rankUpdate(both.transpose());
+  square.triangularView<Eigen::StrictlyUpper>() = square.transpose();
+  return square;
 }
 
 class Filler {
@@ -231,7 +241,7 @@ class Filler {
     Eigen::MatrixXd both(posture.columns.rows(), posture.columns.cols() + 1);
     both << posture.columns, posture.right;
     noise.matrixL().solveInPlace(both);
-    return both.transpose() * both;
+    return squareOf(both);
   }
 
   void addSweeps() {
@@ -259,7 +269,6 @@ class Filler {
       fillSweep(one, both.middleRows(row, one.position.size()));
       row += one.position.size();
     }
-    addSweepGeometry(rows, both);
     row = 0;
     for (const SweepRows& one : rows) {
       for (const Eigen::Vector3d& point : one.state.points) {
@@ -269,7 +278,7 @@ class Filler {
         row += 3;
       }
     }
-    data_.sweeps.noalias() += both.transpose() * both;
+    data_.sweeps += squareOf(both);
     data_.sweep_rows += total;
   }
 
@@ -303,6 +312,8 @@ class Filler {
   template <class Rows>
   void fillSweep(const SweepRows& one, Rows both) const {
     both.leftCols(6) = one.sag_by_compliance;
+    both.middleCols(data_.layout.geometry, geometrySteps()) =
+        positionByGeometry(state_.geometry, one.state, state_.at.epoch_centre);
     both.middleCols(data_.layout.weights, kBodies) = byJoints(one.state, sagByBody(state_.at, one.state));
     for (std::size_t m = 0; m < input_.models.size(); ++m) {
       const Eigen::MatrixXd columns = input_.models[m].columns(state_.at, {one.state}, 0);
@@ -312,24 +323,6 @@ class Filler {
     right = one.position + one.sag_by_compliance * state_.at.compliance;
     if (now_.in_positions.size() > 0)
       right += both.middleCols(data_.layout.effects, now_.in_positions.size()) * now_.in_positions;
-  }
-
-  void addSweepGeometry(const std::vector<SweepRows>& rows, Eigen::MatrixXd& both) const {
-    for (Eigen::Index k = 0; k < geometrySteps(); ++k) {
-      const Eigen::VectorXd step = kStep * Eigen::VectorXd::Unit(geometrySteps(), k);
-      const LoadingGeometry there = moved(state_.geometry, step, state_.at.epoch_centre);
-      const Eigen::Isometry3d base =
-          state_.geometry.r0_from_loading
-              ? *there.r0_from_loading * state_.geometry.r0_from_loading->inverse() * state_.r0_from_sweeps
-              : state_.r0_from_sweeps;
-      const auto other = sweepRows(input_.campaign, there, base, state_.at);
-      Eigen::Index row = 0;
-      for (std::size_t i = 0; i < rows.size(); ++i) {
-        both.col(data_.layout.geometry + k).segment(row, rows[i].position.size()) =
-            (rows[i].position - other[i].position) / kStep;
-        row += rows[i].position.size();
-      }
-    }
   }
 
   const GapInput& input_;

@@ -1,0 +1,135 @@
+#include "core/diagnosis/position_by_geometry.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+
+#include "core/statics/geometric_stiffness.h"
+#include "metrology/measured_line.h"
+
+namespace stiffscope {
+
+namespace {
+
+constexpr std::size_t kJoints = 6, kStepsPerAxis = 4;
+
+/// A small motion: rotation, and shift of what stands at the origin.
+struct SmallMotion {
+  Eigen::Vector3d rotation = Eigen::Vector3d::Zero(), shift = Eigen::Vector3d::Zero();
+
+  SmallMotion carriedBy(const Eigen::Isometry3d& motion) const {
+    const Eigen::Vector3d turned = motion.linear() * rotation;
+    return {turned, motion.linear() * shift - turned.cross(motion.translation())};
+  }
+  SmallMotion operator-(const SmallMotion& other) const {
+    return {rotation - other.rotation, shift - other.shift};
+  }
+  Eigen::Vector3d at(const Eigen::Vector3d& point) const { return rotation.cross(point) + shift; }
+};
+
+/// The four steps of an axis as motions of it, in the order of GeometrySteps.
+std::array<SmallMotion, kStepsPerAxis> stepsOf(const Line& axis) {
+  Eigen::Vector3d u, v;
+  basisAcross(axis.direction, u, v);
+  const auto tilt = [&](const Eigen::Vector3d& towards) {
+    const Eigen::Vector3d rotation = axis.direction.cross(towards);
+    return SmallMotion{rotation, -rotation.cross(axis.point)};
+  };
+  return {{{Eigen::Vector3d::Zero(), u}, {Eigen::Vector3d::Zero(), v}, tilt(u), tilt(v)}};
+}
+
+/// What each joint carries: mass, and its first moment about the origin.
+struct Carried {
+  std::array<double, kJoints> mass{};
+  std::array<Eigen::Vector3d, kJoints> moment;
+};
+
+Carried carriedBy(const OwnWeight& weight, const ArmPosture& posture) {
+  Carried carried;
+  double mass = 0.0;
+  Eigen::Vector3d moment = Eigen::Vector3d::Zero();
+  for (std::size_t joint = kJoints; joint-- > 0;) {
+    const BodyMass& body = weight.bodies[joint + 1];
+    mass += body.mass_kg;
+    moment += body.mass_kg * (posture.motion[joint + 1] * body.com_in_base_at_zero);
+    carried.mass[joint] = mass;
+    carried.moment[joint] = moment;
+  }
+  return carried;
+}
+
+/// How tau_j = z_j . ((S_j - m_j p_j) x g) changes as axis `moved` does by `own` and all beyond it by `beyond`.
+Vector6d torqueChange(const ArmState& state, const Carried& carried, const Eigen::Vector3d& gravity,
+                      std::size_t moved, const SmallMotion& own, const SmallMotion& beyond) {
+  Vector6d change;
+  for (std::size_t j = 0; j < kJoints; ++j) {
+    const Line& axis = state.axes[j];
+    const std::size_t first = std::max(j, moved);
+    const SmallMotion of_axis = j < moved ? SmallMotion{} : (j == moved ? own : beyond);
+    const Eigen::Vector3d arm = carried.moment[j] - carried.mass[j] * axis.point;
+    const Eigen::Vector3d arm_change = beyond.rotation.cross(carried.moment[first]) +
+                                       carried.mass[first] * beyond.shift -
+                                       carried.mass[j] * of_axis.at(axis.point);
+    change[static_cast<Eigen::Index>(j)] = of_axis.rotation.cross(axis.direction).dot(arm.cross(gravity)) +
+                                           axis.direction.dot(arm_change.cross(gravity));
+  }
+  return change;
+}
+
+/// Joint angles by joint torques where the own weight's own change with the angles is in.
+Matrix6d sagByTorque(const LoadingGeometry& geometry, const ArmState& state) {
+  const Matrix6d compliance = geometry.compliance.asDiagonal();
+  const Matrix6d stiffening = geometricStiffness(state.axes, state.posture, geometry.weight);
+  return compliance * (Matrix6d::Identity() - stiffening * compliance).inverse();
+}
+
+/// Its reflectors where the arm has them, which may be centimetres from where they were read.
+ArmState asModelled(const LoadingGeometry& geometry, const ArmState& state) {
+  ArmState modelled = state;
+  for (std::size_t i = 0; i < state.targets.size(); ++i) {
+    modelled.points[i] =
+        state.posture.motion[6] * *geometry.targets_at_zero[static_cast<std::size_t>(state.targets[i])];
+  }
+  return modelled;
+}
+
+void addAxes(const LoadingGeometry& geometry, const ArmState& state, Eigen::MatrixXd& columns) {
+  const bool sags = geometry.weight.any() && !geometry.compliance.isZero();
+  const Carried carried = carriedBy(geometry.weight, state.posture);
+  Eigen::Matrix<double, 6, GeometrySteps::kAxes> torques;
+  for (std::size_t j = 0; j < kJoints; ++j) {
+    const auto steps = stepsOf(geometry.arm.axes_in_base_at_zero[j]);
+    for (std::size_t k = 0; k < kStepsPerAxis; ++k) {
+      const auto column = static_cast<Eigen::Index>(kStepsPerAxis * j + k);
+      const SmallMotion own = steps[k].carriedBy(state.posture.motion[j]);
+      const SmallMotion beyond = own - steps[k].carriedBy(state.posture.motion[j + 1]);
+      columns.col(column) = byMotion(state, Eigen::Vector3d::Zero(), beyond.rotation, beyond.shift);
+      if (sags) torques.col(column) = torqueChange(state, carried, geometry.weight.gravity_in_base, j, own, beyond);
+    }
+  }
+  if (sags) columns.leftCols<GeometrySteps::kAxes>() += byJoints(state, sagByTorque(geometry, state) * torques);
+}
+
+}  // namespace
+
+Eigen::MatrixXd positionByGeometry(const LoadingGeometry& geometry, const ArmState& state,
+                                   const Eigen::Vector3d& centre) {
+  const Eigen::Vector3d none = Eigen::Vector3d::Zero();
+  Eigen::MatrixXd columns =
+      Eigen::MatrixXd::Zero(state.rows(), GeometrySteps::count(geometry.targets_at_zero.size()));
+  addAxes(geometry, asModelled(geometry, state), columns);
+  if (geometry.r0_from_loading) {
+    for (int k = 0; k < 3; ++k) {
+      const Eigen::Vector3d axis = Eigen::Vector3d::Unit(k);
+      columns.col(GeometrySteps::kAxes + k) = -byMotion(state, centre, axis, none);
+      columns.col(GeometrySteps::kAxes + 3 + k) = -byMotion(state, centre, none, axis);
+    }
+  }
+  for (std::size_t i = 0; i < state.targets.size(); ++i) {
+    columns.block<3, 3>(3 * static_cast<Eigen::Index>(i),
+                        GeometrySteps::kAxes + GeometrySteps::kBase + 3 * state.targets[i]) =
+        state.posture.motion[6].linear();
+  }
+  return columns;
+}
+
+}  // namespace stiffscope
