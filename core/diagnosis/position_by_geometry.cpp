@@ -57,7 +57,8 @@ Carried carriedBy(const OwnWeight& weight, const ArmPosture& posture) {
   return carried;
 }
 
-/// How tau_j = z_j . ((S_j - m_j p_j) x g) changes as axis `moved` does by `own` and all beyond it by `beyond`.
+/// How tau_j = z_j . ((S_j - m_j p_j) x g) changes as axis `moved` does by `own` and all beyond it by
+/// `beyond`.
 Vector6d torqueChange(const ArmState& state, const Carried& carried, const Eigen::Vector3d& gravity,
                       std::size_t moved, const SmallMotion& own, const SmallMotion& beyond) {
   Vector6d change;
@@ -103,10 +104,12 @@ void addAxes(const LoadingGeometry& geometry, const ArmState& state, Eigen::Matr
       const SmallMotion own = steps[k].carriedBy(state.posture.motion[j]);
       const SmallMotion beyond = own - steps[k].carriedBy(state.posture.motion[j + 1]);
       columns.col(column) = byMotion(state, Eigen::Vector3d::Zero(), beyond.rotation, beyond.shift);
-      if (sags) torques.col(column) = torqueChange(state, carried, geometry.weight.gravity_in_base, j, own, beyond);
+      if (sags)
+        torques.col(column) = torqueChange(state, carried, geometry.weight.gravity_in_base, j, own, beyond);
     }
   }
-  if (sags) columns.leftCols<GeometrySteps::kAxes>() += byJoints(state, sagByTorque(geometry, state) * torques);
+  if (sags)
+    columns.leftCols<GeometrySteps::kAxes>() += byJoints(state, sagByTorque(geometry, state) * torques);
 }
 
 }  // namespace

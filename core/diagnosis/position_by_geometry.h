@@ -5,8 +5,8 @@
 
 namespace stiffscope {
 
-/// Derivatives of an unloaded state's absolute positions, modelled less measured, by the geometry's steps: one
-/// row a coordinate of each reflector, one column a step of GeometrySteps.
+/// Derivatives of an unloaded state's absolute positions, modelled less measured, by the geometry's steps:
+/// one row a coordinate of each reflector, one column a step of GeometrySteps.
 ///
 /// In a product of exponentials, moving axis j by a small motion xi moves what is beyond it by
 /// M_{j-1} xi M_{j-1}^-1 - M_j xi M_j^-1, M_b the motion of body b; the base's steps move the readings, the
