@@ -228,8 +228,8 @@ class Decider {
     const double lack = (from_.fit.projection.chi2_none - rules.other_rows) / rules.loading_rows;
     reason = fmt::format(
         "Stiffnesses alone leave {:.1f} um rms per coordinate of the deflection, noise alone {:.1f} um "
-        "(chi2 per equation {:.2f}).",
-        1e6 * from_.gap.before, 1e6 * from_.gap.noise, lack);
+        "(chi2 per equation {:.{}f}).",
+        1e6 * from_.gap.before, 1e6 * from_.gap.noise, lack, lack < 100.0 ? 2 : 0);
     if (decision_.verdict.entries.empty()) {
       reason += fmt::format(
           " No effect passes both limits: a fall of BIC of {:.0f}, {:.1f} um rms after the stiffnesses.",

@@ -19,8 +19,14 @@ constexpr double kMega = 1e-6;  // to 10^6 Nm/rad
 
 std::string inUm(double metres) { return fixed(metres / kMicrometre, 1); }
 
+/// In percent; a gap that more than doubles has no size worth reading.
+std::string shareOf(double shrink, int decimals) {
+  return shrink < -1.0 ? "below −100" : fixed(100.0 * shrink, decimals);
+}
+
 std::string interval(const Shrink& shrink) {
-  return fmt::format("{} to {}", fixed(100.0 * shrink.low, 0), fixed(100.0 * shrink.high, 0));
+  if (shrink.high < -1.0) return "–";
+  return fmt::format("{} to {}", shareOf(shrink.low, 0), shareOf(shrink.high, 0));
 }
 
 /// What is present, with what it means.
@@ -51,17 +57,20 @@ std::string figuresOf(const Diagnosis& diagnosis) {
   if (!named) {
     return fmt::format("The gap is {}\u00a0µm rms per coordinate, {}.", inUm(diagnosis.gap.before), noise);
   }
+  const auto entries = std::count_if(diagnosis.verdict.entries.begin(), diagnosis.verdict.entries.end(),
+                                     [](const VerdictEntry& entry) { return !entry.effects.empty(); });
   return fmt::format(
-      "With it in the model the gap falls from {} to {}\u00a0µm rms per coordinate, {}; on postures that "
+      "With {} in the model the gap falls from {} to {}\u00a0µm rms per coordinate, {}; on postures that "
       "took no part "
       "it shrinks by {}\u00a0% (95\u00a0%: {}\u00a0%).",
-      inUm(diagnosis.gap.before), inUm(diagnosis.gap.after), noise,
+      entries > 1 ? "them" : "it", inUm(diagnosis.gap.before), inUm(diagnosis.gap.after), noise,
       fixed(100.0 * diagnosis.shrink_together.value, 0), interval(diagnosis.shrink_together));
 }
 
 /// What a laboratory can do with the verdict: remedies, each once, and measurements. Rich texts.
 std::vector<std::string> actionsOf(const Diagnosis& diagnosis) {
   std::vector<std::string> actions;
+  const bool several = diagnosis.verdict.entries.size() > 1;
   for (const VerdictEntry& entry : diagnosis.verdict.entries) {
     if (entry.effects.empty()) {
       actions.push_back(
@@ -80,7 +89,8 @@ std::vector<std::string> actionsOf(const Diagnosis& diagnosis) {
               ? fmt::format("If it is {}: {}.",
                             effectName(entry.effects[static_cast<std::size_t>(&remedy - of_class.data())]),
                             remedy)
-              : capitalised(remedy) + ".";
+          : several ? capitalised(effectNames(entry.effects)) + ": " + remedy + "."
+                    : capitalised(remedy) + ".";
       if (std::find(actions.begin(), actions.end(), action) == actions.end()) actions.push_back(action);
     }
   }
@@ -100,8 +110,8 @@ Table classesTable(const Diagnosis& diagnosis) {
   RowGroup group;
   for (const EffectClass& one : diagnosis.classes) {
     group.rows.push_back({Cell(effectNames(one.effects), asIs(shortDetail(one.detail))),
-                          one.in_verdict ? "yes" : "no", fixed(one.score, 0),
-                          fixed(100.0 * one.shrink.value, 1), interval(one.shrink),
+                          one.in_verdict ? "yes" : "no", significant(one.score, 3),
+                          shareOf(one.shrink.value, 1), interval(one.shrink),
                           fixed(100.0 * one.explained, 0)});
   }
   table.groups.push_back(std::move(group));

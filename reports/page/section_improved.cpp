@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "core/improved/effect_nature.h"
@@ -17,40 +18,63 @@ namespace stiffscope::page {
 
 namespace {
 
+/// The power of ten, a multiple of three, that brings a size near one; 0 where it is near enough.
+int powerFor(double size) {
+  constexpr double kLargest = 1e6, kSmallest = 1e-3;
+  if (!(size > 0.0) || !std::isfinite(size) || (size < kLargest && size >= kSmallest)) return 0;
+  return 3 * static_cast<int>(std::floor(std::log10(size) / 3.0));
+}
+
+/// "10⁻⁶".
+std::string powerOfTen(int power) {
+  static constexpr std::array<const char*, 10> kDigits{"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
+  std::string text = power < 0 ? "10⁻" : "10";
+  for (const char digit : std::to_string(std::abs(power))) text += kDigits[static_cast<std::size_t>(digit - '0')];
+  return text;
+}
+
+Row rowOf(const EffectParameter& parameter) {
+  const int power = powerFor(std::max(std::abs(parameter.value), parameter.sd));
+  const double unit = std::pow(10.0, power);
+  return {asIs(parameter.name.empty() ? "size" : parameter.name),
+          withUncertainty(parameter.value / unit, parameter.sd / unit),
+          power == 0 ? parameter.unit : fmt::format("{}\u00a0{}", powerOfTen(power), parameter.unit)};
+}
+
 Table parametersTable(const EffectFit& effects) {
-  Table table{"Effects in the model, fitted jointly with the stiffnesses", {"Effect", "Parameter", "Value", "u", "Unit"}, {}};
+  Table table{"Effects in the model, fitted jointly with the stiffnesses", {"Effect", "Parameter", "Value ± u", "Unit"}, {}};
   table.id = "effects";
   for (const AddedEffect& one : effects.added) {
     RowGroup group{effectName(one.effect), {}};
     for (const EffectParameter& parameter : one.parameters) {
-      group.rows.push_back({asIs(parameter.name.empty() ? "size" : parameter.name), fmt::format("{:.4g}", parameter.value),
-                            fmt::format("{:.2g}", parameter.sd), parameter.unit});
+      group.rows.push_back(rowOf(parameter));
     }
     table.groups.push_back(std::move(group));
   }
   return table;
 }
 
+bool seen(const MethodResult& method, int joint) {
+  return method.available && method.estimate.identifiable[static_cast<std::size_t>(joint)];
+}
+
 Cell stiffnessOf(const MethodResult& method, int joint) {
-  if (!method.available || !method.estimate.identifiable[static_cast<std::size_t>(joint)]) return "–";
+  if (!seen(method, joint)) return "–";
   const double expanded = coverageOf(method.estimate, joint).factor * method.estimate.stiffnessSd(joint);
   return withUncertainty(1e-6 * method.estimate.stiffness(joint), 1e-6 * expanded);
 }
 
 Table stiffnessTable(const ImprovedModel& model) {
-  Table table{"Stiffness k ± U without and with the effects, 10⁶\u00a0Nm/rad", {"Joint"}, {{}}};
+  Table table{"Stiffness k ± U without and with the effects, 10⁶\u00a0Nm/rad", {"Joint", "Method", "Without", "With"}, {}};
   table.id = "effects-stiffness";
-  for (const Method method : kMethods) {
-    table.columns.push_back(shortName(method) + " without");
-    table.columns.push_back(shortName(method) + " with");
-  }
   for (int joint = 0; joint < 6; ++joint) {
-    Row row{jointName(joint)};
+    RowGroup group{jointName(joint), {}};
     for (const Method method : kMethods) {
-      row.push_back(stiffnessOf(model.without.of(method), joint));
-      row.push_back(stiffnessOf(model.with.of(method), joint));
+      const MethodResult &without = model.without.of(method), &with = model.with.of(method);
+      if (seen(without, joint) || seen(with, joint))
+        group.rows.push_back({shortName(method), stiffnessOf(without, joint), stiffnessOf(with, joint)});
     }
-    table.groups.front().rows.push_back(std::move(row));
+    if (!group.rows.empty()) table.groups.push_back(std::move(group));
   }
   return table;
 }

@@ -127,9 +127,9 @@ std::string uncertaintyWords(const Identification& result) {
       if (own.factor > most.factor) most = own;
     }
     if (most.factor == 0.0) continue;
-    const std::string freedom = range(fixed(most.degrees_of_freedom, 1), fixed(least.degrees_of_freedom, 1));
+    const std::string freedom = range(significant(most.degrees_of_freedom, 3), significant(least.degrees_of_freedom, 3));
     factors.push_back(fmt::format("{} for {} ({} degree{} of freedom)", range(fixed(least.factor, 2), fixed(most.factor, 2)),
-                                  shortName(method), freedom, freedom == "1.0" ? "" : "s"));
+                                  shortName(method), freedom, freedom == "1.00" ? "" : "s"));
   }
   if (factors.empty()) return "Too few postures for an uncertainty.";
   return fmt::format(
