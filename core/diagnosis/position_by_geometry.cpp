@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 
+#include "core/diagnosis/rest_state.h"
 #include "core/statics/geometric_stiffness.h"
 #include "metrology/measured_line.h"
 
@@ -76,11 +77,38 @@ Vector6d torqueChange(const ArmState& state, const Carried& carried, const Eigen
   return change;
 }
 
-/// Joint angles by joint torques where the own weight's own change with the angles is in.
-Matrix6d sagByTorque(const LoadingGeometry& geometry, const ArmState& state) {
-  const Matrix6d compliance = geometry.compliance.asDiagonal();
+/// What the effects in the model turn the joints by: by the own weight's torques and by the angles.
+struct TurnSlopes {
+  Matrix6d by_torque = Matrix6d::Zero(), by_angle = Matrix6d::Zero();
+};
+
+/// By differences: play turns by all of it within a small part of the largest torque, however smooth the
+/// rest.
+TurnSlopes turnSlopes(const WorkingPoint& at, const ArmState& state) {
+  TurnSlopes slopes;
+  if (at.turns.empty()) return slopes;
+  constexpr double kTorqueStep = 1e-6, kLeast = 1e-9;  // of the joint's largest torque; Nm
+  constexpr double kAngleStep = 1e-7;                  // rad
+  const Vector6d here = presentTurn(at, state);
+  ArmState there = state;
+  for (Eigen::Index j = 0; j < 6; ++j) {
+    const double step = std::max(kTorqueStep * at.largest_torque[j], kLeast);
+    there.weight_torque[j] += step;
+    slopes.by_torque.col(j) = (presentTurn(at, there) - here) / step;
+    there.weight_torque[j] = state.weight_torque[j];
+    there.turned[j] += kAngleStep;
+    slopes.by_angle.col(j) = (presentTurn(at, there) - here) / kAngleStep;
+    there.turned[j] = state.turned[j];
+  }
+  return slopes;
+}
+
+/// Joint angles by joint torques: d theta = (C + T) (d tau + K_c d theta) + U d theta.
+Matrix6d anglesByTorque(const LoadingGeometry& geometry, const WorkingPoint& at, const ArmState& state) {
+  const TurnSlopes slopes = turnSlopes(at, state);
+  const Matrix6d yielding = Matrix6d(geometry.compliance.asDiagonal()) + slopes.by_torque;
   const Matrix6d stiffening = geometricStiffness(state.axes, state.posture, geometry.weight);
-  return compliance * (Matrix6d::Identity() - stiffening * compliance).inverse();
+  return (Matrix6d::Identity() - yielding * stiffening - slopes.by_angle).partialPivLu().solve(yielding);
 }
 
 /// Its reflectors where the arm has them, which may be centimetres from where they were read.
@@ -93,8 +121,9 @@ ArmState asModelled(const LoadingGeometry& geometry, const ArmState& state) {
   return modelled;
 }
 
-void addAxes(const LoadingGeometry& geometry, const ArmState& state, Eigen::MatrixXd& columns) {
-  const bool sags = geometry.weight.any() && !geometry.compliance.isZero();
+void addAxes(const LoadingGeometry& geometry, const WorkingPoint& at, const ArmState& state,
+             Eigen::MatrixXd& columns) {
+  const bool sags = geometry.weight.any() && !(geometry.compliance.isZero() && at.turns.empty());
   const Carried carried = carriedBy(geometry.weight, state.posture);
   Eigen::Matrix<double, 6, GeometrySteps::kAxes> torques;
   for (std::size_t j = 0; j < kJoints; ++j) {
@@ -109,17 +138,18 @@ void addAxes(const LoadingGeometry& geometry, const ArmState& state, Eigen::Matr
     }
   }
   if (sags)
-    columns.leftCols<GeometrySteps::kAxes>() += byJoints(state, sagByTorque(geometry, state) * torques);
+    columns.leftCols<GeometrySteps::kAxes>() +=
+        byJoints(state, anglesByTorque(geometry, at, state) * torques);
 }
 
 }  // namespace
 
-Eigen::MatrixXd positionByGeometry(const LoadingGeometry& geometry, const ArmState& state,
-                                   const Eigen::Vector3d& centre) {
+Eigen::MatrixXd positionByGeometry(const LoadingGeometry& geometry, const WorkingPoint& at,
+                                   const ArmState& state, const Eigen::Vector3d& centre) {
   const Eigen::Vector3d none = Eigen::Vector3d::Zero();
   Eigen::MatrixXd columns =
       Eigen::MatrixXd::Zero(state.rows(), GeometrySteps::count(geometry.targets_at_zero.size()));
-  addAxes(geometry, asModelled(geometry, state), columns);
+  addAxes(geometry, at, asModelled(geometry, state), columns);
   if (geometry.r0_from_loading) {
     for (int k = 0; k < 3; ++k) {
       const Eigen::Vector3d axis = Eigen::Vector3d::Unit(k);

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "core/diagnosis/arm_geometry.h"
-#include "core/diagnosis/arm_state.h"
+#include "core/diagnosis/effect_model.h"
 
 namespace stiffscope {
 
@@ -10,9 +10,11 @@ namespace stiffscope {
 ///
 /// In a product of exponentials, moving axis j by a small motion xi moves what is beyond it by
 /// M_{j-1} xi M_{j-1}^-1 - M_j xi M_j^-1, M_b the motion of body b; the base's steps move the readings, the
-/// reflectors' steps turn with body 6. The own weight's torques change with axes and bodies, and the sag with
-/// them: d theta = C (I - K_c C)^-1 d tau. What effects in the model do is taken not to change.
-Eigen::MatrixXd positionByGeometry(const LoadingGeometry& geometry, const ArmState& state,
-                                   const Eigen::Vector3d& centre);
+/// reflectors' steps turn with body 6. The own weight's torques tau change with axes and bodies, and with
+/// them the sag and what effects in the model turn the joints by: d theta = (C + T) (d tau + K_c d theta) + U
+/// d theta, T and U the slopes of these turns by torque and angle. What effects move bodies by is taken not
+/// to change.
+Eigen::MatrixXd positionByGeometry(const LoadingGeometry& geometry, const WorkingPoint& at,
+                                   const ArmState& state, const Eigen::Vector3d& centre);
 
 }  // namespace stiffscope

@@ -52,14 +52,19 @@ BodyMotions motionsOf(const WorkingPoint& at, const ArmState& rest) {
 
 }  // namespace
 
+Vector6d presentTurn(const WorkingPoint& at, const ArmState& state) {
+  Vector6d turn = Vector6d::Zero();
+  const PostureStates rest{state};
+  for (const PresentTurn& one : at.turns) turn += one.angles(at, rest, 0) * one.parameters;
+  return turn;
+}
+
 ArmState restState(const LoadingGeometry& geometry, const WorkingPoint& at, const Vector6d& q) {
   ArmState state = stateAt(geometry, q, Vector6d::Zero());
   if (at.turns.empty() && at.motions.empty()) return state;
   constexpr int kRounds = 5;  // torques change with turns and motions by a hundredth with a strong effect
   for (int round = 0; round < kRounds; ++round) {
-    Vector6d turn = Vector6d::Zero();
-    const PostureStates rest{state};
-    for (const PresentTurn& one : at.turns) turn += one.angles(at, rest, 0) * one.parameters;
+    const Vector6d turn = presentTurn(at, state);
     if (at.motions.empty()) {
       state = stateAt(geometry, q, turn);
       continue;

@@ -8,4 +8,7 @@ namespace stiffscope {
 /// the model do under the own weight alone, each computed where the others have left the arm.
 ArmState restState(const LoadingGeometry& geometry, const WorkingPoint& at, const Vector6d& q);
 
+/// Joint angles by which the effects in the model turn the arm where it rests, rad.
+Vector6d presentTurn(const WorkingPoint& at, const ArmState& rest);
+
 }  // namespace stiffscope

@@ -17,7 +17,7 @@ void fill(const GapInput& input, const GapState& state, const ContainedEffects& 
           const SweepRows& one, Rows both) {
   both.leftCols(6) = one.sag_by_compliance;
   both.middleCols(layout.geometry, GeometrySteps::count(input.campaign.targets.size())) =
-      positionByGeometry(state.geometry, one.state, state.at.epoch_centre);
+      positionByGeometry(state.geometry, state.at, one.state, state.at.epoch_centre);
   both.middleCols(layout.weights, kBodies) = sagByBody(state.at, one.state);
   for (std::size_t m = 0; m < input.models.size(); ++m) {
     const Eigen::MatrixXd columns = input.models[m].columns(state.at, {one.state}, 0);

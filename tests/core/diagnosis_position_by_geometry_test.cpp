@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "core/diagnosis/effects/backlash.h"
 #include "core/diagnosis/position_by_geometry.h"
 #include "core/diagnosis/rest_state.h"
 #include "tests/core/chain_arm.h"
@@ -22,8 +23,8 @@ LoadingGeometry placedArm(const ChainArm& chain) {
 
 /// Modelled less measured: `reading` is what the station saw.
 Eigen::VectorXd modelledLessMeasured(const LoadingGeometry& geometry, const Vector6d& q,
-                                     const std::vector<Eigen::Vector3d>& readings) {
-  const ArmState state = restState(geometry, {}, q);
+                                     const std::vector<Eigen::Vector3d>& readings, const WorkingPoint& at) {
+  const ArmState state = restState(geometry, at, q);
   Eigen::VectorXd rows(3 * static_cast<Eigen::Index>(readings.size()));
   for (std::size_t t = 0; t < readings.size(); ++t) {
     rows.segment<3>(3 * static_cast<Eigen::Index>(t)) =
@@ -33,14 +34,15 @@ Eigen::VectorXd modelledLessMeasured(const LoadingGeometry& geometry, const Vect
 }
 
 Eigen::MatrixXd byDifferences(const LoadingGeometry& geometry, const Vector6d& q,
-                              const std::vector<Eigen::Vector3d>& readings, const Eigen::Vector3d& centre) {
+                              const std::vector<Eigen::Vector3d>& readings, const Eigen::Vector3d& centre,
+                              const WorkingPoint& at = {}) {
   constexpr double kStep = 1e-6;
   const Eigen::Index count = GeometrySteps::count(readings.size());
   Eigen::MatrixXd columns(3 * static_cast<Eigen::Index>(readings.size()), count);
   for (Eigen::Index k = 0; k < count; ++k) {
     const Eigen::VectorXd step = kStep * Eigen::VectorXd::Unit(count, k);
-    columns.col(k) = (modelledLessMeasured(moved(geometry, step, centre), q, readings) -
-                      modelledLessMeasured(moved(geometry, -step, centre), q, readings)) /
+    columns.col(k) = (modelledLessMeasured(moved(geometry, step, centre), q, readings, at) -
+                      modelledLessMeasured(moved(geometry, -step, centre), q, readings, at)) /
                      (2.0 * kStep);
   }
   return columns;
@@ -62,13 +64,13 @@ struct Case {
       readings.push_back(geometry.r0_from_loading->inverse() * (state.posture.motion[6] * *own) + kOff);
   }
 
-  Eigen::MatrixXd computed() const {
-    ArmState state = restState(geometry, {}, q);
+  Eigen::MatrixXd computed(const WorkingPoint& at = {}) const {
+    ArmState state = restState(geometry, at, q);
     for (std::size_t t = 0; t < readings.size(); ++t) {
       state.targets.push_back(static_cast<int>(t));
       state.points.push_back(*geometry.r0_from_loading * readings[t]);
     }
-    return positionByGeometry(geometry, state, centre);
+    return positionByGeometry(geometry, at, state, centre);
   }
 };
 
@@ -79,8 +81,8 @@ TEST(PositionByGeometry, OfARigidArmIsTheDifferences) {
   EXPECT_LT((one.computed() - expected).cwiseAbs().maxCoeff(), 2e-9) << one.computed() - expected;
 }
 
-// A soft arm of heavy links, whose joints the own weight turns by some thousandths.
-TEST(PositionByGeometry, OfASaggingArmIsTheDifferences) {
+/// A soft arm of heavy links, whose joints the own weight turns by some thousandths.
+LoadingGeometry heavyArm() {
   LoadingGeometry geometry = placedArm(exampleChain());
   geometry.weight.links_known = true;
   geometry.weight.gravity_in_base = {0.5, -1.0, -9.7};
@@ -89,6 +91,11 @@ TEST(PositionByGeometry, OfASaggingArmIsTheDifferences) {
     geometry.weight.bodies[b] = {60.0 - 8.0 * static_cast<double>(b), {along, 0.1, 1.5 - along}};
   }
   geometry.compliance << 2e-6, 3e-6, 3e-6, 5e-6, 5e-6, 5e-6;
+  return geometry;
+}
+
+TEST(PositionByGeometry, OfASaggingArmIsTheDifferences) {
+  LoadingGeometry geometry = heavyArm();
   const Case one(geometry);
   ASSERT_GT((geometry.sagged(one.q) - one.q).cwiseAbs().maxCoeff(), 1e-3);
   const Eigen::MatrixXd expected = byDifferences(one.geometry, one.q, one.readings, one.centre);
@@ -96,6 +103,25 @@ TEST(PositionByGeometry, OfASaggingArmIsTheDifferences) {
   EXPECT_LT((one.computed() - expected).cwiseAbs().maxCoeff(), 1e-6) << one.computed() - expected;
   geometry.compliance.setZero();
   EXPECT_GT((Case(geometry).computed() - expected).cwiseAbs().maxCoeff(), 1e-4);
+}
+
+// Play of joint 5 passes from side to side where the own weight hardly turns it, so that a small change of its torque
+// turns it by much.
+TEST(PositionByGeometry, WithPlayInTheModelIsTheDifferences) {
+  const LoadingGeometry geometry = heavyArm();
+  const Case one(geometry);
+  const EffectModel model = backlash();
+  WorkingPoint at;
+  at.largest_torque.setConstant(2000.0);
+  Eigen::VectorXd play = Eigen::VectorXd::Zero(7);
+  play[4] = 2e-3;
+  at.play = play.head<6>();
+  at.turns.push_back({model.angles, play});
+  const Eigen::MatrixXd expected = byDifferences(one.geometry, one.q, one.readings, one.centre, at);
+  const double by_play = (expected - byDifferences(one.geometry, one.q, one.readings, one.centre)).cwiseAbs().maxCoeff();
+  ASSERT_GT(by_play, 5e-4);
+  // The sag of restState is that before the play turns the arm: a hundredth of what it changes.
+  EXPECT_LT((one.computed(at) - expected).cwiseAbs().maxCoeff(), 0.02 * by_play);
 }
 
 }  // namespace
