@@ -115,6 +115,9 @@ std::string range(const std::string& low, const std::string& high) {
   return low == high ? low : fmt::format("{} to {}", low, high);
 }
 
+/// One decimal where it matters to Student's t.
+std::string degrees(double of_freedom) { return of_freedom < 100.0 ? fixed(of_freedom, 1) : significant(of_freedom, 3); }
+
 std::string uncertaintyWords(const Identification& result) {
   std::vector<std::string> factors;
   for (const Method method : kMethods) {
@@ -127,9 +130,9 @@ std::string uncertaintyWords(const Identification& result) {
       if (own.factor > most.factor) most = own;
     }
     if (most.factor == 0.0) continue;
-    const std::string freedom = range(significant(most.degrees_of_freedom, 3), significant(least.degrees_of_freedom, 3));
+    const std::string freedom = range(degrees(most.degrees_of_freedom), degrees(least.degrees_of_freedom));
     factors.push_back(fmt::format("{} for {} ({} degree{} of freedom)", range(fixed(least.factor, 2), fixed(most.factor, 2)),
-                                  shortName(method), freedom, freedom == "1.00" ? "" : "s"));
+                                  shortName(method), freedom, freedom == "1.0" ? "" : "s"));
   }
   if (factors.empty()) return "Too few postures for an uncertainty.";
   return fmt::format(
