@@ -51,6 +51,7 @@ class Decider {
   Decision run() {
     nameGeometry();
     nameChosen();
+    rankNamed();
     nameUnknown();
     listOthers();
     explain();
@@ -134,6 +135,18 @@ class Decider {
       decision_.recipes.push_back({chosen});
       if (one.effects.size() > 1) decision_.ties.push_back({i, one.effects});
       named_.insert(named_.end(), one.effects.begin(), one.effects.end());
+    }
+  }
+
+  /// The geometry among the effects by what it matters.
+  void rankNamed() {
+    if (!geometry_named_) return;
+    auto& classes = decision_.classes;
+    auto& entries = decision_.verdict.entries;
+    for (std::size_t at = 0; at + 1 < classes.size() && classes[at].score < classes[at + 1].score; ++at) {
+      std::swap(classes[at], classes[at + 1]);
+      std::swap(entries[at], entries[at + 1]);
+      std::swap(decision_.recipes[at], decision_.recipes[at + 1]);
     }
   }
 

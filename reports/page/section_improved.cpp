@@ -33,8 +33,16 @@ std::string powerOfTen(int power) {
   return text;
 }
 
-Row rowOf(const EffectParameter& parameter) {
-  const int power = powerFor(std::max(std::abs(parameter.value), parameter.sd));
+/// Of all parameters of one unit, so that they can be compared.
+int powerFor(const std::vector<EffectParameter>& parameters, const std::string& unit) {
+  double largest = 0.0;
+  for (const EffectParameter& one : parameters) {
+    if (one.unit == unit) largest = std::max({largest, std::abs(one.value), one.sd});
+  }
+  return powerFor(largest);
+}
+
+Row rowOf(const EffectParameter& parameter, int power) {
   const double unit = std::pow(10.0, power);
   return {asIs(parameter.name.empty() ? "size" : parameter.name),
           withUncertainty(parameter.value / unit, parameter.sd / unit),
@@ -47,7 +55,7 @@ Table parametersTable(const EffectFit& effects) {
   for (const AddedEffect& one : effects.added) {
     RowGroup group{effectName(one.effect), {}};
     for (const EffectParameter& parameter : one.parameters) {
-      group.rows.push_back(rowOf(parameter));
+      group.rows.push_back(rowOf(parameter, powerFor(one.parameters, parameter.unit)));
     }
     table.groups.push_back(std::move(group));
   }
