@@ -236,6 +236,17 @@ TEST(Page, TheDiagnosisSaysWhatToDo) {
   EXPECT_TRUE(has(reportPage(content), "Joint springs are enough for this machine"));
 }
 
+TEST(Page, TheTileCountsOnlyTrustedStiffnesses) {
+  SmallResult small;
+  EXPECT_TRUE(has(reportPage(contentOf(small)), "<b>5 of 6</b><span>joint stiffnesses found by DPP</span>"));
+  small.method(Method::decoupled_partial_pose).estimate.compliance[3] = -4e-6;
+  const std::string page = reportPage(contentOf(small));
+  EXPECT_TRUE(has(page, "<b>4 of 6</b><span>joint stiffnesses found by DPP; k<sub>4</sub> is not to be trusted and not counted</span>"));
+  EXPECT_TRUE(has(page, "k<sub>4</sub> is not to be trusted."));  // the verdict's words
+  small.method(Method::decoupled_partial_pose).estimate.compliance[5] = -4e-6;
+  EXPECT_TRUE(has(reportPage(contentOf(small)), "k<sub>4</sub>, k<sub>6</sub> are not to be trusted."));
+}
+
 TEST(Page, NoMethodAtAll) {
   SmallResult small;
   for (MethodResult& method : small.identification.methods) method = {};
