@@ -5,6 +5,7 @@
 
 #include "reports/page/names.h"
 #include "reports/page/numbers.h"
+#include "reports/page/one_machine.h"
 #include "reports/page/report_id.h"
 #include "reports/page/sections.h"
 #include "reports/page/with_micro.h"
@@ -156,10 +157,13 @@ std::vector<std::string> cautionsOf(const ReportCampaign& one) {
 
 void writeCautions(Html& html, const ReportContent& content) {
   const auto& campaigns = content.campaigns;
+  std::vector<std::string> of_all;
+  for (const std::string& doubt : doubtsOfOneMachine(campaigns)) of_all.push_back(asIs(doubt) + ".");
   const bool any = std::any_of(campaigns.begin(), campaigns.end(),
                                [](const ReportCampaign& one) { return !cautionsOf(one).empty(); });
-  if (!any) return;
+  if (!any && of_all.empty()) return;
   html.paragraph("Before you believe these numbers:");
+  html.list(of_all);
   const auto cautions = html.element("div", {{"class", campaigns.size() > 1 ? "several" : "cautions"}});
   for (const ReportCampaign& one : campaigns) {
     const auto column = html.element("div");

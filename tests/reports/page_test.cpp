@@ -297,6 +297,19 @@ TEST(Avoided, NeedsBothStatesAndACommonPosture) {
   EXPECT_FALSE(has(verdictOf(content.campaigns, content.avoided), "avoid"));
 }
 
+TEST(Page, CampaignsOfDifferentMachinesAreNamed) {
+  const SmallResult one;
+  SmallResult other(DoubleEncoder::inactive);
+  ReportContent content = contentOf(one);
+  content.campaigns.push_back({other.campaign, other.identification});
+  EXPECT_FALSE(has(reportPage(content), "the URDFs"));
+  other.campaign.robot.name = "a <second> arm";
+  EXPECT_TRUE(has(reportPage(content), "<li>small and small: the URDFs name different machines: "));
+  EXPECT_TRUE(has(reportPage(content), "a &lt;second&gt; arm."));
+  other.campaign.robot.axes_in_base_at_zero[2].point.x() += 0.2;
+  EXPECT_TRUE(has(reportPage(content), "the URDFs describe different machines: axis 3 stands 200.0 mm elsewhere."));
+}
+
 TEST(Page, ARealCampaignWithoutWrist) {
   const std::filesystem::path folder = STIFFSCOPE_SHARED_DIR "/real/fanuc-r2000ic-cable";
   if (!std::filesystem::exists(folder)) GTEST_SKIP() << "the campaigns at hand are not here";
