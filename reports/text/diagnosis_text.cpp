@@ -52,7 +52,7 @@ void writeTables(const std::vector<WhereTable>& tables, const char* title, Out o
 }
 
 void writeStiffnesses(const Diagnosis& diagnosis, Out out) {
-  fmt::format_to(out, "\nStiffness, 1e6 Nm/rad      before     after        sd\n");
+  fmt::format_to(out, "\nStiffness, 1e6 Nm/rad      before     after         u  (all load steps together; one standard uncertainty)\n");
   for (int j = 0; j < 6; ++j) {
     if (!diagnosis.identifiable[static_cast<std::size_t>(j)]) {
       fmt::format_to(out, "  joint {}           not identifiable\n", j + 1);

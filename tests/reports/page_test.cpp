@@ -227,6 +227,7 @@ TEST(Page, TheDiagnosisSaysWhatToDo) {
   const std::string page = reportPage(content);
   EXPECT_TRUE(has(page, "Besides joint springs the readings show load cell bias (see What the model misses)."));
   EXPECT_TRUE(has(page, "load cell bias: a constant force is added to the loaded readings"));
+  EXPECT_TRUE(has(page, "its u is one standard uncertainty by weights of the noise"));
   EXPECT_TRUE(has(page, "<li>Tare the cell with nothing hanging"));
   EXPECT_TRUE(has(page, "<li>To tell load cell bias and hysteresis apart, measure a posture"));
   EXPECT_TRUE(has(page, "Stiffnesses alone leave 30.0 µm rms"));
