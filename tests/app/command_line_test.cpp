@@ -92,6 +92,20 @@ TEST(CommandLine, OneMethodAloneAndAnotherStep) {
   EXPECT_TRUE(json["methods"].contains("pp"));
 }
 
+TEST(CommandLine, SimulateNamesJointsThatItTakesAsRigid) {
+  const ScratchFolder scratch;
+  std::string spec = contentsOf(STIFFSCOPE_SOURCE_DIR "/samples/active.xml");
+  const auto joint = spec.find("<joint index=\"4\"");
+  ASSERT_NE(joint, std::string::npos);
+  spec.erase(joint, spec.find("/>", joint) + 2 - joint);
+  std::ofstream(scratch.path() / "spec.xml") << spec;
+  std::filesystem::copy(STIFFSCOPE_SOURCE_DIR "/samples/m900ib700.urdf", scratch.path() / "m900ib700.urdf");
+  const Ran ran = runProgram("simulate '" + (scratch.path() / "spec.xml").string() + "' --out '" +
+                                 (scratch.path() / "day").string() + "'", scratch.path());
+  EXPECT_EQ(ran.status, 0) << ran.err;
+  EXPECT_NE(ran.err.find("spec.xml: joints: no stiffness_nm_per_rad for joint 4: taken as rigid"), std::string::npos) << ran.err;
+}
+
 TEST(CommandLine, CompensateTakesPosturesFromAFile) {
   const ScratchFolder scratch;
   const std::filesystem::path file = scratch.path() / "postures.csv";
