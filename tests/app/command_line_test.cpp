@@ -27,6 +27,10 @@ TEST(CommandLine, WrongWordsGetTheNearestKnownOneAndStatusTwo) {
       {"identify x --method dppp", "did you mean 'dpp'?"},
       {"identify", "CAMPAIGN"},
       {"identify nowhere", "expected a campaign folder"},
+      {"compensate x --step all", "--step: 'all': expected the number of one load step"},
+      {"identify x --step most", "--step: 'most': expected a load step's number, or all"},
+      {"identify '" STIFFSCOPE_SOURCE_DIR "/samples/active/loading.csv'", "give the folder that holds this file"},
+      {"fit plane x --strategy full", "--strategy: 'full': expected with circle only"},
   };
   for (const auto& [words, hint] : cases) {
     const Ran ran = runProgram(words, scratch.path());
