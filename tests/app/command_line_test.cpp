@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
+#include <regex>
 
 #include "tests/app/command.h"
 
@@ -154,6 +155,13 @@ TEST(CommandLine, NegativeStiffnessesAreNotASuccess) {
   const Ran ran = runProgram("identify '" + campaign.string() + "'", scratch.path());
   EXPECT_EQ(ran.status, 1);
   EXPECT_NE(ran.out.find("every stiffness is negative"), std::string::npos) << ran.out;
+}
+
+TEST(CommandLine, WhatRoundsToZeroHasNoSign) {
+  const ScratchFolder scratch;
+  const std::string text = runProgram("frames '" + kActive + "'", scratch.path()).out;
+  EXPECT_NE(text.find(" 0.000000"), std::string::npos) << text;
+  EXPECT_FALSE(std::regex_search(text, std::regex("-0\\.0+[^0-9]"))) << text;
 }
 
 }  // namespace
