@@ -157,6 +157,13 @@ TEST(CommandLine, NegativeStiffnessesAreNotASuccess) {
   EXPECT_NE(ran.out.find("every stiffness is negative"), std::string::npos) << ran.out;
 }
 
+TEST(CommandLine, ConditionNumbersSayOfWhat) {
+  const ScratchFolder scratch;
+  const std::string text = runProgram("identify '" + kActive + "' --method dpp --postures", scratch.path()).out;
+  EXPECT_NE(text.find("condition: condition number of the method's equations"), std::string::npos) << text;
+  EXPECT_NE(text.find("kappa: condition number of the posture's Jacobian"), std::string::npos) << text;
+}
+
 TEST(CommandLine, WhatRoundsToZeroHasNoSign) {
   const ScratchFolder scratch;
   const std::string text = runProgram("frames '" + kActive + "'", scratch.path()).out;
