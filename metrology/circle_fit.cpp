@@ -2,6 +2,7 @@
 
 #include "metrology/circle_start.h"
 #include "metrology/finish_fit.h"
+#include "metrology/least_readings.h"
 #include "metrology/plane_first_circle.h"
 
 namespace stiffscope {
@@ -67,7 +68,9 @@ void refuseWhatIsNotSignificant(FittedCircle& fit) {
 FittedCircle fitCircle(const MeasuredPoints& points, CircleStrategy strategy) {
   const LocalPoints local = localPoints(&points, 1);
   FittedCircle fit;
-  if (local.flaw.empty() && !flatEnough(local)) {
+  if (std::string few = tooFewReadings(3, points.points.size()); !few.empty()) {
+    fit.reason = std::move(few);
+  } else if (local.flaw.empty() && !flatEnough(local)) {
     fit.reason = "the normal is undetermined: the readings lie on one line within their scatter";
   } else if (local.flaw.empty()) {
     fit = strategy == CircleStrategy::full ? fitInSpace(local) : fitPlaneFirst(local);

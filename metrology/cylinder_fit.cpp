@@ -4,6 +4,7 @@
 
 #include "metrology/cylinder_starts.h"
 #include "metrology/finish_fit.h"
+#include "metrology/least_readings.h"
 
 namespace stiffscope {
 
@@ -86,17 +87,14 @@ FittedCylinder fitCylinder(const MeasuredPoints& points) {
   FittedCylinder fit;
   fit.method = "orthogonal distances, Gauss-Newton from each algebraic minimum, the least sum";
   const LocalPoints local = localPoints(&points, 1);
-  fit.reason = local.flaw;
+  fit.reason = tooFewReadings(5, points.points.size());
+  if (fit.reason.empty()) fit.reason = local.flaw;
   if (!fit.reason.empty()) return fit;
   const PrincipalAxes axes = principalAxes(local);
   if (!spreads(axes.spread[0], axes.spread[2], local)) {
     fit.reason = spreads(axes.spread[1], axes.spread[2], local)
                      ? "the axis is undetermined: the readings lie in one plane"
                      : "the axis is undetermined: the readings lie on one line";
-    return fit;
-  }
-  if (points.points.size() < 5) {
-    fit.reason = "fewer than five readings leave the axis undetermined";
     return fit;
   }
   const std::vector<CylinderEstimate> minima = localMinima(local);

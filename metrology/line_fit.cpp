@@ -1,5 +1,6 @@
 #include "metrology/line_fit.h"
 
+#include "metrology/least_readings.h"
 #include "metrology/line_model.h"
 
 namespace stiffscope {
@@ -8,7 +9,8 @@ FittedLine fitLine(const MeasuredPoints& points) {
   FittedLine fit;
   fit.method = "orthogonal distances, Gauss-Newton from the first principal axis";
   const LocalPoints local = localPoints(&points, 1);
-  fit.reason = local.flaw;
+  fit.reason = tooFewReadings(2, points.points.size());
+  if (fit.reason.empty()) fit.reason = local.flaw;
   if (!fit.reason.empty()) return fit;
   const PrincipalAxes axes = principalAxes(local);
   if (!standsOut(axes.spread[2], axes.spread[1], local.count())) {

@@ -1,5 +1,6 @@
 #include "metrology/plane_fit.h"
 
+#include "metrology/least_readings.h"
 #include "metrology/plane_model.h"
 
 namespace stiffscope {
@@ -8,7 +9,8 @@ FittedPlane fitPlane(const MeasuredPoints& points) {
   FittedPlane fit;
   fit.method = "orthogonal distances, Gauss-Newton from the last principal axis";
   const LocalPoints local = localPoints(&points, 1);
-  fit.reason = local.flaw;
+  fit.reason = tooFewReadings(3, points.points.size());
+  if (fit.reason.empty()) fit.reason = local.flaw;
   if (!fit.reason.empty()) return fit;
   const PrincipalAxes axes = principalAxes(local);
   if (!spreads(axes.spread[1], axes.spread[2], local)) {

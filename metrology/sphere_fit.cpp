@@ -5,6 +5,7 @@
 
 #include "metrology/algebraic_centre.h"
 #include "metrology/finish_fit.h"
+#include "metrology/least_readings.h"
 #include "metrology/sphere_model.h"
 
 namespace stiffscope {
@@ -75,7 +76,8 @@ FittedSphere fitSphere(const MeasuredPoints& points) {
   FittedSphere fit;
   fit.method = "orthogonal distances, Gauss-Newton from Taubin's sphere";
   const LocalPoints local = localPoints(&points, 1);
-  fit.reason = local.flaw;
+  fit.reason = tooFewReadings(4, points.points.size());
+  if (fit.reason.empty()) fit.reason = local.flaw;
   if (!fit.reason.empty()) return fit;
   const auto start = spheresStart(local, fit.reason);
   if (!start) {

@@ -27,7 +27,9 @@ void addAudit(CLI::App& app, Run& run) {
       AuditReport report = audit(campaign);
       DiagnoseOptions design;  // what could be told apart is asked, not what is there
       design.resamples = design.chance_draws = 0;
-      if (whatLoadsLack(campaign).empty()) addSeparableEffects(diagnose(campaign, design), report);
+      // With a unit wrong nothing could be told apart, and the search would not settle for a minute.
+      const bool worth_asking = whatLoadsLack(campaign).empty() && !findsTheImpossible(report);
+      if (worth_asking) addSeparableEffects(diagnose(campaign, design), report);
       deliver([&] { return auditJson(campaign, report); }, [&] { return auditText(campaign, report); },
               arguments->json);
       return report.verdict == AuditVerdict::fail ? kNotUsable : kDone;

@@ -4,6 +4,7 @@
 #include "app/command.h"
 #include "app/output.h"
 #include "app/prepared.h"
+#include "app/step_option.h"
 #include "core/comparison/compare_campaigns.h"
 #include "reports/json/comparison_json.h"
 #include "reports/json/preparation_json.h"
@@ -15,19 +16,18 @@ namespace stiffscope {
 namespace {
 
 struct Arguments {
-  std::string before, after, json;
-  int step = 0;
+  std::string before, after, json, step;
   bool neglect_kc = false, raw = false;
   BootstrapOptions bootstrap;
 };
 
-int compareTwo(const Arguments& arguments, bool step_given) {
+int compareTwo(const Arguments& arguments) {
+  IdentifyOptions options;
+  options.step = loadStepNamed(arguments.step);
+  options.finite_deflection = !arguments.neglect_kc;
   const PreparedCampaign prepared_before = openPrepared(arguments.before, arguments.raw);
   const PreparedCampaign prepared_after = openPrepared(arguments.after, arguments.raw);
   const Campaign &before = prepared_before.campaign, &after = prepared_after.campaign;
-  IdentifyOptions options;
-  if (step_given) options.step = arguments.step;
-  options.finite_deflection = !arguments.neglect_kc;
   const Comparison comparison = compareCampaigns(before, identify(before, options), after,
                                                  identify(after, options), arguments.bootstrap);
   deliver(
@@ -56,15 +56,14 @@ void addCompare(CLI::App& app, Run& run) {
       ->required();
   command->add_option("AFTER", arguments->after, "campaign after, or with the double encoders active")
       ->required();
-  const CLI::Option* step =
-      command->add_option("--step", arguments->step, "load step of both to identify from");
+  command->add_option("--step", arguments->step, "load step of both to identify from");
   command->add_flag("--neglect-kc", arguments->neglect_kc, "neglect K_c, as the paper does");
   addRawOption(*command, arguments->raw);
   command->add_option("--seed", arguments->bootstrap.seed, "of the bootstrap over postures")
       ->capture_default_str();
   command->add_option("--json", arguments->json, "write the result to this file, - for standard output");
-  command->callback([arguments, step, &run] {
-    run = [arguments, step_given = step->count() > 0] { return compareTwo(*arguments, step_given); };
+  command->callback([arguments, &run] {
+    run = [arguments] { return compareTwo(*arguments); };
   });
 }
 

@@ -6,6 +6,7 @@
 #include "app/method_option.h"
 #include "app/output.h"
 #include "app/prepared.h"
+#include "app/step_option.h"
 #include "app/with_option.h"
 #include "core/compensation/implausible_commands.h"
 #include "core/compensation/postures_table.h"
@@ -25,19 +26,18 @@ namespace stiffscope {
 namespace {
 
 struct Arguments {
-  std::string campaign, postures, json, method;
-  int step = 0;
+  std::string campaign, postures, json, method, step;
   bool raw = false;
   std::vector<std::string> with;
 };
 
-int compensateCampaign(const Arguments& arguments, bool step_given) {
+int compensateCampaign(const Arguments& arguments) {
   std::vector<Method> methods;
   if (!arguments.method.empty()) methods = methodsNamed(arguments.method);
   if (methods.size() > 1) throw InputError({"--method"}, arguments.method, "expected one of cp, pp or dpp");
-  const PreparedCampaign prepared = openPrepared(arguments.campaign, arguments.raw);
   IdentifyOptions options;
-  if (step_given) options.step = arguments.step;
+  options.step = loadStepNamed(arguments.step);
+  const PreparedCampaign prepared = openPrepared(arguments.campaign, arguments.raw);
   std::optional<ImprovedModel> improved;
   if (!arguments.with.empty()) improved = improveModel(prepared.campaign, effectsAsked(prepared, arguments.with), options);
   const Campaign& campaign = improved ? improved->campaign : prepared.campaign;
@@ -85,12 +85,12 @@ void addCompensate(CLI::App& app, Run& run) {
                       "CSV with pose, q1_deg..q6_deg and the load-cell reading fx_n..mz_nm expected there; without it the "
                       "campaign's own");
   command->add_option("--method", arguments->method, "cp, pp or dpp; without it the best that is available, dpp first");
-  const CLI::Option* step = command->add_option("--step", arguments->step, "load step to identify from");
+  command->add_option("--step", arguments->step, "load step to identify from");
   addWithOption(*command, arguments->with);
   addRawOption(*command, arguments->raw);
   command->add_option("--json", arguments->json, "write the result to this file, - for standard output");
-  command->callback([arguments, step, &run] {
-    run = [arguments, step_given = step->count() > 0] { return compensateCampaign(*arguments, step_given); };
+  command->callback([arguments, &run] {
+    run = [arguments] { return compensateCampaign(*arguments); };
   });
 }
 

@@ -50,7 +50,7 @@ ShapeFit fitShape(const std::string& shape, CircleStrategy strategy, const Measu
 
 void addFit(CLI::App& app, Run& run) {
   struct Arguments {
-    std::string shape, file, json, strategy = "full";
+    std::string shape, file, json, strategy;
     bool robust = false;
   };
   const auto arguments = std::make_shared<Arguments>();
@@ -62,20 +62,22 @@ void addFit(CLI::App& app, Run& run) {
                    "points, x y z a line; a first line with only their count is accepted")
       ->required();
   command->add_option("--strategy", arguments->strategy,
-                      "of a circle: full (distances in space) or plane-first (a plane, then a circle in it)");
+                      "of a circle: full (distances in space; without it this) or plane-first (a plane, then a circle in it)");
   command->add_flag("--robust", arguments->robust,
                     "leave out and list the readings that the others contradict (Baarda's w-test)");
   command->add_option("--json", arguments->json, "write the result to this file, - for standard output");
   command->callback([arguments, &run] {
     run = [arguments] {
       requireKnown("SHAPE", arguments->shape, kShapes);
-      requireKnown("--strategy", arguments->strategy, kStrategies);
-      if (arguments->shape != "circle" && arguments->strategy != "full") {
-        throw InputError({"--strategy"}, arguments->strategy,
-                         "expected with circle only: other shapes have no second one");
+      if (!arguments->strategy.empty()) {
+        requireKnown("--strategy", arguments->strategy, kStrategies);
+        if (arguments->shape != "circle") {
+          throw InputError({"--strategy"}, arguments->strategy,
+                           "expected with circle only: other shapes have no second one");
+        }
       }
       const auto strategy =
-          arguments->strategy == "full" ? CircleStrategy::full : CircleStrategy::plane_first;
+          arguments->strategy == "plane-first" ? CircleStrategy::plane_first : CircleStrategy::full;
       const ShapeFit fitted =
           fitShape(arguments->shape, strategy, {readPoints(arguments->file), {}}, arguments->robust);
       deliver([&] { return fitJson(fitted); }, [&] { return fitText(fitted); }, arguments->json);

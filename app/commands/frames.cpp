@@ -1,4 +1,5 @@
 #include <CLI/CLI.hpp>
+#include <cstdio>
 #include <memory>
 
 #include "app/command.h"
@@ -29,7 +30,11 @@ void addFrames(CLI::App& app, Run& run) {
       const Frames frames = settledFrames(campaign);
       deliver([&] { return withPreparation(framesJson(campaign, frames), prepared.preparation); },
               [&] { return framesText(campaign, frames) + preparationText(prepared.preparation); }, arguments->json);
-      return frames.arm.points_placed ? kDone : kNotUsable;
+      if (frames.arm.points_placed) return kDone;
+      const MeasuredAxis& missing = frames.axes[0].measured ? frames.axes[1] : frames.axes[0];
+      std::fprintf(stderr, "stiffscope: %s: no frame is measured: R0 needs sweeps of axes 1 and 2 (`circle_sweeps`): %s\n",
+                   arguments->campaign.c_str(), missing.reason.c_str());
+      return kNotUsable;
     };
   });
 }

@@ -2,13 +2,13 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <charconv>
 #include <memory>
 
 #include "app/command.h"
 #include "app/method_option.h"
 #include "app/output.h"
 #include "app/prepared.h"
+#include "app/step_option.h"
 #include "app/with_option.h"
 #include "core/identification/by_step.h"
 #include "core/identification/cautions.h"
@@ -36,13 +36,7 @@ struct Arguments {
 IdentifyOptions optionsOf(const Arguments& arguments, bool subset_given) {
   IdentifyOptions options;
   options.all_steps = arguments.step == "all";
-  if (!arguments.step.empty() && !options.all_steps) {
-    int step = 0;
-    const char* end = arguments.step.data() + arguments.step.size();
-    const auto read = std::from_chars(arguments.step.data(), end, step);
-    if (read.ec != std::errc() || read.ptr != end) throw InputError({"--step"}, arguments.step, "expected a load step's number, or all");
-    options.step = step;
-  }
+  if (!options.all_steps) options.step = loadStepNamed(arguments.step, ", or all");
   options.finite_deflection = !arguments.neglect_kc;
   options.robust = arguments.robust;
   if (subset_given && arguments.subset_size < 1) {

@@ -13,6 +13,7 @@
 #include "app/output.h"
 #include "app/prepared.h"
 #include "app/report_files.h"
+#include "app/step_option.h"
 #include "app/versions.h"
 #include "app/with_option.h"
 #include "core/audit/audit.h"
@@ -31,8 +32,7 @@ namespace {
 
 struct Arguments {
   std::vector<std::string> campaigns;
-  std::string out;
-  int step = 0;
+  std::string out, step;
   bool neglect_kc = false, paper = false, raw = false;
   std::vector<std::string> with;
 };
@@ -100,9 +100,9 @@ void addImproved(const std::vector<std::string>& words, const std::list<Result>&
   }
 }
 
-int writeReport(const Arguments& arguments, bool step_given) {
+int writeReport(const Arguments& arguments) {
   IdentifyOptions options;
-  if (step_given) options.step = arguments.step;
+  options.step = loadStepNamed(arguments.step);
   options.finite_deflection = !arguments.neglect_kc;
   std::list<Result> results;  // a list: the content refers to its elements
   ReportContent content;
@@ -139,13 +139,13 @@ void addReport(CLI::App& app, Run& run) {
       ->required()
       ->expected(1, 8);
   command->add_option("--out", arguments->out, "folder for report.html, results.json, the pictures and the tables as CSV")->required();
-  const CLI::Option* step = command->add_option("--step", arguments->step, "load step to identify from");
+  command->add_option("--step", arguments->step, "load step to identify from");
   command->add_flag("--neglect-kc", arguments->neglect_kc, "neglect K_c, as the paper does");
   addWithOption(*command, arguments->with);
   addRawOption(*command, arguments->raw);
   command->add_flag("--paper", arguments->paper, "put the figures of Ambiehl et al. (IROS 2017) beside these");
-  command->callback([arguments, step, &run] {
-    run = [arguments, step_given = step->count() > 0] { return writeReport(*arguments, step_given); };
+  command->callback([arguments, &run] {
+    run = [arguments] { return writeReport(*arguments); };
   });
 }
 

@@ -1,3 +1,6 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>
@@ -21,6 +24,11 @@ void addSimulate(CLI::App& app, Run& run) {
   command->callback([arguments, &run] {
     run = [arguments] {
       const SimulationSpec spec = readSimulationSpec(arguments->spec);
+      const std::vector<int> rigid = rigidJoints(spec);
+      if (!rigid.empty()) {
+        printWarnings({fmt::format("{}: joints: no stiffness_nm_per_rad for joint{} {}: taken as rigid", arguments->spec,
+                                   rigid.size() == 1 ? "" : "s", fmt::join(rigid, ", "))});
+      }
       writeCampaign(simulate(spec), spec.urdf_file, arguments->out);
       std::printf("%s: campaign written\n", arguments->out.c_str());
       return kDone;

@@ -13,10 +13,10 @@ namespace {
 using Check = Findings (*)(const Evidence&);
 
 /// In the order in which the day goes, which is that of the report.
-constexpr std::array<Check, 14> kAllChecks{
-    checkTimeOrder,    checkCompleteness,   checkRepeatability,   checkRigidTool, checkNests,
-    checkCircleSweeps, checkCircleResidual, checkSweptReflectors, checkWrist,     checkUnloadedPositions,
-    checkServo,        checkReturnToZero,   checkLoadCell,        checkPostureSet};
+constexpr std::array<Check, 16> kAllChecks{
+    checkTimeOrder,      checkCompleteness,    checkRepeatability, checkRigidTool,   checkNests,    checkCircleSweeps,
+    checkCircleResidual, checkSweptReflectors, checkLinkLengths,   checkWrist,       checkUnloadedPositions,
+    checkServo,          checkReturnToZero,    checkLoadCell,      checkLoadSize,    checkPostureSet};
 
 AuditVerdict worst(const std::vector<AuditCheck>& checks) {
   const auto any = [&](AuditVerdict verdict) {
@@ -49,6 +49,10 @@ AuditReport audit(const Campaign& campaign) {
   }
   report.verdict = worst(report.checks);
   return report;
+}
+
+bool findsTheImpossible(const AuditReport& report) {
+  return std::any_of(report.checks.begin(), report.checks.end(), [](const AuditCheck& one) { return one.impossible; });
 }
 
 }  // namespace stiffscope

@@ -22,6 +22,8 @@ struct AuditCheck {
   std::string limit_source;  ///< where the limit comes from, in words
   std::vector<std::string>
       details;  ///< more to know, a sentence each: joint by joint where a check is of several
+  /// No machine is like that: a unit or a table is wrong, and nothing computed from the readings means anything.
+  bool impossible = false;
 };
 
 /// A reading that should not be used, and why.
@@ -47,5 +49,8 @@ struct AuditReport {
 /// for the same reason repeats that scatter by more than is declared replace the declared noise in the other
 /// checks.
 AuditReport audit(const Campaign& campaign);
+
+/// Whether some check found what cannot be.
+bool findsTheImpossible(const AuditReport& report);
 
 }  // namespace stiffscope

@@ -113,6 +113,12 @@ AuditCheck leverCheck(const Evidence& evidence) {
       "moments are those of the force at ({:.1f}, {:.1f}, {:.1f}) mm from the cell's point, but for "
       "{:.2f} Nm rms",
       1e3 * fit.lever.x(), 1e3 * fit.lever.y(), 1e3 * fit.lever.z(), fit.rms);
+  if (fit.lever.norm() > kLongestLever) {
+    check.verdict = AuditVerdict::fail;
+    check.impossible = true;
+    check.message += ": no tool is that long, forces (kN for N) or moments (N mm for Nm) are in another unit";
+    return check;
+  }
   if (*check.value <= *check.limit && fit.worst_chi2 <= fit.worst_limit) return check;
   check.verdict = fit.chi2 / fit.dof > kFailVarianceRatio ? AuditVerdict::fail : AuditVerdict::warn;
   check.where = rowName(evidence.campaign.states->file, fit.worst_line);

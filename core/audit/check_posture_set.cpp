@@ -31,7 +31,7 @@ Findings checkPostureSet(const Evidence& evidence) {
       judgeJoints(arm.geometry, arm.cases, *evidence.campaign.load_cell, equations);
   AuditCheck check;
   check.id = "posture_set";
-  check.unit = "condition";
+  check.unit = "condition number";
   check.limit = audit_limits::kCondition;
   check.limit_source = "calibration practice: condition number, columns of unit length, below 100";
   std::vector<std::string> seen, reasons;
@@ -55,7 +55,7 @@ Findings checkPostureSet(const Evidence& evidence) {
   }
   check.value = partialPose(equations, judged.mask()).condition;
   check.message =
-      fmt::format("{} postures at load step {} identify joints {} with a condition number of {:.3g}{}",
+      fmt::format("{} postures at load step {} identify joints {} with a condition number of {:.3g} of their equations{}",
                   arm.cases.size(), *evidence.step, fmt::join(seen, ", "), *check.value, why);
   if (*check.value > *check.limit || expected_missing) check.verdict = AuditVerdict::warn;
   return {check};

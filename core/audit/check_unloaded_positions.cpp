@@ -66,6 +66,7 @@ AuditCheck positionsCheck(const AbsoluteFit& fit) {
   if (*check.value <= *check.limit) return check;
   if (fit.rms_after > kMissedGeometry) {
     check.verdict = AuditVerdict::fail;
+    check.impossible = true;
     check.message +=
         "; far more than own weight leaves once it is taken off: units, angles or the tracker's place are wrong in "
         "one of the tables";

@@ -38,6 +38,10 @@ Findings checkCircleResidual(const Evidence& evidence);
 /// axis_agreement, reflector_on_axis: what each reflector says of the axes it turns about.
 Findings checkSweptReflectors(const Evidence& evidence);
 
+/// link_lengths: the measured distances between axes against the URDF's. Fails beyond kMissedGeometry: no machine is
+/// built so far off its drawing.
+Findings checkLinkLengths(const Evidence& evidence);
+
 /// wrist_sphere, wrist_axes_meet.
 Findings checkWrist(const Evidence& evidence);
 
@@ -52,6 +56,10 @@ Findings checkReturnToZero(const Evidence& evidence);
 
 /// tare, gravity_direction, moment_lever.
 Findings checkLoadCell(const Evidence& evidence);
+
+/// load_size: force over displacement, against what six-axis arms give (core/identification/apparent_stiffness.h).
+/// Fails where no arm is like that.
+Findings checkLoadSize(const Evidence& evidence);
 
 /// posture_set: condition number, and joint by joint whether it can be identified or why not.
 Findings checkPostureSet(const Evidence& evidence);

@@ -53,6 +53,10 @@ inline constexpr double kCondition = 100.0;
 /// A later step with a force below this share of its posture's largest is a return to zero (campaign format).
 inline constexpr double kReturnShare = 0.05;
 
+/// Longest lever of a load about the load cell, m: the longest arms of any maker reach less than 5 m, and a tool is
+/// shorter than its arm. Forces or moments in another unit give one of a hundred metres.
+inline constexpr double kLongestLever = 5.0;
+
 /// One-sigma share to which the sag by the identified stiffnesses and the URDF's masses is trusted. A choice,
 /// not derived: a tenth is what CAD masses without cables, grease and dressing are off by, and what bearings
 /// that give put into a joint's stiffness. Simulated days with every mass drawn a tenth off (80) keep

@@ -28,6 +28,10 @@ CampaignFiles::CampaignFiles(const fs::path& folder_or_xml) {
                      "expected a campaign folder or its campaign.xml; there is none");
   }
   const bool is_folder = fs::is_directory(status);
+  if (!is_folder && folder_or_xml.extension() != ".xml") {
+    throw InputError({folder_or_xml.string(), 0, ""}, "",
+                     "expected a campaign folder or its campaign.xml: give the folder that holds this file");
+  }
   xml_ = is_folder ? folder_or_xml / "campaign.xml" : folder_or_xml;
   folder_ = is_folder ? folder_or_xml : folder_or_xml.parent_path();
   if (folder_.empty()) folder_ = ".";

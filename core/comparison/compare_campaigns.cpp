@@ -14,7 +14,7 @@ namespace {
 
 std::vector<std::string> cautionsOf(const Campaign& before_campaign, const Campaign& after_campaign,
                                     const Comparison& result) {
-  std::vector<std::string> cautions;
+  std::vector<std::string> cautions = doubtsOfOneMachine(before_campaign.robot, after_campaign.robot);
   if (before_campaign.double_encoder == after_campaign.double_encoder &&
       before_campaign.double_encoder != DoubleEncoder::unspecified) {
     cautions.push_back(

@@ -13,6 +13,9 @@ namespace stiffscope {
 
 namespace {
 
+constexpr double kSamePlace = 1e-3, kSameDirection = 1e-3;  // m, rad: beyond what two files of one arm round to
+constexpr double kSameMass = 1e-3;                          // of all links together
+
 using CaseByPose = std::unordered_map<std::string, std::size_t>;
 
 const std::string& poseOf(const Campaign& campaign, const LoadCase& load_case) {
@@ -85,8 +88,6 @@ MatchedPostures matchPostures(const Campaign& before_campaign, const Identificat
 }
 
 std::string differenceOfMachines(const Robot& before, const Robot& after) {
-  constexpr double kSamePlace = 1e-3,
-                   kSameDirection = 1e-3;  // m, rad: beyond what two files of one arm round to
   for (std::size_t j = 0; j < 6; ++j) {
     const Line &a = before.axes_in_base_at_zero[j], &b = after.axes_in_base_at_zero[j];
     const double turn = (a.direction - b.direction).norm();
@@ -99,6 +100,28 @@ std::string differenceOfMachines(const Robot& before, const Robot& after) {
                              j + 1, apart / kMillimetre);
   }
   return {};
+}
+
+std::vector<std::string> doubtsOfOneMachine(const Robot& before, const Robot& after) {
+  std::vector<std::string> doubts;
+  if (before.name != after.name) {
+    doubts.push_back(fmt::format("the URDFs name different machines: {} and {}", before.name, after.name));
+  }
+  const Eigen::Isometry3d flanges = before.base_from_flange_at_zero.inverse() * after.base_from_flange_at_zero;
+  const double apart = flanges.translation().norm(), turn = Eigen::AngleAxisd(flanges.linear()).angle();
+  if (apart > kSamePlace || turn > kSameDirection) {
+    doubts.push_back(fmt::format("the URDFs place the flange {:.1f} mm and {:.2f} deg apart", apart / kMillimetre, turn / kDegree));
+  }
+  double mass_before = 0.0, mass_after = 0.0, difference = 0.0;
+  for (std::size_t body = 1; body < before.bodies.size(); ++body) {
+    mass_before += before.bodies[body].mass_kg;
+    mass_after += after.bodies[body].mass_kg;
+    difference = std::max(difference, std::abs(after.bodies[body].mass_kg - before.bodies[body].mass_kg));
+  }
+  if (difference > kSameMass * std::max(mass_before, mass_after)) {
+    doubts.push_back(fmt::format("the URDFs' links have different masses, {:.0f} kg and {:.0f} kg in all", mass_before, mass_after));
+  }
+  return doubts;
 }
 
 }  // namespace stiffscope

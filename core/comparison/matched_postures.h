@@ -39,4 +39,8 @@ MatchedPostures matchPostures(const Campaign& before_campaign, const Identificat
 /// base_link. Empty where they are.
 std::string differenceOfMachines(const Robot& before, const Robot& after);
 
+/// What else in two URDFs with the same axes says that they are not of one machine, a sentence each: another name, a
+/// flange elsewhere, other masses beyond joint 1. One machine in two states has one URDF.
+std::vector<std::string> doubtsOfOneMachine(const Robot& before, const Robot& after);
+
 }  // namespace stiffscope

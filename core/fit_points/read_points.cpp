@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include <array>
+#include <cctype>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -46,13 +47,21 @@ std::optional<int> countIn(const std::vector<std::string_view>& cells) {
   return cells.size() == 1 ? parseInteger(cells[0]) : std::nullopt;
 }
 
+constexpr const char* kNoHeader = "; a file of points has no header line, or one that begins with #";
+
+bool startsName(std::string_view cell) {
+  return !cell.empty() && (std::isalpha(static_cast<unsigned char>(cell[0])) != 0 || cell[0] == '"');
+}
+
 Eigen::Vector3d pointIn(const std::vector<std::string_view>& cells, const std::string& file,
-                        std::size_t line) {
+                        std::size_t line, bool first) {
   Eigen::Vector3d point;
   for (std::size_t k = 0; k < std::min(cells.size(), kColumns.size()); ++k) {
     const ParsedNumber number = parseNumber(cells[k]);
-    if (!number.expectation.empty())
-      throw InputError({file, line, kColumns[k]}, std::string(cells[k]), number.expectation);
+    if (!number.expectation.empty()) {
+      throw InputError({file, line, kColumns[k]}, std::string(cells[k]),
+                       number.expectation + (first && startsName(cells[k]) ? kNoHeader : ""));
+    }
     point[static_cast<Eigen::Index>(k)] = number.value;
   }
   if (cells.size() < kColumns.size()) {
@@ -85,7 +94,7 @@ std::vector<Eigen::Vector3d> parsePoints(std::string_view bytes, const std::stri
       count_line = line;
       continue;
     }
-    points.push_back(pointIn(cells, file, line));
+    points.push_back(pointIn(cells, file, line, points.empty()));
   }
   if (points.empty())
     throw InputError({file, 0, ""}, "", "expected points, x y z on each line; there are none");

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/identification/apparent_stiffness.h"
 #include "core/identification/best_method.h"
 #include "core/input/units.h"
 
@@ -68,6 +69,9 @@ std::vector<std::string> cautionsOf(const Campaign& campaign, const Identificati
         "the unloaded reflectors stand {:.0f} mm rms from where sweeps and joint angles put them: units, angles or the "
         "tracker's place are wrong in one of the tables",
         result.calibration.rms_before / kMillimetre));
+  }
+  if (const auto apparent = apparentStiffness(result.cases)) {
+    if (std::string text = implausibleLoad(*apparent); !text.empty()) cautions.push_back(std::move(text));
   }
   if (method != nullptr) {
     if (!hasPositive(method->estimate)) {

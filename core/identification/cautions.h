@@ -12,7 +12,7 @@ namespace stiffscope {
 inline constexpr double kMissedGeometry = 0.020;
 
 /// What a reader must know before believing the numbers, a sentence each: a residual far above the tracker's noise,
-/// negative stiffnesses, a geometry that the readings miss by centimetres, sweeps that do not fit, too few postures.
+/// negative stiffnesses, forces too small or too large for what they move, a geometry that the readings miss by centimetres, sweeps that do not fit, too few postures.
 /// Limits: three times the noise for residuals (beyond what a misdeclared tracker explains), kMissedGeometry for a geometry, half the deflection for noise.
 std::vector<std::string> cautionsOf(const Campaign& campaign, const Identification& result);
 

@@ -102,7 +102,8 @@ void placeLoad(const Campaign& campaign, const Identification* identified, const
   if (!(arm.load > 0.0) || !std::isfinite(arm.load)) {
     throw InputError({inputs.pull.value_or(false) ? "--pull" : "--load"},
                      inputs.load ? fmt::format("{:g}", *inputs.load) : "",
-                     "expected the load in newtons, above 0: this campaign has no measured one to take");
+                     inputs.load ? "expected the load in newtons, above 0"
+                                 : "expected the load in newtons, above 0: this campaign has no measured one to take");
   }
   if (inputs.hook_in_flange) {
     arm.hook_in_flange = *inputs.hook_in_flange;

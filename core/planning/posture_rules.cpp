@@ -138,8 +138,14 @@ std::array<JointLimits, 6> postureBox(const Robot& arm, const PostureRules& rule
     box[j].lower = std::max(arm.limits[j].lower + rules.limit_margin, rules.low[joint]);
     box[j].upper = std::min(arm.limits[j].upper - rules.limit_margin, rules.high[joint]);
     if (box[j].lower <= box[j].upper) continue;
+    const double low = rules.low[joint] / kDegree, high = rules.high[joint] / kDegree;
+    if (low > high) {
+      throw InputError({"--min-deg"}, fmt::format("{:g}", low),
+                       fmt::format("expected at most the {:g} of --max-deg for joint {}", high, j + 1));
+    }
+    const bool starts_too_high = rules.low[joint] > arm.limits[j].upper - rules.limit_margin;
     throw InputError(
-        {"--min-deg"}, fmt::format("{:g}", rules.low[joint] / kDegree),
+        {starts_too_high ? "--min-deg" : "--max-deg"}, fmt::format("{:g}", starts_too_high ? low : high),
         fmt::format("expected a range of joint {} within its limits {:.1f} to {:.1f} deg less {:.0f} deg "
                     "at each end",
                     j + 1, arm.limits[j].lower / kDegree, arm.limits[j].upper / kDegree,

@@ -65,4 +65,12 @@ SimulationSpec parseSimulationSpec(std::string_view bytes, const std::filesystem
   return spec;
 }
 
+std::vector<int> rigidJoints(const SimulationSpec& spec) {
+  std::vector<int> rigid;
+  for (std::size_t j = 0; j < spec.machine.joints.size(); ++j) {
+    if (!spec.machine.joints[j].torsion) rigid.push_back(static_cast<int>(j) + 1);
+  }
+  return rigid;
+}
+
 }  // namespace stiffscope

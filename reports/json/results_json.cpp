@@ -7,6 +7,7 @@
 #include "reports/json/identification_json.h"
 #include "reports/json/improved_json.h"
 #include "reports/json/preparation_json.h"
+#include "reports/page/one_machine.h"
 
 namespace stiffscope {
 
@@ -43,7 +44,7 @@ Json resultsJson(const ReportContent& content) {
   for (const ReportCampaign& one : content.campaigns) {
     campaigns.push_back(campaignResults(one));
   }
-  Json json{{"versions", versions}, {"campaigns", campaigns}};
+  Json json{{"versions", versions}, {"campaigns", campaigns}, {"cautions", doubtsOfOneMachine(content.campaigns)}};
   json["avoided"] = content.avoided && content.avoided->available ? avoidedJson(*content.avoided) : Json(nullptr);
   return json;
 }

@@ -160,7 +160,7 @@ Table whereTable(const Diagnosis& diagnosis) {
 
 Table stiffnessTable(const Diagnosis& diagnosis) {
   Table table{
-      "Joint stiffness by joint springs alone, and k ± u with the verdict's effects in the model, "
+      "Joint stiffness in the diagnosis, by joint springs alone and with the verdict's effects in the model, k ± u, "
       "10⁶\u00a0Nm/rad",
       {"Joint", "Alone", "With the effects"},
       {},
@@ -212,7 +212,15 @@ void writeDiagnosis(Html& html, const Diagnosis& diagnosis) {
   html.list(actions);
   html.paragraph(withMicro(diagnosis.verdict.reason), "faint");
   writeTable(html, classesTable(diagnosis));
-  if (!namedWords(diagnosis.verdict).empty()) writeTable(html, stiffnessTable(diagnosis));
+  if (!namedWords(diagnosis.verdict).empty()) {
+    writeTable(html, stiffnessTable(diagnosis));
+    html.paragraph(
+        "These stiffnesses are not those of Joint stiffness: the diagnosis fits all load steps together, sweeps and unloaded "
+        "positions beside them, and its u is one standard uncertainty by weights of the noise; there k is of one load step and U "
+        "is expanded (about 95\u00a0%), from the scatter between postures. The stiffnesses to use are those of Joint stiffness, with the effects where a report is made with them "
+        "(--with auto).",
+        "faint");
+  }
   writeTable(html, whereTable(diagnosis));
   writeNotTestable(html, diagnosis);
   const auto fold = html.element("details");  // the figure has these numbers, too

@@ -5,6 +5,7 @@
 
 #include "reports/page/names.h"
 #include "reports/page/numbers.h"
+#include "reports/page/one_machine.h"
 #include "reports/page/report_id.h"
 #include "reports/page/sections.h"
 #include "reports/page/with_micro.h"
@@ -68,16 +69,36 @@ KeyNumber compensated(const ReportCampaign& one, const JudgedPoint& point) {
           fmt::format("of it compensated by {}, judged on the postures used", shortName(*shown))};
 }
 
+/// The joints that the verdict does not doubt.
+KeyNumber trusted(const Identification& identification) {
+  const auto shown = shownMethod(identification);
+  if (!shown) return {"0 of 6", "joint stiffnesses: no method is available, see the stiffnesses"};
+  const StiffnessEstimate& estimate = identification.of(*shown).estimate;
+  int count = 0;
+  std::vector<std::string> doubtful;
+  for (int joint = 0; joint < 6; ++joint) {
+    if (!estimate.identifiable[static_cast<std::size_t>(joint)]) continue;
+    if (estimate.mark(joint).empty()) {
+      ++count;
+    } else {
+      doubtful.push_back(jointName(joint));
+    }
+  }
+  std::string words = fmt::format("joint stiffnesses found by {}", shortName(*shown));
+  if (!doubtful.empty()) {
+    words += fmt::format("; {} {} not to be trusted and not counted", fmt::join(doubtful, ", "),
+                         doubtful.size() == 1 ? "is" : "are");
+  }
+  return {fmt::format("{} of 6", count), words};
+}
+
 KeyNumber third(const ReportContent& content, const ReportCampaign& one) {
   if (content.avoided && content.avoided->available) {
     return {percent(content.avoided->share, 0),
             fmt::format("of the deflection at {} with double encoders inactive is avoided by active ones",
                         pointOf(*content.avoided))};
   }
-  const auto& joints = one.identification.identifiability.joints;
-  const auto seen =
-      std::count_if(joints.begin(), joints.end(), [](const auto& joint) { return joint.identifiable; });
-  return {fmt::format("{} of 6", seen), "joint stiffnesses that this data can see"};
+  return trusted(one.identification);
 }
 
 /// What a day of sweeps alone gives: axes and the lengths between them.
@@ -136,10 +157,13 @@ std::vector<std::string> cautionsOf(const ReportCampaign& one) {
 
 void writeCautions(Html& html, const ReportContent& content) {
   const auto& campaigns = content.campaigns;
+  std::vector<std::string> of_all;
+  for (const std::string& doubt : doubtsOfOneMachine(campaigns)) of_all.push_back(asIs(doubt) + ".");
   const bool any = std::any_of(campaigns.begin(), campaigns.end(),
                                [](const ReportCampaign& one) { return !cautionsOf(one).empty(); });
-  if (!any) return;
+  if (!any && of_all.empty()) return;
   html.paragraph("Before you believe these numbers:");
+  html.list(of_all);
   const auto cautions = html.element("div", {{"class", campaigns.size() > 1 ? "several" : "cautions"}});
   for (const ReportCampaign& one : campaigns) {
     const auto column = html.element("div");

@@ -34,7 +34,9 @@ std::string jointsSentence(const Identification& identification) {
         "; {} cannot be seen{}", fmt::join(unseen, ", "),
         identification.identifiability.load_hangs ? " under a load that only hangs" : " in this data");
   }
-  if (!doubtful.empty()) text += fmt::format("; {} is not to be trusted", fmt::join(doubtful, ", "));
+  if (!doubtful.empty()) {
+    text += fmt::format("; {} {} not to be trusted", fmt::join(doubtful, ", "), doubtful.size() == 1 ? "is" : "are");
+  }
   return text + ".";
 }
 

@@ -6,6 +6,7 @@
 
 #include "core/input/units.h"
 #include "reports/method_names.h"
+#include "reports/text/unsigned_zero.h"
 #include "reports/text/wrapped.h"
 
 namespace stiffscope {
@@ -25,10 +26,10 @@ std::string compensationText(const Campaign& campaign, Method method,
       continue;
     }
     const Eigen::Vector3d mm = posture.tcp.deflection / kMillimetre;
-    fmt::format_to(out, "  {:<10}{:>9.3f}{:>9.3f}{:>9.3f}{:>9.3f}   ", posture.posture.id, mm.x(), mm.y(), mm.z(),
-                   posture.tcp.sd.norm() / kMillimetre);
+    fmt::format_to(out, "  {:<10}{:>9.3f}{:>9.3f}{:>9.3f}{:>9.3f}   ", posture.posture.id, unsignedZero(mm.x(), 3),
+                   unsignedZero(mm.y(), 3), unsignedZero(mm.z(), 3), posture.tcp.sd.norm() / kMillimetre);
     if (posture.solved) {
-      for (int joint = 0; joint < 6; ++joint) fmt::format_to(out, "{:>10.4f}", posture.commands[joint] / kDegree);
+      for (int joint = 0; joint < 6; ++joint) fmt::format_to(out, "{:>10.4f}", unsignedZero(posture.commands[joint] / kDegree, 4));
       fmt::format_to(out, "\n");
     } else {
       fmt::format_to(out, "refused: {}\n", posture.reason);

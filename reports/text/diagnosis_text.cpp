@@ -6,6 +6,7 @@
 
 #include "core/input/units.h"
 #include "reports/diagnosis_words.h"
+#include "reports/text/unsigned_zero.h"
 #include "reports/text/wrapped.h"
 
 namespace stiffscope {
@@ -16,6 +17,10 @@ using Out = std::back_insert_iterator<std::string>;
 
 double um(double metres) { return metres / kMicrometre; }
 
+std::string interval(const Shrink& shrink) {
+  return fmt::format("{:.3f} to {:.3f}", unsignedZero(shrink.low, 3), unsignedZero(shrink.high, 3));
+}
+
 void writeClasses(const Diagnosis& diagnosis, Out out) {
   if (diagnosis.classes.empty()) return;
   fmt::format_to(out,
@@ -24,15 +29,14 @@ void writeClasses(const Diagnosis& diagnosis, Out out) {
                  "explained");
   for (const EffectClass& one : diagnosis.classes) {
     fmt::format_to(out, "  {:<2}{:<44}{:>12.0f}{:>9.3f}  {:<17}{:>10.3f}\n", one.in_verdict ? "*" : "",
-                   effectNames(one.effects), one.score, one.shrink.value,
-                   fmt::format("{:.3f} to {:.3f}", one.shrink.low, one.shrink.high), one.explained);
+                   effectNames(one.effects), unsignedZero(one.score, 0), unsignedZero(one.shrink.value, 3),
+                   interval(one.shrink), unsignedZero(one.explained, 3));
     if (!one.in_verdict) continue;
     if (!one.detail.empty()) fmt::format_to(out, "    {}\n", wrapped(one.detail, 4));
     if (!one.parameters.empty()) fmt::format_to(out, "    {}\n", wrapped(one.parameters, 4));
     if (diagnosis.positions_tested)
-      fmt::format_to(out, "    absolute positions: shrink {:.3f} ({:.3f} to {:.3f})\n",
-                     one.shrink_of_positions.value, one.shrink_of_positions.low,
-                     one.shrink_of_positions.high);
+      fmt::format_to(out, "    absolute positions: shrink {:.3f} ({})\n",
+                     unsignedZero(one.shrink_of_positions.value, 3), interval(one.shrink_of_positions));
   }
 }
 
@@ -52,7 +56,7 @@ void writeTables(const std::vector<WhereTable>& tables, const char* title, Out o
 }
 
 void writeStiffnesses(const Diagnosis& diagnosis, Out out) {
-  fmt::format_to(out, "\nStiffness, 1e6 Nm/rad      before     after        sd\n");
+  fmt::format_to(out, "\nStiffness, 1e6 Nm/rad      before     after         u  (all load steps together; one standard uncertainty)\n");
   for (int j = 0; j < 6; ++j) {
     if (!diagnosis.identifiable[static_cast<std::size_t>(j)]) {
       fmt::format_to(out, "  joint {}           not identifiable\n", j + 1);

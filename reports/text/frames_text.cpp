@@ -8,6 +8,7 @@
 
 #include "core/input/units.h"
 #include "reports/geometry_source.h"
+#include "reports/text/unsigned_zero.h"
 #include "reports/text/wrapped.h"
 
 namespace stiffscope {
@@ -15,6 +16,10 @@ namespace stiffscope {
 namespace {
 
 using Out = std::back_insert_iterator<std::string>;
+
+Eigen::VectorXd shown(const Eigen::Ref<const Eigen::VectorXd>& values, int decimals) {
+  return values.unaryExpr([decimals](double value) { return unsignedZero(value, decimals); });
+}
 
 std::string plusMinus(double value, const std::optional<double>& sd, int decimals) {
   return sd ? fmt::format("{:.{}f} +- {:.{}f}", value, decimals, *sd, decimals) : fmt::format("{:.{}f}", value, decimals);
@@ -25,8 +30,9 @@ void writeAxes(const Frames& frames, Out out) {
   fmt::format_to(out, "  {:<5}{:>32}{:>34}{:>7}{:>9}\n", "axis", "point (m)", "direction", "arc", "rms");
   for (std::size_t i = 0; i < 6; ++i) {
     const Line& line = frames.arm.arm.axes_in_base_at_zero[i];
-    fmt::format_to(out, "  {:<5}{:>12.6f}{:>10.6f}{:>10.6f}{:>12.6f}{:>11.6f}{:>11.6f}", i + 1, line.point.x(),
-                   line.point.y(), line.point.z(), line.direction.x(), line.direction.y(), line.direction.z());
+    const Eigen::Vector3d point = shown(line.point, 6), direction = shown(line.direction, 6);
+    fmt::format_to(out, "  {:<5}{:>12.6f}{:>10.6f}{:>10.6f}{:>12.6f}{:>11.6f}{:>11.6f}", i + 1, point.x(), point.y(),
+                   point.z(), direction.x(), direction.y(), direction.z());
     const MeasuredAxis& axis = frames.axes[i];
     if (axis.measured) {
       double arc = 0.0;
@@ -43,7 +49,7 @@ void writeSagStake(const Frames& frames, Out out) {
   fmt::format_to(out, "  taking off the sag moved the distances by");
   for (std::size_t i = 0; i < frames.links.size(); ++i) {
     const LinkGeometry& link = frames.links[i];
-    fmt::format_to(out, "{} {:.3f} +- {:.3f}", i == 0 ? "" : ",", link.distance_by_sag / kMillimetre,
+    fmt::format_to(out, "{} {:.3f} +- {:.3f}", i == 0 ? "" : ",", unsignedZero(link.distance_by_sag / kMillimetre, 3),
                    link.distance_sag_sd / kMillimetre);
   }
   fmt::format_to(out, " mm;\n  +- holds the stiffnesses' uncertainty, not bearings that give across their axes\n");
@@ -65,8 +71,9 @@ void writeLinks(const Frames& frames, Out out) {
   for (std::size_t i = 0; i < frames.links.size(); ++i) {
     const LinkGeometry& link = frames.links[i];
     if (!link.near_parallel) continue;
+    const Eigen::Vector3d at = shown(link.at_point_in_r0, 3);
     fmt::format_to(out, "  * nearly parallel: distance in the plane across axis {} at R0 ({:.3f}, {:.3f}, {:.3f}) m\n",
-                   i + 1, link.at_point_in_r0.x(), link.at_point_in_r0.y(), link.at_point_in_r0.z());
+                   i + 1, at.x(), at.y(), at.z());
   }
 }
 
@@ -79,13 +86,13 @@ void writeWrist(const Campaign& campaign, const Frames& frames, Out out) {
   fmt::format_to(out, "\nWrist centre in R0 by reflector (Table I), mm\n  {:<12}{:>11}{:>11}{:>11}{:>9}{:>10}{:>10}\n",
                  "reflector", "x", "y", "z", "offset", "radius", "readings");
   for (const WristTableRow& row : wrist.table) {
-    const Eigen::Vector3d mm = row.centre_in_r0 / kMillimetre;
+    const Eigen::Vector3d mm = shown(row.centre_in_r0 / kMillimetre, 3);
     fmt::format_to(out, "  {:<12}{:>11.3f}{:>11.3f}{:>11.3f}{:>9.3f}{:>10.3f}{:>10}\n",
                    campaign.targets[static_cast<std::size_t>(row.target)].id, mm.x(), mm.y(), mm.z(),
                    row.offset / kMillimetre, row.radius / kMillimetre, row.readings);
   }
   const auto place = [&](const char* name, const Eigen::Vector3d& point) {
-    const Eigen::Vector3d mm = point / kMillimetre;
+    const Eigen::Vector3d mm = shown(point / kMillimetre, 3);
     fmt::format_to(out, "  {:<42}{:>11.3f}{:>11.3f}{:>11.3f}\n", name, mm.x(), mm.y(), mm.z());
   };
   const auto uncertain = [&](const Eigen::Matrix3d& covariance) {
@@ -112,8 +119,9 @@ void writeR0(const Frames& frames, Out out) {
   }
   fmt::format_to(out, "r0_from_{} (m)\n", frames.points_frame == PointFrame::tracker ? "tracker" : "base_link");
   for (int row = 0; row < 3; ++row) {
-    const Eigen::Vector4d values = frames.arm.r0_from_points.matrix().row(row);
-    fmt::format_to(out, "  {:>13.9f}{:>13.9f}{:>13.9f}{:>13.6f}\n", values[0], values[1], values[2], values[3]);
+    const Eigen::Vector4d values = frames.arm.r0_from_points.matrix().row(row).transpose();
+    fmt::format_to(out, "  {:>13.9f}{:>13.9f}{:>13.9f}{:>13.6f}\n", unsignedZero(values[0], 9),
+                   unsignedZero(values[1], 9), unsignedZero(values[2], 9), unsignedZero(values[3], 6));
   }
   const FrameError sd = frames.covariance.r0().diagonal().cwiseSqrt();
   const Eigen::Vector3d turn = 1e6 * sd.head<3>(), origin = sd.tail<3>() / kMillimetre;
@@ -130,7 +138,7 @@ std::string framesText(const Campaign& campaign, const Frames& frames) {
   writeR0(frames, out);
   writeAxes(frames, out);
   writeLinks(frames, out);
-  const Eigen::Vector3d tcp = frames.tcp_in_flange / kMillimetre;
+  const Eigen::Vector3d tcp = shown(frames.tcp_in_flange / kMillimetre, 3);
   fmt::format_to(out, "\nP_TCP, where axis 6 pierces the flange plane: ({:.3f}, {:.3f}, {:.3f}) mm in the flange{}\n",
                  tcp.x(), tcp.y(), tcp.z(), sourceMark(frames, {4, 5}));
   writeWrist(campaign, frames, out);

@@ -69,6 +69,7 @@ void writeResiduals(const Identification& result, const std::vector<Method>& met
     fmt::format_to(out, "  {:<5}{:>12.2f}{:>20.1f}{:>24.1f}\n", namesOf(which).brief, method.estimate.condition,
                    method.estimate.rms_residual / kMicrometre, method.estimate.sigma / kMicrometre);
   }
+  fmt::format_to(out, "  condition: condition number of the method's equations, columns of unit length; 1 at best\n");
 }
 
 void writeCompensation(const Identification& result, const std::vector<Method>& methods, Out out) {

@@ -19,11 +19,21 @@ namespace {
 
 using Out = std::back_insert_iterator<std::string>;
 
+/// Metres and radians in the units of the rest of the text.
+EffectParameter inTextUnits(EffectParameter parameter) {
+  if (parameter.unit != "m" && parameter.unit != "rad") return parameter;
+  parameter.value /= kMicrometre;  // to um, or to urad
+  parameter.sd /= kMicrometre;
+  parameter.unit = "u" + parameter.unit;
+  return parameter;
+}
+
 void writeEffect(const AddedEffect& one, Out out) {
   fmt::format_to(out, "  {}{}{}\n", idOf(one.effect), one.detail.empty() ? "" : " (" + one.detail + ")",
                  one.shape.empty() ? "" : ", " + one.shape);
   fmt::format_to(out, "    {}\n", wrapped(useOf(one.effect), 4));
-  for (const EffectParameter& parameter : one.parameters) {
+  for (const EffectParameter& own : one.parameters) {
+    const EffectParameter parameter = inTextUnits(own);
     const std::string name = parameter.name.empty() ? "size" : parameter.name;
     if (parameter.value == 0.0) {
       fmt::format_to(out, "    {:<24} 0 (none found)\n", name);

@@ -6,6 +6,7 @@
 #include <iterator>
 
 #include "core/input/units.h"
+#include "reports/text/unsigned_zero.h"
 #include "reports/text/wrapped.h"
 
 namespace stiffscope {
@@ -37,12 +38,13 @@ void writePostures(const Plan& plan, Out out) {
   for (const PlannedPosture& posture : plan.postures) {
     fmt::format_to(out, "  {:<8}", posture.id);
     for (int joint = 0; joint < 6; ++joint)
-      fmt::format_to(out, "{:>9.2f}", posture.candidate.q[joint] / kDegree);
+      fmt::format_to(out, "{:>9.2f}", unsignedZero(posture.candidate.q[joint] / kDegree, 2));
     fmt::format_to(out, "{:>11}",
                    std::isfinite(posture.log_det_gain) ? fmt::format("{:.2f}", posture.log_det_gain) : "-");
     if (plan.arm.pull) {
       const Eigen::Vector3d& pull = posture.pull_in_base;
-      fmt::format_to(out, "   {:>5.2f} {:>5.2f} {:>5.2f}", pull.x(), pull.y(), pull.z());
+      fmt::format_to(out, "   {:>5.2f} {:>5.2f} {:>5.2f}", unsignedZero(pull.x(), 2), unsignedZero(pull.y(), 2),
+                     unsignedZero(pull.z(), 2));
     }
     fmt::format_to(out, "\n");
   }

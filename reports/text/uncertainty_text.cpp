@@ -103,6 +103,7 @@ std::string posturesText(const Campaign& campaign, const Identification& result,
   const std::vector<GeometricStiffnessCost> costs = geometricStiffnessCosts(result, method);
   if (postures.empty()) return {};
   std::string text = fmt::format("\nPostures at P_TCP by {}: softest and stiffest direction, what neglecting K_c costs\n"
+                                 "  kappa: condition number of the posture's Jacobian by P_TCP, 1 at best\n"
                                  "  {:<12}{:>8}{:>16}{:>16}{:>12}\n",
                                  namesOf(method).full, "pose", "kappa", "softest (N/um)", "stiffest", "K_c (um)");
   for (std::size_t i = 0; i < postures.size(); ++i) {

@@ -56,5 +56,33 @@ TEST(AuditCommand, ACampaignThatIsNotThereIsBadInput) {
   EXPECT_EQ(runProgram("audit nowhere", scratch.path()).status, 2);
 }
 
+// Angles in radians under q1_deg..q6_deg: nothing could be told apart in such a day, and looking for it takes a minute.
+TEST(AuditCommand, WhatCannotBeIsNotSearchedForEffects) {
+  const ScratchFolder scratch;
+  const fs::path spoilt = scratch.path() / "spoilt";
+  fs::copy(kSample, spoilt);
+  std::istringstream lines(contentsOf(spoilt / "states.csv"));
+  std::ofstream out(spoilt / "states.csv", std::ios::binary);
+  std::string line;
+  std::getline(lines, line);
+  ASSERT_EQ(line.rfind("pose,step,time_s,q1_deg", 0), 0u);
+  out << line << '\n';
+  while (std::getline(lines, line)) {
+    std::istringstream cells(line);
+    std::string cell;
+    for (int column = 0; std::getline(cells, cell, ','); ++column) {
+      if (column >= 3 && column < 9) cell = std::to_string(std::stod(cell) * 0.0174533);
+      out << (column > 0 ? "," : "") << cell;
+    }
+    out << '\n';
+  }
+  out.close();
+  const Ran ran = runProgram("audit '" + spoilt.string() + "'", scratch.path());
+  EXPECT_EQ(ran.status, 1) << ran.err;
+  EXPECT_NE(ran.out.find("units, angles or the tracker's"), std::string::npos) << ran.out;
+  EXPECT_EQ(ran.out.find("could be told apart"), std::string::npos) << ran.out;
+  EXPECT_NE(runProgram("audit '" + kSample.string() + "'", scratch.path()).out.find("could be told apart"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace stiffscope

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
+#include <regex>
 
 #include "tests/app/command.h"
 
@@ -27,6 +28,10 @@ TEST(CommandLine, WrongWordsGetTheNearestKnownOneAndStatusTwo) {
       {"identify x --method dppp", "did you mean 'dpp'?"},
       {"identify", "CAMPAIGN"},
       {"identify nowhere", "expected a campaign folder"},
+      {"compensate x --step all", "--step: 'all': expected the number of one load step"},
+      {"identify x --step most", "--step: 'most': expected a load step's number, or all"},
+      {"identify '" STIFFSCOPE_SOURCE_DIR "/samples/active/loading.csv'", "give the folder that holds this file"},
+      {"fit plane x --strategy full", "--strategy: 'full': expected with circle only"},
   };
   for (const auto& [words, hint] : cases) {
     const Ran ran = runProgram(words, scratch.path());
@@ -92,6 +97,20 @@ TEST(CommandLine, OneMethodAloneAndAnotherStep) {
   EXPECT_TRUE(json["methods"].contains("pp"));
 }
 
+TEST(CommandLine, SimulateNamesJointsThatItTakesAsRigid) {
+  const ScratchFolder scratch;
+  std::string spec = contentsOf(STIFFSCOPE_SOURCE_DIR "/samples/active.xml");
+  const auto joint = spec.find("<joint index=\"4\"");
+  ASSERT_NE(joint, std::string::npos);
+  spec.erase(joint, spec.find("/>", joint) + 2 - joint);
+  std::ofstream(scratch.path() / "spec.xml") << spec;
+  std::filesystem::copy(STIFFSCOPE_SOURCE_DIR "/samples/m900ib700.urdf", scratch.path() / "m900ib700.urdf");
+  const Ran ran = runProgram("simulate '" + (scratch.path() / "spec.xml").string() + "' --out '" +
+                                 (scratch.path() / "day").string() + "'", scratch.path());
+  EXPECT_EQ(ran.status, 0) << ran.err;
+  EXPECT_NE(ran.err.find("spec.xml: joints: no stiffness_nm_per_rad for joint 4: taken as rigid"), std::string::npos) << ran.err;
+}
+
 TEST(CommandLine, CompensateTakesPosturesFromAFile) {
   const ScratchFolder scratch;
   const std::filesystem::path file = scratch.path() / "postures.csv";
@@ -136,6 +155,20 @@ TEST(CommandLine, NegativeStiffnessesAreNotASuccess) {
   const Ran ran = runProgram("identify '" + campaign.string() + "'", scratch.path());
   EXPECT_EQ(ran.status, 1);
   EXPECT_NE(ran.out.find("every stiffness is negative"), std::string::npos) << ran.out;
+}
+
+TEST(CommandLine, ConditionNumbersSayOfWhat) {
+  const ScratchFolder scratch;
+  const std::string text = runProgram("identify '" + kActive + "' --method dpp --postures", scratch.path()).out;
+  EXPECT_NE(text.find("condition: condition number of the method's equations"), std::string::npos) << text;
+  EXPECT_NE(text.find("kappa: condition number of the posture's Jacobian"), std::string::npos) << text;
+}
+
+TEST(CommandLine, WhatRoundsToZeroHasNoSign) {
+  const ScratchFolder scratch;
+  const std::string text = runProgram("frames '" + kActive + "'", scratch.path()).out;
+  EXPECT_NE(text.find(" 0.000000"), std::string::npos) << text;
+  EXPECT_FALSE(std::regex_search(text, std::regex("-0\\.0+[^0-9]"))) << text;
 }
 
 }  // namespace

@@ -113,6 +113,9 @@ TEST(Frames, NominalValuesAreMarked) {
   EXPECT_EQ(frames["tcp_in_flange_from"], "nominal");
   const Ran text = runProgram("frames '" + folder.string() + "'", scratch.path());
   EXPECT_EQ(text.status, 1);
+  EXPECT_NE(text.err.find("no frame is measured: R0 needs sweeps of axes 1 and 2 (`circle_sweeps`): the campaign has no circle sweeps"),
+            std::string::npos)
+      << text.err;
   EXPECT_NE(text.out.find("mm in the flange (nominal)"), std::string::npos) << text.out;
   EXPECT_NE(text.out.find("1-2"), std::string::npos);
 }

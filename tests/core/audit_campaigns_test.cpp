@@ -86,6 +86,7 @@ TEST(RealSweeps, ReflectorOnTheAxisAndTheShortArc) {
     }
   }
   EXPECT_TRUE(arc && on_axis);
+  EXPECT_FALSE(findsTheImpossible(report));
 }
 
 }  // namespace

@@ -151,6 +151,21 @@ TEST(Comparison, InheritsTheCautionsOfIdentification) {
   EXPECT_EQ(found.cautions[0].rfind("after: every stiffness is negative", 0), 0u) << found.cautions[0];
 }
 
+TEST(Comparison, OneMachineHasOneUrdf) {
+  const Campaign before = day(exampleCompliance(), 1, 0.0, 2, 0.0);
+  EXPECT_TRUE(compared(before, before).cautions.empty());
+  Campaign after = before;
+  after.robot.name = "another";
+  after.robot.bodies[3].mass_kg += 150.0;
+  after.robot.base_from_flange_at_zero.translation().x() += 0.2;
+  const Comparison found = compared(before, after);
+  EXPECT_TRUE(found.comparable);  // the same axes
+  ASSERT_GE(found.cautions.size(), 3u);
+  EXPECT_EQ(found.cautions[0], "the URDFs name different machines: " + before.robot.name + " and another");
+  EXPECT_EQ(found.cautions[1], "the URDFs place the flange 200.0 mm and 0.00 deg apart");
+  EXPECT_EQ(found.cautions[2].rfind("the URDFs' links have different masses", 0), 0u) << found.cautions[2];
+}
+
 TEST(Comparison, DifferentMachinesAreNotCompared) {
   Campaign before = day(exampleCompliance(), 1, 0.0, 2, 0.0), after = before;
   after.robot.axes_in_base_at_zero[2].point.x() += 0.2;

@@ -6,6 +6,7 @@
 
 #include "core/cartesian_stiffness/posture_conditioning.h"
 #include "core/input/input_error.h"
+#include "core/input/units.h"
 #include "core/planning/plan.h"
 #include "core/planning/refine_design.h"
 #include "core/simulation/read_spec.h"
@@ -172,6 +173,15 @@ TEST(Plan, RefusesWithTheReason) {
   options.inputs.load.reset();
   EXPECT_EQ(refusal(campaign, options),
             "--load: expected the load in newtons, above 0: this campaign has no measured one to take");
+  options.inputs.load = -5.0;
+  EXPECT_EQ(refusal(campaign, options), "--load: '-5': expected the load in newtons, above 0");
+  options = optionsFor(spec, 5);
+  options.rules.low[1] = 10.0 * kDegree, options.rules.high[1] = -20.0 * kDegree;
+  EXPECT_EQ(refusal(campaign, options), "--min-deg: '10': expected at most the -20 of --max-deg for joint 2");
+  options = optionsFor(spec, 5);
+  options.rules.high[2] = -3.0, options.rules.low[2] = -3.1;  // below the joint's own range
+  EXPECT_EQ(refusal(campaign, options).rfind("--max-deg: '-171.887': expected a range of joint 3", 0), 0u)
+      << refusal(campaign, options);
   options = optionsFor(spec, 0);
   EXPECT_EQ(refusal(campaign, options), "--postures: '0': expected 1 or more postures");
   options = optionsFor(spec, 5);

@@ -64,6 +64,14 @@ TEST(ReadPoints, NoNumberAndNotFinite) {
   expectSays("1,,3\n", {":1", "y"});
 }
 
+TEST(ReadPoints, AHeaderLineIsRefusedInItsWords) {
+  expectSays("x,y,z\n1,2,3\n", {":1", "x", "no header line, or one that begins with #"});
+  expectSays("\"x\",\"y\"\n", {"no header line"});
+  EXPECT_EQ(readPoints(written("# x y z\n1 2 3\n")).size(), 1u);
+  // Further down it is a wrong number like any other.
+  EXPECT_EQ(refusal("1 2 3\nx y z\n").find("header"), std::string::npos);
+}
+
 TEST(ReadPoints, DecimalCommas) {
   // "1,5 2,5 3,5" has six cells: refused, with what to write instead, and not read as points of whole numbers.
   expectSays("1,5 2,5 3,5\n", {":1", "decimal points"});

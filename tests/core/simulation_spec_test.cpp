@@ -63,6 +63,15 @@ class SimulationSpecFile : public testing::Test {
 
 }  // namespace
 
+TEST_F(SimulationSpecFile, aJointLeftOutIsRigidAndNamed) {
+  EXPECT_TRUE(rigidJoints(readSimulationSpec(kSamples / "inactive.xml")).empty());
+  const std::string text = bytesOf(kSamples / "inactive.xml");
+  const std::size_t at = text.find("<joint index=\"4\"");
+  const std::string joint = text.substr(at, text.find("/>", at) + 2 - at);
+  EXPECT_EQ(rigidJoints(readWith(joint, "")), std::vector<int>{4});
+  EXPECT_EQ(rigidJoints(readWith(joint, "<joint index=\"4\" bearing_nm_per_rad=\"2e6\"/>")), std::vector<int>{4});
+}
+
 TEST(SimulationSpec, samplesAreOneMachineInTwoStates) {
   const SimulationSpec inactive = readSimulationSpec(kSamples / "inactive.xml");
   const SimulationSpec active = readSimulationSpec(kSamples / "active.xml");

@@ -115,7 +115,7 @@ TEST(Fits, RefuseWhatIsNoSetOfPoints) {
   const double nan = std::numeric_limits<double>::quiet_NaN(), inf = std::numeric_limits<double>::infinity();
   const Points cube{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}, {0, 0, 1}, {1, 0, 1}, {0, 1, 1}, {1, 1, 1}};
   expectAll({}, "no readings");
-  expectAll({{1, 2, 3}}, "one place");
+  expectAll({{1, 2, 3}}, "1 is given");
   expectAll({{1, 2, 3}, {1, 2, 3}, {1, 2, 3}, {1, 2, 3}, {1, 2, 3}}, "one place");
   for (const double wrong : {nan, inf, -inf}) {
     Points points = cube;
@@ -128,6 +128,17 @@ TEST(Fits, RefuseWhatIsNoSetOfPoints) {
   far = cube;
   for (Eigen::Vector3d& point : far) point *= 1e299;
   expectAll(far, "too large");
+}
+
+TEST(Fits, TooFewReadingsSayHowManyAreNeeded) {
+  const Points two{{0, 0, 0}, {1, 0, 0}};
+  const Reasons of_two = reasonsFor(two);
+  EXPECT_EQ(of_two.line, "");
+  EXPECT_EQ(of_two.plane, "3 readings or more are needed, 2 are given");
+  EXPECT_EQ(of_two.circle, of_two.plane);
+  EXPECT_EQ(of_two.plane_first, of_two.plane);
+  EXPECT_EQ(of_two.sphere, "4 readings or more are needed, 2 are given");
+  EXPECT_EQ(of_two.cylinder, "5 readings or more are needed, 2 are given");
 }
 
 TEST(Fits, RefuseWhatDeterminesNoShape) {

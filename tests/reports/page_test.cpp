@@ -227,6 +227,7 @@ TEST(Page, TheDiagnosisSaysWhatToDo) {
   const std::string page = reportPage(content);
   EXPECT_TRUE(has(page, "Besides joint springs the readings show load cell bias (see What the model misses)."));
   EXPECT_TRUE(has(page, "load cell bias: a constant force is added to the loaded readings"));
+  EXPECT_TRUE(has(page, "its u is one standard uncertainty by weights of the noise"));
   EXPECT_TRUE(has(page, "<li>Tare the cell with nothing hanging"));
   EXPECT_TRUE(has(page, "<li>To tell load cell bias and hysteresis apart, measure a posture"));
   EXPECT_TRUE(has(page, "Stiffnesses alone leave 30.0 µm rms"));
@@ -234,6 +235,17 @@ TEST(Page, TheDiagnosisSaysWhatToDo) {
   EXPECT_FALSE(has(page, "id=\"figures\""));
   diagnosis.verdict.entries.clear();
   EXPECT_TRUE(has(reportPage(content), "Joint springs are enough for this machine"));
+}
+
+TEST(Page, TheTileCountsOnlyTrustedStiffnesses) {
+  SmallResult small;
+  EXPECT_TRUE(has(reportPage(contentOf(small)), "<b>5 of 6</b><span>joint stiffnesses found by DPP</span>"));
+  small.method(Method::decoupled_partial_pose).estimate.compliance[3] = -4e-6;
+  const std::string page = reportPage(contentOf(small));
+  EXPECT_TRUE(has(page, "<b>4 of 6</b><span>joint stiffnesses found by DPP; k<sub>4</sub> is not to be trusted and not counted</span>"));
+  EXPECT_TRUE(has(page, "k<sub>4</sub> is not to be trusted."));  // the verdict's words
+  small.method(Method::decoupled_partial_pose).estimate.compliance[5] = -4e-6;
+  EXPECT_TRUE(has(reportPage(contentOf(small)), "k<sub>4</sub>, k<sub>6</sub> are not to be trusted."));
 }
 
 TEST(Page, NoMethodAtAll) {
@@ -284,6 +296,19 @@ TEST(Avoided, NeedsBothStatesAndACommonPosture) {
   EXPECT_FALSE(content.avoided->available);
   EXPECT_TRUE(has(reportPage(content), "Not known: no posture was measured in both campaigns"));
   EXPECT_FALSE(has(verdictOf(content.campaigns, content.avoided), "avoid"));
+}
+
+TEST(Page, CampaignsOfDifferentMachinesAreNamed) {
+  const SmallResult one;
+  SmallResult other(DoubleEncoder::inactive);
+  ReportContent content = contentOf(one);
+  content.campaigns.push_back({other.campaign, other.identification});
+  EXPECT_FALSE(has(reportPage(content), "the URDFs"));
+  other.campaign.robot.name = "a <second> arm";
+  EXPECT_TRUE(has(reportPage(content), "<li>small and small: the URDFs name different machines: "));
+  EXPECT_TRUE(has(reportPage(content), "a &lt;second&gt; arm."));
+  other.campaign.robot.axes_in_base_at_zero[2].point.x() += 0.2;
+  EXPECT_TRUE(has(reportPage(content), "the URDFs describe different machines: axis 3 stands 200.0 mm elsewhere."));
 }
 
 TEST(Page, ARealCampaignWithoutWrist) {
