@@ -19,18 +19,27 @@ std::string shown(const Campaign& campaign, const std::string& table_file) {
   return (campaign.folder / table_file).string();
 }
 
-/// The load states that a table has rows for.
-class LoadStates {
+std::uint64_t loadState(int pose, int step) {
+  return (static_cast<std::uint64_t>(pose) << 32) | static_cast<std::uint32_t>(step);
+}
+
+/// Those that a table has rows for, in ascending order.
+std::vector<std::uint64_t> loadStates(const std::vector<State>& rows) {
+  std::vector<std::uint64_t> states;
+  states.reserve(rows.size());
+  for (const State& row : rows) states.push_back(loadState(row.pose, row.step));
+  if (!std::is_sorted(states.begin(), states.end())) std::sort(states.begin(), states.end());
+  return states;
+}
+
+/// Looks up load states one after the other.
+class StateSearch {
  public:
-  explicit LoadStates(const std::vector<State>& rows) {
-    states_.reserve(rows.size());
-    for (const State& row : rows) states_.push_back(of(row.pose, row.step));
-    if (!std::is_sorted(states_.begin(), states_.end())) std::sort(states_.begin(), states_.end());
-  }
+  explicit StateSearch(const std::vector<std::uint64_t>& states) : states_(states) {}
 
   /// Rows of readings follow those of states mostly: the state last found and the one behind it are looked at first.
   bool has(int pose, int step) {
-    const std::uint64_t wanted = of(pose, step);
+    const std::uint64_t wanted = loadState(pose, step);
     for (std::size_t ahead = 0; ahead < 2; ++ahead) {
       if (last_ + ahead < states_.size() && states_[last_ + ahead] == wanted) {
         last_ += ahead;
@@ -43,28 +52,29 @@ class LoadStates {
   }
 
  private:
-  static std::uint64_t of(int pose, int step) {
-    return (static_cast<std::uint64_t>(pose) << 32) | static_cast<std::uint32_t>(step);
-  }
-
-  std::vector<std::uint64_t> states_;
+  const std::vector<std::uint64_t>& states_;
   std::size_t last_ = 0;
 };
 
 template <class Row>
-void requireStates(const Campaign& campaign, const Table<Row>& table, LoadStates& states) {
-  for (const Row& row : table.rows) {
-    if (states.has(row.pose, row.step)) continue;
-    const std::string& pose = campaign.pose_ids[static_cast<std::size_t>(row.pose)];
-    throw InputError({shown(campaign, table.file), row.line, "pose, step"},
-                     fmt::format("{}, {}", pose, row.step),
-                     fmt::format("expected a load state that {} has a row for", campaign.states->file));
-  }
+void requireStates(const Campaign& campaign, const Table<Row>& table, const std::vector<std::uint64_t>& states) {
+  constexpr std::size_t kBlock = 1 << 15;
+  onAllCores((table.rows.size() + kBlock - 1) / kBlock, [&](std::size_t block) {
+    StateSearch search(states);
+    for (std::size_t i = block * kBlock; i < std::min(table.rows.size(), (block + 1) * kBlock); ++i) {
+      const Row& row = table.rows[i];
+      if (search.has(row.pose, row.step)) continue;
+      const std::string& pose = campaign.pose_ids[static_cast<std::size_t>(row.pose)];
+      throw InputError({shown(campaign, table.file), row.line, "pose, step"},
+                       fmt::format("{}, {}", pose, row.step),
+                       fmt::format("expected a load state that {} has a row for", campaign.states->file));
+    }
+  });
 }
 
 void checkStatesCoverReadings(const Campaign& campaign) {
   if (!campaign.states) return;
-  LoadStates states(campaign.states->rows);
+  const std::vector<std::uint64_t> states = loadStates(campaign.states->rows);
   if (campaign.loading) requireStates(campaign, *campaign.loading, states);
   if (campaign.displacements) requireStates(campaign, *campaign.displacements, states);
 }
@@ -153,7 +163,6 @@ using Check = void (*)(const Campaign&, std::vector<std::string>&);
 
 // In the order of their errors and warnings.
 constexpr Check kChecks[] = {
-    [](const Campaign& campaign, std::vector<std::string>&) { checkStatesCoverReadings(campaign); },
     [](const Campaign& campaign, std::vector<std::string>&) { checkDisplacedTargetsHavePlaces(campaign); },
     warnOfPosesWithoutStepZero,
     warnOfAnglesOutsideLimits,
@@ -165,6 +174,7 @@ constexpr Check kChecks[] = {
 }  // namespace
 
 void checkCampaign(const Campaign& campaign, std::vector<std::string>& warnings) {
+  checkStatesCoverReadings(campaign);
   std::array<std::vector<std::string>, std::size(kChecks)> found;
   const bool worth_it = campaign.states && campaign.states->rows.size() >= kWorthThreads;
   onAllCores(found.size(), [&](std::size_t i) { kChecks[i](campaign, found[i]); }, worth_it);
