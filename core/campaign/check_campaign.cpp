@@ -80,7 +80,9 @@ void checkStatesCoverReadings(const Campaign& campaign) {
 }
 
 void checkDisplacedTargetsHavePlaces(const Campaign& campaign) {
-  if (!campaign.displacements) return;
+  const bool all_have = std::all_of(campaign.targets.begin(), campaign.targets.end(),
+                                    [](const Target& target) { return target.position_in_flange.has_value(); });
+  if (!campaign.displacements || all_have) return;
   for (const Displacement& row : campaign.displacements->rows) {
     const Target& target = campaign.targets[static_cast<std::size_t>(row.target)];
     if (target.position_in_flange) continue;
@@ -146,8 +148,11 @@ void warnOfRadians(const Campaign& campaign, const std::optional<Table<Row>>& ta
   constexpr std::size_t kFewestRows = 10;
   if (!table || table->rows.size() < kFewestRows) return;
   double largest = 0.0;
-  for (const Row& row : table->rows) largest = std::max(largest, row.q.cwiseAbs().maxCoeff() / kDegree);
-  if (largest == 0.0 || largest > 2.0 * std::numbers::pi) return;
+  for (const Row& row : table->rows) {
+    largest = std::max(largest, row.q.cwiseAbs().maxCoeff() / kDegree);
+    if (largest > 2.0 * std::numbers::pi) return;
+  }
+  if (largest == 0.0) return;
   warnings.push_back(inputMessage(
       {shown(campaign, table->file), 0, "q1_deg..q6_deg"}, "",
       fmt::format("no joint angle is larger than {:.3f} deg; were they written in radians?", largest)));
