@@ -2,6 +2,8 @@
 
 #include <CLI/CLI.hpp>
 #include <memory>
+#include <optional>
+#include <utility>
 
 #include "app/command.h"
 #include "app/output.h"
@@ -13,6 +15,39 @@
 
 namespace stiffscope {
 
+namespace {
+
+/// What could be told apart by these loads, not what is there; empty without loads.
+std::optional<Diagnosis> designOf(const Campaign& campaign) {
+  if (!whatLoadsLack(campaign).empty()) return std::nullopt;
+  DiagnoseOptions design;
+  design.resamples = design.chance_draws = 0;
+  return diagnose(campaign, design);
+}
+
+/// What a result says of the campaign: that without its readings, which take megabytes.
+Campaign described(const Campaign& campaign) {
+  Campaign words;
+  words.name = campaign.name;
+  words.date = campaign.date;
+  words.robot = campaign.robot;
+  words.double_encoder = campaign.double_encoder;
+  words.inputs = campaign.inputs;
+  return words;
+}
+
+int auditCampaign(const std::string& folder, const std::string& json_file) {
+  Campaign campaign = openCampaign(folder, hashesFor(json_file));
+  const Campaign words = described(campaign);
+  const std::optional<Diagnosis> design = designOf(campaign);
+  AuditReport report = audit(std::move(campaign));
+  if (design) addSeparableEffects(*design, report);
+  deliver([&] { return auditJson(words, report); }, [&] { return auditText(words, report); }, json_file);
+  return report.verdict == AuditVerdict::fail ? kNotUsable : kDone;
+}
+
+}  // namespace
+
 void addAudit(CLI::App& app, Run& run) {
   struct Arguments {
     std::string campaign, json;
@@ -22,16 +57,7 @@ void addAudit(CLI::App& app, Run& run) {
   command->add_option("CAMPAIGN", arguments->campaign, "campaign folder or its campaign.xml")->required();
   command->add_option("--json", arguments->json, "write the result to this file, - for standard output");
   command->callback([arguments, &run] {
-    run = [arguments] {
-      const Campaign campaign = openCampaign(arguments->campaign);
-      AuditReport report = audit(campaign);
-      DiagnoseOptions design;  // what could be told apart is asked, not what is there
-      design.resamples = design.chance_draws = 0;
-      if (whatLoadsLack(campaign).empty()) addSeparableEffects(diagnose(campaign, design), report);
-      deliver([&] { return auditJson(campaign, report); }, [&] { return auditText(campaign, report); },
-              arguments->json);
-      return report.verdict == AuditVerdict::fail ? kNotUsable : kDone;
-    };
+    run = [arguments] { return auditCampaign(arguments->campaign, arguments->json); };
   });
 }
 
