@@ -19,15 +19,28 @@ std::string shown(const Campaign& campaign, const std::string& table_file) {
   return (campaign.folder / table_file).string();
 }
 
+constexpr std::size_t kBlock = 1 << 15;
+
+std::size_t blocksOf(std::size_t rows) { return (rows + kBlock - 1) / kBlock; }
+
+/// Calls work(block, from, to) for each block of rows from..to-1, on all cores.
+template <class Work>
+void inBlocks(std::size_t rows, const Work& work) {
+  onAllCores(blocksOf(rows), [&](std::size_t block) {
+    work(block, block * kBlock, std::min(rows, (block + 1) * kBlock));
+  });
+}
+
 std::uint64_t loadState(int pose, int step) {
   return (static_cast<std::uint64_t>(pose) << 32) | static_cast<std::uint32_t>(step);
 }
 
 /// Those that a table has rows for, in ascending order.
 std::vector<std::uint64_t> loadStates(const std::vector<State>& rows) {
-  std::vector<std::uint64_t> states;
-  states.reserve(rows.size());
-  for (const State& row : rows) states.push_back(loadState(row.pose, row.step));
+  std::vector<std::uint64_t> states(rows.size());
+  inBlocks(rows.size(), [&](std::size_t, std::size_t from, std::size_t to) {
+    for (std::size_t i = from; i < to; ++i) states[i] = loadState(rows[i].pose, rows[i].step);
+  });
   if (!std::is_sorted(states.begin(), states.end())) std::sort(states.begin(), states.end());
   return states;
 }
@@ -58,10 +71,9 @@ class StateSearch {
 
 template <class Row>
 void requireStates(const Campaign& campaign, const Table<Row>& table, const std::vector<std::uint64_t>& states) {
-  constexpr std::size_t kBlock = 1 << 15;
-  onAllCores((table.rows.size() + kBlock - 1) / kBlock, [&](std::size_t block) {
+  inBlocks(table.rows.size(), [&](std::size_t, std::size_t from, std::size_t to) {
     StateSearch search(states);
-    for (std::size_t i = block * kBlock; i < std::min(table.rows.size(), (block + 1) * kBlock); ++i) {
+    for (std::size_t i = from; i < to; ++i) {
       const Row& row = table.rows[i];
       if (search.has(row.pose, row.step)) continue;
       const std::string& pose = campaign.pose_ids[static_cast<std::size_t>(row.pose)];
@@ -120,13 +132,24 @@ void warnOfAnglesOutsideLimits(const Campaign& campaign, std::vector<std::string
     const State* first = nullptr;
     std::size_t rows = 0;
   };
-  std::array<Outside, 6> outside;
-  for (const State& row : campaign.states->rows) {
+  const std::vector<State>& states = campaign.states->rows;
+  std::vector<std::array<Outside, 6>> found(blocksOf(states.size()));
+  inBlocks(states.size(), [&](std::size_t block, std::size_t from, std::size_t to) {
     for (std::size_t j = 0; j < 6; ++j) {
-      const JointLimits& limits = campaign.robot.limits[j];
-      const double q = row.q[static_cast<Eigen::Index>(j)];
-      if (q >= limits.lower - kMargin && q <= limits.upper + kMargin) continue;
-      if (outside[j].rows++ == 0) outside[j].first = &row;
+      const double lower = campaign.robot.limits[j].lower - kMargin, upper = campaign.robot.limits[j].upper + kMargin;
+      Outside& outside = found[block][j];
+      for (std::size_t i = from; i < to; ++i) {
+        const double q = states[i].q[static_cast<Eigen::Index>(j)];
+        if (q >= lower && q <= upper) continue;
+        if (outside.rows++ == 0) outside.first = &states[i];
+      }
+    }
+  });
+  std::array<Outside, 6> outside;
+  for (const auto& block : found) {
+    for (std::size_t j = 0; j < 6; ++j) {
+      if (outside[j].first == nullptr) outside[j].first = block[j].first;
+      outside[j].rows += block[j].rows;
     }
   }
   for (std::size_t j = 0; j < 6; ++j) {
@@ -180,10 +203,7 @@ constexpr Check kChecks[] = {
 
 void checkCampaign(const Campaign& campaign, std::vector<std::string>& warnings) {
   checkStatesCoverReadings(campaign);
-  std::array<std::vector<std::string>, std::size(kChecks)> found;
-  const bool worth_it = campaign.states && campaign.states->rows.size() >= kWorthThreads;
-  onAllCores(found.size(), [&](std::size_t i) { kChecks[i](campaign, found[i]); }, worth_it);
-  for (const std::vector<std::string>& some : found) warnings.insert(warnings.end(), some.begin(), some.end());
+  for (const Check& check : kChecks) check(campaign, warnings);
 }
 
 }  // namespace stiffscope
