@@ -5,13 +5,12 @@
 #include <cstring>
 #include <stdexcept>
 
-#include "core/campaign/read_campaign.h"
 #include "core/input/write_file.h"
 
 namespace stiffscope {
 
-Campaign openCampaign(const std::string& folder_or_xml) {
-  CampaignReading reading = readCampaign(folder_or_xml);
+Campaign openCampaign(const std::string& folder_or_xml, Hashes hashes) {
+  CampaignReading reading = readCampaign(folder_or_xml, hashes);
   printWarnings(reading.warnings);
   return std::move(reading.campaign);
 }

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "core/campaign/campaign.h"
+#include "core/campaign/read_campaign.h"
 #include "reports/json/json_values.h"
 
 namespace stiffscope {
@@ -15,7 +15,10 @@ inline constexpr int kNotUsable = 1;  ///< done, but the result does not serve i
 inline constexpr int kBadInput = 2;
 
 /// Reads a campaign; its warnings go to standard error.
-Campaign openCampaign(const std::string& folder_or_xml);
+Campaign openCampaign(const std::string& folder_or_xml, Hashes hashes = Hashes::taken);
+
+/// Those for a result that only the JSON names the inputs of.
+inline Hashes hashesFor(const std::string& json_file) { return json_file.empty() ? Hashes::left : Hashes::taken; }
 
 void printWarnings(const std::vector<std::string>& warnings);
 

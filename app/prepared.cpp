@@ -14,8 +14,8 @@ void addRawOption(CLI::App& command, bool& raw) {
       "that the floor nests show");
 }
 
-PreparedCampaign openPrepared(const std::string& folder_or_xml, bool raw) {
-  Campaign campaign = openCampaign(folder_or_xml);
+PreparedCampaign openPrepared(const std::string& folder_or_xml, bool raw, Hashes hashes) {
+  Campaign campaign = openCampaign(folder_or_xml, hashes);
   return raw ? leaveRaw(std::move(campaign)) : prepareCampaign(std::move(campaign));
 }
 

@@ -62,7 +62,7 @@ std::optional<Method> bestOf(const Identification& result, const std::vector<Met
 int identifyCampaign(const Arguments& arguments, bool subset_given) {
   const std::vector<Method> methods = methodsNamed(arguments.method);
   const IdentifyOptions options = optionsOf(arguments, subset_given);
-  const PreparedCampaign prepared = openPrepared(arguments.campaign, arguments.raw);
+  const PreparedCampaign prepared = openPrepared(arguments.campaign, arguments.raw, hashesFor(arguments.json));
   std::optional<ImprovedModel> improved;
   if (!arguments.with.empty()) improved = improveModel(prepared.campaign, effectsAsked(prepared, arguments.with), options);
   const Campaign& campaign = improved ? improved->campaign : prepared.campaign;

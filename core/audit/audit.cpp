@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <iterator>
+#include <utility>
 
 #include "core/audit/checks.h"
 
@@ -37,9 +38,9 @@ AuditCheck notTestable(const std::string& id, const std::string& missing) {
   return check;
 }
 
-AuditReport audit(const Campaign& campaign) {
+AuditReport audit(Campaign campaign) {
   AuditReport report;
-  PreparedCampaign prepared = prepareCampaign(campaign);
+  PreparedCampaign prepared = prepareCampaign(std::move(campaign));
   report.checks = std::move(prepared.screening);
   report.rejected = prepared.preparation.rejected;
   const Evidence evidence = gatherEvidence(std::move(prepared));

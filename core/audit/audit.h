@@ -48,7 +48,7 @@ struct AuditReport {
 /// readings, the station's motion taken off where floor nests show it, so that one cause gives one finding;
 /// for the same reason repeats that scatter by more than is declared replace the declared noise in the other
 /// checks.
-AuditReport audit(const Campaign& campaign);
+AuditReport audit(Campaign campaign);
 
 /// Whether some check found what cannot be.
 bool findsTheImpossible(const AuditReport& report);

@@ -20,7 +20,7 @@ bool leadsInside(const fs::path& folder, const fs::path& path) {
 
 }  // namespace
 
-CampaignFiles::CampaignFiles(const fs::path& folder_or_xml) {
+CampaignFiles::CampaignFiles(const fs::path& folder_or_xml, bool hashed) : hashed_(hashed) {
   std::error_code error;
   const fs::file_status status = fs::status(folder_or_xml, error);
   if (!fs::exists(status)) {
@@ -61,16 +61,18 @@ TextFile CampaignFiles::read(const FileReference& reference, std::size_t largest
 
 TextFile CampaignFiles::readAndRecord(const fs::path& path, const std::string& name, std::size_t largest) {
   TextFile file = readTextFileWithStamp(path, largest);
+  read_.push_back({path, name, file.stamp, {}});
+  if (!hashed_) return file;
   constexpr std::size_t kOwnThread = 1 << 20;  // hashed in a millisecond
   // Where no thread is to be had, either policy lets it be hashed when the hash is asked for.
   const auto when = file.size < kOwnThread ? std::launch::deferred : std::launch::async | std::launch::deferred;
-  read_.push_back({path, name, file.stamp, std::async(when, [file] { return sha256Hex(file.text()); })});
+  read_.back().sha256 = std::async(when, [file] { return sha256Hex(file.text()); });
   return file;
 }
 
 std::vector<InputFile> CampaignFiles::takeInputs() {
   std::vector<InputFile> inputs;
-  for (Read& file : read_) inputs.push_back({file.name, file.sha256.get()});
+  for (Read& file : read_) inputs.push_back({file.name, hashed_ ? file.sha256.get() : std::string()});
   read_.clear();
   return inputs;
 }

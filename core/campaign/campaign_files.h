@@ -17,8 +17,9 @@ namespace stiffscope {
 /// while the caller uses their bytes, which stay as they are.
 class CampaignFiles {
  public:
-  /// Throws InputError where the path is neither a folder with a campaign.xml nor such a file.
-  explicit CampaignFiles(const std::filesystem::path& folder_or_xml);
+  /// Throws InputError where the path is neither a folder with a campaign.xml nor such a file. Not `hashed`: takeInputs
+  /// gives names alone.
+  explicit CampaignFiles(const std::filesystem::path& folder_or_xml, bool hashed = true);
 
   const std::filesystem::path& folder() const { return folder_; }
   std::string xmlName() const { return xml_.string(); }  ///< for messages
@@ -51,6 +52,7 @@ class CampaignFiles {
   TextFile readAndRecord(const std::filesystem::path& path, const std::string& name, std::size_t largest);
 
   std::filesystem::path folder_, xml_;
+  bool hashed_;
   std::vector<Read> read_;
 };
 

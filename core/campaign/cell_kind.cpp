@@ -50,16 +50,16 @@ int readTarget(std::string_view cell, const CellPlace& place, const CampaignName
 
 const NumberKind& numberKind(CellKind kind) { return kNumberKinds.at(static_cast<std::size_t>(kind)); }
 
-double readNumberCell(CellKind kind, std::string_view cell, const CellPlace& place) {
-  std::optional<double> value = parsePlainNumber(cell);
-  if (!value) {
+double readNumberCell(CellKind kind, std::string_view cell, const CellPlace& place, bool room_behind) {
+  double value = parsePlainNumber(cell, room_behind);
+  if (std::isnan(value)) {
     const ParsedNumber number = parseNumber(cell);
     if (!number.expectation.empty()) refuse(place, cell, number.expectation);
     value = number.value;
   }
   const NumberKind& info = numberKind(kind);
-  if (std::abs(*value) > info.limit) refuse(place, cell, info.expectation);
-  return *value * info.si_per_unit;
+  if (std::abs(value) > info.limit) refuse(place, cell, info.expectation);
+  return value * info.si_per_unit;
 }
 
 int readIndexCell(CellKind kind, std::string_view cell, const CellPlace& place, CampaignNames& names) {

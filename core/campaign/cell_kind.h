@@ -43,8 +43,9 @@ struct CellPlace {
   std::string_view column;
 };
 
-/// A cell as a number in SI and radians. Throws InputError where it is none, or not plausible.
-double readNumberCell(CellKind kind, std::string_view cell, const CellPlace& place);
+/// A cell as a number in SI and radians. Throws InputError where it is none, or not plausible. `room_behind`: as
+/// parsePlainNumber takes it.
+double readNumberCell(CellKind kind, std::string_view cell, const CellPlace& place, bool room_behind = false);
 
 /// A cell that is kept as an index: axis, step, target, pose, nest. Throws InputError.
 int readIndexCell(CellKind kind, std::string_view cell, const CellPlace& place, CampaignNames& names);

@@ -19,18 +19,40 @@ std::string shown(const Campaign& campaign, const std::string& table_file) {
   return (campaign.folder / table_file).string();
 }
 
-/// The load states that a table has rows for.
-class LoadStates {
+constexpr std::size_t kBlock = 1 << 15;
+
+std::size_t blocksOf(std::size_t rows) { return (rows + kBlock - 1) / kBlock; }
+
+/// Calls work(block, from, to) for each block of rows from..to-1, on all cores.
+template <class Work>
+void inBlocks(std::size_t rows, const Work& work) {
+  onAllCores(blocksOf(rows), [&](std::size_t block) {
+    work(block, block * kBlock, std::min(rows, (block + 1) * kBlock));
+  });
+}
+
+std::uint64_t loadState(int pose, int step) {
+  return (static_cast<std::uint64_t>(pose) << 32) | static_cast<std::uint32_t>(step);
+}
+
+/// Those that a table has rows for, in ascending order.
+std::vector<std::uint64_t> loadStates(const std::vector<State>& rows) {
+  std::vector<std::uint64_t> states(rows.size());
+  inBlocks(rows.size(), [&](std::size_t, std::size_t from, std::size_t to) {
+    for (std::size_t i = from; i < to; ++i) states[i] = loadState(rows[i].pose, rows[i].step);
+  });
+  if (!std::is_sorted(states.begin(), states.end())) std::sort(states.begin(), states.end());
+  return states;
+}
+
+/// Looks up load states one after the other.
+class StateSearch {
  public:
-  explicit LoadStates(const std::vector<State>& rows) {
-    states_.reserve(rows.size());
-    for (const State& row : rows) states_.push_back(of(row.pose, row.step));
-    if (!std::is_sorted(states_.begin(), states_.end())) std::sort(states_.begin(), states_.end());
-  }
+  explicit StateSearch(const std::vector<std::uint64_t>& states) : states_(states) {}
 
   /// Rows of readings follow those of states mostly: the state last found and the one behind it are looked at first.
   bool has(int pose, int step) {
-    const std::uint64_t wanted = of(pose, step);
+    const std::uint64_t wanted = loadState(pose, step);
     for (std::size_t ahead = 0; ahead < 2; ++ahead) {
       if (last_ + ahead < states_.size() && states_[last_ + ahead] == wanted) {
         last_ += ahead;
@@ -43,34 +65,36 @@ class LoadStates {
   }
 
  private:
-  static std::uint64_t of(int pose, int step) {
-    return (static_cast<std::uint64_t>(pose) << 32) | static_cast<std::uint32_t>(step);
-  }
-
-  std::vector<std::uint64_t> states_;
+  const std::vector<std::uint64_t>& states_;
   std::size_t last_ = 0;
 };
 
 template <class Row>
-void requireStates(const Campaign& campaign, const Table<Row>& table, LoadStates& states) {
-  for (const Row& row : table.rows) {
-    if (states.has(row.pose, row.step)) continue;
-    const std::string& pose = campaign.pose_ids[static_cast<std::size_t>(row.pose)];
-    throw InputError({shown(campaign, table.file), row.line, "pose, step"},
-                     fmt::format("{}, {}", pose, row.step),
-                     fmt::format("expected a load state that {} has a row for", campaign.states->file));
-  }
+void requireStates(const Campaign& campaign, const Table<Row>& table, const std::vector<std::uint64_t>& states) {
+  inBlocks(table.rows.size(), [&](std::size_t, std::size_t from, std::size_t to) {
+    StateSearch search(states);
+    for (std::size_t i = from; i < to; ++i) {
+      const Row& row = table.rows[i];
+      if (search.has(row.pose, row.step)) continue;
+      const std::string& pose = campaign.pose_ids[static_cast<std::size_t>(row.pose)];
+      throw InputError({shown(campaign, table.file), row.line, "pose, step"},
+                       fmt::format("{}, {}", pose, row.step),
+                       fmt::format("expected a load state that {} has a row for", campaign.states->file));
+    }
+  });
 }
 
 void checkStatesCoverReadings(const Campaign& campaign) {
   if (!campaign.states) return;
-  LoadStates states(campaign.states->rows);
+  const std::vector<std::uint64_t> states = loadStates(campaign.states->rows);
   if (campaign.loading) requireStates(campaign, *campaign.loading, states);
   if (campaign.displacements) requireStates(campaign, *campaign.displacements, states);
 }
 
 void checkDisplacedTargetsHavePlaces(const Campaign& campaign) {
-  if (!campaign.displacements) return;
+  const bool all_have = std::all_of(campaign.targets.begin(), campaign.targets.end(),
+                                    [](const Target& target) { return target.position_in_flange.has_value(); });
+  if (!campaign.displacements || all_have) return;
   for (const Displacement& row : campaign.displacements->rows) {
     const Target& target = campaign.targets[static_cast<std::size_t>(row.target)];
     if (target.position_in_flange) continue;
@@ -108,13 +132,24 @@ void warnOfAnglesOutsideLimits(const Campaign& campaign, std::vector<std::string
     const State* first = nullptr;
     std::size_t rows = 0;
   };
-  std::array<Outside, 6> outside;
-  for (const State& row : campaign.states->rows) {
+  const std::vector<State>& states = campaign.states->rows;
+  std::vector<std::array<Outside, 6>> found(blocksOf(states.size()));
+  inBlocks(states.size(), [&](std::size_t block, std::size_t from, std::size_t to) {
     for (std::size_t j = 0; j < 6; ++j) {
-      const JointLimits& limits = campaign.robot.limits[j];
-      const double q = row.q[static_cast<Eigen::Index>(j)];
-      if (q >= limits.lower - kMargin && q <= limits.upper + kMargin) continue;
-      if (outside[j].rows++ == 0) outside[j].first = &row;
+      const double lower = campaign.robot.limits[j].lower - kMargin, upper = campaign.robot.limits[j].upper + kMargin;
+      Outside& outside = found[block][j];
+      for (std::size_t i = from; i < to; ++i) {
+        const double q = states[i].q[static_cast<Eigen::Index>(j)];
+        if (q >= lower && q <= upper) continue;
+        if (outside.rows++ == 0) outside.first = &states[i];
+      }
+    }
+  });
+  std::array<Outside, 6> outside;
+  for (const auto& block : found) {
+    for (std::size_t j = 0; j < 6; ++j) {
+      if (outside[j].first == nullptr) outside[j].first = block[j].first;
+      outside[j].rows += block[j].rows;
     }
   }
   for (std::size_t j = 0; j < 6; ++j) {
@@ -136,8 +171,11 @@ void warnOfRadians(const Campaign& campaign, const std::optional<Table<Row>>& ta
   constexpr std::size_t kFewestRows = 10;
   if (!table || table->rows.size() < kFewestRows) return;
   double largest = 0.0;
-  for (const Row& row : table->rows) largest = std::max(largest, row.q.cwiseAbs().maxCoeff() / kDegree);
-  if (largest == 0.0 || largest > 2.0 * std::numbers::pi) return;
+  for (const Row& row : table->rows) {
+    largest = std::max(largest, row.q.cwiseAbs().maxCoeff() / kDegree);
+    if (largest > 2.0 * std::numbers::pi) return;
+  }
+  if (largest == 0.0) return;
   warnings.push_back(inputMessage(
       {shown(campaign, table->file), 0, "q1_deg..q6_deg"}, "",
       fmt::format("no joint angle is larger than {:.3f} deg; were they written in radians?", largest)));
@@ -153,7 +191,6 @@ using Check = void (*)(const Campaign&, std::vector<std::string>&);
 
 // In the order of their errors and warnings.
 constexpr Check kChecks[] = {
-    [](const Campaign& campaign, std::vector<std::string>&) { checkStatesCoverReadings(campaign); },
     [](const Campaign& campaign, std::vector<std::string>&) { checkDisplacedTargetsHavePlaces(campaign); },
     warnOfPosesWithoutStepZero,
     warnOfAnglesOutsideLimits,
@@ -165,10 +202,8 @@ constexpr Check kChecks[] = {
 }  // namespace
 
 void checkCampaign(const Campaign& campaign, std::vector<std::string>& warnings) {
-  std::array<std::vector<std::string>, std::size(kChecks)> found;
-  const bool worth_it = campaign.states && campaign.states->rows.size() >= kWorthThreads;
-  onAllCores(found.size(), [&](std::size_t i) { kChecks[i](campaign, found[i]); }, worth_it);
-  for (const std::vector<std::string>& some : found) warnings.insert(warnings.end(), some.begin(), some.end());
+  checkStatesCoverReadings(campaign);
+  for (const Check& check : kChecks) check(campaign, warnings);
 }
 
 }  // namespace stiffscope

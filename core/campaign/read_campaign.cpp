@@ -72,9 +72,9 @@ class TableReader {
 
 }  // namespace
 
-CampaignReading readCampaign(const std::filesystem::path& folder_or_xml) {
+CampaignReading readCampaign(const std::filesystem::path& folder_or_xml, Hashes hashes) {
   CampaignReading reading;
-  CampaignFiles files(folder_or_xml);
+  CampaignFiles files(folder_or_xml, hashes == Hashes::taken);
   const CampaignXml xml = readCampaignXml(files.xmlName(), files.readXml().text(), reading.warnings);
   Campaign& campaign = reading.campaign;
   campaign = xml.campaign;

@@ -16,10 +16,10 @@ std::vector<WantedColumn> wantedColumns(const TableLayout<Row>& layout) {
 
 /// Puts one cell into its member of the row, in SI and radians.
 template <class Row>
-void readCell(const Column<Row>& column, std::string_view cell, const CellPlace& place, CampaignNames& names,
-              Row& row) {
+void readCell(const Column<Row>& column, std::string_view cell, const CellPlace& place, bool room_behind,
+              CampaignNames& names, Row& row) {
   if (const auto* number = std::get_if<typename Column<Row>::Number>(&column.member)) {
-    (*number)(row) = readNumberCell(column.kind, cell, place);
+    (*number)(row) = readNumberCell(column.kind, cell, place, room_behind);
   } else if (const auto* index = std::get_if<typename Column<Row>::Index>(&column.member)) {
     (*index)(row) = readIndexCell(column.kind, cell, place, names);
   } else {
@@ -32,9 +32,10 @@ template <class Row>
 void readRow(const std::string& file, const TableLayout<Row>& layout, const TableLines& lines, CampaignNames& names,
              Row& row) {
   row.line = lines.line();
+  const bool room = lines.hasRoomBehindCells();
   for (std::size_t i = 0; i < layout.columns.size(); ++i) {
     if (!lines.has(i)) continue;
-    readCell(layout.columns[i], lines.cell(i), {file, row.line, layout.columns[i].name}, names, row);
+    readCell(layout.columns[i], lines.cell(i), {file, row.line, layout.columns[i].name}, room, names, row);
   }
 }
 

@@ -43,6 +43,7 @@ class TableLines {
 
   /// Cell of the current line in the column that is the `column`-th of those wanted.
   std::string_view cell(std::size_t column) const { return cells_[places_[column]]; }
+  bool hasRoomBehindCells() const { return lines_.hasRoomBehindCells(); }
 
  private:
   void requireCellCount() const;

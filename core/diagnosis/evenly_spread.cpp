@@ -11,7 +11,7 @@ Campaign evenlySpread(const Campaign& campaign, std::size_t most) {
   std::vector<bool> dropped(postures, true);
   for (std::size_t k = 0; k < most; ++k) dropped[k * postures / most] = false;
   dropPostures(dropped, kept);
-  return kept;
+  return Campaign(kept);  // a copy takes the room of what is left, not of what was there
 }
 
 }  // namespace stiffscope

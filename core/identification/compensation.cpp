@@ -3,31 +3,66 @@
 #include <algorithm>
 #include <numeric>
 
+#include "core/identification/posture_influence.h"
+#include "core/parallel/on_all_cores.h"
+
 namespace stiffscope {
 
-DeflectionJudge::DeflectionJudge(const std::vector<CaseEquations>& equations) {
+namespace {
+
+std::vector<std::size_t> eachOf(const std::vector<CaseEquations>& equations) {
+  std::vector<std::size_t> all(equations.size());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  return all;
+}
+
+std::vector<std::size_t> firstsOfPostures(const std::vector<CaseEquations>& equations) {
+  std::vector<std::size_t> firsts;
+  for (std::size_t i = 0; i < equations.size(); ++i) {
+    if (i == 0 || !sharePosture(equations[i - 1], equations[i])) firsts.push_back(i);
+  }
+  return firsts;
+}
+
+}  // namespace
+
+DeflectionJudge::DeflectionJudge(const std::vector<CaseEquations>& equations)
+    : DeflectionJudge(equations, eachOf(equations)) {}
+
+DeflectionJudge DeflectionJudge::byPosture(const std::vector<CaseEquations>& equations) {
+  return {equations, firstsOfPostures(equations)};
+}
+
+DeflectionJudge::DeflectionJudge(const std::vector<CaseEquations>& equations, const std::vector<std::size_t>& first)
+    : points_(first.size()), displacement_(first.size()) {
+  const auto end = [&](std::size_t posture) { return posture + 1 < first.size() ? first[posture + 1] : equations.size(); };
+  std::vector<Eigen::Index> from(first.size());
   Eigen::Index count = 0;
-  for (const CaseEquations& one : equations) count += one.right.size() / 3;
+  for (std::size_t posture = 0; posture < first.size(); ++posture) {
+    from[posture] = count;
+    for (std::size_t i = first[posture]; i < end(posture); ++i) count += equations[i].right.size() / 3;
+    points_[posture] = static_cast<int>(count - from[posture]);
+    posture_of_point_.resize(static_cast<std::size_t>(count), posture);
+  }
   for (std::size_t axis = 0; axis < 3; ++axis) {
     matrix_[axis].resize(count, 6);
     right_[axis].resize(count);
   }
-  Eigen::Index at = 0;
-  for (std::size_t posture = 0; posture < equations.size(); ++posture) {
-    const CaseEquations& one = equations[posture];
-    const Eigen::Index points = one.right.size() / 3;
+  smallWorkOnAllCores(first.size(), [&](std::size_t posture) {
+    Eigen::Index at = from[posture];
     double sum = 0.0;
-    for (Eigen::Index point = 0; point < points; ++point, ++at) {
-      for (Eigen::Index axis = 0; axis < 3; ++axis) {
-        matrix_[static_cast<std::size_t>(axis)].row(at) = one.matrix.row(3 * point + axis).array();
-        right_[static_cast<std::size_t>(axis)][at] = one.right[3 * point + axis];
+    for (std::size_t i = first[posture]; i < end(posture); ++i) {
+      const CaseEquations& one = equations[i];
+      for (Eigen::Index row = 0; row < one.right.size(); row += 3, ++at) {
+        for (Eigen::Index axis = 0; axis < 3; ++axis) {
+          matrix_[static_cast<std::size_t>(axis)].row(at) = one.matrix.row(row + axis).array();
+          right_[static_cast<std::size_t>(axis)][at] = one.right[row + axis];
+        }
+        sum += one.right.segment<3>(row).norm();
       }
-      posture_of_point_.push_back(posture);
-      sum += one.right.segment<3>(3 * point).norm();
     }
-    points_.push_back(static_cast<int>(points));
-    displacement_.push_back(sum);
-  }
+    displacement_[posture] = sum;
+  });
 }
 
 namespace {
@@ -49,9 +84,13 @@ void DeflectionJudge::addResidual(Eigen::Index from, Eigen::Index size, const Ve
                    .square();
   }
   squares = squares.sqrt();
-  for (Eigen::Index point = 0; point < size; ++point) {
-    per_posture[posture_of_point_[static_cast<std::size_t>(from + point)]] +=
-        norms[static_cast<std::size_t>(point)];
+  // A posture's points follow one another: its sum stays in a register.
+  const std::size_t* const posture_of = posture_of_point_.data() + from;
+  for (Eigen::Index point = 0; point < size;) {
+    const std::size_t posture = posture_of[point];
+    double sum = per_posture[posture];
+    for (; point < size && posture_of[point] == posture; ++point) sum += norms[static_cast<std::size_t>(point)];
+    per_posture[posture] = sum;
   }
 }
 

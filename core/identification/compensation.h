@@ -16,6 +16,8 @@ class DeflectionJudge {
   DeflectionJudge() = default;
   /// `equations`: one a posture, three rows a point, positions only.
   explicit DeflectionJudge(const std::vector<CaseEquations>& equations);
+  /// As of byPosture(equations) (posture_influence.h), without a copy of them.
+  static DeflectionJudge byPosture(const std::vector<CaseEquations>& equations);
 
   std::size_t postures() const { return displacement_.size(); }
 
@@ -34,6 +36,8 @@ class DeflectionJudge {
   int pointsOf(std::size_t posture) const { return points_[posture]; }
 
  private:
+  /// `first`: of the equations of each posture, the first.
+  DeflectionJudge(const std::vector<CaseEquations>& equations, const std::vector<std::size_t>& first);
   void addResidual(Eigen::Index from, Eigen::Index size, const Vector6d& compliance, std::vector<double>& per_posture) const;
 
   std::array<Eigen::Array<double, Eigen::Dynamic, 6>, 3> matrix_;  // by coordinate: one row a point

@@ -2,9 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <map>
-
 #include "core/identification/cell_wrench.h"
+#include "core/identification/load_step.h"
 #include "core/parallel/on_all_cores.h"
 #include "metrology/rigid_registration.h"
 
@@ -75,19 +74,10 @@ Eigen::Vector3d jacobianPoint(const LoadCase& load_case, const Eigen::Vector3d& 
 }
 
 std::optional<int> heaviestStep(const Campaign& campaign) {
-  if (!campaign.states) return std::nullopt;
-  std::map<int, std::pair<double, int>> force_by_step;
-  for (const State& state : campaign.states->rows) {
-    if (state.step == 0) continue;
-    auto& [sum, count] = force_by_step[state.step];
-    sum += state.wrench_in_cell.head<3>().norm();
-    ++count;
-  }
   std::optional<int> heaviest;
   double most = 0.0;
-  for (const auto& [step, force] : force_by_step) {
-    const double mean = force.first / force.second;
-    if (mean > most) most = mean, heaviest = step;
+  for (const auto& [step, mean] : meanForces(campaign)) {
+    if (step != 0 && mean > most) most = mean, heaviest = step;
   }
   return heaviest;
 }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/parallel/on_all_cores.h"
+
 namespace stiffscope {
 
 LoadReadings::LoadReadings(const Campaign& campaign, std::vector<int> steps)
@@ -11,11 +13,6 @@ LoadReadings::LoadReadings(const Campaign& campaign, std::vector<int> steps)
       targets_(campaign.targets.size()),
       states_((steps_.size() + 1) * poses_, nullptr) {
   const auto asked = [&](int step) { return slot(step) <= steps_.size(); };
-  if (campaign.states) {
-    for (const State& state : campaign.states->rows) {
-      if (asked(state.step)) states_[at(static_cast<std::size_t>(state.pose), state.step)] = &state;
-    }
-  }
   const auto add = [&](const auto& row, const Eigen::Vector3d& value, std::vector<ReadingSum>& table) {
     if (!asked(row.step)) return;
     ReadingSum& sum = table[at(static_cast<std::size_t>(row.pose), row.step) * targets_ +
@@ -23,14 +20,23 @@ LoadReadings::LoadReadings(const Campaign& campaign, std::vector<int> steps)
     sum.sum += value;
     ++sum.readings;
   };
-  if (campaign.loading) {
-    points_.resize(states_.size() * targets_);
-    for (const LoadingReading& row : campaign.loading->rows) add(row, row.point, points_);
-  }
-  if (campaign.displacements) {
-    differences_.resize(states_.size() * targets_);
-    for (const Displacement& row : campaign.displacements->rows) add(row, row.displacement, differences_);
-  }
+  const auto gatherStates = [&] {
+    if (!campaign.states) return;
+    for (const State& state : campaign.states->rows) {
+      if (asked(state.step)) states_[at(static_cast<std::size_t>(state.pose), state.step)] = &state;
+    }
+  };
+  const auto gatherReadings = [&] {
+    if (campaign.loading) {
+      points_.resize(states_.size() * targets_);
+      for (const LoadingReading& row : campaign.loading->rows) add(row, row.point, points_);
+    }
+    if (campaign.displacements) {
+      differences_.resize(states_.size() * targets_);
+      for (const Displacement& row : campaign.displacements->rows) add(row, row.displacement, differences_);
+    }
+  };
+  onAllCores(2, [&](std::size_t i) { i == 0 ? gatherStates() : gatherReadings(); }, poses_ >= kWorthThreads);
 }
 
 std::size_t LoadReadings::slot(int step) const {

@@ -38,23 +38,36 @@ std::vector<int> loadSteps(const Campaign& campaign) {
   return {steps.begin(), steps.end()};
 }
 
-std::vector<int> loadedSteps(const Campaign& campaign) {
-  std::map<int, std::pair<double, int>> forces;
-  if (campaign.states) {
-    for (const State& state : campaign.states->rows) {
-      auto& [sum, count] = forces[state.step];
-      sum += state.wrench_in_cell.head<3>().norm();
-      ++count;
-    }
+std::map<int, double> meanForces(const Campaign& campaign) {
+  if (!campaign.states) return {};
+  struct Forces {
+    double sum = 0.0;
+    int count = 0;
+  };
+  std::map<int, Forces> forces;
+  auto at = forces.end();
+  for (const State& state : campaign.states->rows) {
+    // A posture's steps follow one another in most tables.
+    if (at != forces.end() && at->first != state.step) ++at;
+    if (at == forces.end() || at->first != state.step) at = forces.try_emplace(state.step).first;
+    at->second.sum += state.wrench_in_cell.head<3>().norm();
+    ++at->second.count;
   }
+  std::map<int, double> means;
+  for (const auto& [step, force] : forces) means[step] = force.sum / force.count;
+  return means;
+}
+
+std::vector<int> loadedSteps(const Campaign& campaign) {
+  const std::map<int, double> forces = meanForces(campaign);
   constexpr double kReturn = 0.05;
   double most = 0.0;
   for (const auto& [step, force] : forces) {
-    if (step != 0) most = std::max(most, force.first / force.second);
+    if (step != 0) most = std::max(most, force);
   }
   std::vector<int> steps;
   for (const auto& [step, force] : forces) {
-    if (step != 0 && most > 0.0 && force.first / force.second >= kReturn * most) steps.push_back(step);
+    if (step != 0 && most > 0.0 && force >= kReturn * most) steps.push_back(step);
   }
   return steps;
 }

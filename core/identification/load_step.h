@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -11,6 +12,9 @@ namespace stiffscope {
 /// What a campaign lacks to be identified from at all, and what it is needed for; empty where it has joint
 /// angles, wrenches and readings under load. A day of sweeps alone lacks these.
 std::string whatLoadsLack(const Campaign& campaign);
+
+/// Mean force of each step that `states` has, 0 among them, N.
+std::map<int, double> meanForces(const Campaign& campaign);
 
 /// The load steps that `states` has, in order; 0, the unloaded one, is none.
 std::vector<int> loadSteps(const Campaign& campaign);

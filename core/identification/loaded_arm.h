@@ -34,6 +34,11 @@ std::vector<CaseEquations> reflectorEquations(const LoadedArm& arm);
 std::vector<CaseEquations> wristPointEquations(const LoadedArm& arm);
 std::vector<CaseEquations> poseEquations(const LoadedArm& arm, const Eigen::Vector3d& tcp_in_flange);
 
+/// Those of an arm's points; no `wrist` where P_wrist is not measured.
+struct PointEquations {
+  std::vector<CaseEquations> wrist, reflectors;
+};
+
 /// The loads settled: torques (K_c, and the wrench turned with the flange where its turn is not measured) and middle
 /// postures that the compliances imply which `compliance(arm)` gives, round by round; K_c is about a hundredth, so two
 /// rounds leave a millionth. Without `finite_deflection` the unloaded arm's torques and postures.

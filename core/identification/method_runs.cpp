@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 #include "core/identification/judge_method.h"
 #include "core/identification/method_solution.h"
 #include "core/identification/posture_influence.h"
@@ -23,8 +25,12 @@ MethodSolution solutionOf(Method which, const MethodRuns& runs, const Identifica
           runs.campaign.tracker ? &*runs.campaign.tracker : nullptr};
 }
 
-StiffnessEstimate solved(Method which, LoadedArm& arm, const MethodRuns& runs, const Identification& result) {
-  return solutionOf(which, runs, result).settledEstimate(arm, runs.options.finite_deflection);
+/// Solves a method, and gives the equations of the arm's points as it settles.
+PointEquations solve(Method which, LoadedArm& arm, const MethodRuns& runs, Identification& result) {
+  PointEquations equations;
+  methodOf(result, which).estimate =
+      solutionOf(which, runs, result).settledEstimate(arm, runs.options.finite_deflection, &equations);
+  return equations;
 }
 
 /// The loaded arm in the calibrated geometry. Where no sweep gave stiffnesses for the own weight's sag,
@@ -58,7 +64,7 @@ void runCompletePose(MethodRuns& runs, Identification& result) {
   const Eigen::Vector3d tcp = result.frames.tcp_in_flange;
   result.characteristic_length = characteristicLength(runs.swept.geometry, runs.swept.cases, tcp);
   const double length = result.characteristic_length.length;
-  out.estimate = solved(Method::complete_pose, runs.swept, runs, result);
+  PointEquations equations = solve(Method::complete_pose, runs.swept, runs, result);
   constexpr int kEvery = 5;
   PoseNormal sum;
   std::vector<CaseEquations> scaled;
@@ -70,7 +76,7 @@ void runCompletePose(MethodRuns& runs, Identification& result) {
     const auto& [at, condition] = result.characteristic_length.curve[i];
     result.length_sensitivity.push_back({at, condition, solveNormal(sum.at(at), runs.unknown)});
   }
-  judgeMethod(runs.swept, normalByPosture(scaled), false, runs.options, out);
+  judgeMethod(runs.swept.geometry, std::move(equations), normalByPosture(scaled), false, runs.options, out);
 }
 
 void runPartialPose(MethodRuns& runs, Identification& result) {
@@ -91,8 +97,9 @@ void runPartialPose(MethodRuns& runs, Identification& result) {
   if (runs.unknown == JointMask{}) judgeJointsIn(arm, runs, result);
   out.reason = whyNoPositions(runs.campaign, arm, runs.unknown);
   if (!out.reason.empty()) return;
-  out.estimate = solved(Method::partial_pose, arm, runs, result);
-  judgeMethod(arm, normalByPosture(reflectorEquations(arm)), false, runs.options, out);
+  PointEquations equations = solve(Method::partial_pose, arm, runs, result);
+  std::vector<NormalEquations> normal = normalByPosture(equations.reflectors);
+  judgeMethod(arm.geometry, std::move(equations), std::move(normal), false, runs.options, out);
   if (!runs.campaign.loading) settleArm(arm, false, [](const LoadedArm&) { return Vector6d(); });  // unloaded again
   if (runs.swept.cases.empty()) runs.calibrated = std::move(arm);
 }
@@ -105,12 +112,13 @@ void runDecoupledPartialPose(MethodRuns& runs, Identification& result) {
   }
   if (out.reason.empty()) out.reason = whyNoWristPoint(runs.campaign, runs.swept, result.frames.wrist);
   if (!out.reason.empty()) return;
-  out.estimate = solved(Method::decoupled_partial_pose, runs.swept, runs, result);
+  PointEquations equations = solve(Method::decoupled_partial_pose, runs.swept, runs, result);
   const WristCentre& wrist = result.frames.wrist;
   out.reason =
       whyNotDecoupled(wrist, wristLeak(runs.swept, wrist.centre_at_zero_in_r0, out.estimate.compliance));
   if (!out.reason.empty()) return;
-  judgeMethod(runs.swept, normalByPosture(wristPointEquations(runs.swept)), true, runs.options, out);
+  std::vector<NormalEquations> normal = normalByPosture(equations.wrist);
+  judgeMethod(runs.swept.geometry, std::move(equations), std::move(normal), true, runs.options, out);
 }
 
 void addSharedUncertainty(const MethodRuns& runs, Identification& result) {

@@ -1,5 +1,7 @@
 #include "core/identification/method_solution.h"
 
+#include <utility>
+
 #include "core/identification/arm_normal.h"
 #include "core/identification/decoupled_partial_pose.h"
 #include "core/identification/partial_pose.h"
@@ -8,21 +10,22 @@
 
 namespace stiffscope {
 
-StiffnessEstimate MethodSolution::estimate(const LoadedArm& arm) const {
+StiffnessEstimate MethodSolution::estimate(const LoadedArm& arm, const PointEquations& equations) const {
   switch (method) {
     case Method::complete_pose:
       return completePose(poseEquations(arm, tcp_in_flange), length, unknown);
     case Method::decoupled_partial_pose:
-      return decoupledPartialPose(wristPointEquations(arm), reflectorEquations(arm), unknown);
+      return decoupledPartialPose(equations.wrist, equations.reflectors, unknown);
     case Method::partial_pose:
       break;
   }
-  const std::vector<CaseEquations> equations = reflectorEquations(arm);
-  StiffnessEstimate estimate = partialPose(equations, unknown);
-  const std::vector<NormalEquations> normal = normalByPosture(equations);
+  const std::vector<NormalEquations> normal = normalByPosture(equations.reflectors);
+  StiffnessEstimate estimate = partialPose(equations.reflectors, normal, unknown);
   // With several load steps a posture's rows share step 0: there the plain correction stands.
-  const bool one_step = normal.size() == equations.size();
-  if (tracker != nullptr && one_step) correctForNoise(normal, reflectorNoise(*tracker, arm, equations), estimate);
+  const bool one_step = normal.size() == equations.reflectors.size();
+  if (tracker != nullptr && one_step) {
+    correctForNoise(normal, reflectorNoise(*tracker, arm, equations.reflectors), estimate);
+  }
   return estimate;
 }
 
@@ -43,9 +46,14 @@ Vector6d MethodSolution::settledCompliance(LoadedArm& arm, bool finite_deflectio
   return compliance(arm);
 }
 
-StiffnessEstimate MethodSolution::settledEstimate(LoadedArm& arm, bool finite_deflection) const {
+StiffnessEstimate MethodSolution::settledEstimate(LoadedArm& arm, bool finite_deflection, PointEquations* equations) const {
   settleArm(arm, finite_deflection, [this](const LoadedArm& now) { return compliance(now); });
-  return estimate(arm);
+  PointEquations settled;
+  if (equations != nullptr || method == Method::decoupled_partial_pose) settled.wrist = wristPointEquations(arm);
+  if (equations != nullptr || method != Method::complete_pose) settled.reflectors = reflectorEquations(arm);
+  StiffnessEstimate estimated = estimate(arm, settled);
+  if (equations != nullptr) *equations = std::move(settled);
+  return estimated;
 }
 
 }  // namespace stiffscope

@@ -13,13 +13,13 @@ struct MethodSolution {
   JointMask unknown{};
   const Tracker* tracker = nullptr;  ///< Partial Pose: whose noise is the working model of the scatter; may be none
 
-  StiffnessEstimate estimate(const LoadedArm& arm) const;
+  StiffnessEstimate estimate(const LoadedArm& arm, const PointEquations& equations) const;
 
   /// The compliances alone, without their covariance and at a twentieth of the time.
   Vector6d compliance(const LoadedArm& arm) const;
 
-  /// The same of the arm settled (settleArm) by this method's compliances.
-  StiffnessEstimate settledEstimate(LoadedArm& arm, bool finite_deflection) const;
+  /// The same of the arm settled (settleArm) by this method's compliances; its `equations` then are given out where asked.
+  StiffnessEstimate settledEstimate(LoadedArm& arm, bool finite_deflection, PointEquations* equations = nullptr) const;
   Vector6d settledCompliance(LoadedArm& arm, bool finite_deflection) const;
 };
 

@@ -25,7 +25,7 @@ struct Posture {
 /// c(without p) = c + d the residual of another posture q is r_q - A_q d: sums over q are quadratic in d.
 class Sums {
  public:
-  Sums(const std::vector<Posture>& postures, bool common_rows) {
+  explicit Sums(const std::vector<Posture>& postures) {
     std::vector<NormalEquations> own(postures.size());
     smallWorkOnAllCores(postures.size(), [&](std::size_t p) {
       own[p] = normalEquations({postures[p].equations->matrix, postures[p].residual, postures[p].equations->posture});
@@ -35,7 +35,14 @@ class Sums {
       squares += one.residual.squaredNorm();
       rows += one.residual.size();
     }
-    if (common_rows) addMoments(postures);
+  }
+
+  /// What momentsWithout takes: one pass more, which few campaigns need.
+  void addMoments(const std::vector<Posture>& postures) {
+    const Eigen::Index common = postures.front().residual.size();
+    if (std::all_of(postures.begin(), postures.end(), [&](const Posture& one) { return one.residual.size() == common; })) {
+      addCommonMoments(postures);
+    }
   }
 
   /// Sum over the other postures of the squared residuals.
@@ -63,7 +70,7 @@ class Sums {
 
  private:
   /// Some columns of the sum at a time, each over the postures in their order.
-  void addMoments(const std::vector<Posture>& postures) {
+  void addCommonMoments(const std::vector<Posture>& postures) {
     const Eigen::Index rows = postures.front().residual.size(), size = 7 * rows;
     Eigen::MatrixXd entries(size, static_cast<Eigen::Index>(postures.size()));
     smallWorkOnAllCores(postures.size(), [&](std::size_t p) {
@@ -98,7 +105,13 @@ double studentised(const Eigen::VectorXd& deleted, const CaseEquations& own, con
   return deleted.dot(spread.llt().solve(deleted));
 }
 
-OutlyingPosture judge(const Sums& all, const Posture& own, const JointMask& unknown, double unknowns, double postures) {
+/// Degrees of freedom left to the others.
+double dofWithout(const Sums& all, const Posture& own, double unknowns) {
+  return static_cast<double>(all.rows - own.residual.size()) - unknowns;
+}
+
+/// All but the p value; f 0 where the others leave nothing to judge by.
+OutlyingPosture judge(const Sums& all, const Posture& own, const JointMask& unknown, double unknowns) {
   const NormalEquations others = without(all.normal, own);
   const Vector6d step = solveNormal(others, unknown);
   const Eigen::VectorXd deleted = own.residual - own.equations->matrix * step;
@@ -108,17 +121,27 @@ OutlyingPosture judge(const Sums& all, const Posture& own, const JointMask& unkn
   result.rms = std::sqrt(deleted.squaredNorm() / coordinates);
   const double sum = all.squaresWithout(others, own, step), rows = static_cast<double>(all.rows) - coordinates;
   result.others = std::sqrt(std::max(0.0, sum) / rows);
-  const double left = rows - unknowns;
+  const double left = dofWithout(all, own, unknowns);
   if (!(left > 0.0) || !(sum > 0.0)) return result;
   result.f = studentised(deleted, *own.equations, inverseNormal(others, unknown)) / coordinates / (sum / left);
-  // No F distribution has less than 0.3 above 1: such a posture is none, and most are such.
-  if (result.f <= 1.0) return result;
+  return result;
+}
+
+/// Whether it can be outlying: by as many degrees of freedom as it has coordinates, the most there can be. Fewer only make
+/// so small a tail larger.
+bool canBeOutlying(const Sums& all, const Posture& own, double f, double unknowns, double postures) {
+  const auto coordinates = static_cast<int>(own.residual.size());
+  // No F distribution has less than 0.3 above 1.
+  return f > 1.0 && fTail(f, coordinates, dofWithout(all, own, unknowns)) * postures < kLevel;
+}
+
+double pValue(const Sums& all, const Posture& own, double f, const JointMask& unknown, double unknowns, double postures) {
+  const Vector6d step = solveNormal(without(all.normal, own), unknown);
   // How many independent numbers a posture's residual is; without common coordinates the least there can be.
   const double per_posture = std::max(1.0, satterthwaite(all.momentsWithout(own, step)));
-  const double below = per_posture * left / coordinates;
-  const double tail = fTail(result.f, std::max(1, static_cast<int>(per_posture)), std::max(1.0, below));
-  result.p_value = std::min(1.0, tail * postures);
-  return result;
+  const double below = per_posture * dofWithout(all, own, unknowns) / static_cast<double>(own.residual.size());
+  const double tail = fTail(f, std::max(1, static_cast<int>(per_posture)), std::max(1.0, below));
+  return std::min(1.0, tail * postures);
 }
 
 /// Residuals at the least squares solution of these equations.
@@ -133,17 +156,22 @@ std::vector<Posture> fitAll(const std::vector<const CaseEquations*>& equations, 
   return postures;
 }
 
-/// The one that disagrees most with the rest.
+/// The one that disagrees most with the rest; p value 1 where none can be outlying.
 OutlyingPosture worstOf(const std::vector<Posture>& postures, const JointMask& unknown, double unknowns, std::size_t& worst) {
-  const auto rows = postures.front().residual.size();
-  const bool common = std::all_of(postures.begin(), postures.end(),
-                                  [&](const Posture& one) { return one.residual.size() == rows; });
-  const Sums sums(postures, common);
+  const auto count = static_cast<double>(postures.size());
+  Sums sums(postures);
   std::vector<OutlyingPosture> judged(postures.size());
+  std::vector<char> can_be(postures.size());
   smallWorkOnAllCores(postures.size(), [&](std::size_t p) {
-    judged[p] = judge(sums, postures[p], unknown, unknowns, static_cast<double>(postures.size()));
+    judged[p] = judge(sums, postures[p], unknown, unknowns);
+    can_be[p] = canBeOutlying(sums, postures[p], judged[p].f, unknowns, count);
   });
   OutlyingPosture most;
+  if (std::find(can_be.begin(), can_be.end(), char{true}) == can_be.end()) return most;
+  sums.addMoments(postures);
+  smallWorkOnAllCores(postures.size(), [&](std::size_t p) {
+    if (can_be[p]) judged[p].p_value = pValue(sums, postures[p], judged[p].f, unknown, unknowns, count);
+  });
   for (std::size_t p = 0; p < postures.size(); ++p) {
     if (judged[p].p_value < most.p_value) most = judged[p], worst = p;
   }

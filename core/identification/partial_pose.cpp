@@ -23,9 +23,13 @@ CaseEquations partialPoseEquations(const LoadingGeometry& geometry, const LoadCa
 }
 
 StiffnessEstimate partialPose(const std::vector<CaseEquations>& equations, const JointMask& unknown) {
+  return partialPose(equations, normalByPosture(equations), unknown);
+}
+
+StiffnessEstimate partialPose(const std::vector<CaseEquations>& equations, const std::vector<NormalEquations>& normal,
+                              const JointMask& unknown) {
   StiffnessEstimate estimate;
   estimate.identifiable = unknown;
-  const std::vector<NormalEquations> normal = normalByPosture(equations);
   const NormalEquations sum = sumOf(normal);
   estimate.compliance = solveNormal(sum, unknown);
   estimate.condition = conditionNumber(equations, unknown);

@@ -10,7 +10,9 @@ namespace stiffscope {
 CaseEquations partialPoseEquations(const LoadingGeometry& geometry, const LoadCase& load_case,
                                    const Vector6d& torque);
 
-/// All six compliances at once.
+/// All six compliances at once. `normal`: normalByPosture(equations).
+StiffnessEstimate partialPose(const std::vector<CaseEquations>& equations, const std::vector<NormalEquations>& normal,
+                              const JointMask& unknown);
 StiffnessEstimate partialPose(const std::vector<CaseEquations>& equations, const JointMask& unknown);
 
 }  // namespace stiffscope

@@ -2,6 +2,7 @@
 
 #include <Eigen/Dense>
 #include <array>
+#include <utility>
 
 #include "core/parallel/on_all_cores.h"
 
@@ -28,8 +29,6 @@ Matrix6d inverseRootOfRest(const Matrix6d& g) {
   return own.eigenvectors() * root.asDiagonal() * own.eigenvectors().transpose();
 }
 
-bool sharePosture(const CaseEquations& a, const CaseEquations& b) { return a.posture >= 0 && a.posture == b.posture; }
-
 }  // namespace
 
 PostureGains::PostureGains(const NormalEquations& sum, const JointMask& unknown) {
@@ -52,22 +51,26 @@ double satterthwaite(const Eigen::MatrixXd& covariance) {
   return trace > 0.0 ? trace * trace / covariance.squaredNorm() : 0.0;
 }
 
-std::vector<CaseEquations> byPosture(const std::vector<CaseEquations>& equations) {
-  std::vector<CaseEquations> joined;
-  joined.reserve(equations.size());
-  for (const CaseEquations& one : equations) {
-    if (joined.empty() || !sharePosture(joined.back(), one)) {
-      joined.push_back(one);
+bool sharePosture(const CaseEquations& a, const CaseEquations& b) { return a.posture >= 0 && a.posture == b.posture; }
+
+std::vector<CaseEquations> byPosture(std::vector<CaseEquations> equations) {
+  std::size_t postures = 0;
+  for (std::size_t i = 0; i < equations.size(); ++i) {
+    CaseEquations& one = equations[i];
+    if (i == 0 || !sharePosture(equations[postures - 1], one)) {
+      if (postures != i) equations[postures] = std::move(one);
+      ++postures;
       continue;
     }
-    CaseEquations& last = joined.back();
+    CaseEquations& last = equations[postures - 1];
     const Eigen::Index had = last.right.size(), more = one.right.size();
     last.matrix.conservativeResize(had + more, 6);
     last.right.conservativeResize(had + more);
     last.matrix.bottomRows(more) = one.matrix;
     last.right.tail(more) = one.right;
   }
-  return joined;
+  equations.resize(postures);
+  return equations;
 }
 
 std::vector<NormalEquations> normalByPosture(const std::vector<CaseEquations>& equations) {

@@ -32,9 +32,12 @@ Matrix6d inverseNormal(const NormalEquations& sum, const JointMask& unknown);
 /// Bell and McCaffrey (2002) give a scatter covariance its Student quantile.
 double satterthwaite(const Eigen::MatrixXd& covariance);
 
+/// Whether the two are of one posture.
+bool sharePosture(const CaseEquations& a, const CaseEquations& b);
+
 /// Equations of equal `posture` in a row, joined to one: the errors of a posture (its unloaded readings above all) are in
 /// all its load steps, so it acts as one.
-std::vector<CaseEquations> byPosture(const std::vector<CaseEquations>& equations);
+std::vector<CaseEquations> byPosture(std::vector<CaseEquations> equations);
 
 /// The normal equations of those, one a posture.
 std::vector<NormalEquations> normalByPosture(const std::vector<CaseEquations>& equations);

@@ -106,22 +106,26 @@ SubsetSums sampleSubsets(const SubsetMethod& method, std::size_t size, std::size
   SubsetSums sums;
   Draws draws(n, size, seed);
   std::vector<Postures> drawn, drawn_next;
-  std::vector<Subset> subsets(std::min(count, at_once));
-  draws.next(subsets.size(), drawn);
-  for (std::size_t done = 0; done < count; done += drawn.size(), drawn.swap(drawn_next)) {
+  std::vector<Subset> subsets, subsets_before;
+  // A few to begin with: drawing them is the one thing that nothing else is done beside.
+  draws.next(std::min(count, kGroup), drawn);
+  for (std::size_t done = 0; !drawn.empty(); done += drawn.size(), drawn.swap(drawn_next), subsets.swap(subsets_before)) {
     const std::size_t groups = (drawn.size() + kGroup - 1) / kGroup;
-    // The first index draws what comes next; the others have a group each.
-    onAllCores(1 + groups, [&](std::size_t i) {
+    subsets.resize(drawn.size());
+    // The first index draws what comes next, the second adds what came before; the others have a group each.
+    onAllCores(2 + groups, [&](std::size_t i) {
       if (i == 0) {
         draws.next(std::min(at_once, count - done - drawn.size()), drawn_next);
-        return;
+      } else if (i == 1) {
+        for (const Subset& one : subsets_before) add(one, sums);
+      } else {
+        const std::size_t from = (i - 2) * kGroup, to = std::min(drawn.size(), from + kGroup);
+        for (std::size_t k = from; k < to; ++k) solver.solve(drawn[k], subsets[k]);
+        judgeSubsets(method, std::span(subsets).subspan(from, to - from));
       }
-      const std::size_t from = (i - 1) * kGroup, to = std::min(drawn.size(), from + kGroup);
-      for (std::size_t k = from; k < to; ++k) solver.solve(drawn[k], subsets[k]);
-      judgeSubsets(method, std::span(subsets).subspan(from, to - from));
     });
-    for (std::size_t k = 0; k < drawn.size(); ++k) add(subsets[k], sums);
   }
+  for (const Subset& one : subsets_before) add(one, sums);
   return sums;
 }
 

@@ -6,6 +6,8 @@
 #include <string_view>
 #include <vector>
 
+#include "core/input/csv_marks.h"
+
 namespace stiffscope {
 
 /// Cuts a comma-separated table in memory into lines and cells, in one pass and without a copy of the text. Line ends
@@ -31,7 +33,11 @@ class CsvLines {
   /// What stands behind the line last given.
   std::string_view rest() const { return rest_; }
 
+  /// Whether eight bytes behind each cell of that line can be read, whatever they are (parsePlainNumber).
+  bool hasRoomBehindCells() const { return rest_.size() >= 8 && unescaped_.empty(); }
+
  private:
+  bool nextPlain(std::vector<std::string_view>& cells);
   bool nextLine(std::string_view& line);
   std::string_view quotedCell(std::string_view& line);
 
@@ -39,6 +45,7 @@ class CsvLines {
   std::string_view rest_;
   std::size_t line_ = 0;
   bool line_ended_ = true;
+  CsvMarks marks_;                     ///< in rest_
   const char* next_lf_ = nullptr;      ///< first LF in rest_; sought again only when it is passed
   std::deque<std::string> unescaped_;  ///< cells of this line that had doubled quotes
 };

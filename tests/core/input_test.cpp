@@ -3,6 +3,7 @@
 #include <bit>
 #include <clocale>
 #include <cmath>
+#include <cstring>
 #include <fstream>
 #include <random>
 
@@ -61,17 +62,24 @@ TEST(Numbers, AreReadWholeAndTheSameInEveryLocale) {
 // The short way must give the very bits of the long one, wherever it gives a value at all.
 TEST(Numbers, PlainOnesAreTheSameBitsAsByTheGeneralWay) {
   std::mt19937_64 random(1);
+  const char* const behind[] = {",1234567", "\n12345.7", "12345678", ".1234567", "\xff\xff\xff\xff\xff\xff\xff\xff"};
   for (int i = 0; i < 200000; ++i) {
     std::string text = std::to_string(random() % static_cast<std::uint64_t>(std::pow(10.0, 1.0 + static_cast<double>(random() % 15))));
     if (random() % 4 != 0) text.insert(random() % (text.size() + 1), ".");
     if (random() % 2 != 0) text.insert(0, "-");
-    const auto plain = parsePlainNumber(text);
-    ASSERT_TRUE(plain) << text;
-    ASSERT_EQ(std::bit_cast<std::uint64_t>(*plain), std::bit_cast<std::uint64_t>(parseNumber(text).value)) << text;
+    const auto expected = std::bit_cast<std::uint64_t>(parseNumber(text).value);
+    ASSERT_EQ(std::bit_cast<std::uint64_t>(parsePlainNumber(text)), expected) << text;
+    const std::string longer = text + behind[random() % std::size(behind)];
+    const auto with_room = parsePlainNumber(std::string_view(longer).substr(0, text.size()), true);
+    ASSERT_EQ(std::bit_cast<std::uint64_t>(with_room), expected) << longer;
   }
-  EXPECT_EQ(std::signbit(*parsePlainNumber("-0")), true);
+  EXPECT_EQ(std::signbit(parsePlainNumber("-0")), true);
   for (const char* text : {"", "-", ".", "-.", "1.2.3", "--1", "+1", "1e3", "1 ", "nan", "1234567890123456", "1,5"}) {
-    EXPECT_FALSE(parsePlainNumber(text)) << text;
+    EXPECT_TRUE(std::isnan(parsePlainNumber(text))) << text;
+    for (const char* more : behind) {
+      const std::string longer = std::string(text) + more;
+      EXPECT_TRUE(std::isnan(parsePlainNumber(std::string_view(longer).substr(0, std::strlen(text)), true))) << longer;
+    }
   }
 }
 

@@ -103,6 +103,19 @@ TEST(CsvLines, UnquotesCells) {
   EXPECT_EQ(linesOf("\"a,b\" , \"say \"\"x\"\"\",\"\",5\""), expected);
 }
 
+// A mark may fall on each of the 64 places that are looked at together, and so may the end of the text.
+TEST(CsvLines, CutsTheSameWhereverACellStarts) {
+  for (const std::string end : {"\n", "\r\n", "\r", "\n \t\n"}) {
+    for (std::size_t size = 0; size < 140; ++size) {
+      const std::string name(size, 'x');
+      const std::vector<std::vector<std::string>> plain{{name, "2.5 + 1", ""}, {"-1", "b", "!"}, {"c", "", ""}};
+      EXPECT_EQ(linesOf(name + ", 2.5 + 1\t," + end + "-1,b,!" + end + "c,,"), plain);
+      const std::vector<std::vector<std::string>> quoted{{"a", name + ","}, {"1", "2"}};
+      EXPECT_EQ(linesOf("a,\"" + name + ",\"" + end + "1,2" + end), quoted);
+    }
+  }
+}
+
 // The cost of a line must not grow with the rest of the file, whatever its ends.
 TEST(CsvLines, ReadsManyShortLinesOfEveryEndInLinearTime) {
   for (const std::string end : {"\n", "\r\n", "\r"}) {
