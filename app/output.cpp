@@ -5,6 +5,7 @@
 #include <cstring>
 #include <stdexcept>
 
+#include "app/json_text.h"
 #include "core/input/write_file.h"
 
 namespace stiffscope {
@@ -21,8 +22,8 @@ void printWarnings(const std::vector<std::string>& warnings) {
 
 void deliver(const std::function<Json()>& json, const std::function<std::string()>& text, const std::string& json_file) {
   const bool json_only = json_file == "-";
-  if (!json_file.empty() && !json_only) writeFileWhole(json_file, json().dump(1) + '\n');
-  const std::string shown = json_only ? json().dump(1) + '\n' : text();
+  if (!json_file.empty() && !json_only) writeFileWhole(json_file, jsonText(json()));
+  const std::string shown = json_only ? jsonText(json()) : text();
   printText(shown);
 }
 

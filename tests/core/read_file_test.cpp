@@ -83,6 +83,18 @@ TEST(CampaignFiles, NoticesAFileThatChangesBeforeTheLastIsRead) {
             "expected a file that stays as it is; it changed while the campaign was read");
 }
 
+TEST(ReadCampaign, NamesItsInputsWithoutHashesWhereTheseAreNotWanted) {
+  const SmallCampaign files;
+  const std::vector<InputFile> hashed = readCampaign(files.folder()).campaign.inputs;
+  const std::vector<InputFile> named = readCampaign(files.folder(), Hashes::left).campaign.inputs;
+  ASSERT_EQ(named.size(), hashed.size());
+  for (std::size_t i = 0; i < named.size(); ++i) {
+    EXPECT_EQ(named[i].name, hashed[i].name);
+    EXPECT_EQ(hashed[i].sha256.size(), 64u);
+    EXPECT_EQ(named[i].sha256, "");
+  }
+}
+
 std::vector<std::vector<std::string>> linesOf(std::string_view bytes) {
   CsvLines lines("t.csv", bytes);
   std::vector<std::vector<std::string>> all;
