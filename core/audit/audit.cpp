@@ -14,10 +14,11 @@ namespace {
 using Check = Findings (*)(const Evidence&);
 
 /// In the order in which the day goes, which is that of the report.
-constexpr std::array<Check, 16> kAllChecks{
-    checkTimeOrder,      checkCompleteness,    checkRepeatability, checkRigidTool,   checkNests,    checkCircleSweeps,
-    checkCircleResidual, checkSweptReflectors, checkLinkLengths,   checkWrist,       checkUnloadedPositions,
-    checkServo,          checkReturnToZero,    checkLoadCell,      checkLoadSize,    checkPostureSet};
+constexpr std::array<Check, 17> kAllChecks{
+    checkTimeOrder,    checkCompleteness,      checkRepeatability,  checkRigidTool,       checkNests,
+    checkCircleSweeps, checkSweepAngles,       checkCircleResidual, checkSweptReflectors, checkLinkLengths,
+    checkWrist,        checkUnloadedPositions, checkServo,          checkReturnToZero,    checkLoadCell,
+    checkLoadSize,     checkPostureSet};
 
 AuditVerdict worst(const std::vector<AuditCheck>& checks) {
   const auto any = [&](AuditVerdict verdict) {
@@ -53,7 +54,8 @@ AuditReport audit(Campaign campaign) {
 }
 
 bool findsTheImpossible(const AuditReport& report) {
-  return std::any_of(report.checks.begin(), report.checks.end(), [](const AuditCheck& one) { return one.impossible; });
+  return std::any_of(report.checks.begin(), report.checks.end(),
+                     [](const AuditCheck& one) { return one.impossible; });
 }
 
 }  // namespace stiffscope

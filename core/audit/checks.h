@@ -32,6 +32,9 @@ Findings checkNests(const Evidence& evidence);
 /// circle_arc (one an axis), circle_count: the sweeps of each axis.
 Findings checkCircleSweeps(const Evidence& evidence);
 
+/// sweep_angles: how far each axis turns by its reflectors, against what the joint reports.
+Findings checkSweepAngles(const Evidence& evidence);
+
 /// circle_residual: how the readings lie on their circles.
 Findings checkCircleResidual(const Evidence& evidence);
 

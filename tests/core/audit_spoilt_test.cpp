@@ -399,6 +399,19 @@ TEST(SpoiltCampaign, MetresUnderMillimetresFail) {
   EXPECT_TRUE(findsTheImpossible(report));
 }
 
+TEST(SpoiltCampaign, SweepsInRadiansFail) {
+  EXPECT_EQ(checkNamed(goodReport(), "sweep_angles").verdict, AuditVerdict::pass);
+  EXPECT_LT(*checkNamed(goodReport(), "sweep_angles").value, 1.01);  // sag turns joints by milliradians, of a radian or two
+  const AuditReport report = auditSpoilt([](Campaign& campaign) {
+    for (CircleReading& row : campaign.circle_sweeps->rows) row.q *= kDegree;
+  });
+  const AuditCheck& check = checkNamed(report, "sweep_angles");
+  EXPECT_EQ(check.verdict, AuditVerdict::fail);
+  EXPECT_NEAR(*check.value, 57.3, 0.1);
+  EXPECT_TRUE(contains(check.message, "in another unit (radians for degrees)")) << check.message;
+  EXPECT_TRUE(findsTheImpossible(report));
+}
+
 TEST(ApparentStiffness, ByHand) {
   EXPECT_FALSE(apparentStiffness({}));
   LoadCase load_case;
