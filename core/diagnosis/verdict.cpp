@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/diagnosis/aliasing.h"
+#include "core/input/units.h"
 
 namespace stiffscope {
 
@@ -31,9 +32,12 @@ std::string parametersOf(const EffectModel& model, const std::vector<std::size_t
     const EffectPart& part = model.parts[p];
     if (std::find(parts.begin(), parts.end(), p) != parts.end()) {
       words += fmt::format("{}{}{}", words.empty() ? "" : "; ", part.detail, part.detail.empty() ? "" : ": ");
-      for (std::size_t k = 0; k < part.most.size(); ++k)
-        words += fmt::format("{}{:.4g}", k > 0 ? ", " : "", own[at + static_cast<Eigen::Index>(k)]);
-      words += " " + part.unit;
+      const bool length = part.unit == "m";
+      for (std::size_t k = 0; k < part.most.size(); ++k) {
+        const double value = own[at + static_cast<Eigen::Index>(k)];
+        words += fmt::format("{}{:.4g}", k > 0 ? ", " : "", length ? value / kMillimetre : value);
+      }
+      words += length ? " mm" : " " + part.unit;
     }
     at += static_cast<Eigen::Index>(part.most.size());
   }
