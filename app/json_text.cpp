@@ -13,7 +13,8 @@ namespace {
 /// Elements from which on a list is shared among the cores: rows of a posture each, which take some 20 us.
 constexpr std::size_t kLong = 500;
 
-/// Whether there is a long list in it, which is looked for where results have them: not inside of another list.
+/// Whether there is a long list in it, which is looked for where results have them: not inside of another
+/// list.
 bool hasLongList(const Json& value) {
   if (value.is_array()) return value.size() >= kLong;
   return value.is_object() && std::any_of(value.begin(), value.end(), hasLongList);

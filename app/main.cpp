@@ -2,11 +2,9 @@
 #include <exception>
 
 #include "app/command_line.h"
-#include "app/large_heap.h"
 
 // The only place that catches and prints.
 int main(int count, char** words) {
-  stiffscope::useLargeHeapPages();
   try {
     return stiffscope::runCommandLine(count, words);
   } catch (const std::exception& error) {

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "app/command.h"
+#include "app/large_heap.h"
 #include "app/method_option.h"
 #include "app/output.h"
 #include "app/prepared.h"
@@ -60,6 +61,7 @@ std::optional<Method> bestOf(const Identification& result, const std::vector<Met
 }
 
 int identifyCampaign(const Arguments& arguments, bool subset_given) {
+  useLargeHeapPages();
   const std::vector<Method> methods = methodsNamed(arguments.method);
   const IdentifyOptions options = optionsOf(arguments, subset_given);
   const PreparedCampaign prepared = openPrepared(arguments.campaign, arguments.raw, hashesFor(arguments.json));

@@ -13,8 +13,9 @@ struct PointRows {
   Eigen::Vector3d values;
 };
 
-/// The sum over the points of all cases; `points(i, add)` calls add(rows, values) for each of case i. Of many cases the rows
-/// are made on all cores, and added in their order nevertheless, so that rounding does not depend on it.
+/// The sum over the points of all cases; `points(i, add)` calls add(rows, values) for each of case i. Of many
+/// cases the rows are made on all cores, and added in their order nevertheless, so that rounding does not
+/// depend on it.
 template <class Points>
 NormalEquations sumOver(std::size_t cases, const Points& points) {
   NormalEquations sum;
@@ -26,7 +27,9 @@ NormalEquations sumOver(std::size_t cases, const Points& points) {
   constexpr std::size_t kBlock = 256;
   std::vector<std::vector<PointRows>> blocks((cases + kBlock - 1) / kBlock);
   onAllCores(blocks.size(), [&](std::size_t block) {
-    const auto keep = [&](const Matrix36d& rows, const Eigen::Vector3d& values) { blocks[block].push_back({rows, values}); };
+    const auto keep = [&](const Matrix36d& rows, const Eigen::Vector3d& values) {
+      blocks[block].push_back({rows, values});
+    };
     for (std::size_t i = block * kBlock; i < std::min(cases, (block + 1) * kBlock); ++i) points(i, keep);
   });
   for (const auto& block : blocks) {

@@ -15,14 +15,16 @@ std::uint64_t bitsOf(const unsigned char* flags) {
   if constexpr (std::endian::native == std::endian::little) {
     std::uint64_t eight = 0;
     std::memcpy(&eight, flags, sizeof eight);
-    bits = (eight * 0x0102040810204080ull) >> 56;  // each factor brings one byte's bit to its place at the top
+    bits =
+        (eight * 0x0102040810204080ull) >> 56;  // each factor brings one byte's bit to its place at the top
   } else {
     for (std::size_t i = 0; i < 8; ++i) bits |= std::uint64_t{flags[i]} << i;
   }
   return bits;
 }
 
-/// Bit i: whether block[i] is no more than a comma. One comparison, which compilers make for many bytes at once.
+/// Bit i: whether block[i] is no more than a comma. One comparison, which compilers make for many bytes at
+/// once.
 std::uint64_t marksIn(const char* block) {
   std::array<unsigned char, kBlock> flags;
   for (std::size_t i = 0; i < kBlock; ++i) flags[i] = static_cast<unsigned char>(block[i]) <= ',' ? 1 : 0;

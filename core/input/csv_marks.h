@@ -6,10 +6,10 @@
 
 namespace stiffscope {
 
-/// The places in a text of the bytes that end a cell or a line of a comma-separated table, one after the other, and of some
-/// that do not: quotes, blanks, and what else stands at or before the comma in ASCII, which numbers and names seldom have.
-/// Found for 64 bytes at a time, a bit each: with a dozen bytes a cell most of the time of reading would go into looking at
-/// them one by one.
+/// The places in a text of the bytes that end a cell or a line of a comma-separated table, one after the
+/// other, and of some that do not: quotes, blanks, and what else stands at or before the comma in ASCII,
+/// which numbers and names seldom have. Found for 64 bytes at a time, a bit each: with a dozen bytes a cell
+/// most of the time of reading would go into looking at them one by one.
 class CsvMarks {
  public:
   explicit CsvMarks(std::string_view text) : end_(text.data() + text.size()) { seek(text.data()); }
