@@ -15,7 +15,7 @@ namespace stiffscope {
 void useLargeHeapPages() {
   constexpr int kKeep = 1 << 30;
   constexpr std::size_t kHeap = std::size_t{1} << 28, kPage = std::size_t{1} << 21;
-  ::mallopt(M_MMAP_THRESHOLD, kKeep);  // of the heap, however large
+  if (::mallopt(M_MMAP_THRESHOLD, kKeep) == 0) return;  // of the heap, however large
   ::mallopt(M_TRIM_THRESHOLD, kKeep);
   // Address space alone: what is not used is never there.
   void* const heap = std::malloc(kHeap);

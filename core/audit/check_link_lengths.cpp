@@ -22,7 +22,7 @@ Findings checkLinkLengths(const Evidence& evidence) {
     const double off = std::abs(links[i].distance - links[i].nominal_distance);
     if (off > farthest) farthest = off, at = i;
   }
-  if (farthest < 0.0) return {notTestable("link_lengths", kNoSweeps)};
+  if (farthest < 0.0) return {notTestable("link_lengths", "no two neighbouring axes with circle sweeps")};
   const LinkGeometry& link = links[at];
   check.value = farthest / kMillimetre;
   // A short arc may leave a distance open by more than machines differ.

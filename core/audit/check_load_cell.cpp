@@ -4,6 +4,7 @@
 
 #include "core/audit/chance.h"
 #include "core/audit/checks.h"
+#include "core/audit/forces_stand_out.h"
 #include "core/audit/hook_fit.h"
 #include "core/audit/limits.h"
 #include "core/audit/rows.h"
@@ -113,7 +114,7 @@ AuditCheck leverCheck(const Evidence& evidence) {
       "moments are those of the force at ({:.1f}, {:.1f}, {:.1f}) mm from the cell's point, but for "
       "{:.2f} Nm rms",
       1e3 * fit.lever.x(), 1e3 * fit.lever.y(), 1e3 * fit.lever.z(), fit.rms);
-  if (fit.lever.norm() > kLongestLever) {
+  if (fit.lever.norm() > kLongestLever && forcesStandOut(evidence.campaign)) {
     check.verdict = AuditVerdict::fail;
     check.impossible = true;
     check.message += ": no tool is that long, forces (kN for N) or moments (N mm for Nm) are in another unit";

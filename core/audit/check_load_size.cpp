@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "core/audit/checks.h"
+#include "core/audit/forces_stand_out.h"
 #include "core/identification/apparent_stiffness.h"
 #include "core/input/units.h"
 
@@ -8,7 +9,7 @@ namespace stiffscope {
 
 Findings checkLoadSize(const Evidence& evidence) {
   const auto apparent = apparentStiffness(evidence.arm.cases);
-  if (!apparent) return {notTestable("load_size", "no postures with readings unloaded and under a force")};
+  if (!apparent) return {notTestable("load_size", "no displacement under a force that can be brought into the robot's frame")};
   const double value = apparent->value();
   const std::string found = implausibleLoad(*apparent);
   AuditCheck check;
@@ -25,7 +26,8 @@ Findings checkLoadSize(const Evidence& evidence) {
                                               apparent->force, apparent->displacement / kMillimetre)
                                 : found;
   if (found.empty()) return {check};
-  check.impossible = value < kSofterThanAnyArm || value > kStifferThanAnyArm;
+  check.impossible =
+      (value < kSofterThanAnyArm || value > kStifferThanAnyArm) && forcesStandOut(evidence.campaign);
   check.verdict = check.impossible ? AuditVerdict::fail : AuditVerdict::warn;
   return {check};
 }

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <map>
 
 #include "core/audit/checks.h"
 #include "core/audit/rows.h"
@@ -12,24 +11,29 @@ namespace stiffscope {
 
 namespace {
 
-/// Farthest that the joint's reported angle goes while one reflector is read, rad.
-double reportedTurn(const CircleSweeps& sweeps, int axis) {
-  std::map<int, std::pair<double, double>> ends;  // of each reflector
+/// How far the joint's reported angle goes while a reflector is read, rad.
+double reportedTurn(const CircleSweeps& sweeps, int axis, int target) {
+  double least = std::numeric_limits<double>::infinity(), most = -least;
   for (const CircleReading& row : sweeps.rows) {
-    if (row.axis != axis) continue;
-    const auto [at, added] = ends.try_emplace(row.target, row.q[axis], row.q[axis]);
-    at->second = {std::min(at->second.first, row.q[axis]), std::max(at->second.second, row.q[axis])};
+    if (row.axis != axis || row.target != target) continue;
+    least = std::min(least, row.q[axis]);
+    most = std::max(most, row.q[axis]);
   }
-  double turn = 0.0;
-  for (const auto& [target, end] : ends) turn = std::max(turn, end.second - end.first);
-  return turn;
+  return std::max(0.0, most - least);
 }
 
-/// The arc of the largest circle: one of a reflector near the axis is mostly noise.
-double measuredTurn(const AxisFit& fit) {
-  return std::max_element(fit.circles.begin(), fit.circles.end(),
-                          [](const AxisCircle& a, const AxisCircle& b) { return a.radius < b.radius; })
-      ->arc;
+/// The largest circle: one of a reflector near the axis is mostly noise.
+std::size_t largestCircle(const AxisFit& fit) {
+  const auto largest =
+      std::max_element(fit.circles.begin(), fit.circles.end(),
+                       [](const AxisCircle& a, const AxisCircle& b) { return a.radius < b.radius; });
+  return static_cast<std::size_t>(largest - fit.circles.begin());
+}
+
+AuditCheck impossible(AuditCheck check) {
+  check.verdict = AuditVerdict::fail;
+  check.impossible = true;
+  return check;
 }
 
 }  // namespace
@@ -47,11 +51,20 @@ Findings checkSweepAngles(const Evidence& evidence) {
   for (int axis = 0; axis < 6; ++axis) {
     const MeasuredAxis& measured = evidence.frames.axes[static_cast<std::size_t>(axis)];
     if (!measured.measured || measured.fit.circles.empty()) continue;
-    const double reported = reportedTurn(*evidence.campaign.circle_sweeps, axis),
-                 arc = measuredTurn(measured.fit);
-    if (reported > kWhole || arc > kWhole) continue;
-    const double ratio = reported > 0.0 && arc > 0.0 ? std::max(arc / reported, reported / arc)
-                                                     : std::numeric_limits<double>::max();
+    // One reflector may have been hidden over a part of the way that others were read on.
+    const std::size_t largest = largestCircle(measured.fit);
+    const double reported =
+                     reportedTurn(*evidence.campaign.circle_sweeps, axis, measured.targets[largest]),
+                 arc = measured.fit.circles[largest].arc;
+    if (reported > kWhole || arc > kWhole || arc <= 0.0) continue;
+    if (reported <= 0.0) {
+      check.value.reset();
+      check.where = axisName(static_cast<std::size_t>(axis));
+      check.message = fmt::format("axis {} reports one and the same angle while its reflectors turn by {:.4g} deg",
+                                  axis + 1, arc / kDegree);
+      return {impossible(check)};
+    }
+    const double ratio = std::max(arc / reported, reported / arc);
     if (check.value && ratio <= *check.value) continue;
     check.value = ratio;
     check.where = axisName(static_cast<std::size_t>(axis));
@@ -61,10 +74,8 @@ Findings checkSweepAngles(const Evidence& evidence) {
   }
   if (!check.value) return {notTestable("sweep_angles", "no axis with a sweep of less than a whole turn")};
   if (*check.value <= kLimit) return {check};
-  check.verdict = AuditVerdict::fail;
-  check.impossible = true;
   check.message += ": angles in another unit (radians for degrees), or those of another joint";
-  return {check};
+  return {impossible(check)};
 }
 
 }  // namespace stiffscope

@@ -1,6 +1,7 @@
 #include "core/campaign/campaign_files.h"
 
 #include <algorithm>
+#include <cctype>
 
 #include "core/input/input_error.h"
 #include "core/input/read_file.h"
@@ -18,6 +19,13 @@ bool leadsInside(const fs::path& folder, const fs::path& path) {
   return std::mismatch(root.begin(), root.end(), file.begin(), file.end()).first == root.end();
 }
 
+bool isXml(const fs::path& file) {
+  std::string extension = file.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension == ".xml";
+}
+
 }  // namespace
 
 CampaignFiles::CampaignFiles(const fs::path& folder_or_xml, bool hashed) : hashed_(hashed) {
@@ -28,7 +36,7 @@ CampaignFiles::CampaignFiles(const fs::path& folder_or_xml, bool hashed) : hashe
                      "expected a campaign folder or its campaign.xml; there is none");
   }
   const bool is_folder = fs::is_directory(status);
-  if (!is_folder && folder_or_xml.extension() != ".xml") {
+  if (!is_folder && !isXml(folder_or_xml)) {
     throw InputError({folder_or_xml.string(), 0, ""}, "",
                      "expected a campaign folder or its campaign.xml: give the folder that holds this file");
   }

@@ -123,7 +123,7 @@ ArmState asModelled(const LoadingGeometry& geometry, const ArmState& state) {
 
 void addAxes(const LoadingGeometry& geometry, const WorkingPoint& at, const ArmState& state,
              Eigen::MatrixXd& columns) {
-  const bool sags = geometry.weight.any() && !(geometry.compliance.isZero() && at.turns.empty());
+  const bool sags = geometry.weight.links_known && !(geometry.compliance.isZero() && at.turns.empty());
   const Carried carried = carriedBy(geometry.weight, state.posture);
   Eigen::Matrix<double, 6, GeometrySteps::kAxes> torques;
   for (std::size_t j = 0; j < kJoints; ++j) {

@@ -13,7 +13,10 @@ constexpr double kNearParallel = std::numbers::pi / 180.0;
 }  // namespace
 
 Eigen::Vector3d hayatiPoint(const std::array<Line, 6>& axes, std::size_t first) {
-  return first == 0 ? axes[0].point : commonPerpendicular(axes[first - 1], axes[first]).foot_on_second;
+  if (first == 0) return axes[0].point;
+  if (angleBetween(axes[first - 1], axes[first]) < kNearParallel)
+    return nearestPoint(axes[first], hayatiPoint(axes, first - 1));
+  return commonPerpendicular(axes[first - 1], axes[first]).foot_on_second;
 }
 
 std::array<LinkGeometry, 5> linkGeometry(const Robot& nominal, const ArmInR0& arm) {

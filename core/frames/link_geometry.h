@@ -23,10 +23,11 @@ struct LinkGeometry {
 
 /// Link i between axes i+1 and i+2 of the arm (paper, II.D: link lengths by circle-point). For axes within a degree of
 /// parallel the common perpendicular's place is undetermined: their distance is taken in the plane normal to the first,
-/// at the foot on it of the common perpendicular with the axis before (Hayati).
+/// at the foot on it of the common perpendicular with the axis before (Hayati). Of three axes within a degree of parallel
+/// that foot is undetermined too, kilometres away: there the point of the axis before is carried over.
 std::array<LinkGeometry, 5> linkGeometry(const Robot& nominal, const ArmInR0& arm);
 
-/// Where on axis `first` the distance to a nearly parallel next one is taken.
+/// Where on axis `first` the distance to a nearly parallel next one is taken, see linkGeometry.
 Eigen::Vector3d hayatiPoint(const std::array<Line, 6>& axes, std::size_t first);
 
 }  // namespace stiffscope

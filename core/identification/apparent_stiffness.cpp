@@ -25,12 +25,13 @@ std::string implausibleLoad(const ApparentStiffness& apparent) {
   const double value = apparent.value();
   if (value >= kSoftArm && value <= kStiffArm) return {};
   const bool soft = value < kSoftArm;
+  const bool beyond_any = value < kSofterThanAnyArm || value > kStifferThanAnyArm;
   return fmt::format(
       "{:.4g} N rms move the reflectors by {:.4g} mm rms, {:.2g} N/mm, and six-axis arms give from about "
-      "{:.0f} to {:.0f} N/mm: {} "
+      "{:.0f} to {:.0f} N/mm: {}{} "
       "in another unit",
       apparent.force, apparent.displacement / kMillimetre, value * kMillimetre, kSoftArm * kMillimetre,
-      kStiffArm * kMillimetre,
+      kStiffArm * kMillimetre, beyond_any ? "" : "perhaps ",
       soft ? "forces (kN for N) or lengths (um for mm)" : "forces (mN for N) or lengths (m for mm)");
 }
 

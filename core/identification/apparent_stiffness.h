@@ -21,7 +21,8 @@ std::optional<ApparentStiffness> apparentStiffness(const std::vector<LoadCase>& 
 /// What six-axis arms give at the tool, N/m. Articulated robots are usually below 1e6 (Pan et al., J. Mater.
 /// Process. Technol. 173, 2006, against more than 5e7 of machine tools), heavy ones come to a few times that,
 /// light collaborative arms to about 1e4. A unit wrong by a thousand leaves the range from half of the
-/// softest to the machine tools at one end or the other, but for the lightest arms given too large.
+/// softest to the machine tools at one end or the other, but for the lightest arms given too large and the
+/// stiffest, above 5e6, given too small.
 inline constexpr double kSoftArm = 5e3;
 inline constexpr double kStiffArm = 5e7;
 

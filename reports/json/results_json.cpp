@@ -44,7 +44,7 @@ Json resultsJson(const ReportContent& content) {
   for (const ReportCampaign& one : content.campaigns) {
     campaigns.push_back(campaignResults(one));
   }
-  Json json{{"versions", versions}, {"campaigns", campaigns}, {"cautions", doubtsOfOneMachine(content.campaigns)}};
+  Json json{{"versions", versions}, {"campaigns", campaigns}, {"cautions", doubtsOfTheMachine(content.campaigns)}};
   json["avoided"] = content.avoided && content.avoided->available ? avoidedJson(*content.avoided) : Json(nullptr);
   return json;
 }

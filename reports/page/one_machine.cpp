@@ -6,7 +6,7 @@
 
 namespace stiffscope {
 
-std::vector<std::string> doubtsOfOneMachine(const std::vector<ReportCampaign>& campaigns) {
+std::vector<std::string> doubtsOfTheMachine(const std::vector<ReportCampaign>& campaigns) {
   std::vector<std::string> sentences;
   for (std::size_t i = 1; i < campaigns.size(); ++i) {
     const Campaign &first = campaigns.front().campaign, &other = campaigns[i].campaign;

@@ -158,7 +158,7 @@ std::vector<std::string> cautionsOf(const ReportCampaign& one) {
 void writeCautions(Html& html, const ReportContent& content) {
   const auto& campaigns = content.campaigns;
   std::vector<std::string> of_all;
-  for (const std::string& doubt : doubtsOfOneMachine(campaigns)) of_all.push_back(asIs(doubt) + ".");
+  for (const std::string& doubt : doubtsOfTheMachine(campaigns)) of_all.push_back(asIs(doubt) + ".");
   const bool any = std::any_of(campaigns.begin(), campaigns.end(),
                                [](const ReportCampaign& one) { return !cautionsOf(one).empty(); });
   if (!any && of_all.empty()) return;

@@ -412,6 +412,40 @@ TEST(SpoiltCampaign, SweepsInRadiansFail) {
   EXPECT_TRUE(findsTheImpossible(report));
 }
 
+// One reflector was hidden for most of the way, the others were not: the joint turned by what each of them saw.
+TEST(SpoiltCampaign, AReflectorHiddenForAPartOfTheSweepIsNoOtherUnit) {
+  const AuditReport report = auditSpoilt([](Campaign& campaign) {
+    std::erase_if(campaign.circle_sweeps->rows, [](const CircleReading& row) {
+      return row.axis == 3 && row.target == 1 && std::abs(row.q[3]) > 45.0 * kDegree;
+    });
+  });
+  const AuditCheck& check = checkNamed(report, "sweep_angles");
+  EXPECT_EQ(check.verdict, AuditVerdict::pass) << check.message;
+  EXPECT_LT(*check.value, 1.01) << check.message;
+}
+
+TEST(SpoiltCampaign, AnAxisThatReportsOneAngleFails) {
+  const AuditReport report = auditSpoilt([](Campaign& campaign) {
+    for (CircleReading& row : campaign.circle_sweeps->rows) {
+      if (row.axis == 4) row.q[4] = 0.1;
+    }
+  });
+  const AuditCheck& check = checkNamed(report, "sweep_angles");
+  EXPECT_EQ(check.verdict, AuditVerdict::fail);
+  EXPECT_FALSE(check.value);
+  EXPECT_TRUE(contains(check.message, "axis 5 reports one and the same angle")) << check.message;
+}
+
+// Forces that are noise say nothing of units, whatever stiffness and lever follow from them.
+TEST(SpoiltCampaign, ForcesThatAreNoiseAreNoImpossibleOnes) {
+  const AuditReport report = auditSpoilt([](Campaign& campaign) {
+    for (State& row : campaign.states->rows)
+      row.wrench_in_cell.head<3>() *= campaign.load_cell->force_sigma / 1500.0;
+  });
+  EXPECT_FALSE(checkNamed(report, "load_size").impossible);
+  EXPECT_FALSE(findsTheImpossible(report));
+}
+
 TEST(ApparentStiffness, ByHand) {
   EXPECT_FALSE(apparentStiffness({}));
   LoadCase load_case;

@@ -99,7 +99,7 @@ TEST(PositionByGeometry, OfASaggingArmIsTheDifferences) {
   const Case one(geometry);
   ASSERT_GT((geometry.sagged(one.q) - one.q).cwiseAbs().maxCoeff(), 1e-3);
   const Eigen::MatrixXd expected = byDifferences(one.geometry, one.q, one.readings, one.centre);
-  // The sag's fixed point stops at 1e-9 rad of what a metre moves by, far below a thousandth of the sag's part.
+  // The sag's fixed point stops at 1e-9 rad; a hundredth of what the sag does to the columns, see below.
   EXPECT_LT((one.computed() - expected).cwiseAbs().maxCoeff(), 1e-6) << one.computed() - expected;
   geometry.compliance.setZero();
   EXPECT_GT((Case(geometry).computed() - expected).cwiseAbs().maxCoeff(), 1e-4);

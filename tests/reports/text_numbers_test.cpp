@@ -14,6 +14,7 @@ TEST(UnsignedZero, OnlyWhatRoundsToZeroLosesItsSign) {
   EXPECT_EQ(unsignedZero(-0.0006, 3), -0.0006);
   EXPECT_EQ(unsignedZero(0.4, 1), 0.4);
   EXPECT_EQ(unsignedZero(-0.4, 0), 0.0);
+  EXPECT_EQ(unsignedZero(0.0005, 3), 0.0005);  // prints as 0.001: the double nearest to it lies above
 }
 
 TEST(ImprovedText, MetresAreMicrometresAsInTheRest) {
