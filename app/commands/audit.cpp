@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "app/command.h"
+#include "app/large_heap.h"
 #include "app/output.h"
 #include "core/diagnosis/diagnose.h"
 #include "core/diagnosis/evenly_spread.h"
@@ -37,6 +38,7 @@ Campaign described(const Campaign& campaign) {
 }
 
 int auditCampaign(const std::string& folder, const std::string& json_file) {
+  useLargeHeapPages();
   Campaign campaign = openCampaign(folder, hashesFor(json_file));
   const Campaign words = described(campaign);
   // The audit takes the only copy of the readings; what the design is asked about is a hundred postures.

@@ -112,6 +112,7 @@ HookFit fitHook(const Campaign& campaign) {
   HookFit fit;
   const LoadCell& cell = *campaign.load_cell;
   std::vector<Loaded> states;
+  states.reserve(campaign.states->rows.size());
   double most = 0.0;
   for (const State& state : campaign.states->rows)
     most = std::max(most, state.wrench_in_cell.head<3>().norm());
