@@ -4,9 +4,9 @@
 
 namespace stiffscope {
 
-/// Whether some force of the states is ten standard uncertainties of a reading or more. A load of couples alone
-/// leaves forces that are noise, of which no lever and no stiffness follows. True where the uncertainty is not
-/// stated.
+/// Whether the forces of some load step are three times those of another (rms): a load of couples alone leaves the
+/// same noise in all of them, loaded or not, of which no lever and no stiffness follows. The ratio does not ask for
+/// units. True of a single step.
 bool forcesStandOut(const Campaign& campaign);
 
 }  // namespace stiffscope
