@@ -12,6 +12,7 @@ namespace stiffscope {
 namespace {
 
 constexpr std::size_t kJoints = 6, kStepsPerAxis = 4;
+constexpr double kStep = 1e-6;  // m and rad: far above rounding, far below where the model curves
 
 /// A small motion: rotation, and shift of what stands at the origin.
 struct SmallMotion {
@@ -121,40 +122,65 @@ ArmState asModelled(const LoadingGeometry& geometry, const ArmState& state) {
   return modelled;
 }
 
-void addAxes(const LoadingGeometry& geometry, const WorkingPoint& at, const ArmState& state,
-             Eigen::MatrixXd& columns) {
-  const bool sags = geometry.weight.links_known && !(geometry.compliance.isZero() && at.turns.empty());
-  const Carried carried = carriedBy(geometry.weight, state.posture);
+}  // namespace
+
+PositionByGeometry::PositionByGeometry(const LoadingGeometry& geometry, const WorkingPoint& at,
+                                       const Eigen::Vector3d& centre)
+    : geometry_(geometry), at_(at), centre_(centre) {
+  if (at.motions.empty()) return;
+  const Eigen::Index steps = GeometrySteps::count(geometry.targets_at_zero.size());
+  for (Eigen::Index k = 0; k < GeometrySteps::kAxes; ++k)
+    stepped_.push_back(moved(geometry, kStep * Eigen::VectorXd::Unit(steps, k), centre));
+}
+
+void PositionByGeometry::addAxes(const ArmState& modelled, Eigen::MatrixXd& columns) const {
+  const bool sags = geometry_.weight.links_known && !(geometry_.compliance.isZero() && at_.turns.empty());
+  const Carried carried = carriedBy(geometry_.weight, modelled.posture);
   Eigen::Matrix<double, 6, GeometrySteps::kAxes> torques;
   for (std::size_t j = 0; j < kJoints; ++j) {
-    const auto steps = stepsOf(geometry.arm.axes_in_base_at_zero[j]);
+    const auto steps = stepsOf(geometry_.arm.axes_in_base_at_zero[j]);
     for (std::size_t k = 0; k < kStepsPerAxis; ++k) {
       const auto column = static_cast<Eigen::Index>(kStepsPerAxis * j + k);
-      const SmallMotion own = steps[k].carriedBy(state.posture.motion[j]);
-      const SmallMotion beyond = own - steps[k].carriedBy(state.posture.motion[j + 1]);
-      columns.col(column) = byMotion(state, Eigen::Vector3d::Zero(), beyond.rotation, beyond.shift);
+      const SmallMotion own = steps[k].carriedBy(modelled.posture.motion[j]);
+      const SmallMotion beyond = own - steps[k].carriedBy(modelled.posture.motion[j + 1]);
+      columns.col(column) = byMotion(modelled, Eigen::Vector3d::Zero(), beyond.rotation, beyond.shift);
       if (sags)
-        torques.col(column) = torqueChange(state, carried, geometry.weight.gravity_in_base, j, own, beyond);
+        torques.col(column) =
+            torqueChange(modelled, carried, geometry_.weight.gravity_in_base, j, own, beyond);
     }
   }
   if (sags)
     columns.leftCols<GeometrySteps::kAxes>() +=
-        byJoints(state, anglesByTorque(geometry, at, state) * torques);
+        byJoints(modelled, anglesByTorque(geometry_, at_, modelled) * torques);
 }
 
-}  // namespace
+void PositionByGeometry::addAxesByDifferences(const ArmState& modelled, Eigen::MatrixXd& columns) const {
+  for (std::size_t k = 0; k < stepped_.size(); ++k) {
+    const Eigen::Isometry3d there = restState(stepped_[k], at_, modelled.q).posture.motion[6];
+    for (std::size_t i = 0; i < modelled.targets.size(); ++i) {
+      const Eigen::Vector3d& at_zero =
+          *geometry_.targets_at_zero[static_cast<std::size_t>(modelled.targets[i])];
+      columns.col(static_cast<Eigen::Index>(k)).segment<3>(3 * static_cast<Eigen::Index>(i)) =
+          (there * at_zero - modelled.points[i]) / kStep;
+    }
+  }
+}
 
-Eigen::MatrixXd positionByGeometry(const LoadingGeometry& geometry, const WorkingPoint& at,
-                                   const ArmState& state, const Eigen::Vector3d& centre) {
+Eigen::MatrixXd PositionByGeometry::of(const ArmState& state) const {
   const Eigen::Vector3d none = Eigen::Vector3d::Zero();
   Eigen::MatrixXd columns =
-      Eigen::MatrixXd::Zero(state.rows(), GeometrySteps::count(geometry.targets_at_zero.size()));
-  addAxes(geometry, at, asModelled(geometry, state), columns);
-  if (geometry.r0_from_loading) {
+      Eigen::MatrixXd::Zero(state.rows(), GeometrySteps::count(geometry_.targets_at_zero.size()));
+  const ArmState modelled = asModelled(geometry_, state);
+  if (stepped_.empty()) {
+    addAxes(modelled, columns);
+  } else {
+    addAxesByDifferences(modelled, columns);
+  }
+  if (geometry_.r0_from_loading) {
     for (int k = 0; k < 3; ++k) {
       const Eigen::Vector3d axis = Eigen::Vector3d::Unit(k);
-      columns.col(GeometrySteps::kAxes + k) = -byMotion(state, centre, axis, none);
-      columns.col(GeometrySteps::kAxes + 3 + k) = -byMotion(state, centre, none, axis);
+      columns.col(GeometrySteps::kAxes + k) = -byMotion(state, centre_, axis, none);
+      columns.col(GeometrySteps::kAxes + 3 + k) = -byMotion(state, centre_, none, axis);
     }
   }
   for (std::size_t i = 0; i < state.targets.size(); ++i) {

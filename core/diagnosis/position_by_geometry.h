@@ -12,9 +12,23 @@ namespace stiffscope {
 /// M_{j-1} xi M_{j-1}^-1 - M_j xi M_j^-1, M_b the motion of body b; the base's steps move the readings, the
 /// reflectors' steps turn with body 6. The own weight's torques tau change with axes and bodies, and with
 /// them the sag and what effects in the model turn the joints by: d theta = (C + T) (d tau + K_c d theta) + U
-/// d theta, T and U the slopes of these turns by torque and angle. What effects move bodies by is taken not
-/// to change.
-Eigen::MatrixXd positionByGeometry(const LoadingGeometry& geometry, const WorkingPoint& at,
-                                   const ArmState& state, const Eigen::Vector3d& centre);
+/// d theta, T and U the slopes of these turns by torque and angle. Where effects in the model move bodies,
+/// all of it is by differences.
+class PositionByGeometry {
+ public:
+  /// `centre`: about which the base's steps turn. Keeps references.
+  PositionByGeometry(const LoadingGeometry& geometry, const WorkingPoint& at, const Eigen::Vector3d& centre);
+
+  Eigen::MatrixXd of(const ArmState& state) const;
+
+ private:
+  void addAxes(const ArmState& modelled, Eigen::MatrixXd& columns) const;
+  void addAxesByDifferences(const ArmState& modelled, Eigen::MatrixXd& columns) const;
+
+  const LoadingGeometry& geometry_;
+  const WorkingPoint& at_;
+  Eigen::Vector3d centre_;
+  std::vector<LoadingGeometry> stepped_;  ///< by each step of an axis; empty where no effect moves bodies
+};
 
 }  // namespace stiffscope

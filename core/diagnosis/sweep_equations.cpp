@@ -14,10 +14,9 @@ namespace {
 /// [A y] of one posture, unwhitened.
 template <class Rows>
 void fill(const GapInput& input, const GapState& state, const ContainedEffects& now, const GapLayout& layout,
-          const SweepRows& one, Rows both) {
+          const PositionByGeometry& by_geometry, const SweepRows& one, Rows both) {
   both.leftCols(6) = one.sag_by_compliance;
-  both.middleCols(layout.geometry, GeometrySteps::count(input.campaign.targets.size())) =
-      positionByGeometry(state.geometry, state.at, one.state, state.at.epoch_centre);
+  both.middleCols(layout.geometry, layout.weights - layout.geometry) = by_geometry.of(one.state);
   both.middleCols(layout.weights, kBodies) = sagByBody(state.at, one.state);
   for (std::size_t m = 0; m < input.models.size(); ++m) {
     const Eigen::MatrixXd columns = input.models[m].columns(state.at, {one.state}, 0);
@@ -34,12 +33,13 @@ void fill(const GapInput& input, const GapState& state, const ContainedEffects& 
 void addSweepEquations(const GapInput& input, const GapState& state, const ContainedEffects& effects_now,
                        GapData& data) {
   const auto rows = sweepRows(input.campaign, state.geometry, state.r0_from_sweeps, state.at);
+  const PositionByGeometry by_geometry(state.geometry, state.at, state.at.epoch_centre);
   Eigen::Index total = 0;
   for (const SweepRows& one : rows) total += one.position.size();
   Eigen::MatrixXd both = Eigen::MatrixXd::Zero(total, data.layout.end + 1);
   Eigen::Index row = 0;
   for (const SweepRows& one : rows) {
-    fill(input, state, effects_now, data.layout, one, both.middleRows(row, one.position.size()));
+    fill(input, state, effects_now, data.layout, by_geometry, one, both.middleRows(row, one.position.size()));
     row += one.position.size();
   }
   row = 0;

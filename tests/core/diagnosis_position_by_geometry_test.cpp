@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "core/diagnosis/effects/backlash.h"
+#include "core/diagnosis/effects/base_compliance.h"
 #include "core/diagnosis/position_by_geometry.h"
 #include "core/diagnosis/rest_state.h"
 #include "tests/core/chain_arm.h"
@@ -70,7 +71,7 @@ struct Case {
       state.targets.push_back(static_cast<int>(t));
       state.points.push_back(*geometry.r0_from_loading * readings[t]);
     }
-    return positionByGeometry(geometry, at, state, centre);
+    return PositionByGeometry(geometry, at, centre).of(state);
   }
 };
 
@@ -122,6 +123,19 @@ TEST(PositionByGeometry, WithPlayInTheModelIsTheDifferences) {
   ASSERT_GT(by_play, 5e-4);
   // The sag of restState is that before the play turns the arm: a hundredth of what it changes.
   EXPECT_LT((one.computed(at) - expected).cwiseAbs().maxCoeff(), 0.02 * by_play);
+}
+
+// A foot that rocks by some thousandths under the own weight carries all axes with it.
+TEST(PositionByGeometry, WithAFootThatRocksIsTheDifferences) {
+  const LoadingGeometry geometry = heavyArm();
+  const Case one(geometry);
+  const EffectModel model = baseCompliance();
+  WorkingPoint at;
+  at.motions.push_back({model.offset, model.first_body, 1e-6 * Eigen::VectorXd::Unit(5, 1)});
+  const Eigen::MatrixXd expected = byDifferences(one.geometry, one.q, one.readings, one.centre, at);
+  ASSERT_GT((expected - one.computed()).cwiseAbs().maxCoeff(), 1e-3);
+  // One-sided against central differences: the model's second derivative, a few metres, over a step of 1e-6.
+  EXPECT_LT((one.computed(at) - expected).cwiseAbs().maxCoeff(), 1e-5);
 }
 
 }  // namespace
