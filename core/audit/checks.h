@@ -32,7 +32,7 @@ Findings checkNests(const Evidence& evidence);
 /// circle_arc (one an axis), circle_count: the sweeps of each axis.
 Findings checkCircleSweeps(const Evidence& evidence);
 
-/// sweep_angles: how far each axis turns by its reflectors, against what the joint reports.
+/// sweep_angles: how far each axis turns by its reflectors, against what the joint reports. Fails beyond twice or half.
 Findings checkSweepAngles(const Evidence& evidence);
 
 /// circle_residual: how the readings lie on their circles.

@@ -9,6 +9,8 @@ namespace stiffscope {
 /// (m). Free by choice of frame in part: fits hold them by a wide prior.
 struct GeometrySteps {
   static constexpr Eigen::Index kAxes = 24, kBase = 6;
+  /// For differences, m and rad: far above rounding, far below where the model curves.
+  static constexpr double kSmall = 1e-6;
   static Eigen::Index count(std::size_t targets) {
     return kAxes + kBase + 3 * static_cast<Eigen::Index>(targets);
   }

@@ -20,7 +20,9 @@ struct Shrink {
 struct EffectClass {
   std::vector<Effect> effects;
   std::string detail;      ///< the pair, the reflector, the joint that it names; empty where nothing is named
-  double score = 0.0;      ///< fall of BIC against the model without it; larger is better
+  /// Fall of BIC against the model without it; larger is better. Of the geometry, which no deflection is fitted by: the
+  /// square of its rms over the tolerance, times the loading's equations.
+  double score = 0.0;
   Shrink shrink;           ///< of the deflection's rms
   double explained = 0.0;  ///< the same in variance, less noise
   Shrink shrink_of_positions;  ///< of unloaded absolute positions' misfit; all zero where they are not held

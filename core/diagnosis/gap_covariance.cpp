@@ -1,5 +1,7 @@
 #include "core/diagnosis/gap_covariance.h"
 
+#include "core/frames/reading_covariance.h"
+
 namespace stiffscope {
 
 namespace {
@@ -59,12 +61,6 @@ void addModelError(const GapState& state, const GapRows& rows, Eigen::Index at_r
 }
 
 }  // namespace
-
-Eigen::Matrix3d readingCovariance(const TrackerNoise& noise, const Eigen::Isometry3d& r0_from_points,
-                                  const Eigen::Vector3d& point_in_r0) {
-  const Eigen::Matrix3d turn = r0_from_points.linear();
-  return turn * noise.covarianceAt(r0_from_points.inverse() * point_in_r0) * turn.transpose();
-}
 
 GapCovariance gapCovariance(const GapInput& input, const GapState& state, const GapRows& rows,
                             Eigen::Index at_rest) {

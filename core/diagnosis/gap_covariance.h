@@ -4,10 +4,6 @@
 
 namespace stiffscope {
 
-/// Covariance of one tracker reading at a point of R0, in R0, m^2.
-Eigen::Matrix3d readingCovariance(const TrackerNoise& noise, const Eigen::Isometry3d& r0_from_points,
-                                  const Eigen::Vector3d& point_in_r0);
-
 /// Covariance of one posture's rows (position rows first, then deflection rows state by state), m^2. All
 /// displacements of a posture share its unloaded readings, and a state's coordinates its wrench.
 struct GapCovariance {

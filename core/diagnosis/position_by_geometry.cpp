@@ -12,7 +12,6 @@ namespace stiffscope {
 namespace {
 
 constexpr std::size_t kJoints = 6, kStepsPerAxis = 4;
-constexpr double kStep = 1e-6;  // m and rad: far above rounding, far below where the model curves
 
 /// A small motion: rotation, and shift of what stands at the origin.
 struct SmallMotion {
@@ -130,7 +129,7 @@ PositionByGeometry::PositionByGeometry(const LoadingGeometry& geometry, const Wo
   if (at.motions.empty()) return;
   const Eigen::Index steps = GeometrySteps::count(geometry.targets_at_zero.size());
   for (Eigen::Index k = 0; k < GeometrySteps::kAxes; ++k)
-    stepped_.push_back(moved(geometry, kStep * Eigen::VectorXd::Unit(steps, k), centre));
+    stepped_.push_back(moved(geometry, GeometrySteps::kSmall * Eigen::VectorXd::Unit(steps, k), centre));
 }
 
 void PositionByGeometry::addAxes(const ArmState& modelled, Eigen::MatrixXd& columns) const {
@@ -161,7 +160,7 @@ void PositionByGeometry::addAxesByDifferences(const ArmState& modelled, Eigen::M
       const Eigen::Vector3d& at_zero =
           *geometry_.targets_at_zero[static_cast<std::size_t>(modelled.targets[i])];
       columns.col(static_cast<Eigen::Index>(k)).segment<3>(3 * static_cast<Eigen::Index>(i)) =
-          (there * at_zero - modelled.points[i]) / kStep;
+          (there * at_zero - modelled.points[i]) / GeometrySteps::kSmall;
     }
   }
 }

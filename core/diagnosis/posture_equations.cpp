@@ -11,8 +11,6 @@ namespace stiffscope {
 
 namespace {
 
-constexpr double kStep = 1e-6;  // m and rad: far above rounding, far below where the model curves
-
 /// Columns and right side of one posture but for the geometry's steps, unwhitened.
 GapPosture unwhitened(const GapInput& input, const GapState& state, const ContainedEffects& now,
                       const GapLayout& layout, const GapRows& rows) {
@@ -56,17 +54,17 @@ void addGeometry(const GapInput& input, const GapState& state, const std::vector
   const Eigen::Index steps = GeometrySteps::count(input.campaign.targets.size());
   for (Eigen::Index k = 0; k < steps; ++k) {
     const LoadingGeometry there =
-        moved(state.geometry, kStep * Eigen::VectorXd::Unit(steps, k), state.at.epoch_centre);
+        moved(state.geometry, GeometrySteps::kSmall * Eigen::VectorXd::Unit(steps, k), state.at.epoch_centre);
     const auto other = loadingRows(input.campaign, there, state.at, state.corrections);
     for (std::size_t i = 0; i < rows.size(); ++i) {
       GapPosture& posture = data.postures[i];
       auto column = posture.columns.col(data.layout.geometry + k);
       if (posture.position_rows > 0)
-        column.head(posture.position_rows) = (rows[i].position - other[i].position) / kStep;
+        column.head(posture.position_rows) = (rows[i].position - other[i].position) / GeometrySteps::kSmall;
       const Vector6d& c = state.at.compliance;
       column.tail(rows[i].displacement.size()) = ((rows[i].displacement - rows[i].by_compliance * c) -
                                                   (other[i].displacement - other[i].by_compliance * c)) /
-                                                 kStep;
+                                                 GeometrySteps::kSmall;
     }
   }
 }

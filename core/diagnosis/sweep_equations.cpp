@@ -2,10 +2,10 @@
 
 #include <Eigen/Dense>
 
-#include "core/diagnosis/gap_covariance.h"
 #include "core/diagnosis/normal_matrix.h"
 #include "core/diagnosis/position_by_geometry.h"
 #include "core/diagnosis/sag_by_body.h"
+#include "core/frames/reading_covariance.h"
 
 namespace stiffscope {
 

@@ -2,16 +2,15 @@
 
 #include <algorithm>
 
+#include "core/frames/reading_covariance.h"
 #include "metrology/trilateration_sensitivity.h"
 
 namespace stiffscope {
 
 namespace {
 
-Eigen::Matrix3d readingCovariance(const LoadingReadings& how, const MeanReading& mean) {
-  const Eigen::Matrix3d turn = how.r0_from_loading.linear();
-  return turn * how.noise.covarianceAt(how.r0_from_loading.inverse() * mean.in_r0) * turn.transpose() /
-         std::max(1, mean.readings);
+Eigen::Matrix3d meanCovariance(const LoadingReadings& how, const MeanReading& mean) {
+  return readingCovariance(how.noise, how.r0_from_loading, mean.in_r0) / std::max(1, mean.readings);
 }
 
 /// Without readings and radii: what a displacement d shares by R0 and the scale.
@@ -69,7 +68,7 @@ DisplacementUncertainty reflectorDisplacement(const LoadingReadings& how, int po
                                               const MeanReading& unloaded, const MeanReading& loaded) {
   DisplacementUncertainty result = startOf(how, pose, step, loaded.in_r0 - unloaded.in_r0);
   result.readings.push_back({loaded.target, -Eigen::Matrix3d::Identity(), Eigen::Matrix3d::Identity(),
-                             readingCovariance(how, unloaded), readingCovariance(how, loaded)});
+                             meanCovariance(how, unloaded), meanCovariance(how, loaded)});
   return result;
 }
 
@@ -86,8 +85,8 @@ std::optional<DisplacementUncertainty> wristDisplacement(const LoadingReadings& 
   const Eigen::Matrix3d by_radii = after->by_radii - before->by_radii;
   for (std::size_t k = 0; k < 3; ++k) {
     const MeanReading &from = unloaded.reflectors[k], &to = loaded.reflectors[k];
-    result.readings.push_back({to.target, -before->by_points[k], after->by_points[k], readingCovariance(how, from),
-                               readingCovariance(how, to)});
+    result.readings.push_back({to.target, -before->by_points[k], after->by_points[k], meanCovariance(how, from),
+                               meanCovariance(how, to)});
     result.by_common.col(CommonTerms::kRadii + to.target) = by_radii.col(static_cast<Eigen::Index>(k));
   }
   return result;

@@ -7,7 +7,7 @@
 #include "reports/json/identification_json.h"
 #include "reports/json/improved_json.h"
 #include "reports/json/preparation_json.h"
-#include "reports/page/one_machine.h"
+#include "reports/one_machine.h"
 
 namespace stiffscope {
 

@@ -101,6 +101,11 @@ std::vector<std::string> actionsOf(const Diagnosis& diagnosis) {
   return actions;
 }
 
+/// The geometry is judged by a tolerance, not by BIC.
+std::string fallOf(const EffectClass& one) {
+  return one.effects.front() == Effect::kinematic_error ? "–" : significant(one.score, 3);
+}
+
 Table classesTable(const Diagnosis& diagnosis) {
   Table table{"Which effect: the verdict's first, then the other candidates, best first",
               {"Effect", "In the verdict", "Fall of BIC", "Shrink held out (%)", "95 % (%)", "Explained (%)"},
@@ -110,9 +115,8 @@ Table classesTable(const Diagnosis& diagnosis) {
   RowGroup group;
   for (const EffectClass& one : diagnosis.classes) {
     group.rows.push_back({Cell(effectNames(one.effects), asIs(shortDetail(one.detail))),
-                          one.in_verdict ? "yes" : "no", significant(one.score, 3),
-                          shareOf(one.shrink.value, 1), interval(one.shrink),
-                          fixed(100.0 * one.explained, 0)});
+                          one.in_verdict ? "yes" : "no", fallOf(one), shareOf(one.shrink.value, 1),
+                          interval(one.shrink), fixed(100.0 * one.explained, 0)});
   }
   table.groups.push_back(std::move(group));
   return table;
@@ -160,7 +164,8 @@ Table whereTable(const Diagnosis& diagnosis) {
 
 Table stiffnessTable(const Diagnosis& diagnosis) {
   Table table{
-      "Joint stiffness in the diagnosis, by joint springs alone and with the verdict's effects in the model, k ± u, "
+      "Joint stiffness in the diagnosis, by joint springs alone and with the verdict's effects in the model, "
+      "k ± u, "
       "10⁶\u00a0Nm/rad",
       {"Joint", "Alone", "With the effects"},
       {},
@@ -215,10 +220,13 @@ void writeDiagnosis(Html& html, const Diagnosis& diagnosis) {
   if (!namedWords(diagnosis.verdict).empty()) {
     writeTable(html, stiffnessTable(diagnosis));
     html.paragraph(
-        "These stiffnesses are not those of Joint stiffness: the diagnosis fits all load steps together, sweeps and unloaded "
-        "positions beside them, and its u is one standard uncertainty by weights of the noise; there k is of one load step and U "
-        "is expanded (about 95\u00a0%), from the scatter between postures. The stiffnesses to use are those of Joint stiffness, with the effects where a report is made with them "
-        "(--with auto).",
+        "These stiffnesses are not those of Joint stiffness: the diagnosis fits all load steps together, "
+        "sweeps and unloaded "
+        "positions beside them, and its u is one standard uncertainty by weights of the noise; there k is of "
+        "one load step and U "
+        "is expanded (about 95\u00a0%), from the scatter between postures. The stiffnesses to use are those "
+        "of Joint stiffness, "
+        "with the effects where a report is made with them (--with auto).",
         "faint");
   }
   writeTable(html, whereTable(diagnosis));

@@ -5,7 +5,7 @@
 
 #include "reports/page/names.h"
 #include "reports/page/numbers.h"
-#include "reports/page/one_machine.h"
+#include "reports/one_machine.h"
 #include "reports/page/report_id.h"
 #include "reports/page/sections.h"
 #include "reports/page/with_micro.h"

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <functional>
 #include <nlohmann/json.hpp>
 
 #include "tests/app/command.h"
@@ -29,22 +30,26 @@ TEST(AuditCommand, GivesEveryCheckItsFigureLimitAndSource) {
   }
 }
 
-TEST(AuditCommand, AFailedAuditExitsWithOneAndNamesTheRow) {
-  const ScratchFolder scratch;
+/// The sample with one table's lines changed; they are counted from 1, the header.
+fs::path spoiltSample(const ScratchFolder& scratch, const std::string& table,
+                      const std::function<std::string(int, std::string)>& spoil) {
   const fs::path spoilt = scratch.path() / "spoilt";
   fs::copy(kSample, spoilt);
-  std::istringstream lines(contentsOf(spoilt / "loading.csv"));
-  std::ofstream out(spoilt / "loading.csv", std::ios::binary);
+  std::istringstream lines(contentsOf(spoilt / table));
+  std::ofstream out(spoilt / table, std::ios::binary);
   std::string line;
-  for (int number = 1; std::getline(lines, line); ++number) {
-    if (number == 100) {  // pose,step,repeat,target,time_s stay; the tracker lost its beam
-      std::size_t comma = 0;
-      for (int k = 0; k < 5; ++k) comma = line.find(',', comma) + 1;
-      line = line.substr(0, comma) + "0.0000,0.0000,0.0000";
-    }
-    out << line << '\n';
-  }
-  out.close();
+  for (int number = 1; std::getline(lines, line); ++number) out << spoil(number, line) << '\n';
+  return spoilt;
+}
+
+TEST(AuditCommand, AFailedAuditExitsWithOneAndNamesTheRow) {
+  const ScratchFolder scratch;
+  const fs::path spoilt = spoiltSample(scratch, "loading.csv", [](int number, std::string line) {
+    if (number != 100) return line;
+    std::size_t comma = 0;  // pose,step,repeat,target,time_s stay; the tracker lost its beam
+    for (int k = 0; k < 5; ++k) comma = line.find(',', comma) + 1;
+    return line.substr(0, comma) + "0.0000,0.0000,0.0000";
+  });
   const Ran ran = runProgram("audit '" + spoilt.string() + "'", scratch.path());
   EXPECT_EQ(ran.status, 1) << ran.err;
   EXPECT_NE(ran.out.find("not fit to identify from"), std::string::npos) << ran.out;
@@ -59,24 +64,19 @@ TEST(AuditCommand, ACampaignThatIsNotThereIsBadInput) {
 // Angles in radians under q1_deg..q6_deg: nothing could be told apart in such a day, and looking for it takes a minute.
 TEST(AuditCommand, WhatCannotBeIsNotSearchedForEffects) {
   const ScratchFolder scratch;
-  const fs::path spoilt = scratch.path() / "spoilt";
-  fs::copy(kSample, spoilt);
-  std::istringstream lines(contentsOf(spoilt / "states.csv"));
-  std::ofstream out(spoilt / "states.csv", std::ios::binary);
-  std::string line;
-  std::getline(lines, line);
-  ASSERT_EQ(line.rfind("pose,step,time_s,q1_deg", 0), 0u);
-  out << line << '\n';
-  while (std::getline(lines, line)) {
+  const fs::path spoilt = spoiltSample(scratch, "states.csv", [](int number, const std::string& line) {
+    if (number == 1) {
+      EXPECT_EQ(line.rfind("pose,step,time_s,q1_deg", 0), 0u);
+      return line;
+    }
     std::istringstream cells(line);
-    std::string cell;
+    std::string cell, spoilt_line;
     for (int column = 0; std::getline(cells, cell, ','); ++column) {
       if (column >= 3 && column < 9) cell = std::to_string(std::stod(cell) * 0.0174533);
-      out << (column > 0 ? "," : "") << cell;
+      spoilt_line += (column > 0 ? "," : "") + cell;
     }
-    out << '\n';
-  }
-  out.close();
+    return spoilt_line;
+  });
   const Ran ran = runProgram("audit '" + spoilt.string() + "'", scratch.path());
   EXPECT_EQ(ran.status, 1) << ran.err;
   EXPECT_NE(ran.out.find("units, angles or the tracker's"), std::string::npos) << ran.out;

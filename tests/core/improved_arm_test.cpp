@@ -33,7 +33,7 @@ EffectFit onlyEffect(const Campaign& campaign, Effect effect) {
   fit.fit.set.effects.setZero(static_cast<Eigen::Index>(models[0].parameters()));
   auto start = std::make_unique<GapStart>();
   start->campaign = campaign;
-  fit.input = std::make_unique<GapInput>(GapInput{start->campaign, {}, 0.0, 0.0, models});
+  fit.input = std::make_unique<GapInput>(GapInput{start->campaign, {}, 0.0, 0.0, models, false, false, {}});
   fit.start = std::move(start);
   return fit;
 }

@@ -1,4 +1,4 @@
-#include "reports/page/one_machine.h"
+#include "reports/one_machine.h"
 
 #include <fmt/format.h>
 
