@@ -62,7 +62,7 @@ ArmPose armPose(const ReportCampaign& one, std::size_t index, std::optional<Meth
     return point;
   };
 
-  ArmPose pose = bareArm(result.frames, load_case.posture);
+  ArmPose pose = bareArm(result.frames, unloadedPosture(result.frames.arm.arm, load_case));
   for (std::size_t t = 0; t < load_case.targets.size(); ++t) {
     const TargetMove& move = load_case.targets[t];
     pose.targets.push_back(

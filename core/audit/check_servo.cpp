@@ -16,7 +16,7 @@ double longestLever(const LoadedArm& arm) {
   double longest = 0.0;
   for (const LoadCase& load_case : arm.cases) {
     for (const TargetMove& move : load_case.targets) {
-      const Matrix6d jacobian = jacobianAt(arm.geometry.arm, load_case.posture, move.unloaded);
+      const Matrix6d jacobian = jacobianAt(load_case.axes, move.unloaded);
       longest = std::max(longest, jacobian.topRows<3>().colwise().norm().maxCoeff());
     }
   }

@@ -11,8 +11,9 @@ namespace {
 double lengthOf(const Identification& result, const LoadingGeometry& geometry) {
   if (result.characteristic_length.condition > 0.0) return result.characteristic_length.length;
   std::vector<LoadCase> cases = result.cases;
-  for (LoadCase& load_case : cases) load_case.flange_unloaded = flangeAt(geometry.arm, load_case.posture);
-  return characteristicLength(geometry, cases, result.frames.tcp_in_flange).length;
+  for (LoadCase& load_case : cases)
+    load_case.flange_unloaded = flangeAt(geometry.arm, unloadedPosture(geometry.arm, load_case));
+  return characteristicLength(cases, result.frames.tcp_in_flange).length;
 }
 
 }  // namespace
@@ -24,7 +25,8 @@ PostureStiffness postureStiffness(const LoadingGeometry& geometry, const Stiffne
   const Eigen::Vector3d point = flangeAt(geometry.arm, posture) * tcp_in_flange;
   const Matrix6d jacobian = jacobianAt(geometry.arm, posture, point);
   const ArmAxes axes = axesAt(geometry.arm, posture);
-  const Matrix6d geometric = geometricStiffness(axes, wrench) + geometricStiffness(axes, posture, geometry.weight);
+  const Matrix6d geometric =
+      geometricStiffness(axes, wrench) + geometricStiffness(axes, posture, geometry.weight);
   result.conditioning = postureConditioning(jacobian, length);
   result.without_kc = cartesianStiffness(point, jacobian, estimate.compliance);
   result.with_kc = cartesianStiffness(point, jacobian, estimate.compliance, geometric);
@@ -43,8 +45,9 @@ std::vector<PostureStiffness> postureStiffnesses(const Campaign& campaign, const
   const Eigen::Vector3d& tcp = result.frames.tcp_in_flange;
   const double length = lengthOf(result, solved.geometry);
   for (const LoadCase& load_case : result.cases) {
-    postures.push_back(
-        postureStiffness(solved.geometry, solved.estimate, load_case.posture, load_case.wrench, tcp, length));
+    postures.push_back(postureStiffness(solved.geometry, solved.estimate,
+                                        unloadedPosture(solved.geometry.arm, load_case), load_case.wrench,
+                                        tcp, length));
     postures.back().pose = campaign.pose_ids[static_cast<std::size_t>(load_case.pose)];
   }
   return postures;

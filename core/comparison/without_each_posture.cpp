@@ -20,11 +20,11 @@ Normals completePoseNormals(const Identification& result) {
   const auto torques =
       result.finite_deflection
           ? jointTorquesWithGeometricStiffness(method.geometry, result.cases, method.estimate.compliance)
-          : jointTorques(method.geometry, result.cases);
+          : jointTorques(result.cases);
   Normals normal;
   for (std::size_t i = 0; i < result.cases.size(); ++i) {
     const CaseEquations pose =
-        completePoseEquations(method.geometry, result.cases[i], result.frames.tcp_in_flange, torques[i]);
+        completePoseEquations(result.cases[i], result.frames.tcp_in_flange, torques[i]);
     normal.push_back(normalEquations(normalised(pose, result.characteristic_length.length)));
   }
   return normal;

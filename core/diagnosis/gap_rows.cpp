@@ -30,9 +30,10 @@ std::vector<TimesOfPose> timesOf(const Campaign& campaign) {
 
 Eigen::Matrix3d cellAxes(const LoadCell& cell, const LoadingGeometry& geometry, const LoadCase& one) {
   Eigen::Matrix3d axes;
+  const ArmPosture posture = unloadedPosture(geometry.arm, one);
   for (int k = 0; k < 3; ++k) {
     const Vector6d unit = Vector6d::Unit(k);
-    axes.col(k) = cellWrench(cell, geometry, one.posture, one.flange_unloaded, one.flange_loaded, unit).force;
+    axes.col(k) = cellWrench(cell, geometry, posture, one.flange_unloaded, one.flange_loaded, unit).force;
   }
   return axes;
 }

@@ -14,7 +14,7 @@ Eigen::Vector3d loadOffset(const Robot& arm, const std::vector<LoadCase>& cases,
   Eigen::Vector3d right = Eigen::Vector3d::Zero();
   for (const LoadCase& one : cases) {
     const Eigen::Matrix3d flange_from_base =
-        one.flange_unloaded.value_or(flangeAt(arm, one.posture)).linear().transpose();
+        one.flange_unloaded.value_or(flangeAt(arm, unloadedPosture(arm, one))).linear().transpose();
     const Eigen::Vector3d force = flange_from_base * one.wrench.force;
     const Eigen::Vector3d moment = flange_from_base * one.wrench.moment;
     Eigen::Matrix3d by_offset;
@@ -36,9 +36,9 @@ Vector6d largestTorque(const LoadingGeometry& geometry, const std::vector<LoadCa
   Vector6d largest = Vector6d::Zero();
   for (const LoadCase& one : cases) {
     const Vector6d weight = geometry.weight.links_known
-                                ? weightTorque(geometry.arm, one.posture, geometry.weight)
+                                ? weightTorque(geometry.arm, unloadedPosture(geometry.arm, one), geometry.weight)
                                 : Vector6d(Vector6d::Zero());
-    const Vector6d load = jointTorque(geometry.arm, one.posture, one.wrench);
+    const Vector6d load = jointTorque(one.axes, one.wrench);
     largest = largest.cwiseMax(weight.cwiseAbs()).cwiseMax((weight + load).cwiseAbs());
   }
   return largest;

@@ -43,7 +43,7 @@ NormalEquations sumOver(std::size_t cases, const Points& points) {
 NormalEquations reflectorNormal(const LoadedArm& arm) {
   return sumOver(arm.cases.size(), [&](std::size_t i, const auto& add) {
     const LoadCase& load_case = arm.cases[i];
-    const ArmAxes axes = jacobianAxes(arm.geometry, load_case);
+    const ArmAxes& axes = jacobianAxes(load_case);
     for (const TargetMove& move : load_case.targets) {
       const Eigen::Vector3d point = jacobianPoint(load_case, move.unloaded, move.loaded);
       add(pointRows(axes, point, arm.torques[i]), move.displacement());
@@ -55,14 +55,14 @@ NormalEquations wristNormal(const LoadedArm& arm) {
   return sumOver(arm.wrist.size(), [&](std::size_t i, const auto& add) {
     const WristMove& move = arm.wrist[i];
     const Eigen::Vector3d point = jacobianPoint(arm.cases[i], move.unloaded, move.loaded);
-    add(pointRows(jacobianAxes(arm.geometry, arm.cases[i]), point, arm.torques[i]), move.displacement());
+    add(pointRows(jacobianAxes(arm.cases[i]), point, arm.torques[i]), move.displacement());
   });
 }
 
 PoseNormal poseNormal(const LoadedArm& arm, const Eigen::Vector3d& tcp_in_flange) {
   PoseNormal sum;
   for (std::size_t i = 0; i < arm.cases.size(); ++i) {
-    sum.add(completePoseEquations(arm.geometry, arm.cases[i], tcp_in_flange, arm.torques[i]));
+    sum.add(completePoseEquations(arm.cases[i], tcp_in_flange, arm.torques[i]));
   }
   return sum;
 }

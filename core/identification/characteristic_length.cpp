@@ -24,12 +24,11 @@ struct StackedJacobian {
 
 }  // namespace
 
-CharacteristicLength characteristicLength(const LoadingGeometry& geometry, const std::vector<LoadCase>& cases,
+CharacteristicLength characteristicLength(const std::vector<LoadCase>& cases,
                                           const Eigen::Vector3d& tcp_in_flange) {
   StackedJacobian stacked;
   for (const LoadCase& load_case : cases) {
-    const Matrix6d jacobian =
-        jacobianAt(geometry.arm, load_case.posture, *load_case.flange_unloaded * tcp_in_flange);
+    const Matrix6d jacobian = jacobianAt(load_case.axes, *load_case.flange_unloaded * tcp_in_flange);
     stacked.linear += jacobian.topRows<3>().transpose() * jacobian.topRows<3>();
     stacked.angular += jacobian.bottomRows<3>().transpose() * jacobian.bottomRows<3>();
   }

@@ -15,7 +15,7 @@ struct CharacteristicLength {
 };
 
 /// Golden-section search on log L within 0.05 m to 20 m, started at the best point of `curve`.
-CharacteristicLength characteristicLength(const LoadingGeometry& geometry, const std::vector<LoadCase>& cases,
+CharacteristicLength characteristicLength(const std::vector<LoadCase>& cases,
                                           const Eigen::Vector3d& tcp_in_flange);
 
 }  // namespace stiffscope

@@ -5,15 +5,14 @@
 
 namespace stiffscope {
 
-CaseEquations completePoseEquations(const LoadingGeometry& geometry, const LoadCase& load_case,
-                                    const Eigen::Vector3d& tcp_in_flange, const Vector6d& torque) {
+CaseEquations completePoseEquations(const LoadCase& load_case, const Eigen::Vector3d& tcp_in_flange,
+                                    const Vector6d& torque) {
   const Eigen::Isometry3d &before = *load_case.flange_unloaded, &after = *load_case.flange_loaded;
   const Eigen::AngleAxisd rotation(after.linear() * before.linear().transpose());
   const Eigen::Vector3d unloaded = before * tcp_in_flange, loaded = after * tcp_in_flange;
   CaseEquations equations;
   equations.matrix =
-      jacobianAt(geometry.arm, jacobianPosture(load_case), jacobianPoint(load_case, unloaded, loaded)) *
-      torque.asDiagonal();
+      jacobianAt(jacobianAxes(load_case), jacobianPoint(load_case, unloaded, loaded)) * torque.asDiagonal();
   equations.posture = load_case.pose;
   equations.right.resize(6);
   equations.right << loaded - unloaded, rotation.angle() * rotation.axis();

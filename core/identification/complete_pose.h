@@ -9,8 +9,8 @@ namespace stiffscope {
 /// displacement rows divided by L): the displacement of P_TCP and the small rotation of the flange, both from
 /// the rigid motion of the reflectors between unloaded and loaded. Rows 0-2 in m, rows 3-5 in rad, not yet
 /// normalised. Needs load_case.flange_unloaded and flange_loaded.
-CaseEquations completePoseEquations(const LoadingGeometry& geometry, const LoadCase& load_case,
-                                    const Eigen::Vector3d& tcp_in_flange, const Vector6d& torque);
+CaseEquations completePoseEquations(const LoadCase& load_case, const Eigen::Vector3d& tcp_in_flange,
+                                    const Vector6d& torque);
 
 /// The same with the displacement rows divided by the characteristic length.
 CaseEquations normalised(const CaseEquations& pose_equations, double characteristic_length);

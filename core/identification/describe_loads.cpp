@@ -9,7 +9,7 @@
 namespace stiffscope {
 
 double geometricStiffnessShare(const LoadedArm& arm, const Vector6d& compliance) {
-  const auto plain = jointTorques(arm.geometry, arm.cases);
+  const auto plain = jointTorques(arm.cases);
   const auto full = jointTorquesWithGeometricStiffness(arm.geometry, arm.cases, compliance);
   double change = 0.0, whole = 0.0;
   for (std::size_t i = 0; i < plain.size(); ++i) {

@@ -15,9 +15,11 @@ namespace {
 class SpringTorque {
  public:
   SpringTorque(const LoadingGeometry& geometry, const LoadCase& load_case, const Vector6d& compliance)
-      : axes_(axesAt(geometry.arm, load_case.posture)),
-        by_weight_(geometricStiffness(axes_, load_case.posture, geometry.weight)),
-        compliance_(compliance) {}
+      : axes_(load_case.axes), compliance_(compliance) {
+    if (geometry.weight.any()) {
+      by_weight_ = geometricStiffness(axes_, unloadedPosture(geometry.arm, load_case), geometry.weight);
+    }
+  }
 
   /// Solves s = tau + K_c c s.
   Vector6d under(const Wrench& wrench) const {
@@ -27,32 +29,30 @@ class SpringTorque {
   }
 
  private:
-  ArmAxes axes_;
-  Matrix6d by_weight_;
+  const ArmAxes& axes_;
+  Matrix6d by_weight_ = Matrix6d::Zero();
   const Vector6d& compliance_;
 };
 
 /// The wrench as the model's turn of its body by these joint angles directs it.
 Wrench turnedWrench(const Robot& arm, const LoadCase& load_case, const Vector6d& loaded) {
   const auto body = static_cast<std::size_t>(load_case.wrench_turns_with);
-  const Eigen::Matrix3d turn =
-      postureAt(arm, loaded).motion[body].linear() * load_case.posture.motion[body].linear().transpose();
+  const Eigen::Matrix3d turn = postureAt(arm, loaded).motion[body].linear() * load_case.unturned.transpose();
   return {load_case.wrench.point, turn * load_case.wrench_unturned.force,
           turn * load_case.wrench_unturned.moment};
 }
 
-ArmPosture middleOf(const Robot& arm, const LoadCase& load_case, const Vector6d& compliance,
-                    const Vector6d& torque) {
-  return postureAt(arm, load_case.q_sagged + 0.5 * compliance.cwiseProduct(torque));
+ArmAxes middleOf(const Robot& arm, const LoadCase& load_case, const Vector6d& compliance,
+                 const Vector6d& torque) {
+  return axesAt(arm, postureAt(arm, load_case.q_sagged + 0.5 * compliance.cwiseProduct(torque)));
 }
 
 }  // namespace
 
-std::vector<Vector6d> jointTorques(const LoadingGeometry& geometry, const std::vector<LoadCase>& cases) {
+std::vector<Vector6d> jointTorques(const std::vector<LoadCase>& cases) {
   std::vector<Vector6d> torques(cases.size());
-  smallWorkOnAllCores(cases.size(), [&](std::size_t i) {
-    torques[i] = jointTorque(geometry.arm, cases[i].posture, cases[i].wrench);
-  });
+  smallWorkOnAllCores(cases.size(),
+                      [&](std::size_t i) { torques[i] = jointTorque(cases[i].axes, cases[i].wrench); });
   return torques;
 }
 
@@ -87,10 +87,6 @@ void takeJacobiansAtMiddle(const LoadingGeometry& geometry, const Vector6d& comp
   for (std::size_t i = 0; i < cases.size(); ++i) {
     cases[i].middle = middleOf(geometry.arm, cases[i], compliance, torques[i]);
   }
-}
-
-ArmAxes jacobianAxes(const LoadingGeometry& geometry, const LoadCase& load_case) {
-  return axesAt(geometry.arm, jacobianPosture(load_case));
 }
 
 Matrix36d pointRows(const ArmAxes& axes, const Eigen::Vector3d& point, const Vector6d& torque) {

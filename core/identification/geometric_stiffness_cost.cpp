@@ -7,11 +7,12 @@ std::vector<GeometricStiffnessCost> geometricStiffnessCosts(const Identification
   const MethodResult& solved = result.of(method);
   if (!solved.available) return costs;
   const Vector6d& compliance = solved.estimate.compliance;
-  const std::vector<Vector6d> plain = jointTorques(solved.geometry, result.cases);
-  const std::vector<Vector6d> full = jointTorquesWithGeometricStiffness(solved.geometry, result.cases, compliance);
+  const std::vector<Vector6d> plain = jointTorques(result.cases);
+  const std::vector<Vector6d> full =
+      jointTorquesWithGeometricStiffness(solved.geometry, result.cases, compliance);
   for (std::size_t i = 0; i < result.cases.size(); ++i) {
     const LoadCase& load_case = result.cases[i];
-    const ArmAxes axes = jacobianAxes(solved.geometry, load_case);
+    const ArmAxes& axes = jacobianAxes(load_case);
     GeometricStiffnessCost cost;
     double whole = 0.0;
     for (const TargetMove& move : load_case.targets) {

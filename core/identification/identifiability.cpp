@@ -24,7 +24,8 @@ Wrench hangingPart(const Wrench& wrench, const Eigen::Vector3d& down) {
 }
 
 /// Variance of each joint's torque by the uncertainties of wrench, direction and place.
-Vector6d torqueVariance(const ArmAxes& axes, const Wrench& wrench, const LoadCell& cell, const TrustLimits& limits) {
+Vector6d torqueVariance(const ArmAxes& axes, const Wrench& wrench, const LoadCell& cell,
+                        const TrustLimits& limits) {
   const Matrix36d levers = pointJacobianAt(axes, wrench.point);
   Vector6d variance;
   for (int j = 0; j < 6; ++j) {
@@ -76,8 +77,8 @@ void judgeLever(const std::vector<CaseEquations>& equations, const std::vector<V
 
 constexpr double kTakesPart = 0.05;  // share of a joint in an unseen combination
 
-/// `unseen`: of the columns at unit length, the combination that moves no measured point; `lengths` of the columns. Two
-/// joints whose columns are parallel: what is seen is c_a + ratio c_b.
+/// `unseen`: of the columns at unit length, the combination that moves no measured point; `lengths` of the
+/// columns. Two joints whose columns are parallel: what is seen is c_a + ratio c_b.
 std::string combinationReason(const Vector6d& unseen, const Vector6d& lengths) {
   std::vector<int> joints;
   for (int j = 0; j < 6; ++j) {
@@ -87,20 +88,25 @@ std::string combinationReason(const Vector6d& unseen, const Vector6d& lengths) {
     const int a = joints[0], b = joints[1];
     const double ratio = -(unseen[a] / lengths[a]) / (unseen[b] / lengths[b]);
     return fmt::format(
-        "these postures only see a combination of joints {}, {}: the two move the reflectors in proportion in every posture, so "
-        "that only 1/k{} {} {}/k{} is determined; postures in which axis {} stands otherwise to the load than axis {} "
+        "these postures only see a combination of joints {}, {}: the two move the reflectors in proportion "
+        "in every posture, so "
+        "that only 1/k{} {} {}/k{} is determined; postures in which axis {} stands otherwise to the load "
+        "than axis {} "
         "would part them",
-        a + 1, b + 1, a + 1, ratio < 0.0 ? "-" : "+", fmt::format("{:.3g}", std::abs(ratio)), b + 1, a + 1, b + 1);
+        a + 1, b + 1, a + 1, ratio < 0.0 ? "-" : "+", fmt::format("{:.3g}", std::abs(ratio)), b + 1, a + 1,
+        b + 1);
   }
   std::string names, terms;
   for (const int j : joints) {
     const double share = unseen[j] / lengths[j] / (unseen[joints[0]] / lengths[joints[0]]);
     names += fmt::format("{}{}", names.empty() ? "" : ", ", j + 1);
     terms += terms.empty() ? fmt::format("1/k{}", j + 1)
-                           : fmt::format(" {} {:.3g} at 1/k{}", share < 0.0 ? "and -" : "and +", std::abs(share), j + 1);
+                           : fmt::format(" {} {:.3g} at 1/k{}", share < 0.0 ? "and -" : "and +",
+                                         std::abs(share), j + 1);
   }
   return fmt::format(
-      "these postures only see a combination of joints {}: adding +1 at {} changes no displacement", names, terms);
+      "these postures only see a combination of joints {}: adding +1 at {} changes no displacement", names,
+      terms);
 }
 
 /// Marks joints that take part in a combination which the equations do not see.
@@ -118,7 +124,7 @@ void judgeRank(const std::vector<CaseEquations>& equations, Identifiability& res
     }
   }
   const Eigen::SelfAdjointEigenSolver<Matrix6d> eigen(scaled);
-  constexpr double kUnseen = 1e-8;     // squared singular value of unit columns: a condition number of 1e4
+  constexpr double kUnseen = 1e-8;  // squared singular value of unit columns: a condition number of 1e4
   for (int k = 0; k < 6; ++k) {
     if (eigen.eigenvalues()[k] > kUnseen) break;
     const Vector6d unseen = eigen.eigenvectors().col(k);
@@ -150,7 +156,7 @@ Identifiability judgeJoints(const LoadingGeometry& geometry, const std::vector<L
   std::vector<Vector6d> torques(cases.size()), hanging(cases.size()), variances(cases.size());
   smallWorkOnAllCores(cases.size(), [&](std::size_t i) {
     const LoadCase& load_case = cases[i];
-    const ArmAxes axes = axesAt(geometry.arm, load_case.posture);
+    const ArmAxes& axes = load_case.axes;
     torques[i] = jointTorque(axes, load_case.wrench);
     hanging[i] = result.load_hangs ? jointTorque(axes, hangingPart(load_case.wrench, down)) : torques[i];
     variances[i] = torqueVariance(axes, load_case.wrench, cell, limits);

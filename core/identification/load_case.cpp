@@ -47,7 +47,8 @@ std::optional<Eigen::Isometry3d> measuredFlange(const LoadingGeometry& geometry,
 }
 
 /// Displacements without absolute points: put on the model's place of the reflector.
-std::vector<TargetMove> declaredMoves(const LoadingGeometry& geometry, std::span<const ReadingSum> differences,
+std::vector<TargetMove> declaredMoves(const LoadingGeometry& geometry,
+                                      std::span<const ReadingSum> differences,
                                       const Eigen::Matrix3d& r0_from_table, const ArmPosture& posture) {
   std::vector<TargetMove> moves;
   moves.reserve(differences.size());
@@ -64,8 +65,12 @@ std::vector<TargetMove> declaredMoves(const LoadingGeometry& geometry, std::span
 
 }  // namespace
 
-const ArmPosture& jacobianPosture(const LoadCase& load_case) {
-  return load_case.middle ? *load_case.middle : load_case.posture;
+ArmPosture unloadedPosture(const Robot& arm, const LoadCase& load_case) {
+  return postureAt(arm, load_case.q_sagged);
+}
+
+const ArmAxes& jacobianAxes(const LoadCase& load_case) {
+  return load_case.middle ? *load_case.middle : load_case.axes;
 }
 
 Eigen::Vector3d jacobianPoint(const LoadCase& load_case, const Eigen::Vector3d& unloaded,
@@ -82,8 +87,9 @@ std::optional<int> heaviestStep(const Campaign& campaign) {
   return heaviest;
 }
 
-std::vector<LoadCase> loadCases(const Campaign& campaign, const LoadReadings& readings, const LoadingGeometry& geometry,
-                                int step, std::vector<std::string>* left_out) {
+std::vector<LoadCase> loadCases(const Campaign& campaign, const LoadReadings& readings,
+                                const LoadingGeometry& geometry, int step,
+                                std::vector<std::string>* left_out) {
   std::vector<LoadCase> cases;
   if (!campaign.states || !campaign.load_cell) return cases;
   const bool absolute = campaign.loading.has_value() && geometry.r0_from_loading.has_value();
@@ -99,20 +105,22 @@ std::vector<LoadCase> loadCases(const Campaign& campaign, const LoadReadings& re
     load_case.servo = loaded->q - load_case.q;
     load_case.absolute = absolute;
     load_case.q_sagged = geometry.sagged(load_case.q);
-    load_case.posture = postureAt(geometry.arm, load_case.q_sagged);
+    const ArmPosture posture = unloadedPosture(geometry.arm, load_case);
+    load_case.axes = axesAt(geometry.arm, posture);
     if (absolute) {
       load_case.targets = measuredMoves(readings, pose, step, *geometry.r0_from_loading);
       load_case.flange_unloaded = measuredFlange(geometry, load_case.targets, false);
       load_case.flange_loaded = measuredFlange(geometry, load_case.targets, true);
     } else {
-      load_case.targets = declaredMoves(geometry, readings.differences(pose, step), *geometry.displacements_in_r0,
-                                        load_case.posture);
+      load_case.targets =
+          declaredMoves(geometry, readings.differences(pose, step), *geometry.displacements_in_r0, posture);
     }
     if (load_case.targets.empty()) return "no reflector was read both unloaded and in this load step";
-    load_case.wrench = cellWrench(*campaign.load_cell, geometry, load_case.posture, load_case.flange_unloaded,
+    load_case.wrench = cellWrench(*campaign.load_cell, geometry, posture, load_case.flange_unloaded,
                                   load_case.flange_loaded, loaded->wrench_in_cell);
     load_case.wrench_unturned = load_case.wrench;
     load_case.wrench_turns_with = turns_with == 6 && load_case.flange_loaded ? 0 : turns_with;
+    load_case.unturned = posture.motion[static_cast<std::size_t>(load_case.wrench_turns_with)].linear();
     return nullptr;
   };
   cases.resize(readings.poses());

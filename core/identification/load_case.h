@@ -28,25 +28,31 @@ struct LoadCase {
   int step = 0;
   Vector6d q = Vector6d::Zero();         ///< as the controller reports it unloaded, rad
   Vector6d servo = Vector6d::Zero();     ///< change of the reported angles under load: apart, not subtracted
-  Vector6d q_sagged = Vector6d::Zero();  ///< q with the own weight's sag in
-  ArmPosture posture;                    ///< at q_sagged: the unloaded arm
+  Vector6d q_sagged = Vector6d::Zero();  ///< q with the own weight's sag in: the unloaded arm
+  ArmAxes axes;                          ///< of the unloaded arm
   /// Where Jacobians of measured points are taken: empty, at the unloaded arm; else at the middle of the
   /// displacement, which makes J c tau the displacement to third order in the deflection.
-  std::optional<ArmPosture> middle;
+  std::optional<ArmAxes> middle;
   Wrench wrench;  ///< forces directed as the flange is measured loaded; point where it stands unloaded
   /// Body whose turn under load directs the wrench but is not measured: `wrench` is then directed as at
-  /// `posture`, until settleLoads directs it by the model. 0: directed as measured, or by axes that stand
-  /// still.
+  /// the unloaded arm, until settleLoads directs it by the model. 0: directed as measured, or by axes that
+  /// stand still.
   int wrench_turns_with = 0;
-  Wrench wrench_unturned;  ///< the same as at `posture`; only meant where wrench_turns_with is not 0
+  Wrench
+      wrench_unturned;  ///< directed as at the unloaded arm; this and the next only meant where that is not 0
+  Eigen::Matrix3d unturned;  ///< how that body stands turned in the unloaded arm (ArmPosture::motion)
   std::vector<TargetMove> targets;
   bool absolute = false;  ///< unloaded and loaded are measured points, not differences put on the model
   std::optional<Eigen::Isometry3d> flange_unloaded;  ///< base_from_flange by the reflectors (three or more)
   std::optional<Eigen::Isometry3d> flange_loaded;
 };
 
-/// The posture and the point at which the Jacobian of a reflector is taken.
-const ArmPosture& jacobianPosture(const LoadCase& load_case);
+/// The unloaded arm, all its bodies. Not kept in the load case: ten thousand of them would be most of the
+/// memory, and few steps need more than the axes.
+ArmPosture unloadedPosture(const Robot& arm, const LoadCase& load_case);
+
+/// The axes and the point at which the Jacobian of a reflector is taken.
+const ArmAxes& jacobianAxes(const LoadCase& load_case);
 Eigen::Vector3d jacobianPoint(const LoadCase& load_case, const Eigen::Vector3d& unloaded,
                               const Eigen::Vector3d& loaded);
 
@@ -54,10 +60,12 @@ Eigen::Vector3d jacobianPoint(const LoadCase& load_case, const Eigen::Vector3d& 
 /// Empty where no step has a force.
 std::optional<int> heaviestStep(const Campaign& campaign);
 
-/// The load cases of one of the readings' steps, a posture each, in the order of the campaign's poses. A posture
-/// without that step, without an unloaded state or without a common reflector has none, and is named in `left_out`.
-std::vector<LoadCase> loadCases(const Campaign& campaign, const LoadReadings& readings, const LoadingGeometry& geometry,
-                                int step, std::vector<std::string>* left_out = nullptr);
+/// The load cases of one of the readings' steps, a posture each, in the order of the campaign's poses. A
+/// posture without that step, without an unloaded state or without a common reflector has none, and is named
+/// in `left_out`.
+std::vector<LoadCase> loadCases(const Campaign& campaign, const LoadReadings& readings,
+                                const LoadingGeometry& geometry, int step,
+                                std::vector<std::string>* left_out = nullptr);
 std::vector<LoadCase> loadCases(const Campaign& campaign, const LoadingGeometry& geometry, int step,
                                 std::vector<std::string>* left_out = nullptr);
 

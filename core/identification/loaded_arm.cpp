@@ -16,8 +16,8 @@ namespace {
 bool hasPose(const LoadCase& load_case) { return load_case.flange_unloaded && load_case.flange_loaded; }
 
 /// Keeps the cases that have something, if most do: then it is those others that lack it, not the campaign.
-void keepMost(const Campaign& campaign, const std::vector<bool>& has, const char* reason, std::vector<LoadCase>& cases,
-              std::vector<std::string>* left_out) {
+void keepMost(const Campaign& campaign, const std::vector<bool>& has, const char* reason,
+              std::vector<LoadCase>& cases, std::vector<std::string>* left_out) {
   const auto count = static_cast<std::size_t>(std::count(has.begin(), has.end(), true));
   if (count == cases.size() || 2 * count <= cases.size()) return;
   std::size_t kept = 0;
@@ -34,28 +34,34 @@ void keepMost(const Campaign& campaign, const std::vector<bool>& has, const char
 }
 
 /// Of all the steps, by pose. With several steps a case that cannot be used says of which step it is.
-std::vector<LoadCase> casesOf(const Campaign& campaign, const LoadReadings& readings, const LoadingGeometry& geometry,
-                              const std::vector<int>& steps, std::vector<std::string>* left_out) {
+std::vector<LoadCase> casesOf(const Campaign& campaign, const LoadReadings& readings,
+                              const LoadingGeometry& geometry, const std::vector<int>& steps,
+                              std::vector<std::string>* left_out) {
   if (steps.size() == 1) return loadCases(campaign, readings, geometry, steps.front(), left_out);
   std::vector<LoadCase> cases;
   for (const int step : steps) {
     std::vector<std::string> lacking;
-    for (LoadCase& one : loadCases(campaign, readings, geometry, step, &lacking)) cases.push_back(std::move(one));
+    for (LoadCase& one : loadCases(campaign, readings, geometry, step, &lacking))
+      cases.push_back(std::move(one));
     for (const std::string& reason : lacking) {
       if (left_out) left_out->push_back(fmt::format("{} (step {})", reason, step));
     }
   }
-  std::stable_sort(cases.begin(), cases.end(), [](const LoadCase& a, const LoadCase& b) { return a.pose < b.pose; });
+  std::stable_sort(cases.begin(), cases.end(),
+                   [](const LoadCase& a, const LoadCase& b) { return a.pose < b.pose; });
   return cases;
 }
 
 /// P_wrist in all the cases; those that do not give it are left out if most do, else there is none of any.
-void addWristMoves(const Campaign& campaign, const WristCentre& wrist, std::vector<std::string>* left_out, LoadedArm& arm) {
+void addWristMoves(const Campaign& campaign, const WristCentre& wrist, std::vector<std::string>* left_out,
+                   LoadedArm& arm) {
+  if (arm.cases.empty() || !arm.cases.front().absolute) return;
   std::vector<std::optional<WristMove>> moves;
   std::vector<bool> has;
   moves.reserve(arm.cases.size());
   for (const LoadCase& load_case : arm.cases) {
-    moves.push_back(wristMove(load_case, wrist.radii, wrist.centre_at_zero_in_r0));
+    const Eigen::Vector3d modelled = modelledWrist(arm.geometry.arm, load_case, wrist.centre_at_zero_in_r0);
+    moves.push_back(wristMove(load_case, wrist.radii, modelled));
     has.push_back(moves.back().has_value());
   }
   keepMost(campaign, has, "no P_wrist from reflectors of known radius", arm.cases, left_out);
@@ -72,13 +78,14 @@ bool LoadedArm::hasFlangePoses() const {
 }
 
 LoadedArm loadedArm(const Campaign& campaign, const LoadReadings& readings, const LoadingGeometry& geometry,
-                    const WristCentre& wrist, const std::vector<int>& steps, std::vector<std::string>* left_out) {
+                    const WristCentre& wrist, const std::vector<int>& steps,
+                    std::vector<std::string>* left_out) {
   LoadedArm arm{geometry, casesOf(campaign, readings, geometry, steps, left_out), {}, {}};
   std::vector<bool> poses;
   for (const LoadCase& load_case : arm.cases) poses.push_back(hasPose(load_case));
   keepMost(campaign, poses, "fewer than three reflectors read in both states", arm.cases, left_out);
   if (wrist.measured) addWristMoves(campaign, wrist, left_out, arm);
-  arm.torques = jointTorques(geometry, arm.cases);
+  arm.torques = jointTorques(arm.cases);
   return arm;
 }
 
@@ -90,7 +97,7 @@ LoadedArm loadedArm(const Campaign& campaign, const LoadingGeometry& geometry, c
 std::vector<CaseEquations> reflectorEquations(const LoadedArm& arm) {
   std::vector<CaseEquations> equations(arm.cases.size());
   smallWorkOnAllCores(arm.cases.size(), [&](std::size_t i) {
-    equations[i] = partialPoseEquations(arm.geometry, arm.cases[i], arm.torques[i]);
+    equations[i] = partialPoseEquations(arm.cases[i], arm.torques[i]);
   });
   return equations;
 }
@@ -98,7 +105,7 @@ std::vector<CaseEquations> reflectorEquations(const LoadedArm& arm) {
 std::vector<CaseEquations> wristPointEquations(const LoadedArm& arm) {
   std::vector<CaseEquations> equations(arm.wrist.size());
   smallWorkOnAllCores(arm.wrist.size(), [&](std::size_t i) {
-    equations[i] = wristEquations(arm.geometry, arm.cases[i], arm.wrist[i], arm.torques[i]);
+    equations[i] = wristEquations(arm.cases[i], arm.wrist[i], arm.torques[i]);
   });
   return equations;
 }
@@ -106,7 +113,7 @@ std::vector<CaseEquations> wristPointEquations(const LoadedArm& arm) {
 std::vector<CaseEquations> poseEquations(const LoadedArm& arm, const Eigen::Vector3d& tcp_in_flange) {
   std::vector<CaseEquations> equations(arm.cases.size());
   smallWorkOnAllCores(arm.cases.size(), [&](std::size_t i) {
-    equations[i] = completePoseEquations(arm.geometry, arm.cases[i], tcp_in_flange, arm.torques[i]);
+    equations[i] = completePoseEquations(arm.cases[i], tcp_in_flange, arm.torques[i]);
   });
   return equations;
 }

@@ -39,16 +39,17 @@ struct PointEquations {
   std::vector<CaseEquations> wrist, reflectors;
 };
 
-/// The loads settled: torques (K_c, and the wrench turned with the flange where its turn is not measured) and middle
-/// postures that the compliances imply which `compliance(arm)` gives, round by round; K_c is about a hundredth, so two
-/// rounds leave a millionth. Without `finite_deflection` the unloaded arm's torques and postures.
+/// The loads settled: torques (K_c, and the wrench turned with the flange where its turn is not measured) and
+/// middle postures that the compliances imply which `compliance(arm)` gives, round by round; K_c is about a
+/// hundredth, so two rounds leave a millionth. Without `finite_deflection` the unloaded arm's torques and
+/// postures.
 template <class Compliance>
 void settleArm(LoadedArm& arm, bool finite_deflection, const Compliance& compliance) {
   for (LoadCase& load_case : arm.cases) {
     load_case.middle.reset();
     if (load_case.wrench_turns_with != 0) load_case.wrench = load_case.wrench_unturned;
   }
-  arm.torques = jointTorques(arm.geometry, arm.cases);
+  arm.torques = jointTorques(arm.cases);
   constexpr int kRounds = 2;
   for (int round = 0; finite_deflection && round < kRounds; ++round) {
     settleLoads(arm.geometry, compliance(arm), arm.cases, arm.torques);

@@ -42,7 +42,8 @@ LoadedArm calibratedArm(const MethodRuns& runs, Identification& result) {
   for (int round = 0;; ++round) {
     result.calibration = calibrateGeometry(runs.campaign, start);
     if (!result.calibration.done) return runs.swept;
-    LoadedArm arm = loadedArm(runs.campaign, readings, result.calibration.geometry, result.frames.wrist, result.steps);
+    LoadedArm arm =
+        loadedArm(runs.campaign, readings, result.calibration.geometry, result.frames.wrist, result.steps);
     if (!settle_sag || round == kSagRounds || arm.cases.empty()) return arm;
     start.compliance = sagCompliance(runs.campaign, runs.options, arm);
   }
@@ -62,7 +63,7 @@ void runCompletePose(MethodRuns& runs, Identification& result) {
   if (out.reason.empty()) out.reason = whyNoFlangePoses(runs.campaign, runs.swept);
   if (!out.reason.empty()) return;
   const Eigen::Vector3d tcp = result.frames.tcp_in_flange;
-  result.characteristic_length = characteristicLength(runs.swept.geometry, runs.swept.cases, tcp);
+  result.characteristic_length = characteristicLength(runs.swept.cases, tcp);
   const double length = result.characteristic_length.length;
   PointEquations equations = solve(Method::complete_pose, runs.swept, runs, result);
   constexpr int kEvery = 5;
@@ -100,7 +101,8 @@ void runPartialPose(MethodRuns& runs, Identification& result) {
   PointEquations equations = solve(Method::partial_pose, arm, runs, result);
   std::vector<NormalEquations> normal = normalByPosture(equations.reflectors);
   judgeMethod(arm.geometry, std::move(equations), std::move(normal), false, runs.options, out);
-  if (!runs.campaign.loading) settleArm(arm, false, [](const LoadedArm&) { return Vector6d(); });  // unloaded again
+  if (!runs.campaign.loading)
+    settleArm(arm, false, [](const LoadedArm&) { return Vector6d(); });  // unloaded again
   if (runs.swept.cases.empty()) runs.calibrated = std::move(arm);
 }
 
@@ -128,7 +130,8 @@ void addSharedUncertainty(const MethodRuns& runs, Identification& result) {
     MethodResult& method = methodOf(result, which);
     if (!method.available || (which == Method::partial_pose && result.calibration.done)) continue;
     swept.push_back(which);
-    solves.emplace_back([how = solutionOf(which, runs, result)](const LoadedArm& arm) { return how.compliance(arm); });
+    solves.emplace_back(
+        [how = solutionOf(which, runs, result)](const LoadedArm& arm) { return how.compliance(arm); });
   }
   const std::vector<SweptParts> parts =
       sweptParts(runs.campaign, result.frames, runs.swept.geometry, result.steps, solves);

@@ -16,13 +16,14 @@ double wristErrorVariance(const Campaign& campaign, const LoadingGeometry& geome
   constexpr double kStep = 1e-6;  // m
   double trace = 0.0;
   LoadCase moved = load_case;
+  const Eigen::Vector3d modelled = modelledWrist(geometry.arm, load_case, centre_at_zero);
   for (std::size_t k = 0; k < load_case.targets.size(); ++k) {
     const Eigen::Vector3d& loaded = load_case.targets[k].loaded;
     Eigen::Matrix3d by_point;
     for (int axis = 0; axis < 3; ++axis) {
       const auto movedBy = [&](double step) {
         moved.targets[k].loaded = loaded + step * Eigen::Vector3d::Unit(axis);
-        return wristMove(moved, radii, centre_at_zero);
+        return wristMove(moved, radii, modelled);
       };
       const auto ahead = movedBy(kStep), behind = movedBy(-kStep);
       moved.targets[k].loaded = loaded;

@@ -15,23 +15,20 @@ namespace {
 constexpr double kLevel = 0.001;
 constexpr std::size_t kFewest = 5;
 
-/// One posture in a fit of all: residual at the common compliances.
+/// One posture in a fit of all.
 struct Posture {
-  const CaseEquations* equations;
-  Eigen::VectorXd residual;
+  const CaseEquations* equations = nullptr;
+  Eigen::VectorXd residual;  ///< r at the common compliances
+  NormalEquations normal;    ///< A^T A, A^T r
 };
 
-/// What a pass over the postures needs of all of them, so that leaving one out costs nothing of the others. With
-/// c(without p) = c + d the residual of another posture q is r_q - A_q d: sums over q are quadratic in d.
+/// What a pass over the postures needs of all of them, so that leaving one out costs nothing of the others.
+/// With c(without p) = c + d the residual of another posture q is r_q - A_q d.
 class Sums {
  public:
   explicit Sums(const std::vector<Posture>& postures) {
-    std::vector<NormalEquations> own(postures.size());
-    smallWorkOnAllCores(postures.size(), [&](std::size_t p) {
-      own[p] = normalEquations({postures[p].equations->matrix, postures[p].residual, postures[p].equations->posture});
-    });
-    normal = sumOf(own);
     for (const Posture& one : postures) {
+      normal += one.normal;
       squares += one.residual.squaredNorm();
       rows += one.residual.size();
     }
@@ -40,14 +37,10 @@ class Sums {
   /// What momentsWithout takes: one pass more, which few campaigns need.
   void addMoments(const std::vector<Posture>& postures) {
     const Eigen::Index common = postures.front().residual.size();
-    if (std::all_of(postures.begin(), postures.end(), [&](const Posture& one) { return one.residual.size() == common; })) {
+    if (std::all_of(postures.begin(), postures.end(),
+                    [&](const Posture& one) { return one.residual.size() == common; })) {
       addCommonMoments(postures);
     }
-  }
-
-  /// Sum over the other postures of the squared residuals.
-  double squaresWithout(const NormalEquations& others, const Posture& own, const Vector6d& d) const {
-    return squares - own.residual.squaredNorm() - 2.0 * d.dot(others.right) + d.dot(others.matrix * d);
   }
 
   /// Second moments of the other postures' residuals; empty without common coordinates.
@@ -57,7 +50,8 @@ class Sums {
     mix << -d, 1.0;
     Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(rows, rows);
     for (Eigen::Index k = 0; k < 7; ++k) {
-      for (Eigen::Index l = 0; l < 7; ++l) sum += mix[k] * mix[l] * moments_.block(k * rows, l * rows, rows, rows);
+      for (Eigen::Index l = 0; l < 7; ++l)
+        sum += mix[k] * mix[l] * moments_.block(k * rows, l * rows, rows, rows);
     }
     const Eigen::VectorXd moved = own.residual - own.equations->matrix * d;
     if (rows > 0) sum -= moved * moved.transpose();
@@ -74,17 +68,22 @@ class Sums {
     const Eigen::Index rows = postures.front().residual.size(), size = 7 * rows;
     Eigen::MatrixXd entries(size, static_cast<Eigen::Index>(postures.size()));
     smallWorkOnAllCores(postures.size(), [&](std::size_t p) {
-      entries.col(static_cast<Eigen::Index>(p)) << postures[p].equations->matrix.reshaped(), postures[p].residual;
+      entries.col(static_cast<Eigen::Index>(p)) << postures[p].equations->matrix.reshaped(),
+          postures[p].residual;
     });
     moments_.setZero(size, size);
     constexpr Eigen::Index kColumns = 7;
-    onAllCores(static_cast<std::size_t>(rows), [&](std::size_t block) {
-      const Eigen::Index from = kColumns * static_cast<Eigen::Index>(block);
-      for (Eigen::Index p = 0; p < entries.cols(); ++p) {
-        const auto own = entries.col(p);
-        for (Eigen::Index c = from; c < from + kColumns; ++c) moments_.col(c).tail(size - c) += own[c] * own.tail(size - c);
-      }
-    }, postures.size() >= kWorthThreads);
+    onAllCores(
+        static_cast<std::size_t>(rows),
+        [&](std::size_t block) {
+          const Eigen::Index from = kColumns * static_cast<Eigen::Index>(block);
+          for (Eigen::Index p = 0; p < entries.cols(); ++p) {
+            const auto own = entries.col(p);
+            for (Eigen::Index c = from; c < from + kColumns; ++c)
+              moments_.col(c).tail(size - c) += own[c] * own.tail(size - c);
+          }
+        },
+        postures.size() >= kWorthThreads);
     moments_.triangularView<Eigen::StrictlyUpper>() = moments_.transpose().eval();
   }
 
@@ -92,17 +91,7 @@ class Sums {
 };
 
 NormalEquations without(const NormalEquations& sum, const Posture& own) {
-  const CaseEquations& one = *own.equations;
-  return {sum.matrix - one.matrix.transpose() * one.matrix, sum.right - one.matrix.transpose() * own.residual};
-}
-
-/// r^T (I - H)^-1 r of a posture in a fit that has it in, by the fit without it: e^T (I - H) e, with
-/// (I - H)^-1 = I + A (N - A^T A)^-1 A^T.
-double studentised(const Eigen::VectorXd& deleted, const CaseEquations& own, const Matrix6d& inverse_of_others) {
-  // I - H = (I + A M A^T)^-1, M = (N - A^T A)^-1.
-  const Eigen::MatrixXd spread = Eigen::MatrixXd::Identity(deleted.size(), deleted.size()) +
-                                 own.matrix * inverse_of_others * own.matrix.transpose();
-  return deleted.dot(spread.llt().solve(deleted));
+  return {sum.matrix - own.normal.matrix, sum.right - own.normal.right};
 }
 
 /// Degrees of freedom left to the others.
@@ -112,52 +101,62 @@ double dofWithout(const Sums& all, const Posture& own, double unknowns) {
 
 /// All but the p value; f 0 where the others leave nothing to judge by.
 OutlyingPosture judge(const Sums& all, const Posture& own, const JointMask& unknown, double unknowns) {
-  const NormalEquations others = without(all.normal, own);
-  const Vector6d step = solveNormal(others, unknown);
+  const Vector6d step = solveNormal(without(all.normal, own), unknown);
   const Eigen::VectorXd deleted = own.residual - own.equations->matrix * step;
   const double coordinates = static_cast<double>(deleted.size());
   OutlyingPosture result;
   result.posture = own.equations->posture;
   result.rms = std::sqrt(deleted.squaredNorm() / coordinates);
-  const double sum = all.squaresWithout(others, own, step), rows = static_cast<double>(all.rows) - coordinates;
+  // (I - H) e = r, so that e^T (I - H) e is r^T e: what leaving it out takes off the sum of squares, too.
+  const double studentised = own.residual.dot(deleted), sum = all.squares - studentised,
+               rows = static_cast<double>(all.rows) - coordinates;
   result.others = std::sqrt(std::max(0.0, sum) / rows);
   const double left = dofWithout(all, own, unknowns);
   if (!(left > 0.0) || !(sum > 0.0)) return result;
-  result.f = studentised(deleted, *own.equations, inverseNormal(others, unknown)) / coordinates / (sum / left);
+  result.f = studentised / coordinates / (sum / left);
   return result;
 }
 
-/// Whether it can be outlying: by as many degrees of freedom as it has coordinates, the most there can be. Fewer only make
-/// so small a tail larger.
+/// Whether it can be outlying: by as many degrees of freedom as it has coordinates, the most there can be.
+/// Fewer only make so small a tail larger.
 bool canBeOutlying(const Sums& all, const Posture& own, double f, double unknowns, double postures) {
   const auto coordinates = static_cast<int>(own.residual.size());
   // No F distribution has less than 0.3 above 1.
   return f > 1.0 && fTail(f, coordinates, dofWithout(all, own, unknowns)) * postures < kLevel;
 }
 
-double pValue(const Sums& all, const Posture& own, double f, const JointMask& unknown, double unknowns, double postures) {
+double pValue(const Sums& all, const Posture& own, double f, const JointMask& unknown, double unknowns,
+              double postures) {
   const Vector6d step = solveNormal(without(all.normal, own), unknown);
   // How many independent numbers a posture's residual is; without common coordinates the least there can be.
   const double per_posture = std::max(1.0, satterthwaite(all.momentsWithout(own, step)));
-  const double below = per_posture * dofWithout(all, own, unknowns) / static_cast<double>(own.residual.size());
+  const double below =
+      per_posture * dofWithout(all, own, unknowns) / static_cast<double>(own.residual.size());
   const double tail = fTail(f, std::max(1, static_cast<int>(per_posture)), std::max(1.0, below));
   return std::min(1.0, tail * postures);
 }
 
 /// Residuals at the least squares solution of these equations.
 std::vector<Posture> fitAll(const std::vector<const CaseEquations*>& equations, const JointMask& unknown) {
-  std::vector<NormalEquations> own(equations.size());
-  smallWorkOnAllCores(equations.size(), [&](std::size_t p) { own[p] = normalEquations(*equations[p]); });
-  const Vector6d compliance = solveNormal(sumOf(own), unknown);
   std::vector<Posture> postures(equations.size());
   smallWorkOnAllCores(equations.size(), [&](std::size_t p) {
-    postures[p] = {equations[p], equations[p]->right - equations[p]->matrix * compliance};
+    postures[p] = {equations[p], {}, normalEquations(*equations[p])};
+  });
+  NormalEquations sum;
+  for (const Posture& one : postures) sum += one.normal;
+  const Vector6d compliance = solveNormal(sum, unknown);
+  smallWorkOnAllCores(equations.size(), [&](std::size_t p) {
+    const auto& matrix = equations[p]->matrix;
+    postures[p].residual = equations[p]->right - matrix * compliance;
+    for (Eigen::Index j = 0; j < 6; ++j)
+      postures[p].normal.right[j] = matrix.col(j).dot(postures[p].residual);
   });
   return postures;
 }
 
 /// The one that disagrees most with the rest; p value 1 where none can be outlying.
-OutlyingPosture worstOf(const std::vector<Posture>& postures, const JointMask& unknown, double unknowns, std::size_t& worst) {
+OutlyingPosture worstOf(const std::vector<Posture>& postures, const JointMask& unknown, double unknowns,
+                        std::size_t& worst) {
   const auto count = static_cast<double>(postures.size());
   Sums sums(postures);
   std::vector<OutlyingPosture> judged(postures.size());
@@ -180,7 +179,8 @@ OutlyingPosture worstOf(const std::vector<Posture>& postures, const JointMask& u
 
 }  // namespace
 
-std::vector<OutlyingPosture> outlyingPostures(const std::vector<CaseEquations>& equations, const JointMask& unknown) {
+std::vector<OutlyingPosture> outlyingPostures(const std::vector<CaseEquations>& equations,
+                                              const JointMask& unknown) {
   std::vector<OutlyingPosture> found;
   std::vector<const CaseEquations*> postures;
   for (const CaseEquations& one : equations) postures.push_back(&one);

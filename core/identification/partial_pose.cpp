@@ -4,14 +4,13 @@
 
 namespace stiffscope {
 
-CaseEquations partialPoseEquations(const LoadingGeometry& geometry, const LoadCase& load_case,
-                                   const Vector6d& torque) {
+CaseEquations partialPoseEquations(const LoadCase& load_case, const Vector6d& torque) {
   CaseEquations equations;
   const auto rows = static_cast<Eigen::Index>(3 * load_case.targets.size());
   equations.posture = load_case.pose;
   equations.matrix.resize(rows, 6);
   equations.right.resize(rows);
-  const ArmAxes axes = jacobianAxes(geometry, load_case);
+  const ArmAxes& axes = jacobianAxes(load_case);
   Eigen::Index row = 0;
   for (const TargetMove& move : load_case.targets) {
     equations.matrix.middleRows<3>(row) =
@@ -26,8 +25,8 @@ StiffnessEstimate partialPose(const std::vector<CaseEquations>& equations, const
   return partialPose(equations, normalByPosture(equations), unknown);
 }
 
-StiffnessEstimate partialPose(const std::vector<CaseEquations>& equations, const std::vector<NormalEquations>& normal,
-                              const JointMask& unknown) {
+StiffnessEstimate partialPose(const std::vector<CaseEquations>& equations,
+                              const std::vector<NormalEquations>& normal, const JointMask& unknown) {
   StiffnessEstimate estimate;
   estimate.identifiable = unknown;
   const NormalEquations sum = sumOf(normal);

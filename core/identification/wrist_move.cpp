@@ -31,8 +31,13 @@ std::optional<Three> largestTriangle(const LoadCase& load_case, const std::vecto
 
 }  // namespace
 
+Eigen::Vector3d modelledWrist(const Robot& arm, const LoadCase& load_case,
+                              const Eigen::Vector3d& centre_at_zero) {
+  return unloadedPosture(arm, load_case).motion[3] * centre_at_zero;
+}
+
 std::optional<WristMove> wristMove(const LoadCase& load_case, const std::vector<double>& radii,
-                                   const Eigen::Vector3d& centre_at_zero) {
+                                   const Eigen::Vector3d& modelled) {
   if (!load_case.absolute) return std::nullopt;
   const auto three = largestTriangle(load_case, radii);
   if (!three) return std::nullopt;
@@ -40,17 +45,15 @@ std::optional<WristMove> wristMove(const LoadCase& load_case, const std::vector<
   const std::array<double, 3> known{radii[static_cast<std::size_t>(a->target)],
                                     radii[static_cast<std::size_t>(b->target)],
                                     radii[static_cast<std::size_t>(c->target)]};
-  const Eigen::Vector3d expected = load_case.posture.motion[3] * centre_at_zero;
   const auto unloaded = trilaterate({a->unloaded, b->unloaded, c->unloaded}, known);
   const auto loaded = trilaterate({a->loaded, b->loaded, c->loaded}, known);
   if (!unloaded || !loaded) return std::nullopt;
-  return WristMove{nearerRoot(*unloaded, expected), nearerRoot(*loaded, expected)};
+  return WristMove{nearerRoot(*unloaded, modelled), nearerRoot(*loaded, modelled)};
 }
 
-CaseEquations wristEquations(const LoadingGeometry& geometry, const LoadCase& load_case,
-                             const WristMove& wrist, const Vector6d& torque) {
+CaseEquations wristEquations(const LoadCase& load_case, const WristMove& wrist, const Vector6d& torque) {
   const Eigen::Vector3d point = jacobianPoint(load_case, wrist.unloaded, wrist.loaded);
-  return {pointRows(jacobianAxes(geometry, load_case), point, torque), wrist.displacement(), load_case.pose};
+  return {pointRows(jacobianAxes(load_case), point, torque), wrist.displacement(), load_case.pose};
 }
 
 }  // namespace stiffscope

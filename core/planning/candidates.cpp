@@ -54,14 +54,14 @@ Candidate candidateAt(const PlanningArm& arm, const Vector6d& q, const Eigen::Ve
   LoadCase& load_case = candidate.load_case;
   load_case.q = q;
   load_case.q_sagged = arm.geometry.sagged(q);
-  load_case.posture = postureAt(arm.geometry.arm, load_case.q_sagged);
-  const Eigen::Isometry3d flange = flangeAt(arm.geometry.arm, load_case.posture);
+  const ArmPosture posture = unloadedPosture(arm.geometry.arm, load_case);
+  load_case.axes = axesAt(arm.geometry.arm, posture);
+  const Eigen::Isometry3d flange = flangeAt(arm.geometry.arm, posture);
   load_case.wrench = {flange * arm.hook_in_flange, arm.load * direction, Eigen::Vector3d::Zero()};
-  const ArmAxes axes = axesAt(arm.geometry.arm, load_case.posture);
-  const Vector6d torque = jointTorque(axes, load_case.wrench);
+  const Vector6d torque = jointTorque(load_case.axes, load_case.wrench);
   for (const Eigen::Vector3d& target : arm.targets_in_flange) {
     const Eigen::Vector3d point = flange * target;
-    const Matrix36d rows = pointRows(axes, point, torque);
+    const Matrix36d rows = pointRows(load_case.axes, point, torque);
     candidate.information += rows.transpose() * arm.displacementCovariance(point).llt().solve(rows);
   }
   return candidate;
@@ -91,7 +91,7 @@ CandidateDraw drawCandidates(const PlanningArm& arm, const PostureRules& rules, 
 
 Vector6d expectedReading(const PlanningArm& arm, const Candidate& candidate) {
   // Readings of unit size show the cell's axes and point.
-  const ArmPosture& posture = candidate.load_case.posture;
+  const ArmPosture posture = unloadedPosture(arm.geometry.arm, candidate.load_case);
   Eigen::Matrix3d axes;
   Eigen::Vector3d point = Eigen::Vector3d::Zero();
   for (int axis = 0; axis < 3; ++axis) {

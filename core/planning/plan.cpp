@@ -26,14 +26,13 @@ const MethodResult* referenceOf(const Identification* identified) {
 
 CaseEquations equationsOf(const PlanningArm& arm, const Candidate& candidate) {
   const LoadCase& load_case = candidate.load_case;
-  const ArmAxes axes = axesAt(arm.geometry.arm, load_case.posture);
-  const Vector6d torque = jointTorque(axes, load_case.wrench);
-  const Eigen::Isometry3d flange = flangeAt(arm.geometry.arm, load_case.posture);
+  const Vector6d torque = jointTorque(load_case.axes, load_case.wrench);
+  const Eigen::Isometry3d flange = flangeAt(arm.geometry.arm, unloadedPosture(arm.geometry.arm, load_case));
   CaseEquations equations;
   equations.matrix.resize(static_cast<Eigen::Index>(3 * arm.targets_in_flange.size()), 6);
   for (std::size_t k = 0; k < arm.targets_in_flange.size(); ++k) {
     equations.matrix.middleRows<3>(static_cast<Eigen::Index>(3 * k)) =
-        pointRows(axes, flange * arm.targets_in_flange[k], torque);
+        pointRows(load_case.axes, flange * arm.targets_in_flange[k], torque);
   }
   equations.right = Eigen::VectorXd::Zero(equations.matrix.rows());
   return equations;
@@ -196,7 +195,7 @@ class Planner {
       posture.reading = expectedReading(plan_.arm, posture.candidate);
       posture.pull_in_base =
           plan_.arm.geometry.r0_from_base_link.linear().transpose() * posture.candidate.direction;
-      const ArmPosture& at = posture.candidate.load_case.posture;
+      const ArmPosture at = unloadedPosture(plan_.arm.geometry.arm, posture.candidate.load_case);
       const Eigen::Vector3d flange = flangeAt(plan_.arm.geometry.arm, at).translation();
       posture.dexterity = postureConditioning(jacobianAt(plan_.arm.geometry.arm, at, flange), 1.0).dexterity;
       if (plan_.arm.station) posture.tracker_distance = (flange - *plan_.arm.station).norm();

@@ -40,7 +40,8 @@ void refineDesign(const PlanningArm& arm, const PostureRules& rules, const Matri
     const double found = designValue(with, unknown, options.reference);
     constexpr double kWorthwhile = 1e-6;  // of the logarithm
     if (!(found > value + kWorthwhile) || !apart(moved, place)) return false;
-    if (brokenRule(arm, rules, moved.load_case.posture, moved.direction) != PostureRule::none) return false;
+    const ArmPosture posture = unloadedPosture(arm.geometry.arm, moved.load_case);
+    if (brokenRule(arm, rules, posture, moved.direction) != PostureRule::none) return false;
     chosen[place] = moved, sum = with, value = found;
     return true;
   };

@@ -25,7 +25,8 @@ Line axisAt(const Robot& robot, const ArmPosture& posture, int joint) {
 
 ArmAxes axesAt(const Robot& robot, const ArmPosture& posture) {
   ArmAxes axes;
-  for (int joint = 0; joint < 6; ++joint) axes[static_cast<std::size_t>(joint)] = axisAt(robot, posture, joint);
+  for (int joint = 0; joint < 6; ++joint)
+    axes[static_cast<std::size_t>(joint)] = axisAt(robot, posture, joint);
   return axes;
 }
 
@@ -34,7 +35,10 @@ Eigen::Isometry3d flangeAt(const Robot& robot, const ArmPosture& posture) {
 }
 
 Matrix6d jacobianAt(const Robot& robot, const ArmPosture& posture, const Eigen::Vector3d& point_in_base) {
-  const ArmAxes axes = axesAt(robot, posture);
+  return jacobianAt(axesAt(robot, posture), point_in_base);
+}
+
+Matrix6d jacobianAt(const ArmAxes& axes, const Eigen::Vector3d& point_in_base) {
   Matrix6d jacobian;
   jacobian.topRows<3>() = pointJacobianAt(axes, point_in_base);
   for (int joint = 0; joint < 6; ++joint) {

@@ -7,8 +7,8 @@
 
 namespace stiffscope {
 
-/// How far each body of the arm has moved from its place at all joints zero: a point fixed to body b that stands
-/// at x (base frame) when all joints are zero stands at motion[b] * x now. motion[0] is the identity.
+/// How far each body of the arm has moved from its place at all joints zero: a point fixed to body b that
+/// stands at x (base frame) when all joints are zero stands at motion[b] * x now. motion[0] is the identity.
 struct ArmPosture {
   std::array<Eigen::Isometry3d, 7> motion;
 };
@@ -29,8 +29,9 @@ Eigen::Isometry3d flangeAt(const Robot& robot, const ArmPosture& posture);
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
 using Matrix36d = Eigen::Matrix<double, 3, 6>;
 
-/// Jacobian of a point of the flange body, paper (1): rows 0-2 the velocity of the point at `point_in_base`, rows
-/// 3-5 the angular velocity, both in base axes; column j is [z_j x (p - p_j); z_j].
+/// Jacobian of a point of the flange body, paper (1): rows 0-2 the velocity of the point at `point_in_base`,
+/// rows 3-5 the angular velocity, both in base axes; column j is [z_j x (p - p_j); z_j].
+Matrix6d jacobianAt(const ArmAxes& axes, const Eigen::Vector3d& point_in_base);
 Matrix6d jacobianAt(const Robot& robot, const ArmPosture& posture, const Eigen::Vector3d& point_in_base);
 
 /// Its rows 0-2, by the axes at that posture.

@@ -63,10 +63,10 @@ TEST(DeflectionScene, TheMedianPostureWithItsVectors) {
 TEST(DeflectionScene, EveryJointPointIsOnItsAxis) {
   SmallResult small;
   LoadCase& load_case = small.identification.cases[0];
-  load_case.posture = postureAt(small.campaign.robot, Vector6d::Constant(0.4));
+  load_case.q_sagged = Vector6d::Constant(0.4);
   const ArmPose pose = armPose(of(small), 0, Method::decoupled_partial_pose);
   for (int joint = 0; joint < 6; ++joint) {
-    const Line axis = axisAt(small.campaign.robot, load_case.posture, joint);
+    const Line axis = axisAt(small.campaign.robot, unloadedPosture(small.campaign.robot, load_case), joint);
     const Eigen::Vector3d off = pose.joint_points[static_cast<std::size_t>(joint)] - axis.point;
     EXPECT_LT(off.cross(axis.direction).norm(), 1e-12) << joint;  // rounding only
   }

@@ -21,10 +21,10 @@ TEST(LinearMachine, TorqueIsTheTestsOwn) {
     const Vector6d own =
         machine.chain.torqueOf(machine.cases[i].q, 6, wrench.point, wrench.force, wrench.moment);
     EXPECT_LT((torques[i] - own).norm(), 1e-10 * own.norm());  // rounding of sums of 1e4 Nm
-    const Eigen::Vector3d wrist = machine.cases[i].posture.motion[3] * machine.wrist_at_zero;
+    const Eigen::Vector3d wrist =
+        modelledWrist(machine.geometry.arm, machine.cases[i], machine.wrist_at_zero);
     for (const Eigen::Vector3d& elsewhere : {wrist, Eigen::Vector3d(5, -7, 9)}) {
-      const Vector6d there =
-          jointTorque(machine.geometry.arm, machine.cases[i].posture, wrench.about(elsewhere));
+      const Vector6d there = jointTorque(machine.cases[i].axes, wrench.about(elsewhere));
       EXPECT_LT((there - own).norm(), 1e-10 * own.norm());
     }
   }
@@ -211,7 +211,8 @@ TEST(WristMove, TakesTheLargestTriangleAndTheRootByTheArm) {
     one.targets.push_back(one.targets[0]);
     one.targets.back().target = 3;
     one.targets.back().loaded += Eigen::Vector3d(0.1, 0.1, 0.1);
-    const auto move = wristMove(one, machine.radii, machine.wrist_at_zero);
+    const Eigen::Vector3d modelled = modelledWrist(machine.geometry.arm, one, machine.wrist_at_zero);
+    const auto move = wristMove(one, machine.radii, modelled);
     ASSERT_TRUE(move);
     const Eigen::Vector3d centre = machine.chain.framesAt(one.q)[4].translation();
     EXPECT_LT((move->unloaded - centre).norm(), 1e-10);
@@ -221,13 +222,13 @@ TEST(WristMove, TakesTheLargestTriangleAndTheRootByTheArm) {
     two.targets.resize(3);
     std::vector<double> radii = machine.radii;
     radii[1] = std::numeric_limits<double>::quiet_NaN();
-    EXPECT_FALSE(wristMove(two, radii, machine.wrist_at_zero));
+    EXPECT_FALSE(wristMove(two, radii, modelled));
   }
 }
 
 TEST(CharacteristicLength, IsWhereTheStackedJacobianIsBestConditioned) {
   const LinearMachine machine(kPostures);
-  const CharacteristicLength found = characteristicLength(machine.geometry, machine.cases, {0, 0, 0});
+  const CharacteristicLength found = characteristicLength(machine.cases, {0, 0, 0});
   const auto condition = [&](double length) {
     Eigen::MatrixXd stacked(6 * kPostures, 6);
     for (int i = 0; i < kPostures; ++i) {

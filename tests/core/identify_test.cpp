@@ -288,7 +288,7 @@ TEST(WristLeak, OnlyWhatJointsFourToSixPutThere) {
   LoadedArm arm;
   arm.geometry.arm = exampleArm();
   LoadCase load_case;
-  load_case.posture = postureAt(arm.geometry.arm, Vector6d::Zero());
+  load_case.axes = axesAt(arm.geometry.arm, postureAt(arm.geometry.arm, Vector6d::Zero()));
   arm.cases = {load_case};
   arm.wrist = {{Eigen::Vector3d::Zero(), Eigen::Vector3d(0, 0, 2e-3)}};
   arm.torques = {Vector6d::Constant(1000.0)};

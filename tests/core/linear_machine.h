@@ -46,7 +46,7 @@ struct LinearMachine {
     one.pose = static_cast<int>(cases.size());
     one.step = 1;
     one.q = one.q_sagged = q;
-    one.posture = postureAt(geometry.arm, q);
+    one.axes = axesAt(geometry.arm, postureAt(geometry.arm, q));
     one.wrench = {point, force, moment};
     for (std::size_t k = 0; k < targets_in_flange.size(); ++k) {
       one.targets.push_back(
@@ -58,29 +58,31 @@ struct LinearMachine {
     cases.push_back(one);
   }
 
-  std::vector<Vector6d> torques() const { return jointTorques(geometry, cases); }
+  std::vector<Vector6d> torques() const { return jointTorques(cases); }
 
   std::vector<CaseEquations> reflectorEquations() const {
     std::vector<CaseEquations> equations;
     const auto torque = torques();
     for (std::size_t i = 0; i < cases.size(); ++i)
-      equations.push_back(partialPoseEquations(geometry, cases[i], torque[i]));
+      equations.push_back(partialPoseEquations(cases[i], torque[i]));
     return equations;
   }
   std::vector<CaseEquations> poseEquations(const Eigen::Vector3d& tcp_in_flange = {0, 0, 0}) const {
     std::vector<CaseEquations> equations;
     const auto torque = torques();
     for (std::size_t i = 0; i < cases.size(); ++i) {
-      equations.push_back(completePoseEquations(geometry, cases[i], tcp_in_flange, torque[i]));
+      equations.push_back(completePoseEquations(cases[i], tcp_in_flange, torque[i]));
     }
     return equations;
+  }
+  WristMove wristMoveOf(const LoadCase& one) const {
+    return wristMove(one, radii, modelledWrist(geometry.arm, one, wrist_at_zero)).value();
   }
   std::vector<CaseEquations> wristEquationsOfAll() const {
     std::vector<CaseEquations> equations;
     const auto torque = torques();
     for (std::size_t i = 0; i < cases.size(); ++i) {
-      equations.push_back(
-          wristEquations(geometry, cases[i], wristMove(cases[i], radii, wrist_at_zero).value(), torque[i]));
+      equations.push_back(wristEquations(cases[i], wristMoveOf(cases[i]), torque[i]));
     }
     return equations;
   }

@@ -8,7 +8,8 @@ namespace stiffscope {
 namespace {
 
 TEST(NoiseShare, AgreesWithMonteCarlo) {
-  // The same tracker noise drawn many times: what it puts into the norm of displacements, at reflectors and at P_wrist.
+  // The same tracker noise drawn many times: what it puts into the norm of displacements, at reflectors and
+  // at P_wrist.
   LinearMachine machine(6, 1.0);
   machine.geometry.r0_from_loading = Eigen::Isometry3d::Identity();
   Campaign campaign;
@@ -16,7 +17,7 @@ TEST(NoiseShare, AgreesWithMonteCarlo) {
   std::vector<WristMove> moves;
   for (LoadCase& one : machine.cases) {
     for (TargetMove& move : one.targets) move.unloaded_readings = 1, move.loaded_readings = 3;
-    moves.push_back(wristMove(one, machine.radii, machine.wrist_at_zero).value());
+    moves.push_back(machine.wristMoveOf(one));
   }
   const auto stated =
       noiseShare(campaign, machine.geometry, machine.cases, moves, machine.radii, machine.wrist_at_zero);
@@ -40,13 +41,13 @@ TEST(NoiseShare, AgreesWithMonteCarlo) {
         target_error += (move.displacement() - clean).norm();
         target_whole += clean.norm();
       }
-      const WristMove moved = wristMove(noisy, machine.radii, machine.wrist_at_zero).value();
+      const WristMove moved = machine.wristMoveOf(noisy);
       wrist_error += (moved.displacement() - moves[i].displacement()).norm();
       wrist_whole += moves[i].displacement().norm();
     }
   }
-  // E|error| from the trace is exact for an isotropic error; a flat one, as a tracker's, is some per cent less. For
-  // P_wrist the loaded and unloaded states are taken to magnify alike.
+  // E|error| from the trace is exact for an isotropic error; a flat one, as a tracker's, is some per cent
+  // less. For P_wrist the loaded and unloaded states are taken to magnify alike.
   EXPECT_NEAR(stated->at_targets, target_error / target_whole, 0.05 * stated->at_targets);
   EXPECT_NEAR(*stated->at_wrist, wrist_error / wrist_whole, 0.08 * *stated->at_wrist);
 }
@@ -55,10 +56,12 @@ TEST(NoiseShare, NeedsATrackerAndAbsolutePoints) {
   LinearMachine machine(2, 1.0);
   machine.geometry.r0_from_loading = Eigen::Isometry3d::Identity();
   Campaign campaign;
-  EXPECT_FALSE(noiseShare(campaign, machine.geometry, machine.cases, {}, machine.radii, machine.wrist_at_zero));
+  EXPECT_FALSE(
+      noiseShare(campaign, machine.geometry, machine.cases, {}, machine.radii, machine.wrist_at_zero));
   campaign.tracker = Tracker{};
   machine.cases.front().absolute = false;
-  EXPECT_FALSE(noiseShare(campaign, machine.geometry, machine.cases, {}, machine.radii, machine.wrist_at_zero));
+  EXPECT_FALSE(
+      noiseShare(campaign, machine.geometry, machine.cases, {}, machine.radii, machine.wrist_at_zero));
 }
 
 }  // namespace

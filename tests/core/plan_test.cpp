@@ -212,7 +212,7 @@ TEST(Plan, ALineOfSightThroughTheArmIsNoSight) {
   const Campaign campaign = dayBefore(spec);
   PlanningArm arm = planningArm(campaign, nullptr, options.inputs);
   const Candidate seen = drawCandidates(arm, options.rules, 1, 1).kept.front();
-  const ArmPosture& posture = seen.load_case.posture;
+  const ArmPosture posture = unloadedPosture(arm.geometry.arm, seen.load_case);
   EXPECT_EQ(brokenRule(arm, options.rules, posture, seen.direction), PostureRule::none);
   // A station beyond the forearm, in one line with it and a reflector.
   const Eigen::Vector3d target = flangeAt(arm.geometry.arm, posture) * arm.targets_in_flange[0];

@@ -44,7 +44,7 @@ struct SmallResult {
   void addCase(int pose, double displacement) {
     LoadCase load_case;
     load_case.pose = pose;
-    load_case.posture = postureAt(campaign.robot, Vector6d::Zero());
+    load_case.axes = axesAt(campaign.robot, postureAt(campaign.robot, Vector6d::Zero()));
     load_case.wrench.force = {0, 0, -1000};
     const Eigen::Vector3d move(0, 0, -displacement), flange(1.995, 0, 2.31);
     for (int target = 0; target < 3; ++target) {
