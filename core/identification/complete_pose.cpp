@@ -49,6 +49,12 @@ void PoseNormal::add(const CaseEquations& pose_equations) {
   rotations.add(pose_equations.matrix.bottomRows<3>(), pose_equations.right.tail<3>());
 }
 
+PoseNormal& PoseNormal::operator+=(const PoseNormal& other) {
+  displacements += other.displacements;
+  rotations += other.rotations;
+  return *this;
+}
+
 NormalEquations PoseNormal::at(double characteristic_length) const {
   const double weight = 1.0 / (characteristic_length * characteristic_length);
   return {weight * displacements.matrix + rotations.matrix, weight * displacements.right + rotations.right};

@@ -24,6 +24,7 @@ struct PoseNormal {
   NormalEquations displacements, rotations;
 
   void add(const CaseEquations& pose_equations);
+  PoseNormal& operator+=(const PoseNormal& other);
   NormalEquations at(double characteristic_length) const;
 };
 

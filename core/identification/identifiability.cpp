@@ -5,7 +5,7 @@
 #include <Eigen/Dense>
 #include <cmath>
 
-#include "core/parallel/on_all_cores.h"
+#include "core/parallel/sum_in_blocks.h"
 #include "core/robot/kinematics.h"
 #include "core/statics/joint_torque.h"
 
@@ -55,18 +55,37 @@ void judgeHanging(const LoadingGeometry& geometry, const std::vector<LoadCase>& 
   result.load_hangs = result.gravity_angle_rms < limits.hanging_within;
 }
 
+/// Of all load cases, joint by joint.
+struct TorqueSquares {
+  Vector6d torque = Vector6d::Zero(), trusted = Vector6d::Zero(), variance = Vector6d::Zero();
+
+  TorqueSquares& operator+=(const TorqueSquares& other) {
+    torque += other.torque, trusted += other.trusted, variance += other.variance;
+    return *this;
+  }
+};
+
+/// Of all equations: their columns, and the torque at each point.
+struct LeverSquares {
+  Vector6d columns = Vector6d::Zero(), torques = Vector6d::Zero();
+
+  LeverSquares& operator+=(const LeverSquares& other) {
+    columns += other.columns, torques += other.torques;
+    return *this;
+  }
+};
+
 /// Marks joints about whose axis the measured points hardly move: their distance from it is no more than the
 /// place of the axis is trusted to. A column of the equations is that distance times the torque.
 void judgeLever(const std::vector<CaseEquations>& equations, const std::vector<Vector6d>& torques,
                 const TrustLimits& limits, Identifiability& result) {
-  Vector6d columns = Vector6d::Zero(), weights = Vector6d::Zero();
-  for (std::size_t i = 0; i < equations.size(); ++i) {
-    columns += equations[i].matrix.colwise().squaredNorm().transpose();
-    weights += torques[i].cwiseAbs2() * static_cast<double>(equations[i].matrix.rows() / 3);
-  }
+  const auto sum = sumInBlocks<LeverSquares>(equations.size(), [&](std::size_t i, LeverSquares& all) {
+    const auto points = static_cast<double>(equations[i].matrix.rows() / 3);
+    all += {equations[i].matrix.colwise().squaredNorm().transpose(), torques[i].cwiseAbs2() * points};
+  });
   for (int j = 0; j < 6; ++j) {
     JointIdentifiability& joint = result.joints[static_cast<std::size_t>(j)];
-    const double lever = weights[j] > 0.0 ? std::sqrt(columns[j] / weights[j]) : 0.0;
+    const double lever = sum.torques[j] > 0.0 ? std::sqrt(sum.columns[j] / sum.torques[j]) : 0.0;
     if (!joint.identifiable || lever > limits.least_ratio * limits.position) continue;
     joint.identifiable = false;
     joint.reason =
@@ -111,9 +130,8 @@ std::string combinationReason(const Vector6d& unseen, const Vector6d& lengths) {
 
 /// Marks joints that take part in a combination which the equations do not see.
 void judgeRank(const std::vector<CaseEquations>& equations, Identifiability& result) {
-  std::vector<NormalEquations> own(equations.size());
-  smallWorkOnAllCores(equations.size(), [&](std::size_t i) { own[i] = normalEquations(equations[i]); });
-  const NormalEquations sum = sumOf(own);
+  const auto sum = sumInBlocks<NormalEquations>(
+      equations.size(), [&](std::size_t i, NormalEquations& all) { all += normalEquations(equations[i]); });
   Matrix6d scaled = Matrix6d::Identity();
   const JointMask mask = result.mask();
   for (int a = 0; a < 6; ++a) {
@@ -153,26 +171,20 @@ Identifiability judgeJoints(const LoadingGeometry& geometry, const std::vector<L
   if (cases.empty()) return result;
   judgeHanging(geometry, cases, limits, result);
   const Eigen::Vector3d down = geometry.weight.gravity_in_base.normalized();
-  std::vector<Vector6d> torques(cases.size()), hanging(cases.size()), variances(cases.size());
-  smallWorkOnAllCores(cases.size(), [&](std::size_t i) {
+  std::vector<Vector6d> torques(cases.size());
+  const auto sum = sumInBlocks<TorqueSquares>(cases.size(), [&](std::size_t i, TorqueSquares& all) {
     const LoadCase& load_case = cases[i];
     const ArmAxes& axes = load_case.axes;
     torques[i] = jointTorque(axes, load_case.wrench);
-    hanging[i] = result.load_hangs ? jointTorque(axes, hangingPart(load_case.wrench, down)) : torques[i];
-    variances[i] = torqueVariance(axes, load_case.wrench, cell, limits);
+    const Vector6d hanging = result.load_hangs ? jointTorque(axes, hangingPart(load_case.wrench, down)) : torques[i];
+    all += {torques[i].cwiseAbs2(), hanging.cwiseAbs2(), torqueVariance(axes, load_case.wrench, cell, limits)};
   });
-  Vector6d torque = Vector6d::Zero(), trusted = Vector6d::Zero(), variance = Vector6d::Zero();
-  for (std::size_t i = 0; i < cases.size(); ++i) {
-    torque += torques[i].cwiseAbs2();
-    trusted += hanging[i].cwiseAbs2();
-    variance += variances[i];
-  }
   const double n = static_cast<double>(cases.size());
   for (int j = 0; j < 6; ++j) {
     JointIdentifiability& joint = result.joints[static_cast<std::size_t>(j)];
-    joint.torque_rms = std::sqrt(torque[j] / n);
-    joint.trusted_rms = std::sqrt(trusted[j] / n);
-    joint.uncertainty_rms = std::sqrt(variance[j] / n);
+    joint.torque_rms = std::sqrt(sum.torque[j] / n);
+    joint.trusted_rms = std::sqrt(sum.trusted[j] / n);
+    joint.uncertainty_rms = std::sqrt(sum.variance[j] / n);
     joint.identifiable =
         joint.trusted_rms > 0.0 && joint.trusted_rms > limits.least_ratio * joint.uncertainty_rms;
     if (joint.identifiable) continue;

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/parallel/sum_in_blocks.h"
+
 namespace stiffscope {
 
 namespace {
@@ -13,6 +15,7 @@ namespace {
 class TriangularFactor {
  public:
   void add(const Eigen::Matrix<double, Eigen::Dynamic, 6>& rows) {
+    rows_ += rows.rows();
     for (Eigen::Index from = 0; from < rows.rows();) {
       const Eigen::Index count = std::min(rows.rows() - from, kRows - filled_);
       work_.middleRows(filled_, count) = rows.middleRows(from, count);
@@ -20,6 +23,16 @@ class TriangularFactor {
       if (filled_ == kRows) reduce();
     }
   }
+
+  /// With the rows under the other one's, too.
+  TriangularFactor& operator+=(TriangularFactor& other) {
+    add(other.triangle());
+    rows_ += other.rows_ - 6;
+    return *this;
+  }
+
+  /// Of all rows.
+  Eigen::Index rows() const { return rows_; }
 
   Matrix6d triangle() {
     reduce();
@@ -36,7 +49,7 @@ class TriangularFactor {
 
   static constexpr Eigen::Index kRows = 96;
   Eigen::Matrix<double, kRows, 6> work_;
-  Eigen::Index filled_ = 0;
+  Eigen::Index filled_ = 0, rows_ = 0;
 };
 
 }  // namespace
@@ -98,12 +111,8 @@ Vector6d solveNormal(const NormalEquations& sum, const JointMask& unknown) {
 }
 
 double conditionNumber(const std::vector<CaseEquations>& equations, const JointMask& unknown) {
-  TriangularFactor factor;
-  Eigen::Index rows = 0;
-  for (const CaseEquations& one : equations) {
-    factor.add(one.matrix);
-    rows += one.matrix.rows();
-  }
+  auto factor = sumInBlocks<TriangularFactor>(
+      equations.size(), [&](std::size_t i, TriangularFactor& sum) { sum.add(equations[i].matrix); });
   // Q turns columns and leaves their lengths: the triangular factor has those of the stacked matrix.
   const Matrix6d triangle = factor.triangle();
   Eigen::Matrix<double, 6, Eigen::Dynamic, 0, 6, 6> unit(6, 0);
@@ -114,7 +123,7 @@ double conditionNumber(const std::vector<CaseEquations>& equations, const JointM
     unit.conservativeResize(6, unit.cols() + 1);
     unit.rightCols<1>() = triangle.col(j) / length;
   }
-  if (unit.cols() == 0 || rows < unit.cols()) return std::numeric_limits<double>::infinity();
+  if (unit.cols() == 0 || factor.rows() < unit.cols()) return std::numeric_limits<double>::infinity();
   const Eigen::VectorXd values = unit.jacobiSvd().singularValues();
   return values[0] / values[unit.cols() - 1];
 }

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "core/identification/posture_influence.h"
-#include "core/parallel/on_all_cores.h"
+#include "core/parallel/sum_in_blocks.h"
 #include "metrology/tail_probability.h"
 
 namespace stiffscope {
@@ -142,8 +142,8 @@ std::vector<Posture> fitAll(const std::vector<const CaseEquations*>& equations, 
   smallWorkOnAllCores(equations.size(), [&](std::size_t p) {
     postures[p] = {equations[p], {}, normalEquations(*equations[p])};
   });
-  NormalEquations sum;
-  for (const Posture& one : postures) sum += one.normal;
+  const auto sum = sumInBlocks<NormalEquations>(
+      postures.size(), [&](std::size_t p, NormalEquations& all) { all += postures[p].normal; });
   const Vector6d compliance = solveNormal(sum, unknown);
   smallWorkOnAllCores(equations.size(), [&](std::size_t p) {
     const auto& matrix = equations[p]->matrix;

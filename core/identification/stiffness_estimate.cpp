@@ -7,7 +7,7 @@
 
 #include "core/identification/influence_covariance.h"
 #include "core/identification/posture_influence.h"
-#include "core/parallel/on_all_cores.h"
+#include "core/parallel/sum_in_blocks.h"
 
 namespace stiffscope {
 
@@ -66,12 +66,11 @@ void setScatterOfOneStage(const std::vector<NormalEquations>& normal, const Norm
 }
 
 void describeResiduals(const std::vector<CaseEquations>& equations, StiffnessEstimate& estimate) {
-  double sum = 0.0;
+  const double sum = sumInBlocks<double>(equations.size(), [&](std::size_t i, double& squares) {
+    squares += (equations[i].right - equations[i].matrix * estimate.compliance).squaredNorm();
+  });
   Eigen::Index rows = 0;
-  for (const CaseEquations& one : equations) {
-    sum += (one.right - one.matrix * estimate.compliance).squaredNorm();
-    rows += one.right.size();
-  }
+  for (const CaseEquations& one : equations) rows += one.right.size();
   const auto unknowns = std::count(estimate.identifiable.begin(), estimate.identifiable.end(), true);
   estimate.rms_residual = rows > 0 ? std::sqrt(sum / static_cast<double>(rows)) : 0.0;
   estimate.sigma = rows > unknowns ? std::sqrt(sum / static_cast<double>(rows - unknowns)) : 0.0;
