@@ -132,15 +132,19 @@ void warnOfAnglesOutsideLimits(const Campaign& campaign, std::vector<std::string
     const State* first = nullptr;
     std::size_t rows = 0;
   };
+  std::array<double, 6> lower, upper;
+  for (std::size_t j = 0; j < 6; ++j) {
+    lower[j] = campaign.robot.limits[j].lower - kMargin;
+    upper[j] = campaign.robot.limits[j].upper + kMargin;
+  }
   const std::vector<State>& states = campaign.states->rows;
   std::vector<std::array<Outside, 6>> found(blocksOf(states.size()));
   inBlocks(states.size(), [&](std::size_t block, std::size_t from, std::size_t to) {
-    for (std::size_t j = 0; j < 6; ++j) {
-      const double lower = campaign.robot.limits[j].lower - kMargin, upper = campaign.robot.limits[j].upper + kMargin;
-      Outside& outside = found[block][j];
-      for (std::size_t i = from; i < to; ++i) {
+    for (std::size_t i = from; i < to; ++i) {
+      for (std::size_t j = 0; j < 6; ++j) {
         const double q = states[i].q[static_cast<Eigen::Index>(j)];
-        if (q >= lower && q <= upper) continue;
+        if (q >= lower[j] && q <= upper[j]) continue;
+        Outside& outside = found[block][j];
         if (outside.rows++ == 0) outside.first = &states[i];
       }
     }
