@@ -7,12 +7,14 @@
 #include <list>
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include "app/command.h"
 #include "app/figures/make_figures.h"
 #include "app/output.h"
 #include "app/prepared.h"
 #include "app/report_files.h"
+#include "app/returned_memory.h"
 #include "app/step_option.h"
 #include "app/versions.h"
 #include "app/with_option.h"
@@ -50,7 +52,7 @@ struct Result {
   const Identification& identification() const { return improved ? improved->with : own; }
 
   Result(const std::string& folder, const Arguments& arguments, const IdentifyOptions& options) {
-    const Campaign read = openCampaign(folder);
+    Campaign read = openCampaign(folder);
     prepared = arguments.raw ? leaveRaw(read) : prepareCampaign(read);
     loaded = whatLoadsLack(prepared.campaign).empty();
     if (loaded && !arguments.with.empty()) {
@@ -58,8 +60,8 @@ struct Result {
     } else {
       own = loaded ? identify(prepared.campaign, options) : framesAlone(prepared.campaign);
     }
-    audited = audit(read);
     if (loaded) diagnosis = diagnose(read);
+    audited = audit(std::move(read));
     if (diagnosis) addSeparableEffects(*diagnosis, audited);
   }
 
@@ -101,6 +103,7 @@ void addImproved(const std::vector<std::string>& words, const std::list<Result>&
 }
 
 int writeReport(const Arguments& arguments) {
+  returnFreedMemory();
   IdentifyOptions options;
   options.step = loadStepNamed(arguments.step);
   options.finite_deflection = !arguments.neglect_kc;
