@@ -8,11 +8,23 @@
 
 namespace stiffscope {
 
-void returnFreedMemory() {
-#if defined(M_MMAP_THRESHOLD)
+#if defined(__GLIBC__)
+
+void returnLargeBlocks() {
   constexpr int kLarge = 1 << 20;
   ::mallopt(M_MMAP_THRESHOLD, kLarge);
-#endif
 }
+
+void returnFreeMemory() {
+  constexpr std::size_t kKeepNothing = 0;
+  ::malloc_trim(kKeepNothing);
+}
+
+#else
+
+void returnLargeBlocks() {}
+void returnFreeMemory() {}
+
+#endif
 
 }  // namespace stiffscope

@@ -24,7 +24,7 @@ void addDiagnose(CLI::App& app, Run& run) {
   command->add_option("--json", arguments->json, "write the result to this file, - for standard output");
   command->callback([arguments, &run] {
     run = [arguments] {
-      returnFreedMemory();
+      returnLargeBlocks();
       Campaign campaign = openCampaign(arguments->campaign);
       const Campaign words = described(campaign);
       const Diagnosis diagnosis = diagnose(std::move(campaign));

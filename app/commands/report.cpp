@@ -39,6 +39,16 @@ struct Arguments {
   std::vector<std::string> with;
 };
 
+/// Takes away the rows that are load cases by now: neither page nor picture shows them, and they are most of a long day.
+void withoutLoadReadings(Campaign& campaign) {
+  const auto let_go = [](auto& table) {
+    if (table) table->rows = decltype(table->rows)();
+  };
+  let_go(campaign.loading);
+  let_go(campaign.states);
+  let_go(campaign.displacements);
+}
+
 /// What is used of one campaign and what comes of it. A campaign without loads gives its frames.
 struct Result {
   PreparedCampaign prepared;
@@ -63,6 +73,8 @@ struct Result {
     if (loaded) diagnosis = diagnose(read);
     audited = audit(std::move(read));
     if (diagnosis) addSeparableEffects(*diagnosis, audited);
+    withoutLoadReadings(prepared.campaign);
+    if (improved) withoutLoadReadings(improved->campaign);
   }
 
   /// Of loads, stiffnesses are the purpose; of a day of sweeps alone, the frames.
@@ -103,7 +115,7 @@ void addImproved(const std::vector<std::string>& words, const std::list<Result>&
 }
 
 int writeReport(const Arguments& arguments) {
-  returnFreedMemory();
+  returnLargeBlocks();
   IdentifyOptions options;
   options.step = loadStepNamed(arguments.step);
   options.finite_deflection = !arguments.neglect_kc;
@@ -122,6 +134,7 @@ int writeReport(const Arguments& arguments) {
   content.title = "Joint stiffness";
   content.verdict = verdictOf(content.campaigns, content.avoided);
   addImproved(arguments.with, results, content);
+  returnFreeMemory();  // drawing brings libraries of a hundred megabytes
   content.figures = makeFigures(content.campaigns, {arguments.paper});
 
   // Everything is made before the first file is written, and appears at once.
