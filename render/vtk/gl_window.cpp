@@ -39,8 +39,10 @@ void GlWindow::release() {}
 
 #include <GL/osmesa.h>
 #include <vtkGenericOpenGLRenderWindow.h>
+#include <vtkNew.h>
 #include <vtkObjectFactory.h>
 #include <vtkOpenGLFramebufferObject.h>
+#include <vtkRenderer.h>
 
 #include <array>
 #include <tuple>
@@ -122,7 +124,16 @@ vtkRenderWindow& GlWindow::makeCurrent() {
   return *window_;
 }
 
-void GlWindow::release() { OSMesaMakeCurrent(nullptr, nullptr, 0, 0, 0); }
+// Mesa keeps a picture's pixels and triangles, tens of megabytes, until it draws again: here one pixel of nothing.
+void GlWindow::release() {
+  const vtkNew<vtkRenderer> nothing;
+  window_->SetSize(1, 1);
+  window_->AddRenderer(nothing);
+  window_->Render();
+  window_->WaitForCompletion();
+  window_->RemoveRenderer(nothing);
+  OSMesaMakeCurrent(nullptr, nullptr, 0, 0, 0);
+}
 
 }  // namespace stiffscope
 

@@ -3,6 +3,7 @@
 #include <set>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "core/campaign/read_campaign.h"
 #include "core/diagnosis/diagnose.h"
@@ -73,27 +74,24 @@ TEST(LowerTriangle, AddsToTheLowerTriangleAlone) {
 
 // What is said of a long day's postures must name them as that day does, not as the hundred that took part are numbered.
 TEST(Diagnose, ALongDayIsItsSpreadPosturesUnderTheirOwnNames) {
-  Campaign day = repeated(5);
-  ASSERT_GT(day.pose_ids.size(), kMostDiagnosed);
+  Campaign day = repeated(11);
+  const std::vector<std::string> names = day.pose_ids;
+  ASSERT_GT(names.size(), kMostDiagnosed);
   DiagnoseOptions quick;
   quick.resamples = quick.chance_draws = 0;
   quick.only = Effect::joint_coupling;
   const Campaign spread = evenlySpread(day, kMostDiagnosed);
-  const Diagnosis by_itself = diagnose(spread, quick), whole = diagnose(day, quick);
+  const Diagnosis by_itself = diagnose(spread, quick), whole = diagnose(std::move(day), quick);
   EXPECT_EQ(whole.gap.before, by_itself.gap.before);
   EXPECT_EQ(whole.gap.after, by_itself.gap.after);
   ASSERT_EQ(whole.at_points.size(), by_itself.at_points.size());
   ASSERT_FALSE(whole.at_points.empty());
   for (std::size_t i = 0; i < whole.at_points.size(); ++i) {
-    EXPECT_EQ(day.pose_ids[static_cast<std::size_t>(whole.at_points[i].pose)],
+    EXPECT_EQ(names[static_cast<std::size_t>(whole.at_points[i].pose)],
               spread.pose_ids[static_cast<std::size_t>(by_itself.at_points[i].pose)]);
     EXPECT_EQ(whole.at_points[i].before, by_itself.at_points[i].before);
   }
   EXPECT_NE(whole.verdict.reason.find("100 took part"), std::string::npos) << whole.verdict.reason;
-  const Diagnosis given_away = diagnose(std::move(day), quick);
-  EXPECT_EQ(given_away.gap.after, whole.gap.after);
-  EXPECT_EQ(given_away.verdict.reason, whole.verdict.reason);
-  EXPECT_EQ(given_away.at_points.back().pose, whole.at_points.back().pose);
 }
 
 }  // namespace
