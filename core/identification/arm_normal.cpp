@@ -15,7 +15,7 @@ struct PointRows {
 
 /// The sum over the points of all cases; `points(i, add)` calls add(rows, values) for each of case i. Of many
 /// cases the rows are made on all cores, and added in their order nevertheless, so that rounding does not
-/// depend on it: so many cases at a time, because all their rows would take more than the campaign.
+/// depend on it.
 template <class Points>
 NormalEquations sumOver(std::size_t cases, const Points& points) {
   NormalEquations sum;
@@ -24,21 +24,16 @@ NormalEquations sumOver(std::size_t cases, const Points& points) {
     for (std::size_t i = 0; i < cases; ++i) points(i, add);
     return sum;
   }
-  constexpr std::size_t kBlock = 256, kBlocks = 32;
-  std::vector<std::vector<PointRows>> blocks(kBlocks);
-  for (std::size_t first = 0; first < cases; first += kBlocks * kBlock) {
-    const std::size_t end = std::min(cases, first + kBlocks * kBlock);
-    onAllCores((end - first + kBlock - 1) / kBlock, [&](std::size_t block) {
-      const auto keep = [&](const Matrix36d& rows, const Eigen::Vector3d& values) {
-        blocks[block].push_back({rows, values});
-      };
-      const std::size_t from = first + block * kBlock;
-      for (std::size_t i = from; i < std::min(end, from + kBlock); ++i) points(i, keep);
-    });
-    for (auto& block : blocks) {
-      for (const PointRows& one : block) sum.add(one.rows, one.values);
-      block.clear();
-    }
+  constexpr std::size_t kBlock = 256;
+  std::vector<std::vector<PointRows>> blocks((cases + kBlock - 1) / kBlock);
+  onAllCores(blocks.size(), [&](std::size_t block) {
+    const auto keep = [&](const Matrix36d& rows, const Eigen::Vector3d& values) {
+      blocks[block].push_back({rows, values});
+    };
+    for (std::size_t i = block * kBlock; i < std::min(cases, (block + 1) * kBlock); ++i) points(i, keep);
+  });
+  for (const auto& block : blocks) {
+    for (const PointRows& one : block) sum.add(one.rows, one.values);
   }
   return sum;
 }
