@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "app/command.h"
+#include "app/described.h"
 #include "app/large_heap.h"
 #include "app/output.h"
 #include "core/diagnosis/diagnose.h"
@@ -24,17 +25,6 @@ Diagnosis designOf(const Campaign& campaign) {
   DiagnoseOptions design;
   design.resamples = design.chance_draws = 0;
   return diagnose(campaign, design);
-}
-
-/// What a result says of the campaign: that without its readings, which take megabytes.
-Campaign described(const Campaign& campaign) {
-  Campaign words;
-  words.name = campaign.name;
-  words.date = campaign.date;
-  words.robot = campaign.robot;
-  words.double_encoder = campaign.double_encoder;
-  words.inputs = campaign.inputs;
-  return words;
 }
 
 int auditCampaign(const std::string& folder, const std::string& json_file) {

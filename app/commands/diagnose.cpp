@@ -2,9 +2,12 @@
 
 #include <CLI/CLI.hpp>
 #include <memory>
+#include <utility>
 
 #include "app/command.h"
+#include "app/described.h"
 #include "app/output.h"
+#include "app/returned_memory.h"
 #include "reports/json/diagnosis_json.h"
 #include "reports/text/diagnosis_text.h"
 
@@ -21,10 +24,12 @@ void addDiagnose(CLI::App& app, Run& run) {
   command->add_option("--json", arguments->json, "write the result to this file, - for standard output");
   command->callback([arguments, &run] {
     run = [arguments] {
-      const Campaign campaign = openCampaign(arguments->campaign);
-      const Diagnosis diagnosis = diagnose(campaign);
-      deliver([&] { return diagnosisJson(campaign, diagnosis); },
-              [&] { return diagnosisText(campaign, diagnosis); }, arguments->json);
+      returnLargeBlocks();
+      Campaign campaign = openCampaign(arguments->campaign);
+      const Campaign words = described(campaign);
+      const Diagnosis diagnosis = diagnose(std::move(campaign));
+      deliver([&] { return diagnosisJson(words, diagnosis); }, [&] { return diagnosisText(words, diagnosis); },
+              arguments->json);
       return diagnosis.usable ? kDone : kNotUsable;
     };
   });

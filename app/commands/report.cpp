@@ -7,12 +7,14 @@
 #include <list>
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include "app/command.h"
 #include "app/figures/make_figures.h"
 #include "app/output.h"
 #include "app/prepared.h"
 #include "app/report_files.h"
+#include "app/returned_memory.h"
 #include "app/step_option.h"
 #include "app/versions.h"
 #include "app/with_option.h"
@@ -37,6 +39,16 @@ struct Arguments {
   std::vector<std::string> with;
 };
 
+/// Takes away the rows that are load cases by now: neither page nor picture shows them, and they are most of a long day.
+void withoutLoadReadings(Campaign& campaign) {
+  const auto let_go = [](auto& table) {
+    if (table) table->rows = decltype(table->rows)();
+  };
+  let_go(campaign.loading);
+  let_go(campaign.states);
+  let_go(campaign.displacements);
+}
+
 /// What is used of one campaign and what comes of it. A campaign without loads gives its frames.
 struct Result {
   PreparedCampaign prepared;
@@ -50,7 +62,7 @@ struct Result {
   const Identification& identification() const { return improved ? improved->with : own; }
 
   Result(const std::string& folder, const Arguments& arguments, const IdentifyOptions& options) {
-    const Campaign read = openCampaign(folder);
+    Campaign read = openCampaign(folder);
     prepared = arguments.raw ? leaveRaw(read) : prepareCampaign(read);
     loaded = whatLoadsLack(prepared.campaign).empty();
     if (loaded && !arguments.with.empty()) {
@@ -58,9 +70,11 @@ struct Result {
     } else {
       own = loaded ? identify(prepared.campaign, options) : framesAlone(prepared.campaign);
     }
-    audited = audit(read);
     if (loaded) diagnosis = diagnose(read);
+    audited = audit(std::move(read));
     if (diagnosis) addSeparableEffects(*diagnosis, audited);
+    withoutLoadReadings(prepared.campaign);
+    if (improved) withoutLoadReadings(improved->campaign);
   }
 
   /// Of loads, stiffnesses are the purpose; of a day of sweeps alone, the frames.
@@ -101,6 +115,7 @@ void addImproved(const std::vector<std::string>& words, const std::list<Result>&
 }
 
 int writeReport(const Arguments& arguments) {
+  returnLargeBlocks();
   IdentifyOptions options;
   options.step = loadStepNamed(arguments.step);
   options.finite_deflection = !arguments.neglect_kc;
@@ -119,6 +134,7 @@ int writeReport(const Arguments& arguments) {
   content.title = "Joint stiffness";
   content.verdict = verdictOf(content.campaigns, content.avoided);
   addImproved(arguments.with, results, content);
+  returnFreeMemory();  // drawing brings libraries of a hundred megabytes
   content.figures = makeFigures(content.campaigns, {arguments.paper});
 
   // Everything is made before the first file is written, and appears at once.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <utility>
 
 #include "core/input/input_error.h"
 #include "core/input/read_file.h"
@@ -74,7 +75,8 @@ TextFile CampaignFiles::readAndRecord(const fs::path& path, const std::string& n
   constexpr std::size_t kOwnThread = 1 << 20;  // hashed in a millisecond
   // Where no thread is to be had, either policy lets it be hashed when the hash is asked for.
   const auto when = file.size < kOwnThread ? std::launch::deferred : std::launch::async | std::launch::deferred;
-  read_.back().sha256 = std::async(when, [file] { return sha256Hex(file.text()); });
+  // What is hashed goes: the rows of all tables come while the hashes wait to be asked for.
+  read_.back().sha256 = std::async(when, [text = file]() mutable { return sha256Hex(std::exchange(text, {}).text()); });
   return file;
 }
 

@@ -241,16 +241,32 @@ class Diagnoser {
   Diagnosis result_;
 };
 
+/// `spread` is what is looked at of a campaign of so many postures, which the diagnosis refers to.
+Diagnosis diagnoseSpread(const Campaign& spread, std::size_t postures, const DiagnoseOptions& options) {
+  Diagnosis diagnosis = Diagnoser(spread, options).run();
+  const std::vector<int> places = evenlySpreadPostures(postures, kMostDiagnosed);
+  for (PointGap& one : diagnosis.at_points) one.pose = places[static_cast<std::size_t>(one.pose)];
+  diagnosis.verdict.reason +=
+      fmt::format(" Of {} postures {} took part, spread evenly over the day.", postures, diagnosis.postures);
+  return diagnosis;
+}
+
+bool isLong(const Campaign& campaign) { return campaign.pose_ids.size() > kMostDiagnosed; }
+
 }  // namespace
 
 Diagnosis diagnose(const Campaign& campaign, const DiagnoseOptions& options) {
   requireLoads(campaign);
-  if (campaign.pose_ids.size() <= kMostDiagnosed) return Diagnoser(campaign, options).run();
-  const Campaign spread = evenlySpread(campaign, kMostDiagnosed);
-  Diagnosis diagnosis = Diagnoser(spread, options).run();
-  diagnosis.verdict.reason += fmt::format(" Of {} postures {} took part, spread evenly over the day.",
-                                          campaign.pose_ids.size(), diagnosis.postures);
-  return diagnosis;
+  if (!isLong(campaign)) return Diagnoser(campaign, options).run();
+  return diagnoseSpread(evenlySpread(campaign, kMostDiagnosed), campaign.pose_ids.size(), options);
+}
+
+Diagnosis diagnose(Campaign&& campaign, const DiagnoseOptions& options) {
+  requireLoads(campaign);
+  const std::size_t postures = campaign.pose_ids.size();
+  if (!isLong(campaign)) return Diagnoser(campaign, options).run();
+  campaign = evenlySpread(campaign, kMostDiagnosed);
+  return diagnoseSpread(campaign, postures, options);
 }
 
 }  // namespace stiffscope

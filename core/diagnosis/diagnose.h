@@ -22,5 +22,7 @@ struct DiagnoseOptions {
 /// it shrinks. Never throws for what the data lacks: effects that cannot be tested say what is missing.
 /// Throws InputError where the campaign has no loads at all, as identify does.
 Diagnosis diagnose(const Campaign& campaign, const DiagnoseOptions& options = {});
+/// Of a campaign that is of no more use: of a long day's readings those that take no part go before the equations come.
+Diagnosis diagnose(Campaign&& campaign, const DiagnoseOptions& options = {});
 
 }  // namespace stiffscope

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "core/campaign/campaign.h"
 
 namespace stiffscope {
@@ -8,7 +10,10 @@ namespace stiffscope {
 /// so many postures.
 inline constexpr std::size_t kMostDiagnosed = 100;
 
-/// The campaign with at most so many of its postures, spread evenly over the day.
+/// At most `most` of a day's postures, spread evenly over it: their indices, ascending.
+std::vector<int> evenlySpreadPostures(std::size_t postures, std::size_t most);
+
+/// The campaign of those postures alone, numbered anew in their order. The other readings are never copied.
 Campaign evenlySpread(const Campaign& campaign, std::size_t most);
 
 }  // namespace stiffscope

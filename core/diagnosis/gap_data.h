@@ -8,6 +8,7 @@
 #include "core/diagnosis/arm_geometry.h"
 #include "core/diagnosis/effect_table.h"
 #include "core/diagnosis/gap_rows.h"
+#include "core/diagnosis/normal_matrix.h"
 #include "core/diagnosis/station.h"
 #include "metrology/tracker_noise.h"
 
@@ -66,7 +67,7 @@ struct GapPosture {
   /// diagonal, one state's under another's.
   Eigen::MatrixXd noise;
   Eigen::MatrixXd position_lower;  ///< Cholesky factor of that of the position rows, with the slack
-  Eigen::MatrixXd normal;
+  LowerTriangle normal;
   Eigen::Matrix<double, 7, 7> stiffness_normal;  ///< the same of deflection rows alone, over the compliances
 
   /// Sum of the noise's variances of `rows` rows from `first` on, m^2.

@@ -12,4 +12,27 @@ inline Eigen::MatrixXd normalMatrix(const Eigen::MatrixXd& equations) {
   return normal;
 }
 
+/// Half of a symmetric matrix, its lower triangle column by column: of many matrices that are only summed.
+class LowerTriangle {
+ public:
+  LowerTriangle() = default;
+  explicit LowerTriangle(const Eigen::MatrixXd& symmetric) : values_(symmetric.rows() * (symmetric.rows() + 1) / 2) {
+    Eigen::Index at = 0;
+    for (Eigen::Index column = 0, left = symmetric.rows(); left > 0; ++column, at += left, --left) {
+      values_.segment(at, left) = symmetric.col(column).tail(left);
+    }
+  }
+
+  /// Adds `weight` times it to the lower triangle of `sum`.
+  void addTo(double weight, Eigen::MatrixXd& sum) const {
+    Eigen::Index at = 0;
+    for (Eigen::Index column = 0, left = sum.rows(); left > 0; ++column, at += left, --left) {
+      sum.col(column).tail(left) += weight * values_.segment(at, left);
+    }
+  }
+
+ private:
+  Eigen::VectorXd values_;
+};
+
 }  // namespace stiffscope

@@ -94,7 +94,7 @@ void whiten(const GapRows& rows, const GapCovariance& covariance, GapPosture& po
   const Eigen::LLT<Eigen::MatrixXd> cholesky(covariance.whole);
   posture.position_lower =
       cholesky.matrixLLT().topLeftCorner(at_rest, at_rest).triangularView<Eigen::Lower>();
-  posture.normal = normalOf(posture, cholesky);
+  posture.normal = LowerTriangle(normalOf(posture, cholesky));
   posture.stiffness_normal = stiffnessNormalOf(posture, covariance.whole);
 }
 

@@ -25,8 +25,9 @@ Eigen::LDLT<Eigen::MatrixXd> factorised(const Eigen::MatrixXd& matrix, const Eig
 Eigen::MatrixXd sumOf(const GapData& data, const std::vector<double>& weights) {
   Eigen::MatrixXd sum = data.sweeps;
   for (std::size_t p = 0; p < data.postures.size(); ++p) {
-    if (weights[p] != 0.0) sum += weights[p] * data.postures[p].normal;
+    if (weights[p] != 0.0) data.postures[p].normal.addTo(weights[p], sum);
   }
+  sum.triangularView<Eigen::StrictlyUpper>() = sum.transpose();
   return sum;
 }
 

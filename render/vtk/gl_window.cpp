@@ -1,6 +1,19 @@
 #include "render/vtk/gl_window.h"
 
+#include <cstdlib>
 #include <stdexcept>
+
+namespace {
+
+// Mesa's software renderer keeps what it has drawn until it draws there again; with threads of its own it draws in
+// several places in turn. On the calling thread there is one, and a picture is done as soon: most of it is drawn on that
+// thread anyway. Who sets the number has it.
+void drawOnThisThread() {
+  constexpr int kUnlessSet = 0;
+  ::setenv("LP_NUM_THREADS", "0", kUnlessSet);
+}
+
+}  // namespace
 
 #ifdef STIFFSCOPE_VTK_HAS_OSMESA
 
@@ -10,7 +23,9 @@ namespace stiffscope {
 
 struct GlWindow::Context {};
 
-GlWindow::GlWindow() : window_(vtkSmartPointer<vtkOSOpenGLRenderWindow>::New()) {
+GlWindow::GlWindow() {
+  drawOnThisThread();
+  window_ = vtkSmartPointer<vtkOSOpenGLRenderWindow>::New();
   window_->SetMultiSamples(0);
 }
 GlWindow::~GlWindow() = default;
@@ -24,10 +39,38 @@ void GlWindow::release() {}
 
 #include <GL/osmesa.h>
 #include <vtkGenericOpenGLRenderWindow.h>
+#include <vtkNew.h>
+#include <vtkObjectFactory.h>
+#include <vtkOpenGLFramebufferObject.h>
+#include <vtkRenderer.h>
 
 #include <array>
+#include <tuple>
+#include <utility>
 
 namespace stiffscope {
+
+namespace {
+
+/// A window that has pixels where it is drawn on, and nowhere else. VTK makes three framebuffers of a window's size, seven
+/// images in all: the others are what a display shows and what multisampling needs, and there is neither here. They
+/// stay of one pixel.
+class DrawnOnlyWindow : public vtkGenericOpenGLRenderWindow {
+ public:
+  static DrawnOnlyWindow* New();
+  vtkTypeMacro(DrawnOnlyWindow, vtkGenericOpenGLRenderWindow);
+
+  void Start() override {
+    const std::pair<int, int> size{Size[0], Size[1]};
+    Size[0] = Size[1] = 1;
+    Superclass::Start();
+    std::tie(Size[0], Size[1]) = size;
+    RenderFramebuffer->Resize(size.first, size.second);
+  }
+};
+vtkStandardNewMacro(DrawnOnlyWindow);
+
+}  // namespace
 
 // OSMesa wants a buffer to draw on; VTK draws on one of its own, so this one is as small as may be.
 struct GlWindow::Context {
@@ -44,6 +87,7 @@ struct GlWindow::Context {
 };
 
 GlWindow::GlWindow() : context_(std::make_unique<Context>()) {
+  drawOnThisThread();
   const std::array<int, 11> attributes = {OSMESA_FORMAT,
                                           OSMESA_RGBA,
                                           OSMESA_DEPTH_BITS,
@@ -61,7 +105,7 @@ GlWindow::GlWindow() : context_(std::make_unique<Context>()) {
   }
   if (!context_->makeCurrent()) throw std::runtime_error("cannot draw pictures: OSMesa refuses its context");
 
-  const auto window = vtkSmartPointer<vtkGenericOpenGLRenderWindow>::New();
+  const auto window = vtkSmartPointer<DrawnOnlyWindow>::New();
   window->SetReadyForRendering(true);
   window->SetIsCurrent(true);
   window->SetSupportsOpenGL(true);
@@ -80,7 +124,16 @@ vtkRenderWindow& GlWindow::makeCurrent() {
   return *window_;
 }
 
-void GlWindow::release() { OSMesaMakeCurrent(nullptr, nullptr, 0, 0, 0); }
+// Mesa keeps a picture's pixels and triangles, tens of megabytes, until it draws again: here one pixel of nothing.
+void GlWindow::release() {
+  const vtkNew<vtkRenderer> nothing;
+  window_->SetSize(1, 1);
+  window_->AddRenderer(nothing);
+  window_->Render();
+  window_->WaitForCompletion();
+  window_->RemoveRenderer(nothing);
+  OSMesaMakeCurrent(nullptr, nullptr, 0, 0, 0);
+}
 
 }  // namespace stiffscope
 

@@ -103,8 +103,12 @@ void Mesh::addArrow(const Eigen::Vector3d& from, const Eigen::Vector3d& to, doub
 vtkSmartPointer<vtkActor> Mesh::actor() const {
   const vtkNew<vtkPoints> points;
   points->SetDataTypeToFloat();
-  for (std::size_t i = 0; i < points_.size(); i += 3) points->InsertNextPoint(&points_[i]);
+  points->SetNumberOfPoints(static_cast<vtkIdType>(points_.size() / 3));
+  std::copy(points_.begin(), points_.end(), static_cast<float*>(points->GetVoidPointer(0)));
+  // A hundred arms are a million triangles: no more room than they take, which VTK would double and double again.
   const vtkNew<vtkCellArray> triangles;
+  triangles->Use32BitStorage();
+  triangles->AllocateExact(static_cast<vtkIdType>(triangles_.size() / 3), static_cast<vtkIdType>(triangles_.size()));
   for (std::size_t i = 0; i < triangles_.size(); i += 3) {
     triangles->InsertNextCell({triangles_[i], triangles_[i + 1], triangles_[i + 2]});
   }

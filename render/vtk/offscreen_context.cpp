@@ -5,6 +5,7 @@
 #include <vtkRenderer.h>
 #include <vtkUnsignedCharArray.h>
 
+#include <algorithm>
 #include <mutex>
 #include <stdexcept>
 
@@ -43,16 +44,15 @@ struct Shown {
   const std::vector<vtkSmartPointer<vtkRenderer>>& layers;
 };
 
-// Means over squares of kSupersampling pixels. VTK's rows run from bottom to top.
-Image averageDown(const std::uint8_t* pixels, Size size) {
+/// Means over squares of kSupersampling pixels, of rendered rows into the picture's rows from `y` upwards: VTK's run from
+/// bottom to top.
+void averageDown(const std::uint8_t* rendered, int rows, int y, Image& image) {
   constexpr int k = kSupersampling;
-  Image image{size.width, size.height, {}};
-  image.rgb.resize(3 * static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height));
-  const std::ptrdiff_t row = 3 * static_cast<std::ptrdiff_t>(size.width) * k;
-  std::uint8_t* out = image.rgb.data();
-  for (int y = size.height - 1; y >= 0; --y) {
-    const std::uint8_t* in = pixels + row * k * y;
-    for (int x = 0; x < size.width; ++x, in += 3 * k, out += 3) {
+  const std::ptrdiff_t row = 3 * static_cast<std::ptrdiff_t>(image.width) * k;
+  for (int up = 0; up < rows; ++up) {
+    const std::uint8_t* in = rendered + row * k * up;
+    std::uint8_t* out = image.rgb.data() + 3 * static_cast<std::ptrdiff_t>(image.width) * (y - up);
+    for (int x = 0; x < image.width; ++x, in += 3 * k, out += 3) {
       for (int channel = 0; channel < 3; ++channel) {
         int sum = k * k / 2;
         for (int i = 0; i < k; ++i) {
@@ -61,6 +61,24 @@ Image averageDown(const std::uint8_t* pixels, Size size) {
         out[channel] = static_cast<std::uint8_t>(sum / (k * k));
       }
     }
+  }
+}
+
+/// What the window shows, band by band: rendered it is four times the picture.
+Image readDown(vtkRenderWindow& window, Size size) {
+  constexpr int kBand = 64, front = 0;  // rows of the picture
+  Image image{size.width, size.height, {}};
+  image.rgb.resize(3 * static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height));
+  const vtkNew<vtkUnsignedCharArray> pixels;
+  for (int low = 0; low < size.height; low += kBand) {
+    const int rows = std::min(kBand, size.height - low);
+    const int width = kSupersampling * size.width, first = kSupersampling * low, height = kSupersampling * rows;
+    window.GetPixelData(0, first, width - 1, first + height - 1, front, pixels);
+    if (pixels->GetNumberOfValues() != vtkIdType{3} * width * height) {
+      throw std::runtime_error(
+          fmt::format("cannot draw pictures: no pixels came back for {} x {}", width, height));
+    }
+    averageDown(pixels->GetPointer(0), rows, size.height - 1 - low, image);
   }
   return image;
 }
@@ -76,22 +94,16 @@ Image renderOffscreen(const std::vector<vtkSmartPointer<vtkRenderer>>& layers, S
   const Current current(*gl);
   vtkRenderWindow& window = current.window;
 
-  const int width = kSupersampling * size.width;
-  const int height = kSupersampling * size.height;
-  window.SetSize(width, height);
-  vtkNew<vtkUnsignedCharArray> pixels;
+  window.SetSize(kSupersampling * size.width, kSupersampling * size.height);
+  Image image;
   {
     const Shown shown(window, layers);
     window.Render();
-    const int front = 0;
-    window.GetPixelData(0, 0, width - 1, height - 1, front, pixels);
+    vtk_messages.throwIfAny();
+    image = readDown(window, size);
   }
   vtk_messages.throwIfAny();
-  if (pixels->GetNumberOfValues() != vtkIdType{3} * width * height) {
-    throw std::runtime_error(
-        fmt::format("cannot draw pictures: no pixels came back for {} x {}", width, height));
-  }
-  return averageDown(pixels->GetPointer(0), size);
+  return image;
 }
 
 }  // namespace stiffscope

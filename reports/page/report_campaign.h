@@ -10,7 +10,9 @@
 namespace stiffscope {
 
 /// A campaign as it was used, with what was identified from it, how the audit judges the readings, and what was
-/// done to them beforehand, how the station moved before that was taken off, and what the model misses. Refers to all of these; the pointers may be null.
+/// done to them beforehand, how the station moved before that was taken off, and what the model misses. Refers to
+/// all of these; the pointers may be null. Readings of sweeps and nests are shown; load states are shown as the
+/// identification's cases, the rows of their tables need not be there.
 struct ReportCampaign {
   const Campaign& campaign;
   const Identification& identification;

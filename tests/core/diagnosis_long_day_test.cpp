@@ -1,0 +1,98 @@
+#include <gtest/gtest.h>
+
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/campaign/read_campaign.h"
+#include "core/diagnosis/diagnose.h"
+#include "core/diagnosis/evenly_spread.h"
+#include "core/diagnosis/normal_matrix.h"
+
+namespace stiffscope {
+namespace {
+
+Campaign sampleDay() { return readCampaign(std::string(STIFFSCOPE_SOURCE_DIR) + "/samples/active").campaign; }
+
+/// The sample's postures so many times, a tenth of a micrometre apart: readings alike to the last digit are copies.
+Campaign repeated(int times) {
+  const Campaign once = sampleDay();
+  const int postures = static_cast<int>(once.pose_ids.size());
+  Campaign day = once;
+  for (int k = 1; k < times; ++k) {
+    for (const std::string& id : once.pose_ids) day.pose_ids.push_back(id + "-" + std::to_string(k));
+    for (State row : once.states->rows) {
+      row.pose += k * postures;
+      day.states->rows.push_back(row);
+    }
+    for (LoadingReading row : once.loading->rows) {
+      row.pose += k * postures;
+      row.point.array() += 1e-7 * k;
+      day.loading->rows.push_back(row);
+    }
+  }
+  return day;
+}
+
+TEST(EvenlySpread, TakesPosturesAtEvenDistances) {
+  EXPECT_EQ(evenlySpreadPostures(10, 4), (std::vector<int>{0, 2, 5, 7}));
+  EXPECT_EQ(evenlySpreadPostures(3, 4), (std::vector<int>{0, 1, 2}));
+}
+
+TEST(EvenlySpread, KeepsTheRowsOfItsPosturesAndAllElse) {
+  const Campaign all = sampleDay(), some = evenlySpread(all, 5);
+  ASSERT_EQ(some.pose_ids.size(), 5u);
+  const std::set<std::string> kept(some.pose_ids.begin(), some.pose_ids.end());
+  const auto expectKept = [&](const auto& of, const auto& from) {
+    std::size_t at = 0;
+    for (const auto& row : from) {
+      const std::string& id = all.pose_ids[static_cast<std::size_t>(row.pose)];
+      if (!kept.contains(id)) continue;
+      ASSERT_LT(at, of.size());
+      EXPECT_EQ(of[at].line, row.line);
+      EXPECT_EQ(some.pose_ids[static_cast<std::size_t>(of[at].pose)], id);
+      ++at;
+    }
+    EXPECT_EQ(of.size(), at);
+  };
+  expectKept(some.states->rows, all.states->rows);
+  expectKept(some.loading->rows, all.loading->rows);
+  EXPECT_EQ(some.circle_sweeps->rows.size(), all.circle_sweeps->rows.size());
+  EXPECT_EQ(some.nests->rows.size(), all.nests->rows.size());
+  EXPECT_EQ(some.inputs.size(), all.inputs.size());
+  EXPECT_EQ(some.tracker->model, all.tracker->model);
+}
+
+TEST(LowerTriangle, AddsToTheLowerTriangleAlone) {
+  Eigen::MatrixXd matrix(3, 3), sum = Eigen::MatrixXd::Identity(3, 3), expected(3, 3);
+  matrix << 1, 2, 4, 2, 3, 5, 4, 5, 6;
+  LowerTriangle(matrix).addTo(2.0, sum);
+  expected << 3, 0, 0, 4, 7, 0, 8, 10, 13;
+  EXPECT_EQ(sum, expected);
+}
+
+// What is said of a long day's postures must name them as that day does, not as the hundred that took part are numbered.
+TEST(Diagnose, ALongDayIsItsSpreadPosturesUnderTheirOwnNames) {
+  Campaign day = repeated(11);
+  const std::vector<std::string> names = day.pose_ids;
+  ASSERT_GT(names.size(), kMostDiagnosed);
+  DiagnoseOptions quick;
+  quick.resamples = quick.chance_draws = 0;
+  quick.only = Effect::joint_coupling;
+  const Campaign spread = evenlySpread(day, kMostDiagnosed);
+  const Diagnosis by_itself = diagnose(spread, quick), whole = diagnose(std::move(day), quick);
+  EXPECT_EQ(whole.gap.before, by_itself.gap.before);
+  EXPECT_EQ(whole.gap.after, by_itself.gap.after);
+  ASSERT_EQ(whole.at_points.size(), by_itself.at_points.size());
+  ASSERT_FALSE(whole.at_points.empty());
+  for (std::size_t i = 0; i < whole.at_points.size(); ++i) {
+    EXPECT_EQ(names[static_cast<std::size_t>(whole.at_points[i].pose)],
+              spread.pose_ids[static_cast<std::size_t>(by_itself.at_points[i].pose)]);
+    EXPECT_EQ(whole.at_points[i].before, by_itself.at_points[i].before);
+  }
+  EXPECT_NE(whole.verdict.reason.find("100 took part"), std::string::npos) << whole.verdict.reason;
+}
+
+}  // namespace
+}  // namespace stiffscope
