@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
+#include <vector>
 
 #include "app/figures/arm_pose.h"
 #include "core/input/units.h"
@@ -18,12 +20,6 @@ namespace {
 
 constexpr std::size_t kMostArrows = 90;  // more in one picture hide each other
 
-/// Every so many postures are drawn.
-std::size_t everyOf(const ReportCampaign& one) {
-  const std::size_t arrows = one.diagnosis->at_points.size();
-  return std::max<std::size_t>(1, (arrows + kMostArrows - 1) / kMostArrows);
-}
-
 const PointGap* gapOf(const Diagnosis& diagnosis, int pose, int target) {
   const auto found =
       std::find_if(diagnosis.at_points.begin(), diagnosis.at_points.end(),
@@ -31,11 +27,24 @@ const PointGap* gapOf(const Diagnosis& diagnosis, int pose, int target) {
   return found == diagnosis.at_points.end() ? nullptr : &*found;
 }
 
+/// Of the load cases that the diagnosis looked at (of a long day a hundred) every so many.
+std::vector<std::size_t> drawnCases(const ReportCampaign& one) {
+  std::set<int> diagnosed;
+  for (const PointGap& gap : one.diagnosis->at_points) diagnosed.insert(gap.pose);
+  const std::size_t arrows = one.diagnosis->at_points.size(), every = (arrows + kMostArrows - 1) / kMostArrows;
+  std::vector<std::size_t> drawn;
+  std::size_t seen = 0;
+  for (std::size_t i = 0; i < one.identification.cases.size(); ++i) {
+    if (diagnosed.contains(one.identification.cases[i].pose) && seen++ % every == 0) drawn.push_back(i);
+  }
+  return drawn;
+}
+
 /// The postures, pale, with one of the two vectors at each reflector.
 ArmScene sceneOf(const ReportCampaign& one, Eigen::Vector3d PointGap::*left) {
   ArmScene scene;
   scene.frame_origin = {0.0, 0.0, heightOfR0(one.identification.frames)};
-  for (std::size_t i = 0; i < one.identification.cases.size(); i += everyOf(one)) {
+  for (const std::size_t i : drawnCases(one)) {
     const LoadCase& load_case = one.identification.cases[i];
     ArmPose pose = armPose(one, i, std::nullopt);
     pose.ghost = true;
@@ -98,8 +107,10 @@ Figure describeGapBefore(const ReportCampaign& one, const GapScenes& scenes) {
       "would point "
       "anywhere.",
       factorText(*scenes.before.magnification), largestWords(one, &PointGap::before));
-  if (everyOf(one) > 1)
-    figure.caption += fmt::format(" Drawn: one posture in {}; the longest is of all.", everyOf(one));
+  const std::size_t drawn = scenes.before.poses.size(), all = one.identification.cases.size();
+  if (drawn < all) {
+    figure.caption += fmt::format(" Drawn: {} of {} postures; the longest is of all the diagnosis looked at.", drawn, all);
+  }
   figure.alt = "Postures of the arm, pale, with an arrow at each reflector for what the stiffnesses leave.";
   return figure;
 }

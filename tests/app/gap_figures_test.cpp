@@ -79,6 +79,28 @@ TEST(GapScene, BeforeAndAfterToOneScaleSeenAlike) {
       << scenes->after.subtitle;
 }
 
+TEST(GapScene, OfALongDayNoMoreArrowsThanPartEachOther) {
+  // 1,000 postures, of which every tenth took part in the diagnosis: 300 arrows.
+  Shown shown;
+  std::vector<LoadCase>& cases = shown.small.identification.cases;
+  const std::vector<LoadCase> three = cases;
+  cases.clear();
+  for (int pose = 0; pose < 1000; ++pose) {
+    cases.push_back(three.front());
+    cases.back().pose = pose;
+    shown.small.campaign.pose_ids.push_back("");
+  }
+  shown.diagnosis.at_points.clear();
+  for (int pose = 0; pose < 1000; pose += 10) {
+    for (int target = 0; target < 3; ++target) {
+      shown.diagnosis.at_points.push_back({pose, target, {}, {0, 1e-4, 0}, {0, 0, 1e-5}});
+    }
+  }
+  const auto scenes = gapScenes(shown.one);
+  ASSERT_TRUE(scenes.has_value());
+  EXPECT_EQ(scenes->before.poses.size(), 25u);  // every fourth: 75 arrows, where 90 are the most
+}
+
 TEST(GapScene, NothingToShowWhereNothingWasFound) {
   Shown shown;
   shown.diagnosis.verdict.entries.clear();
