@@ -62,11 +62,12 @@ void method(benchmark::State& state, Method which) {
   const std::vector<int> steps{chosenStep(read, {})};
   const SettledFrames settled = settleFrames(read, steps, {});
   const LoadingGeometry& geometry = settled.arm.geometry;
-  const double length = characteristicLength(geometry, settled.arm.cases, settled.frames.tcp_in_flange).length;
+  const double length = characteristicLength(settled.arm.cases, settled.frames.tcp_in_flange).length;
   const JointMask unknown = judgeJoints(geometry, settled.arm.cases, *read.load_cell, reflectorEquations(settled.arm)).mask();
   const MethodSolution how{which, settled.frames.tcp_in_flange, length, unknown, &*read.tracker};
   for (auto _ : state) {
-    benchmark::DoNotOptimize(how.estimate(loadedArm(read, geometry, settled.frames.wrist, steps)));
+    LoadedArm arm = loadedArm(read, geometry, settled.frames.wrist, steps);
+    benchmark::DoNotOptimize(how.settledEstimate(arm, false));
   }
 }
 void CompletePose(benchmark::State& state) { method(state, Method::complete_pose); }

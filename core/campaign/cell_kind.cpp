@@ -2,30 +2,15 @@
 
 #include <fmt/format.h>
 
-#include <array>
 #include <cmath>
-#include <limits>
 
 #include "core/input/input_error.h"
 #include "core/input/nearest_name.h"
 #include "core/input/numbers.h"
-#include "core/input/units.h"
 
 namespace stiffscope {
 
 namespace {
-
-constexpr double kAny = std::numeric_limits<double>::infinity();
-
-// In the order of CellKind.
-constexpr std::array<NumberKind, 6> kNumberKinds{{
-    {kMillimetre, 200e3, "expected a coordinate in mm, within +-200 m", 4},
-    {kMillimetre, 1e3, "expected a displacement from step 0 in mm, within +-1 m", 4},
-    {kDegree, 720.0, "expected an angle in degrees, within +-720", 5},
-    {1.0, kAny, "expected a time in seconds", 1},
-    {1.0, 1e6, "expected a force in N, within +-1e6", 3},
-    {1.0, 1e6, "expected a moment in Nm, within +-1e6", 4},
-}};
 
 [[noreturn]] void refuse(const CellPlace& place, std::string_view value, const std::string& expectation) {
   throw InputError({place.file, place.line, std::string(place.column)}, std::string(value), expectation);
@@ -48,10 +33,8 @@ int readTarget(std::string_view cell, const CellPlace& place, const CampaignName
 
 }  // namespace
 
-const NumberKind& numberKind(CellKind kind) { return kNumberKinds.at(static_cast<std::size_t>(kind)); }
-
-double readNumberCell(CellKind kind, std::string_view cell, const CellPlace& place, bool room_behind) {
-  double value = parsePlainNumber(cell, room_behind);
+double readUncommonNumber(CellKind kind, std::string_view cell, const CellPlace& place) {
+  double value = parsePlainNumber(cell);
   if (std::isnan(value)) {
     const ParsedNumber number = parseNumber(cell);
     if (!number.expectation.empty()) refuse(place, cell, number.expectation);

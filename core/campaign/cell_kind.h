@@ -1,10 +1,15 @@
 #pragma once
 
+#include <array>
+#include <cmath>
 #include <cstddef>
+#include <limits>
 #include <string>
 #include <string_view>
 
 #include "core/campaign/campaign_names.h"
+#include "core/input/eight_digits.h"
+#include "core/input/units.h"
 
 namespace stiffscope {
 
@@ -33,8 +38,18 @@ struct NumberKind {
   int decimals = 0;  ///< written
 };
 
+// In the order of CellKind.
+inline constexpr std::array<NumberKind, 6> kNumberKinds{{
+    {kMillimetre, 200e3, "expected a coordinate in mm, within +-200 m", 4},
+    {kMillimetre, 1e3, "expected a displacement from step 0 in mm, within +-1 m", 4},
+    {kDegree, 720.0, "expected an angle in degrees, within +-720", 5},
+    {1.0, std::numeric_limits<double>::infinity(), "expected a time in seconds", 1},
+    {1.0, 1e6, "expected a force in N, within +-1e6", 3},
+    {1.0, 1e6, "expected a moment in Nm, within +-1e6", 4},
+}};
+
 /// Throws std::out_of_range for a kind that is no number.
-const NumberKind& numberKind(CellKind kind);
+inline const NumberKind& numberKind(CellKind kind) { return kNumberKinds.at(static_cast<std::size_t>(kind)); }
 
 /// Where a cell stands; the column as the header names it.
 struct CellPlace {
@@ -43,9 +58,19 @@ struct CellPlace {
   std::string_view column;
 };
 
-/// A cell as a number in SI and radians. Throws InputError where it is none, or not plausible. `room_behind`: as
-/// parsePlainNumber takes it.
-double readNumberCell(CellKind kind, std::string_view cell, const CellPlace& place, bool room_behind = false);
+/// readNumberCell of any cell.
+double readUncommonNumber(CellKind kind, std::string_view cell, const CellPlace& place);
+
+/// A cell as a number in SI and radians. Throws InputError where it is none, or not plausible. `room_behind`: eight bytes
+/// behind it can be read, whatever they are.
+inline double readNumberCell(CellKind kind, std::string_view cell, const CellPlace& place, bool room_behind = false) {
+  if (room_behind) {
+    const NumberKind& info = numberKind(kind);
+    const double value = parseEightAtOnce(cell);
+    if (std::abs(value) <= info.limit) return value * info.si_per_unit;  // not where it is NaN
+  }
+  return readUncommonNumber(kind, cell, place);
+}
 
 /// A cell that is kept as an index: axis, step, target, pose, nest. Throws InputError.
 int readIndexCell(CellKind kind, std::string_view cell, const CellPlace& place, CampaignNames& names);

@@ -1,11 +1,11 @@
 #include "core/input/numbers.h"
 
-#include <bit>
 #include <charconv>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 #include <limits>
+
+#include "core/input/eight_digits.h"
 
 namespace stiffscope {
 
@@ -41,52 +41,7 @@ std::string whyNoNumber(std::string_view text) {
 }
 
 constexpr std::size_t kMostDigits = 15;
-constexpr double kPowersOfTen[kMostDigits + 1] = {1e0, 1e1, 1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
-                                                  1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15};
-
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-
-// A factor, because a processor guesses signs wrong every other time.
-double decimalNumber(bool minus, std::int64_t digits, std::size_t decimals) {
-  static constexpr double kSign[2] = {1.0, -1.0};
-  return static_cast<double>(digits) / kPowersOfTen[decimals] * kSign[minus ? 1 : 0];
-}
-
-/// Eight characters, the first in the lowest byte, each less '0'.
-std::uint64_t eightFrom(const char* first) {
-  std::uint64_t eight = 0;
-  std::memcpy(&eight, first, sizeof eight);
-  return eight ^ 0x3030303030303030ull;
-}
-
-/// The high bit of the first byte that is no digit, and of some behind it; 0 where all eight are digits.
-std::uint64_t notDigits(std::uint64_t eight) {
-  return ((eight + 0x7676767676767676ull) | eight) & 0x8080808080808080ull;
-}
-
-/// The number that eight digits are: of two each, of four each, of all.
-std::int64_t valueOf(std::uint64_t eight) {
-  eight = 10 * eight + (eight >> 8);
-  const std::uint64_t odd = eight & 0x000000ff000000ffull, even = (eight >> 16) & 0x000000ff000000ffull;
-  return static_cast<std::int64_t>((odd * 0x000f424000000064ull + even * 0x0000271000000001ull) >> 32);
-}
-
-/// parsePlainNumber of 1 to 7 digits, a point and 1 to 8 digits: what tables hold by the million. Digits are taken eight
-/// at a time, and which character is the point is found without a branch that the processor would have to guess.
-double parseEightAtOnce(std::string_view text) {
-  if (std::endian::native != std::endian::little || text.empty()) return kNone;
-  const bool minus = text[0] == '-';
-  const char* const first = text.data() + (minus ? 1 : 0);
-  const std::size_t size = text.size() - (minus ? 1 : 0);
-  const std::uint64_t whole = eightFrom(first);
-  const auto digits = static_cast<std::size_t>(std::countr_zero(notDigits(whole))) / 8;
-  if (digits < 1 || digits > 7 || digits + 2 > size || size > digits + 9 || first[digits] != '.') return kNone;
-  const std::size_t decimals = size - digits - 1;
-  const std::uint64_t fraction = eightFrom(first + digits + 1) << 8 * (8 - decimals);
-  if (notDigits(fraction) != 0) return kNone;
-  static constexpr std::int64_t kShift[9] = {1, 10, 100, 1000, 10000, 100000, 1000000, 10000000, 100000000};
-  return decimalNumber(minus, valueOf(whole << 8 * (8 - digits)) * kShift[decimals] + valueOf(fraction), decimals);
-}
 
 }  // namespace
 
