@@ -14,7 +14,8 @@ struct GeometricStiffnessCost {
   double share = 0.0;              ///< of the modelled displacement's mean norm
 };
 
-/// One a load case of `result`, by one method's geometry and compliances. Empty where the method is unavailable.
+/// One a load case of `result`, at its axes (of the geometry in which it stands) by one method's compliances. Empty where
+/// the method is unavailable.
 std::vector<GeometricStiffnessCost> geometricStiffnessCosts(const Identification& result, Method method);
 
 }  // namespace stiffscope

@@ -38,9 +38,10 @@ struct LoadCase {
   /// the unloaded arm, until settleLoads directs it by the model. 0: directed as measured, or by axes that
   /// stand still.
   int wrench_turns_with = 0;
-  Wrench
-      wrench_unturned;  ///< directed as at the unloaded arm; this and the next only meant where that is not 0
-  Eigen::Matrix3d unturned;  ///< how that body stands turned in the unloaded arm (ArmPosture::motion)
+  /// The next two are only meant where that is not 0: the wrench directed as at the unloaded arm, and how the body stands
+  /// turned there (ArmPosture::motion).
+  Wrench wrench_unturned;
+  Eigen::Matrix3d unturned = Eigen::Matrix3d::Identity();
   std::vector<TargetMove> targets;
   bool absolute = false;  ///< unloaded and loaded are measured points, not differences put on the model
   std::optional<Eigen::Isometry3d> flange_unloaded;  ///< base_from_flange by the reflectors (three or more)

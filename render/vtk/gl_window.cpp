@@ -3,6 +3,8 @@
 #include <cstdlib>
 #include <stdexcept>
 
+namespace stiffscope {
+
 namespace {
 
 // Mesa's software renderer keeps what it has drawn until it draws there again; with threads of its own it draws in
@@ -14,6 +16,8 @@ void drawOnThisThread() {
 }
 
 }  // namespace
+
+}  // namespace stiffscope
 
 #ifdef STIFFSCOPE_VTK_HAS_OSMESA
 

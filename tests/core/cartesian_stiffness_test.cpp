@@ -142,6 +142,43 @@ TEST(PostureConditioning, ByHandAndInASingularity) {
   EXPECT_EQ(singular.dexterity, 0.0);
 }
 
+/// By central differences of the flange's pose: rows 0-2 its origin, rows 3-5 its turn.
+Matrix6d differencedJacobian(const Robot& arm, const Vector6d& q) {
+  constexpr double kStep = 1e-5;
+  Matrix6d jacobian;
+  for (int j = 0; j < 6; ++j) {
+    const Vector6d step = kStep * Vector6d::Unit(j);
+    const Eigen::Isometry3d ahead = flangeAt(arm, postureAt(arm, q + step)), behind = flangeAt(arm, postureAt(arm, q - step));
+    const Eigen::AngleAxisd turn(ahead.linear() * behind.linear().transpose());
+    jacobian.col(j) << ahead.translation() - behind.translation(), turn.angle() * turn.axis();
+  }
+  return jacobian / (2.0 * kStep);
+}
+
+TEST(PostureStiffness, IsOfTheMethodsOwnGeometryWherePosturesWereMadeInAnother) {
+  const LinearMachine machine(4, 1.0);
+  Identification result;
+  result.cases = machine.cases;
+  result.characteristic_length.length = 0.7;
+  result.characteristic_length.condition = 1.0;
+  MethodResult& method = result.methods[static_cast<std::size_t>(Method::partial_pose)];
+  method.available = true;
+  method.estimate.compliance = machine.compliance;
+  method.geometry = machine.geometry;
+  Line& axis = method.geometry.arm.axes_in_base_at_zero[2];  // a calibration that finds much
+  axis.point.x() += 0.05;
+  axis.direction = (axis.direction + 0.05 * Eigen::Vector3d::UnitZ()).normalized();
+  Campaign campaign;
+  campaign.pose_ids = {"1", "2", "3", "4"};
+  const auto found = postureStiffnesses(campaign, result, Method::partial_pose);
+  ASSERT_EQ(found.size(), 4u);
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    const Matrix6d jacobian = differencedJacobian(method.geometry.arm, result.cases[i].q_sagged);
+    // Differences are good to the square of the step; the shift alone changes kappa by a hundredth.
+    EXPECT_NEAR(found[i].conditioning.kappa, postureConditioning(jacobian, 0.7).kappa, 1e-6) << i;
+  }
+}
+
 TEST(PostureStiffness, OfACampaignNamesPosturesAndRigidJoints) {
   SimulatedLab lab;
   lab.compliance = exampleCompliance();
