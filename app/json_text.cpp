@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <string>
 #include <vector>
 
 #include "core/parallel/on_all_cores.h"
@@ -31,51 +32,69 @@ void addShort(const Json& value, std::size_t depth, std::string& text) {
   }
 }
 
-void add(const Json& value, std::size_t depth, std::string& text);
+/// The text on its way to a sink.
+class JsonWriter {
+ public:
+  explicit JsonWriter(const ByteSink& sink) : sink_(sink) {}
 
-void addLongList(const Json& list, std::size_t depth, std::string& text) {
-  constexpr std::size_t kBlock = 64;
-  std::vector<std::string> blocks((list.size() + kBlock - 1) / kBlock);
-  onAllCores(blocks.size(), [&](std::size_t block) {
-    const std::size_t end = std::min(list.size(), (block + 1) * kBlock);
-    for (std::size_t i = block * kBlock; i < end; ++i) {
-      blocks[block].append(i == 0 ? "\n" : ",\n").append(depth + 1, ' ');
-      addShort(list[i], depth + 1, blocks[block]);
+  void add(const Json& value, std::size_t depth) {
+    if (!hasLongList(value)) {
+      addShort(value, depth, text_);
+    } else if (value.is_array()) {
+      addLongList(value, depth);
+    } else {
+      addObject(value, depth);
     }
-  });
-  text += '[';
-  for (const std::string& block : blocks) text += block;
-  text.append("\n").append(depth, ' ') += ']';
-}
-
-void addObject(const Json& object, std::size_t depth, std::string& text) {
-  text += '{';
-  const char* between = "\n";
-  for (const auto& [key, value] : object.items()) {
-    text.append(between).append(depth + 1, ' ').append(Json(key).dump()).append(": ");
-    add(value, depth + 1, text);
-    between = ",\n";
   }
-  text.append("\n").append(depth, ' ') += '}';
-}
 
-void add(const Json& value, std::size_t depth, std::string& text) {
-  if (!hasLongList(value)) {
-    addShort(value, depth, text);
-  } else if (value.is_array()) {
-    addLongList(value, depth, text);
-  } else {
-    addObject(value, depth, text);
+  void end() {
+    text_ += '\n';
+    sink_(text_);
+    text_.clear();
   }
-}
+
+ private:
+  void addLongList(const Json& list, std::size_t depth) {
+    constexpr std::size_t kBlock = 64, kBlocksTogether = 32;
+    std::vector<std::string> blocks(kBlocksTogether);
+    text_ += '[';
+    for (std::size_t from = 0; from < list.size(); from += kBlock * kBlocksTogether) {
+      onAllCores(kBlocksTogether, [&](std::size_t block) {
+        blocks[block].clear();
+        const std::size_t first = from + block * kBlock, end = std::min(list.size(), first + kBlock);
+        for (std::size_t i = first; i < end; ++i) {
+          blocks[block].append(i == 0 ? "\n" : ",\n").append(depth + 1, ' ');
+          addShort(list[i], depth + 1, blocks[block]);
+        }
+      });
+      sink_(text_);
+      text_.clear();
+      for (const std::string& block : blocks) sink_(block);
+    }
+    text_.append("\n").append(depth, ' ') += ']';
+  }
+
+  void addObject(const Json& object, std::size_t depth) {
+    text_ += '{';
+    const char* between = "\n";
+    for (const auto& [key, value] : object.items()) {
+      text_.append(between).append(depth + 1, ' ').append(Json(key).dump()).append(": ");
+      add(value, depth + 1);
+      between = ",\n";
+    }
+    text_.append("\n").append(depth, ' ') += '}';
+  }
+
+  const ByteSink& sink_;
+  std::string text_;  ///< not handed on yet
+};
 
 }  // namespace
 
-std::string jsonText(const Json& json) {
-  std::string text;
-  add(json, 0, text);
-  text += '\n';
-  return text;
+void writeJson(const Json& json, const ByteSink& sink) {
+  JsonWriter writer(sink);
+  writer.add(json, 0);
+  writer.end();
 }
 
 }  // namespace stiffscope

@@ -22,12 +22,15 @@ void printWarnings(const std::vector<std::string>& warnings) {
 
 void deliver(const std::function<Json()>& json, const std::function<std::string()>& text, const std::string& json_file) {
   const bool json_only = json_file == "-";
-  if (!json_file.empty() && !json_only) writeFileWhole(json_file, jsonText(json()));
-  const std::string shown = json_only ? jsonText(json()) : text();
-  printText(shown);
+  if (json_only) return writeJson(json(), printText);
+  if (!json_file.empty()) {
+    const Json values = json();
+    writeFileWhole(json_file, [&values](const ByteSink& sink) { writeJson(values, sink); });
+  }
+  printText(text());
 }
 
-void printText(const std::string& text) {
+void printText(std::string_view text) {
   errno = 0;
   std::fwrite(text.data(), 1, text.size(), stdout);
   if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return;

@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/campaign/read_campaign.h"
@@ -23,7 +24,7 @@ inline Hashes hashesFor(const std::string& json_file) { return json_file.empty()
 void printWarnings(const std::vector<std::string>& warnings);
 
 /// Prints to standard output; throws std::runtime_error with the reason where that fails (a full disk, a closed file).
-void printText(const std::string& text);
+void printText(std::string_view text);
 
 /// The result: as JSON alone to standard output where `json_file` is `-`; else as text there, and as JSON to the file that
 /// is named, if any. Only what is asked for is made.

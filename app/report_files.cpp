@@ -4,6 +4,7 @@
 #include <set>
 #include <vector>
 
+#include "app/json_text.h"
 #include "core/input/write_folder.h"
 #include "reports/json/json_values.h"
 #include "reports/json/results_json.h"
@@ -17,19 +18,25 @@ namespace fs = std::filesystem;
 /// A picture's or a table's bare name: a results.json that names something else was not written here.
 bool isPictureOrTable(const std::string& name) {
   const fs::path path(name);
-  return (path.extension() == ".png" || path.extension() == ".csv") && path.filename() == path && !path.stem().empty();
+  return (path.extension() == ".png" || path.extension() == ".csv") && path.filename() == path &&
+         !path.stem().empty();
 }
 
 /// Pictures and tables that the report which is there now lists as its own.
 std::vector<std::string> earlierFiles(const fs::path& folder) {
   std::ifstream file(folder / "results.json", std::ios::binary);
   if (!file) return {};
+  // Of what may be tens of megabytes nothing else is kept.
+  const auto only_files = [](int depth, Json::parse_event_t event, const Json& parsed) {
+    return depth != 1 || event != Json::parse_event_t::key || parsed == "files";
+  };
   constexpr bool kThrow = false;
-  const Json results = Json::parse(file, nullptr, kThrow);
+  const Json results = Json::parse(file, only_files, kThrow);
   if (!results.is_object() || !results.contains("files") || !results["files"].is_array()) return {};
   std::vector<std::string> names;
   for (const Json& name : results["files"]) {
-    if (name.is_string() && isPictureOrTable(name.get<std::string>())) names.push_back(name.get<std::string>());
+    if (name.is_string() && isPictureOrTable(name.get<std::string>()))
+      names.push_back(name.get<std::string>());
   }
   return names;
 }
@@ -37,6 +44,7 @@ std::vector<std::string> earlierFiles(const fs::path& folder) {
 }  // namespace
 
 void writeReportFiles(const fs::path& folder, const ReportContent& content, const ReportPage& page) {
+  std::vector<std::string> superseded = earlierFiles(folder);
   std::vector<FileToWrite> files;
   for (const Figure& figure : content.figures) {
     files.push_back({pictureFile(figure), {figure.png.begin(), figure.png.end()}});
@@ -46,9 +54,9 @@ void writeReportFiles(const fs::path& folder, const ReportContent& content, cons
   for (const FileToWrite& file : files) made.insert(file.name);
   Json results = resultsJson(content);
   results["files"] = made;
-  files.push_back({"results.json", results.dump(1) + '\n'});
+  files.push_back(
+      {"results.json", ByteSource([&results](const ByteSink& sink) { writeJson(results, sink); })});
   files.push_back({"report.html", page.html});
-  std::vector<std::string> superseded = earlierFiles(folder);
   std::erase_if(superseded, [&](const std::string& name) { return made.contains(name); });
   writeFolderWhole(folder, files, superseded);
 }

@@ -70,11 +70,11 @@ struct Result {
     } else {
       own = loaded ? identify(prepared.campaign, options) : framesAlone(prepared.campaign);
     }
+    withoutLoadReadings(prepared.campaign);
+    if (improved) withoutLoadReadings(improved->campaign);
     if (loaded) diagnosis = diagnose(read);
     audited = audit(std::move(read));
     if (diagnosis) addSeparableEffects(*diagnosis, audited);
-    withoutLoadReadings(prepared.campaign);
-    if (improved) withoutLoadReadings(improved->campaign);
   }
 
   /// Of loads, stiffnesses are the purpose; of a day of sweeps alone, the frames.

@@ -15,6 +15,7 @@
 #include "app/figures/subset_spreads.h"
 #include "app/figures/sweep_circles.h"
 #include "app/figures/wrist_sphere.h"
+#include "app/returned_memory.h"
 #include "render/png.h"
 #include "reports/page/avoided_by_encoders.h"
 #include "reports/page/effect_words.h"
@@ -47,6 +48,7 @@ class FigureList {
   void add(const char* section, Figure figure, const Picture& picture, Size size = kChart) {
     figures_.push_back(drawn(std::move(figure), picture, size));
     figures_.back().section = section;
+    returnFreeMemory();  // of making the shaders, and of what was drawn
   }
 
   /// How good the readings are that everything else stands on.

@@ -24,17 +24,21 @@ void writeAll(int file, std::string_view bytes, const fs::path& named) {
     if (some < 0 && errno != EINTR) fail(named, std::strerror(errno));
     if (some > 0) bytes.remove_prefix(static_cast<std::size_t>(some));
   }
+}
+
+void synchronise(int file, const fs::path& named) {
   // A device or a pipe cannot be synchronised, and need not be.
   if (::fsync(file) != 0 && errno != EINVAL && errno != EROFS) fail(named, std::strerror(errno));
 }
 
 }  // namespace
 
-void writeFileNamed(const fs::path& file, std::string_view bytes, const fs::path& named) {
+void writeFileNamed(const fs::path& file, const ByteSource& bytes, const fs::path& named) {
   const int descriptor = ::open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
   if (descriptor < 0) fail(named, std::strerror(errno));
   try {
-    writeAll(descriptor, bytes, named);
+    bytes([&](std::string_view part) { writeAll(descriptor, part, named); });
+    synchronise(descriptor, named);
   } catch (...) {
     ::close(descriptor);
     throw;
@@ -43,6 +47,10 @@ void writeFileNamed(const fs::path& file, std::string_view bytes, const fs::path
 }
 
 void writeFileWhole(const fs::path& path, std::string_view bytes) {
+  writeFileWhole(path, [bytes](const ByteSink& sink) { sink(bytes); });
+}
+
+void writeFileWhole(const fs::path& path, const ByteSource& bytes) {
   std::error_code error;
   if (path.filename().empty()) fail(path, "it names no file");
   const fs::file_status status = fs::status(path, error);
@@ -64,7 +72,8 @@ void writeFileWhole(const fs::path& path, std::string_view bytes) {
 void makeFolder(const std::filesystem::path& folder) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
-  if (error) throw std::runtime_error(folder.string() + ": expected a folder that can be written: " + error.message());
+  if (error)
+    throw std::runtime_error(folder.string() + ": expected a folder that can be written: " + error.message());
 }
 
 }  // namespace stiffscope

@@ -2,13 +2,20 @@
 
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
+
+#include "core/input/write_file.h"
 
 namespace stiffscope {
 
 struct FileToWrite {
   std::string name;  ///< in the folder, without one of its own
-  std::string bytes;
+  ByteSource bytes;
+
+  FileToWrite(std::string file, std::string text)
+      : name(std::move(file)), bytes([own = std::move(text)](const ByteSink& sink) { sink(own); }) {}
+  FileToWrite(std::string file, ByteSource source) : name(std::move(file)), bytes(std::move(source)) {}
 };
 
 /// Writes files into a folder (made where absent) so that they appear together or not at all, whenever the program is

@@ -1,6 +1,7 @@
 #include "reports/json/identification_json.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "core/cartesian_stiffness/posture_stiffness.h"
 #include "core/identification/geometric_stiffness_cost.h"
@@ -118,7 +119,7 @@ Json perPostureJson(const Campaign& campaign, const Identification& result, cons
         posture["targets_mean_after_" + key + "_mm"] = method.target_residual[i] / kMillimetre;
       }
     }
-    postures.push_back(posture);
+    postures.push_back(std::move(posture));
   }
   return postures;
 }
@@ -133,7 +134,7 @@ Json cartesianJson(const Campaign& campaign, const Identification& result, const
       rows[i]["k_c_cost_um"] = costs[i].at_targets / kMicrometre;
       rows[i]["k_c_cost_share"] = costs[i].share;
     }
-    return {{"method", namesOf(which).key}, {"rows", rows}};
+    return {{"method", namesOf(which).key}, {"rows", std::move(rows)}};
   }
   return nullptr;
 }
@@ -154,7 +155,11 @@ Json outlyingJson(const Campaign& campaign, const Identification& result) {
 }  // namespace
 
 Json identificationJson(const Campaign& campaign, const Identification& result, const std::vector<Method>& methods) {
-  Json json{{"campaign", campaignJson(campaign)}, {"step", result.step}, {"steps", result.steps}, {"postures", postureCount(result)}};
+  Json json = objectWithRoom(20);
+  json["campaign"] = campaignJson(campaign);
+  json["step"] = result.step;
+  json["steps"] = result.steps;
+  json["postures"] = postureCount(result);
   json["left_out"] = result.left_out;
   json["outlying"] = outlyingJson(campaign, result);
   json["cautions"] = result.cautions;

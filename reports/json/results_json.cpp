@@ -1,5 +1,7 @@
 #include "reports/json/results_json.h"
 
+#include <utility>
+
 #include "core/input/units.h"
 #include "reports/json/audit_json.h"
 #include "reports/json/diagnosis_json.h"
@@ -24,7 +26,7 @@ Json avoidedJson(const AvoidedByEncoders& avoided) {
 }
 
 Json campaignResults(const ReportCampaign& one) {
-  Json json;
+  Json json = objectWithRoom(5);
   if (one.preparation != nullptr) json["preparation"] = preparationJson(*one.preparation);
   if (one.audit != nullptr) json["audit"] = auditJson(one.campaign, *one.audit);
   json["frames"] = framesJson(one.campaign, one.identification.frames);
@@ -44,7 +46,10 @@ Json resultsJson(const ReportContent& content) {
   for (const ReportCampaign& one : content.campaigns) {
     campaigns.push_back(campaignResults(one));
   }
-  Json json{{"versions", versions}, {"campaigns", campaigns}, {"cautions", doubtsOfTheMachine(content.campaigns)}};
+  Json json = objectWithRoom(5);
+  json["versions"] = std::move(versions);
+  json["campaigns"] = std::move(campaigns);
+  json["cautions"] = doubtsOfTheMachine(content.campaigns);
   json["avoided"] = content.avoided && content.avoided->available ? avoidedJson(*content.avoided) : Json(nullptr);
   return json;
 }

@@ -16,8 +16,14 @@ Json rows(int count) {
   return list;
 }
 
+std::string jsonText(const Json& json) {
+  std::string text;
+  writeJson(json, [&text](std::string_view part) { text += part; });
+  return text;
+}
+
 TEST(JsonText, IsThatOfDump) {
-  for (const int count : {0, 1, 499, 500, 512, 2000}) {
+  for (const int count : {0, 1, 499, 500, 512, 2000, 2048, 2049, 5000}) {
     const Json list = rows(count);
     const Json object{{"name", "a"}, {"rows", list}, {"key \"\n", {{"deeper", {{"rows", list}, {"", 1}}}, {"x", Json::object()}}}};
     for (const Json& json : {list, object, Json{{"lists", {list, list}}}}) EXPECT_EQ(jsonText(json), json.dump(1) + '\n');

@@ -27,18 +27,25 @@ std::size_t entriesIn(const fs::path& folder) {
   return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder), {}));
 }
 
-/// Two files of one generation, the second large enough to be cut.
-std::vector<FileToWrite> generation(int number) {
-  const std::string name = std::to_string(number);
+std::string largeText(int number) {
   std::string large;
-  for (int i = 0; i < 20000; ++i) large += name + '\n';
-  return {{"a.txt", name}, {"b.txt", large}};
+  for (int i = 0; i < 20000; ++i) large += std::to_string(number) + '\n';
+  return large;
+}
+
+/// Two files of one generation, the second large enough to be cut, and handed over in two parts.
+std::vector<FileToWrite> generation(int number) {
+  const auto in_two = [large = largeText(number)](const ByteSink& sink) {
+    sink(std::string_view(large).substr(0, 1000));
+    sink(std::string_view(large).substr(1000));
+  };
+  return {{"a.txt", std::to_string(number)}, {"b.txt", ByteSource(in_two)}};
 }
 
 /// The generation that the folder holds, -1 where it holds two or a part of one.
 int generationIn(const fs::path& folder) {
   const int number = std::stoi("0" + contentOf(folder / "a.txt"));
-  return contentOf(folder / "b.txt") == generation(number)[1].bytes ? number : -1;
+  return contentOf(folder / "b.txt") == largeText(number) ? number : -1;
 }
 
 TEST(WriteFolder, MakesTheFolderAndLeavesNothingBesideIt) {
