@@ -28,7 +28,7 @@ std::filesystem::path findModule() {
 }
 
 // RTLD_DEEPBIND: VTK in the module must find the module's OSMesa and not a GLX that the program has brought
-// along (OpenCV does). Sanitizers refuse that flag; they get by without it in programs that have no GLX.
+// along (OpenCV does). Sanitizers refuse that flag; their programs have osmesa_for_glx.cpp of their own.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__) || !defined(RTLD_DEEPBIND)
 constexpr int kFlags = RTLD_NOW | RTLD_LOCAL;
 #else
