@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "app/command.h"
+#include "app/option_values.h"
 #include "app/output.h"
 #include "app/usage_error.h"
 
@@ -26,6 +27,7 @@ int runCommandLine(int count, char** words) {
   addSimulate(app, run);
   addReport(app, run);
   addView(app, run);
+  checkOptionValues(app);
   try {
     app.parse(count, words);
   } catch (const CLI::Success& asked) {  // --help, --version

@@ -6,6 +6,8 @@
 #include <stdexcept>
 
 #include "app/json_text.h"
+#include "core/input/files_read.h"
+#include "core/input/one_line.h"
 #include "core/input/write_file.h"
 
 namespace stiffscope {
@@ -22,15 +24,18 @@ void printWarnings(const std::vector<std::string>& warnings) {
 
 void deliver(const std::function<Json()>& json, const std::function<std::string()>& text, const std::string& json_file) {
   const bool json_only = json_file == "-";
-  if (json_only) return writeJson(json(), printText);
+  if (json_only) return writeJson(json(), printBytes);
   if (!json_file.empty()) {
+    requireNotRead(json_file);
     const Json values = json();
     writeFileWhole(json_file, [&values](const ByteSink& sink) { writeJson(values, sink); });
   }
   printText(text());
 }
 
-void printText(std::string_view text) {
+void printText(std::string_view text) { printBytes(withoutControls(text)); }
+
+void printBytes(std::string_view text) {
   errno = 0;
   std::fwrite(text.data(), 1, text.size(), stdout);
   if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return;

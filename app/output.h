@@ -23,11 +23,13 @@ inline Hashes hashesFor(const std::string& json_file) { return json_file.empty()
 
 void printWarnings(const std::vector<std::string>& warnings);
 
-/// Prints to standard output; throws std::runtime_error with the reason where that fails (a full disk, a closed file).
+/// Print to standard output; throw std::runtime_error with the reason where that fails (a full disk, a closed file). Text may
+/// hold names out of a file: what would command a terminal becomes '?'.
 void printText(std::string_view text);
+void printBytes(std::string_view text);
 
 /// The result: as JSON alone to standard output where `json_file` is `-`; else as text there, and as JSON to the file that
-/// is named, if any. Only what is asked for is made.
+/// is named, if any; std::runtime_error where that file was read. Only what is asked for is made.
 void deliver(const std::function<Json()>& json, const std::function<std::string()>& text, const std::string& json_file);
 
 }  // namespace stiffscope

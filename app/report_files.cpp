@@ -1,7 +1,11 @@
 #include "app/report_files.h"
 
+#include <algorithm>
 #include <fstream>
 #include <set>
+#include <stdexcept>
+#include <string>
+#include <system_error>
 #include <vector>
 
 #include "app/json_text.h"
@@ -41,9 +45,29 @@ std::vector<std::string> earlierFiles(const fs::path& folder) {
   return names;
 }
 
+std::set<std::string> namesIn(const fs::path& folder) {
+  std::set<std::string> names;
+  std::error_code none;
+  for (const auto& entry : fs::directory_iterator(folder, none)) names.insert(entry.path().filename().string());
+  return names;
+}
+
+/// Throws std::runtime_error where a file to be made is `there` and not `earlier` made by a report: it is the user's.
+void requireOwn(const fs::path& folder, const std::set<std::string>& there, const std::vector<std::string>& earlier,
+                const std::set<std::string>& made) {
+  for (const std::string& name : made) {
+    if (!there.contains(name) || std::find(earlier.begin(), earlier.end(), name) != earlier.end()) continue;
+    if ((name == "results.json" || name == "report.html") && !earlier.empty()) continue;
+    throw std::runtime_error((folder / name).string() +
+                             ": not written: it is there and of no earlier report; expected another folder, or that file away");
+  }
+}
+
 }  // namespace
 
 void writeReportFiles(const fs::path& folder, const ReportContent& content, const ReportPage& page) {
+  // What is there is looked at before what is listed: another run may replace both between the two.
+  const std::set<std::string> there = namesIn(folder);
   std::vector<std::string> superseded = earlierFiles(folder);
   std::vector<FileToWrite> files;
   for (const Figure& figure : content.figures) {
@@ -52,6 +76,7 @@ void writeReportFiles(const fs::path& folder, const ReportContent& content, cons
   for (const TableFile& table : page.tables) files.push_back({table.name + ".csv", table.csv});
   std::set<std::string> made{"results.json", "report.html"};
   for (const FileToWrite& file : files) made.insert(file.name);
+  requireOwn(folder, there, superseded, made);
   Json results = resultsJson(content);
   results["files"] = made;
   files.push_back(

@@ -4,10 +4,12 @@
 #include <algorithm>
 #include <filesystem>
 #include <memory>
+#include <stdexcept>
 
 #include "app/command.h"
 #include "app/output.h"
 #include "core/audit/prepare.h"
+#include "core/input/files_read.h"
 #include "core/input/input_error.h"
 #include "core/input/nearest_name.h"
 #include "core/input/units.h"
@@ -72,12 +74,22 @@ std::optional<Identification> identified(const Campaign& campaign) {
   return identify(campaign);
 }
 
+/// Of two results in one file one would be lost.
+void requireTwoFiles(const Arguments& arguments) {
+  if (arguments.out.empty() || arguments.json.empty() || arguments.json == "-") return;
+  namespace fs = std::filesystem;
+  if (fs::weakly_canonical(arguments.out) != fs::weakly_canonical(arguments.json)) return;
+  throw std::runtime_error(arguments.json + ": expected another file for --json than for --out");
+}
+
 int planDay(const Arguments& arguments, const Given& given) {
+  requireTwoFiles(arguments);
   const PlanOptions options = optionsOf(arguments, given);
   const Campaign campaign = prepareCampaign(openCampaign(arguments.campaign)).campaign;
   const std::optional<Identification> result = identified(campaign);
   const Plan plan = planCampaign(campaign, result ? &*result : nullptr, options);
   if (!arguments.out.empty()) {
+    requireNotRead(arguments.out);
     const bool xml = std::filesystem::path(arguments.out).extension() == ".xml";
     writeFileWhole(arguments.out, xml ? planXml(plan) : planCsv(plan));
   }

@@ -11,6 +11,7 @@
 
 #include "app/command.h"
 #include "app/figures/make_figures.h"
+#include "app/no_campaign_there.h"
 #include "app/output.h"
 #include "app/prepared.h"
 #include "app/report_files.h"
@@ -115,6 +116,7 @@ void addImproved(const std::vector<std::string>& words, const std::list<Result>&
 }
 
 int writeReport(const Arguments& arguments) {
+  requireNoCampaign(arguments.out, "expected a folder of the report's own");
   returnLargeBlocks();
   IdentifyOptions options;
   options.step = loadStepNamed(arguments.step);

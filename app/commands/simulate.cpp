@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "app/command.h"
+#include "app/no_campaign_there.h"
 #include "app/output.h"
 #include "core/campaign/write_campaign.h"
 #include "core/simulation/read_spec.h"
@@ -16,18 +17,26 @@ namespace stiffscope {
 void addSimulate(CLI::App& app, Run& run) {
   struct Arguments {
     std::string spec, out;
+    bool replace = false;
   };
   const auto arguments = std::make_shared<Arguments>();
   CLI::App* command = app.add_subcommand("simulate", "A campaign measured on a described machine");
   command->add_option("SPEC", arguments->spec, "description of the machine and the day (XML)")->required();
   command->add_option("--out", arguments->out, "campaign folder to write")->required();
+  command->add_flag("--replace", arguments->replace, "write over a campaign that is there");
   command->callback([arguments, &run] {
     run = [arguments] {
       const SimulationSpec spec = readSimulationSpec(arguments->spec);
+      if (!arguments->replace) requireNoCampaign(arguments->out, "expected another folder, or --replace to write over it");
       const std::vector<int> rigid = rigidJoints(spec);
       if (!rigid.empty()) {
         printWarnings({fmt::format("{}: joints: no stiffness_nm_per_rad for joint{} {}: taken as rigid", arguments->spec,
                                    rigid.size() == 1 ? "" : "s", fmt::join(rigid, ", "))});
+      }
+      const Tracker& declared = spec.tracker.declared;
+      if (declared.range_fixed + declared.range_per_m <= 0.0 || declared.angle_fixed + declared.angle_per_m <= 0.0) {
+        printWarnings({arguments->spec + ": tracker: no noise declared in range or in angle: no command reads such a "
+                       "campaign; for readings without noise declare some and set true_noise_factor=\"0\""});
       }
       writeCampaign(simulate(spec), spec.urdf_file, arguments->out);
       std::printf("%s: campaign written\n", arguments->out.c_str());

@@ -9,6 +9,7 @@
 #include "app/view/open_material.h"
 #include "app/view/viewer.h"
 #include "core/audit/prepare.h"
+#include "core/input/files_read.h"
 #include "core/input/input_error.h"
 #include "core/input/nearest_name.h"
 #include "core/input/write_file.h"
@@ -21,6 +22,7 @@ namespace stiffscope {
 namespace {
 
 void savePicture(const Image& image, const std::filesystem::path& file) {
+  requireNotRead(file);
   const auto png = encodePng(image);
   writeFileWhole(file, {reinterpret_cast<const char*>(png.data()), png.size()});
 }

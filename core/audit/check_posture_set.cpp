@@ -4,6 +4,7 @@
 #include "core/audit/limits.h"
 #include "core/audit/rows.h"
 #include "core/identification/identifiability.h"
+#include "core/identification/load_step.h"
 #include "core/identification/partial_pose.h"
 
 namespace stiffscope {
@@ -17,14 +18,30 @@ std::string described(std::size_t joint, const JointIdentifiability& judged) {
                      joint + 1, judged.trusted_rms, judged.uncertainty_rms);
 }
 
+/// A day of sweeps alone has nothing to test here; one that was loaded, and of which no load is of use, fails.
+AuditCheck withoutCases(const Evidence& evidence) {
+  const Campaign& campaign = evidence.campaign;
+  const bool measured = campaign.loading || campaign.displacements;
+  if (!measured) return notTestable("posture_set", "no loads: measure `loading`, `states` and `load_cell`");
+  const std::string lacking = whatLoadsLack(campaign);
+  if (lacking.empty() && evidence.step && !evidence.frames.arm.points_placed) {
+    return notTestable("posture_set", "the loading's readings cannot be brought into R0: sweep axes 1 and 2");
+  }
+  AuditCheck check;
+  check.id = "posture_set";
+  check.verdict = AuditVerdict::fail;
+  check.message = !lacking.empty() ? lacking
+                  : !evidence.step ? "no load step has a force"
+                                   : "no posture has readings unloaded (step 0) and at the heaviest load step: nothing to identify from";
+  return check;
+}
+
 }  // namespace
 
 Findings checkPostureSet(const Evidence& evidence) {
   const LoadedArm& arm = evidence.arm;
   if (arm.cases.empty()) {
-    return {notTestable("posture_set",
-                        evidence.step ? "the loading's readings cannot be brought into R0: sweep axes 1 and 2"
-                                      : "no loads: measure `loading`, `states` and `load_cell`")};
+    return {withoutCases(evidence)};
   }
   const std::vector<CaseEquations> equations = reflectorEquations(arm);
   const Identifiability judged =

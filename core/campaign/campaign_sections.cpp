@@ -29,6 +29,20 @@ void requirePlausible(const XmlNode& node, const std::string& attribute, CellKin
   if (magnitude > info.limit) node.refuse(attribute, node.requiredAttribute(attribute), info.expectation);
 }
 
+// Readings without noise would outweigh all others without bound; and no tracker is a decimetre off.
+void requireNoise(const XmlNode& node, const std::string& attribute, double sum) {
+  constexpr double kLeast = 1e-9, kMost = 0.1;  // m
+  if (sum >= kLeast && sum <= kMost) return;
+  node.refuse(attribute, node.requiredAttribute(attribute),
+              "expected, together with what grows by the metre, 0.001 to 100000 um");
+}
+
+double atMost(const XmlNode& node, const std::string& attribute, double limit) {
+  const double value = notNegative(node, attribute);
+  if (value > limit) node.refuse(attribute, node.requiredAttribute(attribute), fmt::format("expected 0 to {:.0f}", limit));
+  return value;
+}
+
 Eigen::Vector3d millimetres(const XmlNode& node, const std::string& attribute) {
   const Eigen::Vector3d value = node.vector(attribute);
   requirePlausible(node, attribute, CellKind::millimetre, value.cwiseAbs().maxCoeff());
@@ -68,6 +82,8 @@ Tracker readTracker(const XmlNode& node, std::vector<std::string>& warnings) {
   tracker.range_per_m = notNegative(node, "range_per_m_um") * kMicrometre;
   tracker.angle_fixed = notNegative(node, "angle_fixed_um") * kMicrometre;
   tracker.angle_per_m = notNegative(node, "angle_per_m_um") * kMicrometre;
+  requireNoise(node, "range_fixed_um", tracker.range_fixed + tracker.range_per_m);
+  requireNoise(node, "angle_fixed_um", tracker.angle_fixed + tracker.angle_per_m);
   tracker.station = pointOf(node);
   return tracker;
 }
@@ -100,14 +116,19 @@ LoadCell readLoadCell(const XmlNode& node, std::vector<std::string>& warnings) {
     requirePlausible(node, "rpy_deg", CellKind::degree, rpy.cwiseAbs().maxCoeff());
     if (!cell.axes_link) cell.parent_from_cell.linear() = rotationFromRpy(rpy * kDegree);
   }
-  cell.force_sigma = notNegative(node, "force_sigma_n");
-  cell.moment_sigma = notNegative(node, "moment_sigma_nm");
+  constexpr double kMostSigma = 1e6;  // N and Nm, as of the readings themselves
+  cell.force_sigma = atMost(node, "force_sigma_n", kMostSigma);
+  cell.moment_sigma = atMost(node, "moment_sigma_nm", kMostSigma);
+  const double lever = cell.parent_from_cell.translation().norm() / kMillimetre;
+  if (lever > 0.0 && lever < 1.0)
+    warnings.push_back(node.warning("xyz_mm", node.requiredAttribute("xyz_mm"), "less than a millimetre: written in metres?"));
   return cell;
 }
 
 Tool readTool(const XmlNode& node, std::vector<std::string>& warnings) {
   warnOfUnknown(node, {"mass_kg", "com_mm"}, {}, warnings);
-  return {notNegative(node, "mass_kg"), millimetres(node, "com_mm")};
+  constexpr double kMostMass = 5000.0;  // kg, more than the strongest arm carries
+  return {atMost(node, "mass_kg", kMostMass), millimetres(node, "com_mm")};
 }
 
 TableReference readTableReference(const XmlNode& node, std::vector<std::string>& warnings) {

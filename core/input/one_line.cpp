@@ -32,4 +32,16 @@ std::string oneLine(std::string_view text, std::size_t longest) {
   return shown;
 }
 
+std::string withoutControls(std::string_view text) {
+  std::string shown;
+  shown.reserve(text.size());
+  while (!text.empty()) {
+    const bool kept = text[0] == '\n' || text[0] == '\t';
+    const std::size_t length = kept ? 1 : shownLength(text);
+    shown += length == 0 ? std::string_view("?") : text.substr(0, length);
+    text.remove_prefix(length == 0 ? 1 : length);
+  }
+  return shown;
+}
+
 }  // namespace stiffscope

@@ -10,4 +10,7 @@ namespace stiffscope {
 /// and what is longer than `longest` bytes is cut between characters and ends in "...".
 std::string oneLine(std::string_view text, std::size_t longest);
 
+/// `text` of several lines and of any length, all else as above.
+std::string withoutControls(std::string_view text);
+
 }  // namespace stiffscope

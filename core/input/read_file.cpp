@@ -10,6 +10,7 @@
 #include <numeric>
 #include <vector>
 
+#include "core/input/files_read.h"
 #include "core/input/input_error.h"
 #include "core/input/utf8.h"
 #include "core/parallel/on_all_cores.h"
@@ -73,6 +74,10 @@ void requireOrdinary(const fs::path& path, const struct ::stat& status, std::siz
 }
 
 void requireUtf8(const fs::path& path, std::string_view bytes) {
+  using namespace std::string_view_literals;
+  if (bytes.starts_with("\xFF\xFE\0\0"sv) || bytes.starts_with("\0\0\xFE\xFF"sv)) {
+    refuse(path, "expected text in UTF-8; this file is UTF-32 by its byte-order mark, save it as UTF-8");
+  }
   for (const std::string_view mark : {"\xFF\xFE", "\xFE\xFF"}) {
     if (bytes.starts_with(mark)) {
       refuse(path, "expected text in UTF-8; this file is UTF-16 by its byte-order mark, save it as UTF-8");
@@ -125,6 +130,7 @@ TextFile readTextFileWithStamp(const fs::path& path, std::size_t largest) {
   const auto size = static_cast<std::size_t>(status.st_size);
   const Bytes read = readBlocks(file, size);
   const TextFile text{read.bytes, size, stampFrom(status)};
+  recordRead(text.stamp);
   if (read.size != size || stampFrom(file.status()) != text.stamp) {
     refuse(path, "expected a file that stays as it is; it changed while it was read");
   }

@@ -45,6 +45,10 @@ bool isKnownReference(std::string_view name) {
   return name == "amp" || name == "lt" || name == "gt" || name == "quot" || name == "apos";
 }
 
+std::size_t lineOf(std::string_view bytes, std::size_t at) {
+  return 1 + static_cast<std::size_t>(std::count(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(at), '\n'));
+}
+
 // XML knows no other '&' without a DOCTYPE, and tinyxml2 mixes up the letters behind one that follows a known reference.
 void refuseOtherReferences(const std::string& file, std::string_view bytes) {
   constexpr std::size_t kLongestReference = 12;
@@ -58,9 +62,29 @@ void refuseOtherReferences(const std::string& file, std::string_view bytes) {
     const std::string_view window = bytes.substr(at + 1, kLongestReference);
     const std::string_view name = window.substr(0, window.find(';'));
     if (bytes[at++] == '<' || (name.size() < window.size() && isKnownReference(name))) continue;
-    const auto line = 1 + std::count(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(at), '\n');
-    throw InputError({file, static_cast<std::size_t>(line), ""}, "&" + std::string(name.substr(0, name.find_first_of(" <\"\n"))),
+    throw InputError({file, lineOf(bytes, at), ""}, "&" + std::string(name.substr(0, name.find_first_of(" <\"\n"))),
                      "expected &amp; for an ampersand; XML without a document type has no entities of its own");
+  }
+}
+
+// tinyxml2 compares every attribute of an element with all before it: a hundred thousand of them would take half a minute.
+void refuseManyAttributes(const std::string& file, std::string_view bytes) {
+  constexpr int kMost = 1000;
+  for (std::size_t at = bytes.find('<'); at < bytes.size(); at = bytes.find('<', at)) {
+    const std::size_t behind = behindVerbatim(bytes, at);
+    const std::size_t element = at++;
+    if (behind > element) {
+      at = behind;
+      continue;
+    }
+    int attributes = 0;
+    for (at = bytes.find_first_of("\"'>", at); at < bytes.size() && bytes[at] != '>'; at = bytes.find_first_of("\"'>", at)) {
+      at = bytes.find(bytes[at], at + 1);  // the end of the value
+      if (++attributes > kMost) {
+        throw InputError({file, lineOf(bytes, element), ""}, "", fmt::format("expected an element of at most {} attributes", kMost));
+      }
+      if (at != bytes.npos) ++at;
+    }
   }
 }
 
@@ -89,6 +113,7 @@ XmlFile::XmlFile(std::string file, std::string_view bytes)
   if (hasDoctype(bytes)) {
     throw InputError({file_, 0, ""}, "DOCTYPE", "expected XML without a document type or entities");
   }
+  refuseManyAttributes(file_, bytes);
   if (document_->Parse(bytes.data(), bytes.size()) != tinyxml2::XML_SUCCESS) {
     throw InputError({file_, static_cast<std::size_t>(document_->ErrorLineNum()), ""}, "",
                      whyNotWellFormed(*document_));

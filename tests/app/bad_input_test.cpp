@@ -99,13 +99,46 @@ TEST(BadInput, AReportThatDoesNotFitLeavesTheEarlierOne) {
   const std::string words = " report '" STIFFSCOPE_SOURCE_DIR "/samples/inactive' --out '" + out.string() + "'";
   ASSERT_EQ(runProgram(words, scratch.path()).status, 0);
   const std::string page = contentsOf(out / "report.html"), results = contentsOf(out / "results.json");
-  const std::string line = "trap '' XFSZ; ulimit -f 8; env -u DISPLAY '" STIFFSCOPE_BINARY "'" + words +
+  const std::string line = "ulimit -f 8; env -u DISPLAY '" STIFFSCOPE_BINARY "'" + words +
                            " --neglect-kc >/dev/null 2>'" + (scratch.path() / "stderr").string() + "'";
   const int raw = std::system(line.c_str());
   EXPECT_EQ(WEXITSTATUS(raw), 2);
   const std::string said = contentsOf(scratch.path() / "stderr");
   EXPECT_NE(said.find("cannot be written: File too large"), std::string::npos) << said;
   EXPECT_TRUE(contentsOf(out / "report.html") == page && contentsOf(out / "results.json") == results);
+}
+
+TEST(BadInput, NamesOutOfAFileCommandNoTerminal) {
+  const ScratchFolder scratch;
+  const fs::path campaign = scratch.path() / "campaign";
+  fs::copy(STIFFSCOPE_SOURCE_DIR "/samples/active", campaign);
+  replaceOnce(campaign / "campaign.xml", "name=\"", "name=\"&#27;[31m");
+  const Ran ran = runProgram("identify '" + campaign.string() + "'", scratch.path());
+  EXPECT_EQ(ran.status, 0);
+  EXPECT_EQ(ran.out.find('\x1b'), std::string::npos);
+  EXPECT_NE(ran.out.find("?[31m"), std::string::npos);
+}
+
+TEST(BadInput, NoAuditPassesADayThatNothingCanBeIdentifiedFrom) {
+  const auto never_unloaded = [](const fs::path& c) {
+    for (const char* const table : {"states.csv", "loading.csv"}) {
+      std::istringstream rows(contentsOf(c / table));
+      std::ofstream kept(c / table);
+      for (std::string row; std::getline(rows, row);) {
+        if (row.find(",0,") != row.find(',')) kept << row << '\n';  // the step comes second
+      }
+    }
+  };
+  const auto without_cell = [](const fs::path& c) { replaceOnce(c / "campaign.xml", "<load_cell", "<load_sell"); };
+  for (const auto& spoil : {std::function<void(const fs::path&)>(never_unloaded), std::function<void(const fs::path&)>(without_cell)}) {
+    const ScratchFolder scratch;
+    const fs::path campaign = scratch.path() / "campaign";
+    fs::copy(STIFFSCOPE_SOURCE_DIR "/samples/active", campaign);
+    spoil(campaign);
+    const Ran ran = runProgram("audit '" + campaign.string() + "'", scratch.path());
+    EXPECT_EQ(ran.status, 1) << ran.out << ran.err;
+    EXPECT_NE(ran.out.find("fail: not fit to identify from"), std::string::npos) << ran.out;
+  }
 }
 
 TEST(BadInput, AnUnreadableFileIsNamed) {

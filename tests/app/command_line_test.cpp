@@ -171,5 +171,21 @@ TEST(CommandLine, WhatRoundsToZeroHasNoSign) {
   EXPECT_FALSE(std::regex_search(text, std::regex("-0\\.0+[^0-9]"))) << text;
 }
 
+TEST(CommandLine, RefusesValuesThatNobodyMeans) {
+  const ScratchFolder scratch;
+  const std::string sample = " '" STIFFSCOPE_SOURCE_DIR "/samples/active' ";
+  const std::pair<std::string, std::string> refused[] = {
+      {"plan" + sample + "--hook 1,2,nan", "--hook: 'nan': expected a finite number"},
+      {"plan" + sample + "--load 1e400", "--load: '1e400': expected a finite number"},
+      {"plan" + sample + "--seed -1", "--seed: '-1': expected a whole number from 0 to"},
+      {"identify" + sample + "--json ''", "--json: expected a value; it is empty"},
+      {"identify" + sample + "--step ''", "--step: expected a value; it is empty"}};
+  for (const auto& [words, said] : refused) {
+    const Ran ran = runProgram(words, scratch.path());
+    EXPECT_EQ(ran.status, 2) << words;
+    EXPECT_NE(ran.err.find(said), std::string::npos) << ran.err;
+  }
+}
+
 }  // namespace
 }  // namespace stiffscope

@@ -24,6 +24,12 @@ const std::string kDeep = [] {
   return text;
 }();
 
+const std::string kManyAttributes = [] {
+  std::string text = "<campaign";
+  for (int i = 0; i < 1001; ++i) text += " a" + std::to_string(i) + "='>'";
+  return text + "/>";
+}();
+
 const Rejected kTables[] = {
     // Header lines.
     {"nests.csv", "x_mm", "x_m",
@@ -144,6 +150,13 @@ const Rejected kTables[] = {
     {"robot.urdf", "0.1 0 0.5", "0,1 0 0.5",
      "robot.urdf:11: xyz: '0,1 0 0.5': expected a number with a decimal point, not a decimal comma (three"},
     {"robot.urdf", "", "solid part\n", "robot.urdf:1: expected well-formed XML"},
+    {"robot.urdf", "<origin xyz=\"0.2", "<orgin xyz=\"0.2",
+     "robot.urdf:12: orgin: expected a name that URDF has here (did you mean 'origin'?)"},
+    {"robot.urdf", "xyz=\"0.2", "xzy=\"0.2", "robot.urdf:12: xzy: expected a name that URDF has here (did you mean 'xyz'?)"},
+    {"robot.urdf", "<mass value=\"20\"", "<mass vlaue=\"20\"", "vlaue: expected a name that URDF has here (did you mean 'value'?)"},
+    {"robot.urdf", "0.3 0 0.5\" rpy=\"0 0 0\"", "0.3 0 0.5\" rpy=\"180 -90 0\"",
+     "robot.urdf:13: rpy: '180 -90 0': expected radians, within one turn"},
+    {"robot.urdf", "\"0 2 0\"", "\"0 1e300 0\"", "robot.urdf:12: xyz: '0 1e300 0': expected an axis that is not zero, nor longer"},
     {"nests.csv", nullptr, nullptr,
      "campaign.xml:21: file: 'nests.csv': expected a file inside the campaign's folder; there is none of "
      "this name"},
@@ -167,6 +180,7 @@ const Rejected kXml[] = {
     {"campaign.xml", "",
      "<?xml version=\"1.0\"?><!DOCTYPE lolz [<!ENTITY a \"ha\"><!ENTITY b \"&a;&a;&a;\">]><campaign>&b;</campaign>",
      "campaign.xml: 'DOCTYPE': expected XML without a document type or entities"},
+    {"campaign.xml", "", kManyAttributes.c_str(), "campaign.xml:1: expected an element of at most 1000 attributes"},
     {"campaign.xml", "", kDeep.c_str(), "campaign.xml:1: expected elements nested less deeply"},
     {"campaign.xml", "Force &amp; Motion", "Force & Motion",
      "campaign.xml:3: '&': expected &amp; for an ampersand; XML without a document type has no entities"},
@@ -205,6 +219,12 @@ const Rejected kXml[] = {
      "campaign.xml:8: gravity_m_s2: '0 0 -9806': expected m/s^2, at most 20"},
     {"campaign.xml", "range_fixed_um=\"4\"", "range_fixed_um=\"-4\"",
      "campaign.xml:9: range_fixed_um: '-4': expected 0 or more"},
+    {"campaign.xml", "range_fixed_um=\"4\" range_per_m_um=\"0.6\"", "range_fixed_um=\"0\" range_per_m_um=\"0\"",
+     "campaign.xml:9: range_fixed_um: '0': expected, together with what grows by the metre, 0.001 to 100000 um"},
+    {"campaign.xml", "angle_fixed_um=\"6\"", "angle_fixed_um=\"6e9\"",
+     "campaign.xml:9: angle_fixed_um: '6e9': expected, together with what grows by the metre"},
+    {"campaign.xml", "force_sigma_n=\"1\"", "force_sigma_n=\"1e200\"", "campaign.xml:14: force_sigma_n: '1e200': expected 0 to 1000000"},
+    {"campaign.xml", "mass_kg=\"45\"", "mass_kg=\"45000\"", "campaign.xml:15: mass_kg: '45000': expected 0 to 5000"},
     {"campaign.xml", "range_per_m_um=\"0.6\"", "",
      "campaign.xml:9: range_per_m_um: expected this attribute of <tracker>"},
     {"campaign.xml",
