@@ -139,7 +139,7 @@ void addPlan(CLI::App& app, Run& run) {
       ->capture_default_str();
   command->add_option("--seed", options.seed, "of the random postures")->capture_default_str();
   command->add_option("--out", arguments->out,
-                      "write the postures to this file: CSV, or a simulation's XML by its name");
+                      "write the postures to this file: CSV, or where its name ends in .xml the <postures> of a simulation");
   command->add_option("--json", arguments->json, "write the result to this file, - for standard output");
   command->callback(
       [arguments, given, &run] { run = [arguments, given] { return planDay(*arguments, given); }; });

@@ -85,7 +85,10 @@ std::vector<Eigen::Vector3d> parsePoints(std::string_view bytes, const std::stri
   std::optional<int> count;
   std::size_t count_line = 0;
   for (std::size_t line = 1; !rest.empty(); ++line) {
-    const std::size_t end = rest.find('\n');
+    std::size_t end = rest.find('\n');
+    // Old Macs end lines with a CR alone; one before the LF is a blank of the last cell.
+    const std::size_t cr = rest.substr(0, end).find('\r');
+    if (cr != std::string_view::npos && cr + 1 != end) end = cr;
     const auto cells = cellsOf(rest.substr(0, end));
     rest.remove_prefix(end == std::string_view::npos ? rest.size() : end + 1);
     if (cells.empty()) continue;

@@ -35,6 +35,9 @@ TrackerSpec readTracker(const XmlNode& root) {
   tracker.declared.angle_fixed = nonNegativeOr(node, "angle_fixed_um", kMicrometre, 0.0);
   tracker.declared.angle_per_m = nonNegativeOr(node, "angle_per_m_um", kMicrometre, 0.0);
   tracker.true_noise_factor = nonNegativeOr(node, "true_noise_factor", 1.0, 1.0);
+  if (tracker.true_noise_factor > 1000.0) {
+    node.refuse("true_noise_factor", node.requiredAttribute("true_noise_factor"), "expected 0 to 1000");
+  }
   node.requiredAttribute("xyz_mm");
   node.requiredAttribute("rpy_deg");
   tracker.base_from_tracker = placement(node, "xyz_mm", "rpy_deg");

@@ -40,6 +40,14 @@ TEST(ReadPoints, BlanksTabsCommasAndSemicolons) {
   EXPECT_EQ(points[3], Eigen::Vector3d(-1e-3, 2.5, 3));
 }
 
+TEST(ReadPoints, AnyLineEnd) {
+  for (const char* const bytes : {"1 2 3\n4 5 6\n", "1 2 3\r\n4 5 6\r\n", "1 2 3\r4 5 6\r", "1 2 3\r4 5 6"}) {
+    const auto points = parsePoints(bytes, "p.txt");
+    ASSERT_EQ(points.size(), 2u);
+    EXPECT_EQ(points[1], Eigen::Vector3d(4, 5, 6));
+  }
+}
+
 TEST(ReadPoints, AFirstLineWithTheCount) {
   EXPECT_EQ(readPoints(written("2\n1 2 3\n4 5 6\n")).size(), 2u);
   EXPECT_EQ(readPoints(written("\n# head\n 2 \n1 2 3\n4 5 6")).size(), 2u);
