@@ -6,6 +6,7 @@
 
 #include "core/input/input_error.h"
 #include "core/input/nearest_name.h"
+#include "core/input/one_line.h"
 
 namespace stiffscope {
 
@@ -43,6 +44,18 @@ std::string unknownColumnsWarning(const std::vector<std::string>& unknown,
   return fmt::format("unknown column{} ignored: {}", unknown.size() > 1 ? "s" : "", list);
 }
 
+/// What may stand there for `missing`, to end a message with; `known`: some other column is as it should be.
+std::string insteadOf(const std::string& missing, const std::vector<std::string>& unknown, bool known) {
+  const std::string near = nearestName(missing, unknown);
+  if (!near.empty()) return fmt::format(" and has '{}'", near);
+  for (const std::string& name : unknown) {
+    std::string ascii = name;
+    std::erase_if(ascii, [](char c) { return (c & 0x80) != 0; });
+    if (ascii == missing) return fmt::format(" and has '{}' with a character that does not show (a no-break space?)", missing);
+  }
+  return known || unknown.empty() ? "" : fmt::format("; it starts with '{}'", oneLine(unknown.front(), 60));
+}
+
 }  // namespace
 
 std::vector<std::size_t> matchHeader(const std::string& file, std::size_t line,
@@ -56,11 +69,11 @@ std::vector<std::size_t> matchHeader(const std::string& file, std::size_t line,
   for (const WantedColumn& column : wanted) {
     const auto found = std::find(cells.begin(), cells.end(), column.name);
     if (found == cells.end()) {
-      const std::string near = nearestName(column.name, unknown);
       if (column.required) {
+        const auto named = std::count_if(cells.begin(), cells.end(), [](std::string_view cell) { return !cell.empty(); });
+        const bool known = static_cast<std::ptrdiff_t>(unknown.size()) < named;
         throw InputError({file, line, column.name}, "",
-                         "expected this column; the header lacks it" +
-                             (near.empty() ? "" : fmt::format(" and has '{}'", near)));
+                         "expected this column; the header lacks it" + insteadOf(column.name, unknown, known));
       }
       absent.push_back(column.name);
       places.push_back(kAbsentColumn);

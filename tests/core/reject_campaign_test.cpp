@@ -34,6 +34,11 @@ const Rejected kTables[] = {
     // Header lines.
     {"nests.csv", "x_mm", "x_m",
      "nests.csv:1: x_mm: expected this column; the header lacks it and has 'x_m'"},
+    {"nests.csv", "x_mm", "x_mm\xC2\xA0",
+     "nests.csv:1: x_mm: expected this column; the header lacks it and has 'x_mm' with a character that does not show"},
+    {"nests.csv", "time_s", "# exported, as it says,\ntime_s",
+     "nests.csv:1: time_s: expected this column; the header lacks it; it starts with '# exported'"},
+    {"nests.csv", "time_s", "sep=\ntime_s", "nests.csv:1: time_s: expected this column; the header lacks it; it starts with 'sep='"},
     {"nests.csv", "z_mm", "", "nests.csv:1: z_mm: expected this column; the header lacks it"},
     {"loading.csv", "time_s,", "", "loading.csv:1: time_s: expected this column"},
     {"circle_sweeps.csv", "q3_deg", "q3_rad", "circle_sweeps.csv:1: q3_deg: expected this column"},
