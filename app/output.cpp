@@ -5,7 +5,7 @@
 #include <cstring>
 #include <stdexcept>
 
-#include "app/json_text.h"
+#include "app/write_json.h"
 #include "core/input/files_read.h"
 #include "core/input/one_line.h"
 #include "core/input/write_file.h"

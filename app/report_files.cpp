@@ -8,7 +8,7 @@
 #include <system_error>
 #include <vector>
 
-#include "app/json_text.h"
+#include "app/write_json.h"
 #include "core/input/write_folder.h"
 #include "reports/json/json_values.h"
 #include "reports/json/results_json.h"

@@ -32,7 +32,7 @@ AuditCheck withoutCases(const Evidence& evidence) {
   check.verdict = AuditVerdict::fail;
   check.message = !lacking.empty() ? lacking
                   : !evidence.step ? "no load step has a force"
-                                   : "no posture has readings unloaded (step 0) and at the heaviest load step: nothing to identify from";
+                                   : "no posture has readings at the heaviest load step and, of absolute points, unloaded ones (step 0): nothing to identify from";
   return check;
 }
 

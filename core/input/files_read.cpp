@@ -28,15 +28,11 @@ void recordRead(const FileStamp& stamp) {
   files.ids.emplace(stamp.device, stamp.inode);
 }
 
-bool wasRead(const std::filesystem::path& path) {
+void requireNotRead(const std::filesystem::path& path) {
   const auto stamp = stampOf(path);
   FilesRead& files = filesRead();
   const std::lock_guard lock(files.mutex);
-  return stamp && files.ids.contains({stamp->device, stamp->inode});
-}
-
-void requireNotRead(const std::filesystem::path& path) {
-  if (!wasRead(path)) return;
+  if (!stamp || !files.ids.contains({stamp->device, stamp->inode})) return;
   throw std::runtime_error(path.string() + ": not written: it is an input of this run; expected another file");
 }
 

@@ -12,6 +12,7 @@
 
 #include "core/input/files_read.h"
 #include "core/input/input_error.h"
+#include "core/input/line_of.h"
 #include "core/input/utf8.h"
 #include "core/parallel/on_all_cores.h"
 
@@ -88,8 +89,7 @@ void requireUtf8(const fs::path& path, std::string_view bytes) {
   }
   const std::size_t at = findNotUtf8(bytes);
   if (at == std::string_view::npos) return;
-  const auto line = 1 + std::count(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(at), '\n');
-  refuse(path, "expected text in UTF-8; save the file in that encoding", static_cast<std::size_t>(line));
+  refuse(path, "expected text in UTF-8; save the file in that encoding", lineOf(bytes, at));
 }
 
 /// ASCII without a byte 0, as most text is.

@@ -1,9 +1,9 @@
 #include <fmt/format.h>
 #include <tinyxml2.h>
 
-#include <algorithm>
 #include <utility>
 
+#include "core/input/line_of.h"
 #include "core/input/xml_node.h"
 
 namespace stiffscope {
@@ -43,10 +43,6 @@ bool isKnownReference(std::string_view name) {
   if (name.starts_with("#x")) return name.size() > 2 && name.find_first_not_of("0123456789abcdefABCDEF", 2) == name.npos;
   if (name.starts_with("#")) return name.size() > 1 && name.find_first_not_of("0123456789", 1) == name.npos;
   return name == "amp" || name == "lt" || name == "gt" || name == "quot" || name == "apos";
-}
-
-std::size_t lineOf(std::string_view bytes, std::size_t at) {
-  return 1 + static_cast<std::size_t>(std::count(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(at), '\n'));
 }
 
 // XML knows no other '&' without a DOCTYPE, and tinyxml2 mixes up the letters behind one that follows a known reference.

@@ -1,4 +1,4 @@
-#include "app/json_text.h"
+#include "app/write_json.h"
 
 #include <gtest/gtest.h>
 
@@ -22,7 +22,7 @@ std::string jsonText(const Json& json) {
   return text;
 }
 
-TEST(JsonText, IsThatOfDump) {
+TEST(WriteJson, WritesWhatDumpGives) {
   for (const int count : {0, 1, 499, 500, 512, 2000, 2048, 2049, 5000}) {
     const Json list = rows(count);
     const Json object{{"name", "a"}, {"rows", list}, {"key \"\n", {{"deeper", {{"rows", list}, {"", 1}}}, {"x", Json::object()}}}};

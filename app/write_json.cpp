@@ -1,4 +1,4 @@
-#include "app/json_text.h"
+#include "app/write_json.h"
 
 #include <algorithm>
 #include <cstddef>
