@@ -34,7 +34,7 @@ def differences(binary, work, postures):
 
     def make(spec, part):
         simulated = folder.with_name(folder.name + "-day")
-        run(binary, "simulate", spec, "--out", simulated)
+        run(binary, "simulate", spec, "--out", simulated, "--replace")
         run(sys.executable, HERE / "make_displacements.py", simulated, part)
         shutil.rmtree(simulated)
 
