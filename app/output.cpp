@@ -22,12 +22,12 @@ void printWarnings(const std::vector<std::string>& warnings) {
   for (const std::string& warning : warnings) std::fprintf(stderr, "stiffscope: warning: %s\n", warning.c_str());
 }
 
-void deliver(const std::function<Json()>& json, const std::function<std::string()>& text, const std::string& json_file) {
+void deliver(const std::function<JsonDocument()>& json, const std::function<std::string()>& text, const std::string& json_file) {
   const bool json_only = json_file == "-";
   if (json_only) return writeJson(json(), printBytes);
   if (!json_file.empty()) {
     requireNotRead(json_file);
-    const Json values = json();
+    const JsonDocument values = json();
     writeFileWhole(json_file, [&values](const ByteSink& sink) { writeJson(values, sink); });
   }
   printText(text());

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/campaign/read_campaign.h"
-#include "reports/json/json_values.h"
+#include "reports/json/json_document.h"
 
 namespace stiffscope {
 
@@ -30,6 +30,6 @@ void printBytes(std::string_view text);
 
 /// The result: as JSON alone to standard output where `json_file` is `-`; else as text there, and as JSON to the file that
 /// is named, if any; std::runtime_error where that file was read. Only what is asked for is made.
-void deliver(const std::function<Json()>& json, const std::function<std::string()>& text, const std::string& json_file);
+void deliver(const std::function<JsonDocument()>& json, const std::function<std::string()>& text, const std::string& json_file);
 
 }  // namespace stiffscope

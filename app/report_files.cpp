@@ -77,8 +77,8 @@ void writeReportFiles(const fs::path& folder, const ReportContent& content, cons
   std::set<std::string> made{"results.json", "report.html"};
   for (const FileToWrite& file : files) made.insert(file.name);
   requireOwn(folder, there, superseded, made);
-  Json results = resultsJson(content);
-  results["files"] = made;
+  JsonDocument results = resultsJson(content);
+  results.json["files"] = made;
   files.push_back(
       {"results.json", ByteSource([&results](const ByteSink& sink) { writeJson(results, sink); })});
   files.push_back({"report.html", page.html});

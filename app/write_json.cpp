@@ -11,14 +11,25 @@ namespace stiffscope {
 
 namespace {
 
+using Place = Json::json_pointer;
+
 /// Elements from which on a list is shared among the cores: rows of a posture each, which take some 20 us.
 constexpr std::size_t kLong = 500;
 
-/// Whether there is a long list in it, which is looked for where results have them: not inside of another
-/// list.
-bool hasLongList(const Json& value) {
-  if (value.is_array()) return value.size() >= kLong;
-  return value.is_object() && std::any_of(value.begin(), value.end(), hasLongList);
+/// Whether a list that is long, or not made yet, is in `value` or is it.
+bool hasLongList(const JsonDocument& document, const Json& value, const Place& place) {
+  if (document.rowsAt(place) != nullptr) return true;
+  if (value.is_array()) {
+    if (value.size() >= kLong) return true;
+    for (std::size_t i = 0; i < value.size(); ++i) {
+      if (value[i].is_structured() && hasLongList(document, value[i], place / i)) return true;
+    }
+  } else if (value.is_object()) {
+    for (const auto& [key, inner] : value.items()) {
+      if (hasLongList(document, inner, place / key)) return true;
+    }
+  }
+  return false;
 }
 
 /// A value that stands `depth` deep, as dump(1) writes it there.
@@ -35,66 +46,91 @@ void addShort(const Json& value, std::size_t depth, std::string& text) {
 /// The text on its way to a sink.
 class JsonWriter {
  public:
-  explicit JsonWriter(const ByteSink& sink) : sink_(sink) {}
+  JsonWriter(const JsonDocument& document, const ByteSink& sink) : document_(document), sink_(sink) {}
 
-  void add(const Json& value, std::size_t depth) {
-    if (!hasLongList(value)) {
-      addShort(value, depth, text_);
-    } else if (value.is_array()) {
-      addLongList(value, depth);
-    } else {
-      addObject(value, depth);
-    }
-  }
-
-  void end() {
+  void addAll() {
+    add(document_.json, {}, 0);
     text_ += '\n';
-    sink_(text_);
-    text_.clear();
+    handOn();
   }
 
  private:
-  void addLongList(const Json& list, std::size_t depth) {
-    constexpr std::size_t kBlock = 64, kBlocksTogether = 32;
-    std::vector<std::string> blocks(kBlocksTogether);
-    text_ += '[';
-    for (std::size_t from = 0; from < list.size(); from += kBlock * kBlocksTogether) {
-      onAllCores(kBlocksTogether, [&](std::size_t block) {
-        blocks[block].clear();
-        const std::size_t first = from + block * kBlock, end = std::min(list.size(), first + kBlock);
-        for (std::size_t i = first; i < end; ++i) {
-          blocks[block].append(i == 0 ? "\n" : ",\n").append(depth + 1, ' ');
-          addShort(list[i], depth + 1, blocks[block]);
-        }
+  void add(const Json& value, const Place& place, std::size_t depth) {
+    if (const JsonRows* rows = document_.rowsAt(place)) {
+      addRows(rows->count, depth, [rows](std::size_t i, std::size_t deep, std::string& text) {
+        addShort(rows->row(i), deep, text);
       });
-      sink_(text_);
-      text_.clear();
-      for (const std::string& block : blocks) sink_(block);
+    } else if (!hasLongList(document_, value, place)) {
+      addShort(value, depth, text_);
+    } else if (value.is_object()) {
+      addObject(value, place, depth);
+    } else if (value.size() >= kLong) {
+      addRows(value.size(), depth, [&value](std::size_t i, std::size_t deep, std::string& text) {
+        addShort(value[i], deep, text);
+      });
+    } else {
+      addList(value, place, depth);
     }
-    text_.append("\n").append(depth, ' ') += ']';
   }
 
-  void addObject(const Json& object, std::size_t depth) {
+  template <class AddRow>
+  void addRows(std::size_t count, std::size_t depth, const AddRow& addRow) {
+    constexpr std::size_t kBlock = 64, kBlocksTogether = 32;
+    if (count == 0) {
+      text_ += "[]";
+      return;
+    }
+    std::vector<std::string> blocks(kBlocksTogether);
+    text_ += '[';
+    for (std::size_t from = 0; from < count; from += kBlock * kBlocksTogether) {
+      onAllCores(kBlocksTogether, [&](std::size_t block) {
+        blocks[block].clear();
+        const std::size_t first = from + block * kBlock, end = std::min(count, first + kBlock);
+        for (std::size_t i = first; i < end; ++i) {
+          blocks[block].append(i == 0 ? "\n" : ",\n").append(depth + 1, ' ');
+          addRow(i, depth + 1, blocks[block]);
+        }
+      });
+      handOn();
+      for (const std::string& block : blocks) sink_(block);
+    }
+    endOf(']', depth);
+  }
+
+  void addList(const Json& list, const Place& place, std::size_t depth) {
+    text_ += '[';
+    for (std::size_t i = 0; i < list.size(); ++i) {
+      text_.append(i == 0 ? "\n" : ",\n").append(depth + 1, ' ');
+      add(list[i], place / i, depth + 1);
+    }
+    endOf(']', depth);
+  }
+
+  void addObject(const Json& object, const Place& place, std::size_t depth) {
     text_ += '{';
     const char* between = "\n";
     for (const auto& [key, value] : object.items()) {
       text_.append(between).append(depth + 1, ' ').append(Json(key).dump()).append(": ");
-      add(value, depth + 1);
+      add(value, place / key, depth + 1);
       between = ",\n";
     }
-    text_.append("\n").append(depth, ' ') += '}';
+    endOf('}', depth);
   }
 
+  void endOf(char closing, std::size_t depth) { text_.append("\n").append(depth, ' ') += closing; }
+
+  void handOn() {
+    sink_(text_);
+    text_.clear();
+  }
+
+  const JsonDocument& document_;
   const ByteSink& sink_;
   std::string text_;  ///< not handed on yet
 };
 
 }  // namespace
 
-void writeJson(const Json& json, const ByteSink& sink) {
-  JsonWriter writer(sink);
-  writer.add(json, 0);
-  writer.end();
-}
+void writeJson(const JsonDocument& document, const ByteSink& sink) { JsonWriter(document, sink).addAll(); }
 
 }  // namespace stiffscope

@@ -1,12 +1,12 @@
 #pragma once
 
 #include "core/input/write_file.h"
-#include "reports/json/json_values.h"
+#include "reports/json/json_document.h"
 
 namespace stiffscope {
 
-/// Hands json.dump(1) and a line end to `sink`: that text, long lists of it written on all cores, in parts,
-/// so that tens of megabytes do not stand in memory beside the values.
-void writeJson(const Json& json, const ByteSink& sink);
+/// Hands what dump(1) gives, and a line end, to `sink`, in parts; long lists of it are made and written on all cores, a few
+/// thousand rows at a time, so that neither a hundred megabytes of values nor their text stands in memory.
+void writeJson(const JsonDocument& document, const ByteSink& sink);
 
 }  // namespace stiffscope

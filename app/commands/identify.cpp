@@ -84,9 +84,11 @@ int identifyCampaign(const Arguments& arguments, bool subset_given) {
     return all + preparationText(prepared.preparation);
   };
   deliver([&] {
-    Json json = withSteps(identificationJson(campaign, result, methods), steps, result, methods);
-    if (improved) json = withEffects(std::move(json), *improved, methods);
-    return withPreparation(std::move(json), prepared.preparation);
+    JsonDocument document = identificationJson(campaign, result, methods);
+    document.json = withSteps(std::move(document.json), steps, result, methods);
+    if (improved) document.json = withEffects(std::move(document.json), *improved, methods);
+    document.json = withPreparation(std::move(document.json), prepared.preparation);
+    return document;
   }, text, arguments.json);
   return anyUsable(result, methods) ? kDone : kNotUsable;
 }

@@ -37,20 +37,17 @@ PostureStiffness postureStiffness(const LoadingGeometry& geometry, const Stiffne
   return result;
 }
 
-std::vector<PostureStiffness> postureStiffnesses(const Campaign& campaign, const Identification& result,
-                                                 Method method) {
-  std::vector<PostureStiffness> postures;
-  const MethodResult& solved = result.of(method);
-  if (!solved.available || result.cases.empty()) return postures;
-  const Eigen::Vector3d& tcp = result.frames.tcp_in_flange;
-  const double length = lengthOf(result, solved.geometry);
-  for (const LoadCase& load_case : result.cases) {
-    postures.push_back(postureStiffness(solved.geometry, solved.estimate,
-                                        unloadedPosture(solved.geometry.arm, load_case), load_case.wrench,
-                                        tcp, length));
-    postures.back().pose = campaign.pose_ids[static_cast<std::size_t>(load_case.pose)];
-  }
-  return postures;
+PostureStiffnesses::PostureStiffnesses(const Campaign& campaign, const Identification& result, Method method)
+    : campaign_(campaign), result_(result), solved_(result.of(method)), size_(solved_.available ? result.cases.size() : 0) {
+  if (size_ > 0) length_ = lengthOf(result, solved_.geometry);
+}
+
+PostureStiffness PostureStiffnesses::at(std::size_t load_case) const {
+  const LoadCase& one = result_.cases[load_case];
+  PostureStiffness posture = postureStiffness(solved_.geometry, solved_.estimate, unloadedPosture(solved_.geometry.arm, one),
+                                              one.wrench, result_.frames.tcp_in_flange, length_);
+  posture.pose = campaign_.pose_ids[static_cast<std::size_t>(one.pose)];
+  return posture;
 }
 
 }  // namespace stiffscope

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -25,10 +26,22 @@ PostureStiffness postureStiffness(const LoadingGeometry& geometry, const Stiffne
                                   const ArmPosture& posture, const Wrench& wrench,
                                   const Eigen::Vector3d& tcp_in_flange, double length);
 
-/// The postures of an identified campaign by one method, each under its measured load; L is the campaign's
-/// characteristic length, by the arm's model where Complete Pose has no flange poses to find it from. Empty
-/// where the method is unavailable.
-std::vector<PostureStiffness> postureStiffnesses(const Campaign& campaign, const Identification& result,
-                                                 Method method);
+/// The load cases of an identified campaign by one method, each under its measured load; L is the campaign's
+/// characteristic length, by the arm's model where Complete Pose has no flange poses to find it from. Refers to both. One
+/// posture takes 1.5 kB, so it is computed when asked for.
+class PostureStiffnesses {
+ public:
+  PostureStiffnesses(const Campaign& campaign, const Identification& result, Method method);
+
+  std::size_t size() const { return size_; }  ///< 0 where the method is unavailable
+  PostureStiffness at(std::size_t load_case) const;
+
+ private:
+  const Campaign& campaign_;
+  const Identification& result_;
+  const MethodResult& solved_;
+  std::size_t size_;
+  double length_ = 0.0;  ///< m
+};
 
 }  // namespace stiffscope

@@ -103,40 +103,40 @@ Json calibrationJson(const GeometryCalibration& calibration) {
           {"rms_after_mm", calibration.rms_after / kMillimetre}};
 }
 
-Json perPostureJson(const Campaign& campaign, const Identification& result, const std::vector<Method>& methods) {
-  Json postures = Json::array();
-  for (std::size_t i = 0; i < result.cases.size(); ++i) {
-    Json posture{{"pose", campaign.pose_ids[static_cast<std::size_t>(result.cases[i].pose)]}};
-    if (result.steps.size() > 1) posture["step"] = result.cases[i].step;
-    if (!result.wrist_displacement.empty()) posture["wrist_mm"] = result.wrist_displacement[i] / kMillimetre;
-    posture["targets_mean_mm"] = result.target_displacement[i] / kMillimetre;
-    for (const Method which : methods) {
-      const MethodResult& method = result.of(which);
-      if (!method.available) continue;
-      const std::string key = namesOf(which).key;
-      if (i < method.wrist_residual.size()) posture["wrist_after_" + key + "_mm"] = method.wrist_residual[i] / kMillimetre;
-      if (i < method.target_residual.size()) {
-        posture["targets_mean_after_" + key + "_mm"] = method.target_residual[i] / kMillimetre;
-      }
+/// What one posture's displacement is, and what the methods leave of it.
+Json postureJson(const Campaign& campaign, const Identification& result, const std::vector<Method>& methods, std::size_t i) {
+  Json posture{{"pose", campaign.pose_ids[static_cast<std::size_t>(result.cases[i].pose)]}};
+  if (result.steps.size() > 1) posture["step"] = result.cases[i].step;
+  if (!result.wrist_displacement.empty()) posture["wrist_mm"] = result.wrist_displacement[i] / kMillimetre;
+  posture["targets_mean_mm"] = result.target_displacement[i] / kMillimetre;
+  for (const Method which : methods) {
+    const MethodResult& method = result.of(which);
+    if (!method.available) continue;
+    const std::string key = namesOf(which).key;
+    if (i < method.wrist_residual.size()) posture["wrist_after_" + key + "_mm"] = method.wrist_residual[i] / kMillimetre;
+    if (i < method.target_residual.size()) {
+      posture["targets_mean_after_" + key + "_mm"] = method.target_residual[i] / kMillimetre;
     }
-    postures.push_back(std::move(posture));
   }
-  return postures;
+  return posture;
 }
 
 /// Cartesian stiffness and what neglecting K_c costs, by the best of the methods there is.
-Json cartesianJson(const Campaign& campaign, const Identification& result, const std::vector<Method>& methods) {
+JsonDocument cartesianJson(const Campaign& campaign, const Identification& result, const std::vector<Method>& methods) {
   for (const Method which : {Method::decoupled_partial_pose, Method::partial_pose, Method::complete_pose}) {
     if (!result.of(which).available || std::find(methods.begin(), methods.end(), which) == methods.end()) continue;
-    Json rows = postureStiffnessJson(postureStiffnesses(campaign, result, which));
-    const std::vector<GeometricStiffnessCost> costs = geometricStiffnessCosts(result, which);
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-      rows[i]["k_c_cost_um"] = costs[i].at_targets / kMicrometre;
-      rows[i]["k_c_cost_share"] = costs[i].share;
-    }
-    return {{"method", namesOf(which).key}, {"rows", std::move(rows)}};
+    JsonDocument document(Json{{"method", namesOf(which).key}});
+    const auto row = [stiffnesses = PostureStiffnesses(campaign, result, which),
+                      costs = geometricStiffnessCosts(result, which)](std::size_t i) {
+      Json posture = postureStiffnessJson(stiffnesses.at(i));
+      posture["k_c_cost_um"] = costs[i].at_targets / kMicrometre;
+      posture["k_c_cost_share"] = costs[i].share;
+      return posture;
+    };
+    document.setRows("rows", {result.cases.size(), row});
+    return document;
   }
-  return nullptr;
+  return {};
 }
 
 Json outlyingJson(const Campaign& campaign, const Identification& result) {
@@ -154,8 +154,9 @@ Json outlyingJson(const Campaign& campaign, const Identification& result) {
 
 }  // namespace
 
-Json identificationJson(const Campaign& campaign, const Identification& result, const std::vector<Method>& methods) {
-  Json json = objectWithRoom(20);
+JsonDocument identificationJson(const Campaign& campaign, const Identification& result, const std::vector<Method>& methods) {
+  JsonDocument document(Json::object());
+  Json& json = document.json;
   json["campaign"] = campaignJson(campaign);
   json["step"] = result.step;
   json["steps"] = result.steps;
@@ -187,9 +188,10 @@ Json identificationJson(const Campaign& campaign, const Identification& result, 
                                      {"jacobian_condition", result.characteristic_length.condition},
                                      {"sensitivity", curve}};
   }
-  json["per_posture"] = perPostureJson(campaign, result, methods);
-  json["posture_stiffness"] = cartesianJson(campaign, result, methods);
-  return json;
+  const auto posture = [&campaign, &result, methods](std::size_t i) { return postureJson(campaign, result, methods, i); };
+  document.setRows("per_posture", {result.cases.size(), posture});
+  document.set("/posture_stiffness"_json_pointer, cartesianJson(campaign, result, methods));
+  return document;
 }
 
 }  // namespace stiffscope

@@ -2,21 +2,12 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
-#include <cstddef>
 #include <nlohmann/json.hpp>
 
 namespace stiffscope {
 
 /// Keys stay in the order in which they are written: the same result gives the same bytes.
 using Json = nlohmann::ordered_json;
-
-/// An object that takes `keys` of them without moving: where keys keep their order the values are in a row, and one that is
-/// made longer copies them, tens of megabytes of a long day.
-inline Json objectWithRoom(std::size_t keys) {
-  Json json = Json::object();
-  json.get_ref<Json::object_t&>().reserve(keys);
-  return json;
-}
 
 /// A number, or null where it is not finite: JSON has no NaN.
 inline Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }

@@ -14,21 +14,17 @@ Json principalJson(const CartesianStiffness& stiffness) {
 
 }  // namespace
 
-Json postureStiffnessJson(const std::vector<PostureStiffness>& postures) {
-  Json rows = Json::array();
-  for (const PostureStiffness& one : postures) {
-    Json rigid = Json::array();
-    for (const int joint : one.rigid_joints) rigid.push_back(joint + 1);
-    rows.push_back({{"pose", one.pose},
-                    {"kappa", number(one.conditioning.kappa)},
-                    {"kappa_2_norm", number(one.conditioning.kappa_two)},
-                    {"k_x", principalJson(one.with_kc)},
-                    {"k_x_without_kc", principalJson(one.without_kc)},
-                    {"anisotropy", number(one.with_kc.anisotropy())},
-                    {"kc_share", number(one.kc_share)},
-                    {"joints_taken_as_rigid", rigid}});
-  }
-  return rows;
+Json postureStiffnessJson(const PostureStiffness& posture) {
+  Json rigid = Json::array();
+  for (const int joint : posture.rigid_joints) rigid.push_back(joint + 1);
+  return {{"pose", posture.pose},
+          {"kappa", number(posture.conditioning.kappa)},
+          {"kappa_2_norm", number(posture.conditioning.kappa_two)},
+          {"k_x", principalJson(posture.with_kc)},
+          {"k_x_without_kc", principalJson(posture.without_kc)},
+          {"anisotropy", number(posture.with_kc.anisotropy())},
+          {"kc_share", number(posture.kc_share)},
+          {"joints_taken_as_rigid", rigid}};
 }
 
 }  // namespace stiffscope

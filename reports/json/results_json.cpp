@@ -25,33 +25,32 @@ Json avoidedJson(const AvoidedByEncoders& avoided) {
   return {{"share", avoided.share}, {"low", number(avoided.low)}, {"high", number(avoided.high)}, {"at", avoided.at_wrist ? "P_wrist" : "reflectors"}, {"postures", postures}};
 }
 
-Json campaignResults(const ReportCampaign& one) {
-  Json json = objectWithRoom(5);
+JsonDocument campaignResults(const ReportCampaign& one) {
+  JsonDocument document(Json::object());
+  Json& json = document.json;
   if (one.preparation != nullptr) json["preparation"] = preparationJson(*one.preparation);
   if (one.audit != nullptr) json["audit"] = auditJson(one.campaign, *one.audit);
   json["frames"] = framesJson(one.campaign, one.identification.frames);
-  json["identify"] =
-      identificationJson(one.campaign, one.identification, {kMethods.begin(), kMethods.end()});
+  document.set("/identify"_json_pointer, identificationJson(one.campaign, one.identification, {kMethods.begin(), kMethods.end()}));
   if (one.improved != nullptr) json["identify"]["with"] = improvedJson(*one.improved, {kMethods.begin(), kMethods.end()});
   if (one.diagnosis != nullptr) json["diagnose"] = diagnosisJson(one.campaign, *one.diagnosis);
-  return json;
+  return document;
 }
 
 }  // namespace
 
-Json resultsJson(const ReportContent& content) {
+JsonDocument resultsJson(const ReportContent& content) {
   Json versions = Json::object();
   for (const NamedText& version : content.versions) versions[version.name] = version.text;
-  Json campaigns = Json::array();
-  for (const ReportCampaign& one : content.campaigns) {
-    campaigns.push_back(campaignResults(one));
-  }
-  Json json = objectWithRoom(5);
+  JsonDocument document(Json::object());
+  Json& json = document.json;
   json["versions"] = std::move(versions);
-  json["campaigns"] = std::move(campaigns);
+  json["campaigns"] = Json::array();
+  const Json::json_pointer campaigns("/campaigns");
+  for (std::size_t i = 0; i < content.campaigns.size(); ++i) document.set(campaigns / i, campaignResults(content.campaigns[i]));
   json["cautions"] = doubtsOfTheMachine(content.campaigns);
   json["avoided"] = content.avoided && content.avoided->available ? avoidedJson(*content.avoided) : Json(nullptr);
-  return json;
+  return document;
 }
 
 }  // namespace stiffscope

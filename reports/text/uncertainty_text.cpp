@@ -99,16 +99,17 @@ std::string stepsText(const StepStudy& study, const Identification& result, cons
 }
 
 std::string posturesText(const Campaign& campaign, const Identification& result, Method method) {
-  const std::vector<PostureStiffness> postures = postureStiffnesses(campaign, result, method);
+  const PostureStiffnesses postures(campaign, result, method);
   const std::vector<GeometricStiffnessCost> costs = geometricStiffnessCosts(result, method);
-  if (postures.empty()) return {};
+  if (postures.size() == 0) return {};
   std::string text = fmt::format("\nPostures at P_TCP by {}: softest and stiffest direction, what neglecting K_c costs\n"
                                  "  kappa: condition number of the posture's Jacobian by P_TCP, 1 at best\n"
                                  "  {:<12}{:>8}{:>16}{:>16}{:>12}\n",
                                  namesOf(method).full, "pose", "kappa", "softest (N/um)", "stiffest", "K_c (um)");
   for (std::size_t i = 0; i < postures.size(); ++i) {
-    const auto& principal = postures[i].with_kc.principal;
-    text += fmt::format("  {:<12}{:>8.2f}{:>16.3f}{:>16.3f}{:>12.2f}\n", postures[i].pose, postures[i].conditioning.kappa,
+    const PostureStiffness posture = postures.at(i);
+    const auto& principal = posture.with_kc.principal;
+    text += fmt::format("  {:<12}{:>8.2f}{:>16.3f}{:>16.3f}{:>12.2f}\n", posture.pose, posture.conditioning.kappa,
                         principal[0].stiffness * kMicrometre, principal[2].stiffness * kMicrometre,
                         costs[i].at_targets / kMicrometre);
   }

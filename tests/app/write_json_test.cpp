@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cstddef>
+#include <string>
+
 namespace stiffscope {
 namespace {
 
@@ -16,9 +19,9 @@ Json rows(int count) {
   return list;
 }
 
-std::string jsonText(const Json& json) {
+std::string jsonText(const JsonDocument& document) {
   std::string text;
-  writeJson(json, [&text](std::string_view part) { text += part; });
+  writeJson(document, [&text](std::string_view part) { text += part; });
   return text;
 }
 
@@ -29,6 +32,27 @@ TEST(WriteJson, WritesWhatDumpGives) {
     for (const Json& json : {list, object, Json{{"lists", {list, list}}}}) EXPECT_EQ(jsonText(json), json.dump(1) + '\n');
   }
   for (const Json& json : {Json(nullptr), Json("a\nb"), Json(2.5), Json::object()}) EXPECT_EQ(jsonText(json), json.dump(1) + '\n');
+}
+
+TEST(WriteJson, WritesRowsMadeOnTheWayAsIfTheyHadStoodThere) {
+  for (const int count : {0, 1, 499, 2048, 5000}) {
+    const JsonRows made{static_cast<std::size_t>(count), [](std::size_t i) { return row(static_cast<int>(i)); }};
+    JsonDocument inner(Json{{"a/b~c", 1}, {"first", "x"}});
+    inner.setRows("a/b~c", made);  // keys that a pointer has to escape
+    JsonDocument document(Json{{"name", "n"}, {"parts", Json::array()}});
+    document.set("/parts/0"_json_pointer, inner);
+    document.set("/parts/1"_json_pointer, inner);
+    document.json["parts"][1]["more"] = true;
+    document.setRows("rows", made);
+    document.json["end"] = nullptr;
+
+    const Json list = rows(count);
+    const Json whole{{"name", "n"},
+                     {"parts", {{{"a/b~c", list}, {"first", "x"}}, {{"a/b~c", list}, {"first", "x"}, {"more", true}}}},
+                     {"rows", list},
+                     {"end", nullptr}};
+    EXPECT_EQ(jsonText(document), whole.dump(1) + '\n') << count;
+  }
 }
 
 }  // namespace

@@ -170,12 +170,12 @@ TEST(PostureStiffness, IsOfTheMethodsOwnGeometryWherePosturesWereMadeInAnother) 
   axis.direction = (axis.direction + 0.05 * Eigen::Vector3d::UnitZ()).normalized();
   Campaign campaign;
   campaign.pose_ids = {"1", "2", "3", "4"};
-  const auto found = postureStiffnesses(campaign, result, Method::partial_pose);
+  const PostureStiffnesses found(campaign, result, Method::partial_pose);
   ASSERT_EQ(found.size(), 4u);
   for (std::size_t i = 0; i < found.size(); ++i) {
     const Matrix6d jacobian = differencedJacobian(method.geometry.arm, result.cases[i].q_sagged);
     // Differences are good to the square of the step; the shift alone changes kappa by a hundredth.
-    EXPECT_NEAR(found[i].conditioning.kappa, postureConditioning(jacobian, 0.7).kappa, 1e-6) << i;
+    EXPECT_NEAR(found.at(i).conditioning.kappa, postureConditioning(jacobian, 0.7).kappa, 1e-6) << i;
   }
 }
 
@@ -190,15 +190,15 @@ TEST(PostureStiffness, OfACampaignNamesPosturesAndRigidJoints) {
   options.subsets.most_all = 1;
   options.subsets.sample = 5;
   const Identification result = identify(campaign, options);
-  const auto found = postureStiffnesses(campaign, result, Method::partial_pose);
+  const PostureStiffnesses found(campaign, result, Method::partial_pose);
   ASSERT_EQ(found.size(), 8u);
-  EXPECT_EQ(found[2].pose, "3");
-  EXPECT_EQ(found[2].rigid_joints, std::vector<int>{0});  // a hanging load never turns axis 1
-  EXPECT_GT(found[2].kc_share, 1e-4);
-  EXPECT_LT(found[2].kc_share, 0.1);
-  EXPECT_GT(found[2].conditioning.kappa, 1.0);
-  EXPECT_FALSE(found[2].with_kc.invertible);
-  EXPECT_GT(found[2].with_kc.principal[1].stiffness, found[2].with_kc.principal[0].stiffness);
+  EXPECT_EQ(found.at(2).pose, "3");
+  EXPECT_EQ(found.at(2).rigid_joints, std::vector<int>{0});  // a hanging load never turns axis 1
+  EXPECT_GT(found.at(2).kc_share, 1e-4);
+  EXPECT_LT(found.at(2).kc_share, 0.1);
+  EXPECT_GT(found.at(2).conditioning.kappa, 1.0);
+  EXPECT_FALSE(found.at(2).with_kc.invertible);
+  EXPECT_GT(found.at(2).with_kc.principal[1].stiffness, found.at(2).with_kc.principal[0].stiffness);
 }
 
 }  // namespace
