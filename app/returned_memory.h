@@ -7,7 +7,8 @@ namespace stiffscope {
 /// library. To be called before the first such block; does nothing where the C library has no such setting.
 void returnLargeBlocks();
 
-/// Gives back what is free now, smaller blocks too: after one kind of work, before another that needs its own.
+/// Gives back what is free now, smaller blocks too, and pages of the libraries' code, of which compiling shaders reads fifty
+/// megabytes once: after one kind of work, before another that needs its own.
 void returnFreeMemory();
 
 }  // namespace stiffscope

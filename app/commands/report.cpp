@@ -64,6 +64,10 @@ struct Result {
 
   Result(const std::string& folder, const Arguments& arguments, const IdentifyOptions& options) {
     Campaign read = openCampaign(folder);
+    if (!arguments.raw && !whatLoadsLack(read).empty()) {
+      onlyFrames(std::move(read));
+      return;
+    }
     prepared = arguments.raw ? leaveRaw(read) : prepareCampaign(read);
     loaded = whatLoadsLack(prepared.campaign).empty();
     if (loaded && !arguments.with.empty()) {
@@ -73,9 +77,17 @@ struct Result {
     }
     withoutLoadReadings(prepared.campaign);
     if (improved) withoutLoadReadings(improved->campaign);
+    returnFreeMemory();
     if (loaded) diagnosis = diagnose(read);
     audited = audit(std::move(read));
     if (diagnosis) addSeparableEffects(*diagnosis, audited);
+  }
+
+  /// Nothing but sweeps, which may be a million readings: there is one copy of them.
+  void onlyFrames(Campaign read) {
+    prepared = prepareCampaign(std::move(read));
+    own = framesAlone(prepared.campaign);
+    audited = audit(prepared);
   }
 
   /// Of loads, stiffnesses are the purpose; of a day of sweeps alone, the frames.

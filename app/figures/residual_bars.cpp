@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "app/figures/evenly_drawn.h"
 #include "app/figures/method_colours.h"
 #include "reports/page/html.h"
 #include "reports/page/names.h"
@@ -14,10 +15,16 @@ namespace stiffscope {
 namespace {
 
 constexpr double kMmPerM = 1e3;
+constexpr std::size_t kMostPostures = 200;  // four bars each are hardly a pixel wide
 
-std::vector<double> inMm(std::vector<double> values) {
-  for (double& value : values) value *= kMmPerM;
-  return values;
+std::vector<double> drawnInMm(const std::vector<double>& values) {
+  std::vector<double> drawn;
+  for (const std::size_t i : evenlyDrawn(values.size(), kMostPostures)) drawn.push_back(kMmPerM * values[i]);
+  return drawn;
+}
+
+std::string postureOf(const ReportCampaign& one, std::size_t index) {
+  return page::asIs(one.campaign.pose_ids[static_cast<std::size_t>(one.identification.cases[index].pose)]);
 }
 
 /// How the bars were judged: "each posture by 10 of the others".
@@ -38,8 +45,8 @@ GroupedBarChart emptyChart(const ReportCampaign& one, const char* what, const ch
   chart.subtitle = fmt::format("{}; {}", page::asIs(one.campaign.name), judgedWords(one));
   chart.y_title = fmt::format("{} of {} (mm)", axis, point.name);
   chart.category_title = "Posture";
-  for (const LoadCase& load_case : one.identification.cases) {
-    chart.categories.push_back(page::asIs(one.campaign.pose_ids[static_cast<std::size_t>(load_case.pose)]));
+  for (const std::size_t i : evenlyDrawn(one.identification.cases.size(), kMostPostures)) {
+    chart.categories.push_back(postureOf(one, i));
   }
   return chart;
 }
@@ -49,7 +56,16 @@ void addMethod(const ReportCampaign& one, Method method, GroupedBarChart& chart)
   const bool at_wrist = page::judgedPoint(one).at_wrist;
   if (!result.available || page::residualAt(result, at_wrist).empty()) return;
   const std::vector<double> left = page::heldOutResidualAt(one, method, at_wrist);
-  chart.series.push_back({fmt::format("after {}", page::longName(method)), colourOf(method), inMm(left), {}});
+  chart.series.push_back({fmt::format("after {}", page::longName(method)), colourOf(method), drawnInMm(left), {}});
+}
+
+/// Which postures are drawn where not all are, and the longest bar of all.
+std::string drawnOf(const ReportCampaign& one, const std::vector<double>& values) {
+  const std::string words = drawnWords(values.size(), kMostPostures, "postures");
+  if (words.empty()) return {};
+  const auto longest = std::max_element(values.begin(), values.end());
+  return fmt::format("{} The longest of all is {}\u00a0mm, in posture {}.", words, page::fixed(kMmPerM * *longest, 2),
+                     postureOf(one, static_cast<std::size_t>(longest - values.begin())));
 }
 
 /// "CP leaves 0.12, PP 0.08 and DPP 0.05 mm in the mean"
@@ -72,7 +88,7 @@ GroupedBarChart residualBars(const ReportCampaign& one) {
   GroupedBarChart chart = emptyChart(one, "Displacement", "Displacement");
   const bool at_wrist = page::judgedPoint(one).at_wrist;
   chart.series.push_back(
-      {"without compensation", colours::kNone, inMm(page::displacementAt(one.identification, at_wrist)), {}});
+      {"without compensation", colours::kNone, drawnInMm(page::displacementAt(one.identification, at_wrist)), {}});
   for (const Method method : kMethods) addMethod(one, method, chart);
   return chart;
 }
@@ -95,6 +111,7 @@ Figure describeResidualBars(const ReportCampaign& one) {
   const std::string left =
       leftWords(one, {Method::complete_pose, Method::partial_pose, Method::decoupled_partial_pose});
   if (!left.empty()) figure.caption += fmt::format(" Left after compensation, in mm: {}.", left);
+  figure.caption += drawnOf(one, page::displacementAt(one.identification, point.at_wrist));
   figure.caption += " The counterpart of the paper's Fig. 7.";
   figure.alt = fmt::format(
       "Bars by posture: length of the displacement of {}, without compensation and after each method.",

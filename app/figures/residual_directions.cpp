@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
+#include "app/figures/evenly_drawn.h"
 #include "app/figures/series_look.h"
 #include "core/identification/noise_share.h"
 #include "reports/page/html.h"
@@ -17,6 +19,7 @@ namespace {
 
 constexpr double kUmPerM = 1e6;
 constexpr double kBand = 2.0;  // standard deviations: about 95 % of normal noise
+constexpr std::size_t kMostPostures = 100;  // a panel is three hundred pixels wide
 
 /// One reflector's residual in one posture, with the directions it is taken apart in.
 struct ResidualVector {
@@ -68,21 +71,29 @@ std::vector<ResidualVector> residualsOf(const ReportCampaign& one, const MethodR
   return residuals;
 }
 
+std::string postureOf(const ReportCampaign& one, std::size_t index) {
+  return page::asIs(one.campaign.pose_ids[static_cast<std::size_t>(one.identification.cases[index].pose)]);
+}
+
 PointPanel panelOf(const ReportCampaign& one, const std::vector<ResidualVector>& residuals, std::size_t d,
                    bool normalised) {
   PointPanel panel;
-  for (const LoadCase& load_case : one.identification.cases)
-    panel.categories.push_back(page::asIs(one.campaign.pose_ids[static_cast<std::size_t>(load_case.pose)]));
+  const auto& cases = one.identification.cases;
+  std::vector<std::optional<std::size_t>> place(cases.size());  // in the picture
+  for (const std::size_t i : evenlyDrawn(cases.size(), kMostPostures)) {
+    place[i] = panel.categories.size();
+    panel.categories.push_back(postureOf(one, i));
+  }
   const std::size_t targets = one.campaign.targets.size();
   for (std::size_t target = 0; target < targets; ++target) {
     PointSeries series = seriesLook(target);
     series.name = page::pointName(one.campaign.targets[target].id);
     for (const ResidualVector& residual : residuals) {
-      if (residual.target != static_cast<int>(target)) continue;
+      if (residual.target != static_cast<int>(target) || !place[residual.load_case]) continue;
       const double value = normalised ? residual.component[d] / *residual.sigma[d] : kUmPerM * residual.component[d];
       // Side by side within the posture, so that none hides another.
       const double aside = 0.6 * ((static_cast<double>(target) + 0.5) / static_cast<double>(targets) - 0.5);
-      series.points.push_back({static_cast<double>(residual.load_case) + aside, value});
+      series.points.push_back({static_cast<double>(*place[residual.load_case]) + aside, value});
     }
     panel.series.push_back(std::move(series));
   }
@@ -118,6 +129,24 @@ std::optional<PointChart> residualDirections(const ReportCampaign& one) {
   return chart;
 }
 
+namespace {
+
+/// Which postures are drawn where not all are, and the longest residual of all.
+std::string drawnOf(const ReportCampaign& one, const std::vector<ResidualVector>& residuals) {
+  const std::string words = drawnWords(one.identification.cases.size(), kMostPostures, "postures");
+  if (words.empty()) return {};
+  const auto length = [](const ResidualVector& at) { return std::hypot(at.component[0], at.component[1], at.component[2]); };
+  const auto longest =
+      std::max_element(residuals.begin(), residuals.end(),
+                       [&](const ResidualVector& a, const ResidualVector& b) { return length(a) < length(b); });
+  return fmt::format("{} The longest residual of all is {}\u00a0µm, of {} in posture {}.", words,
+                     page::significant(kUmPerM * length(*longest), 2),
+                     page::pointName(one.campaign.targets[static_cast<std::size_t>(longest->target)].id),
+                     postureOf(one, longest->load_case));
+}
+
+}  // namespace
+
 Figure describeResidualDirections(const ReportCampaign& one, const PointChart& chart) {
   const Method shown = *page::shownMethod(one.identification);
   const std::vector<ResidualVector> residuals = residualsOf(one, one.identification.of(shown));
@@ -147,6 +176,7 @@ Figure describeResidualDirections(const ReportCampaign& one, const PointChart& c
         "noise alone.",
         page::percent(static_cast<double>(outside) / static_cast<double>(all), 0));
   }
+  figure.caption += drawnOf(one, residuals);
   figure.caption += " Reflectors that go together, posture for posture, show something that the model misses.";
   figure.alt = fmt::format("Points by posture, one panel a direction: what {} leaves of each reflector's displacement.",
                            page::shortName(shown));

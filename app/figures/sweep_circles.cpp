@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "app/figures/evenly_drawn.h"
 #include "app/figures/series_look.h"
 #include "core/input/units.h"
 #include "render/ticks.h"
@@ -16,6 +17,8 @@
 namespace stiffscope {
 
 namespace {
+
+constexpr std::size_t kMostOnRing = 360;  // one a degree
 
 /// Radial residual of one reading, at the joint's angle.
 struct RadialResidual {
@@ -51,13 +54,15 @@ PointSeries fullRing(double radius) {
   return ring;
 }
 
-ShapePanel panelOf(const ReportCampaign& one, const RigidPoints& points, int axis) {
+/// `most`: the most readings of any ring so far.
+ShapePanel panelOf(const ReportCampaign& one, const RigidPoints& points, int axis, std::size_t& most) {
   const MeasuredAxis& measured = one.identification.frames.axes[static_cast<std::size_t>(axis)];
   const std::size_t rings = measured.targets.size();
   std::vector<std::vector<RadialResidual>> residuals;
   double largest = 0.0;
   for (std::size_t ring = 0; ring < rings; ++ring) {
     residuals.push_back(residualsOn(one, points, axis, ring));
+    most = std::max(most, residuals.back().size());
     for (const RadialResidual& at : residuals.back()) largest = std::max(largest, std::abs(at.residual));
   }
   const double apart = 1.0 / static_cast<double>(rings + 1);
@@ -70,8 +75,10 @@ ShapePanel panelOf(const ReportCampaign& one, const RigidPoints& points, int axi
     PointSeries series = seriesLook(static_cast<std::size_t>(measured.targets[ring]));
     series.name = page::pointName(one.campaign.targets[static_cast<std::size_t>(measured.targets[ring])].id);
     series.joined = true;
-    for (const RadialResidual& at : residuals[ring])
+    for (const std::size_t i : evenlyDrawn(residuals[ring].size(), kMostOnRing)) {
+      const RadialResidual& at = residuals[ring][i];
       series.points.push_back(polar(radius + magnified * at.residual, at.angle));
+    }
     panel.series.push_back(std::move(series));
   }
   const double bar_um = roundUp125(std::max(1e-3, largest / kMicrometre));
@@ -89,10 +96,12 @@ std::optional<PointChart> sweepCircles(const ReportCampaign& one, const RigidPoi
   chart.subtitle = page::asIs(one.campaign.name);
   chart.note = "A ring a reflector; rings are not to scale, residuals are, by the bar. Angle zero is at the right.";
   chart.columns = 3;
+  std::size_t most = 0;
   for (int axis = 0; axis < 6; ++axis) {
     if (one.identification.frames.axes[static_cast<std::size_t>(axis)].measured)
-      chart.shapes.push_back(panelOf(one, points, axis));
+      chart.shapes.push_back(panelOf(one, points, axis, most));
   }
+  chart.note += drawnWords(most, kMostOnRing, "readings of the longest ring");
   if (chart.shapes.empty()) return std::nullopt;
   return chart;
 }

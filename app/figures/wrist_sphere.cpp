@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/figures/evenly_drawn.h"
 #include "app/figures/series_look.h"
 #include "core/input/units.h"
 #include "reports/page/html.h"
@@ -16,6 +17,7 @@ namespace stiffscope {
 namespace {
 
 constexpr std::size_t kLeastInSector = 5;  // a mean of fewer readings says little
+constexpr std::size_t kMostReadings = 1000;  // of a reflector
 
 struct SphereResidual {
   int target = 0;
@@ -65,11 +67,15 @@ PointSeries sectorMeans(const std::vector<SphereResidual>& residuals, double Sph
 PointPanel panelOf(const ReportCampaign& one, const std::vector<SphereResidual>& residuals,
                    double SphereResidual::* angle) {
   PointPanel panel;
-  for (std::size_t target = 0; target < one.campaign.targets.size(); ++target) {
+  // Of each reflector by itself: where they take turns, every so many readings may be always the same one's.
+  std::vector<std::vector<std::size_t>> readings(one.campaign.targets.size());
+  for (std::size_t i = 0; i < residuals.size(); ++i) readings[static_cast<std::size_t>(residuals[i].target)].push_back(i);
+  for (std::size_t target = 0; target < readings.size(); ++target) {
     PointSeries series = seriesLook(target);
     series.name = page::pointName(one.campaign.targets[target].id);
-    for (const SphereResidual& at : residuals) {
-      if (at.target == static_cast<int>(target)) series.points.push_back({at.*angle, at.residual_um});
+    for (const std::size_t k : evenlyDrawn(readings[target].size(), kMostReadings)) {
+      const SphereResidual& at = residuals[readings[target][k]];
+      series.points.push_back({at.*angle, at.residual_um});
     }
     if (!series.points.empty()) panel.series.push_back(std::move(series));
   }
@@ -108,6 +114,10 @@ Figure describeWristSphere(const ReportCampaign& one) {
       one.campaign.wrist_sweep->rows.size(),
       wrist.table.size() == 1 ? "one reflector" : fmt::format("{} reflectors", wrist.table.size()),
       page::significant(wrist.spheres.rms / kMicrometre, 2));
+  std::size_t most = 0;
+  for (const WristTableRow& of : wrist.table) most = std::max(most, static_cast<std::size_t>(of.readings));
+  const std::string drawn = drawnWords(most, kMostReadings, "readings of a reflector");
+  if (!drawn.empty()) figure.caption += drawn + " The means are of all.";
   figure.alt = "Points by azimuth and by elevation: radial residuals of the wrist sweep about the common centre.";
   return figure;
 }

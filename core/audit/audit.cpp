@@ -40,16 +40,23 @@ AuditCheck notTestable(const std::string& id, const std::string& missing) {
 }
 
 AuditReport audit(Campaign campaign) {
-  AuditReport report;
   PreparedCampaign prepared = prepareCampaign(std::move(campaign));
-  report.checks = std::move(prepared.screening);
+  return audit(prepared);
+}
+
+AuditReport audit(PreparedCampaign& prepared) {
+  AuditReport report;
+  report.checks = prepared.screening;
   report.rejected = prepared.preparation.rejected;
-  const Evidence evidence = gatherEvidence(std::move(prepared));
+  const std::optional<Tracker> declared = prepared.campaign.tracker;
+  Evidence evidence = gatherEvidence(std::move(prepared.campaign), prepared);
   for (const Check check : kAllChecks) {
     Findings findings = check(evidence);
     std::move(findings.begin(), findings.end(), std::back_inserter(report.checks));
   }
   report.verdict = worst(report.checks);
+  prepared.campaign = std::move(evidence.campaign);
+  prepared.campaign.tracker = declared;
   return report;
 }
 

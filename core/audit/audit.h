@@ -8,6 +8,8 @@
 
 namespace stiffscope {
 
+struct PreparedCampaign;
+
 enum class AuditVerdict { pass, warn, fail, not_testable };
 
 /// One check of the data: the figure, the limit it is held against and where that limit comes from.
@@ -49,6 +51,8 @@ struct AuditReport {
 /// for the same reason repeats that scatter by more than is declared replace the declared noise in the other
 /// checks.
 AuditReport audit(Campaign campaign);
+/// Of what is prepared already; it is left as it was. Long sweeps are never copied.
+AuditReport audit(PreparedCampaign& prepared);
 
 /// Whether some check found what cannot be.
 bool findsTheImpossible(const AuditReport& report);

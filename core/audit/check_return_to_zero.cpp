@@ -35,7 +35,8 @@ double loadLeft(const State& state, const State& loaded) {
   return state.wrench_in_cell.head<3>().dot(force) / force.squaredNorm();
 }
 
-Return compare(const StatePoints& before, const StatePoints& after, const StatePoints* loaded, double left) {
+Return compare(const StatePoints& before, const StatePoints& after, const StatePoints* loaded, double left,
+               const TrackerNoise& noise) {
   Return result{after.pose, after.step};
   for (const ReflectorMean& mean : after.reflectors) {
     const ReflectorMean* first = before.of(mean.target);
@@ -44,7 +45,7 @@ Return compare(const StatePoints& before, const StatePoints& after, const StateP
     // A small load that is left displaces in proportion.
     const ReflectorMean* under_load = loaded != nullptr ? loaded->of(mean.target) : nullptr;
     if (under_load != nullptr) off -= left * (under_load->point - first->point);
-    result.chi2 += off.dot((mean.covariance + first->covariance).ldlt().solve(off));
+    result.chi2 += off.dot((mean.covariance(noise) + first->covariance(noise)).ldlt().solve(off));
     result.dof += 3;
     if (off.norm() <= result.largest) continue;
     result.largest = off.norm();
@@ -75,7 +76,7 @@ std::vector<Return> returnsOf(const Evidence& evidence) {
       const auto loaded = one.points.find(most->step);
       const Return back =
           compare(*one.points.at(0), *one.points.at(step),
-                  loaded == one.points.end() ? nullptr : loaded->second, loadLeft(*state, *most));
+                  loaded == one.points.end() ? nullptr : loaded->second, loadLeft(*state, *most), *evidence.noise);
       if (back.dof > 0) found.push_back(back);
     }
   }

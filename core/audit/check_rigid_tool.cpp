@@ -36,7 +36,8 @@ Sum sumOf(const ToolDistances& tool, const Counts& counts) {
 
 /// Whether a state's distances are those of the tool if its reflectors carry each other's names in this
 /// order.
-bool fitsRenamed(const ToolDistances& tool, const StatePoints& state, const std::vector<std::size_t>& order) {
+bool fitsRenamed(const ToolDistances& tool, const StatePoints& state, const std::vector<std::size_t>& order,
+                 const TrackerNoise& noise) {
   for (std::size_t a = 0; a < order.size(); ++a) {
     for (std::size_t b = a + 1; b < order.size(); ++b) {
       const auto* pair = tool.pair(state.reflectors[order[a]].target, state.reflectors[order[b]].target);
@@ -45,7 +46,7 @@ bool fitsRenamed(const ToolDistances& tool, const StatePoints& state, const std:
       const ReflectorMean& second = state.reflectors[b];
       const Eigen::Vector3d between = second.point - first.point;
       const Eigen::Vector3d along = between.normalized();
-      const double sd = std::sqrt(along.dot((first.covariance + second.covariance) * along) +
+      const double sd = std::sqrt(along.dot((first.covariance(noise) + second.covariance(noise)) * along) +
                                   pair->reference_sd * pair->reference_sd);
       if (std::abs(between.norm() - pair->reference) > tool.limit * sd) return false;
     }
@@ -54,11 +55,12 @@ bool fitsRenamed(const ToolDistances& tool, const StatePoints& state, const std:
 }
 
 /// The exchange of names that would make a state's distances those of the tool.
-std::string exchangeIn(const Campaign& campaign, const ToolDistances& tool, const StatePoints& state) {
+std::string exchangeIn(const Campaign& campaign, const ToolDistances& tool, const StatePoints& state,
+                       const TrackerNoise& noise) {
   std::vector<std::size_t> order(state.reflectors.size());
   std::iota(order.begin(), order.end(), 0);
   while (order.size() >= 3 && std::next_permutation(order.begin(), order.end())) {
-    if (!fitsRenamed(tool, state, order)) continue;
+    if (!fitsRenamed(tool, state, order, noise)) continue;
     std::string names;
     for (std::size_t k = 0; k < order.size(); ++k) {
       if (order[k] == k) continue;
@@ -107,7 +109,7 @@ class Inquiry {
   void findExchanges() {
     for (const ToolDistance& one : tool_.distances) {
       if (std::abs(one.change) <= tool_.limit * one.sd || exchanged_.contains(one.state)) continue;
-      const std::string names = exchangeIn(campaign_, tool_, evidence_.states[one.state]);
+      const std::string names = exchangeIn(campaign_, tool_, evidence_.states[one.state], *evidence_.noise);
       if (!names.empty()) exchanged_[one.state] = names;
     }
   }
@@ -188,7 +190,7 @@ Findings checkRigidTool(const Evidence& evidence) {
     return {
         notTestable("rigid_tool", "the tracker's noise is not declared: state `tracker` in campaign.xml")};
   }
-  ToolDistances tool = toolDistances(evidence.states, static_cast<int>(evidence.campaign.targets.size()));
+  ToolDistances tool = toolDistances(evidence.states, static_cast<int>(evidence.campaign.targets.size()), *evidence.noise);
   if (tool.distances.empty()) {
     return {notTestable("rigid_tool",
                         "no two reflectors were read in the same states: read two or more in each")};

@@ -28,7 +28,7 @@ double readingNoise(const Evidence& evidence) {
   double variance = evidence.noise->covarianceAt(evidence.noise->station).trace() / 3.0;
   for (const StatePoints& state : evidence.states) {
     for (const ReflectorMean& mean : state.reflectors) {
-      variance = std::max(variance, mean.readings * mean.covariance.trace() / 3.0);
+      variance = std::max(variance, mean.readings * mean.covariance(*evidence.noise).trace() / 3.0);
     }
   }
   return std::sqrt(variance);

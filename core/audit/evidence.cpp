@@ -30,17 +30,17 @@ SagModel sagOf(const Evidence& evidence) {
 
 }  // namespace
 
-Evidence gatherEvidence(PreparedCampaign prepared) {
+Evidence gatherEvidence(Campaign campaign, const PreparedCampaign& found) {
   Evidence evidence;
-  evidence.campaign = std::move(prepared.campaign);
-  evidence.drift = std::move(prepared.preparation.drift);
-  evidence.station = std::move(prepared.station);
-  evidence.scatter = std::move(prepared.scatter);
+  evidence.campaign = std::move(campaign);
+  evidence.drift = found.preparation.drift;
+  evidence.station = found.station;
+  evidence.scatter = found.scatter;
   if (declaredNoise(evidence.campaign)) {
     evidence.campaign.tracker = asNoisyAs(*evidence.campaign.tracker, noiseFactors(evidence.scatter));
     evidence.noise = trackerNoise(*evidence.campaign.tracker);
   }
-  evidence.states = statePoints(evidence.campaign, evidence.noise);
+  evidence.states = statePoints(evidence.campaign);
   settle(evidence);
   evidence.rigid = rigidPoints(evidence.campaign, sagOf(evidence));
   evidence.absolute = fitAbsolutePositions(evidence.campaign, evidence.frames, evidence.arm.geometry,

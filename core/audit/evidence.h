@@ -27,6 +27,7 @@ struct Evidence {
   AbsoluteFit absolute;             ///< unloaded positions against forward kinematics
 };
 
-Evidence gatherEvidence(PreparedCampaign prepared);
+/// Of a campaign and of what else its preparation found.
+Evidence gatherEvidence(Campaign campaign, const PreparedCampaign& found);
 
 }  // namespace stiffscope

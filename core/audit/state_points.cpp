@@ -2,10 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <map>
-#include <tuple>
-
 #include "core/audit/rows.h"
+#include "core/campaign/repeat_check.h"
 
 namespace stiffscope {
 
@@ -21,22 +19,28 @@ class Gatherer {
   template <class Row>
   void add(Source source, int axis, const std::string& index, int pose, int step, const Row& row) {
     if (states_.empty() || !isOf(states_[last_], source, axis, index, pose, step)) {
-      const auto [found, added] = places_.try_emplace({source, axis, index, pose, step}, states_.size());
-      if (added)
+      KeyHash key;
+      key.add(static_cast<int>(source));
+      key.add(axis);
+      key.add(index);
+      key.add(pose);
+      key.add(step);
+      last_ = seen_.add(states_.size(), key, [&](std::size_t other) {
+        return isOf(states_[other], source, axis, index, pose, step);
+      });
+      if (last_ == RepeatCheck::kNew) {
+        last_ = states_.size();
         states_.emplace_back(StatePoints{source, axis, index, pose, step, {}}).reflectors.reserve(targets_);
-      last_ = found->second;
+      }
     }
     ReflectorMean& mean = of(states_[last_].reflectors, row);
     mean.point += row.point;
     ++mean.readings;
   }
 
-  std::vector<StatePoints> finish(const std::optional<TrackerNoise>& noise) {
+  std::vector<StatePoints> finish() {
     for (StatePoints& state : states_) {
-      for (ReflectorMean& mean : state.reflectors) {
-        mean.point /= mean.readings;
-        if (noise) mean.covariance = noise->covarianceAt(mean.point) / mean.readings;
-      }
+      for (ReflectorMean& mean : state.reflectors) mean.point /= mean.readings;
     }
     states_.shrink_to_fit();
     return std::move(states_);
@@ -55,13 +59,15 @@ class Gatherer {
       if (one.target == row.target) return one;
     }
     return reflectors.emplace_back(
-        ReflectorMean{row.target, Eigen::Vector3d::Zero(), Eigen::Matrix3d::Zero(), 0, row.line});
+        ReflectorMean{row.target, 0, Eigen::Vector3d::Zero(), row.line});
   }
+
+  static constexpr std::size_t kFew = 1000;  // it grows
 
   std::size_t targets_;
   std::vector<StatePoints> states_;
   std::size_t last_ = 0;
-  std::map<std::tuple<Source, int, std::string, int, int>, std::size_t> places_;
+  RepeatCheck seen_{kFew};
 };
 
 }  // namespace
@@ -85,7 +91,7 @@ std::string nameOf(const Campaign& campaign, const StatePoints& state) {
   return fmt::format("pose {}, step {}", poseName(campaign, state.pose), state.step);
 }
 
-std::vector<StatePoints> statePoints(const Campaign& campaign, const std::optional<TrackerNoise>& noise) {
+std::vector<StatePoints> statePoints(const Campaign& campaign) {
   Gatherer gatherer(campaign.targets.size());
   if (campaign.circle_sweeps) {
     for (const CircleReading& row : campaign.circle_sweeps->rows) {
@@ -102,7 +108,7 @@ std::vector<StatePoints> statePoints(const Campaign& campaign, const std::option
       gatherer.add(Source::loading, 0, {}, row.pose, row.step, row);
     }
   }
-  return gatherer.finish(noise);
+  return gatherer.finish();
 }
 
 }  // namespace stiffscope

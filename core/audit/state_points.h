@@ -8,14 +8,15 @@
 
 namespace stiffscope {
 
-/// One reflector in one state of the arm: the mean of its readings and the covariance of that mean by the
-/// declared noise (zero where none is declared).
+/// One reflector in one state of the arm: the mean of its readings. Of a long sweep there are a million.
 struct ReflectorMean {
   int target = 0;
-  Eigen::Vector3d point = Eigen::Vector3d::Zero();
-  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
   int readings = 0;
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();
   std::size_t line = 0;  ///< of its first reading
+
+  /// Of the mean, m^2.
+  Eigen::Matrix3d covariance(const TrackerNoise& noise) const { return noise.covarianceAt(point) / readings; }
 };
 
 /// The reflectors while the arm stood still: one index of a sweep, or one load state.
@@ -37,6 +38,6 @@ std::string nameOf(const Campaign& campaign, const StatePoints& state);
 
 /// All states of circle sweeps, wrist sweep and loading, in that order; for the loading in the order of its
 /// rows.
-std::vector<StatePoints> statePoints(const Campaign& campaign, const std::optional<TrackerNoise>& noise);
+std::vector<StatePoints> statePoints(const Campaign& campaign);
 
 }  // namespace stiffscope

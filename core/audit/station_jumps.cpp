@@ -65,7 +65,7 @@ double misfitOf(const Campaign& campaign, const TrackerNoise& noise, const Stati
   const Frames frames = measureFrames(corrected);
   constexpr double kAnyCompliance = 1e-6;  // rad/Nm; what it really is, is fitted
   const LoadingGeometry geometry = sweptGeometry(corrected, frames, Vector6d::Constant(kAnyCompliance));
-  const AbsoluteRows rows = absoluteRows(corrected, frames, geometry, statePoints(corrected, noise), noise);
+  const AbsoluteRows rows = absoluteRows(corrected, frames, geometry, statePoints(corrected), noise);
   if (!rows.reason.empty()) return INFINITY;
   Eigen::MatrixXd columns(3 * static_cast<Eigen::Index>(rows.rows.size()), rows.parameters);
   Eigen::VectorXd left(columns.rows());

@@ -11,7 +11,8 @@ namespace stiffscope {
 namespace {
 
 /// Distances of one pair; `change` holds the distance itself until the reference is known.
-std::vector<ToolDistance> distancesOf(const std::vector<StatePoints>& states, int first, int second) {
+std::vector<ToolDistance> distancesOf(const std::vector<StatePoints>& states, int first, int second,
+                                      const TrackerNoise& noise) {
   std::vector<ToolDistance> found;
   found.reserve(states.size());
   for (std::size_t s = 0; s < states.size(); ++s) {
@@ -21,7 +22,7 @@ std::vector<ToolDistance> distancesOf(const std::vector<StatePoints>& states, in
     const Eigen::Vector3d between = b->point - a->point;
     const Eigen::Vector3d along = between.normalized();
     found.push_back(
-        {s, first, second, between.norm(), std::sqrt(along.dot((a->covariance + b->covariance) * along))});
+        {s, first, second, between.norm(), std::sqrt(along.dot((a->covariance(noise) + b->covariance(noise)) * along))});
   }
   return found;
 }
@@ -67,12 +68,12 @@ const ToolDistances::Pair* ToolDistances::pair(int first, int second) const {
   return nullptr;
 }
 
-ToolDistances toolDistances(const std::vector<StatePoints>& states, int targets) {
+ToolDistances toolDistances(const std::vector<StatePoints>& states, int targets, const TrackerNoise& noise) {
   std::vector<std::vector<ToolDistance>> by_pair;
   std::size_t count = 0;
   for (int a = 0; a < targets; ++a) {
     for (int b = a + 1; b < targets; ++b) {
-      std::vector<ToolDistance> found = distancesOf(states, a, b);
+      std::vector<ToolDistance> found = distancesOf(states, a, b, noise);
       if (found.size() < 3) continue;
       count += found.size();
       by_pair.push_back(std::move(found));

@@ -30,7 +30,7 @@ struct ToolDistances {
   const Pair* pair(int first, int second) const;
 };
 
-/// Needs covariances in the states. A pair that fewer than three states show is left out.
-ToolDistances toolDistances(const std::vector<StatePoints>& states, int targets);
+/// A pair that fewer than three states show is left out.
+ToolDistances toolDistances(const std::vector<StatePoints>& states, int targets, const TrackerNoise& noise);
 
 }  // namespace stiffscope

@@ -1,6 +1,7 @@
 #include "core/audit/wrist_residuals.h"
 
 #include <Eigen/Dense>
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -12,10 +13,21 @@ namespace {
 
 constexpr Eigen::Index kCentre = 3, kAxes = 12;
 
-/// One reading: radial distance less the model's, its derivatives, its standard deviation.
+/// One reading: radial distance less the model's, its derivatives, its standard deviation. The derivative by its reflector's
+/// radius is 1, by the others' 0.
 struct Row {
   double residual = 0.0, sd = 0.0;
-  Eigen::RowVectorXd jacobian;
+  int target = 0;
+  std::array<double, kCentre> by_centre{};
+  std::array<double, kAxes> by_axes{};
+
+  Eigen::RowVectorXd jacobian(Eigen::Index targets) const {
+    Eigen::RowVectorXd all = Eigen::RowVectorXd::Zero(kCentre + targets + kAxes);
+    for (Eigen::Index k = 0; k < kCentre; ++k) all[k] = by_centre[static_cast<std::size_t>(k)];
+    all[kCentre + target] = 1.0;
+    for (Eigen::Index k = 0; k < kAxes; ++k) all[kCentre + targets + k] = by_axes[static_cast<std::size_t>(k)];
+    return all;
+  }
 };
 
 std::vector<Row> rowsOf(const Evidence& evidence) {
@@ -23,9 +35,9 @@ std::vector<Row> rowsOf(const Evidence& evidence) {
   const Frames& frames = evidence.frames;
   const Robot& arm = frames.arm.arm;
   const WristCentre& wrist = frames.wrist;
-  const auto targets = static_cast<Eigen::Index>(evidence.campaign.targets.size());
   const MovedAxes axes(frames);
   std::vector<Row> rows;
+  rows.reserve(sweep.rows.size());
   for (std::size_t i = 0; i < sweep.rows.size(); ++i) {
     const WristReading& reading = sweep.rows[i];
     const auto& at_zero = frames.targets_in_r0_at_zero[static_cast<std::size_t>(reading.target)];
@@ -40,15 +52,14 @@ std::vector<Row> rowsOf(const Evidence& evidence) {
     Row row;
     row.residual = from_centre.norm() - modelled(posture);
     row.sd = std::sqrt(seen.dot(evidence.noise->covarianceAt(reading.point) * seen));
-    row.jacobian = Eigen::RowVectorXd::Zero(kCentre + targets + kAxes);
-    row.jacobian.head<3>() = radial.transpose();
-    row.jacobian[kCentre + reading.target] = 1.0;
+    row.target = reading.target;
+    row.by_centre = {radial.x(), radial.y(), radial.z()};
     for (int k = 0; k < kAxes; ++k) {
       const ArmPosture moved =
           axes.postureWithMoved(arm, reading.q, static_cast<std::size_t>(3 + k / 4), k % 4);
-      row.jacobian[kCentre + targets + k] = (modelled(moved) - modelled(posture)) / MovedAxes::kStep;
+      row.by_axes[static_cast<std::size_t>(k)] = (modelled(moved) - modelled(posture)) / MovedAxes::kStep;
     }
-    rows.push_back(std::move(row));
+    rows.push_back(row);
   }
   return rows;
 }
@@ -73,8 +84,9 @@ WristResiduals wristResiduals(const Evidence& evidence) {
   Eigen::MatrixXd normal = prior;
   Eigen::VectorXd right = Eigen::VectorXd::Zero(normal.rows());
   for (const Row& row : rows) {
-    normal += row.jacobian.transpose() * row.jacobian / (row.sd * row.sd);
-    right += row.jacobian.transpose() * row.residual / (row.sd * row.sd);
+    const Eigen::RowVectorXd jacobian = row.jacobian(targets);
+    normal += jacobian.transpose() * jacobian / (row.sd * row.sd);
+    right += jacobian.transpose() * row.residual / (row.sd * row.sd);
   }
   WristResiduals result;
   result.dof = static_cast<int>(rows.size()) - static_cast<int>(kCentre);
@@ -93,7 +105,7 @@ WristResiduals wristResiduals(const Evidence& evidence) {
   for (const WristReading& reading : evidence.campaign.wrist_sweep->rows) {
     if (!evidence.frames.targets_in_r0_at_zero[static_cast<std::size_t>(reading.target)]) continue;
     const Row& row = rows[at++];
-    const double left = row.residual - row.jacobian.dot(found), sigmas = std::abs(left) / row.sd;
+    const double left = row.residual - row.jacobian(targets).dot(found), sigmas = std::abs(left) / row.sd;
     result.chi2 += sigmas * sigmas;
     result.rms += left * left;
     if (sigmas > farthest) farthest = sigmas, result.worst = reading.line;

@@ -99,7 +99,8 @@ GapStart gapStart(const Campaign& campaign, bool take_off_station) {
   if (moved && take_off_station) takeOffDrift(start.station.motion, start.campaign);
   start.campaign.nests.reset();  // they have said what they know
   start.noise = noiseFloor(start.campaign);
-  const Evidence evidence = gatherEvidence(leaveRaw(start.campaign));
+  const PreparedCampaign prepared = leaveRaw(start.campaign);
+  const Evidence evidence = gatherEvidence(prepared.campaign, prepared);
   start.geometry = evidence.arm.geometry;
   start.absolute = start.campaign.loading && start.geometry.r0_from_loading.has_value();
   // A sag that is not known would be taken for geometry, frames and springs.

@@ -135,5 +135,26 @@ TEST(Prepare, TheDriftingPracticeDayLosesItsExcess) {
   EXPECT_LT(residual(prepareCampaign(read).campaign), 10e-6);
 }
 
+TEST(Prepare, AnAuditOfWhatIsPreparedIsTheSameAndLeavesItAsItWas) {
+  Campaign day = good();
+  day.tracker->range_fixed /= 3.0;  // repeats that scatter by more replace it within the audit
+  day.loading->rows[50].point.setZero();
+  PreparedCampaign prepared = prepareCampaign(day);
+  const PreparedCampaign before = prepared;
+  const AuditReport of_prepared = audit(prepared), of_day = audit(day);
+  ASSERT_EQ(of_prepared.checks.size(), of_day.checks.size());
+  for (std::size_t i = 0; i < of_day.checks.size(); ++i) {
+    EXPECT_EQ(of_prepared.checks[i].id, of_day.checks[i].id);
+    EXPECT_EQ(of_prepared.checks[i].verdict, of_day.checks[i].verdict);
+    EXPECT_EQ(of_prepared.checks[i].value, of_day.checks[i].value) << of_day.checks[i].id;
+    EXPECT_EQ(of_prepared.checks[i].message, of_day.checks[i].message);
+  }
+  EXPECT_EQ(of_prepared.rejected.size(), of_day.rejected.size());
+  EXPECT_EQ(prepared.campaign.tracker->range_fixed, day.tracker->range_fixed);
+  ASSERT_EQ(prepared.campaign.loading->rows.size(), before.campaign.loading->rows.size());
+  EXPECT_EQ(farthestApart(prepared.campaign, before.campaign), 0.0);
+  EXPECT_EQ(prepared.screening.size(), before.screening.size());
+}
+
 }  // namespace
 }  // namespace stiffscope
