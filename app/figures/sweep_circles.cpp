@@ -18,7 +18,7 @@ namespace stiffscope {
 
 namespace {
 
-constexpr std::size_t kMostOnRing = 360;  // one a degree
+constexpr std::size_t kMostOnRing = 60;  // a mark is eight pixels wide, a ring some six hundred long
 
 /// Radial residual of one reading, at the joint's angle.
 struct RadialResidual {

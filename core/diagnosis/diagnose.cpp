@@ -242,8 +242,12 @@ class Diagnoser {
 };
 
 /// `spread` is what is looked at of a campaign of so many postures, which the diagnosis refers to.
-Diagnosis diagnoseSpread(const Campaign& spread, std::size_t postures, const DiagnoseOptions& options) {
+Diagnosis diagnoseSpread(const Campaign& spread, std::size_t postures, bool long_sweeps, const DiagnoseOptions& options) {
   Diagnosis diagnosis = Diagnoser(spread, options).run();
+  if (long_sweeps) {
+    diagnosis.verdict.reason += fmt::format(" Of a sweep's readings {} at most took part, spread evenly over it.", kMostSwept);
+  }
+  if (postures <= kMostDiagnosed) return diagnosis;
   const std::vector<int> places = evenlySpreadPostures(postures, kMostDiagnosed);
   for (PointGap& one : diagnosis.at_points) one.pose = places[static_cast<std::size_t>(one.pose)];
   diagnosis.verdict.reason +=
@@ -251,22 +255,23 @@ Diagnosis diagnoseSpread(const Campaign& spread, std::size_t postures, const Dia
   return diagnosis;
 }
 
-bool isLong(const Campaign& campaign) { return campaign.pose_ids.size() > kMostDiagnosed; }
+bool isLong(const Campaign& campaign) { return campaign.pose_ids.size() > kMostDiagnosed || hasLongSweep(campaign); }
 
 }  // namespace
 
 Diagnosis diagnose(const Campaign& campaign, const DiagnoseOptions& options) {
   requireLoads(campaign);
   if (!isLong(campaign)) return Diagnoser(campaign, options).run();
-  return diagnoseSpread(evenlySpread(campaign, kMostDiagnosed), campaign.pose_ids.size(), options);
+  return diagnoseSpread(evenlySpread(campaign, kMostDiagnosed), campaign.pose_ids.size(), hasLongSweep(campaign), options);
 }
 
 Diagnosis diagnose(Campaign&& campaign, const DiagnoseOptions& options) {
   requireLoads(campaign);
   const std::size_t postures = campaign.pose_ids.size();
   if (!isLong(campaign)) return Diagnoser(campaign, options).run();
+  const bool long_sweeps = hasLongSweep(campaign);
   campaign = evenlySpread(campaign, kMostDiagnosed);
-  return diagnoseSpread(campaign, postures, options);
+  return diagnoseSpread(campaign, postures, long_sweeps, options);
 }
 
 }  // namespace stiffscope

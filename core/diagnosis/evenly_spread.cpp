@@ -1,6 +1,7 @@
 #include "core/diagnosis/evenly_spread.h"
 
 #include <algorithm>
+#include <map>
 
 namespace stiffscope {
 
@@ -24,6 +25,25 @@ std::optional<Table<Row>> ofPostures(const std::optional<Table<Row>>& table, con
   return kept;
 }
 
+/// As many readings of every kind, spread evenly over it: `kind(row)` is the reflector, with the axis of a circle sweep.
+template <class Row, class Kind>
+std::optional<Table<Row>> ofReadings(const std::optional<Table<Row>>& table, std::size_t most, const Kind& kind) {
+  if (!table || table->rows.size() <= most) return table;
+  std::map<int, std::vector<std::size_t>> kinds;
+  for (std::size_t i = 0; i < table->rows.size(); ++i) kinds[kind(table->rows[i])].push_back(i);
+  const std::size_t of_each = std::max<std::size_t>(1, most / kinds.size());
+  std::vector<std::size_t> taken;
+  for (const auto& [name, rows] : kinds) {
+    const std::size_t count = std::min(of_each, rows.size());
+    for (std::size_t k = 0; k < count; ++k) taken.push_back(rows[k * rows.size() / count]);
+  }
+  std::sort(taken.begin(), taken.end());  // the table's order is that of time
+  Table<Row> kept{table->file, table->frame, {}};
+  kept.rows.reserve(taken.size());
+  for (const std::size_t i : taken) kept.rows.push_back(table->rows[i]);
+  return kept;
+}
+
 }  // namespace
 
 std::vector<int> evenlySpreadPostures(std::size_t postures, std::size_t most) {
@@ -32,7 +52,7 @@ std::vector<int> evenlySpreadPostures(std::size_t postures, std::size_t most) {
   return spread;
 }
 
-Campaign evenlySpread(const Campaign& campaign, std::size_t most) {
+Campaign evenlySpread(const Campaign& campaign, std::size_t most, std::size_t most_swept) {
   // All of a Campaign by name: one more member does not compile until it is copied here.
   const auto& [folder, name, date, texts, robot, base_link, flange_link, double_encoder, gravity, tracker, targets,
                load_cell, tool, circle_sweeps, wrist_sweep, loading, states, displacements, nests, pose_ids, nest_ids,
@@ -43,11 +63,19 @@ Campaign evenlySpread(const Campaign& campaign, std::size_t most) {
     now[static_cast<std::size_t>(posture)] = static_cast<int>(kept_ids.size());
     kept_ids.push_back(pose_ids[static_cast<std::size_t>(posture)]);
   }
+  const int reflectors = static_cast<int>(targets.size());
   return {folder,        name,        date,           texts,       robot,
           base_link,     flange_link, double_encoder, gravity,     tracker,
-          targets,       load_cell,   tool,           circle_sweeps, wrist_sweep,
+          targets,       load_cell,   tool,
+          ofReadings(circle_sweeps, most_swept, [&](const CircleReading& row) { return row.axis * reflectors + row.target; }),
+          ofReadings(wrist_sweep, most_swept, [](const WristReading& row) { return row.target; }),
           ofPostures(loading, now), ofPostures(states, now), ofPostures(displacements, now), nests, kept_ids,
           nest_ids,      inputs};
+}
+
+bool hasLongSweep(const Campaign& campaign, std::size_t most_swept) {
+  return (campaign.circle_sweeps && campaign.circle_sweeps->rows.size() > most_swept) ||
+         (campaign.wrist_sweep && campaign.wrist_sweep->rows.size() > most_swept);
 }
 
 }  // namespace stiffscope

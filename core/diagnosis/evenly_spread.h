@@ -7,13 +7,17 @@
 namespace stiffscope {
 
 /// A posture costs the diagnosis about a megabyte of equations and one more fit without it: of a longer day it looks at
-/// so many postures.
-inline constexpr std::size_t kMostDiagnosed = 100;
+/// so many postures. A reading of a sweep costs 13 kB, so of a longer table it looks at so many.
+inline constexpr std::size_t kMostDiagnosed = 100, kMostSwept = 2000;
 
 /// At most `most` of a day's postures, spread evenly over it: their indices, ascending.
 std::vector<int> evenlySpreadPostures(std::size_t postures, std::size_t most);
 
-/// The campaign of those postures alone, numbered anew in their order. The other readings are never copied.
-Campaign evenlySpread(const Campaign& campaign, std::size_t most);
+/// The campaign of those postures alone, numbered anew in their order, and of each sweep `most_swept` readings, as many
+/// of each axis and reflector, spread evenly. The other readings are never copied.
+Campaign evenlySpread(const Campaign& campaign, std::size_t most, std::size_t most_swept = kMostSwept);
+
+/// Whether evenlySpread of that many would leave sweep readings out.
+bool hasLongSweep(const Campaign& campaign, std::size_t most_swept = kMostSwept);
 
 }  // namespace stiffscope

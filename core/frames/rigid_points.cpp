@@ -1,6 +1,9 @@
 #include "core/frames/rigid_points.h"
 
 #include <algorithm>
+#include <cstddef>
+
+#include "core/parallel/on_all_cores.h"
 
 namespace stiffscope {
 
@@ -8,12 +11,11 @@ namespace {
 
 template <class Row>
 std::vector<Eigen::Vector3d> lessSag(const std::vector<Row>& rows, const SagModel& sag, double& largest) {
-  std::vector<Eigen::Vector3d> points;
-  points.reserve(rows.size());
-  for (const Row& row : rows) {
-    const Eigen::Vector3d shift = sag.displacement(row.q, row.target);
-    largest = std::max(largest, shift.norm());
-    points.push_back(row.point - shift);
+  std::vector<Eigen::Vector3d> points(rows.size());
+  smallWorkOnAllCores(rows.size(), [&](std::size_t i) { points[i] = sag.displacement(rows[i].q, rows[i].target); });
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    largest = std::max(largest, points[i].norm());
+    points[i] = rows[i].point - points[i];
   }
   return points;
 }

@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <map>
 #include <set>
 #include <string>
 #include <utility>
@@ -62,6 +64,45 @@ TEST(EvenlySpread, KeepsTheRowsOfItsPosturesAndAllElse) {
   EXPECT_EQ(some.nests->rows.size(), all.nests->rows.size());
   EXPECT_EQ(some.inputs.size(), all.inputs.size());
   EXPECT_EQ(some.tracker->model, all.tracker->model);
+}
+
+TEST(EvenlySpread, TakesAsManyReadingsOfASweepOfEachAxisAndReflector) {
+  const Campaign all = sampleDay(), some = evenlySpread(all, 100, 90);
+  std::map<std::pair<int, int>, std::vector<std::size_t>> circles;
+  for (const CircleReading& row : some.circle_sweeps->rows) circles[{row.axis, row.target}].push_back(row.line);
+  ASSERT_EQ(circles.size(), 18u);  // six axes, three reflectors
+  for (const auto& [kind, lines] : circles) {
+    EXPECT_EQ(lines.size(), 5u);
+    EXPECT_GT(lines.back() - lines.front(), 30u);  // of twenty readings that take turns, the first to the seventeenth
+  }
+  std::map<int, int> wrist;
+  for (const WristReading& row : some.wrist_sweep->rows) ++wrist[row.target];
+  EXPECT_GE(wrist.size(), 1u);
+  for (const auto& [target, count] : wrist) EXPECT_EQ(count, static_cast<int>(90 / wrist.size()));
+  EXPECT_TRUE(std::is_sorted(some.wrist_sweep->rows.begin(), some.wrist_sweep->rows.end(),
+                             [](const WristReading& a, const WristReading& b) { return a.line < b.line; }));
+  EXPECT_TRUE(hasLongSweep(all, 90));
+  EXPECT_FALSE(hasLongSweep(all));
+}
+
+// A million readings of a sweep would be seventeen gigabytes of equations.
+TEST(Diagnose, OfALongSweepTheReadingsSpreadOverItTakePart) {
+  Campaign day = sampleDay();
+  const std::vector<WristReading> once = day.wrist_sweep->rows;
+  while (day.wrist_sweep->rows.size() <= kMostSwept) {
+    for (WristReading row : once) {
+      row.point.array() += 1e-7 * static_cast<double>(day.wrist_sweep->rows.size() / once.size());
+      day.wrist_sweep->rows.push_back(row);
+    }
+  }
+  DiagnoseOptions quick;
+  quick.resamples = quick.chance_draws = 0;
+  quick.only = Effect::joint_coupling;
+  const Diagnosis by_itself = diagnose(evenlySpread(day, kMostDiagnosed), quick), whole = diagnose(day, quick);
+  EXPECT_EQ(whole.gap.before, by_itself.gap.before);
+  EXPECT_EQ(whole.gap.after, by_itself.gap.after);
+  EXPECT_NE(whole.verdict.reason.find("Of a sweep's readings 2000 at most took part"), std::string::npos) << whole.verdict.reason;
+  EXPECT_EQ(whole.verdict.reason.find("postures"), by_itself.verdict.reason.find("postures"));
 }
 
 TEST(LowerTriangle, AddsToTheLowerTriangleAlone) {
