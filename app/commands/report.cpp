@@ -64,30 +64,24 @@ struct Result {
 
   Result(const std::string& folder, const Arguments& arguments, const IdentifyOptions& options) {
     Campaign read = openCampaign(folder);
-    if (!arguments.raw && !whatLoadsLack(read).empty()) {
-      onlyFrames(std::move(read));
-      return;
-    }
-    prepared = arguments.raw ? leaveRaw(read) : prepareCampaign(read);
+    const bool loads = whatLoadsLack(read).empty();
+    Campaign used = loads ? read : std::move(read);  // sweeps alone may be a million readings: once is enough
+    prepared = arguments.raw ? leaveRaw(std::move(used)) : prepareCampaign(std::move(used));
     loaded = whatLoadsLack(prepared.campaign).empty();
+    // First of all: of a long day it lets most of what was read go.
+    if (loaded) diagnosis = diagnose(std::move(read));
+    read = Campaign();
+    returnFreeMemory();
     if (loaded && !arguments.with.empty()) {
       improved = improveModel(prepared.campaign, effectsAsked(prepared, arguments.with), options);
     } else {
       own = loaded ? identify(prepared.campaign, options) : framesAlone(prepared.campaign);
     }
+    returnFreeMemory();
+    audited = arguments.raw ? audit(prepared.campaign) : audit(prepared);
+    if (diagnosis) addSeparableEffects(*diagnosis, audited);
     withoutLoadReadings(prepared.campaign);
     if (improved) withoutLoadReadings(improved->campaign);
-    returnFreeMemory();
-    if (loaded) diagnosis = diagnose(read);
-    audited = audit(std::move(read));
-    if (diagnosis) addSeparableEffects(*diagnosis, audited);
-  }
-
-  /// Nothing but sweeps, which may be a million readings: there is one copy of them.
-  void onlyFrames(Campaign read) {
-    prepared = prepareCampaign(std::move(read));
-    own = framesAlone(prepared.campaign);
-    audited = audit(prepared);
   }
 
   /// Of loads, stiffnesses are the purpose; of a day of sweeps alone, the frames.
