@@ -17,10 +17,6 @@ namespace {
 
 constexpr double kMmPerM = 1e3;
 
-std::string poseName(const ReportCampaign& one, std::size_t index) {
-  return page::asIs(one.campaign.pose_ids[static_cast<std::size_t>(one.identification.cases[index].pose)]);
-}
-
 void nameVectors(ArmScene& scene, std::optional<Method> method) {
   if (!method) return;
   scene.predicted_name = fmt::format("predicted by {}", page::shortName(*method));
@@ -68,7 +64,7 @@ std::size_t medianCase(const ReportCampaign& one) {
 ArmScene postureScene(const ReportCampaign& one, std::size_t index, std::optional<Method> method) {
   const double force = one.identification.cases[index].wrench.force.norm();
   ArmScene scene;
-  scene.title = fmt::format("Deflection in posture {} under {}", poseName(one, index), kilonewtons(force));
+  scene.title = fmt::format("Deflection in posture {} under {}", page::postureName(one, index), kilonewtons(force));
   scene.subtitle = page::asIs(one.campaign.name);
   scene.poses = {armPose(one, index, method)};
   nameVectors(scene, method);
@@ -108,7 +104,7 @@ Figure describeDeflectionScene(const ReportCampaign& one, double magnification) 
   const double displacement = kMmPerM * page::displacementAt(one.identification, point.at_wrist)[index];
   Figure figure;
   figure.id = "deflection";
-  figure.title = fmt::format("Deflection in posture {}", poseName(one, index));
+  figure.title = fmt::format("Deflection in posture {}", page::postureName(one, index));
   figure.caption =
       fmt::format("The posture with the median displacement of {}, {}\u00a0mm, magnified {} times.",
                   point.name, page::fixed(displacement, 2), factorText(magnification));
@@ -123,7 +119,7 @@ Figure describeDeflectionScene(const ReportCampaign& one, double magnification) 
   figure.alt = fmt::format(
       "The arm in posture {} with arrows for the measured, predicted and residual displacement of its reflectors{}, "
       "magnified {} times.",
-      page::plain(poseName(one, index)), point.at_wrist ? " and wrist centre" : "", factorText(magnification));
+      page::plain(page::postureName(one, index)), point.at_wrist ? " and wrist centre" : "", factorText(magnification));
   return figure;
 }
 

@@ -23,10 +23,6 @@ std::vector<double> drawnInMm(const std::vector<double>& values) {
   return drawn;
 }
 
-std::string postureOf(const ReportCampaign& one, std::size_t index) {
-  return page::asIs(one.campaign.pose_ids[static_cast<std::size_t>(one.identification.cases[index].pose)]);
-}
-
 /// How the bars were judged: "each posture by 10 of the others".
 std::string judgedWords(const ReportCampaign& one) {
   for (const Method method : kMethods) {
@@ -46,7 +42,7 @@ GroupedBarChart emptyChart(const ReportCampaign& one, const char* what, const ch
   chart.y_title = fmt::format("{} of {} (mm)", axis, point.name);
   chart.category_title = "Posture";
   for (const std::size_t i : evenlyDrawn(one.identification.cases.size(), kMostPostures)) {
-    chart.categories.push_back(postureOf(one, i));
+    chart.categories.push_back(page::postureName(one, i));
   }
   return chart;
 }
@@ -65,7 +61,7 @@ std::string drawnOf(const ReportCampaign& one, const std::vector<double>& values
   if (words.empty()) return {};
   const auto longest = std::max_element(values.begin(), values.end());
   return fmt::format("{} The longest of all is {}\u00a0mm, in posture {}.", words, page::fixed(kMmPerM * *longest, 2),
-                     postureOf(one, static_cast<std::size_t>(longest - values.begin())));
+                     page::postureName(one, static_cast<std::size_t>(longest - values.begin())));
 }
 
 /// "CP leaves 0.12, PP 0.08 and DPP 0.05 mm in the mean"

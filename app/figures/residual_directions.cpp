@@ -71,10 +71,6 @@ std::vector<ResidualVector> residualsOf(const ReportCampaign& one, const MethodR
   return residuals;
 }
 
-std::string postureOf(const ReportCampaign& one, std::size_t index) {
-  return page::asIs(one.campaign.pose_ids[static_cast<std::size_t>(one.identification.cases[index].pose)]);
-}
-
 PointPanel panelOf(const ReportCampaign& one, const std::vector<ResidualVector>& residuals, std::size_t d,
                    bool normalised) {
   PointPanel panel;
@@ -82,7 +78,7 @@ PointPanel panelOf(const ReportCampaign& one, const std::vector<ResidualVector>&
   std::vector<std::optional<std::size_t>> place(cases.size());  // in the picture
   for (const std::size_t i : evenlyDrawn(cases.size(), kMostPostures)) {
     place[i] = panel.categories.size();
-    panel.categories.push_back(postureOf(one, i));
+    panel.categories.push_back(page::postureName(one, i));
   }
   const std::size_t targets = one.campaign.targets.size();
   for (std::size_t target = 0; target < targets; ++target) {
@@ -142,7 +138,7 @@ std::string drawnOf(const ReportCampaign& one, const std::vector<ResidualVector>
   return fmt::format("{} The longest residual of all is {}\u00a0µm, of {} in posture {}.", words,
                      page::significant(kUmPerM * length(*longest), 2),
                      page::pointName(one.campaign.targets[static_cast<std::size_t>(longest->target)].id),
-                     postureOf(one, longest->load_case));
+                     page::postureName(one, longest->load_case));
 }
 
 }  // namespace

@@ -76,6 +76,10 @@ JudgedPoint judgedPoint(const ReportCampaign& one) {
   return {false, fmt::format("the reflectors (mean of {})", count)};
 }
 
+std::string postureName(const ReportCampaign& one, std::size_t load_case) {
+  return asIs(one.campaign.pose_ids[static_cast<std::size_t>(one.identification.cases[load_case].pose)]);
+}
+
 const std::vector<double>& displacementAt(const Identification& identification, bool at_wrist) {
   return at_wrist ? identification.wrist_displacement : identification.target_displacement;
 }

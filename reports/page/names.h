@@ -27,6 +27,9 @@ struct JudgedPoint {
 };
 JudgedPoint judgedPoint(const ReportCampaign& one);
 
+/// The name of the posture of a load case, to the letter.
+std::string postureName(const ReportCampaign& one, std::size_t load_case);
+
 const std::vector<double>& displacementAt(const Identification& identification,
                                           bool at_wrist);                          ///< m, per case
 const std::vector<double>& residualAt(const MethodResult& method, bool at_wrist);  ///< m, per case
