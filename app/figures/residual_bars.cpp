@@ -4,8 +4,9 @@
 
 #include <algorithm>
 
-#include "app/figures/evenly_drawn.h"
+#include "app/figures/drawn_words.h"
 #include "app/figures/method_colours.h"
+#include "core/diagnosis/evenly_spread.h"
 #include "reports/page/html.h"
 #include "reports/page/names.h"
 #include "reports/page/numbers.h"
@@ -19,7 +20,7 @@ constexpr std::size_t kMostPostures = 200;  // four bars each are hardly a pixel
 
 std::vector<double> drawnInMm(const std::vector<double>& values) {
   std::vector<double> drawn;
-  for (const std::size_t i : evenlyDrawn(values.size(), kMostPostures)) drawn.push_back(kMmPerM * values[i]);
+  for (const std::size_t i : evenlySpreadIndices(values.size(), kMostPostures)) drawn.push_back(kMmPerM * values[i]);
   return drawn;
 }
 
@@ -41,7 +42,7 @@ GroupedBarChart emptyChart(const ReportCampaign& one, const char* what, const ch
   chart.subtitle = fmt::format("{}; {}", page::asIs(one.campaign.name), judgedWords(one));
   chart.y_title = fmt::format("{} of {} (mm)", axis, point.name);
   chart.category_title = "Posture";
-  for (const std::size_t i : evenlyDrawn(one.identification.cases.size(), kMostPostures)) {
+  for (const std::size_t i : evenlySpreadIndices(one.identification.cases.size(), kMostPostures)) {
     chart.categories.push_back(page::postureName(one, i));
   }
   return chart;

@@ -6,8 +6,9 @@
 #include <array>
 #include <cmath>
 
-#include "app/figures/evenly_drawn.h"
+#include "app/figures/drawn_words.h"
 #include "app/figures/series_look.h"
+#include "core/diagnosis/evenly_spread.h"
 #include "core/identification/noise_share.h"
 #include "reports/page/html.h"
 #include "reports/page/names.h"
@@ -76,7 +77,7 @@ PointPanel panelOf(const ReportCampaign& one, const std::vector<ResidualVector>&
   PointPanel panel;
   const auto& cases = one.identification.cases;
   std::vector<std::optional<std::size_t>> place(cases.size());  // in the picture
-  for (const std::size_t i : evenlyDrawn(cases.size(), kMostPostures)) {
+  for (const std::size_t i : evenlySpreadIndices(cases.size(), kMostPostures)) {
     place[i] = panel.categories.size();
     panel.categories.push_back(page::postureName(one, i));
   }

@@ -6,8 +6,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "app/figures/evenly_drawn.h"
+#include "app/figures/drawn_words.h"
 #include "app/figures/series_look.h"
+#include "core/diagnosis/evenly_spread.h"
 #include "core/input/units.h"
 #include "render/ticks.h"
 #include "reports/page/html.h"
@@ -75,7 +76,7 @@ ShapePanel panelOf(const ReportCampaign& one, const RigidPoints& points, int axi
     PointSeries series = seriesLook(static_cast<std::size_t>(measured.targets[ring]));
     series.name = page::pointName(one.campaign.targets[static_cast<std::size_t>(measured.targets[ring])].id);
     series.joined = true;
-    for (const std::size_t i : evenlyDrawn(residuals[ring].size(), kMostOnRing)) {
+    for (const std::size_t i : evenlySpreadIndices(residuals[ring].size(), kMostOnRing)) {
       const RadialResidual& at = residuals[ring][i];
       series.points.push_back(polar(radius + magnified * at.residual, at.angle));
     }

@@ -5,8 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/figures/evenly_drawn.h"
+#include "app/figures/drawn_words.h"
 #include "app/figures/series_look.h"
+#include "core/diagnosis/evenly_spread.h"
 #include "core/input/units.h"
 #include "reports/page/html.h"
 #include "reports/page/names.h"
@@ -73,7 +74,7 @@ PointPanel panelOf(const ReportCampaign& one, const std::vector<SphereResidual>&
   for (std::size_t target = 0; target < readings.size(); ++target) {
     PointSeries series = seriesLook(target);
     series.name = page::pointName(one.campaign.targets[target].id);
-    for (const std::size_t k : evenlyDrawn(readings[target].size(), kMostReadings)) {
+    for (const std::size_t k : evenlySpreadIndices(readings[target].size(), kMostReadings)) {
       const SphereResidual& at = residuals[readings[target][k]];
       series.points.push_back({at.*angle, at.residual_um});
     }

@@ -248,8 +248,8 @@ Diagnosis diagnoseSpread(const Campaign& spread, std::size_t postures, bool long
     diagnosis.verdict.reason += fmt::format(" Of a sweep's readings {} at most took part, spread evenly over it.", kMostSwept);
   }
   if (postures <= kMostDiagnosed) return diagnosis;
-  const std::vector<int> places = evenlySpreadPostures(postures, kMostDiagnosed);
-  for (PointGap& one : diagnosis.at_points) one.pose = places[static_cast<std::size_t>(one.pose)];
+  const std::vector<std::size_t> places = evenlySpreadIndices(postures, kMostDiagnosed);
+  for (PointGap& one : diagnosis.at_points) one.pose = static_cast<int>(places[static_cast<std::size_t>(one.pose)]);
   diagnosis.verdict.reason +=
       fmt::format(" Of {} postures {} took part, spread evenly over the day.", postures, diagnosis.postures);
   return diagnosis;

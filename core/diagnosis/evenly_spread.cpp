@@ -34,8 +34,7 @@ std::optional<Table<Row>> ofReadings(const std::optional<Table<Row>>& table, std
   const std::size_t of_each = std::max<std::size_t>(1, most / kinds.size());
   std::vector<std::size_t> taken;
   for (const auto& [name, rows] : kinds) {
-    const std::size_t count = std::min(of_each, rows.size());
-    for (std::size_t k = 0; k < count; ++k) taken.push_back(rows[k * rows.size() / count]);
+    for (const std::size_t k : evenlySpreadIndices(rows.size(), of_each)) taken.push_back(rows[k]);
   }
   std::sort(taken.begin(), taken.end());  // the table's order is that of time
   Table<Row> kept{table->file, table->frame, {}};
@@ -46,9 +45,9 @@ std::optional<Table<Row>> ofReadings(const std::optional<Table<Row>>& table, std
 
 }  // namespace
 
-std::vector<int> evenlySpreadPostures(std::size_t postures, std::size_t most) {
-  std::vector<int> spread(std::min(postures, most));
-  for (std::size_t k = 0; k < spread.size(); ++k) spread[k] = static_cast<int>(k * postures / spread.size());
+std::vector<std::size_t> evenlySpreadIndices(std::size_t count, std::size_t most) {
+  std::vector<std::size_t> spread(std::min(count, most));
+  for (std::size_t k = 0; k < spread.size(); ++k) spread[k] = k * count / spread.size();
   return spread;
 }
 
@@ -59,9 +58,9 @@ Campaign evenlySpread(const Campaign& campaign, std::size_t most, std::size_t mo
                inputs] = campaign;
   std::vector<int> now(pose_ids.size(), kNotKept);
   std::vector<std::string> kept_ids;
-  for (const int posture : evenlySpreadPostures(pose_ids.size(), most)) {
-    now[static_cast<std::size_t>(posture)] = static_cast<int>(kept_ids.size());
-    kept_ids.push_back(pose_ids[static_cast<std::size_t>(posture)]);
+  for (const std::size_t posture : evenlySpreadIndices(pose_ids.size(), most)) {
+    now[posture] = static_cast<int>(kept_ids.size());
+    kept_ids.push_back(pose_ids[posture]);
   }
   const int reflectors = static_cast<int>(targets.size());
   return {folder,        name,        date,           texts,       robot,

@@ -10,8 +10,8 @@ namespace stiffscope {
 /// so many postures. A reading of a sweep costs 13 kB, so of a longer table it looks at so many.
 inline constexpr std::size_t kMostDiagnosed = 100, kMostSwept = 2000;
 
-/// At most `most` of a day's postures, spread evenly over it: their indices, ascending.
-std::vector<int> evenlySpreadPostures(std::size_t postures, std::size_t most);
+/// Of `count` things at most `most`, spread evenly over them: their indices, ascending.
+std::vector<std::size_t> evenlySpreadIndices(std::size_t count, std::size_t most);
 
 /// The campaign of those postures alone, numbered anew in their order, and of each sweep `most_swept` readings, as many
 /// of each axis and reflector, spread evenly. The other readings are never copied.

@@ -6,10 +6,11 @@
 #include <utility>
 #include <vector>
 
-#include "app/figures/evenly_drawn.h"
+#include "app/figures/drawn_words.h"
 #include "app/figures/residual_bars.h"
 #include "app/figures/residual_directions.h"
 #include "app/figures/wrist_sphere.h"
+#include "core/diagnosis/evenly_spread.h"
 #include "tests/reports/small_result.h"
 
 namespace stiffscope {
@@ -51,11 +52,11 @@ struct LongDay {
   ReportCampaign report() const { return {small.campaign, small.identification}; }
 };
 
-TEST(EvenlyDrawn, AllWhereTheyAreFewElseAsManyAsMayBeFromEndToEnd) {
-  EXPECT_EQ(evenlyDrawn(3, 5), (std::vector<std::size_t>{0, 1, 2}));
-  EXPECT_TRUE(evenlyDrawn(0, 5).empty());
-  EXPECT_EQ(evenlyDrawn(10, 5), (std::vector<std::size_t>{0, 2, 4, 6, 8}));
-  const auto drawn = evenlyDrawn(1'000'003, 1000);
+TEST(LongDay, DrawsAllWhereTheyAreFewElseAsManyAsMayBeFromEndToEnd) {
+  EXPECT_EQ(evenlySpreadIndices(3, 5), (std::vector<std::size_t>{0, 1, 2}));
+  EXPECT_TRUE(evenlySpreadIndices(0, 5).empty());
+  EXPECT_EQ(evenlySpreadIndices(10, 5), (std::vector<std::size_t>{0, 2, 4, 6, 8}));
+  const auto drawn = evenlySpreadIndices(1'000'003, 1000);
   ASSERT_EQ(drawn.size(), 1000u);
   for (std::size_t k = 1; k < drawn.size(); ++k) {
     EXPECT_GE(drawn[k] - drawn[k - 1], 1000u);

@@ -38,8 +38,8 @@ Campaign repeated(int times) {
 }
 
 TEST(EvenlySpread, TakesPosturesAtEvenDistances) {
-  EXPECT_EQ(evenlySpreadPostures(10, 4), (std::vector<int>{0, 2, 5, 7}));
-  EXPECT_EQ(evenlySpreadPostures(3, 4), (std::vector<int>{0, 1, 2}));
+  EXPECT_EQ(evenlySpreadIndices(10, 4), (std::vector<std::size_t>{0, 2, 5, 7}));
+  EXPECT_EQ(evenlySpreadIndices(3, 4), (std::vector<std::size_t>{0, 1, 2}));
 }
 
 TEST(EvenlySpread, KeepsTheRowsOfItsPosturesAndAllElse) {
