@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "core/diagnosis/evenly_spread.h"
 #include "core/input/units.h"
 #include "reports/page/effect_words.h"
 #include "reports/page/html.h"
@@ -61,8 +62,10 @@ Figure describeGapBars(const ReportCampaign& one) {
   figure.id = "gap-by-posture";
   figure.title = found ? "Gap between model and machine, before and after" : "Gap between model and machine";
   figure.caption = fmt::format(
-      "Over all postures, rms per coordinate: {}\u00a0µm by joint stiffnesses alone, {}{}\u00a0µm by noise "
+      "Over {} postures, rms per coordinate: {}\u00a0µm by joint stiffnesses alone, {}{}\u00a0µm by noise "
       "alone.",
+      one.campaign.pose_ids.size() > kMostDiagnosed ? fmt::format("{} of {}", one.diagnosis->postures, one.campaign.pose_ids.size())
+                                                    : "all",
       page::fixed(gap.before / kMicrometre, 1),
       found ? fmt::format("{}\u00a0µm with the verdict's effects in the model, ",
                           page::fixed(gap.after / kMicrometre, 1))
