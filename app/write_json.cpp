@@ -49,7 +49,7 @@ class JsonWriter {
   JsonWriter(const JsonDocument& document, const ByteSink& sink) : document_(document), sink_(sink) {}
 
   void addAll() {
-    add(document_.json, {}, 0);
+    add(document_.json, Place(), 0);
     text_ += '\n';
     handOn();
   }
