@@ -64,8 +64,9 @@ Figure describeGapBars(const ReportCampaign& one) {
   figure.caption = fmt::format(
       "Over {} postures, rms per coordinate: {}\u00a0µm by joint stiffnesses alone, {}{}\u00a0µm by noise "
       "alone.",
-      one.campaign.pose_ids.size() > kMostDiagnosed ? fmt::format("{} of {}", one.diagnosis->postures, one.campaign.pose_ids.size())
-                                                    : "all",
+      one.campaign.pose_ids.size() > kMostDiagnosed
+          ? fmt::format("{} of {}", one.diagnosis->postures, one.campaign.pose_ids.size())
+          : "all",
       page::fixed(gap.before / kMicrometre, 1),
       found ? fmt::format("{}\u00a0µm with the verdict's effects in the model, ",
                           page::fixed(gap.after / kMicrometre, 1))

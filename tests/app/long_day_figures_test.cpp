@@ -10,7 +10,6 @@
 #include "app/figures/residual_bars.h"
 #include "app/figures/residual_directions.h"
 #include "app/figures/wrist_sphere.h"
-#include "core/diagnosis/evenly_spread.h"
 #include "tests/reports/small_result.h"
 
 namespace stiffscope {
@@ -52,17 +51,7 @@ struct LongDay {
   ReportCampaign report() const { return {small.campaign, small.identification}; }
 };
 
-TEST(LongDay, DrawsAllWhereTheyAreFewElseAsManyAsMayBeFromEndToEnd) {
-  EXPECT_EQ(evenlySpreadIndices(3, 5), (std::vector<std::size_t>{0, 1, 2}));
-  EXPECT_TRUE(evenlySpreadIndices(0, 5).empty());
-  EXPECT_EQ(evenlySpreadIndices(10, 5), (std::vector<std::size_t>{0, 2, 4, 6, 8}));
-  const auto drawn = evenlySpreadIndices(1'000'003, 1000);
-  ASSERT_EQ(drawn.size(), 1000u);
-  for (std::size_t k = 1; k < drawn.size(); ++k) {
-    EXPECT_GE(drawn[k] - drawn[k - 1], 1000u);
-    EXPECT_LE(drawn[k] - drawn[k - 1], 1001u);
-  }
-  EXPECT_GE(drawn.back(), 999'000u);
+TEST(LongDay, TheWordsOfWhatIsDrawn) {
   EXPECT_EQ(drawnWords(5, 5, "postures"), "");
   EXPECT_EQ(drawnWords(10'000, 200, "postures"), " Drawn: 200 of 10000 postures, spread evenly.");
 }

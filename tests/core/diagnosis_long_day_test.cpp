@@ -37,9 +37,18 @@ Campaign repeated(int times) {
   return day;
 }
 
-TEST(EvenlySpread, TakesPosturesAtEvenDistances) {
-  EXPECT_EQ(evenlySpreadIndices(10, 4), (std::vector<std::size_t>{0, 2, 5, 7}));
+TEST(EvenlySpread, AllWhereTheyAreFewElseAsManyAsMayBeFromEndToEnd) {
+  EXPECT_TRUE(evenlySpreadIndices(0, 5).empty());
   EXPECT_EQ(evenlySpreadIndices(3, 4), (std::vector<std::size_t>{0, 1, 2}));
+  EXPECT_EQ(evenlySpreadIndices(10, 4), (std::vector<std::size_t>{0, 2, 5, 7}));
+  EXPECT_EQ(evenlySpreadIndices(10, 5), (std::vector<std::size_t>{0, 2, 4, 6, 8}));
+  const auto spread = evenlySpreadIndices(1'000'003, 1000);
+  ASSERT_EQ(spread.size(), 1000u);
+  for (std::size_t k = 1; k < spread.size(); ++k) {
+    EXPECT_GE(spread[k] - spread[k - 1], 1000u);
+    EXPECT_LE(spread[k] - spread[k - 1], 1001u);
+  }
+  EXPECT_GE(spread.back(), 999'000u);
 }
 
 TEST(EvenlySpread, KeepsTheRowsOfItsPosturesAndAllElse) {
