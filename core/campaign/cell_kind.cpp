@@ -33,7 +33,7 @@ int readTarget(std::string_view cell, const CellPlace& place, const CampaignName
 
 }  // namespace
 
-double readUncommonNumber(CellKind kind, std::string_view cell, const CellPlace& place) {
+double readNumberCell(CellKind kind, std::string_view cell, const CellPlace& place) {
   double value = parsePlainNumber(cell);
   if (std::isnan(value)) {
     const ParsedNumber number = parseNumber(cell);

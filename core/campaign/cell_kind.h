@@ -1,14 +1,12 @@
 #pragma once
 
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <string>
 #include <string_view>
 
 #include "core/campaign/campaign_names.h"
-#include "core/input/eight_digits.h"
 #include "core/input/units.h"
 
 namespace stiffscope {
@@ -58,19 +56,8 @@ struct CellPlace {
   std::string_view column;
 };
 
-/// readNumberCell of any cell.
-double readUncommonNumber(CellKind kind, std::string_view cell, const CellPlace& place);
-
-/// A cell as a number in SI and radians. Throws InputError where it is none, or not plausible. `room_behind`: eight bytes
-/// behind it can be read, whatever they are.
-inline double readNumberCell(CellKind kind, std::string_view cell, const CellPlace& place, bool room_behind = false) {
-  if (room_behind) {
-    const NumberKind& info = numberKind(kind);
-    const double value = parseEightAtOnce(cell);
-    if (std::abs(value) <= info.limit) return value * info.si_per_unit;  // not where it is NaN
-  }
-  return readUncommonNumber(kind, cell, place);
-}
+/// A cell as a number in SI and radians. Throws InputError where it is none, or not plausible.
+double readNumberCell(CellKind kind, std::string_view cell, const CellPlace& place);
 
 /// A cell that is kept as an index: axis, step, target, pose, nest. Throws InputError.
 int readIndexCell(CellKind kind, std::string_view cell, const CellPlace& place, CampaignNames& names);

@@ -34,8 +34,9 @@ std::vector<Row> readTableInOneGo(const TableSource& source, const TableLayout<R
   std::vector<Row> rows;
   rows.reserve(lines.mostRows(lines.rest().size(), linesIn(lines.rest())));
   RowRepeats<Row> repeats(key, rows);
+  const RowReader<Row> reader(source.file, layout, lines);
   while (lines.next()) {
-    readRow(source.file, layout, lines, names, rows.emplace_back());
+    reader.read(lines, names, rows.emplace_back());
     const std::size_t first = repeats.of(rows.size() - 1);
     if (first != RepeatCheck::kNew) refuseRepeat(source, layout, key, lines, rows[first].line);
   }

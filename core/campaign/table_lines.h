@@ -39,10 +39,16 @@ class TableLines {
   std::size_t mostRows(std::size_t bytes, std::size_t lines) const;
 
   std::size_t line() const { return lines_.line(); }
-  bool has(std::size_t column) const { return places_[column] != kAbsentColumn; }
+  bool has(std::size_t column) const { return placeOf(column) != kAbsentColumn; }
+
+  /// Where the column that is the `column`-th of those wanted stands in the table; kAbsentColumn where it does not.
+  std::size_t placeOf(std::size_t column) const { return places_[column]; }
+
+  /// Cell of the current line in the `place`-th column of the table.
+  std::string_view cellAt(std::size_t place) const { return cells_[place]; }
 
   /// Cell of the current line in the column that is the `column`-th of those wanted.
-  std::string_view cell(std::size_t column) const { return cells_[places_[column]]; }
+  std::string_view cell(std::size_t column) const { return cellAt(placeOf(column)); }
   bool hasRoomBehindCells() const { return lines_.hasRoomBehindCells(); }
 
  private:

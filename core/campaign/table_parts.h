@@ -9,6 +9,7 @@
 #include "core/campaign/key_columns.h"
 #include "core/campaign/read_row.h"
 #include "core/input/input_error.h"
+#include "core/input/large_pages.h"
 #include "core/parallel/on_all_cores.h"
 
 namespace stiffscope {
@@ -32,7 +33,10 @@ struct TablePart {
 template <class Row>
 class RowsInMaking {
  public:
-  explicit RowsInMaking(std::size_t rows) { rows_.reserve(rows); }
+  explicit RowsInMaking(std::size_t rows) {
+    rows_.reserve(rows);
+    askForLargePages(rows_.data(), rows * sizeof(Row));
+  }
 
   /// The first of all rows, of which there are `count` then at least. None moves: there is room for all.
   Row* made(std::size_t count) {
@@ -67,13 +71,13 @@ std::vector<TablePart<Row>> partsOf(const TableLines& header, const CampaignName
 }
 
 template <class Row>
-void readPart(const std::string& file, const TableLayout<Row>& layout, const KeyColumns<Row>& key,
-              RowsInMaking<Row>& rows, TablePart<Row>& part) try {
+void readPart(const RowReader<Row>& reader, const KeyColumns<Row>& key, RowsInMaking<Row>& rows,
+              TablePart<Row>& part) try {
   Row* const first = rows.made(part.from + part.room) + part.from;
   while (part.lines.next()) {
     const std::size_t read = part.rows.size();
     if (read == part.room) return;
-    readRow(file, layout, part.lines, part.names, first[read]);
+    reader.read(part.lines, part.names, first[read]);
     if (read > 0 && !key.less(first[read - 1], first[read])) part.ascending = false;
     part.rows = {first, read + 1};
   }
@@ -134,7 +138,8 @@ std::optional<std::vector<Row>> readTableInParts(const TableSource& source, cons
   std::vector<TablePart<Row>> parts = partsOf<Row>(header, names, part_bytes);
   if (parts.empty()) return std::nullopt;
   RowsInMaking<Row> making(parts.back().from + parts.back().room);
-  onAllCores(parts.size(), [&](std::size_t i) { readPart(source.file, layout, key, making, parts[i]); });
+  const RowReader<Row> reader(source.file, layout, header);
+  onAllCores(parts.size(), [&](std::size_t i) { readPart(reader, key, making, parts[i]); });
   if (!std::all_of(parts.begin(), parts.end(), [](const auto& part) { return part.done; })) return std::nullopt;
 
   std::vector<std::vector<int>> poses, nests;

@@ -62,8 +62,6 @@ class Calibration {
     options.max_num_iterations = 50;
     ceres::Solver::Summary summary;
     ceres::Solve(options, &problem_, &summary);
-    result.summary = fmt::format("{} iterations, cost {:.6g} to {:.6g}", summary.iterations.size(),
-                                 summary.initial_cost, summary.final_cost);
     if (!summary.IsSolutionUsable()) {
       result.reason = "the calibration did not converge: " + summary.message;
       return result;

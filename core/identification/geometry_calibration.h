@@ -20,7 +20,6 @@ struct GeometryCalibration {
   int positions = 0;               ///< unloaded reflector positions used
   int parameters = 0;              ///< that were estimated
   std::vector<std::string> fixed;  ///< parameters that the data cannot see, kept at their start
-  std::string summary;             ///< the solver's brief report
 };
 
 /// Partial Pose's first step (Wu, Klimchik et al.; paper IV.B): the four parameters of each joint axis, the

@@ -36,6 +36,8 @@ std::string_view plainCell(std::string_view& line) {
 
 /// The cell without the blanks around it.
 std::string_view trimmed(const char* begin, const char* end) {
+  const auto beyondBlank = [](char c) { return static_cast<unsigned char>(c) > ' '; };
+  if (begin != end && beyondBlank(*begin) && beyondBlank(end[-1])) return {begin, static_cast<std::size_t>(end - begin)};
   while (begin != end && isBlank(*begin)) ++begin;
   while (begin != end && isBlank(end[-1])) --end;
   return {begin, static_cast<std::size_t>(end - begin)};
@@ -83,23 +85,36 @@ CsvLines::CsvLines(std::string file, std::string_view bytes, std::size_t lines_b
   next_lf_ = find(rest_.data(), endOf(rest_), '\n');
 }
 
-// Most lines have no quote and an end.
+// Most lines have no quote, an end, and as many cells as the line before, whose places theirs take.
 bool CsvLines::nextPlain(std::vector<std::string_view>& cells) {
   const char* const end = endOf(rest_);
+  CsvMarks marks = marks_;  // here it stays in registers
+  std::size_t count = 0;
+  const auto add = [&](const char* begin, const char* mark) {
+    if (count == cells.size()) cells.emplace_back();
+    cells[count++] = trimmed(begin, mark);
+  };
   for (const char* begin = rest_.data();;) {
-    const char* const mark = marks_.next();
+    const char* const mark = marks.next();
     if (mark == end || *mark == '"') return false;
-    if (*mark != ',' && *mark != '\n' && *mark != '\r') continue;
-    cells.push_back(trimmed(begin, mark));
+    if (*mark == ',') {
+      add(begin, mark);
+      begin = mark + 1;
+      continue;
+    }
+    if (*mark != '\n' && *mark != '\r') continue;
+    add(begin, mark);
     begin = mark + 1;
-    if (*mark == ',') continue;
-    if (*mark == '\r' && begin != end && *begin == '\n') begin = marks_.next() + 1;
+    if (*mark == '\r' && begin != end && *begin == '\n') begin = marks.next() + 1;
     rest_ = {begin, static_cast<std::size_t>(end - begin)};
+    marks_ = marks;
     ++line_;
     line_ended_ = true;
-    if (cells.size() > 1 || !cells.front().empty()) return true;
-    cells.clear();  // a blank line
+    if (count > 1 || !cells.front().empty()) break;
+    count = 0;  // a blank line
   }
+  cells.resize(count);
+  return true;
 }
 
 bool CsvLines::nextLine(std::string_view& line) {
@@ -146,8 +161,7 @@ std::string_view CsvLines::quotedCell(std::string_view& line) {
 }
 
 bool CsvLines::next(std::vector<std::string_view>& cells) {
-  cells.clear();
-  unescaped_.clear();
+  if (!unescaped_.empty()) unescaped_.clear();
   if (nextPlain(cells)) return true;
   cells.clear();
   std::string_view line;

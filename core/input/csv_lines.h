@@ -33,7 +33,7 @@ class CsvLines {
   /// What stands behind the line last given.
   std::string_view rest() const { return rest_; }
 
-  /// Whether eight bytes behind each cell of that line can be read, whatever they are (parsePlainNumber).
+  /// Whether eight bytes behind each cell of that line can be read, whatever they are (parseEightAtOnce).
   bool hasRoomBehindCells() const { return rest_.size() >= 8 && unescaped_.empty(); }
 
  private:

@@ -35,12 +35,12 @@ std::uint64_t marksIn(const char* block) {
 
 }  // namespace
 
-std::uint64_t CsvMarks::marksOfBlock() const {
-  const auto left = static_cast<std::size_t>(end_ - block_);
-  if (left >= kBlock) return marksIn(block_);
+std::uint64_t CsvMarks::marksOfBlock(const char* block, const char* end) {
+  const auto left = static_cast<std::size_t>(end - block);
+  if (left >= kBlock) return marksIn(block);
   std::array<char, kBlock> last;
   last.fill('0');
-  if (left > 0) std::memcpy(last.data(), block_, left);
+  if (left > 0) std::memcpy(last.data(), block, left);
   return marksIn(last.data());
 }
 

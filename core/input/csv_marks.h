@@ -17,7 +17,7 @@ class CsvMarks {
   /// Goes on from there.
   void seek(const char* from) {
     block_ = from;
-    marks_ = marksOfBlock();
+    marks_ = marksOfBlock(block_, end_);
   }
 
   /// The next byte that is no more than a comma; the end of the text where there is none.
@@ -25,7 +25,7 @@ class CsvMarks {
     while (marks_ == 0) {
       if (end_ - block_ <= kBlock) return end_;
       block_ += kBlock;
-      marks_ = marksOfBlock();
+      marks_ = marksOfBlock(block_, end_);
     }
     const char* const mark = block_ + std::countr_zero(marks_);
     marks_ &= marks_ - 1;
@@ -35,7 +35,8 @@ class CsvMarks {
  private:
   static constexpr int kBlock = 64;
 
-  std::uint64_t marksOfBlock() const;
+  // Of what it is given, so that an object of this class can stay in registers.
+  static std::uint64_t marksOfBlock(const char* block, const char* end);
 
   const char *end_, *block_ = nullptr;
   std::uint64_t marks_ = 0;  ///< of the block, those not yet handed out

@@ -59,11 +59,7 @@ ParsedNumber parseNumber(std::string_view text) {
   return number;
 }
 
-double parsePlainNumber(std::string_view text, bool room_behind) {
-  if (room_behind) {
-    const double value = parseEightAtOnce(text);
-    if (!std::isnan(value)) return value;
-  }
+double parsePlainNumber(std::string_view text) {
   const bool minus = !text.empty() && text[0] == '-';
   std::int64_t digits = 0;
   std::size_t count = 0, decimals = 0;

@@ -18,9 +18,8 @@ struct ParsedNumber {
 ParsedNumber parseNumber(std::string_view text);
 
 /// The value of a text that is nothing but a sign, digits and a point, up to fifteen digits: the same value as
-/// parseNumber's, sooner (decimalNumber). NaN for every other text, numbers among them. Quicker where eight bytes behind the
-/// text can be read, whatever they are: `room_behind`.
-double parsePlainNumber(std::string_view text, bool room_behind = false);
+/// parseNumber's, sooner (decimalNumber). NaN for every other text, numbers among them.
+double parsePlainNumber(std::string_view text);
 
 /// Reads the whole of `text` as one integer; nullopt where it is none or too large. A leading '+' is
 /// tolerated.

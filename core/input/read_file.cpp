@@ -12,6 +12,7 @@
 
 #include "core/input/files_read.h"
 #include "core/input/input_error.h"
+#include "core/input/large_pages.h"
 #include "core/input/line_of.h"
 #include "core/input/utf8.h"
 #include "core/parallel/on_all_cores.h"
@@ -109,6 +110,7 @@ struct Bytes {
 Bytes readBlocks(const OpenFile& file, std::size_t size) {
   constexpr std::size_t kBlock = std::size_t{1} << 20;
   Bytes all{std::make_shared_for_overwrite<char[]>(size)};
+  askForLargePages(all.bytes.get(), size);
   std::vector<std::size_t> sizes((size + kBlock - 1) / kBlock);
   std::vector<char> plain(sizes.size());
   onAllCores(sizes.size(), [&](std::size_t i) {

@@ -128,6 +128,18 @@ TEST(CsvLines, CutsTheSameWhereverACellStarts) {
   }
 }
 
+// The cells of a line stand where those of the line before stood.
+TEST(CsvLines, GivesEachLineItsOwnCellsAndNothingBehindTheLast) {
+  const std::vector<std::vector<std::string>> expected{{"a", "b", "c"}, {"1"}, {"", ""}, {"2", "3", "4", "5"}, {"x,"}, {"6"}};
+  EXPECT_EQ(linesOf("a,b,c\n1\n,\n\n2,3,4,5\n\"x,\"\n6\n"), expected);
+  for (const std::string_view bytes : {"1\n", "1\n\n\n", "1\n\n \n", "1", "1\n\n2"}) {
+    CsvLines lines("t.csv", bytes);
+    std::vector<std::string_view> cells;
+    while (lines.next(cells)) EXPECT_EQ(cells.size(), 1u);
+    EXPECT_FALSE(lines.next(cells)) << bytes;
+  }
+}
+
 // The cost of a line must not grow with the rest of the file, whatever its ends.
 TEST(CsvLines, ReadsManyShortLinesOfEveryEndInLinearTime) {
   for (const std::string end : {"\n", "\r\n", "\r"}) {
