@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """end_to_end.py STIFFSCOPE FOLDER OUT.json: whole commands at three sizes, as long as one waits for them (the clock; both
-sides may use every core), the least of some runs, beside the scripts that do the same on the same campaign. Stops where
-their numbers are not ours."""
+sides may use every core), the least of some runs, beside the scripts that do the same on the same campaign, run in turns with
+them. Stops where their numbers are not ours."""
 import json, pathlib, subprocess, sys, time
 import campaigns
 from same_result import compared
@@ -24,12 +24,10 @@ def timed(*command):
     return done.stdout, after - before
 
 
-def least(runs, *command):
-    """Of so many runs, and of several as many as fit two seconds."""
-    times = []
-    while len(times) < runs or (runs > 1 and sum(times) < 2.0):
-        times.append(timed(*command)[1])
-    return min(times)
+def in_turns(*commands):
+    """The least seconds of each, of six rounds: a machine whose speed changes from minute to minute serves all alike."""
+    rounds = [[timed(*command)[1] for command in commands] for _ in range(6)]
+    return [min(times) for times in zip(*rounds)]
 
 
 def loaded(file):
@@ -38,23 +36,25 @@ def loaded(file):
 
 def identify(folder, row):
     """The command with --json, and the scripts that compute the same."""
-    row["ours"].append(least(3, binary, "identify", folder, "--json", work / "identify.json"))
-    beside_identify(folder, row, "")
+    beside_identify(folder, row, "", "--json", work / "identify.json")
 
 
 def printed(folder, row):
     """The command as it stands: numbers of the scripts are compared with what it writes with --json."""
-    row["ours"].append(least(3, binary, "identify", folder))
     timed(binary, "identify", folder, "--json", work / "identify.json")
     beside_identify(folder, row, "printed-")
 
 
-def beside_identify(folder, row, mode):
-    """Time of the scripts, and whether their numbers are those in identify.json."""
-    result, theirs = work / "identify.json", work / "by-script.json"
-    for name, how, runs in (("pandas and numpy, vectorised", "vectorised", 3), ("pandas and numpy, plain", "plain", 1)):
-        row["against"].setdefault(name, []).append(least(runs, sys.executable, IDENTIFY, mode + how, folder, theirs))
-        comparison = compared(loaded(result), loaded(theirs))
+def beside_identify(folder, row, mode, *options):
+    """Times of the command with these options and of the scripts, the plain one's of one run, and whether their numbers are
+    those in identify.json."""
+    theirs = {how: (sys.executable, IDENTIFY, mode + how, folder, work / f"by-script-{how}.json") for how in ("vectorised", "plain")}
+    ours, vectorised = in_turns((binary, "identify", folder, *options), theirs["vectorised"])
+    plain = timed(*theirs["plain"])[1]
+    row["ours"].append(ours)
+    for how, seconds in (("vectorised", vectorised), ("plain", plain)):
+        row["against"].setdefault(f"pandas and numpy, {how}", []).append(seconds)
+        comparison = compared(loaded(work / "identify.json"), loaded(work / f"by-script-{how}.json"))
         if comparison.wrong:
             sys.exit(f"{folder}, {mode}{how}: {len(comparison.wrong)} of {comparison.numbers} numbers are not ours:\n"
                      + "\n".join(comparison.wrong[:10]))
@@ -64,26 +64,26 @@ def beside_identify(folder, row, mode):
 def estimate_only(folder, row):
     """Ours gives all the rest too; the script the stiffnesses alone."""
     command = (binary, "identify", folder, "--method", "pp", "--neglect-kc")
-    row["ours"].append(least(3, *command))
     timed(*command, "--json", work / "estimate.json")
     reference = loaded(work / "estimate.json")["methods"]["pp"]["stiffness_nm_per_rad"]
     joints = "".join(str(j + 1) for j, k in enumerate(reference) if k is not None)
-    for name, how, runs in (("stiffnesses alone, vectorised", "estimate-vectorised", 3), ("stiffnesses alone, plain", "estimate-plain", 1)):
-        seconds = []
-        for _ in range(runs):
-            output, took = timed(sys.executable, IDENTIFY, how, folder, joints)
-            seconds.append(took)
-        for k, word in zip(reference, output.split()):
+    theirs = {how: (sys.executable, IDENTIFY, f"estimate-{how}", folder, joints) for how in ("vectorised", "plain")}
+    ours, vectorised = in_turns(command, theirs["vectorised"])
+    plain = timed(*theirs["plain"])[1]
+    row["ours"].append(ours)
+    for how, seconds in (("vectorised", vectorised), ("plain", plain)):
+        for k, word in zip(reference, timed(*theirs[how])[0].split()):
             if k is not None and not abs(float(word) / k - 1.0) < ESTIMATE:
                 sys.exit(f"{folder}, {how}: {word}, ours {k}")
-        row["against"].setdefault(name, []).append(min(seconds))
+        row["against"].setdefault(f"stiffnesses alone, {how}", []).append(seconds)
 
 
 def frames(folder, row):
     result, theirs = work / "frames.json", work / "by-script.json"
-    row["ours"].append(least(3, binary, "frames", folder, "--json", result))
-    row["against"].setdefault("pandas and scipy", []).append(
-        least(3, sys.executable, campaigns.HERE / "frames_by_scipy.py", folder, theirs))
+    ours, script = in_turns((binary, "frames", folder, "--json", result),
+                            (sys.executable, campaigns.HERE / "frames_by_scipy.py", folder, theirs))
+    row["ours"].append(ours)
+    row["against"].setdefault("pandas and scipy", []).append(script)
     a, b = loaded(result), loaded(theirs)
     apart = [abs(circle["radius_mm"] - r) / sd for axis, other in zip(a["axes"], b["axes"])
              for circle, r, sd in zip(axis["circles"], other["radii_mm"], other["sd_radii_mm"])]
@@ -96,7 +96,7 @@ def frames(folder, row):
 
 
 def report(folder, row):
-    row["ours"].append(least(1, binary, "report", folder, "--out", work / "report"))
+    row["ours"].append(timed(binary, "report", folder, "--out", work / "report")[1])
 
 
 rows = []
