@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
@@ -54,7 +55,7 @@ inline double parseEightAtOnce(std::string_view text) {
   const char* const first = text.data() + (minus ? 1 : 0);
   const std::size_t size = text.size() - (minus ? 1 : 0);
   const std::uint64_t whole = eightFrom(first);
-  const auto digits = static_cast<std::size_t>(std::countr_zero(notDigits(whole))) / 8;
+  const auto digits = std::min(static_cast<std::size_t>(std::countr_zero(notDigits(whole))) / 8, size);
   if (digits < 1 || digits > 7) return kNone;
   const std::int64_t before_point = valueOf(whole << 8 * (8 - digits));
   if (digits == size) return decimalNumber(minus, before_point, 0);

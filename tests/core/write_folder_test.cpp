@@ -170,11 +170,11 @@ TEST(WriteFolder, AKillAtAnyMomentLeavesOneGenerationWhole) {
   EXPECT_EQ(entriesIn(scratch.path()), 1u) << "the next run removes what killed ones left";
 }
 
-TEST(WriteFolder, TwoRunsIntoOneFolderLeaveOneWhole) {
+TEST(WriteFolder, RunsIntoOneFolderLeaveOneWhole) {
   const TemporaryFolder scratch;
   const fs::path folder = scratch.path() / "report";
   std::vector<pid_t> children;
-  for (int run = 1; run <= 2; ++run) {
+  for (int run = 1; run <= 4; ++run) {
     const pid_t child = ::fork();
     if (child == 0) {
       int status = 0;
