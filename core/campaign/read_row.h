@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <cstddef>
 #include <variant>
 #include <vector>
 
@@ -27,10 +28,14 @@ class RowReader {
     for (std::size_t i = 0; i < layout.columns.size(); ++i) {
       const Column<Row>& column = layout.columns[i];
       if (!lines.has(i)) continue;
-      Present present{&column, lines.placeOf(i), nullptr, {}};
+      Present present{&column, lines.placeOf(i), Quick::none, 0, {}};
       if (const auto* number = std::get_if<typename Column<Row>::Number>(&column.member)) {
-        present.number = *number;
+        present.quick = Quick::number;
+        present.offset = offsetOf(*number);
         present.written = numberKind(column.kind);
+      } else if (column.kind == CellKind::step) {
+        present.quick = Quick::whole;
+        present.offset = offsetOf(std::get<typename Column<Row>::Index>(column.member));
       }
       columns_.push_back(present);
     }
@@ -42,10 +47,16 @@ class RowReader {
     const bool room = lines.hasRoomBehindCells();
     for (const Present& present : columns_) {
       const std::string_view cell = lines.cellAt(present.place);
-      if (present.number != nullptr && room) {
+      if (present.quick == Quick::number && room) {
         const double value = parseEightAtOnce(cell);
         if (std::abs(value) <= present.written.limit) {  // not where it is NaN
-          present.number(row) = value * present.written.si_per_unit;
+          memberAt<double>(present, row) = value * present.written.si_per_unit;
+          continue;
+        }
+      } else if (present.quick == Quick::whole && room) {
+        const int value = wholeEightAtOnce(cell);
+        if (value >= 0) {
+          memberAt<int>(present, row) = value;
           continue;
         }
       }
@@ -54,13 +65,29 @@ class RowReader {
   }
 
  private:
+  /// What most cells of a column hold, which is read without a call.
+  enum class Quick { none, number, whole };
+
   /// A column that the table has.
   struct Present {
     const Column<Row>* column;
-    std::size_t place;                    ///< in the table
-    typename Column<Row>::Number number;  ///< its member of a row; nullptr where it is no number
-    NumberKind written;                   ///< of a number
+    std::size_t place;      ///< in the table
+    Quick quick;
+    std::ptrdiff_t offset;  ///< of its member in a row, bytes; of those read quickly
+    NumberKind written;     ///< of a number
   };
+
+  /// Where in a row a column's member stands.
+  template <class Member>
+  static std::ptrdiff_t offsetOf(Member& (*member)(Row&)) {
+    Row row;
+    return reinterpret_cast<std::byte*>(&member(row)) - reinterpret_cast<std::byte*>(&row);
+  }
+
+  template <class Member>
+  static Member& memberAt(const Present& present, Row& row) {
+    return *reinterpret_cast<Member*>(reinterpret_cast<std::byte*>(&row) + present.offset);
+  }
 
   static void readAny(const Column<Row>& column, std::string_view cell, const CellPlace& place, CampaignNames& names,
                       Row& row) {

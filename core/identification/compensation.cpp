@@ -1,6 +1,7 @@
 #include "core/identification/compensation.h"
 
 #include <algorithm>
+#include <array>
 #include <numeric>
 
 #include "core/identification/posture_influence.h"
@@ -36,27 +37,28 @@ DeflectionJudge DeflectionJudge::byPosture(const std::vector<CaseEquations>& equ
 DeflectionJudge::DeflectionJudge(const std::vector<CaseEquations>& equations, const std::vector<std::size_t>& first)
     : points_(first.size()), displacement_(first.size()) {
   const auto end = [&](std::size_t posture) { return posture + 1 < first.size() ? first[posture + 1] : equations.size(); };
-  std::vector<Eigen::Index> from(first.size());
-  Eigen::Index count = 0;
+  std::vector<std::size_t> from(first.size());
+  std::size_t count = 0;
   for (std::size_t posture = 0; posture < first.size(); ++posture) {
     from[posture] = count;
-    for (std::size_t i = first[posture]; i < end(posture); ++i) count += equations[i].right.size() / 3;
+    for (std::size_t i = first[posture]; i < end(posture); ++i) {
+      count += static_cast<std::size_t>(equations[i].right.size()) / 3;
+    }
     points_[posture] = static_cast<int>(count - from[posture]);
-    posture_of_point_.resize(static_cast<std::size_t>(count), posture);
+    posture_of_point_.resize(count, posture);
   }
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    matrix_[axis].resize(count, 6);
-    right_[axis].resize(count);
-  }
+  blocks_.resize((count + PointBlock::kPoints - 1) / PointBlock::kPoints);
   smallWorkOnAllCores(first.size(), [&](std::size_t posture) {
-    Eigen::Index at = from[posture];
+    std::size_t at = from[posture];
     double sum = 0.0;
     for (std::size_t i = first[posture]; i < end(posture); ++i) {
       const CaseEquations& one = equations[i];
       for (Eigen::Index row = 0; row < one.right.size(); row += 3, ++at) {
-        for (Eigen::Index axis = 0; axis < 3; ++axis) {
-          matrix_[static_cast<std::size_t>(axis)].row(at) = one.matrix.row(row + axis).array();
-          right_[static_cast<std::size_t>(axis)][at] = one.right[row + axis];
+        PointBlock& block = blocks_[at / PointBlock::kPoints];
+        const std::size_t point = at % PointBlock::kPoints;
+        for (int axis = 0; axis < 3; ++axis) {
+          for (int joint = 0; joint < 6; ++joint) block.matrix[axis][joint][point] = one.matrix(row + axis, joint);
+          block.right[axis][point] = one.right[row + axis];
         }
         sum += one.right.segment<3>(row).norm();
       }
@@ -67,29 +69,22 @@ DeflectionJudge::DeflectionJudge(const std::vector<CaseEquations>& equations, co
 
 namespace {
 
-constexpr Eigen::Index kBlock = 64;  // points at a time, on the stack
+constexpr std::size_t kTogether = 8;  // blocks at a time: they stay in the nearest cache for all compliances
 
 }  // namespace
 
-void DeflectionJudge::addResidual(Eigen::Index from, Eigen::Index size, const Vector6d& compliance,
+void DeflectionJudge::addResidual(std::size_t from_block, std::size_t blocks, const Vector6d& compliance,
                                   std::vector<double>& per_posture) const {
-  std::array<double, kBlock> norms;
-  Eigen::Map<Eigen::ArrayXd> squares(norms.data(), size);
-  squares.setZero();
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const auto rows = matrix_[axis].middleRows(from, size);
-    squares += (right_[axis].segment(from, size) - rows.col(0) * compliance[0] -
-                rows.col(1) * compliance[1] - rows.col(2) * compliance[2] - rows.col(3) * compliance[3] -
-                rows.col(4) * compliance[4] - rows.col(5) * compliance[5])
-                   .square();
-  }
-  squares = squares.sqrt();
+  std::array<double, kTogether * PointBlock::kPoints> norms;
+  residualNorms(std::span(blocks_).subspan(from_block, blocks), compliance, norms);
   // A posture's points follow one another: its sum stays in a register.
+  const std::size_t from = from_block * PointBlock::kPoints;
+  const std::size_t size = std::min(blocks * PointBlock::kPoints, posture_of_point_.size() - from);
   const std::size_t* const posture_of = posture_of_point_.data() + from;
-  for (Eigen::Index point = 0; point < size;) {
+  for (std::size_t point = 0; point < size;) {
     const std::size_t posture = posture_of[point];
     double sum = per_posture[posture];
-    for (; point < size && posture_of[point] == posture; ++point) sum += norms[static_cast<std::size_t>(point)];
+    for (; point < size && posture_of[point] == posture; ++point) sum += norms[point];
     per_posture[posture] = sum;
   }
 }
@@ -97,10 +92,9 @@ void DeflectionJudge::addResidual(Eigen::Index from, Eigen::Index size, const Ve
 void DeflectionJudge::residuals(std::span<const Vector6d> compliances,
                                 std::span<std::vector<double>* const> per_posture) const {
   for (std::vector<double>* one : per_posture) one->assign(displacement_.size(), 0.0);
-  const Eigen::Index count = right_[0].size();
-  for (Eigen::Index from = 0; from < count; from += kBlock) {
+  for (std::size_t from = 0; from < blocks_.size(); from += kTogether) {
     for (std::size_t k = 0; k < compliances.size(); ++k) {
-      addResidual(from, std::min(kBlock, count - from), compliances[k], *per_posture[k]);
+      addResidual(from, std::min(kTogether, blocks_.size() - from), compliances[k], *per_posture[k]);
     }
   }
 }

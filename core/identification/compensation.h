@@ -1,16 +1,15 @@
 #pragma once
 
-#include <array>
 #include <span>
 #include <vector>
 
 #include "core/identification/equations.h"
+#include "core/identification/point_blocks.h"
 
 namespace stiffscope {
 
 /// How much of the deflection a model takes away at some points: 1 - sum |residual| / sum |displacement|,
-/// over postures (method: Before and after). Prepared for many evaluations: rows sorted by coordinate, so
-/// that norms vectorise.
+/// over postures (method: Before and after). Prepared for many evaluations.
 class DeflectionJudge {
  public:
   DeflectionJudge() = default;
@@ -38,10 +37,10 @@ class DeflectionJudge {
  private:
   /// `first`: of the equations of each posture, the first.
   DeflectionJudge(const std::vector<CaseEquations>& equations, const std::vector<std::size_t>& first);
-  void addResidual(Eigen::Index from, Eigen::Index size, const Vector6d& compliance, std::vector<double>& per_posture) const;
+  void addResidual(std::size_t from_block, std::size_t blocks, const Vector6d& compliance,
+                   std::vector<double>& per_posture) const;
 
-  std::array<Eigen::Array<double, Eigen::Dynamic, 6>, 3> matrix_;  // by coordinate: one row a point
-  std::array<Eigen::ArrayXd, 3> right_;
+  std::vector<PointBlock> blocks_;  // its points in the order of the equations
   std::vector<std::size_t> posture_of_point_;
   std::vector<int> points_;
   std::vector<double> displacement_;

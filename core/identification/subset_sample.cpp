@@ -1,6 +1,7 @@
 #include "core/identification/subset_sample.h"
 
 #include <algorithm>
+#include <array>
 #include <numeric>
 #include <random>
 
@@ -10,13 +11,13 @@ namespace stiffscope {
 
 namespace {
 
-using Postures = std::vector<std::size_t>;
+using Postures = std::vector<std::uint32_t>;
 
 /// Random subsets, each drawn from the order of the postures that the one before left.
 class Draws {
  public:
   Draws(std::size_t postures, std::size_t size, std::uint64_t seed) : random_(seed), order_(postures), size_(size) {
-    std::iota(order_.begin(), order_.end(), std::size_t{0});
+    std::iota(order_.begin(), order_.end(), std::uint32_t{0});
   }
 
   /// The next subsets, postures as they were drawn.
@@ -36,7 +37,7 @@ class Draws {
   std::size_t size_;
 };
 
-/// Normal equations without what the symmetry of the matrix repeats: postures drawn at random lie far apart in memory.
+/// Normal equations without what the symmetry of the matrix repeats.
 class Packed {
  public:
   Packed() = default;
@@ -73,23 +74,48 @@ std::vector<Packed> packed(const std::vector<NormalEquations>& normal) {
   return all;
 }
 
+/// Solves some subsets together: of each few postures, which then are in the nearest cache, what every subset uses.
 class Solver {
  public:
   explicit Solver(const SubsetMethod& method)
       : method_(method), normal_(packed(method.normal)), reflectors_(packed(method.reflectors)) {}
 
-  void solve(const Postures& drawn, Subset& subset) const {
-    subset.used.assign(normal_.size(), 0);
-    for (const std::size_t posture : drawn) subset.used[posture] = 1;
-    subset.compliance = solveSubset(method_, sum(normal_, drawn), sum(reflectors_, drawn));
+  std::vector<Subset> solve(std::span<const Postures> drawn) const {
+    std::vector<Subset> subsets(drawn.size());
+    for (std::size_t k = 0; k < drawn.size(); ++k) {
+      subsets[k].used.setZero(static_cast<Eigen::Index>(normal_.size()));
+      for (const std::uint32_t posture : drawn[k]) subsets[k].used[posture] = 1.0;
+    }
+    const std::vector<NormalEquations> normal = sums(normal_, subsets), reflectors = sums(reflectors_, subsets);
+    for (std::size_t k = 0; k < drawn.size(); ++k) {
+      subsets[k].compliance = solveSubset(method_, normal[k], reflectors[k]);
+    }
+    return subsets;
   }
 
  private:
-  static NormalEquations sum(const std::vector<Packed>& all, const Postures& drawn) {
-    Packed sum;
-    if (all.empty()) return {};
-    for (const std::size_t posture : drawn) sum += all[posture];
-    return sum.whole();
+  static std::vector<NormalEquations> sums(const std::vector<Packed>& all, const std::vector<Subset>& subsets) {
+    constexpr std::size_t kPostures = 128;
+    std::vector<Packed> sums(subsets.size());
+    for (std::size_t from = 0; from < all.size(); from += kPostures) {
+      const std::size_t size = std::min(kPostures, all.size() - from);
+      for (std::size_t k = 0; k < subsets.size(); ++k) {
+        const double* const used = subsets[k].used.data() + from;
+        // Without a branch: which postures are used is as good as random.
+        std::array<std::size_t, kPostures> here;
+        std::size_t count = 0;
+        for (std::size_t i = 0; i < size; ++i) {
+          here[count] = from + i;
+          count += used[i] != 0.0;
+        }
+        Packed sum = sums[k];
+        for (std::size_t i = 0; i < count; ++i) sum += all[here[i]];
+        sums[k] = sum;
+      }
+    }
+    std::vector<NormalEquations> whole;
+    for (const Packed& one : sums) whole.push_back(one.whole());
+    return whole;
   }
 
   const SubsetMethod& method_;
@@ -98,34 +124,27 @@ class Solver {
 
 }  // namespace
 
-SubsetSums sampleSubsets(const SubsetMethod& method, std::size_t size, std::size_t count, std::uint64_t seed) {
-  // As many groups at the same time as keep many cores busy, and no more than a few megabytes of residuals.
-  constexpr std::size_t kGroup = 8, kResiduals = 320'000;
-  const std::size_t n = method.normal.size(), at_once = kGroup * std::max<std::size_t>(4, kResiduals / n / kGroup);
+std::vector<SubsetSums> sampleSubsets(const SubsetMethod& method, std::size_t size, std::size_t count,
+                                      std::uint64_t seed) {
+  // As many groups at the same time as keep many cores busy, and no more than some megabytes of drawn postures.
+  constexpr std::size_t kGroup = 8, kDrawn = 500'000;
+  const std::size_t at_once = kGroup * std::max<std::size_t>(4, kDrawn / size / kGroup);
   const Solver solver(method);
-  SubsetSums sums;
-  Draws draws(n, size, seed);
+  std::vector<SubsetSums> sums((count + kGroup - 1) / kGroup);
+  Draws draws(method.normal.size(), size, seed);
   std::vector<Postures> drawn, drawn_next;
-  std::vector<Subset> subsets, subsets_before;
-  // A few to begin with: drawing them is the one thing that nothing else is done beside.
+  // A few to begin with, then twice as many each time: drawing goes on beside the work on what was drawn before.
   draws.next(std::min(count, kGroup), drawn);
-  for (std::size_t done = 0; !drawn.empty(); done += drawn.size(), drawn.swap(drawn_next), subsets.swap(subsets_before)) {
+  for (std::size_t done = 0; !drawn.empty(); done += drawn.size(), drawn.swap(drawn_next)) {
     const std::size_t groups = (drawn.size() + kGroup - 1) / kGroup;
-    subsets.resize(drawn.size());
-    // The first index draws what comes next, the second adds what came before; the others have a group each.
-    onAllCores(2 + groups, [&](std::size_t i) {
-      if (i == 0) {
-        draws.next(std::min(at_once, count - done - drawn.size()), drawn_next);
-      } else if (i == 1) {
-        for (const Subset& one : subsets_before) add(one, sums);
-      } else {
-        const std::size_t from = (i - 2) * kGroup, to = std::min(drawn.size(), from + kGroup);
-        for (std::size_t k = from; k < to; ++k) solver.solve(drawn[k], subsets[k]);
-        judgeSubsets(method, std::span(subsets).subspan(from, to - from));
-      }
+    onAllCores(1 + groups, [&](std::size_t i) {
+      if (i == 0) return draws.next(std::min({at_once, 2 * drawn.size(), count - done - drawn.size()}), drawn_next);
+      const std::size_t from = (i - 1) * kGroup, to = std::min(drawn.size(), from + kGroup);
+      std::vector<Subset> subsets = solver.solve(std::span(drawn).subspan(from, to - from));
+      judgeSubsets(method, subsets);
+      for (const Subset& one : subsets) add(one, sums[(done + from) / kGroup]);
     });
   }
-  for (const Subset& one : subsets_before) add(one, sums);
   return sums;
 }
 

@@ -6,8 +6,11 @@ namespace stiffscope {
 
 namespace {
 
-// Adding 0 instead of branching: which postures are used is as good as random.
-double where(bool condition, double value) { return condition ? value : 0.0; }
+using Postures = Eigen::Map<const Eigen::ArrayXd>;
+
+Postures each(const std::vector<double>& posture) {
+  return {posture.data(), static_cast<Eigen::Index>(posture.size())};
+}
 
 void judge(const DeflectionJudge& judge, std::span<Subset> subsets, SubsetResidual Subset::*points) {
   if (judge.postures() == 0) return;
@@ -18,26 +21,21 @@ void judge(const DeflectionJudge& judge, std::span<Subset> subsets, SubsetResidu
     left.push_back(&(one.*points).left);
   }
   judge.residuals(compliances, left);
+  const Postures displacement = each(judge.displacement());
+  const double whole = displacement.sum();
   for (Subset& one : subsets) {
-    const std::vector<double>& left = (one.*points).left;
-    double left_used = 0.0, left_held_out = 0.0, used = 0.0, held_out = 0.0;
-    for (std::size_t p = 0; p < left.size(); ++p) {
-      const bool in = one.used[p] != 0;
-      left_used += where(in, left[p]);
-      left_held_out += where(!in, left[p]);
-      used += where(in, judge.displacement()[p]);
-      held_out += where(!in, judge.displacement()[p]);
-    }
-    (one.*points).compensated = {1.0 - left_used / used, 1.0 - left_held_out / held_out,
-                                 1.0 - (left_held_out + left_used) / (held_out + used)};
+    const Postures left = each((one.*points).left);
+    const double left_used = (left * one.used).sum(), left_whole = left.sum(), used = (displacement * one.used).sum();
+    (one.*points).compensated = {1.0 - left_used / used, 1.0 - (left_whole - left_used) / (whole - used),
+                                 1.0 - left_whole / whole};
   }
 }
 
-void add(const SubsetResidual& one, const std::vector<char>& used, SubsetJudgement& sum) {
+void add(const SubsetResidual& one, const Eigen::ArrayXd& used, SubsetJudgement& sum) {
   if (one.left.empty()) return;
   add(one.compensated, sum.compensated);
   sum.left_held_out.resize(one.left.size(), 0.0);
-  for (std::size_t p = 0; p < one.left.size(); ++p) sum.left_held_out[p] += where(used[p] == 0, one.left[p]);
+  Eigen::Map<Eigen::ArrayXd>(sum.left_held_out.data(), used.size()) += (1.0 - used) * each(one.left);
 }
 
 }  // namespace
@@ -60,8 +58,8 @@ void add(const SubsetCompensation& one, SubsetCompensation& sum) {
 
 void add(const Subset& subset, SubsetSums& sums) {
   sums.compliances.push_back(subset.compliance);
-  sums.held_out.resize(subset.used.size(), 0);
-  for (std::size_t p = 0; p < subset.used.size(); ++p) sums.held_out[p] += subset.used[p] == 0;
+  if (sums.held_out.size() == 0) sums.held_out.setZero(subset.used.size());
+  sums.held_out += 1.0 - subset.used;
   add(subset.at_wrist, subset.used, sums.at_wrist);
   add(subset.at_targets, subset.used, sums.at_targets);
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -16,7 +17,7 @@ struct SubsetResidual {
 
 /// One subset, solved and judged.
 struct Subset {
-  std::vector<char> used;  ///< a posture each
+  Eigen::ArrayXd used;  ///< a posture each: 1 where the subset uses it, else 0
   Vector6d compliance = Vector6d::Zero();
   SubsetResidual at_wrist, at_targets;
 };
@@ -31,7 +32,7 @@ void judgeSubsets(const SubsetMethod& method, std::span<Subset> subsets);
 struct SubsetSums {
   std::vector<Vector6d> compliances;
   SubsetJudgement at_wrist, at_targets;  ///< sums
-  std::vector<std::uint64_t> held_out;   ///< subsets that leave each posture out
+  Eigen::ArrayXd held_out;               ///< subsets that leave each posture out
 };
 
 void add(const SubsetCompensation& one, SubsetCompensation& sum);

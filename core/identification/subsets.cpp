@@ -21,12 +21,12 @@ class Walk {
         size_(size),
         normal_(static_cast<std::size_t>(size) + 1),
         reflectors_(static_cast<std::size_t>(size) + 1),
-        subset_{std::vector<char>(method.normal.size(), 0), {}, {}, {}} {}
+        subset_{Eigen::ArrayXd::Zero(n_), {}, {}, {}} {}
 
   void from(int first, SubsetSums& chunk) {
     take(0, first);
     descend(1, first + 1, chunk);
-    subset_.used[static_cast<std::size_t>(first)] = 0;
+    subset_.used[first] = 0.0;
   }
 
  private:
@@ -38,7 +38,7 @@ class Walk {
       reflectors_[d + 1] = reflectors_[d];
       reflectors_[d + 1] += method_.reflectors[p];
     }
-    subset_.used[p] = 1;
+    subset_.used[posture] = 1.0;
   }
 
   void descend(int depth, int next, SubsetSums& chunk) {
@@ -51,7 +51,7 @@ class Walk {
     for (int posture = next; posture <= n_ - (size_ - depth); ++posture) {
       take(depth, posture);
       descend(depth + 1, posture + 1, chunk);
-      subset_.used[static_cast<std::size_t>(posture)] = 0;
+      subset_.used[posture] = 0.0;
     }
   }
 
@@ -75,12 +75,12 @@ void addTo(SubsetJudgement& sum, const SubsetJudgement& other) {
   for (std::size_t p = 0; p < other.left_held_out.size(); ++p) sum.left_held_out[p] += other.left_held_out[p];
 }
 
-void divide(SubsetJudgement& sum, double subsets, const std::vector<std::uint64_t>& held_out) {
+void divide(SubsetJudgement& sum, double subsets, const Eigen::ArrayXd& held_out) {
   sum.compensated.used /= subsets;
   sum.compensated.held_out /= subsets;
   sum.compensated.all /= subsets;
   for (std::size_t p = 0; p < sum.left_held_out.size(); ++p) {
-    sum.left_held_out[p] /= static_cast<double>(held_out[p]);
+    sum.left_held_out[p] /= held_out[static_cast<Eigen::Index>(p)];
   }
 }
 
@@ -110,13 +110,13 @@ SubsetStudy studySubsets(const SubsetMethod& method, const SubsetOptions& option
     constexpr std::uint64_t kWork = 2'000'000;  // postures added in all: keeps ten thousand postures quick
     const std::uint64_t affordable =
         std::max<std::uint64_t>(200, kWork / static_cast<std::uint64_t>(study.of));
-    chunks.push_back(sampleSubsets(method, static_cast<std::size_t>(study.size), std::min(options.sample, affordable),
-                                   options.seed));
+    chunks = sampleSubsets(method, static_cast<std::size_t>(study.size), std::min(options.sample, affordable),
+                           options.seed);
   }
-  std::vector<std::uint64_t> held_out(static_cast<std::size_t>(study.of), 0);
+  Eigen::ArrayXd held_out = Eigen::ArrayXd::Zero(study.of);
   for (const SubsetSums& chunk : chunks) {
     study.compliances.insert(study.compliances.end(), chunk.compliances.begin(), chunk.compliances.end());
-    for (std::size_t p = 0; p < held_out.size(); ++p) held_out[p] += chunk.held_out[p];
+    held_out += chunk.held_out;
     addTo(study.at_wrist, chunk.at_wrist);
     addTo(study.at_targets, chunk.at_targets);
   }

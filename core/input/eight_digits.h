@@ -66,4 +66,13 @@ inline double parseEightAtOnce(std::string_view text) {
   return decimalNumber(minus, before_point * kShifts[decimals] + valueOf(fraction), decimals);
 }
 
+/// The value of a text of 1 to 7 digits; -1 for every other. As there, eight bytes behind it must be there to be read.
+inline int wholeEightAtOnce(std::string_view text) {
+  if (std::endian::native != std::endian::little || text.empty()) return -1;
+  const std::uint64_t whole = eightFrom(text.data());
+  const auto digits = std::min(static_cast<std::size_t>(std::countr_zero(notDigits(whole))) / 8, text.size());
+  if (digits < 1 || digits > 7 || digits != text.size()) return -1;
+  return static_cast<int>(valueOf(whole << 8 * (8 - digits)));
+}
+
 }  // namespace stiffscope

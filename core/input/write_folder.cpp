@@ -2,18 +2,16 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
-#include <chrono>
 #include <cstdio>
 #include <cstring>
 #include <stdexcept>
-#include <thread>
 
+#include "core/input/folder_turn.h"
 #include "core/input/part_folder.h"
 #include "core/input/write_file.h"
 
@@ -105,29 +103,6 @@ bool writeByExchange(const fs::path& folder, const std::vector<FileToWrite>& fil
   return true;
 }
 
-/// Held by one run at a time of those that write folders beside each other, as long as its process lives. A folder that was
-/// replaced stands unlocked under the name of a part, where another run would take it for abandoned.
-class Turn {
- public:
-  /// Waits for it some seconds, and then, or where nothing can be locked, does without: a run that stands still must not
-  /// hold up others for ever.
-  explicit Turn(const fs::path& parent) : parent_(::open(parent.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
-    constexpr int kTries = 2000;
-    constexpr std::chrono::milliseconds kPause(5);
-    for (int i = 0; i < kTries && ::flock(parent_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK; ++i) {
-      std::this_thread::sleep_for(kPause);
-    }
-  }
-  ~Turn() {
-    if (parent_ >= 0) ::close(parent_);
-  }
-  Turn(const Turn&) = delete;
-  Turn& operator=(const Turn&) = delete;
-
- private:
-  int parent_;
-};
-
 /// Files of a folder under other names, which are removed with this object unless they were renamed.
 class Prepared {
  public:
@@ -167,7 +142,7 @@ void writeFolderWhole(const fs::path& folder, const std::vector<FileToWrite>& fi
   if (fs::exists(status) && !fs::is_directory(status)) fail(folder, "it is no folder");
   if (fs::exists(status) && ::access(target.c_str(), W_OK | X_OK) != 0) fail(folder, std::strerror(errno));
   if (!fs::exists(status)) makeFolder(target.parent_path());
-  const Turn turn(target.parent_path());
+  const FolderTurn turn(target.parent_path());
   if (writeByExchange(target, files, superseded)) return;
   makeFolder(target);
   const Prepared prepared(target, files);

@@ -37,6 +37,7 @@ Matrix6d geometricStiffness(const ArmAxes& axes, const ArmPosture& posture, cons
   if (!weight.any()) return stiffness;
   for (int body = 1; body <= 6; ++body) {
     const BodyMass& mass = weight.bodies[static_cast<std::size_t>(body)];
+    if (mass.mass_kg == 0.0) continue;
     addForce(axes, body, posture.motion[static_cast<std::size_t>(body)] * mass.com_in_base_at_zero,
              mass.mass_kg * weight.gravity_in_base, stiffness);
   }

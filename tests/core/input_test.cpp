@@ -65,7 +65,7 @@ TEST(Numbers, AreReadWholeAndTheSameInEveryLocale) {
 TEST(Numbers, PlainOnesAreTheSameBitsAsByTheGeneralWay) {
   std::mt19937_64 random(1);
   const char* const behind[] = {",1234567", "\n12345.7", "12345678", ".1234567", "\xff\xff\xff\xff\xff\xff\xff\xff"};
-  const std::regex by_eight_form("-?[0-9]{1,7}(\\.[0-9]{1,8})?");
+  const std::regex by_eight_form("-?[0-9]{1,7}(\\.[0-9]{1,8})?"), whole_form("[0-9]{1,7}");
   for (int i = 0; i < 200000; ++i) {
     std::string text = std::to_string(random() % static_cast<std::uint64_t>(std::pow(10.0, 1.0 + static_cast<double>(random() % 15))));
     if (random() % 4 != 0) text.insert(random() % (text.size() + 1), ".");
@@ -79,6 +79,8 @@ TEST(Numbers, PlainOnesAreTheSameBitsAsByTheGeneralWay) {
     } else {
       ASSERT_TRUE(std::isnan(by_eight)) << longer;
     }
+    const bool whole = std::regex_match(text, whole_form);
+    ASSERT_EQ(wholeEightAtOnce(std::string_view(longer).substr(0, text.size())), whole ? std::stoi(text) : -1) << longer;
   }
   EXPECT_EQ(std::signbit(parsePlainNumber("-0")), true);
   for (const char* text : {"", "-", ".", "-.", "1.2.3", "--1", "+1", "1e3", "1 ", "nan", "1234567890123456", "1,5"}) {
@@ -86,6 +88,7 @@ TEST(Numbers, PlainOnesAreTheSameBitsAsByTheGeneralWay) {
     for (const char* more : behind) {
       const std::string longer = std::string(text) + more;
       EXPECT_TRUE(std::isnan(parseEightAtOnce(std::string_view(longer).substr(0, std::strlen(text))))) << longer;
+      EXPECT_EQ(wholeEightAtOnce(std::string_view(longer).substr(0, std::strlen(text))), -1) << longer;
     }
   }
 }

@@ -123,6 +123,44 @@ TEST(Subsets, ASampleIsTheSameForTheSameSeed) {
                           studySubsets(problem.method, options).compliances.begin()));
 }
 
+TEST(Subsets, ASampleStandsForAllSubsets) {
+  for (const bool decoupled : {false, true}) {
+    const Problem problem(14, decoupled);
+    SubsetOptions options;
+    const SubsetStudy all = studySubsets(problem.method, options);
+    ASSERT_TRUE(all.every_subset);
+    options.most_all = 100;
+    options.sample = 2003;  // no whole number of groups
+    const SubsetStudy some = studySubsets(problem.method, options);
+    ASSERT_EQ(some.compliances.size(), 2003u);
+    EXPECT_NEAR(some.at_wrist.compensated.used, all.at_wrist.compensated.used, 2e-3);
+    EXPECT_NEAR(some.at_targets.compensated.held_out, all.at_targets.compensated.held_out, 2e-3);
+    EXPECT_NEAR(some.at_targets.compensated.all, all.at_targets.compensated.all, 2e-3);
+    for (std::size_t p = 0; p < 14; ++p) {
+      EXPECT_NEAR(some.at_targets.left_held_out[p] / all.at_targets.left_held_out[p], 1.0, 0.03) << p;
+    }
+  }
+}
+
+TEST(Subsets, OfManyPosturesEachHalfAgreesWithTheWhole) {
+  for (const bool decoupled : {false, true}) {
+    const Problem problem(500, decoupled);
+    const SubsetStudy study = studySubsets(problem.method);
+    EXPECT_FALSE(study.every_subset);
+    EXPECT_EQ(study.compliances.size(), 4000u);
+    const Vector6d whole =
+        decoupled ? decoupledPartialPose(problem.wrist, problem.reflectors, kAllJoints).compliance
+                  : partialPose(problem.reflectors, kAllJoints).compliance;
+    for (const Vector6d& one : study.compliances) ASSERT_LT(worstError(one, whole), 0.1);
+    // One posture more or less hardly changes such a fit: what is left of it, used or not, is what the whole leaves.
+    const std::vector<double> left = problem.method.at_targets.residual(whole);
+    for (std::size_t p = 0; p < left.size(); ++p) {
+      EXPECT_NEAR(study.at_targets.left_held_out[p] / left[p], 1.0, 0.2) << p;
+    }
+    EXPECT_NEAR(study.at_targets.compensated.all, problem.method.at_targets.compensated(whole), 2e-3);
+  }
+}
+
 TEST(Subsets, OfAllOrMoreThereIsNothingToStudy) {
   const Problem problem(7, false);
   SubsetOptions options;
@@ -170,6 +208,20 @@ TEST(DeflectionJudge, ByHand) {
   EXPECT_NEAR(left[1], 2.0, 1e-15);
   EXPECT_NEAR(judge.compensated(Vector6d::Unit(0)), 1.0 - (std::sqrt(20.0) + 2.0) / 8.0, 1e-15);
   EXPECT_EQ(judge.pointsOf(1), 2);
+}
+
+TEST(DeflectionJudge, PointByPointOverManyPostures) {
+  const Problem problem(43, false);
+  const DeflectionJudge& judge = problem.method.at_targets;
+  ASSERT_EQ(judge.postures(), 43u);
+  const Vector6d c = 1.1 * exampleCompliance();
+  const std::vector<double> left = judge.residual(c);
+  for (std::size_t p = 0; p < left.size(); ++p) {
+    const Eigen::VectorXd rest = problem.reflectors[p].right - problem.reflectors[p].matrix * c;
+    double sum = 0.0;
+    for (Eigen::Index at = 0; at < rest.size(); at += 3) sum += rest.segment<3>(at).norm();
+    EXPECT_NEAR(left[p], sum, 1e-14) << p;
+  }
 }
 
 }  // namespace
