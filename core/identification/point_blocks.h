@@ -15,7 +15,7 @@ struct alignas(64) PointBlock {
   double right[3][kPoints] = {};      ///< b by coordinate and point, m
 };
 
-/// |b - A c| of each point, m; `norms`: kPoints a block. The same numbers on every processor.
+/// |b - A c| of each point, m; `norms`: kPoints a block. The same numbers with wide registers and without.
 void residualNorms(std::span<const PointBlock> blocks, const Vector6d& compliance, std::span<double> norms);
 
 }  // namespace stiffscope

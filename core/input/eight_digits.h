@@ -24,6 +24,11 @@ inline std::uint64_t notDigits(std::uint64_t eight) {
   return ((eight + 0x7676767676767676ull) | eight) & 0x8080808080808080ull;
 }
 
+/// Digits that a text of `size` characters begins with, eight at most; `eight`: of its first ones.
+inline std::size_t leadingDigits(std::uint64_t eight, std::size_t size) {
+  return std::min(static_cast<std::size_t>(std::countr_zero(notDigits(eight))) / 8, size);
+}
+
 /// The number that eight digits are: of two each, of four each, of all.
 inline std::int64_t valueOf(std::uint64_t eight) {
   eight = 10 * eight + (eight >> 8);
@@ -55,7 +60,7 @@ inline double parseEightAtOnce(std::string_view text) {
   const char* const first = text.data() + (minus ? 1 : 0);
   const std::size_t size = text.size() - (minus ? 1 : 0);
   const std::uint64_t whole = eightFrom(first);
-  const auto digits = std::min(static_cast<std::size_t>(std::countr_zero(notDigits(whole))) / 8, size);
+  const std::size_t digits = leadingDigits(whole, size);
   if (digits < 1 || digits > 7) return kNone;
   const std::int64_t before_point = valueOf(whole << 8 * (8 - digits));
   if (digits == size) return decimalNumber(minus, before_point, 0);
@@ -70,8 +75,8 @@ inline double parseEightAtOnce(std::string_view text) {
 inline int wholeEightAtOnce(std::string_view text) {
   if (std::endian::native != std::endian::little || text.empty()) return -1;
   const std::uint64_t whole = eightFrom(text.data());
-  const auto digits = std::min(static_cast<std::size_t>(std::countr_zero(notDigits(whole))) / 8, text.size());
-  if (digits < 1 || digits > 7 || digits != text.size()) return -1;
+  const std::size_t digits = leadingDigits(whole, text.size());
+  if (digits > 7 || digits != text.size()) return -1;
   return static_cast<int>(valueOf(whole << 8 * (8 - digits)));
 }
 

@@ -81,16 +81,6 @@ double parsePlainNumber(std::string_view text) {
 
 std::optional<int> parseInteger(std::string_view text) {
   int value = 0;
-  // Steps, of which a table has many, have a digit or two.
-  constexpr std::size_t kFew = 4;
-  if (!text.empty() && text.size() <= kFew) {
-    bool plain = true;
-    for (const char c : text) {
-      plain = plain && c >= '0' && c <= '9';
-      value = 10 * value + (c - '0');
-    }
-    if (plain) return value;
-  }
   const std::string_view digits = withoutPlus(text);
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
   if (error != std::errc() || end != digits.data() + digits.size()) return std::nullopt;
