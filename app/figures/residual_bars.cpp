@@ -15,7 +15,6 @@ namespace stiffscope {
 
 namespace {
 
-constexpr double kMmPerM = 1e3;
 constexpr std::size_t kMostPostures = 200;  // four bars each are hardly a pixel wide
 
 std::vector<double> drawnInMm(const std::vector<double>& values) {

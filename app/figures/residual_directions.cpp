@@ -20,7 +20,7 @@ namespace {
 
 constexpr double kUmPerM = 1e6;
 constexpr double kBand = 2.0;  // standard deviations: about 95 % of normal noise
-constexpr std::size_t kMostPostures = 100;  // a panel is three hundred pixels wide
+constexpr std::size_t kMostDirections = 100;  // a panel is three hundred pixels wide
 
 /// One reflector's residual in one posture, with the directions it is taken apart in.
 struct ResidualVector {
@@ -77,7 +77,7 @@ PointPanel panelOf(const ReportCampaign& one, const std::vector<ResidualVector>&
   PointPanel panel;
   const auto& cases = one.identification.cases;
   std::vector<std::optional<std::size_t>> place(cases.size());  // in the picture
-  for (const std::size_t i : evenlySpreadIndices(cases.size(), kMostPostures)) {
+  for (const std::size_t i : evenlySpreadIndices(cases.size(), kMostDirections)) {
     place[i] = panel.categories.size();
     panel.categories.push_back(page::postureName(one, i));
   }
@@ -129,8 +129,8 @@ std::optional<PointChart> residualDirections(const ReportCampaign& one) {
 namespace {
 
 /// Which postures are drawn where not all are, and the longest residual of all.
-std::string drawnOf(const ReportCampaign& one, const std::vector<ResidualVector>& residuals) {
-  const std::string words = drawnWords(one.identification.cases.size(), kMostPostures, "postures");
+std::string drawnDirections(const ReportCampaign& one, const std::vector<ResidualVector>& residuals) {
+  const std::string words = drawnWords(one.identification.cases.size(), kMostDirections, "postures");
   if (words.empty()) return {};
   const auto length = [](const ResidualVector& at) { return std::hypot(at.component[0], at.component[1], at.component[2]); };
   const auto longest =
@@ -173,7 +173,7 @@ Figure describeResidualDirections(const ReportCampaign& one, const PointChart& c
         "noise alone.",
         page::percent(static_cast<double>(outside) / static_cast<double>(all), 0));
   }
-  figure.caption += drawnOf(one, residuals);
+  figure.caption += drawnDirections(one, residuals);
   figure.caption += " Reflectors that go together, posture for posture, show something that the model misses.";
   figure.alt = fmt::format("Points by posture, one panel a direction: what {} leaves of each reflector's displacement.",
                            page::shortName(shown));

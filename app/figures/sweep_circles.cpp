@@ -56,7 +56,7 @@ PointSeries fullRing(double radius) {
 }
 
 /// `most`: the most readings of any ring so far.
-ShapePanel panelOf(const ReportCampaign& one, const RigidPoints& points, int axis, std::size_t& most) {
+ShapePanel circlePanel(const ReportCampaign& one, const RigidPoints& points, int axis, std::size_t& most) {
   const MeasuredAxis& measured = one.identification.frames.axes[static_cast<std::size_t>(axis)];
   const std::size_t rings = measured.targets.size();
   std::vector<std::vector<RadialResidual>> residuals;
@@ -100,7 +100,7 @@ std::optional<PointChart> sweepCircles(const ReportCampaign& one, const RigidPoi
   std::size_t most = 0;
   for (int axis = 0; axis < 6; ++axis) {
     if (one.identification.frames.axes[static_cast<std::size_t>(axis)].measured)
-      chart.shapes.push_back(panelOf(one, points, axis, most));
+      chart.shapes.push_back(circlePanel(one, points, axis, most));
   }
   chart.note += drawnWords(most, kMostOnRing, "readings of the longest ring");
   if (chart.shapes.empty()) return std::nullopt;

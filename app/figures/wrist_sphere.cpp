@@ -65,7 +65,7 @@ PointSeries sectorMeans(const std::vector<SphereResidual>& residuals, double Sph
   return means;
 }
 
-PointPanel panelOf(const ReportCampaign& one, const std::vector<SphereResidual>& residuals,
+PointPanel spherePanel(const ReportCampaign& one, const std::vector<SphereResidual>& residuals,
                    double SphereResidual::* angle) {
   PointPanel panel;
   // Of each reflector by itself: where they take turns, every so many readings may be always the same one's.
@@ -93,11 +93,11 @@ std::optional<PointChart> wristSphere(const ReportCampaign& one, const RigidPoin
   chart.title = "Radial residuals of the wrist's spheres";
   chart.subtitle = page::asIs(one.campaign.name);
   chart.columns = 2;
-  PointPanel azimuth = panelOf(one, residuals, &SphereResidual::azimuth_deg);
+  PointPanel azimuth = spherePanel(one, residuals, &SphereResidual::azimuth_deg);
   azimuth.series.push_back(sectorMeans(residuals, &SphereResidual::azimuth_deg, -180.0, 180.0, 18));
   azimuth.x_title = "Azimuth about P_{wrist} (°)";
   azimuth.y_title = "Radial residual (µm)";
-  PointPanel elevation = panelOf(one, residuals, &SphereResidual::elevation_deg);
+  PointPanel elevation = spherePanel(one, residuals, &SphereResidual::elevation_deg);
   elevation.series.push_back(sectorMeans(residuals, &SphereResidual::elevation_deg, -90.0, 90.0, 9));
   elevation.x_title = "Elevation (°)";
   chart.diagrams = {std::move(azimuth), std::move(elevation)};

@@ -9,13 +9,11 @@
 
 #include "core/audit/absolute_rows.h"
 #include "core/audit/chance.h"
-#include "core/audit/limits.h"
+#include "core/audit/finding.h"
 
 namespace stiffscope {
 
 namespace {
-
-using namespace audit_limits;
 
 /// Weighted normal equations over the postures that take part, with what is known beforehand on the diagonal.
 struct Normal {

@@ -5,7 +5,6 @@
 #include <Eigen/Dense>
 #include <algorithm>
 
-#include "core/audit/limits.h"
 #include "core/audit/moved_axes.h"
 #include "core/statics/own_weight.h"
 
@@ -29,7 +28,7 @@ class RowMaker {
       prior.block<4, 4>(at + 4 * j, at + 4 * j) = axes_.covariance(static_cast<std::size_t>(j)).inverse();
     }
     prior.bottomRightCorner<6, 6>() =
-        Matrix6d::Identity() / (audit_limits::kSagShare * audit_limits::kSagShare);
+        Matrix6d::Identity() / (kSagShare * kSagShare);
     return prior;
   }
 

@@ -31,14 +31,6 @@ AuditVerdict worst(const std::vector<AuditCheck>& checks) {
 
 }  // namespace
 
-AuditCheck notTestable(const std::string& id, const std::string& missing) {
-  AuditCheck check;
-  check.id = id;
-  check.verdict = AuditVerdict::not_testable;
-  check.message = missing;
-  return check;
-}
-
 AuditReport audit(Campaign campaign) {
   PreparedCampaign prepared = prepareCampaign(std::move(campaign));
   return audit(prepared);

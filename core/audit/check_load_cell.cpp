@@ -6,6 +6,7 @@
 #include "core/audit/checks.h"
 #include "core/audit/forces_stand_out.h"
 #include "core/audit/hook_fit.h"
+#include "core/audit/finding.h"
 #include "core/audit/limits.h"
 #include "core/audit/rows.h"
 #include "core/identification/identifiability.h"

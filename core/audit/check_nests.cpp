@@ -3,14 +3,12 @@
 
 #include "core/audit/chance.h"
 #include "core/audit/checks.h"
-#include "core/audit/limits.h"
+#include "core/audit/finding.h"
 #include "core/audit/rows.h"
 
 namespace stiffscope {
 
 namespace {
-
-using namespace audit_limits;
 
 AuditCheck driftCheck(const Evidence& evidence) {
   const StationMotion& station = evidence.station;

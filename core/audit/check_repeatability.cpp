@@ -2,7 +2,7 @@
 
 #include "core/audit/chance.h"
 #include "core/audit/checks.h"
-#include "core/audit/limits.h"
+#include "core/audit/finding.h"
 #include "core/audit/repeat_scatter.h"
 #include "core/audit/rows.h"
 
@@ -11,7 +11,6 @@ namespace stiffscope {
 namespace {
 
 AuditCheck scatterCheck(const std::string& id, const char* direction, double chi2, int dof, double rms) {
-  using namespace audit_limits;
   AuditCheck check;
   check.id = id;
   check.value = std::sqrt(chi2 / dof);

@@ -5,14 +5,12 @@
 
 #include "core/audit/chance.h"
 #include "core/audit/checks.h"
-#include "core/audit/limits.h"
+#include "core/audit/finding.h"
 #include "core/audit/rows.h"
 
 namespace stiffscope {
 
 namespace {
-
-using namespace audit_limits;
 
 /// One posture unloaded again: squared distance of its reflectors from step 0 in parts of the noise.
 struct Return {

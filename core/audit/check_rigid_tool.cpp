@@ -5,15 +5,13 @@
 
 #include "core/audit/chance.h"
 #include "core/audit/checks.h"
-#include "core/audit/limits.h"
+#include "core/audit/finding.h"
 #include "core/audit/rows.h"
 #include "core/audit/tool_distances.h"
 
 namespace stiffscope {
 
 namespace {
-
-using namespace audit_limits;
 
 struct Sum {
   double chi2 = 0.0;

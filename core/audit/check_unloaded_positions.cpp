@@ -3,6 +3,7 @@
 
 #include "core/audit/chance.h"
 #include "core/audit/checks.h"
+#include "core/audit/finding.h"
 #include "core/audit/limits.h"
 #include "core/audit/rows.h"
 #include "core/identification/cautions.h"

@@ -3,7 +3,7 @@
 
 #include "core/audit/chance.h"
 #include "core/audit/checks.h"
-#include "core/audit/limits.h"
+#include "core/audit/finding.h"
 #include "core/audit/rows.h"
 #include "core/audit/wrist_residuals.h"
 #include "core/identification/settled_frames.h"
@@ -12,8 +12,6 @@
 namespace stiffscope {
 
 namespace {
-
-using namespace audit_limits;
 
 AuditCheck sphereCheck(const Evidence& evidence) {
   const WristResiduals left = wristResiduals(evidence);

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "core/audit/audit.h"
+#include "core/audit/finding.h"
 #include "core/audit/evidence.h"
 
 // The checks. Each takes the evidence and gives one or more findings; none changes anything. Lost beams,
@@ -69,8 +69,5 @@ Findings checkPostureSet(const Evidence& evidence);
 
 /// What is missing where there are no sweeps.
 inline constexpr const char* kNoSweeps = "no circle sweeps: turn each axis by itself (`circle_sweeps`)";
-
-/// A finding that cannot be had, with what is missing.
-AuditCheck notTestable(const std::string& id, const std::string& missing);
 
 }  // namespace stiffscope

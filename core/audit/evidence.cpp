@@ -7,20 +7,6 @@ namespace stiffscope {
 
 namespace {
 
-/// The loaded arm where the campaign has what it takes; else the frames alone.
-void settle(Evidence& evidence) {
-  const Campaign& campaign = evidence.campaign;
-  if (campaign.states && campaign.load_cell) evidence.step = heaviestStep(campaign);
-  if (evidence.step && (campaign.loading || campaign.displacements)) {
-    SettledFrames settled = settleFrames(campaign, {*evidence.step}, {});
-    evidence.frames = std::move(settled.frames);
-    evidence.arm = std::move(settled.arm);
-    return;
-  }
-  evidence.frames = measureFrames(campaign);
-  evidence.arm.geometry = sweptGeometry(campaign, evidence.frames, Vector6d::Zero());
-}
-
 SagModel sagOf(const Evidence& evidence) {
   const Frames& frames = evidence.frames;
   if (!frames.sag_removed) return {};
@@ -41,7 +27,10 @@ Evidence gatherEvidence(Campaign campaign, const PreparedCampaign& found) {
     evidence.noise = trackerNoise(*evidence.campaign.tracker);
   }
   evidence.states = statePoints(evidence.campaign);
-  settle(evidence);
+  SettledDay day = settleDay(evidence.campaign);
+  evidence.step = day.step;
+  evidence.frames = std::move(day.frames);
+  evidence.arm = std::move(day.arm);
   evidence.rigid = rigidPoints(evidence.campaign, sagOf(evidence));
   evidence.absolute = fitAbsolutePositions(evidence.campaign, evidence.frames, evidence.arm.geometry,
                                            evidence.states, evidence.noise);

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/audit/chance.h"
-#include "core/audit/limits.h"
+#include "core/audit/finding.h"
 #include "core/robot/kinematics.h"
 
 namespace stiffscope {
@@ -118,7 +118,7 @@ HookFit fitHook(const Campaign& campaign) {
     most = std::max(most, state.wrench_in_cell.head<3>().norm());
   bool any_moment = false;
   for (const State& state : campaign.states->rows) {
-    if (state.step == 0 || state.wrench_in_cell.head<3>().norm() < audit_limits::kReturnShare * most)
+    if (state.step == 0 || state.wrench_in_cell.head<3>().norm() < kReturnShare * most)
       continue;
     const Eigen::Matrix3d turn = toolFromCell(campaign, state.q);
     states.push_back(
@@ -149,11 +149,11 @@ HookFit fitHook(const Campaign& campaign) {
   const double count = static_cast<double>(states.size());
   fit.dof = static_cast<int>(3 * states.size()) - 3;
   fit.rms = std::sqrt(squares / (3.0 * count));
-  fit.worst_limit = chiSquareLimit(0.5 * audit_limits::kLevel / count, 3.0);
+  fit.worst_limit = chiSquareLimit(0.5 * kLevel / count, 3.0);
   fit.worst_line = states[worst].state->line;
   fit.worst_pose = states[worst].state->pose;
   fit.worst_step = states[worst].state->step;
-  const double limit = chiSquareLimit(audit_limits::kLevel, fit.dof);
+  const double limit = chiSquareLimit(kLevel, fit.dof);
   if (fit.chi2 > limit || fit.worst_chi2 > fit.worst_limit)
     fit.mending_signs = mendingSigns(cell, states, worst, limit);
   fit.done = true;

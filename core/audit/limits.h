@@ -1,23 +1,11 @@
 #pragma once
 
-#include <string>
+#include "core/audit/finding.h"
 
 // Every limit of the audit, with where it comes from. None is fitted to a campaign: they come from the
 // statistics of the declared noise, or from practice that is stated here.
 
 namespace stiffscope::audit_limits {
-
-/// Chance that a campaign without any fault gets a finding, over all checks together.
-inline constexpr double kFalseFinding = 0.01;
-
-/// Checks that share it; each divides its part again by the readings, postures or reflectors it tries
-/// (Bonferroni).
-inline constexpr double kChecks = 20.0;
-inline constexpr double kLevel = kFalseFinding / kChecks;
-
-/// A finding is a failure where what was found is more than twice what noise alone puts there: an interval
-/// stated with k = 2 for 95 % (GUM 6.2) then covers 68 %. As a ratio of variances:
-inline constexpr double kFailVarianceRatio = 4.0;
 
 /// Arc of a circle sweep. The centre's uncertainty along the bisector grows with the inverse square of the
 /// arc: at 90 deg it is 7.3 times that of the whole circle for 20 readings, at 45 deg 3.9 times that again
@@ -50,22 +38,8 @@ inline constexpr double kReflectorRadius = 19.05e-3;
 /// asks for less than 100.
 inline constexpr double kCondition = 100.0;
 
-/// A later step with a force below this share of its posture's largest is a return to zero (campaign format).
-inline constexpr double kReturnShare = 0.05;
-
 /// Longest lever of a load about the load cell, m: the longest arms of any maker reach less than 5 m, and a tool is
 /// shorter than its arm. Forces or moments in another unit give one of a hundred metres.
 inline constexpr double kLongestLever = 5.0;
-
-/// One-sigma share to which the sag by the identified stiffnesses and the URDF's masses is trusted. A choice,
-/// not derived: a tenth is what CAD masses without cables, grease and dressing are off by, and what bearings
-/// that give put into a joint's stiffness. Simulated days with every mass drawn a tenth off (80) keep
-/// frame_moved, unloaded_positions and joint_read_back below half of their limits.
-inline constexpr double kSagShare = 0.1;
-
-/// For limit_source.
-inline std::string byChance(const std::string& statistic) {
-  return statistic + "; 1 % false findings over the whole audit, shared by all that is tried";
-}
 
 }  // namespace stiffscope::audit_limits

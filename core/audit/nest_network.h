@@ -30,7 +30,4 @@ struct NestNetwork {
 NestNetwork fitNestNetwork(const std::vector<NestRound>& rounds, const TrackerNoise& noise,
                            const Eigen::Vector3d& centre, int left_out);
 
-/// The rigid motion of a rotation vector and a displacement at `centre`.
-Eigen::Isometry3d motionAbout(const Eigen::Vector3d& centre, const Eigen::Matrix<double, 6, 1>& motion);
-
 }  // namespace stiffscope

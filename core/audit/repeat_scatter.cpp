@@ -6,7 +6,7 @@
 #include <tuple>
 
 #include "core/audit/chance.h"
-#include "core/audit/limits.h"
+#include "core/audit/finding.h"
 #include "core/audit/rows.h"
 #include "core/audit/working_noise.h"
 
@@ -75,7 +75,6 @@ std::vector<std::pair<const LoadingReading*, double>> distances(const TrackerNoi
 
 std::vector<RejectedReading> outliers(const std::string& file, const TrackerNoise& noise,
                                       std::vector<Repeats> states) {
-  using namespace audit_limits;
   std::vector<RejectedReading> found;
   auto all = distances(noise, states);
   auto sorted = all;

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "core/audit/audit.h"
+#include "core/audit/finding.h"
 
 namespace stiffscope {
 

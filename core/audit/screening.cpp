@@ -5,7 +5,7 @@
 #include <set>
 #include <utility>
 
-#include "core/audit/limits.h"
+#include "core/audit/finding.h"
 #include "core/audit/repeat_scatter.h"
 #include "core/audit/rows.h"
 #include "core/campaign/repeat_check.h"
@@ -106,7 +106,7 @@ Screening screenReadings(Campaign campaign) {
   if (scatter.tested) {
     screen("repeat_outliers", AuditVerdict::warn, scatter.outliers,
            "repeats stand apart from the others of their state",
-           audit_limits::byChance("chi-square of a reading against its state's others, three coordinates"));
+           byChance("chi-square of a reading against its state's others, three coordinates"));
   } else {
     AuditCheck check;
     check.id = "repeat_outliers";

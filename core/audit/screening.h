@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "core/audit/audit.h"
+#include "core/audit/finding.h"
 
 namespace stiffscope {
 

@@ -5,8 +5,9 @@
 #include <cmath>
 
 #include "core/audit/chance.h"
-#include "core/audit/limits.h"
+#include "core/audit/finding.h"
 #include "core/audit/nest_network.h"
+#include "metrology/rigid_motion.h"
 
 namespace stiffscope {
 
@@ -35,7 +36,7 @@ void describeMovedNest(const std::vector<NestRound>& rounds, const NestNetwork& 
   course.centre = result.centre;
   course.epochs = others.epochs;
   std::optional<Eigen::Vector3d> first;
-  const double limit = chiSquareLimit(audit_limits::kLevel / static_cast<double>(rounds.size()), 3.0);
+  const double limit = chiSquareLimit(kLevel / static_cast<double>(rounds.size()), 3.0);
   for (const NestRound& round : rounds) {
     const auto found = round.readings.find(nest);
     if (found == round.readings.end()) continue;
@@ -59,7 +60,7 @@ void findMovedNest(const std::vector<NestRound>& rounds, const TrackerNoise& noi
     result.moved_nest = static_cast<int>(nest);
   }
   if (!result.moved_nest) return;
-  if (best.chi2 > chiSquareLimit(audit_limits::kLevel, best.dof)) {
+  if (best.chi2 > chiSquareLimit(kLevel, best.dof)) {
     result.moved_nest.reset();  // more than one moved: none can be told apart
     return;
   }
@@ -109,12 +110,12 @@ StationMotion stationMotion(const Campaign& campaign, const std::optional<Tracke
   result.tested = true;
   result.deformation_chi2 = network.chi2;
   result.deformation_dof = network.dof;
-  result.deformation_limit = network.dof > 0 ? chiSquareLimit(audit_limits::kLevel, network.dof) : 0.0;
+  result.deformation_limit = network.dof > 0 ? chiSquareLimit(kLevel, network.dof) : 0.0;
   if (network.dof > 0 && network.chi2 > result.deformation_limit) {
     findMovedNest(rounds, *noise, campaign.nest_ids.size(), network, result);
   }
   result.epochs = network.epochs;
-  result.moved_limit = chiSquareLimit(audit_limits::kLevel / static_cast<double>(result.epochs.size()), 3.0);
+  result.moved_limit = chiSquareLimit(kLevel / static_cast<double>(result.epochs.size()), 3.0);
   for (const StationEpoch& epoch : result.epochs)
     result.moved |= result.significance(epoch) > result.moved_limit;
   return result;

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "core/audit/chance.h"
-#include "core/audit/limits.h"
+#include "core/audit/finding.h"
 
 namespace stiffscope {
 
@@ -81,7 +81,7 @@ ToolDistances toolDistances(const std::vector<StatePoints>& states, int targets,
   }
   ToolDistances result;
   if (count == 0) return result;
-  result.limit = normalLimit(audit_limits::kLevel / static_cast<double>(count));
+  result.limit = normalLimit(kLevel / static_cast<double>(count));
   result.distances.reserve(count);
   for (std::vector<ToolDistance>& distances : by_pair) {
     const ToolDistances::Pair pair = referenceOf(states, distances, result.limit);

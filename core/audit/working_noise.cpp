@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "core/audit/chance.h"
-#include "core/audit/limits.h"
+#include "core/audit/finding.h"
 #include "core/frames/measured_axes.h"
 
 namespace stiffscope {
@@ -11,7 +11,7 @@ namespace stiffscope {
 namespace {
 
 double factorOf(double chi2, int dof) {
-  if (dof < 1 || chi2 <= chiSquareLimit(audit_limits::kLevel, dof)) return 1.0;
+  if (dof < 1 || chi2 <= chiSquareLimit(kLevel, dof)) return 1.0;
   // The upper end of its 95 % interval: another check of as many readings would else find the rest of the
   // scatter that this estimate happens to miss. A standard deviation's own is 1/sqrt(2 dof) of it.
   constexpr double kSigmas = 2.0;

@@ -13,7 +13,7 @@ namespace stiffscope::blind {
 
 namespace {
 
-const std::vector<std::string> kColumns{"case", "verdict", "details", "classes", "failure"};
+const std::vector<std::string> kAnswerColumns{"case", "verdict", "details", "classes", "failure"};
 
 std::vector<std::string> ids(const std::vector<Effect>& effects) {
   std::vector<std::string> names;
@@ -63,7 +63,7 @@ Answer answerOf(const std::string& name, const DiagnosisAnswer& given) {
 }
 
 std::string answersCsv(const std::vector<Answer>& answers) {
-  std::string csv = fmt::format("{}\n", fmt::join(kColumns, ","));
+  std::string csv = fmt::format("{}\n", fmt::join(kAnswerColumns, ","));
   for (const Answer& one : answers) {
     std::vector<std::string> entries, details, classes;
     for (const Answer::Entry& entry : one.entries) {
@@ -85,7 +85,7 @@ std::string answersCsv(const std::vector<Answer>& answers) {
 
 std::vector<Answer> readAnswers(const std::string& file, const std::string& bytes) {
   std::vector<Answer> answers;
-  for (const TableRow& row : readTable(file, bytes, kColumns)) {
+  for (const TableRow& row : readTable(file, bytes, kAnswerColumns)) {
     Answer answer;
     answer.name = row.text("case");
     answer.failure = row.text("failure");

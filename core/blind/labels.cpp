@@ -10,7 +10,7 @@ namespace stiffscope::blind {
 
 namespace {
 
-const std::vector<std::string> kColumns{"case",         "kind",       "effects",   "details", "shows",
+const std::vector<std::string> kLabelColumns{"case",         "kind",       "effects",   "details", "shows",
                                         "sizes",        "deflection", "positions", "shrink",  "shrink_seen",
                                         "noise_factor", "background", "arm",       "loading"};
 
@@ -64,7 +64,7 @@ Label labelOf(const std::string& name, const BlindCase& one) {
 }
 
 std::string labelsCsv(const std::vector<Label>& labels) {
-  std::string csv = fmt::format("{}\n", fmt::join(kColumns, ","));
+  std::string csv = fmt::format("{}\n", fmt::join(kLabelColumns, ","));
   for (const Label& one : labels) {
     const auto numbers = [&](double LabelledEffect::*member) {
       return joined(one.effects, [&](const LabelledEffect& e) { return shortNumber(e.*member); });
@@ -83,7 +83,7 @@ std::string labelsCsv(const std::vector<Label>& labels) {
 
 std::vector<Label> readLabels(const std::string& file, const std::string& bytes) {
   std::vector<Label> labels;
-  for (const TableRow& row : readTable(file, bytes, kColumns)) {
+  for (const TableRow& row : readTable(file, bytes, kLabelColumns)) {
     Label label{row.text("case"),
                 kindOf(row),
                 {},

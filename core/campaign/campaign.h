@@ -8,6 +8,7 @@
 
 #include "core/campaign/tables.h"
 #include "core/robot/robot.h"
+#include "core/statics/own_weight.h"
 
 namespace stiffscope {
 
@@ -37,12 +38,6 @@ struct LoadCell {
   std::optional<std::string> axes_link;  ///< wrench components parallel to this link's axes, rpy ignored
   double force_sigma = 0.0;              ///< N; 0: not stated
   double moment_sigma = 0.0;             ///< Nm; 0: not stated
-};
-
-/// What hangs on the flange all the time.
-struct Tool {
-  double mass_kg = 0.0;
-  Eigen::Vector3d com_in_flange = Eigen::Vector3d::Zero();
 };
 
 /// A file that was read, as the report lists it.
@@ -85,5 +80,8 @@ struct Campaign {
   std::vector<std::string> nest_ids;
   std::vector<InputFile> inputs;
 };
+
+/// A later step with a force below this share of its posture's largest is a return to zero (campaign format).
+inline constexpr double kReturnShare = 0.05;
 
 }  // namespace stiffscope

@@ -2,7 +2,6 @@
 
 #include <array>
 
-#include "core/identification/normal_equations.h"
 #include "core/robot/kinematics.h"
 
 namespace stiffscope {

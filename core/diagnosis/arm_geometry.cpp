@@ -1,8 +1,8 @@
 #include "core/diagnosis/arm_geometry.h"
 
-#include "core/audit/nest_network.h"
 #include "core/frames/arm_in_r0.h"
 #include "metrology/measured_line.h"
+#include "metrology/rigid_motion.h"
 
 namespace stiffscope {
 

@@ -1,6 +1,6 @@
 #include "core/diagnosis/corrections.h"
+#include "metrology/rigid_motion.h"
 
-#include "core/audit/nest_network.h"
 
 namespace stiffscope {
 

@@ -4,14 +4,14 @@
 #include <cmath>
 #include <map>
 
-#include "core/audit/limits.h"
-#include "core/audit/nest_network.h"
+#include "core/audit/finding.h"
 #include "core/diagnosis/rest_state.h"
 #include "core/identification/cell_wrench.h"
 #include "core/identification/load_case.h"
 #include "core/identification/load_step.h"
 #include "core/statics/geometric_stiffness.h"
 #include "core/statics/joint_torque.h"
+#include "metrology/rigid_motion.h"
 
 namespace stiffscope {
 
@@ -131,7 +131,7 @@ class LoadingRowMaker {
     ArmState state = rest;
     state.step = one.step;
     state.time_s = timeOf(one.pose, one.step);
-    state.loaded = one.wrench.force.norm() > audit_limits::kReturnShare * largest;
+    state.loaded = one.wrench.force.norm() > kReturnShare * largest;
     state.cell_axes = cellAxes(*campaign_.load_cell, geometry_, one);
     state.load = corrected(one.wrench, state, corrections_, at_);
     const ArmAxes axes = axesAt(geometry_.arm, rest.posture);

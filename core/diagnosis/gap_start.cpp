@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/audit/evidence.h"
+#include "core/audit/day.h"
 #include "core/audit/repeat_scatter.h"
 #include "core/audit/screening.h"
 #include "core/diagnosis/start_state.h"
@@ -99,14 +99,13 @@ GapStart gapStart(const Campaign& campaign, bool take_off_station) {
   if (moved && take_off_station) takeOffDrift(start.station.motion, start.campaign);
   start.campaign.nests.reset();  // they have said what they know
   start.noise = noiseFloor(start.campaign);
-  const PreparedCampaign prepared = leaveRaw(start.campaign);
-  const Evidence evidence = gatherEvidence(prepared.campaign, prepared);
-  start.geometry = evidence.arm.geometry;
+  const SettledDay day = settleDay(start.campaign);
+  start.geometry = day.arm.geometry;
   start.absolute = start.campaign.loading && start.geometry.r0_from_loading.has_value();
   // A sag that is not known would be taken for geometry, frames and springs.
   if (!start.geometry.weight.links_known) start.absolute = false;
-  start.sweeps = start.absolute && evidence.frames.arm.points_placed && sameFrame(start.campaign);
-  LoadedArm arm = evidence.arm;
+  start.sweeps = start.absolute && day.frames.arm.points_placed && sameFrame(start.campaign);
+  LoadedArm arm = day.arm;
   if (start.campaign.loading && !start.geometry.r0_from_loading) {
     const GeometryCalibration calibration = calibrateGeometry(start.campaign, start.geometry);
     start.absolute = calibration.done && start.geometry.weight.links_known;
@@ -115,7 +114,7 @@ GapStart gapStart(const Campaign& campaign, bool take_off_station) {
       return start;
     }
     start.geometry = calibration.geometry;
-    arm = loadedArm(start.campaign, start.geometry, evidence.frames.wrist, {*heaviestStep(start.campaign)});
+    arm = loadedArm(start.campaign, start.geometry, day.frames.wrist, {*heaviestStep(start.campaign)});
   }
   if (arm.cases.empty()) {
     start.reason =

@@ -2,7 +2,6 @@
 
 #include <string>
 
-#include "core/audit/evidence.h"
 #include "core/diagnosis/gap_fit.h"
 #include "core/diagnosis/station.h"
 #include "core/identification/settled_frames.h"

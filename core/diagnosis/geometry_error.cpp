@@ -3,8 +3,8 @@
 #include <Eigen/Dense>
 #include <algorithm>
 
-#include "core/audit/nest_network.h"
 #include "metrology/common_perpendicular.h"
+#include "metrology/rigid_motion.h"
 
 namespace stiffscope {
 

@@ -3,8 +3,8 @@
 #include <Eigen/Geometry>
 #include <array>
 
-#include "core/audit/nest_network.h"
 #include "core/diagnosis/probed_motion.h"
+#include "metrology/rigid_motion.h"
 
 namespace stiffscope {
 

@@ -27,7 +27,7 @@ Frames measureOnce(const Campaign& campaign, const SagModel& sag) {
   frames.targets_in_r0_at_zero = targetsAtZero(campaign, frames.arm, points);
   frames.wrist = measureWristCentre(campaign, frames.arm, points, frames.targets_in_r0_at_zero);
   frames.tcp_in_flange = tcpInFlange(frames.arm.arm);
-  frames.weight = ownWeight(campaign, frames.arm.arm, frames.arm.r0_from_base_link);
+  frames.weight = ownWeight(campaign.robot, campaign.tool, campaign.gravity_in_base, frames.arm.arm, frames.arm.r0_from_base_link);
   return frames;
 }
 

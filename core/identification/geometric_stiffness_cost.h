@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "core/identification/identify.h"
+#include "core/identification/identification.h"
 
 namespace stiffscope {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/identification/identify.h"
+#include "core/identification/identification.h"
 #include "core/identification/loaded_arm.h"
 
 namespace stiffscope {

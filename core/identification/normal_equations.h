@@ -8,9 +8,6 @@
 
 namespace stiffscope {
 
-/// Which joints' compliances are unknowns; the others' columns are left out (their compliance taken as 0).
-using JointMask = std::array<bool, 6>;
-
 /// A^T A and A^T b of one load case or of a sum of them.
 struct NormalEquations {
   Matrix6d matrix = Matrix6d::Zero();

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/identification/identify.h"
+#include "core/identification/identification.h"
 
 namespace stiffscope {
 

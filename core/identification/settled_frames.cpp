@@ -56,4 +56,18 @@ SettledFrames settleFrames(const Campaign& campaign, const std::vector<int>& ste
   return settled;
 }
 
+SettledDay settleDay(const Campaign& campaign) {
+  SettledDay day;
+  if (campaign.states && campaign.load_cell) day.step = heaviestStep(campaign);
+  if (day.step && (campaign.loading || campaign.displacements)) {
+    SettledFrames settled = settleFrames(campaign, {*day.step}, {});
+    day.frames = std::move(settled.frames);
+    day.arm = std::move(settled.arm);
+    return day;
+  }
+  day.frames = measureFrames(campaign);
+  day.arm.geometry = sweptGeometry(campaign, day.frames, Vector6d::Zero());
+  return day;
+}
+
 }  // namespace stiffscope

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/identification/identify.h"
+#include "core/identification/identification.h"
 #include "core/identification/loaded_arm.h"
 
 namespace stiffscope {
@@ -26,5 +26,13 @@ Vector6d sagCompliance(const Campaign& campaign, const IdentifyOptions& options,
 
 /// Rounds in which sag and stiffnesses are found in turns.
 inline constexpr int kSagRounds = 3;
+
+/// The loaded arm of the heaviest step where the campaign has what it takes; else the frames alone.
+struct SettledDay {
+  std::optional<int> step;
+  Frames frames;
+  LoadedArm arm;  ///< in the swept geometry; no cases without loads
+};
+SettledDay settleDay(const Campaign& campaign);
 
 }  // namespace stiffscope

@@ -6,9 +6,9 @@ namespace stiffscope {
 
 namespace {
 
-using Postures = Eigen::Map<const Eigen::ArrayXd>;
+using PostureArray = Eigen::Map<const Eigen::ArrayXd>;
 
-Postures each(const std::vector<double>& posture) {
+PostureArray each(const std::vector<double>& posture) {
   return {posture.data(), static_cast<Eigen::Index>(posture.size())};
 }
 
@@ -21,10 +21,10 @@ void judge(const DeflectionJudge& judge, std::span<Subset> subsets, SubsetResidu
     left.push_back(&(one.*points).left);
   }
   judge.residuals(compliances, left);
-  const Postures displacement = each(judge.displacement());
+  const PostureArray displacement = each(judge.displacement());
   const double whole = displacement.sum();
   for (Subset& one : subsets) {
-    const Postures left = each((one.*points).left);
+    const PostureArray left = each((one.*points).left);
     const double left_used = (left * one.used).sum(), left_whole = left.sum(), used = (displacement * one.used).sum();
     (one.*points).compensated = {1.0 - left_used / used, 1.0 - (left_whole - left_used) / (whole - used),
                                  1.0 - left_whole / whole};

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/improved/effect_fit.h"
+#include "core/improved/fitted_effects.h"
 
 namespace stiffscope {
 

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "core/improved/effect_fit.h"
+#include "core/improved/fitted_effects.h"
 
 namespace stiffscope {
 

@@ -2,10 +2,10 @@
 
 #include <array>
 
-#include "core/audit/nest_network.h"
 #include "core/diagnosis/probed_motion.h"
 #include "core/improved/effect_nature.h"
 #include "core/statics/joint_torque.h"
+#include "metrology/rigid_motion.h"
 
 namespace stiffscope {
 

@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "core/improved/effect_fit.h"
+#include "core/improved/fitted_effects.h"
 #include "core/improved/tool_load.h"
 
 namespace stiffscope {

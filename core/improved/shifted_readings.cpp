@@ -2,8 +2,8 @@
 
 #include <map>
 
-#include "core/audit/nest_network.h"
 #include "core/diagnosis/rest_state.h"
+#include "metrology/rigid_motion.h"
 
 namespace stiffscope {
 

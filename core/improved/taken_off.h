@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "core/improved/effect_fit.h"
+#include "core/improved/fitted_effects.h"
 
 namespace stiffscope {
 

@@ -11,7 +11,6 @@ namespace stiffscope {
 
 namespace {
 
-constexpr double kNever = -std::numeric_limits<double>::infinity();
 
 class Exchange {
  public:

@@ -45,4 +45,7 @@ struct Robot {
   std::vector<LinkFrame> links;    ///< every link on the chain, and every link rigidly fixed to one of those
 };
 
+/// Which joints' compliances are unknowns; the others' columns are left out (their compliance taken as 0).
+using JointMask = std::array<bool, 6>;
+
 }  // namespace stiffscope

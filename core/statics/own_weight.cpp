@@ -9,21 +9,22 @@ bool OwnWeight::any() const {
          std::any_of(bodies.begin() + 1, bodies.end(), [](const BodyMass& body) { return body.mass_kg > 0.0; });
 }
 
-OwnWeight ownWeight(const Campaign& campaign, const Robot& arm, const Eigen::Isometry3d& base_from_base_link) {
+OwnWeight ownWeight(const Robot& nominal, const std::optional<Tool>& tool, const Eigen::Vector3d& gravity_in_base_link,
+                    const Robot& arm, const Eigen::Isometry3d& base_from_base_link) {
   OwnWeight weight;
-  weight.gravity_in_base = base_from_base_link.linear() * campaign.gravity_in_base;
+  weight.gravity_in_base = base_from_base_link.linear() * gravity_in_base_link;
   weight.links_known = true;
   for (std::size_t body = 1; body < weight.bodies.size(); ++body) {
-    weight.bodies[body].mass_kg = campaign.robot.bodies[body].mass_kg;
-    weight.bodies[body].com_in_base_at_zero = base_from_base_link * campaign.robot.bodies[body].com_in_base_at_zero;
+    weight.bodies[body].mass_kg = nominal.bodies[body].mass_kg;
+    weight.bodies[body].com_in_base_at_zero = base_from_base_link * nominal.bodies[body].com_in_base_at_zero;
     if (body >= 2 && body <= 4 && weight.bodies[body].mass_kg <= 0.0) weight.links_known = false;
   }
-  if (campaign.tool && campaign.tool->mass_kg > 0.0) {
+  if (tool && tool->mass_kg > 0.0) {
     BodyMass& last = weight.bodies[6];
-    const Eigen::Vector3d tool_com = arm.base_from_flange_at_zero * campaign.tool->com_in_flange;
-    const double together = last.mass_kg + campaign.tool->mass_kg;
+    const Eigen::Vector3d tool_com = arm.base_from_flange_at_zero * tool->com_in_flange;
+    const double together = last.mass_kg + tool->mass_kg;
     last.com_in_base_at_zero =
-        (last.mass_kg * last.com_in_base_at_zero + campaign.tool->mass_kg * tool_com) / together;
+        (last.mass_kg * last.com_in_base_at_zero + tool->mass_kg * tool_com) / together;
     last.mass_kg = together;
   }
   return weight;

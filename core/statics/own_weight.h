@@ -3,10 +3,15 @@
 #include <optional>
 #include <string>
 
-#include "core/campaign/campaign.h"
 #include "core/robot/kinematics.h"
 
 namespace stiffscope {
+
+/// What hangs on the flange all the time.
+struct Tool {
+  double mass_kg = 0.0;
+  Eigen::Vector3d com_in_flange = Eigen::Vector3d::Zero();
+};
 
 /// The arm's own weight as dead loads: each body's mass at its centre, the tool with the last body.
 struct OwnWeight {
@@ -17,9 +22,10 @@ struct OwnWeight {
   bool any() const;
 };
 
-/// Masses of the URDF's links and the campaign's tool, brought to `base_from_base_link` axes (R0 or base_link).
-/// Link masses are known when every body beyond joint 2 states one.
-OwnWeight ownWeight(const Campaign& campaign, const Robot& arm, const Eigen::Isometry3d& base_from_base_link);
+/// Masses of `nominal`'s links (the URDF's, in base_link) and of the tool, which the flange of `arm` carries, brought to
+/// `base_from_base_link` axes (R0 or base_link). Link masses are known when every body beyond joint 2 states one.
+OwnWeight ownWeight(const Robot& nominal, const std::optional<Tool>& tool, const Eigen::Vector3d& gravity_in_base_link,
+                    const Robot& arm, const Eigen::Isometry3d& base_from_base_link);
 
 /// Joint torques of the own weight at a posture, Nm.
 Vector6d weightTorque(const Robot& robot, const ArmPosture& posture, const OwnWeight& weight);

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 
-namespace stiffscope::page {
+#include "reports/page/rich_text.h"
+
+namespace stiffscope {
 
 namespace {
 
@@ -91,4 +93,4 @@ std::string csvTable(const Table& table) {
   return csv;
 }
 
-}  // namespace stiffscope::page
+}  // namespace stiffscope

@@ -2,13 +2,19 @@
 
 #include <string>
 
-#include "reports/page/html_table.h"
+#include "reports/table.h"
 
-namespace stiffscope::page {
+namespace stiffscope {
+
+/// A table of the page as a file (RFC 4180).
+struct TableFile {
+  std::string name;  ///< without ".csv"
+  std::string csv;
+};
 
 /// A table of the page as CSV (RFC 4180: comma, CRLF, quotes doubled), UTF-8, headers first. Numbers as a
 /// program reads them: an ASCII minus, nothing for what is no number; a column of "value ± uncertainty" becomes
 /// two. Remarks follow in a column of their own where there are any.
 std::string csvTable(const Table& table);
 
-}  // namespace stiffscope::page
+}  // namespace stiffscope

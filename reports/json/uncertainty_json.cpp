@@ -9,7 +9,7 @@ namespace stiffscope {
 
 namespace {
 
-Json byJoint(const JointMask& identifiable, const auto& entry) {
+Json maskedByJoint(const JointMask& identifiable, const auto& entry) {
   Json list = Json::array();
   for (int joint = 0; joint < 6; ++joint) {
     list.push_back(identifiable[static_cast<std::size_t>(joint)] ? Json(entry(joint)) : Json(nullptr));
@@ -21,14 +21,14 @@ Json intervalJson(const CoverageInterval& interval) { return Json::array({number
 
 Json correlationJson(const StiffnessEstimate& estimate) {
   const Matrix6d matrix = correlation(estimate);
-  return byJoint(estimate.identifiable, [&](int row) {
-    return byJoint(estimate.identifiable, [&](int column) { return number(matrix(row, column)); });
+  return maskedByJoint(estimate.identifiable, [&](int row) {
+    return maskedByJoint(estimate.identifiable, [&](int column) { return number(matrix(row, column)); });
   });
 }
 
 Json contributionsJson(const StiffnessEstimate& estimate) {
   const auto part = [&](const Matrix6d& covariance) {
-    return byJoint(estimate.identifiable, [&](int j) { return number(std::sqrt(covariance(j, j))); });
+    return maskedByJoint(estimate.identifiable, [&](int j) { return number(std::sqrt(covariance(j, j))); });
   };
   Json json{{"scatter_rad_per_nm", part(estimate.parts.scatter)},
             {"frames_rad_per_nm", part(estimate.parts.frames)},
@@ -46,13 +46,13 @@ Json stepsJson(const StepsOfMethod& steps, const JointMask& identifiable) {
     rows.push_back(
         {{"step", one.step},
          {"mean_force_n", one.mean_force},
-         {"stiffness_nm_per_rad", byJoint(identifiable, [&](int j) { return number(estimate.stiffness(j)); })},
-         {"sd_nm_per_rad", byJoint(identifiable, [&](int j) { return number(estimate.stiffnessSd(j)); })},
+         {"stiffness_nm_per_rad", maskedByJoint(identifiable, [&](int j) { return number(estimate.stiffness(j)); })},
+         {"sd_nm_per_rad", maskedByJoint(identifiable, [&](int j) { return number(estimate.stiffnessSd(j)); })},
          {"interval_nm_per_rad",
-          byJoint(identifiable, [&](int j) { return intervalJson(stiffnessInterval(estimate, j)); })}});
+          maskedByJoint(identifiable, [&](int j) { return intervalJson(stiffnessInterval(estimate, j)); })}});
   }
   const auto dependence = [&](const auto& member) {
-    return byJoint(identifiable, [&](int j) { return number(steps.joints[static_cast<std::size_t>(j)].*member); });
+    return maskedByJoint(identifiable, [&](int j) { return number(steps.joints[static_cast<std::size_t>(j)].*member); });
   };
   return {{"steps", rows},
           {"compliance_change", dependence(&LoadDependence::change)},
@@ -67,20 +67,20 @@ void addUncertainty(const MethodResult& method, Json& json) {
   const StiffnessEstimate& estimate = method.estimate;
   const JointMask& seen = estimate.identifiable;
   json["coverage"] = kStatedCoverage;
-  json["interval_nm_per_rad"] = byJoint(seen, [&](int j) { return intervalJson(stiffnessInterval(estimate, j)); });
-  json["dof"] = byJoint(seen, [&](int j) { return number(estimate.dof(j)); });
+  json["interval_nm_per_rad"] = maskedByJoint(seen, [&](int j) { return intervalJson(stiffnessInterval(estimate, j)); });
+  json["dof"] = maskedByJoint(seen, [&](int j) { return number(estimate.dof(j)); });
   json["sd_compliance_rad_per_nm"] =
-      byJoint(seen, [&](int j) { return number(std::sqrt(estimate.covariance(j, j))); });
+      maskedByJoint(seen, [&](int j) { return number(std::sqrt(estimate.covariance(j, j))); });
   json["interval_compliance_rad_per_nm"] =
-      byJoint(seen, [&](int j) { return intervalJson(complianceInterval(estimate, j)); });
+      maskedByJoint(seen, [&](int j) { return intervalJson(complianceInterval(estimate, j)); });
   json["correlation"] = correlationJson(estimate);
   json["contributions"] = contributionsJson(estimate);
   if (method.bootstrap.compliances.empty()) return;
   json["bootstrap"] = {
       {"draws", method.bootstrap.compliances.size()},
-      {"interval_nm_per_rad", byJoint(seen, [&](int j) { return intervalJson(method.bootstrap.stiffness(j)); })},
+      {"interval_nm_per_rad", maskedByJoint(seen, [&](int j) { return intervalJson(method.bootstrap.stiffness(j)); })},
       {"interval_compliance_rad_per_nm",
-       byJoint(seen, [&](int j) { return intervalJson(method.bootstrap.compliance(j)); })}};
+       maskedByJoint(seen, [&](int j) { return intervalJson(method.bootstrap.compliance(j)); })}};
 }
 
 Json withSteps(Json json, const StepStudy& study, const Identification& result, const std::vector<Method>& methods) {

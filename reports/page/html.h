@@ -4,7 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "reports/page/report_page.h"
+#include "reports/csv/csv_table.h"
+#include "reports/page/rich_text.h"
 
 namespace tinyxml2 {
 class XMLPrinter;
@@ -64,11 +65,5 @@ class Html {
   std::string table_suffix_;
   std::vector<TableFile> tables_;
 };
-
-/// A text of a campaign, to stand in a rich text to the letter, whatever is in it; pictures draw it so, too.
-std::string asIs(const std::string& text);
-
-/// A rich text without its marks: for alt texts and places that cannot have a subscript.
-std::string plain(const std::string& rich_text);
 
 }  // namespace stiffscope::page

@@ -8,7 +8,7 @@
 #include <numeric>
 
 #include "reports/method_names.h"
-#include "reports/page/html.h"
+#include "reports/page/rich_text.h"
 
 namespace stiffscope::page {
 

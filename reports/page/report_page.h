@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "reports/csv/csv_table.h"
 #include "reports/page/report_content.h"
 
 namespace stiffscope {
@@ -10,12 +11,6 @@ namespace stiffscope {
 /// The report as one HTML5 page that needs nothing beside it: pictures as data: URIs, style inside, and
 /// a few lines of script that sort a table by a click on its header; without script all is there, unsorted. No network. Well-formed as XML after its doctype. Every text of a campaign is escaped.
 std::string reportPage(const ReportContent& content);
-
-/// A table of the page as a file (RFC 4180).
-struct TableFile {
-  std::string name;  ///< without ".csv"
-  std::string csv;
-};
 
 /// The page, and every table on it.
 struct ReportPage {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/audit/limits.h"
+#include "core/audit/finding.h"
 #include "reports/page/html_table.h"
 #include "reports/page/names.h"
 #include "reports/page/numbers.h"
@@ -36,7 +36,7 @@ std::string withUnit(const std::optional<double>& value, const std::string& unit
 
 /// A limit's source without what holds for all that are by chance; that is said once.
 std::string sourceOf(const AuditCheck& check) {
-  const std::string common = audit_limits::byChance("");
+  const std::string common = byChance("");
   std::string source = check.limit_source;
   if (source.ends_with(common)) source.resize(source.size() - common.size());
   return withMicro(source);
@@ -44,7 +44,7 @@ std::string sourceOf(const AuditCheck& check) {
 
 bool anyByChance(const AuditReport& report) {
   return std::any_of(report.checks.begin(), report.checks.end(), [](const AuditCheck& check) {
-    return check.limit_source.ends_with(audit_limits::byChance(""));
+    return check.limit_source.ends_with(byChance(""));
   });
 }
 

@@ -42,7 +42,7 @@ int powerFor(const std::vector<EffectParameter>& parameters, const std::string& 
   return powerFor(largest);
 }
 
-Row rowOf(const EffectParameter& parameter, int power) {
+Row parameterRow(const EffectParameter& parameter, int power) {
   const double unit = std::pow(10.0, power);
   return {asIs(parameter.name.empty() ? "size" : parameter.name),
           withUncertainty(parameter.value / unit, parameter.sd / unit),
@@ -55,7 +55,7 @@ Table parametersTable(const EffectFit& effects) {
   for (const AddedEffect& one : effects.added) {
     RowGroup group{effectName(one.effect), {}};
     for (const EffectParameter& parameter : one.parameters) {
-      group.rows.push_back(rowOf(parameter, powerFor(one.parameters, parameter.unit)));
+      group.rows.push_back(parameterRow(parameter, powerFor(one.parameters, parameter.unit)));
     }
     table.groups.push_back(std::move(group));
   }
@@ -72,7 +72,7 @@ Cell stiffnessOf(const MethodResult& method, int joint) {
   return withUncertainty(1e-6 * method.estimate.stiffness(joint), 1e-6 * expanded);
 }
 
-Table stiffnessTable(const ImprovedModel& model) {
+Table stiffnessWithEffectsTable(const ImprovedModel& model) {
   Table table{"Stiffness k ± U without and with the effects, 10⁶\u00a0Nm/rad", {"Joint", "Method", "Without", "With"}, {}};
   table.id = "effects-stiffness";
   for (int joint = 0; joint < 6; ++joint) {
@@ -121,7 +121,7 @@ void writeModel(Html& html, const ImprovedModel& model) {
   if (model.effects.added.empty()) return;
   writeTable(html, parametersTable(model.effects));
   html.paragraph(asIs(explainedWords(model.effects)), "faint");
-  writeTable(html, stiffnessTable(model));
+  writeTable(html, stiffnessWithEffectsTable(model));
   writeTable(html, residualTable(model));
   html.paragraph(
       "Every other number and picture of this page, the diagnosis aside, is of the model with the effects: what they do is taken off the readings, "

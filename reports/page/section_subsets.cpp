@@ -11,7 +11,6 @@ namespace stiffscope::page {
 
 namespace {
 
-constexpr double kMega = 1e6;
 
 Row spreadRow(const ReportContent& content, const ReportCampaign& one, Method method, int joint) {
   const StiffnessSpread spread = spreadOf(one.identification.of(method).subsets, joint);

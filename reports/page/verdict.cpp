@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "reports/page/effect_words.h"
-#include "reports/page/html.h"
+#include "reports/page/rich_text.h"
 #include "reports/page/names.h"
 #include "reports/page/numbers.h"
 

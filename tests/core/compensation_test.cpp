@@ -30,7 +30,7 @@ struct KnownArm {
         lab.hook_in_flange;  // then no moment, which would turn with the cable
     campaign = lab.empty();
     geometry.arm = lab.actual.robot();
-    geometry.weight = ownWeight(campaign, geometry.arm, Eigen::Isometry3d::Identity());
+    geometry.weight = ownWeight(campaign.robot, campaign.tool, campaign.gravity_in_base, geometry.arm, Eigen::Isometry3d::Identity());
     for (const Eigen::Vector3d& target : lab.targets_in_flange) {
       geometry.targets_at_zero.push_back(geometry.arm.base_from_flange_at_zero * target);
     }

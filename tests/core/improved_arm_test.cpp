@@ -47,7 +47,7 @@ TEST_P(AgainstTheSimulator, DeflectsTheSameWithFiniteRotations) {
   const ElasticMachine machine = buildMachine(spec);
   LoadingGeometry geometry;
   geometry.arm = rigidGeometry(machine);
-  geometry.weight = ownWeight(campaign, machine.nominal, Eigen::Isometry3d::Identity());
+  geometry.weight = ownWeight(campaign.robot, campaign.tool, campaign.gravity_in_base, machine.nominal, Eigen::Isometry3d::Identity());
   Vector6d compliance;
   for (std::size_t j = 0; j < 6; ++j) compliance[static_cast<Eigen::Index>(j)] = 1.0 / *spec.machine.joints[j].torsion;
   const ImprovedArm arm(effects, parameters, geometry, compliance);

@@ -1,0 +1,87 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/identification/bootstrap.h"
+#include "core/identification/complete_pose.h"
+#include "core/identification/geometry_calibration.h"
+#include "core/identification/noise_share.h"
+#include "core/identification/outlying_postures.h"
+#include "core/identification/subsets.h"
+
+namespace stiffscope {
+
+enum class Method { complete_pose = 0, partial_pose = 1, decoupled_partial_pose = 2 };
+
+inline constexpr std::array<Method, 3> kMethods{Method::complete_pose, Method::partial_pose,
+                                                Method::decoupled_partial_pose};
+
+struct IdentifyOptions {
+  std::optional<int> step;  ///< load step; empty: the one with the largest mean force
+  bool all_steps = false;   ///< all load steps together, a posture's as one block; returns to zero are none
+  /// Include K_c of (4), which has no free parameter, and take Jacobians at the middle of the displacement;
+  /// false: neglect K_c and take them unloaded, as the paper does.
+  bool finite_deflection = true;
+  SubsetOptions subsets;
+  PostureBootstrapOptions bootstrap;
+  TrustLimits trust;
+  bool robust = false;  ///< leave postures out that disagree with the rest (outlying_postures.h); they are always named
+};
+
+/// Deflection compensated by the estimate from all postures, and over the subsets.
+struct Compensation {
+  double all_postures = 0.0;   ///< identified on all, judged on all
+  SubsetCompensation subsets;  ///< means over the subsets: on the postures used, on those held out, on all
+};
+
+struct MethodResult {
+  bool available = false;
+  std::string reason;  ///< why not, and what measurement would make it available
+  StiffnessEstimate estimate;
+  LoadingGeometry geometry;                ///< the method's own
+  std::vector<CaseEquations> wrist_rows;   ///< P_wrist's equations in that geometry; empty where not measured
+  std::vector<CaseEquations> target_rows;  ///< the reflectors'
+  std::vector<double> wrist_residual;      ///< |displacement left| of P_wrist, per load case, m
+  std::vector<double> target_residual;     ///< the same, mean over the reflectors
+  std::optional<Compensation> at_wrist;    ///< empty where P_wrist is not measured
+  std::optional<Compensation> at_targets;
+  SubsetStudy subsets;
+  PostureBootstrap bootstrap;  ///< empty where it is not asked for
+};
+
+/// Complete Pose's result against the characteristic length (L is not unique).
+struct LengthSensitivity {
+  double length = 0.0;     ///< m
+  double condition = 0.0;  ///< of the stacked normalised Jacobian
+  Vector6d compliance = Vector6d::Zero();
+};
+
+struct Identification {
+  int step = 0;            ///< the one with the largest mean force of those used
+  std::vector<int> steps;  ///< used, together
+  Frames frames;                            ///< the own weight's sag taken off where it can be
+  std::vector<LoadCase> cases;              ///< in the swept geometry
+  std::vector<std::string> left_out;        ///< postures that are not used, with the reason
+  std::vector<OutlyingPosture> outlying;    ///< disagree with the rest; used nevertheless, unless `robust`
+  bool robust = false;                      ///< `outlying` are left out
+  std::vector<WristMove> wrist;             ///< one a case; empty where P_wrist is not measured
+  std::vector<double> wrist_displacement;   ///< |displacement| of P_wrist, uncompensated, per case, m
+  std::vector<double> target_displacement;  ///< the same, mean over the reflectors
+  Identifiability identifiability;
+  GeometryCalibration calibration;
+  CharacteristicLength characteristic_length;
+  std::vector<LengthSensitivity> length_sensitivity;
+  std::array<MethodResult, 3> methods;  ///< by Method
+  std::optional<NoiseShare> noise;
+  std::vector<std::string> cautions;       ///< cautionsOf this result
+  double servo_change = 0.0;               ///< largest change of a reported joint angle under load, rad
+  double geometric_stiffness_share = 0.0;  ///< rms change of the joint torques by K_c, relative
+  bool finite_deflection = true;
+
+  const MethodResult& of(Method method) const { return methods[static_cast<std::size_t>(method)]; }
+};
+
+}  // namespace stiffscope
