@@ -5,11 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "core/numerics/vectors.h"
 #include "metrology/line.h"
 
 namespace stiffscope {
-
-using Vector6d = Eigen::Matrix<double, 6, 1>;
 
 /// Mass of one moving body with everything fixed to it, and where its centre of mass stands in base_link
 /// when all joints are at zero (m). A mass of 0 means: not known.
