@@ -3,12 +3,10 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 
-#include "app/command.h"
-#include "app/option_values.h"
+#include "app/options.h"
 #include "app/output.h"
-#include "app/usage_error.h"
 
-namespace stiffscope {
+namespace stiffscope::app {
 
 int runCommandLine(int count, char** words) {
   CLI::App app("Joint stiffness of industrial robots from laser-tracker campaigns", "stiffscope");
@@ -42,4 +40,4 @@ int runCommandLine(int count, char** words) {
   return run();
 }
 
-}  // namespace stiffscope
+}  // namespace stiffscope::app

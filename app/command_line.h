@@ -1,8 +1,32 @@
 #pragma once
 
-namespace stiffscope {
+#include <functional>
+#include <string>
+
+namespace CLI {
+class App;
+}
+
+namespace stiffscope::app {
+
+/// What a parsed command line asks for; returns the exit status.
+using Run = std::function<int()>;
+
+/// Each adds its command to the command line and puts what it does into `run` when it is chosen.
+void addAudit(CLI::App& app, Run& run);
+void addFit(CLI::App& app, Run& run);
+void addFrames(CLI::App& app, Run& run);
+void addIdentify(CLI::App& app, Run& run);
+void addCompensate(CLI::App& app, Run& run);
+void addCompare(CLI::App& app, Run& run);
+void addPlan(CLI::App& app, Run& run);
+void addDiagnose(CLI::App& app, Run& run);
+void addBlind(CLI::App& app, Run& run);
+void addSimulate(CLI::App& app, Run& run);
+void addReport(CLI::App& app, Run& run);
+void addView(CLI::App& app, Run& run);
 
 /// Parses the command line and runs the command. Returns the exit status; throws what the command throws.
 int runCommandLine(int count, char** words);
 
-}  // namespace stiffscope
+}  // namespace stiffscope::app

@@ -1,14 +1,15 @@
 #include "app/large_heap.h"
 
 #include <cstdlib>
+#include <malloc.h>
 
-#include "core/input/large_pages.h"
+#include "core/io/read_file.h"
 
 #if defined(__GLIBC__)
-#include <malloc.h>
+
 #endif
 
-namespace stiffscope {
+namespace stiffscope::app {
 
 #if defined(__GLIBC__)
 
@@ -20,7 +21,7 @@ void useLargeHeapPages() {
   // Address space alone: what is not used is never there.
   void* const heap = std::malloc(kHeap);
   if (heap == nullptr) return;
-  askForLargePages(heap, kHeap);
+  io::askForLargePages(heap, kHeap);
   std::free(heap);
 }
 
@@ -30,4 +31,4 @@ void useLargeHeapPages() {}
 
 #endif
 
-}  // namespace stiffscope
+}  // namespace stiffscope::app

@@ -1,6 +1,6 @@
 #pragma once
 
-namespace stiffscope {
+namespace stiffscope::app {
 
 /// Asks for large pages for the heap, and for memory that was freed to be kept for what comes next, where the C library
 /// and the system can. Campaigns of ten thousand postures fill a hundred megabytes: each page of four kilobytes that is
@@ -8,4 +8,4 @@ namespace stiffscope {
 /// the time.
 void useLargeHeapPages();
 
-}  // namespace stiffscope
+}  // namespace stiffscope::app

@@ -2,7 +2,6 @@
 #include <cstdio>
 #include <exception>
 #include <new>
-
 #include "app/command_line.h"
 
 // The only place that catches and prints.
@@ -10,7 +9,7 @@ int main(int count, char** words) {
   // A file size limit is then an error of the write like any other, which says what could not be written.
   std::signal(SIGXFSZ, SIG_IGN);
   try {
-    return stiffscope::runCommandLine(count, words);
+    return stiffscope::app::runCommandLine(count, words);
   } catch (const std::bad_alloc&) {
     std::fprintf(stderr, "stiffscope: the memory this process may have is used up\n");
     return 2;

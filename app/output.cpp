@@ -1,19 +1,147 @@
 #include "app/output.h"
 
+#include <algorithm>
 #include <cerrno>
+#include <cstddef>
 #include <cstdio>
 #include <cstring>
 #include <stdexcept>
+#include <string>
+#include <vector>
 
-#include "app/write_json.h"
-#include "core/input/files_read.h"
-#include "core/input/one_line.h"
-#include "core/input/write_file.h"
+#include "core/io/input_error.h"
+#include "core/io/read_file.h"
+#include "core/io/write_file.h"
+#include "core/numerics/parallel.h"
 
-namespace stiffscope {
+namespace stiffscope::app {
 
-Campaign openCampaign(const std::string& folder_or_xml, Hashes hashes) {
-  CampaignReading reading = readCampaign(folder_or_xml, hashes);
+namespace {
+
+using Place = reports::Json::json_pointer;
+
+/// Elements from which on a list is shared among the cores: rows of a posture each, which take some 20 us.
+constexpr std::size_t kLong = 500;
+
+/// Whether a list that is long, or not made yet, is in `value` or is it.
+bool hasLongList(const reports::JsonDocument& document, const reports::Json& value, const Place& place) {
+  if (document.rowsAt(place) != nullptr) return true;
+  if (value.is_array()) {
+    if (value.size() >= kLong) return true;
+    for (std::size_t i = 0; i < value.size(); ++i) {
+      if (value[i].is_structured() && hasLongList(document, value[i], place / i)) return true;
+    }
+  } else if (value.is_object()) {
+    for (const auto& [key, inner] : value.items()) {
+      if (hasLongList(document, inner, place / key)) return true;
+    }
+  }
+  return false;
+}
+
+/// A value that stands `depth` deep, as dump(1) writes it there.
+void addShort(const reports::Json& value, std::size_t depth, std::string& text) {
+  const std::string own = value.dump(1);
+  for (std::size_t from = 0; from < own.size();) {
+    const std::size_t end = std::min(own.find('\n', from), own.size() - 1) + 1;
+    text.append(own, from, end - from);
+    if (end < own.size()) text.append(depth, ' ');
+    from = end;
+  }
+}
+
+/// The text on its way to a sink.
+class JsonWriter {
+ public:
+  JsonWriter(const reports::JsonDocument& document, const io::ByteSink& sink) : document_(document), sink_(sink) {}
+
+  void addAll() {
+    add(document_.json, Place(), 0);
+    text_ += '\n';
+    handOn();
+  }
+
+ private:
+  void add(const reports::Json& value, const Place& place, std::size_t depth) {
+    if (const reports::JsonRows* rows = document_.rowsAt(place)) {
+      addRows(rows->count, depth, [rows](std::size_t i, std::size_t deep, std::string& text) {
+        addShort(rows->row(i), deep, text);
+      });
+    } else if (!hasLongList(document_, value, place)) {
+      addShort(value, depth, text_);
+    } else if (value.is_object()) {
+      addObject(value, place, depth);
+    } else if (value.size() >= kLong) {
+      addRows(value.size(), depth, [&value](std::size_t i, std::size_t deep, std::string& text) {
+        addShort(value[i], deep, text);
+      });
+    } else {
+      addList(value, place, depth);
+    }
+  }
+
+  template <class AddRow>
+  void addRows(std::size_t count, std::size_t depth, const AddRow& addRow) {
+    constexpr std::size_t kBlock = 64, kBlocksTogether = 32;
+    if (count == 0) {
+      text_ += "[]";
+      return;
+    }
+    std::vector<std::string> blocks(kBlocksTogether);
+    text_ += '[';
+    for (std::size_t from = 0; from < count; from += kBlock * kBlocksTogether) {
+      numerics::onAllCores(kBlocksTogether, [&](std::size_t block) {
+        blocks[block].clear();
+        const std::size_t first = from + block * kBlock, end = std::min(count, first + kBlock);
+        for (std::size_t i = first; i < end; ++i) {
+          blocks[block].append(i == 0 ? "\n" : ",\n").append(depth + 1, ' ');
+          addRow(i, depth + 1, blocks[block]);
+        }
+      });
+      handOn();
+      for (const std::string& block : blocks) sink_(block);
+    }
+    endOf(']', depth);
+  }
+
+  void addList(const reports::Json& list, const Place& place, std::size_t depth) {
+    text_ += '[';
+    for (std::size_t i = 0; i < list.size(); ++i) {
+      text_.append(i == 0 ? "\n" : ",\n").append(depth + 1, ' ');
+      add(list[i], place / i, depth + 1);
+    }
+    endOf(']', depth);
+  }
+
+  void addObject(const reports::Json& object, const Place& place, std::size_t depth) {
+    text_ += '{';
+    const char* between = "\n";
+    for (const auto& [key, value] : object.items()) {
+      text_.append(between).append(depth + 1, ' ').append(reports::Json(key).dump()).append(": ");
+      add(value, place / key, depth + 1);
+      between = ",\n";
+    }
+    endOf('}', depth);
+  }
+
+  void endOf(char closing, std::size_t depth) { text_.append("\n").append(depth, ' ') += closing; }
+
+  void handOn() {
+    sink_(text_);
+    text_.clear();
+  }
+
+  const reports::JsonDocument& document_;
+  const io::ByteSink& sink_;
+  std::string text_;  ///< not handed on yet
+};
+
+}  // namespace
+
+void writeJson(const reports::JsonDocument& document, const io::ByteSink& sink) { JsonWriter(document, sink).addAll(); }
+
+campaign::Campaign openCampaign(const std::string& folder_or_xml, campaign::Hashes hashes) {
+  campaign::CampaignReading reading = campaign::readCampaign(folder_or_xml, hashes);
   printWarnings(reading.warnings);
   return std::move(reading.campaign);
 }
@@ -22,18 +150,18 @@ void printWarnings(const std::vector<std::string>& warnings) {
   for (const std::string& warning : warnings) std::fprintf(stderr, "stiffscope: warning: %s\n", warning.c_str());
 }
 
-void deliver(const std::function<JsonDocument()>& json, const std::function<std::string()>& text, const std::string& json_file) {
+void deliver(const std::function<reports::JsonDocument()>& json, const std::function<std::string()>& text, const std::string& json_file) {
   const bool json_only = json_file == "-";
   if (json_only) return writeJson(json(), printBytes);
   if (!json_file.empty()) {
-    requireNotRead(json_file);
-    const JsonDocument values = json();
-    writeFileWhole(json_file, [&values](const ByteSink& sink) { writeJson(values, sink); });
+    io::requireNotRead(json_file);
+    const reports::JsonDocument values = json();
+    io::writeFileWhole(json_file, [&values](const io::ByteSink& sink) { writeJson(values, sink); });
   }
   printText(text());
 }
 
-void printText(std::string_view text) { printBytes(withoutControls(text)); }
+void printText(std::string_view text) { printBytes(io::withoutControls(text)); }
 
 void printBytes(std::string_view text) {
   errno = 0;
@@ -42,4 +170,4 @@ void printBytes(std::string_view text) {
   throw std::runtime_error(std::string("standard output: cannot be written: ") + std::strerror(errno));
 }
 
-}  // namespace stiffscope
+}  // namespace stiffscope::app

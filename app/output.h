@@ -6,9 +6,10 @@
 #include <vector>
 
 #include "core/campaign/read_campaign.h"
+#include "core/io/write_file.h"
 #include "reports/json/json_document.h"
 
-namespace stiffscope {
+namespace stiffscope::app {
 
 /// Exit statuses of the command line.
 inline constexpr int kDone = 0;
@@ -16,10 +17,10 @@ inline constexpr int kNotUsable = 1;  ///< done, but the result does not serve i
 inline constexpr int kBadInput = 2;
 
 /// Reads a campaign; its warnings go to standard error.
-Campaign openCampaign(const std::string& folder_or_xml, Hashes hashes = Hashes::taken);
+campaign::Campaign openCampaign(const std::string& folder_or_xml, campaign::Hashes hashes = campaign::Hashes::taken);
 
 /// Those for a result that only the JSON names the inputs of.
-inline Hashes hashesFor(const std::string& json_file) { return json_file.empty() ? Hashes::left : Hashes::taken; }
+inline campaign::Hashes hashesFor(const std::string& json_file) { return json_file.empty() ? campaign::Hashes::left : campaign::Hashes::taken; }
 
 void printWarnings(const std::vector<std::string>& warnings);
 
@@ -30,6 +31,10 @@ void printBytes(std::string_view text);
 
 /// The result: as JSON alone to standard output where `json_file` is `-`; else as text there, and as JSON to the file that
 /// is named, if any; std::runtime_error where that file was read. Only what is asked for is made.
-void deliver(const std::function<JsonDocument()>& json, const std::function<std::string()>& text, const std::string& json_file);
+void deliver(const std::function<reports::JsonDocument()>& json, const std::function<std::string()>& text, const std::string& json_file);
 
-}  // namespace stiffscope
+/// Hands what dump(1) gives, and a line end, to `sink`, in parts; long lists of it are made and written on all cores, a few
+/// thousand rows at a time, so that neither a hundred megabytes of values nor their text stands in memory.
+void writeJson(const reports::JsonDocument& document, const io::ByteSink& sink);
+
+}  // namespace stiffscope::app

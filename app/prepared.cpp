@@ -5,7 +5,17 @@
 
 #include "app/output.h"
 
-namespace stiffscope {
+namespace stiffscope::app {
+
+campaign::Campaign described(const campaign::Campaign& campaign) {
+  campaign::Campaign words;
+  words.name = campaign.name;
+  words.date = campaign.date;
+  words.robot = campaign.robot;
+  words.double_encoder = campaign.double_encoder;
+  words.inputs = campaign.inputs;
+  return words;
+}
 
 void addRawOption(CLI::App& command, bool& raw) {
   command.add_flag(
@@ -14,9 +24,9 @@ void addRawOption(CLI::App& command, bool& raw) {
       "that the floor nests show");
 }
 
-PreparedCampaign openPrepared(const std::string& folder_or_xml, bool raw, Hashes hashes) {
-  Campaign campaign = openCampaign(folder_or_xml, hashes);
-  return raw ? leaveRaw(std::move(campaign)) : prepareCampaign(std::move(campaign));
+preparation::PreparedCampaign openPrepared(const std::string& folder_or_xml, bool raw, campaign::Hashes hashes) {
+  campaign::Campaign campaign = openCampaign(folder_or_xml, hashes);
+  return raw ? preparation::leaveRaw(std::move(campaign)) : preparation::prepareCampaign(std::move(campaign));
 }
 
-}  // namespace stiffscope
+}  // namespace stiffscope::app

@@ -2,20 +2,24 @@
 
 #include <string>
 
-#include "core/audit/prepare.h"
+#include "core/campaign/campaign.h"
 #include "core/campaign/read_campaign.h"
+#include "core/preparation/prepare.h"
 
 namespace CLI {
 class App;
 }
 
-namespace stiffscope {
+namespace stiffscope::app {
+
+/// What a result says of the campaign: that without its readings, which take megabytes.
+campaign::Campaign described(const campaign::Campaign& campaign);
 
 /// Adds --raw to a command.
 void addRawOption(CLI::App& command, bool& raw);
 
 /// A campaign as the commands compute from it: without rejected readings and referred to where the station
 /// first stood, as the audit finds them; with `raw` as it was read. Warnings go to standard error.
-PreparedCampaign openPrepared(const std::string& folder_or_xml, bool raw, Hashes hashes = Hashes::taken);
+preparation::PreparedCampaign openPrepared(const std::string& folder_or_xml, bool raw, campaign::Hashes hashes = campaign::Hashes::taken);
 
-}  // namespace stiffscope
+}  // namespace stiffscope::app

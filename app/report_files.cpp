@@ -8,12 +8,12 @@
 #include <system_error>
 #include <vector>
 
-#include "app/write_json.h"
-#include "core/input/write_folder.h"
-#include "reports/json/json_values.h"
+#include "app/output.h"
+#include "core/io/write_folder.h"
+#include "reports/json/json_document.h"
 #include "reports/json/results_json.h"
 
-namespace stiffscope {
+namespace stiffscope::app {
 
 namespace {
 
@@ -31,14 +31,14 @@ std::vector<std::string> earlierFiles(const fs::path& folder) {
   std::ifstream file(folder / "results.json", std::ios::binary);
   if (!file) return {};
   // Of what may be tens of megabytes nothing else is kept.
-  const auto only_files = [](int depth, Json::parse_event_t event, const Json& parsed) {
-    return depth != 1 || event != Json::parse_event_t::key || parsed == "files";
+  const auto only_files = [](int depth, reports::Json::parse_event_t event, const reports::Json& parsed) {
+    return depth != 1 || event != reports::Json::parse_event_t::key || parsed == "files";
   };
   constexpr bool kThrow = false;
-  const Json results = Json::parse(file, only_files, kThrow);
+  const reports::Json results = reports::Json::parse(file, only_files, kThrow);
   if (!results.is_object() || !results.contains("files") || !results["files"].is_array()) return {};
   std::vector<std::string> names;
-  for (const Json& name : results["files"]) {
+  for (const reports::Json& name : results["files"]) {
     if (name.is_string() && isPictureOrTable(name.get<std::string>()))
       names.push_back(name.get<std::string>());
   }
@@ -65,25 +65,25 @@ void requireOwn(const fs::path& folder, const std::set<std::string>& there, cons
 
 }  // namespace
 
-void writeReportFiles(const fs::path& folder, const ReportContent& content, const ReportPage& page) {
+void writeReportFiles(const fs::path& folder, const reports::ReportContent& content, const page::ReportPage& page) {
   // What is there is looked at before what is listed: another run may replace both between the two.
   const std::set<std::string> there = namesIn(folder);
   std::vector<std::string> superseded = earlierFiles(folder);
-  std::vector<FileToWrite> files;
-  for (const Figure& figure : content.figures) {
-    files.push_back({pictureFile(figure), {figure.png.begin(), figure.png.end()}});
+  std::vector<io::FileToWrite> files;
+  for (const reports::Figure& figure : content.figures) {
+    files.push_back({reports::pictureFile(figure), {figure.png.begin(), figure.png.end()}});
   }
-  for (const TableFile& table : page.tables) files.push_back({table.name + ".csv", table.csv});
+  for (const reports::TableFile& table : page.tables) files.push_back({table.name + ".csv", table.csv});
   std::set<std::string> made{"results.json", "report.html"};
-  for (const FileToWrite& file : files) made.insert(file.name);
+  for (const io::FileToWrite& file : files) made.insert(file.name);
   requireOwn(folder, there, superseded, made);
-  JsonDocument results = resultsJson(content);
+  reports::JsonDocument results = reports::resultsJson(content);
   results.json["files"] = made;
   files.push_back(
-      {"results.json", ByteSource([&results](const ByteSink& sink) { writeJson(results, sink); })});
+      {"results.json", io::ByteSource([&results](const io::ByteSink& sink) { writeJson(results, sink); })});
   files.push_back({"report.html", page.html});
   std::erase_if(superseded, [&](const std::string& name) { return made.contains(name); });
-  writeFolderWhole(folder, files, superseded);
+  io::writeFolderWhole(folder, files, superseded);
 }
 
-}  // namespace stiffscope
+}  // namespace stiffscope::app

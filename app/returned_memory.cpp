@@ -2,15 +2,19 @@
 
 #include <cstddef>
 #include <cstdint>
-
-#if defined(__GLIBC__)
 #include <link.h>
 #include <malloc.h>
 #include <sys/mman.h>
 #include <unistd.h>
+
+#if defined(__GLIBC__)
+
+
+
+
 #endif
 
-namespace stiffscope {
+namespace stiffscope::app {
 
 #if defined(__GLIBC__)
 
@@ -65,4 +69,4 @@ void returnFreeMemory() {}
 
 #endif
 
-}  // namespace stiffscope
+}  // namespace stiffscope::app

@@ -1,6 +1,6 @@
 #pragma once
 
-namespace stiffscope {
+namespace stiffscope::app {
 
 /// Lets blocks of a megabyte and more (tables, a rendered picture) go back to the system as soon as they are free. glibc by
 /// itself keeps such memory for blocks to come, from the first that is freed on; here what comes is smaller, or of another
@@ -11,4 +11,4 @@ void returnLargeBlocks();
 /// megabytes once: after one kind of work, before another that needs its own.
 void returnFreeMemory();
 
-}  // namespace stiffscope
+}  // namespace stiffscope::app

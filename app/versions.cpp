@@ -1,16 +1,15 @@
 #include "app/versions.h"
 
 #include <Eigen/Core>
-
 #include <fmt/format.h>
 
-namespace stiffscope {
+namespace stiffscope::app {
 
-std::vector<NamedText> versions() {
+std::vector<reports::NamedText> versions() {
   return {{"stiffscope", STIFFSCOPE_VERSION},
           {"Eigen", fmt::format("{}.{}.{}", EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION)},
           {"Ceres Solver", STIFFSCOPE_CERES_VERSION},
           {"VTK", STIFFSCOPE_VTK_VERSION}};
 }
 
-}  // namespace stiffscope
+}  // namespace stiffscope::app

@@ -2,11 +2,11 @@
 
 #include <vector>
 
-#include "reports/page/report_content.h"
+#include "reports/report_content.h"
 
-namespace stiffscope {
+namespace stiffscope::app {
 
 /// stiffscope's own version and those of the libraries it was built with.
-std::vector<NamedText> versions();
+std::vector<reports::NamedText> versions();
 
-}  // namespace stiffscope
+}  // namespace stiffscope::app

@@ -1,7 +1,6 @@
 #include <benchmark/benchmark.h>
-
 #include "render/grouped_bar_chart.h"
-#include "render/png.h"
+#include "render/image.h"
 
 // A grouped bar chart like the paper's Fig. 7, drawn and encoded as PNG: 10, 30 and 60 postures of four bars. The library
 // that draws is loaded before the time is taken, as matplotlib is imported before its own is.
@@ -10,11 +9,11 @@ namespace {
 
 using namespace stiffscope;
 
-GroupedBarChart chartOf(int postures) {
-  GroupedBarChart chart{"Displacement of P_{wrist}", "benchmark", "Displacement of P_{wrist} (mm)", "Posture", {}, {}};
+render::GroupedBarChart chartOf(int postures) {
+  render::GroupedBarChart chart{"Displacement of P_{wrist}", "benchmark", "Displacement of P_{wrist} (mm)", "Posture", {}, {}};
   const struct {
     const char* name;
-    Colour colour;
+    render::Colour colour;
   } kinds[] = {{"without compensation", {128, 128, 128}}, {"CP", {200, 40, 40}}, {"PP", {40, 80, 200}}, {"DPP", {40, 160, 60}}};
   for (const auto& kind : kinds) chart.series.push_back({kind.name, kind.colour, {}, {}});
   for (int p = 0; p < postures; ++p) {
@@ -27,9 +26,9 @@ GroupedBarChart chartOf(int postures) {
 }
 
 void Chart(benchmark::State& state) {
-  const GroupedBarChart chart = chartOf(static_cast<int>(state.range(0)));
-  benchmark::DoNotOptimize(render(chart));
-  for (auto _ : state) benchmark::DoNotOptimize(encodePng(render(chart)));
+  const render::GroupedBarChart chart = chartOf(static_cast<int>(state.range(0)));
+  benchmark::DoNotOptimize(render::render(chart));
+  for (auto _ : state) benchmark::DoNotOptimize(render::encodePng(render::render(chart)));
 }
 BENCHMARK(Chart)->Arg(10)->Arg(30)->Arg(60)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime();
 

@@ -19,15 +19,15 @@
 
 namespace {
 
-using stiffscope::MeasuredPoints;
+using stiffscope::metrology::MeasuredPoints;
 
 constexpr double kNoise = 2e-5;
 
-MeasuredPoints noisy(std::size_t count, Eigen::Vector3d (*ideal)(double, double), std::uint64_t seed = 1) {
+metrology::MeasuredPoints noisy(std::size_t count, Eigen::Vector3d (*ideal)(double, double), std::uint64_t seed = 1) {
   std::mt19937_64 random(seed);
   std::normal_distribution<double> normal(0.0, kNoise);
   std::uniform_real_distribution<double> uniform(0.0, 1.0);
-  MeasuredPoints points;
+  metrology::MeasuredPoints points;
   for (std::size_t i = 0; i < count; ++i) {
     const Eigen::Vector3d error(normal(random), normal(random), normal(random));
     points.points.push_back(ideal(uniform(random), uniform(random)) + error);
@@ -56,23 +56,23 @@ void sizes(benchmark::internal::Benchmark* one) {
   one->Arg(20)->Arg(1000)->Arg(1000000)->Unit(benchmark::kMicrosecond);
 }
 
-std::vector<MeasuredPoints> tenThousandCircles() {
-  std::vector<MeasuredPoints> circles;
+std::vector<metrology::MeasuredPoints> tenThousandCircles() {
+  std::vector<metrology::MeasuredPoints> circles;
   for (std::uint64_t seed = 0; seed < 10000; ++seed) circles.push_back(noisy(20, onQuarterCircle, seed));
   return circles;
 }
 
 /// The figure that is promised: 10,000 circles of 20 points in under 0.1 s.
 void TenThousandCirclesOf20Points(benchmark::State& state) {
-  const std::vector<MeasuredPoints> circles = tenThousandCircles();
+  const std::vector<metrology::MeasuredPoints> circles = tenThousandCircles();
   for (auto _ : state) {
-    for (const MeasuredPoints& circle : circles) benchmark::DoNotOptimize(fitCircle(circle));
+    for (const metrology::MeasuredPoints& circle : circles) benchmark::DoNotOptimize(metrology::fitCircle(circle));
   }
 }
 BENCHMARK(TenThousandCirclesOf20Points)->Unit(benchmark::kMillisecond);
 
 template <class Fit>
-void fitting(benchmark::State& state, const MeasuredPoints& points, const Fit& fit) {
+void fitting(benchmark::State& state, const metrology::MeasuredPoints& points, const Fit& fit) {
   for (auto _ : state) benchmark::DoNotOptimize(fit(points));
   using benchmark::Counter;
   state.counters["per_point"] = Counter(static_cast<double>(points.points.size()),
@@ -81,36 +81,36 @@ void fitting(benchmark::State& state, const MeasuredPoints& points, const Fit& f
 
 void Circle(benchmark::State& state) {
   fitting(state, noisy(static_cast<std::size_t>(state.range(0)), onQuarterCircle),
-          [](const MeasuredPoints& points) { return fitCircle(points); });
+          [](const metrology::MeasuredPoints& points) { return metrology::fitCircle(points); });
 }
 BENCHMARK(Circle)->Apply(sizes);
 
 void CirclePlaneFirst(benchmark::State& state) {
   fitting(state, noisy(static_cast<std::size_t>(state.range(0)), onQuarterCircle),
-          [](const MeasuredPoints& points) {
-            return fitCircle(points, stiffscope::CircleStrategy::plane_first);
+          [](const metrology::MeasuredPoints& points) {
+            return metrology::fitCircle(points, stiffscope::metrology::CircleStrategy::plane_first);
           });
 }
 BENCHMARK(CirclePlaneFirst)->Apply(sizes);
 
 void Sphere(benchmark::State& state) {
-  fitting(state, noisy(static_cast<std::size_t>(state.range(0)), onCap), stiffscope::fitSphere);
+  fitting(state, noisy(static_cast<std::size_t>(state.range(0)), onCap), stiffscope::metrology::fitSphere);
 }
 BENCHMARK(Sphere)->Apply(sizes);
 
 void Plane(benchmark::State& state) {
-  fitting(state, noisy(static_cast<std::size_t>(state.range(0)), onSquare), stiffscope::fitPlane);
+  fitting(state, noisy(static_cast<std::size_t>(state.range(0)), onSquare), stiffscope::metrology::fitPlane);
 }
 BENCHMARK(Plane)->Apply(sizes);
 
 void Cylinder(benchmark::State& state) {
-  fitting(state, noisy(static_cast<std::size_t>(state.range(0)), onTube), stiffscope::fitCylinder);
+  fitting(state, noisy(static_cast<std::size_t>(state.range(0)), onTube), stiffscope::metrology::fitCylinder);
 }
 BENCHMARK(Cylinder)->Apply(sizes);
 
 /// The plane across the least principal axis, by Eigen alone: no uncertainty, no checks.
 void PlaneByEigen(benchmark::State& state) {
-  fitting(state, noisy(static_cast<std::size_t>(state.range(0)), onSquare), [](const MeasuredPoints& points) {
+  fitting(state, noisy(static_cast<std::size_t>(state.range(0)), onSquare), [](const metrology::MeasuredPoints& points) {
     const Eigen::Map<const Eigen::Matrix3Xd> all(points.points.front().data(), 3,
                                                  static_cast<Eigen::Index>(points.points.size()));
     const Eigen::Matrix3Xd centred = all.colwise() - all.rowwise().mean();
@@ -123,7 +123,7 @@ BENCHMARK(PlaneByEigen)->Apply(sizes);
 
 /// Kasa's sphere, linear least squares by Eigen's QR: biased on short arcs, no uncertainty.
 void KasaSphereByEigen(benchmark::State& state) {
-  fitting(state, noisy(static_cast<std::size_t>(state.range(0)), onCap), [](const MeasuredPoints& points) {
+  fitting(state, noisy(static_cast<std::size_t>(state.range(0)), onCap), [](const metrology::MeasuredPoints& points) {
     const auto count = static_cast<Eigen::Index>(points.points.size());
     Eigen::MatrixX4d rows(count, 4);
     Eigen::VectorXd squares(count);
@@ -152,7 +152,7 @@ void FlatEllipseByOpenCv(benchmark::State& state) {
 }
 BENCHMARK(FlatEllipseByOpenCv)->Apply(sizes);
 
-void append(const MeasuredPoints& points, std::vector<double>& all) {
+void append(const metrology::MeasuredPoints& points, std::vector<double>& all) {
   for (const Eigen::Vector3d& point : points.points) all.insert(all.end(), point.begin(), point.end());
 }
 
@@ -170,18 +170,18 @@ void writeFits(const std::filesystem::path& folder) {
     stiffscope::bench::writeDoubles(folder / (name + ".fits"), fits);
     points.clear(), fits.clear();
   };
-  for (const MeasuredPoints& circle : tenThousandCircles()) {
+  for (const metrology::MeasuredPoints& circle : tenThousandCircles()) {
     append(circle, points);
-    appendRound(fitCircle(circle).circle, fits);
+    appendRound(metrology::fitCircle(circle).circle, fits);
   }
   write("TenThousandCirclesOf20Points");
   for (const std::size_t count : {20, 1000, 1000000}) {
-    const MeasuredPoints circle = noisy(count, onQuarterCircle), sphere = noisy(count, onCap);
+    const metrology::MeasuredPoints circle = noisy(count, onQuarterCircle), sphere = noisy(count, onCap);
     append(circle, points);
-    appendRound(fitCircle(circle).circle, fits);
+    appendRound(metrology::fitCircle(circle).circle, fits);
     write("Circle_" + std::to_string(count));
     append(sphere, points);
-    appendRound(stiffscope::fitSphere(sphere).sphere, fits);
+    appendRound(stiffscope::metrology::fitSphere(sphere).sphere, fits);
     write("Sphere_" + std::to_string(count));
   }
 }

@@ -11,12 +11,11 @@
 #include "core/diagnosis/diagnose.h"
 #include "core/frames/frames.h"
 #include "core/identification/identify.h"
-#include "core/identification/load_step.h"
+#include "core/identification/load_case.h"
 #include "core/identification/method_solution.h"
-#include "core/identification/settled_frames.h"
 #include "core/robot/kinematics.h"
 #include "core/simulation/read_spec.h"
-#include "core/simulation/simulate.h"
+#include "core/simulation/measure.h"
 
 // What is computed from a campaign, at 19, 190 and 1,900 postures of the sample's machine: frames, each method and all
 // three with their uncertainties, all subsets, the diagnosis. Beside them KDL's Jacobian, whose numbers are checked against
@@ -26,69 +25,69 @@ namespace {
 
 using namespace stiffscope;
 
-SimulationSpec spec() { return readSimulationSpec(STIFFSCOPE_SOURCE_DIR "/samples/active.xml"); }
+simulation::SimulationSpec spec() { return simulation::readSimulationSpec(STIFFSCOPE_SOURCE_DIR "/samples/active.xml"); }
 
-const Campaign& campaign(int postures) {
-  static std::map<int, Campaign> made;
+const campaign::Campaign& campaign(int postures) {
+  static std::map<int, campaign::Campaign> made;
   const auto found = made.find(postures);
   if (found != made.end()) return found->second;
-  SimulationSpec one = spec();
+  simulation::SimulationSpec one = spec();
   one.posture_draw->count = postures;
-  return made.emplace(postures, simulate(one)).first->second;
+  return made.emplace(postures, simulation::simulate(one)).first->second;
 }
 
 void sizes(benchmark::internal::Benchmark* one) { one->Arg(19)->Arg(190)->Arg(1900)->Unit(benchmark::kMillisecond); }
 
 void Frames(benchmark::State& state) {
-  const Campaign& read = campaign(static_cast<int>(state.range(0)));
-  for (auto _ : state) benchmark::DoNotOptimize(settledFrames(read));
+  const campaign::Campaign& read = campaign(static_cast<int>(state.range(0)));
+  for (auto _ : state) benchmark::DoNotOptimize(identification::settledFrames(read));
 }
 BENCHMARK(Frames)->Apply(sizes)->MeasureProcessCPUTime();
 
 /// Complete, Partial and Decoupled Partial Pose with uncertainties, and one subset in place of all.
 void ThreeMethods(benchmark::State& state) {
-  const Campaign& read = campaign(static_cast<int>(state.range(0)));
-  IdentifyOptions options;
+  const campaign::Campaign& read = campaign(static_cast<int>(state.range(0)));
+  identification::IdentifyOptions options;
   options.subsets.most_all = 0;
   options.subsets.sample = 1;
-  for (auto _ : state) benchmark::DoNotOptimize(identify(read, options));
+  for (auto _ : state) benchmark::DoNotOptimize(identification::identify(read, options));
 }
 BENCHMARK(ThreeMethods)->Apply(sizes)->MeasureProcessCPUTime();
 
 /// One method from the readings on, in the frames that are settled before: load cases, equations, compliances and their
 /// uncertainty by scatter, K_c neglected. Partial Pose without its calibration, which stands apart.
-void method(benchmark::State& state, Method which) {
-  const Campaign& read = campaign(static_cast<int>(state.range(0)));
-  const std::vector<int> steps{chosenStep(read, {})};
-  const SettledFrames settled = settleFrames(read, steps, {});
-  const LoadingGeometry& geometry = settled.arm.geometry;
-  const double length = characteristicLength(settled.arm.cases, settled.frames.tcp_in_flange).length;
-  const JointMask unknown = judgeJoints(geometry, settled.arm.cases, *read.load_cell, reflectorEquations(settled.arm)).mask();
-  const MethodSolution how{which, settled.frames.tcp_in_flange, length, unknown, &*read.tracker};
+void method(benchmark::State& state, identification::Method which) {
+  const campaign::Campaign& read = campaign(static_cast<int>(state.range(0)));
+  const std::vector<int> steps{identification::chosenStep(read, {})};
+  const identification::SettledFrames settled = identification::settleFrames(read, steps, {});
+  const frames::LoadingGeometry& geometry = settled.arm.geometry;
+  const double length = identification::characteristicLength(settled.arm.cases, settled.frames.tcp_in_flange).length;
+  const robot::JointMask unknown = identification::judgeJoints(geometry, settled.arm.cases, *read.load_cell, identification::reflectorEquations(settled.arm)).mask();
+  const identification::MethodSolution how{which, settled.frames.tcp_in_flange, length, unknown, &*read.tracker};
   for (auto _ : state) {
-    LoadedArm arm = loadedArm(read, geometry, settled.frames.wrist, steps);
+    identification::LoadedArm arm = identification::loadedArm(read, geometry, settled.frames.wrist, steps);
     benchmark::DoNotOptimize(how.settledEstimate(arm, false));
   }
 }
-void CompletePose(benchmark::State& state) { method(state, Method::complete_pose); }
+void CompletePose(benchmark::State& state) { method(state, identification::Method::complete_pose); }
 BENCHMARK(CompletePose)->Apply(sizes)->MeasureProcessCPUTime();
-void PartialPose(benchmark::State& state) { method(state, Method::partial_pose); }
+void PartialPose(benchmark::State& state) { method(state, identification::Method::partial_pose); }
 BENCHMARK(PartialPose)->Apply(sizes)->MeasureProcessCPUTime();
-void DecoupledPartialPose(benchmark::State& state) { method(state, Method::decoupled_partial_pose); }
+void DecoupledPartialPose(benchmark::State& state) { method(state, identification::Method::decoupled_partial_pose); }
 BENCHMARK(DecoupledPartialPose)->Apply(sizes)->MeasureProcessCPUTime();
 
 /// Partial Pose's geometry on the unloaded positions.
 void Calibration(benchmark::State& state) {
-  const Campaign& read = campaign(static_cast<int>(state.range(0)));
-  const SettledFrames settled = settleFrames(read, {chosenStep(read, {})}, {});
-  for (auto _ : state) benchmark::DoNotOptimize(calibrateGeometry(read, settled.arm.geometry));
+  const campaign::Campaign& read = campaign(static_cast<int>(state.range(0)));
+  const identification::SettledFrames settled = identification::settleFrames(read, {identification::chosenStep(read, {})}, {});
+  for (auto _ : state) benchmark::DoNotOptimize(frames::calibrateGeometry(read, settled.arm.geometry));
 }
 BENCHMARK(Calibration)->Apply(sizes)->MeasureProcessCPUTime();
 
-std::vector<CaseEquations> drawnEquations(int n) {
+std::vector<identification::CaseEquations> drawnEquations(int n) {
   std::mt19937_64 random(1);
   std::normal_distribution<double> normal;
-  std::vector<CaseEquations> equations;
+  std::vector<identification::CaseEquations> equations;
   for (int p = 0; p < n; ++p) {
     equations.push_back({Eigen::MatrixXd::NullaryExpr(9, 6, [&] { return normal(random); }),
                          Eigen::VectorXd::NullaryExpr(9, [&] { return normal(random); }), p});
@@ -96,29 +95,29 @@ std::vector<CaseEquations> drawnEquations(int n) {
   return equations;
 }
 
-SubsetStudy allSubsets(const std::vector<CaseEquations>& equations) {
-  SubsetMethod method;
+identification::SubsetStudy allSubsets(const std::vector<identification::CaseEquations>& equations) {
+  identification::SubsetMethod method;
   method.unknown.fill(true);
-  for (const CaseEquations& one : equations) method.normal.push_back(normalEquations(one));
-  SubsetOptions options;
+  for (const identification::CaseEquations& one : equations) method.normal.push_back(identification::normalEquations(one));
+  identification::SubsetOptions options;
   options.size = static_cast<int>(equations.size()) / 2;
-  return studySubsets(method, options);
+  return identification::studySubsets(method, options);
 }
 
 /// All subsets of half of 10, 14 and 18 postures: 252, 3,432 and 48,620.
 void AllSubsets(benchmark::State& state) {
   const int n = static_cast<int>(state.range(0));
-  const std::vector<CaseEquations> equations = drawnEquations(n);
+  const std::vector<identification::CaseEquations> equations = drawnEquations(n);
   for (auto _ : state) benchmark::DoNotOptimize(allSubsets(equations));
   state.counters["per_subset"] =
-      benchmark::Counter(static_cast<double>(subsetCount(n, n / 2)),
+      benchmark::Counter(static_cast<double>(identification::subsetCount(n, n / 2)),
                          benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }
 BENCHMARK(AllSubsets)->Arg(10)->Arg(14)->Arg(18)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime();
 
 void Diagnosis(benchmark::State& state) {
-  const Campaign& read = campaign(static_cast<int>(state.range(0)));
-  for (auto _ : state) benchmark::DoNotOptimize(diagnose(read));
+  const campaign::Campaign& read = campaign(static_cast<int>(state.range(0)));
+  for (auto _ : state) benchmark::DoNotOptimize(diagnosis::diagnose(read));
 }
 BENCHMARK(Diagnosis)->Apply(sizes)->MeasureProcessCPUTime()->Iterations(1)->Repetitions(1);
 
@@ -130,16 +129,16 @@ std::vector<Vector6d> drawnPostures(std::int64_t count) {
   return postures;
 }
 
-Matrix6d ownJacobian(const Robot& robot, const Vector6d& q) {
-  const ArmPosture posture = postureAt(robot, q);
-  return jacobianAt(robot, posture, flangeAt(robot, posture).translation());
+Matrix6d ownJacobian(const robot::Robot& robot, const Vector6d& q) {
+  const robot::ArmPosture posture = robot::postureAt(robot, q);
+  return robot::jacobianAt(robot, posture, robot::flangeAt(robot, posture).translation());
 }
 
 /// The same arm for KDL: a joint about each axis where it stands at zero, the flange behind the last.
-KDL::Chain kdlChain(const Robot& robot) {
+KDL::Chain kdlChain(const robot::Robot& robot) {
   KDL::Chain chain;
   for (std::size_t i = 0; i < 6; ++i) {
-    const Line& axis = robot.axes_in_base_at_zero[i];
+    const metrology::Line& axis = robot.axes_in_base_at_zero[i];
     const KDL::Vector point(axis.point.x(), axis.point.y(), axis.point.z());
     const KDL::Vector direction(axis.direction.x(), axis.direction.y(), axis.direction.z());
     const Eigen::Vector3d flange = robot.base_from_flange_at_zero.translation();
@@ -150,7 +149,7 @@ KDL::Chain kdlChain(const Robot& robot) {
 }
 
 void Jacobian(benchmark::State& state) {
-  const Robot robot = spec().nominal;
+  const robot::Robot robot = spec().nominal;
   const auto postures = drawnPostures(state.range(0));
   for (auto _ : state) {
     for (const Vector6d& q : postures) benchmark::DoNotOptimize(ownJacobian(robot, q));
@@ -159,7 +158,7 @@ void Jacobian(benchmark::State& state) {
 BENCHMARK(Jacobian)->Arg(100)->Arg(1000)->Arg(10000)->Unit(benchmark::kMicrosecond);
 
 void JacobianByKdl(benchmark::State& state) {
-  const Robot robot = spec().nominal;
+  const robot::Robot robot = spec().nominal;
   const auto postures = drawnPostures(state.range(0));
   KDL::Chain chain = kdlChain(robot);
   KDL::ChainJntToJacSolver solver(chain);
@@ -188,15 +187,15 @@ BENCHMARK(JacobianByKdl)->Arg(100)->Arg(1000)->Arg(10000)->Unit(benchmark::kMicr
 void writeSubsets(const std::filesystem::path& folder) {
   for (const int n : {10, 14, 18}) {
     const std::string name = "AllSubsets_" + std::to_string(n);
-    const std::vector<CaseEquations> equations = drawnEquations(n);
+    const std::vector<identification::CaseEquations> equations = drawnEquations(n);
     std::vector<double> rows;
-    for (const CaseEquations& one : equations) {
+    for (const identification::CaseEquations& one : equations) {
       for (Eigen::Index row = 0; row < one.right.size(); ++row) {
         for (Eigen::Index column = 0; column < 6; ++column) rows.push_back(one.matrix(row, column));
         rows.push_back(one.right[row]);
       }
     }
-    const SubsetStudy study = allSubsets(equations);
+    const identification::SubsetStudy study = allSubsets(equations);
     Vector6d mean = Vector6d::Zero();
     for (const Vector6d& one : study.compliances) mean += one / static_cast<double>(study.compliances.size());
     bench::writeDoubles(folder / (name + ".equations"), rows);

@@ -83,7 +83,7 @@ void reading(benchmark::State& state, double bytes, const Work& work) {
 }
 
 void readingCampaign(benchmark::State& state, const fs::path& folder) {
-  reading(state, bytesIn(folder), [&] { benchmark::DoNotOptimize(stiffscope::readCampaign(folder)); });
+  reading(state, bytesIn(folder), [&] { benchmark::DoNotOptimize(stiffscope::campaign::readCampaign(folder)); });
 }
 
 void ReadPostures(benchmark::State& state) { readingCampaign(state, campaigns().postures(state.range(0))); }

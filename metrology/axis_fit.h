@@ -1,12 +1,13 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <string>
 #include <vector>
 
-#include "metrology/measured_line.h"
+#include "metrology/lines.h"
 #include "metrology/measured_points.h"
 
-namespace stiffscope {
+namespace stiffscope::metrology {
 
 /// The readings of one reflector while one axis turns (m, m^2).
 using CirclePoints = MeasuredPoints;
@@ -39,4 +40,8 @@ struct AxisFit {
 /// them, points that all lie on one line or in one place.
 AxisFit fitAxis(const std::vector<CirclePoints>& circles);
 
-}  // namespace stiffscope
+/// The arc that points cover about an axis: 2 pi less the largest gap between neighbouring points (rad), so that
+/// a full turn of n even stops gives 2 pi (n-1)/n. 0 for fewer than two points.
+double sweptArc(const Line& axis, const std::vector<Eigen::Vector3d>& points);
+
+}  // namespace stiffscope::metrology

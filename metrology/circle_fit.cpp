@@ -1,11 +1,110 @@
 #include "metrology/circle_fit.h"
 
-#include "metrology/circle_start.h"
-#include "metrology/finish_fit.h"
-#include "metrology/least_readings.h"
-#include "metrology/plane_first_circle.h"
+#include "metrology/least_squares.h"
+#include "metrology/measured_points.h"
+#include "metrology/shape_models.h"
 
-namespace stiffscope {
+namespace stiffscope::metrology {
+
+/// fitCircle's plane-first strategy: NIST's strategy 1.
+FittedCircle fitPlaneFirst(const LocalPoints& local);
+
+namespace {
+
+/// Circle in a plane that is given: radial residual rho - r. Shared parameters: shifts of the centre along u
+/// and v.
+struct FlatCircleModel {
+  static constexpr int kShared = 2, kOwn = 1, kResiduals = 1;
+  AxisFrame axis;
+
+  Observation<FlatCircleModel> observe(std::size_t, const Eigen::Vector3d& point,
+                                       const Eigen::Matrix<double, 1, 1>& radius) const {
+    const PlaceAboutAxis place = axis.placeOf(point);
+    Observation<FlatCircleModel> seen;
+    seen.residual << static_cast<double>(place.radius - radius[0]);
+    seen.rows << -place.outward_u, -place.outward_v, -1.0;
+    seen.directions << place.outward_u * axis.u() + place.outward_v * axis.v();
+    return seen;
+  }
+  void move(const Eigen::Vector2d& step) { axis.move({step[0], step[1], 0.0, 0.0}); }
+};
+
+using PlaneEstimate = Estimate<PlanesModel, 1>;
+using FlatEstimate = Estimate<FlatCircleModel, 1>;
+
+/// Cofactor of (tilt_u, tilt_v, height) with (shift_u, shift_v, radius): each part weighs by its own
+/// variance, but a point's radial and axial errors go together where its covariance is not level with the
+/// plane.
+Eigen::Matrix3d commonPart(const PlaneEstimate& plane, const FlatEstimate& flat, const LocalPoints& local) {
+  Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
+  if (!local.weighted()) return sum;
+  const LocalGroup& group = local.groups.front();
+  for (std::size_t i = 0; i < group.points.size(); ++i) {
+    const auto axial = plane.model.observe(i, group.points[i], plane.own);
+    const auto radial = flat.model.observe(i, group.points[i], flat.own);
+    const Eigen::Matrix3d covariance = (*group.covariances)[i] / (local.scale * local.scale);
+    const Eigen::Vector3d n = axial.directions.col(0), e = radial.directions.col(0);
+    const double together = n.dot(covariance * e) / (n.dot(covariance * n) * e.dot(covariance * e));
+    sum += together * axial.rows.transpose() * radial.rows;
+  }
+  return plane.cofactor * sum * flat.cofactor;
+}
+
+/// Of (tilts, height; shifts, radius), local units.
+Eigen::Matrix<double, 6, 6> covarianceOfParts(const PlaneEstimate& plane, const FlatEstimate& flat,
+                                              const LocalPoints& local) {
+  const double of_plane = varianceFactor(plane, local.weighted()),
+               of_flat = varianceFactor(flat, local.weighted());
+  Eigen::Matrix<double, 6, 6> parts;
+  parts.topLeftCorner<3, 3>() = of_plane * plane.cofactor;
+  parts.bottomRightCorner<3, 3>() = of_flat * flat.cofactor;
+  parts.topRightCorner<3, 3>() = std::sqrt(of_plane * of_flat) * commonPart(plane, flat, local);
+  parts.bottomLeftCorner<3, 3>() = parts.topRightCorner<3, 3>().transpose();
+  return parts;
+}
+
+}  // namespace
+
+FittedCircle fitPlaneFirst(const LocalPoints& local) {
+  FittedCircle fit;
+  fit.method = "plane-first: a plane by orthogonal distances, then a circle in it by radial ones";
+  const auto start = circlesStart(local, fit.reason);
+  if (!start) return fit;
+  PlaneEstimate plane{{AxisFrame(Eigen::Vector3d::Zero(), start->axis.direction())},
+                      PlaneEstimate::Own::Zero()};
+  refine(plane, local);
+  const AxisFrame& tilted = plane.model.normal;
+  FlatEstimate flat{{AxisFrame(start->axis.point(), tilted.direction())},
+                    firstOwn(*start, local).topRows<1>()};
+  refine(flat, local);
+  if (!describeQuality(plane, local, fit) || !describeQuality(flat, local, fit)) return fit;
+
+  fit.degrees_of_freedom = plane.degreesOfFreedom() + flat.degreesOfFreedom();
+  const double plain = plane.plain + flat.plain;
+  fit.rms = local.scale * std::sqrt(plain / static_cast<double>(local.count()));
+  const int dof = fit.degrees_of_freedom;
+  fit.residual_sd = dof > 0 ? local.scale * std::sqrt(plain / dof) : 0.0;
+  fit.chi2_per_dof = !local.weighted() ? 1.0 : dof > 0 ? (plane.chi2 + flat.chi2) / dof : 0.0;
+
+  const Eigen::Vector3d across = flat.model.axis.point();
+  const double lift = plane.own[0] - tilted.direction().dot(across);
+  const Eigen::Vector3d normal = largestPositive(tilted.direction());
+  const double sense = normal.dot(tilted.direction()) < 0.0 ? -1.0 : 1.0;
+  fit.circle = {local.origin + local.scale * (across + lift * tilted.direction()), normal,
+                local.scale * flat.own[0]};
+  fit.determined = true;
+  if (!tellsUncertainty(flat, local)) return fit;
+
+  Eigen::Matrix<double, 7, 6> full;  // (centre, normal, radius) by (tilts, height; shifts, radius)
+  full << -tilted.u().dot(across) * tilted.direction(), -tilted.v().dot(across) * tilted.direction(),
+      tilted.direction(), flat.model.axis.u(), flat.model.axis.v(), Eigen::Vector3d::Zero(),  //
+      sense * tilted.u(), sense * tilted.v(), Eigen::Matrix<double, 3, 4>::Zero(),
+      Eigen::Matrix<double, 1, 5>::Zero(), 1.0;
+  full.topRows<3>() *= local.scale;
+  full.row(6) *= local.scale;
+  fit.covariance = full * covarianceOfParts(plane, flat, local) * full.transpose();
+  return fit;
+}
 
 namespace {
 
@@ -81,4 +180,4 @@ FittedCircle fitCircle(const MeasuredPoints& points, CircleStrategy strategy) {
   return fit;
 }
 
-}  // namespace stiffscope
+}  // namespace stiffscope::metrology

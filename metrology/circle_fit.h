@@ -4,10 +4,9 @@
 #include <array>
 #include <optional>
 
-#include "metrology/fit_quality.h"
 #include "metrology/measured_points.h"
 
-namespace stiffscope {
+namespace stiffscope::metrology {
 
 /// A circle in space; `normal` has unit length.
 struct Circle {
@@ -38,4 +37,4 @@ enum class CircleStrategy {
 /// (exactly or within their scatter), an arc whose curvature is not significant against the scatter.
 FittedCircle fitCircle(const MeasuredPoints& points, CircleStrategy strategy = CircleStrategy::full);
 
-}  // namespace stiffscope
+}  // namespace stiffscope::metrology

@@ -4,11 +4,10 @@
 #include <array>
 #include <optional>
 
-#include "metrology/fit_quality.h"
-#include "metrology/line.h"
+#include "metrology/lines.h"
 #include "metrology/measured_points.h"
 
-namespace stiffscope {
+namespace stiffscope::metrology {
 
 struct Cylinder {
   Line axis;
@@ -33,4 +32,4 @@ struct FittedCylinder : FitQuality {
 /// or direction that is not significant against the scatter, two different cylinders that fit alike.
 FittedCylinder fitCylinder(const MeasuredPoints& points);
 
-}  // namespace stiffscope
+}  // namespace stiffscope::metrology

@@ -1,13 +1,59 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
+#include <vector>
 
-#include "metrology/local_points.h"
+#include "metrology/measured_points.h"
 
-namespace stiffscope {
+namespace stiffscope::metrology {
+
+/// One group of readings (a reflector's, say) in local coordinates.
+struct LocalGroup {
+  std::vector<Eigen::Vector3d> points;
+  const std::vector<Eigen::Matrix3d>* covariances = nullptr;  ///< in the unit of the readings; null: none
+};
+
+/// Readings about their mean, in units of their own size: x = origin + scale x_local. Far from the origin
+/// nothing is lost by this, and squares neither overflow nor lose the small against the large. The scale is a
+/// power of two, so that scaling rounds nothing; local coordinates lie within -2..2.
+struct LocalPoints {
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();
+  double scale = 1.0;
+  double rounding = 0.0;  ///< of the readings' coordinates in double precision, in local units
+  std::vector<LocalGroup> groups;
+  std::string flaw;  ///< why nothing can be fitted to the readings; empty where something can
+
+  std::size_t count() const;
+  bool weighted() const { return groups.front().covariances != nullptr; }
+};
+
+/// The readings must outlive the result, which refers to their covariances. Flaws: no readings, numbers that
+/// are not finite, covariances that are not one a point and positive definite, all readings in one place, or
+/// so far from the origin that double precision holds less than four digits of their spread.
+LocalPoints localPoints(const MeasuredPoints* groups, std::size_t count);
+
+/// The pooled spread of all points about the means of their groups: eigenvalues of the scatter matrix,
+/// ascending (local units squared), and the directions that belong to them.
+struct PrincipalAxes {
+  Eigen::Vector3d spread;
+  Eigen::Matrix3d directions;
+};
+
+PrincipalAxes principalAxes(const LocalPoints& local);
+
+/// Do two spreads (eigenvalues of a scatter of points) tell a direction from rounding? `small` must be more
+/// than a millionth of `large` in length, and more than the coordinates' rounding.
+bool spreads(double small, double large, const LocalPoints& local);
+
+/// Do the greater of two neighbouring spreads and its direction stand out from the lesser? For `count` points
+/// of one scatter in both directions the difference of the two lies, at 95 %, below 4.9 times the root of
+/// their product over the count (the spread of a 2x2 Wishart matrix: twice a Rayleigh variable).
+bool standsOut(double greater, double lesser, std::size_t count);
 
 // Weighted least squares of geometric residuals by Gauss-Newton, damped (Levenberg-Marquardt) where a step
 // would not descend. A Model is a shape with
@@ -219,4 +265,34 @@ double varianceFactor(const Estimate<Model, Groups>& estimate, bool weighted) {
   return weighted ? std::max(1.0, variance) : variance;
 }
 
-}  // namespace stiffscope
+/// Fills in what the residuals say; false, with the reason, where the estimate is not determined.
+template <class Model, int Groups>
+bool describeQuality(const Estimate<Model, Groups>& estimate, const LocalPoints& local, FitQuality& quality) {
+  quality.degrees_of_freedom = estimate.degreesOfFreedom();
+  if (!estimate.determined) {
+    quality.reason = estimate.converged
+                         ? "the readings leave a parameter of the shape free"
+                         : "no shape of this kind is nearest to the readings: the fit does not settle";
+    return false;
+  }
+  const int dof = quality.degrees_of_freedom;
+  quality.rms = local.scale * std::sqrt(estimate.plain / static_cast<double>(local.count()));
+  quality.residual_sd = dof > 0 ? local.scale * std::sqrt(estimate.plain / dof) : 0.0;
+  quality.chi2_per_dof = !local.weighted() ? 1.0 : dof > 0 ? estimate.chi2 / dof : 0.0;
+  return true;
+}
+
+/// Is there anything to tell the result's uncertainty by? Covariances, or a degree of freedom.
+template <class Model, int Groups>
+bool tellsUncertainty(const Estimate<Model, Groups>& estimate, const LocalPoints& local) {
+  return local.weighted() || estimate.degreesOfFreedom() > 0;
+}
+
+/// A standard uncertainty of a direction (rad) from which on it is no direction any more.
+inline constexpr double kNoDirection = 0.5;
+
+/// A radius is determined where the curvature 1/r differs from that of a straight line by two standard
+/// uncertainties.
+inline bool curved(double radius, double sd) { return radius > 2.0 * sd; }
+
+}  // namespace stiffscope::metrology

@@ -1,9 +1,9 @@
 #include "metrology/line_fit.h"
 
-#include "metrology/least_readings.h"
-#include "metrology/line_model.h"
+#include "metrology/measured_points.h"
+#include "metrology/shape_models.h"
 
-namespace stiffscope {
+namespace stiffscope::metrology {
 
 FittedLine fitLine(const MeasuredPoints& points) {
   FittedLine fit;
@@ -44,4 +44,4 @@ FittedLine fitLine(const MeasuredPoints& points) {
   return fit;
 }
 
-}  // namespace stiffscope
+}  // namespace stiffscope::metrology

@@ -4,11 +4,10 @@
 #include <array>
 #include <optional>
 
-#include "metrology/fit_quality.h"
-#include "metrology/line.h"
+#include "metrology/lines.h"
 #include "metrology/measured_points.h"
 
-namespace stiffscope {
+namespace stiffscope::metrology {
 
 /// A straight line through points. `line.point` is the point of the line nearest to the points' mean, the
 /// largest component of `line.direction` is positive.
@@ -26,4 +25,4 @@ struct FittedLine : FitQuality {
 /// points spread most, or, against their scatter, hardly.
 FittedLine fitLine(const MeasuredPoints& points);
 
-}  // namespace stiffscope
+}  // namespace stiffscope::metrology

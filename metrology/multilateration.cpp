@@ -8,7 +8,7 @@
 #include "metrology/least_squares.h"
 #include "metrology/trilateration.h"
 
-namespace stiffscope {
+namespace stiffscope::metrology {
 
 namespace {
 
@@ -171,4 +171,4 @@ Multilateration multilaterate(const std::vector<MeasuredDistance>& distances,
   return result;
 }
 
-}  // namespace stiffscope
+}  // namespace stiffscope::metrology

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace stiffscope {
+namespace stiffscope::metrology {
 
 /// A distance measured from a known point.
 struct MeasuredDistance {
@@ -39,4 +39,4 @@ struct Multilateration {
 Multilateration multilaterate(const std::vector<MeasuredDistance>& distances,
                               const std::optional<Eigen::Vector3d>& expected = std::nullopt);
 
-}  // namespace stiffscope
+}  // namespace stiffscope::metrology

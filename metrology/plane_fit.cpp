@@ -1,9 +1,9 @@
 #include "metrology/plane_fit.h"
 
-#include "metrology/least_readings.h"
-#include "metrology/plane_model.h"
+#include "metrology/measured_points.h"
+#include "metrology/shape_models.h"
 
-namespace stiffscope {
+namespace stiffscope::metrology {
 
 FittedPlane fitPlane(const MeasuredPoints& points) {
   FittedPlane fit;
@@ -47,4 +47,4 @@ FittedPlane fitPlane(const MeasuredPoints& points) {
   return fit;
 }
 
-}  // namespace stiffscope
+}  // namespace stiffscope::metrology

@@ -4,10 +4,9 @@
 #include <array>
 #include <optional>
 
-#include "metrology/fit_quality.h"
 #include "metrology/measured_points.h"
 
-namespace stiffscope {
+namespace stiffscope::metrology {
 
 /// The plane through `point` across `normal` (unit length).
 struct Plane {
@@ -32,4 +31,4 @@ struct FittedPlane : FitQuality {
 /// least.
 FittedPlane fitPlane(const MeasuredPoints& points);
 
-}  // namespace stiffscope
+}  // namespace stiffscope::metrology

@@ -1,6 +1,38 @@
 #include "metrology/rigid_motion.h"
 
-namespace stiffscope {
+#include "metrology/lines.h"
+
+namespace stiffscope::metrology {
+
+Eigen::Isometry3d baseFrame(const Line& axis_1, const Line& axis_2) {
+  const Eigen::Vector3d z = axis_1.direction.normalized();
+  const Eigen::Vector3d y = (axis_2.direction - z.dot(axis_2.direction) * z).normalized();
+  Eigen::Isometry3d frame = Eigen::Isometry3d::Identity();
+  frame.linear() << y.cross(z), y, z;
+  frame.translation() = commonPerpendicular(axis_1, axis_2).foot_on_first;
+  return frame;
+}
+
+FrameError frameError(const Eigen::Isometry3d& in_from_true, const Eigen::Isometry3d& in_from_measured) {
+  const Eigen::Isometry3d true_from_measured = in_from_true.inverse() * in_from_measured;
+  const Eigen::Quaterniond turn(true_from_measured.linear());
+  // Twice the vector part is the rotation vector to third order, and keeps every digit of a small one.
+  FrameError error;
+  error << (turn.w() < 0.0 ? -2.0 : 2.0) * turn.vec(), true_from_measured.translation();
+  return error;
+}
+
+Eigen::Matrix<double, 3, 6> vectorByFrameError(const Eigen::Vector3d& d) {
+  Eigen::Matrix<double, 3, 6> by = Eigen::Matrix<double, 3, 6>::Zero();
+  by.leftCols<3>() << 0.0, -d.z(), d.y(), d.z(), 0.0, -d.x(), -d.y(), d.x(), 0.0;  // d x rotation
+  return by;
+}
+
+Eigen::Matrix<double, 3, 6> pointByFrameError(const Eigen::Vector3d& x) {
+  Eigen::Matrix<double, 3, 6> by = vectorByFrameError(x);
+  by.rightCols<3>() = -Eigen::Matrix3d::Identity();
+  return by;
+}
 
 Eigen::Isometry3d motionAbout(const Eigen::Vector3d& centre, const Eigen::Matrix<double, 6, 1>& motion) {
   const Eigen::Vector3d turn = motion.head<3>();
@@ -11,34 +43,4 @@ Eigen::Isometry3d motionAbout(const Eigen::Vector3d& centre, const Eigen::Matrix
   return result;
 }
 
-std::vector<NestRound> nestRounds(const Nests& nests) {
-  std::vector<const NestReading*> rows;
-  for (const NestReading& row : nests.rows) rows.push_back(&row);
-  std::stable_sort(rows.begin(), rows.end(),
-                   [](const NestReading* a, const NestReading* b) { return a->time_s < b->time_s; });
-  std::vector<NestRound> rounds;
-  for (const NestReading* row : rows) {
-    if (rounds.empty() || rounds.back().readings.contains(row->nest)) rounds.emplace_back();
-    rounds.back().readings[row->nest] = row;
-  }
-  for (NestRound& round : rounds) {
-    for (const auto& [nest, row] : round.readings) {
-      round.time_s += row->time_s / static_cast<double>(round.readings.size());
-    }
-  }
-  return rounds;
-}
-
-NestNetwork fitNestNetwork(const std::vector<NestRound>& rounds, const TrackerNoise& noise,
-                           const Eigen::Vector3d& centre, int left_out) {
-  NestNetwork network;
-  const std::vector<NestRound> used = usable(rounds, left_out);
-  if (used.size() < 2 || !start(used, centre, network)) return network;
-  constexpr int kSteps =
-      4;  // from a registration that is near the optimum already; the last gives chi2 there
-  for (int step = 0; step < kSteps; ++step) improve(used, noise, centre, network);
-  network.determined = true;
-  return network;
-}
-
-}  // namespace stiffscope
+}  // namespace stiffscope::metrology

@@ -3,12 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "metrology/algebraic_centre.h"
-#include "metrology/finish_fit.h"
-#include "metrology/least_readings.h"
-#include "metrology/sphere_model.h"
+#include "metrology/least_squares.h"
+#include "metrology/measured_points.h"
+#include "metrology/shape_models.h"
 
-namespace stiffscope {
+namespace stiffscope::metrology {
 
 namespace {
 
@@ -101,4 +100,4 @@ FittedSphere fitSphere(const MeasuredPoints& points) {
   return fit;
 }
 
-}  // namespace stiffscope
+}  // namespace stiffscope::metrology

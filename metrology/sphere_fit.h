@@ -6,10 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "metrology/fit_quality.h"
 #include "metrology/measured_points.h"
 
-namespace stiffscope {
+namespace stiffscope::metrology {
 
 /// Readings of one reflector on a sphere (m, m^2).
 using SpherePoints = MeasuredPoints;
@@ -47,4 +46,4 @@ struct FittedSphere : FitQuality {
 /// fewer than four places, points in one plane (exactly or within their scatter).
 FittedSphere fitSphere(const MeasuredPoints& points);
 
-}  // namespace stiffscope
+}  // namespace stiffscope::metrology

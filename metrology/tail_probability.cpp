@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-namespace stiffscope {
+namespace stiffscope::metrology {
 
 namespace {
 
@@ -47,4 +47,4 @@ double fTail(double value, int above, double below) {
   return incompleteBeta(0.5 * below, 0.5 * above, 1.0 / (1.0 + odds), odds / (1.0 + odds));
 }
 
-}  // namespace stiffscope
+}  // namespace stiffscope::metrology

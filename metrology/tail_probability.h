@@ -1,6 +1,6 @@
 #pragma once
 
-namespace stiffscope {
+namespace stiffscope::metrology {
 
 /// Probability that a chi-square variable of 1 or 2 degrees of freedom exceeds `value`.
 double chiSquareTail(double value, int degrees);
@@ -10,4 +10,4 @@ double chiSquareTail(double value, int degrees);
 /// continued fraction 26.5.8).
 double fTail(double value, int above, double below);
 
-}  // namespace stiffscope
+}  // namespace stiffscope::metrology

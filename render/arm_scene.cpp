@@ -6,7 +6,7 @@
 
 #include "render/ticks.h"
 
-namespace stiffscope {
+namespace stiffscope::render {
 
 namespace {
 
@@ -85,4 +85,4 @@ double automaticResidualFactor(const ArmScene& scene) {
   return std::min(100.0, roundDown125(longest.vector / longest.residual));
 }
 
-}  // namespace stiffscope
+}  // namespace stiffscope::render

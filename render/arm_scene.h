@@ -8,7 +8,7 @@
 #include "render/colours.h"
 #include "render/image.h"
 
-namespace stiffscope {
+namespace stiffscope::render {
 
 /// A point with its displacement under load. Position and vectors in the base frame, m.
 struct ScenePoint {
@@ -113,4 +113,4 @@ std::vector<Eigen::Vector3d> pointsOf(const ArmScene& scene, double magnificatio
 /// too small; std::runtime_error when offscreen rendering is not to be had.
 Image render(const ArmScene& scene, Size size = {1200, 800});
 
-}  // namespace stiffscope
+}  // namespace stiffscope::render

@@ -8,7 +8,7 @@
 
 #include "render/arm_scene.h"
 
-namespace stiffscope {
+namespace stiffscope::render {
 
 /// There is no display to open a window on, or none with OpenGL 3.2. The message says which and why.
 class NoDisplay : public std::runtime_error {
@@ -57,4 +57,4 @@ class ArmWindow {
   std::unique_ptr<Implementation> implementation_;
 };
 
-}  // namespace stiffscope
+}  // namespace stiffscope::render

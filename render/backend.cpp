@@ -1,14 +1,13 @@
 #include "render/backend.h"
 
 #include <dlfcn.h>
-#include <fmt/format.h>
-
 #include <filesystem>
+#include <fmt/format.h>
 #include <stdexcept>
 #include <string>
 #include <system_error>
 
-namespace stiffscope {
+namespace stiffscope::render {
 
 namespace {
 
@@ -61,4 +60,4 @@ Image render(const PointChart& chart, Size size) { return backend().draw(chart, 
 Image render(const DotRowChart& chart, Size size) { return backend().draw(chart, size); }
 Image render(const ArmScene& scene, Size size) { return backend().draw(scene, size); }
 
-}  // namespace stiffscope
+}  // namespace stiffscope::render

@@ -7,7 +7,7 @@
 #include "render/point_chart.h"
 #include "render/spread_chart.h"
 
-namespace stiffscope {
+namespace stiffscope::render {
 
 /// What draws the pictures; lives in the module with VTK. Not for users: they call `render`.
 class Backend {
@@ -26,4 +26,4 @@ class Backend {
 inline constexpr const char* kBackendSymbol = "stiffscope_render_backend_6";
 using BackendFunction = Backend*();
 
-}  // namespace stiffscope
+}  // namespace stiffscope::render

@@ -3,7 +3,7 @@
 #include <array>
 #include <cstdint>
 
-namespace stiffscope {
+namespace stiffscope::render {
 
 /// An sRGB colour.
 struct Colour {
@@ -64,4 +64,4 @@ inline constexpr Palette kDarkPalette{{24, 26, 31},    {236, 238, 242}, {166, 17
                                       {226, 86, 70},   {118, 172, 255}, {170, 240, 200}, {180, 186, 198},
                                       {232, 168, 32},  {124, 130, 143}, {90, 97, 111}};
 
-}  // namespace stiffscope
+}  // namespace stiffscope::render

@@ -7,7 +7,7 @@
 
 #include "render/image.h"
 
-namespace stiffscope {
+namespace stiffscope::render {
 
 /// A row: a name at the left, a size on the axis.
 struct DotRow {
@@ -38,4 +38,4 @@ struct DotRowChart {
 /// be had.
 Image render(const DotRowChart& chart, Size size = {1200, 700});
 
-}  // namespace stiffscope
+}  // namespace stiffscope::render

@@ -6,7 +6,7 @@
 #include "render/colours.h"
 #include "render/image.h"
 
-namespace stiffscope {
+namespace stiffscope::render {
 
 /// One colour of bars: a value per category.
 struct BarSeries {
@@ -34,4 +34,4 @@ struct GroupedBarChart {
 /// not to be had.
 Image render(const GroupedBarChart& chart, Size size = {1200, 700});
 
-}  // namespace stiffscope
+}  // namespace stiffscope::render

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace stiffscope {
+namespace stiffscope::render {
 
 /// Width and height of a picture in pixels. Pictures are legible from 480 x 320; smaller ones are refused.
 struct Size {
@@ -25,4 +25,9 @@ struct Image {
   }
 };
 
-}  // namespace stiffscope
+/// `image` as a PNG file in memory: 8-bit RGB, no time stamp or text chunk, so equal images give equal bytes.
+/// Throws std::invalid_argument when the size and the number of bytes of `image` disagree, std::runtime_error
+/// when libpng fails.
+std::vector<std::uint8_t> encodePng(const Image& image);
+
+}  // namespace stiffscope::render

@@ -7,7 +7,7 @@
 #include "render/colours.h"
 #include "render/image.h"
 
-namespace stiffscope {
+namespace stiffscope::render {
 
 /// A value and the ends of its interval, in the unit of the axis. A value that is not finite leaves a gap.
 struct Interval {
@@ -47,4 +47,4 @@ struct IntervalChart {
 /// offscreen rendering is not to be had.
 Image render(const IntervalChart& chart, Size size = {1200, 700});
 
-}  // namespace stiffscope
+}  // namespace stiffscope::render

@@ -7,7 +7,7 @@
 #include "render/colours.h"
 #include "render/image.h"
 
-namespace stiffscope {
+namespace stiffscope::render {
 
 struct PlotPoint {
   double x = 0.0;
@@ -62,4 +62,4 @@ struct PointChart {
 /// not to be had.
 Image render(const PointChart& chart, Size size = {1200, 700});
 
-}  // namespace stiffscope
+}  // namespace stiffscope::render

@@ -6,9 +6,22 @@
 
 #include "render/colours.h"
 #include "render/image.h"
-#include "render/spread.h"
 
-namespace stiffscope {
+namespace stiffscope::render {
+
+/// What a box shows of a distribution: its percentiles and its mean, in the distribution's unit.
+struct Spread {
+  double p5 = 0;
+  double p25 = 0;
+  double p50 = 0;
+  double p75 = 0;
+  double p95 = 0;
+  double mean = 0;
+};
+
+/// Percentiles by linear interpolation between order statistics (x at rank p (n - 1)), and the arithmetic
+/// mean. Throws std::invalid_argument when there is no sample or one is not finite.
+Spread spreadOf(std::vector<double> samples);
 
 /// A method: one box in every panel.
 struct SpreadMethod {
@@ -54,4 +67,4 @@ struct SpreadChart {
 /// too small; std::runtime_error when offscreen rendering is not to be had.
 Image render(const SpreadChart& chart, Size size = {1200, 700});
 
-}  // namespace stiffscope
+}  // namespace stiffscope::render

@@ -1,12 +1,11 @@
 #include "render/ticks.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <fmt/format.h>
 
-namespace stiffscope {
+namespace stiffscope::render {
 
 namespace {
 
@@ -108,4 +107,4 @@ std::string factorText(double x) {
   return fmt::format("{}\u00a0{:03}", whole / 1000, whole % 1000);
 }
 
-}  // namespace stiffscope
+}  // namespace stiffscope::render

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-namespace stiffscope {
+namespace stiffscope::render {
 
 /// The largest number of the series 1, 2, 5, 10, ... not above `x` > 0, and the smallest not below.
 double roundDown125(double x);
@@ -29,4 +29,4 @@ std::string shortNumber(double x);
 /// A factor as people write it: "40 000" (no-break spaces) where shortNumber has powers of ten, up to a million.
 std::string factorText(double x);
 
-}  // namespace stiffscope
+}  // namespace stiffscope::render

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-namespace stiffscope {
+namespace stiffscope::render {
 
 namespace {
 
@@ -49,7 +49,7 @@ void ViewCamera::hold() {
 
 void ViewCamera::turn(double about_vertical, double towards) {
   hold();
-  Turntable at = turntableOf(direction_.value_or(stiffscope::directionOf(view_)));
+  Turntable at = turntableOf(direction_.value_or(render::directionOf(view_)));
   at.heading -= about_vertical;
   at.dip = std::clamp(at.dip + towards, -kSteepest, kSteepest);
   direction_ = directionOf(at);
@@ -58,7 +58,7 @@ void ViewCamera::turn(double about_vertical, double towards) {
 void ViewCamera::shift(double right, double up) {
   hold();
   if (!held_) return;
-  const auto axes = rightAndUp(direction_.value_or(stiffscope::directionOf(view_)));
+  const auto axes = rightAndUp(direction_.value_or(render::directionOf(view_)));
   held_->centre -= held_->metres_high * (right * axes.first + up * axes.second);
 }
 
@@ -73,4 +73,4 @@ void ViewCamera::apply(ArmScene& scene) const {
   scene.framing = held_;
 }
 
-}  // namespace stiffscope
+}  // namespace stiffscope::render

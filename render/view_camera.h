@@ -5,7 +5,7 @@
 
 #include "render/arm_scene.h"
 
-namespace stiffscope {
+namespace stiffscope::render {
 
 /// The view that a hand turns, shifts and zooms, as on a turntable: the base z axis stays upright. Until the
 /// hand takes it, the picture fits by itself.
@@ -33,4 +33,4 @@ class ViewCamera {
   std::optional<SceneFraming> last_, held_;
 };
 
-}  // namespace stiffscope
+}  // namespace stiffscope::render

@@ -1,44 +1,43 @@
-#include "core/audit/audit.h"
-
 #include <CLI/CLI.hpp>
 #include <memory>
 #include <optional>
 #include <utility>
 
-#include "app/command.h"
-#include "app/described.h"
+#include "app/command_line.h"
 #include "app/large_heap.h"
 #include "app/output.h"
+#include "app/prepared.h"
+#include "core/audit/audit.h"
+#include "core/audit/check_design.h"
 #include "core/diagnosis/diagnose.h"
-#include "core/diagnosis/evenly_spread.h"
-#include "core/diagnosis/separable_effects.h"
-#include "core/identification/load_step.h"
+#include "core/identification/load_case.h"
+#include "core/preparation/subsample.h"
 #include "reports/json/audit_json.h"
 #include "reports/text/audit_text.h"
 
-namespace stiffscope {
+namespace stiffscope::app {
 
 namespace {
 
 /// What could be told apart by these loads is asked, not what is there.
-Diagnosis designOf(const Campaign& campaign) {
-  DiagnoseOptions design;
+diagnosis::Diagnosis designOf(const campaign::Campaign& campaign) {
+  diagnosis::DiagnoseOptions design;
   design.resamples = design.chance_draws = 0;
-  return diagnose(campaign, design);
+  return diagnosis::diagnose(campaign, design);
 }
 
 int auditCampaign(const std::string& folder, const std::string& json_file) {
   useLargeHeapPages();
-  Campaign campaign = openCampaign(folder, hashesFor(json_file));
-  const Campaign words = described(campaign);
+  campaign::Campaign campaign = openCampaign(folder, hashesFor(json_file));
+  const campaign::Campaign words = described(campaign);
   // The audit takes the only copy of the readings; what the design is asked about is a hundred postures.
-  std::optional<Campaign> asked;
-  if (whatLoadsLack(campaign).empty()) asked = evenlySpread(campaign, kMostDiagnosed);
-  AuditReport report = audit(std::move(campaign));
+  std::optional<campaign::Campaign> asked;
+  if (identification::whatLoadsLack(campaign).empty()) asked = preparation::evenlySpread(campaign, preparation::kMostDiagnosed);
+  audit::AuditReport report = audit::audit(std::move(campaign));
   // With a unit wrong nothing could be told apart, and the search would not settle for a minute.
-  if (asked && !findsTheImpossible(report)) addSeparableEffects(designOf(*asked), report);
-  deliver([&] { return auditJson(words, report); }, [&] { return auditText(words, report); }, json_file);
-  return report.verdict == AuditVerdict::fail ? kNotUsable : kDone;
+  if (asked && !audit::findsTheImpossible(report)) audit::addSeparableEffects(designOf(*asked), report);
+  deliver([&] { return reports::auditJson(words, report); }, [&] { return reports::auditText(words, report); }, json_file);
+  return report.verdict == preparation::AuditVerdict::fail ? kNotUsable : kDone;
 }
 
 }  // namespace
@@ -56,4 +55,4 @@ void addAudit(CLI::App& app, Run& run) {
   });
 }
 
-}  // namespace stiffscope
+}  // namespace stiffscope::app

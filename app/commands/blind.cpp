@@ -1,25 +1,24 @@
-#include <unistd.h>
-
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>
+#include <unistd.h>
 
-#include "app/command.h"
+#include "app/command_line.h"
 #include "app/output.h"
-#include "core/blind/run_blind.h"
 #include "core/diagnosis/diagnose.h"
 #include "core/diagnosis/effect_distance.h"
-#include "core/input/write_file.h"
-#include "reports/json/blind_json.h"
-#include "reports/page/blind_page.h"
-#include "reports/text/blind_text.h"
+#include "core/io/write_file.h"
+#include "core/validation/run_blind.h"
+#include "reports/json/validation_json.h"
+#include "reports/page/validation_page.h"
+#include "reports/text/validation_text.h"
 
-namespace stiffscope {
+namespace stiffscope::app {
 
 namespace {
 
-blind::BlindEvents eventsOnStderr() {
-  blind::BlindEvents events;
+validation::BlindEvents eventsOnStderr() {
+  validation::BlindEvents events;
   events.sealed = [](const std::string& seal) {
     std::fprintf(stderr, "labels sealed, SHA-256 %s\n", seal.c_str());
   };
@@ -34,8 +33,8 @@ blind::BlindEvents eventsOnStderr() {
   return events;
 }
 
-blind::DiagnosisAnswer diagnosed(const Campaign& campaign) {
-  const Diagnosis diagnosis = diagnose(campaign);
+validation::DiagnosisAnswer diagnosed(const campaign::Campaign& campaign) {
+  const diagnosis::Diagnosis diagnosis = diagnosis::diagnose(campaign);
   return {diagnosis.verdict, diagnosis.classes};
 }
 
@@ -43,7 +42,7 @@ blind::DiagnosisAnswer diagnosed(const Campaign& campaign) {
 
 void addBlind(CLI::App& app, Run& run) {
   struct Arguments {
-    blind::BlindOptions options;
+    validation::BlindOptions options;
     std::string out, json;
   };
   const auto arguments = std::make_shared<Arguments>();
@@ -65,14 +64,14 @@ void addBlind(CLI::App& app, Run& run) {
   command->callback([arguments, &run] {
     run = [arguments] {
       arguments->options.out = arguments->out;
-      const blind::BlindResult result = blind::runBlind(arguments->options, diagnosed, eventsOnStderr(), distanceFromVocabulary);
-      const Json json = blindJson(arguments->options, result);
-      writeFileWhole(arguments->options.out / "results.json", json.dump(1) + '\n');
-      writeFileWhole(arguments->options.out / "blind.html", blindPage(arguments->options, result));
-      deliver([&] { return json; }, [&] { return blindText(result); }, arguments->json);
+      const validation::BlindResult result = validation::runBlind(arguments->options, diagnosed, eventsOnStderr(), diagnosis::distanceFromVocabulary);
+      const reports::Json json = reports::blindJson(arguments->options, result);
+      io::writeFileWhole(arguments->options.out / "results.json", json.dump(1) + '\n');
+      io::writeFileWhole(arguments->options.out / "blind.html", page::blindPage(arguments->options, result));
+      deliver([&] { return json; }, [&] { return reports::blindText(result); }, arguments->json);
       return kDone;
     };
   });
 }
 
-}  // namespace stiffscope
+}  // namespace stiffscope::app

@@ -1,46 +1,46 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
-#include "app/command.h"
+#include "app/command_line.h"
+#include "app/options.h"
 #include "app/output.h"
 #include "app/prepared.h"
-#include "app/step_option.h"
-#include "core/comparison/compare_campaigns.h"
+#include "core/comparison/compare.h"
+#include "reports/json/campaign_json.h"
 #include "reports/json/comparison_json.h"
-#include "reports/json/preparation_json.h"
 #include "reports/text/comparison_text.h"
-#include "reports/text/preparation_text.h"
+#include "reports/words/preparation_words.h"
 
-namespace stiffscope {
+namespace stiffscope::app {
 
 namespace {
 
 struct Arguments {
   std::string before, after, json, step;
   bool neglect_kc = false, raw = false;
-  BootstrapOptions bootstrap;
+  comparison::BootstrapOptions bootstrap;
 };
 
 int compareTwo(const Arguments& arguments) {
-  IdentifyOptions options;
+  identification::IdentifyOptions options;
   options.step = loadStepNamed(arguments.step);
   options.finite_deflection = !arguments.neglect_kc;
-  const PreparedCampaign prepared_before = openPrepared(arguments.before, arguments.raw);
-  const PreparedCampaign prepared_after = openPrepared(arguments.after, arguments.raw);
-  const Campaign &before = prepared_before.campaign, &after = prepared_after.campaign;
-  const Comparison comparison = compareCampaigns(before, identify(before, options), after,
-                                                 identify(after, options), arguments.bootstrap);
+  const preparation::PreparedCampaign prepared_before = openPrepared(arguments.before, arguments.raw);
+  const preparation::PreparedCampaign prepared_after = openPrepared(arguments.after, arguments.raw);
+  const campaign::Campaign &before = prepared_before.campaign, &after = prepared_after.campaign;
+  const comparison::Comparison comparison = comparison::compareCampaigns(before, identification::identify(before, options), after,
+                                                 identification::identify(after, options), arguments.bootstrap);
   deliver(
           [&] {
-            Json json = comparisonJson(before, after, comparison);
-            json["preparation"] = {preparationJson(prepared_before.preparation),
-                                   preparationJson(prepared_after.preparation)};
+            reports::Json json = reports::comparisonJson(before, after, comparison);
+            json["preparation"] = {reports::preparationJson(prepared_before.preparation),
+                                   reports::preparationJson(prepared_after.preparation)};
             return json;
           },
           [&] {
-            return comparisonText(before, after, comparison) + before.name + ". " +
-                   preparationText(prepared_before.preparation) + after.name + ". " +
-                   preparationText(prepared_after.preparation);
+            return reports::comparisonText(before, after, comparison) + before.name + ". " +
+                   reports::preparationText(prepared_before.preparation) + after.name + ". " +
+                   reports::preparationText(prepared_after.preparation);
           },
           arguments.json);
   return comparison.comparable ? kDone : kNotUsable;
@@ -67,4 +67,4 @@ void addCompare(CLI::App& app, Run& run) {
   });
 }
 
-}  // namespace stiffscope
+}  // namespace stiffscope::app

@@ -2,26 +2,23 @@
 #include <algorithm>
 #include <memory>
 
-#include "app/command.h"
-#include "app/method_option.h"
+#include "app/command_line.h"
+#include "app/options.h"
 #include "app/output.h"
 #include "app/prepared.h"
-#include "app/step_option.h"
-#include "app/with_option.h"
-#include "core/compensation/implausible_commands.h"
-#include "core/compensation/postures_table.h"
-#include "core/identification/best_method.h"
-#include "core/improved/predicted_give.h"
-#include "core/input/input_error.h"
+#include "core/compensation/compensate.h"
+#include "core/extended_model/effect_deflection.h"
+#include "core/identification/identification.h"
+#include "core/io/input_error.h"
+#include "reports/json/campaign_json.h"
 #include "reports/json/compensation_json.h"
-#include "reports/json/improved_json.h"
-#include "reports/json/preparation_json.h"
-#include "reports/method_names.h"
+#include "reports/json/extended_model_json.h"
 #include "reports/text/compensation_text.h"
-#include "reports/text/improved_text.h"
-#include "reports/text/preparation_text.h"
+#include "reports/text/extended_model_text.h"
+#include "reports/words/names.h"
+#include "reports/words/preparation_words.h"
 
-namespace stiffscope {
+namespace stiffscope::app {
 
 namespace {
 
@@ -32,45 +29,45 @@ struct Arguments {
 };
 
 int compensateCampaign(const Arguments& arguments) {
-  std::vector<Method> methods;
+  std::vector<identification::Method> methods;
   if (!arguments.method.empty()) methods = methodsNamed(arguments.method);
-  if (methods.size() > 1) throw InputError({"--method"}, arguments.method, "expected one of cp, pp or dpp");
-  IdentifyOptions options;
+  if (methods.size() > 1) throw io::InputError({"--method"}, arguments.method, "expected one of cp, pp or dpp");
+  identification::IdentifyOptions options;
   options.step = loadStepNamed(arguments.step);
-  const PreparedCampaign prepared = openPrepared(arguments.campaign, arguments.raw);
-  std::optional<ImprovedModel> improved;
-  if (!arguments.with.empty()) improved = improveModel(prepared.campaign, effectsAsked(prepared, arguments.with), options);
-  const Campaign& campaign = improved ? improved->campaign : prepared.campaign;
-  const Identification result = improved ? improved->with : identify(campaign, options);
-  if (methods.empty()) methods = {bestMethod(result)};
-  const MethodResult& method = result.of(methods.front());
+  const preparation::PreparedCampaign prepared = openPrepared(arguments.campaign, arguments.raw);
+  std::optional<extended_model::ImprovedModel> improved;
+  if (!arguments.with.empty()) improved = extended_model::improveModel(prepared.campaign, effectsAsked(prepared, arguments.with), options);
+  const campaign::Campaign& campaign = improved ? improved->campaign : prepared.campaign;
+  const identification::Identification result = improved ? improved->with : identification::identify(campaign, options);
+  if (methods.empty()) methods = {identification::bestMethod(result)};
+  const identification::MethodResult& method = result.of(methods.front());
   if (!method.available) {
-    throw InputError({arguments.campaign}, "", std::string(namesOf(methods.front()).full) + " is unavailable here: " + method.reason);
+    throw io::InputError({arguments.campaign}, "", std::string(reports::namesOf(methods.front()).full) + " is unavailable here: " + method.reason);
   }
   std::vector<std::string> warnings;
-  const std::vector<PostureToCompensate> asked = arguments.postures.empty()
-                                                     ? campaignPostures(campaign, result.step)
-                                                     : readPostures(arguments.postures, warnings);
+  const std::vector<compensation::PostureToCompensate> asked = arguments.postures.empty()
+                                                     ? compensation::campaignPostures(campaign, result.step)
+                                                     : compensation::readPostures(arguments.postures, warnings);
   printWarnings(warnings);
-  std::optional<FurtherGive> give;
-  if (improved && givesFurther(improved->effects)) give = furtherGive(*improved, methods.front());
-  const std::vector<CompensatedPosture> rows = compensate(campaign, method.geometry, method.estimate,
+  std::optional<effects::FurtherGive> give;
+  if (improved && extended_model::givesFurther(improved->effects)) give = extended_model::furtherGive(*improved, methods.front());
+  const std::vector<compensation::CompensatedPosture> rows = compensation::compensate(campaign, method.geometry, method.estimate,
                                                           result.frames.tcp_in_flange, asked, {}, give ? &*give : nullptr);
   std::vector<std::string> cautions = result.cautions;
-  for (std::string& sentence : implausibleCommands(rows)) cautions.push_back(std::move(sentence));
+  for (std::string& sentence : compensation::implausibleCommands(rows)) cautions.push_back(std::move(sentence));
   deliver(
       [&] {
-        Json json = compensationJson(campaign, methods.front(), rows);
+        reports::Json json = reports::compensationJson(campaign, methods.front(), rows);
         json["cautions"] = cautions;
-        if (improved) json = withEffects(std::move(json), *improved, methods);
-        return withPreparation(std::move(json), prepared.preparation);
+        if (improved) json = reports::withEffects(std::move(json), *improved, methods);
+        return reports::withPreparation(std::move(json), prepared.preparation);
       },
       [&] {
-        return compensationText(campaign, methods.front(), rows, cautions) +
-               (improved ? improvedText(*improved, methods) : "") + preparationText(prepared.preparation);
+        return reports::compensationText(campaign, methods.front(), rows, cautions) +
+               (improved ? reports::improvedText(*improved, methods) : "") + reports::preparationText(prepared.preparation);
       },
       arguments.json);
-  const bool any = std::any_of(rows.begin(), rows.end(), [](const CompensatedPosture& row) { return row.solved; });
+  const bool any = std::any_of(rows.begin(), rows.end(), [](const compensation::CompensatedPosture& row) { return row.solved; });
   return any ? kDone : kNotUsable;
 }
 
@@ -94,4 +91,4 @@ void addCompensate(CLI::App& app, Run& run) {
   });
 }
 
-}  // namespace stiffscope
+}  // namespace stiffscope::app

@@ -1,17 +1,16 @@
-#include "core/diagnosis/diagnose.h"
-
 #include <CLI/CLI.hpp>
 #include <memory>
 #include <utility>
 
-#include "app/command.h"
-#include "app/described.h"
+#include "app/command_line.h"
 #include "app/output.h"
+#include "app/prepared.h"
 #include "app/returned_memory.h"
+#include "core/diagnosis/diagnose.h"
 #include "reports/json/diagnosis_json.h"
 #include "reports/text/diagnosis_text.h"
 
-namespace stiffscope {
+namespace stiffscope::app {
 
 void addDiagnose(CLI::App& app, Run& run) {
   struct Arguments {
@@ -25,14 +24,14 @@ void addDiagnose(CLI::App& app, Run& run) {
   command->callback([arguments, &run] {
     run = [arguments] {
       returnLargeBlocks();
-      Campaign campaign = openCampaign(arguments->campaign);
-      const Campaign words = described(campaign);
-      const Diagnosis diagnosis = diagnose(std::move(campaign));
-      deliver([&] { return diagnosisJson(words, diagnosis); }, [&] { return diagnosisText(words, diagnosis); },
+      campaign::Campaign campaign = openCampaign(arguments->campaign);
+      const campaign::Campaign words = described(campaign);
+      const diagnosis::Diagnosis diagnosis = diagnosis::diagnose(std::move(campaign));
+      deliver([&] { return reports::diagnosisJson(words, diagnosis); }, [&] { return reports::diagnosisText(words, diagnosis); },
               arguments->json);
       return diagnosis.usable ? kDone : kNotUsable;
     };
   });
 }
 
-}  // namespace stiffscope
+}  // namespace stiffscope::app

@@ -3,16 +3,15 @@
 #include <cstdio>
 #include <memory>
 
-#include "app/command.h"
+#include "app/command_line.h"
 #include "app/output.h"
-#include "core/fit_points/read_points.h"
-#include "core/input/input_error.h"
-#include "core/input/nearest_name.h"
+#include "core/io/input_error.h"
+#include "core/io/read_points.h"
 #include "metrology/robust_fit.h"
 #include "reports/json/fit_json.h"
 #include "reports/text/fit_text.h"
 
-namespace stiffscope {
+namespace stiffscope::app {
 
 namespace {
 
@@ -24,26 +23,26 @@ void requireKnown(const std::string& what, const std::string& name, const std::v
   std::string list;
   for (const std::string& one : known)
     list += (list.empty() ? "" : &one == &known.back() ? " or " : ", ") + one;
-  throw InputError({what}, name, "expected " + list + nearestNameHint(name, known));
+  throw io::InputError({what}, name, "expected " + list + io::nearestNameHint(name, known));
 }
 
 template <class FitFunction>
-ShapeFit fitWith(const FitFunction& fitTo, const std::string& shape, const MeasuredPoints& points,
+reports::ShapeFit fitWith(const FitFunction& fitTo, const std::string& shape, const metrology::MeasuredPoints& points,
                  bool robust) {
   if (!robust) return {shape, points.points.size(), fitTo(points), std::nullopt};
-  const auto found = fitRobustly(points, fitTo);
+  const auto found = metrology::fitRobustly(points, fitTo);
   return {shape, points.points.size() - found.rejected.size(), found.fit,
-          Snooping{found.family_level, found.critical_w, found.rejected}};
+          reports::Snooping{found.family_level, found.critical_w, found.rejected}};
 }
 
-ShapeFit fitShape(const std::string& shape, CircleStrategy strategy, const MeasuredPoints& points,
+reports::ShapeFit fitShape(const std::string& shape, metrology::CircleStrategy strategy, const metrology::MeasuredPoints& points,
                   bool robust) {
-  const auto circle = [strategy](const MeasuredPoints& readings) { return fitCircle(readings, strategy); };
-  if (shape == "line") return fitWith(fitLine, shape, points, robust);
-  if (shape == "plane") return fitWith(fitPlane, shape, points, robust);
+  const auto circle = [strategy](const metrology::MeasuredPoints& readings) { return metrology::fitCircle(readings, strategy); };
+  if (shape == "line") return fitWith(metrology::fitLine, shape, points, robust);
+  if (shape == "plane") return fitWith(metrology::fitPlane, shape, points, robust);
   if (shape == "circle") return fitWith(circle, shape, points, robust);
-  if (shape == "sphere") return fitWith(fitSphere, shape, points, robust);
-  return fitWith(fitCylinder, shape, points, robust);
+  if (shape == "sphere") return fitWith(metrology::fitSphere, shape, points, robust);
+  return fitWith(metrology::fitCylinder, shape, points, robust);
 }
 
 }  // namespace
@@ -72,15 +71,15 @@ void addFit(CLI::App& app, Run& run) {
       if (!arguments->strategy.empty()) {
         requireKnown("--strategy", arguments->strategy, kStrategies);
         if (arguments->shape != "circle") {
-          throw InputError({"--strategy"}, arguments->strategy,
+          throw io::InputError({"--strategy"}, arguments->strategy,
                            "expected with circle only: other shapes have no second one");
         }
       }
       const auto strategy =
-          arguments->strategy == "plane-first" ? CircleStrategy::plane_first : CircleStrategy::full;
-      const ShapeFit fitted =
-          fitShape(arguments->shape, strategy, {readPoints(arguments->file), {}}, arguments->robust);
-      deliver([&] { return fitJson(fitted); }, [&] { return fitText(fitted); }, arguments->json);
+          arguments->strategy == "plane-first" ? metrology::CircleStrategy::plane_first : metrology::CircleStrategy::full;
+      const reports::ShapeFit fitted =
+          fitShape(arguments->shape, strategy, {io::readPoints(arguments->file), {}}, arguments->robust);
+      deliver([&] { return reports::fitJson(fitted); }, [&] { return reports::fitText(fitted); }, arguments->json);
       if (fitted.quality().determined) return kDone;
       std::fprintf(stderr, "stiffscope: %s: %s: %s\n", arguments->file.c_str(), arguments->shape.c_str(),
                    fitted.quality().reason.c_str());
@@ -89,4 +88,4 @@ void addFit(CLI::App& app, Run& run) {
   });
 }
 
-}  // namespace stiffscope
+}  // namespace stiffscope::app

@@ -2,16 +2,16 @@
 #include <cstdio>
 #include <memory>
 
-#include "app/command.h"
+#include "app/command_line.h"
 #include "app/output.h"
 #include "app/prepared.h"
 #include "core/identification/identify.h"
+#include "reports/json/campaign_json.h"
 #include "reports/json/frames_json.h"
-#include "reports/json/preparation_json.h"
 #include "reports/text/frames_text.h"
-#include "reports/text/preparation_text.h"
+#include "reports/words/preparation_words.h"
 
-namespace stiffscope {
+namespace stiffscope::app {
 
 void addFrames(CLI::App& app, Run& run) {
   struct Arguments {
@@ -25,13 +25,13 @@ void addFrames(CLI::App& app, Run& run) {
   command->add_option("--json", arguments->json, "write the result to this file, - for standard output");
   command->callback([arguments, &run] {
     run = [arguments] {
-      const PreparedCampaign prepared = openPrepared(arguments->campaign, arguments->raw);
-      const Campaign& campaign = prepared.campaign;
-      const Frames frames = settledFrames(campaign);
-      deliver([&] { return withPreparation(framesJson(campaign, frames), prepared.preparation); },
-              [&] { return framesText(campaign, frames) + preparationText(prepared.preparation); }, arguments->json);
+      const preparation::PreparedCampaign prepared = openPrepared(arguments->campaign, arguments->raw);
+      const campaign::Campaign& campaign = prepared.campaign;
+      const frames::Frames frames = identification::settledFrames(campaign);
+      deliver([&] { return reports::withPreparation(reports::framesJson(campaign, frames), prepared.preparation); },
+              [&] { return reports::framesText(campaign, frames) + reports::preparationText(prepared.preparation); }, arguments->json);
       if (frames.arm.points_placed) return kDone;
-      const MeasuredAxis& missing = frames.axes[0].measured ? frames.axes[1] : frames.axes[0];
+      const frames::MeasuredAxis& missing = frames.axes[0].measured ? frames.axes[1] : frames.axes[0];
       std::fprintf(stderr, "stiffscope: %s: no frame is measured: R0 needs sweeps of axes 1 and 2 (`circle_sweeps`): %s\n",
                    arguments->campaign.c_str(), missing.reason.c_str());
       return kNotUsable;
@@ -39,4 +39,4 @@ void addFrames(CLI::App& app, Run& run) {
   });
 }
 
-}  // namespace stiffscope
+}  // namespace stiffscope::app

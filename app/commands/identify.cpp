@@ -1,29 +1,24 @@
-#include <fmt/format.h>
-
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <fmt/format.h>
 #include <memory>
 
-#include "app/command.h"
+#include "app/command_line.h"
 #include "app/large_heap.h"
-#include "app/method_option.h"
+#include "app/options.h"
 #include "app/output.h"
 #include "app/prepared.h"
-#include "app/step_option.h"
-#include "app/with_option.h"
-#include "core/identification/by_step.h"
-#include "core/identification/cautions.h"
-#include "core/input/input_error.h"
+#include "core/identification/load_dependence.h"
+#include "core/identification/warnings.h"
+#include "core/io/input_error.h"
+#include "reports/json/campaign_json.h"
+#include "reports/json/extended_model_json.h"
 #include "reports/json/identification_json.h"
-#include "reports/json/improved_json.h"
-#include "reports/json/preparation_json.h"
-#include "reports/json/uncertainty_json.h"
+#include "reports/text/extended_model_text.h"
 #include "reports/text/identification_text.h"
-#include "reports/text/improved_text.h"
-#include "reports/text/preparation_text.h"
-#include "reports/text/uncertainty_text.h"
+#include "reports/words/preparation_words.h"
 
-namespace stiffscope {
+namespace stiffscope::app {
 
 namespace {
 
@@ -34,27 +29,27 @@ struct Arguments {
   std::vector<std::string> with;
 };
 
-IdentifyOptions optionsOf(const Arguments& arguments, bool subset_given) {
-  IdentifyOptions options;
+identification::IdentifyOptions optionsOf(const Arguments& arguments, bool subset_given) {
+  identification::IdentifyOptions options;
   options.all_steps = arguments.step == "all";
   if (!options.all_steps) options.step = loadStepNamed(arguments.step, ", or all");
   options.finite_deflection = !arguments.neglect_kc;
   options.robust = arguments.robust;
   if (subset_given && arguments.subset_size < 1) {
-    throw InputError({"--subset-size"}, std::to_string(arguments.subset_size), "expected 1 or more postures");
+    throw io::InputError({"--subset-size"}, std::to_string(arguments.subset_size), "expected 1 or more postures");
   }
   options.subsets.size = arguments.subset_size;
   constexpr int kMostDraws = 1'000'000;
   if (arguments.bootstrap < 0 || arguments.bootstrap > kMostDraws) {
-    throw InputError({"--bootstrap"}, std::to_string(arguments.bootstrap), "expected 0 to 1000000 draws");
+    throw io::InputError({"--bootstrap"}, std::to_string(arguments.bootstrap), "expected 0 to 1000000 draws");
   }
   options.bootstrap.draws = arguments.bootstrap;
   return options;
 }
 
 /// The best method there is among those asked for, for what is shown of one method only.
-std::optional<Method> bestOf(const Identification& result, const std::vector<Method>& methods) {
-  for (const Method which : {Method::decoupled_partial_pose, Method::partial_pose, Method::complete_pose}) {
+std::optional<identification::Method> bestOf(const identification::Identification& result, const std::vector<identification::Method>& methods) {
+  for (const identification::Method which : {identification::Method::decoupled_partial_pose, identification::Method::partial_pose, identification::Method::complete_pose}) {
     if (result.of(which).available && std::find(methods.begin(), methods.end(), which) != methods.end()) return which;
   }
   return std::nullopt;
@@ -62,35 +57,35 @@ std::optional<Method> bestOf(const Identification& result, const std::vector<Met
 
 int identifyCampaign(const Arguments& arguments, bool subset_given) {
   useLargeHeapPages();
-  const std::vector<Method> methods = methodsNamed(arguments.method);
-  const IdentifyOptions options = optionsOf(arguments, subset_given);
-  const PreparedCampaign prepared = openPrepared(arguments.campaign, arguments.raw, hashesFor(arguments.json));
-  std::optional<ImprovedModel> improved;
-  if (!arguments.with.empty()) improved = improveModel(prepared.campaign, effectsAsked(prepared, arguments.with), options);
-  const Campaign& campaign = improved ? improved->campaign : prepared.campaign;
-  const Identification result = improved ? improved->with : identify(campaign, options);
+  const std::vector<identification::Method> methods = methodsNamed(arguments.method);
+  const identification::IdentifyOptions options = optionsOf(arguments, subset_given);
+  const preparation::PreparedCampaign prepared = openPrepared(arguments.campaign, arguments.raw, hashesFor(arguments.json));
+  std::optional<extended_model::ImprovedModel> improved;
+  if (!arguments.with.empty()) improved = extended_model::improveModel(prepared.campaign, effectsAsked(prepared, arguments.with), options);
+  const campaign::Campaign& campaign = improved ? improved->campaign : prepared.campaign;
+  const identification::Identification result = improved ? improved->with : identification::identify(campaign, options);
   if (options.subsets.size >= static_cast<int>(result.cases.size()) && !result.cases.empty()) {
-    throw InputError({"--subset-size"}, std::to_string(options.subsets.size),
+    throw io::InputError({"--subset-size"}, std::to_string(options.subsets.size),
                      fmt::format("expected fewer than the {} postures that identify", result.cases.size()));
   }
   // With a dozen load steps several times the work of the rest, and only shown where asked for.
   const bool steps_shown = options.all_steps || !arguments.json.empty();
-  const StepStudy steps = steps_shown ? studySteps(campaign, options, result) : StepStudy{};
+  const identification::StepStudy steps = steps_shown ? identification::studySteps(campaign, options, result) : identification::StepStudy{};
   const auto text = [&] {
-    std::string all = identificationText(campaign, result, methods);
-    if (options.all_steps) all += stepsText(steps, result, methods);
-    if (const auto best = bestOf(result, methods); best && arguments.postures) all += posturesText(campaign, result, *best);
-    if (improved) all += improvedText(*improved, methods);
-    return all + preparationText(prepared.preparation);
+    std::string all = reports::identificationText(campaign, result, methods);
+    if (options.all_steps) all += reports::stepsText(steps, result, methods);
+    if (const auto best = bestOf(result, methods); best && arguments.postures) all += reports::posturesText(campaign, result, *best);
+    if (improved) all += reports::improvedText(*improved, methods);
+    return all + reports::preparationText(prepared.preparation);
   };
   deliver([&] {
-    JsonDocument document = identificationJson(campaign, result, methods);
-    document.json = withSteps(std::move(document.json), steps, result, methods);
-    if (improved) document.json = withEffects(std::move(document.json), *improved, methods);
-    document.json = withPreparation(std::move(document.json), prepared.preparation);
+    reports::JsonDocument document = reports::identificationJson(campaign, result, methods);
+    document.json = reports::withSteps(std::move(document.json), steps, result, methods);
+    if (improved) document.json = reports::withEffects(std::move(document.json), *improved, methods);
+    document.json = reports::withPreparation(std::move(document.json), prepared.preparation);
     return document;
   }, text, arguments.json);
-  return anyUsable(result, methods) ? kDone : kNotUsable;
+  return identification::anyUsable(result, methods) ? kDone : kNotUsable;
 }
 
 }  // namespace
@@ -121,4 +116,4 @@ void addIdentify(CLI::App& app, Run& run) {
   });
 }
 
-}  // namespace stiffscope
+}  // namespace stiffscope::app

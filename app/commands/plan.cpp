@@ -1,24 +1,22 @@
-#include <fmt/format.h>
 #include <CLI/CLI.hpp>
-
 #include <algorithm>
 #include <filesystem>
+#include <fmt/format.h>
 #include <memory>
 #include <stdexcept>
 
-#include "app/command.h"
+#include "app/command_line.h"
 #include "app/output.h"
-#include "core/audit/prepare.h"
-#include "core/input/files_read.h"
-#include "core/input/input_error.h"
-#include "core/input/nearest_name.h"
-#include "core/input/units.h"
-#include "core/input/write_file.h"
+#include "core/io/input_error.h"
+#include "core/io/read_file.h"
+#include "core/io/units.h"
+#include "core/io/write_file.h"
 #include "core/planning/plan.h"
+#include "core/preparation/prepare.h"
 #include "reports/json/plan_json.h"
 #include "reports/text/plan_text.h"
 
-namespace stiffscope {
+namespace stiffscope::app {
 
 namespace {
 
@@ -27,7 +25,7 @@ struct Arguments {
   double load = 0.0, pull = 0.0;
   int add = 0;
   std::vector<double> hook_mm, tracker_mm, min_deg, max_deg;
-  PlanOptions options;
+  planning::PlanOptions options;
 };
 
 /// Which options were given.
@@ -37,11 +35,11 @@ struct Given {
 
 std::optional<Eigen::Vector3d> millimetres(const std::vector<double>& values) {
   if (values.empty()) return std::nullopt;
-  return Eigen::Vector3d(values[0], values[1], values[2]) * kMillimetre;
+  return Eigen::Vector3d(values[0], values[1], values[2]) * io::kMillimetre;
 }
 
-PlanOptions optionsOf(const Arguments& arguments, const Given& given) {
-  PlanOptions options = arguments.options;
+planning::PlanOptions optionsOf(const Arguments& arguments, const Given& given) {
+  planning::PlanOptions options = arguments.options;
   const bool pull = given.pull->count() > 0;
   if (pull || given.load->count() > 0) {
     options.inputs.load = pull ? arguments.pull : arguments.load;
@@ -50,17 +48,17 @@ PlanOptions optionsOf(const Arguments& arguments, const Given& given) {
   options.inputs.hook_in_flange = millimetres(arguments.hook_mm);
   options.inputs.tracker_in_base = millimetres(arguments.tracker_mm);
   for (std::size_t j = 0; j < arguments.min_deg.size(); ++j) {
-    options.rules.low[static_cast<Eigen::Index>(j)] = arguments.min_deg[j] * kDegree;
+    options.rules.low[static_cast<Eigen::Index>(j)] = arguments.min_deg[j] * io::kDegree;
   }
   for (std::size_t j = 0; j < arguments.max_deg.size(); ++j) {
-    options.rules.high[static_cast<Eigen::Index>(j)] = arguments.max_deg[j] * kDegree;
+    options.rules.high[static_cast<Eigen::Index>(j)] = arguments.max_deg[j] * io::kDegree;
   }
   if (arguments.criterion == "determinant") {
-    options.criterion = PlanCriterion::determinant;
+    options.criterion = planning::PlanCriterion::determinant;
   } else if (arguments.criterion != "balanced") {
-    throw InputError({"--criterion"}, arguments.criterion,
+    throw io::InputError({"--criterion"}, arguments.criterion,
                      "expected balanced or determinant" +
-                         nearestNameHint(arguments.criterion, {"balanced", "determinant"}));
+                         io::nearestNameHint(arguments.criterion, {"balanced", "determinant"}));
   }
   options.augment = given.add->count() > 0;
   if (options.augment) options.postures = arguments.add;
@@ -68,10 +66,10 @@ PlanOptions optionsOf(const Arguments& arguments, const Given& given) {
 }
 
 /// The campaign's identification, where it has been measured.
-std::optional<Identification> identified(const Campaign& campaign) {
+std::optional<identification::Identification> identified(const campaign::Campaign& campaign) {
   const bool measured = campaign.states && campaign.load_cell && (campaign.loading || campaign.displacements);
-  if (!measured || !heaviestStep(campaign)) return std::nullopt;
-  return identify(campaign);
+  if (!measured || !identification::heaviestStep(campaign)) return std::nullopt;
+  return identification::identify(campaign);
 }
 
 /// Of two results in one file one would be lost.
@@ -84,16 +82,16 @@ void requireTwoFiles(const Arguments& arguments) {
 
 int planDay(const Arguments& arguments, const Given& given) {
   requireTwoFiles(arguments);
-  const PlanOptions options = optionsOf(arguments, given);
-  const Campaign campaign = prepareCampaign(openCampaign(arguments.campaign)).campaign;
-  const std::optional<Identification> result = identified(campaign);
-  const Plan plan = planCampaign(campaign, result ? &*result : nullptr, options);
+  const planning::PlanOptions options = optionsOf(arguments, given);
+  const campaign::Campaign campaign = preparation::prepareCampaign(openCampaign(arguments.campaign)).campaign;
+  const std::optional<identification::Identification> result = identified(campaign);
+  const planning::Plan plan = planning::planCampaign(campaign, result ? &*result : nullptr, options);
   if (!arguments.out.empty()) {
-    requireNotRead(arguments.out);
+    io::requireNotRead(arguments.out);
     const bool xml = std::filesystem::path(arguments.out).extension() == ".xml";
-    writeFileWhole(arguments.out, xml ? planXml(plan) : planCsv(plan));
+    io::writeFileWhole(arguments.out, xml ? reports::planXml(plan) : reports::planCsv(plan));
   }
-  deliver([&] { return planJson(campaign, plan); }, [&] { return planText(campaign, plan); }, arguments.json);
+  deliver([&] { return reports::planJson(campaign, plan); }, [&] { return reports::planText(campaign, plan); }, arguments.json);
   return plan.usable && !plan.postures.empty() ? kDone : kNotUsable;
 }
 
@@ -101,7 +99,7 @@ int planDay(const Arguments& arguments, const Given& given) {
 
 void addPlan(CLI::App& app, Run& run) {
   const auto arguments = std::make_shared<Arguments>();
-  PlanOptions& options = arguments->options;
+  planning::PlanOptions& options = arguments->options;
   CLI::App* command = app.add_subcommand("plan", "Postures and loads to measure, before the day or after it");
   command
       ->add_option("CAMPAIGN", arguments->campaign,
@@ -145,4 +143,4 @@ void addPlan(CLI::App& app, Run& run) {
       [arguments, given, &run] { run = [arguments, given] { return planDay(*arguments, given); }; });
 }
 
-}  // namespace stiffscope
+}  // namespace stiffscope::app

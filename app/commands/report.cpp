@@ -1,35 +1,32 @@
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <filesystem>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <list>
 #include <memory>
 #include <optional>
 #include <utility>
 
-#include "app/command.h"
+#include "app/command_line.h"
 #include "app/figures/make_figures.h"
-#include "app/no_campaign_there.h"
+#include "app/options.h"
 #include "app/output.h"
 #include "app/prepared.h"
 #include "app/report_files.h"
 #include "app/returned_memory.h"
-#include "app/step_option.h"
 #include "app/versions.h"
-#include "app/with_option.h"
 #include "core/audit/audit.h"
+#include "core/audit/check_design.h"
 #include "core/diagnosis/diagnose.h"
-#include "core/diagnosis/separable_effects.h"
-#include "core/identification/cautions.h"
-#include "core/identification/load_step.h"
-#include "reports/improved_words.h"
+#include "core/identification/load_case.h"
+#include "core/identification/warnings.h"
 #include "reports/page/html.h"
 #include "reports/page/report_page.h"
-#include "reports/page/verdict.h"
+#include "reports/words/extended_model_words.h"
+#include "reports/words/verdict.h"
 
-namespace stiffscope {
+namespace stiffscope::app {
 
 namespace {
 
@@ -41,7 +38,7 @@ struct Arguments {
 };
 
 /// Takes away the rows that are load cases by now: neither page nor picture shows them, and they are most of a long day.
-void withoutLoadReadings(Campaign& campaign) {
+void withoutLoadReadings(campaign::Campaign& campaign) {
   const auto let_go = [](auto& table) {
     if (table) table->rows = decltype(table->rows)();
   };
@@ -52,41 +49,41 @@ void withoutLoadReadings(Campaign& campaign) {
 
 /// What is used of one campaign and what comes of it. A campaign without loads gives its frames.
 struct Result {
-  PreparedCampaign prepared;
-  AuditReport audited;
-  std::optional<Diagnosis> diagnosis;
-  std::optional<ImprovedModel> improved;  ///< effects were asked for
-  Identification own;                     ///< without any
+  preparation::PreparedCampaign prepared;
+  audit::AuditReport audited;
+  std::optional<diagnosis::Diagnosis> diagnosis;
+  std::optional<extended_model::ImprovedModel> improved;  ///< effects were asked for
+  identification::Identification own;                     ///< without any
   bool loaded = false;
 
-  const Campaign& campaign() const { return improved ? improved->campaign : prepared.campaign; }
-  const Identification& identification() const { return improved ? improved->with : own; }
+  const campaign::Campaign& campaign() const { return improved ? improved->campaign : prepared.campaign; }
+  const identification::Identification& identification() const { return improved ? improved->with : own; }
 
-  Result(const std::string& folder, const Arguments& arguments, const IdentifyOptions& options) {
-    Campaign read = openCampaign(folder);
-    const bool loads = whatLoadsLack(read).empty();
-    Campaign used = loads ? read : std::move(read);  // sweeps alone may be a million readings: once is enough
-    prepared = arguments.raw ? leaveRaw(std::move(used)) : prepareCampaign(std::move(used));
-    loaded = whatLoadsLack(prepared.campaign).empty();
+  Result(const std::string& folder, const Arguments& arguments, const identification::IdentifyOptions& options) {
+    campaign::Campaign read = openCampaign(folder);
+    const bool loads = identification::whatLoadsLack(read).empty();
+    campaign::Campaign used = loads ? read : std::move(read);  // sweeps alone may be a million readings: once is enough
+    prepared = arguments.raw ? preparation::leaveRaw(std::move(used)) : preparation::prepareCampaign(std::move(used));
+    loaded = identification::whatLoadsLack(prepared.campaign).empty();
     // First of all: of a long day it lets most of what was read go.
-    if (loaded) diagnosis = diagnose(std::move(read));
-    read = Campaign();
+    if (loaded) diagnosis = diagnosis::diagnose(std::move(read));
+    read = campaign::Campaign();
     returnFreeMemory();
     if (loaded && !arguments.with.empty()) {
-      improved = improveModel(prepared.campaign, effectsAsked(prepared, arguments.with), options);
+      improved = extended_model::improveModel(prepared.campaign, effectsAsked(prepared, arguments.with), options);
     } else {
-      own = loaded ? identify(prepared.campaign, options) : framesAlone(prepared.campaign);
+      own = loaded ? identification::identify(prepared.campaign, options) : identification::framesAlone(prepared.campaign);
     }
     returnFreeMemory();
-    audited = arguments.raw ? audit(prepared.campaign) : audit(prepared);
-    if (diagnosis) addSeparableEffects(*diagnosis, audited);
+    audited = arguments.raw ? audit::audit(prepared.campaign) : audit::audit(prepared);
+    if (diagnosis) audit::addSeparableEffects(*diagnosis, audited);
     withoutLoadReadings(prepared.campaign);
     if (improved) withoutLoadReadings(improved->campaign);
   }
 
   /// Of loads, stiffnesses are the purpose; of a day of sweeps alone, the frames.
   bool usable() const {
-    return loaded ? anyUsable(identification(), {kMethods.begin(), kMethods.end()})
+    return loaded ? identification::anyUsable(identification(), {identification::kMethods.begin(), identification::kMethods.end()})
                   : identification().frames.arm.points_placed;
   }
 };
@@ -95,7 +92,7 @@ struct Result {
 std::string subsetSizes(const std::list<Result>& results) {
   std::string sizes;
   for (const Result& one : results) {
-    for (const MethodResult& method : one.identification().methods) {
+    for (const identification::MethodResult& method : one.identification().methods) {
       if (method.subsets.compliances.empty()) continue;
       sizes += fmt::format("{}{} of {}", sizes.empty() ? "" : ", ", method.subsets.size, method.subsets.of);
       break;
@@ -104,7 +101,7 @@ std::string subsetSizes(const std::list<Result>& results) {
   return sizes.empty() ? "too few" : sizes;
 }
 
-std::vector<NamedText> settingsOf(const IdentifyOptions& options, const std::list<Result>& results) {
+std::vector<reports::NamedText> settingsOf(const identification::IdentifyOptions& options, const std::list<Result>& results) {
   return {{"load step", options.step ? std::to_string(*options.step) : "the one with the largest mean force"},
           {"geometric stiffness K_{c}", options.finite_deflection ? "included" : "neglected"},
           {"postures in a subset", subsetSizes(results)},
@@ -112,41 +109,41 @@ std::vector<NamedText> settingsOf(const IdentifyOptions& options, const std::lis
 }
 
 /// What the page says first of the effects in the model, campaign by campaign.
-void addImproved(const std::vector<std::string>& words, const std::list<Result>& results, ReportContent& content) {
+void addImproved(const std::vector<std::string>& words, const std::list<Result>& results, reports::ReportContent& content) {
   if (words.empty()) return;
-  content.settings.push_back({"effects in the model", page::asIs(fmt::format("{}", fmt::join(words, ", ")))});
+  content.settings.push_back({"effects in the model", reports::asIs(fmt::format("{}", fmt::join(words, ", ")))});
   content.settings.push_back({"subsets with effects", "all up to 1000, else a sample with seed 1"});
   for (const Result& one : results) {
-    if (one.improved) content.verdict += " " + page::asIs(gainWords(*one.improved));
+    if (one.improved) content.verdict += " " + reports::asIs(reports::gainWords(*one.improved));
   }
 }
 
 int writeReport(const Arguments& arguments) {
   requireNoCampaign(arguments.out, "expected a folder of the report's own");
   returnLargeBlocks();
-  IdentifyOptions options;
+  identification::IdentifyOptions options;
   options.step = loadStepNamed(arguments.step);
   options.finite_deflection = !arguments.neglect_kc;
   std::list<Result> results;  // a list: the content refers to its elements
-  ReportContent content;
+  reports::ReportContent content;
   for (const std::string& folder : arguments.campaigns) {
     const Result& one = results.emplace_back(folder, arguments, options);
     content.campaigns.push_back(
         {one.campaign(), one.identification(), &one.audited, &one.prepared.preparation, &one.prepared.station,
          one.diagnosis ? &*one.diagnosis : nullptr, one.improved ? &*one.improved : nullptr});
   }
-  content.avoided = avoidedByEncoders(content.campaigns);
+  content.avoided = reports::avoidedByEncoders(content.campaigns);
   content.compare_with_paper = arguments.paper;
   content.versions = versions();
   content.settings = settingsOf(options, results);
   content.title = "Joint stiffness";
-  content.verdict = verdictOf(content.campaigns, content.avoided);
+  content.verdict = reports::verdictOf(content.campaigns, content.avoided);
   addImproved(arguments.with, results, content);
   returnFreeMemory();  // drawing brings libraries of a hundred megabytes
   content.figures = makeFigures(content.campaigns, {arguments.paper});
 
   // Everything is made before the first file is written, and appears at once.
-  const ReportPage page = makeReportPage(content);
+  const page::ReportPage page = page::makeReportPage(content);
   writeReportFiles(arguments.out, content, page);
   printText((std::filesystem::path(arguments.out) / "report.html").string() + '\n');
   const bool usable =
@@ -173,4 +170,4 @@ void addReport(CLI::App& app, Run& run) {
   });
 }
 
-}  // namespace stiffscope
+}  // namespace stiffscope::app

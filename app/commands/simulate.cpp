@@ -1,18 +1,17 @@
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <memory>
 
-#include "app/command.h"
-#include "app/no_campaign_there.h"
+#include "app/command_line.h"
+#include "app/options.h"
 #include "app/output.h"
 #include "core/campaign/write_campaign.h"
+#include "core/simulation/measure.h"
 #include "core/simulation/read_spec.h"
-#include "core/simulation/simulate.h"
 
-namespace stiffscope {
+namespace stiffscope::app {
 
 void addSimulate(CLI::App& app, Run& run) {
   struct Arguments {
@@ -26,23 +25,23 @@ void addSimulate(CLI::App& app, Run& run) {
   command->add_flag("--replace", arguments->replace, "write over a campaign that is there");
   command->callback([arguments, &run] {
     run = [arguments] {
-      const SimulationSpec spec = readSimulationSpec(arguments->spec);
+      const simulation::SimulationSpec spec = simulation::readSimulationSpec(arguments->spec);
       if (!arguments->replace) requireNoCampaign(arguments->out, "expected another folder, or --replace to write over it");
-      const std::vector<int> rigid = rigidJoints(spec);
+      const std::vector<int> rigid = simulation::rigidJoints(spec);
       if (!rigid.empty()) {
         printWarnings({fmt::format("{}: joints: no stiffness_nm_per_rad for joint{} {}: taken as rigid", arguments->spec,
                                    rigid.size() == 1 ? "" : "s", fmt::join(rigid, ", "))});
       }
-      const Tracker& declared = spec.tracker.declared;
+      const campaign::Tracker& declared = spec.tracker.declared;
       if (declared.range_fixed + declared.range_per_m <= 0.0 || declared.angle_fixed + declared.angle_per_m <= 0.0) {
         printWarnings({arguments->spec + ": tracker: no noise declared in range or in angle: no command reads such a "
                        "campaign; for readings without noise declare some and set true_noise_factor=\"0\""});
       }
-      writeCampaign(simulate(spec), spec.urdf_file, arguments->out);
+      campaign::writeCampaign(simulation::simulate(spec), spec.urdf_file, arguments->out);
       std::printf("%s: campaign written\n", arguments->out.c_str());
       return kDone;
     };
   });
 }
 
-}  // namespace stiffscope
+}  // namespace stiffscope::app

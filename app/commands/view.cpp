@@ -1,14 +1,13 @@
-#include <unistd.h>
-
 #include <CLI/CLI.hpp>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
 #include <stdexcept>
+#include <unistd.h>
 
-#include "app/command.h"
+#include "app/command_line.h"
 
-namespace stiffscope {
+namespace stiffscope::app {
 
 namespace {
 
@@ -36,4 +35,4 @@ void addView(CLI::App& app, Run& run) {
       [command, &run] { run = [words = command->remaining()] { return becomeViewer(words); }; });
 }
 
-}  // namespace stiffscope
+}  // namespace stiffscope::app

@@ -2,10 +2,9 @@
 
 #include <vector>
 
-#include "reports/page/figure.h"
-#include "reports/page/report_campaign.h"
+#include "reports/report_content.h"
 
-namespace stiffscope {
+namespace stiffscope::app {
 
 struct FigureOptions {
   bool with_paper =
@@ -18,7 +17,7 @@ struct FigureOptions {
 /// misses, on the arm, by posture and by effect; then the double encoders where both states are there. What
 /// the data does not have is left out. With several campaigns ids end in "-1", "-2", in their order, and
 /// titles say which campaign. Throws std::runtime_error when offscreen rendering is not to be had.
-std::vector<Figure> makeFigures(const std::vector<ReportCampaign>& campaigns,
+std::vector<reports::Figure> makeFigures(const std::vector<reports::ReportCampaign>& campaigns,
                                 const FigureOptions& options = {});
 
-}  // namespace stiffscope
+}  // namespace stiffscope::app

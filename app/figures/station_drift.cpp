@@ -1,40 +1,39 @@
 #include "app/figures/station_drift.h"
 
-#include <fmt/format.h>
-
 #include <array>
 #include <cmath>
+#include <fmt/format.h>
 
-#include "app/figures/series_look.h"
-#include "core/frames/measured_axes.h"
-#include "core/input/units.h"
+#include "app/figures/chart_style.h"
+#include "core/frames/joint_axes.h"
+#include "core/io/units.h"
 #include "reports/page/html.h"
-#include "reports/page/numbers.h"
+#include "reports/words/numbers.h"
 
-namespace stiffscope {
+namespace stiffscope::app {
 
 namespace {
 
 constexpr double kHour = 3600.0;
 constexpr double kMicroradian = 1e-6;
 
-double largestMotion(const StationMotion& station) {
+double largestMotion(const preparation::StationMotion& station) {
   double largest = 0.0;
-  for (const StationEpoch& epoch : station.epochs) largest = std::max(largest, epoch.motion.tail<3>().norm());
+  for (const preparation::StationEpoch& epoch : station.epochs) largest = std::max(largest, epoch.motion.tail<3>().norm());
   return largest;
 }
 
-bool inMillimetres(const StationMotion& station) { return largestMotion(station) > 2e-3; }
+bool inMillimetres(const preparation::StationMotion& station) { return largestMotion(station) > 2e-3; }
 
 /// Three of the six parameters of the motion against time, in `unit`.
-PointPanel motionPanel(const StationMotion& station, int first, double unit) {
+render::PointPanel motionPanel(const preparation::StationMotion& station, int first, double unit) {
   constexpr std::array<const char*, 3> kAxes{"x", "y", "z"};
-  PointPanel panel;
+  render::PointPanel panel;
   for (int k = 0; k < 3; ++k) {
-    PointSeries series = seriesLook(static_cast<std::size_t>(k));
+    render::PointSeries series = seriesLook(static_cast<std::size_t>(k));
     series.name = kAxes[static_cast<std::size_t>(k)];
     series.joined = true;
-    for (const StationEpoch& epoch : station.epochs) {
+    for (const preparation::StationEpoch& epoch : station.epochs) {
       // Side by side, so that no whisker hides another.
       const double span_h = (station.epochs.back().time_s - station.epochs.front().time_s) / kHour;
       series.points.push_back(
@@ -47,14 +46,14 @@ PointPanel motionPanel(const StationMotion& station, int first, double unit) {
   return panel;
 }
 
-PointPanel nestPanel(const Campaign& campaign, double unit) {
-  PointPanel panel;
+render::PointPanel nestPanel(const campaign::Campaign& campaign, double unit) {
+  render::PointPanel panel;
   for (std::size_t nest = 0; nest < campaign.nest_ids.size(); ++nest) {
-    PointSeries series = seriesLook(nest);
-    series.name = "nest " + page::asIs(campaign.nest_ids[nest]);
+    render::PointSeries series = seriesLook(nest);
+    series.name = "nest " + reports::asIs(campaign.nest_ids[nest]);
     series.joined = true;
     std::optional<Eigen::Vector3d> first;
-    for (const NestReading& reading : campaign.nests->rows) {
+    for (const campaign::NestReading& reading : campaign.nests->rows) {
       if (reading.nest != static_cast<int>(nest)) continue;
       if (!first) first = reading.point;
       series.points.push_back({reading.time_s / kHour, (reading.point - *first).norm() / unit});
@@ -63,22 +62,22 @@ PointPanel nestPanel(const Campaign& campaign, double unit) {
   }
   panel.title = "Each nest from its first reading";
   panel.x_title = "Time (h)";
-  panel.y_title = unit == kMillimetre ? "Distance (mm)" : "Distance (µm)";
+  panel.y_title = unit == io::kMillimetre ? "Distance (mm)" : "Distance (µm)";
   return panel;
 }
 
 }  // namespace
 
-std::optional<PointChart> stationDrift(const ReportCampaign& one, const StationMotion& station) {
+std::optional<render::PointChart> stationDrift(const reports::ReportCampaign& one, const preparation::StationMotion& station) {
   if (!station.tested) return std::nullopt;
-  PointChart chart;
+  render::PointChart chart;
   chart.title = "Motion of the station over the day, by the floor nests";
   chart.subtitle = fmt::format("{}; whiskers: 2 standard uncertainties by the declared noise",
-                               page::asIs(one.campaign.name));
+                               reports::asIs(one.campaign.name));
   chart.columns = 3;
   const bool far = inMillimetres(station);
-  const double unit = far ? kMillimetre : kMicrometre;
-  PointPanel displacement = motionPanel(station, 3, unit), rotation = motionPanel(station, 0, kMicroradian);
+  const double unit = far ? io::kMillimetre : io::kMicrometre;
+  render::PointPanel displacement = motionPanel(station, 3, unit), rotation = motionPanel(station, 0, kMicroradian);
   displacement.title = "Displacement at the arm";
   displacement.y_title = far ? "Displacement (mm)" : "Displacement (µm)";
   rotation.title = "Rotation";
@@ -87,12 +86,12 @@ std::optional<PointChart> stationDrift(const ReportCampaign& one, const StationM
   return chart;
 }
 
-Figure describeStationDrift(const StationMotion& station) {
+reports::Figure describeStationDrift(const preparation::StationMotion& station) {
   const double largest = largestMotion(station);
   const std::string words = inMillimetres(station)
-                                ? fmt::format("{}\u00a0mm", page::significant(largest / kMillimetre, 2))
-                                : fmt::format("{}\u00a0µm", page::significant(largest / kMicrometre, 2));
-  Figure figure;
+                                ? fmt::format("{}\u00a0mm", reports::significant(largest / io::kMillimetre, 2))
+                                : fmt::format("{}\u00a0µm", reports::significant(largest / io::kMicrometre, 2));
+  reports::Figure figure;
   figure.id = "station";
   figure.title = "Motion of the tracker's station";
   figure.caption = fmt::format(
@@ -104,12 +103,12 @@ Figure describeStationDrift(const StationMotion& station) {
   return figure;
 }
 
-StationMotion stationMotionOf(const Campaign& campaign) {
-  if (!campaign.tracker) return stationMotion(campaign, std::nullopt);
-  const Tracker& tracker = *campaign.tracker;
+preparation::StationMotion stationMotionOf(const campaign::Campaign& campaign) {
+  if (!campaign.tracker) return preparation::stationMotion(campaign, std::nullopt);
+  const campaign::Tracker& tracker = *campaign.tracker;
   const bool declared =
       tracker.range_fixed + tracker.range_per_m > 0.0 && tracker.angle_fixed + tracker.angle_per_m > 0.0;
-  return stationMotion(campaign, declared ? std::optional(trackerNoise(tracker)) : std::nullopt);
+  return preparation::stationMotion(campaign, declared ? std::optional(frames::trackerNoise(tracker)) : std::nullopt);
 }
 
-}  // namespace stiffscope
+}  // namespace stiffscope::app

@@ -2,21 +2,20 @@
 
 #include <optional>
 
-#include "core/audit/station_motion.h"
+#include "core/preparation/drift_nests.h"
 #include "render/point_chart.h"
-#include "reports/page/figure.h"
-#include "reports/page/report_campaign.h"
+#include "reports/report_content.h"
 
-namespace stiffscope {
+namespace stiffscope::app {
 
 /// How the tracker's station moved over the day by the floor nests: displacement where the arm stands and
 /// rotation, with 2 standard uncertainties by the declared noise, and how far each nest was read from its first
 /// reading. Axes of the tracker. Empty where the nests cannot tell.
-std::optional<PointChart> stationDrift(const ReportCampaign& one, const StationMotion& station);
+std::optional<render::PointChart> stationDrift(const reports::ReportCampaign& one, const preparation::StationMotion& station);
 
-Figure describeStationDrift(const StationMotion& station);
+reports::Figure describeStationDrift(const preparation::StationMotion& station);
 
 /// By the declared noise; not tested where none is declared.
-StationMotion stationMotionOf(const Campaign& campaign);
+preparation::StationMotion stationMotionOf(const campaign::Campaign& campaign);
 
-}  // namespace stiffscope
+}  // namespace stiffscope::app

@@ -3,13 +3,12 @@
 #include <cstdio>
 #include <exception>
 
-#include "app/usage_error.h"
-#include "app/view/view_keys.h"
+#include "app/options.h"
 #include "app/view/view_window.h"
-#include "core/input/input_error.h"
-#include "core/input/nearest_name.h"
+#include "app/view/viewer.h"
+#include "core/io/input_error.h"
 
-namespace stiffscope {
+namespace stiffscope::app {
 
 namespace {
 
@@ -20,20 +19,20 @@ struct Words {
   std::vector<int> size{1280, 860};
 };
 
-View viewNamed(const std::string& name) {
-  if (name == "front") return View::Front;
-  if (name == "side") return View::Side;
-  if (name == "top") return View::Top;
-  if (name == "oblique") return View::Oblique;
-  throw InputError(
+render::View viewNamed(const std::string& name) {
+  if (name == "front") return render::View::Front;
+  if (name == "side") return render::View::Side;
+  if (name == "top") return render::View::Top;
+  if (name == "oblique") return render::View::Oblique;
+  throw io::InputError(
       {"--view"}, name,
-      "expected front, side, top or oblique" + nearestNameHint(name, {"front", "side", "top", "oblique"}));
+      "expected front, side, top or oblique" + io::nearestNameHint(name, {"front", "side", "top", "oblique"}));
 }
 
-Size sizeOf(const std::vector<int>& words) {
-  const Size size{words[0], words[1]};
+render::Size sizeOf(const std::vector<int>& words) {
+  const render::Size size{words[0], words[1]};
   if (size.width < 480 || size.height < 320 || size.width > 8000 || size.height > 8000) {
-    throw InputError({"--size"}, std::to_string(size.width) + " " + std::to_string(size.height),
+    throw io::InputError({"--size"}, std::to_string(size.width) + " " + std::to_string(size.height),
                      "expected 480 320 to 8000 8000 pixels");
   }
   return size;
@@ -72,7 +71,7 @@ int run(int count, char** arguments) {
   if (step->count() > 0) options.step = words.step;
   if (magnification->count() > 0) {
     if (!std::isfinite(words.magnification) || words.magnification <= 0) {
-      throw InputError({"--magnification"}, magnification->results().front(), "expected a number above 0");
+      throw io::InputError({"--magnification"}, magnification->results().front(), "expected a number above 0");
     }
     options.magnification = words.magnification;
   }
@@ -81,12 +80,12 @@ int run(int count, char** arguments) {
 
 }  // namespace
 
-}  // namespace stiffscope
+}  // namespace stiffscope::app
 
 // The only place that catches and prints.
 int main(int count, char** words) {
   try {
-    return stiffscope::run(count, words);
+    return stiffscope::app::run(count, words);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "stiffscope-view: %s\n", error.what());
     return 2;

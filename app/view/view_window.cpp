@@ -1,30 +1,28 @@
 #include "app/view/view_window.h"
 
-#include <fmt/format.h>
-
 #include <cstdio>
 #include <filesystem>
+#include <fmt/format.h>
 
 #include "app/output.h"
-#include "app/view/open_material.h"
+#include "app/view/view_material.h"
 #include "app/view/viewer.h"
-#include "core/audit/prepare.h"
-#include "core/input/files_read.h"
-#include "core/input/input_error.h"
-#include "core/input/nearest_name.h"
-#include "core/input/write_file.h"
+#include "core/io/input_error.h"
+#include "core/io/read_file.h"
+#include "core/io/write_file.h"
+#include "core/preparation/prepare.h"
 #include "render/arm_window.h"
-#include "render/png.h"
+#include "render/image.h"
 #include "reports/page/html.h"
 
-namespace stiffscope {
+namespace stiffscope::app {
 
 namespace {
 
-void savePicture(const Image& image, const std::filesystem::path& file) {
-  requireNotRead(file);
-  const auto png = encodePng(image);
-  writeFileWhole(file, {reinterpret_cast<const char*>(png.data()), png.size()});
+void savePicture(const render::Image& image, const std::filesystem::path& file) {
+  io::requireNotRead(file);
+  const auto png = render::encodePng(image);
+  io::writeFileWhole(file, {reinterpret_cast<const char*>(png.data()), png.size()});
 }
 
 /// A file that is not there yet, in the folder where the program was started.
@@ -44,9 +42,9 @@ void say(const std::string& text) {
   std::fflush(stdout);
 }
 
-ViewWindow handlesOf(ArmWindow& window) {
+ViewWindow handlesOf(render::ArmWindow& window) {
   ViewWindow handles;
-  handles.look = [&](View view) { window.look(view); };
+  handles.look = [&](render::View view) { window.look(view); };
   handles.turn = [&](double about_vertical, double towards) { window.turn(about_vertical, towards); };
   handles.zoom = [&](double factor) { window.zoom(factor); };
   handles.save = [&](const std::string& name) {
@@ -66,21 +64,21 @@ ViewWindow handlesOf(ArmWindow& window) {
 
 /// Shows the numbers of the point that is named by its id ("P10") or as it is labelled ("Pwrist").
 void pickNamed(Viewer& viewer, const std::string& name) {
-  const ArmPose pose = viewer.scene().poses.front();
+  const render::ArmPose pose = viewer.scene().poses.front();
   std::vector<std::string> names;
-  for (const ScenePoint& target : pose.targets) names.push_back(page::plain(target.label));
-  if (pose.wrist) names.push_back(page::plain(pose.wrist->label));
+  for (const render::ScenePoint& target : pose.targets) names.push_back(reports::plain(target.label));
+  if (pose.wrist) names.push_back(reports::plain(pose.wrist->label));
   for (std::size_t i = 0; i < names.size(); ++i) {
     if (names[i] == name) return viewer.pick(i);
   }
-  throw InputError({"--point"}, name, "not a point of this picture" + nearestNameHint(name, names));
+  throw io::InputError({"--point"}, name, "not a point of this picture" + io::nearestNameHint(name, names));
 }
 
 }  // namespace
 
 int viewCampaign(const ViewOptions& options) {
-  ArmWindow window(options.size);  // first: without a display there is no point in reading
-  const Campaign campaign = prepareCampaign(openCampaign(options.campaign)).campaign;
+  render::ArmWindow window(options.size);  // first: without a display there is no point in reading
+  const campaign::Campaign campaign = preparation::prepareCampaign(openCampaign(options.campaign)).campaign;
   OpenedMaterial opened = openMaterial(campaign, options);
   Viewer viewer(std::move(opened.by_method), opened.first, options.magnification, handlesOf(window));
   viewer.settings().dark = options.dark;
@@ -92,7 +90,7 @@ int viewCampaign(const ViewOptions& options) {
     savePicture(window.picture(), options.screenshot);
     return kDone;
   }
-  ArmWindow::Events events;
+  render::ArmWindow::Events events;
   events.key = [&](const std::string& key) {
     viewer.press(key);
     window.show(viewer.scene(), viewer.title());
@@ -105,4 +103,4 @@ int viewCampaign(const ViewOptions& options) {
   return kDone;
 }
 
-}  // namespace stiffscope
+}  // namespace stiffscope::app

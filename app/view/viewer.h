@@ -7,7 +7,7 @@
 
 #include "app/view/view_material.h"
 
-namespace stiffscope {
+namespace stiffscope::app {
 
 struct ViewKey;
 
@@ -23,7 +23,7 @@ struct ViewSettings {
 
 /// What a window does for the viewer.
 struct ViewWindow {
-  std::function<void(View)> look;
+  std::function<void(render::View)> look;
   std::function<void(double about_vertical, double towards)> turn;  ///< rad
   std::function<void(double factor)> zoom;
   std::function<std::string(const std::string& name)> save;  ///< what is shown; returns what came of it
@@ -47,7 +47,7 @@ class Viewer {
   /// The point counted as ArmWindow::Events does; its numbers go to the panel and are said.
   void pick(std::optional<std::size_t> point);
 
-  ArmScene scene() const;
+  render::ArmScene scene() const;
   /// "posture 17, load step 3, 1.50 kN, vectors × 100": where one is.
   std::string status() const;
   std::string title() const;
@@ -63,8 +63,8 @@ class Viewer {
   void changeResidualFactor(bool longer);
   void reset();
   void save();
-  const ScenePoint* pickedPoint() const;
-  void showOnlyWanted(ArmScene& scene) const;
+  const render::ScenePoint* pickedPoint() const;
+  void showOnlyWanted(render::ArmScene& scene) const;
 
   friend const std::vector<ViewKey>& viewKeys();
 
@@ -77,4 +77,19 @@ class Viewer {
   std::string message_;  // until the next key
 };
 
-}  // namespace stiffscope
+/// One thing that keys do.
+struct ViewKey {
+  std::vector<std::string> names;  ///< X names
+  std::string shown;               ///< in the list; empty: not listed
+  std::string does;
+  void (*act)(Viewer&);
+};
+
+/// All keys, in the order in which they are listed.
+const std::vector<ViewKey>& viewKeys();
+
+/// The list for the window and for --help.
+render::ScenePanel keysPanel();
+std::string keysText();
+
+}  // namespace stiffscope::app

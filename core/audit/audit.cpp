@@ -7,7 +7,7 @@
 
 #include "core/audit/checks.h"
 
-namespace stiffscope {
+namespace stiffscope::audit {
 
 namespace {
 
@@ -20,27 +20,27 @@ constexpr std::array<Check, 17> kAllChecks{
     checkWrist,        checkUnloadedPositions, checkServo,          checkReturnToZero,    checkLoadCell,
     checkLoadSize,     checkPostureSet};
 
-AuditVerdict worst(const std::vector<AuditCheck>& checks) {
-  const auto any = [&](AuditVerdict verdict) {
+preparation::AuditVerdict worst(const std::vector<preparation::AuditCheck>& checks) {
+  const auto any = [&](preparation::AuditVerdict verdict) {
     return std::any_of(checks.begin(), checks.end(),
-                       [&](const AuditCheck& check) { return check.verdict == verdict; });
+                       [&](const preparation::AuditCheck& check) { return check.verdict == verdict; });
   };
-  if (any(AuditVerdict::fail)) return AuditVerdict::fail;
-  return any(AuditVerdict::warn) ? AuditVerdict::warn : AuditVerdict::pass;
+  if (any(preparation::AuditVerdict::fail)) return preparation::AuditVerdict::fail;
+  return any(preparation::AuditVerdict::warn) ? preparation::AuditVerdict::warn : preparation::AuditVerdict::pass;
 }
 
 }  // namespace
 
-AuditReport audit(Campaign campaign) {
-  PreparedCampaign prepared = prepareCampaign(std::move(campaign));
+AuditReport audit(campaign::Campaign campaign) {
+  preparation::PreparedCampaign prepared = preparation::prepareCampaign(std::move(campaign));
   return audit(prepared);
 }
 
-AuditReport audit(PreparedCampaign& prepared) {
+AuditReport audit(preparation::PreparedCampaign& prepared) {
   AuditReport report;
   report.checks = prepared.screening;
   report.rejected = prepared.preparation.rejected;
-  const std::optional<Tracker> declared = prepared.campaign.tracker;
+  const std::optional<campaign::Tracker> declared = prepared.campaign.tracker;
   Evidence evidence = gatherEvidence(std::move(prepared.campaign), prepared);
   for (const Check check : kAllChecks) {
     Findings findings = check(evidence);
@@ -54,7 +54,7 @@ AuditReport audit(PreparedCampaign& prepared) {
 
 bool findsTheImpossible(const AuditReport& report) {
   return std::any_of(report.checks.begin(), report.checks.end(),
-                     [](const AuditCheck& one) { return one.impossible; });
+                     [](const preparation::AuditCheck& one) { return one.impossible; });
 }
 
-}  // namespace stiffscope
+}  // namespace stiffscope::audit

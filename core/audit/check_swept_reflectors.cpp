@@ -1,27 +1,26 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/audit/chance.h"
+#include "core/audit/check_sweeps.h"
 #include "core/audit/checks.h"
-#include "core/audit/finding.h"
 #include "core/audit/limits.h"
-#include "core/audit/rows.h"
-#include "core/audit/swept_circles.h"
+#include "core/campaign/row_names.h"
+#include "core/numerics/distributions.h"
+#include "core/preparation/finding.h"
 
-namespace stiffscope {
+namespace stiffscope::audit {
 
 namespace {
 
-using namespace audit_limits;
 
 /// Squared difference of two lines in parts of its variance: place at the middle between the circles, and
 /// direction.
-double disagreement(const MeasuredLine& common, const AxisFit& a, const AxisFit& b, double height) {
+double disagreement(const metrology::MeasuredLine& common, const metrology::AxisFit& a, const metrology::AxisFit& b, double height) {
   Eigen::Vector4d difference;
   Eigen::Matrix4d covariance = Eigen::Matrix4d::Zero();
   const Eigen::Vector3d at = common.line.point + height * common.line.direction;
-  const auto add = [&](const AxisFit& fit, double sign) {
-    const Line& line = fit.axis.line;
+  const auto add = [&](const metrology::AxisFit& fit, double sign) {
+    const metrology::Line& line = fit.axis.line;
     const double sense = line.direction.dot(common.line.direction) < 0.0 ? -1.0 : 1.0;
     const Eigen::Vector3d direction = sense * line.direction;
     const double along = (at - line.point).dot(direction);
@@ -45,19 +44,19 @@ double disagreement(const MeasuredLine& common, const AxisFit& a, const AxisFit&
   return difference.dot(covariance.ldlt().solve(difference));
 }
 
-AuditCheck agreementCheck(const Evidence& evidence, const std::array<std::vector<SweptCircle>, 6>& axes) {
-  AuditCheck check;
+preparation::AuditCheck agreementCheck(const Evidence& evidence, const std::array<std::vector<SweptCircle>, 6>& axes) {
+  preparation::AuditCheck check;
   check.id = "axis_agreement";
   check.unit = "of its sd";
   double worst = 0.0;
   int pairs = 0;
   for (std::size_t axis = 0; axis < 6; ++axis) {
-    const MeasuredAxis& measured = evidence.frames.axes[axis];
+    const frames::MeasuredAxis& measured = evidence.frames.axes[axis];
     if (!measured.fit.determined) continue;
-    std::vector<std::pair<std::size_t, AxisFit>> own;
+    std::vector<std::pair<std::size_t, metrology::AxisFit>> own;
     for (std::size_t k = 0; k < axes[axis].size(); ++k) {
       if (measured.fit.circles[k].radius < kReflectorRadius) continue;
-      AxisFit fit = fitAxis({axes[axis][k].readings});
+      metrology::AxisFit fit = metrology::fitAxis({axes[axis][k].readings});
       if (fit.determined) own.emplace_back(k, std::move(fit));
     }
     for (std::size_t a = 0; a < own.size(); ++a) {
@@ -68,22 +67,22 @@ AuditCheck agreementCheck(const Evidence& evidence, const std::array<std::vector
         const double chi2 = disagreement(measured.fit.axis, own[a].second, own[b].second, height);
         if (chi2 <= worst) continue;
         worst = chi2;
-        check.where = fmt::format("{}, {} and {}", axisName(axis),
-                                  targetName(evidence.campaign, axes[axis][own[a].first].target),
-                                  targetName(evidence.campaign, axes[axis][own[b].first].target));
+        check.where = fmt::format("{}, {} and {}", campaign::axisName(axis),
+                                  campaign::targetName(evidence.campaign, axes[axis][own[a].first].target),
+                                  campaign::targetName(evidence.campaign, axes[axis][own[b].first].target));
       }
     }
   }
-  if (pairs == 0) return notTestable("axis_agreement", "no axis was swept with two reflectors well off it");
-  const double limit = chiSquareLimit(kLevel / pairs, 4.0);
+  if (pairs == 0) return preparation::notTestable("axis_agreement", "no axis was swept with two reflectors well off it");
+  const double limit = numerics::chiSquareLimit(preparation::kLevel / pairs, 4.0);
   check.value = std::sqrt(worst / 4.0);
   check.limit = std::sqrt(limit / 4.0);
   check.limit_source =
-      byChance(fmt::format("chi-square of place and direction, {} pairs of reflectors", pairs));
+      preparation::byChance(fmt::format("chi-square of place and direction, {} pairs of reflectors", pairs));
   check.message = fmt::format(
       "reflectors that turn about one axis agree on it within {:.2f} of the difference's sd", *check.value);
   if (worst > limit) {
-    check.verdict = AuditVerdict::warn;
+    check.verdict = preparation::AuditVerdict::warn;
     check.message = fmt::format(
         "reflectors that turn about one axis place it apart by {:.2f} of the difference's sd: the own "
         "weight bends more than the joints (bearings, links) or is not what the URDF's masses make it, or a "
@@ -93,8 +92,8 @@ AuditCheck agreementCheck(const Evidence& evidence, const std::array<std::vector
   return check;
 }
 
-AuditCheck onAxisCheck(const Evidence& evidence, const std::array<std::vector<SweptCircle>, 6>& axes) {
-  AuditCheck check;
+preparation::AuditCheck onAxisCheck(const Evidence& evidence, const std::array<std::vector<SweptCircle>, 6>& axes) {
+  preparation::AuditCheck check;
   check.id = "reflector_on_axis";
   check.unit = "mm";
   check.limit = 1e3 * kReflectorRadius;
@@ -102,12 +101,12 @@ AuditCheck onAxisCheck(const Evidence& evidence, const std::array<std::vector<Sw
   double least = INFINITY;
   std::string near;
   for (std::size_t axis = 0; axis < 6; ++axis) {
-    const AxisFit& fit = evidence.frames.axes[axis].fit;
+    const metrology::AxisFit& fit = evidence.frames.axes[axis].fit;
     if (!fit.determined) continue;
     for (std::size_t k = 0; k < axes[axis].size(); ++k) {
       const double radius = fit.circles[k].radius;
       const std::string name =
-          fmt::format("{}, {}", targetName(evidence.campaign, axes[axis][k].target), axisName(axis));
+          fmt::format("{}, {}", campaign::targetName(evidence.campaign, axes[axis][k].target), campaign::axisName(axis));
       if (radius < kReflectorRadius) {
         near += fmt::format("{}{} at {:.2f} mm", near.empty() ? "" : "; ", name, 1e3 * radius);
         check.where += (check.where.empty() ? "" : "; ") + name;
@@ -120,7 +119,7 @@ AuditCheck onAxisCheck(const Evidence& evidence, const std::array<std::vector<Sw
       near.empty()
           ? "every reflector stands well off the axes"
           : "says next to nothing about the axis it stands on, nor about that joint's stiffness: " + near;
-  if (!near.empty()) check.verdict = AuditVerdict::warn;
+  if (!near.empty()) check.verdict = preparation::AuditVerdict::warn;
   return check;
 }
 
@@ -128,10 +127,10 @@ AuditCheck onAxisCheck(const Evidence& evidence, const std::array<std::vector<Sw
 
 Findings checkSweptReflectors(const Evidence& evidence) {
   if (!evidence.campaign.circle_sweeps) {
-    return {notTestable("axis_agreement", kNoSweeps), notTestable("reflector_on_axis", kNoSweeps)};
+    return {preparation::notTestable("axis_agreement", kNoSweeps), preparation::notTestable("reflector_on_axis", kNoSweeps)};
   }
   const auto axes = sweptCircles(evidence);
   return {agreementCheck(evidence, axes), onAxisCheck(evidence, axes)};
 }
 
-}  // namespace stiffscope
+}  // namespace stiffscope::audit

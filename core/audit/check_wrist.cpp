@@ -1,35 +1,145 @@
+#include "core/audit/check_wrist.h"
+
+#include <Eigen/Dense>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <vector>
 
-#include "core/audit/chance.h"
 #include "core/audit/checks.h"
-#include "core/audit/finding.h"
-#include "core/audit/rows.h"
-#include "core/audit/wrist_residuals.h"
-#include "core/identification/settled_frames.h"
-#include "core/identification/wrist_leak.h"
+#include "core/campaign/row_names.h"
+#include "core/frames/arm_geometry.h"
+#include "core/identification/decoupled_partial_pose.h"
+#include "core/identification/method_solution.h"
+#include "core/numerics/distributions.h"
+#include "core/preparation/finding.h"
 
-namespace stiffscope {
+namespace stiffscope::audit {
 
 namespace {
 
-AuditCheck sphereCheck(const Evidence& evidence) {
+constexpr Eigen::Index kCentre = 3, kAxes = 12;
+
+/// One reading: radial distance less the model's, its derivatives, its standard deviation. The derivative by its reflector's
+/// radius is 1, by the others' 0.
+struct Row {
+  double residual = 0.0, sd = 0.0;
+  int target = 0;
+  std::array<double, kCentre> by_centre{};
+  std::array<double, kAxes> by_axes{};
+
+  Eigen::RowVectorXd jacobian(Eigen::Index targets) const {
+    Eigen::RowVectorXd all = Eigen::RowVectorXd::Zero(kCentre + targets + kAxes);
+    for (Eigen::Index k = 0; k < kCentre; ++k) all[k] = by_centre[static_cast<std::size_t>(k)];
+    all[kCentre + target] = 1.0;
+    for (Eigen::Index k = 0; k < kAxes; ++k) all[kCentre + targets + k] = by_axes[static_cast<std::size_t>(k)];
+    return all;
+  }
+};
+
+std::vector<Row> rowsOf(const Evidence& evidence) {
+  const campaign::WristSweep& sweep = *evidence.campaign.wrist_sweep;
+  const frames::Frames& frames = evidence.frames;
+  const robot::Robot& arm = frames.arm.arm;
+  const frames::WristCentre& wrist = frames.wrist;
+  const frames::MovedAxes axes(frames);
+  std::vector<Row> rows;
+  rows.reserve(sweep.rows.size());
+  for (std::size_t i = 0; i < sweep.rows.size(); ++i) {
+    const campaign::WristReading& reading = sweep.rows[i];
+    const auto& at_zero = frames.targets_in_r0_at_zero[static_cast<std::size_t>(reading.target)];
+    if (!at_zero) continue;
+    const Eigen::Vector3d from_centre =
+        frames.arm.r0_from_points * evidence.rigid.wrist_sweep[i] - wrist.centre_in_r0;
+    const robot::ArmPosture posture = robot::postureAt(arm, reading.q);
+    const Eigen::Vector3d centre = posture.motion[3] * wrist.centre_at_zero_in_r0;
+    const auto modelled = [&](const robot::ArmPosture& at) { return (at.motion[6] * *at_zero - centre).norm(); };
+    const Eigen::Vector3d radial = from_centre.normalized();
+    const Eigen::Vector3d seen = frames.arm.r0_from_points.linear().transpose() * radial;
+    Row row;
+    row.residual = from_centre.norm() - modelled(posture);
+    row.sd = std::sqrt(seen.dot(evidence.noise->covarianceAt(reading.point) * seen));
+    row.target = reading.target;
+    row.by_centre = {radial.x(), radial.y(), radial.z()};
+    for (int k = 0; k < kAxes; ++k) {
+      const robot::ArmPosture moved =
+          axes.postureWithMoved(arm, reading.q, static_cast<std::size_t>(3 + k / 4), k % 4);
+      row.by_axes[static_cast<std::size_t>(k)] = (modelled(moved) - modelled(posture)) / frames::MovedAxes::kStep;
+    }
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+/// Normal matrix of the prior on the axes.
+Eigen::MatrixXd priorOf(const frames::Frames& frames, Eigen::Index targets) {
+  const frames::MovedAxes axes(frames);
+  const Eigen::Index at = kCentre + targets;
+  Eigen::MatrixXd prior = Eigen::MatrixXd::Zero(at + kAxes, at + kAxes);
+  for (Eigen::Index j = 0; j < 3; ++j) {
+    prior.block<4, 4>(at + 4 * j, at + 4 * j) = axes.covariance(static_cast<std::size_t>(3 + j)).inverse();
+  }
+  return prior;
+}
+
+}  // namespace
+
+WristResiduals wristResiduals(const Evidence& evidence) {
+  const auto targets = static_cast<Eigen::Index>(evidence.campaign.targets.size());
+  const std::vector<Row> rows = rowsOf(evidence);
+  const Eigen::MatrixXd prior = priorOf(evidence.frames, targets);
+  Eigen::MatrixXd normal = prior;
+  Eigen::VectorXd right = Eigen::VectorXd::Zero(normal.rows());
+  for (const Row& row : rows) {
+    const Eigen::RowVectorXd jacobian = row.jacobian(targets);
+    normal += jacobian.transpose() * jacobian / (row.sd * row.sd);
+    right += jacobian.transpose() * row.residual / (row.sd * row.sd);
+  }
+  WristResiduals result;
+  result.dof = static_cast<int>(rows.size()) - static_cast<int>(kCentre);
+  for (Eigen::Index k = 0; k < targets; ++k) {
+    // A reflector that was not swept has no radius to find.
+    if (normal(kCentre + k, kCentre + k) == 0.0) {
+      normal(kCentre + k, kCentre + k) = 1.0;
+    } else {
+      --result.dof;
+    }
+  }
+  const Eigen::VectorXd found = normal.ldlt().solve(right);
+  result.chi2 = found.dot(prior * found);
+  double farthest = -1.0;
+  std::size_t at = 0;
+  for (const campaign::WristReading& reading : evidence.campaign.wrist_sweep->rows) {
+    if (!evidence.frames.targets_in_r0_at_zero[static_cast<std::size_t>(reading.target)]) continue;
+    const Row& row = rows[at++];
+    const double left = row.residual - row.jacobian(targets).dot(found), sigmas = std::abs(left) / row.sd;
+    result.chi2 += sigmas * sigmas;
+    result.rms += left * left;
+    if (sigmas > farthest) farthest = sigmas, result.worst = reading.line;
+  }
+  result.rms = result.dof > 0 ? std::sqrt(result.rms / result.dof) : 0.0;
+  return result;
+}
+
+namespace {
+
+preparation::AuditCheck sphereCheck(const Evidence& evidence) {
   const WristResiduals left = wristResiduals(evidence);
-  AuditCheck check;
+  preparation::AuditCheck check;
   check.id = "wrist_sphere";
-  if (left.dof <= 0) return notTestable(check.id, "too few readings: more than centre and radii take");
+  if (left.dof <= 0) return preparation::notTestable(check.id, "too few readings: more than centre and radii take");
   check.value = std::sqrt(left.chi2 / left.dof);
-  check.limit = std::sqrt(chiSquareLimit(kLevel, left.dof) / left.dof);
+  check.limit = std::sqrt(numerics::chiSquareLimit(preparation::kLevel, left.dof) / left.dof);
   check.unit = "of noise sd";
-  check.limit_source = byChance(
+  check.limit_source = preparation::byChance(
       fmt::format("chi-square of {} degrees of freedom, axes 4-6 held by their own sweeps", left.dof));
   check.message = fmt::format(
       "radial residuals of {:.1f} um rms, of which the axes' missing each other leaves {:.1f} um, "
       "{:.2f} of the noise",
       1e6 * evidence.frames.wrist.spheres.rms, 1e6 * left.rms, *check.value);
   if (*check.value <= *check.limit) return check;
-  check.verdict = AuditVerdict::warn;
-  check.where = rowName(evidence.campaign.wrist_sweep->file, left.worst);
+  check.verdict = preparation::AuditVerdict::warn;
+  check.where = campaign::rowName(evidence.campaign.wrist_sweep->file, left.worst);
   check.message += fmt::format(
       "; farthest {}: a wrong reading, or the own weight bends more than the joints (bearings, links)",
       check.where);
@@ -39,24 +149,24 @@ AuditCheck sphereCheck(const Evidence& evidence) {
 /// Share of P_wrist's displacement that turning in joints 4-6 puts there; empty without loads, or where the
 /// axes meet exactly.
 std::optional<double> leakOf(const Evidence& evidence) {
-  LoadedArm arm = evidence.arm;
+  identification::LoadedArm arm = evidence.arm;
   if (arm.wrist.empty()) return std::nullopt;
-  const Vector6d compliance = sagCompliance(evidence.campaign, {}, arm);
-  const double leak = wristLeak(arm, evidence.frames.wrist.centre_at_zero_in_r0, compliance);
+  const Vector6d compliance = identification::sagCompliance(evidence.campaign, {}, arm);
+  const double leak = identification::wristLeak(arm, evidence.frames.wrist.centre_at_zero_in_r0, compliance);
   return leak > 0.0 ? std::optional(leak) : std::nullopt;
 }
 
-AuditCheck missCheck(const Evidence& evidence) {
-  const WristCentre& wrist = evidence.frames.wrist;
+preparation::AuditCheck missCheck(const Evidence& evidence) {
+  const frames::WristCentre& wrist = evidence.frames.wrist;
   const std::optional<double> leak = leakOf(evidence);
-  AuditCheck check;
+  preparation::AuditCheck check;
   check.id = "wrist_axes_meet";
   check.unit = "mm";
   const bool first = wrist.miss_45 >= wrist.miss_56;
   const double sd = first ? wrist.miss_45_sd : wrist.miss_56_sd;
   check.value = 1e3 * std::max(wrist.miss_45, wrist.miss_56);
-  const double bearable = leak ? *check.value * kWristLeakBorne / *leak : 1e3 * TrustLimits().position;
-  check.limit = std::max(bearable, 1e3 * normalLimit(kLevel / 2.0) * sd);
+  const double bearable = leak ? *check.value * identification::kWristLeakBorne / *leak : 1e3 * identification::TrustLimits().position;
+  check.limit = std::max(bearable, 1e3 * numerics::normalLimit(preparation::kLevel / 2.0) * sd);
   check.where = first ? "axes 4 and 5" : "axes 5 and 6";
   check.limit_source =
       leak ? "the miss at which joints 4-6 would put 2 % into P_wrist's displacement: what decoupling bears"
@@ -66,7 +176,7 @@ AuditCheck missCheck(const Evidence& evidence) {
       1e3 * wrist.miss_45_sd, 1e3 * wrist.miss_56, 1e3 * wrist.miss_56_sd,
       leak ? fmt::format(": joints 4-6 put {:.2f} % into P_wrist's displacement", 100.0 * *leak) : "");
   if (*check.value <= *check.limit) return check;
-  check.verdict = AuditVerdict::warn;
+  check.verdict = preparation::AuditVerdict::warn;
   check.message += "; Decoupled Partial Pose takes them to meet in one point";
   return check;
 }
@@ -75,25 +185,25 @@ AuditCheck missCheck(const Evidence& evidence) {
 
 Findings checkWrist(const Evidence& evidence) {
   const char* const kNotSwept = "axes 4, 5 and 6 are not all measured: sweep each";
-  const WristCentre& wrist = evidence.frames.wrist;
+  const frames::WristCentre& wrist = evidence.frames.wrist;
   const auto& axes = evidence.frames.axes;
   const bool swept = axes[3].measured && axes[4].measured && axes[5].measured;
   Findings findings;
   if (!wrist.measured) {
-    findings.push_back(notTestable("wrist_sphere", wrist.reason));
+    findings.push_back(preparation::notTestable("wrist_sphere", wrist.reason));
   } else if (!swept) {
-    findings.push_back(notTestable("wrist_sphere", kNotSwept));
+    findings.push_back(preparation::notTestable("wrist_sphere", kNotSwept));
   } else if (!evidence.noise) {
-    findings.push_back(notTestable("wrist_sphere", "the tracker's noise is not declared: state `tracker`"));
+    findings.push_back(preparation::notTestable("wrist_sphere", "the tracker's noise is not declared: state `tracker`"));
   } else {
     findings.push_back(sphereCheck(evidence));
   }
   if (swept) {
     findings.push_back(missCheck(evidence));
   } else {
-    findings.push_back(notTestable("wrist_axes_meet", kNotSwept));
+    findings.push_back(preparation::notTestable("wrist_axes_meet", kNotSwept));
   }
   return findings;
 }
 
-}  // namespace stiffscope
+}  // namespace stiffscope::audit

@@ -2,16 +2,16 @@
 
 #include <vector>
 
-#include "core/audit/finding.h"
-#include "core/audit/evidence.h"
+#include "core/audit/audit_input.h"
+#include "core/preparation/finding.h"
 
 // The checks. Each takes the evidence and gives one or more findings; none changes anything. Lost beams,
 // duplicates and outlying repeats are found beforehand (core/audit/screening.h), because the others work
 // without them.
 
-namespace stiffscope {
+namespace stiffscope::audit {
 
-using Findings = std::vector<AuditCheck>;
+using Findings = std::vector<preparation::AuditCheck>;
 
 /// time_order: within a posture, steps follow each other in time, the states' rows as well as the readings.
 Findings checkTimeOrder(const Evidence& evidence);
@@ -70,4 +70,4 @@ Findings checkPostureSet(const Evidence& evidence);
 /// What is missing where there are no sweeps.
 inline constexpr const char* kNoSweeps = "no circle sweeps: turn each axis by itself (`circle_sweeps`)";
 
-}  // namespace stiffscope
+}  // namespace stiffscope::audit

@@ -1,11 +1,11 @@
 #pragma once
 
-#include "core/audit/finding.h"
+#include "core/preparation/finding.h"
 
 // Every limit of the audit, with where it comes from. None is fitted to a campaign: they come from the
 // statistics of the declared noise, or from practice that is stated here.
 
-namespace stiffscope::audit_limits {
+namespace stiffscope::audit {
 
 /// Arc of a circle sweep. The centre's uncertainty along the bisector grows with the inverse square of the
 /// arc: at 90 deg it is 7.3 times that of the whole circle for 20 readings, at 45 deg 3.9 times that again
@@ -42,4 +42,4 @@ inline constexpr double kCondition = 100.0;
 /// shorter than its arm. Forces or moments in another unit give one of a hundred metres.
 inline constexpr double kLongestLever = 5.0;
 
-}  // namespace stiffscope::audit_limits
+}  // namespace stiffscope::audit

@@ -1,12 +1,159 @@
 #include "core/campaign/campaign_xml.h"
 
+#include <cmath>
 #include <fmt/format.h>
+#include <string>
+#include <unordered_map>
+#include <vector>
 
-#include "core/campaign/campaign_sections.h"
-#include "core/input/nearest_name.h"
-#include "core/input/xml_node.h"
+#include "core/campaign/columns.h"
+#include "core/io/input_error.h"
+#include "core/io/units.h"
+#include "core/io/xml.h"
+#include "core/robot/kinematics.h"
 
-namespace stiffscope {
+// One function a section of campaign.xml; each takes the section's element, converts to SI and radians, and
+// throws InputError for what the format does not allow.
+
+namespace stiffscope::campaign {
+
+Tracker readTracker(const io::XmlNode& node, std::vector<std::string>& warnings);
+std::vector<Target> readTargets(const io::XmlNode& node, std::vector<std::string>& warnings);
+LoadCell readLoadCell(const io::XmlNode& node, std::vector<std::string>& warnings);
+robot::Tool readTool(const io::XmlNode& node, std::vector<std::string>& warnings);
+TableReference readTableReference(const io::XmlNode& node, std::vector<std::string>& warnings);
+
+namespace {
+
+double numberOrZero(const io::XmlNode& node, const std::string& attribute) {
+  return node.has(attribute) ? node.number(attribute) : 0.0;
+}
+
+double notNegative(const io::XmlNode& node, const std::string& attribute) {
+  const double value = node.number(attribute);
+  if (value < 0.0) node.refuse(attribute, node.requiredAttribute(attribute), "expected 0 or more");
+  return value;
+}
+
+// The same limits hold for an attribute as for the cells of a table.
+void requirePlausible(const io::XmlNode& node, const std::string& attribute, CellKind kind, double magnitude) {
+  const NumberKind& info = numberKind(kind);
+  if (magnitude > info.limit) node.refuse(attribute, node.requiredAttribute(attribute), info.expectation);
+}
+
+// Readings without noise would outweigh all others without bound; and no tracker is a decimetre off.
+void requireNoise(const io::XmlNode& node, const std::string& attribute, double sum) {
+  constexpr double kLeast = 1e-9, kMost = 0.1;  // m
+  if (sum >= kLeast && sum <= kMost) return;
+  node.refuse(attribute, node.requiredAttribute(attribute),
+              "expected, together with what grows by the metre, 0.001 to 100000 um");
+}
+
+double atMost(const io::XmlNode& node, const std::string& attribute, double limit) {
+  const double value = notNegative(node, attribute);
+  if (value > limit) node.refuse(attribute, node.requiredAttribute(attribute), fmt::format("expected 0 to {:.0f}", limit));
+  return value;
+}
+
+Eigen::Vector3d millimetres(const io::XmlNode& node, const std::string& attribute) {
+  const Eigen::Vector3d value = node.vector(attribute);
+  requirePlausible(node, attribute, CellKind::millimetre, value.cwiseAbs().maxCoeff());
+  return value * io::kMillimetre;
+}
+
+Eigen::Vector3d pointOf(const io::XmlNode& node) {
+  Eigen::Vector3d point;
+  const char* const attributes[] = {"x_mm", "y_mm", "z_mm"};
+  for (int i = 0; i < 3; ++i) {
+    const double value = numberOrZero(node, attributes[i]);
+    requirePlausible(node, attributes[i], CellKind::millimetre, std::abs(value));
+    point[i] = value * io::kMillimetre;
+  }
+  return point;
+}
+
+Target readTarget(const io::XmlNode& node) {
+  Target target{node.requiredName("id"), std::nullopt};
+  const int given = node.has("x_mm") + node.has("y_mm") + node.has("z_mm");
+  if (given == 0) return target;
+  if (given != 3) node.refuse("target", target.id, "expected all three of x_mm, y_mm and z_mm, or none");
+  target.position_in_flange = pointOf(node);
+  return target;
+}
+
+}  // namespace
+
+Tracker readTracker(const io::XmlNode& node, std::vector<std::string>& warnings) {
+  io::warnOfUnknown(node,
+                {"model", "range_fixed_um", "range_per_m_um", "angle_fixed_um", "angle_per_m_um", "x_mm",
+                 "y_mm", "z_mm"},
+                {}, warnings);
+  Tracker tracker;
+  tracker.model = node.requiredAttribute("model");
+  tracker.range_fixed = notNegative(node, "range_fixed_um") * io::kMicrometre;
+  tracker.range_per_m = notNegative(node, "range_per_m_um") * io::kMicrometre;
+  tracker.angle_fixed = notNegative(node, "angle_fixed_um") * io::kMicrometre;
+  tracker.angle_per_m = notNegative(node, "angle_per_m_um") * io::kMicrometre;
+  requireNoise(node, "range_fixed_um", tracker.range_fixed + tracker.range_per_m);
+  requireNoise(node, "angle_fixed_um", tracker.angle_fixed + tracker.angle_per_m);
+  tracker.station = pointOf(node);
+  return tracker;
+}
+
+std::vector<Target> readTargets(const io::XmlNode& node, std::vector<std::string>& warnings) {
+  io::warnOfUnknown(node, {}, {"target"}, warnings);
+  std::vector<Target> targets;
+  std::unordered_map<std::string, std::size_t> first_line;
+  for (const io::XmlNode& child : node.children("target")) {
+    io::warnOfUnknown(child, {"id", "x_mm", "y_mm", "z_mm"}, {}, warnings);
+    targets.push_back(readTarget(child));
+    const auto [first, added] = first_line.emplace(targets.back().id, child.line());
+    if (!added) {
+      child.refuse("id", targets.back().id,
+                   fmt::format("expected an id that does not repeat; line {} has it first", first->second));
+    }
+  }
+  return targets;
+}
+
+LoadCell readLoadCell(const io::XmlNode& node, std::vector<std::string>& warnings) {
+  io::warnOfUnknown(node, {"parent", "xyz_mm", "rpy_deg", "force_sigma_n", "moment_sigma_nm", "axes"}, {},
+                warnings);
+  LoadCell cell;
+  cell.parent = node.requiredName("parent");
+  cell.parent_from_cell.translation() = millimetres(node, "xyz_mm");
+  if (node.has("axes")) cell.axes_link = node.requiredName("axes");
+  if (!cell.axes_link || node.has("rpy_deg")) {
+    const Eigen::Vector3d rpy = node.vector("rpy_deg");
+    requirePlausible(node, "rpy_deg", CellKind::degree, rpy.cwiseAbs().maxCoeff());
+    if (!cell.axes_link) cell.parent_from_cell.linear() = robot::rotationFromRpy(rpy * io::kDegree);
+  }
+  constexpr double kMostSigma = 1e6;  // N and Nm, as of the readings themselves
+  cell.force_sigma = atMost(node, "force_sigma_n", kMostSigma);
+  cell.moment_sigma = atMost(node, "moment_sigma_nm", kMostSigma);
+  const double lever = cell.parent_from_cell.translation().norm() / io::kMillimetre;
+  if (lever > 0.0 && lever < 1.0)
+    warnings.push_back(node.warning("xyz_mm", node.requiredAttribute("xyz_mm"), "less than a millimetre: written in metres?"));
+  return cell;
+}
+
+robot::Tool readTool(const io::XmlNode& node, std::vector<std::string>& warnings) {
+  io::warnOfUnknown(node, {"mass_kg", "com_mm"}, {}, warnings);
+  constexpr double kMostMass = 5000.0;  // kg, more than the strongest arm carries
+  return {atMost(node, "mass_kg", kMostMass), millimetres(node, "com_mm")};
+}
+
+TableReference readTableReference(const io::XmlNode& node, std::vector<std::string>& warnings) {
+  io::warnOfUnknown(node, {"file", "frame"}, {}, warnings);
+  TableReference table{{node.requiredName("file"), "file", node.line()}, PointFrame::tracker};
+  const std::string frame = node.attribute("frame").value_or("tracker");
+  if (frame == "base_link") {
+    table.frame = PointFrame::base_link;
+  } else if (frame != "tracker") {
+    node.refuse("frame", frame, "expected base_link, or tracker, or no such attribute");
+  }
+  return table;
+}
 
 namespace {
 
@@ -27,7 +174,7 @@ std::vector<std::string> knownElements() {
   return known;
 }
 
-void requireFormatOne(const XmlNode& root) {
+void requireFormatOne(const io::XmlNode& root) {
   if (root.name() != "campaign") {
     root.refuse(root.name(), "", "expected <campaign> as the root of campaign.xml");
   }
@@ -36,18 +183,18 @@ void requireFormatOne(const XmlNode& root) {
     root.refuse("format", format, "expected 1, the version of the format this program reads");
 }
 
-DoubleEncoder readDoubleEncoder(const XmlNode& node) {
+DoubleEncoder readDoubleEncoder(const io::XmlNode& node) {
   const std::string value = node.requiredAttribute("double_encoder");
   if (value == "active") return DoubleEncoder::active;
   if (value == "inactive") return DoubleEncoder::inactive;
   if (value == "unspecified") return DoubleEncoder::unspecified;
   node.refuse("double_encoder", value,
               "expected active, inactive or unspecified" +
-                  nearestNameHint(value, {"active", "inactive", "unspecified"}));
+                  io::nearestNameHint(value, {"active", "inactive", "unspecified"}));
 }
 
-void readRobotElement(const XmlNode& node, CampaignXml& xml, std::vector<std::string>& warnings) {
-  warnOfUnknown(node, {"urdf", "base_link", "flange_link", "double_encoder", "gravity_m_s2"}, {}, warnings);
+void readRobotElement(const io::XmlNode& node, CampaignXml& xml, std::vector<std::string>& warnings) {
+  io::warnOfUnknown(node, {"urdf", "base_link", "flange_link", "double_encoder", "gravity_m_s2"}, {}, warnings);
   xml.urdf = {node.requiredName("urdf"), "urdf", node.line()};
   xml.campaign.base_link = node.requiredName("base_link");
   xml.campaign.flange_link = node.requiredName("flange_link");
@@ -60,7 +207,7 @@ void readRobotElement(const XmlNode& node, CampaignXml& xml, std::vector<std::st
   }
 }
 
-void readSections(const XmlNode& root, CampaignXml& xml, std::vector<std::string>& warnings) {
+void readSections(const io::XmlNode& root, CampaignXml& xml, std::vector<std::string>& warnings) {
   Campaign& campaign = xml.campaign;
   readRobotElement(root.requiredChild("robot"), xml, warnings);
   if (const auto node = root.child("tracker")) campaign.tracker = readTracker(*node, warnings);
@@ -88,10 +235,10 @@ const std::vector<std::string>& tableElements() {
 
 CampaignXml readCampaignXml(const std::string& file, std::string_view bytes,
                             std::vector<std::string>& warnings) {
-  const XmlFile xml_file(file, bytes);
-  const XmlNode root = xml_file.root();
+  const io::XmlFile xml_file(file, bytes);
+  const io::XmlNode root = xml_file.root();
   requireFormatOne(root);
-  warnOfUnknown(root, {"format", "name", "date"}, knownElements(), warnings);
+  io::warnOfUnknown(root, {"format", "name", "date"}, knownElements(), warnings);
   CampaignXml xml;
   xml.campaign.name = root.requiredAttribute("name");
   xml.campaign.date = root.requiredAttribute("date");
@@ -99,4 +246,4 @@ CampaignXml readCampaignXml(const std::string& file, std::string_view bytes,
   return xml;
 }
 
-}  // namespace stiffscope
+}  // namespace stiffscope::campaign

@@ -7,7 +7,7 @@
 
 #include "core/campaign/campaign.h"
 
-namespace stiffscope {
+namespace stiffscope::campaign {
 
 /// A file that campaign.xml names, and where.
 struct FileReference {
@@ -38,4 +38,4 @@ const std::vector<std::string>& tableElements();
 CampaignXml readCampaignXml(const std::string& file, std::string_view bytes,
                             std::vector<std::string>& warnings);
 
-}  // namespace stiffscope
+}  // namespace stiffscope::campaign

@@ -1,17 +1,16 @@
 #include "core/campaign/check_campaign.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <fmt/format.h>
 
-#include "core/input/input_error.h"
-#include "core/input/units.h"
-#include "core/parallel/on_all_cores.h"
+#include "core/io/input_error.h"
+#include "core/io/units.h"
+#include "core/numerics/parallel.h"
 
-namespace stiffscope {
+namespace stiffscope::campaign {
 
 namespace {
 
@@ -26,7 +25,7 @@ std::size_t blocksOf(std::size_t rows) { return (rows + kBlock - 1) / kBlock; }
 /// Calls work(block, from, to) for each block of rows from..to-1, on all cores.
 template <class Work>
 void inBlocks(std::size_t rows, const Work& work) {
-  onAllCores(blocksOf(rows), [&](std::size_t block) {
+  numerics::onAllCores(blocksOf(rows), [&](std::size_t block) {
     work(block, block * kBlock, std::min(rows, (block + 1) * kBlock));
   });
 }
@@ -77,7 +76,7 @@ void requireStates(const Campaign& campaign, const Table<Row>& table, const std:
       const Row& row = table.rows[i];
       if (search.has(row.pose, row.step)) continue;
       const std::string& pose = campaign.pose_ids[static_cast<std::size_t>(row.pose)];
-      throw InputError({shown(campaign, table.file), row.line, "pose, step"},
+      throw io::InputError({shown(campaign, table.file), row.line, "pose, step"},
                        fmt::format("{}, {}", pose, row.step),
                        fmt::format("expected a load state that {} has a row for", campaign.states->file));
     }
@@ -98,7 +97,7 @@ void checkDisplacedTargetsHavePlaces(const Campaign& campaign) {
   for (const Displacement& row : campaign.displacements->rows) {
     const Target& target = campaign.targets[static_cast<std::size_t>(row.target)];
     if (target.position_in_flange) continue;
-    throw InputError({shown(campaign, campaign.displacements->file), row.line, "target"}, target.id,
+    throw io::InputError({shown(campaign, campaign.displacements->file), row.line, "target"}, target.id,
                      "expected a target whose place on the flange campaign.xml gives as x_mm, y_mm, z_mm");
   }
 }
@@ -118,7 +117,7 @@ void warnOfPosesWithoutStepZero(const Campaign& campaign, std::vector<std::strin
     ++missing;
   }
   if (first == nullptr) return;
-  warnings.push_back(inputMessage(
+  warnings.push_back(io::inputMessage(
       {shown(campaign, campaign.loading->file), first->line, "pose"},
       campaign.pose_ids[static_cast<std::size_t>(first->pose)],
       fmt::format("no unloaded step 0, so no displacement; poses without one: {}", missing)));
@@ -127,7 +126,7 @@ void warnOfPosesWithoutStepZero(const Campaign& campaign, std::vector<std::strin
 void warnOfAnglesOutsideLimits(const Campaign& campaign, std::vector<std::string>& warnings) {
   if (!campaign.states) return;
   // Controllers and URDFs differ by a few degrees at the stops; more is a wrong column or a wrong robot.
-  constexpr double kMargin = 5.0 * kDegree;
+  constexpr double kMargin = 5.0 * io::kDegree;
   struct Outside {
     const State* first = nullptr;
     std::size_t rows = 0;
@@ -158,13 +157,13 @@ void warnOfAnglesOutsideLimits(const Campaign& campaign, std::vector<std::string
   }
   for (std::size_t j = 0; j < 6; ++j) {
     const auto& [first, rows] = outside[j];
-    const JointLimits& limits = campaign.robot.limits[j];
+    const robot::JointLimits& limits = campaign.robot.limits[j];
     if (first == nullptr) continue;
-    warnings.push_back(inputMessage(
+    warnings.push_back(io::inputMessage(
         {shown(campaign, campaign.states->file), first->line, fmt::format("q{}_deg", j + 1)},
-        fmt::format("{:.2f}", first->q[static_cast<Eigen::Index>(j)] / kDegree),
+        fmt::format("{:.2f}", first->q[static_cast<Eigen::Index>(j)] / io::kDegree),
         fmt::format("more than 5 deg outside the limits of {} ({:.2f} to {:.2f} deg); rows like this: {}",
-                    campaign.robot.joint_names[j], limits.lower / kDegree, limits.upper / kDegree, rows)));
+                    campaign.robot.joint_names[j], limits.lower / io::kDegree, limits.upper / io::kDegree, rows)));
   }
 }
 
@@ -176,18 +175,18 @@ void warnOfRadians(const Campaign& campaign, const std::optional<Table<Row>>& ta
   if (!table || table->rows.size() < kFewestRows) return;
   double largest = 0.0;
   for (const Row& row : table->rows) {
-    largest = std::max(largest, row.q.cwiseAbs().maxCoeff() / kDegree);
+    largest = std::max(largest, row.q.cwiseAbs().maxCoeff() / io::kDegree);
     if (largest > 2.0 * std::numbers::pi) return;
   }
   if (largest == 0.0) return;
-  warnings.push_back(inputMessage(
+  warnings.push_back(io::inputMessage(
       {shown(campaign, table->file), 0, "q1_deg..q6_deg"}, "",
       fmt::format("no joint angle is larger than {:.3f} deg; were they written in radians?", largest)));
 }
 
 void warnOfCellWithoutPlace(const Campaign& campaign, std::vector<std::string>& warnings) {
   if (!campaign.states || campaign.load_cell) return;
-  warnings.push_back(inputMessage({shown(campaign, campaign.states->file), 0, ""}, "",
+  warnings.push_back(io::inputMessage({shown(campaign, campaign.states->file), 0, ""}, "",
                                   "no load_cell in campaign.xml says where these wrenches act"));
 }
 
@@ -210,4 +209,4 @@ void checkCampaign(const Campaign& campaign, std::vector<std::string>& warnings)
   for (const Check& check : kChecks) check(campaign, warnings);
 }
 
-}  // namespace stiffscope
+}  // namespace stiffscope::campaign

@@ -5,7 +5,7 @@
 
 #include "core/campaign/campaign.h"
 
-namespace stiffscope {
+namespace stiffscope::campaign {
 
 /// What no table shows alone, on a campaign as it was read.
 /// Throws InputError for a load state without a row in `states` (where that table is present), and for
@@ -14,4 +14,4 @@ namespace stiffscope {
 /// whose angles look like radians, and of states without a load cell.
 void checkCampaign(const Campaign& campaign, std::vector<std::string>& warnings);
 
-}  // namespace stiffscope
+}  // namespace stiffscope::campaign

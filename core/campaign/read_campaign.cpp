@@ -1,41 +1,121 @@
 #include "core/campaign/read_campaign.h"
 
 #include <algorithm>
+#include <cctype>
+#include <utility>
 
-#include "core/campaign/campaign_files.h"
-#include "core/campaign/campaign_names.h"
 #include "core/campaign/campaign_xml.h"
 #include "core/campaign/check_campaign.h"
-#include "core/campaign/circle_sweeps_table.h"
-#include "core/campaign/displacements_table.h"
-#include "core/campaign/loading_table.h"
-#include "core/campaign/nests_table.h"
+#include "core/campaign/columns.h"
 #include "core/campaign/read_table.h"
-#include "core/campaign/states_table.h"
-#include "core/campaign/wrist_sweep_table.h"
-#include "core/input/input_error.h"
-#include "core/input/nearest_name.h"
-#include "core/input/read_file.h"
+#include "core/campaign/table_layouts.h"
+#include "core/io/input_error.h"
+#include "core/io/read_file.h"
 #include "core/robot/read_urdf.h"
 
-namespace stiffscope {
+namespace stiffscope::campaign {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+bool leadsInside(const fs::path& folder, const fs::path& path) {
+  const fs::path root = fs::weakly_canonical(folder);
+  const fs::path file = fs::weakly_canonical(path);
+  return std::mismatch(root.begin(), root.end(), file.begin(), file.end()).first == root.end();
+}
+
+bool isXml(const fs::path& file) {
+  std::string extension = file.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension == ".xml";
+}
+
+}  // namespace
+
+CampaignFiles::CampaignFiles(const fs::path& folder_or_xml, bool hashed) : hashed_(hashed) {
+  std::error_code error;
+  const fs::file_status status = fs::status(folder_or_xml, error);
+  if (!fs::exists(status)) {
+    throw io::InputError({folder_or_xml.string(), 0, ""}, "",
+                     "expected a campaign folder or its campaign.xml; there is none");
+  }
+  const bool is_folder = fs::is_directory(status);
+  if (!is_folder && !isXml(folder_or_xml)) {
+    throw io::InputError({folder_or_xml.string(), 0, ""}, "",
+                     "expected a campaign folder or its campaign.xml: give the folder that holds this file");
+  }
+  xml_ = is_folder ? folder_or_xml / "campaign.xml" : folder_or_xml;
+  folder_ = is_folder ? folder_or_xml : folder_or_xml.parent_path();
+  if (folder_.empty()) folder_ = ".";
+  if (is_folder && !fs::exists(xml_, error)) {
+    throw io::InputError({folder_or_xml.string(), 0, ""}, "",
+                     "expected a campaign folder; it holds no campaign.xml");
+  }
+}
+
+io::TextFile CampaignFiles::readXml() { return readAndRecord(xml_, xml_.filename().string(), io::kLargestXml); }
+
+io::TextFile CampaignFiles::read(const FileReference& reference, std::size_t largest) {
+  const auto refuse = [&](const std::string& why) {
+    throw io::InputError({xmlName(), reference.line, reference.attribute}, reference.name,
+                     "expected a file inside the campaign's folder; " + why);
+  };
+  const fs::path name(reference.name);
+  if (name.is_absolute()) refuse("this path is absolute");
+  const fs::path normal = name.lexically_normal();
+  if (!normal.empty() && *normal.begin() == "..") refuse("this path leads out of it");
+  const fs::path path = folder_ / normal;
+  std::error_code error;
+  if (!fs::exists(path, error)) refuse("there is none of this name");
+  if (!leadsInside(folder_, path)) refuse("a link leads out of it");
+  return readAndRecord(path, reference.name, largest);
+}
+
+io::TextFile CampaignFiles::readAndRecord(const fs::path& path, const std::string& name, std::size_t largest) {
+  io::TextFile file = io::readTextFileWithStamp(path, largest);
+  read_.push_back({path, name, file.stamp, {}});
+  if (!hashed_) return file;
+  constexpr std::size_t kOwnThread = 1 << 20;  // hashed in a millisecond
+  // Where no thread is to be had, either policy lets it be hashed when the hash is asked for.
+  const auto when = file.size < kOwnThread ? std::launch::deferred : std::launch::async | std::launch::deferred;
+  // What is hashed goes: the rows of all tables come while the hashes wait to be asked for.
+  read_.back().sha256 = std::async(when, [text = file]() mutable { return io::sha256Hex(std::exchange(text, {}).text()); });
+  return file;
+}
+
+std::vector<InputFile> CampaignFiles::takeInputs() {
+  std::vector<InputFile> inputs;
+  for (Read& file : read_) inputs.push_back({file.name, hashed_ ? file.sha256.get() : std::string()});
+  read_.clear();
+  return inputs;
+}
+
+void CampaignFiles::requireUnchanged() const {
+  for (const Read& file : read_) {
+    if (io::stampOf(file.path) == file.stamp) continue;
+    throw io::InputError({file.path.string(), 0, ""}, "",
+                     "expected a file that stays as it is; it changed while the campaign was read");
+  }
+}
 
 namespace {
 
 // The URDF's own errors name the URDF; a link that campaign.xml gets wrong is an error of campaign.xml.
-void requireLink(const CampaignFiles& files, const Robot& robot, std::size_t line,
+void requireLink(const CampaignFiles& files, const robot::Robot& robot, std::size_t line,
                  const std::string& attribute, const std::string& link) {
   std::vector<std::string> known;
-  for (const LinkFrame& frame : robot.links) known.push_back(frame.name);
+  for (const robot::LinkFrame& frame : robot.links) known.push_back(frame.name);
   if (std::find(known.begin(), known.end(), link) != known.end()) return;
-  throw InputError(
+  throw io::InputError(
       {files.xmlName(), line, attribute}, link,
-      "expected a link of the robot, on its chain or fixed to it" + nearestNameHint(link, known));
+      "expected a link of the robot, on its chain or fixed to it" + io::nearestNameHint(link, known));
 }
 
 void readRobot(CampaignFiles& files, const CampaignXml& xml, Campaign& campaign) {
-  const TextFile file = files.read(xml.urdf, kLargestXml);
-  campaign.robot = parseUrdf(file.text(), files.shown(xml.urdf), campaign.base_link, campaign.flange_link);
+  const io::TextFile file = files.read(xml.urdf, io::kLargestXml);
+  campaign.robot = robot::parseUrdf(file.text(), files.shown(xml.urdf), campaign.base_link, campaign.flange_link);
   if (!campaign.load_cell) return;
   requireLink(files, campaign.robot, xml.load_cell_line, "parent", campaign.load_cell->parent);
   if (campaign.load_cell->axes_link) {
@@ -56,7 +136,7 @@ class TableReader {
     const auto reference = xml_.tables.find(layout.element);
     if (reference == xml_.tables.end()) return;
     const FileReference& file = reference->second.file;
-    const TextFile bytes = files_.read(file, kLargestTable);
+    const io::TextFile bytes = files_.read(file, io::kLargestTable);
     table = Table<Row>{file.name, reference->second.frame,
                        readTable<Row>({files_.shown(file), bytes.text()}, layout, names_, warnings_)};
   }
@@ -97,4 +177,4 @@ CampaignReading readCampaign(const std::filesystem::path& folder_or_xml, Hashes 
   return reading;
 }
 
-}  // namespace stiffscope
+}  // namespace stiffscope::campaign

@@ -1,26 +1,494 @@
 #pragma once
 
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-
+#include <functional>
+#include <limits>
+#include <mutex>
+#include <optional>
+#include <span>
 #include <string>
+#include <string_view>
+#include <variant>
 #include <vector>
 
-#include "core/campaign/key_columns.h"
-#include "core/campaign/read_row.h"
-#include "core/campaign/table_layout.h"
-#include "core/campaign/table_lines.h"
-#include "core/campaign/table_parts.h"
-#include "core/input/input_error.h"
+#include "core/campaign/columns.h"
+#include "core/io/csv.h"
+#include "core/io/input_error.h"
+#include "core/io/numbers.h"
+#include "core/io/read_file.h"
+#include "core/numerics/parallel.h"
 
-namespace stiffscope {
+namespace stiffscope::campaign {
+
+/// Hash of a key's parts, taken by value and not as written, so that steps "1" and "01" are the same one.
+class KeyHash {
+ public:
+  void add(int part) { mix(static_cast<std::uint64_t>(part)); }
+  void add(double part) { mix(std::bit_cast<std::uint64_t>(part == 0.0 ? 0.0 : part)); }  // -0 equals 0
+  void add(std::string_view part) { mix(std::hash<std::string_view>{}(part)); }
+
+  std::uint64_t value() const { return hash_; }
+
+ private:
+  // The last steps of MurmurHash3: every bit of the part reaches every bit of the hash.
+  void mix(std::uint64_t part) {
+    hash_ = (hash_ + 0x9e3779b97f4a7c15ull) ^ part;
+    hash_ = (hash_ ^ (hash_ >> 33)) * 0xff51afd7ed558ccdull;
+    hash_ = (hash_ ^ (hash_ >> 33)) * 0xc4ceb9fe1a85ec53ull;
+    hash_ ^= hash_ >> 33;
+  }
+
+  std::uint64_t hash_ = 0;
+};
+
+/// Finds rows whose key was there before. It holds the rows' numbers and hashes alone, 16 to 32 bytes a row; the keys
+/// stay in the rows. Rows are fewer than 2^32, which the largest file that is read ensures.
+class RepeatCheck {
+ public:
+  static constexpr std::size_t kNew = std::numeric_limits<std::size_t>::max();
+
+  explicit RepeatCheck(std::size_t rows_expected) : slots_(std::bit_ceil(2 * rows_expected + 16)) {}
+
+  /// The earlier row with the key of `row`, or kNew. `same(other)` compares the keys of `row` and an earlier row.
+  template <class Same>
+  std::size_t add(std::size_t row, const KeyHash& key, const Same& same) {
+    if (2 * (rows_ + 1) > slots_.size()) grow();
+    const Slot added{static_cast<std::uint32_t>(row + 1), static_cast<std::uint32_t>(key.value())};
+    std::size_t place = startOf(added);
+    for (; slots_[place].row_plus_one != 0; place = after(place)) {
+      const std::size_t other = slots_[place].row_plus_one - 1;
+      if (slots_[place].hash == added.hash && same(other)) return other;
+    }
+    slots_[place] = added;
+    ++rows_;
+    return kNew;
+  }
+
+ private:
+  struct Slot {
+    std::uint32_t row_plus_one = 0;  ///< 0: free
+    std::uint32_t hash = 0;
+  };
+
+  std::size_t startOf(const Slot& slot) const { return slot.hash & (slots_.size() - 1); }
+  std::size_t after(std::size_t place) const { return (place + 1) & (slots_.size() - 1); }
+
+  void grow() {
+    std::vector<Slot> old(2 * slots_.size());
+    old.swap(slots_);
+    for (const Slot& slot : old) {
+      if (slot.row_plus_one == 0) continue;
+      std::size_t place = startOf(slot);
+      while (slots_[place].row_plus_one != 0) place = after(place);
+      slots_[place] = slot;
+    }
+  }
+
+  std::vector<Slot> slots_;
+  std::size_t rows_ = 0;
+};
+
+/// The columns of a layout that together must not repeat, and their places in it.
+template <class Row>
+struct KeyColumns {
+  explicit KeyColumns(const TableLayout<Row>& layout) {
+    for (std::size_t i = 0; i < layout.columns.size(); ++i) {
+      const std::string& name = layout.columns[i].name;
+      if (std::find(layout.key.begin(), layout.key.end(), name) == layout.key.end()) continue;
+      columns.push_back(&layout.columns[i]);
+      places.push_back(i);
+    }
+  }
+
+  KeyHash hash(Row& row) const {
+    KeyHash hash;
+    for (const Column<Row>* column : columns) {
+      std::visit([&](auto member) { hash.add(member(row)); }, column->member);
+    }
+    return hash;
+  }
+
+  bool same(Row& a, Row& b) const {
+    return std::all_of(columns.begin(), columns.end(), [&](const Column<Row>* column) {
+      return std::visit([&](auto member) { return member(a) == member(b); }, column->member);
+    });
+  }
+
+  /// An order of keys, of texts by length first, so that numbers are in the order of their values.
+  bool less(Row& a, Row& b) const {
+    int order = 0;
+    for (const Column<Row>* column : columns) {
+      std::visit([&](auto member) { order = ordered(member(a), member(b)); }, column->member);
+      if (order != 0) break;
+    }
+    return order < 0;
+  }
+
+  std::vector<const Column<Row>*> columns;
+  std::vector<std::size_t> places;
+
+ private:
+  template <class Number>
+  static int ordered(Number a, Number b) {
+    return a < b ? -1 : b < a ? 1 : 0;
+  }
+  static int ordered(const std::string& a, const std::string& b) {
+    return a.size() == b.size() ? a.compare(b) : a.size() < b.size() ? -1 : 1;
+  }
+};
+
+/// Finds the row that a later one repeats; asked of one row after the other, from the first on. As long as the keys
+/// ascend, as they do in most tables, a look at the row before is enough; from the first that does not on, every key is
+/// looked up.
+template <class Row>
+class RowRepeats {
+ public:
+  RowRepeats(const KeyColumns<Row>& key, std::vector<Row>& rows) : key_(key), rows_(rows) {}
+
+  /// Place of the earlier row that has the key of this one, or RepeatCheck::kNew.
+  std::size_t of(std::size_t row) {
+    if (!seen_) {
+      if (row == 0 || key_.less(rows_[row - 1], rows_[row])) return RepeatCheck::kNew;
+      seen_.emplace(rows_.capacity());
+      for (std::size_t earlier = 0; earlier < row; ++earlier) add(earlier);
+    }
+    return add(row);
+  }
+
+ private:
+  std::size_t add(std::size_t row) {
+    const auto same = [&](std::size_t other) { return key_.same(rows_[row], rows_[other]); };
+    return seen_->add(row, key_.hash(rows_[row]), same);
+  }
+
+  const KeyColumns<Row>& key_;
+  std::vector<Row>& rows_;
+  std::optional<RepeatCheck> seen_;
+};
+
+/// A column as the header line is matched against it.
+struct WantedColumn {
+  std::string name;
+  bool required = true;
+};
+
+inline constexpr std::size_t kAbsentColumn = static_cast<std::size_t>(-1);
+
+/// For each wanted column its place among `cells`, the header line's, or kAbsentColumn where an optional one
+/// is absent. Columns that nobody wants go into one warning that names them all. Throws InputError, naming
+/// `file` and `line`, for a required column that is missing, one that is there twice, and a file whose
+/// columns are not separated by commas.
+std::vector<std::size_t> matchHeader(const std::string& file, std::size_t line,
+                                     const std::vector<std::string_view>& cells,
+                                     const std::vector<WantedColumn>& wanted,
+                                     std::vector<std::string>& warnings);
+
+/// A table's bytes and its name for messages.
+struct TableSource {
+  std::string file;
+  std::string_view bytes;
+};
+
+/// The data lines of a table: reads the header and hands out line after line, each with as many cells as the
+/// header has. Throws InputError where a line has more or fewer, where there is no header or no data line, where the header
+/// has more than a thousand columns, and where something stands in a column without a name (columns without a name are
+/// what a spreadsheet leaves behind the last one).
+/// A last line without a line end, but with all its cells, gives a warning: its last number may be cut short.
+class TableLines {
+ public:
+  TableLines(const TableSource& source, const std::vector<WantedColumn>& wanted,
+             std::vector<std::string>& warnings);
+
+  /// A part of the lines behind `table`'s header, `lines_before` of the file before it: read as the whole is, but one
+  /// without a row is no error. Only the last part can have a last line without a line end, so that no two of them
+  /// read in different threads give a warning.
+  TableLines(const TableLines& table, std::string_view part, std::size_t lines_before);
+
+  bool next();
+
+  /// What stands behind the line last given.
+  std::string_view rest() const { return lines_.rest(); }
+
+  /// As many rows as there can be in `lines` lines of so many bytes; a guess where an optional column is absent.
+  std::size_t mostRows(std::size_t bytes, std::size_t lines) const;
+
+  std::size_t line() const { return lines_.line(); }
+  bool has(std::size_t column) const { return placeOf(column) != kAbsentColumn; }
+
+  /// Where the column that is the `column`-th of those wanted stands in the table; kAbsentColumn where it does not.
+  std::size_t placeOf(std::size_t column) const { return places_[column]; }
+
+  /// Cell of the current line in the `place`-th column of the table.
+  std::string_view cellAt(std::size_t place) const { return cells_[place]; }
+
+  /// Cell of the current line in the column that is the `column`-th of those wanted.
+  std::string_view cell(std::size_t column) const { return cellAt(placeOf(column)); }
+  bool hasRoomBehindCells() const { return lines_.hasRoomBehindCells(); }
+
+ private:
+  void requireCellCount() const;
+  void requireNothingWithoutName() const;
+
+  const TableSource& source_;
+  io::CsvLines lines_;
+  std::vector<std::string_view> cells_;
+  std::vector<std::size_t> places_, nameless_;
+  std::size_t cells_in_header_ = 0;
+  std::size_t rows_ = 0;
+  bool row_required_ = true;
+  std::vector<std::string>& warnings_;
+};
+
+template <class Row>
+std::vector<WantedColumn> wantedColumns(const TableLayout<Row>& layout) {
+  std::vector<WantedColumn> wanted;
+  for (const Column<Row>& column : layout.columns) wanted.push_back({column.name, column.required});
+  return wanted;
+}
+
+/// Reads the lines of a table into rows, in SI and radians. What its columns are is settled once for all lines, of which
+/// there may be millions.
+template <class Row>
+class RowReader {
+ public:
+  /// `lines`: of that table. The file's name and the layout must outlive this object.
+  RowReader(const std::string& file, const TableLayout<Row>& layout, const TableLines& lines) : file_(file) {
+    for (std::size_t i = 0; i < layout.columns.size(); ++i) {
+      const Column<Row>& column = layout.columns[i];
+      if (!lines.has(i)) continue;
+      Present present{&column, lines.placeOf(i), Quick::none, 0, {}};
+      if (const auto* number = std::get_if<typename Column<Row>::Number>(&column.member)) {
+        present.quick = Quick::number;
+        present.offset = offsetOf(*number);
+        present.written = numberKind(column.kind);
+      } else if (column.kind == CellKind::step) {
+        present.quick = Quick::whole;
+        present.offset = offsetOf(std::get<typename Column<Row>::Index>(column.member));
+      }
+      columns_.push_back(present);
+    }
+  }
+
+  /// The cells of the line that `lines` gave last, and its number. Throws InputError for a cell that its column cannot hold.
+  void read(const TableLines& lines, CampaignNames& names, Row& row) const {
+    row.line = lines.line();
+    const bool room = lines.hasRoomBehindCells();
+    for (const Present& present : columns_) {
+      const std::string_view cell = lines.cellAt(present.place);
+      if (present.quick == Quick::number && room) {
+        const double value = io::parseEightAtOnce(cell);
+        if (std::abs(value) <= present.written.limit) {  // not where it is NaN
+          memberAt<double>(present, row) = value * present.written.si_per_unit;
+          continue;
+        }
+      } else if (present.quick == Quick::whole && room) {
+        const int value = io::wholeEightAtOnce(cell);
+        if (value >= 0) {
+          memberAt<int>(present, row) = value;
+          continue;
+        }
+      }
+      readAny(*present.column, cell, {file_, row.line, present.column->name}, names, row);
+    }
+  }
+
+ private:
+  /// What most cells of a column hold, which is read without a call.
+  enum class Quick { none, number, whole };
+
+  /// A column that the table has.
+  struct Present {
+    const Column<Row>* column;
+    std::size_t place;      ///< in the table
+    Quick quick;
+    std::ptrdiff_t offset;  ///< of its member in a row, bytes; of those read quickly
+    NumberKind written;     ///< of a number
+  };
+
+  /// Where in a row a column's member stands.
+  template <class Member>
+  static std::ptrdiff_t offsetOf(Member& (*member)(Row&)) {
+    Row row;
+    return reinterpret_cast<std::byte*>(&member(row)) - reinterpret_cast<std::byte*>(&row);
+  }
+
+  template <class Member>
+  static Member& memberAt(const Present& present, Row& row) {
+    return *reinterpret_cast<Member*>(reinterpret_cast<std::byte*>(&row) + present.offset);
+  }
+
+  static void readAny(const Column<Row>& column, std::string_view cell, const CellPlace& place, CampaignNames& names,
+                      Row& row) {
+    if (const auto* number = std::get_if<typename Column<Row>::Number>(&column.member)) {
+      (*number)(row) = readNumberCell(column.kind, cell, place);
+    } else if (const auto* index = std::get_if<typename Column<Row>::Index>(&column.member)) {
+      (*index)(row) = readIndexCell(column.kind, cell, place, names);
+    } else {
+      std::get<typename Column<Row>::Text>(column.member)(row) = readTextCell(cell, place);
+    }
+  }
+
+  const std::string& file_;
+  std::vector<Present> columns_;
+};
+
+/// Some milliseconds of reading: much more than starting a thread takes.
+inline constexpr std::size_t kPartBytes = std::size_t{1} << 20;
+
+/// A part of a table's lines, and what they gave. Parts are read at the same time: each writes its own.
+template <class Row>
+struct TablePart {
+  TableLines lines;
+  CampaignNames names;    ///< poses and nests by their first appearance in this part
+  std::size_t from = 0;   ///< place among the rows of all parts where its own belong
+  std::size_t room = 0;   ///< as many as there can be
+  std::span<Row> rows{};  ///< those read
+  bool done = false;      ///< to its end, without an error
+  bool ascending = true;  ///< its keys
+};
+
+/// The rows of all parts. They are made part by part, by the thread that is about to read one.
+template <class Row>
+class RowsInMaking {
+ public:
+  explicit RowsInMaking(std::size_t rows) {
+    rows_.reserve(rows);
+    io::askForLargePages(rows_.data(), rows * sizeof(Row));
+  }
+
+  /// The first of all rows, of which there are `count` then at least. None moves: there is room for all.
+  Row* made(std::size_t count) {
+    const std::lock_guard lock(making_);
+    if (rows_.size() < count) rows_.resize(count);
+    return rows_.data();
+  }
+
+  std::vector<Row> take() { return std::move(rows_); }
+
+ private:
+  std::mutex making_;
+  std::vector<Row> rows_;
+};
+
+/// The parts of the lines behind the header.
+template <class Row>
+std::vector<TablePart<Row>> partsOf(const TableLines& header, const CampaignNames& names, std::size_t part_bytes) {
+  const std::vector<std::string_view> texts = io::partsOfLines(header.rest(), part_bytes);
+  std::vector<std::size_t> lines(texts.size());
+  numerics::onAllCores(texts.size(), [&](std::size_t i) { lines[i] = io::linesIn(texts[i]); });
+  std::vector<TablePart<Row>> parts;
+  parts.reserve(texts.size());
+  std::size_t before = header.line(), from = 0;
+  for (std::size_t i = 0; i < texts.size(); ++i) {
+    const std::size_t room = header.mostRows(texts[i].size(), lines[i]);
+    parts.push_back({TableLines(header, texts[i], before), {names.targets, {}, {}}, from, room});
+    before += lines[i];
+    from += room;
+  }
+  return parts;
+}
+
+template <class Row>
+void readPart(const RowReader<Row>& reader, const KeyColumns<Row>& key, RowsInMaking<Row>& rows,
+              TablePart<Row>& part) try {
+  Row* const first = rows.made(part.from + part.room) + part.from;
+  while (part.lines.next()) {
+    const std::size_t read = part.rows.size();
+    if (read == part.room) return;
+    reader.read(part.lines, part.names, first[read]);
+    if (read > 0 && !key.less(first[read - 1], first[read])) part.ascending = false;
+    part.rows = {first, read + 1};
+  }
+  part.done = true;
+} catch (const io::InputError&) {
+  // The reading in one go says which error of the file is the first.
+}
+
+/// Refers the rows of a part to the names of all tables; `poses` and `nests`: the index there of each name of the part.
+template <class Row>
+void renumber(const TableLayout<Row>& layout, const std::vector<int>& poses, const std::vector<int>& nests,
+              TablePart<Row>& part) {
+  for (std::size_t i = 0; i < layout.columns.size(); ++i) {
+    const Column<Row>& column = layout.columns[i];
+    if ((column.kind != CellKind::pose && column.kind != CellKind::nest) || !part.lines.has(i)) continue;
+    const std::vector<int>& indices = column.kind == CellKind::pose ? poses : nests;
+    const auto member = std::get<typename Column<Row>::Index>(column.member);
+    for (Row& row : part.rows) member(row) = indices[static_cast<std::size_t>(member(row))];
+    // An order of keys by the part's own indices is one by all only if the two go up together.
+    if (!std::is_sorted(indices.begin(), indices.end())) part.ascending = false;
+  }
+}
+
+/// Whether keys ascend in all parts and from each to the next.
+template <class Row>
+bool keysAscend(const std::vector<TablePart<Row>>& parts, const KeyColumns<Row>& key) {
+  Row* last = nullptr;
+  for (const TablePart<Row>& part : parts) {
+    if (part.rows.empty()) continue;
+    if (!part.ascending || (last != nullptr && !key.less(*last, part.rows.front()))) return false;
+    last = &part.rows.back();
+  }
+  return true;
+}
+
+/// Moves the rows of all parts together, where lines were blank.
+template <class Row>
+void closeUp(const std::vector<TablePart<Row>>& parts, std::vector<Row>& rows) {
+  std::size_t end = 0;
+  for (const TablePart<Row>& part : parts) {
+    const auto from = rows.begin() + static_cast<std::ptrdiff_t>(part.from);
+    const auto count = static_cast<std::ptrdiff_t>(part.rows.size());
+    if (end != part.from) std::move(from, from + count, rows.begin() + static_cast<std::ptrdiff_t>(end));
+    end += part.rows.size();
+  }
+  rows.resize(end);
+}
+
+/// readTable of a large text: its lines in parts of some `part_bytes`, shared among the cores. The parts depend on the text
+/// alone, and each numbers poses and nests by itself; put together in their order they are numbered as they first appear
+/// in the whole. nullopt where the table has an error; `names` and `warnings` may then have grown.
+template <class Row>
+std::optional<std::vector<Row>> readTableInParts(const TableSource& source, const TableLayout<Row>& layout,
+                                                 CampaignNames& names, std::vector<std::string>& warnings,
+                                                 std::size_t part_bytes) {
+  const KeyColumns<Row> key(layout);
+  const TableLines header(source, wantedColumns(layout), warnings);
+  std::vector<TablePart<Row>> parts = partsOf<Row>(header, names, part_bytes);
+  if (parts.empty()) return std::nullopt;
+  RowsInMaking<Row> making(parts.back().from + parts.back().room);
+  const RowReader<Row> reader(source.file, layout, header);
+  numerics::onAllCores(parts.size(), [&](std::size_t i) { readPart(reader, key, making, parts[i]); });
+  if (!std::all_of(parts.begin(), parts.end(), [](const auto& part) { return part.done; })) return std::nullopt;
+
+  std::vector<std::vector<int>> poses, nests;
+  for (const TablePart<Row>& part : parts) {
+    poses.push_back(names.poses.addAll(part.names.poses));
+    nests.push_back(names.nests.addAll(part.names.nests));
+  }
+  numerics::onAllCores(parts.size(), [&](std::size_t i) { renumber(layout, poses[i], nests[i], parts[i]); });
+  const bool ascending = keysAscend(parts, key);
+  std::vector<Row> rows = making.take();
+  closeUp(parts, rows);
+  if (rows.empty()) return std::nullopt;
+  RowRepeats<Row> repeats(key, rows);
+  for (std::size_t row = 0; !ascending && row < rows.size(); ++row) {
+    if (repeats.of(row) != RepeatCheck::kNew) return std::nullopt;
+  }
+  return rows;
+}
 
 template <class Row>
 [[noreturn]] void refuseRepeat(const TableSource& source, const TableLayout<Row>& layout,
                                const KeyColumns<Row>& key, const TableLines& lines, std::size_t first_line) {
   std::vector<std::string_view> cells;
   for (const std::size_t i : key.places) cells.push_back(lines.cell(i));
-  throw InputError({source.file, lines.line(), fmt::format("{}", fmt::join(layout.key, ", "))},
+  throw io::InputError({source.file, lines.line(), fmt::format("{}", fmt::join(layout.key, ", "))},
                    fmt::format("{}", fmt::join(cells, ", ")),
                    fmt::format("expected a key that does not repeat; line {} has it first", first_line));
 }
@@ -32,7 +500,7 @@ std::vector<Row> readTableInOneGo(const TableSource& source, const TableLayout<R
   const KeyColumns<Row> key(layout);
   TableLines lines(source, wantedColumns(layout), warnings);
   std::vector<Row> rows;
-  rows.reserve(lines.mostRows(lines.rest().size(), linesIn(lines.rest())));
+  rows.reserve(lines.mostRows(lines.rest().size(), io::linesIn(lines.rest())));
   RowRepeats<Row> repeats(key, rows);
   const RowReader<Row> reader(source.file, layout, lines);
   while (lines.next()) {
@@ -58,4 +526,4 @@ std::vector<Row> readTable(const TableSource& source, const TableLayout<Row>& la
   return readTableInOneGo(source, layout, names, warnings);
 }
 
-}  // namespace stiffscope
+}  // namespace stiffscope::campaign

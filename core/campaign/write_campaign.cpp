@@ -1,23 +1,255 @@
 #include "core/campaign/write_campaign.h"
 
-#include "core/campaign/circle_sweeps_table.h"
-#include "core/campaign/displacements_table.h"
-#include "core/campaign/loading_table.h"
-#include "core/campaign/nests_table.h"
-#include "core/campaign/states_table.h"
-#include "core/campaign/wrist_sweep_table.h"
-#include "core/campaign/write_campaign_xml.h"
-#include "core/campaign/write_table.h"
-#include "core/input/read_file.h"
-#include "core/input/write_folder.h"
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <stdexcept>
+#include <string>
+#include <tinyxml2.h>
+#include <vector>
 
-namespace stiffscope {
+#include "core/campaign/campaign.h"
+#include "core/campaign/campaign_xml.h"
+#include "core/campaign/columns.h"
+#include "core/campaign/table_layouts.h"
+#include "core/io/read_file.h"
+#include "core/io/units.h"
+#include "core/io/write_folder.h"
+#include "core/robot/kinematics.h"
+
+namespace stiffscope::campaign {
+
+/// campaign.xml of a campaign, in the units of the format: the URDF is named robot.urdf, a table after its
+/// element (circle_sweeps.csv). Numbers have up to 12 significant digits.
+std::string writtenCampaignXml(const Campaign& campaign);
+
+/// A number in the unit of its column, with the decimals of its kind; "-0.000" is written as "0.000". Throws
+/// std::runtime_error, naming the column, for a value that is not finite.
+std::string writtenNumber(CellKind kind, double si_value, const std::string& column);
+
+/// A name as a cell, in quotes where it needs them. Throws std::runtime_error for an empty one and for one
+/// with control characters, which no table can hold.
+std::string writtenName(const std::string& name, const std::string& column);
+
+/// An index as the file has it: axis and step as numbers, target, pose and nest as names. Throws
+/// std::runtime_error for an index without a name.
+std::string writtenIndex(CellKind kind, int index, const CampaignNames& names, const std::string& column);
+
+/// One member of a row as a cell.
+template <class Row>
+std::string writtenCell(const Column<Row>& column, Row& row, const CampaignNames& names) {
+  if (const auto* number = std::get_if<typename Column<Row>::Number>(&column.member)) {
+    return writtenNumber(column.kind, (*number)(row), column.name);
+  }
+  if (const auto* index = std::get_if<typename Column<Row>::Index>(&column.member)) {
+    return writtenIndex(column.kind, (*index)(row), names, column.name);
+  }
+  return writtenName(std::get<typename Column<Row>::Text>(column.member)(row), column.name);
+}
+
+/// Whether every row has a value for an optional column of numbers.
+template <class Row>
+bool isComplete(const Column<Row>& column, std::vector<Row>& rows) {
+  const auto* number = std::get_if<typename Column<Row>::Number>(&column.member);
+  return number == nullptr ||
+         std::all_of(rows.begin(), rows.end(), [&](Row& row) { return !std::isnan((*number)(row)); });
+}
+
+/// The table as CSV, columns in the order of the layout. An optional column is left out unless every row has
+/// a value for it. (The rows are a copy because a layout gives access to members of rows that may change.)
+template <class Row>
+std::string writtenTable(const TableLayout<Row>& layout, std::vector<Row> rows, const CampaignNames& names) {
+  std::vector<const Column<Row>*> columns;
+  std::string text;
+  for (const Column<Row>& column : layout.columns) {
+    if (!column.required && !isComplete(column, rows)) continue;
+    if (!columns.empty()) text += ',';
+    text += column.name;
+    columns.push_back(&column);
+  }
+  text += '\n';
+  for (Row& row : rows) {
+    for (const Column<Row>* column : columns) {
+      if (column != columns.front()) text += ',';
+      text += writtenCell(*column, row, names);
+    }
+    text += '\n';
+  }
+  return text;
+}
+
+namespace {
+
+// Twelve digits hide what the conversion of units adds behind the fifteenth. Adding 0 turns -0 into 0.
+std::string written(double value) { return fmt::format("{:.12g}", value + 0.0); }
+
+std::string written(const Eigen::Vector3d& v) {
+  return fmt::format("{} {} {}", written(v.x()), written(v.y()), written(v.z()));
+}
+
+/// Elements with text attributes, closed at the end of their scope.
+class Element {
+ public:
+  Element(tinyxml2::XMLPrinter& printer, const char* name) : printer_(printer) { printer.OpenElement(name); }
+  ~Element() { printer_.CloseElement(); }
+  Element(const Element&) = delete;
+  Element& operator=(const Element&) = delete;
+
+  Element& set(const char* name, const std::string& value) {
+    printer_.PushAttribute(name, value.c_str());
+    return *this;
+  }
+  Element& set(const char* name, double value) { return set(name, written(value)); }
+  Element& set(const char* name, const Eigen::Vector3d& value) { return set(name, written(value)); }
+  Element& setPoint(const Eigen::Vector3d& point) {
+    return set("x_mm", point.x() / io::kMillimetre)
+        .set("y_mm", point.y() / io::kMillimetre)
+        .set("z_mm", point.z() / io::kMillimetre);
+  }
+
+ private:
+  tinyxml2::XMLPrinter& printer_;
+};
+
+void writeTexts(tinyxml2::XMLPrinter& printer, const CampaignTexts& texts) {
+  const std::pair<const char*, const std::string&> elements[] = {{"laboratory", texts.laboratory},
+                                                                 {"customer", texts.customer},
+                                                                 {"operator", texts.operator_name},
+                                                                 {"item", texts.item},
+                                                                 {"conditions", texts.conditions}};
+  for (const auto& [name, text] : elements) {
+    if (text.empty()) continue;
+    const Element element(printer, name);
+    printer.PushText(text.c_str());
+  }
+}
+
+void writeRobot(tinyxml2::XMLPrinter& printer, const Campaign& campaign) {
+  const char* const double_encoder = campaign.double_encoder == DoubleEncoder::active     ? "active"
+                                     : campaign.double_encoder == DoubleEncoder::inactive ? "inactive"
+                                                                                          : "unspecified";
+  Element robot(printer, "robot");
+  robot.set("urdf", "robot.urdf")
+      .set("base_link", campaign.base_link)
+      .set("flange_link", campaign.flange_link);
+  robot.set("double_encoder", double_encoder);
+  if (campaign.gravity_in_base != Campaign().gravity_in_base) {
+    robot.set("gravity_m_s2", campaign.gravity_in_base);
+  }
+}
+
+void writeTracker(tinyxml2::XMLPrinter& printer, const Tracker& tracker) {
+  Element element(printer, "tracker");
+  element.set("model", tracker.model)
+      .set("range_fixed_um", tracker.range_fixed / io::kMicrometre)
+      .set("range_per_m_um", tracker.range_per_m / io::kMicrometre)
+      .set("angle_fixed_um", tracker.angle_fixed / io::kMicrometre)
+      .set("angle_per_m_um", tracker.angle_per_m / io::kMicrometre);
+  if (!tracker.station.isZero(0.0)) element.setPoint(tracker.station);
+}
+
+void writeTargets(tinyxml2::XMLPrinter& printer, const std::vector<Target>& targets) {
+  if (targets.empty()) return;
+  const Element list(printer, "targets");
+  for (const Target& target : targets) {
+    Element element(printer, "target");
+    element.set("id", target.id);
+    if (target.position_in_flange) element.setPoint(*target.position_in_flange);
+  }
+}
+
+void writeLoadCell(tinyxml2::XMLPrinter& printer, const LoadCell& cell) {
+  Element element(printer, "load_cell");
+  element.set("parent", cell.parent);
+  if (cell.axes_link) element.set("axes", *cell.axes_link);
+  element.set("xyz_mm", Eigen::Vector3d(cell.parent_from_cell.translation() / io::kMillimetre));
+  const Eigen::Vector3d rpy = robot::rpyFromRotation(cell.parent_from_cell.linear());
+  if (!cell.axes_link) element.set("rpy_deg", Eigen::Vector3d(rpy / io::kDegree));
+  element.set("force_sigma_n", cell.force_sigma).set("moment_sigma_nm", cell.moment_sigma);
+}
+
+template <class Row>
+void writeTableReference(tinyxml2::XMLPrinter& printer, const std::string& element,
+                         const std::optional<Table<Row>>& table) {
+  if (!table) return;
+  Element node(printer, element.c_str());
+  node.set("file", element + ".csv");
+  if (table->frame == PointFrame::base_link) node.set("frame", "base_link");
+}
+
+}  // namespace
+
+std::string writtenCampaignXml(const Campaign& campaign) {
+  tinyxml2::XMLPrinter printer;
+  printer.PushDeclaration("xml version=\"1.0\" encoding=\"UTF-8\"");
+  {
+    Element root(printer, "campaign");
+    root.set("format", "1").set("name", campaign.name).set("date", campaign.date);
+    writeTexts(printer, campaign.texts);
+    writeRobot(printer, campaign);
+    if (campaign.tracker) writeTracker(printer, *campaign.tracker);
+    writeTargets(printer, campaign.targets);
+    if (campaign.load_cell) writeLoadCell(printer, *campaign.load_cell);
+    if (campaign.tool) {
+      Element tool(printer, "tool");
+      tool.set("mass_kg", campaign.tool->mass_kg);
+      tool.set("com_mm", Eigen::Vector3d(campaign.tool->com_in_flange / io::kMillimetre));
+    }
+    writeTableReference(printer, "circle_sweeps", campaign.circle_sweeps);
+    writeTableReference(printer, "wrist_sweep", campaign.wrist_sweep);
+    writeTableReference(printer, "loading", campaign.loading);
+    writeTableReference(printer, "states", campaign.states);
+    writeTableReference(printer, "displacements", campaign.displacements);
+    writeTableReference(printer, "nests", campaign.nests);
+  }
+  return printer.CStr();
+}
+
+namespace {
+
+[[noreturn]] void fail(const std::string& column, const std::string& why) {
+  throw std::runtime_error(fmt::format("the campaign cannot be written: {}: {}", column, why));
+}
+
+}  // namespace
+
+std::string writtenNumber(CellKind kind, double si_value, const std::string& column) {
+  if (!std::isfinite(si_value)) fail(column, "a value is not finite");
+  const NumberKind& info = numberKind(kind);
+  std::string text = fmt::format("{:.{}f}", si_value / info.si_per_unit, info.decimals);
+  if (text.find_first_not_of("-0.") == std::string::npos && text[0] == '-') text.erase(0, 1);
+  return text;
+}
+
+std::string writtenName(const std::string& name, const std::string& column) {
+  if (name.empty()) fail(column, "a name is empty");
+  const auto is_control = [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; };
+  if (std::any_of(name.begin(), name.end(), is_control)) fail(column, "a name has a control character");
+  const bool plain =
+      name.find_first_of(",\";") == std::string::npos && name.front() != ' ' && name.back() != ' ';
+  if (plain) return name;
+  std::string quoted = "\"";
+  for (const char c : name) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return quoted + '"';
+}
+
+std::string writtenIndex(CellKind kind, int index, const CampaignNames& names, const std::string& column) {
+  if (kind == CellKind::axis) return fmt::format("{}", index + 1);
+  if (kind == CellKind::step) return fmt::format("{}", index);
+  const std::vector<std::string>& known = kind == CellKind::target ? names.targets.names()
+                                          : kind == CellKind::pose ? names.poses.names()
+                                                                   : names.nests.names();
+  if (index < 0 || static_cast<std::size_t>(index) >= known.size()) {
+    fail(column, fmt::format("index {} has no name", index));
+  }
+  return writtenName(known[static_cast<std::size_t>(index)], column);
+}
 
 namespace {
 
 template <class Row>
 void addTable(const TableLayout<Row>& layout, const std::optional<Table<Row>>& table, const CampaignNames& names,
-              std::vector<FileToWrite>& files) {
+              std::vector<io::FileToWrite>& files) {
   if (table) files.push_back({layout.element + ".csv", writtenTable(layout, table->rows, names)});
 }
 
@@ -33,9 +265,9 @@ CampaignNames namesOf(const Campaign& campaign) {
 
 void writeCampaign(const Campaign& campaign, const std::filesystem::path& urdf_file,
                    const std::filesystem::path& folder) {
-  const std::string urdf = readTextFile(urdf_file, kLargestXml);
+  const std::string urdf = io::readTextFile(urdf_file, io::kLargestXml);
   const CampaignNames names = namesOf(campaign);
-  std::vector<FileToWrite> files{{"robot.urdf", urdf}};
+  std::vector<io::FileToWrite> files{{"robot.urdf", urdf}};
   addTable(circleSweepsLayout(), campaign.circle_sweeps, names, files);
   addTable(wristSweepLayout(), campaign.wrist_sweep, names, files);
   addTable(loadingLayout(), campaign.loading, names, files);
@@ -44,7 +276,7 @@ void writeCampaign(const Campaign& campaign, const std::filesystem::path& urdf_f
   addTable(nestsLayout(), campaign.nests, names, files);
   // Last, because a folder with a campaign.xml passes for a campaign.
   files.push_back({"campaign.xml", writtenCampaignXml(campaign)});
-  writeFolderWhole(folder, files);
+  io::writeFolderWhole(folder, files);
 }
 
-}  // namespace stiffscope
+}  // namespace stiffscope::campaign

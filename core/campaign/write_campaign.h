@@ -4,7 +4,7 @@
 
 #include "core/campaign/campaign.h"
 
-namespace stiffscope {
+namespace stiffscope::campaign {
 
 /// Writes campaign.xml and every table present into `folder` (made if absent), in the units of the campaign
 /// format, with the same bytes for the same campaign: mm with 4 decimals, deg with 5, N with 3, Nm with 4,
@@ -15,4 +15,4 @@ namespace stiffscope {
 void writeCampaign(const Campaign& campaign, const std::filesystem::path& urdf_file,
                    const std::filesystem::path& folder);
 
-}  // namespace stiffscope
+}  // namespace stiffscope::campaign

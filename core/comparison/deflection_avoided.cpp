@@ -4,7 +4,7 @@
 #include <limits>
 #include <random>
 
-namespace stiffscope {
+namespace stiffscope::comparison {
 
 namespace {
 
@@ -62,7 +62,7 @@ DeflectionAvoided shareAvoided(std::vector<PostureDeflection> postures, const Bo
   return result;
 }
 
-DeflectionAvoided deflectionAvoidedAtWrist(const Identification& before, const Identification& after,
+DeflectionAvoided deflectionAvoidedAtWrist(const identification::Identification& before, const identification::Identification& after,
                                            const MatchedPostures& matched, const BootstrapOptions& options) {
   if (before.wrist_displacement.empty() || after.wrist_displacement.empty()) {
     DeflectionAvoided none;
@@ -73,10 +73,10 @@ DeflectionAvoided deflectionAvoidedAtWrist(const Identification& before, const I
   return ofPairs(before.wrist_displacement, after.wrist_displacement, matched, options);
 }
 
-DeflectionAvoided deflectionAvoidedAtTargets(const Identification& before, const Identification& after,
+DeflectionAvoided deflectionAvoidedAtTargets(const identification::Identification& before, const identification::Identification& after,
                                              const MatchedPostures& matched,
                                              const BootstrapOptions& options) {
   return ofPairs(before.target_displacement, after.target_displacement, matched, options);
 }
 
-}  // namespace stiffscope
+}  // namespace stiffscope::comparison

@@ -6,7 +6,7 @@
 
 #include "core/comparison/matched_postures.h"
 
-namespace stiffscope {
+namespace stiffscope::comparison {
 
 /// One posture's |displacement| in both campaigns, m.
 struct PostureDeflection {
@@ -31,12 +31,12 @@ struct BootstrapOptions {
 };
 
 /// At P_wrist; unavailable, with the reason, where it is not measured in both campaigns.
-DeflectionAvoided deflectionAvoidedAtWrist(const Identification& before, const Identification& after,
+DeflectionAvoided deflectionAvoidedAtWrist(const identification::Identification& before, const identification::Identification& after,
                                            const MatchedPostures& matched,
                                            const BootstrapOptions& options = {});
 
 /// At the reflectors, the mean over those of a posture.
-DeflectionAvoided deflectionAvoidedAtTargets(const Identification& before, const Identification& after,
+DeflectionAvoided deflectionAvoidedAtTargets(const identification::Identification& before, const identification::Identification& after,
                                              const MatchedPostures& matched,
                                              const BootstrapOptions& options = {});
 
@@ -44,4 +44,4 @@ DeflectionAvoided deflectionAvoidedAtTargets(const Identification& before, const
 /// given.
 DeflectionAvoided shareAvoided(std::vector<PostureDeflection> postures, const BootstrapOptions& options = {});
 
-}  // namespace stiffscope
+}  // namespace stiffscope::comparison

@@ -1,15 +1,14 @@
 #include "core/comparison/matched_postures.h"
 
-#include <fmt/format.h>
-
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 #include <unordered_map>
 
-#include "core/input/units.h"
+#include "core/io/units.h"
 
-namespace stiffscope {
+namespace stiffscope::comparison {
 
 namespace {
 
@@ -18,18 +17,18 @@ constexpr double kSameMass = 1e-3;                          // of all links toge
 
 using CaseByPose = std::unordered_map<std::string, std::size_t>;
 
-const std::string& poseOf(const Campaign& campaign, const LoadCase& load_case) {
+const std::string& poseOf(const campaign::Campaign& campaign, const identification::LoadCase& load_case) {
   return campaign.pose_ids[static_cast<std::size_t>(load_case.pose)];
 }
 
-CaseByPose casesOf(const Campaign& campaign, const Identification& result) {
+CaseByPose casesOf(const campaign::Campaign& campaign, const identification::Identification& result) {
   CaseByPose places;
   for (std::size_t i = 0; i < result.cases.size(); ++i) places[poseOf(campaign, result.cases[i])] = i;
   return places;
 }
 
 /// Why a posture is not among the load cases of a campaign.
-std::string whyAbsent(const Campaign& campaign, const Identification& result, const std::string& pose,
+std::string whyAbsent(const campaign::Campaign& campaign, const identification::Identification& result, const std::string& pose,
                       const char* when) {
   const std::string head = "pose " + pose + ": ";
   for (const std::string& left_out : result.left_out) {
@@ -43,12 +42,12 @@ std::string whyAbsent(const Campaign& campaign, const Identification& result, co
 }
 
 /// Why two load cases of one pose id are not the same; empty where they are.
-std::string difference(const LoadCase& before, const LoadCase& after, const MatchLimits& limits) {
+std::string difference(const identification::LoadCase& before, const identification::LoadCase& after, const MatchLimits& limits) {
   Eigen::Index joint = 0;
   const double angle = (after.q - before.q).cwiseAbs().maxCoeff(&joint);
   if (angle > limits.angle) {
     return fmt::format("joint {} stands {:.3f} deg apart, at most {:.3f} is the same posture", joint + 1,
-                       angle / kDegree, limits.angle / kDegree);
+                       angle / io::kDegree, limits.angle / io::kDegree);
   }
   const Eigen::Vector3d &force = before.wrench.force, &other = after.wrench.force;
   const double larger = std::max(force.norm(), other.norm());
@@ -62,8 +61,8 @@ std::string difference(const LoadCase& before, const LoadCase& after, const Matc
 
 }  // namespace
 
-MatchedPostures matchPostures(const Campaign& before_campaign, const Identification& before,
-                              const Campaign& after_campaign, const Identification& after,
+MatchedPostures matchPostures(const campaign::Campaign& before_campaign, const identification::Identification& before,
+                              const campaign::Campaign& after_campaign, const identification::Identification& after,
                               const MatchLimits& limits) {
   MatchedPostures result;
   const CaseByPose places = casesOf(after_campaign, after), own = casesOf(before_campaign, before);
@@ -79,7 +78,7 @@ MatchedPostures matchPostures(const Campaign& before_campaign, const Identificat
       result.unmatched.push_back({pose, reason});
     }
   }
-  for (const LoadCase& load_case : after.cases) {
+  for (const identification::LoadCase& load_case : after.cases) {
     const std::string& pose = poseOf(after_campaign, load_case);
     if (!own.contains(pose))
       result.unmatched.push_back({pose, whyAbsent(before_campaign, before, pose, "before")});
@@ -87,22 +86,22 @@ MatchedPostures matchPostures(const Campaign& before_campaign, const Identificat
   return result;
 }
 
-std::string differenceOfMachines(const Robot& before, const Robot& after) {
+std::string differenceOfMachines(const robot::Robot& before, const robot::Robot& after) {
   for (std::size_t j = 0; j < 6; ++j) {
-    const Line &a = before.axes_in_base_at_zero[j], &b = after.axes_in_base_at_zero[j];
+    const metrology::Line &a = before.axes_in_base_at_zero[j], &b = after.axes_in_base_at_zero[j];
     const double turn = (a.direction - b.direction).norm();
     const double apart = (b.point - a.point).cross(a.direction).norm();  // points slide along their axis
     if (turn <= kSameDirection && apart <= kSamePlace) continue;
     return turn > kSameDirection
                ? fmt::format("the URDFs describe different machines: axis {} is turned by {:.2f} deg", j + 1,
-                             2.0 * std::asin(std::min(1.0, 0.5 * turn)) / kDegree)
+                             2.0 * std::asin(std::min(1.0, 0.5 * turn)) / io::kDegree)
                : fmt::format("the URDFs describe different machines: axis {} stands {:.1f} mm elsewhere",
-                             j + 1, apart / kMillimetre);
+                             j + 1, apart / io::kMillimetre);
   }
   return {};
 }
 
-std::vector<std::string> doubtsOfOneMachine(const Robot& before, const Robot& after) {
+std::vector<std::string> doubtsOfOneMachine(const robot::Robot& before, const robot::Robot& after) {
   std::vector<std::string> doubts;
   if (before.name != after.name) {
     doubts.push_back(fmt::format("the URDFs name different machines: {} and {}", before.name, after.name));
@@ -110,7 +109,7 @@ std::vector<std::string> doubtsOfOneMachine(const Robot& before, const Robot& af
   const Eigen::Isometry3d flanges = before.base_from_flange_at_zero.inverse() * after.base_from_flange_at_zero;
   const double apart = flanges.translation().norm(), turn = Eigen::AngleAxisd(flanges.linear()).angle();
   if (apart > kSamePlace || turn > kSameDirection) {
-    doubts.push_back(fmt::format("the URDFs place the flange {:.1f} mm and {:.2f} deg apart", apart / kMillimetre, turn / kDegree));
+    doubts.push_back(fmt::format("the URDFs place the flange {:.1f} mm and {:.2f} deg apart", apart / io::kMillimetre, turn / io::kDegree));
   }
   double mass_before = 0.0, mass_after = 0.0, difference = 0.0;
   for (std::size_t body = 1; body < before.bodies.size(); ++body) {
@@ -124,4 +123,4 @@ std::vector<std::string> doubtsOfOneMachine(const Robot& before, const Robot& af
   return doubts;
 }
 
-}  // namespace stiffscope
+}  // namespace stiffscope::comparison

@@ -5,7 +5,7 @@
 
 #include "core/identification/identify.h"
 
-namespace stiffscope {
+namespace stiffscope::comparison {
 
 /// One posture that both campaigns measured under the same load: its place among the load cases of each.
 struct PosturePair {
@@ -31,16 +31,16 @@ struct MatchedPostures {
 
 /// Postures correspond where the pose id is the same, no joint angle differs by more than `limits.angle` and
 /// the force vectors (R0) by more than `limits.force`. Every other posture is named with the reason.
-MatchedPostures matchPostures(const Campaign& before_campaign, const Identification& before,
-                              const Campaign& after_campaign, const Identification& after,
+MatchedPostures matchPostures(const campaign::Campaign& before_campaign, const identification::Identification& before,
+                              const campaign::Campaign& after_campaign, const identification::Identification& after,
                               const MatchLimits& limits = {});
 
 /// Why the two nominal arms are not one machine: an axis that stands more than 1 mm or 1 mrad elsewhere in
 /// base_link. Empty where they are.
-std::string differenceOfMachines(const Robot& before, const Robot& after);
+std::string differenceOfMachines(const robot::Robot& before, const robot::Robot& after);
 
 /// What else in two URDFs with the same axes says that they are not of one machine, a sentence each: another name, a
 /// flange elsewhere, other masses beyond joint 1. One machine in two states has one URDF.
-std::vector<std::string> doubtsOfOneMachine(const Robot& before, const Robot& after);
+std::vector<std::string> doubtsOfOneMachine(const robot::Robot& before, const robot::Robot& after);
 
-}  // namespace stiffscope
+}  // namespace stiffscope::comparison

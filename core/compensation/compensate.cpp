@@ -1,16 +1,74 @@
 #include "core/compensation/compensate.h"
 
-#include <fmt/format.h>
-
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 
-#include "core/identification/cell_wrench.h"
-#include "core/input/units.h"
-#include "core/statics/joint_torque.h"
+#include "core/campaign/read_table.h"
+#include "core/identification/load_case.h"
+#include "core/io/read_file.h"
+#include "core/io/units.h"
+#include "core/robot/wrench.h"
 
-namespace stiffscope {
+namespace stiffscope::compensation {
+
+std::vector<std::string> implausibleCommands(const std::vector<CompensatedPosture>& postures) {
+  constexpr double kMost = 2.0 * io::kDegree;
+  std::vector<std::string> sentences;
+  for (const CompensatedPosture& posture : postures) {
+    if (!posture.solved) continue;
+    Eigen::Index joint = 0;
+    const double turn = (posture.commands - posture.posture.q).cwiseAbs().maxCoeff(&joint);
+    if (turn <= kMost) continue;
+    sentences.push_back(
+        fmt::format("posture {} would turn joint {} by {:.1f} deg, which no load does to a sound arm: its "
+                    "wrench may not be in N and Nm",
+                    posture.posture.id, joint + 1, turn / io::kDegree));
+  }
+  return sentences;
+}
+
+namespace {
+
+struct PostureRow {
+  std::string id;
+  Vector6d q = Vector6d::Zero();
+  Vector6d wrench_in_cell = Vector6d::Zero();
+  std::size_t line = 0;
+};
+
+const campaign::TableLayout<PostureRow>& posturesLayout() {
+  using Row = PostureRow;
+  static const campaign::TableLayout<Row> layout{
+      "postures",
+      campaign::joined<Row>({{{"pose", campaign::CellKind::text, [](Row& row) -> std::string& { return row.id; }}},
+                   campaign::jointColumns<Row>(),
+                   campaign::wrenchColumns<Row>()}),
+      {"pose"}};
+  return layout;
+}
+
+}  // namespace
+
+std::vector<PostureToCompensate> readPostures(const std::filesystem::path& file, std::vector<std::string>& warnings) {
+  const std::string bytes = io::readTextFile(file);
+  campaign::CampaignNames names;
+  std::vector<PostureToCompensate> postures;
+  for (PostureRow& row : campaign::readTable<PostureRow>({file.string(), bytes}, posturesLayout(), names, warnings)) {
+    postures.push_back({std::move(row.id), row.q, row.wrench_in_cell});
+  }
+  return postures;
+}
+
+std::vector<PostureToCompensate> campaignPostures(const campaign::Campaign& campaign, int step) {
+  std::vector<PostureToCompensate> postures;
+  for (const campaign::State& state : campaign.states->rows) {
+    if (state.step != step) continue;
+    postures.push_back({campaign.pose_ids[static_cast<std::size_t>(state.pose)], state.q, state.wrench_in_cell});
+  }
+  return postures;
+}
 
 namespace {
 
@@ -29,8 +87,8 @@ struct Moved {
 
 class Compensator {
  public:
-  Compensator(const Campaign& campaign, const LoadingGeometry& geometry, const StiffnessEstimate& estimate,
-              const Eigen::Vector3d& tcp_in_flange, const CompensateOptions& options, const FurtherGive* with)
+  Compensator(const campaign::Campaign& campaign, const frames::LoadingGeometry& geometry, const identification::StiffnessEstimate& estimate,
+              const Eigen::Vector3d& tcp_in_flange, const CompensateOptions& options, const effects::FurtherGive* with)
       : campaign_(campaign),
         geometry_(geometry),
         estimate_(estimate),
@@ -41,19 +99,19 @@ class Compensator {
   CompensatedPosture run(const PostureToCompensate& asked) const {
     CompensatedPosture result;
     result.posture = asked;
-    const auto unloaded_angles = loadedAngles(geometry_, estimate_.compliance, asked.q, FlangeLoad());
+    const auto unloaded_angles = effects::loadedAngles(geometry_, estimate_.compliance, asked.q, effects::FlangeLoad());
     if (!unloaded_angles) {
       result.reason = "the unloaded arm does not come to rest under its own weight";
       return result;
     }
-    const ArmPosture unloaded = postureAt(geometry_.arm, *unloaded_angles);
-    const auto resting = with_ ? with_->flange(asked.q, FlangeLoad()) : flangeAt(geometry_.arm, unloaded);
+    const robot::ArmPosture unloaded = robot::postureAt(geometry_.arm, *unloaded_angles);
+    const auto resting = with_ ? with_->flange(asked.q, effects::FlangeLoad()) : robot::flangeAt(geometry_.arm, unloaded);
     if (!resting) {
       result.reason = "the unloaded arm does not come to rest under its own weight";
       return result;
     }
     const Eigen::Isometry3d wanted = *resting;
-    const FlangeLoad load = loadAt(unloaded, wanted, asked.wrench_in_cell);
+    const effects::FlangeLoad load = loadAt(unloaded, wanted, asked.wrench_in_cell);
     predict(unloaded, wanted, load, result);
     if (!result.predicted) return result;
     result.reason = refusal(asked, unloaded, wanted, load, result.conditioning);
@@ -62,31 +120,31 @@ class Compensator {
   }
 
  private:
-  FlangeLoad loadAt(const ArmPosture& posture, const Eigen::Isometry3d& flange,
+  effects::FlangeLoad loadAt(const robot::ArmPosture& posture, const Eigen::Isometry3d& flange,
                     const Vector6d& reading) const {
-    const Wrench wrench = cellWrench(*campaign_.load_cell, geometry_, posture, flange, flange, reading);
+    const robot::Wrench wrench = identification::cellWrench(*campaign_.load_cell, geometry_, posture, flange, flange, reading);
     return {flange.inverse() * wrench.point, wrench.force, wrench.moment};
   }
 
-  Vector6d torqueOf(const ArmPosture& posture, const Eigen::Isometry3d& flange,
-                    const FlangeLoad& load) const {
-    return jointTorque(geometry_.arm, posture, {flange * load.point_in_flange, load.force, load.moment});
+  Vector6d torqueOf(const robot::ArmPosture& posture, const Eigen::Isometry3d& flange,
+                    const effects::FlangeLoad& load) const {
+    return robot::jointTorque(geometry_.arm, posture, {flange * load.point_in_flange, load.force, load.moment});
   }
 
   /// Where the loaded arm stands with these commands; empty where it does not come to rest.
-  std::optional<ArmPosture> loadedPosture(const Vector6d& commands, const FlangeLoad& load) const {
-    const auto angles = loadedAngles(geometry_, estimate_.compliance, commands, load);
-    return angles ? std::optional<ArmPosture>(postureAt(geometry_.arm, *angles)) : std::nullopt;
+  std::optional<robot::ArmPosture> loadedPosture(const Vector6d& commands, const effects::FlangeLoad& load) const {
+    const auto angles = effects::loadedAngles(geometry_, estimate_.compliance, commands, load);
+    return angles ? std::optional<robot::ArmPosture>(robot::postureAt(geometry_.arm, *angles)) : std::nullopt;
   }
 
   /// Where the flange of the loaded arm stands with these commands, `posture` the one of its springs alone.
-  std::optional<Eigen::Isometry3d> loadedFlange(const Vector6d& commands, const ArmPosture& posture,
-                                                const FlangeLoad& load) const {
-    return with_ ? with_->flange(commands, load) : flangeAt(geometry_.arm, posture);
+  std::optional<Eigen::Isometry3d> loadedFlange(const Vector6d& commands, const robot::ArmPosture& posture,
+                                                const effects::FlangeLoad& load) const {
+    return with_ ? with_->flange(commands, load) : robot::flangeAt(geometry_.arm, posture);
   }
 
-  std::string refusal(const PostureToCompensate& asked, const ArmPosture& unloaded,
-                      const Eigen::Isometry3d& wanted, const FlangeLoad& load, double conditioning) const {
+  std::string refusal(const PostureToCompensate& asked, const robot::ArmPosture& unloaded,
+                      const Eigen::Isometry3d& wanted, const effects::FlangeLoad& load, double conditioning) const {
     const std::string outside =
         outsideLimits(asked.q, "joint {} stands at {:.3f} deg, outside its limits {:.1f} to {:.1f} deg");
     if (!outside.empty()) return outside;
@@ -126,10 +184,10 @@ class Compensator {
   }
 
   PointDeflection deflectionOf(const Eigen::Vector3d& point_in_flange, const Eigen::Isometry3d& wanted,
-                               const Eigen::Isometry3d& loaded, const ArmPosture& unloaded,
+                               const Eigen::Isometry3d& loaded, const robot::ArmPosture& unloaded,
                                const Vector6d& torque, const std::vector<Moved>& varied) const {
     const Eigen::Vector3d place = wanted * point_in_flange, deflection = loaded * point_in_flange - place;
-    const Matrix36d rows = jacobianAt(geometry_.arm, unloaded, place).topRows<3>() * torque.asDiagonal();
+    const Matrix36d rows = robot::jacobianAt(geometry_.arm, unloaded, place).topRows<3>() * torque.asDiagonal();
     Eigen::Matrix3Xd changes(3, static_cast<Eigen::Index>(varied.size()));
     for (std::size_t k = 0; k < varied.size(); ++k)
       changes.col(static_cast<Eigen::Index>(k)) =
@@ -138,16 +196,16 @@ class Compensator {
   }
 
   /// The flange of the arm with what is uncertain moved; those that do not come to rest are left out.
-  std::vector<Moved> variedBy(const Vector6d& q, const FlangeLoad& load) const {
+  std::vector<Moved> variedBy(const Vector6d& q, const effects::FlangeLoad& load) const {
     std::vector<Moved> moved;
     for (std::size_t k = 0; with_ != nullptr && k < with_->varied.size(); ++k) {
-      const auto unloaded = with_->varied[k](q, FlangeLoad()), loaded = with_->varied[k](q, load);
+      const auto unloaded = with_->varied[k](q, effects::FlangeLoad()), loaded = with_->varied[k](q, load);
       if (unloaded && loaded) moved.push_back({*unloaded, *loaded});
     }
     return moved;
   }
 
-  void predict(const ArmPosture& unloaded, const Eigen::Isometry3d& wanted, const FlangeLoad& load,
+  void predict(const robot::ArmPosture& unloaded, const Eigen::Isometry3d& wanted, const effects::FlangeLoad& load,
                CompensatedPosture& result) const {
     const auto posture = loadedPosture(result.posture.q, load);
     const auto resting = posture ? loadedFlange(result.posture.q, *posture, load) : std::nullopt;
@@ -158,7 +216,7 @@ class Compensator {
     result.predicted = true;
     const Eigen::Isometry3d& loaded = *resting;
     const Vector6d torque = torqueOf(unloaded, wanted, load);
-    const Matrix6d jacobian = jacobianAt(geometry_.arm, unloaded, wanted * tcp_);
+    const Matrix6d jacobian = robot::jacobianAt(geometry_.arm, unloaded, wanted * tcp_);
     const std::vector<Moved> varied = variedBy(result.posture.q, load);
     result.tcp = deflectionOf(tcp_, wanted, loaded, unloaded, torque, varied);
     result.rotation = rotationVector(loaded.linear() * wanted.linear().transpose());
@@ -179,8 +237,8 @@ class Compensator {
   }
 
   void solve(const PostureToCompensate& asked, const Vector6d& unloaded_angles,
-             const Eigen::Isometry3d& wanted, const FlangeLoad& load, CompensatedPosture& result) const {
-    const auto once = loadedAngles(geometry_, estimate_.compliance, asked.q, load);
+             const Eigen::Isometry3d& wanted, const effects::FlangeLoad& load, CompensatedPosture& result) const {
+    const auto once = effects::loadedAngles(geometry_, estimate_.compliance, asked.q, load);
     Vector6d commands = asked.q - (*once - unloaded_angles);  // the predicted turn, mirrored: the first try
     constexpr int kMostSteps = 20;
     constexpr double kThere = 1e-9;  // m and rad
@@ -203,37 +261,37 @@ class Compensator {
         result.solved = result.reason.empty();
         return;
       }
-      commands += jacobianAt(geometry_.arm, *posture, flange * tcp_).partialPivLu().solve(error);
+      commands += robot::jacobianAt(geometry_.arm, *posture, flange * tcp_).partialPivLu().solve(error);
     }
     result.reason = "the steps towards the wanted pose do not converge";
   }
 
   std::string outsideLimits(const Vector6d& angles, const char* words) const {
     for (int joint = 0; joint < 6; ++joint) {
-      const JointLimits& limits = geometry_.arm.limits[static_cast<std::size_t>(joint)];
+      const robot::JointLimits& limits = geometry_.arm.limits[static_cast<std::size_t>(joint)];
       if (angles[joint] < limits.lower || angles[joint] > limits.upper) {
-        return fmt::format(fmt::runtime(words), joint + 1, angles[joint] / kDegree, limits.lower / kDegree,
-                           limits.upper / kDegree);
+        return fmt::format(fmt::runtime(words), joint + 1, angles[joint] / io::kDegree, limits.lower / io::kDegree,
+                           limits.upper / io::kDegree);
       }
     }
     return {};
   }
 
-  const Campaign& campaign_;
-  const LoadingGeometry& geometry_;
-  const StiffnessEstimate& estimate_;
+  const campaign::Campaign& campaign_;
+  const frames::LoadingGeometry& geometry_;
+  const identification::StiffnessEstimate& estimate_;
   Eigen::Vector3d tcp_;
   CompensateOptions options_;
-  const FurtherGive* with_;
+  const effects::FurtherGive* with_;
 };
 
 }  // namespace
 
-std::vector<CompensatedPosture> compensate(const Campaign& campaign, const LoadingGeometry& geometry,
-                                           const StiffnessEstimate& estimate,
+std::vector<CompensatedPosture> compensate(const campaign::Campaign& campaign, const frames::LoadingGeometry& geometry,
+                                           const identification::StiffnessEstimate& estimate,
                                            const Eigen::Vector3d& tcp_in_flange,
                                            const std::vector<PostureToCompensate>& postures,
-                                           const CompensateOptions& options, const FurtherGive* with) {
+                                           const CompensateOptions& options, const effects::FurtherGive* with) {
   const Compensator compensator(campaign, geometry, estimate, tcp_in_flange, options, with);
   std::vector<CompensatedPosture> results;
   results.reserve(postures.size());
@@ -241,4 +299,4 @@ std::vector<CompensatedPosture> compensate(const Campaign& campaign, const Loadi
   return results;
 }
 
-}  // namespace stiffscope
+}  // namespace stiffscope::compensation

@@ -1,14 +1,15 @@
 #pragma once
 
 #include <array>
+#include <filesystem>
 #include <string>
 #include <vector>
 
 #include "core/campaign/campaign.h"
-#include "core/compensation/further_give.h"
-#include "core/identification/stiffness_estimate.h"
+#include "core/effects/elastic_arm.h"
+#include "core/identification/estimate.h"
 
-namespace stiffscope {
+namespace stiffscope::compensation {
 
 /// A posture and the load-cell reading expected there (as in the `states` table).
 struct PostureToCompensate {
@@ -56,11 +57,23 @@ struct CompensateOptions {
 /// diag(tau) J^T; not a number where U_c is not.
 ///
 /// `with`: an arm that gives at more than its joint springs takes the place of these; its uncertainty adds in squares.
-std::vector<CompensatedPosture> compensate(const Campaign& campaign, const LoadingGeometry& geometry,
-                                           const StiffnessEstimate& estimate,
+std::vector<CompensatedPosture> compensate(const campaign::Campaign& campaign, const frames::LoadingGeometry& geometry,
+                                           const identification::StiffnessEstimate& estimate,
                                            const Eigen::Vector3d& tcp_in_flange,
                                            const std::vector<PostureToCompensate>& postures,
                                            const CompensateOptions& options = {},
-                                           const FurtherGive* with = nullptr);
+                                           const effects::FurtherGive* with = nullptr);
 
-}  // namespace stiffscope
+/// A sentence for each posture whose commands turn a joint by more than 2 deg against its angle: ten times
+/// what a heavy load does to a weak joint, so that forces, moments or angles are rather in another unit.
+std::vector<std::string> implausibleCommands(const std::vector<CompensatedPosture>& postures);
+
+/// Reads postures and wrenches from a CSV file: `pose` (any name, not repeated), `q1_deg`..`q6_deg`, and the load-cell
+/// reading expected there, `fx_n fy_n fz_n mx_nm my_nm mz_nm`; columns in any order. Throws InputError as the campaign's
+/// tables do; unknown columns go to `warnings`.
+std::vector<PostureToCompensate> readPostures(const std::filesystem::path& file, std::vector<std::string>& warnings);
+
+/// The campaign's own postures in load step `step`.
+std::vector<PostureToCompensate> campaignPostures(const campaign::Campaign& campaign, int step);
+
+}  // namespace stiffscope::compensation

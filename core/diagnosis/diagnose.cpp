@@ -1,67 +1,62 @@
 #include "core/diagnosis/diagnose.h"
 
-#include <fmt/format.h>
-
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 
-#include "core/diagnosis/aliasing.h"
-#include "core/diagnosis/chance_limit.h"
-#include "core/diagnosis/detectable.h"
-#include "core/diagnosis/drift_bound.h"
-#include "core/diagnosis/evenly_spread.h"
-#include "core/diagnosis/gap_as_measured.h"
-#include "core/diagnosis/gap_size.h"
-#include "core/diagnosis/gap_start.h"
+#include "core/diagnosis/confounding.h"
+#include "core/diagnosis/diagnosis_input.h"
 #include "core/diagnosis/geometry_error.h"
 #include "core/diagnosis/held_out.h"
-#include "core/diagnosis/next.h"
-#include "core/diagnosis/testable.h"
+#include "core/diagnosis/localization.h"
+#include "core/diagnosis/next_measurement.h"
+#include "core/diagnosis/preconditions.h"
+#include "core/diagnosis/significance.h"
 #include "core/diagnosis/verdict.h"
-#include "core/diagnosis/where.h"
-#include "core/input/input_error.h"
+#include "core/io/input_error.h"
+#include "core/preparation/subsample.h"
 
-namespace stiffscope {
+namespace stiffscope::diagnosis {
 
 namespace {
 
-void requireLoads(const Campaign& campaign) {
-  const InputPlace place{(campaign.folder / "campaign.xml").string(), 0, {}};
+void requireLoads(const campaign::Campaign& campaign) {
+  const io::InputPlace place{(campaign.folder / "campaign.xml").string(), 0, {}};
   if (!campaign.states || !campaign.load_cell) {
-    throw InputError(place, "",
+    throw io::InputError(place, "",
                      !campaign.states
                          ? "no 'states': joint angles and load-cell readings are needed to diagnose"
                          : "no 'load_cell': where the measured wrench acts is needed to diagnose");
   }
   if (!campaign.loading && !campaign.displacements) {
-    throw InputError(place, "",
+    throw io::InputError(place, "",
                      "neither 'loading' nor 'displacements': readings under load are needed to diagnose");
   }
-  if (!heaviestStep(campaign)) {
-    throw InputError({(campaign.folder / campaign.states->file).string(), 0, {}}, "",
+  if (!identification::heaviestStep(campaign)) {
+    throw io::InputError({(campaign.folder / campaign.states->file).string(), 0, {}}, "",
                      "no load step has a force");
   }
 }
 
-std::size_t modelOf(const std::vector<EffectModel>& models, Effect effect) {
+std::size_t modelOf(const std::vector<effects::EffectModel>& models, effects::Effect effect) {
   return static_cast<std::size_t>(std::find_if(models.begin(), models.end(),
-                                               [&](const EffectModel& one) { return one.effect == effect; }) -
+                                               [&](const effects::EffectModel& one) { return one.effect == effect; }) -
                                   models.begin());
 }
 
 /// With one effect wanted: its models, and those of a station that moved, which nests may put in.
-std::vector<EffectModel> modelsFor(const Campaign& campaign, const std::optional<Effect>& only) {
-  std::vector<EffectModel> models = effectModelsOf(campaign);
-  std::erase_if(models, [&](const EffectModel& one) {
-    return only && one.effect != *only && one.effect != Effect::tracker_drift && one.effect != Effect::frame_error;
+std::vector<effects::EffectModel> modelsFor(const campaign::Campaign& campaign, const std::optional<effects::Effect>& only) {
+  std::vector<effects::EffectModel> models = effects::effectModelsOf(campaign);
+  std::erase_if(models, [&](const effects::EffectModel& one) {
+    return only && one.effect != *only && one.effect != effects::Effect::tracker_drift && one.effect != effects::Effect::frame_error;
   });
   return models;
 }
 
 class Diagnoser {
  public:
-  Diagnoser(const Campaign& campaign, const DiagnoseOptions& options)
+  Diagnoser(const campaign::Campaign& campaign, const DiagnoseOptions& options)
       : original_(campaign),
         options_(options),
         start_(gapStart(campaign, true)),
@@ -90,8 +85,8 @@ class Diagnoser {
     const GapData data = gapData(input_, start_.state, {});
     const CampaignHas has = whatIsThere(input_, data, start_.state, start_.station);
     allowed_.assign(input_.models.size(), true);
-    for (std::size_t e = 0; e < kEffectCount; ++e) {
-      const auto effect = static_cast<Effect>(e);
+    for (std::size_t e = 0; e < effects::kEffectCount; ++e) {
+      const auto effect = static_cast<effects::Effect>(e);
       const std::string missing = missingFor(effect, has);
       if (missing.empty()) continue;
       result_.not_testable.push_back({effect, missing});
@@ -103,13 +98,13 @@ class Diagnoser {
       if (input_.models[m].effect != *options_.only) allowed_[m] = false;
     }
     boundDriftByNests(start_, input_);
-    if (start_.station.course == StationCourse::drifted) input_.wandering = &start_.station;
-    if (start_.station.course == StationCourse::jumped)
-      allowed_[modelOf(input_.models, Effect::tracker_drift)] = false;
-    if (start_.station.course == StationCourse::jumped)
-      given_ = {modelOf(input_.models, Effect::frame_error)};
-    if (start_.station.course == StationCourse::drifted)
-      given_ = {modelOf(input_.models, Effect::tracker_drift), modelOf(input_.models, Effect::frame_error)};
+    if (start_.station.course == preparation::StationCourse::drifted) input_.wandering = &start_.station;
+    if (start_.station.course == preparation::StationCourse::jumped)
+      allowed_[modelOf(input_.models, effects::Effect::tracker_drift)] = false;
+    if (start_.station.course == preparation::StationCourse::jumped)
+      given_ = {modelOf(input_.models, effects::Effect::frame_error)};
+    if (start_.station.course == preparation::StationCourse::drifted)
+      given_ = {modelOf(input_.models, effects::Effect::tracker_drift), modelOf(input_.models, effects::Effect::frame_error)};
   }
 
   void fit() {
@@ -215,7 +210,7 @@ class Diagnoser {
       one.explained = own.explained;
       const bool by_station =
           one.in_verdict && !given_.empty() &&
-          (one.effects.front() == Effect::frame_error || one.effects.front() == Effect::tracker_drift);
+          (one.effects.front() == effects::Effect::frame_error || one.effects.front() == effects::Effect::tracker_drift);
       if (!by_station) continue;
       one.shrink = station.deflection;
       one.shrink_of_positions = station.position;
@@ -226,7 +221,7 @@ class Diagnoser {
     }
   }
 
-  const Campaign& original_;
+  const campaign::Campaign& original_;
   DiagnoseOptions options_;
   GapStart start_;
   GapInput input_;
@@ -242,36 +237,36 @@ class Diagnoser {
 };
 
 /// `spread` is what is looked at of a campaign of so many postures, which the diagnosis refers to.
-Diagnosis diagnoseSpread(const Campaign& spread, std::size_t postures, bool long_sweeps, const DiagnoseOptions& options) {
+Diagnosis diagnoseSpread(const campaign::Campaign& spread, std::size_t postures, bool long_sweeps, const DiagnoseOptions& options) {
   Diagnosis diagnosis = Diagnoser(spread, options).run();
   if (long_sweeps) {
-    diagnosis.verdict.reason += fmt::format(" Of a sweep's readings {} at most took part, spread evenly over it.", kMostSwept);
+    diagnosis.verdict.reason += fmt::format(" Of a sweep's readings {} at most took part, spread evenly over it.", preparation::kMostSwept);
   }
-  if (postures <= kMostDiagnosed) return diagnosis;
-  const std::vector<std::size_t> places = evenlySpreadIndices(postures, kMostDiagnosed);
+  if (postures <= preparation::kMostDiagnosed) return diagnosis;
+  const std::vector<std::size_t> places = preparation::evenlySpreadIndices(postures, preparation::kMostDiagnosed);
   for (PointGap& one : diagnosis.at_points) one.pose = static_cast<int>(places[static_cast<std::size_t>(one.pose)]);
   diagnosis.verdict.reason +=
       fmt::format(" Of {} postures {} took part, spread evenly over the day.", postures, diagnosis.postures);
   return diagnosis;
 }
 
-bool isLong(const Campaign& campaign) { return campaign.pose_ids.size() > kMostDiagnosed || hasLongSweep(campaign); }
+bool isLong(const campaign::Campaign& campaign) { return campaign.pose_ids.size() > preparation::kMostDiagnosed || preparation::hasLongSweep(campaign); }
 
 }  // namespace
 
-Diagnosis diagnose(const Campaign& campaign, const DiagnoseOptions& options) {
+Diagnosis diagnose(const campaign::Campaign& campaign, const DiagnoseOptions& options) {
   requireLoads(campaign);
   if (!isLong(campaign)) return Diagnoser(campaign, options).run();
-  return diagnoseSpread(evenlySpread(campaign, kMostDiagnosed), campaign.pose_ids.size(), hasLongSweep(campaign), options);
+  return diagnoseSpread(preparation::evenlySpread(campaign, preparation::kMostDiagnosed), campaign.pose_ids.size(), preparation::hasLongSweep(campaign), options);
 }
 
-Diagnosis diagnose(Campaign&& campaign, const DiagnoseOptions& options) {
+Diagnosis diagnose(campaign::Campaign&& campaign, const DiagnoseOptions& options) {
   requireLoads(campaign);
   const std::size_t postures = campaign.pose_ids.size();
   if (!isLong(campaign)) return Diagnoser(campaign, options).run();
-  const bool long_sweeps = hasLongSweep(campaign);
-  campaign = evenlySpread(campaign, kMostDiagnosed);
+  const bool long_sweeps = preparation::hasLongSweep(campaign);
+  campaign = preparation::evenlySpread(campaign, preparation::kMostDiagnosed);
   return diagnoseSpread(campaign, postures, long_sweeps, options);
 }
 
-}  // namespace stiffscope
+}  // namespace stiffscope::diagnosis

@@ -6,7 +6,7 @@
 #include "core/campaign/campaign.h"
 #include "core/diagnosis/diagnosis.h"
 
-namespace stiffscope {
+namespace stiffscope::diagnosis {
 
 struct DiagnoseOptions {
   int resamples = 120;        ///< bootstrap samples of postures for the intervals; 0: no shrink is judged
@@ -15,14 +15,14 @@ struct DiagnoseOptions {
   std::uint64_t seed = 1;     ///< of both; the same input gives the same answer
   double noise_share = 0.5;   ///< see FitRules
   double deflection_share = 0.002;
-  std::optional<Effect> only;  ///< the one effect that may be chosen; what it leaves is then left as it is
+  std::optional<effects::Effect> only;  ///< the one effect that may be chosen; what it leaves is then left as it is
 };
 
 /// Where the gap between the joint-stiffness model and the machine lies, which effects cause it, and how far
 /// it shrinks. Never throws for what the data lacks: effects that cannot be tested say what is missing.
 /// Throws InputError where the campaign has no loads at all, as identify does.
-Diagnosis diagnose(const Campaign& campaign, const DiagnoseOptions& options = {});
+Diagnosis diagnose(const campaign::Campaign& campaign, const DiagnoseOptions& options = {});
 /// Of a campaign that is of no more use: of a long day's readings those that take no part go before the equations come.
-Diagnosis diagnose(Campaign&& campaign, const DiagnoseOptions& options = {});
+Diagnosis diagnose(campaign::Campaign&& campaign, const DiagnoseOptions& options = {});
 
-}  // namespace stiffscope
+}  // namespace stiffscope::diagnosis

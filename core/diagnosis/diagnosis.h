@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "core/diagnosis/effect.h"
+#include "core/effects/effect.h"
 #include "core/robot/robot.h"
 
-namespace stiffscope {
+namespace stiffscope::diagnosis {
 
 /// 1 - rms after / rms before, on postures that took no part in the fit.
 struct Shrink {
@@ -18,7 +18,7 @@ struct Shrink {
 
 /// Effects that this data cannot tell apart, as one candidate.
 struct EffectClass {
-  std::vector<Effect> effects;
+  std::vector<effects::Effect> effects;
   std::string detail;      ///< the pair, the reflector, the joint that it names; empty where nothing is named
   /// Fall of BIC against the model without it; larger is better. Of the geometry, which no deflection is fitted by: the
   /// square of its rms over the tolerance, times the loading's equations.
@@ -33,7 +33,7 @@ struct EffectClass {
 
 /// One member of a verdict: effects that cannot be told apart, or `unknown` where `effects` is empty.
 struct VerdictEntry {
-  std::vector<Effect> effects;
+  std::vector<effects::Effect> effects;
   std::string detail;
 };
 
@@ -72,18 +72,18 @@ struct PointGap {
 };
 
 struct DetectableSize {
-  Effect effect = Effect::link_compliance;
+  effects::Effect effect = effects::Effect::link_compliance;
   std::optional<double> size;  ///< rms per coordinate of its displacements, m; empty: not testable here
 };
 
 struct NotTestable {
-  Effect effect = Effect::link_compliance;
+  effects::Effect effect = effects::Effect::link_compliance;
   std::string missing;
 };
 
 /// A measurement that would separate what is tied, or make something testable.
 struct NextMeasurement {
-  std::vector<Effect> separates;
+  std::vector<effects::Effect> separates;
   std::string what;
   double gain = 0.0;  ///< of chi2 between the tied effects, expected; 0 where it makes something testable
 };
@@ -106,7 +106,7 @@ struct Diagnosis {
   std::string unusable_reason;
   Verdict verdict;
   std::vector<EffectClass> classes;          ///< the verdict's first, then the others; best first
-  std::vector<std::vector<Effect>> aliases;  ///< by the postures and loads alone, before any residual
+  std::vector<std::vector<effects::Effect>> aliases;  ///< by the postures and loads alone, before any residual
   std::vector<DetectableSize> detectable;
   std::vector<NotTestable> not_testable;
   Gap gap, positions;  ///< of the deflection; of unloaded absolute positions (deflection 0)
@@ -137,4 +137,4 @@ struct Diagnosis {
   int postures = 0, states = 0;
 };
 
-}  // namespace stiffscope
+}  // namespace stiffscope::diagnosis

@@ -6,7 +6,7 @@
 
 #include "core/diagnosis/diagnose.h"
 
-namespace stiffscope {
+namespace stiffscope::diagnosis {
 
 namespace {
 
@@ -16,12 +16,12 @@ double beyondNoise(const Gap& gap) {
 
 }  // namespace
 
-double distanceFromVocabulary(const Campaign& campaign) {
+double distanceFromVocabulary(const campaign::Campaign& campaign) {
   double least = std::numeric_limits<double>::infinity();
-  for (std::size_t e = 0; e < kEffectCount; ++e) {
+  for (std::size_t e = 0; e < effects::kEffectCount; ++e) {
     DiagnoseOptions options;
     options.resamples = options.chance_draws = 0;
-    options.only = static_cast<Effect>(e);
+    options.only = static_cast<effects::Effect>(e);
     const Diagnosis with_it = diagnose(campaign, options);
     if (!with_it.usable) return 0.0;
     least = std::min(least, std::max(beyondNoise(with_it.gap), beyondNoise(with_it.positions)));
@@ -29,4 +29,4 @@ double distanceFromVocabulary(const Campaign& campaign) {
   return least;
 }
 
-}  // namespace stiffscope
+}  // namespace stiffscope::diagnosis

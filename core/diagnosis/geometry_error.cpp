@@ -3,26 +3,26 @@
 #include <Eigen/Dense>
 #include <algorithm>
 
-#include "metrology/common_perpendicular.h"
+#include "metrology/lines.h"
 #include "metrology/rigid_motion.h"
 
-namespace stiffscope {
+namespace stiffscope::diagnosis {
 
 namespace {
 
 /// URDF axes in R0 by the rule of the campaign format.
-Robot nominalIn(const Campaign& campaign, const LoadingGeometry& geometry) {
-  Robot robot = campaign.robot;
-  for (Line& axis : robot.axes_in_base_at_zero) {
+robot::Robot nominalIn(const campaign::Campaign& campaign, const frames::LoadingGeometry& geometry) {
+  robot::Robot robot = campaign.robot;
+  for (metrology::Line& axis : robot.axes_in_base_at_zero) {
     axis = {geometry.r0_from_base_link * axis.point, geometry.r0_from_base_link.linear() * axis.direction};
   }
   return robot;
 }
 
-std::vector<Vector6d> posturesOf(const Campaign& campaign) {
+std::vector<Vector6d> posturesOf(const campaign::Campaign& campaign) {
   std::vector<Vector6d> postures;
   if (campaign.states) {
-    for (const State& state : campaign.states->rows) {
+    for (const campaign::State& state : campaign.states->rows) {
       if (state.step == 0) postures.push_back(state.q);
     }
   }
@@ -39,7 +39,7 @@ GeometryError geometryError(const GapInput& input, const GapState& state) {
     error.reason = "absolute unloaded positions (`loading`, or circle sweeps of all axes) are needed";
     return error;
   }
-  const Robot nominal = nominalIn(input.campaign, state.geometry);
+  const robot::Robot nominal = nominalIn(input.campaign, state.geometry);
   const auto& found_axes = state.geometry.arm.axes_in_base_at_zero;
   Eigen::Isometry3d base = Eigen::Isometry3d::Identity();
   std::vector<Eigen::Vector3d> targets;
@@ -56,10 +56,10 @@ GeometryError geometryError(const GapInput& input, const GapState& state) {
     Eigen::VectorXd left(rows);
     Eigen::Index row = 0;
     for (const Vector6d& q : postures) {
-      const Eigen::Isometry3d truth = postureAt(state.geometry.arm, q).motion[6];
-      const ArmPosture posture = postureAt(nominal, q + zero * Vector6d::Unit(1));
+      const Eigen::Isometry3d truth = robot::postureAt(state.geometry.arm, q).motion[6];
+      const robot::ArmPosture posture = robot::postureAt(nominal, q + zero * Vector6d::Unit(1));
       const Eigen::Isometry3d model = base * posture.motion[6];
-      Line axis_2 = axisAt(nominal, posture, 1);
+      metrology::Line axis_2 = robot::axisAt(nominal, posture, 1);
       axis_2 = {base * axis_2.point, base.linear() * axis_2.direction};
       for (Eigen::Index t = 0; t < count; ++t, row += 3) {
         const auto k = static_cast<std::size_t>(t);
@@ -74,14 +74,14 @@ GeometryError geometryError(const GapInput& input, const GapState& state) {
     }
     const Eigen::VectorXd step = columns.completeOrthogonalDecomposition().solve(left);
     error.rms = (left - columns * step).norm() / std::sqrt(static_cast<double>(rows));
-    base = motionAbout(Eigen::Vector3d::Zero(), step.head<6>()) * base;
+    base = metrology::motionAbout(Eigen::Vector3d::Zero(), step.head<6>()) * base;
     zero += step[6 + 3 * count];
     for (Eigen::Index t = 0; t < count; ++t)
       targets[static_cast<std::size_t>(t)] += step.segment<3>(6 + 3 * t);
   }
   for (std::size_t j = 0; j < 6; ++j) {
-    const Line& axis = nominal.axes_in_base_at_zero[j];
-    const Eigen::Vector3d off = nearestPoint(found_axes[j], axis.point) - axis.point;
+    const metrology::Line& axis = nominal.axes_in_base_at_zero[j];
+    const Eigen::Vector3d off = metrology::nearestPoint(found_axes[j], axis.point) - axis.point;
     error.largest_shift =
         std::max(error.largest_shift, (off - axis.direction * axis.direction.dot(off)).norm());
     error.largest_tilt = std::max(error.largest_tilt, axis.direction.cross(found_axes[j].direction).norm());
@@ -90,4 +90,4 @@ GeometryError geometryError(const GapInput& input, const GapState& state) {
   return error;
 }
 
-}  // namespace stiffscope
+}  // namespace stiffscope::diagnosis

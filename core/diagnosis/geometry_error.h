@@ -2,9 +2,9 @@
 
 #include "core/campaign/campaign.h"
 #include "core/diagnosis/diagnosis.h"
-#include "core/diagnosis/gap_fit.h"
+#include "core/diagnosis/fit.h"
 
-namespace stiffscope {
+namespace stiffscope::diagnosis {
 
 /// What an arm is allowed that nobody calibrated. Nominal geometries of industrial arms miss by 0.1 to 0.3 mm
 /// rms in a cell's volume once base and tool are fitted, and by up to a millimetre at its worst point; that
@@ -14,4 +14,4 @@ inline constexpr double kGeometryTolerance = 0.4e-3;  ///< rms per coordinate, m
 /// Base and reflectors of the nominal arm are placed as well as can be before the two are compared.
 GeometryError geometryError(const GapInput& input, const GapState& state);
 
-}  // namespace stiffscope
+}  // namespace stiffscope::diagnosis

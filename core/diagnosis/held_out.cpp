@@ -4,10 +4,10 @@
 #include <cmath>
 #include <random>
 
-#include "core/identification/coverage_factor.h"
-#include "core/parallel/on_all_cores.h"
+#include "core/identification/estimate.h"
+#include "core/numerics/parallel.h"
 
-namespace stiffscope {
+namespace stiffscope::diagnosis {
 
 namespace {
 
@@ -53,7 +53,7 @@ double quantile(std::vector<double> sorted, double share) {
 /// What the spread of a bootstrap over `postures` lacks: drawing with replacement shrinks the variance by
 /// (n - 1) / n, and a quantile of draws knows nothing of the variance's own error, which Student's t does.
 double fewPostures(double postures) {
-  return std::sqrt(postures / (postures - 1.0)) * studentFactor(postures - 1.0, 0.95) / studentFactor(1e6, 0.95);
+  return std::sqrt(postures / (postures - 1.0)) * identification::studentFactor(postures - 1.0, 0.95) / identification::studentFactor(1e6, 0.95);
 }
 
 /// Spread of the bootstrap about its median, narrowed by the root of judged over all postures and widened for
@@ -116,7 +116,7 @@ std::vector<HeldOutShrink> heldOutShrinks(const GapInput& input, const GapFit& a
   std::vector<HeldOutShrink> result(recipes.size());
   if (postures < 4) return result;
   std::vector<std::vector<HeldOut>> left(postures, std::vector<HeldOut>(recipes.size()));
-  onAllCores(postures, [&](std::size_t p) {
+  numerics::onAllCores(postures, [&](std::size_t p) {
     std::vector<double> weights(postures, 1.0);
     weights[p] = 0.0;
     const auto trained = train(input, alone, fit, allowed, recipes, weights);
@@ -134,7 +134,7 @@ std::vector<HeldOutShrink> heldOutShrinks(const GapInput& input, const GapFit& a
   const double judged_share =
       resamples > 0 ? judged / static_cast<double>(resamples) / static_cast<double>(postures) : 0.0;
   std::vector<std::vector<HeldOut>> drawn(samples.size(), std::vector<HeldOut>(recipes.size()));
-  onAllCores(samples.size(), [&](std::size_t b) {
+  numerics::onAllCores(samples.size(), [&](std::size_t b) {
     const auto& weights = samples[b];
     const auto trained = train(input, alone, fit, allowed, recipes, weights);
     for (std::size_t p = 0; p < postures; ++p) {
@@ -168,4 +168,4 @@ std::vector<HeldOutShrink> heldOutShrinks(const GapInput& input, const GapFit& a
   return result;
 }
 
-}  // namespace stiffscope
+}  // namespace stiffscope::diagnosis

@@ -3,9 +3,9 @@
 #include <cstdint>
 
 #include "core/diagnosis/diagnosis.h"
-#include "core/diagnosis/gap_fit.h"
+#include "core/diagnosis/fit.h"
 
-namespace stiffscope {
+namespace stiffscope::diagnosis {
 
 /// Squares of what is left in the postures that a fit did not see.
 struct HeldOut {
@@ -45,4 +45,4 @@ HeldOut leftIn(const GapPosture& alone, const StiffnessesAlone& before, const Ga
 /// Expected squares of the deflection rows by noise alone.
 double noiseSquares(const GapPosture& posture);
 
-}  // namespace stiffscope
+}  // namespace stiffscope::diagnosis

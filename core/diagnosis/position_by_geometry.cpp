@@ -3,11 +3,11 @@
 #include <Eigen/Dense>
 #include <algorithm>
 
-#include "core/diagnosis/rest_state.h"
-#include "core/statics/geometric_stiffness.h"
-#include "metrology/measured_line.h"
+#include "core/effects/gravity_equilibrium.h"
+#include "core/robot/geometric_stiffness.h"
+#include "metrology/lines.h"
 
-namespace stiffscope {
+namespace stiffscope::diagnosis {
 
 namespace {
 
@@ -28,9 +28,9 @@ struct SmallMotion {
 };
 
 /// The four steps of an axis as motions of it, in the order of GeometrySteps.
-std::array<SmallMotion, kStepsPerAxis> stepsOf(const Line& axis) {
+std::array<SmallMotion, kStepsPerAxis> stepsOf(const metrology::Line& axis) {
   Eigen::Vector3d u, v;
-  basisAcross(axis.direction, u, v);
+  metrology::basisAcross(axis.direction, u, v);
   const auto tilt = [&](const Eigen::Vector3d& towards) {
     const Eigen::Vector3d rotation = axis.direction.cross(towards);
     return SmallMotion{rotation, -rotation.cross(axis.point)};
@@ -44,12 +44,12 @@ struct Carried {
   std::array<Eigen::Vector3d, kJoints> moment;
 };
 
-Carried carriedBy(const OwnWeight& weight, const ArmPosture& posture) {
+Carried carriedBy(const robot::OwnWeight& weight, const robot::ArmPosture& posture) {
   Carried carried;
   double mass = 0.0;
   Eigen::Vector3d moment = Eigen::Vector3d::Zero();
   for (std::size_t joint = kJoints; joint-- > 0;) {
-    const BodyMass& body = weight.bodies[joint + 1];
+    const robot::BodyMass& body = weight.bodies[joint + 1];
     mass += body.mass_kg;
     moment += body.mass_kg * (posture.motion[joint + 1] * body.com_in_base_at_zero);
     carried.mass[joint] = mass;
@@ -60,11 +60,11 @@ Carried carriedBy(const OwnWeight& weight, const ArmPosture& posture) {
 
 /// How tau_j = z_j . ((S_j - m_j p_j) x g) changes as axis `moved` does by `own` and all beyond it by
 /// `beyond`.
-Vector6d torqueChange(const ArmState& state, const Carried& carried, const Eigen::Vector3d& gravity,
+Vector6d torqueChange(const effects::ArmState& state, const Carried& carried, const Eigen::Vector3d& gravity,
                       std::size_t moved, const SmallMotion& own, const SmallMotion& beyond) {
   Vector6d change;
   for (std::size_t j = 0; j < kJoints; ++j) {
-    const Line& axis = state.axes[j];
+    const metrology::Line& axis = state.axes[j];
     const std::size_t first = std::max(j, moved);
     const SmallMotion of_axis = j < moved ? SmallMotion{} : (j == moved ? own : beyond);
     const Eigen::Vector3d arm = carried.moment[j] - carried.mass[j] * axis.point;
@@ -84,36 +84,36 @@ struct TurnSlopes {
 
 /// By differences: play turns by all of it within a small part of the largest torque, however smooth the
 /// rest.
-TurnSlopes turnSlopes(const WorkingPoint& at, const ArmState& state) {
+TurnSlopes turnSlopes(const effects::WorkingPoint& at, const effects::ArmState& state) {
   TurnSlopes slopes;
   if (at.turns.empty()) return slopes;
   constexpr double kTorqueStep = 1e-6, kLeast = 1e-9;  // of the joint's largest torque; Nm
   constexpr double kAngleStep = 1e-7;                  // rad
-  const Vector6d here = presentTurn(at, state);
-  ArmState there = state;
+  const Vector6d here = effects::presentTurn(at, state);
+  effects::ArmState there = state;
   for (Eigen::Index j = 0; j < 6; ++j) {
     const double step = std::max(kTorqueStep * at.largest_torque[j], kLeast);
     there.weight_torque[j] += step;
-    slopes.by_torque.col(j) = (presentTurn(at, there) - here) / step;
+    slopes.by_torque.col(j) = (effects::presentTurn(at, there) - here) / step;
     there.weight_torque[j] = state.weight_torque[j];
     there.turned[j] += kAngleStep;
-    slopes.by_angle.col(j) = (presentTurn(at, there) - here) / kAngleStep;
+    slopes.by_angle.col(j) = (effects::presentTurn(at, there) - here) / kAngleStep;
     there.turned[j] = state.turned[j];
   }
   return slopes;
 }
 
 /// Joint angles by joint torques: d theta = (C + T) (d tau + K_c d theta) + U d theta.
-Matrix6d anglesByTorque(const LoadingGeometry& geometry, const WorkingPoint& at, const ArmState& state) {
+Matrix6d anglesByTorque(const frames::LoadingGeometry& geometry, const effects::WorkingPoint& at, const effects::ArmState& state) {
   const TurnSlopes slopes = turnSlopes(at, state);
   const Matrix6d yielding = Matrix6d(geometry.compliance.asDiagonal()) + slopes.by_torque;
-  const Matrix6d stiffening = geometricStiffness(state.axes, state.posture, geometry.weight);
+  const Matrix6d stiffening = robot::geometricStiffness(state.axes, state.posture, geometry.weight);
   return (Matrix6d::Identity() - yielding * stiffening - slopes.by_angle).partialPivLu().solve(yielding);
 }
 
 /// Its reflectors where the arm has them, which may be centimetres from where they were read.
-ArmState asModelled(const LoadingGeometry& geometry, const ArmState& state) {
-  ArmState modelled = state;
+effects::ArmState asModelled(const frames::LoadingGeometry& geometry, const effects::ArmState& state) {
+  effects::ArmState modelled = state;
   for (std::size_t i = 0; i < state.targets.size(); ++i) {
     modelled.points[i] =
         state.posture.motion[6] * *geometry.targets_at_zero[static_cast<std::size_t>(state.targets[i])];
@@ -123,53 +123,53 @@ ArmState asModelled(const LoadingGeometry& geometry, const ArmState& state) {
 
 }  // namespace
 
-PositionByGeometry::PositionByGeometry(const LoadingGeometry& geometry, const WorkingPoint& at,
+PositionByGeometry::PositionByGeometry(const frames::LoadingGeometry& geometry, const effects::WorkingPoint& at,
                                        const Eigen::Vector3d& centre)
     : geometry_(geometry), at_(at), centre_(centre) {
   if (at.motions.empty()) return;
-  const Eigen::Index steps = GeometrySteps::count(geometry.targets_at_zero.size());
-  for (Eigen::Index k = 0; k < GeometrySteps::kAxes; ++k)
-    stepped_.push_back(moved(geometry, GeometrySteps::kSmall * Eigen::VectorXd::Unit(steps, k), centre));
+  const Eigen::Index steps = frames::GeometrySteps::count(geometry.targets_at_zero.size());
+  for (Eigen::Index k = 0; k < frames::GeometrySteps::kAxes; ++k)
+    stepped_.push_back(frames::moved(geometry, frames::GeometrySteps::kSmall * Eigen::VectorXd::Unit(steps, k), centre));
 }
 
-void PositionByGeometry::addAxes(const ArmState& modelled, Eigen::MatrixXd& columns) const {
+void PositionByGeometry::addAxes(const effects::ArmState& modelled, Eigen::MatrixXd& columns) const {
   const bool sags = geometry_.weight.links_known && !(geometry_.compliance.isZero() && at_.turns.empty());
   const Carried carried = carriedBy(geometry_.weight, modelled.posture);
-  Eigen::Matrix<double, 6, GeometrySteps::kAxes> torques;
+  Eigen::Matrix<double, 6, frames::GeometrySteps::kAxes> torques;
   for (std::size_t j = 0; j < kJoints; ++j) {
     const auto steps = stepsOf(geometry_.arm.axes_in_base_at_zero[j]);
     for (std::size_t k = 0; k < kStepsPerAxis; ++k) {
       const auto column = static_cast<Eigen::Index>(kStepsPerAxis * j + k);
       const SmallMotion own = steps[k].carriedBy(modelled.posture.motion[j]);
       const SmallMotion beyond = own - steps[k].carriedBy(modelled.posture.motion[j + 1]);
-      columns.col(column) = byMotion(modelled, Eigen::Vector3d::Zero(), beyond.rotation, beyond.shift);
+      columns.col(column) = effects::byMotion(modelled, Eigen::Vector3d::Zero(), beyond.rotation, beyond.shift);
       if (sags)
         torques.col(column) =
             torqueChange(modelled, carried, geometry_.weight.gravity_in_base, j, own, beyond);
     }
   }
   if (sags)
-    columns.leftCols<GeometrySteps::kAxes>() +=
-        byJoints(modelled, anglesByTorque(geometry_, at_, modelled) * torques);
+    columns.leftCols<frames::GeometrySteps::kAxes>() +=
+        effects::byJoints(modelled, anglesByTorque(geometry_, at_, modelled) * torques);
 }
 
-void PositionByGeometry::addAxesByDifferences(const ArmState& modelled, Eigen::MatrixXd& columns) const {
+void PositionByGeometry::addAxesByDifferences(const effects::ArmState& modelled, Eigen::MatrixXd& columns) const {
   for (std::size_t k = 0; k < stepped_.size(); ++k) {
-    const Eigen::Isometry3d there = restState(stepped_[k], at_, modelled.q).posture.motion[6];
+    const Eigen::Isometry3d there = effects::restState(stepped_[k], at_, modelled.q).posture.motion[6];
     for (std::size_t i = 0; i < modelled.targets.size(); ++i) {
       const Eigen::Vector3d& at_zero =
           *geometry_.targets_at_zero[static_cast<std::size_t>(modelled.targets[i])];
       columns.col(static_cast<Eigen::Index>(k)).segment<3>(3 * static_cast<Eigen::Index>(i)) =
-          (there * at_zero - modelled.points[i]) / GeometrySteps::kSmall;
+          (there * at_zero - modelled.points[i]) / frames::GeometrySteps::kSmall;
     }
   }
 }
 
-Eigen::MatrixXd PositionByGeometry::of(const ArmState& state) const {
+Eigen::MatrixXd PositionByGeometry::of(const effects::ArmState& state) const {
   const Eigen::Vector3d none = Eigen::Vector3d::Zero();
   Eigen::MatrixXd columns =
-      Eigen::MatrixXd::Zero(state.rows(), GeometrySteps::count(geometry_.targets_at_zero.size()));
-  const ArmState modelled = asModelled(geometry_, state);
+      Eigen::MatrixXd::Zero(state.rows(), frames::GeometrySteps::count(geometry_.targets_at_zero.size()));
+  const effects::ArmState modelled = asModelled(geometry_, state);
   if (stepped_.empty()) {
     addAxes(modelled, columns);
   } else {
@@ -178,16 +178,16 @@ Eigen::MatrixXd PositionByGeometry::of(const ArmState& state) const {
   if (geometry_.r0_from_loading) {
     for (int k = 0; k < 3; ++k) {
       const Eigen::Vector3d axis = Eigen::Vector3d::Unit(k);
-      columns.col(GeometrySteps::kAxes + k) = -byMotion(state, centre_, axis, none);
-      columns.col(GeometrySteps::kAxes + 3 + k) = -byMotion(state, centre_, none, axis);
+      columns.col(frames::GeometrySteps::kAxes + k) = -effects::byMotion(state, centre_, axis, none);
+      columns.col(frames::GeometrySteps::kAxes + 3 + k) = -effects::byMotion(state, centre_, none, axis);
     }
   }
   for (std::size_t i = 0; i < state.targets.size(); ++i) {
     columns.block<3, 3>(3 * static_cast<Eigen::Index>(i),
-                        GeometrySteps::kAxes + GeometrySteps::kBase + 3 * state.targets[i]) =
+                        frames::GeometrySteps::kAxes + frames::GeometrySteps::kBase + 3 * state.targets[i]) =
         state.posture.motion[6].linear();
   }
   return columns;
 }
 
-}  // namespace stiffscope
+}  // namespace stiffscope::diagnosis

@@ -1,9 +1,9 @@
 #pragma once
 
-#include "core/diagnosis/arm_geometry.h"
-#include "core/diagnosis/effect_model.h"
+#include "core/effects/effect_model.h"
+#include "core/frames/arm_geometry.h"
 
-namespace stiffscope {
+namespace stiffscope::diagnosis {
 
 /// Derivatives of an unloaded state's absolute positions, modelled less measured, by the geometry's steps:
 /// one row a coordinate of each reflector, one column a step of GeometrySteps.
@@ -17,18 +17,18 @@ namespace stiffscope {
 class PositionByGeometry {
  public:
   /// `centre`: about which the base's steps turn. Keeps references.
-  PositionByGeometry(const LoadingGeometry& geometry, const WorkingPoint& at, const Eigen::Vector3d& centre);
+  PositionByGeometry(const frames::LoadingGeometry& geometry, const effects::WorkingPoint& at, const Eigen::Vector3d& centre);
 
-  Eigen::MatrixXd of(const ArmState& state) const;
+  Eigen::MatrixXd of(const effects::ArmState& state) const;
 
  private:
-  void addAxes(const ArmState& modelled, Eigen::MatrixXd& columns) const;
-  void addAxesByDifferences(const ArmState& modelled, Eigen::MatrixXd& columns) const;
+  void addAxes(const effects::ArmState& modelled, Eigen::MatrixXd& columns) const;
+  void addAxesByDifferences(const effects::ArmState& modelled, Eigen::MatrixXd& columns) const;
 
-  const LoadingGeometry& geometry_;
-  const WorkingPoint& at_;
+  const frames::LoadingGeometry& geometry_;
+  const effects::WorkingPoint& at_;
   Eigen::Vector3d centre_;
-  std::vector<LoadingGeometry> stepped_;  ///< by each step of an axis; empty where no effect moves bodies
+  std::vector<frames::LoadingGeometry> stepped_;  ///< by each step of an axis; empty where no effect moves bodies
 };
 
-}  // namespace stiffscope
+}  // namespace stiffscope::diagnosis

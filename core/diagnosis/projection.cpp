@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace stiffscope {
+namespace stiffscope::diagnosis {
 
 namespace {
 
@@ -130,4 +130,4 @@ SubsetFit fitSubset(const Projection& projection, const std::vector<Eigen::Index
   return fit;
 }
 
-}  // namespace stiffscope
+}  // namespace stiffscope::diagnosis

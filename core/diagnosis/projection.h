@@ -3,9 +3,9 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "core/diagnosis/gap_data.h"
+#include "core/diagnosis/linear_system.h"
 
-namespace stiffscope {
+namespace stiffscope::diagnosis {
 
 /// The equations of the effects with everything else (stiffnesses, geometry, weights) fitted away, from
 /// normal equations N over (nuisances n, effects e): S = N_ee - N_en N_nn^-1 N_ne, s = b_e - N_en N_nn^-1
@@ -52,4 +52,4 @@ struct SubsetFit {
 SubsetFit fitSubset(const Projection& projection, const std::vector<Eigen::Index>& indices,
                     const std::vector<bool>& positive, const Eigen::VectorXd& prior);
 
-}  // namespace stiffscope
+}  // namespace stiffscope::diagnosis

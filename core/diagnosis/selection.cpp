@@ -3,14 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
-namespace stiffscope {
+namespace stiffscope::diagnosis {
 
-bool FittedSet::has(const std::vector<EffectModel>& table, Effect effect) const {
+bool FittedSet::has(const std::vector<effects::EffectModel>& table, effects::Effect effect) const {
   return std::any_of(models.begin(), models.end(),
                      [&](const ChosenModel& one) { return table[one.model].effect == effect; });
 }
 
-Selector::Selector(const std::vector<EffectModel>& models, const GapLayout& layout,
+Selector::Selector(const std::vector<effects::EffectModel>& models, const GapLayout& layout,
                    const Projection& projection, double postures, const SelectionRules& rules,
                    const std::vector<bool>& allowed)
     : models_(models),
@@ -23,7 +23,7 @@ Selector::Selector(const std::vector<EffectModel>& models, const GapLayout& layo
   for (std::size_t m = 0; m < models.size(); ++m) {
     Eigen::Index at = layout.model_at[m] - layout.effects;
     part_at_.emplace_back();
-    for (const EffectPart& part : models[m].parts) {
+    for (const effects::EffectPart& part : models[m].parts) {
       part_at_.back().push_back(at);
       for (const double most : part.most) prior_[at++] = 1.0 / (most * most);
     }
@@ -44,11 +44,11 @@ FittedSet Selector::fit(const std::vector<ChosenModel>& models) const {
   std::vector<Eigen::Index> indices;
   std::vector<bool> positive;
   for (const ChosenModel& one : models) {
-    const EffectModel& model = models_[one.model];
+    const effects::EffectModel& model = models_[one.model];
     // Which model, and which of its parts, was looked for: a choice among so many.
     set.penalty += 2.0 * std::log(static_cast<double>(models_.size()));
     for (const std::size_t p : one.parts) {
-      const EffectPart& part = model.parts[p];
+      const effects::EffectPart& part = model.parts[p];
       set.penalty += 2.0 * std::log(static_cast<double>(model.parts.size()));
       set.penalty += std::log(postures_) * static_cast<double>(part.most.size());
       for (std::size_t k = 0; k < part.most.size(); ++k) {
@@ -205,4 +205,4 @@ FittedSet Selector::select() const {
   return current;
 }
 
-}  // namespace stiffscope
+}  // namespace stiffscope::diagnosis

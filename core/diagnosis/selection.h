@@ -6,7 +6,7 @@
 
 #include "core/diagnosis/projection.h"
 
-namespace stiffscope {
+namespace stiffscope::diagnosis {
 
 /// One model of an effect with the parts of it that are present.
 struct ChosenModel {
@@ -23,7 +23,7 @@ struct FittedSet {
   bool plausible = true;  ///< within the physical bounds; no joint's compliance is surely negative
 
   double score() const { return chi2 + penalty; }  ///< the smaller the better
-  bool has(const std::vector<EffectModel>& table, Effect effect) const;
+  bool has(const std::vector<effects::EffectModel>& table, effects::Effect effect) const;
 };
 
 struct SelectionRules {
@@ -43,7 +43,7 @@ struct SelectionRules {
 /// Chooses effects: forward, then backward, then all pairs of the best few, by BIC counting postures.
 class Selector {
  public:
-  Selector(const std::vector<EffectModel>& models, const GapLayout& layout, const Projection& projection,
+  Selector(const std::vector<effects::EffectModel>& models, const GapLayout& layout, const Projection& projection,
            double postures, const SelectionRules& rules, const std::vector<bool>& allowed);
 
   /// Every model alone on top of `base`, its parts chosen greedily; best score first.
@@ -64,7 +64,7 @@ class Selector {
   bool negativeCompliance(const FittedSet& set, const std::vector<Eigen::Index>& indices) const;
   bool isGiven(std::size_t model) const;
 
-  const std::vector<EffectModel>& models_;
+  const std::vector<effects::EffectModel>& models_;
   const GapLayout& layout_;
   const Projection& projection_;
   double postures_;
@@ -75,4 +75,4 @@ class Selector {
   std::vector<std::vector<Eigen::Index>> part_at_;  // first parameter of each part, from the first effect's
 };
 
-}  // namespace stiffscope
+}  // namespace stiffscope::diagnosis

@@ -1,18 +1,17 @@
 #include "core/diagnosis/verdict.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 
-#include "core/diagnosis/aliasing.h"
-#include "core/input/units.h"
+#include "core/diagnosis/confounding.h"
+#include "core/io/units.h"
 
-namespace stiffscope {
+namespace stiffscope::diagnosis {
 
 namespace {
 
-std::string detailOf(const EffectModel& model, const std::vector<std::size_t>& parts) {
+std::string detailOf(const effects::EffectModel& model, const std::vector<std::size_t>& parts) {
   std::vector<std::size_t> sorted = parts;
   std::sort(sorted.begin(), sorted.end());
   std::string detail;
@@ -24,18 +23,18 @@ std::string detailOf(const EffectModel& model, const std::vector<std::size_t>& p
   return detail;
 }
 
-std::string parametersOf(const EffectModel& model, const std::vector<std::size_t>& parts,
+std::string parametersOf(const effects::EffectModel& model, const std::vector<std::size_t>& parts,
                          const Eigen::VectorXd& own) {
   std::string words;
   Eigen::Index at = 0;
   for (std::size_t p = 0; p < model.parts.size(); ++p) {
-    const EffectPart& part = model.parts[p];
+    const effects::EffectPart& part = model.parts[p];
     if (std::find(parts.begin(), parts.end(), p) != parts.end()) {
       words += fmt::format("{}{}{}", words.empty() ? "" : "; ", part.detail, part.detail.empty() ? "" : ": ");
       const bool length = part.unit == "m";
       for (std::size_t k = 0; k < part.most.size(); ++k) {
         const double value = own[at + static_cast<Eigen::Index>(k)];
-        words += fmt::format("{}{:.4g}", k > 0 ? ", " : "", length ? value / kMillimetre : value);
+        words += fmt::format("{}{:.4g}", k > 0 ? ", " : "", length ? value / io::kMillimetre : value);
       }
       words += length ? " mm" : " " + part.unit;
     }
@@ -80,7 +79,7 @@ class Decider {
     if (!from_.geometry.tested || from_.geometry.rms <= kGeometryTolerance) return;
     geometry_named_ = true;
     EffectClass one;
-    one.effects = {Effect::kinematic_error};
+    one.effects = {effects::Effect::kinematic_error};
     const double size = from_.geometry.rms / kGeometryTolerance;
     one.score = size * size * static_cast<double>(from_.fit.rules.loading_rows);
     one.in_verdict = true;
@@ -97,11 +96,11 @@ class Decider {
 
   /// A geometry that is wrong puts the flange, and with it the load cell, elsewhere along axis 6, which
   /// sweeps do not see.
-  bool followsFromGeometry(Effect effect, const Eigen::VectorXd& parameters) const {
+  bool followsFromGeometry(effects::Effect effect, const Eigen::VectorXd& parameters) const {
     if (!geometry_named_) return false;
     constexpr double kAsMuch = 2.0;
-    if (effect == Effect::load_point_error) return parameters.norm() < kAsMuch * from_.geometry.largest_shift;
-    if (effect == Effect::load_cell_misalignment)
+    if (effect == effects::Effect::load_point_error) return parameters.norm() < kAsMuch * from_.geometry.largest_shift;
+    if (effect == effects::Effect::load_cell_misalignment)
       return parameters.norm() < kAsMuch * from_.geometry.largest_tilt;
     return false;
   }
@@ -115,21 +114,21 @@ class Decider {
     std::sort(order.begin(), order.end());
     for (const auto& [change, i] : order) {
       const ChosenModel& chosen = set().models[i];
-      const EffectModel& model = models_[chosen.model];
+      const effects::EffectModel& model = models_[chosen.model];
       const Eigen::VectorXd parameters = own(set().effects, chosen.model);
       // A drift has moved the frame by the time of the loading: one cause, not two.
-      if (from_.station.course == StationCourse::drifted && model.effect == Effect::frame_error) continue;
+      if (from_.station.course == preparation::StationCourse::drifted && model.effect == effects::Effect::frame_error) continue;
       if (followsFromGeometry(model.effect, parameters)) {
         reasons_.push_back(
             fmt::format("what looks like {} ({}) is no more than the wrong geometry puts there",
-                        idOf(model.effect), parametersOf(model, chosen.parts, parameters)));
+                        effects::idOf(model.effect), parametersOf(model, chosen.parts, parameters)));
         continue;
       }
       EffectClass one;
       // What the nests show was taken off: the little that is left of it looks like anything.
       const auto& given = from_.fit.rules.given;
       const bool by_nests = std::find(given.begin(), given.end(), chosen.model) != given.end();
-      one.effects = by_nests ? std::vector<Effect>{model.effect} : classOf(i);
+      one.effects = by_nests ? std::vector<effects::Effect>{model.effect} : classOf(i);
       one.detail = detailOf(model, chosen.parts) + (by_nests ? "" : otherParts(i));
       one.score = -change;
       one.in_verdict = true;
@@ -157,7 +156,7 @@ class Decider {
   /// Parts of the same effect that would do as well as the one chosen: " or joint 3".
   std::string otherParts(std::size_t i) const {
     const ChosenModel& chosen = set().models[i];
-    const EffectModel& model = models_[chosen.model];
+    const effects::EffectModel& model = models_[chosen.model];
     if (chosen.parts.size() != 1) return {};
     std::string others;
     for (std::size_t p = 0; p < model.parts.size(); ++p) {
@@ -172,16 +171,16 @@ class Decider {
   }
 
   /// The chosen effect and those whose best imitation of its fitted field cannot be told from it.
-  std::vector<Effect> classOf(std::size_t i) const {
+  std::vector<effects::Effect> classOf(std::size_t i) const {
     const ChosenModel& chosen = set().models[i];
-    std::vector<Effect> effects{models_[chosen.model].effect};
+    std::vector<effects::Effect> effects{models_[chosen.model].effect};
     Eigen::VectorXd field = Eigen::VectorXd::Zero(set().effects.size());
     const Eigen::Index at = from_.fit.data.layout.model_at[chosen.model] - from_.fit.data.layout.effects;
     field.segment(at, static_cast<Eigen::Index>(models_[chosen.model].parameters())) =
         own(set().effects, chosen.model);
     const double scale = selector_.misfit(set());
     for (std::size_t m = 0; m < models_.size(); ++m) {
-      const Effect effect = models_[m].effect;
+      const effects::Effect effect = models_[m].effect;
       if (!from_.allowed[m] || set().has(models_, effect)) continue;
       if (std::find(effects.begin(), effects.end(), effect) != effects.end()) continue;
       const double apart =
@@ -225,7 +224,7 @@ class Decider {
     for (const FittedSet& single : selector_.ranked(base)) {
       if (decision_.classes.size() >= kListed) break;
       const ChosenModel& chosen = single.models.back();
-      const EffectModel& model = models_[chosen.model];
+      const effects::EffectModel& model = models_[chosen.model];
       if (std::find(named_.begin(), named_.end(), model.effect) != named_.end()) continue;
       if (base.score() - single.score() <= 0.0) continue;
       EffectClass one;
@@ -260,11 +259,11 @@ class Decider {
   }
 
   const VerdictInput& from_;
-  const std::vector<EffectModel>& models_;
+  const std::vector<effects::EffectModel>& models_;
   Selector selector_;
   Decision decision_;
   bool geometry_named_ = false;
-  std::vector<Effect> named_;
+  std::vector<effects::Effect> named_;
   std::vector<std::string> reasons_;
 };
 
@@ -272,4 +271,4 @@ class Decider {
 
 Decision decideVerdict(const VerdictInput& from) { return Decider(from).run(); }
 
-}  // namespace stiffscope
+}  // namespace stiffscope::diagnosis

@@ -1,17 +1,17 @@
 #pragma once
 
 #include "core/diagnosis/diagnosis.h"
-#include "core/diagnosis/gap_start.h"
+#include "core/diagnosis/diagnosis_input.h"
 #include "core/diagnosis/geometry_error.h"
 
-namespace stiffscope {
+namespace stiffscope::diagnosis {
 
 /// What the verdict is made from.
 struct VerdictInput {
   const GapInput& input;
   const GapFit& fit;
   const std::vector<bool>& allowed;
-  const Station& station;
+  const preparation::Station& station;
   const GeometryError& geometry;
   const NoiseFloor& noise;
   const Gap& gap;
@@ -21,7 +21,7 @@ struct VerdictInput {
 /// A chosen model (by its place in the set) with the effects that cannot be told from it.
 struct Tie {
   std::size_t chosen = 0;
-  std::vector<Effect> effects;
+  std::vector<effects::Effect> effects;
 };
 
 /// The verdict, the ranked classes, and the models by which each class's shrink is to be judged.
@@ -36,4 +36,4 @@ struct Decision {
 /// the nominal one; `unknown` where what is left is significant and matters; nothing where neither.
 Decision decideVerdict(const VerdictInput& from);
 
-}  // namespace stiffscope
+}  // namespace stiffscope::diagnosis

@@ -3,9 +3,9 @@
 #include <algorithm>
 
 #include "core/frames/reading_covariance.h"
-#include "metrology/trilateration_sensitivity.h"
+#include "metrology/trilateration.h"
 
-namespace stiffscope {
+namespace stiffscope::frames {
 
 namespace {
 
@@ -17,7 +17,7 @@ Eigen::Matrix3d meanCovariance(const LoadingReadings& how, const MeanReading& me
 DisplacementUncertainty startOf(const LoadingReadings& how, int pose, int step, const Eigen::Vector3d& d) {
   DisplacementUncertainty result{pose, step, {}, {}};
   result.by_common.setZero(3, CommonTerms::kRadii + static_cast<Eigen::Index>(how.targets));
-  result.by_common.leftCols<6>() = vectorByFrameError(d);
+  result.by_common.leftCols<6>() = metrology::vectorByFrameError(d);
   result.by_common.col(CommonTerms::kScale) = d;
   return result;
 }
@@ -77,7 +77,7 @@ std::optional<DisplacementUncertainty> wristDisplacement(const LoadingReadings& 
                                                          const TrilateratedState& loaded) {
   const auto sensitivityOf = [](const TrilateratedState& state) {
     const auto& [a, b, c] = state.reflectors;
-    return trilaterationSensitivity({a.in_r0, b.in_r0, c.in_r0}, state.wrist_in_r0);
+    return metrology::trilaterationSensitivity({a.in_r0, b.in_r0, c.in_r0}, state.wrist_in_r0);
   };
   const auto before = sensitivityOf(unloaded), after = sensitivityOf(loaded);
   if (!before || !after) return std::nullopt;
@@ -92,4 +92,4 @@ std::optional<DisplacementUncertainty> wristDisplacement(const LoadingReadings& 
   return result;
 }
 
-}  // namespace stiffscope
+}  // namespace stiffscope::frames

@@ -5,10 +5,10 @@
 #include <optional>
 #include <vector>
 
-#include "core/frames/frames_covariance.h"
-#include "metrology/tracker_noise.h"
+#include "core/frames/frames.h"
+#include "metrology/measured_points.h"
 
-namespace stiffscope {
+namespace stiffscope::frames {
 
 /// The mean of the readings of one reflector in one load state.
 struct MeanReading {
@@ -53,7 +53,7 @@ Eigen::Matrix3d covarianceBetween(const DisplacementUncertainty& first, const Di
 /// How the readings of a campaign's loading were made. Repeats and directions by TrackerNoise; readings are
 /// independent of each other.
 struct LoadingReadings {
-  TrackerNoise noise;
+  metrology::TrackerNoise noise;
   Eigen::Isometry3d r0_from_loading = Eigen::Isometry3d::Identity();
   std::size_t targets = 0;  ///< of the campaign
 };
@@ -74,4 +74,4 @@ std::optional<DisplacementUncertainty> wristDisplacement(const LoadingReadings& 
                                                          const TrilateratedState& unloaded,
                                                          const TrilateratedState& loaded);
 
-}  // namespace stiffscope
+}  // namespace stiffscope::frames

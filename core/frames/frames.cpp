@@ -1,22 +1,187 @@
 #include "core/frames/frames.h"
 
+#include <algorithm>
+#include <cmath>
 #include <functional>
 
-namespace stiffscope {
+#include "core/robot/kinematics.h"
+#include "metrology/lines.h"
+#include "metrology/rigid_motion.h"
+
+namespace stiffscope::frames {
+
+namespace {
+
+using Layout = FramesCovariance;
+constexpr Eigen::Index kOfAxes = Layout::kWristCentre;  // numbers that depend on the axes alone
+
+/// The axes at zero, in R0 as it is measured; those that are not measured stand there without uncertainty.
+std::vector<metrology::MeasuredLine> axesInR0(const std::array<MeasuredAxis, 6>& axes, const ArmInR0& arm) {
+  std::vector<metrology::MeasuredLine> lines;
+  for (std::size_t i = 0; i < axes.size(); ++i) {
+    metrology::MeasuredLine line;
+    if (axes[i].measured) {
+      line = axes[i].at_zero;
+      line.line = {arm.r0_from_points * line.line.point, arm.r0_from_points.linear() * line.line.direction};
+      line.across_u = arm.r0_from_points.linear() * line.across_u;
+      line.across_v = arm.r0_from_points.linear() * line.across_v;
+    } else {
+      line.line = arm.arm.axes_in_base_at_zero[i];
+      metrology::basisAcross(line.line.direction, line.across_u, line.across_v);
+    }
+    lines.push_back(line);
+  }
+  return lines;
+}
+
+metrology::Line directedAlong(const Eigen::Vector3d& direction, metrology::Line line) {
+  if (line.direction.dot(direction) < 0.0) line.direction = -line.direction;
+  return line;
+}
+
+/// Error of R0, distances and angles, as they follow from the axes; smooth where distances and angles are zero.
+metrology::LineNumbers numbersOf(const std::vector<metrology::MeasuredLine>& axes, const std::array<LinkGeometry, 5>& links) {
+  std::vector<metrology::LinePairNumber> distances, angles;
+  for (std::size_t i = 0; i < links.size(); ++i) {
+    const metrology::MeasuredLine &first = axes[i], &second = axes[i + 1];
+    distances.push_back(links[i].near_parallel ? metrology::LinePairNumber() : metrology::signedDistance(first.line, second.line));
+    // Exactly parallel axes, as only drawings have them, tilt about any normal.
+    angles.push_back(metrology::tiltAbout(metrology::commonNormal(first.line, second.line).value_or(first.across_u)));
+  }
+  return [distances, angles](const std::vector<metrology::Line>& moved) {
+    Eigen::VectorXd numbers(kOfAxes);
+    const Eigen::Isometry3d r0 = metrology::baseFrame(directedAlong(Eigen::Vector3d::UnitZ(), moved[0]),
+                                           directedAlong(Eigen::Vector3d::UnitY(), moved[1]));
+    numbers.segment<6>(Layout::kR0) = metrology::frameError(Eigen::Isometry3d::Identity(), r0);
+    std::array<metrology::Line, 6> lines;
+    std::copy(moved.begin(), moved.end(), lines.begin());
+    for (std::size_t i = 0; i < distances.size(); ++i) {
+      const auto row = static_cast<Eigen::Index>(i);
+      numbers[Layout::kDistances + row] =
+          distances[i] ? distances[i](lines[i], lines[i + 1])
+                       : metrology::distanceAcross(lines[i], lines[i + 1], hayatiPoint(lines, i));
+      numbers[Layout::kAngles + row] = angles[i](lines[i], lines[i + 1]);
+    }
+    return numbers;
+  };
+}
+
+void addWrist(const WristCentre& wrist, Eigen::MatrixXd& covariance) {
+  const auto place = [&](Eigen::Index i) {
+    return i < 3 ? Layout::kWristCentre + i : Layout::kRadii + wrist.targets[static_cast<std::size_t>(i - 3)];
+  };
+  const Eigen::MatrixXd& own = wrist.spheres.covariance;
+  for (Eigen::Index i = 0; i < own.rows(); ++i) {
+    for (Eigen::Index j = 0; j < own.cols(); ++j) covariance(place(i), place(j)) += own(i, j);
+  }
+}
+
+}  // namespace
+
+Eigen::MatrixXd FramesCovariance::total(double scale_sd) const {
+  return readings + sag + scale_sd * scale_sd * by_scale * by_scale.transpose();
+}
+
+FramesCovariance framesCovariance(const std::array<MeasuredAxis, 6>& axes, const ArmInR0& arm,
+                                  const std::array<LinkGeometry, 5>& links, const WristCentre& wrist,
+                                  std::size_t targets, const Eigen::Vector3d& station) {
+  const Eigen::Index size = Layout::kRadii + static_cast<Eigen::Index>(targets);
+  FramesCovariance covariance{Eigen::MatrixXd::Zero(size, size), Eigen::MatrixXd::Zero(size, size),
+                              Eigen::VectorXd::Zero(size)};
+  if (!arm.points_placed) return covariance;
+  const std::vector<metrology::MeasuredLine> lines = axesInR0(axes, arm);
+  Eigen::MatrixXd by_axes = Eigen::MatrixXd::Zero(size, 24);
+  by_axes.topRows(kOfAxes) = metrology::derivativesByLines(lines, numbersOf(lines, links));
+  covariance.by_scale.segment<3>(Layout::kR0 + 3) = -(arm.r0_from_points * station);
+  for (std::size_t i = 0; i < links.size(); ++i) {
+    const auto row = static_cast<Eigen::Index>(i);
+    if (axes[i].measured && axes[i + 1].measured) {
+      covariance.by_scale[Layout::kDistances + row] = links[i].distance;
+    } else {
+      by_axes.row(Layout::kDistances + row).setZero();
+      by_axes.row(Layout::kAngles + row).setZero();
+    }
+  }
+  if (wrist.measured) {
+    by_axes.middleRows<3>(Layout::kWristCentre) =
+        metrology::pointByFrameError(wrist.centre_in_r0) * by_axes.topRows<6>();
+    covariance.by_scale.segment<3>(Layout::kWristCentre) = wrist.centre_in_r0;
+    for (const int target : wrist.targets) {
+      covariance.by_scale[Layout::kRadii + target] = wrist.radii[static_cast<std::size_t>(target)];
+    }
+  }
+  covariance.readings = by_axes * axesCovariance(axes) * by_axes.transpose();
+  if (wrist.measured) addWrist(wrist, covariance.readings);
+  return covariance;
+}
+
+void stateUncertainties(const FramesCovariance& covariance, const std::array<MeasuredAxis, 6>& axes,
+                        const ArmInR0& arm, std::array<LinkGeometry, 5>& links, WristCentre& wrist) {
+  if (!arm.points_placed) return;
+  const Eigen::MatrixXd total = covariance.total();
+  for (std::size_t i = 0; i < links.size(); ++i) {
+    if (!axes[i].measured || !axes[i + 1].measured) continue;
+    const auto row = static_cast<Eigen::Index>(i), distance = Layout::kDistances + row, angle = Layout::kAngles + row;
+    links[i].distance_sd = std::sqrt(total(distance, distance));
+    links[i].angle_sd = std::sqrt(total(angle, angle));
+    links[i].distance_sag_sd = std::sqrt(covariance.sag(distance, distance));
+  }
+  wrist.miss_45_sd = links[3].distance_sd.value_or(0.0);
+  wrist.miss_56_sd = links[4].distance_sd.value_or(0.0);
+  if (!wrist.measured) return;
+  wrist.covariance = total.block<3, 3>(Layout::kWristCentre, Layout::kWristCentre);
+  const Eigen::Matrix3d common = wrist.covariance - wrist.spheres.covariance.topLeftCorner<3, 3>();
+  Eigen::Matrix3d own = Eigen::Matrix3d::Zero();
+  for (const WristTableRow& row : wrist.table) own += row.covariance;
+  const auto rows = static_cast<double>(std::max<std::size_t>(1, wrist.table.size()));
+  wrist.table_mean_covariance = own / (rows * rows) + common;
+}
+
+std::vector<std::optional<Eigen::Vector3d>> targetsAtZero(const campaign::Campaign& campaign, const ArmInR0& arm,
+                                                          const RigidPoints& points) {
+  std::vector<std::optional<Eigen::Vector3d>> targets(campaign.targets.size());
+  for (std::size_t k = 0; k < targets.size(); ++k) {
+    if (const auto& declared = campaign.targets[k].position_in_flange) {
+      targets[k] = arm.arm.base_from_flange_at_zero * *declared;
+    }
+  }
+  if (!arm.points_placed) return targets;
+
+  std::vector<Eigen::Vector3d> sums(targets.size(), Eigen::Vector3d::Zero());
+  std::vector<int> counts(targets.size(), 0);
+  const auto add = [&](const auto& rows, const std::vector<Eigen::Vector3d>& rigid) {
+    Eigen::Isometry3d zero_from_now = Eigen::Isometry3d::Identity();
+    for (std::size_t row = 0; row < rows.size(); ++row) {
+      // The reflectors of one stop follow each other.
+      if (row == 0 || rows[row].q != rows[row - 1].q) zero_from_now = robot::postureAt(arm.arm, rows[row].q).motion[6].inverse();
+      const auto k = static_cast<std::size_t>(rows[row].target);
+      sums[k] += zero_from_now * (arm.r0_from_points * rigid[row]);
+      ++counts[k];
+    }
+  };
+  if (campaign.circle_sweeps) add(campaign.circle_sweeps->rows, points.circle_sweeps);
+  if (campaign.wrist_sweep && campaign.wrist_sweep->frame == campaign.circle_sweeps->frame) {
+    add(campaign.wrist_sweep->rows, points.wrist_sweep);
+  }
+  for (std::size_t k = 0; k < targets.size(); ++k) {
+    if (counts[k] > 0) targets[k] = sums[k] / counts[k];
+  }
+  return targets;
+}
 
 namespace {
 
 /// Where axis 6 pierces the plane z = 0 of the flange, in flange axes.
-Eigen::Vector3d tcpInFlange(const Robot& arm) {
+Eigen::Vector3d tcpInFlange(const robot::Robot& arm) {
   const Eigen::Isometry3d flange_from_base = arm.base_from_flange_at_zero.inverse();
-  const Line& axis_6 = arm.axes_in_base_at_zero[5];
+  const metrology::Line& axis_6 = arm.axes_in_base_at_zero[5];
   const Eigen::Vector3d point = flange_from_base * axis_6.point;
   const Eigen::Vector3d direction = flange_from_base.linear() * axis_6.direction;
   if (direction.z() == 0.0) return Eigen::Vector3d::Zero();
   return point - point.z() / direction.z() * direction;
 }
 
-Frames measureOnce(const Campaign& campaign, const SagModel& sag) {
+Frames measureOnce(const campaign::Campaign& campaign, const SagModel& sag) {
   const RigidPoints points = rigidPoints(campaign, sag);
   Frames frames;
   frames.largest_sag = points.largest_sag;
@@ -27,7 +192,7 @@ Frames measureOnce(const Campaign& campaign, const SagModel& sag) {
   frames.targets_in_r0_at_zero = targetsAtZero(campaign, frames.arm, points);
   frames.wrist = measureWristCentre(campaign, frames.arm, points, frames.targets_in_r0_at_zero);
   frames.tcp_in_flange = tcpInFlange(frames.arm.arm);
-  frames.weight = ownWeight(campaign.robot, campaign.tool, campaign.gravity_in_base, frames.arm.arm, frames.arm.r0_from_base_link);
+  frames.weight = robot::ownWeight(campaign.robot, campaign.tool, campaign.gravity_in_base, frames.arm.arm, frames.arm.r0_from_base_link);
   return frames;
 }
 
@@ -35,7 +200,7 @@ Frames measureOnce(const Campaign& campaign, const SagModel& sag) {
 Eigen::VectorXd change(const Frames& from, const Frames& to, std::size_t targets) {
   using At = FramesCovariance;
   Eigen::VectorXd numbers = Eigen::VectorXd::Zero(At::kRadii + static_cast<Eigen::Index>(targets));
-  numbers.segment<6>(At::kR0) = frameError(from.arm.r0_from_points.inverse(), to.arm.r0_from_points.inverse());
+  numbers.segment<6>(At::kR0) = metrology::frameError(from.arm.r0_from_points.inverse(), to.arm.r0_from_points.inverse());
   for (std::size_t i = 0; i < from.links.size(); ++i) {
     const auto row = static_cast<Eigen::Index>(i);
     numbers[At::kDistances + row] = to.links[i].distance - from.links[i].distance;
@@ -66,7 +231,7 @@ std::optional<Eigen::MatrixXd> sagPart(const Frames& frames, const Vector6d& com
   return by_compliance * covariance * by_compliance.transpose();
 }
 
-void propagate(const Campaign& campaign, Frames& frames, const std::optional<Eigen::MatrixXd>& sag = std::nullopt) {
+void propagate(const campaign::Campaign& campaign, Frames& frames, const std::optional<Eigen::MatrixXd>& sag = std::nullopt) {
   const Eigen::Vector3d station = campaign.tracker ? campaign.tracker->station : Eigen::Vector3d::Zero();
   frames.covariance = framesCovariance(frames.axes, frames.arm, frames.links, frames.wrist, campaign.targets.size(), station);
   if (sag) frames.covariance.sag = *sag;
@@ -75,7 +240,7 @@ void propagate(const Campaign& campaign, Frames& frames, const std::optional<Eig
 
 }  // namespace
 
-Frames measureFrames(const Campaign& campaign) {
+Frames measureFrames(const campaign::Campaign& campaign) {
   Frames frames = measureOnce(campaign, SagModel());
   propagate(campaign, frames);
   frames.sag_note = frames.weight.links_known
@@ -84,7 +249,7 @@ Frames measureFrames(const Campaign& campaign) {
   return frames;
 }
 
-Frames refineFrames(const Campaign& campaign, const Frames& so_far, const Vector6d& compliance,
+Frames refineFrames(const campaign::Campaign& campaign, const Frames& so_far, const Vector6d& compliance,
                     const std::optional<Matrix6d>& covariance) {
   if (!so_far.weight.links_known) return so_far;
   const auto measuredWith = [&](const Vector6d& c) {
@@ -104,10 +269,10 @@ Frames refineFrames(const Campaign& campaign, const Frames& so_far, const Vector
   return frames;
 }
 
-std::optional<Eigen::Isometry3d> r0FromTable(const Frames& frames, PointFrame table_frame) {
+std::optional<Eigen::Isometry3d> r0FromTable(const Frames& frames, campaign::PointFrame table_frame) {
   if (frames.arm.points_placed && table_frame == frames.points_frame) return frames.arm.r0_from_points;
-  if (table_frame == PointFrame::base_link) return frames.arm.r0_from_base_link;
+  if (table_frame == campaign::PointFrame::base_link) return frames.arm.r0_from_base_link;
   return std::nullopt;
 }
 
-}  // namespace stiffscope
+}  // namespace stiffscope::frames

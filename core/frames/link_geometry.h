@@ -3,9 +3,9 @@
 #include <array>
 #include <optional>
 
-#include "core/frames/arm_in_r0.h"
+#include "core/frames/base_frame.h"
 
-namespace stiffscope {
+namespace stiffscope::frames {
 
 /// Distance and angle between two consecutive joint axes at zero.
 struct LinkGeometry {
@@ -25,9 +25,9 @@ struct LinkGeometry {
 /// parallel the common perpendicular's place is undetermined: their distance is taken in the plane normal to the first,
 /// at the foot on it of the common perpendicular with the axis before (Hayati). Of three axes within a degree of parallel
 /// that foot is undetermined too, kilometres away: there the point of the axis before is carried over.
-std::array<LinkGeometry, 5> linkGeometry(const Robot& nominal, const ArmInR0& arm);
+std::array<LinkGeometry, 5> linkGeometry(const robot::Robot& nominal, const ArmInR0& arm);
 
 /// Where on axis `first` the distance to a nearly parallel next one is taken, see linkGeometry.
-Eigen::Vector3d hayatiPoint(const std::array<Line, 6>& axes, std::size_t first);
+Eigen::Vector3d hayatiPoint(const std::array<metrology::Line, 6>& axes, std::size_t first);
 
-}  // namespace stiffscope
+}  // namespace stiffscope::frames

@@ -4,34 +4,34 @@
 #include <limits>
 
 #include "core/robot/kinematics.h"
-#include "metrology/common_perpendicular.h"
+#include "metrology/lines.h"
 
-namespace stiffscope {
+namespace stiffscope::frames {
 
 namespace {
 
 constexpr double kStandsStill = 1e-5;  // rad
 
 struct SweepOfTargets {
-  std::vector<SpherePoints> spheres;
+  std::vector<metrology::SpherePoints> spheres;
   std::vector<int> targets;
 };
 
-SweepOfTargets collect(const Campaign& campaign, const ArmInR0& arm, const RigidPoints& points) {
+SweepOfTargets collect(const campaign::Campaign& campaign, const ArmInR0& arm, const RigidPoints& points) {
   SweepOfTargets sweep;
   std::vector<int> sphere_of(campaign.targets.size(), -1);
   const bool weighted = campaign.tracker.has_value();
-  const TrackerNoise noise = weighted ? trackerNoise(*campaign.tracker) : TrackerNoise{};
+  const metrology::TrackerNoise noise = weighted ? trackerNoise(*campaign.tracker) : metrology::TrackerNoise{};
   const Eigen::Matrix3d turn = arm.r0_from_points.linear();
   for (std::size_t row = 0; row < campaign.wrist_sweep->rows.size(); ++row) {
-    const WristReading& reading = campaign.wrist_sweep->rows[row];
+    const campaign::WristReading& reading = campaign.wrist_sweep->rows[row];
     int& k = sphere_of[static_cast<std::size_t>(reading.target)];
     if (k < 0) {
       k = static_cast<int>(sweep.spheres.size());
       sweep.spheres.emplace_back();
       sweep.targets.push_back(reading.target);
     }
-    SpherePoints& sphere = sweep.spheres[static_cast<std::size_t>(k)];
+    metrology::SpherePoints& sphere = sweep.spheres[static_cast<std::size_t>(k)];
     sphere.points.push_back(arm.r0_from_points * points.wrist_sweep[row]);
     if (weighted) sphere.covariances.push_back(turn * noise.covarianceAt(reading.point) * turn.transpose());
   }
@@ -45,9 +45,9 @@ SweepOfTargets collect(const Campaign& campaign, const ArmInR0& arm, const Rigid
   return sweep;
 }
 
-bool armStoodStill(const WristSweep& sweep) {
+bool armStoodStill(const campaign::WristSweep& sweep) {
   const Vector6d& first = sweep.rows.front().q;
-  for (const WristReading& reading : sweep.rows) {
+  for (const campaign::WristReading& reading : sweep.rows) {
     if ((reading.q.head<3>() - first.head<3>()).cwiseAbs().maxCoeff() > kStandsStill) return false;
   }
   return true;
@@ -55,7 +55,7 @@ bool armStoodStill(const WristSweep& sweep) {
 
 void fillTable(const SweepOfTargets& sweep, WristCentre& wrist) {
   for (std::size_t k = 0; k < sweep.spheres.size(); ++k) {
-    const SphereFit own = fitSpheres({sweep.spheres[k]});
+    const metrology::SphereFit own = metrology::fitSpheres({sweep.spheres[k]});
     if (!own.determined) continue;
     wrist.table.push_back({sweep.targets[k], own.centre, own.covariance.topLeftCorner<3, 3>(), own.radii[0], 0.0,
                            own.rms, static_cast<int>(sweep.spheres[k].points.size())});
@@ -66,22 +66,22 @@ void fillTable(const SweepOfTargets& sweep, WristCentre& wrist) {
   for (WristTableRow& row : wrist.table) row.offset = (row.centre_in_r0 - wrist.table_mean_in_r0).norm();
 }
 
-void compareWithAxes(const ArmInR0& arm, const ArmPosture& posture, WristCentre& wrist) {
-  const Line axis_4 = axisAt(arm.arm, posture, 3), axis_5 = axisAt(arm.arm, posture, 4),
-             axis_6 = axisAt(arm.arm, posture, 5);
-  const CommonPerpendicular wrist_56 = commonPerpendicular(axis_5, axis_6);
+void compareWithAxes(const ArmInR0& arm, const robot::ArmPosture& posture, WristCentre& wrist) {
+  const metrology::Line axis_4 = robot::axisAt(arm.arm, posture, 3), axis_5 = robot::axisAt(arm.arm, posture, 4),
+             axis_6 = robot::axisAt(arm.arm, posture, 5);
+  const metrology::CommonPerpendicular wrist_56 = metrology::commonPerpendicular(axis_5, axis_6);
   wrist.nearest_axes_56_in_r0 = 0.5 * (wrist_56.foot_on_first + wrist_56.foot_on_second);
-  wrist.miss_45 = commonPerpendicular(axis_4, axis_5).distance;
+  wrist.miss_45 = metrology::commonPerpendicular(axis_4, axis_5).distance;
   wrist.miss_56 = wrist_56.distance;
 }
 
 }  // namespace
 
-WristCentre measureWristCentre(const Campaign& campaign, const ArmInR0& arm, const RigidPoints& points,
+WristCentre measureWristCentre(const campaign::Campaign& campaign, const ArmInR0& arm, const RigidPoints& points,
                                const std::vector<std::optional<Eigen::Vector3d>>& targets_at_zero) {
   WristCentre wrist;
   if (campaign.wrist_sweep) wrist.q.head<3>() = campaign.wrist_sweep->rows.front().q.head<3>();
-  const ArmPosture posture = postureAt(arm.arm, wrist.q);
+  const robot::ArmPosture posture = robot::postureAt(arm.arm, wrist.q);
   compareWithAxes(arm, posture, wrist);
   int seen = 0;
   for (const auto& target : targets_at_zero) {
@@ -111,7 +111,7 @@ WristCentre measureWristCentre(const Campaign& campaign, const ArmInR0& arm, con
     wrist.reason = "no reflector has four readings in the wrist sweep";
     return wrist;
   }
-  wrist.spheres = fitSpheres(sweep.spheres);
+  wrist.spheres = metrology::fitSpheres(sweep.spheres);
   if (!wrist.spheres.determined) {
     wrist.reason = wrist.spheres.reason;
     return wrist;
@@ -128,4 +128,4 @@ WristCentre measureWristCentre(const Campaign& campaign, const ArmInR0& arm, con
   return wrist;
 }
 
-}  // namespace stiffscope
+}  // namespace stiffscope::frames

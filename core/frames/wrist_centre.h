@@ -4,11 +4,11 @@
 #include <vector>
 
 #include "core/campaign/campaign.h"
-#include "core/frames/arm_in_r0.h"
-#include "core/frames/rigid_points.h"
+#include "core/frames/base_frame.h"
+#include "core/frames/gravity_sag.h"
 #include "metrology/sphere_fit.h"
 
-namespace stiffscope {
+namespace stiffscope::frames {
 
 /// One row of the paper's Table I.
 struct WristTableRow {
@@ -30,7 +30,7 @@ struct WristCentre {
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< of it, with R0's (FramesCovariance); R0 axes, m^2
   Eigen::Vector3d centre_at_zero_in_r0 = Eigen::Vector3d::Zero();  ///< with axes 1-3 turned back to zero
   std::vector<double> radii;      ///< |P_wrist P1X| by target; NaN for a target that was not swept
-  SphereFit spheres;         ///< in R0 as it is measured: its covariance is that of the wrist sweep's readings alone
+  metrology::SphereFit spheres;         ///< in R0 as it is measured: its covariance is that of the wrist sweep's readings alone
   std::vector<int> targets;  ///< of the spheres
   std::vector<WristTableRow> table;  ///< Table I
   Eigen::Vector3d table_mean_in_r0 = Eigen::Vector3d::Zero();
@@ -48,7 +48,7 @@ struct WristCentre {
 
 /// Fits concentric spheres to the wrist sweep, on the readings referred to the rigid arm.
 /// Not measured, with the reason, without a sweep, without R0 in the sweep's frame, or where the fit is undetermined.
-WristCentre measureWristCentre(const Campaign& campaign, const ArmInR0& arm, const RigidPoints& points,
+WristCentre measureWristCentre(const campaign::Campaign& campaign, const ArmInR0& arm, const RigidPoints& points,
                                const std::vector<std::optional<Eigen::Vector3d>>& targets_at_zero);
 
-}  // namespace stiffscope
+}  // namespace stiffscope::frames

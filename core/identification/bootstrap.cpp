@@ -7,7 +7,7 @@
 
 #include "core/identification/decoupled_partial_pose.h"
 
-namespace stiffscope {
+namespace stiffscope::identification {
 
 namespace {
 
@@ -61,4 +61,4 @@ PostureBootstrap bootstrapPostures(const SubsetMethod& method, const PostureBoot
   return result;
 }
 
-}  // namespace stiffscope
+}  // namespace stiffscope::identification

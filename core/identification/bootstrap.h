@@ -1,9 +1,9 @@
 #pragma once
 
-#include "core/identification/stiffness_interval.h"
+#include "core/identification/estimate.h"
 #include "core/identification/subsets.h"
 
-namespace stiffscope {
+namespace stiffscope::identification {
 
 /// Postures drawn with replacement, as many as there are, and the method solved on each draw (Efron): a second way to
 /// the spread of the compliances, which knows no normal distribution, no Student's t and no shared errors.
@@ -26,4 +26,4 @@ struct PostureBootstrapOptions {
 /// Draw i is seeded by (seed, i).
 PostureBootstrap bootstrapPostures(const SubsetMethod& method, const PostureBootstrapOptions& options);
 
-}  // namespace stiffscope
+}  // namespace stiffscope::identification

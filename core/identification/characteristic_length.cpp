@@ -6,7 +6,7 @@
 
 #include "core/robot/kinematics.h"
 
-namespace stiffscope {
+namespace stiffscope::identification {
 
 namespace {
 
@@ -28,7 +28,7 @@ CharacteristicLength characteristicLength(const std::vector<LoadCase>& cases,
                                           const Eigen::Vector3d& tcp_in_flange) {
   StackedJacobian stacked;
   for (const LoadCase& load_case : cases) {
-    const Matrix6d jacobian = jacobianAt(load_case.axes, *load_case.flange_unloaded * tcp_in_flange);
+    const Matrix6d jacobian = robot::jacobianAt(load_case.axes, *load_case.flange_unloaded * tcp_in_flange);
     stacked.linear += jacobian.topRows<3>().transpose() * jacobian.topRows<3>();
     stacked.angular += jacobian.bottomRows<3>().transpose() * jacobian.bottomRows<3>();
   }
@@ -54,4 +54,4 @@ CharacteristicLength characteristicLength(const std::vector<LoadCase>& cases,
   return result;
 }
 
-}  // namespace stiffscope
+}  // namespace stiffscope::identification

@@ -4,7 +4,7 @@
 
 #include "core/identification/load_case.h"
 
-namespace stiffscope {
+namespace stiffscope::identification {
 
 /// The characteristic length L of paper (8) (Khan and Angeles): the length by which the displacement rows of
 /// the stacked Jacobian are divided, chosen where its condition number is least.
@@ -18,4 +18,4 @@ struct CharacteristicLength {
 CharacteristicLength characteristicLength(const std::vector<LoadCase>& cases,
                                           const Eigen::Vector3d& tcp_in_flange);
 
-}  // namespace stiffscope
+}  // namespace stiffscope::identification

@@ -1,9 +1,9 @@
 #include "core/identification/complete_pose.h"
 
-#include "core/identification/posture_influence.h"
+#include "core/identification/estimate.h"
 #include "core/robot/kinematics.h"
 
-namespace stiffscope {
+namespace stiffscope::identification {
 
 CaseEquations completePoseEquations(const LoadCase& load_case, const Eigen::Vector3d& tcp_in_flange,
                                     const Vector6d& torque) {
@@ -12,7 +12,7 @@ CaseEquations completePoseEquations(const LoadCase& load_case, const Eigen::Vect
   const Eigen::Vector3d unloaded = before * tcp_in_flange, loaded = after * tcp_in_flange;
   CaseEquations equations;
   equations.matrix =
-      jacobianAt(jacobianAxes(load_case), jacobianPoint(load_case, unloaded, loaded)) * torque.asDiagonal();
+      robot::jacobianAt(jacobianAxes(load_case), jacobianPoint(load_case, unloaded, loaded)) * torque.asDiagonal();
   equations.posture = load_case.pose;
   equations.right.resize(6);
   equations.right << loaded - unloaded, rotation.angle() * rotation.axis();
@@ -27,7 +27,7 @@ CaseEquations normalised(const CaseEquations& pose_equations, double characteris
 }
 
 StiffnessEstimate completePose(const std::vector<CaseEquations>& pose_equations, double characteristic_length,
-                               const JointMask& unknown) {
+                               const robot::JointMask& unknown) {
   StiffnessEstimate estimate;
   estimate.identifiable = unknown;
   std::vector<CaseEquations> scaled, displacements;
@@ -60,4 +60,4 @@ NormalEquations PoseNormal::at(double characteristic_length) const {
   return {weight * displacements.matrix + rotations.matrix, weight * displacements.right + rotations.right};
 }
 
-}  // namespace stiffscope
+}  // namespace stiffscope::identification

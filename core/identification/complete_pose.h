@@ -1,9 +1,9 @@
 #pragma once
 
 #include "core/identification/characteristic_length.h"
-#include "core/identification/stiffness_estimate.h"
+#include "core/identification/estimate.h"
 
-namespace stiffscope {
+namespace stiffscope::identification {
 
 /// Complete Pose equations of one load case (Dumas et al.; paper (39), read as J K^-1 J^T W with only the
 /// displacement rows divided by L): the displacement of P_TCP and the small rotation of the flange, both from
@@ -17,7 +17,7 @@ CaseEquations normalised(const CaseEquations& pose_equations, double characteris
 
 /// All six compliances at once from normalised equations; residuals are judged at P_TCP's displacement.
 StiffnessEstimate completePose(const std::vector<CaseEquations>& pose_equations, double characteristic_length,
-                               const JointMask& unknown);
+                               const robot::JointMask& unknown);
 
 /// The normal equations of pose equations, displacements and rotations apart, so that any L is a sum of two.
 struct PoseNormal {
@@ -28,4 +28,4 @@ struct PoseNormal {
   NormalEquations at(double characteristic_length) const;
 };
 
-}  // namespace stiffscope
+}  // namespace stiffscope::identification

@@ -2,17 +2,29 @@
 
 #include <algorithm>
 
-#include "core/identification/influence_covariance.h"
-#include "core/identification/posture_influence.h"
+#include "core/identification/estimate.h"
 
-namespace stiffscope {
+namespace stiffscope::identification {
+
+double wristLeak(const LoadedArm& arm, const Eigen::Vector3d& centre_at_zero, const Vector6d& compliance) {
+  Vector6d wrist_only = compliance;
+  wrist_only.head<3>().setZero();
+  double leak = 0.0, whole = 0.0;
+  for (std::size_t i = 0; i < arm.wrist.size(); ++i) {
+    // The wrist centre where the arm's geometry has it, so that only the axes' miss counts.
+    const Eigen::Vector3d centre = modelledWrist(arm.geometry.arm, arm.cases[i], centre_at_zero);
+    leak += (pointRows(jacobianAxes(arm.cases[i]), centre, arm.torques[i]) * wrist_only).norm();
+    whole += arm.wrist[i].displacement().norm();
+  }
+  return whole > 0.0 ? leak / whole : 0.0;
+}
 
 namespace {
 
-JointMask armOf(const JointMask& unknown) {
+robot::JointMask armOf(const robot::JointMask& unknown) {
   return {unknown[0], unknown[1], unknown[2], false, false, false};
 }
-JointMask wristOf(const JointMask& unknown) {
+robot::JointMask wristOf(const robot::JointMask& unknown) {
   return {false, false, false, unknown[3], unknown[4], unknown[5]};
 }
 
@@ -33,7 +45,7 @@ double variance(const std::vector<CaseEquations>& equations, const Vector6d& com
 void setDecoupledScatter(const std::vector<NormalEquations>& wrist, const std::vector<NormalEquations>& reflectors,
                          const NormalEquations& wrist_sum, const NormalEquations& reflector_sum,
                          double wrist_variance, double reflector_variance, StiffnessEstimate& estimate) {
-  const JointMask arm_joints = armOf(estimate.identifiable), wrist_joints = wristOf(estimate.identifiable);
+  const robot::JointMask arm_joints = armOf(estimate.identifiable), wrist_joints = wristOf(estimate.identifiable);
   const Vector6d arm_only = armPartOf(estimate.compliance);
   const Matrix6d arm_inverse = inverseNormal(wrist_sum, arm_joints);
   const Matrix6d wrist_inverse = inverseNormal(reflector_sum, wrist_joints);
@@ -59,7 +71,7 @@ void setDecoupledScatter(const std::vector<NormalEquations>& wrist, const std::v
 }  // namespace
 
 Vector6d solveDecoupled(const NormalEquations& wrist_sum, const NormalEquations& reflector_sum,
-                        const JointMask& unknown) {
+                        const robot::JointMask& unknown) {
   const Vector6d arm = solveNormal(wrist_sum, armOf(unknown));
   // A^T (b - A c_arm) = A^T b - (A^T A) c_arm: the arm's model subtracted, (37).
   const NormalEquations rest{reflector_sum.matrix, reflector_sum.right - reflector_sum.matrix * arm};
@@ -68,7 +80,7 @@ Vector6d solveDecoupled(const NormalEquations& wrist_sum, const NormalEquations&
 
 StiffnessEstimate decoupledPartialPose(const std::vector<CaseEquations>& wrist_equations,
                                        const std::vector<CaseEquations>& reflector_equations,
-                                       const JointMask& unknown) {
+                                       const robot::JointMask& unknown) {
   StiffnessEstimate estimate;
   estimate.identifiable = unknown;
   const std::vector<NormalEquations> wrist = normalByPosture(wrist_equations), reflectors = normalByPosture(reflector_equations);
@@ -83,4 +95,4 @@ StiffnessEstimate decoupledPartialPose(const std::vector<CaseEquations>& wrist_e
   return estimate;
 }
 
-}  // namespace stiffscope
+}  // namespace stiffscope::identification

@@ -1,8 +1,9 @@
 #pragma once
 
-#include "core/identification/stiffness_estimate.h"
+#include "core/identification/estimate.h"
+#include "core/identification/loaded_arm.h"
 
-namespace stiffscope {
+namespace stiffscope::identification {
 
 /// Decoupled Partial Pose (the paper's): the displacement of P_wrist sees only joints 1-3.
 /// `wrist_equations` are those of P_wrist (J_Pwrist), `reflector_equations` those of P10, P11, P12 (J_P10,
@@ -11,10 +12,21 @@ namespace stiffscope {
 /// (36). The torque is the same whether the wrench is carried to P_wrist, as the paper does, or not (a test).
 StiffnessEstimate decoupledPartialPose(const std::vector<CaseEquations>& wrist_equations,
                                        const std::vector<CaseEquations>& reflector_equations,
-                                       const JointMask& unknown);
+                                       const robot::JointMask& unknown);
 
 /// The two stages on summed normal equations; for subsets of postures.
 Vector6d solveDecoupled(const NormalEquations& wrist_sum, const NormalEquations& reflector_sum,
-                        const JointMask& unknown);
+                        const robot::JointMask& unknown);
 
-}  // namespace stiffscope
+/// Share of P_wrist's displacement that joints 4-6 may put there, because the wrist's axes miss each other,
+/// before decoupling is refused: it takes that displacement for one of joints 1-3, so this is the error it
+/// then carries into c1..c3.
+inline constexpr double kWristLeakBorne = 0.02;
+
+/// Share of P_wrist's displacement, over the load cases, that turning in joints 4-6 puts there: sum of
+/// |J_m c tau| with c1..c3 zero over sum of |displacement|. 0 for a wrist whose axes meet; also where P_wrist
+/// is not measured. `centre_at_zero`: P_wrist at joints zero, R0, m; `compliance` in rad/Nm. The arm's
+/// torques are those of its last solution.
+double wristLeak(const LoadedArm& arm, const Eigen::Vector3d& centre_at_zero, const Vector6d& compliance);
+
+}  // namespace stiffscope::identification

@@ -1,75 +1,249 @@
 #include "core/identification/equations.h"
 
+#include <Eigen/Dense>
 #include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <limits>
 
-#include "core/parallel/on_all_cores.h"
+#include "core/numerics/parallel.h"
+#include "core/robot/geometric_stiffness.h"
 #include "core/robot/kinematics.h"
-#include "core/statics/geometric_stiffness.h"
-#include "core/statics/joint_torque.h"
+#include "core/robot/wrench.h"
+#include "metrology/trilateration.h"
 
-namespace stiffscope {
+namespace stiffscope::identification {
+
+namespace {
+
+/// R of A = Q R, A given in blocks of rows: the rows at hand under what the earlier ones left.
+class TriangularFactor {
+ public:
+  void add(const Eigen::Matrix<double, Eigen::Dynamic, 6>& rows) {
+    rows_ += rows.rows();
+    for (Eigen::Index from = 0; from < rows.rows();) {
+      const Eigen::Index count = std::min(rows.rows() - from, kRows - filled_);
+      work_.middleRows(filled_, count) = rows.middleRows(from, count);
+      filled_ += count, from += count;
+      if (filled_ == kRows) reduce();
+    }
+  }
+
+  /// With the rows under the other one's, too.
+  TriangularFactor& operator+=(TriangularFactor& other) {
+    add(other.triangle());
+    rows_ += other.rows_ - 6;
+    return *this;
+  }
+
+  /// Of all rows.
+  Eigen::Index rows() const { return rows_; }
+
+  Matrix6d triangle() {
+    reduce();
+    return work_.topRows<6>();
+  }
+
+ private:
+  void reduce() {
+    work_.bottomRows(kRows - filled_).setZero();
+    const Matrix6d triangle = work_.householderQr().matrixQR().topRows<6>().triangularView<Eigen::Upper>();
+    work_.topRows<6>() = triangle;
+    filled_ = 6;
+  }
+
+  static constexpr Eigen::Index kRows = 96;
+  Eigen::Matrix<double, kRows, 6> work_;
+  Eigen::Index filled_ = 0, rows_ = 0;
+};
+
+}  // namespace
+
+NormalEquations& NormalEquations::operator+=(const NormalEquations& other) {
+  matrix += other.matrix;
+  right += other.right;
+  return *this;
+}
+
+NormalEquations normalEquations(const CaseEquations& equations) {
+  // By columns: for few rows a general matrix product costs more in its preparations than it computes.
+  NormalEquations normal;
+  for (int i = 0; i < 6; ++i) {
+    const auto column = equations.matrix.col(i);
+    for (int j = 0; j <= i; ++j) {
+      normal.matrix(i, j) = normal.matrix(j, i) = column.dot(equations.matrix.col(j));
+    }
+    normal.right[i] = column.dot(equations.right);
+  }
+  return normal;
+}
+
+NormalEquations normalEquations(const std::vector<CaseEquations>& equations) {
+  NormalEquations sum;
+  for (const CaseEquations& one : equations) sum += normalEquations(one);
+  return sum;
+}
+
+NormalEquations sumOf(const std::vector<NormalEquations>& normal) {
+  NormalEquations sum;
+  for (const NormalEquations& one : normal) sum += one;
+  return sum;
+}
+
+ScaledNormal scaledNormal(const Matrix6d& matrix, const robot::JointMask& unknown) {
+  // Joints left out get a unit diagonal: one fixed-size solve serves every mask.
+  ScaledNormal scaled{matrix, Vector6d::Zero()};
+  for (int j = 0; j < 6; ++j) {
+    if (unknown[static_cast<std::size_t>(j)] && matrix(j, j) > 0.0)
+      scaled.scale[j] = 1.0 / std::sqrt(matrix(j, j));
+  }
+  scaled.matrix = scaled.scale.asDiagonal() * matrix * scaled.scale.asDiagonal();
+  for (int j = 0; j < 6; ++j) {
+    if (scaled.scale[j] == 0.0) scaled.matrix(j, j) = 1.0;
+  }
+  return scaled;
+}
+
+Vector6d solveNormal(const NormalEquations& sum, const robot::JointMask& unknown) {
+  const ScaledNormal scaled = scaledNormal(sum.matrix, unknown);
+  const Vector6d right = scaled.scale.cwiseProduct(sum.right);
+  // The plain Cholesky factors are twice as quick, which counts over 92,378 subsets; the pivoted ones bear a
+  // rank loss.
+  const Eigen::LLT<Matrix6d> quick(scaled.matrix);
+  const Vector6d solution =
+      quick.info() == Eigen::Success ? quick.solve(right).eval() : scaled.matrix.ldlt().solve(right).eval();
+  return scaled.scale.cwiseProduct(solution);
+}
+
+double conditionNumber(const std::vector<CaseEquations>& equations, const robot::JointMask& unknown) {
+  auto factor = numerics::sumInBlocks<TriangularFactor>(
+      equations.size(), [&](std::size_t i, TriangularFactor& sum) { sum.add(equations[i].matrix); });
+  // Q turns columns and leaves their lengths: the triangular factor has those of the stacked matrix.
+  const Matrix6d triangle = factor.triangle();
+  Eigen::Matrix<double, 6, Eigen::Dynamic, 0, 6, 6> unit(6, 0);
+  for (int j = 0; j < 6; ++j) {
+    if (!unknown[static_cast<std::size_t>(j)]) continue;
+    const double length = triangle.col(j).norm();
+    if (length == 0.0) return std::numeric_limits<double>::infinity();
+    unit.conservativeResize(6, unit.cols() + 1);
+    unit.rightCols<1>() = triangle.col(j) / length;
+  }
+  if (unit.cols() == 0 || factor.rows() < unit.cols()) return std::numeric_limits<double>::infinity();
+  const Eigen::VectorXd values = unit.jacobiSvd().singularValues();
+  return values[0] / values[unit.cols() - 1];
+}
+
+namespace {
+
+using Three = std::array<const TargetMove*, 3>;
+
+std::optional<Three> largestTriangle(const LoadCase& load_case, const std::vector<double>& radii) {
+  std::vector<const TargetMove*> known;
+  for (const TargetMove& move : load_case.targets) {
+    if (!std::isnan(radii[static_cast<std::size_t>(move.target)])) known.push_back(&move);
+  }
+  std::optional<Three> best;
+  double most = 0.0;
+  for (std::size_t a = 0; a < known.size(); ++a) {
+    for (std::size_t b = a + 1; b < known.size(); ++b) {
+      for (std::size_t c = b + 1; c < known.size(); ++c) {
+        const double area =
+            (known[b]->unloaded - known[a]->unloaded).cross(known[c]->unloaded - known[a]->unloaded).norm();
+        if (area > most) most = area, best = Three{known[a], known[b], known[c]};
+      }
+    }
+  }
+  return best;
+}
+
+}  // namespace
+
+Eigen::Vector3d modelledWrist(const robot::Robot& arm, const LoadCase& load_case,
+                              const Eigen::Vector3d& centre_at_zero) {
+  return unloadedPosture(arm, load_case).motion[3] * centre_at_zero;
+}
+
+std::optional<WristMove> wristMove(const LoadCase& load_case, const std::vector<double>& radii,
+                                   const Eigen::Vector3d& modelled) {
+  if (!load_case.absolute) return std::nullopt;
+  const auto three = largestTriangle(load_case, radii);
+  if (!three) return std::nullopt;
+  const auto& [a, b, c] = *three;
+  const std::array<double, 3> known{radii[static_cast<std::size_t>(a->target)],
+                                    radii[static_cast<std::size_t>(b->target)],
+                                    radii[static_cast<std::size_t>(c->target)]};
+  const auto unloaded = metrology::trilaterate({a->unloaded, b->unloaded, c->unloaded}, known);
+  const auto loaded = metrology::trilaterate({a->loaded, b->loaded, c->loaded}, known);
+  if (!unloaded || !loaded) return std::nullopt;
+  return WristMove{metrology::nearerRoot(*unloaded, modelled), metrology::nearerRoot(*loaded, modelled)};
+}
+
+CaseEquations wristEquations(const LoadCase& load_case, const WristMove& wrist, const Vector6d& torque) {
+  const Eigen::Vector3d point = jacobianPoint(load_case, wrist.unloaded, wrist.loaded);
+  return {pointRows(jacobianAxes(load_case), point, torque), wrist.displacement(), load_case.pose};
+}
 
 namespace {
 
 /// By how K_c turns torques into torques, K_c c; the own weight's part depends on the posture alone.
 class SpringTorque {
  public:
-  SpringTorque(const LoadingGeometry& geometry, const LoadCase& load_case, const Vector6d& compliance)
+  SpringTorque(const frames::LoadingGeometry& geometry, const LoadCase& load_case, const Vector6d& compliance)
       : axes_(load_case.axes), compliance_(compliance) {
     if (geometry.weight.any()) {
-      by_weight_ = geometricStiffness(axes_, unloadedPosture(geometry.arm, load_case), geometry.weight);
+      by_weight_ = robot::geometricStiffness(axes_, unloadedPosture(geometry.arm, load_case), geometry.weight);
     }
   }
 
   /// Solves s = tau + K_c c s.
-  Vector6d under(const Wrench& wrench) const {
-    const Matrix6d change = geometricStiffness(axes_, wrench) + by_weight_;
+  Vector6d under(const robot::Wrench& wrench) const {
+    const Matrix6d change = robot::geometricStiffness(axes_, wrench) + by_weight_;
     const Matrix6d system = Matrix6d::Identity() - change * compliance_.asDiagonal();
-    return system.partialPivLu().solve(jointTorque(axes_, wrench));
+    return system.partialPivLu().solve(robot::jointTorque(axes_, wrench));
   }
 
  private:
-  const ArmAxes& axes_;
+  const robot::ArmAxes& axes_;
   Matrix6d by_weight_ = Matrix6d::Zero();
   const Vector6d& compliance_;
 };
 
 /// The wrench as the model's turn of its body by these joint angles directs it.
-Wrench turnedWrench(const Robot& arm, const LoadCase& load_case, const Vector6d& loaded) {
+robot::Wrench turnedWrench(const robot::Robot& arm, const LoadCase& load_case, const Vector6d& loaded) {
   const auto body = static_cast<std::size_t>(load_case.wrench_turns_with);
-  const Eigen::Matrix3d turn = postureAt(arm, loaded).motion[body].linear() * load_case.unturned.transpose();
+  const Eigen::Matrix3d turn = robot::postureAt(arm, loaded).motion[body].linear() * load_case.unturned.transpose();
   return {load_case.wrench.point, turn * load_case.wrench_unturned.force,
           turn * load_case.wrench_unturned.moment};
 }
 
-ArmAxes middleOf(const Robot& arm, const LoadCase& load_case, const Vector6d& compliance,
+robot::ArmAxes middleOf(const robot::Robot& arm, const LoadCase& load_case, const Vector6d& compliance,
                  const Vector6d& torque) {
-  return axesAt(arm, postureAt(arm, load_case.q_sagged + 0.5 * compliance.cwiseProduct(torque)));
+  return robot::axesAt(arm, robot::postureAt(arm, load_case.q_sagged + 0.5 * compliance.cwiseProduct(torque)));
 }
 
 }  // namespace
 
 std::vector<Vector6d> jointTorques(const std::vector<LoadCase>& cases) {
   std::vector<Vector6d> torques(cases.size());
-  smallWorkOnAllCores(cases.size(),
-                      [&](std::size_t i) { torques[i] = jointTorque(cases[i].axes, cases[i].wrench); });
+  numerics::smallWorkOnAllCores(cases.size(),
+                      [&](std::size_t i) { torques[i] = robot::jointTorque(cases[i].axes, cases[i].wrench); });
   return torques;
 }
 
-std::vector<Vector6d> jointTorquesWithGeometricStiffness(const LoadingGeometry& geometry,
+std::vector<Vector6d> jointTorquesWithGeometricStiffness(const frames::LoadingGeometry& geometry,
                                                          const std::vector<LoadCase>& cases,
                                                          const Vector6d& compliance) {
   std::vector<Vector6d> torques(cases.size());
-  smallWorkOnAllCores(cases.size(), [&](std::size_t i) {
+  numerics::smallWorkOnAllCores(cases.size(), [&](std::size_t i) {
     torques[i] = SpringTorque(geometry, cases[i], compliance).under(cases[i].wrench);
   });
   return torques;
 }
 
-void settleLoads(const LoadingGeometry& geometry, const Vector6d& compliance, std::vector<LoadCase>& cases,
+void settleLoads(const frames::LoadingGeometry& geometry, const Vector6d& compliance, std::vector<LoadCase>& cases,
                  std::vector<Vector6d>& torques) {
   torques.resize(cases.size());
-  smallWorkOnAllCores(cases.size(), [&](std::size_t i) {
+  numerics::smallWorkOnAllCores(cases.size(), [&](std::size_t i) {
     LoadCase& load_case = cases[i];
     const SpringTorque springs(geometry, load_case, compliance);
     torques[i] = springs.under(load_case.wrench);
@@ -82,15 +256,15 @@ void settleLoads(const LoadingGeometry& geometry, const Vector6d& compliance, st
   });
 }
 
-void takeJacobiansAtMiddle(const LoadingGeometry& geometry, const Vector6d& compliance,
+void takeJacobiansAtMiddle(const frames::LoadingGeometry& geometry, const Vector6d& compliance,
                            const std::vector<Vector6d>& torques, std::vector<LoadCase>& cases) {
   for (std::size_t i = 0; i < cases.size(); ++i) {
     cases[i].middle = middleOf(geometry.arm, cases[i], compliance, torques[i]);
   }
 }
 
-Matrix36d pointRows(const ArmAxes& axes, const Eigen::Vector3d& point, const Vector6d& torque) {
-  return pointJacobianAt(axes, point) * torque.asDiagonal();
+Matrix36d pointRows(const robot::ArmAxes& axes, const Eigen::Vector3d& point, const Vector6d& torque) {
+  return robot::pointJacobianAt(axes, point) * torque.asDiagonal();
 }
 
-}  // namespace stiffscope
+}  // namespace stiffscope::identification

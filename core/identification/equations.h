@@ -1,11 +1,13 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
+#include <optional>
 #include <vector>
 
 #include "core/identification/load_case.h"
 
-namespace stiffscope {
+namespace stiffscope::identification {
 
 /// The linear equations of one load case, A c = b, c = (1/k_1 .. 1/k_6): paper (12) with one column a joint,
 /// A_j = J_m,j (J_w^T W)_j. Rows are displacements in R0 (m), and rotations (rad) where a method uses them.
@@ -21,7 +23,7 @@ std::vector<Vector6d> jointTorques(const std::vector<LoadCase>& cases);
 /// The same plus K_c c (J_w^T W + K_c ...): the torque by which the springs really are turned when the load's
 /// and the own weight's torque changes as the joints give, so that A c = J_m (K - K_c)^-1 J_w^T W (method:
 /// Unknowns). `compliance` c is the current estimate; the equations stay linear for the next one.
-std::vector<Vector6d> jointTorquesWithGeometricStiffness(const LoadingGeometry& geometry,
+std::vector<Vector6d> jointTorquesWithGeometricStiffness(const frames::LoadingGeometry& geometry,
                                                          const std::vector<LoadCase>& cases,
                                                          const Vector6d& compliance);
 
@@ -29,14 +31,68 @@ std::vector<Vector6d> jointTorquesWithGeometricStiffness(const LoadingGeometry& 
 /// directed by that of the model (force and moment were read in axes that have turned with their body by c
 /// torque; first order in the deflection, as K_c is); torques by those; and the axes of the Jacobians at the
 /// middle of the displacement.
-void settleLoads(const LoadingGeometry& geometry, const Vector6d& compliance, std::vector<LoadCase>& cases,
+void settleLoads(const frames::LoadingGeometry& geometry, const Vector6d& compliance, std::vector<LoadCase>& cases,
                  std::vector<Vector6d>& torques);
 
 /// Takes each case's Jacobians at the middle of its displacement: q_sagged + c torque / 2.
-void takeJacobiansAtMiddle(const LoadingGeometry& geometry, const Vector6d& compliance,
+void takeJacobiansAtMiddle(const frames::LoadingGeometry& geometry, const Vector6d& compliance,
                            const std::vector<Vector6d>& torques, std::vector<LoadCase>& cases);
 
 /// J_m diag(torque) of the positional rows of a point of the flange body.
-Matrix36d pointRows(const ArmAxes& axes, const Eigen::Vector3d& point, const Vector6d& torque);
+Matrix36d pointRows(const robot::ArmAxes& axes, const Eigen::Vector3d& point, const Vector6d& torque);
 
-}  // namespace stiffscope
+/// A^T A and A^T b of one load case or of a sum of them.
+struct NormalEquations {
+  Matrix6d matrix = Matrix6d::Zero();
+  Vector6d right = Vector6d::Zero();
+
+  NormalEquations& operator+=(const NormalEquations& other);
+  /// Of three rows more, a point's.
+  void add(const Matrix36d& rows, const Eigen::Vector3d& values) {
+    matrix.noalias() += rows.transpose() * rows;
+    right.noalias() += rows.transpose() * values;
+  }
+};
+
+NormalEquations normalEquations(const CaseEquations& equations);
+NormalEquations normalEquations(const std::vector<CaseEquations>& equations);
+NormalEquations sumOf(const std::vector<NormalEquations>& normal);
+
+/// A normal matrix with columns scaled to unit length; joints that are no unknowns have scale 0 and a unit
+/// diagonal.
+struct ScaledNormal {
+  Matrix6d matrix;
+  Vector6d scale;
+};
+
+ScaledNormal scaledNormal(const Matrix6d& matrix, const robot::JointMask& unknown);
+
+/// Least squares over the joints of the mask, the others zero. Columns are scaled to unit length first.
+Vector6d solveNormal(const NormalEquations& sum, const robot::JointMask& unknown);
+
+/// Condition number (2-norm) of the stacked matrix over the joints of the mask, columns scaled to unit
+/// length.
+double conditionNumber(const std::vector<CaseEquations>& equations, const robot::JointMask& unknown);
+
+/// P_wrist in one load case, unloaded and loaded, by trilateration from three reflectors; R0, m.
+struct WristMove {
+  Eigen::Vector3d unloaded = Eigen::Vector3d::Zero();
+  Eigen::Vector3d loaded = Eigen::Vector3d::Zero();
+
+  Eigen::Vector3d displacement() const { return loaded - unloaded; }
+};
+
+/// Where the arm's model has P_wrist unloaded; `centre_at_zero`: at joints zero, a point of body 3.
+Eigen::Vector3d modelledWrist(const robot::Robot& arm, const LoadCase& load_case,
+                              const Eigen::Vector3d& centre_at_zero);
+
+/// (13)-(20) with the radii of the wrist sweep (`radii` by target, NaN where unknown), on the three
+/// reflectors of the case that span the largest triangle; of the two roots the one nearer to `modelled`
+/// (modelledWrist). Empty with fewer than three reflectors of known radius, or in one line.
+std::optional<WristMove> wristMove(const LoadCase& load_case, const std::vector<double>& radii,
+                                   const Eigen::Vector3d& modelled);
+
+/// The equations of P_wrist's displacement. Columns 4-6 are nearly zero: the wrist's axes meet there.
+CaseEquations wristEquations(const LoadCase& load_case, const WristMove& wrist, const Vector6d& torque);
+
+}  // namespace stiffscope::identification

@@ -1,6 +1,6 @@
 #include "core/identification/geometric_stiffness_cost.h"
 
-namespace stiffscope {
+namespace stiffscope::identification {
 
 std::vector<GeometricStiffnessCost> geometricStiffnessCosts(const Identification& result, Method method) {
   std::vector<GeometricStiffnessCost> costs;
@@ -12,7 +12,7 @@ std::vector<GeometricStiffnessCost> geometricStiffnessCosts(const Identification
       jointTorquesWithGeometricStiffness(solved.geometry, result.cases, compliance);
   for (std::size_t i = 0; i < result.cases.size(); ++i) {
     const LoadCase& load_case = result.cases[i];
-    const ArmAxes& axes = jacobianAxes(load_case);
+    const robot::ArmAxes& axes = jacobianAxes(load_case);
     GeometricStiffnessCost cost;
     double whole = 0.0;
     for (const TargetMove& move : load_case.targets) {
@@ -27,4 +27,4 @@ std::vector<GeometricStiffnessCost> geometricStiffnessCosts(const Identification
   return costs;
 }
 
-}  // namespace stiffscope
+}  // namespace stiffscope::identification

@@ -5,7 +5,7 @@
 
 #include "core/identification/identification.h"
 
-namespace stiffscope {
+namespace stiffscope::identification {
 
 /// What neglecting K_c of (4) costs in one load case: how far the modelled displacement moves when K_c is left out, at
 /// the same stiffnesses.
@@ -18,4 +18,4 @@ struct GeometricStiffnessCost {
 /// the method is unavailable.
 std::vector<GeometricStiffnessCost> geometricStiffnessCosts(const Identification& result, Method method);
 
-}  // namespace stiffscope
+}  // namespace stiffscope::identification

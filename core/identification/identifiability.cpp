@@ -1,32 +1,31 @@
 #include "core/identification/identifiability.h"
 
-#include <fmt/format.h>
-
 #include <Eigen/Dense>
 #include <cmath>
+#include <fmt/format.h>
 
-#include "core/parallel/sum_in_blocks.h"
+#include "core/numerics/parallel.h"
 #include "core/robot/kinematics.h"
-#include "core/statics/joint_torque.h"
+#include "core/robot/wrench.h"
 
-namespace stiffscope {
+namespace stiffscope::identification {
 
 namespace {
 
 double square(double x) { return x * x; }
 
 /// The load as it were if it hung exactly: the force along gravity, no moment about it.
-Wrench hangingPart(const Wrench& wrench, const Eigen::Vector3d& down) {
-  Wrench part = wrench;
+robot::Wrench hangingPart(const robot::Wrench& wrench, const Eigen::Vector3d& down) {
+  robot::Wrench part = wrench;
   part.force = down * down.dot(wrench.force);
   part.moment -= down * down.dot(wrench.moment);
   return part;
 }
 
 /// Variance of each joint's torque by the uncertainties of wrench, direction and place.
-Vector6d torqueVariance(const ArmAxes& axes, const Wrench& wrench, const LoadCell& cell,
+Vector6d torqueVariance(const robot::ArmAxes& axes, const robot::Wrench& wrench, const campaign::LoadCell& cell,
                         const TrustLimits& limits) {
-  const Matrix36d levers = pointJacobianAt(axes, wrench.point);
+  const Matrix36d levers = robot::pointJacobianAt(axes, wrench.point);
   Vector6d variance;
   for (int j = 0; j < 6; ++j) {
     const Eigen::Vector3d lever = levers.col(j), &axis = axes[static_cast<std::size_t>(j)].direction;
@@ -38,7 +37,7 @@ Vector6d torqueVariance(const ArmAxes& axes, const Wrench& wrench, const LoadCel
   return variance;
 }
 
-void judgeHanging(const LoadingGeometry& geometry, const std::vector<LoadCase>& cases,
+void judgeHanging(const frames::LoadingGeometry& geometry, const std::vector<LoadCase>& cases,
                   const TrustLimits& limits, Identifiability& result) {
   if (geometry.weight.gravity_in_base.squaredNorm() == 0.0) return;
   const Eigen::Vector3d down = geometry.weight.gravity_in_base.normalized();
@@ -79,7 +78,7 @@ struct LeverSquares {
 /// place of the axis is trusted to. A column of the equations is that distance times the torque.
 void judgeLever(const std::vector<CaseEquations>& equations, const std::vector<Vector6d>& torques,
                 const TrustLimits& limits, Identifiability& result) {
-  const auto sum = sumInBlocks<LeverSquares>(equations.size(), [&](std::size_t i, LeverSquares& all) {
+  const auto sum = numerics::sumInBlocks<LeverSquares>(equations.size(), [&](std::size_t i, LeverSquares& all) {
     const auto points = static_cast<double>(equations[i].matrix.rows() / 3);
     all += {equations[i].matrix.colwise().squaredNorm().transpose(), torques[i].cwiseAbs2() * points};
   });
@@ -130,10 +129,10 @@ std::string combinationReason(const Vector6d& unseen, const Vector6d& lengths) {
 
 /// Marks joints that take part in a combination which the equations do not see.
 void judgeRank(const std::vector<CaseEquations>& equations, Identifiability& result) {
-  const auto sum = sumInBlocks<NormalEquations>(
+  const auto sum = numerics::sumInBlocks<NormalEquations>(
       equations.size(), [&](std::size_t i, NormalEquations& all) { all += normalEquations(equations[i]); });
   Matrix6d scaled = Matrix6d::Identity();
-  const JointMask mask = result.mask();
+  const robot::JointMask mask = result.mask();
   for (int a = 0; a < 6; ++a) {
     for (int b = 0; b < 6; ++b) {
       if (mask[static_cast<std::size_t>(a)] && mask[static_cast<std::size_t>(b)]) {
@@ -158,25 +157,25 @@ void judgeRank(const std::vector<CaseEquations>& equations, Identifiability& res
 
 }  // namespace
 
-JointMask Identifiability::mask() const {
-  JointMask unknown{};
+robot::JointMask Identifiability::mask() const {
+  robot::JointMask unknown{};
   for (std::size_t j = 0; j < 6; ++j) unknown[j] = joints[j].identifiable;
   return unknown;
 }
 
-Identifiability judgeJoints(const LoadingGeometry& geometry, const std::vector<LoadCase>& cases,
-                            const LoadCell& cell, const std::vector<CaseEquations>& equations,
+Identifiability judgeJoints(const frames::LoadingGeometry& geometry, const std::vector<LoadCase>& cases,
+                            const campaign::LoadCell& cell, const std::vector<CaseEquations>& equations,
                             const TrustLimits& limits) {
   Identifiability result;
   if (cases.empty()) return result;
   judgeHanging(geometry, cases, limits, result);
   const Eigen::Vector3d down = geometry.weight.gravity_in_base.normalized();
   std::vector<Vector6d> torques(cases.size());
-  const auto sum = sumInBlocks<TorqueSquares>(cases.size(), [&](std::size_t i, TorqueSquares& all) {
+  const auto sum = numerics::sumInBlocks<TorqueSquares>(cases.size(), [&](std::size_t i, TorqueSquares& all) {
     const LoadCase& load_case = cases[i];
-    const ArmAxes& axes = load_case.axes;
-    torques[i] = jointTorque(axes, load_case.wrench);
-    const Vector6d hanging = result.load_hangs ? jointTorque(axes, hangingPart(load_case.wrench, down)) : torques[i];
+    const robot::ArmAxes& axes = load_case.axes;
+    torques[i] = robot::jointTorque(axes, load_case.wrench);
+    const Vector6d hanging = result.load_hangs ? robot::jointTorque(axes, hangingPart(load_case.wrench, down)) : torques[i];
     all += {torques[i].cwiseAbs2(), hanging.cwiseAbs2(), torqueVariance(axes, load_case.wrench, cell, limits)};
   });
   const double n = static_cast<double>(cases.size());
@@ -204,4 +203,4 @@ Identifiability judgeJoints(const LoadingGeometry& geometry, const std::vector<L
   return result;
 }
 
-}  // namespace stiffscope
+}  // namespace stiffscope::identification

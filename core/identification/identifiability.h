@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "core/identification/normal_equations.h"
+#include "core/identification/equations.h"
 
-namespace stiffscope {
+namespace stiffscope::identification {
 
 /// What wrench, frames and angles are trusted to, for judging which joint the load really turns.
 struct TrustLimits {
@@ -30,7 +30,7 @@ struct Identifiability {
   bool load_hangs = false;
   double gravity_angle_rms = 0.0;  ///< between the forces and gravity, rad
 
-  JointMask mask() const;
+  robot::JointMask mask() const;
 };
 
 /// A joint counts only if the load turns it by more than wrench, frame and angle uncertainty alone would.
@@ -39,8 +39,8 @@ struct Identifiability {
 /// stiffness (method: What every method reports). Nor is a joint identifiable whose axis the measured points
 /// stand on, or whose column is a combination of others'. `equations`: positions only, one a case, made with
 /// the cases' torques.
-Identifiability judgeJoints(const LoadingGeometry& geometry, const std::vector<LoadCase>& cases,
-                            const LoadCell& cell, const std::vector<CaseEquations>& equations,
+Identifiability judgeJoints(const frames::LoadingGeometry& geometry, const std::vector<LoadCase>& cases,
+                            const campaign::LoadCell& cell, const std::vector<CaseEquations>& equations,
                             const TrustLimits& limits = {});
 
-}  // namespace stiffscope
+}  // namespace stiffscope::identification

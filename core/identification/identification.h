@@ -5,14 +5,14 @@
 #include <string>
 #include <vector>
 
+#include "core/frames/geometry_calibration.h"
 #include "core/identification/bootstrap.h"
 #include "core/identification/complete_pose.h"
-#include "core/identification/geometry_calibration.h"
 #include "core/identification/noise_share.h"
-#include "core/identification/outlying_postures.h"
+#include "core/identification/outliers.h"
 #include "core/identification/subsets.h"
 
-namespace stiffscope {
+namespace stiffscope::identification {
 
 enum class Method { complete_pose = 0, partial_pose = 1, decoupled_partial_pose = 2 };
 
@@ -41,7 +41,7 @@ struct MethodResult {
   bool available = false;
   std::string reason;  ///< why not, and what measurement would make it available
   StiffnessEstimate estimate;
-  LoadingGeometry geometry;                ///< the method's own
+  frames::LoadingGeometry geometry;                ///< the method's own
   std::vector<CaseEquations> wrist_rows;   ///< P_wrist's equations in that geometry; empty where not measured
   std::vector<CaseEquations> target_rows;  ///< the reflectors'
   std::vector<double> wrist_residual;      ///< |displacement left| of P_wrist, per load case, m
@@ -62,7 +62,7 @@ struct LengthSensitivity {
 struct Identification {
   int step = 0;            ///< the one with the largest mean force of those used
   std::vector<int> steps;  ///< used, together
-  Frames frames;                            ///< the own weight's sag taken off where it can be
+  frames::Frames frames;                            ///< the own weight's sag taken off where it can be
   std::vector<LoadCase> cases;              ///< in the swept geometry
   std::vector<std::string> left_out;        ///< postures that are not used, with the reason
   std::vector<OutlyingPosture> outlying;    ///< disagree with the rest; used nevertheless, unless `robust`
@@ -71,7 +71,7 @@ struct Identification {
   std::vector<double> wrist_displacement;   ///< |displacement| of P_wrist, uncompensated, per case, m
   std::vector<double> target_displacement;  ///< the same, mean over the reflectors
   Identifiability identifiability;
-  GeometryCalibration calibration;
+  frames::GeometryCalibration calibration;
   CharacteristicLength characteristic_length;
   std::vector<LengthSensitivity> length_sensitivity;
   std::array<MethodResult, 3> methods;  ///< by Method
@@ -84,4 +84,14 @@ struct Identification {
   const MethodResult& of(Method method) const { return methods[static_cast<std::size_t>(method)]; }
 };
 
-}  // namespace stiffscope
+/// The method whose result stands for a campaign where one must: the decoupled where it can be had, else Partial
+/// Pose, else Complete Pose, available or not. `result.of(method)` says `available`.
+template <class Result>
+Method bestMethod(const Result& result) {
+  for (const Method method : {Method::decoupled_partial_pose, Method::partial_pose}) {
+    if (result.of(method).available) return method;
+  }
+  return Method::complete_pose;
+}
+
+}  // namespace stiffscope::identification

@@ -1,18 +1,51 @@
 #include "core/identification/identify.h"
 
-#include "core/identification/cautions.h"
-#include "core/identification/describe_loads.h"
-#include "core/identification/load_step.h"
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/identification/estimate.h"
+#include "core/identification/identification.h"
+#include "core/identification/load_case.h"
 #include "core/identification/method_runs.h"
-#include "core/identification/posture_influence.h"
-#include "core/identification/settled_frames.h"
-#include "core/identification/without_postures.h"
+#include "core/identification/method_solution.h"
+#include "core/identification/outliers.h"
+#include "core/identification/warnings.h"
 
-namespace stiffscope {
+namespace stiffscope::identification {
 
-Frames settledFrames(const Campaign& campaign) {
+double geometricStiffnessShare(const LoadedArm& arm, const Vector6d& compliance) {
+  const auto plain = jointTorques(arm.cases);
+  const auto full = jointTorquesWithGeometricStiffness(arm.geometry, arm.cases, compliance);
+  double change = 0.0, whole = 0.0;
+  for (std::size_t i = 0; i < plain.size(); ++i) {
+    change += (full[i] - plain[i]).squaredNorm();
+    whole += plain[i].squaredNorm();
+  }
+  return whole > 0.0 ? std::sqrt(change / whole) : 0.0;
+}
+
+void describeLoads(const campaign::Campaign& campaign, LoadedArm shown, Identification& result) {
+  for (const WristMove& move : shown.wrist) result.wrist_displacement.push_back(move.displacement().norm());
+  for (const LoadCase& load_case : shown.cases) {
+    double sum = 0.0;
+    for (const TargetMove& move : load_case.targets) sum += move.displacement().norm();
+    result.target_displacement.push_back(sum / static_cast<double>(load_case.targets.size()));
+    result.servo_change = std::max(result.servo_change, load_case.servo.cwiseAbs().maxCoeff());
+  }
+  result.noise = noiseShare(campaign, shown.geometry, shown.cases, shown.wrist, result.frames.wrist.radii,
+                            result.frames.wrist.centre_at_zero_in_r0);
+  const MethodResult& reference = result.of(bestMethod(result));
+  if (reference.available) {
+    result.geometric_stiffness_share = geometricStiffnessShare(shown, reference.estimate.compliance);
+  }
+  result.cases = std::move(shown.cases);
+  result.wrist = std::move(shown.wrist);
+}
+
+frames::Frames settledFrames(const campaign::Campaign& campaign) {
   if (!campaign.loading || !whatLoadsLack(campaign).empty() || !heaviestStep(campaign)) {
-    return measureFrames(campaign);
+    return frames::measureFrames(campaign);
   }
   return settleFrames(campaign, {chosenStep(campaign, {})}, {}).frames;
 }
@@ -20,11 +53,11 @@ Frames settledFrames(const Campaign& campaign) {
 namespace {
 
 /// One fit to each posture's reflectors by all joints together, whatever the methods do: a wrong reading shows there.
-std::vector<OutlyingPosture> outlyingOf(const LoadedArm& arm, const JointMask& unknown) {
+std::vector<OutlyingPosture> outlyingOf(const LoadedArm& arm, const robot::JointMask& unknown) {
   return outlyingPostures(byPosture(reflectorEquations(arm)), unknown);
 }
 
-Identification identifyOnce(const Campaign& campaign, const IdentifyOptions& options) {
+Identification identifyOnce(const campaign::Campaign& campaign, const IdentifyOptions& options) {
   Identification result;
   result.step = chosenStep(campaign, options.step);
   result.steps = options.all_steps ? loadedSteps(campaign) : std::vector<int>{result.step};
@@ -46,7 +79,7 @@ Identification identifyOnce(const Campaign& campaign, const IdentifyOptions& opt
 
 }  // namespace
 
-Identification identify(const Campaign& campaign, const IdentifyOptions& options) {
+Identification identify(const campaign::Campaign& campaign, const IdentifyOptions& options) {
   Identification result = identifyOnce(campaign, options);
   if (options.robust && !result.outlying.empty()) {
     const std::vector<OutlyingPosture> outlying = result.outlying;
@@ -59,7 +92,7 @@ Identification identify(const Campaign& campaign, const IdentifyOptions& options
   return result;
 }
 
-Identification framesAlone(const Campaign& campaign) {
+Identification framesAlone(const campaign::Campaign& campaign) {
   Identification result;
   const std::string lacking = whatLoadsLack(campaign);
   result.frames = settledFrames(campaign);
@@ -70,4 +103,4 @@ Identification framesAlone(const Campaign& campaign) {
   return result;
 }
 
-}  // namespace stiffscope
+}  // namespace stiffscope::identification

@@ -1,13 +1,176 @@
 #include "core/identification/load_case.h"
 
+#include <algorithm>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <map>
+#include <set>
+#include <stdexcept>
+#include <utility>
 
-#include "core/identification/cell_wrench.h"
-#include "core/identification/load_step.h"
-#include "core/parallel/on_all_cores.h"
-#include "metrology/rigid_registration.h"
+#include "core/io/input_error.h"
+#include "core/numerics/parallel.h"
+#include "metrology/registration.h"
 
-namespace stiffscope {
+namespace stiffscope::identification {
+
+namespace {
+
+const robot::LinkFrame& linkNamed(const robot::Robot& arm, const std::string& name) {
+  for (const robot::LinkFrame& link : arm.links) {
+    if (link.name == name) return link;
+  }
+  throw std::invalid_argument("the load cell names the link '" + name + "', which the robot does not have");
+}
+
+/// A link's place: with the flange as given for what is fixed to it, by the posture for the rest.
+Eigen::Isometry3d placeOf(const robot::LinkFrame& link, const frames::LoadingGeometry& geometry, const robot::ArmPosture& posture,
+                          const std::optional<Eigen::Isometry3d>& flange) {
+  if (link.body == 6 && flange) {
+    return *flange * geometry.arm.base_from_flange_at_zero.inverse() * link.base_from_link_at_zero;
+  }
+  return posture.motion[static_cast<std::size_t>(link.body)] * link.base_from_link_at_zero;
+}
+
+}  // namespace
+
+int bodyOfCellAxes(const campaign::LoadCell& cell, const frames::LoadingGeometry& geometry) {
+  return linkNamed(geometry.arm, cell.axes_link ? *cell.axes_link : cell.parent).body;
+}
+
+robot::Wrench cellWrench(const campaign::LoadCell& cell, const frames::LoadingGeometry& geometry, const robot::ArmPosture& posture,
+                  const std::optional<Eigen::Isometry3d>& flange_unloaded,
+                  const std::optional<Eigen::Isometry3d>& flange_loaded, const Vector6d& reading) {
+  const robot::LinkFrame& parent = linkNamed(geometry.arm, cell.parent);
+  const Eigen::Matrix3d axes =
+      cell.axes_link
+          ? placeOf(linkNamed(geometry.arm, *cell.axes_link), geometry, posture, flange_loaded).linear()
+          : Eigen::Matrix3d(placeOf(parent, geometry, posture, flange_loaded).linear() *
+                            cell.parent_from_cell.linear());
+  return {placeOf(parent, geometry, posture, flange_unloaded) * cell.parent_from_cell.translation(),
+          axes * reading.head<3>(), axes * reading.tail<3>()};
+}
+
+LoadReadings::LoadReadings(const campaign::Campaign& campaign, std::vector<int> steps)
+    : steps_(std::move(steps)),
+      poses_(campaign.pose_ids.size()),
+      targets_(campaign.targets.size()),
+      states_((steps_.size() + 1) * poses_, nullptr) {
+  const auto asked = [&](int step) { return slot(step) <= steps_.size(); };
+  const auto add = [&](const auto& row, const Eigen::Vector3d& value, std::vector<ReadingSum>& table) {
+    if (!asked(row.step)) return;
+    ReadingSum& sum = table[at(static_cast<std::size_t>(row.pose), row.step) * targets_ +
+                            static_cast<std::size_t>(row.target)];
+    sum.sum += value;
+    ++sum.readings;
+  };
+  const auto gatherStates = [&] {
+    if (!campaign.states) return;
+    for (const campaign::State& state : campaign.states->rows) {
+      if (asked(state.step)) states_[at(static_cast<std::size_t>(state.pose), state.step)] = &state;
+    }
+  };
+  const auto gatherReadings = [&] {
+    if (campaign.loading) {
+      points_.resize(states_.size() * targets_);
+      for (const campaign::LoadingReading& row : campaign.loading->rows) add(row, row.point, points_);
+    }
+    if (campaign.displacements) {
+      differences_.resize(states_.size() * targets_);
+      for (const campaign::Displacement& row : campaign.displacements->rows) add(row, row.displacement, differences_);
+    }
+  };
+  numerics::onAllCores(2, [&](std::size_t i) { i == 0 ? gatherStates() : gatherReadings(); }, poses_ >= numerics::kWorthThreads);
+}
+
+std::size_t LoadReadings::slot(int step) const {
+  if (step == 0) return 0;
+  return 1 + static_cast<std::size_t>(std::find(steps_.begin(), steps_.end(), step) - steps_.begin());
+}
+
+std::span<const ReadingSum> LoadReadings::of(const std::vector<ReadingSum>& table, std::size_t pose,
+                                             int step) const {
+  if (table.empty()) return {};
+  return {table.data() + at(pose, step) * targets_, targets_};
+}
+
+namespace {
+
+io::InputPlace inFile(const campaign::Campaign& campaign, const std::string& file) {
+  return {(campaign.folder / file).string(), 0, {}};
+}
+
+}  // namespace
+
+std::string whatLoadsLack(const campaign::Campaign& campaign) {
+  if (!campaign.states) return "no 'states': joint angles and load-cell readings are needed to identify";
+  if (!campaign.load_cell) return "no 'load_cell': where the measured wrench acts is needed to identify";
+  if (!campaign.loading && !campaign.displacements) {
+    return "neither 'loading' nor 'displacements': readings under load are needed to identify";
+  }
+  return {};
+}
+
+std::vector<int> loadSteps(const campaign::Campaign& campaign) {
+  std::set<int> steps;
+  if (campaign.states) {
+    for (const campaign::State& state : campaign.states->rows) steps.insert(state.step);
+  }
+  steps.erase(0);
+  return {steps.begin(), steps.end()};
+}
+
+std::map<int, double> meanForces(const campaign::Campaign& campaign) {
+  if (!campaign.states) return {};
+  struct Forces {
+    double sum = 0.0;
+    int count = 0;
+  };
+  std::map<int, Forces> forces;
+  auto at = forces.end();
+  for (const campaign::State& state : campaign.states->rows) {
+    // A posture's steps follow one another in most tables.
+    if (at != forces.end() && at->first != state.step) ++at;
+    if (at == forces.end() || at->first != state.step) at = forces.try_emplace(state.step).first;
+    at->second.sum += state.wrench_in_cell.head<3>().norm();
+    ++at->second.count;
+  }
+  std::map<int, double> means;
+  for (const auto& [step, force] : forces) means[step] = force.sum / force.count;
+  return means;
+}
+
+std::vector<int> loadedSteps(const campaign::Campaign& campaign) {
+  const std::map<int, double> forces = meanForces(campaign);
+  constexpr double kReturn = 0.05;
+  double most = 0.0;
+  for (const auto& [step, force] : forces) {
+    if (step != 0) most = std::max(most, force);
+  }
+  std::vector<int> steps;
+  for (const auto& [step, force] : forces) {
+    if (step != 0 && most > 0.0 && force >= kReturn * most) steps.push_back(step);
+  }
+  return steps;
+}
+
+int chosenStep(const campaign::Campaign& campaign, const std::optional<int>& asked) {
+  const std::string lacking = whatLoadsLack(campaign);
+  if (!lacking.empty()) throw io::InputError(inFile(campaign, "campaign.xml"), "", lacking);
+  if (asked) {
+    const std::vector<int> steps = loadSteps(campaign);
+    if (std::find(steps.begin(), steps.end(), *asked) == steps.end()) {
+      throw io::InputError(inFile(campaign, campaign.states->file), std::to_string(*asked),
+                       steps.empty() ? "not a load step of this campaign, which has none"
+                                     : fmt::format("not a load step of this campaign, which has {}",
+                                                   fmt::join(steps, ", ")));
+    }
+    return *asked;
+  }
+  const auto heaviest = heaviestStep(campaign);
+  if (!heaviest) throw io::InputError(inFile(campaign, campaign.states->file), "", "no load step has a force");
+  return *heaviest;
+}
 
 namespace {
 
@@ -32,7 +195,7 @@ std::vector<TargetMove> measuredMoves(const LoadReadings& readings, std::size_t 
 
 /// base_from_flange from the reflectors: their places on the arm at zero brought onto where they are
 /// measured.
-std::optional<Eigen::Isometry3d> measuredFlange(const LoadingGeometry& geometry,
+std::optional<Eigen::Isometry3d> measuredFlange(const frames::LoadingGeometry& geometry,
                                                 const std::vector<TargetMove>& moves, bool loaded) {
   std::vector<Eigen::Vector3d> at_zero, measured;
   for (const TargetMove& move : moves) {
@@ -41,15 +204,15 @@ std::optional<Eigen::Isometry3d> measuredFlange(const LoadingGeometry& geometry,
     at_zero.push_back(*target);
     measured.push_back(loaded ? move.loaded : move.unloaded);
   }
-  const RigidRegistration registration = registerRigid(at_zero, measured);
+  const metrology::RigidRegistration registration = metrology::registerRigid(at_zero, measured);
   if (!registration.determined) return std::nullopt;
   return registration.to_from_source * geometry.arm.base_from_flange_at_zero;
 }
 
 /// Displacements without absolute points: put on the model's place of the reflector.
-std::vector<TargetMove> declaredMoves(const LoadingGeometry& geometry,
+std::vector<TargetMove> declaredMoves(const frames::LoadingGeometry& geometry,
                                       std::span<const ReadingSum> differences,
-                                      const Eigen::Matrix3d& r0_from_table, const ArmPosture& posture) {
+                                      const Eigen::Matrix3d& r0_from_table, const robot::ArmPosture& posture) {
   std::vector<TargetMove> moves;
   moves.reserve(differences.size());
   for (std::size_t k = 0; k < differences.size(); ++k) {
@@ -65,11 +228,11 @@ std::vector<TargetMove> declaredMoves(const LoadingGeometry& geometry,
 
 }  // namespace
 
-ArmPosture unloadedPosture(const Robot& arm, const LoadCase& load_case) {
-  return postureAt(arm, load_case.q_sagged);
+robot::ArmPosture unloadedPosture(const robot::Robot& arm, const LoadCase& load_case) {
+  return robot::postureAt(arm, load_case.q_sagged);
 }
 
-const ArmAxes& jacobianAxes(const LoadCase& load_case) {
+const robot::ArmAxes& jacobianAxes(const LoadCase& load_case) {
   return load_case.middle ? *load_case.middle : load_case.axes;
 }
 
@@ -78,7 +241,7 @@ Eigen::Vector3d jacobianPoint(const LoadCase& load_case, const Eigen::Vector3d& 
   return load_case.middle ? Eigen::Vector3d(0.5 * (unloaded + loaded)) : unloaded;
 }
 
-std::optional<int> heaviestStep(const Campaign& campaign) {
+std::optional<int> heaviestStep(const campaign::Campaign& campaign) {
   std::optional<int> heaviest;
   double most = 0.0;
   for (const auto& [step, mean] : meanForces(campaign)) {
@@ -87,8 +250,8 @@ std::optional<int> heaviestStep(const Campaign& campaign) {
   return heaviest;
 }
 
-std::vector<LoadCase> loadCases(const Campaign& campaign, const LoadReadings& readings,
-                                const LoadingGeometry& geometry, int step,
+std::vector<LoadCase> loadCases(const campaign::Campaign& campaign, const LoadReadings& readings,
+                                const frames::LoadingGeometry& geometry, int step,
                                 std::vector<std::string>* left_out) {
   std::vector<LoadCase> cases;
   if (!campaign.states || !campaign.load_cell) return cases;
@@ -97,7 +260,7 @@ std::vector<LoadCase> loadCases(const Campaign& campaign, const LoadReadings& re
   const int turns_with = bodyOfCellAxes(*campaign.load_cell, geometry);
   // Why a posture has no case; null where it has.
   const auto fill = [&](std::size_t pose, LoadCase& load_case) -> const char* {
-    const State *unloaded = readings.state(pose, 0), *loaded = readings.state(pose, step);
+    const campaign::State *unloaded = readings.state(pose, 0), *loaded = readings.state(pose, step);
     if (loaded == nullptr) return "no state of this load step";
     load_case.pose = static_cast<int>(pose);
     load_case.step = step;
@@ -105,8 +268,8 @@ std::vector<LoadCase> loadCases(const Campaign& campaign, const LoadReadings& re
     load_case.servo = loaded->q - load_case.q;
     load_case.absolute = absolute;
     load_case.q_sagged = geometry.sagged(load_case.q);
-    const ArmPosture posture = unloadedPosture(geometry.arm, load_case);
-    load_case.axes = axesAt(geometry.arm, posture);
+    const robot::ArmPosture posture = unloadedPosture(geometry.arm, load_case);
+    load_case.axes = robot::axesAt(geometry.arm, posture);
     if (absolute) {
       load_case.targets = measuredMoves(readings, pose, step, *geometry.r0_from_loading);
       load_case.flange_unloaded = measuredFlange(geometry, load_case.targets, false);
@@ -125,7 +288,7 @@ std::vector<LoadCase> loadCases(const Campaign& campaign, const LoadReadings& re
   };
   cases.resize(readings.poses());
   std::vector<const char*> lacking(cases.size());
-  smallWorkOnAllCores(cases.size(), [&](std::size_t pose) { lacking[pose] = fill(pose, cases[pose]); });
+  numerics::smallWorkOnAllCores(cases.size(), [&](std::size_t pose) { lacking[pose] = fill(pose, cases[pose]); });
   std::size_t kept = 0;
   for (std::size_t pose = 0; pose < cases.size(); ++pose) {
     if (lacking[pose] == nullptr) {
@@ -139,9 +302,9 @@ std::vector<LoadCase> loadCases(const Campaign& campaign, const LoadReadings& re
   return cases;
 }
 
-std::vector<LoadCase> loadCases(const Campaign& campaign, const LoadingGeometry& geometry, int step,
+std::vector<LoadCase> loadCases(const campaign::Campaign& campaign, const frames::LoadingGeometry& geometry, int step,
                                 std::vector<std::string>* left_out) {
   return loadCases(campaign, LoadReadings(campaign, {step}), geometry, step, left_out);
 }
 
-}  // namespace stiffscope
+}  // namespace stiffscope::identification

@@ -1,22 +1,46 @@
 #include "core/identification/loaded_arm.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
+#include <fmt/format.h>
 #include <optional>
 
 #include "core/identification/complete_pose.h"
 #include "core/identification/partial_pose.h"
-#include "core/parallel/on_all_cores.h"
+#include "core/numerics/parallel.h"
 
-namespace stiffscope {
+namespace stiffscope::identification {
+
+NormalEquations reflectorNormal(const LoadedArm& arm) {
+  return numerics::sumInBlocks<NormalEquations>(arm.cases.size(), [&](std::size_t i, NormalEquations& sum) {
+    const LoadCase& load_case = arm.cases[i];
+    const robot::ArmAxes& axes = jacobianAxes(load_case);
+    for (const TargetMove& move : load_case.targets) {
+      const Eigen::Vector3d point = jacobianPoint(load_case, move.unloaded, move.loaded);
+      sum.add(pointRows(axes, point, arm.torques[i]), move.displacement());
+    }
+  });
+}
+
+NormalEquations wristNormal(const LoadedArm& arm) {
+  return numerics::sumInBlocks<NormalEquations>(arm.wrist.size(), [&](std::size_t i, NormalEquations& sum) {
+    const WristMove& move = arm.wrist[i];
+    const Eigen::Vector3d point = jacobianPoint(arm.cases[i], move.unloaded, move.loaded);
+    sum.add(pointRows(jacobianAxes(arm.cases[i]), point, arm.torques[i]), move.displacement());
+  });
+}
+
+PoseNormal poseNormal(const LoadedArm& arm, const Eigen::Vector3d& tcp_in_flange) {
+  return numerics::sumInBlocks<PoseNormal>(arm.cases.size(), [&](std::size_t i, PoseNormal& sum) {
+    sum.add(completePoseEquations(arm.cases[i], tcp_in_flange, arm.torques[i]));
+  });
+}
 
 namespace {
 
 bool hasPose(const LoadCase& load_case) { return load_case.flange_unloaded && load_case.flange_loaded; }
 
 /// Keeps the cases that have something, if most do: then it is those others that lack it, not the campaign.
-void keepMost(const Campaign& campaign, const std::vector<bool>& has, const char* reason,
+void keepMost(const campaign::Campaign& campaign, const std::vector<bool>& has, const char* reason,
               std::vector<LoadCase>& cases, std::vector<std::string>* left_out) {
   const auto count = static_cast<std::size_t>(std::count(has.begin(), has.end(), true));
   if (count == cases.size() || 2 * count <= cases.size()) return;
@@ -34,8 +58,8 @@ void keepMost(const Campaign& campaign, const std::vector<bool>& has, const char
 }
 
 /// Of all the steps, by pose. With several steps a case that cannot be used says of which step it is.
-std::vector<LoadCase> casesOf(const Campaign& campaign, const LoadReadings& readings,
-                              const LoadingGeometry& geometry, const std::vector<int>& steps,
+std::vector<LoadCase> casesOf(const campaign::Campaign& campaign, const LoadReadings& readings,
+                              const frames::LoadingGeometry& geometry, const std::vector<int>& steps,
                               std::vector<std::string>* left_out) {
   if (steps.size() == 1) return loadCases(campaign, readings, geometry, steps.front(), left_out);
   std::vector<LoadCase> cases;
@@ -53,7 +77,7 @@ std::vector<LoadCase> casesOf(const Campaign& campaign, const LoadReadings& read
 }
 
 /// P_wrist in all the cases; those that do not give it are left out if most do, else there is none of any.
-void addWristMoves(const Campaign& campaign, const WristCentre& wrist, std::vector<std::string>* left_out,
+void addWristMoves(const campaign::Campaign& campaign, const frames::WristCentre& wrist, std::vector<std::string>* left_out,
                    LoadedArm& arm) {
   if (arm.cases.empty() || !arm.cases.front().absolute) return;
   std::vector<std::optional<WristMove>> moves;
@@ -77,8 +101,8 @@ bool LoadedArm::hasFlangePoses() const {
   return !cases.empty() && std::all_of(cases.begin(), cases.end(), hasPose);
 }
 
-LoadedArm loadedArm(const Campaign& campaign, const LoadReadings& readings, const LoadingGeometry& geometry,
-                    const WristCentre& wrist, const std::vector<int>& steps,
+LoadedArm loadedArm(const campaign::Campaign& campaign, const LoadReadings& readings, const frames::LoadingGeometry& geometry,
+                    const frames::WristCentre& wrist, const std::vector<int>& steps,
                     std::vector<std::string>* left_out) {
   LoadedArm arm{geometry, casesOf(campaign, readings, geometry, steps, left_out), {}, {}};
   std::vector<bool> poses;
@@ -89,14 +113,14 @@ LoadedArm loadedArm(const Campaign& campaign, const LoadReadings& readings, cons
   return arm;
 }
 
-LoadedArm loadedArm(const Campaign& campaign, const LoadingGeometry& geometry, const WristCentre& wrist,
+LoadedArm loadedArm(const campaign::Campaign& campaign, const frames::LoadingGeometry& geometry, const frames::WristCentre& wrist,
                     const std::vector<int>& steps, std::vector<std::string>* left_out) {
   return loadedArm(campaign, LoadReadings(campaign, steps), geometry, wrist, steps, left_out);
 }
 
 std::vector<CaseEquations> reflectorEquations(const LoadedArm& arm) {
   std::vector<CaseEquations> equations(arm.cases.size());
-  smallWorkOnAllCores(arm.cases.size(), [&](std::size_t i) {
+  numerics::smallWorkOnAllCores(arm.cases.size(), [&](std::size_t i) {
     equations[i] = partialPoseEquations(arm.cases[i], arm.torques[i]);
   });
   return equations;
@@ -104,7 +128,7 @@ std::vector<CaseEquations> reflectorEquations(const LoadedArm& arm) {
 
 std::vector<CaseEquations> wristPointEquations(const LoadedArm& arm) {
   std::vector<CaseEquations> equations(arm.wrist.size());
-  smallWorkOnAllCores(arm.wrist.size(), [&](std::size_t i) {
+  numerics::smallWorkOnAllCores(arm.wrist.size(), [&](std::size_t i) {
     equations[i] = wristEquations(arm.cases[i], arm.wrist[i], arm.torques[i]);
   });
   return equations;
@@ -112,10 +136,10 @@ std::vector<CaseEquations> wristPointEquations(const LoadedArm& arm) {
 
 std::vector<CaseEquations> poseEquations(const LoadedArm& arm, const Eigen::Vector3d& tcp_in_flange) {
   std::vector<CaseEquations> equations(arm.cases.size());
-  smallWorkOnAllCores(arm.cases.size(), [&](std::size_t i) {
+  numerics::smallWorkOnAllCores(arm.cases.size(), [&](std::size_t i) {
     equations[i] = completePoseEquations(arm.cases[i], tcp_in_flange, arm.torques[i]);
   });
   return equations;
 }
 
-}  // namespace stiffscope
+}  // namespace stiffscope::identification

@@ -4,15 +4,16 @@
 #include <vector>
 
 #include "core/frames/frames.h"
-#include "core/identification/load_readings.h"
-#include "core/identification/stiffness_estimate.h"
-#include "core/identification/wrist_move.h"
+#include "core/identification/complete_pose.h"
+#include "core/identification/equations.h"
+#include "core/identification/estimate.h"
+#include "core/identification/load_case.h"
 
-namespace stiffscope {
+namespace stiffscope::identification {
 
 /// The arm under one load step, or several, in one geometry: what every method's equations are made from.
 struct LoadedArm {
-  LoadingGeometry geometry;
+  frames::LoadingGeometry geometry;
   std::vector<LoadCase> cases;
   std::vector<WristMove> wrist;   ///< one a case; empty where P_wrist is not measured
   std::vector<Vector6d> torques;  ///< one a case: J_w^T W, with K_c's share where a method has put it in
@@ -23,10 +24,10 @@ struct LoadedArm {
 /// Where reflectors in most postures give a flange pose, or P_wrist, a posture that lacks it is left out, so
 /// that all methods see the same postures; `left_out` names it. Cases in the order of poses, then of `steps`,
 /// which the readings have.
-LoadedArm loadedArm(const Campaign& campaign, const LoadReadings& readings, const LoadingGeometry& geometry,
-                    const WristCentre& wrist, const std::vector<int>& steps,
+LoadedArm loadedArm(const campaign::Campaign& campaign, const LoadReadings& readings, const frames::LoadingGeometry& geometry,
+                    const frames::WristCentre& wrist, const std::vector<int>& steps,
                     std::vector<std::string>* left_out = nullptr);
-LoadedArm loadedArm(const Campaign& campaign, const LoadingGeometry& geometry, const WristCentre& wrist,
+LoadedArm loadedArm(const campaign::Campaign& campaign, const frames::LoadingGeometry& geometry, const frames::WristCentre& wrist,
                     const std::vector<int>& steps, std::vector<std::string>* left_out = nullptr);
 
 /// Equations of all cases: the reflectors', P_wrist's, the pose's at P_TCP.
@@ -56,4 +57,12 @@ void settleArm(LoadedArm& arm, bool finite_deflection, const Compliance& complia
   }
 }
 
-}  // namespace stiffscope
+// Normal equations of all cases of a loaded arm, summed as their rows are made: for where compliances alone are wanted,
+// many times over.
+
+/// Of reflectorEquations, wristPointEquations and poseEquations (loaded_arm.h).
+NormalEquations reflectorNormal(const LoadedArm& arm);
+NormalEquations wristNormal(const LoadedArm& arm);
+PoseNormal poseNormal(const LoadedArm& arm, const Eigen::Vector3d& tcp_in_flange);
+
+}  // namespace stiffscope::identification

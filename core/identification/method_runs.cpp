@@ -1,18 +1,132 @@
 #include "core/identification/method_runs.h"
 
+#include <algorithm>
 #include <fmt/format.h>
-
+#include <optional>
+#include <string>
 #include <utility>
 
-#include "core/identification/judge_method.h"
+#include "core/identification/decoupled_partial_pose.h"
+#include "core/identification/estimate.h"
+#include "core/identification/identification.h"
+#include "core/identification/loaded_arm.h"
 #include "core/identification/method_solution.h"
-#include "core/identification/posture_influence.h"
-#include "core/identification/settled_frames.h"
 #include "core/identification/shared_uncertainty.h"
-#include "core/identification/unavailable.h"
-#include "core/identification/wrist_leak.h"
 
-namespace stiffscope {
+namespace stiffscope::identification {
+
+/// Judges a solved method, `out.estimate`, on all postures and on subsets, and fills the rest of `out`. `equations` are
+/// those of the arm's points, `normal` the method's normal equations, one a posture (byPosture); the decoupled method's
+/// are those of P_wrist, and its second stage takes the reflectors'.
+void judgeMethod(const frames::LoadingGeometry& geometry, PointEquations equations, std::vector<NormalEquations> normal,
+                 bool decoupled, const IdentifyOptions& options, MethodResult& out);
+
+// Why a method cannot be had, and what measurement would make it available; empty where nothing stands in
+// its way.
+
+/// What all methods need: postures read unloaded and loaded, placed in R0, and a joint that the load turns.
+std::string whyNoPositions(const campaign::Campaign& campaign, const LoadedArm& arm, const robot::JointMask& unknown);
+
+/// Complete Pose: the flange's pose in every posture. The arm has cases.
+std::string whyNoFlangePoses(const campaign::Campaign& campaign, const LoadedArm& arm);
+
+/// Decoupled Partial Pose: P_wrist in every posture.
+std::string whyNoWristPoint(const campaign::Campaign& campaign, const LoadedArm& arm, const frames::WristCentre& wrist);
+
+/// Decoupled Partial Pose: axes that meet nearly enough; `leak` is wristLeak's share.
+std::string whyNotDecoupled(const frames::WristCentre& wrist, double leak);
+
+namespace {
+
+Compensation compensationBy(const StiffnessEstimate& estimate, const DeflectionJudge& judge,
+                            const SubsetJudgement& subsets) {
+  return {judge.compensated(estimate.compliance), subsets.compensated};
+}
+
+/// Mean over a case's points of what is left of the displacement; `by_posture` judges the same, which with one load step
+/// is a case each.
+std::vector<double> residualByCase(const std::vector<CaseEquations>& rows, const DeflectionJudge& by_posture,
+                                   const Vector6d& compliance) {
+  std::optional<DeflectionJudge> by_case;
+  const DeflectionJudge& judge = by_posture.postures() == rows.size() ? by_posture : by_case.emplace(rows);
+  std::vector<double> left = judge.residual(compliance);
+  for (std::size_t i = 0; i < left.size(); ++i) left[i] /= judge.pointsOf(i);
+  return left;
+}
+
+}  // namespace
+
+void judgeMethod(const frames::LoadingGeometry& geometry, PointEquations equations, std::vector<NormalEquations> normal,
+                 bool decoupled, const IdentifyOptions& options, MethodResult& out) {
+  out.available = true;
+  out.geometry = geometry;
+  out.wrist_rows = std::move(equations.wrist);
+  out.target_rows = std::move(equations.reflectors);
+  SubsetMethod subset;
+  subset.unknown = out.estimate.identifiable;
+  subset.normal = std::move(normal);
+  if (decoupled) subset.reflectors = normalByPosture(out.target_rows);
+  if (!out.wrist_rows.empty()) subset.at_wrist = DeflectionJudge::byPosture(out.wrist_rows);
+  subset.at_targets = DeflectionJudge::byPosture(out.target_rows);
+  out.subsets = studySubsets(subset, options.subsets);
+
+  out.bootstrap = bootstrapPostures(subset, options.bootstrap);
+
+  if (!out.wrist_rows.empty()) {
+    out.at_wrist = compensationBy(out.estimate, subset.at_wrist, out.subsets.at_wrist);
+    out.wrist_residual = residualByCase(out.wrist_rows, subset.at_wrist, out.estimate.compliance);
+  }
+  out.at_targets = compensationBy(out.estimate, subset.at_targets, out.subsets.at_targets);
+  out.target_residual = residualByCase(out.target_rows, subset.at_targets, out.estimate.compliance);
+}
+
+std::string whyNoPositions(const campaign::Campaign& campaign, const LoadedArm& arm, const robot::JointMask& unknown) {
+  if (arm.cases.empty()) {
+    if (!campaign.loading && campaign.displacements && !arm.geometry.displacements_in_r0) {
+      return "the displacements are in the tracker's frame: circle sweeps of axes 1 and 2 would place it, or "
+             "frame=\"base_link\" if they are in the robot's";
+    }
+    return campaign.loading && !arm.geometry.r0_from_loading
+               ? "the loading's readings cannot be brought into R0: circle sweeps of axes 1 and 2 would "
+                 "place them"
+               : "no posture has readings unloaded and under this load";
+  }
+  if (std::none_of(unknown.begin(), unknown.end(), [](bool one) { return one; })) {
+    return "the load turns no joint enough to see its stiffness";
+  }
+  return {};
+}
+
+std::string whyNoFlangePoses(const campaign::Campaign& campaign, const LoadedArm& arm) {
+  if (arm.hasFlangePoses()) return {};
+  if (arm.cases.front().absolute) {
+    return "a flange pose needs three reflectors, placed by circle sweeps, in every posture";
+  }
+  return fmt::format(
+      "a flange pose needs absolute positions of three reflectors; this campaign has displacements of {} "
+      "point(s): measure `loading` with three",
+      campaign.targets.size());
+}
+
+std::string whyNoWristPoint(const campaign::Campaign& campaign, const LoadedArm& arm, const frames::WristCentre& wrist) {
+  if (!arm.wrist.empty()) return {};
+  std::string reason =
+      wrist.measured ? "P_wrist needs absolute readings of three reflectors of known radius in every posture: measure "
+                       "`loading` and the wrist sweep with three"
+                     : "the wrist centre is not measured: " + wrist.reason;
+  if (!campaign.wrist_sweep) {
+    reason += "; measure a wrist sweep (axes 4-6 moving) and `loading` with three reflectors";
+  }
+  return reason;
+}
+
+std::string whyNotDecoupled(const frames::WristCentre& wrist, double leak) {
+  if (leak <= kWristLeakBorne) return {};
+  return fmt::format(
+      "the wrist's axes do not meet (4 and 5 miss by {:.3f} mm, 5 and 6 by {:.3f} mm): turning in joints 4-6 "
+      "moves P_wrist by {:.1f} % of its displacement, more than the {:.0f} % that decoupling bears",
+      1e3 * wrist.miss_45, 1e3 * wrist.miss_56, 100.0 * leak, 100.0 * kWristLeakBorne);
+}
 
 namespace {
 
@@ -36,11 +150,11 @@ PointEquations solve(Method which, LoadedArm& arm, const MethodRuns& runs, Ident
 /// The loaded arm in the calibrated geometry. Where no sweep gave stiffnesses for the own weight's sag,
 /// calibration and stiffnesses are found in turns here, or the sag would be taken for geometry.
 LoadedArm calibratedArm(const MethodRuns& runs, Identification& result) {
-  LoadingGeometry start = runs.swept.geometry;
+  frames::LoadingGeometry start = runs.swept.geometry;
   const bool settle_sag = runs.swept.cases.empty() && result.frames.weight.links_known;
   const LoadReadings readings(runs.campaign, result.steps);
   for (int round = 0;; ++round) {
-    result.calibration = calibrateGeometry(runs.campaign, start);
+    result.calibration = frames::calibrateGeometry(runs.campaign, start);
     if (!result.calibration.done) return runs.swept;
     LoadedArm arm =
         loadedArm(runs.campaign, readings, result.calibration.geometry, result.frames.wrist, result.steps);
@@ -95,7 +209,7 @@ void runPartialPose(MethodRuns& runs, Identification& result) {
         "the campaign has displacements only, no absolute positions: the URDF's geometry stands";
   }
   // No swept geometry to judge by: judge in this one.
-  if (runs.unknown == JointMask{}) judgeJointsIn(arm, runs, result);
+  if (runs.unknown == robot::JointMask{}) judgeJointsIn(arm, runs, result);
   out.reason = whyNoPositions(runs.campaign, arm, runs.unknown);
   if (!out.reason.empty()) return;
   PointEquations equations = solve(Method::partial_pose, arm, runs, result);
@@ -115,7 +229,7 @@ void runDecoupledPartialPose(MethodRuns& runs, Identification& result) {
   if (out.reason.empty()) out.reason = whyNoWristPoint(runs.campaign, runs.swept, result.frames.wrist);
   if (!out.reason.empty()) return;
   PointEquations equations = solve(Method::decoupled_partial_pose, runs.swept, runs, result);
-  const WristCentre& wrist = result.frames.wrist;
+  const frames::WristCentre& wrist = result.frames.wrist;
   out.reason =
       whyNotDecoupled(wrist, wristLeak(runs.swept, wrist.centre_at_zero_in_r0, out.estimate.compliance));
   if (!out.reason.empty()) return;
@@ -149,4 +263,4 @@ void addSharedUncertainty(const MethodRuns& runs, Identification& result) {
   for (MethodResult& method : result.methods) method.estimate.covariance = method.estimate.parts.total();
 }
 
-}  // namespace stiffscope
+}  // namespace stiffscope::identification

@@ -3,15 +3,15 @@
 #include "core/identification/identification.h"
 #include "core/identification/loaded_arm.h"
 
-namespace stiffscope {
+namespace stiffscope::identification {
 
 /// What the methods work on, and what they hand to each other.
 struct MethodRuns {
-  const Campaign& campaign;
+  const campaign::Campaign& campaign;
   const IdentifyOptions& options;
   LoadedArm swept;       ///< the arm in the swept geometry; no cases where no sweep places the readings
   LoadedArm calibrated;  ///< in Partial Pose's geometry, once it has run and where `swept` has no cases
-  JointMask unknown{};   ///< the joints whose compliances are solved for
+  robot::JointMask unknown{};   ///< the joints whose compliances are solved for
 };
 
 /// Which joints the loads turn enough, judged in this arm's geometry: into `result` and `runs.unknown`.
@@ -26,4 +26,4 @@ void runDecoupledPartialPose(MethodRuns& runs, Identification& result);
 /// Adds what all postures share to the covariances of the methods that have run (shared_uncertainty.h).
 void addSharedUncertainty(const MethodRuns& runs, Identification& result);
 
-}  // namespace stiffscope
+}  // namespace stiffscope::identification

@@ -1,8 +1,8 @@
 #include "core/identification/partial_pose.h"
 
-#include "core/identification/posture_influence.h"
+#include "core/identification/estimate.h"
 
-namespace stiffscope {
+namespace stiffscope::identification {
 
 CaseEquations partialPoseEquations(const LoadCase& load_case, const Vector6d& torque) {
   CaseEquations equations;
@@ -10,7 +10,7 @@ CaseEquations partialPoseEquations(const LoadCase& load_case, const Vector6d& to
   equations.posture = load_case.pose;
   equations.matrix.resize(rows, 6);
   equations.right.resize(rows);
-  const ArmAxes& axes = jacobianAxes(load_case);
+  const robot::ArmAxes& axes = jacobianAxes(load_case);
   Eigen::Index row = 0;
   for (const TargetMove& move : load_case.targets) {
     equations.matrix.middleRows<3>(row) =
@@ -21,12 +21,12 @@ CaseEquations partialPoseEquations(const LoadCase& load_case, const Vector6d& to
   return equations;
 }
 
-StiffnessEstimate partialPose(const std::vector<CaseEquations>& equations, const JointMask& unknown) {
+StiffnessEstimate partialPose(const std::vector<CaseEquations>& equations, const robot::JointMask& unknown) {
   return partialPose(equations, normalByPosture(equations), unknown);
 }
 
 StiffnessEstimate partialPose(const std::vector<CaseEquations>& equations,
-                              const std::vector<NormalEquations>& normal, const JointMask& unknown) {
+                              const std::vector<NormalEquations>& normal, const robot::JointMask& unknown) {
   StiffnessEstimate estimate;
   estimate.identifiable = unknown;
   const NormalEquations sum = sumOf(normal);
@@ -37,4 +37,4 @@ StiffnessEstimate partialPose(const std::vector<CaseEquations>& equations,
   return estimate;
 }
 
-}  // namespace stiffscope
+}  // namespace stiffscope::identification

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "core/identification/stiffness_estimate.h"
+#include "core/identification/estimate.h"
 
-namespace stiffscope {
+namespace stiffscope::identification {
 
 /// Partial Pose equations of one load case (Wu, Klimchik et al.; paper (40), read with K^-1): the
 /// displacements of the reflectors only, three rows each in the order of load_case.targets, m. J_m at the
@@ -11,7 +11,7 @@ CaseEquations partialPoseEquations(const LoadCase& load_case, const Vector6d& to
 
 /// All six compliances at once. `normal`: normalByPosture(equations).
 StiffnessEstimate partialPose(const std::vector<CaseEquations>& equations,
-                              const std::vector<NormalEquations>& normal, const JointMask& unknown);
-StiffnessEstimate partialPose(const std::vector<CaseEquations>& equations, const JointMask& unknown);
+                              const std::vector<NormalEquations>& normal, const robot::JointMask& unknown);
+StiffnessEstimate partialPose(const std::vector<CaseEquations>& equations, const robot::JointMask& unknown);
 
-}  // namespace stiffscope
+}  // namespace stiffscope::identification

@@ -1,26 +1,26 @@
 #include "core/identification/shared_uncertainty.h"
 
-#include "core/frames/axes_covariance.h"
-#include "metrology/line_derivatives.h"
+#include "core/frames/joint_axes.h"
+#include "metrology/lines.h"
 
-namespace stiffscope {
+namespace stiffscope::identification {
 
 namespace {
 
 /// What the loading takes from the frames, with axes and radii moved.
 class MovedFrames {
  public:
-  MovedFrames(const Campaign& campaign, const Frames& frames, const LoadingGeometry& geometry,
+  MovedFrames(const campaign::Campaign& campaign, const frames::Frames& frames, const frames::LoadingGeometry& geometry,
               const std::vector<int>& steps)
       : campaign_(campaign), frames_(frames), compliance_(geometry.compliance), readings_(campaign, steps), moved_(frames) {}
 
   /// `axes`: lines of the axes that are measured, in their order.
-  LoadedArm withAxes(const std::vector<Line>& axes) {
+  LoadedArm withAxes(const std::vector<metrology::Line>& axes) {
     std::size_t next = 0;
-    for (MeasuredAxis& axis : moved_.axes) {
+    for (frames::MeasuredAxis& axis : moved_.axes) {
       if (axis.measured) axis.at_zero.line = axes[next++];
     }
-    moved_.arm = armInR0(campaign_.robot, moved_.axes);
+    moved_.arm = frames::armInR0(campaign_.robot, moved_.axes);
     const Eigen::Isometry3d carry = moved_.arm.r0_from_points * frames_.arm.r0_from_points.inverse();
     for (std::size_t k = 0; k < moved_.targets_in_r0_at_zero.size(); ++k) {
       if (frames_.targets_in_r0_at_zero[k]) moved_.targets_in_r0_at_zero[k] = carry * *frames_.targets_in_r0_at_zero[k];
@@ -29,7 +29,7 @@ class MovedFrames {
   }
 
   LoadedArm withRadius(std::size_t target, double step) const {
-    Frames one = frames_;
+    frames::Frames one = frames_;
     one.wrist.radii[target] += step;
     return load(one);
   }
@@ -37,15 +37,15 @@ class MovedFrames {
   LoadedArm unmoved() const { return load(frames_); }
 
  private:
-  LoadedArm load(const Frames& frames) const {
-    return loadedArm(campaign_, readings_, sweptGeometry(campaign_, frames, compliance_), frames.wrist, readings_.steps());
+  LoadedArm load(const frames::Frames& frames) const {
+    return loadedArm(campaign_, readings_, frames::sweptGeometry(campaign_, frames, compliance_), frames.wrist, readings_.steps());
   }
 
-  const Campaign& campaign_;
-  const Frames& frames_;
+  const campaign::Campaign& campaign_;
+  const frames::Frames& frames_;
   const Vector6d compliance_;
   const LoadReadings readings_;
-  Frames moved_;
+  frames::Frames moved_;
 };
 
 Eigen::VectorXd solveAll(const std::vector<ComplianceOf>& solves, const LoadedArm& arm) {
@@ -56,24 +56,24 @@ Eigen::VectorXd solveAll(const std::vector<ComplianceOf>& solves, const LoadedAr
 
 }  // namespace
 
-std::vector<SweptParts> sweptParts(const Campaign& campaign, const Frames& frames, const LoadingGeometry& geometry,
+std::vector<SweptParts> sweptParts(const campaign::Campaign& campaign, const frames::Frames& frames, const frames::LoadingGeometry& geometry,
                                    const std::vector<int>& steps, const std::vector<ComplianceOf>& solves) {
   std::vector<SweptParts> parts(solves.size());
   if (solves.empty() || !frames.arm.points_placed) return parts;
   MovedFrames moved(campaign, frames, geometry, steps);
-  const AxesCovariance all_axes = axesCovariance(frames.axes);
-  std::vector<MeasuredLine> lines;
+  const frames::AxesCovariance all_axes = frames::axesCovariance(frames.axes);
+  std::vector<metrology::MeasuredLine> lines;
   std::vector<Eigen::Index> rows;
   for (std::size_t axis = 0; axis < frames.axes.size(); ++axis) {
     if (!frames.axes[axis].measured) continue;
     lines.push_back(frames.axes[axis].at_zero);
     for (Eigen::Index k = 0; k < 4; ++k) rows.push_back(4 * static_cast<Eigen::Index>(axis) + k);
   }
-  const Eigen::MatrixXd by_axes = derivativesByLines(
-      lines, [&](const std::vector<Line>& axes) { return solveAll(solves, moved.withAxes(axes)); });
+  const Eigen::MatrixXd by_axes = metrology::derivativesByLines(
+      lines, [&](const std::vector<metrology::Line>& axes) { return solveAll(solves, moved.withAxes(axes)); });
   const Eigen::MatrixXd of_axes = all_axes(rows, rows);
 
-  const WristCentre& wrist = frames.wrist;
+  const frames::WristCentre& wrist = frames.wrist;
   const auto swept = static_cast<Eigen::Index>(wrist.measured ? wrist.targets.size() : 0);
   Eigen::MatrixXd by_radii = Eigen::MatrixXd::Zero(by_axes.rows(), swept);
   constexpr double kStep = 1e-5;  // m
@@ -92,16 +92,16 @@ std::vector<SweptParts> sweptParts(const Campaign& campaign, const Frames& frame
   return parts;
 }
 
-Matrix6d calibratedPart(const Campaign& campaign, const GeometryCalibration& calibration, const WristCentre& wrist,
+Matrix6d calibratedPart(const campaign::Campaign& campaign, const frames::GeometryCalibration& calibration, const frames::WristCentre& wrist,
                         const std::vector<int>& steps, const ComplianceOf& solve) {
   const LoadReadings readings(campaign, steps);
   const Vector6d unmoved = solve(loadedArm(campaign, readings, calibration.geometry, wrist, steps));
   Matrix6d covariance = Matrix6d::Zero();
-  for (const LoadingGeometry& moved : calibration.spread) {
+  for (const frames::LoadingGeometry& moved : calibration.spread) {
     const Vector6d change = solve(loadedArm(campaign, readings, moved, wrist, steps)) - unmoved;
     covariance += change * change.transpose();
   }
   return covariance;
 }
 
-}  // namespace stiffscope
+}  // namespace stiffscope::identification

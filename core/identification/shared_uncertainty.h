@@ -2,11 +2,11 @@
 
 #include <functional>
 
-#include "core/identification/geometry_calibration.h"
+#include "core/frames/geometry_calibration.h"
+#include "core/identification/estimate.h"
 #include "core/identification/loaded_arm.h"
-#include "core/identification/stiffness_estimate.h"
 
-namespace stiffscope {
+namespace stiffscope::identification {
 
 // What all postures have in common, and no scatter between them shows, carried to the compliances by differences of the
 // whole solution: J C J^T. Solutions here neglect K_c, which changes a derivative by as little as it changes the
@@ -22,11 +22,11 @@ using ComplianceOf = std::function<Vector6d(const LoadedArm&)>;
 struct SweptParts {
   Matrix6d frames = Matrix6d::Zero(), wrist = Matrix6d::Zero();
 };
-std::vector<SweptParts> sweptParts(const Campaign& campaign, const Frames& frames, const LoadingGeometry& geometry,
+std::vector<SweptParts> sweptParts(const campaign::Campaign& campaign, const frames::Frames& frames, const frames::LoadingGeometry& geometry,
                                    const std::vector<int>& steps, const std::vector<ComplianceOf>& solves);
 
 /// Of the compliances in the calibrated geometry, by its covariance (GeometryCalibration::spread).
-Matrix6d calibratedPart(const Campaign& campaign, const GeometryCalibration& calibration, const WristCentre& wrist,
+Matrix6d calibratedPart(const campaign::Campaign& campaign, const frames::GeometryCalibration& calibration, const frames::WristCentre& wrist,
                         const std::vector<int>& steps, const ComplianceOf& solve);
 
-}  // namespace stiffscope
+}  // namespace stiffscope::identification

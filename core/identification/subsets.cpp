@@ -1,13 +1,302 @@
 #include "core/identification/subsets.h"
 
+#include <Eigen/Core>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
+#include <numeric>
+#include <random>
+#include <span>
+#include <vector>
 
-#include "core/identification/subset_sample.h"
-#include "core/parallel/on_all_cores.h"
+#include "core/identification/decoupled_partial_pose.h"
+#include "core/numerics/parallel.h"
 
-namespace stiffscope {
+namespace stiffscope::identification {
+
+/// One subset's result at one kind of point.
+struct SubsetResidual {
+  std::vector<double> left;  ///< per posture, m; empty where these points are not measured
+  SubsetCompensation compensated;
+};
+
+/// One subset, solved and judged.
+struct Subset {
+  Eigen::ArrayXd used;  ///< a posture each: 1 where the subset uses it, else 0
+  Vector6d compliance = Vector6d::Zero();
+  SubsetResidual at_wrist, at_targets;
+};
+
+/// From the sums of the equations of the postures that a subset uses; `reflectors` only for the decoupled method.
+Vector6d solveSubset(const SubsetMethod& method, const NormalEquations& normal, const NormalEquations& reflectors);
+
+/// Judges solved subsets: some at a time are quicker than one by one.
+void judgeSubsets(const SubsetMethod& method, std::span<Subset> subsets);
+
+/// Results of some subsets, in the order in which they were added.
+struct SubsetSums {
+  std::vector<Vector6d> compliances;
+  SubsetJudgement at_wrist, at_targets;  ///< sums
+  Eigen::ArrayXd held_out;               ///< subsets that leave each posture out
+};
+
+void add(const SubsetCompensation& one, SubsetCompensation& sum);
+void add(const Subset& subset, SubsetSums& sums);
+
+/// `count` random subsets of `size` postures, by the Mersenne twister of that seed, some in each of the sums, in
+/// the order in which they are drawn; solved and judged on all cores, with the same results whatever their number.
+std::vector<SubsetSums> sampleSubsets(const SubsetMethod& method, std::size_t size, std::size_t count, std::uint64_t seed);
+
+namespace {
+
+/// The order statistics at `shares` (ascending), each by partitioning only what lies above the one before.
+template <std::size_t N>
+std::array<double, N> quantiles(std::vector<double>& values, const std::array<double, N>& shares) {
+  std::array<double, N> found{};
+  auto from = values.begin();
+  for (std::size_t k = 0; k < N; ++k) {
+    const auto at = values.begin() + std::lround(shares[k] * static_cast<double>(values.size() - 1));
+    std::nth_element(from, at, values.end());
+    found[k] = *at;
+    from = at;
+  }
+  return found;
+}
+
+}  // namespace
+
+StiffnessSpread spreadOf(const SubsetStudy& study, int joint) {
+  StiffnessSpread spread;
+  std::vector<double> stiffness;
+  stiffness.reserve(study.compliances.size());
+  double sum = 0.0, square = 0.0, c_sum = 0.0, c_square = 0.0;
+  for (const Vector6d& compliance : study.compliances) {
+    const double c = compliance[joint], k = 1.0 / c;
+    stiffness.push_back(k);
+    sum += k;
+    c_sum += c;
+    if (c < 0.0) spread.share_negative += 1.0;
+  }
+  const double n = static_cast<double>(stiffness.size());
+  if (stiffness.size() < 2) return spread;
+  spread.mean = sum / n;
+  spread.compliance_mean = c_sum / n;
+  for (const Vector6d& compliance : study.compliances) {
+    square += std::pow(1.0 / compliance[joint] - spread.mean, 2);
+    c_square += std::pow(compliance[joint] - spread.compliance_mean, 2);
+  }
+  spread.sd = std::sqrt(square / (n - 1.0));
+  spread.compliance_sd = std::sqrt(c_square / (n - 1.0));
+  spread.share_negative /= n;
+  const auto at = quantiles<5>(stiffness, {0.05, 0.25, 0.5, 0.75, 0.95});
+  spread.low = at[0];
+  spread.quartile_low = at[1];
+  spread.median = at[2];
+  spread.quartile_high = at[3];
+  spread.high = at[4];
+  return spread;
+}
+
+namespace {
+
+using Postures = std::vector<std::uint32_t>;
+
+/// Random subsets, each drawn from the order of the postures that the one before left.
+class Draws {
+ public:
+  Draws(std::size_t postures, std::size_t size, std::uint64_t seed) : random_(seed), order_(postures), size_(size) {
+    std::iota(order_.begin(), order_.end(), std::uint32_t{0});
+  }
+
+  /// The next subsets, postures as they were drawn.
+  void next(std::size_t count, std::vector<Postures>& drawn) {
+    drawn.resize(count);
+    for (Postures& one : drawn) {
+      for (std::size_t i = 0; i < size_; ++i) {
+        std::swap(order_[i], order_[i + random_() % (order_.size() - i)]);  // Fisher-Yates; the bias of % is below 1e-15 here
+      }
+      one.assign(order_.begin(), order_.begin() + static_cast<std::ptrdiff_t>(size_));
+    }
+  }
+
+ private:
+  std::mt19937_64 random_;
+  Postures order_;
+  std::size_t size_;
+};
+
+/// Normal equations without what the symmetry of the matrix repeats.
+class Packed {
+ public:
+  Packed() = default;
+  explicit Packed(const NormalEquations& normal) {
+    Eigen::Index at = 0;
+    for (Eigen::Index j = 0; j < 6; at += 6 - j, ++j) numbers_.segment(at, 6 - j) = normal.matrix.col(j).tail(6 - j);
+    numbers_.segment<6>(at) = normal.right;
+  }
+
+  Packed& operator+=(const Packed& other) {
+    numbers_ += other.numbers_;
+    return *this;
+  }
+
+  NormalEquations whole() const {
+    NormalEquations normal;
+    Eigen::Index at = 0;
+    for (Eigen::Index j = 0; j < 6; at += 6 - j, ++j) {
+      normal.matrix.col(j).tail(6 - j) = numbers_.segment(at, 6 - j);
+      normal.matrix.row(j).tail(6 - j) = numbers_.segment(at, 6 - j).transpose();
+    }
+    normal.right = numbers_.segment<6>(at);
+    return normal;
+  }
+
+ private:
+  Eigen::Matrix<double, 28, 1> numbers_ = Eigen::Matrix<double, 28, 1>::Zero();  // the last is none: an even number
+};
+
+std::vector<Packed> packed(const std::vector<NormalEquations>& normal) {
+  std::vector<Packed> all;
+  all.reserve(normal.size());
+  for (const NormalEquations& one : normal) all.emplace_back(one);
+  return all;
+}
+
+/// Solves some subsets together: of each few postures, which then are in the nearest cache, what every subset uses.
+class Solver {
+ public:
+  explicit Solver(const SubsetMethod& method)
+      : method_(method), normal_(packed(method.normal)), reflectors_(packed(method.reflectors)) {}
+
+  std::vector<Subset> solve(std::span<const Postures> drawn) const {
+    std::vector<Subset> subsets(drawn.size());
+    for (std::size_t k = 0; k < drawn.size(); ++k) {
+      subsets[k].used.setZero(static_cast<Eigen::Index>(normal_.size()));
+      for (const std::uint32_t posture : drawn[k]) subsets[k].used[posture] = 1.0;
+    }
+    const std::vector<NormalEquations> normal = sums(normal_, subsets), reflectors = sums(reflectors_, subsets);
+    for (std::size_t k = 0; k < drawn.size(); ++k) {
+      subsets[k].compliance = solveSubset(method_, normal[k], reflectors[k]);
+    }
+    return subsets;
+  }
+
+ private:
+  static std::vector<NormalEquations> sums(const std::vector<Packed>& all, const std::vector<Subset>& subsets) {
+    constexpr std::size_t kPostures = 128;
+    std::vector<Packed> sums(subsets.size());
+    for (std::size_t from = 0; from < all.size(); from += kPostures) {
+      const std::size_t size = std::min(kPostures, all.size() - from);
+      for (std::size_t k = 0; k < subsets.size(); ++k) {
+        const double* const used = subsets[k].used.data() + from;
+        // Without a branch: which postures are used is as good as random.
+        std::array<std::size_t, kPostures> here;
+        std::size_t count = 0;
+        for (std::size_t i = 0; i < size; ++i) {
+          here[count] = from + i;
+          count += used[i] != 0.0;
+        }
+        Packed sum = sums[k];
+        for (std::size_t i = 0; i < count; ++i) sum += all[here[i]];
+        sums[k] = sum;
+      }
+    }
+    std::vector<NormalEquations> whole;
+    for (const Packed& one : sums) whole.push_back(one.whole());
+    return whole;
+  }
+
+  const SubsetMethod& method_;
+  std::vector<Packed> normal_, reflectors_;
+};
+
+}  // namespace
+
+std::vector<SubsetSums> sampleSubsets(const SubsetMethod& method, std::size_t size, std::size_t count,
+                                      std::uint64_t seed) {
+  // As many groups at the same time as keep many cores busy, and no more than some megabytes of drawn postures.
+  constexpr std::size_t kGroup = 8, kDrawn = 500'000;
+  const std::size_t at_once = kGroup * std::max<std::size_t>(4, kDrawn / size / kGroup);
+  const Solver solver(method);
+  std::vector<SubsetSums> sums((count + kGroup - 1) / kGroup);
+  Draws draws(method.normal.size(), size, seed);
+  std::vector<Postures> drawn, drawn_next;
+  // A few to begin with, then twice as many each time: drawing goes on beside the work on what was drawn before.
+  draws.next(std::min(count, kGroup), drawn);
+  for (std::size_t done = 0; !drawn.empty(); done += drawn.size(), drawn.swap(drawn_next)) {
+    const std::size_t groups = (drawn.size() + kGroup - 1) / kGroup;
+    numerics::onAllCores(1 + groups, [&](std::size_t i) {
+      if (i == 0) return draws.next(std::min({at_once, 2 * drawn.size(), count - done - drawn.size()}), drawn_next);
+      const std::size_t from = (i - 1) * kGroup, to = std::min(drawn.size(), from + kGroup);
+      std::vector<Subset> subsets = solver.solve(std::span(drawn).subspan(from, to - from));
+      judgeSubsets(method, subsets);
+      for (const Subset& one : subsets) add(one, sums[(done + from) / kGroup]);
+    });
+  }
+  return sums;
+}
+
+namespace {
+
+using PostureArray = Eigen::Map<const Eigen::ArrayXd>;
+
+PostureArray each(const std::vector<double>& posture) {
+  return {posture.data(), static_cast<Eigen::Index>(posture.size())};
+}
+
+void judge(const DeflectionJudge& judge, std::span<Subset> subsets, SubsetResidual Subset::*points) {
+  if (judge.postures() == 0) return;
+  std::vector<Vector6d> compliances;
+  std::vector<std::vector<double>*> left;
+  for (Subset& one : subsets) {
+    compliances.push_back(one.compliance);
+    left.push_back(&(one.*points).left);
+  }
+  judge.residuals(compliances, left);
+  const PostureArray displacement = each(judge.displacement());
+  const double whole = displacement.sum();
+  for (Subset& one : subsets) {
+    const PostureArray left = each((one.*points).left);
+    const double left_used = (left * one.used).sum(), left_whole = left.sum(), used = (displacement * one.used).sum();
+    (one.*points).compensated = {1.0 - left_used / used, 1.0 - (left_whole - left_used) / (whole - used),
+                                 1.0 - left_whole / whole};
+  }
+}
+
+void add(const SubsetResidual& one, const Eigen::ArrayXd& used, SubsetJudgement& sum) {
+  if (one.left.empty()) return;
+  add(one.compensated, sum.compensated);
+  sum.left_held_out.resize(one.left.size(), 0.0);
+  Eigen::Map<Eigen::ArrayXd>(sum.left_held_out.data(), used.size()) += (1.0 - used) * each(one.left);
+}
+
+}  // namespace
+
+Vector6d solveSubset(const SubsetMethod& method, const NormalEquations& normal, const NormalEquations& reflectors) {
+  return method.reflectors.empty() ? solveNormal(normal, method.unknown)
+                                   : solveDecoupled(normal, reflectors, method.unknown);
+}
+
+void judgeSubsets(const SubsetMethod& method, std::span<Subset> subsets) {
+  judge(method.at_wrist, subsets, &Subset::at_wrist);
+  judge(method.at_targets, subsets, &Subset::at_targets);
+}
+
+void add(const SubsetCompensation& one, SubsetCompensation& sum) {
+  sum.used += one.used;
+  sum.held_out += one.held_out;
+  sum.all += one.all;
+}
+
+void add(const Subset& subset, SubsetSums& sums) {
+  sums.compliances.push_back(subset.compliance);
+  if (sums.held_out.size() == 0) sums.held_out.setZero(subset.used.size());
+  sums.held_out += 1.0 - subset.used;
+  add(subset.at_wrist, subset.used, sums.at_wrist);
+  add(subset.at_targets, subset.used, sums.at_targets);
+}
 
 namespace {
 
@@ -64,7 +353,7 @@ class Walk {
 std::vector<SubsetSums> walkAll(const SubsetMethod& method, int size) {
   const int n = static_cast<int>(method.normal.size());
   std::vector<SubsetSums> chunks(static_cast<std::size_t>(n - size + 1));
-  onAllCores(chunks.size(),
+  numerics::onAllCores(chunks.size(),
              [&](std::size_t first) { Walk(method, size).from(static_cast<int>(first), chunks[first]); });
   return chunks;
 }
@@ -126,4 +415,4 @@ SubsetStudy studySubsets(const SubsetMethod& method, const SubsetOptions& option
   return study;
 }
 
-}  // namespace stiffscope
+}  // namespace stiffscope::identification

@@ -3,10 +3,10 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/identification/compensation.h"
-#include "core/identification/normal_equations.h"
+#include "core/identification/compensated_share.h"
+#include "core/identification/equations.h"
 
-namespace stiffscope {
+namespace stiffscope::identification {
 
 /// How to draw m of n postures.
 struct SubsetOptions {
@@ -20,7 +20,7 @@ struct SubsetOptions {
 struct SubsetMethod {
   std::vector<NormalEquations> normal;      ///< a posture each; for the decoupled method those of P_wrist
   std::vector<NormalEquations> reflectors;  ///< only the decoupled method: those of the reflectors
-  JointMask unknown{};
+  robot::JointMask unknown{};
   DeflectionJudge at_wrist;  ///< empty where P_wrist is not measured
   DeflectionJudge at_targets;
 };
@@ -53,4 +53,16 @@ SubsetStudy studySubsets(const SubsetMethod& method, const SubsetOptions& option
 /// Number of subsets of m out of n; saturates at the largest 64-bit value.
 std::uint64_t subsetCount(int n, int m);
 
-}  // namespace stiffscope
+/// The distribution of one joint's stiffness over the subsets: Table II.
+struct StiffnessSpread {
+  double mean = 0.0, sd = 0.0;  ///< of k = 1/c, the paper's; heavy-tailed where c comes near zero
+  double median = 0.0;
+  double low = 0.0, high = 0.0;  ///< 5 % and 95 % quantiles
+  double quartile_low = 0.0, quartile_high = 0.0;
+  double compliance_mean = 0.0, compliance_sd = 0.0;
+  double share_negative = 0.0;
+};
+
+StiffnessSpread spreadOf(const SubsetStudy& study, int joint);
+
+}  // namespace stiffscope::identification

@@ -1,17 +1,50 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <string>
 #include <vector>
 
-#include "core/planning/posture_rules.h"
+#include "core/planning/planning_arm.h"
 
-namespace stiffscope {
+namespace stiffscope::planning {
+
+/// What a person at the robot would keep to. Lengths m, angles rad.
+struct PostureRules {
+  Vector6d low = Vector6d::Constant(-3.14159265358979);  ///< the box that postures are drawn from, cut by
+  Vector6d high = Vector6d::Constant(3.14159265358979);  ///< the URDF's limits less `limit_margin`
+  double limit_margin = 0.0873;    ///< 5 deg: room for compensation, and URDFs differ from controllers
+  double least_dexterity = 0.15;   ///< 1 / kappa of Dumas et al., lengths over 1 m
+  double most_outward_up = 0.349;  ///< 20 deg: a hanging load stays clear of the flange (not asked of a pull)
+  double least_hook_height = 0.8;  ///< above base_link's origin: weights hang below (not asked of a pull)
+  double least_height = 0.2;       ///< of reflectors and arm beyond axis 3, above base_link's origin
+  double line_clearance = 0.2;     ///< between the load's line beyond the hook and the arm's skeleton
+  double body_clearance = 0.35;    ///< between hook or reflectors and the skeleton from the base to axis 3
+  double sight_clearance = 0.1;    ///< between a line of sight and the skeleton
+  double least_distance = 1.0, most_distance = 15.0;  ///< between tracker and reflectors
+};
+
+/// The rules in the order in which they are looked at.
+enum class PostureRule { none, singularity, low, hanging, load_line, body, distance, sight };
+inline constexpr std::size_t kPostureRules = 8;
+
+/// In words, as in `n of m postures: WORDS`.
+const char* wordsFor(PostureRule rule);
+
+/// The first rule that a posture breaks under a load along `direction` (unit, R0); none where it keeps all.
+/// The arm is taken as straight lines from base_link's origin over the points of axes 1-6 to the flange; it
+/// is rigid here.
+PostureRule brokenRule(const PlanningArm& arm, const PostureRules& rules, const robot::ArmPosture& posture,
+                       const Eigen::Vector3d& direction);
+
+/// The box of `rules` within the arm's limits. Throws InputError, naming the joint, where it is empty.
+std::array<robot::JointLimits, 6> postureBox(const robot::Robot& arm, const PostureRules& rules);
 
 /// A posture that keeps the rules, a load on it, and what measuring it would tell.
 struct Candidate {
   Vector6d q = Vector6d::Zero();                        ///< rad
   Eigen::Vector3d direction = Eigen::Vector3d::Zero();  ///< of the load, unit, R0
-  LoadCase load_case;                                   ///< posture and wrench, R0; no readings
+  identification::LoadCase load_case;                                   ///< posture and wrench, R0; no readings
   /// Of the compliances c: sum over the reflectors of A^T S^-1 A, A = J_m diag(J_w^T W) as in paper (12), S
   /// the covariance of the reflector's displacement. (Nm/rad)^2.
   Matrix6d information = Matrix6d::Zero();
@@ -39,4 +72,4 @@ std::vector<Eigen::Vector3d> loadDirections(const PlanningArm& arm);
 /// Load-cell reading (N, Nm, in the cell's axes) that a candidate's load gives.
 Vector6d expectedReading(const PlanningArm& arm, const Candidate& candidate);
 
-}  // namespace stiffscope
+}  // namespace stiffscope::planning

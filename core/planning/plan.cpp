@@ -1,38 +1,37 @@
 #include "core/planning/plan.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 #include <limits>
 
-#include "core/cartesian_stiffness/posture_conditioning.h"
-#include "core/input/input_error.h"
-#include "core/planning/refine_design.h"
-#include "core/statics/joint_torque.h"
+#include "core/identification/posture_stiffness.h"
+#include "core/io/input_error.h"
+#include "core/planning/design.h"
+#include "core/robot/wrench.h"
 
-namespace stiffscope {
+namespace stiffscope::planning {
 
 namespace {
 
 /// The method whose geometry the plan takes.
-const MethodResult* referenceOf(const Identification* identified) {
+const identification::MethodResult* referenceOf(const identification::Identification* identified) {
   if (identified == nullptr) return nullptr;
-  for (const Method method : {Method::decoupled_partial_pose, Method::partial_pose, Method::complete_pose}) {
+  for (const identification::Method method : {identification::Method::decoupled_partial_pose, identification::Method::partial_pose, identification::Method::complete_pose}) {
     if (identified->of(method).available) return &identified->of(method);
   }
   return nullptr;
 }
 
-CaseEquations equationsOf(const PlanningArm& arm, const Candidate& candidate) {
-  const LoadCase& load_case = candidate.load_case;
-  const Vector6d torque = jointTorque(load_case.axes, load_case.wrench);
-  const Eigen::Isometry3d flange = flangeAt(arm.geometry.arm, unloadedPosture(arm.geometry.arm, load_case));
-  CaseEquations equations;
+identification::CaseEquations equationsOf(const PlanningArm& arm, const Candidate& candidate) {
+  const identification::LoadCase& load_case = candidate.load_case;
+  const Vector6d torque = robot::jointTorque(load_case.axes, load_case.wrench);
+  const Eigen::Isometry3d flange = robot::flangeAt(arm.geometry.arm, identification::unloadedPosture(arm.geometry.arm, load_case));
+  identification::CaseEquations equations;
   equations.matrix.resize(static_cast<Eigen::Index>(3 * arm.targets_in_flange.size()), 6);
   for (std::size_t k = 0; k < arm.targets_in_flange.size(); ++k) {
     equations.matrix.middleRows<3>(static_cast<Eigen::Index>(3 * k)) =
-        pointRows(load_case.axes, flange * arm.targets_in_flange[k], torque);
+        identification::pointRows(load_case.axes, flange * arm.targets_in_flange[k], torque);
   }
   equations.right = Eigen::VectorXd::Zero(equations.matrix.rows());
   return equations;
@@ -40,7 +39,7 @@ CaseEquations equationsOf(const PlanningArm& arm, const Candidate& candidate) {
 
 class Planner {
  public:
-  Planner(const Campaign& campaign, const Identification* identified, const PlanOptions& options)
+  Planner(const campaign::Campaign& campaign, const identification::Identification* identified, const PlanOptions& options)
       : campaign_(campaign),
         identified_(identified),
         reference_(referenceOf(identified)),
@@ -64,7 +63,7 @@ class Planner {
  private:
   void checkOptions() const {
     const auto refuse = [](const char* option, int value, const char* expected) {
-      throw InputError({option}, std::to_string(value), expected);
+      throw io::InputError({option}, std::to_string(value), expected);
     };
     if (options_.postures < 1) {
       refuse(options_.augment ? "--add" : "--postures", options_.postures, "expected 1 or more postures");
@@ -73,14 +72,14 @@ class Planner {
       refuse("--candidates", options_.candidates, "expected at least as many candidates as postures");
     }
     if (options_.augment && (identified_ == nullptr || reference_ == nullptr || identified_->cases.empty())) {
-      throw InputError({"--add"}, "", "no measured postures that identify: --postures plans the day before");
+      throw io::InputError({"--add"}, "", "no measured postures that identify: --postures plans the day before");
     }
   }
 
   /// Which joints the candidates (with what is measured) would show.
   void judge() {
-    std::vector<LoadCase> cases;
-    std::vector<CaseEquations> equations;
+    std::vector<identification::LoadCase> cases;
+    std::vector<identification::CaseEquations> equations;
     for (const Candidate& one : candidates_) {
       cases.push_back(one.load_case);
       equations.push_back(equationsOf(plan_.arm, one));
@@ -89,7 +88,7 @@ class Planner {
       cases.insert(cases.end(), identified_->cases.begin(), identified_->cases.end());
       equations.insert(equations.end(), reference_->target_rows.begin(), reference_->target_rows.end());
     }
-    const Identifiability judged = judgeJoints(plan_.arm.geometry, cases, plan_.arm.cell, equations);
+    const identification::Identifiability judged = identification::judgeJoints(plan_.arm.geometry, cases, plan_.arm.cell, equations);
     plan_.unknown = judged.mask();
     for (std::size_t j = 0; j < 6; ++j) plan_.not_seen[j] = judged.joints[j].reason;
     plan_.usable = std::any_of(plan_.unknown.begin(), plan_.unknown.end(), [](bool one) { return one; });
@@ -116,7 +115,7 @@ class Planner {
     plan_.sd_measured = standardDeviations(problem_.known, plan_.unknown);
   }
 
-  void addMeasured(const LoadCase& load_case, const CaseEquations& rows) {
+  void addMeasured(const identification::LoadCase& load_case, const identification::CaseEquations& rows) {
     for (std::size_t k = 0; k < load_case.targets.size(); ++k) {
       const Matrix36d own = rows.matrix.middleRows<3>(static_cast<Eigen::Index>(3 * k));
       problem_.known +=
@@ -195,9 +194,9 @@ class Planner {
       posture.reading = expectedReading(plan_.arm, posture.candidate);
       posture.pull_in_base =
           plan_.arm.geometry.r0_from_base_link.linear().transpose() * posture.candidate.direction;
-      const ArmPosture at = unloadedPosture(plan_.arm.geometry.arm, posture.candidate.load_case);
-      const Eigen::Vector3d flange = flangeAt(plan_.arm.geometry.arm, at).translation();
-      posture.dexterity = postureConditioning(jacobianAt(plan_.arm.geometry.arm, at, flange), 1.0).dexterity;
+      const robot::ArmPosture at = identification::unloadedPosture(plan_.arm.geometry.arm, posture.candidate.load_case);
+      const Eigen::Vector3d flange = robot::flangeAt(plan_.arm.geometry.arm, at).translation();
+      posture.dexterity = identification::postureConditioning(robot::jacobianAt(plan_.arm.geometry.arm, at, flange), 1.0).dexterity;
       if (plan_.arm.station) posture.tracker_distance = (flange - *plan_.arm.station).norm();
       sum += one.information;
       const double after = logDeterminant(sum, plan_.unknown);
@@ -208,9 +207,9 @@ class Planner {
     }
   }
 
-  const Campaign& campaign_;
-  const Identification* identified_;
-  const MethodResult* reference_;
+  const campaign::Campaign& campaign_;
+  const identification::Identification* identified_;
+  const identification::MethodResult* reference_;
   const PlanOptions& options_;
   std::vector<Candidate> candidates_, measured_;
   DesignProblem problem_;
@@ -219,8 +218,8 @@ class Planner {
 
 }  // namespace
 
-Plan planCampaign(const Campaign& campaign, const Identification* identified, const PlanOptions& options) {
+Plan planCampaign(const campaign::Campaign& campaign, const identification::Identification* identified, const PlanOptions& options) {
   return Planner(campaign, identified, options).run();
 }
 
-}  // namespace stiffscope
+}  // namespace stiffscope::planning

@@ -8,7 +8,7 @@
 #include "core/planning/candidates.h"
 #include "core/planning/random_postures.h"
 
-namespace stiffscope {
+namespace stiffscope::planning {
 
 /// What the choice is judged by, see designValue.
 enum class PlanCriterion {
@@ -48,7 +48,7 @@ struct Plan {
   PlanningArm arm;
   bool usable = false;  ///< some joint's stiffness would be seen
   std::string reason;   ///< why not
-  JointMask unknown{};
+  robot::JointMask unknown{};
   std::array<std::string, 6> not_seen;  ///< why a joint would not be
   int measured = 0;                     ///< postures that are counted in already
   int asked = 0;  ///< postures asked for: `postures` may be fewer, where no more keep apart
@@ -65,6 +65,6 @@ struct Plan {
 /// expected there (and, after a campaign, the misfit its model left). `identified` is that campaign's
 /// identification; it is needed to augment, and else places sweeps, hook and load where it is given. Throws
 /// InputError for what cannot be planned for.
-Plan planCampaign(const Campaign& campaign, const Identification* identified, const PlanOptions& options);
+Plan planCampaign(const campaign::Campaign& campaign, const identification::Identification* identified, const PlanOptions& options);
 
-}  // namespace stiffscope
+}  // namespace stiffscope::planning

@@ -1,37 +1,36 @@
 #include "core/planning/planning_arm.h"
 
-#include <fmt/format.h>
-
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 #include <numbers>
 
-#include "core/identification/cell_wrench.h"
-#include "core/input/input_error.h"
+#include "core/identification/load_case.h"
+#include "core/io/input_error.h"
 
-namespace stiffscope {
+namespace stiffscope::planning {
 
 namespace {
 
-LoadingGeometry geometryFor(const Campaign& campaign, const Identification* identified) {
-  if (identified == nullptr) return sweptGeometry(campaign, measureFrames(campaign), Vector6d::Zero());
-  for (const Method method : {Method::decoupled_partial_pose, Method::partial_pose, Method::complete_pose}) {
+frames::LoadingGeometry geometryFor(const campaign::Campaign& campaign, const identification::Identification* identified) {
+  if (identified == nullptr) return frames::sweptGeometry(campaign, frames::measureFrames(campaign), Vector6d::Zero());
+  for (const identification::Method method : {identification::Method::decoupled_partial_pose, identification::Method::partial_pose, identification::Method::complete_pose}) {
     if (identified->of(method).available) return identified->of(method).geometry;
   }
-  return sweptGeometry(campaign, identified->frames, Vector6d::Zero());
+  return frames::sweptGeometry(campaign, identified->frames, Vector6d::Zero());
 }
 
 /// Along axis 6, away from axis 5: out of the flange.
-Eigen::Vector3d outwardInFlange(const Robot& arm) {
-  const Line& last = arm.axes_in_base_at_zero[5];
+Eigen::Vector3d outwardInFlange(const robot::Robot& arm) {
+  const metrology::Line& last = arm.axes_in_base_at_zero[5];
   const Eigen::Isometry3d& flange = arm.base_from_flange_at_zero;
   const double along = (flange.translation() - arm.axes_in_base_at_zero[4].point).dot(last.direction);
   const Eigen::Vector3d outward = flange.linear().transpose() * last.direction;
   return along < 0.0 ? Eigen::Vector3d(-outward) : outward;
 }
 
-void placeTargets(const Campaign& campaign, PlanningArm& arm) {
+void placeTargets(const campaign::Campaign& campaign, PlanningArm& arm) {
   const Eigen::Isometry3d flange_from_zero = arm.geometry.arm.base_from_flange_at_zero.inverse();
   for (std::size_t k = 0; k < campaign.targets.size(); ++k) {
     if (k < arm.geometry.targets_at_zero.size() && arm.geometry.targets_at_zero[k]) {
@@ -54,26 +53,26 @@ void placeTargets(const Campaign& campaign, PlanningArm& arm) {
 }
 
 /// The measured wrenches of the identified load step, in R0.
-std::vector<std::pair<ArmPosture, Wrench>> measuredWrenches(const Campaign& campaign, const PlanningArm& arm,
+std::vector<std::pair<robot::ArmPosture, robot::Wrench>> measuredWrenches(const campaign::Campaign& campaign, const PlanningArm& arm,
                                                             int step) {
-  std::vector<std::pair<ArmPosture, Wrench>> wrenches;
-  for (const State& state : campaign.states->rows) {
+  std::vector<std::pair<robot::ArmPosture, robot::Wrench>> wrenches;
+  for (const campaign::State& state : campaign.states->rows) {
     if (state.step != step) continue;
-    const ArmPosture posture = postureAt(arm.geometry.arm, arm.geometry.sagged(state.q));
-    wrenches.emplace_back(posture, cellWrench(arm.cell, arm.geometry, posture, {}, {}, state.wrench_in_cell));
+    const robot::ArmPosture posture = robot::postureAt(arm.geometry.arm, arm.geometry.sagged(state.q));
+    wrenches.emplace_back(posture, identification::cellWrench(arm.cell, arm.geometry, posture, {}, {}, state.wrench_in_cell));
   }
   return wrenches;
 }
 
 /// The point of the flange on the measured forces' lines, by least squares of M = (hook - point) x F in
 /// flange axes.
-Eigen::Vector3d hookOf(const std::vector<std::pair<ArmPosture, Wrench>>& wrenches, const Robot& arm) {
+Eigen::Vector3d hookOf(const std::vector<std::pair<robot::ArmPosture, robot::Wrench>>& wrenches, const robot::Robot& arm) {
   Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
   Eigen::Vector3d right = Eigen::Vector3d::Zero();
   for (const auto& [posture, wrench] : wrenches) {
-    const Eigen::Isometry3d flange_from_r0 = flangeAt(arm, posture).inverse();
+    const Eigen::Isometry3d flange_from_r0 = robot::flangeAt(arm, posture).inverse();
     const Eigen::Vector3d force = flange_from_r0.linear() * wrench.force;
-    const Wrench at_flange = wrench.about(flange_from_r0.inverse().translation());
+    const robot::Wrench at_flange = wrench.about(flange_from_r0.inverse().translation());
     const Eigen::Vector3d moment = flange_from_r0.linear() * at_flange.moment;
     // hook x F = M: normal equations of -[F]x, whose square is |F|^2 I - F F^T.
     normal += force.squaredNorm() * Eigen::Matrix3d::Identity() - force * force.transpose();
@@ -86,10 +85,10 @@ Eigen::Vector3d hookOf(const std::vector<std::pair<ArmPosture, Wrench>>& wrenche
   return solver.solve(right);
 }
 
-void placeLoad(const Campaign& campaign, const Identification* identified, const PlanningInputs& inputs,
+void placeLoad(const campaign::Campaign& campaign, const identification::Identification* identified, const PlanningInputs& inputs,
                PlanningArm& arm) {
   arm.pull = inputs.pull.value_or(identified != nullptr && !identified->identifiability.load_hangs);
-  std::vector<std::pair<ArmPosture, Wrench>> measured;
+  std::vector<std::pair<robot::ArmPosture, robot::Wrench>> measured;
   if (identified != nullptr) measured = measuredWrenches(campaign, arm, identified->step);
   if (inputs.load) {
     arm.load = *inputs.load;
@@ -100,7 +99,7 @@ void placeLoad(const Campaign& campaign, const Identification* identified, const
         fmt::format("the load of the measured step {}: {:.0f} N", identified->step, arm.load));
   }
   if (!(arm.load > 0.0) || !std::isfinite(arm.load)) {
-    throw InputError({inputs.pull.value_or(false) ? "--pull" : "--load"},
+    throw io::InputError({inputs.pull.value_or(false) ? "--pull" : "--load"},
                      inputs.load ? fmt::format("{:g}", *inputs.load) : "",
                      inputs.load ? "expected the load in newtons, above 0"
                                  : "expected the load in newtons, above 0: this campaign has no measured one to take");
@@ -115,8 +114,8 @@ void placeLoad(const Campaign& campaign, const Identification* identified, const
                     "wrenches have it",
                     mm.x(), mm.y(), mm.z()));
   } else {
-    const ArmPosture zero = postureAt(arm.geometry.arm, Vector6d::Zero());
-    const Wrench at_cell = cellWrench(arm.cell, arm.geometry, zero, {}, {}, Vector6d::Zero());
+    const robot::ArmPosture zero = robot::postureAt(arm.geometry.arm, Vector6d::Zero());
+    const robot::Wrench at_cell = identification::cellWrench(arm.cell, arm.geometry, zero, {}, {}, Vector6d::Zero());
     arm.hook_in_flange = arm.geometry.arm.base_from_flange_at_zero.inverse() * at_cell.point;
     arm.assumed.push_back(
         "the load acts at the load cell's point: --hook says where it does, and a hook aside of axis 6 "
@@ -124,12 +123,12 @@ void placeLoad(const Campaign& campaign, const Identification* identified, const
   }
 }
 
-void placeTracker(const Campaign& campaign, const Identification* identified, const PlanningInputs& inputs,
+void placeTracker(const campaign::Campaign& campaign, const identification::Identification* identified, const PlanningInputs& inputs,
                   PlanningArm& arm) {
-  const Frames frames = identified != nullptr ? identified->frames : measureFrames(campaign);
+  const frames::Frames frames = identified != nullptr ? identified->frames : frames::measureFrames(campaign);
   if (inputs.tracker_in_base) {
     arm.station = arm.geometry.r0_from_base_link * *inputs.tracker_in_base;
-  } else if (campaign.tracker && frames.arm.points_placed && frames.points_frame == PointFrame::tracker) {
+  } else if (campaign.tracker && frames.arm.points_placed && frames.points_frame == campaign::PointFrame::tracker) {
     arm.station = frames.arm.r0_from_points * campaign.tracker->station;
   } else {
     arm.assumed.push_back(
@@ -138,7 +137,7 @@ void placeTracker(const Campaign& campaign, const Identification* identified, co
   }
   arm.sigma = inputs.tracker_sigma;
   if (campaign.tracker) {
-    TrackerNoise noise = trackerNoise(*campaign.tracker);
+    metrology::TrackerNoise noise = frames::trackerNoise(*campaign.tracker);
     constexpr double kUsual = 4.0;  // m, of a cell with a heavy robot
     arm.sigma = std::sqrt(noise.covarianceAt(noise.station + Eigen::Vector3d(kUsual, 0, 0)).trace() / 3.0);
     if (arm.station) noise.station = *arm.station, arm.noise = noise;
@@ -158,10 +157,10 @@ Eigen::Matrix3d PlanningArm::displacementCovariance(const Eigen::Vector3d& point
   return 2.0 / repeats * reading + misfit * misfit * Eigen::Matrix3d::Identity();
 }
 
-PlanningArm planningArm(const Campaign& campaign, const Identification* identified,
+PlanningArm planningArm(const campaign::Campaign& campaign, const identification::Identification* identified,
                         const PlanningInputs& inputs) {
   if (inputs.repeats < 1)
-    throw InputError({"--repeats"}, std::to_string(inputs.repeats), "expected 1 or more readings");
+    throw io::InputError({"--repeats"}, std::to_string(inputs.repeats), "expected 1 or more readings");
   PlanningArm arm;
   arm.geometry = geometryFor(campaign, identified);
   arm.repeats = inputs.repeats;
@@ -176,10 +175,10 @@ PlanningArm planningArm(const Campaign& campaign, const Identification* identifi
   placeLoad(campaign, identified, inputs, arm);
   placeTracker(campaign, identified, inputs, arm);
   if (identified != nullptr) {
-    const MethodResult& method = identified->of(Method::partial_pose);
+    const identification::MethodResult& method = identified->of(identification::Method::partial_pose);
     if (method.available) arm.misfit = method.estimate.sigma;
   }
   return arm;
 }
 
-}  // namespace stiffscope
+}  // namespace stiffscope::planning

@@ -6,7 +6,7 @@
 
 #include "core/identification/identify.h"
 
-namespace stiffscope {
+namespace stiffscope::planning {
 
 /// What the user says of the day to come. Places in base_link or flange axes, m.
 struct PlanningInputs {
@@ -21,15 +21,15 @@ struct PlanningInputs {
 
 /// What a plan is made for: the arm in R0 with its reflectors, load and tracker, as far as they are known.
 struct PlanningArm {
-  LoadingGeometry geometry;
-  LoadCell cell;
+  frames::LoadingGeometry geometry;
+  campaign::LoadCell cell;
   std::vector<Eigen::Vector3d> targets_in_flange;                ///< m
   Eigen::Vector3d outward_in_flange = Eigen::Vector3d::UnitZ();  ///< along axis 6, away from the arm
   Eigen::Vector3d hook_in_flange = Eigen::Vector3d::Zero();
   double load = 0.0;  ///< N
   bool pull = false;
   std::optional<Eigen::Vector3d> station;  ///< in R0, m
-  std::optional<TrackerNoise> noise;       ///< about `station`; empty: isotropic `sigma`
+  std::optional<metrology::TrackerNoise> noise;       ///< about `station`; empty: isotropic `sigma`
   double sigma = 0.0;                      ///< m per coordinate of one reading, where `noise` is empty
   double misfit = 0.0;  ///< m per coordinate: what the identified model leaves, 0 if unknown
   int repeats = 1;
@@ -44,7 +44,7 @@ struct PlanningArm {
 /// campaign): then sweeps, hook, load and misfit come from the measurement. Nominal reflector places (`x_mm
 /// y_mm z_mm` of `target`) or, without them, three on a ring of 250 mm about the flange. Throws InputError
 /// where the load is neither given nor measured, or no force.
-PlanningArm planningArm(const Campaign& campaign, const Identification* identified,
+PlanningArm planningArm(const campaign::Campaign& campaign, const identification::Identification* identified,
                         const PlanningInputs& inputs);
 
-}  // namespace stiffscope
+}  // namespace stiffscope::planning

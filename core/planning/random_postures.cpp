@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-namespace stiffscope {
+namespace stiffscope::planning {
 
 RandomPostures randomPostures(const DesignProblem& problem, int count, int sets, std::uint64_t seed) {
   RandomPostures result;
@@ -27,4 +27,4 @@ RandomPostures randomPostures(const DesignProblem& problem, int count, int sets,
   return result;
 }
 
-}  // namespace stiffscope
+}  // namespace stiffscope::planning

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "core/planning/exchange_design.h"
+#include "core/planning/design.h"
 
-namespace stiffscope {
+namespace stiffscope::planning {
 
 /// What random postures give, by the same rules and loads.
 struct RandomPostures {
@@ -17,4 +17,4 @@ struct RandomPostures {
 /// is left to whoever has a plan.
 RandomPostures randomPostures(const DesignProblem& problem, int count, int sets, std::uint64_t seed);
 
-}  // namespace stiffscope
+}  // namespace stiffscope::planning

@@ -1,11 +1,19 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <array>
 
 #include "core/robot/robot.h"
 
-namespace stiffscope {
+namespace stiffscope::robot {
+
+/// R = Rz(yaw) Ry(pitch) Rx(roll): turns about the fixed x, y, z axes in that order, as URDF has them (rad).
+Eigen::Matrix3d rotationFromRpy(const Eigen::Vector3d& rpy);
+
+/// Inverse of rotationFromRpy, pitch within +-90 deg; at +-90 deg, where only roll -+ yaw is determined, roll
+/// is 0.
+Eigen::Vector3d rpyFromRotation(const Eigen::Matrix3d& rotation);
 
 /// How far each body of the arm has moved from its place at all joints zero: a point fixed to body b that
 /// stands at x (base frame) when all joints are zero stands at motion[b] * x now. motion[0] is the identity.
@@ -17,10 +25,10 @@ struct ArmPosture {
 ArmPosture postureAt(const Robot& robot, const Vector6d& q);
 
 /// Joint axis `joint` (0..5) in the base frame at this posture.
-Line axisAt(const Robot& robot, const ArmPosture& posture, int joint);
+metrology::Line axisAt(const Robot& robot, const ArmPosture& posture, int joint);
 
 /// All six of them: what Jacobians of several points at one posture have in common.
-using ArmAxes = std::array<Line, 6>;
+using ArmAxes = std::array<metrology::Line, 6>;
 ArmAxes axesAt(const Robot& robot, const ArmPosture& posture);
 
 /// base_from_flange at this posture.
@@ -35,4 +43,4 @@ Matrix6d jacobianAt(const Robot& robot, const ArmPosture& posture, const Eigen::
 /// Its rows 0-2, by the axes at that posture.
 Matrix36d pointJacobianAt(const ArmAxes& axes, const Eigen::Vector3d& point_in_base);
 
-}  // namespace stiffscope
+}  // namespace stiffscope::robot

@@ -1,25 +1,186 @@
 #include "core/robot/read_urdf.h"
 
-#include <fmt/format.h>
-
+#include <Eigen/Geometry>
 #include <algorithm>
+#include <fmt/format.h>
 #include <limits>
+#include <map>
 #include <set>
+#include <string>
+#include <string_view>
+#include <vector>
 
-#include "core/input/nearest_name.h"
-#include "core/input/read_file.h"
-#include "core/input/urdf_model.h"
+#include "core/io/input_error.h"
+#include "core/io/read_file.h"
+#include "core/io/xml.h"
+#include "core/robot/kinematics.h"
 
-namespace stiffscope {
+namespace stiffscope::robot {
+
+struct UrdfJoint {
+  std::string name, type, parent, child;
+  io::XmlNode node;
+
+  bool fixed() const { return type == "fixed"; }
+};
+
+/// The links and joints of a URDF and how they hang together. Their numbers stay unread until they are asked
+/// for with the functions below, so that what is wrong off the chain does not matter.
+class UrdfModel {
+ public:
+  /// Throws InputError where the file is no `robot`, a link or joint has no name or one that is taken, a
+  /// joint lacks its parent or child, or a link has two parents.
+  UrdfModel(std::string file, std::string_view bytes);
+
+  io::XmlNode robot() const { return xml_.root(); }
+  const std::vector<UrdfJoint>& joints() const { return joints_; }
+
+  bool hasLink(const std::string& name) const { return links_.contains(name); }
+  const io::XmlNode& link(const std::string& name) const { return links_.at(name); }
+  std::vector<std::string> linkNames() const;
+
+  /// The joint that carries `link`; null for a root.
+  const UrdfJoint* jointAbove(const std::string& link) const;
+
+  /// Fixed joints on `link`, below and above it, in the order of the file.
+  std::vector<const UrdfJoint*> fixedJointsAt(const std::string& link) const;
+
+ private:
+  void addLink(const io::XmlNode& node);
+  void addJoint(const io::XmlNode& node);
+
+  io::XmlFile xml_;
+  std::map<std::string, io::XmlNode> links_;
+  std::vector<UrdfJoint> joints_;
+  std::map<std::string, std::size_t> joint_above_;
+  std::multimap<std::string, std::size_t> fixed_at_;
+};
+
+/// `origin` of a joint or an inertial (m, rad; identity where absent).
+Eigen::Isometry3d urdfOrigin(const io::XmlNode& node);
+
+/// `axis` of a joint in its own frame, unit length (1 0 0 where absent). Throws InputError for a zero axis.
+Eigen::Vector3d urdfAxis(const io::XmlNode& joint);
+
+namespace {
+
+// A robot description may hold elements of other programs, which are passed over; one that is nearly a name which is read
+// here would be passed over too, and its value with it.
+void refuseMisspelt(const io::XmlNode& node, const std::vector<std::string>& elements, const std::vector<std::string>& attributes) {
+  const auto check = [&](const std::string& name, const std::vector<std::string>& known, const io::XmlNode& where) {
+    if (std::find(known.begin(), known.end(), name) != known.end()) return;
+    const std::string hint = io::nearestNameHint(name, known);
+    if (!hint.empty()) where.refuse(name, "", "expected a name that URDF has here" + hint);
+  };
+  for (const io::XmlNode& child : node.children()) check(child.name(), elements, child);
+  for (const std::string& name : node.attributeNames()) check(name, attributes, node);
+}
+
+}  // namespace
+
+UrdfModel::UrdfModel(std::string file, std::string_view bytes) : xml_(std::move(file), bytes) {
+  if (robot().name() != "robot") robot().refuse(robot().name(), "", "expected <robot> as the root of a URDF");
+  for (const io::XmlNode& node : robot().children("link")) addLink(node);
+  for (const io::XmlNode& node : robot().children("joint")) addJoint(node);
+}
+
+void UrdfModel::addLink(const io::XmlNode& node) {
+  refuseMisspelt(node, {"inertial", "visual", "collision"}, {"name", "type"});
+  if (const auto inertial = node.child("inertial")) {
+    refuseMisspelt(*inertial, {"origin", "mass", "inertia"}, {});
+    if (const auto mass = inertial->child("mass")) refuseMisspelt(*mass, {}, {"value"});
+  }
+  const std::string name = node.requiredName("name");
+  const auto [known, added] = links_.emplace(name, node);
+  if (!added) {
+    node.refuse("link", name,
+                fmt::format("expected a name of its own; the link in line {} has it", known->second.line()));
+  }
+}
+
+void UrdfModel::addJoint(const io::XmlNode& node) {
+  refuseMisspelt(node, {"origin", "parent", "child", "axis", "calibration", "dynamics", "limit", "mimic", "safety_controller"},
+                 {"name", "type"});
+  const UrdfJoint joint{node.requiredName("name"), node.requiredName("type"),
+                        node.requiredChild("parent").requiredName("link"),
+                        node.requiredChild("child").requiredName("link"), node};
+  const auto same_name = [&](const UrdfJoint& other) { return other.name == joint.name; };
+  if (std::any_of(joints_.begin(), joints_.end(), same_name)) {
+    node.refuse("joint", joint.name, "expected a name of its own; another joint has it");
+  }
+  const auto [above, added] = joint_above_.emplace(joint.child, joints_.size());
+  if (!added) {
+    node.refuse("child", joint.child,
+                fmt::format("expected a link with one parent; joints '{}' and '{}' both carry it",
+                            joints_[above->second].name, joint.name));
+  }
+  if (joint.fixed()) {
+    fixed_at_.emplace(joint.parent, joints_.size());
+    fixed_at_.emplace(joint.child, joints_.size());
+  }
+  joints_.push_back(joint);
+}
+
+std::vector<std::string> UrdfModel::linkNames() const {
+  std::vector<std::string> names;
+  for (const auto& [name, node] : links_) names.push_back(name);
+  return names;
+}
+
+const UrdfJoint* UrdfModel::jointAbove(const std::string& link) const {
+  const auto found = joint_above_.find(link);
+  return found == joint_above_.end() ? nullptr : &joints_[found->second];
+}
+
+std::vector<const UrdfJoint*> UrdfModel::fixedJointsAt(const std::string& link) const {
+  std::vector<const UrdfJoint*> found;
+  const auto [begin, end] = fixed_at_.equal_range(link);
+  for (auto it = begin; it != end; ++it) found.push_back(&joints_[it->second]);
+  return found;
+}
+
+Eigen::Isometry3d urdfOrigin(const io::XmlNode& node) {
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  const auto origin = node.child("origin");
+  if (!origin) return pose;
+  refuseMisspelt(*origin, {}, {"xyz", "rpy", "quat_xyzw"});
+  if (origin->has("xyz")) pose.translation() = origin->vector("xyz");
+  if (origin->has("rpy")) {
+    const Eigen::Vector3d rpy = origin->vector("rpy");
+    constexpr double kTurn = 6.2832;  // rounded up; degrees are larger
+    if (rpy.cwiseAbs().maxCoeff() > kTurn) {
+      origin->refuse("rpy", origin->requiredAttribute("rpy"), "expected radians, within one turn (+-6.2832)");
+    }
+    pose.linear() = rotationFromRpy(rpy);
+  }
+  // No arm is that long; lengths in millimetres are.
+  constexpr double kLongest = 200.0;
+  if (pose.translation().cwiseAbs().maxCoeff() > kLongest) {
+    origin->refuse("xyz", origin->requiredAttribute("xyz"), "expected metres, within +-200 m");
+  }
+  return pose;
+}
+
+Eigen::Vector3d urdfAxis(const io::XmlNode& joint) {
+  const auto axis = joint.child("axis");
+  if (axis) refuseMisspelt(*axis, {}, {"xyz"});
+  if (!axis || !axis->has("xyz")) return Eigen::Vector3d::UnitX();
+  const Eigen::Vector3d direction = axis->vector("xyz");
+  constexpr double kShortest = 1e-9, kLongest = 1e9;
+  if (direction.norm() < kShortest || direction.cwiseAbs().maxCoeff() > kLongest) {
+    axis->refuse("xyz", axis->requiredAttribute("xyz"), "expected an axis that is not zero, nor longer than 1e9");
+  }
+  return direction.normalized();
+}
 
 namespace {
 
 using Chain = std::vector<const UrdfJoint*>;
 
-void requireLink(const UrdfModel& model, const XmlNode& where, const std::string& role,
+void requireLink(const UrdfModel& model, const io::XmlNode& where, const std::string& role,
                  const std::string& name) {
   if (model.hasLink(name)) return;
-  where.refuse(role, name, "expected a link of the robot" + nearestNameHint(name, model.linkNames()));
+  where.refuse(role, name, "expected a link of the robot" + io::nearestNameHint(name, model.linkNames()));
 }
 
 // Joints from base to flange, found upwards because each link has one parent but may carry many others.
@@ -74,7 +235,7 @@ void requireSixRevolute(const UrdfModel& model, const Chain& chain, const std::s
 JointLimits limitsOf(const UrdfJoint& joint) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   if (joint.type == "continuous") return {-kInfinity, kInfinity};
-  const XmlNode limit = joint.node.requiredChild("limit");
+  const io::XmlNode limit = joint.node.requiredChild("limit");
   // URDF gives both a default of 0.
   JointLimits limits;
   if (limit.has("lower")) limits.lower = limit.number("lower");
@@ -126,7 +287,7 @@ void placeAttachedLinks(const UrdfModel& model, Robot& robot) {
 void addMass(const UrdfModel& model, const LinkFrame& frame, Robot& robot) {
   const auto inertial = model.link(frame.name).child("inertial");
   if (!inertial) return;
-  const XmlNode mass = inertial->requiredChild("mass");
+  const io::XmlNode mass = inertial->requiredChild("mass");
   const double mass_kg = mass.number("value");
   if (mass_kg < 0.0) mass.refuse("value", mass.requiredAttribute("value"), "expected a mass of 0 or more");
   if (mass_kg == 0.0) return;
@@ -154,7 +315,7 @@ Robot parseUrdf(std::string_view bytes, const std::string& file, const std::stri
 
 Robot readUrdf(const std::filesystem::path& file, const std::string& base_link,
                const std::string& flange_link) {
-  return parseUrdf(readTextFile(file, kLargestXml), file.string(), base_link, flange_link);
+  return parseUrdf(io::readTextFile(file, io::kLargestXml), file.string(), base_link, flange_link);
 }
 
-}  // namespace stiffscope
+}  // namespace stiffscope::robot

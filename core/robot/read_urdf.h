@@ -6,7 +6,7 @@
 
 #include "core/robot/robot.h"
 
-namespace stiffscope {
+namespace stiffscope::robot {
 
 /// Reads the chain from `base_link` to `flange_link` of a URDF: exactly six revolute (or continuous) joints,
 /// any fixed joints between them. Links and joints off the chain are skipped, but for those rigidly fixed to
@@ -22,4 +22,4 @@ Robot readUrdf(const std::filesystem::path& file, const std::string& base_link,
 Robot parseUrdf(std::string_view bytes, const std::string& file, const std::string& base_link,
                 const std::string& flange_link);
 
-}  // namespace stiffscope
+}  // namespace stiffscope::robot

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "core/numerics/vectors.h"
-#include "metrology/line.h"
+#include "metrology/lines.h"
 
-namespace stiffscope {
+namespace stiffscope::robot {
 
 /// Mass of one moving body with everything fixed to it, and where its centre of mass stands in base_link
 /// when all joints are at zero (m). A mass of 0 means: not known.
@@ -37,7 +37,7 @@ struct JointLimits {
 struct Robot {
   std::string name;
   std::array<std::string, 6> joint_names;
-  std::array<Line, 6> axes_in_base_at_zero;
+  std::array<metrology::Line, 6> axes_in_base_at_zero;
   std::array<JointLimits, 6> limits;
   Eigen::Isometry3d base_from_flange_at_zero = Eigen::Isometry3d::Identity();
   std::array<BodyMass, 7> bodies;  ///< [0] the base (its mass plays no part), [i] the body beyond joint i
@@ -47,4 +47,4 @@ struct Robot {
 /// Which joints' compliances are unknowns; the others' columns are left out (their compliance taken as 0).
 using JointMask = std::array<bool, 6>;
 
-}  // namespace stiffscope
+}  // namespace stiffscope::robot

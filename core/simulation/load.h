@@ -5,7 +5,7 @@
 
 #include "core/simulation/spec.h"
 
-namespace stiffscope {
+namespace stiffscope::simulation {
 
 /// A force (N, base_link axes) that keeps size and direction while the machine gives under it.
 struct DeadForce {
@@ -26,7 +26,6 @@ struct AnchoredCable {
 /// What acts on the machine besides its own weight; monostate: nothing.
 using AppliedLoad = std::variant<std::monostate, DeadForce, AnchoredCable>;
 
-namespace simulation {
 
 /// Steps of a pose beyond the unloaded step 0, the return to zero included.
 int loadSteps(const LoadingSpec& loading);
@@ -49,6 +48,4 @@ Eigen::Vector3d loadForce(const AppliedLoad& load, const Eigen::Vector3d& point_
 Eigen::Vector3d unreadForce(const AppliedLoad& load);  ///< the part of loadForce that no load cell sees
 double loadPotential(const AppliedLoad& load, const Eigen::Vector3d& point_in_base);
 
-}  // namespace simulation
-
-}  // namespace stiffscope
+}  // namespace stiffscope::simulation

@@ -1,17 +1,70 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <array>
+#include <limits>
 #include <string>
 #include <vector>
 
 #include "core/robot/robot.h"
 #include "core/simulation/spec.h"
-#include "core/simulation/torque_curve.h"
 
-namespace stiffscope {
+namespace stiffscope::simulation {
 
-namespace simulation {
+/// The errors of the six axes: as listed, else drawn from stream "geometry" of the seed. A listed axis leaves
+/// the others' draws as they were.
+std::array<AxisError, 6> drawAxisErrors(const SimulationSpec& spec);
+
+/// E_i: where joint frame i and all that it carries truly stands at zero, from where the nominal robot has it
+/// (base_link): first turned by the tilt about the axis's point - about the wrist centre for axes 4-6 if
+/// these meet within 1 um - then moved by the offset. So the errors add up along the chain, the flange stays
+/// true to axis 6, and wrist axes miss each other only by the offsets of 5 and 6.
+Eigen::Isometry3d frameError(const robot::Robot& nominal, int joint, const AxisError& error);
+
+/// A Jenkins element: a spring of `rate` (Nm/rad) in series with a slider that holds up to `limit` (Nm) and
+/// then slips. C. F. Beards, Damping in Structural Joints (1992); several in parallel are Iwan's model of
+/// hysteresis (J. Appl. Mech. 33, 1966).
+struct Slider {
+  double rate = 0.0, limit = 0.0;
+};
+
+/// What acts on one elastic coordinate besides its linear spring: torque (Nm) against twist t (rad), or force
+/// (N) against displacement (m). All parts add:
+///   stages    piecewise linear through the origin; rate of the first stage up to its `until`, then the next
+///             one's, for positive and negative twists apart. A catalogue's K1, K2, K3, a gap, a one-sided
+///             contact.
+///   cubic     cubic * t^3
+///   sliders   clamp(rate (t - anchor), +-limit) each, `anchor` where its spring is unstrained now
+/// Its energy's derivative is the torque, and that one's the rate, everywhere but at the corners.
+struct TorqueCurve {
+  struct Stage {
+    double rate = 0.0;
+    double until = std::numeric_limits<double>::infinity();  ///< |twist| where the next one begins
+  };
+  std::vector<Stage> positive, negative;  ///< until rising; empty: no torque on that side
+  double cubic = 0.0;
+  std::vector<Slider> sliders;
+
+  bool acts() const { return !positive.empty() || !negative.empty() || cubic != 0.0 || !sliders.empty(); }
+};
+
+struct CurvePoint {
+  double energy = 0.0;  ///< J, from twist 0 and, for sliders, from their anchors
+  double torque = 0.0;  ///< dE/dt
+  double rate = 0.0;    ///< d torque / dt
+};
+
+/// `anchors`: one a slider; null: sliders carry nothing.
+CurvePoint evaluate(const TorqueCurve& curve, double twist, const double* anchors);
+
+/// Lets the sliders slip that carry more than their limit at this twist.
+void slip(const TorqueCurve& curve, double twist, double* anchors);
+
+/// The stages of an odd curve given by the torques (Nm, rising) where the rate changes: rates.size() is one
+/// more than torques.size().
+std::vector<TorqueCurve::Stage> stagesByTorque(const std::vector<double>& torques,
+                                               const std::vector<double>& rates);
 
 /// A place where the machine gives: up to three translations u (m) and a rotation vector r (rad) of what lies
 /// beyond it, both in the element's frame as it was before giving: x -> Exp(r) x + u. Its strain energy is
@@ -33,7 +86,6 @@ struct CoordinateCurve {
   TorqueCurve curve;
 };
 
-}  // namespace simulation
 
 /// The machine as it truly is. Everything stands where the nominal robot has it in base_link at all joints
 /// zero; a body's place follows from the chain base element, then per joint i: frame error E_i, motor turn
@@ -41,17 +93,17 @@ struct CoordinateCurve {
 /// base_link here is the ground's: the tracker and the nests stand on it, and it does not move with the
 /// pedestal.
 struct ElasticMachine {
-  Robot nominal;
+  robot::Robot nominal;
   std::array<Eigen::Isometry3d, 6> axis_errors;  ///< E_i, in base_link at zero, nominal place to true place
   std::array<double, 6> zeros{};                 ///< rad
-  std::vector<simulation::ElasticElement> elements;  ///< in chain order
-  std::array<BodyMass, 7> bodies;                    ///< true masses, at nominal places; [6] without the tool
-  Tool tool;
+  std::vector<ElasticElement> elements;  ///< in chain order
+  std::array<robot::BodyMass, 7> bodies;                    ///< true masses, at nominal places; [6] without the tool
+  robot::Tool tool;
   Eigen::Vector3d gravity_in_base{0.0, 0.0, -9.80665};  ///< the true one
-  std::vector<simulation::TrueTarget> targets;
-  simulation::MachineSpec truth;  ///< what it was built from: the true stiffness values are here
+  std::vector<TrueTarget> targets;
+  MachineSpec truth;  ///< what it was built from: the true stiffness values are here
   std::array<Eigen::Index, 6> torsion_coordinates{-1, -1, -1, -1, -1, -1};  ///< of each joint; -1: rigid
-  std::vector<simulation::CoordinateCurve> curves;
+  std::vector<CoordinateCurve> curves;
 
   int coordinateCount() const;       ///< elastic coordinates in all
   Eigen::Index sliderCount() const;  ///< of all curves
@@ -68,6 +120,6 @@ ElasticMachine buildMachine(const SimulationSpec& spec);
 
 /// The true rigid geometry in zero-reference form, motor zeros inside the axes: what a perfect calibration of
 /// a machine without compliance would find.
-Robot rigidGeometry(const ElasticMachine& machine);
+robot::Robot rigidGeometry(const ElasticMachine& machine);
 
-}  // namespace stiffscope
+}  // namespace stiffscope::simulation

@@ -1,17 +1,64 @@
 #include "core/simulation/postures.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 #include <limits>
 
-#include "core/input/input_error.h"
-#include "core/simulation/posture_spacing.h"
-#include "core/simulation/random.h"
+#include "core/io/input_error.h"
+#include "core/numerics/random.h"
 #include "core/simulation/rotation.h"
 
 namespace stiffscope::simulation {
+
+PostureSpacing::PostureSpacing(const Vector6d& low, const Vector6d& high) : widths_(high - low) {}
+
+void PostureSpacing::add(const Vector6d& q) {
+  const std::size_t added = nodes_.size();
+  nodes_.push_back({q});
+  if (added == 0) return;
+  for (std::size_t at = 0, depth = 0;; ++depth) {
+    const int joint = jointOf(depth);
+    std::size_t& next = nodes_[at].beyond[q[joint] < nodes_[at].q[joint] ? 0 : 1];
+    if (next == 0) {
+      next = added;
+      return;
+    }
+    at = next;
+  }
+}
+
+double PostureSpacing::squaredToNearest(const Vector6d& q, double enough) const {
+  double least = std::numeric_limits<double>::infinity();
+  if (!nodes_.empty()) search(0, 0, q, enough, least);
+  return least;
+}
+
+double PostureSpacing::squared(const Vector6d& a, const Vector6d& b) const {
+  double sum = 0.0;
+  for (int i = 0; i < 6; ++i) {
+    if (!(widths_[i] > 0.0)) continue;
+    const double apart = (a[i] - b[i]) / widths_[i];
+    sum += apart * apart;
+  }
+  return sum;
+}
+
+void PostureSpacing::search(std::size_t node, std::size_t depth, const Vector6d& q, double enough,
+                            double& least) const {
+  const Node& here = nodes_[node];
+  least = std::min(least, squared(q, here.q));
+  const int joint = jointOf(depth);
+  const std::size_t own_side = q[joint] < here.q[joint] ? 0 : 1;
+  for (const std::size_t side : {own_side, 1 - own_side}) {
+    if (least <= enough) return;
+    if (here.beyond[side] == 0) continue;
+    // What lies across the plane is at least as far as the plane.
+    const double to_plane = widths_[joint] > 0.0 ? (q[joint] - here.q[joint]) / widths_[joint] : 0.0;
+    if (side != own_side && to_plane * to_plane >= least) return;
+    search(here.beyond[side], depth + 1, q, enough, least);
+  }
+}
 
 namespace {
 
@@ -37,26 +84,26 @@ bool keepsRules(const SimulationSpec& spec, const PostureDraw& draw, const Vecto
          hangClearance(spec.nominal, q, spec.loading->hook_in_flange) >= *draw.min_hang_clearance;
 }
 
-Vector6d drawOne(const SimulationSpec& spec, const PostureDraw& draw, RandomStream& random) {
+Vector6d drawOne(const SimulationSpec& spec, const PostureDraw& draw, numerics::RandomStream& random) {
   for (int attempt = 0; attempt < kMostTries; ++attempt) {
     Vector6d q;
     for (int i = 0; i < 6; ++i) q[i] = random.uniform(draw.low[i], draw.high[i]);
     if (keepsRules(spec, draw, q)) return q;
   }
-  throw InputError(
+  throw io::InputError(
       {spec.file.string(), 0, "draw"}, "",
       fmt::format("expected rules that some posture of the box keeps; {} random ones did not", kMostTries));
 }
 
 }  // namespace
 
-Eigen::Isometry3d nominalFlange(const Robot& robot, const Vector6d& q) {
+Eigen::Isometry3d nominalFlange(const robot::Robot& robot, const Vector6d& q) {
   Eigen::Isometry3d motion = Eigen::Isometry3d::Identity();
   for (int i = 0; i < 6; ++i) motion = motion * turnAbout(robot.axes_in_base_at_zero[i], q[i]);
   return motion * robot.base_from_flange_at_zero;
 }
 
-double hangClearance(const Robot& robot, const Vector6d& q, const Eigen::Vector3d& hook_in_flange) {
+double hangClearance(const robot::Robot& robot, const Vector6d& q, const Eigen::Vector3d& hook_in_flange) {
   std::vector<Eigen::Vector3d> corners{Eigen::Vector3d::Zero()};
   Eigen::Isometry3d motion = Eigen::Isometry3d::Identity();
   for (int i = 0; i < 6; ++i) {
@@ -85,7 +132,7 @@ std::vector<Posture> loadingPostures(const SimulationSpec& spec) {
   if (!spec.posture_draw) return postures;
 
   const PostureDraw& draw = *spec.posture_draw;
-  RandomStream random(spec.seed, "postures");
+  numerics::RandomStream random(spec.seed, "postures");
   PostureSpacing spacing(draw.low, draw.high);
   for (const Posture& listed : postures) spacing.add(listed.q);
   for (int n = 0; n < draw.count; ++n) {

@@ -1,42 +1,371 @@
 #include "core/simulation/read_spec.h"
 
-#include "core/input/read_file.h"
-#include "core/input/units.h"
+#include <algorithm>
+#include <cmath>
+
+#include "core/io/input_error.h"
+#include "core/io/read_file.h"
+#include "core/io/units.h"
 #include "core/robot/read_urdf.h"
-#include "core/simulation/read_spec_parts.h"
 #include "core/simulation/spec_xml.h"
 
-namespace stiffscope {
+namespace stiffscope::simulation {
+
+std::vector<TrueTarget> readTargets(const io::XmlNode& root) {
+  const io::XmlNode list = root.requiredChild("targets");
+  refuseUnknown(list, {}, {"target"});
+  std::vector<TrueTarget> targets;
+  for (const io::XmlNode& node : list.children("target")) {
+    refuseUnknown(node, {"id", "xyz_mm"}, {"motion"});
+    const std::string id = node.requiredName("id");
+    for (const TrueTarget& other : targets) {
+      if (other.id == id) node.refuse("id", id, "expected every target once");
+    }
+    targets.push_back({id, node.vector("xyz_mm") * io::kMillimetre});
+    if (const auto motion = node.child("motion")) targets.back().motion = readTargetMotion(*motion);
+  }
+  if (targets.empty()) list.refuse("target", "", "expected at least one target");
+  return targets;
+}
+
+TrackerSpec readTracker(const io::XmlNode& root) {
+  const io::XmlNode node = root.requiredChild("tracker");
+  refuseUnknown(node, {"model", "range_fixed_um", "range_per_m_um", "angle_fixed_um", "angle_per_m_um",
+                       "true_noise_factor", "xyz_mm", "rpy_deg"});
+  TrackerSpec tracker;
+  tracker.declared.model = node.requiredName("model");
+  tracker.declared.range_fixed = nonNegativeOr(node, "range_fixed_um", io::kMicrometre, 0.0);
+  tracker.declared.range_per_m = nonNegativeOr(node, "range_per_m_um", io::kMicrometre, 0.0);
+  tracker.declared.angle_fixed = nonNegativeOr(node, "angle_fixed_um", io::kMicrometre, 0.0);
+  tracker.declared.angle_per_m = nonNegativeOr(node, "angle_per_m_um", io::kMicrometre, 0.0);
+  tracker.true_noise_factor = nonNegativeOr(node, "true_noise_factor", 1.0, 1.0);
+  if (tracker.true_noise_factor > 1000.0) {
+    node.refuse("true_noise_factor", node.requiredAttribute("true_noise_factor"), "expected 0 to 1000");
+  }
+  node.requiredAttribute("xyz_mm");
+  node.requiredAttribute("rpy_deg");
+  tracker.base_from_tracker = placement(node, "xyz_mm", "rpy_deg");
+  return tracker;
+}
+
+std::optional<LoadCellSpec> readLoadCell(const io::XmlNode& root, const robot::Robot& robot) {
+  const std::optional<io::XmlNode> node = root.child("load_cell");
+  if (!node) return std::nullopt;
+  refuseUnknown(*node,
+                {"parent", "xyz_mm", "rpy_deg", "force_sigma_n", "moment_sigma_nm", "true_misalignment_deg",
+                 "true_bias_n", "true_bias_nm", "true_gain_error", "true_place_error_mm", "unread_force_n"});
+  LoadCellSpec cell;
+  cell.declared.parent = node->requiredName("parent");
+  std::vector<std::string> links;
+  for (const robot::LinkFrame& link : robot.links) links.push_back(link.name);
+  if (std::find(links.begin(), links.end(), cell.declared.parent) == links.end()) {
+    node->refuse("parent", cell.declared.parent,
+                 "expected a link of the robot's chain" + io::nearestNameHint(cell.declared.parent, links));
+  }
+  cell.declared.parent_from_cell = placement(*node, "xyz_mm", "rpy_deg");
+  node->requiredAttribute("force_sigma_n");
+  node->requiredAttribute("moment_sigma_nm");
+  cell.declared.force_sigma = nonNegativeOr(*node, "force_sigma_n", 1.0, 0.0);
+  cell.declared.moment_sigma = nonNegativeOr(*node, "moment_sigma_nm", 1.0, 0.0);
+  const Eigen::Vector3d zero = Eigen::Vector3d::Zero();
+  cell.misalignment = vectorOr(*node, "true_misalignment_deg", io::kDegree, zero);
+  cell.bias << vectorOr(*node, "true_bias_n", 1.0, zero), vectorOr(*node, "true_bias_nm", 1.0, zero);
+  cell.gain_error = numberOr(*node, "true_gain_error", 1.0, 0.0);
+  cell.place_error = vectorOr(*node, "true_place_error_mm", io::kMillimetre, zero);
+  cell.unread_force = vectorOr(*node, "unread_force_n", 1.0, zero);
+  return cell;
+}
 
 namespace {
 
-void readRobot(const XmlNode& root, const std::filesystem::path& folder, SimulationSpec& spec) {
+constexpr int kMost = 1000000;  ///< of anything that is counted
+
+std::vector<double> steps(const io::XmlNode& node, const std::string& attribute) {
+  const std::vector<double> values = numberList(node, attribute, 0, 1.0);
+  for (const double value : values) {
+    if (!(value > 0.0)) {
+      node.refuse(attribute, node.requiredAttribute(attribute),
+                  "expected numbers above 0, one a step (the unloaded step 0 and the return are not listed)");
+    }
+  }
+  return values;
+}
+
+CablePull readCable(const io::XmlNode& node) {
+  CablePull cable{steps(node, "tensions_n"), std::nullopt, optionalDirection(node, "direction")};
+  if (node.has("anchor_mm")) cable.anchor = node.vector("anchor_mm") * io::kMillimetre;
+  if (cable.anchor && cable.direction) {
+    node.refuse("direction", node.requiredAttribute("direction"),
+                "expected anchor_mm or direction, not both");
+  }
+  return cable;
+}
+
+Vector6d jointAngles(const io::XmlNode& node, const std::string& attribute) {
+  const std::vector<double> values = numberList(node, attribute, 6, io::kDegree);
+  return Eigen::Map<const Vector6d>(values.data());
+}
+
+void readListed(const io::XmlNode& node, SimulationSpec& spec) {
+  refuseUnknown(node, {"q_deg", "pull"});
+  ListedPosture posture{jointAngles(node, "q_deg"), optionalDirection(node, "pull")};
+  for (int i = 0; i < 6; ++i) {
+    const robot::JointLimits& limits = spec.nominal.limits[i];
+    if (posture.q[i] < limits.lower || posture.q[i] > limits.upper) {
+      node.refuse("q_deg", node.requiredAttribute("q_deg"),
+                  "expected joint " + std::to_string(i + 1) + " within the limits of the URDF");
+    }
+  }
+  spec.postures.push_back(posture);
+}
+
+PostureDraw readDraw(const io::XmlNode& node) {
+  refuseUnknown(node, {"count", "candidates", "min_deg", "max_deg", "min_abs_sin_q5", "max_flange_up_deg",
+                       "min_height_mm", "max_height_mm", "min_tracker_distance_mm", "max_tracker_distance_mm",
+                       "min_hang_clearance_mm"});
+  PostureDraw draw;
+  draw.count = integer(node, "count", 1, kMost);
+  draw.candidates = integer(node, "candidates", 1, 1000, 1);
+  draw.low = jointAngles(node, "min_deg");
+  draw.high = jointAngles(node, "max_deg");
+  if ((draw.high - draw.low).minCoeff() < 0.0) {
+    node.refuse("max_deg", node.requiredAttribute("max_deg"), "expected no angle below that of min_deg");
+  }
+  draw.min_abs_sin_q5 = nonNegativeOr(node, "min_abs_sin_q5", 1.0, 0.0);
+  draw.max_flange_up = optionalNumber(node, "max_flange_up_deg", io::kDegree);
+  draw.min_height = optionalNumber(node, "min_height_mm", io::kMillimetre);
+  draw.max_height = optionalNumber(node, "max_height_mm", io::kMillimetre);
+  draw.min_tracker_distance = optionalNumber(node, "min_tracker_distance_mm", io::kMillimetre);
+  draw.max_tracker_distance = optionalNumber(node, "max_tracker_distance_mm", io::kMillimetre);
+  draw.min_hang_clearance = optionalNumber(node, "min_hang_clearance_mm", io::kMillimetre);
+  return draw;
+}
+
+/// A cable without anchor needs to be told where it pulls.
+void requirePullDirections(const io::XmlNode& postures, const SimulationSpec& spec) {
+  const auto* cable = spec.loading ? std::get_if<CablePull>(&spec.loading->load) : nullptr;
+  if (cable == nullptr || cable->anchor || cable->direction) return;
+  const std::string expectation = "expected a direction: cable_load has neither anchor_mm nor direction";
+  for (const io::XmlNode& node : postures.children("posture")) {
+    if (!node.has("pull")) node.refuse("pull", "", expectation);
+  }
+  if (const auto node = postures.child("draw")) node->refuse("draw", "", expectation);
+}
+
+}  // namespace
+
+std::optional<LoadingSpec> readLoading(const io::XmlNode& root) {
+  const std::optional<io::XmlNode> hanging = root.child("hanging_load");
+  const std::optional<io::XmlNode> cable = root.child("cable_load");
+  if (hanging && cable) cable->refuse("cable_load", "", "expected hanging_load or cable_load, not both");
+  if (!hanging && !cable) return std::nullopt;
+  const io::XmlNode& node = hanging ? *hanging : *cable;
+  LoadingSpec loading;
+  if (hanging) {
+    refuseUnknown(node, {"masses_kg", "hook_mm", "return_to_zero", "repeats"}, {"swing"});
+    readSwing(node, loading);
+    loading.load = HangingWeights{steps(node, "masses_kg")};
+  } else {
+    refuseUnknown(node, {"tensions_n", "hook_mm", "anchor_mm", "direction", "return_to_zero", "repeats"});
+    loading.load = readCable(node);
+  }
+  loading.hook_in_flange = node.vector("hook_mm") * io::kMillimetre;
+  loading.return_to_zero = flag(node, "return_to_zero", true);
+  loading.repeats = integer(node, "repeats", 1, 1000, 3);
+  return loading;
+}
+
+void readPostures(const io::XmlNode& root, SimulationSpec& spec) {
+  const std::optional<io::XmlNode> postures = root.child("postures");
+  if (!postures) {
+    if (spec.loading) root.refuse("postures", "", "expected postures where the load is hung");
+    return;
+  }
+  refuseUnknown(*postures, {}, {"posture", "draw"});
+  for (const io::XmlNode& node : postures->children("posture")) readListed(node, spec);
+  if (const auto node = postures->child("draw")) spec.posture_draw = readDraw(*node);
+  if (!spec.loading) postures->refuse("postures", "", "expected hanging_load or cable_load beside it");
+  if (spec.postures.empty() && !spec.posture_draw) {
+    postures->refuse("postures", "", "expected posture or draw in it");
+  }
+  requirePullDirections(*postures, spec);
+}
+
+namespace {
+
+constexpr double kHour = 3600.0;  ///< s
+
+Vector6d shiftAndTurn(const io::XmlNode& node, const std::string& shift_mm, const std::string& turn_deg,
+                      double unit) {
+  const Eigen::Vector3d zero = Eigen::Vector3d::Zero();
+  return (Vector6d() << vectorOr(node, shift_mm, io::kMillimetre * unit, zero),
+          vectorOr(node, turn_deg, io::kDegree * unit, zero))
+      .finished();
+}
+
+std::optional<Eigen::Isometry3d> readMoved(const io::XmlNode& station, const char* name) {
+  const auto node = station.child(name);
+  if (!node) return std::nullopt;
+  refuseUnknown(*node, {"xyz_mm", "rpy_deg"});
+  if (!node->has("xyz_mm") && !node->has("rpy_deg")) node->refuse(name, "", "expected xyz_mm or rpy_deg");
+  return placement(*node, "xyz_mm", "rpy_deg");
+}
+
+}  // namespace
+
+StationSpec readStation(const io::XmlNode& root) {
+  StationSpec station;
+  const auto node = root.child("station");
+  if (!node) return station;
+  refuseUnknown(*node, {}, {"drift", "tracker_moved", "robot_moved", "refraction"});
+  if (const auto drift = node->child("drift")) {
+    refuseUnknown(*drift,
+                  {"ramp_mm_per_h", "ramp_deg_per_h", "walk_mm_per_sqrt_h", "walk_deg_per_sqrt_h", "knot_s"});
+    station.ramp = shiftAndTurn(*drift, "ramp_mm_per_h", "ramp_deg_per_h", 1.0 / kHour);
+    station.walk = shiftAndTurn(*drift, "walk_mm_per_sqrt_h", "walk_deg_per_sqrt_h", 1.0 / std::sqrt(kHour));
+    for (const char* name : {"walk_mm_per_sqrt_h", "walk_deg_per_sqrt_h"}) {
+      if (drift->has(name) && drift->vector(name).minCoeff() < 0.0) {
+        drift->refuse(name, drift->requiredAttribute(name), "expected three numbers not below 0");
+      }
+    }
+    station.knot_s = optionalPositive(*drift, "knot_s", 1.0).value_or(station.knot_s);
+    if (station.knot_s < 1.0)
+      drift->refuse("knot_s", drift->requiredAttribute("knot_s"), "expected at least 1");
+  }
+  station.tracker_moved = readMoved(*node, "tracker_moved");
+  station.robot_moved = readMoved(*node, "robot_moved");
+  if (const auto refraction = node->child("refraction")) {
+    refuseUnknown(*refraction, {"scale_ppm", "scale_ppm_per_h"});
+    station.scale = numberOr(*refraction, "scale_ppm", 1e-6, 0.0);
+    station.scale_per_second = numberOr(*refraction, "scale_ppm_per_h", 1e-6 / kHour, 0.0);
+  }
+  return station;
+}
+
+TargetMotion readTargetMotion(const io::XmlNode& node) {
+  using Kind = TargetMotion::Kind;
+  TargetMotion motion;
+  motion.kind = choice<Kind>(
+      node, "kind",
+      {{"proportional", Kind::proportional}, {"slip", Kind::slip}, {"compliant", Kind::compliant}});
+  if (motion.kind == Kind::compliant) {
+    refuseUnknown(node, {"kind", "compliance_um_per_kn"});
+    motion.compliance = node.number("compliance_um_per_kn") * io::kMicrometre / 1000.0;
+    return motion;
+  }
+  refuseUnknown(node, {"kind", "shift_um", "at_n"});
+  motion.shift = node.vector("shift_um") * io::kMicrometre;
+  motion.at_force = positive(node, "at_n", 1.0);
+  return motion;
+}
+
+void readSwing(const io::XmlNode& load, LoadingSpec& loading) {
+  const auto node = load.child("swing");
+  if (!node) return;
+  refuseUnknown(*node, {"angle_deg", "period_s"});
+  loading.swing = node->number("angle_deg") * io::kDegree;
+  loading.swing_period = positive(*node, "period_s", 1.0);
+}
+
+std::vector<CircleSweepSpec> readCircleSweeps(const io::XmlNode& root) {
+  std::vector<CircleSweepSpec> sweeps;
+  for (const io::XmlNode& node : root.children("circle_sweep")) {
+    refuseUnknown(node, {"axis", "start_deg", "stop_deg", "count", "others_deg"});
+    CircleSweepSpec sweep;
+    sweep.axis = integer(node, "axis", 1, 6) - 1;
+    for (const CircleSweepSpec& other : sweeps) {
+      if (other.axis == sweep.axis) {
+        node.refuse("axis", node.requiredAttribute("axis"), "expected one sweep an axis");
+      }
+    }
+    sweep.start = node.number("start_deg") * io::kDegree;
+    sweep.stop = node.number("stop_deg") * io::kDegree;
+    sweep.count = integer(node, "count", 2, 100000);
+    if (node.has("others_deg")) {
+      const std::vector<double> values = numberList(node, "others_deg", 6, io::kDegree);
+      sweep.others = Eigen::Map<const Vector6d>(values.data());
+    }
+    sweeps.push_back(sweep);
+  }
+  return sweeps;
+}
+
+std::optional<WristSweepSpec> readWristSweep(const io::XmlNode& root, std::size_t targets) {
+  const std::optional<io::XmlNode> node = root.child("wrist_sweep");
+  if (!node) return std::nullopt;
+  refuseUnknown(*node, {"readings", "scheme", "arm_deg", "min_deg", "max_deg"});
+  WristSweepSpec sweep;
+  const int count = static_cast<int>(targets);
+  sweep.readings = integer(*node, "readings", count, 1000000);
+  if (node->has("scheme")) {
+    sweep.scheme = choice<WristScheme>(
+        *node, "scheme",
+        {{"one_target", WristScheme::one_target}, {"all_targets", WristScheme::all_targets}});
+  }
+  if (sweep.scheme == WristScheme::all_targets && sweep.readings % count != 0) {
+    node->refuse("readings", node->requiredAttribute("readings"),
+                 "expected a multiple of the number of targets for all_targets");
+  }
+  sweep.arm = vectorOr(*node, "arm_deg", io::kDegree, Eigen::Vector3d::Zero());
+  sweep.low = node->vector("min_deg") * io::kDegree;
+  sweep.high = node->vector("max_deg") * io::kDegree;
+  if ((sweep.high - sweep.low).minCoeff() < 0.0) {
+    node->refuse("max_deg", node->requiredAttribute("max_deg"), "expected no angle below that of min_deg");
+  }
+  return sweep;
+}
+
+void readNestsAndTimes(const io::XmlNode& root, SimulationSpec& spec) {
+  if (const auto nests = root.child("nests")) {
+    refuseUnknown(*nests, {"interval_s", "after_sweeps"}, {"nest"});
+    spec.nests_after_sweeps = flag(*nests, "after_sweeps", false);
+    spec.timing.nest_interval_s = optionalPositive(*nests, "interval_s", 1.0).value_or(3600.0);
+    for (const io::XmlNode& node : nests->children("nest")) {
+      refuseUnknown(node, {"id", "xyz_mm"});
+      const std::string id = node.requiredName("id");
+      for (const NestSpec& other : spec.nests) {
+        if (other.id == id) node.refuse("id", id, "expected every nest once");
+      }
+      spec.nests.push_back({id, node.vector("xyz_mm") * io::kMillimetre});
+    }
+  }
+  if (const auto times = root.child("times")) {
+    refuseUnknown(*times, {"reading_s", "move_s", "load_change_s"});
+    spec.timing.reading_s = optionalPositive(*times, "reading_s", 1.0).value_or(spec.timing.reading_s);
+    spec.timing.move_s = nonNegativeOr(*times, "move_s", 1.0, spec.timing.move_s);
+    spec.timing.load_change_s = nonNegativeOr(*times, "load_change_s", 1.0, spec.timing.load_change_s);
+  }
+}
+
+namespace {
+
+void readRobot(const io::XmlNode& root, const std::filesystem::path& folder, SimulationSpec& spec) {
   using namespace simulation;
-  const XmlNode node = root.requiredChild("robot");
+  const io::XmlNode node = root.requiredChild("robot");
   refuseUnknown(node, {"urdf", "base_link", "flange_link", "double_encoder", "read_back_resolution_deg"});
   spec.urdf_file = folder / node.requiredName("urdf");
   spec.base_link = node.requiredName("base_link");
   spec.flange_link = node.requiredName("flange_link");
   if (node.has("double_encoder")) {
-    spec.double_encoder = choice<DoubleEncoder>(node, "double_encoder",
-                                                {{"active", DoubleEncoder::active},
-                                                 {"inactive", DoubleEncoder::inactive},
-                                                 {"unspecified", DoubleEncoder::unspecified}});
+    spec.double_encoder = choice<campaign::DoubleEncoder>(node, "double_encoder",
+                                                {{"active", campaign::DoubleEncoder::active},
+                                                 {"inactive", campaign::DoubleEncoder::inactive},
+                                                 {"unspecified", campaign::DoubleEncoder::unspecified}});
   }
-  spec.read_back_resolution = nonNegativeOr(node, "read_back_resolution_deg", kDegree, 0.0);
-  spec.nominal = readUrdf(spec.urdf_file, spec.base_link, spec.flange_link);
+  spec.read_back_resolution = nonNegativeOr(node, "read_back_resolution_deg", io::kDegree, 0.0);
+  spec.nominal = robot::readUrdf(spec.urdf_file, spec.base_link, spec.flange_link);
 }
 
 }  // namespace
 
 SimulationSpec readSimulationSpec(const std::filesystem::path& file) {
-  return parseSimulationSpec(readTextFile(file, kLargestXml), file);
+  return parseSimulationSpec(io::readTextFile(file, io::kLargestXml), file);
 }
 
 SimulationSpec parseSimulationSpec(std::string_view bytes, const std::filesystem::path& file) {
   using namespace simulation;
-  const XmlFile xml(file.string(), bytes);
-  const XmlNode root = xml.root();
+  const io::XmlFile xml(file.string(), bytes);
+  const io::XmlNode root = xml.root();
   if (root.name() != "simulation") root.refuse(root.name(), "", "expected the root element 'simulation'");
   refuseUnknown(root, {"format", "name", "date", "seed", "measurement"},
                 {"robot",        "joints",      "base",      "link",         "geometry",   "tool",
@@ -73,4 +402,4 @@ std::vector<int> rigidJoints(const SimulationSpec& spec) {
   return rigid;
 }
 
-}  // namespace stiffscope
+}  // namespace stiffscope::simulation

@@ -6,7 +6,7 @@
 
 #include "core/simulation/spec.h"
 
-namespace stiffscope {
+namespace stiffscope::simulation {
 
 /// Reads a specification (XML). Lengths in mm, angles in deg, the rest SI, as the attribute names say;
 /// numbers of one attribute are separated by blanks. [x] may be absent; `=` says what then holds. Paths are
@@ -85,4 +85,4 @@ SimulationSpec parseSimulationSpec(std::string_view bytes, const std::filesystem
 /// a user may not have meant.
 std::vector<int> rigidJoints(const SimulationSpec& spec);
 
-}  // namespace stiffscope
+}  // namespace stiffscope::simulation

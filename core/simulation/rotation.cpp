@@ -45,7 +45,7 @@ Eigen::Matrix3d leftJacobian(const Eigen::Vector3d& v) {
   return Eigen::Matrix3d::Identity() + series.versine * cross + series.third * cross * cross;
 }
 
-Eigen::Isometry3d turnAbout(const Line& axis, double angle) {
+Eigen::Isometry3d turnAbout(const metrology::Line& axis, double angle) {
   return turnAbout(axis.point, axis.direction * angle);
 }
 

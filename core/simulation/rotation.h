@@ -2,7 +2,7 @@
 
 #include <Eigen/Geometry>
 
-#include "metrology/line.h"
+#include "metrology/lines.h"
 
 // Finite rotations of the simulated machine. A rotation vector v turns by |v| about v/|v|, right-handed.
 
@@ -19,7 +19,7 @@ Eigen::Matrix3d rotationExp(const Eigen::Vector3d& v);
 Eigen::Matrix3d leftJacobian(const Eigen::Vector3d& v);
 
 /// The rigid motion that turns by `angle` (rad) about the directed line.
-Eigen::Isometry3d turnAbout(const Line& axis, double angle);
+Eigen::Isometry3d turnAbout(const metrology::Line& axis, double angle);
 
 /// The rigid motion that turns by the rotation vector about a fixed point.
 Eigen::Isometry3d turnAbout(const Eigen::Vector3d& point, const Eigen::Vector3d& rotation_vector);

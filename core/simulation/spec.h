@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <array>
 #include <cstdint>
@@ -11,14 +12,170 @@
 
 #include "core/campaign/campaign.h"
 #include "core/robot/robot.h"
-#include "core/simulation/machine_spec.h"
+
+// How one joint gives and turns. SI and radians.
+
+// The described machine: how it gives, how its geometry and masses differ from nominal. SI and radians.
 
 // A described machine and the day it is measured, in SI and radians: what read_spec.h reads from XML.
 // Everything that is drawn at random is a sigma here; machine.h and simulate.h draw it from `seed`.
 
-namespace stiffscope {
+namespace stiffscope::simulation {
 
-namespace simulation {
+/// Friction inside a joint: `sliders` Jenkins elements in parallel, of equal rate, whose limits rise evenly
+/// (1 : 2 : ... : n); `torque` is what all of them hold, `rate` what they add while all stick. The motor's
+/// motion on the way to a posture works it off: at arrival they carry nothing.
+struct JointFriction {
+  double torque = 0.0;  ///< Nm
+  double rate = 0.0;    ///< Nm/rad
+  int sliders = 4;
+};
+
+/// Lost motion of the drive: `width` (rad) in all through which only `rest` of the rate is felt. The joint's
+/// whole torque crosses it, weight included.
+struct JointBacklash {
+  double width = 0.0;
+  double rest = 0.001;  ///< grease and seals; above 0
+};
+
+/// A drive whose rate changes at these torques (a catalogue's T1, T2 and K1, K2, K3).
+struct JointStages {
+  std::vector<double> torques;  ///< Nm, rising, above 0
+  std::vector<double> rates;    ///< Nm/rad, one more; the joint's `torsion` is left aside
+};
+
+/// A sum that follows the joint's angle: amplitude sin(cycles q + phase).
+struct JointWave {
+  double amplitude = 0.0, cycles = 1.0, phase = 0.0;
+};
+
+/// A stiffness that falls as the drive gets warm: by `share` of itself, approached as 1 - exp(-t /
+/// time_constant) from the first reading of the day.
+struct JointSoftening {
+  double share = 0.0, time_constant = 0.0;
+};
+
+/// How one joint gives. Absent: it does not. What follows `bearing` needs `torsion`.
+struct JointStiffness {
+  std::optional<double> torsion;  ///< about its axis, Nm/rad
+  std::optional<double> bearing;  ///< about each direction across its axis, at the axis's point, Nm/rad
+  double cubic = 0.0;             ///< Nm/rad^3, times twist cubed, besides the rest; >= 0
+  std::optional<JointStages> stages = std::nullopt;
+  std::optional<JointBacklash> backlash = std::nullopt;
+  std::optional<JointFriction> friction = std::nullopt;
+  std::optional<JointWave> rate_wave = std::nullopt;   ///< of the rate, as a share of it; |amplitude| < 1
+  std::optional<JointWave> angle_wave = std::nullopt;  ///< true motor angle less reported, rad
+  std::optional<JointSoftening> softening = std::nullopt;
+};
+
+/// A straight spring between two bodies of the arm (0: the base, i: the body beyond joint i): from carousel
+/// to upper arm a gravity compensator, along the forearm a dress pack. With l the distance of its ends and
+/// l0 the same at all joints zero of the nominal arm, it pulls them together with
+///   T(l) = tension + rate (l - l0),
+/// negative where it pushes. Its torque on a joint follows from where its ends stand, hence from the posture.
+struct LinkSpring {
+  int from_body = 1, to_body = 2;
+  Eigen::Vector3d from_in_base_at_zero = Eigen::Vector3d::Zero();  ///< m; must differ from `to`
+  Eigen::Vector3d to_in_base_at_zero = Eigen::Vector3d::UnitZ();
+  double rate = 0.0;     ///< N/m
+  double tension = 0.0;  ///< N, at all joints zero
+};
+
+/// The spring with its bodies moved from their nominal places at zero.
+struct SpringNow {
+  Eigen::Vector3d from, to;  ///< its ends, base_link
+  Eigen::Vector3d pull;      ///< N, on `from_body`; minus that on `to_body`
+  double energy = 0.0;       ///< J, integral of T from l0 to l
+};
+
+SpringNow springNow(const LinkSpring& spring, const std::array<Eigen::Isometry3d, 7>& body_motions);
+
+/// A link as a uniform straight beam from the point of joint `joint` to that of the next one (after the last:
+/// to the flange). Absent: rigid in that respect.
+struct LinkBeam {
+  int joint = 0;                  ///< 0..5
+  std::optional<double> bending;  ///< E I, the same in both planes, Nm^2
+  std::optional<double> torsion;  ///< G J, Nm^2
+  std::optional<double> shear;    ///< kappa G A, N; absent: Euler-Bernoulli, present: Timoshenko
+  std::optional<double> axial;    ///< E A, N
+};
+
+/// How joint frame i, and all that it carries, differs from nominal: moved by `offset`, turned by the
+/// rotation vector `tilt`, base_link axes at all joints zero; and the motor stands at `zero` + the reported
+/// angle. The tilt pivots on the axis's point; for axes 4-6 of a wrist whose nominal axes meet, on that
+/// meeting point.
+struct AxisError {
+  Eigen::Vector3d offset = Eigen::Vector3d::Zero();  ///< m
+  Eigen::Vector3d tilt = Eigen::Vector3d::Zero();    ///< rad
+  double zero = 0.0;                                 ///< rad
+};
+
+/// Listed errors stand as they are; the other axes' are drawn: offset and tilt in the two directions across
+/// the axis, each with its sigma.
+struct GeometryErrors {
+  double position_sigma = 0.0;                 ///< m
+  double direction_sigma = 0.0;                ///< rad
+  double zero_sigma = 0.0;                     ///< rad
+  std::optional<double> wrist_position_sigma;  ///< m; for axes 5 and 6: how far they miss the one before
+  std::array<std::optional<AxisError>, 6> listed;
+};
+
+/// A crack or a shim under the pedestal: beyond `gap` (rad) of turn to one side about base_link x, y or z it
+/// rests on something more.
+struct OneSidedContact {
+  int axis = 0;            ///< 0..2
+  bool positive = true;    ///< the side of the turn where it touches
+  double stiffness = 0.0;  ///< Nm/rad, besides base_rotation
+  double gap = 0.0;        ///< rad
+};
+
+/// The plate between flange and everything on it (reflectors, hook, tool), about the flange's origin.
+struct ToolPlate {
+  Eigen::Vector3d translation = Eigen::Vector3d::Zero();  ///< along flange x, y, z; N/m
+  Eigen::Vector3d rotation = Eigen::Vector3d::Zero();     ///< about them; Nm/rad
+};
+
+/// Two transmissions that share a spring: it stretches by arms[0] t_a + arms[1] t_b, t the elastic twists of
+/// the joints (the motors set its zero), and pulls back with `rate`. A rod of a parallelogram: N/m and crank
+/// radii in m. A shaft of a differential wrist: Nm/rad and ratios. Its energy is 1/2 rate stretch^2, so what
+/// joint a does to b, b does to a.
+struct SharedSpring {
+  std::array<int, 2> joints{};  ///< 0..5
+  std::array<double, 2> arms{};
+  double rate = 0.0;
+};
+
+/// A link that grows as the day goes on: `growth` (m) along it, from the point of joint `joint` to that of
+/// the next one, approached as growth (1 - exp(-t / time_constant)) from the first reading.
+struct ThermalGrowth {
+  int joint = 0;  ///< 0..4
+  double growth = 0.0, time_constant = 0.0;
+};
+
+/// Material that gives at once only in part: of every change of the elastic coordinates the share `share`
+/// comes late, as exp(-t / time_constant) from the change of load.
+struct Creep {
+  double share = 0.0, time_constant = 0.0;
+};
+
+struct MachineSpec {
+  std::array<JointStiffness, 6> joints;
+  std::optional<Eigen::Vector3d> base_rotation;     ///< of pedestal and floor about base_link x, y, z; Nm/rad
+  std::optional<Eigen::Vector3d> base_translation;  ///< the same along x, y, z; N/m
+  std::vector<OneSidedContact> base_contacts;       ///< about axes that base_rotation lets turn
+  std::vector<LinkBeam> links;                      ///< in order of joint
+  std::optional<ToolPlate> tool_plate;
+  std::vector<SharedSpring> shared_springs;  ///< between joints whose torsion gives
+  std::vector<LinkSpring> link_springs;
+  std::vector<ThermalGrowth> growths;
+  std::optional<Creep> creep;
+  GeometryErrors geometry;
+  double mass_relative_sigma = 0.0;  ///< true link mass / the URDF's - 1
+  robot::Tool tool;
+  double base_tilt = 0.0;          ///< rad, of base_link against gravity
+  double base_tilt_azimuth = 0.0;  ///< rad, of the horizontal axis it is tilted about, from base_link +x
+  bool base_tilt_declared = false;
+};
 
 /// A reflector that does not stay in its nest when the load (N, its size F) comes on.
 struct TargetMotion {
@@ -55,13 +212,13 @@ struct StationSpec {
 };
 
 struct TrackerSpec {
-  Tracker declared;
+  campaign::Tracker declared;
   Eigen::Isometry3d base_from_tracker = Eigen::Isometry3d::Identity();
   double true_noise_factor = 1.0;  ///< true sigma / declared sigma
 };
 
 struct LoadCellSpec {
-  LoadCell declared;
+  campaign::LoadCell declared;
   Eigen::Vector3d misalignment =
       Eigen::Vector3d::Zero();       ///< rotation vector, declared axes to true axes, rad
   Vector6d bias = Vector6d::Zero();  ///< added to readings under load (N, Nm; cell axes)
@@ -144,7 +301,6 @@ struct Timing {
   double nest_interval_s = 3600.0;
 };
 
-}  // namespace simulation
 
 /// A machine and its measurement. Empty tables: that part of the day did not happen.
 struct SimulationSpec {
@@ -156,27 +312,26 @@ struct SimulationSpec {
   std::uint64_t measurement = 1;
 
   std::filesystem::path urdf_file;
-  Robot nominal;  ///< what urdf_file says
+  robot::Robot nominal;  ///< what urdf_file says
   std::string base_link, flange_link;
-  DoubleEncoder double_encoder = DoubleEncoder::unspecified;
+  campaign::DoubleEncoder double_encoder = campaign::DoubleEncoder::unspecified;
   double read_back_resolution = 0.0;  ///< of reported joint angles, rad; 0: as exact as a double
 
-  simulation::MachineSpec machine;
-  std::vector<simulation::TrueTarget> targets;
-  simulation::TrackerSpec tracker;
-  simulation::StationSpec station;
-  std::optional<simulation::LoadCellSpec> load_cell;
-  std::optional<simulation::LoadingSpec> loading;
-  std::vector<simulation::ListedPosture> postures;  ///< before the drawn ones
-  std::optional<simulation::PostureDraw> posture_draw;
-  std::vector<simulation::CircleSweepSpec> circle_sweeps;
-  std::optional<simulation::WristSweepSpec> wrist_sweep;
-  std::vector<simulation::NestSpec> nests;
+  MachineSpec machine;
+  std::vector<TrueTarget> targets;
+  TrackerSpec tracker;
+  StationSpec station;
+  std::optional<LoadCellSpec> load_cell;
+  std::optional<LoadingSpec> loading;
+  std::vector<ListedPosture> postures;  ///< before the drawn ones
+  std::optional<PostureDraw> posture_draw;
+  std::vector<CircleSweepSpec> circle_sweeps;
+  std::optional<WristSweepSpec> wrist_sweep;
+  std::vector<NestSpec> nests;
   bool nests_after_sweeps = false;  ///< read once more between wrist sweep and loading
-  simulation::Timing timing;
+  Timing timing;
 };
 
-namespace simulation {
 
 /// What everything is drawn from that belongs to the measurement and not to the machine.
 inline std::uint64_t noiseSeed(const SimulationSpec& spec) {
@@ -184,6 +339,4 @@ inline std::uint64_t noiseSeed(const SimulationSpec& spec) {
   return spec.seed + 0x9e3779b97f4a7c15ULL * spec.measurement;
 }
 
-}  // namespace simulation
-
-}  // namespace stiffscope
+}  // namespace stiffscope::simulation

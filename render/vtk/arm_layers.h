@@ -1,14 +1,13 @@
 #pragma once
 
-#include <vtkSmartPointer.h>
-
 #include <memory>
 #include <vector>
+#include <vtkSmartPointer.h>
 
 #include "render/vtk/painting.h"
 #include "render/vtk/scene_stage.h"
 
-namespace stiffscope {
+namespace stiffscope::render {
 
 /// The picture of an arm as layers of a render window, offscreen or on a display. From back to front: words
 /// and floor, ghosts, the arm, the vectors, dots and labels. Vectors are in front of the arm so that none is
@@ -39,4 +38,4 @@ class ArmLayers {
   std::vector<Painting> paintings_;
 };
 
-}  // namespace stiffscope
+}  // namespace stiffscope::render

@@ -1,12 +1,50 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <cstdint>
 #include <vector>
+#include <vtkSmartPointer.h>
 
 #include "render/arm_scene.h"
-#include "render/vtk/mesh.h"
+#include "render/colours.h"
 
-namespace stiffscope {
+class vtkActor;
+
+namespace stiffscope::render {
+
+/// Solids of revolution gathered into one surface, so that an arm is one draw call. The light is part of the
+/// vertex colours: it comes from `light` (unit vector towards it), whatever the renderer has;
+/// `ambient` (0 to 1) is the share of it that reaches every side.
+class Mesh {
+ public:
+  Mesh(const Eigen::Vector3d& light, double ambient) : light_(light), ambient_(ambient) {}
+
+  /// From the circle of radius `from_radius` at `from` to that at `to`, closed at both ends. Nothing when
+  /// they coincide.
+  void addCone(const Eigen::Vector3d& from, double from_radius, const Eigen::Vector3d& to, double to_radius,
+               Colour colour);
+  void addSphere(const Eigen::Vector3d& centre, double radius, Colour colour);
+  /// A sphere so small that few corners do: there may be thousands.
+  void addDot(const Eigen::Vector3d& centre, double radius, Colour colour);
+  /// From `from` to `to`; the head takes `head_length` of it, or 60 % where the arrow is short, and
+  /// is thinner then.
+  void addArrow(const Eigen::Vector3d& from, const Eigen::Vector3d& to, double radius, double head_length,
+                Colour colour);
+
+  vtkSmartPointer<vtkActor> actor() const;
+
+ private:
+  int addVertex(const Eigen::Vector3d& point, const Eigen::Vector3d& normal, Colour colour);
+  void addQuad(int a, int b, int c, int d);
+  void addSphere(const Eigen::Vector3d& centre, double radius, Colour colour, int sides);
+
+  Eigen::Vector3d light_;
+  double ambient_;
+  std::vector<float> points_;
+  std::vector<std::uint8_t> colours_;
+  std::vector<int> triangles_;
+};
 
 /// The sizes that make an arm of lines look like one, from its length.
 struct ArmProportions {
@@ -36,4 +74,4 @@ FloorGrid floorOf(const ArmScene& scene);
 Eigen::AlignedBox3d extentOf(const ArmScene& scene, double magnification,
                              const Eigen::Matrix3d& base_to_view);
 
-}  // namespace stiffscope
+}  // namespace stiffscope::render

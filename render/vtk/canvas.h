@@ -5,11 +5,21 @@
 
 #include "render/colours.h"
 #include "render/image.h"
-#include "render/vtk/font.h"
 
 class vtkContext2D;
 
-namespace stiffscope {
+namespace stiffscope::render {
+
+/// The font files of all pictures: DejaVu Sans, which has Greek letters and subscript digits.
+struct Fonts {
+  std::string regular;
+  std::string bold;
+};
+
+/// Looks in the folder that the environment variable STIFFSCOPE_FONTS names and nowhere else, or else in the
+/// one found when this was built, then in those where Linux distributions put DejaVu. Throws
+/// std::runtime_error that names the folders looked in.
+Fonts findFonts();
 
 /// How many rendered pixels a pixel of an offscreen picture is averaged from, in each direction: its
 /// antialiasing.
@@ -95,4 +105,4 @@ class Canvas {
   double unit_;
 };
 
-}  // namespace stiffscope
+}  // namespace stiffscope::render

@@ -1,12 +1,13 @@
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
 #include "render/ticks.h"
 #include "render/vtk/canvas.h"
 
-namespace stiffscope {
+namespace stiffscope::render {
 
 enum class Key { Square, Point, HollowPoint, Dashes, Diamond, Median, ThickArrow, MediumArrow, ThinArrow };
 
@@ -69,4 +70,33 @@ TextStyle axisTitleStyle(const Canvas& canvas);
 TextStyle labelStyle(const Canvas& canvas);
 TextStyle noteStyle(const Canvas& canvas);
 
-}  // namespace stiffscope
+/// What stands around values by category: header, legend, note, both axes.
+struct CategoryFrame {
+  std::string title, subtitle, note, y_title, category_title;
+  const std::vector<std::string>& categories;
+  std::vector<LegendEntry> legend;
+  /// The axis for a plot about this many pixels high.
+  std::function<YAxis(double height)> axis;
+};
+
+/// Draws the frame around what `draw` draws on the plot; grid lines lie under it.
+void drawInCategoryFrame(Canvas& canvas, const CategoryFrame& frame,
+                         const std::function<void(const Box& plot, const YAxis& axis)>& draw);
+
+/// The sign of a legend entry, in `box`.
+void drawKey(Canvas& canvas, Key key, const Box& box, Colour colour);
+/// A square on its corner, with a pale rim that sets it off from what lies under it.
+void drawDiamond(Canvas& canvas, Spot centre, double radius, Colour colour);
+/// A round point; hollow ones are filled with paper.
+void drawPoint(Canvas& canvas, Spot centre, double radius, Colour colour, bool hollow);
+/// A triangle whose tip is at `tip`, pointing up or down: the drawing goes on beyond the axis.
+void drawArrowMark(Canvas& canvas, Spot tip, double size, Colour colour, bool upwards);
+/// A line between two heights at `x`, with a cap at each end that is wanted.
+void drawWhisker(Canvas& canvas, double x, double from, double to, double cap, Colour colour, bool cap_from,
+                 bool cap_to);
+/// An arrow as long as stated by its ends; its head takes at most `head` of it.
+void drawArrow(Canvas& canvas, Spot from, Spot to, Colour colour, double width, double head);
+/// Between the paper and `colour`, for the inside of boxes.
+Colour paler(Colour colour, double share, Colour paper = colours::kPaper);
+
+}  // namespace stiffscope::render

@@ -1,16 +1,14 @@
 #include "render/vtk/dot_rows.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 #include <stdexcept>
 
 #include "render/vtk/chart_frame.h"
-#include "render/vtk/flat_picture.h"
-#include "render/vtk/marks.h"
+#include "render/vtk/offscreen_picture.h"
 
-namespace stiffscope {
+namespace stiffscope::render {
 
 namespace {
 
@@ -198,4 +196,4 @@ Image drawDotRows(const DotRowChart& chart, Size size) {
   return drawFlat(size, [&chart](Canvas& canvas) { paintChart(canvas, chart); });
 }
 
-}  // namespace stiffscope
+}  // namespace stiffscope::render

@@ -2,8 +2,8 @@
 
 #include "render/dot_row_chart.h"
 
-namespace stiffscope {
+namespace stiffscope::render {
 
 Image drawDotRows(const DotRowChart& chart, Size size);
 
-}  // namespace stiffscope
+}  // namespace stiffscope::render

@@ -3,7 +3,7 @@
 #include <cstdlib>
 #include <stdexcept>
 
-namespace stiffscope {
+namespace stiffscope::render {
 
 namespace {
 
@@ -17,13 +17,13 @@ void drawOnThisThread() {
 
 }  // namespace
 
-}  // namespace stiffscope
+}  // namespace stiffscope::render
 
 #ifdef STIFFSCOPE_VTK_HAS_OSMESA
 
 #include <vtkOSOpenGLRenderWindow.h>
 
-namespace stiffscope {
+namespace stiffscope::render {
 
 struct GlWindow::Context {};
 
@@ -37,7 +37,7 @@ GlWindow::~GlWindow() = default;
 vtkRenderWindow& GlWindow::makeCurrent() { return *window_; }
 void GlWindow::release() {}
 
-}  // namespace stiffscope
+}  // namespace stiffscope::render
 
 #else
 
@@ -52,7 +52,7 @@ void GlWindow::release() {}
 #include <tuple>
 #include <utility>
 
-namespace stiffscope {
+namespace stiffscope::render {
 
 namespace {
 
@@ -139,6 +139,6 @@ void GlWindow::release() {
   OSMesaMakeCurrent(nullptr, nullptr, 0, 0, 0);
 }
 
-}  // namespace stiffscope
+}  // namespace stiffscope::render
 
 #endif

@@ -5,7 +5,7 @@
 
 #include <memory>
 
-namespace stiffscope {
+namespace stiffscope::render {
 
 /// A VTK render window on a software GL context, with no display. Throws std::runtime_error when there is
 /// none to be had.
@@ -27,4 +27,4 @@ class GlWindow {
   vtkSmartPointer<vtkRenderWindow> window_;
 };
 
-}  // namespace stiffscope
+}  // namespace stiffscope::render

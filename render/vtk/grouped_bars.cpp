@@ -1,16 +1,14 @@
 #include "render/vtk/grouped_bars.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 #include <stdexcept>
 
-#include "render/vtk/category_frame.h"
-#include "render/vtk/flat_picture.h"
-#include "render/vtk/marks.h"
+#include "render/vtk/chart_frame.h"
+#include "render/vtk/offscreen_picture.h"
 
-namespace stiffscope {
+namespace stiffscope::render {
 
 namespace {
 
@@ -92,4 +90,4 @@ Image drawGroupedBars(const GroupedBarChart& chart, Size size) {
   return drawFlat(size, [&chart](Canvas& canvas) { paintChart(canvas, chart); });
 }
 
-}  // namespace stiffscope
+}  // namespace stiffscope::render

@@ -2,8 +2,8 @@
 
 #include "render/grouped_bar_chart.h"
 
-namespace stiffscope {
+namespace stiffscope::render {
 
 Image drawGroupedBars(const GroupedBarChart& chart, Size size);
 
-}  // namespace stiffscope
+}  // namespace stiffscope::render

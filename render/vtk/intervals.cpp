@@ -1,17 +1,15 @@
 #include "render/vtk/intervals.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 #include <limits>
 #include <stdexcept>
 
-#include "render/vtk/category_frame.h"
-#include "render/vtk/flat_picture.h"
-#include "render/vtk/marks.h"
+#include "render/vtk/chart_frame.h"
+#include "render/vtk/offscreen_picture.h"
 
-namespace stiffscope {
+namespace stiffscope::render {
 
 namespace {
 
@@ -154,4 +152,4 @@ Image drawIntervals(const IntervalChart& chart, Size size) {
   return drawFlat(size, [&chart](Canvas& canvas) { paintChart(canvas, chart); });
 }
 
-}  // namespace stiffscope
+}  // namespace stiffscope::render

@@ -2,8 +2,8 @@
 
 #include "render/interval_chart.h"
 
-namespace stiffscope {
+namespace stiffscope::render {
 
 Image drawIntervals(const IntervalChart& chart, Size size);
 
-}  // namespace stiffscope
+}  // namespace stiffscope::render

@@ -1,13 +1,14 @@
-// The entry of the module: what the loader in render/backend.cpp looks for.
 #include "render/backend.h"
-#include "render/vtk/arm_picture.h"
 #include "render/vtk/dot_rows.h"
 #include "render/vtk/grouped_bars.h"
 #include "render/vtk/intervals.h"
+#include "render/vtk/offscreen_picture.h"
 #include "render/vtk/point_panels.h"
 #include "render/vtk/spread_boxes.h"
 
-namespace stiffscope {
+// The entry of the module: what the loader in render/backend.cpp looks for.
+
+namespace stiffscope::render {
 
 namespace {
 
@@ -23,10 +24,10 @@ class VtkBackend : public Backend {
 
 }  // namespace
 
-}  // namespace stiffscope
+}  // namespace stiffscope::render
 
 // The name must be that of kBackendSymbol.
-extern "C" __attribute__((visibility("default"))) stiffscope::Backend* stiffscope_render_backend_6() {
-  static stiffscope::VtkBackend backend;
+extern "C" __attribute__((visibility("default"))) stiffscope::render::Backend* stiffscope_render_backend_6() {
+  static stiffscope::render::VtkBackend backend;
   return &backend;
 }

@@ -1,5 +1,10 @@
 #include "render/vtk/painting.h"
 
+#include <exception>
+#include <fmt/format.h>
+#include <stdexcept>
+#include <string>
+#include <utility>
 #include <vtkContext2D.h>
 #include <vtkContextActor.h>
 #include <vtkContextItem.h>
@@ -8,10 +13,29 @@
 #include <vtkObjectFactory.h>
 #include <vtkRenderer.h>
 
-#include <exception>
-#include <utility>
+namespace stiffscope::render {
 
-namespace stiffscope {
+class ErrorCollector : public vtkOutputWindow {
+ public:
+  static ErrorCollector* New();
+  vtkTypeMacro(ErrorCollector, vtkOutputWindow);
+  void DisplayText(const char*) override {}
+  void DisplayErrorText(const char* text) override { errors += text; }
+  std::string errors;
+};
+vtkStandardNewMacro(ErrorCollector);
+
+CollectErrors::CollectErrors()
+    : before_(vtkOutputWindow::GetInstance()), collector_(vtkSmartPointer<ErrorCollector>::New()) {
+  vtkOutputWindow::SetInstance(collector_);
+}
+
+CollectErrors::~CollectErrors() { vtkOutputWindow::SetInstance(before_); }
+
+void CollectErrors::throwIfAny() const {
+  if (collector_->errors.empty()) return;
+  throw std::runtime_error(fmt::format("cannot draw pictures: VTK says: {}", collector_->errors));
+}
 
 struct Painting::Outcome {
   std::exception_ptr failure;
@@ -54,4 +78,4 @@ void Painting::rethrow() const {
   if (outcome_->failure) std::rethrow_exception(outcome_->failure);
 }
 
-}  // namespace stiffscope
+}  // namespace stiffscope::render

@@ -3,7 +3,7 @@
 #include "render/point_chart.h"
 #include "render/vtk/chart_frame.h"
 
-namespace stiffscope {
+namespace stiffscope::render {
 
 Image drawPoints(const PointChart& chart, Size size);
 
@@ -16,4 +16,4 @@ void drawShape(Canvas& canvas, const Box& cell, const ShapePanel& panel);
 void drawMarks(Canvas& canvas, const PointSeries& series, const std::vector<Spot>& spots, double radius);
 void drawPointMark(Canvas& canvas, Spot centre, double radius, Colour colour, PointMark mark);
 
-}  // namespace stiffscope
+}  // namespace stiffscope::render

@@ -1,11 +1,10 @@
 #include "render/vtk/projection.h"
 
+#include <algorithm>
 #include <vtkCamera.h>
 #include <vtkRenderer.h>
 
-#include <algorithm>
-
-namespace stiffscope {
+namespace stiffscope::render {
 
 ViewAxes viewAxesOf(const ArmScene& scene) {
   const Eigen::Vector3d direction =
@@ -61,4 +60,4 @@ void Projection::setCamera(vtkRenderer& layer, Size size) const {
   camera->SetClippingRange(0.1 * depth_, 4 * depth_);
 }
 
-}  // namespace stiffscope
+}  // namespace stiffscope::render

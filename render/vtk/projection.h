@@ -8,7 +8,7 @@
 
 class vtkRenderer;
 
-namespace stiffscope {
+namespace stiffscope::render {
 
 /// A parallel projection: the directions that lie to the right and upwards on the picture, and out of it to
 /// the viewer.
@@ -48,4 +48,4 @@ class Projection {
   double scale_;
 };
 
-}  // namespace stiffscope
+}  // namespace stiffscope::render

@@ -10,7 +10,7 @@
 
 class vtkRenderer;
 
-namespace stiffscope {
+namespace stiffscope::render {
 
 /// All that the layers of the picture of an arm have in common.
 struct SceneStage {
@@ -71,4 +71,4 @@ void paintScale(Canvas& canvas, const SceneStage& stage, const Box& strip);
 /// The base frame's axes, the labels of the points, the ring around the picked one.
 void paintLabels(Canvas& canvas, const SceneStage& stage);
 
-}  // namespace stiffscope
+}  // namespace stiffscope::render

@@ -1,13 +1,112 @@
 #include "render/vtk/spread_boxes.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <fmt/format.h>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <vector>
 
+#include "render/spread_chart.h"
 #include "render/vtk/chart_frame.h"
-#include "render/vtk/flat_picture.h"
-#include "render/vtk/marks.h"
-#include "render/vtk/spread_range.h"
+#include "render/vtk/offscreen_picture.h"
 
-namespace stiffscope {
+namespace stiffscope::render {
+
+struct ValueRange {
+  double lower = 0;
+  double upper = 1;
+};
+
+/// Throws std::invalid_argument, as spread_chart.h says, with the offending numbers.
+void requireConsistent(const SpreadChart& chart);
+/// What the axis of `panel` covers, by the rule of spread_chart.h.
+ValueRange rangeOf(const SpreadPanel& panel);
+/// What the boxes are, and, where something was cut off, what the arrows mean.
+std::string noteOn(const SpreadChart& chart, const std::vector<ValueRange>& ranges);
+
+void requireConsistent(const SpreadChart& chart) {
+  if (chart.methods.empty() || chart.panels.empty()) {
+    throw std::invalid_argument(
+        fmt::format("spread chart '{}' has {} methods and {} panels, expected one of each at least",
+                    chart.title, chart.methods.size(), chart.panels.size()));
+  }
+  for (const SpreadPanel& panel : chart.panels) {
+    const bool references_fit = panel.references.empty() || panel.references.size() == chart.methods.size();
+    if (panel.spreads.size() != chart.methods.size() || !references_fit) {
+      throw std::invalid_argument(fmt::format(
+          "spread chart '{}': panel '{}' has {} spreads and {} references for {} methods", chart.title,
+          panel.title, panel.spreads.size(), panel.references.size(), chart.methods.size()));
+    }
+    for (const auto& spread : panel.spreads) {
+      if (!spread) continue;
+      const std::array p = {spread->p5, spread->p25, spread->p50, spread->p75, spread->p95};
+      const bool finite = std::isfinite(spread->mean) &&
+                          std::all_of(p.begin(), p.end(), [](double x) { return std::isfinite(x); });
+      if (!finite || !std::is_sorted(p.begin(), p.end())) {
+        throw std::invalid_argument(
+            fmt::format("spread chart '{}': panel '{}' has percentiles {} {} {} {} {} and mean {}, "
+                        "expected finite numbers, the percentiles in order",
+                        chart.title, panel.title, p[0], p[1], p[2], p[3], p[4], spread->mean));
+      }
+    }
+  }
+}
+
+namespace {
+
+constexpr double kTailShare = 1.5;  // how far beyond the boxes the axis follows whiskers and means
+constexpr double kRoom = 0.04;      // of the range, at either end
+
+}  // namespace
+
+ValueRange rangeOf(const SpreadPanel& panel) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  ValueRange boxes{kInfinity, -kInfinity};
+  const auto include = [](ValueRange& range, double x) {
+    range = {std::min(range.lower, x), std::max(range.upper, x)};
+  };
+  for (std::size_t m = 0; m < panel.spreads.size(); ++m) {
+    if (!panel.spreads[m]) continue;
+    include(boxes, panel.spreads[m]->p25);
+    include(boxes, panel.spreads[m]->p75);
+    const bool has_reference = m < panel.references.size() && panel.references[m].has_value();
+    if (has_reference && std::isfinite(*panel.references[m])) include(boxes, *panel.references[m]);
+  }
+  if (boxes.lower > boxes.upper) boxes = {0, 1};
+
+  const double tail = kTailShare * (boxes.upper - boxes.lower);
+  ValueRange range = boxes;
+  for (const auto& spread : panel.spreads) {
+    if (!spread) continue;
+    for (const double x : {spread->p5, spread->p95, spread->mean}) {
+      // Boxes without height say nothing about what is far.
+      include(range, tail > 0 ? std::clamp(x, boxes.lower - tail, boxes.upper + tail) : x);
+    }
+  }
+  double room = kRoom * (range.upper - range.lower);
+  if (!(room > 0)) room = range.upper != 0 ? 0.1 * std::abs(range.upper) : 1;
+  range = {panel.axis_min.value_or(range.lower - room), panel.axis_max.value_or(range.upper + room)};
+  if (!(range.upper > range.lower)) range.upper = range.lower + room;
+  return range;
+}
+
+std::string noteOn(const SpreadChart& chart, const std::vector<ValueRange>& ranges) {
+  std::string note = "Box: 25 to 75 % of the values; whiskers: 5 to 95 %.";
+  for (std::size_t i = 0; i < ranges.size(); ++i) {
+    const ValueRange& range = ranges[i];
+    const auto off = [&range](const std::optional<Spread>& s) {
+      return s && (std::min(s->p5, s->mean) < range.lower || std::max(s->p95, s->mean) > range.upper);
+    };
+    const auto& spreads = chart.panels[i].spreads;
+    if (std::any_of(spreads.begin(), spreads.end(), off)) {
+      return note + " Arrow: whisker or mean goes on beyond the axis; such a mean is printed.";
+    }
+  }
+  return note;
+}
 
 namespace {
 
@@ -153,4 +252,4 @@ Image drawSpreads(const SpreadChart& chart, Size size) {
   return drawFlat(size, [&chart](Canvas& canvas) { paintChart(canvas, chart); });
 }
 
-}  // namespace stiffscope
+}  // namespace stiffscope::render

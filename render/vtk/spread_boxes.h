@@ -2,8 +2,8 @@
 
 #include "render/spread_chart.h"
 
-namespace stiffscope {
+namespace stiffscope::render {
 
 Image drawSpreads(const SpreadChart& chart, Size size);
 
-}  // namespace stiffscope
+}  // namespace stiffscope::render

@@ -1,25 +1,115 @@
-#include "render/arm_window.h"
+#include "render/window/arm_window.h"
 
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <exception>
+#include <stdexcept>
+#include <utility>
 #include <vtkCallbackCommand.h>
+#include <vtkCommand.h>
 #include <vtkLogger.h>
 #include <vtkNew.h>
 #include <vtkRenderWindow.h>
 #include <vtkRenderWindowInteractor.h>
+#include <vtkRenderer.h>
 #include <vtkSmartPointer.h>
+#include <vtkUnsignedCharArray.h>
 
-#include <algorithm>
-#include <cmath>
-#include <exception>
-#include <utility>
-
+#include "render/arm_window.h"
 #include "render/view_camera.h"
 #include "render/vtk/arm_shape.h"
-#include "render/window/display.h"
-#include "render/window/hand.h"
-#include "render/window/shown_layers.h"
-#include "render/window/x_window.h"
+#include "render/vtk/painting.h"
+#include "render/window/x_display.h"
 
-namespace stiffscope {
+namespace stiffscope::render {
+
+namespace {
+
+constexpr double kWheelStep = 1.15;
+constexpr double kStill = 4;  // pixels that a click may move
+
+}  // namespace
+
+Hand::Motion Hand::release(Kind of, Spot pointer) {
+  if (drag_ != of) return {};
+  drag_ = Kind::Nothing;
+  if (of == Kind::Turn && !moved_) return {Kind::Click, pointer.x, pointer.y};
+  return {};
+}
+
+Hand::Motion Hand::take(unsigned long event, Spot pointer) {
+  switch (event) {
+    case vtkCommand::LeftButtonPressEvent:
+    case vtkCommand::MiddleButtonPressEvent:
+    case vtkCommand::RightButtonPressEvent:
+      drag_ = event == vtkCommand::LeftButtonPressEvent ? Kind::Turn : Kind::Shift;
+      pressed_ = last_ = pointer;
+      moved_ = false;
+      return {};
+    case vtkCommand::LeftButtonReleaseEvent:
+      return release(Kind::Turn, pointer);
+    case vtkCommand::MiddleButtonReleaseEvent:
+    case vtkCommand::RightButtonReleaseEvent:
+      return release(Kind::Shift, pointer);
+    case vtkCommand::MouseWheelForwardEvent:
+      return {Kind::Zoom, 0, kWheelStep};
+    case vtkCommand::MouseWheelBackwardEvent:
+      return {Kind::Zoom, 0, 1 / kWheelStep};
+    case vtkCommand::MouseMoveEvent: {
+      if (drag_ == Kind::Nothing) return {};
+      moved_ = moved_ || std::hypot(pointer.x - pressed_.x, pointer.y - pressed_.y) > kStill;
+      if (!moved_) return {};
+      const Motion motion{drag_, pointer.x - last_.x, pointer.y - last_.y};
+      last_ = pointer;
+      return motion;
+    }
+    default:
+      return {};
+  }
+}
+
+void ShownLayers::forget() {
+  if (!layers_) return;
+  for (const auto& layer : layers_->renderers()) window_.RemoveRenderer(layer);
+  layers_.reset();
+}
+
+void ShownLayers::show(const ArmScene& scene) {
+  const int* size = window_.GetSize();
+  if (size[0] < 240 || size[1] < 160) return;
+  const CollectErrors vtk_messages;
+  auto next = std::make_unique<ArmLayers>(scene, Surface{{size[0], size[1]}, 1});
+  forget();
+  layers_ = std::move(next);
+  window_.SetNumberOfLayers(static_cast<int>(layers_->renderers().size()));
+  int at = 0;
+  for (const auto& layer : layers_->renderers()) {
+    layer->SetLayer(at++);
+    window_.AddRenderer(layer);
+  }
+  window_.Render();
+  layers_->rethrow();
+  vtk_messages.throwIfAny();
+}
+
+Image ShownLayers::picture() const {
+  const int* size = window_.GetSize();
+  Image image{size[0], size[1], {}};
+  vtkNew<vtkUnsignedCharArray> pixels;
+  const int front = 0;
+  window_.GetPixelData(0, 0, image.width - 1, image.height - 1, front, pixels);
+  const std::ptrdiff_t row = std::ptrdiff_t{3} * image.width;
+  if (pixels->GetNumberOfValues() != row * image.height) {
+    throw std::runtime_error("cannot draw pictures: no pixels came back from the window");
+  }
+  image.rgb.reserve(static_cast<std::size_t>(row * image.height));
+  for (int y = image.height - 1; y >= 0; --y) {  // VTK's rows run from bottom to top
+    const std::uint8_t* from = pixels->GetPointer(row * y);
+    image.rgb.insert(image.rgb.end(), from, from + row);
+  }
+  return image;
+}
 
 namespace {
 
@@ -217,4 +307,4 @@ Image ArmWindow::picture() { return implementation_->picture(); }
 void ArmWindow::run(const Events& events) { implementation_->run(events); }
 void ArmWindow::close() { implementation_->close(); }
 
-}  // namespace stiffscope
+}  // namespace stiffscope::render

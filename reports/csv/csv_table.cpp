@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include "reports/page/rich_text.h"
+#include "reports/words/rich_text.h"
 
-namespace stiffscope {
+namespace stiffscope::reports {
 
 namespace {
 
@@ -93,4 +93,4 @@ std::string csvTable(const Table& table) {
   return csv;
 }
 
-}  // namespace stiffscope
+}  // namespace stiffscope::reports

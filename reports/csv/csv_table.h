@@ -2,9 +2,9 @@
 
 #include <string>
 
-#include "reports/table.h"
+#include "reports/words/table.h"
 
-namespace stiffscope {
+namespace stiffscope::reports {
 
 /// A table of the page as a file (RFC 4180).
 struct TableFile {
@@ -17,4 +17,4 @@ struct TableFile {
 /// two. Remarks follow in a column of their own where there are any.
 std::string csvTable(const Table& table);
 
-}  // namespace stiffscope
+}  // namespace stiffscope::reports

@@ -1,9 +1,8 @@
 #include "reports/json/audit_json.h"
 
 #include "reports/json/campaign_json.h"
-#include "reports/json/preparation_json.h"
 
-namespace stiffscope {
+namespace stiffscope::reports {
 
 namespace {
 
@@ -11,23 +10,23 @@ Json figure(const std::optional<double>& value) { return value ? number(*value) 
 
 }  // namespace
 
-const char* nameOf(AuditVerdict verdict) {
+const char* nameOf(preparation::AuditVerdict verdict) {
   switch (verdict) {
-    case AuditVerdict::pass:
+    case preparation::AuditVerdict::pass:
       return "pass";
-    case AuditVerdict::warn:
+    case preparation::AuditVerdict::warn:
       return "warn";
-    case AuditVerdict::fail:
+    case preparation::AuditVerdict::fail:
       return "fail";
-    case AuditVerdict::not_testable:
+    case preparation::AuditVerdict::not_testable:
       break;
   }
   return "not_testable";
 }
 
-Json auditJson(const Campaign& campaign, const AuditReport& report) {
+Json auditJson(const campaign::Campaign& campaign, const audit::AuditReport& report) {
   Json checks = Json::array();
-  for (const AuditCheck& check : report.checks) {
+  for (const preparation::AuditCheck& check : report.checks) {
     checks.push_back({{"id", check.id},
                       {"verdict", nameOf(check.verdict)},
                       {"value", figure(check.value)},
@@ -44,4 +43,4 @@ Json auditJson(const Campaign& campaign, const AuditReport& report) {
           {"rejected", rejectedJson(report.rejected)}};
 }
 
-}  // namespace stiffscope
+}  // namespace stiffscope::reports

@@ -1,22 +1,59 @@
 #include "reports/json/campaign_json.h"
 
-namespace stiffscope {
+#include "core/io/units.h"
 
-const char* nameOf(DoubleEncoder state) {
+namespace stiffscope::reports {
+
+namespace {
+
+Json driftJson(const preparation::DriftCorrection& drift) {
+  if (!drift.taken_off) return {{"taken_off", false}, {"reason", drift.reason}};
+  constexpr double kMicroradian = 1e-6;
+  return {{"taken_off", true},
+          {"largest_mm", drift.displacement / io::kMillimetre},
+          {"largest_turn_urad", drift.turn / kMicroradian},
+          {"until_s", drift.until_s},
+          {"jumps_s", drift.jumps_s},
+          {"readings", drift.readings},
+          {"readings_without_time", drift.without_time}};
+}
+
+}  // namespace
+
+Json rejectedJson(const std::vector<preparation::RejectedReading>& rejected) {
+  Json list = Json::array();
+  for (const preparation::RejectedReading& reading : rejected) {
+    list.push_back({{"file", reading.file}, {"line", reading.line}, {"reason", reading.reason}});
+  }
+  return list;
+}
+
+Json preparationJson(const preparation::Preparation& preparation) {
+  return {{"raw", preparation.raw},
+          {"rejected", rejectedJson(preparation.rejected)},
+          {"drift", driftJson(preparation.drift)}};
+}
+
+Json withPreparation(Json result, const preparation::Preparation& preparation) {
+  result["preparation"] = preparationJson(preparation);
+  return result;
+}
+
+const char* nameOf(campaign::DoubleEncoder state) {
   switch (state) {
-    case DoubleEncoder::active:
+    case campaign::DoubleEncoder::active:
       return "active";
-    case DoubleEncoder::inactive:
+    case campaign::DoubleEncoder::inactive:
       return "inactive";
-    case DoubleEncoder::unspecified:
+    case campaign::DoubleEncoder::unspecified:
       break;
   }
   return "unspecified";
 }
 
-Json campaignJson(const Campaign& campaign) {
+Json campaignJson(const campaign::Campaign& campaign) {
   Json inputs = Json::array();
-  for (const InputFile& input : campaign.inputs) inputs.push_back({{"file", input.name}, {"sha256", input.sha256}});
+  for (const campaign::InputFile& input : campaign.inputs) inputs.push_back({{"file", input.name}, {"sha256", input.sha256}});
   return {{"name", campaign.name},
           {"date", campaign.date},
           {"robot", campaign.robot.name},
@@ -24,4 +61,4 @@ Json campaignJson(const Campaign& campaign) {
           {"inputs", inputs}};
 }
 
-}  // namespace stiffscope
+}  // namespace stiffscope::reports

@@ -1,16 +1,16 @@
 #include "reports/json/comparison_json.h"
 
-#include "core/input/units.h"
-#include "reports/method_names.h"
+#include "core/io/units.h"
+#include "reports/words/names.h"
 
-namespace stiffscope {
+namespace stiffscope::reports {
 
 namespace {
 
-Json jointsJson(const StiffnessChange& change) {
+Json jointsJson(const comparison::StiffnessChange& change) {
   Json joints = Json::array();
   for (std::size_t j = 0; j < 6; ++j) {
-    const JointChange& joint = change.joints[j];
+    const comparison::JointChange& joint = change.joints[j];
     Json row{{"joint", j + 1}};
     if (joint.comparable) {
       row["before"] = number(joint.before);
@@ -32,13 +32,13 @@ Json jointsJson(const StiffnessChange& change) {
   return joints;
 }
 
-Json avoidedJson(const DeflectionAvoided& avoided, const char* place) {
+Json avoidedJson(const comparison::DeflectionAvoided& avoided, const char* place) {
   if (!avoided.available) return {{"at", place}, {"unavailable", avoided.reason}};
   Json postures = Json::array();
-  for (const PostureDeflection& one : avoided.postures) {
+  for (const comparison::PostureDeflection& one : avoided.postures) {
     postures.push_back({{"pose", one.pose},
-                        {"before_um", one.before / kMicrometre},
-                        {"after_um", one.after / kMicrometre},
+                        {"before_um", one.before / io::kMicrometre},
+                        {"after_um", one.after / io::kMicrometre},
                         {"share", number(one.share())}});
   }
   return {{"at", place},
@@ -50,17 +50,17 @@ Json avoidedJson(const DeflectionAvoided& avoided, const char* place) {
 
 }  // namespace
 
-Json comparisonJson(const Campaign& before, const Campaign& after, const Comparison& comparison) {
+Json comparisonJson(const campaign::Campaign& before, const campaign::Campaign& after, const comparison::Comparison& comparison) {
   Json json{{"before", campaignJson(before)}, {"after", campaignJson(after)}};
   json["comparable"] = comparison.comparable;
   if (!comparison.comparable) json["reason"] = comparison.reason;
-  const Method best = comparison.best();
+  const identification::Method best = comparison.best();
   const bool any = comparison.of(best).available;
   json["method"] = any ? Json(namesOf(best).key) : Json(nullptr);
   json["joints"] = any ? jointsJson(comparison.of(best)) : Json::array();
   Json methods;
-  for (const Method method : kMethods) {
-    const StiffnessChange& change = comparison.of(method);
+  for (const identification::Method method : identification::kMethods) {
+    const comparison::StiffnessChange& change = comparison.of(method);
     methods[namesOf(method).key] =
         change.available ? Json{{"joints", jointsJson(change)}} : Json{{"unavailable", change.reason}};
   }
@@ -69,7 +69,7 @@ Json comparisonJson(const Campaign& before, const Campaign& after, const Compari
   json["avoided"] = avoidedJson(comparison.avoided(), wrist ? "P_wrist" : "reflectors");
   json["avoided_at_targets"] = avoidedJson(comparison.at_targets, "reflectors");
   Json unmatched = Json::array();
-  for (const UnmatchedPosture& one : comparison.matched.unmatched) {
+  for (const comparison::UnmatchedPosture& one : comparison.matched.unmatched) {
     unmatched.push_back({{"pose", one.pose}, {"reason", one.reason}});
   }
   json["unmatched"] = unmatched;
@@ -77,4 +77,4 @@ Json comparisonJson(const Campaign& before, const Campaign& after, const Compari
   return json;
 }
 
-}  // namespace stiffscope
+}  // namespace stiffscope::reports

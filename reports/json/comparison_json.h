@@ -1,12 +1,12 @@
 #pragma once
 
-#include "core/comparison/compare_campaigns.h"
+#include "core/comparison/compare.h"
 #include "reports/json/campaign_json.h"
 
-namespace stiffscope {
+namespace stiffscope::reports {
 
 /// The result of `compare`. `joints` are those of the best method that both campaigns have (`method`); all of
 /// them stand under `methods`.
-Json comparisonJson(const Campaign& before, const Campaign& after, const Comparison& comparison);
+Json comparisonJson(const campaign::Campaign& before, const campaign::Campaign& after, const comparison::Comparison& comparison);
 
-}  // namespace stiffscope
+}  // namespace stiffscope::reports

@@ -1,39 +1,39 @@
 #include "reports/json/compensation_json.h"
 
-#include "core/input/units.h"
-#include "reports/method_names.h"
+#include "core/io/units.h"
+#include "reports/words/names.h"
 
-namespace stiffscope {
+namespace stiffscope::reports {
 
 namespace {
 
-Json targetsJson(const Campaign& campaign, const std::vector<PointDeflection>& targets) {
+Json targetsJson(const campaign::Campaign& campaign, const std::vector<compensation::PointDeflection>& targets) {
   Json list = Json::array();
   for (std::size_t k = 0; k < targets.size(); ++k) {
     list.push_back({{"target", campaign.targets[k].id},
-                    {"deflection_mm", array(targets[k].deflection, 1.0 / kMillimetre)},
-                    {"sd_deflection_mm", array(targets[k].sd, 1.0 / kMillimetre)}});
+                    {"deflection_mm", array(targets[k].deflection, 1.0 / io::kMillimetre)},
+                    {"sd_deflection_mm", array(targets[k].sd, 1.0 / io::kMillimetre)}});
   }
   return list;
 }
 
-Json rowJson(const Campaign& campaign, const CompensatedPosture& posture) {
-  Json row{{"pose", posture.posture.id}, {"q_deg", array(posture.posture.q, 1.0 / kDegree)}};
+Json rowJson(const campaign::Campaign& campaign, const compensation::CompensatedPosture& posture) {
+  Json row{{"pose", posture.posture.id}, {"q_deg", array(posture.posture.q, 1.0 / io::kDegree)}};
   if (posture.predicted) {
-    row["tcp_deflection_mm"] = array(posture.tcp.deflection, 1.0 / kMillimetre);
-    row["sd_tcp_deflection_mm"] = array(posture.tcp.sd, 1.0 / kMillimetre);
-    row["flange_rotation_deg"] = array(posture.rotation, 1.0 / kDegree);
-    row["sd_flange_rotation_deg"] = array(posture.rotation_sd, 1.0 / kDegree);
+    row["tcp_deflection_mm"] = array(posture.tcp.deflection, 1.0 / io::kMillimetre);
+    row["sd_tcp_deflection_mm"] = array(posture.tcp.sd, 1.0 / io::kMillimetre);
+    row["flange_rotation_deg"] = array(posture.rotation, 1.0 / io::kDegree);
+    row["sd_flange_rotation_deg"] = array(posture.rotation_sd, 1.0 / io::kDegree);
     row["targets"] = targetsJson(campaign, posture.targets);
     row["conditioning"] = posture.conditioning;
   } else {
     row["tcp_deflection_mm"] = nullptr;
   }
   if (posture.solved) {
-    row["command_deg"] = array(posture.commands, 1.0 / kDegree);
-    row["change_deg"] = array(Vector6d(posture.commands - posture.posture.q), 1.0 / kDegree);
-    row["remaining_mm"] = posture.remaining / kMillimetre;
-    row["remaining_mirrored_once_mm"] = posture.mirrored_remaining / kMillimetre;
+    row["command_deg"] = array(posture.commands, 1.0 / io::kDegree);
+    row["change_deg"] = array(Vector6d(posture.commands - posture.posture.q), 1.0 / io::kDegree);
+    row["remaining_mm"] = posture.remaining / io::kMillimetre;
+    row["remaining_mirrored_once_mm"] = posture.mirrored_remaining / io::kMillimetre;
   } else {
     row["command_deg"] = nullptr;
     row["refused"] = posture.reason;
@@ -43,14 +43,14 @@ Json rowJson(const Campaign& campaign, const CompensatedPosture& posture) {
 
 }  // namespace
 
-Json compensationJson(const Campaign& campaign, Method method,
-                      const std::vector<CompensatedPosture>& postures) {
+Json compensationJson(const campaign::Campaign& campaign, identification::Method method,
+                      const std::vector<compensation::CompensatedPosture>& postures) {
   Json rows = Json::array();
-  for (const CompensatedPosture& posture : postures) {
+  for (const compensation::CompensatedPosture& posture : postures) {
     rows.push_back(rowJson(campaign, posture));
   }
   return {
       {"campaign", campaignJson(campaign)}, {"method", namesOf(method).key}, {"frame", "r0"}, {"rows", rows}};
 }
 
-}  // namespace stiffscope
+}  // namespace stiffscope::reports

@@ -6,10 +6,10 @@
 #include "core/identification/identify.h"
 #include "reports/json/campaign_json.h"
 
-namespace stiffscope {
+namespace stiffscope::reports {
 
 /// The result of `compensate`: a row a posture.
-Json compensationJson(const Campaign& campaign, Method method,
-                      const std::vector<CompensatedPosture>& postures);
+Json compensationJson(const campaign::Campaign& campaign, identification::Method method,
+                      const std::vector<compensation::CompensatedPosture>& postures);
 
-}  // namespace stiffscope
+}  // namespace stiffscope::reports

@@ -1,33 +1,33 @@
 #include "reports/json/diagnosis_json.h"
 
-#include "core/input/units.h"
+#include "core/io/units.h"
 
-namespace stiffscope {
+namespace stiffscope::reports {
 
 namespace {
 
-Json micrometres(double metres) { return number(metres / kMicrometre); }
+Json micrometres(double metres) { return number(metres / io::kMicrometre); }
 
-Json idsOf(const std::vector<Effect>& effects) {
+Json idsOf(const std::vector<effects::Effect>& effects) {
   Json ids = Json::array();
-  for (const Effect effect : effects) ids.push_back(std::string(idOf(effect)));
+  for (const effects::Effect effect : effects) ids.push_back(std::string(effects::idOf(effect)));
   return ids;
 }
 
-Json verdictJson(const Verdict& verdict) {
+Json verdictJson(const diagnosis::Verdict& verdict) {
   Json entries = Json::array();
   if (verdict.entries.empty()) entries.push_back({"none"});
-  for (const VerdictEntry& entry : verdict.entries) {
+  for (const diagnosis::VerdictEntry& entry : verdict.entries) {
     entries.push_back(entry.effects.empty() ? Json::array({"unknown"}) : idsOf(entry.effects));
   }
   return entries;
 }
 
-Json shrinkJson(const Shrink& shrink) {
+Json shrinkJson(const diagnosis::Shrink& shrink) {
   return {{"value", number(shrink.value)}, {"low", number(shrink.low)}, {"high", number(shrink.high)}};
 }
 
-Json classJson(const EffectClass& one, bool positions) {
+Json classJson(const diagnosis::EffectClass& one, bool positions) {
   Json json{{"effects", idsOf(one.effects)},    {"detail", one.detail},
             {"score", number(one.score)},       {"in_verdict", one.in_verdict},
             {"shrink", shrinkJson(one.shrink)}, {"explained", number(one.explained)}};
@@ -36,18 +36,18 @@ Json classJson(const EffectClass& one, bool positions) {
   return json;
 }
 
-Json gapJson(const Gap& gap) {
+Json gapJson(const diagnosis::Gap& gap) {
   return {{"deflection_um", micrometres(gap.deflection)},
           {"before_um", micrometres(gap.before)},
           {"noise_um", micrometres(gap.noise)},
           {"after_um", micrometres(gap.after)}};
 }
 
-Json tablesJson(const std::vector<WhereTable>& tables) {
+Json tablesJson(const std::vector<diagnosis::WhereTable>& tables) {
   Json json = Json::object();
-  for (const WhereTable& table : tables) {
+  for (const diagnosis::WhereTable& table : tables) {
     Json rows = Json::array();
-    for (const WhereRow& row : table.rows) {
+    for (const diagnosis::WhereRow& row : table.rows) {
       rows.push_back({{"name", row.name},
                       {"rms_um", micrometres(row.rms)},
                       {"noise_um", micrometres(row.noise)},
@@ -59,7 +59,7 @@ Json tablesJson(const std::vector<WhereTable>& tables) {
   return json;
 }
 
-Json stiffnessJson(const Diagnosis& diagnosis, const Vector6d& values) {
+Json stiffnessJson(const diagnosis::Diagnosis& diagnosis, const Vector6d& values) {
   Json list = Json::array();
   for (int j = 0; j < 6; ++j) {
     list.push_back(diagnosis.identifiable[static_cast<std::size_t>(j)] ? number(values[j]) : Json(nullptr));
@@ -69,7 +69,7 @@ Json stiffnessJson(const Diagnosis& diagnosis, const Vector6d& values) {
 
 }  // namespace
 
-Json diagnosisJson(const Campaign& campaign, const Diagnosis& diagnosis) {
+Json diagnosisJson(const campaign::Campaign& campaign, const diagnosis::Diagnosis& diagnosis) {
   Json json{{"campaign", campaignJson(campaign)}, {"usable", diagnosis.usable}};
   if (!diagnosis.usable) {
     json["reason"] = diagnosis.unusable_reason;
@@ -77,11 +77,11 @@ Json diagnosisJson(const Campaign& campaign, const Diagnosis& diagnosis) {
   }
   json["verdict"] = verdictJson(diagnosis.verdict);
   Json details = Json::array();
-  for (const VerdictEntry& entry : diagnosis.verdict.entries) details.push_back(entry.detail);
+  for (const diagnosis::VerdictEntry& entry : diagnosis.verdict.entries) details.push_back(entry.detail);
   json["verdict_details"] = details;
   json["reason"] = diagnosis.verdict.reason;
   Json classes = Json::array(), aliases = Json::array(), next = Json::array();
-  for (const EffectClass& one : diagnosis.classes)
+  for (const diagnosis::EffectClass& one : diagnosis.classes)
     classes.push_back(classJson(one, diagnosis.positions_tested));
   for (const auto& group : diagnosis.aliases) aliases.push_back(idsOf(group));
   json["classes"] = classes;
@@ -90,14 +90,14 @@ Json diagnosisJson(const Campaign& campaign, const Diagnosis& diagnosis) {
   if (diagnosis.positions_tested) json["gap_of_positions"] = gapJson(diagnosis.positions);
   json["aliases"] = aliases;
   Json detectable = Json::object(), not_testable = Json::object();
-  for (const DetectableSize& one : diagnosis.detectable)
-    detectable[std::string(idOf(one.effect))] = one.size ? micrometres(*one.size) : Json(nullptr);
-  for (const NotTestable& one : diagnosis.not_testable)
-    not_testable[std::string(idOf(one.effect))] = one.missing;
+  for (const diagnosis::DetectableSize& one : diagnosis.detectable)
+    detectable[std::string(effects::idOf(one.effect))] = one.size ? micrometres(*one.size) : Json(nullptr);
+  for (const diagnosis::NotTestable& one : diagnosis.not_testable)
+    not_testable[std::string(effects::idOf(one.effect))] = one.missing;
   json["detectable_um"] = detectable;
   json["not_testable"] = not_testable;
   if (diagnosis.geometry.tested) {
-    const GeometryError& geometry = diagnosis.geometry;
+    const diagnosis::GeometryError& geometry = diagnosis.geometry;
     json["geometry"] = {{"rms_um", micrometres(geometry.rms)},
                         {"limit_um", micrometres(geometry.limit)},
                         {"largest_shift_um", micrometres(geometry.largest_shift)},
@@ -118,11 +118,11 @@ Json diagnosisJson(const Campaign& campaign, const Diagnosis& diagnosis) {
   json["where"] = tablesJson(diagnosis.where);
   json["where_after"] = tablesJson(diagnosis.where_after);
   if (diagnosis.positions_tested) json["where_positions"] = tablesJson(diagnosis.where_positions);
-  for (const NextMeasurement& one : diagnosis.next)
+  for (const diagnosis::NextMeasurement& one : diagnosis.next)
     next.push_back(
         {{"separates", idsOf(one.separates)}, {"measure", one.what}, {"gain_chi2", number(one.gain)}});
   json["next"] = next;
   return json;
 }
 
-}  // namespace stiffscope
+}  // namespace stiffscope::reports

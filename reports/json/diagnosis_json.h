@@ -2,12 +2,12 @@
 
 #include "core/diagnosis/diagnosis.h"
 #include "reports/json/campaign_json.h"
-#include "reports/json/json_values.h"
+#include "reports/json/json_document.h"
 
-namespace stiffscope {
+namespace stiffscope::reports {
 
 /// The result of `diagnose`. `verdict` is a list of lists of effect ids: the outer names all that is present,
 /// an inner one what this data cannot tell apart; [["none"]], or ["unknown"] among them.
-Json diagnosisJson(const Campaign& campaign, const Diagnosis& diagnosis);
+Json diagnosisJson(const campaign::Campaign& campaign, const diagnosis::Diagnosis& diagnosis);
 
-}  // namespace stiffscope
+}  // namespace stiffscope::reports

@@ -1,31 +1,31 @@
 #include "reports/json/fit_json.h"
 
-namespace stiffscope {
+namespace stiffscope::reports {
 
 namespace {
 
-void addShape(const FittedLine& fit, Json& json) {
+void addShape(const metrology::FittedLine& fit, Json& json) {
   json["point"] = array(fit.line.point);
   json["axis"] = array(fit.line.direction);
 }
 
-void addShape(const FittedPlane& fit, Json& json) {
+void addShape(const metrology::FittedPlane& fit, Json& json) {
   json["point"] = array(fit.plane.point);
   json["normal"] = array(fit.plane.normal);
 }
 
-void addShape(const FittedCircle& fit, Json& json) {
+void addShape(const metrology::FittedCircle& fit, Json& json) {
   json["center"] = array(fit.circle.centre);
   json["normal"] = array(fit.circle.normal);
   json["radius"] = number(fit.circle.radius);
 }
 
-void addShape(const FittedSphere& fit, Json& json) {
+void addShape(const metrology::FittedSphere& fit, Json& json) {
   json["center"] = array(fit.sphere.centre);
   json["radius"] = number(fit.sphere.radius);
 }
 
-void addShape(const FittedCylinder& fit, Json& json) {
+void addShape(const metrology::FittedCylinder& fit, Json& json) {
   json["point"] = array(fit.cylinder.axis.point);
   json["axis"] = array(fit.cylinder.axis.direction);
   json["radius"] = number(fit.cylinder.radius);
@@ -57,7 +57,7 @@ void addFit(const Fit& fit, Json& json) {
 Json snoopingJson(const Snooping& snooping) {
   Json json{{"family_level", snooping.family_level}, {"critical_w", number(snooping.critical_w)}};
   json["rejected"] = Json::array();
-  for (const RejectedReading& one : snooping.rejected) {
+  for (const metrology::RejectedReading& one : snooping.rejected) {
     json["rejected"].push_back(
         {{"point", one.index + 1}, {"w", number(one.w)}, {"critical_w", number(one.critical_w)}});
   }
@@ -66,8 +66,8 @@ Json snoopingJson(const Snooping& snooping) {
 
 }  // namespace
 
-const FitQuality& ShapeFit::quality() const {
-  return std::visit([](const auto& one) -> const FitQuality& { return one; }, fit);
+const metrology::FitQuality& ShapeFit::quality() const {
+  return std::visit([](const auto& one) -> const metrology::FitQuality& { return one; }, fit);
 }
 
 Json fitJson(const ShapeFit& fitted) {
@@ -77,4 +77,4 @@ Json fitJson(const ShapeFit& fitted) {
   return json;
 }
 
-}  // namespace stiffscope
+}  // namespace stiffscope::reports

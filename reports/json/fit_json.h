@@ -12,24 +12,24 @@
 #include "metrology/plane_fit.h"
 #include "metrology/robust_fit.h"
 #include "metrology/sphere_fit.h"
-#include "reports/json/json_values.h"
+#include "reports/json/json_document.h"
 
-namespace stiffscope {
+namespace stiffscope::reports {
 
 /// What data snooping left out (see metrology/robust_fit.h).
 struct Snooping {
   double family_level = 0.0, critical_w = 0.0;
-  std::vector<RejectedReading> rejected;
+  std::vector<metrology::RejectedReading> rejected;
 };
 
 /// A shape fitted to the points of a file, all in the file's own length unit.
 struct ShapeFit {
   std::string shape;       ///< line, plane, circle, sphere or cylinder
   std::size_t points = 0;  ///< that were fitted
-  std::variant<FittedLine, FittedPlane, FittedCircle, FittedSphere, FittedCylinder> fit;
+  std::variant<metrology::FittedLine, metrology::FittedPlane, metrology::FittedCircle, metrology::FittedSphere, metrology::FittedCylinder> fit;
   std::optional<Snooping> snooping;  ///< where it was asked for
 
-  const FitQuality& quality() const;
+  const metrology::FitQuality& quality() const;
 };
 
 /// Keys of the shape (center or point, normal or axis, radius), rms, points, covariance with its order in
@@ -37,4 +37,4 @@ struct ShapeFit {
 /// null, with covariance_reason, where an exact fit leaves nothing to tell it by.
 Json fitJson(const ShapeFit& fitted);
 
-}  // namespace stiffscope
+}  // namespace stiffscope::reports

@@ -2,10 +2,10 @@
 
 #include <cmath>
 
-#include "core/input/units.h"
-#include "reports/geometry_source.h"
+#include "core/io/units.h"
+#include "reports/words/names.h"
 
-namespace stiffscope {
+namespace stiffscope::reports {
 
 namespace {
 
@@ -23,7 +23,7 @@ Json rows(const Eigen::MatrixBase<Derived>& matrix, double factor) {
 }
 
 /// Of R0's error in its own axes, and how the distances between axes go together: consecutive ones share an axis.
-void addCovariances(const Frames& frames, Json& json) {
+void addCovariances(const frames::Frames& frames, Json& json) {
   if (!frames.arm.points_placed) {
     json["r0_covariance"] = nullptr;
     return;
@@ -34,116 +34,116 @@ void addCovariances(const Frames& frames, Json& json) {
       {"frame", "R0: rotation vector and origin of R0 as measured against the true one, in its own axes"},
       {"matrix", rows(total.topLeftCorner<6, 6>(), 1.0)}};
   json["link_lengths_covariance_mm2"] =
-      rows(total.block<5, 5>(FramesCovariance::kDistances, FramesCovariance::kDistances),
-           1.0 / (kMillimetre * kMillimetre));
+      rows(total.block<5, 5>(frames::FramesCovariance::kDistances, frames::FramesCovariance::kDistances),
+           1.0 / (io::kMillimetre * io::kMillimetre));
 }
 
-Json circlesJson(const Campaign& campaign, const MeasuredAxis& axis) {
+Json circlesJson(const campaign::Campaign& campaign, const frames::MeasuredAxis& axis) {
   Json circles = Json::array();
   for (std::size_t k = 0; k < axis.fit.circles.size(); ++k) {
-    const AxisCircle& circle = axis.fit.circles[k];
+    const metrology::AxisCircle& circle = axis.fit.circles[k];
     circles.push_back({{"target", campaign.targets[static_cast<std::size_t>(axis.targets[k])].id},
-                       {"radius_mm", circle.radius / kMillimetre},
-                       {"arc_deg", circle.arc / kDegree},
-                       {"rms_um", circle.rms / kMicrometre}});
+                       {"radius_mm", circle.radius / io::kMillimetre},
+                       {"arc_deg", circle.arc / io::kDegree},
+                       {"rms_um", circle.rms / io::kMicrometre}});
   }
   return circles;
 }
 
-Json axisJson(const Campaign& campaign, const Frames& frames, std::size_t i) {
-  const MeasuredAxis& axis = frames.axes[i];
-  const Line& line = frames.arm.arm.axes_in_base_at_zero[i];
+Json axisJson(const campaign::Campaign& campaign, const frames::Frames& frames, std::size_t i) {
+  const frames::MeasuredAxis& axis = frames.axes[i];
+  const metrology::Line& line = frames.arm.arm.axes_in_base_at_zero[i];
   Json json{{"axis", i + 1}, {"measured", axis.measured}, {"from", sourceOf(frames, {i})}};
   if (!axis.measured) json["reason"] = axis.reason;
   json["point_m"] = array(line.point);
   json["direction"] = array(line.direction);
   if (!axis.measured) return json;
   double arc = 0.0;
-  for (const AxisCircle& circle : axis.fit.circles) arc = std::max(arc, circle.arc);
-  json["arc_deg"] = arc / kDegree;
-  json["rms_um"] = axis.fit.rms / kMicrometre;
+  for (const metrology::AxisCircle& circle : axis.fit.circles) arc = std::max(arc, circle.arc);
+  json["arc_deg"] = arc / io::kDegree;
+  json["rms_um"] = axis.fit.rms / io::kMicrometre;
   // One number a kind: the root of the mean of the two variances across the axis, at the fit's own point.
-  json["sd_point_um"] = std::sqrt(axis.at_zero.covariance.topLeftCorner<2, 2>().trace() / 2.0) / kMicrometre;
-  json["sd_direction_deg"] = std::sqrt(axis.at_zero.covariance.bottomRightCorner<2, 2>().trace() / 2.0) / kDegree;
+  json["sd_point_um"] = std::sqrt(axis.at_zero.covariance.topLeftCorner<2, 2>().trace() / 2.0) / io::kMicrometre;
+  json["sd_direction_deg"] = std::sqrt(axis.at_zero.covariance.bottomRightCorner<2, 2>().trace() / 2.0) / io::kDegree;
   json["chi2_per_dof"] = number(axis.fit.chi2_per_dof);
   json["circles"] = circlesJson(campaign, axis);
   return json;
 }
 
-Json linkJson(const Frames& frames, std::size_t i) {
-  const LinkGeometry& link = frames.links[i];
+Json linkJson(const frames::Frames& frames, std::size_t i) {
+  const frames::LinkGeometry& link = frames.links[i];
   Json json{{"between_axes", {i + 1, i + 2}},
             {"from", sourceOf(frames, {i, i + 1})},
-            {"length_mm", link.distance / kMillimetre},
-            {"sd_length_mm", optionalNumber(link.distance_sd, 1.0 / kMillimetre)},
-            {"sd_length_by_sag_stiffness_mm", number(link.distance_sag_sd / kMillimetre)},
-            {"length_moved_by_sag_mm", number(link.distance_by_sag / kMillimetre)},
-            {"nominal_length_mm", link.nominal_distance / kMillimetre},
-            {"angle_deg", link.angle / kDegree},
-            {"sd_angle_deg", optionalNumber(link.angle_sd, 1.0 / kDegree)},
-            {"nominal_angle_deg", link.nominal_angle / kDegree},
+            {"length_mm", link.distance / io::kMillimetre},
+            {"sd_length_mm", optionalNumber(link.distance_sd, 1.0 / io::kMillimetre)},
+            {"sd_length_by_sag_stiffness_mm", number(link.distance_sag_sd / io::kMillimetre)},
+            {"length_moved_by_sag_mm", number(link.distance_by_sag / io::kMillimetre)},
+            {"nominal_length_mm", link.nominal_distance / io::kMillimetre},
+            {"angle_deg", link.angle / io::kDegree},
+            {"sd_angle_deg", optionalNumber(link.angle_sd, 1.0 / io::kDegree)},
+            {"nominal_angle_deg", link.nominal_angle / io::kDegree},
             {"near_parallel", link.near_parallel}};
   if (link.near_parallel) json["length_at_point_m"] = array(link.at_point_in_r0);
   return json;
 }
 
-Json wristJson(const Campaign& campaign, const Frames& frames) {
-  const WristCentre& wrist = frames.wrist;
+Json wristJson(const campaign::Campaign& campaign, const frames::Frames& frames) {
+  const frames::WristCentre& wrist = frames.wrist;
   Json json{{"measured", wrist.measured}};
   if (!wrist.measured) json["reason"] = wrist.reason;
   json["center_m"] = wrist.measured ? array(wrist.centre_in_r0) : Json(nullptr);
-  json["center_at_q1_q2_q3_deg"] = array(Eigen::Vector3d(wrist.q.head<3>()), 1.0 / kDegree);
-  json["miss_mm"] = {{"axes_4_5", wrist.miss_45 / kMillimetre},
-                     {"sd_axes_4_5", wrist.miss_45_sd / kMillimetre},
+  json["center_at_q1_q2_q3_deg"] = array(Eigen::Vector3d(wrist.q.head<3>()), 1.0 / io::kDegree);
+  json["miss_mm"] = {{"axes_4_5", wrist.miss_45 / io::kMillimetre},
+                     {"sd_axes_4_5", wrist.miss_45_sd / io::kMillimetre},
                      {"from_axes_4_5", sourceOf(frames, {3, 4})},
-                     {"axes_5_6", wrist.miss_56 / kMillimetre},
-                     {"sd_axes_5_6", wrist.miss_56_sd / kMillimetre},
+                     {"axes_5_6", wrist.miss_56 / io::kMillimetre},
+                     {"sd_axes_5_6", wrist.miss_56_sd / io::kMillimetre},
                      {"from_axes_5_6", sourceOf(frames, {4, 5})}};
   json["nearest_axes_5_6_from"] = sourceOf(frames, {4, 5});
   json["nearest_axes_5_6_m"] = array(wrist.nearest_axes_56_in_r0);
   json["reflector_barycenter_m"] = array(wrist.reflector_barycentre_in_r0);
   if (!wrist.measured) return json;
-  json["sd_center_um"] = array(Eigen::Vector3d(wrist.covariance.diagonal().cwiseSqrt()), 1.0 / kMicrometre);
-  json["sd_mm"] = array(Eigen::Vector3d(wrist.covariance.diagonal().cwiseSqrt()), 1.0 / kMillimetre);
-  json["covariance_mm2"] = rows(wrist.covariance, 1.0 / (kMillimetre * kMillimetre));
+  json["sd_center_um"] = array(Eigen::Vector3d(wrist.covariance.diagonal().cwiseSqrt()), 1.0 / io::kMicrometre);
+  json["sd_mm"] = array(Eigen::Vector3d(wrist.covariance.diagonal().cwiseSqrt()), 1.0 / io::kMillimetre);
+  json["covariance_mm2"] = rows(wrist.covariance, 1.0 / (io::kMillimetre * io::kMillimetre));
   json["covariance_of_readings_alone_mm2"] =
-      rows(wrist.spheres.covariance.topLeftCorner<3, 3>(), 1.0 / (kMillimetre * kMillimetre));
+      rows(wrist.spheres.covariance.topLeftCorner<3, 3>(), 1.0 / (io::kMillimetre * io::kMillimetre));
   Json radii = Json::object(), radii_sd = Json::object();
-  for (std::size_t k = 0; k < wrist.radii.size(); ++k) radii[campaign.targets[k].id] = number(wrist.radii[k] / kMillimetre);
+  for (std::size_t k = 0; k < wrist.radii.size(); ++k) radii[campaign.targets[k].id] = number(wrist.radii[k] / io::kMillimetre);
   for (std::size_t k = 0; k < wrist.targets.size(); ++k) {
     const auto at = static_cast<Eigen::Index>(3 + k);
     radii_sd[campaign.targets[static_cast<std::size_t>(wrist.targets[k])].id] =
-        number(std::sqrt(wrist.spheres.covariance(at, at)) / kMillimetre);
+        number(std::sqrt(wrist.spheres.covariance(at, at)) / io::kMillimetre);
   }
   json["radii_mm"] = radii;
   json["sd_radii_mm"] = radii_sd;
-  json["rms_um"] = wrist.spheres.rms / kMicrometre;
+  json["rms_um"] = wrist.spheres.rms / io::kMicrometre;
   Json table = Json::array();
-  for (const WristTableRow& row : wrist.table) {
+  for (const frames::WristTableRow& row : wrist.table) {
     table.push_back({{"target", campaign.targets[static_cast<std::size_t>(row.target)].id},
-                     {"center_mm", array(row.centre_in_r0, 1.0 / kMillimetre)},
+                     {"center_mm", array(row.centre_in_r0, 1.0 / io::kMillimetre)},
                      {"sd_center_by_own_readings_mm",
-                      array(Eigen::Vector3d(row.covariance.diagonal().cwiseSqrt()), 1.0 / kMillimetre)},
-                     {"offset_mm", row.offset / kMillimetre},
-                     {"radius_mm", row.radius / kMillimetre},
-                     {"rms_um", row.rms / kMicrometre},
+                      array(Eigen::Vector3d(row.covariance.diagonal().cwiseSqrt()), 1.0 / io::kMillimetre)},
+                     {"offset_mm", row.offset / io::kMillimetre},
+                     {"radius_mm", row.radius / io::kMillimetre},
+                     {"rms_um", row.rms / io::kMicrometre},
                      {"readings", row.readings}});
   }
   json["table"] = table;
-  json["table_mean_mm"] = array(wrist.table_mean_in_r0, 1.0 / kMillimetre);
+  json["table_mean_mm"] = array(wrist.table_mean_in_r0, 1.0 / io::kMillimetre);
   json["sd_table_mean_mm"] =
-      array(Eigen::Vector3d(wrist.table_mean_covariance.diagonal().cwiseSqrt()), 1.0 / kMillimetre);
+      array(Eigen::Vector3d(wrist.table_mean_covariance.diagonal().cwiseSqrt()), 1.0 / io::kMillimetre);
   return json;
 }
 
 }  // namespace
 
-Json framesJson(const Campaign& campaign, const Frames& frames) {
+Json framesJson(const campaign::Campaign& campaign, const frames::Frames& frames) {
   Json json{{"campaign", campaignJson(campaign)}};
-  const bool tracker = frames.arm.points_placed && frames.points_frame == PointFrame::tracker;
+  const bool tracker = frames.arm.points_placed && frames.points_frame == campaign::PointFrame::tracker;
   json["r0_placed_by"] = frames.arm.points_placed ? "sweeps" : "nominal";
   json["r0_from_tracker"] = tracker ? matrix(frames.arm.r0_from_points) : Json(nullptr);
-  const bool measured_in_base = frames.arm.points_placed && frames.points_frame == PointFrame::base_link;
+  const bool measured_in_base = frames.arm.points_placed && frames.points_frame == campaign::PointFrame::base_link;
   json["r0_from_base_link"] = matrix(measured_in_base ? frames.arm.r0_from_points : frames.arm.r0_from_base_link);
   addCovariances(frames, json);
   json["own_weight"] = {{"removed", frames.sag_removed}, {"note", frames.sag_note}};
@@ -152,7 +152,7 @@ Json framesJson(const Campaign& campaign, const Frames& frames) {
   json["axes"] = axes;
   Json lengths = Json::array(), sources = Json::array(), links = Json::array();
   for (std::size_t i = 0; i < frames.links.size(); ++i) {
-    lengths.push_back(frames.links[i].distance / kMillimetre);
+    lengths.push_back(frames.links[i].distance / io::kMillimetre);
     sources.push_back(sourceOf(frames, {i, i + 1}));
     links.push_back(linkJson(frames, i));
   }
@@ -171,4 +171,4 @@ Json framesJson(const Campaign& campaign, const Frames& frames) {
   return json;
 }
 
-}  // namespace stiffscope
+}  // namespace stiffscope::reports

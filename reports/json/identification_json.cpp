@@ -1,22 +1,137 @@
 #include "reports/json/identification_json.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
-#include "core/cartesian_stiffness/posture_stiffness.h"
+#include "core/identification/estimate.h"
 #include "core/identification/geometric_stiffness_cost.h"
-#include "core/identification/posture_count.h"
-#include "core/identification/stiffness_spread.h"
-#include "core/input/units.h"
-#include "reports/json/posture_stiffness_json.h"
-#include "reports/json/uncertainty_json.h"
-#include "reports/method_names.h"
+#include "core/identification/posture_stiffness.h"
+#include "core/identification/subsets.h"
+#include "core/io/units.h"
+#include "reports/json/json_document.h"
+#include "reports/words/names.h"
 
-namespace stiffscope {
+namespace stiffscope::reports {
+
+/// A posture's conditioning and Cartesian stiffness at P_TCP, R0 axes; the principal stiffnesses are those with
+/// K_c.
+Json postureStiffnessJson(const identification::PostureStiffness& posture);
 
 namespace {
 
-Json byJoint(const StiffnessEstimate& estimate, const auto& entry) {
+Json principalJson(const robot::CartesianStiffness& stiffness) {
+  Json principal = Json::array();
+  for (const robot::PrincipalStiffness& one : stiffness.principal) {
+    principal.push_back({{"stiffness_n_per_m", number(one.stiffness)}, {"direction", array(one.direction)}});
+  }
+  return principal;
+}
+
+}  // namespace
+
+Json postureStiffnessJson(const identification::PostureStiffness& posture) {
+  Json rigid = Json::array();
+  for (const int joint : posture.rigid_joints) rigid.push_back(joint + 1);
+  return {{"pose", posture.pose},
+          {"kappa", number(posture.conditioning.kappa)},
+          {"kappa_2_norm", number(posture.conditioning.kappa_two)},
+          {"k_x", principalJson(posture.with_kc)},
+          {"k_x_without_kc", principalJson(posture.without_kc)},
+          {"anisotropy", number(posture.with_kc.anisotropy())},
+          {"kc_share", number(posture.kc_share)},
+          {"joints_taken_as_rigid", rigid}};
+}
+
+namespace {
+
+Json maskedByJoint(const robot::JointMask& identifiable, const auto& entry) {
+  Json list = Json::array();
+  for (int joint = 0; joint < 6; ++joint) {
+    list.push_back(identifiable[static_cast<std::size_t>(joint)] ? Json(entry(joint)) : Json(nullptr));
+  }
+  return list;
+}
+
+Json intervalJson(const identification::CoverageInterval& interval) { return Json::array({number(interval.low), number(interval.high)}); }
+
+Json correlationJson(const identification::StiffnessEstimate& estimate) {
+  const Matrix6d matrix = identification::correlation(estimate);
+  return maskedByJoint(estimate.identifiable, [&](int row) {
+    return maskedByJoint(estimate.identifiable, [&](int column) { return number(matrix(row, column)); });
+  });
+}
+
+Json contributionsJson(const identification::StiffnessEstimate& estimate) {
+  const auto part = [&](const Matrix6d& covariance) {
+    return maskedByJoint(estimate.identifiable, [&](int j) { return number(std::sqrt(covariance(j, j))); });
+  };
+  Json json{{"scatter_rad_per_nm", part(estimate.parts.scatter)},
+            {"frames_rad_per_nm", part(estimate.parts.frames)},
+            {"wrist_rad_per_nm", part(estimate.parts.wrist)},
+            {"geometry_rad_per_nm", part(estimate.parts.geometry)}};
+  if (!estimate.parts.effects.isZero(0.0)) json["effects_rad_per_nm"] = part(estimate.parts.effects);
+  return json;
+}
+
+Json stepsJson(const identification::StepsOfMethod& steps, const robot::JointMask& identifiable) {
+  if (steps.steps.empty()) return nullptr;
+  Json rows = Json::array();
+  for (const identification::StepEstimate& one : steps.steps) {
+    const identification::StiffnessEstimate& estimate = one.estimate;
+    rows.push_back(
+        {{"step", one.step},
+         {"mean_force_n", one.mean_force},
+         {"stiffness_nm_per_rad", maskedByJoint(identifiable, [&](int j) { return number(estimate.stiffness(j)); })},
+         {"sd_nm_per_rad", maskedByJoint(identifiable, [&](int j) { return number(estimate.stiffnessSd(j)); })},
+         {"interval_nm_per_rad",
+          maskedByJoint(identifiable, [&](int j) { return intervalJson(identification::stiffnessInterval(estimate, j)); })}});
+  }
+  const auto dependence = [&](const auto& member) {
+    return maskedByJoint(identifiable, [&](int j) { return number(steps.joints[static_cast<std::size_t>(j)].*member); });
+  };
+  return {{"steps", rows},
+          {"compliance_change", dependence(&identification::LoadDependence::change)},
+          {"compliance_change_sd", dependence(&identification::LoadDependence::change_sd)},
+          {"p_change", dependence(&identification::LoadDependence::p_change)},
+          {"p_linear", dependence(&identification::LoadDependence::p_linear)}};
+}
+
+}  // namespace
+
+void addUncertainty(const identification::MethodResult& method, Json& json) {
+  const identification::StiffnessEstimate& estimate = method.estimate;
+  const robot::JointMask& seen = estimate.identifiable;
+  json["coverage"] = identification::kStatedCoverage;
+  json["interval_nm_per_rad"] = maskedByJoint(seen, [&](int j) { return intervalJson(identification::stiffnessInterval(estimate, j)); });
+  json["dof"] = maskedByJoint(seen, [&](int j) { return number(estimate.dof(j)); });
+  json["sd_compliance_rad_per_nm"] =
+      maskedByJoint(seen, [&](int j) { return number(std::sqrt(estimate.covariance(j, j))); });
+  json["interval_compliance_rad_per_nm"] =
+      maskedByJoint(seen, [&](int j) { return intervalJson(identification::complianceInterval(estimate, j)); });
+  json["correlation"] = correlationJson(estimate);
+  json["contributions"] = contributionsJson(estimate);
+  if (method.bootstrap.compliances.empty()) return;
+  json["bootstrap"] = {
+      {"draws", method.bootstrap.compliances.size()},
+      {"interval_nm_per_rad", maskedByJoint(seen, [&](int j) { return intervalJson(method.bootstrap.stiffness(j)); })},
+      {"interval_compliance_rad_per_nm",
+       maskedByJoint(seen, [&](int j) { return intervalJson(method.bootstrap.compliance(j)); })}};
+}
+
+Json withSteps(Json json, const identification::StepStudy& study, const identification::Identification& result, const std::vector<identification::Method>& methods) {
+  Json by_method = Json::object();
+  for (const identification::Method which : methods) {
+    by_method[namesOf(which).key] =
+        stepsJson(study.methods[static_cast<std::size_t>(which)], result.of(which).estimate.identifiable);
+  }
+  json["by_step"] = by_method;
+  return json;
+}
+
+namespace {
+
+Json byJoint(const identification::StiffnessEstimate& estimate, const auto& entry) {
   Json list = Json::array();
   for (int joint = 0; joint < 6; ++joint) {
     list.push_back(estimate.identifiable[static_cast<std::size_t>(joint)] ? Json(entry(joint)) : Json(nullptr));
@@ -25,17 +140,17 @@ Json byJoint(const StiffnessEstimate& estimate, const auto& entry) {
 }
 
 /// `used`, `held_out` and `all` are means over the subsets; `all_postures` is identified and judged on all postures.
-Json compensationJson(const std::optional<Compensation>& compensation, bool subsets) {
+Json compensationJson(const std::optional<identification::Compensation>& compensation, bool subsets) {
   if (!compensation) return nullptr;
-  const SubsetCompensation& mean = compensation->subsets;
+  const identification::SubsetCompensation& mean = compensation->subsets;
   return {{"used", subsets ? number(mean.used) : Json(nullptr)},
           {"held_out", subsets ? number(mean.held_out) : Json(nullptr)},
           {"all", subsets ? number(mean.all) : number(compensation->all_postures)},
           {"all_postures", number(compensation->all_postures)}};
 }
 
-Json spreadJson(const MethodResult& method) {
-  const SubsetStudy& study = method.subsets;
+Json spreadJson(const identification::MethodResult& method) {
+  const identification::SubsetStudy& study = method.subsets;
   Json json{{"postures_used", study.size}, {"of", study.of}, {"subsets", study.compliances.size()},
             {"every_subset", study.every_subset}};
   Json joints = Json::array();
@@ -44,7 +159,7 @@ Json spreadJson(const MethodResult& method) {
       joints.push_back(nullptr);
       continue;
     }
-    const StiffnessSpread spread = spreadOf(study, joint);
+    const identification::StiffnessSpread spread = identification::spreadOf(study, joint);
     joints.push_back({{"mean_nm_per_rad", number(spread.mean)},
                       {"sd_nm_per_rad", number(spread.sd)},
                       {"median_nm_per_rad", number(spread.median)},
@@ -58,9 +173,9 @@ Json spreadJson(const MethodResult& method) {
   return json;
 }
 
-Json methodJson(const MethodResult& method) {
+Json methodJson(const identification::MethodResult& method) {
   if (!method.available) return {{"unavailable", method.reason}};
-  const StiffnessEstimate& estimate = method.estimate;
+  const identification::StiffnessEstimate& estimate = method.estimate;
   Json json;
   json["stiffness_nm_per_rad"] = byJoint(estimate, [&](int j) { return number(estimate.stiffness(j)); });
   json["sd_nm_per_rad"] = byJoint(estimate, [&](int j) { return number(estimate.stiffnessSd(j)); });
@@ -69,8 +184,8 @@ Json methodJson(const MethodResult& method) {
   json["mark"] = byJoint(estimate, [&](int j) { return Json(estimate.mark(j)); });
   addUncertainty(method, json);
   json["condition"] = number(estimate.condition);
-  json["rms_residual_mm"] = estimate.rms_residual / kMillimetre;
-  json["sigma_mm"] = estimate.sigma / kMillimetre;
+  json["rms_residual_mm"] = estimate.rms_residual / io::kMillimetre;
+  json["sigma_mm"] = estimate.sigma / io::kMillimetre;
   const bool subsets = !method.subsets.compliances.empty();
   json["compensated"] = compensationJson(method.at_wrist, subsets);
   json["compensated_at_targets"] = compensationJson(method.at_targets, subsets);
@@ -78,10 +193,10 @@ Json methodJson(const MethodResult& method) {
   return json;
 }
 
-Json identifiabilityJson(const Identifiability& judged) {
+Json identifiabilityJson(const identification::Identifiability& judged) {
   Json joints = Json::array();
   for (std::size_t j = 0; j < 6; ++j) {
-    const JointIdentifiability& joint = judged.joints[j];
+    const identification::JointIdentifiability& joint = judged.joints[j];
     Json one{{"joint", j + 1}, {"identifiable", joint.identifiable}};
     if (!joint.identifiable) one["reason"] = joint.reason;
     one["torque_rms_nm"] = joint.torque_rms;
@@ -90,46 +205,46 @@ Json identifiabilityJson(const Identifiability& judged) {
     joints.push_back(one);
   }
   return {{"load_hangs", judged.load_hangs},
-          {"force_to_gravity_rms_deg", judged.gravity_angle_rms / kDegree},
+          {"force_to_gravity_rms_deg", judged.gravity_angle_rms / io::kDegree},
           {"joints", joints}};
 }
 
-Json calibrationJson(const GeometryCalibration& calibration) {
+Json calibrationJson(const frames::GeometryCalibration& calibration) {
   if (!calibration.done) return {{"unavailable", calibration.reason}};
   return {{"positions", calibration.positions},
           {"parameters", calibration.parameters},
           {"fixed", calibration.fixed},
-          {"rms_before_mm", calibration.rms_before / kMillimetre},
-          {"rms_after_mm", calibration.rms_after / kMillimetre}};
+          {"rms_before_mm", calibration.rms_before / io::kMillimetre},
+          {"rms_after_mm", calibration.rms_after / io::kMillimetre}};
 }
 
 /// What one posture's displacement is, and what the methods leave of it.
-Json postureJson(const Campaign& campaign, const Identification& result, const std::vector<Method>& methods, std::size_t i) {
+Json postureJson(const campaign::Campaign& campaign, const identification::Identification& result, const std::vector<identification::Method>& methods, std::size_t i) {
   Json posture{{"pose", campaign.pose_ids[static_cast<std::size_t>(result.cases[i].pose)]}};
   if (result.steps.size() > 1) posture["step"] = result.cases[i].step;
-  if (!result.wrist_displacement.empty()) posture["wrist_mm"] = result.wrist_displacement[i] / kMillimetre;
-  posture["targets_mean_mm"] = result.target_displacement[i] / kMillimetre;
-  for (const Method which : methods) {
-    const MethodResult& method = result.of(which);
+  if (!result.wrist_displacement.empty()) posture["wrist_mm"] = result.wrist_displacement[i] / io::kMillimetre;
+  posture["targets_mean_mm"] = result.target_displacement[i] / io::kMillimetre;
+  for (const identification::Method which : methods) {
+    const identification::MethodResult& method = result.of(which);
     if (!method.available) continue;
     const std::string key = namesOf(which).key;
-    if (i < method.wrist_residual.size()) posture["wrist_after_" + key + "_mm"] = method.wrist_residual[i] / kMillimetre;
+    if (i < method.wrist_residual.size()) posture["wrist_after_" + key + "_mm"] = method.wrist_residual[i] / io::kMillimetre;
     if (i < method.target_residual.size()) {
-      posture["targets_mean_after_" + key + "_mm"] = method.target_residual[i] / kMillimetre;
+      posture["targets_mean_after_" + key + "_mm"] = method.target_residual[i] / io::kMillimetre;
     }
   }
   return posture;
 }
 
 /// Cartesian stiffness and what neglecting K_c costs, by the best of the methods there is.
-JsonDocument cartesianJson(const Campaign& campaign, const Identification& result, const std::vector<Method>& methods) {
-  for (const Method which : {Method::decoupled_partial_pose, Method::partial_pose, Method::complete_pose}) {
+JsonDocument cartesianJson(const campaign::Campaign& campaign, const identification::Identification& result, const std::vector<identification::Method>& methods) {
+  for (const identification::Method which : {identification::Method::decoupled_partial_pose, identification::Method::partial_pose, identification::Method::complete_pose}) {
     if (!result.of(which).available || std::find(methods.begin(), methods.end(), which) == methods.end()) continue;
     JsonDocument document(Json{{"method", namesOf(which).key}});
-    const auto row = [stiffnesses = PostureStiffnesses(campaign, result, which),
-                      costs = geometricStiffnessCosts(result, which)](std::size_t i) {
+    const auto row = [stiffnesses = identification::PostureStiffnesses(campaign, result, which),
+                      costs = identification::geometricStiffnessCosts(result, which)](std::size_t i) {
       Json posture = postureStiffnessJson(stiffnesses.at(i));
-      posture["k_c_cost_um"] = costs[i].at_targets / kMicrometre;
+      posture["k_c_cost_um"] = costs[i].at_targets / io::kMicrometre;
       posture["k_c_cost_share"] = costs[i].share;
       return posture;
     };
@@ -139,12 +254,12 @@ JsonDocument cartesianJson(const Campaign& campaign, const Identification& resul
   return {};
 }
 
-Json outlyingJson(const Campaign& campaign, const Identification& result) {
+Json outlyingJson(const campaign::Campaign& campaign, const identification::Identification& result) {
   Json list = Json::array();
-  for (const OutlyingPosture& one : result.outlying) {
+  for (const identification::OutlyingPosture& one : result.outlying) {
     list.push_back({{"pose", campaign.pose_ids[static_cast<std::size_t>(one.posture)]},
-                    {"rms_um", one.rms / kMicrometre},
-                    {"others_rms_um", one.others / kMicrometre},
+                    {"rms_um", one.rms / io::kMicrometre},
+                    {"others_rms_um", one.others / io::kMicrometre},
                     {"f_ratio", number(one.f)},
                     {"p_value", number(one.p_value)},
                     {"left_out", result.robust}});
@@ -154,32 +269,32 @@ Json outlyingJson(const Campaign& campaign, const Identification& result) {
 
 }  // namespace
 
-JsonDocument identificationJson(const Campaign& campaign, const Identification& result, const std::vector<Method>& methods) {
+JsonDocument identificationJson(const campaign::Campaign& campaign, const identification::Identification& result, const std::vector<identification::Method>& methods) {
   JsonDocument document(Json::object());
   Json& json = document.json;
   json["campaign"] = campaignJson(campaign);
   json["step"] = result.step;
   json["steps"] = result.steps;
-  json["postures"] = postureCount(result);
+  json["postures"] = identification::postureCount(result);
   json["left_out"] = result.left_out;
   json["outlying"] = outlyingJson(campaign, result);
   json["cautions"] = result.cautions;
   Json by_method = Json::object();
-  for (const Method which : methods) by_method[namesOf(which).key] = methodJson(result.of(which));
+  for (const identification::Method which : methods) by_method[namesOf(which).key] = methodJson(result.of(which));
   json["methods"] = by_method;
   json["identifiability"] = identifiabilityJson(result.identifiability);
   json["noise_share"] = result.noise ? Json{{"wrist", result.noise->at_wrist ? number(*result.noise->at_wrist) : Json(nullptr)},
                                           {"targets", number(result.noise->at_targets)},
-                                          {"per_coordinate_um", result.noise->per_coordinate / kMicrometre}}
+                                          {"per_coordinate_um", result.noise->per_coordinate / io::kMicrometre}}
                                      : Json(nullptr);
   json["geometric_stiffness"] = {{"included", result.finite_deflection},
                                  {"torque_change_share", result.geometric_stiffness_share}};
-  json["servo_change_deg"] = result.servo_change / kDegree;
+  json["servo_change_deg"] = result.servo_change / io::kDegree;
   json["calibration"] = calibrationJson(result.calibration);
   json["own_weight"] = {{"removed", result.frames.sag_removed}, {"note", result.frames.sag_note}};
   if (!result.length_sensitivity.empty()) {
     Json curve = Json::array();
-    for (const LengthSensitivity& at : result.length_sensitivity) {
+    for (const identification::LengthSensitivity& at : result.length_sensitivity) {
       Json stiffness = Json::array();
       for (int j = 0; j < 6; ++j) stiffness.push_back(at.compliance[j] == 0.0 ? Json(nullptr) : number(1.0 / at.compliance[j]));
       curve.push_back({{"length_m", at.length}, {"jacobian_condition", at.condition}, {"stiffness_nm_per_rad", stiffness}});
@@ -194,4 +309,4 @@ JsonDocument identificationJson(const Campaign& campaign, const Identification& 
   return document;
 }
 
-}  // namespace stiffscope
+}  // namespace stiffscope::reports

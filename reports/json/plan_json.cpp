@@ -1,13 +1,13 @@
 #include "reports/json/plan_json.h"
 
-#include "core/input/units.h"
+#include "core/io/units.h"
 
-namespace stiffscope {
+namespace stiffscope::reports {
 
 namespace {
 
 /// Standard deviations of c, and of k = 1/c where an identified campaign has c.
-void addUncertainties(const Plan& plan, const Vector6d& sd, Json& row) {
+void addUncertainties(const planning::Plan& plan, const Vector6d& sd, Json& row) {
   row["sd_compliance_rad_per_nm"] = array(sd);
   if (!plan.compliance) return;
   Vector6d of_k = sd;
@@ -15,10 +15,10 @@ void addUncertainties(const Plan& plan, const Vector6d& sd, Json& row) {
   row["sd_nm_per_rad"] = array(of_k);
 }
 
-Json rowJson(const Plan& plan, const PlannedPosture& posture) {
+Json rowJson(const planning::Plan& plan, const planning::PlannedPosture& posture) {
   Json row{
       {"pose", posture.id},
-      {"q_deg", array(posture.candidate.q, 1.0 / kDegree)},
+      {"q_deg", array(posture.candidate.q, 1.0 / io::kDegree)},
       {"load_n", plan.arm.load},
       {"direction_in_base_link", array(posture.pull_in_base)},
       {"expected_force_in_cell_n", array(posture.reading.head<3>())},
@@ -32,7 +32,7 @@ Json rowJson(const Plan& plan, const PlannedPosture& posture) {
   return row;
 }
 
-Json randomJson(const Plan& plan, const RandomPostures& random) {
+Json randomJson(const planning::Plan& plan, const planning::RandomPostures& random) {
   Json json{{"postures", random.postures}, {"log_det", number(random.log_determinant)}};
   addUncertainties(plan, random.sd, json);
   json["d_efficiency_of_plan"] = number(random.efficiency);
@@ -41,11 +41,11 @@ Json randomJson(const Plan& plan, const RandomPostures& random) {
 
 }  // namespace
 
-Json planJson(const Campaign& campaign, const Plan& plan) {
+Json planJson(const campaign::Campaign& campaign, const planning::Plan& plan) {
   Json json{{"campaign", campaignJson(campaign)},
             {"load_n", plan.arm.load},
             {"load", plan.arm.pull ? "pull" : "hanging"},
-            {"hook_in_flange_mm", array(plan.arm.hook_in_flange, 1.0 / kMillimetre)},
+            {"hook_in_flange_mm", array(plan.arm.hook_in_flange, 1.0 / io::kMillimetre)},
             {"candidates", plan.candidates},
             {"drawn", plan.drawn},
             {"assumed", plan.arm.assumed}};
@@ -68,11 +68,11 @@ Json planJson(const Campaign& campaign, const Plan& plan) {
   }
   json["log_det"] = number(plan.log_determinant);
   Json rows = Json::array();
-  for (const PlannedPosture& posture : plan.postures) rows.push_back(rowJson(plan, posture));
+  for (const planning::PlannedPosture& posture : plan.postures) rows.push_back(rowJson(plan, posture));
   json["rows"] = rows;
   json["random"] = randomJson(plan, plan.random_same);
   json["random_twice"] = randomJson(plan, plan.random_double);
   return json;
 }
 
-}  // namespace stiffscope
+}  // namespace stiffscope::reports

@@ -3,9 +3,9 @@
 #include "core/planning/plan.h"
 #include "reports/json/campaign_json.h"
 
-namespace stiffscope {
+namespace stiffscope::reports {
 
 /// The result of `plan`: a row a posture, and what random postures would give.
-Json planJson(const Campaign& campaign, const Plan& plan);
+Json planJson(const campaign::Campaign& campaign, const planning::Plan& plan);
 
-}  // namespace stiffscope
+}  // namespace stiffscope::reports

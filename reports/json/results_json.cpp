@@ -2,25 +2,25 @@
 
 #include <utility>
 
-#include "core/input/units.h"
+#include "core/io/units.h"
 #include "reports/json/audit_json.h"
+#include "reports/json/campaign_json.h"
 #include "reports/json/diagnosis_json.h"
+#include "reports/json/extended_model_json.h"
 #include "reports/json/frames_json.h"
 #include "reports/json/identification_json.h"
-#include "reports/json/improved_json.h"
-#include "reports/json/preparation_json.h"
-#include "reports/one_machine.h"
+#include "reports/words/verdict.h"
 
-namespace stiffscope {
+namespace stiffscope::reports {
 
 namespace {
 
 Json avoidedJson(const AvoidedByEncoders& avoided) {
   Json postures = Json::array();
-  for (const PostureDeflection& posture : avoided.postures) {
+  for (const comparison::PostureDeflection& posture : avoided.postures) {
     postures.push_back({{"pose", posture.pose},
-                        {"inactive_mm", posture.before / kMillimetre},
-                        {"active_mm", posture.after / kMillimetre}});
+                        {"inactive_mm", posture.before / io::kMillimetre},
+                        {"active_mm", posture.after / io::kMillimetre}});
   }
   return {{"share", avoided.share}, {"low", number(avoided.low)}, {"high", number(avoided.high)}, {"at", avoided.at_wrist ? "P_wrist" : "reflectors"}, {"postures", postures}};
 }
@@ -31,8 +31,8 @@ JsonDocument campaignResults(const ReportCampaign& one) {
   if (one.preparation != nullptr) json["preparation"] = preparationJson(*one.preparation);
   if (one.audit != nullptr) json["audit"] = auditJson(one.campaign, *one.audit);
   json["frames"] = framesJson(one.campaign, one.identification.frames);
-  document.set("/identify"_json_pointer, identificationJson(one.campaign, one.identification, {kMethods.begin(), kMethods.end()}));
-  if (one.improved != nullptr) json["identify"]["with"] = improvedJson(*one.improved, {kMethods.begin(), kMethods.end()});
+  document.set("/identify"_json_pointer, identificationJson(one.campaign, one.identification, {identification::kMethods.begin(), identification::kMethods.end()}));
+  if (one.improved != nullptr) json["identify"]["with"] = improvedJson(*one.improved, {identification::kMethods.begin(), identification::kMethods.end()});
   if (one.diagnosis != nullptr) json["diagnose"] = diagnosisJson(one.campaign, *one.diagnosis);
   return document;
 }
@@ -53,4 +53,4 @@ JsonDocument resultsJson(const ReportContent& content) {
   return document;
 }
 
-}  // namespace stiffscope
+}  // namespace stiffscope::reports

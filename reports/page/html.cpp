@@ -1,17 +1,105 @@
 #include "reports/page/html.h"
 
+#include <algorithm>
+#include <fmt/format.h>
+#include <limits>
+#include <stdexcept>
 #include <tinyxml2.h>
 
-#include <algorithm>
-#include <limits>
-
-#include "core/input/one_line.h"
+#include "core/io/input_error.h"
+#include "reports/csv/csv_table.h"
 
 namespace stiffscope::page {
 
+std::string base64(const std::vector<std::uint8_t>& bytes) {
+  constexpr char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  text.reserve((bytes.size() + 2) / 3 * 4);
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    const std::size_t count = std::min<std::size_t>(3, bytes.size() - i);
+    std::uint32_t triple = 0;
+    for (std::size_t k = 0; k < 3; ++k) triple = triple << 8 | (k < count ? bytes[i + k] : 0u);
+    for (std::size_t k = 0; k < 4; ++k) text += k <= count ? kDigits[triple >> (18 - 6 * k) & 63] : '=';
+  }
+  return text;
+}
+
 namespace {
 
-std::string clean(const std::string& text) { return oneLine(text, std::numeric_limits<std::size_t>::max()); }
+void writeCell(Html& html, const char* name, const reports::Cell& cell, const Attributes& attributes = {}) {
+  const auto element = html.element(name, attributes);
+  html.rich(cell.text);
+  if (!cell.remark.empty()) {
+    html.text(" ");
+    html.leaf("small", cell.remark);
+  }
+}
+
+void writeGroup(Html& html, const reports::RowGroup& group, std::size_t columns) {
+  const auto body = html.element("tbody");
+  bool first = true;
+  for (const reports::Row& row : group.rows) {
+    if (row.size() + (group.header.empty() ? 0 : 1) != columns) {
+      throw std::invalid_argument(
+          fmt::format("a table row of {} cells under {} columns", row.size(), columns));
+    }
+    const auto line = html.element("tr");
+    if (first && !group.header.empty()) {
+      html.leaf("th", group.header, {{"scope", "rowgroup"}, {"rowspan", std::to_string(group.rows.size())}});
+    }
+    first = false;
+    writeCell(html, "th", row.front(), {{"scope", "row"}});
+    for (std::size_t i = 1; i < row.size(); ++i) writeCell(html, "td", row[i]);
+  }
+}
+
+}  // namespace
+
+void writeTable(Html& html, const reports::Table& table) {
+  const bool empty = std::all_of(table.groups.begin(), table.groups.end(),
+                                 [](const reports::RowGroup& group) { return group.rows.empty(); });
+  if (empty) return;
+  const std::string name = reports::plain(table.caption);
+  // A wide table is scrolled by keyboard too.
+  const auto scroll = html.element(
+      "div", {{"class", "scroll"}, {"role", "region"}, {"aria-label", name}, {"tabindex", "0"}});
+  const bool grouped = std::any_of(table.groups.begin(), table.groups.end(),
+                                   [](const reports::RowGroup& group) { return !group.header.empty(); });
+  std::size_t rows = 0;
+  for (const reports::RowGroup& group : table.groups) rows += group.rows.size();
+  constexpr std::size_t kMostOnAPage = 16;  // a longer table is broken between groups, its head repeated
+  std::string kind = table.words ? "words" : grouped ? "grouped" : "numeric";
+  if (rows > kMostOnAPage || table.words) kind += " long";  // rows of words are high
+  if (!grouped && !table.words && rows > 2) kind += " sorts";  // a group's header spans its rows in their order
+  html.keepTable(table.id, reports::csvTable(table));
+  const auto element = html.element("table", {{"class", kind}});
+  html.leaf("caption", table.caption);
+  {
+    const auto head = html.element("thead");
+    const auto line = html.element("tr");
+    for (const std::string& column : table.columns) html.leaf("th", column, {{"scope", "col"}});
+  }
+  for (const reports::RowGroup& group : table.groups) {
+    if (!group.rows.empty()) writeGroup(html, group, table.columns.size());
+  }
+}
+
+std::string Notes::mark(const std::string& text) {
+  const auto found = std::find(texts_.begin(), texts_.end(), text);
+  const auto at = found - texts_.begin();
+  if (found == texts_.end()) texts_.push_back(text);
+  return std::string(1, static_cast<char>('a' + at % 26));
+}
+
+void Notes::write(Html& html) const {
+  if (texts_.empty()) return;
+  const auto list = html.element("ol", {{"class", "notes"}, {"type", "a"}});
+  for (const std::string& text : texts_) html.leaf("li", text);
+}
+
+namespace {
+
+std::string clean(const std::string& text) { return io::oneLine(text, std::numeric_limits<std::size_t>::max()); }
 
 }  // namespace
 
@@ -46,9 +134,9 @@ void Html::voidElement(const char* name, const Attributes& attributes) {
 void Html::text(const std::string& text) { printer_->PushText(clean(text).c_str()); }
 
 void Html::rich(const std::string& text) {
-  for (const RichStretch& stretch : richStretches(text)) {
-    const bool marked = stretch.kind == RichStretch::subscript || stretch.kind == RichStretch::code;
-    if (marked) open(stretch.kind == RichStretch::subscript ? "sub" : "code", {});
+  for (const reports::RichStretch& stretch : reports::richStretches(text)) {
+    const bool marked = stretch.kind == reports::RichStretch::subscript || stretch.kind == reports::RichStretch::code;
+    if (marked) open(stretch.kind == reports::RichStretch::subscript ? "sub" : "code", {});
     this->text(stretch.text);
     if (marked) printer_->CloseElement(true);
   }

@@ -1,17 +1,22 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "reports/csv/csv_table.h"
-#include "reports/page/rich_text.h"
+#include "reports/words/rich_text.h"
+#include "reports/words/table.h"
 
 namespace tinyxml2 {
 class XMLPrinter;
 }
 
 namespace stiffscope::page {
+
+/// Base64 (RFC 4648, section 4) with padding, no line breaks.
+std::string base64(const std::vector<std::uint8_t>& bytes);
 
 struct Attribute {
   const char* name;
@@ -57,13 +62,27 @@ class Html {
   void setTableSuffix(const std::string& suffix) { table_suffix_ = suffix; }
   /// Keeps a table that is on the page as a file; `id` is letters, digits and hyphens, empty: by its number.
   void keepTable(const std::string& id, std::string csv);
-  const std::vector<TableFile>& tables() const { return tables_; }
+  const std::vector<reports::TableFile>& tables() const { return tables_; }
 
  private:
   void open(const char* name, const Attributes& attributes);
   std::unique_ptr<tinyxml2::XMLPrinter> printer_;
   std::string table_suffix_;
-  std::vector<TableFile> tables_;
+  std::vector<reports::TableFile> tables_;
+};
+
+/// Writes it with <caption> and a scope on every header. Empty tables (no rows) are not written.
+/// Throws std::invalid_argument where a row's width is not that of the columns.
+void writeTable(Html& html, const reports::Table& table);
+
+/// Remarks that cells refer to by a letter; the same text gets the same letter.
+class Notes {
+ public:
+  std::string mark(const std::string& text);  ///< the letter of `text`
+  void write(Html& html) const;               ///< the list of them
+
+ private:
+  std::vector<std::string> texts_;
 };
 
 }  // namespace stiffscope::page

@@ -1,30 +1,29 @@
 #include "reports/text/audit_text.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
+#include <fmt/format.h>
 #include <iterator>
 
 #include "reports/json/audit_json.h"
-#include "reports/text/preparation_text.h"
-#include "reports/text/wrapped.h"
+#include "reports/words/numbers.h"
+#include "reports/words/preparation_words.h"
 
-namespace stiffscope {
+namespace stiffscope::reports {
 
 namespace {
 
 using Out = std::back_insert_iterator<std::string>;
 
-const char* worded(AuditVerdict verdict) {
-  return verdict == AuditVerdict::not_testable ? "not testable" : nameOf(verdict);
+const char* worded(preparation::AuditVerdict verdict) {
+  return verdict == preparation::AuditVerdict::not_testable ? "not testable" : nameOf(verdict);
 }
 
 std::string figure(const std::optional<double>& value) { return value ? fmt::format("{:.4g}", *value) : "-"; }
 
-void writeTable(const AuditReport& report, Out out) {
+void writeTable(const audit::AuditReport& report, Out out) {
   fmt::format_to(out, "  {:<21}{:<13}{:>10}{:>10}  {:<16}{}\n", "check", "verdict", "figure", "limit", "unit",
                  "where");
-  for (const AuditCheck& check : report.checks) {
+  for (const preparation::AuditCheck& check : report.checks) {
     std::string line = fmt::format("  {:<21}{:<13}{:>10}{:>10}  {:<16}{}", check.id, worded(check.verdict),
                                    figure(check.value), figure(check.limit), check.unit, check.where);
     line.erase(line.find_last_not_of(' ') + 1);
@@ -33,26 +32,26 @@ void writeTable(const AuditReport& report, Out out) {
 }
 
 /// Short arcs that still suffice pass, but a reader should know what they cost.
-void writeShortArcs(const AuditReport& report, Out out) {
-  for (const AuditCheck& check : report.checks) {
-    if (check.id != "circle_arc" || check.verdict != AuditVerdict::pass || *check.value >= *check.limit)
+void writeShortArcs(const audit::AuditReport& report, Out out) {
+  for (const preparation::AuditCheck& check : report.checks) {
+    if (check.id != "circle_arc" || check.verdict != preparation::AuditVerdict::pass || *check.value >= *check.limit)
       continue;
     fmt::format_to(out, "\n{}\n", wrapped(fmt::format("Passes below its limit: {}.", check.message), 2));
   }
 }
 
 /// What a check found one by one: which joints the postures can identify, say.
-void writeDetails(const AuditReport& report, Out out) {
-  for (const AuditCheck& check : report.checks) {
+void writeDetails(const audit::AuditReport& report, Out out) {
+  for (const preparation::AuditCheck& check : report.checks) {
     if (check.details.empty()) continue;
     fmt::format_to(out, "\n{}, in detail\n", check.id);
     for (const std::string& detail : check.details) fmt::format_to(out, "  {}\n", wrapped(detail, 4));
   }
 }
 
-void writeMessages(const AuditReport& report, AuditVerdict verdict, const char* title, Out out) {
+void writeMessages(const audit::AuditReport& report, preparation::AuditVerdict verdict, const char* title, Out out) {
   bool first = true;
-  for (const AuditCheck& check : report.checks) {
+  for (const preparation::AuditCheck& check : report.checks) {
     if (check.verdict != verdict) continue;
     if (first) fmt::format_to(out, "\n{}\n", title);
     first = false;
@@ -65,24 +64,24 @@ void writeMessages(const AuditReport& report, AuditVerdict verdict, const char* 
 
 }  // namespace
 
-std::string auditText(const Campaign& campaign, const AuditReport& report) {
+std::string auditText(const campaign::Campaign& campaign, const audit::AuditReport& report) {
   std::string text;
   Out out(text);
   fmt::format_to(out, "{}: {}\n\n", campaign.name,
-                 report.verdict == AuditVerdict::pass   ? "pass: fit to identify from"
-                 : report.verdict == AuditVerdict::warn ? "warn: fit to identify from with what is said below"
+                 report.verdict == preparation::AuditVerdict::pass   ? "pass: fit to identify from"
+                 : report.verdict == preparation::AuditVerdict::warn ? "warn: fit to identify from with what is said below"
                                                         : "fail: not fit to identify from");
   writeTable(report, out);
-  writeMessages(report, AuditVerdict::fail, "Fails", out);
-  writeMessages(report, AuditVerdict::warn, "Warns", out);
-  writeMessages(report, AuditVerdict::not_testable, "Not testable", out);
+  writeMessages(report, preparation::AuditVerdict::fail, "Fails", out);
+  writeMessages(report, preparation::AuditVerdict::warn, "Warns", out);
+  writeMessages(report, preparation::AuditVerdict::not_testable, "Not testable", out);
   writeShortArcs(report, out);
   writeDetails(report, out);
   if (!report.rejected.empty()) fmt::format_to(out, "\nReadings to leave out, as the other commands do without --raw\n");
-  for (const RejectedReading& reading : report.rejected) {
+  for (const preparation::RejectedReading& reading : report.rejected) {
     fmt::format_to(out, "  {}\n", wrapped(rejectedWords(reading), 4));
   }
   return text;
 }
 
-}  // namespace stiffscope
+}  // namespace stiffscope::reports

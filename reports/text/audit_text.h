@@ -4,10 +4,10 @@
 
 #include "core/audit/audit.h"
 
-namespace stiffscope {
+namespace stiffscope::reports {
 
 /// The audit for people: a table of the checks, then what those that did not pass say, then the rejected
 /// readings.
-std::string auditText(const Campaign& campaign, const AuditReport& report);
+std::string auditText(const campaign::Campaign& campaign, const audit::AuditReport& report);
 
-}  // namespace stiffscope
+}  // namespace stiffscope::reports

@@ -1,15 +1,14 @@
 #include "reports/text/comparison_text.h"
 
-#include <fmt/format.h>
-
 #include <cmath>
+#include <fmt/format.h>
 #include <iterator>
 
-#include "core/input/units.h"
-#include "reports/method_names.h"
-#include "reports/text/wrapped.h"
+#include "core/io/units.h"
+#include "reports/words/names.h"
+#include "reports/words/numbers.h"
 
-namespace stiffscope {
+namespace stiffscope::reports {
 
 namespace {
 
@@ -24,7 +23,7 @@ std::string pText(double p) {
   return p < 1e-4 ? "< 0.0001" : fmt::format("{:.4f}", p);
 }
 
-void writeMethod(const StiffnessChange& change, Method method, Out out) {
+void writeMethod(const comparison::StiffnessChange& change, identification::Method method, Out out) {
   if (!change.available) {
     fmt::format_to(out, "\n{}\n",
                    wrapped(fmt::format("{}: not comparable: {}", namesOf(method).full, change.reason), 2));
@@ -33,7 +32,7 @@ void writeMethod(const StiffnessChange& change, Method method, Out out) {
   fmt::format_to(out, "\n{}, 1e6 Nm/rad, +- one standard uncertainty\n  {:<4}{:>20}{:>20}{:>18}{:>10}{:>8}\n", namesOf(method).full, "",
                  "before", "after", "ratio", "p", "corr.");
   for (std::size_t j = 0; j < 6; ++j) {
-    const JointChange& joint = change.joints[j];
+    const comparison::JointChange& joint = change.joints[j];
     if (!joint.comparable) {
       fmt::format_to(out, "  {}\n", wrapped(fmt::format("k{}  {}", j + 1, joint.reason), 6));
       continue;
@@ -45,7 +44,7 @@ void writeMethod(const StiffnessChange& change, Method method, Out out) {
   }
 }
 
-void writeShare(const DeflectionAvoided& avoided, const char* place, Out out) {
+void writeShare(const comparison::DeflectionAvoided& avoided, const char* place, Out out) {
   if (!avoided.available) {
     fmt::format_to(out, "\n{}\n",
                    wrapped(fmt::format("Deflection avoided at {}: {}", place, avoided.reason), 2));
@@ -59,18 +58,18 @@ void writeShare(const DeflectionAvoided& avoided, const char* place, Out out) {
   fmt::format_to(out, ", {} postures\n", avoided.postures.size());
 }
 
-void writePostures(const DeflectionAvoided& avoided, const char* place, Out out) {
+void writePostures(const comparison::DeflectionAvoided& avoided, const char* place, Out out) {
   fmt::format_to(out, "\nThe deflection at {}, posture by posture\n  {:<12}{:>14}{:>14}{:>12}\n", place,
                  "pose", "before (um)", "after (um)", "avoided, %");
-  for (const PostureDeflection& one : avoided.postures) {
-    fmt::format_to(out, "  {:<12}{:>14.1f}{:>14.1f}{:>12.1f}\n", one.pose, one.before / kMicrometre,
-                   one.after / kMicrometre, 100.0 * one.share());
+  for (const comparison::PostureDeflection& one : avoided.postures) {
+    fmt::format_to(out, "  {:<12}{:>14.1f}{:>14.1f}{:>12.1f}\n", one.pose, one.before / io::kMicrometre,
+                   one.after / io::kMicrometre, 100.0 * one.share());
   }
 }
 
 }  // namespace
 
-std::string comparisonText(const Campaign& before, const Campaign& after, const Comparison& comparison) {
+std::string comparisonText(const campaign::Campaign& before, const campaign::Campaign& after, const comparison::Comparison& comparison) {
   std::string text;
   Out out(text);
   fmt::format_to(out, "before: {}\nafter:  {}\n", before.name, after.name);
@@ -80,7 +79,7 @@ std::string comparisonText(const Campaign& before, const Campaign& after, const 
   for (const std::string& caution : comparison.cautions)
     fmt::format_to(out, "  {}\n", wrapped("caution: " + caution, 4));
   if (comparison.comparable) {
-    for (const Method method : kMethods) writeMethod(comparison.of(method), method, out);
+    for (const identification::Method method : identification::kMethods) writeMethod(comparison.of(method), method, out);
     fmt::format_to(
         out,
         "  p: probability of a difference as large without any change; the errors' correlation (corr.), by\n"
@@ -90,10 +89,10 @@ std::string comparisonText(const Campaign& before, const Campaign& after, const 
     if (comparison.avoided().available)
       writePostures(comparison.avoided(), comparison.judgedAtWrist() ? "P_wrist" : "the reflectors", out);
   }
-  for (const UnmatchedPosture& one : comparison.matched.unmatched) {
+  for (const comparison::UnmatchedPosture& one : comparison.matched.unmatched) {
     fmt::format_to(out, "  {}\n", wrapped(fmt::format("not compared: pose {}: {}", one.pose, one.reason), 4));
   }
   return text;
 }
 
-}  // namespace stiffscope
+}  // namespace stiffscope::reports

@@ -2,11 +2,11 @@
 
 #include <string>
 
-#include "core/comparison/compare_campaigns.h"
+#include "core/comparison/compare.h"
 
-namespace stiffscope {
+namespace stiffscope::reports {
 
 /// The result of `compare` for a terminal.
-std::string comparisonText(const Campaign& before, const Campaign& after, const Comparison& comparison);
+std::string comparisonText(const campaign::Campaign& before, const campaign::Campaign& after, const comparison::Comparison& comparison);
 
-}  // namespace stiffscope
+}  // namespace stiffscope::reports

@@ -1,35 +1,33 @@
 #include "reports/text/compensation_text.h"
 
 #include <fmt/format.h>
-
 #include <iterator>
 
-#include "core/input/units.h"
-#include "reports/method_names.h"
-#include "reports/text/unsigned_zero.h"
-#include "reports/text/wrapped.h"
+#include "core/io/units.h"
+#include "reports/words/names.h"
+#include "reports/words/numbers.h"
 
-namespace stiffscope {
+namespace stiffscope::reports {
 
-std::string compensationText(const Campaign& campaign, Method method,
-                             const std::vector<CompensatedPosture>& postures,
+std::string compensationText(const campaign::Campaign& campaign, identification::Method method,
+                             const std::vector<compensation::CompensatedPosture>& postures,
                              const std::vector<std::string>& cautions) {
   std::string text;
   auto out = std::back_inserter(text);
   fmt::format_to(out, "{}: predicted deflection of P_TCP and the commands that cancel it, by {}\n\n", campaign.name,
                  namesOf(method).full);
   fmt::format_to(out, "  {:<10}{:>27}{:>9}   {}\n", "pose", "deflection in R0 (mm)", "+-", "command (deg)");
-  for (const CompensatedPosture& posture : postures) {
+  for (const compensation::CompensatedPosture& posture : postures) {
     if (!posture.predicted) {
       fmt::format_to(out, "  {:<10}{:>9}{:>9}{:>9}{:>9}   refused: {}\n", posture.posture.id, "-", "-", "-", "-",
                      posture.reason);
       continue;
     }
-    const Eigen::Vector3d mm = posture.tcp.deflection / kMillimetre;
+    const Eigen::Vector3d mm = posture.tcp.deflection / io::kMillimetre;
     fmt::format_to(out, "  {:<10}{:>9.3f}{:>9.3f}{:>9.3f}{:>9.3f}   ", posture.posture.id, unsignedZero(mm.x(), 3),
-                   unsignedZero(mm.y(), 3), unsignedZero(mm.z(), 3), posture.tcp.sd.norm() / kMillimetre);
+                   unsignedZero(mm.y(), 3), unsignedZero(mm.z(), 3), posture.tcp.sd.norm() / io::kMillimetre);
     if (posture.solved) {
-      for (int joint = 0; joint < 6; ++joint) fmt::format_to(out, "{:>10.4f}", unsignedZero(posture.commands[joint] / kDegree, 4));
+      for (int joint = 0; joint < 6; ++joint) fmt::format_to(out, "{:>10.4f}", unsignedZero(posture.commands[joint] / io::kDegree, 4));
       fmt::format_to(out, "\n");
     } else {
       fmt::format_to(out, "refused: {}\n", posture.reason);
@@ -43,4 +41,4 @@ std::string compensationText(const Campaign& campaign, Method method,
   return text;
 }
 
-}  // namespace stiffscope
+}  // namespace stiffscope::reports

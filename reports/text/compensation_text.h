@@ -6,11 +6,11 @@
 #include "core/compensation/compensate.h"
 #include "core/identification/identify.h"
 
-namespace stiffscope {
+namespace stiffscope::reports {
 
 /// The result of `compensate` for a terminal, and under it what a reader must know, a sentence each.
-std::string compensationText(const Campaign& campaign, Method method,
-                             const std::vector<CompensatedPosture>& postures,
+std::string compensationText(const campaign::Campaign& campaign, identification::Method method,
+                             const std::vector<compensation::CompensatedPosture>& postures,
                              const std::vector<std::string>& cautions);
 
-}  // namespace stiffscope
+}  // namespace stiffscope::reports

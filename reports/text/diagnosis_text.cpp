@@ -1,33 +1,56 @@
 #include "reports/text/diagnosis_text.h"
 
 #include <fmt/format.h>
-
 #include <iterator>
+#include <string>
+#include <vector>
 
-#include "core/input/units.h"
-#include "reports/diagnosis_words.h"
-#include "reports/text/unsigned_zero.h"
-#include "reports/text/wrapped.h"
+#include "core/diagnosis/diagnosis.h"
+#include "core/io/units.h"
+#include "reports/words/numbers.h"
 
-namespace stiffscope {
+namespace stiffscope::reports {
+
+/// "bearing_tilt or link_compliance".
+std::string effectNames(const std::vector<effects::Effect>& effects);
+
+/// What is present, in one line: "hysteresis (joint 2), and unknown"; "none" where nothing is.
+std::string verdictWords(const diagnosis::Verdict& verdict);
+
+std::string effectNames(const std::vector<effects::Effect>& effects) {
+  std::string names;
+  for (const effects::Effect effect : effects) names += (names.empty() ? "" : " or ") + std::string(effects::idOf(effect));
+  return names;
+}
+
+std::string verdictWords(const diagnosis::Verdict& verdict) {
+  if (verdict.entries.empty()) return "none";
+  std::string line;
+  for (const diagnosis::VerdictEntry& entry : verdict.entries) {
+    line += line.empty() ? "" : ", and ";
+    line += entry.effects.empty() ? "unknown" : effectNames(entry.effects);
+    if (!entry.detail.empty()) line += " (" + entry.detail + ")";
+  }
+  return line;
+}
 
 namespace {
 
 using Out = std::back_insert_iterator<std::string>;
 
-double um(double metres) { return metres / kMicrometre; }
+double um(double metres) { return metres / io::kMicrometre; }
 
-std::string interval(const Shrink& shrink) {
+std::string interval(const diagnosis::Shrink& shrink) {
   return fmt::format("{:.3f} to {:.3f}", unsignedZero(shrink.low, 3), unsignedZero(shrink.high, 3));
 }
 
-void writeClasses(const Diagnosis& diagnosis, Out out) {
+void writeClasses(const diagnosis::Diagnosis& diagnosis, Out out) {
   if (diagnosis.classes.empty()) return;
   fmt::format_to(out,
                  "\nWhich: candidates, and what each takes off the deflection's gap on postures held out\n");
   fmt::format_to(out, "  {:<2}{:<44}{:>12}{:>9}  {:<17}{:>10}\n", "", "effect", "score", "shrink", "95 %",
                  "explained");
-  for (const EffectClass& one : diagnosis.classes) {
+  for (const diagnosis::EffectClass& one : diagnosis.classes) {
     fmt::format_to(out, "  {:<2}{:<44}{:>12.0f}{:>9.3f}  {:<17}{:>10.3f}\n", one.in_verdict ? "*" : "",
                    effectNames(one.effects), unsignedZero(one.score, 0), unsignedZero(one.shrink.value, 3),
                    interval(one.shrink), unsignedZero(one.explained, 3));
@@ -40,22 +63,22 @@ void writeClasses(const Diagnosis& diagnosis, Out out) {
   }
 }
 
-void writeTables(const std::vector<WhereTable>& tables, const char* title, Out out) {
+void writeTables(const std::vector<diagnosis::WhereTable>& tables, const char* title, Out out) {
   if (tables.empty()) return;
   fmt::format_to(out, "\n{}\n", title);
   constexpr std::size_t kMostRows = 8;
-  for (const WhereTable& table : tables) {
+  for (const diagnosis::WhereTable& table : tables) {
     if (table.rows.size() > kMostRows) continue;  // postures: in the JSON
     fmt::format_to(out, "  {:<24}{:>10}{:>10}{:>9}{:>14}\n", "by " + table.by, "rms, um", "noise", "share",
                    "sd above");
-    for (const WhereRow& row : table.rows) {
+    for (const diagnosis::WhereRow& row : table.rows) {
       fmt::format_to(out, "    {:<22}{:>10.1f}{:>10.1f}{:>8.0f}%{:>14.1f}\n", row.name, um(row.rms),
                      um(row.noise), 100.0 * row.share, row.significance);
     }
   }
 }
 
-void writeStiffnesses(const Diagnosis& diagnosis, Out out) {
+void writeStiffnesses(const diagnosis::Diagnosis& diagnosis, Out out) {
   fmt::format_to(out, "\nStiffness, 1e6 Nm/rad      before     after         u  (all load steps together; one standard uncertainty)\n");
   for (int j = 0; j < 6; ++j) {
     if (!diagnosis.identifiable[static_cast<std::size_t>(j)]) {
@@ -70,26 +93,26 @@ void writeStiffnesses(const Diagnosis& diagnosis, Out out) {
                  100.0 * diagnosis.geometric_stiffness_share);
 }
 
-void writeLimits(const Diagnosis& diagnosis, Out out) {
+void writeLimits(const diagnosis::Diagnosis& diagnosis, Out out) {
   fmt::format_to(out, "\nNoise: {:.1f} um rms in one state's displacement; {}.\n", um(diagnosis.state_noise),
                  diagnosis.noise_source);
   fmt::format_to(out, "Limits: a fall of BIC of {:.0f}, and {:.1f} um rms after the stiffnesses.\n",
                  diagnosis.significance_limit, um(diagnosis.size_limit));
   fmt::format_to(out, "Smallest size that would have been seen, um rms per coordinate:\n");
   std::string sizes;
-  for (const DetectableSize& one : diagnosis.detectable) {
+  for (const diagnosis::DetectableSize& one : diagnosis.detectable) {
     if (one.size)
-      sizes += fmt::format("{}{} {:.0f}", sizes.empty() ? "" : ", ", idOf(one.effect), um(*one.size));
+      sizes += fmt::format("{}{} {:.0f}", sizes.empty() ? "" : ", ", effects::idOf(one.effect), um(*one.size));
   }
   fmt::format_to(out, "  {}\n", wrapped(sizes, 2));
-  for (const NotTestable& one : diagnosis.not_testable)
+  for (const diagnosis::NotTestable& one : diagnosis.not_testable)
     fmt::format_to(out, "  {}\n",
-                   wrapped(fmt::format("{} not testable here: {}", idOf(one.effect), one.missing), 4));
+                   wrapped(fmt::format("{} not testable here: {}", effects::idOf(one.effect), one.missing), 4));
 }
 
 }  // namespace
 
-std::string diagnosisText(const Campaign& campaign, const Diagnosis& diagnosis) {
+std::string diagnosisText(const campaign::Campaign& campaign, const diagnosis::Diagnosis& diagnosis) {
   std::string text;
   Out out(text);
   if (!diagnosis.usable)
@@ -113,8 +136,8 @@ std::string diagnosisText(const Campaign& campaign, const Diagnosis& diagnosis) 
   writeTables(diagnosis.where_positions, "Where the gap of unloaded positions lies", out);
   writeStiffnesses(diagnosis, out);
   writeLimits(diagnosis, out);
-  for (const NextMeasurement& one : diagnosis.next) fmt::format_to(out, "Next: {}\n", wrapped(one.what, 2));
+  for (const diagnosis::NextMeasurement& one : diagnosis.next) fmt::format_to(out, "Next: {}\n", wrapped(one.what, 2));
   return text;
 }
 
-}  // namespace stiffscope
+}  // namespace stiffscope::reports

@@ -5,10 +5,10 @@
 #include "core/campaign/campaign.h"
 #include "core/diagnosis/diagnosis.h"
 
-namespace stiffscope {
+namespace stiffscope::reports {
 
 /// The diagnosis for people: the verdict with its reason, the candidates with how far each shrinks the gap,
 /// where the gap lies, stiffnesses before and after, what could not be tested and what to measure next.
-std::string diagnosisText(const Campaign& campaign, const Diagnosis& diagnosis);
+std::string diagnosisText(const campaign::Campaign& campaign, const diagnosis::Diagnosis& diagnosis);
 
-}  // namespace stiffscope
+}  // namespace stiffscope::reports

@@ -1,11 +1,10 @@
 #include "reports/text/fit_text.h"
 
-#include <fmt/format.h>
-
 #include <cmath>
+#include <fmt/format.h>
 #include <vector>
 
-namespace stiffscope {
+namespace stiffscope::reports {
 
 namespace {
 
@@ -18,16 +17,16 @@ std::vector<double> with(std::vector<double> values, double last) {
   return values;
 }
 
-std::vector<double> valuesOf(const FittedLine& fit) { return valuesOf(fit.line.point, fit.line.direction); }
-std::vector<double> valuesOf(const FittedPlane& fit) { return valuesOf(fit.plane.point, fit.plane.normal); }
-std::vector<double> valuesOf(const FittedCircle& fit) {
+std::vector<double> valuesOf(const metrology::FittedLine& fit) { return valuesOf(fit.line.point, fit.line.direction); }
+std::vector<double> valuesOf(const metrology::FittedPlane& fit) { return valuesOf(fit.plane.point, fit.plane.normal); }
+std::vector<double> valuesOf(const metrology::FittedCircle& fit) {
   return with(valuesOf(fit.circle.centre, fit.circle.normal), fit.circle.radius);
 }
-std::vector<double> valuesOf(const FittedSphere& fit) {
+std::vector<double> valuesOf(const metrology::FittedSphere& fit) {
   const Eigen::Vector3d& centre = fit.sphere.centre;
   return {centre.x(), centre.y(), centre.z(), fit.sphere.radius};
 }
-std::vector<double> valuesOf(const FittedCylinder& fit) {
+std::vector<double> valuesOf(const metrology::FittedCylinder& fit) {
   return with(valuesOf(fit.cylinder.axis.point, fit.cylinder.axis.direction), fit.cylinder.radius);
 }
 
@@ -48,7 +47,7 @@ std::string snoopingText(const Snooping& snooping) {
   std::string text =
       fmt::format("  left out by the w-test: {} (critical w {:.3g}, level {:g} for all readings together)\n",
                   snooping.rejected.size(), snooping.critical_w, snooping.family_level);
-  for (const RejectedReading& one : snooping.rejected) {
+  for (const metrology::RejectedReading& one : snooping.rejected) {
     text += fmt::format("    point {}: w {:.3g}, above {:.3g}\n", one.index + 1, one.w, one.critical_w);
   }
   return text;
@@ -57,7 +56,7 @@ std::string snoopingText(const Snooping& snooping) {
 }  // namespace
 
 std::string fitText(const ShapeFit& fitted) {
-  const FitQuality& quality = fitted.quality();
+  const metrology::FitQuality& quality = fitted.quality();
   std::string text =
       fmt::format("{} through {} points, in the file's length unit\n", fitted.shape, fitted.points);
   if (fitted.snooping) text += snoopingText(*fitted.snooping);
@@ -71,4 +70,4 @@ std::string fitText(const ShapeFit& fitted) {
   return text + fmt::format("  method: {}\n", quality.method);
 }
 
-}  // namespace stiffscope
+}  // namespace stiffscope::reports

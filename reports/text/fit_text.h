@@ -4,9 +4,9 @@
 
 #include "reports/json/fit_json.h"
 
-namespace stiffscope {
+namespace stiffscope::reports {
 
 /// The fitted shape for people: each parameter with its standard uncertainty, the residuals, and the method.
 std::string fitText(const ShapeFit& fitted);
 
-}  // namespace stiffscope
+}  // namespace stiffscope::reports

@@ -1,17 +1,15 @@
 #include "reports/text/frames_text.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 #include <iterator>
 
-#include "core/input/units.h"
-#include "reports/geometry_source.h"
-#include "reports/text/unsigned_zero.h"
-#include "reports/text/wrapped.h"
+#include "core/io/units.h"
+#include "reports/words/names.h"
+#include "reports/words/numbers.h"
 
-namespace stiffscope {
+namespace stiffscope::reports {
 
 namespace {
 
@@ -25,19 +23,19 @@ std::string plusMinus(double value, const std::optional<double>& sd, int decimal
   return sd ? fmt::format("{:.{}f} +- {:.{}f}", value, decimals, *sd, decimals) : fmt::format("{:.{}f}", value, decimals);
 }
 
-void writeAxes(const Frames& frames, Out out) {
+void writeAxes(const frames::Frames& frames, Out out) {
   fmt::format_to(out, "\nAxes, in R0 with all joints at zero\n");
   fmt::format_to(out, "  {:<5}{:>32}{:>34}{:>7}{:>9}\n", "axis", "point (m)", "direction", "arc", "rms");
   for (std::size_t i = 0; i < 6; ++i) {
-    const Line& line = frames.arm.arm.axes_in_base_at_zero[i];
+    const metrology::Line& line = frames.arm.arm.axes_in_base_at_zero[i];
     const Eigen::Vector3d point = shown(line.point, 6), direction = shown(line.direction, 6);
     fmt::format_to(out, "  {:<5}{:>12.6f}{:>10.6f}{:>10.6f}{:>12.6f}{:>11.6f}{:>11.6f}", i + 1, point.x(), point.y(),
                    point.z(), direction.x(), direction.y(), direction.z());
-    const MeasuredAxis& axis = frames.axes[i];
+    const frames::MeasuredAxis& axis = frames.axes[i];
     if (axis.measured) {
       double arc = 0.0;
-      for (const AxisCircle& circle : axis.fit.circles) arc = std::max(arc, circle.arc);
-      fmt::format_to(out, "{:>6.0f}d{:>6.1f} um\n", arc / kDegree, axis.fit.rms / kMicrometre);
+      for (const metrology::AxisCircle& circle : axis.fit.circles) arc = std::max(arc, circle.arc);
+      fmt::format_to(out, "{:>6.0f}d{:>6.1f} um\n", arc / io::kDegree, axis.fit.rms / io::kMicrometre);
     } else {
       fmt::format_to(out, "  nominal: {}\n", axis.reason);
     }
@@ -45,31 +43,31 @@ void writeAxes(const Frames& frames, Out out) {
 }
 
 /// The uncertainties hold what the stiffnesses leave open, not what a sag by joint springs alone gets wrong.
-void writeSagStake(const Frames& frames, Out out) {
+void writeSagStake(const frames::Frames& frames, Out out) {
   fmt::format_to(out, "  taking off the sag moved the distances by");
   for (std::size_t i = 0; i < frames.links.size(); ++i) {
-    const LinkGeometry& link = frames.links[i];
-    fmt::format_to(out, "{} {:.3f} +- {:.3f}", i == 0 ? "" : ",", unsignedZero(link.distance_by_sag / kMillimetre, 3),
-                   link.distance_sag_sd / kMillimetre);
+    const frames::LinkGeometry& link = frames.links[i];
+    fmt::format_to(out, "{} {:.3f} +- {:.3f}", i == 0 ? "" : ",", unsignedZero(link.distance_by_sag / io::kMillimetre, 3),
+                   link.distance_sag_sd / io::kMillimetre);
   }
   fmt::format_to(out, " mm;\n  +- holds the stiffnesses' uncertainty, not bearings that give across their axes\n");
 }
 
-void writeLinks(const Frames& frames, Out out) {
+void writeLinks(const frames::Frames& frames, Out out) {
   fmt::format_to(out, "\nBetween consecutive axes\n  {:<7}{:>24}{:>12}{:>26}{:>12}\n", "axes", "distance (mm)", "nominal",
                  "angle (deg)", "nominal");
   for (std::size_t i = 0; i < frames.links.size(); ++i) {
-    const LinkGeometry& link = frames.links[i];
-    const auto length_sd = link.distance_sd ? std::optional(*link.distance_sd / kMillimetre) : std::nullopt;
-    const auto angle_sd = link.angle_sd ? std::optional(*link.angle_sd / kDegree) : std::nullopt;
+    const frames::LinkGeometry& link = frames.links[i];
+    const auto length_sd = link.distance_sd ? std::optional(*link.distance_sd / io::kMillimetre) : std::nullopt;
+    const auto angle_sd = link.angle_sd ? std::optional(*link.angle_sd / io::kDegree) : std::nullopt;
     fmt::format_to(out, "  {}-{:<5}{:>24}{:>12.1f}{:>26}{:>12.1f}{}\n", i + 1, i + 2,
-                   plusMinus(link.distance / kMillimetre, length_sd, 3), link.nominal_distance / kMillimetre,
-                   plusMinus(link.angle / kDegree, angle_sd, 4), link.nominal_angle / kDegree,
+                   plusMinus(link.distance / io::kMillimetre, length_sd, 3), link.nominal_distance / io::kMillimetre,
+                   plusMinus(link.angle / io::kDegree, angle_sd, 4), link.nominal_angle / io::kDegree,
                    (link.near_parallel ? "  *" : "") + sourceMark(frames, {i, i + 1}));
   }
   if (frames.sag_removed) writeSagStake(frames, out);
   for (std::size_t i = 0; i < frames.links.size(); ++i) {
-    const LinkGeometry& link = frames.links[i];
+    const frames::LinkGeometry& link = frames.links[i];
     if (!link.near_parallel) continue;
     const Eigen::Vector3d at = shown(link.at_point_in_r0, 3);
     fmt::format_to(out, "  * nearly parallel: distance in the plane across axis {} at R0 ({:.3f}, {:.3f}, {:.3f}) m\n",
@@ -77,26 +75,26 @@ void writeLinks(const Frames& frames, Out out) {
   }
 }
 
-void writeWrist(const Campaign& campaign, const Frames& frames, Out out) {
-  const WristCentre& wrist = frames.wrist;
+void writeWrist(const campaign::Campaign& campaign, const frames::Frames& frames, Out out) {
+  const frames::WristCentre& wrist = frames.wrist;
   if (!wrist.measured) {
     fmt::format_to(out, "\nWrist centre: not measured: {}\n", wrist.reason);
     return;
   }
   fmt::format_to(out, "\nWrist centre in R0 by reflector (Table I), mm\n  {:<12}{:>11}{:>11}{:>11}{:>9}{:>10}{:>10}\n",
                  "reflector", "x", "y", "z", "offset", "radius", "readings");
-  for (const WristTableRow& row : wrist.table) {
-    const Eigen::Vector3d mm = shown(row.centre_in_r0 / kMillimetre, 3);
+  for (const frames::WristTableRow& row : wrist.table) {
+    const Eigen::Vector3d mm = shown(row.centre_in_r0 / io::kMillimetre, 3);
     fmt::format_to(out, "  {:<12}{:>11.3f}{:>11.3f}{:>11.3f}{:>9.3f}{:>10.3f}{:>10}\n",
                    campaign.targets[static_cast<std::size_t>(row.target)].id, mm.x(), mm.y(), mm.z(),
-                   row.offset / kMillimetre, row.radius / kMillimetre, row.readings);
+                   row.offset / io::kMillimetre, row.radius / io::kMillimetre, row.readings);
   }
   const auto place = [&](const char* name, const Eigen::Vector3d& point) {
-    const Eigen::Vector3d mm = shown(point / kMillimetre, 3);
+    const Eigen::Vector3d mm = shown(point / io::kMillimetre, 3);
     fmt::format_to(out, "  {:<42}{:>11.3f}{:>11.3f}{:>11.3f}\n", name, mm.x(), mm.y(), mm.z());
   };
   const auto uncertain = [&](const Eigen::Matrix3d& covariance) {
-    const Eigen::Vector3d mm = covariance.diagonal().cwiseSqrt() / kMillimetre;
+    const Eigen::Vector3d mm = covariance.diagonal().cwiseSqrt() / io::kMillimetre;
     fmt::format_to(out, "  {:<42}{:>11.3f}{:>11.3f}{:>11.3f}\n", "  +-, with R0's", mm.x(), mm.y(), mm.z());
   };
   place("mean of the rows", wrist.table_mean_in_r0);
@@ -106,39 +104,39 @@ void writeWrist(const Campaign& campaign, const Frames& frames, Out out) {
   place("nearest to axes 5 and 6", wrist.nearest_axes_56_in_r0);
   place("barycentre of the reflectors (Dumas et al.)", wrist.reflector_barycentre_in_r0);
   const auto miss = [](double value, double sd) {
-    return fmt::format("{:.3f} +- {:.3f} mm", value / kMillimetre, sd / kMillimetre);
+    return fmt::format("{:.3f} +- {:.3f} mm", value / io::kMillimetre, sd / io::kMillimetre);
   };
   fmt::format_to(out, "  axes 4 and 5 miss by {}{}, 5 and 6 by {}{}\n", miss(wrist.miss_45, wrist.miss_45_sd),
                  sourceMark(frames, {3, 4}), miss(wrist.miss_56, wrist.miss_56_sd), sourceMark(frames, {4, 5}));
 }
 
-void writeR0(const Frames& frames, Out out) {
+void writeR0(const frames::Frames& frames, Out out) {
   if (!frames.arm.points_placed) {
     fmt::format_to(out, "R0 stands on the URDF's axes: axes 1 and 2 are not both measured.\n");
     return;
   }
-  fmt::format_to(out, "r0_from_{} (m)\n", frames.points_frame == PointFrame::tracker ? "tracker" : "base_link");
+  fmt::format_to(out, "r0_from_{} (m)\n", frames.points_frame == campaign::PointFrame::tracker ? "tracker" : "base_link");
   for (int row = 0; row < 3; ++row) {
     const Eigen::Vector4d values = frames.arm.r0_from_points.matrix().row(row).transpose();
     fmt::format_to(out, "  {:>13.9f}{:>13.9f}{:>13.9f}{:>13.6f}\n", unsignedZero(values[0], 9),
                    unsignedZero(values[1], 9), unsignedZero(values[2], 9), unsignedZero(values[3], 6));
   }
-  const FrameError sd = frames.covariance.r0().diagonal().cwiseSqrt();
-  const Eigen::Vector3d turn = 1e6 * sd.head<3>(), origin = sd.tail<3>() / kMillimetre;
+  const metrology::FrameError sd = frames.covariance.r0().diagonal().cwiseSqrt();
+  const Eigen::Vector3d turn = 1e6 * sd.head<3>(), origin = sd.tail<3>() / io::kMillimetre;
   fmt::format_to(out, "  standard uncertainty about x0, y0, z0 {:.1f}, {:.1f}, {:.1f} urad; of the origin "
                  "{:.4f}, {:.4f}, {:.4f} mm\n", turn.x(), turn.y(), turn.z(), origin.x(), origin.y(), origin.z());
 }
 
 }  // namespace
 
-std::string framesText(const Campaign& campaign, const Frames& frames) {
+std::string framesText(const campaign::Campaign& campaign, const frames::Frames& frames) {
   std::string text;
   Out out(text);
   fmt::format_to(out, "{}: frames and geometry\n\n", campaign.name);
   writeR0(frames, out);
   writeAxes(frames, out);
   writeLinks(frames, out);
-  const Eigen::Vector3d tcp = shown(frames.tcp_in_flange / kMillimetre, 3);
+  const Eigen::Vector3d tcp = shown(frames.tcp_in_flange / io::kMillimetre, 3);
   fmt::format_to(out, "\nP_TCP, where axis 6 pierces the flange plane: ({:.3f}, {:.3f}, {:.3f}) mm in the flange{}\n",
                  tcp.x(), tcp.y(), tcp.z(), sourceMark(frames, {4, 5}));
   writeWrist(campaign, frames, out);
@@ -146,4 +144,4 @@ std::string framesText(const Campaign& campaign, const Frames& frames) {
   return text;
 }
 
-}  // namespace stiffscope
+}  // namespace stiffscope::reports

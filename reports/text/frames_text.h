@@ -5,9 +5,9 @@
 #include "core/campaign/campaign.h"
 #include "core/frames/frames.h"
 
-namespace stiffscope {
+namespace stiffscope::reports {
 
 /// The result of `frames` for a terminal: plain text, no line over 100 columns but for names from the campaign.
-std::string framesText(const Campaign& campaign, const Frames& frames);
+std::string framesText(const campaign::Campaign& campaign, const frames::Frames& frames);
 
-}  // namespace stiffscope
+}  // namespace stiffscope::reports

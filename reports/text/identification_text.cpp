@@ -1,41 +1,143 @@
 #include "reports/text/identification_text.h"
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <iterator>
 
-#include "core/identification/coverage_factor.h"
-#include "core/identification/posture_count.h"
-#include "core/identification/stiffness_interval.h"
-#include "core/input/units.h"
-#include "reports/method_names.h"
-#include "reports/text/uncertainty_text.h"
-#include "reports/text/wrapped.h"
+#include "core/identification/estimate.h"
+#include "core/identification/posture_stiffness.h"
+#include "core/io/units.h"
+#include "reports/words/names.h"
+#include "reports/words/numbers.h"
 
-namespace stiffscope {
+namespace stiffscope::reports {
+
+namespace {
+
+constexpr double kMega = 1e6;
+
+std::string bounds(const identification::CoverageInterval& interval) {
+  if (std::isfinite(interval.low) && std::isfinite(interval.high)) {
+    return fmt::format("{:.4f} to {:.4f}", interval.low / kMega, interval.high / kMega);
+  }
+  if (std::isfinite(interval.low)) return fmt::format("above {:.4f}", interval.low / kMega);
+  if (std::isfinite(interval.high)) return fmt::format("below {:.4f}", interval.high / kMega);
+  return "unbounded";
+}
+
+template <class Write>
+void forEachSeen(const identification::Identification& result, const std::vector<identification::Method>& methods, const Write& write) {
+  for (const identification::Method which : methods) {
+    const identification::MethodResult& method = result.of(which);
+    for (int joint = 0; method.available && joint < 6; ++joint) {
+      if (method.estimate.identifiable[static_cast<std::size_t>(joint)]) write(which, method, joint);
+    }
+  }
+}
+
+}  // namespace
+
+std::string wideIntervals(const identification::Identification& result, const std::vector<identification::Method>& methods) {
+  std::string text;
+  constexpr double kWide = 0.2;  // relative half width: beyond it the two sides differ by a tenth of a standard deviation
+  forEachSeen(result, methods, [&](identification::Method which, const identification::MethodResult& method, int joint) {
+    const identification::CoverageInterval compliance = identification::complianceInterval(method.estimate, joint);
+    if (!std::isfinite(compliance.low)) return;
+    const double c = method.estimate.compliance[joint];
+    if (compliance.high - c < kWide * std::abs(c)) return;
+    const bool open = compliance.low <= 0.0 && compliance.high >= 0.0;
+    text += fmt::format("  {} k{}: 95 % interval {}{}\n", namesOf(which).brief, joint + 1, bounds(identification::stiffnessInterval(compliance)),
+                        open ? " (its compliance may be zero: this data only bounds it from below)" : "");
+  });
+  return text;
+}
+
+std::string bootstrapText(const identification::Identification& result, const std::vector<identification::Method>& methods) {
+  std::string rows;
+  std::size_t draws = 0;
+  forEachSeen(result, methods, [&](identification::Method which, const identification::MethodResult& method, int joint) {
+    if (method.bootstrap.compliances.empty()) return;
+    draws = method.bootstrap.compliances.size();
+    rows += fmt::format("  {:<5}k{} {:>26}{:>26}\n", namesOf(which).brief, joint + 1,
+                        bounds(identification::stiffnessInterval(method.estimate, joint)), bounds(method.bootstrap.stiffness(joint)));
+  });
+  if (rows.empty()) return {};
+  return fmt::format("\n95 % intervals, 1e6 Nm/rad: stated, and percentiles of {} draws of the postures\n  {:<5}   {:>26}{:>26}\n{}",
+                     draws, "", "stated", "bootstrap", rows);
+}
+
+std::string stepsText(const identification::StepStudy& study, const identification::Identification& result, const std::vector<identification::Method>& methods) {
+  std::string text;
+  const auto out = std::back_inserter(text);
+  for (const identification::Method which : methods) {
+    const identification::StepsOfMethod& own = study.methods[static_cast<std::size_t>(which)];
+    if (own.steps.empty()) continue;
+    const robot::JointMask& seen = result.of(which).estimate.identifiable;
+    const auto row = [&](const std::string& name, const auto& cell) {
+      fmt::format_to(out, "  {:<14}", name);
+      for (int j = 0; j < 6; ++j) {
+        fmt::format_to(out, " {:>17}", seen[static_cast<std::size_t>(j)] ? cell(j) : "-");
+      }
+      fmt::format_to(out, "\n");
+    };
+    fmt::format_to(out, "\n{} by load step, 1e6 Nm/rad +- standard uncertainty\n", namesOf(which).full);
+    for (const identification::StepEstimate& one : own.steps) {
+      row(fmt::format("{} ({:.0f} N)", one.step, one.mean_force), [&](int j) {
+        return fmt::format("{:.4f} +-{:.4f}", one.estimate.stiffness(j) / kMega, one.estimate.stiffnessSd(j) / kMega);
+      });
+    }
+    row("change of 1/k", [&](int j) {
+      const identification::LoadDependence& joint = own.joints[static_cast<std::size_t>(j)];
+      return fmt::format("{:+.2f} +-{:.2f} %", 100.0 * joint.change, 100.0 * joint.change_sd);
+    });
+    row("p, linear", [&](int j) { return fmt::format("{:.3g}", own.joints[static_cast<std::size_t>(j)].p_linear); });
+  }
+  if (!text.empty()) {
+    text += "  p: how often steps of equal stiffness would differ as much by chance; below 0.05 / 6 the stiffness depends on "
+            "the load\n";
+  }
+  return text;
+}
+
+std::string posturesText(const campaign::Campaign& campaign, const identification::Identification& result, identification::Method method) {
+  const identification::PostureStiffnesses postures(campaign, result, method);
+  const std::vector<identification::GeometricStiffnessCost> costs = identification::geometricStiffnessCosts(result, method);
+  if (postures.size() == 0) return {};
+  std::string text = fmt::format("\nPostures at P_TCP by {}: softest and stiffest direction, what neglecting K_c costs\n"
+                                 "  kappa: condition number of the posture's Jacobian by P_TCP, 1 at best\n"
+                                 "  {:<12}{:>8}{:>16}{:>16}{:>12}\n",
+                                 namesOf(method).full, "pose", "kappa", "softest (N/um)", "stiffest", "K_c (um)");
+  for (std::size_t i = 0; i < postures.size(); ++i) {
+    const identification::PostureStiffness posture = postures.at(i);
+    const auto& principal = posture.with_kc.principal;
+    text += fmt::format("  {:<12}{:>8.2f}{:>16.3f}{:>16.3f}{:>12.2f}\n", posture.pose, posture.conditioning.kappa,
+                        principal[0].stiffness * io::kMicrometre, principal[2].stiffness * io::kMicrometre,
+                        costs[i].at_targets / io::kMicrometre);
+  }
+  return text;
+}
 
 namespace {
 
 using Out = std::back_insert_iterator<std::string>;
 
-std::string stiffnessCell(const StiffnessEstimate& estimate, int joint) {
+std::string stiffnessCell(const identification::StiffnessEstimate& estimate, int joint) {
   if (!estimate.identifiable[static_cast<std::size_t>(joint)]) return "-";
   const char* mark = estimate.mark(joint).empty() ? "" : (estimate.mark(joint) == "negative" ? "!" : "?");
-  const double expanded = coverageFactor(estimate, joint, kStatedCoverage) * estimate.stiffnessSd(joint) * 1e-6;
+  const double expanded = identification::coverageFactor(estimate, joint, identification::kStatedCoverage) * estimate.stiffnessSd(joint) * 1e-6;
   return fmt::format("{:.4f} +-{}{}", estimate.stiffness(joint) * 1e-6,
                      std::isfinite(expanded) ? fmt::format("{:.4f}", expanded) : "?", mark);
 }
 
-void writeStiffness(const Identification& result, const std::vector<Method>& methods, Out out) {
+void writeStiffness(const identification::Identification& result, const std::vector<identification::Method>& methods, Out out) {
   fmt::format_to(out, "\nStiffness, 1e6 Nm/rad, with its expanded uncertainty U (coverage 95 %, Student's t)\n  {:<5}", "");
   for (int joint = 1; joint <= 6; ++joint) fmt::format_to(out, " {:>17}", fmt::format("k{}", joint));
   fmt::format_to(out, "\n");
   bool negative = false, imprecise = false;
-  for (const Method which : methods) {
-    const MethodResult& method = result.of(which);
+  for (const identification::Method which : methods) {
+    const identification::MethodResult& method = result.of(which);
     if (!method.available) continue;
     fmt::format_to(out, "  {:<5}", namesOf(which).brief);
     for (int joint = 0; joint < 6; ++joint) {
@@ -50,40 +152,40 @@ void writeStiffness(const Identification& result, const std::vector<Method>& met
   if (negative) fmt::format_to(out, "  ! negative: no spring has that, something else is in the data\n");
   if (imprecise) fmt::format_to(out, "  ? imprecise: the standard uncertainty exceeds the value\n");
   for (std::size_t j = 0; j < 6; ++j) {
-    const JointIdentifiability& joint = result.identifiability.joints[j];
+    const identification::JointIdentifiability& joint = result.identifiability.joints[j];
     if (joint.identifiable || joint.reason.empty()) continue;
     fmt::format_to(out, "  {}\n", wrapped(fmt::format("k{} is not identifiable: {}", j + 1, joint.reason), 4));
   }
-  for (const Method which : methods) {
-    const MethodResult& method = result.of(which);
+  for (const identification::Method which : methods) {
+    const identification::MethodResult& method = result.of(which);
     if (method.available) continue;
     fmt::format_to(out, "  {}\n", wrapped(fmt::format("{} is unavailable: {}", namesOf(which).full, method.reason), 4));
   }
 }
 
-void writeResiduals(const Identification& result, const std::vector<Method>& methods, Out out) {
+void writeResiduals(const identification::Identification& result, const std::vector<identification::Method>& methods, Out out) {
   fmt::format_to(out, "\n  {:<5}{:>12}{:>20}{:>24}\n", "", "condition", "rms residual (um)", "over dof, sigma (um)");
-  for (const Method which : methods) {
-    const MethodResult& method = result.of(which);
+  for (const identification::Method which : methods) {
+    const identification::MethodResult& method = result.of(which);
     if (!method.available) continue;
     fmt::format_to(out, "  {:<5}{:>12.2f}{:>20.1f}{:>24.1f}\n", namesOf(which).brief, method.estimate.condition,
-                   method.estimate.rms_residual / kMicrometre, method.estimate.sigma / kMicrometre);
+                   method.estimate.rms_residual / io::kMicrometre, method.estimate.sigma / io::kMicrometre);
   }
   fmt::format_to(out, "  condition: condition number of the method's equations, columns of unit length; 1 at best\n");
 }
 
-void writeCompensation(const Identification& result, const std::vector<Method>& methods, Out out) {
+void writeCompensation(const identification::Identification& result, const std::vector<identification::Method>& methods, Out out) {
   const auto table = [&](const char* place, const auto& member) {
-    const bool any = std::any_of(methods.begin(), methods.end(), [&](Method which) {
+    const bool any = std::any_of(methods.begin(), methods.end(), [&](identification::Method which) {
       return result.of(which).available && (result.of(which).*member).has_value();
     });
     if (!any) return;
     fmt::format_to(out, "\nShare of the deflection compensated at {}, %\n  {:<5}{:>8}{:>10}{:>8}{:>16}\n", place, "", "used",
                    "held out", "all", "all identify");
-    for (const Method which : methods) {
-      const MethodResult& method = result.of(which);
+    for (const identification::Method which : methods) {
+      const identification::MethodResult& method = result.of(which);
       if (!method.available || !(method.*member)) continue;
-      const Compensation& share = *(method.*member);
+      const identification::Compensation& share = *(method.*member);
       if (method.subsets.compliances.empty()) {
         fmt::format_to(out, "  {:<5}{:>8}{:>10}{:>8}{:>16.2f}\n", namesOf(which).brief, "-", "-", "-",
                        100.0 * share.all_postures);
@@ -93,10 +195,10 @@ void writeCompensation(const Identification& result, const std::vector<Method>& 
                      100.0 * share.subsets.held_out, 100.0 * share.subsets.all, 100.0 * share.all_postures);
     }
   };
-  table("P_wrist (which sees joints 1-3)", &MethodResult::at_wrist);
-  table("the reflectors (which see all joints)", &MethodResult::at_targets);
-  for (const Method which : methods) {
-    const SubsetStudy& study = result.of(which).subsets;
+  table("P_wrist (which sees joints 1-3)", &identification::MethodResult::at_wrist);
+  table("the reflectors (which see all joints)", &identification::MethodResult::at_targets);
+  for (const identification::Method which : methods) {
+    const identification::SubsetStudy& study = result.of(which).subsets;
     if (study.compliances.empty()) continue;
     fmt::format_to(out, "  means over {} of the {} out of {} postures that identify\n",
                    study.every_subset ? fmt::format("all {} subsets", study.compliances.size())
@@ -115,12 +217,12 @@ void writeCompensation(const Identification& result, const std::vector<Method>& 
 
 }  // namespace
 
-std::string identificationText(const Campaign& campaign, const Identification& result,
-                               const std::vector<Method>& methods) {
+std::string identificationText(const campaign::Campaign& campaign, const identification::Identification& result,
+                               const std::vector<identification::Method>& methods) {
   std::string text;
   Out out(text);
   fmt::format_to(out, "{}: joint stiffness from load step{} {}, {} postures\n", campaign.name,
-                 result.steps.size() > 1 ? "s" : "", fmt::join(result.steps, ", "), postureCount(result));
+                 result.steps.size() > 1 ? "s" : "", fmt::join(result.steps, ", "), identification::postureCount(result));
   for (const std::string& left_out : result.left_out) fmt::format_to(out, "  left out: {}\n", left_out);
   writeStiffness(result, methods, out);
   writeResiduals(result, methods, out);
@@ -133,8 +235,8 @@ std::string identificationText(const Campaign& campaign, const Identification& r
   if (result.calibration.done) {
     fmt::format_to(out, "{}\n", wrapped(fmt::format("Partial Pose's geometry: unloaded positions missed by {:.3f} mm rms "
                                                     "before and {:.3f} mm after calibration of {} parameters.",
-                                                    result.calibration.rms_before / kMillimetre,
-                                                    result.calibration.rms_after / kMillimetre,
+                                                    result.calibration.rms_before / io::kMillimetre,
+                                                    result.calibration.rms_after / io::kMillimetre,
                                                     result.calibration.parameters), 0));
   }
   fmt::format_to(out, "{}\n", wrapped(fmt::format("Own weight: {}.", result.frames.sag_note), 0));
@@ -143,9 +245,9 @@ std::string identificationText(const Campaign& campaign, const Identification& r
                                                   100.0 * result.geometric_stiffness_share), 0));
   if (result.servo_change > 0.0) {
     fmt::format_to(out, "{}\n", wrapped(fmt::format("The reported joint angles change under load by up to {:.4f} deg: "
-                                                    "servo, not subtracted.", result.servo_change / kDegree), 0));
+                                                    "servo, not subtracted.", result.servo_change / io::kDegree), 0));
   }
   return text;
 }
 
-}  // namespace stiffscope
+}  // namespace stiffscope::reports

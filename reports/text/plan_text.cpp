@@ -1,22 +1,20 @@
 #include "reports/text/plan_text.h"
 
-#include <fmt/format.h>
-
 #include <cmath>
+#include <fmt/format.h>
 #include <iterator>
 
-#include "core/input/units.h"
-#include "reports/text/unsigned_zero.h"
-#include "reports/text/wrapped.h"
+#include "core/io/units.h"
+#include "reports/words/numbers.h"
 
-namespace stiffscope {
+namespace stiffscope::reports {
 
 namespace {
 
 using Out = std::back_insert_iterator<std::string>;
 
 /// Uncertainties of the joints that would be seen, in 1e-9 rad/Nm, or per cent of k where k is known.
-void writeUncertainties(const Plan& plan, const std::string& name, const Vector6d& sd, Out out) {
+void writeUncertainties(const planning::Plan& plan, const std::string& name, const Vector6d& sd, Out out) {
   fmt::format_to(out, "  {:<28}", name);
   for (std::size_t j = 0; j < 6; ++j) {
     const auto joint = static_cast<Eigen::Index>(j);
@@ -31,14 +29,14 @@ void writeUncertainties(const Plan& plan, const std::string& name, const Vector6
   fmt::format_to(out, "\n");
 }
 
-void writePostures(const Plan& plan, Out out) {
+void writePostures(const planning::Plan& plan, Out out) {
   fmt::format_to(out, "\n  {:<8}", "pose");
   for (int joint = 1; joint <= 6; ++joint) fmt::format_to(out, "{:>9}", fmt::format("q{} (deg)", joint));
   fmt::format_to(out, "{:>11}{}\n", "log det +", plan.arm.pull ? "   pull in base_link" : "");
-  for (const PlannedPosture& posture : plan.postures) {
+  for (const planning::PlannedPosture& posture : plan.postures) {
     fmt::format_to(out, "  {:<8}", posture.id);
     for (int joint = 0; joint < 6; ++joint)
-      fmt::format_to(out, "{:>9.2f}", unsignedZero(posture.candidate.q[joint] / kDegree, 2));
+      fmt::format_to(out, "{:>9.2f}", unsignedZero(posture.candidate.q[joint] / io::kDegree, 2));
     fmt::format_to(out, "{:>11}",
                    std::isfinite(posture.log_det_gain) ? fmt::format("{:.2f}", posture.log_det_gain) : "-");
     if (plan.arm.pull) {
@@ -50,7 +48,7 @@ void writePostures(const Plan& plan, Out out) {
   }
 }
 
-void writeGain(const Plan& plan, Out out) {
+void writeGain(const planning::Plan& plan, Out out) {
   fmt::format_to(out, "\nExpected standard uncertainty, {}\n  {:<28}",
                  plan.compliance ? "per cent of the identified k" : "of 1/k, 1e-9 rad/Nm", "");
   for (int joint = 1; joint <= 6; ++joint) fmt::format_to(out, "{:>10}", fmt::format("k{}", joint));
@@ -59,7 +57,7 @@ void writeGain(const Plan& plan, Out out) {
     writeUncertainties(plan, fmt::format("measured, {} postures", plan.measured), plan.sd_measured, out);
   writeUncertainties(plan, fmt::format("{}{} planned", plan.measured > 0 ? "and " : "", plan.postures.size()),
                      plan.postures.back().sd, out);
-  for (const RandomPostures* random : {&plan.random_same, &plan.random_double}) {
+  for (const planning::RandomPostures* random : {&plan.random_same, &plan.random_double}) {
     writeUncertainties(plan,
                        fmt::format("{}{} random (median)", plan.measured > 0 ? "and " : "", random->postures),
                        random->sd, out);
@@ -81,7 +79,7 @@ std::string joined(const Eigen::Ref<const Eigen::VectorXd>& values, int decimals
 
 }  // namespace
 
-std::string planText(const Campaign& campaign, const Plan& plan) {
+std::string planText(const campaign::Campaign& campaign, const planning::Plan& plan) {
   std::string text;
   Out out(text);
   fmt::format_to(out, "{}: {} postures {}, {:.0f} N {}; chosen from {} of {} drawn\n", campaign.name,
@@ -109,25 +107,25 @@ std::string planText(const Campaign& campaign, const Plan& plan) {
   return text;
 }
 
-std::string planCsv(const Plan& plan) {
+std::string planCsv(const planning::Plan& plan) {
   std::string text =
       "pose,q1_deg,q2_deg,q3_deg,q4_deg,q5_deg,q6_deg,fx_n,fy_n,fz_n,mx_nm,my_nm,mz_nm,pull_x,pull_y,pull_"
       "z\n";
-  for (const PlannedPosture& posture : plan.postures) {
-    text += fmt::format("{},{},{},{}\n", posture.id, joined(posture.candidate.q, 5, ",", 1.0 / kDegree),
+  for (const planning::PlannedPosture& posture : plan.postures) {
+    text += fmt::format("{},{},{},{}\n", posture.id, joined(posture.candidate.q, 5, ",", 1.0 / io::kDegree),
                         joined(posture.reading, 3, ","), joined(posture.pull_in_base, 6, ","));
   }
   return text;
 }
 
-std::string planXml(const Plan& plan) {
+std::string planXml(const planning::Plan& plan) {
   std::string text = "<postures>\n";
-  for (const PlannedPosture& posture : plan.postures) {
-    text += fmt::format("  <posture q_deg=\"{}\"", joined(posture.candidate.q, 5, " ", 1.0 / kDegree));
+  for (const planning::PlannedPosture& posture : plan.postures) {
+    text += fmt::format("  <posture q_deg=\"{}\"", joined(posture.candidate.q, 5, " ", 1.0 / io::kDegree));
     if (plan.arm.pull) text += fmt::format(" pull=\"{}\"", joined(posture.pull_in_base, 6, " "));
     text += "/>\n";
   }
   return text + "</postures>\n";
 }
 
-}  // namespace stiffscope
+}  // namespace stiffscope::reports

@@ -2,14 +2,10 @@
 
 #include <cmath>
 #include <filesystem>
-
-#include "app/figures/arm_pose.h"
-#include "app/figures/deflection_scene.h"
-#include "app/figures/encoder_bars.h"
+#include "app/figures/arm_scenes.h"
+#include "app/figures/residual_charts.h"
 #include "app/figures/make_figures.h"
-#include "app/figures/residual_bars.h"
-#include "app/figures/stiffness_intervals.h"
-#include "app/figures/subset_spreads.h"
+#include "app/figures/stiffness_charts.h"
 #include "core/campaign/read_campaign.h"
 #include "reports/page/report_page.h"
 #include "tests/reports/small_result.h"
@@ -17,16 +13,16 @@
 namespace stiffscope {
 namespace {
 
-ReportCampaign of(const SmallResult& small) { return {small.campaign, small.identification}; }
+reports::ReportCampaign of(const SmallResult& small) { return {small.campaign, small.identification}; }
 
 TEST(ResidualBars, GreyThenTheMethodsInMillimetres) {
   const SmallResult small;
-  const GroupedBarChart chart = residualBars(of(small));
+  const render::GroupedBarChart chart = app::residualBars(of(small));
   EXPECT_EQ(chart.categories, (std::vector<std::string>{"A", "B", "C"}));
   ASSERT_EQ(chart.series.size(), 3u);  // CP is not available
-  EXPECT_EQ(chart.series[0].colour, colours::kNone);
-  EXPECT_EQ(chart.series[1].colour, colours::kPp);
-  EXPECT_EQ(chart.series[2].colour, colours::kDpp);
+  EXPECT_EQ(chart.series[0].colour, render::colours::kNone);
+  EXPECT_EQ(chart.series[1].colour, render::colours::kPp);
+  EXPECT_EQ(chart.series[2].colour, render::colours::kDpp);
   EXPECT_EQ(chart.series[0].values, (std::vector<double>{1.0, 3.0, 2.0}));
   EXPECT_DOUBLE_EQ(chart.series[1].values[1], 0.6);
   EXPECT_DOUBLE_EQ(chart.series[2].values[1], 0.3);
@@ -37,18 +33,18 @@ TEST(ResidualBars, AtTheReflectorsWhereTheWristIsNotMeasured) {
   SmallResult small;
   small.identification.wrist.clear();
   small.identification.wrist_displacement.clear();
-  const GroupedBarChart chart = residualBars(of(small));
+  const render::GroupedBarChart chart = app::residualBars(of(small));
   EXPECT_EQ(chart.series[0].values, (std::vector<double>{2.0, 6.0, 4.0}));
   EXPECT_EQ(chart.title, "Displacement of the reflectors (mean of 3)");
-  EXPECT_EQ(residualZoom(of(small)).series.size(), 2u);
+  EXPECT_EQ(app::residualZoom(of(small)).series.size(), 2u);
 }
 
 TEST(DeflectionScene, TheMedianPostureWithItsVectors) {
   const SmallResult small;
-  EXPECT_EQ(medianCase(of(small)), 2u);  // of 1, 3 and 2 mm
-  const ArmScene scene = deflectionScene(of(small));
+  EXPECT_EQ(app::medianCase(of(small)), 2u);  // of 1, 3 and 2 mm
+  const render::ArmScene scene = app::deflectionScene(of(small));
   ASSERT_EQ(scene.poses.size(), 1u);
-  const ArmPose& pose = scene.poses[0];
+  const render::ArmPose& pose = scene.poses[0];
   ASSERT_EQ(pose.joint_points.size(), 7u);
   ASSERT_EQ(pose.axis_directions.size(), 6u);
   ASSERT_TRUE(pose.wrist && pose.wrist->measured && pose.wrist->predicted);
@@ -57,16 +53,16 @@ TEST(DeflectionScene, TheMedianPostureWithItsVectors) {
   ASSERT_EQ(pose.targets.size(), 3u);
   EXPECT_EQ(pose.targets[0].label, "P_{10}");
   EXPECT_NEAR(pose.targets[0].measured->z(), -4e-3, 1e-15);
-  EXPECT_NE(describeDeflectionScene(of(small), 100).caption.find("2.00\u00a0mm"), std::string::npos);
+  EXPECT_NE(app::describeDeflectionScene(of(small), 100).caption.find("2.00\u00a0mm"), std::string::npos);
 }
 
 TEST(DeflectionScene, EveryJointPointIsOnItsAxis) {
   SmallResult small;
-  LoadCase& load_case = small.identification.cases[0];
+  identification::LoadCase& load_case = small.identification.cases[0];
   load_case.q_sagged = Vector6d::Constant(0.4);
-  const ArmPose pose = armPose(of(small), 0, Method::decoupled_partial_pose);
+  const render::ArmPose pose = app::armPose(of(small), 0, identification::Method::decoupled_partial_pose);
   for (int joint = 0; joint < 6; ++joint) {
-    const Line axis = axisAt(small.campaign.robot, unloadedPosture(small.campaign.robot, load_case), joint);
+    const metrology::Line axis = robot::axisAt(small.campaign.robot, identification::unloadedPosture(small.campaign.robot, load_case), joint);
     const Eigen::Vector3d off = pose.joint_points[static_cast<std::size_t>(joint)] - axis.point;
     EXPECT_LT(off.cross(axis.direction).norm(), 1e-12) << joint;  // rounding only
   }
@@ -75,16 +71,16 @@ TEST(DeflectionScene, EveryJointPointIsOnItsAxis) {
 TEST(DeflectionScene, TheFloorIsWhereTheRobotStands) {
   SmallResult small;
   small.identification.frames.arm.r0_from_base_link.translation() << 0, 0, -0.94;
-  EXPECT_DOUBLE_EQ(heightOfR0(small.identification.frames), 0.94);
-  const ArmPose pose = armPose(of(small), 0, Method::decoupled_partial_pose);
+  EXPECT_DOUBLE_EQ(app::heightOfR0(small.identification.frames), 0.94);
+  const render::ArmPose pose = app::armPose(of(small), 0, identification::Method::decoupled_partial_pose);
   EXPECT_NEAR(pose.wrist->position.z(), 2.31 + 0.94, 1e-12);
 }
 
 TEST(AllPostures, GhostsWithTheWristsVectors) {
   const SmallResult small;
-  const ArmScene scene = allPosturesScene(of(small));
+  const render::ArmScene scene = app::allPosturesScene(of(small));
   ASSERT_EQ(scene.poses.size(), 3u);
-  for (const ArmPose& pose : scene.poses) {
+  for (const render::ArmPose& pose : scene.poses) {
     EXPECT_TRUE(pose.ghost);
     EXPECT_TRUE(pose.targets.empty());
     EXPECT_TRUE(pose.wrist.has_value());
@@ -93,7 +89,7 @@ TEST(AllPostures, GhostsWithTheWristsVectors) {
 
 TEST(SubsetSpreads, APanelForEachJointThatIsSeen) {
   const SmallResult small;
-  const SpreadChart chart = subsetSpreads(of(small), true);
+  const render::SpreadChart chart = app::subsetSpreads(of(small), true);
   ASSERT_EQ(chart.methods.size(), 2u);
   ASSERT_EQ(chart.panels.size(), 5u);
   EXPECT_EQ(chart.panels[0].title, "k_{2}");
@@ -101,17 +97,17 @@ TEST(SubsetSpreads, APanelForEachJointThatIsSeen) {
   EXPECT_NEAR(chart.panels[0].spreads[1]->p50, 5.0, 1e-12);
   EXPECT_NEAR(chart.panels[0].spreads[1]->mean, (5.0 / 0.9 + 5.0 + 5.0 / 1.1) / 3.0, 1e-12);
   EXPECT_EQ(chart.panels[0].references[1], 5.6);  // the paper's DPP, active
-  EXPECT_TRUE(subsetSpreads(of(small), false).panels[0].references.empty());
-  const SmallResult undeclared(DoubleEncoder::unspecified);
-  EXPECT_TRUE(subsetSpreads(of(undeclared), true).reference_name.empty());
+  EXPECT_TRUE(app::subsetSpreads(of(small), false).panels[0].references.empty());
+  const SmallResult undeclared(campaign::DoubleEncoder::unspecified);
+  EXPECT_TRUE(app::subsetSpreads(of(undeclared), true).reference_name.empty());
 }
 
 TEST(StiffnessIntervals, ExpandedUncertaintyAndAGapForWhatIsNotSeen) {
   const SmallResult small;
-  const IntervalChart chart = stiffnessIntervals(of(small));
+  const render::IntervalChart chart = app::stiffnessIntervals(of(small));
   ASSERT_EQ(chart.series.size(), 2u);
   EXPECT_TRUE(std::isnan(chart.series[1].intervals[0].value));
-  const Interval& second = chart.series[1].intervals[1];
+  const render::Interval& second = chart.series[1].intervals[1];
   EXPECT_NEAR(second.value, 5e6, 1e-3);
   // The standard uncertainty is a tenth; t for one degree of freedom is 12.706 (tables give as many digits).
   EXPECT_NEAR(second.lower, 5e6 - 12.706 * 0.5e6, 500);
@@ -121,31 +117,31 @@ TEST(StiffnessIntervals, ExpandedUncertaintyAndAGapForWhatIsNotSeen) {
 }
 
 TEST(EncoderBars, BothStatesInMillimetres) {
-  const SmallResult inactive(DoubleEncoder::inactive, 2.0), active(DoubleEncoder::active);
-  const auto avoided = avoidedByEncoders({of(inactive), of(active)});
+  const SmallResult inactive(campaign::DoubleEncoder::inactive, 2.0), active(campaign::DoubleEncoder::active);
+  const auto avoided = reports::avoidedByEncoders({of(inactive), of(active)});
   ASSERT_TRUE(avoided.has_value());
-  const GroupedBarChart chart = encoderBars(*avoided);
+  const render::GroupedBarChart chart = app::encoderBars(*avoided);
   EXPECT_EQ(chart.series[0].values, (std::vector<double>{2.0, 6.0, 4.0}));
   EXPECT_EQ(chart.series[1].values, (std::vector<double>{1.0, 3.0, 2.0}));
-  EXPECT_NE(describeEncoderBars(*avoided).caption.find("50.0\u00a0%"), std::string::npos);
+  EXPECT_NE(app::describeEncoderBars(*avoided).caption.find("50.0\u00a0%"), std::string::npos);
 }
 
 TEST(Figures, NothingToDrawWithoutACase) {
   SmallResult small;
   small.identification.cases.clear();
-  EXPECT_TRUE(makeFigures({of(small)}).empty());
+  EXPECT_TRUE(app::makeFigures({of(small)}).empty());
 }
 
 TEST(Figures, APracticeCampaignFillsAPage) {
   const std::filesystem::path folder = STIFFSCOPE_SHARED_DIR "/practice/01";
   if (!std::filesystem::exists(folder)) GTEST_SKIP() << "the practice campaigns are not here";
-  const Campaign campaign = readCampaign(folder).campaign;
-  const Identification identification = identify(campaign);
-  ReportContent content;
+  const campaign::Campaign campaign = campaign::readCampaign(folder).campaign;
+  const identification::Identification identification = identification::identify(campaign);
+  reports::ReportContent content;
   content.campaigns.push_back({campaign, identification});
-  content.figures = makeFigures(content.campaigns);
+  content.figures = app::makeFigures(content.campaigns);
   std::vector<std::string> ids;
-  for (const Figure& figure : content.figures) {
+  for (const reports::Figure& figure : content.figures) {
     ids.push_back(figure.id);
     EXPECT_EQ(figure.png[1], 'P');
     EXPECT_FALSE(figure.alt.empty());
@@ -153,8 +149,8 @@ TEST(Figures, APracticeCampaignFillsAPage) {
   }
   EXPECT_EQ(ids, (std::vector<std::string>{"deflection", "all-postures", "compensation", "compensation-zoom",
                                            "subsets", "stiffness", "residuals", "circles", "wrist-sphere", "station"}));
-  EXPECT_LT(reportPage(content).size(), 5'000'000u);
-  const GroupedBarChart chart = residualBars(content.campaigns[0]);
+  EXPECT_LT(page::reportPage(content).size(), 5'000'000u);
+  const render::GroupedBarChart chart = app::residualBars(content.campaigns[0]);
   EXPECT_EQ(chart.series.size(), 4u);
   EXPECT_DOUBLE_EQ(chart.series[0].values[3], 1e3 * identification.wrist_displacement[3]);
 }

@@ -3,29 +3,27 @@
 
 #include <cmath>
 #include <filesystem>
-
-#include "app/figures/effect_classes.h"
-#include "app/figures/gap_bars.h"
-#include "app/figures/gap_scene.h"
+#include "app/figures/diagnosis_charts.h"
+#include "app/figures/arm_scenes.h"
 #include "core/campaign/read_campaign.h"
 #include "core/diagnosis/diagnose.h"
-#include "reports/page/effect_words.h"
-#include "reports/page/with_micro.h"
+#include "reports/words/effect_words.h"
+#include "reports/words/numbers.h"
 #include "tests/reports/small_result.h"
 
 namespace stiffscope {
 namespace {
 
 /// bearing_tilt of joints 2 and 3 is present and can look like link_compliance; hysteresis is not testable.
-Diagnosis byHand() {
-  Diagnosis diagnosis;
+diagnosis::Diagnosis byHand() {
+  diagnosis::Diagnosis diagnosis;
   diagnosis.usable = true;
-  diagnosis.verdict.entries = {{{Effect::bearing_tilt}, "joint 2, joint 3"}};
-  diagnosis.aliases = {{Effect::link_compliance, Effect::bearing_tilt}};
-  for (std::size_t e = 0; e < kEffectCount; ++e)
-    diagnosis.detectable.push_back({static_cast<Effect>(e), 1e-6 * static_cast<double>(e + 1)});
-  diagnosis.detectable[static_cast<std::size_t>(Effect::hysteresis)].size.reset();
-  diagnosis.not_testable = {{Effect::hysteresis, "no return to zero: a last, unloaded step is needed"}};
+  diagnosis.verdict.entries = {{{effects::Effect::bearing_tilt}, "joint 2, joint 3"}};
+  diagnosis.aliases = {{effects::Effect::link_compliance, effects::Effect::bearing_tilt}};
+  for (std::size_t e = 0; e < effects::kEffectCount; ++e)
+    diagnosis.detectable.push_back({static_cast<effects::Effect>(e), 1e-6 * static_cast<double>(e + 1)});
+  diagnosis.detectable[static_cast<std::size_t>(effects::Effect::hysteresis)].size.reset();
+  diagnosis.not_testable = {{effects::Effect::hysteresis, "no return to zero: a last, unloaded step is needed"}};
   diagnosis.size_limit = 5e-6;
   for (int pose = 0; pose < 3; ++pose) {
     for (int target = 0; target < 3; ++target)
@@ -42,39 +40,39 @@ Diagnosis byHand() {
 
 struct Shown {
   SmallResult small;
-  Diagnosis diagnosis = byHand();
-  ReportCampaign one{small.campaign, small.identification, nullptr, nullptr, nullptr, &diagnosis};
+  diagnosis::Diagnosis diagnosis = byHand();
+  reports::ReportCampaign one{small.campaign, small.identification, nullptr, nullptr, nullptr, &diagnosis};
 };
 
 TEST(EffectClasses, ARowAnEffectAndALineAClass) {
   const Shown shown;
-  const auto chart = effectClasses(shown.one);
+  const auto chart = app::effectClasses(shown.one);
   ASSERT_TRUE(chart.has_value());
-  ASSERT_EQ(chart->rows.size(), kEffectCount);
+  ASSERT_EQ(chart->rows.size(), effects::kEffectCount);
   EXPECT_EQ(chart->rows[1].name, "bearing tilt");
   EXPECT_TRUE(chart->rows[1].marked);
   EXPECT_NEAR(chart->rows[1].size, 2.0, 1e-12);
   EXPECT_EQ(chart->groups, (std::vector<std::vector<std::size_t>>{{0, 1}}));
-  const DotRow& hysteresis = chart->rows[static_cast<std::size_t>(Effect::hysteresis)];
+  const render::DotRow& hysteresis = chart->rows[static_cast<std::size_t>(effects::Effect::hysteresis)];
   EXPECT_TRUE(std::isnan(hysteresis.size));
   EXPECT_EQ(hysteresis.words, "not testable: no return to zero");
   EXPECT_NEAR(chart->reference, 5.0, 1e-12);
-  const std::string caption = describeEffectClasses(shown.one).caption;
+  const std::string caption = app::describeEffectClasses(shown.one).caption;
   EXPECT_NE(caption.find("link compliance or bearing tilt"), std::string::npos) << caption;
   EXPECT_NE(caption.find("1 of 16"), std::string::npos) << caption;
 }
 
 TEST(GapScene, BeforeAndAfterToOneScaleSeenAlike) {
   const Shown shown;
-  const auto scenes = gapScenes(shown.one);
+  const auto scenes = app::gapScenes(shown.one);
   ASSERT_TRUE(scenes.has_value());
   ASSERT_EQ(scenes->before.poses.size(), 3u);
   EXPECT_EQ(scenes->before.magnification, scenes->after.magnification);
   EXPECT_NEAR(scenes->before.poses[2].targets[0].residual->y(), 3e-4, 1e-15);
   EXPECT_NEAR(scenes->after.poses[2].targets[0].residual->z(), 1e-5, 1e-15);
-  EXPECT_NE(describeGapBefore(shown.one, *scenes).caption.find("300\u00a0µm, of P_{10} in posture C"),
+  EXPECT_NE(app::describeGapBefore(shown.one, *scenes).caption.find("300\u00a0µm, of P_{10} in posture C"),
             std::string::npos)
-      << describeGapBefore(shown.one, *scenes).caption;
+      << app::describeGapBefore(shown.one, *scenes).caption;
   EXPECT_NE(scenes->after.subtitle.find("bearing tilt (joints 2 and 3)"), std::string::npos)
       << scenes->after.subtitle;
 }
@@ -82,8 +80,8 @@ TEST(GapScene, BeforeAndAfterToOneScaleSeenAlike) {
 TEST(GapScene, OfALongDayNoMoreArrowsThanPartEachOther) {
   // 1,000 postures, of which every tenth took part in the diagnosis: 300 arrows.
   Shown shown;
-  std::vector<LoadCase>& cases = shown.small.identification.cases;
-  const std::vector<LoadCase> three = cases;
+  std::vector<identification::LoadCase>& cases = shown.small.identification.cases;
+  const std::vector<identification::LoadCase> three = cases;
   cases.clear();
   for (int pose = 0; pose < 1000; ++pose) {
     cases.push_back(three.front());
@@ -96,7 +94,7 @@ TEST(GapScene, OfALongDayNoMoreArrowsThanPartEachOther) {
       shown.diagnosis.at_points.push_back({pose, target, {}, {0, 1e-4, 0}, {0, 0, 1e-5}});
     }
   }
-  const auto scenes = gapScenes(shown.one);
+  const auto scenes = app::gapScenes(shown.one);
   ASSERT_TRUE(scenes.has_value());
   EXPECT_EQ(scenes->before.poses.size(), 25u);  // every fourth: 75 arrows, where 90 are the most
 }
@@ -104,64 +102,64 @@ TEST(GapScene, OfALongDayNoMoreArrowsThanPartEachOther) {
 TEST(GapScene, NothingToShowWhereNothingWasFound) {
   Shown shown;
   shown.diagnosis.verdict.entries.clear();
-  EXPECT_FALSE(gapScenes(shown.one).has_value());
-  EXPECT_EQ(gapBars(shown.one)->series.size(), 2u);  // stiffnesses alone and noise
+  EXPECT_FALSE(app::gapScenes(shown.one).has_value());
+  EXPECT_EQ(app::gapBars(shown.one)->series.size(), 2u);  // stiffnesses alone and noise
 }
 
 TEST(GapBars, WhatTheStationMovedIsPartOfTheGapBefore) {
   Shown shown;
-  EXPECT_DOUBLE_EQ(gapBars(shown.one)->series[0].values[1], 100.0);
+  EXPECT_DOUBLE_EQ(app::gapBars(shown.one)->series[0].values[1], 100.0);
   for (const char* pose : {"A", "B", "C"}) shown.diagnosis.as_measured.rows.push_back({pose, 5e-4, 1e-5});
-  EXPECT_DOUBLE_EQ(gapBars(shown.one)->series[0].values[1], 500.0);
-  EXPECT_NE(describeGapBars(shown.one).caption.find("readings as they were"), std::string::npos);
+  EXPECT_DOUBLE_EQ(app::gapBars(shown.one)->series[0].values[1], 500.0);
+  EXPECT_NE(app::describeGapBars(shown.one).caption.find("readings as they were"), std::string::npos);
 }
 
 TEST(GapAtPoints, OfATrackerThatMovedTheGapBeforeIsOfTheReadingsAsTheyWere) {
   const std::filesystem::path folder = STIFFSCOPE_SHARED_DIR "/practice/13";
   if (!std::filesystem::exists(folder)) GTEST_SKIP() << "the practice campaigns are not here";
-  const Campaign campaign = readCampaign(folder).campaign;
-  DiagnoseOptions options;
+  const campaign::Campaign campaign = campaign::readCampaign(folder).campaign;
+  diagnosis::DiagnoseOptions options;
   options.resamples = options.chance_draws = 20;  // neither is looked at
-  const Diagnosis found = diagnose(campaign, options);
+  const diagnosis::Diagnosis found = diagnosis::diagnose(campaign, options);
   ASSERT_EQ(found.as_measured.rows.size(), static_cast<std::size_t>(found.postures));
   double squares = 0.0;
-  for (const WhereRow& row : found.as_measured.rows) squares += row.rms * row.rms;
+  for (const diagnosis::WhereRow& row : found.as_measured.rows) squares += row.rms * row.rms;
   // Every posture has all its readings, so that the whole is the mean of the parts.
   EXPECT_NEAR(std::sqrt(squares / found.postures), found.gap.before, 1e-9);
   ASSERT_EQ(found.at_points.size(), 3u * static_cast<std::size_t>(found.postures));
   double before = 0.0, after = 0.0;
-  for (const PointGap& gap : found.at_points) before += gap.before.squaredNorm(), after += gap.after.squaredNorm();
+  for (const diagnosis::PointGap& gap : found.at_points) before += gap.before.squaredNorm(), after += gap.after.squaredNorm();
   // The state of each posture that leaves the most leaves more than all of its states in the mean.
   EXPECT_GT(std::sqrt(before / 3.0 / static_cast<double>(found.at_points.size())), found.gap.before);
   EXPECT_LT(after, 0.1 * before);  // the nests take the station's motion off
 }
 
 TEST(EffectWords, EveryEffectHasAMeaningAndARemedy) {
-  for (std::size_t e = 0; e < kEffectCount; ++e) {
-    const auto effect = static_cast<Effect>(e);
-    EXPECT_GT(page::effectMeaning(effect).size(), 10u) << e;
-    EXPECT_GT(page::effectRemedy(effect).size(), 10u) << e;
-    EXPECT_EQ(page::effectName(effect).find('_'), std::string::npos);
+  for (std::size_t e = 0; e < effects::kEffectCount; ++e) {
+    const auto effect = static_cast<effects::Effect>(e);
+    EXPECT_GT(reports::effectMeaning(effect).size(), 10u) << e;
+    EXPECT_GT(reports::effectRemedy(effect).size(), 10u) << e;
+    EXPECT_EQ(reports::effectName(effect).find('_'), std::string::npos);
   }
 }
 
 TEST(EffectWords, JointsInShort) {
-  EXPECT_EQ(page::shortDetail("joint 1, joint 2, joint 3"), "joints 1 to 3");
-  EXPECT_EQ(page::shortDetail("joint 1, joint 2, joint 4"), "joints 1, 2 and 4");
-  EXPECT_EQ(page::shortDetail("joint 4 or joint 3"), "joint 4 or joint 3");
-  EXPECT_EQ(page::shortDetail("joint 4"), "joint 4");
-  EXPECT_EQ(page::shortDetail("P12"), "P12");
-  Verdict verdict;
-  EXPECT_EQ(page::presentWords(verdict), "nothing");
+  EXPECT_EQ(reports::shortDetail("joint 1, joint 2, joint 3"), "joints 1 to 3");
+  EXPECT_EQ(reports::shortDetail("joint 1, joint 2, joint 4"), "joints 1, 2 and 4");
+  EXPECT_EQ(reports::shortDetail("joint 4 or joint 3"), "joint 4 or joint 3");
+  EXPECT_EQ(reports::shortDetail("joint 4"), "joint 4");
+  EXPECT_EQ(reports::shortDetail("P12"), "P12");
+  diagnosis::Verdict verdict;
+  EXPECT_EQ(reports::presentWords(verdict), "nothing");
   verdict.entries = {{{}, ""}};
-  EXPECT_EQ(page::presentWords(verdict), "something that no known effect explains");
-  EXPECT_TRUE(page::namedWords(verdict).empty());
+  EXPECT_EQ(reports::presentWords(verdict), "something that no known effect explains");
+  EXPECT_TRUE(reports::namedWords(verdict).empty());
 }
 
 TEST(WithMicro, WholeWordsOnly) {
-  EXPECT_EQ(page::withMicro("by 31 um and 3 urad, 0.3 +- 0.1 um/min"),
+  EXPECT_EQ(reports::withMicro("by 31 um and 3 urad, 0.3 +- 0.1 um/min"),
             "by 31 µm and 3 µrad, 0.3 ± 0.1 µm/min");
-  EXPECT_EQ(page::withMicro("maximum sum of drum_1"), "maximum sum of drum_1");
+  EXPECT_EQ(reports::withMicro("maximum sum of drum_1"), "maximum sum of drum_1");
 }
 
 }  // namespace

@@ -5,11 +5,9 @@
 #include <string>
 #include <utility>
 #include <vector>
-
-#include "app/figures/drawn_words.h"
-#include "app/figures/residual_bars.h"
-#include "app/figures/residual_directions.h"
-#include "app/figures/wrist_sphere.h"
+#include "app/figures/chart_style.h"
+#include "app/figures/residual_charts.h"
+#include "app/figures/sweep_charts.h"
 #include "tests/reports/small_result.h"
 
 namespace stiffscope {
@@ -22,7 +20,7 @@ struct LongDay {
   SmallResult small;
 
   LongDay() {
-    Identification& result = small.identification;
+    identification::Identification& result = small.identification;
     for (std::size_t i = 3; i < kPostures; ++i) {
       const auto again = [i](auto& list) {
         auto once_more = list[i % 3];
@@ -34,7 +32,7 @@ struct LongDay {
       again(result.wrist);
       again(result.wrist_displacement);
       again(result.target_displacement);
-      for (MethodResult& method : result.methods) {
+      for (identification::MethodResult& method : result.methods) {
         if (!method.available) continue;
         again(method.wrist_rows);
         again(method.target_rows);
@@ -43,66 +41,66 @@ struct LongDay {
       }
     }
     result.wrist_displacement[kFarthest] = 7.5e-3;
-    for (MethodResult& method : result.methods) {
+    for (identification::MethodResult& method : result.methods) {
       if (method.available) method.target_rows[kFarthest].right *= 9.0;
     }
   }
 
-  ReportCampaign report() const { return {small.campaign, small.identification}; }
+  reports::ReportCampaign report() const { return {small.campaign, small.identification}; }
 };
 
 TEST(LongDay, TheWordsOfWhatIsDrawn) {
-  EXPECT_EQ(drawnWords(5, 5, "postures"), "");
-  EXPECT_EQ(drawnWords(10'000, 200, "postures"), " Drawn: 200 of 10000 postures, spread evenly.");
+  EXPECT_EQ(app::drawnWords(5, 5, "postures"), "");
+  EXPECT_EQ(app::drawnWords(10'000, 200, "postures"), " Drawn: 200 of 10000 postures, spread evenly.");
 }
 
 TEST(LongDay, BarsOfTwoHundredPosturesAndTheLongestInWords) {
   const LongDay day;
-  const GroupedBarChart chart = residualBars(day.report());
+  const render::GroupedBarChart chart = app::residualBars(day.report());
   ASSERT_EQ(chart.categories.size(), 200u);
   EXPECT_EQ(chart.categories[0], "A");
   EXPECT_EQ(chart.categories[1], "p5");
   ASSERT_EQ(chart.series.size(), 3u);
-  for (const BarSeries& series : chart.series) EXPECT_EQ(series.values.size(), 200u);
+  for (const render::BarSeries& series : chart.series) EXPECT_EQ(series.values.size(), 200u);
   EXPECT_DOUBLE_EQ(chart.series[0].values[1], 2.0);  // the sixth posture, p5, is the third once more
-  const std::string caption = describeResidualBars(day.report()).caption;
+  const std::string caption = app::describeResidualBars(day.report()).caption;
   EXPECT_NE(caption.find("Drawn: 200 of 1000 postures, spread evenly. The longest of all is 7.50\u00a0mm, in posture p617."),
             std::string::npos)
       << caption;
   const SmallResult three;
-  EXPECT_EQ(describeResidualBars({three.campaign, three.identification}).caption.find("Drawn"), std::string::npos);
+  EXPECT_EQ(app::describeResidualBars({three.campaign, three.identification}).caption.find("Drawn"), std::string::npos);
 }
 
 TEST(LongDay, ResidualsOfAHundredPosturesAtTheirPlaces) {
   const LongDay day;
-  const auto chart = residualDirections(day.report());
+  const auto chart = app::residualDirections(day.report());
   ASSERT_TRUE(chart.has_value());
-  for (const PointPanel& panel : chart->diagrams) {
+  for (const render::PointPanel& panel : chart->diagrams) {
     ASSERT_EQ(panel.categories.size(), 100u);
     EXPECT_EQ(panel.categories[2], "p20");
     ASSERT_EQ(panel.series.size(), 3u);
-    for (const PointSeries& series : panel.series) {
+    for (const render::PointSeries& series : panel.series) {
       ASSERT_EQ(series.points.size(), 100u);
       for (std::size_t k = 0; k < 100; ++k) EXPECT_NEAR(series.points[k].x, static_cast<double>(k), 0.5);
     }
   }
   // p20 is the third posture once more, of 2 mm, of which DPP leaves a tenth, along z.
   EXPECT_NEAR(chart->diagrams[2].series[0].points[2].y, -200.0, 1e-9);
-  const std::string caption = describeResidualDirections(day.report(), *chart).caption;
+  const std::string caption = app::describeResidualDirections(day.report(), *chart).caption;
   // Of p617, the third once more, 9 times 2 mm less the 1.8 mm that DPP predicts.
   EXPECT_NE(caption.find("The longest residual of all is 16000\u00a0µm, of P_{10} in posture p617."), std::string::npos) << caption;
 }
 
 TEST(LongDay, EachReflectorOfAWristSweepIsDrawnWhereTheyTakeTurns) {
   SmallResult small;
-  WristCentre& wrist = small.identification.frames.wrist;
+  frames::WristCentre& wrist = small.identification.frames.wrist;
   wrist.measured = true;
   wrist.radii = {1.0, 1.0, 1.0};
-  WristSweep sweep{"wrist_sweep.csv", PointFrame::base_link, {}};
-  RigidPoints points;
+  campaign::WristSweep sweep{"wrist_sweep.csv", campaign::PointFrame::base_link, {}};
+  frames::RigidPoints points;
   for (int i = 0; i < 30'000; ++i) {
     const double azimuth = 0.001 * i;
-    sweep.rows.push_back({std::to_string(i / 3), i % 3, Vector6d::Zero(), {std::cos(azimuth), std::sin(azimuth), 0.0}, kNoTime, 0});
+    sweep.rows.push_back({std::to_string(i / 3), i % 3, Vector6d::Zero(), {std::cos(azimuth), std::sin(azimuth), 0.0}, campaign::kNoTime, 0});
     points.wrist_sweep.push_back(sweep.rows.back().point);
   }
   small.campaign.wrist_sweep = std::move(sweep);
@@ -111,12 +109,12 @@ TEST(LongDay, EachReflectorOfAWristSweepIsDrawnWhereTheyTakeTurns) {
     wrist.table.back().target = target;
     wrist.table.back().readings = 10'000;
   }
-  const ReportCampaign report{small.campaign, small.identification};
-  const auto chart = wristSphere(report, points);
+  const reports::ReportCampaign report{small.campaign, small.identification};
+  const auto chart = app::wristSphere(report, points);
   ASSERT_TRUE(chart.has_value());
   ASSERT_EQ(chart->diagrams[0].series.size(), 4u);  // three reflectors and the line of means
   for (std::size_t target = 0; target < 3; ++target) EXPECT_EQ(chart->diagrams[0].series[target].points.size(), 1000u);
-  EXPECT_NE(describeWristSphere(report).caption.find("Drawn: 1000 of 10000 readings of a reflector, spread evenly. The means are of all."),
+  EXPECT_NE(app::describeWristSphere(report).caption.find("Drawn: 1000 of 10000 readings of a reflector, spread evenly. The means are of all."),
             std::string::npos);
 }
 

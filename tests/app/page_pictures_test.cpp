@@ -5,13 +5,10 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <opencv2/quality/qualityssim.hpp>
-
 #include "app/figures/make_figures.h"
-#include "app/figures/residual_directions.h"
-#include "app/figures/rigid_sweeps.h"
+#include "app/figures/residual_charts.h"
+#include "app/figures/sweep_charts.h"
 #include "app/figures/station_drift.h"
-#include "app/figures/sweep_circles.h"
-#include "app/figures/wrist_sphere.h"
 #include "core/campaign/read_campaign.h"
 
 namespace stiffscope {
@@ -19,9 +16,9 @@ namespace {
 
 /// The sample with the double encoders active, and its figures.
 struct Sample {
-  Campaign campaign = readCampaign(STIFFSCOPE_SOURCE_DIR "/samples/active").campaign;
-  Identification identification = identify(campaign);
-  ReportCampaign report{campaign, identification};
+  campaign::Campaign campaign = campaign::readCampaign(STIFFSCOPE_SOURCE_DIR "/samples/active").campaign;
+  identification::Identification identification = identification::identify(campaign);
+  reports::ReportCampaign report{campaign, identification};
 };
 
 const Sample& sample() {
@@ -35,10 +32,10 @@ constexpr double kAlike = 0.97;
 
 TEST(WholeFigures, LookAsTheyDid) {
   const std::filesystem::path kept = STIFFSCOPE_SOURCE_DIR "/tests/app/baselines";
-  const auto figures = makeFigures({sample().report});
+  const auto figures = app::makeFigures({sample().report});
   for (const char* id : {"compensation", "stiffness", "residuals", "circles", "station"}) {
     SCOPED_TRACE(id);
-    const auto figure = std::find_if(figures.begin(), figures.end(), [id](const Figure& f) { return f.id == id; });
+    const auto figure = std::find_if(figures.begin(), figures.end(), [id](const reports::Figure& f) { return f.id == id; });
     ASSERT_NE(figure, figures.end());
     cv::Mat drawn = cv::imdecode(figure->png, cv::IMREAD_GRAYSCALE);
     cv::resize(drawn, drawn, {}, 0.5, 0.5, cv::INTER_AREA);
@@ -61,9 +58,9 @@ TEST(WholeFigures, LookAsTheyDid) {
 }
 
 TEST(WholeFigures, TheLimitTellsThemApart) {
-  PointChart chart = *residualDirections(sample().report);
-  const auto grey = [](const PointChart& one, double shift = 0.0) {
-    const Image image = render(one);
+  render::PointChart chart = *app::residualDirections(sample().report);
+  const auto grey = [](const render::PointChart& one, double shift = 0.0) {
+    const render::Image image = render::render(one);
     const cv::Mat rgb(image.height, image.width, CV_8UC3, const_cast<std::uint8_t*>(image.rgb.data()));
     cv::Mat half;
     cv::cvtColor(rgb, half, cv::COLOR_RGB2GRAY);
@@ -75,33 +72,33 @@ TEST(WholeFigures, TheLimitTellsThemApart) {
   const cv::Mat whole = grey(chart);
   cv::Mat map;
   EXPECT_GT(cv::quality::QualitySSIM::compute(whole, grey(chart, 0.2), map)[0], kAlike);  // edges moved
-  for (PointPanel& panel : chart.diagrams) panel.series.pop_back();
+  for (render::PointPanel& panel : chart.diagrams) panel.series.pop_back();
   EXPECT_LT(cv::quality::QualitySSIM::compute(whole, grey(chart), map)[0], kAlike);
 }
 
-double rmsOfY(const PointPanel& panel) {
+double rmsOfY(const render::PointPanel& panel) {
   double sum = 0.0;
   std::size_t count = 0;
-  for (const PointSeries& series : panel.series) {
+  for (const render::PointSeries& series : panel.series) {
     if (series.joined) continue;  // the line of means
-    for (const PlotPoint& point : series.points) sum += point.y * point.y, ++count;
+    for (const render::PlotPoint& point : series.points) sum += point.y * point.y, ++count;
   }
   return std::sqrt(sum / static_cast<double>(count));
 }
 
 TEST(ResidualDirections, TheSquaresAddUpToThoseOfTheFit) {
   // Directions are turned axes: the squares over the three are those over x, y and z, which the fit states.
-  const auto chart = residualDirections(sample().report);
+  const auto chart = app::residualDirections(sample().report);
   ASSERT_TRUE(chart.has_value());
   ASSERT_EQ(chart->diagrams.size(), 6u);
   double square = 0.0;
   for (std::size_t d = 0; d < 3; ++d) square += std::pow(rmsOfY(chart->diagrams[d]), 2) / 3.0;
-  const double stated = 1e6 * sample().identification.of(Method::decoupled_partial_pose).estimate.rms_residual;
+  const double stated = 1e6 * sample().identification.of(identification::Method::decoupled_partial_pose).estimate.rms_residual;
   EXPECT_NEAR(std::sqrt(square), stated, 1e-6 * stated);  // rounding
 }
 
 TEST(WristSphere, ResidualsAreThoseOfTheFit) {
-  const auto chart = wristSphere(sample().report, rigidSweeps(sample().report));
+  const auto chart = app::wristSphere(sample().report, app::rigidSweeps(sample().report));
   ASSERT_TRUE(chart.has_value());
   const double stated = 1e6 * sample().identification.frames.wrist.spheres.rms;
   // The sag is taken off by the stiffnesses of the last round, in the fit by those of the round before: 1e-4 of it.
@@ -109,41 +106,41 @@ TEST(WristSphere, ResidualsAreThoseOfTheFit) {
 }
 
 TEST(SweepCircles, APanelAnAxisWithAScaleThatIsSaid) {
-  const auto chart = sweepCircles(sample().report, rigidSweeps(sample().report));
+  const auto chart = app::sweepCircles(sample().report, app::rigidSweeps(sample().report));
   ASSERT_TRUE(chart.has_value());
   ASSERT_EQ(chart->shapes.size(), 6u);
-  for (const ShapePanel& panel : chart->shapes) {
+  for (const render::ShapePanel& panel : chart->shapes) {
     EXPECT_GT(panel.scale_bar, 0.0);
     EXPECT_EQ(panel.series.size(), 6u);  // ring and readings of three reflectors
-    for (const PointSeries& series : panel.series) {
-      for (const PlotPoint& point : series.points) EXPECT_LT(std::hypot(point.x, point.y), 1.2);
+    for (const render::PointSeries& series : panel.series) {
+      for (const render::PlotPoint& point : series.points) EXPECT_LT(std::hypot(point.x, point.y), 1.2);
     }
   }
 }
 
 TEST(StationDrift, ARoundThatMovedStandsWhereItMoved) {
-  Campaign moved = sample().campaign;
+  campaign::Campaign moved = sample().campaign;
   const double last = moved.nests->rows.back().time_s;
-  for (NestReading& reading : moved.nests->rows) {
+  for (campaign::NestReading& reading : moved.nests->rows) {
     if (reading.time_s > last - 60.0) reading.point += Eigen::Vector3d(-0.5e-3, 0.0, 0.0);
   }
-  const StationMotion station = stationMotionOf(moved);
-  const auto chart = stationDrift({moved, sample().identification}, station);
+  const preparation::StationMotion station = app::stationMotionOf(moved);
+  const auto chart = app::stationDrift({moved, sample().identification}, station);
   ASSERT_TRUE(chart.has_value());
   // Readings that went by -0.5 mm are brought back by +0.5 mm, to the nests' noise over the lever to the arm.
   EXPECT_NEAR(chart->diagrams[0].series[0].points.back().y, 500.0, 60.0);
-  EXPECT_NE(describeStationDrift(station).caption.find("more than noise explains"), std::string::npos);
+  EXPECT_NE(app::describeStationDrift(station).caption.find("more than noise explains"), std::string::npos);
 }
 
 TEST(NewFigures, NothingToShowWithoutItsData) {
-  Campaign bare = sample().campaign;
+  campaign::Campaign bare = sample().campaign;
   bare.nests.reset();
   bare.circle_sweeps.reset();
   bare.wrist_sweep.reset();
-  const ReportCampaign report{bare, sample().identification};
-  EXPECT_FALSE(sweepCircles(report, {}).has_value());
-  EXPECT_FALSE(wristSphere(report, {}).has_value());
-  EXPECT_FALSE(stationDrift(report, stationMotionOf(bare)).has_value());
+  const reports::ReportCampaign report{bare, sample().identification};
+  EXPECT_FALSE(app::sweepCircles(report, {}).has_value());
+  EXPECT_FALSE(app::wristSphere(report, {}).has_value());
+  EXPECT_FALSE(app::stationDrift(report, app::stationMotionOf(bare)).has_value());
 }
 
 }  // namespace

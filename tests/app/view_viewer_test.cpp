@@ -1,8 +1,5 @@
 #include <gtest/gtest.h>
-
-#include "app/view/load_material.h"
-#include "app/view/sweep_material.h"
-#include "app/view/under_load_step.h"
+#include "app/view/view_material.h"
 #include "app/view/viewer.h"
 #include "core/campaign/read_campaign.h"
 #include "tests/reports/small_result.h"
@@ -14,48 +11,48 @@ namespace {
 struct Hand {
   SmallResult small;
   std::string said;
-  std::vector<View> looked;
+  std::vector<render::View> looked;
   bool closed = false;
 
   Hand() {
     for (int pose = 0; pose < 3; ++pose) {
       for (const int step : {0, 1}) {
-        State state;
+        campaign::State state;
         state.pose = pose;
         state.step = step;
         states.rows.push_back(state);
       }
     }
     small.campaign.states = states;
-    for (LoadCase& load_case : small.identification.cases) {
+    for (identification::LoadCase& load_case : small.identification.cases) {
       load_case.step = 1;
       load_case.pose = static_cast<int>(&load_case - small.identification.cases.data());
     }
   }
 
-  Viewer viewer(std::vector<std::optional<Method>> methods = {Method::decoupled_partial_pose,
-                                                              Method::partial_pose},
+  app::Viewer viewer(std::vector<std::optional<identification::Method>> methods = {identification::Method::decoupled_partial_pose,
+                                                              identification::Method::partial_pose},
                 std::optional<double> magnification = std::nullopt) {
-    std::vector<ViewMaterial> by_method;
+    std::vector<app::ViewMaterial> by_method;
     for (const auto& method : methods) {
-      by_method.push_back(loadMaterial(small.campaign, small.identification, method));
+      by_method.push_back(app::loadMaterial(small.campaign, small.identification, method));
     }
-    ViewWindow window;
-    window.look = [this](View view) { looked.push_back(view); };
+    app::ViewWindow window;
+    window.look = [this](render::View view) { looked.push_back(view); };
     window.turn = [](double, double) {};
     window.zoom = [](double) {};
     window.save = [](const std::string& name) { return "saved " + name + ".png"; };
     window.close = [this] { closed = true; };
     window.say = [this](const std::string& text) { said += text; };
-    return Viewer(std::move(by_method), 0, magnification, window);
+    return app::Viewer(std::move(by_method), 0, magnification, window);
   }
 
-  States states;
+  campaign::States states;
 };
 
-TEST(Viewer, StepsThroughThePosturesAndAroundTheEnd) {
+TEST(app::Viewer, StepsThroughThePosturesAndAroundTheEnd) {
   Hand hand;
-  Viewer viewer = hand.viewer();
+  app::Viewer viewer = hand.viewer();
   std::vector<std::string> seen;
   for (int i = 0; i < 4; ++i) {
     seen.push_back(viewer.status().substr(0, 18));
@@ -68,9 +65,9 @@ TEST(Viewer, StepsThroughThePosturesAndAroundTheEnd) {
   EXPECT_EQ(viewer.status().rfind("posture C", 0), 0u) << viewer.status();
 }
 
-TEST(Viewer, KeysTakeVectorsAwayAndBringThemBack) {
+TEST(app::Viewer, KeysTakeVectorsAwayAndBringThemBack) {
   Hand hand;
-  Viewer viewer = hand.viewer();
+  app::Viewer viewer = hand.viewer();
   const auto wrist = [&] { return *viewer.scene().poses[0].wrist; };
   EXPECT_TRUE(wrist().measured && wrist().predicted && wrist().residual);
   viewer.press("m");
@@ -81,29 +78,29 @@ TEST(Viewer, KeysTakeVectorsAwayAndBringThemBack) {
   EXPECT_FALSE(wrist().predicted || wrist().residual);
   viewer.press("0");
   EXPECT_TRUE(wrist().measured && wrist().predicted && wrist().residual);
-  EXPECT_EQ(hand.looked, std::vector<View>{View::Oblique});
+  EXPECT_EQ(hand.looked, std::vector<render::View>{render::View::Oblique});
   viewer.press("s");
   EXPECT_EQ(viewer.scene().note, "saved posture-A-step-1.png");
   viewer.press("q");
   EXPECT_TRUE(hand.closed);
 }
 
-TEST(Viewer, MagnificationDoublesAndComesBackToWhatSuits) {
+TEST(app::Viewer, MagnificationDoublesAndComesBackToWhatSuits) {
   Hand hand;
-  Viewer viewer = hand.viewer({Method::decoupled_partial_pose}, 30.0);
+  app::Viewer viewer = hand.viewer({identification::Method::decoupled_partial_pose}, 30.0);
   viewer.press("plus");
   EXPECT_EQ(viewer.scene().magnification, 60.0);
   viewer.press("minus");
   viewer.press("minus");
   EXPECT_EQ(viewer.scene().magnification, 15.0);
   viewer.press("a");
-  EXPECT_EQ(viewer.scene().magnification, automaticMagnification(viewer.scene()));
+  EXPECT_EQ(viewer.scene().magnification, render::automaticMagnification(viewer.scene()));
   EXPECT_GT(*viewer.scene().magnification, 15.0);
 }
 
-TEST(Viewer, ResidualIsMeasuredLessPredictedByEachMethod) {
+TEST(app::Viewer, ResidualIsMeasuredLessPredictedByEachMethod) {
   Hand hand;
-  Viewer viewer = hand.viewer();
+  app::Viewer viewer = hand.viewer();
   EXPECT_NEAR(viewer.scene().poses[0].wrist->residual->z(), -0.1e-3, 1e-15);  // DPP leaves a tenth of 1 mm
   viewer.press("n");
   EXPECT_NE(viewer.status().find("predicted by PP"), std::string::npos);
@@ -111,9 +108,9 @@ TEST(Viewer, ResidualIsMeasuredLessPredictedByEachMethod) {
   EXPECT_NEAR(viewer.scene().poses[0].wrist->residual->z(), -0.2e-3, 1e-15);
 }
 
-TEST(Viewer, PickedPointSaysItsNumbersAndStaysPickedFromPostureToPosture) {
+TEST(app::Viewer, PickedPointSaysItsNumbersAndStaysPickedFromPostureToPosture) {
   Hand hand;
-  Viewer viewer = hand.viewer();
+  app::Viewer viewer = hand.viewer();
   viewer.pick(3);  // three targets, then P_wrist
   EXPECT_EQ(hand.said,
             "Pwrist, posture A, load step 1, 1.00\u00a0kN, force 0.0 0.0 -1000.0 N\n"
@@ -131,11 +128,11 @@ TEST(Viewer, PickedPointSaysItsNumbersAndStaysPickedFromPostureToPosture) {
   EXPECT_TRUE(viewer.scene().panels.empty());
 }
 
-TEST(Viewer, WithoutAModelTheMeasuredVectorsStay) {
+TEST(app::Viewer, WithoutAModelTheMeasuredVectorsStay) {
   Hand hand;
-  hand.small.method(Method::partial_pose).reason = "the load turns no joint enough to see its stiffness";
-  Viewer viewer = hand.viewer({std::nullopt});
-  const ScenePoint wrist = *viewer.scene().poses[0].wrist;
+  hand.small.method(identification::Method::partial_pose).reason = "the load turns no joint enough to see its stiffness";
+  app::Viewer viewer = hand.viewer({std::nullopt});
+  const render::ScenePoint wrist = *viewer.scene().poses[0].wrist;
   EXPECT_TRUE(wrist.measured);
   EXPECT_FALSE(wrist.predicted || wrist.residual);
   EXPECT_NE(viewer.status().find("nothing is predicted: the load turns no joint"), std::string::npos);
@@ -143,14 +140,14 @@ TEST(Viewer, WithoutAModelTheMeasuredVectorsStay) {
 
 // Under the step it was identified from, another step's way of working must give the same.
 TEST(LoadStep, TheIdentifiedStepComesOutAgain) {
-  const Campaign campaign = readCampaign(STIFFSCOPE_SOURCE_DIR "/samples/active").campaign;
-  IdentifyOptions options;
+  const campaign::Campaign campaign = campaign::readCampaign(STIFFSCOPE_SOURCE_DIR "/samples/active").campaign;
+  identification::IdentifyOptions options;
   options.subsets.most_all = 0;
   options.subsets.sample = 1;
-  const Identification identified = identify(campaign, options);
-  const Identification again = underLoadStep(campaign, identified, identified.step);
+  const identification::Identification identified = identification::identify(campaign, options);
+  const identification::Identification again = app::underLoadStep(campaign, identified, identified.step);
   ASSERT_EQ(again.cases.size(), identified.cases.size());
-  for (const Method method : kMethods) {
+  for (const identification::Method method : identification::kMethods) {
     ASSERT_EQ(again.of(method).available, identified.of(method).available);
     const Vector6d& compliance = identified.of(method).estimate.compliance;
     for (std::size_t i = 0; i < again.cases.size(); ++i) {
@@ -165,43 +162,43 @@ TEST(LoadStep, TheIdentifiedStepComesOutAgain) {
 // The springs are linear: under another step the prediction goes with the force, but for K_c (below a
 // hundredth).
 TEST(LoadStep, PredictionGoesWithTheLoad) {
-  const Campaign campaign = readCampaign(STIFFSCOPE_SOURCE_DIR "/samples/active").campaign;
-  IdentifyOptions options;
+  const campaign::Campaign campaign = campaign::readCampaign(STIFFSCOPE_SOURCE_DIR "/samples/active").campaign;
+  identification::IdentifyOptions options;
   options.subsets.most_all = 0;
   options.subsets.sample = 1;
-  const Identification identified = identify(campaign, options);
-  const Identification lighter = underLoadStep(campaign, identified, 1);
+  const identification::Identification identified = identification::identify(campaign, options);
+  const identification::Identification lighter = app::underLoadStep(campaign, identified, 1);
   ASSERT_EQ(lighter.cases.size(), identified.cases.size());
-  const MethodResult& method = identified.of(Method::decoupled_partial_pose);
+  const identification::MethodResult& method = identified.of(identification::Method::decoupled_partial_pose);
   for (std::size_t i = 0; i < lighter.cases.size(); ++i) {
     ASSERT_EQ(lighter.cases[i].pose, identified.cases[i].pose);
     const double share = lighter.cases[i].wrench.force.norm() / identified.cases[i].wrench.force.norm();
     EXPECT_LT(share, 0.9);
     const Eigen::VectorXd full = method.target_rows[i].matrix * method.estimate.compliance;
     const Eigen::VectorXd less =
-        lighter.of(Method::decoupled_partial_pose).target_rows[i].matrix * method.estimate.compliance;
+        lighter.of(identification::Method::decoupled_partial_pose).target_rows[i].matrix * method.estimate.compliance;
     EXPECT_LT((less - share * full).norm(), 0.02 * full.norm()) << i;
   }
 }
 
 TEST(SweepMaterial, EachAxisWithItsReadingsOnTheArm) {
-  const Campaign campaign = readCampaign(STIFFSCOPE_SOURCE_DIR "/samples/active").campaign;
-  const Frames frames = measureFrames(campaign);
-  const ViewMaterial material = sweepMaterial(campaign, frames);
+  const campaign::Campaign campaign = campaign::readCampaign(STIFFSCOPE_SOURCE_DIR "/samples/active").campaign;
+  const frames::Frames frames = frames::measureFrames(campaign);
+  const app::ViewMaterial material = app::sweepMaterial(campaign, frames);
   ASSERT_EQ(material.frames.size(), 6u);
-  for (const ViewFrame& frame : material.frames) {
+  for (const app::ViewFrame& frame : material.frames) {
     std::size_t readings = 0;
-    for (const SceneTrace& trace : frame.scene.traces) {
+    for (const render::SceneTrace& trace : frame.scene.traces) {
       if (!trace.faint) readings += trace.points.size();
     }
     const auto& rows = campaign.circle_sweeps->rows;
     EXPECT_EQ(readings,
-              static_cast<std::size_t>(std::count_if(rows.begin(), rows.end(), [&](const CircleReading& one) {
+              static_cast<std::size_t>(std::count_if(rows.begin(), rows.end(), [&](const campaign::CircleReading& one) {
                 return one.axis == frame.posture;
               })));
     // A reflector is on the tool: at the middle of its sweep less than a metre from the flange.
-    const SceneTrace* own = nullptr;
-    for (const SceneTrace& trace : frame.scene.traces) {
+    const render::SceneTrace* own = nullptr;
+    for (const render::SceneTrace& trace : frame.scene.traces) {
       if (!trace.faint && own == nullptr) own = &trace;
     }
     ASSERT_NE(own, nullptr);
@@ -211,9 +208,9 @@ TEST(SweepMaterial, EachAxisWithItsReadingsOnTheArm) {
 }
 
 TEST(SweepMaterial, SaysWhyThereIsNothing) {
-  Campaign campaign = readCampaign(STIFFSCOPE_SOURCE_DIR "/samples/active").campaign;
+  campaign::Campaign campaign = campaign::readCampaign(STIFFSCOPE_SOURCE_DIR "/samples/active").campaign;
   campaign.circle_sweeps.reset();
-  const ViewMaterial material = sweepMaterial(campaign, measureFrames(campaign));
+  const app::ViewMaterial material = app::sweepMaterial(campaign, frames::measureFrames(campaign));
   EXPECT_TRUE(material.frames.empty());
   EXPECT_NE(material.lacking.find("neither loads nor circle sweeps"), std::string::npos);
 }

@@ -8,8 +8,7 @@ TEST(ViewWindow, IsNotBuilt) { GTEST_SKIP() << "stiffscope-view or the XTest lib
 
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
-
-#include "app/view/open_material.h"
+#include "app/view/view_material.h"
 #include "core/campaign/read_campaign.h"
 #include "tests/app/view_session.h"
 
@@ -52,11 +51,11 @@ cv::Point2d centreOf(const cv::Mat& mask) {
 }
 
 /// The same pictures as the window shows, as data.
-ViewFrame frameAt(const std::string& pose) {
-  static const Campaign campaign = readCampaign(kActive).campaign;
-  ViewOptions options;
+app::ViewFrame frameAt(const std::string& pose) {
+  static const campaign::Campaign campaign = campaign::readCampaign(kActive).campaign;
+  app::ViewOptions options;
   options.pose = pose;
-  const OpenedMaterial opened = openMaterial(campaign, options);
+  const app::OpenedMaterial opened = app::openMaterial(campaign, options);
   return opened.by_method.front().frames[opened.first];
 }
 
@@ -90,14 +89,14 @@ TEST(ViewWindow, DrawsTheMeasuredVectorAtItsPlaceAndAllObeyTheirKeys) {
   window.press("p");
   EXPECT_EQ(count(blueOf(sceneOf(window.picture()))), 0);
 
-  const ViewFrame frame = frameAt("5"), other = frameAt("6");
+  const app::ViewFrame frame = frameAt("5"), other = frameAt("6");
   const cv::Mat here = window.picture();
   const cv::Point2d wrist = centreOf(amberOf(here));
   const int red_once = count(redOf(sceneOf(here)));
   window.press("Right");
   EXPECT_NE(window.title().find("posture 6, load step 3"), std::string::npos) << window.title();
   const cv::Point2d other_wrist = centreOf(amberOf(window.picture()));
-  const ScenePoint& point = *frame.scene.poses[0].wrist;
+  const render::ScenePoint& point = *frame.scene.poses[0].wrist;
   const Eigen::Vector3d apart = other.scene.poses[0].wrist->position - point.position;
   const double scale = (other_wrist.x - wrist.x) / apart.x();
   EXPECT_NEAR(other_wrist.y - wrist.y, -scale * apart.z(), 2);  // pixels: centres of shaded balls
@@ -151,7 +150,7 @@ TEST(ViewWindow, MagnificationDoublesArrowsAndClickingReadsNumbers) {
   const cv::Point2d wrist = centreOf(amberOf(window.picture()));
   window.click({static_cast<int>(wrist.x), static_cast<int>(wrist.y)});
   const std::string said = window.out();
-  const ViewFrame frame = frameAt("5");
+  const app::ViewFrame frame = frameAt("5");
   const Eigen::Vector3d mm = 1e3 * *frame.scene.poses[0].wrist->measured;
   char expected[100];
   std::snprintf(expected, sizeof expected, "%9.4f %9.4f %9.4f", mm.x(), mm.y(), mm.z());

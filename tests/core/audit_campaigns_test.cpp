@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
-
 #include "core/audit/audit.h"
 #include "core/campaign/read_campaign.h"
 
@@ -14,12 +13,12 @@ std::filesystem::path shared(const std::string& folder) {
   return std::filesystem::path(STIFFSCOPE_SHARED_DIR) / folder;
 }
 
-AuditReport auditOf(const std::string& folder) { return audit(readCampaign(shared(folder)).campaign); }
+audit::AuditReport auditOf(const std::string& folder) { return audit::audit(campaign::readCampaign(shared(folder)).campaign); }
 
-std::vector<AuditCheck> found(const AuditReport& report) {
-  std::vector<AuditCheck> beyond;
-  for (const AuditCheck& check : report.checks) {
-    if (check.verdict == AuditVerdict::warn || check.verdict == AuditVerdict::fail) beyond.push_back(check);
+std::vector<preparation::AuditCheck> found(const audit::AuditReport& report) {
+  std::vector<preparation::AuditCheck> beyond;
+  for (const preparation::AuditCheck& check : report.checks) {
+    if (check.verdict == preparation::AuditVerdict::warn || check.verdict == preparation::AuditVerdict::fail) beyond.push_back(check);
   }
   return beyond;
 }
@@ -38,8 +37,8 @@ class PracticeAudit : public testing::Test {
 
 TEST_F(PracticeAudit, CleanCampaignsPass) {
   for (const char* number : {"01", "18"}) {
-    const AuditReport report = auditOf(fmt::format("practice/{}", number));
-    EXPECT_EQ(report.verdict, AuditVerdict::pass) << number;
+    const audit::AuditReport report = auditOf(fmt::format("practice/{}", number));
+    EXPECT_EQ(report.verdict, preparation::AuditVerdict::pass) << number;
     EXPECT_TRUE(report.rejected.empty()) << number;
   }
 }
@@ -60,7 +59,7 @@ TEST_F(PracticeAudit, OneCauseGivesOneFinding) {
 TEST_F(PracticeAudit, SaysWhatMoved) {
   EXPECT_TRUE(contains(found(auditOf("practice/13")).at(0).message, "it jumped"));
   EXPECT_TRUE(contains(found(auditOf("practice/15")).at(0).message, "a drift of"));
-  const AuditCheck tool = found(auditOf("practice/16")).at(0);
+  const preparation::AuditCheck tool = found(auditOf("practice/16")).at(0);
   EXPECT_TRUE(contains(tool.message, "reflector P12 moves")) << tool.message;
   EXPECT_TRUE(contains(tool.where, "P12")) << tool.where;
 }
@@ -68,25 +67,25 @@ TEST_F(PracticeAudit, SaysWhatMoved) {
 TEST(RealSweeps, ReflectorOnTheAxisAndTheShortArc) {
   if (!std::filesystem::exists(shared("real")))
     GTEST_SKIP() << "the real campaigns are not beside the checkout";
-  const AuditReport report = auditOf("real/fanuc-r2000ic-sweeps");
+  const audit::AuditReport report = auditOf("real/fanuc-r2000ic-sweeps");
   bool arc = false, on_axis = false;
-  for (const AuditCheck& check : report.checks) {
+  for (const preparation::AuditCheck& check : report.checks) {
     if (check.id == "circle_arc" && check.where == "axis 1") {
       arc = true;
-      EXPECT_EQ(check.verdict, AuditVerdict::warn);
+      EXPECT_EQ(check.verdict, preparation::AuditVerdict::warn);
       EXPECT_NEAR(*check.value, 60.0, 0.1);  // six stops of 12 deg
       EXPECT_TRUE(contains(check.message, "urad in direction")) << check.message;
       EXPECT_TRUE(contains(check.message, "2.2 times what as many readings over 90 deg")) << check.message;
     }
     if (check.id == "reflector_on_axis") {
       on_axis = true;
-      EXPECT_EQ(check.verdict, AuditVerdict::warn);
+      EXPECT_EQ(check.verdict, preparation::AuditVerdict::warn);
       EXPECT_EQ(check.where, "P10, axis 4; P10, axis 6");
       EXPECT_LT(*check.value, 2.0);  // mm
     }
   }
   EXPECT_TRUE(arc && on_axis);
-  EXPECT_FALSE(findsTheImpossible(report));
+  EXPECT_FALSE(audit::findsTheImpossible(report));
 }
 
 }  // namespace

@@ -4,10 +4,9 @@
 #include <cmath>
 #include <cstdlib>
 #include <map>
-
 #include "core/audit/audit.h"
 #include "core/simulation/read_spec.h"
-#include "core/simulation/simulate.h"
+#include "core/simulation/measure.h"
 
 // False alarms: days of the samples' machine without bearings that give and with small geometry errors, whose
 // only errors are the declared noise. STIFFSCOPE_AUDIT_DAYS=200 in the environment simulates as many days
@@ -16,8 +15,8 @@
 namespace stiffscope {
 namespace {
 
-SimulationSpec cleanDay(std::uint64_t seed, double noise_factor) {
-  SimulationSpec spec = readSimulationSpec(STIFFSCOPE_SOURCE_DIR "/samples/active.xml");
+simulation::SimulationSpec cleanDay(std::uint64_t seed, double noise_factor) {
+  simulation::SimulationSpec spec = simulation::readSimulationSpec(STIFFSCOPE_SOURCE_DIR "/samples/active.xml");
   spec.seed = seed;
   for (auto& joint : spec.machine.joints) joint.bearing.reset();
   spec.machine.geometry.position_sigma = 0.05e-3;
@@ -44,11 +43,11 @@ Tally auditDays(int days, std::uint64_t first_seed, double noise_factor) {
   tally.days = days;
   for (int day = 0; day < days; ++day) {
     const auto seed = first_seed + static_cast<std::uint64_t>(day);
-    const AuditReport report = audit(simulate(cleanDay(seed, noise_factor)));
-    tally.with_finding += report.verdict != AuditVerdict::pass;
-    for (const AuditCheck& check : report.checks) {
+    const audit::AuditReport report = audit::audit(simulation::simulate(cleanDay(seed, noise_factor)));
+    tally.with_finding += report.verdict != preparation::AuditVerdict::pass;
+    for (const preparation::AuditCheck& check : report.checks) {
       if (check.value) tally.mean_squares[check.id] += *check.value * *check.value / days;
-      if (check.verdict != AuditVerdict::warn && check.verdict != AuditVerdict::fail) continue;
+      if (check.verdict != preparation::AuditVerdict::warn && check.verdict != preparation::AuditVerdict::fail) continue;
       ++tally.findings[check.id];
       if (days > 20) fmt::print("seed {}: {}: {}\n", seed, check.id, check.message);
     }

@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
-
-#include "core/audit/prepare.h"
+#include "core/preparation/prepare.h"
 #include "core/campaign/read_campaign.h"
 #include "core/identification/identify.h"
 
@@ -10,13 +9,13 @@
 namespace stiffscope {
 namespace {
 
-const Campaign& good() {
-  static const Campaign campaign =
-      readCampaign(std::filesystem::path(STIFFSCOPE_SOURCE_DIR) / "samples" / "active").campaign;
+const campaign::Campaign& good() {
+  static const campaign::Campaign campaign =
+      campaign::readCampaign(std::filesystem::path(STIFFSCOPE_SOURCE_DIR) / "samples" / "active").campaign;
   return campaign;
 }
 
-double farthestApart(const Campaign& a, const Campaign& b) {
+double farthestApart(const campaign::Campaign& a, const campaign::Campaign& b) {
   double farthest = 0.0;
   for (std::size_t i = 0; i < a.loading->rows.size(); ++i) {
     farthest = std::max(farthest, (a.loading->rows[i].point - b.loading->rows[i].point).norm());
@@ -25,11 +24,11 @@ double farthestApart(const Campaign& a, const Campaign& b) {
 }
 
 template <class Table>
-void drift(Table& table, double metres_a_second) {
+void drift(campaign::Table& table, double metres_a_second) {
   for (auto& row : table.rows) row.point.x() += metres_a_second * row.time_s;
 }
 
-void driftAll(Campaign& campaign, double metres_a_second) {
+void driftAll(campaign::Campaign& campaign, double metres_a_second) {
   drift(*campaign.circle_sweeps, metres_a_second);
   drift(*campaign.wrist_sweep, metres_a_second);
   drift(*campaign.loading, metres_a_second);
@@ -37,7 +36,7 @@ void driftAll(Campaign& campaign, double metres_a_second) {
 }
 
 TEST(Prepare, AGoodCampaignIsLeftAsItIs) {
-  const PreparedCampaign prepared = prepareCampaign(good());
+  const preparation::PreparedCampaign prepared = preparation::prepareCampaign(good());
   EXPECT_FALSE(prepared.preparation.raw);
   EXPECT_TRUE(prepared.preparation.rejected.empty());
   EXPECT_FALSE(prepared.preparation.drift.taken_off);
@@ -46,27 +45,27 @@ TEST(Prepare, AGoodCampaignIsLeftAsItIs) {
 }
 
 TEST(Prepare, RejectedReadingsAreThoseThatIdentificationDoesNotSee) {
-  Campaign spoilt = good(), without = good();
+  campaign::Campaign spoilt = good(), without = good();
   spoilt.loading->rows[50].point.setZero();
   const std::size_t line = spoilt.loading->rows[50].line;
   without.loading->rows.erase(without.loading->rows.begin() + 50);
-  const PreparedCampaign prepared = prepareCampaign(spoilt);
+  const preparation::PreparedCampaign prepared = preparation::prepareCampaign(spoilt);
   ASSERT_EQ(prepared.preparation.rejected.size(), 1u);
   EXPECT_EQ(prepared.preparation.rejected[0].file, "loading.csv");
   EXPECT_EQ(prepared.preparation.rejected[0].line, line);
-  IdentifyOptions quick;
+  identification::IdentifyOptions quick;
   quick.subsets = {0, 100, 100, 1};
-  const Identification left_out = identify(prepared.campaign, quick), never_read = identify(without, quick);
+  const identification::Identification left_out = identification::identify(prepared.campaign, quick), never_read = identification::identify(without, quick);
   // The same readings: the same numbers to the last digit.
-  EXPECT_EQ(left_out.of(Method::partial_pose).estimate.compliance,
-            never_read.of(Method::partial_pose).estimate.compliance);
+  EXPECT_EQ(left_out.of(identification::Method::partial_pose).estimate.compliance,
+            never_read.of(identification::Method::partial_pose).estimate.compliance);
 }
 
 TEST(Prepare, DriftThatTheNestsShowIsTakenOff) {
-  Campaign drifting = good();
+  campaign::Campaign drifting = good();
   driftAll(drifting, 5e-8);  // 3 um a minute
-  const PreparedCampaign prepared = prepareCampaign(drifting);
-  const DriftCorrection& taken = prepared.preparation.drift;
+  const preparation::PreparedCampaign prepared = preparation::prepareCampaign(drifting);
+  const preparation::DriftCorrection& taken = prepared.preparation.drift;
   ASSERT_TRUE(taken.taken_off) << taken.reason;
   EXPECT_EQ(taken.readings, good().circle_sweeps->rows.size() + good().wrist_sweep->rows.size() +
                                 good().loading->rows.size());
@@ -79,23 +78,23 @@ TEST(Prepare, DriftThatTheNestsShowIsTakenOff) {
 }
 
 TEST(Prepare, ReadingsWithoutATimeStayAndAreCounted) {
-  Campaign drifting = good();
+  campaign::Campaign drifting = good();
   driftAll(drifting, 5e-8);
-  for (CircleReading& row : drifting.circle_sweeps->rows) row.time_s = std::nan("");
-  const PreparedCampaign prepared = prepareCampaign(drifting);
+  for (campaign::CircleReading& row : drifting.circle_sweeps->rows) row.time_s = std::nan("");
+  const preparation::PreparedCampaign prepared = preparation::prepareCampaign(drifting);
   EXPECT_EQ(prepared.preparation.drift.without_time, drifting.circle_sweeps->rows.size());
   EXPECT_EQ(prepared.campaign.circle_sweeps->rows[7].point, drifting.circle_sweeps->rows[7].point);
 }
 
 TEST(Prepare, NestsThatDeformAreNoReference) {
-  Campaign moved = good();
+  campaign::Campaign moved = good();
   driftAll(moved, 5e-8);
-  for (NestReading& row : moved.nests->rows) {
+  for (campaign::NestReading& row : moved.nests->rows) {
     if (row.time_s < 5000.0) continue;
     if (row.nest == 0) row.point.y() += 0.6e-3;
     if (row.nest == 2) row.point.x() += 0.5e-3;
   }
-  const PreparedCampaign prepared = prepareCampaign(moved);
+  const preparation::PreparedCampaign prepared = preparation::prepareCampaign(moved);
   EXPECT_FALSE(prepared.preparation.drift.taken_off);
   EXPECT_NE(prepared.preparation.drift.reason.find("moved against each other"), std::string::npos)
       << prepared.preparation.drift.reason;
@@ -103,18 +102,18 @@ TEST(Prepare, NestsThatDeformAreNoReference) {
 }
 
 TEST(Prepare, WithoutNestsItSaysSo) {
-  Campaign campaign = good();
+  campaign::Campaign campaign = good();
   campaign.nests.reset();
-  const DriftCorrection& drift = prepareCampaign(campaign).preparation.drift;
+  const preparation::DriftCorrection& drift = preparation::prepareCampaign(campaign).preparation.drift;
   EXPECT_FALSE(drift.taken_off);
   EXPECT_NE(drift.reason.find("no floor nests"), std::string::npos) << drift.reason;
 }
 
 TEST(Prepare, RawIsRaw) {
-  Campaign spoilt = good();
+  campaign::Campaign spoilt = good();
   driftAll(spoilt, 5e-8);
   spoilt.loading->rows[50].point.setZero();
-  const PreparedCampaign raw = leaveRaw(spoilt);
+  const preparation::PreparedCampaign raw = preparation::leaveRaw(spoilt);
   EXPECT_TRUE(raw.preparation.raw);
   EXPECT_EQ(farthestApart(raw.campaign, spoilt), 0.0);
   EXPECT_TRUE(raw.preparation.rejected.empty());
@@ -125,22 +124,22 @@ TEST(Prepare, RawIsRaw) {
 TEST(Prepare, TheDriftingPracticeDayLosesItsExcess) {
   const std::filesystem::path folder = STIFFSCOPE_SHARED_DIR "/practice/15";
   if (!std::filesystem::exists(folder)) GTEST_SKIP() << "the practice campaigns are not beside the checkout";
-  const Campaign read = readCampaign(folder).campaign;
-  IdentifyOptions quick;
+  const campaign::Campaign read = campaign::readCampaign(folder).campaign;
+  identification::IdentifyOptions quick;
   quick.subsets = {0, 100, 100, 1};
-  const auto residual = [&](const Campaign& campaign) {
-    return identify(campaign, quick).of(Method::partial_pose).estimate.rms_residual;
+  const auto residual = [&](const campaign::Campaign& campaign) {
+    return identification::identify(campaign, quick).of(identification::Method::partial_pose).estimate.rms_residual;
   };
   EXPECT_GT(residual(read), 12e-6);
-  EXPECT_LT(residual(prepareCampaign(read).campaign), 10e-6);
+  EXPECT_LT(residual(preparation::prepareCampaign(read).campaign), 10e-6);
 }
 
 TEST(Prepare, AnAuditOfWhatIsPreparedIsTheSameAndLeavesItAsItWas) {
-  Campaign day = good();
+  campaign::Campaign day = good();
   day.tracker->range_fixed /= 3.0;  // repeats that scatter by more replace it within the audit
   day.loading->rows[50].point.setZero();
-  PreparedCampaign prepared = prepareCampaign(day);
-  const PreparedCampaign before = prepared;
+  preparation::PreparedCampaign prepared = preparation::prepareCampaign(day);
+  const preparation::PreparedCampaign before = prepared;
   const AuditReport of_prepared = audit(prepared), of_day = audit(day);
   ASSERT_EQ(of_prepared.checks.size(), of_day.checks.size());
   for (std::size_t i = 0; i < of_day.checks.size(); ++i) {

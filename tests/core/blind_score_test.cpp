@@ -1,28 +1,26 @@
 #include <gtest/gtest.h>
-
-#include "core/blind/score.h"
-#include "core/input/input_error.h"
+#include "core/validation/score.h"
+#include "core/io/input_error.h"
 
 namespace stiffscope {
 
-using namespace blind;
 
 namespace {
 
-Label single(const std::string& name, const std::string& effect, double size,
+validation::Label single(const std::string& name, const std::string& effect, double size,
              const std::string& detail = "") {
-  Label label;
+  validation::Label label;
   label.name = name;
-  label.kind = CaseKind::single;
+  label.kind = validation::CaseKind::single;
   label.effects = {{effect, detail, "deflection", size, size, 0.0}};
   label.shrink = 0.9;
   label.shrink_seen = 0.5;
   return label;
 }
 
-Answer says(const std::string& name, std::vector<std::vector<std::string>> entries,
+validation::Answer says(const std::string& name, std::vector<std::vector<std::string>> entries,
             const std::string& detail = "") {
-  Answer answer;
+  validation::Answer answer;
   answer.name = name;
   for (auto& effects : entries) answer.entries.push_back({std::move(effects), detail});
   return answer;
@@ -34,17 +32,17 @@ Answer says(const std::string& name, std::vector<std::vector<std::string>> entri
 // B. A. Coull, The American Statistician 52, 1998, give the former; the latter is that of the 1934 paper's
 // method as R's binom.test prints it).
 TEST(BlindInterval, tableValues) {
-  const Rate none = binomialRate(0, 10);
+  const numerics::Rate none = numerics::binomialRate(0, 10);
   EXPECT_EQ(none.low, 0.0);
   EXPECT_NEAR(none.high, 0.3084971, 1e-7);
-  const Rate half = binomialRate(5, 10);
+  const numerics::Rate half = numerics::binomialRate(5, 10);
   EXPECT_NEAR(half.low, 0.1870860, 1e-7);
   EXPECT_NEAR(half.high, 0.8129140, 1e-7);
-  const Rate all = binomialRate(10, 10);
+  const numerics::Rate all = numerics::binomialRate(10, 10);
   EXPECT_NEAR(all.low, 1 - 0.3084971, 1e-7);
   EXPECT_EQ(all.high, 1.0);
-  EXPECT_EQ(binomialRate(0, 0).high, 1.0);
-  EXPECT_THROW(binomialRate(3, 2), std::invalid_argument);
+  EXPECT_EQ(numerics::binomialRate(0, 0).high, 1.0);
+  EXPECT_THROW(numerics::binomialRate(3, 2), std::invalid_argument);
 }
 
 // The interval holds the truth at least 95 times in a hundred, whatever the truth: P over all outcomes.
@@ -53,7 +51,7 @@ TEST(BlindInterval, holdsTheTruthOftenEnough) {
   for (const double share : {0.03, 0.2, 0.5, 0.91}) {
     double held = 0.0, probability = std::pow(1 - share, trials);
     for (int hits = 0; hits <= trials; ++hits) {
-      const Rate rate = binomialRate(hits, trials);
+      const numerics::Rate rate = numerics::binomialRate(hits, trials);
       if (rate.low <= share && share <= rate.high) held += probability;
       probability *= share / (1 - share) * (trials - hits) / (hits + 1);
     }
@@ -62,13 +60,13 @@ TEST(BlindInterval, holdsTheTruthOftenEnough) {
 }
 
 TEST(BlindScore, singlesByHand) {
-  const std::vector<Label> labels{single("1", "hysteresis", 0.7), single("2", "hysteresis", 3.0),
+  const std::vector<validation::Label> labels{single("1", "hysteresis", 0.7), single("2", "hysteresis", 3.0),
                                   single("3", "bearing_tilt", 6.0), single("4", "backlash", 6.0),
                                   single("5", "joint_coupling", 8.0, "joints 2 and 3")};
-  const std::vector<Answer> answers{says("1", {}), says("2", {{"hysteresis"}, {"base_compliance"}}),
+  const std::vector<validation::Answer> answers{says("1", {}), says("2", {{"hysteresis"}, {"base_compliance"}}),
                                     says("3", {{"link_compliance", "bearing_tilt"}}), says("4", {{}}),
                                     says("5", {{"joint_coupling"}}, "joints 2 and 3")};
-  const Score result = score(labels, answers);
+  const validation::Score result = validation::score(labels, answers);
   EXPECT_EQ(result.rate("singles").hits, 2);
   EXPECT_EQ(result.rate("singles").trials, 5);
   EXPECT_EQ(result.rate("singles_from_2").trials, 4);
@@ -87,29 +85,29 @@ TEST(BlindScore, singlesByHand) {
   EXPECT_EQ(at("hysteresis", "several"), 1);
   EXPECT_EQ(at("bearing_tilt", "bearing_tilt"), 1);  // its class
   EXPECT_EQ(at("backlash", "unknown"), 1);
-  EXPECT_EQ(result.effects[static_cast<std::size_t>(Effect::bearing_tilt)].mean_class_size, 2.0);
-  EXPECT_EQ(result.effects[static_cast<std::size_t>(Effect::hysteresis)].answered_none, 1);
+  EXPECT_EQ(result.effects[static_cast<std::size_t>(effects::Effect::bearing_tilt)].mean_class_size, 2.0);
+  EXPECT_EQ(result.effects[static_cast<std::size_t>(effects::Effect::hysteresis)].answered_none, 1);
   EXPECT_EQ(result.by_size[0].second.trials, 1);
   EXPECT_EQ(result.by_size[3].second.hits, 2);
 }
 
 TEST(BlindScore, cleanUnknownAndDoublesByHand) {
-  std::vector<Label> labels(6);
+  std::vector<validation::Label> labels(6);
   for (std::size_t i = 0; i < labels.size(); ++i) labels[i].name = std::to_string(i);
   labels[1].noise_factor = 1.2;
-  labels[2].kind = labels[3].kind = CaseKind::outside;
+  labels[2].kind = labels[3].kind = validation::CaseKind::outside;
   labels[2].effects = {{"creep", "creep", "deflection", 4.0, 4.0, 0.0}};
   labels[3].effects = {{"refraction", "refraction", "nests", 4.0, 0.0, 4.0}};
-  labels[4].kind = labels[5].kind = CaseKind::pair;
+  labels[4].kind = labels[5].kind = validation::CaseKind::pair;
   labels[4].effects = labels[5].effects = {{"hysteresis", "", "deflection", 4.0, 4.0, 0.0},
                                            {"load_cell_bias", "", "deflection", 4.0, 4.0, 0.0}};
-  const std::vector<Answer> answers{says("0", {}),
+  const std::vector<validation::Answer> answers{says("0", {}),
                                     says("1", {{"backlash"}}),
                                     says("2", {{"backlash"}, {}}),
                                     says("3", {{"tracker_drift"}}),
                                     says("4", {{"load_cell_bias", "backlash"}, {"hysteresis"}}),
                                     says("5", {{"hysteresis"}})};
-  const Score result = score(labels, answers, {{"2", 2.5}, {"3", 0.4}});
+  const validation::Score result = validation::score(labels, answers, {{"2", 2.5}, {"3", 0.4}});
   EXPECT_EQ(result.rate("unknown_apart").trials, 1);  // the other one is what a drift can do
   EXPECT_EQ(result.rate("unknown_apart").hits, 1);
   EXPECT_EQ(result.rate("false_alarms").hits, 1);
@@ -125,11 +123,11 @@ TEST(BlindScore, cleanUnknownAndDoublesByHand) {
 }
 
 TEST(BlindScore, shrinkIsHeldAgainstWhatCanBeSeen) {
-  const std::vector<Label> labels{single("1", "hysteresis", 3.0), single("2", "hysteresis", 3.0)};
-  std::vector<Answer> answers{says("1", {{"hysteresis"}}), says("2", {{"hysteresis"}})};
+  const std::vector<validation::Label> labels{single("1", "hysteresis", 3.0), single("2", "hysteresis", 3.0)};
+  std::vector<validation::Answer> answers{says("1", {{"hysteresis"}}), says("2", {{"hysteresis"}})};
   answers[0].promises = {{{"backlash"}, 0.1, 0.0, 0.2, 0.1}, {{"hysteresis"}, 0.48, 0.4, 0.55, 0.9}};
   answers[1].promises = {{{"hysteresis"}, 0.85, 0.8, 0.95, 0.9}};
-  const Score result = score(labels, answers);
+  const validation::Score result = validation::score(labels, answers);
   EXPECT_EQ(result.rate("shrink_covered").hits, 1);
   EXPECT_EQ(result.rate("shrink_covered").trials, 2);
   EXPECT_EQ(result.rate("shrink_covered_noise_free").hits, 1);
@@ -137,36 +135,36 @@ TEST(BlindScore, shrinkIsHeldAgainstWhatCanBeSeen) {
 }
 
 TEST(BlindScore, anAnswerThatFailedIsWrongEverywhere) {
-  std::vector<Label> labels{single("1", "hysteresis", 3.0)};
-  std::vector<Answer> answers{says("1", {})};
+  std::vector<validation::Label> labels{single("1", "hysteresis", 3.0)};
+  std::vector<validation::Answer> answers{says("1", {})};
   answers[0].failure = "no states";
-  const Score result = score(labels, answers);
+  const validation::Score result = validation::score(labels, answers);
   EXPECT_EQ(result.rate("failed").hits, 1);
   EXPECT_EQ(result.rate("singles").hits, 0);
-  EXPECT_THROW(score({single("2", "hysteresis", 1.0)}, answers), std::invalid_argument);
+  EXPECT_THROW(validation::score({single("2", "hysteresis", 1.0)}, answers), std::invalid_argument);
 }
 
 TEST(BlindTables, labelsAndAnswersSurviveWriting) {
-  std::vector<Label> labels{single("0001", "joint_coupling", 3.25, "joints 2 and 3"), {}};
+  std::vector<validation::Label> labels{single("0001", "joint_coupling", 3.25, "joints 2 and 3"), {}};
   labels[0].noise_factor = 0.875;
   labels[0].arm = "m20ia";
   labels[1].name = "0002";
-  const std::vector<Label> read = readLabels("labels.csv", labelsCsv(labels));
+  const std::vector<validation::Label> read = validation::readLabels("labels.csv", validation::labelsCsv(labels));
   ASSERT_EQ(read.size(), 2u);
   EXPECT_EQ(read[0].effects.at(0).detail, "joints 2 and 3");
   EXPECT_EQ(read[0].effects[0].size, 3.25);
   EXPECT_EQ(read[0].noise_factor, 0.875);
-  EXPECT_EQ(read[1].kind, CaseKind::none);
+  EXPECT_EQ(read[1].kind, validation::CaseKind::none);
   EXPECT_TRUE(read[1].effects.empty());
 
-  Verdict verdict;
-  verdict.entries = {{{Effect::hysteresis, Effect::backlash}, "joint 2, the way + back"}, {{}, ""}};
-  EffectClass best;
-  best.effects = {Effect::hysteresis, Effect::backlash};
+  diagnosis::Verdict verdict;
+  verdict.entries = {{{effects::Effect::hysteresis, effects::Effect::backlash}, "joint 2, the way + back"}, {{}, ""}};
+  diagnosis::EffectClass best;
+  best.effects = {effects::Effect::hysteresis, effects::Effect::backlash};
   best.shrink = {0.5, 0.25, 0.75};
-  const std::vector<EffectClass> classes{best};
-  const std::vector<Answer> given{answerOf("0001", {verdict, classes}), answerOf("0002", {})};
-  const std::vector<Answer> frozen = readAnswers("answers.csv", answersCsv(given));
+  const std::vector<diagnosis::EffectClass> classes{best};
+  const std::vector<validation::Answer> given{validation::answerOf("0001", {verdict, classes}), validation::answerOf("0002", {})};
+  const std::vector<validation::Answer> frozen = validation::readAnswers("answers.csv", validation::answersCsv(given));
   ASSERT_EQ(frozen.size(), 2u);
   EXPECT_EQ(frozen[0].entries.at(0).effects, (std::vector<std::string>{"hysteresis", "backlash"}));
   EXPECT_EQ(frozen[0].entries[0].detail, "joint 2  the way   back");  // what separates is taken out
@@ -176,11 +174,11 @@ TEST(BlindTables, labelsAndAnswersSurviveWriting) {
 }
 
 TEST(BlindTables, refusesWhatIsNoLabel) {
-  const std::string header = labelsCsv({});
+  const std::string header = validation::labelsCsv({});
   const auto complaint = [&](const std::string& bytes) -> std::string {
     try {
-      readLabels("labels.csv", bytes);
-    } catch (const InputError& error) {
+      validation::readLabels("labels.csv", bytes);
+    } catch (const io::InputError& error) {
       return error.what();
     }
     return "no complaint";

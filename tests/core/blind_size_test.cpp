@@ -2,22 +2,20 @@
 
 #include <filesystem>
 #include <numbers>
-
-#include "core/blind/case_draw.h"
-#include "core/blind/machine_draw.h"
+#include "core/validation/case.h"
+#include "core/validation/draw.h"
 #include "core/simulation/postures.h"
 
 namespace stiffscope {
 
-using namespace blind;
 using Eigen::Vector3d;
 
 namespace {
 
 struct Lab {
-  SimulationSpec spec;
+  simulation::SimulationSpec spec;
   explicit Lab(std::uint64_t seed)
-      : spec(drawMachine(seed, "case",
+      : spec(validation::drawMachine(seed, "case",
                          std::filesystem::temp_directory_path() / "stiffscope_blind_size" /
                              std::to_string(seed) / "robot.urdf")
                  .spec) {}
@@ -27,10 +25,10 @@ struct Lab {
 
 TEST(BlindArms, standAsTheirDimensionsSay) {
   for (std::uint64_t seed = 1; seed <= 8; ++seed) {
-    const SimulationSpec spec = Lab(seed).spec;
-    const Robot& robot = spec.nominal;
+    const simulation::SimulationSpec spec = Lab(seed).spec;
+    const robot::Robot& robot = spec.nominal;
     // Spherical wrist: axes 4, 5 and 6 meet.
-    const Line &four = robot.axes_in_base_at_zero[3], &five = robot.axes_in_base_at_zero[4];
+    const metrology::Line &four = robot.axes_in_base_at_zero[3], &five = robot.axes_in_base_at_zero[4];
     EXPECT_LT((five.point - four.point).cross(four.direction).norm(), 1e-12);
     EXPECT_NEAR(std::abs(five.direction.y()), 1.0, 1e-12);
     EXPECT_NEAR(robot.base_from_flange_at_zero.linear()(0, 2), 1.0, 1e-12);  // z forward
@@ -47,8 +45,8 @@ TEST(BlindArms, standAsTheirDimensionsSay) {
 // What is only another stiffness is refitted away: nothing is left of it but finite turns.
 TEST(BlindSize, anotherStiffnessIsNoEffect) {
   const Lab lab(3);
-  const EffectSizer sizer(lab.spec);
-  SimulationSpec softer = lab.spec;
+  const validation::EffectSizer sizer(lab.spec);
+  simulation::SimulationSpec softer = lab.spec;
   for (const std::size_t joint : {1u, 4u}) *softer.machine.joints[joint].torsion *= 0.95;
   // 5 % of a deflection of some hundred noises; a thousandth of it is what the arm's finite give leaves.
   EXPECT_LT(sizer.measure(softer).deflection, 0.05);
@@ -62,14 +60,14 @@ TEST(BlindSize, anotherStiffnessIsNoEffect) {
 // a reading's 4 to 20 um. A fixed direction on a flange that turns is hardly a stiffness.
 TEST(BlindSize, ofAReflectorThatMovesByHand) {
   const Lab lab(5);
-  SimulationSpec moved = lab.spec;
+  simulation::SimulationSpec moved = lab.spec;
   moved.targets[1].motion =
       simulation::TargetMotion{simulation::TargetMotion::Kind::slip, Vector3d(3e-5, 0, 0), 1.0, 0.0};
-  const Tracker& tracker = lab.spec.tracker.declared;
+  const campaign::Tracker& tracker = lab.spec.tracker.declared;
   const double far = 6.0, near = 1.5;  // m, of the tool from the station, at most and at least
   const double across = std::sqrt(2.0 / 3) * (tracker.angle_fixed + tracker.angle_per_m * far);
   const double along = std::sqrt(2.0 / 3) * (tracker.range_fixed + tracker.range_per_m * near);
-  const EffectSize size = EffectSizer(lab.spec).measure(moved);
+  const validation::EffectSize size = validation::EffectSizer(lab.spec).measure(moved);
   // Seated again at the next posture, but not at the return to zero: all four later steps.
   EXPECT_GT(size.deflection, 0.8 * 3e-5 / 3.0 / across);
   EXPECT_LT(size.deflection, 3e-5 / 3.0 / along);
@@ -78,37 +76,37 @@ TEST(BlindSize, ofAReflectorThatMovesByHand) {
 
 TEST(BlindSize, growsInProportion) {
   const Lab lab(3);
-  const EffectSizer sizer(lab.spec);
-  simulation::RandomStream random(1, "test");
-  for (const Effect effect : {Effect::bearing_tilt, Effect::load_cell_misalignment, Effect::load_cell_bias,
-                              Effect::kinematic_error, Effect::frame_error, Effect::tracker_drift}) {
-    const EffectDraw draw = drawEffect(effect, lab.spec, random);
+  const validation::EffectSizer sizer(lab.spec);
+  numerics::RandomStream random(1, "test");
+  for (const effects::Effect effect : {effects::Effect::bearing_tilt, effects::Effect::load_cell_misalignment, effects::Effect::load_cell_bias,
+                              effects::Effect::kinematic_error, effects::Effect::frame_error, effects::Effect::tracker_drift}) {
+    const validation::EffectDraw draw = validation::drawEffect(effect, lab.spec, random);
     const auto sized = [&](double strength) {
-      SimulationSpec spec = lab.spec;
+      simulation::SimulationSpec spec = lab.spec;
       draw.apply(strength, spec);
-      return sizeOf(sizer.measure(spec), draw.shows);
+      return validation::sizeOf(sizer.measure(spec), draw.shows);
     };
     const double once = sized(0.002 * draw.most), twice = sized(0.004 * draw.most);
-    EXPECT_GT(once, 0.0) << idOf(effect);
-    EXPECT_NEAR(twice / once, 2.0, 0.06) << idOf(effect);  // of second order in a strength of 0.4 %
+    EXPECT_GT(once, 0.0) << effects::idOf(effect);
+    EXPECT_NEAR(twice / once, 2.0, 0.06) << effects::idOf(effect);  // of second order in a strength of 0.4 %
   }
 }
 
 TEST(BlindSize, theStrengthForASizeIsFound) {
-  simulation::RandomStream random(2, "test");
+  numerics::RandomStream random(2, "test");
   int reached = 0, effects = 0;
-  for (std::size_t e = 0; e < kEffectCount; ++e) {
+  for (std::size_t e = 0; e < effects::kEffectCount; ++e) {
     const Lab lab(10 + e % 3);
-    const EffectSizer sizer(lab.spec);
-    const EffectDraw draw = drawEffect(static_cast<Effect>(e), lab.spec, random);
-    EffectSize sizes;
-    const double strength = strengthFor(draw, lab.spec, sizer, 3.0, sizes);
-    SimulationSpec spec = lab.spec;
+    const validation::EffectSizer sizer(lab.spec);
+    const validation::EffectDraw draw = validation::drawEffect(static_cast<effects::Effect>(e), lab.spec, random);
+    validation::EffectSize sizes;
+    const double strength = validation::strengthFor(draw, lab.spec, sizer, 3.0, sizes);
+    simulation::SimulationSpec spec = lab.spec;
     draw.apply(strength, spec);
-    EXPECT_EQ(sizeOf(sizer.measure(spec), draw.shows), sizeOf(sizes, draw.shows)) << kEffectIds[e];
+    EXPECT_EQ(validation::sizeOf(sizer.measure(spec), draw.shows), validation::sizeOf(sizes, draw.shows)) << effects::kEffectIds[e];
     EXPECT_LE(strength, draw.most);
     ++effects;
-    reached += std::abs(std::log(sizeOf(sizes, draw.shows) / 3.0)) < 0.1 ? 1 : 0;
+    reached += std::abs(std::log(validation::sizeOf(sizes, draw.shows) / 3.0)) < 0.1 ? 1 : 0;
   }
   EXPECT_GE(reached,
             effects - 2);  // a gap that no torque crosses, a reflector that cannot: those stay as they are
@@ -118,29 +116,29 @@ TEST(BlindSize, theStrengthForASizeIsFound) {
 // with noise 1 - sqrt(1 / (1 + 100)) or so (plain rms is not the whitened one).
 TEST(BlindSize, shrinkWithAndWithoutNoise) {
   const Lab lab(3);
-  const EffectSizer sizer(lab.spec);
-  SimulationSpec tilted = lab.spec;
-  simulation::RandomStream random(4, "test");
-  const EffectDraw draw = drawEffect(Effect::base_compliance, lab.spec, random);
-  EffectSize sizes;
-  strengthFor(draw, lab.spec, sizer, 10.0, sizes);
+  const validation::EffectSizer sizer(lab.spec);
+  simulation::SimulationSpec tilted = lab.spec;
+  numerics::RandomStream random(4, "test");
+  const validation::EffectDraw draw = validation::drawEffect(effects::Effect::base_compliance, lab.spec, random);
+  validation::EffectSize sizes;
+  validation::strengthFor(draw, lab.spec, sizer, 10.0, sizes);
   EXPECT_GT(sizes.shrink, 0.9);
   EXPECT_NEAR(sizes.shrink_seen, 0.9, 0.06);
   EXPECT_LT(sizes.shrink_seen, sizes.shrink);
 }
 
 TEST(BlindEffects, everyKindOutsideTheVocabularyShows) {
-  simulation::RandomStream random(5, "test");
+  numerics::RandomStream random(5, "test");
   const Lab lab(12);
-  const EffectSizer sizer(lab.spec);
-  for (const std::string& kind : outsideKinds()) {
-    EffectSize sizes;
-    const EffectDraw draw = drawOutside(kind, lab.spec, random);
+  const validation::EffectSizer sizer(lab.spec);
+  for (const std::string& kind : validation::outsideKinds()) {
+    validation::EffectSize sizes;
+    const validation::EffectDraw draw = validation::drawOutside(kind, lab.spec, random);
     EXPECT_FALSE(draw.effect);
-    strengthFor(draw, lab.spec, sizer, 2.0, sizes);
-    EXPECT_NEAR(std::log(sizeOf(sizes, draw.shows) / 2.0), 0.0, 0.1) << kind;
+    validation::strengthFor(draw, lab.spec, sizer, 2.0, sizes);
+    EXPECT_NEAR(std::log(validation::sizeOf(sizes, draw.shows) / 2.0), 0.0, 0.1) << kind;
   }
-  EXPECT_THROW(drawOutside("gremlins", lab.spec, random), std::invalid_argument);
+  EXPECT_THROW(validation::drawOutside("gremlins", lab.spec, random), std::invalid_argument);
 }
 
 }  // namespace stiffscope

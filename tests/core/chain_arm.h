@@ -3,7 +3,6 @@
 #include <Eigen/Dense>
 #include <array>
 #include <numbers>
-
 #include "core/robot/robot.h"
 #include "tests/metrology/simulated_points.h"
 
@@ -58,9 +57,9 @@ struct ChainArm {
   }
 
   /// The same arm as the code under test takes it.
-  Robot robot() const {
+  robot::Robot robot() const {
     const auto frames = framesAt(Vector6d::Zero());
-    Robot robot;
+    robot::Robot robot;
     robot.name = "chain";
     for (std::size_t j = 0; j < 6; ++j) {
       robot.axes_in_base_at_zero[j] = {frames[j].translation(), frames[j].linear() * axis[j]};

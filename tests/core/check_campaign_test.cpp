@@ -4,9 +4,8 @@
 
 #include <algorithm>
 #include <string>
-
-#include "core/input/input_error.h"
-#include "core/input/units.h"
+#include "core/io/input_error.h"
+#include "core/io/units.h"
 
 namespace stiffscope {
 namespace {
@@ -15,24 +14,24 @@ namespace {
 constexpr int kRows = 70'000;
 
 /// A state and a displacement a posture, on lines 2, 3 and so on.
-Campaign longCampaign() {
-  Campaign campaign;
+campaign::Campaign longCampaign() {
+  campaign::Campaign campaign;
   campaign.folder = "campaign";
   campaign.targets = {{"A", Eigen::Vector3d::Zero()}};
   campaign.load_cell.emplace();
-  campaign.states = States{"states.csv", PointFrame::tracker, {}};
-  campaign.displacements = Displacements{"displacements.csv", PointFrame::tracker, {}};
+  campaign.states = campaign::States{"states.csv", campaign::PointFrame::tracker, {}};
+  campaign.displacements = campaign::Displacements{"displacements.csv", campaign::PointFrame::tracker, {}};
   for (std::size_t j = 0; j < 6; ++j) {
     campaign.robot.joint_names[j] = "joint " + std::to_string(j + 1);
-    campaign.robot.limits[j].lower = -180.0 * kDegree, campaign.robot.limits[j].upper = 180.0 * kDegree;
+    campaign.robot.limits[j].lower = -180.0 * io::kDegree, campaign.robot.limits[j].upper = 180.0 * io::kDegree;
   }
   for (int i = 0; i < kRows; ++i) {
     campaign.pose_ids.push_back("P" + std::to_string(i));
-    State state;
+    campaign::State state;
     state.pose = i, state.step = 1, state.line = static_cast<std::size_t>(i) + 2;
-    state.q.setConstant(20.0 * kDegree);
+    state.q.setConstant(20.0 * io::kDegree);
     campaign.states->rows.push_back(state);
-    Displacement row;
+    campaign::Displacement row;
     row.pose = i, row.step = 1, row.line = static_cast<std::size_t>(i) + 2;
     campaign.displacements->rows.push_back(row);
   }
@@ -41,38 +40,38 @@ Campaign longCampaign() {
 
 TEST(CheckCampaign, FindsNothingInALongOneThatIsRight) {
   std::vector<std::string> warnings;
-  checkCampaign(longCampaign(), warnings);
+  campaign::checkCampaign(longCampaign(), warnings);
   EXPECT_TRUE(warnings.empty());
 }
 
 TEST(CheckCampaign, OfTwoReadingsWithoutStateTheFirstIsNamed) {
-  Campaign campaign = longCampaign();
+  campaign::Campaign campaign = longCampaign();
   for (const int row : {69'000, 40'000}) campaign.displacements->rows[static_cast<std::size_t>(row)].step = 2;
   std::vector<std::string> warnings;
   try {
-    checkCampaign(campaign, warnings);
+    campaign::checkCampaign(campaign, warnings);
     FAIL() << "expected an error";
-  } catch (const InputError& error) {
+  } catch (const io::InputError& error) {
     EXPECT_STREQ(error.what(),
                  "campaign/displacements.csv:40002: pose, step: 'P40000, 2': expected a load state that states.csv has a row for");
   }
 }
 
 TEST(CheckCampaign, StatesInAnyOrderAreFound) {
-  Campaign campaign = longCampaign();
+  campaign::Campaign campaign = longCampaign();
   std::reverse(campaign.states->rows.begin(), campaign.states->rows.end());
   std::vector<std::string> warnings;
-  EXPECT_NO_THROW(checkCampaign(campaign, warnings));
+  EXPECT_NO_THROW(campaign::checkCampaign(campaign, warnings));
 }
 
 TEST(CheckCampaign, AnglesOutsideLimitsAreCountedOverAllRowsAndTheFirstNamed) {
-  Campaign campaign = longCampaign();
+  campaign::Campaign campaign = longCampaign();
   // Half a degree within the margin of five, and beyond it, below and above.
-  campaign.states->rows[10].q[2] = 184.5 * kDegree;
-  for (const int row : {33'000, 66'000}) campaign.states->rows[static_cast<std::size_t>(row)].q[2] = 190.0 * kDegree;
-  campaign.states->rows[69'999].q[5] = -190.0 * kDegree;
+  campaign.states->rows[10].q[2] = 184.5 * io::kDegree;
+  for (const int row : {33'000, 66'000}) campaign.states->rows[static_cast<std::size_t>(row)].q[2] = 190.0 * io::kDegree;
+  campaign.states->rows[69'999].q[5] = -190.0 * io::kDegree;
   std::vector<std::string> warnings;
-  checkCampaign(campaign, warnings);
+  campaign::checkCampaign(campaign, warnings);
   ASSERT_EQ(warnings.size(), 2u);
   EXPECT_EQ(warnings[0], "campaign/states.csv:33002: q3_deg: '190.00': more than 5 deg outside the limits of joint 3 "
                          "(-180.00 to 180.00 deg); rows like this: 2");

@@ -3,14 +3,11 @@
 #include <Eigen/Dense>
 #include <cmath>
 #include <cstdio>
-
 #include "core/comparison/deflection_avoided.h"
 #include "core/compensation/compensate.h"
-#include "core/compensation/implausible_commands.h"
-#include "core/compensation/postures_table.h"
 #include "core/identification/identify.h"
 #include "core/simulation/read_spec.h"
-#include "core/simulation/simulate.h"
+#include "core/simulation/measure.h"
 #include "tests/core/linear_machine.h"
 
 namespace stiffscope {
@@ -19,9 +16,9 @@ namespace {
 /// An arm with known springs, its campaign without readings, and the estimate that knows them.
 struct KnownArm {
   SimulatedLab lab;
-  Campaign campaign;
-  LoadingGeometry geometry;
-  StiffnessEstimate estimate;
+  campaign::Campaign campaign;
+  frames::LoadingGeometry geometry;
+  identification::StiffnessEstimate estimate;
   Eigen::Vector3d tcp{0.0, 0.0, 0.0};
 
   KnownArm() {
@@ -30,7 +27,7 @@ struct KnownArm {
         lab.hook_in_flange;  // then no moment, which would turn with the cable
     campaign = lab.empty();
     geometry.arm = lab.actual.robot();
-    geometry.weight = ownWeight(campaign.robot, campaign.tool, campaign.gravity_in_base, geometry.arm, Eigen::Isometry3d::Identity());
+    geometry.weight = robot::ownWeight(campaign.robot, campaign.tool, campaign.gravity_in_base, geometry.arm, Eigen::Isometry3d::Identity());
     for (const Eigen::Vector3d& target : lab.targets_in_flange) {
       geometry.targets_at_zero.push_back(geometry.arm.base_from_flange_at_zero * target);
     }
@@ -39,11 +36,11 @@ struct KnownArm {
     estimate.covariance = Matrix6d((0.03 * lab.compliance).cwiseAbs2().asDiagonal());
   }
 
-  PostureToCompensate asked(const Vector6d& q, const Eigen::Vector3d& force = {500, -400, -1500}) const {
+  compensation::PostureToCompensate asked(const Vector6d& q, const Eigen::Vector3d& force = {500, -400, -1500}) const {
     return {"a", q, lab.cellReading(lab.settled(q), force)};
   }
-  CompensatedPosture run(const PostureToCompensate& one) const {
-    return compensate(campaign, geometry, estimate, tcp, {one}).front();
+  compensation::CompensatedPosture run(const compensation::PostureToCompensate& one) const {
+    return compensation::compensate(campaign, geometry, estimate, tcp, {one}).front();
   }
 };
 
@@ -53,7 +50,7 @@ TEST(Compensate, CommandsBringTheLoadedArmBack) {
   for (int k = 0; k < 6; ++k) {
     const Vector6d q = somePosture(noise);
     const Eigen::Vector3d force(500, -400, -1500);
-    const CompensatedPosture found = arm.run(arm.asked(q, force));
+    const compensation::CompensatedPosture found = arm.run(arm.asked(q, force));
     ASSERT_TRUE(found.solved) << found.reason;
     const Eigen::Isometry3d wanted = arm.lab.actual.flangeAt(arm.lab.settled(q));
     const Eigen::Isometry3d loaded = arm.lab.actual.flangeAt(arm.lab.settled(q, force));
@@ -73,8 +70,8 @@ TEST(Compensate, CommandsBringTheLoadedArmBack) {
 
 TEST(Compensate, UncertaintiesAreThoseOfRandomStiffnesses) {
   KnownArm arm;
-  const PostureToCompensate one = arm.asked(degrees(20, 10, -20, 50, 60, -30));
-  const CompensatedPosture stated = arm.run(one);
+  const compensation::PostureToCompensate one = arm.asked(degrees(20, 10, -20, 50, 60, -30));
+  const compensation::CompensatedPosture stated = arm.run(one);
   Noise noise(8);
   constexpr int kDraws = 2000;
   Eigen::Matrix<double, 9, 1> sum = Eigen::Matrix<double, 9, 1>::Zero(), squares = sum;
@@ -82,7 +79,7 @@ TEST(Compensate, UncertaintiesAreThoseOfRandomStiffnesses) {
     for (int j = 0; j < 6; ++j) {
       arm.estimate.compliance[j] = arm.lab.compliance[j] * (1.0 + 0.03 * noise.normal());
     }
-    const CompensatedPosture drawn = arm.run(one);
+    const compensation::CompensatedPosture drawn = arm.run(one);
     Eigen::Matrix<double, 9, 1> all;
     all << drawn.tcp.deflection, drawn.rotation, drawn.targets[0].deflection;
     sum += all, squares += all.cwiseAbs2();
@@ -99,28 +96,28 @@ TEST(Compensate, UncertaintiesAreThoseOfRandomStiffnesses) {
 TEST(Compensate, AMomentInNewtonMillimetresIsCautionedOf) {
   const KnownArm arm;
   Noise noise(6);
-  PostureToCompensate asked = arm.asked(somePosture(noise));
+  compensation::PostureToCompensate asked = arm.asked(somePosture(noise));
   asked.wrench_in_cell.tail<3>() = Eigen::Vector3d(0.0, 0.0, 20.0);
-  EXPECT_TRUE(implausibleCommands({arm.run(asked)}).empty());
+  EXPECT_TRUE(compensation::implausibleCommands({arm.run(asked)}).empty());
   asked.wrench_in_cell.tail<3>() *= 1e3;
-  const CompensatedPosture turned = arm.run(asked);
+  const compensation::CompensatedPosture turned = arm.run(asked);
   ASSERT_TRUE(turned.solved) << turned.reason;
-  const std::vector<std::string> sentences = implausibleCommands({turned});
+  const std::vector<std::string> sentences = compensation::implausibleCommands({turned});
   ASSERT_EQ(sentences.size(), 1u);
   EXPECT_EQ(sentences[0].rfind("posture a would turn joint ", 0), 0u) << sentences[0];
 }
 
 TEST(Compensate, RefusesWithTheReason) {
   KnownArm arm;
-  const CompensatedPosture straight = arm.run(arm.asked(degrees(20, 10, -20, 50, 0.1, -30)));
+  const compensation::CompensatedPosture straight = arm.run(arm.asked(degrees(20, 10, -20, 50, 0.1, -30)));
   EXPECT_FALSE(straight.solved);
   EXPECT_TRUE(straight.predicted);
   EXPECT_EQ(straight.reason.substr(0, 37), "too near a singularity: conditioning ") << straight.reason;
 
-  const PostureToCompensate fine = arm.asked(degrees(20, 10, -20, 50, 60, -30));
+  const compensation::PostureToCompensate fine = arm.asked(degrees(20, 10, -20, 50, 60, -30));
   const double command = arm.run(fine).commands[1], middle = 0.5 * (command + fine.q[1]);
-  arm.geometry.arm.limits[1] = command > middle ? JointLimits{-6.2, middle} : JointLimits{middle, 6.2};
-  const CompensatedPosture at_limit = arm.run(fine);
+  arm.geometry.arm.limits[1] = command > middle ? robot::JointLimits{-6.2, middle} : robot::JointLimits{middle, 6.2};
+  const compensation::CompensatedPosture at_limit = arm.run(fine);
   EXPECT_FALSE(at_limit.solved);
   EXPECT_EQ(at_limit.reason.substr(0, 28), "joint 2 would have to go to ") << at_limit.reason;
   arm.geometry.arm.limits[1] = {-1.0, 0.1};
@@ -133,7 +130,7 @@ TEST(Compensate, RefusesWithTheReason) {
   arm.estimate.compliance[3] *= -1.0;
   EXPECT_NE(arm.run(fine).reason.find("k4 came out negative: no spring has that"), std::string::npos);
   arm.estimate.compliance = arm.lab.compliance * 1e4;
-  const CompensatedPosture collapsed = arm.run(fine);
+  const compensation::CompensatedPosture collapsed = arm.run(fine);
   EXPECT_FALSE(collapsed.predicted);
   EXPECT_NE(collapsed.reason.find("does not come to rest"), std::string::npos);
 }
@@ -149,32 +146,32 @@ double meanMove(const std::vector<Eigen::Vector3d>& from, const std::vector<Eige
 // springs that its campaign shows, put back into the machine.
 TEST(Compensate, RemovesInTheSimulatorWhatTheIdentificationClaims) {
   for (const std::string sample : {"inactive", "active"}) {
-    SimulationSpec spec = readSimulationSpec(STIFFSCOPE_SOURCE_DIR "/samples/" + sample + ".xml");
+    simulation::SimulationSpec spec = simulation::readSimulationSpec(STIFFSCOPE_SOURCE_DIR "/samples/" + sample + ".xml");
     spec.wrist_sweep->readings = 300;  // quicker; the sphere's centre is still known to micrometres
-    const Campaign campaign = simulate(spec);
-    IdentifyOptions options;
+    const campaign::Campaign campaign = simulation::simulate(spec);
+    identification::IdentifyOptions options;
     options.subsets.most_all = 1;
     options.subsets.sample = 300;
-    const Identification result = identify(campaign, options);
-    const MethodResult& method = result.of(Method::decoupled_partial_pose);
+    const identification::Identification result = identification::identify(campaign, options);
+    const identification::MethodResult& method = result.of(identification::Method::decoupled_partial_pose);
     ASSERT_TRUE(method.available) << method.reason;
-    const auto rows = compensate(campaign, method.geometry, method.estimate, result.frames.tcp_in_flange,
-                                 campaignPostures(campaign, result.step));
-    const ElasticMachine machine = buildMachine(spec);
-    std::vector<PostureDeflection> true_moves, claimed;
+    const auto rows = compensation::compensate(campaign, method.geometry, method.estimate, result.frames.tcp_in_flange,
+                                 compensation::campaignPostures(campaign, result.step));
+    const simulation::ElasticMachine machine = simulation::buildMachine(spec);
+    std::vector<comparison::PostureDeflection> true_moves, claimed;
     for (std::size_t i = 0; i < rows.size(); ++i) {
       ASSERT_TRUE(rows[i].solved) << rows[i].reason;
-      const AppliedLoad load =
+      const simulation::AppliedLoad load =
           simulation::loadAtStep(*spec.loading, result.step, machine.gravity_in_base, {});
-      const MachineState unloaded = equilibrium(machine, rows[i].posture.q);
-      const MachineState loaded = equilibrium(machine, rows[i].posture.q, load);
-      const MachineState commanded = equilibrium(machine, rows[i].commands, load);
+      const simulation::MachineState unloaded = simulation::equilibrium(machine, rows[i].posture.q);
+      const simulation::MachineState loaded = simulation::equilibrium(machine, rows[i].posture.q, load);
+      const simulation::MachineState commanded = simulation::equilibrium(machine, rows[i].commands, load);
       ASSERT_TRUE(unloaded.converged && loaded.converged && commanded.converged);
       true_moves.push_back({rows[i].posture.id, meanMove(unloaded.targets_in_base, loaded.targets_in_base),
                             meanMove(unloaded.targets_in_base, commanded.targets_in_base)});
       claimed.push_back({rows[i].posture.id, result.target_displacement[i], method.target_residual[i]});
     }
-    const DeflectionAvoided removed = shareAvoided(true_moves), claim = shareAvoided(claimed);
+    const comparison::DeflectionAvoided removed = comparison::shareAvoided(true_moves), claim = comparison::shareAvoided(claimed);
     EXPECT_NEAR(claim.share, method.at_targets->all_postures, 1e-9);
     EXPECT_GE(removed.share, claim.low) << sample;
     EXPECT_GE(claim.low, 0.5);  // the claim is no empty one

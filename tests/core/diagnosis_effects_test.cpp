@@ -2,20 +2,19 @@
 
 #include <array>
 #include <cmath>
-
-#include "core/diagnosis/effect_table.h"
-#include "core/diagnosis/effects/backlash.h"
-#include "core/diagnosis/effects/base_compliance.h"
-#include "core/diagnosis/effects/bearing_tilt.h"
-#include "core/diagnosis/effects/hysteresis.h"
-#include "core/diagnosis/effects/joint_coupling.h"
-#include "core/diagnosis/effects/joint_hardening.h"
-#include "core/diagnosis/effects/link_compliance.h"
-#include "core/diagnosis/effects/load_cell_bias.h"
-#include "core/diagnosis/effects/load_point_error.h"
-#include "core/diagnosis/effects/target_motion.h"
-#include "core/diagnosis/effects/tool_compliance.h"
-#include "core/diagnosis/station.h"
+#include "core/effects/all.h"
+#include "core/effects/backlash.h"
+#include "core/effects/base_compliance.h"
+#include "core/effects/bearing_tilt.h"
+#include "core/effects/hysteresis.h"
+#include "core/effects/joint_coupling.h"
+#include "core/effects/joint_hardening.h"
+#include "core/effects/link_compliance.h"
+#include "core/effects/load_cell_bias.h"
+#include "core/effects/load_point_error.h"
+#include "core/effects/target_motion.h"
+#include "core/effects/tool_compliance.h"
+#include "core/preparation/station_course.h"
 #include "tests/core/chain_arm.h"
 
 // Each effect's displacement field against a case worked by hand, on the tests' own kinematics.
@@ -29,10 +28,10 @@ constexpr double kRounding =
 /// A state of the example arm with a load on the tool, no own weight.
 struct Bench {
   ChainArm chain = exampleChain();
-  LoadingGeometry geometry;
-  WorkingPoint at;
+  frames::LoadingGeometry geometry;
+  effects::WorkingPoint at;
   Vector6d q = degrees(10, 20, -15, 40, 50, -30);
-  Wrench load{{2.0, 0.1, 1.9}, {300.0, -500.0, -900.0}, {40.0, 20.0, -10.0}};
+  robot::Wrench load{{2.0, 0.1, 1.9}, {300.0, -500.0, -900.0}, {40.0, 20.0, -10.0}};
   std::vector<Eigen::Vector3d> points{{2.1, 0.3, 1.8}, {2.0, -0.2, 2.1}};
 
   Bench() {
@@ -41,8 +40,8 @@ struct Bench {
     at.targets = 2;
     at.largest_force = load.force.norm();
   }
-  ArmState state(double share) const {
-    ArmState one = stateAt(geometry, q, Vector6d::Zero());
+  effects::ArmState state(double share) const {
+    effects::ArmState one = effects::stateAt(geometry, q, Vector6d::Zero());
     one.load = {load.point, share * load.force, share * load.moment};
     one.load_torque = chain.torqueOf(q, 6, load.point, one.load.force, one.load.moment);
     one.loaded = share > 0.05;
@@ -50,7 +49,7 @@ struct Bench {
     one.targets = {0, 1};
     return one;
   }
-  PostureStates outAndBack() const { return {state(0.0), state(0.5), state(1.0), state(0.0)}; }
+  effects::PostureStates outAndBack() const { return {state(0.0), state(0.5), state(1.0), state(0.0)}; }
   Eigen::Vector3d jointOrigin(int j) const {
     return chain.framesAt(q)[static_cast<std::size_t>(j)].translation();
   }
@@ -64,7 +63,7 @@ struct Bench {
 
 TEST(BearingTilt, TurnsAcrossTheAxisByTheMomentThere) {
   const Bench bench;
-  const Eigen::MatrixXd field = bearingTilt().columns(bench.at, bench.outAndBack(), 2);
+  const Eigen::MatrixXd field = effects::bearingTilt().columns(bench.at, bench.outAndBack(), 2);
   for (int j = 0; j < 6; ++j) {
     const Eigen::Vector3d origin = bench.jointOrigin(j), axis = bench.jointAxis(j),
                           moment = bench.momentAt(origin);
@@ -88,9 +87,9 @@ TEST(BearingTilt, OfAxis4IsJoint5sOwnComplianceInASphericalWrist) {
   bench.geometry.arm.axes_in_base_at_zero[3].point =
       bench.chain.framesAt(Vector6d::Zero())[4].translation();  // on axis 4: the same line
   bench.load.moment -= other * other.dot(bench.momentAt(wrist));
-  const PostureStates posture = bench.outAndBack();
-  const Eigen::VectorXd tilt = bearingTilt().columns(bench.at, posture, 2).col(3);
-  const Eigen::VectorXd own = byEachJoint(posture[2], posture[2].load_torque).col(4);
+  const effects::PostureStates posture = bench.outAndBack();
+  const Eigen::VectorXd tilt = effects::bearingTilt().columns(bench.at, posture, 2).col(3);
+  const Eigen::VectorXd own = effects::byEachJoint(posture[2], posture[2].load_torque).col(4);
   EXPECT_LT((tilt - own).norm(), 1e-9 * own.norm());
 }
 
@@ -100,7 +99,7 @@ TEST(LinkCompliance, IsACantileverAtItsTip) {
   const Eigen::Vector3d tip = bench.jointOrigin(2);
   bench.points = {tip, tip + Eigen::Vector3d(0, 0, 1)};
   bench.load = {tip, {1000.0, 0, 0}, {0, 0, 50.0}};
-  const Eigen::MatrixXd field = linkCompliance().columns(bench.at, bench.outAndBack(), 2);
+  const Eigen::MatrixXd field = effects::linkCompliance().columns(bench.at, bench.outAndBack(), 2);
   const double length = 1.12;
   const Eigen::Vector3d bend = field.block<3, 1>(0, 2), beyond = field.block<3, 1>(3, 2);
   EXPECT_NEAR(bend.x(), 1000.0 * std::pow(length, 3) / 3.0, 1e-6);           // F L^3 / 3
@@ -113,10 +112,10 @@ TEST(LinkCompliance, IsACantileverAtItsTip) {
 // reflector that moves; unloading takes the first back and leaves the second.
 TEST(TargetMotion, FollowsTheForceInTheNest) {
   const Bench bench;
-  const PostureStates posture = bench.outAndBack();
+  const effects::PostureStates posture = bench.outAndBack();
   const Eigen::Matrix3d axes = posture[2].flange.linear();
   const Eigen::Vector3d along_x = axes.col(0) * axes.col(0).dot(bench.load.force) / bench.load.force.norm();
-  const EffectModel spring = targetNestSpring({"P1", "P2"}), slip = targetPulledAlong({"P1", "P2"});
+  const effects::EffectModel spring = effects::targetNestSpring({"P1", "P2"}), slip = effects::targetPulledAlong({"P1", "P2"});
   for (const std::size_t state : {std::size_t{1}, std::size_t{2}, std::size_t{3}}) {
     const double share = state == 1 ? 0.5 : state == 2 ? 1.0 : 0.0, most = state == 1 ? 0.5 : 1.0;
     const Eigen::MatrixXd by_spring = spring.columns(bench.at, posture, state),
@@ -134,15 +133,15 @@ TEST(TargetMotion, FollowsTheForceInTheNest) {
 // An isotropic nest moves its reflector along the force, whichever way the flange is turned.
 TEST(TargetMotion, IsotropicNestMovesAlongTheForce) {
   const Bench bench;
-  const Eigen::MatrixXd field = targetNestSpring({"P1", "P2"}).columns(bench.at, bench.outAndBack(), 2);
+  const Eigen::MatrixXd field = effects::targetNestSpring({"P1", "P2"}).columns(bench.at, bench.outAndBack(), 2);
   const Eigen::Vector3d sum = field.block<3, 3>(0, 0).rowwise().sum();
   EXPECT_LT((sum - bench.load.force.normalized()).norm(), kRounding);
 }
 
 TEST(TargetMotion, LastingSlipStaysThroughTheReturnToZero) {
   const Bench bench;
-  const PostureStates posture = bench.outAndBack();
-  const EffectModel slip = targetLastingSlip({"P1", "P2"});
+  const effects::PostureStates posture = bench.outAndBack();
+  const effects::EffectModel slip = effects::targetLastingSlip({"P1", "P2"});
   EXPECT_TRUE(slip.columns(bench.at, posture, 0).isZero(0.0));
   EXPECT_TRUE(slip.columns(bench.at, posture, 3).isApprox(slip.columns(bench.at, posture, 1), kRounding));
   EXPECT_TRUE((slip.columns(bench.at, posture, 3).block<3, 3>(0, 0).isApprox(posture[3].flange.linear())));
@@ -150,75 +149,75 @@ TEST(TargetMotion, LastingSlipStaysThroughTheReturnToZero) {
 
 // Between rounds at 0 and 10 s a bridge is 0 at both ends and largest, 10/4, in the middle; times between
 // different rounds know nothing of each other.
-TEST(Station, WandersLeastNextToARound) {
-  StationMotion station;
+TEST(preparation::Station, WandersLeastNextToARound) {
+  preparation::StationMotion station;
   station.epochs.resize(3);
   for (std::size_t e = 0; e < 3; ++e) station.epochs[e].time_s = 10.0 * static_cast<double>(e);
-  EXPECT_DOUBLE_EQ(bridgeBetweenRounds(station, 5.0, 5.0), 2.5);
-  EXPECT_DOUBLE_EQ(bridgeBetweenRounds(station, 2.0, 5.0), 1.0);
-  EXPECT_DOUBLE_EQ(bridgeBetweenRounds(station, 5.0, 2.0), 1.0);
-  EXPECT_DOUBLE_EQ(bridgeBetweenRounds(station, 0.0, 10.0), 0.0);
-  EXPECT_DOUBLE_EQ(bridgeBetweenRounds(station, 8.0, 12.0), 0.0);
-  EXPECT_DOUBLE_EQ(bridgeBetweenRounds(station, kNoTime, 5.0), 0.0);
+  EXPECT_DOUBLE_EQ(preparation::bridgeBetweenRounds(station, 5.0, 5.0), 2.5);
+  EXPECT_DOUBLE_EQ(preparation::bridgeBetweenRounds(station, 2.0, 5.0), 1.0);
+  EXPECT_DOUBLE_EQ(preparation::bridgeBetweenRounds(station, 5.0, 2.0), 1.0);
+  EXPECT_DOUBLE_EQ(preparation::bridgeBetweenRounds(station, 0.0, 10.0), 0.0);
+  EXPECT_DOUBLE_EQ(preparation::bridgeBetweenRounds(station, 8.0, 12.0), 0.0);
+  EXPECT_DOUBLE_EQ(preparation::bridgeBetweenRounds(station, campaign::kNoTime, 5.0), 0.0);
 }
 
 TEST(JointCoupling, IsReciprocal) {
   const Bench bench;
-  const PostureStates posture = bench.outAndBack();
-  const Eigen::MatrixXd field = jointCoupling().columns(bench.at, posture, 2);
+  const effects::PostureStates posture = bench.outAndBack();
+  const Eigen::MatrixXd field = effects::jointCoupling().columns(bench.at, posture, 2);
   ASSERT_EQ(field.cols(), 15);
   const Vector6d torque = posture[2].load_torque;
   Vector6d turn = Vector6d::Zero();
   turn[1] = torque[2];
   turn[2] = torque[1];
-  EXPECT_LT((field.col(5) - byJoints(posture[2], turn)).norm(), kRounding);  // pairs 12 13 14 15 16 23
-  EXPECT_EQ(jointCoupling().parts[5].detail, "joints 2 and 3");
+  EXPECT_LT((field.col(5) - effects::byJoints(posture[2], turn)).norm(), kRounding);  // pairs 12 13 14 15 16 23
+  EXPECT_EQ(effects::jointCoupling().parts[5].detail, "joints 2 and 3");
 }
 
 // theta = c tau - c a * column must solve k theta + k_3 theta^3 = tau with k = 1/c, k_3 = a / c^3, and theta
 // k (1 + a tau^2) = tau, where a tau^2 is about 1.
 TEST(JointHardening, WholeFormsSolveTheirSprings) {
   Bench bench;
-  const PostureStates posture = bench.outAndBack();
+  const effects::PostureStates posture = bench.outAndBack();
   const double tau = posture[2].load_torque[1], c = bench.at.compliance[1], a = 0.9 / (tau * tau);
   bench.at.harder_by_square[1] = a;
   bench.at.harder_by_size[1] = a * std::abs(tau);
-  const auto angleBy = [&](const EffectModel& model) {
+  const auto angleBy = [&](const effects::EffectModel& model) {
     return c * tau + c * a * model.angles(bench.at, posture, 2)(1, 1);
   };
-  const double spring = angleBy(jointHardeningCubicSpring()) / c, whole = angleBy(jointHardeningWhole()) / c;
+  const double spring = angleBy(effects::jointHardeningCubicSpring()) / c, whole = angleBy(effects::jointHardeningWhole()) / c;
   EXPECT_NEAR(spring + a * spring * spring * spring, tau, 1e-9 * std::abs(tau));  // Newton, to rounding
   EXPECT_NEAR(whole * (1.0 + a * tau * tau), tau, 1e-9 * std::abs(tau));
   const double linear =
-      c * tau + c * a * std::abs(tau) * jointHardeningLinearWhole().angles(bench.at, posture, 2)(1, 1);
+      c * tau + c * a * std::abs(tau) * effects::jointHardeningLinearWhole().angles(bench.at, posture, 2)(1, 1);
   EXPECT_NEAR(linear / c * 1.9, tau, 1e-9 * std::abs(tau));
 }
 
 TEST(JointHardening, TakesTheCubeOfTheTorque) {
   const Bench bench;
-  const PostureStates posture = bench.outAndBack();
-  const Eigen::MatrixXd half = jointHardening().columns(bench.at, posture, 1),
-                        full = jointHardening().columns(bench.at, posture, 2);
+  const effects::PostureStates posture = bench.outAndBack();
+  const Eigen::MatrixXd half = effects::jointHardening().columns(bench.at, posture, 1),
+                        full = effects::jointHardening().columns(bench.at, posture, 2);
   EXPECT_LT((full - 8.0 * half).norm(), 1e-9 * full.norm());
-  const Eigen::MatrixXd other = jointHardeningLinear().columns(bench.at, posture, 2);
-  EXPECT_LT((other - 4.0 * jointHardeningLinear().columns(bench.at, posture, 1)).norm(), 1e-9 * other.norm());
+  const Eigen::MatrixXd other = effects::jointHardeningLinear().columns(bench.at, posture, 2);
+  EXPECT_LT((other - 4.0 * effects::jointHardeningLinear().columns(bench.at, posture, 1)).norm(), 1e-9 * other.norm());
 }
 
 TEST(Backlash, ChangesSideWithTheTorque) {
   Bench bench;
   bench.at.passage = 1e-3;  // sharp
-  const PostureStates posture = bench.outAndBack();
-  const JointAngles turn = backlash().angles(bench.at, posture, 2);
+  const effects::PostureStates posture = bench.outAndBack();
+  const effects::JointAngles turn = effects::backlash().angles(bench.at, posture, 2);
   for (int j = 0; j < 6; ++j) EXPECT_NEAR(turn(j, j), posture[2].load_torque[j] > 0.0 ? 0.5 : -0.5, 1e-12);
-  EXPECT_EQ(backlash().angles(bench.at, posture, 0).norm(), 0.0);
+  EXPECT_EQ(effects::backlash().angles(bench.at, posture, 0).norm(), 0.0);
 }
 
 TEST(Hysteresis, LagsOutAndBackByTheFriction) {
   Bench bench;
   bench.at.friction.setConstant(10.0);
-  const PostureStates posture = bench.outAndBack();
-  const JointAngles out = hysteresis().angles(bench.at, posture, 2),
-                    back = hysteresis().angles(bench.at, posture, 3);
+  const effects::PostureStates posture = bench.outAndBack();
+  const effects::JointAngles out = effects::hysteresis().angles(bench.at, posture, 2),
+                    back = effects::hysteresis().angles(bench.at, posture, 3);
   for (int j = 0; j < 6; ++j) {
     const double torque = posture[2].load_torque[j];
     if (std::abs(torque) < 20.0) continue;  // sticks on the way back
@@ -226,14 +225,14 @@ TEST(Hysteresis, LagsOutAndBackByTheFriction) {
     EXPECT_NEAR(out(j, j), -side, 1e-12) << j;
     EXPECT_NEAR(back(j, j), side, 1e-12) << j;
   }
-  EXPECT_EQ(hysteresis().angles(bench.at, posture, 0).norm(), 0.0);
+  EXPECT_EQ(effects::hysteresis().angles(bench.at, posture, 0).norm(), 0.0);
 }
 
 // One slider of friction f on a spring r k beside the joint's k. Out by tau: k theta = tau - f once r k theta
 // > f. Back to nothing: the slider gives way after 2 f / (r k), or the joint stops where (1 + r) k theta holds it.
 TEST(Hysteresis, ASliderOnASpringWorkedByHand) {
   Bench bench;
-  const PostureStates posture = bench.outAndBack();
+  const effects::PostureStates posture = bench.outAndBack();
   const double tau = std::abs(posture[2].load_torque[1]);
   for (const double share : {0.1, 0.4}) {
     const double friction = share * tau, firm = 1.0;
@@ -242,7 +241,7 @@ TEST(Hysteresis, ASliderOnASpringWorkedByHand) {
     const double side = posture[2].load_torque[1] > 0.0 ? 1.0 : -1.0;
     // Out, by half the load: in the grip while firm / (1 + firm) tau / 2 < f.
     const double held_at_half = std::min(friction, 0.5 * tau * firm / (1.0 + firm));
-    const EffectModel model = hysteresisOneSlider();
+    const effects::EffectModel model = effects::hysteresisOneSlider();
     EXPECT_NEAR(model.angles(bench.at, posture, 1)(1, 1), -side * held_at_half / friction, 1e-12) << share;
     const double held_at_full = std::min(friction, tau * firm / (1.0 + firm));
     EXPECT_NEAR(model.angles(bench.at, posture, 2)(1, 1), -side * held_at_full / friction, 1e-12) << share;
@@ -259,15 +258,15 @@ TEST(Hysteresis, ASliderOnASpringWorkedByHand) {
 // rigid one.
 TEST(Hysteresis, ManySlidersHoldTheWholeFrictionInTheEnd) {
   Bench bench;
-  const PostureStates posture = bench.outAndBack();
+  const effects::PostureStates posture = bench.outAndBack();
   const double tau = posture[2].load_torque[1];
   bench.at.friction.setConstant(0.01 * std::abs(tau));
-  EXPECT_NEAR(std::abs(hysteresisManySliders().angles(bench.at, posture, 2)(1, 1)), 1.0, 1e-12);
+  EXPECT_NEAR(std::abs(effects::hysteresisManySliders().angles(bench.at, posture, 2)(1, 1)), 1.0, 1e-12);
   bench.at.friction.setConstant(0.3 * std::abs(tau));
   bench.at.sticking = 1e7;  // a ten-millionth of the torque goes into the grip
   for (const std::size_t state : {1U, 2U, 3U}) {
-    EXPECT_NEAR(hysteresisOneSlider().angles(bench.at, posture, state)(1, 1),
-                hysteresis().angles(bench.at, posture, state)(1, 1), 1e-6);
+    EXPECT_NEAR(effects::hysteresisOneSlider().angles(bench.at, posture, state)(1, 1),
+                effects::hysteresis().angles(bench.at, posture, state)(1, 1), 1e-6);
   }
 }
 
@@ -275,10 +274,10 @@ TEST(Hysteresis, ManySlidersHoldTheWholeFrictionInTheEnd) {
 // hinge.
 TEST(JointHardening, AStageIsAHingeAtItsKnot) {
   Bench bench;
-  const PostureStates posture = bench.outAndBack();
+  const effects::PostureStates posture = bench.outAndBack();
   bench.at.largest_torque = posture[2].load_torque.cwiseAbs();
   const double tau = posture[2].load_torque[1], knot = std::abs(tau) / 7.0, c = bench.at.compliance[1];
-  const JointAngles angles = jointHardeningByStages().angles(bench.at, posture, 2);
+  const effects::JointAngles angles = effects::jointHardeningByStages().angles(bench.at, posture, 2);
   const double by_hand = std::copysign(c * knot + 0.5 * c * (std::abs(tau) - knot), tau);
   EXPECT_NEAR(c * tau + 0.5 * c * angles(1, 6), by_hand, 1e-15);
   EXPECT_EQ(angles(2, 6), 0.0);  // another joint's
@@ -288,10 +287,10 @@ TEST(JointHardening, AStageIsAHingeAtItsKnot) {
 // hinge's curve less that of T/4's.
 TEST(JointHardening, ASmoothCurveIsTheIntegralOfARampedCompliance) {
   Bench bench;
-  const PostureStates posture = bench.outAndBack();
+  const effects::PostureStates posture = bench.outAndBack();
   bench.at.largest_torque = posture[2].load_torque.cwiseAbs();
   const double tau = posture[2].load_torque[1], whole = std::abs(tau), c = bench.at.compliance[1];
-  const JointAngles angles = jointHardeningSmooth().angles(bench.at, posture, 2);
+  const effects::JointAngles angles = effects::jointHardeningSmooth().angles(bench.at, posture, 2);
   const double ramp = whole / 4.0, fall = c / 3.0;
   const double by_hand = std::copysign((c - 0.5 * fall) * ramp + (c - fall) * (whole - ramp), tau);
   const double slope = fall / ramp * whole;  // knots at 0, T/8, T/4, T/2: four a joint
@@ -301,31 +300,31 @@ TEST(JointHardening, ASmoothCurveIsTheIntegralOfARampedCompliance) {
 
 TEST(TargetMotion, SlipsOnceTheForceHasPassedItsShare) {
   const Bench bench;
-  const PostureStates posture = bench.outAndBack();  // loads 0, 0.5, 1, 0
+  const effects::PostureStates posture = bench.outAndBack();  // loads 0, 0.5, 1, 0
   const std::vector<std::string> names{"A", "B"};
-  EXPECT_EQ(targetSlipFromHalf(names).columns(bench.at, posture, 1).norm(), 0.0);
-  EXPECT_GT(targetSlipFromHalf(names).columns(bench.at, posture, 2).norm(), 0.0);
-  EXPECT_GT(targetSlipAtFull(names).columns(bench.at, posture, 3).norm(), 0.0);  // stays
+  EXPECT_EQ(effects::targetSlipFromHalf(names).columns(bench.at, posture, 1).norm(), 0.0);
+  EXPECT_GT(effects::targetSlipFromHalf(names).columns(bench.at, posture, 2).norm(), 0.0);
+  EXPECT_GT(effects::targetSlipAtFull(names).columns(bench.at, posture, 3).norm(), 0.0);  // stays
 }
 
 // A load point that is off by r changes the moment by (R r) x F: the same as the field of the moved wrench
 // less the declared.
 TEST(LoadPointError, IsTheMovedWrenchThroughTheSprings) {
   const Bench bench;
-  const PostureStates posture = bench.outAndBack();
+  const effects::PostureStates posture = bench.outAndBack();
   const Eigen::Vector3d off(0.02, -0.01, 0.03);
-  const Eigen::VectorXd field = loadPointError().columns(bench.at, posture, 2) * off;
+  const Eigen::VectorXd field = effects::loadPointError().columns(bench.at, posture, 2) * off;
   const Eigen::Vector3d moved = bench.load.point + posture[2].flange.linear() * off;
   const Vector6d change =
       bench.chain.torqueOf(bench.q, 6, moved, bench.load.force, bench.load.moment) - posture[2].load_torque;
-  const Eigen::VectorXd expected = byJoints(posture[2], bench.at.compliance.cwiseProduct(change));
+  const Eigen::VectorXd expected = effects::byJoints(posture[2], bench.at.compliance.cwiseProduct(change));
   EXPECT_LT((field - expected).norm(), 1e-9 * expected.norm());
 }
 
 TEST(LoadCellBias, IsInLoadedStatesOnly) {
   const Bench bench;
-  const PostureStates posture = bench.outAndBack();
-  const EffectModel model = loadCellBias();
+  const effects::PostureStates posture = bench.outAndBack();
+  const effects::EffectModel model = effects::loadCellBias();
   EXPECT_EQ(model.columns(bench.at, posture, 0).norm(), 0.0);
   EXPECT_EQ(model.columns(bench.at, posture, 3).norm(), 0.0);
   EXPECT_GT(model.columns(bench.at, posture, 1).norm(), 0.0);
@@ -335,18 +334,18 @@ TEST(LoadCellBias, IsInLoadedStatesOnly) {
 // Every effect is nothing without a cause: no load, no own weight, no time, no sweeps apart.
 TEST(EffectTable, NothingMovesWithoutACause) {
   const Bench bench;
-  PostureStates rest{bench.state(0.0)};
-  std::array<bool, kEffectCount> listed{};
-  for (const EffectModel& model : effectModels({"A", "B"})) {
+  effects::PostureStates rest{bench.state(0.0)};
+  std::array<bool, effects::kEffectCount> listed{};
+  for (const effects::EffectModel& model : effects::effectModels({"A", "B"})) {
     listed[static_cast<std::size_t>(model.effect)] = true;
     const Eigen::MatrixXd field = model.columns(bench.at, rest, 0);
-    EXPECT_EQ(static_cast<std::size_t>(field.cols()), model.parameters()) << idOf(model.effect);
-    if (model.effect == Effect::gravity_compensator) continue;  // a spring pulls always
-    EXPECT_EQ(field.norm(), 0.0) << idOf(model.effect);
+    EXPECT_EQ(static_cast<std::size_t>(field.cols()), model.parameters()) << effects::idOf(model.effect);
+    if (model.effect == effects::Effect::gravity_compensator) continue;  // a spring pulls always
+    EXPECT_EQ(field.norm(), 0.0) << effects::idOf(model.effect);
   }
-  listed[static_cast<std::size_t>(Effect::kinematic_error)] =
+  listed[static_cast<std::size_t>(effects::Effect::kinematic_error)] =
       true;  // held against the nominal geometry, see effect_table.h
-  for (std::size_t e = 0; e < kEffectCount; ++e) EXPECT_TRUE(listed[e]) << kEffectIds[e];
+  for (std::size_t e = 0; e < effects::kEffectCount; ++e) EXPECT_TRUE(listed[e]) << effects::kEffectIds[e];
 }
 
 }  // namespace

@@ -6,29 +6,28 @@
 #include <string>
 #include <utility>
 #include <vector>
-
 #include "core/campaign/read_campaign.h"
 #include "core/diagnosis/diagnose.h"
-#include "core/diagnosis/evenly_spread.h"
-#include "core/diagnosis/normal_matrix.h"
+#include "core/preparation/subsample.h"
+#include "core/numerics/normal_equations.h"
 
 namespace stiffscope {
 namespace {
 
-Campaign sampleDay() { return readCampaign(std::string(STIFFSCOPE_SOURCE_DIR) + "/samples/active").campaign; }
+campaign::Campaign sampleDay() { return campaign::readCampaign(std::string(STIFFSCOPE_SOURCE_DIR) + "/samples/active").campaign; }
 
 /// The sample's postures so many times, a tenth of a micrometre apart: readings alike to the last digit are copies.
-Campaign repeated(int times) {
-  const Campaign once = sampleDay();
+campaign::Campaign repeated(int times) {
+  const campaign::Campaign once = sampleDay();
   const int postures = static_cast<int>(once.pose_ids.size());
-  Campaign day = once;
+  campaign::Campaign day = once;
   for (int k = 1; k < times; ++k) {
     for (const std::string& id : once.pose_ids) day.pose_ids.push_back(id + "-" + std::to_string(k));
-    for (State row : once.states->rows) {
+    for (campaign::State row : once.states->rows) {
       row.pose += k * postures;
       day.states->rows.push_back(row);
     }
-    for (LoadingReading row : once.loading->rows) {
+    for (campaign::LoadingReading row : once.loading->rows) {
       row.pose += k * postures;
       row.point.array() += 1e-7 * k;
       day.loading->rows.push_back(row);
@@ -38,11 +37,11 @@ Campaign repeated(int times) {
 }
 
 TEST(EvenlySpread, AllWhereTheyAreFewElseAsManyAsMayBeFromEndToEnd) {
-  EXPECT_TRUE(evenlySpreadIndices(0, 5).empty());
-  EXPECT_EQ(evenlySpreadIndices(3, 4), (std::vector<std::size_t>{0, 1, 2}));
-  EXPECT_EQ(evenlySpreadIndices(10, 4), (std::vector<std::size_t>{0, 2, 5, 7}));
-  EXPECT_EQ(evenlySpreadIndices(10, 5), (std::vector<std::size_t>{0, 2, 4, 6, 8}));
-  const auto spread = evenlySpreadIndices(1'000'003, 1000);
+  EXPECT_TRUE(preparation::evenlySpreadIndices(0, 5).empty());
+  EXPECT_EQ(preparation::evenlySpreadIndices(3, 4), (std::vector<std::size_t>{0, 1, 2}));
+  EXPECT_EQ(preparation::evenlySpreadIndices(10, 4), (std::vector<std::size_t>{0, 2, 5, 7}));
+  EXPECT_EQ(preparation::evenlySpreadIndices(10, 5), (std::vector<std::size_t>{0, 2, 4, 6, 8}));
+  const auto spread = preparation::evenlySpreadIndices(1'000'003, 1000);
   ASSERT_EQ(spread.size(), 1000u);
   for (std::size_t k = 1; k < spread.size(); ++k) {
     EXPECT_GE(spread[k] - spread[k - 1], 1000u);
@@ -52,7 +51,7 @@ TEST(EvenlySpread, AllWhereTheyAreFewElseAsManyAsMayBeFromEndToEnd) {
 }
 
 TEST(EvenlySpread, KeepsTheRowsOfItsPosturesAndAllElse) {
-  const Campaign all = sampleDay(), some = evenlySpread(all, 5);
+  const campaign::Campaign all = sampleDay(), some = preparation::evenlySpread(all, 5);
   ASSERT_EQ(some.pose_ids.size(), 5u);
   const std::set<std::string> kept(some.pose_ids.begin(), some.pose_ids.end());
   const auto expectKept = [&](const auto& of, const auto& from) {
@@ -76,62 +75,62 @@ TEST(EvenlySpread, KeepsTheRowsOfItsPosturesAndAllElse) {
 }
 
 TEST(EvenlySpread, TakesAsManyReadingsOfASweepOfEachAxisAndReflector) {
-  const Campaign all = sampleDay(), some = evenlySpread(all, 100, 90);
+  const campaign::Campaign all = sampleDay(), some = preparation::evenlySpread(all, 100, 90);
   std::map<std::pair<int, int>, std::vector<std::size_t>> circles;
-  for (const CircleReading& row : some.circle_sweeps->rows) circles[{row.axis, row.target}].push_back(row.line);
+  for (const campaign::CircleReading& row : some.circle_sweeps->rows) circles[{row.axis, row.target}].push_back(row.line);
   ASSERT_EQ(circles.size(), 18u);  // six axes, three reflectors
   for (const auto& [kind, lines] : circles) {
     EXPECT_EQ(lines.size(), 5u);
     EXPECT_GT(lines.back() - lines.front(), 30u);  // of twenty readings that take turns, the first to the seventeenth
   }
   std::map<int, int> wrist;
-  for (const WristReading& row : some.wrist_sweep->rows) ++wrist[row.target];
+  for (const campaign::WristReading& row : some.wrist_sweep->rows) ++wrist[row.target];
   EXPECT_GE(wrist.size(), 1u);
   for (const auto& [target, count] : wrist) EXPECT_EQ(count, static_cast<int>(90 / wrist.size()));
   EXPECT_TRUE(std::is_sorted(some.wrist_sweep->rows.begin(), some.wrist_sweep->rows.end(),
-                             [](const WristReading& a, const WristReading& b) { return a.line < b.line; }));
-  EXPECT_TRUE(hasLongSweep(all, 90));
-  EXPECT_FALSE(hasLongSweep(all));
+                             [](const campaign::WristReading& a, const campaign::WristReading& b) { return a.line < b.line; }));
+  EXPECT_TRUE(preparation::hasLongSweep(all, 90));
+  EXPECT_FALSE(preparation::hasLongSweep(all));
 }
 
 // A million readings of a sweep would be seventeen gigabytes of equations.
 TEST(Diagnose, OfALongSweepTheReadingsSpreadOverItTakePart) {
-  Campaign day = sampleDay();
-  const std::vector<WristReading> once = day.wrist_sweep->rows;
-  while (day.wrist_sweep->rows.size() <= kMostSwept) {
-    for (WristReading row : once) {
+  campaign::Campaign day = sampleDay();
+  const std::vector<campaign::WristReading> once = day.wrist_sweep->rows;
+  while (day.wrist_sweep->rows.size() <= preparation::kMostSwept) {
+    for (campaign::WristReading row : once) {
       row.point.array() += 1e-7 * static_cast<double>(day.wrist_sweep->rows.size() / once.size());
       day.wrist_sweep->rows.push_back(row);
     }
   }
-  DiagnoseOptions quick;
+  diagnosis::DiagnoseOptions quick;
   quick.resamples = quick.chance_draws = 0;
-  quick.only = Effect::joint_coupling;
-  const Diagnosis by_itself = diagnose(evenlySpread(day, kMostDiagnosed), quick), whole = diagnose(day, quick);
+  quick.only = effects::Effect::joint_coupling;
+  const diagnosis::Diagnosis by_itself = diagnosis::diagnose(preparation::evenlySpread(day, preparation::kMostDiagnosed), quick), whole = diagnosis::diagnose(day, quick);
   EXPECT_EQ(whole.gap.before, by_itself.gap.before);
   EXPECT_EQ(whole.gap.after, by_itself.gap.after);
   EXPECT_NE(whole.verdict.reason.find("Of a sweep's readings 2000 at most took part"), std::string::npos) << whole.verdict.reason;
   EXPECT_EQ(whole.verdict.reason.find("postures"), by_itself.verdict.reason.find("postures"));
 }
 
-TEST(LowerTriangle, AddsToTheLowerTriangleAlone) {
+TEST(numerics::LowerTriangle, AddsToTheLowerTriangleAlone) {
   Eigen::MatrixXd matrix(3, 3), sum = Eigen::MatrixXd::Identity(3, 3), expected(3, 3);
   matrix << 1, 2, 4, 2, 3, 5, 4, 5, 6;
-  LowerTriangle(matrix).addTo(2.0, sum);
+  numerics::LowerTriangle(matrix).addTo(2.0, sum);
   expected << 3, 0, 0, 4, 7, 0, 8, 10, 13;
   EXPECT_EQ(sum, expected);
 }
 
 // What is said of a long day's postures must name them as that day does, not as the hundred that took part are numbered.
 TEST(Diagnose, ALongDayIsItsSpreadPosturesUnderTheirOwnNames) {
-  Campaign day = repeated(11);
+  campaign::Campaign day = repeated(11);
   const std::vector<std::string> names = day.pose_ids;
-  ASSERT_GT(names.size(), kMostDiagnosed);
-  DiagnoseOptions quick;
+  ASSERT_GT(names.size(), preparation::kMostDiagnosed);
+  diagnosis::DiagnoseOptions quick;
   quick.resamples = quick.chance_draws = 0;
-  quick.only = Effect::joint_coupling;
-  const Campaign spread = evenlySpread(day, kMostDiagnosed);
-  const Diagnosis by_itself = diagnose(spread, quick), whole = diagnose(std::move(day), quick);
+  quick.only = effects::Effect::joint_coupling;
+  const campaign::Campaign spread = preparation::evenlySpread(day, preparation::kMostDiagnosed);
+  const diagnosis::Diagnosis by_itself = diagnosis::diagnose(spread, quick), whole = diagnosis::diagnose(std::move(day), quick);
   EXPECT_EQ(whole.gap.before, by_itself.gap.before);
   EXPECT_EQ(whole.gap.after, by_itself.gap.after);
   ASSERT_EQ(whole.at_points.size(), by_itself.at_points.size());

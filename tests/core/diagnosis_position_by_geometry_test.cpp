@@ -1,9 +1,8 @@
 #include <gtest/gtest.h>
-
-#include "core/diagnosis/effects/backlash.h"
-#include "core/diagnosis/effects/base_compliance.h"
+#include "core/effects/backlash.h"
+#include "core/effects/base_compliance.h"
 #include "core/diagnosis/position_by_geometry.h"
-#include "core/diagnosis/rest_state.h"
+#include "core/effects/gravity_equilibrium.h"
 #include "tests/core/chain_arm.h"
 
 // The derivatives of absolute positions by the geometry's steps, against differences of positions computed afresh.
@@ -11,8 +10,8 @@
 namespace stiffscope {
 namespace {
 
-LoadingGeometry placedArm(const ChainArm& chain) {
-  LoadingGeometry geometry;
+frames::LoadingGeometry placedArm(const ChainArm& chain) {
+  frames::LoadingGeometry geometry;
   geometry.arm = chain.robot();
   geometry.r0_from_loading = Eigen::Isometry3d(Eigen::AngleAxisd(0.4, Eigen::Vector3d(1, 2, 3).normalized()));
   geometry.r0_from_loading->translation() = Eigen::Vector3d(0.5, -1.0, 0.3);
@@ -23,9 +22,9 @@ LoadingGeometry placedArm(const ChainArm& chain) {
 }
 
 /// Modelled less measured: `reading` is what the station saw.
-Eigen::VectorXd modelledLessMeasured(const LoadingGeometry& geometry, const Vector6d& q,
-                                     const std::vector<Eigen::Vector3d>& readings, const WorkingPoint& at) {
-  const ArmState state = restState(geometry, at, q);
+Eigen::VectorXd modelledLessMeasured(const frames::LoadingGeometry& geometry, const Vector6d& q,
+                                     const std::vector<Eigen::Vector3d>& readings, const effects::WorkingPoint& at) {
+  const effects::ArmState state = effects::restState(geometry, at, q);
   Eigen::VectorXd rows(3 * static_cast<Eigen::Index>(readings.size()));
   for (std::size_t t = 0; t < readings.size(); ++t) {
     rows.segment<3>(3 * static_cast<Eigen::Index>(t)) =
@@ -34,16 +33,16 @@ Eigen::VectorXd modelledLessMeasured(const LoadingGeometry& geometry, const Vect
   return rows;
 }
 
-Eigen::MatrixXd byDifferences(const LoadingGeometry& geometry, const Vector6d& q,
+Eigen::MatrixXd byDifferences(const frames::LoadingGeometry& geometry, const Vector6d& q,
                               const std::vector<Eigen::Vector3d>& readings, const Eigen::Vector3d& centre,
-                              const WorkingPoint& at = {}) {
+                              const effects::WorkingPoint& at = {}) {
   constexpr double kStep = 1e-6;
-  const Eigen::Index count = GeometrySteps::count(readings.size());
+  const Eigen::Index count = frames::GeometrySteps::count(readings.size());
   Eigen::MatrixXd columns(3 * static_cast<Eigen::Index>(readings.size()), count);
   for (Eigen::Index k = 0; k < count; ++k) {
     const Eigen::VectorXd step = kStep * Eigen::VectorXd::Unit(count, k);
-    columns.col(k) = (modelledLessMeasured(moved(geometry, step, centre), q, readings, at) -
-                      modelledLessMeasured(moved(geometry, -step, centre), q, readings, at)) /
+    columns.col(k) = (modelledLessMeasured(frames::moved(geometry, step, centre), q, readings, at) -
+                      modelledLessMeasured(frames::moved(geometry, -step, centre), q, readings, at)) /
                      (2.0 * kStep);
   }
   return columns;
@@ -53,29 +52,29 @@ Eigen::MatrixXd byDifferences(const LoadingGeometry& geometry, const Vector6d& q
 const Eigen::Vector3d kOff{0.03, -0.02, 0.05};
 
 struct Case {
-  LoadingGeometry geometry;
+  frames::LoadingGeometry geometry;
   Vector6d q;
   std::vector<Eigen::Vector3d> readings;
   Eigen::Vector3d centre{0.7, 0.2, 1.1};
 
-  explicit Case(const LoadingGeometry& placed) : geometry(placed) {
+  explicit Case(const frames::LoadingGeometry& placed) : geometry(placed) {
     q << 0.3, -0.5, 0.7, 1.1, -0.9, 0.4;
-    const ArmState state = restState(geometry, {}, q);
+    const effects::ArmState state = effects::restState(geometry, {}, q);
     for (const auto& own : geometry.targets_at_zero)
       readings.push_back(geometry.r0_from_loading->inverse() * (state.posture.motion[6] * *own) + kOff);
   }
 
-  Eigen::MatrixXd computed(const WorkingPoint& at = {}) const {
-    ArmState state = restState(geometry, at, q);
+  Eigen::MatrixXd computed(const effects::WorkingPoint& at = {}) const {
+    effects::ArmState state = effects::restState(geometry, at, q);
     for (std::size_t t = 0; t < readings.size(); ++t) {
       state.targets.push_back(static_cast<int>(t));
       state.points.push_back(*geometry.r0_from_loading * readings[t]);
     }
-    return PositionByGeometry(geometry, at, centre).of(state);
+    return diagnosis::PositionByGeometry(geometry, at, centre).of(state);
   }
 };
 
-TEST(PositionByGeometry, OfARigidArmIsTheDifferences) {
+TEST(diagnosis::PositionByGeometry, OfARigidArmIsTheDifferences) {
   const Case one(placedArm(exampleChain()));
   const Eigen::MatrixXd expected = byDifferences(one.geometry, one.q, one.readings, one.centre);
   // Rounding of a metre over a step of 1e-6, and the step's own square.
@@ -83,8 +82,8 @@ TEST(PositionByGeometry, OfARigidArmIsTheDifferences) {
 }
 
 /// A soft arm of heavy links, whose joints the own weight turns by some thousandths.
-LoadingGeometry heavyArm() {
-  LoadingGeometry geometry = placedArm(exampleChain());
+frames::LoadingGeometry heavyArm() {
+  frames::LoadingGeometry geometry = placedArm(exampleChain());
   geometry.weight.links_known = true;
   geometry.weight.gravity_in_base = {0.5, -1.0, -9.7};
   for (std::size_t b = 1; b <= 6; ++b) {
@@ -95,8 +94,8 @@ LoadingGeometry heavyArm() {
   return geometry;
 }
 
-TEST(PositionByGeometry, OfASaggingArmIsTheDifferences) {
-  LoadingGeometry geometry = heavyArm();
+TEST(diagnosis::PositionByGeometry, OfASaggingArmIsTheDifferences) {
+  frames::LoadingGeometry geometry = heavyArm();
   const Case one(geometry);
   ASSERT_GT((geometry.sagged(one.q) - one.q).cwiseAbs().maxCoeff(), 1e-3);
   const Eigen::MatrixXd expected = byDifferences(one.geometry, one.q, one.readings, one.centre);
@@ -108,11 +107,11 @@ TEST(PositionByGeometry, OfASaggingArmIsTheDifferences) {
 
 // Play of joint 5 passes from side to side where the own weight hardly turns it, so that a small change of its torque
 // turns it by much.
-TEST(PositionByGeometry, WithPlayInTheModelIsTheDifferences) {
-  const LoadingGeometry geometry = heavyArm();
+TEST(diagnosis::PositionByGeometry, WithPlayInTheModelIsTheDifferences) {
+  const frames::LoadingGeometry geometry = heavyArm();
   const Case one(geometry);
-  const EffectModel model = backlash();
-  WorkingPoint at;
+  const effects::EffectModel model = effects::backlash();
+  effects::WorkingPoint at;
   at.largest_torque.setConstant(2000.0);
   Eigen::VectorXd play = Eigen::VectorXd::Zero(7);
   play[4] = 2e-3;
@@ -126,11 +125,11 @@ TEST(PositionByGeometry, WithPlayInTheModelIsTheDifferences) {
 }
 
 // A foot that rocks by some thousandths under the own weight carries all axes with it.
-TEST(PositionByGeometry, WithAFootThatRocksIsTheDifferences) {
-  const LoadingGeometry geometry = heavyArm();
+TEST(diagnosis::PositionByGeometry, WithAFootThatRocksIsTheDifferences) {
+  const frames::LoadingGeometry geometry = heavyArm();
   const Case one(geometry);
-  const EffectModel model = baseCompliance();
-  WorkingPoint at;
+  const effects::EffectModel model = effects::baseCompliance();
+  effects::WorkingPoint at;
   at.motions.push_back({model.offset, model.first_body, 1e-6 * Eigen::VectorXd::Unit(5, 1)});
   const Eigen::MatrixXd expected = byDifferences(one.geometry, one.q, one.readings, one.centre, at);
   ASSERT_GT((expected - one.computed()).cwiseAbs().maxCoeff(), 1e-3);

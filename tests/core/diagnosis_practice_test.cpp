@@ -5,11 +5,10 @@
 #include <fstream>
 #include <set>
 #include <sstream>
-
 #include "core/campaign/read_campaign.h"
 #include "core/diagnosis/diagnose.h"
 #include "core/diagnosis/effect_distance.h"
-#include "core/diagnosis/evenly_spread.h"
+#include "core/preparation/subsample.h"
 
 // The practice campaigns kept beside the checkout: made by another simulator, their causes in answers.csv.
 
@@ -47,8 +46,8 @@ std::vector<Answer> answers() {
 }
 
 /// Few resamples: verdicts do not depend on them, intervals are tested elsewhere.
-DiagnoseOptions quick() {
-  DiagnoseOptions options;
+diagnosis::DiagnoseOptions quick() {
+  diagnosis::DiagnoseOptions options;
   options.resamples = 4;
   options.chance_draws = 20;
   return options;
@@ -58,13 +57,13 @@ class Practice : public testing::TestWithParam<Answer> {};
 
 TEST_P(Practice, VerdictIsTheAnswer) {
   const Answer& answer = GetParam();
-  const Diagnosis diagnosis = diagnose(readCampaign(shared("practice/" + answer.campaign)).campaign, quick());
+  const diagnosis::Diagnosis diagnosis = diagnosis::diagnose(campaign::readCampaign(shared("practice/" + answer.campaign)).campaign, quick());
   ASSERT_TRUE(diagnosis.usable) << diagnosis.unusable_reason;
   std::set<std::string> found;
   bool detail = answer.detail.empty();
-  for (const VerdictEntry& entry : diagnosis.verdict.entries) {
+  for (const diagnosis::VerdictEntry& entry : diagnosis.verdict.entries) {
     ASSERT_LE(entry.effects.size(), 3u) << "a class that names everything says nothing";
-    found.insert(entry.effects.empty() ? "unknown" : std::string(idOf(entry.effects.front())));
+    found.insert(entry.effects.empty() ? "unknown" : std::string(effects::idOf(entry.effects.front())));
     detail |= entry.detail == answer.detail;
   }
   EXPECT_EQ(found, answer.effects) << diagnosis.verdict.reason;
@@ -83,29 +82,29 @@ GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(Practice);
 TEST(RealCable, ClaimsNoMoreThanATiltOrABendAndSaysThatMostIsUnknown) {
   if (!std::filesystem::exists(shared("real/fanuc-r2000ic-cable")))
     GTEST_SKIP() << "the real campaigns are not beside the checkout";
-  const Diagnosis diagnosis = diagnose(readCampaign(shared("real/fanuc-r2000ic-cable")).campaign, quick());
+  const diagnosis::Diagnosis diagnosis = diagnosis::diagnose(campaign::readCampaign(shared("real/fanuc-r2000ic-cable")).campaign, quick());
   ASSERT_TRUE(diagnosis.usable);
   // Six stiffnesses leave 0.220 mm per coordinate, fitted plainly; whitened ones a little more.
   EXPECT_NEAR(diagnosis.gap.before, 0.22e-3, 0.02e-3);
   bool unknown = false;
-  for (const VerdictEntry& entry : diagnosis.verdict.entries) {
+  for (const diagnosis::VerdictEntry& entry : diagnosis.verdict.entries) {
     if (entry.effects.empty()) {
       unknown = true;
       continue;
     }
-    const std::set<Effect> effects(entry.effects.begin(), entry.effects.end());
-    EXPECT_EQ(effects, (std::set<Effect>{Effect::bearing_tilt, Effect::link_compliance}));
+    const std::set<effects::Effect> effects(entry.effects.begin(), entry.effects.end());
+    EXPECT_EQ(effects, (std::set<effects::Effect>{effects::Effect::bearing_tilt, effects::Effect::link_compliance}));
   }
   EXPECT_TRUE(unknown);
   ASSERT_FALSE(diagnosis.classes.empty());
   EXPECT_GT(diagnosis.classes.front().shrink.value, 0.1);  // about a fifth on postures held out
   EXPECT_LT(diagnosis.classes.front().shrink.value, 0.35);
   // One point, one load step, displacements only.
-  std::set<Effect> not_testable;
-  for (const NotTestable& one : diagnosis.not_testable) not_testable.insert(one.effect);
-  for (const Effect effect : {Effect::joint_hardening, Effect::hysteresis, Effect::target_motion,
-                              Effect::frame_error, Effect::kinematic_error, Effect::tracker_drift}) {
-    EXPECT_TRUE(not_testable.count(effect)) << idOf(effect);
+  std::set<effects::Effect> not_testable;
+  for (const diagnosis::NotTestable& one : diagnosis.not_testable) not_testable.insert(one.effect);
+  for (const effects::Effect effect : {effects::Effect::joint_hardening, effects::Effect::hysteresis, effects::Effect::target_motion,
+                              effects::Effect::frame_error, effects::Effect::kinematic_error, effects::Effect::tracker_drift}) {
+    EXPECT_TRUE(not_testable.count(effect)) << effects::idOf(effect);
   }
 }
 
@@ -114,18 +113,18 @@ TEST(RealCable, ClaimsNoMoreThanATiltOrABendAndSaysThatMostIsUnknown) {
 TEST(PracticeDistance, OneEffectIsNearAndTwoAreFar) {
   if (!std::filesystem::exists(shared("practice"))) GTEST_SKIP() << "the practice campaigns are not beside the checkout";
   const auto few = [](const char* name) {
-    return evenlySpread(readCampaign(shared(std::string("practice/") + name)).campaign, 8);
+    return preparation::evenlySpread(campaign::readCampaign(shared(std::string("practice/") + name)).campaign, 8);
   };
-  DiagnoseOptions tilt;
+  diagnosis::DiagnoseOptions tilt;
   tilt.resamples = tilt.chance_draws = 0;
-  tilt.only = Effect::bearing_tilt;
-  const Diagnosis near = diagnose(few("03"), tilt);
+  tilt.only = effects::Effect::bearing_tilt;
+  const diagnosis::Diagnosis near = diagnosis::diagnose(few("03"), tilt);
   EXPECT_LT(near.gap.after, 1.4 * near.gap.noise);
   EXPECT_LT(near.positions.after, 1.4 * near.positions.noise);
-  tilt.only = Effect::hysteresis;
-  const Diagnosis far = diagnose(few("03"), tilt);
+  tilt.only = effects::Effect::hysteresis;
+  const diagnosis::Diagnosis far = diagnosis::diagnose(few("03"), tilt);
   EXPECT_GT(far.gap.after, 2.3 * far.gap.noise);
-  EXPECT_GT(distanceFromVocabulary(few("20")), 2.0);
+  EXPECT_GT(diagnosis::distanceFromVocabulary(few("20")), 2.0);
 }
 
 }  // namespace

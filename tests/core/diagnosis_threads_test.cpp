@@ -1,14 +1,13 @@
 #include <gtest/gtest.h>
-
 #include "core/campaign/read_campaign.h"
 #include "core/diagnosis/diagnose.h"
-#include "core/diagnosis/evenly_spread.h"
+#include "core/preparation/subsample.h"
 #include "tests/core/on_one_core.h"
 
 namespace stiffscope {
 namespace {
 
-void expectSame(const Shrink& a, const Shrink& b) {
+void expectSame(const diagnosis::Shrink& a, const diagnosis::Shrink& b) {
   EXPECT_EQ(a.value, b.value);
   EXPECT_EQ(a.low, b.low);
   EXPECT_EQ(a.high, b.high);
@@ -16,14 +15,14 @@ void expectSame(const Shrink& a, const Shrink& b) {
 
 TEST(Diagnose, DoesNotDependOnTheNumberOfCores) {
   // The postures held out are shared among as many threads as there are cores; every digit stays.
-  const Campaign campaign =
-      evenlySpread(readCampaign(std::string(STIFFSCOPE_SOURCE_DIR) + "/samples/active").campaign, 8);
-  DiagnoseOptions quick;
+  const campaign::Campaign campaign =
+      preparation::evenlySpread(campaign::readCampaign(std::string(STIFFSCOPE_SOURCE_DIR) + "/samples/active").campaign, 8);
+  diagnosis::DiagnoseOptions quick;
   quick.resamples = 6;
   quick.chance_draws = 20;
-  const Diagnosis all = diagnose(campaign, quick);
+  const diagnosis::Diagnosis all = diagnosis::diagnose(campaign, quick);
   const OnOneCore alone;
-  const Diagnosis one = diagnose(campaign, quick);
+  const diagnosis::Diagnosis one = diagnosis::diagnose(campaign, quick);
   EXPECT_EQ(all.gap.before, one.gap.before);
   EXPECT_EQ(all.gap.after, one.gap.after);
   expectSame(all.shrink_together, one.shrink_together);

@@ -1,18 +1,17 @@
 #pragma once
-
 #include "core/robot/kinematics.h"
 
 namespace stiffscope {
 
 /// An arm of the size of a FANUC M-900iB/700, built by hand: base frame at the floor, axes at zero as its data sheet
 /// draws them, masses round numbers.
-inline Robot exampleArm() {
-  Robot arm;
+inline robot::Robot exampleArm() {
+  robot::Robot arm;
   arm.name = "example";
-  arm.axes_in_base_at_zero = {Line{{0, 0, 0.94}, {0, 0, 1}},       Line{{0.41, 0, 0.94}, {0, 1, 0}},
-                              Line{{0.41, 0, 2.06}, {0, -1, 0}},   Line{{0.41, 0, 2.31}, {-1, 0, 0}},
-                              Line{{1.695, 0, 2.31}, {0, -1, 0}},  Line{{1.995, 0, 2.31}, {-1, 0, 0}}};
-  for (JointLimits& limits : arm.limits) limits = {-3.2, 3.2};
+  arm.axes_in_base_at_zero = {metrology::Line{{0, 0, 0.94}, {0, 0, 1}},       metrology::Line{{0.41, 0, 0.94}, {0, 1, 0}},
+                              metrology::Line{{0.41, 0, 2.06}, {0, -1, 0}},   metrology::Line{{0.41, 0, 2.31}, {-1, 0, 0}},
+                              metrology::Line{{1.695, 0, 2.31}, {0, -1, 0}},  metrology::Line{{1.995, 0, 2.31}, {-1, 0, 0}}};
+  for (robot::JointLimits& limits : arm.limits) limits = {-3.2, 3.2};
   arm.base_from_flange_at_zero.linear() << 0, 0, 1, 0, -1, 0, 1, 0, 0;
   arm.base_from_flange_at_zero.translation() << 1.995, 0, 2.31;
   const double masses[7] = {0, 1000, 550, 650, 160, 60, 15};

@@ -1,9 +1,8 @@
 #include "core/frames/frames.h"
 
 #include <gtest/gtest.h>
-
 #include "core/campaign/read_campaign.h"
-#include "core/frames/nominal_base_frame.h"
+#include "core/frames/base_frame.h"
 #include "tests/core/simulated_lab.h"
 
 namespace stiffscope {
@@ -56,9 +55,9 @@ TEST(MeasuredFrames, AnArmWithGeometryErrorsComesBack) {
   lab.withoutMasses();
   // The tool sits on the actual flange; its wrist axes do not quite meet, so the wrist sweep is of an arm
   // whose do.
-  Campaign campaign = lab.empty();
+  campaign::Campaign campaign = lab.empty();
   lab.addCircleSweeps(campaign);
-  const Frames frames = measureFrames(campaign);
+  const frames::Frames frames = frames::measureFrames(campaign);
   constexpr double kExact =
       1e-9;  // m and rad: rounding of 4 m by circle fits over 90 degrees, turned back five times
 
@@ -70,7 +69,7 @@ TEST(MeasuredFrames, AnArmWithGeometryErrorsComesBack) {
   for (std::size_t j = 0; j < 6; ++j) {
     ASSERT_TRUE(frames.axes[j].measured) << j << frames.axes[j].reason;
     const JointLine truth = jointLine(lab.actual, j);
-    const Line& found = frames.arm.arm.axes_in_base_at_zero[j];
+    const metrology::Line& found = frames.arm.arm.axes_in_base_at_zero[j];
     EXPECT_LT((found.direction - base_from_r0.linear().transpose() * truth.direction).norm(), kExact) << j;
     EXPECT_LT(distanceToLine(truth, base_from_r0 * found.point), kExact) << j;
   }
@@ -118,10 +117,10 @@ TEST(MeasuredFrames, WristCentreAndTableOne) {
   ChainArm disturbed = lab.nominal.disturbed(noise, 1e-3, 1e-3);
   for (std::size_t j = 0; j < 4; ++j)
     lab.actual.to_joint[j] = disturbed.to_joint[j];  // the wrist's axes still meet
-  Campaign campaign = lab.empty();
+  campaign::Campaign campaign = lab.empty();
   lab.addCircleSweeps(campaign);
   lab.addWristSweep(campaign);
-  const Frames frames = measureFrames(campaign);
+  const frames::Frames frames = frames::measureFrames(campaign);
   ASSERT_TRUE(frames.wrist.measured) << frames.wrist.reason;
   const Vector6d q = campaign.wrist_sweep->rows.front().q;
   const Frame base_from_r0 = baseFromR0(lab.actual);
@@ -153,12 +152,12 @@ TEST(MeasuredFrames, WristCentreAndTableOne) {
 TEST(MeasuredFrames, OwnWeightIsTakenOffByTheRightCompliance) {
   SimulatedLab lab = labWithErrors();
   lab.compliance = exampleCompliance();
-  Campaign campaign = lab.empty();
+  campaign::Campaign campaign = lab.empty();
   lab.addCircleSweeps(campaign);
   lab.addWristSweep(campaign);
   const Frame base_from_r0 = baseFromR0(lab.actual);
   const Frame r0_from_tracker = (lab.tracker_from_base * base_from_r0).inverse();
-  const auto error = [&](const Frames& frames) {
+  const auto error = [&](const frames::Frames& frames) {
     double worst = (frames.arm.r0_from_points.matrix() - r0_from_tracker.matrix()).cwiseAbs().maxCoeff();
     for (std::size_t j = 0; j < 6; ++j) {
       worst = std::max(worst, distanceToLine(jointLine(lab.actual, j),
@@ -172,15 +171,15 @@ TEST(MeasuredFrames, OwnWeightIsTakenOffByTheRightCompliance) {
     }
     return worst;
   };
-  Frames frames = measureFrames(campaign);
+  frames::Frames frames = frames::measureFrames(campaign);
   EXPECT_FALSE(frames.sag_removed);
   const double with_sag = error(frames);
   EXPECT_GT(with_sag, 1e-3);  // a ton of arm on springs of 3e6 Nm/rad sags by millimetres
-  frames = refineFrames(campaign, frames, lab.compliance);
+  frames = frames::refineFrames(campaign, frames, lab.compliance);
   EXPECT_TRUE(frames.sag_removed);
   EXPECT_LT(error(frames),
             with_sag / 100.0);  // the sag is that of the arm known to some millimetres in metres
-  for (int round = 0; round < 3; ++round) frames = refineFrames(campaign, frames, lab.compliance);
+  for (int round = 0; round < 3; ++round) frames = frames::refineFrames(campaign, frames, lab.compliance);
   // Masses keep their place in base_link, and gravity its direction, though the arm's links are a millimetre
   // and a milliradian elsewhere: a thousandth or two each of 5 mm is left.
   EXPECT_LT(error(frames), 3e-5);
@@ -189,10 +188,10 @@ TEST(MeasuredFrames, OwnWeightIsTakenOffByTheRightCompliance) {
 TEST(MeasuredFrames, WithTheNominalArmTheSagGoesCompletely) {
   SimulatedLab lab;
   lab.compliance = exampleCompliance();
-  Campaign campaign = lab.empty();
+  campaign::Campaign campaign = lab.empty();
   lab.addCircleSweeps(campaign);
-  Frames frames = measureFrames(campaign);
-  for (int round = 0; round < 4; ++round) frames = refineFrames(campaign, frames, lab.compliance);
+  frames::Frames frames = frames::measureFrames(campaign);
+  for (int round = 0; round < 4; ++round) frames = frames::refineFrames(campaign, frames, lab.compliance);
   const Frame r0_from_tracker = (lab.tracker_from_base * baseFromR0(lab.actual)).inverse();
   // Base leans 0.02 rad in the tracker's frame, not in gravity's: nothing else is unknown. Three sag steps
   // leave 1e-9 rad.
@@ -202,10 +201,10 @@ TEST(MeasuredFrames, WithTheNominalArmTheSagGoesCompletely) {
 TEST(MeasuredFrames, AnAxisTurnedBackThroughOneThatIsMissingIsNotMeasured) {
   SimulatedLab lab;
   lab.withoutMasses();
-  Campaign campaign = lab.empty();
+  campaign::Campaign campaign = lab.empty();
   lab.addCircleSweeps(campaign);
-  std::erase_if(campaign.circle_sweeps->rows, [](const CircleReading& reading) { return reading.axis == 0; });
-  const Frames frames = measureFrames(campaign);
+  std::erase_if(campaign.circle_sweeps->rows, [](const campaign::CircleReading& reading) { return reading.axis == 0; });
+  const frames::Frames frames = frames::measureFrames(campaign);
   EXPECT_FALSE(frames.arm.points_placed);
   EXPECT_FALSE(frames.axes[0].measured);
   EXPECT_FALSE(frames.axes[1].measured);
@@ -216,15 +215,15 @@ TEST(MeasuredFrames, AWristSweepInAnotherFrameIsNotMixedIn) {
   // Circle sweeps by the tracker, a wrist sweep written in base_link: R0 is only known in the former.
   SimulatedLab lab;
   lab.withoutMasses();
-  Campaign campaign = lab.empty();
+  campaign::Campaign campaign = lab.empty();
   lab.addCircleSweeps(campaign);
-  const Frames alone = measureFrames(campaign);
+  const frames::Frames alone = frames::measureFrames(campaign);
   lab.addWristSweep(campaign);
-  campaign.wrist_sweep->frame = PointFrame::base_link;
-  for (WristReading& reading : campaign.wrist_sweep->rows) {
+  campaign.wrist_sweep->frame = campaign::PointFrame::base_link;
+  for (campaign::WristReading& reading : campaign.wrist_sweep->rows) {
     reading.point = lab.tracker_from_base.inverse() * reading.point;
   }
-  const Frames frames = measureFrames(campaign);
+  const frames::Frames frames = frames::measureFrames(campaign);
   EXPECT_FALSE(frames.wrist.measured);
   EXPECT_NE(frames.wrist.reason.find("another frame"), std::string::npos) << frames.wrist.reason;
   for (std::size_t k = 0; k < 3; ++k) EXPECT_EQ(*frames.targets_in_r0_at_zero[k], *alone.targets_in_r0_at_zero[k]);
@@ -233,19 +232,19 @@ TEST(MeasuredFrames, AWristSweepInAnotherFrameIsNotMixedIn) {
 TEST(MeasuredFrames, OtherJointsMovingIsSeen) {
   SimulatedLab lab;
   lab.withoutMasses();
-  Campaign campaign = lab.empty();
+  campaign::Campaign campaign = lab.empty();
   lab.addCircleSweeps(campaign);
-  for (CircleReading& reading : campaign.circle_sweeps->rows) {
+  for (campaign::CircleReading& reading : campaign.circle_sweeps->rows) {
     if (reading.axis == 3 && reading.index == "4") reading.q[1] += 1e-3;
   }
-  const Frames frames = measureFrames(campaign);
+  const frames::Frames frames = frames::measureFrames(campaign);
   EXPECT_FALSE(frames.axes[3].measured);
   EXPECT_NE(frames.axes[3].reason.find("other joints"), std::string::npos);
 }
 
 // R0's rule (campaign format, Frames), on arms whose answer is seen on a sketch.
 
-Frame ruleOf(const ChainArm& arm) { return nominalBaseFrame(arm.robot()).base_link_from_r0; }
+Frame ruleOf(const ChainArm& arm) { return frames::nominalBaseFrame(arm.robot()).base_link_from_r0; }
 
 TEST(R0, OfTheExampleArm) {
   const Frame r0 = ruleOf(exampleChain());
@@ -257,14 +256,14 @@ TEST(R0, AxisOnePointingDown) {
   ChainArm arm = exampleChain();
   arm.axis[0] = -arm.axis[0];  // the joint turns the other way: R0 does not care
   EXPECT_LT((ruleOf(arm).matrix() - ruleOf(exampleChain()).matrix()).norm(), 1e-12);
-  EXPECT_EQ(nominalBaseFrame(arm.robot()).sense[0], -1.0);
+  EXPECT_EQ(frames::nominalBaseFrame(arm.robot()).sense[0], -1.0);
 }
 
 TEST(R0, AxisTwoTurningTheOtherWay) {
   ChainArm arm = exampleChain();
   arm.axis[1] = -arm.axis[1];  // x0 towards the flange still makes y0 the same
   EXPECT_LT((ruleOf(arm).matrix() - ruleOf(exampleChain()).matrix()).norm(), 1e-12);
-  EXPECT_EQ(nominalBaseFrame(arm.robot()).sense[1], -1.0);
+  EXPECT_EQ(frames::nominalBaseFrame(arm.robot()).sense[1], -1.0);
 }
 
 TEST(R0, AFlangeWithin50MillimetresOfAxisOne) {
@@ -288,9 +287,9 @@ TEST(R0, RulesHoldForMeasuredAxes) {
   down.nominal.axis[0] = down.actual.axis[0] = -Eigen::Vector3d::UnitZ();
   Frame found[2];
   for (SimulatedLab* lab : {&up, &down}) {
-    Campaign campaign = lab->empty();
+    campaign::Campaign campaign = lab->empty();
     lab->addCircleSweeps(campaign);
-    found[lab == &down] = measureFrames(campaign).arm.r0_from_points;
+    found[lab == &down] = frames::measureFrames(campaign).arm.r0_from_points;
   }
   EXPECT_LT((found[0].matrix() - found[1].matrix()).norm(), 1e-9);
 }
@@ -298,13 +297,13 @@ TEST(R0, RulesHoldForMeasuredAxes) {
 TEST(RealSweeps, LinkLengths) {
   const auto folder = std::filesystem::path(STIFFSCOPE_SHARED_DIR) / "real" / "fanuc-r2000ic-sweeps";
   if (!std::filesystem::exists(folder)) GTEST_SKIP() << "the real sweeps are not beside the checkout";
-  const Frames frames = measureFrames(readCampaign(folder).campaign);
+  const frames::Frames frames = frames::measureFrames(campaign::readCampaign(folder).campaign);
   // Real machine, 36 stops: the maker's 312 and 1075 mm, and what three programs make of the readings, within
   // 0.3 mm.
   EXPECT_NEAR(1e3 * frames.links[0].distance, 311.4, 0.3);
   EXPECT_NEAR(1e3 * frames.links[1].distance, 1075.6, 0.3);
   EXPECT_TRUE(frames.links[1].near_parallel);
-  for (const LinkGeometry& link : frames.links) {
+  for (const frames::LinkGeometry& link : frames.links) {
     ASSERT_TRUE(link.distance_sd && link.angle_sd);
     EXPECT_GT(*link.distance_sd, 0.0);
     EXPECT_GT(*link.angle_sd, 0.0);

@@ -1,13 +1,10 @@
-#include "core/identification/geometry_calibration.h"
+#include "core/frames/geometry_calibration.h"
 
 #include <ceres/autodiff_cost_function.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
-
-#include "core/identification/base_from_postures.h"
-#include "core/identification/position_cost.h"
-#include "core/identification/unloaded_positions.h"
+#include "core/frames/unloaded_positions.h"
 #include "tests/core/linear_machine.h"
 
 namespace stiffscope {
@@ -22,12 +19,12 @@ SimulatedLab labWithErrors() {
 }
 
 /// Where the calibrated geometry puts a reflector, in the tracker's frame.
-Eigen::Vector3d predicted(const LoadingGeometry& geometry, const Vector6d& q, std::size_t target) {
+Eigen::Vector3d predicted(const frames::LoadingGeometry& geometry, const Vector6d& q, std::size_t target) {
   return geometry.r0_from_loading->inverse() *
-         (postureAt(geometry.arm, q).motion[6] * *geometry.targets_at_zero[target]);
+         (robot::postureAt(geometry.arm, q).motion[6] * *geometry.targets_at_zero[target]);
 }
 
-double worstPrediction(const SimulatedLab& lab, const LoadingGeometry& geometry) {
+double worstPrediction(const SimulatedLab& lab, const frames::LoadingGeometry& geometry) {
   Noise noise(99);
   double worst = 0.0;
   for (int i = 0; i < 30; ++i) {
@@ -38,17 +35,17 @@ double worstPrediction(const SimulatedLab& lab, const LoadingGeometry& geometry)
   return worst;
 }
 
-LoadingGeometry nominalStart(const Campaign& campaign) {
-  return sweptGeometry(campaign, measureFrames(campaign), Vector6d::Zero());
+frames::LoadingGeometry nominalStart(const campaign::Campaign& campaign) {
+  return frames::sweptGeometry(campaign, frames::measureFrames(campaign), Vector6d::Zero());
 }
 
 TEST(CalibrateGeometry, FindsTheArmFromPosturesAlone) {
   const SimulatedLab lab = labWithErrors();
-  Campaign campaign = lab.empty();
+  campaign::Campaign campaign = lab.empty();
   lab.addLoading(campaign, 25, pulledForce);
-  const LoadingGeometry start = nominalStart(campaign);
+  const frames::LoadingGeometry start = nominalStart(campaign);
   EXPECT_FALSE(start.r0_from_loading);
-  const GeometryCalibration found = calibrateGeometry(campaign, start);
+  const frames::GeometryCalibration found = frames::calibrateGeometry(campaign, start);
   ASSERT_TRUE(found.done) << found.reason;
   EXPECT_EQ(found.positions, 75);
   EXPECT_GT(found.rms_before, 1e-4);  // axes a millimetre and a milliradian off
@@ -61,9 +58,9 @@ TEST(CalibrateGeometry, FixesAndNamesWhatIsFreeByChoiceOfFrame) {
   // 24 axis parameters, the base and the reflectors: to move base, axes and reflectors together changes
   // nothing, so six are free by choice of frame. R0 is defined by axes 1 and 2: it is theirs that are kept.
   const SimulatedLab lab = labWithErrors();
-  Campaign campaign = lab.empty();
+  campaign::Campaign campaign = lab.empty();
   lab.addLoading(campaign, 25, pulledForce);
-  const GeometryCalibration found = calibrateGeometry(campaign, nominalStart(campaign));
+  const frames::GeometryCalibration found = frames::calibrateGeometry(campaign, nominalStart(campaign));
   ASSERT_TRUE(found.done) << found.reason;
   EXPECT_EQ(found.fixed.size(), 6u);
   for (const std::string& name : found.fixed) {
@@ -78,14 +75,14 @@ TEST(CalibrateGeometry, FixesAndNamesWhatIsFreeByChoiceOfFrame) {
 TEST(CalibrateGeometry, AJointThatNeverMovesIsFoundToo) {
   // Joint 4 stands still in all postures: its four parameters are not seen, beside the six.
   const SimulatedLab lab = labWithErrors();
-  Campaign campaign = lab.empty();
+  campaign::Campaign campaign = lab.empty();
   lab.addLoading(campaign, 25, pulledForce);
   for (std::size_t i = 0; i < campaign.states->rows.size(); ++i) campaign.states->rows[i].q[3] = 0.3;
-  for (LoadingReading& row : campaign.loading->rows) {
+  for (campaign::LoadingReading& row : campaign.loading->rows) {
     const Vector6d& q = campaign.states->rows[2 * static_cast<std::size_t>(row.pose)].q;
     row.point = lab.seen(q, static_cast<std::size_t>(row.target));
   }
-  const GeometryCalibration found = calibrateGeometry(campaign, nominalStart(campaign));
+  const frames::GeometryCalibration found = frames::calibrateGeometry(campaign, nominalStart(campaign));
   ASSERT_TRUE(found.done) << found.reason;
   EXPECT_EQ(found.fixed.size(), 10u);
   EXPECT_LT(found.rms_after, 1e-9);
@@ -93,10 +90,10 @@ TEST(CalibrateGeometry, AJointThatNeverMovesIsFoundToo) {
 
 TEST(CalibrateGeometry, StartsFromSweepsWhereThereAreAny) {
   const SimulatedLab lab = labWithErrors();
-  Campaign campaign = lab.empty();
+  campaign::Campaign campaign = lab.empty();
   lab.addCircleSweeps(campaign);
   lab.addLoading(campaign, 25, pulledForce);
-  const GeometryCalibration found = calibrateGeometry(campaign, nominalStart(campaign));
+  const frames::GeometryCalibration found = frames::calibrateGeometry(campaign, nominalStart(campaign));
   ASSERT_TRUE(found.done) << found.reason;
   EXPECT_LT(found.rms_before, 1e-8);  // noise free, the sweeps have it already
   EXPECT_LT(worstPrediction(lab, found.geometry), 1e-7);
@@ -106,11 +103,11 @@ TEST(CalibrateGeometry, NoiseIsNotFitted) {
   // 20 um: what is left over degrees of freedom is the noise, and unseen postures are predicted to a few of
   // it.
   SimulatedLab lab = labWithErrors();
-  Campaign campaign = lab.empty();
+  campaign::Campaign campaign = lab.empty();
   lab.addLoading(campaign, 40, pulledForce);
   Noise noise(3);
-  for (LoadingReading& row : campaign.loading->rows) row.point += 2e-5 * noise.normal3();
-  const GeometryCalibration found = calibrateGeometry(campaign, nominalStart(campaign));
+  for (campaign::LoadingReading& row : campaign.loading->rows) row.point += 2e-5 * noise.normal3();
+  const frames::GeometryCalibration found = frames::calibrateGeometry(campaign, nominalStart(campaign));
   ASSERT_TRUE(found.done) << found.reason;
   const double sigma = found.rms_after * std::sqrt(360.0 / (360.0 - found.parameters));
   EXPECT_NEAR(sigma, 2e-5, 3e-6);  // 327 degrees of freedom: 4 % at one sigma
@@ -119,10 +116,10 @@ TEST(CalibrateGeometry, NoiseIsNotFitted) {
 
 TEST(CalibrateGeometry, RefusesWithAReason) {
   const SimulatedLab lab = labWithErrors();
-  Campaign campaign = lab.empty();
-  EXPECT_FALSE(calibrateGeometry(campaign, nominalStart(campaign)).reason.empty());
+  campaign::Campaign campaign = lab.empty();
+  EXPECT_FALSE(frames::calibrateGeometry(campaign, nominalStart(campaign)).reason.empty());
   lab.addLoading(campaign, 2, pulledForce);
-  const GeometryCalibration two = calibrateGeometry(campaign, nominalStart(campaign));
+  const frames::GeometryCalibration two = frames::calibrateGeometry(campaign, nominalStart(campaign));
   EXPECT_FALSE(two.done);
   EXPECT_NE(two.reason.find("three postures"), std::string::npos) << two.reason;
 }
@@ -131,27 +128,27 @@ TEST(CalibrateGeometry, FewPosturesFixMoreThanTheChoiceOfFrame) {
   // Three postures of a rigid triangle give 3 x 6 + 3 independent numbers: 21 of 39 parameters, 18 axis
   // parameters fixed.
   const SimulatedLab lab = labWithErrors();
-  Campaign campaign = lab.empty();
+  campaign::Campaign campaign = lab.empty();
   lab.addLoading(campaign, 3, pulledForce);
-  const GeometryCalibration found = calibrateGeometry(campaign, nominalStart(campaign));
+  const frames::GeometryCalibration found = frames::calibrateGeometry(campaign, nominalStart(campaign));
   ASSERT_TRUE(found.done) << found.reason;
   EXPECT_EQ(found.parameters, 21);
   EXPECT_EQ(found.fixed.size(), 18u);
 }
 
-TEST(PositionCost, HasTheDerivativesOfItsResidual) {
+TEST(frames::PositionCost, HasTheDerivativesOfItsResidual) {
   // Against automatic differentiation of the whole chain at once; only the order of products differs.
-  CalibrationStart start;
+  frames::CalibrationStart start;
   for (std::size_t j = 0; j < 6; ++j) {
     const double at = static_cast<double>(j);
     start.axes[j] = {Eigen::Vector3d(0.1 * at, -0.2, 0.3 * at), Eigen::Vector3d(std::sin(at), std::cos(2.0 * at), 0.5).normalized()};
-    basisAcross(start.axes[j].direction, start.across_u[j], start.across_v[j]);
+    metrology::basisAcross(start.axes[j].direction, start.across_u[j], start.across_v[j]);
   }
   start.points_from_base = Eigen::Translation3d(1.0, -2.0, 0.5) * Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, -1).normalized());
   Vector6d q;
   q << 0.3, -0.8, 1.1, 2.0, -0.4, 0.9;
   const Eigen::Matrix3d whiten = (Eigen::Matrix3d() << 3.0, 0.2, 0.1, 0.0, 2.0, -0.3, 0.0, 0.0, 5.0).finished();
-  const PositionResidual residual{start, q, Eigen::Vector3d(0.4, 0.1, 1.2), whiten};
+  const frames::PositionResidual residual{start, q, Eigen::Vector3d(0.4, 0.1, 1.2), whiten};
   std::array<double, 24> axes;
   for (std::size_t k = 0; k < axes.size(); ++k) axes[k] = 1e-2 * std::cos(3.0 * static_cast<double>(k));
   const std::array<double, 6> base{0.02, -0.01, 0.03, 0.1, 0.2, -0.1};
@@ -167,19 +164,19 @@ TEST(PositionCost, HasTheDerivativesOfItsResidual) {
         Eigen::Map<Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(blocks[2].data());
     return all;
   };
-  const auto found = evaluated(PositionCost(residual));
-  const auto expected = evaluated(ceres::AutoDiffCostFunction<PositionResidual, 3, 24, 6, 3>(new PositionResidual(residual)));
+  const auto found = evaluated(frames::PositionCost(residual));
+  const auto expected = evaluated(ceres::AutoDiffCostFunction<frames::PositionResidual, 3, 24, 6, 3>(new frames::PositionResidual(residual)));
   EXPECT_LT((found - expected).cwiseAbs().maxCoeff(), 1e-13);
   EXPECT_GT(expected.cwiseAbs().colwise().maxCoeff().minCoeff(), 1e-3);  // no column is empty
 }
 
-TEST(BaseFromPostures, NominalArmExactly) {
+TEST(frames::BaseFromPostures, NominalArmExactly) {
   SimulatedLab lab;
   lab.withoutMasses();
-  Campaign campaign = lab.empty();
+  campaign::Campaign campaign = lab.empty();
   lab.addLoading(campaign, 5, pulledForce);
-  const LoadingGeometry start = nominalStart(campaign);
-  const auto found = baseFromPostures(start, unloadedPositions(campaign), 3);
+  const frames::LoadingGeometry start = nominalStart(campaign);
+  const auto found = frames::baseFromPostures(start, frames::unloadedPositions(campaign), 3);
   ASSERT_TRUE(found);
   // The arm's base frame is R0 by the nominal rule: 0.94 m up.
   const Eigen::Isometry3d tracker_from_r0 = lab.tracker_from_base * start.r0_from_base_link.inverse();
@@ -192,16 +189,16 @@ TEST(BaseFromPostures, NominalArmExactly) {
   }
 }
 
-TEST(BaseFromPostures, TurnsAboutOneAxisAreNotEnough) {
+TEST(frames::BaseFromPostures, TurnsAboutOneAxisAreNotEnough) {
   SimulatedLab lab;
   lab.withoutMasses();
-  Campaign campaign = lab.empty();
+  campaign::Campaign campaign = lab.empty();
   lab.addLoading(campaign, 6, pulledForce);
-  for (State& state : campaign.states->rows) state.q = degrees(10.0 * state.pose, 10, 0, 20, 40, 30);
-  for (LoadingReading& row : campaign.loading->rows) {
+  for (campaign::State& state : campaign.states->rows) state.q = degrees(10.0 * state.pose, 10, 0, 20, 40, 30);
+  for (campaign::LoadingReading& row : campaign.loading->rows) {
     row.point = lab.seen(degrees(10.0 * row.pose, 10, 0, 20, 40, 30), static_cast<std::size_t>(row.target));
   }
-  EXPECT_FALSE(baseFromPostures(nominalStart(campaign), unloadedPositions(campaign), 3));
+  EXPECT_FALSE(frames::baseFromPostures(nominalStart(campaign), frames::unloadedPositions(campaign), 3));
 }
 
 }  // namespace

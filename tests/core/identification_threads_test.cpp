@@ -1,17 +1,16 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-
 #include "core/campaign/read_campaign.h"
-#include "core/identification/by_step.h"
+#include "core/identification/load_dependence.h"
 #include "tests/core/on_one_core.h"
 
 namespace stiffscope {
 namespace {
 
 /// The sample's day so many times over, reading by reading moved a little: enough postures to share.
-Campaign manyTimes(const Campaign& day, int times) {
-  Campaign many = day;
+campaign::Campaign manyTimes(const campaign::Campaign& day, int times) {
+  campaign::Campaign many = day;
   const auto postures = static_cast<int>(day.pose_ids.size());
   const auto again = [&](auto& table, const auto& of_day, int k) {
     for (auto row : of_day) {
@@ -25,11 +24,11 @@ Campaign manyTimes(const Campaign& day, int times) {
     again(many.loading->rows, day.loading->rows, k);
   }
   double n = 0.0;
-  for (LoadingReading& row : many.loading->rows) row.point.x() += 1e-5 * std::sin(n++);
+  for (campaign::LoadingReading& row : many.loading->rows) row.point.x() += 1e-5 * std::sin(n++);
   return many;
 }
 
-void expectSame(const StiffnessEstimate& a, const StiffnessEstimate& b) {
+void expectSame(const identification::StiffnessEstimate& a, const identification::StiffnessEstimate& b) {
   EXPECT_EQ(a.compliance, b.compliance);
   EXPECT_EQ(a.covariance, b.covariance);
   EXPECT_EQ(a.influences, b.influences);
@@ -38,15 +37,15 @@ void expectSame(const StiffnessEstimate& a, const StiffnessEstimate& b) {
 }
 
 TEST(Identify, DoesNotDependOnTheNumberOfCores) {
-  const Campaign day = readCampaign(std::string(STIFFSCOPE_SOURCE_DIR) + "/samples/active").campaign;
-  const Campaign campaign = manyTimes(day, 60);  // 1140 postures: more than kWorthThreads
-  const Identification all = identify(campaign);
-  const StepStudy all_steps = studySteps(campaign, {}, all);
+  const campaign::Campaign day = campaign::readCampaign(std::string(STIFFSCOPE_SOURCE_DIR) + "/samples/active").campaign;
+  const campaign::Campaign campaign = manyTimes(day, 60);  // 1140 postures: more than kWorthThreads
+  const identification::Identification all = identify(campaign);
+  const identification::StepStudy all_steps = identification::studySteps(campaign, {}, all);
   const OnOneCore alone;
-  const Identification one = identify(campaign);
-  const StepStudy one_steps = studySteps(campaign, {}, one);
+  const identification::Identification one = identify(campaign);
+  const identification::StepStudy one_steps = identification::studySteps(campaign, {}, one);
   for (std::size_t m = 0; m < all.methods.size(); ++m) {
-    const MethodResult &a = all.methods[m], &b = one.methods[m];
+    const identification::MethodResult &a = all.methods[m], &b = one.methods[m];
     ASSERT_TRUE(a.available) << a.reason;
     expectSame(a.estimate, b.estimate);
     EXPECT_EQ(a.subsets.compliances, b.subsets.compliances);

@@ -1,10 +1,9 @@
 #include "core/identification/identify.h"
 
 #include <gtest/gtest.h>
-
-#include "core/identification/wrist_leak.h"
-#include "core/input/input_error.h"
-#include "metrology/measured_line.h"
+#include "core/identification/decoupled_partial_pose.h"
+#include "core/io/input_error.h"
+#include "metrology/lines.h"
 #include "tests/core/example_arm.h"
 #include "tests/core/linear_machine.h"
 
@@ -12,15 +11,15 @@ namespace stiffscope {
 namespace {
 
 /// Few subsets: these tests do not look at them.
-IdentifyOptions quick(bool finite_deflection = true) {
-  IdentifyOptions options;
+identification::IdentifyOptions quick(bool finite_deflection = true) {
+  identification::IdentifyOptions options;
   options.finite_deflection = finite_deflection;
   options.subsets.most_all = 1;
   options.subsets.sample = 5;
   return options;
 }
 
-constexpr JointMask kWithoutFirst{false, true, true, true, true, true};
+constexpr robot::JointMask kWithoutFirst{false, true, true, true, true, true};
 
 SimulatedLab springyLab() {
   SimulatedLab lab;
@@ -29,9 +28,9 @@ SimulatedLab springyLab() {
   return lab;
 }
 
-Campaign fullDay(const SimulatedLab& lab, const std::function<Eigen::Vector3d(int)>& force,
+campaign::Campaign fullDay(const SimulatedLab& lab, const std::function<Eigen::Vector3d(int)>& force,
                  int postures = 10) {
-  Campaign campaign = lab.empty();
+  campaign::Campaign campaign = lab.empty();
   lab.addCircleSweeps(campaign);
   lab.addWristSweep(campaign);
   lab.addLoading(campaign, postures, force);
@@ -42,9 +41,9 @@ TEST(Identify, TheNonlinearEquilibriumGivesTheSpringsBack) {
   // Springs and loads in equilibrium on the moved arm, by the test's iteration. With K_c and Jacobians at the
   // middle what is left is of the third order of turns of 1e-3 to 1e-2 rad; neglected, it is of the first.
   const SimulatedLab lab = springyLab();
-  const Campaign campaign = fullDay(lab, pulledForce);
-  const Identification found = identify(campaign, quick());
-  for (const Method method : kMethods) {
+  const campaign::Campaign campaign = fullDay(lab, pulledForce);
+  const identification::Identification found = identification::identify(campaign, quick());
+  for (const identification::Method method : identification::kMethods) {
     ASSERT_TRUE(found.of(method).available) << found.of(method).reason;
     EXPECT_LT(worstError(found.of(method).estimate.compliance, lab.compliance), 1e-4)
         << static_cast<int>(method);
@@ -52,16 +51,16 @@ TEST(Identify, TheNonlinearEquilibriumGivesTheSpringsBack) {
     EXPECT_GT(found.of(method).at_targets->all_postures, 0.999);
   }
   EXPECT_GT(found.geometric_stiffness_share, 1e-4);
-  const Identification neglected = identify(campaign, quick(false));
-  EXPECT_GT(worstError(neglected.of(Method::partial_pose).estimate.compliance, lab.compliance), 5e-4);
+  const identification::Identification neglected = identification::identify(campaign, quick(false));
+  EXPECT_GT(worstError(neglected.of(identification::Method::partial_pose).estimate.compliance, lab.compliance), 5e-4);
 }
 
 TEST(Identify, OwnWeightAndSpringsAreFoundInTurns) {
   SimulatedLab lab;
   lab.compliance = exampleCompliance();
-  const Identification found = identify(fullDay(lab, pulledForce), quick());
+  const identification::Identification found = identification::identify(fullDay(lab, pulledForce), quick());
   EXPECT_TRUE(found.frames.sag_removed);
-  for (const Method method : kMethods) {
+  for (const identification::Method method : identification::kMethods) {
     ASSERT_TRUE(found.of(method).available) << found.of(method).reason;
     EXPECT_LT(worstError(found.of(method).estimate.compliance, lab.compliance), 3e-4)
         << static_cast<int>(method);
@@ -74,8 +73,8 @@ TEST(Identify, AnArmWithGeometryErrorsGivesItsSpringsBack) {
   const ChainArm disturbed = lab.nominal.disturbed(noise, 1e-3, 1e-3);
   for (std::size_t j = 0; j < 4; ++j)
     lab.actual.to_joint[j] = disturbed.to_joint[j];  // the wrist's axes still meet
-  const Identification found = identify(fullDay(lab, pulledForce, 14), quick());
-  for (const Method method : kMethods) {
+  const identification::Identification found = identification::identify(fullDay(lab, pulledForce, 14), quick());
+  for (const identification::Method method : identification::kMethods) {
     ASSERT_TRUE(found.of(method).available) << found.of(method).reason;
     EXPECT_LT(worstError(found.of(method).estimate.compliance, lab.compliance), 2e-4)
         << static_cast<int>(method);
@@ -85,23 +84,23 @@ TEST(Identify, AnArmWithGeometryErrorsGivesItsSpringsBack) {
 TEST(Identify, AWristWhoseAxesMissEachOtherRefusesTheDecoupled) {
   SimulatedLab lab = springyLab();
   lab.actual.to_joint[5].translation().z() += 0.03;  // axis 6 passes axis 5 by 30 mm
-  const Identification found = identify(fullDay(lab, pulledForce), quick());
-  EXPECT_TRUE(found.of(Method::partial_pose).available);
-  const MethodResult& decoupled = found.of(Method::decoupled_partial_pose);
+  const identification::Identification found = identification::identify(fullDay(lab, pulledForce), quick());
+  EXPECT_TRUE(found.of(identification::Method::partial_pose).available);
+  const identification::MethodResult& decoupled = found.of(identification::Method::decoupled_partial_pose);
   EXPECT_FALSE(decoupled.available);
   EXPECT_FALSE(decoupled.reason.empty());
   // And one that misses by a hundredth of a millimetre does not.
   lab.actual.to_joint[5].translation().z() = 1e-5;
-  EXPECT_TRUE(identify(fullDay(lab, pulledForce), quick()).of(Method::decoupled_partial_pose).available);
+  EXPECT_TRUE(identification::identify(fullDay(lab, pulledForce), quick()).of(identification::Method::decoupled_partial_pose).available);
 }
 
 TEST(Identify, AHangingLoadSaysNothingOfJointOne) {
   const SimulatedLab lab = springyLab();
-  const Identification found = identify(fullDay(lab, hangingForce), quick());
+  const identification::Identification found = identification::identify(fullDay(lab, hangingForce), quick());
   EXPECT_TRUE(found.identifiability.load_hangs);
   EXPECT_FALSE(found.identifiability.joints[0].identifiable);
   EXPECT_NE(found.identifiability.joints[0].reason.find("hangs"), std::string::npos);
-  for (const Method method : kMethods) {
+  for (const identification::Method method : identification::kMethods) {
     ASSERT_TRUE(found.of(method).available) << found.of(method).reason;
     EXPECT_EQ(found.of(method).estimate.compliance[0], 0.0);
     EXPECT_LT(worstError(found.of(method).estimate.compliance, lab.compliance, kWithoutFirst), 1e-4);
@@ -114,52 +113,52 @@ TEST(Identify, ALoadCellTwoDegreesAskewGivesNoFirstJointEither) {
     SimulatedLab lab = springyLab();
     const Eigen::Isometry3d declared = lab.flange_from_cell;
     lab.flange_from_cell.rotate(Eigen::AngleAxisd(radians(2.0), Eigen::Vector3d::Unit(axis)));
-    Campaign campaign = fullDay(lab, hangingForce, 19);
+    campaign::Campaign campaign = fullDay(lab, hangingForce, 19);
     campaign.load_cell->parent_from_cell = declared;
-    const Identification found = identify(campaign, quick());
+    const identification::Identification found = identification::identify(campaign, quick());
     EXPECT_TRUE(found.identifiability.load_hangs);
     EXPECT_FALSE(found.identifiability.joints[0].identifiable) << axis;
-    EXPECT_EQ(found.of(Method::partial_pose).estimate.compliance[0], 0.0);
+    EXPECT_EQ(found.of(identification::Method::partial_pose).estimate.compliance[0], 0.0);
   }
 }
 
 TEST(Identify, APulledLoadShowsJointOne) {
-  EXPECT_TRUE(identify(fullDay(springyLab(), pulledForce), quick()).identifiability.joints[0].identifiable);
+  EXPECT_TRUE(identification::identify(fullDay(springyLab(), pulledForce), quick()).identifiability.joints[0].identifiable);
 }
 
 TEST(Identify, WithoutWristSweepTheDecoupledSaysWhatToMeasure) {
   const SimulatedLab lab = springyLab();
-  Campaign campaign = fullDay(lab, pulledForce);
+  campaign::Campaign campaign = fullDay(lab, pulledForce);
   campaign.wrist_sweep.reset();
-  const Identification found = identify(campaign, quick());
-  EXPECT_TRUE(found.of(Method::complete_pose).available);
-  EXPECT_TRUE(found.of(Method::partial_pose).available);
-  EXPECT_FALSE(found.of(Method::decoupled_partial_pose).available);
-  EXPECT_NE(found.of(Method::decoupled_partial_pose).reason.find("wrist sweep"), std::string::npos);
-  EXPECT_FALSE(found.of(Method::partial_pose).at_wrist);
+  const identification::Identification found = identification::identify(campaign, quick());
+  EXPECT_TRUE(found.of(identification::Method::complete_pose).available);
+  EXPECT_TRUE(found.of(identification::Method::partial_pose).available);
+  EXPECT_FALSE(found.of(identification::Method::decoupled_partial_pose).available);
+  EXPECT_NE(found.of(identification::Method::decoupled_partial_pose).reason.find("wrist sweep"), std::string::npos);
+  EXPECT_FALSE(found.of(identification::Method::partial_pose).at_wrist);
 }
 
 TEST(Identify, WithoutAnySweepPartialPoseCalibratesItsBaseFromThePostures) {
   const SimulatedLab lab = springyLab();
-  Campaign campaign = lab.empty();
+  campaign::Campaign campaign = lab.empty();
   lab.addLoading(campaign, 16, pulledForce);
-  const Identification found = identify(campaign, quick());
-  ASSERT_TRUE(found.of(Method::partial_pose).available) << found.of(Method::partial_pose).reason;
-  EXPECT_LT(worstError(found.of(Method::partial_pose).estimate.compliance, lab.compliance), 2e-4);
-  EXPECT_FALSE(found.of(Method::complete_pose).available);
-  EXPECT_NE(found.of(Method::complete_pose).reason.find("circle sweeps"), std::string::npos);
+  const identification::Identification found = identification::identify(campaign, quick());
+  ASSERT_TRUE(found.of(identification::Method::partial_pose).available) << found.of(identification::Method::partial_pose).reason;
+  EXPECT_LT(worstError(found.of(identification::Method::partial_pose).estimate.compliance, lab.compliance), 2e-4);
+  EXPECT_FALSE(found.of(identification::Method::complete_pose).available);
+  EXPECT_NE(found.of(identification::Method::complete_pose).reason.find("circle sweeps"), std::string::npos);
 }
 
 TEST(Identify, WithoutAnySweepTheOwnWeightIsTakenIntoAccountToo) {
   // The sag of millimetres must not be taken for geometry: springs and calibration are found in turns.
   SimulatedLab lab;
   lab.compliance = exampleCompliance();
-  Campaign campaign = lab.empty();
+  campaign::Campaign campaign = lab.empty();
   lab.addLoading(campaign, 25, pulledForce);
-  const Identification found = identify(campaign, quick());
-  ASSERT_TRUE(found.of(Method::partial_pose).available) << found.of(Method::partial_pose).reason;
+  const identification::Identification found = identification::identify(campaign, quick());
+  ASSERT_TRUE(found.of(identification::Method::partial_pose).available) << found.of(identification::Method::partial_pose).reason;
   EXPECT_LT(found.calibration.rms_after, 1e-6);
-  EXPECT_LT(worstError(found.of(Method::partial_pose).estimate.compliance, lab.compliance), 3e-4);
+  EXPECT_LT(worstError(found.of(identification::Method::partial_pose).estimate.compliance, lab.compliance), 3e-4);
 }
 
 TEST(Identify, DisplacementsInTheRobotsAxes) {
@@ -167,56 +166,56 @@ TEST(Identify, DisplacementsInTheRobotsAxes) {
   // not. The wrench is read in axes that turn with the flange by some milliradians, which only the model
   // knows.
   SimulatedLab lab = springyLab();
-  Campaign campaign = lab.empty();
+  campaign::Campaign campaign = lab.empty();
   lab.addLoading(campaign, 16, pulledForce);
   campaign.targets.resize(1);
   campaign.targets[0].position_in_flange = lab.targets_in_flange[0];
-  campaign.displacements = Displacements{"displacements.csv", PointFrame::base_link, {}};
+  campaign.displacements = campaign::Displacements{"displacements.csv", campaign::PointFrame::base_link, {}};
   for (std::size_t row = 0; row + 1 < campaign.loading->rows.size(); row += 2) {
-    const LoadingReading &before = campaign.loading->rows[row], &after = campaign.loading->rows[row + 1];
+    const campaign::LoadingReading &before = campaign.loading->rows[row], &after = campaign.loading->rows[row + 1];
     if (before.target != 0) continue;
     campaign.displacements->rows.push_back(
         {before.pose, 1, 0, lab.tracker_from_base.linear().transpose() * (after.point - before.point)});
   }
   campaign.loading.reset();
-  const Identification found = identify(campaign, quick());
-  ASSERT_TRUE(found.of(Method::partial_pose).available) << found.of(Method::partial_pose).reason;
-  EXPECT_LT(worstError(found.of(Method::partial_pose).estimate.compliance, lab.compliance), 1e-4);
-  EXPECT_FALSE(found.of(Method::complete_pose).available);
-  EXPECT_FALSE(found.of(Method::decoupled_partial_pose).available);
+  const identification::Identification found = identification::identify(campaign, quick());
+  ASSERT_TRUE(found.of(identification::Method::partial_pose).available) << found.of(identification::Method::partial_pose).reason;
+  EXPECT_LT(worstError(found.of(identification::Method::partial_pose).estimate.compliance, lab.compliance), 1e-4);
+  EXPECT_FALSE(found.of(identification::Method::complete_pose).available);
+  EXPECT_FALSE(found.of(identification::Method::decoupled_partial_pose).available);
   EXPECT_FALSE(found.noise);
 }
 
 TEST(Identify, DisplacementsInTheTrackersAxesNeedSweeps) {
   SimulatedLab lab = springyLab();
-  Campaign campaign = lab.empty();
+  campaign::Campaign campaign = lab.empty();
   lab.addLoading(campaign, 16, pulledForce);
-  campaign.displacements = Displacements{"displacements.csv", PointFrame::tracker, {}};
+  campaign.displacements = campaign::Displacements{"displacements.csv", campaign::PointFrame::tracker, {}};
   for (std::size_t k = 0; k < 3; ++k) campaign.targets[k].position_in_flange = lab.targets_in_flange[k];
   for (std::size_t row = 0; row + 1 < campaign.loading->rows.size(); row += 2) {
-    const LoadingReading &before = campaign.loading->rows[row], &after = campaign.loading->rows[row + 1];
+    const campaign::LoadingReading &before = campaign.loading->rows[row], &after = campaign.loading->rows[row + 1];
     campaign.displacements->rows.push_back({before.pose, 1, before.target, after.point - before.point});
   }
   campaign.loading.reset();
-  const Identification lost = identify(campaign, quick());
-  EXPECT_FALSE(lost.of(Method::partial_pose).available);
-  EXPECT_FALSE(lost.of(Method::partial_pose).reason.empty());
+  const identification::Identification lost = identification::identify(campaign, quick());
+  EXPECT_FALSE(lost.of(identification::Method::partial_pose).available);
+  EXPECT_FALSE(lost.of(identification::Method::partial_pose).reason.empty());
   lab.addCircleSweeps(campaign);
-  const Identification found = identify(campaign, quick());
-  ASSERT_TRUE(found.of(Method::partial_pose).available) << found.of(Method::partial_pose).reason;
-  EXPECT_LT(worstError(found.of(Method::partial_pose).estimate.compliance, lab.compliance), 1e-4);
+  const identification::Identification found = identification::identify(campaign, quick());
+  ASSERT_TRUE(found.of(identification::Method::partial_pose).available) << found.of(identification::Method::partial_pose).reason;
+  EXPECT_LT(worstError(found.of(identification::Method::partial_pose).estimate.compliance, lab.compliance), 1e-4);
 }
 
 TEST(Identify, AReflectorMissingInSomePostures) {
   // Complete Pose and Decoupled need three; Partial Pose takes what is there.
   const SimulatedLab lab = springyLab();
-  Campaign campaign = fullDay(lab, pulledForce);
+  campaign::Campaign campaign = fullDay(lab, pulledForce);
   std::erase_if(campaign.loading->rows,
-                [](const LoadingReading& row) { return row.pose == 3 && row.target == 1; });
-  const Identification found = identify(campaign, quick());
-  ASSERT_TRUE(found.of(Method::partial_pose).available) << found.of(Method::partial_pose).reason;
-  EXPECT_LT(worstError(found.of(Method::partial_pose).estimate.compliance, lab.compliance), 1e-4);
-  for (const Method method : {Method::complete_pose, Method::decoupled_partial_pose}) {
+                [](const campaign::LoadingReading& row) { return row.pose == 3 && row.target == 1; });
+  const identification::Identification found = identification::identify(campaign, quick());
+  ASSERT_TRUE(found.of(identification::Method::partial_pose).available) << found.of(identification::Method::partial_pose).reason;
+  EXPECT_LT(worstError(found.of(identification::Method::partial_pose).estimate.compliance, lab.compliance), 1e-4);
+  for (const identification::Method method : {identification::Method::complete_pose, identification::Method::decoupled_partial_pose}) {
     if (found.of(method).available) {
       EXPECT_LT(worstError(found.of(method).estimate.compliance, lab.compliance), 1e-3);
     } else {
@@ -229,8 +228,8 @@ TEST(Identify, FiveReflectors) {
   SimulatedLab lab = springyLab();
   lab.targets_in_flange.push_back({0.1, 0.2, 0.3});
   lab.targets_in_flange.push_back({-0.2, -0.1, 0.0});
-  const Identification found = identify(fullDay(lab, pulledForce), quick());
-  for (const Method method : kMethods) {
+  const identification::Identification found = identification::identify(fullDay(lab, pulledForce), quick());
+  for (const identification::Method method : identification::kMethods) {
     ASSERT_TRUE(found.of(method).available) << found.of(method).reason;
     EXPECT_LT(worstError(found.of(method).estimate.compliance, lab.compliance), 1e-4);
   }
@@ -239,9 +238,9 @@ TEST(Identify, FiveReflectors) {
 TEST(Identify, OnePostureOnly) {
   // Never a crash, never a number that is none, and no confident answer.
   const SimulatedLab lab = springyLab();
-  const Identification found = identify(fullDay(lab, pulledForce, 1), quick());
-  for (const Method method : kMethods) {
-    const MethodResult& result = found.of(method);
+  const identification::Identification found = identification::identify(fullDay(lab, pulledForce, 1), quick());
+  for (const identification::Method method : identification::kMethods) {
+    const identification::MethodResult& result = found.of(method);
     if (!result.available) {
       EXPECT_FALSE(result.reason.empty());
       continue;
@@ -254,16 +253,16 @@ TEST(Identify, OnePostureOnly) {
 
 TEST(Identify, ThrowsWhereThereAreNoLoadStates) {
   const SimulatedLab lab = springyLab();
-  Campaign campaign = lab.empty();
+  campaign::Campaign campaign = lab.empty();
   lab.addCircleSweeps(campaign);
-  EXPECT_THROW(identify(campaign, quick()), InputError);
+  EXPECT_THROW(identification::identify(campaign, quick()), io::InputError);
   campaign = fullDay(lab, pulledForce, 3);
-  IdentifyOptions options = quick();
+  identification::IdentifyOptions options = quick();
   options.step = 7;
   try {
-    identify(campaign, options);
+    identification::identify(campaign, options);
     FAIL() << "step 7 was taken";
-  } catch (const InputError& error) {
+  } catch (const io::InputError& error) {
     EXPECT_NE(std::string(error.what()).find("'7': not a load step of this campaign, which has 1"),
               std::string::npos)
         << error.what();
@@ -272,12 +271,12 @@ TEST(Identify, ThrowsWhereThereAreNoLoadStates) {
 
 TEST(Identify, SweepsAloneGiveFramesAndSayWhatIsMissing) {
   const SimulatedLab lab = springyLab();
-  Campaign campaign = lab.empty();
+  campaign::Campaign campaign = lab.empty();
   lab.addCircleSweeps(campaign);
-  const Identification result = framesAlone(campaign);
+  const identification::Identification result = identification::framesAlone(campaign);
   EXPECT_TRUE(result.frames.arm.points_placed);
   EXPECT_TRUE(result.cases.empty());
-  for (const MethodResult& method : result.methods) {
+  for (const identification::MethodResult& method : result.methods) {
     EXPECT_FALSE(method.available);
     EXPECT_NE(method.reason.find("no 'states'"), std::string::npos) << method.reason;
   }
@@ -285,21 +284,21 @@ TEST(Identify, SweepsAloneGiveFramesAndSayWhatIsMissing) {
 
 TEST(WristLeak, OnlyWhatJointsFourToSixPutThere) {
   // P_wrist moves by 2 mm; joint 5 turns by 1 mrad, and P_wrist stands on its axis, or 0.1 m off it.
-  LoadedArm arm;
+  identification::LoadedArm arm;
   arm.geometry.arm = exampleArm();
-  LoadCase load_case;
-  load_case.axes = axesAt(arm.geometry.arm, postureAt(arm.geometry.arm, Vector6d::Zero()));
+  identification::LoadCase load_case;
+  load_case.axes = robot::axesAt(arm.geometry.arm, robot::postureAt(arm.geometry.arm, Vector6d::Zero()));
   arm.cases = {load_case};
   arm.wrist = {{Eigen::Vector3d::Zero(), Eigen::Vector3d(0, 0, 2e-3)}};
   arm.torques = {Vector6d::Constant(1000.0)};
-  const Line& axis = arm.geometry.arm.axes_in_base_at_zero[4];
+  const metrology::Line& axis = arm.geometry.arm.axes_in_base_at_zero[4];
   Eigen::Vector3d across, other;
-  basisAcross(axis.direction, across, other);
+  metrology::basisAcross(axis.direction, across, other);
   Vector6d compliance = Vector6d::Constant(1e-6);
   compliance[3] = compliance[5] = 0.0;  // joint 5 alone: 1e-6 rad/Nm times 1000 Nm turns it by 1 mrad
-  EXPECT_NEAR(wristLeak(arm, axis.point, compliance), 0.0, 1e-12);  // on the axis: rounding
+  EXPECT_NEAR(identification::wristLeak(arm, axis.point, compliance), 0.0, 1e-12);  // on the axis: rounding
   // 1 mrad over 0.1 m is 0.1 mm of 2 mm.
-  EXPECT_NEAR(wristLeak(arm, axis.point + 0.1 * across, compliance), 0.05, 1e-9);
+  EXPECT_NEAR(identification::wristLeak(arm, axis.point + 0.1 * across, compliance), 0.05, 1e-9);
 }
 
 TEST(JudgeJoints, AJointSeenOnlyInCombination) {
@@ -311,10 +310,10 @@ TEST(JudgeJoints, AJointSeenOnlyInCombination) {
     q[4] = 0.0;
     machine.add(q, 1000.0 * noise.normal3(), 200.0 * noise.normal3());
   }
-  const LoadCell cell{"tool0", Eigen::Isometry3d::Identity(), {}, 1.0, 0.3};
-  const Identifiability found =
-      judgeJoints(machine.geometry, machine.cases, cell, machine.reflectorEquations());
-  EXPECT_EQ(found.mask(), (JointMask{true, true, true, false, true, false}));
+  const campaign::LoadCell cell{"tool0", Eigen::Isometry3d::Identity(), {}, 1.0, 0.3};
+  const identification::Identifiability found =
+      identification::judgeJoints(machine.geometry, machine.cases, cell, machine.reflectorEquations());
+  EXPECT_EQ(found.mask(), (robot::JointMask{true, true, true, false, true, false}));
   for (const std::size_t joint : {3u, 5u}) {
     EXPECT_NE(found.joints[joint].reason.find("combination of joints 4, 6"), std::string::npos)
         << found.joints[joint].reason;
@@ -327,26 +326,26 @@ TEST(JudgeJoints, AJointSeenOnlyInCombination) {
 TEST(JudgeJoints, PointsOnAnAxisDoNotShowIt) {
   // One reflector on axis 6, or a tenth of a millimetre beside it, which is less than the axis is known to:
   // the load turns joint 6 well, but nothing that is measured moves by it.
-  const LoadCell cell{"tool0", Eigen::Isometry3d::Identity(), {}, 1.0, 0.3};
+  const campaign::LoadCell cell{"tool0", Eigen::Isometry3d::Identity(), {}, 1.0, 0.3};
   for (const double beside : {0.0, 1e-4}) {
     LinearMachine machine(0, 1.0);
     machine.targets_in_flange = {{beside, 0.0, 0.2}};
     Noise noise(4);
     for (int i = 0; i < 10; ++i)
       machine.add(somePosture(noise), 1000.0 * noise.normal3(), 200.0 * noise.normal3());
-    const Identifiability found =
-        judgeJoints(machine.geometry, machine.cases, cell, machine.reflectorEquations());
-    EXPECT_EQ(found.mask(), (JointMask{true, true, true, true, true, false})) << beside;
+    const identification::Identifiability found =
+        identification::judgeJoints(machine.geometry, machine.cases, cell, machine.reflectorEquations());
+    EXPECT_EQ(found.mask(), (robot::JointMask{true, true, true, true, true, false})) << beside;
     EXPECT_NE(found.joints[5].reason.find("measured"), std::string::npos) << found.joints[5].reason;
   }
 }
 
 TEST(JudgeJoints, ATorqueBelowItsUncertaintyDoesNotCount) {
   LinearMachine machine(10, 1.0);
-  const LoadCell vague{"tool0", Eigen::Isometry3d::Identity(), {}, 0.0, 1e5};  // a moment known to 1e5 Nm
-  const Identifiability found =
-      judgeJoints(machine.geometry, machine.cases, vague, machine.reflectorEquations());
-  EXPECT_EQ(found.mask(), JointMask{});
+  const campaign::LoadCell vague{"tool0", Eigen::Isometry3d::Identity(), {}, 0.0, 1e5};  // a moment known to 1e5 Nm
+  const identification::Identifiability found =
+      identification::judgeJoints(machine.geometry, machine.cases, vague, machine.reflectorEquations());
+  EXPECT_EQ(found.mask(), robot::JointMask{});
   EXPECT_NE(found.joints[2].reason.find("uncertainty"), std::string::npos);
 }
 

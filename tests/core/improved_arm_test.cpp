@@ -1,10 +1,9 @@
-#include "core/improved/improved_arm.h"
+#include "core/extended_model/extended_arm.h"
 
 #include <gtest/gtest.h>
 
 #include <array>
-
-#include "core/simulation/elastic_equilibrium.h"
+#include "core/simulation/equilibrium.h"
 #include "tests/core/improved_day.h"
 
 // The arm at rest with effects of known size against the simulator's equilibrium, which minimises an energy of its own
@@ -15,51 +14,51 @@ namespace {
 
 struct Mechanism {
   const char* name;
-  Effect effect;
-  void (*build)(SimulationSpec& spec, Eigen::VectorXd& parameters);
+  effects::Effect effect;
+  void (*build)(simulation::SimulationSpec& spec, Eigen::VectorXd& parameters);
 };
 
 class AgainstTheSimulator : public testing::TestWithParam<Mechanism> {};
 
 /// An EffectFit that holds one effect, all its parts, and no data.
-EffectFit onlyEffect(const Campaign& campaign, Effect effect) {
-  EffectFit fit;
-  std::vector<EffectModel> models = effectModelsOf(campaign);
-  std::erase_if(models, [&](const EffectModel& one) { return one.effect != effect; });
+extended_model::EffectFit onlyEffect(const campaign::Campaign& campaign, effects::Effect effect) {
+  extended_model::EffectFit fit;
+  std::vector<effects::EffectModel> models = effects::effectModelsOf(campaign);
+  std::erase_if(models, [&](const effects::EffectModel& one) { return one.effect != effect; });
   models.resize(1);
-  fit.fit.data.layout = gapLayout(models, campaign.targets.size());
+  fit.fit.data.layout = diagnosis::gapLayout(models, campaign.targets.size());
   fit.fit.set.models = {{0, {}}};
   for (std::size_t part = 0; part < models[0].parts.size(); ++part) fit.fit.set.models[0].parts.push_back(part);
   fit.fit.set.effects.setZero(static_cast<Eigen::Index>(models[0].parameters()));
-  auto start = std::make_unique<GapStart>();
+  auto start = std::make_unique<diagnosis::GapStart>();
   start->campaign = campaign;
-  fit.input = std::make_unique<GapInput>(GapInput{start->campaign, {}, 0.0, 0.0, models, false, false, {}});
+  fit.input = std::make_unique<diagnosis::GapInput>(diagnosis::GapInput{start->campaign, {}, 0.0, 0.0, models, false, false, {}});
   fit.start = std::move(start);
   return fit;
 }
 
 TEST_P(AgainstTheSimulator, DeflectsTheSameWithFiniteRotations) {
-  SimulationSpec spec = springsAlone(1);
-  const Campaign campaign = simulate(spec);
-  EffectFit effects = onlyEffect(campaign, GetParam().effect);
+  simulation::SimulationSpec spec = springsAlone(1);
+  const campaign::Campaign campaign = simulation::simulate(spec);
+  extended_model::EffectFit effects = onlyEffect(campaign, GetParam().effect);
   Eigen::VectorXd parameters = effects.parameters();
   GetParam().build(spec, parameters);
-  const ElasticMachine machine = buildMachine(spec);
-  LoadingGeometry geometry;
-  geometry.arm = rigidGeometry(machine);
-  geometry.weight = ownWeight(campaign.robot, campaign.tool, campaign.gravity_in_base, machine.nominal, Eigen::Isometry3d::Identity());
+  const simulation::ElasticMachine machine = simulation::buildMachine(spec);
+  frames::LoadingGeometry geometry;
+  geometry.arm = simulation::rigidGeometry(machine);
+  geometry.weight = robot::ownWeight(campaign.robot, campaign.tool, campaign.gravity_in_base, machine.nominal, Eigen::Isometry3d::Identity());
   Vector6d compliance;
   for (std::size_t j = 0; j < 6; ++j) compliance[static_cast<Eigen::Index>(j)] = 1.0 / *spec.machine.joints[j].torsion;
-  const ImprovedArm arm(effects, parameters, geometry, compliance);
+  const extended_model::ImprovedArm arm(effects, parameters, geometry, compliance);
   const Eigen::Isometry3d& flange = geometry.arm.base_from_flange_at_zero;
   double most = 0.0;
   for (const std::size_t row : {0u, 25u, 50u}) {
-    PostureStates states(2);
+    effects::PostureStates states(2);
     states[0].q = states[1].q = campaign.states->rows[row].q;
     states[1].loaded = true;
-    const AppliedLoad load = simulation::loadAtStep(*spec.loading, 3, machine.gravity_in_base, {});
-    const MachineState at_rest = equilibrium(machine, states[0].q), loaded = equilibrium(machine, states[0].q, load);
-    const ToolLoad own{flange * spec.loading->hook_in_flange, loaded.load_force_in_base, Eigen::Vector3d::Zero()};
+    const simulation::AppliedLoad load = simulation::loadAtStep(*spec.loading, 3, machine.gravity_in_base, {});
+    const simulation::MachineState at_rest = simulation::equilibrium(machine, states[0].q), loaded = simulation::equilibrium(machine, states[0].q, load);
+    const extended_model::ToolLoad own{flange * spec.loading->hook_in_flange, loaded.load_force_in_base, Eigen::Vector3d::Zero()};
     const auto before = arm.toolMotion(states, 0, nullptr), after = arm.toolMotion(states, 1, &own);
     ASSERT_TRUE(before && after);
     for (std::size_t t = 0; t < spec.targets.size(); ++t) {
@@ -76,22 +75,22 @@ TEST_P(AgainstTheSimulator, DeflectsTheSameWithFiniteRotations) {
 
 INSTANTIATE_TEST_SUITE_P(
     Mechanisms, AgainstTheSimulator,
-    testing::Values(Mechanism{"springs", Effect::bearing_tilt, [](SimulationSpec&, Eigen::VectorXd&) {}},
-                    Mechanism{"bearings", Effect::bearing_tilt,
-                              [](SimulationSpec& spec, Eigen::VectorXd& parameters) {
+    testing::Values(Mechanism{"springs", effects::Effect::bearing_tilt, [](simulation::SimulationSpec&, Eigen::VectorXd&) {}},
+                    Mechanism{"bearings", effects::Effect::bearing_tilt,
+                              [](simulation::SimulationSpec& spec, Eigen::VectorXd& parameters) {
                                 const std::array<double, 6> rates{5e7, 1.6e7, 1e7, 2e6, 6e5, 3e5};
                                 for (std::size_t j = 0; j < 6; ++j) {
                                   spec.machine.joints[j].bearing = rates[j];
                                   parameters[static_cast<Eigen::Index>(j)] = 1.0 / *spec.machine.joints[j].bearing;
                                 }
                               }},
-                    Mechanism{"link", Effect::link_compliance,
-                              [](SimulationSpec& spec, Eigen::VectorXd& parameters) {
+                    Mechanism{"link", effects::Effect::link_compliance,
+                              [](simulation::SimulationSpec& spec, Eigen::VectorXd& parameters) {
                                 spec.machine.links.push_back({1, 5e6, 4e6, std::nullopt, std::nullopt});
                                 parameters[2] = 1.0 / 5e6, parameters[3] = 1.0 / 4e6;
                               }},
-                    Mechanism{"base", Effect::base_compliance,
-                              [](SimulationSpec& spec, Eigen::VectorXd& parameters) {
+                    Mechanism{"base", effects::Effect::base_compliance,
+                              [](simulation::SimulationSpec& spec, Eigen::VectorXd& parameters) {
                                 spec.machine.base_rotation = Eigen::Vector3d(3e7, 2.5e7, 1e15);
                                 parameters[0] = 1.0 / 3e7, parameters[1] = 1.0 / 2.5e7;
                               }}),

@@ -7,13 +7,9 @@
 #include <fstream>
 #include <random>
 #include <regex>
-
-#include "core/input/eight_digits.h"
-#include "core/input/input_error.h"
-#include "core/input/nearest_name.h"
-#include "core/input/numbers.h"
-#include "core/input/utf8.h"
-#include "core/input/write_file.h"
+#include "core/io/numbers.h"
+#include "core/io/input_error.h"
+#include "core/io/write_file.h"
 #include "tests/core/small_campaign.h"
 
 namespace stiffscope {
@@ -26,21 +22,21 @@ std::string contentOf(const std::filesystem::path& file) {
 }
 
 TEST(NearestName, CountsEdits) {
-  EXPECT_EQ(editDistance("", "abc"), 3u);
-  EXPECT_EQ(editDistance("kitten", "sitting"), 3u);  // Wagner and Fischer's example
-  EXPECT_EQ(editDistance("flnage", "flange"), 1u);   // two neighbours swapped
-  EXPECT_EQ(editDistance("Robot", "robot"), 0u);
+  EXPECT_EQ(io::editDistance("", "abc"), 3u);
+  EXPECT_EQ(io::editDistance("kitten", "sitting"), 3u);  // Wagner and Fischer's example
+  EXPECT_EQ(io::editDistance("flnage", "flange"), 1u);   // two neighbours swapped
+  EXPECT_EQ(io::editDistance("Robot", "robot"), 0u);
 }
 
 TEST(NearestName, NamesOnlyWhatIsNear) {
   const std::vector<std::string> names{"link_compliance", "bearing_tilt", "x", "backlash"};
-  EXPECT_EQ(nearestName("link_complience", names), "link_compliance");
-  EXPECT_EQ(nearestName("baklash", names), "backlash");
-  EXPECT_EQ(nearestName("hysteresis", names), "");
-  EXPECT_EQ(nearestName("y", names), "");  // every letter differs
-  EXPECT_EQ(nearestName("", names), "");
-  EXPECT_EQ(nearestNameHint("bearingtilt", names), " (did you mean 'bearing_tilt'?)");
-  EXPECT_EQ(nearestNameHint("zzz", names), "");
+  EXPECT_EQ(io::nearestName("link_complience", names), "link_compliance");
+  EXPECT_EQ(io::nearestName("baklash", names), "backlash");
+  EXPECT_EQ(io::nearestName("hysteresis", names), "");
+  EXPECT_EQ(io::nearestName("y", names), "");  // every letter differs
+  EXPECT_EQ(io::nearestName("", names), "");
+  EXPECT_EQ(io::nearestNameHint("bearingtilt", names), " (did you mean 'bearing_tilt'?)");
+  EXPECT_EQ(io::nearestNameHint("zzz", names), "");
 }
 
 TEST(Numbers, AreReadWholeAndTheSameInEveryLocale) {
@@ -48,17 +44,17 @@ TEST(Numbers, AreReadWholeAndTheSameInEveryLocale) {
   const std::string restored = before;
   for (const char* locale : {"C", "de_DE.UTF-8"}) {
     std::setlocale(LC_NUMERIC, locale);  // where it is not installed nothing changes
-    EXPECT_EQ(parseNumber("-1.5e3").value, -1500.0);
-    EXPECT_EQ(parseNumber("+.5").value, 0.5);
-    EXPECT_NE(parseNumber("1,5").expectation, "");
+    EXPECT_EQ(io::parseNumber("-1.5e3").value, -1500.0);
+    EXPECT_EQ(io::parseNumber("+.5").value, 0.5);
+    EXPECT_NE(io::parseNumber("1,5").expectation, "");
   }
   std::setlocale(LC_NUMERIC, restored.c_str());
   for (const char* text :
        {"", " 1", "1 ", "+", "-", "+-1", "++1", "1.2.3", "1e", "inf", "NaN", "1e400", "0x10"}) {
-    EXPECT_NE(parseNumber(text).expectation, "") << text;
+    EXPECT_NE(io::parseNumber(text).expectation, "") << text;
   }
-  EXPECT_EQ(parseInteger("+7"), 7);
-  for (const char* text : {"", "7.0", "7a", "99999999999"}) EXPECT_FALSE(parseInteger(text)) << text;
+  EXPECT_EQ(io::parseInteger("+7"), 7);
+  for (const char* text : {"", "7.0", "7a", "99999999999"}) EXPECT_FALSE(io::parseInteger(text)) << text;
 }
 
 // The short way must give the very bits of the long one, wherever it gives a value at all.
@@ -70,57 +66,57 @@ TEST(Numbers, PlainOnesAreTheSameBitsAsByTheGeneralWay) {
     std::string text = std::to_string(random() % static_cast<std::uint64_t>(std::pow(10.0, 1.0 + static_cast<double>(random() % 15))));
     if (random() % 4 != 0) text.insert(random() % (text.size() + 1), ".");
     if (random() % 2 != 0) text.insert(0, "-");
-    const auto expected = std::bit_cast<std::uint64_t>(parseNumber(text).value);
-    ASSERT_EQ(std::bit_cast<std::uint64_t>(parsePlainNumber(text)), expected) << text;
+    const auto expected = std::bit_cast<std::uint64_t>(io::parseNumber(text).value);
+    ASSERT_EQ(std::bit_cast<std::uint64_t>(io::parsePlainNumber(text)), expected) << text;
     const std::string longer = text + behind[random() % std::size(behind)];
-    const double by_eight = parseEightAtOnce(std::string_view(longer).substr(0, text.size()));
+    const double by_eight = io::parseEightAtOnce(std::string_view(longer).substr(0, text.size()));
     if (std::regex_match(text, by_eight_form)) {
       ASSERT_EQ(std::bit_cast<std::uint64_t>(by_eight), expected) << longer;
     } else {
       ASSERT_TRUE(std::isnan(by_eight)) << longer;
     }
     const bool whole = std::regex_match(text, whole_form);
-    ASSERT_EQ(wholeEightAtOnce(std::string_view(longer).substr(0, text.size())), whole ? std::stoi(text) : -1) << longer;
+    ASSERT_EQ(io::wholeEightAtOnce(std::string_view(longer).substr(0, text.size())), whole ? std::stoi(text) : -1) << longer;
   }
-  EXPECT_EQ(std::signbit(parsePlainNumber("-0")), true);
+  EXPECT_EQ(std::signbit(io::parsePlainNumber("-0")), true);
   for (const char* text : {"", "-", ".", "-.", "1.2.3", "--1", "+1", "1e3", "1 ", "nan", "1234567890123456", "1,5"}) {
-    EXPECT_TRUE(std::isnan(parsePlainNumber(text))) << text;
+    EXPECT_TRUE(std::isnan(io::parsePlainNumber(text))) << text;
     for (const char* more : behind) {
       const std::string longer = std::string(text) + more;
-      EXPECT_TRUE(std::isnan(parseEightAtOnce(std::string_view(longer).substr(0, std::strlen(text))))) << longer;
-      EXPECT_EQ(wholeEightAtOnce(std::string_view(longer).substr(0, std::strlen(text))), -1) << longer;
+      EXPECT_TRUE(std::isnan(io::parseEightAtOnce(std::string_view(longer).substr(0, std::strlen(text))))) << longer;
+      EXPECT_EQ(io::wholeEightAtOnce(std::string_view(longer).substr(0, std::strlen(text))), -1) << longer;
     }
   }
 }
 
 TEST(InputErrorMessage, IsOneLineWhateverTheValueHolds) {
-  const InputError error({"a\nb.csv", 7, "x\tmm"}, std::string(78, 'v') + "\xC3\xBC\xC3\xBC",
+  const io::InputError error({"a\nb.csv", 7, "x\tmm"}, std::string(78, 'v') + "\xC3\xBC\xC3\xBC",
                          "expected\nthis");
   EXPECT_EQ(std::string(error.what()),
             "a?b.csv:7: x?mm: '" + std::string(78, 'v') + "\xC3\xBC...': expected?this");
-  EXPECT_EQ(std::string(InputError({"", 0, ""}, "\xE9\x1B[2J", "no").what()), "'??[2J': no");
+  EXPECT_EQ(std::string(io::InputError({"", 0, ""}, "\xE9\x1B[2J", "no").what()), "'??[2J': no");
 }
 
 TEST(Utf8, FindsTheFirstByteThatIsNone) {
-  EXPECT_EQ(findNotUtf8("a\xC3\xBC\xE2\x82\xAC\xF0\x9F\x98\x80"), std::string_view::npos);
-  EXPECT_EQ(findNotUtf8("ab\xFF"), 2u);
-  EXPECT_EQ(findNotUtf8("\xC0\x80"), 0u);          // longer than needed
-  EXPECT_EQ(findNotUtf8("\xED\xA0\x80"), 0u);      // a surrogate
-  EXPECT_EQ(findNotUtf8("\xF4\x90\x80\x80"), 0u);  // beyond the last character
-  EXPECT_EQ(findNotUtf8("a\xE2\x82"), 1u);         // cut short
+  EXPECT_EQ(io::findNotUtf8("a\xC3\xBC\xE2\x82\xAC\xF0\x9F\x98\x80"), std::string_view::npos);
+  EXPECT_EQ(io::findNotUtf8("ab\xFF"), 2u);
+  EXPECT_EQ(io::findNotUtf8("\xC0\x80"), 0u);          // longer than needed
+  EXPECT_EQ(io::findNotUtf8("\xED\xA0\x80"), 0u);      // a surrogate
+  EXPECT_EQ(io::findNotUtf8("\xF4\x90\x80\x80"), 0u);  // beyond the last character
+  EXPECT_EQ(io::findNotUtf8("a\xE2\x82"), 1u);         // cut short
 }
 
 TEST(WriteFile, ReplacesWholeFilesAndLeavesNothingBehind) {
   const TemporaryFolder folder;
   const auto file = folder.path() / "a.json";
-  writeFileWhole(file, "one");
-  writeFileWhole(file, "two");
+  io::writeFileWhole(file, "one");
+  io::writeFileWhole(file, "two");
   EXPECT_EQ(contentOf(file), "two");
   std::filesystem::create_symlink("a.json", folder.path() / "link");
-  writeFileWhole(folder.path() / "link", "three");
+  io::writeFileWhole(folder.path() / "link", "three");
   EXPECT_EQ(contentOf(file), "three");
   EXPECT_TRUE(std::filesystem::is_symlink(folder.path() / "link"));
-  writeFileWhole("/dev/null", "gone");
+  io::writeFileWhole("/dev/null", "gone");
   EXPECT_TRUE(std::filesystem::is_character_file("/dev/null"));
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 2);
 }
@@ -129,7 +125,7 @@ TEST(WriteFile, SaysWhichFileAndWhy) {
   const TemporaryFolder folder;
   const auto why = [](const std::filesystem::path& path) -> std::string {
     try {
-      writeFileWhole(path, "x");
+      io::writeFileWhole(path, "x");
     } catch (const std::runtime_error& error) {
       return error.what();
     }

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <sstream>
-
 #include "core/robot/read_urdf.h"
 #include "tests/core/chain_arm.h"
 
@@ -21,16 +20,16 @@ Vector6d anyPosture(Noise& noise) {
 TEST(Kinematics, AgainstJointFramesMultipliedOut) {
   Noise noise(1);
   const ChainArm chain = exampleChain().disturbed(noise, 0.1, 0.5);
-  const Robot arm = chain.robot();
+  const robot::Robot arm = chain.robot();
   const auto at_zero = chain.framesAt(Vector6d::Zero());
   for (int k = 0; k < 200; ++k) {
     const Vector6d q = anyPosture(noise);
-    const ArmPosture posture = postureAt(arm, q);
+    const robot::ArmPosture posture = robot::postureAt(arm, q);
     const auto frames = chain.framesAt(q);
-    EXPECT_LT(apart(flangeAt(arm, posture), frames[6]), 1e-13);  // rounding of six products
+    EXPECT_LT(apart(robot::flangeAt(arm, posture), frames[6]), 1e-13);  // rounding of six products
     for (std::size_t j = 0; j < 6; ++j) {
       EXPECT_LT(apart(posture.motion[j + 1] * at_zero[j], frames[j]), 1e-13);
-      const Line axis = axisAt(arm, posture, static_cast<int>(j));
+      const metrology::Line axis = robot::axisAt(arm, posture, static_cast<int>(j));
       EXPECT_LT((axis.direction - frames[j].linear() * chain.axis[j]).norm(), 1e-13);
       EXPECT_LT((axis.point - frames[j].translation()).norm(), 1e-13);
     }
@@ -63,10 +62,10 @@ TEST(Kinematics, AgainstAUrdfsTransforms) {
     }
   }
   urdf << "</robot>";
-  const Robot arm = parseUrdf(urdf.str(), "test.urdf", "l0", "l7");
+  const robot::Robot arm = robot::parseUrdf(urdf.str(), "test.urdf", "l0", "l7");
   for (int k = 0; k < 50; ++k) {
     const Vector6d q = anyPosture(noise);
-    EXPECT_LT(apart(flangeAt(arm, postureAt(arm, q)), chain.flangeAt(q)), 1e-13);
+    EXPECT_LT(apart(robot::flangeAt(arm, robot::postureAt(arm, q)), chain.flangeAt(q)), 1e-13);
   }
 }
 
@@ -85,7 +84,7 @@ TEST(Kinematics, AgainstDenavitHartenberg) {
   // The example arm in DH numbers, worked out by hand from its drawing: offsets of theta bring DH's zero to
   // it.
   constexpr double kQuarter = std::numbers::pi / 2.0;
-  const Robot arm = exampleChain().robot();
+  const robot::Robot arm = exampleChain().robot();
   Noise noise(3);
   for (int k = 0; k < 100; ++k) {
     const Vector6d q = anyPosture(noise);
@@ -94,7 +93,7 @@ TEST(Kinematics, AgainstDenavitHartenberg) {
     const Eigen::Matrix4d flange = dh(q[0], 0.94, 0.41, kQuarter) * dh(kQuarter - q[1], 0, 1.12, 0) *
                                    dh(q[2], 0, 0.25, kQuarter) * dh(-q[3], 1.285, 0, -kQuarter) *
                                    dh(q[4], 0, 0, kQuarter) * dh(-q[5], 0.3, 0, 0);
-    const Eigen::Isometry3d found = flangeAt(arm, postureAt(arm, q));
+    const Eigen::Isometry3d found = robot::flangeAt(arm, robot::postureAt(arm, q));
     EXPECT_LT((found.translation() - flange.topRightCorner<3, 1>()).norm(), 1e-13);
     // The flange's z is along z5 both ways; its x and y are those of DH up to a fixed turn about it.
     EXPECT_LT((found.linear().col(2) - flange.block<3, 1>(0, 2)).norm(), 1e-13);
@@ -110,12 +109,12 @@ TEST(Kinematics, AgainstDenavitHartenberg) {
 TEST(Jacobian, AgainstFiniteDifferencesOfTheChain) {
   Noise noise(4);
   const ChainArm chain = exampleChain().disturbed(noise, 0.1, 0.5);
-  const Robot arm = chain.robot();
+  const robot::Robot arm = chain.robot();
   constexpr double kStep = 1e-6;
   for (int k = 0; k < 50; ++k) {
     const Vector6d q = anyPosture(noise);
     const Eigen::Vector3d in_flange = 0.3 * noise.normal3();
-    const Matrix6d jacobian = jacobianAt(arm, postureAt(arm, q), chain.flangeAt(q) * in_flange);
+    const Matrix6d jacobian = robot::jacobianAt(arm, robot::postureAt(arm, q), chain.flangeAt(q) * in_flange);
     for (int j = 0; j < 6; ++j) {
       const Eigen::Isometry3d ahead = chain.flangeAt(q + kStep * Vector6d::Unit(j));
       const Eigen::Isometry3d behind = chain.flangeAt(q - kStep * Vector6d::Unit(j));

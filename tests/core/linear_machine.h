@@ -1,9 +1,8 @@
 #pragma once
-
 #include "core/identification/complete_pose.h"
 #include "core/identification/decoupled_partial_pose.h"
 #include "core/identification/partial_pose.h"
-#include "core/identification/wrist_move.h"
+#include "core/identification/equations.h"
 #include "tests/core/simulated_lab.h"
 
 namespace stiffscope {
@@ -15,8 +14,8 @@ struct LinearMachine {
   Vector6d compliance = exampleCompliance();
   std::vector<Eigen::Vector3d> targets_in_flange{{0.28, 0.05, 0.12}, {-0.17, 0.27, 0.08}, {-0.1, -0.3, 0.21}};
   Eigen::Vector3d wrench_in_flange{0.02, -0.05, 0.3};  ///< where the wrench acts
-  LoadingGeometry geometry;
-  std::vector<LoadCase> cases;
+  frames::LoadingGeometry geometry;
+  std::vector<identification::LoadCase> cases;
   std::vector<double> radii;
   Eigen::Vector3d wrist_at_zero;
 
@@ -42,11 +41,11 @@ struct LinearMachine {
     const Eigen::Vector3d point = before * wrench_in_flange;
     const Vector6d turned = q + compliance.cwiseProduct(chain.torqueOf(q, 6, point, force, moment));
     const Eigen::Isometry3d after = chain.flangeAt(turned);
-    LoadCase one;
+    identification::LoadCase one;
     one.pose = static_cast<int>(cases.size());
     one.step = 1;
     one.q = one.q_sagged = q;
-    one.axes = axesAt(geometry.arm, postureAt(geometry.arm, q));
+    one.axes = robot::axesAt(geometry.arm, robot::postureAt(geometry.arm, q));
     one.wrench = {point, force, moment};
     for (std::size_t k = 0; k < targets_in_flange.size(); ++k) {
       one.targets.push_back(
@@ -58,40 +57,40 @@ struct LinearMachine {
     cases.push_back(one);
   }
 
-  std::vector<Vector6d> torques() const { return jointTorques(cases); }
+  std::vector<Vector6d> torques() const { return identification::jointTorques(cases); }
 
-  std::vector<CaseEquations> reflectorEquations() const {
-    std::vector<CaseEquations> equations;
+  std::vector<identification::CaseEquations> reflectorEquations() const {
+    std::vector<identification::CaseEquations> equations;
     const auto torque = torques();
     for (std::size_t i = 0; i < cases.size(); ++i)
-      equations.push_back(partialPoseEquations(cases[i], torque[i]));
+      equations.push_back(identification::partialPoseEquations(cases[i], torque[i]));
     return equations;
   }
-  std::vector<CaseEquations> poseEquations(const Eigen::Vector3d& tcp_in_flange = {0, 0, 0}) const {
-    std::vector<CaseEquations> equations;
+  std::vector<identification::CaseEquations> poseEquations(const Eigen::Vector3d& tcp_in_flange = {0, 0, 0}) const {
+    std::vector<identification::CaseEquations> equations;
     const auto torque = torques();
     for (std::size_t i = 0; i < cases.size(); ++i) {
-      equations.push_back(completePoseEquations(cases[i], tcp_in_flange, torque[i]));
+      equations.push_back(identification::completePoseEquations(cases[i], tcp_in_flange, torque[i]));
     }
     return equations;
   }
-  WristMove wristMoveOf(const LoadCase& one) const {
-    return wristMove(one, radii, modelledWrist(geometry.arm, one, wrist_at_zero)).value();
+  identification::WristMove wristMoveOf(const identification::LoadCase& one) const {
+    return identification::wristMove(one, radii, identification::modelledWrist(geometry.arm, one, wrist_at_zero)).value();
   }
-  std::vector<CaseEquations> wristEquationsOfAll() const {
-    std::vector<CaseEquations> equations;
+  std::vector<identification::CaseEquations> wristEquationsOfAll() const {
+    std::vector<identification::CaseEquations> equations;
     const auto torque = torques();
     for (std::size_t i = 0; i < cases.size(); ++i) {
-      equations.push_back(wristEquations(cases[i], wristMoveOf(cases[i]), torque[i]));
+      equations.push_back(identification::wristEquations(cases[i], wristMoveOf(cases[i]), torque[i]));
     }
     return equations;
   }
 };
 
-inline constexpr JointMask kAllJoints{true, true, true, true, true, true};
+inline constexpr robot::JointMask kAllJoints{true, true, true, true, true, true};
 
 /// Largest relative error of the compliances of `joints`.
-inline double worstError(const Vector6d& found, const Vector6d& truth, const JointMask& joints = kAllJoints) {
+inline double worstError(const Vector6d& found, const Vector6d& truth, const robot::JointMask& joints = kAllJoints) {
   double worst = 0.0;
   for (int j = 0; j < 6; ++j) {
     if (joints[static_cast<std::size_t>(j)]) worst = std::max(worst, std::abs(found[j] / truth[j] - 1.0));

@@ -7,20 +7,20 @@
 namespace stiffscope {
 namespace {
 
-TEST(NoiseShare, AgreesWithMonteCarlo) {
+TEST(identification::NoiseShare, AgreesWithMonteCarlo) {
   // The same tracker noise drawn many times: what it puts into the norm of displacements, at reflectors and
   // at P_wrist.
   LinearMachine machine(6, 1.0);
   machine.geometry.r0_from_loading = Eigen::Isometry3d::Identity();
-  Campaign campaign;
-  campaign.tracker = Tracker{"", 4e-6, 0.6e-6, 6e-6, 2.2e-6, {4.0, -2.0, 0.5}};
-  std::vector<WristMove> moves;
-  for (LoadCase& one : machine.cases) {
-    for (TargetMove& move : one.targets) move.unloaded_readings = 1, move.loaded_readings = 3;
+  campaign::Campaign campaign;
+  campaign.tracker = campaign::Tracker{"", 4e-6, 0.6e-6, 6e-6, 2.2e-6, {4.0, -2.0, 0.5}};
+  std::vector<identification::WristMove> moves;
+  for (identification::LoadCase& one : machine.cases) {
+    for (identification::TargetMove& move : one.targets) move.unloaded_readings = 1, move.loaded_readings = 3;
     moves.push_back(machine.wristMoveOf(one));
   }
   const auto stated =
-      noiseShare(campaign, machine.geometry, machine.cases, moves, machine.radii, machine.wrist_at_zero);
+      identification::noiseShare(campaign, machine.geometry, machine.cases, moves, machine.radii, machine.wrist_at_zero);
   ASSERT_TRUE(stated);
 
   Noise noise(6);
@@ -33,15 +33,15 @@ TEST(NoiseShare, AgreesWithMonteCarlo) {
   };
   for (int k = 0; k < kDraws; ++k) {
     for (std::size_t i = 0; i < machine.cases.size(); ++i) {
-      LoadCase noisy = machine.cases[i];
-      for (TargetMove& move : noisy.targets) {
+      identification::LoadCase noisy = machine.cases[i];
+      for (identification::TargetMove& move : noisy.targets) {
         const Eigen::Vector3d clean = move.displacement();
         move.unloaded += drawAt(move.unloaded, 1);
         move.loaded += drawAt(move.loaded, 3);
         target_error += (move.displacement() - clean).norm();
         target_whole += clean.norm();
       }
-      const WristMove moved = machine.wristMoveOf(noisy);
+      const identification::WristMove moved = machine.wristMoveOf(noisy);
       wrist_error += (moved.displacement() - moves[i].displacement()).norm();
       wrist_whole += moves[i].displacement().norm();
     }
@@ -52,16 +52,16 @@ TEST(NoiseShare, AgreesWithMonteCarlo) {
   EXPECT_NEAR(*stated->at_wrist, wrist_error / wrist_whole, 0.08 * *stated->at_wrist);
 }
 
-TEST(NoiseShare, NeedsATrackerAndAbsolutePoints) {
+TEST(identification::NoiseShare, NeedsATrackerAndAbsolutePoints) {
   LinearMachine machine(2, 1.0);
   machine.geometry.r0_from_loading = Eigen::Isometry3d::Identity();
-  Campaign campaign;
+  campaign::Campaign campaign;
   EXPECT_FALSE(
-      noiseShare(campaign, machine.geometry, machine.cases, {}, machine.radii, machine.wrist_at_zero));
-  campaign.tracker = Tracker{};
+      identification::noiseShare(campaign, machine.geometry, machine.cases, {}, machine.radii, machine.wrist_at_zero));
+  campaign.tracker = campaign::Tracker{};
   machine.cases.front().absolute = false;
   EXPECT_FALSE(
-      noiseShare(campaign, machine.geometry, machine.cases, {}, machine.radii, machine.wrist_at_zero));
+      identification::noiseShare(campaign, machine.geometry, machine.cases, {}, machine.radii, machine.wrist_at_zero));
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "core/identification/outlying_postures.h"
+#include "core/identification/outliers.h"
 
 #include <gtest/gtest.h>
 
@@ -8,16 +8,16 @@
 namespace stiffscope {
 namespace {
 
-constexpr JointMask kThree{false, true, true, true, false, false};
+constexpr robot::JointMask kThree{false, true, true, true, false, false};
 
-std::vector<CaseEquations> postures(int count) {
+std::vector<identification::CaseEquations> postures(int count) {
   std::mt19937_64 random(3);
   std::normal_distribution<double> normal;
   Vector6d truth = Vector6d::Zero();
   truth.segment<3>(1) << 2.0, 1.0, 3.0;
-  std::vector<CaseEquations> equations;
+  std::vector<identification::CaseEquations> equations;
   for (int p = 0; p < count; ++p) {
-    CaseEquations one;
+    identification::CaseEquations one;
     one.matrix = Eigen::MatrixXd::NullaryExpr(9, 6, [&] { return normal(random); });
     one.right = one.matrix * truth + 0.1 * Eigen::VectorXd::NullaryExpr(9, [&] { return normal(random); });
     one.posture = p;
@@ -26,35 +26,35 @@ std::vector<CaseEquations> postures(int count) {
   return equations;
 }
 
-double rms(const std::vector<CaseEquations>& equations, const Vector6d& compliance) {
+double rms(const std::vector<identification::CaseEquations>& equations, const Vector6d& compliance) {
   double sum = 0.0, count = 0.0;
-  for (const CaseEquations& one : equations) {
+  for (const identification::CaseEquations& one : equations) {
     sum += (one.right - one.matrix * compliance).squaredNorm();
     count += static_cast<double>(one.right.size());
   }
   return std::sqrt(sum / count);
 }
 
-TEST(OutlyingPostures, OfSoundOnesAreNone) { EXPECT_TRUE(outlyingPostures(postures(40), kThree).empty()); }
+TEST(OutlyingPostures, OfSoundOnesAreNone) { EXPECT_TRUE(identification::outlyingPostures(postures(40), kThree).empty()); }
 
 TEST(OutlyingPostures, AreJudgedByTheFitToTheOthers) {
-  std::vector<CaseEquations> equations = postures(40);
+  std::vector<identification::CaseEquations> equations = postures(40);
   equations[7].right.array() += 1.0;
   equations[21].right.array() -= 3.0;
-  const std::vector<OutlyingPosture> found = outlyingPostures(equations, kThree);
+  const std::vector<identification::OutlyingPosture> found = identification::outlyingPostures(equations, kThree);
   ASSERT_EQ(found.size(), 2u);
   EXPECT_EQ(found[0].posture, 21);
   EXPECT_EQ(found[1].posture, 7);
 
   // By hand: least squares of all others, the second without the first too.
-  std::vector<CaseEquations> others;
-  NormalEquations sum;
-  for (const CaseEquations& one : equations) {
+  std::vector<identification::CaseEquations> others;
+  identification::NormalEquations sum;
+  for (const identification::CaseEquations& one : equations) {
     if (one.posture == 21 || one.posture == 7) continue;
     others.push_back(one);
-    sum += normalEquations(one);
+    sum += identification::normalEquations(one);
   }
-  const Vector6d compliance = solveNormal(sum, kThree);
+  const Vector6d compliance = identification::solveNormal(sum, kThree);
   EXPECT_NEAR(found[1].rms, rms({equations[7]}, compliance), 1e-9);  // rounding of sums that one posture is taken from
   EXPECT_NEAR(found[1].others, rms(others, compliance), 1e-9);
   EXPECT_LT(found[1].p_value, 1e-3);

@@ -1,4 +1,4 @@
-#include "core/simulation/posture_spacing.h"
+#include "core/simulation/postures.h"
 
 #include <gtest/gtest.h>
 
@@ -30,12 +30,12 @@ double squaredByHand(const Vector6d& a, const Vector6d& b) {
   return sum;
 }
 
-TEST(PostureSpacing, WithoutAnyIsInfinite) {
-  EXPECT_EQ(PostureSpacing(kLow, kHigh).squaredToNearest(kLow, 0.0), std::numeric_limits<double>::infinity());
+TEST(simulation::PostureSpacing, WithoutAnyIsInfinite) {
+  EXPECT_EQ(simulation::PostureSpacing(kLow, kHigh).squaredToNearest(kLow, 0.0), std::numeric_limits<double>::infinity());
 }
 
-TEST(PostureSpacing, IsTheLeastOfAllDistances) {
-  PostureSpacing spacing(kLow, kHigh);
+TEST(simulation::PostureSpacing, IsTheLeastOfAllDistances) {
+  simulation::PostureSpacing spacing(kLow, kHigh);
   std::vector<Vector6d> before;
   std::mt19937_64 random(3);
   for (int n = 0; n < 600; ++n) {

@@ -2,7 +2,6 @@
 
 #include <cstdio>
 #include <map>
-
 #include "core/frames/displacement_uncertainty.h"
 #include "core/frames/frames.h"
 #include "metrology/trilateration.h"
@@ -37,10 +36,10 @@ SimulatedLab propagationLab() {
   return lab;
 }
 
-Campaign sweptOver(const SimulatedLab& lab, double arc_deg) {
-  Campaign campaign = lab.empty();
-  campaign.tracker = Tracker{"", kAlong, 0.0, kAcross, 0.0, Eigen::Vector3d::Zero()};
-  campaign.circle_sweeps = CircleSweeps{"circle_sweeps.csv", PointFrame::tracker, {}};
+campaign::Campaign sweptOver(const SimulatedLab& lab, double arc_deg) {
+  campaign::Campaign campaign = lab.empty();
+  campaign.tracker = campaign::Tracker{"", kAlong, 0.0, kAcross, 0.0, Eigen::Vector3d::Zero()};
+  campaign.circle_sweeps = campaign::CircleSweeps{"circle_sweeps.csv", campaign::PointFrame::tracker, {}};
   constexpr int kStops = 13;
   for (int axis = 0; axis < 6; ++axis) {
     for (int stop = 0; stop < kStops; ++stop) {
@@ -61,7 +60,7 @@ Eigen::Vector3d read(const Eigen::Vector3d& point, double scale, Noise& noise) {
   return (1.0 + scale) * point + noise.draw(seenFromOrigin(point, kAlong, kAcross));
 }
 
-Campaign measuredAnew(Campaign campaign, double scale, Noise& noise) {
+campaign::Campaign measuredAnew(campaign::Campaign campaign, double scale, Noise& noise) {
   for (auto& reading : campaign.circle_sweeps->rows) reading.point = read(reading.point, scale, noise);
   for (auto& reading : campaign.wrist_sweep->rows) reading.point = read(reading.point, scale, noise);
   return campaign;
@@ -89,12 +88,12 @@ class Coverage {
   std::map<std::string, int> inside_;
 };
 
-FrameError errorOfR0(const Frames& truth, const Frames& found) {
-  return frameError(truth.arm.r0_from_points.inverse(), found.arm.r0_from_points.inverse());
+metrology::FrameError errorOfR0(const frames::Frames& truth, const frames::Frames& found) {
+  return metrology::frameError(truth.arm.r0_from_points.inverse(), found.arm.r0_from_points.inverse());
 }
 
-void addGeometry(const Frames& truth, const Frames& found, Coverage& coverage) {
-  using At = FramesCovariance;
+void addGeometry(const frames::Frames& truth, const frames::Frames& found, Coverage& coverage) {
+  using At = frames::FramesCovariance;
   const Eigen::MatrixXd total = found.covariance.total(kScale);
   const auto block = [&](Eigen::Index at, Eigen::Index size) { return total.block(at, at, size, size); };
   coverage.add("R0", errorOfR0(truth, found), block(At::kR0, 6));
@@ -128,9 +127,9 @@ StatePoints stateAt(const SimulatedLab& lab, const Vector6d& q) {
 }
 
 /// The same as measured with these frames, each a mean of `readings` readings.
-std::array<MeanReading, 3> readState(const StatePoints& points, const Frames& frames, int readings, double scale,
+std::array<frames::MeanReading, 3> readState(const StatePoints& points, const frames::Frames& frames, int readings, double scale,
                                      Noise& noise) {
-  std::array<MeanReading, 3> state;
+  std::array<frames::MeanReading, 3> state;
   for (std::size_t k = 0; k < 3; ++k) {
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
     for (int i = 0; i < readings; ++i) sum += read(points[k], scale, noise);
@@ -139,11 +138,11 @@ std::array<MeanReading, 3> readState(const StatePoints& points, const Frames& fr
   return state;
 }
 
-TrilateratedState trilaterated(const std::array<MeanReading, 3>& reflectors, const std::vector<double>& radii,
+frames::TrilateratedState trilaterated(const std::array<frames::MeanReading, 3>& reflectors, const std::vector<double>& radii,
                                const Eigen::Vector3d& expected) {
-  const auto both = trilaterate({reflectors[0].in_r0, reflectors[1].in_r0, reflectors[2].in_r0},
+  const auto both = metrology::trilaterate({reflectors[0].in_r0, reflectors[1].in_r0, reflectors[2].in_r0},
                                 {radii[0], radii[1], radii[2]});
-  return {reflectors, nearerRoot(both.value(), expected)};
+  return {reflectors, metrology::nearerRoot(both.value(), expected)};
 }
 
 struct Day {
@@ -151,7 +150,7 @@ struct Day {
   Eigen::Vector3d wrist_a0, wrist_a1;  // in the true R0
 };
 
-Day dayOf(const SimulatedLab& lab, const Frames& truth) {
+Day dayOf(const SimulatedLab& lab, const frames::Frames& truth) {
   // Displacements of about a metre: noise and what is common weigh alike.
   const Vector6d a0 = degrees(10, -10, -20, 40, 60, 30), a1 = degrees(-20, -2, -26, 20, 35, 40),
                  a2 = degrees(35, 5, -35, 70, 50, 10), b0 = degrees(-30, 15, -5, -60, 70, -50),
@@ -163,11 +162,11 @@ Day dayOf(const SimulatedLab& lab, const Frames& truth) {
 }
 
 struct Stated {
-  DisplacementUncertainty uncertainty;
+  frames::DisplacementUncertainty uncertainty;
   Eigen::Vector3d error;
 };
 
-void addTogether(const std::string& what, const std::vector<Stated>& all, const CommonTerms& common,
+void addTogether(const std::string& what, const std::vector<Stated>& all, const frames::CommonTerms& common,
                  Coverage& coverage) {
   const auto size = static_cast<Eigen::Index>(3 * all.size());
   Eigen::VectorXd error(size);
@@ -177,15 +176,15 @@ void addTogether(const std::string& what, const std::vector<Stated>& all, const 
     error.segment<3>(row) = all[i].error;
     for (std::size_t j = 0; j < all.size(); ++j) {
       covariance.block<3, 3>(row, static_cast<Eigen::Index>(3 * j)) =
-          covarianceBetween(all[i].uncertainty, all[j].uncertainty, common);
+          frames::covarianceBetween(all[i].uncertainty, all[j].uncertainty, common);
     }
   }
   coverage.add(what, error, covariance);
 }
 
-void addDisplacements(const Day& day, const Frames& truth, const Frames& found, double scale, Noise& noise,
+void addDisplacements(const Day& day, const frames::Frames& truth, const frames::Frames& found, double scale, Noise& noise,
                       Coverage& coverage, Coverage& without_common) {
-  const LoadingReadings how{trackerNoise({"", kAlong, 0.0, kAcross, 0.0, Eigen::Vector3d::Zero()}),
+  const frames::LoadingReadings how{frames::trackerNoise({"", kAlong, 0.0, kAcross, 0.0, Eigen::Vector3d::Zero()}),
                             found.arm.r0_from_points, 3};
   const auto state = [&](const StatePoints& points, int readings) {
     return readState(points, found, readings, scale, noise);
@@ -194,38 +193,38 @@ void addDisplacements(const Day& day, const Frames& truth, const Frames& found, 
   const auto moved = [&](int pose, int step, std::size_t k, const auto& from, const auto& to, const StatePoints& true_from,
                          const StatePoints& true_to) {
     const Eigen::Vector3d d = truth.arm.r0_from_points.linear() * (true_to[k] - true_from[k]);
-    return Stated{reflectorDisplacement(how, pose, step, from[k], to[k]), to[k].in_r0 - from[k].in_r0 - d};
+    return Stated{frames::reflectorDisplacement(how, pose, step, from[k], to[k]), to[k].in_r0 - from[k].in_r0 - d};
   };
   const Stated first = moved(0, 1, 0, a0, a1, day.a0, day.a1), later = moved(0, 2, 0, a0, a2, day.a0, day.a2),
                other = moved(1, 1, 1, b0, b1, day.b0, day.b1);
-  const CommonTerms common = commonTerms(found.covariance, kScale);
+  const frames::CommonTerms common = frames::commonTerms(found.covariance, kScale);
   addTogether("a displacement", {first}, common, coverage);
   addTogether("two displacements from one step 0", {first, later}, common, coverage);
   addTogether("displacements of two poses", {first, other}, common, coverage);
   addTogether("three displacements", {first, later, other}, common, coverage);
 
-  const TrilateratedState from = trilaterated(a0, found.wrist.radii, day.wrist_a0),
+  const frames::TrilateratedState from = trilaterated(a0, found.wrist.radii, day.wrist_a0),
                           to = trilaterated(a1, found.wrist.radii, day.wrist_a1);
-  const Stated wrist{wristDisplacement(how, 0, 1, from, to).value(),
+  const Stated wrist{frames::wristDisplacement(how, 0, 1, from, to).value(),
                      to.wrist_in_r0 - from.wrist_in_r0 - (day.wrist_a1 - day.wrist_a0)};
   addTogether("P_wrist's displacement", {wrist}, common, coverage);
   addTogether("P_wrist's and a reflector's displacement", {wrist, first}, common, coverage);
 
-  CommonTerms none = common;
+  frames::CommonTerms none = common;
   none.covariance.setZero();
   addTogether("three displacements", {first, later, other}, none, without_common);
 }
 
 void expectCoverage(double arc_deg) {
   const SimulatedLab lab = propagationLab();
-  const Campaign clean = sweptOver(lab, arc_deg);
-  const Frames truth = measureFrames(clean);
+  const campaign::Campaign clean = sweptOver(lab, arc_deg);
+  const frames::Frames truth = frames::measureFrames(clean);
   const Day day = dayOf(lab, truth);
   Noise noise(static_cast<std::uint64_t>(arc_deg));
   Coverage coverage, without_common;
   for (int k = 0; k < kDraws; ++k) {
     const double scale = kScale * noise.normal();
-    const Frames found = measureFrames(measuredAnew(clean, scale, noise));
+    const frames::Frames found = frames::measureFrames(measuredAnew(clean, scale, noise));
     ASSERT_TRUE(found.arm.points_placed && found.wrist.measured);
     addGeometry(truth, found, coverage);
     addDisplacements(day, truth, found, scale, noise, coverage, without_common);
@@ -240,20 +239,20 @@ TEST(PropagationCoverage, SweepsOver90Degrees) { expectCoverage(90.0); }
 TEST(PropagationCoverage, FullTurns) { expectCoverage(360.0); }
 
 TEST(Propagation, ConsecutiveLinksShareAnAxis) {
-  const Frames frames = measureFrames(sweptOver(propagationLab(), 40.0));
+  const frames::Frames frames = frames::measureFrames(sweptOver(propagationLab(), 40.0));
   const auto& total = frames.covariance.readings;
-  const Eigen::Index one = FramesCovariance::kDistances, two = one + 1;
+  const Eigen::Index one = frames::FramesCovariance::kDistances, two = one + 1;
   EXPECT_GT(std::abs(total(one, two)) / std::sqrt(total(one, one) * total(two, two)), 0.05);
   EXPECT_NEAR(*frames.links[1].distance_sd, std::sqrt(total(two, two)), 1e-15);
   EXPECT_EQ(frames.links[1].distance_sag_sd, 0.0);
 }
 
 TEST(Propagation, NothingIsStatedWhereR0IsNotPlaced) {
-  Campaign campaign = sweptOver(propagationLab(), 90.0);
-  std::erase_if(campaign.circle_sweeps->rows, [](const CircleReading& reading) { return reading.axis == 1; });
-  const Frames frames = measureFrames(campaign);
+  campaign::Campaign campaign = sweptOver(propagationLab(), 90.0);
+  std::erase_if(campaign.circle_sweeps->rows, [](const campaign::CircleReading& reading) { return reading.axis == 1; });
+  const frames::Frames frames = frames::measureFrames(campaign);
   EXPECT_TRUE(frames.covariance.total().isZero());
-  for (const LinkGeometry& link : frames.links) EXPECT_FALSE(link.distance_sd);
+  for (const frames::LinkGeometry& link : frames.links) EXPECT_FALSE(link.distance_sd);
 }
 
 TEST(Propagation, StiffnessesOfTheSagByMonteCarlo) {
@@ -262,14 +261,14 @@ TEST(Propagation, StiffnessesOfTheSagByMonteCarlo) {
   SimulatedLab lab = propagationLab();
   lab.nominal = lab.actual = exampleChain();
   lab.compliance = exampleCompliance();
-  Campaign campaign = sweptOver(lab, 90.0);
-  for (CircleReading& reading : campaign.circle_sweeps->rows) reading.point = lab.seen(lab.settled(reading.q), static_cast<std::size_t>(reading.target));
-  for (WristReading& reading : campaign.wrist_sweep->rows) reading.point = lab.seen(lab.settled(reading.q), static_cast<std::size_t>(reading.target));
+  campaign::Campaign campaign = sweptOver(lab, 90.0);
+  for (campaign::CircleReading& reading : campaign.circle_sweeps->rows) reading.point = lab.seen(lab.settled(reading.q), static_cast<std::size_t>(reading.target));
+  for (campaign::WristReading& reading : campaign.wrist_sweep->rows) reading.point = lab.seen(lab.settled(reading.q), static_cast<std::size_t>(reading.target));
   Matrix6d half = Matrix6d(0.05 * exampleCompliance().asDiagonal());
   half(1, 0) = half(2, 1) = -0.03 * exampleCompliance()[1];
-  Frames start = measureFrames(campaign);
-  for (int round = 0; round < 2; ++round) start = refineFrames(campaign, start, lab.compliance);
-  const Frames stated = refineFrames(campaign, start, lab.compliance, Matrix6d(half * half.transpose()));
+  frames::Frames start = frames::measureFrames(campaign);
+  for (int round = 0; round < 2; ++round) start = frames::refineFrames(campaign, start, lab.compliance);
+  const frames::Frames stated = frames::refineFrames(campaign, start, lab.compliance, Matrix6d(half * half.transpose()));
 
   Noise noise(9);
   constexpr int kSagDraws = 400;
@@ -277,14 +276,14 @@ TEST(Propagation, StiffnessesOfTheSagByMonteCarlo) {
   for (int k = 0; k < kSagDraws; ++k) {
     Vector6d z;
     for (int joint = 0; joint < 6; ++joint) z[joint] = noise.normal();
-    const Frames found = refineFrames(campaign, start, lab.compliance + half * z);
+    const frames::Frames found = frames::refineFrames(campaign, start, lab.compliance + half * z);
     Eigen::Matrix<double, 10, 1> off;
     off << errorOfR0(stated, found), found.links[1].distance - stated.links[1].distance,
         found.wrist.centre_in_r0 - stated.wrist.centre_in_r0;
     squares += off.cwiseAbs2();
   }
-  expected << stated.covariance.sag.diagonal().head<6>(), stated.covariance.sag(FramesCovariance::kDistances + 1, FramesCovariance::kDistances + 1),
-      stated.covariance.sag.diagonal().segment<3>(FramesCovariance::kWristCentre);
+  expected << stated.covariance.sag.diagonal().head<6>(), stated.covariance.sag(frames::FramesCovariance::kDistances + 1, frames::FramesCovariance::kDistances + 1),
+      stated.covariance.sag.diagonal().segment<3>(frames::FramesCovariance::kWristCentre);
   for (int i = 0; i < 10; ++i) {
     const double drawn = std::sqrt(squares[i] / kSagDraws), by_law = std::sqrt(expected[i]);
     EXPECT_NEAR(by_law, drawn, 0.12 * drawn + 1e-9) << i;  // 1 nm and 1 nrad: nothing moves it

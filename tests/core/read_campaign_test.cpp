@@ -5,9 +5,8 @@
 #include <cmath>
 #include <fstream>
 #include <numbers>
-
-#include "core/input/input_error.h"
-#include "core/input/sha256.h"
+#include "core/io/input_error.h"
+#include "core/io/read_file.h"
 #include "tests/core/small_campaign.h"
 
 namespace stiffscope {
@@ -31,15 +30,15 @@ std::string shown(const std::vector<std::string>& warnings) {
 
 TEST(ReadCampaign, ReadsEverySectionInSi) {
   const SmallCampaign files;
-  const CampaignReading reading = readCampaign(files.folder());
+  const campaign::CampaignReading reading = campaign::readCampaign(files.folder());
   EXPECT_TRUE(reading.warnings.empty()) << shown(reading.warnings);
-  const Campaign& c = reading.campaign;
+  const campaign::Campaign& c = reading.campaign;
   EXPECT_EQ(c.name, "small");
   EXPECT_EQ(c.date, "2026-01-02");
   EXPECT_EQ(c.texts.laboratory, "Force & Motion");
   EXPECT_EQ(c.texts.operator_name, "O");
   EXPECT_EQ(c.texts.conditions, "20 degC");
-  EXPECT_EQ(c.double_encoder, DoubleEncoder::active);
+  EXPECT_EQ(c.double_encoder, campaign::DoubleEncoder::active);
   EXPECT_EQ(c.gravity_in_base, Eigen::Vector3d(0, 0, -9.80665));
   ASSERT_TRUE(c.tracker);
   EXPECT_NEAR(c.tracker->angle_per_m, 2.2e-6, kRounding);
@@ -55,7 +54,7 @@ TEST(ReadCampaign, ReadsEverySectionInSi) {
 
 TEST(ReadCampaign, ReadsEveryTableInSi) {
   const SmallCampaign files;
-  const Campaign c = readCampaign(files.folder() / "campaign.xml").campaign;
+  const campaign::Campaign c = campaign::readCampaign(files.folder() / "campaign.xml").campaign;
   ASSERT_EQ(c.circle_sweeps->rows.size(), 3u);
   EXPECT_EQ(c.circle_sweeps->rows[2].axis, 5);
   EXPECT_EQ(c.circle_sweeps->rows[1].target, 1);
@@ -70,7 +69,7 @@ TEST(ReadCampaign, ReadsEveryTableInSi) {
   EXPECT_EQ(c.states->rows[2].pose, 1);
   EXPECT_EQ(c.states->rows[1].wrench_in_cell[0], -538.428);
   EXPECT_EQ(c.states->rows[1].wrench_in_cell[5], -11.28);
-  EXPECT_EQ(c.displacements->frame, PointFrame::base_link);
+  EXPECT_EQ(c.displacements->frame, campaign::PointFrame::base_link);
   EXPECT_NEAR(c.displacements->rows[0].displacement.x(), -0.686e-3, kRounding);
   EXPECT_EQ(c.nest_ids, (std::vector<std::string>{"N1", "N2"}));
   EXPECT_EQ(c.nests->rows[1].time_s, 2.0);
@@ -78,13 +77,13 @@ TEST(ReadCampaign, ReadsEveryTableInSi) {
 
 TEST(ReadCampaign, ListsItsFilesWithTheHashOfTheirBytes) {
   const SmallCampaign files;
-  const Campaign c = readCampaign(files.folder()).campaign;
+  const campaign::Campaign c = campaign::readCampaign(files.folder()).campaign;
   ASSERT_EQ(c.inputs.size(), 8u);
   EXPECT_EQ(c.inputs[0].name, "campaign.xml");
   EXPECT_EQ(c.inputs[1].name, "robot.urdf");
-  for (const InputFile& input : c.inputs) EXPECT_EQ(input.sha256, sha256Hex(files.read(input.name)));
+  for (const campaign::InputFile& input : c.inputs) EXPECT_EQ(input.sha256, io::sha256Hex(files.read(input.name)));
   // FIPS 180-4 example.
-  EXPECT_EQ(sha256Hex("abc"), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
+  EXPECT_EQ(io::sha256Hex("abc"), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
 }
 
 TEST(ReadCampaign, TakesColumnsInAnyOrderWithCrlfMarkBlankLinesQuotesAndPlus) {
@@ -92,7 +91,7 @@ TEST(ReadCampaign, TakesColumnsInAnyOrderWithCrlfMarkBlankLinesQuotesAndPlus) {
   files.write(
       "nests.csv",
       "\xEF\xBB\xBFz_mm, nest ,y_mm,x_mm,time_s\r\n\r\n+3,\"N 1\",2,1e3,+0.5\r\n \r\n3,N2,2,-1,1\r\n");
-  const CampaignReading reading = readCampaign(files.folder());
+  const campaign::CampaignReading reading = campaign::readCampaign(files.folder());
   EXPECT_TRUE(reading.warnings.empty()) << shown(reading.warnings);
   const auto& rows = reading.campaign.nests->rows;
   ASSERT_EQ(rows.size(), 2u);
@@ -106,7 +105,7 @@ TEST(ReadCampaign, NeedsNoSectionButTheRobot) {
   files.write("campaign.xml",
               "<campaign format=\"1\" name=\"\" date=\"\"><robot urdf=\"robot.urdf\" base_link=\"base\" "
               "flange_link=\"flange\" double_encoder=\"unspecified\" gravity_m_s2=\"0 9.8 0\"/></campaign>");
-  const CampaignReading reading = readCampaign(files.folder());
+  const campaign::CampaignReading reading = campaign::readCampaign(files.folder());
   EXPECT_TRUE(reading.warnings.empty()) << shown(reading.warnings);
   EXPECT_FALSE(reading.campaign.tracker || reading.campaign.loading || reading.campaign.tool);
   EXPECT_EQ(reading.campaign.gravity_in_base.y(), 9.8);
@@ -115,7 +114,7 @@ TEST(ReadCampaign, NeedsNoSectionButTheRobot) {
 TEST(ReadCampaign, LoadCellAxesReplaceItsRotation) {
   const SmallCampaign files;
   files.alter("campaign.xml", "rpy_deg=\"0 0 90\"", "rpy_deg=\"0 0 90\" axes=\"base\"");
-  const Campaign c = readCampaign(files.folder()).campaign;
+  const campaign::Campaign c = campaign::readCampaign(files.folder()).campaign;
   EXPECT_EQ(c.load_cell->axes_link, "base");
   EXPECT_TRUE(c.load_cell->parent_from_cell.linear().isIdentity(0.0));
 }
@@ -152,7 +151,7 @@ TEST(ReadCampaign, WarnsInOneLineAndReadsOn) {
   for (const Warned& test : cases) {
     const SmallCampaign files;
     files.alter(test.file, test.find, test.replace);
-    const auto warnings = readCampaign(files.folder()).warnings;
+    const auto warnings = campaign::readCampaign(files.folder()).warnings;
     EXPECT_EQ(warnings.size(), 1u) << test.message << "\n" << shown(warnings);
     EXPECT_TRUE(anyContains(warnings, test.message)) << test.message << "\n" << shown(warnings);
   }
@@ -163,7 +162,7 @@ TEST(ReadCampaign, WarnsOfAnglesInRadians) {
   std::string rows = "index,target,q1_deg,q2_deg,q3_deg,q4_deg,q5_deg,q6_deg,x_mm,y_mm,z_mm\n";
   for (int i = 0; i < 10; ++i) rows += std::to_string(i) + ",P10,0,0,0,3.1,-1.2,0,1,2,3\n";
   files.write("wrist_sweep.csv", rows);
-  EXPECT_TRUE(anyContains(readCampaign(files.folder()).warnings, "were they written in radians?"));
+  EXPECT_TRUE(anyContains(campaign::readCampaign(files.folder()).warnings, "were they written in radians?"));
 }
 
 TEST(ReadCampaign, ReadsALargeTableInLinearTime) {
@@ -174,10 +173,10 @@ TEST(ReadCampaign, ReadsALargeTableInLinearTime) {
   for (int i = 0; i < kRows; ++i)
     rows += "A,0," + std::to_string(i) + ",P10,1078.0,2136.9015,156.1428,412.2275\n";
   files.write("loading.csv", rows);
-  const auto read = readCampaign(files.folder()).campaign.loading->rows;
+  const auto read = campaign::readCampaign(files.folder()).campaign.loading->rows;
   ASSERT_EQ(read.size(), static_cast<std::size_t>(kRows));
   for (int i = 0; i < kRows; ++i) {
-    const LoadingReading& row = read[static_cast<std::size_t>(i)];
+    const campaign::LoadingReading& row = read[static_cast<std::size_t>(i)];
     ASSERT_TRUE(row.repeat == std::to_string(i) && row.point.z() == read[0].point.z()) << row.line;
   }
 }
@@ -193,13 +192,13 @@ TEST(ReadCampaign, FindsARepeatedKeyFarApartInAnyOrder) {
     };
     for (int i = 0; i < kRows; ++i) row(i);
     files.write("loading.csv", rows);
-    EXPECT_EQ(readCampaign(files.folder()).campaign.loading->rows.size(), static_cast<std::size_t>(kRows));
+    EXPECT_EQ(campaign::readCampaign(files.folder()).campaign.loading->rows.size(), static_cast<std::size_t>(kRows));
     row(repeated);
     files.write("loading.csv", rows);
     try {
-      readCampaign(files.folder());
+      campaign::readCampaign(files.folder());
       ADD_FAILURE() << "read a key twice";
-    } catch (const InputError& error) {
+    } catch (const io::InputError& error) {
       EXPECT_EQ(error.place().line, static_cast<std::size_t>(kRows + 2));
       EXPECT_EQ(error.expectation(), "expected a key that does not repeat; line " + std::to_string(repeated + 2) +
                                          " has it first");
@@ -221,8 +220,8 @@ TEST(ReadCampaign, ReadsThePracticeAndRealCampaigns) {
   for (const char* group : {"practice", "real"}) {
     for (const auto& entry : std::filesystem::directory_iterator(shared / group)) {
       if (!entry.is_directory()) continue;
-      const CampaignReading reading = readCampaign(entry.path());
-      const Campaign& c = reading.campaign;
+      const campaign::CampaignReading reading = campaign::readCampaign(entry.path());
+      const campaign::Campaign& c = reading.campaign;
       const auto expectRows = [&](const auto& table) {
         if (!table) return;
         EXPECT_EQ(table->rows.size(), rowsIn(entry.path() / table->file));

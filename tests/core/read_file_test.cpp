@@ -1,4 +1,4 @@
-#include "core/input/read_file.h"
+#include "core/io/read_file.h"
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>
@@ -8,12 +8,10 @@
 #include <fstream>
 #include <locale>
 #include <thread>
-
-#include "core/campaign/campaign_files.h"
 #include "core/campaign/read_campaign.h"
-#include "core/input/csv_lines.h"
-#include "core/input/input_error.h"
-#include "core/input/xml_node.h"
+#include "core/io/csv.h"
+#include "core/io/input_error.h"
+#include "core/io/xml.h"
 #include "tests/core/small_campaign.h"
 
 namespace stiffscope {
@@ -25,14 +23,14 @@ template <class Read>
 std::string whyRefusedBy(const Read& read) {
   try {
     read();
-  } catch (const InputError& error) {
+  } catch (const io::InputError& error) {
     return error.expectation();
   }
   return "";
 }
 
-std::string whyRefused(const fs::path& file, std::size_t largest = kLargestTable) {
-  return whyRefusedBy([&] { readTextFile(file, largest); });
+std::string whyRefused(const fs::path& file, std::size_t largest = io::kLargestTable) {
+  return whyRefusedBy([&] { io::readTextFile(file, largest); });
 }
 
 TEST(ReadFile, RefusesWhatIsNoFile) {
@@ -52,7 +50,7 @@ TEST(ReadFile, RefusesAFileOfTwoGigabytesBeforeItIsInMemory) {
   fs::resize_file(file, std::uintmax_t{2} << 30);
   EXPECT_EQ(whyRefused(file), "expected a file of at most 1024 MiB; this one has 2048");
   fs::resize_file(file, 17 << 20);
-  EXPECT_EQ(whyRefused(file, kLargestXml), "expected a file of at most 16 MiB; this one has 17");
+  EXPECT_EQ(whyRefused(file, io::kLargestXml), "expected a file of at most 16 MiB; this one has 17");
 }
 
 // Somebody appends without a pause while the file is read again and again: some reading must notice.
@@ -72,11 +70,11 @@ TEST(ReadFile, NoticesAFileThatChangesWhileItIsRead) {
   EXPECT_EQ(why, "expected a file that stays as it is; it changed while it was read");
 }
 
-TEST(CampaignFiles, NoticesAFileThatChangesBeforeTheLastIsRead) {
+TEST(campaign::CampaignFiles, NoticesAFileThatChangesBeforeTheLastIsRead) {
   const SmallCampaign files;
-  CampaignFiles reading(files.folder());
+  campaign::CampaignFiles reading(files.folder());
   reading.readXml();
-  reading.read({"nests.csv", "file", 1}, kLargestTable);
+  reading.read({"nests.csv", "file", 1}, io::kLargestTable);
   EXPECT_EQ(whyRefusedBy([&] { reading.requireUnchanged(); }), "");
   files.write("nests.csv", files.read("nests.csv") + "3.0,N1,1,2,3\n");
   EXPECT_EQ(whyRefusedBy([&] { reading.requireUnchanged(); }),
@@ -85,8 +83,8 @@ TEST(CampaignFiles, NoticesAFileThatChangesBeforeTheLastIsRead) {
 
 TEST(ReadCampaign, NamesItsInputsWithoutHashesWhereTheseAreNotWanted) {
   const SmallCampaign files;
-  const std::vector<InputFile> hashed = readCampaign(files.folder()).campaign.inputs;
-  const std::vector<InputFile> named = readCampaign(files.folder(), Hashes::left).campaign.inputs;
+  const std::vector<campaign::InputFile> hashed = campaign::readCampaign(files.folder()).campaign.inputs;
+  const std::vector<campaign::InputFile> named = campaign::readCampaign(files.folder(), campaign::Hashes::left).campaign.inputs;
   ASSERT_EQ(named.size(), hashed.size());
   for (std::size_t i = 0; i < named.size(); ++i) {
     EXPECT_EQ(named[i].name, hashed[i].name);
@@ -96,13 +94,13 @@ TEST(ReadCampaign, NamesItsInputsWithoutHashesWhereTheseAreNotWanted) {
 }
 
 std::vector<std::vector<std::string>> linesOf(std::string_view bytes) {
-  CsvLines lines("t.csv", bytes);
+  io::CsvLines lines("t.csv", bytes);
   std::vector<std::vector<std::string>> all;
   for (std::vector<std::string_view> cells; lines.next(cells);) all.emplace_back(cells.begin(), cells.end());
   return all;
 }
 
-TEST(CsvLines, EndsLinesAtLfCrlfAndCr) {
+TEST(io::CsvLines, EndsLinesAtLfCrlfAndCr) {
   const std::vector<std::vector<std::string>> expected{{"a", "b"}, {"1", "2"}, {"3", ""}};
   EXPECT_EQ(linesOf("a,b\n1,2\n3,\n"), expected);
   EXPECT_EQ(linesOf("a,b\r\n1,2\r\n3,"), expected);
@@ -110,13 +108,13 @@ TEST(CsvLines, EndsLinesAtLfCrlfAndCr) {
   EXPECT_EQ(linesOf("\xEF\xBB\xBF" "a,b\r\r\n\n 1 ,\t2\n3, \r"), expected);
 }
 
-TEST(CsvLines, UnquotesCells) {
+TEST(io::CsvLines, UnquotesCells) {
   const std::vector<std::vector<std::string>> expected{{"a,b", "say \"x\"", "", "5\""}};
   EXPECT_EQ(linesOf("\"a,b\" , \"say \"\"x\"\"\",\"\",5\""), expected);
 }
 
 // A mark may fall on each of the 64 places that are looked at together, and so may the end of the text.
-TEST(CsvLines, CutsTheSameWhereverACellStarts) {
+TEST(io::CsvLines, CutsTheSameWhereverACellStarts) {
   for (const std::string end : {"\n", "\r\n", "\r", "\n \t\n"}) {
     for (std::size_t size = 0; size < 140; ++size) {
       const std::string name(size, 'x');
@@ -129,11 +127,11 @@ TEST(CsvLines, CutsTheSameWhereverACellStarts) {
 }
 
 // The cells of a line stand where those of the line before stood.
-TEST(CsvLines, GivesEachLineItsOwnCellsAndNothingBehindTheLast) {
+TEST(io::CsvLines, GivesEachLineItsOwnCellsAndNothingBehindTheLast) {
   const std::vector<std::vector<std::string>> expected{{"a", "b", "c"}, {"1"}, {"", ""}, {"2", "3", "4", "5"}, {"x,"}, {"6"}};
   EXPECT_EQ(linesOf("a,b,c\n1\n,\n\n2,3,4,5\n\"x,\"\n6\n"), expected);
   for (const std::string_view bytes : {"1\n", "1\n\n\n", "1\n\n \n", "1", "1\n\n2"}) {
-    CsvLines lines("t.csv", bytes);
+    io::CsvLines lines("t.csv", bytes);
     std::vector<std::string_view> cells;
     while (lines.next(cells)) EXPECT_EQ(cells.size(), 1u);
     EXPECT_FALSE(lines.next(cells)) << bytes;
@@ -141,7 +139,7 @@ TEST(CsvLines, GivesEachLineItsOwnCellsAndNothingBehindTheLast) {
 }
 
 // The cost of a line must not grow with the rest of the file, whatever its ends.
-TEST(CsvLines, ReadsManyShortLinesOfEveryEndInLinearTime) {
+TEST(io::CsvLines, ReadsManyShortLinesOfEveryEndInLinearTime) {
   for (const std::string end : {"\n", "\r\n", "\r"}) {
     std::string bytes;
     for (int i = 0; i < 500000; ++i) bytes += "1" + end;
@@ -158,10 +156,10 @@ struct CommaPunctuation : std::numpunct<char> {
 
 TEST(ReadCampaign, IsTheSameInALocaleWithDecimalCommas) {
   const SmallCampaign files;
-  const Campaign plain = readCampaign(files.folder()).campaign;
+  const campaign::Campaign plain = campaign::readCampaign(files.folder()).campaign;
   const std::locale before = std::locale::global(std::locale(std::locale(), new CommaPunctuation));
   std::setlocale(LC_NUMERIC, "de_DE.UTF-8");  // where it is installed
-  const Campaign comma = readCampaign(files.folder()).campaign;
+  const campaign::Campaign comma = campaign::readCampaign(files.folder()).campaign;
   std::locale::global(before);
   std::setlocale(LC_NUMERIC, "C");
   EXPECT_EQ(plain.loading->rows[1].point, comma.loading->rows[1].point);
@@ -169,11 +167,11 @@ TEST(ReadCampaign, IsTheSameInALocaleWithDecimalCommas) {
   EXPECT_EQ(plain.robot.base_from_flange_at_zero.matrix(), comma.robot.base_from_flange_at_zero.matrix());
 }
 
-TEST(XmlFile, KnowsTheFiveReferencesOfXmlAndCharacters) {
-  const XmlFile xml("x.xml", "<a b=\"&lt;&amp;&#65;&#x42;\"><!-- &c; --><![CDATA[&d;]]></a>");
+TEST(io::XmlFile, KnowsTheFiveReferencesOfXmlAndCharacters) {
+  const io::XmlFile xml("x.xml", "<a b=\"&lt;&amp;&#65;&#x42;\"><!-- &c; --><![CDATA[&d;]]></a>");
   EXPECT_EQ(xml.root().requiredAttribute("b"), "<&AB");
   for (const char* text : {"<a>&file;</a>", "<a b=\"&x;\"/>", "<a>A & B</a>", "<a>&#;</a>", "<a>&</a>", "<a>&amp</a>"}) {
-    EXPECT_EQ(whyRefusedBy([&] { XmlFile("x.xml", text); }),
+    EXPECT_EQ(whyRefusedBy([&] { io::XmlFile("x.xml", text); }),
               "expected &amp; for an ampersand; XML without a document type has no entities of its own");
   }
 }

@@ -1,10 +1,9 @@
-#include "core/fit_points/read_points.h"
+#include "core/io/read_points.h"
 
 #include <gtest/gtest.h>
 
 #include <fstream>
-
-#include "core/input/input_error.h"
+#include "core/io/input_error.h"
 
 namespace stiffscope {
 namespace {
@@ -19,8 +18,8 @@ std::filesystem::path written(const std::string& text) {
 /// What is said of a file that cannot be read; empty where it can.
 std::string refusal(const std::string& text) {
   try {
-    readPoints(written(text));
-  } catch (const InputError& error) {
+    io::readPoints(written(text));
+  } catch (const io::InputError& error) {
     return error.what();
   }
   return {};
@@ -32,7 +31,7 @@ void expectSays(const std::string& text, const std::vector<std::string>& parts) 
 }
 
 TEST(ReadPoints, BlanksTabsCommasAndSemicolons) {
-  const auto points = readPoints(written("\xEF\xBB\xBF# a comment\r\n1 2 3\r\n\r\n4\t5\t6 # more\n7,8,9\n-1e-3; 2.5 ;3\n"));
+  const auto points = io::readPoints(written("\xEF\xBB\xBF# a comment\r\n1 2 3\r\n\r\n4\t5\t6 # more\n7,8,9\n-1e-3; 2.5 ;3\n"));
   ASSERT_EQ(points.size(), 4u);
   EXPECT_EQ(points[0], Eigen::Vector3d(1, 2, 3));
   EXPECT_EQ(points[1], Eigen::Vector3d(4, 5, 6));
@@ -42,15 +41,15 @@ TEST(ReadPoints, BlanksTabsCommasAndSemicolons) {
 
 TEST(ReadPoints, AnyLineEnd) {
   for (const char* const bytes : {"1 2 3\n4 5 6\n", "1 2 3\r\n4 5 6\r\n", "1 2 3\r4 5 6\r", "1 2 3\r4 5 6"}) {
-    const auto points = parsePoints(bytes, "p.txt");
+    const auto points = io::parsePoints(bytes, "p.txt");
     ASSERT_EQ(points.size(), 2u);
     EXPECT_EQ(points[1], Eigen::Vector3d(4, 5, 6));
   }
 }
 
 TEST(ReadPoints, AFirstLineWithTheCount) {
-  EXPECT_EQ(readPoints(written("2\n1 2 3\n4 5 6\n")).size(), 2u);
-  EXPECT_EQ(readPoints(written("\n# head\n 2 \n1 2 3\n4 5 6")).size(), 2u);
+  EXPECT_EQ(io::readPoints(written("2\n1 2 3\n4 5 6\n")).size(), 2u);
+  EXPECT_EQ(io::readPoints(written("\n# head\n 2 \n1 2 3\n4 5 6")).size(), 2u);
 }
 
 TEST(ReadPoints, ACountThatIsNotTheirs) {
@@ -75,7 +74,7 @@ TEST(ReadPoints, NoNumberAndNotFinite) {
 TEST(ReadPoints, AHeaderLineIsRefusedInItsWords) {
   expectSays("x,y,z\n1,2,3\n", {":1", "x", "no header line, or one that begins with #"});
   expectSays("\"x\",\"y\"\n", {"no header line"});
-  EXPECT_EQ(readPoints(written("# x y z\n1 2 3\n")).size(), 1u);
+  EXPECT_EQ(io::readPoints(written("# x y z\n1 2 3\n")).size(), 1u);
   // Further down it is a wrong number like any other.
   EXPECT_EQ(refusal("1 2 3\nx y z\n").find("header"), std::string::npos);
 }
@@ -93,7 +92,7 @@ TEST(ReadPoints, Empty) {
 }
 
 TEST(ReadPoints, AFileThatIsNotThere) {
-  EXPECT_THROW(readPoints(std::filesystem::path(testing::TempDir()) / "no such file"), InputError);
+  EXPECT_THROW(io::readPoints(std::filesystem::path(testing::TempDir()) / "no such file"), io::InputError);
 }
 
 }  // namespace

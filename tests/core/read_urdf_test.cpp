@@ -4,9 +4,8 @@
 
 #include <limits>
 #include <numbers>
-
-#include "core/input/input_error.h"
-#include "core/input/roll_pitch_yaw.h"
+#include "core/io/input_error.h"
+#include "core/robot/kinematics.h"
 
 namespace stiffscope {
 namespace {
@@ -52,17 +51,17 @@ const char* const kRobot = R"(<?xml version="1.0"?>
 </robot>
 )";
 
-Robot odd() { return parseUrdf(kRobot, "odd.urdf", "base", "tool0"); }
+robot::Robot odd() { return robot::parseUrdf(kRobot, "odd.urdf", "base", "tool0"); }
 
-const LinkFrame& link(const Robot& robot, const std::string& name) {
-  for (const LinkFrame& frame : robot.links) {
+const robot::LinkFrame& link(const robot::Robot& robot, const std::string& name) {
+  for (const robot::LinkFrame& frame : robot.links) {
     if (frame.name == name) return frame;
   }
   throw std::out_of_range(name);
 }
 
 TEST(ReadUrdf, PlacesAxesInTheBaseAtZero) {
-  const Robot robot = odd();
+  const robot::Robot robot = odd();
   EXPECT_EQ(robot.name, "odd");
   EXPECT_EQ(robot.joint_names[3], "j4");
   const auto expectAxis = [&](std::size_t i, const Eigen::Vector3d& point, const Eigen::Vector3d& direction) {
@@ -80,7 +79,7 @@ TEST(ReadUrdf, PlacesAxesInTheBaseAtZero) {
 }
 
 TEST(ReadUrdf, ReadsLimits) {
-  const Robot robot = odd();
+  const robot::Robot robot = odd();
   EXPECT_EQ(robot.limits[0].lower, -std::numeric_limits<double>::infinity());
   EXPECT_EQ(robot.limits[0].upper, std::numeric_limits<double>::infinity());
   EXPECT_EQ(robot.limits[1].lower, -1.0);
@@ -89,7 +88,7 @@ TEST(ReadUrdf, ReadsLimits) {
 }
 
 TEST(ReadUrdf, ListsTheLinksThatMoveWithTheChain) {
-  const Robot robot = odd();
+  const robot::Robot robot = odd();
   EXPECT_EQ(robot.links.size(), 11u);  // all but finger and wheel
   EXPECT_EQ(link(robot, "world").body, 0);
   EXPECT_NEAR(link(robot, "world").base_from_link_at_zero.translation().z(), 1.0, kRounding);
@@ -100,7 +99,7 @@ TEST(ReadUrdf, ListsTheLinksThatMoveWithTheChain) {
 }
 
 TEST(ReadUrdf, LumpsTheMassesThatAreFixedTogether) {
-  const Robot robot = odd();
+  const robot::Robot robot = odd();
   EXPECT_EQ(robot.bodies[1].mass_kg, 100.0);
   EXPECT_NEAR((robot.bodies[1].com_in_base_at_zero - Eigen::Vector3d(0.1, 0, 0.5)).norm(), 0, kRounding);
   EXPECT_EQ(robot.bodies[2].mass_kg, 0.0);
@@ -171,9 +170,9 @@ TEST(ReadUrdf, RefusesWhatIsNoChainOfSixJoints) {
     ASSERT_NE(at, std::string::npos) << test.find;
     text.replace(at, std::string(test.find).size(), test.replace);
     try {
-      parseUrdf(text, "odd.urdf", "base", "tool0");
+      robot::parseUrdf(text, "odd.urdf", "base", "tool0");
       ADD_FAILURE() << "read on instead of: " << test.message;
-    } catch (const InputError& error) {
+    } catch (const io::InputError& error) {
       const std::string what = error.what();
       EXPECT_NE(what.find(test.message), std::string::npos)
           << "expected: " << test.message << "\ngot: " << what;
@@ -185,8 +184,8 @@ TEST(ReadUrdf, RefusesWhatIsNoChainOfSixJoints) {
 TEST(ReadUrdf, RefusesLinksThatAreNotOnOneChain) {
   const auto why = [](const char* base, const char* flange) -> std::string {
     try {
-      parseUrdf(kRobot, "odd.urdf", base, flange);
-    } catch (const InputError& error) {
+      robot::parseUrdf(kRobot, "odd.urdf", base, flange);
+    } catch (const io::InputError& error) {
       return error.what();
     }
     return "";
@@ -204,14 +203,14 @@ TEST(ReadUrdf, RefusesLinksThatAreNotOnOneChain) {
 TEST(RollPitchYaw, TurnsAboutFixedAxesInThatOrder) {
   const double quarter = std::numbers::pi / 2;
   // Roll takes y to z, then yaw leaves z: by hand from R = Rz Ry Rx.
-  const Eigen::Matrix3d r = rotationFromRpy({quarter, 0, quarter});
+  const Eigen::Matrix3d r = robot::rotationFromRpy({quarter, 0, quarter});
   EXPECT_NEAR((r * Eigen::Vector3d::UnitY() - Eigen::Vector3d::UnitZ()).norm(), 0, kRounding);
   EXPECT_NEAR((r * Eigen::Vector3d::UnitX() - Eigen::Vector3d::UnitY()).norm(), 0, kRounding);
   for (const Eigen::Vector3d& rpy :
        {Eigen::Vector3d(0.1, -0.2, 3), Eigen::Vector3d(3, quarter, -1), Eigen::Vector3d(1, -quarter, 2)}) {
-    const Eigen::Matrix3d once = rotationFromRpy(rpy);
+    const Eigen::Matrix3d once = robot::rotationFromRpy(rpy);
     // At +-90 deg the cosine of the pitch keeps 1e-16, which the square root of rounding makes 1e-8 at worst.
-    EXPECT_NEAR((rotationFromRpy(rpyFromRotation(once)) - once).norm(), 0, 1e-8);
+    EXPECT_NEAR((robot::rotationFromRpy(robot::rpyFromRotation(once)) - once).norm(), 0, 1e-8);
   }
 }
 

@@ -3,10 +3,8 @@
 #include <filesystem>
 #include <fstream>
 #include <sstream>
-
 #include "core/campaign/read_campaign.h"
-#include "core/input/input_error.h"
-#include "core/input/one_line.h"
+#include "core/io/input_error.h"
 #include "tests/core/rejected_campaigns.h"
 #include "tests/core/small_campaign.h"
 
@@ -26,7 +24,7 @@ void change(const SmallCampaign& files, const Rejected& test) {
 /// A text of any length as it can stand in a table of Markdown.
 std::string cell(const std::string& text) {
   std::string shown;
-  for (const char c : oneLine(text, 100)) shown += c == '|' ? std::string("\\|") : std::string(1, c);
+  for (const char c : io::oneLine(text, 100)) shown += c == '|' ? std::string("\\|") : std::string(1, c);
   return shown;
 }
 
@@ -39,16 +37,16 @@ std::string listed(const Rejected& test, const SmallCampaign& files, std::string
   const std::string what = test.find == nullptr  ? "no such file"
                            : *test.find == '\0' ? "all of it `" + cell(test.replace) + "`"
                                                 : "`" + cell(test.find) + "` became `" + cell(test.replace) + "`";
-  return "| " + std::string(test.file) + " | " + what + " | " + oneLine(message, 1000) + " |\n";
+  return "| " + std::string(test.file) + " | " + what + " | " + io::oneLine(message, 1000) + " |\n";
 }
 
 std::string expectRejected(const Rejected& test) {
   const SmallCampaign files;
   change(files, test);
   try {
-    readCampaign(files.folder());
+    campaign::readCampaign(files.folder());
     ADD_FAILURE() << "read on instead of: " << test.message;
-  } catch (const InputError& error) {
+  } catch (const io::InputError& error) {
     const std::string text = error.what();
     EXPECT_NE(text.find(test.message), std::string::npos)
         << "expected: " << test.message << "\ngot: " << text;
@@ -84,8 +82,8 @@ TEST(RejectCampaign, NamesTheForcesThatStandWhereAnglesBelong) {
   EXPECT_THROW(
       {
         try {
-          readCampaign(files.folder());
-        } catch (const InputError& error) {
+          campaign::readCampaign(files.folder());
+        } catch (const io::InputError& error) {
           EXPECT_EQ(error.place().line, 3u);
           EXPECT_EQ(error.place().column, "q1_deg");
           EXPECT_EQ(error.value(), "-1342.240");
@@ -93,7 +91,7 @@ TEST(RejectCampaign, NamesTheForcesThatStandWhereAnglesBelong) {
           throw;
         }
       },
-      InputError);
+      io::InputError);
 }
 
 TEST(RejectCampaign, FollowsNoLinkOutOfTheFolderButTakesOneWithin) {
@@ -102,23 +100,23 @@ TEST(RejectCampaign, FollowsNoLinkOutOfTheFolderButTakesOneWithin) {
   std::filesystem::rename(files.folder() / "nests.csv", elsewhere.path() / "nests.csv");
   std::filesystem::create_symlink(elsewhere.path() / "nests.csv", files.folder() / "nests.csv");
   try {
-    readCampaign(files.folder());
+    campaign::readCampaign(files.folder());
     ADD_FAILURE() << "read a file outside the folder";
-  } catch (const InputError& error) {
+  } catch (const io::InputError& error) {
     EXPECT_EQ(error.expectation(), "expected a file inside the campaign's folder; a link leads out of it");
   }
   std::filesystem::remove(files.folder() / "nests.csv");
   std::filesystem::copy_file(elsewhere.path() / "nests.csv", files.folder() / "real.csv");
   std::filesystem::create_symlink("real.csv", files.folder() / "nests.csv");
-  EXPECT_EQ(readCampaign(files.folder().string() + "/").campaign.nests->rows.size(), 2u);
+  EXPECT_EQ(campaign::readCampaign(files.folder().string() + "/").campaign.nests->rows.size(), 2u);
 }
 
 TEST(RejectCampaign, NamesAFolderThatIsNotThere) {
   const TemporaryFolder folder;
   try {
-    readCampaign(folder.path() / "none");
+    campaign::readCampaign(folder.path() / "none");
     ADD_FAILURE();
-  } catch (const InputError& error) {
+  } catch (const io::InputError& error) {
     EXPECT_EQ(error.what(), (folder.path() / "none").string() +
                                 ": expected a campaign folder or its campaign.xml; there is none");
   }
@@ -134,8 +132,8 @@ TEST(RejectCampaign, NoticesATableCutShortAnywhere) {
     if (size > header_end + 1 && whole[size - 1] == '\n') continue;
     files.write("states.csv", whole.substr(0, size));
     try {
-      EXPECT_FALSE(readCampaign(files.folder()).warnings.empty()) << "first " << size << " bytes";
-    } catch (const InputError& error) {
+      EXPECT_FALSE(campaign::readCampaign(files.folder()).warnings.empty()) << "first " << size << " bytes";
+    } catch (const io::InputError& error) {
       EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
     }
   }

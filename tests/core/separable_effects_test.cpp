@@ -1,25 +1,25 @@
-#include "core/diagnosis/separable_effects.h"
+#include "core/audit/check_design.h"
 
 #include <gtest/gtest.h>
 
 namespace stiffscope {
 namespace {
 
-AuditReport withPostureSet() {
-  AuditReport report;
-  AuditCheck check;
+audit::AuditReport withPostureSet() {
+  audit::AuditReport report;
+  preparation::AuditCheck check;
   check.id = "posture_set";
   report.checks.push_back(check);
   return report;
 }
 
 TEST(SeparableEffects, AreAddedToThePostureSet) {
-  Diagnosis diagnosis;
+  diagnosis::Diagnosis diagnosis;
   diagnosis.usable = true;
-  diagnosis.aliases = {{Effect::bearing_tilt, Effect::link_compliance}};
-  diagnosis.not_testable = {{Effect::hysteresis, "no return to zero"}};
-  AuditReport report = withPostureSet();
-  addSeparableEffects(diagnosis, report);
+  diagnosis.aliases = {{effects::Effect::bearing_tilt, effects::Effect::link_compliance}};
+  diagnosis.not_testable = {{effects::Effect::hysteresis, "no return to zero"}};
+  audit::AuditReport report = withPostureSet();
+  audit::addSeparableEffects(diagnosis, report);
   const auto& details = report.checks[0].details;
   ASSERT_EQ(details.size(), 3u);
   EXPECT_NE(details[0].find("base_compliance, joint_coupling"), std::string::npos) << details[0];
@@ -30,8 +30,8 @@ TEST(SeparableEffects, AreAddedToThePostureSet) {
 }
 
 TEST(SeparableEffects, NothingWithoutADiagnosis) {
-  AuditReport report = withPostureSet();
-  addSeparableEffects(Diagnosis{}, report);
+  audit::AuditReport report = withPostureSet();
+  audit::addSeparableEffects(diagnosis::Diagnosis{}, report);
   EXPECT_TRUE(report.checks[0].details.empty());
 }
 

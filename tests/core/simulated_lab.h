@@ -3,7 +3,6 @@
 #include <functional>
 #include <string>
 #include <vector>
-
 #include "core/campaign/campaign.h"
 #include "tests/core/chain_arm.h"
 
@@ -56,21 +55,21 @@ struct SimulatedLab {
     return (Vector6d() << cell.linear().transpose() * force, cell.linear().transpose() * moment).finished();
   }
 
-  Campaign empty() const {
-    Campaign campaign;
+  campaign::Campaign empty() const {
+    campaign::Campaign campaign;
     campaign.name = "simulated";
     campaign.robot = nominal.robot();
     campaign.base_link = "base_link";
     campaign.flange_link = "tool0";
     for (std::size_t k = 0; k < targets_in_flange.size(); ++k)
       campaign.targets.push_back({"P1" + std::to_string(k), {}});
-    campaign.load_cell = LoadCell{"tool0", flange_from_cell, {}, 0.0, 0.0};
+    campaign.load_cell = campaign::LoadCell{"tool0", flange_from_cell, {}, 0.0, 0.0};
     return campaign;
   }
 
-  void addCircleSweeps(Campaign& campaign) const {
+  void addCircleSweeps(campaign::Campaign& campaign) const {
     // Axis 1 with the arm at zero; the others as a lab has the arm, axis 1 turned to face the tracker.
-    campaign.circle_sweeps = CircleSweeps{"circle_sweeps.csv", PointFrame::tracker, {}};
+    campaign.circle_sweeps = campaign::CircleSweeps{"circle_sweeps.csv", campaign::PointFrame::tracker, {}};
     constexpr int kStops = 9;
     for (int axis = 0; axis < 6; ++axis) {
       const Vector6d start =
@@ -86,8 +85,8 @@ struct SimulatedLab {
     }
   }
 
-  void addWristSweep(Campaign& campaign) const {
-    campaign.wrist_sweep = WristSweep{"wrist_sweep.csv", PointFrame::tracker, {}};
+  void addWristSweep(campaign::Campaign& campaign) const {
+    campaign.wrist_sweep = campaign::WristSweep{"wrist_sweep.csv", campaign::PointFrame::tracker, {}};
     Noise noise(5);
     for (int i = 0; i < 30; ++i) {
       const Vector6d q = degrees(10, 5, -8, 120 * (2 * noise.uniform() - 1), 80 * (2 * noise.uniform() - 1),
@@ -100,9 +99,9 @@ struct SimulatedLab {
   }
 
   /// Loads every posture by `force`, in the base's axes.
-  void addLoading(Campaign& campaign, int postures, const std::function<Eigen::Vector3d(int)>& force) const {
-    campaign.loading = Loading{"loading.csv", PointFrame::tracker, {}};
-    campaign.states = States{"states.csv", PointFrame::tracker, {}};
+  void addLoading(campaign::Campaign& campaign, int postures, const std::function<Eigen::Vector3d(int)>& force) const {
+    campaign.loading = campaign::Loading{"loading.csv", campaign::PointFrame::tracker, {}};
+    campaign.states = campaign::States{"states.csv", campaign::PointFrame::tracker, {}};
     Noise noise(21);
     for (int pose = 0; pose < postures; ++pose) {
       campaign.pose_ids.push_back(std::to_string(pose + 1));

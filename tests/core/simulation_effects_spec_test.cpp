@@ -1,7 +1,6 @@
 #include <filesystem>
 #include <fstream>
-
-#include "core/input/input_error.h"
+#include "core/io/input_error.h"
 #include "core/simulation/read_spec.h"
 #include "tests/core/simulation_fixture.h"
 
@@ -30,7 +29,7 @@ class SimulationEffectsSpec : public testing::Test {
   void TearDown() override { fs::remove_all(folder); }
 
   /// `added` in the root, the others inside their elements.
-  SimulationSpec read(const std::string& added, const std::string& in_joint = "",
+  simulation::SimulationSpec read(const std::string& added, const std::string& in_joint = "",
                       const std::string& joint_attributes = "stiffness_nm_per_rad='3e6'",
                       const std::string& in_target = "", const std::string& in_load = "",
                       const std::string& cell = "") {
@@ -46,7 +45,7 @@ class SimulationEffectsSpec : public testing::Test {
         << "<hanging_load masses_kg='50' hook_mm='0 0 100'>" << in_load << "</hanging_load>"
         << "<postures><posture q_deg='0 0 0 0 45 0'/></postures>\n"
         << added << "</simulation>";
-    return readSimulationSpec(folder / "spec.xml");
+    return simulation::readSimulationSpec(folder / "spec.xml");
   }
 
   std::string complaint(const std::string& added, const std::string& in_joint = "",
@@ -54,7 +53,7 @@ class SimulationEffectsSpec : public testing::Test {
                         const std::string& in_target = "", const std::string& in_load = "") {
     try {
       read(added, in_joint, joint_attributes, in_target, in_load);
-    } catch (const InputError& error) {
+    } catch (const io::InputError& error) {
       EXPECT_GT(error.place().line, 0u);
       const std::string text = error.what();
       return text.substr(text.find(": ") + 2);
@@ -66,14 +65,14 @@ class SimulationEffectsSpec : public testing::Test {
 }  // namespace
 
 TEST_F(SimulationEffectsSpec, readsWhatAJointHas) {
-  const SimulationSpec spec =
+  const simulation::SimulationSpec spec =
       read("",
            "<stages torques_nm='100 300' stiffness_nm_per_rad='1e6 2e6 3e6'/><backlash width_deg='0.02'/>"
            "<friction torque_nm='80' stiffness_nm_per_rad='4e5' sliders='3'/>"
            "<stiffness_ripple share='0.1' cycles='3' phase_deg='90'/>"
            "<angle_error amplitude_deg='0.01'/><softening share='0.2' time_constant_s='5000'/>",
            "stiffness_nm_per_rad='3e6' cubic_nm_per_rad3='1e12'");
-  const JointStiffness& joint = spec.machine.joints[1];
+  const simulation::JointStiffness& joint = spec.machine.joints[1];
   EXPECT_EQ(joint.cubic, 1e12);
   EXPECT_EQ(joint.stages->rates, (std::vector<double>{1e6, 2e6, 3e6}));
   EXPECT_NEAR(joint.backlash->width, 0.02 * kDegree, 1e-18);
@@ -82,7 +81,7 @@ TEST_F(SimulationEffectsSpec, readsWhatAJointHas) {
   EXPECT_NEAR(joint.rate_wave->phase, 90 * kDegree, 1e-15);
   EXPECT_EQ(joint.angle_wave->cycles, 1.0);
   EXPECT_EQ(joint.softening->time_constant, 5000.0);
-  const ElasticMachine machine = buildMachine(spec);
+  const simulation::ElasticMachine machine = simulation::buildMachine(spec);
   ASSERT_EQ(machine.curves.size(), 1u);
   EXPECT_EQ(machine.curves[0].curve.positive.size(), 4u);  // the gap, then three stages
   EXPECT_EQ(machine.sliderCount(), 3);
@@ -90,7 +89,7 @@ TEST_F(SimulationEffectsSpec, readsWhatAJointHas) {
 }
 
 TEST_F(SimulationEffectsSpec, readsWhatTheMachineHas) {
-  const SimulationSpec spec = read(
+  const simulation::SimulationSpec spec = read(
       "<base rotation_nm_per_rad='1e7 1e7 1e7' translation_n_per_m='1e9 1e9 1e9'>"
       "<contact axis='y' side='negative' stiffness_nm_per_rad='2e7' gap_deg='0.001'/></base>"
       "<tool_plate translation_n_per_m='1e8 1e8 1e8' rotation_nm_per_rad='1e6 2e6 3e6'/>"
@@ -106,7 +105,7 @@ TEST_F(SimulationEffectsSpec, readsWhatTheMachineHas) {
       "<nests after_sweeps='true'/>",
       "", "stiffness_nm_per_rad='3e6'", "<motion kind='slip' shift_um='10 0 5' at_n='300'/>",
       "<swing angle_deg='1' period_s='2'/>", "true_place_error_mm='1 2 3' unread_force_n='0 0 -40'");
-  const MachineSpec& machine = spec.machine;
+  const simulation::MachineSpec& machine = spec.machine;
   EXPECT_EQ(machine.base_contacts.at(0).axis, 1);
   EXPECT_FALSE(machine.base_contacts.at(0).positive);
   EXPECT_EQ(machine.tool_plate->rotation, Vector3d(1e6, 2e6, 3e6));
@@ -122,7 +121,7 @@ TEST_F(SimulationEffectsSpec, readsWhatTheMachineHas) {
   EXPECT_TRUE(spec.station.robot_moved);
   EXPECT_NEAR(spec.station.scale_per_second, 1e-9, 1e-22);
   EXPECT_TRUE(spec.nests_after_sweeps);
-  EXPECT_EQ(spec.targets[0].motion->kind, TargetMotion::Kind::slip);
+  EXPECT_EQ(spec.targets[0].motion->kind, simulation::TargetMotion::Kind::slip);
   EXPECT_NEAR(spec.targets[0].motion->shift.x(), 1e-5, 1e-18);
   EXPECT_EQ(spec.loading->swing_period, 2.0);
   EXPECT_LT((spec.load_cell->place_error - Vector3d(0.001, 0.002, 0.003)).norm(), 1e-16);

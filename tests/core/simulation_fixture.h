@@ -3,10 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <numbers>
-
-#include "core/simulation/elastic_energy.h"
-#include "core/simulation/elastic_equilibrium.h"
-#include "core/simulation/simulate.h"
+#include "core/simulation/equilibrium.h"
+#include "core/simulation/measure.h"
 
 namespace stiffscope::simulation_test {
 
@@ -14,13 +12,13 @@ inline constexpr double kDeg = std::numbers::pi / 180.0;
 
 /// A six-axis arm with a spherical wrist, made by hand: shoulder at 0.4/0.9 m, 1.1 m and 1.3 m links, no
 /// masses.
-inline Robot arm() {
-  Robot robot;
+inline robot::Robot arm() {
+  robot::Robot robot;
   robot.name = "arm";
   const Eigen::Vector3d x = Eigen::Vector3d::UnitX(), y = Eigen::Vector3d::UnitY(),
                         z = Eigen::Vector3d::UnitZ();
-  robot.axes_in_base_at_zero = {Line{{0, 0, 0.9}, z},    Line{{0.4, 0, 0.9}, y},  Line{{0.4, 0, 2.0}, -y},
-                                Line{{0.4, 0, 2.2}, -x}, Line{{1.7, 0, 2.2}, -y}, Line{{2.0, 0, 2.2}, -x}};
+  robot.axes_in_base_at_zero = {metrology::Line{{0, 0, 0.9}, z},    metrology::Line{{0.4, 0, 0.9}, y},  metrology::Line{{0.4, 0, 2.0}, -y},
+                                metrology::Line{{0.4, 0, 2.2}, -x}, metrology::Line{{1.7, 0, 2.2}, -y}, metrology::Line{{2.0, 0, 2.2}, -x}};
   for (int i = 0; i < 6; ++i) {
     robot.joint_names[i] = "joint_" + std::to_string(i + 1);
     robot.limits[i] = {-3.2, 3.2};
@@ -35,8 +33,8 @@ inline Robot arm() {
 
 /// The arm with a spring in every joint and every bearing, three targets, a tracker 4 m away; nothing
 /// measured.
-inline SimulationSpec armSpec() {
-  SimulationSpec spec;
+inline simulation::SimulationSpec armSpec() {
+  simulation::SimulationSpec spec;
   spec.name = "test";
   spec.date = "2026-01-01";
   spec.seed = 7;
@@ -53,8 +51,8 @@ inline SimulationSpec armSpec() {
 }
 
 /// The same with weight, tool, errors, a soft base and two link beams: everything that the simulator knows.
-inline SimulationSpec fullSpec() {
-  SimulationSpec spec = armSpec();
+inline simulation::SimulationSpec fullSpec() {
+  simulation::SimulationSpec spec = armSpec();
   const double mass[7] = {700, 750, 500, 550, 180, 90, 30};
   for (int b = 0; b < 7; ++b) {
     const Eigen::Vector3d place(0.3 * b, 0.02 * b, 1.0 + 0.15 * b);

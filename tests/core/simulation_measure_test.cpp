@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <map>
-
 #include "core/simulation/load.h"
 #include "core/simulation/postures.h"
 #include "tests/core/simulation_fixture.h"
@@ -14,8 +13,8 @@ namespace {
 
 /// A short day: two weights and back to zero at four postures, sweeps of two axes and of the wrist, two
 /// nests.
-SimulationSpec day() {
-  SimulationSpec spec = fullSpec();
+simulation::SimulationSpec day() {
+  simulation::SimulationSpec spec = fullSpec();
   spec.read_back_resolution = 1e-5 * kDeg;
   spec.load_cell.emplace();
   spec.load_cell->declared.parent = "tool0";
@@ -42,7 +41,7 @@ SimulationSpec day() {
   return spec;
 }
 
-bool samePoints(const Campaign& a, const Campaign& b) {
+bool samePoints(const campaign::Campaign& a, const campaign::Campaign& b) {
   const auto same = [](const auto& left, const auto& right) {
     return std::equal(left.rows.begin(), left.rows.end(), right.rows.begin(), right.rows.end(),
                       [](const auto& l, const auto& r) { return l.point == r.point; });
@@ -54,17 +53,17 @@ bool samePoints(const Campaign& a, const Campaign& b) {
 }  // namespace
 
 TEST(SimulationMeasure, everyTableHasTheRowsAskedFor) {
-  const Campaign campaign = simulate(day());
+  const campaign::Campaign campaign = simulation::simulate(day());
   EXPECT_EQ(campaign.circle_sweeps->rows.size(), 3u * (5 + 6));
   EXPECT_EQ(campaign.wrist_sweep->rows.size(), 10u);
   EXPECT_EQ(campaign.loading->rows.size(), 4u * 4 * 3 * 3);  // poses, steps, repeats, targets
   EXPECT_EQ(campaign.states->rows.size(), 4u * 4);
   EXPECT_EQ(campaign.nests->rows.size(), 2u * 2);
   std::map<int, int> of_target;
-  for (const WristReading& reading : campaign.wrist_sweep->rows) ++of_target[reading.target];
+  for (const campaign::WristReading& reading : campaign.wrist_sweep->rows) ++of_target[reading.target];
   EXPECT_EQ(of_target, (std::map<int, int>{{0, 4}, {1, 3}, {2, 3}}));
   double before = -1.0;
-  for (const LoadingReading& reading : campaign.loading->rows) {
+  for (const campaign::LoadingReading& reading : campaign.loading->rows) {
     EXPECT_GT(reading.time_s, before);
     before = reading.time_s;
   }
@@ -73,20 +72,20 @@ TEST(SimulationMeasure, everyTableHasTheRowsAskedFor) {
 }
 
 TEST(SimulationMeasure, withoutNoiseItIsTheEquilibrium) {
-  const SimulationSpec spec = day();
-  const ElasticMachine machine = buildMachine(spec);
-  const Campaign campaign = measureWithoutNoise(machine, spec);
+  const simulation::SimulationSpec spec = day();
+  const simulation::ElasticMachine machine = simulation::buildMachine(spec);
+  const campaign::Campaign campaign = simulation::measureWithoutNoise(machine, spec);
   const auto postures = simulation::loadingPostures(spec);
   const Eigen::Isometry3d tracker_from_base = spec.tracker.base_from_tracker.inverse();
-  for (const LoadingReading& reading : campaign.loading->rows) {
-    const DeadForce weight{spec.loading->hook_in_flange,
+  for (const campaign::LoadingReading& reading : campaign.loading->rows) {
+    const simulation::DeadForce weight{spec.loading->hook_in_flange,
                            (reading.step == 1 ? 50.0 : 150.0) * machine.gravity_in_base};
     const bool loaded = reading.step == 1 || reading.step == 2;
-    const MachineState state =
-        equilibrium(machine, postures[reading.pose].q, loaded ? AppliedLoad(weight) : AppliedLoad());
+    const simulation::MachineState state =
+        simulation::equilibrium(machine, postures[reading.pose].q, loaded ? simulation::AppliedLoad(weight) : simulation::AppliedLoad());
     EXPECT_EQ(reading.point, tracker_from_base * state.targets_in_base[reading.target]);
   }
-  for (const State& row : campaign.states->rows) {
+  for (const campaign::State& row : campaign.states->rows) {
     EXPECT_LT((row.q - postures[row.pose].q).cwiseAbs().maxCoeff(), 0.5000001 * spec.read_back_resolution);
     const double mass = row.step == 1 ? 50.0 : row.step == 2 ? 150.0 : 0.0;
     EXPECT_NEAR(row.wrench_in_cell.head<3>().norm(), mass * 9.80665,
@@ -100,21 +99,21 @@ TEST(SimulationMeasure, withoutNoiseItIsTheEquilibrium) {
 }
 
 TEST(SimulationMeasure, sameSeedSameNumbers) {
-  SimulationSpec spec = day();
-  const Campaign first = simulate(spec);
-  EXPECT_TRUE(samePoints(first, simulate(spec)));
+  simulation::SimulationSpec spec = day();
+  const campaign::Campaign first = simulation::simulate(spec);
+  EXPECT_TRUE(samePoints(first, simulation::simulate(spec)));
   spec.seed = 8;
-  EXPECT_FALSE(samePoints(first, simulate(spec)));
+  EXPECT_FALSE(samePoints(first, simulation::simulate(spec)));
 }
 
 // Another measurement of the machine is the same truth with other noise.
 TEST(SimulationMeasure, measurementsShareTheMachineNotTheNoise) {
-  SimulationSpec spec = day();
-  const ElasticMachine machine = buildMachine(spec);
-  const Campaign truth = measureWithoutNoise(machine, spec), first = simulate(spec);
+  simulation::SimulationSpec spec = day();
+  const simulation::ElasticMachine machine = simulation::buildMachine(spec);
+  const campaign::Campaign truth = simulation::measureWithoutNoise(machine, spec), first = simulation::simulate(spec);
   spec.measurement = 2;
-  EXPECT_TRUE(samePoints(truth, measureWithoutNoise(buildMachine(spec), spec)));
-  const Campaign second = simulate(spec);
+  EXPECT_TRUE(samePoints(truth, simulation::measureWithoutNoise(simulation::buildMachine(spec), spec)));
+  const campaign::Campaign second = simulation::simulate(spec);
   double product = 0.0, square = 0.0;
   for (std::size_t r = 0; r < first.loading->rows.size(); ++r) {
     const Vector3d a = first.loading->rows[r].point - truth.loading->rows[r].point;
@@ -126,7 +125,7 @@ TEST(SimulationMeasure, measurementsShareTheMachineNotTheNoise) {
 }
 
 TEST(SimulationMeasure, drawnPosturesKeepTheirRulesAndAreNested) {
-  SimulationSpec spec = day();
+  simulation::SimulationSpec spec = day();
   spec.posture_draw->candidates = 5;
   spec.posture_draw->count = 12;
   const auto many = simulation::loadingPostures(spec);
@@ -165,24 +164,24 @@ TEST(SimulationMeasure, cablesPullTowardsTheirAnchorOrTheirDirection) {
   loading.load = simulation::CablePull{{100.0, 200.0}, Vector3d(1, 0, 0), std::nullopt};
   const Vector3d gravity(0, 0, -9.8), point(1, 2, 0);
   EXPECT_EQ(simulation::loadSteps(loading), 3);
-  const AppliedLoad anchored = simulation::loadAtStep(loading, 2, gravity, std::nullopt);
+  const simulation::AppliedLoad anchored = simulation::loadAtStep(loading, 2, gravity, std::nullopt);
   EXPECT_LT((simulation::loadForce(anchored, point) - Vector3d(0, -200, 0)).norm(), 1e-12);
   EXPECT_TRUE(std::holds_alternative<std::monostate>(simulation::loadAtStep(loading, 3, gravity, {})));
   loading.load = simulation::CablePull{{100.0}, std::nullopt, Vector3d(1, 0, 0)};
-  const AppliedLoad own = simulation::loadAtStep(loading, 1, gravity, Vector3d(0, 0, 1));
+  const simulation::AppliedLoad own = simulation::loadAtStep(loading, 1, gravity, Vector3d(0, 0, 1));
   EXPECT_EQ(simulation::loadForce(own, point), Vector3d(0, 0, 100));
-  const AppliedLoad common = simulation::loadAtStep(loading, 1, gravity, std::nullopt);
+  const simulation::AppliedLoad common = simulation::loadAtStep(loading, 1, gravity, std::nullopt);
   EXPECT_EQ(simulation::loadForce(common, point), Vector3d(100, 0, 0));
 }
 
 TEST(SimulationMeasure, namesThePostureThatCannotCarryItsLoad) {
-  SimulationSpec spec = day();
+  simulation::SimulationSpec spec = day();
   spec.machine.joints[1].torsion = 5e4;
   spec.postures.push_back({Vector6d::Zero(), std::nullopt});
   spec.circle_sweeps.clear();
   spec.wrist_sweep.reset();
   try {
-    simulate(spec);
+    simulation::simulate(spec);
     FAIL();
   } catch (const std::exception& error) {
     EXPECT_NE(std::string(error.what()).find("q_deg: '0.000 0.000"), std::string::npos) << error.what();

@@ -1,7 +1,5 @@
 #include <cmath>
-
-#include "core/simulation/load_cell.h"
-#include "core/simulation/tracker_noise.h"
+#include "core/simulation/instruments.h"
 #include "tests/core/simulation_fixture.h"
 
 namespace stiffscope {
@@ -13,13 +11,13 @@ using Eigen::Vector3d;
 // about x^2.
 TEST(SimulationRandom, inverseNormalIsTheInverse) {
   for (const double p : {1e-300, 1e-20, 1e-9, 0.001, 0.074, 0.076, 0.3, 0.5, 0.7, 0.93, 0.999, 1.0 - 1e-9}) {
-    const double x = simulation::inverseNormal(p);
+    const double x = numerics::inverseNormal(p);
     EXPECT_NEAR(0.5 * std::erfc(-x / std::sqrt(2.0)) / p, 1.0, 1e-15 * (10 + x * x)) << p;
   }
 }
 
 TEST(SimulationRandom, streamsAreRepeatableAndIndependent) {
-  simulation::RandomStream one(1, "a"), again(1, "a"), other_name(1, "b"), other_seed(2, "a");
+  numerics::RandomStream one(1, "a"), again(1, "a"), other_name(1, "b"), other_seed(2, "a");
   double product_name = 0.0, product_seed = 0.0;
   constexpr int kDraws = 100000;
   for (int n = 0; n < kDraws; ++n) {
@@ -34,13 +32,13 @@ TEST(SimulationRandom, streamsAreRepeatableAndIndependent) {
 }
 
 TEST(SimulationTrackerNoise, hasItsSigmaAlongAndAcrossTheBeam) {
-  const Tracker tracker = armSpec().tracker.declared;
+  const campaign::Tracker tracker = armSpec().tracker.declared;
   const Vector3d sight = Vector3d(2.0, -1.0, 0.5).normalized();
   const Vector3d across = sight.unitOrthogonal();
   Eigen::Matrix3d frame;
   frame << sight, across, sight.cross(across);
   const double distance = 3.0, factor = 1.5;
-  simulation::RandomStream random(3, "test");
+  numerics::RandomStream random(3, "test");
   constexpr int kDraws = 200000;
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
   Vector3d mean = Vector3d::Zero();
@@ -65,7 +63,7 @@ TEST(SimulationLoadCell, readsGainMisalignmentAndBiasUnderLoadOnly) {
   cell.misalignment = Vector3d(0, 0, 90 * kDeg);  // the true x axis lies along the declared y
   cell.gain_error = 0.01;
   cell.bias << 5, 0, 0, 0, 0, 0.5;
-  States states;
+  campaign::States states;
   states.rows.resize(2);
   states.rows[1].wrench_in_cell << 0, 100, 7, 20, 0, 0;
   simulation::addLoadCellErrors(cell, 1, states);

@@ -1,10 +1,9 @@
 #include <filesystem>
 #include <fstream>
 #include <sstream>
-
 #include "core/campaign/read_campaign.h"
 #include "core/campaign/write_campaign.h"
-#include "core/input/input_error.h"
+#include "core/io/input_error.h"
 #include "core/simulation/postures.h"
 #include "core/simulation/read_spec.h"
 #include "tests/core/simulation_fixture.h"
@@ -38,20 +37,20 @@ class SimulationSpecFile : public testing::Test {
   void TearDown() override { fs::remove_all(folder); }
 
   /// The sample with its first `from` replaced by `to`, read.
-  SimulationSpec readWith(const std::string& from, const std::string& to) {
+  simulation::SimulationSpec readWith(const std::string& from, const std::string& to) {
     std::string text = bytesOf(kSamples / "inactive.xml");
     const std::size_t at = text.find(from);
     EXPECT_NE(at, std::string::npos) << from;
     text.replace(at, from.size(), to);
     std::ofstream(folder / "spec.xml", std::ios::binary) << text;
-    return readSimulationSpec(folder / "spec.xml");
+    return simulation::readSimulationSpec(folder / "spec.xml");
   }
 
   /// What readWith has to say against it, after the file's name.
   std::string complaint(const std::string& from, const std::string& to) {
     try {
       readWith(from, to);
-    } catch (const InputError& error) {
+    } catch (const io::InputError& error) {
       EXPECT_EQ(error.place().file, (folder / "spec.xml").string());
       EXPECT_GT(error.place().line, 0u);
       const std::string text = error.what();
@@ -64,19 +63,19 @@ class SimulationSpecFile : public testing::Test {
 }  // namespace
 
 TEST_F(SimulationSpecFile, aJointLeftOutIsRigidAndNamed) {
-  EXPECT_TRUE(rigidJoints(readSimulationSpec(kSamples / "inactive.xml")).empty());
+  EXPECT_TRUE(simulation::rigidJoints(simulation::readSimulationSpec(kSamples / "inactive.xml")).empty());
   const std::string text = bytesOf(kSamples / "inactive.xml");
   const std::size_t at = text.find("<joint index=\"4\"");
   const std::string joint = text.substr(at, text.find("/>", at) + 2 - at);
-  EXPECT_EQ(rigidJoints(readWith(joint, "")), std::vector<int>{4});
-  EXPECT_EQ(rigidJoints(readWith(joint, "<joint index=\"4\" bearing_nm_per_rad=\"2e6\"/>")), std::vector<int>{4});
+  EXPECT_EQ(simulation::rigidJoints(readWith(joint, "")), std::vector<int>{4});
+  EXPECT_EQ(simulation::rigidJoints(readWith(joint, "<joint index=\"4\" bearing_nm_per_rad=\"2e6\"/>")), std::vector<int>{4});
 }
 
-TEST(SimulationSpec, samplesAreOneMachineInTwoStates) {
-  const SimulationSpec inactive = readSimulationSpec(kSamples / "inactive.xml");
-  const SimulationSpec active = readSimulationSpec(kSamples / "active.xml");
-  EXPECT_EQ(inactive.double_encoder, DoubleEncoder::inactive);
-  EXPECT_EQ(active.double_encoder, DoubleEncoder::active);
+TEST(simulation::SimulationSpec, samplesAreOneMachineInTwoStates) {
+  const simulation::SimulationSpec inactive = simulation::readSimulationSpec(kSamples / "inactive.xml");
+  const simulation::SimulationSpec active = simulation::readSimulationSpec(kSamples / "active.xml");
+  EXPECT_EQ(inactive.double_encoder, campaign::DoubleEncoder::inactive);
+  EXPECT_EQ(active.double_encoder, campaign::DoubleEncoder::active);
   EXPECT_EQ(inactive.seed, active.seed);
   EXPECT_NE(inactive.measurement, active.measurement);
   // Table II of the paper, rows DPP.
@@ -86,7 +85,7 @@ TEST(SimulationSpec, samplesAreOneMachineInTwoStates) {
   for (int p = 0; p < 19; ++p) {
     EXPECT_EQ(simulation::loadingPostures(inactive)[p].q, simulation::loadingPostures(active)[p].q);
   }
-  const ElasticMachine a = buildMachine(inactive), b = buildMachine(active);
+  const simulation::ElasticMachine a = simulation::buildMachine(inactive), b = simulation::buildMachine(active);
   for (int i = 0; i < 6; ++i) EXPECT_TRUE(a.axis_errors[i].isApprox(b.axis_errors[i], 0.0));
   double moving = inactive.nominal.bodies[1].mass_kg;
   for (int k = 2; k < 7; ++k) moving += inactive.nominal.bodies[k].mass_kg;
@@ -97,17 +96,17 @@ TEST(SimulationSpec, samplesAreOneMachineInTwoStates) {
 }
 
 TEST_F(SimulationSpecFile, aSampleSurvivesWritingAndReading) {
-  const SimulationSpec spec = readSimulationSpec(kSamples / "inactive.xml");
-  const Campaign campaign = simulate(spec);
+  const simulation::SimulationSpec spec = simulation::readSimulationSpec(kSamples / "inactive.xml");
+  const campaign::Campaign campaign = simulation::simulate(spec);
   EXPECT_EQ(campaign.wrist_sweep->rows.size(), 1000u);
-  writeCampaign(campaign, spec.urdf_file, folder / "a");
-  writeCampaign(simulate(spec), spec.urdf_file, folder / "b");
+  campaign::writeCampaign(campaign, spec.urdf_file, folder / "a");
+  campaign::writeCampaign(simulation::simulate(spec), spec.urdf_file, folder / "b");
   for (const auto& entry : fs::directory_iterator(folder / "a")) {
     EXPECT_EQ(bytesOf(entry.path()), bytesOf(folder / "b" / entry.path().filename())) << entry.path();
   }
-  const CampaignReading reading = readCampaign(folder / "a");
+  const campaign::CampaignReading reading = campaign::readCampaign(folder / "a");
   EXPECT_TRUE(reading.warnings.empty());
-  const Campaign& read = reading.campaign;
+  const campaign::Campaign& read = reading.campaign;
   ASSERT_EQ(read.loading->rows.size(), campaign.loading->rows.size());
   for (std::size_t r = 0; r < read.loading->rows.size(); ++r) {
     // Files carry 0.1 um.
@@ -117,7 +116,7 @@ TEST_F(SimulationSpecFile, aSampleSurvivesWritingAndReading) {
 }
 
 TEST_F(SimulationSpecFile, readsEveryOtherEffect) {
-  const SimulationSpec spec = readWith(
+  const simulation::SimulationSpec spec = readWith(
       "<geometry position_sigma_mm=\"0.2\" direction_sigma_deg=\"0.02\" zero_sigma_deg=\"0.02\" "
       "wrist_position_sigma_mm=\"0.02\"/>",
       "<base rotation_nm_per_rad='1e7 2e7 3e7' tilt_deg='90' tilt_azimuth_deg='0' tilt_declared='true'/>"
@@ -127,7 +126,7 @@ TEST_F(SimulationSpecFile, readsEveryOtherEffect) {
   EXPECT_EQ(spec.machine.links.at(0).joint, 3);
   EXPECT_FALSE(spec.machine.links.at(0).axial);
   EXPECT_LT((spec.machine.geometry.listed[2]->offset - Vector3d(0.001, 0.002, 0.003)).norm(), 1e-18);
-  const ElasticMachine machine = buildMachine(spec);
+  const simulation::ElasticMachine machine = simulation::buildMachine(spec);
   EXPECT_EQ(machine.coordinateCount(), 3 + 6 * 3 + 5);
   // base_link turned by +90 deg about its x axis: what was up, z, now lies; gravity is along -y.
   EXPECT_LT((machine.gravity_in_base - Vector3d(0, -9.80665, 0)).norm(), 1e-14);

@@ -3,7 +3,6 @@
 #include <functional>
 #include <stdexcept>
 #include <string>
-
 #include "core/audit/audit.h"
 #include "core/campaign/read_campaign.h"
 
@@ -12,29 +11,29 @@
 
 namespace stiffscope {
 
-inline const Campaign& good() {
-  static const Campaign campaign =
-      readCampaign(std::filesystem::path(STIFFSCOPE_SOURCE_DIR) / "samples" / "active").campaign;
+inline const campaign::Campaign& good() {
+  static const campaign::Campaign campaign =
+      campaign::readCampaign(std::filesystem::path(STIFFSCOPE_SOURCE_DIR) / "samples" / "active").campaign;
   return campaign;
 }
 
-inline const AuditReport& goodReport() {
-  static const AuditReport report = audit(good());
+inline const audit::AuditReport& goodReport() {
+  static const audit::AuditReport report = audit::audit(good());
   return report;
 }
 
-inline const AuditCheck& checkNamed(const AuditReport& report, const std::string& id,
+inline const preparation::AuditCheck& checkNamed(const audit::AuditReport& report, const std::string& id,
                                     const std::string& where = {}) {
-  for (const AuditCheck& check : report.checks) {
+  for (const preparation::AuditCheck& check : report.checks) {
     if (check.id == id && (where.empty() || check.where == where)) return check;
   }
   throw std::out_of_range("no check " + id + " at " + where);
 }
 
-inline AuditReport auditSpoilt(const std::function<void(Campaign&)>& spoil) {
-  Campaign campaign = good();
+inline audit::AuditReport auditSpoilt(const std::function<void(campaign::Campaign&)>& spoil) {
+  campaign::Campaign campaign = good();
   spoil(campaign);
-  return audit(campaign);
+  return audit::audit(campaign);
 }
 
 inline bool contains(const std::string& text, const std::string& part) {

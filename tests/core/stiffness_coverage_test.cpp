@@ -4,12 +4,11 @@
 #include <cmath>
 #include <cstdlib>
 #include <random>
-
 #include "core/identification/identify.h"
-#include "core/identification/stiffness_interval.h"
+#include "core/identification/estimate.h"
 #include "core/simulation/postures.h"
 #include "core/simulation/read_spec.h"
-#include "core/simulation/simulate.h"
+#include "core/simulation/measure.h"
 
 // Coverage of the stated intervals on days of the samples' machine with joint springs and nothing else that gives: geometry
 // errors, tracker, load cell and read-back as in samples/active.xml, R0, links and wrist measured by sweeps.
@@ -25,7 +24,7 @@ int numberFrom(const char* variable, int otherwise) {
 }
 
 /// The postures of the day, each pulled in a random direction: the cable campaign.
-void pullInSeveralDirections(SimulationSpec& spec, std::uint64_t seed) {
+void pullInSeveralDirections(simulation::SimulationSpec& spec, std::uint64_t seed) {
   std::mt19937_64 random(seed);
   std::normal_distribution<double> normal;
   spec.loading->load = simulation::CablePull{{750.0, 1500.0}, std::nullopt, std::nullopt};
@@ -37,8 +36,8 @@ void pullInSeveralDirections(SimulationSpec& spec, std::uint64_t seed) {
   }
 }
 
-SimulationSpec springsOnly(std::uint64_t seed, bool pulled) {
-  SimulationSpec spec = readSimulationSpec(STIFFSCOPE_SOURCE_DIR "/samples/active.xml");
+simulation::SimulationSpec springsOnly(std::uint64_t seed, bool pulled) {
+  simulation::SimulationSpec spec = simulation::readSimulationSpec(STIFFSCOPE_SOURCE_DIR "/samples/active.xml");
   spec.seed = seed;
   for (auto& joint : spec.machine.joints) joint.bearing.reset();
   if (pulled) pullInSeveralDirections(spec, seed);
@@ -52,16 +51,16 @@ struct Tally {
 };
 
 Tally coverage(int days, std::uint64_t first_seed, bool pulled) {
-  IdentifyOptions options;
+  identification::IdentifyOptions options;
   options.subsets.most_all = 1;
   options.subsets.sample = 1;
   Tally tally;
   tally.days = days;
   for (int day = 0; day < days; ++day) {
-    const SimulationSpec spec = springsOnly(first_seed + static_cast<std::uint64_t>(day), pulled);
-    const Identification found = identify(simulate(spec), options);
-    for (std::size_t m = 0; m < kMethods.size(); ++m) {
-      const MethodResult& method = found.methods[m];
+    const simulation::SimulationSpec spec = springsOnly(first_seed + static_cast<std::uint64_t>(day), pulled);
+    const identification::Identification found = identification::identify(simulation::simulate(spec), options);
+    for (std::size_t m = 0; m < identification::kMethods.size(); ++m) {
+      const identification::MethodResult& method = found.methods[m];
       EXPECT_TRUE(method.available) << method.reason;
       for (std::size_t j = 0; j < 6; ++j) {
         if (!method.available || !method.estimate.identifiable[j]) continue;
@@ -69,7 +68,7 @@ Tally coverage(int days, std::uint64_t first_seed, bool pulled) {
         const double truth = *spec.machine.joints[j].torsion;
         const double error = method.estimate.compliance[joint] - 1.0 / truth;
         ++tally.stated[m][j];
-        tally.held[m][j] += stiffnessInterval(method.estimate, joint).holds(truth);
+        tally.held[m][j] += identification::stiffnessInterval(method.estimate, joint).holds(truth);
         tally.error_over_sd[m][j] += error / std::sqrt(method.estimate.covariance(joint, joint)) / days;
         tally.dof[m][j] += method.estimate.dof(joint) / days;
       }

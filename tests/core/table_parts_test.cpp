@@ -1,32 +1,30 @@
 #include <gtest/gtest.h>
 
 #include <random>
-
-#include "core/campaign/loading_table.h"
+#include "core/campaign/table_layouts.h"
 #include "core/campaign/read_table.h"
-#include "core/campaign/states_table.h"
-#include "core/parallel/on_all_cores.h"
+#include "core/numerics/parallel.h"
 
 namespace stiffscope {
 namespace {
 
 /// All that a reading gives, as text.
 template <class Row>
-std::string outcome(const TableLayout<Row>& layout, const std::string& bytes, std::size_t part_bytes) {
-  CampaignNames names;
+std::string outcome(const campaign::TableLayout<Row>& layout, const std::string& bytes, std::size_t part_bytes) {
+  campaign::CampaignNames names;
   for (const char* target : {"P10", "P11"}) names.targets.add(target);
   names.poses.add("known");
   std::vector<std::string> warnings;
   std::string text;
   try {
-    for (Row& row : readTable<Row>({"t.csv", bytes}, layout, names, warnings, part_bytes)) {
+    for (Row& row : campaign::readTable<Row>({"t.csv", bytes}, layout, names, warnings, part_bytes)) {
       text += fmt::format("\n{}", row.line);
-      for (const Column<Row>& column : layout.columns) {
+      for (const campaign::Column<Row>& column : layout.columns) {
         std::visit([&](auto member) { text += fmt::format(" {}", member(row)); }, column.member);
       }
     }
     text += fmt::format("\n{}\n{}", fmt::join(names.poses.names(), " "), fmt::join(warnings, "\n"));
-  } catch (const InputError& error) {
+  } catch (const io::InputError& error) {
     text = error.what();
   }
   return text;
@@ -35,7 +33,7 @@ std::string outcome(const TableLayout<Row>& layout, const std::string& bytes, st
 constexpr std::size_t kWhole = std::size_t{1} << 40;
 
 template <class Row>
-void expectSameInParts(const TableLayout<Row>& layout, const std::string& bytes) {
+void expectSameInParts(const campaign::TableLayout<Row>& layout, const std::string& bytes) {
   const std::string whole = outcome(layout, bytes, kWhole);
   for (const std::size_t part : {1, 7, 64, 200, 1000}) EXPECT_EQ(outcome(layout, bytes, part), whole) << part << "\n" << bytes;
 }
@@ -51,8 +49,8 @@ TEST(TableParts, NumberPosesAsTheyFirstAppearInTheWhole) {
   for (const char* pose : {"b", "known", "a", "c", "b", "a", "d"}) {
     for (const char* target : {"P11", "P10"}) bytes += row(pose, static_cast<int>(bytes.size()), target);
   }
-  expectSameInParts(loadingLayout(), bytes);
-  EXPECT_NE(outcome(loadingLayout(), bytes, 1).find("known b a c d"), std::string::npos);
+  expectSameInParts(campaign::loadingLayout(), bytes);
+  EXPECT_NE(outcome(campaign::loadingLayout(), bytes, 1).find("known b a c d"), std::string::npos);
 }
 
 TEST(TableParts, CountLinesOfEveryEndAndBlankOnes) {
@@ -60,9 +58,9 @@ TEST(TableParts, CountLinesOfEveryEndAndBlankOnes) {
   for (const std::string end : {"\n", "\r\n", "\r", "\n\n\n", "\r\n \t\r\n", "\n\r", "\r\r\n"}) {
     std::string bytes;
     for (const std::string& line : {kHeader, a, b, c, a}) bytes += line.substr(0, line.size() - 1) + end;
-    expectSameInParts(loadingLayout(), bytes);                                    // line 5 or so repeats a key
-    expectSameInParts(loadingLayout(), bytes.substr(0, bytes.rfind("a,1,1")));    // it does not
-    expectSameInParts(loadingLayout(), bytes.substr(0, bytes.rfind(",P10") + 4)); // cut short
+    expectSameInParts(campaign::loadingLayout(), bytes);                                    // line 5 or so repeats a key
+    expectSameInParts(campaign::loadingLayout(), bytes.substr(0, bytes.rfind("a,1,1")));    // it does not
+    expectSameInParts(campaign::loadingLayout(), bytes.substr(0, bytes.rfind(",P10") + 4)); // cut short
   }
 }
 
@@ -71,14 +69,14 @@ TEST(TableParts, RefuseTheFirstErrorOfTheFile) {
   const std::string repeat = row("b", 1, "P10"), unknown = row("d", 1, "P99"), quote = "\"d,1,1,P10,5,1,2,3\n", few = "d,1\n";
   for (const std::string& first : {repeat, unknown, quote, few}) {
     for (const std::string& second : {repeat, unknown, quote, few}) {
-      expectSameInParts(loadingLayout(), good + first + row("e", 1, "P10") + second);
+      expectSameInParts(campaign::loadingLayout(), good + first + row("e", 1, "P10") + second);
     }
   }
-  EXPECT_EQ(outcome(loadingLayout(), good + repeat + unknown, 1),
+  EXPECT_EQ(outcome(campaign::loadingLayout(), good + repeat + unknown, 1),
             "t.csv:5: pose, step, repeat, target: 'b, 1, 1, P10': expected a key that does not repeat; line 3 has it first");
-  expectSameInParts(loadingLayout(), kHeader);
-  expectSameInParts(loadingLayout(), kHeader + "\n\n\n");
-  expectSameInParts(loadingLayout(), "");
+  expectSameInParts(campaign::loadingLayout(), kHeader);
+  expectSameInParts(campaign::loadingLayout(), kHeader + "\n\n\n");
+  expectSameInParts(campaign::loadingLayout(), "");
 }
 
 TEST(TableParts, ReadWhatOneReadingReadsInAThousandSpoiltTables) {
@@ -93,14 +91,14 @@ TEST(TableParts, ReadWhatOneReadingReadsInAThousandSpoiltTables) {
     for (std::uint64_t k = random() % 4; k > 0; --k) {
       bytes[kHeader.size() + random() % (bytes.size() - kHeader.size())] = letters[random() % letters.size()];
     }
-    expectSameInParts(loadingLayout(), bytes);
+    expectSameInParts(campaign::loadingLayout(), bytes);
   }
 }
 
 TEST(OnAllCores, CallsEachIndexOnce) {
   std::vector<int> calls(10'000);
-  onAllCores(calls.size(), [&](std::size_t i) { ++calls[i]; });
-  smallWorkOnAllCores(calls.size(), [&](std::size_t i) { ++calls[i]; });
+  numerics::onAllCores(calls.size(), [&](std::size_t i) { ++calls[i]; });
+  numerics::smallWorkOnAllCores(calls.size(), [&](std::size_t i) { ++calls[i]; });
   EXPECT_EQ(calls, std::vector<int>(calls.size(), 2));
 }
 
@@ -108,7 +106,7 @@ TEST(OnAllCores, ThrowsTheExceptionOfTheLowestIndex) {
   for (int repeat = 0; repeat < 100; ++repeat) {
     std::string what;
     try {
-      onAllCores(64, [](std::size_t i) {
+      numerics::onAllCores(64, [](std::size_t i) {
         if (i % 8 == 5) throw std::runtime_error(std::to_string(i));
       });
     } catch (const std::runtime_error& error) {

@@ -4,7 +4,6 @@
 
 #include <fstream>
 #include <limits>
-
 #include "core/campaign/read_campaign.h"
 #include "tests/core/small_campaign.h"
 
@@ -20,7 +19,7 @@ constexpr double kMoment = 0.5001e-4;
 constexpr double kAttribute = 1e-11;
 
 template <class Row, class Compare>
-void expectSameRows(const std::optional<Table<Row>>& a, const std::optional<Table<Row>>& b, Compare compare) {
+void expectSameRows(const std::optional<campaign::Table<Row>>& a, const std::optional<campaign::Table<Row>>& b, Compare compare) {
   ASSERT_EQ(a.has_value(), b.has_value());
   if (!a) return;
   EXPECT_EQ(a->frame, b->frame);
@@ -32,40 +31,40 @@ void expectClose(const Eigen::VectorXd& a, const Eigen::VectorXd& b, double tole
   EXPECT_LE((a - b).cwiseAbs().maxCoeff(), tolerance);
 }
 
-void expectSameTables(const Campaign& a, const Campaign& b) {
+void expectSameTables(const campaign::Campaign& a, const campaign::Campaign& b) {
   const auto sameSweep = [](const auto& x, const auto& y) {
     EXPECT_EQ(std::pair(x.index, x.target), std::pair(y.index, y.target));
     EXPECT_EQ(std::isnan(x.time_s), std::isnan(y.time_s));
     expectClose(x.q, y.q, kAngle);
     expectClose(x.point, y.point, kPoint);
   };
-  expectSameRows(a.circle_sweeps, b.circle_sweeps, [&](const CircleReading& x, const CircleReading& y) {
+  expectSameRows(a.circle_sweeps, b.circle_sweeps, [&](const campaign::CircleReading& x, const campaign::CircleReading& y) {
     EXPECT_EQ(x.axis, y.axis);
     sameSweep(x, y);
   });
   expectSameRows(a.wrist_sweep, b.wrist_sweep, sameSweep);
-  expectSameRows(a.loading, b.loading, [](const LoadingReading& x, const LoadingReading& y) {
+  expectSameRows(a.loading, b.loading, [](const campaign::LoadingReading& x, const campaign::LoadingReading& y) {
     EXPECT_EQ(std::tuple(x.pose, x.step, x.repeat, x.target), std::tuple(y.pose, y.step, y.repeat, y.target));
     EXPECT_NEAR(x.time_s, y.time_s, 0.05001);
     expectClose(x.point, y.point, kPoint);
   });
-  expectSameRows(a.states, b.states, [](const State& x, const State& y) {
+  expectSameRows(a.states, b.states, [](const campaign::State& x, const campaign::State& y) {
     EXPECT_EQ(std::pair(x.pose, x.step), std::pair(y.pose, y.step));
     expectClose(x.q, y.q, kAngle);
     expectClose(x.wrench_in_cell.head<3>(), y.wrench_in_cell.head<3>(), kForce);
     expectClose(x.wrench_in_cell.tail<3>(), y.wrench_in_cell.tail<3>(), kMoment);
   });
-  expectSameRows(a.displacements, b.displacements, [](const Displacement& x, const Displacement& y) {
+  expectSameRows(a.displacements, b.displacements, [](const campaign::Displacement& x, const campaign::Displacement& y) {
     EXPECT_EQ(std::tuple(x.pose, x.step, x.target), std::tuple(y.pose, y.step, y.target));
     expectClose(x.displacement, y.displacement, kPoint);
   });
-  expectSameRows(a.nests, b.nests, [](const NestReading& x, const NestReading& y) {
+  expectSameRows(a.nests, b.nests, [](const campaign::NestReading& x, const campaign::NestReading& y) {
     EXPECT_EQ(x.nest, y.nest);
     expectClose(x.point, y.point, kPoint);
   });
 }
 
-void expectSame(const Campaign& a, const Campaign& b) {
+void expectSame(const campaign::Campaign& a, const campaign::Campaign& b) {
   EXPECT_EQ(std::tie(a.name, a.date, a.base_link, a.flange_link, a.pose_ids, a.nest_ids),
             std::tie(b.name, b.date, b.base_link, b.flange_link, b.pose_ids, b.nest_ids));
   EXPECT_EQ(a.texts.laboratory, b.texts.laboratory);
@@ -98,15 +97,15 @@ void expectSame(const Campaign& a, const Campaign& b) {
   expectSameTables(a, b);
 }
 
-void expectRoundTrip(const Campaign& campaign, const std::filesystem::path& urdf) {
+void expectRoundTrip(const campaign::Campaign& campaign, const std::filesystem::path& urdf) {
   const TemporaryFolder first, second;
-  writeCampaign(campaign, urdf, first.path() / "new" / "folder");
-  const CampaignReading reading = readCampaign(first.path() / "new" / "folder");
+  campaign::writeCampaign(campaign, urdf, first.path() / "new" / "folder");
+  const campaign::CampaignReading reading = campaign::readCampaign(first.path() / "new" / "folder");
   EXPECT_TRUE(reading.warnings.empty());
   expectSame(campaign, reading.campaign);
   // What was rounded once stays as it is: writing again gives the same bytes.
-  writeCampaign(reading.campaign, first.path() / "new" / "folder" / "robot.urdf", second.path());
-  const auto again = readCampaign(second.path()).campaign.inputs;
+  campaign::writeCampaign(reading.campaign, first.path() / "new" / "folder" / "robot.urdf", second.path());
+  const auto again = campaign::readCampaign(second.path()).campaign.inputs;
   ASSERT_EQ(reading.campaign.inputs.size(), again.size());
   for (std::size_t i = 0; i < again.size(); ++i) {
     EXPECT_EQ(reading.campaign.inputs[i].name, again[i].name);
@@ -116,12 +115,12 @@ void expectRoundTrip(const Campaign& campaign, const std::filesystem::path& urdf
 
 TEST(WriteCampaign, ReadsBackAsItWas) {
   const SmallCampaign files;
-  expectRoundTrip(readCampaign(files.folder()).campaign, files.folder() / "robot.urdf");
+  expectRoundTrip(campaign::readCampaign(files.folder()).campaign, files.folder() / "robot.urdf");
 }
 
 TEST(WriteCampaign, WritesNamesAndTextsThatNeedCare) {
   const SmallCampaign files;
-  Campaign campaign = readCampaign(files.folder()).campaign;
+  campaign::Campaign campaign = campaign::readCampaign(files.folder()).campaign;
   campaign.name = "a <b> & \"c\"";
   campaign.texts.laboratory = "M\xC3\xBCller & S\xC3\xB6hne <lab>";
   campaign.targets[0].id = "P,10 \"left\"";
@@ -130,7 +129,7 @@ TEST(WriteCampaign, WritesNamesAndTextsThatNeedCare) {
   campaign.tracker->station = {1.5, -2.25, 0.0000001};
   campaign.load_cell->axes_link = "base";
   campaign.load_cell->parent_from_cell.linear().setIdentity();
-  campaign.nests->frame = PointFrame::base_link;
+  campaign.nests->frame = campaign::PointFrame::base_link;
   campaign.nests->rows[0].point.x() = -1e-12;
   expectRoundTrip(campaign, files.folder() / "robot.urdf");
 }
@@ -138,9 +137,9 @@ TEST(WriteCampaign, WritesNamesAndTextsThatNeedCare) {
 TEST(WriteCampaign, WritesTheUnitsAndDecimalsOfTheFormat) {
   const SmallCampaign files;
   const TemporaryFolder out;
-  Campaign campaign = readCampaign(files.folder()).campaign;
+  campaign::Campaign campaign = campaign::readCampaign(files.folder()).campaign;
   campaign.nests->rows[0].point.x() = -1e-12;  // rounds to zero, which has no sign
-  writeCampaign(campaign, files.folder() / "robot.urdf", out.path());
+  campaign::writeCampaign(campaign, files.folder() / "robot.urdf", out.path());
   std::string header, row;
   std::ifstream nests(out.path() / "nests.csv");
   std::getline(nests, header);
@@ -160,22 +159,22 @@ TEST(WriteCampaign, RefusesWhatTheFormatCannotHold) {
   const SmallCampaign files;
   const TemporaryFolder out;
   const auto why = [&](auto change) -> std::string {
-    Campaign campaign = readCampaign(files.folder()).campaign;
+    campaign::Campaign campaign = campaign::readCampaign(files.folder()).campaign;
     change(campaign);
     try {
-      writeCampaign(campaign, files.folder() / "robot.urdf", out.path());
+      campaign::writeCampaign(campaign, files.folder() / "robot.urdf", out.path());
     } catch (const std::runtime_error& error) {
       return error.what();
     }
     return "";
   };
-  EXPECT_EQ(why([](Campaign& c) { c.loading->rows[0].time_s = kNoTime; }),
+  EXPECT_EQ(why([](campaign::Campaign& c) { c.loading->rows[0].time_s = campaign::kNoTime; }),
             "the campaign cannot be written: time_s: a value is not finite");
-  EXPECT_EQ(why([](Campaign& c) { c.nests->rows[0].nest = 7; }),
+  EXPECT_EQ(why([](campaign::Campaign& c) { c.nests->rows[0].nest = 7; }),
             "the campaign cannot be written: nest: index 7 has no name");
-  EXPECT_EQ(why([](Campaign& c) { c.pose_ids[0] = "A\nB"; }),
+  EXPECT_EQ(why([](campaign::Campaign& c) { c.pose_ids[0] = "A\nB"; }),
             "the campaign cannot be written: pose: a name has a control character");
-  EXPECT_EQ(why([](Campaign& c) { c.circle_sweeps->rows[0].index = ""; }),
+  EXPECT_EQ(why([](campaign::Campaign& c) { c.circle_sweeps->rows[0].index = ""; }),
             "the campaign cannot be written: index: a name is empty");
 }
 
@@ -184,7 +183,7 @@ TEST(WriteCampaign, ReadsBackThePracticeAndRealCampaigns) {
   if (!std::filesystem::exists(shared / "practice"))
     GTEST_SKIP() << "no practice campaigns beside the checkout";
   for (const char* name : {"practice/01", "real/fanuc-r2000ic-cable", "real/fanuc-r2000ic-sweeps"}) {
-    expectRoundTrip(readCampaign(shared / name).campaign, shared / name / "robot.urdf");
+    expectRoundTrip(campaign::readCampaign(shared / name).campaign, shared / name / "robot.urdf");
   }
 }
 

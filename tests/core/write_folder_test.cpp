@@ -1,4 +1,4 @@
-#include "core/input/write_folder.h"
+#include "core/io/write_folder.h"
 
 #include <gtest/gtest.h>
 #include <signal.h>
@@ -34,12 +34,12 @@ std::string largeText(int number) {
 }
 
 /// Two files of one generation, the second large enough to be cut, and handed over in two parts.
-std::vector<FileToWrite> generation(int number) {
-  const auto in_two = [large = largeText(number)](const ByteSink& sink) {
+std::vector<io::FileToWrite> generation(int number) {
+  const auto in_two = [large = largeText(number)](const io::ByteSink& sink) {
     sink(std::string_view(large).substr(0, 1000));
     sink(std::string_view(large).substr(1000));
   };
-  return {{"a.txt", std::to_string(number)}, {"b.txt", ByteSource(in_two)}};
+  return {{"a.txt", std::to_string(number)}, {"b.txt", io::ByteSource(in_two)}};
 }
 
 /// The generation that the folder holds, -1 where it holds two or a part of one.
@@ -50,7 +50,7 @@ int generationIn(const fs::path& folder) {
 
 TEST(WriteFolder, MakesTheFolderAndLeavesNothingBesideIt) {
   const TemporaryFolder scratch;
-  writeFolderWhole(scratch.path() / "new" / "report/", generation(3));
+  io::writeFolderWhole(scratch.path() / "new" / "report/", generation(3));
   EXPECT_EQ(generationIn(scratch.path() / "new" / "report"), 3);
   EXPECT_EQ(entriesIn(scratch.path() / "new"), 1u);
 }
@@ -64,7 +64,7 @@ TEST(WriteFolder, KeepsWhatElseTheFolderHolds) {
   fs::create_symlink("notes", folder / "link");
   fs::permissions(folder, fs::perms::owner_all);
   fs::create_directory_symlink("report", scratch.path() / "by_link");
-  writeFolderWhole(scratch.path() / "by_link", generation(1));
+  io::writeFolderWhole(scratch.path() / "by_link", generation(1));
   EXPECT_EQ(generationIn(folder), 1);
   EXPECT_EQ(contentOf(folder / "link" / "old" / "n.txt"), "mine");
   EXPECT_TRUE(fs::is_symlink(folder / "link") && fs::is_symlink(scratch.path() / "by_link"));
@@ -78,7 +78,7 @@ TEST(WriteFolder, WritesIntoTheCurrentFolderItself) {
   const TemporaryFolder scratch;
   const fs::path before = fs::current_path();
   fs::current_path(scratch.path());
-  writeFolderWhole(".", generation(2));
+  io::writeFolderWhole(".", generation(2));
   EXPECT_EQ(generationIn("."), 2);
   EXPECT_EQ(entriesIn("."), 2u);
   fs::current_path(before);
@@ -90,7 +90,7 @@ TEST(WriteFolder, SaysWhichFolderAndWhy) {
   std::ofstream(scratch.path() / "file") << "x";
   const auto why = [](const fs::path& folder) -> std::string {
     try {
-      writeFolderWhole(folder, generation(1));
+      io::writeFolderWhole(folder, generation(1));
     } catch (const std::runtime_error& error) {
       return error.what();
     }
@@ -128,13 +128,13 @@ TEST(WriteFolder, AFullDiskLeavesTheEarlierFiles) {
   for (const bool in_place : {false, true}) {
     const TemporaryFolder scratch;
     const fs::path folder = scratch.path() / "report";
-    writeFolderWhole(folder, generation(1));
+    io::writeFolderWhole(folder, generation(1));
     const int status = inChild([&] {
       if (in_place) fs::current_path(folder);
       ::signal(SIGXFSZ, SIG_IGN);
       const rlimit limit{30000, 30000};
       ::setrlimit(RLIMIT_FSIZE, &limit);
-      writeFolderWhole(folder, generation(2));
+      io::writeFolderWhole(folder, generation(2));
     });
     EXPECT_EQ(status, 3);
     EXPECT_EQ(generationIn(folder), 1);
@@ -147,7 +147,7 @@ TEST(WriteFolder, AFullDiskLeavesTheEarlierFiles) {
 TEST(WriteFolder, AKillAtAnyMomentLeavesOneGenerationWhole) {
   const TemporaryFolder scratch;
   const fs::path folder = scratch.path() / "report";
-  writeFolderWhole(folder, generation(0));
+  io::writeFolderWhole(folder, generation(0));
   std::ofstream(folder / "mine.txt") << "mine";
   std::mt19937 random(1);
   int written = 0;
@@ -155,7 +155,7 @@ TEST(WriteFolder, AKillAtAnyMomentLeavesOneGenerationWhole) {
     const int before = generationIn(folder);
     const pid_t child = ::fork();
     if (child == 0) {
-      for (int number = before + 1;; ++number) writeFolderWhole(folder, generation(number));
+      for (int number = before + 1;; ++number) io::writeFolderWhole(folder, generation(number));
     }
     ::usleep(static_cast<useconds_t>(random() % 8000));
     ::kill(child, SIGKILL);
@@ -166,7 +166,7 @@ TEST(WriteFolder, AKillAtAnyMomentLeavesOneGenerationWhole) {
     written += after > before ? 1 : 0;
   }
   EXPECT_GT(written, 0);
-  writeFolderWhole(folder, generation(1));
+  io::writeFolderWhole(folder, generation(1));
   EXPECT_EQ(entriesIn(scratch.path()), 1u) << "the next run removes what killed ones left";
 }
 
@@ -179,7 +179,7 @@ TEST(WriteFolder, RunsIntoOneFolderLeaveOneWhole) {
     if (child == 0) {
       int status = 0;
       try {
-        for (int i = 0; i < 100; ++i) writeFolderWhole(folder, generation(run));
+        for (int i = 0; i < 100; ++i) io::writeFolderWhole(folder, generation(run));
       } catch (const std::exception& error) {
         std::fprintf(stderr, "%s\n", error.what());
         status = 1;

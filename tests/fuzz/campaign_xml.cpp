@@ -6,7 +6,7 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace stiffscope;
   fuzz::expectInputError([&] {
     std::vector<std::string> warnings;
-    readCampaignXml("campaign.xml", fuzz::textOf(data, size), warnings);
+    campaign::readCampaignXml("campaign.xml", fuzz::textOf(data, size), warnings);
   });
   return 0;
 }

@@ -4,8 +4,7 @@
 #include <cstdlib>
 #include <string>
 #include <string_view>
-
-#include "core/input/input_error.h"
+#include "core/io/input_error.h"
 
 // What libFuzzer calls, and the replay of the tests too: one input, which no parser may answer with anything else than
 // a result or an InputError.
@@ -23,7 +22,7 @@ template <class Parse>
 void expectInputError(const Parse& parse) {
   try {
     parse();
-  } catch (const InputError& error) {
+  } catch (const io::InputError& error) {
     const std::string_view text = error.what();
     constexpr std::size_t kLongestMessage = 2500;  // file and finding 1000 each, column and value 80
     const bool one_line = text.find_first_of("\n\r") == std::string_view::npos && text.size() < kLongestMessage;

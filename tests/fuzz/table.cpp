@@ -1,10 +1,5 @@
-#include "core/campaign/circle_sweeps_table.h"
-#include "core/campaign/displacements_table.h"
-#include "core/campaign/loading_table.h"
-#include "core/campaign/nests_table.h"
+#include "core/campaign/table_layouts.h"
 #include "core/campaign/read_table.h"
-#include "core/campaign/states_table.h"
-#include "core/campaign/wrist_sweep_table.h"
 #include "tests/fuzz/expect_input_error.h"
 
 namespace {
@@ -12,22 +7,22 @@ namespace {
 using namespace stiffscope;
 
 template <class Row>
-void readAs(const TableLayout<Row>& layout, std::string_view bytes) {
+void readAs(const campaign::TableLayout<Row>& layout, std::string_view bytes) {
   std::vector<std::string> warnings;
-  CampaignNames names;
+  campaign::CampaignNames names;
   names.targets.add("P10");
   names.targets.add("P11");
-  readTable<Row>({layout.element + ".csv", bytes}, layout, names, warnings);
+  campaign::readTable<Row>({layout.element + ".csv", bytes}, layout, names, warnings);
 }
 
 void readAsTable(char kind, std::string_view bytes) {
   switch (kind) {
-    case 'c': return readAs(circleSweepsLayout(), bytes);
-    case 'w': return readAs(wristSweepLayout(), bytes);
-    case 'l': return readAs(loadingLayout(), bytes);
-    case 's': return readAs(statesLayout(), bytes);
-    case 'd': return readAs(displacementsLayout(), bytes);
-    default: return readAs(nestsLayout(), bytes);
+    case 'c': return readAs(campaign::circleSweepsLayout(), bytes);
+    case 'w': return readAs(campaign::wristSweepLayout(), bytes);
+    case 'l': return readAs(campaign::loadingLayout(), bytes);
+    case 's': return readAs(campaign::statesLayout(), bytes);
+    case 'd': return readAs(campaign::displacementsLayout(), bytes);
+    default: return readAs(campaign::nestsLayout(), bytes);
   }
 }
 

@@ -3,6 +3,6 @@
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace stiffscope;
-  fuzz::expectInputError([&] { parseUrdf(fuzz::textOf(data, size), "robot.urdf", "base", "flange"); });
+  fuzz::expectInputError([&] { robot::parseUrdf(fuzz::textOf(data, size), "robot.urdf", "base", "flange"); });
   return 0;
 }

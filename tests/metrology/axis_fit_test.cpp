@@ -1,8 +1,7 @@
 #include "metrology/axis_fit.h"
 
 #include <gtest/gtest.h>
-
-#include "metrology/common_perpendicular.h"
+#include "metrology/lines.h"
 #include "tests/metrology/reference.h"
 #include "tests/metrology/simulated_points.h"
 
@@ -12,8 +11,8 @@ namespace {
 const Eigen::Vector3d kCentre(2.1, -1.3, 0.8);
 const Eigen::Vector3d kAxis = Eigen::Vector3d(0.3, -0.2, 0.9).normalized();
 
-CirclePoints arc(double radius, double height, double from, double degrees, int stops) {
-  CirclePoints circle;
+metrology::CirclePoints arc(double radius, double height, double from, double degrees, int stops) {
+  metrology::CirclePoints circle;
   for (int i = 0; i < stops; ++i) {
     circle.points.push_back(
         onCircle(kCentre, kAxis, radius, height, from + radians(degrees) * i / (stops - 1)));
@@ -21,19 +20,19 @@ CirclePoints arc(double radius, double height, double from, double degrees, int 
   return circle;
 }
 
-double missOfCentre(const AxisFit& fit) { return (nearestPoint(fit.axis.line, kCentre) - kCentre).norm(); }
+double missOfCentre(const metrology::AxisFit& fit) { return (metrology::nearestPoint(fit.axis.line, kCentre) - kCentre).norm(); }
 
-void expectFinite(const AxisFit& fit) {
+void expectFinite(const metrology::AxisFit& fit) {
   EXPECT_TRUE(fit.axis.line.point.allFinite());
   EXPECT_TRUE(fit.axis.line.direction.allFinite());
   EXPECT_TRUE(fit.axis.covariance.allFinite());
   EXPECT_TRUE(std::isfinite(fit.rms) && std::isfinite(fit.chi2_per_dof));
-  for (const AxisCircle& circle : fit.circles)
+  for (const metrology::AxisCircle& circle : fit.circles)
     EXPECT_TRUE(std::isfinite(circle.radius + circle.height + circle.rms));
 }
 
-void expectRefused(const std::vector<CirclePoints>& circles, const std::string& word) {
-  const AxisFit fit = fitAxis(circles);
+void expectRefused(const std::vector<metrology::CirclePoints>& circles, const std::string& word) {
+  const metrology::AxisFit fit = metrology::fitAxis(circles);
   EXPECT_FALSE(fit.determined);
   EXPECT_NE(fit.reason.find(word), std::string::npos) << fit.reason;
   expectFinite(fit);
@@ -41,11 +40,11 @@ void expectRefused(const std::vector<CirclePoints>& circles, const std::string& 
 
 TEST(FitAxis, OneCircleByHand) {
   // Radius 5 about z at height 1, centre (1, 2): 3-4-5 triangles.
-  const CirclePoints circle{{{6, 2, 1}, {4, 6, 1}, {1, 7, 1}, {-3, 5, 1}, {-4, 2, 1}, {1, -3, 1}}, {}};
-  const AxisFit fit = fitAxis({circle});
+  const metrology::CirclePoints circle{{{6, 2, 1}, {4, 6, 1}, {1, 7, 1}, {-3, 5, 1}, {-4, 2, 1}, {1, -3, 1}}, {}};
+  const metrology::AxisFit fit = metrology::fitAxis({circle});
   ASSERT_TRUE(fit.determined) << fit.reason;
   EXPECT_NEAR(std::abs(fit.axis.line.direction.z()), 1.0, 1e-14);
-  const Eigen::Vector3d foot = nearestPoint(fit.axis.line, {1, 2, 1});
+  const Eigen::Vector3d foot = metrology::nearestPoint(fit.axis.line, {1, 2, 1});
   EXPECT_LT((foot - Eigen::Vector3d(1, 2, 1)).norm(), 1e-13);  // rounding of numbers of 10
   EXPECT_NEAR(fit.circles[0].radius, 5.0, 1e-13);
   EXPECT_EQ(fit.degrees_of_freedom, 12 - 6);
@@ -54,7 +53,7 @@ TEST(FitAxis, OneCircleByHand) {
 
 TEST(FitAxis, ExactCirclesOfThreeReflectors) {
   for (const double degrees : {10.0, 40.0, 90.0, 280.0}) {
-    const AxisFit fit = fitAxis(
+    const metrology::AxisFit fit = metrology::fitAxis(
         {arc(1.9, 0.3, 0.2, degrees, 9), arc(2.3, -0.1, 0.5, degrees, 9), arc(0.4, 0.0, 2.0, degrees, 9)});
     ASSERT_TRUE(fit.determined) << fit.reason;
     // Rounding (4e-16 of 4 m) grows with the inverse of the sagitta, 0.4 % of the radius at 10 degrees, and
@@ -73,27 +72,27 @@ TEST(FitAxis, ExactCirclesOfThreeReflectors) {
 }
 
 TEST(FitAxis, AnisotropicWeightsDoNotMoveAnExactFitAndAgreeWhereTheyAreEqual) {
-  std::vector<CirclePoints> circles{arc(1.9, 0.3, 0.2, 90, 9), arc(2.3, -0.1, 0.5, 90, 9)};
+  std::vector<metrology::CirclePoints> circles{arc(1.9, 0.3, 0.2, 90, 9), arc(2.3, -0.1, 0.5, 90, 9)};
   Noise noise(3);
-  std::vector<CirclePoints> disturbed = circles;
-  for (CirclePoints& circle : disturbed) {
+  std::vector<metrology::CirclePoints> disturbed = circles;
+  for (metrology::CirclePoints& circle : disturbed) {
     for (Eigen::Vector3d& point : circle.points) point += 2e-5 * noise.normal3();
   }
-  const AxisFit plain = fitAxis(disturbed);
-  for (CirclePoints& circle : disturbed) circle.covariances.assign(9, 4e-10 * Eigen::Matrix3d::Identity());
-  const AxisFit equal = fitAxis(disturbed);
+  const metrology::AxisFit plain = metrology::fitAxis(disturbed);
+  for (metrology::CirclePoints& circle : disturbed) circle.covariances.assign(9, 4e-10 * Eigen::Matrix3d::Identity());
+  const metrology::AxisFit equal = metrology::fitAxis(disturbed);
   // The same least squares: differences are those of stopping at steps of 1e-12.
   EXPECT_LT((plain.axis.line.direction - equal.axis.line.direction).norm(), 1e-11);
-  EXPECT_LT((nearestPoint(plain.axis.line, kCentre) - nearestPoint(equal.axis.line, kCentre)).norm(), 1e-11);
+  EXPECT_LT((metrology::nearestPoint(plain.axis.line, kCentre) - metrology::nearestPoint(equal.axis.line, kCentre)).norm(), 1e-11);
   EXPECT_GT(equal.chi2_per_dof,
             0.3);  // 24 degrees of freedom: 0.3 to 2.2 holds but for one seed in a thousand
   EXPECT_LT(equal.chi2_per_dof, 2.2);
 
-  for (CirclePoints& circle : circles) {
+  for (metrology::CirclePoints& circle : circles) {
     for (const Eigen::Vector3d& point : circle.points)
       circle.covariances.push_back(seenFromOrigin(point, 5e-6, 5e-5));
   }
-  const AxisFit weighted = fitAxis(circles);
+  const metrology::AxisFit weighted = metrology::fitAxis(circles);
   ASSERT_TRUE(weighted.determined);
   EXPECT_LT(missOfCentre(weighted), 1e-11);
   EXPECT_LT(weighted.axis.line.direction.cross(kAxis).norm(), 1e-11);
@@ -101,20 +100,20 @@ TEST(FitAxis, AnisotropicWeightsDoNotMoveAnExactFitAndAgreeWhereTheyAreEqual) {
 
 TEST(FitAxis, WeightsPullTowardsThePrecisePoints) {
   // Nine points on the circle; one displaced by 1 mm outwards, declared ten thousand times worse.
-  CirclePoints circle = arc(1.0, 0.0, 0.0, 300, 9);
+  metrology::CirclePoints circle = arc(1.0, 0.0, 0.0, 300, 9);
   circle.points[4] += 1e-3 * (circle.points[4] - kCentre).normalized();
   circle.covariances.assign(9, 1e-10 * Eigen::Matrix3d::Identity());
-  const AxisFit trusting = fitAxis({circle});
+  const metrology::AxisFit trusting = metrology::fitAxis({circle});
   circle.covariances[4] *= 1e8;
-  const AxisFit warned = fitAxis({circle});
+  const metrology::AxisFit warned = metrology::fitAxis({circle});
   EXPECT_GT(missOfCentre(trusting), 1e-4);
   EXPECT_LT(missOfCentre(warned), 1e-10);  // 1 mm by a weight of 1e-8, shared among nine
 }
 
 TEST(FitAxis, AReflectorOnTheAxisSaysNothingAndHarmsNothing) {
-  CirclePoints on_axis;
+  metrology::CirclePoints on_axis;
   for (int i = 0; i < 9; ++i) on_axis.points.push_back(kCentre + 0.2 * kAxis);
-  const AxisFit fit = fitAxis({arc(1.9, 0.3, 0.2, 90, 9), on_axis});
+  const metrology::AxisFit fit = metrology::fitAxis({arc(1.9, 0.3, 0.2, 90, 9), on_axis});
   expectFinite(fit);
   ASSERT_TRUE(fit.determined) << fit.reason;
   // The radius of a circle of no size makes the outward direction arbitrary; the exact answer still fits
@@ -127,43 +126,43 @@ TEST(FitAxis, AReflectorOnTheAxisSaysNothingAndHarmsNothing) {
 TEST(FitAxis, AReflectorNearTheAxisWithNoise) {
   // A radius of 50 um with noise of 20 um: its direction is noise, the other two circles carry the axis.
   Noise noise(8);
-  std::vector<CirclePoints> circles{arc(0.5, 0.3, 0.2, 180, 13), arc(0.4, -0.1, 0.5, 180, 13),
+  std::vector<metrology::CirclePoints> circles{arc(0.5, 0.3, 0.2, 180, 13), arc(0.4, -0.1, 0.5, 180, 13),
                                     arc(5e-5, 0.1, 0.0, 180, 13)};
-  for (CirclePoints& circle : circles) {
+  for (metrology::CirclePoints& circle : circles) {
     for (Eigen::Vector3d& point : circle.points) point += 2e-5 * noise.normal3();
   }
-  const AxisFit fit = fitAxis(circles);
+  const metrology::AxisFit fit = metrology::fitAxis(circles);
   ASSERT_TRUE(fit.determined) << fit.reason;
   expectFinite(fit);
   EXPECT_LT(missOfCentre(fit), 6e-5);  // 20 um over 26 points, some eightfold by the half turn
 }
 
 TEST(FitAxis, RefusesWhatDetermineNoAxis) {
-  CirclePoints line, place, two;
+  metrology::CirclePoints line, place, two;
   for (int i = 0; i < 6; ++i) {
     line.points.push_back(Eigen::Vector3d(1, 2, 3) + i * Eigen::Vector3d(0.1, 0.2, -0.05));
     place.points.push_back({1, 2, 3});
   }
   two.points = {{1, 0, 0}, {0, 1, 0}};
   expectRefused({}, "three readings");
-  expectRefused({CirclePoints{}}, "three readings");
+  expectRefused({metrology::CirclePoints{}}, "three readings");
   expectRefused({two}, "three readings");
   expectRefused({two, two, two}, "three readings");
   expectRefused({line}, "one line");
   expectRefused({place}, "one place");
   expectRefused({place, place}, "one place");
   // Three points always fit a circle: nothing is left to tell its uncertainty.
-  expectRefused({CirclePoints{{{1, 0, 0}, {0, 1, 0}, {-1, 0, 0}}, {}}}, "too few");
+  expectRefused({metrology::CirclePoints{{{1, 0, 0}, {0, 1, 0}, {-1, 0, 0}}, {}}}, "too few");
   // Three readings that repeat two places.
-  expectRefused({CirclePoints{{{1, 0, 0}, {0, 1, 0}, {0, 1, 0}, {1, 0, 0}}, {}}}, "one line");
+  expectRefused({metrology::CirclePoints{{{1, 0, 0}, {0, 1, 0}, {0, 1, 0}, {1, 0, 0}}, {}}}, "one line");
 }
 
 TEST(FitAxis, ThreePlacesReadAgainAndAgain) {
   // Three stops read five times each: exact and determined, as three points are.
-  CirclePoints circle;
+  metrology::CirclePoints circle;
   for (int i = 0; i < 15; ++i)
     circle.points.push_back(onCircle(kCentre, kAxis, 1.2, 0.1, radians(60.0) * (i % 3)));
-  const AxisFit fit = fitAxis({circle});
+  const metrology::AxisFit fit = metrology::fitAxis({circle});
   ASSERT_TRUE(fit.determined) << fit.reason;
   EXPECT_LT(missOfCentre(fit), 1e-12);
 }
@@ -171,9 +170,9 @@ TEST(FitAxis, ThreePlacesReadAgainAndAgain) {
 TEST(FitAxis, ACircleThatWasHardlyReadJoinsIn) {
   // A reflector lost after one or two readings has no circle of its own, but does not spoil those of the
   // others.
-  CirclePoints lost = arc(1.1, 0.2, 0.0, 20, 2), once = arc(0.9, 0.4, 0.0, 20, 2), never;
+  metrology::CirclePoints lost = arc(1.1, 0.2, 0.0, 20, 2), once = arc(0.9, 0.4, 0.0, 20, 2), never;
   once.points.resize(1);
-  const AxisFit fit = fitAxis({arc(1.9, 0.3, 0.2, 90, 9), lost, once});
+  const metrology::AxisFit fit = metrology::fitAxis({arc(1.9, 0.3, 0.2, 90, 9), lost, once});
   expectFinite(fit);
   ASSERT_TRUE(fit.determined) << fit.reason;
   EXPECT_LT(missOfCentre(fit), 1e-11);
@@ -181,18 +180,18 @@ TEST(FitAxis, ACircleThatWasHardlyReadJoinsIn) {
 }
 
 TEST(FitAxis, NotANumberIsRefused) {
-  CirclePoints circle = arc(1.9, 0.3, 0.2, 90, 9);
+  metrology::CirclePoints circle = arc(1.9, 0.3, 0.2, 90, 9);
   circle.points[3].x() = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_FALSE(fitAxis({circle}).determined);
+  EXPECT_FALSE(metrology::fitAxis({circle}).determined);
 }
 
 TEST(FitAxis, NplCircleWithItsPublishedCovariance) {
   // NPL's worked example of a 3-D circle by orthogonal distances: same model, published covariance.
   const auto file = reference("npl-circle3d.json");
   if (!file) GTEST_SKIP() << "reference data are not beside the checkout";
-  CirclePoints circle;
+  metrology::CirclePoints circle;
   for (const auto& point : (*file)["points"]) circle.points.push_back(vector(point));
-  const AxisFit fit = fitAxis({circle});
+  const metrology::AxisFit fit = metrology::fitAxis({circle});
   ASSERT_TRUE(fit.determined) << fit.reason;
   const auto& published = (*file)["published"];
   const auto& recomputed = (*file)["recomputed_independently"];
@@ -235,20 +234,20 @@ TEST(FitAxis, PublishedExactCircles) {
   const auto file = reference("published-vectors.json");
   if (!file) GTEST_SKIP() << "reference data are not beside the checkout";
   for (const auto& one : (*file)["circle3d_exact_pizzamiglio"]["cases"]) {
-    CirclePoints circle;
+    metrology::CirclePoints circle;
     for (const auto& point : one["points"]) circle.points.push_back(vector(point));
     if (circle.points.size() < 4)
       circle.points.insert(circle.points.end(), circle.points.begin(), circle.points.end());
-    const AxisFit fit = fitAxis({circle});
+    const metrology::AxisFit fit = metrology::fitAxis({circle});
     ASSERT_TRUE(fit.determined) << fit.reason;
-    EXPECT_LT((nearestPoint(fit.axis.line, vector(one["c"])) - vector(one["c"])).norm(), 1e-12);
+    EXPECT_LT((metrology::nearestPoint(fit.axis.line, vector(one["c"])) - vector(one["c"])).norm(), 1e-12);
     // Where the points are not on a circle the entry's note has the geometric radius.
     EXPECT_NEAR(fit.circles[0].radius, one.contains("r") ? one["r"].get<double>() : 1.5, 1e-12);
   }
-  CirclePoints line;
+  metrology::CirclePoints line;
   for (const auto& point : (*file)["circle3d_exact_pizzamiglio"]["must_fail"][0])
     line.points.push_back(vector(point));
-  EXPECT_FALSE(fitAxis({line}).determined);
+  EXPECT_FALSE(metrology::fitAxis({line}).determined);
 }
 
 }  // namespace

@@ -2,7 +2,6 @@
 
 #include <cstdio>
 #include <string>
-
 #include "metrology/axis_fit.h"
 #include "metrology/circle_fit.h"
 #include "metrology/cylinder_fit.h"
@@ -25,7 +24,7 @@ const Eigen::Vector3d kCentre(3.2, -1.3, 0.8);  // the tracker stands at the ori
 const Eigen::Vector3d kAxis = Eigen::Vector3d(0.3, -0.2, 0.9).normalized();
 
 /// (shift_u, shift_v, tilt_u, tilt_v) from the fit to the truth, by the definition of MeasuredLine.
-Eigen::Vector4d errorOf(const MeasuredLine& fit) {
+Eigen::Vector4d errorOf(const metrology::MeasuredLine& fit) {
   const Eigen::Vector3d towards = kAxis * (kAxis.dot(fit.line.direction) < 0.0 ? -1.0 : 1.0);
   const double along = towards.dot(fit.line.direction);
   const double to_plane = fit.line.direction.dot(fit.line.point - kCentre) / along;
@@ -40,7 +39,7 @@ double axisCoverage(double degrees) {
   constexpr int kStops = 13;
   int inside = 0;
   for (int k = 0; k < kFits; ++k) {
-    std::vector<CirclePoints> circles(3);
+    std::vector<metrology::CirclePoints> circles(3);
     for (std::size_t target = 0; target < 3; ++target) {
       for (int i = 0; i < kStops; ++i) {
         const Eigen::Vector3d point = onCircle(kCentre, kAxis, radii[target], heights[target],
@@ -50,7 +49,7 @@ double axisCoverage(double degrees) {
         circles[target].covariances.push_back(covariance);
       }
     }
-    const AxisFit fit = fitAxis(circles);
+    const metrology::AxisFit fit = metrology::fitAxis(circles);
     if (!fit.determined) continue;
     const Eigen::Vector4d error = errorOf(fit.axis);
     inside += error.dot(fit.axis.covariance.ldlt().solve(error)) < kChiSquare4;
@@ -83,7 +82,7 @@ TEST(Coverage, CommonCentreOfSpheres) {
   int centre_inside = 0, all_inside = 0;
   constexpr double kChiSquare6 = 12.5916;
   for (int k = 0; k < kFits; ++k) {
-    std::vector<SpherePoints> spheres(3);
+    std::vector<metrology::SpherePoints> spheres(3);
     for (std::size_t target = 0; target < 3; ++target) {
       for (int i = 0; i < kStops; ++i) {
         // A wrist reaches about a third of the sphere.
@@ -95,7 +94,7 @@ TEST(Coverage, CommonCentreOfSpheres) {
         spheres[target].covariances.push_back(covariance);
       }
     }
-    const SphereFit fit = fitSpheres(spheres);
+    const metrology::SphereFit fit = metrology::fitSpheres(spheres);
     if (!fit.determined) continue;
     Eigen::VectorXd error(6);
     error << kCentre - fit.centre, radii[0] - fit.radii[0], radii[1] - fit.radii[1], radii[2] - fit.radii[2];
@@ -123,8 +122,8 @@ double squaredDistance(const Eigen::VectorXd& error, const Eigen::MatrixXd& cova
 }
 
 /// Readings of a tracker in the origin: 6 um along its beam, 25 um across.
-MeasuredPoints measured(const std::vector<Eigen::Vector3d>& ideal, Noise& noise) {
-  MeasuredPoints points;
+metrology::MeasuredPoints measured(const std::vector<Eigen::Vector3d>& ideal, Noise& noise) {
+  metrology::MeasuredPoints points;
   for (const Eigen::Vector3d& point : ideal) {
     points.covariances.push_back(seenFromOrigin(point, kAlong, kAcross));
     points.points.push_back(point + noise.draw(points.covariances.back()));
@@ -148,19 +147,19 @@ void expectCoverage(const std::string& what, int inside) {
 }
 
 TEST(Coverage, Circles) {
-  for (const CircleStrategy strategy : {CircleStrategy::full, CircleStrategy::plane_first}) {
+  for (const metrology::CircleStrategy strategy : {metrology::CircleStrategy::full, metrology::CircleStrategy::plane_first}) {
     for (const double degrees : {40.0, 90.0, 360.0}) {
       Noise noise(static_cast<std::uint64_t>(degrees));
       const auto ideal = arcPoints(degrees, 0.0);
       int inside = 0;
       for (int k = 0; k < kFits; ++k) {
-        const FittedCircle fit = fitCircle(measured(ideal, noise), strategy);
+        const metrology::FittedCircle fit = metrology::fitCircle(measured(ideal, noise), strategy);
         if (!fit.determined) continue;
         Eigen::VectorXd error(7);
         error << fit.circle.centre - kCentre, fit.circle.normal - kAxis, fit.circle.radius - 1.2;
         inside += squaredDistance(error, *fit.covariance, 6) < kChiSquare6;
       }
-      expectCoverage(std::string(strategy == CircleStrategy::full ? "full" : "plane-first") +
+      expectCoverage(std::string(strategy == metrology::CircleStrategy::full ? "full" : "plane-first") +
                          " circles over " + std::to_string(static_cast<int>(degrees)) + " degrees",
                      inside);
     }
@@ -177,7 +176,7 @@ TEST(Coverage, Spheres) {
     }
     int inside = 0;
     for (int k = 0; k < kFits; ++k) {
-      const FittedSphere fit = fitSphere(measured(ideal, noise));
+      const metrology::FittedSphere fit = metrology::fitSphere(measured(ideal, noise));
       if (!fit.determined) continue;
       Eigen::VectorXd error(4);
       error << fit.sphere.centre - kCentre, fit.sphere.radius - 0.6;
@@ -193,10 +192,10 @@ TEST(Coverage, CylinderAxes) {
     const auto ideal = arcPoints(degrees, 0.2);
     int inside = 0;
     for (int k = 0; k < kFits; ++k) {
-      const FittedCylinder fit = fitCylinder(measured(ideal, noise));
+      const metrology::FittedCylinder fit = metrology::fitCylinder(measured(ideal, noise));
       if (!fit.determined) continue;
       // The true axis where it pierces the plane across the fitted one at the fitted point.
-      const Line& axis = fit.cylinder.axis;
+      const metrology::Line& axis = fit.cylinder.axis;
       const double along = axis.direction.dot(axis.point - kCentre) / axis.direction.dot(kAxis);
       Eigen::VectorXd error(7);
       error << axis.point - (kCentre + along * kAxis), axis.direction - kAxis, fit.cylinder.radius - 1.2;

@@ -3,7 +3,6 @@
 #include <Eigen/Dense>
 #include <functional>
 #include <limits>
-
 #include "metrology/circle_fit.h"
 #include "metrology/cylinder_fit.h"
 #include "metrology/line_fit.h"
@@ -23,7 +22,7 @@ const Eigen::Vector3d kAxis = Eigen::Vector3d(0.3, -0.2, 0.9).normalized();
 TEST(FitPlane, ByHand) {
   // A square at z = 1, its corners lifted and lowered by 0.01 in turn: the plane is z = 1, every residual
   // 0.01.
-  const FittedPlane fit = fitPlane({{{0, 0, 1.01}, {1, 0, 0.99}, {1, 1, 1.01}, {0, 1, 0.99}}, {}});
+  const metrology::FittedPlane fit = metrology::fitPlane({{{0, 0, 1.01}, {1, 0, 0.99}, {1, 1, 1.01}, {0, 1, 0.99}}, {}});
   ASSERT_TRUE(fit.determined) << fit.reason;
   EXPECT_LT((fit.plane.normal - Eigen::Vector3d::UnitZ()).norm(), 1e-15);
   EXPECT_LT((fit.plane.point - Eigen::Vector3d(0.5, 0.5, 1.0)).norm(), 1e-15);
@@ -36,7 +35,7 @@ TEST(FitPlane, ByHand) {
 
 TEST(FitLine, ByHand) {
   // Along x, off by 0.1 to and fro in y: symmetric about the middle, so the line is y = 0.
-  const FittedLine fit = fitLine({{{-3, 0.1, 5}, {-1, -0.1, 5}, {1, -0.1, 5}, {3, 0.1, 5}}, {}});
+  const metrology::FittedLine fit = metrology::fitLine({{{-3, 0.1, 5}, {-1, -0.1, 5}, {1, -0.1, 5}, {3, 0.1, 5}}, {}});
   ASSERT_TRUE(fit.determined) << fit.reason;
   EXPECT_LT((fit.line.direction - Eigen::Vector3d::UnitX()).norm(), 1e-15);
   EXPECT_LT((fit.line.point - Eigen::Vector3d(0, 0, 5)).norm(), 1e-15);
@@ -49,13 +48,13 @@ TEST(FitLine, ByHand) {
 TEST(FitCircle, BothStrategiesNameThemselvesAndAgreeOnAFlatCircle) {
   Points points;
   for (int i = 0; i < 9; ++i) points.push_back(onCircle(kCentre, kAxis, 1.2, 0.0, radians(20.0 * i)));
-  for (const CircleStrategy strategy : {CircleStrategy::full, CircleStrategy::plane_first}) {
-    const FittedCircle fit = fitCircle({points, {}}, strategy);
+  for (const metrology::CircleStrategy strategy : {metrology::CircleStrategy::full, metrology::CircleStrategy::plane_first}) {
+    const metrology::FittedCircle fit = metrology::fitCircle({points, {}}, strategy);
     ASSERT_TRUE(fit.determined) << fit.reason;
     EXPECT_LT((fit.circle.centre - kCentre).norm(), 1e-15 * 8);  // roundings of the coordinates of the points
     EXPECT_LT((fit.circle.normal - kAxis).norm(), 1e-15 * 8);
     EXPECT_NEAR(fit.circle.radius, 1.2, 1e-15 * 8);
-    EXPECT_EQ(std::string(fit.method).substr(0, 4), strategy == CircleStrategy::full ? "full" : "plan");
+    EXPECT_EQ(std::string(fit.method).substr(0, 4), strategy == metrology::CircleStrategy::full ? "full" : "plan");
   }
 }
 
@@ -63,7 +62,7 @@ TEST(FitCylinder, ByHandAndWithoutAStartGiven) {
   Points points;
   for (int i = 0; i < 24; ++i)
     points.push_back({3.0 + 2.0 * std::cos(0.7 * i), 4.0 + 2.0 * std::sin(0.7 * i), 0.1 * i});
-  const FittedCylinder fit = fitCylinder({points, {}});
+  const metrology::FittedCylinder fit = metrology::fitCylinder({points, {}});
   ASSERT_TRUE(fit.determined) << fit.reason;
   EXPECT_LT((fit.cylinder.axis.direction - Eigen::Vector3d::UnitZ()).norm(), 1e-14);
   EXPECT_LT((fit.cylinder.axis.point.head<2>() - Eigen::Vector2d(3, 4)).norm(), 1e-14);
@@ -72,13 +71,13 @@ TEST(FitCylinder, ByHandAndWithoutAStartGiven) {
 }
 
 TEST(Fits, AnExactShapeHasNoCovarianceUnlessTheReadingsHave) {
-  MeasuredPoints points{{{1, 0, 0}, {0, 1, 0}, {-1, 0, 0}}, {}};
-  const FittedCircle bare = fitCircle(points);
+  metrology::MeasuredPoints points{{{1, 0, 0}, {0, 1, 0}, {-1, 0, 0}}, {}};
+  const metrology::FittedCircle bare = metrology::fitCircle(points);
   ASSERT_TRUE(bare.determined) << bare.reason;
   EXPECT_FALSE(bare.covariance);
   points.covariances.assign(3, 1e-10 * Eigen::Matrix3d::Identity());
-  ASSERT_TRUE(fitCircle(points).covariance);
-  EXPECT_NEAR((*fitCircle(points).covariance)(2, 2), 0.5e-10,
+  ASSERT_TRUE(metrology::fitCircle(points).covariance);
+  EXPECT_NEAR((*metrology::fitCircle(points).covariance)(2, 2), 0.5e-10,
               1e-20);  // between the first point and the third
 }
 
@@ -97,10 +96,10 @@ std::string reasonOf(const Fit& fit) {
 }
 
 Reasons reasonsFor(const Points& points) {
-  const MeasuredPoints readings{points, {}};
-  return {reasonOf(fitLine(readings)),   reasonOf(fitPlane(readings)),
-          reasonOf(fitCircle(readings)), reasonOf(fitCircle(readings, CircleStrategy::plane_first)),
-          reasonOf(fitSphere(readings)), reasonOf(fitCylinder(readings))};
+  const metrology::MeasuredPoints readings{points, {}};
+  return {reasonOf(metrology::fitLine(readings)),   reasonOf(metrology::fitPlane(readings)),
+          reasonOf(metrology::fitCircle(readings)), reasonOf(metrology::fitCircle(readings, metrology::CircleStrategy::plane_first)),
+          reasonOf(metrology::fitSphere(readings)), reasonOf(metrology::fitCylinder(readings))};
 }
 
 void expectAll(const Points& points, const std::string& word) {
@@ -158,10 +157,10 @@ TEST(Fits, RefuseWhatDeterminesNoShape) {
   EXPECT_NE(on_ring.cylinder.find("one plane"), std::string::npos) << on_ring.cylinder;
   // A cube has no direction in which it spreads most or least.
   const Points cube{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}, {0, 0, 1}, {1, 0, 1}, {0, 1, 1}, {1, 1, 1}};
-  EXPECT_NE(fitLine({cube, {}}).reason.find("alike"), std::string::npos);
-  EXPECT_NE(fitPlane({cube, {}}).reason.find("alike"), std::string::npos);
-  EXPECT_NE(fitCylinder({cube, {}}).reason.find("two different"), std::string::npos)
-      << fitCylinder({cube, {}}).reason;
+  EXPECT_NE(metrology::fitLine({cube, {}}).reason.find("alike"), std::string::npos);
+  EXPECT_NE(metrology::fitPlane({cube, {}}).reason.find("alike"), std::string::npos);
+  EXPECT_NE(metrology::fitCylinder({cube, {}}).reason.find("two different"), std::string::npos)
+      << metrology::fitCylinder({cube, {}}).reason;
 }
 
 TEST(Fits, RefuseWhatTheScatterContradicts) {
@@ -171,24 +170,24 @@ TEST(Fits, RefuseWhatTheScatterContradicts) {
     line.push_back(Eigen::Vector3d(0.1 * i, 0, 0) + 1e-4 * noise.normal3());
     plane.push_back(Eigen::Vector3d(noise.uniform(), noise.uniform(), 0) + 1e-4 * noise.normal3());
   }
-  for (const CircleStrategy strategy : {CircleStrategy::full, CircleStrategy::plane_first}) {
-    EXPECT_FALSE(fitCircle({line, {}}, strategy).determined);
+  for (const metrology::CircleStrategy strategy : {metrology::CircleStrategy::full, metrology::CircleStrategy::plane_first}) {
+    EXPECT_FALSE(metrology::fitCircle({line, {}}, strategy).determined);
   }
-  EXPECT_FALSE(fitPlane({line, {}}).determined);
-  const FittedSphere sphere = fitSphere({plane, {}});
+  EXPECT_FALSE(metrology::fitPlane({line, {}}).determined);
+  const metrology::FittedSphere sphere = metrology::fitSphere({plane, {}});
   EXPECT_FALSE(sphere.determined) << sphere.sphere.radius << " " << sphere.rms << " "
                                   << (*sphere.covariance)(3, 3);
 }
 
 TEST(FitSphere, RefusesFewerThanFourAndWrongCovariances) {
-  EXPECT_FALSE(fitSphere({{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {}}).determined);
+  EXPECT_FALSE(metrology::fitSphere({{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {}}).determined);
   const Points points{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {-1, 0, 0}, {0, -1, 0}};
-  MeasuredPoints readings{points, {Eigen::Matrix3d::Identity()}};
-  EXPECT_NE(fitSphere(readings).reason.find("one a reading"), std::string::npos);
+  metrology::MeasuredPoints readings{points, {Eigen::Matrix3d::Identity()}};
+  EXPECT_NE(metrology::fitSphere(readings).reason.find("one a reading"), std::string::npos);
   readings.covariances.assign(5, Eigen::Matrix3d::Identity());
-  EXPECT_TRUE(fitSphere(readings).determined);
+  EXPECT_TRUE(metrology::fitSphere(readings).determined);
   readings.covariances[2] = -Eigen::Matrix3d::Identity();
-  EXPECT_NE(fitSphere(readings).reason.find("positive definite"), std::string::npos);
+  EXPECT_NE(metrology::fitSphere(readings).reason.find("positive definite"), std::string::npos);
 }
 
 TEST(FitCircle, NplExampleToAllPrintedDigits) {
@@ -196,7 +195,7 @@ TEST(FitCircle, NplExampleToAllPrintedDigits) {
   if (!file) GTEST_SKIP() << "reference data are not beside the checkout";
   Points points;
   for (const auto& point : (*file)["points"]) points.push_back(vector(point));
-  const FittedCircle fit = fitCircle({points, {}});
+  const metrology::FittedCircle fit = metrology::fitCircle({points, {}});
   ASSERT_TRUE(fit.determined) << fit.reason;
   const auto& published = (*file)["published"];
   const double half = 0.5001;  // of the last printed digit
@@ -229,7 +228,7 @@ TEST(FitCircle, PublishedGeometricCirclesInAnyPlane) {
       for (std::size_t i = 0; i < one["x"].size(); ++i) {
         points.push_back({one["x"][i].get<double>(), one["y"][i].get<double>(), height});
       }
-      const FittedCircle fit = fitCircle({points, {}});
+      const metrology::FittedCircle fit = metrology::fitCircle({points, {}});
       ASSERT_TRUE(fit.determined) << name << ": " << fit.reason;
       const Eigen::Vector3d centre = vector(answer["c"]) + height * Eigen::Vector3d::UnitZ();
       EXPECT_LT((fit.circle.centre - centre).norm(), 2e-8) << name;  // as printed: eight decimals and more
@@ -273,26 +272,26 @@ TEST(Fits, OpenIndyVectorsWithinTheirOwnTolerances) {
   for (const auto& test : (*file)["tests"]) {
     const std::string name = test["test"];
     SCOPED_TRACE(name);
-    MeasuredPoints points;
+    metrology::MeasuredPoints points;
     for (const auto& point : test["points"]) points.points.push_back(vector(point));
     const auto named = [&name](const char* part) { return name.find(part) != std::string::npos; };
     if (test["skipped_upstream"].get<bool>() || named("BestFitPoint")) continue;
     ++compared;
     if (named("Plane") && !named("Circle")) {
-      const FittedPlane fit = fitPlane(points);
+      const metrology::FittedPlane fit = metrology::fitPlane(points);
       ASSERT_TRUE(fit.determined) << fit.reason;
       compare(test, {fit.plane.normal, 0.0, fit.residual_sd});
     } else if (named("Line")) {
-      const FittedLine fit = fitLine(points);
+      const metrology::FittedLine fit = metrology::fitLine(points);
       ASSERT_TRUE(fit.determined) << fit.reason;
       // OpenIndy counts a point's distance as one residual (n - 2), not as its two components (2 n - 4).
       compare(test, {fit.line.direction, 0.0, std::sqrt(2.0) * fit.residual_sd});
     } else if (named("Circle")) {
-      const FittedCircle fit = fitCircle(points, CircleStrategy::plane_first);
+      const metrology::FittedCircle fit = metrology::fitCircle(points, metrology::CircleStrategy::plane_first);
       ASSERT_TRUE(fit.determined) << fit.reason;
       compare(test, {fit.circle.normal, fit.circle.radius, fit.residual_sd});
     } else if (named("Sphere")) {
-      const FittedSphere fit = fitSphere(points);
+      const metrology::FittedSphere fit = metrology::fitSphere(points);
       ASSERT_TRUE(fit.determined) << fit.reason;
       // Of a sphere it counts three coordinates a point (3 n - 4); its residuals, printed to 1e-5, say the
       // same.
@@ -306,7 +305,7 @@ TEST(Fits, OpenIndyVectorsWithinTheirOwnTolerances) {
         EXPECT_NEAR((point - fit.sphere.centre).norm() - fit.sphere.radius, one["value"].get<double>(), 1e-5);
       }
     } else {
-      const FittedCylinder fit = fitCylinder(points);
+      const metrology::FittedCylinder fit = metrology::fitCylinder(points);
       ASSERT_TRUE(fit.determined) << fit.reason;
       compare(test, {fit.cylinder.axis.direction, fit.cylinder.radius, fit.residual_sd});
     }

@@ -1,30 +1,27 @@
 #include <gtest/gtest.h>
-
-#include "metrology/base_frame.h"
-#include "metrology/common_perpendicular.h"
-#include "metrology/line_pair_uncertainty.h"
-#include "metrology/measured_line.h"
-#include "metrology/swept_arc.h"
-#include "metrology/tracker_noise.h"
+#include "metrology/rigid_motion.h"
+#include "metrology/lines.h"
+#include "metrology/axis_fit.h"
+#include "metrology/measured_points.h"
 #include "tests/metrology/simulated_points.h"
 
 namespace stiffscope {
 namespace {
 
-TEST(CommonPerpendicular, ByHand) {
+TEST(metrology::CommonPerpendicular, ByHand) {
   // The x axis, and a line along y three above it at x = 2.
-  const CommonPerpendicular found = commonPerpendicular({{-7, 0, 0}, {1, 0, 0}}, {{2, 11, 3}, {0, 1, 0}});
+  const metrology::CommonPerpendicular found = metrology::commonPerpendicular({{-7, 0, 0}, {1, 0, 0}}, {{2, 11, 3}, {0, 1, 0}});
   EXPECT_LT((found.foot_on_first - Eigen::Vector3d(2, 0, 0)).norm(), 1e-15);
   EXPECT_LT((found.foot_on_second - Eigen::Vector3d(2, 0, 3)).norm(), 1e-15);
   EXPECT_DOUBLE_EQ(found.distance, 3.0);
   EXPECT_DOUBLE_EQ(found.angle, std::numbers::pi / 2.0);
 }
 
-TEST(CommonPerpendicular, IsTheShortestWay) {
+TEST(metrology::CommonPerpendicular, IsTheShortestWay) {
   Noise noise(4);
   for (int k = 0; k < 50; ++k) {
-    const Line first{noise.normal3(), noise.direction()}, second{noise.normal3(), noise.direction()};
-    const CommonPerpendicular found = commonPerpendicular(first, second);
+    const metrology::Line first{noise.normal3(), noise.direction()}, second{noise.normal3(), noise.direction()};
+    const metrology::CommonPerpendicular found = metrology::commonPerpendicular(first, second);
     for (int i = 0; i < 20; ++i) {
       const Eigen::Vector3d a = first.point + 3.0 * noise.normal() * first.direction;
       const Eigen::Vector3d b = second.point + 3.0 * noise.normal() * second.direction;
@@ -35,57 +32,57 @@ TEST(CommonPerpendicular, IsTheShortestWay) {
   }
 }
 
-TEST(CommonPerpendicular, ParallelLinesAreFiniteAndKeepTheirDistance) {
-  const CommonPerpendicular found = commonPerpendicular({{0, 0, 5}, {0, 0, 1}}, {{3, 4, -2}, {0, 0, 1}});
+TEST(metrology::CommonPerpendicular, ParallelLinesAreFiniteAndKeepTheirDistance) {
+  const metrology::CommonPerpendicular found = metrology::commonPerpendicular({{0, 0, 5}, {0, 0, 1}}, {{3, 4, -2}, {0, 0, 1}});
   EXPECT_DOUBLE_EQ(found.distance, 5.0);
   EXPECT_DOUBLE_EQ(found.angle, 0.0);
   EXPECT_TRUE(found.foot_on_first.allFinite());
-  EXPECT_DOUBLE_EQ(commonPerpendicular({{0, 0, 5}, {0, 0, 1}}, {{3, 4, -2}, {0, 0, -1}}).distance, 5.0);
+  EXPECT_DOUBLE_EQ(metrology::commonPerpendicular({{0, 0, 5}, {0, 0, 1}}, {{3, 4, -2}, {0, 0, -1}}).distance, 5.0);
 }
 
 TEST(DistanceAcross, ByHand) {
   // A line that leans by 0.1 in x per z: at z = 2 it stands at x = 1.2.
-  const Line upright{{0, 0, -9}, {0, 0, 1}};
-  const Line leaning{{1, 0, 0}, Eigen::Vector3d(0.1, 0, 1).normalized()};
-  EXPECT_NEAR(distanceAcross(upright, leaning, {0, 0, 2}), 1.2, 1e-15);
-  EXPECT_NEAR(distanceAcross(upright, leaning, {7, -5, 2}), 1.2,
+  const metrology::Line upright{{0, 0, -9}, {0, 0, 1}};
+  const metrology::Line leaning{{1, 0, 0}, Eigen::Vector3d(0.1, 0, 1).normalized()};
+  EXPECT_NEAR(metrology::distanceAcross(upright, leaning, {0, 0, 2}), 1.2, 1e-15);
+  EXPECT_NEAR(metrology::distanceAcross(upright, leaning, {7, -5, 2}), 1.2,
               1e-15);  // only the place along the axis counts
-  EXPECT_NEAR(distanceAcross(upright, {{3, 4, 1}, {0, 0, -1}}, {0, 0, 2}), 5.0, 1e-15);  // parallel
+  EXPECT_NEAR(metrology::distanceAcross(upright, {{3, 4, 1}, {0, 0, -1}}, {0, 0, 2}), 5.0, 1e-15);  // parallel
 }
 
 TEST(AngleBetween, SmallAnglesKeepTheirDigits) {
-  EXPECT_NEAR(angleBetween({{0, 0, 0}, {0, 0, 1}}, {{1, 0, 0}, {std::sin(1e-7), 0, -std::cos(1e-7)}}), 1e-7,
+  EXPECT_NEAR(metrology::angleBetween({{0, 0, 0}, {0, 0, 1}}, {{1, 0, 0}, {std::sin(1e-7), 0, -std::cos(1e-7)}}), 1e-7,
               1e-16);
 }
 
 TEST(SweptArc, ByHand) {
-  const Line axis{{0, 0, 0}, {0, 0, 1}};
+  const metrology::Line axis{{0, 0, 0}, {0, 0, 1}};
   const auto at = [](double degrees) {
     return Eigen::Vector3d(std::cos(radians(degrees)), std::sin(radians(degrees)), 0.3);
   };
-  EXPECT_DOUBLE_EQ(sweptArc(axis, {}), 0.0);
-  EXPECT_DOUBLE_EQ(sweptArc(axis, {at(10)}), 0.0);
-  EXPECT_NEAR(sweptArc(axis, {at(10), at(50), at(30)}), radians(40), 1e-14);
-  EXPECT_NEAR(sweptArc(axis, {at(170), at(-170), at(180)}), radians(20), 1e-14);  // through the cut of atan2
-  EXPECT_NEAR(sweptArc(axis, {at(0), at(90), at(180), at(270)}), radians(270), 1e-14);  // a full turn of four
-  EXPECT_NEAR(sweptArc(axis, {at(25), at(25), at(25)}), 0.0, 1e-14);
+  EXPECT_DOUBLE_EQ(metrology::sweptArc(axis, {}), 0.0);
+  EXPECT_DOUBLE_EQ(metrology::sweptArc(axis, {at(10)}), 0.0);
+  EXPECT_NEAR(metrology::sweptArc(axis, {at(10), at(50), at(30)}), radians(40), 1e-14);
+  EXPECT_NEAR(metrology::sweptArc(axis, {at(170), at(-170), at(180)}), radians(20), 1e-14);  // through the cut of atan2
+  EXPECT_NEAR(metrology::sweptArc(axis, {at(0), at(90), at(180), at(270)}), radians(270), 1e-14);  // a full turn of four
+  EXPECT_NEAR(metrology::sweptArc(axis, {at(25), at(25), at(25)}), 0.0, 1e-14);
 }
 
 TEST(BaseFrame, ByHand) {
   // Axis 1 upright at (1, 2); axis 2 along y, 0.3 ahead in x, 0.7 up, leaning up a little: z0, y0, origin are
   // seen.
-  const Line axis_1{{1, 2, -5}, {0, 0, 1}};
-  const Line axis_2{{1.3, 9, 0.7 + 7 * 0.01}, Eigen::Vector3d(0, 1, 0.01).normalized()};
-  const Eigen::Isometry3d frame = baseFrame(axis_1, axis_2);
+  const metrology::Line axis_1{{1, 2, -5}, {0, 0, 1}};
+  const metrology::Line axis_2{{1.3, 9, 0.7 + 7 * 0.01}, Eigen::Vector3d(0, 1, 0.01).normalized()};
+  const Eigen::Isometry3d frame = metrology::baseFrame(axis_1, axis_2);
   EXPECT_LT((frame.linear() - Eigen::Matrix3d::Identity()).norm(), 1e-15);
   EXPECT_LT((frame.translation() - Eigen::Vector3d(1, 2, 0.7)).norm(), 1e-14);
-  const Eigen::Isometry3d other = baseFrame({{1, 2, -5}, {0, 0, -1}}, axis_2);
+  const Eigen::Isometry3d other = metrology::baseFrame({{1, 2, -5}, {0, 0, -1}}, axis_2);
   EXPECT_LT((other.linear() - Eigen::Vector3d(-1, 1, -1).asDiagonal().toDenseMatrix()).norm(), 1e-15);
 }
 
-TEST(TrackerNoise, ByHand) {
+TEST(metrology::TrackerNoise, ByHand) {
   // 5 m along x from the station: 4 + 0.6 * 5 = 7 um along x, 6 + 2.2 * 5 = 17 um across.
-  const TrackerNoise noise{4e-6, 0.6e-6, 6e-6, 2.2e-6, {1, 0, 0}};
+  const metrology::TrackerNoise noise{4e-6, 0.6e-6, 6e-6, 2.2e-6, {1, 0, 0}};
   const Eigen::Matrix3d covariance = noise.covarianceAt({6, 0, 0});
   EXPECT_LT((1e12 * covariance - Eigen::Vector3d(49, 289, 289).asDiagonal().toDenseMatrix()).norm(), 1e-10);
   // 3-4-0 from the station: the same distance, turned.
@@ -97,10 +94,10 @@ TEST(TrackerNoise, ByHand) {
   EXPECT_TRUE(noise.covarianceAt({1, 0, 0}).allFinite());
 }
 
-MeasuredLine uncertain(const Line& line, std::uint64_t seed) {
+metrology::MeasuredLine uncertain(const metrology::Line& line, std::uint64_t seed) {
   Noise noise(seed);
-  MeasuredLine measured{line, {}, {}, Eigen::Matrix4d::Zero()};
-  basisAcross(line.direction, measured.across_u, measured.across_v);
+  metrology::MeasuredLine measured{line, {}, {}, Eigen::Matrix4d::Zero()};
+  metrology::basisAcross(line.direction, measured.across_u, measured.across_v);
   const auto root = Eigen::Matrix4d::NullaryExpr([&] { return noise.normal(); }).eval();
   const Eigen::Vector4d scale(2e-5, 2e-5, 1e-5, 1e-5);  // m and rad
   measured.covariance = scale.asDiagonal() * (root * root.transpose()) * scale.asDiagonal();
@@ -108,19 +105,19 @@ MeasuredLine uncertain(const Line& line, std::uint64_t seed) {
 }
 
 /// Standard deviation of a number over draws of both lines' four parameters.
-double monteCarlo(const MeasuredLine& first, const MeasuredLine& second,
-                  const std::function<double(const Line&, const Line&)>& number) {
+double monteCarlo(const metrology::MeasuredLine& first, const metrology::MeasuredLine& second,
+                  const std::function<double(const metrology::Line&, const metrology::Line&)>& number) {
   Noise noise(99);
   const Eigen::Matrix4d root_1 = first.covariance.llt().matrixL(), root_2 = second.covariance.llt().matrixL();
   constexpr int kDraws = 20000;
   double sum = 0.0, square = 0.0;
-  const auto draw = [&](const MeasuredLine& line, const Eigen::Matrix4d& root) {
+  const auto draw = [&](const metrology::MeasuredLine& line, const Eigen::Matrix4d& root) {
     const Eigen::Vector4d step = root * Eigen::Vector4d::NullaryExpr([&] { return noise.normal(); }).eval();
     const Eigen::Vector3d direction = line.line.direction + step[2] * line.across_u + step[3] * line.across_v;
-    return Line{line.line.point + step[0] * line.across_u + step[1] * line.across_v, direction.normalized()};
+    return metrology::Line{line.line.point + step[0] * line.across_u + step[1] * line.across_v, direction.normalized()};
   };
   for (int k = 0; k < kDraws; ++k) {
-    const Line a = draw(first, root_1), b = draw(second, root_2);
+    const metrology::Line a = draw(first, root_1), b = draw(second, root_2);
     const double value = number(a, b);
     sum += value;
     square += value * value;
@@ -132,63 +129,63 @@ double monteCarlo(const MeasuredLine& first, const MeasuredLine& second,
 constexpr double kMonteCarlo = 0.02;
 
 TEST(PropagatePair, AgreesWithMonteCarlo) {
-  const MeasuredLine first = uncertain({{0.1, 0.2, -1}, Eigen::Vector3d(0.1, 0.05, 1).normalized()}, 1);
-  const MeasuredLine second = uncertain({{0.5, 0.9, 0.4}, Eigen::Vector3d(0.1, 1, -0.3).normalized()}, 2);
-  const auto distance = [](const Line& a, const Line& b) { return commonPerpendicular(a, b).distance; };
-  const auto angle = [](const Line& a, const Line& b) { return angleBetween(a, b); };
+  const metrology::MeasuredLine first = uncertain({{0.1, 0.2, -1}, Eigen::Vector3d(0.1, 0.05, 1).normalized()}, 1);
+  const metrology::MeasuredLine second = uncertain({{0.5, 0.9, 0.4}, Eigen::Vector3d(0.1, 1, -0.3).normalized()}, 2);
+  const auto distance = [](const metrology::Line& a, const metrology::Line& b) { return metrology::commonPerpendicular(a, b).distance; };
+  const auto angle = [](const metrology::Line& a, const metrology::Line& b) { return metrology::angleBetween(a, b); };
   // Differences are taken about a metre's distance: subtract it before squaring.
   const double d0 = distance(first.line, second.line), a0 = angle(first.line, second.line);
   const double by_draws =
-      monteCarlo(first, second, [&](const Line& a, const Line& b) { return distance(a, b) - d0; });
-  EXPECT_NEAR(distanceUncertainty(first, second), by_draws, kMonteCarlo * by_draws);
+      monteCarlo(first, second, [&](const metrology::Line& a, const metrology::Line& b) { return distance(a, b) - d0; });
+  EXPECT_NEAR(metrology::distanceUncertainty(first, second), by_draws, kMonteCarlo * by_draws);
   const double of_angle =
-      monteCarlo(first, second, [&](const Line& a, const Line& b) { return angle(a, b) - a0; });
-  EXPECT_NEAR(angleUncertainty(first, second), of_angle, kMonteCarlo * of_angle);
+      monteCarlo(first, second, [&](const metrology::Line& a, const metrology::Line& b) { return angle(a, b) - a0; });
+  EXPECT_NEAR(metrology::angleUncertainty(first, second), of_angle, kMonteCarlo * of_angle);
 }
 
 TEST(PropagatePair, LinesThatMeetHaveTheUncertaintyOfTheSignedMiss) {
-  const MeasuredLine first = uncertain({{0, 0, -0.3}, {0, 0, 1}}, 3);
-  const MeasuredLine second = uncertain({{0, -0.4, 0}, {0, 1, 0}}, 4);
+  const metrology::MeasuredLine first = uncertain({{0, 0, -0.3}, {0, 0, 1}}, 3);
+  const metrology::MeasuredLine second = uncertain({{0, -0.4, 0}, {0, 1, 0}}, 4);
   // Signed along x, by hand: the first at z = 0 against the second at y = 0.
-  const auto miss = [](const Line& a, const Line& b) {
+  const auto miss = [](const metrology::Line& a, const metrology::Line& b) {
     const double xa = (a.point - a.point.z() / a.direction.z() * a.direction).x();
     const double xb = (b.point - b.point.y() / b.direction.y() * b.direction).x();
     return xb - xa;
   };
   const double by_draws = monteCarlo(first, second, miss);
-  EXPECT_NEAR(distanceUncertainty(first, second), by_draws, kMonteCarlo * by_draws);
+  EXPECT_NEAR(metrology::distanceUncertainty(first, second), by_draws, kMonteCarlo * by_draws);
 }
 
 TEST(PropagatePair, AcrossNearParallelLines) {
-  const MeasuredLine first = uncertain({{0, 0, 0}, {0, 0, 1}}, 5);
-  const MeasuredLine second = uncertain({{1.07, 0.0, 0.3}, Eigen::Vector3d(1e-4, -2e-4, 1).normalized()}, 6);
+  const metrology::MeasuredLine first = uncertain({{0, 0, 0}, {0, 0, 1}}, 5);
+  const metrology::MeasuredLine second = uncertain({{1.07, 0.0, 0.3}, Eigen::Vector3d(1e-4, -2e-4, 1).normalized()}, 6);
   const Eigen::Vector3d at(0, 0, 0.5);
-  const double d0 = distanceAcross(first.line, second.line, at);
+  const double d0 = metrology::distanceAcross(first.line, second.line, at);
   const double by_draws =
-      monteCarlo(first, second, [&](const Line& a, const Line& b) { return distanceAcross(a, b, at) - d0; });
-  EXPECT_NEAR(distanceAcrossUncertainty(first, second, at), by_draws, kMonteCarlo * by_draws);
+      monteCarlo(first, second, [&](const metrology::Line& a, const metrology::Line& b) { return metrology::distanceAcross(a, b, at) - d0; });
+  EXPECT_NEAR(metrology::distanceAcrossUncertainty(first, second, at), by_draws, kMonteCarlo * by_draws);
 }
 
 TEST(PropagatePair, ParallelLinesStillHaveAnUncertainAngle) {
   // Exactly parallel by accident: the angle's derivative has no sign there, its uncertainty is not zero.
-  const MeasuredLine first = uncertain({{0, 0, 0}, {0, 0, 1}}, 7);
-  const MeasuredLine second = uncertain({{1, 0, 0}, {0, 0, 1}}, 8);
+  const metrology::MeasuredLine first = uncertain({{0, 0, 0}, {0, 0, 1}}, 7);
+  const metrology::MeasuredLine second = uncertain({{1, 0, 0}, {0, 0, 1}}, 8);
   const Eigen::Matrix2d tilt =
       first.covariance.bottomRightCorner<2, 2>() + second.covariance.bottomRightCorner<2, 2>();
   const double largest = std::sqrt(tilt.selfadjointView<Eigen::Lower>().eigenvalues().maxCoeff());
-  const double stated = angleUncertainty(first, second);
+  const double stated = metrology::angleUncertainty(first, second);
   EXPECT_GT(stated, 0.5 * largest);
   EXPECT_LT(stated, 1.5 * largest);
 }
 
-TEST(MeasuredLine, MovedByItsParameters) {
-  MeasuredLine line;  // up the z axis
-  const Line moved = line.moved({0.1, 0.2, 1e-3, -2e-3});
+TEST(metrology::MeasuredLine, MovedByItsParameters) {
+  metrology::MeasuredLine line;  // up the z axis
+  const metrology::Line moved = line.moved({0.1, 0.2, 1e-3, -2e-3});
   EXPECT_LT((moved.point - Eigen::Vector3d(0.1, 0.2, 0)).norm(), 1e-15);
   EXPECT_LT((moved.direction - Eigen::Vector3d(1e-3, -2e-3, 1).normalized()).norm(), 1e-15);
   Eigen::Vector3d u, v;
   const Eigen::Vector3d direction = Eigen::Vector3d(0.2, -0.5, 0.8).normalized();
-  basisAcross(direction, u, v);
+  metrology::basisAcross(direction, u, v);
   EXPECT_LT((u.cross(v) - direction).norm(), 1e-15);
 }
 

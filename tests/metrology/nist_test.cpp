@@ -7,10 +7,9 @@
 #include <iterator>
 #include <map>
 #include <vector>
-
 #include "metrology/axis_fit.h"
 #include "metrology/circle_fit.h"
-#include "metrology/common_perpendicular.h"
+#include "metrology/lines.h"
 #include "metrology/cylinder_fit.h"
 #include "metrology/plane_fit.h"
 #include "metrology/sphere_fit.h"
@@ -27,7 +26,7 @@ constexpr double kTolerance = 1e-11;
 
 struct Pair {
   std::string name;
-  MeasuredPoints points;
+  metrology::MeasuredPoints points;
   std::vector<double> certified;
   double scale = 0.0;  ///< extent of the data about its mean
 
@@ -92,7 +91,7 @@ TEST(Nist, Planes) {
   if (pairs.empty()) GTEST_SKIP() << "reference data are not beside the checkout";
   Worst worst("plane");
   for (const Pair& pair : pairs) {
-    const FittedPlane fit = fitPlane(pair.points);
+    const metrology::FittedPlane fit = metrology::fitPlane(pair.points);
     ASSERT_TRUE(fit.determined) << pair.name << ": " << fit.reason;
     worst.pair();
     worst.see(pair, "point", std::abs(fit.plane.normal.dot(pair.vectorAt(0) - fit.plane.point)) / pair.scale);
@@ -105,7 +104,7 @@ TEST(Nist, Spheres) {
   if (pairs.empty()) GTEST_SKIP() << "reference data are not beside the checkout";
   Worst worst("sphere");
   for (const Pair& pair : pairs) {
-    const FittedSphere fit = fitSphere(pair.points);
+    const metrology::FittedSphere fit = metrology::fitSphere(pair.points);
     ASSERT_TRUE(fit.determined) << pair.name << ": " << fit.reason;
     worst.pair();
     worst.see(pair, "centre", (fit.sphere.centre - pair.vectorAt(0)).norm() / pair.scale);
@@ -118,20 +117,20 @@ TEST(Nist, Cylinders) {
   if (pairs.empty()) GTEST_SKIP() << "reference data are not beside the checkout";
   Worst worst("cylinder");
   for (const Pair& pair : pairs) {
-    const FittedCylinder fit = fitCylinder(pair.points);
+    const metrology::FittedCylinder fit = metrology::fitCylinder(pair.points);
     EXPECT_TRUE(fit.determined) << pair.name << ": " << fit.reason;
     worst.pair();
     const Eigen::Vector3d certified = pair.vectorAt(0);
-    worst.see(pair, "point", (nearestPoint(fit.cylinder.axis, certified) - certified).norm() / pair.scale);
+    worst.see(pair, "point", (metrology::nearestPoint(fit.cylinder.axis, certified) - certified).norm() / pair.scale);
     worst.see(pair, "axis", apart(fit.cylinder.axis.direction, pair.vectorAt(3)));
     worst.see(pair, "radius", std::abs(fit.cylinder.radius - pair.certified[6] / 2.0) / pair.scale);
   }
 }
 
-void compareCircles(const std::string& shape, CircleStrategy strategy) {
+void compareCircles(const std::string& shape, metrology::CircleStrategy strategy) {
   Worst worst(shape);
   for (const Pair& pair : pairsOf(shape)) {
-    const FittedCircle fit = fitCircle(pair.points, strategy);
+    const metrology::FittedCircle fit = metrology::fitCircle(pair.points, strategy);
     ASSERT_TRUE(fit.determined) << pair.name << ": " << fit.reason;
     worst.pair();
     worst.see(pair, "centre", (fit.circle.centre - pair.vectorAt(0)).norm() / pair.scale);
@@ -142,13 +141,13 @@ void compareCircles(const std::string& shape, CircleStrategy strategy) {
 
 TEST(Nist, CirclesInSpacePlaneFirst) {
   if (pairsOf("Circle3d").empty()) GTEST_SKIP() << "reference data are not beside the checkout";
-  compareCircles("Circle3d", CircleStrategy::plane_first);  // as NIST's own answers are made
+  compareCircles("Circle3d", metrology::CircleStrategy::plane_first);  // as NIST's own answers are made
 }
 
 TEST(Nist, CirclesInAPlane) {
   if (pairsOf("Circle2d").empty()) GTEST_SKIP() << "reference data are not beside the checkout";
-  compareCircles("Circle2d", CircleStrategy::full);  // flat data: both strategies are one
-  compareCircles("Circle2d", CircleStrategy::plane_first);
+  compareCircles("Circle2d", metrology::CircleStrategy::full);  // flat data: both strategies are one
+  compareCircles("Circle2d", metrology::CircleStrategy::plane_first);
 }
 
 }  // namespace

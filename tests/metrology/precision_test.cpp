@@ -2,7 +2,6 @@
 
 #include <Eigen/Dense>
 #include <cstdio>
-
 #include "metrology/circle_fit.h"
 #include "metrology/cylinder_fit.h"
 #include "metrology/plane_fit.h"
@@ -120,7 +119,7 @@ TEST(Precision, CirclesOnShortArcsFarAway) {
   double worst = 0.0, worst_direction = 0.0;
   for (const Scene& scene : kScenes) {
     const auto data = points(scene, 0.0, 3);
-    const FittedCircle fit = fitCircle({data, {}});
+    const metrology::FittedCircle fit = metrology::fitCircle({data, {}});
     ASSERT_TRUE(fit.determined) << fit.reason;
     const Reference exact =
         leastSquares(Kind::circle, data,
@@ -142,7 +141,7 @@ TEST(Precision, SpheresOnSmallCapsFarAway) {
   double worst = 0.0;
   for (const Scene& scene : kScenes) {
     const auto data = cap(scene, 4);
-    const FittedSphere fit = fitSphere({data, {}});
+    const metrology::FittedSphere fit = metrology::fitSphere({data, {}});
     ASSERT_TRUE(fit.determined) << fit.reason;
     const Reference exact =
         leastSquares(Kind::sphere, data,
@@ -160,7 +159,7 @@ TEST(Precision, CylindersOnShortArcsFarAway) {
   double worst = 0.0;
   for (const Scene& scene : kScenes) {
     const auto data = points(scene, 1.0, 5);
-    const FittedCylinder fit = fitCylinder({data, {}});
+    const metrology::FittedCylinder fit = metrology::fitCylinder({data, {}});
     ASSERT_TRUE(fit.determined) << scene.degrees << ": " << fit.reason;
     const Reference exact =
         leastSquares(Kind::cylinder, data,

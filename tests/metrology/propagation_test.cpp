@@ -1,25 +1,23 @@
 #include <gtest/gtest.h>
-
-#include "metrology/frame_error.h"
-#include "metrology/line_derivatives.h"
+#include "metrology/rigid_motion.h"
+#include "metrology/lines.h"
 #include "metrology/trilateration.h"
-#include "metrology/trilateration_sensitivity.h"
 #include "tests/metrology/simulated_points.h"
 
 namespace stiffscope {
 namespace {
 
-MeasuredLine someLine() {
-  MeasuredLine line;
+metrology::MeasuredLine someLine() {
+  metrology::MeasuredLine line;
   line.line = {{1.2, -0.4, 0.3}, Eigen::Vector3d(0.2, -0.5, 0.8).normalized()};
-  basisAcross(line.line.direction, line.across_u, line.across_v);
+  metrology::basisAcross(line.line.direction, line.across_u, line.across_v);
   return line;
 }
 
-TEST(MeasuredLine, StepToUndoesMoved) {
-  const MeasuredLine line = someLine();
+TEST(metrology::MeasuredLine, StepToUndoesMoved) {
+  const metrology::MeasuredLine line = someLine();
   const Eigen::Vector4d step(2e-3, -1e-3, 3e-3, 4e-3);
-  Line moved = line.moved(step);
+  metrology::Line moved = line.moved(step);
   moved.point += 0.7 * moved.direction;  // the same line by another of its points
   // Exact but for rounding of a metre.
   EXPECT_LT((line.stepTo(moved) - step).norm(), 1e-14);
@@ -27,14 +25,14 @@ TEST(MeasuredLine, StepToUndoesMoved) {
   EXPECT_LT((line.stepTo(moved) - step).norm(), 1e-14);
 }
 
-TEST(MeasuredLine, ReversedIsTheSameLineWithTheSameRegion) {
-  MeasuredLine line = someLine();
+TEST(metrology::MeasuredLine, ReversedIsTheSameLineWithTheSameRegion) {
+  metrology::MeasuredLine line = someLine();
   Eigen::Matrix4d half = Eigen::Matrix4d::Identity();
   half(2, 0) = 0.9, half(3, 1) = -0.7;
   line.covariance = half * half.transpose();
-  const MeasuredLine other = line.reversed();
+  const metrology::MeasuredLine other = line.reversed();
   // Another line is as far from either, measured by the covariance of each.
-  const Line moved = line.moved({1e-3, 2e-3, -3e-3, 1e-3});
+  const metrology::Line moved = line.moved({1e-3, 2e-3, -3e-3, 1e-3});
   const Eigen::Vector4d from = line.stepTo(moved), from_other = other.stepTo(moved);
   const double distance = from.dot(line.covariance.inverse() * from);
   EXPECT_NEAR(from_other.dot(other.covariance.inverse() * from_other), distance, 1e-12 * distance);
@@ -43,9 +41,9 @@ TEST(MeasuredLine, ReversedIsTheSameLineWithTheSameRegion) {
 TEST(LineDerivatives, OfAPointsHeightAboveALine) {
   // Height of x along a line through p: d . (x - p). Tilting d towards u by a moves it by a u . (x - p); a shift
   // across does nothing.
-  const MeasuredLine line = someLine();
+  const metrology::MeasuredLine line = someLine();
   const Eigen::Vector3d x(0.3, 0.9, 2.0);
-  const Eigen::MatrixXd by = derivativesByLines({line}, [&](const std::vector<Line>& lines) {
+  const Eigen::MatrixXd by = metrology::derivativesByLines({line}, [&](const std::vector<metrology::Line>& lines) {
     return Eigen::VectorXd::Constant(1, lines[0].direction.dot(x - lines[0].point));
   });
   const Eigen::Vector3d from = x - line.line.point;
@@ -53,7 +51,7 @@ TEST(LineDerivatives, OfAPointsHeightAboveALine) {
   EXPECT_LT((by - expected).norm(), 1e-8);  // rounding of metres over steps of 2e-7
 }
 
-TEST(FrameError, AFrameTurnedByHand) {
+TEST(metrology::FrameError, AFrameTurnedByHand) {
   // Measured frame turned by 1 mrad about its z and set 2 mm along its x: a point on the true x axis at 1 m is read
   // at -1 mm in y and 2 mm less in x.
   Eigen::Isometry3d truth = Eigen::Isometry3d::Identity();
@@ -62,25 +60,25 @@ TEST(FrameError, AFrameTurnedByHand) {
   Eigen::Isometry3d off = Eigen::Isometry3d::Identity();
   off.linear() = Eigen::AngleAxisd(1e-3, Eigen::Vector3d::UnitZ()).toRotationMatrix();
   off.translation() << 2e-3, 0, 0;
-  const FrameError error = frameError(truth, truth * off);
-  EXPECT_LT((error - (FrameError() << 0, 0, 1e-3, 2e-3, 0, 0).finished()).norm(), 1e-9);  // third order of 1e-3
+  const metrology::FrameError error = metrology::frameError(truth, truth * off);
+  EXPECT_LT((error - (metrology::FrameError() << 0, 0, 1e-3, 2e-3, 0, 0).finished()).norm(), 1e-9);  // third order of 1e-3
   const Eigen::Vector3d x(1, 0, 0);
-  const Eigen::Vector3d change = pointByFrameError(x) * error;
+  const Eigen::Vector3d change = metrology::pointByFrameError(x) * error;
   EXPECT_LT((change - Eigen::Vector3d(-2e-3, -1e-3, 0)).norm(), 1e-9);
   EXPECT_LT(((truth * off).inverse() * (truth * x) - x - change).norm(), 3e-6);  // second order of 1e-3
-  EXPECT_LT((vectorByFrameError(x) * error - Eigen::Vector3d(0, -1e-3, 0)).norm(), 1e-9);
+  EXPECT_LT((metrology::vectorByFrameError(x) * error - Eigen::Vector3d(0, -1e-3, 0)).norm(), 1e-9);
 }
 
-TEST(TrilaterationSensitivity, AgreesWithTheEquationsOfThePaper) {
+TEST(metrology::TrilaterationSensitivity, AgreesWithTheEquationsOfThePaper) {
   // (13)-(20) themselves, points and radii moved one by one.
   const std::array<Eigen::Vector3d, 3> points{{{0.3, 0.05, 0.1}, {-0.17, 0.27, 0.08}, {-0.1, -0.3, 0.2}}};
   const Eigen::Vector3d wrist(0.05, 0.02, -0.4);
   std::array<double, 3> radii;
   for (std::size_t k = 0; k < 3; ++k) radii[k] = (points[k] - wrist).norm();
-  const auto sensitivity = trilaterationSensitivity(points, wrist);
+  const auto sensitivity = metrology::trilaterationSensitivity(points, wrist);
   ASSERT_TRUE(sensitivity);
   constexpr double kStep = 1e-6, kTolerance = 1e-8;  // central differences: second order of 1e-6, rounding over 2e-6
-  const auto at = [&](const auto& p, const auto& r) { return nearerRoot(*trilaterate(p, r), wrist); };
+  const auto at = [&](const auto& p, const auto& r) { return metrology::nearerRoot(*metrology::trilaterate(p, r), wrist); };
   for (std::size_t k = 0; k < 3; ++k) {
     auto more = radii, less = radii;
     more[k] += kStep, less[k] -= kStep;
@@ -95,10 +93,10 @@ TEST(TrilaterationSensitivity, AgreesWithTheEquationsOfThePaper) {
   }
 }
 
-TEST(TrilaterationSensitivity, HasNoBoundInThePlaneOfThePoints) {
+TEST(metrology::TrilaterationSensitivity, HasNoBoundInThePlaneOfThePoints) {
   const std::array<Eigen::Vector3d, 3> points{{{1, 0, 0}, {0, 1, 0}, {-1, 0, 0}}};
-  EXPECT_FALSE(trilaterationSensitivity(points, {0.2, 0.1, 0.0}));
-  EXPECT_TRUE(trilaterationSensitivity(points, {0.2, 0.1, 0.3}));
+  EXPECT_FALSE(metrology::trilaterationSensitivity(points, {0.2, 0.1, 0.0}));
+  EXPECT_TRUE(metrology::trilaterationSensitivity(points, {0.2, 0.1, 0.3}));
 }
 
 }  // namespace

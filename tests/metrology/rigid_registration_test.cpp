@@ -1,4 +1,4 @@
-#include "metrology/rigid_registration.h"
+#include "metrology/registration.h"
 
 #include <gtest/gtest.h>
 
@@ -24,8 +24,8 @@ Points moved(const Eigen::Isometry3d& motion, const Points& points) {
 }
 
 TEST(RegisterRigid, AQuarterTurnByHand) {
-  const RigidRegistration found =
-      registerRigid({{1, 0, 0}, {0, 1, 0}, {-1, 0, 0}}, {{5, 1, 2}, {4, 0, 2}, {5, -1, 2}});
+  const metrology::RigidRegistration found =
+      metrology::registerRigid({{1, 0, 0}, {0, 1, 0}, {-1, 0, 0}}, {{5, 1, 2}, {4, 0, 2}, {5, -1, 2}});
   ASSERT_TRUE(found.determined);
   EXPECT_LT((found.to_from_source * Eigen::Vector3d(2, 0, 3) - Eigen::Vector3d(5, 2, 5)).norm(), 1e-14);
   EXPECT_LT(found.rms, 1e-15);
@@ -37,7 +37,7 @@ TEST(RegisterRigid, RandomMotionsComeBack) {
     Points points;
     for (int i = 0; i < 3 + k % 5; ++i) points.push_back(noise.normal3());
     const Eigen::Isometry3d motion = someMotion(noise);
-    const RigidRegistration found = registerRigid(points, moved(motion, points));
+    const metrology::RigidRegistration found = metrology::registerRigid(points, moved(motion, points));
     ASSERT_TRUE(found.determined);
     // Rounding of points of 10 m; a random triangle may be narrow by 100.
     EXPECT_LT((found.to_from_source.matrix() - motion.matrix()).norm(), 1e-11);
@@ -52,7 +52,7 @@ TEST(RegisterRigid, LeastSquaresCannotBeImprovedOn) {
   for (int i = 0; i < 6; ++i) source.push_back(noise.normal3());
   to = moved(someMotion(noise), source);
   for (auto& point : to) point += 0.05 * noise.normal3();
-  const RigidRegistration found = registerRigid(source, to);
+  const metrology::RigidRegistration found = metrology::registerRigid(source, to);
   ASSERT_TRUE(found.determined);
   const auto misfit = [&](const Eigen::Isometry3d& motion) {
     double sum = 0.0;
@@ -75,7 +75,7 @@ TEST(RegisterRigid, NeverAReflection) {
   for (int i = 0; i < 5; ++i)
     solid.push_back(noise.normal3()),
         mirrored.push_back(solid.back().cwiseProduct(Eigen::Vector3d(1, 1, -1)));
-  const RigidRegistration found = registerRigid(solid, mirrored);
+  const metrology::RigidRegistration found = metrology::registerRigid(solid, mirrored);
   ASSERT_TRUE(found.determined);
   EXPECT_NEAR(found.to_from_source.linear().determinant(), 1.0, 1e-12);
   EXPECT_GT(found.rms, 0.05);
@@ -100,7 +100,7 @@ TEST(RegisterRigid, UmeyamasReflectionCase) {
     source.push_back(source_mean + side * Eigen::Vector3d::UnitZ());
     to.push_back(to_mean + side * Eigen::Vector3d::UnitZ());
   }
-  const RigidRegistration found = registerRigid(source, to);
+  const metrology::RigidRegistration found = metrology::registerRigid(source, to);
   ASSERT_TRUE(found.determined);
   for (int row = 0; row < 2; ++row) {
     for (int column = 0; column < 2; ++column) {
@@ -112,7 +112,7 @@ TEST(RegisterRigid, UmeyamasReflectionCase) {
   EXPECT_NEAR(found.to_from_source.linear()(2, 2), 1.0, 1e-12);
   // The triangle alone, free to be turned over in space, is matched exactly.
   source.resize(3), to.resize(3);
-  EXPECT_LT(registerRigid(source, to).rms, 1e-14);
+  EXPECT_LT(metrology::registerRigid(source, to).rms, 1e-14);
 }
 
 TEST(RegisterRigid, OfThreePointsIsThatOfTheSingularVectors) {
@@ -126,7 +126,7 @@ TEST(RegisterRigid, OfThreePointsIsThatOfTheSingularVectors) {
     Points twice = source, twice_to = to;
     twice.insert(twice.end(), source.begin(), source.end());
     twice_to.insert(twice_to.end(), to.begin(), to.end());
-    const RigidRegistration three = registerRigid(source, to), six = registerRigid(twice, twice_to);
+    const metrology::RigidRegistration three = metrology::registerRigid(source, to), six = metrology::registerRigid(twice, twice_to);
     ASSERT_TRUE(three.determined && six.determined);
     // Rounding over the least singular value that counts, a hundredth of the largest at worst here.
     EXPECT_TRUE(three.to_from_source.isApprox(six.to_from_source, 1e-11)) << n;
@@ -136,14 +136,14 @@ TEST(RegisterRigid, OfThreePointsIsThatOfTheSingularVectors) {
 }
 
 TEST(RegisterRigid, RefusesTooFewAndCollinear) {
-  EXPECT_FALSE(registerRigid({}, {}).determined);
-  EXPECT_FALSE(registerRigid({{0, 0, 0}, {1, 0, 0}}, {{0, 0, 0}, {1, 0, 0}}).determined);
+  EXPECT_FALSE(metrology::registerRigid({}, {}).determined);
+  EXPECT_FALSE(metrology::registerRigid({{0, 0, 0}, {1, 0, 0}}, {{0, 0, 0}, {1, 0, 0}}).determined);
   const Points line{{0, 0, 0}, {1, 1, 0}, {2, 2, 0}, {5, 5, 0}};
-  const RigidRegistration found = registerRigid(line, line);
+  const metrology::RigidRegistration found = metrology::registerRigid(line, line);
   EXPECT_FALSE(found.determined);
   EXPECT_NE(found.reason.find("line"), std::string::npos);
   const Points place(4, Eigen::Vector3d(1, 2, 3));
-  EXPECT_FALSE(registerRigid(place, place).determined);
+  EXPECT_FALSE(metrology::registerRigid(place, place).determined);
 }
 
 TEST(RegisterRigid, RefusesALineThatRoundingHasBent) {
@@ -153,7 +153,7 @@ TEST(RegisterRigid, RefusesALineThatRoundingHasBent) {
     const Eigen::Vector3d point = Eigen::Vector3d(0.1, 0.2, 0.3) + i * Eigen::Vector3d(1, 2, -3) / 30.0;
     line.push_back(1e-7 * (1e7 * point).array().round().matrix());
   }
-  EXPECT_FALSE(registerRigid(line, line).determined);
+  EXPECT_FALSE(metrology::registerRigid(line, line).determined);
 }
 
 TEST(RegisterRigid, WeightedRegionHoldsTheTruth) {
@@ -172,7 +172,7 @@ TEST(RegisterRigid, WeightedRegionHoldsTheTruth) {
       covariances.push_back(seenFromOrigin(there - Eigen::Vector3d(99, 0, 0), 6e-6, 2.5e-5));
       to.push_back(there + noise.draw(covariances.back()));
     }
-    const WeightedRegistration found = registerRigid(source, to, covariances);
+    const metrology::WeightedRegistration found = metrology::registerRigid(source, to, covariances);
     ASSERT_TRUE(found.determined) << found.reason;
     EXPECT_EQ(found.degrees_of_freedom, 84);
     const Eigen::AngleAxisd turn(Eigen::Matrix3d(truth.linear() * found.to_from_source.linear().transpose()));
@@ -192,13 +192,13 @@ TEST(RegisterRigid, WeightsPullTowardsThePrecisePairs) {
   to[4] += Eigen::Vector3d(0, 0, 1e-3);
   std::vector<Eigen::Matrix3d> covariances(5, 1e-10 * Eigen::Matrix3d::Identity());
   const auto offOf = [&] {
-    return (registerRigid(source, to, covariances).to_from_source * source[0] - source[0]).norm();
+    return (metrology::registerRigid(source, to, covariances).to_from_source * source[0] - source[0]).norm();
   };
   EXPECT_GT(offOf(), 1e-5);
   covariances[4] *= 1e10;
   EXPECT_LT(offOf(), 1e-12);  // 1 mm by a weight of 1e-10
   covariances.pop_back();
-  EXPECT_FALSE(registerRigid(source, to, covariances).determined);
+  EXPECT_FALSE(metrology::registerRigid(source, to, covariances).determined);
 }
 
 }  // namespace

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-
 #include "metrology/tail_probability.h"
 #include "tests/metrology/simulated_points.h"
 
@@ -36,8 +35,8 @@ Eigen::Vector3d on(Shape shape, Noise& noise) {
   return kCentre + 0.6 * outward;
 }
 
-MeasuredPoints readings(Shape shape, std::size_t count, Noise& noise, bool with_covariances) {
-  MeasuredPoints points;
+metrology::MeasuredPoints readings(Shape shape, std::size_t count, Noise& noise, bool with_covariances) {
+  metrology::MeasuredPoints points;
   for (std::size_t i = 0; i < count; ++i)
     points.points.push_back(on(shape, noise) + kNoise * noise.normal3());
   if (with_covariances) points.covariances.assign(count, kNoise * kNoise * Eigen::Matrix3d::Identity());
@@ -45,12 +44,12 @@ MeasuredPoints readings(Shape shape, std::size_t count, Noise& noise, bool with_
 }
 
 /// The readings that a robust fit leaves out, in rising order; -1 where the fit is not determined.
-std::vector<int> leftOut(Shape shape, const MeasuredPoints& points, int* degrees_of_freedom = nullptr) {
+std::vector<int> leftOut(Shape shape, const metrology::MeasuredPoints& points, int* degrees_of_freedom = nullptr) {
   const auto run = [&](const auto& fitTo) {
-    const auto robust = fitRobustly(points, fitTo);
+    const auto robust = metrology::fitRobustly(points, fitTo);
     if (degrees_of_freedom != nullptr) *degrees_of_freedom = robust.fit.degrees_of_freedom;
     std::vector<int> found;
-    for (const RejectedReading& one : robust.rejected) found.push_back(static_cast<int>(one.index));
+    for (const metrology::RejectedReading& one : robust.rejected) found.push_back(static_cast<int>(one.index));
     if (!robust.fit.determined) found.push_back(-1);
     std::sort(found.begin(), found.end());
     return found;
@@ -61,7 +60,7 @@ std::vector<int> leftOut(Shape shape, const MeasuredPoints& points, int* degrees
     case Shape::plane:
       return run(fitPlane);
     case Shape::circle:
-      return run([](const MeasuredPoints& some) { return fitCircle(some); });
+      return run([](const metrology::MeasuredPoints& some) { return metrology::fitCircle(some); });
     case Shape::sphere:
       return run(fitSphere);
     case Shape::cylinder:
@@ -74,12 +73,12 @@ constexpr std::array kShapes{Shape::line, Shape::plane, Shape::circle, Shape::sp
 
 TEST(TailProbability, TablesOfStudentChiSquareAndF) {
   // Quantiles as printed in tables, four digits behind the point.
-  EXPECT_NEAR(chiSquareTail(3.8415, 1), 0.05, 1e-5);
-  EXPECT_NEAR(chiSquareTail(5.9915, 2), 0.05, 1e-5);
-  EXPECT_NEAR(fTail(2.2281 * 2.2281, 1, 10), 0.05, 1e-5);  // Student, 10 degrees, two-sided
-  EXPECT_NEAR(fTail(12.7062 * 12.7062, 1, 1), 0.05, 1e-5);
-  EXPECT_NEAR(fTail(4.1028, 2, 10), 0.05, 1e-5);
-  EXPECT_NEAR(fTail(3.8415, 1, 1e6), 0.05, 2e-5);
+  EXPECT_NEAR(metrology::chiSquareTail(3.8415, 1), 0.05, 1e-5);
+  EXPECT_NEAR(metrology::chiSquareTail(5.9915, 2), 0.05, 1e-5);
+  EXPECT_NEAR(metrology::fTail(2.2281 * 2.2281, 1, 10), 0.05, 1e-5);  // Student, 10 degrees, two-sided
+  EXPECT_NEAR(metrology::fTail(12.7062 * 12.7062, 1, 1), 0.05, 1e-5);
+  EXPECT_NEAR(metrology::fTail(4.1028, 2, 10), 0.05, 1e-5);
+  EXPECT_NEAR(metrology::fTail(3.8415, 1, 1e6), 0.05, 2e-5);
 }
 
 TEST(FitRobustly, GoodReadingsAreRarelyRejected) {
@@ -117,7 +116,7 @@ TEST(FitRobustly, GoodCirclesOfAnAxisAreRarelyRejected) {
     Noise noise(52);
     int sets = 0;
     for (int k = 0; k < 2000; ++k) {
-      std::vector<CirclePoints> circles(3);
+      std::vector<metrology::CirclePoints> circles(3);
       for (std::size_t target = 0; target < 3; ++target) {
         for (int i = 0; i < 13; ++i) {
           const Eigen::Vector3d point = onCircle(kCentre, kAxis, 1.8 + 0.1 * static_cast<double>(target),
@@ -128,7 +127,7 @@ TEST(FitRobustly, GoodCirclesOfAnAxisAreRarelyRejected) {
           if (with_covariances) circles[target].covariances.push_back(covariance);
         }
       }
-      const auto robust = fitRobustly(circles, fitAxis);
+      const auto robust = metrology::fitRobustly(circles, fitAxis);
       EXPECT_TRUE(robust.fit.determined);
       sets += !robust.rejected.empty();
     }
@@ -146,7 +145,7 @@ TEST(FitRobustly, PlantedErrorsAreFoundAndOnlyThose) {
       const int sets = shape == Shape::cylinder ? 50 : 200;
       int exact = 0;
       for (int k = 0; k < sets; ++k) {
-        MeasuredPoints points = readings(shape, 30, noise, with_covariances);
+        metrology::MeasuredPoints points = readings(shape, 30, noise, with_covariances);
         for (const std::size_t wrong : {4u, 17u}) {
           const Eigen::Vector3d from = points.points[wrong] - kCentre;
           const Eigen::Vector3d radial = (from - kAxis.dot(from) * kAxis).normalized();
@@ -166,9 +165,9 @@ TEST(FitRobustly, PlantedErrorsAreFoundAndOnlyThose) {
 
 TEST(FitRobustly, DegreesOfFreedomAreThoseOfTheReadingsLeft) {
   Noise noise(5);
-  MeasuredPoints points = readings(Shape::circle, 20, noise, false);
+  metrology::MeasuredPoints points = readings(Shape::circle, 20, noise, false);
   points.points[7] += Eigen::Vector3d(0, 0, 0.01);
-  const auto robust = fitRobustly(points, [](const MeasuredPoints& some) { return fitCircle(some); });
+  const auto robust = metrology::fitRobustly(points, [](const metrology::MeasuredPoints& some) { return metrology::fitCircle(some); });
   ASSERT_EQ(robust.rejected.size(), 1u);
   EXPECT_EQ(robust.rejected[0].index, 7u);
   EXPECT_GT(robust.rejected[0].w, robust.rejected[0].critical_w);
@@ -180,7 +179,7 @@ TEST(FitRobustly, ALostBeamAmongTheCirclesOfAnAxis) {
   // A reading of (0, 0, 0), as trackers give when the beam is lost, in the second of three reflectors'
   // circles.
   Noise noise(6);
-  std::vector<CirclePoints> circles(3);
+  std::vector<metrology::CirclePoints> circles(3);
   for (std::size_t k = 0; k < 3; ++k) {
     for (int i = 0; i < 13; ++i) {
       circles[k].points.push_back(onCircle(kCentre, kAxis, 1.8 + 0.1 * static_cast<double>(k),
@@ -189,7 +188,7 @@ TEST(FitRobustly, ALostBeamAmongTheCirclesOfAnAxis) {
     }
   }
   circles[1].points[6].setZero();
-  const auto robust = fitRobustly(circles, fitAxis);
+  const auto robust = metrology::fitRobustly(circles, fitAxis);
   ASSERT_TRUE(robust.fit.determined) << robust.fit.reason;
   ASSERT_EQ(robust.rejected.size(), 1u);
   EXPECT_EQ(robust.rejected[0].group, 1u);
@@ -198,7 +197,7 @@ TEST(FitRobustly, ALostBeamAmongTheCirclesOfAnAxis) {
 }
 
 TEST(FitRobustly, ExactReadingsLoseNone) {
-  MeasuredPoints points;
+  metrology::MeasuredPoints points;
   for (int i = 0; i < 12; ++i) points.points.push_back(onCircle(kCentre, kAxis, 1.2, 0.0, radians(20.0 * i)));
   EXPECT_TRUE(leftOut(Shape::circle, points).empty());
 }
@@ -206,9 +205,9 @@ TEST(FitRobustly, ExactReadingsLoseNone) {
 TEST(FitRobustly, SaysWhereItCannotTellWhichAreWrong) {
   // Half of the readings on one plane, half on another.
   Noise noise(9);
-  MeasuredPoints points = readings(Shape::plane, 12, noise, true);
+  metrology::MeasuredPoints points = readings(Shape::plane, 12, noise, true);
   for (std::size_t i = 0; i < 12; i += 2) points.points[i] += 0.01 * kAxis;
-  const auto robust = fitRobustly(points, fitPlane);
+  const auto robust = metrology::fitRobustly(points, fitPlane);
   EXPECT_FALSE(robust.fit.determined);
   EXPECT_NE(robust.fit.reason.find("more than a third"), std::string::npos) << robust.fit.reason;
 }

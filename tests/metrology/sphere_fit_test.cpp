@@ -10,9 +10,9 @@ namespace {
 
 const Eigen::Vector3d kCentre(2.1, -1.3, 0.8);
 
-SpherePoints cap(double radius, double half_angle_deg, int count, std::uint64_t seed) {
+metrology::SpherePoints cap(double radius, double half_angle_deg, int count, std::uint64_t seed) {
   Noise noise(seed);
-  SpherePoints sphere;
+  metrology::SpherePoints sphere;
   while (static_cast<int>(sphere.points.size()) < count) {
     const Eigen::Vector3d outward = noise.direction();
     if (outward.z() > std::cos(radians(half_angle_deg))) sphere.points.push_back(kCentre + radius * outward);
@@ -20,8 +20,8 @@ SpherePoints cap(double radius, double half_angle_deg, int count, std::uint64_t 
   return sphere;
 }
 
-void expectRefused(const std::vector<SpherePoints>& spheres, const std::string& word) {
-  const SphereFit fit = fitSpheres(spheres);
+void expectRefused(const std::vector<metrology::SpherePoints>& spheres, const std::string& word) {
+  const metrology::SphereFit fit = metrology::fitSpheres(spheres);
   EXPECT_FALSE(fit.determined);
   EXPECT_NE(fit.reason.find(word), std::string::npos) << fit.reason;
   EXPECT_TRUE(fit.centre.allFinite());
@@ -29,8 +29,8 @@ void expectRefused(const std::vector<SpherePoints>& spheres, const std::string& 
 
 TEST(FitSpheres, OneSphereByHand) {
   // The six ends of the coordinate axes of a sphere of radius 2 about (1, 2, 3).
-  const SphereFit fit =
-      fitSpheres({{{{3, 2, 3}, {-1, 2, 3}, {1, 4, 3}, {1, 0, 3}, {1, 2, 5}, {1, 2, 1}}, {}}});
+  const metrology::SphereFit fit =
+      metrology::fitSpheres({{{{3, 2, 3}, {-1, 2, 3}, {1, 4, 3}, {1, 0, 3}, {1, 2, 5}, {1, 2, 1}}, {}}});
   ASSERT_TRUE(fit.determined) << fit.reason;
   EXPECT_LT((fit.centre - Eigen::Vector3d(1, 2, 3)).norm(), 1e-14);
   EXPECT_NEAR(fit.radii[0], 2.0, 1e-14);
@@ -39,8 +39,8 @@ TEST(FitSpheres, OneSphereByHand) {
 
 TEST(FitSpheres, ExactConcentricSpheres) {
   for (const double half_angle : {10.0, 60.0, 180.0}) {
-    const SphereFit fit =
-        fitSpheres({cap(0.55, half_angle, 12, 1), cap(0.6, half_angle, 9, 2), cap(0.3, half_angle, 7, 3)});
+    const metrology::SphereFit fit =
+        metrology::fitSpheres({cap(0.55, half_angle, 12, 1), cap(0.6, half_angle, 9, 2), cap(0.3, half_angle, 7, 3)});
     ASSERT_TRUE(fit.determined) << fit.reason;
     EXPECT_LT((fit.centre - kCentre).norm(), 1e-12) << half_angle;  // rounding over a cap of 1.5 % height
     EXPECT_NEAR(fit.radii[0], 0.55, 1e-12);
@@ -51,24 +51,24 @@ TEST(FitSpheres, ExactConcentricSpheres) {
 
 TEST(FitSpheres, ACommonCentreNeedsNoSphereToBeWhole) {
   // Each reflector in a plane of its own, but not the same: together they have a centre.
-  SpherePoints flat_x, flat_y;
+  metrology::SpherePoints flat_x, flat_y;
   for (int i = 0; i < 8; ++i) {
     flat_x.points.push_back(onCircle(kCentre, Eigen::Vector3d::UnitX(), 0.5, 0.2, radians(40.0 * i)));
     flat_y.points.push_back(onCircle(kCentre, Eigen::Vector3d::UnitY(), 0.4, -0.1, radians(40.0 * i)));
   }
-  const SphereFit fit = fitSpheres({flat_x, flat_y});
+  const metrology::SphereFit fit = metrology::fitSpheres({flat_x, flat_y});
   ASSERT_TRUE(fit.determined) << fit.reason;
   EXPECT_LT((fit.centre - kCentre).norm(), 1e-12);
 }
 
 TEST(FitSpheres, RefusesWhatDeterminesNoCentre) {
-  SpherePoints flat, place;
+  metrology::SpherePoints flat, place;
   for (int i = 0; i < 8; ++i) {
     flat.points.push_back(onCircle(kCentre, Eigen::Vector3d(1, 2, 2) / 3.0, 0.5, 0.2, radians(40.0 * i)));
     place.points.push_back(kCentre);
   }
   expectRefused({}, "no readings");
-  expectRefused({SpherePoints{}}, "four");
+  expectRefused({metrology::SpherePoints{}}, "four");
   expectRefused({cap(0.5, 60, 3, 1)}, "four");
   expectRefused({cap(0.5, 60, 10, 1), cap(0.5, 60, 3, 2)}, "four");
   expectRefused({flat}, "plane");
@@ -77,22 +77,22 @@ TEST(FitSpheres, RefusesWhatDeterminesNoCentre) {
 
 TEST(FitSpheres, FourPointsLeaveNothingToTellTheUncertaintyBy) {
   // Four points always fit: without covariances that must not read as an exact centre.
-  SpherePoints sphere = cap(0.5, 60, 4, 5);
+  metrology::SpherePoints sphere = cap(0.5, 60, 4, 5);
   expectRefused({sphere}, "too few");
   sphere.covariances.assign(4, 1e-10 * Eigen::Matrix3d::Identity());
-  const SphereFit weighted = fitSpheres({sphere});
+  const metrology::SphereFit weighted = metrology::fitSpheres({sphere});
   ASSERT_TRUE(weighted.determined) << weighted.reason;
   const Eigen::Matrix3d covariance = weighted.covariance.topLeftCorner(3, 3);
   EXPECT_GT(covariance.trace(), 1e-10);  // no better than one coordinate of one reading
 }
 
 TEST(FitSpheres, WeightsPullTowardsThePrecisePoints) {
-  SpherePoints sphere = cap(0.5, 120, 15, 4);
+  metrology::SpherePoints sphere = cap(0.5, 120, 15, 4);
   sphere.points[7] += 1e-3 * (sphere.points[7] - kCentre).normalized();
   sphere.covariances.assign(15, 1e-10 * Eigen::Matrix3d::Identity());
-  EXPECT_GT((fitSpheres({sphere}).centre - kCentre).norm(), 1e-5);
+  EXPECT_GT((metrology::fitSpheres({sphere}).centre - kCentre).norm(), 1e-5);
   sphere.covariances[7] *= 1e8;
-  EXPECT_LT((fitSpheres({sphere}).centre - kCentre).norm(), 1e-10);  // 1 mm by a weight of 1e-8
+  EXPECT_LT((metrology::fitSpheres({sphere}).centre - kCentre).norm(), 1e-10);  // 1 mm by a weight of 1e-8
 }
 
 TEST(FitSpheres, NistReferenceSpheres) {
@@ -105,7 +105,7 @@ TEST(FitSpheres, NistReferenceSpheres) {
     std::ifstream data(entry.path()), answer(std::filesystem::path(entry.path()).replace_extension(".fit"));
     std::size_t count = 0;
     data >> count;
-    SpherePoints sphere;
+    metrology::SpherePoints sphere;
     for (double x, y, z; data >> x >> y >> z;) sphere.points.push_back({x, y, z});
     ASSERT_EQ(sphere.points.size(), count);
     // Equal weights: the same least squares, and an uncertainty for the pair that has only four points.
@@ -113,7 +113,7 @@ TEST(FitSpheres, NistReferenceSpheres) {
     Eigen::Vector3d centre;
     double diameter = 0.0;
     answer >> centre.x() >> centre.y() >> centre.z() >> diameter;
-    const SphereFit fit = fitSpheres({sphere});
+    const metrology::SphereFit fit = metrology::fitSpheres({sphere});
     ASSERT_TRUE(fit.determined) << entry.path() << fit.reason;
     // NIST's own answers hold to about 1e-11 of the size; parts of a sphere lose two to three digits of that.
     EXPECT_LT((fit.centre - centre).norm(), 1e-8 * diameter) << entry.path();

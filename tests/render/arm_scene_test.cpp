@@ -12,17 +12,17 @@ namespace {
 using Eigen::Vector3d;
 
 // An arm in the x-z plane, its wrist centre well away from all else that is drawn. No names: no legend.
-ArmScene scene(View view) {
-  ArmScene scene;
+render::ArmScene scene(render::View view) {
+  render::ArmScene scene;
   scene.view = view;
   scene.measured_name.clear();
   scene.predicted_name.clear();
-  ArmPose pose;
+  render::ArmPose pose;
   pose.joint_points = {{0, 0, 0},   {0.4, 0, 0.9}, {0.4, 0, 2.0}, {0.6, 0, 2.1},
                        {2, 0, 2.1}, {2, 0, 2.1},   {2.3, 0, 2.1}};
   pose.axis_directions = {Vector3d::UnitZ(), Vector3d::UnitY(), Vector3d::UnitY(),
                           Vector3d::UnitX(), Vector3d::UnitY(), Vector3d::UnitX()};
-  pose.wrist = ScenePoint{"P_{wrist}", {2, 0, 2.1}, {}, {}};
+  pose.wrist = render::ScenePoint{"P_{wrist}", {2, 0, 2.1}, {}, {}};
   scene.poses = {pose};
   scene.magnification = 100;
   return scene;
@@ -49,24 +49,24 @@ cv::Rect extentOfHue(const cv::Mat& picture, Hue hue) { return cv::boundingRect(
 cv::Point middle(const cv::Rect& r) { return (r.tl() + r.br()) / 2; }
 
 struct Case {
-  View view;
+  render::View view;
   Vector3d vector;
   cv::Point towards;  // on the picture, y downwards
 };
 
 TEST(ArmPicture, VectorsPointTheRightWayInEveryView) {
   const std::vector<Case> cases = {
-      {View::Side, {0.004, 0, 0}, {1, 0}},   {View::Side, {0, 0, -0.004}, {0, 1}},
-      {View::Side, {-0.004, 0, 0}, {-1, 0}}, {View::Front, {0, 0.004, 0}, {1, 0}},
-      {View::Front, {0, 0, 0.004}, {0, -1}}, {View::Top, {0.004, 0, 0}, {1, 0}},
-      {View::Top, {0, 0.004, 0}, {0, -1}},   {View::Oblique, {0, 0, -0.004}, {0, 1}},
+      {render::View::Side, {0.004, 0, 0}, {1, 0}},   {render::View::Side, {0, 0, -0.004}, {0, 1}},
+      {render::View::Side, {-0.004, 0, 0}, {-1, 0}}, {render::View::Front, {0, 0.004, 0}, {1, 0}},
+      {render::View::Front, {0, 0, 0.004}, {0, -1}}, {render::View::Top, {0.004, 0, 0}, {1, 0}},
+      {render::View::Top, {0, 0.004, 0}, {0, -1}},   {render::View::Oblique, {0, 0, -0.004}, {0, 1}},
   };
   for (const Case& c : cases) {
     SCOPED_TRACE(testing::Message() << static_cast<int>(c.view) << ": " << c.vector.transpose());
     for (const bool measured : {true, false}) {
-      ArmScene drawn = scene(c.view);
+      render::ArmScene drawn = scene(c.view);
       (measured ? drawn.poses[0].wrist->measured : drawn.poses[0].wrist->predicted) = c.vector;
-      const cv::Mat picture = decoded(render(drawn));
+      const cv::Mat picture = decoded(render::render(drawn));
       const cv::Point from = middle(extentOfHue(picture, Hue::Amber));
       const cv::Rect arrow = extentOfHue(picture, measured ? Hue::Red : Hue::Blue);
       ASSERT_GT(arrow.area(), 100);
@@ -82,10 +82,10 @@ TEST(ArmPicture, VectorsPointTheRightWayInEveryView) {
 TEST(ArmPicture, LengthIsMagnificationTimesVector) {
   // The magnification does not move the picture here: arrows stay inside of what the arm covers anyway.
   const auto lengthOf = [](double metres, double magnification) {
-    ArmScene drawn = scene(View::Side);
+    render::ArmScene drawn = scene(render::View::Side);
     drawn.magnification = magnification;
     drawn.poses[0].wrist->measured = Vector3d(0, 0, -metres);
-    const cv::Mat picture = decoded(render(drawn));
+    const cv::Mat picture = decoded(render::render(drawn));
     return extentOfHue(picture, Hue::Red).br().y - middle(extentOfHue(picture, Hue::Amber)).y;
   };
   const int once = lengthOf(0.004, 100);
@@ -95,13 +95,13 @@ TEST(ArmPicture, LengthIsMagnificationTimesVector) {
 }
 
 TEST(ArmPicture, ReferenceArrowIsToTheSameScale) {
-  ArmScene drawn = scene(View::Side);
+  render::ArmScene drawn = scene(render::View::Side);
   drawn.poses[0].wrist->measured = Vector3d(0, 0, -0.005);
-  const cv::Mat picture = decoded(render(drawn));
+  const cv::Mat picture = decoded(render::render(drawn));
   const double five_mm = extentOfHue(picture, Hue::Red).br().y - middle(extentOfHue(picture, Hue::Amber)).y;
   // The arrow stands lowest at the left; its text begins ten pixels right of its tip.
   const cv::Rect strip(0, picture.rows - 40, picture.cols, 40);
-  const auto pieces = piecesOf(maskOf(picture(strip), colours::kInk), 100);
+  const auto pieces = piecesOf(maskOf(picture(strip), render::colours::kInk), 100);
   ASSERT_FALSE(pieces.empty());
   const double ratio = pieces[0].width / (five_mm / 5);
   // It stands for 1, 2, 5 or 10 mm.
@@ -112,11 +112,11 @@ TEST(ArmPicture, ReferenceArrowIsToTheSameScale) {
 
 TEST(ArmPicture, ResidualVectorsHaveTheirOwnFactorAndReferenceArrow) {
   const auto drawnWith = [](double factor) {
-    ArmScene drawn = scene(View::Side);
+    render::ArmScene drawn = scene(render::View::Side);
     drawn.poses[0].wrist->residual = Vector3d(0, 0, -0.001);
     drawn.poses[0].wrist->measured = Vector3d(0.004, 0, 0);
     drawn.residual_factor = factor;
-    return decoded(render(drawn));
+    return decoded(render::render(drawn));
   };
   // Above the strip of the scale.
   const auto lengthIn = [](const cv::Mat& picture) {
@@ -135,25 +135,25 @@ TEST(ArmPicture, ResidualVectorsHaveTheirOwnFactorAndReferenceArrow) {
 }
 
 TEST(ArmPicture, ResidualFactorIsTheLargestThatStaysBelowTheOthers) {
-  ArmScene drawn = scene(View::Side);
-  ScenePoint& wrist = *drawn.poses[0].wrist;
+  render::ArmScene drawn = scene(render::View::Side);
+  render::ScenePoint& wrist = *drawn.poses[0].wrist;
   wrist.measured = Vector3d(0, 0, -0.002);
   wrist.residual = Vector3d(0.0003, 0, 0);  // 6.7 times: 5
-  EXPECT_DOUBLE_EQ(automaticResidualFactor(drawn), 5);
+  EXPECT_DOUBLE_EQ(render::automaticResidualFactor(drawn), 5);
   wrist.residual = Vector3d(0.0015, 0, 0);
-  EXPECT_DOUBLE_EQ(automaticResidualFactor(drawn), 1);
+  EXPECT_DOUBLE_EQ(render::automaticResidualFactor(drawn), 1);
   wrist.residual = Vector3d(1e-9, 0, 0);
-  EXPECT_DOUBLE_EQ(automaticResidualFactor(drawn), 100);
+  EXPECT_DOUBLE_EQ(render::automaticResidualFactor(drawn), 100);
   wrist.measured.reset();
-  EXPECT_DOUBLE_EQ(automaticResidualFactor(drawn), 1);
+  EXPECT_DOUBLE_EQ(render::automaticResidualFactor(drawn), 1);
 }
 
 TEST(ArmPicture, FramingFixesScaleAndMiddle) {
-  ArmScene drawn = scene(View::Side);
+  render::ArmScene drawn = scene(render::View::Side);
   const Vector3d wrist = drawn.poses[0].wrist->position;
   const auto amberAt = [&](const Vector3d& centre, double metres_high) {
-    drawn.framing = SceneFraming{centre, metres_high};
-    return middle(extentOfHue(decoded(render(drawn)), Hue::Amber));
+    drawn.framing = render::SceneFraming{centre, metres_high};
+    return middle(extentOfHue(decoded(render::render(drawn)), Hue::Amber));
   };
   const cv::Point centred = amberAt(wrist, 3);
   const cv::Point aside = amberAt(wrist + Vector3d(0.5, 0, 0), 3);
@@ -165,34 +165,34 @@ TEST(ArmPicture, FramingFixesScaleAndMiddle) {
 }
 
 TEST(ArmPicture, WhatIsZoomedInStaysInItsRoom) {
-  ArmScene drawn = scene(View::Side);
+  render::ArmScene drawn = scene(render::View::Side);
   drawn.title = "Deflection";
   drawn.panels = {{"Keys", {{{"q", "quit"}, std::nullopt}}, false}};
-  drawn.framing = SceneFraming{{0.4, 0, 1.4}, 0.3};  // nothing but the upper arm
-  const cv::Mat picture = decoded(render(drawn));
+  drawn.framing = render::SceneFraming{{0.4, 0, 1.4}, 0.3};  // nothing but the upper arm
+  const cv::Mat picture = decoded(render::render(drawn));
   expectNothingClipped(picture);
   const cv::Mat right = picture.colRange(1100, 1200).rowRange(200, 780);  // below the one line of the panel
   EXPECT_EQ(cv::countNonZero(inkOf(right)), 0);
 }
 
 TEST(ArmPicture, TracesAndPanelsAndDarkPaper) {
-  ArmScene drawn = scene(View::Side);
+  render::ArmScene drawn = scene(render::View::Side);
   drawn.traces = {{"P_{10}", {{1, 0, 1}, {1.2, 0, 1.1}, {1.4, 0, 1.3}}, false}};
   drawn.dark = true;
-  drawn.panels = {{"P_{10}", {{{"measured", "1.000"}, colours::kPredicted}}, true}};
-  const cv::Mat picture = decoded(render(drawn));
+  drawn.panels = {{"P_{10}", {{{"measured", "1.000"}, render::colours::kPredicted}}, true}};
+  const cv::Mat picture = decoded(render::render(drawn));
   EXPECT_EQ(piecesOf(hueMask(picture, Hue::Red), 15).size(), 3u);
-  EXPECT_EQ(piecesOf(maskOf(picture, colours::kPredicted), 50).size(), 1u);
-  const Colour paper = kDarkPalette.paper;
+  EXPECT_EQ(piecesOf(maskOf(picture, render::colours::kPredicted), 50).size(), 1u);
+  const render::Colour paper = render::kDarkPalette.paper;
   EXPECT_EQ(picture.at<cv::Vec3b>(2, 2), cv::Vec3b(paper.blue, paper.green, paper.red));
 }
 
 TEST(ArmPicture, TargetsAreLabelled) {
-  ArmScene drawn = scene(View::Side);
+  render::ArmScene drawn = scene(render::View::Side);
   drawn.poses[0].targets = {{"P_{10}", {2.4, 0, 2.5}, {}, {}}};
-  const cv::Mat with = decoded(render(drawn));
+  const cv::Mat with = decoded(render::render(drawn));
   drawn.poses[0].targets[0].label.clear();
-  const cv::Mat without = decoded(render(drawn));
+  const cv::Mat without = decoded(render::render(drawn));
   cv::Mat difference;
   cv::absdiff(with, without, difference);
   cv::cvtColor(difference, difference, cv::COLOR_BGR2GRAY);
@@ -209,52 +209,52 @@ TEST(ArmPicture, TargetsAreLabelled) {
 }
 
 TEST(ArmPicture, GhostsAndTargetsAreNotClipped) {
-  for (const View view : {View::Oblique, View::Front, View::Side, View::Top}) {
-    ArmScene drawn = scene(view);
+  for (const render::View view : {render::View::Oblique, render::View::Front, render::View::Side, render::View::Top}) {
+    render::ArmScene drawn = scene(view);
     drawn.title = "Deflection";
     drawn.poses[0].targets = {
         {"P_{10}", {2.4, 0.2, 2.3}, Vector3d(0.001, 0, -0.003), Vector3d(0.001, 0, -0.002)}};
     drawn.poses.push_back(drawn.poses[0]);
     drawn.poses[1].ghost = true;
     for (Vector3d& point : drawn.poses[1].joint_points) point = {-point.y(), point.x(), point.z()};
-    for (const Size size : {Size{1200, 800}, Size{480, 320}})
-      expectNothingClipped(decoded(render(drawn, size)));
-    EXPECT_LT(encodePng(render(drawn)).size(), 300'000u);
+    for (const render::Size size : {render::Size{1200, 800}, render::Size{480, 320}})
+      expectNothingClipped(decoded(render::render(drawn, size)));
+    EXPECT_LT(render::encodePng(render::render(drawn)).size(), 300'000u);
   }
 }
 
 TEST(ArmPicture, MagnificationMakesTheLongestAFifth) {
-  ArmScene drawn = scene(View::Side);
+  render::ArmScene drawn = scene(render::View::Side);
   // The box of all points is 2.3 m long; a fifth of it is 0.46 m = 230 x 2 mm; 1-2-5 below: 200.
   drawn.poses[0].wrist->measured = Vector3d(0, 0, -0.002);
   drawn.poses[0].wrist->predicted = Vector3d(0, 0, 0.001);
-  EXPECT_DOUBLE_EQ(automaticMagnification(drawn), 200);
+  EXPECT_DOUBLE_EQ(render::automaticMagnification(drawn), 200);
   drawn.poses[0].wrist->measured = drawn.poses[0].wrist->predicted = std::nullopt;
-  EXPECT_DOUBLE_EQ(automaticMagnification(drawn), 1);
+  EXPECT_DOUBLE_EQ(render::automaticMagnification(drawn), 1);
 }
 
 TEST(ArmPicture, RefusesWhatCannotBeDrawn) {
-  ArmScene drawn = scene(View::Side);
+  render::ArmScene drawn = scene(render::View::Side);
   drawn.poses[0].axis_directions.pop_back();
   try {
-    render(drawn);
+    render::render(drawn);
     FAIL() << "accepted";
   } catch (const std::invalid_argument& error) {
     EXPECT_NE(std::string(error.what()).find("7 joint points and 5 axes"), std::string::npos) << error.what();
   }
-  drawn = scene(View::Side);
+  drawn = scene(render::View::Side);
   drawn.poses[0].wrist->measured = Vector3d(0, 0, std::numeric_limits<double>::quiet_NaN());
-  EXPECT_THROW(render(drawn), std::invalid_argument);
-  drawn = scene(View::Side);
+  EXPECT_THROW(render::render(drawn), std::invalid_argument);
+  drawn = scene(render::View::Side);
   drawn.magnification = 0;
-  EXPECT_THROW(render(drawn), std::invalid_argument);
-  drawn = scene(View::Side);
+  EXPECT_THROW(render::render(drawn), std::invalid_argument);
+  drawn = scene(render::View::Side);
   drawn.residual_factor = -1;
-  EXPECT_THROW(render(drawn), std::invalid_argument);
-  drawn = scene(View::Side);
-  drawn.framing = SceneFraming{{0, 0, 0}, 0};
-  EXPECT_THROW(render(drawn), std::invalid_argument);
-  EXPECT_THROW(render(ArmScene{}), std::invalid_argument);
+  EXPECT_THROW(render::render(drawn), std::invalid_argument);
+  drawn = scene(render::View::Side);
+  drawn.framing = render::SceneFraming{{0, 0, 0}, 0};
+  EXPECT_THROW(render::render(drawn), std::invalid_argument);
+  EXPECT_THROW(render::render(render::ArmScene{}), std::invalid_argument);
 }
 
 }  // namespace

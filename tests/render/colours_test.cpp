@@ -9,7 +9,7 @@
 namespace stiffscope {
 namespace {
 
-Eigen::Vector3d linear(Colour colour) {
+Eigen::Vector3d linear(render::Colour colour) {
   const auto channel = [](double c) { return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4); };
   return {channel(colour.red / 255.0), channel(colour.green / 255.0), channel(colour.blue / 255.0)};
 }
@@ -33,7 +33,7 @@ std::vector<Eigen::Matrix3d> visions() {
   return {Eigen::Matrix3d::Identity(), protan, deutan, tritan};
 }
 
-void expectApart(const std::vector<Colour>& set) {
+void expectApart(const std::vector<render::Colour>& set) {
   for (const Eigen::Matrix3d& vision : visions()) {
     for (std::size_t i = 0; i < set.size(); ++i) {
       for (std::size_t k = 0; k < i; ++k) {
@@ -52,21 +52,21 @@ void expectApart(const std::vector<Colour>& set) {
 }
 
 TEST(Colours, OfSeriesSurviveColourBlindnessAndGreyPrint) {
-  expectApart({colours::kSeries.begin(), colours::kSeries.end()});
+  expectApart({render::colours::kSeries.begin(), render::colours::kSeries.end()});
 }
 
 // A difference of 20 in L*a*b* is about ten times what is just seen side by side, 14 in L* tells two greys of
 // a print; vectors also stand off the paper.
 TEST(Colours, OfASceneStayApartOnLightAndDark) {
-  for (const Palette& palette : {kLightPalette, kDarkPalette}) {
-    const std::vector<Colour> vectors{palette.measured, palette.predicted, palette.residual};
+  for (const render::Palette& palette : {render::kLightPalette, render::kDarkPalette}) {
+    const std::vector<render::Colour> vectors{palette.measured, palette.predicted, palette.residual};
     for (std::size_t a = 0; a < vectors.size(); ++a) {
       for (std::size_t b = 0; b < vectors.size(); ++b) {
         if (a == b) continue;
         SCOPED_TRACE(testing::Message() << a << " and " << b);
         EXPECT_GE(std::abs(lab(linear(vectors[a])).x() - lab(linear(vectors[b])).x()), 14.0);
         for (const Eigen::Matrix3d& vision : visions()) {
-          const auto seen = [&](Colour colour) {
+          const auto seen = [&](render::Colour colour) {
             return lab((vision * linear(colour)).cwiseMax(0.0).cwiseMin(1.0));
           };
           EXPECT_GE((seen(vectors[a]) - seen(vectors[b])).norm(), 20.0);
@@ -77,7 +77,7 @@ TEST(Colours, OfASceneStayApartOnLightAndDark) {
   }
 }
 
-TEST(Colours, OfTheMethodsToo) { expectApart({colours::kNone, colours::kCp, colours::kPp, colours::kDpp}); }
+TEST(Colours, OfTheMethodsToo) { expectApart({render::colours::kNone, render::colours::kCp, render::colours::kPp, render::colours::kDpp}); }
 
 }  // namespace
 }  // namespace stiffscope

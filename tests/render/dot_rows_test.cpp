@@ -1,29 +1,28 @@
 #include <cmath>
 #include <stdexcept>
 #include <string>
-
 #include "render/dot_row_chart.h"
 #include "tests/render/picture.h"
 
 namespace stiffscope {
 namespace {
 
-DotRowChart threeRows() {
-  DotRowChart chart;
+render::DotRowChart threeRows() {
+  render::DotRowChart chart;
   chart.x_title = "Size (µm)";
   chart.rows = {{"a", 1.0, "", false}, {"b", 10.0, "", false}, {"c", 100.0, "", false}};
   return chart;
 }
 
 /// The dots, from left to right; their stems are thinner than they are.
-std::vector<cv::Rect> dots(const DotRowChart& chart, Colour colour) {
-  cv::Mat mask = maskOf(decoded(render(chart)), colour);
+std::vector<cv::Rect> dots(const render::DotRowChart& chart, render::Colour colour) {
+  cv::Mat mask = maskOf(decoded(render::render(chart)), colour);
   cv::erode(mask, mask, cv::Mat::ones(5, 5, CV_8U));
   return piecesOf(mask, 10);
 }
 
 TEST(DotRows, DecadesAreEvenlySpacedAndRowsStandInOrder) {
-  const auto found = dots(threeRows(), colours::kSeries[0]);
+  const auto found = dots(threeRows(), render::colours::kSeries[0]);
   ASSERT_EQ(found.size(), 3u);
   EXPECT_NEAR(found[1].x - found[0].x, found[2].x - found[1].x, 2);  // a pixel of rounding at each end
   EXPECT_GT(found[1].x - found[0].x, 100);
@@ -32,20 +31,20 @@ TEST(DotRows, DecadesAreEvenlySpacedAndRowsStandInOrder) {
 }
 
 TEST(DotRows, AMarkedRowHasAnotherSignAndOneWithoutSizeNone) {
-  DotRowChart chart = threeRows();
+  render::DotRowChart chart = threeRows();
   chart.rows[1].marked = true;
   chart.rows[2].size = NAN;
   chart.rows[2].words = "not testable";
-  EXPECT_EQ(dots(chart, colours::kSeries[0]).size(), 1u);
-  EXPECT_EQ(dots(chart, colours::kSeries[1]).size(), 1u);
-  expectNothingClipped(decoded(render(chart)));
+  EXPECT_EQ(dots(chart, render::colours::kSeries[0]).size(), 1u);
+  EXPECT_EQ(dots(chart, render::colours::kSeries[1]).size(), 1u);
+  expectNothingClipped(decoded(render::render(chart)));
 }
 
 TEST(DotRows, AGroupIsALineBesideItsRows) {
-  DotRowChart chart = threeRows();
+  render::DotRowChart chart = threeRows();
   chart.group_title = "alike";
   const auto inkOfColumn = [&chart] {
-    cv::Mat mask = maskOf(decoded(render(chart)), colours::kInk);
+    cv::Mat mask = maskOf(decoded(render::render(chart)), render::colours::kInk);
     cv::erode(mask, mask, cv::Mat::ones(60, 2, CV_8U));  // upright lines alone
     return cv::countNonZero(mask);
   };
@@ -55,7 +54,7 @@ TEST(DotRows, AGroupIsALineBesideItsRows) {
 }
 
 TEST(DotRows, FitsWhateverItIsGiven) {
-  DotRowChart chart;
+  render::DotRowChart chart;
   chart.title = std::string(300, 'm');
   chart.group_title = "not told apart";
   chart.reference = 3.0;
@@ -64,15 +63,15 @@ TEST(DotRows, FitsWhateverItIsGiven) {
     chart.rows.push_back(
         {std::string(80, 'w'), i % 3 ? std::pow(10.0, i % 5) : NAN, std::string(400, 'x'), i == 4});
   for (std::size_t i = 0; i < 20; ++i) chart.groups.push_back({i % 16, (i + 5) % 16});
-  expectNothingClipped(decoded(render(chart)));
-  expectNothingClipped(decoded(render(chart, {480, 320})));
+  expectNothingClipped(decoded(render::render(chart)));
+  expectNothingClipped(decoded(render::render(chart, {480, 320})));
 }
 
 TEST(DotRows, RefusesAGroupOfARowThatThereIsNot) {
-  DotRowChart chart = threeRows();
+  render::DotRowChart chart = threeRows();
   chart.groups = {{0, 7}};
   try {
-    render(chart);
+    render::render(chart);
     FAIL() << "accepted";
   } catch (const std::invalid_argument& error) {
     EXPECT_NE(std::string(error.what()).find("a group of rows 0, 7, expected two or more of 3"),
@@ -85,9 +84,9 @@ TEST(RichText, WhatStandsBetweenEscapesIsTakenToTheLetter) {
   // A subscript is set smaller: read to the letter the same name is wider, and the stems begin farther to the
   // right.
   const auto stemsBeginAt = [](const std::string& name) {
-    DotRowChart chart = threeRows();
+    render::DotRowChart chart = threeRows();
     chart.rows[0].name = name;
-    return piecesOf(maskOf(decoded(render(chart)), colours::kSeries[0]), 100).front().x;
+    return piecesOf(maskOf(decoded(render::render(chart)), render::colours::kSeries[0]), 100).front().x;
   };
   const int marked = stemsBeginAt("P_{xxxxxx}"), verbatim = stemsBeginAt("\x1bP_{xxxxxx}\x1b");
   EXPECT_GT(verbatim, marked + 20);

@@ -12,28 +12,28 @@ namespace {
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 // Without names, so that no legend shows the colours too.
-GroupedBarChart plainBars(std::vector<double> values) {
-  GroupedBarChart chart;
+render::GroupedBarChart plainBars(std::vector<double> values) {
+  render::GroupedBarChart chart;
   for (std::size_t i = 0; i < values.size(); ++i) chart.categories.push_back(std::to_string(i + 1));
-  chart.series = {{"", colours::kPp, std::move(values), {}}};
+  chart.series = {{"", render::colours::kPp, std::move(values), {}}};
   return chart;
 }
 
-GroupedBarChart figure7(int postures) {
-  GroupedBarChart chart;
+render::GroupedBarChart figure7(int postures) {
+  render::GroupedBarChart chart;
   chart.title = "Displacement of P_{wrist} before and after compensation";
   chart.subtitle = "Double encoders active";
   chart.y_title = "Displacement of P_{wrist} (mm)";
   chart.category_title = "Posture";
-  chart.series = {{"none", colours::kNone, {}, {}},
-                  {"Complete Pose", colours::kCp, {}, {}},
-                  {"Partial Pose", colours::kPp, {}, {}},
-                  {"Decoupled Partial Pose", colours::kDpp, {}, {}}};
+  chart.series = {{"none", render::colours::kNone, {}, {}},
+                  {"Complete Pose", render::colours::kCp, {}, {}},
+                  {"Partial Pose", render::colours::kPp, {}, {}},
+                  {"Decoupled Partial Pose", render::colours::kDpp, {}, {}}};
   for (int i = 0; i < postures; ++i) {
     chart.categories.push_back(std::to_string(i + 1));
     const double displacement = 1 + 0.4 * std::sin(i);
     double share = 1;
-    for (BarSeries& series : chart.series) {
+    for (render::BarSeries& series : chart.series) {
       series.values.push_back(share * displacement);
       share -= 0.25;
     }
@@ -42,7 +42,7 @@ GroupedBarChart figure7(int postures) {
 }
 
 TEST(GroupedBars, HeightFollowsValue) {
-  const auto bars = piecesOf(maskOf(decoded(render(plainBars({1, 2}))), colours::kPp));
+  const auto bars = piecesOf(maskOf(decoded(render::render(plainBars({1, 2}))), render::colours::kPp));
   ASSERT_EQ(bars.size(), 2u);
   // A pixel of each bar is shared with the zero line, another with its upper edge.
   EXPECT_NEAR(bars[1].height, 2 * bars[0].height, 3);
@@ -51,11 +51,11 @@ TEST(GroupedBars, HeightFollowsValue) {
 }
 
 TEST(GroupedBars, SeriesStandInTheirOrderInEachGroup) {
-  GroupedBarChart chart = figure7(3);
-  for (BarSeries& series : chart.series) series.name.clear();
-  const cv::Mat picture = decoded(render(chart));
+  render::GroupedBarChart chart = figure7(3);
+  for (render::BarSeries& series : chart.series) series.name.clear();
+  const cv::Mat picture = decoded(render::render(chart));
   std::vector<std::vector<cv::Rect>> bars;
-  for (const BarSeries& series : chart.series) bars.push_back(piecesOf(maskOf(picture, series.colour)));
+  for (const render::BarSeries& series : chart.series) bars.push_back(piecesOf(maskOf(picture, series.colour)));
   for (std::size_t group = 0; group < 3; ++group) {
     for (std::size_t s = 0; s < 4; ++s) {
       ASSERT_EQ(bars[s].size(), 3u);
@@ -70,7 +70,7 @@ TEST(GroupedBars, SeriesStandInTheirOrderInEachGroup) {
 }
 
 TEST(GroupedBars, MissingValueLeavesAGap) {
-  const cv::Mat mask = maskOf(decoded(render(plainBars({1, kNaN, 1}))), colours::kPp);
+  const cv::Mat mask = maskOf(decoded(render::render(plainBars({1, kNaN, 1}))), render::colours::kPp);
   const auto bars = piecesOf(mask);
   ASSERT_EQ(bars.size(), 2u);
   const cv::Rect between(bars[0].br().x, 0, bars[1].x - bars[0].br().x, mask.rows);
@@ -79,17 +79,17 @@ TEST(GroupedBars, MissingValueLeavesAGap) {
 }
 
 TEST(GroupedBars, NegativeValueHangsFromTheZeroLine) {
-  const auto bars = piecesOf(maskOf(decoded(render(plainBars({1, -1}))), colours::kPp));
+  const auto bars = piecesOf(maskOf(decoded(render::render(plainBars({1, -1}))), render::colours::kPp));
   ASSERT_EQ(bars.size(), 2u);
   EXPECT_NEAR(bars[1].y, bars[0].br().y, 2);
   EXPECT_NEAR(bars[0].height, bars[1].height, 2);
 }
 
 TEST(GroupedBars, WhiskerIsAsLongAsItsError) {
-  GroupedBarChart chart = plainBars({1, 2});
+  render::GroupedBarChart chart = plainBars({1, 2});
   chart.series[0].errors = {kNaN, 0.25};
-  const cv::Mat picture = decoded(render(chart));
-  const auto bars = piecesOf(maskOf(picture, colours::kPp), 1000);
+  const cv::Mat picture = decoded(render::render(chart));
+  const auto bars = piecesOf(maskOf(picture, render::colours::kPp), 1000);
   ASSERT_GE(bars.size(), 2u);
   const cv::Rect first = bars[0], second = bars[1];
   // Above the middle of the second bar there is ink for an eighth of its height; the first has no whisker.
@@ -109,9 +109,9 @@ TEST(GroupedBars, WhiskerIsAsLongAsItsError) {
 
 TEST(GroupedBars, NoClippingFromOneToSixtyPostures) {
   for (const int postures : {1, 2, 19, 60}) {
-    for (const Size size : {Size{1200, 700}, Size{480, 320}, Size{2000, 900}}) {
+    for (const render::Size size : {render::Size{1200, 700}, render::Size{480, 320}, render::Size{2000, 900}}) {
       SCOPED_TRACE(testing::Message() << postures << " postures, " << size.width << " x " << size.height);
-      const cv::Mat picture = decoded(render(figure7(postures), size));
+      const cv::Mat picture = decoded(render::render(figure7(postures), size));
       ASSERT_EQ(picture.size(), cv::Size(size.width, size.height));
       expectNothingClipped(picture);
     }
@@ -119,10 +119,10 @@ TEST(GroupedBars, NoClippingFromOneToSixtyPostures) {
 }
 
 TEST(GroupedBars, SixtyPosturesKeepAllBarsAndSpaceBetweenLabels) {
-  GroupedBarChart chart = figure7(60);
+  render::GroupedBarChart chart = figure7(60);
   chart.category_title.clear();
-  const cv::Mat picture = decoded(render(chart));
-  const auto bars = piecesOf(maskOf(picture, colours::kPp), 60);
+  const cv::Mat picture = decoded(render::render(chart));
+  const auto bars = piecesOf(maskOf(picture, render::colours::kPp), 60);
   ASSERT_EQ(bars.size(), 61u) << "with the square in the legend";
   // The row of labels below the plot, blurred over the space between digits, falls apart into labels.
   const int zero = bars.back().br().y;
@@ -134,34 +134,34 @@ TEST(GroupedBars, SixtyPosturesKeepAllBarsAndSpaceBetweenLabels) {
 }
 
 TEST(GroupedBars, LongNamesStandUpright) {
-  GroupedBarChart chart = plainBars(std::vector<double>(30, 1.0));
+  render::GroupedBarChart chart = plainBars(std::vector<double>(30, 1.0));
   for (std::string& name : chart.categories) name = "campaign of day " + name;
-  const cv::Mat picture = decoded(render(chart));
+  const cv::Mat picture = decoded(render::render(chart));
   expectNothingClipped(picture);
-  const int zero = piecesOf(maskOf(picture, colours::kPp)).front().br().y;
+  const int zero = piecesOf(maskOf(picture, render::colours::kPp)).front().br().y;
   const cv::Mat below = inkOf(picture).rowRange(zero + 4, picture.rows).clone();
   for (const cv::Rect& letter : piecesOf(below)) EXPECT_LT(letter.width, 20);
   EXPECT_GT(picture.rows - zero, 80);
 }
 
 TEST(GroupedBars, NothingFiniteStillDrawsAxes) {
-  const cv::Mat picture = decoded(render(plainBars({kNaN, kNaN})));
+  const cv::Mat picture = decoded(render::render(plainBars({kNaN, kNaN})));
   EXPECT_GT(cv::countNonZero(inkOf(picture)), 1000);
   expectNothingClipped(picture);
 }
 
 TEST(GroupedBars, RefusesInconsistentData) {
-  GroupedBarChart chart = plainBars({1, 2});
+  render::GroupedBarChart chart = plainBars({1, 2});
   chart.series[0].name = "DPP";
   chart.series[0].values.pop_back();
   try {
-    render(chart);
+    render::render(chart);
     FAIL() << "accepted";
   } catch (const std::invalid_argument& error) {
     EXPECT_STREQ(error.what(), "bar chart '': series 'DPP' has 1 values and 0 errors for 2 categories");
   }
-  EXPECT_THROW(render(GroupedBarChart{}), std::invalid_argument);
-  EXPECT_THROW(render(plainBars({1}), {100, 100}), std::invalid_argument);
+  EXPECT_THROW(render::render(render::GroupedBarChart{}), std::invalid_argument);
+  EXPECT_THROW(render::render(plainBars({1}), {100, 100}), std::invalid_argument);
 }
 
 }  // namespace

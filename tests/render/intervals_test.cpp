@@ -8,21 +8,21 @@
 namespace stiffscope {
 namespace {
 
-IntervalChart plain(std::vector<Interval> intervals) {
-  IntervalChart chart;
+render::IntervalChart plain(std::vector<render::Interval> intervals) {
+  render::IntervalChart chart;
   for (std::size_t i = 0; i < intervals.size(); ++i) chart.categories.push_back(std::to_string(i + 1));
-  chart.series = {{"", colours::kDpp, std::move(intervals)}};
+  chart.series = {{"", render::colours::kDpp, std::move(intervals)}};
   return chart;
 }
 
-std::vector<cv::Rect> marks(const IntervalChart& chart) {
-  return piecesOf(maskOf(decoded(render(chart)), colours::kDpp), 30);
+std::vector<cv::Rect> marks(const render::IntervalChart& chart) {
+  return piecesOf(maskOf(decoded(render::render(chart)), render::colours::kDpp), 30);
 }
 
 double middle(const cv::Rect& mark) { return mark.y + mark.height / 2.0; }
 
 TEST(Intervals, LogarithmicAxisSpacesDecadesEvenly) {
-  IntervalChart chart = plain({{1, 1, 1}, {10, 10, 10}, {100, 100, 100}});
+  render::IntervalChart chart = plain({{1, 1, 1}, {10, 10, 10}, {100, 100, 100}});
   chart.logarithmic = true;
   const auto points = marks(chart);
   ASSERT_EQ(points.size(), 3u);
@@ -37,21 +37,21 @@ TEST(Intervals, WhiskerLengthFollowsTheInterval) {
 }
 
 TEST(Intervals, DoubtfulPointIsHollow) {
-  const cv::Mat picture = decoded(render(plain({{5, 5, 5, false}, {5, 5, 5, true}})));
-  const auto points = piecesOf(maskOf(picture, colours::kDpp), 20);
+  const cv::Mat picture = decoded(render::render(plain({{5, 5, 5, false}, {5, 5, 5, true}})));
+  const auto points = piecesOf(maskOf(picture, render::colours::kDpp), 20);
   ASSERT_EQ(points.size(), 2u);
   const auto colourInside = [&picture](const cv::Rect& r) {
     return picture.at<cv::Vec3b>(r.y + r.height / 2, r.x + r.width / 2);
   };
-  EXPECT_EQ(colourInside(points[0]), cv::Vec3b(colours::kDpp.blue, colours::kDpp.green, colours::kDpp.red));
+  EXPECT_EQ(colourInside(points[0]), cv::Vec3b(render::colours::kDpp.blue, render::colours::kDpp.green, render::colours::kDpp.red));
   EXPECT_EQ(colourInside(points[1]), cv::Vec3b(255, 255, 255));
 }
 
 TEST(Intervals, NotPositiveOnALogarithmicAxisIsAnArrowAtItsFoot) {
-  IntervalChart chart = plain({{10, 8, 12}, {-3, -5, 9}, {5, -1, 20}});
+  render::IntervalChart chart = plain({{10, 8, 12}, {-3, -5, 9}, {5, -1, 20}});
   chart.logarithmic = true;
-  const cv::Mat picture = decoded(render(chart));
-  const auto points = piecesOf(maskOf(picture, colours::kDpp), 30);
+  const cv::Mat picture = decoded(render::render(chart));
+  const auto points = piecesOf(maskOf(picture, render::colours::kDpp), 30);
   ASSERT_EQ(points.size(), 3u);
   EXPECT_NEAR(points[1].br().y, points[2].br().y, 1);
   EXPECT_GT(points[1].br().y, points[0].br().y + 20);
@@ -65,7 +65,7 @@ TEST(Intervals, MissingValueLeavesAGap) {
 
 TEST(Intervals, RefusesAnIntervalWithoutItsValue) {
   try {
-    render(plain({{5, 6, 7}}));
+    render::render(plain({{5, 6, 7}}));
     FAIL() << "accepted";
   } catch (const std::invalid_argument& error) {
     EXPECT_NE(std::string(error.what()).find("has 5 in an interval from 6 to 7"), std::string::npos)

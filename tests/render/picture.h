@@ -7,16 +7,15 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <vector>
-
 #include "render/colours.h"
-#include "render/png.h"
+#include "render/image.h"
 
 namespace stiffscope {
 
 /// A picture as a reader of the report gets it: through the PNG file. Channels blue, green, red.
-inline cv::Mat decoded(const Image& image) { return cv::imdecode(encodePng(image), cv::IMREAD_COLOR); }
+inline cv::Mat decoded(const render::Image& image) { return cv::imdecode(render::encodePng(image), cv::IMREAD_COLOR); }
 
-inline cv::Mat maskOf(const cv::Mat& picture, Colour colour) {
+inline cv::Mat maskOf(const cv::Mat& picture, render::Colour colour) {
   cv::Mat mask;
   const cv::Scalar bgr(colour.blue, colour.green, colour.red);
   cv::inRange(picture, bgr, bgr, mask);

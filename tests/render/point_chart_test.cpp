@@ -9,18 +9,18 @@
 namespace stiffscope {
 namespace {
 
-PointChart postures(int count, int panels) {
-  PointChart chart;
+render::PointChart postures(int count, int panels) {
+  render::PointChart chart;
   chart.title = "Residuals";
   chart.columns = 3;
   for (int p = 0; p < panels; ++p) {
-    PointPanel panel;
+    render::PointPanel panel;
     panel.title = "Along the beam";
     panel.x_title = "Posture";
     panel.y_title = "Residual (µm)";
-    PointSeries series;
+    render::PointSeries series;
     series.name = "P_{10}";
-    series.colour = colours::kSeries[0];
+    series.colour = render::colours::kSeries[0];
     for (int i = 0; i < count; ++i) {
       panel.categories.push_back(std::to_string(i + 1));
       series.points.push_back({static_cast<double>(i), std::sin(i)});
@@ -31,22 +31,22 @@ PointChart postures(int count, int panels) {
   return chart;
 }
 
-TEST(PointChart, NothingIsCutFromOneToSixtyPostures) {
+TEST(render::PointChart, NothingIsCutFromOneToSixtyPostures) {
   for (const int count : {1, 2, 19, 24, 60}) {
     SCOPED_TRACE(count);
-    expectNothingClipped(decoded(render(postures(count, 6))));
+    expectNothingClipped(decoded(render::render(postures(count, 6))));
   }
 }
 
-TEST(PointChart, LabelsUnderTheAxisStandApart) {
+TEST(render::PointChart, LabelsUnderTheAxisStandApart) {
   // The strip of the labels: every label is a piece of ink; were two run together there would be fewer gaps.
   for (const int count : {19, 60}) {
-    PointChart chart = postures(count, 1);
+    render::PointChart chart = postures(count, 1);
     chart.columns = 1;
     chart.diagrams[0].x_title.clear();
     chart.diagrams[0].title.clear();
     chart.title.clear();
-    const cv::Mat ink = inkOf(decoded(render(chart)));
+    const cv::Mat ink = inkOf(decoded(render::render(chart)));
     const cv::Mat strip = ink.rowRange(ink.rows - 30, ink.rows - 8);
     int gap = 0, narrowest = ink.cols, begun = 0;
     for (int x = 80; x < ink.cols; ++x) {
@@ -60,15 +60,15 @@ TEST(PointChart, LabelsUnderTheAxisStandApart) {
   }
 }
 
-TEST(PointChart, AShapeIsTrueToScale) {
-  PointChart chart;
-  ShapePanel panel;
-  PointSeries ring;
-  ring.colour = colours::kSeries[1];
+TEST(render::PointChart, AShapeIsTrueToScale) {
+  render::PointChart chart;
+  render::ShapePanel panel;
+  render::PointSeries ring;
+  ring.colour = render::colours::kSeries[1];
   for (int i = 0; i < 4; ++i) ring.points.push_back({std::cos(i * M_PI / 2), std::sin(i * M_PI / 2)});
   panel.series = {ring};
   chart.shapes = {panel};
-  const auto marks = piecesOf(maskOf(decoded(render(chart)), ring.colour));
+  const auto marks = piecesOf(maskOf(decoded(render::render(chart)), ring.colour));
   ASSERT_EQ(marks.size(), 4u);
   const int width = marks[3].x - marks[0].x;
   int top = 9999, bottom = 0;
@@ -77,29 +77,29 @@ TEST(PointChart, AShapeIsTrueToScale) {
   EXPECT_GT(width, 300);
 }
 
-TEST(PointChart, AHostileTitleLeavesThePlotItsRoom) {
-  PointChart plain = postures(19, 1), hostile = plain;
+TEST(render::PointChart, AHostileTitleLeavesThePlotItsRoom) {
+  render::PointChart plain = postures(19, 1), hostile = plain;
   plain.title = "Two lines of a title " + std::string(120, 'i');
   for (const std::string& name : {std::string(10'000, 'W'), std::string("<script>alert(\"1\")</script>\n\u202E\u05d0\u05d1"),
                                   [] { std::string words; while (words.size() < 10'000) words += "many words "; return words; }()}) {
     hostile.title = name;
     hostile.subtitle = name;
     const auto start = std::chrono::steady_clock::now();
-    const cv::Mat picture = decoded(render(hostile));
+    const cv::Mat picture = decoded(render::render(hostile));
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     EXPECT_LT(seconds, 2.0);  // 0.1 s alone; measuring every prefix of such a name would take minutes
     expectNothingClipped(picture);
     // Two lines of each leave four fifths of the picture to the plot: its points are there.
-    EXPECT_GE(piecesOf(maskOf(picture, colours::kSeries[0]), 8).size(), 15u);
+    EXPECT_GE(piecesOf(maskOf(picture, render::colours::kSeries[0]), 8).size(), 15u);
   }
 }
 
-TEST(PointChart, RefusesWhatDoesNotFit) {
-  EXPECT_THROW(render(PointChart{}), std::invalid_argument);
-  PointChart chart = postures(3, 1);
+TEST(render::PointChart, RefusesWhatDoesNotFit) {
+  EXPECT_THROW(render::render(render::PointChart{}), std::invalid_argument);
+  render::PointChart chart = postures(3, 1);
   chart.diagrams[0].series[0].errors = {1.0};
   try {
-    render(chart);
+    render::render(chart);
     FAIL();
   } catch (const std::invalid_argument& error) {
     EXPECT_NE(std::string(error.what()).find("1 errors for 3 points"), std::string::npos) << error.what();

@@ -8,20 +8,20 @@
 namespace stiffscope {
 namespace {
 
-SpreadChart panels(std::vector<std::optional<Spread>> spreads) {
-  SpreadChart chart;
-  chart.methods = {{"", colours::kPp}};
+render::SpreadChart panels(std::vector<std::optional<render::Spread>> spreads) {
+  render::SpreadChart chart;
+  chart.methods = {{"", render::colours::kPp}};
   for (auto& spread : spreads) chart.panels.push_back({"k", {spread}, {}, {}, {}});
-  chart.axis = SpreadAxis::Shared;
+  chart.axis = render::SpreadAxis::Shared;
   return chart;
 }
 
 std::vector<cv::Rect> outlines(const cv::Mat& picture) {
-  return piecesOf(maskOf(picture, colours::kPp), 100);
+  return piecesOf(maskOf(picture, render::colours::kPp), 100);
 }
 
 TEST(Spreads, BoxesAndWhiskersFollowThePercentiles) {
-  const cv::Mat picture = decoded(render(panels({Spread{1, 2, 3, 4, 5, 3}, Spread{1, 1.5, 3, 4.5, 9, 3}})));
+  const cv::Mat picture = decoded(render::render(panels({render::Spread{1, 2, 3, 4, 5, 3}, render::Spread{1, 1.5, 3, 4.5, 9, 3}})));
   const auto boxes = outlines(picture);
   ASSERT_EQ(boxes.size(), 2u);
   // Whole pieces run from the 5 % to the 95 % whisker.
@@ -30,19 +30,19 @@ TEST(Spreads, BoxesAndWhiskersFollowThePercentiles) {
 }
 
 TEST(Spreads, TailBeyondTheAxisIsCutWithAnArrow) {
-  const Spread narrow{1, 2, 3, 4, 5, 3};
-  Spread heavy = narrow;
+  const render::Spread narrow{1, 2, 3, 4, 5, 3};
+  render::Spread heavy = narrow;
   heavy.p95 = 500;
   heavy.mean = 2300;
-  const auto calm = outlines(decoded(render(panels({narrow, narrow}))));
-  const cv::Mat picture = decoded(render(panels({narrow, heavy})));
+  const auto calm = outlines(decoded(render::render(panels({narrow, narrow}))));
+  const cv::Mat picture = decoded(render::render(panels({narrow, heavy})));
   const auto cut = outlines(picture);
   ASSERT_EQ(calm.size(), 2u);
   ASSERT_EQ(cut.size(), 2u);
   // The narrow box keeps a fair share of its height although its neighbour's mean is 2300.
   EXPECT_GT(cut[0].height, calm[0].height / 3);
   // The arrow: at the top of the heavy one the ink is pointed, and widens below the tip.
-  const cv::Mat mask = maskOf(picture, colours::kPp);
+  const cv::Mat mask = maskOf(picture, render::colours::kPp);
   EXPECT_LT(cv::countNonZero(mask.row(cut[1].y)(cv::Range::all(), cv::Range(cut[1].x, cut[1].br().x))), 4);
   EXPECT_GT(cv::countNonZero(mask.row(cut[1].y + 8)(cv::Range::all(), cv::Range(cut[1].x, cut[1].br().x))),
             6);
@@ -53,9 +53,9 @@ TEST(Spreads, TailBeyondTheAxisIsCutWithAnArrow) {
 }
 
 TEST(Spreads, ReferenceIsADashedLine) {
-  SpreadChart chart = panels({Spread{1, 2, 3, 4, 5, 3}});
+  render::SpreadChart chart = panels({render::Spread{1, 2, 3, 4, 5, 3}});
   chart.panels[0].references = {4.6};
-  const cv::Mat mask = maskOf(decoded(render(chart)), colours::kInk);
+  const cv::Mat mask = maskOf(decoded(render::render(chart)), render::colours::kInk);
   int most = 0;
   for (int y = 120; y < mask.rows - 80; ++y) {
     std::vector<cv::Rect> dashes = piecesOf(mask.row(y), 3);
@@ -65,7 +65,7 @@ TEST(Spreads, ReferenceIsADashedLine) {
 }
 
 TEST(Spreads, MissingSpreadLeavesAGap) {
-  const cv::Mat picture = decoded(render(panels({std::nullopt, Spread{1, 2, 3, 4, 5, 3}})));
+  const cv::Mat picture = decoded(render::render(panels({std::nullopt, render::Spread{1, 2, 3, 4, 5, 3}})));
   const auto boxes = outlines(picture);
   ASSERT_EQ(boxes.size(), 1u);
   EXPECT_GT(boxes[0].x, picture.cols / 2);
@@ -73,20 +73,20 @@ TEST(Spreads, MissingSpreadLeavesAGap) {
 
 TEST(Spreads, ManyPanelsAndConstantValuesAreNotClipped) {
   for (const std::size_t count : {1, 6, 12, 20}) {
-    SpreadChart chart = panels(std::vector<std::optional<Spread>>(count, Spread{2, 2, 2, 2, 2, 2}));
-    chart.axis = SpreadAxis::OwnPerPanel;
-    expectNothingClipped(decoded(render(chart)));
+    render::SpreadChart chart = panels(std::vector<std::optional<render::Spread>>(count, render::Spread{2, 2, 2, 2, 2, 2}));
+    chart.axis = render::SpreadAxis::OwnPerPanel;
+    expectNothingClipped(decoded(render::render(chart)));
   }
 }
 
 TEST(Spreads, RefusesPercentilesOutOfOrder) {
   try {
-    render(panels({Spread{1, 2, 3, 2.5, 5, 3}}));
+    render::render(panels({render::Spread{1, 2, 3, 2.5, 5, 3}}));
     FAIL() << "accepted";
   } catch (const std::invalid_argument& error) {
     EXPECT_NE(std::string(error.what()).find("percentiles 1 2 3 2.5 5"), std::string::npos) << error.what();
   }
-  EXPECT_THROW(render(SpreadChart{}), std::invalid_argument);
+  EXPECT_THROW(render::render(render::SpreadChart{}), std::invalid_argument);
 }
 
 }  // namespace

@@ -1,33 +1,32 @@
 #include <gtest/gtest.h>
 #include <tinyxml2.h>
-
-#include "reports/json/blind_json.h"
-#include "reports/page/blind_page.h"
-#include "reports/text/blind_text.h"
+#include "reports/json/validation_json.h"
+#include "reports/page/validation_page.h"
+#include "reports/text/validation_text.h"
 
 namespace stiffscope {
 
 namespace {
 
-blind::BlindResult smallResult() {
-  std::vector<blind::Label> labels(2);
+validation::BlindResult smallResult() {
+  std::vector<validation::Label> labels(2);
   labels[0].name = "0001";
   labels[1].name = "0002";
-  labels[1].kind = blind::CaseKind::single;
+  labels[1].kind = validation::CaseKind::single;
   labels[1].effects = {{"hysteresis", "joint 2", "deflection", 3.0, 3.0, 0.0}};
   labels[1].shrink_seen = 0.5;
-  std::vector<blind::Answer> answers(2);
+  std::vector<validation::Answer> answers(2);
   answers[0].name = "0001";
   answers[1].name = "0002";
   answers[1].entries = {{{"hysteresis", "backlash"}, ""}};
   answers[1].promises = {{{"hysteresis", "backlash"}, 0.55, 0.4, 0.6, 0.9}};
-  return {std::string(64, 'a'), std::string(64, 'b'), blind::score(labels, answers)};
+  return {std::string(64, 'a'), std::string(64, 'b'), validation::score(labels, answers)};
 }
 
 }  // namespace
 
 TEST(BlindReport, pageIsWellFormedAndSelfContained) {
-  const std::string page = blindPage({}, smallResult());
+  const std::string page = page::blindPage({}, smallResult());
   tinyxml2::XMLDocument document;
   ASSERT_EQ(document.Parse(page.c_str()), tinyxml2::XML_SUCCESS) << document.ErrorStr();
   for (const char* words : {"hysteresis", "background:rgba(40,140,80", "55\xC2\xA0%", "5 and more"}) {
@@ -39,10 +38,10 @@ TEST(BlindReport, pageIsWellFormedAndSelfContained) {
 }
 
 TEST(BlindReport, jsonHasWhatTheContractAsks) {
-  const Json json = blindJson({}, smallResult());
+  const reports::Json json = reports::blindJson({}, smallResult());
   EXPECT_EQ(json["seal"], std::string(64, 'a'));
   EXPECT_EQ(json["cases"].size(), 2u);
-  EXPECT_EQ(json["cases"][0]["verdict"], Json::parse("[[\"none\"]]"));
+  EXPECT_EQ(json["cases"][0]["verdict"], reports::Json::parse("[[\"none\"]]"));
   EXPECT_EQ(json["cases"][1]["truth"][0]["effect"], "hysteresis");
   EXPECT_EQ(json["rates"]["singles"]["hits"], 1);
   EXPECT_EQ(json["rates"]["unknown"]["value"], nullptr);
@@ -51,7 +50,7 @@ TEST(BlindReport, jsonHasWhatTheContractAsks) {
 }
 
 TEST(BlindReport, textNamesTheRates) {
-  const std::string text = blindText(smallResult());
+  const std::string text = reports::blindText(smallResult());
   EXPECT_NE(text.find("singles: the effect and nothing else"), std::string::npos);
   EXPECT_NE(text.find("1/1"), std::string::npos);
   EXPECT_NE(text.find("no case"), std::string::npos);

@@ -6,23 +6,23 @@ namespace stiffscope::page {
 namespace {
 
 TEST(CsvTable, QuotesAsTheStandardSays) {
-  const Table table{"c", {"Name", "Text"}, {{"", {{"a,b", "say \"so\""}, {"plain", "k_{1}"}}}}};
-  EXPECT_EQ(csvTable(table), "Name,Text\r\n\"a,b\",\"say \"\"so\"\"\"\r\nplain,k1\r\n");
+  const reports::Table table{"c", {"Name", "Text"}, {{"", {{"a,b", "say \"so\""}, {"plain", "k_{1}"}}}}};
+  EXPECT_EQ(reports::csvTable(table), "Name,Text\r\n\"a,b\",\"say \"\"so\"\"\"\r\nplain,k1\r\n");
 }
 
 TEST(CsvTable, NumbersAsAProgramReadsThem) {
-  const Table table{"c", {"Joint", "PP"}, {{"", {{"k_{2}", "−5.60 ± 0.10"}, {"k_{3}", "–"}}}}};
-  EXPECT_EQ(csvTable(table), "Joint,PP,± of PP\r\nk2,-5.60,0.10\r\nk3,,\r\n");
+  const reports::Table table{"c", {"Joint", "PP"}, {{"", {{"k_{2}", "−5.60 ± 0.10"}, {"k_{3}", "–"}}}}};
+  EXPECT_EQ(reports::csvTable(table), "Joint,PP,± of PP\r\nk2,-5.60,0.10\r\nk3,,\r\n");
 }
 
 TEST(CsvTable, AHeaderThatNamesBothIsSplitToo) {
-  const Table table{"c", {"Joint", "Mean ± sd"}, {{"", {{"k_{2}", "1 ± 2"}}}}};
-  EXPECT_EQ(csvTable(table), "Joint,Mean,sd\r\nk2,1,2\r\n");
+  const reports::Table table{"c", {"Joint", "Mean ± sd"}, {{"", {{"k_{2}", "1 ± 2"}}}}};
+  EXPECT_EQ(reports::csvTable(table), "Joint,Mean,sd\r\nk2,1,2\r\n");
 }
 
 TEST(CsvTable, GroupsAndRemarksStandInEveryRow) {
-  const Table table{"c", {"At", "Method", "Value"}, {{"wrist", {{"CP", Cell("1", "negative a")}, {"PP", "2"}}}}};
-  EXPECT_EQ(csvTable(table), "At,Method,Value,Remark\r\nwrist,CP,1,negative a\r\nwrist,PP,2,\r\n");
+  const reports::Table table{"c", {"At", "Method", "Value"}, {{"wrist", {{"CP", reports::Cell("1", "negative a")}, {"PP", "2"}}}}};
+  EXPECT_EQ(reports::csvTable(table), "At,Method,Value,Remark\r\nwrist,CP,1,negative a\r\nwrist,PP,2,\r\n");
 }
 
 }  // namespace

@@ -1,7 +1,6 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
-
 #include "reports/json/fit_json.h"
 #include "reports/text/fit_text.h"
 
@@ -9,8 +8,8 @@ namespace stiffscope {
 namespace {
 
 /// Points on a circle of radius 2 about the z axis, or on a cylinder 15 high, off by a fixed pattern of a hundredth.
-MeasuredPoints pattern(bool in_plane) {
-  MeasuredPoints points;
+metrology::MeasuredPoints pattern(bool in_plane) {
+  metrology::MeasuredPoints points;
   for (int i = 0; i < 24; ++i) {
     const double angle = 0.21 * i, radius = 2.0 + 0.01 * ((i * 7) % 5 - 2);
     points.points.emplace_back(radius * std::cos(angle), radius * std::sin(angle),
@@ -19,20 +18,20 @@ MeasuredPoints pattern(bool in_plane) {
   return points;
 }
 
-Eigen::MatrixXd matrixOf(const Json& rows) {
+Eigen::MatrixXd matrixOf(const reports::Json& rows) {
   Eigen::MatrixXd matrix(static_cast<Eigen::Index>(rows.size()), static_cast<Eigen::Index>(rows.at(0).size()));
   for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
     for (Eigen::Index j = 0; j < matrix.cols(); ++j) {
-      matrix(i, j) = rows.at(static_cast<std::size_t>(i)).at(static_cast<std::size_t>(j)).get<double>();
+      reports::matrix(i, j) = rows.at(static_cast<std::size_t>(i)).at(static_cast<std::size_t>(j)).get<double>();
     }
   }
   return matrix;
 }
 
 TEST(FitJson, CovarianceIsOfTheFullVectorsInTheOrderOfParameters) {
-  const FittedCircle circle = fitCircle(pattern(true));
+  const metrology::FittedCircle circle = metrology::fitCircle(pattern(true));
   ASSERT_TRUE(circle.determined) << circle.reason;
-  const Json json = fitJson({"circle", 24, circle, std::nullopt});
+  const reports::Json json = reports::fitJson({"circle", 24, circle, std::nullopt});
   const std::vector<std::string> order{"center_x", "center_y", "center_z", "normal_x",
                                        "normal_y", "normal_z", "radius"};
   EXPECT_EQ(json.at("parameters").get<std::vector<std::string>>(), order);
@@ -53,13 +52,13 @@ TEST(FitJson, CovarianceIsOfTheFullVectorsInTheOrderOfParameters) {
 }
 
 TEST(FitJson, EveryShapeHasItsKeys) {
-  const MeasuredPoints tall = pattern(false), flat = pattern(true);
-  const auto keysOf = [](const char* name, auto fit) { return fitJson({name, 24, fit, std::nullopt}); };
-  for (const auto& [json, keys] : std::vector<std::pair<Json, std::vector<const char*>>>{
-           {keysOf("line", fitLine(tall)), {"point", "axis"}},
-           {keysOf("plane", fitPlane(flat)), {"point", "normal"}},
-           {keysOf("circle", fitCircle(flat)), {"center", "normal", "radius"}},
-           {keysOf("cylinder", fitCylinder(tall)), {"point", "axis", "radius"}}}) {
+  const metrology::MeasuredPoints tall = pattern(false), flat = pattern(true);
+  const auto keysOf = [](const char* name, auto fit) { return reports::fitJson({name, 24, fit, std::nullopt}); };
+  for (const auto& [json, keys] : std::vector<std::pair<reports::Json, std::vector<const char*>>>{
+           {keysOf("line", metrology::fitLine(tall)), {"point", "axis"}},
+           {keysOf("plane", metrology::fitPlane(flat)), {"point", "normal"}},
+           {keysOf("circle", metrology::fitCircle(flat)), {"center", "normal", "radius"}},
+           {keysOf("cylinder", metrology::fitCylinder(tall)), {"point", "axis", "radius"}}}) {
     ASSERT_TRUE(json.at("determined").get<bool>()) << json;
     for (const char* key : keys) EXPECT_TRUE(json.contains(key)) << key << json;
     EXPECT_EQ(json.at("covariance").size(), json.at("parameters").size());
@@ -70,31 +69,31 @@ TEST(FitJson, EveryShapeHasItsKeys) {
 }
 
 TEST(FitJson, AnExactFitSaysWhyItHasNoCovariance) {
-  MeasuredPoints corner;
+  metrology::MeasuredPoints corner;
   corner.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
-  const ShapeFit fitted{"plane", 3, fitPlane(corner), std::nullopt};
-  const Json json = fitJson(fitted);
+  const reports::ShapeFit fitted{"plane", 3, metrology::fitPlane(corner), std::nullopt};
+  const reports::Json json = reports::fitJson(fitted);
   EXPECT_TRUE(json.at("determined").get<bool>());
   EXPECT_TRUE(json.at("covariance").is_null());
   EXPECT_TRUE(json.at("residual_sd").is_null());
   EXPECT_NE(json.at("covariance_reason").get<std::string>().find("exact"), std::string::npos);
-  EXPECT_NE(fitText(fitted).find("no degree of freedom"), std::string::npos);
+  EXPECT_NE(reports::fitText(fitted).find("no degree of freedom"), std::string::npos);
 }
 
 TEST(FitJson, UndeterminedGivesTheReasonAndNoNumber) {
-  MeasuredPoints straight;
+  metrology::MeasuredPoints straight;
   for (int i = 0; i < 5; ++i) straight.points.emplace_back(i, 0, 0);
-  const ShapeFit fitted{"circle", 5, fitCircle(straight), std::nullopt};
-  const Json json = fitJson(fitted);
+  const reports::ShapeFit fitted{"circle", 5, metrology::fitCircle(straight), std::nullopt};
+  const reports::Json json = reports::fitJson(fitted);
   EXPECT_FALSE(json.at("determined").get<bool>());
   EXPECT_FALSE(json.at("reason").get<std::string>().empty());
   for (const char* key : {"center", "radius", "covariance", "rms"}) EXPECT_FALSE(json.contains(key)) << key;
-  EXPECT_NE(fitText(fitted).find("undetermined: " + json.at("reason").get<std::string>()), std::string::npos);
+  EXPECT_NE(reports::fitText(fitted).find("undetermined: " + json.at("reason").get<std::string>()), std::string::npos);
 }
 
 TEST(FitText, NamesEachParameterWithItsStandardUncertainty) {
-  const FittedSphere sphere = fitSphere({{{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1.2}}, {}});
-  const std::string text = fitText({"sphere", 6, sphere, std::nullopt});
+  const metrology::FittedSphere sphere = metrology::fitSphere({{{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1.2}}, {}});
+  const std::string text = reports::fitText({"sphere", 6, sphere, std::nullopt});
   EXPECT_EQ(text.find("sphere through 6 points"), 0u);
   for (const char* name : {"center_x", "center_y", "center_z", "radius", "standard unc.", "2 degrees of freedom"}) {
     EXPECT_NE(text.find(name), std::string::npos) << name << text;
@@ -102,10 +101,10 @@ TEST(FitText, NamesEachParameterWithItsStandardUncertainty) {
 }
 
 TEST(FitText, PointsLeftOutAreCountedFromOne) {
-  const Snooping snooping{0.01, 3.4, {{0, 6, 12.5, 3.5}}};
-  const ShapeFit fitted{"circle", 23, fitCircle(pattern(true)), snooping};
-  EXPECT_NE(fitText(fitted).find("point 7: w 12.5, above 3.5"), std::string::npos) << fitText(fitted);
-  const Json json = fitJson(fitted);
+  const reports::Snooping snooping{0.01, 3.4, {{0, 6, 12.5, 3.5}}};
+  const reports::ShapeFit fitted{"circle", 23, metrology::fitCircle(pattern(true)), snooping};
+  EXPECT_NE(reports::fitText(fitted).find("point 7: w 12.5, above 3.5"), std::string::npos) << reports::fitText(fitted);
+  const reports::Json json = reports::fitJson(fitted);
   EXPECT_EQ(json.at("snooping").at("rejected").at(0).at("point"), 7);
   EXPECT_DOUBLE_EQ(json.at("snooping").at("critical_w").get<double>(), 3.4);
 }

@@ -1,22 +1,21 @@
 #include <gtest/gtest.h>
 #include <tinyxml2.h>
-
 #include "reports/page/html.h"
-#include "reports/page/names.h"
-#include "reports/page/report_id.h"
+#include "reports/words/names.h"
+#include "reports/report_content.h"
 #include "reports/page/report_page.h"
-#include "reports/page/verdict.h"
+#include "reports/words/verdict.h"
 #include "tests/reports/small_result.h"
 
 namespace stiffscope {
 namespace {
 
-ReportContent contentOf(const SmallResult& small) {
-  ReportContent content;
+reports::ReportContent contentOf(const SmallResult& small) {
+  reports::ReportContent content;
   content.title = "Joint stiffness";
   content.campaigns.push_back({small.campaign, small.identification});
   content.campaigns.push_back({small.campaign, small.identification});  // two, so that headings carry the name
-  content.verdict = verdictOf(content.campaigns, {});
+  content.verdict = reports::verdictOf(content.campaigns, {});
   content.settings = {{"load step", "1"}};
   return content;
 }
@@ -40,7 +39,7 @@ std::string skeletonOf(const std::string& page) {
 
 TEST(HostileName, ChangesNothingButItsOwnText) {
   const SmallResult harmless;
-  const std::string expected = skeletonOf(reportPage(contentOf(harmless)));
+  const std::string expected = skeletonOf(page::reportPage(contentOf(harmless)));
   for (const std::string& name :
        {std::string("<script>alert(1)</script>"), std::string("\"'><img src=x onerror=alert(1)>"), std::string(10'000, 'x'),
         std::string("\u202Eright to left \u05d0\u05d1\u05d2"), std::string("two\nlines\r\n\x1b[31mred"),
@@ -51,7 +50,7 @@ TEST(HostileName, ChangesNothingButItsOwnText) {
     hostile.campaign.texts = {name, name, name, name, name};
     SmallResult plain;
     plain.campaign.texts = {"a", "a", "a", "a", "a"};
-    EXPECT_EQ(skeletonOf(reportPage(contentOf(hostile))), skeletonOf(reportPage(contentOf(plain))))
+    EXPECT_EQ(skeletonOf(page::reportPage(contentOf(hostile))), skeletonOf(page::reportPage(contentOf(plain))))
         << name.substr(0, 40);
   }
   EXPECT_FALSE(expected.empty());
@@ -60,14 +59,14 @@ TEST(HostileName, ChangesNothingButItsOwnText) {
 TEST(HostileName, StandsOnThePageToTheLetter) {
   SmallResult hostile;
   hostile.campaign.name = "a_{b} `c` <d>";
-  EXPECT_NE(reportPage(contentOf(hostile)).find("<h3>a_{b} `c` &lt;d&gt;</h3>"), std::string::npos);
-  EXPECT_EQ(page::plain(page::asIs("a_{b} `c`")), "a_{b} `c`");
+  EXPECT_NE(page::reportPage(contentOf(hostile)).find("<h3>a_{b} `c` &lt;d&gt;</h3>"), std::string::npos);
+  EXPECT_EQ(reports::plain(reports::asIs("a_{b} `c`")), "a_{b} `c`");
 }
 
 TEST(HostileName, AReflectorIsNoMarkup) {
-  EXPECT_EQ(page::plain(page::pointName("P_{x}")), "P_{x}");
-  EXPECT_EQ(page::pointName("P12"), "P_{12}");
-  EXPECT_EQ(page::pointName("TIP"), "TIP");
+  EXPECT_EQ(reports::plain(reports::pointName("P_{x}")), "P_{x}");
+  EXPECT_EQ(reports::pointName("P12"), "P_{12}");
+  EXPECT_EQ(reports::pointName("TIP"), "TIP");
 }
 
 TEST(RichText, BackticksAreSetAsCodeAndUnfinishedMarksAreText) {
@@ -79,38 +78,38 @@ TEST(RichText, BackticksAreSetAsCodeAndUnfinishedMarksAreText) {
 
 TEST(ReportId, FollowsFromTheInputAlone) {
   const SmallResult small;
-  const std::string id = reportId(contentOf(small));
+  const std::string id = reports::reportId(contentOf(small));
   EXPECT_EQ(id.size(), 14u);
-  EXPECT_EQ(reportId(contentOf(small)), id);
+  EXPECT_EQ(reports::reportId(contentOf(small)), id);
   SmallResult other;
   other.campaign.inputs.front().sha256[0] = 'f';
-  EXPECT_NE(reportId(contentOf(other)), id);
-  ReportContent settings = contentOf(small);
+  EXPECT_NE(reports::reportId(contentOf(other)), id);
+  reports::ReportContent settings = contentOf(small);
   settings.settings.front().text = "2";
-  EXPECT_NE(reportId(settings), id);
-  const std::string page = reportPage(contentOf(small));
+  EXPECT_NE(reports::reportId(settings), id);
+  const std::string page = page::reportPage(contentOf(small));
   EXPECT_NE(page.find("content:'Report " + id + "'"), std::string::npos);  // at the foot of every printed page
   EXPECT_NE(page.find("End of report " + id), std::string::npos);
 }
 
 TEST(Page, AbsentTextsLeaveNoHoles) {
   const SmallResult small;
-  const std::string page = reportPage(contentOf(small));
+  const std::string page = page::reportPage(contentOf(small));
   EXPECT_EQ(page.find("Laboratory"), std::string::npos);
   EXPECT_EQ(page.find("<td></td>"), std::string::npos);
   SmallResult with;
   with.campaign.texts.laboratory = "Laboratory of Metrology";
-  EXPECT_NE(reportPage(contentOf(with)).find("Laboratory of Metrology"), std::string::npos);
+  EXPECT_NE(page::reportPage(contentOf(with)).find("Laboratory of Metrology"), std::string::npos);
 }
 
 TEST(Page, EveryTableIsAFileToo) {
   const SmallResult small;
-  const ReportPage page = makeReportPage(contentOf(small));
+  const page::ReportPage page = page::makeReportPage(contentOf(small));
   std::size_t on_page = 0;
   for (std::size_t at = page.html.find("<table"); at != std::string::npos; at = page.html.find("<table", at + 1)) ++on_page;
   EXPECT_EQ(page.tables.size(), on_page);
   std::vector<std::string> names;
-  for (const TableFile& table : page.tables) names.push_back(table.name);
+  for (const reports::TableFile& table : page.tables) names.push_back(table.name);
   std::sort(names.begin(), names.end());
   EXPECT_EQ(std::adjacent_find(names.begin(), names.end()), names.end());
   EXPECT_TRUE(std::binary_search(names.begin(), names.end(), "stiffness-2"));

@@ -4,20 +4,19 @@
 #include <cmath>
 #include <filesystem>
 #include <functional>
-
 #include "core/campaign/read_campaign.h"
 #include "reports/page/report_page.h"
-#include "reports/page/verdict.h"
+#include "reports/words/verdict.h"
 #include "tests/reports/small_result.h"
 
 namespace stiffscope {
 namespace {
 
-ReportContent contentOf(const SmallResult& small) {
-  ReportContent content;
+reports::ReportContent contentOf(const SmallResult& small) {
+  reports::ReportContent content;
   content.title = "A report";
   content.campaigns.push_back({small.campaign, small.identification});
-  content.verdict = verdictOf(content.campaigns, content.avoided);
+  content.verdict = reports::verdictOf(content.campaigns, content.avoided);
   content.figures.push_back({"one", "A title", "See P_{wrist}", "plain words", {1, 2, 3}, 12, 7});
   content.versions = {{"stiffscope", "0.1.0"}};
   content.settings = {{"Load step", "1"}};
@@ -42,12 +41,12 @@ bool has(const std::string& page, const std::string& text) { return page.find(te
 
 TEST(Page, BeginsWithTheDoctypeAndSaysItsLanguage) {
   const SmallResult small;
-  EXPECT_EQ(reportPage(contentOf(small)).rfind("<!DOCTYPE html><html lang=\"en\">", 0), 0u);
+  EXPECT_EQ(page::reportPage(contentOf(small)).rfind("<!DOCTYPE html><html lang=\"en\">", 0), 0u);
 }
 
 TEST(Page, EverySectionIsThereInOrder) {
   const SmallResult small;
-  const std::string page = reportPage(contentOf(small));
+  const std::string page = page::reportPage(contentOf(small));
   std::size_t at = 0;
   for (const char* id : {"conditions", "wrist", "links", "stiffness", "subsets", "compensation", "figures",
                          "left-out", "provenance", "versions"}) {
@@ -60,7 +59,7 @@ TEST(Page, EverySectionIsThereInOrder) {
 TEST(Page, HeadingsAreInOrderTablesHaveScopesAndPicturesWords) {
   const SmallResult small;
   tinyxml2::XMLDocument document;
-  parse(reportPage(contentOf(small)), document);
+  parse(page::reportPage(contentOf(small)), document);
   int level = 0, pictures = 0;
   eachElement(document.RootElement(), [&](const tinyxml2::XMLElement& element) {
     const std::string name = element.Name();
@@ -83,7 +82,7 @@ TEST(Page, HeadingsAreInOrderTablesHaveScopesAndPicturesWords) {
 TEST(Page, NothingIsLoadedFromElsewhere) {
   const SmallResult small;
   tinyxml2::XMLDocument document;
-  const std::string page = reportPage(contentOf(small));
+  const std::string page = page::reportPage(contentOf(small));
   parse(page, document);
   eachElement(document.RootElement(), [](const tinyxml2::XMLElement& element) {
     EXPECT_STRNE(element.Name(), "link");
@@ -101,7 +100,7 @@ TEST(Page, NothingIsLoadedFromElsewhere) {
 
 TEST(Page, TheStyleNeedsNoEscaping) {
   const SmallResult small;
-  const std::string page = reportPage(contentOf(small));
+  const std::string page = page::reportPage(contentOf(small));
   const std::size_t begin = page.find("<style>"), end = page.find("</style>");
   EXPECT_EQ(page.substr(begin, end - begin).find('&'), std::string::npos);
 }
@@ -112,9 +111,9 @@ TEST(Page, AHostileNameStaysText) {
   small.campaign.name = small.campaign.targets[0].id = small.campaign.robot.name = hostile;
   small.campaign.texts.conditions = small.campaign.inputs[0].name = hostile;
   small.identification.left_out = {hostile};
-  ReportContent content = contentOf(small);
+  reports::ReportContent content = contentOf(small);
   content.title = content.command_line = content.figures[0].alt = content.figures[0].caption = hostile;
-  const std::string page = reportPage(content);
+  const std::string page = page::reportPage(content);
   // The page's own script is the only one.
   EXPECT_EQ(page.find("<script"), page.find("<script>document.querySelectorAll"));
   EXPECT_EQ(page.find("<script"), page.rfind("<script"));
@@ -133,9 +132,9 @@ TEST(Page, AHostileNameStaysText) {
 
 TEST(Page, OnlyVoidElementsCloseThemselves) {
   const SmallResult small;
-  ReportContent content = contentOf(small);
+  reports::ReportContent content = contentOf(small);
   content.verdict.clear();
-  const std::string page = reportPage(content);
+  const std::string page = page::reportPage(content);
   for (std::size_t at = page.find("/>"); at != std::string::npos; at = page.find("/>", at + 1)) {
     const std::size_t begin = page.rfind('<', at);
     const std::string name = page.substr(begin + 1, page.find_first_of(" /", begin) - begin - 1);
@@ -145,7 +144,7 @@ TEST(Page, OnlyVoidElementsCloseThemselves) {
 
 TEST(Page, WhatIsMissingSaysWhy) {
   const SmallResult small;
-  const std::string page = reportPage(contentOf(small));
+  const std::string page = page::reportPage(contentOf(small));
   EXPECT_TRUE(has(page, "is not measured: the campaign has no wrist sweep."));
   EXPECT_TRUE(has(page, "No axis was measured (the campaign has no circle sweeps)"));
   EXPECT_TRUE(has(page, "Complete Pose (CP) is not available: a flange pose needs three reflectors."));
@@ -158,7 +157,7 @@ TEST(Page, WhatIsMissingSaysWhy) {
 
 TEST(Page, NumbersAreThoseOfTheResult) {
   const SmallResult small;
-  const std::string page = reportPage(contentOf(small));
+  const std::string page = page::reportPage(contentOf(small));
   EXPECT_TRUE(has(page, "2.00\u00a0mm"));    // the mean of 1, 3 and 2
   EXPECT_TRUE(has(page, ">85\u00a0%<"));     // held out
   // One degree of freedom, t = 12.71 (any table).
@@ -172,30 +171,30 @@ TEST(Page, NumbersAreThoseOfTheResult) {
 
 TEST(Page, ThePaperStandsBesideOnlyWhereAskedFor) {
   const SmallResult small;
-  ReportContent content = contentOf(small);
-  EXPECT_FALSE(has(reportPage(content), "Paper"));
+  reports::ReportContent content = contentOf(small);
+  EXPECT_FALSE(has(page::reportPage(content), "Paper"));
   content.compare_with_paper = true;
-  EXPECT_TRUE(has(reportPage(content), "5.6 &amp; 0.1"));
-  EXPECT_TRUE(has(reportPage(content), ">84\u00a0%<"));
+  EXPECT_TRUE(has(page::reportPage(content), "5.6 &amp; 0.1"));
+  EXPECT_TRUE(has(page::reportPage(content), ">84\u00a0%<"));
 }
 
 TEST(Page, TheAuditWithItsLimitsAndRejectedReadings) {
   const SmallResult small;
-  AuditReport audited;
-  audited.verdict = AuditVerdict::fail;
-  audited.checks = {{"station_drift", AuditVerdict::warn, 12.5, 10.0, "um", "900 s", "it moved", "chi-square", {}},
-                    {"lost_beam", AuditVerdict::fail, 1.0, 0.0, "readings", "loading.csv:7", "one lost", "none is", {}},
-                    {"tare", AuditVerdict::not_testable, {}, {}, "", "", "no load cell", "", {}},
-                    {"posture_set", AuditVerdict::pass, 2.6, 100.0, "condition", "", "fine", "practice", {"joint 1: seen"}}};
+  audit::AuditReport audited;
+  audited.verdict = preparation::AuditVerdict::fail;
+  audited.checks = {{"station_drift", preparation::AuditVerdict::warn, 12.5, 10.0, "um", "900 s", "it moved", "chi-square", {}},
+                    {"lost_beam", preparation::AuditVerdict::fail, 1.0, 0.0, "readings", "loading.csv:7", "one lost", "none is", {}},
+                    {"tare", preparation::AuditVerdict::not_testable, {}, {}, "", "", "no load cell", "", {}},
+                    {"posture_set", preparation::AuditVerdict::pass, 2.6, 100.0, "condition", "", "fine", "practice", {"joint 1: seen"}}};
   audited.rejected = {{"loading.csv", 7, "lost beam"}};
-  Preparation preparation;
+  preparation::Preparation preparation;
   preparation.rejected = audited.rejected;
   preparation.drift = {true, "", 0.5e-3, 20e-6, 3600.0, {}, 100, 4};
-  ReportContent content = contentOf(small);
-  EXPECT_FALSE(has(reportPage(content), "id=\"audit\""));  // nothing is said of an audit that was not made
+  reports::ReportContent content = contentOf(small);
+  EXPECT_FALSE(has(page::reportPage(content), "id=\"audit\""));  // nothing is said of an audit that was not made
   content.campaigns[0].audit = &audited;
   content.campaigns[0].preparation = &preparation;
-  const std::string page = reportPage(content);
+  const std::string page = page::reportPage(content);
   tinyxml2::XMLDocument document;
   parse(page, document);
   EXPECT_TRUE(has(page, "The audit fails"));
@@ -210,21 +209,21 @@ TEST(Page, TheAuditWithItsLimitsAndRejectedReadings) {
   EXPECT_TRUE(has(page, "1 left out; the station's motion by the floor nests taken off 100 of them: at most 0.500 mm and "
                         "20 µrad, a drift over 3600 s; 4 state no time and stay as they were read"));
   preparation.raw = true;
-  EXPECT_TRUE(has(reportPage(content), "but used all the same"));
+  EXPECT_TRUE(has(page::reportPage(content), "but used all the same"));
 }
 
 TEST(Page, TheDiagnosisSaysWhatToDo) {
   const SmallResult small;
-  Diagnosis diagnosis;
+  diagnosis::Diagnosis diagnosis;
   diagnosis.usable = true;
-  diagnosis.verdict.entries = {{{Effect::load_cell_bias}, ""}};
+  diagnosis.verdict.entries = {{{effects::Effect::load_cell_bias}, ""}};
   diagnosis.verdict.reason = "Stiffnesses alone leave 30.0 um rms";
-  diagnosis.next = {{{Effect::load_cell_bias, Effect::hysteresis}, "a posture at (0, 0) deg", 4.0}};
-  ReportContent content = contentOf(small);
+  diagnosis.next = {{{effects::Effect::load_cell_bias, effects::Effect::hysteresis}, "a posture at (0, 0) deg", 4.0}};
+  reports::ReportContent content = contentOf(small);
   content.campaigns[0].diagnosis = &diagnosis;
   content.figures[0].section = "gap";
-  content.verdict = verdictOf(content.campaigns, {});
-  const std::string page = reportPage(content);
+  content.verdict = reports::verdictOf(content.campaigns, {});
+  const std::string page = page::reportPage(content);
   EXPECT_TRUE(has(page, "Besides joint springs the readings show load cell bias (see What the model misses)."));
   EXPECT_TRUE(has(page, "load cell bias: a constant force is added to the loaded readings"));
   EXPECT_TRUE(has(page, "its u is one standard uncertainty by weights of the noise"));
@@ -234,90 +233,90 @@ TEST(Page, TheDiagnosisSaysWhatToDo) {
   EXPECT_LT(page.find("id=\"gap\""), page.find("<figure"));  // its figure stands in it
   EXPECT_FALSE(has(page, "id=\"figures\""));
   diagnosis.verdict.entries.clear();
-  EXPECT_TRUE(has(reportPage(content), "Joint springs are enough for this machine"));
+  EXPECT_TRUE(has(page::reportPage(content), "Joint springs are enough for this machine"));
 }
 
 TEST(Page, TheTileCountsOnlyTrustedStiffnesses) {
   SmallResult small;
-  EXPECT_TRUE(has(reportPage(contentOf(small)), "<b>5 of 6</b><span>joint stiffnesses found by DPP</span>"));
-  small.method(Method::decoupled_partial_pose).estimate.compliance[3] = -4e-6;
-  const std::string page = reportPage(contentOf(small));
+  EXPECT_TRUE(has(page::reportPage(contentOf(small)), "<b>5 of 6</b><span>joint stiffnesses found by DPP</span>"));
+  small.method(identification::Method::decoupled_partial_pose).estimate.compliance[3] = -4e-6;
+  const std::string page = page::reportPage(contentOf(small));
   EXPECT_TRUE(has(page, "<b>4 of 6</b><span>joint stiffnesses found by DPP; k<sub>4</sub> is not to be trusted and not counted</span>"));
   EXPECT_TRUE(has(page, "k<sub>4</sub> is not to be trusted."));  // the verdict's words
-  small.method(Method::decoupled_partial_pose).estimate.compliance[5] = -4e-6;
-  EXPECT_TRUE(has(reportPage(contentOf(small)), "k<sub>4</sub>, k<sub>6</sub> are not to be trusted."));
+  small.method(identification::Method::decoupled_partial_pose).estimate.compliance[5] = -4e-6;
+  EXPECT_TRUE(has(page::reportPage(contentOf(small)), "k<sub>4</sub>, k<sub>6</sub> are not to be trusted."));
 }
 
 TEST(Page, NoMethodAtAll) {
   SmallResult small;
-  for (MethodResult& method : small.identification.methods) method = {};
-  for (MethodResult& method : small.identification.methods) method.reason = "the load turns no joint";
+  for (identification::MethodResult& method : small.identification.methods) method = {};
+  for (identification::MethodResult& method : small.identification.methods) method.reason = "the load turns no joint";
   small.identification.cases.clear();
   small.identification.wrist.clear();
   small.identification.wrist_displacement.clear();
   small.identification.target_displacement.clear();
-  const ReportContent content = contentOf(small);
+  const reports::ReportContent content = contentOf(small);
   EXPECT_EQ(content.verdict, "No joint stiffness can be identified: the load turns no joint.");
   tinyxml2::XMLDocument document;
-  parse(reportPage(content), document);
+  parse(page::reportPage(content), document);
 }
 
 TEST(Page, TheSameContentGivesTheSameBytes) {
   const SmallResult small;
-  EXPECT_EQ(reportPage(contentOf(small)), reportPage(contentOf(small)));
+  EXPECT_EQ(page::reportPage(contentOf(small)), page::reportPage(contentOf(small)));
 }
 
 TEST(Avoided, AgainstTheSumsByHand) {
-  const SmallResult inactive(DoubleEncoder::inactive, 2.0), active(DoubleEncoder::active, 1.0);
-  const std::vector<ReportCampaign> both{{active.campaign, active.identification},
+  const SmallResult inactive(campaign::DoubleEncoder::inactive, 2.0), active(campaign::DoubleEncoder::active, 1.0);
+  const std::vector<reports::ReportCampaign> both{{active.campaign, active.identification},
                                          {inactive.campaign, inactive.identification}};
-  const auto avoided = avoidedByEncoders(both);
+  const auto avoided = reports::avoidedByEncoders(both);
   ASSERT_TRUE(avoided.has_value());
   EXPECT_DOUBLE_EQ(avoided->share, 0.5);
   EXPECT_TRUE(avoided->at_wrist);
   EXPECT_EQ(avoided->postures.size(), 3u);
   EXPECT_TRUE(std::isnan(avoided->low));  // three postures are too few for an interval
-  EXPECT_EQ(shareWords(*avoided), "50.0\u00a0%");
-  AvoidedByEncoders with = *avoided;
+  EXPECT_EQ(reports::shareWords(*avoided), "50.0\u00a0%");
+  reports::AvoidedByEncoders with = *avoided;
   with.low = 0.4, with.high = 0.6;
-  EXPECT_EQ(shareWords(with), "50.0\u00a0% (95\u00a0%: 40.0 to 60.0\u00a0%)");
-  const std::string verdict = verdictOf(both, avoided);
+  EXPECT_EQ(reports::shareWords(with), "50.0\u00a0% (95\u00a0%: 40.0 to 60.0\u00a0%)");
+  const std::string verdict = reports::verdictOf(both, avoided);
   EXPECT_TRUE(has(verdict, "The double encoders avoid 50\u00a0% of the deflection at P_{wrist}.")) << verdict;
 }
 
 TEST(Avoided, NeedsBothStatesAndACommonPosture) {
-  SmallResult inactive(DoubleEncoder::inactive), active(DoubleEncoder::active);
-  EXPECT_FALSE(avoidedByEncoders({{active.campaign, active.identification}}).has_value());
+  SmallResult inactive(campaign::DoubleEncoder::inactive), active(campaign::DoubleEncoder::active);
+  EXPECT_FALSE(reports::avoidedByEncoders({{active.campaign, active.identification}}).has_value());
   active.campaign.pose_ids = {"X", "Y", "Z"};
-  ReportContent content = contentOf(active);
+  reports::ReportContent content = contentOf(active);
   content.campaigns.push_back({inactive.campaign, inactive.identification});
-  content.avoided = avoidedByEncoders(content.campaigns);
+  content.avoided = reports::avoidedByEncoders(content.campaigns);
   ASSERT_TRUE(content.avoided.has_value());
   EXPECT_FALSE(content.avoided->available);
-  EXPECT_TRUE(has(reportPage(content), "Not known: no posture was measured in both campaigns"));
-  EXPECT_FALSE(has(verdictOf(content.campaigns, content.avoided), "avoid"));
+  EXPECT_TRUE(has(page::reportPage(content), "Not known: no posture was measured in both campaigns"));
+  EXPECT_FALSE(has(reports::verdictOf(content.campaigns, content.avoided), "avoid"));
 }
 
 TEST(Page, CampaignsOfDifferentMachinesAreNamed) {
   const SmallResult one;
-  SmallResult other(DoubleEncoder::inactive);
-  ReportContent content = contentOf(one);
+  SmallResult other(campaign::DoubleEncoder::inactive);
+  reports::ReportContent content = contentOf(one);
   content.campaigns.push_back({other.campaign, other.identification});
-  EXPECT_FALSE(has(reportPage(content), "the URDFs"));
+  EXPECT_FALSE(has(page::reportPage(content), "the URDFs"));
   other.campaign.robot.name = "a <second> arm";
-  EXPECT_TRUE(has(reportPage(content), "<li>small and small: the URDFs name different machines: "));
-  EXPECT_TRUE(has(reportPage(content), "a &lt;second&gt; arm."));
+  EXPECT_TRUE(has(page::reportPage(content), "<li>small and small: the URDFs name different machines: "));
+  EXPECT_TRUE(has(page::reportPage(content), "a &lt;second&gt; arm."));
   other.campaign.robot.axes_in_base_at_zero[2].point.x() += 0.2;
-  EXPECT_TRUE(has(reportPage(content), "the URDFs describe different machines: axis 3 stands 200.0 mm elsewhere."));
+  EXPECT_TRUE(has(page::reportPage(content), "the URDFs describe different machines: axis 3 stands 200.0 mm elsewhere."));
 }
 
 TEST(Page, ARealCampaignWithoutWrist) {
   const std::filesystem::path folder = STIFFSCOPE_SHARED_DIR "/real/fanuc-r2000ic-cable";
   if (!std::filesystem::exists(folder)) GTEST_SKIP() << "the campaigns at hand are not here";
   SmallResult real;
-  real.campaign = readCampaign(folder).campaign;
-  real.identification = identify(real.campaign);
-  const std::string page = reportPage(contentOf(real));
+  real.campaign = campaign::readCampaign(folder).campaign;
+  real.identification = identification::identify(real.campaign);
+  const std::string page = page::reportPage(contentOf(real));
   tinyxml2::XMLDocument document;
   parse(page, document);
   EXPECT_TRUE(has(page, "mean deflection at the reflector TIP"));

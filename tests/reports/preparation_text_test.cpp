@@ -1,4 +1,4 @@
-#include "reports/text/preparation_text.h"
+#include "reports/words/preparation_words.h"
 
 #include <gtest/gtest.h>
 
@@ -6,28 +6,28 @@ namespace stiffscope {
 namespace {
 
 TEST(PreparationText, NothingDoneSaysWhyNot) {
-  Preparation preparation;
+  preparation::Preparation preparation;
   preparation.drift.reason = "no floor nests";
-  EXPECT_EQ(preparationText(preparation),
+  EXPECT_EQ(reports::preparationText(preparation),
             "Readings: none left out; no drift of the station taken off: no floor nests.\n");
   preparation.raw = true;
-  EXPECT_EQ(preparationText(preparation), "Readings: raw: nothing left out, no drift taken off.\n");
+  EXPECT_EQ(reports::preparationText(preparation), "Readings: raw: nothing left out, no drift taken off.\n");
 }
 
 TEST(PreparationText, AJumpSaysWhen) {
-  Preparation preparation;
+  preparation::Preparation preparation;
   preparation.drift = {true, "", 31.4e-3, 0.012, 9000.0, {1019.0}, 1080, 792};
   EXPECT_EQ(
-      preparationWords(preparation),
+      reports::preparationWords(preparation),
       "none left out; the station's motion by the floor nests taken off 1080 of them: at most 31.400 mm and "
       "12000 urad, in a jump at about 1019 s; 792 state no time and stay as they were read");
 }
 
 TEST(PreparationText, TwentyReadingsAndTheNumberOfTheRest) {
-  Preparation preparation;
+  preparation::Preparation preparation;
   for (std::size_t line = 2; line < 27; ++line)
     preparation.rejected.push_back({"loading.csv", line, "lost beam"});
-  const std::string text = preparationText(preparation);
+  const std::string text = reports::preparationText(preparation);
   EXPECT_NE(text.find("25 left out"), std::string::npos) << text;
   EXPECT_NE(text.find("  left out: loading.csv:21: lost beam\n  and 5 more, which --json lists\n"),
             std::string::npos)

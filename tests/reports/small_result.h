@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <vector>
-
 #include "core/campaign/campaign.h"
 #include "core/identification/identify.h"
 #include "tests/core/example_arm.h"
@@ -13,10 +12,10 @@ namespace stiffscope {
 /// three postures "A", "B", "C" under 1 kN; P_wrist moves by 1, 3 and 2 mm; DPP and PP leave a tenth and a
 /// fifth of that; joint 1 is not identifiable, joint 4 is negative by PP; CP is not available.
 struct SmallResult {
-  Campaign campaign;
-  Identification identification;
+  campaign::Campaign campaign;
+  identification::Identification identification;
 
-  explicit SmallResult(DoubleEncoder state = DoubleEncoder::active, double scale = 1.0) {
+  explicit SmallResult(campaign::DoubleEncoder state = campaign::DoubleEncoder::active, double scale = 1.0) {
     campaign.name = "small";
     campaign.date = "2026-11-21";
     campaign.robot = exampleArm();
@@ -27,24 +26,24 @@ struct SmallResult {
     identification.step = 1;
     identification.frames.arm.arm = campaign.robot;
     identification.frames.wrist.reason = "the campaign has no wrist sweep";
-    for (MeasuredAxis& axis : identification.frames.axes) axis.reason = "the campaign has no circle sweeps";
+    for (frames::MeasuredAxis& axis : identification.frames.axes) axis.reason = "the campaign has no circle sweeps";
     for (int pose = 0; pose < 3; ++pose) addCase(pose, scale * 1e-3 * (pose == 0 ? 1 : pose == 1 ? 3 : 2));
     for (std::size_t j = 1; j < 6; ++j) identification.identifiability.joints[j].identifiable = true;
     identification.identifiability.joints[0].reason = "the load only hangs";
     identification.identifiability.load_hangs = true;
-    method(Method::complete_pose).reason = "a flange pose needs three reflectors";
-    fill(method(Method::partial_pose), 0.2);
-    fill(method(Method::decoupled_partial_pose), 0.1);
-    method(Method::partial_pose).estimate.compliance[3] = -4e-6;
+    method(identification::Method::complete_pose).reason = "a flange pose needs three reflectors";
+    fill(method(identification::Method::partial_pose), 0.2);
+    fill(method(identification::Method::decoupled_partial_pose), 0.1);
+    method(identification::Method::partial_pose).estimate.compliance[3] = -4e-6;
   }
 
-  MethodResult& method(Method which) { return identification.methods[static_cast<std::size_t>(which)]; }
+  identification::MethodResult& method(identification::Method which) { return identification.methods[static_cast<std::size_t>(which)]; }
 
  private:
   void addCase(int pose, double displacement) {
-    LoadCase load_case;
+    identification::LoadCase load_case;
     load_case.pose = pose;
-    load_case.axes = axesAt(campaign.robot, postureAt(campaign.robot, Vector6d::Zero()));
+    load_case.axes = robot::axesAt(campaign.robot, robot::postureAt(campaign.robot, Vector6d::Zero()));
     load_case.wrench.force = {0, 0, -1000};
     const Eigen::Vector3d move(0, 0, -displacement), flange(1.995, 0, 2.31);
     for (int target = 0; target < 3; ++target) {
@@ -59,9 +58,9 @@ struct SmallResult {
   }
 
   /// Leaves `share` of every displacement: its rows predict the rest through joint 2 alone.
-  void fill(MethodResult& result, double share) {
+  void fill(identification::MethodResult& result, double share) {
     result.available = true;
-    StiffnessEstimate& estimate = result.estimate;
+    identification::StiffnessEstimate& estimate = result.estimate;
     estimate.compliance << 0, 0.2e-6, 0.25e-6, 2e-6, 4e-6, 10e-6;
     estimate.covariance = Matrix6d::Zero();
     estimate.scatter_dof.setOnes();
@@ -69,7 +68,7 @@ struct SmallResult {
     estimate.identifiable = {false, true, true, true, true, true};
     for (std::size_t i = 0; i < identification.cases.size(); ++i) {
       const double displacement = identification.wrist_displacement[i];
-      CaseEquations wrist{Eigen::MatrixXd::Zero(3, 6), Eigen::Vector3d(0, 0, -displacement)};
+      identification::CaseEquations wrist{Eigen::MatrixXd::Zero(3, 6), Eigen::Vector3d(0, 0, -displacement)};
       wrist.matrix(2, 1) = -(1.0 - share) * displacement / estimate.compliance[1];
       result.wrist_rows.push_back(wrist);
       result.target_rows.push_back({wrist.matrix.replicate(3, 1), wrist.right.replicate(3, 1)});
@@ -81,8 +80,8 @@ struct SmallResult {
     result.subsets.every_subset = true;
     for (const double factor : {0.9, 1.0, 1.1})
       result.subsets.compliances.push_back(factor * estimate.compliance);
-    result.at_wrist = Compensation{1.0 - share, {0.95, 0.85, 0.9}};
-    result.at_targets = Compensation{1.0 - share, {0.94, 0.84, 0.89}};
+    result.at_wrist = identification::Compensation{1.0 - share, {0.95, 0.85, 0.9}};
+    result.at_targets = identification::Compensation{1.0 - share, {0.94, 0.84, 0.89}};
   }
 };
 

@@ -1,32 +1,31 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-
-#include "reports/text/improved_text.h"
-#include "reports/text/unsigned_zero.h"
+#include "reports/text/extended_model_text.h"
+#include "reports/words/numbers.h"
 
 namespace stiffscope {
 namespace {
 
 TEST(UnsignedZero, OnlyWhatRoundsToZeroLosesItsSign) {
-  EXPECT_FALSE(std::signbit(unsignedZero(-0.0004, 3)));
-  EXPECT_FALSE(std::signbit(unsignedZero(-0.0, 3)));
-  EXPECT_EQ(unsignedZero(-0.0006, 3), -0.0006);
-  EXPECT_EQ(unsignedZero(0.4, 1), 0.4);
-  EXPECT_EQ(unsignedZero(-0.4, 0), 0.0);
-  EXPECT_EQ(unsignedZero(0.0005, 3), 0.0005);  // prints as 0.001: the double nearest to it lies above
+  EXPECT_FALSE(std::signbit(reports::unsignedZero(-0.0004, 3)));
+  EXPECT_FALSE(std::signbit(reports::unsignedZero(-0.0, 3)));
+  EXPECT_EQ(reports::unsignedZero(-0.0006, 3), -0.0006);
+  EXPECT_EQ(reports::unsignedZero(0.4, 1), 0.4);
+  EXPECT_EQ(reports::unsignedZero(-0.4, 0), 0.0);
+  EXPECT_EQ(reports::unsignedZero(0.0005, 3), 0.0005);  // prints as 0.001: the double nearest to it lies above
 }
 
 TEST(ImprovedText, MetresAreMicrometresAsInTheRest) {
-  EffectFit effects;
+  extended_model::EffectFit effects;
   effects.added.push_back(
-      {Effect::target_motion,
+      {effects::Effect::target_motion,
        "P12",
        "",
        100.0,
        true,
        {{"P12 x", "m", -75.75e-6, 1.5e-6}, {"turn about x", "rad", 2e-6, 1e-6}, {"size", "N", 3.0, 1.0}}});
-  const std::string text = addedEffectsText(effects);
+  const std::string text = reports::addedEffectsText(effects);
   EXPECT_NE(text.find("-75.75 +-1.5 um\n"), std::string::npos) << text;
   EXPECT_NE(text.find("2 +-1 urad\n"), std::string::npos) << text;
   EXPECT_NE(text.find("3 +-1 N\n"), std::string::npos) << text;

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+
+#include "core/identification/identify.h"
+#include "render/arm_scene.h"
+#include "reports/report_content.h"
+
+namespace stiffscope::app {
+
+/// The arm of load case `index` as it stands unloaded, with the displacements of reflectors and P_wrist as
+/// measured and, where there is a `method` and it is available, as it predicts them and what it leaves:
+/// residual = measured - predicted.
+render::ArmPose armPose(const reports::ReportCampaign& one, std::size_t index, std::optional<identification::Method> method);
+
+/// The arm alone. Joint points: from the foot of axis 1 on each axis the point nearest to the one before, then
+/// the flange. Axes of R0, origin on axis 1 at the height of base_link's origin, so that the floor is where the
+/// robot stands (R0's own origin is at the height of axis 2).
+render::ArmPose bareArm(const frames::Frames& frames, const robot::ArmPosture& posture);
+
+/// Height of R0's origin above the floor of the scene, m.
+double heightOfR0(const frames::Frames& frames);
+
+/// The load case with the median |displacement| of P_wrist, or of the reflectors where P_wrist is not
+/// measured (of an even number of cases the lower of the two in the middle). There must be a case.
+std::size_t medianCase(const reports::ReportCampaign& one);
+
+/// The arm in the posture of load case `index` with measured, predicted and residual displacement vectors; the
+/// last two by `method`, and none without. The residual ones are longer by automaticResidualFactor.
+render::ArmScene postureScene(const reports::ReportCampaign& one, std::size_t index, std::optional<identification::Method> method);
+
+/// The same of that median posture, by the method that the report shows.
+render::ArmScene deflectionScene(const reports::ReportCampaign& one);
+
+/// All postures, pale, with the displacement vectors of P_wrist alone (of the first reflector where P_wrist
+/// is not measured).
+render::ArmScene allPosturesScene(const reports::ReportCampaign& one);
+
+/// The words for both; pictures are still to be drawn. `magnification` as drawn.
+reports::Figure describeDeflectionScene(const reports::ReportCampaign& one, double magnification);
+reports::Figure describeAllPostures(const reports::ReportCampaign& one, double magnification);
+
+/// The gap between model and machine on the arm: what is left of each reflector's displacement, in the load
+/// state of each posture that leaves the most; once by joint stiffnesses alone, once with the verdict's
+/// effects in the model, to one scale and seen from one place.
+struct GapScenes {
+  render::ArmScene before, after;
+};
+
+/// Empty where nothing was diagnosed or nothing found. Of very many arrows only every so many postures' are
+/// drawn.
+std::optional<GapScenes> gapScenes(const reports::ReportCampaign& one);
+
+reports::Figure describeGapBefore(const reports::ReportCampaign& one, const GapScenes& scenes);
+reports::Figure describeGapAfter(const reports::ReportCampaign& one, const GapScenes& scenes);
+
+}  // namespace stiffscope::app

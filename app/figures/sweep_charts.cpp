@@ -1,0 +1,244 @@
+#include "app/figures/sweep_charts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <numbers>
+
+#include "app/figures/chart_style.h"
+#include "core/io/units.h"
+#include "core/preparation/subsample.h"
+#include "render/ticks.h"
+#include "reports/page/html.h"
+#include "reports/words/names.h"
+#include "reports/words/numbers.h"
+
+namespace stiffscope::app {
+
+frames::RigidPoints rigidSweeps(const reports::ReportCampaign& one) {
+  const frames::Frames& frames = one.identification.frames;
+  const auto shown = reports::shownMethod(one.identification);
+  if (!frames.sag_removed || !shown) return frames::rigidPoints(one.campaign, {});
+  const Vector6d& compliance = one.identification.of(*shown).geometry.compliance;
+  return frames::rigidPoints(one.campaign, frames::SagModel(frames.arm.arm, frames.weight, compliance, frames.targets_in_r0_at_zero,
+                                            frames.arm.r0_from_points.inverse()));
+}
+
+namespace {
+
+constexpr std::size_t kMostOnRing = 60;  // a mark is eight pixels wide, a ring some six hundred long
+
+/// Radial residual of one reading, at the joint's angle.
+struct RadialResidual {
+  double angle = 0.0;  // rad
+  double residual = 0.0;
+};
+
+std::vector<RadialResidual> residualsOn(const reports::ReportCampaign& one, const frames::RigidPoints& points, int axis,
+                                        std::size_t ring) {
+  const frames::MeasuredAxis& measured = one.identification.frames.axes[static_cast<std::size_t>(axis)];
+  const metrology::Line& line = measured.fit.axis.line;
+  std::vector<RadialResidual> residuals;
+  const auto& rows = one.campaign.circle_sweeps->rows;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (rows[i].axis != axis || rows[i].target != measured.targets[ring]) continue;
+    const double radius = (points.circle_sweeps[i] - line.point).cross(line.direction).norm();
+    residuals.push_back({rows[i].q[axis], radius - measured.fit.circles[ring].radius});
+  }
+  std::sort(residuals.begin(), residuals.end(),
+            [](const RadialResidual& a, const RadialResidual& b) { return a.angle < b.angle; });
+  return residuals;
+}
+
+render::PlotPoint polar(double radius, double angle) { return {radius * std::cos(angle), radius * std::sin(angle)}; }
+
+render::PointSeries fullRing(double radius) {
+  render::PointSeries ring;
+  ring.colour = render::colours::kAxis;
+  ring.mark = render::PointMark::None;
+  ring.joined = true;
+  constexpr int kCorners = 120;
+  for (int i = 0; i <= kCorners; ++i) ring.points.push_back(polar(radius, 2.0 * std::numbers::pi * i / kCorners));
+  return ring;
+}
+
+/// `most`: the most readings of any ring so far.
+render::ShapePanel circlePanel(const reports::ReportCampaign& one, const frames::RigidPoints& points, int axis, std::size_t& most) {
+  const frames::MeasuredAxis& measured = one.identification.frames.axes[static_cast<std::size_t>(axis)];
+  const std::size_t rings = measured.targets.size();
+  std::vector<std::vector<RadialResidual>> residuals;
+  double largest = 0.0;
+  for (std::size_t ring = 0; ring < rings; ++ring) {
+    residuals.push_back(residualsOn(one, points, axis, ring));
+    most = std::max(most, residuals.back().size());
+    for (const RadialResidual& at : residuals.back()) largest = std::max(largest, std::abs(at.residual));
+  }
+  const double apart = 1.0 / static_cast<double>(rings + 1);
+  const double magnified = largest > 0.0 ? 0.45 * apart / largest : 1.0;  // rings do not touch
+  render::ShapePanel panel;
+  panel.title = fmt::format("Axis {}", axis + 1);
+  for (std::size_t ring = 0; ring < rings; ++ring) {
+    const double radius = 1.0 - apart * static_cast<double>(ring);
+    panel.series.push_back(fullRing(radius));
+    render::PointSeries series = seriesLook(static_cast<std::size_t>(measured.targets[ring]));
+    series.name = reports::pointName(one.campaign.targets[static_cast<std::size_t>(measured.targets[ring])].id);
+    series.joined = true;
+    for (const std::size_t i : preparation::evenlySpreadIndices(residuals[ring].size(), kMostOnRing)) {
+      const RadialResidual& at = residuals[ring][i];
+      series.points.push_back(polar(radius + magnified * at.residual, at.angle));
+    }
+    panel.series.push_back(std::move(series));
+  }
+  const double bar_um = render::roundUp125(std::max(1e-3, largest / io::kMicrometre));
+  panel.scale_bar = magnified * bar_um * io::kMicrometre;
+  panel.scale_name = fmt::format("{} µm", render::shortNumber(bar_um));
+  return panel;
+}
+
+}  // namespace
+
+std::optional<render::PointChart> sweepCircles(const reports::ReportCampaign& one, const frames::RigidPoints& points) {
+  if (!one.campaign.circle_sweeps) return std::nullopt;
+  render::PointChart chart;
+  chart.title = "Circles of the axes with their radial residuals magnified";
+  chart.subtitle = reports::asIs(one.campaign.name);
+  chart.note = "A ring a reflector; rings are not to scale, residuals are, by the bar. Angle zero is at the right.";
+  chart.columns = 3;
+  std::size_t most = 0;
+  for (int axis = 0; axis < 6; ++axis) {
+    if (one.identification.frames.axes[static_cast<std::size_t>(axis)].measured)
+      chart.shapes.push_back(circlePanel(one, points, axis, most));
+  }
+  chart.note += drawnWords(most, kMostOnRing, "readings of the longest ring");
+  if (chart.shapes.empty()) return std::nullopt;
+  return chart;
+}
+
+reports::Figure describeSweepCircles(const reports::ReportCampaign& one) {
+  double worst = 0.0;
+  std::size_t at = 0;
+  const auto& axes = one.identification.frames.axes;
+  for (std::size_t axis = 0; axis < axes.size(); ++axis) {
+    if (axes[axis].measured && axes[axis].fit.rms > worst) worst = axes[axis].fit.rms, at = axis;
+  }
+  reports::Figure figure;
+  figure.id = "circles";
+  figure.title = "Circles of the axes";
+  figure.caption = fmt::format(
+      "Radial residuals of the circle-point fits against the joint's angle. The largest rms, radial and axial, is "
+      "{}\u00a0µm, of axis {}. Scatter is noise; a ring that is bent the same way for all reflectors is an axis that "
+      "moves as it turns.",
+      reports::significant(worst / io::kMicrometre, 2), at + 1);
+  figure.alt = "Rings by axis and reflector: readings of the sweeps about the fitted circles, residuals magnified.";
+  return figure;
+}
+
+namespace {
+
+constexpr std::size_t kLeastInSector = 5;  // a mean of fewer readings says little
+constexpr std::size_t kMostReadings = 1000;  // of a reflector
+
+struct SphereResidual {
+  int target = 0;
+  double azimuth_deg = 0.0, elevation_deg = 0.0, residual_um = 0.0;
+};
+
+std::vector<SphereResidual> residualsOf(const reports::ReportCampaign& one, const frames::RigidPoints& points) {
+  std::vector<SphereResidual> residuals;
+  const frames::WristCentre& wrist = one.identification.frames.wrist;
+  const auto r0_from_points = frames::r0FromTable(one.identification.frames, one.campaign.wrist_sweep->frame);
+  if (!r0_from_points) return residuals;
+  const auto& rows = one.campaign.wrist_sweep->rows;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const Eigen::Vector3d arm = *r0_from_points * points.wrist_sweep[i] - wrist.centre_in_r0;
+    const double radius = wrist.radii[static_cast<std::size_t>(rows[i].target)];
+    if (!std::isfinite(radius)) continue;
+    residuals.push_back({rows[i].target, std::atan2(arm.y(), arm.x()) / io::kDegree,
+                         std::asin(std::clamp(arm.z() / arm.norm(), -1.0, 1.0)) / io::kDegree,
+                         (arm.norm() - radius) / io::kMicrometre});
+  }
+  return residuals;
+}
+
+/// Means over equal sectors of [lower, upper], joined.
+render::PointSeries sectorMeans(const std::vector<SphereResidual>& residuals, double SphereResidual::* angle, double lower,
+                        double upper, std::size_t sectors) {
+  std::vector<double> sum(sectors, 0.0);
+  std::vector<std::size_t> count(sectors, 0);
+  const double width = (upper - lower) / static_cast<double>(sectors);
+  for (const SphereResidual& one : residuals) {
+    const auto at = std::min(sectors - 1, static_cast<std::size_t>((one.*angle - lower) / width));
+    sum[at] += one.residual_um;
+    ++count[at];
+  }
+  render::PointSeries means;
+  means.name = "mean in sectors";
+  means.colour = render::colours::kInk;
+  means.mark = render::PointMark::None;
+  means.joined = true;
+  for (std::size_t i = 0; i < sectors; ++i) {
+    if (count[i] >= kLeastInSector)
+      means.points.push_back({lower + (static_cast<double>(i) + 0.5) * width, sum[i] / static_cast<double>(count[i])});
+  }
+  return means;
+}
+
+render::PointPanel spherePanel(const reports::ReportCampaign& one, const std::vector<SphereResidual>& residuals,
+                   double SphereResidual::* angle) {
+  render::PointPanel panel;
+  // Of each reflector by itself: where they take turns, every so many readings may be always the same one's.
+  std::vector<std::vector<std::size_t>> readings(one.campaign.targets.size());
+  for (std::size_t i = 0; i < residuals.size(); ++i) readings[static_cast<std::size_t>(residuals[i].target)].push_back(i);
+  for (std::size_t target = 0; target < readings.size(); ++target) {
+    render::PointSeries series = seriesLook(target);
+    series.name = reports::pointName(one.campaign.targets[target].id);
+    for (const std::size_t k : preparation::evenlySpreadIndices(readings[target].size(), kMostReadings)) {
+      const SphereResidual& at = residuals[readings[target][k]];
+      series.points.push_back({at.*angle, at.residual_um});
+    }
+    if (!series.points.empty()) panel.series.push_back(std::move(series));
+  }
+  return panel;
+}
+
+}  // namespace
+
+std::optional<render::PointChart> wristSphere(const reports::ReportCampaign& one, const frames::RigidPoints& points) {
+  if (!one.campaign.wrist_sweep || !one.identification.frames.wrist.measured) return std::nullopt;
+  const std::vector<SphereResidual> residuals = residualsOf(one, points);
+  if (residuals.empty()) return std::nullopt;
+  render::PointChart chart;
+  chart.title = "Radial residuals of the wrist's spheres";
+  chart.subtitle = reports::asIs(one.campaign.name);
+  chart.columns = 2;
+  render::PointPanel azimuth = spherePanel(one, residuals, &SphereResidual::azimuth_deg);
+  azimuth.series.push_back(sectorMeans(residuals, &SphereResidual::azimuth_deg, -180.0, 180.0, 18));
+  azimuth.x_title = "Azimuth about P_{wrist} (°)";
+  azimuth.y_title = "Radial residual (µm)";
+  render::PointPanel elevation = spherePanel(one, residuals, &SphereResidual::elevation_deg);
+  elevation.series.push_back(sectorMeans(residuals, &SphereResidual::elevation_deg, -90.0, 90.0, 9));
+  elevation.x_title = "Elevation (°)";
+  chart.diagrams = {std::move(azimuth), std::move(elevation)};
+  return chart;
+}
+
+reports::Figure describeWristSphere(const reports::ReportCampaign& one) {
+  const frames::WristCentre& wrist = one.identification.frames.wrist;
+  reports::Figure figure;
+  figure.id = "wrist-sphere";
+  figure.title = "Residuals of the wrist's spheres";
+  figure.caption = fmt::format(
+      "{} readings of {} about one centre; rms {}\u00a0µm. A line of means that stays at zero says that the wrist's axes "
+      "meet in one point; one wave over the turn would be a wrong centre, waves that differ by reflector axes that miss.",
+      one.campaign.wrist_sweep->rows.size(),
+      wrist.table.size() == 1 ? "one reflector" : fmt::format("{} reflectors", wrist.table.size()),
+      reports::significant(wrist.spheres.rms / io::kMicrometre, 2));
+  std::size_t most = 0;
+  for (const frames::WristTableRow& of : wrist.table) most = std::max(most, static_cast<std::size_t>(of.readings));
+  const std::string drawn = drawnWords(most, kMostReadings, "readings of a reflector");
+  if (!drawn.empty()) figure.caption += drawn + " The means are of all.";
+  figure.alt = "Points by azimuth and by elevation: radial residuals of the wrist sweep about the common centre.";
+  return figure;
+}
+
+}  // namespace stiffscope::app

@@ -1,0 +1,128 @@
+#include "app/options.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <stdexcept>
+#include <string>
+#include <system_error>
+
+#include "app/output.h"
+#include "core/diagnosis/diagnose.h"
+#include "core/io/input_error.h"
+#include "core/io/numbers.h"
+
+namespace stiffscope::app {
+
+std::vector<identification::Method> methodsNamed(const std::string& name) {
+  if (name == "all") return {identification::kMethods.begin(), identification::kMethods.end()};
+  if (name == "cp") return {identification::Method::complete_pose};
+  if (name == "pp") return {identification::Method::partial_pose};
+  if (name == "dpp") return {identification::Method::decoupled_partial_pose};
+  throw io::InputError({"--method"}, name, "expected cp, pp, dpp or all" + io::nearestNameHint(name, {"cp", "pp", "dpp", "all"}));
+}
+
+void requireNoCampaign(const std::filesystem::path& folder, const std::string& expectation) {
+  std::error_code none;
+  if (!std::filesystem::exists(folder / "campaign.xml", none)) return;
+  throw std::runtime_error(folder.string() + ": not written: it holds a campaign; " + expectation);
+}
+
+namespace {
+
+std::string whyEmpty(const std::string& value) { return value.empty() ? "expected a value; it is empty" : ""; }
+
+std::string whyNotFinite(const std::string& value) {
+  return std::isfinite(std::strtod(value.c_str(), nullptr)) ? "" : "'" + value + "': expected a finite number";
+}
+
+std::string whyNotUnsigned(const std::string& value) {
+  std::uint64_t number = 0;
+  const char* const end = value.data() + value.size();
+  const auto [stopped, error] = std::from_chars(value.data(), end, number);
+  return error == std::errc() && stopped == end ? "" : "'" + value + "': expected a whole number from 0 to 18446744073709551615";
+}
+
+}  // namespace
+
+void checkOptionValues(CLI::App& app) {
+  for (CLI::App* command : app.get_subcommands(nullptr)) {
+    for (CLI::Option* option : command->get_options()) {
+      const std::string type = option->get_type_name();
+      if (option->get_type_size() == 0) continue;  // a flag
+      option->check(whyEmpty, "");
+      if (type.starts_with("FLOAT")) option->check(whyNotFinite, "");
+      if (type.starts_with("UINT")) option->check(whyNotUnsigned, "");
+    }
+  }
+}
+
+std::optional<int> loadStepNamed(const std::string& step, const std::string& also) {
+  if (step.empty()) return std::nullopt;
+  const std::optional<int> number = io::parseInteger(step);
+  if (!number) {
+    throw io::InputError(
+        {"--step"}, step,
+        (also.empty() ? "expected the number of one load step" : "expected a load step's number") + also);
+  }
+  return number;
+}
+
+namespace {
+
+/// The command that was named, or the program itself.
+const CLI::App& chosen(const CLI::App& app) {
+  const auto commands = app.get_subcommands();
+  return commands.empty() ? app : *commands.front();
+}
+
+std::string hintFor(const CLI::App& app, const std::string& word) {
+  std::vector<std::string> known;
+  for (const CLI::Option* option : app.get_options()) {
+    for (const std::string& name : option->get_lnames()) known.push_back("--" + name);
+  }
+  for (const CLI::App* command : app.get_subcommands(nullptr)) known.push_back(command->get_name());
+  return io::nearestNameHint(word, known);
+}
+
+}  // namespace
+
+int explainUsageError(const CLI::App& app, const CLI::ParseError& error) {
+  std::string message = error.what();
+  const std::vector<std::string> unknown =
+      chosen(app).remaining().empty() ? app.remaining() : chosen(app).remaining();
+  if (!unknown.empty()) {
+    message = "'" + unknown.front() + "' is not known" + hintFor(chosen(app), unknown.front());
+  }
+  const std::string program = app.get_name();
+  std::fprintf(stderr, "%s: %s; see %s %s%s--help\n", program.c_str(), message.c_str(), program.c_str(),
+               app.get_subcommands().empty() ? "" : chosen(app).get_name().c_str(),
+               app.get_subcommands().empty() ? "" : " ");
+  return kBadInput;
+}
+
+void addWithOption(CLI::App& command, std::vector<std::string>& words) {
+  command
+      .add_option("--with", words,
+                  "effects that the model has besides joint springs, by their names in diagnose, with a part where that is "
+                  "to be chosen (bearing_tilt:3, joint_coupling:2-3, target_motion:P12); auto: what diagnose finds")
+      ->type_name("EFFECT")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+}
+
+extended_model::EffectFit effectsAsked(const preparation::PreparedCampaign& prepared, const std::vector<std::string>& words) {
+  campaign::Campaign campaign = prepared.campaign;
+  // Nests whose motion has been taken off the readings have said what they know.
+  if (prepared.preparation.drift.taken_off) campaign.nests.reset();
+  if (std::find(words.begin(), words.end(), "auto") == words.end())
+    return extended_model::fitEffects(campaign, extended_model::wantedEffects(words, campaign));
+  if (words.size() > 1) throw io::InputError({"--with"}, "auto", "expected auto alone, or effects without it");
+  return extended_model::fitEffects(campaign, extended_model::namedBy(diagnosis::diagnose(campaign)));
+}
+
+}  // namespace stiffscope::app

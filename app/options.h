@@ -1,0 +1,53 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/extended_model/extended_model.h"
+#include "core/identification/identify.h"
+#include "core/preparation/prepare.h"
+
+namespace CLI {
+class App;
+}
+
+namespace CLI {
+class App;
+class ParseError;
+}  // namespace CLI
+
+namespace CLI {
+class App;
+}
+
+namespace stiffscope::app {
+
+/// The methods that `--method` names: cp, pp, dpp or all. Throws InputError with the nearest known name.
+std::vector<identification::Method> methodsNamed(const std::string& name);
+
+/// Throws std::runtime_error where `folder` holds a campaign.xml, for what is not to be written among a day's tables; ends
+/// in `expectation`.
+void requireNoCampaign(const std::filesystem::path& folder, const std::string& expectation);
+
+/// Refuses, for every option of every command, what its type would take and nobody means: an empty value, a number that is
+/// not finite, and of a whole number one that is negative or does not fit.
+void checkOptionValues(CLI::App& app);
+
+/// The load step that `--step` names; empty where it was not given. Throws InputError, naming the option, for
+/// anything but a whole number; `also` is what the command takes besides, as its words say it (", or all").
+std::optional<int> loadStepNamed(const std::string& step, const std::string& also = {});
+
+/// One line to standard error for a command line that cannot be understood; a word that is not known gets the
+/// nearest one that is. Returns the exit status.
+int explainUsageError(const CLI::App& app, const CLI::ParseError& error);
+
+/// Adds --with EFFECT to a command: may come again, or take several names with commas between them.
+void addWithOption(CLI::App& command, std::vector<std::string>& words);
+
+/// The effects that `words` ask for, fitted to the campaign as it is used; `auto`: what `diagnose` finds in it.
+/// Throws InputError for names that are unknown or do not go together, and for effects that the campaign cannot show.
+extended_model::EffectFit effectsAsked(const preparation::PreparedCampaign& prepared, const std::vector<std::string>& words);
+
+}  // namespace stiffscope::app

@@ -1,0 +1,40 @@
+#include "core/audit/audit_input.h"
+
+#include "core/identification/method_solution.h"
+#include "core/preparation/repeatability.h"
+
+namespace stiffscope::audit {
+
+namespace {
+
+frames::SagModel sagOf(const Evidence& evidence) {
+  const frames::Frames& frames = evidence.frames;
+  if (!frames.sag_removed) return {};
+  return frames::SagModel(frames.arm.arm, frames.weight, evidence.arm.geometry.compliance,
+                  frames.targets_in_r0_at_zero, frames.arm.r0_from_points.inverse());
+}
+
+}  // namespace
+
+Evidence gatherEvidence(campaign::Campaign campaign, const preparation::PreparedCampaign& found) {
+  Evidence evidence;
+  evidence.campaign = std::move(campaign);
+  evidence.drift = found.preparation.drift;
+  evidence.station = found.station;
+  evidence.scatter = found.scatter;
+  if (preparation::declaredNoise(evidence.campaign)) {
+    evidence.campaign.tracker = preparation::asNoisyAs(*evidence.campaign.tracker, preparation::noiseFactors(evidence.scatter));
+    evidence.noise = frames::trackerNoise(*evidence.campaign.tracker);
+  }
+  evidence.states = campaign::statePoints(evidence.campaign);
+  identification::SettledDay day = identification::settleDay(evidence.campaign);
+  evidence.step = day.step;
+  evidence.frames = std::move(day.frames);
+  evidence.arm = std::move(day.arm);
+  evidence.rigid = frames::rigidPoints(evidence.campaign, sagOf(evidence));
+  evidence.absolute = fitAbsolutePositions(evidence.campaign, evidence.frames, evidence.arm.geometry,
+                                           evidence.states, evidence.noise);
+  return evidence;
+}
+
+}  // namespace stiffscope::audit

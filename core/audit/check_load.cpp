@@ -1,0 +1,348 @@
+#include "core/audit/check_load.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fmt/format.h>
+#include <limits>
+#include <map>
+#include <vector>
+
+#include "core/audit/checks.h"
+#include "core/audit/limits.h"
+#include "core/campaign/row_names.h"
+#include "core/identification/identifiability.h"
+#include "core/identification/warnings.h"
+#include "core/io/units.h"
+#include "core/numerics/distributions.h"
+#include "core/preparation/finding.h"
+#include "core/robot/kinematics.h"
+
+namespace stiffscope::audit {
+
+namespace {
+
+
+const char* const kNoSigma =
+    "the load cell's noise is not stated: force_sigma_n and moment_sigma_nm in campaign.xml";
+
+preparation::AuditCheck tareCheck(const Evidence& evidence) {
+  const campaign::LoadCell& cell = *evidence.campaign.load_cell;
+  Vector6d sum = Vector6d::Zero();
+  Vector6d sigma;
+  sigma << Eigen::Vector3d::Constant(cell.force_sigma), Eigen::Vector3d::Constant(cell.moment_sigma);
+  double worst = 0.0;
+  const campaign::State* worst_state = nullptr;
+  int count = 0;
+  for (const campaign::State& state : evidence.campaign.states->rows) {
+    if (state.step != 0) continue;
+    sum += state.wrench_in_cell;
+    ++count;
+    const double chi2 = state.wrench_in_cell.cwiseQuotient(sigma).squaredNorm();
+    if (worst_state == nullptr || chi2 > worst) worst = chi2, worst_state = &state;
+  }
+  if (worst_state == nullptr) return preparation::notTestable("tare", "no unloaded states (step 0)");
+  const Vector6d mean = sum / count;
+  const double of_mean = count * mean.cwiseQuotient(sigma).squaredNorm();
+  preparation::AuditCheck check;
+  check.id = "tare";
+  check.value = std::sqrt(of_mean / 6.0);
+  check.limit = std::sqrt(numerics::chiSquareLimit(0.5 * preparation::kLevel, 6.0) / 6.0);
+  check.unit = "of its sd";
+  check.limit_source =
+      preparation::byChance("chi-square of the mean unloaded reading, six components, and of each reading");
+  check.message = fmt::format(
+      "unloaded, the load cell shows ({:.2f}, {:.2f}, {:.2f}) N and ({:.2f}, {:.2f}, {:.2f}) Nm on average",
+      mean[0], mean[1], mean[2], mean[3], mean[4], mean[5]);
+  const bool one_off = worst > numerics::chiSquareLimit(0.5 * preparation::kLevel / count, 6.0);
+  if (*check.value <= *check.limit && !one_off) return check;
+  check.verdict = preparation::AuditVerdict::warn;
+  check.where = campaign::rowName(evidence.campaign.states->file, worst_state->line);
+  check.message += *check.value > *check.limit
+                       ? ": not tared, or tared with something on it"
+                       : fmt::format("; pose {} is {:.1f} sigma off",
+                                     campaign::poseName(evidence.campaign, worst_state->pose), std::sqrt(worst / 6.0));
+  return check;
+}
+
+preparation::AuditCheck gravityCheck(const Evidence& evidence) {
+  const identification::LoadedArm& arm = evidence.arm;
+  if (arm.cases.empty())
+    return preparation::notTestable("gravity_direction", "no postures with readings unloaded and loaded");
+  const identification::Identifiability judged =
+      identification::judgeJoints(arm.geometry, arm.cases, *evidence.campaign.load_cell, identification::reflectorEquations(arm));
+  if (!judged.load_hangs)
+    return preparation::notTestable("gravity_direction", "the load does not hang: it is pulled to the side");
+  const Eigen::Vector3d down = arm.geometry.weight.gravity_in_base.normalized();
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  double least_force = INFINITY, farthest = -1.0;
+  const identification::LoadCase* worst = nullptr;
+  for (const identification::LoadCase& load_case : arm.cases) {
+    const Eigen::Vector3d force = load_case.wrench.force;
+    mean += force.normalized() / static_cast<double>(arm.cases.size());
+    least_force = std::min(least_force, force.norm());
+    const double angle = std::atan2(force.cross(down).norm(), force.dot(down));
+    if (angle > farthest) farthest = angle, worst = &load_case;
+  }
+  preparation::AuditCheck check;
+  check.id = "gravity_direction";
+  check.value = 1e3 * judged.gravity_angle_rms;
+  // Two directions: the load cell's turn as identification trusts it, and what its noise adds to one reading.
+  check.limit = 1e3 *
+                std::hypot(identification::TrustLimits().direction, evidence.campaign.load_cell->force_sigma / least_force) *
+                std::sqrt(numerics::chiSquareLimit(preparation::kLevel, 2.0));
+  check.unit = "mrad";
+  check.limit_source =
+      "how far identification trusts the load cell's axes (2 mrad, one sigma) and its noise; chi-square of "
+      "two directions";
+  check.message = fmt::format(
+      "a hanging load's force lies {:.2f} mrad rms off gravity, {:.2f} mrad on average, farthest "
+      "{:.2f} mrad at pose {}",
+      *check.value, 1e3 * std::atan2(mean.cross(down).norm(), mean.dot(down)), 1e3 * farthest,
+      campaign::poseName(evidence.campaign, worst->pose));
+  if (*check.value <= *check.limit) return check;
+  check.verdict = preparation::AuditVerdict::warn;
+  check.where = fmt::format("pose {}", campaign::poseName(evidence.campaign, worst->pose));
+  check.message += ": load cell turned against its declared axes, a rope that drags, or base_link not level";
+  return check;
+}
+
+preparation::AuditCheck leverCheck(const Evidence& evidence) {
+  const HookFit fit = fitHook(evidence.campaign);
+  if (!fit.done) return preparation::notTestable("moment_lever", fit.reason);
+  preparation::AuditCheck check;
+  check.id = "moment_lever";
+  check.value = std::sqrt(fit.chi2 / fit.dof);
+  check.limit = std::sqrt(numerics::chiSquareLimit(0.5 * preparation::kLevel, fit.dof) / fit.dof);
+  check.unit = "of its sd";
+  check.limit_source =
+      preparation::byChance(fmt::format("chi-square of {} degrees of freedom, and of each state", fit.dof));
+  check.message = fmt::format(
+      "moments are those of the force at ({:.1f}, {:.1f}, {:.1f}) mm from the cell's point, but for "
+      "{:.2f} Nm rms",
+      1e3 * fit.lever.x(), 1e3 * fit.lever.y(), 1e3 * fit.lever.z(), fit.rms);
+  if (fit.lever.norm() > kLongestLever && forcesStandOut(evidence.campaign)) {
+    check.verdict = preparation::AuditVerdict::fail;
+    check.impossible = true;
+    check.message += ": no tool is that long, forces (kN for N) or moments (N mm for Nm) are in another unit";
+    return check;
+  }
+  if (*check.value <= *check.limit && fit.worst_chi2 <= fit.worst_limit) return check;
+  check.verdict = fit.chi2 / fit.dof > preparation::kFailVarianceRatio ? preparation::AuditVerdict::fail : preparation::AuditVerdict::warn;
+  check.where = campaign::rowName(evidence.campaign.states->file, fit.worst_line);
+  check.message += fmt::format("; worst at {} (pose {}, step {})", check.where,
+                               campaign::poseName(evidence.campaign, fit.worst_pose), fit.worst_step);
+  if (!fit.mending_signs.empty())
+    check.message += fmt::format("; with {} turned round they agree", fit.mending_signs);
+  return check;
+}
+
+}  // namespace
+
+Findings checkLoadCell(const Evidence& evidence) {
+  const campaign::Campaign& campaign = evidence.campaign;
+  if (!campaign.load_cell || !campaign.states) {
+    Findings missing;
+    for (const char* id : {"tare", "gravity_direction", "moment_lever"}) {
+      missing.push_back(preparation::notTestable(id, "no load cell readings: `load_cell` and `states`"));
+    }
+    return missing;
+  }
+  const bool stated = campaign.load_cell->force_sigma > 0.0 && campaign.load_cell->moment_sigma > 0.0;
+  return {stated ? tareCheck(evidence) : preparation::notTestable("tare", kNoSigma), gravityCheck(evidence),
+          stated ? leverCheck(evidence) : preparation::notTestable("moment_lever", kNoSigma)};
+}
+
+Findings checkLoadSize(const Evidence& evidence) {
+  const auto apparent = identification::apparentStiffness(evidence.arm.cases);
+  if (!apparent) return {preparation::notTestable("load_size", "no displacement under a force that can be brought into the robot's frame")};
+  const double value = apparent->value();
+  const std::string found = identification::implausibleLoad(*apparent);
+  preparation::AuditCheck check;
+  check.id = "load_size";
+  check.value = value * io::kMillimetre;
+  check.limit = (value > identification::kStiffArm ? identification::kStiffArm : identification::kSoftArm) * io::kMillimetre;
+  check.unit = "N/mm";
+  check.limit_source = fmt::format(
+      "force over displacement of six-axis arms: at least {:.0f} N/mm, half of what light collaborative arms "
+      "give, and at "
+      "most {:.0f} N/mm, which is that of machine tools",
+      identification::kSoftArm * io::kMillimetre, identification::kStiffArm * io::kMillimetre);
+  check.message = found.empty() ? fmt::format("{:.4g} N rms move the reflectors by {:.3g} mm rms",
+                                              apparent->force, apparent->displacement / io::kMillimetre)
+                                : found;
+  if (found.empty()) return {check};
+  check.impossible =
+      (value < identification::kSofterThanAnyArm || value > identification::kStifferThanAnyArm) && forcesStandOut(evidence.campaign);
+  check.verdict = check.impossible ? preparation::AuditVerdict::fail : preparation::AuditVerdict::warn;
+  return {check};
+}
+
+bool forcesStandOut(const campaign::Campaign& campaign) {
+  if (!campaign.states) return false;
+  struct Sum {
+    double squares = 0.0, count = 0.0;
+  };
+  std::map<int, Sum> by_step;
+  for (const campaign::State& row : campaign.states->rows) {
+    Sum& sum = by_step[row.step];
+    sum.squares += row.wrench_in_cell.head<3>().squaredNorm();
+    sum.count += 1.0;
+  }
+  double least = std::numeric_limits<double>::infinity(), most = 0.0;  // N^2
+  for (const auto& [step, sum] : by_step) {
+    least = std::min(least, sum.squares / sum.count);
+    most = std::max(most, sum.squares / sum.count);
+  }
+  constexpr double kStandsOut = 3.0;
+  return by_step.size() == 1 || most > kStandsOut * kStandsOut * least;
+}
+
+namespace {
+
+struct Loaded {
+  const campaign::State* state = nullptr;
+  Eigen::Vector3d force, moment;  ///< in axes that turn with the flange
+  Eigen::Matrix3d tool_from_cell = Eigen::Matrix3d::Identity();
+};
+
+Eigen::Matrix3d lever(const Eigen::Vector3d& force) {  // lever x F = -F x lever
+  Eigen::Matrix3d m;
+  m << 0.0, force.z(), -force.y(), -force.z(), 0.0, force.x(), force.y(), -force.x(), 0.0;
+  return m;
+}
+
+/// Turns a reading into axes of the flange where the cell's own do not turn with it.
+Eigen::Matrix3d toolFromCell(const campaign::Campaign& campaign, const Vector6d& q) {
+  const campaign::LoadCell& cell = *campaign.load_cell;
+  const std::string& link = cell.axes_link ? *cell.axes_link : cell.parent;
+  const Eigen::Matrix3d turned =
+      cell.axes_link ? Eigen::Matrix3d::Identity() : Eigen::Matrix3d(cell.parent_from_cell.linear());
+  for (const robot::LinkFrame& frame : campaign.robot.links) {
+    if (frame.name != link || frame.body == 6) continue;
+    const robot::ArmPosture posture = robot::postureAt(campaign.robot, q);
+    const Eigen::Matrix3d base_from_link =
+        posture.motion[static_cast<std::size_t>(frame.body)].linear() * frame.base_from_link_at_zero.linear();
+    return robot::flangeAt(campaign.robot, posture).linear().transpose() * base_from_link * turned;
+  }
+  return Eigen::Matrix3d::Identity();  // fixed to the flange: one constant turn changes nothing
+}
+
+Eigen::Vector3d solve(const std::vector<Loaded>& states) {
+  Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d right = Eigen::Vector3d::Zero();
+  for (const Loaded& one : states) {
+    normal += lever(one.force).transpose() * lever(one.force);
+    right += lever(one.force).transpose() * one.moment;
+  }
+  return normal.ldlt().solve(right);
+}
+
+double misfit(const campaign::LoadCell& cell, const Loaded& one, const Eigen::Vector3d& at) {
+  const Eigen::Matrix3d through = lever(Eigen::Vector3d::UnitX()) * at.x() +
+                                  lever(Eigen::Vector3d::UnitY()) * at.y() +
+                                  lever(Eigen::Vector3d::UnitZ()) * at.z();
+  const Eigen::Matrix3d covariance = cell.moment_sigma * cell.moment_sigma * Eigen::Matrix3d::Identity() +
+                                     cell.force_sigma * cell.force_sigma * through * through.transpose();
+  const Eigen::Vector3d residual = one.moment - lever(one.force) * at;
+  return residual.dot(covariance.ldlt().solve(residual));
+}
+
+double total(const campaign::LoadCell& cell, const std::vector<Loaded>& states, const Eigen::Vector3d& at) {
+  double sum = 0.0;
+  for (const Loaded& one : states) sum += misfit(cell, one, at);
+  return sum;
+}
+
+/// Every way to turn signs round, the fewest first.
+std::array<Eigen::Vector3d, 7> signChoices() {
+  return {{{-1, 1, 1}, {1, -1, 1}, {1, 1, -1}, {-1, -1, 1}, {-1, 1, -1}, {1, -1, -1}, {-1, -1, -1}}};
+}
+
+Loaded withSigns(Loaded one, const Eigen::Vector3d& signs) {
+  one.moment = one.tool_from_cell * signs.asDiagonal() * one.tool_from_cell.transpose() * one.moment;
+  return one;
+}
+
+std::string namesOf(const Eigen::Vector3d& signs) {
+  std::string names;
+  const std::array<const char*, 3> kNames{"mx", "my", "mz"};
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (signs[static_cast<int>(k)] < 0.0) names += (names.empty() ? "" : ", ") + std::string(kNames[k]);
+  }
+  return names;
+}
+
+/// Signs that mend the fit: of the worst state alone, or of all.
+std::string mendingSigns(const campaign::LoadCell& cell, const std::vector<Loaded>& states, std::size_t worst,
+                         double limit) {
+  for (const bool all : {false, true}) {
+    for (const Eigen::Vector3d& signs : signChoices()) {
+      std::vector<Loaded> turned = states;
+      for (std::size_t i = 0; i < turned.size(); ++i) {
+        if (all || i == worst) turned[i] = withSigns(turned[i], signs);
+      }
+      if (total(cell, turned, solve(turned)) <= limit) {
+        return fmt::format("{}{}", namesOf(signs), all ? " of all states" : " of that state");
+      }
+    }
+  }
+  return {};
+}
+
+}  // namespace
+
+HookFit fitHook(const campaign::Campaign& campaign) {
+  HookFit fit;
+  const campaign::LoadCell& cell = *campaign.load_cell;
+  std::vector<Loaded> states;
+  states.reserve(campaign.states->rows.size());
+  double most = 0.0;
+  for (const campaign::State& state : campaign.states->rows)
+    most = std::max(most, state.wrench_in_cell.head<3>().norm());
+  bool any_moment = false;
+  for (const campaign::State& state : campaign.states->rows) {
+    if (state.step == 0 || state.wrench_in_cell.head<3>().norm() < campaign::kReturnShare * most)
+      continue;
+    const Eigen::Matrix3d turn = toolFromCell(campaign, state.q);
+    states.push_back(
+        {&state, turn * state.wrench_in_cell.head<3>(), turn * state.wrench_in_cell.tail<3>(), turn});
+    any_moment |= !state.wrench_in_cell.tail<3>().isZero(0.0);
+  }
+  constexpr std::size_t kLeast = 4;
+  if (states.size() < kLeast) fit.reason = "fewer than four loaded states";
+  if (!any_moment) fit.reason = "no moments were measured";
+  if (!fit.reason.empty()) return fit;
+  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+  for (const Loaded& one : states) spread += lever(one.force).transpose() * lever(one.force);
+  constexpr double kOneLine = 1e-4;  // squared sine of the forces' spread in the tool
+  const Eigen::Vector3d seen = spread.selfadjointView<Eigen::Lower>().eigenvalues();
+  if (seen[0] < kOneLine * seen[2]) {
+    fit.reason = "the forces lie along one line in the tool: turn the flange between postures";
+    return fit;
+  }
+  fit.lever = solve(states);
+  std::size_t worst = 0;
+  double squares = 0.0;
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    const double chi2 = misfit(cell, states[i], fit.lever);
+    fit.chi2 += chi2;
+    squares += (states[i].moment - lever(states[i].force) * fit.lever).squaredNorm();
+    if (chi2 > fit.worst_chi2) fit.worst_chi2 = chi2, worst = i;
+  }
+  const double count = static_cast<double>(states.size());
+  fit.dof = static_cast<int>(3 * states.size()) - 3;
+  fit.rms = std::sqrt(squares / (3.0 * count));
+  fit.worst_limit = numerics::chiSquareLimit(0.5 * preparation::kLevel / count, 3.0);
+  fit.worst_line = states[worst].state->line;
+  fit.worst_pose = states[worst].state->pose;
+  fit.worst_step = states[worst].state->step;
+  const double limit = numerics::chiSquareLimit(preparation::kLevel, fit.dof);
+  if (fit.chi2 > limit || fit.worst_chi2 > fit.worst_limit)
+    fit.mending_signs = mendingSigns(cell, states, worst, limit);
+  fit.done = true;
+  return fit;
+}
+
+}  // namespace stiffscope::audit

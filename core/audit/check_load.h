@@ -1,0 +1,39 @@
+#pragma once
+
+#include <string>
+
+#include "core/campaign/campaign.h"
+
+namespace stiffscope::audit {
+
+/// Whether the forces of some load step are three times those of another (rms): a load of couples alone leaves the
+/// same noise in all of them, loaded or not, of which no lever and no stiffness follows. The ratio does not ask for
+/// units. True of a single step.
+bool forcesStandOut(const campaign::Campaign& campaign);
+
+/// A load that hangs or pulls at one point of the tool: M = lever x F with one lever, in the load cell's
+/// axes.
+struct HookFit {
+  bool done = false;
+  std::string reason;                               ///< why not
+  Eigen::Vector3d lever = Eigen::Vector3d::Zero();  ///< from the cell's point to the load's, in the tool, m
+  double chi2 = 0.0;
+  int dof = 0;
+  double rms = 0.0;         ///< of the moments' residuals, per component, Nm
+  double worst_chi2 = 0.0;  ///< of one state, three components
+  double worst_limit = 0.0;
+  std::size_t worst_line = 0;  ///< in the states' file
+  int worst_pose = 0;
+  int worst_step = 0;
+  /// Components of the moment (of the worst state, or of all) whose turned sign mends the fit; empty: none
+  /// does.
+  std::string mending_signs;
+};
+
+/// Weighted least squares over all states with a force; the moment's variance is that of the moment and of
+/// the lever times the force's. Axes that do not turn with the flange are turned into it by forward
+/// kinematics of the URDF. Not done, with the reason: moments that were not measured, or forces along one
+/// line in the tool, which leave the lever open.
+HookFit fitHook(const campaign::Campaign& campaign);
+
+}  // namespace stiffscope::audit

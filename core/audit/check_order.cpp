@@ -1,0 +1,208 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <set>
+
+#include "core/audit/checks.h"
+#include "core/campaign/row_names.h"
+
+namespace stiffscope::audit {
+
+namespace {
+
+/// The value that comes up most often; the larger of two that do.
+int mostCommon(const std::map<int, int>& counts) {
+  int best = 0, most = 0;
+  for (const auto& [value, count] : counts) {
+    if (count >= most) most = count, best = value;
+  }
+  return best;
+}
+
+class Inventory {
+ public:
+  explicit Inventory(const campaign::Campaign& campaign) : campaign_(campaign) {
+    if (campaign.loading) {
+      for (const campaign::LoadingReading& row : campaign.loading->rows) add(row.pose, row.step, row.target);
+    } else {
+      for (const campaign::Displacement& row : campaign.displacements->rows) add(row.pose, row.step, row.target);
+    }
+    for (const campaign::State& state : campaign.states->rows) states_.insert({state.pose, state.step});
+    std::map<int, int> repeats;
+    for (const auto& [pose, steps] : readings_) {
+      for (const auto& [step, targets] : steps) {
+        ++poses_with_[step];
+        for (const auto& [target, count] : targets) ++repeats[count], targets_.insert(target);
+      }
+    }
+    repeats_ = mostCommon(repeats);
+  }
+
+  std::vector<std::string> missing() const {
+    std::vector<std::string> found;
+    for (const auto& [pose, steps] : readings_) {
+      for (const auto& [step, count] : poses_with_) {
+        const auto has = steps.find(step);
+        const std::string name = fmt::format("pose {}, step {}", campaign::poseName(campaign_, pose), step);
+        if (has == steps.end()) {
+          // A step that only some postures have is a choice, not a gap.
+          if (2 * count > static_cast<int>(readings_.size())) found.push_back(name + ": no readings");
+          continue;
+        }
+        describeState(name, has->second, found);
+        if (!states_.contains({pose, step})) found.push_back(name + ": no row in states");
+      }
+    }
+    for (std::size_t pose = 0; pose < campaign_.pose_ids.size(); ++pose) {
+      if (!readings_.contains(static_cast<int>(pose))) {
+        found.push_back(fmt::format("pose {}: no readings", campaign_.pose_ids[pose]));
+      }
+    }
+    return found;
+  }
+
+  std::size_t size() const { return readings_.size(); }
+
+ private:
+  void add(int pose, int step, int target) { ++readings_[pose][step][target]; }
+
+  void describeState(const std::string& name, const std::map<int, int>& targets,
+                     std::vector<std::string>& found) const {
+    for (const int target : targets_) {
+      const auto has = targets.find(target);
+      const int count = has == targets.end() ? 0 : has->second;
+      if (count >= repeats_) continue;
+      found.push_back(
+          fmt::format("{}: {} of {} readings of {}", name, count, repeats_, campaign::targetName(campaign_, target)));
+    }
+  }
+
+  const campaign::Campaign& campaign_;
+  std::map<int, std::map<int, std::map<int, int>>> readings_;  ///< pose, step, target: count
+  std::set<std::pair<int, int>> states_;
+  std::map<int, int> poses_with_;  ///< by step
+  std::set<int> targets_;
+  int repeats_ = 0;
+};
+
+}  // namespace
+
+Findings checkCompleteness(const Evidence& evidence) {
+  const campaign::Campaign& campaign = evidence.campaign;
+  if (!campaign.states || (!campaign.loading && !campaign.displacements)) {
+    return {preparation::notTestable("completeness", "no load states: measure `states` with `loading`")};
+  }
+  const Inventory inventory(campaign);
+  const std::vector<std::string> missing = inventory.missing();
+  preparation::AuditCheck check;
+  check.id = "completeness";
+  check.value = static_cast<double>(missing.size());
+  check.limit = 0.0;
+  check.unit = "gaps";
+  check.limit_source = "what most postures and states of this campaign have";
+  check.message =
+      fmt::format("every one of {} postures has all steps, reflectors and repeats", inventory.size());
+  if (missing.empty()) return {check};
+  check.verdict = preparation::AuditVerdict::warn;
+  check.where = missing.front().substr(0, missing.front().find(':'));
+  constexpr std::size_t kShown = 8;
+  const std::vector<std::string> shown(
+      missing.begin(), missing.begin() + static_cast<std::ptrdiff_t>(std::min(kShown, missing.size())));
+  check.message =
+      fmt::format("missing: {}{}", fmt::join(shown, "; "),
+                  missing.size() > kShown ? fmt::format("; and {} more", missing.size() - kShown) : "");
+  return {check};
+}
+
+namespace {
+
+struct Span {
+  double first = INFINITY, last = -INFINITY;
+  std::size_t line = 0;  ///< of its first row
+};
+
+/// Rows that come before the last one of an earlier step of their posture.
+template <class Row>
+std::vector<std::string> outOfOrder(const campaign::Campaign& campaign, const campaign::Table<Row>& table) {
+  std::map<int, std::map<int, Span>> poses;
+  for (const Row& row : table.rows) {
+    if (!std::isfinite(row.time_s)) continue;
+    Span& span = poses[row.pose][row.step];
+    if (row.time_s < span.first) span.first = row.time_s, span.line = row.line;
+    span.last = std::max(span.last, row.time_s);
+  }
+  std::vector<std::string> found;
+  for (const auto& [pose, steps] : poses) {
+    const Span* before = nullptr;
+    int step_before = 0;
+    for (const auto& [step, span] : steps) {
+      if (before != nullptr && span.first < before->last) {
+        found.push_back(fmt::format("{} (pose {}: step {} before step {} ends)",
+                                    campaign::rowName(table.file, span.line), campaign::poseName(campaign, pose), step,
+                                    step_before));
+      }
+      before = &span;
+      step_before = step;
+    }
+  }
+  return found;
+}
+
+/// Load states whose row is older or younger than all readings of another step than its own.
+std::vector<std::string> statesApart(const campaign::Campaign& campaign) {
+  std::map<std::pair<int, int>, Span> readings;
+  for (const campaign::LoadingReading& row : campaign.loading->rows) {
+    Span& span = readings[{row.pose, row.step}];
+    span.first = std::min(span.first, row.time_s);
+    span.last = std::max(span.last, row.time_s);
+  }
+  std::vector<std::string> found;
+  for (const campaign::State& state : campaign.states->rows) {
+    const auto own = readings.find({state.pose, state.step});
+    if (own == readings.end() || !std::isfinite(state.time_s)) continue;
+    const auto end = readings.upper_bound({state.pose, std::numeric_limits<int>::max()});
+    for (auto other = readings.lower_bound({state.pose, std::numeric_limits<int>::min()}); other != end; ++other) {
+      const auto& [key, span] = *other;
+      if (key.second == state.step) continue;
+      const bool within = state.time_s > span.first && state.time_s < span.last;
+      const bool beyond = (span.first > own->second.last && state.time_s >= span.first) ||
+                          (span.last < own->second.first && state.time_s <= span.last);
+      if (!within && !beyond) continue;
+      found.push_back(fmt::format("{} (pose {}: the state of step {} was taken during step {})",
+                                  campaign::rowName(campaign.states->file, state.line), campaign::poseName(campaign, state.pose),
+                                  state.step, key.second));
+      break;
+    }
+  }
+  return found;
+}
+
+}  // namespace
+
+Findings checkTimeOrder(const Evidence& evidence) {
+  const campaign::Campaign& campaign = evidence.campaign;
+  if (!campaign.states && !campaign.loading)
+    return {preparation::notTestable("time_order", "no `states` and no `loading`")};
+  std::vector<std::string> found;
+  if (campaign.loading) found = outOfOrder(campaign, *campaign.loading);
+  if (campaign.states) {
+    const auto states = outOfOrder(campaign, *campaign.states);
+    found.insert(found.end(), states.begin(), states.end());
+  }
+  if (campaign.loading && campaign.states && found.empty()) found = statesApart(campaign);
+  preparation::AuditCheck check;
+  check.id = "time_order";
+  check.value = static_cast<double>(found.size());
+  check.limit = 0.0;
+  check.unit = "steps";
+  check.limit_source = "later steps follow in time (campaign format)";
+  check.message = "steps follow each other in time in every posture";
+  if (found.empty()) return {check};
+  check.verdict = preparation::AuditVerdict::fail;
+  check.where = found.front().substr(0, found.front().find(' '));
+  check.message = fmt::format("steps out of order: {}", fmt::join(found, "; "));
+  return {check};
+}
+
+}  // namespace stiffscope::audit

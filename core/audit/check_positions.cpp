@@ -1,0 +1,331 @@
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "core/audit/checks.h"
+#include "core/audit/limits.h"
+#include "core/campaign/row_names.h"
+#include "core/identification/identifiability.h"
+#include "core/identification/warnings.h"
+#include "core/io/units.h"
+#include "core/numerics/distributions.h"
+#include "core/preparation/finding.h"
+
+namespace stiffscope::audit {
+
+namespace {
+
+/// One posture unloaded again: squared distance of its reflectors from step 0 in parts of the noise.
+struct Return {
+  int pose = 0;
+  int step = 0;
+  double chi2 = 0.0;
+  int dof = 0;
+  double largest = 0.0;  ///< of its reflectors, m
+  std::size_t line = 0;  ///< of the reflector that went farthest
+};
+
+struct PoseStates {
+  std::map<int, const campaign::State*> states;
+  std::map<int, const campaign::StatePoints*> points;
+};
+
+/// The load left in `state`, in parts of that in `loaded`.
+double loadLeft(const campaign::State& state, const campaign::State& loaded) {
+  const Eigen::Vector3d force = loaded.wrench_in_cell.head<3>();
+  return state.wrench_in_cell.head<3>().dot(force) / force.squaredNorm();
+}
+
+Return compare(const campaign::StatePoints& before, const campaign::StatePoints& after, const campaign::StatePoints* loaded, double left,
+               const metrology::TrackerNoise& noise) {
+  Return result{after.pose, after.step};
+  for (const campaign::ReflectorMean& mean : after.reflectors) {
+    const campaign::ReflectorMean* first = before.of(mean.target);
+    if (first == nullptr) continue;
+    Eigen::Vector3d off = mean.point - first->point;
+    // A small load that is left displaces in proportion.
+    const campaign::ReflectorMean* under_load = loaded != nullptr ? loaded->of(mean.target) : nullptr;
+    if (under_load != nullptr) off -= left * (under_load->point - first->point);
+    result.chi2 += off.dot((mean.covariance(noise) + first->covariance(noise)).ldlt().solve(off));
+    result.dof += 3;
+    if (off.norm() <= result.largest) continue;
+    result.largest = off.norm();
+    result.line = mean.line;
+  }
+  return result;
+}
+
+std::vector<Return> returnsOf(const Evidence& evidence) {
+  std::map<int, PoseStates> poses;
+  for (const campaign::State& state : evidence.campaign.states->rows) poses[state.pose].states[state.step] = &state;
+  for (const campaign::StatePoints& points : evidence.states) {
+    if (points.pose >= 0) poses[points.pose].points[points.step] = &points;
+  }
+  std::vector<Return> found;
+  for (const auto& [pose, one] : poses) {
+    const campaign::State* most = nullptr;
+    for (const auto& [step, state] : one.states) {
+      if (step == 0) continue;
+      if (most == nullptr || state->wrench_in_cell.head<3>().norm() > most->wrench_in_cell.head<3>().norm())
+        most = state;
+    }
+    if (most == nullptr || !one.points.contains(0)) continue;
+    const double force = most->wrench_in_cell.head<3>().norm();
+    for (const auto& [step, state] : one.states) {
+      if (step <= most->step || !one.points.contains(step)) continue;
+      if (state->wrench_in_cell.head<3>().norm() >= campaign::kReturnShare * force) continue;
+      const auto loaded = one.points.find(most->step);
+      const Return back =
+          compare(*one.points.at(0), *one.points.at(step),
+                  loaded == one.points.end() ? nullptr : loaded->second, loadLeft(*state, *most), *evidence.noise);
+      if (back.dof > 0) found.push_back(back);
+    }
+  }
+  return found;
+}
+
+}  // namespace
+
+Findings checkReturnToZero(const Evidence& evidence) {
+  const campaign::Campaign& campaign = evidence.campaign;
+  if (!campaign.loading || !campaign.states) {
+    return {
+        preparation::notTestable("return_to_zero", "no absolute readings of load states: measure `loading` and `states`")};
+  }
+  if (!evidence.noise) {
+    return {preparation::notTestable("return_to_zero",
+                        "the tracker's noise is not declared: state `tracker` in campaign.xml")};
+  }
+  const std::vector<Return> returns = returnsOf(evidence);
+  if (returns.empty())
+    return {preparation::notTestable("return_to_zero", "no posture was unloaded again: add a last step without load")};
+  preparation::AuditCheck check;
+  check.id = "return_to_zero";
+  check.unit = "of noise";
+  double chi2 = 0.0;
+  int dof = 0;
+  std::vector<std::string> beyond;
+  const Return* worst = &returns.front();
+  for (const Return& one : returns) {
+    chi2 += one.chi2;
+    dof += one.dof;
+    if (one.chi2 > numerics::chiSquareLimit(preparation::kLevel / static_cast<double>(returns.size()), one.dof)) {
+      beyond.push_back(fmt::format("{} by {:.0f} um", campaign::poseName(campaign, one.pose), 1e6 * one.largest));
+    }
+    if (one.chi2 / one.dof > worst->chi2 / worst->dof) worst = &one;
+  }
+  check.value = std::sqrt(chi2 / dof);
+  check.limit = std::sqrt(numerics::chiSquareLimit(preparation::kLevel, dof) / dof);
+  check.limit_source = preparation::byChance(fmt::format("chi-square of {} degrees of freedom, and of each posture", dof));
+  check.message = fmt::format(
+      "unloaded again, reflectors stand {:.2f} times as far from step 0 as noise alone; farthest "
+      "{:.0f} um at pose {}, step {}",
+      *check.value, 1e6 * worst->largest, campaign::poseName(campaign, worst->pose), worst->step);
+  if (*check.value <= *check.limit && beyond.empty()) return {check};
+  check.verdict = chi2 / dof > preparation::kFailVarianceRatio ? preparation::AuditVerdict::fail : preparation::AuditVerdict::warn;
+  check.where = campaign::rowName(campaign.loading->file, worst->line);
+  check.message += fmt::format("; {} of {} postures do not come back", beyond.size(), returns.size());
+  if (!beyond.empty()) check.message += fmt::format(": {}", fmt::join(beyond, ", "));
+  check.message += "; friction, backlash, a slipping part, or drift that nests do not show";
+  return {check};
+}
+
+namespace {
+
+/// Largest distance of a reflector from any joint axis over the load cases: how far a turn carries it per
+/// radian.
+double longestLever(const identification::LoadedArm& arm) {
+  double longest = 0.0;
+  for (const identification::LoadCase& load_case : arm.cases) {
+    for (const identification::TargetMove& move : load_case.targets) {
+      const Matrix6d jacobian = robot::jacobianAt(load_case.axes, move.unloaded);
+      longest = std::max(longest, jacobian.topRows<3>().colwise().norm().maxCoeff());
+    }
+  }
+  return longest;
+}
+
+/// One-sigma noise of one reading of a reflector, per coordinate, m: the largest of all states.
+double readingNoise(const Evidence& evidence) {
+  double variance = evidence.noise->covarianceAt(evidence.noise->station).trace() / 3.0;
+  for (const campaign::StatePoints& state : evidence.states) {
+    for (const campaign::ReflectorMean& mean : state.reflectors) {
+      variance = std::max(variance, mean.readings * mean.covariance(*evidence.noise).trace() / 3.0);
+    }
+  }
+  return std::sqrt(variance);
+}
+
+}  // namespace
+
+Findings checkServo(const Evidence& evidence) {
+  const campaign::Campaign& campaign = evidence.campaign;
+  if (evidence.arm.cases.empty()) {
+    return {preparation::notTestable("servo_change", "no postures with readings unloaded and loaded in a known geometry")};
+  }
+  if (!evidence.noise) {
+    return {
+        preparation::notTestable("servo_change", "the tracker's noise is not declared: state `tracker` in campaign.xml")};
+  }
+  const double lever = longestLever(evidence.arm);
+  preparation::AuditCheck check;
+  check.id = "servo_change";
+  check.unit = "deg";
+  check.value = 0.0;
+  check.limit_source = fmt::format(
+      "turn that carries a reflector at the longest lever, {:.2f} m, by twice its reading noise", lever);
+  std::vector<const campaign::State*> unloaded(campaign.pose_ids.size(), nullptr);
+  for (const campaign::State& state : campaign.states->rows) {
+    if (state.step == 0) unloaded[static_cast<std::size_t>(state.pose)] = &state;
+  }
+  check.limit = 2.0 * readingNoise(evidence) / lever / io::kDegree;
+  for (const campaign::State& state : campaign.states->rows) {
+    const campaign::State* before = unloaded[static_cast<std::size_t>(state.pose)];
+    if (before == nullptr) continue;
+    int joint = 0;
+    const double change = (state.q - before->q).cwiseAbs().maxCoeff(&joint) / io::kDegree;
+    if (change <= *check.value) continue;
+    check.value = change;
+    check.where = campaign::rowName(campaign.states->file, state.line);
+    check.message = fmt::format("joint {}'s reported angle changes most, at pose {}, step {}", joint + 1,
+                                campaign::poseName(campaign, state.pose), state.step);
+  }
+  if (*check.value == 0.0) check.message = "no reported angle changes under load";
+  if (*check.value <= *check.limit) return {check};
+  check.verdict = preparation::AuditVerdict::warn;
+  check.message += ": the servo gives way, and identification counts that as stiffness of the closed loop";
+  return {check};
+}
+
+namespace {
+
+
+/// Geometry errors put more than noise into the positions; the shift must stand out of those too.
+double misfit(const AbsoluteFit& fit) { return std::max(1.0, fit.chi2 / fit.dof); }
+
+preparation::AuditCheck frameCheck(const AbsoluteFit& fit) {
+  preparation::AuditCheck check;
+  check.id = "frame_moved";
+  const double ratio = fit.shift_chi2 / misfit(fit), by_chance = numerics::chiSquareLimit(preparation::kLevel, 6.0);
+  const Eigen::Vector3d displacement = fit.shift.tail<3>();
+  // The shift where the arm is read, or where it stands (R0's origin), whichever is larger.
+  const double at_base = (displacement - fit.shift.head<3>().cross(fit.centre)).norm();
+  check.value = 1e3 * std::max(displacement.norm(), at_base);
+  check.limit =
+      std::max(1e3 * identification::TrustLimits().position, ratio > 0.0 ? *check.value * std::sqrt(by_chance / ratio) : 0.0);
+  check.unit = "mm";
+  check.limit_source = "how far identification trusts places (0.2 mm); or, where that is larger, " +
+                       preparation::byChance("chi-square of a rigid shift, six degrees of freedom, over that of the rest");
+  check.message = fmt::format(
+      "loading against sweeps: shift of ({:.3f}, {:.3f}, {:.3f}) mm in R0 at the arm and turn of "
+      "{:.0f} urad",
+      1e3 * displacement.x(), 1e3 * displacement.y(), 1e3 * displacement.z(),
+      1e6 * fit.shift.head<3>().norm());
+  // A shift that leaves most of the misfit goes along with another fault (geometry, sag) and is not its
+  // cause.
+  const double explained = fit.shift_chi2 / (fit.shift_chi2 + fit.chi2);
+  check.message +=
+      fmt::format(", which explains {:.0f} % of the misfit of the unloaded positions", 100.0 * explained);
+  if (*check.value <= *check.limit || explained < kExplains) return check;
+  check.verdict = *check.value > 2.0 * *check.limit ? preparation::AuditVerdict::fail : preparation::AuditVerdict::warn;
+  check.where = "loading";
+  check.message += ": tracker or robot moved between sweeps and loading";
+  return check;
+}
+
+preparation::AuditCheck positionsCheck(const AbsoluteFit& fit) {
+  preparation::AuditCheck check;
+  check.id = "unloaded_positions";
+  const double by_chance = fit.rms_after * std::sqrt(numerics::chiSquareLimit(preparation::kLevel, fit.dof) / fit.chi2);
+  check.value = 1e3 * fit.rms_after;
+  check.limit = 1e3 * std::max(kShareOfTolerance * identification::TrustLimits().position, by_chance);
+  check.unit = "mm";
+  check.limit_source =
+      "a third of the 0.2 mm to which identification trusts places; or, where that is larger, " +
+      preparation::byChance(fmt::format("chi-square of {} degrees of freedom", fit.dof));
+  check.message = fmt::format(
+      "{} unloaded positions miss forward kinematics with sag by {:.3f} mm rms per coordinate, "
+      "{:.3f} mm once shift, reflectors, axes and sag are fitted within their uncertainties ({:.2f} "
+      "of what these leave open)",
+      fit.positions, 1e3 * fit.rms_before, 1e3 * fit.rms_after, std::sqrt(fit.chi2 / fit.dof));
+  if (*check.value <= *check.limit) return check;
+  if (fit.rms_after > identification::kMissedGeometry) {
+    check.verdict = preparation::AuditVerdict::fail;
+    check.impossible = true;
+    check.message +=
+        "; far more than own weight leaves once it is taken off: units, angles or the tracker's place are wrong in "
+        "one of the tables";
+    return check;
+  }
+  check.verdict = preparation::AuditVerdict::warn;
+  check.message +=
+      "; the swept geometry does not carry over to the postures: joint zeros, gear errors, or the own weight "
+      "bends more than the joints (bearings, links)";
+  return check;
+}
+
+const campaign::State* unloadedState(const campaign::Campaign& campaign, int pose) {
+  for (const campaign::State& state : campaign.states->rows) {
+    if (state.pose == pose && state.step == 0) return &state;
+  }
+  return nullptr;
+}
+
+preparation::AuditCheck readBackCheck(const Evidence& evidence) {
+  const AbsoluteFit& fit = evidence.absolute;
+  preparation::AuditCheck check;
+  check.id = "joint_read_back";
+  check.limit = fit.score_limit;
+  check.value = 0.0;
+  check.unit = "of scatter";
+  check.limit_source = preparation::byChance("Student's t by the median absolute deviation between postures");
+  std::string found;
+  double worst = 0.0;
+  for (const PostureReadBack& posture : fit.postures) {
+    check.value = std::max(*check.value, posture.score);
+    // A posture whose misfit no joint angles explain has another fault, such as exchanged reflectors.
+    constexpr double kMostly = 0.9;
+    if (!posture.outlier || posture.explained < kMostly) continue;
+    const campaign::State* state = unloadedState(evidence.campaign, posture.pose);
+    const std::string row = campaign::rowName(evidence.campaign.states->file, state->line);
+    if (posture.score > worst) worst = posture.score, check.where = row;
+    found += fmt::format("{}{} (pose {}: joint {} stands {:.4f} deg from what is reported)",
+                         found.empty() ? "" : "; ", row, campaign::poseName(evidence.campaign, posture.pose),
+                         posture.joint + 1, posture.joint_correction / io::kDegree);
+  }
+  check.message = "reported joint angles agree with what the reflectors say, posture by posture";
+  if (found.empty()) {
+    check.value = std::min(*check.value, *check.limit);
+    return check;
+  }
+  check.verdict = preparation::AuditVerdict::fail;
+  check.message = "reported before the arm settled, or stale: " + found;
+  return check;
+}
+
+}  // namespace
+
+Findings checkUnloadedPositions(const Evidence& evidence) {
+  const AbsoluteFit& fit = evidence.absolute;
+  Findings findings;
+  const std::string no_sag =
+      "the arm's own sag is not known: state masses in the URDF, and load steps that identify stiffnesses";
+  for (const char* id : {"frame_moved", "unloaded_positions"}) {
+    if (!fit.done || !fit.sag_known) findings.push_back(preparation::notTestable(id, fit.done ? no_sag : fit.reason));
+  }
+  if (findings.empty()) findings = {frameCheck(fit), positionsCheck(fit)};
+  constexpr std::size_t kToCompare =
+      6;  // the median needs a majority of sound postures to tell outliers from
+  if (!fit.done) {
+    findings.push_back(preparation::notTestable("joint_read_back", fit.reason));
+  } else if (fit.postures.size() < kToCompare) {
+    findings.push_back(
+        preparation::notTestable("joint_read_back", fmt::format("fewer than {} postures to compare", kToCompare)));
+  } else {
+    findings.push_back(readBackCheck(evidence));
+  }
+  return findings;
+}
+
+}  // namespace stiffscope::audit

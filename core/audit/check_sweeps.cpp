@@ -1,0 +1,374 @@
+#include "core/audit/check_sweeps.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <limits>
+#include <numbers>
+
+#include "core/audit/checks.h"
+#include "core/audit/limits.h"
+#include "core/campaign/row_names.h"
+#include "core/identification/identifiability.h"
+#include "core/identification/warnings.h"
+#include "core/io/units.h"
+#include "core/numerics/distributions.h"
+#include "core/preparation/finding.h"
+
+namespace stiffscope::audit {
+
+namespace {
+
+
+/// The reading that is farthest from its circle.
+struct WorstReading {
+  std::size_t line = 0;
+  double share = 0.0;  ///< of the sum of squared distances from the circles
+};
+
+WorstReading worstReading(const frames::MeasuredAxis& axis, const std::vector<SweptCircle>& circles) {
+  WorstReading worst;
+  double farthest = -1.0, sum = 0.0;
+  for (std::size_t k = 0; k < circles.size(); ++k) {
+    for (std::size_t i = 0; i < circles[k].lines.size(); ++i) {
+      const Eigen::Vector3d from_axis = circles[k].readings.points[i] - axis.fit.axis.line.point;
+      const double height = axis.fit.axis.line.direction.dot(from_axis);
+      const double radius = (from_axis - height * axis.fit.axis.line.direction).norm();
+      const double off = std::hypot(radius - axis.fit.circles[k].radius, height - axis.fit.circles[k].height);
+      sum += off * off;
+      if (off > farthest) farthest = off, worst.line = circles[k].lines[i];
+    }
+  }
+  worst.share = sum > 0.0 ? farthest * farthest / sum : 0.0;
+  return worst;
+}
+
+/// What the misfits look like: one reading, or the axis moving as it turns.
+class Causes {
+ public:
+  void add(std::size_t axis, const WorstReading& worst, const std::string& row) {
+    if (worst.share > kExplains) {
+      single_ += fmt::format("; most of that of axis {} is the one reading {}", axis + 1, row);
+    } else {
+      running_.push_back(axis + 1);
+    }
+  }
+
+  std::string words() const {
+    if (running_.empty()) return single_;
+    return single_ +
+           fmt::format(
+               "; that of ax{} {} runs along the sweep, no one reading makes it: the axis moves as it turns, "
+               "most often because the own weight bends bearings or links, which joint springs do not "
+               "describe; identification goes on",
+               running_.size() == 1 ? "is" : "es", fmt::join(running_, ", "));
+  }
+
+ private:
+  std::string single_;
+  std::vector<std::size_t> running_;
+};
+
+preparation::AuditCheck residualCheck(const Evidence& evidence, const std::array<std::vector<SweptCircle>, 6>& axes) {
+  preparation::AuditCheck check;
+  check.id = "circle_residual";
+  check.unit = "of noise sd";
+  check.limit_source = preparation::byChance("chi-square of each axis's residuals");
+  check.value = 0.0;
+  std::vector<std::string> beyond;
+  Causes causes;
+  for (std::size_t axis = 0; axis < 6; ++axis) {
+    const frames::MeasuredAxis& measured = evidence.frames.axes[axis];
+    const metrology::AxisFit& fit = measured.fit;
+    if (!fit.determined) continue;
+    const double limit = numerics::chiSquareLimit(preparation::kLevel / 6.0, fit.degrees_of_freedom) / fit.degrees_of_freedom;
+    const double ratio = std::sqrt(fit.chi2_per_dof);
+    const WorstReading worst = worstReading(measured, axes[axis]);
+    const std::string row = campaign::rowName(evidence.campaign.circle_sweeps->file, worst.line);
+    if (fit.chi2_per_dof > limit) {
+      beyond.push_back(
+          fmt::format("axis {} by {:.1f} um rms, {:.2f} of the noise", axis + 1, 1e6 * fit.rms, ratio));
+      causes.add(axis, worst, row);
+    }
+    if (ratio <= *check.value) continue;
+    check.value = ratio;
+    check.limit = std::sqrt(limit);
+    check.where = fmt::format("{}, {}", campaign::axisName(axis), row);
+  }
+  check.message = "readings lie on their circles within the noise";
+  if (beyond.empty()) return check;
+  check.verdict = preparation::AuditVerdict::warn;
+  check.message = fmt::format(
+      "readings leave their circles by more than noise: {}; the stated uncertainties of the axes are widened "
+      "by "
+      "it{}",
+      fmt::join(beyond, ", "), causes.words());
+  return check;
+}
+
+}  // namespace
+
+Findings checkCircleResidual(const Evidence& evidence) {
+  if (!evidence.campaign.circle_sweeps) return {preparation::notTestable("circle_residual", kNoSweeps)};
+  if (!evidence.noise) {
+    return {preparation::notTestable("circle_residual", "the tracker's noise is not declared: state `tracker`")};
+  }
+  return {residualCheck(evidence, sweptCircles(evidence))};
+}
+
+namespace {
+
+
+/// The circle that says most about its axis.
+const metrology::AxisCircle& widest(const metrology::AxisFit& fit) {
+  return *std::max_element(fit.circles.begin(), fit.circles.end(),
+                           [](const metrology::AxisCircle& a, const metrology::AxisCircle& b) { return a.radius < b.radius; });
+}
+
+/// Farthest that any swept reflector stands from the axis it turns about: the reach over which a tilt works.
+double reachOf(const std::array<frames::MeasuredAxis, 6>& axes) {
+  double reach = 0.0;
+  for (const frames::MeasuredAxis& axis : axes) {
+    if (axis.fit.determined) reach = std::max(reach, widest(axis.fit).radius);
+  }
+  return reach;
+}
+
+preparation::AuditCheck arcCheck(const frames::MeasuredAxis& axis, std::size_t number, double reach, int readings) {
+  const AxisUncertainty uncertainty = uncertaintyOf(axis.fit);
+  const double arc = widest(axis.fit).arc;
+  const double at_reach = std::hypot(reach * uncertainty.direction, uncertainty.place);
+  const double tolerance = kShareOfTolerance * identification::TrustLimits().position;
+  preparation::AuditCheck check;
+  check.id = "circle_arc";
+  check.value = arc / io::kDegree;
+  check.limit = kWarnArcDeg;
+  check.unit = "deg";
+  check.where = campaign::axisName(number);
+  check.limit_source = fmt::format(
+      "circle-point practice: warn below {:.0f} deg, fail below {:.0f} deg, unless the axis is "
+      "still known at the arm's reach to {:.0f} um, a third of the {:.1f} mm to which "
+      "identification trusts places",
+      kWarnArcDeg, kFailArcDeg, 1e6 * tolerance, 1e3 * identification::TrustLimits().position);
+  check.message = fmt::format(
+      "{}: arc of {:.1f} deg; known to {:.1f} urad in direction and {:.1f} um in place (one sigma), "
+      "{:.0f} um at the reach of {:.2f} m",
+      campaign::axisName(number), *check.value, 1e6 * uncertainty.direction, 1e6 * uncertainty.place, 1e6 * at_reach,
+      reach);
+  if (*check.value >= kWarnArcDeg) {
+    // Residuals widen the stated uncertainty; they are circle_residual's to name.
+    if (at_reach <= tolerance * std::max(1.0, std::sqrt(axis.fit.chi2_per_dof))) return check;
+    check.verdict = preparation::AuditVerdict::warn;
+    check.message +=
+        "; does not suffice for identification, wide as it is: take more readings, or reflectors farther "
+        "from the axis and along it";
+    return check;
+  }
+  const bool enough = at_reach <= tolerance;
+  check.message +=
+      fmt::format(", {:.1f} times what as many readings over {:.0f} deg would give; {} for identification",
+                  arcCost(arc, readings), kWarnArcDeg, enough ? "still suffices" : "does not suffice");
+  const bool short_arc = *check.value < kFailArcDeg;
+  if (short_arc) check.verdict = enough ? preparation::AuditVerdict::warn : preparation::AuditVerdict::fail;
+  if (!short_arc && !enough) check.verdict = preparation::AuditVerdict::warn;
+  return check;
+}
+
+preparation::AuditCheck countCheck(const std::array<std::vector<SweptCircle>, 6>& axes, const std::string& file) {
+  preparation::AuditCheck check;
+  check.id = "circle_count";
+  check.unit = "readings";
+  check.limit = kLeastCircleReadings;
+  check.limit_source = "three readings make a circle, twice as many leave as many again to check it by";
+  std::size_t least = SIZE_MAX;
+  for (std::size_t axis = 0; axis < 6; ++axis) {
+    for (const SweptCircle& circle : axes[axis]) {
+      if (circle.lines.size() >= least) continue;
+      least = circle.lines.size();
+      check.where = fmt::format("{}, {}", campaign::axisName(axis), campaign::rowName(file, circle.lines.front()));
+    }
+  }
+  check.value = static_cast<double>(least);
+  check.message = fmt::format("the smallest circle has {} readings", least);
+  if (*check.value < *check.limit) check.verdict = preparation::AuditVerdict::warn;
+  return check;
+}
+
+}  // namespace
+
+Findings checkCircleSweeps(const Evidence& evidence) {
+  if (!evidence.campaign.circle_sweeps) {
+    Findings missing;
+    for (const char* id : {"circle_arc", "circle_count"}) missing.push_back(preparation::notTestable(id, kNoSweeps));
+    return missing;
+  }
+  const auto axes = sweptCircles(evidence);
+  const double reach = reachOf(evidence.frames.axes);
+  Findings findings;
+  for (std::size_t axis = 0; axis < 6; ++axis) {
+    const frames::MeasuredAxis& measured = evidence.frames.axes[axis];
+    if (measured.fit.determined) {
+      findings.push_back(arcCheck(measured, axis, reach, static_cast<int>(axes[axis].front().lines.size())));
+    } else {
+      findings.push_back(preparation::notTestable("circle_arc", fmt::format("axis {}: {}", axis + 1, measured.reason)));
+      findings.back().where = campaign::axisName(axis);
+    }
+  }
+  findings.push_back(countCheck(axes, evidence.campaign.circle_sweeps->file));
+  return findings;
+}
+
+Findings checkLinkLengths(const Evidence& evidence) {
+  preparation::AuditCheck check;
+  check.id = "link_lengths";
+  check.unit = "mm";
+  double farthest = -1.0;
+  std::size_t at = 0;
+  const auto& links = evidence.frames.links;
+  for (std::size_t i = 0; i < links.size(); ++i) {
+    if (!links[i].distance_sd) continue;
+    const double off = std::abs(links[i].distance - links[i].nominal_distance);
+    if (off > farthest) farthest = off, at = i;
+  }
+  if (farthest < 0.0) return {preparation::notTestable("link_lengths", "no two neighbouring axes with circle sweeps")};
+  const frames::LinkGeometry& link = links[at];
+  check.value = farthest / io::kMillimetre;
+  // A short arc may leave a distance open by more than machines differ.
+  constexpr double kByChance = 5.0;
+  check.limit = std::max(identification::kMissedGeometry, kByChance * *link.distance_sd) / io::kMillimetre;
+  check.limit_source =
+      "20 mm, where machines are built to a few; or, where that is larger, five standard uncertainties";
+  check.where = fmt::format("axes {} and {}", at + 1, at + 2);
+  check.message = fmt::format("axes {} and {} stand {:.3f} mm apart, {:.3f} mm in the URDF", at + 1, at + 2,
+                              link.distance / io::kMillimetre, link.nominal_distance / io::kMillimetre);
+  if (*check.value <= *check.limit) return {check};
+  check.verdict = preparation::AuditVerdict::fail;
+  check.impossible = true;
+  check.message += ": points or angles of the sweeps are in another unit, or the URDF is another machine's";
+  return {check};
+}
+
+namespace {
+
+/// How far the joint's reported angle goes while a reflector is read, rad.
+double reportedTurn(const campaign::CircleSweeps& sweeps, int axis, int target) {
+  double least = std::numeric_limits<double>::infinity(), most = -least;
+  for (const campaign::CircleReading& row : sweeps.rows) {
+    if (row.axis != axis || row.target != target) continue;
+    least = std::min(least, row.q[axis]);
+    most = std::max(most, row.q[axis]);
+  }
+  return std::max(0.0, most - least);
+}
+
+/// The largest circle: one of a reflector near the axis is mostly noise.
+std::size_t largestCircle(const metrology::AxisFit& fit) {
+  const auto largest =
+      std::max_element(fit.circles.begin(), fit.circles.end(),
+                       [](const metrology::AxisCircle& a, const metrology::AxisCircle& b) { return a.radius < b.radius; });
+  return static_cast<std::size_t>(largest - fit.circles.begin());
+}
+
+preparation::AuditCheck impossible(preparation::AuditCheck check) {
+  check.verdict = preparation::AuditVerdict::fail;
+  check.impossible = true;
+  return check;
+}
+
+}  // namespace
+
+Findings checkSweepAngles(const Evidence& evidence) {
+  if (!evidence.campaign.circle_sweeps) return {preparation::notTestable("sweep_angles", kNoSweeps)};
+  constexpr double kLimit = 2.0;
+  constexpr double kWhole = 300.0 * io::kDegree;  // beyond, the arc's end runs into its beginning
+  preparation::AuditCheck check;
+  check.id = "sweep_angles";
+  check.unit = "times";
+  check.limit = kLimit;
+  check.limit_source =
+      "a joint turns by what it reports, to a thousandth; radians under degrees are 57 times off";
+  for (int axis = 0; axis < 6; ++axis) {
+    const frames::MeasuredAxis& measured = evidence.frames.axes[static_cast<std::size_t>(axis)];
+    if (!measured.measured || measured.fit.circles.empty()) continue;
+    // One reflector may have been hidden over a part of the way that others were read on.
+    const std::size_t largest = largestCircle(measured.fit);
+    const double reported =
+                     reportedTurn(*evidence.campaign.circle_sweeps, axis, measured.targets[largest]),
+                 arc = measured.fit.circles[largest].arc;
+    if (reported > kWhole || arc > kWhole || arc <= 0.0) continue;
+    if (reported <= 0.0) {
+      check.value.reset();
+      check.where = campaign::axisName(static_cast<std::size_t>(axis));
+      check.message = fmt::format("axis {} reports one and the same angle while its reflectors turn by {:.4g} deg",
+                                  axis + 1, arc / io::kDegree);
+      return {impossible(check)};
+    }
+    const double ratio = std::max(arc / reported, reported / arc);
+    if (check.value && ratio <= *check.value) continue;
+    check.value = ratio;
+    check.where = campaign::axisName(static_cast<std::size_t>(axis));
+    check.message =
+        fmt::format("while axis {} reports a turn of {:.4g} deg its reflectors turn by {:.4g} deg", axis + 1,
+                    reported / io::kDegree, arc / io::kDegree);
+  }
+  if (!check.value) return {preparation::notTestable("sweep_angles", "no axis with a sweep of less than a whole turn")};
+  if (*check.value <= kLimit) return {check};
+  check.message += ": angles in another unit (radians for degrees), or those of another joint";
+  return {impossible(check)};
+}
+
+namespace {
+
+/// Larger standard deviation of (cos, sin) coefficients, the constant to be found too, noise one.
+double largestSd(double arc, int readings) {
+  Eigen::MatrixXd design(readings, 3);
+  for (int i = 0; i < readings; ++i) {
+    const double at = arc * (static_cast<double>(i) / (readings - 1) - 0.5);
+    design.row(i) << std::cos(at), std::sin(at), 1.0;
+  }
+  const Eigen::Matrix3d covariance = (design.transpose() * design).inverse();
+  const Eigen::Matrix2d block = covariance.topLeftCorner<2, 2>();
+  return std::sqrt(block.selfadjointView<Eigen::Lower>().eigenvalues()[1]);
+}
+
+}  // namespace
+
+std::array<std::vector<SweptCircle>, 6> sweptCircles(const Evidence& evidence) {
+  std::array<std::vector<SweptCircle>, 6> axes;
+  if (!evidence.campaign.circle_sweeps) return axes;
+  const auto& rows = evidence.campaign.circle_sweeps->rows;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    std::vector<SweptCircle>& circles = axes[static_cast<std::size_t>(rows[i].axis)];
+    auto circle = std::find_if(circles.begin(), circles.end(),
+                               [&](const SweptCircle& one) { return one.target == rows[i].target; });
+    if (circle == circles.end()) circle = circles.insert(circles.end(), {rows[i].target, {}, {}});
+    circle->readings.points.push_back(evidence.rigid.circle_sweeps[i]);
+    if (evidence.noise) circle->readings.covariances.push_back(evidence.noise->covarianceAt(rows[i].point));
+    circle->lines.push_back(rows[i].line);
+  }
+  return axes;
+}
+
+AxisUncertainty uncertaintyOf(const metrology::AxisFit& fit) {
+  const auto larger = [](const Eigen::Matrix2d& covariance) {
+    return std::sqrt(std::max(0.0, covariance.selfadjointView<Eigen::Lower>().eigenvalues()[1]));
+  };
+  // The fit's parameters are taken at axis.line.point; the circles' middle is where the place is known best.
+  double middle = 0.0;
+  for (const metrology::AxisCircle& circle : fit.circles)
+    middle += circle.height / static_cast<double>(fit.circles.size());
+  Eigen::Matrix<double, 2, 4> shift;
+  shift << Eigen::Matrix2d::Identity(), middle * Eigen::Matrix2d::Identity();
+  return {larger(fit.axis.covariance.bottomRightCorner<2, 2>()),
+          larger(shift * fit.axis.covariance * shift.transpose())};
+}
+
+double arcCost(double arc, int readings) {
+  constexpr int kLeast = 4;  // three readings make a circle without a residual: nothing to compare
+  const int count = std::max(kLeast, readings);
+  return largestSd(arc, count) / largestSd(0.5 * std::numbers::pi, count);
+}
+
+}  // namespace stiffscope::audit

@@ -1,0 +1,337 @@
+#include "core/audit/check_tool.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+
+#include "core/audit/checks.h"
+#include "core/campaign/row_names.h"
+#include "core/numerics/distributions.h"
+#include "core/preparation/finding.h"
+#include "core/preparation/repeatability.h"
+
+namespace stiffscope::audit {
+
+namespace {
+
+preparation::AuditCheck scatterCheck(const std::string& id, const char* direction, double chi2, int dof, double rms) {
+  preparation::AuditCheck check;
+  check.id = id;
+  check.value = std::sqrt(chi2 / dof);
+  check.limit = std::sqrt(numerics::chiSquareLimit(preparation::kLevel, dof) / dof);
+  check.unit = "of declared sd";
+  check.limit_source = preparation::byChance(fmt::format("chi-square of {} degrees of freedom", dof));
+  if (*check.value > *check.limit) {
+    check.verdict =
+        *check.value * *check.value > preparation::kFailVarianceRatio ? preparation::AuditVerdict::fail : preparation::AuditVerdict::warn;
+  }
+  check.message =
+      fmt::format("repeats scatter {} the beam by {:.1f} um (one sigma), {:.2f} of what is declared{}",
+                  direction, 1e6 * rms, *check.value,
+                  check.verdict == preparation::AuditVerdict::pass
+                      ? ""
+                      : ": every stated uncertainty is too small by as much; the other checks take the noise "
+                        "as the repeats show it");
+  // Repeats within seconds do not see all that a data sheet covers; less than half of it is another matter.
+  constexpr double kFarBelow = 0.5;
+  if (*check.value < kFarBelow) {
+    check.details.push_back(
+        fmt::format("repeats scatter by less than half of what is declared: one sigma of a reading is asked "
+                    "for, not the maximum "
+                    "permissible error of a data sheet (ISO 10360-10); checks and uncertainties are as lax "
+                    "as the declaration"));
+  }
+  return check;
+}
+
+}  // namespace
+
+Findings checkRepeatability(const Evidence& evidence) {
+  const preparation::RepeatScatter& scatter = evidence.scatter;
+  if (!scatter.tested) {
+    return {preparation::notTestable("repeatability_along", scatter.reason),
+            preparation::notTestable("repeatability_across", scatter.reason)};
+  }
+  return {
+      scatterCheck("repeatability_along", "along", scatter.along_chi2, scatter.along_dof, scatter.along_rms),
+      scatterCheck("repeatability_across", "across", scatter.across_chi2, scatter.across_dof,
+                   scatter.across_rms)};
+}
+
+namespace {
+
+struct Sum {
+  double chi2 = 0.0;
+  int dof = 0;
+  double ratio() const { return dof > 0 ? chi2 / dof : 0.0; }
+  double limit() const { return dof > 0 ? numerics::chiSquareLimit(preparation::kLevel, dof) / dof : 0.0; }
+};
+
+/// Squares over the distances that `counts` lets through.
+template <class Counts>
+Sum sumOf(const ToolDistances& tool, const Counts& counts) {
+  Sum sum;
+  for (const ToolDistance& one : tool.distances) {
+    if (!counts(one)) continue;
+    sum.chi2 += one.change * one.change / (one.sd * one.sd);
+    ++sum.dof;
+  }
+  return sum;
+}
+
+/// Whether a state's distances are those of the tool if its reflectors carry each other's names in this
+/// order.
+bool fitsRenamed(const ToolDistances& tool, const campaign::StatePoints& state, const std::vector<std::size_t>& order,
+                 const metrology::TrackerNoise& noise) {
+  for (std::size_t a = 0; a < order.size(); ++a) {
+    for (std::size_t b = a + 1; b < order.size(); ++b) {
+      const auto* pair = tool.pair(state.reflectors[order[a]].target, state.reflectors[order[b]].target);
+      if (pair == nullptr) return false;
+      const campaign::ReflectorMean& first = state.reflectors[a];
+      const campaign::ReflectorMean& second = state.reflectors[b];
+      const Eigen::Vector3d between = second.point - first.point;
+      const Eigen::Vector3d along = between.normalized();
+      const double sd = std::sqrt(along.dot((first.covariance(noise) + second.covariance(noise)) * along) +
+                                  pair->reference_sd * pair->reference_sd);
+      if (std::abs(between.norm() - pair->reference) > tool.limit * sd) return false;
+    }
+  }
+  return true;
+}
+
+/// The exchange of names that would make a state's distances those of the tool.
+std::string exchangeIn(const campaign::Campaign& campaign, const ToolDistances& tool, const campaign::StatePoints& state,
+                       const metrology::TrackerNoise& noise) {
+  std::vector<std::size_t> order(state.reflectors.size());
+  std::iota(order.begin(), order.end(), 0);
+  while (order.size() >= 3 && std::next_permutation(order.begin(), order.end())) {
+    if (!fitsRenamed(tool, state, order, noise)) continue;
+    std::string names;
+    for (std::size_t k = 0; k < order.size(); ++k) {
+      if (order[k] == k) continue;
+      names += fmt::format("{}{} is {}", names.empty() ? "" : ", ",
+                           campaign::targetName(campaign, state.reflectors[k].target),
+                           campaign::targetName(campaign, state.reflectors[order[k]].target));
+    }
+    return names;
+  }
+  return {};
+}
+
+class Inquiry {
+ public:
+  Inquiry(const Evidence& evidence, ToolDistances tool)
+      : evidence_(evidence), campaign_(evidence.campaign), tool_(std::move(tool)) {}
+
+  preparation::AuditCheck run() {
+    const auto worst = std::max_element(
+        tool_.distances.begin(), tool_.distances.end(),
+        [](const auto& a, const auto& b) { return std::abs(a.change / a.sd) < std::abs(b.change / b.sd); });
+    check_.id = "rigid_tool";
+    check_.unit = "sigma";
+    check_.value = std::abs(worst->change / worst->sd);
+    check_.limit = tool_.limit;
+    check_.limit_source = preparation::byChance(fmt::format("largest of {} normal deviates", tool_.distances.size()));
+    check_.message = fmt::format("largest change of a distance: {} to {} by {:.0f} um at {}",
+                                 campaign::targetName(campaign_, worst->first), campaign::targetName(campaign_, worst->second),
+                                 1e6 * worst->change, campaign::nameOf(campaign_, evidence_.states[worst->state]));
+    findExchanges();
+    const Sum all = sumOf(tool_, [&](const ToolDistance& one) { return counts(one); });
+    const bool spread = all.ratio() > all.limit();
+    if (*check_.value <= *check_.limit && !spread) return check_;
+    const bool doubled = all.ratio() > preparation::kFailVarianceRatio;
+    check_.verdict = doubled || !exchanged_.empty() ? preparation::AuditVerdict::fail : preparation::AuditVerdict::warn;
+    check_.message += fmt::format("; over all states distances scatter {:.2f} times as far as noise alone",
+                                  std::sqrt(all.ratio()));
+    nameReflector(all);
+    nameExchanges();
+    return check_;
+  }
+
+ private:
+  bool counts(const ToolDistance& one) const { return !exchanged_.contains(one.state); }
+
+  void findExchanges() {
+    for (const ToolDistance& one : tool_.distances) {
+      if (std::abs(one.change) <= tool_.limit * one.sd || exchanged_.contains(one.state)) continue;
+      const std::string names = exchangeIn(campaign_, tool_, evidence_.states[one.state], *evidence_.noise);
+      if (!names.empty()) exchanged_[one.state] = names;
+    }
+  }
+
+  void nameExchanges() {
+    for (const auto& [state, names] : exchanged_) {
+      const campaign::StatePoints& points = evidence_.states[state];
+      const std::string row = campaign::rowName(campaign::fileOf(campaign_, points), points.reflectors.front().line);
+      if (state == exchanged_.begin()->first) check_.where = row;
+      check_.message += fmt::format("; reflectors exchanged at {} ({}): {}", row, campaign::nameOf(campaign_, points), names);
+    }
+  }
+
+  /// The reflector without which the other distances are those of a rigid tool.
+  void nameReflector(const Sum& all) {
+    if (all.ratio() <= all.limit() && !anyBeyond()) return;  // the exchanges were all there is
+    int culprit = -1;
+    double least = INFINITY;
+    for (int k = 0; k < static_cast<int>(campaign_.targets.size()); ++k) {
+      const Sum others = sumOf(
+          tool_, [&](const ToolDistance& one) { return counts(one) && one.first != k && one.second != k; });
+      if (others.dof == 0 || others.ratio() > others.limit() || others.ratio() >= least) continue;
+      least = others.ratio();
+      culprit = k;
+    }
+    if (culprit < 0) {
+      check_.message +=
+          "; no one reflector explains it: two move, the tool itself bends, or the tracker's noise is larger "
+          "than declared";
+      return;
+    }
+    describe(culprit);
+  }
+
+  bool anyBeyond() const {
+    return std::any_of(tool_.distances.begin(), tool_.distances.end(), [&](const ToolDistance& one) {
+      return counts(one) && std::abs(one.change) > tool_.limit * one.sd;
+    });
+  }
+
+  void describe(int culprit) {
+    std::map<bool, std::pair<double, int>> by_load;  // sums of squares: unloaded, loaded
+    const ToolDistance* first = nullptr;
+    for (const ToolDistance& one : tool_.distances) {
+      if (!counts(one) || (one.first != culprit && one.second != culprit)) continue;
+      auto& [sum, count] = by_load[evidence_.states[one.state].step != 0];
+      sum += one.change * one.change;
+      ++count;
+      if (first == nullptr && std::abs(one.change) > tool_.limit * one.sd) first = &one;
+    }
+    const std::string& name = campaign::targetName(campaign_, culprit);
+    check_.where = name;
+    if (first != nullptr) {
+      const campaign::StatePoints& state = evidence_.states[first->state];
+      check_.where = fmt::format("{}, {}", name, campaign::rowName(campaign::fileOf(campaign_, state), state.of(culprit)->line));
+    }
+    const auto rms = [&](bool loaded) {
+      const auto& [sum, count] = by_load[loaded];
+      return count > 0 ? 1e6 * std::sqrt(sum / count) : 0.0;
+    };
+    check_.message += fmt::format(
+        "; reflector {} moves: the distances between the others hold, its own change by {:.0f} um "
+        "rms under load and {:.0f} um without",
+        name, rms(true), rms(false));
+  }
+
+  const Evidence& evidence_;
+  const campaign::Campaign& campaign_;
+  ToolDistances tool_;
+  std::map<std::size_t, std::string> exchanged_;  ///< states whose reflectors carry each other's names
+  preparation::AuditCheck check_;
+};
+
+}  // namespace
+
+Findings checkRigidTool(const Evidence& evidence) {
+  if (!evidence.noise) {
+    return {
+        preparation::notTestable("rigid_tool", "the tracker's noise is not declared: state `tracker` in campaign.xml")};
+  }
+  ToolDistances tool = toolDistances(evidence.states, static_cast<int>(evidence.campaign.targets.size()), *evidence.noise);
+  if (tool.distances.empty()) {
+    return {preparation::notTestable("rigid_tool",
+                        "no two reflectors were read in the same states: read two or more in each")};
+  }
+  return {Inquiry(evidence, std::move(tool)).run()};
+}
+
+namespace {
+
+/// Distances of one pair; `change` holds the distance itself until the reference is known.
+std::vector<ToolDistance> distancesOf(const std::vector<campaign::StatePoints>& states, int first, int second,
+                                      const metrology::TrackerNoise& noise) {
+  std::vector<ToolDistance> found;
+  found.reserve(states.size());
+  for (std::size_t s = 0; s < states.size(); ++s) {
+    const campaign::ReflectorMean* a = states[s].of(first);
+    const campaign::ReflectorMean* b = states[s].of(second);
+    if (a == nullptr || b == nullptr) continue;
+    const Eigen::Vector3d between = b->point - a->point;
+    const Eigen::Vector3d along = between.normalized();
+    found.push_back(
+        {s, first, second, between.norm(), std::sqrt(along.dot((a->covariance(noise) + b->covariance(noise)) * along))});
+  }
+  return found;
+}
+
+double medianOf(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+ToolDistances::Pair referenceOf(const std::vector<campaign::StatePoints>& states,
+                                const std::vector<ToolDistance>& distances, double limit) {
+  std::vector<double> unloaded;
+  for (const ToolDistance& one : distances) {
+    if (states[one.state].step == 0) unloaded.push_back(one.change);
+  }
+  const bool all = unloaded.size() < 3;
+  if (all) {
+    for (const ToolDistance& one : distances) unloaded.push_back(one.change);
+  }
+  const double middle = medianOf(unloaded);
+  ToolDistances::Pair pair{distances.front().first, distances.front().second};
+  double weights = 0.0, sum = 0.0;
+  for (const ToolDistance& one : distances) {
+    if ((!all && states[one.state].step != 0) || std::abs(one.change - middle) > limit * one.sd) continue;
+    const double weight = 1.0 / (one.sd * one.sd);
+    weights += weight;
+    sum += weight * one.change;
+    ++pair.states;
+  }
+  pair.reference = weights > 0.0 ? sum / weights : middle;
+  pair.reference_sd = weights > 0.0 ? std::sqrt(1.0 / weights) : 0.0;
+  return pair;
+}
+
+}  // namespace
+
+const ToolDistances::Pair* ToolDistances::pair(int first, int second) const {
+  for (const Pair& one : pairs) {
+    if ((one.first == first && one.second == second) || (one.first == second && one.second == first))
+      return &one;
+  }
+  return nullptr;
+}
+
+ToolDistances toolDistances(const std::vector<campaign::StatePoints>& states, int targets, const metrology::TrackerNoise& noise) {
+  std::vector<std::vector<ToolDistance>> by_pair;
+  std::size_t count = 0;
+  for (int a = 0; a < targets; ++a) {
+    for (int b = a + 1; b < targets; ++b) {
+      std::vector<ToolDistance> found = distancesOf(states, a, b, noise);
+      if (found.size() < 3) continue;
+      count += found.size();
+      by_pair.push_back(std::move(found));
+    }
+  }
+  ToolDistances result;
+  if (count == 0) return result;
+  result.limit = numerics::normalLimit(preparation::kLevel / static_cast<double>(count));
+  result.distances.reserve(count);
+  for (std::vector<ToolDistance>& distances : by_pair) {
+    const ToolDistances::Pair pair = referenceOf(states, distances, result.limit);
+    result.pairs.push_back(pair);
+    for (ToolDistance& one : distances) {
+      one.change -= pair.reference;
+      // A state that made the reference is not independent of it: the difference is then less uncertain than
+      // this.
+      one.sd = std::hypot(one.sd, pair.reference_sd);
+      result.distances.push_back(one);
+    }
+    std::vector<ToolDistance>().swap(distances);
+  }
+  return result;
+}
+
+}  // namespace stiffscope::audit

@@ -1,0 +1,202 @@
+#include "core/audit/position_fit.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <map>
+
+#include "core/frames/position_equations.h"
+#include "core/numerics/distributions.h"
+#include "core/preparation/finding.h"
+
+namespace stiffscope::audit {
+
+namespace {
+
+/// Weighted normal equations over the postures that take part, with what is known beforehand on the diagonal.
+struct Normal {
+  Eigen::MatrixXd matrix;
+  Eigen::VectorXd right;
+  double squares = 0.0;  ///< chi2 with all parameters at zero
+  int rows = 0;
+};
+
+/// Weight of each posture in the common fit; 0 for one that is left out.
+using Weights = std::map<int, double>;
+
+Normal sumUp(const frames::AbsoluteRows& rows, const Weights& weights) {
+  const auto size = static_cast<Eigen::Index>(rows.parameters);
+  Normal normal{rows.prior, Eigen::VectorXd::Zero(size)};
+  for (const frames::AbsoluteRow& row : rows.rows) {
+    const double weight = weights.at(row.pose);
+    if (weight == 0.0) continue;
+    normal.matrix += weight * row.jacobian.transpose() * row.weight * row.jacobian;
+    normal.right += weight * row.jacobian.transpose() * row.weight * row.residual;
+    normal.squares += weight * row.residual.dot(row.weight * row.residual);
+    normal.rows += 3;
+  }
+  // A reflector that no row of the postures left shows stays where it is.
+  for (Eigen::Index i = 0; i < size; ++i) {
+    if (normal.matrix(i, i) == 0.0) normal.matrix(i, i) = 1.0;
+  }
+  return normal;
+}
+
+double leastSquares(const Normal& normal, Eigen::Index from) {
+  const Eigen::Index size = normal.right.size() - from;
+  const Eigen::VectorXd right = normal.right.tail(size);
+  return normal.squares - right.dot(normal.matrix.bottomRightCorner(size, size).ldlt().solve(right));
+}
+
+constexpr double kSigmas = 3.0;  // of the share to which the sag is trusted
+
+/// Joint angles of one posture from what the fit leaves of its reflectors.
+PostureReadBack readBackOf(const std::vector<const frames::AbsoluteRow*>& rows, const Eigen::VectorXd& parameters) {
+  PostureReadBack result;
+  result.pose = rows.front()->pose;
+  Matrix6d normal = Matrix6d::Zero();
+  Vector6d right = Vector6d::Zero();
+  Vector6d sag = Vector6d::Zero();
+  double squares = 0.0;
+  for (const frames::AbsoluteRow* row : rows) {
+    sag = row->sag;
+    const Eigen::Vector3d left = row->residual - row->jacobian * parameters;
+    normal += row->by_angles.transpose() * row->weight * row->by_angles;
+    right += row->by_angles.transpose() * row->weight * left;
+    squares += left.dot(row->weight * left);
+  }
+  const Eigen::CompleteOrthogonalDecomposition<Matrix6d> solver(normal);
+  result.correction = solver.solve(right);
+  const Vector6d sd = solver.pseudoInverse().diagonal().cwiseMax(0.0).cwiseSqrt();
+  double best = -1.0;
+  for (int j = 0; j < 6; ++j) {
+    result.significance[j] = sd[j] > 0.0 ? result.correction[j] / sd[j] : 0.0;
+    const double alone = normal(j, j) > 0.0 ? right[j] * right[j] / normal(j, j) : 0.0;
+    if (alone <= best) continue;
+    best = alone;
+    result.joint = j;
+    result.joint_correction = right[j] / normal(j, j);
+  }
+  result.sag_doubt = kSigmas * frames::kSagShare * std::abs(sag[result.joint]);
+  result.explained = squares > 0.0 ? right.dot(result.correction) / squares : 0.0;
+  return result;
+}
+
+/// Of every posture that has rows, in the order of `rows.poses`.
+std::vector<PostureReadBack> readBacks(const frames::AbsoluteRows& rows, const Eigen::VectorXd& parameters) {
+  std::map<int, std::vector<const frames::AbsoluteRow*>> by_pose;
+  for (const frames::AbsoluteRow& row : rows.rows) by_pose[row.pose].push_back(&row);
+  std::vector<PostureReadBack> postures;
+  for (const int pose : rows.poses) {
+    const auto own = by_pose.find(pose);
+    postures.push_back(own == by_pose.end() ? PostureReadBack{pose} : readBackOf(own->second, parameters));
+  }
+  return postures;
+}
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/// A fit that one posture cannot pull: each is weighted down by its own misfit against the median one
+/// (Cauchy's weights, 2.385 being their usual constant), again and again.
+Eigen::VectorXd robustFit(const frames::AbsoluteRows& rows) {
+  Weights weights;
+  for (const int pose : rows.poses) weights[pose] = 1.0;
+  Eigen::VectorXd parameters;
+  constexpr int kRounds = 20;
+  for (int round = 0; round < kRounds; ++round) {
+    const Normal normal = sumUp(rows, weights);
+    parameters = normal.matrix.ldlt().solve(normal.right);
+    std::map<int, double> misfits;
+    for (const frames::AbsoluteRow& row : rows.rows) {
+      const Eigen::Vector3d left = row.residual - row.jacobian * parameters;
+      misfits[row.pose] += left.dot(row.weight * left);
+    }
+    std::vector<double> sorted;
+    for (const auto& [pose, misfit] : misfits) sorted.push_back(misfit);
+    constexpr double kCauchy = 2.385;
+    const double scale = kCauchy * kCauchy * std::max(median(sorted), 1e-300);
+    for (const auto& [pose, misfit] : misfits) weights[pose] = 1.0 / (1.0 + misfit / scale);
+  }
+  return parameters;
+}
+
+/// Scores against the campaign's own scatter of each joint (median absolute deviation, never below the
+/// reading noise), because geometry errors put more than noise into every posture.
+void scorePostures(std::vector<PostureReadBack>& postures, double limit) {
+  constexpr double kMadOfNormal = 1.4826;  // median absolute deviation to standard deviation
+  for (PostureReadBack& posture : postures) posture.score = 0.0;
+  for (int j = 0; j < 6; ++j) {
+    std::vector<double> values;
+    for (const PostureReadBack& posture : postures) values.push_back(posture.significance[j]);
+    const double middle = median(values);
+    for (double& value : values) value = std::abs(value - middle);
+    const double scale = std::max(1.0, kMadOfNormal * median(values));
+    for (PostureReadBack& posture : postures) {
+      posture.score = std::max(posture.score, std::abs(posture.significance[j] - middle) / scale);
+    }
+  }
+  for (PostureReadBack& posture : postures) {
+    posture.outlier = posture.score > limit && std::abs(posture.joint_correction) > posture.sag_doubt;
+  }
+}
+
+/// Limit of a score: Student's t, the median absolute deviation being worth 0.37 of its sample (its
+/// efficiency).
+double scoreLimit(std::size_t postures) {
+  const double count = static_cast<double>(postures);
+  return numerics::studentLimit(preparation::kLevel / (6.0 * count), std::max(1.0, 0.37 * (count - 1.0)));
+}
+
+void describe(const frames::AbsoluteRows& rows, const Weights& weights, AbsoluteFit& fit) {
+  const Normal normal = sumUp(rows, weights);
+  const Eigen::VectorXd parameters = normal.matrix.ldlt().solve(normal.right);
+  fit.shift = parameters.head<6>();
+  fit.shift_covariance = normal.matrix.ldlt()
+                             .solve(Eigen::MatrixXd::Identity(normal.right.size(), normal.right.size()))
+                             .topLeftCorner<6, 6>();
+  fit.chi2 = leastSquares(normal, 0);
+  fit.shift_chi2 = leastSquares(normal, 6) - fit.chi2;
+  fit.positions = normal.rows / 3;
+  fit.dof = normal.rows - 6 - 3 * rows.targets;
+  for (const frames::AbsoluteRow& row : rows.rows) {
+    if (weights.at(row.pose) == 0.0) continue;
+    fit.rms_before += row.residual.squaredNorm() / normal.rows;
+    fit.rms_after += (row.residual - row.jacobian * parameters).squaredNorm() / normal.rows;
+  }
+  fit.rms_before = std::sqrt(fit.rms_before);
+  fit.rms_after = std::sqrt(fit.rms_after);
+}
+
+}  // namespace
+
+AbsoluteFit fitAbsolutePositions(const campaign::Campaign& campaign, const frames::Frames& frames,
+                                 const frames::LoadingGeometry& geometry, const std::vector<campaign::StatePoints>& states,
+                                 const std::optional<metrology::TrackerNoise>& noise) {
+  AbsoluteFit fit;
+  const frames::AbsoluteRows rows = frames::absoluteRows(campaign, frames, geometry, states, noise);
+  fit.reason = rows.reason;
+  if (!rows.reason.empty()) return fit;
+  fit.centre = rows.centre;
+  fit.sag_known = frames.weight.links_known && !geometry.compliance.isZero();
+  constexpr std::size_t kLeastPostures = 4;  // more than shift and reflectors take, with some to check by
+  if (rows.poses.size() < kLeastPostures) {
+    fit.reason =
+        fmt::format("{} unloaded postures: {} or more are needed", rows.poses.size(), kLeastPostures);
+    return fit;
+  }
+  fit.score_limit = scoreLimit(rows.poses.size());
+  fit.postures = readBacks(rows, robustFit(rows));
+  scorePostures(fit.postures, fit.score_limit);
+  Weights weights;
+  for (const PostureReadBack& posture : fit.postures) weights[posture.pose] = posture.outlier ? 0.0 : 1.0;
+  describe(rows, weights, fit);
+  fit.done = true;
+  return fit;
+}
+
+}  // namespace stiffscope::audit

@@ -1,0 +1,65 @@
+#include "core/campaign/columns.h"
+
+#include <cmath>
+#include <fmt/format.h>
+
+#include "core/io/input_error.h"
+#include "core/io/numbers.h"
+
+namespace stiffscope::campaign {
+
+namespace {
+
+[[noreturn]] void refuse(const CellPlace& place, std::string_view value, const std::string& expectation) {
+  throw io::InputError({place.file, place.line, std::string(place.column)}, std::string(value), expectation);
+}
+
+int readTarget(std::string_view cell, const CellPlace& place, const CampaignNames& names) {
+  const auto& known = names.targets.names();
+  // Tools have a few reflectors: comparing with each is quicker than a hash.
+  constexpr std::size_t kFew = 8;
+  for (std::size_t k = 0; k < known.size() && known.size() <= kFew; ++k) {
+    if (known[k] == cell) return static_cast<int>(k);
+  }
+  const int target = names.targets.find(cell);
+  if (target >= 0) return target;
+  const std::string list = fmt::format("{}", fmt::join(known, ", "));
+  refuse(place, cell,
+         "expected a target that campaign.xml declares: " + (known.empty() ? "there is none" : list) +
+             io::nearestNameHint(cell, known));
+}
+
+}  // namespace
+
+double readNumberCell(CellKind kind, std::string_view cell, const CellPlace& place) {
+  double value = io::parsePlainNumber(cell);
+  if (std::isnan(value)) {
+    const io::ParsedNumber number = io::parseNumber(cell);
+    if (!number.expectation.empty()) refuse(place, cell, number.expectation);
+    value = number.value;
+  }
+  const NumberKind& info = numberKind(kind);
+  if (std::abs(value) > info.limit) refuse(place, cell, info.expectation);
+  return value * info.si_per_unit;
+}
+
+int readIndexCell(CellKind kind, std::string_view cell, const CellPlace& place, CampaignNames& names) {
+  if (cell.empty()) refuse(place, cell, "expected a value; the cell is empty");
+  if (kind == CellKind::target) return readTarget(cell, place, names);
+  if (kind == CellKind::pose) return names.poses.add(cell);
+  if (kind == CellKind::nest) return names.nests.add(cell);
+  const std::optional<int> number = io::parseInteger(cell);
+  if (kind == CellKind::axis) {
+    if (!number || *number < 1 || *number > 6) refuse(place, cell, "expected an axis, 1 to 6");
+    return *number - 1;
+  }
+  if (!number || *number < 0) refuse(place, cell, "expected a whole number, 0 or more");
+  return *number;
+}
+
+std::string readTextCell(std::string_view cell, const CellPlace& place) {
+  if (cell.empty()) refuse(place, cell, "expected a value; the cell is empty");
+  return std::string(cell);
+}
+
+}  // namespace stiffscope::campaign

@@ -1,0 +1,155 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <limits>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "core/io/name_list.h"
+#include "core/io/units.h"
+
+namespace stiffscope::campaign {
+
+/// The identifiers that table rows refer to by index. Targets are those that campaign.xml declares; poses and
+/// nests are listed as the tables bring them, in order of first appearance.
+struct CampaignNames {
+  io::NameList targets, poses, nests;
+};
+
+/// What a column holds. The first six are numbers with the unit of their name, the others names and counts.
+enum class CellKind {
+  millimetre,
+  displacement_millimetre,
+  degree,
+  second,
+  newton,
+  newton_metre,
+  axis,    ///< 1..6 in the file, 0..5 in memory
+  step,    ///< 0, 1, 2...
+  target,  ///< id of a declared target
+  pose,
+  nest,
+  text
+};
+
+/// How a kind of number is written, and what is plausible: the limits only catch what cannot be meant,
+/// such as a force in a column of angles.
+struct NumberKind {
+  double si_per_unit = 1.0;
+  double limit = 0.0;  ///< largest magnitude, in the file's unit
+  const char* expectation = "";
+  int decimals = 0;  ///< written
+};
+
+// In the order of CellKind.
+inline constexpr std::array<NumberKind, 6> kNumberKinds{{
+    {io::kMillimetre, 200e3, "expected a coordinate in mm, within +-200 m", 4},
+    {io::kMillimetre, 1e3, "expected a displacement from step 0 in mm, within +-1 m", 4},
+    {io::kDegree, 720.0, "expected an angle in degrees, within +-720", 5},
+    {1.0, std::numeric_limits<double>::infinity(), "expected a time in seconds", 1},
+    {1.0, 1e6, "expected a force in N, within +-1e6", 3},
+    {1.0, 1e6, "expected a moment in Nm, within +-1e6", 4},
+}};
+
+/// Throws std::out_of_range for a kind that is no number.
+inline const NumberKind& numberKind(CellKind kind) { return kNumberKinds.at(static_cast<std::size_t>(kind)); }
+
+/// Where a cell stands; the column as the header names it.
+struct CellPlace {
+  const std::string& file;
+  std::size_t line;
+  std::string_view column;
+};
+
+/// A cell as a number in SI and radians. Throws InputError where it is none, or not plausible.
+double readNumberCell(CellKind kind, std::string_view cell, const CellPlace& place);
+
+/// A cell that is kept as an index: axis, step, target, pose, nest. Throws InputError.
+int readIndexCell(CellKind kind, std::string_view cell, const CellPlace& place, CampaignNames& names);
+
+/// A cell that is kept as it is; throws InputError where it is empty.
+std::string readTextCell(std::string_view cell, const CellPlace& place);
+
+/// One column of a table: its name, what its cells hold, and the member of the row it stands for. Reading and
+/// writing use the same description.
+template <class Row>
+struct Column {
+  using Number = double& (*)(Row&);
+  using Index = int& (*)(Row&);
+  using Text = std::string& (*)(Row&);
+
+  std::string name;
+  CellKind kind;
+  std::variant<Number, Index, Text> member;
+  bool required = true;
+};
+
+/// A kind of table: the element of campaign.xml that names its file, its columns, and the columns that
+/// together must not repeat.
+template <class Row>
+struct TableLayout {
+  std::string element;
+  std::vector<Column<Row>> columns;
+  std::vector<std::string> key;
+};
+
+/// q1_deg..q6_deg, of a row with a member q.
+template <class Row>
+std::vector<Column<Row>> jointColumns() {
+  return []<int... I>(std::integer_sequence<int, I...>) {
+    return std::vector<Column<Row>>{{std::string{'q', static_cast<char>('1' + I)} + "_deg", CellKind::degree,
+                                     [](Row& row) -> double& { return row.q[I]; }}...};
+  }
+  (std::make_integer_sequence<int, 6>());
+}
+
+/// fx_n..mz_nm, of a row with a member wrench_in_cell.
+template <class Row>
+std::vector<Column<Row>> wrenchColumns() {
+  return {{"fx_n", CellKind::newton, [](Row& row) -> double& { return row.wrench_in_cell[0]; }},
+          {"fy_n", CellKind::newton, [](Row& row) -> double& { return row.wrench_in_cell[1]; }},
+          {"fz_n", CellKind::newton, [](Row& row) -> double& { return row.wrench_in_cell[2]; }},
+          {"mx_nm", CellKind::newton_metre, [](Row& row) -> double& { return row.wrench_in_cell[3]; }},
+          {"my_nm", CellKind::newton_metre, [](Row& row) -> double& { return row.wrench_in_cell[4]; }},
+          {"mz_nm", CellKind::newton_metre, [](Row& row) -> double& { return row.wrench_in_cell[5]; }}};
+}
+
+/// x_mm, y_mm, z_mm, of a row with a member point.
+template <class Row>
+std::vector<Column<Row>> pointColumns() {
+  return {{"x_mm", CellKind::millimetre, [](Row& row) -> double& { return row.point.x(); }},
+          {"y_mm", CellKind::millimetre, [](Row& row) -> double& { return row.point.y(); }},
+          {"z_mm", CellKind::millimetre, [](Row& row) -> double& { return row.point.z(); }}};
+}
+
+/// time_s, of a row with a member time_s.
+template <class Row>
+Column<Row> timeColumn(bool required) {
+  return {"time_s", CellKind::second, [](Row& row) -> double& { return row.time_s; }, required};
+}
+
+/// pose and step, of a row with these members.
+template <class Row>
+std::vector<Column<Row>> poseAndStepColumns() {
+  return {{"pose", CellKind::pose, [](Row& row) -> int& { return row.pose; }},
+          {"step", CellKind::step, [](Row& row) -> int& { return row.step; }}};
+}
+
+template <class Row>
+Column<Row> targetColumn() {
+  return {"target", CellKind::target, [](Row& row) -> int& { return row.target; }};
+}
+
+/// Several groups of columns as one list.
+template <class Row>
+std::vector<Column<Row>> joined(std::initializer_list<std::vector<Column<Row>>> groups) {
+  std::vector<Column<Row>> all;
+  for (const auto& group : groups) all.insert(all.end(), group.begin(), group.end());
+  return all;
+}
+
+}  // namespace stiffscope::campaign

@@ -1,0 +1,94 @@
+#pragma once
+
+#include "core/campaign/campaign.h"
+#include "core/campaign/columns.h"
+
+namespace stiffscope::campaign {
+
+/// One reading of one target while one axis turns and the others stand still.
+inline const TableLayout<CircleReading>& circleSweepsLayout() {
+  using Row = CircleReading;
+  static const TableLayout<Row> layout{
+      "circle_sweeps",
+      joined<Row>({{{"axis", CellKind::axis, [](Row& row) -> int& { return row.axis; }},
+                    {"index", CellKind::text, [](Row& row) -> std::string& { return row.index; }},
+                    targetColumn<Row>()},
+                   jointColumns<Row>(),
+                   pointColumns<Row>(),
+                   {timeColumn<Row>(false)}}),
+      {"axis", "index", "target"}};
+  return layout;
+}
+
+/// A displacement of a target from step 0, for data without absolute points.
+inline const TableLayout<Displacement>& displacementsLayout() {
+  using Row = Displacement;
+  static const TableLayout<Row> layout{
+      "displacements",
+      joined<Row>({poseAndStepColumns<Row>(),
+                   {targetColumn<Row>(),
+                    {"dx_mm", CellKind::displacement_millimetre,
+                     [](Row& row) -> double& { return row.displacement.x(); }},
+                    {"dy_mm", CellKind::displacement_millimetre,
+                     [](Row& row) -> double& { return row.displacement.y(); }},
+                    {"dz_mm", CellKind::displacement_millimetre,
+                     [](Row& row) -> double& { return row.displacement.z(); }}}}),
+      {"pose", "step", "target"}};
+  return layout;
+}
+
+/// One reading of one target in one load state.
+inline const TableLayout<LoadingReading>& loadingLayout() {
+  using Row = LoadingReading;
+  static const TableLayout<Row> layout{
+      "loading",
+      joined<Row>({poseAndStepColumns<Row>(),
+                   {{"repeat", CellKind::text, [](Row& row) -> std::string& { return row.repeat; }},
+                    targetColumn<Row>(),
+                    timeColumn<Row>(true)},
+                   pointColumns<Row>()}),
+      {"pose", "step", "repeat", "target"}};
+  return layout;
+}
+
+/// One reading of a reflector that stands on the floor.
+inline const TableLayout<NestReading>& nestsLayout() {
+  using Row = NestReading;
+  static const TableLayout<Row> layout{
+      "nests",
+      joined<Row>(
+          {{timeColumn<Row>(true), {"nest", CellKind::nest, [](Row& row) -> int& { return row.nest; }}},
+           pointColumns<Row>()}),
+      {"time_s", "nest"}};
+  return layout;
+}
+
+/// Joint angles and load-cell reading of one load state.
+inline const TableLayout<State>& statesLayout() {
+  using Row = State;
+  static const TableLayout<Row> layout{
+      "states",
+      joined<Row>(
+          {poseAndStepColumns<Row>(),
+           {timeColumn<Row>(true)},
+           jointColumns<Row>(),
+           wrenchColumns<Row>()}),
+      {"pose", "step"}};
+  return layout;
+}
+
+/// One reading with axes 1-3 standing still and 4-6 anywhere.
+inline const TableLayout<WristReading>& wristSweepLayout() {
+  using Row = WristReading;
+  static const TableLayout<Row> layout{
+      "wrist_sweep",
+      joined<Row>({{{"index", CellKind::text, [](Row& row) -> std::string& { return row.index; }},
+                    targetColumn<Row>()},
+                   jointColumns<Row>(),
+                   pointColumns<Row>(),
+                   {timeColumn<Row>(false)}}),
+      {"index", "target"}};
+  return layout;
+}
+
+}  // namespace stiffscope::campaign

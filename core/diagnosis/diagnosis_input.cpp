@@ -1,0 +1,208 @@
+#include "core/diagnosis/diagnosis_input.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <limits>
+
+#include "core/frames/geometry_calibration.h"
+#include "core/identification/identify.h"
+#include "core/preparation/repeatability.h"
+#include "core/preparation/screening.h"
+#include "core/robot/wrench.h"
+
+namespace stiffscope::diagnosis {
+
+void boundDriftByNests(GapStart& start, GapInput& input) {
+  if (start.station.course != preparation::StationCourse::still) return;
+  if (!input.absolute || start.station.rate_weight.isZero()) return;
+  Matrix6d turn = Matrix6d::Zero();
+  turn.topLeftCorner<3, 3>() = turn.bottomRightCorner<3, 3>() = start.state.r0_from_sweeps.linear();
+  const double span = start.state.at.time_span;
+  input.drift = -span * (turn * start.station.rate);
+  input.drift_weight = turn * start.station.rate_weight * turn.transpose() / (span * span);
+  start.state.at.sweep_time =
+      0.5 * (start.station.motion.epochs.front().time_s + start.state.at.first_time);
+}
+
+namespace {
+
+/// Stiffnesses to start from: those of identification on the largest load.
+Vector6d startCompliance(const campaign::Campaign& campaign, identification::LoadedArm arm) {
+  return arm.cases.empty() ? Vector6d(Vector6d::Zero()) : identification::sagCompliance(campaign, {}, arm);
+}
+
+bool sameFrame(const campaign::Campaign& campaign) {
+  return campaign.circle_sweeps && campaign.loading &&
+         campaign.circle_sweeps->frame == campaign.loading->frame &&
+         (!campaign.wrist_sweep || campaign.wrist_sweep->frame == campaign.loading->frame);
+}
+
+/// Sweeps that state no time are taken to have been read row by row, evenly, between the first round of the
+/// nests and the last one before the loading: what a drift did to them is then known to a part of itself.
+void spreadSweepTimes(const preparation::StationMotion& station, campaign::Campaign& campaign) {
+  if (!campaign.circle_sweeps || !campaign.loading) return;
+  double loading = std::numeric_limits<double>::infinity();
+  for (const campaign::LoadingReading& row : campaign.loading->rows) {
+    if (std::isfinite(row.time_s)) loading = std::min(loading, row.time_s);
+  }
+  const double first = station.epochs.front().time_s;
+  double last = first;
+  for (const preparation::StationEpoch& epoch : station.epochs) {
+    if (epoch.time_s < loading) last = epoch.time_s;
+  }
+  auto& circles = campaign.circle_sweeps->rows;
+  const std::size_t count = circles.size() + (campaign.wrist_sweep ? campaign.wrist_sweep->rows.size() : 0);
+  std::size_t at = 0;
+  const auto spread = [&](auto& rows) {
+    for (auto& row : rows) {
+      ++at;
+      if (!std::isfinite(row.time_s))
+        row.time_s = first + (last - first) * static_cast<double>(at) / static_cast<double>(count);
+    }
+  };
+  spread(circles);
+  if (campaign.wrist_sweep) spread(campaign.wrist_sweep->rows);
+}
+
+}  // namespace
+
+NoiseFloor noiseFloor(const campaign::Campaign& campaign) {
+  NoiseFloor floor;
+  if (!campaign.tracker) {
+    floor.source = "the tracker's noise is not declared";
+    return floor;
+  }
+  floor.noise = frames::trackerNoise(*campaign.tracker);
+  floor.known = floor.noise.range_fixed + floor.noise.range_per_m > 0.0 &&
+                floor.noise.angle_fixed + floor.noise.angle_per_m > 0.0;
+  floor.source = "the tracker's declared noise";
+  if (!floor.known || !campaign.loading) return floor;
+  const preparation::RepeatScatter scatter = preparation::repeatScatter(campaign);
+  constexpr int kEnough = 30;
+  if (scatter.along_dof < kEnough) {
+    floor.source += ", because there are too few repeats to check it";
+    return floor;
+  }
+  floor.along_factor = std::sqrt(scatter.along_chi2 / scatter.along_dof);
+  floor.across_factor = std::sqrt(scatter.across_chi2 / scatter.across_dof);
+  floor.noise.range_fixed *= floor.along_factor;
+  floor.noise.range_per_m *= floor.along_factor;
+  floor.noise.angle_fixed *= floor.across_factor;
+  floor.noise.angle_per_m *= floor.across_factor;
+  floor.degrees = scatter.along_dof + scatter.across_dof;
+  floor.source = fmt::format(
+      "repeats ({} degrees of freedom), {:.2f} of the declared noise along the beam, {:.2f} across",
+      scatter.along_dof + scatter.across_dof, floor.along_factor, floor.across_factor);
+  return floor;
+}
+
+GapStart gapStart(const campaign::Campaign& campaign, bool take_off_station) {
+  GapStart start;
+  start.campaign = preparation::screenReadings(campaign).campaign;
+  std::optional<metrology::TrackerNoise> declared;
+  if (campaign.tracker) declared = frames::trackerNoise(*campaign.tracker);
+  start.station = preparation::stationCourse(start.campaign, declared);
+  const bool moved =
+      start.station.course == preparation::StationCourse::jumped || start.station.course == preparation::StationCourse::drifted;
+  if (start.station.course == preparation::StationCourse::drifted) spreadSweepTimes(start.station.motion, start.campaign);
+  if (moved && take_off_station) preparation::takeOffDrift(start.station.motion, start.campaign);
+  start.campaign.nests.reset();  // they have said what they know
+  start.noise = noiseFloor(start.campaign);
+  const identification::SettledDay day = identification::settleDay(start.campaign);
+  start.geometry = day.arm.geometry;
+  start.absolute = start.campaign.loading && start.geometry.r0_from_loading.has_value();
+  // A sag that is not known would be taken for geometry, frames and springs.
+  if (!start.geometry.weight.links_known) start.absolute = false;
+  start.sweeps = start.absolute && day.frames.arm.points_placed && sameFrame(start.campaign);
+  identification::LoadedArm arm = day.arm;
+  if (start.campaign.loading && !start.geometry.r0_from_loading) {
+    const frames::GeometryCalibration calibration = frames::calibrateGeometry(start.campaign, start.geometry);
+    start.absolute = calibration.done && start.geometry.weight.links_known;
+    if (!calibration.done) {
+      start.reason = "the readings cannot be brought into the robot's frame: " + calibration.reason;
+      return start;
+    }
+    start.geometry = calibration.geometry;
+    arm = identification::loadedArm(start.campaign, start.geometry, day.frames.wrist, {*identification::heaviestStep(start.campaign)});
+  }
+  if (arm.cases.empty()) {
+    start.reason =
+        "no posture has readings unloaded and under load that can be brought into the robot's frame";
+    return start;
+  }
+  const Vector6d compliance = startCompliance(start.campaign, arm);
+  start.geometric_stiffness_share = identification::geometricStiffnessShare(arm, compliance);
+  if (start.geometry.weight.links_known) start.geometry.compliance = compliance;
+  start.state = startState(start.campaign, start.geometry, arm.cases);
+  start.state.at.compliance = compliance;
+  if (!start.noise.known)
+    start.reason = start.noise.source + ": effects cannot be told from noise; state `tracker`";
+  return start;
+}
+
+Eigen::Vector3d loadOffset(const robot::Robot& arm, const std::vector<identification::LoadCase>& cases, double moment_sigma) {
+  Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d right = Eigen::Vector3d::Zero();
+  for (const identification::LoadCase& one : cases) {
+    const Eigen::Matrix3d flange_from_base =
+        one.flange_unloaded.value_or(robot::flangeAt(arm, identification::unloadedPosture(arm, one))).linear().transpose();
+    const Eigen::Vector3d force = flange_from_base * one.wrench.force;
+    const Eigen::Vector3d moment = flange_from_base * one.wrench.moment;
+    Eigen::Matrix3d by_offset;
+    for (int k = 0; k < 3; ++k) by_offset.col(k) = Eigen::Vector3d::Unit(k).cross(force);
+    normal += by_offset.transpose() * by_offset;
+    right += by_offset.transpose() * moment;
+  }
+  constexpr double kExpected = 0.3;    // m
+  constexpr double kRounding = 1e-12;  // of the readings, where their noise is not stated
+  const double doubt = moment_sigma * moment_sigma / (kExpected * kExpected) + kRounding * normal.trace();
+  if (doubt <= 0.0) return Eigen::Vector3d::Zero();
+  normal.diagonal().array() += doubt;
+  return normal.ldlt().solve(right);
+}
+
+namespace {
+
+Vector6d largestTorque(const frames::LoadingGeometry& geometry, const std::vector<identification::LoadCase>& cases) {
+  Vector6d largest = Vector6d::Zero();
+  for (const identification::LoadCase& one : cases) {
+    const Vector6d weight = geometry.weight.links_known
+                                ? robot::weightTorque(geometry.arm, identification::unloadedPosture(geometry.arm, one), geometry.weight)
+                                : Vector6d(Vector6d::Zero());
+    const Vector6d load = robot::jointTorque(one.axes, one.wrench);
+    largest = largest.cwiseMax(weight.cwiseAbs()).cwiseMax((weight + load).cwiseAbs());
+  }
+  return largest;
+}
+
+}  // namespace
+
+GapState startState(const campaign::Campaign& campaign, const frames::LoadingGeometry& geometry,
+                    const std::vector<identification::LoadCase>& cases) {
+  GapState state;
+  state.geometry = geometry;
+  state.at.compliance = geometry.compliance.cwiseMax(0.0);
+  state.at.targets = static_cast<int>(campaign.targets.size());
+  state.at.r0_from_base_link = geometry.r0_from_base_link;
+  state.at.load_offset = loadOffset(geometry.arm, cases, campaign.load_cell->moment_sigma);
+  state.at.largest_torque = largestTorque(geometry, cases);
+  if (geometry.r0_from_loading) state.r0_from_sweeps = *geometry.r0_from_loading;
+  double first = std::numeric_limits<double>::infinity(), last = -first;
+  for (const campaign::State& row : campaign.states->rows) {
+    state.at.largest_force = std::max(state.at.largest_force, row.wrench_in_cell.head<3>().norm());
+    if (std::isfinite(row.time_s)) first = std::min(first, row.time_s), last = std::max(last, row.time_s);
+  }
+  if (last > first) state.at.first_time = first, state.at.time_span = last - first;
+  state.at.sweep_time = std::isfinite(first) ? first : 0.0;
+  if (geometry.r0_from_loading && campaign.loading && !campaign.loading->rows.empty()) {
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    for (const campaign::LoadingReading& row : campaign.loading->rows) sum += row.point;
+    state.at.epoch_centre =
+        *geometry.r0_from_loading * (sum / static_cast<double>(campaign.loading->rows.size()));
+  }
+  return state;
+}
+
+}  // namespace stiffscope::diagnosis

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <string>
+
+#include "core/diagnosis/fit.h"
+#include "core/diagnosis/linear_system.h"
+#include "core/identification/loaded_arm.h"
+#include "core/identification/method_solution.h"
+#include "core/preparation/station_course.h"
+
+namespace stiffscope::diagnosis {
+
+/// Noise of one reading as the diagnosis takes it.
+struct NoiseFloor {
+  bool known = false;
+  metrology::TrackerNoise noise;
+  double along_factor = 1.0, across_factor = 1.0;  ///< standard deviations found against declared
+  double degrees = 0.0;                            ///< of freedom of what it was found from; 0: as declared
+  std::string source;
+};
+
+/// By the scatter of repeats where there are enough of them (30 degrees of freedom along and across the
+/// beam), in the shape of the declared noise; else as declared. Not known without a declared tracker.
+NoiseFloor noiseFloor(const campaign::Campaign& campaign);
+
+/// A campaign made ready: screened, the station's motion taken off, frames and stiffnesses found, the arm's
+/// geometry from the sweeps or, without them, calibrated on the unloaded positions.
+struct GapStart {
+  campaign::Campaign campaign;
+  preparation::Station station;
+  NoiseFloor noise;
+  frames::LoadingGeometry geometry;
+  bool absolute = false, sweeps = false;
+  GapState state;
+  double geometric_stiffness_share = 0.0;
+  std::string reason;  ///< why there is no gap to look at; empty where there is
+};
+
+GapStart gapStart(const campaign::Campaign& campaign, bool take_off_station);
+
+/// Nests that show no motion by themselves still bound a drift: their rate, with its weight, takes part in the
+/// fit as a reading of trackerDrift's parameters (readings move against what brings them back). Nothing where
+/// there is no rate, or no absolute positions that a drift would move; nothing where the nests do show a
+/// motion, which is taken off instead. Puts the sweeps' epoch between the first round and the loading.
+void boundDriftByNests(GapStart& start, GapInput& input);
+
+/// What the fit starts from: geometry and stiffnesses as identification has them; what the campaign's states
+/// and load cases (one step, in that geometry) say of forces, torques and times.
+GapState startState(const campaign::Campaign& campaign, const frames::LoadingGeometry& geometry,
+                    const std::vector<identification::LoadCase>& cases);
+
+/// Where the load itself pulls, from the declared point of the wrench, flange axes, m: the point d through
+/// which all wrenches pass as nearly as can be, M = (R d) x F, by least squares over the cases. Directions
+/// the readings do not settle stay at the declared point: each coordinate of d is expected within 0.3 m
+/// beside readings of `moment_sigma` (Nm).
+Eigen::Vector3d loadOffset(const robot::Robot& arm, const std::vector<identification::LoadCase>& cases, double moment_sigma);
+
+}  // namespace stiffscope::diagnosis

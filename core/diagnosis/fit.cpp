@@ -1,0 +1,500 @@
+#include "core/diagnosis/fit.h"
+
+#include <Eigen/Dense>
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <ceres/ceres.h>
+#include <cmath>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "core/diagnosis/projection.h"
+#include "core/diagnosis/selection.h"
+#include "core/diagnosis/variance_inflation.h"
+#include "metrology/rigid_motion.h"
+
+namespace stiffscope::diagnosis {
+
+/// Puts the estimates of a set (nuisances: compliances, geometry steps, weights) into what the next
+/// linearisation starts from: the arm's compliances and geometry, the wrench, the frame, the unloaded place,
+/// the shapes of effects that bend with their own size. Returns those effects that the equations made there
+/// then contain.
+ContainedEffects correct(const GapInput& input, const GapLayout& layout, const FittedSet& set,
+                         const Eigen::VectorXd& nuisances, GapState& state);
+
+/// Whether the effect, once estimated, is part of what the equations are made with: of the unloaded arm's places at least.
+bool becomesPart(const effects::EffectModel& model);
+
+/// Whether its parameters multiply other unknowns: a wrong wrench or a compensator's torque the compliances, a frame the
+/// geometry.
+bool isBilinear(const effects::EffectModel& model);
+
+/// What the set leaves of the deflection at the largest load beyond noise, rms per coordinate, m, where that
+/// is significant (four standard deviations of chi2, the noise's own doubt in it) and matters: more than the
+/// smallest effect looked for, and more than a tenth of what the set removed, because models of large effects
+/// are not exact to more. Else 0.
+double modelError(const GapFit& fit, const FitRules& rules);
+
+namespace {
+
+/// Parameters of one model in a vector of all effects' parameters.
+Eigen::VectorXd ownOf(const GapInput& input, const GapLayout& layout, const Eigen::VectorXd& effects,
+                      std::size_t m) {
+  return effects.segment(layout.model_at[m] - layout.effects,
+                         static_cast<Eigen::Index>(input.models[m].parameters()));
+}
+
+/// Effects that the equations contain once they are estimated: a corrected wrench, frame or unloaded place.
+bool isCorrection(effects::Effect effect) {
+  return effect == effects::Effect::load_point_error || effect == effects::Effect::load_cell_misalignment ||
+         effect == effects::Effect::load_cell_bias || effect == effects::Effect::frame_error ||
+         effect == effects::Effect::gravity_compensator;
+}
+
+}  // namespace
+
+bool becomesPart(const effects::EffectModel& model) {
+  return model.angles || !model.first_body.empty() || isCorrection(model.effect);
+}
+
+bool isBilinear(const effects::EffectModel& model) { return isCorrection(model.effect); }
+
+ContainedEffects correct(const GapInput& input, const GapLayout& layout, const FittedSet& set,
+                         const Eigen::VectorXd& nuisances, GapState& state) {
+  const Vector6d before = state.at.compliance;
+  state.at.compliance = nuisances.head<6>().cwiseMax(0.0);
+  state.geometry.compliance = state.geometry.weight.links_known ? state.at.compliance : Vector6d::Zero();
+  const Eigen::VectorXd steps = nuisances.segment(layout.geometry, layout.weights - layout.geometry);
+  if (input.absolute) {
+    const frames::LoadingGeometry there = frames::moved(state.geometry, steps, state.at.epoch_centre);
+    state.r0_from_sweeps =
+        metrology::motionAbout(state.at.epoch_centre, steps.segment<6>(frames::GeometrySteps::kAxes)) * state.r0_from_sweeps;
+    state.geometry = there;
+  }
+  state.corrections = {};
+  state.at.compensator.resize(0);
+  ContainedEffects contained{Eigen::VectorXd::Zero(set.effects.size()),
+                             Eigen::VectorXd::Zero(set.effects.size())};
+  state.at.turns.clear();
+  state.at.motions.clear();
+  state.at.harder_by_square.setZero();
+  state.at.harder_by_size.setZero();
+  for (const ChosenModel& one : set.models) {
+    const effects::EffectModel& model = input.models[one.model];
+    Eigen::VectorXd own = ownOf(input, layout, set.effects, one.model);
+    const Eigen::Index at = layout.model_at[one.model] - layout.effects;
+    switch (model.effect) {
+      case effects::Effect::load_point_error:
+        state.corrections.load_point = own;
+        break;
+      case effects::Effect::load_cell_misalignment:
+        state.corrections.cell_turn = own;
+        break;
+      case effects::Effect::load_cell_bias:
+        if (own.size() == 3) state.corrections.cell_force = own;
+        if (own.size() == 1) state.corrections.missing_weight = own[0];
+        break;
+      case effects::Effect::frame_error:
+        state.corrections.frame = own;
+        break;
+      case effects::Effect::gravity_compensator:
+        // The torque turns the joint by the compliance of the equations it was found in.
+        if (before[1] <= 0.0 || state.at.compliance[1] <= 0.0) continue;
+        own *= before[1] / state.at.compliance[1];
+        state.at.compensator = own;
+        break;
+      default:
+        break;
+    }
+    if (model.settle) model.settle(state.at, own);
+    if (model.angles) state.at.turns.push_back({model.angles, own});
+    if (!model.first_body.empty()) state.at.motions.push_back({model.offset, model.first_body, own});
+    const bool in_deflections = model.effect == effects::Effect::gravity_compensator || !model.angles;
+    if (becomesPart(model)) contained.in_positions.segment(at, own.size()) = own;
+    if (in_deflections && isCorrection(model.effect)) contained.in_deflections.segment(at, own.size()) = own;
+  }
+  return contained;
+}
+
+namespace {
+
+constexpr int kAlone = 2;  // rounds for the largest effect by itself
+
+std::vector<double> ones(const GapData& data) { return std::vector<double>(data.postures.size(), 1.0); }
+
+SelectionRules rulesFor(const GapData& data, const FitRules& rules) {
+  SelectionRules out;
+  out.loading_rows = static_cast<double>(data.loading_rows);
+  out.other_rows = static_cast<double>(data.sweep_rows);
+  double squares = 0.0, count = 0.0;
+  for (const GapPosture& posture : data.postures) {
+    const Eigen::Index rows = posture.right.size() - posture.position_rows;
+    squares += posture.right.tail(rows).squaredNorm();
+    count += static_cast<double>(rows);
+  }
+  const double deflection = count > 0.0 ? std::sqrt(squares / count) : 0.0;
+  const double limit =
+      std::max(rules.noise_share,
+               data.state_noise > 0.0 ? rules.deflection_share * deflection / data.state_noise : 0.0);
+  out.least_drop = limit * limit * out.loading_rows;
+  return out;
+}
+
+}  // namespace
+
+Vector6d complianceVariance(const GapFit& fit, const GapInput& input) {
+  const GapLayout& layout = fit.data.layout;
+  const Eigen::MatrixXd normal = sumOf(fit.data, ones(fit.data));
+  std::vector<Eigen::Index> kept;
+  for (Eigen::Index i = 0; i < layout.effects; ++i) kept.push_back(i);
+  for (const ChosenModel& one : fit.set.models) {
+    const auto count = static_cast<Eigen::Index>(input.models[one.model].parameters());
+    for (Eigen::Index k = 0; k < count; ++k) {
+      const Eigen::Index i = layout.model_at[one.model] + k;
+      if (fit.set.effects[i - layout.effects] != 0.0) kept.push_back(i);
+    }
+  }
+  Eigen::MatrixXd matrix = normal(kept, kept);
+  const Eigen::VectorXd scale =
+      matrix.diagonal().unaryExpr([](double d) { return d > 0.0 ? 1.0 / std::sqrt(d) : 0.0; });
+  matrix = scale.asDiagonal() * matrix * scale.asDiagonal();
+  matrix.diagonal().setConstant(1.0 + 1e-10);
+  const Eigen::MatrixXd inverse = matrix.ldlt().solve(Eigen::MatrixXd::Identity(matrix.rows(), 6));
+  Vector6d variance;
+  for (Eigen::Index j = 0; j < 6; ++j) variance[j] = scale[j] * scale[j] * inverse(j, j);
+  return variance;
+}
+
+Selector selectorOf(const GapInput& input, const GapFit& fit, const Projection& projection, double postures,
+                    const std::vector<bool>& allowed) {
+  return Selector(input.models, fit.data.layout, projection, postures, fit.rules, allowed);
+}
+
+double leftPerEquation(const GapFit& fit) {
+  return (fit.set.chi2 - fit.rules.other_rows) / fit.rules.loading_rows;
+}
+
+namespace {
+
+using ModelsAndParts = std::vector<std::pair<std::size_t, std::vector<std::size_t>>>;
+
+ModelsAndParts namesOf(const FittedSet& set) {
+  ModelsAndParts names;
+  for (const ChosenModel& one : set.models) names.emplace_back(one.model, one.parts);
+  return names;
+}
+
+/// One linearisation where `fit.state` stands, and the selection on it.
+void fitOnce(const GapInput& input, const std::vector<bool>& allowed, const FitRules& rules, GapFit& fit) {
+  fit.rules = rulesFor(fit.data, rules);
+  fit.rules.given = rules.given;
+  // A large effect bends what the others are judged by: it is settled before a second one is looked for.
+  if (fit.rounds <= kAlone) fit.rules.most_effects = 1;
+  fit.projection = project(sumOf(fit.data, ones(fit.data)), fit.data.layout.effects);
+  const double postures = static_cast<double>(fit.data.postures.size());
+  const Selector selector = selectorOf(input, fit, fit.projection, postures, allowed);
+  fit.set = rules.fixed ? selector.fit(*rules.fixed) : selector.select();
+  fit.nuisances_before = fit.projection.by_nothing;
+  fit.nuisances = fit.projection.by_nothing - fit.projection.by_effects * fit.set.effects;
+}
+
+/// The equations where the fit stands, the ones it had let go first.
+void remake(const GapInput& input, const ContainedEffects& contained, GapFit& fit) {
+  fit.data = {};
+  fit.data = gapData(input, fit.state, contained);
+}
+
+GapFit settle(const GapInput& input, const GapState& start, const std::vector<bool>& allowed,
+              const FitRules& rules) {
+  GapFit fit, best;  // the best without its equations, of which a long day has many: they can be made again
+  fit.state = start;
+  ContainedEffects contained, best_contained;
+  ModelsAndParts last;
+  double last_chi2 = 0.0;
+  constexpr int kMostRounds = 9;
+  for (fit.rounds = 1; fit.rounds <= kMostRounds; ++fit.rounds) {
+    remake(input, contained, fit);
+    if (fit.rounds > kAlone) {
+      const GapState before = fit.state;
+      findSlack(input, fit.data, fit.state);
+      if (fit.state.position_slack != before.position_slack || fit.state.sweep_slack != before.sweep_slack)
+        remake(input, contained, fit);
+    }
+    fitOnce(input, allowed, rules, fit);
+    const ModelsAndParts now = namesOf(fit.set);
+    constexpr double kSettled = 0.003;  // of chi2: far below what a verdict turns on
+    const bool settled = now == last && std::abs(fit.set.chi2 - last_chi2) < kSettled * fit.set.chi2;
+    if (fit.rounds >= kAlone + 2 && settled) return fit;
+    last = now;
+    last_chi2 = fit.set.chi2;
+    if (best.rounds == 0 || fit.set.score() < best.set.score()) {
+      GapData data = std::move(fit.data);
+      best = fit;
+      best_contained = contained;
+      fit.data = std::move(data);
+    }
+    if (fit.rounds == kMostRounds) break;
+    contained = correct(input, fit.data.layout, fit.set, fit.nuisances, fit.state);
+  }
+  fit.data = {};
+  remake(input, best_contained, best);
+  return best;
+}
+
+/// The chosen set at the minimum of the nonlinear problem, where that is lower than what relinearising came
+/// to.
+void polish(const GapInput& input, const std::vector<bool>& allowed, const FitRules& rules, GapFit& fit) {
+  const auto fitted = fitJointly(input, fit.state, fit.data.layout, fit.set, fit.nuisances);
+  if (!fitted) return;
+  FitRules same = rules;
+  same.fixed = fit.set.models;
+  GapFit finer;
+  finer.state = fitted->state;
+  finer.rounds = fit.rounds + 1;
+  remake(input, fitted->contained, finer);
+  fitOnce(input, allowed, same, finer);
+  if (finer.set.chi2 >= fit.set.chi2 || !finer.set.plausible) return;
+  finer.model_error = fit.model_error;
+  fit = std::move(finer);
+}
+
+}  // namespace
+
+GapFit withoutEffects(const GapInput& input, const GapState& start, const GapFit& fit) {
+  GapInput bare = input;
+  bare.models.clear();
+  GapFit alone;
+  alone.rules = fit.rules;
+  alone.state = start;
+  alone.state.position_slack = fit.state.position_slack;
+  alone.state.sweep_slack = fit.state.sweep_slack;
+  alone.state.model_error = fit.state.model_error;
+  alone.data = gapData(bare, alone.state, {});
+  alone.projection = project(sumOf(alone.data, ones(alone.data)), alone.data.layout.effects);
+  alone.nuisances = alone.nuisances_before = alone.projection.by_nothing;
+  return alone;
+}
+
+GapFit fitGap(const GapInput& input, const GapState& start, const std::vector<bool>& allowed,
+              const FitRules& rules) {
+  GapFit fit = settle(input, start, allowed, rules);
+  if (!rules.error_of_model) {
+    polish(input, allowed, rules, fit);
+    return fit;
+  }
+  GapState with_error = start;
+  constexpr int kRounds = 3;
+  for (int round = 0; round < kRounds; ++round) {
+    fit.model_error = modelError(fit, rules);
+    // What no effect explains is noise to every effect from here on, and stays the same however often it is
+    // measured.
+    if (std::abs(fit.model_error - with_error.model_error) < 0.02 * fit.model_error || fit.model_error == 0.0)
+      break;
+    with_error.model_error = fit.model_error;
+    fit = {};
+    fit = settle(input, with_error, allowed, rules);
+  }
+  polish(input, allowed, rules, fit);
+  fit.model_error = modelError(fit, rules);
+  return fit;
+}
+
+namespace {
+
+using Eigen::Index;
+
+/// The unknowns: all nuisances, then the set's own parameters.
+struct Unknowns {
+  std::vector<Index> at;      ///< of each in the layout
+  std::vector<double> prior;  ///< 1 / bound^2 of an effect's parameter; 0 of a nuisance
+  std::vector<bool> positive;
+};
+
+Unknowns unknownsOf(const GapInput& input, const GapLayout& layout, const FittedSet& set) {
+  Unknowns unknowns;
+  const auto add = [&](Index at, double prior, bool positive) {
+    unknowns.at.push_back(at);
+    unknowns.prior.push_back(prior);
+    unknowns.positive.push_back(positive);
+  };
+  for (Index i = 0; i < layout.effects; ++i) add(i, 0.0, false);
+  for (const ChosenModel& one : set.models) {
+    const effects::EffectModel& model = input.models[one.model];
+    std::vector<bool> chosen(model.parts.size(), false);
+    for (const std::size_t part : one.parts) chosen[part] = true;
+    Index at = layout.model_at[one.model];
+    for (std::size_t p = 0; p < model.parts.size(); ++p) {
+      for (const double most : model.parts[p].most) {
+        if (chosen[p]) add(at, 1.0 / (most * most), model.parts[p].positive);
+        ++at;
+      }
+    }
+  }
+  return unknowns;
+}
+
+/// R with R^T R = N for a positive semidefinite N whose rows differ by many decades.
+Eigen::MatrixXd rootOf(const Eigen::MatrixXd& normal) {
+  const Eigen::VectorXd size = normal.diagonal().cwiseMax(0.0).cwiseSqrt();
+  const Eigen::VectorXd even = size.unaryExpr([](double s) { return s > 0.0 ? 1.0 / s : 0.0; });
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(even.asDiagonal() * normal * even.asDiagonal());
+  const Eigen::VectorXd roots = eigen.eigenvalues().cwiseMax(0.0).cwiseSqrt();
+  return roots.asDiagonal() * eigen.eigenvectors().transpose() * size.asDiagonal();
+}
+
+class GapCost : public ceres::CostFunction {
+ public:
+  GapCost(const GapInput& input, const GapState& from, const GapLayout& layout, const FittedSet& set)
+      : input_(input), from_(from), layout_(layout), set_(set), unknowns_(unknownsOf(input, layout, set)) {
+    mutable_parameter_block_sizes()->push_back(static_cast<int>(unknowns_.at.size()));
+    set_num_residuals(static_cast<int>(unknowns_.at.size()) + 1);
+  }
+
+  const Unknowns& unknowns() const { return unknowns_; }
+
+  /// Moves to x; `there` becomes x as the equations made there have it: what was a step is done, sizes are
+  /// whole.
+  JointlyFitted moveTo(const double* x, Eigen::VectorXd& there) const {
+    Eigen::VectorXd all = Eigen::VectorXd::Zero(layout_.end);
+    for (std::size_t i = 0; i < unknowns_.at.size(); ++i) all[unknowns_.at[i]] = x[i];
+    FittedSet set = set_;
+    set.effects = all.tail(layout_.end - layout_.effects);
+    JointlyFitted moved{from_, {}};
+    moved.contained = correct(input_, layout_, set, all.head(layout_.effects), moved.state);
+    if (input_.absolute) all.segment(layout_.geometry, layout_.weights - layout_.geometry).setZero();
+    for (const ChosenModel& one : set.models) {
+      const Index at = layout_.model_at[one.model];
+      const auto size = static_cast<Index>(input_.models[one.model].parameters());
+      if (becomesPart(input_.models[one.model]))
+        all.segment(at, size) = moved.contained.in_positions.segment(at - layout_.effects, size);
+    }
+    there = all(unknowns_.at);
+    return moved;
+  }
+
+  bool Evaluate(const double* const* parameters, double* residuals, double** jacobians) const override {
+    const Index count = num_residuals() - 1;
+    const Eigen::Map<const Eigen::VectorXd> x(parameters[0], count);
+    // A trial is asked for again, with its Jacobian, once it is taken.
+    if (last_x_.size() == 0 || x != last_x_) {
+      if (!makeAt(parameters[0])) return false;
+      last_x_ = x;
+    }
+    Eigen::Map<Eigen::VectorXd>(residuals, count + 1) = residual_;
+    if (jacobians != nullptr && jacobians[0] != nullptr) {
+      using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+      Eigen::Map<RowMajor>(jacobians[0], count + 1, count) = jacobian_;
+    }
+    return true;
+  }
+
+ private:
+  bool makeAt(const double* x) const {
+    Eigen::VectorXd there;
+    const JointlyFitted moved = moveTo(x, there);
+    const GapData data = gapData(input_, moved.state, moved.contained);
+    std::vector<Index> kept = unknowns_.at;
+    kept.push_back(layout_.end);
+    Eigen::MatrixXd normal = sumOf(data, std::vector<double>(data.postures.size(), 1.0))(kept, kept);
+    for (Index i = 0; i < there.size(); ++i) normal(i, i) += unknowns_.prior[static_cast<std::size_t>(i)];
+    if (!normal.allFinite()) return false;
+    const Eigen::MatrixXd root = rootOf(normal);
+    residual_ = root.rightCols<1>() - root.leftCols(there.size()) * there;
+    jacobian_ = -root.leftCols(there.size());
+    return true;
+  }
+
+  const GapInput& input_;
+  const GapState& from_;
+  const GapLayout& layout_;
+  const FittedSet& set_;
+  Unknowns unknowns_;
+  mutable Eigen::VectorXd last_x_, residual_;
+  mutable Eigen::MatrixXd jacobian_;
+};
+
+}  // namespace
+
+std::optional<JointlyFitted> fitJointly(const GapInput& input, const GapState& from, const GapLayout& layout,
+                                        const FittedSet& set, const Eigen::VectorXd& nuisances) {
+  bool bilinear = false;
+  for (const ChosenModel& one : set.models) {
+    // Friction and play bend in corners, where a trust region shrinks to nothing.
+    if (input.models[one.model].settle) return std::nullopt;
+    bilinear = bilinear || isBilinear(input.models[one.model]);
+  }
+  if (!bilinear) return std::nullopt;
+  GapCost cost(input, from, layout, set);
+  const Unknowns& unknowns = cost.unknowns();
+  Eigen::VectorXd all(layout.end);
+  all << nuisances, set.effects;
+  Eigen::VectorXd x = all(unknowns.at);
+
+  ceres::Problem::Options ownership;
+  ownership.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+  ceres::Problem problem(ownership);
+  problem.AddResidualBlock(&cost, nullptr, x.data());
+  for (std::size_t i = 0; i < unknowns.at.size(); ++i) {
+    if (unknowns.positive[i]) problem.SetParameterLowerBound(x.data(), static_cast<int>(i), 0.0);
+  }
+  ceres::Solver::Options options;
+  options.linear_solver_type = ceres::DENSE_QR;
+  options.logging_type = ceres::SILENT;
+  options.max_num_iterations = 4;
+  options.function_tolerance = 1e-4;  // of chi2: far below what a verdict turns on
+  ceres::Solver::Summary summary;
+  ceres::Solve(options, &problem, &summary);
+  if (!summary.IsSolutionUsable() || summary.num_successful_steps == 0) return std::nullopt;
+  return cost.moveTo(x.data(), all);
+}
+
+namespace {
+
+/// rms per coordinate of what the fit leaves at the largest load of each posture, less the noise.
+double leftAtLargestLoad(const GapFit& fit) {
+  Eigen::VectorXd all(fit.nuisances.size() + fit.set.effects.size());
+  all << fit.nuisances, fit.set.effects;
+  double squares = 0.0, count = 0.0;
+  for (const GapPosture& posture : fit.data.postures) {
+    const Eigen::VectorXd left = posture.right - posture.columns * all;
+    const std::size_t s = effects::heaviestState(posture.states);
+    if (s == 0) continue;
+    const Eigen::Index per_state = posture.states.front().rows();
+    const Eigen::Index at = posture.position_rows + static_cast<Eigen::Index>(s - 1) * per_state;
+    squares +=
+        left.segment(at, per_state).squaredNorm() - posture.noiseSquares(at, per_state);
+    count += static_cast<double>(per_state);
+  }
+  return count > 0.0 ? std::sqrt(std::max(0.0, squares / count)) : 0.0;
+}
+
+}  // namespace
+
+double modelError(const GapFit& fit, const FitRules& rules) {
+  const double rows = fit.rules.loading_rows, left = leftPerEquation(fit);
+  constexpr double kSigmas = 4.0;
+  const double doubt = std::sqrt(2.0 / rows + (rules.noise_degrees > 0.0 ? 2.0 / rules.noise_degrees : 0.0));
+  if (fit.state.model_error == 0.0 && left - 1.0 < kSigmas * doubt) return 0.0;
+  double before = 0.0, after = 0.0, count = 0.0;
+  Eigen::VectorXd old = Eigen::VectorXd::Zero(fit.data.layout.end), now = old;
+  old.head(fit.nuisances_before.size()) = fit.nuisances_before;
+  now << fit.nuisances, fit.set.effects;
+  for (const GapPosture& posture : fit.data.postures) {
+    const Eigen::Index loads = posture.right.size() - posture.position_rows;
+    before += (posture.right - posture.columns * old).tail(loads).squaredNorm();
+    after += (posture.right - posture.columns * now).tail(loads).squaredNorm();
+    count += static_cast<double>(loads);
+  }
+  const double removed = std::sqrt(std::max(0.0, before - after) / count);
+  constexpr double kShareOfRemoved = 0.1;
+  const double limit =
+      std::max(std::sqrt(fit.rules.least_drop / rows) * fit.data.state_noise, kShareOfRemoved * removed);
+  const double error =
+      fit.state.model_error == 0.0
+          ? std::max(leftAtLargestLoad(fit), std::sqrt(std::max(0.0, left - 1.0)) * fit.data.state_noise)
+          : leftAtLargestLoad(fit);
+  return error > limit ? error : 0.0;
+}
+
+}  // namespace stiffscope::diagnosis

@@ -1,0 +1,623 @@
+#include "core/diagnosis/linear_system.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "core/diagnosis/position_by_geometry.h"
+#include "core/effects/gravity_equilibrium.h"
+#include "core/frames/reading_covariance.h"
+#include "core/identification/load_case.h"
+#include "core/numerics/normal_equations.h"
+#include "core/preparation/finding.h"
+#include "core/robot/geometric_stiffness.h"
+#include "core/robot/wrench.h"
+#include "metrology/rigid_motion.h"
+
+namespace stiffscope::diagnosis {
+
+/// Covariance of one posture's rows (position rows first, then deflection rows state by state), m^2. All
+/// displacements of a posture share its unloaded readings, and a state's coordinates its wrench.
+struct GapCovariance {
+  Eigen::MatrixXd by_measuring;  ///< readings, wrench, and a station between its rounds
+  Eigen::MatrixXd whole;         ///< with the slack of positions and the error of the model
+  double displacement_trace = 0.0,
+         displacements = 0.0;  ///< readings' variances of displacements, and how many
+};
+
+GapCovariance gapCovariance(const GapInput& input, const GapState& state, const GapRows& rows,
+                            Eigen::Index position_rows);
+
+/// Adds to the equations what is known before the gap is looked at: how far geometry steps and own weights
+/// may go in one round, the six compliances as expected, a drift as the nests have it.
+void addKnownBeforehand(const GapInput& input, GapData& data);
+
+/// Adds the equations of every posture of the loading to `data`: y = A c + geometry + own weights + effects +
+/// noise for the unloaded absolute positions (where they take part) and the displacements, each posture
+/// whitened by its own covariance. Fills `loading_rows` and `state_noise`.
+void addPostureEquations(const GapInput& input, const GapState& state, const ContainedEffects& effects_now,
+                         GapData& data);
+
+/// Adds the equations of circle and wrist sweeps to `data.sweeps`: absolute positions of unloaded postures,
+/// y = sag + geometry + own weights + effects + noise, whitened reading by reading.
+void addSweepEquations(const GapInput& input, const GapState& state, const ContainedEffects& effects_now,
+                       GapData& data);
+
+namespace {
+
+/// The station between two rounds of the nests, where it was interpolated: one rigid motion of all
+/// reflectors in a state, a Brownian bridge over time. Postures share it; that is left out.
+void addWander(const GapInput& input, const GapRows& posture, Eigen::Index at_rest,
+               const Eigen::Isometry3d& r0_from_points, Eigen::MatrixXd& covariance) {
+  if (input.wandering == nullptr || input.wandering->wander.isZero()) return;
+  const preparation::StationMotion& station = input.wandering->motion;
+  const effects::ArmState& rest = posture.states.front();
+  const Eigen::Vector3d centre = r0_from_points * station.centre;
+  Eigen::MatrixXd motion(rest.rows(), 6);
+  for (int k = 0; k < 3; ++k) {
+    const Eigen::Vector3d axis = r0_from_points.linear().col(k);
+    motion.col(k) = effects::byMotion(rest, centre, axis, Eigen::Vector3d::Zero());
+    motion.col(3 + k) = effects::byMotion(rest, centre, Eigen::Vector3d::Zero(), axis);
+  }
+  const Eigen::MatrixXd a_second = motion * input.wandering->wander * motion.transpose();
+  const auto bridge = [&](std::size_t s, std::size_t r) {
+    return preparation::bridgeBetweenRounds(station, posture.states[s].time_s, posture.states[r].time_s);
+  };
+  const Eigen::Index per_state = rest.rows();
+  const std::size_t first = at_rest > 0 ? 0 : 1;
+  for (std::size_t s = first; s < posture.states.size(); ++s) {
+    for (std::size_t r = first; r < posture.states.size(); ++r) {
+      double seconds = bridge(s, r);
+      if (s > 0) seconds -= bridge(0, r);
+      if (r > 0) seconds -= bridge(s, 0);
+      if (s > 0 && r > 0) seconds += bridge(0, 0);
+      covariance.block(static_cast<Eigen::Index>(s - first) * per_state,
+                       static_cast<Eigen::Index>(r - first) * per_state, per_state, per_state) +=
+          seconds * a_second;
+    }
+  }
+}
+
+/// What the model is not good for: more noise in absolute positions; in a deflection an error that grows
+/// with the load, one number a posture, reflector and direction, so that it counts once however many load
+/// steps show it.
+void addModelError(const GapState& state, const GapRows& rows, Eigen::Index at_rest,
+                   Eigen::MatrixXd& covariance) {
+  const Eigen::Index per_state = rows.states.front().rows();
+  covariance.topLeftCorner(at_rest, at_rest) *= state.position_slack;
+  const double variance = state.model_error * state.model_error;
+  if (variance == 0.0) return;
+  const auto share = [&](std::size_t s) { return rows.states[s].load.force.norm() / state.at.largest_force; };
+  for (std::size_t s = 1; s < rows.states.size(); ++s) {
+    for (std::size_t r = 1; r < rows.states.size(); ++r) {
+      covariance
+          .block(at_rest + static_cast<Eigen::Index>(s - 1) * per_state,
+                 at_rest + static_cast<Eigen::Index>(r - 1) * per_state, per_state, per_state)
+          .diagonal()
+          .array() += variance * share(s) * share(r);
+    }
+  }
+}
+
+}  // namespace
+
+GapCovariance gapCovariance(const GapInput& input, const GapState& state, const GapRows& rows,
+                            Eigen::Index at_rest) {
+  GapCovariance result;
+  const Eigen::Index per_state = rows.states.front().rows();
+  const auto steps = static_cast<Eigen::Index>(rows.states.size()) - 1;
+  const Eigen::Index size = at_rest + steps * per_state;
+  Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(size, size);
+  // Displacements alone are in the frame of their station.
+  const Eigen::Isometry3d r0_from_points =
+      state.geometry.r0_from_loading.value_or(state.at.r0_from_base_link);
+  for (std::size_t t = 0; t < rows.states.front().points.size(); ++t) {
+    const Eigen::Index row = 3 * static_cast<Eigen::Index>(t);
+    const Eigen::Matrix3d reading =
+        frames::readingCovariance(input.noise, r0_from_points, rows.states.front().points[t]);
+    const Eigen::Matrix3d rest = reading / rows.unloaded_readings, loaded = reading / rows.loaded_readings;
+    result.displacement_trace += (rest + loaded).trace() * static_cast<double>(steps);
+    result.displacements += 3.0 * static_cast<double>(steps);
+    if (at_rest > 0) covariance.block<3, 3>(row, row) = rest;
+    for (Eigen::Index s = 0; s < steps; ++s) {
+      const Eigen::Index i = at_rest + s * per_state + row;
+      if (at_rest > 0) covariance.block<3, 3>(i, row) = covariance.block<3, 3>(row, i) = -rest;
+      for (Eigen::Index r = 0; r < steps; ++r) {
+        covariance.block<3, 3>(i, at_rest + r * per_state + row) = rest;
+      }
+      covariance.block<3, 3>(i, i) += loaded;
+    }
+  }
+  Vector6d variances;
+  variances << Eigen::Vector3d::Constant(input.force_sigma * input.force_sigma),
+      Eigen::Vector3d::Constant(input.moment_sigma * input.moment_sigma);
+  for (Eigen::Index s = 0; s < steps; ++s) {
+    const auto& by_wrench = rows.by_wrench[static_cast<std::size_t>(s)];
+    covariance.block(at_rest + s * per_state, at_rest + s * per_state, per_state, per_state) +=
+        by_wrench * variances.asDiagonal() * by_wrench.transpose();
+  }
+  addWander(input, rows, at_rest, r0_from_points, covariance);
+  result.by_measuring = covariance;
+  addModelError(state, rows, at_rest, covariance);
+  result.whole = std::move(covariance);
+  return result;
+}
+
+double GapPosture::noiseSquares(Eigen::Index first, Eigen::Index rows) const {
+  double sum = 0.0;
+  for (Eigen::Index row = first; row < first + rows; ++row) sum += noise(row, row % noise.cols());
+  return sum;
+}
+
+ComplianceExpected complianceExpected(const Vector6d& identified) {
+  constexpr double kNothing = 0.05;  // of the neighbours': not identified
+  constexpr double kHalf = 0.5, kThrice = 3.0;
+  ComplianceExpected expected;
+  for (Eigen::Index j = 0; j < 6; ++j) {
+    const double neighbour = std::max(j > 0 ? identified[j - 1] : 0.0, j < 5 ? identified[j + 1] : 0.0);
+    const bool known = identified[j] > kNothing * neighbour;
+    expected.value[j] = known ? identified[j] : kHalf * neighbour;
+    expected.sd[j] = known ? kThrice * identified[j] : kHalf * neighbour;
+  }
+  return expected;
+}
+
+GapLayout gapLayout(const std::vector<effects::EffectModel>& models, std::size_t targets) {
+  GapLayout layout;
+  layout.weights = layout.geometry + frames::GeometrySteps::count(targets);
+  layout.effects = layout.weights + effects::kBodies;
+  layout.end = layout.effects;
+  for (const effects::EffectModel& model : models) {
+    layout.model_at.push_back(layout.end);
+    layout.end += static_cast<Eigen::Index>(model.parameters());
+  }
+  return layout;
+}
+
+GapData gapData(const GapInput& input, const GapState& state, const ContainedEffects& effects_now) {
+  GapData data;
+  data.layout = gapLayout(input.models, input.campaign.targets.size());
+  data.sweeps.setZero(data.layout.end + 1, data.layout.end + 1);
+  addPostureEquations(input, state, effects_now, data);
+  addKnownBeforehand(input, data);
+  if (input.sweeps) addSweepEquations(input, state, effects_now, data);
+  return data;
+}
+
+namespace {
+
+struct TimesOfPose {
+  std::map<int, double> by_step;
+};
+
+std::vector<TimesOfPose> timesOf(const campaign::Campaign& campaign) {
+  std::vector<TimesOfPose> times(campaign.pose_ids.size());
+  for (const campaign::State& state : campaign.states->rows)
+    times[static_cast<std::size_t>(state.pose)].by_step[state.step] = state.time_s;
+  return times;
+}
+
+Eigen::Matrix3d cellAxes(const campaign::LoadCell& cell, const frames::LoadingGeometry& geometry, const identification::LoadCase& one) {
+  Eigen::Matrix3d axes;
+  const robot::ArmPosture posture = identification::unloadedPosture(geometry.arm, one);
+  for (int k = 0; k < 3; ++k) {
+    const Vector6d unit = Vector6d::Unit(k);
+    axes.col(k) = identification::cellWrench(cell, geometry, posture, one.flange_unloaded, one.flange_loaded, unit).force;
+  }
+  return axes;
+}
+
+/// The wrench as the corrections have it.
+robot::Wrench corrected(const robot::Wrench& read, const effects::ArmState& state, const Corrections& by, const effects::WorkingPoint& at) {
+  robot::Wrench wrench = read;
+  const Eigen::Matrix3d turn =
+      metrology::motionAbout(Eigen::Vector3d::Zero(),
+                  (Vector6d() << state.cell_axes * by.cell_turn, Eigen::Vector3d::Zero()).finished())
+          .linear();
+  wrench.force = turn * read.force;
+  wrench.moment = turn * read.moment;
+  wrench.point += state.flange.linear() * by.load_point;
+  if (state.loaded) {
+    const Eigen::Vector3d weight = -at.r0_from_base_link.linear().col(2) * by.missing_weight;
+    wrench.force += state.cell_axes * by.cell_force + weight;
+    wrench.moment += (state.flange.linear() * at.load_offset).cross(weight);
+  }
+  return wrench;
+}
+
+class LoadingRowMaker {
+ public:
+  LoadingRowMaker(const campaign::Campaign& campaign, const frames::LoadingGeometry& geometry, const effects::WorkingPoint& at,
+                  const Corrections& corrections)
+      : campaign_(campaign),
+        geometry_(geometry),
+        at_(at),
+        corrections_(corrections),
+        times_(timesOf(campaign)) {
+    const identification::LoadReadings readings(campaign, identification::loadSteps(campaign));
+    for (const int step : readings.steps()) {
+      for (identification::LoadCase& one : identification::loadCases(campaign, readings, geometry, step)) cases_[one.pose].push_back(std::move(one));
+    }
+  }
+
+  std::vector<GapRows> run() const {
+    std::vector<GapRows> rows;
+    for (const auto& [pose, cases] : cases_) {
+      const std::vector<int> targets = commonTargets(cases);
+      double largest = 0.0;
+      for (const identification::LoadCase& one : cases) largest = std::max(largest, one.wrench.force.norm());
+      if (targets.empty() || largest <= 0.0) continue;
+      rows.push_back(rowsOf(pose, cases, targets, largest));
+    }
+    return rows;
+  }
+
+ private:
+  static std::vector<int> commonTargets(const std::vector<identification::LoadCase>& cases) {
+    std::map<int, std::size_t> seen;
+    for (const identification::LoadCase& one : cases) {
+      for (const identification::TargetMove& move : one.targets) ++seen[move.target];
+    }
+    std::vector<int> common;
+    for (const auto& [target, count] : seen) {
+      if (count == cases.size()) common.push_back(target);
+    }
+    return common;
+  }
+
+  static const identification::TargetMove& moveOf(const identification::LoadCase& one, int target) {
+    return *std::find_if(one.targets.begin(), one.targets.end(),
+                         [&](const identification::TargetMove& move) { return move.target == target; });
+  }
+
+  GapRows rowsOf(int pose, const std::vector<identification::LoadCase>& cases, const std::vector<int>& targets,
+                 double largest) const {
+    const auto per_state = 3 * static_cast<Eigen::Index>(targets.size());
+    const auto states = static_cast<Eigen::Index>(cases.size());
+    GapRows rows;
+    rows.pose = pose;
+    rows.displacement.resize(per_state * states);
+    rows.by_compliance.resize(per_state * states, 6);
+    effects::ArmState rest = effects::restState(geometry_, at_, cases.front().q);
+    rest.pose = pose;
+    rest.targets = targets;
+    rest.time_s = timeOf(pose, 0);
+    for (const int target : targets) rest.points.push_back(moveOf(cases.front(), target).unloaded);
+    if (cases.front().flange_unloaded) rest.flange = *cases.front().flange_unloaded;
+    rows.unloaded_readings = std::max(1, cases.front().targets.front().unloaded_readings);
+    rows.loaded_readings = std::max(1, cases.front().targets.front().loaded_readings);
+    rows.states.push_back(rest);
+    for (std::size_t k = 0; k < cases.size(); ++k) {
+      addState(cases[k], rest, largest, static_cast<Eigen::Index>(k) * per_state, rows);
+    }
+    rows.states.front().cell_axes = rows.states[1].cell_axes;
+    if (cases.front().absolute) addPosition(rest, rows);
+    return rows;
+  }
+
+  void addState(const identification::LoadCase& one, const effects::ArmState& rest, double largest, Eigen::Index at_row,
+                GapRows& rows) const {
+    effects::ArmState state = rest;
+    state.step = one.step;
+    state.time_s = timeOf(one.pose, one.step);
+    state.loaded = one.wrench.force.norm() > campaign::kReturnShare * largest;
+    state.cell_axes = cellAxes(*campaign_.load_cell, geometry_, one);
+    state.load = corrected(one.wrench, state, corrections_, at_);
+    const robot::ArmAxes axes = robot::axesAt(geometry_.arm, rest.posture);
+    state.load_torque = robot::jointTorque(axes, state.load);
+    // Springs' torque s = tau + K_c c s, and the Jacobian at the middle of the displacement (see
+    // equations.h).
+    Matrix6d change = robot::geometricStiffness(axes, state.load) + robot::geometricStiffness(axes, rest.posture, geometry_.weight);
+    change(1, 1) += compensatorSlope(at_, rest.turned);
+    const Matrix6d system = Matrix6d::Identity() - change * at_.compliance.asDiagonal();
+    const Vector6d torque = system.partialPivLu().solve(state.load_torque);
+    const robot::ArmPosture middle = effects::movedPosture(
+        geometry_.arm, rest.turned + 0.5 * at_.compliance.cwiseProduct(torque), rest.moved);
+    const robot::ArmAxes middle_axes = robot::axesAt(geometry_.arm, middle);
+    Eigen::Matrix<double, Eigen::Dynamic, 6> by_wrench(rest.rows(), 6);
+    Matrix6d wrench_to_torque = robot::jacobianAt(geometry_.arm, rest.posture, state.load.point).transpose();
+    for (std::size_t t = 0; t < rest.targets.size(); ++t) {
+      const identification::TargetMove& move = moveOf(one, rest.targets[t]);
+      const Matrix36d jacobian = robot::pointJacobianAt(middle_axes, 0.5 * (move.unloaded + move.loaded));
+      const Eigen::Index row = at_row + 3 * static_cast<Eigen::Index>(t);
+      rows.displacement.segment<3>(row) = move.displacement();
+      rows.by_compliance.middleRows<3>(row) = jacobian * torque.asDiagonal();
+      by_wrench.middleRows<3>(3 * static_cast<Eigen::Index>(t)) =
+          jacobian * at_.compliance.asDiagonal() * wrench_to_torque;
+    }
+    rows.by_wrench.push_back(std::move(by_wrench));
+    rows.states.push_back(std::move(state));
+  }
+
+  void addPosition(const effects::ArmState& rest, GapRows& rows) const {
+    rows.position.resize(rest.rows());
+    for (std::size_t t = 0; t < rest.targets.size(); ++t) {
+      const auto& at_zero = geometry_.targets_at_zero[static_cast<std::size_t>(rest.targets[t])];
+      if (!at_zero) {
+        rows.position.resize(0);
+        return;
+      }
+      rows.position.segment<3>(3 * static_cast<Eigen::Index>(t)) =
+          rest.points[t] - rest.posture.motion[6] * *at_zero;
+    }
+    rows.sag_by_compliance = effects::byEachJoint(rest, rest.weight_torque);
+  }
+
+  double timeOf(int pose, int step) const {
+    const auto& by_step = times_[static_cast<std::size_t>(pose)].by_step;
+    const auto found = by_step.find(step);
+    return found == by_step.end() ? campaign::kNoTime : found->second;
+  }
+
+  const campaign::Campaign& campaign_;
+  const frames::LoadingGeometry& geometry_;
+  const effects::WorkingPoint& at_;
+  const Corrections& corrections_;
+  std::vector<TimesOfPose> times_;
+  std::map<int, std::vector<identification::LoadCase>> cases_;
+};
+
+}  // namespace
+
+double compensatorSlope(const effects::WorkingPoint& at, const Vector6d& turned) {
+  double slope = 0.0;
+  for (Eigen::Index k = 0; k + 1 < at.compensator.size(); k += 2) {
+    const double n = static_cast<double>(k / 2 + 1);
+    slope +=
+        n * (at.compensator[k] * std::cos(n * turned[1]) - at.compensator[k + 1] * std::sin(n * turned[1]));
+  }
+  return slope;
+}
+
+std::vector<GapRows> loadingRows(const campaign::Campaign& campaign, const frames::LoadingGeometry& geometry,
+                                 const effects::WorkingPoint& at, const Corrections& corrections) {
+  frames::LoadingGeometry shifted = geometry;
+  if (shifted.r0_from_loading) {
+    shifted.r0_from_loading =
+        metrology::motionAbout(at.epoch_centre, corrections.frame).inverse() * *geometry.r0_from_loading;
+  }
+  return LoadingRowMaker(campaign, shifted, at, corrections).run();
+}
+
+std::vector<SweepRows> sweepRows(const campaign::Campaign& campaign, const frames::LoadingGeometry& geometry,
+                                 const Eigen::Isometry3d& r0_from_points, const effects::WorkingPoint& at) {
+  std::map<std::pair<int, std::string>, SweepRows> by_index;
+  const auto add = [&](int axis, const auto& reading) {
+    const auto& at_zero = geometry.targets_at_zero[static_cast<std::size_t>(reading.target)];
+    if (!at_zero) return;
+    SweepRows& rows = by_index[{axis, reading.index}];
+    if (rows.state.points.empty())
+      rows.state = effects::restState(geometry, at, reading.q);
+    rows.state.time_s = reading.time_s;
+    rows.state.targets.push_back(reading.target);
+    rows.state.points.push_back(r0_from_points * reading.point);
+    rows.position.conservativeResize(rows.state.rows());
+    rows.position.tail<3>() = rows.state.points.back() - rows.state.posture.motion[6] * *at_zero;
+  };
+  if (campaign.circle_sweeps) {
+    for (const campaign::CircleReading& reading : campaign.circle_sweeps->rows) add(reading.axis, reading);
+  }
+  if (campaign.wrist_sweep) {
+    for (const campaign::WristReading& reading : campaign.wrist_sweep->rows) add(6, reading);
+  }
+  std::vector<SweepRows> all;
+  for (auto& [key, rows] : by_index) {
+    rows.sag_by_compliance = effects::byEachJoint(rows.state, rows.state.weight_torque);
+    all.push_back(std::move(rows));
+  }
+  return all;
+}
+
+namespace {
+
+/// m and rad, a round: wide beside what a round corrects, and narrow enough that a motion of everything,
+/// which is free by choice of frame, stays where linear steps and rounding are good.
+constexpr double kGeometryPrior = 3e-3;
+constexpr double kSweptGeometry =
+    1e-3;  // m and rad: where nothing absolute is fitted, as a calibrated or sagging arm has it
+constexpr double kWeightPrior = 0.1;  // of a body's weight: masses of a URDF are no better
+
+void addGeometryAndWeights(const GapInput& input, GapData& data) {
+  for (Eigen::Index k = 0; k < frames::GeometrySteps::count(input.campaign.targets.size()); ++k) {
+    const Eigen::Index at = data.layout.geometry + k;
+    const double prior = input.absolute ? kGeometryPrior : kSweptGeometry;
+    data.sweeps(at, at) += 1.0 / (prior * prior);
+  }
+  for (Eigen::Index k = 0; k < effects::kBodies; ++k) {
+    const Eigen::Index at = data.layout.weights + k;
+    data.sweeps(at, at) += 1.0 / (kWeightPrior * kWeightPrior);
+  }
+}
+
+void addCompliances(const GapInput& input, GapData& data) {
+  const Eigen::Index end = data.layout.end;
+  for (Eigen::Index j = 0; j < 6; ++j) {
+    const double value = input.expected.value[j], sd = input.expected.sd[j];
+    if (sd <= 0.0) continue;
+    const double weight = 1.0 / (sd * sd);
+    data.sweeps(j, j) += weight;
+    data.sweeps(j, end) += weight * value;
+    data.sweeps(end, j) += weight * value;
+    data.sweeps(end, end) += weight * value * value;
+  }
+}
+
+void addNests(const GapInput& input, GapData& data) {
+  if (input.drift_weight.isZero()) return;
+  for (std::size_t m = 0; m < input.models.size(); ++m) {
+    if (input.models[m].effect != effects::Effect::tracker_drift) continue;
+    const Eigen::Index at = data.layout.model_at[m], end = data.layout.end;
+    const Vector6d right = input.drift_weight * input.drift;
+    data.sweeps.block<6, 6>(at, at) += input.drift_weight;
+    data.sweeps.block<6, 1>(at, end) += right;
+    data.sweeps.block<1, 6>(end, at) += right.transpose();
+    data.sweeps(end, end) += input.drift.dot(right);
+    data.sweep_rows += 6;
+  }
+}
+
+}  // namespace
+
+void addKnownBeforehand(const GapInput& input, GapData& data) {
+  addGeometryAndWeights(input, data);
+  addCompliances(input, data);
+  addNests(input, data);
+}
+
+namespace {
+
+/// Columns and right side of one posture but for the geometry's steps, unwhitened.
+GapPosture unwhitened(const GapInput& input, const GapState& state, const ContainedEffects& now,
+                      const GapLayout& layout, const GapRows& rows) {
+  GapPosture posture;
+  posture.pose = rows.pose;
+  posture.states = rows.states;
+  const Eigen::Index at_rest = input.absolute ? rows.position.size() : 0;
+  const Eigen::Index per_state = rows.states.front().rows();
+  posture.position_rows = at_rest;
+  posture.columns.setZero(at_rest + rows.displacement.size(), layout.end);
+  posture.right.resize(posture.columns.rows());
+  posture.columns.bottomLeftCorner(rows.displacement.size(), 6) = rows.by_compliance;
+  posture.right.tail(rows.displacement.size()) = rows.displacement;
+  for (std::size_t m = 0; m < input.models.size(); ++m) {
+    const Eigen::MatrixXd rest = input.models[m].columns(state.at, rows.states, 0);
+    if (at_rest > 0) posture.columns.block(0, layout.model_at[m], at_rest, rest.cols()) = rest;
+    for (std::size_t s = 1; s < rows.states.size(); ++s) {
+      posture.columns.block(at_rest + static_cast<Eigen::Index>(s - 1) * per_state, layout.model_at[m],
+                            per_state, rest.cols()) =
+          input.models[m].columns(state.at, rows.states, s) - rest;
+    }
+  }
+  if (at_rest > 0) {
+    posture.columns.topLeftCorner(at_rest, 6) = rows.sag_by_compliance;
+    posture.columns.block(0, layout.weights, at_rest, effects::kBodies) = effects::sagByBody(state.at, rows.states.front());
+    posture.right.head(at_rest) = rows.position + rows.sag_by_compliance * state.at.compliance;
+  }
+  // What the corrections took off comes back, so that the right side is that of the whole effect.
+  if (now.in_positions.size() > 0) {
+    const Eigen::Index effects = now.in_positions.size();
+    posture.right.head(at_rest) += posture.columns.topRightCorner(at_rest, effects) * now.in_positions;
+    posture.right.tail(rows.displacement.size()) +=
+        posture.columns.bottomRightCorner(rows.displacement.size(), effects) * now.in_deflections;
+  }
+  return posture;
+}
+
+/// Derivatives of measured less modelled by the geometry's steps: differences of the rows themselves.
+void addGeometry(const GapInput& input, const GapState& state, const std::vector<GapRows>& rows,
+                 GapData& data) {
+  const Eigen::Index steps = frames::GeometrySteps::count(input.campaign.targets.size());
+  for (Eigen::Index k = 0; k < steps; ++k) {
+    const frames::LoadingGeometry there =
+        frames::moved(state.geometry, frames::GeometrySteps::kSmall * Eigen::VectorXd::Unit(steps, k), state.at.epoch_centre);
+    const auto other = loadingRows(input.campaign, there, state.at, state.corrections);
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      GapPosture& posture = data.postures[i];
+      auto column = posture.columns.col(data.layout.geometry + k);
+      if (posture.position_rows > 0)
+        column.head(posture.position_rows) = (rows[i].position - other[i].position) / frames::GeometrySteps::kSmall;
+      const Vector6d& c = state.at.compliance;
+      column.tail(rows[i].displacement.size()) = ((rows[i].displacement - rows[i].by_compliance * c) -
+                                                  (other[i].displacement - other[i].by_compliance * c)) /
+                                                 frames::GeometrySteps::kSmall;
+    }
+  }
+}
+
+Eigen::Matrix<double, 7, 7> stiffnessNormalOf(const GapPosture& posture, const Eigen::MatrixXd& covariance) {
+  const Eigen::Index rows = posture.right.size() - posture.position_rows;
+  Eigen::MatrixXd both(rows, 7);
+  both << posture.columns.bottomLeftCorner(rows, 6), posture.right.tail(rows);
+  covariance.bottomRightCorner(rows, rows).llt().matrixL().solveInPlace(both);
+  return both.transpose() * both;
+}
+
+Eigen::MatrixXd normalOf(const GapPosture& posture, const Eigen::LLT<Eigen::MatrixXd>& noise) {
+  Eigen::MatrixXd both(posture.columns.rows(), posture.columns.cols() + 1);
+  both << posture.columns, posture.right;
+  noise.matrixL().solveInPlace(both);
+  return numerics::normalMatrix(both);
+}
+
+void whiten(const GapRows& rows, const GapCovariance& covariance, GapPosture& posture) {
+  const Eigen::Index per_state = rows.states.front().rows();
+  const Eigen::Index size = posture.right.size(), at_rest = posture.position_rows;
+  posture.noise.resize(size, per_state);
+  for (Eigen::Index at = 0; at < size; at += per_state) {
+    posture.noise.middleRows(at, per_state) = covariance.by_measuring.block(at, at, per_state, per_state);
+  }
+  const Eigen::LLT<Eigen::MatrixXd> cholesky(covariance.whole);
+  posture.position_lower =
+      cholesky.matrixLLT().topLeftCorner(at_rest, at_rest).triangularView<Eigen::Lower>();
+  posture.normal = numerics::LowerTriangle(normalOf(posture, cholesky));
+  posture.stiffness_normal = stiffnessNormalOf(posture, covariance.whole);
+}
+
+}  // namespace
+
+void addPostureEquations(const GapInput& input, const GapState& state, const ContainedEffects& effects_now,
+                         GapData& data) {
+  const auto rows = loadingRows(input.campaign, state.geometry, state.at, state.corrections);
+  for (const GapRows& one : rows)
+    data.postures.push_back(unwhitened(input, state, effects_now, data.layout, one));
+  addGeometry(input, state, rows, data);
+  double noise = 0.0, count = 0.0;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    GapPosture& posture = data.postures[i];
+    const GapCovariance covariance = gapCovariance(input, state, rows[i], posture.position_rows);
+    whiten(rows[i], covariance, posture);
+    noise += covariance.displacement_trace;
+    count += covariance.displacements;
+    data.loading_rows += posture.right.size();
+  }
+  data.state_noise = count > 0.0 ? std::sqrt(noise / count) : 0.0;
+}
+
+namespace {
+
+/// [A y] of one posture, unwhitened.
+template <class Rows>
+void fill(const GapInput& input, const GapState& state, const ContainedEffects& now, const GapLayout& layout,
+          const PositionByGeometry& by_geometry, const SweepRows& one, Rows both) {
+  both.leftCols(6) = one.sag_by_compliance;
+  both.middleCols(layout.geometry, layout.weights - layout.geometry) = by_geometry.of(one.state);
+  both.middleCols(layout.weights, effects::kBodies) = effects::sagByBody(state.at, one.state);
+  for (std::size_t m = 0; m < input.models.size(); ++m) {
+    const Eigen::MatrixXd columns = input.models[m].columns(state.at, {one.state}, 0);
+    both.middleCols(layout.model_at[m], columns.cols()) = columns;
+  }
+  auto right = both.col(both.cols() - 1);
+  right = one.position + one.sag_by_compliance * state.at.compliance;
+  if (now.in_positions.size() > 0)
+    right += both.middleCols(layout.effects, now.in_positions.size()) * now.in_positions;
+}
+
+}  // namespace
+
+void addSweepEquations(const GapInput& input, const GapState& state, const ContainedEffects& effects_now,
+                       GapData& data) {
+  const auto rows = sweepRows(input.campaign, state.geometry, state.r0_from_sweeps, state.at);
+  const PositionByGeometry by_geometry(state.geometry, state.at, state.at.epoch_centre);
+  Eigen::Index total = 0;
+  for (const SweepRows& one : rows) total += one.position.size();
+  Eigen::MatrixXd both = Eigen::MatrixXd::Zero(total, data.layout.end + 1);
+  Eigen::Index row = 0;
+  for (const SweepRows& one : rows) {
+    fill(input, state, effects_now, data.layout, by_geometry, one, both.middleRows(row, one.position.size()));
+    row += one.position.size();
+  }
+  row = 0;
+  for (const SweepRows& one : rows) {
+    for (const Eigen::Vector3d& point : one.state.points) {
+      const Eigen::Matrix3d covariance =
+          state.sweep_slack * frames::readingCovariance(input.noise, state.r0_from_sweeps, point);
+      both.middleRows<3>(row) = covariance.llt().matrixL().solve(both.middleRows<3>(row)).eval();
+      row += 3;
+    }
+  }
+  data.sweeps += numerics::normalMatrix(both);
+  data.sweep_rows += total;
+}
+
+}  // namespace stiffscope::diagnosis

@@ -1,0 +1,145 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/campaign/campaign.h"
+#include "core/effects/all.h"
+#include "core/effects/arm_state.h"
+#include "core/effects/effect_model.h"
+#include "core/frames/arm_geometry.h"
+#include "core/numerics/normal_equations.h"
+#include "core/preparation/station_course.h"
+#include "metrology/measured_points.h"
+
+namespace stiffscope::diagnosis {
+
+/// What is corrected before the effects' equations are made: estimates of the effects in the model, so that
+/// the next linear step starts where the last one ended.
+struct Corrections {
+  Eigen::Vector3d load_point = Eigen::Vector3d::Zero();  ///< m, flange axes
+  Eigen::Vector3d cell_turn = Eigen::Vector3d::Zero();   ///< rad, about the cell's axes
+  Eigen::Vector3d cell_force = Eigen::Vector3d::Zero();  ///< N, in the cell's axes, in loaded states
+  double missing_weight = 0.0;                           ///< N, along gravity, in loaded states
+  Vector6d frame = Vector6d::Zero();  ///< shift of the loading's readings, as frameError has it
+};
+
+/// The equations of one posture of the loading, unwhitened, in R0, m. Deflection rows: states after the
+/// first, three a reflector; absolute rows: the first state. y = A c + geometry + effects + noise.
+struct GapRows {
+  int pose = 0;
+  effects::PostureStates states;
+  Eigen::VectorXd displacement;  ///< loaded less unloaded, as measured
+  Eigen::Matrix<double, Eigen::Dynamic, 6>
+      by_compliance;         ///< of the displacement: K_c and the middle posture in
+  Eigen::VectorXd position;  ///< measured less the rigid model's; empty without absolute points
+  Eigen::Matrix<double, Eigen::Dynamic, 6> sag_by_compliance;
+  int unloaded_readings = 0, loaded_readings = 0;  ///< means over these, per reflector and state
+  std::vector<Eigen::Matrix<double, Eigen::Dynamic, 6>>
+      by_wrench;  ///< of each loaded state: displacement by its wrench
+};
+
+/// One unloaded posture of a sweep.
+struct SweepRows {
+  effects::ArmState state;
+  Eigen::VectorXd position;
+  Eigen::Matrix<double, Eigen::Dynamic, 6> sag_by_compliance;
+};
+
+/// Rows of the loading (or of `displacements`), in the order of poses. Reflectors that some step of a posture
+/// lacks are left out of that posture; a posture without a loaded state is left out.
+std::vector<GapRows> loadingRows(const campaign::Campaign& campaign, const frames::LoadingGeometry& geometry,
+                                 const effects::WorkingPoint& at, const Corrections& corrections);
+
+/// Rows of circle and wrist sweeps; empty where they are in another frame than the loading.
+std::vector<SweepRows> sweepRows(const campaign::Campaign& campaign, const frames::LoadingGeometry& geometry,
+                                 const Eigen::Isometry3d& r0_from_points, const effects::WorkingPoint& at);
+
+/// How the compensator's torque on joint 2 changes as the joint turns, Nm/rad.
+double compensatorSlope(const effects::WorkingPoint& at, const Vector6d& turned);
+
+/// Where everything stands in the parameter vector: joint compliances, geometry steps, own-weight factors by
+/// body (nuisances), then the effects' models in their order.
+struct GapLayout {
+  Eigen::Index geometry = 6, weights = 0, effects = 0, end = 0;
+  std::vector<Eigen::Index> model_at;  ///< first parameter of each model
+};
+
+/// What is known of the six compliances before the gap is looked at, and how well (sd), rad/Nm: as
+/// identification has them, give or take three times as much; where the load says nothing of a joint, half of
+/// its weaker neighbour's, give or take as much. Without it a joint that no load turns takes any stiffness,
+/// and what is computed with it anything.
+struct ComplianceExpected {
+  Vector6d value = Vector6d::Zero(), sd = Vector6d::Zero();  ///< sd 0: nothing is known
+};
+
+ComplianceExpected complianceExpected(const Vector6d& identified);
+
+/// What the gap stands on, fixed for one diagnosis.
+struct GapInput {
+  const campaign::Campaign& campaign;  ///< screened; the station's motion taken off where nests show it
+  metrology::TrackerNoise noise;        ///< by the repeats where there are enough, else as declared
+  double force_sigma = 0.0, moment_sigma = 0.0;
+  std::vector<effects::EffectModel> models;
+  bool absolute = false;  ///< unloaded absolute positions can be held against the arm
+  bool sweeps = false;    ///< and the sweeps too
+  ComplianceExpected expected;
+  /// What nests say of trackerDrift's parameters: their values, and the inverse covariance of these.
+  Vector6d drift = Vector6d::Zero();
+  Matrix6d drift_weight = Matrix6d::Zero();
+  const preparation::Station* wandering = nullptr;  ///< of which the interpolated motion was taken off; null: none
+};
+
+/// Where one round of linearisation stands.
+struct GapState {
+  frames::LoadingGeometry geometry;
+  Eigen::Isometry3d r0_from_sweeps = Eigen::Isometry3d::Identity();
+  effects::WorkingPoint at;
+  Corrections corrections;
+  double sweep_slack = 1.0, position_slack = 1.0;  ///< factors on the variances of absolute positions
+  double model_error = 0.0;  ///< rms per coordinate of what no effect explains, at the largest load, m
+};
+
+/// Whitened normal equations of one posture of the loading: [A y]^T [A y].
+struct GapPosture {
+  int pose = 0;
+  effects::PostureStates states;
+  Eigen::MatrixXd columns;  ///< unwhitened: position rows first, then deflection rows
+  Eigen::VectorXd right;
+  Eigen::Index position_rows = 0;
+  /// Covariance of these rows by readings, wrench and a station between its rounds, within each state: its block of the
+  /// diagonal, one state's under another's.
+  Eigen::MatrixXd noise;
+  Eigen::MatrixXd position_lower;  ///< Cholesky factor of that of the position rows, with the slack
+  numerics::LowerTriangle normal;
+  Eigen::Matrix<double, 7, 7> stiffness_normal;  ///< the same of deflection rows alone, over the compliances
+
+  /// Sum of the noise's variances of `rows` rows from `first` on, m^2.
+  double noiseSquares(Eigen::Index first, Eigen::Index rows) const;
+};
+
+/// All equations of the gap at one point of linearisation.
+struct GapData {
+  GapLayout layout;
+  std::vector<GapPosture> postures;
+  Eigen::MatrixXd sweeps;  ///< [A y]^T [A y] of the sweeps, and of what is known beforehand
+  Eigen::Index sweep_rows = 0;
+  Eigen::Index loading_rows = 0;
+  double state_noise = 0.0;  ///< rms noise of one state's displacement, per coordinate, m
+};
+
+/// Effect parameters (all of them, zero where not) whose effect `state` already contains: in the unloaded
+/// arm's places, in the displacements' equations. Empty: none.
+struct ContainedEffects {
+  Eigen::VectorXd in_positions, in_deflections;
+};
+
+/// Fills the equations. What `state` contains is added back: the right sides are those of whole effects, not
+/// of the rest.
+GapData gapData(const GapInput& input, const GapState& state, const ContainedEffects& effects_now);
+
+GapLayout gapLayout(const std::vector<effects::EffectModel>& models, std::size_t targets);
+
+}  // namespace stiffscope::diagnosis

@@ -1,0 +1,322 @@
+#include "core/diagnosis/localization.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <map>
+#include <utility>
+
+#include "core/diagnosis/diagnosis_input.h"
+#include "core/diagnosis/held_out.h"
+
+namespace stiffscope::diagnosis {
+
+namespace {
+
+Eigen::VectorXd stiffnessesIn(const GapData& data) {
+  const Eigen::MatrixXd normal = sumOf(data, std::vector<double>(data.postures.size(), 1.0));
+  Eigen::VectorXd parameters = Eigen::VectorXd::Zero(data.layout.end);
+  parameters.head<6>() = normal.topLeftCorner<6, 6>().completeOrthogonalDecomposition().solve(
+      normal.col(data.layout.end).head<6>());
+  return parameters;
+}
+
+}  // namespace
+
+std::optional<GapAsMeasured> gapAsMeasured(const campaign::Campaign& original, const GapInput& input, const GapFit& fit,
+                                           const Eigen::VectorXd& after) {
+  const GapStart raw = gapStart(original, false);
+  if (!raw.reason.empty()) return std::nullopt;
+  const GapInput as_read{
+      raw.campaign, raw.noise.noise, input.force_sigma, input.moment_sigma, input.models, false, false, {}};
+  const GapData data = gapData(as_read, raw.state, {});
+  const Eigen::VectorXd parameters = stiffnessesIn(data);
+  GapAsMeasured gap;
+  std::map<int, HeldOut> left;
+  double rows = 0.0, rests = 0.0, deflection = 0.0, position = 0.0;
+  for (const GapPosture& posture : data.postures) {
+    const double squares = leftIn(posture, {parameters, parameters}, posture, parameters).deflection_before;
+    const auto count = static_cast<double>(posture.right.size());
+    left[posture.pose].deflection_before = squares;
+    deflection += squares;
+    rows += count;
+    gap.by_posture.rows.push_back(
+        {original.pose_ids[static_cast<std::size_t>(posture.pose)], std::sqrt(squares / count)});
+  }
+  gap.at_points = gapAtPoints(data, parameters, fit.data, after);
+  for (const GapRows& one : loadingRows(raw.campaign, raw.state.geometry, raw.state.at, {})) {
+    left[one.pose].position_before = one.position.squaredNorm();
+    position += left[one.pose].position_before;
+    rests += static_cast<double>(one.position.size());
+  }
+  if (rows > 0.0) gap.deflection = std::sqrt(deflection / rows);
+  if (rests > 0.0) gap.position = std::sqrt(position / rests);
+  for (const GapPosture& posture : fit.data.postures) {
+    HeldOut one = left[posture.pose];
+    const HeldOut now = leftIn(posture, {after, after}, posture, after);
+    one.deflection_after = now.deflection_after;
+    one.position_after = now.position_after;
+    gap.left.push_back(one);
+  }
+  return gap;
+}
+
+namespace {
+
+/// Squares, summed over the postures, and how many coordinates they are of.
+struct GapSquares {
+  Gap sum;
+  double count = 0.0;
+
+  Gap rms() const {
+    if (count == 0.0) return {};
+    const auto root = [&](double squares) { return std::sqrt(squares / count); };
+    return {root(sum.before), root(sum.noise), root(sum.after), root(sum.deflection)};
+  }
+};
+
+template <class Add>
+Gap summed(const GapFit& alone, const StiffnessesAlone& before, const GapFit& fit,
+           const Eigen::VectorXd& after, const Add& add) {
+  GapSquares squares;
+  for (std::size_t p = 0; p < fit.data.postures.size(); ++p) {
+    const GapPosture& posture = fit.data.postures[p];
+    add(leftIn(alone.data.postures[p], before, posture, after), posture, squares);
+  }
+  return squares.rms();
+}
+
+}  // namespace
+
+Gap deflectionGap(const GapFit& alone, const StiffnessesAlone& before, const GapFit& fit,
+                  const Eigen::VectorXd& after) {
+  return summed(alone, before, fit, after,
+                [](const HeldOut& left, const GapPosture& posture, GapSquares& squares) {
+                  const Eigen::Index rows = posture.right.size() - posture.position_rows;
+                  squares.sum.before += left.deflection_before;
+                  squares.sum.after += left.deflection_after;
+                  squares.sum.noise += noiseSquares(posture);
+                  squares.sum.deflection += posture.right.tail(rows).squaredNorm();
+                  squares.count += static_cast<double>(rows);
+                });
+}
+
+Gap positionGap(const GapFit& alone, const StiffnessesAlone& before, const GapFit& fit,
+                const Eigen::VectorXd& after) {
+  return summed(alone, before, fit, after,
+                [](const HeldOut& left, const GapPosture& posture, GapSquares& squares) {
+                  squares.sum.before += left.position_before;
+                  squares.sum.after += left.position_after;
+                  squares.sum.noise += posture.noiseSquares(0, posture.position_rows);
+                  squares.count += static_cast<double>(posture.position_rows);
+                });
+}
+
+namespace {
+
+/// What is left of one reflector in one state, and the covariance of its reading noise.
+struct LeftOver {
+  Eigen::Vector3d left = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d noise = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();
+  const effects::ArmState* state = nullptr;
+  int target = 0;
+};
+
+std::vector<LeftOver> leftOvers(const GapData& data, const Eigen::VectorXd& parameters, bool deflection) {
+  std::vector<LeftOver> all;
+  for (const GapPosture& posture : data.postures) {
+    const Eigen::VectorXd left = posture.right - posture.columns * parameters;
+    const Eigen::Index per_state = posture.states.front().rows();
+    const std::size_t first = deflection ? 1 : 0, last = deflection ? posture.states.size() : 1;
+    if (!deflection && posture.position_rows == 0) continue;
+    for (std::size_t s = first; s < last; ++s) {
+      const Eigen::Index at =
+          deflection ? posture.position_rows + static_cast<Eigen::Index>(s - 1) * per_state : 0;
+      for (std::size_t t = 0; t < posture.states[s].points.size(); ++t) {
+        const Eigen::Index row = at + 3 * static_cast<Eigen::Index>(t);
+        all.push_back({left.segment<3>(row), posture.noise.block<3, 3>(row, row - at), posture.states[s].points[t],
+                       &posture.states[s], posture.states[s].targets[t]});
+      }
+    }
+  }
+  return all;
+}
+
+/// Squares along some directions, collected under a name.
+struct Sum {
+  double squares = 0.0, noise = 0.0, variance = 0.0, count = 0.0;
+
+  void add(const LeftOver& one, const Eigen::Matrix3Xd& directions) {
+    const Eigen::MatrixXd noise_here = directions.transpose() * one.noise * directions;
+    squares += (directions.transpose() * one.left).squaredNorm();
+    noise += noise_here.trace();
+    variance += 2.0 * (noise_here * noise_here).trace();
+    count += static_cast<double>(directions.cols());
+  }
+};
+
+WhereRow rowOf(const std::string& name, const Sum& sum, double whole) {
+  WhereRow row;
+  row.name = name;
+  if (sum.count > 0.0)
+    row.rms = std::sqrt(sum.squares / sum.count), row.noise = std::sqrt(sum.noise / sum.count);
+  row.share = whole > 0.0 ? sum.squares / whole : 0.0;
+  row.significance = sum.variance > 0.0 ? (sum.squares - sum.noise) / std::sqrt(sum.variance) : 0.0;
+  return row;
+}
+
+double wholeOf(const std::vector<LeftOver>& all) {
+  double whole = 0.0;
+  for (const LeftOver& one : all) whole += one.left.squaredNorm();
+  return whole;
+}
+
+/// One row a name, in the order of `names`; `place(one)` is the index of the name, negative to leave out.
+template <class Place>
+WhereTable tableBy(const std::string& by, const std::vector<std::string>& names,
+                   const std::vector<LeftOver>& all, const Place& place) {
+  std::vector<Sum> sums(names.size());
+  for (const LeftOver& one : all) {
+    const int at = place(one);
+    if (at >= 0) sums[static_cast<std::size_t>(at)].add(one, Eigen::Matrix3d::Identity());
+  }
+  WhereTable table{by, {}};
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (sums[i].count > 0.0) table.rows.push_back(rowOf(names[i], sums[i], wholeOf(all)));
+  }
+  return table;
+}
+
+/// One row a direction; `axes(one)` has them as columns of the frame at hand.
+template <class Axes>
+WhereTable tableAlong(const std::string& by, const std::vector<std::string>& names,
+                      const std::vector<LeftOver>& all, const Axes& axes) {
+  std::vector<Sum> sums(names.size());
+  for (const LeftOver& one : all) {
+    const Eigen::Matrix3d frame = axes(one);
+    for (std::size_t k = 0; k < names.size(); ++k) {
+      const bool last = k + 1 == names.size();
+      const Eigen::Index from = static_cast<Eigen::Index>(k), count = last ? 3 - from : 1;
+      sums[k].add(one, frame.middleCols(from, count));
+    }
+  }
+  WhereTable table{by, {}};
+  for (std::size_t k = 0; k < names.size(); ++k) table.rows.push_back(rowOf(names[k], sums[k], wholeOf(all)));
+  return table;
+}
+
+Eigen::Matrix3d beamAxes(const GapFit& fit, const GapInput& input, const Eigen::Vector3d& point) {
+  const Eigen::Isometry3d from_points =
+      fit.state.geometry.r0_from_loading.value_or(fit.state.at.r0_from_base_link);
+  const Eigen::Vector3d along = (point - from_points * input.noise.station).normalized();
+  Eigen::Matrix3d axes;
+  axes.col(0) = along;
+  axes.col(1) = along.unitOrthogonal();
+  axes.col(2) = along.cross(axes.col(1));
+  return axes;
+}
+
+std::vector<WhereTable> commonTables(const GapInput& input, const GapFit& fit,
+                                     const std::vector<LeftOver>& all) {
+  std::vector<WhereTable> tables;
+  std::vector<std::string> reflectors;
+  for (const campaign::Target& target : input.campaign.targets) reflectors.push_back(target.id);
+  tables.push_back(tableBy("reflector", reflectors, all, [](const LeftOver& one) { return one.target; }));
+  tables.push_back(tableAlong("base axes", {"x0", "y0", "z0"}, all,
+                              [](const LeftOver&) { return Eigen::Matrix3d(Eigen::Matrix3d::Identity()); }));
+  tables.push_back(tableAlong("flange axes", {"x", "y", "z"}, all, [](const LeftOver& one) {
+    return Eigen::Matrix3d(one.state->flange.linear());
+  }));
+  tables.push_back(tableAlong("tracker's beam", {"along", "across"}, all,
+                              [&](const LeftOver& one) { return beamAxes(fit, input, one.point); }));
+  tables.push_back(
+      tableBy("posture", input.campaign.pose_ids, all, [](const LeftOver& one) { return one.state->pose; }));
+  return tables;
+}
+
+/// What the angle of one joint in each state would explain of that state, alone.
+WhereTable byJoint(const GapFit& fit, const Eigen::VectorXd& parameters, const std::vector<LeftOver>& all) {
+  WhereTable table{"joint", {}};
+  for (int joint = 0; joint < 6; ++joint) {
+    Sum sum;
+    for (const GapPosture& posture : fit.data.postures) {
+      const Eigen::VectorXd left = posture.right - posture.columns * parameters;
+      const Eigen::Index per_state = posture.states.front().rows();
+      for (std::size_t s = 1; s < posture.states.size(); ++s) {
+        const Eigen::Index at = posture.position_rows + static_cast<Eigen::Index>(s - 1) * per_state;
+        const Eigen::VectorXd column =
+            effects::byEachJoint(posture.states[s], Vector6d::Unit(joint)).col(joint).normalized();
+        const double noise = column.dot(posture.noise.middleRows(at, per_state) * column);
+        const double along = column.dot(left.segment(at, per_state));
+        sum.squares += along * along;
+        sum.noise += noise;
+        sum.variance += 2.0 * noise * noise;
+        sum.count += 1.0;
+      }
+    }
+    table.rows.push_back(rowOf(fmt::format("joint {}", joint + 1), sum, wholeOf(all)));
+  }
+  return table;
+}
+
+}  // namespace
+
+std::vector<WhereTable> whereDeflection(const GapInput& input, const GapFit& fit,
+                                        const Eigen::VectorXd& parameters) {
+  const std::vector<LeftOver> all = leftOvers(fit.data, parameters, true);
+  std::vector<WhereTable> tables = commonTables(input, fit, all);
+  tables.insert(tables.begin(), byJoint(fit, parameters, all));
+  int last_step = 0;
+  for (const LeftOver& one : all) last_step = std::max(last_step, one.state->step);
+  std::vector<std::string> steps;
+  for (int step = 0; step <= last_step; ++step) {
+    bool unloads = false;
+    for (const LeftOver& one : all) unloads |= one.state->step == step && !one.state->loaded;
+    steps.push_back(fmt::format("step {}{}", step, unloads ? " (return to zero)" : ""));
+  }
+  tables.push_back(tableBy("load step", steps, all, [](const LeftOver& one) { return one.state->step; }));
+  const effects::WorkingPoint& at = fit.state.at;
+  tables.push_back(tableBy("time", {"first quarter", "second quarter", "third quarter", "last quarter"}, all,
+                           [&](const LeftOver& one) {
+                             if (!std::isfinite(one.state->time_s)) return -1;
+                             const double share = (one.state->time_s - at.first_time) / at.time_span;
+                             return std::clamp(static_cast<int>(4.0 * share), 0, 3);
+                           }));
+  return tables;
+}
+
+std::vector<WhereTable> wherePosition(const GapInput& input, const GapFit& fit,
+                                      const Eigen::VectorXd& parameters) {
+  const std::vector<LeftOver> all = leftOvers(fit.data, parameters, false);
+  if (all.empty()) return {};
+  return commonTables(input, fit, all);
+}
+
+std::vector<PointGap> gapAtPoints(const GapData& data_before, const Eigen::VectorXd& before, const GapData& data_after,
+                                  const Eigen::VectorXd& after) {
+  using State = std::pair<int, int>;  // pose, step
+  std::map<State, std::vector<LeftOver>> left_after;
+  for (const LeftOver& one : leftOvers(data_after, after, true))
+    left_after[{one.state->pose, one.state->step}].push_back(one);
+  std::map<int, std::map<int, std::vector<LeftOver>>> left_before;  // by pose and step
+  for (const LeftOver& one : leftOvers(data_before, before, true))
+    left_before[one.state->pose][one.state->step].push_back(one);
+  std::vector<PointGap> gaps;
+  for (const auto& [pose, steps] : left_before) {
+    const auto most = std::max_element(steps.begin(), steps.end(), [](const auto& a, const auto& b) {
+      return wholeOf(a.second) < wholeOf(b.second);
+    });
+    const auto same = left_after.find({pose, most->first});
+    if (same == left_after.end()) continue;
+    for (const LeftOver& one : most->second) {
+      const auto other = std::find_if(same->second.begin(), same->second.end(),
+                                      [&one](const LeftOver& two) { return two.target == one.target; });
+      if (other != same->second.end()) gaps.push_back({pose, one.target, one.point, one.left, other->left});
+    }
+  }
+  return gaps;
+}
+
+}  // namespace stiffscope::diagnosis

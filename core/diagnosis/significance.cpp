@@ -1,0 +1,81 @@
+#include "core/diagnosis/significance.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "core/diagnosis/geometry_error.h"
+
+namespace stiffscope::diagnosis {
+
+double chanceLimit(const GapInput& input, const GapFit& fit, const std::vector<bool>& allowed, int draws,
+                   double false_alarm, std::uint64_t seed) {
+  const Eigen::VectorXd scale =
+      fit.projection.matrix.diagonal().unaryExpr([](double d) { return d > 0.0 ? 1.0 / std::sqrt(d) : 0.0; });
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(scale.asDiagonal() * fit.projection.matrix *
+                                                              scale.asDiagonal());
+  const Eigen::MatrixXd root =
+      scale.cwiseInverse().unaryExpr([](double d) { return std::isfinite(d) ? d : 0.0; }).asDiagonal() *
+      solver.eigenvectors() * solver.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal();
+  std::mt19937_64 random(seed);
+  std::normal_distribution<double> normal;
+  std::vector<double> best;
+  for (int draw = 0; draw < draws; ++draw) {
+    Projection noise = fit.projection;
+    Eigen::VectorXd numbers(noise.right.size());
+    for (double& number : numbers) number = normal(random);
+    noise.right = root * numbers;
+    noise.chi2_none = 0.0;
+    noise.by_effects.resize(0, 0);  // the data's own stiffnesses say nothing here
+    GapFit plain;
+    plain.data.layout = fit.data.layout;
+    plain.rules = fit.rules;
+    plain.rules.given.clear();
+    const Selector selector =
+        selectorOf(input, plain, noise, static_cast<double>(fit.data.postures.size()), allowed);
+    const auto ranked = selector.ranked(selector.nothing());
+    best.push_back(ranked.empty() ? 0.0 : -ranked.front().score());
+  }
+  if (best.empty()) return 0.0;
+  std::sort(best.begin(), best.end());
+  const auto at = static_cast<std::size_t>((1.0 - false_alarm) * static_cast<double>(best.size() - 1));
+  return std::max(0.0, best[at]);
+}
+
+double sizeOfDrop(const GapFit& fit, double drop) {
+  return std::sqrt(std::max(0.0, drop) / fit.rules.loading_rows) * fit.data.state_noise;
+}
+
+std::vector<DetectableSize> detectableSizes(const GapInput& input, const GapFit& fit,
+                                            const std::vector<bool>& allowed) {
+  const double drop = std::max(fit.rules.least_drop, fit.rules.detect);
+  std::vector<DetectableSize> detectable;
+  for (std::size_t e = 0; e < effects::kEffectCount; ++e) {
+    const auto effect = static_cast<effects::Effect>(e);
+    std::vector<double> sizes;
+    for (std::size_t m = 0; m < input.models.size(); ++m) {
+      if (input.models[m].effect != effect || !allowed[m]) continue;
+      Eigen::Index at = fit.data.layout.model_at[m] - fit.data.layout.effects;
+      for (const effects::EffectPart& part : input.models[m].parts) {
+        double kept = 0.0;
+        for (std::size_t k = 0; k < part.most.size(); ++k, ++at) {
+          if (fit.projection.before[at] > 0.0)
+            kept = std::max(kept, fit.projection.matrix(at, at) / fit.projection.before[at]);
+        }
+        if (kept > fit.rules.kept_share) sizes.push_back(sizeOfDrop(fit, drop / kept));
+      }
+    }
+    DetectableSize size{effect, std::nullopt};
+    if (!sizes.empty()) {
+      std::nth_element(sizes.begin(), sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2),
+                       sizes.end());
+      size.size = sizes[sizes.size() / 2];
+    }
+    if (effect == effects::Effect::kinematic_error && input.absolute) size.size = kGeometryTolerance;
+    detectable.push_back(size);
+  }
+  return detectable;
+}
+
+}  // namespace stiffscope::diagnosis

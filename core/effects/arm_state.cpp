@@ -1,0 +1,93 @@
+#include "core/effects/arm_state.h"
+
+#include "core/robot/kinematics.h"
+
+namespace stiffscope::effects {
+
+BodyMotions noBodyMotions() {
+  BodyMotions none;
+  none.fill(Eigen::Isometry3d::Identity());
+  return none;
+}
+
+robot::ArmPosture movedPosture(const robot::Robot& arm, const Vector6d& turned, const BodyMotions& moved) {
+  robot::ArmPosture posture = robot::postureAt(arm, turned);
+  for (std::size_t b = 0; b < moved.size(); ++b) posture.motion[b] = moved[b] * posture.motion[b];
+  return posture;
+}
+
+ArmState stateAt(const frames::LoadingGeometry& geometry, const Vector6d& q, const Vector6d& joint_offset) {
+  return stateMoved(geometry, q, geometry.sagged(q) + joint_offset, noBodyMotions());
+}
+
+ArmState stateMoved(const frames::LoadingGeometry& geometry, const Vector6d& q, const Vector6d& turned,
+                    const BodyMotions& moved) {
+  ArmState state;
+  state.q = q;
+  state.turned = turned;
+  state.moved = moved;
+  state.posture = movedPosture(geometry.arm, turned, moved);
+  placeByPosture(geometry, state);
+  return state;
+}
+
+void placeByPosture(const frames::LoadingGeometry& geometry, ArmState& state) {
+  for (int j = 0; j < 6; ++j)
+    state.axes[static_cast<std::size_t>(j)] = robot::axisAt(geometry.arm, state.posture, j);
+  state.flange = robot::flangeAt(geometry.arm, state.posture);
+  if (!geometry.weight.links_known) return;
+  state.weight_torque = robot::weightTorque(geometry.arm, state.posture, geometry.weight);
+  robot::Wrench sum;
+  for (std::size_t b = 6; b >= 1; --b) {
+    const robot::BodyMass& body = geometry.weight.bodies[b];
+    const Eigen::Vector3d pull = body.mass_kg * geometry.weight.gravity_in_base;
+    sum.force += pull;
+    sum.moment += (state.posture.motion[b] * body.com_in_base_at_zero).cross(pull);
+    state.weight_from_body[b] = sum;
+  }
+  state.weight_from_body[0] = sum;
+}
+
+robot::Wrench carried(const ArmState& state, int body, const Eigen::Vector3d& about) {
+  robot::Wrench sum = state.load.about(about);
+  const robot::Wrench weight = state.weight_from_body[static_cast<std::size_t>(body)].about(about);
+  sum.force += weight.force;
+  sum.moment += weight.moment;
+  return sum;
+}
+
+Eigen::MatrixXd byJoints(const ArmState& state, const Eigen::Matrix<double, 6, Eigen::Dynamic>& angles) {
+  Eigen::MatrixXd rows(state.rows(), angles.cols());
+  for (std::size_t t = 0; t < state.points.size(); ++t) {
+    Matrix36d jacobian;
+    for (int j = 0; j < 6; ++j) {
+      const metrology::Line& axis = state.axes[static_cast<std::size_t>(j)];
+      jacobian.col(j) = axis.direction.cross(state.points[t] - axis.point);
+    }
+    rows.middleRows<3>(3 * static_cast<Eigen::Index>(t)) = jacobian * angles;
+  }
+  return rows;
+}
+
+Eigen::MatrixXd byEachJoint(const ArmState& state, const Vector6d& angles) {
+  return byJoints(state, Matrix6d(angles.asDiagonal()));
+}
+
+Eigen::VectorXd byMotion(const ArmState& state, const Eigen::Vector3d& pivot, const Eigen::Vector3d& rotation,
+                         const Eigen::Vector3d& shift) {
+  Eigen::VectorXd rows(state.rows());
+  for (std::size_t t = 0; t < state.points.size(); ++t) {
+    rows.segment<3>(3 * static_cast<Eigen::Index>(t)) = rotation.cross(state.points[t] - pivot) + shift;
+  }
+  return rows;
+}
+
+std::size_t heaviestState(const PostureStates& posture) {
+  std::size_t heaviest = 0;
+  for (std::size_t i = 1; i < posture.size(); ++i) {
+    if (posture[i].load.force.norm() > posture[heaviest].load.force.norm()) heaviest = i;
+  }
+  return heaviest;
+}
+
+}  // namespace stiffscope::effects

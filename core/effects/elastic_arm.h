@@ -1,0 +1,38 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "core/frames/arm_geometry.h"
+#include "core/robot/wrench.h"
+
+namespace stiffscope::effects {
+
+/// A load that keeps its force and moment in R0 and acts at a point fixed to the flange.
+struct FlangeLoad {
+  Eigen::Vector3d point_in_flange = Eigen::Vector3d::Zero();
+  Eigen::Vector3d force = Eigen::Vector3d::Zero();   ///< R0 axes, N
+  Eigen::Vector3d moment = Eigen::Vector3d::Zero();  ///< R0 axes, about the point, Nm
+};
+
+/// Joint angles of the arm on its springs: q + c (own weight's torque + load's torque), both on the moved
+/// arm; fixed-point iteration to 1e-12 rad. `compliance` acts for both the weight and the load. Empty where
+/// it does not settle (a load beyond buckling).
+std::optional<Vector6d> loadedAngles(const frames::LoadingGeometry& geometry, const Vector6d& compliance,
+                                     const Vector6d& q, const FlangeLoad& load);
+
+/// base_from_flange at rest with these joint commands under the load (one without force: the own weight alone). Empty where
+/// the arm does not come to rest.
+using RestingFlange = std::function<std::optional<Eigen::Isometry3d>(const Vector6d& commands, const FlangeLoad& load)>;
+
+/// An arm that gives at more than its joint springs.
+struct FurtherGive {
+  RestingFlange flange;
+  Matrix6d spring_covariance = Matrix6d::Zero();  ///< of the joint compliances, what gives besides taken as known
+  /// The arm moved by one standard deviation along each independent direction of what else is uncertain, joint springs
+  /// following: what such a move changes in a result is a standard uncertainty of it.
+  std::vector<RestingFlange> varied;
+};
+
+}  // namespace stiffscope::effects

@@ -1,0 +1,128 @@
+#include "core/effects/hysteresis.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace stiffscope::effects {
+
+namespace {
+
+constexpr double kLeastFriction = 1e-3;  // Nm
+
+double frictionOf(const WorkingPoint& at, Eigen::Index joint) {
+  return std::max(at.friction[joint], kLeastFriction);
+}
+
+/// A rigid grip: the joint's spring follows the torque only beyond the friction.
+JointAngles rigidGrip(const WorkingPoint& at, const PostureStates& posture, std::size_t i) {
+  Vector6d lag;
+  for (Eigen::Index j = 0; j < 6; ++j) {
+    const double friction = frictionOf(at, j);
+    double spring = 0.0;
+    for (std::size_t k = 1; k <= i; ++k) {
+      const double torque = posture[k].load_torque[j];
+      spring = std::clamp(spring, torque - friction, torque + friction);
+    }
+    lag[j] = (spring - (i == 0 ? 0.0 : posture[i].load_torque[j])) / friction;
+  }
+  return Matrix6d(lag.asDiagonal());
+}
+
+/// Sliders beside the joint's spring, each held by a spring of its own (Jenkins elements; many of them:
+/// Iwan's parallel model). All as torques: `turn` is the joint's angle times its stiffness.
+template <int kSliders>
+class Sliders {
+ public:
+  Sliders(double friction, double sticking) : stiffness_(sticking / kSliders) {
+    constexpr double kMean = 0.5 * (kSliders + 1);
+    for (int s = 0; s < kSliders; ++s)
+      limit_[static_cast<std::size_t>(s)] = friction / kSliders * (s + 1) / kMean;
+  }
+
+  /// Torque that friction takes once the joint has gone to equilibrium with `torque`.
+  double moveTo(double torque) {
+    double turn = turn_;
+    constexpr int kRounds = kSliders + 3;  // piecewise linear and concave along the way: one slider a round
+    for (int round = 0; round < kRounds; ++round) {
+      double held = 0.0, slope = 1.0;
+      for (std::size_t s = 0; s < kSliders; ++s) {
+        const double force = held_[s] + stiffness_ * (turn - turn_);
+        if (std::abs(force) < limit_[s]) slope += stiffness_;
+        held += std::clamp(force, -limit_[s], limit_[s]);
+      }
+      turn += (torque - held - turn) / slope;
+    }
+    double sum = 0.0;
+    for (std::size_t s = 0; s < kSliders; ++s) {
+      held_[s] = std::clamp(held_[s] + stiffness_ * (turn - turn_), -limit_[s], limit_[s]);
+      sum += held_[s];
+    }
+    turn_ = turn;
+    return sum;
+  }
+
+ private:
+  double stiffness_;
+  std::array<double, kSliders> limit_{}, held_{};
+  double turn_ = 0.0;
+};
+
+template <int kSliders>
+double lagAfter(double friction, double sticking, const PostureStates& posture, std::size_t i,
+                Eigen::Index joint) {
+  Sliders<kSliders> sliders(friction, sticking);
+  double held = 0.0;
+  for (std::size_t k = 1; k <= i; ++k) held = sliders.moveTo(posture[k].load_torque[joint]);
+  return -held / friction;
+}
+
+template <int kSliders>
+JointAngles softGrip(const WorkingPoint& at, const PostureStates& posture, std::size_t i) {
+  constexpr double kStep = 0.05;  // of the logarithm
+  JointAngles result = JointAngles::Zero(6, 7);
+  for (Eigen::Index j = 0; j < 6; ++j) {
+    const double friction = frictionOf(at, j);
+    result(j, j) = lagAfter<kSliders>(friction, at.sticking, posture, i, j);
+    const double firmer = lagAfter<kSliders>(friction, at.sticking * std::exp(kStep), posture, i, j);
+    const double softer = lagAfter<kSliders>(friction, at.sticking * std::exp(-kStep), posture, i, j);
+    result(j, 6) = at.compliance[j] * at.friction[j] * (firmer - softer) / (2.0 * kStep);
+  }
+  return result;
+}
+
+/// Lag over compliance is friction.
+void frictionFrom(WorkingPoint& at, const Eigen::VectorXd& own) {
+  for (Eigen::Index j = 0; j < 6; ++j)
+    at.friction[j] = at.compliance[j] > 0.0 ? own[j] / at.compliance[j] : 0.0;
+}
+
+void settleRigid(WorkingPoint& at, Eigen::VectorXd& own) { frictionFrom(at, own); }
+
+void settleSoft(WorkingPoint& at, Eigen::VectorXd& own) {
+  frictionFrom(at, own);
+  constexpr double kStride = 1.0, kSoftest = 0.05, kFirmest = 20.0;
+  at.sticking = std::clamp(at.sticking * std::exp(std::clamp(own[6], -kStride, kStride)), kSoftest, kFirmest);
+  own[6] = 0.0;
+}
+
+EffectModel softModel(const char* shape, decltype(EffectModel::angles) angles) {
+  EffectModel model{
+      Effect::hysteresis, shape, jointParts(20e-3, true, "rad"), 7, nullptr, angles, &settleSoft};
+  constexpr double kMost = 5.0;
+  model.parts.push_back({"firmness of the grip", {kMost}, false, "of its logarithm"});
+  return model;
+}
+
+}  // namespace
+
+EffectModel hysteresis() {
+  return {Effect::hysteresis, "a rigid grip",        jointParts(20e-3, true, "rad"), 6, nullptr,
+          &rigidGrip,         &settleRigid};
+}
+
+EffectModel hysteresisOneSlider() { return softModel("a slider held by a spring", &softGrip<1>); }
+
+EffectModel hysteresisManySliders() { return softModel("many sliders held by springs", &softGrip<8>); }
+
+}  // namespace stiffscope::effects

@@ -1,0 +1,323 @@
+#include "core/extended_model/corrected_campaign.h"
+
+#include <cmath>
+#include <fmt/format.h>
+#include <map>
+
+#include "core/effects/effect_model.h"
+#include "core/effects/gravity_equilibrium.h"
+#include "core/extended_model/extended_arm.h"
+#include "core/extended_model/fitted_effects.h"
+#include "core/identification/outliers.h"
+#include "core/io/input_error.h"
+#include "metrology/rigid_motion.h"
+
+namespace stiffscope::extended_model {
+
+/// Corrects the load cell's declared point by load_point_error, and the readings in `states` by misalignment (a
+/// finite rotation) and bias. Throws InputError where the point does not move with the flange.
+void correctWrenches(const EffectFit& effects, const Eigen::VectorXd& parameters, campaign::Campaign& campaign);
+
+namespace {
+
+const robot::LinkFrame* linkNamed(const robot::Robot& robot, const std::string& name) {
+  for (const robot::LinkFrame& link : robot.links) {
+    if (link.name == name) return &link;
+  }
+  return nullptr;
+}
+
+/// `by`: in flange axes, m.
+void moveLoadPoint(const Eigen::Vector3d& by, campaign::Campaign& campaign) {
+  campaign::LoadCell& cell = *campaign.load_cell;
+  const robot::LinkFrame* parent = linkNamed(campaign.robot, cell.parent);
+  if (parent == nullptr || parent->body != 6) {
+    throw io::InputError({"--with"}, std::string(effects::idOf(effects::Effect::load_point_error)),
+                     fmt::format("the load cell's parent {} does not move with the flange: its point cannot be "
+                                 "corrected by one number",
+                                 cell.parent));
+  }
+  cell.parent_from_cell.pretranslate(parent->base_from_link_at_zero.linear().transpose() *
+                                     campaign.robot.base_from_flange_at_zero.linear() * by);
+}
+
+/// Of a rotation vector.
+Eigen::Matrix3d turnOf(const Eigen::Vector3d& w) {
+  const double size = w.norm();
+  if (size == 0.0) return Eigen::Matrix3d::Identity();
+  return Eigen::AngleAxisd(size, w / size).toRotationMatrix();
+}
+
+/// The state of a row under load; null where the fit does not have it.
+const effects::ArmState* stateOf(const diagnosis::GapFit& fit, const campaign::State& row) {
+  for (const diagnosis::GapPosture& posture : fit.data.postures) {
+    if (posture.pose != row.pose) continue;
+    for (std::size_t s = 1; s < posture.states.size(); ++s) {
+      if (posture.states[s].step == row.step) return &posture.states[s];
+    }
+  }
+  return nullptr;
+}
+
+}  // namespace
+
+void correctWrenches(const EffectFit& effects, const Eigen::VectorXd& parameters, campaign::Campaign& campaign) {
+  const diagnosis::GapLayout& layout = effects.fit.data.layout;
+  const Eigen::Vector3d up = effects.fit.state.at.r0_from_base_link.linear().col(2);
+  const Eigen::Vector3d load_offset = effects.fit.state.at.load_offset;
+  for (const diagnosis::ChosenModel& one : effects.fit.set.models) {
+    const effects::EffectModel& model = effects.input->models[one.model];
+    const Eigen::VectorXd own = parameters.segment(layout.model_at[one.model] - layout.effects,
+                                                   static_cast<Eigen::Index>(model.parameters()));
+    if (model.effect == effects::Effect::load_point_error) moveLoadPoint(own.head<3>(), campaign);
+    const bool turned = model.effect == effects::Effect::load_cell_misalignment, biased = model.effect == effects::Effect::load_cell_bias;
+    if (!turned && !biased) continue;
+    for (campaign::State& row : campaign.states->rows) {
+      const effects::ArmState* state = stateOf(effects.fit, row);
+      if (state == nullptr) continue;
+      auto force = row.wrench_in_cell.head<3>();
+      auto moment = row.wrench_in_cell.tail<3>();
+      if (turned) {
+        const Eigen::Matrix3d turn = turnOf(own.head<3>());
+        force = turn * Eigen::Vector3d(force);
+        moment = turn * Eigen::Vector3d(moment);
+      } else if (state->loaded) {
+        if (own.size() == 3) force += own;
+        if (own.size() == 1) {
+          const Eigen::Vector3d weight = -own[0] * up;
+          force += state->cell_axes.transpose() * weight;
+          moment += state->cell_axes.transpose() * (state->flange.linear() * load_offset).cross(weight);
+        }
+      }
+    }
+  }
+}
+
+namespace {
+
+/// Which effects shift readings, the others act through the wrench or the frame.
+bool shiftsReadings(effects::Effect effect) { return effect == effects::Effect::target_motion || effect == effects::Effect::tracker_drift; }
+
+bool hasMachine(const EffectFit& effects) {
+  for (const diagnosis::ChosenModel& one : effects.fit.set.models) {
+    if (effects::natureOf(effects.input->models[one.model].effect) == effects::EffectNature::machine) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+PostureOffsets::PostureOffsets(const EffectFit& effects, const Eigen::VectorXd& parameters, const effects::PostureStates& posture,
+                               Which which)
+    : effects_(effects), parameters_(parameters), posture_(posture), which_(which) {
+  if (!which.machine || !hasMachine(effects)) return;
+  const diagnosis::GapState& state = effects.fit.state;
+  const ImprovedArm with(effects, parameters, state.geometry, state.at.compliance);
+  const ImprovedArm springs(effects, Eigen::VectorXd::Zero(parameters.size()), state.geometry, state.at.compliance);
+  for (std::size_t s = 0; s < posture.size(); ++s) {
+    ToolLoad load{{}, posture[s].load.force, posture[s].load.moment};
+    const auto restOf = [&](const ImprovedArm& arm) {
+      if (s > 0) load.point_at_zero = with_.front().inverse() * posture[s].load.point;
+      return arm.toolMotion(posture, s, s > 0 ? &load : nullptr);
+    };
+    const auto one = restOf(with), other = restOf(springs);
+    if (!one || !other) {
+      with_.clear(), without_.clear();
+      return;
+    }
+    with_.push_back(*one), without_.push_back(*other);
+  }
+}
+
+std::vector<Eigen::Vector3d> PostureOffsets::linear(int target, const Eigen::Vector3d& place, bool machine) const {
+  effects::PostureStates states = posture_;
+  for (effects::ArmState& state : states) state.targets = {target}, state.points = {place};
+  std::vector<Eigen::Vector3d> offsets(states.size(), Eigen::Vector3d::Zero());
+  const diagnosis::GapLayout& layout = effects_.fit.data.layout;
+  for (const diagnosis::ChosenModel& one : effects_.fit.set.models) {
+    const effects::EffectModel& model = effects_.input->models[one.model];
+    const bool wanted = machine ? effects::natureOf(model.effect) == effects::EffectNature::machine : shiftsReadings(model.effect);
+    if (!wanted) continue;
+    const Eigen::VectorXd own = parameters_.segment(layout.model_at[one.model] - layout.effects,
+                                                    static_cast<Eigen::Index>(model.parameters()));
+    for (std::size_t s = 0; s < states.size(); ++s)
+      offsets[s] += model.columns(effects_.fit.state.at, states, s) * own;
+  }
+  return offsets;
+}
+
+std::vector<Eigen::Vector3d> PostureOffsets::byMachine(const Eigen::Vector3d& place) const {
+  std::vector<Eigen::Vector3d> offsets;
+  const Eigen::Vector3d at_zero = with_.front().inverse() * place;
+  for (std::size_t s = 0; s < with_.size(); ++s) offsets.push_back(with_[s] * at_zero - without_[s] * at_zero);
+  return offsets;
+}
+
+std::vector<Eigen::Vector3d> PostureOffsets::of(int target, const Eigen::Vector3d& place) const {
+  std::vector<Eigen::Vector3d> offsets(posture_.size(), Eigen::Vector3d::Zero());
+  const auto add = [&](const std::vector<Eigen::Vector3d>& more) {
+    for (std::size_t s = 0; s < offsets.size(); ++s) offsets[s] += more[s];
+  };
+  if (which_.readings) add(linear(target, place, false));
+  if (which_.machine) add(with_.empty() ? linear(target, place, true) : byMachine(place));
+  return offsets;
+}
+
+namespace {
+
+class Shifter {
+ public:
+  Shifter(const EffectFit& effects, const Eigen::VectorXd& parameters, const ShiftOptions& options)
+      : effects_(effects), parameters_(parameters), options_(options), state_(effects.fit.state) {
+    for (const diagnosis::GapPosture& posture : effects.fit.data.postures) postures_[posture.pose] = posture.states;
+  }
+
+  void loading(const campaign::States& states, campaign::Loading& table) {
+    for (const campaign::State& row : states.rows) {
+      if (row.step == 0 && postures_.count(row.pose) == 0) postures_[row.pose] = {atRest(row.pose, row.q, row.time_s)};
+    }
+    const Eigen::Isometry3d r0_from_loading = state_.geometry.r0_from_loading.value_or(Eigen::Isometry3d::Identity());
+    const Eigen::Isometry3d loading_from_r0 = r0_from_loading.inverse();
+    const Eigen::Isometry3d corrected = metrology::motionAbout(state_.at.epoch_centre, options_.frame).inverse() * r0_from_loading;
+    const auto places = unloadedPlaces(table, corrected);
+    for (campaign::LoadingReading& row : table.rows) {
+      const Eigen::Vector3d point = corrected * row.point;
+      row.point = loading_from_r0 * (point - offsetIn(row.pose, row.step, row.target, places.at({row.pose, row.target})));
+    }
+  }
+
+  void displacements(campaign::Displacements& table) {
+    const Eigen::Matrix3d table_from_r0 =
+        state_.geometry.displacements_in_r0.value_or(Eigen::Matrix3d::Identity()).transpose();
+    for (campaign::Displacement& row : table.rows) {
+      const auto known = postures_.find(row.pose);
+      const auto& at_zero = state_.geometry.targets_at_zero[static_cast<std::size_t>(row.target)];
+      if (known == postures_.end() || !at_zero) continue;
+      const Eigen::Vector3d place = known->second.front().posture.motion[6] * *at_zero;
+      row.displacement -= table_from_r0 * (offsetIn(row.pose, row.step, row.target, place) -
+                                           offsetIn(row.pose, 0, row.target, place));
+    }
+  }
+
+  template <class Row>
+  void sweep(std::vector<Row>& rows) const {
+    const Eigen::Matrix3d sweeps_from_r0 = state_.r0_from_sweeps.linear().transpose();
+    for (Row& row : rows) {
+      const effects::PostureStates states{atRest(-1, row.q, row.time_s)};
+      const PostureOffsets offsets(effects_, parameters_, states, options_.which);
+      row.point -= sweeps_from_r0 * offsets.of(row.target, state_.r0_from_sweeps * row.point).front();
+    }
+  }
+
+ private:
+  using Key = std::pair<int, int>;  // pose and target
+
+  /// The arm at rest, not loaded, with the effects' own turns in.
+  effects::ArmState atRest(int pose, const Vector6d& q, double time_s) const {
+    effects::ArmState state = effects::restState(state_.geometry, state_.at, q);
+    state.pose = pose;
+    state.time_s = time_s;
+    return state;
+  }
+
+  /// Where reflectors stand in step 0 (mean of its readings), else wherever they were read.
+  static std::map<Key, Eigen::Vector3d> unloadedPlaces(const campaign::Loading& table, const Eigen::Isometry3d& r0_from_loading) {
+    std::map<Key, std::pair<Eigen::Vector3d, int>> sums;
+    for (const bool unloaded : {true, false}) {
+      std::map<Key, std::pair<Eigen::Vector3d, int>> here;
+      for (const campaign::LoadingReading& row : table.rows) {
+        const Key key{row.pose, row.target};
+        if ((row.step == 0) != unloaded || sums.count(key) > 0) continue;
+        auto& [sum, count] = here.try_emplace(key, Eigen::Vector3d::Zero(), 0).first->second;
+        sum += r0_from_loading * row.point, ++count;
+      }
+      sums.merge(here);
+    }
+    std::map<Key, Eigen::Vector3d> places;
+    for (const auto& [key, sum] : sums) places[key] = sum.first / sum.second;
+    return places;
+  }
+
+  Eigen::Vector3d offsetIn(int pose, int step, int target, const Eigen::Vector3d& place) {
+    const auto known = postures_.find(pose);
+    if (known == postures_.end()) return Eigen::Vector3d::Zero();
+    const effects::PostureStates& states = known->second;
+    const Key key{pose, target};
+    if (offsets_.count(key) == 0) {
+      const PostureOffsets& own =
+          by_pose_.try_emplace(pose, effects_, parameters_, states, options_.which).first->second;
+      offsets_[key] = own.of(target, place);
+    }
+    for (std::size_t s = 0; s < states.size(); ++s) {
+      if (states[s].step == step) return offsets_[key][s];
+    }
+    return Eigen::Vector3d::Zero();
+  }
+
+  const EffectFit& effects_;
+  const Eigen::VectorXd& parameters_;
+  const ShiftOptions& options_;
+  const diagnosis::GapState& state_;
+  std::map<int, effects::PostureStates> postures_;
+  std::map<int, PostureOffsets> by_pose_;
+  std::map<Key, std::vector<Eigen::Vector3d>> offsets_;
+};
+
+}  // namespace
+
+void shiftReadings(const EffectFit& effects, const Eigen::VectorXd& parameters, const ShiftOptions& options,
+                   campaign::Campaign& campaign) {
+  Shifter shifter(effects, parameters, options);
+  if (campaign.loading && campaign.states && effects.fit.state.geometry.r0_from_loading)
+    shifter.loading(*campaign.states, *campaign.loading);
+  if (campaign.displacements) shifter.displacements(*campaign.displacements);
+  if (!options.sweeps || !effects.input->sweeps) return;
+  if (campaign.circle_sweeps) shifter.sweep(campaign.circle_sweeps->rows);
+  if (campaign.wrist_sweep) shifter.sweep(campaign.wrist_sweep->rows);
+}
+
+namespace {
+
+Vector6d frameMotion(const EffectFit& effects, const Eigen::VectorXd& parameters) {
+  for (const diagnosis::ChosenModel& one : effects.fit.set.models) {
+    if (effects.input->models[one.model].effect != effects::Effect::frame_error) continue;
+    const diagnosis::GapLayout& layout = effects.fit.data.layout;
+    return parameters.segment<6>(layout.model_at[one.model] - layout.effects);
+  }
+  return Vector6d::Zero();
+}
+
+void leaveOutUnknown(const EffectFit& effects, campaign::Campaign& campaign, std::vector<std::string>* left_out) {
+  std::vector<identification::OutlyingPosture> without;
+  for (const campaign::State& row : campaign.states->rows) {
+    const auto known = [&](const diagnosis::GapPosture& one) { return one.pose == row.pose; };
+    const auto& postures = effects.fit.data.postures;
+    if (row.step == 0 || std::any_of(postures.begin(), postures.end(), known)) continue;
+    if (!without.empty() && without.back().posture == row.pose) continue;
+    without.emplace_back();
+    without.back().posture = row.pose;
+    if (left_out == nullptr) continue;
+    left_out->push_back(
+        fmt::format("pose {}: no reflector read in all its load steps, so the effects cannot be taken off",
+                    campaign.pose_ids[static_cast<std::size_t>(row.pose)]));
+  }
+  if (!without.empty()) campaign = identification::withoutPostures(campaign, without);
+}
+
+}  // namespace
+
+campaign::Campaign withoutEffects(const campaign::Campaign& campaign, const EffectFit& effects, const Eigen::VectorXd& parameters,
+                        TakenOff which, std::vector<std::string>* left_out) {
+  campaign::Campaign result = campaign;
+  if (effects.fit.set.models.empty()) return result;
+  leaveOutUnknown(effects, result, left_out);
+  correctWrenches(effects, parameters, result);
+  ShiftOptions options;
+  options.which.machine = which != TakenOff::measurement;
+  options.frame = frameMotion(effects, parameters);
+  options.sweeps = which == TakenOff::everything;
+  shiftReadings(effects, parameters, options, result);
+  return result;
+}
+
+}  // namespace stiffscope::extended_model

@@ -1,0 +1,53 @@
+#include "core/extended_model/effect_deflection.h"
+
+#include <algorithm>
+
+#include "core/effects/effect_model.h"
+#include "core/effects/gravity_equilibrium.h"
+#include "core/extended_model/extended_arm.h"
+
+namespace stiffscope::extended_model {
+
+namespace {
+
+effects::RestingFlange flangeOf(const ImprovedModel& model, const frames::LoadingGeometry& geometry, const Eigen::VectorXd& parameters,
+                       const Vector6d& compliance) {
+  const auto arm = std::make_shared<const ImprovedArm>(model.effects, parameters, geometry, compliance);
+  return [&model, &geometry, arm](const Vector6d& commands, const effects::FlangeLoad& load) -> std::optional<Eigen::Isometry3d> {
+    const Eigen::Isometry3d& at_zero = geometry.arm.base_from_flange_at_zero;
+    const effects::ArmState rest = effects::restState(geometry, model.effects.fit.state.at, commands);
+    effects::PostureStates states{rest, rest};
+    states[1].step = 1;
+    states[1].loaded = true;
+    const bool loaded = !load.force.isZero(0.0) || !load.moment.isZero(0.0);
+    const ToolLoad own{at_zero * load.point_in_flange, load.force, load.moment};
+    const auto motion = arm->toolMotion(states, loaded ? 1 : 0, loaded ? &own : nullptr);
+    return motion ? std::optional<Eigen::Isometry3d>(*motion * at_zero) : std::nullopt;
+  };
+}
+
+}  // namespace
+
+bool givesFurther(const EffectFit& effects) {
+  return std::any_of(effects.added.begin(), effects.added.end(), [](const AddedEffect& one) {
+    return effects::natureOf(one.effect) == effects::EffectNature::machine;
+  });
+}
+
+effects::FurtherGive furtherGive(const ImprovedModel& model, identification::Method method) {
+  const identification::MethodResult& own = model.with.of(method);
+  const identification::StiffnessEstimate& estimate = own.estimate;
+  effects::FurtherGive give;
+  give.flange = flangeOf(model, own.geometry, model.effects.parameters(), estimate.compliance);
+  give.spring_covariance = estimate.covariance - estimate.parts.effects;
+  const auto& columns = model.spread.compliance[static_cast<std::size_t>(method)];
+  for (Eigen::Index k = 0; k < model.spread.parameters.cols(); ++k) {
+    Eigen::VectorXd parameters = model.effects.parameters();
+    for (std::size_t i = 0; i < model.effects.free.size(); ++i)
+      parameters[model.effects.free[i]] += model.spread.parameters(static_cast<Eigen::Index>(i), k);
+    give.varied.push_back(flangeOf(model, own.geometry, parameters, estimate.compliance + columns.col(k)));
+  }
+  return give;
+}
+
+}  // namespace stiffscope::extended_model

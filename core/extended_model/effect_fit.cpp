@@ -1,0 +1,270 @@
+#include "core/extended_model/effect_fit.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "core/diagnosis/diagnosis_input.h"
+#include "core/diagnosis/held_out.h"
+#include "core/diagnosis/localization.h"
+#include "core/diagnosis/preconditions.h"
+#include "core/effects/effect_model.h"
+#include "core/extended_model/corrected_campaign.h"
+#include "core/io/input_error.h"
+
+namespace stiffscope::extended_model {
+
+namespace {
+
+const io::InputPlace kOption{"--with"};
+const char* const kNotTold =
+    "these postures and loads cannot tell it from stiffnesses and geometry, or only with sizes that no machine has";
+
+std::vector<effects::EffectModel> modelsOf(const std::vector<WantedEffect>& wanted, const campaign::Campaign& campaign) {
+  std::vector<effects::EffectModel> models = effects::effectModelsOf(campaign);
+  std::erase_if(models, [&](const effects::EffectModel& model) {
+    return std::none_of(wanted.begin(), wanted.end(),
+                        [&](const WantedEffect& one) { return one.effect == model.effect; });
+  });
+  return models;
+}
+
+void requireTestable(const std::vector<WantedEffect>& wanted, const diagnosis::GapInput& input, const diagnosis::GapStart& start) {
+  const diagnosis::CampaignHas has = diagnosis::whatIsThere(input, diagnosis::gapData(input, start.state, {}), start.state, start.station);
+  for (const WantedEffect& one : wanted) {
+    const std::string missing = diagnosis::missingFor(one.effect, has);
+    if (!missing.empty())
+      throw io::InputError(kOption, std::string(effects::idOf(one.effect)), "this campaign cannot show that effect: " + missing);
+  }
+}
+
+/// The models of an effect with the parts asked for, each in full.
+std::vector<diagnosis::ChosenModel> asAsked(const WantedEffect& wanted, const std::vector<effects::EffectModel>& models) {
+  std::vector<diagnosis::ChosenModel> choices;
+  for (std::size_t m = 0; m < models.size(); ++m) {
+    if (models[m].effect != wanted.effect) continue;
+    diagnosis::ChosenModel choice{m, {}};
+    for (std::size_t p = 0; p < models[m].parts.size(); ++p) {
+      const auto& parts = wanted.parts;
+      if (std::find(parts.begin(), parts.end(), models[m].parts[p].detail) != parts.end()) choice.parts.push_back(p);
+    }
+    if (!choice.parts.empty()) choices.push_back(choice);
+  }
+  return choices;
+}
+
+/// The one way to fit what was asked for, where there is only one.
+std::optional<std::vector<diagnosis::ChosenModel>> withoutChoice(const std::vector<WantedEffect>& wanted,
+                                                      const std::vector<effects::EffectModel>& models) {
+  std::vector<diagnosis::ChosenModel> chosen;
+  for (const WantedEffect& one : wanted) {
+    std::vector<diagnosis::ChosenModel> choices = asAsked(one, models);
+    for (std::size_t m = 0; choices.empty() && m < models.size(); ++m) {
+      if (models[m].effect == one.effect && models[m].parts.size() > 1) return std::nullopt;
+    }
+    for (std::size_t m = 0; one.parts.empty() && m < models.size(); ++m) {
+      if (models[m].effect == one.effect) choices.push_back({m, {0}});
+    }
+    if (choices.size() != 1) return std::nullopt;
+    chosen.push_back(choices.front());
+  }
+  return chosen;
+}
+
+/// An effect of which stiffnesses and geometry leave nothing in these postures has no size.
+void requireSeen(const diagnosis::GapFit& fit, const diagnosis::GapInput& input) {
+  for (const diagnosis::ChosenModel& one : fit.set.models) {
+    const Eigen::Index first = fit.data.layout.model_at[one.model] - fit.data.layout.effects;
+    bool seen = false;
+    for (Eigen::Index i = first; i < first + static_cast<Eigen::Index>(input.models[one.model].parameters()); ++i)
+      seen = seen || fit.projection.matrix(i, i) > fit.rules.kept_share * fit.projection.before[i];
+    if (!seen) throw io::InputError(kOption, std::string(effects::idOf(input.models[one.model].effect)), kNotTold);
+  }
+}
+
+class Chooser {
+ public:
+  Chooser(const diagnosis::GapInput& input, const diagnosis::GapFit& fit, const std::vector<bool>& allowed)
+      : models_(input.models),
+        fit_(fit),
+        selector_(diagnosis::selectorOf(input, fit, fit.projection, static_cast<double>(fit.data.postures.size()), allowed)) {}
+
+  /// What was asked for by its parts, what the free selection took of the rest, and then, put in beside these, what that did
+  /// not make.
+  std::vector<diagnosis::ChosenModel> run(const std::vector<WantedEffect>& wanted) const {
+    std::vector<diagnosis::ChosenModel> chosen;
+    std::vector<WantedEffect> missing;
+    for (const WantedEffect& one : wanted) {
+      const auto choices = asAsked(one, models_);
+      const auto& found = fit_.set.models;
+      const auto own = std::find_if(found.begin(), found.end(),
+                                    [&](const diagnosis::ChosenModel& m) { return models_[m.model].effect == one.effect; });
+      if (!choices.empty()) {
+        chosen.push_back(bestOf(choices, one, chosen));
+      } else if (own != found.end()) {
+        chosen.push_back(*own);
+      } else {
+        missing.push_back(one);
+      }
+    }
+    for (const WantedEffect& one : missing) chosen.push_back(bestOf(beside(chosen, one), one, chosen));
+    return chosen;
+  }
+
+ private:
+  /// The effect beside the others, its parts chosen greedily, by each of its equations.
+  std::vector<diagnosis::ChosenModel> beside(const std::vector<diagnosis::ChosenModel>& others, const WantedEffect& wanted) const {
+    std::vector<diagnosis::ChosenModel> choices;
+    for (const diagnosis::FittedSet& set : selector_.ranked(selector_.fit(others))) {
+      if (models_[set.models.back().model].effect == wanted.effect) choices.push_back(set.models.back());
+    }
+    return choices;
+  }
+
+  diagnosis::ChosenModel bestOf(const std::vector<diagnosis::ChosenModel>& choices, const WantedEffect& wanted,
+                     const std::vector<diagnosis::ChosenModel>& others) const {
+    if (choices.empty())
+      throw io::InputError(kOption, std::string(effects::idOf(wanted.effect)), kNotTold);
+    std::vector<double> scores;
+    for (const diagnosis::ChosenModel& choice : choices) {
+      std::vector<diagnosis::ChosenModel> all = others;
+      all.push_back(choice);
+      scores.push_back(selector_.fit(all).score());
+    }
+    return choices[static_cast<std::size_t>(std::min_element(scores.begin(), scores.end()) - scores.begin())];
+  }
+
+  const std::vector<effects::EffectModel>& models_;
+  const diagnosis::GapFit& fit_;
+  diagnosis::Selector selector_;
+};
+
+/// How well an effect's equation describes a machine that has it: sizes of single effects came back within one per cent from
+/// the simulator, which solves the loaded equilibrium of another mechanism with finite rotations.
+constexpr double kModelShare = 0.01;
+
+/// Of the joint fit with all nuisances, and of the equations themselves.
+Eigen::MatrixXd covarianceOfFree(const EffectFit& effects) {
+  const diagnosis::GapLayout& layout = effects.fit.data.layout;
+  const std::vector<double> ones(effects.fit.data.postures.size(), 1.0);
+  const diagnosis::Projection projection = diagnosis::project(diagnosis::sumOf(effects.fit.data, ones), layout.effects);
+  Eigen::MatrixXd matrix = projection.matrix(effects.free, effects.free);
+  const Eigen::VectorXd scale =
+      matrix.diagonal().unaryExpr([](double d) { return d > 0.0 ? 1.0 / std::sqrt(d) : 0.0; });
+  matrix = scale.asDiagonal() * matrix * scale.asDiagonal();
+  matrix.diagonal().setConstant(1.0 + 1e-12);
+  const Eigen::MatrixXd inverse = matrix.ldlt().solve(Eigen::MatrixXd::Identity(matrix.rows(), matrix.cols()));
+  Eigen::MatrixXd covariance =
+      std::max(1.0, diagnosis::leftPerEquation(effects.fit)) * (scale.asDiagonal() * inverse * scale.asDiagonal());
+  for (const diagnosis::ChosenModel& one : effects.fit.set.models) {
+    const effects::EffectModel& model = effects.input->models[one.model];
+    if (effects::natureOf(model.effect) != effects::EffectNature::machine) continue;
+    const Eigen::Index first = layout.model_at[one.model] - layout.effects;
+    const Eigen::Index end = first + static_cast<Eigen::Index>(model.parameters());
+    for (std::size_t i = 0; i < effects.free.size(); ++i) {
+      if (effects.free[i] < first || effects.free[i] >= end) continue;
+      const double size = kModelShare * effects.parameters()[effects.free[i]];
+      covariance(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(i)) += size * size;
+    }
+  }
+  return covariance;
+}
+
+void describe(EffectFit& effects, const std::vector<bool>& allowed) {
+  const diagnosis::GapFit& fit = effects.fit;
+  const diagnosis::GapInput& input = *effects.input;
+  const diagnosis::Selector selector =
+      diagnosis::selectorOf(input, fit, fit.projection, static_cast<double>(fit.data.postures.size()), allowed);
+  for (std::size_t i = 0; i < fit.set.models.size(); ++i) {
+    const diagnosis::ChosenModel& chosen = fit.set.models[i];
+    const effects::EffectModel& model = input.models[chosen.model];
+    std::vector<diagnosis::ChosenModel> others = fit.set.models;
+    others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
+    AddedEffect one{model.effect, {}, model.shape, selector.fit(others).score() - fit.set.score(), true, {}};
+    std::vector<std::string> details;
+    Eigen::Index at = fit.data.layout.model_at[chosen.model] - fit.data.layout.effects;
+    for (std::size_t p = 0; p < model.parts.size(); ++p) {
+      const effects::EffectPart& part = model.parts[p];
+      const bool there = std::find(chosen.parts.begin(), chosen.parts.end(), p) != chosen.parts.end();
+      if (there && !part.detail.empty()) details.push_back(part.detail);
+      for (std::size_t k = 0; k < part.most.size(); ++k, ++at) {
+        if (!there) continue;
+        EffectParameter parameter{effects::parameterName(model, part, k), effects::parameterUnit(part, k), fit.set.effects[at], 0.0};
+        const auto free = std::find(effects.free.begin(), effects.free.end(), at) - effects.free.begin();
+        if (free < effects.covariance.rows()) parameter.sd = std::sqrt(effects.covariance(free, free));
+        if (std::abs(parameter.value) > part.most[k]) one.plausible = false;
+        one.parameters.push_back(parameter);
+      }
+    }
+    one.detail = fmt::format("{}", fmt::join(details, ", "));
+    effects.added.push_back(std::move(one));
+  }
+}
+
+}  // namespace
+
+EffectFit fitEffects(const campaign::Campaign& campaign, const WantedEffects& asked) {
+  EffectFit effects;
+  effects.notes = asked.notes;
+  std::vector<WantedEffect> wanted;
+  for (const WantedEffect& one : asked.effects) {
+    if (effects::natureOf(one.effect) == effects::EffectNature::geometry) {
+      effects.geometry.push_back(one.effect);
+    } else {
+      wanted.push_back(one);
+    }
+  }
+  if (asked.effects.empty()) return effects;
+  auto start = std::make_unique<diagnosis::GapStart>(diagnosis::gapStart(campaign, true));
+  if (!start->reason.empty())
+    throw io::InputError(kOption, std::string(effects::idOf(asked.effects.front().effect)), "there is no gap to fit it to: " + start->reason);
+  auto input = std::make_unique<diagnosis::GapInput>(diagnosis::GapInput{start->campaign, start->noise.noise, campaign.load_cell->force_sigma,
+                                                   campaign.load_cell->moment_sigma, modelsOf(wanted, campaign),
+                                                   start->absolute, start->sweeps,
+                                                   diagnosis::complianceExpected(start->state.at.compliance)});
+  requireTestable(asked.effects, *input, *start);
+  if (wanted.empty()) return effects;
+  diagnosis::boundDriftByNests(*start, *input);
+  const std::vector<bool> allowed(input->models.size(), true);
+  diagnosis::FitRules rules;
+  rules.noise_degrees = start->noise.degrees;
+  rules.fixed = withoutChoice(wanted, input->models);
+  if (!rules.fixed) {
+    const diagnosis::GapFit free = diagnosis::fitGap(*input, start->state, allowed, rules);
+    rules.fixed = Chooser(*input, free, allowed).run(wanted);
+  }
+  effects.fit = diagnosis::fitGap(*input, start->state, allowed, rules);
+  requireSeen(effects.fit, *input);
+  effects.start = std::move(start);
+  effects.input = std::move(input);
+  for (Eigen::Index i = 0; i < effects.fit.set.effects.size(); ++i) {
+    if (effects.fit.set.effects[i] != 0.0) effects.free.push_back(i);
+  }
+  effects.covariance = covarianceOfFree(effects);
+  const diagnosis::GapFit alone = diagnosis::withoutEffects(*effects.input, effects.start->state, effects.fit);
+  const diagnosis::StiffnessesAlone before =
+      diagnosis::stiffnessesAlone(alone.data, std::vector<double>(alone.data.postures.size(), 1.0), alone.projection);
+  effects.gap = diagnosis::deflectionGap(alone, before, effects.fit,
+                              diagnosis::allParameters(effects.fit.nuisances, effects.fit.set.effects));
+  describe(effects, allowed);
+  const diagnosis::FitRecipe recipe{false, effects.fit.set.models};
+  constexpr int kResamples = 120;
+  const diagnosis::HeldOutShrink held_out =
+      diagnosis::heldOutShrinks(*effects.input, alone, effects.fit, allowed, {recipe}, kResamples, 1).front();
+  effects.shrink = held_out.deflection;
+  effects.explained = held_out.explained;
+  return effects;
+}
+
+Eigen::VectorXd parametersFrom(const EffectFit& effects, const std::vector<double>& weights) {
+  const diagnosis::GapFit& fit = effects.fit;
+  const diagnosis::Projection projection = diagnosis::project(diagnosis::sumOf(fit.data, weights), fit.data.layout.effects);
+  double postures = 0.0;
+  for (const double weight : weights) postures += weight;
+  const std::vector<bool> allowed(effects.input->models.size(), true);
+  return diagnosis::selectorOf(*effects.input, fit, projection, std::max(2.0, postures), allowed).fit(fit.set.models).effects;
+}
+
+}  // namespace stiffscope::extended_model

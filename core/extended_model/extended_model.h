@@ -1,0 +1,40 @@
+#pragma once
+
+#include <array>
+
+#include "core/extended_model/effect_fit.h"
+#include "core/identification/identify.h"
+
+namespace stiffscope::extended_model {
+
+/// How an effect's uncertainty reaches a method's compliances. With Sigma = S S^T the covariance of the effects' free
+/// parameters, one column each: S itself, and the change of the compliances when the parameters move by that column,
+/// by running the whole identification again.
+struct EffectSpread {
+  Eigen::MatrixXd parameters;                                         ///< S; rows as EffectFit::free
+  std::array<Eigen::Matrix<double, 6, Eigen::Dynamic>, 3> compliance;  ///< by Method; rad/Nm
+};
+
+/// Joint springs with further effects.
+///
+/// The effects come from one joint fit (effect_fit.h). What they do is taken off the campaign (taken_off.h), and the three
+/// methods run on the rest as on any campaign. What then stands in `with`:
+///  - uncertainty: the scatter between postures that is left, what frames and calibration share, and, as a part of its
+///    own, sum_k d_k d_k^T over the columns of EffectSpread. Of least squares the two add exactly, because the springs'
+///    estimate at given effects is uncorrelated with the effects' own; that the effects are weighted otherwise than the
+///    methods leaves a little. Degrees of freedom that the effects' parameters take are counted in sigma and scatter;
+///  - displacements are the machine's: with faults of the measurement taken off, with what the machine does besides its
+///    springs left in. Shares compensated are of these;
+///  - subsets: the effects' parameters are fitted anew on each subset's postures, so that held out is held out.
+/// Parts that were chosen because they stand out stay chosen in all of this.
+struct ImprovedModel {
+  EffectFit effects;
+  campaign::Campaign campaign;  ///< what `with` was identified from
+  identification::Identification without, with;
+  EffectSpread spread;
+};
+
+/// `campaign`: as identification sees it. No effect added: `with` is `without`.
+ImprovedModel improveModel(const campaign::Campaign& campaign, EffectFit effects, const identification::IdentifyOptions& options);
+
+}  // namespace stiffscope::extended_model

@@ -1,0 +1,119 @@
+#include "core/extended_model/requested_effects.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <set>
+
+#include "core/effects/all.h"
+#include "core/effects/effect_model.h"
+#include "core/io/input_error.h"
+
+namespace stiffscope::extended_model {
+
+namespace {
+
+const io::InputPlace kOption{"--with"};
+
+effects::Effect effectNamed(const std::string& id, const std::string& word) {
+  if (const auto effect = effects::effectOf(id)) return *effect;
+  std::vector<std::string> known{"auto"};
+  for (const auto one : effects::kEffectIds) known.emplace_back(one);
+  throw io::InputError(kOption, word,
+                   fmt::format("expected auto or effects of: {}{}", fmt::join(effects::kEffectIds, ", "), io::nearestNameHint(id, known)));
+}
+
+std::vector<std::string> partsOf(effects::Effect effect, const campaign::Campaign& campaign) {
+  std::vector<std::string> names;
+  for (const effects::EffectModel& model : effects::effectModelsOf(campaign)) {
+    if (model.effect != effect) continue;
+    for (const effects::EffectPart& part : model.parts) {
+      if (!part.detail.empty() && std::find(names.begin(), names.end(), part.detail) == names.end())
+        names.push_back(part.detail);
+    }
+  }
+  return names;
+}
+
+/// "3" is joint 3 or link 3, "2-3" the pair.
+std::string partNamed(effects::Effect effect, const std::string& detail, const std::string& word, const campaign::Campaign& campaign) {
+  const std::vector<std::string> names = partsOf(effect, campaign);
+  std::vector<std::string> meant{detail, "joint " + detail, "link " + detail};
+  if (const std::size_t dash = detail.find('-'); dash != std::string::npos) {
+    const std::string a = detail.substr(0, dash), b = detail.substr(dash + 1);
+    meant.push_back(fmt::format("joints {} and {}", a, b));
+    meant.push_back(fmt::format("joints {} and {}", b, a));
+  }
+  for (const std::string& one : meant) {
+    if (std::find(names.begin(), names.end(), one) != names.end()) return one;
+  }
+  throw io::InputError(kOption, word,
+                   names.empty() ? fmt::format("{} has no parts to name", effects::idOf(effect))
+                                 : fmt::format("expected one of its parts: {}", fmt::join(names, ", ")));
+}
+
+WantedEffect& entryOf(std::vector<WantedEffect>& wanted, effects::Effect effect) {
+  const auto found = std::find_if(wanted.begin(), wanted.end(),
+                                  [&](const WantedEffect& one) { return one.effect == effect; });
+  return found != wanted.end() ? *found : wanted.emplace_back(WantedEffect{effect, {}});
+}
+
+/// "joint 2, joint 3 or joint 4": the parts chosen, without those that would have done as well.
+std::vector<std::string> partsIn(const std::string& detail) {
+  std::vector<std::string> parts;
+  const std::string chosen = detail.substr(0, detail.find(" or "));
+  for (std::size_t from = 0; from < chosen.size();) {
+    const std::size_t to = std::min(chosen.find(", ", from), chosen.size());
+    parts.push_back(chosen.substr(from, to - from));
+    from = to + 2;
+  }
+  return parts;
+}
+
+}  // namespace
+
+WantedEffects wantedEffects(const std::vector<std::string>& words, const campaign::Campaign& campaign) {
+  WantedEffects wanted;
+  for (const std::string& word : words) {
+    const std::size_t colon = word.find(':');
+    const effects::Effect effect = effectNamed(word.substr(0, colon), word);
+    WantedEffect& entry = entryOf(wanted.effects, effect);
+    if (colon != std::string::npos) entry.parts.push_back(partNamed(effect, word.substr(colon + 1), word, campaign));
+  }
+  return wanted;
+}
+
+WantedEffects namedBy(const diagnosis::Diagnosis& diagnosis) {
+  WantedEffects wanted;
+  if (!diagnosis.usable) {
+    wanted.notes.push_back("the diagnosis has no gap to look at, so nothing is added: " + diagnosis.unusable_reason);
+    return wanted;
+  }
+  if (diagnosis.verdict.entries.empty()) wanted.notes.push_back("the diagnosis names no effect: nothing is added");
+  for (const diagnosis::VerdictEntry& entry : diagnosis.verdict.entries) {
+    if (entry.effects.empty()) {
+      wanted.notes.push_back(
+          "the diagnosis also finds a gap that no effect explains (unknown): nothing can be added for it");
+      continue;
+    }
+    const effects::Effect effect = entry.effects.front();
+    WantedEffect& one = entryOf(wanted.effects, effect);
+    const std::vector<std::string> parts = partsIn(entry.detail);
+    one.parts.insert(one.parts.end(), parts.begin(), parts.end());
+    std::vector<std::string_view> others;
+    for (const effects::Effect other : entry.effects) {
+      if (other != effect) others.push_back(effects::idOf(other));
+    }
+    if (!others.empty()) {
+      wanted.notes.push_back(
+          fmt::format("{} is added because it fits best; this data cannot tell it from {}", effects::idOf(effect), fmt::join(others, " or ")));
+    }
+  }
+  if (wanted.effects.empty() && !diagnosis.verdict.entries.empty()) {
+    wanted.notes = {
+        "the diagnosis finds a gap that no effect explains (unknown): there is nothing to add, and the model stays as it is"};
+  }
+  return wanted;
+}
+
+}  // namespace stiffscope::extended_model

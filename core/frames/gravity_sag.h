@@ -1,0 +1,45 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <optional>
+#include <vector>
+
+#include "core/campaign/campaign.h"
+#include "core/robot/gravity_load.h"
+
+namespace stiffscope::frames {
+
+/// How far a reflector sags under the arm's own weight at a posture, so that readings can be referred to the rigid
+/// arm. All in R0, but for the result, which is turned into the frame of the readings.
+class SagModel {
+ public:
+  /// No sag: masses or stiffnesses not known.
+  SagModel() = default;
+  SagModel(robot::Robot arm_in_r0, robot::OwnWeight weight, const Vector6d& compliance,
+           std::vector<std::optional<Eigen::Vector3d>> targets_in_r0_at_zero, const Eigen::Isometry3d& points_from_r0);
+
+  bool active() const { return active_; }
+
+  /// Displacement of target `target` by the sag at joint angles q, in the axes of the readings, m.
+  Eigen::Vector3d displacement(const Vector6d& q, int target) const;
+
+ private:
+  bool active_ = false;
+  robot::Robot arm_;
+  robot::OwnWeight weight_;
+  Vector6d compliance_ = Vector6d::Zero();
+  std::vector<std::optional<Eigen::Vector3d>> targets_;
+  Eigen::Matrix3d points_from_r0_ = Eigen::Matrix3d::Identity();
+};
+
+/// The sweeps' readings referred to the rigid arm: each less the sag of its reflector at its joint angles. Rows as in
+/// the campaign's tables, in the frame of the readings, m.
+struct RigidPoints {
+  std::vector<Eigen::Vector3d> circle_sweeps;
+  std::vector<Eigen::Vector3d> wrist_sweep;
+  double largest_sag = 0.0;  ///< taken off a reading, m
+};
+
+RigidPoints rigidPoints(const campaign::Campaign& campaign, const SagModel& sag);
+
+}  // namespace stiffscope::frames

@@ -1,0 +1,176 @@
+#include "core/frames/joint_axes.h"
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <fmt/format.h>
+#include <map>
+
+#include "metrology/lines.h"
+
+namespace stiffscope::frames {
+
+namespace {
+
+/// How axis `axis` at zero moves with the axes before it at zero: 4 x 4 axis.
+Eigen::MatrixXd byEarlierAxes(const std::array<MeasuredAxis, 6>& axes, std::size_t axis) {
+  std::vector<metrology::MeasuredLine> earlier;
+  for (std::size_t before = 0; before < axis; ++before) earlier.push_back(axes[before].at_zero);
+  return metrology::derivativesByLines(earlier, [&](const std::vector<metrology::Line>& moved) -> Eigen::VectorXd {
+    const metrology::Line back = turnedBack(moved, axes[axis].swept_at, axes[axis].as_swept.line);
+    return axes[axis].at_zero.stepTo(back);
+  });
+}
+
+}  // namespace
+
+AxesCovariance axesCovariance(const std::array<MeasuredAxis, 6>& axes) {
+  AxesCovariance by_fits = AxesCovariance::Zero(), of_fits = AxesCovariance::Zero();
+  for (std::size_t axis = 0; axis < axes.size(); ++axis) {
+    if (!axes[axis].measured) continue;
+    const auto at = static_cast<Eigen::Index>(4 * axis);
+    of_fits.block<4, 4>(at, at) = axes[axis].as_swept.covariance;
+    by_fits.block<4, 4>(at, at).setIdentity();
+    const bool turned = (axes[axis].swept_at.head(static_cast<Eigen::Index>(axis)).array() != 0.0).any();
+    if (turned) by_fits.middleRows<4>(at) += byEarlierAxes(axes, axis) * by_fits.topRows(at);
+  }
+  return by_fits * of_fits * by_fits.transpose();
+}
+
+namespace {
+
+constexpr double kStandsStill = 1e-5;  // rad: a controller's read-back resolution
+
+Eigen::Isometry3d turnAbout(const metrology::Line& axis, double angle) {
+  const Eigen::Matrix3d turn = Eigen::AngleAxisd(angle, axis.direction).toRotationMatrix();
+  Eigen::Isometry3d motion = Eigen::Isometry3d::Identity();
+  motion.linear() = turn;
+  motion.translation() = axis.point - turn * axis.point;
+  return motion;
+}
+
+struct Sweep {
+  std::vector<metrology::CirclePoints> circles;
+  std::vector<std::vector<double>> angles;  ///< of the turning joint, per circle and point
+  std::vector<int> targets;
+  Vector6d q = Vector6d::Zero();  ///< of the first reading
+  bool others_moved = false;
+};
+
+Sweep collect(const campaign::Campaign& campaign, int axis, const RigidPoints& points) {
+  Sweep sweep;
+  std::map<int, std::size_t> circle_of;
+  const bool weighted = campaign.tracker.has_value();
+  const metrology::TrackerNoise noise = weighted ? trackerNoise(*campaign.tracker) : metrology::TrackerNoise{};
+  bool first = true;
+  for (std::size_t row = 0; row < campaign.circle_sweeps->rows.size(); ++row) {
+    const campaign::CircleReading& reading = campaign.circle_sweeps->rows[row];
+    if (reading.axis != axis) continue;
+    if (first) sweep.q = reading.q, first = false;
+    for (int joint = 0; joint < 6; ++joint) {
+      if (joint != axis && std::abs(reading.q[joint] - sweep.q[joint]) > kStandsStill) sweep.others_moved = true;
+    }
+    const auto [place, added] = circle_of.try_emplace(reading.target, sweep.circles.size());
+    if (added) {
+      sweep.circles.emplace_back();
+      sweep.angles.emplace_back();
+      sweep.targets.push_back(reading.target);
+    }
+    sweep.circles[place->second].points.push_back(points.circle_sweeps[row]);
+    if (weighted) sweep.circles[place->second].covariances.push_back(noise.covarianceAt(reading.point));
+    sweep.angles[place->second].push_back(reading.q[axis]);
+  }
+  return sweep;
+}
+
+/// How far the readings scatter when each is turned back by its joint angle: least for the right sense of the axis.
+double scatterTurnedBack(const Sweep& sweep, const metrology::Line& axis, double sense) {
+  double scatter = 0.0;
+  for (std::size_t k = 0; k < sweep.circles.size(); ++k) {
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    double squares = 0.0;
+    for (std::size_t i = 0; i < sweep.circles[k].points.size(); ++i) {
+      const Eigen::Vector3d back =
+          Eigen::AngleAxisd(-sense * sweep.angles[k][i], axis.direction) * (sweep.circles[k].points[i] - axis.point);
+      sum += back;
+      squares += back.squaredNorm();
+    }
+    scatter += squares - sum.squaredNorm() / static_cast<double>(sweep.circles[k].points.size());
+  }
+  return scatter;
+}
+
+/// Turns the measured axis back through the axes before it; false with the reason where one of those is unknown.
+bool turnBackToZero(const std::array<MeasuredAxis, 6>& axes, int axis, MeasuredAxis& measured) {
+  Eigen::Isometry3d back = Eigen::Isometry3d::Identity();
+  for (int before = 0; before < axis; ++before) {
+    if (measured.swept_at[before] == 0.0) continue;
+    const MeasuredAxis& earlier = axes[static_cast<std::size_t>(before)];
+    if (!earlier.measured) {
+      measured.reason = fmt::format("axis {} stood away from zero during its sweep and is not measured itself",
+                                    before + 1);
+      return false;
+    }
+    back = turnAbout(earlier.at_zero.line, -measured.swept_at[before]) * back;
+  }
+  metrology::MeasuredLine& line = measured.at_zero;
+  line = measured.as_swept;
+  line.line = {back * line.line.point, back.linear() * line.line.direction};
+  line.across_u = back.linear() * line.across_u;
+  line.across_v = back.linear() * line.across_v;
+  return true;
+}
+
+}  // namespace
+
+metrology::Line turnedBack(const std::vector<metrology::Line>& axes_at_zero, const Vector6d& q, metrology::Line line) {
+  for (std::size_t before = 0; before < axes_at_zero.size(); ++before) {
+    const Eigen::Isometry3d back = turnAbout(axes_at_zero[before], -q[static_cast<Eigen::Index>(before)]);
+    line = {back * line.point, back.linear() * line.direction};
+  }
+  return line;
+}
+
+metrology::TrackerNoise trackerNoise(const campaign::Tracker& tracker) {
+  return {tracker.range_fixed, tracker.range_per_m, tracker.angle_fixed, tracker.angle_per_m, tracker.station};
+}
+
+std::array<MeasuredAxis, 6> measureAxes(const campaign::Campaign& campaign, const RigidPoints& points) {
+  std::array<MeasuredAxis, 6> axes;
+  for (int axis = 0; axis < 6; ++axis) {
+    MeasuredAxis& measured = axes[static_cast<std::size_t>(axis)];
+    if (!campaign.circle_sweeps) {
+      measured.reason = "the campaign has no circle sweeps";
+      continue;
+    }
+    const Sweep sweep = collect(campaign, axis, points);
+    if (sweep.circles.empty()) {
+      measured.reason = "it was not swept";
+      continue;
+    }
+    if (sweep.others_moved) {
+      measured.reason = "other joints moved during its sweep";
+      continue;
+    }
+    measured.fit = metrology::fitAxis(sweep.circles);
+    measured.targets = sweep.targets;
+    if (!measured.fit.determined) {
+      measured.reason = measured.fit.reason;
+      continue;
+    }
+    measured.swept_at = sweep.q;
+    measured.as_swept = measured.fit.axis;
+    const metrology::Line& line = measured.as_swept.line;
+    if (scatterTurnedBack(sweep, line, -1.0) < scatterTurnedBack(sweep, line, 1.0)) {
+      measured.as_swept = measured.as_swept.reversed();
+    }
+    measured.measured = turnBackToZero(axes, axis, measured);
+  }
+  const AxesCovariance covariance = axesCovariance(axes);
+  for (std::size_t axis = 0; axis < axes.size(); ++axis) {
+    const auto at = static_cast<Eigen::Index>(4 * axis);
+    axes[axis].at_zero.covariance = covariance.block<4, 4>(at, at);
+  }
+  return axes;
+}
+
+}  // namespace stiffscope::frames

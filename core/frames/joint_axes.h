@@ -1,0 +1,49 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <string>
+#include <vector>
+
+#include "core/campaign/campaign.h"
+#include "core/frames/gravity_sag.h"
+#include "metrology/axis_fit.h"
+#include "metrology/measured_points.h"
+
+namespace stiffscope::frames {
+
+/// One joint axis from its circle sweeps.
+struct MeasuredAxis {
+  bool measured = false;
+  std::string reason;      ///< why not measured
+  metrology::AxisFit fit;             ///< circles in the order of `targets`
+  std::vector<int> targets;
+  Vector6d swept_at = Vector6d::Zero();  ///< joint angles of the first reading, rad
+  /// The axis where it was swept, in the frame of the readings, directed as the joint turns positively. Its
+  /// covariance is that of the fit.
+  metrology::MeasuredLine as_swept;
+  /// The same with all joints at zero. Its covariance holds those of the axes it was turned back about too; what it
+  /// has in common with those is in axesCovariance.
+  metrology::MeasuredLine at_zero;
+};
+
+/// Circle-point (paper, II.D): fits the common axis of each joint's circles, on the readings referred to
+/// the rigid arm, gives it the sense of the joint's turning, and turns it back to zero through the axes before it.
+/// An axis without sweeps, or whose sweep moves other joints too, is not measured and says why.
+std::array<MeasuredAxis, 6> measureAxes(const campaign::Campaign& campaign, const RigidPoints& points);
+
+/// A line of the arm at joint angles q, where the joints before it, whose axes at zero are given, stand at zero.
+metrology::Line turnedBack(const std::vector<metrology::Line>& axes_at_zero, const Vector6d& q, metrology::Line line);
+
+/// The tracker's noise as the metrology package takes it.
+metrology::TrackerNoise trackerNoise(const campaign::Tracker& tracker);
+
+/// Of the six axes' parameters at zero, four an axis in the order of MeasuredLine, at MeasuredAxis::at_zero. m, rad.
+using AxesCovariance = Eigen::Matrix<double, 24, 24>;
+
+/// Law of propagation (GUM 5.2.2) from the fits, which are independent of each other, to the axes at zero, which are
+/// not: an axis swept with the joints before it away from zero is turned back about measured axes, and takes part
+/// in their errors. Joint angles count as exact. Rows of axes that are not measured are zero.
+AxesCovariance axesCovariance(const std::array<MeasuredAxis, 6>& axes);
+
+}  // namespace stiffscope::frames

@@ -1,0 +1,125 @@
+#include "core/frames/position_equations.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <fmt/format.h>
+
+#include "core/frames/arm_geometry.h"
+#include "core/robot/gravity_load.h"
+
+namespace stiffscope::frames {
+
+namespace {
+
+constexpr Eigen::Index kShift = 6, kAxes = 24, kCompliances = 6;
+
+class RowMaker {
+ public:
+  RowMaker(const Frames& frames, const LoadingGeometry& geometry, std::size_t targets)
+      : geometry_(geometry), targets_(static_cast<Eigen::Index>(targets)), axes_(frames) {}
+
+  Eigen::Index parameters() const { return kShift + 3 * targets_ + kAxes + kCompliances; }
+
+  Eigen::MatrixXd prior() const {
+    Eigen::MatrixXd prior = Eigen::MatrixXd::Zero(parameters(), parameters());
+    const Eigen::Index at = kShift + 3 * targets_;
+    for (Eigen::Index j = 0; j < 6; ++j) {
+      prior.block<4, 4>(at + 4 * j, at + 4 * j) = axes_.covariance(static_cast<std::size_t>(j)).inverse();
+    }
+    prior.bottomRightCorner<6, 6>() =
+        Matrix6d::Identity() / (kSagShare * kSagShare);
+    return prior;
+  }
+
+  /// Rows of one posture; `r0_from_loading` has brought the measured points into R0.
+  void add(const campaign::StatePoints& state, const Vector6d& q, const metrology::TrackerNoise& noise,
+           AbsoluteRows& result) const {
+    const robot::Robot& arm = geometry_.arm;
+    const Eigen::Isometry3d& r0_from_loading = *geometry_.r0_from_loading;
+    const Vector6d sagged = geometry_.sagged(q);
+    const robot::ArmPosture posture = robot::postureAt(arm, sagged);
+    std::vector<robot::ArmPosture> moved;  // by each axis parameter, then by each compliance
+    for (std::size_t j = 0; j < 6; ++j) {
+      for (int k = 0; k < 4; ++k) moved.push_back(axes_.postureWithMoved(arm, sagged, j, k));
+    }
+    const Vector6d sag = sagged - q;
+    for (const campaign::ReflectorMean& mean : state.reflectors) {
+      const auto& at_zero = geometry_.targets_at_zero[static_cast<std::size_t>(mean.target)];
+      if (!at_zero) continue;
+      AbsoluteRow row;
+      row.pose = state.pose;
+      row.target = mean.target;
+      const Eigen::Vector3d modelled = posture.motion[6] * *at_zero;
+      row.point = r0_from_loading * mean.point;
+      row.residual = row.point - modelled;
+      const Eigen::Matrix3d covariance = noise.covarianceAt(mean.point) / mean.readings;
+      row.weight = (r0_from_loading.linear() * covariance * r0_from_loading.linear().transpose()).inverse();
+      row.by_angles = robot::jacobianAt(arm, posture, modelled).topRows<3>();
+      row.jacobian = Eigen::MatrixXd::Zero(3, parameters());
+      row.jacobian.block<3, 3>(0, 3).setIdentity();
+      row.jacobian.block<3, 3>(0, kShift + 3 * mean.target) = posture.motion[6].linear();
+      for (Eigen::Index k = 0; k < kAxes; ++k) {
+        row.jacobian.col(kShift + 3 * targets_ + k) =
+            (moved[static_cast<std::size_t>(k)].motion[6] * *at_zero - modelled) / MovedAxes::kStep;
+      }
+      // The sag is proportional to each compliance: q_sagged = q + c tau.
+      row.sag = sag;
+      row.jacobian.rightCols<6>() = row.by_angles * sag.asDiagonal();
+      result.rows.push_back(std::move(row));
+    }
+  }
+
+ private:
+  const LoadingGeometry& geometry_;
+  Eigen::Index targets_;
+  MovedAxes axes_;
+};
+
+std::string missing(const campaign::Campaign& campaign, const Frames& frames, const LoadingGeometry& geometry,
+                    const std::optional<metrology::TrackerNoise>& noise) {
+  if (!campaign.loading || !campaign.states)
+    return "no absolute readings unloaded: measure `loading` with step 0";
+  if (!noise) return "the tracker's noise is not declared: state `tracker` in campaign.xml";
+  for (std::size_t j = 0; j < 6; ++j) {
+    if (!frames.axes[j].measured)
+      return fmt::format("axis {} is not measured: {}", j + 1, frames.axes[j].reason);
+  }
+  if (!geometry.r0_from_loading) return "the loading's readings are in another frame than the sweeps'";
+  return {};
+}
+
+}  // namespace
+
+AbsoluteRows absoluteRows(const campaign::Campaign& campaign, const Frames& frames, const LoadingGeometry& geometry,
+                          const std::vector<campaign::StatePoints>& states, const std::optional<metrology::TrackerNoise>& noise) {
+  AbsoluteRows result;
+  result.reason = missing(campaign, frames, geometry, noise);
+  if (!result.reason.empty()) return result;
+  const RowMaker maker(frames, geometry, campaign.targets.size());
+  std::vector<const campaign::State*> unloaded(campaign.pose_ids.size(), nullptr);
+  for (const campaign::State& state : campaign.states->rows) {
+    if (state.step == 0) unloaded[static_cast<std::size_t>(state.pose)] = &state;
+  }
+  for (const campaign::StatePoints& state : states) {
+    if (state.pose < 0 || state.step != 0) continue;
+    const campaign::State* reported = unloaded[static_cast<std::size_t>(state.pose)];
+    if (reported == nullptr) continue;
+    maker.add(state, reported->q, *noise, result);
+    result.poses.push_back(state.pose);
+  }
+  result.parameters = static_cast<int>(maker.parameters());
+  result.prior = maker.prior();
+  std::vector<bool> seen(campaign.targets.size(), false);
+  for (const AbsoluteRow& row : result.rows) {
+    seen[static_cast<std::size_t>(row.target)] = true;
+    result.centre += row.point / static_cast<double>(result.rows.size());
+  }
+  for (AbsoluteRow& row : result.rows) {
+    const Eigen::Vector3d lever = row.point - result.centre;
+    for (int k = 0; k < 3; ++k) row.jacobian.col(k) = Eigen::Vector3d::Unit(k).cross(lever);
+  }
+  result.targets = static_cast<int>(std::count(seen.begin(), seen.end(), true));
+  return result;
+}
+
+}  // namespace stiffscope::frames

@@ -1,0 +1,131 @@
+#include "core/frames/unloaded_positions.h"
+
+#include <Eigen/Dense>
+#include <map>
+
+#include "core/robot/kinematics.h"
+#include "metrology/registration.h"
+
+namespace stiffscope::frames {
+
+namespace {
+
+struct Seen {
+  robot::ArmPosture posture;
+  std::map<int, Eigen::Vector3d> points;
+};
+
+std::map<int, Seen> byPose(const LoadingGeometry& geometry, const std::vector<UnloadedPosition>& positions) {
+  std::map<int, Seen> poses;
+  for (const UnloadedPosition& position : positions) {
+    Seen& seen = poses[position.pose];
+    if (seen.points.empty()) seen.posture = robot::postureAt(geometry.arm, geometry.sagged(position.q));
+    seen.points[position.target] = position.point;
+  }
+  return poses;
+}
+
+Eigen::Vector3d rotationVector(const Eigen::Matrix3d& rotation) {
+  const Eigen::AngleAxisd turn(rotation);
+  return turn.angle() * turn.axis();
+}
+
+/// Rotation of the reflectors from one pose to another by their common points.
+std::optional<Eigen::Matrix3d> measuredTurn(const Seen& from, const Seen& to) {
+  std::vector<Eigen::Vector3d> before, after;
+  for (const auto& [target, point] : from.points) {
+    const auto same = to.points.find(target);
+    if (same == to.points.end()) continue;
+    before.push_back(point);
+    after.push_back(same->second);
+  }
+  const metrology::RigidRegistration registration = metrology::registerRigid(before, after);
+  if (!registration.determined) return std::nullopt;
+  return Eigen::Matrix3d(registration.to_from_source.linear());
+}
+
+}  // namespace
+
+std::optional<BaseFromPostures> baseFromPostures(const LoadingGeometry& geometry,
+                                                 const std::vector<UnloadedPosition>& positions,
+                                                 std::size_t target_count) {
+  const std::map<int, Seen> poses = byPose(geometry, positions);
+  if (poses.size() < 3) return std::nullopt;
+  const Seen& first = poses.begin()->second;
+  Eigen::Matrix3d cross = Eigen::Matrix3d::Zero();
+  for (const auto& [pose, seen] : poses) {
+    const auto turn = measuredTurn(first, seen);
+    if (!turn) continue;
+    const Eigen::Matrix3d by_model =
+        seen.posture.motion[6].linear() * first.posture.motion[6].linear().transpose();
+    cross += rotationVector(*turn) * rotationVector(by_model).transpose();
+  }
+  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(cross, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  constexpr double kOneAxis = 1e-3;
+  if (!(svd.singularValues()[1] > kOneAxis * svd.singularValues()[0])) return std::nullopt;
+  const double sign = (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0.0 ? -1.0 : 1.0;
+  const Eigen::Matrix3d points_from_base =
+      svd.matrixU() * Eigen::Vector3d(1.0, 1.0, sign).asDiagonal() * svd.matrixV().transpose();
+
+  // point = R (M x_k + m) + t is linear in t and the x_k.
+  const auto size = static_cast<Eigen::Index>(3 + 3 * target_count);
+  Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(size, size);
+  Eigen::VectorXd right = Eigen::VectorXd::Zero(size);
+  std::vector<int> counts(target_count, 0);
+  for (const auto& [pose, seen] : poses) {
+    const Eigen::Matrix3d turn = points_from_base * seen.posture.motion[6].linear();
+    const Eigen::Vector3d shift = points_from_base * seen.posture.motion[6].translation();
+    for (const auto& [target, point] : seen.points) {
+      const Eigen::Index at = 3 + 3 * target;
+      normal.topLeftCorner<3, 3>() += Eigen::Matrix3d::Identity();
+      normal.block<3, 3>(0, at) += turn;
+      normal.block<3, 3>(at, 0) += turn.transpose();
+      normal.block<3, 3>(at, at) += Eigen::Matrix3d::Identity();
+      right.head<3>() += point - shift;
+      right.segment<3>(at) += turn.transpose() * (point - shift);
+      ++counts[static_cast<std::size_t>(target)];
+    }
+  }
+  for (std::size_t k = 0; k < target_count; ++k) {
+    if (counts[k] == 0)
+      normal.block<3, 3>(3 + 3 * static_cast<int>(k), 3 + 3 * static_cast<int>(k)).setIdentity();
+  }
+  const Eigen::VectorXd solution = normal.ldlt().solve(right);
+  BaseFromPostures result;
+  result.points_from_base.linear() = points_from_base;
+  result.points_from_base.translation() = solution.head<3>();
+  result.targets_at_zero.resize(target_count);
+  for (std::size_t k = 0; k < target_count; ++k) {
+    if (counts[k] > 0) result.targets_at_zero[k] = solution.segment<3>(3 + 3 * static_cast<int>(k));
+  }
+  return result;
+}
+
+std::vector<UnloadedPosition> unloadedPositions(const campaign::Campaign& campaign) {
+  std::vector<UnloadedPosition> positions;
+  if (!campaign.loading || !campaign.states) return positions;
+  const std::size_t targets = campaign.targets.size();
+  std::vector<UnloadedPosition> sums(campaign.pose_ids.size() * targets);
+  for (const campaign::LoadingReading& reading : campaign.loading->rows) {
+    if (reading.step != 0) continue;
+    UnloadedPosition& sum =
+        sums[static_cast<std::size_t>(reading.pose) * targets + static_cast<std::size_t>(reading.target)];
+    sum.pose = reading.pose;
+    sum.target = reading.target;
+    sum.point += reading.point;
+    ++sum.readings;
+  }
+  std::vector<const campaign::State*> states(campaign.pose_ids.size(), nullptr);
+  for (const campaign::State& state : campaign.states->rows) {
+    if (state.step == 0) states[static_cast<std::size_t>(state.pose)] = &state;
+  }
+  for (UnloadedPosition& sum : sums) {
+    if (sum.readings == 0 || states[static_cast<std::size_t>(sum.pose)] == nullptr) continue;
+    sum.point /= sum.readings;
+    sum.q = states[static_cast<std::size_t>(sum.pose)]->q;
+    positions.push_back(sum);
+  }
+  return positions;
+}
+
+}  // namespace stiffscope::frames

@@ -1,0 +1,328 @@
+#include "core/identification/estimate.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <numeric>
+#include <utility>
+
+#include "core/numerics/parallel.h"
+#include "metrology/tail_probability.h"
+
+namespace stiffscope::identification {
+
+namespace {
+
+constexpr int kNodes = 32;  // of the midpoint rule, exact to 1e-5 of a probability for three degrees and more
+
+/// 1 / sin^2 at the midpoints.
+const Eigen::Array<double, kNodes, 1>& inverseSquares() {
+  static const Eigen::Array<double, kNodes, 1> values = [] {
+    Eigen::Array<double, kNodes, 1> at;
+    for (int i = 0; i < kNodes; ++i) at[i] = std::pow(std::sin(0.5 * std::numbers::pi * (i + 0.5) / kNodes), -2);
+    return at;
+  }();
+  return values;
+}
+
+/// Where a function that falls with its positive argument crosses `level`; by bisection of the logarithm.
+template <class Falling>
+double crossing(double low, double high, double level, const Falling& falling) {
+  constexpr int kHalvings = 34;
+  for (int n = 0; n < kHalvings; ++n) {
+    const double middle = std::sqrt(low * high);
+    (falling(middle) > level ? low : high) = middle;
+  }
+  return std::sqrt(low * high);
+}
+
+constexpr double kLeast = 0.1, kMost = 1e3;  // factors
+
+/// The same integral for Student's t: dof weights of 1 / dof.
+double studentTail(double factor, double dof) {
+  return (1.0 + factor * factor / dof * inverseSquares()).pow(-0.5 * dof).mean();
+}
+
+}  // namespace
+
+double coverageFactor(const Eigen::VectorXd& weights, double coverage) { return coverageFactor(weights, {}, coverage); }
+
+double coverageFactor(const Eigen::VectorXd& weights, const EqualWeights& more, double coverage) {
+  const double sum = weights.sum() + more.count * more.weight;
+  const Eigen::VectorXd shares = weights / sum;
+  return crossing(kLeast, kMost, 1.0 - coverage, [&](double factor) {
+    Eigen::Array<double, kNodes, 1> product = Eigen::Array<double, kNodes, 1>::Ones();
+    for (const double share : shares) product *= 1.0 + factor * factor * share * inverseSquares();
+    if (more.count > 0.0) product *= (1.0 + factor * factor * more.weight / sum * inverseSquares()).pow(more.count);
+    return product.rsqrt().mean();
+  });
+}
+
+double studentFactor(double dof, double coverage) {
+  return crossing(kLeast, kMost, 1.0 - coverage, [&](double factor) { return metrology::fTail(factor * factor, 1, dof); });
+}
+
+double coverageFactor(const StiffnessEstimate& estimate, int joint, double coverage) {
+  const double dof = estimate.dof(joint);
+  if (!(dof > 0.0) || !std::isfinite(estimate.covariance(joint, joint))) return std::numeric_limits<double>::quiet_NaN();
+  return studentFactor(dof, coverage);
+}
+
+double matchedDof(const Eigen::MatrixXd& influence_covariance, const EqualWeights& more) {
+  if (!(influence_covariance.trace() > 0.0)) return 0.0;
+  const Eigen::VectorXd weights =
+      Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(influence_covariance, Eigen::EigenvaluesOnly).eigenvalues().cwiseMax(0.0);
+  const double factor = coverageFactor(weights, more, kStatedCoverage);
+  // By the same rule as the factor, so that its error drops out. The tail at a given factor falls as the degrees of freedom grow.
+  return crossing(0.3, 1e4, 1.0 - kStatedCoverage, [&](double dof) { return studentTail(factor, dof); });
+}
+
+namespace {
+
+constexpr Eigen::Index kExact = 64;
+
+/// The postures of the largest own influence, in their order.
+std::vector<Eigen::Index> largest(const Eigen::VectorXd& own, Eigen::Index count) {
+  std::vector<Eigen::Index> postures(static_cast<std::size_t>(own.size()));
+  std::iota(postures.begin(), postures.end(), Eigen::Index{0});
+  const auto end = postures.begin() + std::min(count, own.size());
+  std::partial_sort(postures.begin(), end, postures.end(), [&](Eigen::Index a, Eigen::Index b) {
+    return own[a] > own[b] || (own[a] == own[b] && a < b);
+  });
+  postures.erase(end, postures.end());
+  std::sort(postures.begin(), postures.end());
+  return postures;
+}
+
+}  // namespace
+
+double InfluenceCovariance::trace() const { return own.sum() + (middle * (through * through.transpose())).trace(); }
+
+double InfluenceCovariance::squaredNorm() const {
+  const Eigen::MatrixXd shared = middle * (through * through.transpose());
+  const Eigen::MatrixXd crossed = middle * (through * own.asDiagonal() * through.transpose());
+  return own.squaredNorm() + 2.0 * crossed.trace() + (shared * shared).trace();
+}
+
+Eigen::MatrixXd InfluenceCovariance::between(const std::vector<Eigen::Index>& postures) const {
+  const Eigen::MatrixXd chosen = through(Eigen::all, postures);
+  Eigen::MatrixXd covariance = chosen.transpose() * middle * chosen;
+  covariance.diagonal() += own(postures);
+  return covariance;
+}
+
+InfluenceCovariance combined(double a, const InfluenceCovariance& first, double b, const InfluenceCovariance& second) {
+  const Eigen::Index rank = first.middle.rows(), more = second.middle.rows();
+  InfluenceCovariance sum;
+  sum.own = a * first.own + b * second.own;
+  sum.through.resize(rank + more, first.own.size());
+  sum.through << first.through, second.through;
+  sum.middle = Eigen::MatrixXd::Zero(rank + more, rank + more);
+  sum.middle.topLeftCorner(rank, rank) = a * first.middle;
+  sum.middle.bottomRightCorner(more, more) = b * second.middle;
+  return sum;
+}
+
+InfluenceCovariance influenceCovariance(const std::vector<PostureGain>& gains, const std::vector<NormalEquations>& normal,
+                                        const Matrix6d& inverse, int joint) {
+  const auto n = static_cast<Eigen::Index>(gains.size());
+  InfluenceCovariance covariance{Eigen::VectorXd(n), Eigen::MatrixXd(6, n), -inverse};
+  for (Eigen::Index p = 0; p < n; ++p) {
+    const auto at = static_cast<std::size_t>(p);
+    const Vector6d row = gains[at].row(joint).transpose(), through = normal[at].matrix * row;
+    covariance.through.col(p) = through;
+    covariance.own[p] = row.dot(through);
+  }
+  return covariance;
+}
+
+double matchedDof(const InfluenceCovariance& covariance) {
+  const Eigen::MatrixXd block = covariance.between(largest(covariance.own, kExact));
+  if (covariance.own.size() <= kExact) return matchedDof(block);
+  EqualWeights rest;
+  const double trace = covariance.trace() - block.trace(), squares = covariance.squaredNorm() - block.squaredNorm();
+  if (trace > 0.0 && squares > 0.0) rest = {squares / trace, trace * trace / squares};
+  return matchedDof(block, rest);
+}
+
+namespace {
+
+/// (I - G)^-1/2 of a symmetric G with eigenvalues in 0 .. 1, a thousand postures' as well as two's.
+Matrix6d inverseRootOfRest(const Matrix6d& g) {
+  // With many postures G is small: by the series sum (2k)! / (4^k k!^2) G^k, the rest of which is below 1e-16.
+  constexpr double kSmall = 0.006;
+  if (g.trace() < kSmall) {
+    constexpr std::array<double, 6> kSeries{0.5, 3.0 / 8.0, 5.0 / 16.0, 35.0 / 128.0, 63.0 / 256.0, 231.0 / 1024.0};
+    Matrix6d sum = kSeries.back() * g;
+    for (std::size_t k = kSeries.size() - 1; k-- > 0;) {
+      sum.diagonal().array() += kSeries[k];
+      sum = (sum * g).eval();
+    }
+    return Matrix6d::Identity() + sum;
+  }
+  const Eigen::SelfAdjointEigenSolver<Matrix6d> own(g);
+  constexpr double kMost = 0.95;  // a posture that alone determines a combination has no residual to correct
+  const Vector6d root = (1.0 - own.eigenvalues().array().min(kMost)).rsqrt();
+  return own.eigenvectors() * root.asDiagonal() * own.eigenvectors().transpose();
+}
+
+}  // namespace
+
+PostureGains::PostureGains(const NormalEquations& sum, const robot::JointMask& unknown) {
+  const ScaledNormal scaled = scaledNormal(sum.matrix, unknown);
+  const Eigen::LLT<Matrix6d> cholesky(scaled.matrix);
+  whiten_ = cholesky.matrixL().solve(Matrix6d(scaled.scale.asDiagonal()));
+}
+
+PostureGain PostureGains::of(const Matrix6d& own) const {
+  return whiten_.transpose() * inverseRootOfRest(whiten_ * own * whiten_.transpose()) * whiten_;
+}
+
+Matrix6d inverseNormal(const NormalEquations& sum, const robot::JointMask& unknown) {
+  const ScaledNormal scaled = scaledNormal(sum.matrix, unknown);
+  return scaled.scale.asDiagonal() * scaled.matrix.inverse() * scaled.scale.asDiagonal();
+}
+
+double satterthwaite(const Eigen::MatrixXd& covariance) {
+  const double trace = covariance.trace();
+  return trace > 0.0 ? trace * trace / covariance.squaredNorm() : 0.0;
+}
+
+bool sharePosture(const CaseEquations& a, const CaseEquations& b) { return a.posture >= 0 && a.posture == b.posture; }
+
+std::vector<CaseEquations> byPosture(std::vector<CaseEquations> equations) {
+  std::size_t postures = 0;
+  for (std::size_t i = 0; i < equations.size(); ++i) {
+    CaseEquations& one = equations[i];
+    if (i == 0 || !sharePosture(equations[postures - 1], one)) {
+      if (postures != i) equations[postures] = std::move(one);
+      ++postures;
+      continue;
+    }
+    CaseEquations& last = equations[postures - 1];
+    const Eigen::Index had = last.right.size(), more = one.right.size();
+    last.matrix.conservativeResize(had + more, 6);
+    last.right.conservativeResize(had + more);
+    last.matrix.bottomRows(more) = one.matrix;
+    last.right.tail(more) = one.right;
+  }
+  equations.resize(postures);
+  return equations;
+}
+
+std::vector<NormalEquations> normalByPosture(const std::vector<CaseEquations>& equations) {
+  std::vector<NormalEquations> normal(equations.size());
+  numerics::smallWorkOnAllCores(equations.size(), [&](std::size_t i) { normal[i] = normalEquations(equations[i]); });
+  std::size_t postures = 0;
+  for (std::size_t i = 0; i < equations.size(); ++i) {
+    if (i > 0 && sharePosture(equations[i - 1], equations[i])) {
+      normal[postures - 1] += normal[i];
+    } else {
+      if (postures != i) normal[postures] = normal[i];
+      ++postures;
+    }
+  }
+  normal.resize(postures);
+  return normal;
+}
+
+double StiffnessEstimate::stiffnessSd(int joint) const {
+  return std::sqrt(covariance(joint, joint)) / (compliance[joint] * compliance[joint]);
+}
+
+double StiffnessEstimate::dof(int joint) const {
+  const double scatter = parts.scatter(joint, joint);
+  if (scatter <= 0.0) return scatter_dof[joint];
+  const double ratio = covariance(joint, joint) / scatter;
+  return scatter_dof[joint] * ratio * ratio;
+}
+
+std::string StiffnessEstimate::mark(int joint) const {
+  if (compliance[joint] < 0.0) return "negative";
+  if (stiffnessSd(joint) > std::abs(stiffness(joint))) return "imprecise";
+  return {};
+}
+
+Matrix6d scatterCovariance(const std::vector<Vector6d>& influences, const robot::JointMask& unknown) {
+  const double unknowns = static_cast<double>(std::count(unknown.begin(), unknown.end(), true));
+  if (static_cast<double>(influences.size()) < unknowns / 3.0 + 2.0) {
+    return Matrix6d::Constant(std::numeric_limits<double>::quiet_NaN());
+  }
+  Matrix6d sum = Matrix6d::Zero();
+  for (const Vector6d& one : influences) sum += one * one.transpose();
+  return sum;
+}
+
+void setScatter(std::vector<Vector6d> influences, const Vector6d& dof, StiffnessEstimate& estimate) {
+  estimate.parts = {};
+  estimate.parts.scatter = scatterCovariance(influences, estimate.identifiable);
+  estimate.covariance = estimate.parts.scatter;
+  estimate.scatter_dof = dof;
+  estimate.influences = std::move(influences);
+}
+
+void setScatterOfOneStage(const std::vector<NormalEquations>& normal, const NormalEquations& sum,
+                          StiffnessEstimate& estimate) {
+  const PostureGains gain(sum, estimate.identifiable);
+  std::vector<PostureGain> gains(normal.size());
+  std::vector<Vector6d> influences(normal.size());
+  numerics::smallWorkOnAllCores(normal.size(), [&](std::size_t p) {
+    gains[p] = gain.of(normal[p].matrix);
+    influences[p] = gains[p] * (normal[p].right - normal[p].matrix * estimate.compliance);
+  });
+  const Matrix6d inverse = inverseNormal(sum, estimate.identifiable);
+  Vector6d dof = Vector6d::Zero();
+  numerics::onAllCores(6, [&](std::size_t j) {
+    if (!estimate.identifiable[j]) return;
+    const auto joint = static_cast<int>(j);
+    dof[joint] = matchedDof(influenceCovariance(gains, normal, inverse, joint));
+  }, normal.size() >= numerics::kWorthThreads);
+  setScatter(std::move(influences), dof, estimate);
+}
+
+void describeResiduals(const std::vector<CaseEquations>& equations, StiffnessEstimate& estimate) {
+  const double sum = numerics::sumInBlocks<double>(equations.size(), [&](std::size_t i, double& squares) {
+    squares += (equations[i].right - equations[i].matrix * estimate.compliance).squaredNorm();
+  });
+  Eigen::Index rows = 0;
+  for (const CaseEquations& one : equations) rows += one.right.size();
+  const auto unknowns = std::count(estimate.identifiable.begin(), estimate.identifiable.end(), true);
+  estimate.rms_residual = rows > 0 ? std::sqrt(sum / static_cast<double>(rows)) : 0.0;
+  estimate.sigma = rows > unknowns ? std::sqrt(sum / static_cast<double>(rows - unknowns)) : 0.0;
+}
+
+namespace {
+
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
+
+}  // namespace
+
+CoverageInterval complianceInterval(const StiffnessEstimate& estimate, int joint, double coverage) {
+  const double reach = coverageFactor(estimate, joint, coverage) * std::sqrt(estimate.covariance(joint, joint));
+  if (!std::isfinite(reach)) return {-kInfinite, kInfinite};
+  return {estimate.compliance[joint] - reach, estimate.compliance[joint] + reach};
+}
+
+CoverageInterval stiffnessInterval(const CoverageInterval& compliance) {
+  if (!std::isfinite(compliance.low) || !std::isfinite(compliance.high)) return {-kInfinite, kInfinite};
+  if (compliance.low > 0.0 || compliance.high < 0.0) return {1.0 / compliance.high, 1.0 / compliance.low};
+  return {compliance.high > 0.0 ? 1.0 / compliance.high : -kInfinite, kInfinite};
+}
+
+CoverageInterval stiffnessInterval(const StiffnessEstimate& estimate, int joint, double coverage) {
+  return stiffnessInterval(complianceInterval(estimate, joint, coverage));
+}
+
+Matrix6d correlation(const StiffnessEstimate& estimate) {
+  Vector6d scale = Vector6d::Zero();
+  for (int j = 0; j < 6; ++j) {
+    const double variance = estimate.covariance(j, j);
+    if (variance > 0.0) scale[j] = 1.0 / std::sqrt(variance);
+  }
+  return scale.asDiagonal() * estimate.covariance * scale.asDiagonal();
+}
+
+}  // namespace stiffscope::identification

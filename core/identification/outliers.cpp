@@ -1,0 +1,236 @@
+#include "core/identification/outliers.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+#include "core/identification/estimate.h"
+#include "core/io/units.h"
+#include "core/numerics/parallel.h"
+#include "metrology/tail_probability.h"
+
+namespace stiffscope::identification {
+
+namespace {
+
+constexpr double kLevel = 0.001;
+constexpr std::size_t kFewest = 5;
+
+/// One posture in a fit of all.
+struct Posture {
+  const CaseEquations* equations = nullptr;
+  Eigen::VectorXd residual;  ///< r at the common compliances
+  NormalEquations normal;    ///< A^T A, A^T r
+};
+
+/// What a pass over the postures needs of all of them, so that leaving one out costs nothing of the others.
+/// With c(without p) = c + d the residual of another posture q is r_q - A_q d.
+class Sums {
+ public:
+  explicit Sums(const std::vector<Posture>& postures) {
+    for (const Posture& one : postures) {
+      normal += one.normal;
+      squares += one.residual.squaredNorm();
+      rows += one.residual.size();
+    }
+  }
+
+  /// What momentsWithout takes: one pass more, which few campaigns need.
+  void addMoments(const std::vector<Posture>& postures) {
+    const Eigen::Index common = postures.front().residual.size();
+    if (std::all_of(postures.begin(), postures.end(),
+                    [&](const Posture& one) { return one.residual.size() == common; })) {
+      addCommonMoments(postures);
+    }
+  }
+
+  /// Second moments of the other postures' residuals; empty without common coordinates.
+  Eigen::MatrixXd momentsWithout(const Posture& own, const Vector6d& d) const {
+    const Eigen::Index rows = moments_.rows() / 7;
+    Eigen::Matrix<double, 7, 1> mix;
+    mix << -d, 1.0;
+    Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(rows, rows);
+    for (Eigen::Index k = 0; k < 7; ++k) {
+      for (Eigen::Index l = 0; l < 7; ++l)
+        sum += mix[k] * mix[l] * moments_.block(k * rows, l * rows, rows, rows);
+    }
+    const Eigen::VectorXd moved = own.residual - own.equations->matrix * d;
+    if (rows > 0) sum -= moved * moved.transpose();
+    return sum;
+  }
+
+  NormalEquations normal;
+  double squares = 0.0;
+  Eigen::Index rows = 0;
+
+ private:
+  /// Some columns of the sum at a time, each over the postures in their order.
+  void addCommonMoments(const std::vector<Posture>& postures) {
+    const Eigen::Index rows = postures.front().residual.size(), size = 7 * rows;
+    Eigen::MatrixXd entries(size, static_cast<Eigen::Index>(postures.size()));
+    numerics::smallWorkOnAllCores(postures.size(), [&](std::size_t p) {
+      entries.col(static_cast<Eigen::Index>(p)) << postures[p].equations->matrix.reshaped(),
+          postures[p].residual;
+    });
+    moments_.setZero(size, size);
+    constexpr Eigen::Index kColumns = 7;
+    numerics::onAllCores(
+        static_cast<std::size_t>(rows),
+        [&](std::size_t block) {
+          const Eigen::Index from = kColumns * static_cast<Eigen::Index>(block);
+          for (Eigen::Index p = 0; p < entries.cols(); ++p) {
+            const auto own = entries.col(p);
+            for (Eigen::Index c = from; c < from + kColumns; ++c)
+              moments_.col(c).tail(size - c) += own[c] * own.tail(size - c);
+          }
+        },
+        postures.size() >= numerics::kWorthThreads);
+    moments_.triangularView<Eigen::StrictlyUpper>() = moments_.transpose().eval();
+  }
+
+  Eigen::MatrixXd moments_;  ///< of [A r], all its entries with all
+};
+
+NormalEquations without(const NormalEquations& sum, const Posture& own) {
+  return {sum.matrix - own.normal.matrix, sum.right - own.normal.right};
+}
+
+/// Degrees of freedom left to the others.
+double dofWithout(const Sums& all, const Posture& own, double unknowns) {
+  return static_cast<double>(all.rows - own.residual.size()) - unknowns;
+}
+
+/// All but the p value; f 0 where the others leave nothing to judge by.
+OutlyingPosture judge(const Sums& all, const Posture& own, const robot::JointMask& unknown, double unknowns) {
+  const Vector6d step = solveNormal(without(all.normal, own), unknown);
+  const Eigen::VectorXd deleted = own.residual - own.equations->matrix * step;
+  const double coordinates = static_cast<double>(deleted.size());
+  OutlyingPosture result;
+  result.posture = own.equations->posture;
+  result.rms = std::sqrt(deleted.squaredNorm() / coordinates);
+  // (I - H) e = r, so that e^T (I - H) e is r^T e: what leaving it out takes off the sum of squares, too.
+  const double studentised = own.residual.dot(deleted), sum = all.squares - studentised,
+               rows = static_cast<double>(all.rows) - coordinates;
+  result.others = std::sqrt(std::max(0.0, sum) / rows);
+  const double left = dofWithout(all, own, unknowns);
+  if (!(left > 0.0) || !(sum > 0.0)) return result;
+  result.f = studentised / coordinates / (sum / left);
+  return result;
+}
+
+/// Whether it can be outlying: by as many degrees of freedom as it has coordinates, the most there can be.
+/// Fewer only make so small a tail larger.
+bool canBeOutlying(const Sums& all, const Posture& own, double f, double unknowns, double postures) {
+  const auto coordinates = static_cast<int>(own.residual.size());
+  // No F distribution has less than 0.3 above 1.
+  return f > 1.0 && metrology::fTail(f, coordinates, dofWithout(all, own, unknowns)) * postures < kLevel;
+}
+
+double pValue(const Sums& all, const Posture& own, double f, const robot::JointMask& unknown, double unknowns,
+              double postures) {
+  const Vector6d step = solveNormal(without(all.normal, own), unknown);
+  // How many independent numbers a posture's residual is; without common coordinates the least there can be.
+  const double per_posture = std::max(1.0, satterthwaite(all.momentsWithout(own, step)));
+  const double below =
+      per_posture * dofWithout(all, own, unknowns) / static_cast<double>(own.residual.size());
+  const double tail = metrology::fTail(f, std::max(1, static_cast<int>(per_posture)), std::max(1.0, below));
+  return std::min(1.0, tail * postures);
+}
+
+/// Residuals at the least squares solution of these equations.
+std::vector<Posture> fitAll(const std::vector<const CaseEquations*>& equations, const robot::JointMask& unknown) {
+  std::vector<Posture> postures(equations.size());
+  numerics::smallWorkOnAllCores(equations.size(), [&](std::size_t p) {
+    postures[p] = {equations[p], {}, normalEquations(*equations[p])};
+  });
+  const auto sum = numerics::sumInBlocks<NormalEquations>(
+      postures.size(), [&](std::size_t p, NormalEquations& all) { all += postures[p].normal; });
+  const Vector6d compliance = solveNormal(sum, unknown);
+  numerics::smallWorkOnAllCores(equations.size(), [&](std::size_t p) {
+    const auto& matrix = equations[p]->matrix;
+    postures[p].residual = equations[p]->right - matrix * compliance;
+    for (Eigen::Index j = 0; j < 6; ++j)
+      postures[p].normal.right[j] = matrix.col(j).dot(postures[p].residual);
+  });
+  return postures;
+}
+
+/// The one that disagrees most with the rest; p value 1 where none can be outlying.
+OutlyingPosture worstOf(const std::vector<Posture>& postures, const robot::JointMask& unknown, double unknowns,
+                        std::size_t& worst) {
+  const auto count = static_cast<double>(postures.size());
+  Sums sums(postures);
+  std::vector<OutlyingPosture> judged(postures.size());
+  std::vector<char> can_be(postures.size());
+  numerics::smallWorkOnAllCores(postures.size(), [&](std::size_t p) {
+    judged[p] = judge(sums, postures[p], unknown, unknowns);
+    can_be[p] = canBeOutlying(sums, postures[p], judged[p].f, unknowns, count);
+  });
+  OutlyingPosture most;
+  if (std::find(can_be.begin(), can_be.end(), char{true}) == can_be.end()) return most;
+  sums.addMoments(postures);
+  numerics::smallWorkOnAllCores(postures.size(), [&](std::size_t p) {
+    if (can_be[p]) judged[p].p_value = pValue(sums, postures[p], judged[p].f, unknown, unknowns, count);
+  });
+  for (std::size_t p = 0; p < postures.size(); ++p) {
+    if (judged[p].p_value < most.p_value) most = judged[p], worst = p;
+  }
+  return most;
+}
+
+}  // namespace
+
+std::vector<OutlyingPosture> outlyingPostures(const std::vector<CaseEquations>& equations,
+                                              const robot::JointMask& unknown) {
+  std::vector<OutlyingPosture> found;
+  std::vector<const CaseEquations*> postures;
+  for (const CaseEquations& one : equations) postures.push_back(&one);
+  const auto unknowns = static_cast<double>(std::count(unknown.begin(), unknown.end(), true));
+  if (unknowns == 0.0) return found;
+  while (postures.size() >= kFewest && 2 * postures.size() > equations.size()) {
+    std::size_t worst = 0;
+    const OutlyingPosture most = worstOf(fitAll(postures, unknown), unknown, unknowns, worst);
+    if (most.p_value >= kLevel) break;
+    found.push_back(most);
+    postures.erase(postures.begin() + static_cast<std::ptrdiff_t>(worst));
+  }
+  return found;
+}
+
+namespace {
+
+template <class Table>
+void drop(Table& table, const std::vector<bool>& dropped) {
+  if (!table) return;
+  std::erase_if(table->rows, [&](const auto& row) { return dropped[static_cast<std::size_t>(row.pose)]; });
+  table->rows.shrink_to_fit();  // most of a long day may go
+}
+
+}  // namespace
+
+void dropPostures(const std::vector<bool>& dropped, campaign::Campaign& campaign) {
+  drop(campaign.loading, dropped);
+  drop(campaign.states, dropped);
+  drop(campaign.displacements, dropped);
+}
+
+campaign::Campaign withoutPostures(const campaign::Campaign& campaign, const std::vector<OutlyingPosture>& postures) {
+  std::vector<bool> dropped(campaign.pose_ids.size(), false);
+  for (const OutlyingPosture& one : postures) dropped[static_cast<std::size_t>(one.posture)] = true;
+  campaign::Campaign rest = campaign;
+  dropPostures(dropped, rest);
+  return rest;
+}
+
+void nameLeftOut(const campaign::Campaign& campaign, const std::vector<OutlyingPosture>& postures,
+                 std::vector<std::string>& left_out) {
+  for (const OutlyingPosture& one : postures) {
+    const std::string start = fmt::format("pose {}:", campaign.pose_ids[static_cast<std::size_t>(one.posture)]);
+    std::erase_if(left_out, [&](const std::string& text) { return text.starts_with(start); });
+    left_out.push_back(fmt::format("{} disagrees with the other postures by {:.0f} µm per coordinate, {:.1f} times theirs",
+                                   start, one.rms / io::kMicrometre, one.rms / one.others));
+  }
+}
+
+}  // namespace stiffscope::identification

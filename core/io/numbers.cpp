@@ -1,0 +1,88 @@
+#include "core/io/numbers.h"
+
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+namespace stiffscope::io {
+
+namespace {
+
+// from_chars takes no '+'; "+-1" stays wrong, because only one sign is removed and '-' may not follow it.
+std::string_view withoutPlus(std::string_view text) {
+  const bool plus = text.size() > 1 && text[0] == '+' && text[1] != '-';
+  return plus ? text.substr(1) : text;
+}
+
+bool hasDigit(std::string_view text) { return text.find_first_of("0123456789") != std::string_view::npos; }
+
+// What people and programs write that is a number to them.
+std::string whyNoNumber(std::string_view text) {
+  if (text.empty()) return "expected a number; there is nothing";
+  if (text.find("${") != std::string_view::npos) return "expected a number; expand xacro first";
+  if (text.find(',') != std::string_view::npos) {
+    return "expected a number with a decimal point, not a decimal comma";
+  }
+  if (text.find("\xE2\x88\x92") != std::string_view::npos || text.find("\xE2\x80\x93") != std::string_view::npos) {
+    return "expected a number; its minus sign is a typographic one, write '-'";
+  }
+  if (!hasDigit(text)) return "expected a number";
+  if (text.find_first_of("xX") != std::string_view::npos) return "expected a number, decimal and not hexadecimal";
+  if (text.find_first_of("dD") != std::string_view::npos) {
+    return "expected a number; an exponent is written with e, not with d";
+  }
+  if (text.find_first_of(" '\t") != std::string_view::npos || text.find("\xC2\xA0") != std::string_view::npos) {
+    return "expected a number without blanks or marks between its digits";
+  }
+  return "expected a number";
+}
+
+constexpr std::size_t kMostDigits = 15;
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+}  // namespace
+
+ParsedNumber parseNumber(std::string_view text) {
+  const std::string_view digits = withoutPlus(text);
+  ParsedNumber number;
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number.value);
+  if (end != digits.data() + digits.size() || error == std::errc::invalid_argument) {
+    number.expectation = whyNoNumber(text);
+  } else if (error == std::errc::result_out_of_range) {
+    number.expectation = "expected a number that double precision can hold";
+  } else if (!std::isfinite(number.value)) {
+    number.expectation = "expected a finite number";
+  }
+  return number;
+}
+
+double parsePlainNumber(std::string_view text) {
+  const bool minus = !text.empty() && text[0] == '-';
+  std::int64_t digits = 0;
+  std::size_t count = 0, decimals = 0;
+  bool point = false;
+  for (std::size_t i = minus ? 1 : 0; i < text.size(); ++i) {
+    const auto digit = static_cast<unsigned char>(text[i] - '0');
+    if (digit > 9) {
+      if (text[i] != '.' || point) return kNone;
+      point = true;
+      continue;
+    }
+    digits = 10 * digits + digit;
+    decimals += point ? 1 : 0;
+    if (++count > kMostDigits) return kNone;
+  }
+  if (count == 0) return kNone;
+  return decimalNumber(minus, digits, decimals);
+}
+
+std::optional<int> parseInteger(std::string_view text) {
+  int value = 0;
+  const std::string_view digits = withoutPlus(text);
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+  if (error != std::errc() || end != digits.data() + digits.size()) return std::nullopt;
+  return value;
+}
+
+}  // namespace stiffscope::io

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string_view>
+
+namespace stiffscope::io {
+
+/// Takes the next bytes of a file.
+using ByteSink = std::function<void(std::string_view)>;
+
+/// Hands all bytes of a file to the sink, in as many parts as it likes: of a long file, so that they never
+/// stand in memory together. The same ones whenever it is called.
+using ByteSource = std::function<void(const ByteSink&)>;
+
+/// Writes `bytes` to `path` so that the file appears whole or not at all: into a temporary beside it, which
+/// is then renamed. Where `path` is a link the file it points to is replaced, where it is a device
+/// (/dev/stdout) it is written directly. Throws std::runtime_error with path and reason; the temporary is
+/// removed then.
+void writeFileWhole(const std::filesystem::path& path, std::string_view bytes);
+void writeFileWhole(const std::filesystem::path& path, const ByteSource& bytes);
+
+/// Writes `bytes` to `file` directly and waits until they are on the disk; messages name `named`. For files
+/// that another step puts in their place.
+void writeFileNamed(const std::filesystem::path& file, const ByteSource& bytes,
+                    const std::filesystem::path& named);
+
+/// Makes a folder and those above it where they are absent. Throws std::runtime_error with path and reason.
+void makeFolder(const std::filesystem::path& folder);
+
+}  // namespace stiffscope::io

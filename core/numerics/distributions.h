@@ -1,0 +1,28 @@
+#pragma once
+
+namespace stiffscope::numerics {
+
+/// The value that a chi-square variable with `dof` degrees of freedom exceeds with probability `tail`.
+/// By bisection on the regularised incomplete gamma function (DLMF 8.11.4 and 8.9.2), to ten digits.
+double chiSquareLimit(double tail, double dof);
+
+/// The value that the magnitude of a standard normal variable exceeds with probability `tail`.
+double normalLimit(double tail);
+
+/// The value that the magnitude of Student's t with `dof` degrees of freedom exceeds with probability `tail`.
+double studentLimit(double tail, double dof);
+
+/// A share seen in trials, with its exact interval.
+struct Rate {
+  int hits = 0, trials = 0;
+  double low = 0.0, high = 1.0;
+
+  double value() const { return trials > 0 ? static_cast<double>(hits) / trials : 0.0; }
+};
+
+/// The interval of C. J. Clopper and E. S. Pearson (Biometrika 26, 1934): the shares p at which neither
+/// P(X >= hits) nor P(X <= hits) is below (1 - level) / 2, X binomial; by bisection to 1e-12. Without trials
+/// (0, 1). Throws std::invalid_argument where hits are not from 0 to trials.
+Rate binomialRate(int hits, int trials, double level = 0.95);
+
+}  // namespace stiffscope::numerics

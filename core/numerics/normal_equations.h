@@ -1,0 +1,38 @@
+#pragma once
+
+#include <Eigen/Core>
+
+namespace stiffscope::numerics {
+
+/// [A y]^T [A y] of whitened equations; half of it computed, the rest mirrored.
+inline Eigen::MatrixXd normalMatrix(const Eigen::MatrixXd& equations) {
+  Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(equations.cols(), equations.cols());
+  normal.selfadjointView<Eigen::Lower>().rankUpdate(equations.transpose());
+  normal.triangularView<Eigen::StrictlyUpper>() = normal.transpose();
+  return normal;
+}
+
+/// Half of a symmetric matrix, its lower triangle column by column: of many matrices that are only summed.
+class LowerTriangle {
+ public:
+  LowerTriangle() = default;
+  explicit LowerTriangle(const Eigen::MatrixXd& symmetric) : values_(symmetric.rows() * (symmetric.rows() + 1) / 2) {
+    Eigen::Index at = 0;
+    for (Eigen::Index column = 0, left = symmetric.rows(); left > 0; ++column, at += left, --left) {
+      values_.segment(at, left) = symmetric.col(column).tail(left);
+    }
+  }
+
+  /// Adds `weight` times it to the lower triangle of `sum`.
+  void addTo(double weight, Eigen::MatrixXd& sum) const {
+    Eigen::Index at = 0;
+    for (Eigen::Index column = 0, left = sum.rows(); left > 0; ++column, at += left, --left) {
+      sum.col(column).tail(left) += weight * values_.segment(at, left);
+    }
+  }
+
+ private:
+  Eigen::VectorXd values_;
+};
+
+}  // namespace stiffscope::numerics

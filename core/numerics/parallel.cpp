@@ -1,0 +1,75 @@
+#include "core/numerics/parallel.h"
+
+#include <algorithm>
+#include <atomic>
+#include <exception>
+#include <mutex>
+#include <system_error>
+#include <thread>
+#include <vector>
+
+namespace stiffscope::numerics {
+
+namespace {
+
+thread_local bool shares_already = false;
+
+class Sharing {
+ public:
+  Sharing(std::size_t count, const std::function<void(std::size_t)>& work) : count_(count), work_(work) {}
+
+  /// What each thread does: takes the next index until there is none.
+  void takePart() {
+    shares_already = true;
+    for (std::size_t i = next_++; i < count_; i = next_++) {
+      try {
+        work_(i);
+      } catch (...) {
+        keep(i, std::current_exception());
+      }
+    }
+    shares_already = false;
+  }
+
+  void throwWhatWasThrown() const {
+    if (thrown_) std::rethrow_exception(thrown_);
+  }
+
+ private:
+  void keep(std::size_t i, std::exception_ptr thrown) {
+    const std::lock_guard lock(keeping_);
+    next_ = count_;
+    if (thrown_ && lowest_ < i) return;
+    thrown_ = std::move(thrown), lowest_ = i;
+  }
+
+  const std::size_t count_;
+  const std::function<void(std::size_t)>& work_;
+  std::atomic<std::size_t> next_{0};
+  std::mutex keeping_;
+  std::exception_ptr thrown_;
+  std::size_t lowest_ = 0;
+};
+
+}  // namespace
+
+void onAllCores(std::size_t count, const std::function<void(std::size_t)>& work, bool worth_it) {
+  const std::size_t threads = std::min<std::size_t>(count, std::thread::hardware_concurrency());
+  if (threads < 2 || shares_already || !worth_it) {
+    for (std::size_t i = 0; i < count; ++i) work(i);
+    return;
+  }
+  Sharing sharing(count, work);
+  {
+    std::vector<std::jthread> others;
+    try {
+      while (others.size() + 1 < threads) others.emplace_back([&] { sharing.takePart(); });
+    } catch (const std::system_error&) {
+      // No more threads are to be had: those that are do it.
+    }
+    sharing.takePart();
+  }
+  sharing.throwWhatWasThrown();
+}
+
+}  // namespace stiffscope::numerics

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/preparation/drift_nests.h"
+#include "core/preparation/repeatability.h"
+#include "core/preparation/screening.h"
+
+namespace stiffscope::preparation {
+
+/// The station's motion that was taken off the readings, or why it was not.
+struct DriftCorrection {
+  bool taken_off = false;
+  std::string reason;            ///< why not, in words
+  double displacement = 0.0;     ///< largest of all nest rounds against the first, where the arm was read, m
+  double turn = 0.0;             ///< largest of all rounds, rad
+  double until_s = 0.0;          ///< time of the last round
+  std::vector<double> jumps_s;   ///< where the station jumped instead of drifting: when
+  std::size_t readings = 0;      ///< referred to the first round
+  std::size_t without_time = 0;  ///< in the tracker's frame, but no time says how the station stood: as read
+};
+
+/// What was done to a campaign before anything was computed from it.
+struct Preparation {
+  bool raw = false;  ///< as it was read, because that was asked for
+  std::vector<RejectedReading> rejected;
+  DriftCorrection drift;
+};
+
+struct PreparedCampaign {
+  campaign::Campaign campaign;
+  Preparation preparation;
+  std::vector<AuditCheck> screening;  ///< the checks that found the rejected readings
+  RepeatScatter scatter;              ///< of the repeats that are left
+  StationMotion station;              ///< by the nests, with its jumps
+};
+
+/// A campaign as identification should see it: without the readings that screening rejects (lost beams,
+/// duplicates, outlying repeats), and referred to the first round of the floor nests where these show that
+/// the station moved. The motion is taken off only where it is larger than noise explains (chi-square at the
+/// audit's level) and where the nests, one that moved left out, keep their shape: nests that do not are no
+/// reference. The audit looks at the same campaign.
+PreparedCampaign prepareCampaign(campaign::Campaign read);
+
+/// The same campaign untouched, with a preparation that says so.
+PreparedCampaign leaveRaw(campaign::Campaign read);
+
+}  // namespace stiffscope::preparation

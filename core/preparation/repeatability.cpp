@@ -1,0 +1,169 @@
+#include "core/preparation/repeatability.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include "core/campaign/row_names.h"
+#include "core/frames/joint_axes.h"
+#include "core/numerics/distributions.h"
+#include "core/preparation/finding.h"
+
+namespace stiffscope::preparation {
+
+namespace {
+
+using Repeats = std::vector<const campaign::LoadingReading*>;
+
+std::vector<Repeats> statesWithRepeats(const campaign::Loading& loading) {
+  const auto state = [](const campaign::LoadingReading* row) { return std::tuple(row->pose, row->step, row->target); };
+  Repeats rows;
+  rows.reserve(loading.rows.size());
+  for (const campaign::LoadingReading& row : loading.rows) rows.push_back(&row);
+  std::stable_sort(rows.begin(), rows.end(), [&](const auto* a, const auto* b) { return state(a) < state(b); });
+  std::vector<Repeats> repeated;
+  for (auto first = rows.begin(); first != rows.end();) {
+    const auto end = std::find_if(first, rows.end(), [&](const auto* row) { return state(row) != state(*first); });
+    if (end - first >= 2) repeated.emplace_back(first, end);
+    first = end;
+  }
+  return repeated;
+}
+
+Eigen::Vector3d sumOf(const Repeats& repeats) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (const campaign::LoadingReading* row : repeats) sum += row->point;
+  return sum;
+}
+
+void addScatter(const metrology::TrackerNoise& noise, const Repeats& repeats, RepeatScatter& scatter) {
+  const double n = static_cast<double>(repeats.size());
+  const Eigen::Vector3d mean = sumOf(repeats) / n;
+  const Eigen::Vector3d sight = mean - noise.station;
+  const double distance = sight.norm();
+  const double along_sd = noise.range_fixed + noise.range_per_m * distance;
+  const double across_sd = noise.angle_fixed + noise.angle_per_m * distance;
+  for (const campaign::LoadingReading* row : repeats) {
+    const Eigen::Vector3d off = row->point - mean;
+    const double along = off.dot(sight) / distance;
+    const double across_square = off.squaredNorm() - along * along;
+    scatter.along_rms += along * along;
+    scatter.across_rms += across_square;
+    scatter.along_chi2 += along * along / (along_sd * along_sd);
+    scatter.across_chi2 += across_square / (across_sd * across_sd);
+  }
+  scatter.along_dof += static_cast<int>(repeats.size()) - 1;
+  scatter.across_dof += 2 * (static_cast<int>(repeats.size()) - 1);
+}
+
+/// Squared distance of each repeat from the mean of the others, by the declared noise.
+std::vector<std::pair<const campaign::LoadingReading*, double>> distances(const metrology::TrackerNoise& noise,
+                                                                const std::vector<Repeats>& states) {
+  std::vector<std::pair<const campaign::LoadingReading*, double>> result;
+  for (const Repeats& repeats : states) {
+    const double others = static_cast<double>(repeats.size()) - 1.0;
+    const Eigen::Vector3d sum = sumOf(repeats);
+    for (const campaign::LoadingReading* row : repeats) {
+      const Eigen::Vector3d off = row->point - (sum - row->point) / others;
+      const Eigen::Matrix3d covariance = (1.0 + 1.0 / others) * noise.covarianceAt(row->point);
+      result.emplace_back(row, off.dot(covariance.ldlt().solve(off)));
+    }
+  }
+  return result;
+}
+
+std::vector<RejectedReading> outliers(const std::string& file, const metrology::TrackerNoise& noise,
+                                      std::vector<Repeats> states) {
+  std::vector<RejectedReading> found;
+  auto all = distances(noise, states);
+  auto sorted = all;
+  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+  std::nth_element(sorted.begin(), middle, sorted.end(),
+                   [](const auto& a, const auto& b) { return a.second < b.second; });
+  const double scale = std::max(1.0, middle->second / numerics::chiSquareLimit(0.5, 3.0));
+  const double limit = scale * numerics::chiSquareLimit(kLevel / static_cast<double>(all.size()), 3.0);
+  // The worst first, and its state judged again without it: one bad repeat pulls the mean of the others.
+  for (Repeats& repeats : states) {
+    while (repeats.size() >= 2) {
+      const auto own = distances(noise, {repeats});
+      const auto worst = std::max_element(own.begin(), own.end(),
+                                          [](const auto& a, const auto& b) { return a.second < b.second; });
+      if (worst->second <= limit) break;
+      const auto reject = [&](const campaign::LoadingReading* row) {
+        found.push_back({file, row->line,
+                         fmt::format("stands {:.3f} mm from the mean of its state's other repeats",
+                                     1e3 * (row->point - (sumOf(repeats) - row->point) /
+                                                             (static_cast<double>(repeats.size()) - 1.0))
+                                               .norm())});
+      };
+      if (repeats.size() == 2) {
+        for (const campaign::LoadingReading* row : repeats) reject(row);
+        break;
+      }
+      reject(worst->first);
+      repeats.erase(std::find(repeats.begin(), repeats.end(), worst->first));
+    }
+  }
+  return found;
+}
+
+}  // namespace
+
+RepeatScatter repeatScatter(const campaign::Campaign& campaign) {
+  RepeatScatter scatter;
+  if (!campaign.loading) {
+    scatter.reason = "no absolute readings under load: measure `loading`";
+    return scatter;
+  }
+  const std::optional<metrology::TrackerNoise> noise = declaredNoise(campaign);
+  if (!noise) {
+    scatter.reason = "the tracker's noise is not declared: state `tracker` in campaign.xml";
+    return scatter;
+  }
+  const std::vector<Repeats> states = statesWithRepeats(*campaign.loading);
+  if (states.empty()) {
+    scatter.reason = "no state was read more than once: measure each at least twice";
+    return scatter;
+  }
+  for (const Repeats& repeats : states) addScatter(*noise, repeats, scatter);
+  scatter.along_rms = std::sqrt(scatter.along_rms / scatter.along_dof);
+  scatter.across_rms = std::sqrt(scatter.across_rms / scatter.across_dof);
+  scatter.outliers = outliers(campaign.loading->file, *noise, states);
+  scatter.tested = true;
+  return scatter;
+}
+
+namespace {
+
+double factorOf(double chi2, int dof) {
+  if (dof < 1 || chi2 <= numerics::chiSquareLimit(kLevel, dof)) return 1.0;
+  // The upper end of its 95 % interval: another check of as many readings would else find the rest of the
+  // scatter that this estimate happens to miss. A standard deviation's own is 1/sqrt(2 dof) of it.
+  constexpr double kSigmas = 2.0;
+  return std::sqrt(chi2 / dof) * (1.0 + kSigmas / std::sqrt(2.0 * dof));
+}
+
+}  // namespace
+
+std::optional<metrology::TrackerNoise> declaredNoise(const campaign::Campaign& campaign) {
+  if (!campaign.tracker) return std::nullopt;
+  const campaign::Tracker& tracker = *campaign.tracker;
+  if (tracker.range_fixed + tracker.range_per_m <= 0.0 || tracker.angle_fixed + tracker.angle_per_m <= 0.0)
+    return std::nullopt;
+  return frames::trackerNoise(tracker);
+}
+
+NoiseFactors noiseFactors(const RepeatScatter& scatter) {
+  return {factorOf(scatter.along_chi2, scatter.along_dof), factorOf(scatter.across_chi2, scatter.across_dof)};
+}
+
+campaign::Tracker asNoisyAs(campaign::Tracker tracker, const NoiseFactors& factors) {
+  tracker.range_fixed *= factors.along;
+  tracker.range_per_m *= factors.along;
+  tracker.angle_fixed *= factors.across;
+  tracker.angle_per_m *= factors.across;
+  return tracker;
+}
+
+}  // namespace stiffscope::preparation

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/campaign/campaign.h"
+#include "core/preparation/finding.h"
+#include "metrology/measured_points.h"
+
+namespace stiffscope::preparation {
+
+/// How far repeats of one reflector in one load state scatter, in parts of the instrument's declared noise.
+struct RepeatScatter {
+  bool tested = false;
+  std::string reason;        ///< why not
+  double along_chi2 = 0.0;   ///< sum of squares along the beam over the declared variance
+  double across_chi2 = 0.0;  ///< the same of both directions across it
+  int along_dof = 0;
+  int across_dof = 0;
+  double along_rms = 0.0;                 ///< plain standard deviation of a reading, m
+  double across_rms = 0.0;                ///< per direction, m
+  std::vector<RejectedReading> outliers;  ///< repeats that stand apart from the others of their state
+};
+
+/// From the loading's repeats. A repeat is an outlier where its squared distance from the mean of the others,
+/// weighted by the declared noise (or by the campaign's own median scatter where that is larger), exceeds
+/// chi-square's limit. Of two repeats both are named: nobody can tell which is wrong.
+RepeatScatter repeatScatter(const campaign::Campaign& campaign);
+
+/// The tracker's noise as campaign.xml declares it; empty without a tracker, or where a figure is zero: a
+/// variance of zero weights nothing.
+std::optional<metrology::TrackerNoise> declaredNoise(const campaign::Campaign& campaign);
+
+/// By how much the repeats scatter beyond the declared noise where that is more than chance explains
+/// (chi-square at the audit's level), at the upper end of what they leave open; else 1.
+struct NoiseFactors {
+  double along = 1.0, across = 1.0;
+};
+
+NoiseFactors noiseFactors(const RepeatScatter& scatter);
+
+/// The tracker with its noise along and across the beam multiplied. The repeats' check names a tracker that
+/// is noisier than declared; the other checks then hold the readings against what the repeats show, so that
+/// one cause gives one finding (GUM 4.2: an evaluation from repeats outweighs a data sheet).
+campaign::Tracker asNoisyAs(campaign::Tracker tracker, const NoiseFactors& factors);
+
+}  // namespace stiffscope::preparation

@@ -1,0 +1,80 @@
+#include "core/preparation/subsample.h"
+
+#include <algorithm>
+#include <map>
+
+namespace stiffscope::preparation {
+
+namespace {
+
+constexpr int kNotKept = -1;
+
+/// The rows of the postures that are kept; `now` is the new index of each posture.
+template <class Row>
+std::optional<campaign::Table<Row>> ofPostures(const std::optional<campaign::Table<Row>>& table, const std::vector<int>& now) {
+  if (!table) return std::nullopt;
+  const auto posture = [&](const Row& row) { return now[static_cast<std::size_t>(row.pose)]; };
+  campaign::Table<Row> kept{table->file, table->frame, {}};
+  kept.rows.reserve(static_cast<std::size_t>(std::count_if(
+      table->rows.begin(), table->rows.end(), [&](const Row& row) { return posture(row) != kNotKept; })));
+  for (const Row& row : table->rows) {
+    if (posture(row) == kNotKept) continue;
+    kept.rows.push_back(row);
+    kept.rows.back().pose = posture(row);
+  }
+  return kept;
+}
+
+/// As many readings of every kind, spread evenly over it: `kind(row)` is the reflector, with the axis of a circle sweep.
+template <class Row, class Kind>
+std::optional<campaign::Table<Row>> ofReadings(const std::optional<campaign::Table<Row>>& table, std::size_t most, const Kind& kind) {
+  if (!table || table->rows.size() <= most) return table;
+  std::map<int, std::vector<std::size_t>> kinds;
+  for (std::size_t i = 0; i < table->rows.size(); ++i) kinds[kind(table->rows[i])].push_back(i);
+  const std::size_t of_each = std::max<std::size_t>(1, most / kinds.size());
+  std::vector<std::size_t> taken;
+  for (const auto& [name, rows] : kinds) {
+    for (const std::size_t k : evenlySpreadIndices(rows.size(), of_each)) taken.push_back(rows[k]);
+  }
+  std::sort(taken.begin(), taken.end());  // the table's order is that of time
+  campaign::Table<Row> kept{table->file, table->frame, {}};
+  kept.rows.reserve(taken.size());
+  for (const std::size_t i : taken) kept.rows.push_back(table->rows[i]);
+  return kept;
+}
+
+}  // namespace
+
+std::vector<std::size_t> evenlySpreadIndices(std::size_t count, std::size_t most) {
+  std::vector<std::size_t> spread(std::min(count, most));
+  for (std::size_t k = 0; k < spread.size(); ++k) spread[k] = k * count / spread.size();
+  return spread;
+}
+
+campaign::Campaign evenlySpread(const campaign::Campaign& campaign, std::size_t most, std::size_t most_swept) {
+  // All of a Campaign by name: one more member does not compile until it is copied here.
+  const auto& [folder, name, date, texts, robot, base_link, flange_link, double_encoder, gravity, tracker, targets,
+               load_cell, tool, circle_sweeps, wrist_sweep, loading, states, displacements, nests, pose_ids, nest_ids,
+               inputs] = campaign;
+  std::vector<int> now(pose_ids.size(), kNotKept);
+  std::vector<std::string> kept_ids;
+  for (const std::size_t posture : evenlySpreadIndices(pose_ids.size(), most)) {
+    now[posture] = static_cast<int>(kept_ids.size());
+    kept_ids.push_back(pose_ids[posture]);
+  }
+  const int reflectors = static_cast<int>(targets.size());
+  return {folder,        name,        date,           texts,       robot,
+          base_link,     flange_link, double_encoder, gravity,     tracker,
+          targets,       load_cell,   tool,
+          ofReadings(circle_sweeps, most_swept, [&](const campaign::CircleReading& row) { return row.axis * reflectors + row.target; }),
+          ofReadings(wrist_sweep, most_swept, [](const campaign::WristReading& row) { return row.target; }),
+          ofPostures(loading, now), ofPostures(states, now), ofPostures(displacements, now), nests, kept_ids,
+          nest_ids,      inputs};
+}
+
+bool hasLongSweep(const campaign::Campaign& campaign, std::size_t most_swept) {
+  return (campaign.circle_sweeps && campaign.circle_sweeps->rows.size() > most_swept) ||
+         (campaign.wrist_sweep && campaign.wrist_sweep->rows.size() > most_swept);
+}
+
+}  // namespace stiffscope::preparation

@@ -1,0 +1,55 @@
+#include "core/robot/cartesian_stiffness.h"
+
+#include <Eigen/Dense>
+#include <limits>
+
+namespace stiffscope::robot {
+
+namespace {
+
+std::array<PrincipalStiffness, 3> principalStiffness(const Eigen::Matrix3d& compliance) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> own(0.5 * (compliance + compliance.transpose()));
+  constexpr double kRounding = 1e-14;  // of the largest: the point cannot move that way
+  const double least = kRounding * own.eigenvalues().cwiseAbs().maxCoeff();
+  std::array<PrincipalStiffness, 3> principal;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto place = static_cast<Eigen::Index>(2 - k);  // ascending compliance: softest is last
+    const double value = own.eigenvalues()[place];
+    principal[k].stiffness = std::abs(value) <= least ? std::numeric_limits<double>::infinity() : 1.0 / value;
+    principal[k].direction = own.eigenvectors().col(place);
+    Eigen::Index largest = 0;
+    principal[k].direction.cwiseAbs().maxCoeff(&largest);
+    if (principal[k].direction[largest] < 0.0) principal[k].direction *= -1.0;
+  }
+  return principal;
+}
+
+}  // namespace
+
+CartesianStiffness cartesianStiffness(const Eigen::Vector3d& point, const Matrix6d& jacobian,
+                                      const Vector6d& compliance, const Matrix6d& geometric) {
+  CartesianStiffness result;
+  result.point = point;
+  // (K - K_c)^-1 = (I - C K_c)^-1 C, which bears rigid joints.
+  const Matrix6d joints = (Matrix6d::Identity() - compliance.asDiagonal() * geometric)
+                              .partialPivLu()
+                              .solve(Matrix6d(compliance.asDiagonal()));
+  result.compliance = jacobian * joints * jacobian.transpose();
+  result.principal = principalStiffness(result.compliance.topLeftCorner<3, 3>());
+  const Eigen::FullPivLU<Matrix6d> jacobian_lu(jacobian);
+  result.invertible = jacobian_lu.isInvertible() && (compliance.array() != 0.0).all();
+  if (result.invertible) {
+    const Matrix6d back = jacobian_lu.inverse();  // (4) as it stands
+    const Matrix6d springs = Matrix6d(compliance.cwiseInverse().asDiagonal()) - geometric;
+    result.stiffness = back.transpose() * springs * back;
+  }
+  return result;
+}
+
+double geometricStiffnessShare(const CartesianStiffness& with, const CartesianStiffness& without) {
+  const Eigen::Matrix3d plain = without.compliance.topLeftCorner<3, 3>();
+  const double scale = plain.norm();
+  return scale > 0.0 ? (with.compliance.topLeftCorner<3, 3>() - plain).norm() / scale : 0.0;
+}
+
+}  // namespace stiffscope::robot

@@ -1,0 +1,47 @@
+#include "core/robot/geometric_stiffness.h"
+
+namespace stiffscope::robot {
+
+namespace {
+
+/// A force at `point` of body `body`: joints 0..body-1 carry it.
+void addForce(const ArmAxes& axes, int body, const Eigen::Vector3d& point, const Eigen::Vector3d& force,
+              Matrix6d& stiffness) {
+  for (int outer = 0; outer < body; ++outer) {
+    const metrology::Line& far = axes[static_cast<std::size_t>(outer)];
+    const Eigen::Vector3d change = far.direction.cross(point - far.point).cross(force);
+    for (int inner = 0; inner <= outer; ++inner) {
+      const double entry = axes[static_cast<std::size_t>(inner)].direction.dot(change);
+      stiffness(inner, outer) += entry;
+      if (inner != outer) stiffness(outer, inner) += entry;
+    }
+  }
+}
+
+}  // namespace
+
+Matrix6d geometricStiffness(const ArmAxes& axes, const Wrench& wrench_in_base) {
+  Matrix6d stiffness = Matrix6d::Zero();
+  addForce(axes, 6, wrench_in_base.point, wrench_in_base.force, stiffness);
+  for (std::size_t turned = 1; turned < 6; ++turned) {  // joint `turning` carries axis `turned` round
+    for (std::size_t turning = 0; turning < turned; ++turning) {
+      stiffness(static_cast<int>(turned), static_cast<int>(turning)) +=
+          axes[turning].direction.cross(axes[turned].direction).dot(wrench_in_base.moment);
+    }
+  }
+  return stiffness;
+}
+
+Matrix6d geometricStiffness(const ArmAxes& axes, const ArmPosture& posture, const OwnWeight& weight) {
+  Matrix6d stiffness = Matrix6d::Zero();
+  if (!weight.any()) return stiffness;
+  for (int body = 1; body <= 6; ++body) {
+    const BodyMass& mass = weight.bodies[static_cast<std::size_t>(body)];
+    if (mass.mass_kg == 0.0) continue;
+    addForce(axes, body, posture.motion[static_cast<std::size_t>(body)] * mass.com_in_base_at_zero,
+             mass.mass_kg * weight.gravity_in_base, stiffness);
+  }
+  return stiffness;
+}
+
+}  // namespace stiffscope::robot

@@ -1,0 +1,58 @@
+#include "core/robot/gravity_load.h"
+
+#include <algorithm>
+
+namespace stiffscope::robot {
+
+bool OwnWeight::any() const {
+  return gravity_in_base.squaredNorm() > 0.0 &&
+         std::any_of(bodies.begin() + 1, bodies.end(), [](const BodyMass& body) { return body.mass_kg > 0.0; });
+}
+
+OwnWeight ownWeight(const Robot& nominal, const std::optional<Tool>& tool, const Eigen::Vector3d& gravity_in_base_link,
+                    const Robot& arm, const Eigen::Isometry3d& base_from_base_link) {
+  OwnWeight weight;
+  weight.gravity_in_base = base_from_base_link.linear() * gravity_in_base_link;
+  weight.links_known = true;
+  for (std::size_t body = 1; body < weight.bodies.size(); ++body) {
+    weight.bodies[body].mass_kg = nominal.bodies[body].mass_kg;
+    weight.bodies[body].com_in_base_at_zero = base_from_base_link * nominal.bodies[body].com_in_base_at_zero;
+    if (body >= 2 && body <= 4 && weight.bodies[body].mass_kg <= 0.0) weight.links_known = false;
+  }
+  if (tool && tool->mass_kg > 0.0) {
+    BodyMass& last = weight.bodies[6];
+    const Eigen::Vector3d tool_com = arm.base_from_flange_at_zero * tool->com_in_flange;
+    const double together = last.mass_kg + tool->mass_kg;
+    last.com_in_base_at_zero =
+        (last.mass_kg * last.com_in_base_at_zero + tool->mass_kg * tool_com) / together;
+    last.mass_kg = together;
+  }
+  return weight;
+}
+
+Vector6d weightTorque(const Robot& robot, const ArmPosture& posture, const OwnWeight& weight) {
+  // Sum from the tip inwards: force and moment about the base origin of all that hangs beyond each joint.
+  Vector6d torque = Vector6d::Zero();
+  Eigen::Vector3d force = Eigen::Vector3d::Zero(), moment = Eigen::Vector3d::Zero();
+  for (int joint = 5; joint >= 0; --joint) {
+    const auto body = static_cast<std::size_t>(joint) + 1;
+    const Eigen::Vector3d pull = weight.bodies[body].mass_kg * weight.gravity_in_base;
+    force += pull;
+    moment += (posture.motion[body] * weight.bodies[body].com_in_base_at_zero).cross(pull);
+    const metrology::Line axis = axisAt(robot, posture, joint);
+    torque[joint] = axis.direction.dot(moment - axis.point.cross(force));
+  }
+  return torque;
+}
+
+Vector6d saggedAngles(const Robot& robot, const Vector6d& q, const OwnWeight& weight, const Vector6d& compliance) {
+  Vector6d sagged = q;
+  if (!weight.any() || compliance.isZero()) return sagged;
+  constexpr int kSteps = 3;
+  for (int step = 0; step < kSteps; ++step) {
+    sagged = q + compliance.cwiseProduct(weightTorque(robot, postureAt(robot, sagged), weight));
+  }
+  return sagged;
+}
+
+}  // namespace stiffscope::robot

@@ -1,0 +1,76 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <vector>
+
+#include "core/campaign/campaign.h"
+#include "core/numerics/random.h"
+#include "core/simulation/equilibrium.h"
+#include "core/simulation/spec.h"
+
+namespace stiffscope::simulation {
+
+/// The wrench of the load on the machine at the declared place of the load cell, as it stands on the loaded,
+/// deformed arm: w = (R' F, R' ((p_load - p_cell) x F)), R and p_cell the cell's axes and point in base_link,
+/// carried by its parent link, F what of the load's force the cell sees. `place_error` moves p_cell in its
+/// own axes from where it is declared. Force (N) then moment (Nm) about the cell's point, cell axes. Weight
+/// of arm and tool plays no part: the reading is tared. `parent` is the nominal link that carries the cell.
+Vector6d loadWrenchInCell(const ElasticMachine& machine, const MachineState& state, const robot::LinkFrame& parent,
+                          const campaign::LoadCell& cell, const Eigen::Vector3d& place_error = Eigen::Vector3d::Zero());
+
+/// Turns true wrenches into readings: seen in axes turned by `misalignment`, times (1 + gain_error), plus
+/// `bias` where there is a load (a row that is not exactly zero: the unloaded reading is tared), plus noise
+/// of the declared sigmas in every row (stream "load cell").
+void addLoadCellErrors(const LoadCellSpec& cell, std::uint64_t noise_seed, campaign::States& states);
+
+/// Where the tracker stands through the day, and what it makes of a true point.
+class Station {
+ public:
+  /// The walk's knots (stream "station walk") depend on the measurement: they are of the day, not the
+  /// machine.
+  explicit Station(const SimulationSpec& spec);
+
+  void startLoading() { loading_ = true; }  ///< whatever was pushed before the loading has been pushed
+
+  /// The reading of a point of the robot, or of one of the floor, given in the ground's base_link.
+  Eigen::Vector3d readRobot(const Eigen::Vector3d& point_in_base, double time_s) const;
+  Eigen::Vector3d readFloor(const Eigen::Vector3d& point_in_base, double time_s) const;
+
+  /// Shift and turn of the station since the first reading, its own axes; ramp and walk, no push.
+  Vector6d wandered(double time_s) const;
+
+ private:
+  StationSpec spec_;
+  Eigen::Isometry3d tracker_from_base_;
+  std::vector<Vector6d> knots_;  ///< the walk at knot_s * index
+  bool still_ = true, loading_ = false;
+};
+
+/// How far the reflectors have left their nests, through one posture's loads in their order.
+class ReflectorSeats {
+ public:
+  explicit ReflectorSeats(const std::vector<TrueTarget>& targets);
+
+  /// Shifts of the targets (flange axes, m) once this force of the load on the tool (flange axes, N) is on.
+  const std::vector<Eigen::Vector3d>& under(const Eigen::Vector3d& force_in_flange);
+
+ private:
+  const std::vector<TrueTarget>& targets_;
+  std::vector<bool> slipped_;
+  std::vector<Eigen::Vector3d> shifts_;
+};
+
+/// One draw of a tracker reading's error (m, tracker frame) at a true point of that frame. With d the
+/// distance from the station: normal along the line of sight with sigma factor (range_fixed + range_per_m d),
+/// and across it in two directions at right angles with sigma factor (angle_fixed + angle_per_m d) each, all
+/// independent. `factor` is true sigma over declared sigma. Takes three numbers from the stream: along,
+/// across, across.
+Eigen::Vector3d trackerError(const campaign::Tracker& tracker, double factor, const Eigen::Vector3d& point,
+                             numerics::RandomStream& random);
+
+/// Adds an error of its own to every point of the campaign's tables (tracker frame): streams "tracker
+/// sweeps", "tracker wrist", "tracker loading" and "tracker nests" of `noise_seed`.
+void addTrackerNoise(double factor, std::uint64_t noise_seed, campaign::Campaign& campaign);
+
+}  // namespace stiffscope::simulation

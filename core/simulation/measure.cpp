@@ -1,0 +1,312 @@
+#include "core/simulation/measure.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <utility>
+
+#include "core/campaign/campaign.h"
+#include "core/io/input_error.h"
+#include "core/io/units.h"
+#include "core/numerics/random.h"
+#include "core/simulation/equilibrium.h"
+#include "core/simulation/instruments.h"
+#include "core/simulation/machine.h"
+#include "core/simulation/postures.h"
+#include "core/simulation/spec.h"
+
+namespace stiffscope::simulation {
+
+/// The day in progress: what has been measured, and the clock. Only the truth; errors are added afterwards.
+struct Session {
+  const SimulationSpec& spec;
+  const ElasticMachine& machine;
+  campaign::Campaign campaign;
+  Station station;
+  double now_s = 0.0;
+  double last_nests_s = 0.0;
+
+  /// The machine at rest at reported angles q, now. Throws InputError where it is not stable or collapses.
+  MachineState rest(const Vector6d& q, const AppliedLoad& load = {},
+                    const Eigen::VectorXd* anchors = nullptr) const;
+  Vector6d reported(const Vector6d& q) const;  ///< rounded to the read-back resolution
+  /// The time a reading is finished; the clock moves on to it.
+  double takeReading();
+};
+
+void measureNests(Session& session);       ///< one reading of every nest, now
+void measureNestsIfDue(Session& session);  ///< if their interval has passed
+void measureCircleSweeps(Session& session);
+void measureWristSweep(Session& session);
+void measureLoading(Session& session);
+
+namespace {
+
+const robot::LinkFrame& cellParent(const SimulationSpec& spec) {
+  const std::string& name = spec.load_cell->declared.parent;
+  const auto found = std::find_if(spec.nominal.links.begin(), spec.nominal.links.end(),
+                                  [&](const robot::LinkFrame& link) { return link.name == name; });
+  if (found == spec.nominal.links.end()) {
+    throw io::InputError({spec.file.string(), 0, "parent"}, name, "expected a link on the chain of the URDF");
+  }
+  return *found;
+}
+
+/// What one posture carries from load to load.
+struct PostureRun {
+  const Posture& posture;
+  int pose;
+  ReflectorSeats seats;
+  Eigen::VectorXd anchors{};      ///< of the sliders; set at arrival
+  Eigen::VectorXd deformation{};  ///< of the state before, as it has come to by the change of load
+};
+
+/// The state as it is at the time of a reading: swinging, creeping.
+MachineState stateNow(const Session& session, const PostureRun& run, const AppliedLoad& load,
+                      const MachineState& rest, const Eigen::VectorXd& late, double since_s) {
+  const SimulationSpec& spec = session.spec;
+  const AppliedLoad swung = swungLoad(*spec.loading, load, session.now_s);
+  const bool swings = spec.loading->swing != 0.0 && std::holds_alternative<DeadForce>(load);
+  if (!swings && late.size() == 0) return rest;
+  MachineState state = swings ? session.rest(rest.q, swung, &run.anchors) : rest;
+  if (late.size() == 0) return state;
+  const Eigen::VectorXd x = state.deformation - std::exp(-since_s / spec.machine.creep->time_constant) * late;
+  const ElasticMachine& machine = session.machine;
+  return machine.changes() ? stateAt(machineAt(machine, rest.q, session.now_s), rest.q, swung, x)
+                           : stateAt(machine, rest.q, swung, x);
+}
+
+void readTargets(Session& session, PostureRun& run, const AppliedLoad& load, const MachineState& rest,
+                 int step) {
+  const SimulationSpec& spec = session.spec;
+  const double changed_s = session.now_s;
+  Eigen::VectorXd late;  // of the deformation, at the change of load
+  if (spec.machine.creep && step > 0) {
+    late = spec.machine.creep->share * (rest.deformation - run.deformation);
+  }
+  const std::vector<Eigen::Vector3d>& shifts =
+      run.seats.under(rest.base_from_flange.linear().transpose() * rest.load_force_in_base);
+  MachineState state = rest;
+  for (int repeat = 1; repeat <= spec.loading->repeats; ++repeat) {
+    for (std::size_t t = 0; t < spec.targets.size(); ++t) {
+      campaign::LoadingReading reading;
+      reading.pose = run.pose;
+      reading.step = step;
+      reading.repeat = std::to_string(repeat);
+      reading.target = static_cast<int>(t);
+      reading.time_s = session.takeReading();
+      state = stateNow(session, run, load, rest, late, session.now_s - changed_s);
+      const Eigen::Vector3d place =
+          spec.targets[t].motion
+              ? Eigen::Vector3d(state.targets_in_base[t] + state.base_from_flange.linear() * shifts[t])
+              : state.targets_in_base[t];
+      reading.point = session.station.readRobot(place, session.now_s);
+      session.campaign.loading->rows.push_back(reading);
+    }
+  }
+  run.deformation = late.size() == 0 ? rest.deformation : state.deformation;
+}
+
+void measureState(Session& session, PostureRun& run, int step) {
+  const SimulationSpec& spec = session.spec;
+  const Eigen::Vector3d unread =
+      spec.load_cell ? spec.load_cell->unread_force : Eigen::Vector3d(Eigen::Vector3d::Zero());
+  const AppliedLoad load =
+      loadAtStep(*spec.loading, step, session.machine.gravity_in_base, run.posture.pull_direction, unread);
+  const MachineState rest = session.rest(run.posture.q, load, step > 0 ? &run.anchors : nullptr);
+  run.anchors = step > 0 ? slippedAnchors(session.machine, rest, std::move(run.anchors))
+                         : arrivedAnchors(session.machine, rest);
+  campaign::State row;
+  row.pose = run.pose;
+  row.step = step;
+  row.time_s = session.now_s;
+  row.q = session.reported(rest.q);
+  if (spec.load_cell) {
+    row.wrench_in_cell = loadWrenchInCell(session.machine, rest, cellParent(spec), spec.load_cell->declared,
+                                          spec.load_cell->place_error);
+  }
+  session.campaign.states->rows.push_back(row);
+  readTargets(session, run, load, rest, step);
+}
+
+}  // namespace
+
+void measureLoading(Session& session) {
+  const SimulationSpec& spec = session.spec;
+  if (!spec.loading) return;
+  session.campaign.loading = campaign::Loading{"loading.csv", campaign::PointFrame::tracker, {}};
+  session.campaign.states = campaign::States{"states.csv", campaign::PointFrame::tracker, {}};
+  const std::vector<Posture> postures = loadingPostures(spec);
+  for (std::size_t p = 0; p < postures.size(); ++p) {
+    session.campaign.pose_ids.push_back(std::to_string(p + 1));
+    session.now_s += spec.timing.move_s;
+    PostureRun run{postures[p], static_cast<int>(p), ReflectorSeats(spec.targets)};
+    for (int step = 0; step <= loadSteps(*spec.loading); ++step) {
+      if (step > 0) session.now_s += spec.timing.load_change_s;
+      measureState(session, run, step);
+    }
+    measureNestsIfDue(session);
+  }
+}
+
+namespace {
+
+/// One target at a true state, read now.
+template <class Row>
+Row reading(Session& session, const MachineState& state, int index, int target) {
+  Row row;
+  row.index = std::to_string(index);
+  row.target = target;
+  row.q = session.reported(state.q);
+  row.time_s = session.takeReading();
+  row.point =
+      session.station.readRobot(state.targets_in_base[static_cast<std::size_t>(target)], session.now_s);
+  return row;
+}
+
+}  // namespace
+
+void measureCircleSweeps(Session& session) {
+  const SimulationSpec& spec = session.spec;
+  if (spec.circle_sweeps.empty()) return;
+  campaign::CircleSweeps table{"circle_sweeps.csv", campaign::PointFrame::tracker, {}};
+  for (const CircleSweepSpec& sweep : spec.circle_sweeps) {
+    for (int stop = 0; stop < sweep.count; ++stop) {
+      Vector6d q = sweep.others;
+      q[sweep.axis] = sweep.start + (sweep.stop - sweep.start) * stop / (sweep.count - 1);
+      session.now_s += spec.timing.move_s;
+      const MachineState state = session.rest(q);
+      for (std::size_t t = 0; t < spec.targets.size(); ++t) {
+        table.rows.push_back(reading<campaign::CircleReading>(session, state, stop, static_cast<int>(t)));
+        table.rows.back().axis = sweep.axis;
+      }
+      measureNestsIfDue(session);
+    }
+  }
+  session.campaign.circle_sweeps = std::move(table);
+}
+
+void measureWristSweep(Session& session) {
+  const SimulationSpec& spec = session.spec;
+  if (!spec.wrist_sweep) return;
+  const WristSweepSpec& sweep = *spec.wrist_sweep;
+  const int targets = static_cast<int>(spec.targets.size());
+  const bool one = sweep.scheme == WristScheme::one_target;
+  const int stops = one ? sweep.readings : sweep.readings / targets;
+  numerics::RandomStream random(spec.seed, "wrist sweep");
+  campaign::WristSweep table{"wrist_sweep.csv", campaign::PointFrame::tracker, {}};
+  for (int stop = 0; stop < stops; ++stop) {
+    Vector6d q;
+    q.head<3>() = sweep.arm;
+    for (int k = 0; k < 3; ++k) q[3 + k] = random.uniform(sweep.low[k], sweep.high[k]);
+    session.now_s += spec.timing.move_s;
+    const MachineState state = session.rest(q);
+    // One target after the other: the first `readings % targets` of them get one reading more.
+    const int share = sweep.readings / targets, longer = sweep.readings % targets;
+    const int first = !one                          ? 0
+                      : stop < longer * (share + 1) ? stop / (share + 1)
+                                                    : longer + (stop - longer * (share + 1)) / share;
+    for (int t = first; t < (one ? first + 1 : targets); ++t) {
+      table.rows.push_back(reading<campaign::WristReading>(session, state, stop, t));
+    }
+    measureNestsIfDue(session);
+  }
+  session.campaign.wrist_sweep = std::move(table);
+}
+
+namespace {
+
+constexpr double kLargest =
+    0.1;  ///< m and rad: what gives more has collapsed, and linear springs no longer hold
+
+}  // namespace
+
+MachineState Session::rest(const Vector6d& q, const AppliedLoad& load, const Eigen::VectorXd* anchors) const {
+  MachineState state = machine.changes() ? equilibrium(machineAt(machine, q, now_s), q, load, anchors)
+                                         : equilibrium(machine, q, load, anchors);
+  const bool small = state.deformation.size() == 0 || state.deformation.cwiseAbs().maxCoeff() < kLargest;
+  if (!state.converged || !small) {
+    const Vector6d deg = q / io::kDegree;
+    throw io::InputError({spec.file.string(), 0, "q_deg"},
+                     fmt::format("{:.3f} {:.3f} {:.3f} {:.3f} {:.3f} {:.3f}", deg[0], deg[1], deg[2], deg[3],
+                                 deg[4], deg[5]),
+                     "expected a posture where the machine rests stably, giving less than 0.1 rad; stiffness "
+                     "is too low or the "
+                     "load too large");
+  }
+  return state;
+}
+
+Vector6d Session::reported(const Vector6d& q) const {
+  const double step = spec.read_back_resolution;
+  if (step <= 0.0) return q;
+  return (q / step).array().round().matrix() * step;
+}
+
+double Session::takeReading() {
+  now_s += spec.timing.reading_s;
+  return now_s;
+}
+
+void measureNests(Session& session) {
+  if (session.spec.nests.empty()) return;
+  if (!session.campaign.nests) session.campaign.nests = campaign::Nests{"nests.csv", campaign::PointFrame::tracker, {}};
+  for (std::size_t n = 0; n < session.spec.nests.size(); ++n) {
+    campaign::NestReading reading;
+    reading.time_s = session.takeReading();
+    reading.nest = static_cast<int>(n);
+    reading.point = session.station.readFloor(session.spec.nests[n].position_in_base, session.now_s);
+    session.campaign.nests->rows.push_back(reading);
+  }
+  session.last_nests_s = session.now_s;
+}
+
+void measureNestsIfDue(Session& session) {
+  if (session.now_s - session.last_nests_s >= session.spec.timing.nest_interval_s) measureNests(session);
+}
+
+namespace {
+
+/// What the laboratory declares, before anything is measured.
+campaign::Campaign declared(const ElasticMachine& machine, const SimulationSpec& spec) {
+  campaign::Campaign campaign;
+  campaign.name = spec.name;
+  campaign.date = spec.date;
+  campaign.robot = spec.nominal;
+  campaign.base_link = spec.base_link;
+  campaign.flange_link = spec.flange_link;
+  campaign.double_encoder = spec.double_encoder;
+  if (spec.machine.base_tilt_declared) campaign.gravity_in_base = machine.gravity_in_base;
+  campaign.tracker = spec.tracker.declared;
+  for (const auto& target : spec.targets) campaign.targets.push_back({target.id, std::nullopt});
+  if (spec.load_cell) campaign.load_cell = spec.load_cell->declared;
+  if (spec.machine.tool.mass_kg > 0.0) campaign.tool = spec.machine.tool;
+  for (const auto& nest : spec.nests) campaign.nest_ids.push_back(nest.id);
+  return campaign;
+}
+
+}  // namespace
+
+campaign::Campaign measureWithoutNoise(const ElasticMachine& machine, const SimulationSpec& spec) {
+  using namespace simulation;
+  Session session{spec, machine, declared(machine, spec), Station(spec)};
+  measureNests(session);
+  measureCircleSweeps(session);
+  measureWristSweep(session);
+  if (spec.nests_after_sweeps) measureNests(session);
+  session.station.startLoading();
+  measureLoading(session);
+  measureNests(session);
+  return std::move(session.campaign);
+}
+
+campaign::Campaign simulate(const SimulationSpec& spec) {
+  using namespace simulation;
+  campaign::Campaign campaign = measureWithoutNoise(buildMachine(spec), spec);
+  const std::uint64_t noise_seed = noiseSeed(spec);
+  if (spec.load_cell && campaign.states) addLoadCellErrors(*spec.load_cell, noise_seed, *campaign.states);
+  addTrackerNoise(spec.tracker.true_noise_factor, noise_seed, campaign);
+  return campaign;
+}
+
+}  // namespace stiffscope::simulation

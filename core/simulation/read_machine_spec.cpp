@@ -1,0 +1,295 @@
+#include <cmath>
+
+#include "core/io/units.h"
+#include "core/simulation/spec_xml.h"
+
+namespace stiffscope::simulation {
+
+namespace {
+
+JointStages readStages(const io::XmlNode& node) {
+  refuseUnknown(node, {"torques_nm", "stiffness_nm_per_rad"});
+  JointStages stages;
+  stages.torques = numberList(node, "torques_nm", 0, 1.0);
+  stages.rates = numberList(node, "stiffness_nm_per_rad", stages.torques.size() + 1, 1.0);
+  double before = 0.0;
+  for (const double torque : stages.torques) {
+    if (!(torque > before)) {
+      node.refuse("torques_nm", node.requiredAttribute("torques_nm"), "expected rising numbers above 0");
+    }
+    before = torque;
+  }
+  for (const double rate : stages.rates) {
+    if (!(rate > 0.0)) {
+      node.refuse("stiffness_nm_per_rad", node.requiredAttribute("stiffness_nm_per_rad"),
+                  "expected numbers above 0, one more than torques_nm has");
+    }
+  }
+  return stages;
+}
+
+JointBacklash readBacklash(const io::XmlNode& node) {
+  refuseUnknown(node, {"width_deg", "rest_share"});
+  JointBacklash backlash{positive(node, "width_deg", io::kDegree)};
+  backlash.rest = optionalPositive(node, "rest_share", 1.0).value_or(backlash.rest);
+  if (backlash.rest > 1.0) {
+    node.refuse("rest_share", node.requiredAttribute("rest_share"),
+                "expected a share of the stiffness, at most 1");
+  }
+  return backlash;
+}
+
+JointFriction readFriction(const io::XmlNode& node) {
+  refuseUnknown(node, {"torque_nm", "stiffness_nm_per_rad", "sliders"});
+  return {positive(node, "torque_nm", 1.0), positive(node, "stiffness_nm_per_rad", 1.0),
+          integer(node, "sliders", 1, 100, 4)};
+}
+
+JointWave readWave(const io::XmlNode& node, const std::string& amplitude, double unit) {
+  refuseUnknown(node, {amplitude, "cycles", "phase_deg"});
+  return {node.number(amplitude) * unit, optionalPositive(node, "cycles", 1.0).value_or(1.0),
+          numberOr(node, "phase_deg", io::kDegree, 0.0)};
+}
+
+double shareBelowOne(const io::XmlNode& node) {
+  const double share = node.number("share");
+  if (!(std::abs(share) < 1.0)) {
+    node.refuse("share", node.requiredAttribute("share"), "expected a share between -1 and 1");
+  }
+  return share;
+}
+
+}  // namespace
+
+JointStiffness readJoint(const io::XmlNode& node) {
+  refuseUnknown(node, {"index", "stiffness_nm_per_rad", "bearing_nm_per_rad", "cubic_nm_per_rad3"},
+                {"stages", "backlash", "friction", "stiffness_ripple", "angle_error", "softening"});
+  JointStiffness joint;
+  joint.torsion = optionalPositive(node, "stiffness_nm_per_rad", 1.0);
+  joint.bearing = optionalPositive(node, "bearing_nm_per_rad", 1.0);
+  joint.cubic = nonNegativeOr(node, "cubic_nm_per_rad3", 1.0, 0.0);
+  if (const auto child = node.child("stages")) joint.stages = readStages(*child);
+  if (const auto child = node.child("backlash")) joint.backlash = readBacklash(*child);
+  if (const auto child = node.child("friction")) joint.friction = readFriction(*child);
+  if (const auto child = node.child("stiffness_ripple")) {
+    joint.rate_wave = readWave(*child, "share", 1.0);
+    shareBelowOne(*child);
+  }
+  if (const auto child = node.child("angle_error")) {
+    joint.angle_wave = readWave(*child, "amplitude_deg", io::kDegree);
+  }
+  if (const auto child = node.child("softening")) {
+    refuseUnknown(*child, {"share", "time_constant_s"});
+    joint.softening = JointSoftening{shareBelowOne(*child), positive(*child, "time_constant_s", 1.0)};
+  }
+  const bool needs_torsion = joint.cubic > 0.0 || joint.stages || joint.backlash || joint.friction ||
+                             joint.rate_wave || joint.softening;
+  if (needs_torsion && !joint.torsion) {
+    node.refuse("stiffness_nm_per_rad", "", "expected a stiffness: this joint's other elements build on it");
+  }
+  return joint;
+}
+
+namespace {
+
+void readJoints(const io::XmlNode& root, MachineSpec& machine) {
+  const std::optional<io::XmlNode> joints = root.child("joints");
+  if (!joints) return;
+  refuseUnknown(*joints, {"mass_relative_sigma"}, {"joint"});
+  machine.mass_relative_sigma = nonNegativeOr(*joints, "mass_relative_sigma", 1.0, 0.0);
+  std::array<bool, 6> seen{};
+  for (const io::XmlNode& node : joints->children("joint")) {
+    const int joint = integer(node, "index", 1, 6) - 1;
+    if (seen[joint])
+      node.refuse("index", node.requiredAttribute("index"), "expected every joint at most once");
+    seen[joint] = true;
+    machine.joints[joint] = readJoint(node);
+  }
+}
+
+void readBase(const io::XmlNode& root, MachineSpec& machine) {
+  const std::optional<io::XmlNode> base = root.child("base");
+  if (!base) return;
+  refuseUnknown(
+      *base, {"rotation_nm_per_rad", "translation_n_per_m", "tilt_deg", "tilt_azimuth_deg", "tilt_declared"},
+      {"contact"});
+  const auto stiffness = [&](const char* name) -> std::optional<Eigen::Vector3d> {
+    if (!base->has(name)) return std::nullopt;
+    const Eigen::Vector3d three = base->vector(name);
+    if (!(three.minCoeff() > 0.0)) {
+      base->refuse(name, base->requiredAttribute(name), "expected three numbers above 0");
+    }
+    return three;
+  };
+  machine.base_rotation = stiffness("rotation_nm_per_rad");
+  machine.base_translation = stiffness("translation_n_per_m");
+  readBaseContacts(*base, machine);
+  machine.base_tilt = numberOr(*base, "tilt_deg", io::kDegree, 0.0);
+  machine.base_tilt_azimuth = numberOr(*base, "tilt_azimuth_deg", io::kDegree, 0.0);
+  machine.base_tilt_declared = flag(*base, "tilt_declared", false);
+}
+
+void readLinks(const io::XmlNode& root, MachineSpec& machine) {
+  for (const io::XmlNode& node : root.children("link")) {
+    refuseUnknown(node, {"after_joint", "bending_nm2", "torsion_nm2", "shear_n", "axial_n"});
+    LinkBeam beam;
+    beam.joint = integer(node, "after_joint", 1, 6) - 1;
+    for (const LinkBeam& other : machine.links) {
+      if (other.joint == beam.joint) {
+        node.refuse("after_joint", node.requiredAttribute("after_joint"), "expected every link at most once");
+      }
+    }
+    beam.bending = optionalPositive(node, "bending_nm2", 1.0);
+    beam.torsion = optionalPositive(node, "torsion_nm2", 1.0);
+    beam.shear = optionalPositive(node, "shear_n", 1.0);
+    beam.axial = optionalPositive(node, "axial_n", 1.0);
+    if (beam.shear && !beam.bending) {
+      node.refuse("shear_n", node.requiredAttribute("shear_n"), "expected bending_nm2 beside it");
+    }
+    if (!beam.bending && !beam.torsion && !beam.axial) {
+      node.refuse("link", "", "expected bending_nm2, torsion_nm2 or axial_n");
+    }
+    machine.links.push_back(beam);
+  }
+}
+
+void readGeometry(const io::XmlNode& root, MachineSpec& machine) {
+  const std::optional<io::XmlNode> node = root.child("geometry");
+  if (!node) return;
+  refuseUnknown(*node,
+                {"position_sigma_mm", "direction_sigma_deg", "zero_sigma_deg", "wrist_position_sigma_mm"},
+                {"axis"});
+  GeometryErrors& geometry = machine.geometry;
+  geometry.position_sigma = nonNegativeOr(*node, "position_sigma_mm", io::kMillimetre, 0.0);
+  geometry.direction_sigma = nonNegativeOr(*node, "direction_sigma_deg", io::kDegree, 0.0);
+  geometry.zero_sigma = nonNegativeOr(*node, "zero_sigma_deg", io::kDegree, 0.0);
+  if (node->has("wrist_position_sigma_mm")) {
+    geometry.wrist_position_sigma = nonNegativeOr(*node, "wrist_position_sigma_mm", io::kMillimetre, 0.0);
+  }
+  for (const io::XmlNode& axis : node->children("axis")) {
+    refuseUnknown(axis, {"index", "offset_mm", "tilt_deg", "zero_deg"});
+    const int index = integer(axis, "index", 1, 6) - 1;
+    if (geometry.listed[index]) {
+      axis.refuse("index", axis.requiredAttribute("index"), "expected every axis at most once");
+    }
+    geometry.listed[index] = AxisError{vectorOr(axis, "offset_mm", io::kMillimetre, Eigen::Vector3d::Zero()),
+                                       vectorOr(axis, "tilt_deg", io::kDegree, Eigen::Vector3d::Zero()),
+                                       numberOr(axis, "zero_deg", io::kDegree, 0.0)};
+  }
+}
+
+}  // namespace
+
+MachineSpec readMachine(const io::XmlNode& root) {
+  MachineSpec machine;
+  readJoints(root, machine);
+  readBase(root, machine);
+  readLinks(root, machine);
+  readGeometry(root, machine);
+  if (const std::optional<io::XmlNode> tool = root.child("tool")) {
+    refuseUnknown(*tool, {"mass_kg", "com_mm"});
+    machine.tool.mass_kg = positive(*tool, "mass_kg", 1.0);
+    machine.tool.com_in_flange = vectorOr(*tool, "com_mm", io::kMillimetre, Eigen::Vector3d::Zero());
+  }
+  if (const auto plate = root.child("tool_plate")) machine.tool_plate = readToolPlate(*plate);
+  readSprings(root, machine);
+  readSlowChanges(root, machine);
+  return machine;
+}
+
+namespace {
+
+SharedSpring readSharedSpring(const io::XmlNode& node, const MachineSpec& machine) {
+  refuseUnknown(node, {"joints", "rod_n_per_m", "crank_mm", "shaft_nm_per_rad", "ratios"});
+  SharedSpring spring;
+  const std::vector<double> joints = numberList(node, "joints", 2, 1.0);
+  for (std::size_t k = 0; k < 2; ++k) {
+    const int joint = static_cast<int>(joints[k]) - 1;
+    const bool exists = joints[k] >= 1.0 && joints[k] <= 6.0 && joints[k] == joint + 1;
+    if (!exists || joints[0] == joints[1]) {
+      node.refuse("joints", node.requiredAttribute("joints"), "expected two different joints from 1 to 6");
+    }
+    if (!machine.joints[static_cast<std::size_t>(joint)].torsion) {
+      node.refuse("joints", node.requiredAttribute("joints"),
+                  "expected joints that have stiffness_nm_per_rad");
+    }
+    spring.joints[k] = joint;
+  }
+  const bool rod = node.has("rod_n_per_m");
+  if (rod == node.has("shaft_nm_per_rad")) {
+    node.refuse("coupling", "", "expected rod_n_per_m with crank_mm, or shaft_nm_per_rad with ratios");
+  }
+  spring.rate = positive(node, rod ? "rod_n_per_m" : "shaft_nm_per_rad", 1.0);
+  const std::vector<double> arms =
+      rod ? numberList(node, "crank_mm", 2, io::kMillimetre) : numberList(node, "ratios", 2, 1.0);
+  spring.arms = {arms[0], arms[1]};
+  return spring;
+}
+
+LinkSpring readLinkSpring(const io::XmlNode& node) {
+  refuseUnknown(node, {"from_body", "to_body", "from_mm", "to_mm", "rate_n_per_m", "tension_n"});
+  LinkSpring spring;
+  spring.from_body = integer(node, "from_body", 0, 6);
+  spring.to_body = integer(node, "to_body", 0, 6);
+  if (spring.to_body <= spring.from_body) {
+    node.refuse("to_body", node.requiredAttribute("to_body"), "expected a body beyond from_body");
+  }
+  spring.from_in_base_at_zero = node.vector("from_mm") * io::kMillimetre;
+  spring.to_in_base_at_zero = node.vector("to_mm") * io::kMillimetre;
+  if ((spring.to_in_base_at_zero - spring.from_in_base_at_zero).norm() < 1e-3) {
+    node.refuse("to_mm", node.requiredAttribute("to_mm"), "expected a point at least 1 mm from from_mm");
+  }
+  spring.rate = nonNegativeOr(node, "rate_n_per_m", 1.0, 0.0);
+  spring.tension = numberOr(node, "tension_n", 1.0, 0.0);
+  return spring;
+}
+
+}  // namespace
+
+void readSprings(const io::XmlNode& root, MachineSpec& machine) {
+  for (const io::XmlNode& node : root.children("coupling")) {
+    machine.shared_springs.push_back(readSharedSpring(node, machine));
+  }
+  for (const io::XmlNode& node : root.children("spring")) machine.link_springs.push_back(readLinkSpring(node));
+}
+
+void readBaseContacts(const io::XmlNode& base, MachineSpec& machine) {
+  for (const io::XmlNode& node : base.children("contact")) {
+    refuseUnknown(node, {"axis", "side", "stiffness_nm_per_rad", "gap_deg"});
+    OneSidedContact contact;
+    contact.axis = choice<int>(node, "axis", {{"x", 0}, {"y", 1}, {"z", 2}});
+    contact.positive = choice<bool>(node, "side", {{"positive", true}, {"negative", false}});
+    contact.stiffness = positive(node, "stiffness_nm_per_rad", 1.0);
+    contact.gap = nonNegativeOr(node, "gap_deg", io::kDegree, 0.0);
+    if (!machine.base_rotation)
+      node.refuse("contact", "", "expected rotation_nm_per_rad of the base beside it");
+    machine.base_contacts.push_back(contact);
+  }
+}
+
+ToolPlate readToolPlate(const io::XmlNode& node) {
+  refuseUnknown(node, {"translation_n_per_m", "rotation_nm_per_rad"});
+  ToolPlate plate{node.vector("translation_n_per_m"), node.vector("rotation_nm_per_rad")};
+  for (const char* name : {"translation_n_per_m", "rotation_nm_per_rad"}) {
+    if (!(node.vector(name).minCoeff() > 0.0)) {
+      node.refuse(name, node.requiredAttribute(name), "expected three numbers above 0");
+    }
+  }
+  return plate;
+}
+
+void readSlowChanges(const io::XmlNode& root, MachineSpec& machine) {
+  for (const io::XmlNode& node : root.children("growth")) {
+    refuseUnknown(node, {"after_joint", "growth_mm", "time_constant_s"});
+    machine.growths.push_back({integer(node, "after_joint", 1, 5) - 1, node.number("growth_mm") * io::kMillimetre,
+                               positive(node, "time_constant_s", 1.0)});
+  }
+  if (const auto node = root.child("creep")) {
+    refuseUnknown(*node, {"share", "time_constant_s"});
+    const double share = positive(*node, "share", 1.0);
+    if (share > 1.0) node->refuse("share", node->requiredAttribute("share"), "expected a share, at most 1");
+    machine.creep = Creep{share, positive(*node, "time_constant_s", 1.0)};
+  }
+}
+
+}  // namespace stiffscope::simulation

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/simulation/spec.h"
+#include "core/validation/effect_draw.h"
+#include "core/validation/effect_size.h"
+
+namespace stiffscope::validation {
+
+enum class CaseKind { none, single, pair, outside };
+
+const char* nameOf(CaseKind kind);  ///< none, single, double, outside
+
+/// What every case is to be, in an order mixed from the seed: a fifth none, an eighth doubles, an eighth
+/// outside the vocabulary, the rest singles, each effect (and each outside kind) as often as any other.
+struct CasePlan {
+  CaseKind kind = CaseKind::none;
+  std::vector<effects::Effect> effects;  ///< one for a single, two for a double
+  std::string outside;          ///< id, for one outside the vocabulary
+};
+std::vector<CasePlan> planCases(int count, std::uint64_t seed);
+
+/// An effect in a case, with its size as the machine shows it.
+struct PlacedEffect {
+  std::optional<effects::Effect> effect;
+  std::string detail;
+  Shows shows = Shows::deflection;
+  EffectSize sizes;
+
+  double size() const;  ///< the one that `shows` names
+};
+
+struct BlindCase {
+  simulation::SimulationSpec spec;  ///< with its effects; what is simulated
+  std::string arm, loading;
+  CaseKind kind = CaseKind::none;
+  std::vector<PlacedEffect> effects;  ///< each sized alone
+  EffectSize together;                ///< of all of them
+  double background = 0.0;            ///< EffectSizer::background
+};
+
+/// Machine, effects and strengths. Sizes are drawn evenly in their logarithm from 0.5 to 10 (doubles from 2),
+/// and the strength that gives that size is sought on the noise-free machine to a tenth. Where no strength a
+/// real machine might have comes near it, joint, direction and mechanism are drawn again, up to eight times;
+/// then the one that shows most stays, and its label says how little that is. In three cases of ten the tracker's true
+/// noise is 0.75 to 1.25 times the declared.
+BlindCase drawCase(const CasePlan& plan, std::uint64_t seed, const std::string& name,
+                   const std::filesystem::path& urdf_file);
+
+/// Strength at which `sizer` finds this size, sought from below; `sizes` is what was found there.
+double strengthFor(const EffectDraw& draw, const simulation::SimulationSpec& clean, const EffectSizer& sizer, double size,
+                   EffectSize& sizes);
+
+double sizeOf(const EffectSize& sizes, Shows shows);
+
+}  // namespace stiffscope::validation

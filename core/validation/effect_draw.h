@@ -1,0 +1,50 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/effects/effect.h"
+#include "core/numerics/random.h"
+#include "core/simulation/spec.h"
+
+namespace stiffscope::validation {
+
+/// Where an effect shows, and so what its size is measured by (see effect_size.h).
+enum class Shows {
+  deflection,  ///< in loaded minus unloaded
+  nests,       ///< in absolute positions, and the nests see it
+  positions,   ///< in absolute positions only
+};
+
+/// An effect as it was drawn, all but its strength: which joint, which way, which mechanism.
+struct EffectDraw {
+  std::optional<effects::Effect> effect;  ///< empty: outside the vocabulary
+  std::string detail;            ///< the pair, the reflector, the joint; outside the vocabulary: what it is
+  Shows shows = Shows::deflection;
+  double most = 1.0;  ///< greatest strength that a real machine might have
+  std::function<void(double strength, simulation::SimulationSpec& spec)> apply;  ///< strength 0: nothing
+};
+
+/// An effect of the vocabulary on this machine. Mechanism and place are drawn.
+EffectDraw drawEffect(effects::Effect effect, const simulation::SimulationSpec& machine, numerics::RandomStream& random);
+
+/// Ids of the effects outside the vocabulary: creep, stiffness_ripple, warming_drives, swinging_load,
+/// cracked_floor, thermal_growth, eccentric_encoder, dress_pack, refraction.
+const std::vector<std::string>& outsideKinds();
+
+/// One of them. Throws std::invalid_argument for an id that is not listed.
+EffectDraw drawOutside(const std::string& kind, const simulation::SimulationSpec& machine,
+                       numerics::RandomStream& random);
+
+/// A unit vector, all directions alike.
+Eigen::Vector3d drawDirection(numerics::RandomStream& random);
+int drawIndex(int count, numerics::RandomStream& random);  ///< 0 .. count - 1
+
+/// Greatest load force (N), and the torque (Nm) it puts on a joint of this machine, about: over half the
+/// distance of the flange from the joint at all joints zero.
+double fullLoad(const simulation::SimulationSpec& spec);
+double usualTorque(const simulation::SimulationSpec& spec, int joint);
+
+}  // namespace stiffscope::validation

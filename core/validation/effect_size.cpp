@@ -1,0 +1,273 @@
+#include "core/validation/effect_size.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include "core/simulation/instruments.h"
+#include "core/simulation/measure.h"
+#include "core/simulation/rotation.h"
+
+namespace stiffscope::validation {
+
+namespace {
+
+using Eigen::Index;
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+
+struct ArmNow {
+  std::array<metrology::Line, 6> axes;
+  Eigen::Isometry3d flange;
+};
+
+ArmNow armAt(const robot::Robot& robot, const Vector6d& q) {
+  ArmNow now;
+  Eigen::Isometry3d motion = Eigen::Isometry3d::Identity();
+  for (std::size_t i = 0; i < 6; ++i) {
+    const metrology::Line& axis = robot.axes_in_base_at_zero[i];
+    now.axes[i] = {motion * axis.point, motion.linear() * axis.direction};
+    motion = motion * simulation::turnAbout(axis, q[static_cast<Index>(i)]);
+  }
+  now.flange = motion * robot.base_from_flange_at_zero;
+  return now;
+}
+
+/// Along the line of sight (third) and across it: sigma of one reading.
+Vector3d sigmaAt(const campaign::Tracker& tracker, const Vector3d& point) {
+  const double distance = (point - tracker.station).norm();
+  const double across = tracker.angle_fixed + tracker.angle_per_m * distance;
+  return {across, across, tracker.range_fixed + tracker.range_per_m * distance};
+}
+
+Eigen::Matrix3d sightAxes(const campaign::Tracker& tracker, const Vector3d& point) {
+  return simulation::frameAlong(tracker.station, point - tracker.station).linear();
+}
+
+double rms(const VectorXd& values) {
+  return values.size() == 0 ? 0.0 : std::sqrt(values.squaredNorm() / static_cast<double>(values.size()));
+}
+
+struct Mean {
+  Vector3d sum = Vector3d::Zero();
+  int count = 0;
+  Vector3d value() const { return sum / count; }
+};
+
+/// Means of the repeats, by (pose, step, target).
+std::map<std::array<int, 3>, Mean> stateMeans(const campaign::Campaign& campaign) {
+  std::map<std::array<int, 3>, Mean> means;
+  for (const campaign::LoadingReading& reading : campaign.loading->rows) {
+    Mean& mean = means[{reading.pose, reading.step, reading.target}];
+    mean.sum += reading.point;
+    ++mean.count;
+  }
+  return means;
+}
+
+/// Calls use(q, target, point, readings averaged) for every unloaded reading: sweeps, wrist sweep, then step
+/// 0.
+template <class Use>
+Index forUnloaded(const campaign::Campaign& campaign, const Use& use) {
+  Index before_loading = 0;
+  if (campaign.circle_sweeps) {
+    for (const campaign::CircleReading& one : campaign.circle_sweeps->rows) use(one.q, one.target, one.point, 1);
+    before_loading += static_cast<Index>(campaign.circle_sweeps->rows.size());
+  }
+  if (campaign.wrist_sweep) {
+    for (const campaign::WristReading& one : campaign.wrist_sweep->rows) use(one.q, one.target, one.point, 1);
+    before_loading += static_cast<Index>(campaign.wrist_sweep->rows.size());
+  }
+  std::map<int, Vector6d> angles;
+  for (const campaign::State& state : campaign.states->rows) {
+    if (state.step == 0) angles[state.pose] = state.q;
+  }
+  for (const auto& [key, mean] : stateMeans(campaign)) {
+    if (key[1] == 0) use(angles.at(key[0]), key[2], mean.value(), mean.count);
+  }
+  return before_loading;
+}
+
+VectorXd unloadedPoints(const campaign::Campaign& campaign) {
+  std::vector<double> values;
+  forUnloaded(campaign, [&](const Vector6d&, int, const Vector3d& point, int) {
+    values.insert(values.end(), point.data(), point.data() + 3);
+  });
+  return Eigen::Map<const VectorXd>(values.data(), static_cast<Index>(values.size()));
+}
+
+}  // namespace
+
+campaign::Campaign withoutScatter(const simulation::SimulationSpec& spec) {
+  campaign::Campaign campaign = simulation::measureWithoutNoise(simulation::buildMachine(spec), spec);
+  if (spec.load_cell && campaign.states) {
+    simulation::LoadCellSpec cell = *spec.load_cell;
+    cell.declared.force_sigma = cell.declared.moment_sigma = 0.0;
+    simulation::addLoadCellErrors(cell, 0, *campaign.states);
+  }
+  return campaign;
+}
+
+EffectSizer::EffectSizer(const simulation::SimulationSpec& clean)
+    : base_from_tracker_(clean.tracker.base_from_tracker.linear()),
+      station_in_base_(clean.tracker.base_from_tracker * clean.tracker.declared.station),
+      true_noise_factor_(clean.tracker.true_noise_factor),
+      geometry_(simulation::rigidGeometry(simulation::buildMachine(clean))),
+      reference_(withoutScatter(clean)) {
+  for (std::size_t i = 0; i < 6; ++i) {
+    compliance_[static_cast<Index>(i)] = 1.0 / clean.machine.joints[i].torsion.value();
+  }
+  undisturbed_ = deflections(reference_);
+  const auto means = stateMeans(reference_);
+  displacement_sigma_.resize(undisturbed_.displacement.size());
+  Index row = 0;
+  int pose = -1;
+  for (const auto& [key, mean] : means) {
+    if (key[1] == 0) continue;
+    const Mean& zero = means.at({key[0], 0, key[2]});
+    displacement_sigma_.segment<3>(row) =
+        std::sqrt(1.0 / mean.count + 1.0 / zero.count) * sigmaAt(*reference_.tracker, zero.value());
+    row += 3;
+    if (pose_ends_.empty() || key[0] != pose) pose_ends_.push_back(row);
+    pose_ends_.back() = row;
+    pose = key[0];
+  }
+  identifiable_ = identifiableBy(undisturbed_);
+  background_ =
+      whitened(leftOver(undisturbed_, undisturbed_.displacement - undisturbed_.columns * compliance_));
+  designPositions();
+  simulation::SimulationSpec nominal = clean;
+  nominal.machine.geometry = {};
+  geometry_background_ = positionsLeft(unloaded_ - unloadedPoints(withoutScatter(nominal)));
+}
+
+EffectSizer::Deflections EffectSizer::deflections(const campaign::Campaign& campaign) const {
+  const auto means = stateMeans(campaign);
+  const auto reference = stateMeans(reference_);
+  std::map<std::array<int, 2>, const campaign::State*> states;
+  for (const campaign::State& state : campaign.states->rows) states[{state.pose, state.step}] = &state;
+  std::size_t count = 0;
+  for (const auto& one : means) count += one.first[1] > 0 ? 1 : 0;
+  Deflections all{VectorXd(3 * static_cast<Index>(count)), Eigen::MatrixXd(3 * static_cast<Index>(count), 6)};
+  Index row = 0;
+  for (const auto& [key, mean] : means) {
+    if (key[1] == 0) continue;
+    const Vector3d zero = reference.at({key[0], 0, key[2]}).value();
+    const Eigen::Matrix3d sight = sightAxes(*campaign.tracker, zero);
+    all.displacement.segment<3>(row) =
+        sight.transpose() * (mean.value() - means.at({key[0], 0, key[2]}).value());
+    const campaign::State& state = *states.at({key[0], key[1]});
+    const ArmNow arm = armAt(geometry_, state.q);
+    const Eigen::Isometry3d cell = arm.flange * campaign.load_cell->parent_from_cell;
+    const Vector3d force = cell.linear() * state.wrench_in_cell.head<3>();
+    const Vector3d moment = cell.linear() * state.wrench_in_cell.tail<3>();
+    // The point in base_link as the rigid arm would have it: what the reference's station saw.
+    const Vector3d point = base_from_tracker_ * (zero - reference_.tracker->station) + station_in_base_;
+    for (std::size_t i = 0; i < 6; ++i) {
+      const metrology::Line& axis = arm.axes[i];
+      const double torque = axis.direction.dot(moment + (cell.translation() - axis.point).cross(force));
+      all.columns.block<3, 1>(row, static_cast<Index>(i)) = sight.transpose() *
+                                                            base_from_tracker_.transpose() *
+                                                            axis.direction.cross(point - axis.point) * torque;
+    }
+    row += 3;
+  }
+  return all;
+}
+
+std::vector<Index> EffectSizer::identifiableBy(const Deflections& of) const {
+  std::vector<Index> joints;
+  for (Index i = 0; i < 6; ++i) {
+    if (whitened(of.columns.col(i) * compliance_[i]) > 1.0) joints.push_back(i);
+  }
+  return joints;
+}
+
+VectorXd EffectSizer::leftOver(const Deflections& of, const VectorXd& gap) const {
+  if (identifiable_.empty()) return gap;
+  const Eigen::MatrixXd columns = of.columns(Eigen::all, identifiable_);
+  const VectorXd weight = displacement_sigma_.cwiseInverse();
+  const VectorXd change =
+      (weight.asDiagonal() * columns).eval().colPivHouseholderQr().solve(weight.cwiseProduct(gap));
+  return gap - columns * change;
+}
+
+VectorXd EffectSizer::leftHeldOut(const Deflections& of, const VectorXd& gap) const {
+  // By these wrenches: a misread one may turn joints that the true one leaves alone, and who fits knows no
+  // better.
+  const std::vector<Index> joints = identifiableBy(of);
+  if (joints.empty()) return gap;
+  const VectorXd weight = displacement_sigma_.cwiseInverse();
+  const Eigen::MatrixXd columns = of.columns(Eigen::all, joints);
+  const Eigen::MatrixXd scaled = weight.asDiagonal() * columns;
+  const VectorXd right = weight.cwiseProduct(gap);
+  VectorXd left = gap;
+  Index from = 0;
+  for (const Index end : pose_ends_) {
+    Eigen::MatrixXd others = scaled;
+    VectorXd theirs = right;
+    others.middleRows(from, end - from).setZero();
+    theirs.segment(from, end - from).setZero();
+    const VectorXd change = others.colPivHouseholderQr().solve(theirs);
+    left.segment(from, end - from) -= columns.middleRows(from, end - from) * change;
+    from = end;
+  }
+  return left;
+}
+
+double EffectSizer::whitened(const VectorXd& residual) const {
+  return rms(residual.cwiseQuotient(displacement_sigma_));
+}
+
+void EffectSizer::designPositions() {
+  unloaded_ = unloadedPoints(reference_);
+  unloaded_sigma_.resize(unloaded_.size());
+  const Index targets = static_cast<Index>(reference_.targets.size());
+  Eigen::MatrixXd design = Eigen::MatrixXd::Zero(unloaded_.size(), 6 + 3 * targets);
+  Index row = 0;
+  const Index before =
+      forUnloaded(reference_, [&](const Vector6d& q, int target, const Vector3d& point, int readings) {
+        const Vector3d sigma = sigmaAt(*reference_.tracker, point) / std::sqrt(readings);
+        // One sigma for all three directions will do for what is a nuisance.
+        unloaded_sigma_.segment<3>(row).setConstant(std::sqrt(sigma.squaredNorm() / 3.0));
+        design.block<3, 3>(row, 0).setIdentity();
+        design.block<3, 3>(row, 3) = -simulation::skew(point);
+        design.block<3, 3>(row, 6 + 3 * target) =
+            base_from_tracker_.transpose() * armAt(geometry_, q).flange.linear();
+        row += 3;
+      });
+  first_of_step_0_ = 3 * before;
+  const Index rest = unloaded_.size() - first_of_step_0_;
+  position_noise_ = rms(unloaded_sigma_.tail(rest));
+  nuisances_.compute(unloaded_sigma_.cwiseInverse().asDiagonal() * design);
+}
+
+double EffectSizer::positionsLeft(const VectorXd& difference) const {
+  const VectorXd white = difference.cwiseQuotient(unloaded_sigma_);
+  const Index columns = nuisances_.matrixQR().cols();
+  VectorXd turned = nuisances_.householderQ().adjoint() * white;
+  turned.head(columns).setZero();
+  const VectorXd left = (nuisances_.householderQ() * turned).cwiseProduct(unloaded_sigma_);
+  return rms(left.tail(left.size() - first_of_step_0_));
+}
+
+EffectSize EffectSizer::measure(const simulation::SimulationSpec& with) const {
+  const campaign::Campaign campaign = withoutScatter(with);
+  const Deflections disturbed = deflections(campaign);
+  const VectorXd before = disturbed.displacement - disturbed.columns * compliance_;
+  const VectorXd after = undisturbed_.displacement - undisturbed_.columns * compliance_;
+  EffectSize size;
+  size.deflection = whitened(leftOver(disturbed, before - after));
+  const double rms_before = rms(leftHeldOut(disturbed, before)),
+               rms_after = rms(leftHeldOut(undisturbed_, after));
+  const double noise = true_noise_factor_ * rms(displacement_sigma_);
+  size.shrink = rms_before > 0.0 ? 1.0 - rms_after / rms_before : 0.0;
+  size.shrink_seen = 1.0 - std::hypot(rms_after, noise) / std::hypot(rms_before, noise);
+  const double moved = positionsLeft(unloadedPoints(campaign) - unloaded_);
+  size.nests = moved / position_noise_;
+  size.positions = moved / std::hypot(position_noise_, geometry_background_);
+  return size;
+}
+
+}  // namespace stiffscope::validation

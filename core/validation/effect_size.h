@@ -1,0 +1,83 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/QR>
+#include <vector>
+
+#include "core/campaign/campaign.h"
+#include "core/simulation/machine.h"
+#include "core/simulation/spec.h"
+
+namespace stiffscope::validation {
+
+/// How large an effect is, found by measuring the same machine with and without it, without noise.
+///
+/// Deflection. With d the displacements of all poses, later steps and targets, and A(w) the six columns of
+/// joint compliance for the wrenches w as they are read,
+///   g = (d_with - A(w_with) c) - (d_without - A(w_without) c)
+/// (c the true compliances; a wrong reading moves A, a wrong machine d), whitened by the declared tracker
+/// noise of one state's displacement (mean of its repeats, less that of step 0) and projected off A(w_with):
+/// `deflection` is the rms of what is left, a number of times that noise.
+///
+/// Positions. The difference of all unloaded readings (sweeps, wrist sweep, step 0), less one common rigid
+/// motion and a shift of each target on the flange, which any analysis is free to fit: `positions` is the rms
+/// of step 0's part over the noise of one state's position (repeats averaged) and, `nests` aside, the clean
+/// machine's own departures from the nominal geometry, found in the same way. What nests see is judged
+/// without those, because nests have none.
+struct EffectSize {
+  double deflection = 0.0;
+  double positions = 0.0;
+  double nests = 0.0;  ///< positions over tracker noise alone
+  /// 1 - rms after / rms before of the displacements' residuals (plain, m) when the effect is known and taken
+  /// out, six compliances fitted both times to the other postures than the one judged, as a promise for
+  /// postures that took no part is: without noise, and as it can be seen with the tracker's true noise in
+  /// both.
+  double shrink = 0.0, shrink_seen = 0.0;
+};
+
+/// The machine without the effect, to compare with.
+class EffectSizer {
+ public:
+  explicit EffectSizer(const simulation::SimulationSpec& clean);
+
+  /// `with` is the same specification with the effect. Throws InputError where that machine does not stand.
+  EffectSize measure(const simulation::SimulationSpec& with) const;
+
+  /// The clean machine's own residual of displacements, in the same unit: bearings, finite rotations.
+  double background() const { return background_; }
+
+ private:
+  /// Per pose, later step and target, three coordinates along and across the tracker's line of sight.
+  struct Deflections {
+    Eigen::VectorXd displacement;  ///< m
+    Eigen::MatrixXd columns;       ///< times compliance, m
+  };
+  Deflections deflections(const campaign::Campaign& campaign) const;
+  std::vector<Eigen::Index> identifiableBy(const Deflections& of) const;  ///< joints that noise does not hide
+  Eigen::VectorXd leftOver(const Deflections& of, const Eigen::VectorXd& gap) const;  ///< m
+  Eigen::VectorXd leftHeldOut(const Deflections& of,
+                              const Eigen::VectorXd& gap) const;  ///< m; posture by posture
+  double whitened(const Eigen::VectorXd& residual) const;                             ///< rms
+  double positionsLeft(const Eigen::VectorXd& difference) const;                      ///< m
+  void designPositions();
+
+  std::vector<Eigen::Index> pose_ends_;  ///< rows of the deflections, past the last of each pose
+  Eigen::Matrix3d base_from_tracker_;
+  Eigen::Vector3d station_in_base_;
+  double true_noise_factor_ = 1.0;
+  robot::Robot geometry_;  ///< true and rigid
+  Vector6d compliance_ = Vector6d::Zero();
+  campaign::Campaign reference_;
+  Deflections undisturbed_;
+  std::vector<Eigen::Index> identifiable_;  ///< columns that are refitted
+  Eigen::VectorXd displacement_sigma_;
+  Eigen::VectorXd unloaded_, unloaded_sigma_;
+  Eigen::Index first_of_step_0_ = 0;
+  Eigen::HouseholderQR<Eigen::MatrixXd> nuisances_;  ///< whitened
+  double position_noise_ = 0.0, geometry_background_ = 0.0, background_ = 0.0;
+};
+
+/// A campaign without noise: everything that is wrong with it but scatter, the load cell's errors included.
+campaign::Campaign withoutScatter(const simulation::SimulationSpec& spec);
+
+}  // namespace stiffscope::validation

@@ -1,0 +1,269 @@
+#include "core/validation/score.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <stdexcept>
+
+namespace stiffscope::validation {
+
+namespace {
+
+bool has(const std::vector<std::string>& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+const Answer::Entry* entryWith(const Answer& answer, const std::string& effect) {
+  for (const Answer::Entry& entry : answer.entries) {
+    if (has(entry.effects, effect)) return &entry;
+  }
+  return nullptr;
+}
+
+bool saysUnknown(const Answer& answer) {
+  return std::any_of(answer.entries.begin(), answer.entries.end(),
+                     [](const Answer::Entry& entry) { return entry.effects.empty(); });
+}
+
+/// The true effect's own column where it was found, else the first thing that was said.
+std::string columnOf(const Label& label, const Answer& answer) {
+  if (!answer.failure.empty()) return "failed";
+  if (answer.entries.empty()) return "none";
+  if (answer.entries.size() > 1) return "several";
+  const Answer::Entry& only = answer.entries.front();
+  if (only.effects.empty()) return "unknown";
+  if (label.kind == CaseKind::single && has(only.effects, label.effects.front().id))
+    return label.effects.front().id;
+  return only.effects.front();
+}
+
+ScoredCase scoreCase(const Label& label, const Answer& answer) {
+  ScoredCase one{label, answer, false, false, false, 0, columnOf(label, answer), {}};
+  if (!answer.failure.empty()) return one;
+  switch (label.kind) {
+    case CaseKind::none:
+      one.found = answer.entries.empty();
+      break;
+    case CaseKind::outside:
+      one.found = saysUnknown(answer);
+      break;
+    case CaseKind::single:
+    case CaseKind::pair:
+      one.found = std::all_of(label.effects.begin(), label.effects.end(),
+                              [&](const LabelledEffect& e) { return entryWith(answer, e.id) != nullptr; });
+      break;
+  }
+  const std::size_t expected = label.kind == CaseKind::none   ? 0
+                               : label.kind == CaseKind::pair ? label.effects.size()
+                                                              : 1;
+  // Two true effects may stand in one class that cannot tell them apart.
+  one.right = one.found && answer.entries.size() <= expected;
+  if (one.found && !label.effects.empty() && label.kind != CaseKind::outside) {
+    one.class_size = static_cast<int>(entryWith(answer, label.effects.front().id)->effects.size());
+  }
+  constexpr std::size_t kMostInClass = 3;
+  if (!label.effects.empty() && !answer.entries.empty()) {
+    const auto& said = answer.entries.front().effects;
+    one.first = said.size() <= kMostInClass && has(said, label.effects.front().id);
+  }
+  return one;
+}
+
+using Choose = std::function<bool(const ScoredCase&)>;
+
+numerics::Rate rateOf(const std::vector<ScoredCase>& cases, const Choose& counts, const Choose& hits) {
+  int trials = 0, good = 0;
+  for (const ScoredCase& one : cases) {
+    if (!counts(one)) continue;
+    ++trials;
+    if (hits(one)) ++good;
+  }
+  return numerics::binomialRate(good, trials);
+}
+
+bool right(const ScoredCase& one) { return one.right; }
+double sizeOf(const ScoredCase& one) {
+  return one.label.effects.empty() ? 0.0 : one.label.effects.front().size;
+}
+
+Choose kind(CaseKind wanted, double least = 0.0) {
+  return [=](const ScoredCase& one) { return one.label.kind == wanted && sizeOf(one) >= least; };
+}
+
+bool noiseDeclaredRight(const ScoredCase& one) { return one.label.noise_factor == 1.0; }
+
+/// The pair of a coupling or the reflector that moved, named as it is.
+bool namesDetail(const ScoredCase& one) {
+  const LabelledEffect& truth = one.label.effects.front();
+  const Answer::Entry* entry = entryWith(one.answer, truth.id);
+  return entry != nullptr && entry->detail.find(truth.detail) != std::string::npos;
+}
+
+std::vector<NamedRate> allRates(const std::vector<ScoredCase>& cases) {
+  const auto clean = [](bool declared_right) {
+    return Choose([=](const ScoredCase& one) {
+      return one.label.kind == CaseKind::none && noiseDeclaredRight(one) == declared_right;
+    });
+  };
+  const Choose alarm = [](const ScoredCase& one) { return !one.answer.entries.empty(); };
+  const Choose unknown = [](const ScoredCase& one) { return saysUnknown(one.answer); };
+  const Choose none = [](const ScoredCase& one) { return one.answer.entries.empty(); };
+  const Choose found = [](const ScoredCase& one) { return one.found; };
+  const Choose one_found = [](const ScoredCase& one) {
+    return std::any_of(one.label.effects.begin(), one.label.effects.end(),
+                       [&](const LabelledEffect& e) { return entryWith(one.answer, e.id) != nullptr; });
+  };
+  const Choose named = [](const ScoredCase& one) {
+    const bool names = one.label.kind == CaseKind::single && one.right;
+    return names && (one.label.effects.front().id == "joint_coupling" ||
+                     one.label.effects.front().id == "target_motion");
+  };
+  const Choose first = [](const ScoredCase& one) { return one.first; };
+  const Choose apart = [](const ScoredCase& one) {
+    return one.label.kind == CaseKind::outside && one.distance.value_or(0.0) >= kApart;
+  };
+  const Choose everything = [](const ScoredCase&) { return true; };
+  const Choose failed = [](const ScoredCase& one) { return !one.answer.failure.empty(); };
+  return {
+      {"singles", "singles: the effect and nothing else", rateOf(cases, kind(CaseKind::single), right)},
+      {"singles_first_from_2", "size 2 and more: the effect first, in a class of at most three",
+       rateOf(cases, kind(CaseKind::single, 2.0), first)},
+      {"singles_first_from_5", "the same, of size 5 and more",
+       rateOf(cases, kind(CaseKind::single, 5.0), first)},
+      {"singles_from_2", "alone, of size 2 and more", rateOf(cases, kind(CaseKind::single, 2.0), right)},
+      {"singles_from_5", "the same, of size 5 and more", rateOf(cases, kind(CaseKind::single, 5.0), right)},
+      {"singles_found_from_2", "size 2 and more: the effect, perhaps with others",
+       rateOf(cases, kind(CaseKind::single, 2.0), found)},
+      {"false_alarms", "clean machines: something was said", rateOf(cases, kind(CaseKind::none), alarm)},
+      {"false_alarms_noise_right", "the same, the tracker's noise declared right",
+       rateOf(cases, clean(true), alarm)},
+      {"false_alarms_noise_wrong", "the same, declared wrong", rateOf(cases, clean(false), alarm)},
+      {"unknown", "outside the vocabulary: unknown was said",
+       rateOf(cases, kind(CaseKind::outside), unknown)},
+      {"unknown_from_2", "the same, of size 2 and more",
+       rateOf(cases, kind(CaseKind::outside, 2.0), unknown)},
+      {"unknown_apart", "the same, two noises and more from what any effect can do",
+       rateOf(cases, apart, unknown)},
+      {"outside_none_from_2", "outside the vocabulary, size 2 and more: none was said",
+       rateOf(cases, kind(CaseKind::outside, 2.0), none)},
+      {"doubles", "doubles: both and nothing else", rateOf(cases, kind(CaseKind::pair), right)},
+      {"doubles_both_found", "doubles: both, perhaps with others",
+       rateOf(cases, kind(CaseKind::pair), found)},
+      {"doubles_one_found", "doubles: at least one", rateOf(cases, kind(CaseKind::pair), one_found)},
+      {"detail", "pair or reflector named as it is, where the effect is right",
+       rateOf(cases, named, namesDetail)},
+      {"failed", "no answer at all", rateOf(cases, everything, failed)}};
+}
+
+EffectScore effectScore(const std::vector<ScoredCase>& cases, const std::string& id, CaseKind wanted) {
+  const auto of = [&](double least) {
+    return Choose([=](const ScoredCase& one) {
+      return one.label.kind == wanted && one.label.effects.front().id == id && sizeOf(one) >= least;
+    });
+  };
+  EffectScore effect{
+      id, rateOf(cases, of(0.0), right), rateOf(cases, of(2.0), right), rateOf(cases, of(5.0), right), 0,
+      0.0};
+  int found = 0;
+  for (const ScoredCase& one : cases) {
+    if (!of(0.0)(one)) continue;
+    effect.answered_none += one.answer.failure.empty() && one.answer.entries.empty() ? 1 : 0;
+    found += one.class_size > 0 ? 1 : 0;
+    effect.mean_class_size += one.class_size;
+  }
+  if (found > 0) effect.mean_class_size /= found;
+  return effect;
+}
+
+Confusion confusionOf(const std::vector<ScoredCase>& cases) {
+  Confusion table;
+  table.truths.emplace_back("none");
+  for (const std::string_view id : effects::kEffectIds) table.truths.emplace_back(id);
+  table.answers = table.truths;
+  table.truths.emplace_back("outside");
+  for (const char* other : {"unknown", "several", "failed"}) table.answers.emplace_back(other);
+  table.counts.assign(table.truths.size(), std::vector<int>(table.answers.size(), 0));
+  for (const ScoredCase& one : cases) {
+    if (one.label.kind == CaseKind::pair) continue;
+    const std::string truth = one.label.kind == CaseKind::none      ? "none"
+                              : one.label.kind == CaseKind::outside ? "outside"
+                                                                    : one.label.effects.front().id;
+    const auto row = std::find(table.truths.begin(), table.truths.end(), truth) - table.truths.begin();
+    const auto column =
+        std::find(table.answers.begin(), table.answers.end(), one.column) - table.answers.begin();
+    ++table.counts.at(static_cast<std::size_t>(row)).at(static_cast<std::size_t>(column));
+  }
+  return table;
+}
+
+std::vector<ShrinkPair> shrinksOf(const std::vector<ScoredCase>& cases) {
+  std::vector<ShrinkPair> pairs;
+  for (const ScoredCase& one : cases) {
+    if (one.label.kind != CaseKind::single || !one.right) continue;
+    const LabelledEffect& truth = one.label.effects.front();
+    if (truth.shows != "deflection") continue;
+    for (const Answer::Promise& promise : one.answer.promises) {
+      if (!has(promise.effects, truth.id)) continue;
+      pairs.push_back({one.label.name, truth.id, promise.value, promise.low, promise.high, one.label.shrink,
+                       one.label.shrink_seen});
+      break;
+    }
+  }
+  return pairs;
+}
+
+NamedRate coverage(const char* id, const char* meaning, const std::vector<ShrinkPair>& pairs,
+                   double ShrinkPair::*truth) {
+  int covered = 0;
+  for (const ShrinkPair& one : pairs) covered += one.low <= one.*truth && one.*truth <= one.high ? 1 : 0;
+  return {id, meaning, numerics::binomialRate(covered, static_cast<int>(pairs.size()))};
+}
+
+}  // namespace
+
+const numerics::Rate& Score::rate(const std::string& id) const {
+  for (const NamedRate& one : rates) {
+    if (one.id == id) return one.rate;
+  }
+  throw std::out_of_range("no rate is called '" + id + "'");
+}
+
+Score score(const std::vector<Label>& labels, const std::vector<Answer>& answers,
+            const std::map<std::string, double>& distances) {
+  std::map<std::string, const Answer*> given;
+  for (const Answer& answer : answers) given[answer.name] = &answer;
+  Score result;
+  for (const Label& label : labels) {
+    const auto answer = given.find(label.name);
+    if (answer == given.end()) throw std::invalid_argument("case " + label.name + " has no answer");
+    result.cases.push_back(scoreCase(label, *answer->second));
+    const auto distance = distances.find(label.name);
+    if (distance != distances.end()) result.cases.back().distance = distance->second;
+  }
+  result.rates = allRates(result.cases);
+  for (const std::string_view id : effects::kEffectIds) {
+    result.effects.push_back(effectScore(result.cases, std::string(id), CaseKind::single));
+  }
+  for (const std::string& id : outsideKinds()) {
+    result.outside.push_back(effectScore(result.cases, id, CaseKind::outside));
+  }
+  const std::vector<std::pair<double, double>> classes{{0.0, 1.0}, {1.0, 2.0}, {2.0, 5.0}, {5.0, 1e300}};
+  const std::vector<std::string> names{"below 1", "1 to 2", "2 to 5", "5 and more"};
+  for (std::size_t c = 0; c < classes.size(); ++c) {
+    const auto [low, high] = classes[c];
+    const Choose in = [&, low = low, high = high](const ScoredCase& one) {
+      return one.label.kind == CaseKind::single && sizeOf(one) >= low && sizeOf(one) < high;
+    };
+    result.by_size.emplace_back(names[c], rateOf(result.cases, in, right));
+  }
+  result.shrinks = shrinksOf(result.cases);
+  result.rates.push_back(coverage("shrink_covered", "the promised interval holds the shrink that can be seen",
+                                  result.shrinks, &ShrinkPair::truth_seen));
+  result.rates.push_back(coverage("shrink_covered_noise_free",
+                                  "the promised interval holds the noise-free shrink", result.shrinks,
+                                  &ShrinkPair::truth));
+  result.confusion = confusionOf(result.cases);
+  return result;
+}
+
+}  // namespace stiffscope::validation

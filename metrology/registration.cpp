@@ -1,0 +1,163 @@
+#include "metrology/registration.h"
+
+#include <Eigen/Dense>
+#include <cmath>
+#include <optional>
+
+#include "metrology/least_squares.h"
+
+namespace stiffscope::metrology {
+
+namespace {
+
+Eigen::Vector3d mean(const std::vector<Eigen::Vector3d>& points) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (const auto& point : points) sum += point;
+  return sum / static_cast<double>(points.size());
+}
+
+/// Axes of a triangle: along its first side, across it in its plane, normal to it. Columns.
+Eigen::Matrix3d axesOf(const std::vector<Eigen::Vector3d>& triangle) {
+  const Eigen::Vector3d side = (triangle[1] - triangle[0]).normalized();
+  const Eigen::Vector3d normal = side.cross(triangle[2] - triangle[0]).normalized();
+  Eigen::Matrix3d axes;
+  axes << side, normal.cross(side), normal;
+  return axes;
+}
+
+/// The rotation of two triangles, `cross` as below: it brings plane onto plane, and within the plane a polar
+/// factor of two by two numbers has its angle in closed form. Empty where a triangle is nearly a line, or
+/// turned over in the plane.
+std::optional<Eigen::Matrix3d> rotationOfTriangles(const std::vector<Eigen::Vector3d>& source,
+                                                   const std::vector<Eigen::Vector3d>& to,
+                                                   const Eigen::Matrix3d& cross) {
+  const Eigen::Matrix3d from_axes = axesOf(source), to_axes = axesOf(to);
+  const Eigen::Matrix2d plane = (to_axes.transpose() * cross * from_axes).topLeftCorner<2, 2>();
+  constexpr double kSlender = 1e-6;  // of the two sizes of the cross products
+  if (!(plane.determinant() > kSlender * plane.squaredNorm())) return std::nullopt;
+  const double sine = plane(1, 0) - plane(0, 1), cosine = plane(0, 0) + plane(1, 1),
+               size = std::hypot(sine, cosine);
+  Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
+  turn.topLeftCorner<2, 2>() << cosine / size, -sine / size, sine / size, cosine / size;
+  return to_axes * turn * from_axes.transpose();
+}
+
+/// Of least squares by the singular vectors of `cross`; empty for points on one line.
+std::optional<Eigen::Matrix3d> rotationOf(const Eigen::Matrix3d& cross) {
+  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(cross, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  constexpr double kOnOneLine = 1e-12;
+  if (!(svd.singularValues()[1] > kOnOneLine * svd.singularValues()[0])) return std::nullopt;
+  // The sign on the least singular direction keeps the rotation proper (Umeyama 1991).
+  const Eigen::Vector3d signs(1.0, 1.0,
+                              (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0.0 ? -1.0 : 1.0);
+  return svd.matrixU() * signs.asDiagonal() * svd.matrixV().transpose();
+}
+
+}  // namespace
+
+RigidRegistration registerRigid(const std::vector<Eigen::Vector3d>& source,
+                                const std::vector<Eigen::Vector3d>& to) {
+  RigidRegistration result;
+  if (source.size() < 3 || source.size() != to.size()) {
+    result.reason = "fewer than three common points";
+    return result;
+  }
+  const Eigen::Vector3d source_mean = mean(source), to_mean = mean(to);
+  Eigen::Matrix3d cross = Eigen::Matrix3d::Zero();
+  for (std::size_t i = 0; i < source.size(); ++i) {
+    cross += (to[i] - to_mean) * (source[i] - source_mean).transpose();
+  }
+  std::optional<Eigen::Matrix3d> rotation;
+  if (source.size() == 3) rotation = rotationOfTriangles(source, to, cross);
+  if (!rotation) rotation = rotationOf(cross);
+  if (!rotation) {
+    result.reason = "the points lie on one line";
+    return result;
+  }
+  result.to_from_source.linear() = *rotation;
+  result.to_from_source.translation() = to_mean - result.to_from_source.linear() * source_mean;
+  double sum = 0.0;
+  for (std::size_t i = 0; i < source.size(); ++i)
+    sum += (result.to_from_source * source[i] - to[i]).squaredNorm();
+  result.rms = std::sqrt(sum / (3.0 * static_cast<double>(source.size())));
+  result.determined = true;
+  return result;
+}
+
+namespace {
+
+/// A rigid motion by differences m(source_i) - to_i, in the local units of `to`. Shared parameters: rotation
+/// vector about the local origin, shift, both after the motion.
+struct MotionModel {
+  static constexpr int kShared = 6, kOwn = 0, kResiduals = 3;
+  Eigen::Isometry3d to_from_source;  ///< of source points about their mean, in local units
+  const std::vector<Eigen::Vector3d>* source;
+
+  Observation<MotionModel> observe(std::size_t i, const Eigen::Vector3d& to,
+                                   const Eigen::Matrix<double, 0, 1>&) const {
+    const Eigen::Vector3d moved = to_from_source * (*source)[i];
+    Observation<MotionModel> seen;
+    seen.residual = moved - to;
+    seen.rows << 0.0, moved.z(), -moved.y(), 1.0, 0.0, 0.0,  //
+        -moved.z(), 0.0, moved.x(), 0.0, 1.0, 0.0,           //
+        moved.y(), -moved.x(), 0.0, 0.0, 0.0, 1.0;
+    seen.directions.setIdentity();
+    return seen;
+  }
+  void move(const Eigen::Matrix<double, 6, 1>& step) {
+    const double angle = step.head<3>().norm();
+    const Eigen::Vector3d about =
+        angle > 0.0 ? Eigen::Vector3d(step.head<3>() / angle) : Eigen::Vector3d::UnitX();
+    const Eigen::Matrix3d turn = Eigen::AngleAxisd(angle, about).toRotationMatrix();
+    to_from_source.linear() =
+        Eigen::Quaterniond(turn * to_from_source.linear()).normalized().toRotationMatrix();
+    to_from_source.translation() = turn * to_from_source.translation() + step.tail<3>();
+  }
+};
+
+}  // namespace
+
+WeightedRegistration registerRigid(const std::vector<Eigen::Vector3d>& source,
+                                   const std::vector<Eigen::Vector3d>& to,
+                                   const std::vector<Eigen::Matrix3d>& covariances) {
+  WeightedRegistration result;
+  static_cast<RigidRegistration&>(result) = registerRigid(source, to);
+  if (!result.determined) return result;
+  result.determined = false;
+  const MeasuredPoints goal{to, covariances};
+  const LocalPoints local = localPoints(&goal, 1);
+  result.reason = !local.flaw.empty()   ? local.flaw
+                  : covariances.empty() ? "the covariances are not one a pair"
+                                        : "";
+  if (!result.reason.empty()) return result;
+  Eigen::Vector3d source_mean = Eigen::Vector3d::Zero();
+  for (const Eigen::Vector3d& point : source) source_mean += point / static_cast<double>(source.size());
+  std::vector<Eigen::Vector3d> from;
+  for (const Eigen::Vector3d& point : source) from.push_back((point - source_mean) / local.scale);
+
+  Eigen::Isometry3d start = Eigen::Isometry3d::Identity();
+  start.linear() = result.to_from_source.linear();
+  start.translation() = (result.to_from_source * source_mean - local.origin) / local.scale;
+  Estimate<MotionModel, 1> estimate{{start, &from}};
+  refine(estimate, local);
+  if (!estimate.determined) {
+    result.reason = "the points do not determine the motion";
+    return result;
+  }
+  const Eigen::Isometry3d& found = estimate.model.to_from_source;
+  result.to_from_source.linear() = found.linear();
+  result.to_from_source.translation() =
+      local.origin + local.scale * found.translation() - found.linear() * source_mean;
+  Eigen::Matrix<double, 6, 1> units;
+  units << 1.0, 1.0, 1.0, local.scale, local.scale, local.scale;
+  result.covariance =
+      varianceFactor(estimate, true) * (units.asDiagonal() * estimate.cofactor * units.asDiagonal());
+  result.pivot = local.origin;
+  result.degrees_of_freedom = estimate.degreesOfFreedom();
+  result.chi2_per_dof = estimate.chi2 / result.degrees_of_freedom;
+  result.rms = local.scale * std::sqrt(estimate.plain / estimate.residuals);
+  result.determined = true;
+  return result;
+}
+
+}  // namespace stiffscope::metrology

@@ -1,0 +1,146 @@
+#include "render/vtk/offscreen_picture.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <mutex>
+#include <stdexcept>
+#include <vector>
+#include <vtkNew.h>
+#include <vtkRenderer.h>
+#include <vtkSmartPointer.h>
+#include <vtkUnsignedCharArray.h>
+
+#include "render/image.h"
+#include "render/vtk/arm_layers.h"
+#include "render/vtk/canvas.h"
+#include "render/vtk/gl_window.h"
+#include "render/vtk/painting.h"
+
+class vtkRenderer;
+
+namespace stiffscope::render {
+
+/// Renders `layers`, the first at the back, into a picture of `size` without display or GPU, at
+/// kSupersampling times the size, averaged down. One software GL context serves all pictures of the process;
+/// calls from several threads wait for each other. Throws std::runtime_error with the reason when there is no
+/// context or VTK reports an error.
+Image renderOffscreen(const std::vector<vtkSmartPointer<vtkRenderer>>& layers, Size size);
+
+Image drawArmScene(const ArmScene& scene, Size size) {
+  requireUsable(size);
+  const ArmLayers layers(scene, {size});
+  Image image = renderOffscreen(layers.renderers(), size);
+  layers.rethrow();
+  return image;
+}
+
+void requireUsable(Size size) {
+  if (size.width < 480 || size.height < 320 || size.width > 8000 || size.height > 8000) {
+    throw std::invalid_argument(fmt::format("a picture of {} x {} pixels: expected 480 x 320 to 8000 x 8000",
+                                            size.width, size.height));
+  }
+}
+
+Image drawFlat(Size size, const std::function<void(Canvas&)>& paint) {
+  requireUsable(size);
+  const auto layer = vtkSmartPointer<vtkRenderer>::New();
+  layer->SetBackground(1, 1, 1);
+  const Painting painting(*layer, {size}, paint);
+  Image image = renderOffscreen({layer}, size);
+  painting.rethrow();
+  return image;
+}
+
+namespace {
+
+// The context belongs to this thread.
+struct Current {
+  explicit Current(GlWindow& context) : gl(context), window(context.makeCurrent()) {}
+  ~Current() { gl.release(); }
+  Current(const Current&) = delete;
+  Current& operator=(const Current&) = delete;
+  GlWindow& gl;
+  vtkRenderWindow& window;
+};
+
+// The layers are in the window; leaving it frees what they hold of the context.
+struct Shown {
+  Shown(vtkRenderWindow& w, const std::vector<vtkSmartPointer<vtkRenderer>>& l) : window(w), layers(l) {
+    window.SetNumberOfLayers(static_cast<int>(layers.size()));
+    for (std::size_t i = 0; i < layers.size(); ++i) {
+      layers[i]->SetLayer(static_cast<int>(i));
+      window.AddRenderer(layers[i]);
+    }
+  }
+  ~Shown() {
+    for (const auto& layer : layers) window.RemoveRenderer(layer);
+  }
+  Shown(const Shown&) = delete;
+  Shown& operator=(const Shown&) = delete;
+  vtkRenderWindow& window;
+  const std::vector<vtkSmartPointer<vtkRenderer>>& layers;
+};
+
+/// Means over squares of kSupersampling pixels, of rendered rows into the picture's rows from `y` upwards: VTK's run from
+/// bottom to top.
+void averageDown(const std::uint8_t* rendered, int rows, int y, Image& image) {
+  constexpr int k = kSupersampling;
+  const std::ptrdiff_t row = 3 * static_cast<std::ptrdiff_t>(image.width) * k;
+  for (int up = 0; up < rows; ++up) {
+    const std::uint8_t* in = rendered + row * k * up;
+    std::uint8_t* out = image.rgb.data() + 3 * static_cast<std::ptrdiff_t>(image.width) * (y - up);
+    for (int x = 0; x < image.width; ++x, in += 3 * k, out += 3) {
+      for (int channel = 0; channel < 3; ++channel) {
+        int sum = k * k / 2;
+        for (int i = 0; i < k; ++i) {
+          for (int j = 0; j < k; ++j) sum += in[row * i + 3 * j + channel];
+        }
+        out[channel] = static_cast<std::uint8_t>(sum / (k * k));
+      }
+    }
+  }
+}
+
+/// What the window shows, band by band: rendered it is four times the picture.
+Image readDown(vtkRenderWindow& window, Size size) {
+  constexpr int kBand = 64, front = 0;  // rows of the picture
+  Image image{size.width, size.height, {}};
+  image.rgb.resize(3 * static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height));
+  const vtkNew<vtkUnsignedCharArray> pixels;
+  for (int low = 0; low < size.height; low += kBand) {
+    const int rows = std::min(kBand, size.height - low);
+    const int width = kSupersampling * size.width, first = kSupersampling * low, height = kSupersampling * rows;
+    window.GetPixelData(0, first, width - 1, first + height - 1, front, pixels);
+    if (pixels->GetNumberOfValues() != vtkIdType{3} * width * height) {
+      throw std::runtime_error(
+          fmt::format("cannot draw pictures: no pixels came back for {} x {}", width, height));
+    }
+    averageDown(pixels->GetPointer(0), rows, size.height - 1 - low, image);
+  }
+  return image;
+}
+
+}  // namespace
+
+Image renderOffscreen(const std::vector<vtkSmartPointer<vtkRenderer>>& layers, Size size) {
+  static std::mutex one_at_a_time;
+  const std::lock_guard lock(one_at_a_time);
+  const CollectErrors vtk_messages;
+  // Never destroyed: at the end of a process the libraries under the context may be gone before it.
+  static GlWindow* const gl = new GlWindow;
+  const Current current(*gl);
+  vtkRenderWindow& window = current.window;
+
+  window.SetSize(kSupersampling * size.width, kSupersampling * size.height);
+  Image image;
+  {
+    const Shown shown(window, layers);
+    window.Render();
+    vtk_messages.throwIfAny();
+    image = readDown(window, size);
+  }
+  vtk_messages.throwIfAny();
+  return image;
+}
+
+}  // namespace stiffscope::render

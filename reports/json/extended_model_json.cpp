@@ -1,0 +1,108 @@
+#include "reports/json/extended_model_json.h"
+
+#include <cmath>
+
+#include "core/effects/effect_model.h"
+#include "core/io/units.h"
+#include "reports/words/names.h"
+
+namespace stiffscope::reports {
+
+namespace {
+
+const char* nameOf(effects::EffectNature nature) {
+  switch (nature) {
+    case effects::EffectNature::machine:
+      return "machine";
+    case effects::EffectNature::load:
+      return "load";
+    case effects::EffectNature::measurement:
+      return "measurement";
+    case effects::EffectNature::geometry:
+      return "geometry";
+  }
+  return "";
+}
+
+Json effectJson(effects::Effect effect) {
+  return {{"effect", std::string(effects::idOf(effect))},
+          {"nature", nameOf(effects::natureOf(effect))},
+          {"enters_compensation", effects::entersCompensation(effect)},
+          {"use", effects::useOf(effect)}};
+}
+
+Json addedJson(const extended_model::AddedEffect& one) {
+  Json json = effectJson(one.effect);
+  json["detail"] = one.detail;
+  json["shape"] = one.shape;
+  json["score"] = number(one.score);
+  json["plausible"] = one.plausible;
+  Json parameters = Json::array();
+  for (const extended_model::EffectParameter& parameter : one.parameters) {
+    parameters.push_back({{"name", parameter.name},
+                          {"unit", parameter.unit},
+                          {"value", number(parameter.value)},
+                          {"sd", number(parameter.sd)}});
+  }
+  json["parameters"] = parameters;
+  return json;
+}
+
+Json shareJson(const std::optional<identification::Compensation>& share, bool subsets) {
+  if (!share) return nullptr;
+  return {{"held_out", subsets ? number(share->subsets.held_out) : Json(nullptr)},
+          {"all_postures", number(share->all_postures)}};
+}
+
+Json methodJson(const identification::MethodResult& method) {
+  if (!method.available) return {{"unavailable", method.reason}};
+  const identification::StiffnessEstimate& estimate = method.estimate;
+  const auto byJoint = [&](const auto& entry) {
+    Json list = Json::array();
+    for (int joint = 0; joint < 6; ++joint)
+      list.push_back(estimate.identifiable[static_cast<std::size_t>(joint)] ? number(entry(joint)) : Json(nullptr));
+    return list;
+  };
+  const bool subsets = !method.subsets.compliances.empty();
+  return {{"stiffness_nm_per_rad", byJoint([&](int j) { return estimate.stiffness(j); })},
+          {"sd_nm_per_rad", byJoint([&](int j) { return estimate.stiffnessSd(j); })},
+          {"sd_by_effects_nm_per_rad", byJoint([&](int j) {
+             return std::sqrt(estimate.parts.effects(j, j)) / (estimate.compliance[j] * estimate.compliance[j]);
+           })},
+          {"rms_residual_mm", number(estimate.rms_residual / io::kMillimetre)},
+          {"sigma_mm", number(estimate.sigma / io::kMillimetre)},
+          {"compensated", shareJson(method.at_wrist, subsets)},
+          {"compensated_at_targets", shareJson(method.at_targets, subsets)}};
+}
+
+}  // namespace
+
+Json improvedJson(const extended_model::ImprovedModel& model, const std::vector<identification::Method>& methods) {
+  Json effects = Json::array(), geometry = Json::array();
+  for (const extended_model::AddedEffect& one : model.effects.added) effects.push_back(addedJson(one));
+  for (const effects::Effect effect : model.effects.geometry) geometry.push_back(effectJson(effect));
+  Json json{{"effects", effects}, {"nothing_added_for", geometry}, {"notes", model.effects.notes}};
+  if (model.effects.added.empty()) return json;
+  const diagnosis::Gap& gap = model.effects.gap;
+  const diagnosis::Shrink& shrink = model.effects.shrink;
+  json["explained"] = number(model.effects.explained);
+  json["shrink"] = {{"value", number(shrink.value)}, {"low", number(shrink.low)}, {"high", number(shrink.high)}};
+  json["gap"] = {{"deflection_um", number(gap.deflection / io::kMicrometre)},
+                 {"before_um", number(gap.before / io::kMicrometre)},
+                 {"noise_um", number(gap.noise / io::kMicrometre)},
+                 {"after_um", number(gap.after / io::kMicrometre)}};
+  Json by_method = Json::object();
+  for (const identification::Method which : methods) {
+    by_method[namesOf(which).key] = {{"without", methodJson(model.without.of(which))},
+                                     {"with", methodJson(model.with.of(which))}};
+  }
+  json["methods"] = by_method;
+  return json;
+}
+
+Json withEffects(Json json, const extended_model::ImprovedModel& model, const std::vector<identification::Method>& methods) {
+  json["with"] = improvedJson(model, methods);
+  return json;
+}
+
+}  // namespace stiffscope::reports

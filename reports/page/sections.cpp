@@ -1,0 +1,265 @@
+#include "reports/page/sections.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+#include "reports/page/html.h"
+#include "reports/report_content.h"
+#include "reports/words/names.h"
+#include "reports/words/numbers.h"
+#include "reports/words/preparation_words.h"
+#include "reports/words/verdict.h"
+
+namespace stiffscope::page {
+
+namespace {
+
+void writeFigure(Html& html, const reports::Figure& figure, int number) {
+  const auto element = html.element("figure", {{"id", figure.id}});
+  html.voidElement("img", {{"src", "data:image/png;base64," + base64(figure.png)},
+                           {"alt", figure.alt},
+                           {"width", std::to_string(figure.width)},
+                           {"height", std::to_string(figure.height)}});
+  const auto caption = html.element("figcaption");
+  html.leaf("b", fmt::format("Figure {}. {}.", number, figure.title));
+  html.text(" ");
+  html.rich(figure.caption);
+}
+
+}  // namespace
+
+bool hasFigures(const reports::ReportContent& content, const std::string& section) {
+  return std::any_of(content.figures.begin(), content.figures.end(),
+                     [&](const reports::Figure& figure) { return figure.section == section; });
+}
+
+void writeFiguresOf(Html& html, const reports::ReportContent& content, const std::string& section) {
+  if (!hasFigures(content, section)) return;
+  int number = 0;
+  for (const char* earlier : reports::kFigureSections) {
+    if (section == earlier) break;
+    number +=
+        static_cast<int>(std::count_if(content.figures.begin(), content.figures.end(),
+                                       [&](const reports::Figure& figure) { return figure.section == earlier; }));
+  }
+  const auto grid = html.element("div", {{"class", "figures"}});
+  for (const reports::Figure& figure : content.figures) {
+    if (figure.section == section) writeFigure(html, figure, ++number);
+  }
+}
+
+void writeFigures(Html& html, const reports::ReportContent& content) {
+  if (!hasFigures(content, "figures")) return;
+  const auto section = html.element("section", {{"id", "figures"}});
+  html.leaf("h2", "Figures");
+  writeFiguresOf(html, content, "figures");
+}
+
+namespace {
+
+constexpr double kMmPerM = 1e3;
+
+struct KeyNumber {
+  std::string value, words;
+};
+
+/// Name, date, machine and tracker of a campaign in a line.
+std::string campaignLine(const campaign::Campaign& campaign) {
+  std::vector<std::string> parts;
+  for (const std::string& text : {campaign.name, campaign.date, campaign.robot.name}) {
+    if (!text.empty()) parts.push_back(reports::asIs(text));
+  }
+  parts.push_back(reports::encoderWords(campaign.double_encoder));
+  parts.push_back(campaign.tracker ? reports::asIs(campaign.tracker->model) : "tracker not declared");
+  std::erase(parts, "");
+  return fmt::format("{}", fmt::join(parts, " · "));
+}
+
+/// The campaign the first numbers are of: the one with active double encoders where there are several, as in
+/// the paper.
+const reports::ReportCampaign& leading(const reports::ReportContent& content) {
+  const auto active = std::find_if(
+      content.campaigns.begin(), content.campaigns.end(),
+      [](const reports::ReportCampaign& one) { return one.campaign.double_encoder == campaign::DoubleEncoder::active; });
+  return active == content.campaigns.end() ? content.campaigns.front() : *active;
+}
+
+/// ", double encoders active", where that is declared.
+std::string stateOf(const reports::ReportCampaign& one) {
+  const std::string words = reports::encoderWords(one.campaign.double_encoder);
+  return words.empty() ? words : ", " + words;
+}
+
+KeyNumber deflection(const reports::ReportCampaign& one, const reports::JudgedPoint& point) {
+  const auto& displacement = reports::displacementAt(one.identification, point.at_wrist);
+  if (displacement.empty()) return {"–", "deflection: no posture could be used"};
+  return {fmt::format("{}\u00a0mm", reports::fixed(kMmPerM * reports::mean(displacement), 2)),
+          fmt::format("mean deflection at {} under {}\u00a0kN, {} postures{}", point.name,
+                      reports::fixed(1e-3 * reports::meanForce(one.identification), 2), displacement.size(), stateOf(one))};
+}
+
+KeyNumber compensated(const reports::ReportCampaign& one, const reports::JudgedPoint& point) {
+  const auto shown = reports::shownMethod(one.identification);
+  if (!shown) return {"–", "compensated: no method is available, see the stiffnesses"};
+  const identification::MethodResult& method = one.identification.of(*shown);
+  if (const auto share = reports::heldOut(method, point.at_wrist)) {
+    return {reports::percent(*share, 0),
+            fmt::format("of it compensated by {} in postures held out", reports::shortName(*shown))};
+  }
+  const auto& compensation = reports::compensationAt(method, point.at_wrist);
+  return {reports::percent(compensation ? compensation->all_postures : std::nan(""), 0),
+          fmt::format("of it compensated by {}, judged on the postures used", reports::shortName(*shown))};
+}
+
+/// The joints that the verdict does not doubt.
+KeyNumber trusted(const identification::Identification& identification) {
+  const auto shown = reports::shownMethod(identification);
+  if (!shown) return {"0 of 6", "joint stiffnesses: no method is available, see the stiffnesses"};
+  const identification::StiffnessEstimate& estimate = identification.of(*shown).estimate;
+  int count = 0;
+  std::vector<std::string> doubtful;
+  for (int joint = 0; joint < 6; ++joint) {
+    if (!estimate.identifiable[static_cast<std::size_t>(joint)]) continue;
+    if (estimate.mark(joint).empty()) {
+      ++count;
+    } else {
+      doubtful.push_back(reports::jointName(joint));
+    }
+  }
+  std::string words = fmt::format("joint stiffnesses found by {}", reports::shortName(*shown));
+  if (!doubtful.empty()) {
+    words += fmt::format("; {} {} not to be trusted and not counted", fmt::join(doubtful, ", "),
+                         doubtful.size() == 1 ? "is" : "are");
+  }
+  return {fmt::format("{} of 6", count), words};
+}
+
+KeyNumber third(const reports::ReportContent& content, const reports::ReportCampaign& one) {
+  if (content.avoided && content.avoided->available) {
+    return {reports::percent(content.avoided->share, 0),
+            fmt::format("of the deflection at {} with double encoders inactive is avoided by active ones",
+                        reports::pointOf(*content.avoided))};
+  }
+  return trusted(one.identification);
+}
+
+/// What a day of sweeps alone gives: axes and the lengths between them.
+std::vector<KeyNumber> sweepNumbers(const frames::Frames& frames) {
+  const auto measured =
+      std::count_if(frames.axes.begin(), frames.axes.end(), [](const auto& axis) { return axis.measured; });
+  double rms = 0.0, off = 0.0;
+  for (const frames::MeasuredAxis& axis : frames.axes) rms = std::max(rms, axis.measured ? axis.fit.rms : 0.0);
+  for (const frames::LinkGeometry& link : frames.links) {
+    if (link.distance_sd) off = std::max(off, std::abs(link.distance - link.nominal_distance));
+  }
+  return {{fmt::format("{} of 6", measured), "joint axes found from their sweeps"},
+          {fmt::format("{}\u00a0mm", reports::significant(kMmPerM * off, 2)),
+           "largest difference of a distance between axes from the nominal one"},
+          {fmt::format("{}\u00a0µm", reports::significant(1e6 * rms, 2)),
+           "rms by which readings leave their circles, of the worst axis"}};
+}
+
+std::vector<KeyNumber> keyNumbers(const reports::ReportContent& content) {
+  const reports::ReportCampaign& one = leading(content);
+  const reports::JudgedPoint point = reports::judgedPoint(one);
+  const bool sweeps_alone =
+      one.identification.cases.empty() && one.identification.frames.axes.front().measured;
+  if (sweeps_alone) return sweepNumbers(one.identification.frames);
+  return {deflection(one, point), compensated(one, point), third(content, one)};
+}
+
+/// The checks of the audit that found something, by name; the audit's own section explains them.
+void addAuditCautions(const audit::AuditReport& audit, std::vector<std::string>& items) {
+  for (const preparation::AuditVerdict verdict : {preparation::AuditVerdict::fail, preparation::AuditVerdict::warn}) {
+    std::vector<std::string> names;
+    for (const preparation::AuditCheck& check : audit.checks) {
+      if (check.verdict != verdict) continue;
+      names.push_back(reports::auditName(check.id));
+      if (!check.where.empty() && check.id == "circle_arc") names.back() += " of " + check.where;
+    }
+    if (!names.empty()) {
+      items.push_back(
+          fmt::format("The audit of the readings {} on: {}.", reports::auditWord(verdict), fmt::join(names, ", ")));
+    }
+  }
+}
+
+/// What a reader must know before believing the numbers of a campaign.
+std::vector<std::string> cautionsOf(const reports::ReportCampaign& one) {
+  std::vector<std::string> items;
+  if (one.audit != nullptr) addAuditCautions(*one.audit, items);
+  if (one.preparation != nullptr &&
+      (one.preparation->drift.taken_off || !one.preparation->rejected.empty())) {
+    items.push_back(fmt::format("Readings: {}.", reports::withMicro(reports::preparationWords(*one.preparation))));
+  }
+  for (const std::string& caution : one.identification.cautions)
+    items.push_back(reports::capitalised(reports::withMicro(caution)) + ".");
+  return items;
+}
+
+void writeCautions(Html& html, const reports::ReportContent& content) {
+  const auto& campaigns = content.campaigns;
+  std::vector<std::string> of_all;
+  for (const std::string& doubt : reports::doubtsOfTheMachine(campaigns)) of_all.push_back(reports::asIs(doubt) + ".");
+  const bool any = std::any_of(campaigns.begin(), campaigns.end(),
+                               [](const reports::ReportCampaign& one) { return !cautionsOf(one).empty(); });
+  if (!any && of_all.empty()) return;
+  html.paragraph("Before you believe these numbers:");
+  html.list(of_all);
+  const auto cautions = html.element("div", {{"class", campaigns.size() > 1 ? "several" : "cautions"}});
+  for (const reports::ReportCampaign& one : campaigns) {
+    const auto column = html.element("div");
+    if (campaigns.size() > 1) html.paragraph(reports::asIs(one.campaign.name), "name");
+    html.list(cautionsOf(one));
+  }
+}
+
+}  // namespace
+
+void writeOpening(Html& html, const reports::ReportContent& content) {
+  const auto header = html.element("header");
+  html.leaf("h1", content.title);
+  html.paragraph(fmt::format("Report {}", reports::reportId(content)), "faint");
+  for (const reports::ReportCampaign& one : content.campaigns)
+    html.leaf("p", campaignLine(one.campaign), {{"class", "faint"}});
+  html.paragraph(content.verdict, "verdict");
+  if (content.campaigns.empty()) return;
+  {
+    const auto list = html.element("ul", {{"class", "numbers"}});
+    for (const KeyNumber& number : keyNumbers(content)) {
+      const auto item = html.element("li");
+      html.leaf("b", number.value);
+      html.leaf("span", number.words);
+    }
+  }
+  writeCautions(html, content);
+}
+
+void writeForEach(Html& html, const reports::ReportContent& content, const char* id, const char* heading,
+                  const std::function<void(const reports::ReportCampaign&)>& write) {
+  const auto section = html.element("section", {{"id", id}});
+  html.leaf("h2", heading);
+  writeEach(html, content, id, write);
+}
+
+void writeEach(Html& html, const reports::ReportContent& content, const char* id,
+               const std::function<void(const reports::ReportCampaign&)>& write) {
+  const bool several = content.campaigns.size() > 1;
+  {
+    const auto row = html.element("div", {{"class", several ? "several" : "one"}});
+    for (std::size_t i = 0; i < content.campaigns.size(); ++i) {
+      const auto column = html.element("div", {{"class", "each"}});
+      if (several) {
+        html.leaf("h3", reports::asIs(content.campaigns[i].campaign.name));
+        html.setTableSuffix(fmt::format("-{}", i + 1));
+      }
+      write(content.campaigns[i]);
+      if (!several) writeFiguresOf(html, content, id);
+    }
+    html.setTableSuffix("");
+  }
+  if (several) writeFiguresOf(html, content, id);
+}
+
+}  // namespace stiffscope::page

@@ -1,0 +1,266 @@
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+#include "core/io/units.h"
+#include "reports/page/html.h"
+#include "reports/page/sections.h"
+#include "reports/words/names.h"
+#include "reports/words/numbers.h"
+#include "reports/words/paper_values.h"
+#include "reports/words/preparation_words.h"
+
+namespace stiffscope::page {
+
+namespace {
+
+void add(reports::RowGroup& group, const char* name, const std::string& text) {
+  if (!text.empty()) group.rows.push_back({name, text});
+}
+
+/// A text of the campaign; empty stays empty, so that its row is left out.
+std::string own(const std::string& text) { return text.empty() ? text : reports::asIs(text); }
+
+std::string trackerWords(const campaign::Tracker& tracker) {
+  return fmt::format(
+      "{}; one sigma {} µm + {} µm/m along the beam, {} µm + {} µm/m across it", reports::asIs(tracker.model),
+      reports::significant(tracker.range_fixed / io::kMicrometre, 2), reports::significant(tracker.range_per_m / io::kMicrometre, 2),
+      reports::significant(tracker.angle_fixed / io::kMicrometre, 2), reports::significant(tracker.angle_per_m / io::kMicrometre, 2));
+}
+
+std::string loadWords(const identification::Identification& result) {
+  const std::string force =
+      fmt::format("load step {}, mean force {} N", result.step, reports::fixed(reports::meanForce(result), 0));
+  const double angle_deg = result.identifiability.gravity_angle_rms / io::kDegree;
+  return fmt::format("{}; {} (within {}° of gravity, rms)", force,
+                     result.identifiability.load_hangs ? "it hangs" : "it pulls aslant",
+                     reports::significant(angle_deg, 2));
+}
+
+std::string deflectionWords(const identification::Identification& result) {
+  if (!result.finite_deflection)
+    return "small deflections: K_{c} neglected, Jacobians at the unloaded posture";
+  return fmt::format(
+      "finite: K_{{c}} of (4) included (it changes the joint torques by {}), Jacobians at the middle of the "
+      "displacement",
+      reports::percent(result.geometric_stiffness_share, 2));
+}
+
+std::string calibrationWords(const frames::GeometryCalibration& calibration) {
+  if (!calibration.done) return fmt::format("not calibrated: {}", calibration.reason);
+  return fmt::format(
+      "{} parameters from {} unloaded positions; rms {} mm before, {} mm after, per coordinate",
+      calibration.parameters, calibration.positions, reports::significant(calibration.rms_before / io::kMillimetre, 3),
+      reports::significant(calibration.rms_after / io::kMillimetre, 3));
+}
+
+reports::RowGroup conditions(const reports::ReportCampaign& one) {
+  const campaign::Campaign& campaign = one.campaign;
+  const identification::Identification& result = one.identification;
+  reports::RowGroup group;
+  add(group, "Machine", own(campaign.robot.name));
+  add(group, "Measured on", own(campaign.date));
+  add(group, "Double encoders", reports::encoderState(campaign.double_encoder));
+  add(group, "Item", own(campaign.texts.item));
+  add(group, "Laboratory", own(campaign.texts.laboratory));
+  add(group, "Customer", own(campaign.texts.customer));
+  add(group, "Operator", own(campaign.texts.operator_name));
+  add(group, "Conditions", own(campaign.texts.conditions));
+  add(group, "Tracker",
+      campaign.tracker ? trackerWords(*campaign.tracker) : "not declared: no noise is known");
+  if (one.preparation != nullptr) add(group, "Readings", reports::withMicro(reports::preparationWords(*one.preparation)));
+  add(group, "Postures", fmt::format("{} used, {} left out", result.cases.size(), result.left_out.size()));
+  add(group, "Load", result.cases.empty() ? "none was measured that could be used" : loadWords(result));
+  add(group, "Own weight", result.frames.sag_note);
+  if (!result.cases.empty()) add(group, "Deflection", deflectionWords(result));
+  if (!result.cases.empty()) add(group, "Servo",
+      result.servo_change == 0.0
+          ? std::string("reported joint angles do not change under load")
+          : fmt::format("reported joint angles change by at most {}° under load; not subtracted",
+                        reports::significant(result.servo_change / io::kDegree, 2)));
+  if (result.of(identification::Method::complete_pose).available) {
+    add(group, "Characteristic length",
+        fmt::format("{} m, condition number {} there", reports::significant(result.characteristic_length.length, 3),
+                    reports::significant(result.characteristic_length.condition, 3)));
+  }
+  add(group, "PP's geometry", calibrationWords(result.calibration));
+  return group;
+}
+
+}  // namespace
+
+void writeConditions(Html& html, const reports::ReportContent& content) {
+  const auto section = html.element("section", {{"id", "conditions"}});
+  html.leaf("h2", "Method and conditions");
+  html.paragraph(
+      "Displacements of the reflectors under a known load, read by a laser tracker, give the "
+      "compliance of each joint by least squares. Complete Pose (CP) uses position and rotation of "
+      "P_{TCP}; Partial Pose (PP) the reflectors' positions on a calibrated geometry; Decoupled "
+      "Partial Pose (DPP) first joints 1 to 3 from P_{wrist}, which joints 4 to 6 do not move, "
+      "then joints 4 to 6 from what is left. Stiffness is that of the closed loop, at the joint "
+      "angles which the controller reports.");
+  writeEach(html, content, "conditions", [&](const reports::ReportCampaign& one) {
+    writeTable(html, {"Conditions of the measurement", {"What", "As measured"}, {conditions(one)}, true, "conditions"});
+  });
+}
+
+namespace {
+
+reports::Table linkTable(const frames::Frames& frames, Notes& notes) {
+  reports::Table table{"Distance and angle between consecutive axes",
+              {"Axes", "Distance (mm)", "Nominal (mm)", "Difference (mm)", "Angle (°)", "Nominal (°)",
+               "Difference (°)"},
+              {{}}};
+  table.id = "links";
+  for (std::size_t i = 0; i < frames.links.size(); ++i) {
+    const frames::LinkGeometry& link = frames.links[i];
+    reports::Row row{
+        reports::Cell(fmt::format("{} and {}", i + 1, i + 2),
+             link.near_parallel
+                 ? notes.mark("These axes are within a degree of parallel: the distance is that across the "
+                              "first axis, at the foot on it of the common perpendicular with the axis "
+                              "before (Hayati).")
+                 : "")};
+    const auto add = [&](double value, const std::optional<double>& sd, double nominal, double unit) {
+      row.emplace_back(sd ? reports::withUncertainty(value / unit, *sd / unit) : "not measured");
+      row.emplace_back(reports::fixed(nominal / unit, 3));
+      row.emplace_back(sd ? reports::fixed((value - nominal) / unit, 3) : "–");
+    };
+    add(link.distance, link.distance_sd, link.nominal_distance, io::kMillimetre);
+    add(link.angle, link.angle_sd, link.nominal_angle, io::kDegree);
+    table.groups.front().rows.push_back(std::move(row));
+  }
+  return table;
+}
+
+reports::Table axisTable(const frames::Frames& frames) {
+  reports::Table table{"Circle-point: the sweeps of each axis", {"Axis", "Arc (°)", "Circles", "rms (µm)"}, {{}}};
+  table.id = "axes";
+  for (std::size_t i = 0; i < frames.axes.size(); ++i) {
+    const frames::MeasuredAxis& axis = frames.axes[i];
+    if (!axis.measured) continue;
+    double arc = 0.0;
+    for (const metrology::AxisCircle& circle : axis.fit.circles) arc = std::max(arc, circle.arc);
+    table.groups.front().rows.push_back({std::to_string(i + 1), reports::fixed(arc / io::kDegree, 0),
+                                         std::to_string(axis.fit.circles.size()),
+                                         reports::fixed(axis.fit.rms / io::kMicrometre, 1)});
+  }
+  return table;
+}
+
+}  // namespace
+
+void writeLinks(Html& html, const reports::ReportContent& content) {
+  writeForEach(html, content, "links", "Link lengths and angles", [&](const reports::ReportCampaign& one) {
+    const frames::Frames& frames = one.identification.frames;
+    std::vector<std::string> unmeasured;
+    for (std::size_t i = 0; i < frames.axes.size(); ++i) {
+      if (!frames.axes[i].measured)
+        unmeasured.push_back(fmt::format("Axis {}: {}.", i + 1, frames.axes[i].reason));
+    }
+    if (unmeasured.size() == frames.axes.size()) {
+      html.paragraph(
+          fmt::format("No axis was measured ({}); the geometry is that of the robot's description.",
+                      frames.axes.front().reason));
+      return;
+    }
+    Notes notes;
+    writeTable(html, linkTable(frames, notes));
+    html.paragraph("± is one standard uncertainty (k = 1).", "faint");
+    notes.write(html);
+    writeTable(html, axisTable(frames));
+    html.list(unmeasured);
+  });
+}
+
+namespace {
+
+void addPoint(reports::Row& row, const Eigen::Vector3d& point) {
+  for (int k = 0; k < 3; ++k) row.emplace_back(reports::fixed(point[k] / io::kMillimetre, 3));
+}
+
+reports::Table tableOne(const reports::ReportCampaign& one, const frames::WristCentre& wrist) {
+  reports::Table table{
+      "Table I: centre of the sphere of each reflector's own sweep, in R_{0}",
+      {"Reflector", "X (mm)", "Y (mm)", "Z (mm)", "Offset (mm)", "Radius (mm)", "rms (µm)", "Count"},
+      {{}}};
+  table.id = "wrist-spheres";
+  for (const frames::WristTableRow& line : wrist.table) {
+    reports::Row row{reports::pointName(one.campaign.targets[static_cast<std::size_t>(line.target)].id)};
+    addPoint(row, line.centre_in_r0);
+    row.emplace_back(reports::fixed(line.offset / io::kMillimetre, 3));
+    row.emplace_back(reports::fixed(line.radius / io::kMillimetre, 3));
+    row.emplace_back(reports::fixed(line.rms / io::kMicrometre, 1));
+    row.emplace_back(std::to_string(line.readings));
+    table.groups.front().rows.push_back(std::move(row));
+  }
+  reports::Row mean_row{"Mean of them"};
+  for (int k = 0; k < 3; ++k) {
+    mean_row.emplace_back(reports::withUncertainty(wrist.table_mean_in_r0[k] / io::kMillimetre,
+                                          std::sqrt(wrist.table_mean_covariance(k, k)) / io::kMillimetre));
+  }
+  for (int k = 0; k < 4; ++k) mean_row.emplace_back("–");
+  table.groups.push_back({"", {std::move(mean_row)}});
+  return table;
+}
+
+reports::Table sideBySide(const frames::WristCentre& wrist) {
+  reports::Table table{"Three ways to a wrist centre, in R_{0}",
+              {"Point", "X (mm)", "Y (mm)", "Z (mm)", "From the sphere centre (mm)"},
+              {{}}};
+  table.id = "wrist-centres";
+  const auto add = [&](const char* name, const Eigen::Vector3d& point) {
+    reports::Row row{name};
+    addPoint(row, point);
+    row.emplace_back(reports::fixed((point - wrist.centre_in_r0).norm() / io::kMillimetre, 3));
+    table.groups.front().rows.push_back(std::move(row));
+  };
+  reports::Row sphere{"P_{wrist}: common centre of all spheres"};
+  for (int k = 0; k < 3; ++k) {
+    sphere.emplace_back(reports::withUncertainty(wrist.centre_in_r0[k] / io::kMillimetre,
+                                        std::sqrt(wrist.covariance(k, k)) / io::kMillimetre));
+  }
+  sphere.emplace_back("–");
+  table.groups.front().rows.push_back(std::move(sphere));
+  add("Nearest axes 5 and 6", wrist.nearest_axes_56_in_r0);
+  add("Barycentre of the reflectors (Dumas et al.)", wrist.reflector_barycentre_in_r0);
+  return table;
+}
+
+std::string missWords(double miss, double sd) {
+  if (sd <= 0.0)
+    return fmt::format("{} mm (by the robot's description: not measured)",
+                       reports::significant(miss / io::kMillimetre, 3));
+  return fmt::format("{} mm", reports::withUncertainty(miss / io::kMillimetre, sd / io::kMillimetre));
+}
+
+void writeMeasured(Html& html, const reports::ReportContent& content, const reports::ReportCampaign& one,
+                   const frames::WristCentre& wrist) {
+  double largest = 0.0;
+  for (const frames::WristTableRow& line : wrist.table) largest = std::max(largest, line.offset / io::kMillimetre);
+  std::string words = fmt::format("The reflectors' centres agree to {} mm.", reports::fixed(largest, 3));
+  if (content.compare_with_paper) {
+    words += fmt::format(" The paper's Table I: {} mm.", reports::fixed(reports::kPaperWristOffsetMm, 2));
+  }
+  html.paragraph(words);
+  writeTable(html, tableOne(one, wrist));
+  writeTable(html, sideBySide(wrist));
+  html.paragraph(
+      fmt::format("Axes 4 and 5 miss each other by {}, axes 5 and 6 by {}; ± is one standard uncertainty (k = 1).",
+                  missWords(wrist.miss_45, wrist.miss_45_sd), missWords(wrist.miss_56, wrist.miss_56_sd)));
+}
+
+}  // namespace
+
+void writeWrist(Html& html, const reports::ReportContent& content) {
+  writeForEach(html, content, "wrist", "Wrist centre", [&](const reports::ReportCampaign& one) {
+    const frames::WristCentre& wrist = one.identification.frames.wrist;
+    if (wrist.measured) {
+      writeMeasured(html, content, one, wrist);
+    } else {
+      html.paragraph(fmt::format("P_{{wrist}} is not measured: {}.", wrist.reason));
+    }
+  });
+}
+
+}  // namespace stiffscope::page

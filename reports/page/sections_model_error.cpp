@@ -1,0 +1,376 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fmt/format.h>
+
+#include "core/effects/effect_model.h"
+#include "core/io/units.h"
+#include "reports/page/html.h"
+#include "reports/page/sections.h"
+#include "reports/words/effect_words.h"
+#include "reports/words/extended_model_words.h"
+#include "reports/words/names.h"
+#include "reports/words/numbers.h"
+
+namespace stiffscope::page {
+
+namespace {
+
+constexpr double kMega = 1e-6;  // to 10^6 Nm/rad
+
+std::string inUm(double metres) { return reports::fixed(metres / io::kMicrometre, 1); }
+
+/// In percent; a gap that more than doubles has no size worth reading.
+std::string shareOf(double shrink, int decimals) {
+  return shrink < -1.0 ? "below −100" : reports::fixed(100.0 * shrink, decimals);
+}
+
+std::string interval(const diagnosis::Shrink& shrink) {
+  if (shrink.high < -1.0) return "–";
+  return fmt::format("{} to {}", shareOf(shrink.low, 0), shareOf(shrink.high, 0));
+}
+
+/// What is present, with what it means.
+std::string findingOf(const diagnosis::Diagnosis& diagnosis) {
+  const auto& entries = diagnosis.verdict.entries;
+  if (entries.empty()) {
+    return fmt::format(
+        "Joint springs are enough for this machine on this day: what they leave is noise, or too small to "
+        "matter (below {}\u00a0µm rms).",
+        inUm(diagnosis.size_limit));
+  }
+  const std::string present =
+      fmt::format("Besides joint springs the readings show {}", reports::presentWords(diagnosis.verdict));
+  std::vector<effects::Effect> effects;
+  for (const diagnosis::VerdictEntry& entry : entries)
+    effects.insert(effects.end(), entry.effects.begin(), entry.effects.end());
+  if (effects.empty()) return present + ".";
+  if (effects.size() == 1) return fmt::format("{}: {}.", present, reports::effectMeaning(effects.front()));
+  std::vector<std::string> meanings;
+  for (const effects::Effect effect : effects)
+    meanings.push_back(fmt::format("{}: {}", reports::effectName(effect), reports::effectMeaning(effect)));
+  return fmt::format("{}. That is, {}.", present, fmt::join(meanings, "; "));
+}
+
+std::string figuresOf(const diagnosis::Diagnosis& diagnosis) {
+  const bool named = !reports::namedWords(diagnosis.verdict).empty();
+  const std::string noise = fmt::format("of which noise is {}\u00a0µm", inUm(diagnosis.gap.noise));
+  if (!named) {
+    return fmt::format("The gap is {}\u00a0µm rms per coordinate, {}.", inUm(diagnosis.gap.before), noise);
+  }
+  const auto entries = std::count_if(diagnosis.verdict.entries.begin(), diagnosis.verdict.entries.end(),
+                                     [](const diagnosis::VerdictEntry& entry) { return !entry.effects.empty(); });
+  return fmt::format(
+      "With {} in the model the gap falls from {} to {}\u00a0µm rms per coordinate, {}; on postures that "
+      "took no part "
+      "it shrinks by {}\u00a0% (95\u00a0%: {}\u00a0%).",
+      entries > 1 ? "them" : "it", inUm(diagnosis.gap.before), inUm(diagnosis.gap.after), noise,
+      reports::fixed(100.0 * diagnosis.shrink_together.value, 0), interval(diagnosis.shrink_together));
+}
+
+/// What a laboratory can do with the verdict: remedies, each once, and measurements. Rich texts.
+std::vector<std::string> actionsOf(const diagnosis::Diagnosis& diagnosis) {
+  std::vector<std::string> actions;
+  const bool several = diagnosis.verdict.entries.size() > 1;
+  for (const diagnosis::VerdictEntry& entry : diagnosis.verdict.entries) {
+    if (entry.effects.empty()) {
+      actions.push_back(
+          "Look for what is not in the list of effects (the figures below show where) before the "
+          "stiffnesses are used for compensation.");
+    }
+    std::vector<std::string> of_class;
+    for (const effects::Effect effect : entry.effects) {
+      std::string remedy = reports::effectRemedy(effect);
+      if (std::find(of_class.begin(), of_class.end(), remedy) == of_class.end())
+        of_class.push_back(std::move(remedy));
+    }
+    for (const std::string& remedy : of_class) {
+      const std::string action =
+          of_class.size() > 1
+              ? fmt::format("If it is {}: {}.",
+                            reports::effectName(entry.effects[static_cast<std::size_t>(&remedy - of_class.data())]),
+                            remedy)
+          : several ? reports::capitalised(reports::effectNames(entry.effects)) + ": " + remedy + "."
+                    : reports::capitalised(remedy) + ".";
+      if (std::find(actions.begin(), actions.end(), action) == actions.end()) actions.push_back(action);
+    }
+  }
+  for (const diagnosis::NextMeasurement& one : diagnosis.next) {
+    actions.push_back(fmt::format("To tell {} apart, measure {}.", reports::effectNames(one.separates, " and "),
+                                  reports::withMicro(one.what)));
+  }
+  return actions;
+}
+
+/// The geometry is judged by a tolerance, not by BIC.
+std::string fallOf(const diagnosis::EffectClass& one) {
+  return one.effects.front() == effects::Effect::kinematic_error ? "–" : reports::significant(one.score, 3);
+}
+
+reports::Table classesTable(const diagnosis::Diagnosis& diagnosis) {
+  reports::Table table{"Which effect: the verdict's first, then the other candidates, best first",
+              {"Effect", "In the verdict", "Fall of BIC", "Shrink held out (%)", "95 % (%)", "Explained (%)"},
+              {},
+              false,
+              "diagnosis"};
+  reports::RowGroup group;
+  for (const diagnosis::EffectClass& one : diagnosis.classes) {
+    group.rows.push_back({reports::Cell(reports::effectNames(one.effects), reports::asIs(reports::shortDetail(one.detail))),
+                          one.in_verdict ? "yes" : "no", fallOf(one), shareOf(one.shrink.value, 1),
+                          interval(one.shrink), reports::fixed(100.0 * one.explained, 0)});
+  }
+  table.groups.push_back(std::move(group));
+  return table;
+}
+
+const diagnosis::WhereRow* rowOf(const std::vector<diagnosis::WhereTable>& tables, const std::string& by, const std::string& name) {
+  for (const diagnosis::WhereTable& table : tables) {
+    if (table.by != by) continue;
+    for (const diagnosis::WhereRow& row : table.rows) {
+      if (row.name == name) return &row;
+    }
+  }
+  return nullptr;
+}
+
+/// The deflection's gap, and beside it that of unloaded positions where these were tested.
+reports::Table whereTable(const diagnosis::Diagnosis& diagnosis) {
+  const bool positions = !diagnosis.where_positions.empty();
+  reports::Table table{"Where the gap lies that joint stiffnesses leave, rms per coordinate",
+              {"By", "Part", "Deflection (µm)", "Noise (µm)", "Share (%)", "Above noise (sd)"},
+              {},
+              false,
+              "gap"};
+  if (positions) {
+    for (const char* column : {"Unloaded (µm)", "Noise (µm)"}) table.columns.emplace_back(column);
+  }
+  if (!diagnosis.as_measured.rows.empty()) table.caption += ", the station's motion taken off";
+  for (const diagnosis::WhereTable& one : diagnosis.where) {
+    if (one.by == "posture") continue;  // a figure, and results.json
+    reports::RowGroup group{one.by, {}};
+    for (const diagnosis::WhereRow& row : one.rows) {
+      reports::Row cells{reports::asIs(row.name), inUm(row.rms), inUm(row.noise), reports::fixed(100.0 * row.share, 0),
+                reports::fixed(row.significance, std::abs(row.significance) < 10.0 ? 1 : 0)};
+      if (positions) {
+        const diagnosis::WhereRow* at_rest = rowOf(diagnosis.where_positions, one.by, row.name);
+        cells.emplace_back(at_rest ? inUm(at_rest->rms) : "–");
+        cells.emplace_back(at_rest ? inUm(at_rest->noise) : "–");
+      }
+      group.rows.push_back(std::move(cells));
+    }
+    table.groups.push_back(std::move(group));
+  }
+  return table;
+}
+
+reports::Table stiffnessTable(const diagnosis::Diagnosis& diagnosis) {
+  reports::Table table{
+      "Joint stiffness in the diagnosis, by joint springs alone and with the verdict's effects in the model, "
+      "k ± u, "
+      "10⁶\u00a0Nm/rad",
+      {"Joint", "Alone", "With the effects"},
+      {},
+      false,
+      "diagnosis-stiffness"};
+  reports::RowGroup group;
+  for (int j = 0; j < 6; ++j) {
+    if (!diagnosis.identifiable[static_cast<std::size_t>(j)]) continue;
+    const double sd = kMega * diagnosis.stiffness_after_sd[j];
+    group.rows.push_back({reports::jointName(j), reports::toPlaceOf(kMega * diagnosis.stiffness_before[j], sd),
+                          reports::withUncertainty(kMega * diagnosis.stiffness_after[j], sd)});
+  }
+  table.groups.push_back(std::move(group));
+  return table;
+}
+
+reports::Table detectableTable(const diagnosis::Diagnosis& diagnosis) {
+  reports::Table table{"Smallest size that would have been seen, rms per coordinate",
+              {"Effect", "Size (µm)"},
+              {},
+              false,
+              "diagnosis-detectable"};
+  reports::RowGroup group;
+  for (const diagnosis::DetectableSize& one : diagnosis.detectable) {
+    if (one.size) group.rows.push_back({reports::effectName(one.effect), inUm(*one.size)});
+  }
+  table.groups.push_back(std::move(group));
+  return table;
+}
+
+void writeNotTestable(Html& html, const diagnosis::Diagnosis& diagnosis) {
+  if (diagnosis.not_testable.empty()) return;
+  html.paragraph("Not testable with this data:");
+  std::vector<std::string> missing;
+  for (const diagnosis::NotTestable& one : diagnosis.not_testable)
+    missing.push_back(fmt::format("{}: {}.", reports::effectName(one.effect), reports::withMicro(one.missing)));
+  html.list(missing);
+}
+
+void writeDiagnosis(Html& html, const diagnosis::Diagnosis& diagnosis) {
+  if (!diagnosis.usable) {
+    html.paragraph(fmt::format("No diagnosis: {}.", reports::asIs(diagnosis.unusable_reason)));
+    return;
+  }
+  html.paragraph(reports::asIs(findingOf(diagnosis)), "finding");
+  html.paragraph(figuresOf(diagnosis));
+  const std::vector<std::string> actions = actionsOf(diagnosis);
+  if (!actions.empty()) html.paragraph("What to do:");
+  html.list(actions);
+  html.paragraph(reports::withMicro(diagnosis.verdict.reason), "faint");
+  writeTable(html, classesTable(diagnosis));
+  if (!reports::namedWords(diagnosis.verdict).empty()) {
+    writeTable(html, stiffnessTable(diagnosis));
+    html.paragraph(
+        "These stiffnesses are not those of Joint stiffness: the diagnosis fits all load steps together, "
+        "sweeps and unloaded "
+        "positions beside them, and its u is one standard uncertainty by weights of the noise; there k is of "
+        "one load step and U "
+        "is expanded (about 95\u00a0%), from the scatter between postures. The stiffnesses to use are those "
+        "of Joint stiffness, "
+        "with the effects where a report is made with them (--with auto).",
+        "faint");
+  }
+  writeTable(html, whereTable(diagnosis));
+  writeNotTestable(html, diagnosis);
+  const auto fold = html.element("details");  // the figure has these numbers, too
+  html.leaf("summary", "The smallest sizes as a table");
+  writeTable(html, detectableTable(diagnosis));
+}
+
+}  // namespace
+
+void writeGap(Html& html, const reports::ReportContent& content) {
+  const bool any = std::any_of(content.campaigns.begin(), content.campaigns.end(),
+                               [](const reports::ReportCampaign& one) { return one.diagnosis != nullptr; });
+  if (!any) return;
+  writeForEach(html, content, "gap", "What the model misses", [&](const reports::ReportCampaign& one) {
+    if (one.diagnosis != nullptr) writeDiagnosis(html, *one.diagnosis);
+  });
+}
+
+namespace {
+
+/// The power of ten, a multiple of three, that brings a size near one; 0 where it is near enough.
+int powerFor(double size) {
+  constexpr double kLargest = 1e6, kSmallest = 1e-3;
+  if (!(size > 0.0) || !std::isfinite(size) || (size < kLargest && size >= kSmallest)) return 0;
+  return 3 * static_cast<int>(std::floor(std::log10(size) / 3.0));
+}
+
+/// "10⁻⁶".
+std::string powerOfTen(int power) {
+  static constexpr std::array<const char*, 10> kDigits{"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
+  std::string text = power < 0 ? "10⁻" : "10";
+  for (const char digit : std::to_string(std::abs(power))) text += kDigits[static_cast<std::size_t>(digit - '0')];
+  return text;
+}
+
+/// Of all parameters of one unit, so that they can be compared.
+int powerFor(const std::vector<extended_model::EffectParameter>& parameters, const std::string& unit) {
+  double largest = 0.0;
+  for (const extended_model::EffectParameter& one : parameters) {
+    if (one.unit == unit) largest = std::max({largest, std::abs(one.value), one.sd});
+  }
+  return powerFor(largest);
+}
+
+reports::Row parameterRow(const extended_model::EffectParameter& parameter, int power) {
+  const double unit = std::pow(10.0, power);
+  return {reports::asIs(parameter.name.empty() ? "size" : parameter.name),
+          reports::withUncertainty(parameter.value / unit, parameter.sd / unit),
+          power == 0 ? parameter.unit : fmt::format("{}\u00a0{}", powerOfTen(power), parameter.unit)};
+}
+
+reports::Table parametersTable(const extended_model::EffectFit& effects) {
+  reports::Table table{"Effects in the model, fitted jointly with the stiffnesses", {"Effect", "Parameter", "Value ± u", "Unit"}, {}};
+  table.id = "effects";
+  for (const extended_model::AddedEffect& one : effects.added) {
+    reports::RowGroup group{reports::effectName(one.effect), {}};
+    for (const extended_model::EffectParameter& parameter : one.parameters) {
+      group.rows.push_back(parameterRow(parameter, powerFor(one.parameters, parameter.unit)));
+    }
+    table.groups.push_back(std::move(group));
+  }
+  return table;
+}
+
+bool seen(const identification::MethodResult& method, int joint) {
+  return method.available && method.estimate.identifiable[static_cast<std::size_t>(joint)];
+}
+
+reports::Cell stiffnessOf(const identification::MethodResult& method, int joint) {
+  if (!seen(method, joint)) return "–";
+  const double expanded = reports::coverageOf(method.estimate, joint).factor * method.estimate.stiffnessSd(joint);
+  return reports::withUncertainty(1e-6 * method.estimate.stiffness(joint), 1e-6 * expanded);
+}
+
+reports::Table stiffnessWithEffectsTable(const extended_model::ImprovedModel& model) {
+  reports::Table table{"Stiffness k ± U without and with the effects, 10⁶\u00a0Nm/rad", {"Joint", "Method", "Without", "With"}, {}};
+  table.id = "effects-stiffness";
+  for (int joint = 0; joint < 6; ++joint) {
+    reports::RowGroup group{reports::jointName(joint), {}};
+    for (const identification::Method method : identification::kMethods) {
+      const identification::MethodResult &without = model.without.of(method), &with = model.with.of(method);
+      if (seen(without, joint) || seen(with, joint))
+        group.rows.push_back({reports::shortName(method), stiffnessOf(without, joint), stiffnessOf(with, joint)});
+    }
+    if (!group.rows.empty()) table.groups.push_back(std::move(group));
+  }
+  return table;
+}
+
+reports::Table residualTable(const extended_model::ImprovedModel& model) {
+  reports::Table table{"What is left without and with the effects",
+              {"Method", "rms without (µm)", "rms with (µm)", "Compensated without, held out", "with, held out"},
+              {{}}};
+  table.id = "effects-residuals";
+  const auto share = [](const identification::MethodResult& method) {
+    const auto held_out = reports::heldOut(method, false);
+    return held_out ? reports::percent(*held_out) : std::string("–");
+  };
+  for (const identification::Method method : identification::kMethods) {
+    const identification::MethodResult &without = model.without.of(method), &with = model.with.of(method);
+    if (!without.available || !with.available) continue;
+    table.groups.front().rows.push_back({reports::longName(method), reports::fixed(without.estimate.rms_residual / io::kMicrometre, 1),
+                                         reports::fixed(with.estimate.rms_residual / io::kMicrometre, 1), share(without), share(with)});
+  }
+  return table;
+}
+
+void writeModel(Html& html, const extended_model::ImprovedModel& model) {
+  html.paragraph(reports::asIs(reports::gainWords(model)));
+  std::vector<std::string> uses;
+  for (const extended_model::AddedEffect& one : model.effects.added) {
+    const std::string doubt = reports::doubtOf(one);
+    uses.push_back(reports::asIs(fmt::format("{}: {}{}.", reports::effectName(one.effect), effects::useOf(one.effect), doubt.empty() ? "" : "; " + doubt)));
+  }
+  for (const effects::Effect effect : model.effects.geometry)
+    uses.push_back(reports::asIs(fmt::format("{}: {}.", reports::effectName(effect), effects::useOf(effect))));
+  if (!model.effects.added.empty()) {
+    for (const std::string& note : model.effects.notes) uses.push_back(reports::asIs(note + "."));
+  }
+  html.list(uses);
+  if (model.effects.added.empty()) return;
+  writeTable(html, parametersTable(model.effects));
+  html.paragraph(reports::asIs(reports::explainedWords(model.effects)), "faint");
+  writeTable(html, stiffnessWithEffectsTable(model));
+  writeTable(html, residualTable(model));
+  html.paragraph(
+      "Every other number and picture of this page, the diagnosis aside, is of the model with the effects: what they do is taken off the readings, "
+      "and stiffnesses are those of the joint springs beside them. Their own uncertainty is in every ±. Shares are of the "
+      "machine's deflection, effects of the machine in it; the effects were fitted anew on the postures of every subset.",
+      "faint");
+}
+
+}  // namespace
+
+void writeImproved(Html& html, const reports::ReportContent& content) {
+  const bool any = std::any_of(content.campaigns.begin(), content.campaigns.end(),
+                               [](const reports::ReportCampaign& one) { return one.improved != nullptr; });
+  if (!any) return;
+  writeForEach(html, content, "effects", "Effects in the model", [&](const reports::ReportCampaign& one) {
+    if (one.improved != nullptr) writeModel(html, *one.improved);
+  });
+}
+
+}  // namespace stiffscope::page

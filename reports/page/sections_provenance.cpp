@@ -1,0 +1,234 @@
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+#include "core/preparation/finding.h"
+#include "reports/page/html.h"
+#include "reports/page/sections.h"
+#include "reports/words/names.h"
+#include "reports/words/numbers.h"
+#include "reports/words/preparation_words.h"
+
+namespace stiffscope::page {
+
+namespace {
+
+const char* meaningOf(preparation::AuditVerdict verdict) {
+  switch (verdict) {
+    case preparation::AuditVerdict::pass:
+      return "The audit passes: the readings are fit to identify from.";
+    case preparation::AuditVerdict::warn:
+      return "The audit warns: the readings are fit to identify from, with what is said below.";
+    case preparation::AuditVerdict::fail:
+    case preparation::AuditVerdict::not_testable:
+      break;
+  }
+  return "The audit fails: as they were read, the readings are not fit to identify from.";
+}
+
+std::string withUnit(const std::optional<double>& value, const std::string& unit) {
+  if (!value) return "–";
+  const bool whole = std::abs(*value) < 1e6 && *value == std::round(*value);
+  return fmt::format("{}\u00a0{}", whole ? reports::fixed(*value, 0) : reports::significant(*value, 3), reports::withMicro(unit));
+}
+
+/// A limit's source without what holds for all that are by chance; that is said once.
+std::string sourceOf(const preparation::AuditCheck& check) {
+  const std::string common = preparation::byChance("");
+  std::string source = check.limit_source;
+  if (source.ends_with(common)) source.resize(source.size() - common.size());
+  return reports::withMicro(source);
+}
+
+bool anyByChance(const audit::AuditReport& report) {
+  return std::any_of(report.checks.begin(), report.checks.end(), [](const preparation::AuditCheck& check) {
+    return check.limit_source.ends_with(preparation::byChance(""));
+  });
+}
+
+reports::Row findingRow(const preparation::AuditCheck& check) {
+  const std::string where = check.where.empty() ? "" : fmt::format(" ({})", check.where);
+  const std::string source = sourceOf(check);
+  return {
+      reports::auditName(check.id), reports::auditWord(check.verdict), withUnit(check.value, check.unit),
+      withUnit(check.limit, check.unit),
+      reports::Cell(reports::withMicro(check.message) + where + ".", source.empty() ? "" : fmt::format("Limit: {}.", source))};
+}
+
+/// Worst first: a reader looks for what is wrong.
+reports::Table findingsTable(const audit::AuditReport& report) {
+  reports::Table table{"Findings",
+              {"Check", "Verdict", "Found", "Limit", "What was found, and where the limit comes from"},
+              {},
+              true,
+              "audit-findings"};
+  for (const preparation::AuditVerdict verdict : {preparation::AuditVerdict::fail, preparation::AuditVerdict::warn}) {
+    reports::RowGroup group;
+    for (const preparation::AuditCheck& check : report.checks) {
+      if (check.verdict == verdict) group.rows.push_back(findingRow(check));
+    }
+    table.groups.push_back(std::move(group));
+  }
+  return table;
+}
+
+/// "100 to 300 deg" of checks that are made several times, axis by axis, against one limit.
+std::string rangeOf(const std::vector<const preparation::AuditCheck*>& same) {
+  const auto [least, most] =
+      std::minmax_element(same.begin(), same.end(), [](const preparation::AuditCheck* a, const preparation::AuditCheck* b) {
+        return a->value.value_or(0.0) < b->value.value_or(0.0);
+      });
+  const std::string low = withUnit((*least)->value, ""), high = withUnit((*most)->value, (*most)->unit);
+  return same.size() == 1 ? high : fmt::format("{}to {}", low, high);
+}
+
+/// What passes, in a line each; checks of one name with one limit share it.
+reports::Table passedTable(const audit::AuditReport& report) {
+  reports::Table table{"Checks that pass", {"Check", "Found", "Limit", "Limit by"}, {{}}, true, "audit-passed"};
+  std::vector<std::vector<const preparation::AuditCheck*>> lines;
+  for (const preparation::AuditCheck& check : report.checks) {
+    if (check.verdict != preparation::AuditVerdict::pass) continue;
+    const auto same = std::find_if(lines.begin(), lines.end(), [&check](const auto& line) {
+      return line.front()->id == check.id && line.front()->limit == check.limit;
+    });
+    if (same == lines.end())
+      lines.push_back({&check});
+    else
+      same->push_back(&check);
+  }
+  for (const auto& line : lines) {
+    const preparation::AuditCheck& check = *line.front();
+    table.groups.front().rows.push_back(
+        {reports::Cell(reports::auditName(check.id), line.size() > 1 ? fmt::format("({} times)", line.size()) : std::string()),
+         rangeOf(line), withUnit(check.limit, check.unit), sourceOf(check)});
+  }
+  return table;
+}
+
+/// Sentences on what has no verdict, and on what checks say besides it.
+std::vector<std::string> furtherWords(const audit::AuditReport& report, bool diagnosed) {
+  std::vector<std::string> items;
+  for (const preparation::AuditCheck& check : report.checks) {
+    if (check.verdict == preparation::AuditVerdict::not_testable)
+      items.push_back(fmt::format("{}, not testable: {}.", reports::auditName(check.id), reports::withMicro(check.message)));
+    std::vector<std::string> details;
+    for (const std::string& detail : check.details) {
+      // Which effects could be told apart has a place of its own where there is a diagnosis.
+      const bool told = diagnosed && detail.rfind("effects that", 0) == 0;
+      if (!told) details.push_back(reports::withMicro(detail));
+    }
+    if (!details.empty())
+      items.push_back(fmt::format("{}: {}.", reports::auditName(check.id), fmt::join(details, "; ")));
+  }
+  return items;
+}
+
+void writeRejected(Html& html, const reports::ReportCampaign& one) {
+  const auto& rejected = one.audit->rejected;
+  if (rejected.empty()) {
+    html.paragraph("No reading was rejected.");
+    return;
+  }
+  const bool raw = one.preparation != nullptr && one.preparation->raw;
+  html.paragraph(fmt::format("{} reading{} rejected{}:", rejected.size(), rejected.size() == 1 ? "" : "s",
+                             raw ? ", but used all the same, because raw readings were asked for"
+                                 : " and left out of everything on this page"));
+  std::vector<std::string> items;
+  for (const preparation::RejectedReading& reading : rejected) items.push_back(reports::withMicro(reports::rejectedWords(reading)));
+  html.list(items);
+}
+
+}  // namespace
+
+void writeAudit(Html& html, const reports::ReportContent& content) {
+  const bool any = std::any_of(content.campaigns.begin(), content.campaigns.end(),
+                               [](const reports::ReportCampaign& one) { return one.audit != nullptr; });
+  if (!any) return;
+  writeForEach(html, content, "audit", "Audit of the readings", [&](const reports::ReportCampaign& one) {
+    if (one.audit == nullptr) return;
+    html.paragraph(meaningOf(one.audit->verdict));
+    writeTable(html, findingsTable(*one.audit));
+    writeTable(html, passedTable(*one.audit));
+    html.list(furtherWords(*one.audit, one.diagnosis != nullptr && one.diagnosis->usable));
+    if (anyByChance(*one.audit)) {
+      html.paragraph(
+          "Limits by chi-square, normal deviates or Student's t share 1\u00a0% of false findings over the "
+          "whole audit.",
+          "faint");
+    }
+    writeRejected(html, one);
+  });
+}
+
+namespace {
+
+/// Postures and parameters; joints, methods and the wrist centre say so where their numbers would stand.
+std::vector<std::string> leftOut(const identification::Identification& result) {
+  std::vector<std::string> items = result.left_out;
+  if (!result.calibration.fixed.empty()) {
+    items.push_back(fmt::format("PP's geometry, kept at its start because the positions do not see it: {}.",
+                                fmt::join(result.calibration.fixed, ", ")));
+  }
+  return items;
+}
+
+}  // namespace
+
+void writeLeftOut(Html& html, const reports::ReportContent& content) {
+  writeForEach(html, content, "left-out", "What was left out, and why", [&](const reports::ReportCampaign& one) {
+    const std::vector<std::string> items = leftOut(one.identification);
+    if (one.identification.left_out.empty()) html.paragraph("No posture was left out.");
+    html.list(items);
+  });
+}
+
+namespace {
+
+reports::Table namedTable(const char* id, const char* caption, const char* name, const char* value,
+                 const std::vector<reports::NamedText>& lines) {
+  reports::Table table{caption, {name, value}, {{}}, true, id};
+  for (const reports::NamedText& line : lines) table.groups.front().rows.push_back({line.name, line.text});
+  return table;
+}
+
+}  // namespace
+
+void writeProvenance(Html& html, const reports::ReportContent& content) {
+  writeForEach(html, content, "provenance", "Inputs", [&](const reports::ReportCampaign& one) {
+    if (one.campaign.inputs.empty()) html.paragraph("No file was read: the campaign comes from memory.");
+    reports::Table table{"Files read", {"File", "SHA-256 of its bytes"}, {{}}, true, "inputs"};
+    for (const campaign::InputFile& file : one.campaign.inputs)
+      table.groups.front().rows.push_back({reports::asIs(file.name), "`" + file.sha256 + "`"});
+    writeTable(html, table);
+  });
+  if (content.versions.empty() && content.settings.empty() && content.command_line.empty()) return;
+  const auto section = html.element("section", {{"id", "versions"}});
+  html.leaf("h2", "How this page was made");
+  if (!content.command_line.empty()) {
+    const auto line = html.element("p");
+    html.text("Command: ");
+    // Not rich: a command is shown to the letter.
+    const auto code = html.element("code");
+    html.text(content.command_line);
+  }
+  writeTable(html, namedTable("versions", "Versions", "Program or library", "Version", content.versions));
+  writeTable(html, namedTable("settings", "Settings", "Setting", "Value", content.settings));
+}
+
+void writeScope(Html& html, const reports::ReportContent&) {
+  const auto section = html.element("section", {{"id", "scope"}});
+  html.leaf("h2", "Uncertainty, decision rule and scope");
+  html.list(
+      {"Uncertainty: the standard uncertainty u of a compliance is from the scatter between postures (sandwich "
+       "estimate, CR2) and from what they all share and the campaign tells of: frames, wrist radii, geometry; that of a "
+       "stiffness is u(c)/c², to first order. U = k u with Student's t for about 95\u00a0%. The scales of the load cell "
+       "and of the tracker, of which no reading tells, are not in it.",
+       "Decision rule: no statement of conformity to a specification is made. A joint counts as seen where the load "
+       "turns it by more than three times what wrench, frame and angle uncertainty alone would. A stiffness is "
+       "imprecise where u exceeds the value, and negative ones are shown as found; uncertainty is not used to move a "
+       "limit.",
+       "The results relate only to the items measured, in the state and under the conditions stated here.",
+       "Number and date of this report are those of its input: the same files and settings give the same report."});
+}
+
+}  // namespace stiffscope::page

@@ -1,0 +1,72 @@
+#include "reports/report_content.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+#include "core/comparison/matched_postures.h"
+#include "core/io/read_file.h"
+#include "reports/words/numbers.h"
+
+namespace stiffscope::reports {
+
+namespace {
+
+const ReportCampaign* firstWith(const std::vector<ReportCampaign>& campaigns, campaign::DoubleEncoder state) {
+  const auto found = std::find_if(campaigns.begin(), campaigns.end(), [state](const ReportCampaign& one) {
+    return one.campaign.double_encoder == state;
+  });
+  return found == campaigns.end() ? nullptr : &*found;
+}
+
+}  // namespace
+
+std::optional<AvoidedByEncoders> avoidedByEncoders(const std::vector<ReportCampaign>& campaigns) {
+  const ReportCampaign* inactive = firstWith(campaigns, campaign::DoubleEncoder::inactive);
+  const ReportCampaign* active = firstWith(campaigns, campaign::DoubleEncoder::active);
+  if (inactive == nullptr || active == nullptr) return std::nullopt;
+  AvoidedByEncoders avoided;
+  avoided.reason = comparison::differenceOfMachines(inactive->campaign.robot, active->campaign.robot);
+  if (!avoided.reason.empty()) return avoided;
+  const identification::Identification &before = inactive->identification, &after = active->identification;
+  const comparison::MatchedPostures matched = comparison::matchPostures(inactive->campaign, before, active->campaign, after);
+  static_cast<comparison::DeflectionAvoided&>(avoided) = comparison::deflectionAvoidedAtWrist(before, after, matched);
+  avoided.at_wrist = avoided.available;
+  if (!avoided.available)
+    static_cast<comparison::DeflectionAvoided&>(avoided) = comparison::deflectionAvoidedAtTargets(before, after, matched);
+  return avoided;
+}
+
+std::string pointOf(const AvoidedByEncoders& avoided) {
+  return avoided.at_wrist ? "P_{wrist}" : "the reflectors";
+}
+
+std::string shareWords(const AvoidedByEncoders& avoided) {
+  const std::string share = percent(avoided.share);
+  if (!std::isfinite(avoided.low)) return share;
+  return fmt::format("{} (95\u00a0%: {} to {})", share, fixed(100.0 * avoided.low, 1),
+                     percent(avoided.high));
+}
+
+std::string reportId(const ReportContent& content) {
+  std::string all = content.compare_with_paper ? "paper\n" : "\n";
+  // Lengths keep apart what would read the same run together.
+  const auto add = [&all](const std::string& text) { all += fmt::format("{}:{}\n", text.size(), text); };
+  for (const ReportCampaign& one : content.campaigns) {
+    add(one.campaign.name);
+    add(one.campaign.date);
+    for (const campaign::InputFile& file : one.campaign.inputs) {
+      add(file.name);
+      add(file.sha256);
+    }
+  }
+  for (const NamedText& setting : content.settings) {
+    add(setting.name);
+    add(setting.text);
+  }
+  if (!content.versions.empty()) add(content.versions.front().text);
+  const std::string hex = io::sha256Hex(all);
+  return fmt::format("{}-{}-{}", hex.substr(0, 4), hex.substr(4, 4), hex.substr(8, 4));
+}
+
+}  // namespace stiffscope::reports

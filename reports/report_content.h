@@ -1,0 +1,93 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/audit/audit.h"
+#include "core/campaign/campaign.h"
+#include "core/comparison/deflection_avoided.h"
+#include "core/diagnosis/diagnosis.h"
+#include "core/extended_model/extended_model.h"
+#include "core/identification/identify.h"
+#include "core/preparation/prepare.h"
+
+namespace stiffscope::reports {
+
+/// A campaign as it was used, with what was identified from it, how the audit judges the readings, and what was
+/// done to them beforehand, how the station moved before that was taken off, and what the model misses. Refers to
+/// all of these; the pointers may be null. Readings of sweeps and nests are shown; load states are shown as the
+/// identification's cases, the rows of their tables need not be there.
+struct ReportCampaign {
+  const campaign::Campaign& campaign;
+  const identification::Identification& identification;
+  const audit::AuditReport* audit = nullptr;
+  const preparation::Preparation* preparation = nullptr;
+  const preparation::StationMotion* station = nullptr;
+  const diagnosis::Diagnosis* diagnosis = nullptr;
+  const extended_model::ImprovedModel* improved = nullptr;  ///< effects were asked for: `campaign` and `identification` are of it
+};
+
+/// What active double encoders keep away of the deflection (paper, IV.E), with its interval over postures.
+struct AvoidedByEncoders : comparison::DeflectionAvoided {
+  bool at_wrist = false;  ///< judged at P_wrist; else at the reflectors (means)
+};
+
+/// Of the first campaign with the double encoders inactive (before) against the first with them active
+/// (after). Empty without such a pair; not available, with the reason, where they are of two machines or have
+/// no posture in common.
+std::optional<AvoidedByEncoders> avoidedByEncoders(const std::vector<ReportCampaign>& campaigns);
+
+/// The point at which it is judged, rich text: "P_{wrist}" or "the reflectors".
+std::string pointOf(const AvoidedByEncoders& avoided);
+
+/// "33.2 % (95 %: 31.0 to 35.1 %)"; without an interval the share alone.
+std::string shareWords(const AvoidedByEncoders& avoided);
+
+/// A finished picture with its words. In title and caption `x_{abc}` sets abc as a subscript; `alt` is plain.
+struct Figure {
+  std::string
+      id;  ///< unique in a report; letters, digits and hyphens: an anchor, and a file's name without ".png"
+  std::string title;
+  std::string caption;  ///< what to see in it, with the number
+  std::string alt;      ///< what the picture shows, for those who do not see it
+  std::vector<std::uint8_t> png;
+  int width = 0;   ///< pixels
+  int height = 0;  ///< pixels
+  std::string section = "figures";  ///< id of the section of the page that it stands in; see kFigureSections
+};
+
+/// The sections that have figures, in the order of the page: figures are counted in it.
+inline constexpr std::array kFigureSections{"wrist", "links", "stiffness", "subsets", "compensation",
+                                            "gap",   "figures", "audit"};
+
+/// The name of its file in a report's folder.
+inline std::string pictureFile(const Figure& figure) { return figure.id + ".png"; }
+
+/// A name with its value: a version, a setting.
+struct NamedText {
+  std::string name, text;
+};
+
+/// Everything the report page shows. Nothing else goes in, no clock and no environment: the same content
+/// gives the same bytes. Campaigns are referred to, not copied: they must outlive the page's making.
+struct ReportContent {
+  std::string title;
+  std::string verdict;  ///< one to three sentences; verdictOf makes them
+  std::vector<ReportCampaign> campaigns;
+  std::optional<AvoidedByEncoders> avoided;  ///< by the double encoders, where both states were measured
+  std::vector<Figure> figures;
+  std::vector<NamedText> versions;  ///< stiffscope and its libraries
+  std::vector<NamedText> settings;
+  std::string command_line;         ///< empty: not shown
+  bool compare_with_paper = false;  ///< beside the figures of Ambiehl et al., IROS 2017
+};
+
+/// What a report is known by: twelve hex digits of the SHA-256 of the names and hashes of all files read, of
+/// the settings, the version of the program and whether the paper stands beside. The same input gives the same
+/// id, on any day and any machine: "4f2a-91c0-77de".
+std::string reportId(const ReportContent& content);
+
+}  // namespace stiffscope::reports

@@ -1,0 +1,122 @@
+#include "reports/text/extended_model_text.h"
+
+#include <cmath>
+#include <fmt/format.h>
+#include <iterator>
+
+#include "core/effects/effect_model.h"
+#include "core/identification/estimate.h"
+#include "core/io/units.h"
+#include "reports/words/extended_model_words.h"
+#include "reports/words/names.h"
+#include "reports/words/numbers.h"
+
+namespace stiffscope::reports {
+
+namespace {
+
+using Out = std::back_insert_iterator<std::string>;
+
+/// Metres and radians in the units of the rest of the text.
+extended_model::EffectParameter inTextUnits(extended_model::EffectParameter parameter) {
+  if (parameter.unit != "m" && parameter.unit != "rad") return parameter;
+  parameter.value /= io::kMicrometre;  // to um, or to urad
+  parameter.sd /= io::kMicrometre;
+  parameter.unit = "u" + parameter.unit;
+  return parameter;
+}
+
+void writeEffect(const extended_model::AddedEffect& one, Out out) {
+  fmt::format_to(out, "  {}{}{}\n", effects::idOf(one.effect), one.detail.empty() ? "" : " (" + one.detail + ")",
+                 one.shape.empty() ? "" : ", " + one.shape);
+  fmt::format_to(out, "    {}\n", wrapped(effects::useOf(one.effect), 4));
+  for (const extended_model::EffectParameter& own : one.parameters) {
+    const extended_model::EffectParameter parameter = inTextUnits(own);
+    const std::string name = parameter.name.empty() ? "size" : parameter.name;
+    if (parameter.value == 0.0) {
+      fmt::format_to(out, "    {:<24} 0 (none found)\n", name);
+      continue;
+    }
+    fmt::format_to(out, "    {:<24}{:>12.4g} +-{:.2g} {}\n", name, parameter.value, parameter.sd, parameter.unit);
+  }
+  if (const std::string doubt = doubtOf(one); !doubt.empty()) fmt::format_to(out, "    {}\n", wrapped("Caution: " + doubt + ".", 4));
+}
+
+std::string stiffnessCell(const identification::StiffnessEstimate& estimate, int joint) {
+  if (!estimate.identifiable[static_cast<std::size_t>(joint)]) return "-";
+  const double expanded = identification::coverageFactor(estimate, joint, identification::kStatedCoverage) * estimate.stiffnessSd(joint) * 1e-6;
+  return fmt::format("{:.4f} +-{}", estimate.stiffness(joint) * 1e-6,
+                     std::isfinite(expanded) ? fmt::format("{:.4f}", expanded) : "?");
+}
+
+std::string heldOut(const identification::MethodResult& method, const std::optional<identification::Compensation>& share) {
+  if (!share) return "-";
+  return fmt::format("{:.2f}", 100.0 * (method.subsets.compliances.empty() ? share->all_postures : share->subsets.held_out));
+}
+
+/// The standard uncertainty that the effects alone make.
+std::string byEffects(const identification::StiffnessEstimate& estimate, int joint) {
+  if (!estimate.identifiable[static_cast<std::size_t>(joint)]) return "-";
+  return fmt::format("{:.4f}", std::sqrt(estimate.parts.effects(joint, joint)) /
+                                   (estimate.compliance[joint] * estimate.compliance[joint]) * 1e-6);
+}
+
+void writeStiffnesses(const extended_model::ImprovedModel& model, const std::vector<identification::Method>& methods, Out out) {
+  fmt::format_to(out, "\nStiffness without and with, 1e6 Nm/rad, with its expanded uncertainty U; by effects: their part of the\n  standard uncertainty\n  {:<14}", "");
+  for (int joint = 1; joint <= 6; ++joint) fmt::format_to(out, " {:>17}", fmt::format("k{}", joint));
+  fmt::format_to(out, "\n");
+  for (const identification::Method which : methods) {
+    const auto row = [&](const char* name, const identification::MethodResult& method, const auto& cell) {
+      if (!method.available) return;
+      fmt::format_to(out, "  {:<14}", fmt::format("{} {}", namesOf(which).brief, name));
+      for (int joint = 0; joint < 6; ++joint) fmt::format_to(out, " {:>17}", cell(method.estimate, joint));
+      fmt::format_to(out, "\n");
+    };
+    row("without", model.without.of(which), stiffnessCell);
+    row("with", model.with.of(which), stiffnessCell);
+    row("by effects", model.with.of(which), byEffects);
+  }
+}
+
+void writeResiduals(const extended_model::ImprovedModel& model, const std::vector<identification::Method>& methods, Out out) {
+  fmt::format_to(out,
+                 "\n  {:<14}{:>20}{:>26}{:>20}\n  {:<14}{:>20}{:>26}{:>20}\n", "", "rms residual (um)", "compensated at P_wrist",
+                 "at the reflectors", "", "", "held out, %", "held out, %");
+  for (const identification::Method which : methods) {
+    const auto row = [&](const char* name, const identification::MethodResult& method) {
+      if (!method.available) return;
+      fmt::format_to(out, "  {:<14}{:>20.1f}{:>26}{:>20}\n", fmt::format("{} {}", namesOf(which).brief, name),
+                     method.estimate.rms_residual / io::kMicrometre, heldOut(method, method.at_wrist),
+                     heldOut(method, method.at_targets));
+    };
+    row("without", model.without.of(which));
+    row("with", model.with.of(which));
+  }
+}
+
+}  // namespace
+
+std::string addedEffectsText(const extended_model::EffectFit& effects) {
+  std::string text = fmt::format("\nAdded to the joint springs: {}\n", addedNames(effects));
+  const auto out = std::back_inserter(text);
+  for (const extended_model::AddedEffect& one : effects.added) writeEffect(one, out);
+  for (const effects::Effect effect : effects.geometry) fmt::format_to(out, "  {}\n", wrapped(fmt::format("{}: {}", effects::idOf(effect), effects::useOf(effect)), 4));
+  for (const std::string& note : effects.notes) fmt::format_to(out, "  {}\n", wrapped("Note: " + note + ".", 4));
+  if (!effects.added.empty()) fmt::format_to(out, "{}\n", wrapped(explainedWords(effects), 0));
+  return text;
+}
+
+std::string improvedText(const extended_model::ImprovedModel& model, const std::vector<identification::Method>& methods) {
+  std::string text = addedEffectsText(model.effects);
+  if (model.effects.added.empty()) return text;
+  const auto out = std::back_inserter(text);
+  writeStiffnesses(model, methods, out);
+  writeResiduals(model, methods, out);
+  fmt::format_to(out, "{}\n",
+                 wrapped("Held out: springs and effects fitted anew on the postures of each subset; parts of an effect stay as "
+                         "chosen. Stiffnesses are those of the joint springs beside the effects.",
+                         0));
+  return text;
+}
+
+}  // namespace stiffscope::reports

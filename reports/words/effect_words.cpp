@@ -1,0 +1,110 @@
+#include "reports/words/effect_words.h"
+
+#include <algorithm>
+#include <array>
+#include <fmt/format.h>
+
+namespace stiffscope::reports {
+
+namespace {
+
+struct Words {
+  const char* meaning;
+  const char* remedy;
+};
+
+constexpr const char* kIntoTheModel =
+    "compensate with the stiffnesses found with it in the model: those without it have taken part of it in";
+
+/// In the order of Effect.
+constexpr std::array<Words, effects::kEffectCount> kWords{{
+    {"a link bends and twists along its length", kIntoTheModel},
+    {"a joint also gives about the two directions across its axis", kIntoTheModel},
+    {"pedestal or floor gives",
+     "check the anchors, with one reflector on the pedestal and one on the floor beside it under load"},
+    {"torque at one joint turns another",
+     "ask the maker how the named joints are coupled, and keep it in the model"},
+    {"stiffness changes with torque",
+     "identify at the loads of the process: one stiffness does not hold for all"},
+    {"motion is lost as a joint's torque passes zero",
+     "keep the torque on one side of zero where it matters, and have the gear looked at"},
+    {"friction makes the way back differ from the way out",
+     "load in the sense of the process, and have gear and brake looked at where it is large"},
+    {"a spring on axis 2 has a torque that depends on the posture",
+     "have the compensator's spring stated or set, and keep it in the model"},
+    {"the load acts elsewhere on the tool than declared",
+     "measure where the load attaches, correct `xyz_mm` of `load_cell`, and identify again"},
+    {"the load cell is turned against its declared axes",
+     "check how the cell is mounted, correct `rpy_deg` or `axes` of `load_cell`, and identify again"},
+    {"a constant force is added to the loaded readings, or missing from them",
+     "tare the cell with nothing hanging, account for all that hangs below it, and measure again"},
+    {"the tracker, or the robot, moved between the sweeps and the loading",
+     "repeat the sweeps, or read three or more floor nests with every set of readings"},
+    {"lengths or joint zeros differ from the nominal geometry",
+     "calibrate the geometry before absolute positions are trusted; displacements hardly feel it"},
+    {"readings wander with time", "let the tracker warm up, and read the floor nests more often"},
+    {"one reflector moves in its nest under load",
+     "seat that reflector anew or leave it out, and measure again"},
+    {"the plate between flange and reflectors gives",
+     "stiffen the plate or put the reflectors on the flange itself"},
+}};
+
+const Words& wordsOf(effects::Effect effect) { return kWords[static_cast<std::size_t>(effect)]; }
+
+}  // namespace
+
+std::string effectName(effects::Effect effect) {
+  std::string name(effects::idOf(effect));
+  std::replace(name.begin(), name.end(), '_', ' ');
+  return name;
+}
+
+std::string effectNames(const std::vector<effects::Effect>& effects, const char* between) {
+  std::string names;
+  for (const effects::Effect effect : effects) names += (names.empty() ? "" : between) + effectName(effect);
+  return names;
+}
+
+std::string effectMeaning(effects::Effect effect) { return wordsOf(effect).meaning; }
+
+std::string effectRemedy(effects::Effect effect) { return wordsOf(effect).remedy; }
+
+std::string shortDetail(const std::string& detail) {
+  constexpr std::string_view kJoint = "joint ";
+  std::vector<std::string> joints;
+  for (std::size_t at = 0; at < detail.size();) {
+    const std::size_t end = std::min(detail.find(", ", at), detail.size());
+    const std::string one = detail.substr(at, end - at);
+    if (one.size() != kJoint.size() + 1 || one.rfind(kJoint, 0) != 0) return detail;
+    joints.push_back(one.substr(kJoint.size()));
+    at = end + 2;
+  }
+  if (joints.size() < 2) return detail;
+  bool in_a_row = joints.size() > 2;
+  for (std::size_t i = 1; i < joints.size(); ++i) in_a_row = in_a_row && joints[i][0] == joints[i - 1][0] + 1;
+  if (in_a_row) return fmt::format("joints {} to {}", joints.front(), joints.back());
+  const std::string last = joints.back();
+  joints.pop_back();
+  return fmt::format("joints {} and {}", fmt::join(joints, ", "), last);
+}
+
+std::string namedWords(const diagnosis::Verdict& verdict) {
+  std::string words;
+  for (const diagnosis::VerdictEntry& entry : verdict.entries) {
+    if (entry.effects.empty()) continue;
+    words += (words.empty() ? "" : ", and ") + effectNames(entry.effects);
+    if (!entry.detail.empty()) words += fmt::format(" ({})", shortDetail(entry.detail));
+  }
+  return words;
+}
+
+std::string presentWords(const diagnosis::Verdict& verdict) {
+  const bool unknown = std::any_of(verdict.entries.begin(), verdict.entries.end(),
+                                   [](const diagnosis::VerdictEntry& entry) { return entry.effects.empty(); });
+  std::string words = namedWords(verdict);
+  if (unknown)
+    words += std::string(words.empty() ? "" : ", and ") + "something that no known effect explains";
+  return words.empty() ? "nothing" : words;
+}
+
+}  // namespace stiffscope::reports

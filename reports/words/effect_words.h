@@ -1,0 +1,28 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/diagnosis/diagnosis.h"
+
+// Effects in the words of the page and its pictures. Plain texts, not rich ones: details name reflectors.
+
+namespace stiffscope::reports {
+
+std::string effectName(effects::Effect effect);  ///< "bearing tilt"
+/// "bearing tilt or link compliance".
+std::string effectNames(const std::vector<effects::Effect>& effects, const char* between = " or ");
+std::string effectMeaning(effects::Effect effect);  ///< what the machine then does
+std::string effectRemedy(effects::Effect effect);   ///< rich text: what a laboratory can do about it, one sentence
+
+/// "joints 1, 2 and 4" for "joint 1, joint 2, joint 4", "joints 1 to 6" for all; other details as they are.
+std::string shortDetail(const std::string& detail);
+
+/// "bearing tilt (joints 1 and 2), and hysteresis": those that can be in a model; empty where there is none.
+std::string namedWords(const diagnosis::Verdict& verdict);
+
+/// "bearing tilt (joints 1 and 2), and something that no known effect explains"; "nothing" where nothing is
+/// present.
+std::string presentWords(const diagnosis::Verdict& verdict);
+
+}  // namespace stiffscope::reports

@@ -1,0 +1,79 @@
+#include "reports/words/extended_model_words.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "core/identification/identification.h"
+#include "core/io/units.h"
+#include "reports/words/effect_words.h"
+#include "reports/words/names.h"
+
+namespace stiffscope::reports {
+
+std::string addedNames(const extended_model::EffectFit& effects) {
+  if (effects.added.empty()) return "nothing";
+  std::vector<std::string> names;
+  for (const extended_model::AddedEffect& one : effects.added) {
+    names.push_back(one.detail.empty() ? std::string(effects::idOf(one.effect)) : fmt::format("{} ({})", effects::idOf(one.effect), one.detail));
+  }
+  return fmt::format("{}", fmt::join(names, " and "));
+}
+
+std::string explainedWords(const extended_model::EffectFit& effects) {
+  const diagnosis::Gap& gap = effects.gap;
+  const diagnosis::Shrink& shrink = effects.shrink;
+  return fmt::format(
+      "Stiffnesses alone leave {:.1f} µm rms per coordinate of the deflection in all load steps, {} {:.1f} µm; noise alone "
+      "{:.1f} µm. On postures held out the rms shrinks by {:.0f} % ({:.0f} to {:.0f} %), and {:.0f} % of what is above the noise "
+      "is explained.",
+      gap.before / io::kMicrometre, "with the effects", gap.after / io::kMicrometre, gap.noise / io::kMicrometre, 100.0 * shrink.value,
+      100.0 * shrink.low, 100.0 * shrink.high, 100.0 * effects.explained);
+}
+
+namespace {
+
+/// As the page says them: "bearing tilt (joints 2 to 6)".
+std::string addedWords(const extended_model::EffectFit& effects) {
+  std::vector<std::string> names;
+  for (const extended_model::AddedEffect& one : effects.added) {
+    const std::string name = effectName(one.effect);
+    names.push_back(one.detail.empty() ? name : fmt::format("{} ({})", name, shortDetail(one.detail)));
+  }
+  return fmt::format("{}", fmt::join(names, " and "));
+}
+
+}  // namespace
+
+std::string gainWords(const extended_model::ImprovedModel& model) {
+  if (model.effects.added.empty()) {
+    std::string words = "No effect was added to the joint springs.";
+    for (const std::string& note : model.effects.notes) words += " Note: " + note + ".";
+    return words;
+  }
+  const identification::Method which = identification::bestMethod(model.with);
+  const identification::MethodResult &without = model.without.of(which), &with = model.with.of(which);
+  if (!without.available || !with.available)
+    return fmt::format("With {} in the model no method can be compared.", addedWords(model.effects));
+  const auto share = [](const identification::MethodResult& method) {
+    return 100.0 * (method.subsets.compliances.empty() ? method.at_targets->all_postures
+                                                       : method.at_targets->subsets.held_out);
+  };
+  return fmt::format(
+      "With {} in the model {} leaves {:.0f} µm rms per coordinate instead of {:.0f} µm, and compensates {:.1f} % instead of "
+      "{:.1f} % of the reflectors' deflection{}.",
+      addedWords(model.effects), namesOf(which).brief, with.estimate.rms_residual / io::kMicrometre,
+      without.estimate.rms_residual / io::kMicrometre, share(with), share(without),
+      with.subsets.compliances.empty() ? "" : " in postures held out");
+}
+
+std::string doubtOf(const extended_model::AddedEffect& effect) {
+  if (!effect.plausible) return "its size is beyond what a machine can have: do not believe it";
+  constexpr double kStandsOut = 20.0;  // of BIC, the diagnosis's own limit
+  if (effect.score < kStandsOut)
+    return fmt::format("it does not stand out of the noise here (a fall of BIC of {:.1f}, {:.0f} would count): it was added "
+                       "because it was asked for",
+                       effect.score, kStandsOut);
+  return {};
+}
+
+}  // namespace stiffscope::reports

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <string>
+
+#include "core/extended_model/extended_model.h"
+
+namespace stiffscope::reports {
+
+/// "bearing_tilt (joint 3) and load_point_error"; "nothing" where no effect was added.
+std::string addedNames(const extended_model::EffectFit& effects);
+
+/// What the effects explain of the gap, in a sentence.
+std::string explainedWords(const extended_model::EffectFit& effects);
+
+/// "With bearing_tilt (joint 3) in the model DPP leaves 9 µm rms instead of 42 µm, and compensates ..."; by
+/// the method that stands for the campaign. Where nothing was added, that and why.
+std::string gainWords(const extended_model::ImprovedModel& model);
+
+/// What an effect came out as that a reader must know: beyond its bounds, or within the noise; empty where neither.
+std::string doubtOf(const extended_model::AddedEffect& effect);
+
+}  // namespace stiffscope::reports

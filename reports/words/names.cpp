@@ -1,0 +1,158 @@
+#include "reports/words/names.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <fmt/format.h>
+#include <numeric>
+
+#include "reports/words/rich_text.h"
+
+namespace stiffscope::reports {
+
+const char* sourceOf(const frames::Frames& frames, std::initializer_list<std::size_t> axes) {
+  const auto measured = static_cast<std::size_t>(
+      std::count_if(axes.begin(), axes.end(), [&](std::size_t axis) { return frames.axes[axis].measured; }));
+  if (measured == axes.size()) return "sweeps";
+  return measured == 0 ? "nominal" : "partly nominal";
+}
+
+std::string sourceMark(const frames::Frames& frames, std::initializer_list<std::size_t> axes) {
+  const std::string source = sourceOf(frames, axes);
+  return source == "sweeps" ? std::string() : " (" + source + ")";
+}
+
+const MethodNames& namesOf(identification::Method method) {
+  static constexpr std::array<MethodNames, 3> kNames{{{"cp", "CP", "Complete Pose"},
+                                                      {"pp", "PP", "Partial Pose"},
+                                                      {"dpp", "DPP", "Decoupled Partial Pose"}}};
+  return kNames[static_cast<std::size_t>(method)];
+}
+
+namespace {
+
+std::string grouped(std::size_t count) {
+  std::string digits = std::to_string(count);
+  for (std::ptrdiff_t at = static_cast<std::ptrdiff_t>(digits.size()) - 3; at > 0; at -= 3) {
+    digits.insert(static_cast<std::size_t>(at), "\u00a0");
+  }
+  return digits;
+}
+
+}  // namespace
+
+std::string longName(identification::Method method) {
+  return fmt::format("{} ({})", namesOf(method).full, namesOf(method).brief);
+}
+
+std::string shortName(identification::Method method) { return namesOf(method).brief; }
+
+std::string jointName(int joint) { return fmt::format("k_{{{}}}", joint + 1); }
+
+std::string pointName(const std::string& target_id) {
+  const bool numbered = target_id.size() > 1 && std::isalpha(static_cast<unsigned char>(target_id[0])) != 0 &&
+                        std::all_of(target_id.begin() + 1, target_id.end(),
+                                    [](unsigned char c) { return std::isdigit(c) != 0; });
+  return numbered ? fmt::format("{}_{{{}}}", target_id[0], target_id.substr(1)) : asIs(target_id);
+}
+
+std::string auditName(const std::string& check_id) {
+  std::string name = check_id;
+  std::replace(name.begin(), name.end(), '_', ' ');
+  return name;
+}
+
+std::string auditWord(preparation::AuditVerdict verdict) {
+  switch (verdict) {
+    case preparation::AuditVerdict::pass:
+      return "passes";
+    case preparation::AuditVerdict::warn:
+      return "warns";
+    case preparation::AuditVerdict::fail:
+      return "fails";
+    case preparation::AuditVerdict::not_testable:
+      break;
+  }
+  return "not testable";
+}
+
+std::string encoderState(campaign::DoubleEncoder state) {
+  if (state == campaign::DoubleEncoder::unspecified) return "not declared";
+  return state == campaign::DoubleEncoder::active ? "active" : "inactive";
+}
+
+std::string encoderWords(campaign::DoubleEncoder state) {
+  return state == campaign::DoubleEncoder::unspecified ? std::string()
+                                             : fmt::format("double encoders {}", encoderState(state));
+}
+
+JudgedPoint judgedPoint(const ReportCampaign& one) {
+  if (!one.identification.wrist_displacement.empty()) return {true, "P_{wrist}"};
+  const std::size_t count = one.campaign.targets.size();
+  if (count == 1) return {false, fmt::format("the reflector {}", pointName(one.campaign.targets.front().id))};
+  return {false, fmt::format("the reflectors (mean of {})", count)};
+}
+
+std::string postureName(const ReportCampaign& one, std::size_t load_case) {
+  return asIs(one.campaign.pose_ids[static_cast<std::size_t>(one.identification.cases[load_case].pose)]);
+}
+
+const std::vector<double>& displacementAt(const identification::Identification& identification, bool at_wrist) {
+  return at_wrist ? identification.wrist_displacement : identification.target_displacement;
+}
+
+const std::vector<double>& residualAt(const identification::MethodResult& method, bool at_wrist) {
+  return at_wrist ? method.wrist_residual : method.target_residual;
+}
+
+std::vector<double> heldOutResidualAt(const ReportCampaign& one, identification::Method method, bool at_wrist) {
+  const identification::MethodResult& result = one.identification.of(method);
+  std::vector<double> left =
+      at_wrist ? result.subsets.at_wrist.left_held_out : result.subsets.at_targets.left_held_out;
+  if (left.empty()) return residualAt(result, at_wrist);
+  for (std::size_t i = 0; !at_wrist && i < left.size(); ++i) {
+    left[i] /= static_cast<double>(one.identification.cases[i].targets.size());
+  }
+  return left;
+}
+
+const std::optional<identification::Compensation>& compensationAt(const identification::MethodResult& method, bool at_wrist) {
+  return at_wrist ? method.at_wrist : method.at_targets;
+}
+
+std::optional<double> heldOut(const identification::MethodResult& method, bool at_wrist) {
+  const auto& compensation = compensationAt(method, at_wrist);
+  if (!compensation || method.subsets.compliances.empty()) return std::nullopt;
+  return compensation->subsets.held_out;
+}
+
+std::optional<identification::Method> shownMethod(const identification::Identification& identification) {
+  for (const identification::Method method : {identification::Method::decoupled_partial_pose, identification::Method::partial_pose, identification::Method::complete_pose}) {
+    if (identification.of(method).available) return method;
+  }
+  return std::nullopt;
+}
+
+std::string capitalised(std::string text) {
+  if (!text.empty() && text[0] >= 'a' && text[0] <= 'z') text[0] = static_cast<char>(text[0] - 'a' + 'A');
+  return text;
+}
+
+double meanForce(const identification::Identification& identification) {
+  std::vector<double> forces;
+  for (const identification::LoadCase& load_case : identification.cases) forces.push_back(load_case.wrench.force.norm());
+  return mean(forces);
+}
+
+double mean(const std::vector<double>& values) {
+  if (values.empty()) return 0.0;
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+std::string subsetWords(const identification::SubsetStudy& study) {
+  if (study.compliances.empty()) return {};
+  return fmt::format("{} {} subsets of {} of {} postures", study.every_subset ? "all" : "a sample of",
+                     grouped(study.compliances.size()), study.size, study.of);
+}
+
+}  // namespace stiffscope::reports

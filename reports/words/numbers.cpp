@@ -1,0 +1,123 @@
+#include "reports/words/numbers.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+#include <fmt/format.h>
+#include <sstream>
+#include <string_view>
+#include <utility>
+
+#include "core/identification/estimate.h"
+
+namespace stiffscope::reports {
+
+Coverage coverageOf(const identification::StiffnessEstimate& estimate, int joint) {
+  const double factor = identification::coverageFactor(estimate, joint, identification::kStatedCoverage);
+  return {factor, std::isfinite(factor) ? estimate.dof(joint) : 0.0};
+}
+
+namespace {
+
+constexpr const char* kNoNumber = "–";
+
+std::string withMinus(const std::string& digits) {
+  if (digits.empty() || digits.front() != '-') return digits;
+  const std::string rest = digits.substr(1);
+  // What rounds to zero has no sign.
+  return rest.find_first_of("123456789") == std::string::npos ? rest : fmt::format("−{}", rest);
+}
+
+int exponentOf(double value) {
+  return value == 0.0 ? 0 : static_cast<int>(std::floor(std::log10(std::abs(value))));
+}
+
+/// Decimal places that show `digits` significant digits of a value once it is rounded to them.
+int placesFor(double value, int digits) {
+  const int places = digits - 1 - exponentOf(value);
+  const double unit = std::pow(10.0, -places);
+  return digits - 1 - exponentOf(std::round(value / unit) * unit);
+}
+
+}  // namespace
+
+std::string fixed(double value, int decimals) {
+  if (!std::isfinite(value)) return kNoNumber;
+  if (decimals >= 0) return withMinus(fmt::format("{:.{}f}", value, decimals));
+  const double unit = std::pow(10.0, -decimals);
+  return withMinus(fmt::format("{:.0f}", std::round(value / unit) * unit));
+}
+
+std::string significant(double value, int digits) {
+  if (!std::isfinite(value)) return kNoNumber;
+  if (value == 0.0) return "0";
+  if (std::abs(value) < 1e7) return fixed(value, placesFor(value, digits));
+  const int exponent = exponentOf(value);
+  return withMinus(fmt::format("{:.{}f}e{}", value / std::pow(10.0, exponent), digits - 1, exponent));
+}
+
+std::string withUncertainty(double value, double standard_uncertainty) {
+  if (!std::isfinite(value)) return kNoNumber;
+  if (!std::isfinite(standard_uncertainty) || standard_uncertainty <= 0.0) return significant(value, 4);
+  if (std::max(std::abs(value), standard_uncertainty) >= 1e7) {
+    return fmt::format("{} ± {}", significant(value, 2), significant(standard_uncertainty, 2));
+  }
+  const int places = placesFor(standard_uncertainty, 2);
+  return fmt::format("{} ± {}", fixed(value, places), fixed(standard_uncertainty, places));
+}
+
+std::string toPlaceOf(double value, double width) {
+  if (!std::isfinite(width) || width <= 0.0 || std::abs(value) >= 1e7) return significant(value, 4);
+  return fixed(value, placesFor(width, 2));
+}
+
+std::string asPrinted(double value) { return withMinus(fmt::format("{}", value)); }
+
+std::string percent(double share, int decimals) {
+  return std::isfinite(share) ? fmt::format("{}\u00a0%", fixed(100.0 * share, decimals)) : kNoNumber;
+}
+
+namespace {
+
+bool partOfWord(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }
+
+void replaceWord(std::string& text, std::string_view word, std::string_view by) {
+  for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + 1)) {
+    const bool begins = at == 0 || !partOfWord(text[at - 1]) || !partOfWord(word.front());
+    const std::size_t end = at + word.size();
+    const bool ends = end == text.size() || !partOfWord(text[end]) || !partOfWord(word.back());
+    if (begins && ends) text.replace(at, word.size(), by);
+  }
+}
+
+}  // namespace
+
+std::string withMicro(const std::string& text) {
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 4> kUnits{
+      {{"um", "µm"}, {"urad", "µrad"}, {"+-", "±"}, {"chi2", "χ²"}}};
+  std::string words = text;
+  for (const auto& [from, to] : kUnits) replaceWord(words, from, to);
+  return words;
+}
+
+std::string wrapped(const std::string& text, std::size_t indent) {
+  constexpr std::size_t kColumns = 98;
+  std::istringstream words(text);
+  std::string result, word;
+  std::size_t column = 0;
+  while (words >> word) {
+    if (column > 0 && column + 1 + word.size() > kColumns) {
+      result += '\n' + std::string(indent, ' ');
+      column = indent;
+    } else if (column > 0) {
+      result += ' ';
+      ++column;
+    }
+    result += word;
+    column += word.size();
+  }
+  return result;
+}
+
+}  // namespace stiffscope::reports

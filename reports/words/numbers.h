@@ -1,0 +1,54 @@
+#pragma once
+
+#include <fmt/format.h>
+#include <string>
+
+#include "core/identification/estimate.h"
+
+// Numbers as people read them: a real minus sign, no-break space before a unit, digits to the uncertainty.
+
+namespace stiffscope::reports {
+
+/// From standard to expanded uncertainty, U = k u (GUM, annex G): Student's t for 95 % at the effective degrees of
+/// freedom of a joint's compliance. NaN where none is left.
+struct Coverage {
+  double factor = 0.0;
+  double degrees_of_freedom = 0.0;
+};
+Coverage coverageOf(const identification::StiffnessEstimate& estimate, int joint);
+
+/// `decimals` places; "–" (no number) where the value is not finite.
+std::string fixed(double value, int decimals);
+
+/// `digits` significant digits without exponent below 10^7; above, with one.
+std::string significant(double value, int digits);
+
+/// "5.60 ± 0.10": the standard uncertainty to two digits, the value to the same
+/// place. Without a finite positive uncertainty the value to four digits.
+std::string withUncertainty(double value, double standard_uncertainty);
+
+/// `value` to the place of the second digit of `width`, a range or an uncertainty: numbers beside it have the
+/// same digits. Without a finite positive width four significant digits.
+std::string toPlaceOf(double value, double width);
+
+/// As few digits as tell the number: for one that comes from print.
+std::string asPrinted(double value);
+
+/// A share as "84.3 %".
+std::string percent(double share, int decimals = 1);
+
+/// A text of core with its units as people write them: um as µm, urad as µrad, +- as ±, chi2 as χ². Only
+/// whole words are changed.
+std::string withMicro(const std::string& text);
+
+/// `value` for printing with `decimals` places: what rounds to zero is zero, without the sign that would
+/// print as -0.000.
+inline double unsignedZero(double value, int decimals) {
+  const std::string printed = fmt::format("{:.{}f}", value, decimals);
+  return printed.find_first_of("123456789") == std::string::npos ? 0.0 : value;
+}
+
+/// Text broken at blanks to lines of at most 98 columns, those after the first indented by `indent` blanks.
+std::string wrapped(const std::string& text, std::size_t indent);
+
+}  // namespace stiffscope::reports

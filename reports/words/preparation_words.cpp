@@ -1,0 +1,56 @@
+#include "reports/words/preparation_words.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "core/io/units.h"
+#include "reports/words/numbers.h"
+
+namespace stiffscope::reports {
+
+namespace {
+
+std::string driftWords(const preparation::DriftCorrection& drift) {
+  if (!drift.taken_off) return fmt::format("no drift of the station taken off: {}", drift.reason);
+  std::string text = fmt::format(
+      "the station's motion by the floor nests taken off {} of them: at most {:.3f} mm and {:.0f} urad",
+      drift.readings, drift.displacement / io::kMillimetre, 1e6 * drift.turn);
+  if (drift.jumps_s.empty()) {
+    text += fmt::format(", a drift over {:.0f} s", drift.until_s);
+  } else {
+    std::vector<std::string> jumps;
+    for (const double time : drift.jumps_s) jumps.push_back(fmt::format("{:.0f} s", time));
+    text += fmt::format(", in a jump at about {}", fmt::join(jumps, ", "));
+  }
+  if (drift.without_time > 0) {
+    text += fmt::format("; {} state no time and stay as they were read", drift.without_time);
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string rejectedWords(const preparation::RejectedReading& reading) {
+  return fmt::format("{}:{}: {}", reading.file, reading.line, reading.reason);
+}
+
+std::string preparationWords(const preparation::Preparation& preparation) {
+  if (preparation.raw) return "raw: nothing left out, no drift taken off";
+  const std::size_t count = preparation.rejected.size();
+  return fmt::format("{} left out; {}", count == 0 ? "none" : std::to_string(count),
+                     driftWords(preparation.drift));
+}
+
+std::string preparationText(const preparation::Preparation& preparation) {
+  std::string text = wrapped(fmt::format("Readings: {}.", preparationWords(preparation)), 0) + '\n';
+  constexpr std::size_t kShown = 20;  // a screen; a reflector that lost its beam all day has hundreds
+  const std::size_t count = preparation.rejected.size();
+  for (std::size_t i = 0; i < std::min(count, kShown); ++i) {
+    text += fmt::format("  {}\n", wrapped("left out: " + rejectedWords(preparation.rejected[i]), 4));
+  }
+  if (count > kShown) text += fmt::format("  and {} more, which --json lists\n", count - kShown);
+  return text;
+}
+
+}  // namespace stiffscope::reports

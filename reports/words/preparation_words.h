@@ -1,0 +1,20 @@
+#pragma once
+
+#include <string>
+
+#include "core/preparation/prepare.h"
+
+namespace stiffscope::reports {
+
+/// What was done to the readings, in sentences: how many were left out and what drift was taken off, or why
+/// none; "raw" where that was asked for.
+std::string preparationWords(const preparation::Preparation& preparation);
+
+/// The same for people, wrapped, with file, line and reason of each rejected reading (of the first twenty) on
+/// a line of its own.
+std::string preparationText(const preparation::Preparation& preparation);
+
+/// "loading.csv:100: lost beam: the point is (0, 0, 0)"
+std::string rejectedWords(const preparation::RejectedReading& reading);
+
+}  // namespace stiffscope::reports

@@ -1,0 +1,143 @@
+#include "reports/words/verdict.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+#include "core/comparison/matched_postures.h"
+#include "reports/words/effect_words.h"
+#include "reports/words/names.h"
+#include "reports/words/numbers.h"
+#include "reports/words/rich_text.h"
+
+namespace stiffscope::reports {
+
+std::vector<std::string> doubtsOfTheMachine(const std::vector<ReportCampaign>& campaigns) {
+  std::vector<std::string> sentences;
+  for (std::size_t i = 1; i < campaigns.size(); ++i) {
+    const campaign::Campaign &first = campaigns.front().campaign, &other = campaigns[i].campaign;
+    std::vector<std::string> doubts{comparison::differenceOfMachines(first.robot, other.robot)};
+    if (doubts.front().empty()) doubts = comparison::doubtsOfOneMachine(first.robot, other.robot);
+    for (const std::string& doubt : doubts)
+      sentences.push_back(fmt::format("{} and {}: {}", first.name, other.name, doubt));
+  }
+  return sentences;
+}
+
+namespace {
+
+/// What the shown method finds, or why there is none.
+std::string jointsSentence(const identification::Identification& identification) {
+  const auto shown = shownMethod(identification);
+  if (!shown) {
+    return fmt::format("no joint stiffness can be identified: {}.",
+                       identification.of(identification::Method::partial_pose).reason);
+  }
+  const identification::StiffnessEstimate& estimate = identification.of(*shown).estimate;
+  std::vector<std::string> unseen, doubtful;
+  for (int joint = 0; joint < 6; ++joint) {
+    const bool seen = estimate.identifiable[static_cast<std::size_t>(joint)];
+    if (!seen) unseen.push_back(jointName(joint));
+    if (seen && !estimate.mark(joint).empty()) doubtful.push_back(jointName(joint));
+  }
+  std::string text =
+      fmt::format("{} finds the stiffness of {} of 6 joints", longName(*shown), 6 - unseen.size());
+  if (!unseen.empty()) {
+    text += fmt::format(
+        "; {} cannot be seen{}", fmt::join(unseen, ", "),
+        identification.identifiability.load_hangs ? " under a load that only hangs" : " in this data");
+  }
+  if (!doubtful.empty()) {
+    text += fmt::format("; {} {} not to be trusted", fmt::join(doubtful, ", "), doubtful.size() == 1 ? "is" : "are");
+  }
+  return text + ".";
+}
+
+/// "92 % of the deflection at P_{wrist} in postures it has not seen"; empty without a method.
+std::string compensatedWords(const ReportCampaign& one) {
+  const auto shown = shownMethod(one.identification);
+  const JudgedPoint point = judgedPoint(one);
+  if (!shown || !compensationAt(one.identification.of(*shown), point.at_wrist)) return {};
+  const identification::MethodResult& method = one.identification.of(*shown);
+  if (const auto held_out = heldOut(method, point.at_wrist)) {
+    return fmt::format("{} of the deflection at {} in postures it has not seen", percent(*held_out, 0),
+                       point.name);
+  }
+  return fmt::format("{} of the deflection at {} in the postures it was fitted to, too few to hold some out",
+                     percent(compensationAt(method, point.at_wrist)->all_postures, 0),
+                     point.name);
+}
+
+/// What tells the campaigns of a report apart: the state of the double encoders, else the name.
+std::string labelOf(const ReportCampaign& one) {
+  const std::string state = encoderWords(one.campaign.double_encoder);
+  return state.empty() ? fmt::format("in {}", asIs(one.campaign.name)) : fmt::format("with {}", state);
+}
+
+bool sameJoints(const std::vector<ReportCampaign>& campaigns) {
+  return std::all_of(campaigns.begin(), campaigns.end(), [&](const ReportCampaign& one) {
+    return jointsSentence(one.identification) == jointsSentence(campaigns.front().identification);
+  });
+}
+
+/// Said once where it is the same in all campaigns.
+std::string together(const std::vector<ReportCampaign>& campaigns) {
+  std::string text = capitalised(jointsSentence(campaigns.front().identification));
+  std::vector<std::string> shares;
+  for (const ReportCampaign& one : campaigns) {
+    const std::string words = compensatedWords(one);
+    if (words.empty()) continue;
+    const std::string label = campaigns.size() > 1 ? fmt::format("{} ", labelOf(one)) : std::string();
+    shares.push_back(fmt::format("{}it takes away {}", label, words));
+  }
+  if (!shares.empty()) text += fmt::format(" {}.", capitalised(fmt::format("{}", fmt::join(shares, "; "))));
+  return text;
+}
+
+std::string oneByOne(const std::vector<ReportCampaign>& campaigns) {
+  std::string text;
+  for (const ReportCampaign& one : campaigns) {
+    text += fmt::format("{}{}, {}", text.empty() ? "" : " ", capitalised(labelOf(one)),
+                        jointsSentence(one.identification));
+    const std::string words = compensatedWords(one);
+    if (!words.empty()) text += fmt::format(" It takes away {}.", words);
+  }
+  return text;
+}
+
+/// What is there besides joint springs; empty without a diagnosis.
+std::string gapSentence(const ReportCampaign& one) {
+  if (one.diagnosis == nullptr || !one.diagnosis->usable) return {};
+  if (one.diagnosis->verdict.entries.empty()) return "What joint springs leave is noise, or too small to matter.";
+  return asIs(fmt::format("Besides joint springs the readings show {} (see What the model misses).",
+                                presentWords(one.diagnosis->verdict)));
+}
+
+/// Said once where it is the same in all campaigns.
+std::string gapSentences(const std::vector<ReportCampaign>& campaigns) {
+  const std::string first = gapSentence(campaigns.front());
+  const bool same = std::all_of(campaigns.begin(), campaigns.end(),
+                                [&](const ReportCampaign& one) { return gapSentence(one) == first; });
+  if (same) return first.empty() ? first : " " + first;
+  std::string text;
+  for (const ReportCampaign& one : campaigns) {
+    const std::string words = gapSentence(one);
+    if (!words.empty()) text += fmt::format(" {}: {}", capitalised(labelOf(one)), words);
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string verdictOf(const std::vector<ReportCampaign>& campaigns,
+                      const std::optional<AvoidedByEncoders>& avoided) {
+  if (campaigns.empty()) return {};
+  std::string text = sameJoints(campaigns) ? together(campaigns) : oneByOne(campaigns);
+  if (avoided && avoided->available) {
+    text += fmt::format(" The double encoders avoid {} of the deflection at {}.",
+                        percent(avoided->share, 0), pointOf(*avoided));
+  }
+  text += gapSentences(campaigns);
+  return text;
+}
+
+}  // namespace stiffscope::reports

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "reports/report_content.h"
+
+namespace stiffscope::reports {
+
+/// What says that the campaigns of a report are not of one machine, a sentence each, every campaign against
+/// the first: axes elsewhere (differenceOfMachines), else what doubtsOfOneMachine finds. Empty for a single
+/// campaign.
+std::vector<std::string> doubtsOfTheMachine(const std::vector<ReportCampaign>& campaigns);
+
+/// The result in plain words, one or two sentences a campaign: which joint stiffnesses are known, by which
+/// method, what share of the deflection they compensate at which point; then what the double encoders avoid, and what the
+/// diagnosis finds besides joint springs.
+std::string verdictOf(const std::vector<ReportCampaign>& campaigns,
+                      const std::optional<AvoidedByEncoders>& avoided);
+
+}  // namespace stiffscope::reports
