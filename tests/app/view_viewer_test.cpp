@@ -50,7 +50,7 @@ struct Hand {
   campaign::States states;
 };
 
-TEST(app::Viewer, StepsThroughThePosturesAndAroundTheEnd) {
+TEST(Viewer, StepsThroughThePosturesAndAroundTheEnd) {
   Hand hand;
   app::Viewer viewer = hand.viewer();
   std::vector<std::string> seen;
@@ -65,7 +65,7 @@ TEST(app::Viewer, StepsThroughThePosturesAndAroundTheEnd) {
   EXPECT_EQ(viewer.status().rfind("posture C", 0), 0u) << viewer.status();
 }
 
-TEST(app::Viewer, KeysTakeVectorsAwayAndBringThemBack) {
+TEST(Viewer, KeysTakeVectorsAwayAndBringThemBack) {
   Hand hand;
   app::Viewer viewer = hand.viewer();
   const auto wrist = [&] { return *viewer.scene().poses[0].wrist; };
@@ -85,7 +85,7 @@ TEST(app::Viewer, KeysTakeVectorsAwayAndBringThemBack) {
   EXPECT_TRUE(hand.closed);
 }
 
-TEST(app::Viewer, MagnificationDoublesAndComesBackToWhatSuits) {
+TEST(Viewer, MagnificationDoublesAndComesBackToWhatSuits) {
   Hand hand;
   app::Viewer viewer = hand.viewer({identification::Method::decoupled_partial_pose}, 30.0);
   viewer.press("plus");
@@ -98,7 +98,7 @@ TEST(app::Viewer, MagnificationDoublesAndComesBackToWhatSuits) {
   EXPECT_GT(*viewer.scene().magnification, 15.0);
 }
 
-TEST(app::Viewer, ResidualIsMeasuredLessPredictedByEachMethod) {
+TEST(Viewer, ResidualIsMeasuredLessPredictedByEachMethod) {
   Hand hand;
   app::Viewer viewer = hand.viewer();
   EXPECT_NEAR(viewer.scene().poses[0].wrist->residual->z(), -0.1e-3, 1e-15);  // DPP leaves a tenth of 1 mm
@@ -108,7 +108,7 @@ TEST(app::Viewer, ResidualIsMeasuredLessPredictedByEachMethod) {
   EXPECT_NEAR(viewer.scene().poses[0].wrist->residual->z(), -0.2e-3, 1e-15);
 }
 
-TEST(app::Viewer, PickedPointSaysItsNumbersAndStaysPickedFromPostureToPosture) {
+TEST(Viewer, PickedPointSaysItsNumbersAndStaysPickedFromPostureToPosture) {
   Hand hand;
   app::Viewer viewer = hand.viewer();
   viewer.pick(3);  // three targets, then P_wrist
@@ -128,7 +128,7 @@ TEST(app::Viewer, PickedPointSaysItsNumbersAndStaysPickedFromPostureToPosture) {
   EXPECT_TRUE(viewer.scene().panels.empty());
 }
 
-TEST(app::Viewer, WithoutAModelTheMeasuredVectorsStay) {
+TEST(Viewer, WithoutAModelTheMeasuredVectorsStay) {
   Hand hand;
   hand.small.method(identification::Method::partial_pose).reason = "the load turns no joint enough to see its stiffness";
   app::Viewer viewer = hand.viewer({std::nullopt});

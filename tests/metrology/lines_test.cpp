@@ -8,7 +8,7 @@
 namespace stiffscope {
 namespace {
 
-TEST(metrology::CommonPerpendicular, ByHand) {
+TEST(CommonPerpendicular, ByHand) {
   // The x axis, and a line along y three above it at x = 2.
   const metrology::CommonPerpendicular found = metrology::commonPerpendicular({{-7, 0, 0}, {1, 0, 0}}, {{2, 11, 3}, {0, 1, 0}});
   EXPECT_LT((found.foot_on_first - Eigen::Vector3d(2, 0, 0)).norm(), 1e-15);
@@ -17,7 +17,7 @@ TEST(metrology::CommonPerpendicular, ByHand) {
   EXPECT_DOUBLE_EQ(found.angle, std::numbers::pi / 2.0);
 }
 
-TEST(metrology::CommonPerpendicular, IsTheShortestWay) {
+TEST(CommonPerpendicular, IsTheShortestWay) {
   Noise noise(4);
   for (int k = 0; k < 50; ++k) {
     const metrology::Line first{noise.normal3(), noise.direction()}, second{noise.normal3(), noise.direction()};
@@ -32,7 +32,7 @@ TEST(metrology::CommonPerpendicular, IsTheShortestWay) {
   }
 }
 
-TEST(metrology::CommonPerpendicular, ParallelLinesAreFiniteAndKeepTheirDistance) {
+TEST(CommonPerpendicular, ParallelLinesAreFiniteAndKeepTheirDistance) {
   const metrology::CommonPerpendicular found = metrology::commonPerpendicular({{0, 0, 5}, {0, 0, 1}}, {{3, 4, -2}, {0, 0, 1}});
   EXPECT_DOUBLE_EQ(found.distance, 5.0);
   EXPECT_DOUBLE_EQ(found.angle, 0.0);
@@ -80,7 +80,7 @@ TEST(BaseFrame, ByHand) {
   EXPECT_LT((other.linear() - Eigen::Vector3d(-1, 1, -1).asDiagonal().toDenseMatrix()).norm(), 1e-15);
 }
 
-TEST(metrology::TrackerNoise, ByHand) {
+TEST(TrackerNoise, ByHand) {
   // 5 m along x from the station: 4 + 0.6 * 5 = 7 um along x, 6 + 2.2 * 5 = 17 um across.
   const metrology::TrackerNoise noise{4e-6, 0.6e-6, 6e-6, 2.2e-6, {1, 0, 0}};
   const Eigen::Matrix3d covariance = noise.covarianceAt({6, 0, 0});
@@ -178,7 +178,7 @@ TEST(PropagatePair, ParallelLinesStillHaveAnUncertainAngle) {
   EXPECT_LT(stated, 1.5 * largest);
 }
 
-TEST(metrology::MeasuredLine, MovedByItsParameters) {
+TEST(MeasuredLine, MovedByItsParameters) {
   metrology::MeasuredLine line;  // up the z axis
   const metrology::Line moved = line.moved({0.1, 0.2, 1e-3, -2e-3});
   EXPECT_LT((moved.point - Eigen::Vector3d(0.1, 0.2, 0)).norm(), 1e-15);

@@ -14,7 +14,7 @@ metrology::MeasuredLine someLine() {
   return line;
 }
 
-TEST(metrology::MeasuredLine, StepToUndoesMoved) {
+TEST(MeasuredLine, StepToUndoesMoved) {
   const metrology::MeasuredLine line = someLine();
   const Eigen::Vector4d step(2e-3, -1e-3, 3e-3, 4e-3);
   metrology::Line moved = line.moved(step);
@@ -25,7 +25,7 @@ TEST(metrology::MeasuredLine, StepToUndoesMoved) {
   EXPECT_LT((line.stepTo(moved) - step).norm(), 1e-14);
 }
 
-TEST(metrology::MeasuredLine, ReversedIsTheSameLineWithTheSameRegion) {
+TEST(MeasuredLine, ReversedIsTheSameLineWithTheSameRegion) {
   metrology::MeasuredLine line = someLine();
   Eigen::Matrix4d half = Eigen::Matrix4d::Identity();
   half(2, 0) = 0.9, half(3, 1) = -0.7;
@@ -51,7 +51,7 @@ TEST(LineDerivatives, OfAPointsHeightAboveALine) {
   EXPECT_LT((by - expected).norm(), 1e-8);  // rounding of metres over steps of 2e-7
 }
 
-TEST(metrology::FrameError, AFrameTurnedByHand) {
+TEST(FrameError, AFrameTurnedByHand) {
   // Measured frame turned by 1 mrad about its z and set 2 mm along its x: a point on the true x axis at 1 m is read
   // at -1 mm in y and 2 mm less in x.
   Eigen::Isometry3d truth = Eigen::Isometry3d::Identity();
@@ -69,7 +69,7 @@ TEST(metrology::FrameError, AFrameTurnedByHand) {
   EXPECT_LT((metrology::vectorByFrameError(x) * error - Eigen::Vector3d(0, -1e-3, 0)).norm(), 1e-9);
 }
 
-TEST(metrology::TrilaterationSensitivity, AgreesWithTheEquationsOfThePaper) {
+TEST(TrilaterationSensitivity, AgreesWithTheEquationsOfThePaper) {
   // (13)-(20) themselves, points and radii moved one by one.
   const std::array<Eigen::Vector3d, 3> points{{{0.3, 0.05, 0.1}, {-0.17, 0.27, 0.08}, {-0.1, -0.3, 0.2}}};
   const Eigen::Vector3d wrist(0.05, 0.02, -0.4);
@@ -93,7 +93,7 @@ TEST(metrology::TrilaterationSensitivity, AgreesWithTheEquationsOfThePaper) {
   }
 }
 
-TEST(metrology::TrilaterationSensitivity, HasNoBoundInThePlaneOfThePoints) {
+TEST(TrilaterationSensitivity, HasNoBoundInThePlaneOfThePoints) {
   const std::array<Eigen::Vector3d, 3> points{{{1, 0, 0}, {0, 1, 0}, {-1, 0, 0}}};
   EXPECT_FALSE(metrology::trilaterationSensitivity(points, {0.2, 0.1, 0.0}));
   EXPECT_TRUE(metrology::trilaterationSensitivity(points, {0.2, 0.1, 0.3}));

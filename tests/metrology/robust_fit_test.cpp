@@ -56,17 +56,17 @@ std::vector<int> leftOut(Shape shape, const metrology::MeasuredPoints& points, i
   };
   switch (shape) {
     case Shape::line:
-      return run(fitLine);
+      return run(metrology::fitLine);
     case Shape::plane:
-      return run(fitPlane);
+      return run(metrology::fitPlane);
     case Shape::circle:
       return run([](const metrology::MeasuredPoints& some) { return metrology::fitCircle(some); });
     case Shape::sphere:
-      return run(fitSphere);
+      return run(metrology::fitSphere);
     case Shape::cylinder:
       break;
   }
-  return run(fitCylinder);
+  return run(metrology::fitCylinder);
 }
 
 constexpr std::array kShapes{Shape::line, Shape::plane, Shape::circle, Shape::sphere, Shape::cylinder};
@@ -127,7 +127,7 @@ TEST(FitRobustly, GoodCirclesOfAnAxisAreRarelyRejected) {
           if (with_covariances) circles[target].covariances.push_back(covariance);
         }
       }
-      const auto robust = metrology::fitRobustly(circles, fitAxis);
+      const auto robust = metrology::fitRobustly(circles, metrology::fitAxis);
       EXPECT_TRUE(robust.fit.determined);
       sets += !robust.rejected.empty();
     }
@@ -188,7 +188,7 @@ TEST(FitRobustly, ALostBeamAmongTheCirclesOfAnAxis) {
     }
   }
   circles[1].points[6].setZero();
-  const auto robust = metrology::fitRobustly(circles, fitAxis);
+  const auto robust = metrology::fitRobustly(circles, metrology::fitAxis);
   ASSERT_TRUE(robust.fit.determined) << robust.fit.reason;
   ASSERT_EQ(robust.rejected.size(), 1u);
   EXPECT_EQ(robust.rejected[0].group, 1u);
@@ -207,7 +207,7 @@ TEST(FitRobustly, SaysWhereItCannotTellWhichAreWrong) {
   Noise noise(9);
   metrology::MeasuredPoints points = readings(Shape::plane, 12, noise, true);
   for (std::size_t i = 0; i < 12; i += 2) points.points[i] += 0.01 * kAxis;
-  const auto robust = metrology::fitRobustly(points, fitPlane);
+  const auto robust = metrology::fitRobustly(points, metrology::fitPlane);
   EXPECT_FALSE(robust.fit.determined);
   EXPECT_NE(robust.fit.reason.find("more than a third"), std::string::npos) << robust.fit.reason;
 }

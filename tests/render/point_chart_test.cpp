@@ -31,14 +31,14 @@ render::PointChart postures(int count, int panels) {
   return chart;
 }
 
-TEST(render::PointChart, NothingIsCutFromOneToSixtyPostures) {
+TEST(PointChart, NothingIsCutFromOneToSixtyPostures) {
   for (const int count : {1, 2, 19, 24, 60}) {
     SCOPED_TRACE(count);
     expectNothingClipped(decoded(render::render(postures(count, 6))));
   }
 }
 
-TEST(render::PointChart, LabelsUnderTheAxisStandApart) {
+TEST(PointChart, LabelsUnderTheAxisStandApart) {
   // The strip of the labels: every label is a piece of ink; were two run together there would be fewer gaps.
   for (const int count : {19, 60}) {
     render::PointChart chart = postures(count, 1);
@@ -60,7 +60,7 @@ TEST(render::PointChart, LabelsUnderTheAxisStandApart) {
   }
 }
 
-TEST(render::PointChart, AShapeIsTrueToScale) {
+TEST(PointChart, AShapeIsTrueToScale) {
   render::PointChart chart;
   render::ShapePanel panel;
   render::PointSeries ring;
@@ -77,7 +77,7 @@ TEST(render::PointChart, AShapeIsTrueToScale) {
   EXPECT_GT(width, 300);
 }
 
-TEST(render::PointChart, AHostileTitleLeavesThePlotItsRoom) {
+TEST(PointChart, AHostileTitleLeavesThePlotItsRoom) {
   render::PointChart plain = postures(19, 1), hostile = plain;
   plain.title = "Two lines of a title " + std::string(120, 'i');
   for (const std::string& name : {std::string(10'000, 'W'), std::string("<script>alert(\"1\")</script>\n\u202E\u05d0\u05d1"),
@@ -94,7 +94,7 @@ TEST(render::PointChart, AHostileTitleLeavesThePlotItsRoom) {
   }
 }
 
-TEST(render::PointChart, RefusesWhatDoesNotFit) {
+TEST(PointChart, RefusesWhatDoesNotFit) {
   EXPECT_THROW(render::render(render::PointChart{}), std::invalid_argument);
   render::PointChart chart = postures(3, 1);
   chart.diagrams[0].series[0].errors = {1.0};

@@ -10,7 +10,7 @@ namespace {
 
 using Strings = std::vector<std::string>;
 
-TEST(render::Ticks, RoundsToOneTwoFive) {
+TEST(Ticks, RoundsToOneTwoFive) {
   EXPECT_DOUBLE_EQ(render::roundDown125(7.3), 5);
   EXPECT_DOUBLE_EQ(render::roundDown125(0.02), 0.02);
   EXPECT_DOUBLE_EQ(render::roundUp125(7.3), 10);
@@ -18,13 +18,13 @@ TEST(render::Ticks, RoundsToOneTwoFive) {
   EXPECT_DOUBLE_EQ(render::roundUp125(100), 100);
 }
 
-TEST(render::Ticks, LinearLabelsHaveTheDecimalsOfTheStep) {
+TEST(Ticks, LinearLabelsHaveTheDecimalsOfTheStep) {
   EXPECT_EQ(render::linearTicks(0, 1, 6).labels, (Strings{"0", "0.2", "0.4", "0.6", "0.8", "1.0"}));
   EXPECT_EQ(render::linearTicks(-1, 1, 5).labels, (Strings{"\u22121.0", "\u22120.5", "0", "0.5", "1.0"}));
   EXPECT_EQ(render::linearTicks(0, 4e6, 3).labels, (Strings{"0", "2\u00d710\u2076", "4\u00d710\u2076"}));
 }
 
-TEST(render::Ticks, LinearTicksStayInsideAndAreNotTooMany) {
+TEST(Ticks, LinearTicksStayInsideAndAreNotTooMany) {
   for (double upper = 0.013; upper < 5000; upper *= 1.7) {
     const render::Ticks ticks = render::linearTicks(-0.3 * upper, upper, 8);
     ASSERT_GE(ticks.positions.size(), 2u) << upper;
@@ -34,12 +34,12 @@ TEST(render::Ticks, LinearTicksStayInsideAndAreNotTooMany) {
   }
 }
 
-TEST(render::Ticks, LogTicksAreDecades) {
+TEST(Ticks, LogTicksAreDecades) {
   EXPECT_EQ(render::logTicks(0.5, 2e4).labels, (Strings{"1", "10", "100", "1000", "10\u2074"}));
   EXPECT_GE(render::logTicks(3, 6).positions.size(), 3u);
 }
 
-TEST(render::Ticks, FactorsAreWrittenOut) {
+TEST(Ticks, FactorsAreWrittenOut) {
   EXPECT_EQ(render::factorText(40000), "40\u00a0000");
   EXPECT_EQ(render::factorText(12050), "12\u00a0050");
   EXPECT_EQ(render::factorText(500), render::shortNumber(500));
@@ -47,7 +47,7 @@ TEST(render::Ticks, FactorsAreWrittenOut) {
   EXPECT_EQ(render::factorText(0.5), render::shortNumber(0.5));
 }
 
-TEST(render::Ticks, ShortNumbers) {
+TEST(Ticks, ShortNumbers) {
   EXPECT_EQ(render::shortNumber(200), "200");
   EXPECT_EQ(render::shortNumber(-2.5), "\u22122.5");
   EXPECT_EQ(render::shortNumber(50000), "5\u00d710\u2074");
@@ -55,7 +55,7 @@ TEST(render::Ticks, ShortNumbers) {
   EXPECT_EQ(render::shortNumber(0), "0");
 }
 
-TEST(render::Spread, PercentilesByHand) {
+TEST(Spread, PercentilesByHand) {
   const render::Spread spread = render::spreadOf({5, 1, 4, 2, 13});
   EXPECT_DOUBLE_EQ(spread.p5, 1.2);
   EXPECT_DOUBLE_EQ(spread.p25, 2);

@@ -15,7 +15,7 @@ render::ArmScene seenBy(const render::ViewCamera& camera) {
   return scene;
 }
 
-TEST(render::ViewCamera, FitsUntilTheHandTakesIt) {
+TEST(ViewCamera, FitsUntilTheHandTakesIt) {
   render::ViewCamera camera;
   camera.look(render::View::Front);
   camera.framedAs({{1, 2, 3}, 4});
@@ -32,7 +32,7 @@ TEST(render::ViewCamera, FitsUntilTheHandTakesIt) {
 
 // From the front y is to the right and z up: pulled by a quarter of a room 4 m high, the centre goes the
 // other way.
-TEST(render::ViewCamera, ShiftingMovesTheCentreAgainstTheHand) {
+TEST(ViewCamera, ShiftingMovesTheCentreAgainstTheHand) {
   render::ViewCamera camera;
   camera.look(render::View::Front);
   camera.framedAs({{0, 0, 0}, 4});
@@ -42,7 +42,7 @@ TEST(render::ViewCamera, ShiftingMovesTheCentreAgainstTheHand) {
 
 // Pulled to the right by a quarter turn, what was in front is at the right: then the view is from the left
 // side, along the turned y axis.
-TEST(render::ViewCamera, TurnsTheSceneWithTheHand) {
+TEST(ViewCamera, TurnsTheSceneWithTheHand) {
   render::ViewCamera camera;
   camera.look(render::View::Front);  // against x
   camera.turn(M_PI / 2, 0);
@@ -51,7 +51,7 @@ TEST(render::ViewCamera, TurnsTheSceneWithTheHand) {
   EXPECT_LT((direction.cross(Eigen::Vector3d::UnitZ()) - Eigen::Vector3d::UnitX()).norm(), kRounding);
 }
 
-TEST(render::ViewCamera, TippingEndsShortOfTheVertical) {
+TEST(ViewCamera, TippingEndsShortOfTheVertical) {
   render::ViewCamera camera;
   camera.look(render::View::Top);
   for (int i = 0; i < 20; ++i) camera.turn(0.1, 0.5);
@@ -64,7 +64,7 @@ TEST(render::ViewCamera, TippingEndsShortOfTheVertical) {
 }
 
 // Straight down has y up; tipping back from there looks along y.
-TEST(render::ViewCamera, FromTheTopTheHeadingIsThatOfY) {
+TEST(ViewCamera, FromTheTopTheHeadingIsThatOfY) {
   render::ViewCamera camera;
   camera.look(render::View::Top);
   camera.turn(0, -M_PI / 2);

@@ -4,7 +4,7 @@
 #include <vector>
 #include "core/campaign/campaign.h"
 #include "core/identification/identify.h"
-#include "tests/core/example_arm.h"
+#include "tests/fixtures/example_arm.h"
 
 namespace stiffscope {
 

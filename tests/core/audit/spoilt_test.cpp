@@ -1,0 +1,296 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include "core/io/units.h"
+#include "tests/fixtures/spoilt_campaign.h"
+
+// The audit names each way a day is spoilt, with the row where a row is guilty.
+
+namespace stiffscope {
+namespace {
+
+/// Checks that found something and that the good campaign passes, but for `meant`.
+std::vector<std::string> besides(const audit::AuditReport& report, const std::vector<std::string>& meant) {
+  std::vector<std::string> others;
+  for (std::size_t i = 0; i < report.checks.size(); ++i) {
+    const preparation::AuditCheck& check = report.checks[i];
+    if (check.verdict != preparation::AuditVerdict::warn && check.verdict != preparation::AuditVerdict::fail) continue;
+    if (std::find(meant.begin(), meant.end(), check.id) != meant.end()) continue;
+    if (goodReport().checks[i].verdict == preparation::AuditVerdict::pass)
+      others.push_back(check.id + ": " + check.message);
+  }
+  return others;
+}
+
+#define EXPECT_ONLY(report, ...) \
+  EXPECT_EQ(besides(report, std::vector<std::string>(__VA_ARGS__)), std::vector<std::string>{})
+
+campaign::LoadingReading& reading(campaign::Campaign& campaign, int pose, int step, const std::string& repeat, int target) {
+  for (campaign::LoadingReading& row : campaign.loading->rows) {
+    if (row.pose == pose && row.step == step && row.repeat == repeat && row.target == target) return row;
+  }
+  throw std::out_of_range("no such reading");
+}
+
+campaign::State& state(campaign::Campaign& campaign, int pose, int step) {
+  for (campaign::State& row : campaign.states->rows) {
+    if (row.pose == pose && row.step == step) return row;
+  }
+  throw std::out_of_range("no such state");
+}
+
+TEST(SpoiltCampaign, TheGoodOneDoesNotFail) {
+  EXPECT_NE(goodReport().verdict, preparation::AuditVerdict::fail);
+  EXPECT_TRUE(goodReport().rejected.empty());
+}
+
+TEST(SpoiltCampaign, LostBeam) {
+  std::size_t line = 0;
+  const audit::AuditReport report = auditSpoilt([&](campaign::Campaign& campaign) {
+    campaign::LoadingReading& row = reading(campaign, 4, 2, "2", 1);
+    row.point.setZero();
+    line = row.line;
+  });
+  const preparation::AuditCheck& check = checkNamed(report, "lost_beam");
+  EXPECT_EQ(check.verdict, preparation::AuditVerdict::fail);
+  EXPECT_EQ(check.where, fmt::format("loading.csv:{}", line));
+  ASSERT_EQ(report.rejected.size(), 1u);
+  EXPECT_EQ(report.rejected[0].line, line);
+  EXPECT_EQ(checkNamed(report, "completeness").verdict, preparation::AuditVerdict::warn);  // a repeat short now
+  EXPECT_ONLY(report, {"lost_beam", "completeness"});
+}
+
+TEST(SpoiltCampaign, DuplicatedReading) {
+  std::size_t line = 0;
+  const audit::AuditReport report = auditSpoilt([&](campaign::Campaign& campaign) {
+    campaign::LoadingReading& row = reading(campaign, 7, 1, "3", 0);
+    row.point = reading(campaign, 7, 1, "2", 0).point;
+    line = row.line;
+  });
+  EXPECT_EQ(checkNamed(report, "duplicate_readings").where, fmt::format("loading.csv:{}", line));
+  EXPECT_ONLY(report, {"duplicate_readings", "completeness"});
+}
+
+TEST(SpoiltCampaign, OneRepeatOff) {
+  std::size_t line = 0;
+  const audit::AuditReport report = auditSpoilt([&](campaign::Campaign& campaign) {
+    campaign::LoadingReading& row = reading(campaign, 2, 3, "1", 2);
+    row.point.y() += 0.3e-3;  // 20 times the noise
+    line = row.line;
+  });
+  EXPECT_EQ(checkNamed(report, "repeat_outliers").where, fmt::format("loading.csv:{}", line));
+  EXPECT_ONLY(report, {"repeat_outliers", "completeness"});
+}
+
+TEST(SpoiltCampaign, ReflectorsExchanged) {
+  const audit::AuditReport report = auditSpoilt([&](campaign::Campaign& campaign) {
+    for (const char* repeat : {"1", "2", "3"}) {
+      std::swap(reading(campaign, 5, 3, repeat, 0).point, reading(campaign, 5, 3, repeat, 1).point);
+    }
+  });
+  const preparation::AuditCheck& check = checkNamed(report, "rigid_tool");
+  EXPECT_EQ(check.verdict, preparation::AuditVerdict::fail);
+  EXPECT_TRUE(contains(check.message, "P10 is P11, P11 is P10")) << check.message;
+  EXPECT_TRUE(contains(check.message, "pose 6, step 3")) << check.message;
+  campaign::Campaign campaign = good();
+  EXPECT_EQ(check.where, fmt::format("loading.csv:{}", reading(campaign, 5, 3, "1", 0).line));
+}
+
+TEST(SpoiltCampaign, LooseReflector) {
+  const audit::AuditReport report = auditSpoilt([](campaign::Campaign& campaign) {
+    // P11 sits 0.1 mm lower in its nest from the eighth posture on.
+    for (campaign::LoadingReading& row : campaign.loading->rows) {
+      if (row.target == 1 && row.pose >= 7) row.point.z() -= 0.1e-3;
+    }
+  });
+  const preparation::AuditCheck& check = checkNamed(report, "rigid_tool");
+  EXPECT_NE(check.verdict, preparation::AuditVerdict::pass);
+  EXPECT_TRUE(contains(check.message, "reflector P11 moves")) << check.message;
+  EXPECT_TRUE(contains(check.where, "P11")) << check.where;
+}
+
+TEST(SpoiltCampaign, StepsInWrongOrder) {
+  std::size_t line = 0;
+  const audit::AuditReport report = auditSpoilt([&](campaign::Campaign& campaign) {
+    for (campaign::LoadingReading& row : campaign.loading->rows) {
+      if (row.pose != 3 || (row.step != 1 && row.step != 2)) continue;
+      row.step = 3 - row.step;
+      if (row.step == 2 && line == 0) line = row.line;
+    }
+  });
+  const preparation::AuditCheck& check = checkNamed(report, "time_order");
+  EXPECT_EQ(check.verdict, preparation::AuditVerdict::fail);
+  EXPECT_EQ(check.where, fmt::format("loading.csv:{}", line));
+  EXPECT_TRUE(contains(check.message, "pose 4: step 2 before step 1")) << check.message;
+}
+
+TEST(SpoiltCampaign, StationBumpedBeforeLoadingWithoutNests) {
+  const audit::AuditReport report = auditSpoilt([](campaign::Campaign& campaign) {
+    campaign.nests.reset();
+    for (campaign::LoadingReading& row : campaign.loading->rows) row.point += Eigen::Vector3d(1.2e-3, -0.8e-3, 0.5e-3);
+  });
+  const preparation::AuditCheck& check = checkNamed(report, "frame_moved");
+  EXPECT_EQ(check.verdict, preparation::AuditVerdict::fail);
+  EXPECT_NEAR(*check.value, 1.53, 0.15);  // mm; a tenth for what the bearings' sag leaves open
+  EXPECT_EQ(checkNamed(report, "station_drift").verdict, preparation::AuditVerdict::not_testable);
+  EXPECT_ONLY(report, {"frame_moved"});
+}
+
+TEST(SpoiltCampaign, StationDrifts) {
+  const audit::AuditReport report = auditSpoilt([](campaign::Campaign& campaign) {
+    const auto drift = [](auto& table) {
+      for (auto& row : table.rows) row.point.x() += 5e-8 * row.time_s;  // 3 um a minute
+    };
+    drift(*campaign.circle_sweeps);
+    drift(*campaign.wrist_sweep);
+    drift(*campaign.loading);
+    drift(*campaign.nests);
+  });
+  const preparation::AuditCheck& check = checkNamed(report, "station_drift");
+  EXPECT_EQ(check.verdict, preparation::AuditVerdict::fail);
+  EXPECT_TRUE(contains(check.message, "a drift of")) << check.message;
+  EXPECT_ONLY(report, {"station_drift"});
+}
+
+TEST(SpoiltCampaign, NestMoved) {
+  std::size_t line = 0;
+  const audit::AuditReport report = auditSpoilt([&](campaign::Campaign& campaign) {
+    for (campaign::NestReading& row : campaign.nests->rows) {
+      if (row.nest != 2 || row.time_s < 5000.0) continue;
+      row.point.x() += 0.5e-3;
+      if (line == 0) line = row.line;
+    }
+  });
+  const preparation::AuditCheck& check = checkNamed(report, "nest_moved");
+  EXPECT_EQ(check.verdict, preparation::AuditVerdict::warn);
+  EXPECT_EQ(check.where, fmt::format("nests.csv:{}", line));
+  EXPECT_TRUE(contains(check.message, "nest N3 moved")) << check.message;
+  EXPECT_ONLY(report, {"nest_moved"});
+}
+
+TEST(SpoiltCampaign, WrongTare) {
+  const audit::AuditReport report = auditSpoilt([](campaign::Campaign& campaign) {
+    for (campaign::State& row : campaign.states->rows) row.wrench_in_cell[2] += 8.0;
+  });
+  const preparation::AuditCheck& check = checkNamed(report, "tare");
+  EXPECT_EQ(check.verdict, preparation::AuditVerdict::warn);
+  EXPECT_TRUE(contains(check.message, "not tared")) << check.message;
+}
+
+TEST(SpoiltCampaign, SignOfAMomentTurnedRound) {
+  std::size_t line = 0;
+  const audit::AuditReport report = auditSpoilt([&](campaign::Campaign& campaign) {
+    campaign::State& row = state(campaign, 9, 3);
+    row.wrench_in_cell[3] = -row.wrench_in_cell[3];
+    line = row.line;
+  });
+  const preparation::AuditCheck& check = checkNamed(report, "moment_lever");
+  EXPECT_NE(check.verdict, preparation::AuditVerdict::pass);
+  EXPECT_EQ(check.where, fmt::format("states.csv:{}", line));
+  EXPECT_TRUE(contains(check.message, "with mx of that state turned round they agree")) << check.message;
+}
+
+TEST(SpoiltCampaign, StaleJointAngle) {
+  std::size_t line = 0;
+  const audit::AuditReport report = auditSpoilt([&](campaign::Campaign& campaign) {
+    for (campaign::State& row : campaign.states->rows) {
+      if (row.pose == 11) row.q[2] += 0.3 * io::kDegree;  // read before joint 3 had settled
+    }
+    line = state(campaign, 11, 0).line;
+  });
+  const preparation::AuditCheck& check = checkNamed(report, "joint_read_back");
+  EXPECT_EQ(check.verdict, preparation::AuditVerdict::fail);
+  EXPECT_EQ(check.where, fmt::format("states.csv:{}", line));
+  EXPECT_TRUE(contains(check.message, "pose 12: joint 3 stands -0.3")) << check.message;
+  EXPECT_ONLY(report, {"joint_read_back"});
+}
+
+TEST(SpoiltCampaign, ShortArc) {
+  const audit::AuditReport report = auditSpoilt([](campaign::Campaign& campaign) {
+    std::erase_if(campaign.circle_sweeps->rows, [](const campaign::CircleReading& row) {
+      return row.axis == 0 && std::abs(row.q[0]) > 16.0 * io::kDegree;
+    });
+  });
+  const preparation::AuditCheck& check = checkNamed(report, "circle_arc", "axis 1");
+  EXPECT_EQ(check.verdict, preparation::AuditVerdict::fail);
+  EXPECT_LT(*check.value, 32.0);
+  EXPECT_TRUE(contains(check.message, "does not suffice")) << check.message;
+}
+
+TEST(SpoiltCampaign, WideArcsOfFewReadingsOfOneReflector) {
+  const audit::AuditReport report = auditSpoilt([](campaign::Campaign& campaign) {
+    int count = 0;
+    std::erase_if(campaign.circle_sweeps->rows, [&](const campaign::CircleReading& row) {
+      return row.axis == 2 && (row.target != 0 || count++ % 5 != 0);
+    });
+  });
+  const preparation::AuditCheck& check = checkNamed(report, "circle_arc", "axis 3");
+  EXPECT_EQ(check.verdict, preparation::AuditVerdict::warn);
+  EXPECT_GT(*check.value, 80.0);
+  EXPECT_TRUE(contains(check.message, "does not suffice")) << check.message;
+}
+
+TEST(SpoiltCampaign, OneReadingOffItsCircleIsNamed) {
+  // The bearings' misfit runs along the sweep; a reading 2 mm off is another matter.
+  EXPECT_TRUE(contains(checkNamed(goodReport(), "circle_residual").message, "that of axes 3, 4, 5 runs along the sweep"));
+  std::size_t line = 0;
+  const audit::AuditReport report = auditSpoilt([&](campaign::Campaign& campaign) {
+    for (campaign::CircleReading& row : campaign.circle_sweeps->rows) {
+      if (row.axis != 5 || row.target != 1 || line != 0) continue;
+      row.point += Eigen::Vector3d(2e-3, 2e-3, 2e-3);
+      line = row.line;
+    }
+  });
+  const preparation::AuditCheck& check = checkNamed(report, "circle_residual");
+  EXPECT_TRUE(contains(check.message, fmt::format("most of that of axis 6 is the one reading circle_sweeps.csv:{}", line)))
+      << check.message;
+}
+
+TEST(SpoiltCampaign, AMaximumPermissibleErrorDeclaredAsSigma) {
+  const audit::AuditReport report = auditSpoilt([](campaign::Campaign& campaign) {
+    campaign::Tracker& tracker = *campaign.tracker;
+    for (double* figure :
+         {&tracker.range_fixed, &tracker.range_per_m, &tracker.angle_fixed, &tracker.angle_per_m})
+      *figure *= 2.5;
+  });
+  const preparation::AuditCheck& check = checkNamed(report, "repeatability_across");
+  EXPECT_EQ(check.verdict, preparation::AuditVerdict::pass);  // a cautious declaration is no fault
+  ASSERT_EQ(check.details.size(), 1u);
+  EXPECT_TRUE(contains(check.details[0], "maximum permissible error")) << check.details[0];
+}
+
+TEST(SpoiltCampaign, EveryJointIsJudgedInThePostureSet) {
+  const preparation::AuditCheck& check = checkNamed(goodReport(), "posture_set");
+  ASSERT_EQ(check.details.size(), 6u);
+  EXPECT_TRUE(contains(check.details[0], "joint 1: not identifiable: the load only hangs")) << check.details[0];
+  for (std::size_t j = 1; j < 6; ++j) EXPECT_TRUE(contains(check.details[j], ": identifiable")) << check.details[j];
+  EXPECT_TRUE(contains(check.message, "with a condition number of")) << check.message;
+}
+
+TEST(SpoiltCampaign, AngleOfOneStepChanged) {
+  std::size_t line = 0;
+  const audit::AuditReport report = auditSpoilt([&](campaign::Campaign& campaign) {
+    campaign::State& row = state(campaign, 1, 3);
+    row.q[1] += 0.01 * io::kDegree;
+    line = row.line;
+  });
+  EXPECT_EQ(checkNamed(report, "servo_change").verdict, preparation::AuditVerdict::warn);
+  EXPECT_EQ(checkNamed(report, "servo_change").where, fmt::format("states.csv:{}", line));
+  EXPECT_ONLY(report, {"servo_change"});
+}
+
+TEST(SpoiltCampaign, DoesNotComeBackToZero) {
+  const audit::AuditReport report = auditSpoilt([](campaign::Campaign& campaign) {
+    for (campaign::LoadingReading& row : campaign.loading->rows) {
+      if (row.pose == 14 && row.step == 4) row.point.z() -= 0.1e-3;
+    }
+  });
+  const preparation::AuditCheck& check = checkNamed(report, "return_to_zero");
+  EXPECT_NE(check.verdict, preparation::AuditVerdict::pass);
+  EXPECT_TRUE(contains(check.message, "1 of 19 postures do not come back: 15 by")) << check.message;
+  EXPECT_ONLY(report, {"return_to_zero"});
+}
+
+}  // namespace
+}  // namespace stiffscope

@@ -1,0 +1,244 @@
+#include "core/campaign/read_campaign.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <numbers>
+#include "core/io/input_error.h"
+#include "core/io/read_file.h"
+#include "tests/fixtures/small_campaign.h"
+
+namespace stiffscope {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180.0;
+constexpr double kRounding = 1e-12;  // conversions of units, of values up to a few metres
+
+bool anyContains(const std::vector<std::string>& warnings, const std::string& text) {
+  for (const std::string& warning : warnings) {
+    if (warning.find(text) != std::string::npos) return true;
+  }
+  return false;
+}
+
+std::string shown(const std::vector<std::string>& warnings) {
+  std::string all;
+  for (const std::string& warning : warnings) all += warning + "\n";
+  return all;
+}
+
+TEST(ReadCampaign, ReadsEverySectionInSi) {
+  const SmallCampaign files;
+  const campaign::CampaignReading reading = campaign::readCampaign(files.folder());
+  EXPECT_TRUE(reading.warnings.empty()) << shown(reading.warnings);
+  const campaign::Campaign& c = reading.campaign;
+  EXPECT_EQ(c.name, "small");
+  EXPECT_EQ(c.date, "2026-01-02");
+  EXPECT_EQ(c.texts.laboratory, "Force & Motion");
+  EXPECT_EQ(c.texts.operator_name, "O");
+  EXPECT_EQ(c.texts.conditions, "20 degC");
+  EXPECT_EQ(c.double_encoder, campaign::DoubleEncoder::active);
+  EXPECT_EQ(c.gravity_in_base, Eigen::Vector3d(0, 0, -9.80665));
+  ASSERT_TRUE(c.tracker);
+  EXPECT_NEAR(c.tracker->angle_per_m, 2.2e-6, kRounding);
+  ASSERT_EQ(c.targets.size(), 2u);
+  EXPECT_NEAR(c.targets[0].position_in_flange->z(), 0.3, kRounding);
+  EXPECT_FALSE(c.targets[1].position_in_flange);
+  ASSERT_TRUE(c.load_cell);
+  const Eigen::Vector3d x_in_parent = c.load_cell->parent_from_cell.linear() * Eigen::Vector3d::UnitX();
+  EXPECT_NEAR((x_in_parent - Eigen::Vector3d::UnitY()).norm(), 0.0, kRounding);
+  EXPECT_NEAR(c.load_cell->parent_from_cell.translation().z(), 0.09, kRounding);
+  EXPECT_NEAR(c.tool->com_in_flange.z(), 0.1, kRounding);
+}
+
+TEST(ReadCampaign, ReadsEveryTableInSi) {
+  const SmallCampaign files;
+  const campaign::Campaign c = campaign::readCampaign(files.folder() / "campaign.xml").campaign;
+  ASSERT_EQ(c.circle_sweeps->rows.size(), 3u);
+  EXPECT_EQ(c.circle_sweeps->rows[2].axis, 5);
+  EXPECT_EQ(c.circle_sweeps->rows[1].target, 1);
+  EXPECT_EQ(c.circle_sweeps->rows[1].line, 3u);
+  EXPECT_TRUE(std::isnan(c.circle_sweeps->rows[0].time_s));
+  EXPECT_NEAR(c.circle_sweeps->rows[2].q[5], 90 * kDegree, kRounding);
+  EXPECT_NEAR(c.circle_sweeps->rows[0].point.y(), 2.4316095, kRounding);
+  EXPECT_EQ(c.wrist_sweep->rows[0].time_s, 5.5);
+  EXPECT_EQ(c.loading->rows[2].repeat, "2");
+  EXPECT_EQ(c.loading->rows[2].step, 1);
+  EXPECT_EQ(c.pose_ids, (std::vector<std::string>{"A", "B"}));
+  EXPECT_EQ(c.states->rows[2].pose, 1);
+  EXPECT_EQ(c.states->rows[1].wrench_in_cell[0], -538.428);
+  EXPECT_EQ(c.states->rows[1].wrench_in_cell[5], -11.28);
+  EXPECT_EQ(c.displacements->frame, campaign::PointFrame::base_link);
+  EXPECT_NEAR(c.displacements->rows[0].displacement.x(), -0.686e-3, kRounding);
+  EXPECT_EQ(c.nest_ids, (std::vector<std::string>{"N1", "N2"}));
+  EXPECT_EQ(c.nests->rows[1].time_s, 2.0);
+}
+
+TEST(ReadCampaign, ListsItsFilesWithTheHashOfTheirBytes) {
+  const SmallCampaign files;
+  const campaign::Campaign c = campaign::readCampaign(files.folder()).campaign;
+  ASSERT_EQ(c.inputs.size(), 8u);
+  EXPECT_EQ(c.inputs[0].name, "campaign.xml");
+  EXPECT_EQ(c.inputs[1].name, "robot.urdf");
+  for (const campaign::InputFile& input : c.inputs) EXPECT_EQ(input.sha256, io::sha256Hex(files.read(input.name)));
+  // FIPS 180-4 example.
+  EXPECT_EQ(io::sha256Hex("abc"), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
+}
+
+TEST(ReadCampaign, TakesColumnsInAnyOrderWithCrlfMarkBlankLinesQuotesAndPlus) {
+  const SmallCampaign files;
+  files.write(
+      "nests.csv",
+      "\xEF\xBB\xBFz_mm, nest ,y_mm,x_mm,time_s\r\n\r\n+3,\"N 1\",2,1e3,+0.5\r\n \r\n3,N2,2,-1,1\r\n");
+  const campaign::CampaignReading reading = campaign::readCampaign(files.folder());
+  EXPECT_TRUE(reading.warnings.empty()) << shown(reading.warnings);
+  const auto& rows = reading.campaign.nests->rows;
+  ASSERT_EQ(rows.size(), 2u);
+  EXPECT_NEAR((rows[0].point - Eigen::Vector3d(1.0, 0.002, 0.003)).norm(), 0.0, kRounding);
+  EXPECT_EQ(rows[1].line, 5u);
+  EXPECT_EQ(reading.campaign.nest_ids[0], "N 1");
+}
+
+TEST(ReadCampaign, NeedsNoSectionButTheRobot) {
+  const SmallCampaign files;
+  files.write("campaign.xml",
+              "<campaign format=\"1\" name=\"\" date=\"\"><robot urdf=\"robot.urdf\" base_link=\"base\" "
+              "flange_link=\"flange\" double_encoder=\"unspecified\" gravity_m_s2=\"0 9.8 0\"/></campaign>");
+  const campaign::CampaignReading reading = campaign::readCampaign(files.folder());
+  EXPECT_TRUE(reading.warnings.empty()) << shown(reading.warnings);
+  EXPECT_FALSE(reading.campaign.tracker || reading.campaign.loading || reading.campaign.tool);
+  EXPECT_EQ(reading.campaign.gravity_in_base.y(), 9.8);
+}
+
+TEST(ReadCampaign, LoadCellAxesReplaceItsRotation) {
+  const SmallCampaign files;
+  files.alter("campaign.xml", "rpy_deg=\"0 0 90\"", "rpy_deg=\"0 0 90\" axes=\"base\"");
+  const campaign::Campaign c = campaign::readCampaign(files.folder()).campaign;
+  EXPECT_EQ(c.load_cell->axes_link, "base");
+  EXPECT_TRUE(c.load_cell->parent_from_cell.linear().isIdentity(0.0));
+}
+
+struct Warned {
+  const char *file, *find, *replace, *message;
+};
+
+TEST(ReadCampaign, WarnsInOneLineAndReadsOn) {
+  const Warned cases[] = {
+      {"nests.csv", "time_s,nest,x_mm,y_mm,z_mm\n0.0,N1,3349.2176,-241.6309,-1209.9495\n2.0,N2,",
+       "time_s,nest,foo,bar,x_mm,y_mm,z_mm\n0,N1,7,7,1,2,3\n0,N2,7,,",
+       "nests.csv:1: unknown columns ignored: 'foo', 'bar'"},
+      {"wrist_sweep.csv", "time_s", "tme_s",
+       "wrist_sweep.csv:1: unknown column ignored: 'tme_s' (did you mean 'time_s'?)"},
+      {"nests.csv", "-1180.4804\n", "-1180.48", "nests.csv:3: the last line has no line end"},
+      {"campaign.xml", "<tool mass_kg", "<tol/><tool mass_kg",
+       "campaign.xml:15: tol: unknown element, ignored (did you mean 'tool'?)"},
+      {"campaign.xml", "frame=\"base_link\"", "frme=\"x\"",
+       "campaign.xml:20: frme: unknown attribute, ignored (did you mean 'frame'?)"},
+      {"campaign.xml", "<target id=\"P11\"", "<target id=\"P11\" colour=\"red\"",
+       "campaign.xml:12: colour: unknown attribute, ignored"},
+      {"loading.csv", "A,0,1,P10,1078.0", "A,1,0,P10,1078.0",
+       "loading.csv:2: pose: 'A': no unloaded step 0, so no displacement; poses without one: 1"},
+      {"states.csv", "A,1,1170.3,7.93121", "A,1,1170.3,179.93121",
+       "states.csv:3: q1_deg: '179.93': more than 5 deg outside the limits of joint_1 (-171.89 to 171.89 "
+       "deg); rows "
+       "like this: 1"},
+      {"campaign.xml",
+       "<load_cell parent=\"flange\" xyz_mm=\"0 0 90\" rpy_deg=\"0 0 90\" force_sigma_n=\"1\" "
+       "moment_sigma_nm=\"0.3\"/>",
+       "", "states.csv: no load_cell in campaign.xml says where these wrenches act"},
+  };
+  for (const Warned& test : cases) {
+    const SmallCampaign files;
+    files.alter(test.file, test.find, test.replace);
+    const auto warnings = campaign::readCampaign(files.folder()).warnings;
+    EXPECT_EQ(warnings.size(), 1u) << test.message << "\n" << shown(warnings);
+    EXPECT_TRUE(anyContains(warnings, test.message)) << test.message << "\n" << shown(warnings);
+  }
+}
+
+TEST(ReadCampaign, WarnsOfAnglesInRadians) {
+  const SmallCampaign files;
+  std::string rows = "index,target,q1_deg,q2_deg,q3_deg,q4_deg,q5_deg,q6_deg,x_mm,y_mm,z_mm\n";
+  for (int i = 0; i < 10; ++i) rows += std::to_string(i) + ",P10,0,0,0,3.1,-1.2,0,1,2,3\n";
+  files.write("wrist_sweep.csv", rows);
+  EXPECT_TRUE(anyContains(campaign::readCampaign(files.folder()).warnings, "were they written in radians?"));
+}
+
+TEST(ReadCampaign, ReadsALargeTableInLinearTime) {
+  const SmallCampaign files;
+  std::string rows = "pose,step,repeat,target,time_s,x_mm,y_mm,z_mm\n";
+  // About 40 MB; a cost that grows with the square would take hours.
+  constexpr int kRows = 800000;
+  for (int i = 0; i < kRows; ++i)
+    rows += "A,0," + std::to_string(i) + ",P10,1078.0,2136.9015,156.1428,412.2275\n";
+  files.write("loading.csv", rows);
+  const auto read = campaign::readCampaign(files.folder()).campaign.loading->rows;
+  ASSERT_EQ(read.size(), static_cast<std::size_t>(kRows));
+  for (int i = 0; i < kRows; ++i) {
+    const campaign::LoadingReading& row = read[static_cast<std::size_t>(i)];
+    ASSERT_TRUE(row.repeat == std::to_string(i) && row.point.z() == read[0].point.z()) << row.line;
+  }
+}
+
+// Keys in any order, and the one that repeats far from its first: found by the hash, where the order does not show it.
+TEST(ReadCampaign, FindsARepeatedKeyFarApartInAnyOrder) {
+  const SmallCampaign files;
+  constexpr int kRows = 20000;
+  for (const int repeated : {0, 9999, 19999}) {
+    std::string rows = "pose,step,repeat,target,time_s,x_mm,y_mm,z_mm\n";
+    const auto row = [&](int i) {
+      rows += "A,0," + std::to_string(i * 7919 % kRows) + ",P10,1078.0,2136.9015,156.1428,412.2275\n";  // a prime: all
+    };
+    for (int i = 0; i < kRows; ++i) row(i);
+    files.write("loading.csv", rows);
+    EXPECT_EQ(campaign::readCampaign(files.folder()).campaign.loading->rows.size(), static_cast<std::size_t>(kRows));
+    row(repeated);
+    files.write("loading.csv", rows);
+    try {
+      campaign::readCampaign(files.folder());
+      ADD_FAILURE() << "read a key twice";
+    } catch (const io::InputError& error) {
+      EXPECT_EQ(error.place().line, static_cast<std::size_t>(kRows + 2));
+      EXPECT_EQ(error.expectation(), "expected a key that does not repeat; line " + std::to_string(repeated + 2) +
+                                         " has it first");
+    }
+  }
+}
+
+TEST(ReadCampaign, ReadsThePracticeAndRealCampaigns) {
+  const std::filesystem::path shared(STIFFSCOPE_SHARED_DIR);
+  if (!std::filesystem::exists(shared / "practice"))
+    GTEST_SKIP() << "no practice campaigns beside the checkout";
+  const auto rowsIn = [](const std::filesystem::path& csv) {
+    std::ifstream in(csv);
+    std::size_t lines = 0;
+    for (std::string line; std::getline(in, line);) ++lines;
+    return lines - 1;
+  };
+  int campaigns = 0;
+  for (const char* group : {"practice", "real"}) {
+    for (const auto& entry : std::filesystem::directory_iterator(shared / group)) {
+      if (!entry.is_directory()) continue;
+      const campaign::CampaignReading reading = campaign::readCampaign(entry.path());
+      const campaign::Campaign& c = reading.campaign;
+      const auto expectRows = [&](const auto& table) {
+        if (!table) return;
+        EXPECT_EQ(table->rows.size(), rowsIn(entry.path() / table->file));
+      };
+      expectRows(c.circle_sweeps);
+      expectRows(c.wrist_sweep);
+      expectRows(c.loading);
+      expectRows(c.states);
+      expectRows(c.displacements);
+      expectRows(c.nests);
+      EXPECT_EQ(c.robot.links.size(), 8u);
+      EXPECT_TRUE(reading.warnings.empty()) << shown(reading.warnings);
+      ++campaigns;
+    }
+  }
+  EXPECT_GE(campaigns, 22);
+}
+
+}  // namespace
+}  // namespace stiffscope

@@ -1,0 +1,191 @@
+#include "core/campaign/write_campaign.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <limits>
+#include "core/campaign/read_campaign.h"
+#include "tests/fixtures/small_campaign.h"
+
+namespace stiffscope {
+namespace {
+
+// Half of the last decimal written: 0.0001 mm, 0.00001 deg, 0.001 N, 0.0001 Nm, and the rounding of doubles.
+constexpr double kPoint = 0.5001e-7;
+constexpr double kAngle = 0.5001e-5 * 3.14159265358979 / 180.0;
+constexpr double kForce = 0.5001e-3;
+constexpr double kMoment = 0.5001e-4;
+// Twelve digits of values below one.
+constexpr double kAttribute = 1e-11;
+
+template <class Row, class Compare>
+void expectSameRows(const std::optional<campaign::Table<Row>>& a, const std::optional<campaign::Table<Row>>& b, Compare compare) {
+  ASSERT_EQ(a.has_value(), b.has_value());
+  if (!a) return;
+  EXPECT_EQ(a->frame, b->frame);
+  ASSERT_EQ(a->rows.size(), b->rows.size());
+  for (std::size_t i = 0; i < a->rows.size(); ++i) compare(a->rows[i], b->rows[i]);
+}
+
+void expectClose(const Eigen::VectorXd& a, const Eigen::VectorXd& b, double tolerance) {
+  EXPECT_LE((a - b).cwiseAbs().maxCoeff(), tolerance);
+}
+
+void expectSameTables(const campaign::Campaign& a, const campaign::Campaign& b) {
+  const auto sameSweep = [](const auto& x, const auto& y) {
+    EXPECT_EQ(std::pair(x.index, x.target), std::pair(y.index, y.target));
+    EXPECT_EQ(std::isnan(x.time_s), std::isnan(y.time_s));
+    expectClose(x.q, y.q, kAngle);
+    expectClose(x.point, y.point, kPoint);
+  };
+  expectSameRows(a.circle_sweeps, b.circle_sweeps, [&](const campaign::CircleReading& x, const campaign::CircleReading& y) {
+    EXPECT_EQ(x.axis, y.axis);
+    sameSweep(x, y);
+  });
+  expectSameRows(a.wrist_sweep, b.wrist_sweep, sameSweep);
+  expectSameRows(a.loading, b.loading, [](const campaign::LoadingReading& x, const campaign::LoadingReading& y) {
+    EXPECT_EQ(std::tuple(x.pose, x.step, x.repeat, x.target), std::tuple(y.pose, y.step, y.repeat, y.target));
+    EXPECT_NEAR(x.time_s, y.time_s, 0.05001);
+    expectClose(x.point, y.point, kPoint);
+  });
+  expectSameRows(a.states, b.states, [](const campaign::State& x, const campaign::State& y) {
+    EXPECT_EQ(std::pair(x.pose, x.step), std::pair(y.pose, y.step));
+    expectClose(x.q, y.q, kAngle);
+    expectClose(x.wrench_in_cell.head<3>(), y.wrench_in_cell.head<3>(), kForce);
+    expectClose(x.wrench_in_cell.tail<3>(), y.wrench_in_cell.tail<3>(), kMoment);
+  });
+  expectSameRows(a.displacements, b.displacements, [](const campaign::Displacement& x, const campaign::Displacement& y) {
+    EXPECT_EQ(std::tuple(x.pose, x.step, x.target), std::tuple(y.pose, y.step, y.target));
+    expectClose(x.displacement, y.displacement, kPoint);
+  });
+  expectSameRows(a.nests, b.nests, [](const campaign::NestReading& x, const campaign::NestReading& y) {
+    EXPECT_EQ(x.nest, y.nest);
+    expectClose(x.point, y.point, kPoint);
+  });
+}
+
+void expectSame(const campaign::Campaign& a, const campaign::Campaign& b) {
+  EXPECT_EQ(std::tie(a.name, a.date, a.base_link, a.flange_link, a.pose_ids, a.nest_ids),
+            std::tie(b.name, b.date, b.base_link, b.flange_link, b.pose_ids, b.nest_ids));
+  EXPECT_EQ(a.texts.laboratory, b.texts.laboratory);
+  EXPECT_EQ(a.texts.operator_name, b.texts.operator_name);
+  EXPECT_EQ(a.double_encoder, b.double_encoder);
+  EXPECT_EQ(a.gravity_in_base, b.gravity_in_base);
+  ASSERT_EQ(a.tracker.has_value(), b.tracker.has_value());
+  if (a.tracker) {
+    EXPECT_EQ(a.tracker->model, b.tracker->model);
+    EXPECT_NEAR(a.tracker->range_fixed, b.tracker->range_fixed, kAttribute * 1e-6);
+    EXPECT_NEAR(a.tracker->angle_per_m, b.tracker->angle_per_m, kAttribute * 1e-6);
+    expectClose(a.tracker->station, b.tracker->station, kAttribute);
+  }
+  ASSERT_EQ(a.targets.size(), b.targets.size());
+  for (std::size_t i = 0; i < a.targets.size(); ++i) {
+    EXPECT_EQ(a.targets[i].id, b.targets[i].id);
+    ASSERT_EQ(a.targets[i].position_in_flange.has_value(), b.targets[i].position_in_flange.has_value());
+    if (!a.targets[i].position_in_flange) continue;
+    expectClose(*a.targets[i].position_in_flange, *b.targets[i].position_in_flange, kAttribute);
+  }
+  ASSERT_EQ(a.load_cell.has_value(), b.load_cell.has_value());
+  if (a.load_cell) {
+    EXPECT_EQ(a.load_cell->parent, b.load_cell->parent);
+    EXPECT_EQ(a.load_cell->axes_link, b.load_cell->axes_link);
+    EXPECT_TRUE(a.load_cell->parent_from_cell.isApprox(b.load_cell->parent_from_cell, kAttribute));
+    EXPECT_EQ(a.load_cell->force_sigma, b.load_cell->force_sigma);
+  }
+  ASSERT_EQ(a.tool.has_value(), b.tool.has_value());
+  if (a.tool) expectClose(a.tool->com_in_flange, b.tool->com_in_flange, kAttribute);
+  expectSameTables(a, b);
+}
+
+void expectRoundTrip(const campaign::Campaign& campaign, const std::filesystem::path& urdf) {
+  const TemporaryFolder first, second;
+  campaign::writeCampaign(campaign, urdf, first.path() / "new" / "folder");
+  const campaign::CampaignReading reading = campaign::readCampaign(first.path() / "new" / "folder");
+  EXPECT_TRUE(reading.warnings.empty());
+  expectSame(campaign, reading.campaign);
+  // What was rounded once stays as it is: writing again gives the same bytes.
+  campaign::writeCampaign(reading.campaign, first.path() / "new" / "folder" / "robot.urdf", second.path());
+  const auto again = campaign::readCampaign(second.path()).campaign.inputs;
+  ASSERT_EQ(reading.campaign.inputs.size(), again.size());
+  for (std::size_t i = 0; i < again.size(); ++i) {
+    EXPECT_EQ(reading.campaign.inputs[i].name, again[i].name);
+    EXPECT_EQ(reading.campaign.inputs[i].sha256, again[i].sha256) << again[i].name;
+  }
+}
+
+TEST(WriteCampaign, ReadsBackAsItWas) {
+  const SmallCampaign files;
+  expectRoundTrip(campaign::readCampaign(files.folder()).campaign, files.folder() / "robot.urdf");
+}
+
+TEST(WriteCampaign, WritesNamesAndTextsThatNeedCare) {
+  const SmallCampaign files;
+  campaign::Campaign campaign = campaign::readCampaign(files.folder()).campaign;
+  campaign.name = "a <b> & \"c\"";
+  campaign.texts.laboratory = "M\xC3\xBCller & S\xC3\xB6hne <lab>";
+  campaign.targets[0].id = "P,10 \"left\"";
+  campaign.pose_ids[0] = "pose, 1; A";
+  campaign.gravity_in_base = {0, 9.8, 0};
+  campaign.tracker->station = {1.5, -2.25, 0.0000001};
+  campaign.load_cell->axes_link = "base";
+  campaign.load_cell->parent_from_cell.linear().setIdentity();
+  campaign.nests->frame = campaign::PointFrame::base_link;
+  campaign.nests->rows[0].point.x() = -1e-12;
+  expectRoundTrip(campaign, files.folder() / "robot.urdf");
+}
+
+TEST(WriteCampaign, WritesTheUnitsAndDecimalsOfTheFormat) {
+  const SmallCampaign files;
+  const TemporaryFolder out;
+  campaign::Campaign campaign = campaign::readCampaign(files.folder()).campaign;
+  campaign.nests->rows[0].point.x() = -1e-12;  // rounds to zero, which has no sign
+  campaign::writeCampaign(campaign, files.folder() / "robot.urdf", out.path());
+  std::string header, row;
+  std::ifstream nests(out.path() / "nests.csv");
+  std::getline(nests, header);
+  std::getline(nests, row);
+  EXPECT_EQ(header, "time_s,nest,x_mm,y_mm,z_mm");
+  EXPECT_EQ(row, "0.0,N1,0.0000,-241.6309,-1209.9495");
+  std::ifstream states(out.path() / "states.csv");
+  std::getline(states, header);
+  std::getline(states, row);
+  EXPECT_EQ(
+      row,
+      "A,0,1076.0,7.93121,26.73967,3.67551,-72.14435,26.25065,104.19286,-0.312,-0.039,0.265,-0.5150,0.3150,"
+      "-0.4410");
+}
+
+TEST(WriteCampaign, RefusesWhatTheFormatCannotHold) {
+  const SmallCampaign files;
+  const TemporaryFolder out;
+  const auto why = [&](auto change) -> std::string {
+    campaign::Campaign campaign = campaign::readCampaign(files.folder()).campaign;
+    change(campaign);
+    try {
+      campaign::writeCampaign(campaign, files.folder() / "robot.urdf", out.path());
+    } catch (const std::runtime_error& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(why([](campaign::Campaign& c) { c.loading->rows[0].time_s = campaign::kNoTime; }),
+            "the campaign cannot be written: time_s: a value is not finite");
+  EXPECT_EQ(why([](campaign::Campaign& c) { c.nests->rows[0].nest = 7; }),
+            "the campaign cannot be written: nest: index 7 has no name");
+  EXPECT_EQ(why([](campaign::Campaign& c) { c.pose_ids[0] = "A\nB"; }),
+            "the campaign cannot be written: pose: a name has a control character");
+  EXPECT_EQ(why([](campaign::Campaign& c) { c.circle_sweeps->rows[0].index = ""; }),
+            "the campaign cannot be written: index: a name is empty");
+}
+
+TEST(WriteCampaign, ReadsBackThePracticeAndRealCampaigns) {
+  const std::filesystem::path shared(STIFFSCOPE_SHARED_DIR);
+  if (!std::filesystem::exists(shared / "practice"))
+    GTEST_SKIP() << "no practice campaigns beside the checkout";
+  for (const char* name : {"practice/01", "real/fanuc-r2000ic-cable", "real/fanuc-r2000ic-sweeps"}) {
+    expectRoundTrip(campaign::readCampaign(shared / name).campaign, shared / name / "robot.urdf");
+  }
+}
+
+}  // namespace
+}  // namespace stiffscope

@@ -1,0 +1,147 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+#include "core/campaign/read_campaign.h"
+#include "core/diagnosis/diagnose.h"
+#include "core/preparation/subsample.h"
+#include "core/numerics/normal_equations.h"
+
+namespace stiffscope {
+namespace {
+
+campaign::Campaign sampleDay() { return campaign::readCampaign(std::string(STIFFSCOPE_SOURCE_DIR) + "/samples/active").campaign; }
+
+/// The sample's postures so many times, a tenth of a micrometre apart: readings alike to the last digit are copies.
+campaign::Campaign repeated(int times) {
+  const campaign::Campaign once = sampleDay();
+  const int postures = static_cast<int>(once.pose_ids.size());
+  campaign::Campaign day = once;
+  for (int k = 1; k < times; ++k) {
+    for (const std::string& id : once.pose_ids) day.pose_ids.push_back(id + "-" + std::to_string(k));
+    for (campaign::State row : once.states->rows) {
+      row.pose += k * postures;
+      day.states->rows.push_back(row);
+    }
+    for (campaign::LoadingReading row : once.loading->rows) {
+      row.pose += k * postures;
+      row.point.array() += 1e-7 * k;
+      day.loading->rows.push_back(row);
+    }
+  }
+  return day;
+}
+
+TEST(EvenlySpread, AllWhereTheyAreFewElseAsManyAsMayBeFromEndToEnd) {
+  EXPECT_TRUE(preparation::evenlySpreadIndices(0, 5).empty());
+  EXPECT_EQ(preparation::evenlySpreadIndices(3, 4), (std::vector<std::size_t>{0, 1, 2}));
+  EXPECT_EQ(preparation::evenlySpreadIndices(10, 4), (std::vector<std::size_t>{0, 2, 5, 7}));
+  EXPECT_EQ(preparation::evenlySpreadIndices(10, 5), (std::vector<std::size_t>{0, 2, 4, 6, 8}));
+  const auto spread = preparation::evenlySpreadIndices(1'000'003, 1000);
+  ASSERT_EQ(spread.size(), 1000u);
+  for (std::size_t k = 1; k < spread.size(); ++k) {
+    EXPECT_GE(spread[k] - spread[k - 1], 1000u);
+    EXPECT_LE(spread[k] - spread[k - 1], 1001u);
+  }
+  EXPECT_GE(spread.back(), 999'000u);
+}
+
+TEST(EvenlySpread, KeepsTheRowsOfItsPosturesAndAllElse) {
+  const campaign::Campaign all = sampleDay(), some = preparation::evenlySpread(all, 5);
+  ASSERT_EQ(some.pose_ids.size(), 5u);
+  const std::set<std::string> kept(some.pose_ids.begin(), some.pose_ids.end());
+  const auto expectKept = [&](const auto& of, const auto& from) {
+    std::size_t at = 0;
+    for (const auto& row : from) {
+      const std::string& id = all.pose_ids[static_cast<std::size_t>(row.pose)];
+      if (!kept.contains(id)) continue;
+      ASSERT_LT(at, of.size());
+      EXPECT_EQ(of[at].line, row.line);
+      EXPECT_EQ(some.pose_ids[static_cast<std::size_t>(of[at].pose)], id);
+      ++at;
+    }
+    EXPECT_EQ(of.size(), at);
+  };
+  expectKept(some.states->rows, all.states->rows);
+  expectKept(some.loading->rows, all.loading->rows);
+  EXPECT_EQ(some.circle_sweeps->rows.size(), all.circle_sweeps->rows.size());
+  EXPECT_EQ(some.nests->rows.size(), all.nests->rows.size());
+  EXPECT_EQ(some.inputs.size(), all.inputs.size());
+  EXPECT_EQ(some.tracker->model, all.tracker->model);
+}
+
+TEST(EvenlySpread, TakesAsManyReadingsOfASweepOfEachAxisAndReflector) {
+  const campaign::Campaign all = sampleDay(), some = preparation::evenlySpread(all, 100, 90);
+  std::map<std::pair<int, int>, std::vector<std::size_t>> circles;
+  for (const campaign::CircleReading& row : some.circle_sweeps->rows) circles[{row.axis, row.target}].push_back(row.line);
+  ASSERT_EQ(circles.size(), 18u);  // six axes, three reflectors
+  for (const auto& [kind, lines] : circles) {
+    EXPECT_EQ(lines.size(), 5u);
+    EXPECT_GT(lines.back() - lines.front(), 30u);  // of twenty readings that take turns, the first to the seventeenth
+  }
+  std::map<int, int> wrist;
+  for (const campaign::WristReading& row : some.wrist_sweep->rows) ++wrist[row.target];
+  EXPECT_GE(wrist.size(), 1u);
+  for (const auto& [target, count] : wrist) EXPECT_EQ(count, static_cast<int>(90 / wrist.size()));
+  EXPECT_TRUE(std::is_sorted(some.wrist_sweep->rows.begin(), some.wrist_sweep->rows.end(),
+                             [](const campaign::WristReading& a, const campaign::WristReading& b) { return a.line < b.line; }));
+  EXPECT_TRUE(preparation::hasLongSweep(all, 90));
+  EXPECT_FALSE(preparation::hasLongSweep(all));
+}
+
+// A million readings of a sweep would be seventeen gigabytes of equations.
+TEST(Diagnose, OfALongSweepTheReadingsSpreadOverItTakePart) {
+  campaign::Campaign day = sampleDay();
+  const std::vector<campaign::WristReading> once = day.wrist_sweep->rows;
+  while (day.wrist_sweep->rows.size() <= preparation::kMostSwept) {
+    for (campaign::WristReading row : once) {
+      row.point.array() += 1e-7 * static_cast<double>(day.wrist_sweep->rows.size() / once.size());
+      day.wrist_sweep->rows.push_back(row);
+    }
+  }
+  diagnosis::DiagnoseOptions quick;
+  quick.resamples = quick.chance_draws = 0;
+  quick.only = effects::Effect::joint_coupling;
+  const diagnosis::Diagnosis by_itself = diagnosis::diagnose(preparation::evenlySpread(day, preparation::kMostDiagnosed), quick), whole = diagnosis::diagnose(day, quick);
+  EXPECT_EQ(whole.gap.before, by_itself.gap.before);
+  EXPECT_EQ(whole.gap.after, by_itself.gap.after);
+  EXPECT_NE(whole.verdict.reason.find("Of a sweep's readings 2000 at most took part"), std::string::npos) << whole.verdict.reason;
+  EXPECT_EQ(whole.verdict.reason.find("postures"), by_itself.verdict.reason.find("postures"));
+}
+
+TEST(LowerTriangle, AddsToTheLowerTriangleAlone) {
+  Eigen::MatrixXd matrix(3, 3), sum = Eigen::MatrixXd::Identity(3, 3), expected(3, 3);
+  matrix << 1, 2, 4, 2, 3, 5, 4, 5, 6;
+  numerics::LowerTriangle(matrix).addTo(2.0, sum);
+  expected << 3, 0, 0, 4, 7, 0, 8, 10, 13;
+  EXPECT_EQ(sum, expected);
+}
+
+// What is said of a long day's postures must name them as that day does, not as the hundred that took part are numbered.
+TEST(Diagnose, ALongDayIsItsSpreadPosturesUnderTheirOwnNames) {
+  campaign::Campaign day = repeated(11);
+  const std::vector<std::string> names = day.pose_ids;
+  ASSERT_GT(names.size(), preparation::kMostDiagnosed);
+  diagnosis::DiagnoseOptions quick;
+  quick.resamples = quick.chance_draws = 0;
+  quick.only = effects::Effect::joint_coupling;
+  const campaign::Campaign spread = preparation::evenlySpread(day, preparation::kMostDiagnosed);
+  const diagnosis::Diagnosis by_itself = diagnosis::diagnose(spread, quick), whole = diagnosis::diagnose(std::move(day), quick);
+  EXPECT_EQ(whole.gap.before, by_itself.gap.before);
+  EXPECT_EQ(whole.gap.after, by_itself.gap.after);
+  ASSERT_EQ(whole.at_points.size(), by_itself.at_points.size());
+  ASSERT_FALSE(whole.at_points.empty());
+  for (std::size_t i = 0; i < whole.at_points.size(); ++i) {
+    EXPECT_EQ(names[static_cast<std::size_t>(whole.at_points[i].pose)],
+              spread.pose_ids[static_cast<std::size_t>(by_itself.at_points[i].pose)]);
+    EXPECT_EQ(whole.at_points[i].before, by_itself.at_points[i].before);
+  }
+  EXPECT_NE(whole.verdict.reason.find("100 took part"), std::string::npos) << whole.verdict.reason;
+}
+
+}  // namespace
+}  // namespace stiffscope

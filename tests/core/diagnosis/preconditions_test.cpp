@@ -1,0 +1,73 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include "core/diagnosis/held_out.h"
+#include "core/diagnosis/preconditions.h"
+
+// What a campaign lacks makes effects not testable, with what is missing in words; and shrinks from squares
+// by posture.
+
+namespace stiffscope {
+namespace {
+
+diagnosis::CampaignHas everything() {
+  diagnosis::CampaignHas has;
+  has.reflectors = 3;
+  has.load_steps = 3;
+  has.return_to_zero = has.moments = has.times = has.weights = has.absolute = has.sweeps = has.nests = true;
+  return has;
+}
+
+bool says(effects::Effect effect, const diagnosis::CampaignHas& has, const std::string& words) {
+  return diagnosis::missingFor(effect, has).find(words) != std::string::npos;
+}
+
+TEST(Testable, NothingIsMissingFromAFullDay) {
+  for (std::size_t e = 0; e < effects::kEffectCount; ++e) {
+    EXPECT_EQ(diagnosis::missingFor(static_cast<effects::Effect>(e), everything()), "") << effects::kEffectIds[e];
+  }
+}
+
+TEST(Testable, SaysWhatIsMissing) {
+  diagnosis::CampaignHas one_step = everything();
+  one_step.load_steps = 1;
+  EXPECT_TRUE(says(effects::Effect::joint_hardening, one_step, "two or more loads"));
+  EXPECT_TRUE(says(effects::Effect::load_cell_bias, one_step, "two or more loads"));
+  EXPECT_EQ(diagnosis::missingFor(effects::Effect::bearing_tilt, one_step), "");
+  diagnosis::CampaignHas no_return = everything();
+  no_return.return_to_zero = false;
+  EXPECT_TRUE(says(effects::Effect::hysteresis, no_return, "return to zero"));
+  diagnosis::CampaignHas two_reflectors = everything();
+  two_reflectors.reflectors = 2;
+  EXPECT_TRUE(says(effects::Effect::target_motion, two_reflectors, "three reflectors"));
+  diagnosis::CampaignHas no_masses = everything();
+  no_masses.weights = no_masses.absolute = false;
+  EXPECT_TRUE(says(effects::Effect::gravity_compensator, no_masses, "masses"));
+  EXPECT_TRUE(says(effects::Effect::kinematic_error, no_masses, "masses"));
+  diagnosis::CampaignHas no_sweeps = everything();
+  no_sweeps.sweeps = false;
+  EXPECT_TRUE(says(effects::Effect::frame_error, no_sweeps, "circle sweeps"));
+  diagnosis::CampaignHas no_nests = everything();
+  no_nests.nests = no_nests.absolute = false;
+  EXPECT_TRUE(says(effects::Effect::tracker_drift, no_nests, "floor nests"));
+}
+
+// Twelve postures that all halve: 0.5, without any spread. One that does not shrink among them: the interval
+// holds the value and is as wide as drawing it or not makes it.
+TEST(Shrink, IsThatOfRootMeanSquares) {
+  std::vector<diagnosis::HeldOut> postures(12, {4.0, 1.0, 9.0, 9.0});
+  const diagnosis::HeldOutShrink even = diagnosis::shrinkOver(postures, 200, 1);
+  EXPECT_DOUBLE_EQ(even.deflection.value, 0.5);
+  EXPECT_DOUBLE_EQ(even.deflection.low, 0.5);
+  EXPECT_DOUBLE_EQ(even.position.value, 0.0);
+  postures.front() = {4.0, 4.0, 9.0, 9.0};
+  const diagnosis::HeldOutShrink mixed = diagnosis::shrinkOver(postures, 400, 1);
+  EXPECT_NEAR(mixed.deflection.value, 1.0 - std::sqrt(15.0 / 48.0), 1e-12);
+  EXPECT_LT(mixed.deflection.low, mixed.deflection.value);
+  EXPECT_GT(mixed.deflection.high, mixed.deflection.value);
+  EXPECT_LE(mixed.deflection.high,
+            0.5 + 0.05);  // not drawn at all: all halve; the median may stand a little off the value
+}
+
+}  // namespace
+}  // namespace stiffscope

@@ -1,0 +1,205 @@
+#include "core/frames/geometry_calibration.h"
+
+#include <ceres/autodiff_cost_function.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include "core/frames/unloaded_positions.h"
+#include "tests/fixtures/linear_machine.h"
+
+namespace stiffscope {
+namespace {
+
+SimulatedLab labWithErrors() {
+  SimulatedLab lab;
+  lab.withoutMasses();
+  Noise noise(51);
+  lab.actual = lab.nominal.disturbed(noise, 1e-3, 1e-3);
+  return lab;
+}
+
+/// Where the calibrated geometry puts a reflector, in the tracker's frame.
+Eigen::Vector3d predicted(const frames::LoadingGeometry& geometry, const Vector6d& q, std::size_t target) {
+  return geometry.r0_from_loading->inverse() *
+         (robot::postureAt(geometry.arm, q).motion[6] * *geometry.targets_at_zero[target]);
+}
+
+double worstPrediction(const SimulatedLab& lab, const frames::LoadingGeometry& geometry) {
+  Noise noise(99);
+  double worst = 0.0;
+  for (int i = 0; i < 30; ++i) {
+    const Vector6d q = somePosture(noise);
+    for (std::size_t k = 0; k < 3; ++k)
+      worst = std::max(worst, (predicted(geometry, q, k) - lab.seen(q, k)).norm());
+  }
+  return worst;
+}
+
+frames::LoadingGeometry nominalStart(const campaign::Campaign& campaign) {
+  return frames::sweptGeometry(campaign, frames::measureFrames(campaign), Vector6d::Zero());
+}
+
+TEST(CalibrateGeometry, FindsTheArmFromPosturesAlone) {
+  const SimulatedLab lab = labWithErrors();
+  campaign::Campaign campaign = lab.empty();
+  lab.addLoading(campaign, 25, pulledForce);
+  const frames::LoadingGeometry start = nominalStart(campaign);
+  EXPECT_FALSE(start.r0_from_loading);
+  const frames::GeometryCalibration found = frames::calibrateGeometry(campaign, start);
+  ASSERT_TRUE(found.done) << found.reason;
+  EXPECT_EQ(found.positions, 75);
+  EXPECT_GT(found.rms_before, 1e-4);  // axes a millimetre and a milliradian off
+  EXPECT_LT(found.rms_after, 1e-9);   // noise free: what Ceres stops at
+  // At postures it has not seen: exact but for the stop, carried over 3 m.
+  EXPECT_LT(worstPrediction(lab, found.geometry), 1e-7);
+}
+
+TEST(CalibrateGeometry, FixesAndNamesWhatIsFreeByChoiceOfFrame) {
+  // 24 axis parameters, the base and the reflectors: to move base, axes and reflectors together changes
+  // nothing, so six are free by choice of frame. R0 is defined by axes 1 and 2: it is theirs that are kept.
+  const SimulatedLab lab = labWithErrors();
+  campaign::Campaign campaign = lab.empty();
+  lab.addLoading(campaign, 25, pulledForce);
+  const frames::GeometryCalibration found = frames::calibrateGeometry(campaign, nominalStart(campaign));
+  ASSERT_TRUE(found.done) << found.reason;
+  EXPECT_EQ(found.fixed.size(), 6u);
+  for (const std::string& name : found.fixed) {
+    EXPECT_TRUE(name.starts_with("axis 1 ") || name.starts_with("axis 2 ")) << name;
+  }
+  EXPECT_EQ(std::count_if(found.fixed.begin(), found.fixed.end(),
+                          [](const std::string& name) { return name.starts_with("axis 1 "); }),
+            4);
+  EXPECT_EQ(found.parameters, 24 + 6 + 9 - 6);
+}
+
+TEST(CalibrateGeometry, AJointThatNeverMovesIsFoundToo) {
+  // Joint 4 stands still in all postures: its four parameters are not seen, beside the six.
+  const SimulatedLab lab = labWithErrors();
+  campaign::Campaign campaign = lab.empty();
+  lab.addLoading(campaign, 25, pulledForce);
+  for (std::size_t i = 0; i < campaign.states->rows.size(); ++i) campaign.states->rows[i].q[3] = 0.3;
+  for (campaign::LoadingReading& row : campaign.loading->rows) {
+    const Vector6d& q = campaign.states->rows[2 * static_cast<std::size_t>(row.pose)].q;
+    row.point = lab.seen(q, static_cast<std::size_t>(row.target));
+  }
+  const frames::GeometryCalibration found = frames::calibrateGeometry(campaign, nominalStart(campaign));
+  ASSERT_TRUE(found.done) << found.reason;
+  EXPECT_EQ(found.fixed.size(), 10u);
+  EXPECT_LT(found.rms_after, 1e-9);
+}
+
+TEST(CalibrateGeometry, StartsFromSweepsWhereThereAreAny) {
+  const SimulatedLab lab = labWithErrors();
+  campaign::Campaign campaign = lab.empty();
+  lab.addCircleSweeps(campaign);
+  lab.addLoading(campaign, 25, pulledForce);
+  const frames::GeometryCalibration found = frames::calibrateGeometry(campaign, nominalStart(campaign));
+  ASSERT_TRUE(found.done) << found.reason;
+  EXPECT_LT(found.rms_before, 1e-8);  // noise free, the sweeps have it already
+  EXPECT_LT(worstPrediction(lab, found.geometry), 1e-7);
+}
+
+TEST(CalibrateGeometry, NoiseIsNotFitted) {
+  // 20 um: what is left over degrees of freedom is the noise, and unseen postures are predicted to a few of
+  // it.
+  SimulatedLab lab = labWithErrors();
+  campaign::Campaign campaign = lab.empty();
+  lab.addLoading(campaign, 40, pulledForce);
+  Noise noise(3);
+  for (campaign::LoadingReading& row : campaign.loading->rows) row.point += 2e-5 * noise.normal3();
+  const frames::GeometryCalibration found = frames::calibrateGeometry(campaign, nominalStart(campaign));
+  ASSERT_TRUE(found.done) << found.reason;
+  const double sigma = found.rms_after * std::sqrt(360.0 / (360.0 - found.parameters));
+  EXPECT_NEAR(sigma, 2e-5, 3e-6);  // 327 degrees of freedom: 4 % at one sigma
+  EXPECT_LT(worstPrediction(lab, found.geometry), 1.5e-4);
+}
+
+TEST(CalibrateGeometry, RefusesWithAReason) {
+  const SimulatedLab lab = labWithErrors();
+  campaign::Campaign campaign = lab.empty();
+  EXPECT_FALSE(frames::calibrateGeometry(campaign, nominalStart(campaign)).reason.empty());
+  lab.addLoading(campaign, 2, pulledForce);
+  const frames::GeometryCalibration two = frames::calibrateGeometry(campaign, nominalStart(campaign));
+  EXPECT_FALSE(two.done);
+  EXPECT_NE(two.reason.find("three postures"), std::string::npos) << two.reason;
+}
+
+TEST(CalibrateGeometry, FewPosturesFixMoreThanTheChoiceOfFrame) {
+  // Three postures of a rigid triangle give 3 x 6 + 3 independent numbers: 21 of 39 parameters, 18 axis
+  // parameters fixed.
+  const SimulatedLab lab = labWithErrors();
+  campaign::Campaign campaign = lab.empty();
+  lab.addLoading(campaign, 3, pulledForce);
+  const frames::GeometryCalibration found = frames::calibrateGeometry(campaign, nominalStart(campaign));
+  ASSERT_TRUE(found.done) << found.reason;
+  EXPECT_EQ(found.parameters, 21);
+  EXPECT_EQ(found.fixed.size(), 18u);
+}
+
+TEST(PositionCost, HasTheDerivativesOfItsResidual) {
+  // Against automatic differentiation of the whole chain at once; only the order of products differs.
+  frames::CalibrationStart start;
+  for (std::size_t j = 0; j < 6; ++j) {
+    const double at = static_cast<double>(j);
+    start.axes[j] = {Eigen::Vector3d(0.1 * at, -0.2, 0.3 * at), Eigen::Vector3d(std::sin(at), std::cos(2.0 * at), 0.5).normalized()};
+    metrology::basisAcross(start.axes[j].direction, start.across_u[j], start.across_v[j]);
+  }
+  start.points_from_base = Eigen::Translation3d(1.0, -2.0, 0.5) * Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, -1).normalized());
+  Vector6d q;
+  q << 0.3, -0.8, 1.1, 2.0, -0.4, 0.9;
+  const Eigen::Matrix3d whiten = (Eigen::Matrix3d() << 3.0, 0.2, 0.1, 0.0, 2.0, -0.3, 0.0, 0.0, 5.0).finished();
+  const frames::PositionResidual residual{start, q, Eigen::Vector3d(0.4, 0.1, 1.2), whiten};
+  std::array<double, 24> axes;
+  for (std::size_t k = 0; k < axes.size(); ++k) axes[k] = 1e-2 * std::cos(3.0 * static_cast<double>(k));
+  const std::array<double, 6> base{0.02, -0.01, 0.03, 0.1, 0.2, -0.1};
+  const std::array<double, 3> target{0.3, -0.2, 1.4};
+  const std::array<const double*, 3> parameters{axes.data(), base.data(), target.data()};
+  const auto evaluated = [&](const ceres::CostFunction& cost) {
+    std::array<Eigen::Matrix<double, 3, 24, Eigen::RowMajor>, 3> blocks;
+    std::array<double*, 3> jacobians{blocks[0].data(), blocks[1].data(), blocks[2].data()};
+    Eigen::Matrix<double, 3, 34> all = Eigen::Matrix<double, 3, 34>::Zero();
+    Eigen::Vector3d value;
+    EXPECT_TRUE(cost.Evaluate(parameters.data(), value.data(), jacobians.data()));
+    all << value, blocks[0], Eigen::Map<Eigen::Matrix<double, 3, 6, Eigen::RowMajor>>(blocks[1].data()),
+        Eigen::Map<Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(blocks[2].data());
+    return all;
+  };
+  const auto found = evaluated(frames::PositionCost(residual));
+  const auto expected = evaluated(ceres::AutoDiffCostFunction<frames::PositionResidual, 3, 24, 6, 3>(new frames::PositionResidual(residual)));
+  EXPECT_LT((found - expected).cwiseAbs().maxCoeff(), 1e-13);
+  EXPECT_GT(expected.cwiseAbs().colwise().maxCoeff().minCoeff(), 1e-3);  // no column is empty
+}
+
+TEST(BaseFromPostures, NominalArmExactly) {
+  SimulatedLab lab;
+  lab.withoutMasses();
+  campaign::Campaign campaign = lab.empty();
+  lab.addLoading(campaign, 5, pulledForce);
+  const frames::LoadingGeometry start = nominalStart(campaign);
+  const auto found = frames::baseFromPostures(start, frames::unloadedPositions(campaign), 3);
+  ASSERT_TRUE(found);
+  // The arm's base frame is R0 by the nominal rule: 0.94 m up.
+  const Eigen::Isometry3d tracker_from_r0 = lab.tracker_from_base * start.r0_from_base_link.inverse();
+  EXPECT_LT((found->points_from_base.matrix() - tracker_from_r0.matrix()).norm(), 1e-9);
+  for (std::size_t k = 0; k < 3; ++k) {
+    EXPECT_LT((start.r0_from_base_link.inverse() * *found->targets_at_zero[k] -
+               lab.actual.flangeAt(Vector6d::Zero()) * lab.targets_in_flange[k])
+                  .norm(),
+              1e-9);
+  }
+}
+
+TEST(BaseFromPostures, TurnsAboutOneAxisAreNotEnough) {
+  SimulatedLab lab;
+  lab.withoutMasses();
+  campaign::Campaign campaign = lab.empty();
+  lab.addLoading(campaign, 6, pulledForce);
+  for (campaign::State& state : campaign.states->rows) state.q = degrees(10.0 * state.pose, 10, 0, 20, 40, 30);
+  for (campaign::LoadingReading& row : campaign.loading->rows) {
+    row.point = lab.seen(degrees(10.0 * row.pose, 10, 0, 20, 40, 30), static_cast<std::size_t>(row.target));
+  }
+  EXPECT_FALSE(frames::baseFromPostures(nominalStart(campaign), frames::unloadedPositions(campaign), 3));
+}
+
+}  // namespace
+}  // namespace stiffscope
