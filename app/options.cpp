@@ -116,13 +116,12 @@ void addWithOption(CLI::App& command, std::vector<std::string>& words) {
 }
 
 extended_model::EffectFit effectsAsked(const preparation::PreparedCampaign& prepared, const std::vector<std::string>& words) {
-  campaign::Campaign campaign = prepared.campaign;
-  // Nests whose motion has been taken off the readings have said what they know.
-  if (prepared.preparation.drift.taken_off) campaign.nests.reset();
+  // Raw readings, too, are screened before effects are sought in them.
+  if (prepared.preparation.raw) return effectsAsked(preparation::prepareCampaign(prepared.campaign), words);
   if (std::find(words.begin(), words.end(), "auto") == words.end())
-    return extended_model::fitEffects(campaign, extended_model::wantedEffects(words, campaign));
+    return extended_model::fitEffects(prepared, extended_model::wantedEffects(words, prepared.campaign));
   if (words.size() > 1) throw io::InputError({"--with"}, "auto", "expected auto alone, or effects without it");
-  return extended_model::fitEffects(campaign, extended_model::namedBy(diagnosis::diagnose(campaign)));
+  return extended_model::fitEffects(prepared, extended_model::namedBy(diagnosis::diagnose(prepared)));
 }
 
 }  // namespace stiffscope::app

@@ -1,6 +1,5 @@
 #include <CLI/CLI.hpp>
 #include <memory>
-#include <optional>
 #include <utility>
 
 #include "app/command_line.h"
@@ -11,7 +10,7 @@
 #include "core/audit/check_design.h"
 #include "core/diagnosis/diagnose.h"
 #include "core/identification/load_case.h"
-#include "core/preparation/subsample.h"
+#include "core/preparation/prepare.h"
 #include "reports/json/audit_json.h"
 #include "reports/text/audit_text.h"
 
@@ -20,22 +19,21 @@ namespace stiffscope::app {
 namespace {
 
 /// What could be told apart by these loads is asked, not what is there.
-diagnosis::Diagnosis designOf(const campaign::Campaign& campaign) {
+diagnosis::Diagnosis designOf(const preparation::PreparedCampaign& prepared) {
   diagnosis::DiagnoseOptions design;
   design.resamples = design.chance_draws = 0;
-  return diagnosis::diagnose(campaign, design);
+  return diagnosis::diagnose(prepared, design);
 }
 
 int auditCampaign(const std::string& folder, const std::string& json_file) {
   useLargeHeapPages();
   campaign::Campaign campaign = openCampaign(folder, hashesFor(json_file));
   const campaign::Campaign words = described(campaign);
-  // The audit takes the only copy of the readings; what the design is asked about is a hundred postures.
-  std::optional<campaign::Campaign> asked;
-  if (identification::whatLoadsLack(campaign).empty()) asked = preparation::evenlySpread(campaign, preparation::kMostDiagnosed);
-  audit::AuditReport report = audit::audit(std::move(campaign));
+  const preparation::PreparedCampaign prepared = preparation::prepareCampaign(std::move(campaign));
+  audit::AuditReport report = audit::audit(prepared);
+  const bool loaded = identification::whatLoadsLack(prepared.campaign).empty();
   // With a unit wrong nothing could be told apart, and the search would not settle for a minute.
-  if (asked && !audit::findsTheImpossible(report)) audit::addSeparableEffects(designOf(*asked), report);
+  if (loaded && !audit::findsTheImpossible(report)) audit::addSeparableEffects(designOf(prepared), report);
   deliver([&] { return reports::auditJson(words, report); }, [&] { return reports::auditText(words, report); }, json_file);
   return report.verdict == preparation::AuditVerdict::fail ? kNotUsable : kDone;
 }

@@ -61,13 +61,9 @@ struct Result {
 
   Result(const std::string& folder, const Arguments& arguments, const identification::IdentifyOptions& options) {
     campaign::Campaign read = openCampaign(folder);
-    const bool loads = identification::whatLoadsLack(read).empty();
-    campaign::Campaign used = loads ? read : std::move(read);  // sweeps alone may be a million readings: once is enough
-    prepared = arguments.raw ? preparation::leaveRaw(std::move(used)) : preparation::prepareCampaign(std::move(used));
+    prepared = arguments.raw ? preparation::leaveRaw(std::move(read)) : preparation::prepareCampaign(std::move(read));
     loaded = identification::whatLoadsLack(prepared.campaign).empty();
-    // First of all: of a long day it lets most of what was read go.
-    if (loaded) diagnosis = diagnosis::diagnose(std::move(read));
-    read = campaign::Campaign();
+    if (loaded) diagnosis = arguments.raw ? diagnosis::diagnose(prepared.campaign) : diagnosis::diagnose(prepared);
     returnFreeMemory();
     if (loaded && !arguments.with.empty()) {
       improved = extended_model::improveModel(prepared.campaign, effectsAsked(prepared, arguments.with), options);
@@ -129,7 +125,7 @@ int writeReport(const Arguments& arguments) {
   for (const std::string& folder : arguments.campaigns) {
     const Result& one = results.emplace_back(folder, arguments, options);
     content.campaigns.push_back(
-        {one.campaign(), one.identification(), &one.audited, &one.prepared.preparation, &one.prepared.station,
+        {one.campaign(), one.identification(), &one.audited, &one.prepared.preparation, &one.prepared.drift.rounds,
          one.diagnosis ? &*one.diagnosis : nullptr, one.improved ? &*one.improved : nullptr});
   }
   content.avoided = reports::avoidedByEncoders(content.campaigns);

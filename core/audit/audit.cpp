@@ -64,23 +64,19 @@ preparation::AuditVerdict worst(const std::vector<preparation::AuditCheck>& chec
 }  // namespace
 
 AuditReport audit(campaign::Campaign campaign) {
-  preparation::PreparedCampaign prepared = preparation::prepareCampaign(std::move(campaign));
-  return audit(prepared);
+  return audit(preparation::prepareCampaign(std::move(campaign)));
 }
 
-AuditReport audit(preparation::PreparedCampaign& prepared) {
+AuditReport audit(const preparation::PreparedCampaign& prepared) {
   AuditReport report;
   report.checks = prepared.screening;
   report.rejected = prepared.preparation.rejected;
-  const std::optional<campaign::Tracker> declared = prepared.campaign.tracker;
-  Evidence evidence = gatherEvidence(std::move(prepared.campaign), prepared);
+  const Evidence evidence = gatherEvidence(prepared);
   for (const Check& check : kAllChecks) {
     Findings findings = check.of(evidence);
     std::move(findings.begin(), findings.end(), std::back_inserter(report.checks));
   }
   report.verdict = worst(report.checks);
-  prepared.campaign = std::move(evidence.campaign);
-  prepared.campaign.tracker = declared;
   return report;
 }
 

@@ -20,13 +20,13 @@ struct AuditReport {
 /// what is missing; nothing here throws for what data lacks. Limits and their sources are those of
 /// core/audit/limits.h.
 ///
-/// The checks look at the campaign that identification sees (core/audit/prepare.h): without rejected
+/// The checks look at the campaign that identification sees (core/preparation/prepare.h): without rejected
 /// readings, the station's motion taken off where floor nests show it, so that one cause gives one finding;
 /// for the same reason repeats that scatter by more than is declared replace the declared noise in the other
 /// checks.
 AuditReport audit(campaign::Campaign campaign);
-/// Of what is prepared already; it is left as it was. Long sweeps are never copied.
-AuditReport audit(preparation::PreparedCampaign& prepared);
+/// Of what is prepared already. Long sweeps are never copied.
+AuditReport audit(const preparation::PreparedCampaign& prepared);
 
 /// Whether some check found what cannot be.
 bool findsTheImpossible(const AuditReport& report);

@@ -16,16 +16,12 @@ frames::SagModel sagOf(const Evidence& evidence) {
 
 }  // namespace
 
-Evidence gatherEvidence(campaign::Campaign campaign, const preparation::PreparedCampaign& found) {
-  Evidence evidence;
-  evidence.campaign = std::move(campaign);
-  evidence.drift = found.preparation.drift;
-  evidence.station = found.station;
-  evidence.scatter = found.scatter;
-  if (preparation::declaredNoise(evidence.campaign)) {
-    evidence.campaign.tracker = preparation::asNoisyAs(*evidence.campaign.tracker, preparation::noiseFactors(evidence.scatter));
-    evidence.noise = frames::trackerNoise(*evidence.campaign.tracker);
-  }
+Evidence gatherEvidence(const preparation::PreparedCampaign& prepared) {
+  Evidence evidence{prepared.campaign};
+  evidence.drift = prepared.preparation.drift;
+  evidence.station = prepared.drift.rounds;
+  evidence.scatter = prepared.scatter;
+  evidence.noise = preparation::declaredNoise(evidence.campaign);
   evidence.states = campaign::statePoints(evidence.campaign);
   identification::SettledDay day = identification::settleDay(evidence.campaign);
   evidence.step = day.step;

@@ -13,11 +13,11 @@ namespace stiffscope::audit {
 
 /// What the checks look at: the campaign as identification sees it.
 struct Evidence {
-  campaign::Campaign campaign;      ///< without rejected readings, drift taken off where nests explain it
+  const campaign::Campaign& campaign;  ///< as prepared
   preparation::DriftCorrection drift;  ///< how far it was
   preparation::StationMotion station;  ///< by the nests
   preparation::RepeatScatter scatter;  ///< of the repeats, against the declared noise
-  /// Declared, or as the repeats show it where that is larger; `campaign.tracker` says the same.
+  /// That of `campaign.tracker`; empty where none is declared.
   std::optional<metrology::TrackerNoise> noise;
   std::vector<campaign::StatePoints> states;  ///< reflectors in every state of sweeps and loading
   std::optional<int> step;          ///< heaviest load step
@@ -27,7 +27,7 @@ struct Evidence {
   AbsoluteFit absolute;             ///< unloaded positions against forward kinematics
 };
 
-/// Of a campaign and of what else its preparation found.
-Evidence gatherEvidence(campaign::Campaign campaign, const preparation::PreparedCampaign& found);
+/// `prepared` must outlive the result.
+Evidence gatherEvidence(const preparation::PreparedCampaign& prepared);
 
 }  // namespace stiffscope::audit

@@ -56,15 +56,15 @@ std::vector<effects::EffectModel> modelsFor(const campaign::Campaign& campaign, 
 
 class Diagnoser {
  public:
-  Diagnoser(const campaign::Campaign& campaign, const DiagnoseOptions& options)
-      : original_(campaign),
+  Diagnoser(const preparation::PreparedCampaign& prepared, const DiagnoseOptions& options)
+      : prepared_(prepared),
         options_(options),
-        start_(gapStart(campaign, true)),
+        start_(gapStart(prepared)),
         input_{start_.campaign,
                start_.noise.noise,
-               campaign.load_cell->force_sigma,
-               campaign.load_cell->moment_sigma,
-               modelsFor(campaign, options.only),
+               prepared.campaign.load_cell->force_sigma,
+               prepared.campaign.load_cell->moment_sigma,
+               modelsFor(prepared.campaign, options.only),
                start_.absolute,
                start_.sweeps,
                complianceExpected(start_.state.at.compliance)} {}
@@ -151,7 +151,7 @@ class Diagnoser {
   /// Where the station's motion was taken off, the gap before is that of the readings as they are.
   void asMeasured() {
     if (given_.empty()) return;
-    std::optional<GapAsMeasured> raw = gapAsMeasured(original_, input_, fit_, after_);
+    std::optional<GapAsMeasured> raw = gapAsMeasured(prepared_, input_, fit_, after_);
     if (!raw) return;
     if (raw->deflection) result_.gap.before = *raw->deflection;
     if (raw->position) result_.positions.before = *raw->position;
@@ -221,7 +221,7 @@ class Diagnoser {
     }
   }
 
-  const campaign::Campaign& original_;
+  const preparation::PreparedCampaign& prepared_;
   DiagnoseOptions options_;
   GapStart start_;
   GapInput input_;
@@ -236,8 +236,10 @@ class Diagnoser {
   Diagnosis result_;
 };
 
+bool isLong(const campaign::Campaign& campaign) { return campaign.pose_ids.size() > preparation::kMostDiagnosed || preparation::hasLongSweep(campaign); }
+
 /// `spread` is what is looked at of a campaign of so many postures, which the diagnosis refers to.
-Diagnosis diagnoseSpread(const campaign::Campaign& spread, std::size_t postures, bool long_sweeps, const DiagnoseOptions& options) {
+Diagnosis diagnoseSpread(const preparation::PreparedCampaign& spread, std::size_t postures, bool long_sweeps, const DiagnoseOptions& options) {
   Diagnosis diagnosis = Diagnoser(spread, options).run();
   if (long_sweeps) {
     diagnosis.verdict.reason += fmt::format(" Of a sweep's readings {} at most took part, spread evenly over it.", preparation::kMostSwept);
@@ -250,23 +252,32 @@ Diagnosis diagnoseSpread(const campaign::Campaign& spread, std::size_t postures,
   return diagnosis;
 }
 
-bool isLong(const campaign::Campaign& campaign) { return campaign.pose_ids.size() > preparation::kMostDiagnosed || preparation::hasLongSweep(campaign); }
+/// Everything of `prepared` but the readings that take no part.
+preparation::PreparedCampaign spreadEvenly(const preparation::PreparedCampaign& prepared) {
+  return {preparation::evenlySpread(prepared.campaign, preparation::kMostDiagnosed), prepared.preparation, {}, prepared.scatter,
+          prepared.noise, prepared.drift};
+}
 
 }  // namespace
 
 Diagnosis diagnose(const campaign::Campaign& campaign, const DiagnoseOptions& options) {
-  requireLoads(campaign);
-  if (!isLong(campaign)) return Diagnoser(campaign, options).run();
-  return diagnoseSpread(preparation::evenlySpread(campaign, preparation::kMostDiagnosed), campaign.pose_ids.size(), preparation::hasLongSweep(campaign), options);
+  return diagnose(campaign::Campaign(campaign), options);
 }
 
 Diagnosis diagnose(campaign::Campaign&& campaign, const DiagnoseOptions& options) {
   requireLoads(campaign);
-  const std::size_t postures = campaign.pose_ids.size();
-  if (!isLong(campaign)) return Diagnoser(campaign, options).run();
-  const bool long_sweeps = preparation::hasLongSweep(campaign);
-  campaign = preparation::evenlySpread(campaign, preparation::kMostDiagnosed);
-  return diagnoseSpread(campaign, postures, long_sweeps, options);
+  preparation::PreparedCampaign prepared = preparation::prepareCampaign(std::move(campaign));
+  if (!isLong(prepared.campaign)) return Diagnoser(prepared, options).run();
+  const std::size_t postures = prepared.campaign.pose_ids.size();
+  const bool long_sweeps = preparation::hasLongSweep(prepared.campaign);
+  prepared = spreadEvenly(prepared);
+  return diagnoseSpread(prepared, postures, long_sweeps, options);
+}
+
+Diagnosis diagnose(const preparation::PreparedCampaign& prepared, const DiagnoseOptions& options) {
+  requireLoads(prepared.campaign);
+  if (!isLong(prepared.campaign)) return Diagnoser(prepared, options).run();
+  return diagnoseSpread(spreadEvenly(prepared), prepared.campaign.pose_ids.size(), preparation::hasLongSweep(prepared.campaign), options);
 }
 
 }  // namespace stiffscope::diagnosis

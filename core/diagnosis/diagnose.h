@@ -5,6 +5,7 @@
 
 #include "core/campaign/campaign.h"
 #include "core/diagnosis/diagnosis.h"
+#include "core/preparation/prepare.h"
 
 namespace stiffscope::diagnosis {
 
@@ -24,5 +25,7 @@ struct DiagnoseOptions {
 Diagnosis diagnose(const campaign::Campaign& campaign, const DiagnoseOptions& options = {});
 /// Of a campaign that is of no more use: of a long day's readings those that take no part go before the equations come.
 Diagnosis diagnose(campaign::Campaign&& campaign, const DiagnoseOptions& options = {});
+/// Of a day that is prepared already, as identification and audit see it.
+Diagnosis diagnose(const preparation::PreparedCampaign& prepared, const DiagnoseOptions& options = {});
 
 }  // namespace stiffscope::diagnosis

@@ -9,8 +9,6 @@
 #include "core/frames/geometry_calibration.h"
 #include "core/identification/identify.h"
 #include "core/identification/load_point.h"
-#include "core/preparation/repeatability.h"
-#include "core/preparation/screening.h"
 #include "core/robot/wrench.h"
 
 namespace stiffscope::diagnosis {
@@ -40,77 +38,14 @@ bool sameFrame(const campaign::Campaign& campaign) {
          (!campaign.wrist_sweep || campaign.wrist_sweep->frame == campaign.loading->frame);
 }
 
-/// Sweeps that state no time are taken to have been read row by row, evenly, between the first round of the
-/// nests and the last one before the loading: what a drift did to them is then known to a part of itself.
-void spreadSweepTimes(const preparation::StationMotion& station, campaign::Campaign& campaign) {
-  if (!campaign.circle_sweeps || !campaign.loading) return;
-  double loading = std::numeric_limits<double>::infinity();
-  for (const campaign::LoadingReading& row : campaign.loading->rows) {
-    if (std::isfinite(row.time_s)) loading = std::min(loading, row.time_s);
-  }
-  const double first = station.epochs.front().time_s;
-  double last = first;
-  for (const preparation::StationEpoch& epoch : station.epochs) {
-    if (epoch.time_s < loading) last = epoch.time_s;
-  }
-  auto& circles = campaign.circle_sweeps->rows;
-  const std::size_t count = circles.size() + (campaign.wrist_sweep ? campaign.wrist_sweep->rows.size() : 0);
-  std::size_t at = 0;
-  const auto spread = [&](auto& rows) {
-    for (auto& row : rows) {
-      ++at;
-      if (!std::isfinite(row.time_s))
-        row.time_s = first + (last - first) * static_cast<double>(at) / static_cast<double>(count);
-    }
-  };
-  spread(circles);
-  if (campaign.wrist_sweep) spread(campaign.wrist_sweep->rows);
-}
-
 }  // namespace
 
-NoiseFloor noiseFloor(const campaign::Campaign& campaign) {
-  NoiseFloor floor;
-  if (!campaign.tracker) {
-    floor.source = "the tracker's noise is not declared";
-    return floor;
-  }
-  floor.noise = frames::trackerNoise(*campaign.tracker);
-  floor.known = floor.noise.range_fixed + floor.noise.range_per_m > 0.0 &&
-                floor.noise.angle_fixed + floor.noise.angle_per_m > 0.0;
-  floor.source = "the tracker's declared noise";
-  if (!floor.known || !campaign.loading) return floor;
-  const preparation::RepeatScatter scatter = preparation::repeatScatter(campaign);
-  constexpr int kEnough = 30;
-  if (scatter.along_dof < kEnough) {
-    floor.source += ", because there are too few repeats to check it";
-    return floor;
-  }
-  floor.along_factor = std::sqrt(scatter.along_chi2 / scatter.along_dof);
-  floor.across_factor = std::sqrt(scatter.across_chi2 / scatter.across_dof);
-  floor.noise.range_fixed *= floor.along_factor;
-  floor.noise.range_per_m *= floor.along_factor;
-  floor.noise.angle_fixed *= floor.across_factor;
-  floor.noise.angle_per_m *= floor.across_factor;
-  floor.degrees = scatter.along_dof + scatter.across_dof;
-  floor.source = fmt::format(
-      "repeats ({} degrees of freedom), {:.2f} of the declared noise along the beam, {:.2f} across",
-      scatter.along_dof + scatter.across_dof, floor.along_factor, floor.across_factor);
-  return floor;
-}
-
-GapStart gapStart(const campaign::Campaign& campaign, bool take_off_station) {
+GapStart gapStart(const preparation::PreparedCampaign& prepared) {
   GapStart start;
-  start.campaign = preparation::screenReadings(campaign).campaign;
-  std::optional<metrology::TrackerNoise> declared;
-  if (campaign.tracker) declared = frames::trackerNoise(*campaign.tracker);
-  start.station = preparation::stationCourse(start.campaign, declared);
-  const bool moved =
-      start.station.course == preparation::StationCourse::jumped || start.station.course == preparation::StationCourse::drifted;
-  if (start.station.course == preparation::StationCourse::drifted) spreadSweepTimes(start.station.motion, start.campaign);
-  if (moved && take_off_station) preparation::takeOffDrift(start.station.motion, start.campaign);
+  start.campaign = prepared.campaign;
   start.campaign.nests.reset();  // they have said what they know
-  start.noise = noiseFloor(start.campaign);
+  start.station = prepared.drift;
+  start.noise = prepared.noise;
   const identification::SettledDay day = identification::settleDay(start.campaign);
   start.geometry = day.arm.geometry;
   start.absolute = start.campaign.loading && start.geometry.r0_from_loading.has_value();

@@ -6,29 +6,15 @@
 #include "core/diagnosis/linear_system.h"
 #include "core/identification/loaded_arm.h"
 #include "core/identification/method_solution.h"
-#include "core/preparation/station_course.h"
+#include "core/preparation/prepare.h"
 
 namespace stiffscope::diagnosis {
 
-/// Noise of one reading as the diagnosis takes it.
-struct NoiseFloor {
-  bool known = false;
-  metrology::TrackerNoise noise;
-  double along_factor = 1.0, across_factor = 1.0;  ///< standard deviations found against declared
-  double degrees = 0.0;                            ///< of freedom of what it was found from; 0: as declared
-  std::string source;
-};
-
-/// By the scatter of repeats where there are enough of them (30 degrees of freedom along and across the
-/// beam), in the shape of the declared noise; else as declared. Not known without a declared tracker.
-NoiseFloor noiseFloor(const campaign::Campaign& campaign);
-
-/// A campaign made ready: screened, the station's motion taken off, frames and stiffnesses found, the arm's
-/// geometry from the sweeps or, without them, calibrated on the unloaded positions.
+/// What the diagnosis of a prepared campaign begins with: frames and stiffnesses found, the arm's geometry from the sweeps or, without them, calibrated on the unloaded positions.
 struct GapStart {
   campaign::Campaign campaign;
-  preparation::Station station;
-  NoiseFloor noise;
+  preparation::DriftModel station;
+  preparation::NoiseModel noise;
   frames::LoadingGeometry geometry;
   bool absolute = false, sweeps = false;
   GapState state;
@@ -36,7 +22,7 @@ struct GapStart {
   std::string reason;  ///< why there is no gap to look at; empty where there is
 };
 
-GapStart gapStart(const campaign::Campaign& campaign, bool take_off_station);
+GapStart gapStart(const preparation::PreparedCampaign& prepared);
 
 /// Nests that show no motion by themselves still bound a drift: their rate, with its weight, takes part in the
 /// fit as a reading of trackerDrift's parameters (readings move against what brings them back). Nothing where

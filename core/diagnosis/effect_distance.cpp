@@ -17,12 +17,13 @@ double beyondNoise(const Gap& gap) {
 }  // namespace
 
 double distanceFromVocabulary(const campaign::Campaign& campaign) {
+  const preparation::PreparedCampaign prepared = preparation::prepareCampaign(campaign);
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t e = 0; e < effects::kEffectCount; ++e) {
     DiagnoseOptions options;
     options.resamples = options.chance_draws = 0;
     options.only = static_cast<effects::Effect>(e);
-    const Diagnosis with_it = diagnose(campaign, options);
+    const Diagnosis with_it = diagnose(prepared, options);
     if (!with_it.usable) return 0.0;
     least = std::min(least, std::max(beyondNoise(with_it.gap), beyondNoise(with_it.positions)));
   }

@@ -89,7 +89,7 @@ struct GapInput {
   /// What nests say of trackerDrift's parameters: their values, and the inverse covariance of these.
   Vector6d drift = Vector6d::Zero();
   Matrix6d drift_weight = Matrix6d::Zero();
-  const preparation::Station* wandering = nullptr;  ///< of which the interpolated motion was taken off; null: none
+  const preparation::DriftModel* wandering = nullptr;  ///< of which the interpolated motion was taken off; null: none
 };
 
 /// Where one round of linearisation stands.

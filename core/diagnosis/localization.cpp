@@ -24,9 +24,9 @@ Eigen::VectorXd stiffnessesIn(const GapData& data) {
 
 }  // namespace
 
-std::optional<GapAsMeasured> gapAsMeasured(const campaign::Campaign& original, const GapInput& input, const GapFit& fit,
+std::optional<GapAsMeasured> gapAsMeasured(const preparation::PreparedCampaign& prepared, const GapInput& input, const GapFit& fit,
                                            const Eigen::VectorXd& after) {
-  const GapStart raw = gapStart(original, false);
+  const GapStart raw = gapStart(preparation::asMeasured(prepared));
   if (!raw.reason.empty()) return std::nullopt;
   const GapInput as_read{
       raw.campaign, raw.noise.noise, input.force_sigma, input.moment_sigma, input.models, false, false, {}};
@@ -42,7 +42,7 @@ std::optional<GapAsMeasured> gapAsMeasured(const campaign::Campaign& original, c
     deflection += squares;
     rows += count;
     gap.by_posture.rows.push_back(
-        {original.pose_ids[static_cast<std::size_t>(posture.pose)], std::sqrt(squares / count)});
+        {prepared.campaign.pose_ids[static_cast<std::size_t>(posture.pose)], std::sqrt(squares / count)});
   }
   gap.at_points = gapAtPoints(data, parameters, fit.data, after);
   for (const GapRows& one : loadingRows(raw.campaign, raw.state.geometry, raw.state.at, {})) {

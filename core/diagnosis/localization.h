@@ -6,6 +6,7 @@
 #include "core/diagnosis/diagnosis.h"
 #include "core/diagnosis/fit.h"
 #include "core/diagnosis/held_out.h"
+#include "core/preparation/prepare.h"
 
 namespace stiffscope::diagnosis {
 
@@ -18,10 +19,10 @@ struct GapAsMeasured {
       left;  ///< by posture of `fit`: before, of these readings; after, of `fit` with `after`
 };
 
-/// `original`: nothing taken off; `after`: parameters (allParameters) of the equations of `fit`. The
+/// Of the readings with the motion of the station put back; `after`: parameters (allParameters) of the equations of `fit`. The
 /// stiffnesses are fitted in the arm as the sweeps have it: a geometry left free would follow the station.
 /// Empty where nothing can be fitted.
-std::optional<GapAsMeasured> gapAsMeasured(const campaign::Campaign& original, const GapInput& input, const GapFit& fit,
+std::optional<GapAsMeasured> gapAsMeasured(const preparation::PreparedCampaign& prepared, const GapInput& input, const GapFit& fit,
                                            const Eigen::VectorXd& after);
 
 /// How large the gap of the deflection is, rms per coordinate: left by stiffnesses alone (`before`, on the

@@ -6,7 +6,7 @@
 namespace stiffscope::diagnosis {
 
 CampaignHas whatIsThere(const GapInput& input, const GapData& data, const GapState& state,
-                        const preparation::Station& station) {
+                        const preparation::DriftModel& station) {
   CampaignHas has;
   has.absolute = input.absolute;
   has.sweeps = input.sweeps;

@@ -19,7 +19,7 @@ struct CampaignHas {
 };
 
 CampaignHas whatIsThere(const GapInput& input, const GapData& data, const GapState& state,
-                        const preparation::Station& station);
+                        const preparation::DriftModel& station);
 
 /// Why an effect cannot be tested with this, in words that name what is missing; empty where it can.
 std::string missingFor(effects::Effect effect, const CampaignHas& has);

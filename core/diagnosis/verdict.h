@@ -11,9 +11,9 @@ struct VerdictInput {
   const GapInput& input;
   const GapFit& fit;
   const std::vector<bool>& allowed;
-  const preparation::Station& station;
+  const preparation::DriftModel& station;
   const GeometryError& geometry;
-  const NoiseFloor& noise;
+  const preparation::NoiseModel& noise;
   const Gap& gap;
   const Gap& positions;
 };

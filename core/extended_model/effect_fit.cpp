@@ -206,6 +206,11 @@ void describe(EffectFit& effects, const std::vector<bool>& allowed) {
 }  // namespace
 
 EffectFit fitEffects(const campaign::Campaign& campaign, const WantedEffects& asked) {
+  return fitEffects(preparation::prepareCampaign(campaign), asked);
+}
+
+EffectFit fitEffects(const preparation::PreparedCampaign& prepared, const WantedEffects& asked) {
+  const campaign::Campaign& campaign = prepared.campaign;
   EffectFit effects;
   effects.notes = asked.notes;
   std::vector<WantedEffect> wanted;
@@ -217,7 +222,7 @@ EffectFit fitEffects(const campaign::Campaign& campaign, const WantedEffects& as
     }
   }
   if (asked.effects.empty()) return effects;
-  auto start = std::make_unique<diagnosis::GapStart>(diagnosis::gapStart(campaign, true));
+  auto start = std::make_unique<diagnosis::GapStart>(diagnosis::gapStart(prepared));
   if (!start->reason.empty())
     throw io::InputError(kOption, std::string(effects::idOf(asked.effects.front().effect)), "there is no gap to fit it to: " + start->reason);
   auto input = std::make_unique<diagnosis::GapInput>(diagnosis::GapInput{start->campaign, start->noise.noise, campaign.load_cell->force_sigma,

@@ -4,12 +4,15 @@
 
 #include "core/extended_model/fitted_effects.h"
 #include "core/extended_model/requested_effects.h"
+#include "core/preparation/prepare.h"
 
 namespace stiffscope::extended_model {
 
-/// `campaign`: as identification sees it; nests that have said what they know taken out of it. Throws InputError where an
+/// Throws InputError where an
 /// effect cannot be tested with what the campaign has, naming what is missing, or where it cannot be told from
 /// stiffnesses and geometry in these postures. No effect to fit: `added` is empty.
+EffectFit fitEffects(const preparation::PreparedCampaign& prepared, const WantedEffects& wanted);
+/// Of a campaign as it was read, which is prepared first.
 EffectFit fitEffects(const campaign::Campaign& campaign, const WantedEffects& wanted);
 
 /// The same parameters from a sample of the postures, each with its weight: one linear step from where the fit stands.

@@ -405,12 +405,25 @@ StationMotion stationMotion(const campaign::Campaign& campaign, const std::optio
   return result;
 }
 
-void takeOffDrift(const StationMotion& station, campaign::Campaign& campaign) {
+namespace {
+
+template <class Move>
+void moveReadings(campaign::Campaign& campaign, const Move& motionAt) {
   forEachDriftingTable(campaign, [&](auto& table) {
     for (auto& row : table.rows) {
-      if (std::isfinite(row.time_s)) row.point = station.firstFrom(row.time_s) * row.point;
+      if (std::isfinite(row.time_s)) row.point = motionAt(row.time_s) * row.point;
     }
   });
+}
+
+}  // namespace
+
+void takeOffDrift(const StationMotion& station, campaign::Campaign& campaign) {
+  moveReadings(campaign, [&](double time_s) { return station.firstFrom(time_s); });
+}
+
+void putBackDrift(const StationMotion& station, campaign::Campaign& campaign) {
+  moveReadings(campaign, [&](double time_s) { return station.firstFrom(time_s).inverse(); });
 }
 
 }  // namespace stiffscope::preparation

@@ -71,6 +71,9 @@ void forEachDriftingTable(CampaignType& campaign, const Visit& visit) {
 /// Takes the motion off the readings that state a time and are in the tracker's frame; the rest stays.
 void takeOffDrift(const StationMotion& station, campaign::Campaign& campaign);
 
+/// The contrary: the same readings as they were before.
+void putBackDrift(const StationMotion& station, campaign::Campaign& campaign);
+
 /// When the station jumped that did so between round `round` of the nests and the one before, s: between two
 /// postures, where the unloaded positions then fit the arm best, or at the interval's start or end; its middle
 /// where the positions cannot say.

@@ -1,11 +1,13 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/preparation/drift_nests.h"
 #include "core/preparation/repeatability.h"
 #include "core/preparation/screening.h"
+#include "core/preparation/station_course.h"
 
 namespace stiffscope::preparation {
 
@@ -18,6 +20,7 @@ struct DriftCorrection {
   double until_s = 0.0;          ///< time of the last round
   std::vector<double> jumps_s;   ///< where the station jumped instead of drifting: when
   std::size_t readings = 0;      ///< referred to the first round
+  std::size_t spread = 0;        ///< among them: of sweeps that state no time, taken as read evenly before the loading
   std::size_t without_time = 0;  ///< in the tracker's frame, but no time says how the station stood: as read
 };
 
@@ -26,22 +29,32 @@ struct Preparation {
   bool raw = false;  ///< as it was read, because that was asked for
   std::vector<RejectedReading> rejected;
   DriftCorrection drift;
+  std::optional<campaign::Tracker> declared;  ///< the tracker as campaign.xml has it
 };
 
+/// A day as audit, identification and diagnosis all see it.
 struct PreparedCampaign {
+  /// Readings that are used; its tracker is as noisy as the repeats show where that is beyond what is declared by more than
+  /// chance, so that one cause gives one finding.
   campaign::Campaign campaign;
   Preparation preparation;
   std::vector<AuditCheck> screening;  ///< the checks that found the rejected readings
-  RepeatScatter scatter;              ///< of the repeats that are left
-  StationMotion station;              ///< by the nests, with its jumps
+  RepeatScatter scatter;              ///< of the repeats that are left, against the declared noise
+  NoiseModel noise;
+  DriftModel drift;  ///< by the nests
 };
 
 /// A campaign as identification should see it: without the readings that screening rejects (lost beams,
 /// duplicates, outlying repeats), and referred to the first round of the floor nests where these show that
-/// the station moved. The motion is taken off only where it is larger than noise explains (chi-square at the
-/// audit's level) and where the nests, one that moved left out, keep their shape: nests that do not are no
-/// reference. The audit looks at the same campaign.
+/// the station moved: one jump or a steady drift where either fits the rounds, else from round to round. The motion is
+/// taken off only where it is larger than noise explains (chi-square at the audit's level) and where the nests, one that
+/// moved left out, keep their shape: nests that do not are no reference. Sweeps that state no time are taken to have been
+/// read row by row, evenly, between the first round of the nests and the last one before the loading, where the station
+/// drifted.
 PreparedCampaign prepareCampaign(campaign::Campaign read);
+
+/// The same readings with the station's motion put back on them: as they were measured, but for rounding.
+PreparedCampaign asMeasured(PreparedCampaign prepared);
 
 /// The same campaign untouched, with a preparation that says so.
 PreparedCampaign leaveRaw(campaign::Campaign read);

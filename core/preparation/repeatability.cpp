@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 #include <tuple>
 
 #include "core/campaign/row_names.h"
@@ -156,6 +157,35 @@ std::optional<metrology::TrackerNoise> declaredNoise(const campaign::Campaign& c
 
 NoiseFactors noiseFactors(const RepeatScatter& scatter) {
   return {factorOf(scatter.along_chi2, scatter.along_dof), factorOf(scatter.across_chi2, scatter.across_dof)};
+}
+
+NoiseModel noiseModel(const campaign::Campaign& campaign, const RepeatScatter& scatter) {
+  NoiseModel model;
+  if (!campaign.tracker) {
+    model.source = "the tracker's noise is not declared";
+    return model;
+  }
+  model.noise = frames::trackerNoise(*campaign.tracker);
+  model.known = model.noise.range_fixed + model.noise.range_per_m > 0.0 &&
+                model.noise.angle_fixed + model.noise.angle_per_m > 0.0;
+  model.source = "the tracker's declared noise";
+  if (!model.known || !campaign.loading) return model;
+  constexpr int kEnough = 30;
+  if (scatter.along_dof < kEnough) {
+    model.source += ", because there are too few repeats to check it";
+    return model;
+  }
+  model.along_factor = std::sqrt(scatter.along_chi2 / scatter.along_dof);
+  model.across_factor = std::sqrt(scatter.across_chi2 / scatter.across_dof);
+  model.noise.range_fixed *= model.along_factor;
+  model.noise.range_per_m *= model.along_factor;
+  model.noise.angle_fixed *= model.across_factor;
+  model.noise.angle_per_m *= model.across_factor;
+  model.degrees = scatter.along_dof + scatter.across_dof;
+  model.source = fmt::format(
+      "repeats ({} degrees of freedom), {:.2f} of the declared noise along the beam, {:.2f} across",
+      scatter.along_dof + scatter.across_dof, model.along_factor, model.across_factor);
+  return model;
 }
 
 campaign::Tracker asNoisyAs(campaign::Tracker tracker, const NoiseFactors& factors) {

@@ -45,4 +45,17 @@ NoiseFactors noiseFactors(const RepeatScatter& scatter);
 /// one cause gives one finding (GUM 4.2: an evaluation from repeats outweighs a data sheet).
 campaign::Tracker asNoisyAs(campaign::Tracker tracker, const NoiseFactors& factors);
 
+/// Noise of one reading: by the scatter of repeats where there are enough of them (30 degrees of freedom along and across
+/// the beam), in the shape of the declared noise; else as declared. Not known without a declared tracker.
+struct NoiseModel {
+  bool known = false;
+  metrology::TrackerNoise noise;
+  double along_factor = 1.0, across_factor = 1.0;  ///< standard deviations found against declared
+  double degrees = 0.0;                            ///< of freedom of what it was found from; 0: as declared
+  std::string source;
+};
+
+/// `campaign`: with its tracker as declared; `scatter`: of its repeats against that.
+NoiseModel noiseModel(const campaign::Campaign& campaign, const RepeatScatter& scatter);
+
 }  // namespace stiffscope::preparation

@@ -49,7 +49,7 @@ Course bestJump(const StationMotion& station, std::size_t& at) {
   return best;
 }
 
-void findRate(Station& station) {
+void findRate(DriftModel& station) {
   const auto& epochs = station.motion.epochs;
   Vector6d right = Vector6d::Zero();
   for (std::size_t e = 1; e < epochs.size(); ++e) {
@@ -88,9 +88,10 @@ double bridgeBetweenRounds(const StationMotion& station, double one, double othe
   return 0.0;
 }
 
-Station stationCourse(const campaign::Campaign& campaign, const std::optional<metrology::TrackerNoise>& noise) {
-  Station result;
+DriftModel stationCourse(const campaign::Campaign& campaign, const std::optional<metrology::TrackerNoise>& noise) {
+  DriftModel result;
   result.motion = stationMotion(campaign, noise);
+  result.rounds = result.motion;
   if (!result.motion.tested) {
     result.in_words = result.motion.reason;
     return result;
@@ -101,7 +102,12 @@ Station stationCourse(const campaign::Campaign& campaign, const std::optional<me
     result.in_words = fmt::format("{} rounds, the tracker stood still", result.motion.epochs.size());
     return result;
   }
+  if (result.motion.deforming()) {
+    result.in_words = "the nests themselves moved against each other, more than one of them: they are no reference";
+    return result;
+  }
   findJumps(campaign, *noise, result.motion);
+  result.rounds = result.motion;
   StationMotion& motion = result.motion;
   std::vector<double> steady;
   const double first = motion.epochs.front().time_s, span = motion.epochs.back().time_s - first;

@@ -4,12 +4,16 @@
 
 namespace stiffscope::preparation {
 
-/// What the floor nests say of the tracker: it stood, it jumped once, or it wandered.
+/// What the floor nests say of the tracker: it stood, it jumped once, or it drifted or wandered. Not tested also where the
+/// nests themselves moved against each other: they are then no reference.
 enum class StationCourse { not_tested, still, jumped, drifted };
 
-struct Station {
+struct DriftModel {
   StationCourse course = StationCourse::not_tested;
-  StationMotion motion;  ///< its epochs smoothed: one jump, or a steady drift, where either fits them
+  bool moved() const { return course == StationCourse::jumped || course == StationCourse::drifted; }
+
+  StationMotion rounds;  ///< as the rounds of the nests show it, with its jumps
+  StationMotion motion;  ///< the same smoothed: one jump, or a steady drift, where either fits
   /// A steady motion by all rounds: per second, rotation vector then displacement at `motion.centre`, in the
   /// axes of the readings; with its weight (inverse covariance). Zero where not tested.
   Eigen::Matrix<double, 6, 1> rate = Eigen::Matrix<double, 6, 1>::Zero();
@@ -28,6 +32,6 @@ double bridgeBetweenRounds(const StationMotion& station, double one, double othe
 /// Holds one jump (6 parameters and when) and a steady drift (6) against the rounds of the nests, by weighted
 /// least squares; the better one is taken where it fits within its noise, else the rounds stay as they are
 /// and the course is a drift.
-Station stationCourse(const campaign::Campaign& campaign, const std::optional<metrology::TrackerNoise>& noise);
+DriftModel stationCourse(const campaign::Campaign& campaign, const std::optional<metrology::TrackerNoise>& noise);
 
 }  // namespace stiffscope::preparation

@@ -57,6 +57,7 @@ std::string calibrationWords(const frames::GeometryCalibration& calibration) {
 reports::RowGroup conditions(const reports::ReportCampaign& one) {
   const campaign::Campaign& campaign = one.campaign;
   const identification::Identification& result = one.identification;
+  const std::optional<campaign::Tracker>& tracker = one.preparation != nullptr ? one.preparation->declared : campaign.tracker;
   reports::RowGroup group;
   add(group, "Machine", own(campaign.robot.name));
   add(group, "Measured on", own(campaign.date));
@@ -67,7 +68,7 @@ reports::RowGroup conditions(const reports::ReportCampaign& one) {
   add(group, "Operator", own(campaign.texts.operator_name));
   add(group, "Conditions", own(campaign.texts.conditions));
   add(group, "Tracker",
-      campaign.tracker ? trackerWords(*campaign.tracker) : "not declared: no noise is known");
+      tracker ? trackerWords(*tracker) : "not declared: no noise is known");
   if (one.preparation != nullptr) add(group, "Readings", reports::withMicro(reports::preparationWords(*one.preparation)));
   add(group, "Postures", fmt::format("{} used, {} left out", result.cases.size(), result.left_out.size()));
   add(group, "Load", result.cases.empty() ? "none was measured that could be used" : loadWords(result));

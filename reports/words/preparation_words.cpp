@@ -23,6 +23,9 @@ std::string driftWords(const preparation::DriftCorrection& drift) {
     for (const double time : drift.jumps_s) jumps.push_back(fmt::format("{:.0f} s", time));
     text += fmt::format(", in a jump at about {}", fmt::join(jumps, ", "));
   }
+  if (drift.spread > 0) {
+    text += fmt::format("; {} of sweeps state no time and are taken as read evenly before the loading", drift.spread);
+  }
   if (drift.without_time > 0) {
     text += fmt::format("; {} state no time and stay as they were read", drift.without_time);
   }

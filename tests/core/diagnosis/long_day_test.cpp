@@ -93,6 +93,13 @@ TEST(EvenlySpread, TakesAsManyReadingsOfASweepOfEachAxisAndReflector) {
   EXPECT_FALSE(preparation::hasLongSweep(all));
 }
 
+/// The noise and the drift are those of the whole day.
+preparation::PreparedCampaign spreadAfterPreparation(const campaign::Campaign& day) {
+  preparation::PreparedCampaign prepared = preparation::prepareCampaign(day);
+  prepared.campaign = preparation::evenlySpread(prepared.campaign, preparation::kMostDiagnosed);
+  return prepared;
+}
+
 // A million readings of a sweep would be seventeen gigabytes of equations.
 TEST(Diagnose, OfALongSweepTheReadingsSpreadOverItTakePart) {
   campaign::Campaign day = sampleDay();
@@ -106,7 +113,7 @@ TEST(Diagnose, OfALongSweepTheReadingsSpreadOverItTakePart) {
   diagnosis::DiagnoseOptions quick;
   quick.resamples = quick.chance_draws = 0;
   quick.only = effects::Effect::joint_coupling;
-  const diagnosis::Diagnosis by_itself = diagnosis::diagnose(preparation::evenlySpread(day, preparation::kMostDiagnosed), quick), whole = diagnosis::diagnose(day, quick);
+  const diagnosis::Diagnosis by_itself = diagnosis::diagnose(spreadAfterPreparation(day), quick), whole = diagnosis::diagnose(day, quick);
   EXPECT_EQ(whole.gap.before, by_itself.gap.before);
   EXPECT_EQ(whole.gap.after, by_itself.gap.after);
   EXPECT_NE(whole.verdict.reason.find("Of a sweep's readings 2000 at most took part"), std::string::npos) << whole.verdict.reason;
@@ -129,7 +136,7 @@ TEST(Diagnose, ALongDayIsItsSpreadPosturesUnderTheirOwnNames) {
   diagnosis::DiagnoseOptions quick;
   quick.resamples = quick.chance_draws = 0;
   quick.only = effects::Effect::joint_coupling;
-  const campaign::Campaign spread = preparation::evenlySpread(day, preparation::kMostDiagnosed);
+  const preparation::PreparedCampaign spread = spreadAfterPreparation(day);
   const diagnosis::Diagnosis by_itself = diagnosis::diagnose(spread, quick), whole = diagnosis::diagnose(std::move(day), quick);
   EXPECT_EQ(whole.gap.before, by_itself.gap.before);
   EXPECT_EQ(whole.gap.after, by_itself.gap.after);
@@ -137,7 +144,7 @@ TEST(Diagnose, ALongDayIsItsSpreadPosturesUnderTheirOwnNames) {
   ASSERT_FALSE(whole.at_points.empty());
   for (std::size_t i = 0; i < whole.at_points.size(); ++i) {
     EXPECT_EQ(names[static_cast<std::size_t>(whole.at_points[i].pose)],
-              spread.pose_ids[static_cast<std::size_t>(by_itself.at_points[i].pose)]);
+              spread.campaign.pose_ids[static_cast<std::size_t>(by_itself.at_points[i].pose)]);
     EXPECT_EQ(whole.at_points[i].before, by_itself.at_points[i].before);
   }
   EXPECT_NE(whole.verdict.reason.find("100 took part"), std::string::npos) << whole.verdict.reason;

@@ -78,13 +78,38 @@ TEST(Prepare, DriftThatTheNestsShowIsTakenOff) {
   EXPECT_LT(farthestApart(prepared.campaign, good()), 55e-6);
 }
 
-TEST(Prepare, ReadingsWithoutATimeStayAndAreCounted) {
+TEST(Prepare, SweepsWithoutATimeAreTakenAsReadEvenlyBeforeTheLoading) {
   campaign::Campaign drifting = good();
   driftAll(drifting, 5e-8);
   for (campaign::CircleReading& row : drifting.circle_sweeps->rows) row.time_s = std::nan("");
+  for (campaign::WristReading& row : drifting.wrist_sweep->rows) row.time_s = std::nan("");
   const preparation::PreparedCampaign prepared = preparation::prepareCampaign(drifting);
-  EXPECT_EQ(prepared.preparation.drift.without_time, drifting.circle_sweeps->rows.size());
-  EXPECT_EQ(prepared.campaign.circle_sweeps->rows[7].point, drifting.circle_sweeps->rows[7].point);
+  const preparation::DriftCorrection& taken = prepared.preparation.drift;
+  EXPECT_EQ(taken.spread, drifting.circle_sweeps->rows.size() + drifting.wrist_sweep->rows.size());
+  EXPECT_EQ(taken.without_time, 0u);
+  double last = -1.0;
+  for (const campaign::CircleReading& row : prepared.campaign.circle_sweeps->rows) {
+    EXPECT_GT(row.time_s, last);
+    last = row.time_s;
+  }
+  EXPECT_LT(last, prepared.campaign.loading->rows.front().time_s);
+}
+
+TEST(Prepare, LoadingWithoutATimeStaysAndIsCounted) {
+  campaign::Campaign drifting = good();
+  driftAll(drifting, 5e-8);
+  for (std::size_t i = 0; i < 7; ++i) drifting.loading->rows[i].time_s = std::nan("");
+  const preparation::PreparedCampaign prepared = preparation::prepareCampaign(drifting);
+  EXPECT_EQ(prepared.preparation.drift.without_time, 7u);
+  EXPECT_EQ(prepared.campaign.loading->rows[3].point, drifting.loading->rows[3].point);
+}
+
+TEST(Prepare, AsMeasuredPutsTheMotionBack) {
+  campaign::Campaign drifting = good();
+  driftAll(drifting, 5e-8);
+  const preparation::PreparedCampaign prepared = preparation::prepareCampaign(drifting);
+  ASSERT_TRUE(prepared.preparation.drift.taken_off);
+  EXPECT_LT(farthestApart(preparation::asMeasured(prepared).campaign, drifting), 1e-14);  // m, rounding
 }
 
 TEST(Prepare, NestsThatDeformAreNoReference) {
@@ -135,9 +160,9 @@ TEST(Prepare, TheDriftingPracticeDayLosesItsExcess) {
   EXPECT_LT(residual(preparation::prepareCampaign(read).campaign), 10e-6);
 }
 
-TEST(Prepare, AnAuditOfWhatIsPreparedIsTheSameAndLeavesItAsItWas) {
+TEST(Prepare, AnAuditOfWhatIsPreparedIsTheSame) {
   campaign::Campaign day = good();
-  day.tracker->range_fixed /= 3.0;  // repeats that scatter by more replace it within the audit
+  day.tracker->range_fixed /= 3.0;  // repeats that scatter by more replace it
   day.loading->rows[50].point.setZero();
   preparation::PreparedCampaign prepared = preparation::prepareCampaign(day);
   const preparation::PreparedCampaign before = prepared;
@@ -150,7 +175,8 @@ TEST(Prepare, AnAuditOfWhatIsPreparedIsTheSameAndLeavesItAsItWas) {
     EXPECT_EQ(of_prepared.checks[i].message, of_day.checks[i].message);
   }
   EXPECT_EQ(of_prepared.rejected.size(), of_day.rejected.size());
-  EXPECT_EQ(prepared.campaign.tracker->range_fixed, day.tracker->range_fixed);
+  EXPECT_EQ(prepared.preparation.declared->range_fixed, day.tracker->range_fixed);
+  EXPECT_GT(prepared.campaign.tracker->range_fixed, 2.0 * day.tracker->range_fixed);  // by the repeats
   ASSERT_EQ(prepared.campaign.loading->rows.size(), before.campaign.loading->rows.size());
   EXPECT_EQ(farthestApart(prepared.campaign, before.campaign), 0.0);
   EXPECT_EQ(prepared.screening.size(), before.screening.size());
