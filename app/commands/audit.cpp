@@ -12,8 +12,9 @@
 #include "core/diagnosis/diagnose.h"
 #include "core/identification/load_case.h"
 #include "core/preparation/subsample.h"
-#include "reports/json/audit_json.h"
-#include "reports/text/audit_text.h"
+#include "reports/json/json_document.h"
+#include "reports/json/json.h"
+#include "reports/text/text.h"
 
 namespace stiffscope::app {
 

@@ -7,8 +7,12 @@
 #include "app/prepared.h"
 #include "app/returned_memory.h"
 #include "core/diagnosis/diagnose.h"
-#include "reports/json/diagnosis_json.h"
-#include "reports/text/diagnosis_text.h"
+#include "core/diagnosis/diagnosis.h"
+#include "reports/json/campaign_json.h"
+#include "reports/json/json_document.h"
+#include "reports/json/json.h"
+#include "core/campaign/campaign.h"
+#include "reports/text/text.h"
 
 namespace stiffscope::app {
 

@@ -12,10 +12,14 @@
 #include "core/identification/warnings.h"
 #include "core/io/input_error.h"
 #include "reports/json/campaign_json.h"
-#include "reports/json/extended_model_json.h"
+#include "core/extended_model/extended_model.h"
+#include "reports/json/json_document.h"
+#include "reports/json/json.h"
 #include "reports/json/identification_json.h"
-#include "reports/text/extended_model_text.h"
-#include "reports/text/identification_text.h"
+#include "reports/text/text.h"
+#include "core/identification/geometric_stiffness_cost.h"
+#include "core/identification/identify.h"
+#include "core/identification/posture_stiffness.h"
 #include "reports/words/preparation_words.h"
 
 namespace stiffscope::app {

@@ -1,13 +1,8 @@
-#include "app/figures/make_figures.h"
+#include "app/figures/figures.h"
 
 #include <fmt/format.h>
 
 #include "app/figures/arm_scenes.h"
-#include "app/figures/diagnosis_charts.h"
-#include "app/figures/residual_charts.h"
-#include "app/figures/station_drift.h"
-#include "app/figures/stiffness_charts.h"
-#include "app/figures/sweep_charts.h"
 #include "app/returned_memory.h"
 #include "render/image.h"
 #include "reports/page/html.h"

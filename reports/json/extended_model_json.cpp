@@ -1,4 +1,6 @@
-#include "reports/json/extended_model_json.h"
+#include "core/extended_model/extended_model.h"
+#include "reports/json/json_document.h"
+#include "reports/json/json.h"
 
 #include <cmath>
 

@@ -1,10 +1,12 @@
-#include "reports/text/audit_text.h"
+#include "reports/text/text.h"
+#include "core/audit/audit.h"
 
 #include <algorithm>
 #include <fmt/format.h>
 #include <iterator>
 
-#include "reports/json/audit_json.h"
+#include "reports/json/json_document.h"
+#include "reports/json/json.h"
 #include "reports/words/numbers.h"
 #include "reports/words/preparation_words.h"
 

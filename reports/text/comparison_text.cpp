@@ -1,4 +1,5 @@
-#include "reports/text/comparison_text.h"
+#include "reports/text/text.h"
+#include "core/comparison/compare.h"
 
 #include <cmath>
 #include <fmt/format.h>

@@ -1,4 +1,5 @@
-#include "reports/text/extended_model_text.h"
+#include "reports/text/text.h"
+#include "core/extended_model/extended_model.h"
 
 #include <cmath>
 #include <fmt/format.h>

@@ -1,4 +1,5 @@
-#include "reports/text/fit_text.h"
+#include "reports/text/text.h"
+#include "reports/json/fit_json.h"
 
 #include <cmath>
 #include <fmt/format.h>

@@ -1,4 +1,8 @@
-#include "reports/text/identification_text.h"
+#include "reports/text/text.h"
+#include "core/identification/geometric_stiffness_cost.h"
+#include "core/identification/identify.h"
+#include "core/identification/load_dependence.h"
+#include "core/identification/posture_stiffness.h"
 
 #include <algorithm>
 #include <cmath>

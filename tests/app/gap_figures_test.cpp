@@ -3,7 +3,7 @@
 
 #include <cmath>
 #include <filesystem>
-#include "app/figures/diagnosis_charts.h"
+#include "app/figures/figures.h"
 #include "app/figures/arm_scenes.h"
 #include "core/campaign/read_campaign.h"
 #include "core/diagnosis/diagnose.h"
