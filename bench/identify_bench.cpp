@@ -13,6 +13,7 @@
 #include "core/identification/identify.h"
 #include "core/identification/load_case.h"
 #include "core/identification/method_solution.h"
+#include "core/numerics/resampling.h"
 #include "core/robot/kinematics.h"
 #include "core/simulation/read_spec.h"
 #include "core/simulation/measure.h"
@@ -110,7 +111,7 @@ void AllSubsets(benchmark::State& state) {
   const std::vector<identification::CaseEquations> equations = drawnEquations(n);
   for (auto _ : state) benchmark::DoNotOptimize(allSubsets(equations));
   state.counters["per_subset"] =
-      benchmark::Counter(static_cast<double>(identification::subsetCount(n, n / 2)),
+      benchmark::Counter(static_cast<double>(numerics::subsetCount(n, n / 2)),
                          benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }
 BENCHMARK(AllSubsets)->Arg(10)->Arg(14)->Arg(18)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime();

@@ -13,6 +13,7 @@
 #include "core/audit/limits.h"
 #include "core/campaign/row_names.h"
 #include "core/identification/identifiability.h"
+#include "core/identification/load_point.h"
 #include "core/identification/warnings.h"
 #include "core/io/units.h"
 #include "core/numerics/distributions.h"
@@ -203,15 +204,9 @@ namespace {
 
 struct Loaded {
   const campaign::State* state = nullptr;
-  Eigen::Vector3d force, moment;  ///< in axes that turn with the flange
+  identification::ToolLoad load;  ///< about the cell's point
   Eigen::Matrix3d tool_from_cell = Eigen::Matrix3d::Identity();
 };
-
-Eigen::Matrix3d lever(const Eigen::Vector3d& force) {  // lever x F = -F x lever
-  Eigen::Matrix3d m;
-  m << 0.0, force.z(), -force.y(), -force.z(), 0.0, force.x(), force.y(), -force.x(), 0.0;
-  return m;
-}
 
 /// Turns a reading into axes of the flange where the cell's own do not turn with it.
 Eigen::Matrix3d toolFromCell(const campaign::Campaign& campaign, const Vector6d& q) {
@@ -229,23 +224,19 @@ Eigen::Matrix3d toolFromCell(const campaign::Campaign& campaign, const Vector6d&
   return Eigen::Matrix3d::Identity();  // fixed to the flange: one constant turn changes nothing
 }
 
-Eigen::Vector3d solve(const std::vector<Loaded>& states) {
-  Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
-  Eigen::Vector3d right = Eigen::Vector3d::Zero();
-  for (const Loaded& one : states) {
-    normal += lever(one.force).transpose() * lever(one.force);
-    right += lever(one.force).transpose() * one.moment;
-  }
-  return normal.ldlt().solve(right);
+identification::LoadPointFit fitLoadPoint(const std::vector<Loaded>& states) {
+  std::vector<identification::ToolLoad> loads;
+  for (const Loaded& one : states) loads.push_back(one.load);
+  return identification::LoadPointFit(loads);
 }
 
 double misfit(const campaign::LoadCell& cell, const Loaded& one, const Eigen::Vector3d& at) {
-  const Eigen::Matrix3d through = lever(Eigen::Vector3d::UnitX()) * at.x() +
-                                  lever(Eigen::Vector3d::UnitY()) * at.y() +
-                                  lever(Eigen::Vector3d::UnitZ()) * at.z();
+  const Eigen::Matrix3d through = identification::momentByPoint(Eigen::Vector3d::UnitX()) * at.x() +
+                                  identification::momentByPoint(Eigen::Vector3d::UnitY()) * at.y() +
+                                  identification::momentByPoint(Eigen::Vector3d::UnitZ()) * at.z();
   const Eigen::Matrix3d covariance = cell.moment_sigma * cell.moment_sigma * Eigen::Matrix3d::Identity() +
                                      cell.force_sigma * cell.force_sigma * through * through.transpose();
-  const Eigen::Vector3d residual = one.moment - lever(one.force) * at;
+  const Eigen::Vector3d residual = one.load.moment - identification::momentByPoint(one.load.force) * at;
   return residual.dot(covariance.ldlt().solve(residual));
 }
 
@@ -261,7 +252,7 @@ std::array<Eigen::Vector3d, 7> signChoices() {
 }
 
 Loaded withSigns(Loaded one, const Eigen::Vector3d& signs) {
-  one.moment = one.tool_from_cell * signs.asDiagonal() * one.tool_from_cell.transpose() * one.moment;
+  one.load.moment = one.tool_from_cell * signs.asDiagonal() * one.tool_from_cell.transpose() * one.load.moment;
   return one;
 }
 
@@ -283,7 +274,7 @@ std::string mendingSigns(const campaign::LoadCell& cell, const std::vector<Loade
       for (std::size_t i = 0; i < turned.size(); ++i) {
         if (all || i == worst) turned[i] = withSigns(turned[i], signs);
       }
-      if (total(cell, turned, solve(turned)) <= limit) {
+      if (total(cell, turned, fitLoadPoint(turned).point()) <= limit) {
         return fmt::format("{}{}", namesOf(signs), all ? " of all states" : " of that state");
       }
     }
@@ -307,28 +298,27 @@ HookFit fitHook(const campaign::Campaign& campaign) {
       continue;
     const Eigen::Matrix3d turn = toolFromCell(campaign, state.q);
     states.push_back(
-        {&state, turn * state.wrench_in_cell.head<3>(), turn * state.wrench_in_cell.tail<3>(), turn});
+        {&state, {turn * state.wrench_in_cell.head<3>(), turn * state.wrench_in_cell.tail<3>()}, turn});
     any_moment |= !state.wrench_in_cell.tail<3>().isZero(0.0);
   }
   constexpr std::size_t kLeast = 4;
   if (states.size() < kLeast) fit.reason = "fewer than four loaded states";
   if (!any_moment) fit.reason = "no moments were measured";
   if (!fit.reason.empty()) return fit;
-  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
-  for (const Loaded& one : states) spread += lever(one.force).transpose() * lever(one.force);
+  const identification::LoadPointFit load_point = fitLoadPoint(states);
   constexpr double kOneLine = 1e-4;  // squared sine of the forces' spread in the tool
-  const Eigen::Vector3d seen = spread.selfadjointView<Eigen::Lower>().eigenvalues();
+  const Eigen::Vector3d seen = load_point.normal().selfadjointView<Eigen::Lower>().eigenvalues();
   if (seen[0] < kOneLine * seen[2]) {
     fit.reason = "the forces lie along one line in the tool: turn the flange between postures";
     return fit;
   }
-  fit.lever = solve(states);
+  fit.lever = load_point.point();
   std::size_t worst = 0;
   double squares = 0.0;
   for (std::size_t i = 0; i < states.size(); ++i) {
     const double chi2 = misfit(cell, states[i], fit.lever);
     fit.chi2 += chi2;
-    squares += (states[i].moment - lever(states[i].force) * fit.lever).squaredNorm();
+    squares += (states[i].load.moment - identification::momentByPoint(states[i].load.force) * fit.lever).squaredNorm();
     if (chi2 > fit.worst_chi2) fit.worst_chi2 = chi2, worst = i;
   }
   const double count = static_cast<double>(states.size());

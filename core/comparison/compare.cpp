@@ -6,8 +6,8 @@
 #include <fmt/format.h>
 #include <limits>
 
-#include "core/identification/decoupled_partial_pose.h"
 #include "core/identification/identification.h"
+#include "core/identification/subsets.h"
 #include "metrology/tail_probability.h"
 
 namespace stiffscope::comparison {
@@ -194,22 +194,16 @@ identification::NormalEquations without(const identification::NormalEquations& s
   return {sum.matrix - one.matrix, sum.right - one.right};
 }
 
-std::vector<Vector6d> movesOf(const Normals& normals, const robot::JointMask& unknown) {
-  const identification::NormalEquations sum = identification::sumOf(normals);
-  const Vector6d all = identification::solveNormal(sum, unknown);
+/// Of all postures less that of the others, a posture each.
+std::vector<Vector6d> movesOf(const identification::SubsetMethod& method) {
+  const bool decoupled = !method.reflectors.empty();
+  const identification::NormalEquations sum = identification::sumOf(method.normal);
+  const identification::NormalEquations reflectors = decoupled ? identification::sumOf(method.reflectors) : identification::NormalEquations{};
+  const Vector6d all = identification::solveSubset(method, sum, reflectors);
   std::vector<Vector6d> moves;
-  for (const identification::NormalEquations& one : normals) moves.push_back(all - identification::solveNormal(without(sum, one), unknown));
-  return moves;
-}
-
-std::vector<Vector6d> decoupledMoves(const Normals& wrist, const Normals& reflectors,
-                                     const robot::JointMask& unknown) {
-  const identification::NormalEquations wrist_sum = identification::sumOf(wrist), reflector_sum = identification::sumOf(reflectors);
-  const Vector6d all = identification::solveDecoupled(wrist_sum, reflector_sum, unknown);
-  std::vector<Vector6d> moves;
-  for (std::size_t p = 0; p < wrist.size(); ++p) {
-    moves.push_back(
-        all - identification::solveDecoupled(without(wrist_sum, wrist[p]), without(reflector_sum, reflectors[p]), unknown));
+  for (std::size_t p = 0; p < method.normal.size(); ++p) {
+    moves.push_back(all - identification::solveSubset(method, without(sum, method.normal[p]),
+                                                      decoupled ? without(reflectors, method.reflectors[p]) : reflectors));
   }
   return moves;
 }
@@ -219,16 +213,21 @@ std::vector<Vector6d> decoupledMoves(const Normals& wrist, const Normals& reflec
 std::vector<Vector6d> moveByEachPosture(const identification::Identification& result, identification::Method method) {
   const identification::MethodResult& solved = result.of(method);
   if (!solved.available) return {};
-  const robot::JointMask& unknown = solved.estimate.identifiable;
+  identification::SubsetMethod equations;
+  equations.unknown = solved.estimate.identifiable;
   switch (method) {
     case identification::Method::complete_pose:
-      return movesOf(completePoseNormals(result), unknown);
+      equations.normal = completePoseNormals(result);
+      break;
     case identification::Method::partial_pose:
-      return movesOf(normalOf(solved.target_rows), unknown);
+      equations.normal = normalOf(solved.target_rows);
+      break;
     case identification::Method::decoupled_partial_pose:
-      return decoupledMoves(normalOf(solved.wrist_rows), normalOf(solved.target_rows), unknown);
+      equations.normal = normalOf(solved.wrist_rows);
+      equations.reflectors = normalOf(solved.target_rows);
+      break;
   }
-  return {};
+  return movesOf(equations);
 }
 
 }  // namespace stiffscope::comparison

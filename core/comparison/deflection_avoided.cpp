@@ -4,6 +4,8 @@
 #include <limits>
 #include <random>
 
+#include "core/numerics/resampling.h"
+
 namespace stiffscope::comparison {
 
 namespace {
@@ -19,14 +21,6 @@ DeflectionAvoided ofPairs(const std::vector<double>& before, const std::vector<d
   for (const PosturePair& pair : matched.pairs)
     postures.push_back({pair.pose, before[pair.before], after[pair.after]});
   return shareAvoided(std::move(postures), options);
-}
-
-/// Value below which `share` of the sorted values lie, linear between neighbours.
-double quantile(const std::vector<double>& sorted, double share) {
-  const double place = share * static_cast<double>(sorted.size() - 1);
-  const auto below = static_cast<std::size_t>(place);
-  const std::size_t above = std::min(below + 1, sorted.size() - 1);
-  return sorted[below] + (place - static_cast<double>(below)) * (sorted[above] - sorted[below]);
 }
 
 }  // namespace
@@ -50,15 +44,15 @@ DeflectionAvoided shareAvoided(std::vector<PostureDeflection> postures, const Bo
   std::vector<double> shares;
   for (int sample = 0; sample < options.samples; ++sample) {
     double sum_before = 0.0, sum_after = 0.0;
-    for (std::size_t k = 0; k < n; ++k) {
-      const PostureDeflection& one = result.postures[random() % n];  // the bias of % is below 1e-15 here
+    numerics::drawWithReplacement(random, n, [&](std::size_t posture) {
+      const PostureDeflection& one = result.postures[posture];
       sum_before += one.before, sum_after += one.after;
-    }
+    });
     if (sum_before > 0.0) shares.push_back(1.0 - sum_after / sum_before);
   }
   std::sort(shares.begin(), shares.end());
-  result.low = quantile(shares, 0.025);
-  result.high = quantile(shares, 0.975);
+  result.low = numerics::quantile(shares, 0.025);
+  result.high = numerics::quantile(shares, 0.975);
   return result;
 }
 

@@ -8,6 +8,7 @@
 
 #include "core/frames/geometry_calibration.h"
 #include "core/identification/identify.h"
+#include "core/identification/load_point.h"
 #include "core/preparation/repeatability.h"
 #include "core/preparation/screening.h"
 #include "core/robot/wrench.h"
@@ -143,24 +144,17 @@ GapStart gapStart(const campaign::Campaign& campaign, bool take_off_station) {
 }
 
 Eigen::Vector3d loadOffset(const robot::Robot& arm, const std::vector<identification::LoadCase>& cases, double moment_sigma) {
-  Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
-  Eigen::Vector3d right = Eigen::Vector3d::Zero();
+  std::vector<identification::ToolLoad> loads;
   for (const identification::LoadCase& one : cases) {
     const Eigen::Matrix3d flange_from_base =
         one.flange_unloaded.value_or(robot::flangeAt(arm, identification::unloadedPosture(arm, one))).linear().transpose();
-    const Eigen::Vector3d force = flange_from_base * one.wrench.force;
-    const Eigen::Vector3d moment = flange_from_base * one.wrench.moment;
-    Eigen::Matrix3d by_offset;
-    for (int k = 0; k < 3; ++k) by_offset.col(k) = Eigen::Vector3d::Unit(k).cross(force);
-    normal += by_offset.transpose() * by_offset;
-    right += by_offset.transpose() * moment;
+    loads.push_back({flange_from_base * one.wrench.force, flange_from_base * one.wrench.moment});
   }
+  const identification::LoadPointFit fit(loads);
   constexpr double kExpected = 0.3;    // m
   constexpr double kRounding = 1e-12;  // of the readings, where their noise is not stated
-  const double doubt = moment_sigma * moment_sigma / (kExpected * kExpected) + kRounding * normal.trace();
-  if (doubt <= 0.0) return Eigen::Vector3d::Zero();
-  normal.diagonal().array() += doubt;
-  return normal.ldlt().solve(right);
+  const double doubt = moment_sigma * moment_sigma / (kExpected * kExpected) + kRounding * fit.normal().trace();
+  return doubt > 0.0 ? fit.point(doubt) : Eigen::Vector3d(Eigen::Vector3d::Zero());
 }
 
 namespace {

@@ -6,6 +6,7 @@
 
 #include "core/identification/estimate.h"
 #include "core/numerics/parallel.h"
+#include "core/numerics/resampling.h"
 
 namespace stiffscope::diagnosis {
 
@@ -41,13 +42,11 @@ std::vector<Trained> train(const GapInput& input, const GapFit& alone, const Gap
 
 double shrinkOf(double before, double after) { return before > 0.0 ? 1.0 - std::sqrt(after / before) : 0.0; }
 
-double quantile(std::vector<double> sorted, double share) {
-  if (sorted.empty()) return 0.0;
-  std::sort(sorted.begin(), sorted.end());
-  const double at = share * static_cast<double>(sorted.size() - 1);
-  const auto low = static_cast<std::size_t>(at);
-  const std::size_t high = std::min(low + 1, sorted.size() - 1);
-  return sorted[low] + (at - static_cast<double>(low)) * (sorted[high] - sorted[low]);
+/// Value below which such a share of the draws lies; 0 without any.
+double quantileOf(std::vector<double> drawn, double share) {
+  if (drawn.empty()) return 0.0;
+  std::sort(drawn.begin(), drawn.end());
+  return numerics::quantile(drawn, share);
 }
 
 /// What the spread of a bootstrap over `postures` lacks: drawing with replacement shrinks the variance by
@@ -59,10 +58,10 @@ double fewPostures(double postures) {
 /// Spread of the bootstrap about its median, narrowed by the root of judged over all postures and widened for
 /// their small number, put on the value.
 Shrink withInterval(double value, const std::vector<double>& drawn, double judged_share, std::size_t postures) {
-  const double middle = quantile(drawn, 0.5);
+  const double middle = quantileOf(drawn, 0.5);
   const double scale = std::sqrt(judged_share) * fewPostures(std::max(2.0, static_cast<double>(postures)));
-  return {value, value + scale * (quantile(drawn, 0.025) - middle),
-          value + scale * (quantile(drawn, 0.975) - middle)};
+  return {value, value + scale * (quantileOf(drawn, 0.025) - middle),
+          value + scale * (quantileOf(drawn, 0.975) - middle)};
 }
 
 void add(HeldOut& sum, const HeldOut& one) {
@@ -90,8 +89,7 @@ HeldOutShrink shrinkOver(const std::vector<HeldOut>& postures, int resamples, st
   std::vector<double> deflections, positions;
   for (int b = 0; b < resamples; ++b) {
     HeldOut drawn;
-    for (std::size_t draw = 0; draw < postures.size(); ++draw)
-      add(drawn, postures[random() % postures.size()]);
+    numerics::drawWithReplacement(random, postures.size(), [&](std::size_t posture) { add(drawn, postures[posture]); });
     deflections.push_back(shrinkOf(drawn.deflection_before, drawn.deflection_after));
     positions.push_back(shrinkOf(drawn.position_before, drawn.position_after));
   }
@@ -117,18 +115,15 @@ std::vector<HeldOutShrink> heldOutShrinks(const GapInput& input, const GapFit& a
   if (postures < 4) return result;
   std::vector<std::vector<HeldOut>> left(postures, std::vector<HeldOut>(recipes.size()));
   numerics::onAllCores(postures, [&](std::size_t p) {
-    std::vector<double> weights(postures, 1.0);
-    weights[p] = 0.0;
-    const auto trained = train(input, alone, fit, allowed, recipes, weights);
+    const auto trained = train(input, alone, fit, allowed, recipes, numerics::leaveOneOut(postures, p));
     for (std::size_t r = 0; r < recipes.size(); ++r)
       left[p][r] = leftIn(alone.data.postures[p], trained[r].before, fit.data.postures[p], trained[r].after);
   });
   std::mt19937_64 random(seed);
-  std::vector<std::vector<double>> samples(static_cast<std::size_t>(resamples),
-                                           std::vector<double>(postures, 0.0));
+  std::vector<numerics::Weights> samples(static_cast<std::size_t>(resamples));
   double judged = 0.0;
   for (auto& weights : samples) {
-    for (std::size_t draw = 0; draw < postures; ++draw) weights[random() % postures] += 1.0;
+    weights = numerics::drawWeights(random, postures);
     judged += static_cast<double>(std::count(weights.begin(), weights.end(), 0.0));
   }
   const double judged_share =

@@ -16,6 +16,7 @@
 #include "core/identification/loaded_arm.h"
 #include "core/identification/outliers.h"
 #include "core/identification/warnings.h"
+#include "core/numerics/resampling.h"
 
 namespace stiffscope::extended_model {
 
@@ -150,30 +151,7 @@ ImprovedModel improveModel(const campaign::Campaign& campaign, EffectFit effects
 
 namespace {
 
-using Weights = std::vector<double>;  // a posture of the campaign each: how often it takes part
-
-/// Calls `visit` with the used postures of every subset of m of n, in order, or of a sample.
-void forEachSubset(int n, int m, std::uint64_t most, std::uint64_t seed,
-                   const std::function<void(const std::vector<char>&)>& visit) {
-  std::vector<char> used(static_cast<std::size_t>(n), 0);
-  if (identification::subsetCount(n, m) <= most) {
-    std::fill(used.begin(), used.begin() + m, 1);
-    do visit(used);
-    while (std::prev_permutation(used.begin(), used.end()));
-    return;
-  }
-  std::mt19937_64 random(seed);
-  std::vector<std::size_t> order(static_cast<std::size_t>(n));
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  for (std::uint64_t draw = 0; draw < most; ++draw) {
-    std::fill(used.begin(), used.end(), 0);
-    for (std::size_t i = 0; i < static_cast<std::size_t>(m); ++i) {
-      std::swap(order[i], order[i + random() % (order.size() - i)]);
-      used[order[i]] = 1;
-    }
-    visit(used);
-  }
-}
+using numerics::Weights;  // of the postures of the campaign
 
 /// Sum over a posture's points of what is left of their displacement.
 double leftOf(const identification::CaseEquations& one, const Vector6d& compliance) {
@@ -198,10 +176,10 @@ class PointJudge {
     sum_.left_held_out.resize(displacement_.size(), 0.0);
   }
 
-  void add(const std::vector<identification::CaseEquations>& rows, const Vector6d& compliance, const std::vector<char>& used) {
+  void add(const std::vector<identification::CaseEquations>& rows, const Vector6d& compliance, const Weights& used) {
     std::array<double, 2> left{}, whole{};
     for (std::size_t p = 0; p < rows.size(); ++p) {
-      const auto side = static_cast<std::size_t>(used[p] != 0);
+      const auto side = static_cast<std::size_t>(used[p] != 0.0);
       const double own = leftOf(rows[p], compliance);
       left[side] += own;
       whole[side] += displacement_[p];
@@ -328,9 +306,9 @@ class MethodJudge {
     if (study.size < 1 || study.size >= study.of) return study;
     constexpr std::uint64_t kMost = 1000;
     const std::uint64_t most = std::min({kMost, asked.sample, std::max<std::uint64_t>(asked.most_all, 1)});
-    study.every_subset = identification::subsetCount(study.of, study.size) <= most;
-    forEachSubset(study.of, study.size, most, asked.seed, [&](const std::vector<char>& used) {
-      const auto [rows, compliance] = anew(Weights(used.begin(), used.end()));
+    study.every_subset = numerics::subsetCount(study.of, study.size) <= most;
+    numerics::forEachSubset(study.of, study.size, most, asked.seed, [&](const Weights& used) {
+      const auto [rows, compliance] = anew(used);
       study.compliances.push_back(compliance);
       if (wrist) at_wrist.add(rows.wrist, compliance, used);
       at_targets.add(rows.targets, compliance, used);
@@ -346,9 +324,7 @@ class MethodJudge {
     std::mt19937_64 random(options_.bootstrap.seed);
     const std::size_t n = rows_.postures();
     for (int draw = 0; draw < options_.bootstrap.draws; ++draw) {
-      Weights weights(n, 0.0);
-      for (std::size_t k = 0; k < n; ++k) weights[random() % n] += 1.0;
-      result.compliances.push_back(anew(weights).second);
+      result.compliances.push_back(anew(numerics::drawWeights(random, n)).second);
     }
     return result;
   }

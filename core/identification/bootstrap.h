@@ -20,10 +20,9 @@ struct PostureBootstrap {
 struct PostureBootstrapOptions {
   int draws = 0;  ///< 0: none
   std::uint64_t seed = 1;
-  int threads = 2;  ///< the result does not depend on it
 };
 
-/// Draw i is seeded by (seed, i).
+/// Draw i is seeded by (seed, i), so that the draws can be shared among all cores.
 PostureBootstrap bootstrapPostures(const SubsetMethod& method, const PostureBootstrapOptions& options);
 
 }  // namespace stiffscope::identification

@@ -5,14 +5,12 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <limits>
-#include <numeric>
-#include <random>
 #include <span>
 #include <vector>
 
 #include "core/identification/decoupled_partial_pose.h"
 #include "core/numerics/parallel.h"
+#include "core/numerics/resampling.h"
 
 namespace stiffscope::identification {
 
@@ -28,9 +26,6 @@ struct Subset {
   Vector6d compliance = Vector6d::Zero();
   SubsetResidual at_wrist, at_targets;
 };
-
-/// From the sums of the equations of the postures that a subset uses; `reflectors` only for the decoupled method.
-Vector6d solveSubset(const SubsetMethod& method, const NormalEquations& normal, const NormalEquations& reflectors);
 
 /// Judges solved subsets: some at a time are quicker than one by one.
 void judgeSubsets(const SubsetMethod& method, std::span<Subset> subsets);
@@ -103,29 +98,13 @@ namespace {
 
 using Postures = std::vector<std::uint32_t>;
 
-/// Random subsets, each drawn from the order of the postures that the one before left.
-class Draws {
- public:
-  Draws(std::size_t postures, std::size_t size, std::uint64_t seed) : random_(seed), order_(postures), size_(size) {
-    std::iota(order_.begin(), order_.end(), std::uint32_t{0});
+void drawNext(numerics::SubsetDraws& draws, std::size_t count, std::vector<Postures>& drawn) {
+  drawn.resize(count);
+  for (Postures& one : drawn) {
+    const std::span<const std::uint32_t> next = draws.next();
+    one.assign(next.begin(), next.end());
   }
-
-  /// The next subsets, postures as they were drawn.
-  void next(std::size_t count, std::vector<Postures>& drawn) {
-    drawn.resize(count);
-    for (Postures& one : drawn) {
-      for (std::size_t i = 0; i < size_; ++i) {
-        std::swap(order_[i], order_[i + random_() % (order_.size() - i)]);  // Fisher-Yates; the bias of % is below 1e-15 here
-      }
-      one.assign(order_.begin(), order_.begin() + static_cast<std::ptrdiff_t>(size_));
-    }
-  }
-
- private:
-  std::mt19937_64 random_;
-  Postures order_;
-  std::size_t size_;
-};
+}
 
 /// Normal equations without what the symmetry of the matrix repeats.
 class Packed {
@@ -221,14 +200,14 @@ std::vector<SubsetSums> sampleSubsets(const SubsetMethod& method, std::size_t si
   const std::size_t at_once = kGroup * std::max<std::size_t>(4, kDrawn / size / kGroup);
   const Solver solver(method);
   std::vector<SubsetSums> sums((count + kGroup - 1) / kGroup);
-  Draws draws(method.normal.size(), size, seed);
+  numerics::SubsetDraws draws(method.normal.size(), size, seed);
   std::vector<Postures> drawn, drawn_next;
   // A few to begin with, then twice as many each time: drawing goes on beside the work on what was drawn before.
-  draws.next(std::min(count, kGroup), drawn);
+  drawNext(draws, std::min(count, kGroup), drawn);
   for (std::size_t done = 0; !drawn.empty(); done += drawn.size(), drawn.swap(drawn_next)) {
     const std::size_t groups = (drawn.size() + kGroup - 1) / kGroup;
     numerics::onAllCores(1 + groups, [&](std::size_t i) {
-      if (i == 0) return draws.next(std::min({at_once, 2 * drawn.size(), count - done - drawn.size()}), drawn_next);
+      if (i == 0) return drawNext(draws, std::min({at_once, 2 * drawn.size(), count - done - drawn.size()}), drawn_next);
       const std::size_t from = (i - 1) * kGroup, to = std::min(drawn.size(), from + kGroup);
       std::vector<Subset> subsets = solver.solve(std::span(drawn).subspan(from, to - from));
       judgeSubsets(method, subsets);
@@ -375,23 +354,12 @@ void divide(SubsetJudgement& sum, double subsets, const Eigen::ArrayXd& held_out
 
 }  // namespace
 
-std::uint64_t subsetCount(int n, int m) {
-  std::uint64_t count = 1;
-  for (int i = 1; i <= m; ++i) {
-    const auto factor = static_cast<std::uint64_t>(n - m + i);
-    if (count > std::numeric_limits<std::uint64_t>::max() / factor)
-      return std::numeric_limits<std::uint64_t>::max();
-    count = count * factor / static_cast<std::uint64_t>(i);
-  }
-  return count;
-}
-
 SubsetStudy studySubsets(const SubsetMethod& method, const SubsetOptions& options) {
   SubsetStudy study;
   study.of = static_cast<int>(method.normal.size());
   study.size = options.size > 0 ? options.size : static_cast<int>(std::lround(study.of * 10.0 / 19.0));
   if (study.size < 1 || study.size >= study.of) return study;
-  study.every_subset = subsetCount(study.of, study.size) <= options.most_all;
+  study.every_subset = numerics::subsetCount(study.of, study.size) <= options.most_all;
   std::vector<SubsetSums> chunks;
   if (study.every_subset) {
     chunks = walkAll(method, study.size);

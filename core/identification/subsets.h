@@ -50,8 +50,9 @@ struct SubsetStudy {
 /// on the postures used, those held out, and all. Results do not depend on the number of threads.
 SubsetStudy studySubsets(const SubsetMethod& method, const SubsetOptions& options = {});
 
-/// Number of subsets of m out of n; saturates at the largest 64-bit value.
-std::uint64_t subsetCount(int n, int m);
+/// Solves the method from the sums of the equations of the postures that take part; `reflectors` only for the decoupled
+/// method.
+Vector6d solveSubset(const SubsetMethod& method, const NormalEquations& normal, const NormalEquations& reflectors);
 
 /// The distribution of one joint's stiffness over the subsets: Table II.
 struct StiffnessSpread {

@@ -54,8 +54,12 @@ class Sharing {
 }  // namespace
 
 void onAllCores(std::size_t count, const std::function<void(std::size_t)>& work, bool worth_it) {
-  const std::size_t threads = std::min<std::size_t>(count, std::thread::hardware_concurrency());
-  if (threads < 2 || shares_already || !worth_it) {
+  onThreads(worth_it ? std::thread::hardware_concurrency() : 1, count, work);
+}
+
+void onThreads(std::size_t threads, std::size_t count, const std::function<void(std::size_t)>& work) {
+  threads = std::min(count, threads);
+  if (threads < 2 || shares_already) {
     for (std::size_t i = 0; i < count; ++i) work(i);
     return;
   }

@@ -16,6 +16,9 @@ namespace stiffscope::numerics {
 /// the work.
 void onAllCores(std::size_t count, const std::function<void(std::size_t)>& work, bool worth_it = true);
 
+/// The same on so many threads, the calling one among them, whatever the number of cores.
+void onThreads(std::size_t threads, std::size_t count, const std::function<void(std::size_t)>& work);
+
 /// Pieces of work of about a microsecond that are worth starting threads, which takes some ten of them.
 inline constexpr std::size_t kWorthThreads = 1024;
 

@@ -1,16 +1,15 @@
 #include "core/validation/run_blind.h"
 
-#include <atomic>
 #include <fmt/format.h>
 #include <map>
 #include <mutex>
 #include <stdexcept>
-#include <thread>
 
 #include "core/campaign/read_campaign.h"
 #include "core/campaign/write_campaign.h"
 #include "core/io/read_file.h"
 #include "core/io/write_file.h"
+#include "core/numerics/parallel.h"
 #include "core/simulation/measure.h"
 #include "core/validation/case.h"
 
@@ -28,33 +27,17 @@ std::uint64_t caseSeed(std::uint64_t seed, int index) {
 
 std::string nameOf(int index) { return fmt::format("{:04}", index + 1); }
 
-/// Runs work(index) for all of them on so many threads. The first exception is thrown again.
+/// Runs work(index) for all of them on so many threads.
 void forAll(int count, int threads, const char* stage, const BlindEvents& events,
             const std::function<void(int)>& work) {
-  std::atomic<int> next{0};
   std::mutex mutex;
   int done = 0;
-  std::exception_ptr failure;
-  const auto worker = [&] {
-    for (int index = next++; index < count; index = next++) {
-      try {
-        work(index);
-      } catch (...) {
-        const std::lock_guard lock(mutex);
-        if (!failure) failure = std::current_exception();
-        next = count;
-        return;
-      }
-      const std::lock_guard lock(mutex);
-      ++done;
-      if (events.progress) events.progress(stage, done, count);
-    }
-  };
-  {
-    std::vector<std::jthread> pool;
-    for (int t = 0; t < std::max(1, threads); ++t) pool.emplace_back(worker);
-  }
-  if (failure) std::rethrow_exception(failure);
+  numerics::onThreads(static_cast<std::size_t>(threads), static_cast<std::size_t>(count), [&](std::size_t index) {
+    work(static_cast<int>(index));
+    const std::lock_guard lock(mutex);
+    ++done;
+    if (events.progress) events.progress(stage, done, count);
+  });
 }
 
 Answer answerTo(const std::string& name, const std::filesystem::path& folder, const Diagnose& diagnose) {

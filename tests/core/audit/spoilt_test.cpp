@@ -45,6 +45,17 @@ TEST(SpoiltCampaign, TheGoodOneDoesNotFail) {
   EXPECT_TRUE(goodReport().rejected.empty());
 }
 
+TEST(SpoiltCampaign, EveryCheckOfTheTableReportsInItsOrder) {
+  std::vector<std::string> ids, table;
+  for (const preparation::AuditCheck& check : goodReport().checks) {
+    if (ids.empty() || ids.back() != check.id) ids.push_back(check.id);
+  }
+  for (const preparation::AuditCheckId& check : preparation::kAuditCheckIds) table.emplace_back(check.id);
+  EXPECT_EQ(ids, table);
+  // 1 % over the day by twenty limits: a limit that joins or leaves moves every other, on purpose only.
+  EXPECT_EQ(preparation::limitsByChance(), 20);
+}
+
 TEST(SpoiltCampaign, LostBeam) {
   std::size_t line = 0;
   const audit::AuditReport report = auditSpoilt([&](campaign::Campaign& campaign) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <bit>
 
+#include "core/numerics/resampling.h"
 #include "tests/fixtures/linear_machine.h"
 
 namespace stiffscope {
@@ -97,7 +98,7 @@ TEST(Subsets, ThePapersTenOfNineteenAreAll92378) {
   EXPECT_EQ(study.size, 10);
   EXPECT_TRUE(study.every_subset);
   EXPECT_EQ(study.compliances.size(), 92378u);
-  EXPECT_EQ(identification::subsetCount(19, 10), 92378u);
+  EXPECT_EQ(numerics::subsetCount(19, 10), 92378u);
   // However the two threads shared the work, a second run gives the same numbers in the same order.
   const identification::SubsetStudy again = identification::studySubsets(problem.method);
   EXPECT_TRUE(std::equal(study.compliances.begin(), study.compliances.end(), again.compliances.begin()));
@@ -170,10 +171,10 @@ TEST(Subsets, OfAllOrMoreThereIsNothingToStudy) {
 }
 
 TEST(SubsetCount, ByHand) {
-  EXPECT_EQ(identification::subsetCount(5, 2), 10u);
-  EXPECT_EQ(identification::subsetCount(7, 7), 1u);
-  EXPECT_EQ(identification::subsetCount(7, 0), 1u);
-  EXPECT_EQ(identification::subsetCount(500, 250), std::numeric_limits<std::uint64_t>::max());
+  EXPECT_EQ(numerics::subsetCount(5, 2), 10u);
+  EXPECT_EQ(numerics::subsetCount(7, 7), 1u);
+  EXPECT_EQ(numerics::subsetCount(7, 0), 1u);
+  EXPECT_EQ(numerics::subsetCount(500, 250), std::numeric_limits<std::uint64_t>::max());
 }
 
 TEST(StiffnessSpread, ByHand) {

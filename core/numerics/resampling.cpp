@@ -1,0 +1,68 @@
+#include "core/numerics/resampling.h"
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+
+namespace stiffscope::numerics {
+
+double quantile(const std::vector<double>& ascending, double share) {
+  const double place = share * static_cast<double>(ascending.size() - 1);
+  const auto below = static_cast<std::size_t>(place);
+  const std::size_t above = std::min(below + 1, ascending.size() - 1);
+  return ascending[below] + (place - static_cast<double>(below)) * (ascending[above] - ascending[below]);
+}
+
+Weights drawWeights(std::mt19937_64& random, std::size_t count) {
+  Weights weights(count, 0.0);
+  drawWithReplacement(random, count, [&](std::size_t index) { weights[index] += 1.0; });
+  return weights;
+}
+
+Weights leaveOneOut(std::size_t count, std::size_t left_out) {
+  Weights weights(count, 1.0);
+  weights[left_out] = 0.0;
+  return weights;
+}
+
+std::uint64_t subsetCount(int n, int m) {
+  std::uint64_t count = 1;
+  for (int i = 1; i <= m; ++i) {
+    const auto factor = static_cast<std::uint64_t>(n - m + i);
+    if (count > std::numeric_limits<std::uint64_t>::max() / factor)
+      return std::numeric_limits<std::uint64_t>::max();
+    count = count * factor / static_cast<std::uint64_t>(i);
+  }
+  return count;
+}
+
+SubsetDraws::SubsetDraws(std::size_t count, std::size_t size, std::uint64_t seed)
+    : random_(seed), order_(count), size_(size) {
+  std::iota(order_.begin(), order_.end(), std::uint32_t{0});
+}
+
+std::span<const std::uint32_t> SubsetDraws::next() {
+  for (std::size_t i = 0; i < size_; ++i) {
+    std::swap(order_[i], order_[i + randomIndex(random_, order_.size() - i)]);
+  }
+  return std::span(order_).first(size_);
+}
+
+void forEachSubset(int n, int m, std::uint64_t most, std::uint64_t seed, const std::function<void(const Weights&)>& visit) {
+  const auto count = static_cast<std::size_t>(n), size = static_cast<std::size_t>(m);
+  Weights used(count, 0.0);
+  if (subsetCount(n, m) <= most) {
+    std::fill_n(used.begin(), size, 1.0);
+    do visit(used);
+    while (std::prev_permutation(used.begin(), used.end()));
+    return;
+  }
+  SubsetDraws draws(count, size, seed);
+  for (std::uint64_t draw = 0; draw < most; ++draw) {
+    std::fill(used.begin(), used.end(), 0.0);
+    for (const std::uint32_t posture : draws.next()) used[posture] = 1.0;
+    visit(used);
+  }
+}
+
+}  // namespace stiffscope::numerics
