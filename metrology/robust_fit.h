@@ -63,7 +63,7 @@ struct RobustFit {
 /// One good set in a hundred loses a reading; for 20 readings that is a critical w of 3.5, near Baarda's 3.3.
 inline constexpr double kFamilyLevel = 0.01;
 
-/// Data snooping: the reading with the largest w (see reading_tests.h) is rejected where w lies above the
+/// Data snooping: the reading with the largest w (ReadingTest) is rejected where w lies above the
 /// critical value for a level of 1 - (1 - family_level)^(1/n) a reading (Sidak), n the readings left; then
 /// the fit is repeated, until none does. One at a time, since a wrong reading spoils the residuals of good
 /// ones. Where more than a third would go it cannot be told which are wrong, and the fit is not determined.

@@ -75,8 +75,8 @@ std::optional<CirclesModel> circlesStart(const LocalPoints& local, std::string& 
 /// Mean radius and height of each group about the axis.
 Eigen::Matrix2Xd firstOwn(const CirclesModel& model, const LocalPoints& local);
 
-/// A straight line: the two components of a point's distance, along u and v. Shared parameters as in
-/// axis_models.h.
+/// A straight line: the two components of a point's distance, along u and v. Shared parameters as those
+/// of the circles above.
 struct LineModel {
   static constexpr int kShared = 4, kOwn = 0, kResiduals = 2;
   AxisFrame axis;

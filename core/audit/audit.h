@@ -20,7 +20,7 @@ struct AuditReport {
 /// what is missing; nothing here throws for what data lacks. Limits and their sources are those of
 /// core/audit/limits.h.
 ///
-/// The checks look at the campaign that identification sees (core/audit/prepare.h): without rejected
+/// The checks look at the campaign that identification sees (core/preparation/prepare.h): without rejected
 /// readings, the station's motion taken off where floor nests show it, so that one cause gives one finding;
 /// for the same reason repeats that scatter by more than is declared replace the declared noise in the other
 /// checks.

@@ -513,7 +513,7 @@ std::vector<Row> readTableInOneGo(const TableSource& source, const TableLayout<R
 
 /// Rows of a table that `layout` describes, in the order of the file. Throws InputError with file, line,
 /// column and value for anything the format does not allow, keys that repeat among it. A text larger than `part_bytes`
-/// is read in parts of that size on all cores (table_parts.h); rows, names, warnings and errors are those of the
+/// is read in parts of that size on all cores; rows, names, warnings and errors are those of the
 /// reading in one go.
 template <class Row>
 std::vector<Row> readTable(const TableSource& source, const TableLayout<Row>& layout, CampaignNames& names,

@@ -52,7 +52,7 @@ enum class TakenOff {
 
 /// The campaign as it would have been read without the effects, at the given size of their parameters (as
 /// EffectFit::parameters). Off every reading of loading, displacements and, where they took part in the fit, sweeps goes
-/// what the effects add in its state, own weight's part included (effect_offsets.h). Effects that act through the
+/// what the effects add in its state, own weight's part included. Effects that act through the
 /// wrench change the load cell's declared point (load_point_error) or the readings in `states` (misalignment, bias); a
 /// moved frame is undone by its finite motion.
 ///

@@ -16,7 +16,7 @@ struct ToolLoad {
 
 /// The arm on its joint springs and with what the fitted effects of the machine add, at rest, finite rotations: joint
 /// springs turn by c tau plus the angles of effects that turn joints; a bearing's tilt, a link's tip and the base move
-/// what lies beyond them, the plate the tool. Each by the effect's own equation (core/diagnosis/effects), its moments
+/// what lies beyond them, the plate the tool. Each by the effect's own equation (core/effects), its moments
 /// and axes taken where the deflected arm has them, so that what one gives changes what the others carry; found by
 /// fixed-point iteration to 1e-10 rad, a contraction of a hundredth a step.
 class ImprovedArm {

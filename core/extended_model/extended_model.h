@@ -17,7 +17,7 @@ struct EffectSpread {
 
 /// Joint springs with further effects.
 ///
-/// The effects come from one joint fit (effect_fit.h). What they do is taken off the campaign (taken_off.h), and the three
+/// The effects come from one joint fit (effect_fit.h). What they do is taken off the campaign (corrected_campaign.h), and the three
 /// methods run on the rest as on any campaign. What then stands in `with`:
 ///  - uncertainty: the scatter between postures that is left, what frames and calibration share, and, as a part of its
 ///    own, sum_k d_k d_k^T over the columns of EffectSpread. Of least squares the two add exactly, because the springs'

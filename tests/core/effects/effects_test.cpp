@@ -344,7 +344,7 @@ TEST(EffectTable, NothingMovesWithoutACause) {
     EXPECT_EQ(field.norm(), 0.0) << effects::idOf(model.effect);
   }
   listed[static_cast<std::size_t>(effects::Effect::kinematic_error)] =
-      true;  // held against the nominal geometry, see effect_table.h
+      true;  // held against the nominal geometry, see all.h
   for (std::size_t e = 0; e < effects::kEffectCount; ++e) EXPECT_TRUE(listed[e]) << effects::kEffectIds[e];
 }
 
