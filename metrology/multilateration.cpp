@@ -1,6 +1,6 @@
 #include "metrology/multilateration.h"
 
-#include <Eigen/Geometry>
+#include <Eigen/Dense>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -14,32 +14,42 @@ namespace {
 
 /// One place, seen from known points at known distances. The points' covariances take in those of the
 /// distances.
-struct PlaceModel {
-  static constexpr int kShared = 3, kOwn = 0, kResiduals = 1;
-  Eigen::Vector3d place;
-  const std::vector<double>* distances;
+class PlaceModel : public Model {
+ public:
+  PlaceModel(const Eigen::Vector3d& start, const std::vector<double>& distances)
+      : place(start), distances_(distances), before_(start) {}
 
-  Observation<PlaceModel> observe(std::size_t i, const Eigen::Vector3d& point,
-                                  const Eigen::Matrix<double, 0, 1>&) const {
+  Size size() const override { return {3, 0, 1}; }
+  void observe(std::size_t i, const Eigen::Vector3d& point, const double*, Observation& seen) const override {
     long double square = 0.0L;
     for (int k = 0; k < 3; ++k) {
       const long double from = static_cast<long double>(place[k]) - point[k];
       square += from * from;
     }
     const long double distance = std::sqrt(square);
-    Observation<PlaceModel> seen;
-    seen.residual << static_cast<double>(distance - (*distances)[i]);
+    seen.residual[0] = static_cast<double>(distance - distances_[i]);
     const Eigen::Vector3d towards = distance > 0.0L
                                         ? Eigen::Vector3d((place - point) / static_cast<double>(distance))
                                         : Eigen::Vector3d::UnitX();
-    seen.rows = towards.transpose();
-    seen.directions = towards;
-    return seen;
+    seen.rows[0] = {towards.x(), towards.y(), towards.z()};
+    seen.directions[0] = towards;
   }
-  void move(const Eigen::Vector3d& step) { place += step; }
+  void move(const Eigen::VectorXd& step) override {
+    before_ = place;
+    place += Eigen::Vector3d(step);
+  }
+  void undo() override { place = before_; }
+
+  Eigen::Vector3d place;
+
+ private:
+  const std::vector<double>& distances_;
+  Eigen::Vector3d before_;
 };
 
-using PlaceEstimate = Estimate<PlaceModel, 1>;
+struct PlaceEstimate : Estimate {
+  Eigen::Vector3d place;
+};
 
 /// The points with what their distances add: sd^2 in every direction is sd^2 along that to the place.
 MeasuredPoints pointsOf(const std::vector<MeasuredDistance>& distances) {
@@ -81,13 +91,13 @@ bool preferred(const PlaceEstimate& best, const PlaceEstimate& other, bool weigh
 /// plane of the points the first vanishes, and the linear uncertainty means nothing.
 bool heldToFirstOrder(const PlaceEstimate& found, const std::vector<Eigen::Vector3d>& anchors,
                       double variance) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(found.cofactor);
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(Eigen::Matrix3d(found.cofactor));
   const Eigen::Vector3d worst = eigen.eigenvectors().col(2);
   const double two_sd = 2.0 * std::sqrt(variance * eigen.eigenvalues()[2]);
   double first = 0.0, second = 0.0;
   for (const Eigen::Vector3d& anchor : anchors) {
-    const double square = (found.model.place - anchor).squaredNorm();
-    first += std::pow(worst.dot(found.model.place - anchor), 2) / square;
+    const double square = (found.place - anchor).squaredNorm();
+    first += std::pow(worst.dot(found.place - anchor), 2) / square;
     second += 1.0 / square;
   }
   return first > two_sd * two_sd * second;
@@ -125,8 +135,9 @@ Multilateration multilaterate(const std::vector<MeasuredDistance>& distances,
     const double side = found.empty() ? 1.0 : -1.0;
     const Eigen::Vector3d start =
         both->height_squared > 0.0 ? root : Eigen::Vector3d(root + 0.1 * side * across);
-    found.push_back({{start, &lengths}});
-    refine(found.back(), local);
+    PlaceModel model(start, lengths);
+    const Estimate fitted = fitLeastSquares(model, local);
+    found.push_back({fitted, model.place});
   }
   const double rounding = 16.0 * (local.rounding + std::numeric_limits<double>::epsilon());
   std::erase_if(found, [&](const PlaceEstimate& one) {
@@ -142,10 +153,10 @@ Multilateration multilaterate(const std::vector<MeasuredDistance>& distances,
   }
   std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.chi2 < b.chi2; });
   const auto placeOf = [&local](const PlaceEstimate& one) -> Eigen::Vector3d {
-    return local.origin + local.scale * one.model.place;
+    return local.origin + local.scale * one.place;
   };
   constexpr double kSame = 1e-6;  // local units: both starts came to one place
-  const bool two = found.size() > 1 && (found[0].model.place - found[1].model.place).norm() > kSame;
+  const bool two = found.size() > 1 && (found[0].place - found[1].place).norm() > kSame;
   if (two && !preferred(found[0], found[1], local.weighted(), rounding)) {
     if (!expected) {
       result.reason = "two places, one on each side of the points' plane, agree with the distances alike";
