@@ -75,15 +75,7 @@ AxisFrame frameOf(const Eigen::Vector3d& point, const Eigen::Vector3d& direction
 }  // namespace
 
 double ReadingTests::criticalW(double level) const {
-  const auto tail = [this](double w) {
-    return variance_degrees == 0 ? chiSquareTail(w * w, residuals)
-                                 : fTail(w * w / residuals, residuals, variance_degrees);
-  };
-  double low = 0.0, high = 1.0;
-  while (tail(high) > level && high < 1e150) high *= 2.0;
-  constexpr int kHalvings = 60;
-  for (int k = 0; k < kHalvings; ++k) (tail(0.5 * (low + high)) > level ? low : high) = 0.5 * (low + high);
-  return high;
+  return std::sqrt(variance_degrees == 0 ? chiSquareLimit(level, residuals) : residuals * fLimit(level, residuals, variance_degrees));
 }
 
 ReadingTests readingTests(const FittedLine& fit, const MeasuredPoints& points) {
