@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "app/command_line.h"
-#include "app/large_heap.h"
 #include "app/output.h"
 #include "app/prepared.h"
 #include "core/audit/audit.h"
@@ -28,7 +27,6 @@ diagnosis::Diagnosis designOf(const campaign::Campaign& campaign) {
 }
 
 int auditCampaign(const std::string& folder, const std::string& json_file) {
-  useLargeHeapPages();
   campaign::Campaign campaign = openCampaign(folder, hashesFor(json_file));
   const campaign::Campaign words = described(campaign);
   // The audit takes the only copy of the readings; what the design is asked about is a hundred postures.

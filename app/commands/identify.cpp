@@ -4,7 +4,6 @@
 #include <memory>
 
 #include "app/command_line.h"
-#include "app/large_heap.h"
 #include "app/options.h"
 #include "app/output.h"
 #include "app/prepared.h"
@@ -60,7 +59,6 @@ std::optional<identification::Method> bestOf(const identification::Identificatio
 }
 
 int identifyCampaign(const Arguments& arguments, bool subset_given) {
-  useLargeHeapPages();
   const std::vector<identification::Method> methods = methodsNamed(arguments.method);
   const identification::IdentifyOptions options = optionsOf(arguments, subset_given);
   const preparation::PreparedCampaign prepared = openPrepared(arguments.campaign, arguments.raw, hashesFor(arguments.json));

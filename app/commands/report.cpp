@@ -21,7 +21,6 @@
 #include "app/options.h"
 #include "app/output.h"
 #include "app/prepared.h"
-#include "app/returned_memory.h"
 #include "core/audit/audit.h"
 #include "core/audit/check_design.h"
 #include "core/diagnosis/diagnose.h"
@@ -160,13 +159,11 @@ struct Result {
     // First of all: of a long day it lets most of what was read go.
     if (loaded) diagnosis = diagnosis::diagnose(std::move(read));
     read = campaign::Campaign();
-    returnFreeMemory();
     if (loaded && !arguments.with.empty()) {
       improved = extended_model::improveModel(prepared.campaign, effectsAsked(prepared, arguments.with), options);
     } else {
       own = loaded ? identification::identify(prepared.campaign, options) : identification::framesAlone(prepared.campaign);
     }
-    returnFreeMemory();
     audited = arguments.raw ? audit::audit(prepared.campaign) : audit::audit(prepared);
     if (diagnosis) audit::addSeparableEffects(*diagnosis, audited);
     withoutLoadReadings(prepared.campaign);
@@ -212,7 +209,6 @@ void addImproved(const std::vector<std::string>& words, const std::list<Result>&
 
 int writeReport(const Arguments& arguments) {
   requireNoCampaign(arguments.out, "expected a folder of the report's own");
-  returnLargeBlocks();
   identification::IdentifyOptions options;
   options.step = loadStepNamed(arguments.step);
   options.finite_deflection = !arguments.neglect_kc;
@@ -231,7 +227,6 @@ int writeReport(const Arguments& arguments) {
   content.title = "Joint stiffness";
   content.verdict = reports::verdictOf(content.campaigns, content.avoided);
   addImproved(arguments.with, results, content);
-  returnFreeMemory();  // drawing brings libraries of a hundred megabytes
   content.figures = makeFigures(content.campaigns, {arguments.paper});
 
   // Everything is made before the first file is written, and appears at once.

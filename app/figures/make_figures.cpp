@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include "app/figures/arm_scenes.h"
-#include "app/returned_memory.h"
 #include "render/image.h"
 #include "reports/page/html.h"
 #include "reports/report_content.h"
@@ -36,7 +35,6 @@ class FigureList {
   void add(const char* section, reports::Figure figure, const Picture& picture, render::Size size = kChart) {
     figures_.push_back(drawn(std::move(figure), picture, size));
     figures_.back().section = section;
-    returnFreeMemory();  // of making the shaders, and of what was drawn
   }
 
   /// How good the readings are that everything else stands on.

@@ -249,6 +249,10 @@ EffectFit fitEffects(const campaign::Campaign& campaign, const WantedEffects& as
   effects.gap = diagnosis::deflectionGap(alone, before, effects.fit,
                               diagnosis::allParameters(effects.fit.nuisances, effects.fit.set.effects));
   describe(effects, allowed);
+  if (effects.free.empty()) {  // of size zero: the gap stays what stiffnesses alone leave
+    effects.gap.after = effects.gap.before;
+    return effects;
+  }
   const diagnosis::FitRecipe recipe{false, effects.fit.set.models};
   constexpr int kResamples = 120;
   const diagnosis::HeldOutShrink held_out =

@@ -34,7 +34,7 @@ struct ImprovedModel {
   EffectSpread spread;
 };
 
-/// `campaign`: as identification sees it. No effect added: `with` is `without`.
+/// `campaign`: as identification sees it. No effect added, or all of size zero: `with` is `without`.
 ImprovedModel improveModel(const campaign::Campaign& campaign, EffectFit effects, const identification::IdentifyOptions& options);
 
 }  // namespace stiffscope::extended_model

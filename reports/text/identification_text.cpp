@@ -13,6 +13,7 @@
 #include "core/identification/estimate.h"
 #include "core/identification/posture_stiffness.h"
 #include "core/io/units.h"
+#include "reports/words/listed.h"
 #include "reports/words/names.h"
 #include "reports/words/numbers.h"
 
@@ -227,7 +228,8 @@ std::string identificationText(const campaign::Campaign& campaign, const identif
   Out out(text);
   fmt::format_to(out, "{}: joint stiffness from load step{} {}, {} postures\n", campaign.name,
                  result.steps.size() > 1 ? "s" : "", fmt::join(result.steps, ", "), identification::postureCount(result));
-  for (const std::string& left_out : result.left_out) fmt::format_to(out, "  left out: {}\n", left_out);
+  const auto words = [](const std::string& posture) { return "left out: " + posture; };
+  for (const std::string& entry : listed(result.left_out, words, kListedInJson)) fmt::format_to(out, "  {}\n", entry);
   writeStiffness(result, methods, out);
   writeResiduals(result, methods, out);
   writeCompensation(result, methods, out);
