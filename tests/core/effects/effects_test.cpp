@@ -360,8 +360,8 @@ TEST(EffectTable, ARecordIsThatOfItsLineAndNamesAllItsParameters) {
 // An ElasticArm moves bodies and joints only.
 TEST(EffectTable, WhatTheMachineDoesTurnsJointsOrMovesBodies) {
   for (const effects::EffectModel& model : effects::effectModels({"A", "B"})) {
-    if (effects::natureOf(model.effect) == effects::EffectNature::machine)
-      EXPECT_EQ(model.offset, nullptr) << effects::idOf(model.effect);
+    if (effects::natureOf(model.effect) != effects::EffectNature::machine) continue;
+    EXPECT_EQ(model.offset, nullptr) << effects::idOf(model.effect);
   }
 }
 
