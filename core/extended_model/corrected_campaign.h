@@ -18,7 +18,7 @@ class PostureOffsets {
   PostureOffsets(const EffectFit& effects, const Eigen::VectorXd& parameters, const effects::PostureStates& posture, Which which);
 
   /// Of a reflector that stands at `place` unloaded, one a state. The machine's part is the difference between where the
-  /// arm with its effects stands and where joint springs alone would have it (ImprovedArm), readings' the fit's own
+  /// arm with its effects stands and where joint springs alone would have it (ElasticArm), readings' the fit's own
   /// linear model.
   std::vector<Eigen::Vector3d> of(int target, const Eigen::Vector3d& place) const;
 

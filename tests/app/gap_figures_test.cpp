@@ -139,6 +139,7 @@ TEST(EffectWords, EveryEffectHasAMeaningAndARemedy) {
     const auto effect = static_cast<effects::Effect>(e);
     EXPECT_GT(reports::effectMeaning(effect).size(), 10u) << e;
     EXPECT_GT(reports::effectRemedy(effect).size(), 10u) << e;
+    EXPECT_GT(reports::effectUse(effect).size(), 10u) << e;
     EXPECT_EQ(reports::effectName(effect).find('_'), std::string::npos);
   }
 }

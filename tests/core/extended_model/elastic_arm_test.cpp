@@ -1,8 +1,9 @@
-#include "core/extended_model/extended_arm.h"
+#include "core/effects/elastic_arm.h"
 
 #include <gtest/gtest.h>
 
 #include <array>
+#include "core/effects/all.h"
 #include "core/simulation/equilibrium.h"
 #include "tests/fixtures/extended_day.h"
 
@@ -20,28 +21,11 @@ struct Mechanism {
 
 class AgainstTheSimulator : public testing::TestWithParam<Mechanism> {};
 
-/// An EffectFit that holds one effect, all its parts, and no data.
-extended_model::EffectFit onlyEffect(const campaign::Campaign& campaign, effects::Effect effect) {
-  extended_model::EffectFit fit;
-  std::vector<effects::EffectModel> models = effects::effectModelsOf(campaign);
-  std::erase_if(models, [&](const effects::EffectModel& one) { return one.effect != effect; });
-  models.resize(1);
-  fit.fit.data.layout = diagnosis::gapLayout(models, campaign.targets.size());
-  fit.fit.set.models = {{0, {}}};
-  for (std::size_t part = 0; part < models[0].parts.size(); ++part) fit.fit.set.models[0].parts.push_back(part);
-  fit.fit.set.effects.setZero(static_cast<Eigen::Index>(models[0].parameters()));
-  auto start = std::make_unique<diagnosis::GapStart>();
-  start->campaign = campaign;
-  fit.input = std::make_unique<diagnosis::GapInput>(diagnosis::GapInput{start->campaign, {}, 0.0, 0.0, models, false, false, {}});
-  fit.start = std::move(start);
-  return fit;
-}
-
 TEST_P(AgainstTheSimulator, DeflectsTheSameWithFiniteRotations) {
   simulation::SimulationSpec spec = springsAlone(1);
   const campaign::Campaign campaign = simulation::simulate(spec);
-  extended_model::EffectFit effects = onlyEffect(campaign, GetParam().effect);
-  Eigen::VectorXd parameters = effects.parameters();
+  const effects::EffectModel model = effects::modelsOf(effects::recordOf(GetParam().effect)).front();
+  Eigen::VectorXd parameters = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(model.parameters()));
   GetParam().build(spec, parameters);
   const simulation::ElasticMachine machine = simulation::buildMachine(spec);
   frames::LoadingGeometry geometry;
@@ -49,7 +33,8 @@ TEST_P(AgainstTheSimulator, DeflectsTheSameWithFiniteRotations) {
   geometry.weight = robot::ownWeight(campaign.robot, campaign.tool, campaign.gravity_in_base, machine.nominal, Eigen::Isometry3d::Identity());
   Vector6d compliance;
   for (std::size_t j = 0; j < 6; ++j) compliance[static_cast<Eigen::Index>(j)] = 1.0 / *spec.machine.joints[j].torsion;
-  const extended_model::ImprovedArm arm(effects, parameters, geometry, compliance);
+  const effects::WorkingPoint at;
+  const effects::ElasticArm arm(geometry, compliance, at, {{&model, parameters}});
   const Eigen::Isometry3d& flange = geometry.arm.base_from_flange_at_zero;
   double most = 0.0;
   for (const std::size_t row : {0u, 25u, 50u}) {
@@ -58,7 +43,7 @@ TEST_P(AgainstTheSimulator, DeflectsTheSameWithFiniteRotations) {
     states[1].loaded = true;
     const simulation::AppliedLoad load = simulation::loadAtStep(*spec.loading, 3, machine.gravity_in_base, {});
     const simulation::MachineState at_rest = simulation::equilibrium(machine, states[0].q), loaded = simulation::equilibrium(machine, states[0].q, load);
-    const extended_model::ToolLoad own{flange * spec.loading->hook_in_flange, loaded.load_force_in_base, Eigen::Vector3d::Zero()};
+    const effects::ToolLoad own{flange * spec.loading->hook_in_flange, loaded.load_force_in_base, Eigen::Vector3d::Zero()};
     const auto before = arm.toolMotion(states, 0, nullptr), after = arm.toolMotion(states, 1, &own);
     ASSERT_TRUE(before && after);
     for (std::size_t t = 0; t < spec.targets.size(); ++t) {
