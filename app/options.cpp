@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
+#include <fmt/format.h>
 #include <stdexcept>
 #include <string>
 #include <system_error>
@@ -89,6 +90,16 @@ std::string hintFor(const CLI::App& app, const std::string& word) {
   return io::nearestNameHint(word, known);
 }
 
+/// Whether the word, which the program itself does not know, is an option of one of its commands.
+bool optionOfCommands(const CLI::App& app, const std::string& word) {
+  if (app.remaining().empty()) return false;
+  const std::string name = word.substr(0, word.find('='));
+  const auto commands = app.get_subcommands(nullptr);
+  return name.starts_with("--") && std::any_of(commands.begin(), commands.end(), [&](const CLI::App* command) {
+    return command->get_option_no_throw(name) != nullptr;
+  });
+}
+
 }  // namespace
 
 int explainUsageError(const CLI::App& app, const CLI::ParseError& error) {
@@ -96,7 +107,9 @@ int explainUsageError(const CLI::App& app, const CLI::ParseError& error) {
   const std::vector<std::string> unknown =
       chosen(app).remaining().empty() ? app.remaining() : chosen(app).remaining();
   if (!unknown.empty()) {
-    message = "'" + unknown.front() + "' is not known" + hintFor(chosen(app), unknown.front());
+    message = optionOfCommands(app, unknown.front())
+                  ? fmt::format("'{}' is an option of commands and belongs after the command's name", unknown.front())
+                  : "'" + unknown.front() + "' is not known" + hintFor(chosen(app), unknown.front());
   }
   const std::string program = app.get_name();
   std::fprintf(stderr, "%s: %s; see %s %s%s--help\n", program.c_str(), message.c_str(), program.c_str(),

@@ -19,7 +19,7 @@
 
 namespace {
 
-using stiffscope::metrology::MeasuredPoints;
+namespace metrology = stiffscope::metrology;
 
 constexpr double kNoise = 2e-5;
 
@@ -88,23 +88,23 @@ BENCHMARK(Circle)->Apply(sizes);
 void CirclePlaneFirst(benchmark::State& state) {
   fitting(state, noisy(static_cast<std::size_t>(state.range(0)), onQuarterCircle),
           [](const metrology::MeasuredPoints& points) {
-            return metrology::fitCircle(points, stiffscope::metrology::CircleStrategy::plane_first);
+            return metrology::fitCircle(points, metrology::CircleStrategy::plane_first);
           });
 }
 BENCHMARK(CirclePlaneFirst)->Apply(sizes);
 
 void Sphere(benchmark::State& state) {
-  fitting(state, noisy(static_cast<std::size_t>(state.range(0)), onCap), stiffscope::metrology::fitSphere);
+  fitting(state, noisy(static_cast<std::size_t>(state.range(0)), onCap), metrology::fitSphere);
 }
 BENCHMARK(Sphere)->Apply(sizes);
 
 void Plane(benchmark::State& state) {
-  fitting(state, noisy(static_cast<std::size_t>(state.range(0)), onSquare), stiffscope::metrology::fitPlane);
+  fitting(state, noisy(static_cast<std::size_t>(state.range(0)), onSquare), metrology::fitPlane);
 }
 BENCHMARK(Plane)->Apply(sizes);
 
 void Cylinder(benchmark::State& state) {
-  fitting(state, noisy(static_cast<std::size_t>(state.range(0)), onTube), stiffscope::metrology::fitCylinder);
+  fitting(state, noisy(static_cast<std::size_t>(state.range(0)), onTube), metrology::fitCylinder);
 }
 BENCHMARK(Cylinder)->Apply(sizes);
 
@@ -181,7 +181,7 @@ void writeFits(const std::filesystem::path& folder) {
     appendRound(metrology::fitCircle(circle).circle, fits);
     write("Circle_" + std::to_string(count));
     append(sphere, points);
-    appendRound(stiffscope::metrology::fitSphere(sphere).sphere, fits);
+    appendRound(metrology::fitSphere(sphere).sphere, fits);
     write("Sphere_" + std::to_string(count));
   }
 }

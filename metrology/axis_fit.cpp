@@ -27,8 +27,6 @@ double sweptArc(const Line& axis, const std::vector<Eigen::Vector3d>& points) {
 
 namespace {
 
-using AxisEstimate = Estimate<CirclesModel, Eigen::Dynamic>;
-
 std::string tooFew(const std::vector<CirclePoints>& circles) {
   const auto holdsPlane = [](const CirclePoints& circle) { return circle.points.size() >= 3; };
   const auto isEmpty = [](const CirclePoints& circle) { return circle.points.empty(); };
@@ -38,12 +36,14 @@ std::string tooFew(const std::vector<CirclePoints>& circles) {
   return {};
 }
 
-AxisCircle circleOf(const AxisEstimate& estimate, const LocalPoints& local, std::size_t k, const Line& axis,
-                    const std::vector<Eigen::Vector3d>& points) {
-  const Eigen::Vector2d own = estimate.own.col(static_cast<Eigen::Index>(k));
+AxisCircle circleOf(const CirclesModel& model, const Estimate& estimate, const LocalPoints& local, std::size_t k,
+                    const Line& axis, const std::vector<Eigen::Vector3d>& points) {
+  const double* own = &estimate.own(0, static_cast<Eigen::Index>(k));
   double sum = 0.0;
+  Observation seen;
   for (std::size_t i = 0; i < local.groups[k].points.size(); ++i) {
-    sum += estimate.model.observe(i, local.groups[k].points[i], own).residual.squaredNorm();
+    model.observe(i, local.groups[k].points[i], own, seen);
+    sum += seen.squaredNorm(model.size().residuals);
   }
   return {local.scale * own[0], local.scale * own[1], sweptArc(axis, points),
           local.scale * std::sqrt(sum / (2.0 * static_cast<double>(points.size())))};
@@ -58,11 +58,10 @@ AxisFit fitAxis(const std::vector<CirclePoints>& circles) {
   const LocalPoints local = localPoints(circles.data(), circles.size());
   fit.reason = local.flaw;
   if (!fit.reason.empty()) return fit;
-  const auto start = circlesStart(local, fit.reason);
-  if (!start) return fit;
+  auto model = circlesStart(local, fit.reason);
+  if (!model) return fit;
 
-  AxisEstimate estimate{*start, firstOwn(*start, local)};
-  refine(estimate, local);
+  const Estimate estimate = fitLeastSquares(*model, local, firstOwn(*model, local));
   fit.degrees_of_freedom = estimate.degreesOfFreedom();
   if (fit.degrees_of_freedom < 1) {
     fit.reason = "too few readings for an axis with its uncertainty";
@@ -72,15 +71,16 @@ AxisFit fitAxis(const std::vector<CirclePoints>& circles) {
     fit.reason = "the readings do not determine the axis";
     return fit;
   }
-  fit.axis = estimate.model.axis.measured();
+  fit.axis = model->axis.measured();
   fit.axis.line.point = local.origin + local.scale * fit.axis.line.point;
   const Eigen::Vector4d units(local.scale, local.scale, 1.0, 1.0);
-  fit.axis.covariance = varianceFactor(estimate, local.weighted()) *
-                        (units.asDiagonal() * estimate.cofactor.topLeftCorner<4, 4>() * units.asDiagonal());
+  const Eigen::Matrix4d cofactor = estimate.cofactor.topLeftCorner<4, 4>();
+  fit.axis.covariance =
+      varianceFactor(estimate, local.weighted()) * (units.asDiagonal() * cofactor * units.asDiagonal());
   fit.rms = local.scale * std::sqrt(estimate.plain / estimate.residuals);
   fit.chi2_per_dof = local.weighted() ? estimate.chi2 / fit.degrees_of_freedom : 1.0;
   for (std::size_t k = 0; k < circles.size(); ++k) {
-    fit.circles.push_back(circleOf(estimate, local, k, fit.axis.line, circles[k].points));
+    fit.circles.push_back(circleOf(*model, estimate, local, k, fit.axis.line, circles[k].points));
   }
   fit.determined = true;
   return fit;

@@ -6,77 +6,75 @@
 
 namespace stiffscope::metrology {
 
-/// fitCircle's plane-first strategy: NIST's strategy 1.
-FittedCircle fitPlaneFirst(const LocalPoints& local);
-
 namespace {
 
 /// Circle in a plane that is given: radial residual rho - r. Shared parameters: shifts of the centre along u
 /// and v.
-struct FlatCircleModel {
-  static constexpr int kShared = 2, kOwn = 1, kResiduals = 1;
-  AxisFrame axis;
-
-  Observation<FlatCircleModel> observe(std::size_t, const Eigen::Vector3d& point,
-                                       const Eigen::Matrix<double, 1, 1>& radius) const {
+class FlatCircleModel : public AxisModel {
+ public:
+  using AxisModel::AxisModel;
+  Size size() const override { return {2, 1, 1}; }
+  void observe(std::size_t, const Eigen::Vector3d& point, const double* radius, Observation& seen) const override {
     const PlaceAboutAxis place = axis.placeOf(point);
-    Observation<FlatCircleModel> seen;
-    seen.residual << static_cast<double>(place.radius - radius[0]);
-    seen.rows << -place.outward_u, -place.outward_v, -1.0;
-    seen.directions << place.outward_u * axis.u() + place.outward_v * axis.v();
-    return seen;
+    seen.residual[0] = static_cast<double>(place.radius - radius[0]);
+    seen.rows[0] = {-place.outward_u, -place.outward_v, -1.0};
+    seen.directions[0] = place.outward_u * axis.u() + place.outward_v * axis.v();
   }
-  void move(const Eigen::Vector2d& step) { axis.move({step[0], step[1], 0.0, 0.0}); }
+  void move(const Eigen::VectorXd& step) override {
+    before_ = axis;
+    axis.move({step[0], step[1], 0.0, 0.0});
+  }
 };
 
-using PlaneEstimate = Estimate<PlanesModel, 1>;
-using FlatEstimate = Estimate<FlatCircleModel, 1>;
+/// A model where its fit has left it, and the fit.
+struct FittedPart {
+  const Model& model;
+  const Estimate& estimate;
+};
 
 /// Cofactor of (tilt_u, tilt_v, height) with (shift_u, shift_v, radius): each part weighs by its own
 /// variance, but a point's radial and axial errors go together where its covariance is not level with the
 /// plane.
-Eigen::Matrix3d commonPart(const PlaneEstimate& plane, const FlatEstimate& flat, const LocalPoints& local) {
+Eigen::Matrix3d commonPart(const FittedPart& plane, const FittedPart& flat, const LocalPoints& local) {
   Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
   if (!local.weighted()) return sum;
   const LocalGroup& group = local.groups.front();
   for (std::size_t i = 0; i < group.points.size(); ++i) {
-    const auto axial = plane.model.observe(i, group.points[i], plane.own);
-    const auto radial = flat.model.observe(i, group.points[i], flat.own);
+    Observation axial, radial;
+    plane.model.observe(i, group.points[i], plane.estimate.own.data(), axial);
+    flat.model.observe(i, group.points[i], flat.estimate.own.data(), radial);
     const Eigen::Matrix3d covariance = (*group.covariances)[i] / (local.scale * local.scale);
-    const Eigen::Vector3d n = axial.directions.col(0), e = radial.directions.col(0);
+    const Eigen::Vector3d n = axial.directions[0], e = radial.directions[0];
     const double together = n.dot(covariance * e) / (n.dot(covariance * n) * e.dot(covariance * e));
-    sum += together * axial.rows.transpose() * radial.rows;
+    sum += together * Eigen::Vector3d(axial.rows[0].data()) * Eigen::RowVector3d(radial.rows[0].data());
   }
-  return plane.cofactor * sum * flat.cofactor;
+  return Eigen::Matrix3d(plane.estimate.cofactor) * sum * Eigen::Matrix3d(flat.estimate.cofactor);
 }
 
 /// Of (tilts, height; shifts, radius), local units.
-Eigen::Matrix<double, 6, 6> covarianceOfParts(const PlaneEstimate& plane, const FlatEstimate& flat,
+Eigen::Matrix<double, 6, 6> covarianceOfParts(const FittedPart& plane, const FittedPart& flat,
                                               const LocalPoints& local) {
-  const double of_plane = varianceFactor(plane, local.weighted()),
-               of_flat = varianceFactor(flat, local.weighted());
+  const double of_plane = varianceFactor(plane.estimate, local.weighted()),
+               of_flat = varianceFactor(flat.estimate, local.weighted());
   Eigen::Matrix<double, 6, 6> parts;
-  parts.topLeftCorner<3, 3>() = of_plane * plane.cofactor;
-  parts.bottomRightCorner<3, 3>() = of_flat * flat.cofactor;
+  parts.topLeftCorner<3, 3>() = of_plane * plane.estimate.cofactor;
+  parts.bottomRightCorner<3, 3>() = of_flat * flat.estimate.cofactor;
   parts.topRightCorner<3, 3>() = std::sqrt(of_plane * of_flat) * commonPart(plane, flat, local);
   parts.bottomLeftCorner<3, 3>() = parts.topRightCorner<3, 3>().transpose();
   return parts;
 }
 
-}  // namespace
-
+/// fitCircle's plane-first strategy: NIST's strategy 1.
 FittedCircle fitPlaneFirst(const LocalPoints& local) {
   FittedCircle fit;
   fit.method = "plane-first: a plane by orthogonal distances, then a circle in it by radial ones";
   const auto start = circlesStart(local, fit.reason);
   if (!start) return fit;
-  PlaneEstimate plane{{AxisFrame(Eigen::Vector3d::Zero(), start->axis.direction())},
-                      PlaneEstimate::Own::Zero()};
-  refine(plane, local);
-  const AxisFrame& tilted = plane.model.normal;
-  FlatEstimate flat{{AxisFrame(start->axis.point(), tilted.direction())},
-                    firstOwn(*start, local).topRows<1>()};
-  refine(flat, local);
+  PlanesModel plane_model(AxisFrame(Eigen::Vector3d::Zero(), start->axis.direction()));
+  const Estimate plane = fitLeastSquares(plane_model, local, Eigen::MatrixXd::Zero(1, 1));
+  const AxisFrame& tilted = plane_model.axis;
+  FlatCircleModel flat_model(AxisFrame(start->axis.point(), tilted.direction()));
+  const Estimate flat = fitLeastSquares(flat_model, local, firstOwn(*start, local).topRows<1>());
   if (!describeQuality(plane, local, fit) || !describeQuality(flat, local, fit)) return fit;
 
   fit.degrees_of_freedom = plane.degreesOfFreedom() + flat.degreesOfFreedom();
@@ -86,38 +84,35 @@ FittedCircle fitPlaneFirst(const LocalPoints& local) {
   fit.residual_sd = dof > 0 ? local.scale * std::sqrt(plain / dof) : 0.0;
   fit.chi2_per_dof = !local.weighted() ? 1.0 : dof > 0 ? (plane.chi2 + flat.chi2) / dof : 0.0;
 
-  const Eigen::Vector3d across = flat.model.axis.point();
-  const double lift = plane.own[0] - tilted.direction().dot(across);
+  const Eigen::Vector3d across = flat_model.axis.point();
+  const double lift = plane.own(0, 0) - tilted.direction().dot(across);
   const Eigen::Vector3d normal = largestPositive(tilted.direction());
   const double sense = normal.dot(tilted.direction()) < 0.0 ? -1.0 : 1.0;
   fit.circle = {local.origin + local.scale * (across + lift * tilted.direction()), normal,
-                local.scale * flat.own[0]};
+                local.scale * flat.own(0, 0)};
   fit.determined = true;
   if (!tellsUncertainty(flat, local)) return fit;
 
   Eigen::Matrix<double, 7, 6> full;  // (centre, normal, radius) by (tilts, height; shifts, radius)
   full << -tilted.u().dot(across) * tilted.direction(), -tilted.v().dot(across) * tilted.direction(),
-      tilted.direction(), flat.model.axis.u(), flat.model.axis.v(), Eigen::Vector3d::Zero(),  //
+      tilted.direction(), flat_model.axis.u(), flat_model.axis.v(), Eigen::Vector3d::Zero(),  //
       sense * tilted.u(), sense * tilted.v(), Eigen::Matrix<double, 3, 4>::Zero(),
       Eigen::Matrix<double, 1, 5>::Zero(), 1.0;
   full.topRows<3>() *= local.scale;
   full.row(6) *= local.scale;
-  fit.covariance = full * covarianceOfParts(plane, flat, local) * full.transpose();
+  fit.covariance = full * covarianceOfParts({plane_model, plane}, {flat_model, flat}, local) * full.transpose();
   return fit;
 }
-
-namespace {
 
 FittedCircle fitInSpace(const LocalPoints& local) {
   FittedCircle fit;
   fit.method = "full: orthogonal distances in space, Gauss-Newton from Taubin's circle";
-  auto start = circlesStart(local, fit.reason);
-  if (!start) return fit;
-  Estimate<CirclesModel, 1> estimate{*start, firstOwn(*start, local)};
-  refine(estimate, local);
+  auto model = circlesStart(local, fit.reason);
+  if (!model) return fit;
+  const Estimate estimate = fitLeastSquares(*model, local, firstOwn(*model, local));
   if (!describeQuality(estimate, local, fit)) return fit;
 
-  const AxisFrame& axis = estimate.model.axis;
+  const AxisFrame& axis = model->axis;
   const double height = estimate.own(1, 0);
   Eigen::Matrix<double, 7, 6> full;  // (centre, normal, radius) by (shifts, tilts, radius, height)
   const Eigen::Vector3d normal = largestPositive(axis.direction());
@@ -132,8 +127,7 @@ FittedCircle fitInSpace(const LocalPoints& local) {
                 local.scale * estimate.own(0, 0)};
   fit.determined = true;
   if (tellsUncertainty(estimate, local)) {
-    fit.covariance =
-        varianceFactor(estimate, local.weighted()) * (full * estimate.cofactor * full.transpose()).eval();
+    fit.covariance = covarianceOf(full, estimate, local.weighted());
   }
   return fit;
 }

@@ -15,7 +15,7 @@ namespace stiffscope::metrology {
 /// A cylinder that an algebraic search finds, in local units, with the sum of squared distances that it
 /// expects.
 struct CylinderStart {
-  CylindersModel model;
+  AxisFrame axis;
   double radius = 0.0;
   double expected = 0.0;
 };
@@ -142,18 +142,21 @@ std::vector<CylinderStart> cylinderStarts(const LocalPoints& local, std::size_t 
   std::vector<CylinderStart> starts;
   for (const Candidate& minimum : minima) {
     const auto same = [&](const CylinderStart& other) {
-      return std::abs(other.model.axis.direction().dot(minimum.direction)) > std::cos(kSame);
+      return std::abs(other.axis.direction().dot(minimum.direction)) > std::cos(kSame);
     };
     if (starts.size() == most || !std::isfinite(minimum.expected)) break;
     if (std::any_of(starts.begin(), starts.end(), same)) continue;
-    starts.push_back({{AxisFrame(minimum.centre, minimum.direction)}, minimum.radius, minimum.expected});
+    starts.push_back({AxisFrame(minimum.centre, minimum.direction), minimum.radius, minimum.expected});
   }
   return starts;
 }
 
 namespace {
 
-using CylinderEstimate = Estimate<CylindersModel, 1>;
+struct CylinderEstimate : Estimate {
+  AxisFrame axis;
+  double radius() const { return own(0, 0); }
+};
 
 /// Other minima are followed where the algebraic sum does not speak against them by far: it is the geometric
 /// one but for weights and curvature.
@@ -162,8 +165,8 @@ constexpr std::size_t kMostStarts = 12;
 
 bool sameAxis(const CylinderEstimate& a, const CylinderEstimate& b) {
   constexpr double kSame = 1e-5;  // rad and local units
-  const double across = a.model.axis.direction().cross(b.model.axis.direction()).norm();
-  return across < kSame && std::abs(a.own[0] - b.own[0]) < kSame * (1.0 + a.own[0]);
+  const double across = a.axis.direction().cross(b.axis.direction()).norm();
+  return across < kSame && std::abs(a.radius() - b.radius()) < kSame * (1.0 + a.radius());
 }
 
 /// Every cylinder to which a start leads, the least sum first.
@@ -174,8 +177,9 @@ std::vector<CylinderEstimate> localMinima(const LocalPoints& local) {
   for (const CylinderStart& start : starts) {
     const double floor = static_cast<double>(local.count()) * rounding * rounding;
     if (start.expected > kFarWorse * (starts.front().expected + floor) && !found.empty()) break;
-    CylinderEstimate estimate{start.model, CylinderEstimate::Own::Constant(start.radius)};
-    refine(estimate, local);
+    CylindersModel model(start.axis);
+    const Estimate fitted = fitLeastSquares(model, local, Eigen::MatrixXd::Constant(1, 1, start.radius));
+    const CylinderEstimate estimate{fitted, model.axis};
     const bool known =
         std::any_of(found.begin(), found.end(), [&](const auto& other) { return sameAxis(other, estimate); });
     if (estimate.converged && !known) found.push_back(estimate);
@@ -196,12 +200,12 @@ bool preferred(const CylinderEstimate& best, const CylinderEstimate& other, cons
 }
 
 void writeResult(const CylinderEstimate& estimate, const LocalPoints& local, FittedCylinder& fit) {
-  const AxisFrame& axis = estimate.model.axis;
+  const AxisFrame& axis = estimate.axis;
   const double along = -axis.direction().dot(axis.point());
   const Eigen::Vector3d direction = largestPositive(axis.direction());
   const double sense = direction.dot(axis.direction()) < 0.0 ? -1.0 : 1.0;
   fit.cylinder = {{local.origin + local.scale * (axis.point() + along * axis.direction()), direction},
-                  local.scale * estimate.own[0]};
+                  local.scale * estimate.radius()};
   if (!tellsUncertainty(estimate, local)) return;
   Eigen::Matrix<double, 7, 5> full;  // (point, direction, radius) by (shifts, tilts, radius)
   full << axis.u(), axis.v(), along * axis.u(), along * axis.v(), Eigen::Vector3d::Zero(),               //
@@ -209,8 +213,7 @@ void writeResult(const CylinderEstimate& estimate, const LocalPoints& local, Fit
       Eigen::Matrix<double, 1, 4>::Zero(), 1.0;
   full.topRows<3>() *= local.scale;
   full.row(6) *= local.scale;
-  fit.covariance =
-      varianceFactor(estimate, local.weighted()) * (full * estimate.cofactor * full.transpose()).eval();
+  fit.covariance = covarianceOf(full, estimate, local.weighted());
 }
 
 std::string whyNotSignificant(const FittedCylinder& fit) {

@@ -27,7 +27,7 @@ struct FittedCylinder : FitQuality {
 
 /// Least squares of the radial residuals rho - r, over 5 degrees of freedom (n - 5 are left), weighted by the
 /// variance along the radius where covariances are given. Several directions are local minima: Gauss-Newton
-/// starts from each that an algebraic search over the half sphere finds (see cylinder_starts.h), and the
+/// starts from each that an algebraic search over the half sphere finds, and the
 /// least sum is taken. Undetermined: fewer than five places, points in one plane or on one line, a curvature
 /// or direction that is not significant against the scatter, two different cylinders that fit alike.
 FittedCylinder fitCylinder(const MeasuredPoints& points);

@@ -1,5 +1,8 @@
 #include "metrology/line_fit.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "metrology/measured_points.h"
 #include "metrology/shape_models.h"
 
@@ -18,11 +21,11 @@ FittedLine fitLine(const MeasuredPoints& points) {
         "the direction is undetermined: the readings spread alike in two directions, within their scatter";
     return fit;
   }
-  Estimate<LineModel, 1> estimate{{AxisFrame(Eigen::Vector3d::Zero(), axes.directions.col(2))}};
-  refine(estimate, local);
+  LineModel model(AxisFrame(Eigen::Vector3d::Zero(), axes.directions.col(2)));
+  const Estimate estimate = fitLeastSquares(model, local);
   if (!describeQuality(estimate, local, fit)) return fit;
 
-  const AxisFrame& axis = estimate.model.axis;
+  const AxisFrame& axis = model.axis;
   const double along = -axis.direction().dot(axis.point());
   const Eigen::Vector3d direction = largestPositive(axis.direction());
   const double sense = direction.dot(axis.direction()) < 0.0 ? -1.0 : 1.0;
@@ -32,12 +35,11 @@ FittedLine fitLine(const MeasuredPoints& points) {
   full.topRows<3>() *= local.scale;
   if (tellsUncertainty(estimate, local)) {
     const double factor = varianceFactor(estimate, local.weighted());
-    if (std::sqrt(factor * estimate.cofactor.bottomRightCorner<2, 2>().diagonal().maxCoeff()) >
-        kNoDirection) {
+    if (std::sqrt(factor * std::max(estimate.cofactor(2, 2), estimate.cofactor(3, 3))) > kNoDirection) {
       fit.reason = "the direction is undetermined: the readings scatter across as they spread along";
       return fit;
     }
-    fit.covariance = factor * full * estimate.cofactor * full.transpose();
+    fit.covariance = covarianceOf(full, estimate, local.weighted());
   }
   fit.line = {local.origin + local.scale * (axis.point() + along * axis.direction()), direction};
   fit.determined = true;

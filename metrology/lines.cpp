@@ -107,33 +107,6 @@ std::optional<Eigen::Vector3d> commonNormal(const Line& first, const Line& secon
   return sense * cross.normalized();
 }
 
-double propagatePair(const MeasuredLine& first, const MeasuredLine& second, const LinePairNumber& number) {
-  const Eigen::MatrixXd by = derivativesByLines({first, second}, [&](const std::vector<Line>& lines) {
-    return Eigen::VectorXd::Constant(1, number(lines[0], lines[1]));
-  });
-  const Eigen::RowVector4d by_first = by.leftCols<4>(), by_second = by.rightCols<4>();
-  return std::sqrt(by_first.dot(by_first * first.covariance) + by_second.dot(by_second * second.covariance));
-}
-
-double distanceUncertainty(const MeasuredLine& first, const MeasuredLine& second) {
-  return propagatePair(first, second, signedDistance(first.line, second.line));
-}
-
-double distanceAcrossUncertainty(const MeasuredLine& first, const MeasuredLine& second,
-                                 const Eigen::Vector3d& at_point) {
-  return propagatePair(first, second,
-                       [&](const Line& a, const Line& b) { return distanceAcross(a, b, at_point); });
-}
-
-double angleUncertainty(const MeasuredLine& first, const MeasuredLine& second) {
-  if (const auto normal = commonNormal(first.line, second.line)) {
-    return propagatePair(first, second, tiltAbout(*normal));
-  }
-  // Exactly parallel: the larger of the tilts in two planes.
-  return std::max(propagatePair(first, second, tiltAbout(first.across_u)),
-                  propagatePair(first, second, tiltAbout(first.across_v)));
-}
-
 Line MeasuredLine::moved(const Eigen::Vector4d& step) const {
   return {line.point + step[0] * across_u + step[1] * across_v,
           (line.direction + step[2] * across_u + step[3] * across_v).normalized()};

@@ -1,5 +1,8 @@
 #include "metrology/plane_fit.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "metrology/measured_points.h"
 #include "metrology/shape_models.h"
 
@@ -22,13 +25,11 @@ FittedPlane fitPlane(const MeasuredPoints& points) {
         "the normal is undetermined: the readings spread alike in two directions, within their scatter";
     return fit;
   }
-  using PlaneEstimate = Estimate<PlanesModel, 1>;
-  PlaneEstimate estimate{{AxisFrame(Eigen::Vector3d::Zero(), axes.directions.col(0))},
-                         PlaneEstimate::Own::Zero()};
-  refine(estimate, local);
+  PlanesModel model(AxisFrame(Eigen::Vector3d::Zero(), axes.directions.col(0)));
+  const Estimate estimate = fitLeastSquares(model, local, Eigen::MatrixXd::Zero(1, 1));
   if (!describeQuality(estimate, local, fit)) return fit;
 
-  const AxisFrame& frame = estimate.model.normal;
+  const AxisFrame& frame = model.axis;
   const Eigen::Vector3d normal = largestPositive(frame.direction());
   const double sense = normal.dot(frame.direction()) < 0.0 ? -1.0 : 1.0;
   Eigen::Matrix<double, 6, 3> full;  // (point, normal) by (tilts, height)
@@ -36,13 +37,13 @@ FittedPlane fitPlane(const MeasuredPoints& points) {
       sense * frame.u(), sense * frame.v(), Eigen::Vector3d::Zero();
   if (tellsUncertainty(estimate, local)) {
     const double factor = varianceFactor(estimate, local.weighted());
-    if (std::sqrt(factor * estimate.cofactor.topLeftCorner<2, 2>().diagonal().maxCoeff()) > kNoDirection) {
+    if (std::sqrt(factor * std::max(estimate.cofactor(0, 0), estimate.cofactor(1, 1))) > kNoDirection) {
       fit.reason = "the normal is undetermined: the readings lie on one line within their scatter";
       return fit;
     }
-    fit.covariance = factor * full * estimate.cofactor * full.transpose();
+    fit.covariance = covarianceOf(full, estimate, local.weighted());
   }
-  fit.plane = {local.origin + local.scale * estimate.own[0] * frame.direction(), normal};
+  fit.plane = {local.origin + local.scale * estimate.own(0, 0) * frame.direction(), normal};
   fit.determined = true;
   return fit;
 }

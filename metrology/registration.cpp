@@ -88,23 +88,22 @@ namespace {
 
 /// A rigid motion by differences m(source_i) - to_i, in the local units of `to`. Shared parameters: rotation
 /// vector about the local origin, shift, both after the motion.
-struct MotionModel {
-  static constexpr int kShared = 6, kOwn = 0, kResiduals = 3;
-  Eigen::Isometry3d to_from_source;  ///< of source points about their mean, in local units
-  const std::vector<Eigen::Vector3d>* source;
+class MotionModel : public Model {
+ public:
+  MotionModel(const Eigen::Isometry3d& start, const std::vector<Eigen::Vector3d>& from)
+      : to_from_source(start), source_(from), before_(start) {}
 
-  Observation<MotionModel> observe(std::size_t i, const Eigen::Vector3d& to,
-                                   const Eigen::Matrix<double, 0, 1>&) const {
-    const Eigen::Vector3d moved = to_from_source * (*source)[i];
-    Observation<MotionModel> seen;
-    seen.residual = moved - to;
-    seen.rows << 0.0, moved.z(), -moved.y(), 1.0, 0.0, 0.0,  //
-        -moved.z(), 0.0, moved.x(), 0.0, 1.0, 0.0,           //
-        moved.y(), -moved.x(), 0.0, 0.0, 0.0, 1.0;
-    seen.directions.setIdentity();
-    return seen;
+  Size size() const override { return {6, 0, 3}; }
+  void observe(std::size_t i, const Eigen::Vector3d& to, const double*, Observation& seen) const override {
+    const Eigen::Vector3d moved = to_from_source * source_[i];
+    seen.residual = {moved.x() - to.x(), moved.y() - to.y(), moved.z() - to.z()};
+    seen.rows[0] = {0.0, moved.z(), -moved.y(), 1.0, 0.0, 0.0};
+    seen.rows[1] = {-moved.z(), 0.0, moved.x(), 0.0, 1.0, 0.0};
+    seen.rows[2] = {moved.y(), -moved.x(), 0.0, 0.0, 0.0, 1.0};
+    seen.directions = {Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitY(), Eigen::Vector3d::UnitZ()};
   }
-  void move(const Eigen::Matrix<double, 6, 1>& step) {
+  void move(const Eigen::VectorXd& step) override {
+    before_ = to_from_source;
     const double angle = step.head<3>().norm();
     const Eigen::Vector3d about =
         angle > 0.0 ? Eigen::Vector3d(step.head<3>() / angle) : Eigen::Vector3d::UnitX();
@@ -113,6 +112,13 @@ struct MotionModel {
         Eigen::Quaterniond(turn * to_from_source.linear()).normalized().toRotationMatrix();
     to_from_source.translation() = turn * to_from_source.translation() + step.tail<3>();
   }
+  void undo() override { to_from_source = before_; }
+
+  Eigen::Isometry3d to_from_source;  ///< of source points about their mean, in local units
+
+ private:
+  const std::vector<Eigen::Vector3d>& source_;
+  Eigen::Isometry3d before_;
 };
 
 }  // namespace
@@ -138,20 +144,20 @@ WeightedRegistration registerRigid(const std::vector<Eigen::Vector3d>& source,
   Eigen::Isometry3d start = Eigen::Isometry3d::Identity();
   start.linear() = result.to_from_source.linear();
   start.translation() = (result.to_from_source * source_mean - local.origin) / local.scale;
-  Estimate<MotionModel, 1> estimate{{start, &from}};
-  refine(estimate, local);
+  MotionModel model(start, from);
+  const Estimate estimate = fitLeastSquares(model, local);
   if (!estimate.determined) {
     result.reason = "the points do not determine the motion";
     return result;
   }
-  const Eigen::Isometry3d& found = estimate.model.to_from_source;
+  const Eigen::Isometry3d& found = model.to_from_source;
   result.to_from_source.linear() = found.linear();
   result.to_from_source.translation() =
       local.origin + local.scale * found.translation() - found.linear() * source_mean;
   Eigen::Matrix<double, 6, 1> units;
   units << 1.0, 1.0, 1.0, local.scale, local.scale, local.scale;
-  result.covariance =
-      varianceFactor(estimate, true) * (units.asDiagonal() * estimate.cofactor * units.asDiagonal());
+  const Eigen::Matrix<double, 6, 6> cofactor = estimate.cofactor;
+  result.covariance = varianceFactor(estimate, true) * (units.asDiagonal() * cofactor * units.asDiagonal());
   result.pivot = local.origin;
   result.degrees_of_freedom = estimate.degreesOfFreedom();
   result.chi2_per_dof = estimate.chi2 / result.degrees_of_freedom;

@@ -1,5 +1,7 @@
 #include "metrology/robust_fit.h"
 
+#include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -10,51 +12,53 @@ namespace stiffscope::metrology {
 
 namespace {
 
-template <class Model>
-constexpr int kColumns = Model::kShared + Model::kOwn;
+using Rows = Eigen::Matrix<double, 2, Observation::kMaxColumns>;
+using Columns = Eigen::Matrix<double, Observation::kMaxColumns, Observation::kMaxColumns>;
 
-/// The cofactor of the parameters that the readings of group k see.
-template <class Model, int Groups>
-Eigen::Matrix<double, kColumns<Model>, kColumns<Model>> cofactorOf(std::size_t k,
-                                                                   const Estimate<Model, Groups>& estimate) {
-  Eigen::Matrix<double, kColumns<Model>, kColumns<Model>> block;
-  const auto place = [k](int i) {
-    return static_cast<Eigen::Index>(i < Model::kShared ? i : i + Model::kOwn * static_cast<int>(k));
+/// The cofactor of the parameters that the readings of group k see; zero beyond them.
+Columns cofactorOf(std::size_t k, const Model::Size& size, const Estimate& estimate) {
+  Columns block = Columns::Zero();
+  const auto place = [&](int i) {
+    return static_cast<Eigen::Index>(i < size.shared ? i : i + size.own * static_cast<int>(k));
   };
-  for (int i = 0; i < kColumns<Model>; ++i) {
-    for (int j = 0; j < kColumns<Model>; ++j) block(i, j) = estimate.cofactor(place(i), place(j));
+  for (int i = 0; i < size.columns(); ++i) {
+    for (int j = 0; j < size.columns(); ++j) block(i, j) = estimate.cofactor(place(i), place(j));
   }
   return block;
 }
 
 /// e' (I - H)^-1 e; 0 where the reading alone determines a parameter.
-template <class Model>
-double controlled(const Observation<Model>& seen,
-                  const Eigen::Matrix<double, kColumns<Model>, kColumns<Model>>& cofactor) {
-  using Square = Eigen::Matrix<double, Model::kResiduals, Model::kResiduals>;
-  const Square left = Square::Identity() - seen.rows * cofactor * seen.rows.transpose();
-  const Eigen::SelfAdjointEigenSolver<Square> eigen(left);
+double controlled(const Observation& seen, const Model::Size& size, const Columns& cofactor) {
+  // A single residual is one of two, the other being 0 whatever the parameters.
+  Rows rows = Rows::Zero();
+  Eigen::Vector2d residual = Eigen::Vector2d::Zero();
+  for (int r = 0; r < size.residuals; ++r) {
+    residual[r] = seen.residual[r];
+    for (int c = 0; c < size.columns(); ++c) rows(r, c) = seen.rows[r][c];
+  }
+  const Eigen::Matrix2d left = Eigen::Matrix2d::Identity() - rows * cofactor * rows.transpose();
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen(left);
   constexpr double kUncontrolled = 1e-8;  // beyond the rounding of the cofactor on arcs of some degrees
   if (!(eigen.eigenvalues()[0] > kUncontrolled)) return 0.0;
-  const auto across = (eigen.eigenvectors().transpose() * seen.residual).eval();
+  const Eigen::Vector2d across = eigen.eigenvectors().transpose() * residual;
   return across.cwiseAbs2().cwiseQuotient(eigen.eigenvalues()).sum();
 }
 
-/// `estimate` stands at the fitted shape; a step or two of `refine` bring its cofactor.
-template <class Model, int Groups>
-ReadingTests testsOf(Estimate<Model, Groups> estimate, const LocalPoints& local) {
-  refine(estimate, local);
+/// `model` and `own` stand at the fitted shape; a step or two bring the cofactor.
+ReadingTests testsOf(Model&& model, const LocalPoints& local, const Eigen::MatrixXd& own = {}) {
+  const Estimate estimate = fitLeastSquares(model, local, own);
+  const Model::Size size = model.size();
   ReadingTests tests;
-  tests.residuals = Model::kResiduals;
-  tests.variance_degrees = local.weighted() ? 0 : estimate.degreesOfFreedom() - Model::kResiduals;
+  tests.residuals = size.residuals;
+  tests.variance_degrees = local.weighted() ? 0 : estimate.degreesOfFreedom() - size.residuals;
   if (!estimate.determined || (!local.weighted() && tests.variance_degrees < 1)) return tests;
   const double rounding = 4.0 * (local.rounding + std::numeric_limits<double>::epsilon());
   for (std::size_t k = 0; k < local.groups.size(); ++k) {
-    const auto cofactor = cofactorOf(k, estimate);
+    const Columns cofactor = cofactorOf(k, size, estimate);
+    const double* own_of_group = estimate.own.data() + static_cast<std::size_t>(size.own) * k;
     for (std::size_t i = 0; i < local.groups[k].points.size(); ++i) {
-      const auto seen = whitened<Model>(estimate.model, estimate.own.col(static_cast<Eigen::Index>(k)), local,
-                                        local.groups[k], i);
-      const double square = controlled<Model>(seen, cofactor);
+      const Observation seen = whitened(model, own_of_group, local, local.groups[k], i);
+      const double square = controlled(seen, size, cofactor);
       const double others =
           local.weighted() ? 1.0
                            : std::max((estimate.chi2 - square) / tests.variance_degrees, rounding * rounding);
@@ -71,71 +75,85 @@ AxisFrame frameOf(const Eigen::Vector3d& point, const Eigen::Vector3d& direction
 }  // namespace
 
 double ReadingTests::criticalW(double level) const {
-  const auto tail = [this](double w) {
-    return variance_degrees == 0 ? chiSquareTail(w * w, residuals)
-                                 : fTail(w * w / residuals, residuals, variance_degrees);
-  };
-  double low = 0.0, high = 1.0;
-  while (tail(high) > level && high < 1e150) high *= 2.0;
-  constexpr int kHalvings = 60;
-  for (int k = 0; k < kHalvings; ++k) (tail(0.5 * (low + high)) > level ? low : high) = 0.5 * (low + high);
-  return high;
+  return std::sqrt(variance_degrees == 0 ? chiSquareLimit(level, residuals) : residuals * fLimit(level, residuals, variance_degrees));
 }
 
 ReadingTests readingTests(const FittedLine& fit, const MeasuredPoints& points) {
   const LocalPoints local = localPoints(&points, 1);
-  return testsOf(Estimate<LineModel, 1>{{frameOf(fit.line.point, fit.line.direction, local)}}, local);
+  return testsOf(LineModel(frameOf(fit.line.point, fit.line.direction, local)), local);
 }
 
 ReadingTests readingTests(const FittedPlane& fit, const MeasuredPoints& points) {
   const LocalPoints local = localPoints(&points, 1);
-  const AxisFrame normal(Eigen::Vector3d::Zero(), fit.plane.normal);
   const double height = fit.plane.normal.dot(fit.plane.point - local.origin) / local.scale;
-  return testsOf(Estimate<PlanesModel, 1>{{normal}, Eigen::Matrix<double, 1, 1>(height)}, local);
+  return testsOf(PlanesModel(AxisFrame(Eigen::Vector3d::Zero(), fit.plane.normal)), local,
+                 Eigen::MatrixXd::Constant(1, 1, height));
 }
 
 ReadingTests readingTests(const FittedCircle& fit, const MeasuredPoints& points) {
   const LocalPoints local = localPoints(&points, 1);
-  return testsOf(Estimate<CirclesModel, 1>{{frameOf(fit.circle.centre, fit.circle.normal, local)},
-                                           Eigen::Vector2d(fit.circle.radius / local.scale, 0.0)},
-                 local);
+  return testsOf(CirclesModel(frameOf(fit.circle.centre, fit.circle.normal, local)), local,
+                 Eigen::Vector2d(fit.circle.radius / local.scale, 0.0));
 }
 
 ReadingTests readingTests(const FittedSphere& fit, const MeasuredPoints& points) {
   const LocalPoints local = localPoints(&points, 1);
-  return testsOf(Estimate<SpheresModel, 1>{{(fit.sphere.centre - local.origin) / local.scale},
-                                           Eigen::Matrix<double, 1, 1>(fit.sphere.radius / local.scale)},
-                 local);
+  return testsOf(SpheresModel((fit.sphere.centre - local.origin) / local.scale), local,
+                 Eigen::MatrixXd::Constant(1, 1, fit.sphere.radius / local.scale));
 }
 
 ReadingTests readingTests(const FittedCylinder& fit, const MeasuredPoints& points) {
   const LocalPoints local = localPoints(&points, 1);
-  return testsOf(
-      Estimate<CylindersModel, 1>{{frameOf(fit.cylinder.axis.point, fit.cylinder.axis.direction, local)},
-                                  Eigen::Matrix<double, 1, 1>(fit.cylinder.radius / local.scale)},
-      local);
+  return testsOf(CylindersModel(frameOf(fit.cylinder.axis.point, fit.cylinder.axis.direction, local)), local,
+                 Eigen::MatrixXd::Constant(1, 1, fit.cylinder.radius / local.scale));
 }
 
 ReadingTests readingTests(const AxisFit& fit, const std::vector<CirclePoints>& circles) {
   const LocalPoints local = localPoints(circles.data(), circles.size());
-  Eigen::Matrix2Xd own(2, static_cast<Eigen::Index>(circles.size()));
+  Eigen::MatrixXd own(2, static_cast<Eigen::Index>(circles.size()));
   for (std::size_t k = 0; k < circles.size(); ++k) {
-    own.col(static_cast<Eigen::Index>(k)) << fit.circles[k].radius / local.scale,
-        fit.circles[k].height / local.scale;
+    own(0, static_cast<Eigen::Index>(k)) = fit.circles[k].radius / local.scale;
+    own(1, static_cast<Eigen::Index>(k)) = fit.circles[k].height / local.scale;
   }
-  return testsOf(
-      Estimate<CirclesModel, Eigen::Dynamic>{{frameOf(fit.axis.line.point, fit.axis.line.direction, local)},
-                                             own},
-      local);
+  return testsOf(CirclesModel(frameOf(fit.axis.line.point, fit.axis.line.direction, local)), local, own);
 }
 
 ReadingTests readingTests(const SphereFit& fit, const std::vector<SpherePoints>& spheres) {
   const LocalPoints local = localPoints(spheres.data(), spheres.size());
-  const Eigen::RowVectorXd radii =
-      Eigen::Map<const Eigen::RowVectorXd>(fit.radii.data(), static_cast<Eigen::Index>(fit.radii.size())) /
-      local.scale;
-  return testsOf(Estimate<SpheresModel, Eigen::Dynamic>{{(fit.centre - local.origin) / local.scale}, radii},
-                 local);
+  Eigen::MatrixXd radii(1, static_cast<Eigen::Index>(spheres.size()));
+  for (std::size_t k = 0; k < spheres.size(); ++k) {
+    radii(0, static_cast<Eigen::Index>(k)) = fit.radii[k] / local.scale;
+  }
+  return testsOf(SpheresModel((fit.centre - local.origin) / local.scale), local, radii);
+}
+
+DataSnooping snoopReadings(std::vector<MeasuredPoints> readings, const FitAndTest& fit_and_test, double family_level) {
+  std::size_t given = 0;
+  std::vector<std::vector<std::size_t>> index(readings.size());  // of each reading that is left, as it was given
+  for (std::size_t k = 0; k < readings.size(); ++k) {
+    for (std::size_t i = 0; i < readings[k].points.size(); ++i) index[k].push_back(i);
+    given += index[k].size();
+  }
+  DataSnooping found;
+  for (std::optional<ReadingTests> tests = fit_and_test(readings); tests && !tests->readings.empty();
+       tests = fit_and_test(readings)) {
+    const double level = -std::expm1(std::log1p(-family_level) / static_cast<double>(tests->readings.size()));
+    found.critical_w = tests->criticalW(level);
+    const ReadingTest worst = *std::max_element(tests->readings.begin(), tests->readings.end(),
+                                                [](const auto& a, const auto& b) { return a.w < b.w; });
+    if (!(worst.w > found.critical_w)) break;
+    const auto at = static_cast<std::ptrdiff_t>(worst.index);
+    MeasuredPoints& from = readings[worst.group];
+    found.rejected.push_back({worst.group, index[worst.group][worst.index], worst.w, found.critical_w});
+    index[worst.group].erase(index[worst.group].begin() + at);
+    from.points.erase(from.points.begin() + at);
+    if (!from.covariances.empty()) from.covariances.erase(from.covariances.begin() + at);
+    if (3 * found.rejected.size() > given) {
+      found.contradictory = true;
+      break;
+    }
+  }
+  return found;
 }
 
 }  // namespace stiffscope::metrology

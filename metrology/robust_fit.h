@@ -1,9 +1,10 @@
 #pragma once
 
-#include <algorithm>
-#include <cmath>
 #include <cstddef>
+#include <functional>
+#include <optional>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "metrology/axis_fit.h"
@@ -63,7 +64,20 @@ struct RobustFit {
 /// One good set in a hundred loses a reading; for 20 readings that is a critical w of 3.5, near Baarda's 3.3.
 inline constexpr double kFamilyLevel = 0.01;
 
-/// Data snooping: the reading with the largest w (see reading_tests.h) is rejected where w lies above the
+/// What data snooping asks of a fit: fits the readings that are left and tests them; empty where the fit is not
+/// determined.
+using FitAndTest = std::function<std::optional<ReadingTests>(const std::vector<MeasuredPoints>&)>;
+
+struct DataSnooping {
+  std::vector<RejectedReading> rejected;
+  double critical_w = 0.0;
+  bool contradictory = false;  ///< more than a third of the readings would go
+};
+
+/// The rejections of fitRobustly; the last call of `fit_and_test` was with the readings that are left.
+DataSnooping snoopReadings(std::vector<MeasuredPoints> readings, const FitAndTest& fit_and_test, double family_level);
+
+/// Data snooping: the reading with the largest w (ReadingTest) is rejected where w lies above the
 /// critical value for a level of 1 - (1 - family_level)^(1/n) a reading (Sidak), n the readings left; then
 /// the fit is repeated, until none does. One at a time, since a wrong reading spoils the residuals of good
 /// ones. Where more than a third would go it cannot be told which are wrong, and the fit is not determined.
@@ -72,46 +86,25 @@ inline constexpr double kFamilyLevel = 0.01;
 /// `fitTo` fits readings (one MeasuredPoints, or a vector of them by reflector) with a result for which there
 /// is a `readingTests`.
 template <class Readings, class FitFunction>
-auto fitRobustly(Readings readings, const FitFunction& fitTo, double family_level = kFamilyLevel) {
-  constexpr bool kSingle = std::is_same_v<Readings, MeasuredPoints>;
-  const auto group = [&readings](std::size_t k) -> MeasuredPoints& {
-    if constexpr (kSingle) {
-      return (void)k, readings;
-    } else {
-      return readings[k];
-    }
+auto fitRobustly(const Readings& readings, const FitFunction& fitTo, double family_level = kFamilyLevel) {
+  using Fit = std::decay_t<decltype(fitTo(readings))>;
+  Fit fit;
+  const auto fitAndTest = [&](const auto& left) -> std::optional<ReadingTests> {
+    fit = fitTo(left);
+    if (!fit.determined) return std::nullopt;
+    return readingTests(fit, left);
   };
-  std::size_t groups = 1, given = 0;
-  if constexpr (!kSingle) groups = readings.size();
-  std::vector<std::vector<std::size_t>> index(groups);
-  for (std::size_t k = 0; k < groups; ++k) {
-    for (std::size_t i = 0; i < group(k).points.size(); ++i) index[k].push_back(i);
-    given += index[k].size();
+  DataSnooping found;
+  if constexpr (std::is_same_v<Readings, MeasuredPoints>) {
+    found = snoopReadings({readings}, [&](const auto& left) { return fitAndTest(left.front()); }, family_level);
+  } else {
+    found = snoopReadings(readings, fitAndTest, family_level);
   }
-
-  RobustFit<decltype(fitTo(readings))> robust{fitTo(readings), {}, family_level, 0.0};
-  while (robust.fit.determined) {
-    const ReadingTests tests = readingTests(robust.fit, readings);
-    if (tests.readings.empty()) break;
-    const double level = -std::expm1(std::log1p(-family_level) / static_cast<double>(tests.readings.size()));
-    robust.critical_w = tests.criticalW(level);
-    const ReadingTest worst = *std::max_element(tests.readings.begin(), tests.readings.end(),
-                                                [](const auto& a, const auto& b) { return a.w < b.w; });
-    if (!(worst.w > robust.critical_w)) break;
-    const auto at = static_cast<std::ptrdiff_t>(worst.index);
-    MeasuredPoints& from = group(worst.group);
-    robust.rejected.push_back({worst.group, index[worst.group][worst.index], worst.w, robust.critical_w});
-    index[worst.group].erase(index[worst.group].begin() + at);
-    from.points.erase(from.points.begin() + at);
-    if (!from.covariances.empty()) from.covariances.erase(from.covariances.begin() + at);
-    robust.fit = fitTo(readings);
-    if (3 * robust.rejected.size() > given) {
-      robust.fit = {};
-      robust.fit.reason =
-          "more than a third of the readings contradict the others: it cannot be told which are wrong";
-    }
+  if (found.contradictory) {
+    fit = {};
+    fit.reason = "more than a third of the readings contradict the others: it cannot be told which are wrong";
   }
-  return robust;
+  return RobustFit<Fit>{std::move(fit), std::move(found.rejected), family_level, found.critical_w};
 }
 
 }  // namespace stiffscope::metrology

@@ -58,6 +58,77 @@ template std::optional<Eigen::Vector2d> algebraicCentre<2>(const LocalPoints&,
 template std::optional<Eigen::Vector3d> algebraicCentre<3>(const LocalPoints&,
                                                            const Eigen::Matrix<double, 3, 3>&);
 
+void AxisModel::move(const Eigen::VectorXd& step) {
+  before_ = axis;
+  axis.move(Eigen::Vector4d(step));
+}
+
+void CirclesModel::observe(std::size_t, const Eigen::Vector3d& point, const double* own, Observation& seen) const {
+  const PlaceAboutAxis place = axis.placeOf(point);
+  const double rho = static_cast<double>(place.radius), h = static_cast<double>(place.height);
+  const double eu = place.outward_u, ev = place.outward_v;
+  seen.residual = {static_cast<double>(place.radius - own[0]), static_cast<double>(place.height - own[1])};
+  seen.rows[0] = {-eu, -ev, -h * eu, -h * ev, -1.0, 0.0};
+  seen.rows[1] = {0.0, 0.0, rho * eu, rho * ev, 0.0, -1.0};
+  seen.directions[0] = eu * axis.u() + ev * axis.v();
+  seen.directions[1] = axis.direction();
+}
+
+void CylindersModel::observe(std::size_t, const Eigen::Vector3d& point, const double* own, Observation& seen) const {
+  const PlaceAboutAxis place = axis.placeOf(point);
+  const double h = static_cast<double>(place.height), eu = place.outward_u, ev = place.outward_v;
+  seen.residual[0] = static_cast<double>(place.radius - own[0]);
+  seen.rows[0] = {-eu, -ev, -h * eu, -h * ev, -1.0};
+  seen.directions[0] = eu * axis.u() + ev * axis.v();
+}
+
+void LineModel::observe(std::size_t, const Eigen::Vector3d& point, const double*, Observation& seen) const {
+  long double h = 0.0L, u = 0.0L, v = 0.0L;
+  for (int k = 0; k < 3; ++k) {
+    const long double from = static_cast<long double>(point[k]) - axis.point()[k];
+    h += from * axis.direction()[k];
+    u += from * axis.u()[k];
+    v += from * axis.v()[k];
+  }
+  const double height = static_cast<double>(h);
+  seen.residual = {static_cast<double>(u), static_cast<double>(v)};
+  seen.rows[0] = {-1.0, 0.0, -height, 0.0};
+  seen.rows[1] = {0.0, -1.0, 0.0, -height};
+  seen.directions[0] = axis.u();
+  seen.directions[1] = axis.v();
+}
+
+void PlanesModel::observe(std::size_t, const Eigen::Vector3d& point, const double* own, Observation& seen) const {
+  seen.residual[0] = static_cast<double>(axis.heightOf(point) - own[0]);
+  seen.rows[0] = {axis.u().dot(point), axis.v().dot(point), -1.0};
+  seen.directions[0] = axis.direction();
+}
+
+void PlanesModel::move(const Eigen::VectorXd& step) {
+  before_ = axis;
+  axis.move({0.0, 0.0, step[0], step[1]});
+}
+
+void SpheresModel::observe(std::size_t, const Eigen::Vector3d& point, const double* own, Observation& seen) const {
+  long double square = 0.0L;
+  for (int k = 0; k < 3; ++k) {
+    const long double from = static_cast<long double>(point[k]) - centre[k];
+    square += from * from;
+  }
+  const long double distance = std::sqrt(square);
+  const Eigen::Vector3d outward = distance > 0.0L
+                                      ? Eigen::Vector3d((point - centre) / static_cast<double>(distance))
+                                      : Eigen::Vector3d::UnitX();  // at the centre any serves
+  seen.residual[0] = static_cast<double>(distance - own[0]);
+  seen.rows[0] = {-outward.x(), -outward.y(), -outward.z(), -1.0};
+  seen.directions[0] = outward;
+}
+
+void SpheresModel::move(const Eigen::VectorXd& step) {
+  before_ = centre;
+  centre += Eigen::Vector3d(step);
+}
+
 std::optional<CirclesModel> circlesStart(const LocalPoints& local, std::string& reason) {
   const PrincipalAxes axes = principalAxes(local);
   if (!spreads(axes.spread[1], axes.spread[2], local)) {
@@ -72,7 +143,7 @@ std::optional<CirclesModel> circlesStart(const LocalPoints& local, std::string& 
     reason = "the readings lie on one line";
     return std::nullopt;
   }
-  return CirclesModel{AxisFrame(basis * *centre, flat.direction())};
+  return CirclesModel(AxisFrame(basis * *centre, flat.direction()));
 }
 
 Eigen::Matrix2Xd firstOwn(const CirclesModel& model, const LocalPoints& local) {

@@ -22,7 +22,7 @@ std::optional<SpheresModel> spheresStart(const LocalPoints& local, std::string& 
     reason = kInOnePlane;
     return std::nullopt;
   }
-  return SpheresModel{axes.directions * *centre};
+  return SpheresModel(axes.directions * *centre);
 }
 
 /// Mean distance of each group from the centre.
@@ -47,11 +47,10 @@ SphereFit fitSpheres(const std::vector<SpherePoints>& spheres) {
   const LocalPoints local = localPoints(spheres.data(), spheres.size());
   fit.reason = local.flaw;
   if (!fit.reason.empty()) return fit;
-  const auto start = spheresStart(local, fit.reason);
-  if (!start) return fit;
+  auto model = spheresStart(local, fit.reason);
+  if (!model) return fit;
 
-  Estimate<SpheresModel, Eigen::Dynamic> estimate{*start, firstRadii(start->centre, local)};
-  refine(estimate, local);
+  const Estimate estimate = fitLeastSquares(*model, local, firstRadii(model->centre, local));
   fit.degrees_of_freedom = estimate.degreesOfFreedom();
   if (!tellsUncertainty(estimate, local)) {
     fit.reason = "too few readings for a centre with its uncertainty";
@@ -61,8 +60,10 @@ SphereFit fitSpheres(const std::vector<SpherePoints>& spheres) {
     fit.reason = "the readings do not determine the centre";
     return fit;
   }
-  fit.centre = local.origin + local.scale * estimate.model.centre;
-  for (const double radius : estimate.own.reshaped()) fit.radii.push_back(local.scale * radius);
+  fit.centre = local.origin + local.scale * model->centre;
+  for (std::size_t k = 0; k < spheres.size(); ++k) {
+    fit.radii.push_back(local.scale * estimate.own(0, static_cast<Eigen::Index>(k)));
+  }
   fit.covariance = local.scale * local.scale * varianceFactor(estimate, local.weighted()) * estimate.cofactor;
   fit.rms = local.scale * std::sqrt(estimate.plain / estimate.residuals);
   const int dof = fit.degrees_of_freedom;
@@ -78,24 +79,23 @@ FittedSphere fitSphere(const MeasuredPoints& points) {
   fit.reason = tooFewReadings(4, points.points.size());
   if (fit.reason.empty()) fit.reason = local.flaw;
   if (!fit.reason.empty()) return fit;
-  const auto start = spheresStart(local, fit.reason);
-  if (!start) {
+  auto model = spheresStart(local, fit.reason);
+  if (!model) {
     fit.reason = "the centre is undetermined: the readings lie in one plane";
     return fit;
   }
-  Estimate<SpheresModel, 1> estimate{*start, firstRadii(start->centre, local)};
-  refine(estimate, local);
+  const Estimate estimate = fitLeastSquares(*model, local, firstRadii(model->centre, local));
   if (!describeQuality(estimate, local, fit)) return fit;
   if (tellsUncertainty(estimate, local)) {
     fit.covariance =
         local.scale * local.scale * varianceFactor(estimate, local.weighted()) * estimate.cofactor;
-    if (!curved(local.scale * estimate.own[0], std::sqrt((*fit.covariance)(3, 3)))) {
+    if (!curved(local.scale * estimate.own(0, 0), std::sqrt((*fit.covariance)(3, 3)))) {
       fit.reason = "the radius is undetermined: against their scatter the readings could lie in a plane";
       fit.covariance.reset();
       return fit;
     }
   }
-  fit.sphere = {local.origin + local.scale * estimate.model.centre, local.scale * estimate.own[0]};
+  fit.sphere = {local.origin + local.scale * model->centre, local.scale * estimate.own(0, 0)};
   fit.determined = true;
   return fit;
 }

@@ -2,12 +2,16 @@
 
 namespace stiffscope::metrology {
 
-/// Probability that a chi-square variable of 1 or 2 degrees of freedom exceeds `value`.
+/// Probability that a chi-square variable exceeds `value`.
 double chiSquareTail(double value, int degrees);
 
-/// Probability that an F variable of 1 or 2 and `below` degrees of freedom exceeds `value`: M. Abramowitz and
-/// I. A. Stegun, Handbook of Mathematical Functions, 26.6.2 (the incomplete beta function, here by its
-/// continued fraction 26.5.8).
+/// The value that a chi-square variable exceeds with probability `tail`.
+double chiSquareLimit(double tail, int degrees);
+
+/// Probability that an F variable of `above` and `below` degrees of freedom exceeds `value`; 0 of an infinite one.
 double fTail(double value, int above, double below);
+
+/// The value that an F variable exceeds with probability `tail`.
+double fLimit(double tail, int above, double below);
 
 }  // namespace stiffscope::metrology

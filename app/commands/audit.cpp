@@ -3,7 +3,6 @@
 #include <utility>
 
 #include "app/command_line.h"
-#include "app/large_heap.h"
 #include "app/output.h"
 #include "app/prepared.h"
 #include "core/audit/audit.h"
@@ -11,8 +10,9 @@
 #include "core/diagnosis/diagnose.h"
 #include "core/identification/load_case.h"
 #include "core/preparation/prepare.h"
-#include "reports/json/audit_json.h"
-#include "reports/text/audit_text.h"
+#include "reports/json/json.h"
+#include "reports/json/json_document.h"
+#include "reports/text/text.h"
 
 namespace stiffscope::app {
 
@@ -26,7 +26,6 @@ diagnosis::Diagnosis designOf(const preparation::PreparedCampaign& prepared) {
 }
 
 int auditCampaign(const std::string& folder, const std::string& json_file) {
-  useLargeHeapPages();
   campaign::Campaign campaign = openCampaign(folder, hashesFor(json_file));
   const campaign::Campaign words = described(campaign);
   const preparation::PreparedCampaign prepared = preparation::prepareCampaign(std::move(campaign));

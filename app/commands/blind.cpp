@@ -9,9 +9,10 @@
 #include "core/diagnosis/effect_distance.h"
 #include "core/io/write_file.h"
 #include "core/validation/run_blind.h"
-#include "reports/json/validation_json.h"
+#include "reports/json/json_document.h"
+#include "reports/json/json.h"
 #include "reports/page/validation_page.h"
-#include "reports/text/validation_text.h"
+#include "reports/text/text.h"
 
 namespace stiffscope::app {
 

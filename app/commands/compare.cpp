@@ -7,8 +7,8 @@
 #include "app/prepared.h"
 #include "core/comparison/compare.h"
 #include "reports/json/campaign_json.h"
-#include "reports/json/comparison_json.h"
-#include "reports/text/comparison_text.h"
+#include "reports/json/json.h"
+#include "reports/text/text.h"
 #include "reports/words/preparation_words.h"
 
 namespace stiffscope::app {

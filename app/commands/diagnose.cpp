@@ -5,10 +5,13 @@
 #include "app/command_line.h"
 #include "app/output.h"
 #include "app/prepared.h"
-#include "app/returned_memory.h"
 #include "core/diagnosis/diagnose.h"
-#include "reports/json/diagnosis_json.h"
-#include "reports/text/diagnosis_text.h"
+#include "core/diagnosis/diagnosis.h"
+#include "reports/json/campaign_json.h"
+#include "reports/json/json_document.h"
+#include "reports/json/json.h"
+#include "core/campaign/campaign.h"
+#include "reports/text/text.h"
 
 namespace stiffscope::app {
 
@@ -23,7 +26,6 @@ void addDiagnose(CLI::App& app, Run& run) {
   command->add_option("--json", arguments->json, "write the result to this file, - for standard output");
   command->callback([arguments, &run] {
     run = [arguments] {
-      returnLargeBlocks();
       campaign::Campaign campaign = openCampaign(arguments->campaign);
       const campaign::Campaign words = described(campaign);
       const diagnosis::Diagnosis diagnosis = diagnosis::diagnose(std::move(campaign));

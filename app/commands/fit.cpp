@@ -9,7 +9,7 @@
 #include "core/io/read_points.h"
 #include "metrology/robust_fit.h"
 #include "reports/json/fit_json.h"
-#include "reports/text/fit_text.h"
+#include "reports/text/text.h"
 
 namespace stiffscope::app {
 

@@ -7,8 +7,10 @@
 #include "app/prepared.h"
 #include "core/identification/identify.h"
 #include "reports/json/campaign_json.h"
-#include "reports/json/frames_json.h"
-#include "reports/text/frames_text.h"
+#include "core/campaign/campaign.h"
+#include "core/frames/frames.h"
+#include "reports/json/json.h"
+#include "reports/text/text.h"
 #include "reports/words/preparation_words.h"
 
 namespace stiffscope::app {

@@ -4,7 +4,6 @@
 #include <memory>
 
 #include "app/command_line.h"
-#include "app/large_heap.h"
 #include "app/options.h"
 #include "app/output.h"
 #include "app/prepared.h"
@@ -12,10 +11,14 @@
 #include "core/identification/warnings.h"
 #include "core/io/input_error.h"
 #include "reports/json/campaign_json.h"
-#include "reports/json/extended_model_json.h"
+#include "core/extended_model/extended_model.h"
+#include "reports/json/json_document.h"
+#include "reports/json/json.h"
 #include "reports/json/identification_json.h"
-#include "reports/text/extended_model_text.h"
-#include "reports/text/identification_text.h"
+#include "reports/text/text.h"
+#include "core/identification/geometric_stiffness_cost.h"
+#include "core/identification/identify.h"
+#include "core/identification/posture_stiffness.h"
 #include "reports/words/preparation_words.h"
 
 namespace stiffscope::app {
@@ -56,7 +59,6 @@ std::optional<identification::Method> bestOf(const identification::Identificatio
 }
 
 int identifyCampaign(const Arguments& arguments, bool subset_given) {
-  useLargeHeapPages();
   const std::vector<identification::Method> methods = methodsNamed(arguments.method);
   const identification::IdentifyOptions options = optionsOf(arguments, subset_given);
   const preparation::PreparedCampaign prepared = openPrepared(arguments.campaign, arguments.raw, hashesFor(arguments.json));

@@ -13,8 +13,9 @@
 #include "core/io/write_file.h"
 #include "core/planning/plan.h"
 #include "core/preparation/prepare.h"
-#include "reports/json/plan_json.h"
-#include "reports/text/plan_text.h"
+#include "reports/json/campaign_json.h"
+#include "reports/json/json.h"
+#include "reports/text/text.h"
 
 namespace stiffscope::app {
 

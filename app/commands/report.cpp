@@ -1,32 +1,123 @@
 #include <CLI/CLI.hpp>
+#include <Eigen/Core>
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <fstream>
 #include <list>
 #include <memory>
 #include <optional>
+#include <set>
+#include <stdexcept>
+#include <string>
+#include <system_error>
 #include <utility>
+#include <vector>
 
 #include "app/command_line.h"
-#include "app/figures/make_figures.h"
+#include "app/figures/figures.h"
 #include "app/options.h"
 #include "app/output.h"
 #include "app/prepared.h"
-#include "app/report_files.h"
-#include "app/returned_memory.h"
-#include "app/versions.h"
 #include "core/audit/audit.h"
 #include "core/audit/check_design.h"
 #include "core/diagnosis/diagnose.h"
 #include "core/identification/load_case.h"
 #include "core/identification/warnings.h"
+#include "core/io/write_folder.h"
+#include "reports/json/json_document.h"
+#include "reports/report_content.h"
+#include "reports/json/json.h"
 #include "reports/page/html.h"
 #include "reports/page/report_page.h"
 #include "reports/words/extended_model_words.h"
 #include "reports/words/verdict.h"
 
 namespace stiffscope::app {
+
+namespace {
+
+/// stiffscope's own version and those of the libraries it was built with.
+std::vector<reports::NamedText> versions() {
+  return {{"stiffscope", STIFFSCOPE_VERSION},
+          {"Eigen", fmt::format("{}.{}.{}", EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION)},
+          {"Ceres Solver", STIFFSCOPE_CERES_VERSION},
+          {"VTK", STIFFSCOPE_VTK_VERSION}};
+}
+
+namespace fs = std::filesystem;
+
+/// A picture's or a table's bare name: a results.json that names something else was not written here.
+bool isPictureOrTable(const std::string& name) {
+  const fs::path path(name);
+  return (path.extension() == ".png" || path.extension() == ".csv") && path.filename() == path &&
+         !path.stem().empty();
+}
+
+/// Pictures and tables that the report which is there now lists as its own.
+std::vector<std::string> earlierFiles(const fs::path& folder) {
+  std::ifstream file(folder / "results.json", std::ios::binary);
+  if (!file) return {};
+  // Of what may be tens of megabytes nothing else is kept.
+  const auto only_files = [](int depth, reports::Json::parse_event_t event, const reports::Json& parsed) {
+    return depth != 1 || event != reports::Json::parse_event_t::key || parsed == "files";
+  };
+  constexpr bool kThrow = false;
+  const reports::Json results = reports::Json::parse(file, only_files, kThrow);
+  if (!results.is_object() || !results.contains("files") || !results["files"].is_array()) return {};
+  std::vector<std::string> names;
+  for (const reports::Json& name : results["files"]) {
+    if (name.is_string() && isPictureOrTable(name.get<std::string>()))
+      names.push_back(name.get<std::string>());
+  }
+  return names;
+}
+
+std::set<std::string> namesIn(const fs::path& folder) {
+  std::set<std::string> names;
+  std::error_code none;
+  for (const auto& entry : fs::directory_iterator(folder, none)) names.insert(entry.path().filename().string());
+  return names;
+}
+
+/// Throws std::runtime_error where a file to be made is `there` and not `earlier` made by a report: it is the user's.
+void requireOwn(const fs::path& folder, const std::set<std::string>& there, const std::vector<std::string>& earlier,
+                const std::set<std::string>& made) {
+  for (const std::string& name : made) {
+    if (!there.contains(name) || std::find(earlier.begin(), earlier.end(), name) != earlier.end()) continue;
+    if ((name == "results.json" || name == "report.html") && !earlier.empty()) continue;
+    throw std::runtime_error((folder / name).string() +
+                             ": not written: it is there and of no earlier report; expected another folder, or that file away");
+  }
+}
+
+/// Writes pictures, tables (CSV), results.json and report.html into a folder that is made where it is absent; they
+/// appear together. Pictures and tables that an earlier report there listed as its own (`files` of its results.json)
+/// and that this one does not make are removed; nothing else is.
+void writeReportFiles(const fs::path& folder, const reports::ReportContent& content, const page::ReportPage& page) {
+  // What is there is looked at before what is listed: another run may replace both between the two.
+  const std::set<std::string> there = namesIn(folder);
+  std::vector<std::string> superseded = earlierFiles(folder);
+  std::vector<io::FileToWrite> files;
+  for (const reports::Figure& figure : content.figures) {
+    files.push_back({reports::pictureFile(figure), {figure.png.begin(), figure.png.end()}});
+  }
+  for (const reports::TableFile& table : page.tables) files.push_back({table.name + ".csv", table.csv});
+  std::set<std::string> made{"results.json", "report.html"};
+  for (const io::FileToWrite& file : files) made.insert(file.name);
+  requireOwn(folder, there, superseded, made);
+  reports::JsonDocument results = reports::resultsJson(content);
+  results.json["files"] = made;
+  files.push_back(
+      {"results.json", io::ByteSource([&results](const io::ByteSink& sink) { writeJson(results, sink); })});
+  files.push_back({"report.html", page.html});
+  std::erase_if(superseded, [&](const std::string& name) { return made.contains(name); });
+  io::writeFolderWhole(folder, files, superseded);
+}
+
+}  // namespace
 
 namespace {
 
@@ -64,13 +155,11 @@ struct Result {
     prepared = arguments.raw ? preparation::leaveRaw(std::move(read)) : preparation::prepareCampaign(std::move(read));
     loaded = identification::whatLoadsLack(prepared.campaign).empty();
     if (loaded) diagnosis = arguments.raw ? diagnosis::diagnose(prepared.campaign) : diagnosis::diagnose(prepared);
-    returnFreeMemory();
     if (loaded && !arguments.with.empty()) {
       improved = extended_model::improveModel(prepared.campaign, effectsAsked(prepared, arguments.with), options);
     } else {
       own = loaded ? identification::identify(prepared.campaign, options) : identification::framesAlone(prepared.campaign);
     }
-    returnFreeMemory();
     audited = arguments.raw ? audit::audit(prepared.campaign) : audit::audit(prepared);
     if (diagnosis) audit::addSeparableEffects(*diagnosis, audited);
     withoutLoadReadings(prepared.campaign);
@@ -116,7 +205,6 @@ void addImproved(const std::vector<std::string>& words, const std::list<Result>&
 
 int writeReport(const Arguments& arguments) {
   requireNoCampaign(arguments.out, "expected a folder of the report's own");
-  returnLargeBlocks();
   identification::IdentifyOptions options;
   options.step = loadStepNamed(arguments.step);
   options.finite_deflection = !arguments.neglect_kc;
@@ -135,7 +223,6 @@ int writeReport(const Arguments& arguments) {
   content.title = "Joint stiffness";
   content.verdict = reports::verdictOf(content.campaigns, content.avoided);
   addImproved(arguments.with, results, content);
-  returnFreeMemory();  // drawing brings libraries of a hundred megabytes
   content.figures = makeFigures(content.campaigns, {arguments.paper});
 
   // Everything is made before the first file is written, and appears at once.

@@ -1,4 +1,5 @@
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
@@ -6,6 +7,8 @@
 #include <unistd.h>
 
 #include "app/command_line.h"
+#include "app/output.h"
+#include "app/view/view_options.h"
 
 namespace stiffscope::app {
 
@@ -22,17 +25,29 @@ int becomeViewer(std::vector<std::string> words) {
                            " (it is built where X11 and a VTK for X are there)");
 }
 
+bool asksForHelp(const std::vector<std::string>& words) {
+  return std::any_of(words.begin(), words.end(), [](const std::string& word) { return word == "--help" || word == "-h"; });
+}
+
+int printHelp() {
+  CLI::App window(kViewDescription, "stiffscope view");
+  ViewArguments arguments;
+  addViewOptions(window, arguments);
+  printText(window.help());
+  return kDone;
+}
+
 }  // namespace
 
 void addView(CLI::App& app, Run& run) {
   CLI::App* command =
       app.add_subcommand("view", "The arm with its deflection vectors, in a window (stiffscope-view)");
-  // Everything after it, --help too, is the window's.
+  // Everything after it is the window's; help needs no window, nor the program that opens it.
   command->set_help_flag();
   command->prefix_command();
   command->allow_extras();
   command->callback(
-      [command, &run] { run = [words = command->remaining()] { return becomeViewer(words); }; });
+      [command, &run] { run = [words = command->remaining()] { return asksForHelp(words) ? printHelp() : becomeViewer(words); }; });
 }
 
 }  // namespace stiffscope::app

@@ -1,4 +1,4 @@
-#include "app/figures/diagnosis_charts.h"
+#include "app/figures/figures.h"
 
 #include <algorithm>
 #include <fmt/format.h>

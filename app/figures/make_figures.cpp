@@ -1,14 +1,8 @@
-#include "app/figures/make_figures.h"
+#include "app/figures/figures.h"
 
 #include <fmt/format.h>
 
 #include "app/figures/arm_scenes.h"
-#include "app/figures/diagnosis_charts.h"
-#include "app/figures/residual_charts.h"
-#include "app/figures/station_drift.h"
-#include "app/figures/stiffness_charts.h"
-#include "app/figures/sweep_charts.h"
-#include "app/returned_memory.h"
 #include "render/image.h"
 #include "reports/page/html.h"
 #include "reports/report_content.h"
@@ -41,7 +35,6 @@ class FigureList {
   void add(const char* section, reports::Figure figure, const Picture& picture, render::Size size = kChart) {
     figures_.push_back(drawn(std::move(figure), picture, size));
     figures_.back().section = section;
-    returnFreeMemory();  // of making the shaders, and of what was drawn
   }
 
   /// How good the readings are that everything else stands on.

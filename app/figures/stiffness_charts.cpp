@@ -1,4 +1,4 @@
-#include "app/figures/stiffness_charts.h"
+#include "app/figures/figures.h"
 
 #include <algorithm>
 #include <cmath>

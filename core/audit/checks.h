@@ -6,7 +6,7 @@
 #include "core/preparation/finding.h"
 
 // The checks. Each takes the evidence and gives one or more findings; none changes anything. Lost beams,
-// duplicates and outlying repeats are found beforehand (core/audit/screening.h), because the others work
+// duplicates and outlying repeats are found beforehand (core/preparation/screening.h), because the others work
 // without them.
 
 namespace stiffscope::audit {
@@ -60,7 +60,7 @@ Findings checkReturnToZero(const Evidence& evidence);
 /// tare, gravity_direction, moment_lever.
 Findings checkLoadCell(const Evidence& evidence);
 
-/// load_size: force over displacement, against what six-axis arms give (core/identification/apparent_stiffness.h).
+/// load_size: force over displacement, against what six-axis arms give (core/identification/warnings.h).
 /// Fails where no arm is like that.
 Findings checkLoadSize(const Evidence& evidence);
 

@@ -186,6 +186,9 @@ void warnOfRadians(const Campaign& campaign, const std::optional<Table<Row>>& ta
 
 void warnOfCellWithoutPlace(const Campaign& campaign, std::vector<std::string>& warnings) {
   if (!campaign.states || campaign.load_cell) return;
+  const bool loaded = std::any_of(campaign.states->rows.begin(), campaign.states->rows.end(),
+                                  [](const State& state) { return !state.wrench_in_cell.isZero(); });
+  if (!loaded) return;
   warnings.push_back(io::inputMessage({shown(campaign, campaign.states->file), 0, ""}, "",
                                   "no load_cell in campaign.xml says where these wrenches act"));
 }

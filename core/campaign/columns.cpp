@@ -32,15 +32,11 @@ int readTarget(std::string_view cell, const CellPlace& place, const CampaignName
 }  // namespace
 
 double readNumberCell(CellKind kind, std::string_view cell, const CellPlace& place) {
-  double value = io::parsePlainNumber(cell);
-  if (std::isnan(value)) {
-    const io::ParsedNumber number = io::parseNumber(cell);
-    if (!number.expectation.empty()) refuse(place, cell, number.expectation);
-    value = number.value;
-  }
+  const io::ParsedNumber number = io::parseNumber(cell);
+  if (!number.expectation.empty()) refuse(place, cell, number.expectation);
   const NumberKind& info = numberKind(kind);
-  if (std::abs(value) > info.limit) refuse(place, cell, info.expectation);
-  return value * info.si_per_unit;
+  if (std::abs(number.value) > info.limit) refuse(place, cell, info.expectation);
+  return number.value * info.si_per_unit;
 }
 
 int readIndexCell(CellKind kind, std::string_view cell, const CellPlace& place, CampaignNames& names) {

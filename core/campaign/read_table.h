@@ -229,7 +229,6 @@ class TableLines {
 
   /// Cell of the current line in the column that is the `column`-th of those wanted.
   std::string_view cell(std::size_t column) const { return cellAt(placeOf(column)); }
-  bool hasRoomBehindCells() const { return lines_.hasRoomBehindCells(); }
 
  private:
   void requireCellCount() const;
@@ -278,19 +277,18 @@ class RowReader {
   /// The cells of the line that `lines` gave last, and its number. Throws InputError for a cell that its column cannot hold.
   void read(const TableLines& lines, CampaignNames& names, Row& row) const {
     row.line = lines.line();
-    const bool room = lines.hasRoomBehindCells();
     for (const Present& present : columns_) {
       const std::string_view cell = lines.cellAt(present.place);
-      if (present.quick == Quick::number && room) {
-        const double value = io::parseEightAtOnce(cell);
+      if (present.quick == Quick::number) {
+        const double value = io::numberOrNan(cell);
         if (std::abs(value) <= present.written.limit) {  // not where it is NaN
           memberAt<double>(present, row) = value * present.written.si_per_unit;
           continue;
         }
-      } else if (present.quick == Quick::whole && room) {
-        const int value = io::wholeEightAtOnce(cell);
-        if (value >= 0) {
-          memberAt<int>(present, row) = value;
+      } else if (present.quick == Quick::whole) {
+        const std::optional<int> value = io::parseInteger(cell);
+        if (value && *value >= 0) {
+          memberAt<int>(present, row) = *value;
           continue;
         }
       }
@@ -513,7 +511,7 @@ std::vector<Row> readTableInOneGo(const TableSource& source, const TableLayout<R
 
 /// Rows of a table that `layout` describes, in the order of the file. Throws InputError with file, line,
 /// column and value for anything the format does not allow, keys that repeat among it. A text larger than `part_bytes`
-/// is read in parts of that size on all cores (table_parts.h); rows, names, warnings and errors are those of the
+/// is read in parts of that size on all cores; rows, names, warnings and errors are those of the
 /// reading in one go.
 template <class Row>
 std::vector<Row> readTable(const TableSource& source, const TableLayout<Row>& layout, CampaignNames& names,

@@ -5,7 +5,7 @@
 
 #include "core/campaign/campaign.h"
 
-// How the audit's findings name things.
+// What messages call rows, axes, targets and postures.
 
 namespace stiffscope::campaign {
 

@@ -83,11 +83,11 @@ class Diagnoser {
  private:
   void judgeTestable() {
     const GapData data = gapData(input_, start_.state, {});
-    const CampaignHas has = whatIsThere(input_, data, start_.state, start_.station);
+    const effects::CampaignContents has = whatIsThere(input_, data, start_.state, start_.station);
     allowed_.assign(input_.models.size(), true);
     for (std::size_t e = 0; e < effects::kEffectCount; ++e) {
       const auto effect = static_cast<effects::Effect>(e);
-      const std::string missing = missingFor(effect, has);
+      const std::string missing = effects::missingFor(effect, has);
       if (missing.empty()) continue;
       result_.not_testable.push_back({effect, missing});
       for (std::size_t m = 0; m < input_.models.size(); ++m) {

@@ -45,20 +45,13 @@ Eigen::VectorXd ownOf(const GapInput& input, const GapLayout& layout, const Eige
                          static_cast<Eigen::Index>(input.models[m].parameters()));
 }
 
-/// Effects that the equations contain once they are estimated: a corrected wrench, frame or unloaded place.
-bool isCorrection(effects::Effect effect) {
-  return effect == effects::Effect::load_point_error || effect == effects::Effect::load_cell_misalignment ||
-         effect == effects::Effect::load_cell_bias || effect == effects::Effect::frame_error ||
-         effect == effects::Effect::gravity_compensator;
-}
-
 }  // namespace
 
 bool becomesPart(const effects::EffectModel& model) {
-  return model.angles || !model.first_body.empty() || isCorrection(model.effect);
+  return model.movesArm() || isBilinear(model);
 }
 
-bool isBilinear(const effects::EffectModel& model) { return isCorrection(model.effect); }
+bool isBilinear(const effects::EffectModel& model) { return model.correct != nullptr; }
 
 ContainedEffects correct(const GapInput& input, const GapLayout& layout, const FittedSet& set,
                          const Eigen::VectorXd& nuisances, GapState& state) {
@@ -76,43 +69,18 @@ ContainedEffects correct(const GapInput& input, const GapLayout& layout, const F
   state.at.compensator.resize(0);
   ContainedEffects contained{Eigen::VectorXd::Zero(set.effects.size()),
                              Eigen::VectorXd::Zero(set.effects.size())};
-  state.at.turns.clear();
-  state.at.motions.clear();
+  state.at.present.clear();
   state.at.harder_by_square.setZero();
   state.at.harder_by_size.setZero();
   for (const ChosenModel& one : set.models) {
     const effects::EffectModel& model = input.models[one.model];
     Eigen::VectorXd own = ownOf(input, layout, set.effects, one.model);
     const Eigen::Index at = layout.model_at[one.model] - layout.effects;
-    switch (model.effect) {
-      case effects::Effect::load_point_error:
-        state.corrections.load_point = own;
-        break;
-      case effects::Effect::load_cell_misalignment:
-        state.corrections.cell_turn = own;
-        break;
-      case effects::Effect::load_cell_bias:
-        if (own.size() == 3) state.corrections.cell_force = own;
-        if (own.size() == 1) state.corrections.missing_weight = own[0];
-        break;
-      case effects::Effect::frame_error:
-        state.corrections.frame = own;
-        break;
-      case effects::Effect::gravity_compensator:
-        // The torque turns the joint by the compliance of the equations it was found in.
-        if (before[1] <= 0.0 || state.at.compliance[1] <= 0.0) continue;
-        own *= before[1] / state.at.compliance[1];
-        state.at.compensator = own;
-        break;
-      default:
-        break;
-    }
+    if (model.correct) model.correct(before, state.at, state.corrections, own);
     if (model.settle) model.settle(state.at, own);
-    if (model.angles) state.at.turns.push_back({model.angles, own});
-    if (!model.first_body.empty()) state.at.motions.push_back({model.offset, model.first_body, own});
-    const bool in_deflections = model.effect == effects::Effect::gravity_compensator || !model.angles;
+    if (model.movesArm()) state.at.present.push_back({&model, own});
     if (becomesPart(model)) contained.in_positions.segment(at, own.size()) = own;
-    if (in_deflections && isCorrection(model.effect)) contained.in_deflections.segment(at, own.size()) = own;
+    if (isBilinear(model)) contained.in_deflections.segment(at, own.size()) = own;
   }
   return contained;
 }

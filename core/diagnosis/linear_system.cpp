@@ -209,7 +209,7 @@ Eigen::Matrix3d cellAxes(const campaign::LoadCell& cell, const frames::LoadingGe
 }
 
 /// The wrench as the corrections have it.
-robot::Wrench corrected(const robot::Wrench& read, const effects::ArmState& state, const Corrections& by, const effects::WorkingPoint& at) {
+robot::Wrench corrected(const robot::Wrench& read, const effects::ArmState& state, const effects::Corrections& by, const effects::WorkingPoint& at) {
   robot::Wrench wrench = read;
   const Eigen::Matrix3d turn =
       metrology::motionAbout(Eigen::Vector3d::Zero(),
@@ -229,7 +229,7 @@ robot::Wrench corrected(const robot::Wrench& read, const effects::ArmState& stat
 class LoadingRowMaker {
  public:
   LoadingRowMaker(const campaign::Campaign& campaign, const frames::LoadingGeometry& geometry, const effects::WorkingPoint& at,
-                  const Corrections& corrections)
+                  const effects::Corrections& corrections)
       : campaign_(campaign),
         geometry_(geometry),
         at_(at),
@@ -353,7 +353,7 @@ class LoadingRowMaker {
   const campaign::Campaign& campaign_;
   const frames::LoadingGeometry& geometry_;
   const effects::WorkingPoint& at_;
-  const Corrections& corrections_;
+  const effects::Corrections& corrections_;
   std::vector<TimesOfPose> times_;
   std::map<int, std::vector<identification::LoadCase>> cases_;
 };
@@ -371,7 +371,7 @@ double compensatorSlope(const effects::WorkingPoint& at, const Vector6d& turned)
 }
 
 std::vector<GapRows> loadingRows(const campaign::Campaign& campaign, const frames::LoadingGeometry& geometry,
-                                 const effects::WorkingPoint& at, const Corrections& corrections) {
+                                 const effects::WorkingPoint& at, const effects::Corrections& corrections) {
   frames::LoadingGeometry shifted = geometry;
   if (shifted.r0_from_loading) {
     shifted.r0_from_loading =

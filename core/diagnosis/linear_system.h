@@ -16,16 +16,6 @@
 
 namespace stiffscope::diagnosis {
 
-/// What is corrected before the effects' equations are made: estimates of the effects in the model, so that
-/// the next linear step starts where the last one ended.
-struct Corrections {
-  Eigen::Vector3d load_point = Eigen::Vector3d::Zero();  ///< m, flange axes
-  Eigen::Vector3d cell_turn = Eigen::Vector3d::Zero();   ///< rad, about the cell's axes
-  Eigen::Vector3d cell_force = Eigen::Vector3d::Zero();  ///< N, in the cell's axes, in loaded states
-  double missing_weight = 0.0;                           ///< N, along gravity, in loaded states
-  Vector6d frame = Vector6d::Zero();  ///< shift of the loading's readings, as frameError has it
-};
-
 /// The equations of one posture of the loading, unwhitened, in R0, m. Deflection rows: states after the
 /// first, three a reflector; absolute rows: the first state. y = A c + geometry + effects + noise.
 struct GapRows {
@@ -51,7 +41,7 @@ struct SweepRows {
 /// Rows of the loading (or of `displacements`), in the order of poses. Reflectors that some step of a posture
 /// lacks are left out of that posture; a posture without a loaded state is left out.
 std::vector<GapRows> loadingRows(const campaign::Campaign& campaign, const frames::LoadingGeometry& geometry,
-                                 const effects::WorkingPoint& at, const Corrections& corrections);
+                                 const effects::WorkingPoint& at, const effects::Corrections& corrections);
 
 /// Rows of circle and wrist sweeps; empty where they are in another frame than the loading.
 std::vector<SweepRows> sweepRows(const campaign::Campaign& campaign, const frames::LoadingGeometry& geometry,
@@ -97,7 +87,7 @@ struct GapState {
   frames::LoadingGeometry geometry;
   Eigen::Isometry3d r0_from_sweeps = Eigen::Isometry3d::Identity();
   effects::WorkingPoint at;
-  Corrections corrections;
+  effects::Corrections corrections;
   double sweep_slack = 1.0, position_slack = 1.0;  ///< factors on the variances of absolute positions
   double model_error = 0.0;  ///< rms per coordinate of what no effect explains, at the largest load, m
 };

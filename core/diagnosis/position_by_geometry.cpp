@@ -86,7 +86,7 @@ struct TurnSlopes {
 /// rest.
 TurnSlopes turnSlopes(const effects::WorkingPoint& at, const effects::ArmState& state) {
   TurnSlopes slopes;
-  if (at.turns.empty()) return slopes;
+  if (!at.jointsTurn()) return slopes;
   constexpr double kTorqueStep = 1e-6, kLeast = 1e-9;  // of the joint's largest torque; Nm
   constexpr double kAngleStep = 1e-7;                  // rad
   const Vector6d here = effects::presentTurn(at, state);
@@ -126,14 +126,14 @@ effects::ArmState asModelled(const frames::LoadingGeometry& geometry, const effe
 PositionByGeometry::PositionByGeometry(const frames::LoadingGeometry& geometry, const effects::WorkingPoint& at,
                                        const Eigen::Vector3d& centre)
     : geometry_(geometry), at_(at), centre_(centre) {
-  if (at.motions.empty()) return;
+  if (!at.bodiesMove()) return;
   const Eigen::Index steps = frames::GeometrySteps::count(geometry.targets_at_zero.size());
   for (Eigen::Index k = 0; k < frames::GeometrySteps::kAxes; ++k)
     stepped_.push_back(frames::moved(geometry, frames::GeometrySteps::kSmall * Eigen::VectorXd::Unit(steps, k), centre));
 }
 
 void PositionByGeometry::addAxes(const effects::ArmState& modelled, Eigen::MatrixXd& columns) const {
-  const bool sags = geometry_.weight.links_known && !(geometry_.compliance.isZero() && at_.turns.empty());
+  const bool sags = geometry_.weight.links_known && !(geometry_.compliance.isZero() && !at_.jointsTurn());
   const Carried carried = carriedBy(geometry_.weight, modelled.posture);
   Eigen::Matrix<double, 6, frames::GeometrySteps::kAxes> torques;
   for (std::size_t j = 0; j < kJoints; ++j) {

@@ -1,63 +1,48 @@
 #include "core/effects/all.h"
 
-#include "core/effects/backlash.h"
-#include "core/effects/base_compliance.h"
-#include "core/effects/bearing_tilt.h"
-#include "core/effects/frame_error.h"
-#include "core/effects/gravity_compensator.h"
-#include "core/effects/hysteresis.h"
-#include "core/effects/joint_coupling.h"
-#include "core/effects/joint_hardening.h"
-#include "core/effects/link_compliance.h"
-#include "core/effects/load_cell_bias.h"
-#include "core/effects/load_cell_misalignment.h"
-#include "core/effects/load_point_error.h"
-#include "core/effects/target_motion.h"
-#include "core/effects/tool_compliance.h"
-#include "core/effects/tracker_drift.h"
+#include <array>
 
 namespace stiffscope::effects {
 
+const EffectRecord& recordOf(Effect effect) {
+#define STIFFSCOPE_EFFECT_FUNCTION(id, record) &record,
+  static constexpr std::array<const EffectRecord& (*)(), kEffectCount> kRecords{
+      STIFFSCOPE_EFFECTS(STIFFSCOPE_EFFECT_FUNCTION)};
+#undef STIFFSCOPE_EFFECT_FUNCTION
+  return kRecords[static_cast<std::size_t>(effect)]();
+}
+
+std::vector<EffectModel> modelsOf(const EffectRecord& record, const std::vector<std::string>& targets) {
+  if (record.models == nullptr) return {};
+  std::vector<EffectModel> models = record.models(targets);
+  for (EffectModel& model : models) model.effect = record.effect;
+  return models;
+}
+
 std::vector<EffectModel> effectModels(const std::vector<std::string>& targets) {
-  return {
-      linkCompliance(),
-      bearingTilt(),
-      baseCompliance(),
-      jointCoupling(),
-      jointHardening(),
-      jointHardeningLinear(),
-      jointHardeningCubicSpring(),
-      jointHardeningWhole(),
-      jointHardeningLinearWhole(),
-      jointHardeningByStages(),
-      jointHardeningSmooth(),
-      backlash(),
-      hysteresis(),
-      hysteresisOneSlider(),
-      hysteresisManySliders(),
-      gravityCompensator(),
-      loadPointError(),
-      loadCellMisalignment(),
-      loadCellBias(),
-      loadCellMissingWeight(),
-      frameError(),
-      trackerDrift(),
-      targetMotion(targets),
-      targetSlip(targets),
-      targetLastingSlip(targets),
-      targetSlipFromHalf(targets),
-      targetSlipAtFull(targets),
-      targetNestSpring(targets),
-      targetPulledAlong(targets),
-      toolCompliance(),
-      toolComplianceByLoad(),
-  };
+  std::vector<EffectModel> all;
+  for (std::size_t e = 0; e < kEffectCount; ++e) {
+    for (EffectModel& model : modelsOf(recordOf(static_cast<Effect>(e)), targets))
+      all.push_back(std::move(model));
+  }
+  return all;
 }
 
 std::vector<EffectModel> effectModelsOf(const campaign::Campaign& campaign) {
   std::vector<std::string> targets;
   for (const campaign::Target& target : campaign.targets) targets.push_back(target.id);
   return effectModels(targets);
+}
+
+EffectNature natureOf(Effect effect) { return recordOf(effect).nature; }
+
+bool entersCompensation(Effect effect) {
+  return natureOf(effect) == EffectNature::machine || natureOf(effect) == EffectNature::load;
+}
+
+std::string missingFor(Effect effect, const CampaignContents& contents) {
+  const EffectRecord& record = recordOf(effect);
+  return record.missing ? record.missing(contents) : std::string();
 }
 
 }  // namespace stiffscope::effects

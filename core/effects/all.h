@@ -8,12 +8,29 @@
 
 namespace stiffscope::effects {
 
-/// The models that a diagnosis tries, one or more an effect. A new effect is a file in effects/ and a line
-/// here. kinematic_error has no columns: the geometry is a nuisance of every fit, and what the fit finds is
-/// held against the nominal one (see geometry_error.h).
+// One function an effect, named in the table of effect.h and defined in the effect's file with its equation,
+// source and bounds: `const EffectRecord& bearingTilt();` and so on.
+#define STIFFSCOPE_EFFECT_RECORD(id, record) const EffectRecord& record();
+STIFFSCOPE_EFFECTS(STIFFSCOPE_EFFECT_RECORD)
+#undef STIFFSCOPE_EFFECT_RECORD
+
+const EffectRecord& recordOf(Effect effect);
+
+/// The models of one effect, which carry its id.
+std::vector<EffectModel> modelsOf(const EffectRecord& record, const std::vector<std::string>& targets = {});
+
+/// The models that a diagnosis tries, one or more an effect, in the order of the table.
 std::vector<EffectModel> effectModels(const std::vector<std::string>& targets);
 
 /// The same with the campaign's reflectors.
 std::vector<EffectModel> effectModelsOf(const campaign::Campaign& campaign);
+
+EffectNature natureOf(Effect effect);
+
+/// Whether the effect has a part in what the machine does under a planned load.
+bool entersCompensation(Effect effect);
+
+/// Why an effect cannot be tested with this, in words that name what is missing; empty where it can.
+std::string missingFor(Effect effect, const CampaignContents& contents);
 
 }  // namespace stiffscope::effects

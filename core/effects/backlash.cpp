@@ -1,9 +1,14 @@
-#include "core/effects/backlash.h"
+#include "core/effects/all.h"
 
 #include <algorithm>
 #include <cmath>
 
 namespace stiffscope::effects {
+
+// Lost motion as a joint's torque passes zero: theta_j += b_j/2 tanh(tau_j / (w T_j)), tau_j of own weight
+// and load together, T_j the largest the joint sees. Parameters: b_j (rad, never negative), the whole play of
+// each joint, at most 20 mrad; and, once they are known, a step of the width w over which the passage is
+// rounded, one for all joints.
 
 namespace {
 
@@ -27,12 +32,25 @@ void settle(WorkingPoint& at, Eigen::VectorXd& own) {
   own[6] = 0.0;
 }
 
+std::string missing(const CampaignContents& has) {
+  if (has.load_steps < 2 && !has.weights)
+    return "one load step and no masses: lost motion needs torques that pass zero, from two or more loads";
+  return {};
+}
+
+std::vector<EffectModel> models(const std::vector<std::string>&) {
+  EffectModel model{
+      .parts = jointParts(20e-3, true, "rad"), .most_parts = 7, .angles = &angles, .settle = &settle};
+  model.parts.push_back({"width of the passage", {1.0}, false, "of the largest torque"});
+  return {model};
+}
+
 }  // namespace
 
-EffectModel backlash() {
-  EffectModel model{Effect::backlash, "", jointParts(20e-3, true, "rad"), 7, nullptr, &angles, &settle};
-  model.parts.push_back({"width of the passage", {1.0}, false, "of the largest torque"});
-  return model;
+const EffectRecord& backlash() {
+  static const EffectRecord record{
+      .effect = Effect::backlash, .nature = EffectNature::machine, .missing = &missing, .models = &models};
+  return record;
 }
 
 }  // namespace stiffscope::effects

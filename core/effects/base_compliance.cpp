@@ -1,38 +1,41 @@
-#include "core/effects/base_compliance.h"
+#include "core/effects/all.h"
 
 namespace stiffscope::effects {
 
+// Pedestal or floor gives: rotation about the two horizontal axes of base_link through its origin by the
+// moment there, and shifts along its three axes by the force (own weight and load). Its turn about the
+// vertical is joint 1's own compliance. Parameters: rocking about x, about y (rad/Nm), shift along x, y, z
+// (m/N); never negative.
+
 namespace {
 
-Eigen::MatrixXd offset(const WorkingPoint& at, const PostureStates& posture, std::size_t i) {
-  const ArmState& state = posture[i];
+std::vector<BodyTwist> twists(const WorkingPoint& at, const PostureStates& posture, std::size_t i) {
   const Eigen::Vector3d foot = at.r0_from_base_link.translation();
   const Eigen::Matrix3d axes = at.r0_from_base_link.linear();
-  const robot::Wrench load = carried(state, 1, foot);
-  Eigen::MatrixXd columns(state.rows(), 5);
-  for (int k = 0; k < 2; ++k) {
-    columns.col(k) =
-        byMotion(state, foot, axes.col(k) * axes.col(k).dot(load.moment), Eigen::Vector3d::Zero());
-  }
-  for (int k = 0; k < 3; ++k) {
-    columns.col(2 + k) =
-        byMotion(state, foot, Eigen::Vector3d::Zero(), axes.col(k) * axes.col(k).dot(load.force));
-  }
-  return columns;
+  const robot::Wrench load = carried(posture[i], 1, foot);
+  std::vector<BodyTwist> twists(5, {.first_body = 1, .with_axis = true, .pivot = foot});
+  for (int k = 0; k < 2; ++k)
+    twists[static_cast<std::size_t>(k)].rotation = axes.col(k) * axes.col(k).dot(load.moment);
+  for (int k = 0; k < 3; ++k)
+    twists[static_cast<std::size_t>(2 + k)].shift = axes.col(k) * axes.col(k).dot(load.force);
+  return twists;
+}
+
+std::vector<EffectModel> models(const std::vector<std::string>&) {
+  EffectModel model{.most_parts = 5, .twists = &twists};
+  for (const char* name : {"rocking about x", "rocking about y"})
+    model.parts.push_back({name, {1e-5}, true, "rad/Nm"});
+  for (const char* name : {"shift along x", "shift along y", "shift along z"})
+    model.parts.push_back({name, {1e-5}, true, "m/N"});
+  return {model};
 }
 
 }  // namespace
 
-EffectModel baseCompliance() {
-  EffectModel model{Effect::base_compliance, "", {}, 5, &offset, nullptr};
-  for (const char* name : {"rocking about x", "rocking about y"}) {
-    model.parts.push_back({name, {1e-5}, true, "rad/Nm"});
-  }
-  for (const char* name : {"shift along x", "shift along y", "shift along z"}) {
-    model.parts.push_back({name, {1e-5}, true, "m/N"});
-  }
-  model.first_body.assign(5, 1);
-  return model;
+const EffectRecord& baseCompliance() {
+  static const EffectRecord record{
+      .effect = Effect::base_compliance, .nature = EffectNature::machine, .models = &models};
+  return record;
 }
 
 }  // namespace stiffscope::effects

@@ -6,36 +6,39 @@
 
 namespace stiffscope::effects {
 
-/// What a machine may do that the joint-stiffness model does not. The ids are fixed: other programs use them.
-enum class Effect {
-  link_compliance,         ///< a link bends and twists along its length
-  bearing_tilt,            ///< a joint also gives about the two directions across its axis
-  base_compliance,         ///< pedestal or floor gives
-  joint_coupling,          ///< torque at one joint turns another; names the pair
-  joint_hardening,         ///< stiffness grows (or drops) with torque
-  backlash,                ///< lost motion as a joint's torque passes zero
-  hysteresis,              ///< friction: the way back differs from the way out
-  gravity_compensator,     ///< a spring on axis 2 whose torque depends on posture
-  load_point_error,        ///< the load acts elsewhere on the tool than declared
-  load_cell_misalignment,  ///< the load cell is turned against its declared axes
-  load_cell_bias,          ///< a constant force added to, or missing from, the loaded readings
-  frame_error,             ///< the tracker, or the robot, moved between the frame sweeps and the loading
-  kinematic_error,         ///< lengths or joint zeros differ from the nominal geometry
-  tracker_drift,           ///< readings wander with time
-  target_motion,           ///< one reflector moves in its nest under load; names it
-  tool_compliance,         ///< the plate between flange and reflectors gives
-};
+/// The table of effects, one line each: what a machine or a measurement may do that the joint-stiffness model does not.
+/// The first name is the effect's id, which is fixed because other programs use it; the second is the function that
+/// returns its record, defined in the effect's own file. Reports list effects in this order.
+#define STIFFSCOPE_EFFECTS(EFFECT)                      \
+  EFFECT(link_compliance, linkCompliance)               \
+  EFFECT(bearing_tilt, bearingTilt)                     \
+  EFFECT(base_compliance, baseCompliance)               \
+  EFFECT(joint_coupling, jointCoupling)                 \
+  EFFECT(joint_hardening, jointHardening)               \
+  EFFECT(backlash, backlash)                            \
+  EFFECT(hysteresis, hysteresis)                        \
+  EFFECT(gravity_compensator, gravityCompensator)       \
+  EFFECT(load_point_error, loadPointError)              \
+  EFFECT(load_cell_misalignment, loadCellMisalignment)  \
+  EFFECT(load_cell_bias, loadCellBias)                  \
+  EFFECT(frame_error, frameError)                       \
+  EFFECT(kinematic_error, kinematicError)               \
+  EFFECT(tracker_drift, trackerDrift)                   \
+  EFFECT(target_motion, targetMotion)                   \
+  EFFECT(tool_compliance, toolCompliance)
 
-inline constexpr std::size_t kEffectCount = 16;
+// clang-format off
+#define STIFFSCOPE_EFFECT_ID(id, record) id,
+enum class Effect { STIFFSCOPE_EFFECTS(STIFFSCOPE_EFFECT_ID) };
+#undef STIFFSCOPE_EFFECT_ID
 
 /// Their ids, in the order of Effect.
-inline constexpr std::array<std::string_view, kEffectCount> kEffectIds{
-    "link_compliance",   "bearing_tilt",           "base_compliance",
-    "joint_coupling",    "joint_hardening",        "backlash",
-    "hysteresis",        "gravity_compensator",    "load_point_error",
-    "load_cell_misalignment", "load_cell_bias",    "frame_error",
-    "kinematic_error",   "tracker_drift",          "target_motion",
-    "tool_compliance"};
+#define STIFFSCOPE_EFFECT_NAME(id, record) std::string_view(#id),
+inline constexpr std::array kEffectIds{STIFFSCOPE_EFFECTS(STIFFSCOPE_EFFECT_NAME)};
+#undef STIFFSCOPE_EFFECT_NAME
+// clang-format on
+
+inline constexpr std::size_t kEffectCount = kEffectIds.size();
 
 constexpr std::string_view idOf(Effect effect) { return kEffectIds[static_cast<std::size_t>(effect)]; }
 

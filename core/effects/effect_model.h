@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
 #include <string>
 #include <vector>
 
@@ -10,32 +9,49 @@
 
 namespace stiffscope::effects {
 
+struct EffectModel;
+
+/// An effect in the model, with its size. The model must outlive it.
+struct PresentEffect {
+  const EffectModel* model = nullptr;
+  Eigen::VectorXd parameters;
+};
+
 /// What the models of the effects are linearised at. Effects that multiply another unknown (a wrong load
 /// point times a compliance) or bend with their own size (friction) take that other one from here and are
 /// fitted again and again.
-struct PresentTurn;
-struct PresentMotion;
-
 struct WorkingPoint {
   Vector6d compliance = Vector6d::Zero();  ///< of the joints, rad/Nm, none negative
   Vector6d friction = Vector6d::Zero();  ///< Nm; 0: not known yet, the joint lags from the first newton metre
-  double sticking = 1.0;  ///< stiffness with which friction holds before it slips, over the joint's own
-  int targets = 0;                       ///< of the campaign
+  double sticking = 1.0;        ///< stiffness with which friction holds before it slips, over the joint's own
+  int targets = 0;              ///< of the campaign
   Eigen::VectorXd compensator;  ///< torque on joint 2: sin, cos of q_2, of 2 q_2 and so on, Nm; empty: none
   Vector6d play = Vector6d::Zero();              ///< backlash of the joints, rad; zero: not known yet
   Vector6d harder_by_square = Vector6d::Zero();  ///< stiffness k (1 + a tau^2) of the joints: a, 1/Nm^2
   Vector6d harder_by_size = Vector6d::Zero();    ///< stiffness k (1 + a |tau|): a, 1/Nm
   Vector6d largest_torque = Vector6d::Zero();    ///< own weight and load, largest of all states, Nm
   double passage = 0.05;  ///< part of the largest torque over which the backlash passes from side to side
-  std::vector<PresentTurn> turns;                ///< effects in the model that turn joints unloaded
-  std::vector<PresentMotion> motions;            ///< and those that move bodies
-  double largest_force = 1.0;  ///< N, of the campaign: scales what is proportional to the load
+  std::vector<PresentEffect> present;  ///< effects in the model that move the unloaded arm
+  double largest_force = 1.0;          ///< N, of the campaign: scales what is proportional to the load
   /// From the declared point of the wrench to where the load itself pulls, flange axes, m.
   Eigen::Vector3d load_offset = Eigen::Vector3d::Zero();
   Eigen::Vector3d epoch_centre = Eigen::Vector3d::Zero();  ///< about which frames turn
   double first_time = 0.0, time_span = 1.0;                ///< s, of the loading
   double sweep_time = 0.0;                                 ///< s; the sweeps' epoch as far as it is known
   Eigen::Isometry3d r0_from_base_link = Eigen::Isometry3d::Identity();
+
+  bool jointsTurn() const;  ///< by an effect in the model
+  bool bodiesMove() const;
+};
+
+/// What is corrected before the effects' equations are made: estimates of the effects in the model, so that
+/// the next linear step starts where the last one ended.
+struct Corrections {
+  Eigen::Vector3d load_point = Eigen::Vector3d::Zero();  ///< m, flange axes
+  Eigen::Vector3d cell_turn = Eigen::Vector3d::Zero();   ///< rad, about the cell's axes
+  Eigen::Vector3d cell_force = Eigen::Vector3d::Zero();  ///< N, in the cell's axes, in loaded states
+  double missing_weight = 0.0;                           ///< N, along gravity, in loaded states
+  Vector6d frame = Vector6d::Zero();  ///< shift of the loading's readings, as frame_error has it
 };
 
 /// Parameters of an effect that come or stay away together: one joint's, one pair's, one reflector's.
@@ -44,62 +60,72 @@ struct EffectPart {
   std::vector<double> most;  ///< physical bound of each parameter's magnitude
   bool positive = false;     ///< a compliance, a width: never negative
   std::string unit;          ///< of the parameters
+  std::vector<std::string> names = {};  ///< of each parameter; empty: a single one, called as the part
+  std::vector<std::string> units = {};  ///< of each parameter; empty: `unit` is that of all
 };
 
 /// Joint angles of an effect that only turns joints, one column a parameter, rad per unit.
 using JointAngles = Eigen::Matrix<double, 6, Eigen::Dynamic>;
 
-/// Offset of every reflector in a state: 3 rows a reflector, one column a parameter, m per unit.
-using Offset = Eigen::MatrixXd (*)(const WorkingPoint& at, const PostureStates& posture, std::size_t state);
+/// Beyond the arm's six bodies: what the plate between flange and reflectors carries.
+constexpr int kToolBody = 7;
 
-/// An effect that moves the arm's bodies by the own weight alone, with its size.
-struct PresentMotion {
-  Offset offset = nullptr;
-  std::vector<int> first_body;  ///< by parameter: it and all bodies beyond it move as one
-  Eigen::VectorXd parameters;
+/// A small rigid motion of the arm from one body outwards, in R0, per unit of a parameter.
+struct BodyTwist {
+  int first_body = 1;  ///< it and all bodies beyond it move as one
+  /// Whether the axis about which that body turns moves as well: it does where something further in gives (a
+  /// base, a link's tip), not where its bearing does.
+  bool with_axis = false;
+  Eigen::Vector3d pivot = Eigen::Vector3d::Zero();
+  Eigen::Vector3d rotation = Eigen::Vector3d::Zero();  ///< rad
+  Eigen::Vector3d shift = Eigen::Vector3d::Zero();     ///< of the pivot, m
 };
 
-/// An effect that turns joints by the own weight alone, with its size: part of where the unloaded arm stands.
-struct PresentTurn {
-  JointAngles (*angles)(const WorkingPoint& at, const PostureStates& posture, std::size_t state) = nullptr;
-  Eigen::VectorXd parameters;
-};
-
-/// One effect as a model of the offset u of every reflector in a state: u = columns * parameters.
+/// One effect as a model of the offset u of every reflector in a state: u = columns * parameters. It has one
+/// of `angles`, `twists` and `offset`.
 struct EffectModel {
-  Effect effect = Effect::link_compliance;
-  std::string shape;  ///< which of the effect's equations, where it has several
-  std::vector<EffectPart> parts;
+  Effect effect = {};      ///< filled by modelsOf()
+  std::string shape = {};  ///< which of the effect's equations, where it has several
+  std::vector<EffectPart> parts = {};
   std::size_t most_parts = 1;  ///< that may be present together
-  /// 3 rows a reflector, one column a parameter, parts in their order, m per unit.
-  Offset offset = nullptr;
-  /// Instead of `offset` where the effect only turns joints.
+  /// Where the effect only turns joints.
   JointAngles (*angles)(const WorkingPoint& at, const PostureStates& posture, std::size_t state) = nullptr;
+  /// Where it moves bodies rigidly: one a parameter; those of a part have one body and one pivot.
+  std::vector<BodyTwist> (*twists)(const WorkingPoint& at, const PostureStates& posture,
+                                   std::size_t state) = nullptr;
+  /// Else: 3 rows a reflector, one column a parameter, parts in their order, m per unit.
+  Eigen::MatrixXd (*offset)(const WorkingPoint& at, const PostureStates& posture,
+                            std::size_t state) = nullptr;
+  /// Its twists are those of the tool beyond the flange: the arm itself stays where it is.
+  bool beyond_flange = false;
   /// Where its equations bend with their own parameters: moves the working point to these, and leaves in
   /// `own` those that are sizes of the effect (not shapes). Null: they do not bend.
   void (*settle)(WorkingPoint& at, Eigen::VectorXd& own) = nullptr;
-  /// By parameter, where `offset` is a rigid motion of the arm from this body outwards; else empty.
-  std::vector<int> first_body = {};
+  /// Where its parameters multiply other unknowns: once estimated, it is put into what the equations are made
+  /// with, and `own` becomes what they then contain. `compliance` is that of the equations it was found in.
+  void (*correct)(const Vector6d& compliance, WorkingPoint& at, Corrections& corrections,
+                  Eigen::VectorXd& own) = nullptr;
 
-  Eigen::MatrixXd columns(const WorkingPoint& at, const PostureStates& posture, std::size_t state) const {
-    return angles ? byJoints(posture[state], angles(at, posture, state)) : offset(at, posture, state);
-  }
+  Eigen::MatrixXd columns(const WorkingPoint& at, const PostureStates& posture, std::size_t state) const;
 
-  std::size_t parameters() const {
-    std::size_t count = 0;
-    for (const EffectPart& part : parts) count += part.most.size();
-    return count;
-  }
+  std::size_t parameters() const;
+
+  /// Whether it moves the unloaded arm, so that everything else is computed where it has left the arm.
+  bool movesArm() const { return angles != nullptr || (twists != nullptr && !beyond_flange); }
 };
 
 /// Parts of one parameter each for the six joints.
 std::vector<EffectPart> jointParts(double most, bool positive, const std::string& unit);
 
+/// One part of a rotation about x, y, z (rad) and a shift along them (m).
+EffectPart rigidMotionPart(double most);
+
 /// The wrench's own displacement field: joint springs turned by the torque of a changed wrench on the tool.
 Eigen::VectorXd bySprings(const WorkingPoint& at, const ArmState& state, const robot::Wrench& change);
 
-/// What parameter `k` of a part is called, and its unit: "joint 3", "P12 x", "1/EI of link 2", "turn about x".
-std::string parameterName(const EffectModel& model, const EffectPart& part, std::size_t k);
+/// What parameter `k` of a part is called, and its unit: "joint 3", "P12 x", "1/EI of link 2", "turn about
+/// x".
+std::string parameterName(const EffectPart& part, std::size_t k);
 std::string parameterUnit(const EffectPart& part, std::size_t k);
 
 /// What an effect is a property of; that decides where its fitted size belongs.
@@ -110,12 +136,27 @@ enum class EffectNature {
   geometry,     ///< lengths and zeros: every identification has the measured ones already, nothing is added
 };
 
-EffectNature natureOf(Effect effect);
+/// What a campaign has that effects need.
+struct CampaignContents {
+  std::size_t reflectors = 0;
+  std::size_t load_steps = 0;  ///< with a force, beyond the return share
+  bool return_to_zero = false;
+  bool moments = false;  ///< some moment was measured
+  bool times = false;
+  bool weights = false;  ///< masses of the arm are known
+  bool absolute = false, sweeps = false;
+  bool nests = false;
+};
 
-/// Whether the effect has a part in what the machine does under a planned load.
-bool entersCompensation(Effect effect);
-
-/// What is done with the effect, and why, in words.
-std::string useOf(Effect effect);
+/// All that the program knows of an effect but its words, which stand in reports/words.
+struct EffectRecord {
+  Effect effect = {};
+  EffectNature nature = EffectNature::machine;
+  /// Why it cannot be tested with this, in words that name what is missing; empty where it can. Null: it
+  /// always can.
+  std::string (*missing)(const CampaignContents& contents) = nullptr;
+  /// Its equations, one or more, for reflectors of these names. Null: it has no columns.
+  std::vector<EffectModel> (*models)(const std::vector<std::string>& targets) = nullptr;
+};
 
 }  // namespace stiffscope::effects

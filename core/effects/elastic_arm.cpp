@@ -1,6 +1,10 @@
 #include "core/effects/elastic_arm.h"
 
+#include <array>
+
+#include "core/robot/spring_equilibrium.h"
 #include "core/robot/wrench.h"
+#include "metrology/rigid_motion.h"
 
 namespace stiffscope::effects {
 
@@ -8,16 +12,84 @@ std::optional<Vector6d> loadedAngles(const frames::LoadingGeometry& geometry, co
                                      const Vector6d& q, const FlangeLoad& load) {
   constexpr int kMostSteps = 100;
   constexpr double kSettled = 1e-12;  // rad
-  Vector6d angles = q;
-  for (int step = 0; step < kMostSteps; ++step) {
+  const auto torqueAt = [&](const Vector6d& angles) -> Vector6d {
     const robot::ArmPosture posture = robot::postureAt(geometry.arm, angles);
-    const robot::Wrench wrench{robot::flangeAt(geometry.arm, posture) * load.point_in_flange, load.force, load.moment};
-    const Vector6d torque =
-        robot::weightTorque(geometry.arm, posture, geometry.weight) + robot::jointTorque(geometry.arm, posture, wrench);
-    const Vector6d next = q + compliance.cwiseProduct(torque);
-    const double change = (next - angles).cwiseAbs().maxCoeff();
-    angles = next;
-    if (change < kSettled) return angles;
+    const robot::Wrench wrench{robot::flangeAt(geometry.arm, posture) * load.point_in_flange, load.force,
+                               load.moment};
+    return robot::weightTorque(geometry.arm, posture, geometry.weight) +
+           robot::jointTorque(geometry.arm, posture, wrench);
+  };
+  const auto found = robot::springEquilibrium(q, compliance, kMostSteps, kSettled, torqueAt);
+  return found.settled ? std::optional<Vector6d>(found.angles) : std::nullopt;
+}
+
+/// What the effects do at one place of the arm: motions of the base (0), the bodies and the tool.
+struct ElasticArm::Deflection {
+  Vector6d angles = Vector6d::Zero();
+  std::array<Eigen::Isometry3d, kToolBody + 1> motions;
+
+  Deflection() { motions.fill(Eigen::Isometry3d::Identity()); }
+};
+
+ElasticArm::ElasticArm(const frames::LoadingGeometry& geometry, const Vector6d& compliance,
+                       const WorkingPoint& at, std::vector<PresentEffect> effects)
+    : geometry_(geometry), compliance_(compliance), at_(at), effects_(std::move(effects)) {}
+
+ElasticArm::Deflection ElasticArm::deflectionBy(const PostureStates& posture, std::size_t s) const {
+  Deflection deflection;
+  for (const auto& [model, own] : effects_) {
+    if (model->angles) {
+      deflection.angles += model->angles(at_, posture, s) * own;
+      continue;
+    }
+    const std::vector<BodyTwist> twists = model->twists(at_, posture, s);
+    std::size_t next = 0;
+    for (const EffectPart& part : model->parts) {
+      const BodyTwist& first = twists[next];
+      Vector6d motion = Vector6d::Zero();
+      for (std::size_t k = 0; k < part.most.size(); ++k, ++next) {
+        const double size = own[static_cast<Eigen::Index>(next)];
+        motion.head<3>() += size * twists[next].rotation;
+        motion.tail<3>() += size * twists[next].shift;
+      }
+      if (motion.isZero(0.0)) continue;
+      // An axis stands where the body inside it does.
+      auto& there =
+          deflection.motions[static_cast<std::size_t>(first.first_body - (first.with_axis ? 1 : 0))];
+      there = metrology::motionAbout(first.pivot, motion) * there;
+    }
+  }
+  return deflection;
+}
+
+std::optional<Eigen::Isometry3d> ElasticArm::toolMotion(const PostureStates& posture, std::size_t s,
+                                                        const ToolLoad* load) const {
+  constexpr int kMostSteps = 60;
+  constexpr double kSettled = 1e-10;  // rad
+  PostureStates states = posture;
+  ArmState& state = states[s];
+  Vector6d angles = state.q;
+  Deflection deflection;
+  Eigen::Isometry3d last = Eigen::Isometry3d::Identity();
+  for (int step = 0; step < kMostSteps; ++step) {
+    robot::ArmPosture place;
+    place.motion[0] = deflection.motions[0];
+    const robot::ArmPosture turned = robot::postureAt(geometry_.arm, angles);
+    for (std::size_t b = 1; b <= 6; ++b) {
+      const Eigen::Isometry3d own = turned.motion[b - 1].inverse() * turned.motion[b];
+      place.motion[b] = deflection.motions[b] * place.motion[b - 1] * own;
+    }
+    const Eigen::Isometry3d tool = deflection.motions[kToolBody] * place.motion[6];
+    if (step > 0 && (tool.matrix() - last.matrix()).cwiseAbs().maxCoeff() < kSettled) return tool;
+    last = tool;
+    state.posture = place;
+    placeByPosture(geometry_, state);
+    if (s == 0) state.turned = angles;
+    state.load =
+        load ? robot::Wrench{tool * load->point_at_zero, load->force, load->moment} : robot::Wrench{};
+    state.load_torque = load ? robot::jointTorque(geometry_.arm, place, state.load) : Vector6d::Zero();
+    deflection = deflectionBy(states, s);
+    angles = state.q + compliance_.cwiseProduct(totalTorque(state)) + deflection.angles;
   }
   return std::nullopt;
 }

@@ -1,6 +1,10 @@
-#include "core/effects/frame_error.h"
+#include "core/effects/all.h"
 
 namespace stiffscope::effects {
+
+// The tracker, or the robot, moved between the frame sweeps and the loading: every reading of the loading is
+// shifted by a small rigid motion, rotation about the middle of the readings (rad), then shift (m). It shows
+// in absolute positions, not in the sweeps; a deflection does not see it.
 
 namespace {
 
@@ -15,11 +19,31 @@ Eigen::MatrixXd offset(const WorkingPoint& at, const PostureStates& posture, std
   return columns;
 }
 
+void correct(const Vector6d&, WorkingPoint&, Corrections& corrections, Eigen::VectorXd& own) {
+  corrections.frame = own;
+}
+
+std::string missing(const CampaignContents& has) {
+  if (!has.weights && !has.nests)
+    return "the masses of the links are not known: the sag in absolute positions hides it; state them, or "
+           "read nests";
+  if (has.weights && (!has.absolute || !has.sweeps))
+    return "needs circle sweeps and absolute unloaded positions in the same frame of the tracker";
+  return {};
+}
+
+std::vector<EffectModel> models(const std::vector<std::string>&) {
+  return {{.parts = {rigidMotionPart(0.1)}, .offset = &offset, .correct = &correct}};
+}
+
 }  // namespace
 
-EffectModel frameError() {
-  return {
-      Effect::frame_error, "", {{"", {0.1, 0.1, 0.1, 0.1, 0.1, 0.1}, false, "rad, m"}}, 1, &offset, nullptr};
+const EffectRecord& frameError() {
+  static const EffectRecord record{.effect = Effect::frame_error,
+                                   .nature = EffectNature::measurement,
+                                   .missing = &missing,
+                                   .models = &models};
+  return record;
 }
 
 }  // namespace stiffscope::effects

@@ -1,8 +1,15 @@
-#include "core/effects/gravity_compensator.h"
+#include "core/effects/all.h"
 
+#include <fmt/format.h>
 #include <cmath>
 
 namespace stiffscope::effects {
+
+// A spring on axis 2 that the model does not have: a torque that depends on q_2, as a spring
+// between a point of the column and a point of the arm has it: k (l - l_0) a b sin(phi) / l, smooth in phi =
+// q_2 + phi_0 and written as its Fourier series without the constant (a joint zero), T = sum_n S_n sin n q_2
+// + C_n cos n q_2, n to 4. It turns joint 2 by c_2 T unloaded, and changes its give under load by c_2
+// T'(q_2) c_2 tau_2. S_n, C_n in Nm.
 
 namespace {
 
@@ -21,15 +28,41 @@ JointAngles angles(const WorkingPoint& at, const PostureStates& posture, std::si
   return result;
 }
 
+/// The torque turns the joint by the compliance of the equations it was found in.
+void correct(const Vector6d& compliance, WorkingPoint& at, Corrections&, Eigen::VectorXd& own) {
+  if (compliance[1] <= 0.0 || at.compliance[1] <= 0.0) {
+    own.setZero();
+    return;
+  }
+  own *= compliance[1] / at.compliance[1];
+  at.compensator = own;
+}
+
+std::string missing(const CampaignContents& has) {
+  if (!has.weights)
+    return "the masses of the links are not known: the spring cannot be told from the own weight";
+  if (!has.absolute)
+    return "displacements only: unloaded absolute positions against forward kinematics are needed";
+  return {};
+}
+
+std::vector<EffectModel> models(const std::vector<std::string>&) {
+  EffectPart part{"", std::vector<double>(2 * kHarmonics, 1e6), false, "Nm"};
+  for (int n = 1; n <= kHarmonics; ++n) {
+    part.names.push_back(fmt::format("sin {} q2", n));
+    part.names.push_back(fmt::format("cos {} q2", n));
+  }
+  return {{.parts = {part}, .angles = &angles, .correct = &correct}};
+}
+
 }  // namespace
 
-EffectModel gravityCompensator() {
-  return {Effect::gravity_compensator,
-          "",
-          {{"", std::vector<double>(2 * kHarmonics, 1e6), false, "Nm"}},
-          1,
-          nullptr,
-          &angles};
+const EffectRecord& gravityCompensator() {
+  static const EffectRecord record{.effect = Effect::gravity_compensator,
+                                   .nature = EffectNature::machine,
+                                   .missing = &missing,
+                                   .models = &models};
+  return record;
 }
 
 }  // namespace stiffscope::effects

@@ -7,41 +7,22 @@
 
 namespace stiffscope::effects {
 
-std::vector<Eigen::Vector3d> probesAt(const Eigen::Vector3d& first) {
-  return {first, first + Eigen::Vector3d::UnitX(), first + Eigen::Vector3d::UnitY(),
-          first + Eigen::Vector3d::UnitZ()};
-}
-
-Vector6d probedMotion(const Eigen::VectorXd& moved) {
-  Eigen::Vector3d turn = Eigen::Vector3d::Zero();
-  for (int k = 0; k < 3; ++k)
-    turn += 0.5 * Eigen::Vector3d::Unit(k).cross(moved.segment<3>(3 * (k + 1)) - moved.head<3>());
-  return (Vector6d() << turn, moved.head<3>()).finished();
-}
-
 namespace {
-
-/// Rotation vector and displacement at the origin of each parameter's motion, per unit.
-Eigen::Matrix<double, 6, Eigen::Dynamic> twistsOf(const PresentMotion& motion, const WorkingPoint& at,
-                                                  const ArmState& rest) {
-  ArmState probe = rest;
-  probe.targets = {0, 0, 0, 0};
-  probe.points = probesAt(Eigen::Vector3d::Zero());
-  const Eigen::MatrixXd offset = motion.offset(at, {probe}, 0);
-  Eigen::Matrix<double, 6, Eigen::Dynamic> twists(6, offset.cols());
-  for (Eigen::Index k = 0; k < offset.cols(); ++k) twists.col(k) = probedMotion(offset.col(k));
-  return twists;
-}
 
 /// Inner bodies first, so that an outer motion turns about where the inner ones have brought its pivot.
 BodyMotions motionsOf(const WorkingPoint& at, const ArmState& rest) {
-  std::array<Vector6d, 7> by_body;
+  std::array<Vector6d, 7> by_body;  // rotation vector, and displacement of the R0 origin
   by_body.fill(Vector6d::Zero());
-  for (const PresentMotion& motion : at.motions) {
-    const auto twists = twistsOf(motion, at, rest);
-    for (Eigen::Index k = 0; k < twists.cols(); ++k) {
-      const auto first = static_cast<std::size_t>(motion.first_body[static_cast<std::size_t>(k)]);
-      by_body[first] += twists.col(k) * motion.parameters[k];
+  const PostureStates posture{rest};
+  for (const PresentEffect& one : at.present) {
+    if (!one.model->twists) continue;
+    const std::vector<BodyTwist> twists = one.model->twists(at, posture, 0);
+    for (std::size_t k = 0; k < twists.size(); ++k) {
+      const BodyTwist& twist = twists[k];
+      Vector6d at_origin;
+      at_origin << twist.rotation, twist.shift - twist.rotation.cross(twist.pivot);
+      by_body[static_cast<std::size_t>(twist.first_body)] +=
+          at_origin * one.parameters[static_cast<Eigen::Index>(k)];
     }
   }
   BodyMotions all = noBodyMotions();
@@ -66,17 +47,19 @@ BodyMotions motionsOf(const WorkingPoint& at, const ArmState& rest) {
 Vector6d presentTurn(const WorkingPoint& at, const ArmState& state) {
   Vector6d turn = Vector6d::Zero();
   const PostureStates rest{state};
-  for (const PresentTurn& one : at.turns) turn += one.angles(at, rest, 0) * one.parameters;
+  for (const PresentEffect& one : at.present) {
+    if (one.model->angles) turn += one.model->angles(at, rest, 0) * one.parameters;
+  }
   return turn;
 }
 
 ArmState restState(const frames::LoadingGeometry& geometry, const WorkingPoint& at, const Vector6d& q) {
   ArmState state = stateAt(geometry, q, Vector6d::Zero());
-  if (at.turns.empty() && at.motions.empty()) return state;
+  if (at.present.empty()) return state;
   constexpr int kRounds = 5;  // torques change with turns and motions by a hundredth with a strong effect
   for (int round = 0; round < kRounds; ++round) {
     const Vector6d turn = presentTurn(at, state);
-    if (at.motions.empty()) {
+    if (!at.bodiesMove()) {
       state = stateAt(geometry, q, turn);
       continue;
     }

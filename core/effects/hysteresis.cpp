@@ -1,10 +1,21 @@
-#include "core/effects/hysteresis.h"
+#include "core/effects/all.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
 namespace stiffscope::effects {
+
+// Friction: the way back differs from the way out. Each joint is a spring behind a dry friction f_j (Nm),
+// the play operator (Prandtl-Ishlinskii; Coulomb): its spring torque x follows the load torque as x <-
+// clamp(x, tau - f, tau + f) from one load step to the next, x = 0 unloaded; theta_j = c_j x. Parameter b_j
+// = c_j f_j (rad, never negative): the lag once the joint has slipped. The shape depends on f_j: the working
+// point has it, 0 meaning small.
+//
+// Friction that grips by a spring of its own before it slips (Jenkins; many sliders: Iwan 1966), beside the
+// joint's: theta_j = c_j (tau - sum_s g_s), g_s <- clamp(g_s + r k_j / n dtheta, -f_s, f_s), with f_s evenly
+// spread from little to twice the mean and their sum f_j. The seventh parameter is a step of the logarithm
+// of r, one for all joints, about the working point's.
 
 namespace {
 
@@ -107,22 +118,37 @@ void settleSoft(WorkingPoint& at, Eigen::VectorXd& own) {
 }
 
 EffectModel softModel(const char* shape, decltype(EffectModel::angles) angles) {
-  EffectModel model{
-      Effect::hysteresis, shape, jointParts(20e-3, true, "rad"), 7, nullptr, angles, &settleSoft};
+  EffectModel model{.shape = shape,
+                    .parts = jointParts(20e-3, true, "rad"),
+                    .most_parts = 7,
+                    .angles = angles,
+                    .settle = &settleSoft};
   constexpr double kMost = 5.0;
   model.parts.push_back({"firmness of the grip", {kMost}, false, "of its logarithm"});
   return model;
 }
 
-}  // namespace
-
-EffectModel hysteresis() {
-  return {Effect::hysteresis, "a rigid grip",        jointParts(20e-3, true, "rad"), 6, nullptr,
-          &rigidGrip,         &settleRigid};
+std::string missing(const CampaignContents& has) {
+  if (!has.return_to_zero) return "no return to zero: a last, unloaded step in each posture is needed";
+  return {};
 }
 
-EffectModel hysteresisOneSlider() { return softModel("a slider held by a spring", &softGrip<1>); }
+std::vector<EffectModel> models(const std::vector<std::string>&) {
+  return {{.shape = "a rigid grip",
+           .parts = jointParts(20e-3, true, "rad"),
+           .most_parts = 6,
+           .angles = &rigidGrip,
+           .settle = &settleRigid},
+          softModel("a slider held by a spring", &softGrip<1>),
+          softModel("many sliders held by springs", &softGrip<8>)};
+}
 
-EffectModel hysteresisManySliders() { return softModel("many sliders held by springs", &softGrip<8>); }
+}  // namespace
+
+const EffectRecord& hysteresis() {
+  static const EffectRecord record{
+      .effect = Effect::hysteresis, .nature = EffectNature::machine, .missing = &missing, .models = &models};
+  return record;
+}
 
 }  // namespace stiffscope::effects

@@ -1,8 +1,12 @@
-#include "core/effects/joint_coupling.h"
+#include "core/effects/all.h"
 
 #include <fmt/format.h>
 
 namespace stiffscope::effects {
+
+// Torque at one joint turns another: a compliance c_ab off the diagonal, theta_a += c_ab tau_b, theta_b +=
+// c_ab tau_a (symmetric by Maxwell and Betti), one for each of the fifteen pairs; of either sign, rad/Nm.
+// Torques of own weight and load together.
 
 namespace {
 
@@ -19,16 +23,21 @@ JointAngles angles(const WorkingPoint&, const PostureStates& posture, std::size_
   return result;
 }
 
+std::vector<EffectModel> models(const std::vector<std::string>&) {
+  EffectModel model{.angles = &angles};
+  for (int a = 1; a <= 6; ++a) {
+    for (int b = a + 1; b <= 6; ++b)
+      model.parts.push_back({fmt::format("joints {} and {}", a, b), {1e-4}, false, "rad/Nm"});
+  }
+  return {model};
+}
+
 }  // namespace
 
-EffectModel jointCoupling() {
-  EffectModel model{Effect::joint_coupling, "", {}, 1, nullptr, &angles};
-  for (int a = 1; a <= 6; ++a) {
-    for (int b = a + 1; b <= 6; ++b) {
-      model.parts.push_back({fmt::format("joints {} and {}", a, b), {1e-4}, false, "rad/Nm"});
-    }
-  }
-  return model;
+const EffectRecord& jointCoupling() {
+  static const EffectRecord record{
+      .effect = Effect::joint_coupling, .nature = EffectNature::machine, .models = &models};
+  return record;
 }
 
 }  // namespace stiffscope::effects

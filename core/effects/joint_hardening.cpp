@@ -1,9 +1,23 @@
-#include "core/effects/joint_hardening.h"
+#include "core/effects/all.h"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
 
 namespace stiffscope::effects {
+
+// Stiffness grows (or drops) with torque: theta_j = c_j tau - h_j tau^3 (even stiffness k(tau), first term
+// of its series), or, the other usual form, theta_j = c_j tau - h_j tau |tau|; tau of own weight and load
+// together. Parameters h_j of either sign, one a joint: rad/Nm^3 or rad/Nm^2. The further forms are whole
+// where the first two are the start of a series: a spring tau = k theta + k_3 theta^3, of which theta = c
+// tau g, g + a tau^2 g^3 = 1; and stiffnesses k (1 + a tau^2), k (1 + a |tau|). Their h_j = c_j a_j; the
+// shape takes a_j from the working point.
+//
+// By stages, as gear makers' catalogues give it: theta_j = c_j tau - sum_b h_jb sign(tau) max(|tau| - t_b,
+// 0), six knots t_b evenly up to the largest torque T the joint sees; h_jb in rad/Nm. By a smooth curve: the
+// compliance is continuous and its slope is by stages, theta_j = c_j tau - sum_b h_jb sign(tau) max(|tau| -
+// t_b, 0)^2 / (2 T), knots at 0, T/8, T/4, T/2, closer where gears give way at their first loads; closer
+// still they would pass for backlash.
 
 namespace {
 
@@ -51,13 +65,19 @@ void settleSquare(WorkingPoint& at, Eigen::VectorXd& own) { at.harder_by_square 
 void settleSize(WorkingPoint& at, Eigen::VectorXd& own) { at.harder_by_size = overCompliance(at, own); }
 
 EffectModel bySquare(const char* shape, decltype(EffectModel::angles) angles) {
-  return {Effect::joint_hardening, shape,  jointParts(1e-6, false, "rad/Nm^3"), 6, nullptr,
-          angles,                  &settleSquare};
+  return {.shape = shape,
+          .parts = jointParts(1e-6, false, "rad/Nm^3"),
+          .most_parts = 6,
+          .angles = angles,
+          .settle = &settleSquare};
 }
 
 EffectModel bySize(const char* shape, decltype(EffectModel::angles) angles) {
-  return {Effect::joint_hardening, shape, jointParts(1e-6, false, "rad/Nm^2"), 6, nullptr, angles,
-          &settleSize};
+  return {.shape = shape,
+          .parts = jointParts(1e-6, false, "rad/Nm^2"),
+          .most_parts = 6,
+          .angles = angles,
+          .settle = &settleSize};
 }
 
 JointAngles cubic(const WorkingPoint&, const PostureStates& posture, std::size_t i) {
@@ -99,31 +119,41 @@ JointAngles smoothCurve(const WorkingPoint& at, const PostureStates& posture, st
   return result;
 }
 
-EffectModel byKnots(const char* shape, int knots, decltype(EffectModel::angles) angles) {
+EffectModel byKnots(const char* shape, const char* knot, int knots, decltype(EffectModel::angles) angles) {
   constexpr double kMost = 1e-3;  // rad/Nm
-  EffectModel model{Effect::joint_hardening, shape, jointParts(kMost, false, "rad/Nm"), 6, nullptr, angles};
-  for (EffectPart& part : model.parts) part.most.assign(static_cast<std::size_t>(knots), kMost);
+  EffectModel model{
+      .shape = shape, .parts = jointParts(kMost, false, "rad/Nm"), .most_parts = 6, .angles = angles};
+  for (EffectPart& part : model.parts) {
+    part.most.assign(static_cast<std::size_t>(knots), kMost);
+    for (int b = 1; b <= knots; ++b) part.names.push_back(fmt::format("{} {} {}", part.detail, knot, b));
+  }
   return model;
+}
+
+std::string missing(const CampaignContents& has) {
+  if (has.load_steps < 2)
+    return "one load step: two or more loads of different size in each posture are needed";
+  return {};
+}
+
+std::vector<EffectModel> models(const std::vector<std::string>&) {
+  return {bySquare("stiffness with the square of the torque", &cubic),
+          bySize("stiffness with the size of the torque", &square),
+          bySquare("a spring with a cubic term", &cubicSpring),
+          bySquare("stiffness with the square of the torque, to any size", &cubicWhole),
+          bySize("stiffness with the size of the torque, to any size", &squareWhole),
+          byKnots("by stages of the torque", "stage", kKnots, &stages),
+          byKnots("by a smooth curve of the torque", "bend", kBends, &smoothCurve)};
 }
 
 }  // namespace
 
-EffectModel jointHardening() { return bySquare("stiffness with the square of the torque", &cubic); }
-
-EffectModel jointHardeningLinear() { return bySize("stiffness with the size of the torque", &square); }
-
-EffectModel jointHardeningCubicSpring() { return bySquare("a spring with a cubic term", &cubicSpring); }
-
-EffectModel jointHardeningWhole() {
-  return bySquare("stiffness with the square of the torque, to any size", &cubicWhole);
+const EffectRecord& jointHardening() {
+  static const EffectRecord record{.effect = Effect::joint_hardening,
+                                   .nature = EffectNature::machine,
+                                   .missing = &missing,
+                                   .models = &models};
+  return record;
 }
-
-EffectModel jointHardeningLinearWhole() {
-  return bySize("stiffness with the size of the torque, to any size", &squareWhole);
-}
-
-EffectModel jointHardeningByStages() { return byKnots("by stages of the torque", kKnots, &stages); }
-
-EffectModel jointHardeningSmooth() { return byKnots("by a smooth curve of the torque", kBends, &smoothCurve); }
 
 }  // namespace stiffscope::effects

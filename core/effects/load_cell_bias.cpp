@@ -1,6 +1,11 @@
-#include "core/effects/load_cell_bias.h"
+#include "core/effects/all.h"
 
 namespace stiffscope::effects {
+
+// A constant force added to, or missing from, the readings of loaded states (not of unloaded ones or of
+// returns to zero): the true force is the reading plus b. Constant in the cell's axes (an amplifier's zero),
+// or constant along gravity (a shackle that hangs with the load and was not weighed). b in N, at most 2 kN.
+// Bilinear with the compliances.
 
 namespace {
 
@@ -24,20 +29,39 @@ Eigen::MatrixXd alongGravity(const WorkingPoint& at, const PostureStates& postur
                   -at.r0_from_base_link.linear().col(2));
 }
 
-}  // namespace
-
-EffectModel loadCellBias() {
-  return {Effect::load_cell_bias,
-          "constant in the cell's axes",
-          {{"", {2e3, 2e3, 2e3}, false, "N"}},
-          1,
-          &inCell,
-          nullptr};
+void correctForce(const Vector6d&, WorkingPoint&, Corrections& corrections, Eigen::VectorXd& own) {
+  corrections.cell_force = own;
 }
 
-EffectModel loadCellMissingWeight() {
-  return {
-      Effect::load_cell_bias, "constant along gravity", {{"", {2e3}, false, "N"}}, 1, &alongGravity, nullptr};
+void correctWeight(const Vector6d&, WorkingPoint&, Corrections& corrections, Eigen::VectorXd& own) {
+  corrections.missing_weight = own[0];
+}
+
+std::string missing(const CampaignContents& has) {
+  if (has.load_steps < 2)
+    return "one load step: a constant part of the force needs two or more loads of different size";
+  return {};
+}
+
+std::vector<EffectModel> models(const std::vector<std::string>&) {
+  return {{.shape = "constant in the cell's axes",
+           .parts = {{"", {2e3, 2e3, 2e3}, false, "N", {"x", "y", "z"}}},
+           .offset = &inCell,
+           .correct = &correctForce},
+          {.shape = "constant along gravity",
+           .parts = {{"", {2e3}, false, "N"}},
+           .offset = &alongGravity,
+           .correct = &correctWeight}};
+}
+
+}  // namespace
+
+const EffectRecord& loadCellBias() {
+  static const EffectRecord record{.effect = Effect::load_cell_bias,
+                                   .nature = EffectNature::measurement,
+                                   .missing = &missing,
+                                   .models = &models};
+  return record;
 }
 
 }  // namespace stiffscope::effects

@@ -1,6 +1,9 @@
-#include "core/effects/load_cell_misalignment.h"
+#include "core/effects/all.h"
 
 namespace stiffscope::effects {
+
+// The load cell is turned against its declared axes by a small rotation w (flange axes, rad, at most 0.3):
+// force and moment are in truth (I + w x) of what was read. Bilinear with the compliances.
 
 namespace {
 
@@ -15,10 +18,21 @@ Eigen::MatrixXd offset(const WorkingPoint& at, const PostureStates& posture, std
   return columns;
 }
 
+void correct(const Vector6d&, WorkingPoint&, Corrections& corrections, Eigen::VectorXd& own) {
+  corrections.cell_turn = own;
+}
+
+std::vector<EffectModel> models(const std::vector<std::string>&) {
+  const EffectPart turn{"", {0.3, 0.3, 0.3}, false, "rad", {"turn about x", "turn about y", "turn about z"}};
+  return {{.parts = {turn}, .offset = &offset, .correct = &correct}};
+}
+
 }  // namespace
 
-EffectModel loadCellMisalignment() {
-  return {Effect::load_cell_misalignment, "", {{"", {0.3, 0.3, 0.3}, false, "rad"}}, 1, &offset, nullptr};
+const EffectRecord& loadCellMisalignment() {
+  static const EffectRecord record{
+      .effect = Effect::load_cell_misalignment, .nature = EffectNature::measurement, .models = &models};
+  return record;
 }
 
 }  // namespace stiffscope::effects

@@ -1,6 +1,10 @@
-#include "core/effects/load_point_error.h"
+#include "core/effects/all.h"
 
 namespace stiffscope::effects {
+
+// The load acts elsewhere on the tool than declared: its point is off by r in flange axes, which changes the
+// moment by (R r) x F; the springs turn accordingly. r in m, at most 0.3 m each way. Bilinear with the
+// compliances.
 
 namespace {
 
@@ -14,10 +18,22 @@ Eigen::MatrixXd offset(const WorkingPoint& at, const PostureStates& posture, std
   return columns;
 }
 
+void correct(const Vector6d&, WorkingPoint&, Corrections& corrections, Eigen::VectorXd& own) {
+  corrections.load_point = own;
+}
+
+std::vector<EffectModel> models(const std::vector<std::string>&) {
+  return {{.parts = {{"", {0.3, 0.3, 0.3}, false, "m", {"x", "y", "z"}}},
+           .offset = &offset,
+           .correct = &correct}};
+}
+
 }  // namespace
 
-EffectModel loadPointError() {
-  return {Effect::load_point_error, "", {{"", {0.3, 0.3, 0.3}, false, "m"}}, 1, &offset, nullptr};
+const EffectRecord& loadPointError() {
+  static const EffectRecord record{
+      .effect = Effect::load_point_error, .nature = EffectNature::load, .models = &models};
+  return record;
 }
 
 }  // namespace stiffscope::effects

@@ -1,8 +1,17 @@
-#include "core/effects/target_motion.h"
+#include "core/effects/all.h"
 
 #include <algorithm>
 
 namespace stiffscope::effects {
+
+// One reflector moves in its nest under load. Shapes of its shift u, R the flange's axes, f the force on the
+// tool in them, F the campaign's largest force (N), u in m, parameters at most 5 mm each way:
+//  - in proportion to the load: u = R a |f|/F, three parameters a reflector;
+//  - by a step as soon as it is loaded: u = R a, gone without load;
+//  - by a slip that stays: u = R a from the first load on, through the return to zero; or only once the
+//    force has passed half, or four fifths, of F;
+//  - by a spring of the nest: u = R A f/F, A symmetric (xx, yy, zz, xy, xz, yz), six a reflector;
+//  - by a slip along the pull that stays: u = a R p/F, p the largest f so far, one a reflector.
 
 namespace {
 
@@ -62,43 +71,44 @@ Eigen::MatrixXd pulledAlong(const WorkingPoint& at, const PostureStates& posture
   return forEach(at, posture[i], posture[largestSoFar(posture, i)].load.force / at.largest_force);
 }
 
-EffectModel modelOf(const std::vector<std::string>& targets, const char* shape, std::size_t parameters,
-                    decltype(EffectModel::offset) offset) {
+const std::vector<std::string> kAlongAxes{"x", "y", "z"}, kOfSpring{"xx", "yy", "zz", "xy", "xz", "yz"};
+
+EffectModel modelOf(const std::vector<std::string>& targets, const char* shape,
+                    const std::vector<std::string>& parameters, decltype(EffectModel::offset) offset) {
   constexpr double kMost = 5e-3;  // m: a reflector further out would have left its nest
-  EffectModel model{Effect::target_motion, shape, {}, 1, offset, nullptr};
-  for (const std::string& target : targets)
-    model.parts.push_back({target, std::vector<double>(parameters, kMost), false, "m"});
+  EffectModel model{.shape = shape, .offset = offset};
+  for (const std::string& target : targets) {
+    EffectPart part{target, std::vector<double>(std::max<std::size_t>(1, parameters.size()), kMost), false,
+                    "m"};
+    for (const std::string& one : parameters) part.names.push_back(target + " " + one);
+    model.parts.push_back(std::move(part));
+  }
   return model;
+}
+
+std::string missing(const CampaignContents& has) {
+  if (has.reflectors < 3) return "fewer than three reflectors: one that moves shows only against two others";
+  return {};
+}
+
+std::vector<EffectModel> models(const std::vector<std::string>& targets) {
+  return {modelOf(targets, "in proportion to the load", kAlongAxes, &proportional),
+          modelOf(targets, "by a step under load", kAlongAxes, &step),
+          modelOf(targets, "by a slip that stays", kAlongAxes, &lasting),
+          modelOf(targets, "by a slip beyond half the load that stays", kAlongAxes, &lastingFrom<50>),
+          modelOf(targets, "by a slip near the full load that stays", kAlongAxes, &lastingFrom<80>),
+          modelOf(targets, "by a spring of the nest", kOfSpring, &spring),
+          modelOf(targets, "by a slip along the pull that stays", {}, &pulledAlong)};
 }
 
 }  // namespace
 
-EffectModel targetMotion(const std::vector<std::string>& targets) {
-  return modelOf(targets, "in proportion to the load", 3, &proportional);
-}
-
-EffectModel targetSlip(const std::vector<std::string>& targets) {
-  return modelOf(targets, "by a step under load", 3, &step);
-}
-
-EffectModel targetLastingSlip(const std::vector<std::string>& targets) {
-  return modelOf(targets, "by a slip that stays", 3, &lasting);
-}
-
-EffectModel targetSlipFromHalf(const std::vector<std::string>& targets) {
-  return modelOf(targets, "by a slip beyond half the load that stays", 3, &lastingFrom<50>);
-}
-
-EffectModel targetSlipAtFull(const std::vector<std::string>& targets) {
-  return modelOf(targets, "by a slip near the full load that stays", 3, &lastingFrom<80>);
-}
-
-EffectModel targetNestSpring(const std::vector<std::string>& targets) {
-  return modelOf(targets, "by a spring of the nest", 6, &spring);
-}
-
-EffectModel targetPulledAlong(const std::vector<std::string>& targets) {
-  return modelOf(targets, "by a slip along the pull that stays", 1, &pulledAlong);
+const EffectRecord& targetMotion() {
+  static const EffectRecord record{.effect = Effect::target_motion,
+                                   .nature = EffectNature::measurement,
+                                   .missing = &missing,
+                                   .models = &models};
+  return record;
 }
 
 }  // namespace stiffscope::effects

@@ -1,44 +1,60 @@
-#include "core/effects/tool_compliance.h"
+#include "core/effects/all.h"
 
 namespace stiffscope::effects {
 
+// The plate between flange and reflectors gives: rotation about the flange origin about its three axes by
+// the moment there, shift along them by the force, in flange axes. Either of the load and of what hangs on
+// the flange, or of the load alone, where the tool's weight does not go through the plate. The turn about
+// axis 6 is joint 6's own compliance where both axes agree. rad/Nm and m/N, never negative.
+
 namespace {
 
-Eigen::MatrixXd byWrench(const ArmState& state, const robot::Wrench& load) {
-  const Eigen::Vector3d origin = state.flange.translation();
-  const Eigen::Matrix3d axes = state.flange.linear();
-  Eigen::MatrixXd columns(state.rows(), 6);
+std::vector<BodyTwist> byWrench(const ArmState& state, const robot::Wrench& load) {
+  std::vector<BodyTwist> twists(6, {.first_body = kToolBody, .pivot = state.flange.translation()});
   for (int k = 0; k < 3; ++k) {
-    const Eigen::Vector3d axis = axes.col(k);
-    columns.col(k) = byMotion(state, origin, axis * axis.dot(load.moment), Eigen::Vector3d::Zero());
-    columns.col(3 + k) = byMotion(state, origin, Eigen::Vector3d::Zero(), axis * axis.dot(load.force));
+    const Eigen::Vector3d axis = state.flange.linear().col(k);
+    twists[static_cast<std::size_t>(k)].rotation = axis * axis.dot(load.moment);
+    twists[static_cast<std::size_t>(3 + k)].shift = axis * axis.dot(load.force);
   }
-  return columns;
+  return twists;
 }
 
-Eigen::MatrixXd withWeight(const WorkingPoint&, const PostureStates& posture, std::size_t i) {
+std::vector<BodyTwist> withWeight(const WorkingPoint&, const PostureStates& posture, std::size_t i) {
   return byWrench(posture[i], carried(posture[i], 6, posture[i].flange.translation()));
 }
 
-Eigen::MatrixXd byLoad(const WorkingPoint&, const PostureStates& posture, std::size_t i) {
+std::vector<BodyTwist> byLoad(const WorkingPoint&, const PostureStates& posture, std::size_t i) {
   return byWrench(posture[i], posture[i].load.about(posture[i].flange.translation()));
 }
 
-EffectModel modelOf(const char* shape, decltype(EffectModel::offset) offset) {
-  EffectModel model{Effect::tool_compliance, shape, {}, 6, offset, nullptr};
-  for (const char* name : {"bending about x", "bending about y", "twist about z"}) {
+EffectModel modelOf(const char* shape, decltype(EffectModel::twists) twists) {
+  EffectModel model{.shape = shape, .most_parts = 6, .twists = twists, .beyond_flange = true};
+  for (const char* name : {"bending about x", "bending about y", "twist about z"})
     model.parts.push_back({name, {1e-4}, true, "rad/Nm"});
-  }
-  for (const char* name : {"shift along x", "shift along y", "shift along z"}) {
+  for (const char* name : {"shift along x", "shift along y", "shift along z"})
     model.parts.push_back({name, {1e-5}, true, "m/N"});
-  }
   return model;
+}
+
+std::string missing(const CampaignContents& has) {
+  if (has.reflectors < 2 && !has.moments)
+    return "one reflector at the loaded point: more reflectors, and moments, on the tool are needed";
+  return {};
+}
+
+std::vector<EffectModel> models(const std::vector<std::string>&) {
+  return {modelOf("by the load and what hangs on the flange", &withWeight),
+          modelOf("by the load alone", &byLoad)};
 }
 
 }  // namespace
 
-EffectModel toolCompliance() { return modelOf("by the load and what hangs on the flange", &withWeight); }
-
-EffectModel toolComplianceByLoad() { return modelOf("by the load alone", &byLoad); }
+const EffectRecord& toolCompliance() {
+  static const EffectRecord record{.effect = Effect::tool_compliance,
+                                   .nature = EffectNature::machine,
+                                   .missing = &missing,
+                                   .models = &models};
+  return record;
+}
 
 }  // namespace stiffscope::effects

@@ -1,8 +1,11 @@
-#include "core/effects/tracker_drift.h"
+#include "core/effects/all.h"
 
 #include <cmath>
 
 namespace stiffscope::effects {
+
+// Readings wander with time: a rigid motion that grows with the time since the sweeps, rotation about the
+// middle of the readings and shift, in rad and m over the whole of the loading.
 
 namespace {
 
@@ -20,15 +23,24 @@ Eigen::MatrixXd offset(const WorkingPoint& at, const PostureStates& posture, std
   return columns;
 }
 
+std::string missing(const CampaignContents& has) {
+  if (!has.nests && (!has.times || !has.absolute))
+    return "no floor nests and no absolute positions with times: read three nests before, during and after";
+  return {};
+}
+
+std::vector<EffectModel> models(const std::vector<std::string>&) {
+  return {{.parts = {rigidMotionPart(0.05)}, .offset = &offset}};
+}
+
 }  // namespace
 
-EffectModel trackerDrift() {
-  return {Effect::tracker_drift,
-          "",
-          {{"", {0.05, 0.05, 0.05, 0.05, 0.05, 0.05}, false, "rad, m"}},
-          1,
-          &offset,
-          nullptr};
+const EffectRecord& trackerDrift() {
+  static const EffectRecord record{.effect = Effect::tracker_drift,
+                                   .nature = EffectNature::measurement,
+                                   .missing = &missing,
+                                   .models = &models};
+  return record;
 }
 
 }  // namespace stiffscope::effects

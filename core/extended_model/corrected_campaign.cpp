@@ -1,22 +1,20 @@
 #include "core/extended_model/corrected_campaign.h"
 
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <map>
 
-#include "core/effects/effect_model.h"
+#include "core/effects/all.h"
+#include "core/effects/elastic_arm.h"
 #include "core/effects/gravity_equilibrium.h"
-#include "core/extended_model/extended_arm.h"
+#include "core/extended_model/effect_fit.h"
 #include "core/extended_model/fitted_effects.h"
 #include "core/identification/outliers.h"
 #include "core/io/input_error.h"
 #include "metrology/rigid_motion.h"
 
 namespace stiffscope::extended_model {
-
-/// Corrects the load cell's declared point by load_point_error, and the readings in `states` by misalignment (a
-/// finite rotation) and bias. Throws InputError where the point does not move with the flange.
-void correctWrenches(const EffectFit& effects, const Eigen::VectorXd& parameters, campaign::Campaign& campaign);
 
 namespace {
 
@@ -59,50 +57,52 @@ const effects::ArmState* stateOf(const diagnosis::GapFit& fit, const campaign::S
   return nullptr;
 }
 
-}  // namespace
-
-void correctWrenches(const EffectFit& effects, const Eigen::VectorXd& parameters, campaign::Campaign& campaign) {
+/// What the effects correct in wrenches and frame, as the fit's own equations have it.
+effects::Corrections correctionsBy(const EffectFit& effects, const Eigen::VectorXd& parameters) {
   const diagnosis::GapLayout& layout = effects.fit.data.layout;
-  const Eigen::Vector3d up = effects.fit.state.at.r0_from_base_link.linear().col(2);
-  const Eigen::Vector3d load_offset = effects.fit.state.at.load_offset;
+  effects::WorkingPoint at = effects.fit.state.at;
+  effects::Corrections corrections;
   for (const diagnosis::ChosenModel& one : effects.fit.set.models) {
     const effects::EffectModel& model = effects.input->models[one.model];
-    const Eigen::VectorXd own = parameters.segment(layout.model_at[one.model] - layout.effects,
-                                                   static_cast<Eigen::Index>(model.parameters()));
-    if (model.effect == effects::Effect::load_point_error) moveLoadPoint(own.head<3>(), campaign);
-    const bool turned = model.effect == effects::Effect::load_cell_misalignment, biased = model.effect == effects::Effect::load_cell_bias;
-    if (!turned && !biased) continue;
-    for (campaign::State& row : campaign.states->rows) {
-      const effects::ArmState* state = stateOf(effects.fit, row);
-      if (state == nullptr) continue;
-      auto force = row.wrench_in_cell.head<3>();
-      auto moment = row.wrench_in_cell.tail<3>();
-      if (turned) {
-        const Eigen::Matrix3d turn = turnOf(own.head<3>());
-        force = turn * Eigen::Vector3d(force);
-        moment = turn * Eigen::Vector3d(moment);
-      } else if (state->loaded) {
-        if (own.size() == 3) force += own;
-        if (own.size() == 1) {
-          const Eigen::Vector3d weight = -own[0] * up;
-          force += state->cell_axes.transpose() * weight;
-          moment += state->cell_axes.transpose() * (state->flange.linear() * load_offset).cross(weight);
-        }
-      }
-    }
+    if (!model.correct) continue;
+    Eigen::VectorXd own = parameters.segment(layout.model_at[one.model] - layout.effects,
+                                             static_cast<Eigen::Index>(model.parameters()));
+    model.correct(at.compliance, at, corrections, own);
+  }
+  return corrections;
+}
+
+/// Corrects the load cell's declared point, and the readings in `states` by a finite rotation and a missing force. Throws
+/// InputError where the point does not move with the flange.
+void correctWrenches(const EffectFit& effects, const effects::Corrections& by, campaign::Campaign& campaign) {
+  if (!by.load_point.isZero(0.0)) moveLoadPoint(by.load_point, campaign);
+  const Eigen::Matrix3d turn = turnOf(by.cell_turn);
+  const Eigen::Vector3d weight = -by.missing_weight * effects.fit.state.at.r0_from_base_link.linear().col(2);
+  for (campaign::State& row : campaign.states->rows) {
+    const effects::ArmState* state = stateOf(effects.fit, row);
+    if (state == nullptr) continue;
+    auto force = row.wrench_in_cell.head<3>();
+    auto moment = row.wrench_in_cell.tail<3>();
+    force = turn * Eigen::Vector3d(force);
+    moment = turn * Eigen::Vector3d(moment);
+    if (!state->loaded) continue;
+    const Eigen::Vector3d arm = state->flange.linear() * effects.fit.state.at.load_offset;
+    force += by.cell_force + state->cell_axes.transpose() * weight;
+    moment += state->cell_axes.transpose() * arm.cross(weight);
   }
 }
 
-namespace {
-
-/// Which effects shift readings, the others act through the wrench or the frame.
-bool shiftsReadings(effects::Effect effect) { return effect == effects::Effect::target_motion || effect == effects::Effect::tracker_drift; }
+/// Whether the effect shifts readings: other faults of the measurement act through the wrench or the frame.
+bool shiftsReadings(const effects::EffectModel& model) {
+  return effects::natureOf(model.effect) == effects::EffectNature::measurement && !model.correct;
+}
 
 bool hasMachine(const EffectFit& effects) {
-  for (const diagnosis::ChosenModel& one : effects.fit.set.models) {
-    if (effects::natureOf(effects.input->models[one.model].effect) == effects::EffectNature::machine) return true;
-  }
-  return false;
+  return std::any_of(effects.fit.set.models.begin(), effects.fit.set.models.end(),
+                     [&](const diagnosis::ChosenModel& one) {
+                       return effects::natureOf(effects.input->models[one.model].effect) ==
+                              effects::EffectNature::machine;
+                     });
 }
 
 }  // namespace
@@ -112,11 +112,11 @@ PostureOffsets::PostureOffsets(const EffectFit& effects, const Eigen::VectorXd& 
     : effects_(effects), parameters_(parameters), posture_(posture), which_(which) {
   if (!which.machine || !hasMachine(effects)) return;
   const diagnosis::GapState& state = effects.fit.state;
-  const ImprovedArm with(effects, parameters, state.geometry, state.at.compliance);
-  const ImprovedArm springs(effects, Eigen::VectorXd::Zero(parameters.size()), state.geometry, state.at.compliance);
+  const effects::ElasticArm with(state.geometry, state.at.compliance, state.at, machineEffects(effects, parameters));
+  const effects::ElasticArm springs(state.geometry, state.at.compliance, state.at, {});
   for (std::size_t s = 0; s < posture.size(); ++s) {
-    ToolLoad load{{}, posture[s].load.force, posture[s].load.moment};
-    const auto restOf = [&](const ImprovedArm& arm) {
+    effects::ToolLoad load{{}, posture[s].load.force, posture[s].load.moment};
+    const auto restOf = [&](const effects::ElasticArm& arm) {
       if (s > 0) load.point_at_zero = with_.front().inverse() * posture[s].load.point;
       return arm.toolMotion(posture, s, s > 0 ? &load : nullptr);
     };
@@ -136,7 +136,7 @@ std::vector<Eigen::Vector3d> PostureOffsets::linear(int target, const Eigen::Vec
   const diagnosis::GapLayout& layout = effects_.fit.data.layout;
   for (const diagnosis::ChosenModel& one : effects_.fit.set.models) {
     const effects::EffectModel& model = effects_.input->models[one.model];
-    const bool wanted = machine ? effects::natureOf(model.effect) == effects::EffectNature::machine : shiftsReadings(model.effect);
+    const bool wanted = machine ? effects::natureOf(model.effect) == effects::EffectNature::machine : shiftsReadings(model);
     if (!wanted) continue;
     const Eigen::VectorXd own = parameters_.segment(layout.model_at[one.model] - layout.effects,
                                                     static_cast<Eigen::Index>(model.parameters()));
@@ -278,15 +278,6 @@ void shiftReadings(const EffectFit& effects, const Eigen::VectorXd& parameters, 
 
 namespace {
 
-Vector6d frameMotion(const EffectFit& effects, const Eigen::VectorXd& parameters) {
-  for (const diagnosis::ChosenModel& one : effects.fit.set.models) {
-    if (effects.input->models[one.model].effect != effects::Effect::frame_error) continue;
-    const diagnosis::GapLayout& layout = effects.fit.data.layout;
-    return parameters.segment<6>(layout.model_at[one.model] - layout.effects);
-  }
-  return Vector6d::Zero();
-}
-
 void leaveOutUnknown(const EffectFit& effects, campaign::Campaign& campaign, std::vector<std::string>* left_out) {
   std::vector<identification::OutlyingPosture> without;
   for (const campaign::State& row : campaign.states->rows) {
@@ -311,10 +302,11 @@ campaign::Campaign withoutEffects(const campaign::Campaign& campaign, const Effe
   campaign::Campaign result = campaign;
   if (effects.fit.set.models.empty()) return result;
   leaveOutUnknown(effects, result, left_out);
-  correctWrenches(effects, parameters, result);
+  const effects::Corrections corrections = correctionsBy(effects, parameters);
+  correctWrenches(effects, corrections, result);
   ShiftOptions options;
   options.which.machine = which != TakenOff::measurement;
-  options.frame = frameMotion(effects, parameters);
+  options.frame = corrections.frame;
   options.sweeps = which == TakenOff::everything;
   shiftReadings(effects, parameters, options, result);
   return result;

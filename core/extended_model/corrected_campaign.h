@@ -18,7 +18,7 @@ class PostureOffsets {
   PostureOffsets(const EffectFit& effects, const Eigen::VectorXd& parameters, const effects::PostureStates& posture, Which which);
 
   /// Of a reflector that stands at `place` unloaded, one a state. The machine's part is the difference between where the
-  /// arm with its effects stands and where joint springs alone would have it (ImprovedArm), readings' the fit's own
+  /// arm with its effects stands and where joint springs alone would have it (ElasticArm), readings' the fit's own
   /// linear model.
   std::vector<Eigen::Vector3d> of(int target, const Eigen::Vector3d& place) const;
 
@@ -52,7 +52,7 @@ enum class TakenOff {
 
 /// The campaign as it would have been read without the effects, at the given size of their parameters (as
 /// EffectFit::parameters). Off every reading of loading, displacements and, where they took part in the fit, sweeps goes
-/// what the effects add in its state, own weight's part included (effect_offsets.h). Effects that act through the
+/// what the effects add in its state, own weight's part included. Effects that act through the
 /// wrench change the load cell's declared point (load_point_error) or the readings in `states` (misalignment, bias); a
 /// moved frame is undone by its finite motion.
 ///

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include "core/effects/effect_model.h"
+#include "core/effects/all.h"
 #include "core/effects/gravity_equilibrium.h"
-#include "core/extended_model/extended_arm.h"
+#include "core/extended_model/effect_fit.h"
 
 namespace stiffscope::extended_model {
 
@@ -12,7 +12,8 @@ namespace {
 
 effects::RestingFlange flangeOf(const ImprovedModel& model, const frames::LoadingGeometry& geometry, const Eigen::VectorXd& parameters,
                        const Vector6d& compliance) {
-  const auto arm = std::make_shared<const ImprovedArm>(model.effects, parameters, geometry, compliance);
+  const auto arm = std::make_shared<const effects::ElasticArm>(geometry, compliance, model.effects.fit.state.at,
+                                                             machineEffects(model.effects, parameters));
   return [&model, &geometry, arm](const Vector6d& commands, const effects::FlangeLoad& load) -> std::optional<Eigen::Isometry3d> {
     const Eigen::Isometry3d& at_zero = geometry.arm.base_from_flange_at_zero;
     const effects::ArmState rest = effects::restState(geometry, model.effects.fit.state.at, commands);
@@ -20,7 +21,7 @@ effects::RestingFlange flangeOf(const ImprovedModel& model, const frames::Loadin
     states[1].step = 1;
     states[1].loaded = true;
     const bool loaded = !load.force.isZero(0.0) || !load.moment.isZero(0.0);
-    const ToolLoad own{at_zero * load.point_in_flange, load.force, load.moment};
+    const effects::ToolLoad own{at_zero * load.point_in_flange, load.force, load.moment};
     const auto motion = arm->toolMotion(states, loaded ? 1 : 0, loaded ? &own : nullptr);
     return motion ? std::optional<Eigen::Isometry3d>(*motion * at_zero) : std::nullopt;
   };

@@ -10,7 +10,7 @@
 #include "core/diagnosis/held_out.h"
 #include "core/diagnosis/localization.h"
 #include "core/diagnosis/preconditions.h"
-#include "core/effects/effect_model.h"
+#include "core/effects/all.h"
 #include "core/extended_model/corrected_campaign.h"
 #include "core/io/input_error.h"
 
@@ -32,9 +32,9 @@ std::vector<effects::EffectModel> modelsOf(const std::vector<WantedEffect>& want
 }
 
 void requireTestable(const std::vector<WantedEffect>& wanted, const diagnosis::GapInput& input, const diagnosis::GapStart& start) {
-  const diagnosis::CampaignHas has = diagnosis::whatIsThere(input, diagnosis::gapData(input, start.state, {}), start.state, start.station);
+  const effects::CampaignContents has = diagnosis::whatIsThere(input, diagnosis::gapData(input, start.state, {}), start.state, start.station);
   for (const WantedEffect& one : wanted) {
-    const std::string missing = diagnosis::missingFor(one.effect, has);
+    const std::string missing = effects::missingFor(one.effect, has);
     if (!missing.empty())
       throw io::InputError(kOption, std::string(effects::idOf(one.effect)), "this campaign cannot show that effect: " + missing);
   }
@@ -191,7 +191,7 @@ void describe(EffectFit& effects, const std::vector<bool>& allowed) {
       if (there && !part.detail.empty()) details.push_back(part.detail);
       for (std::size_t k = 0; k < part.most.size(); ++k, ++at) {
         if (!there) continue;
-        EffectParameter parameter{effects::parameterName(model, part, k), effects::parameterUnit(part, k), fit.set.effects[at], 0.0};
+        EffectParameter parameter{effects::parameterName(part, k), effects::parameterUnit(part, k), fit.set.effects[at], 0.0};
         const auto free = std::find(effects.free.begin(), effects.free.end(), at) - effects.free.begin();
         if (free < effects.covariance.rows()) parameter.sd = std::sqrt(effects.covariance(free, free));
         if (std::abs(parameter.value) > part.most[k]) one.plausible = false;
@@ -254,6 +254,10 @@ EffectFit fitEffects(const preparation::PreparedCampaign& prepared, const Wanted
   effects.gap = diagnosis::deflectionGap(alone, before, effects.fit,
                               diagnosis::allParameters(effects.fit.nuisances, effects.fit.set.effects));
   describe(effects, allowed);
+  if (effects.free.empty()) {  // of size zero: the gap stays what stiffnesses alone leave
+    effects.gap.after = effects.gap.before;
+    return effects;
+  }
   const diagnosis::FitRecipe recipe{false, effects.fit.set.models};
   constexpr int kResamples = 120;
   const diagnosis::HeldOutShrink held_out =
@@ -261,6 +265,19 @@ EffectFit fitEffects(const preparation::PreparedCampaign& prepared, const Wanted
   effects.shrink = held_out.deflection;
   effects.explained = held_out.explained;
   return effects;
+}
+
+std::vector<effects::PresentEffect> machineEffects(const EffectFit& effects, const Eigen::VectorXd& parameters) {
+  const diagnosis::GapLayout& layout = effects.fit.data.layout;
+  std::vector<effects::PresentEffect> machine;
+  for (const diagnosis::ChosenModel& one : effects.fit.set.models) {
+    const effects::EffectModel& model = effects.input->models[one.model];
+    if (effects::natureOf(model.effect) != effects::EffectNature::machine) continue;
+    const Eigen::VectorXd own = parameters.segment(layout.model_at[one.model] - layout.effects,
+                                                   static_cast<Eigen::Index>(model.parameters()));
+    if (!own.isZero(0.0)) machine.push_back({&model, own});
+  }
+  return machine;
 }
 
 Eigen::VectorXd parametersFrom(const EffectFit& effects, const std::vector<double>& weights) {

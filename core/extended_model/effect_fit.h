@@ -15,6 +15,9 @@ EffectFit fitEffects(const preparation::PreparedCampaign& prepared, const Wanted
 /// Of a campaign as it was read, which is prepared first.
 EffectFit fitEffects(const campaign::Campaign& campaign, const WantedEffects& wanted);
 
+/// The effects of the machine with their sizes at `parameters`, without those that are zero: what an ElasticArm bears.
+std::vector<effects::PresentEffect> machineEffects(const EffectFit& effects, const Eigen::VectorXd& parameters);
+
 /// The same parameters from a sample of the postures, each with its weight: one linear step from where the fit stands.
 Eigen::VectorXd parametersFrom(const EffectFit& effects, const std::vector<double>& weights);
 

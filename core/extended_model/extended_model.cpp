@@ -129,7 +129,8 @@ ImprovedModel improveModel(const campaign::Campaign& campaign, EffectFit effects
   ImprovedModel model;
   model.effects = std::move(effects);
   model.without = identification::identify(campaign, options);
-  if (model.effects.added.empty()) {
+  // Effects of size zero change nothing and have no covariance to propagate.
+  if (model.effects.free.empty()) {
     model.with = model.without;
     model.campaign = campaign;
     return model;

@@ -17,7 +17,7 @@ struct EffectSpread {
 
 /// Joint springs with further effects.
 ///
-/// The effects come from one joint fit (effect_fit.h). What they do is taken off the campaign (taken_off.h), and the three
+/// The effects come from one joint fit (effect_fit.h). What they do is taken off the campaign (corrected_campaign.h), and the three
 /// methods run on the rest as on any campaign. What then stands in `with`:
 ///  - uncertainty: the scatter between postures that is left, what frames and calibration share, and, as a part of its
 ///    own, sum_k d_k d_k^T over the columns of EffectSpread. Of least squares the two add exactly, because the springs'
@@ -34,7 +34,7 @@ struct ImprovedModel {
   EffectSpread spread;
 };
 
-/// `campaign`: as identification sees it. No effect added: `with` is `without`.
+/// `campaign`: as identification sees it. No effect added, or all of size zero: `with` is `without`.
 ImprovedModel improveModel(const campaign::Campaign& campaign, EffectFit effects, const identification::IdentifyOptions& options);
 
 }  // namespace stiffscope::extended_model

@@ -6,7 +6,6 @@
 #include <set>
 
 #include "core/effects/all.h"
-#include "core/effects/effect_model.h"
 #include "core/io/input_error.h"
 
 namespace stiffscope::extended_model {

@@ -27,7 +27,7 @@ class DeflectionJudge {
   DeflectionJudge() = default;
   /// `equations`: one a posture, three rows a point, positions only.
   explicit DeflectionJudge(const std::vector<CaseEquations>& equations);
-  /// As of byPosture(equations) (posture_influence.h), without a copy of them.
+  /// As of byPosture(equations) (estimate.h), without a copy of them.
   static DeflectionJudge byPosture(const std::vector<CaseEquations>& equations);
 
   std::size_t postures() const { return displacement_.size(); }

@@ -9,8 +9,8 @@
 #include <numeric>
 #include <utility>
 
+#include "core/numerics/distributions.h"
 #include "core/numerics/parallel.h"
-#include "metrology/tail_probability.h"
 
 namespace stiffscope::identification {
 
@@ -61,9 +61,7 @@ double coverageFactor(const Eigen::VectorXd& weights, const EqualWeights& more, 
   });
 }
 
-double studentFactor(double dof, double coverage) {
-  return crossing(kLeast, kMost, 1.0 - coverage, [&](double factor) { return metrology::fTail(factor * factor, 1, dof); });
-}
+double studentFactor(double dof, double coverage) { return numerics::studentLimit(1.0 - coverage, dof); }
 
 double coverageFactor(const StiffnessEstimate& estimate, int joint, double coverage) {
   const double dof = estimate.dof(joint);

@@ -34,7 +34,7 @@ struct StiffnessEstimate {
   Matrix6d covariance = Matrix6d::Zero();
   CovarianceParts parts;
   std::vector<Vector6d> influences;             ///< g_p, one a posture
-  Vector6d scatter_dof = Vector6d::Zero();      ///< of the scatter, by matchedDof (coverage_factor.h)
+  Vector6d scatter_dof = Vector6d::Zero();      ///< of the scatter, by matchedDof
   robot::JointMask identifiable{};
   double condition = 0.0;     ///< of the stacked equations, columns scaled to unit length
   double rms_residual = 0.0;  ///< plain, of the positions the method fits, per coordinate, m

@@ -28,7 +28,7 @@ struct IdentifyOptions {
   SubsetOptions subsets;
   PostureBootstrapOptions bootstrap;
   TrustLimits trust;
-  bool robust = false;  ///< leave postures out that disagree with the rest (outlying_postures.h); they are always named
+  bool robust = false;  ///< leave postures out that disagree with the rest (outliers.h); they are always named
 };
 
 /// Deflection compensated by the estimate from all postures, and over the subsets.

@@ -24,7 +24,7 @@ Identification identify(const campaign::Campaign& campaign, const IdentifyOption
 /// else without.
 frames::Frames settledFrames(const campaign::Campaign& campaign);
 
-/// The result for a campaign without loads (core/identification/load_step.h, whatLoadsLack): its frames, step
+/// The result for a campaign without loads (core/identification/load_case.h, whatLoadsLack): its frames, step
 /// 0, no load case, and for every method and joint what is missing.
 Identification framesAlone(const campaign::Campaign& campaign);
 

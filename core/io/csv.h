@@ -69,9 +69,6 @@ class CsvLines {
   /// What stands behind the line last given.
   std::string_view rest() const { return rest_; }
 
-  /// Whether eight bytes behind each cell of that line can be read, whatever they are (parseEightAtOnce).
-  bool hasRoomBehindCells() const { return rest_.size() >= 8 && unescaped_.empty(); }
-
  private:
   bool nextPlain(std::vector<std::string_view>& cells);
   bool nextLine(std::string_view& line);

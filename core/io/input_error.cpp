@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <cstring>
 #include <fmt/format.h>
 #include <numeric>
+#include <utf8.h>
 
 namespace stiffscope::io {
 
@@ -78,10 +78,14 @@ namespace {
 // Bytes of the character that starts `text`, 0 where it cannot be shown: no UTF-8, or a control character.
 // The C1 ones (U+0080..U+009F) are among them: some terminals obey them.
 std::size_t shownLength(std::string_view text) {
-  const auto first = static_cast<unsigned char>(text[0]);
-  if (first < 0x20 || first == 0x7f) return 0;
-  const std::size_t length = utf8CharacterLength(text);
-  return (first == 0xc2 && length == 2 && static_cast<unsigned char>(text[1]) < 0xa0) ? 0 : length;
+  const char* end = text.data();
+  try {
+    const auto character = static_cast<std::uint32_t>(utf8::next(end, text.data() + text.size()));
+    const bool control = character < 0x20 || (character >= 0x7f && character < 0xa0);
+    return control ? 0 : static_cast<std::size_t>(end - text.data());
+  } catch (const utf8::exception&) {
+    return 0;
+  }
 }
 
 }  // namespace
@@ -113,47 +117,10 @@ std::string withoutControls(std::string_view text) {
   return shown;
 }
 
-namespace {
-
-// Most text is ASCII, of which eight bytes are looked at in one go.
-bool startsWithEightAscii(std::string_view text) {
-  std::uint64_t eight = 0;
-  if (text.size() < sizeof eight) return false;
-  std::memcpy(&eight, text.data(), sizeof eight);
-  return (eight & 0x8080808080808080ull) == 0;
-}
-
-}  // namespace
-
-std::size_t utf8CharacterLength(std::string_view text) {
-  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
-  if (text.empty()) return 0;
-  const unsigned char first = byte(0);
-  if (first < 0x80) return 1;
-  const std::size_t length = first >= 0xf0 ? 4 : first >= 0xe0 ? 3 : 2;
-  if (first < 0xc2 || first > 0xf4 || text.size() < length) return 0;
-  for (std::size_t i = 1; i < length; ++i) {
-    if ((byte(i) & 0xc0) != 0x80) return 0;
-  }
-  // Longer forms than needed, surrogates, and what lies beyond U+10FFFF.
-  const unsigned char second = byte(1);
-  const bool wrong = (first == 0xe0 && second < 0xa0) || (first == 0xed && second >= 0xa0) ||
-                     (first == 0xf0 && second < 0x90) || (first == 0xf4 && second >= 0x90);
-  return wrong ? 0 : length;
-}
-
 std::size_t findNotUtf8(std::string_view text) {
-  std::size_t at = 0;
-  while (at < text.size()) {
-    if (startsWithEightAscii(text.substr(at))) {
-      at += 8;
-      continue;
-    }
-    const std::size_t length = utf8CharacterLength(text.substr(at, 4));
-    if (length == 0) return at;
-    at += length;
-  }
-  return std::string_view::npos;
+  const char* const end = text.data() + text.size();
+  const char* const invalid = utf8::find_invalid(text.data(), end);
+  return invalid == end ? std::string_view::npos : static_cast<std::size_t>(invalid - text.data());
 }
 
 }  // namespace stiffscope::io

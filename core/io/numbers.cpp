@@ -2,7 +2,6 @@
 
 #include <charconv>
 #include <cmath>
-#include <cstdint>
 #include <limits>
 
 namespace stiffscope::io {
@@ -38,9 +37,6 @@ std::string whyNoNumber(std::string_view text) {
   return "expected a number";
 }
 
-constexpr std::size_t kMostDigits = 15;
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-
 }  // namespace
 
 ParsedNumber parseNumber(std::string_view text) {
@@ -57,24 +53,11 @@ ParsedNumber parseNumber(std::string_view text) {
   return number;
 }
 
-double parsePlainNumber(std::string_view text) {
-  const bool minus = !text.empty() && text[0] == '-';
-  std::int64_t digits = 0;
-  std::size_t count = 0, decimals = 0;
-  bool point = false;
-  for (std::size_t i = minus ? 1 : 0; i < text.size(); ++i) {
-    const auto digit = static_cast<unsigned char>(text[i] - '0');
-    if (digit > 9) {
-      if (text[i] != '.' || point) return kNone;
-      point = true;
-      continue;
-    }
-    digits = 10 * digits + digit;
-    decimals += point ? 1 : 0;
-    if (++count > kMostDigits) return kNone;
-  }
-  if (count == 0) return kNone;
-  return decimalNumber(minus, digits, decimals);
+double numberOrNan(std::string_view text) {
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  const bool whole = error == std::errc() && end == text.data() + text.size();
+  return whole && std::isfinite(value) ? value : std::numeric_limits<double>::quiet_NaN();
 }
 
 std::optional<int> parseInteger(std::string_view text) {

@@ -2,8 +2,9 @@
 
 namespace stiffscope::numerics {
 
+// Critical values, by Boost.Math. Without degrees of freedom, and where `tail` is 1 or more, they are zero.
+
 /// The value that a chi-square variable with `dof` degrees of freedom exceeds with probability `tail`.
-/// By bisection on the regularised incomplete gamma function (DLMF 8.11.4 and 8.9.2), to ten digits.
 double chiSquareLimit(double tail, double dof);
 
 /// The value that the magnitude of a standard normal variable exceeds with probability `tail`.
@@ -21,8 +22,7 @@ struct Rate {
 };
 
 /// The interval of C. J. Clopper and E. S. Pearson (Biometrika 26, 1934): the shares p at which neither
-/// P(X >= hits) nor P(X <= hits) is below (1 - level) / 2, X binomial; by bisection to 1e-12. Without trials
-/// (0, 1). Throws std::invalid_argument where hits are not from 0 to trials.
+/// P(X >= hits) nor P(X <= hits) is below (1 - level) / 2, X binomial. Without trials (0, 1). Throws std::invalid_argument where hits are not from 0 to trials.
 Rate binomialRate(int hits, int trials, double level = 0.95);
 
 }  // namespace stiffscope::numerics

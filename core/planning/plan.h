@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/planning/candidates.h"
-#include "core/planning/random_postures.h"
+#include "core/planning/design.h"
 
 namespace stiffscope::planning {
 

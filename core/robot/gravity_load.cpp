@@ -2,15 +2,19 @@
 
 #include <algorithm>
 
+#include "core/robot/spring_equilibrium.h"
+
 namespace stiffscope::robot {
 
 bool OwnWeight::any() const {
   return gravity_in_base.squaredNorm() > 0.0 &&
-         std::any_of(bodies.begin() + 1, bodies.end(), [](const BodyMass& body) { return body.mass_kg > 0.0; });
+         std::any_of(bodies.begin() + 1, bodies.end(),
+                     [](const BodyMass& body) { return body.mass_kg > 0.0; });
 }
 
-OwnWeight ownWeight(const Robot& nominal, const std::optional<Tool>& tool, const Eigen::Vector3d& gravity_in_base_link,
-                    const Robot& arm, const Eigen::Isometry3d& base_from_base_link) {
+OwnWeight ownWeight(const Robot& nominal, const std::optional<Tool>& tool,
+                    const Eigen::Vector3d& gravity_in_base_link, const Robot& arm,
+                    const Eigen::Isometry3d& base_from_base_link) {
   OwnWeight weight;
   weight.gravity_in_base = base_from_base_link.linear() * gravity_in_base_link;
   weight.links_known = true;
@@ -45,14 +49,14 @@ Vector6d weightTorque(const Robot& robot, const ArmPosture& posture, const OwnWe
   return torque;
 }
 
-Vector6d saggedAngles(const Robot& robot, const Vector6d& q, const OwnWeight& weight, const Vector6d& compliance) {
-  Vector6d sagged = q;
-  if (!weight.any() || compliance.isZero()) return sagged;
+Vector6d saggedAngles(const Robot& robot, const Vector6d& q, const OwnWeight& weight,
+                      const Vector6d& compliance) {
+  if (!weight.any() || compliance.isZero()) return q;
   constexpr int kSteps = 3;
-  for (int step = 0; step < kSteps; ++step) {
-    sagged = q + compliance.cwiseProduct(weightTorque(robot, postureAt(robot, sagged), weight));
-  }
-  return sagged;
+  return springEquilibrium(
+             q, compliance, kSteps, 0.0,
+             [&](const Vector6d& angles) { return weightTorque(robot, postureAt(robot, angles), weight); })
+      .angles;
 }
 
 }  // namespace stiffscope::robot

@@ -68,7 +68,7 @@ struct MachineState {
   Eigen::Vector3d load_point_in_base = Eigen::Vector3d::Zero();
   Eigen::Vector3d load_force_in_base = Eigen::Vector3d::Zero();    ///< of the load on the machine, N
   Eigen::Vector3d unread_force_in_base = Eigen::Vector3d::Zero();  ///< the part of it no load cell sees, N
-  double energy = 0.0;                                             ///< J, see simulation/elastic_energy.h
+  double energy = 0.0;                                             ///< J
   double last_step = 0.0;  ///< largest change of a coordinate in the last Newton step, m or rad
   int iterations = 0;
   bool converged =
@@ -77,7 +77,7 @@ struct MachineState {
 
 /// The stable equilibrium under own weight, tool and load with the motors held at q: the minimum of the
 /// potential energy, with finite rotations, nearest the unstrained machine. Newton's method with the analytic
-/// Hessian of elastic_energy.h where that leads there in a few shrinking steps, which it does while the
+/// Hessian of the elastic energy where that leads there in a few shrinking steps, which it does while the
 /// machine gives little. Else the Hessian is taken by central differences of the exact gradient (curves
 /// aside), shifted where it is not positive definite until it is, and a step that raises the energy is
 /// halved. A load beyond buckling has no such minimum nearby: either one far away is found (see

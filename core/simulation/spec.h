@@ -18,7 +18,7 @@
 // The described machine: how it gives, how its geometry and masses differ from nominal. SI and radians.
 
 // A described machine and the day it is measured, in SI and radians: what read_spec.h reads from XML.
-// Everything that is drawn at random is a sigma here; machine.h and simulate.h draw it from `seed`.
+// Everything that is drawn at random is a sigma here; machine.h and measure.h draw it from `seed`.
 
 namespace stiffscope::simulation {
 

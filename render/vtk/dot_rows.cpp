@@ -1,4 +1,4 @@
-#include "render/vtk/dot_rows.h"
+#include "render/vtk/painters.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "render/vtk/intervals.h"
+#include "render/vtk/painters.h"
 
 #include <algorithm>
 #include <cmath>

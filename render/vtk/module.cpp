@@ -1,10 +1,6 @@
 #include "render/backend.h"
-#include "render/vtk/dot_rows.h"
-#include "render/vtk/grouped_bars.h"
-#include "render/vtk/intervals.h"
+#include "render/vtk/painters.h"
 #include "render/vtk/offscreen_picture.h"
-#include "render/vtk/point_panels.h"
-#include "render/vtk/spread_boxes.h"
 
 // The entry of the module: what the loader in render/backend.cpp looks for.
 

@@ -1,4 +1,5 @@
-#include "render/vtk/point_panels.h"
+#include "render/vtk/painters.h"
+#include "render/vtk/chart_frame.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,6 +15,15 @@
 // One shape of a point chart: true to scale, without axes.
 
 namespace stiffscope::render {
+
+/// A diagram with its axes, title and titles of axes in `cell`.
+void drawDiagram(Canvas& canvas, const Box& cell, const PointPanel& panel);
+/// A shape true to scale, as large as `cell` allows.
+void drawShape(Canvas& canvas, const Box& cell, const ShapePanel& panel);
+
+/// Line and marks of a series at these spots; a spot that is not finite is left out.
+void drawMarks(Canvas& canvas, const PointSeries& series, const std::vector<Spot>& spots, double radius);
+void drawPointMark(Canvas& canvas, Spot centre, double radius, Colour colour, PointMark mark);
 
 namespace {
 

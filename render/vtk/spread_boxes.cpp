@@ -1,4 +1,4 @@
-#include "render/vtk/spread_boxes.h"
+#include "render/vtk/painters.h"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,6 @@
-#include "reports/json/audit_json.h"
+#include "core/audit/audit.h"
+#include "reports/json/json_document.h"
+#include "reports/json/json.h"
 
 #include "reports/json/campaign_json.h"
 

@@ -1,4 +1,6 @@
-#include "reports/json/comparison_json.h"
+#include "core/comparison/compare.h"
+#include "reports/json/campaign_json.h"
+#include "reports/json/json.h"
 
 #include "core/io/units.h"
 #include "reports/words/names.h"

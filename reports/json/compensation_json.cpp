@@ -1,4 +1,7 @@
-#include "reports/json/compensation_json.h"
+#include "core/compensation/compensate.h"
+#include "core/identification/identify.h"
+#include "reports/json/campaign_json.h"
+#include "reports/json/json.h"
 
 #include "core/io/units.h"
 #include "reports/words/names.h"

@@ -1,4 +1,7 @@
-#include "reports/json/diagnosis_json.h"
+#include "core/diagnosis/diagnosis.h"
+#include "reports/json/campaign_json.h"
+#include "reports/json/json_document.h"
+#include "reports/json/json.h"
 
 #include "core/io/units.h"
 

@@ -1,9 +1,12 @@
-#include "reports/json/extended_model_json.h"
+#include "core/extended_model/extended_model.h"
+#include "reports/json/json_document.h"
+#include "reports/json/json.h"
 
 #include <cmath>
 
-#include "core/effects/effect_model.h"
+#include "core/effects/all.h"
 #include "core/io/units.h"
+#include "reports/words/effect_words.h"
 #include "reports/words/names.h"
 
 namespace stiffscope::reports {
@@ -28,7 +31,7 @@ Json effectJson(effects::Effect effect) {
   return {{"effect", std::string(effects::idOf(effect))},
           {"nature", nameOf(effects::natureOf(effect))},
           {"enters_compensation", effects::entersCompensation(effect)},
-          {"use", effects::useOf(effect)}};
+          {"use", reports::effectUse(effect)}};
 }
 
 Json addedJson(const extended_model::AddedEffect& one) {

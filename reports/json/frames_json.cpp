@@ -1,4 +1,7 @@
-#include "reports/json/frames_json.h"
+#include "core/campaign/campaign.h"
+#include "core/frames/frames.h"
+#include "reports/json/campaign_json.h"
+#include "reports/json/json.h"
 
 #include <cmath>
 

@@ -1,4 +1,6 @@
-#include "reports/json/plan_json.h"
+#include "core/planning/plan.h"
+#include "reports/json/campaign_json.h"
+#include "reports/json/json.h"
 
 #include "core/io/units.h"
 

@@ -1,13 +1,16 @@
-#include "reports/json/results_json.h"
+#include "reports/json/json_document.h"
+#include "reports/report_content.h"
+#include "reports/json/json.h"
 
 #include <utility>
 
 #include "core/io/units.h"
-#include "reports/json/audit_json.h"
+#include "core/audit/audit.h"
 #include "reports/json/campaign_json.h"
-#include "reports/json/diagnosis_json.h"
-#include "reports/json/extended_model_json.h"
-#include "reports/json/frames_json.h"
+#include "core/diagnosis/diagnosis.h"
+#include "core/extended_model/extended_model.h"
+#include "core/campaign/campaign.h"
+#include "core/frames/frames.h"
 #include "reports/json/identification_json.h"
 #include "reports/words/verdict.h"
 

@@ -1,4 +1,6 @@
-#include "reports/json/validation_json.h"
+#include "core/validation/run_blind.h"
+#include "reports/json/json_document.h"
+#include "reports/json/json.h"
 
 namespace stiffscope::reports {
 

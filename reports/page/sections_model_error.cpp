@@ -3,7 +3,6 @@
 #include <cmath>
 #include <fmt/format.h>
 
-#include "core/effects/effect_model.h"
 #include "core/io/units.h"
 #include "reports/page/html.h"
 #include "reports/page/sections.h"
@@ -342,10 +341,10 @@ void writeModel(Html& html, const extended_model::ImprovedModel& model) {
   std::vector<std::string> uses;
   for (const extended_model::AddedEffect& one : model.effects.added) {
     const std::string doubt = reports::doubtOf(one);
-    uses.push_back(reports::asIs(fmt::format("{}: {}{}.", reports::effectName(one.effect), effects::useOf(one.effect), doubt.empty() ? "" : "; " + doubt)));
+    uses.push_back(reports::asIs(fmt::format("{}: {}{}.", reports::effectName(one.effect), reports::effectUse(one.effect), doubt.empty() ? "" : "; " + doubt)));
   }
   for (const effects::Effect effect : model.effects.geometry)
-    uses.push_back(reports::asIs(fmt::format("{}: {}.", reports::effectName(effect), effects::useOf(effect))));
+    uses.push_back(reports::asIs(fmt::format("{}: {}.", reports::effectName(effect), reports::effectUse(effect))));
   if (!model.effects.added.empty()) {
     for (const std::string& note : model.effects.notes) uses.push_back(reports::asIs(note + "."));
   }

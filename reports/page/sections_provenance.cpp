@@ -5,6 +5,7 @@
 #include "core/preparation/finding.h"
 #include "reports/page/html.h"
 #include "reports/page/sections.h"
+#include "reports/words/listed.h"
 #include "reports/words/names.h"
 #include "reports/words/numbers.h"
 #include "reports/words/preparation_words.h"
@@ -133,9 +134,8 @@ void writeRejected(Html& html, const reports::ReportCampaign& one) {
   html.paragraph(fmt::format("{} reading{} rejected{}:", rejected.size(), rejected.size() == 1 ? "" : "s",
                              raw ? ", but used all the same, because raw readings were asked for"
                                  : " and left out of everything on this page"));
-  std::vector<std::string> items;
-  for (const preparation::RejectedReading& reading : rejected) items.push_back(reports::withMicro(reports::rejectedWords(reading)));
-  html.list(items);
+  const auto words = [](const preparation::RejectedReading& reading) { return reports::withMicro(reports::rejectedWords(reading)); };
+  html.list(reports::listed(rejected, words, reports::kListedInResults));
 }
 
 }  // namespace
@@ -164,7 +164,7 @@ namespace {
 
 /// Postures and parameters; joints, methods and the wrist centre say so where their numbers would stand.
 std::vector<std::string> leftOut(const identification::Identification& result) {
-  std::vector<std::string> items = result.left_out;
+  std::vector<std::string> items = reports::listed(result.left_out, [](const std::string& one) { return one; }, reports::kListedInResults);
   if (!result.calibration.fixed.empty()) {
     items.push_back(fmt::format("PP's geometry, kept at its start because the positions do not see it: {}.",
                                 fmt::join(result.calibration.fixed, ", ")));

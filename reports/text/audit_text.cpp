@@ -1,10 +1,12 @@
-#include "reports/text/audit_text.h"
+#include "reports/text/text.h"
+#include "core/audit/audit.h"
 
 #include <algorithm>
 #include <fmt/format.h>
 #include <iterator>
 
-#include "reports/json/audit_json.h"
+#include "reports/json/json.h"
+#include "reports/words/listed.h"
 #include "reports/words/numbers.h"
 #include "reports/words/preparation_words.h"
 
@@ -45,7 +47,7 @@ void writeDetails(const audit::AuditReport& report, Out out) {
   for (const preparation::AuditCheck& check : report.checks) {
     if (check.details.empty()) continue;
     fmt::format_to(out, "\n{}, in detail\n", check.id);
-    for (const std::string& detail : check.details) fmt::format_to(out, "  {}\n", wrapped(detail, 4));
+    for (const std::string& detail : listed(check.details, [](const std::string& one) { return one; }, kListedInJson)) fmt::format_to(out, "  {}\n", wrapped(detail, 4));
   }
 }
 
@@ -78,9 +80,7 @@ std::string auditText(const campaign::Campaign& campaign, const audit::AuditRepo
   writeShortArcs(report, out);
   writeDetails(report, out);
   if (!report.rejected.empty()) fmt::format_to(out, "\nReadings to leave out, as the other commands do without --raw\n");
-  for (const preparation::RejectedReading& reading : report.rejected) {
-    fmt::format_to(out, "  {}\n", wrapped(rejectedWords(reading), 4));
-  }
+  for (const std::string& entry : listed(report.rejected, rejectedWords, kListedInJson)) fmt::format_to(out, "  {}\n", wrapped(entry, 4));
   return text;
 }
 

@@ -1,10 +1,12 @@
-#include "reports/text/comparison_text.h"
+#include "reports/text/text.h"
+#include "core/comparison/compare.h"
 
 #include <cmath>
 #include <fmt/format.h>
 #include <iterator>
 
 #include "core/io/units.h"
+#include "reports/words/listed.h"
 #include "reports/words/names.h"
 #include "reports/words/numbers.h"
 
@@ -61,10 +63,11 @@ void writeShare(const comparison::DeflectionAvoided& avoided, const char* place,
 void writePostures(const comparison::DeflectionAvoided& avoided, const char* place, Out out) {
   fmt::format_to(out, "\nThe deflection at {}, posture by posture\n  {:<12}{:>14}{:>14}{:>12}\n", place,
                  "pose", "before (um)", "after (um)", "avoided, %");
-  for (const comparison::PostureDeflection& one : avoided.postures) {
-    fmt::format_to(out, "  {:<12}{:>14.1f}{:>14.1f}{:>12.1f}\n", one.pose, one.before / io::kMicrometre,
-                   one.after / io::kMicrometre, 100.0 * one.share());
-  }
+  const auto row = [](const comparison::PostureDeflection& one) {
+    return fmt::format("{:<12}{:>14.1f}{:>14.1f}{:>12.1f}", one.pose, one.before / io::kMicrometre, one.after / io::kMicrometre,
+                       100.0 * one.share());
+  };
+  for (const std::string& line : listed(avoided.postures, row, kListedInJson, kMostRows)) fmt::format_to(out, "  {}\n", line);
 }
 
 }  // namespace
@@ -89,9 +92,8 @@ std::string comparisonText(const campaign::Campaign& before, const campaign::Cam
     if (comparison.avoided().available)
       writePostures(comparison.avoided(), comparison.judgedAtWrist() ? "P_wrist" : "the reflectors", out);
   }
-  for (const comparison::UnmatchedPosture& one : comparison.matched.unmatched) {
-    fmt::format_to(out, "  {}\n", wrapped(fmt::format("not compared: pose {}: {}", one.pose, one.reason), 4));
-  }
+  const auto words = [](const comparison::UnmatchedPosture& one) { return fmt::format("not compared: pose {}: {}", one.pose, one.reason); };
+  for (const std::string& entry : listed(comparison.matched.unmatched, words, kListedInJson)) fmt::format_to(out, "  {}\n", wrapped(entry, 4));
   return text;
 }
 

@@ -1,4 +1,6 @@
-#include "reports/text/compensation_text.h"
+#include "reports/text/text.h"
+#include "core/compensation/compensate.h"
+#include "core/identification/identify.h"
 
 #include <fmt/format.h>
 #include <iterator>

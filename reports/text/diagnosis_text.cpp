@@ -1,4 +1,6 @@
-#include "reports/text/diagnosis_text.h"
+#include "reports/text/text.h"
+#include "core/campaign/campaign.h"
+#include "core/diagnosis/diagnosis.h"
 
 #include <fmt/format.h>
 #include <iterator>

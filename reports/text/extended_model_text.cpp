@@ -1,12 +1,13 @@
-#include "reports/text/extended_model_text.h"
+#include "reports/text/text.h"
+#include "core/extended_model/extended_model.h"
 
 #include <cmath>
 #include <fmt/format.h>
 #include <iterator>
 
-#include "core/effects/effect_model.h"
 #include "core/identification/estimate.h"
 #include "core/io/units.h"
+#include "reports/words/effect_words.h"
 #include "reports/words/extended_model_words.h"
 #include "reports/words/names.h"
 #include "reports/words/numbers.h"
@@ -29,7 +30,7 @@ extended_model::EffectParameter inTextUnits(extended_model::EffectParameter para
 void writeEffect(const extended_model::AddedEffect& one, Out out) {
   fmt::format_to(out, "  {}{}{}\n", effects::idOf(one.effect), one.detail.empty() ? "" : " (" + one.detail + ")",
                  one.shape.empty() ? "" : ", " + one.shape);
-  fmt::format_to(out, "    {}\n", wrapped(effects::useOf(one.effect), 4));
+  fmt::format_to(out, "    {}\n", wrapped(reports::effectUse(one.effect), 4));
   for (const extended_model::EffectParameter& own : one.parameters) {
     const extended_model::EffectParameter parameter = inTextUnits(own);
     const std::string name = parameter.name.empty() ? "size" : parameter.name;
@@ -100,7 +101,7 @@ std::string addedEffectsText(const extended_model::EffectFit& effects) {
   std::string text = fmt::format("\nAdded to the joint springs: {}\n", addedNames(effects));
   const auto out = std::back_inserter(text);
   for (const extended_model::AddedEffect& one : effects.added) writeEffect(one, out);
-  for (const effects::Effect effect : effects.geometry) fmt::format_to(out, "  {}\n", wrapped(fmt::format("{}: {}", effects::idOf(effect), effects::useOf(effect)), 4));
+  for (const effects::Effect effect : effects.geometry) fmt::format_to(out, "  {}\n", wrapped(fmt::format("{}: {}", effects::idOf(effect), reports::effectUse(effect)), 4));
   for (const std::string& note : effects.notes) fmt::format_to(out, "  {}\n", wrapped("Note: " + note + ".", 4));
   if (!effects.added.empty()) fmt::format_to(out, "{}\n", wrapped(explainedWords(effects), 0));
   return text;

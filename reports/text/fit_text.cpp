@@ -1,8 +1,11 @@
-#include "reports/text/fit_text.h"
+#include "reports/text/text.h"
+#include "reports/json/fit_json.h"
 
 #include <cmath>
 #include <fmt/format.h>
 #include <vector>
+
+#include "reports/words/listed.h"
 
 namespace stiffscope::reports {
 
@@ -47,9 +50,10 @@ std::string snoopingText(const Snooping& snooping) {
   std::string text =
       fmt::format("  left out by the w-test: {} (critical w {:.3g}, level {:g} for all readings together)\n",
                   snooping.rejected.size(), snooping.critical_w, snooping.family_level);
-  for (const metrology::RejectedReading& one : snooping.rejected) {
-    text += fmt::format("    point {}: w {:.3g}, above {:.3g}\n", one.index + 1, one.w, one.critical_w);
-  }
+  const auto words = [](const metrology::RejectedReading& one) {
+    return fmt::format("point {}: w {:.3g}, above {:.3g}", one.index + 1, one.w, one.critical_w);
+  };
+  for (const std::string& entry : listed(snooping.rejected, words, kListedInJson)) text += fmt::format("    {}\n", entry);
   return text;
 }
 

@@ -1,4 +1,6 @@
-#include "reports/text/frames_text.h"
+#include "reports/text/text.h"
+#include "core/campaign/campaign.h"
+#include "core/frames/frames.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,8 @@
-#include "reports/text/identification_text.h"
+#include "reports/text/text.h"
+#include "core/identification/geometric_stiffness_cost.h"
+#include "core/identification/identify.h"
+#include "core/identification/load_dependence.h"
+#include "core/identification/posture_stiffness.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,6 +13,7 @@
 #include "core/identification/estimate.h"
 #include "core/identification/posture_stiffness.h"
 #include "core/io/units.h"
+#include "reports/words/listed.h"
 #include "reports/words/names.h"
 #include "reports/words/numbers.h"
 
@@ -223,7 +228,8 @@ std::string identificationText(const campaign::Campaign& campaign, const identif
   Out out(text);
   fmt::format_to(out, "{}: joint stiffness from load step{} {}, {} postures\n", campaign.name,
                  result.steps.size() > 1 ? "s" : "", fmt::join(result.steps, ", "), identification::postureCount(result));
-  for (const std::string& left_out : result.left_out) fmt::format_to(out, "  left out: {}\n", left_out);
+  const auto words = [](const std::string& posture) { return "left out: " + posture; };
+  for (const std::string& entry : listed(result.left_out, words, kListedInJson)) fmt::format_to(out, "  {}\n", entry);
   writeStiffness(result, methods, out);
   writeResiduals(result, methods, out);
   writeCompensation(result, methods, out);

@@ -1,4 +1,5 @@
-#include "reports/text/plan_text.h"
+#include "reports/text/text.h"
+#include "core/planning/plan.h"
 
 #include <cmath>
 #include <fmt/format.h>

@@ -1,4 +1,5 @@
-#include "reports/text/validation_text.h"
+#include "reports/text/text.h"
+#include "core/validation/run_blind.h"
 
 #include <fmt/format.h>
 

@@ -1,53 +1,89 @@
 #include "reports/words/effect_words.h"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <array>
-#include <fmt/format.h>
 
 namespace stiffscope::reports {
 
 namespace {
 
+/// The words of one effect.
 struct Words {
-  const char* meaning;
-  const char* remedy;
+  effects::Effect effect;
+  const char* meaning = nullptr;  ///< what the machine then does
+  const char* remedy = nullptr;   ///< what a laboratory can do about it
+  const char* use = nullptr;      ///< what `--with` does with it
 };
 
 constexpr const char* kIntoTheModel =
     "compensate with the stiffnesses found with it in the model: those without it have taken part of it in";
+constexpr const char* kOfMachine =
+    "the machine does it: taken off the readings and added to predicted deflections";
+constexpr const char* kOfWrenches =
+    "a fault of the measured wrenches: these are corrected; a planned load is taken as it is stated";
 
 /// In the order of Effect.
-constexpr std::array<Words, effects::kEffectCount> kWords{{
-    {"a link bends and twists along its length", kIntoTheModel},
-    {"a joint also gives about the two directions across its axis", kIntoTheModel},
-    {"pedestal or floor gives",
-     "check the anchors, with one reflector on the pedestal and one on the floor beside it under load"},
-    {"torque at one joint turns another",
-     "ask the maker how the named joints are coupled, and keep it in the model"},
-    {"stiffness changes with torque",
-     "identify at the loads of the process: one stiffness does not hold for all"},
-    {"motion is lost as a joint's torque passes zero",
-     "keep the torque on one side of zero where it matters, and have the gear looked at"},
-    {"friction makes the way back differ from the way out",
-     "load in the sense of the process, and have gear and brake looked at where it is large"},
-    {"a spring on axis 2 has a torque that depends on the posture",
-     "have the compensator's spring stated or set, and keep it in the model"},
-    {"the load acts elsewhere on the tool than declared",
-     "measure where the load attaches, correct `xyz_mm` of `load_cell`, and identify again"},
-    {"the load cell is turned against its declared axes",
-     "check how the cell is mounted, correct `rpy_deg` or `axes` of `load_cell`, and identify again"},
-    {"a constant force is added to the loaded readings, or missing from them",
-     "tare the cell with nothing hanging, account for all that hangs below it, and measure again"},
-    {"the tracker, or the robot, moved between the sweeps and the loading",
-     "repeat the sweeps, or read three or more floor nests with every set of readings"},
-    {"lengths or joint zeros differ from the nominal geometry",
-     "calibrate the geometry before absolute positions are trusted; displacements hardly feel it"},
-    {"readings wander with time", "let the tracker warm up, and read the floor nests more often"},
-    {"one reflector moves in its nest under load",
-     "seat that reflector anew or leave it out, and measure again"},
-    {"the plate between flange and reflectors gives",
-     "stiffen the plate or put the reflectors on the flange itself"},
-}};
+constexpr std::array kWords{
+    Words{effects::Effect::link_compliance, "a link bends and twists along its length", kIntoTheModel,
+          kOfMachine},
+    Words{effects::Effect::bearing_tilt, "a joint also gives about the two directions across its axis",
+          kIntoTheModel, kOfMachine},
+    Words{effects::Effect::base_compliance, "pedestal or floor gives",
+          "check the anchors, with one reflector on the pedestal and one on the floor beside it under load",
+          kOfMachine},
+    Words{effects::Effect::joint_coupling, "torque at one joint turns another",
+          "ask the maker how the named joints are coupled, and keep it in the model", kOfMachine},
+    Words{effects::Effect::joint_hardening, "stiffness changes with torque",
+          "identify at the loads of the process: one stiffness does not hold for all", kOfMachine},
+    Words{effects::Effect::backlash, "motion is lost as a joint's torque passes zero",
+          "keep the torque on one side of zero where it matters, and have the gear looked at", kOfMachine},
+    Words{effects::Effect::hysteresis, "friction makes the way back differ from the way out",
+          "load in the sense of the process, and have gear and brake looked at where it is large",
+          "the machine does it: taken off the readings and added to predicted deflections, for a load that "
+          "is put on once, from none"},
+    Words{effects::Effect::gravity_compensator, "a spring on axis 2 has a torque that depends on the posture",
+          "have the compensator's spring stated or set, and keep it in the model", kOfMachine},
+    Words{effects::Effect::load_point_error, "the load acts elsewhere on the tool than declared",
+          "measure where the load attaches, correct `xyz_mm` of `load_cell`, and identify again",
+          "the load acts elsewhere than declared: the point is corrected, for planned loads too"},
+    Words{effects::Effect::load_cell_misalignment, "the load cell is turned against its declared axes",
+          "check how the cell is mounted, correct `rpy_deg` or `axes` of `load_cell`, and identify again",
+          kOfWrenches},
+    Words{effects::Effect::load_cell_bias,
+          "a constant force is added to the loaded readings, or missing from them",
+          "tare the cell with nothing hanging, account for all that hangs below it, and measure again",
+          kOfWrenches},
+    Words{effects::Effect::frame_error, "the tracker, or the robot, moved between the sweeps and the loading",
+          "repeat the sweeps, or read three or more floor nests with every set of readings",
+          "a fault of the measurement: the loading's readings are brought back into the sweeps' frame; no "
+          "part of a deflection"},
+    Words{effects::Effect::kinematic_error, "lengths or joint zeros differ from the nominal geometry",
+          "calibrate the geometry before absolute positions are trusted; displacements hardly feel it",
+          "every identification has the geometry of the sweeps or calibrates it: nothing is added"},
+    Words{effects::Effect::tracker_drift, "readings wander with time",
+          "let the tracker warm up, and read the floor nests more often",
+          "a fault of the measurement: taken off the readings; no part of a deflection"},
+    Words{effects::Effect::target_motion, "one reflector moves in its nest under load",
+          "seat that reflector anew or leave it out, and measure again",
+          "a fault of the measurement: taken off that reflector's readings; the flange does not do it"},
+    Words{effects::Effect::tool_compliance, "the plate between flange and reflectors gives",
+          "stiffen the plate or put the reflectors on the flange itself",
+          "the machine does it: taken off the readings and added to predicted deflections, of the tool "
+          "beyond the plate"},
+};
+
+consteval bool hasAllWords() {
+  if (kWords.size() != effects::kEffectCount) return false;
+  for (std::size_t i = 0; i < kWords.size(); ++i) {
+    const Words& own = kWords[i];
+    if (own.effect != static_cast<effects::Effect>(i) || !own.meaning || !own.remedy || !own.use)
+      return false;
+  }
+  return true;
+}
+static_assert(hasAllWords(),
+              "every effect needs a line of words, in the order of the table in core/effects/effect.h");
 
 const Words& wordsOf(effects::Effect effect) { return kWords[static_cast<std::size_t>(effect)]; }
 
@@ -68,6 +104,8 @@ std::string effectNames(const std::vector<effects::Effect>& effects, const char*
 std::string effectMeaning(effects::Effect effect) { return wordsOf(effect).meaning; }
 
 std::string effectRemedy(effects::Effect effect) { return wordsOf(effect).remedy; }
+
+std::string effectUse(effects::Effect effect) { return wordsOf(effect).use; }
 
 std::string shortDetail(const std::string& detail) {
   constexpr std::string_view kJoint = "joint ";
@@ -99,8 +137,9 @@ std::string namedWords(const diagnosis::Verdict& verdict) {
 }
 
 std::string presentWords(const diagnosis::Verdict& verdict) {
-  const bool unknown = std::any_of(verdict.entries.begin(), verdict.entries.end(),
-                                   [](const diagnosis::VerdictEntry& entry) { return entry.effects.empty(); });
+  const bool unknown =
+      std::any_of(verdict.entries.begin(), verdict.entries.end(),
+                  [](const diagnosis::VerdictEntry& entry) { return entry.effects.empty(); });
   std::string words = namedWords(verdict);
   if (unknown)
     words += std::string(words.empty() ? "" : ", and ") + "something that no known effect explains";

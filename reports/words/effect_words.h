@@ -14,6 +14,7 @@ std::string effectName(effects::Effect effect);  ///< "bearing tilt"
 std::string effectNames(const std::vector<effects::Effect>& effects, const char* between = " or ");
 std::string effectMeaning(effects::Effect effect);  ///< what the machine then does
 std::string effectRemedy(effects::Effect effect);   ///< rich text: what a laboratory can do about it, one sentence
+std::string effectUse(effects::Effect effect);      ///< what is done with it in the extended model, and why
 
 /// "joints 1, 2 and 4" for "joint 1, joint 2, joint 4", "joints 1 to 6" for all; other details as they are.
 std::string shortDetail(const std::string& detail);

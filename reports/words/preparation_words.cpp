@@ -1,10 +1,10 @@
 #include "reports/words/preparation_words.h"
 
-#include <algorithm>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "core/io/units.h"
+#include "reports/words/listed.h"
 #include "reports/words/numbers.h"
 
 namespace stiffscope::reports {
@@ -47,12 +47,8 @@ std::string preparationWords(const preparation::Preparation& preparation) {
 
 std::string preparationText(const preparation::Preparation& preparation) {
   std::string text = wrapped(fmt::format("Readings: {}.", preparationWords(preparation)), 0) + '\n';
-  constexpr std::size_t kShown = 20;  // a screen; a reflector that lost its beam all day has hundreds
-  const std::size_t count = preparation.rejected.size();
-  for (std::size_t i = 0; i < std::min(count, kShown); ++i) {
-    text += fmt::format("  {}\n", wrapped("left out: " + rejectedWords(preparation.rejected[i]), 4));
-  }
-  if (count > kShown) text += fmt::format("  and {} more, which --json lists\n", count - kShown);
+  const auto words = [](const preparation::RejectedReading& reading) { return "left out: " + rejectedWords(reading); };
+  for (const std::string& entry : listed(preparation.rejected, words, kListedInJson)) text += fmt::format("  {}\n", wrapped(entry, 4));
   return text;
 }
 

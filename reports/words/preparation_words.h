@@ -10,7 +10,7 @@ namespace stiffscope::reports {
 /// none; "raw" where that was asked for.
 std::string preparationWords(const preparation::Preparation& preparation);
 
-/// The same for people, wrapped, with file, line and reason of each rejected reading (of the first twenty) on
+/// The same for people, wrapped, with file, line and reason of each rejected reading (of the first ten) on
 /// a line of its own.
 std::string preparationText(const preparation::Preparation& preparation);
 

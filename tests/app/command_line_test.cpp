@@ -13,10 +13,31 @@ const std::string kActive = STIFFSCOPE_SOURCE_DIR "/samples/active";
 TEST(CommandLine, HelpAndVersionSucceed) {
   const ScratchFolder scratch;
   for (const char* words : {"--help", "--version", "frames --help", "identify --help", "compensate --help",
-                            "simulate --help", "report --help"}) {
+                            "simulate --help", "report --help", "view --help", "view -h"}) {
     const Ran ran = runProgram(words, scratch.path());
     EXPECT_EQ(ran.status, 0) << words;
     EXPECT_FALSE(ran.out.empty()) << words;
+  }
+}
+
+// Neither a display nor stiffscope-view is needed for it.
+TEST(CommandLine, HelpOfTheWindowNamesItsOptions) {
+  const ScratchFolder scratch;
+  const Ran ran = runProgram("view --help", scratch.path());
+  EXPECT_EQ(ran.status, 0) << ran.err;
+  for (const char* word : {"stiffscope view", "CAMPAIGN", "--magnification", "--screenshot"})
+    EXPECT_NE(ran.out.find(word), std::string::npos) << word << "\n" << ran.out;
+}
+
+TEST(CommandLine, AnOptionBeforeItsCommandIsToldItsPlace) {
+  const ScratchFolder scratch;
+  for (const std::string words : {"--json out.json identify '" + kActive + "'", "--json=out.json identify '" + kActive + "'",
+                                  std::string("--method dpp identify x"), std::string("--raw")}) {
+    const Ran ran = runProgram(words, scratch.path());
+    EXPECT_EQ(ran.status, 2) << words;
+    EXPECT_NE(ran.err.find("belongs after the command's name"), std::string::npos) << ran.err;
+    EXPECT_EQ(ran.err.find("did you mean"), std::string::npos) << ran.err;
+    EXPECT_EQ(std::count(ran.err.begin(), ran.err.end(), '\n'), 1) << ran.err;
   }
 }
 

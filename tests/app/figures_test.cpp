@@ -3,9 +3,7 @@
 #include <cmath>
 #include <filesystem>
 #include "app/figures/arm_scenes.h"
-#include "app/figures/residual_charts.h"
-#include "app/figures/make_figures.h"
-#include "app/figures/stiffness_charts.h"
+#include "app/figures/figures.h"
 #include "core/campaign/read_campaign.h"
 #include "reports/page/report_page.h"
 #include "tests/reports/small_result.h"

@@ -3,7 +3,7 @@
 
 #include <cmath>
 #include <filesystem>
-#include "app/figures/diagnosis_charts.h"
+#include "app/figures/figures.h"
 #include "app/figures/arm_scenes.h"
 #include "core/campaign/read_campaign.h"
 #include "core/diagnosis/diagnose.h"
@@ -139,6 +139,7 @@ TEST(EffectWords, EveryEffectHasAMeaningAndARemedy) {
     const auto effect = static_cast<effects::Effect>(e);
     EXPECT_GT(reports::effectMeaning(effect).size(), 10u) << e;
     EXPECT_GT(reports::effectRemedy(effect).size(), 10u) << e;
+    EXPECT_GT(reports::effectUse(effect).size(), 10u) << e;
     EXPECT_EQ(reports::effectName(effect).find('_'), std::string::npos);
   }
 }

@@ -6,8 +6,7 @@
 #include <utility>
 #include <vector>
 #include "app/figures/chart_style.h"
-#include "app/figures/residual_charts.h"
-#include "app/figures/sweep_charts.h"
+#include "app/figures/figures.h"
 #include "tests/reports/small_result.h"
 
 namespace stiffscope {

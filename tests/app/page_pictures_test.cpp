@@ -5,10 +5,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <opencv2/quality/qualityssim.hpp>
-#include "app/figures/make_figures.h"
-#include "app/figures/residual_charts.h"
-#include "app/figures/sweep_charts.h"
-#include "app/figures/station_drift.h"
+#include "app/figures/figures.h"
 #include "core/campaign/read_campaign.h"
 
 namespace stiffscope {

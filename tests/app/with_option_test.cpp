@@ -65,6 +65,20 @@ TEST(WithOption, BadNamesAreRefusedInOneLine) {
   }
 }
 
+TEST(WithOption, AnEffectOfSizeZeroChangesNothing) {
+  const ScratchFolder scratch;
+  // The sample's machine has no backlash, and the fit puts it at its bound of zero.
+  const Ran text = runProgram("identify " + kActive + " --with backlash", scratch.path());
+  ASSERT_EQ(text.status, 0) << text.err;
+  EXPECT_NE(text.out.find("0 (none found)"), std::string::npos);
+  const Ran with = runProgram("identify " + kActive + " --with backlash --json -", scratch.path());
+  const Ran without = runProgram("identify " + kActive + " --json -", scratch.path());
+  ASSERT_EQ(with.status, 0) << with.err;
+  EXPECT_EQ(nlohmann::json::parse(with.out)["methods"], nlohmann::json::parse(without.out)["methods"]);
+  EXPECT_EQ(runProgram("compensate " + kActive + " --with backlash", scratch.path()).status, 0);
+  EXPECT_EQ(runProgram("report " + kActive + " --with backlash --out '" + (scratch.path() / "page").string() + "'", scratch.path()).status, 0);
+}
+
 TEST(WithOption, CompensateSaysWhatEnters) {
   const ScratchFolder scratch;
   const Ran ran = runProgram("compensate " + kActive + " --with bearing_tilt,load_point_error --json -", scratch.path());

@@ -1,7 +1,6 @@
 #include <gtest/gtest.h>
 #include "metrology/rigid_motion.h"
 #include "metrology/lines.h"
-#include "metrology/trilateration.h"
 #include "tests/metrology/simulated_points.h"
 
 namespace stiffscope {
@@ -67,36 +66,6 @@ TEST(FrameError, AFrameTurnedByHand) {
   EXPECT_LT((change - Eigen::Vector3d(-2e-3, -1e-3, 0)).norm(), 1e-9);
   EXPECT_LT(((truth * off).inverse() * (truth * x) - x - change).norm(), 3e-6);  // second order of 1e-3
   EXPECT_LT((metrology::vectorByFrameError(x) * error - Eigen::Vector3d(0, -1e-3, 0)).norm(), 1e-9);
-}
-
-TEST(TrilaterationSensitivity, AgreesWithTheEquationsOfThePaper) {
-  // (13)-(20) themselves, points and radii moved one by one.
-  const std::array<Eigen::Vector3d, 3> points{{{0.3, 0.05, 0.1}, {-0.17, 0.27, 0.08}, {-0.1, -0.3, 0.2}}};
-  const Eigen::Vector3d wrist(0.05, 0.02, -0.4);
-  std::array<double, 3> radii;
-  for (std::size_t k = 0; k < 3; ++k) radii[k] = (points[k] - wrist).norm();
-  const auto sensitivity = metrology::trilaterationSensitivity(points, wrist);
-  ASSERT_TRUE(sensitivity);
-  constexpr double kStep = 1e-6, kTolerance = 1e-8;  // central differences: second order of 1e-6, rounding over 2e-6
-  const auto at = [&](const auto& p, const auto& r) { return metrology::nearerRoot(*metrology::trilaterate(p, r), wrist); };
-  for (std::size_t k = 0; k < 3; ++k) {
-    auto more = radii, less = radii;
-    more[k] += kStep, less[k] -= kStep;
-    EXPECT_LT((sensitivity->by_radii.col(static_cast<Eigen::Index>(k)) -
-               (at(points, more) - at(points, less)) / (2 * kStep)).norm(), kTolerance);
-    for (int axis = 0; axis < 3; ++axis) {
-      auto ahead = points, behind = points;
-      ahead[k][axis] += kStep, behind[k][axis] -= kStep;
-      EXPECT_LT((sensitivity->by_points[k].col(axis) - (at(ahead, radii) - at(behind, radii)) / (2 * kStep)).norm(),
-                kTolerance);
-    }
-  }
-}
-
-TEST(TrilaterationSensitivity, HasNoBoundInThePlaneOfThePoints) {
-  const std::array<Eigen::Vector3d, 3> points{{{1, 0, 0}, {0, 1, 0}, {-1, 0, 0}}};
-  EXPECT_FALSE(metrology::trilaterationSensitivity(points, {0.2, 0.1, 0.0}));
-  EXPECT_TRUE(metrology::trilaterationSensitivity(points, {0.2, 0.1, 0.3}));
 }
 
 }  // namespace

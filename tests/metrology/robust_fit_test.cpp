@@ -79,6 +79,17 @@ TEST(TailProbability, TablesOfStudentChiSquareAndF) {
   EXPECT_NEAR(metrology::fTail(12.7062 * 12.7062, 1, 1), 0.05, 1e-5);
   EXPECT_NEAR(metrology::fTail(4.1028, 2, 10), 0.05, 1e-5);
   EXPECT_NEAR(metrology::fTail(3.8415, 1, 1e6), 0.05, 2e-5);
+  // Abramowitz and Stegun, tables 26.8 and 26.9; limits undo tails.
+  EXPECT_NEAR(metrology::chiSquareLimit(0.05, 1), 3.84146, 5e-6);
+  EXPECT_NEAR(metrology::chiSquareLimit(0.01, 2), 9.21034, 5e-6);
+  EXPECT_NEAR(metrology::fLimit(0.05, 1, 30), 4.17, 5e-3);
+  EXPECT_NEAR(metrology::fLimit(0.05, 2, 120), 3.07, 5e-3);
+  for (const double below : {10.0, 30.0, 100.0, 1e3, 3e4, 1e5, 1e6}) {
+    for (const int above : {1, 2}) EXPECT_NEAR(metrology::fTail(metrology::fLimit(1e-4, above, below), above, below), 1e-4, 1e-14) << below;
+    // F of two degrees has its tail in closed form: (1 + 2 f / n)^(-n / 2).
+    EXPECT_NEAR(metrology::fTail(9.0, 2, below) / std::pow(1.0 + 18.0 / below, -0.5 * below), 1.0, 1e-9) << below;
+  }
+  EXPECT_EQ(metrology::fTail(std::numeric_limits<double>::infinity(), 1, 10), 0.0);
 }
 
 TEST(FitRobustly, GoodReadingsAreRarelyRejected) {

@@ -1,8 +1,10 @@
 #include <gtest/gtest.h>
 #include <tinyxml2.h>
-#include "reports/json/validation_json.h"
+#include "core/validation/run_blind.h"
+#include "reports/json/json_document.h"
+#include "reports/json/json.h"
 #include "reports/page/validation_page.h"
-#include "reports/text/validation_text.h"
+#include "reports/text/text.h"
 
 namespace stiffscope {
 

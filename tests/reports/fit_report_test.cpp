@@ -2,7 +2,7 @@
 
 #include <Eigen/Dense>
 #include "reports/json/fit_json.h"
-#include "reports/text/fit_text.h"
+#include "reports/text/text.h"
 
 namespace stiffscope {
 namespace {

@@ -1,7 +1,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include "reports/text/extended_model_text.h"
+#include "core/extended_model/extended_model.h"
+#include "reports/text/text.h"
 #include "reports/words/numbers.h"
 
 namespace stiffscope {

@@ -1,8 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include "core/effects/base_compliance.h"
-#include "core/effects/bearing_tilt.h"
+#include "core/effects/all.h"
 #include "core/effects/gravity_equilibrium.h"
 #include "core/diagnosis/diagnosis_input.h"
 #include "tests/fixtures/chain_arm.h"
@@ -28,9 +27,9 @@ TEST(RestState, AFootThatRocksTurnsTheWholeArmByAFiniteAngle) {
   const frames::LoadingGeometry geometry = heavyArm(chain);
   const Vector6d q = Vector6d::Zero();
   effects::WorkingPoint at;
-  const effects::EffectModel model = effects::baseCompliance();
+  const effects::EffectModel model = effects::modelsOf(effects::baseCompliance()).front();
   constexpr double kRock = 1e-5;
-  at.motions.push_back({model.offset, model.first_body, kRock * Eigen::VectorXd::Unit(5, 1)});
+  at.present.push_back({&model, kRock * Eigen::VectorXd::Unit(5, 1)});
   const Eigen::Vector3d flange = geometry.arm.base_from_flange_at_zero.translation();
   double phi = 0.0;
   for (int round = 0; round < 50; ++round)
@@ -58,8 +57,8 @@ TEST(RestState, ATiltMovesWhatItsBearingCarries) {
   const frames::LoadingGeometry geometry = heavyArm(chain);
   const Vector6d q = degrees(10, 20, -15, 40, 50, -30);
   effects::WorkingPoint at;
-  const effects::EffectModel model = effects::bearingTilt();
-  at.motions.push_back({model.offset, model.first_body, 1e-5 * Eigen::VectorXd::Unit(6, 3)});
+  const effects::EffectModel model = effects::modelsOf(effects::bearingTilt()).front();
+  at.present.push_back({&model, 1e-5 * Eigen::VectorXd::Unit(6, 3)});
   const effects::ArmState rest = effects::restState(geometry, at, q), plain = effects::stateAt(geometry, q, Vector6d::Zero());
   for (std::size_t b = 0; b < 4; ++b)
     EXPECT_EQ((rest.posture.motion[b].matrix() - plain.posture.motion[b].matrix()).norm(), 0.0) << b;

@@ -1,6 +1,5 @@
 #include <gtest/gtest.h>
-#include "core/effects/backlash.h"
-#include "core/effects/base_compliance.h"
+#include "core/effects/all.h"
 #include "core/diagnosis/position_by_geometry.h"
 #include "core/effects/gravity_equilibrium.h"
 #include "tests/fixtures/chain_arm.h"
@@ -110,13 +109,13 @@ TEST(PositionByGeometry, OfASaggingArmIsTheDifferences) {
 TEST(PositionByGeometry, WithPlayInTheModelIsTheDifferences) {
   const frames::LoadingGeometry geometry = heavyArm();
   const Case one(geometry);
-  const effects::EffectModel model = effects::backlash();
+  const effects::EffectModel model = effects::modelsOf(effects::backlash()).front();
   effects::WorkingPoint at;
   at.largest_torque.setConstant(2000.0);
   Eigen::VectorXd play = Eigen::VectorXd::Zero(7);
   play[4] = 2e-3;
   at.play = play.head<6>();
-  at.turns.push_back({model.angles, play});
+  at.present.push_back({&model, play});
   const Eigen::MatrixXd expected = byDifferences(one.geometry, one.q, one.readings, one.centre, at);
   const double by_play = (expected - byDifferences(one.geometry, one.q, one.readings, one.centre)).cwiseAbs().maxCoeff();
   ASSERT_GT(by_play, 5e-4);
@@ -128,9 +127,9 @@ TEST(PositionByGeometry, WithPlayInTheModelIsTheDifferences) {
 TEST(PositionByGeometry, WithAFootThatRocksIsTheDifferences) {
   const frames::LoadingGeometry geometry = heavyArm();
   const Case one(geometry);
-  const effects::EffectModel model = effects::baseCompliance();
+  const effects::EffectModel model = effects::modelsOf(effects::baseCompliance()).front();
   effects::WorkingPoint at;
-  at.motions.push_back({model.offset, model.first_body, 1e-6 * Eigen::VectorXd::Unit(5, 1)});
+  at.present.push_back({&model, 1e-6 * Eigen::VectorXd::Unit(5, 1)});
   const Eigen::MatrixXd expected = byDifferences(one.geometry, one.q, one.readings, one.centre, at);
   ASSERT_GT((expected - one.computed()).cwiseAbs().maxCoeff(), 1e-3);
   // One-sided against central differences: the model's second derivative, a few metres, over a step of 1e-6.

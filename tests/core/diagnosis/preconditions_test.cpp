@@ -2,7 +2,7 @@
 
 #include <cmath>
 #include "core/diagnosis/held_out.h"
-#include "core/diagnosis/preconditions.h"
+#include "core/effects/all.h"
 
 // What a campaign lacks makes effects not testable, with what is missing in words; and shrinks from squares
 // by posture.
@@ -10,44 +10,44 @@
 namespace stiffscope {
 namespace {
 
-diagnosis::CampaignHas everything() {
-  diagnosis::CampaignHas has;
+effects::CampaignContents everything() {
+  effects::CampaignContents has;
   has.reflectors = 3;
   has.load_steps = 3;
   has.return_to_zero = has.moments = has.times = has.weights = has.absolute = has.sweeps = has.nests = true;
   return has;
 }
 
-bool says(effects::Effect effect, const diagnosis::CampaignHas& has, const std::string& words) {
-  return diagnosis::missingFor(effect, has).find(words) != std::string::npos;
+bool says(effects::Effect effect, const effects::CampaignContents& has, const std::string& words) {
+  return effects::missingFor(effect, has).find(words) != std::string::npos;
 }
 
 TEST(Testable, NothingIsMissingFromAFullDay) {
   for (std::size_t e = 0; e < effects::kEffectCount; ++e) {
-    EXPECT_EQ(diagnosis::missingFor(static_cast<effects::Effect>(e), everything()), "") << effects::kEffectIds[e];
+    EXPECT_EQ(effects::missingFor(static_cast<effects::Effect>(e), everything()), "") << effects::kEffectIds[e];
   }
 }
 
 TEST(Testable, SaysWhatIsMissing) {
-  diagnosis::CampaignHas one_step = everything();
+  effects::CampaignContents one_step = everything();
   one_step.load_steps = 1;
   EXPECT_TRUE(says(effects::Effect::joint_hardening, one_step, "two or more loads"));
   EXPECT_TRUE(says(effects::Effect::load_cell_bias, one_step, "two or more loads"));
-  EXPECT_EQ(diagnosis::missingFor(effects::Effect::bearing_tilt, one_step), "");
-  diagnosis::CampaignHas no_return = everything();
+  EXPECT_EQ(effects::missingFor(effects::Effect::bearing_tilt, one_step), "");
+  effects::CampaignContents no_return = everything();
   no_return.return_to_zero = false;
   EXPECT_TRUE(says(effects::Effect::hysteresis, no_return, "return to zero"));
-  diagnosis::CampaignHas two_reflectors = everything();
+  effects::CampaignContents two_reflectors = everything();
   two_reflectors.reflectors = 2;
   EXPECT_TRUE(says(effects::Effect::target_motion, two_reflectors, "three reflectors"));
-  diagnosis::CampaignHas no_masses = everything();
+  effects::CampaignContents no_masses = everything();
   no_masses.weights = no_masses.absolute = false;
   EXPECT_TRUE(says(effects::Effect::gravity_compensator, no_masses, "masses"));
   EXPECT_TRUE(says(effects::Effect::kinematic_error, no_masses, "masses"));
-  diagnosis::CampaignHas no_sweeps = everything();
+  effects::CampaignContents no_sweeps = everything();
   no_sweeps.sweeps = false;
   EXPECT_TRUE(says(effects::Effect::frame_error, no_sweeps, "circle sweeps"));
-  diagnosis::CampaignHas no_nests = everything();
+  effects::CampaignContents no_nests = everything();
   no_nests.nests = no_nests.absolute = false;
   EXPECT_TRUE(says(effects::Effect::tracker_drift, no_nests, "floor nests"));
 }

@@ -2,18 +2,8 @@
 
 #include <array>
 #include <cmath>
+#include <stdexcept>
 #include "core/effects/all.h"
-#include "core/effects/backlash.h"
-#include "core/effects/base_compliance.h"
-#include "core/effects/bearing_tilt.h"
-#include "core/effects/hysteresis.h"
-#include "core/effects/joint_coupling.h"
-#include "core/effects/joint_hardening.h"
-#include "core/effects/link_compliance.h"
-#include "core/effects/load_cell_bias.h"
-#include "core/effects/load_point_error.h"
-#include "core/effects/target_motion.h"
-#include "core/effects/tool_compliance.h"
 #include "core/preparation/station_course.h"
 #include "tests/fixtures/chain_arm.h"
 
@@ -24,6 +14,15 @@ namespace {
 
 constexpr double kRounding =
     1e-9;  // m per unit parameter times lever and load: far below a micrometre of the field
+
+/// The model of an effect with these words in its shape, the first without any.
+effects::EffectModel modelOf(const effects::EffectRecord& record, const std::string& shape = "") {
+  const auto models = effects::modelsOf(record, {"P1", "P2"});
+  for (const effects::EffectModel& model : models) {
+    if (model.shape.find(shape) != std::string::npos) return model;
+  }
+  throw std::invalid_argument(shape);
+}
 
 /// A state of the example arm with a load on the tool, no own weight.
 struct Bench {
@@ -63,7 +62,7 @@ struct Bench {
 
 TEST(BearingTilt, TurnsAcrossTheAxisByTheMomentThere) {
   const Bench bench;
-  const Eigen::MatrixXd field = effects::bearingTilt().columns(bench.at, bench.outAndBack(), 2);
+  const Eigen::MatrixXd field = modelOf(effects::bearingTilt()).columns(bench.at, bench.outAndBack(), 2);
   for (int j = 0; j < 6; ++j) {
     const Eigen::Vector3d origin = bench.jointOrigin(j), axis = bench.jointAxis(j),
                           moment = bench.momentAt(origin);
@@ -88,7 +87,7 @@ TEST(BearingTilt, OfAxis4IsJoint5sOwnComplianceInASphericalWrist) {
       bench.chain.framesAt(Vector6d::Zero())[4].translation();  // on axis 4: the same line
   bench.load.moment -= other * other.dot(bench.momentAt(wrist));
   const effects::PostureStates posture = bench.outAndBack();
-  const Eigen::VectorXd tilt = effects::bearingTilt().columns(bench.at, posture, 2).col(3);
+  const Eigen::VectorXd tilt = modelOf(effects::bearingTilt()).columns(bench.at, posture, 2).col(3);
   const Eigen::VectorXd own = effects::byEachJoint(posture[2], posture[2].load_torque).col(4);
   EXPECT_LT((tilt - own).norm(), 1e-9 * own.norm());
 }
@@ -99,7 +98,7 @@ TEST(LinkCompliance, IsACantileverAtItsTip) {
   const Eigen::Vector3d tip = bench.jointOrigin(2);
   bench.points = {tip, tip + Eigen::Vector3d(0, 0, 1)};
   bench.load = {tip, {1000.0, 0, 0}, {0, 0, 50.0}};
-  const Eigen::MatrixXd field = effects::linkCompliance().columns(bench.at, bench.outAndBack(), 2);
+  const Eigen::MatrixXd field = modelOf(effects::linkCompliance()).columns(bench.at, bench.outAndBack(), 2);
   const double length = 1.12;
   const Eigen::Vector3d bend = field.block<3, 1>(0, 2), beyond = field.block<3, 1>(3, 2);
   EXPECT_NEAR(bend.x(), 1000.0 * std::pow(length, 3) / 3.0, 1e-6);           // F L^3 / 3
@@ -115,7 +114,7 @@ TEST(TargetMotion, FollowsTheForceInTheNest) {
   const effects::PostureStates posture = bench.outAndBack();
   const Eigen::Matrix3d axes = posture[2].flange.linear();
   const Eigen::Vector3d along_x = axes.col(0) * axes.col(0).dot(bench.load.force) / bench.load.force.norm();
-  const effects::EffectModel spring = effects::targetNestSpring({"P1", "P2"}), slip = effects::targetPulledAlong({"P1", "P2"});
+  const effects::EffectModel spring = modelOf(effects::targetMotion(), "spring of the nest"), slip = modelOf(effects::targetMotion(), "along the pull");
   for (const std::size_t state : {std::size_t{1}, std::size_t{2}, std::size_t{3}}) {
     const double share = state == 1 ? 0.5 : state == 2 ? 1.0 : 0.0, most = state == 1 ? 0.5 : 1.0;
     const Eigen::MatrixXd by_spring = spring.columns(bench.at, posture, state),
@@ -133,7 +132,7 @@ TEST(TargetMotion, FollowsTheForceInTheNest) {
 // An isotropic nest moves its reflector along the force, whichever way the flange is turned.
 TEST(TargetMotion, IsotropicNestMovesAlongTheForce) {
   const Bench bench;
-  const Eigen::MatrixXd field = effects::targetNestSpring({"P1", "P2"}).columns(bench.at, bench.outAndBack(), 2);
+  const Eigen::MatrixXd field = modelOf(effects::targetMotion(), "spring of the nest").columns(bench.at, bench.outAndBack(), 2);
   const Eigen::Vector3d sum = field.block<3, 3>(0, 0).rowwise().sum();
   EXPECT_LT((sum - bench.load.force.normalized()).norm(), kRounding);
 }
@@ -141,7 +140,7 @@ TEST(TargetMotion, IsotropicNestMovesAlongTheForce) {
 TEST(TargetMotion, LastingSlipStaysThroughTheReturnToZero) {
   const Bench bench;
   const effects::PostureStates posture = bench.outAndBack();
-  const effects::EffectModel slip = effects::targetLastingSlip({"P1", "P2"});
+  const effects::EffectModel slip = modelOf(effects::targetMotion(), "by a slip that stays");
   EXPECT_TRUE(slip.columns(bench.at, posture, 0).isZero(0.0));
   EXPECT_TRUE(slip.columns(bench.at, posture, 3).isApprox(slip.columns(bench.at, posture, 1), kRounding));
   EXPECT_TRUE((slip.columns(bench.at, posture, 3).block<3, 3>(0, 0).isApprox(posture[3].flange.linear())));
@@ -164,14 +163,14 @@ TEST(Station, WandersLeastNextToARound) {
 TEST(JointCoupling, IsReciprocal) {
   const Bench bench;
   const effects::PostureStates posture = bench.outAndBack();
-  const Eigen::MatrixXd field = effects::jointCoupling().columns(bench.at, posture, 2);
+  const Eigen::MatrixXd field = modelOf(effects::jointCoupling()).columns(bench.at, posture, 2);
   ASSERT_EQ(field.cols(), 15);
   const Vector6d torque = posture[2].load_torque;
   Vector6d turn = Vector6d::Zero();
   turn[1] = torque[2];
   turn[2] = torque[1];
   EXPECT_LT((field.col(5) - effects::byJoints(posture[2], turn)).norm(), kRounding);  // pairs 12 13 14 15 16 23
-  EXPECT_EQ(effects::jointCoupling().parts[5].detail, "joints 2 and 3");
+  EXPECT_EQ(modelOf(effects::jointCoupling()).parts[5].detail, "joints 2 and 3");
 }
 
 // theta = c tau - c a * column must solve k theta + k_3 theta^3 = tau with k = 1/c, k_3 = a / c^3, and theta
@@ -185,39 +184,39 @@ TEST(JointHardening, WholeFormsSolveTheirSprings) {
   const auto angleBy = [&](const effects::EffectModel& model) {
     return c * tau + c * a * model.angles(bench.at, posture, 2)(1, 1);
   };
-  const double spring = angleBy(effects::jointHardeningCubicSpring()) / c, whole = angleBy(effects::jointHardeningWhole()) / c;
+  const double spring = angleBy(modelOf(effects::jointHardening(), "cubic term")) / c, whole = angleBy(modelOf(effects::jointHardening(), "square of the torque, to any size")) / c;
   EXPECT_NEAR(spring + a * spring * spring * spring, tau, 1e-9 * std::abs(tau));  // Newton, to rounding
   EXPECT_NEAR(whole * (1.0 + a * tau * tau), tau, 1e-9 * std::abs(tau));
   const double linear =
-      c * tau + c * a * std::abs(tau) * effects::jointHardeningLinearWhole().angles(bench.at, posture, 2)(1, 1);
+      c * tau + c * a * std::abs(tau) * modelOf(effects::jointHardening(), "size of the torque, to any size").angles(bench.at, posture, 2)(1, 1);
   EXPECT_NEAR(linear / c * 1.9, tau, 1e-9 * std::abs(tau));
 }
 
 TEST(JointHardening, TakesTheCubeOfTheTorque) {
   const Bench bench;
   const effects::PostureStates posture = bench.outAndBack();
-  const Eigen::MatrixXd half = effects::jointHardening().columns(bench.at, posture, 1),
-                        full = effects::jointHardening().columns(bench.at, posture, 2);
+  const Eigen::MatrixXd half = modelOf(effects::jointHardening()).columns(bench.at, posture, 1),
+                        full = modelOf(effects::jointHardening()).columns(bench.at, posture, 2);
   EXPECT_LT((full - 8.0 * half).norm(), 1e-9 * full.norm());
-  const Eigen::MatrixXd other = effects::jointHardeningLinear().columns(bench.at, posture, 2);
-  EXPECT_LT((other - 4.0 * effects::jointHardeningLinear().columns(bench.at, posture, 1)).norm(), 1e-9 * other.norm());
+  const Eigen::MatrixXd other = modelOf(effects::jointHardening(), "size of the torque").columns(bench.at, posture, 2);
+  EXPECT_LT((other - 4.0 * modelOf(effects::jointHardening(), "size of the torque").columns(bench.at, posture, 1)).norm(), 1e-9 * other.norm());
 }
 
 TEST(Backlash, ChangesSideWithTheTorque) {
   Bench bench;
   bench.at.passage = 1e-3;  // sharp
   const effects::PostureStates posture = bench.outAndBack();
-  const effects::JointAngles turn = effects::backlash().angles(bench.at, posture, 2);
+  const effects::JointAngles turn = modelOf(effects::backlash()).angles(bench.at, posture, 2);
   for (int j = 0; j < 6; ++j) EXPECT_NEAR(turn(j, j), posture[2].load_torque[j] > 0.0 ? 0.5 : -0.5, 1e-12);
-  EXPECT_EQ(effects::backlash().angles(bench.at, posture, 0).norm(), 0.0);
+  EXPECT_EQ(modelOf(effects::backlash()).angles(bench.at, posture, 0).norm(), 0.0);
 }
 
 TEST(Hysteresis, LagsOutAndBackByTheFriction) {
   Bench bench;
   bench.at.friction.setConstant(10.0);
   const effects::PostureStates posture = bench.outAndBack();
-  const effects::JointAngles out = effects::hysteresis().angles(bench.at, posture, 2),
-                    back = effects::hysteresis().angles(bench.at, posture, 3);
+  const effects::JointAngles out = modelOf(effects::hysteresis()).angles(bench.at, posture, 2),
+                    back = modelOf(effects::hysteresis()).angles(bench.at, posture, 3);
   for (int j = 0; j < 6; ++j) {
     const double torque = posture[2].load_torque[j];
     if (std::abs(torque) < 20.0) continue;  // sticks on the way back
@@ -225,7 +224,7 @@ TEST(Hysteresis, LagsOutAndBackByTheFriction) {
     EXPECT_NEAR(out(j, j), -side, 1e-12) << j;
     EXPECT_NEAR(back(j, j), side, 1e-12) << j;
   }
-  EXPECT_EQ(effects::hysteresis().angles(bench.at, posture, 0).norm(), 0.0);
+  EXPECT_EQ(modelOf(effects::hysteresis()).angles(bench.at, posture, 0).norm(), 0.0);
 }
 
 // One slider of friction f on a spring r k beside the joint's k. Out by tau: k theta = tau - f once r k theta
@@ -241,7 +240,7 @@ TEST(Hysteresis, ASliderOnASpringWorkedByHand) {
     const double side = posture[2].load_torque[1] > 0.0 ? 1.0 : -1.0;
     // Out, by half the load: in the grip while firm / (1 + firm) tau / 2 < f.
     const double held_at_half = std::min(friction, 0.5 * tau * firm / (1.0 + firm));
-    const effects::EffectModel model = effects::hysteresisOneSlider();
+    const effects::EffectModel model = modelOf(effects::hysteresis(), "a slider");
     EXPECT_NEAR(model.angles(bench.at, posture, 1)(1, 1), -side * held_at_half / friction, 1e-12) << share;
     const double held_at_full = std::min(friction, tau * firm / (1.0 + firm));
     EXPECT_NEAR(model.angles(bench.at, posture, 2)(1, 1), -side * held_at_full / friction, 1e-12) << share;
@@ -261,12 +260,12 @@ TEST(Hysteresis, ManySlidersHoldTheWholeFrictionInTheEnd) {
   const effects::PostureStates posture = bench.outAndBack();
   const double tau = posture[2].load_torque[1];
   bench.at.friction.setConstant(0.01 * std::abs(tau));
-  EXPECT_NEAR(std::abs(effects::hysteresisManySliders().angles(bench.at, posture, 2)(1, 1)), 1.0, 1e-12);
+  EXPECT_NEAR(std::abs(modelOf(effects::hysteresis(), "many sliders").angles(bench.at, posture, 2)(1, 1)), 1.0, 1e-12);
   bench.at.friction.setConstant(0.3 * std::abs(tau));
   bench.at.sticking = 1e7;  // a ten-millionth of the torque goes into the grip
   for (const std::size_t state : {1U, 2U, 3U}) {
-    EXPECT_NEAR(effects::hysteresisOneSlider().angles(bench.at, posture, state)(1, 1),
-                effects::hysteresis().angles(bench.at, posture, state)(1, 1), 1e-6);
+    EXPECT_NEAR(modelOf(effects::hysteresis(), "a slider").angles(bench.at, posture, state)(1, 1),
+                modelOf(effects::hysteresis()).angles(bench.at, posture, state)(1, 1), 1e-6);
   }
 }
 
@@ -277,7 +276,7 @@ TEST(JointHardening, AStageIsAHingeAtItsKnot) {
   const effects::PostureStates posture = bench.outAndBack();
   bench.at.largest_torque = posture[2].load_torque.cwiseAbs();
   const double tau = posture[2].load_torque[1], knot = std::abs(tau) / 7.0, c = bench.at.compliance[1];
-  const effects::JointAngles angles = effects::jointHardeningByStages().angles(bench.at, posture, 2);
+  const effects::JointAngles angles = modelOf(effects::jointHardening(), "by stages").angles(bench.at, posture, 2);
   const double by_hand = std::copysign(c * knot + 0.5 * c * (std::abs(tau) - knot), tau);
   EXPECT_NEAR(c * tau + 0.5 * c * angles(1, 6), by_hand, 1e-15);
   EXPECT_EQ(angles(2, 6), 0.0);  // another joint's
@@ -290,7 +289,7 @@ TEST(JointHardening, ASmoothCurveIsTheIntegralOfARampedCompliance) {
   const effects::PostureStates posture = bench.outAndBack();
   bench.at.largest_torque = posture[2].load_torque.cwiseAbs();
   const double tau = posture[2].load_torque[1], whole = std::abs(tau), c = bench.at.compliance[1];
-  const effects::JointAngles angles = effects::jointHardeningSmooth().angles(bench.at, posture, 2);
+  const effects::JointAngles angles = modelOf(effects::jointHardening(), "smooth curve").angles(bench.at, posture, 2);
   const double ramp = whole / 4.0, fall = c / 3.0;
   const double by_hand = std::copysign((c - 0.5 * fall) * ramp + (c - fall) * (whole - ramp), tau);
   const double slope = fall / ramp * whole;  // knots at 0, T/8, T/4, T/2: four a joint
@@ -301,10 +300,9 @@ TEST(JointHardening, ASmoothCurveIsTheIntegralOfARampedCompliance) {
 TEST(TargetMotion, SlipsOnceTheForceHasPassedItsShare) {
   const Bench bench;
   const effects::PostureStates posture = bench.outAndBack();  // loads 0, 0.5, 1, 0
-  const std::vector<std::string> names{"A", "B"};
-  EXPECT_EQ(effects::targetSlipFromHalf(names).columns(bench.at, posture, 1).norm(), 0.0);
-  EXPECT_GT(effects::targetSlipFromHalf(names).columns(bench.at, posture, 2).norm(), 0.0);
-  EXPECT_GT(effects::targetSlipAtFull(names).columns(bench.at, posture, 3).norm(), 0.0);  // stays
+  EXPECT_EQ(modelOf(effects::targetMotion(), "beyond half").columns(bench.at, posture, 1).norm(), 0.0);
+  EXPECT_GT(modelOf(effects::targetMotion(), "beyond half").columns(bench.at, posture, 2).norm(), 0.0);
+  EXPECT_GT(modelOf(effects::targetMotion(), "near the full").columns(bench.at, posture, 3).norm(), 0.0);  // stays
 }
 
 // A load point that is off by r changes the moment by (R r) x F: the same as the field of the moved wrench
@@ -313,7 +311,7 @@ TEST(LoadPointError, IsTheMovedWrenchThroughTheSprings) {
   const Bench bench;
   const effects::PostureStates posture = bench.outAndBack();
   const Eigen::Vector3d off(0.02, -0.01, 0.03);
-  const Eigen::VectorXd field = effects::loadPointError().columns(bench.at, posture, 2) * off;
+  const Eigen::VectorXd field = modelOf(effects::loadPointError()).columns(bench.at, posture, 2) * off;
   const Eigen::Vector3d moved = bench.load.point + posture[2].flange.linear() * off;
   const Vector6d change =
       bench.chain.torqueOf(bench.q, 6, moved, bench.load.force, bench.load.moment) - posture[2].load_torque;
@@ -324,7 +322,7 @@ TEST(LoadPointError, IsTheMovedWrenchThroughTheSprings) {
 TEST(LoadCellBias, IsInLoadedStatesOnly) {
   const Bench bench;
   const effects::PostureStates posture = bench.outAndBack();
-  const effects::EffectModel model = effects::loadCellBias();
+  const effects::EffectModel model = modelOf(effects::loadCellBias());
   EXPECT_EQ(model.columns(bench.at, posture, 0).norm(), 0.0);
   EXPECT_EQ(model.columns(bench.at, posture, 3).norm(), 0.0);
   EXPECT_GT(model.columns(bench.at, posture, 1).norm(), 0.0);
@@ -335,17 +333,36 @@ TEST(LoadCellBias, IsInLoadedStatesOnly) {
 TEST(EffectTable, NothingMovesWithoutACause) {
   const Bench bench;
   effects::PostureStates rest{bench.state(0.0)};
-  std::array<bool, effects::kEffectCount> listed{};
   for (const effects::EffectModel& model : effects::effectModels({"A", "B"})) {
-    listed[static_cast<std::size_t>(model.effect)] = true;
     const Eigen::MatrixXd field = model.columns(bench.at, rest, 0);
     EXPECT_EQ(static_cast<std::size_t>(field.cols()), model.parameters()) << effects::idOf(model.effect);
     if (model.effect == effects::Effect::gravity_compensator) continue;  // a spring pulls always
     EXPECT_EQ(field.norm(), 0.0) << effects::idOf(model.effect);
   }
-  listed[static_cast<std::size_t>(effects::Effect::kinematic_error)] =
-      true;  // held against the nominal geometry, see effect_table.h
-  for (std::size_t e = 0; e < effects::kEffectCount; ++e) EXPECT_TRUE(listed[e]) << effects::kEffectIds[e];
+}
+
+TEST(EffectTable, ARecordIsThatOfItsLineAndNamesAllItsParameters) {
+  for (std::size_t e = 0; e < effects::kEffectCount; ++e) {
+    const auto effect = static_cast<effects::Effect>(e);
+    const effects::EffectRecord& record = effects::recordOf(effect);
+    EXPECT_EQ(record.effect, effect) << effects::kEffectIds[e];
+    EXPECT_EQ(record.models == nullptr, record.nature == effects::EffectNature::geometry) << effects::kEffectIds[e];
+    for (const effects::EffectModel& model : effects::modelsOf(record, {"A", "B"})) {
+      EXPECT_EQ((model.angles != nullptr) + (model.twists != nullptr) + (model.offset != nullptr), 1) << model.shape;
+      for (const effects::EffectPart& part : model.parts) {
+        EXPECT_TRUE(part.most.size() == 1 || part.names.size() == part.most.size()) << model.shape;
+        EXPECT_TRUE(part.units.empty() || part.units.size() == part.most.size()) << model.shape;
+      }
+    }
+  }
+}
+
+// An ElasticArm moves bodies and joints only.
+TEST(EffectTable, WhatTheMachineDoesTurnsJointsOrMovesBodies) {
+  for (const effects::EffectModel& model : effects::effectModels({"A", "B"})) {
+    if (effects::natureOf(model.effect) != effects::EffectNature::machine) continue;
+    EXPECT_EQ(model.offset, nullptr) << effects::idOf(model.effect);
+  }
 }
 
 }  // namespace

@@ -7,7 +7,7 @@
 #include <numeric>
 #include "core/compensation/compensate.h"
 #include "core/identification/estimate.h"
-#include "core/effects/effect_model.h"
+#include "core/effects/all.h"
 #include "core/extended_model/effect_deflection.h"
 #include "core/extended_model/corrected_campaign.h"
 #include "core/io/input_error.h"
@@ -256,7 +256,6 @@ TEST(EffectNature, EveryEffectHasOneAndMeasurementsStayOutOfCompensation) {
   int entering = 0;
   for (std::size_t e = 0; e < effects::kEffectCount; ++e) {
     const auto effect = static_cast<effects::Effect>(e);
-    EXPECT_FALSE(effects::useOf(effect).empty());
     EXPECT_EQ(effects::entersCompensation(effect),
               effects::natureOf(effect) == effects::EffectNature::machine || effects::natureOf(effect) == effects::EffectNature::load);
     entering += effects::entersCompensation(effect);

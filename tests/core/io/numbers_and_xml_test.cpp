@@ -3,10 +3,8 @@
 #include <bit>
 #include <clocale>
 #include <cmath>
-#include <cstring>
 #include <fstream>
 #include <random>
-#include <regex>
 #include "core/io/numbers.h"
 #include "core/io/input_error.h"
 #include "core/io/write_file.h"
@@ -57,35 +55,21 @@ TEST(Numbers, AreReadWholeAndTheSameInEveryLocale) {
   for (const char* text : {"", "7.0", "7a", "99999999999"}) EXPECT_FALSE(io::parseInteger(text)) << text;
 }
 
-// The short way must give the very bits of the long one, wherever it gives a value at all.
-TEST(Numbers, PlainOnesAreTheSameBitsAsByTheGeneralWay) {
+// The way of tables must give the very bits of the other, wherever it gives a value at all.
+TEST(Numbers, OfTablesAreTheSameBits) {
   std::mt19937_64 random(1);
-  const char* const behind[] = {",1234567", "\n12345.7", "12345678", ".1234567", "\xff\xff\xff\xff\xff\xff\xff\xff"};
-  const std::regex by_eight_form("-?[0-9]{1,7}(\\.[0-9]{1,8})?"), whole_form("[0-9]{1,7}");
   for (int i = 0; i < 200000; ++i) {
     std::string text = std::to_string(random() % static_cast<std::uint64_t>(std::pow(10.0, 1.0 + static_cast<double>(random() % 15))));
     if (random() % 4 != 0) text.insert(random() % (text.size() + 1), ".");
     if (random() % 2 != 0) text.insert(0, "-");
-    const auto expected = std::bit_cast<std::uint64_t>(io::parseNumber(text).value);
-    ASSERT_EQ(std::bit_cast<std::uint64_t>(io::parsePlainNumber(text)), expected) << text;
-    const std::string longer = text + behind[random() % std::size(behind)];
-    const double by_eight = io::parseEightAtOnce(std::string_view(longer).substr(0, text.size()));
-    if (std::regex_match(text, by_eight_form)) {
-      ASSERT_EQ(std::bit_cast<std::uint64_t>(by_eight), expected) << longer;
-    } else {
-      ASSERT_TRUE(std::isnan(by_eight)) << longer;
-    }
-    const bool whole = std::regex_match(text, whole_form);
-    ASSERT_EQ(io::wholeEightAtOnce(std::string_view(longer).substr(0, text.size())), whole ? std::stoi(text) : -1) << longer;
+    if (random() % 4 == 0) text += "e-3";
+    const io::ParsedNumber expected = io::parseNumber(text);
+    ASSERT_EQ(expected.expectation, "") << text;
+    ASSERT_EQ(std::bit_cast<std::uint64_t>(io::numberOrNan(text)), std::bit_cast<std::uint64_t>(expected.value)) << text;
   }
-  EXPECT_EQ(std::signbit(io::parsePlainNumber("-0")), true);
-  for (const char* text : {"", "-", ".", "-.", "1.2.3", "--1", "+1", "1e3", "1 ", "nan", "1234567890123456", "1,5"}) {
-    EXPECT_TRUE(std::isnan(io::parsePlainNumber(text))) << text;
-    for (const char* more : behind) {
-      const std::string longer = std::string(text) + more;
-      EXPECT_TRUE(std::isnan(io::parseEightAtOnce(std::string_view(longer).substr(0, std::strlen(text))))) << longer;
-      EXPECT_EQ(io::wholeEightAtOnce(std::string_view(longer).substr(0, std::strlen(text))), -1) << longer;
-    }
+  EXPECT_EQ(std::signbit(io::numberOrNan("-0")), true);
+  for (const char* text : {"", "-", ".", "-.", "1.2.3", "--1", "+1", "1e", "1 ", " 1", "nan", "inf", "-infinity", "1e999", "0x10", "1,5"}) {
+    EXPECT_TRUE(std::isnan(io::numberOrNan(text))) << text;
   }
 }
 
@@ -104,6 +88,10 @@ TEST(Utf8, FindsTheFirstByteThatIsNone) {
   EXPECT_EQ(io::findNotUtf8("\xED\xA0\x80"), 0u);      // a surrogate
   EXPECT_EQ(io::findNotUtf8("\xF4\x90\x80\x80"), 0u);  // beyond the last character
   EXPECT_EQ(io::findNotUtf8("a\xE2\x82"), 1u);         // cut short
+  EXPECT_EQ(io::findNotUtf8("\xE0\x9F\xBF"), 0u);      // longer than needed, of three bytes
+  EXPECT_EQ(io::findNotUtf8("\xF0\x8F\xBF\xBF"), 0u);  // and of four
+  EXPECT_EQ(io::findNotUtf8("\xEF\xBF\xBF"), std::string_view::npos);  // no character is assigned there, but it is UTF-8
+  EXPECT_EQ(io::findNotUtf8(""), std::string_view::npos);
 }
 
 TEST(WriteFile, ReplacesWholeFilesAndLeavesNothingBehind) {

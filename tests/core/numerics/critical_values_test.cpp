@@ -1,7 +1,9 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 #include "core/numerics/distributions.h"
 
 namespace stiffscope {
@@ -17,6 +19,51 @@ TEST(Chance, LimitsAreThoseOfPrintedTables) {
   EXPECT_NEAR(numerics::studentLimit(0.05, 1), 12.706, 5e-4);
   EXPECT_NEAR(numerics::studentLimit(0.01, 10), 3.169, 5e-4);
   EXPECT_NEAR(numerics::studentLimit(0.001, 30), 3.646, 5e-4);
+}
+
+// Critical values of Student's t at two-sided 5 %, NIST e-Handbook 1.3.6.7.2, and at infinitely many degrees the normal's.
+// Between 100 degrees and infinity no table has rows; there the first terms of Cornish and Fisher's expansion (Abramowitz
+// and Stegun 26.7.5) are exact to 1e-9 and share nothing with the library.
+TEST(Chance, StudentFromTenDegreesToAMillion) {
+  EXPECT_NEAR(numerics::studentLimit(0.05, 10), 2.228, 5e-4);
+  EXPECT_NEAR(numerics::studentLimit(0.05, 30), 2.042, 5e-4);
+  EXPECT_NEAR(numerics::studentLimit(0.05, 100), 1.984, 5e-4);
+  for (const double dof : {1e2, 1e3, 3e4, 1e5, 1e6}) {
+    for (const auto& [tail, z] : {std::pair(0.05, 1.9599639845400545), std::pair(0.01, 2.5758293035489004), std::pair(0.001, 3.2905267314918945)}) {
+      const double z2 = z * z;
+      const double expanded = z + z * (z2 + 1) / (4 * dof) + z * (5 * z2 * z2 + 16 * z2 + 3) / (96 * dof * dof) +
+                              z * (3 * z2 * z2 * z2 + 19 * z2 * z2 + 17 * z2 - 15) / (384 * dof * dof * dof);
+      EXPECT_NEAR(numerics::studentLimit(tail, dof) / expanded, 1.0, std::max(1e-12, 20.0 / std::pow(dof, 4))) << tail << " " << dof;
+    }
+  }
+}
+
+// Wilson and Hilferty's cube (Abramowitz and Stegun 26.4.17) is good to a few 1e-4 at ten degrees and better with more.
+TEST(Chance, ChiSquareFromTenDegreesToAMillion) {
+  EXPECT_NEAR(numerics::chiSquareLimit(0.05, 10), 18.307, 5e-4);
+  EXPECT_NEAR(numerics::chiSquareLimit(0.05, 30), 43.773, 5e-4);
+  constexpr double kZ = 1.6448536269514722;  // of 5 % on one side
+  for (const double dof : {1e1, 3e1, 1e2, 1e3, 3e4, 1e5, 1e6}) {
+    const double c = 2.0 / (9.0 * dof), cubed = dof * std::pow(1.0 - c + kZ * std::sqrt(c), 3);
+    EXPECT_NEAR(numerics::chiSquareLimit(0.05, dof) / cubed, 1.0, 0.01 / std::pow(dof, 1.5)) << dof;
+  }
+}
+
+// Without degrees of freedom, or where everything may lie beyond, there is no limit.
+TEST(Chance, NoLimitIsZero) {
+  EXPECT_EQ(numerics::chiSquareLimit(0.05, 0), 0.0);
+  EXPECT_EQ(numerics::chiSquareLimit(1.0, 3), 0.0);
+  EXPECT_EQ(numerics::studentLimit(0.05, 0), 0.0);
+  EXPECT_EQ(numerics::normalLimit(1.0), 0.0);
+}
+
+// By hand: no hit in n trials leaves 1 - (tail)^(1/n), and n hits the mirror of it.
+TEST(BinomialRate, OfNoneAndOfAllByHand) {
+  for (const int trials : {1, 10, 1000, 1'000'000}) {
+    const double bound = -std::expm1(std::log(0.025) / trials);
+    EXPECT_NEAR(numerics::binomialRate(0, trials).high / bound, 1.0, 1e-10) << trials;
+    EXPECT_NEAR(numerics::binomialRate(trials, trials).low, 1.0 - bound, 1e-12) << trials;
+  }
 }
 
 // The smallest levels that the audit divides down to: chi-square of 2 is -2 ln p, Student's t of 1 is Cauchy.

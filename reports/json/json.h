@@ -1,0 +1,66 @@
+#pragma once
+
+#include <vector>
+
+#include "reports/json/json_document.h"
+
+// Results as JSON, a function a command.
+
+namespace stiffscope::audit { struct AuditReport; }
+namespace stiffscope::campaign { struct Campaign; }
+namespace stiffscope::comparison { struct Comparison; }
+namespace stiffscope::compensation { struct CompensatedPosture; }
+namespace stiffscope::diagnosis { struct Diagnosis; }
+namespace stiffscope::extended_model { struct ImprovedModel; }
+namespace stiffscope::frames { struct Frames; }
+namespace stiffscope::identification { enum class Method; }
+namespace stiffscope::planning { struct Plan; }
+namespace stiffscope::preparation { enum class AuditVerdict; }
+namespace stiffscope::validation { struct BlindOptions; struct BlindResult; }
+
+namespace stiffscope::reports {
+
+struct ReportContent;
+
+/// The result of `compare`. `joints` are those of the best method that both campaigns have (`method`); all of
+/// them stand under `methods`.
+Json comparisonJson(const campaign::Campaign& before, const campaign::Campaign& after, const comparison::Comparison& comparison);
+
+/// The result of `compensate`: a row a posture.
+Json compensationJson(const campaign::Campaign& campaign, identification::Method method,
+                      const std::vector<compensation::CompensatedPosture>& postures);
+
+/// The result of `diagnose`. `verdict` is a list of lists of effect ids: the outer names all that is present,
+/// an inner one what this data cannot tell apart; [["none"]], or ["unknown"] among them.
+Json diagnosisJson(const campaign::Campaign& campaign, const diagnosis::Diagnosis& diagnosis);
+
+/// The result of `frames`: R0, axes, link lengths, wrist centre with Table I, P_TCP. Axes, points and the wrist stand in
+/// R0 with all joints at zero unless the key says otherwise; what was not measured is null with a reason, or the URDF's,
+/// and then `from` beside it says "nominal" (or "partly nominal", between a measured axis and one that was not).
+Json framesJson(const campaign::Campaign& campaign, const frames::Frames& frames);
+
+/// The result of `plan`: a row a posture, and what random postures would give.
+Json planJson(const campaign::Campaign& campaign, const planning::Plan& plan);
+
+/// `results.json` of a report: the names of the files it wrote, per campaign what was done to the readings and the results
+/// of `audit`, `frames` and `identify`, and what the double encoders avoid. The content has to live as long.
+JsonDocument resultsJson(const ReportContent& content);
+
+/// Keys: seal, answers_sha256, seed, cases (list: truth, sizes in noises, answer, found, right), confusion
+/// (truths, answers, counts: rows are truths), rates (by id: meaning, hits, trials, value, low, high at 95 %,
+/// value null without trials), by_size, effects, outside, shrink (promised against true).
+Json blindJson(const validation::BlindOptions& options, const validation::BlindResult& result);
+
+/// The result of `audit`: verdict, checks with figure and limit (null where not testable), rejected readings.
+Json auditJson(const campaign::Campaign& campaign, const audit::AuditReport& report);
+
+/// `pass`, `warn`, `fail` or `not_testable`.
+const char* nameOf(preparation::AuditVerdict verdict);
+
+/// `with`: the effects added to the joint springs, what they explain, and each method without and with them.
+Json improvedJson(const extended_model::ImprovedModel& model, const std::vector<identification::Method>& methods);
+
+/// A result with that key.
+Json withEffects(Json json, const extended_model::ImprovedModel& model, const std::vector<identification::Method>& methods);
+
+}  // namespace stiffscope::reports

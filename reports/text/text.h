@@ -1,0 +1,80 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+// Results for a terminal: plain text, no line over 100 columns but for names from the campaign.
+
+namespace stiffscope::audit { struct AuditReport; }
+namespace stiffscope::campaign { struct Campaign; }
+namespace stiffscope::comparison { struct Comparison; }
+namespace stiffscope::compensation { struct CompensatedPosture; }
+namespace stiffscope::diagnosis { struct Diagnosis; }
+namespace stiffscope::extended_model { struct EffectFit; struct ImprovedModel; }
+namespace stiffscope::frames { struct Frames; }
+namespace stiffscope::identification { struct Identification; struct StepStudy; enum class Method; }
+namespace stiffscope::planning { struct Plan; }
+namespace stiffscope::validation { struct BlindResult; }
+
+namespace stiffscope::reports {
+
+struct ShapeFit;
+
+/// The audit for people: a table of the checks, then what those that did not pass say, then the rejected
+/// readings.
+std::string auditText(const campaign::Campaign& campaign, const audit::AuditReport& report);
+
+/// The result of `compare` for a terminal.
+std::string comparisonText(const campaign::Campaign& before, const campaign::Campaign& after, const comparison::Comparison& comparison);
+
+/// The result of `compensate` for a terminal, and under it what a reader must know, a sentence each.
+std::string compensationText(const campaign::Campaign& campaign, identification::Method method,
+                             const std::vector<compensation::CompensatedPosture>& postures,
+                             const std::vector<std::string>& cautions);
+
+/// The diagnosis for people: the verdict with its reason, the candidates with how far each shrinks the gap,
+/// where the gap lies, stiffnesses before and after, what could not be tested and what to measure next.
+std::string diagnosisText(const campaign::Campaign& campaign, const diagnosis::Diagnosis& diagnosis);
+
+/// What was added to the joint springs, with which sizes, what it explains, what is done with it.
+std::string addedEffectsText(const extended_model::EffectFit& effects);
+
+/// The same with each method without and with the effects: stiffnesses, residuals, shares compensated.
+std::string improvedText(const extended_model::ImprovedModel& model, const std::vector<identification::Method>& methods);
+
+/// The fitted shape for people: each parameter with its standard uncertainty, the residuals, and the method.
+std::string fitText(const ShapeFit& fitted);
+
+/// The result of `frames` for a terminal: plain text, no line over 100 columns but for names from the campaign.
+std::string framesText(const campaign::Campaign& campaign, const frames::Frames& frames);
+
+/// The result of `identify` for a terminal.
+std::string identificationText(const campaign::Campaign& campaign, const identification::Identification& result,
+                               const std::vector<identification::Method>& methods);
+
+/// Joints whose interval is wide or open, a line each: there a symmetric uncertainty of the stiffness misleads.
+std::string wideIntervals(const identification::Identification& result, const std::vector<identification::Method>& methods);
+
+/// Percentile intervals of the bootstrap beside the stated ones; empty where there is none.
+std::string bootstrapText(const identification::Identification& result, const std::vector<identification::Method>& methods);
+
+/// Stiffness by load step and whether it depends on the load.
+std::string stepsText(const identification::StepStudy& study, const identification::Identification& result, const std::vector<identification::Method>& methods);
+
+/// Conditioning, softest and stiffest direction at P_TCP, and what neglecting K_c costs, a line a posture.
+std::string posturesText(const campaign::Campaign& campaign, const identification::Identification& result, identification::Method method);
+
+/// The result of `plan` for a terminal.
+std::string planText(const campaign::Campaign& campaign, const planning::Plan& plan);
+
+/// The planned postures as a CSV table: pose, q1_deg..q6_deg, the load-cell reading expected (as `compensate
+/// --postures` takes it), and the pull's direction in base_link, pull_x..pull_z.
+std::string planCsv(const planning::Plan& plan);
+
+/// The same as the `postures` element of a simulation's specification.
+std::string planXml(const planning::Plan& plan);
+
+/// The rates and, effect by effect, how many were answered right, for a terminal.
+std::string blindText(const validation::BlindResult& result);
+
+}  // namespace stiffscope::reports
