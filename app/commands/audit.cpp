@@ -33,7 +33,8 @@ int auditCampaign(const std::string& folder, const std::string& json_file) {
   const bool loaded = identification::whatLoadsLack(prepared.campaign).empty();
   // With a unit wrong nothing could be told apart, and the search would not settle for a minute.
   if (loaded && !audit::findsTheImpossible(report)) audit::addSeparableEffects(designOf(prepared), report);
-  deliver([&] { return reports::auditJson(words, report); }, [&] { return reports::auditText(words, report); }, json_file);
+  deliver([&] { return reports::auditJson(words, report); }, [&] { return reports::auditText(words, report); },
+          json_file);
   return report.verdict == preparation::AuditVerdict::fail ? kNotUsable : kDone;
 }
 
@@ -47,9 +48,8 @@ void addAudit(CLI::App& app, Run& run) {
   CLI::App* command = app.add_subcommand("audit", "Is this data fit to identify from?");
   command->add_option("CAMPAIGN", arguments->campaign, "campaign folder or its campaign.xml")->required();
   command->add_option("--json", arguments->json, "write the result to this file, - for standard output");
-  command->callback([arguments, &run] {
-    run = [arguments] { return auditCampaign(arguments->campaign, arguments->json); };
-  });
+  command->callback(
+      [arguments, &run] { run = [arguments] { return auditCampaign(arguments->campaign, arguments->json); }; });
 }
 
 }  // namespace stiffscope::app

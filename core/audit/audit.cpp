@@ -13,7 +13,7 @@ namespace {
 
 /// A function of the audit and the checks that it gives, by their ids; at most three.
 struct Check {
-  Findings (*of)(const Evidence&);
+  Findings (*of)(const AuditInput&);
   std::array<const char*, 3> ids;
 };
 
@@ -63,17 +63,15 @@ preparation::AuditVerdict worst(const std::vector<preparation::AuditCheck>& chec
 
 }  // namespace
 
-AuditReport audit(campaign::Campaign campaign) {
-  return audit(preparation::prepareCampaign(std::move(campaign)));
-}
+AuditReport audit(campaign::Campaign campaign) { return audit(preparation::prepareCampaign(std::move(campaign))); }
 
 AuditReport audit(const preparation::PreparedCampaign& prepared) {
   AuditReport report;
   report.checks = prepared.screening;
   report.rejected = prepared.preparation.rejected;
-  const Evidence evidence = gatherEvidence(prepared);
+  const AuditInput input = auditInput(prepared);
   for (const Check& check : kAllChecks) {
-    Findings findings = check.of(evidence);
+    Findings findings = check.of(input);
     std::move(findings.begin(), findings.end(), std::back_inserter(report.checks));
   }
   report.verdict = worst(report.checks);

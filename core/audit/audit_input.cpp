@@ -7,30 +7,29 @@ namespace stiffscope::audit {
 
 namespace {
 
-frames::SagModel sagOf(const Evidence& evidence) {
-  const frames::Frames& frames = evidence.frames;
+frames::SagModel sagOf(const AuditInput& input) {
+  const frames::Frames& frames = input.frames;
   if (!frames.sag_removed) return {};
-  return frames::SagModel(frames.arm.arm, frames.weight, evidence.arm.geometry.compliance,
-                  frames.targets_in_r0_at_zero, frames.arm.r0_from_points.inverse());
+  return frames::SagModel(frames.arm.arm, frames.weight, input.arm.geometry.compliance, frames.targets_in_r0_at_zero,
+                          frames.arm.r0_from_points.inverse());
 }
 
 }  // namespace
 
-Evidence gatherEvidence(const preparation::PreparedCampaign& prepared) {
-  Evidence evidence{prepared.campaign};
-  evidence.drift = prepared.preparation.drift;
-  evidence.station = prepared.drift.rounds;
-  evidence.scatter = prepared.scatter;
-  evidence.noise = preparation::declaredNoise(evidence.campaign);
-  evidence.states = campaign::statePoints(evidence.campaign);
-  identification::SettledDay day = identification::settleDay(evidence.campaign);
-  evidence.step = day.step;
-  evidence.frames = std::move(day.frames);
-  evidence.arm = std::move(day.arm);
-  evidence.rigid = frames::rigidPoints(evidence.campaign, sagOf(evidence));
-  evidence.absolute = fitAbsolutePositions(evidence.campaign, evidence.frames, evidence.arm.geometry,
-                                           evidence.states, evidence.noise);
-  return evidence;
+AuditInput auditInput(const preparation::PreparedCampaign& prepared) {
+  AuditInput input{prepared.campaign};
+  input.drift = prepared.preparation.drift;
+  input.station = prepared.drift.rounds;
+  input.scatter = prepared.scatter;
+  input.noise = preparation::declaredNoise(input.campaign);
+  input.states = campaign::statePoints(input.campaign);
+  identification::SolvedDay day = identification::solveDay(input.campaign);
+  input.step = day.step;
+  input.frames = std::move(day.frames);
+  input.arm = std::move(day.arm);
+  input.rigid = frames::rigidPoints(input.campaign, sagOf(input));
+  input.absolute = fitAbsolutePositions(input.campaign, input.frames, input.arm.geometry, input.states, input.noise);
+  return input;
 }
 
 }  // namespace stiffscope::audit

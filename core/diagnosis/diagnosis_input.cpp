@@ -1,9 +1,9 @@
 #include "core/diagnosis/diagnosis_input.h"
 
+#include <fmt/format.h>
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 #include <limits>
 
 #include "core/frames/geometry_calibration.h"
@@ -13,7 +13,7 @@
 
 namespace stiffscope::diagnosis {
 
-void boundDriftByNests(GapStart& start, GapInput& input) {
+void boundDriftByNests(DiagnosisInput& start, SystemInput& input) {
   if (start.station.course != preparation::StationCourse::still) return;
   if (!input.absolute || start.station.rate_weight.isZero()) return;
   Matrix6d turn = Matrix6d::Zero();
@@ -21,8 +21,7 @@ void boundDriftByNests(GapStart& start, GapInput& input) {
   const double span = start.state.at.time_span;
   input.drift = -span * (turn * start.station.rate);
   input.drift_weight = turn * start.station.rate_weight * turn.transpose() / (span * span);
-  start.state.at.sweep_time =
-      0.5 * (start.station.motion.epochs.front().time_s + start.state.at.first_time);
+  start.state.at.sweep_time = 0.5 * (start.station.motion.epochs.front().time_s + start.state.at.first_time);
 }
 
 namespace {
@@ -33,20 +32,19 @@ Vector6d startCompliance(const campaign::Campaign& campaign, identification::Loa
 }
 
 bool sameFrame(const campaign::Campaign& campaign) {
-  return campaign.circle_sweeps && campaign.loading &&
-         campaign.circle_sweeps->frame == campaign.loading->frame &&
+  return campaign.circle_sweeps && campaign.loading && campaign.circle_sweeps->frame == campaign.loading->frame &&
          (!campaign.wrist_sweep || campaign.wrist_sweep->frame == campaign.loading->frame);
 }
 
 }  // namespace
 
-GapStart gapStart(const preparation::PreparedCampaign& prepared) {
-  GapStart start;
+DiagnosisInput diagnosisInput(const preparation::PreparedCampaign& prepared) {
+  DiagnosisInput start;
   start.campaign = prepared.campaign;
   start.campaign.nests.reset();  // they have said what they know
   start.station = prepared.drift;
   start.noise = prepared.noise;
-  const identification::SettledDay day = identification::settleDay(start.campaign);
+  const identification::SolvedDay day = identification::solveDay(start.campaign);
   start.geometry = day.arm.geometry;
   start.absolute = start.campaign.loading && start.geometry.r0_from_loading.has_value();
   // A sag that is not known would be taken for geometry, frames and springs.
@@ -61,11 +59,11 @@ GapStart gapStart(const preparation::PreparedCampaign& prepared) {
       return start;
     }
     start.geometry = calibration.geometry;
-    arm = identification::loadedArm(start.campaign, start.geometry, day.frames.wrist, {*identification::heaviestStep(start.campaign)});
+    arm = identification::loadedArm(start.campaign, start.geometry, day.frames.wrist,
+                                    {*identification::heaviestStep(start.campaign)});
   }
   if (arm.cases.empty()) {
-    start.reason =
-        "no posture has readings unloaded and under load that can be brought into the robot's frame";
+    start.reason = "no posture has readings unloaded and under load that can be brought into the robot's frame";
     return start;
   }
   const Vector6d compliance = startCompliance(start.campaign, arm);
@@ -73,16 +71,18 @@ GapStart gapStart(const preparation::PreparedCampaign& prepared) {
   if (start.geometry.weight.links_known) start.geometry.compliance = compliance;
   start.state = startState(start.campaign, start.geometry, arm.cases);
   start.state.at.compliance = compliance;
-  if (!start.noise.known)
-    start.reason = start.noise.source + ": effects cannot be told from noise; state `tracker`";
+  if (!start.noise.known) start.reason = start.noise.source + ": effects cannot be told from noise; state `tracker`";
   return start;
 }
 
-Eigen::Vector3d loadOffset(const robot::Robot& arm, const std::vector<identification::LoadCase>& cases, double moment_sigma) {
+Eigen::Vector3d loadOffset(const robot::Robot& arm, const std::vector<identification::LoadCase>& cases,
+                           double moment_sigma) {
   std::vector<identification::ToolLoad> loads;
   for (const identification::LoadCase& one : cases) {
     const Eigen::Matrix3d flange_from_base =
-        one.flange_unloaded.value_or(robot::flangeAt(arm, identification::unloadedPosture(arm, one))).linear().transpose();
+        one.flange_unloaded.value_or(robot::flangeAt(arm, identification::unloadedPosture(arm, one)))
+            .linear()
+            .transpose();
     loads.push_back({flange_from_base * one.wrench.force, flange_from_base * one.wrench.moment});
   }
   const identification::LoadPointFit fit(loads);
@@ -97,9 +97,10 @@ namespace {
 Vector6d largestTorque(const frames::LoadingGeometry& geometry, const std::vector<identification::LoadCase>& cases) {
   Vector6d largest = Vector6d::Zero();
   for (const identification::LoadCase& one : cases) {
-    const Vector6d weight = geometry.weight.links_known
-                                ? robot::weightTorque(geometry.arm, identification::unloadedPosture(geometry.arm, one), geometry.weight)
-                                : Vector6d(Vector6d::Zero());
+    const Vector6d weight =
+        geometry.weight.links_known
+            ? robot::weightTorque(geometry.arm, identification::unloadedPosture(geometry.arm, one), geometry.weight)
+            : Vector6d(Vector6d::Zero());
     const Vector6d load = robot::jointTorque(one.axes, one.wrench);
     largest = largest.cwiseMax(weight.cwiseAbs()).cwiseMax((weight + load).cwiseAbs());
   }
@@ -108,9 +109,9 @@ Vector6d largestTorque(const frames::LoadingGeometry& geometry, const std::vecto
 
 }  // namespace
 
-GapState startState(const campaign::Campaign& campaign, const frames::LoadingGeometry& geometry,
-                    const std::vector<identification::LoadCase>& cases) {
-  GapState state;
+SystemState startState(const campaign::Campaign& campaign, const frames::LoadingGeometry& geometry,
+                       const std::vector<identification::LoadCase>& cases) {
+  SystemState state;
   state.geometry = geometry;
   state.at.compliance = geometry.compliance.cwiseMax(0.0);
   state.at.targets = static_cast<int>(campaign.targets.size());
@@ -128,8 +129,7 @@ GapState startState(const campaign::Campaign& campaign, const frames::LoadingGeo
   if (geometry.r0_from_loading && campaign.loading && !campaign.loading->rows.empty()) {
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
     for (const campaign::LoadingReading& row : campaign.loading->rows) sum += row.point;
-    state.at.epoch_centre =
-        *geometry.r0_from_loading * (sum / static_cast<double>(campaign.loading->rows.size()));
+    state.at.epoch_centre = *geometry.r0_from_loading * (sum / static_cast<double>(campaign.loading->rows.size()));
   }
   return state;
 }

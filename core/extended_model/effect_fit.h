@@ -11,9 +11,9 @@ namespace stiffscope::extended_model {
 /// Throws InputError where an
 /// effect cannot be tested with what the campaign has, naming what is missing, or where it cannot be told from
 /// stiffnesses and geometry in these postures. No effect to fit: `added` is empty.
-EffectFit fitEffects(const preparation::PreparedCampaign& prepared, const WantedEffects& wanted);
+EffectFit fitEffects(const preparation::PreparedCampaign& prepared, const RequestedEffects& wanted);
 /// Of a campaign as it was read, which is prepared first.
-EffectFit fitEffects(const campaign::Campaign& campaign, const WantedEffects& wanted);
+EffectFit fitEffects(const campaign::Campaign& campaign, const RequestedEffects& wanted);
 
 /// The effects of the machine with their sizes at `parameters`, without those that are zero: what an ElasticArm bears.
 std::vector<effects::PresentEffect> machineEffects(const EffectFit& effects, const Eigen::VectorXd& parameters);

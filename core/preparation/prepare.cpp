@@ -17,12 +17,13 @@ namespace {
 /// Why the station's motion cannot or need not be taken off; empty where it should be.
 std::string whyNot(const DriftModel& station) {
   if (station.moved()) return {};
-  return station.course == StationCourse::still ? "the nests show no motion of the station beyond their noise" : station.in_words;
+  return station.course == StationCourse::still ? "the nests show no motion of the station beyond their noise"
+                                                : station.in_words;
 }
 
-/// Sweeps that state no time are taken to have been read row by row, evenly, between the first round of the nests and the
-/// last one before the loading: what a drift did to them is then known to a part of itself. Returns how many readings in
-/// the tracker's frame got their time so.
+/// Sweeps that state no time are taken to have been read row by row, evenly, between the first round of the nests and
+/// the last one before the loading: what a drift did to them is then known to a part of itself. Returns how many
+/// readings in the tracker's frame got their time so.
 std::size_t spreadSweepTimes(const StationMotion& station, campaign::Campaign& campaign) {
   if (!campaign.circle_sweeps || !campaign.loading) return 0;
   double loading = std::numeric_limits<double>::infinity();
@@ -34,7 +35,8 @@ std::size_t spreadSweepTimes(const StationMotion& station, campaign::Campaign& c
   for (const StationEpoch& epoch : station.epochs) {
     if (epoch.time_s < loading) last = epoch.time_s;
   }
-  const std::size_t count = campaign.circle_sweeps->rows.size() + (campaign.wrist_sweep ? campaign.wrist_sweep->rows.size() : 0);
+  const std::size_t count =
+      campaign.circle_sweeps->rows.size() + (campaign.wrist_sweep ? campaign.wrist_sweep->rows.size() : 0);
   std::size_t at = 0, without_time = 0;
   const auto spread = [&](auto& table) {
     for (auto& row : table.rows) {
@@ -68,7 +70,7 @@ DriftCorrection correctDrift(const DriftModel& station, campaign::Campaign& camp
   drift.until_s = station.motion.epochs.back().time_s;
   if (station.course == StationCourse::drifted) drift.spread = spreadSweepTimes(station.motion, campaign);
   countReadings(campaign, drift);
-  takeOffDrift(station.motion, campaign);
+  applyDriftCorrection(station.motion, campaign);
   return drift;
 }
 

@@ -1,9 +1,9 @@
 #include "core/preparation/repeatability.h"
 
+#include <fmt/format.h>
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 #include <tuple>
 
 #include "core/campaign/row_names.h"
@@ -60,7 +60,7 @@ void addScatter(const metrology::TrackerNoise& noise, const Repeats& repeats, Re
 
 /// Squared distance of each repeat from the mean of the others, by the declared noise.
 std::vector<std::pair<const campaign::LoadingReading*, double>> distances(const metrology::TrackerNoise& noise,
-                                                                const std::vector<Repeats>& states) {
+                                                                          const std::vector<Repeats>& states) {
   std::vector<std::pair<const campaign::LoadingReading*, double>> result;
   for (const Repeats& repeats : states) {
     const double others = static_cast<double>(repeats.size()) - 1.0;
@@ -88,14 +88,14 @@ std::vector<RejectedReading> outliers(const std::string& file, const metrology::
   for (Repeats& repeats : states) {
     while (repeats.size() >= 2) {
       const auto own = distances(noise, {repeats});
-      const auto worst = std::max_element(own.begin(), own.end(),
-                                          [](const auto& a, const auto& b) { return a.second < b.second; });
+      const auto worst =
+          std::max_element(own.begin(), own.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
       if (worst->second <= limit) break;
       const auto reject = [&](const campaign::LoadingReading* row) {
         found.push_back({file, row->line,
                          fmt::format("stands {:.3f} mm from the mean of its state's other repeats",
-                                     1e3 * (row->point - (sumOf(repeats) - row->point) /
-                                                             (static_cast<double>(repeats.size()) - 1.0))
+                                     1e3 * (row->point -
+                                            (sumOf(repeats) - row->point) / (static_cast<double>(repeats.size()) - 1.0))
                                                .norm())});
       };
       if (repeats.size() == 2) {
@@ -182,9 +182,9 @@ NoiseModel noiseModel(const campaign::Campaign& campaign, const RepeatScatter& s
   model.noise.angle_fixed *= model.across_factor;
   model.noise.angle_per_m *= model.across_factor;
   model.degrees = scatter.along_dof + scatter.across_dof;
-  model.source = fmt::format(
-      "repeats ({} degrees of freedom), {:.2f} of the declared noise along the beam, {:.2f} across",
-      scatter.along_dof + scatter.across_dof, model.along_factor, model.across_factor);
+  model.source =
+      fmt::format("repeats ({} degrees of freedom), {:.2f} of the declared noise along the beam, {:.2f} across",
+                  scatter.along_dof + scatter.across_dof, model.along_factor, model.across_factor);
   return model;
 }
 

@@ -45,8 +45,8 @@ NoiseFactors noiseFactors(const RepeatScatter& scatter);
 /// one cause gives one finding (GUM 4.2: an evaluation from repeats outweighs a data sheet).
 campaign::Tracker asNoisyAs(campaign::Tracker tracker, const NoiseFactors& factors);
 
-/// Noise of one reading: by the scatter of repeats where there are enough of them (30 degrees of freedom along and across
-/// the beam), in the shape of the declared noise; else as declared. Not known without a declared tracker.
+/// Noise of one reading: by the scatter of repeats where there are enough of them (30 degrees of freedom along and
+/// across the beam), in the shape of the declared noise; else as declared. Not known without a declared tracker.
 struct NoiseModel {
   bool known = false;
   metrology::TrackerNoise noise;

@@ -4,8 +4,8 @@
 
 namespace stiffscope::preparation {
 
-/// What the floor nests say of the tracker: it stood, it jumped once, or it drifted or wandered. Not tested also where the
-/// nests themselves moved against each other: they are then no reference.
+/// What the floor nests say of the tracker: it stood, it jumped once, or it drifted or wandered. Not tested also where
+/// the nests themselves moved against each other: they are then no reference.
 enum class StationCourse { not_tested, still, jumped, drifted };
 
 struct DriftModel {
