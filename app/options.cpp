@@ -1,5 +1,6 @@
 #include "app/options.h"
 
+#include <fmt/format.h>
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <charconv>
@@ -7,7 +8,6 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
-#include <fmt/format.h>
 #include <stdexcept>
 #include <string>
 #include <system_error>
@@ -24,7 +24,8 @@ std::vector<identification::Method> methodsNamed(const std::string& name) {
   if (name == "cp") return {identification::Method::complete_pose};
   if (name == "pp") return {identification::Method::partial_pose};
   if (name == "dpp") return {identification::Method::decoupled_partial_pose};
-  throw io::InputError({"--method"}, name, "expected cp, pp, dpp or all" + io::nearestNameHint(name, {"cp", "pp", "dpp", "all"}));
+  throw io::InputError({"--method"}, name,
+                       "expected cp, pp, dpp or all" + io::nearestNameHint(name, {"cp", "pp", "dpp", "all"}));
 }
 
 void requireNoCampaign(const std::filesystem::path& folder, const std::string& expectation) {
@@ -45,7 +46,9 @@ std::string whyNotUnsigned(const std::string& value) {
   std::uint64_t number = 0;
   const char* const end = value.data() + value.size();
   const auto [stopped, error] = std::from_chars(value.data(), end, number);
-  return error == std::errc() && stopped == end ? "" : "'" + value + "': expected a whole number from 0 to 18446744073709551615";
+  return error == std::errc() && stopped == end
+             ? ""
+             : "'" + value + "': expected a whole number from 0 to 18446744073709551615";
 }
 
 }  // namespace
@@ -96,16 +99,15 @@ bool optionOfCommands(const CLI::App& app, const std::string& word) {
   const std::string name = word.substr(0, word.find('='));
   const auto commands = app.get_subcommands(nullptr);
   return name.starts_with("--") && std::any_of(commands.begin(), commands.end(), [&](const CLI::App* command) {
-    return command->get_option_no_throw(name) != nullptr;
-  });
+           return command->get_option_no_throw(name) != nullptr;
+         });
 }
 
 }  // namespace
 
 int explainUsageError(const CLI::App& app, const CLI::ParseError& error) {
   std::string message = error.what();
-  const std::vector<std::string> unknown =
-      chosen(app).remaining().empty() ? app.remaining() : chosen(app).remaining();
+  const std::vector<std::string> unknown = chosen(app).remaining().empty() ? app.remaining() : chosen(app).remaining();
   if (!unknown.empty()) {
     message = optionOfCommands(app, unknown.front())
                   ? fmt::format("'{}' is an option of commands and belongs after the command's name", unknown.front())
@@ -120,20 +122,22 @@ int explainUsageError(const CLI::App& app, const CLI::ParseError& error) {
 
 void addWithOption(CLI::App& command, std::vector<std::string>& words) {
   command
-      .add_option("--with", words,
-                  "effects that the model has besides joint springs, by their names in diagnose, with a part where that is "
-                  "to be chosen (bearing_tilt:3, joint_coupling:2-3, target_motion:P12); auto: what diagnose finds")
+      .add_option(
+          "--with", words,
+          "effects that the model has besides joint springs, by their names in diagnose, with a part where that is "
+          "to be chosen (bearing_tilt:3, joint_coupling:2-3, target_motion:P12); auto: what diagnose finds")
       ->type_name("EFFECT")
       ->delimiter(',')
       ->allow_extra_args(false);
 }
 
-extended_model::EffectFit effectsAsked(const preparation::PreparedCampaign& prepared, const std::vector<std::string>& words) {
+extended_model::EffectFit effectsAsked(const preparation::PreparedCampaign& prepared,
+                                       const std::vector<std::string>& words) {
   campaign::Campaign campaign = prepared.campaign;
   // Nests whose motion has been taken off the readings have said what they know.
   if (prepared.preparation.drift.taken_off) campaign.nests.reset();
   if (std::find(words.begin(), words.end(), "auto") == words.end())
-    return extended_model::fitEffects(campaign, extended_model::wantedEffects(words, campaign));
+    return extended_model::fitEffects(campaign, extended_model::requestedEffects(words, campaign));
   if (words.size() > 1) throw io::InputError({"--with"}, "auto", "expected auto alone, or effects without it");
   return extended_model::fitEffects(campaign, extended_model::namedBy(diagnosis::diagnose(campaign)));
 }

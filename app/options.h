@@ -27,12 +27,12 @@ namespace stiffscope::app {
 /// The methods that `--method` names: cp, pp, dpp or all. Throws InputError with the nearest known name.
 std::vector<identification::Method> methodsNamed(const std::string& name);
 
-/// Throws std::runtime_error where `folder` holds a campaign.xml, for what is not to be written among a day's tables; ends
-/// in `expectation`.
+/// Throws std::runtime_error where `folder` holds a campaign.xml, for what is not to be written among a day's tables;
+/// ends in `expectation`.
 void requireNoCampaign(const std::filesystem::path& folder, const std::string& expectation);
 
-/// Refuses, for every option of every command, what its type would take and nobody means: an empty value, a number that is
-/// not finite, and of a whole number one that is negative or does not fit.
+/// Refuses, for every option of every command, what its type would take and nobody means: an empty value, a number that
+/// is not finite, and of a whole number one that is negative or does not fit.
 void checkOptionValues(CLI::App& app);
 
 /// The load step that `--step` names; empty where it was not given. Throws InputError, naming the option, for
@@ -48,6 +48,7 @@ void addWithOption(CLI::App& command, std::vector<std::string>& words);
 
 /// The effects that `words` ask for, fitted to the campaign as it is used; `auto`: what `diagnose` finds in it.
 /// Throws InputError for names that are unknown or do not go together, and for effects that the campaign cannot show.
-extended_model::EffectFit effectsAsked(const preparation::PreparedCampaign& prepared, const std::vector<std::string>& words);
+extended_model::EffectFit effectsAsked(const preparation::PreparedCampaign& prepared,
+                                       const std::vector<std::string>& words);
 
 }  // namespace stiffscope::app

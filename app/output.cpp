@@ -64,17 +64,15 @@ class JsonWriter {
  private:
   void add(const reports::Json& value, const Place& place, std::size_t depth) {
     if (const reports::JsonRows* rows = document_.rowsAt(place)) {
-      addRows(rows->count, depth, [rows](std::size_t i, std::size_t deep, std::string& text) {
-        addShort(rows->row(i), deep, text);
-      });
+      addRows(rows->count, depth,
+              [rows](std::size_t i, std::size_t deep, std::string& text) { addShort(rows->row(i), deep, text); });
     } else if (!hasLongList(document_, value, place)) {
       addShort(value, depth, text_);
     } else if (value.is_object()) {
       addObject(value, place, depth);
     } else if (value.size() >= kLong) {
-      addRows(value.size(), depth, [&value](std::size_t i, std::size_t deep, std::string& text) {
-        addShort(value[i], deep, text);
-      });
+      addRows(value.size(), depth,
+              [&value](std::size_t i, std::size_t deep, std::string& text) { addShort(value[i], deep, text); });
     } else {
       addList(value, place, depth);
     }
@@ -150,7 +148,8 @@ void printWarnings(const std::vector<std::string>& warnings) {
   for (const std::string& warning : warnings) std::fprintf(stderr, "stiffscope: warning: %s\n", warning.c_str());
 }
 
-void deliver(const std::function<reports::JsonDocument()>& json, const std::function<std::string()>& text, const std::string& json_file) {
+void deliver(const std::function<reports::JsonDocument()>& json, const std::function<std::string()>& text,
+             const std::string& json_file) {
   const bool json_only = json_file == "-";
   if (json_only) return writeJson(json(), printBytes);
   if (!json_file.empty()) {

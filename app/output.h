@@ -20,21 +20,24 @@ inline constexpr int kBadInput = 2;
 campaign::Campaign openCampaign(const std::string& folder_or_xml, campaign::Hashes hashes = campaign::Hashes::taken);
 
 /// Those for a result that only the JSON names the inputs of.
-inline campaign::Hashes hashesFor(const std::string& json_file) { return json_file.empty() ? campaign::Hashes::left : campaign::Hashes::taken; }
+inline campaign::Hashes hashesFor(const std::string& json_file) {
+  return json_file.empty() ? campaign::Hashes::left : campaign::Hashes::taken;
+}
 
 void printWarnings(const std::vector<std::string>& warnings);
 
-/// Print to standard output; throw std::runtime_error with the reason where that fails (a full disk, a closed file). Text may
-/// hold names out of a file: what would command a terminal becomes '?'.
+/// Print to standard output; throw std::runtime_error with the reason where that fails (a full disk, a closed file).
+/// Text may hold names out of a file: what would command a terminal becomes '?'.
 void printText(std::string_view text);
 void printBytes(std::string_view text);
 
-/// The result: as JSON alone to standard output where `json_file` is `-`; else as text there, and as JSON to the file that
-/// is named, if any; std::runtime_error where that file was read. Only what is asked for is made.
-void deliver(const std::function<reports::JsonDocument()>& json, const std::function<std::string()>& text, const std::string& json_file);
+/// The result: as JSON alone to standard output where `json_file` is `-`; else as text there, and as JSON to the file
+/// that is named, if any; std::runtime_error where that file was read. Only what is asked for is made.
+void deliver(const std::function<reports::JsonDocument()>& json, const std::function<std::string()>& text,
+             const std::string& json_file);
 
-/// Hands what dump(1) gives, and a line end, to `sink`, in parts; long lists of it are made and written on all cores, a few
-/// thousand rows at a time, so that neither a hundred megabytes of values nor their text stands in memory.
+/// Hands what dump(1) gives, and a line end, to `sink`, in parts; long lists of it are made and written on all cores, a
+/// few thousand rows at a time, so that neither a hundred megabytes of values nor their text stands in memory.
 void writeJson(const reports::JsonDocument& document, const io::ByteSink& sink);
 
 }  // namespace stiffscope::app

@@ -18,10 +18,9 @@ campaign::Campaign described(const campaign::Campaign& campaign) {
 }
 
 void addRawOption(CLI::App& command, bool& raw) {
-  command.add_flag(
-      "--raw", raw,
-      "take the readings as they were read: leave out none that the audit rejects, take off no drift "
-      "that the floor nests show");
+  command.add_flag("--raw", raw,
+                   "take the readings as they were read: leave out none that the audit rejects, take off no drift "
+                   "that the floor nests show");
 }
 
 preparation::PreparedCampaign openPrepared(const std::string& folder_or_xml, bool raw, campaign::Hashes hashes) {

@@ -20,6 +20,7 @@ void addRawOption(CLI::App& command, bool& raw);
 
 /// A campaign as the commands compute from it: without rejected readings and referred to where the station
 /// first stood, as the audit finds them; with `raw` as it was read. Warnings go to standard error.
-preparation::PreparedCampaign openPrepared(const std::string& folder_or_xml, bool raw, campaign::Hashes hashes = campaign::Hashes::taken);
+preparation::PreparedCampaign openPrepared(const std::string& folder_or_xml, bool raw,
+                                           campaign::Hashes hashes = campaign::Hashes::taken);
 
 }  // namespace stiffscope::app

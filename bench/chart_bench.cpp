@@ -2,19 +2,21 @@
 #include "render/grouped_bar_chart.h"
 #include "render/image.h"
 
-// A grouped bar chart like the paper's Fig. 7, drawn and encoded as PNG: 10, 30 and 60 postures of four bars. The library
-// that draws is loaded before the time is taken, as matplotlib is imported before its own is.
+// A grouped bar chart like the paper's Fig. 7, drawn and encoded as PNG: 10, 30 and 60 postures of four bars. The
+// library that draws is loaded before the time is taken, as matplotlib is imported before its own is.
 
 namespace {
 
 using namespace stiffscope;
 
 render::GroupedBarChart chartOf(int postures) {
-  render::GroupedBarChart chart{"Displacement of P_{wrist}", "benchmark", "Displacement of P_{wrist} (mm)", "Posture", {}, {}};
+  render::GroupedBarChart chart{
+      "Displacement of P_{wrist}", "benchmark", "Displacement of P_{wrist} (mm)", "Posture", {}, {}};
   const struct {
     const char* name;
     render::Colour colour;
-  } kinds[] = {{"without compensation", {128, 128, 128}}, {"CP", {200, 40, 40}}, {"PP", {40, 80, 200}}, {"DPP", {40, 160, 60}}};
+  } kinds[] = {
+      {"without compensation", {128, 128, 128}}, {"CP", {200, 40, 40}}, {"PP", {40, 80, 200}}, {"DPP", {40, 160, 60}}};
   for (const auto& kind : kinds) chart.series.push_back({kind.name, kind.colour, {}, {}});
   for (int p = 0; p < postures; ++p) {
     chart.categories.push_back(std::to_string(p + 1));

@@ -75,8 +75,8 @@ template <class Fit>
 void fitting(benchmark::State& state, const metrology::MeasuredPoints& points, const Fit& fit) {
   for (auto _ : state) benchmark::DoNotOptimize(fit(points));
   using benchmark::Counter;
-  state.counters["per_point"] = Counter(static_cast<double>(points.points.size()),
-                                        Counter::kIsIterationInvariantRate | Counter::kInvert);
+  state.counters["per_point"] =
+      Counter(static_cast<double>(points.points.size()), Counter::kIsIterationInvariantRate | Counter::kInvert);
 }
 
 void Circle(benchmark::State& state) {
@@ -110,14 +110,13 @@ BENCHMARK(Cylinder)->Apply(sizes);
 
 /// The plane across the least principal axis, by Eigen alone: no uncertainty, no checks.
 void PlaneByEigen(benchmark::State& state) {
-  fitting(state, noisy(static_cast<std::size_t>(state.range(0)), onSquare), [](const metrology::MeasuredPoints& points) {
-    const Eigen::Map<const Eigen::Matrix3Xd> all(points.points.front().data(), 3,
-                                                 static_cast<Eigen::Index>(points.points.size()));
-    const Eigen::Matrix3Xd centred = all.colwise() - all.rowwise().mean();
-    return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(centred * centred.transpose())
-        .eigenvectors()
-        .eval();
-  });
+  fitting(state, noisy(static_cast<std::size_t>(state.range(0)), onSquare),
+          [](const metrology::MeasuredPoints& points) {
+            const Eigen::Map<const Eigen::Matrix3Xd> all(points.points.front().data(), 3,
+                                                         static_cast<Eigen::Index>(points.points.size()));
+            const Eigen::Matrix3Xd centred = all.colwise() - all.rowwise().mean();
+            return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(centred * centred.transpose()).eigenvectors().eval();
+          });
 }
 BENCHMARK(PlaneByEigen)->Apply(sizes);
 

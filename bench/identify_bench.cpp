@@ -15,18 +15,20 @@
 #include "core/identification/method_solution.h"
 #include "core/numerics/resampling.h"
 #include "core/robot/kinematics.h"
-#include "core/simulation/read_spec.h"
 #include "core/simulation/measure.h"
+#include "core/simulation/read_spec.h"
 
 // What is computed from a campaign, at 19, 190 and 1,900 postures of the sample's machine: frames, each method and all
-// three with their uncertainties, all subsets, the diagnosis. Beside them KDL's Jacobian, whose numbers are checked against
-// ours, and, by subsets_by_numpy.py on the same equations, all subsets.
+// three with their uncertainties, all subsets, the diagnosis. Beside them KDL's Jacobian, whose numbers are checked
+// against ours, and, by subsets_by_numpy.py on the same equations, all subsets.
 
 namespace {
 
 using namespace stiffscope;
 
-simulation::SimulationSpec spec() { return simulation::readSimulationSpec(STIFFSCOPE_SOURCE_DIR "/samples/active.xml"); }
+simulation::SimulationSpec spec() {
+  return simulation::readSimulationSpec(STIFFSCOPE_SOURCE_DIR "/samples/active.xml");
+}
 
 const campaign::Campaign& campaign(int postures) {
   static std::map<int, campaign::Campaign> made;
@@ -41,7 +43,7 @@ void sizes(benchmark::internal::Benchmark* one) { one->Arg(19)->Arg(190)->Arg(19
 
 void Frames(benchmark::State& state) {
   const campaign::Campaign& read = campaign(static_cast<int>(state.range(0)));
-  for (auto _ : state) benchmark::DoNotOptimize(identification::settledFrames(read));
+  for (auto _ : state) benchmark::DoNotOptimize(identification::solvedFrames(read));
 }
 BENCHMARK(Frames)->Apply(sizes)->MeasureProcessCPUTime();
 
@@ -60,14 +62,17 @@ BENCHMARK(ThreeMethods)->Apply(sizes)->MeasureProcessCPUTime();
 void method(benchmark::State& state, identification::Method which) {
   const campaign::Campaign& read = campaign(static_cast<int>(state.range(0)));
   const std::vector<int> steps{identification::chosenStep(read, {})};
-  const identification::SettledFrames settled = identification::settleFrames(read, steps, {});
+  const identification::SolvedFrames settled = identification::solveFrames(read, steps, {});
   const frames::LoadingGeometry& geometry = settled.arm.geometry;
   const double length = identification::characteristicLength(settled.arm.cases, settled.frames.tcp_in_flange).length;
-  const robot::JointMask unknown = identification::judgeJoints(geometry, settled.arm.cases, *read.load_cell, identification::reflectorEquations(settled.arm)).mask();
+  const robot::JointMask unknown =
+      identification::evaluateIdentifiability(geometry, settled.arm.cases, *read.load_cell,
+                                              identification::reflectorEquations(settled.arm))
+          .mask();
   const identification::MethodSolution how{which, settled.frames.tcp_in_flange, length, unknown, &*read.tracker};
   for (auto _ : state) {
     identification::LoadedArm arm = identification::loadedArm(read, geometry, settled.frames.wrist, steps);
-    benchmark::DoNotOptimize(how.settledEstimate(arm, false));
+    benchmark::DoNotOptimize(how.solvedEstimate(arm, false));
   }
 }
 void CompletePose(benchmark::State& state) { method(state, identification::Method::complete_pose); }
@@ -80,7 +85,8 @@ BENCHMARK(DecoupledPartialPose)->Apply(sizes)->MeasureProcessCPUTime();
 /// Partial Pose's geometry on the unloaded positions.
 void Calibration(benchmark::State& state) {
   const campaign::Campaign& read = campaign(static_cast<int>(state.range(0)));
-  const identification::SettledFrames settled = identification::settleFrames(read, {identification::chosenStep(read, {})}, {});
+  const identification::SolvedFrames settled =
+      identification::solveFrames(read, {identification::chosenStep(read, {})}, {});
   for (auto _ : state) benchmark::DoNotOptimize(frames::calibrateGeometry(read, settled.arm.geometry));
 }
 BENCHMARK(Calibration)->Apply(sizes)->MeasureProcessCPUTime();
@@ -99,7 +105,8 @@ std::vector<identification::CaseEquations> drawnEquations(int n) {
 identification::SubsetStudy allSubsets(const std::vector<identification::CaseEquations>& equations) {
   identification::SubsetMethod method;
   method.unknown.fill(true);
-  for (const identification::CaseEquations& one : equations) method.normal.push_back(identification::normalEquations(one));
+  for (const identification::CaseEquations& one : equations)
+    method.normal.push_back(identification::normalEquations(one));
   identification::SubsetOptions options;
   options.size = static_cast<int>(equations.size()) / 2;
   return identification::studySubsets(method, options);

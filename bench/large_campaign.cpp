@@ -16,7 +16,8 @@ const char* const kTargets[] = {"P10", "P11", "P12"};
 /// A table that is written line by line, so that the benchmark itself stays small in memory.
 class TableFile {
  public:
-  TableFile(const std::filesystem::path& file, const char* header) : file_(std::fopen(file.c_str(), "wb"), std::fclose) {
+  TableFile(const std::filesystem::path& file, const char* header)
+      : file_(std::fopen(file.c_str(), "wb"), std::fclose) {
     std::fprintf(file_.get(), "%s\n", header);
   }
 
@@ -74,7 +75,8 @@ void writeManyPostures(const std::filesystem::path& folder, int postures) {
 
 void writeLongWristSweep(const std::filesystem::path& folder, int readings) {
   writeXml(folder, "<wrist_sweep file=\"wrist_sweep.csv\"/>");
-  TableFile sweep(folder / "wrist_sweep.csv", "index,target,q1_deg,q2_deg,q3_deg,q4_deg,q5_deg,q6_deg,x_mm,y_mm,z_mm,time_s");
+  TableFile sweep(folder / "wrist_sweep.csv",
+                  "index,target,q1_deg,q2_deg,q3_deg,q4_deg,q5_deg,q6_deg,x_mm,y_mm,z_mm,time_s");
   for (int i = 0; i < readings; ++i) {
     sweep.line("%d,P10,0,0,0,%.5f,%.5f,%.5f,", i, sweep.drawn(), sweep.drawn(), sweep.drawn());
     sweep.point(2326.7, 632.0, 952.2);

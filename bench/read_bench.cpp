@@ -90,7 +90,12 @@ void ReadPostures(benchmark::State& state) { readingCampaign(state, campaigns().
 BENCHMARK(ReadPostures)->Arg(100)->Arg(1000)->Arg(10000)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime();
 
 void ReadWristSweep(benchmark::State& state) { readingCampaign(state, campaigns().sweep(state.range(0))); }
-BENCHMARK(ReadWristSweep)->Arg(10000)->Arg(100000)->Arg(1000000)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime();
+BENCHMARK(ReadWristSweep)
+    ->Arg(10000)
+    ->Arg(100000)
+    ->Arg(1000000)
+    ->Unit(benchmark::kMillisecond)
+    ->MeasureProcessCPUTime();
 
 void ReadWristSweepByVtk(benchmark::State& state) {
   const fs::path file = campaigns().sweep(state.range(0)) / "wrist_sweep.csv";
@@ -103,7 +108,13 @@ void ReadWristSweepByVtk(benchmark::State& state) {
     benchmark::DoNotOptimize(reader->GetOutput()->GetNumberOfRows());
   });
 }
-BENCHMARK(ReadWristSweepByVtk)->Arg(10000)->Arg(100000)->Arg(1000000)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()->Iterations(1);
+BENCHMARK(ReadWristSweepByVtk)
+    ->Arg(10000)
+    ->Arg(100000)
+    ->Arg(1000000)
+    ->Unit(benchmark::kMillisecond)
+    ->MeasureProcessCPUTime()
+    ->Iterations(1);
 
 }  // namespace
 

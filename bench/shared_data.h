@@ -7,8 +7,8 @@
 
 namespace stiffscope::bench {
 
-/// Takes `--data=FOLDER` out of the arguments: where the data of the benchmarks is written for what they are compared with.
-/// Makes the folder. Empty without.
+/// Takes `--data=FOLDER` out of the arguments: where the data of the benchmarks is written for what they are compared
+/// with. Makes the folder. Empty without.
 std::optional<std::filesystem::path> dataFolder(int& argc, char** argv);
 
 /// Raw doubles in the machine's order, as numpy.fromfile reads them.

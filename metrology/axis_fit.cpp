@@ -30,8 +30,7 @@ namespace {
 std::string tooFew(const std::vector<CirclePoints>& circles) {
   const auto holdsPlane = [](const CirclePoints& circle) { return circle.points.size() >= 3; };
   const auto isEmpty = [](const CirclePoints& circle) { return circle.points.empty(); };
-  if (std::none_of(circles.begin(), circles.end(), holdsPlane))
-    return "no reflector has three readings or more";
+  if (std::none_of(circles.begin(), circles.end(), holdsPlane)) return "no reflector has three readings or more";
   if (std::any_of(circles.begin(), circles.end(), isEmpty)) return "a reflector has no readings";
   return {};
 }

@@ -96,8 +96,8 @@ FittedCircle fitPlaneFirst(const LocalPoints& local) {
   Eigen::Matrix<double, 7, 6> full;  // (centre, normal, radius) by (tilts, height; shifts, radius)
   full << -tilted.u().dot(across) * tilted.direction(), -tilted.v().dot(across) * tilted.direction(),
       tilted.direction(), flat_model.axis.u(), flat_model.axis.v(), Eigen::Vector3d::Zero(),  //
-      sense * tilted.u(), sense * tilted.v(), Eigen::Matrix<double, 3, 4>::Zero(),
-      Eigen::Matrix<double, 1, 5>::Zero(), 1.0;
+      sense * tilted.u(), sense * tilted.v(), Eigen::Matrix<double, 3, 4>::Zero(), Eigen::Matrix<double, 1, 5>::Zero(),
+      1.0;
   full.topRows<3>() *= local.scale;
   full.row(6) *= local.scale;
   fit.covariance = full * covarianceOfParts({plane_model, plane}, {flat_model, flat}, local) * full.transpose();
@@ -119,8 +119,8 @@ FittedCircle fitInSpace(const LocalPoints& local) {
   const double sense = normal.dot(axis.direction()) < 0.0 ? -1.0 : 1.0;
   full << axis.u(), axis.v(), height * axis.u(), height * axis.v(), Eigen::Vector3d::Zero(),
       axis.direction(),  //
-      Eigen::Matrix<double, 3, 2>::Zero(), sense * axis.u(), sense * axis.v(),
-      Eigen::Matrix<double, 3, 2>::Zero(), Eigen::Matrix<double, 1, 4>::Zero(), 1.0, 0.0;
+      Eigen::Matrix<double, 3, 2>::Zero(), sense * axis.u(), sense * axis.v(), Eigen::Matrix<double, 3, 2>::Zero(),
+      Eigen::Matrix<double, 1, 4>::Zero(), 1.0, 0.0;
   full.topRows<3>() *= local.scale;
   full.row(6) *= local.scale;
   fit.circle = {local.origin + local.scale * (axis.point() + height * axis.direction()), normal,
@@ -136,8 +136,7 @@ FittedCircle fitInSpace(const LocalPoints& local) {
 /// later.
 bool flatEnough(const LocalPoints& local) {
   const PrincipalAxes axes = principalAxes(local);
-  return !spreads(axes.spread[1], axes.spread[2], local) ||
-         standsOut(axes.spread[1], axes.spread[0], local.count());
+  return !spreads(axes.spread[1], axes.spread[2], local) || standsOut(axes.spread[1], axes.spread[0], local.count());
 }
 
 /// A number that its own uncertainty contradicts is none.
@@ -146,8 +145,7 @@ void refuseWhatIsNotSignificant(FittedCircle& fit) {
   if (std::sqrt(fit.covariance->block<3, 3>(3, 3).trace()) > kNoDirection) {
     fit.reason = "the normal is undetermined: the readings lie on one line within their scatter";
   } else if (!curved(fit.circle.radius, std::sqrt((*fit.covariance)(6, 6)))) {
-    fit.reason =
-        "the radius is undetermined: against their scatter the readings could lie on a straight line";
+    fit.reason = "the radius is undetermined: against their scatter the readings could lie on a straight line";
   }
   if (!fit.reason.empty()) {
     fit.circle = {};

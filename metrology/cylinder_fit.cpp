@@ -63,10 +63,9 @@ struct Candidate {
 Candidate circleAlong(const Eigen::Vector3d& w, const Gathered& all) {
   Eigen::Vector3d u, v;
   basisAcross(w, u, v);
-  Eigen::Matrix<double, 9, 3> lift =
-      Eigen::Matrix<double, 9, 3>::Zero();  // nine numbers to (|Px|^2, u.x, v.x)
-  lift.col(0).head<6>() << 1.0 - w.x() * w.x(), 1.0 - w.y() * w.y(), 1.0 - w.z() * w.z(),
-      -2.0 * w.y() * w.z(), -2.0 * w.x() * w.z(), -2.0 * w.x() * w.y();
+  Eigen::Matrix<double, 9, 3> lift = Eigen::Matrix<double, 9, 3>::Zero();  // nine numbers to (|Px|^2, u.x, v.x)
+  lift.col(0).head<6>() << 1.0 - w.x() * w.x(), 1.0 - w.y() * w.y(), 1.0 - w.z() * w.z(), -2.0 * w.y() * w.z(),
+      -2.0 * w.x() * w.z(), -2.0 * w.x() * w.y();
   lift.col(1).tail<3>() = u;
   lift.col(2).tail<3>() = v;
   const double square = lift.col(0).dot(all.mean);
@@ -93,8 +92,8 @@ Candidate descend(Candidate from, double step, const Gathered& all) {
       basisAcross(from.direction, u, v);
       for (int k = 0; k < 8; ++k) {
         const double angle = k * std::numbers::pi / 4.0;
-        const Candidate there = circleAlong(
-            (from.direction + step * (std::cos(angle) * u + std::sin(angle) * v)).normalized(), all);
+        const Candidate there =
+            circleAlong((from.direction + step * (std::cos(angle) * u + std::sin(angle) * v)).normalized(), all);
         if (there.expected < 0.999 * from.expected) from = there, better = true;
       }
     }
@@ -121,8 +120,7 @@ std::vector<CylinderStart> cylinderStarts(const LocalPoints& local, std::size_t 
   constexpr double kApart = 0.125;  // rad, their distance
   constexpr double kSame = 0.02;    // rad: the same minimum
   std::vector<Candidate> candidates;
-  for (const Eigen::Vector3d& direction : halfSphere(kDirections))
-    candidates.push_back(circleAlong(direction, all));
+  for (const Eigen::Vector3d& direction : halfSphere(kDirections)) candidates.push_back(circleAlong(direction, all));
   const PrincipalAxes axes = principalAxes(local);
   for (int k = 0; k < 3; ++k) candidates.push_back(circleAlong(axes.directions.col(k), all));
   const auto better = [](const Candidate& a, const Candidate& b) { return a.expected < b.expected; };

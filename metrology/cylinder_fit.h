@@ -17,8 +17,7 @@ struct Cylinder {
 /// `cylinder.axis.point` is the point of the axis nearest to the points' mean, the largest component of its
 /// direction is positive.
 struct FittedCylinder : FitQuality {
-  static constexpr std::array kParameters{"point_x", "point_y", "point_z", "axis_x",
-                                          "axis_y",  "axis_z",  "radius"};
+  static constexpr std::array kParameters{"point_x", "point_y", "point_z", "axis_x", "axis_y", "axis_z", "radius"};
   Cylinder cylinder;
   /// Of (point, direction, radius), rank 5: the point has no uncertainty along the axis, the unit vector none
   /// in its length.

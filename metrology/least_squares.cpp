@@ -209,7 +209,8 @@ class Factorised {
     for (Eigen::Index i = 0; i < size; ++i) scale_[i] = matrix(i, i) > 0.0 ? 1.0 / std::sqrt(matrix(i, i)) : 0.0;
     Eigen::MatrixXd even(size, size);
     for (Eigen::Index j = 0; j < size; ++j) {
-      for (Eigen::Index i = 0; i < size; ++i) even(i, j) = i == j ? 1.0 + damping : scale_[i] * matrix(i, j) * scale_[j];
+      for (Eigen::Index i = 0; i < size; ++i)
+        even(i, j) = i == j ? 1.0 + damping : scale_[i] * matrix(i, j) * scale_[j];
     }
     ldlt_.compute(even);
   }
@@ -299,9 +300,8 @@ Eigen::MatrixXd covarianceOf(const Eigen::MatrixXd& derivatives, const Estimate&
 bool describeQuality(const Estimate& estimate, const LocalPoints& local, FitQuality& quality) {
   quality.degrees_of_freedom = estimate.degreesOfFreedom();
   if (!estimate.determined) {
-    quality.reason = estimate.converged
-                         ? "the readings leave a parameter of the shape free"
-                         : "no shape of this kind is nearest to the readings: the fit does not settle";
+    quality.reason = estimate.converged ? "the readings leave a parameter of the shape free"
+                                        : "no shape of this kind is nearest to the readings: the fit does not settle";
     return false;
   }
   const int dof = quality.degrees_of_freedom;

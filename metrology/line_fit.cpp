@@ -17,8 +17,7 @@ FittedLine fitLine(const MeasuredPoints& points) {
   if (!fit.reason.empty()) return fit;
   const PrincipalAxes axes = principalAxes(local);
   if (!standsOut(axes.spread[2], axes.spread[1], local.count())) {
-    fit.reason =
-        "the direction is undetermined: the readings spread alike in two directions, within their scatter";
+    fit.reason = "the direction is undetermined: the readings spread alike in two directions, within their scatter";
     return fit;
   }
   LineModel model(AxisFrame(Eigen::Vector3d::Zero(), axes.directions.col(2)));

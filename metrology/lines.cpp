@@ -14,8 +14,7 @@ AxisFrame::AxisFrame(const Eigen::Vector3d& point, const Eigen::Vector3d& direct
 void AxisFrame::setBasis() {
   basisAcross(axis_.line.direction, axis_.across_u, axis_.across_v);
   long double square = 0.0L;
-  for (int k = 0; k < 3; ++k)
-    square += static_cast<long double>(axis_.line.direction[k]) * axis_.line.direction[k];
+  for (int k = 0; k < 3; ++k) square += static_cast<long double>(axis_.line.direction[k]) * axis_.line.direction[k];
   const long double inverse = 1.0L / std::sqrt(square);
   for (int k = 0; k < 3; ++k) exact_[k] = inverse * axis_.line.direction[k];
 }
@@ -55,8 +54,7 @@ double distanceAcross(const Line& first, const Line& second, const Eigen::Vector
 }
 
 double angleBetween(const Line& first, const Line& second) {
-  return std::atan2(first.direction.cross(second.direction).norm(),
-                    std::abs(first.direction.dot(second.direction)));
+  return std::atan2(first.direction.cross(second.direction).norm(), std::abs(first.direction.dot(second.direction)));
 }
 
 Eigen::Vector3d nearestPoint(const Line& line, const Eigen::Vector3d& point) {

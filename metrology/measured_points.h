@@ -16,11 +16,10 @@ namespace stiffscope::metrology {
 /// normal matrix, times chi2 / degrees_of_freedom where that exceeds 1.
 struct FitQuality {
   bool determined = false;
-  std::string reason;       ///< what is not determined, and why
-  const char* method = "";  ///< which distances are minimised, from which start
-  double rms = 0.0;         ///< root of the mean square distance of a point from the shape
-  double residual_sd =
-      0.0;  ///< root of the sum of squared distances over degrees_of_freedom; 0 where there are none
+  std::string reason;          ///< what is not determined, and why
+  const char* method = "";     ///< which distances are minimised, from which start
+  double rms = 0.0;            ///< root of the mean square distance of a point from the shape
+  double residual_sd = 0.0;    ///< root of the sum of squared distances over degrees_of_freedom; 0 where there are none
   double chi2_per_dof = 0.0;   ///< weighted, where covariances are given; 1 without
   int degrees_of_freedom = 0;  ///< residuals less parameters
 };

@@ -21,8 +21,7 @@ FittedPlane fitPlane(const MeasuredPoints& points) {
     return fit;
   }
   if (!standsOut(axes.spread[1], axes.spread[0], local.count())) {
-    fit.reason =
-        "the normal is undetermined: the readings spread alike in two directions, within their scatter";
+    fit.reason = "the normal is undetermined: the readings spread alike in two directions, within their scatter";
     return fit;
   }
   PlanesModel model(AxisFrame(Eigen::Vector3d::Zero(), axes.directions.col(0)));
@@ -32,7 +31,7 @@ FittedPlane fitPlane(const MeasuredPoints& points) {
   const AxisFrame& frame = model.axis;
   const Eigen::Vector3d normal = largestPositive(frame.direction());
   const double sense = normal.dot(frame.direction()) < 0.0 ? -1.0 : 1.0;
-  Eigen::Matrix<double, 6, 3> full;  // (point, normal) by (tilts, height)
+  Eigen::Matrix<double, 6, 3> full;                                              // (point, normal) by (tilts, height)
   full << Eigen::Matrix<double, 3, 2>::Zero(), local.scale * frame.direction(),  //
       sense * frame.u(), sense * frame.v(), Eigen::Vector3d::Zero();
   if (tellsUncertainty(estimate, local)) {

@@ -17,8 +17,7 @@ struct Plane {
 /// `plane.point` is the point of the plane nearest to the points' mean, the largest component of the normal
 /// is positive.
 struct FittedPlane : FitQuality {
-  static constexpr std::array kParameters{"point_x",  "point_y",  "point_z",
-                                          "normal_x", "normal_y", "normal_z"};
+  static constexpr std::array kParameters{"point_x", "point_y", "point_z", "normal_x", "normal_y", "normal_z"};
   Plane plane;
   /// Of (point, normal), rank 3: the point has uncertainty along the normal only, the unit vector none in its
   /// length.

@@ -35,8 +35,7 @@ std::optional<Eigen::Matrix3d> rotationOfTriangles(const std::vector<Eigen::Vect
   const Eigen::Matrix2d plane = (to_axes.transpose() * cross * from_axes).topLeftCorner<2, 2>();
   constexpr double kSlender = 1e-6;  // of the two sizes of the cross products
   if (!(plane.determinant() > kSlender * plane.squaredNorm())) return std::nullopt;
-  const double sine = plane(1, 0) - plane(0, 1), cosine = plane(0, 0) + plane(1, 1),
-               size = std::hypot(sine, cosine);
+  const double sine = plane(1, 0) - plane(0, 1), cosine = plane(0, 0) + plane(1, 1), size = std::hypot(sine, cosine);
   Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
   turn.topLeftCorner<2, 2>() << cosine / size, -sine / size, sine / size, cosine / size;
   return to_axes * turn * from_axes.transpose();
@@ -48,15 +47,13 @@ std::optional<Eigen::Matrix3d> rotationOf(const Eigen::Matrix3d& cross) {
   constexpr double kOnOneLine = 1e-12;
   if (!(svd.singularValues()[1] > kOnOneLine * svd.singularValues()[0])) return std::nullopt;
   // The sign on the least singular direction keeps the rotation proper (Umeyama 1991).
-  const Eigen::Vector3d signs(1.0, 1.0,
-                              (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0.0 ? -1.0 : 1.0);
+  const Eigen::Vector3d signs(1.0, 1.0, (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0.0 ? -1.0 : 1.0);
   return svd.matrixU() * signs.asDiagonal() * svd.matrixV().transpose();
 }
 
 }  // namespace
 
-RigidRegistration registerRigid(const std::vector<Eigen::Vector3d>& source,
-                                const std::vector<Eigen::Vector3d>& to) {
+RigidRegistration registerRigid(const std::vector<Eigen::Vector3d>& source, const std::vector<Eigen::Vector3d>& to) {
   RigidRegistration result;
   if (source.size() < 3 || source.size() != to.size()) {
     result.reason = "fewer than three common points";
@@ -77,8 +74,7 @@ RigidRegistration registerRigid(const std::vector<Eigen::Vector3d>& source,
   result.to_from_source.linear() = *rotation;
   result.to_from_source.translation() = to_mean - result.to_from_source.linear() * source_mean;
   double sum = 0.0;
-  for (std::size_t i = 0; i < source.size(); ++i)
-    sum += (result.to_from_source * source[i] - to[i]).squaredNorm();
+  for (std::size_t i = 0; i < source.size(); ++i) sum += (result.to_from_source * source[i] - to[i]).squaredNorm();
   result.rms = std::sqrt(sum / (3.0 * static_cast<double>(source.size())));
   result.determined = true;
   return result;
@@ -105,11 +101,9 @@ class MotionModel : public Model {
   void move(const Eigen::VectorXd& step) override {
     before_ = to_from_source;
     const double angle = step.head<3>().norm();
-    const Eigen::Vector3d about =
-        angle > 0.0 ? Eigen::Vector3d(step.head<3>() / angle) : Eigen::Vector3d::UnitX();
+    const Eigen::Vector3d about = angle > 0.0 ? Eigen::Vector3d(step.head<3>() / angle) : Eigen::Vector3d::UnitX();
     const Eigen::Matrix3d turn = Eigen::AngleAxisd(angle, about).toRotationMatrix();
-    to_from_source.linear() =
-        Eigen::Quaterniond(turn * to_from_source.linear()).normalized().toRotationMatrix();
+    to_from_source.linear() = Eigen::Quaterniond(turn * to_from_source.linear()).normalized().toRotationMatrix();
     to_from_source.translation() = turn * to_from_source.translation() + step.tail<3>();
   }
   void undo() override { to_from_source = before_; }
@@ -123,8 +117,7 @@ class MotionModel : public Model {
 
 }  // namespace
 
-WeightedRegistration registerRigid(const std::vector<Eigen::Vector3d>& source,
-                                   const std::vector<Eigen::Vector3d>& to,
+WeightedRegistration registerRigid(const std::vector<Eigen::Vector3d>& source, const std::vector<Eigen::Vector3d>& to,
                                    const std::vector<Eigen::Matrix3d>& covariances) {
   WeightedRegistration result;
   static_cast<RigidRegistration&>(result) = registerRigid(source, to);
@@ -132,9 +125,7 @@ WeightedRegistration registerRigid(const std::vector<Eigen::Vector3d>& source,
   result.determined = false;
   const MeasuredPoints goal{to, covariances};
   const LocalPoints local = localPoints(&goal, 1);
-  result.reason = !local.flaw.empty()   ? local.flaw
-                  : covariances.empty() ? "the covariances are not one a pair"
-                                        : "";
+  result.reason = !local.flaw.empty() ? local.flaw : covariances.empty() ? "the covariances are not one a pair" : "";
   if (!result.reason.empty()) return result;
   Eigen::Vector3d source_mean = Eigen::Vector3d::Zero();
   for (const Eigen::Vector3d& point : source) source_mean += point / static_cast<double>(source.size());
@@ -152,8 +143,7 @@ WeightedRegistration registerRigid(const std::vector<Eigen::Vector3d>& source,
   }
   const Eigen::Isometry3d& found = model.to_from_source;
   result.to_from_source.linear() = found.linear();
-  result.to_from_source.translation() =
-      local.origin + local.scale * found.translation() - found.linear() * source_mean;
+  result.to_from_source.translation() = local.origin + local.scale * found.translation() - found.linear() * source_mean;
   Eigen::Matrix<double, 6, 1> units;
   units << 1.0, 1.0, 1.0, local.scale, local.scale, local.scale;
   const Eigen::Matrix<double, 6, 6> cofactor = estimate.cofactor;

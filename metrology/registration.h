@@ -15,8 +15,7 @@ struct RigidRegistration {
 
 /// The proper rigid motion (never a reflection) that brings `source` onto `to` in least squares, point by
 /// point. Undetermined: fewer than three points, or points on one line.
-RigidRegistration registerRigid(const std::vector<Eigen::Vector3d>& source,
-                                const std::vector<Eigen::Vector3d>& to);
+RigidRegistration registerRigid(const std::vector<Eigen::Vector3d>& source, const std::vector<Eigen::Vector3d>& to);
 
 struct WeightedRegistration : RigidRegistration {
   /// Of a small motion after the found one, in the `to` frame: rotation vector (rad) about the mean of `to`,
@@ -31,8 +30,7 @@ struct WeightedRegistration : RigidRegistration {
 /// Least sum of the squared differences weighted by their inverse covariances, Gauss-Newton from the
 /// unweighted motion. Covariance as in FitQuality. Undetermined as above, and with covariances that are not
 /// one a pair and positive definite.
-WeightedRegistration registerRigid(const std::vector<Eigen::Vector3d>& source,
-                                   const std::vector<Eigen::Vector3d>& to,
+WeightedRegistration registerRigid(const std::vector<Eigen::Vector3d>& source, const std::vector<Eigen::Vector3d>& to,
                                    const std::vector<Eigen::Matrix3d>& covariances);
 
 }  // namespace stiffscope::metrology

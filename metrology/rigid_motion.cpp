@@ -37,8 +37,7 @@ Eigen::Matrix<double, 3, 6> pointByFrameError(const Eigen::Vector3d& x) {
 Eigen::Isometry3d motionAbout(const Eigen::Vector3d& centre, const Eigen::Matrix<double, 6, 1>& motion) {
   const Eigen::Vector3d turn = motion.head<3>();
   Eigen::Isometry3d result = Eigen::Isometry3d::Identity();
-  if (turn.norm() > 0.0)
-    result.linear() = Eigen::AngleAxisd(turn.norm(), turn.normalized()).toRotationMatrix();
+  if (turn.norm() > 0.0) result.linear() = Eigen::AngleAxisd(turn.norm(), turn.normalized()).toRotationMatrix();
   result.translation() = centre + motion.tail<3>() - result.linear() * centre;
   return result;
 }

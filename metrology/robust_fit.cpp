@@ -60,8 +60,7 @@ ReadingTests testsOf(Model&& model, const LocalPoints& local, const Eigen::Matri
       const Observation seen = whitened(model, own_of_group, local, local.groups[k], i);
       const double square = controlled(seen, size, cofactor);
       const double others =
-          local.weighted() ? 1.0
-                           : std::max((estimate.chi2 - square) / tests.variance_degrees, rounding * rounding);
+          local.weighted() ? 1.0 : std::max((estimate.chi2 - square) / tests.variance_degrees, rounding * rounding);
       tests.readings.push_back({k, i, std::sqrt(square / others)});
     }
   }
@@ -75,7 +74,8 @@ AxisFrame frameOf(const Eigen::Vector3d& point, const Eigen::Vector3d& direction
 }  // namespace
 
 double ReadingTests::criticalW(double level) const {
-  return std::sqrt(variance_degrees == 0 ? chiSquareLimit(level, residuals) : residuals * fLimit(level, residuals, variance_degrees));
+  return std::sqrt(variance_degrees == 0 ? chiSquareLimit(level, residuals)
+                                         : residuals * fLimit(level, residuals, variance_degrees));
 }
 
 ReadingTests readingTests(const FittedLine& fit, const MeasuredPoints& points) {

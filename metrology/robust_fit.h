@@ -55,10 +55,10 @@ struct RejectedReading {
 
 template <class Fit>
 struct RobustFit {
-  Fit fit;  ///< of the readings that are left: its degrees of freedom are theirs
+  Fit fit;                                ///< of the readings that are left: its degrees of freedom are theirs
   std::vector<RejectedReading> rejected;  ///< in the order of their rejection
-  double family_level = 0.0;  ///< probability that a set of good readings loses one at the first test
-  double critical_w = 0.0;    ///< of the last test: every reading that is left lies below; 0: none made
+  double family_level = 0.0;              ///< probability that a set of good readings loses one at the first test
+  double critical_w = 0.0;                ///< of the last test: every reading that is left lies below; 0: none made
 };
 
 /// One good set in a hundred loses a reading; for 20 readings that is a critical w of 3.5, near Baarda's 3.3.
@@ -96,7 +96,8 @@ auto fitRobustly(const Readings& readings, const FitFunction& fitTo, double fami
   };
   DataSnooping found;
   if constexpr (std::is_same_v<Readings, MeasuredPoints>) {
-    found = snoopReadings({readings}, [&](const auto& left) { return fitAndTest(left.front()); }, family_level);
+    found = snoopReadings(
+        {readings}, [&](const auto& left) { return fitAndTest(left.front()); }, family_level);
   } else {
     found = snoopReadings(readings, fitAndTest, family_level);
   }

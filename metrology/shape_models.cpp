@@ -53,10 +53,8 @@ std::optional<Eigen::Matrix<double, Dim, 1>> algebraicCentre(const LocalPoints& 
   return Flat(centre + basis.transpose() * mean);
 }
 
-template std::optional<Eigen::Vector2d> algebraicCentre<2>(const LocalPoints&,
-                                                           const Eigen::Matrix<double, 3, 2>&);
-template std::optional<Eigen::Vector3d> algebraicCentre<3>(const LocalPoints&,
-                                                           const Eigen::Matrix<double, 3, 3>&);
+template std::optional<Eigen::Vector2d> algebraicCentre<2>(const LocalPoints&, const Eigen::Matrix<double, 3, 2>&);
+template std::optional<Eigen::Vector3d> algebraicCentre<3>(const LocalPoints&, const Eigen::Matrix<double, 3, 3>&);
 
 void AxisModel::move(const Eigen::VectorXd& step) {
   before_ = axis;
@@ -116,9 +114,8 @@ void SpheresModel::observe(std::size_t, const Eigen::Vector3d& point, const doub
     square += from * from;
   }
   const long double distance = std::sqrt(square);
-  const Eigen::Vector3d outward = distance > 0.0L
-                                      ? Eigen::Vector3d((point - centre) / static_cast<double>(distance))
-                                      : Eigen::Vector3d::UnitX();  // at the centre any serves
+  const Eigen::Vector3d outward = distance > 0.0L ? Eigen::Vector3d((point - centre) / static_cast<double>(distance))
+                                                  : Eigen::Vector3d::UnitX();  // at the centre any serves
   seen.residual[0] = static_cast<double>(distance - own[0]);
   seen.rows[0] = {-outward.x(), -outward.y(), -outward.z(), -1.0};
   seen.directions[0] = outward;

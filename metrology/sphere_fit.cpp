@@ -87,8 +87,7 @@ FittedSphere fitSphere(const MeasuredPoints& points) {
   const Estimate estimate = fitLeastSquares(*model, local, firstRadii(model->centre, local));
   if (!describeQuality(estimate, local, fit)) return fit;
   if (tellsUncertainty(estimate, local)) {
-    fit.covariance =
-        local.scale * local.scale * varianceFactor(estimate, local.weighted()) * estimate.cofactor;
+    fit.covariance = local.scale * local.scale * varianceFactor(estimate, local.weighted()) * estimate.cofactor;
     if (!curved(local.scale * estimate.own(0, 0), std::sqrt((*fit.covariance)(3, 3)))) {
       fit.reason = "the radius is undetermined: against their scatter the readings could lie in a plane";
       fit.covariance.reset();

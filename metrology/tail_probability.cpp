@@ -11,8 +11,9 @@ namespace {
 namespace math = boost::math;
 using math::policies::ignore_error;
 // Arguments that no distribution has give NaN and do not throw.
-using Policy = math::policies::policy<math::policies::domain_error<ignore_error>, math::policies::overflow_error<ignore_error>,
-                                      math::policies::promote_double<false>>;
+using Policy =
+    math::policies::policy<math::policies::domain_error<ignore_error>, math::policies::overflow_error<ignore_error>,
+                           math::policies::promote_double<false>>;
 using ChiSquare = math::chi_squared_distribution<double, Policy>;
 using F = math::fisher_f_distribution<double, Policy>;
 

@@ -29,13 +29,13 @@ std::optional<Trilateration> trilaterate(const std::array<Eigen::Vector3d, 3>& p
   if (!frame) return std::nullopt;
   const auto& [ex, ey, ez, d, i, j] = *frame;
   const double r0 = radii[0] * radii[0], r1 = radii[1] * radii[1], r2 = radii[2] * radii[2];
-  const double x = (r0 - r1 + d * d) / (2.0 * d);                          // (15)
-  const double y = (r0 - r2 + i * i + j * j) / (2.0 * j) - (i / j) * x;    // (16)
+  const double x = (r0 - r1 + d * d) / (2.0 * d);                        // (15)
+  const double y = (r0 - r2 + i * i + j * j) / (2.0 * j) - (i / j) * x;  // (16)
   Trilateration result;
   result.height_squared = r0 - x * x - y * y;
-  const double z = std::sqrt(std::max(0.0, result.height_squared));        // (17)
+  const double z = std::sqrt(std::max(0.0, result.height_squared));  // (17)
   const Eigen::Vector3d foot = points[0] + x * ex + y * ey;
-  result.roots = {foot + z * ez, foot - z * ez};                           // (13), (14)
+  result.roots = {foot + z * ez, foot - z * ez};  // (13), (14)
   return result;
 }
 

@@ -27,7 +27,7 @@ struct ArmPose {
   std::vector<Eigen::Vector3d> axis_directions;
   std::vector<ScenePoint> targets;  ///< reflectors, drawn as small spheres
   std::optional<ScenePoint> wrist;  ///< the wrist centre, drawn as a larger one
-  bool ghost = false;  ///< drawn pale, behind the others, without labels: one of several postures
+  bool ghost = false;               ///< drawn pale, behind the others, without labels: one of several postures
 };
 
 /// Readings that belong together, drawn as dots over the arm: those of a circle sweep. Base frame, m.
@@ -76,7 +76,7 @@ struct ArmScene {
   std::vector<ArmPose> poses;
   std::vector<SceneTrace> traces;
   std::optional<double> magnification;  ///< of all vectors; none: automaticMagnification
-  double residual_factor = 1;  ///< residual vectors are drawn this many times longer than the others
+  double residual_factor = 1;           ///< residual vectors are drawn this many times longer than the others
   View view = View::Oblique;
   std::optional<Eigen::Vector3d> view_direction;  ///< from the viewer into the scene, instead of `view`
   std::optional<SceneFraming> framing;            ///< none: all that is drawn fits the picture

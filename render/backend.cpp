@@ -1,8 +1,8 @@
 #include "render/backend.h"
 
 #include <dlfcn.h>
-#include <filesystem>
 #include <fmt/format.h>
+#include <filesystem>
 #include <stdexcept>
 #include <string>
 #include <system_error>

@@ -55,13 +55,12 @@ struct Palette {
   Colour target, wrist, link, joint;
 };
 
-inline constexpr Palette kLightPalette{
-    colours::kPaper,     colours::kInk,      colours::kFaintInk, colours::kGrid,  colours::kMeasured,
-    colours::kPredicted, colours::kResidual, colours::kTarget,   colours::kWrist, colours::kLink,
-    colours::kJoint};
+inline constexpr Palette kLightPalette{colours::kPaper,    colours::kInk,       colours::kFaintInk, colours::kGrid,
+                                       colours::kMeasured, colours::kPredicted, colours::kResidual, colours::kTarget,
+                                       colours::kWrist,    colours::kLink,      colours::kJoint};
 
-inline constexpr Palette kDarkPalette{{24, 26, 31},    {236, 238, 242}, {166, 170, 180}, {58, 62, 70},
-                                      {226, 86, 70},   {118, 172, 255}, {170, 240, 200}, {180, 186, 198},
-                                      {232, 168, 32},  {124, 130, 143}, {90, 97, 111}};
+inline constexpr Palette kDarkPalette{{24, 26, 31},   {236, 238, 242}, {166, 170, 180}, {58, 62, 70},
+                                      {226, 86, 70},  {118, 172, 255}, {170, 240, 200}, {180, 186, 198},
+                                      {232, 168, 32}, {124, 130, 143}, {90, 97, 111}};
 
 }  // namespace stiffscope::render

@@ -14,7 +14,7 @@ struct DotRow {
   std::string name;
   double size = std::numeric_limits<double>::quiet_NaN();  ///< positive, in the unit of the axis; else no dot
   std::string words;                                       ///< in place of the dot where there is none
-  bool marked = false;  ///< bold, with a diamond: what the picture is about
+  bool marked = false;                                     ///< bold, with a diamond: what the picture is about
 };
 
 /// Rows with a size each on a logarithmic axis, and beside their names a column for each group: a line that
@@ -25,10 +25,9 @@ struct DotRowChart {
   std::string subtitle;
   std::string x_title;  ///< with its unit
   std::vector<DotRow> rows;
-  std::vector<std::vector<std::size_t>>
-      groups;                         ///< indices of rows; at most 12 are drawn, the note says of more
-  std::string group_title;            ///< over the columns: "cannot be told apart"
-  std::string dot_name, marked_name;  ///< in the legend; empty: not said
+  std::vector<std::vector<std::size_t>> groups;  ///< indices of rows; at most 12 are drawn, the note says of more
+  std::string group_title;                       ///< over the columns: "cannot be told apart"
+  std::string dot_name, marked_name;             ///< in the legend; empty: not said
   double reference = std::numeric_limits<double>::quiet_NaN();  ///< a dashed line at this size
   std::string reference_name;
 };

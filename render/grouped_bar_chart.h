@@ -13,8 +13,7 @@ struct BarSeries {
   std::string name;  ///< stands in the legend
   Colour colour;
   std::vector<double> values;  ///< one per category; one that is not finite leaves a gap
-  std::vector<double>
-      errors;  ///< half-length of each whisker, same unit; empty, or one per category (NaN: none)
+  std::vector<double> errors;  ///< half-length of each whisker, same unit; empty, or one per category (NaN: none)
 };
 
 /// Bars in groups, from a zero line up or down: the paper's Fig. 7 (displacement of P_wrist per posture,

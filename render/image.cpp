@@ -33,8 +33,8 @@ std::vector<std::uint8_t> encodePng(const Image& image) {
   const auto width = static_cast<std::size_t>(image.width);
   const auto height = static_cast<std::size_t>(image.height);
   if (image.width <= 0 || image.height <= 0 || image.rgb.size() != 3 * width * height) {
-    throw std::invalid_argument(fmt::format("image of {} x {} pixels has {} bytes, expected 3 a pixel",
-                                            image.width, image.height, image.rgb.size()));
+    throw std::invalid_argument(fmt::format("image of {} x {} pixels has {} bytes, expected 3 a pixel", image.width,
+                                            image.height, image.rgb.size()));
   }
   Writer writer;
   if (writer.info == nullptr) throw std::runtime_error("cannot encode PNG: libpng did not start");

@@ -20,8 +20,7 @@ struct Image {
 
   /// The three bytes of the pixel `x` from the left, `y` from the top. Not checked.
   const std::uint8_t* at(int x, int y) const {
-    return &rgb[3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
-                     static_cast<std::size_t>(x))];
+    return &rgb[3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x))];
   }
 };
 

@@ -36,10 +36,9 @@ struct IntervalChart {
   std::vector<std::string> categories;
   std::vector<IntervalSeries> series;
   bool logarithmic = false;
-  std::vector<double>
-      references;              ///< empty, or a dashed line per category (NaN: none), such as the true value
-  std::string reference_name;  ///< of those lines, in the legend
-  std::string doubtful_name;   ///< what a hollow point means, in the legend; empty: not said
+  std::vector<double> references;  ///< empty, or a dashed line per category (NaN: none), such as the true value
+  std::string reference_name;      ///< of those lines, in the legend
+  std::string doubtful_name;       ///< what a hollow point means, in the legend; empty: not said
 };
 
 /// Draws the chart. Throws std::invalid_argument when there is no category or series, when lengths disagree

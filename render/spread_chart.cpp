@@ -12,8 +12,7 @@ Spread spreadOf(std::vector<double> samples) {
   if (!std::all_of(samples.begin(), samples.end(), [](double x) { return std::isfinite(x); })) {
     throw std::invalid_argument("spread of samples of which one is not finite");
   }
-  const double mean =
-      std::accumulate(samples.begin(), samples.end(), 0.0) / static_cast<double>(samples.size());
+  const double mean = std::accumulate(samples.begin(), samples.end(), 0.0) / static_cast<double>(samples.size());
   std::sort(samples.begin(), samples.end());
   const auto percentile = [&samples](double p) {
     const double rank = p / 100 * static_cast<double>(samples.size() - 1);

@@ -31,11 +31,10 @@ struct SpreadMethod {
 
 /// One panel, a joint: a box per method, in the order of the chart's methods.
 struct SpreadPanel {
-  std::string title;  ///< "k_{2}"
-  std::vector<std::optional<Spread>>
-      spreads;  ///< one per method; none: the method cannot identify this joint
+  std::string title;                           ///< "k_{2}"
+  std::vector<std::optional<Spread>> spreads;  ///< one per method; none: the method cannot identify this joint
   std::vector<std::optional<double>>
-      references;  ///< empty, or one per method: a dashed line across its box, where there is one
+      references;                  ///< empty, or one per method: a dashed line across its box, where there is one
   std::optional<double> axis_min;  ///< fixes the axis where the default does not please
   std::optional<double> axis_max;
 };

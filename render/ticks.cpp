@@ -1,9 +1,9 @@
 #include "render/ticks.h"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <fmt/format.h>
 
 namespace stiffscope::render {
 

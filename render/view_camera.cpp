@@ -24,8 +24,7 @@ Turntable turntableOf(const Eigen::Vector3d& direction) {
 }
 
 Eigen::Vector3d directionOf(const Turntable& at) {
-  return {std::cos(at.dip) * std::cos(at.heading), std::cos(at.dip) * std::sin(at.heading),
-          -std::sin(at.dip)};
+  return {std::cos(at.dip) * std::cos(at.heading), std::cos(at.dip) * std::sin(at.heading), -std::sin(at.dip)};
 }
 
 /// Right and up on the picture for a view that is not vertical, or straight down with y upwards.

@@ -1,8 +1,8 @@
 #include "reports/report_content.h"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 
 #include "core/comparison/matched_postures.h"
 #include "core/io/read_file.h"
@@ -13,9 +13,8 @@ namespace stiffscope::reports {
 namespace {
 
 const ReportCampaign* firstWith(const std::vector<ReportCampaign>& campaigns, campaign::DoubleEncoder state) {
-  const auto found = std::find_if(campaigns.begin(), campaigns.end(), [state](const ReportCampaign& one) {
-    return one.campaign.double_encoder == state;
-  });
+  const auto found = std::find_if(campaigns.begin(), campaigns.end(),
+                                  [state](const ReportCampaign& one) { return one.campaign.double_encoder == state; });
   return found == campaigns.end() ? nullptr : &*found;
 }
 
@@ -29,23 +28,22 @@ std::optional<AvoidedByEncoders> avoidedByEncoders(const std::vector<ReportCampa
   avoided.reason = comparison::differenceOfMachines(inactive->campaign.robot, active->campaign.robot);
   if (!avoided.reason.empty()) return avoided;
   const identification::Identification &before = inactive->identification, &after = active->identification;
-  const comparison::MatchedPostures matched = comparison::matchPostures(inactive->campaign, before, active->campaign, after);
+  const comparison::MatchedPostures matched =
+      comparison::matchPostures(inactive->campaign, before, active->campaign, after);
   static_cast<comparison::DeflectionAvoided&>(avoided) = comparison::deflectionAvoidedAtWrist(before, after, matched);
   avoided.at_wrist = avoided.available;
   if (!avoided.available)
-    static_cast<comparison::DeflectionAvoided&>(avoided) = comparison::deflectionAvoidedAtTargets(before, after, matched);
+    static_cast<comparison::DeflectionAvoided&>(avoided) =
+        comparison::deflectionAvoidedAtTargets(before, after, matched);
   return avoided;
 }
 
-std::string pointOf(const AvoidedByEncoders& avoided) {
-  return avoided.at_wrist ? "P_{wrist}" : "the reflectors";
-}
+std::string pointOf(const AvoidedByEncoders& avoided) { return avoided.at_wrist ? "P_{wrist}" : "the reflectors"; }
 
 std::string shareWords(const AvoidedByEncoders& avoided) {
   const std::string share = percent(avoided.share);
   if (!std::isfinite(avoided.low)) return share;
-  return fmt::format("{} (95\u00a0%: {} to {})", share, fixed(100.0 * avoided.low, 1),
-                     percent(avoided.high));
+  return fmt::format("{} (95\u00a0%: {} to {})", share, fixed(100.0 * avoided.low, 1), percent(avoided.high));
 }
 
 std::string reportId(const ReportContent& content) {

@@ -11,8 +11,8 @@
 #include "core/diagnosis/diagnose.h"
 #include "core/identification/load_case.h"
 #include "core/preparation/subsample.h"
-#include "reports/json/json_document.h"
 #include "reports/json/json.h"
+#include "reports/json/json_document.h"
 #include "reports/text/text.h"
 
 namespace stiffscope::app {
@@ -31,11 +31,13 @@ int auditCampaign(const std::string& folder, const std::string& json_file) {
   const campaign::Campaign words = described(campaign);
   // The audit takes the only copy of the readings; what the design is asked about is a hundred postures.
   std::optional<campaign::Campaign> asked;
-  if (identification::whatLoadsLack(campaign).empty()) asked = preparation::evenlySpread(campaign, preparation::kMostDiagnosed);
+  if (identification::whatLoadsLack(campaign).empty())
+    asked = preparation::evenlySpread(campaign, preparation::kMostDiagnosed);
   audit::AuditReport report = audit::audit(std::move(campaign));
   // With a unit wrong nothing could be told apart, and the search would not settle for a minute.
   if (asked && !audit::findsTheImpossible(report)) audit::addSeparableEffects(designOf(*asked), report);
-  deliver([&] { return reports::auditJson(words, report); }, [&] { return reports::auditText(words, report); }, json_file);
+  deliver([&] { return reports::auditJson(words, report); }, [&] { return reports::auditText(words, report); },
+          json_file);
   return report.verdict == preparation::AuditVerdict::fail ? kNotUsable : kDone;
 }
 
@@ -49,9 +51,8 @@ void addAudit(CLI::App& app, Run& run) {
   CLI::App* command = app.add_subcommand("audit", "Is this data fit to identify from?");
   command->add_option("CAMPAIGN", arguments->campaign, "campaign folder or its campaign.xml")->required();
   command->add_option("--json", arguments->json, "write the result to this file, - for standard output");
-  command->callback([arguments, &run] {
-    run = [arguments] { return auditCampaign(arguments->campaign, arguments->json); };
-  });
+  command->callback(
+      [arguments, &run] { run = [arguments] { return auditCampaign(arguments->campaign, arguments->json); }; });
 }
 
 }  // namespace stiffscope::app

@@ -1,7 +1,7 @@
+#include <unistd.h>
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>
-#include <unistd.h>
 
 #include "app/command_line.h"
 #include "app/output.h"
@@ -9,8 +9,8 @@
 #include "core/diagnosis/effect_distance.h"
 #include "core/io/write_file.h"
 #include "core/validation/run_blind.h"
-#include "reports/json/json_document.h"
 #include "reports/json/json.h"
+#include "reports/json/json_document.h"
 #include "reports/page/validation_page.h"
 #include "reports/text/text.h"
 
@@ -20,12 +20,8 @@ namespace {
 
 validation::BlindEvents eventsOnStderr() {
   validation::BlindEvents events;
-  events.sealed = [](const std::string& seal) {
-    std::fprintf(stderr, "labels sealed, SHA-256 %s\n", seal.c_str());
-  };
-  events.frozen = [](const std::string& hash) {
-    std::fprintf(stderr, "answers frozen, SHA-256 %s\n", hash.c_str());
-  };
+  events.sealed = [](const std::string& seal) { std::fprintf(stderr, "labels sealed, SHA-256 %s\n", seal.c_str()); };
+  events.frozen = [](const std::string& hash) { std::fprintf(stderr, "answers frozen, SHA-256 %s\n", hash.c_str()); };
   if (isatty(STDERR_FILENO) != 0) {
     events.progress = [](const char* stage, int done, int total) {
       std::fprintf(stderr, "\r%s %d of %d%s", stage, done, total, done == total ? "\n" : "");
@@ -47,15 +43,12 @@ void addBlind(CLI::App& app, Run& run) {
     std::string out, json;
   };
   const auto arguments = std::make_shared<Arguments>();
-  CLI::App* command =
-      app.add_subcommand("blind", "The diagnosis checked on machines whose effect is withheld");
+  CLI::App* command = app.add_subcommand("blind", "The diagnosis checked on machines whose effect is withheld");
   command->add_option("--cases", arguments->options.cases, "how many machines")
       ->check(CLI::Range(1, 9999))
       ->capture_default_str();
-  command->add_option("--seed", arguments->options.seed, "another seed, other machines")
-      ->capture_default_str();
-  command
-      ->add_option("--out", arguments->out, "folder for campaigns, labels, answers, results.json, blind.html")
+  command->add_option("--seed", arguments->options.seed, "another seed, other machines")->capture_default_str();
+  command->add_option("--out", arguments->out, "folder for campaigns, labels, answers, results.json, blind.html")
       ->required();
   command->add_flag("--discard", arguments->options.discard, "remove the campaigns when done");
   command->add_option("--threads", arguments->options.threads, "at work at a time; the result is the same")
@@ -65,7 +58,8 @@ void addBlind(CLI::App& app, Run& run) {
   command->callback([arguments, &run] {
     run = [arguments] {
       arguments->options.out = arguments->out;
-      const validation::BlindResult result = validation::runBlind(arguments->options, diagnosed, eventsOnStderr(), diagnosis::distanceFromVocabulary);
+      const validation::BlindResult result =
+          validation::runBlind(arguments->options, diagnosed, eventsOnStderr(), diagnosis::distanceFromVocabulary);
       const reports::Json json = reports::blindJson(arguments->options, result);
       io::writeFileWhole(arguments->options.out / "results.json", json.dump(1) + '\n');
       io::writeFileWhole(arguments->options.out / "blind.html", page::blindPage(arguments->options, result));

@@ -28,21 +28,22 @@ int compareTwo(const Arguments& arguments) {
   const preparation::PreparedCampaign prepared_before = openPrepared(arguments.before, arguments.raw);
   const preparation::PreparedCampaign prepared_after = openPrepared(arguments.after, arguments.raw);
   const campaign::Campaign &before = prepared_before.campaign, &after = prepared_after.campaign;
-  const comparison::Comparison comparison = comparison::compareCampaigns(before, identification::identify(before, options), after,
-                                                 identification::identify(after, options), arguments.bootstrap);
+  const comparison::Comparison comparison =
+      comparison::compareCampaigns(before, identification::identify(before, options), after,
+                                   identification::identify(after, options), arguments.bootstrap);
   deliver(
-          [&] {
-            reports::Json json = reports::comparisonJson(before, after, comparison);
-            json["preparation"] = {reports::preparationJson(prepared_before.preparation),
-                                   reports::preparationJson(prepared_after.preparation)};
-            return json;
-          },
-          [&] {
-            return reports::comparisonText(before, after, comparison) + before.name + ". " +
-                   reports::preparationText(prepared_before.preparation) + after.name + ". " +
-                   reports::preparationText(prepared_after.preparation);
-          },
-          arguments.json);
+      [&] {
+        reports::Json json = reports::comparisonJson(before, after, comparison);
+        json["preparation"] = {reports::preparationJson(prepared_before.preparation),
+                               reports::preparationJson(prepared_after.preparation)};
+        return json;
+      },
+      [&] {
+        return reports::comparisonText(before, after, comparison) + before.name + ". " +
+               reports::preparationText(prepared_before.preparation) + after.name + ". " +
+               reports::preparationText(prepared_after.preparation);
+      },
+      arguments.json);
   return comparison.comparable ? kDone : kNotUsable;
 }
 
@@ -50,21 +51,15 @@ int compareTwo(const Arguments& arguments) {
 
 void addCompare(CLI::App& app, Run& run) {
   const auto arguments = std::make_shared<Arguments>();
-  CLI::App* command =
-      app.add_subcommand("compare", "Two states of one machine: stiffness, and deflection avoided");
-  command->add_option("BEFORE", arguments->before, "campaign before, or with the double encoders inactive")
-      ->required();
-  command->add_option("AFTER", arguments->after, "campaign after, or with the double encoders active")
-      ->required();
+  CLI::App* command = app.add_subcommand("compare", "Two states of one machine: stiffness, and deflection avoided");
+  command->add_option("BEFORE", arguments->before, "campaign before, or with the double encoders inactive")->required();
+  command->add_option("AFTER", arguments->after, "campaign after, or with the double encoders active")->required();
   command->add_option("--step", arguments->step, "load step of both to identify from");
   command->add_flag("--neglect-kc", arguments->neglect_kc, "neglect K_c, as the paper does");
   addRawOption(*command, arguments->raw);
-  command->add_option("--seed", arguments->bootstrap.seed, "of the bootstrap over postures")
-      ->capture_default_str();
+  command->add_option("--seed", arguments->bootstrap.seed, "of the bootstrap over postures")->capture_default_str();
   command->add_option("--json", arguments->json, "write the result to this file, - for standard output");
-  command->callback([arguments, &run] {
-    run = [arguments] { return compareTwo(*arguments); };
-  });
+  command->callback([arguments, &run] { run = [arguments] { return compareTwo(*arguments); }; });
 }
 
 }  // namespace stiffscope::app

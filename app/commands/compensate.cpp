@@ -8,12 +8,12 @@
 #include "app/prepared.h"
 #include "core/compensation/compensate.h"
 #include "core/extended_model/effect_deflection.h"
+#include "core/extended_model/extended_model.h"
 #include "core/identification/identification.h"
+#include "core/identification/identify.h"
 #include "core/io/input_error.h"
 #include "reports/json/campaign_json.h"
-#include "core/identification/identify.h"
 #include "reports/json/json.h"
-#include "core/extended_model/extended_model.h"
 #include "reports/json/json_document.h"
 #include "reports/text/text.h"
 #include "reports/words/names.h"
@@ -36,24 +36,28 @@ int compensateCampaign(const Arguments& arguments) {
   identification::IdentifyOptions options;
   options.step = loadStepNamed(arguments.step);
   const preparation::PreparedCampaign prepared = openPrepared(arguments.campaign, arguments.raw);
-  std::optional<extended_model::ImprovedModel> improved;
-  if (!arguments.with.empty()) improved = extended_model::improveModel(prepared.campaign, effectsAsked(prepared, arguments.with), options);
+  std::optional<extended_model::ExtendedModel> improved;
+  if (!arguments.with.empty())
+    improved = extended_model::extendModel(prepared.campaign, effectsAsked(prepared, arguments.with), options);
   const campaign::Campaign& campaign = improved ? improved->campaign : prepared.campaign;
   const identification::Identification result = improved ? improved->with : identification::identify(campaign, options);
   if (methods.empty()) methods = {identification::bestMethod(result)};
   const identification::MethodResult& method = result.of(methods.front());
   if (!method.available) {
-    throw io::InputError({arguments.campaign}, "", std::string(reports::namesOf(methods.front()).full) + " is unavailable here: " + method.reason);
+    throw io::InputError(
+        {arguments.campaign}, "",
+        std::string(reports::namesOf(methods.front()).full) + " is unavailable here: " + method.reason);
   }
   std::vector<std::string> warnings;
-  const std::vector<compensation::PostureToCompensate> asked = arguments.postures.empty()
-                                                     ? compensation::campaignPostures(campaign, result.step)
-                                                     : compensation::readPostures(arguments.postures, warnings);
+  const std::vector<compensation::PostureToCompensate> asked =
+      arguments.postures.empty() ? compensation::campaignPostures(campaign, result.step)
+                                 : compensation::readPostures(arguments.postures, warnings);
   printWarnings(warnings);
-  std::optional<effects::FurtherGive> give;
-  if (improved && extended_model::givesFurther(improved->effects)) give = extended_model::furtherGive(*improved, methods.front());
-  const std::vector<compensation::CompensatedPosture> rows = compensation::compensate(campaign, method.geometry, method.estimate,
-                                                          result.frames.tcp_in_flange, asked, {}, give ? &*give : nullptr);
+  std::optional<effects::EffectDeflection> give;
+  if (improved && extended_model::deflectsByEffects(improved->effects))
+    give = extended_model::effectDeflection(*improved, methods.front());
+  const std::vector<compensation::CompensatedPosture> rows = compensation::compensate(
+      campaign, method.geometry, method.estimate, result.frames.tcp_in_flange, asked, {}, give ? &*give : nullptr);
   std::vector<std::string> cautions = result.cautions;
   for (std::string& sentence : compensation::implausibleCommands(rows)) cautions.push_back(std::move(sentence));
   deliver(
@@ -65,10 +69,12 @@ int compensateCampaign(const Arguments& arguments) {
       },
       [&] {
         return reports::compensationText(campaign, methods.front(), rows, cautions) +
-               (improved ? reports::improvedText(*improved, methods) : "") + reports::preparationText(prepared.preparation);
+               (improved ? reports::extendedModelText(*improved, methods) : "") +
+               reports::preparationText(prepared.preparation);
       },
       arguments.json);
-  const bool any = std::any_of(rows.begin(), rows.end(), [](const compensation::CompensatedPosture& row) { return row.solved; });
+  const bool any =
+      std::any_of(rows.begin(), rows.end(), [](const compensation::CompensatedPosture& row) { return row.solved; });
   return any ? kDone : kNotUsable;
 }
 
@@ -76,20 +82,18 @@ int compensateCampaign(const Arguments& arguments) {
 
 void addCompensate(CLI::App& app, Run& run) {
   const auto arguments = std::make_shared<Arguments>();
-  CLI::App* command =
-      app.add_subcommand("compensate", "Predicted deflection, and the joint commands that cancel it");
+  CLI::App* command = app.add_subcommand("compensate", "Predicted deflection, and the joint commands that cancel it");
   command->add_option("CAMPAIGN", arguments->campaign, "campaign folder or its campaign.xml")->required();
-  command->add_option("--postures", arguments->postures,
-                      "CSV with pose, q1_deg..q6_deg and the load-cell reading fx_n..mz_nm expected there; without it the "
-                      "campaign's own");
+  command->add_option(
+      "--postures", arguments->postures,
+      "CSV with pose, q1_deg..q6_deg and the load-cell reading fx_n..mz_nm expected there; without it the "
+      "campaign's own");
   command->add_option("--method", arguments->method, "cp, pp or dpp; without it the best that is available, dpp first");
   command->add_option("--step", arguments->step, "load step to identify from");
   addWithOption(*command, arguments->with);
   addRawOption(*command, arguments->raw);
   command->add_option("--json", arguments->json, "write the result to this file, - for standard output");
-  command->callback([arguments, &run] {
-    run = [arguments] { return compensateCampaign(*arguments); };
-  });
+  command->callback([arguments, &run] { run = [arguments] { return compensateCampaign(*arguments); }; });
 }
 
 }  // namespace stiffscope::app

@@ -21,23 +21,24 @@ const std::vector<std::string> kStrategies{"full", "plane-first"};
 void requireKnown(const std::string& what, const std::string& name, const std::vector<std::string>& known) {
   if (std::find(known.begin(), known.end(), name) != known.end()) return;
   std::string list;
-  for (const std::string& one : known)
-    list += (list.empty() ? "" : &one == &known.back() ? " or " : ", ") + one;
+  for (const std::string& one : known) list += (list.empty() ? "" : &one == &known.back() ? " or " : ", ") + one;
   throw io::InputError({what}, name, "expected " + list + io::nearestNameHint(name, known));
 }
 
 template <class FitFunction>
 reports::ShapeFit fitWith(const FitFunction& fitTo, const std::string& shape, const metrology::MeasuredPoints& points,
-                 bool robust) {
+                          bool robust) {
   if (!robust) return {shape, points.points.size(), fitTo(points), std::nullopt};
   const auto found = metrology::fitRobustly(points, fitTo);
   return {shape, points.points.size() - found.rejected.size(), found.fit,
           reports::Snooping{found.family_level, found.critical_w, found.rejected}};
 }
 
-reports::ShapeFit fitShape(const std::string& shape, metrology::CircleStrategy strategy, const metrology::MeasuredPoints& points,
-                  bool robust) {
-  const auto circle = [strategy](const metrology::MeasuredPoints& readings) { return metrology::fitCircle(readings, strategy); };
+reports::ShapeFit fitShape(const std::string& shape, metrology::CircleStrategy strategy,
+                           const metrology::MeasuredPoints& points, bool robust) {
+  const auto circle = [strategy](const metrology::MeasuredPoints& readings) {
+    return metrology::fitCircle(readings, strategy);
+  };
   if (shape == "line") return fitWith(metrology::fitLine, shape, points, robust);
   if (shape == "plane") return fitWith(metrology::fitPlane, shape, points, robust);
   if (shape == "circle") return fitWith(circle, shape, points, robust);
@@ -53,15 +54,13 @@ void addFit(CLI::App& app, Run& run) {
     bool robust = false;
   };
   const auto arguments = std::make_shared<Arguments>();
-  CLI::App* command =
-      app.add_subcommand("fit", "A line, plane, circle, sphere or cylinder through points of a file");
+  CLI::App* command = app.add_subcommand("fit", "A line, plane, circle, sphere or cylinder through points of a file");
   command->add_option("SHAPE", arguments->shape, "line, plane, circle, sphere or cylinder")->required();
-  command
-      ->add_option("FILE", arguments->file,
-                   "points, x y z a line; a first line with only their count is accepted")
+  command->add_option("FILE", arguments->file, "points, x y z a line; a first line with only their count is accepted")
       ->required();
-  command->add_option("--strategy", arguments->strategy,
-                      "of a circle: full (distances in space; without it this) or plane-first (a plane, then a circle in it)");
+  command->add_option(
+      "--strategy", arguments->strategy,
+      "of a circle: full (distances in space; without it this) or plane-first (a plane, then a circle in it)");
   command->add_flag("--robust", arguments->robust,
                     "leave out and list the readings that the others contradict (Baarda's w-test)");
   command->add_option("--json", arguments->json, "write the result to this file, - for standard output");
@@ -72,11 +71,11 @@ void addFit(CLI::App& app, Run& run) {
         requireKnown("--strategy", arguments->strategy, kStrategies);
         if (arguments->shape != "circle") {
           throw io::InputError({"--strategy"}, arguments->strategy,
-                           "expected with circle only: other shapes have no second one");
+                               "expected with circle only: other shapes have no second one");
         }
       }
-      const auto strategy =
-          arguments->strategy == "plane-first" ? metrology::CircleStrategy::plane_first : metrology::CircleStrategy::full;
+      const auto strategy = arguments->strategy == "plane-first" ? metrology::CircleStrategy::plane_first
+                                                                 : metrology::CircleStrategy::full;
       const reports::ShapeFit fitted =
           fitShape(arguments->shape, strategy, {io::readPoints(arguments->file), {}}, arguments->robust);
       deliver([&] { return reports::fitJson(fitted); }, [&] { return reports::fitText(fitted); }, arguments->json);

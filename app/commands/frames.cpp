@@ -5,10 +5,10 @@
 #include "app/command_line.h"
 #include "app/output.h"
 #include "app/prepared.h"
-#include "core/identification/identify.h"
-#include "reports/json/campaign_json.h"
 #include "core/campaign/campaign.h"
 #include "core/frames/frames.h"
+#include "core/identification/identify.h"
+#include "reports/json/campaign_json.h"
 #include "reports/json/json.h"
 #include "reports/text/text.h"
 #include "reports/words/preparation_words.h"
@@ -21,7 +21,8 @@ void addFrames(CLI::App& app, Run& run) {
     bool raw = false;
   };
   const auto arguments = std::make_shared<Arguments>();
-  CLI::App* command = app.add_subcommand("frames", "Axes, R0, link lengths, P_TCP and the wrist centre from the sweeps");
+  CLI::App* command =
+      app.add_subcommand("frames", "Axes, R0, link lengths, P_TCP and the wrist centre from the sweeps");
   command->add_option("CAMPAIGN", arguments->campaign, "campaign folder or its campaign.xml")->required();
   addRawOption(*command, arguments->raw);
   command->add_option("--json", arguments->json, "write the result to this file, - for standard output");
@@ -29,12 +30,14 @@ void addFrames(CLI::App& app, Run& run) {
     run = [arguments] {
       const preparation::PreparedCampaign prepared = openPrepared(arguments->campaign, arguments->raw);
       const campaign::Campaign& campaign = prepared.campaign;
-      const frames::Frames frames = identification::settledFrames(campaign);
+      const frames::Frames frames = identification::solvedFrames(campaign);
       deliver([&] { return reports::withPreparation(reports::framesJson(campaign, frames), prepared.preparation); },
-              [&] { return reports::framesText(campaign, frames) + reports::preparationText(prepared.preparation); }, arguments->json);
+              [&] { return reports::framesText(campaign, frames) + reports::preparationText(prepared.preparation); },
+              arguments->json);
       if (frames.arm.points_placed) return kDone;
       const frames::MeasuredAxis& missing = frames.axes[0].measured ? frames.axes[1] : frames.axes[0];
-      std::fprintf(stderr, "stiffscope: %s: no frame is measured: R0 needs sweeps of axes 1 and 2 (`circle_sweeps`): %s\n",
+      std::fprintf(stderr,
+                   "stiffscope: %s: no frame is measured: R0 needs sweeps of axes 1 and 2 (`circle_sweeps`): %s\n",
                    arguments->campaign.c_str(), missing.reason.c_str());
       return kNotUsable;
     };

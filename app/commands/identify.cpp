@@ -1,24 +1,24 @@
+#include <fmt/format.h>
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <fmt/format.h>
 #include <memory>
 
 #include "app/command_line.h"
 #include "app/options.h"
 #include "app/output.h"
 #include "app/prepared.h"
+#include "core/extended_model/extended_model.h"
+#include "core/identification/geometric_stiffness_cost.h"
+#include "core/identification/identify.h"
 #include "core/identification/load_dependence.h"
+#include "core/identification/posture_stiffness.h"
 #include "core/identification/warnings.h"
 #include "core/io/input_error.h"
 #include "reports/json/campaign_json.h"
-#include "core/extended_model/extended_model.h"
-#include "reports/json/json_document.h"
-#include "reports/json/json.h"
 #include "reports/json/identification_json.h"
+#include "reports/json/json.h"
+#include "reports/json/json_document.h"
 #include "reports/text/text.h"
-#include "core/identification/geometric_stiffness_cost.h"
-#include "core/identification/identify.h"
-#include "core/identification/posture_stiffness.h"
 #include "reports/words/preparation_words.h"
 
 namespace stiffscope::app {
@@ -51,8 +51,11 @@ identification::IdentifyOptions optionsOf(const Arguments& arguments, bool subse
 }
 
 /// The best method there is among those asked for, for what is shown of one method only.
-std::optional<identification::Method> bestOf(const identification::Identification& result, const std::vector<identification::Method>& methods) {
-  for (const identification::Method which : {identification::Method::decoupled_partial_pose, identification::Method::partial_pose, identification::Method::complete_pose}) {
+std::optional<identification::Method> bestOf(const identification::Identification& result,
+                                             const std::vector<identification::Method>& methods) {
+  for (const identification::Method which :
+       {identification::Method::decoupled_partial_pose, identification::Method::partial_pose,
+        identification::Method::complete_pose}) {
     if (result.of(which).available && std::find(methods.begin(), methods.end(), which) != methods.end()) return which;
   }
   return std::nullopt;
@@ -61,32 +64,38 @@ std::optional<identification::Method> bestOf(const identification::Identificatio
 int identifyCampaign(const Arguments& arguments, bool subset_given) {
   const std::vector<identification::Method> methods = methodsNamed(arguments.method);
   const identification::IdentifyOptions options = optionsOf(arguments, subset_given);
-  const preparation::PreparedCampaign prepared = openPrepared(arguments.campaign, arguments.raw, hashesFor(arguments.json));
-  std::optional<extended_model::ImprovedModel> improved;
-  if (!arguments.with.empty()) improved = extended_model::improveModel(prepared.campaign, effectsAsked(prepared, arguments.with), options);
+  const preparation::PreparedCampaign prepared =
+      openPrepared(arguments.campaign, arguments.raw, hashesFor(arguments.json));
+  std::optional<extended_model::ExtendedModel> improved;
+  if (!arguments.with.empty())
+    improved = extended_model::extendModel(prepared.campaign, effectsAsked(prepared, arguments.with), options);
   const campaign::Campaign& campaign = improved ? improved->campaign : prepared.campaign;
   const identification::Identification result = improved ? improved->with : identification::identify(campaign, options);
   if (options.subsets.size >= static_cast<int>(result.cases.size()) && !result.cases.empty()) {
     throw io::InputError({"--subset-size"}, std::to_string(options.subsets.size),
-                     fmt::format("expected fewer than the {} postures that identify", result.cases.size()));
+                         fmt::format("expected fewer than the {} postures that identify", result.cases.size()));
   }
   // With a dozen load steps several times the work of the rest, and only shown where asked for.
   const bool steps_shown = options.all_steps || !arguments.json.empty();
-  const identification::StepStudy steps = steps_shown ? identification::studySteps(campaign, options, result) : identification::StepStudy{};
+  const identification::StepStudy steps =
+      steps_shown ? identification::studySteps(campaign, options, result) : identification::StepStudy{};
   const auto text = [&] {
     std::string all = reports::identificationText(campaign, result, methods);
     if (options.all_steps) all += reports::stepsText(steps, result, methods);
-    if (const auto best = bestOf(result, methods); best && arguments.postures) all += reports::posturesText(campaign, result, *best);
-    if (improved) all += reports::improvedText(*improved, methods);
+    if (const auto best = bestOf(result, methods); best && arguments.postures)
+      all += reports::posturesText(campaign, result, *best);
+    if (improved) all += reports::extendedModelText(*improved, methods);
     return all + reports::preparationText(prepared.preparation);
   };
-  deliver([&] {
-    reports::JsonDocument document = reports::identificationJson(campaign, result, methods);
-    document.json = reports::withSteps(std::move(document.json), steps, result, methods);
-    if (improved) document.json = reports::withEffects(std::move(document.json), *improved, methods);
-    document.json = reports::withPreparation(std::move(document.json), prepared.preparation);
-    return document;
-  }, text, arguments.json);
+  deliver(
+      [&] {
+        reports::JsonDocument document = reports::identificationJson(campaign, result, methods);
+        document.json = reports::withSteps(std::move(document.json), steps, result, methods);
+        if (improved) document.json = reports::withEffects(std::move(document.json), *improved, methods);
+        document.json = reports::withPreparation(std::move(document.json), prepared.preparation);
+        return document;
+      },
+      text, arguments.json);
   return identification::anyUsable(result, methods) ? kDone : kNotUsable;
 }
 
@@ -97,10 +106,12 @@ void addIdentify(CLI::App& app, Run& run) {
   CLI::App* command = app.add_subcommand("identify", "Joint stiffness by Complete, Partial and Decoupled Partial Pose");
   command->add_option("CAMPAIGN", arguments->campaign, "campaign folder or its campaign.xml")->required();
   command->add_option("--method", arguments->method, "cp, pp, dpp or all")->capture_default_str();
-  command->add_option("--step", arguments->step,
-                      "load step to identify from, or all of them together; without it the one with the largest mean force");
-  const CLI::Option* subset = command->add_option("--subset-size", arguments->subset_size,
-                      "postures that identify in Table II's subsets; without it 10 of 19, in proportion");
+  command->add_option(
+      "--step", arguments->step,
+      "load step to identify from, or all of them together; without it the one with the largest mean force");
+  const CLI::Option* subset =
+      command->add_option("--subset-size", arguments->subset_size,
+                          "postures that identify in Table II's subsets; without it 10 of 19, in proportion");
   command->add_flag("--neglect-kc", arguments->neglect_kc,
                     "neglect K_c and take Jacobians at the unloaded arm, as the paper does");
   command->add_flag("--robust", arguments->robust,
@@ -112,9 +123,7 @@ void addIdentify(CLI::App& app, Run& run) {
   addRawOption(*command, arguments->raw);
   command->add_option("--json", arguments->json, "write the result to this file, - for standard output");
   command->callback([arguments, subset, &run] {
-    run = [arguments, subset_given = subset->count() > 0] {
-      return identifyCampaign(*arguments, subset_given);
-    };
+    run = [arguments, subset_given = subset->count() > 0] { return identifyCampaign(*arguments, subset_given); };
   });
 }
 

@@ -1,7 +1,7 @@
+#include <fmt/format.h>
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
-#include <fmt/format.h>
 #include <memory>
 #include <stdexcept>
 
@@ -57,9 +57,9 @@ planning::PlanOptions optionsOf(const Arguments& arguments, const Given& given) 
   if (arguments.criterion == "determinant") {
     options.criterion = planning::PlanCriterion::determinant;
   } else if (arguments.criterion != "balanced") {
-    throw io::InputError({"--criterion"}, arguments.criterion,
-                     "expected balanced or determinant" +
-                         io::nearestNameHint(arguments.criterion, {"balanced", "determinant"}));
+    throw io::InputError(
+        {"--criterion"}, arguments.criterion,
+        "expected balanced or determinant" + io::nearestNameHint(arguments.criterion, {"balanced", "determinant"}));
   }
   options.augment = given.add->count() > 0;
   if (options.augment) options.postures = arguments.add;
@@ -92,7 +92,8 @@ int planDay(const Arguments& arguments, const Given& given) {
     const bool xml = std::filesystem::path(arguments.out).extension() == ".xml";
     io::writeFileWhole(arguments.out, xml ? reports::planXml(plan) : reports::planCsv(plan));
   }
-  deliver([&] { return reports::planJson(campaign, plan); }, [&] { return reports::planText(campaign, plan); }, arguments.json);
+  deliver([&] { return reports::planJson(campaign, plan); }, [&] { return reports::planText(campaign, plan); },
+          arguments.json);
   return plan.usable && !plan.postures.empty() ? kDone : kNotUsable;
 }
 
@@ -108,40 +109,33 @@ void addPlan(CLI::App& app, Run& run) {
       ->required();
   Given given{};
   given.postures = command->add_option("--postures", options.postures, "how many")->capture_default_str();
-  given.add =
-      command->add_option("--add", arguments->add, "how many to add to those that the campaign has measured")
-          ->excludes(const_cast<CLI::Option*>(given.postures));
-  given.load = command->add_option("--load", arguments->load,
-                                   "newtons that hang; without it, and without --pull, as measured");
-  given.pull =
-      command->add_option("--pull", arguments->pull, "newtons of a cable, pulling in any of nine directions")
-          ->excludes(const_cast<CLI::Option*>(given.load));
+  given.add = command->add_option("--add", arguments->add, "how many to add to those that the campaign has measured")
+                  ->excludes(const_cast<CLI::Option*>(given.postures));
+  given.load =
+      command->add_option("--load", arguments->load, "newtons that hang; without it, and without --pull, as measured");
+  given.pull = command->add_option("--pull", arguments->pull, "newtons of a cable, pulling in any of nine directions")
+                   ->excludes(const_cast<CLI::Option*>(given.load));
   command->add_option("--hook", arguments->hook_mm, "x,y,z (mm) on the flange where the load acts")
       ->delimiter(',')
       ->expected(3);
   command->add_option("--tracker", arguments->tracker_mm, "x,y,z (mm) of the tracker in base_link")
       ->delimiter(',')
       ->expected(3);
-  command->add_option("--min-deg", arguments->min_deg, "least joint angles, six")
-      ->delimiter(',')
-      ->expected(6);
-  command->add_option("--max-deg", arguments->max_deg, "largest joint angles, six")
-      ->delimiter(',')
-      ->expected(6);
+  command->add_option("--min-deg", arguments->min_deg, "least joint angles, six")->delimiter(',')->expected(6);
+  command->add_option("--max-deg", arguments->max_deg, "largest joint angles, six")->delimiter(',')->expected(6);
   command->add_option("--repeats", options.inputs.repeats, "readings of each reflector in a state")
       ->capture_default_str();
   command
       ->add_option("--criterion", arguments->criterion,
                    "balanced (no joint pays for another) or determinant (D-optimal)")
       ->capture_default_str();
-  command->add_option("--candidates", options.candidates, "random postures to choose from")
-      ->capture_default_str();
+  command->add_option("--candidates", options.candidates, "random postures to choose from")->capture_default_str();
   command->add_option("--seed", options.seed, "of the random postures")->capture_default_str();
-  command->add_option("--out", arguments->out,
-                      "write the postures to this file: CSV, or where its name ends in .xml the <postures> of a simulation");
+  command->add_option(
+      "--out", arguments->out,
+      "write the postures to this file: CSV, or where its name ends in .xml the <postures> of a simulation");
   command->add_option("--json", arguments->json, "write the result to this file, - for standard output");
-  command->callback(
-      [arguments, given, &run] { run = [arguments, given] { return planDay(*arguments, given); }; });
+  command->callback([arguments, given, &run] { run = [arguments, given] { return planDay(*arguments, given); }; });
 }
 
 }  // namespace stiffscope::app

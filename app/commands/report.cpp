@@ -1,10 +1,10 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <CLI/CLI.hpp>
 #include <Eigen/Core>
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
-#include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <fstream>
 #include <list>
 #include <memory>
@@ -27,11 +27,11 @@
 #include "core/identification/load_case.h"
 #include "core/identification/warnings.h"
 #include "core/io/write_folder.h"
-#include "reports/json/json_document.h"
-#include "reports/report_content.h"
 #include "reports/json/json.h"
+#include "reports/json/json_document.h"
 #include "reports/page/html.h"
 #include "reports/page/report_page.h"
+#include "reports/report_content.h"
 #include "reports/words/extended_model_words.h"
 #include "reports/words/verdict.h"
 
@@ -52,8 +52,7 @@ namespace fs = std::filesystem;
 /// A picture's or a table's bare name: a results.json that names something else was not written here.
 bool isPictureOrTable(const std::string& name) {
   const fs::path path(name);
-  return (path.extension() == ".png" || path.extension() == ".csv") && path.filename() == path &&
-         !path.stem().empty();
+  return (path.extension() == ".png" || path.extension() == ".csv") && path.filename() == path && !path.stem().empty();
 }
 
 /// Pictures and tables that the report which is there now lists as its own.
@@ -69,8 +68,7 @@ std::vector<std::string> earlierFiles(const fs::path& folder) {
   if (!results.is_object() || !results.contains("files") || !results["files"].is_array()) return {};
   std::vector<std::string> names;
   for (const reports::Json& name : results["files"]) {
-    if (name.is_string() && isPictureOrTable(name.get<std::string>()))
-      names.push_back(name.get<std::string>());
+    if (name.is_string() && isPictureOrTable(name.get<std::string>())) names.push_back(name.get<std::string>());
   }
   return names;
 }
@@ -88,8 +86,9 @@ void requireOwn(const fs::path& folder, const std::set<std::string>& there, cons
   for (const std::string& name : made) {
     if (!there.contains(name) || std::find(earlier.begin(), earlier.end(), name) != earlier.end()) continue;
     if ((name == "results.json" || name == "report.html") && !earlier.empty()) continue;
-    throw std::runtime_error((folder / name).string() +
-                             ": not written: it is there and of no earlier report; expected another folder, or that file away");
+    throw std::runtime_error(
+        (folder / name).string() +
+        ": not written: it is there and of no earlier report; expected another folder, or that file away");
   }
 }
 
@@ -110,8 +109,7 @@ void writeReportFiles(const fs::path& folder, const reports::ReportContent& cont
   requireOwn(folder, there, superseded, made);
   reports::JsonDocument results = reports::resultsJson(content);
   results.json["files"] = made;
-  files.push_back(
-      {"results.json", io::ByteSource([&results](const io::ByteSink& sink) { writeJson(results, sink); })});
+  files.push_back({"results.json", io::ByteSource([&results](const io::ByteSink& sink) { writeJson(results, sink); })});
   files.push_back({"report.html", page.html});
   std::erase_if(superseded, [&](const std::string& name) { return made.contains(name); });
   io::writeFolderWhole(folder, files, superseded);
@@ -128,7 +126,8 @@ struct Arguments {
   std::vector<std::string> with;
 };
 
-/// Takes away the rows that are load cases by now: neither page nor picture shows them, and they are most of a long day.
+/// Takes away the rows that are load cases by now: neither page nor picture shows them, and they are most of a long
+/// day.
 void withoutLoadReadings(campaign::Campaign& campaign) {
   const auto let_go = [](auto& table) {
     if (table) table->rows = decltype(table->rows)();
@@ -143,7 +142,7 @@ struct Result {
   preparation::PreparedCampaign prepared;
   audit::AuditReport audited;
   std::optional<diagnosis::Diagnosis> diagnosis;
-  std::optional<extended_model::ImprovedModel> improved;  ///< effects were asked for
+  std::optional<extended_model::ExtendedModel> improved;  ///< effects were asked for
   identification::Identification own;                     ///< without any
   bool loaded = false;
 
@@ -160,9 +159,10 @@ struct Result {
     if (loaded) diagnosis = diagnosis::diagnose(std::move(read));
     read = campaign::Campaign();
     if (loaded && !arguments.with.empty()) {
-      improved = extended_model::improveModel(prepared.campaign, effectsAsked(prepared, arguments.with), options);
+      improved = extended_model::extendModel(prepared.campaign, effectsAsked(prepared, arguments.with), options);
     } else {
-      own = loaded ? identification::identify(prepared.campaign, options) : identification::framesAlone(prepared.campaign);
+      own = loaded ? identification::identify(prepared.campaign, options)
+                   : identification::framesAlone(prepared.campaign);
     }
     audited = arguments.raw ? audit::audit(prepared.campaign) : audit::audit(prepared);
     if (diagnosis) audit::addSeparableEffects(*diagnosis, audited);
@@ -172,7 +172,8 @@ struct Result {
 
   /// Of loads, stiffnesses are the purpose; of a day of sweeps alone, the frames.
   bool usable() const {
-    return loaded ? identification::anyUsable(identification(), {identification::kMethods.begin(), identification::kMethods.end()})
+    return loaded ? identification::anyUsable(identification(),
+                                              {identification::kMethods.begin(), identification::kMethods.end()})
                   : identification().frames.arm.points_placed;
   }
 };
@@ -190,7 +191,8 @@ std::string subsetSizes(const std::list<Result>& results) {
   return sizes.empty() ? "too few" : sizes;
 }
 
-std::vector<reports::NamedText> settingsOf(const identification::IdentifyOptions& options, const std::list<Result>& results) {
+std::vector<reports::NamedText> settingsOf(const identification::IdentifyOptions& options,
+                                           const std::list<Result>& results) {
   return {{"load step", options.step ? std::to_string(*options.step) : "the one with the largest mean force"},
           {"geometric stiffness K_{c}", options.finite_deflection ? "included" : "neglected"},
           {"postures in a subset", subsetSizes(results)},
@@ -198,7 +200,8 @@ std::vector<reports::NamedText> settingsOf(const identification::IdentifyOptions
 }
 
 /// What the page says first of the effects in the model, campaign by campaign.
-void addImproved(const std::vector<std::string>& words, const std::list<Result>& results, reports::ReportContent& content) {
+void addExtendedModel(const std::vector<std::string>& words, const std::list<Result>& results,
+                      reports::ReportContent& content) {
   if (words.empty()) return;
   content.settings.push_back({"effects in the model", reports::asIs(fmt::format("{}", fmt::join(words, ", ")))});
   content.settings.push_back({"subsets with effects", "all up to 1000, else a sample with seed 1"});
@@ -216,9 +219,9 @@ int writeReport(const Arguments& arguments) {
   reports::ReportContent content;
   for (const std::string& folder : arguments.campaigns) {
     const Result& one = results.emplace_back(folder, arguments, options);
-    content.campaigns.push_back(
-        {one.campaign(), one.identification(), &one.audited, &one.prepared.preparation, &one.prepared.station,
-         one.diagnosis ? &*one.diagnosis : nullptr, one.improved ? &*one.improved : nullptr});
+    content.campaigns.push_back({one.campaign(), one.identification(), &one.audited, &one.prepared.preparation,
+                                 &one.prepared.station, one.diagnosis ? &*one.diagnosis : nullptr,
+                                 one.improved ? &*one.improved : nullptr});
   }
   content.avoided = reports::avoidedByEncoders(content.campaigns);
   content.compare_with_paper = arguments.paper;
@@ -226,15 +229,14 @@ int writeReport(const Arguments& arguments) {
   content.settings = settingsOf(options, results);
   content.title = "Joint stiffness";
   content.verdict = reports::verdictOf(content.campaigns, content.avoided);
-  addImproved(arguments.with, results, content);
+  addExtendedModel(arguments.with, results, content);
   content.figures = makeFigures(content.campaigns, {arguments.paper});
 
   // Everything is made before the first file is written, and appears at once.
   const page::ReportPage page = page::makeReportPage(content);
   writeReportFiles(arguments.out, content, page);
   printText((std::filesystem::path(arguments.out) / "report.html").string() + '\n');
-  const bool usable =
-      std::any_of(results.begin(), results.end(), [](const Result& one) { return one.usable(); });
+  const bool usable = std::any_of(results.begin(), results.end(), [](const Result& one) { return one.usable(); });
   return usable ? kDone : kNotUsable;
 }
 
@@ -246,15 +248,15 @@ void addReport(CLI::App& app, Run& run) {
   command->add_option("CAMPAIGN", arguments->campaigns, "campaign folders; two of one machine are compared")
       ->required()
       ->expected(1, 8);
-  command->add_option("--out", arguments->out, "folder for report.html, results.json, the pictures and the tables as CSV")->required();
+  command
+      ->add_option("--out", arguments->out, "folder for report.html, results.json, the pictures and the tables as CSV")
+      ->required();
   command->add_option("--step", arguments->step, "load step to identify from");
   command->add_flag("--neglect-kc", arguments->neglect_kc, "neglect K_c, as the paper does");
   addWithOption(*command, arguments->with);
   addRawOption(*command, arguments->raw);
   command->add_flag("--paper", arguments->paper, "put the figures of Ambiehl et al. (IROS 2017) beside these");
-  command->callback([arguments, &run] {
-    run = [arguments] { return writeReport(*arguments); };
-  });
+  command->callback([arguments, &run] { run = [arguments] { return writeReport(*arguments); }; });
 }
 
 }  // namespace stiffscope::app

@@ -1,7 +1,7 @@
-#include <CLI/CLI.hpp>
-#include <cstdio>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <CLI/CLI.hpp>
+#include <cstdio>
 #include <memory>
 
 #include "app/command_line.h"
@@ -26,15 +26,17 @@ void addSimulate(CLI::App& app, Run& run) {
   command->callback([arguments, &run] {
     run = [arguments] {
       const simulation::SimulationSpec spec = simulation::readSimulationSpec(arguments->spec);
-      if (!arguments->replace) requireNoCampaign(arguments->out, "expected another folder, or --replace to write over it");
+      if (!arguments->replace)
+        requireNoCampaign(arguments->out, "expected another folder, or --replace to write over it");
       const std::vector<int> rigid = simulation::rigidJoints(spec);
       if (!rigid.empty()) {
-        printWarnings({fmt::format("{}: joints: no stiffness_nm_per_rad for joint{} {}: taken as rigid", arguments->spec,
-                                   rigid.size() == 1 ? "" : "s", fmt::join(rigid, ", "))});
+        printWarnings({fmt::format("{}: joints: no stiffness_nm_per_rad for joint{} {}: taken as rigid",
+                                   arguments->spec, rigid.size() == 1 ? "" : "s", fmt::join(rigid, ", "))});
       }
       const campaign::Tracker& declared = spec.tracker.declared;
       if (declared.range_fixed + declared.range_per_m <= 0.0 || declared.angle_fixed + declared.angle_per_m <= 0.0) {
-        printWarnings({arguments->spec + ": tracker: no noise declared in range or in angle: no command reads such a "
+        printWarnings({arguments->spec +
+                       ": tracker: no noise declared in range or in angle: no command reads such a "
                        "campaign; for readings without noise declare some and set true_noise_factor=\"0\""});
       }
       campaign::writeCampaign(simulation::simulate(spec), spec.urdf_file, arguments->out);

@@ -1,10 +1,10 @@
+#include <unistd.h>
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
 #include <stdexcept>
-#include <unistd.h>
 
 #include "app/command_line.h"
 #include "app/output.h"
@@ -26,7 +26,8 @@ int becomeViewer(std::vector<std::string> words) {
 }
 
 bool asksForHelp(const std::vector<std::string>& words) {
-  return std::any_of(words.begin(), words.end(), [](const std::string& word) { return word == "--help" || word == "-h"; });
+  return std::any_of(words.begin(), words.end(),
+                     [](const std::string& word) { return word == "--help" || word == "-h"; });
 }
 
 int printHelp() {
@@ -40,14 +41,14 @@ int printHelp() {
 }  // namespace
 
 void addView(CLI::App& app, Run& run) {
-  CLI::App* command =
-      app.add_subcommand("view", "The arm with its deflection vectors, in a window (stiffscope-view)");
+  CLI::App* command = app.add_subcommand("view", "The arm with its deflection vectors, in a window (stiffscope-view)");
   // Everything after it is the window's; help needs no window, nor the program that opens it.
   command->set_help_flag();
   command->prefix_command();
   command->allow_extras();
-  command->callback(
-      [command, &run] { run = [words = command->remaining()] { return asksForHelp(words) ? printHelp() : becomeViewer(words); }; });
+  command->callback([command, &run] {
+    run = [words = command->remaining()] { return asksForHelp(words) ? printHelp() : becomeViewer(words); };
+  });
 }
 
 }  // namespace stiffscope::app

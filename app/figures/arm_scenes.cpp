@@ -1,7 +1,7 @@
 #include "app/figures/arm_scenes.h"
 
-#include <algorithm>
 #include <fmt/format.h>
+#include <algorithm>
 #include <numeric>
 #include <set>
 #include <utility>
@@ -58,13 +58,14 @@ render::ArmPose bareArm(const frames::Frames& frames, const robot::ArmPosture& p
   return pose;
 }
 
-render::ArmPose armPose(const reports::ReportCampaign& one, std::size_t index, std::optional<identification::Method> which) {
+render::ArmPose armPose(const reports::ReportCampaign& one, std::size_t index,
+                        std::optional<identification::Method> which) {
   const identification::Identification& result = one.identification;
   const identification::LoadCase& load_case = result.cases[index];
   const Eigen::Vector3d up(0.0, 0.0, heightOfR0(result.frames));
   const identification::MethodResult* method = which && result.of(*which).available ? &result.of(*which) : nullptr;
-  const auto pointOf = [&](std::string label, const Eigen::Vector3d& unloaded,
-                           const Eigen::Vector3d& displacement, const auto& rows, std::size_t at) {
+  const auto pointOf = [&](std::string label, const Eigen::Vector3d& unloaded, const Eigen::Vector3d& displacement,
+                           const auto& rows, std::size_t at) {
     render::ScenePoint point{std::move(label), unloaded + up, displacement, std::nullopt, std::nullopt};
     if (method) point.predicted = predicted(method->*rows, index, at, method->estimate.compliance);
     if (point.predicted) point.residual = displacement - *point.predicted;
@@ -74,9 +75,8 @@ render::ArmPose armPose(const reports::ReportCampaign& one, std::size_t index, s
   render::ArmPose pose = bareArm(result.frames, identification::unloadedPosture(result.frames.arm.arm, load_case));
   for (std::size_t t = 0; t < load_case.targets.size(); ++t) {
     const identification::TargetMove& move = load_case.targets[t];
-    pose.targets.push_back(
-        pointOf(reports::pointName(one.campaign.targets[static_cast<std::size_t>(move.target)].id), move.unloaded,
-                move.displacement(), &identification::MethodResult::target_rows, t));
+    pose.targets.push_back(pointOf(reports::pointName(one.campaign.targets[static_cast<std::size_t>(move.target)].id),
+                                   move.unloaded, move.displacement(), &identification::MethodResult::target_rows, t));
   }
   if (index < result.wrist.size()) {
     const identification::WristMove& move = result.wrist[index];
@@ -98,7 +98,9 @@ void nameVectors(render::ArmScene& scene, std::optional<identification::Method> 
 std::string kilonewtons(double newtons) { return fmt::format("{}\u00a0kN", reports::fixed(1e-3 * newtons, 2)); }
 
 /// R0 in the scene, whose floor is at the foot of axis 1.
-Eigen::Vector3d placeOfR0(const reports::ReportCampaign& one) { return {0.0, 0.0, heightOfR0(one.identification.frames)}; }
+Eigen::Vector3d placeOfR0(const reports::ReportCampaign& one) {
+  return {0.0, 0.0, heightOfR0(one.identification.frames)};
+}
 
 std::string framesWords(const reports::ReportCampaign& one) {
   return fmt::format("The axes drawn are R_{{0}}, {} mm above base_link.",
@@ -108,7 +110,8 @@ std::string framesWords(const reports::ReportCampaign& one) {
 /// "The same load moves", or the range of loads where they differ by more than a fiftieth.
 std::string loadWords(const identification::Identification& identification) {
   std::vector<double> forces;
-  for (const identification::LoadCase& load_case : identification.cases) forces.push_back(load_case.wrench.force.norm());
+  for (const identification::LoadCase& load_case : identification.cases)
+    forces.push_back(load_case.wrench.force.norm());
   const auto [least, most] = std::minmax_element(forces.begin(), forces.end());
   if (*most <= 1.02 * *least) return "The same load moves";
   return fmt::format("Loads of {} to {} move", kilonewtons(*least), kilonewtons(*most));
@@ -133,7 +136,8 @@ std::size_t medianCase(const reports::ReportCampaign& one) {
   return *middle;
 }
 
-render::ArmScene postureScene(const reports::ReportCampaign& one, std::size_t index, std::optional<identification::Method> method) {
+render::ArmScene postureScene(const reports::ReportCampaign& one, std::size_t index,
+                              std::optional<identification::Method> method) {
   const double force = one.identification.cases[index].wrench.force.norm();
   render::ArmScene scene;
   scene.title = fmt::format("Deflection in posture {} under {}", reports::postureName(one, index), kilonewtons(force));
@@ -151,8 +155,7 @@ render::ArmScene deflectionScene(const reports::ReportCampaign& one) {
 
 render::ArmScene allPosturesScene(const reports::ReportCampaign& one) {
   render::ArmScene scene;
-  scene.title =
-      fmt::format("Deflection of {} in all {} postures", vectorPoint(one), one.identification.cases.size());
+  scene.title = fmt::format("Deflection of {} in all {} postures", vectorPoint(one), one.identification.cases.size());
   scene.subtitle = reports::asIs(one.campaign.name);
   const auto method = reports::shownMethod(one.identification);
   nameVectors(scene, method);
@@ -177,21 +180,22 @@ reports::Figure describeDeflectionScene(const reports::ReportCampaign& one, doub
   reports::Figure figure;
   figure.id = "deflection";
   figure.title = fmt::format("Deflection in posture {}", reports::postureName(one, index));
-  figure.caption =
-      fmt::format("The posture with the median displacement of {}, {}\u00a0mm, magnified {} times.",
-                  point.name, reports::fixed(displacement, 2), render::factorText(magnification));
+  figure.caption = fmt::format("The posture with the median displacement of {}, {}\u00a0mm, magnified {} times.",
+                               point.name, reports::fixed(displacement, 2), render::factorText(magnification));
   if (const auto shown = reports::shownMethod(one.identification)) {
     const double left = kMmPerM * reports::residualAt(one.identification.of(*shown), point.at_wrist)[index];
     figure.caption += fmt::format(" Where the arrows part is what {} leaves: {}\u00a0mm at {}",
                                   reports::shortName(*shown), reports::significant(left, 2), point.name);
     const double factor = deflectionScene(one).residual_factor;
-    figure.caption += factor > 1 ? fmt::format(", drawn {} times longer than the others.", reports::fixed(factor, 0)) : ".";
+    figure.caption +=
+        factor > 1 ? fmt::format(", drawn {} times longer than the others.", reports::fixed(factor, 0)) : ".";
   }
   figure.caption += fmt::format(" {}", framesWords(one));
   figure.alt = fmt::format(
       "The arm in posture {} with arrows for the measured, predicted and residual displacement of its reflectors{}, "
       "magnified {} times.",
-      reports::plain(reports::postureName(one, index)), point.at_wrist ? " and wrist centre" : "", render::factorText(magnification));
+      reports::plain(reports::postureName(one, index)), point.at_wrist ? " and wrist centre" : "",
+      render::factorText(magnification));
   return figure;
 }
 
@@ -207,9 +211,8 @@ reports::Figure describeAllPostures(const reports::ReportCampaign& one, double m
       "times. {}",
       loadWords(one.identification), point.name, reports::fixed(kMmPerM * *least, 2),
       reports::fixed(kMmPerM * *most, 2), render::factorText(magnification), framesWords(one));
-  figure.alt =
-      fmt::format("All {} postures of the arm, pale, with an arrow for the displacement of {} in each.",
-                  values.size(), reports::plain(vectorPoint(one)));
+  figure.alt = fmt::format("All {} postures of the arm, pale, with an arrow for the displacement of {} in each.",
+                           values.size(), reports::plain(vectorPoint(one)));
   return figure;
 }
 
@@ -249,8 +252,7 @@ render::ArmScene sceneOf(const reports::ReportCampaign& one, Eigen::Vector3d dia
     std::vector<render::ScenePoint> shown;
     for (std::size_t t = 0; t < pose.targets.size(); ++t) {
       const diagnosis::PointGap* gap = gapOf(*one.diagnosis, load_case.pose, load_case.targets[t].target);
-      if (gap != nullptr)
-        shown.push_back({"", pose.targets[t].position, std::nullopt, std::nullopt, gap->*left});
+      if (gap != nullptr) shown.push_back({"", pose.targets[t].position, std::nullopt, std::nullopt, gap->*left});
     }
     pose.targets = std::move(shown);
     if (!pose.targets.empty()) scene.poses.push_back(std::move(pose));
@@ -260,9 +262,10 @@ render::ArmScene sceneOf(const reports::ReportCampaign& one, Eigen::Vector3d dia
 
 /// The largest vector, and the posture and reflector that have it.
 std::string largestWords(const reports::ReportCampaign& one, Eigen::Vector3d diagnosis::PointGap::*left) {
-  const auto largest = std::max_element(
-      one.diagnosis->at_points.begin(), one.diagnosis->at_points.end(),
-      [left](const diagnosis::PointGap& a, const diagnosis::PointGap& b) { return (a.*left).norm() < (b.*left).norm(); });
+  const auto largest = std::max_element(one.diagnosis->at_points.begin(), one.diagnosis->at_points.end(),
+                                        [left](const diagnosis::PointGap& a, const diagnosis::PointGap& b) {
+                                          return (a.*left).norm() < (b.*left).norm();
+                                        });
   return fmt::format("the longest is {}\u00a0µm, of {} in posture {}",
                      reports::significant(((*largest).*left).norm() / io::kMicrometre, 2),
                      reports::pointName(one.campaign.targets[static_cast<std::size_t>(largest->target)].id),
@@ -272,8 +275,7 @@ std::string largestWords(const reports::ReportCampaign& one, Eigen::Vector3d dia
 }  // namespace
 
 std::optional<GapScenes> gapScenes(const reports::ReportCampaign& one) {
-  if (one.diagnosis == nullptr || one.diagnosis->verdict.entries.empty() ||
-      one.diagnosis->at_points.empty()) {
+  if (one.diagnosis == nullptr || one.diagnosis->verdict.entries.empty() || one.diagnosis->at_points.empty()) {
     return std::nullopt;
   }
   GapScenes scenes{sceneOf(one, &diagnosis::PointGap::before), sceneOf(one, &diagnosis::PointGap::after)};
@@ -306,7 +308,8 @@ reports::Figure describeGapBefore(const reports::ReportCampaign& one, const GapS
       render::factorText(*scenes.before.magnification), largestWords(one, &diagnosis::PointGap::before));
   const std::size_t drawn = scenes.before.poses.size(), all = one.identification.cases.size();
   if (drawn < all) {
-    figure.caption += fmt::format(" Drawn: {} of {} postures; the longest is of all the diagnosis looked at.", drawn, all);
+    figure.caption +=
+        fmt::format(" Drawn: {} of {} postures; the longest is of all the diagnosis looked at.", drawn, all);
   }
   figure.alt = "Postures of the arm, pale, with an arrow at each reflector for what the stiffnesses leave.";
   return figure;

@@ -12,7 +12,8 @@ namespace stiffscope::app {
 /// The arm of load case `index` as it stands unloaded, with the displacements of reflectors and P_wrist as
 /// measured and, where there is a `method` and it is available, as it predicts them and what it leaves:
 /// residual = measured - predicted.
-render::ArmPose armPose(const reports::ReportCampaign& one, std::size_t index, std::optional<identification::Method> method);
+render::ArmPose armPose(const reports::ReportCampaign& one, std::size_t index,
+                        std::optional<identification::Method> method);
 
 /// The arm alone. Joint points: from the foot of axis 1 on each axis the point nearest to the one before, then
 /// the flange. Axes of R0, origin on axis 1 at the height of base_link's origin, so that the floor is where the
@@ -28,7 +29,8 @@ std::size_t medianCase(const reports::ReportCampaign& one);
 
 /// The arm in the posture of load case `index` with measured, predicted and residual displacement vectors; the
 /// last two by `method`, and none without. The residual ones are longer by automaticResidualFactor.
-render::ArmScene postureScene(const reports::ReportCampaign& one, std::size_t index, std::optional<identification::Method> method);
+render::ArmScene postureScene(const reports::ReportCampaign& one, std::size_t index,
+                              std::optional<identification::Method> method);
 
 /// The same of that median posture, by the method that the report shows.
 render::ArmScene deflectionScene(const reports::ReportCampaign& one);

@@ -1,7 +1,7 @@
 #include "app/figures/figures.h"
 
-#include <algorithm>
 #include <fmt/format.h>
+#include <algorithm>
 
 #include "core/io/units.h"
 #include "core/preparation/subsample.h"
@@ -27,7 +27,7 @@ std::string withoutSize(const diagnosis::Diagnosis& diagnosis, effects::Effect e
   if (missing != diagnosis.not_testable.end())
     return "not testable: " + reports::asIs(missing->missing.substr(0, missing->missing.find(':')));
   return effect == effects::Effect::tracker_drift ? "judged by the floor nests themselves"
-                                         : "hidden behind joint springs and geometry in these postures";
+                                                  : "hidden behind joint springs and geometry in these postures";
 }
 
 /// Classes of two or more, each once.
@@ -48,13 +48,12 @@ std::vector<std::vector<std::size_t>> groupsOf(const diagnosis::Diagnosis& diagn
 }  // namespace
 
 std::optional<render::DotRowChart> effectClasses(const reports::ReportCampaign& one) {
-  if (one.diagnosis == nullptr || !one.diagnosis->usable || one.diagnosis->detectable.empty())
-    return std::nullopt;
+  if (one.diagnosis == nullptr || !one.diagnosis->usable || one.diagnosis->detectable.empty()) return std::nullopt;
   const diagnosis::Diagnosis& diagnosis = *one.diagnosis;
   render::DotRowChart chart;
   chart.title = "Which effects this data can tell apart, and from what size on";
-  chart.subtitle = fmt::format("{}; {} postures, {} states", reports::asIs(one.campaign.name),
-                               diagnosis.postures, diagnosis.states);
+  chart.subtitle =
+      fmt::format("{}; {} postures, {} states", reports::asIs(one.campaign.name), diagnosis.postures, diagnosis.states);
   chart.x_title = "Smallest size that would have been seen, rms per coordinate (µm)";
   for (const diagnosis::DetectableSize& size : diagnosis.detectable) {
     render::DotRow row{reports::effectName(size.effect), NAN, {}, present(diagnosis.verdict, size.effect)};
@@ -83,23 +82,22 @@ reports::Figure describeEffectClasses(const reports::ReportCampaign& one) {
     if (alias.size() > 1) classes.push_back(reports::effectNames(alias));
   }
   figure.caption = "Found from the postures and loads alone, before any residual was looked at. ";
-  figure.caption += classes.empty()
-                        ? "No two effects look alike here: whatever is large enough is named alone."
-                        : fmt::format(
-                              "A line joins effects that can look alike here, at twice the noise of one "
-                              "state: {}. The others are told apart.",
-                              fmt::join(classes, "; "));
+  figure.caption += classes.empty() ? "No two effects look alike here: whatever is large enough is named alone."
+                                    : fmt::format(
+                                          "A line joins effects that can look alike here, at twice the noise of one "
+                                          "state: {}. The others are told apart.",
+                                          fmt::join(classes, "; "));
   figure.caption += fmt::format(
       " An effect smaller than its dot would have passed unseen; one below {}\u00a0µm (dashed) is too small "
       "to matter.",
       reports::fixed(diagnosis.size_limit / io::kMicrometre, 1));
-  const bool geometry =
-      std::any_of(diagnosis.detectable.begin(), diagnosis.detectable.end(),
-                  [](const auto& size) { return size.effect == effects::Effect::kinematic_error && size.size; });
+  const bool geometry = std::any_of(diagnosis.detectable.begin(), diagnosis.detectable.end(), [](const auto& size) {
+    return size.effect == effects::Effect::kinematic_error && size.size;
+  });
   if (geometry) figure.caption += " That of the kinematic error is a tolerance of unloaded positions.";
   if (!diagnosis.not_testable.empty())
-    figure.caption += fmt::format(" Not testable with this data: {} of {} effects.",
-                                  diagnosis.not_testable.size(), diagnosis.detectable.size());
+    figure.caption += fmt::format(" Not testable with this data: {} of {} effects.", diagnosis.not_testable.size(),
+                                  diagnosis.detectable.size());
   figure.alt = "A row an effect: the smallest size that would have been seen, and which effects look alike.";
   return figure;
 }
@@ -164,9 +162,8 @@ reports::Figure describeGapBars(const reports::ReportCampaign& one) {
                           reports::fixed(gap.after / io::kMicrometre, 1))
             : "",
       reports::fixed(gap.noise / io::kMicrometre, 1));
-  figure.caption += found
-                        ? " A posture that stays high is one where the verdict does not hold."
-                        : " Postures that stand out of the noise show what joint stiffnesses do not explain.";
+  figure.caption += found ? " A posture that stays high is one where the verdict does not hold."
+                          : " Postures that stand out of the noise show what joint stiffnesses do not explain.";
   if (!one.diagnosis->as_measured.rows.empty())
     figure.caption += " Grey bars are of the readings as they were, the station's motion in them.";
   figure.alt = "Bars by posture: what the model leaves of the deflection before and after, and noise.";

@@ -15,8 +15,7 @@
 namespace stiffscope::app {
 
 struct FigureOptions {
-  bool with_paper =
-      false;  ///< the paper's means as dashed lines where the campaign's double encoders are declared
+  bool with_paper = false;  ///< the paper's means as dashed lines where the campaign's double encoders are declared
 };
 
 /// All pictures of a report, drawn: per campaign the deflection scene, all postures (up to 60), Fig. 7, Fig.
@@ -26,7 +25,7 @@ struct FigureOptions {
 /// the data does not have is left out. With several campaigns ids end in "-1", "-2", in their order, and
 /// titles say which campaign. Throws std::runtime_error when offscreen rendering is not to be had.
 std::vector<reports::Figure> makeFigures(const std::vector<reports::ReportCampaign>& campaigns,
-                                const FigureOptions& options = {});
+                                         const FigureOptions& options = {});
 
 /// Joint stiffnesses from all postures by method, value +- expanded uncertainty (page::coverageOf), Nm/rad,
 /// logarithmic axis. A joint that is not identifiable leaves a gap; negative and imprecise values are hollow. No series
@@ -101,7 +100,8 @@ reports::Figure describeWristSphere(const reports::ReportCampaign& one);
 /// How the tracker's station moved over the day by the floor nests: displacement where the arm stands and
 /// rotation, with 2 standard uncertainties by the declared noise, and how far each nest was read from its first
 /// reading. Axes of the tracker. Empty where the nests cannot tell.
-std::optional<render::PointChart> stationDrift(const reports::ReportCampaign& one, const preparation::StationMotion& station);
+std::optional<render::PointChart> stationDrift(const reports::ReportCampaign& one,
+                                               const preparation::StationMotion& station);
 
 reports::Figure describeStationDrift(const preparation::StationMotion& station);
 

@@ -42,8 +42,7 @@ class FigureList {
     if (const auto residuals = residualDirections(one_))
       add("stiffness", describeResidualDirections(one_, *residuals), *residuals);
     const frames::RigidPoints points = rigidSweeps(one_);
-    if (const auto circles = sweepCircles(one_, points))
-      add("links", describeSweepCircles(one_), *circles, kScene);
+    if (const auto circles = sweepCircles(one_, points)) add("links", describeSweepCircles(one_), *circles, kScene);
     if (const auto sphere = wristSphere(one_, points)) add("wrist", describeWristSphere(one_), *sphere);
     const preparation::StationMotion station = one_.station != nullptr ? *one_.station : stationMotionOf(one_.campaign);
     if (const auto drift = stationDrift(one_, station))
@@ -105,7 +104,8 @@ std::string labelOf(const campaign::Campaign& campaign) {
 
 }  // namespace
 
-std::vector<reports::Figure> makeFigures(const std::vector<reports::ReportCampaign>& campaigns, const FigureOptions& options) {
+std::vector<reports::Figure> makeFigures(const std::vector<reports::ReportCampaign>& campaigns,
+                                         const FigureOptions& options) {
   std::vector<reports::Figure> figures;
   for (std::size_t i = 0; i < campaigns.size(); ++i) {
     for (reports::Figure& figure : figuresOf(campaigns[i], options)) {

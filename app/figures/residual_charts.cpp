@@ -1,9 +1,9 @@
 #include "app/figures/figures.h"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <fmt/format.h>
 
 #include "app/figures/chart_style.h"
 #include "core/identification/noise_share.h"
@@ -25,8 +25,8 @@ constexpr render::Colour kActive{70, 78, 96};  // slate: no method's colour
 render::GroupedBarChart encoderBars(const reports::AvoidedByEncoders& avoided) {
   render::GroupedBarChart chart;
   chart.title = fmt::format("Displacement of {} without and with double encoders", reports::pointOf(avoided));
-  chart.subtitle = fmt::format("{} of it avoided over {} postures; no compensation",
-                               reports::shareWords(avoided), avoided.postures.size());
+  chart.subtitle = fmt::format("{} of it avoided over {} postures; no compensation", reports::shareWords(avoided),
+                               avoided.postures.size());
   chart.y_title = fmt::format("Displacement of {} (mm)", reports::pointOf(avoided));
   chart.category_title = "Posture";
   chart.series = {{"double encoders inactive", render::colours::kNone, {}, {}},
@@ -40,20 +40,22 @@ render::GroupedBarChart encoderBars(const reports::AvoidedByEncoders& avoided) {
 }
 
 reports::Figure describeEncoderBars(const reports::AvoidedByEncoders& avoided) {
-  const auto [least, most] = std::minmax_element(
-      avoided.postures.begin(), avoided.postures.end(),
-      [](const comparison::PostureDeflection& a, const comparison::PostureDeflection& b) { return a.share() < b.share(); });
+  const auto [least, most] =
+      std::minmax_element(avoided.postures.begin(), avoided.postures.end(),
+                          [](const comparison::PostureDeflection& a, const comparison::PostureDeflection& b) {
+                            return a.share() < b.share();
+                          });
   reports::Figure figure;
   figure.id = "double-encoders";
   figure.title = fmt::format("Displacement of {} without and with double encoders", reports::pointOf(avoided));
   figure.caption = fmt::format(
       "Active double encoders avoid {} of the deflection in all; least in posture {} ({}), most in "
       "posture {} ({}).",
-      reports::shareWords(avoided), reports::asIs(least->pose), reports::percent(least->share(), 0), reports::asIs(most->pose),
-      reports::percent(most->share(), 0));
-  figure.alt = fmt::format(
-      "Bars by posture: length of the displacement of {} with the double encoders inactive and active.",
-      reports::plain(reports::pointOf(avoided)));
+      reports::shareWords(avoided), reports::asIs(least->pose), reports::percent(least->share(), 0),
+      reports::asIs(most->pose), reports::percent(most->share(), 0));
+  figure.alt =
+      fmt::format("Bars by posture: length of the displacement of {} with the double encoders inactive and active.",
+                  reports::plain(reports::pointOf(avoided)));
   return figure;
 }
 
@@ -63,7 +65,8 @@ constexpr std::size_t kMostPostures = 200;  // four bars each are hardly a pixel
 
 std::vector<double> drawnInMm(const std::vector<double>& values) {
   std::vector<double> drawn;
-  for (const std::size_t i : preparation::evenlySpreadIndices(values.size(), kMostPostures)) drawn.push_back(kMmPerM * values[i]);
+  for (const std::size_t i : preparation::evenlySpreadIndices(values.size(), kMostPostures))
+    drawn.push_back(kMmPerM * values[i]);
   return drawn;
 }
 
@@ -104,7 +107,8 @@ std::string drawnOf(const reports::ReportCampaign& one, const std::vector<double
   const std::string words = drawnWords(values.size(), kMostPostures, "postures");
   if (words.empty()) return {};
   const auto longest = std::max_element(values.begin(), values.end());
-  return fmt::format("{} The longest of all is {}\u00a0mm, in posture {}.", words, reports::fixed(kMmPerM * *longest, 2),
+  return fmt::format("{} The longest of all is {}\u00a0mm, in posture {}.", words,
+                     reports::fixed(kMmPerM * *longest, 2),
                      reports::postureName(one, static_cast<std::size_t>(longest - values.begin())));
 }
 
@@ -127,15 +131,18 @@ std::string leftWords(const reports::ReportCampaign& one, std::initializer_list<
 render::GroupedBarChart residualBars(const reports::ReportCampaign& one) {
   render::GroupedBarChart chart = emptyChart(one, "Displacement", "Displacement");
   const bool at_wrist = reports::judgedPoint(one).at_wrist;
-  chart.series.push_back(
-      {"without compensation", render::colours::kNone, drawnInMm(reports::displacementAt(one.identification, at_wrist)), {}});
+  chart.series.push_back({"without compensation",
+                          render::colours::kNone,
+                          drawnInMm(reports::displacementAt(one.identification, at_wrist)),
+                          {}});
   for (const identification::Method method : identification::kMethods) addMethod(one, method, chart);
   return chart;
 }
 
 render::GroupedBarChart residualZoom(const reports::ReportCampaign& one) {
   render::GroupedBarChart chart = emptyChart(one, "What is left of the displacement", "Left of the displacement");
-  for (const identification::Method method : {identification::Method::partial_pose, identification::Method::decoupled_partial_pose})
+  for (const identification::Method method :
+       {identification::Method::partial_pose, identification::Method::decoupled_partial_pose})
     addMethod(one, method, chart);
   return chart;
 }
@@ -148,14 +155,14 @@ reports::Figure describeResidualBars(const reports::ReportCampaign& one) {
   figure.caption = fmt::format(
       "Mean over the postures: {}\u00a0mm without compensation (grey).",
       reports::fixed(kMmPerM * reports::mean(reports::displacementAt(one.identification, point.at_wrist)), 2));
-  const std::string left =
-      leftWords(one, {identification::Method::complete_pose, identification::Method::partial_pose, identification::Method::decoupled_partial_pose});
+  const std::string left = leftWords(one, {identification::Method::complete_pose, identification::Method::partial_pose,
+                                           identification::Method::decoupled_partial_pose});
   if (!left.empty()) figure.caption += fmt::format(" Left after compensation, in mm: {}.", left);
   figure.caption += drawnOf(one, reports::displacementAt(one.identification, point.at_wrist));
   figure.caption += " The counterpart of the paper's Fig. 7.";
-  figure.alt = fmt::format(
-      "Bars by posture: length of the displacement of {}, without compensation and after each method.",
-      reports::plain(point.name));
+  figure.alt =
+      fmt::format("Bars by posture: length of the displacement of {}, without compensation and after each method.",
+                  reports::plain(point.name));
   return figure;
 }
 
@@ -164,8 +171,9 @@ reports::Figure describeResidualZoom(const reports::ReportCampaign& one) {
   reports::Figure figure;
   figure.id = "compensation-zoom";
   figure.title = fmt::format("What PP and DPP leave of the displacement of {}", point.name);
-  figure.caption = fmt::format("The same as the figure before, enlarged. Mean over the postures, in mm: {}.",
-                               leftWords(one, {identification::Method::partial_pose, identification::Method::decoupled_partial_pose}));
+  figure.caption = fmt::format(
+      "The same as the figure before, enlarged. Mean over the postures, in mm: {}.",
+      leftWords(one, {identification::Method::partial_pose, identification::Method::decoupled_partial_pose}));
   figure.caption += " The counterpart of the paper's Fig. 8.";
   figure.alt = fmt::format("Bars by posture: what is left of the displacement of {} after PP and DPP.",
                            reports::plain(point.name));
@@ -175,7 +183,7 @@ reports::Figure describeResidualZoom(const reports::ReportCampaign& one) {
 namespace {
 
 constexpr double kUmPerM = 1e6;
-constexpr double kBand = 2.0;  // standard deviations: about 95 % of normal noise
+constexpr double kBand = 2.0;                 // standard deviations: about 95 % of normal noise
 constexpr std::size_t kMostDirections = 100;  // a panel is three hundred pixels wide
 
 /// One reflector's residual in one posture, with the directions it is taken apart in.
@@ -202,7 +210,8 @@ Eigen::Matrix3d directionsAt(const reports::ReportCampaign& one, const identific
   return directions;
 }
 
-std::vector<ResidualVector> residualsOf(const reports::ReportCampaign& one, const identification::MethodResult& method) {
+std::vector<ResidualVector> residualsOf(const reports::ReportCampaign& one,
+                                        const identification::MethodResult& method) {
   std::vector<ResidualVector> residuals;
   const auto& cases = one.identification.cases;
   for (std::size_t i = 0; i < cases.size() && i < method.target_rows.size(); ++i) {
@@ -228,8 +237,8 @@ std::vector<ResidualVector> residualsOf(const reports::ReportCampaign& one, cons
   return residuals;
 }
 
-render::PointPanel panelOf(const reports::ReportCampaign& one, const std::vector<ResidualVector>& residuals, std::size_t d,
-                   bool normalised) {
+render::PointPanel panelOf(const reports::ReportCampaign& one, const std::vector<ResidualVector>& residuals,
+                           std::size_t d, bool normalised) {
   render::PointPanel panel;
   const auto& cases = one.identification.cases;
   std::vector<std::optional<std::size_t>> place(cases.size());  // in the picture
@@ -288,7 +297,9 @@ namespace {
 std::string drawnDirections(const reports::ReportCampaign& one, const std::vector<ResidualVector>& residuals) {
   const std::string words = drawnWords(one.identification.cases.size(), kMostDirections, "postures");
   if (words.empty()) return {};
-  const auto length = [](const ResidualVector& at) { return std::hypot(at.component[0], at.component[1], at.component[2]); };
+  const auto length = [](const ResidualVector& at) {
+    return std::hypot(at.component[0], at.component[1], at.component[2]);
+  };
   const auto longest =
       std::max_element(residuals.begin(), residuals.end(),
                        [&](const ResidualVector& a, const ResidualVector& b) { return length(a) < length(b); });

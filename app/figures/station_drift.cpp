@@ -1,8 +1,8 @@
 #include "app/figures/figures.h"
 
+#include <fmt/format.h>
 #include <array>
 #include <cmath>
-#include <fmt/format.h>
 
 #include "app/figures/chart_style.h"
 #include "core/frames/joint_axes.h"
@@ -19,7 +19,8 @@ constexpr double kMicroradian = 1e-6;
 
 double largestMotion(const preparation::StationMotion& station) {
   double largest = 0.0;
-  for (const preparation::StationEpoch& epoch : station.epochs) largest = std::max(largest, epoch.motion.tail<3>().norm());
+  for (const preparation::StationEpoch& epoch : station.epochs)
+    largest = std::max(largest, epoch.motion.tail<3>().norm());
   return largest;
 }
 
@@ -36,8 +37,7 @@ render::PointPanel motionPanel(const preparation::StationMotion& station, int fi
     for (const preparation::StationEpoch& epoch : station.epochs) {
       // Side by side, so that no whisker hides another.
       const double span_h = (station.epochs.back().time_s - station.epochs.front().time_s) / kHour;
-      series.points.push_back(
-          {epoch.time_s / kHour + 0.006 * span_h * (k - 1), epoch.motion[first + k] / unit});
+      series.points.push_back({epoch.time_s / kHour + 0.006 * span_h * (k - 1), epoch.motion[first + k] / unit});
       series.errors.push_back(2.0 * std::sqrt(epoch.covariance(first + k, first + k)) / unit);
     }
     panel.series.push_back(std::move(series));
@@ -68,12 +68,13 @@ render::PointPanel nestPanel(const campaign::Campaign& campaign, double unit) {
 
 }  // namespace
 
-std::optional<render::PointChart> stationDrift(const reports::ReportCampaign& one, const preparation::StationMotion& station) {
+std::optional<render::PointChart> stationDrift(const reports::ReportCampaign& one,
+                                               const preparation::StationMotion& station) {
   if (!station.tested) return std::nullopt;
   render::PointChart chart;
   chart.title = "Motion of the station over the day, by the floor nests";
-  chart.subtitle = fmt::format("{}; whiskers: 2 standard uncertainties by the declared noise",
-                               reports::asIs(one.campaign.name));
+  chart.subtitle =
+      fmt::format("{}; whiskers: 2 standard uncertainties by the declared noise", reports::asIs(one.campaign.name));
   chart.columns = 3;
   const bool far = inMillimetres(station);
   const double unit = far ? io::kMillimetre : io::kMicrometre;
@@ -94,9 +95,9 @@ reports::Figure describeStationDrift(const preparation::StationMotion& station) 
   reports::Figure figure;
   figure.id = "station";
   figure.title = "Motion of the tracker's station";
-  figure.caption = fmt::format(
-      "At the arm the station moved by at most {} against the first of {} rounds: {}.", words,
-      station.epochs.size(), station.moved ? "more than noise explains" : "no more than noise explains");
+  figure.caption =
+      fmt::format("At the arm the station moved by at most {} against the first of {} rounds: {}.", words,
+                  station.epochs.size(), station.moved ? "more than noise explains" : "no more than noise explains");
   figure.alt =
       "Lines over time: displacement and rotation of the station, and how far each nest was read from its "
       "first reading.";

@@ -1,8 +1,8 @@
 #include "app/figures/figures.h"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 
 #include "app/figures/chart_style.h"
 #include "core/identification/subsets.h"
@@ -17,7 +17,8 @@ namespace {
 
 render::Interval intervalOf(const identification::StiffnessEstimate& estimate, int joint) {
   if (!estimate.identifiable[static_cast<std::size_t>(joint)]) return {};
-  const double value = estimate.stiffness(joint), reach = reports::coverageOf(estimate, joint).factor * estimate.stiffnessSd(joint);
+  const double value = estimate.stiffness(joint),
+               reach = reports::coverageOf(estimate, joint).factor * estimate.stiffnessSd(joint);
   return {value, value - reach, value + reach, !estimate.mark(joint).empty()};
 }
 
@@ -48,8 +49,8 @@ std::string disagreement(const identification::Identification& result) {
 render::IntervalChart stiffnessIntervals(const reports::ReportCampaign& one) {
   render::IntervalChart chart;
   chart.title = "Joint stiffness by method";
-  chart.subtitle = fmt::format("{}; {} postures; whiskers: expanded uncertainty U, about 95\u00a0%", reports::asIs(one.campaign.name),
-                               one.identification.cases.size());
+  chart.subtitle = fmt::format("{}; {} postures; whiskers: expanded uncertainty U, about 95\u00a0%",
+                               reports::asIs(one.campaign.name), one.identification.cases.size());
   chart.y_title = "Stiffness (Nm/rad)";
   chart.category_title = "Joint";
   chart.logarithmic = true;
@@ -81,8 +82,7 @@ reports::Figure describeStiffnessIntervals(const reports::ReportCampaign& one) {
   figure.title = "Joint stiffness by method";
   figure.caption = fmt::format("From all {} postures, with the expanded uncertainty U (about 95\u00a0%) either way.{}",
                                one.identification.cases.size(), disagreement(one.identification));
-  if (!unseen.empty())
-    figure.caption += fmt::format(" Not identifiable in this data: {}.", fmt::join(unseen, ", "));
+  if (!unseen.empty()) figure.caption += fmt::format(" Not identifiable in this data: {}.", fmt::join(unseen, ", "));
   figure.alt = "Points with whiskers by joint and method: stiffness on a logarithmic axis.";
   return figure;
 }
@@ -101,7 +101,7 @@ std::optional<render::Spread> spreadIn(const identification::MethodResult& metho
   const identification::StiffnessSpread spread = identification::spreadOf(method.subsets, joint);
   if (!std::isfinite(spread.mean)) return std::nullopt;
   return render::Spread{spread.low / kMega,           spread.quartile_low / kMega, spread.median / kMega,
-                spread.quartile_high / kMega, spread.high / kMega,         spread.mean / kMega};
+                        spread.quartile_high / kMega, spread.high / kMega,         spread.mean / kMega};
 }
 
 /// Whether a reference can be drawn without squashing the boxes: within three widths of what they cover.

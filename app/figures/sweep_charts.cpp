@@ -1,8 +1,8 @@
 #include "app/figures/figures.h"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 #include <numbers>
 
 #include "app/figures/chart_style.h"
@@ -20,8 +20,9 @@ frames::RigidPoints rigidSweeps(const reports::ReportCampaign& one) {
   const auto shown = reports::shownMethod(one.identification);
   if (!frames.sag_removed || !shown) return frames::rigidPoints(one.campaign, {});
   const Vector6d& compliance = one.identification.of(*shown).geometry.compliance;
-  return frames::rigidPoints(one.campaign, frames::SagModel(frames.arm.arm, frames.weight, compliance, frames.targets_in_r0_at_zero,
-                                            frames.arm.r0_from_points.inverse()));
+  return frames::rigidPoints(one.campaign,
+                             frames::SagModel(frames.arm.arm, frames.weight, compliance, frames.targets_in_r0_at_zero,
+                                              frames.arm.r0_from_points.inverse()));
 }
 
 namespace {
@@ -63,7 +64,8 @@ render::PointSeries fullRing(double radius) {
 }
 
 /// `most`: the most readings of any ring so far.
-render::ShapePanel circlePanel(const reports::ReportCampaign& one, const frames::RigidPoints& points, int axis, std::size_t& most) {
+render::ShapePanel circlePanel(const reports::ReportCampaign& one, const frames::RigidPoints& points, int axis,
+                               std::size_t& most) {
   const frames::MeasuredAxis& measured = one.identification.frames.axes[static_cast<std::size_t>(axis)];
   const std::size_t rings = measured.targets.size();
   std::vector<std::vector<RadialResidual>> residuals;
@@ -135,7 +137,7 @@ reports::Figure describeSweepCircles(const reports::ReportCampaign& one) {
 
 namespace {
 
-constexpr std::size_t kLeastInSector = 5;  // a mean of fewer readings says little
+constexpr std::size_t kLeastInSector = 5;    // a mean of fewer readings says little
 constexpr std::size_t kMostReadings = 1000;  // of a reflector
 
 struct SphereResidual {
@@ -161,8 +163,8 @@ std::vector<SphereResidual> residualsOf(const reports::ReportCampaign& one, cons
 }
 
 /// Means over equal sectors of [lower, upper], joined.
-render::PointSeries sectorMeans(const std::vector<SphereResidual>& residuals, double SphereResidual::* angle, double lower,
-                        double upper, std::size_t sectors) {
+render::PointSeries sectorMeans(const std::vector<SphereResidual>& residuals, double SphereResidual::*angle,
+                                double lower, double upper, std::size_t sectors) {
   std::vector<double> sum(sectors, 0.0);
   std::vector<std::size_t> count(sectors, 0);
   const double width = (upper - lower) / static_cast<double>(sectors);
@@ -184,11 +186,12 @@ render::PointSeries sectorMeans(const std::vector<SphereResidual>& residuals, do
 }
 
 render::PointPanel spherePanel(const reports::ReportCampaign& one, const std::vector<SphereResidual>& residuals,
-                   double SphereResidual::* angle) {
+                               double SphereResidual::*angle) {
   render::PointPanel panel;
   // Of each reflector by itself: where they take turns, every so many readings may be always the same one's.
   std::vector<std::vector<std::size_t>> readings(one.campaign.targets.size());
-  for (std::size_t i = 0; i < residuals.size(); ++i) readings[static_cast<std::size_t>(residuals[i].target)].push_back(i);
+  for (std::size_t i = 0; i < residuals.size(); ++i)
+    readings[static_cast<std::size_t>(residuals[i].target)].push_back(i);
   for (std::size_t target = 0; target < readings.size(); ++target) {
     render::PointSeries series = seriesLook(target);
     series.name = reports::pointName(one.campaign.targets[target].id);
@@ -228,8 +231,10 @@ reports::Figure describeWristSphere(const reports::ReportCampaign& one) {
   figure.id = "wrist-sphere";
   figure.title = "Residuals of the wrist's spheres";
   figure.caption = fmt::format(
-      "{} readings of {} about one centre; rms {}\u00a0µm. A line of means that stays at zero says that the wrist's axes "
-      "meet in one point; one wave over the turn would be a wrong centre, waves that differ by reflector axes that miss.",
+      "{} readings of {} about one centre; rms {}\u00a0µm. A line of means that stays at zero says that the wrist's "
+      "axes "
+      "meet in one point; one wave over the turn would be a wrong centre, waves that differ by reflector axes that "
+      "miss.",
       one.campaign.wrist_sweep->rows.size(),
       wrist.table.size() == 1 ? "one reflector" : fmt::format("{} reflectors", wrist.table.size()),
       reports::significant(wrist.spheres.rms / io::kMicrometre, 2));

@@ -26,7 +26,7 @@ render::Size sizeOf(const std::vector<int>& words) {
   const render::Size size{words[0], words[1]};
   if (size.width < 480 || size.height < 320 || size.width > 8000 || size.height > 8000) {
     throw io::InputError({"--size"}, std::to_string(size.width) + " " + std::to_string(size.height),
-                     "expected 480 320 to 8000 8000 pixels");
+                         "expected 480 320 to 8000 8000 pixels");
   }
   return size;
 }

@@ -1,7 +1,7 @@
 #include "app/view/view_material.h"
 
-#include <algorithm>
 #include <fmt/format.h>
+#include <algorithm>
 
 #include "app/figures/arm_scenes.h"
 #include "app/options.h"
@@ -25,8 +25,8 @@ ViewFrame frameOf(const reports::ReportCampaign& one, std::size_t index, std::op
   frame.scene = postureScene(one, index, method);
   frame.name = fmt::format("posture-{}-step-{}", posture, load_case.step);
   frame.where = fmt::format("posture {}", posture);
-  frame.load = fmt::format("load step {}, {}\u00a0kN", load_case.step,
-                           reports::fixed(1e-3 * load_case.wrench.force.norm(), 2));
+  frame.load =
+      fmt::format("load step {}, {}\u00a0kN", load_case.step, reports::fixed(1e-3 * load_case.wrench.force.norm(), 2));
   frame.posture = load_case.pose;
   frame.step = load_case.step;
   frame.force = load_case.wrench.force;
@@ -66,7 +66,8 @@ identification::Identification identified(const campaign::Campaign& campaign, co
 }
 
 /// The methods to show, the one to start with first.
-std::vector<identification::Method> methodsToShow(const identification::Identification& result, const std::string& wanted) {
+std::vector<identification::Method> methodsToShow(const identification::Identification& result,
+                                                  const std::string& wanted) {
   std::vector<identification::Method> methods;
   if (!wanted.empty()) {
     const std::vector<identification::Method> named = methodsNamed(wanted);
@@ -77,7 +78,9 @@ std::vector<identification::Method> methodsToShow(const identification::Identifi
   }
   const auto shown = reports::shownMethod(result);
   if (shown && methods.empty()) methods.push_back(*shown);
-  for (const identification::Method method : {identification::Method::decoupled_partial_pose, identification::Method::partial_pose, identification::Method::complete_pose}) {
+  for (const identification::Method method :
+       {identification::Method::decoupled_partial_pose, identification::Method::partial_pose,
+        identification::Method::complete_pose}) {
     if (result.of(method).available && std::find(methods.begin(), methods.end(), method) == methods.end()) {
       methods.push_back(method);
     }
@@ -88,8 +91,7 @@ std::vector<identification::Method> methodsToShow(const identification::Identifi
 int postureNamed(const campaign::Campaign& campaign, const std::string& id) {
   const auto found = std::find(campaign.pose_ids.begin(), campaign.pose_ids.end(), id);
   if (found == campaign.pose_ids.end()) {
-    throw io::InputError({"--pose"}, id,
-                     "not a posture of this campaign" + io::nearestNameHint(id, campaign.pose_ids));
+    throw io::InputError({"--pose"}, id, "not a posture of this campaign" + io::nearestNameHint(id, campaign.pose_ids));
   }
   return static_cast<int>(found - campaign.pose_ids.begin());
 }
@@ -101,12 +103,12 @@ std::size_t frameToStart(const ViewMaterial& material, int step, int posture) {
                                     material.frames.begin());
   };
   std::size_t found = at([&](const ViewFrame& one) { return one.step == step && one.posture == posture; });
-  if (found == material.frames.size())
-    found = at([&](const ViewFrame& one) { return one.posture == posture; });
+  if (found == material.frames.size()) found = at([&](const ViewFrame& one) { return one.posture == posture; });
   return found;
 }
 
-OpenedMaterial openLoads(const campaign::Campaign& campaign, const identification::Identification& result, const ViewOptions& options) {
+OpenedMaterial openLoads(const campaign::Campaign& campaign, const identification::Identification& result,
+                         const ViewOptions& options) {
   OpenedMaterial opened;
   for (const identification::Method method : methodsToShow(result, options.method)) {
     opened.by_method.push_back(loadMaterial(campaign, result, method));
@@ -128,12 +130,11 @@ OpenedMaterial openLoads(const campaign::Campaign& campaign, const identificatio
 OpenedMaterial openSweeps(const campaign::Campaign& campaign, const ViewOptions& options, const std::string& why) {
   if (!options.method.empty() || options.step || !options.pose.empty()) {
     throw io::InputError({campaign.folder / "campaign.xml"}, "",
-                     "no loads to show, so no method, step or posture: " + why);
+                         "no loads to show, so no method, step or posture: " + why);
   }
   ViewMaterial sweeps = sweepMaterial(campaign, frames::measureFrames(campaign));
   if (sweeps.frames.empty()) {
-    throw io::InputError({campaign.folder / "campaign.xml"}, "",
-                     "nothing to show: " + why + "; " + sweeps.lacking);
+    throw io::InputError({campaign.folder / "campaign.xml"}, "", "nothing to show: " + why + "; " + sweeps.lacking);
   }
   return {{std::move(sweeps)}, 0};
 }
@@ -171,8 +172,8 @@ std::vector<Circle> circlesOf(const campaign::CircleSweeps& sweeps) {
   return circles;
 }
 
-std::vector<render::SceneTrace> tracesOf(const campaign::Campaign& campaign, const std::vector<Circle>& circles, int axis,
-                                 const Eigen::Isometry3d& scene_from_points) {
+std::vector<render::SceneTrace> tracesOf(const campaign::Campaign& campaign, const std::vector<Circle>& circles,
+                                         int axis, const Eigen::Isometry3d& scene_from_points) {
   std::vector<render::SceneTrace> traces;
   for (const Circle& circle : circles) {
     render::SceneTrace trace;
@@ -209,12 +210,11 @@ ViewMaterial sweepMaterial(const campaign::Campaign& campaign, const frames::Fra
         "the arm";
     return material;
   }
-  const Eigen::Isometry3d scene_from_points =
-      Eigen::Translation3d(0.0, 0.0, heightOfR0(frames)) * *r0_from_points;
+  const Eigen::Isometry3d scene_from_points = Eigen::Translation3d(0.0, 0.0, heightOfR0(frames)) * *r0_from_points;
   const std::vector<Circle> circles = circlesOf(*campaign.circle_sweeps);
   for (int axis = 0; axis < 6; ++axis) {
-    const auto of_axis = std::find_if(circles.begin(), circles.end(),
-                                      [&](const Circle& circle) { return circle.axis == axis; });
+    const auto of_axis =
+        std::find_if(circles.begin(), circles.end(), [&](const Circle& circle) { return circle.axis == axis; });
     if (of_axis == circles.end()) continue;
     const campaign::CircleReading& middle = *of_axis->readings[of_axis->readings.size() / 2];
     ViewFrame frame;
@@ -237,13 +237,14 @@ namespace {
 
 /// The geometry in which the cases of `identified` are shown: the swept one, or Partial Pose's calibrated one
 /// where no sweeps place the readings.
-frames::LoadingGeometry shownGeometry(const campaign::Campaign& campaign, const identification::Identification& identified) {
-  for (const identification::Method method : {identification::Method::decoupled_partial_pose, identification::Method::complete_pose}) {
+frames::LoadingGeometry shownGeometry(const campaign::Campaign& campaign,
+                                      const identification::Identification& identified) {
+  for (const identification::Method method :
+       {identification::Method::decoupled_partial_pose, identification::Method::complete_pose}) {
     if (identified.of(method).available) return identified.of(method).geometry;
   }
   const identification::MethodResult& partial = identified.of(identification::Method::partial_pose);
-  const Vector6d sag =
-      partial.available ? Vector6d(partial.estimate.compliance.cwiseMax(0.0)) : Vector6d::Zero();
+  const Vector6d sag = partial.available ? Vector6d(partial.estimate.compliance.cwiseMax(0.0)) : Vector6d::Zero();
   frames::LoadingGeometry swept = frames::sweptGeometry(campaign, identified.frames, sag);
   if (partial.available && identification::loadCases(campaign, swept, identified.step).empty()) return partial.geometry;
   return swept;
@@ -251,7 +252,8 @@ frames::LoadingGeometry shownGeometry(const campaign::Campaign& campaign, const 
 
 /// `rows` of `from`'s cases in the order of `to`'s, by posture.
 std::vector<identification::CaseEquations> alignedRows(const std::vector<identification::CaseEquations>& rows,
-                                       const std::vector<identification::LoadCase>& from, const std::vector<identification::LoadCase>& to) {
+                                                       const std::vector<identification::LoadCase>& from,
+                                                       const std::vector<identification::LoadCase>& to) {
   std::vector<identification::CaseEquations> aligned;
   for (const identification::LoadCase& wanted : to) {
     aligned.emplace_back();
@@ -264,28 +266,32 @@ std::vector<identification::CaseEquations> alignedRows(const std::vector<identif
 
 }  // namespace
 
-identification::Identification underLoadStep(const campaign::Campaign& campaign, const identification::Identification& identified, int step) {
+identification::Identification underLoadStep(const campaign::Campaign& campaign,
+                                             const identification::Identification& identified, int step) {
   identification::Identification other;
   other.step = step;
   other.steps = {step};
   other.frames = identified.frames;
   other.finite_deflection = identified.finite_deflection;
-  const identification::LoadedArm shown = identification::loadedArm(campaign, shownGeometry(campaign, identified), identified.frames.wrist,
-                                    {step}, &other.left_out);
+  const identification::LoadedArm shown = identification::loadedArm(campaign, shownGeometry(campaign, identified),
+                                                                    identified.frames.wrist, {step}, &other.left_out);
   other.cases = shown.cases;
   other.wrist = shown.wrist;
   for (const identification::Method which : identification::kMethods) {
     const identification::MethodResult& known = identified.of(which);
     if (!known.available) continue;
-    identification::LoadedArm arm = identification::loadedArm(campaign, known.geometry, identified.frames.wrist, {step});
+    identification::LoadedArm arm =
+        identification::loadedArm(campaign, known.geometry, identified.frames.wrist, {step});
     // Nothing is solved: the known estimate stands in for every round's.
-    identification::settleArm(arm, identified.finite_deflection, [&](const identification::LoadedArm&) { return known.estimate.compliance; });
+    identification::solveLoadedArm(arm, identified.finite_deflection,
+                                   [&](const identification::LoadedArm&) { return known.estimate.compliance; });
     identification::MethodResult& out = other.methods[static_cast<std::size_t>(which)];
     out.available = true;
     out.estimate = known.estimate;
     out.geometry = known.geometry;
     out.target_rows = alignedRows(identification::reflectorEquations(arm), arm.cases, shown.cases);
-    if (!arm.wrist.empty()) out.wrist_rows = alignedRows(identification::wristPointEquations(arm), arm.cases, shown.cases);
+    if (!arm.wrist.empty())
+      out.wrist_rows = alignedRows(identification::wristPointEquations(arm), arm.cases, shown.cases);
   }
   return other;
 }

@@ -13,12 +13,12 @@ namespace stiffscope::app {
 
 /// One picture that the viewer steps to: the arm in one posture under one load, or in one sweep.
 struct ViewFrame {
-  render::ArmScene scene;     ///< with all its vectors; view, magnification, colours and panels are the viewer's
-  std::string name;   ///< for the name of a file: "posture-17-step-3"
-  std::string where;  ///< "posture 17"
-  std::string load;   ///< "load step 3, 1.50 kN"; empty of a sweep
-  int posture = 0;    ///< counts what Right goes through
-  int step = 0;       ///< counts what Up goes through
+  render::ArmScene scene;  ///< with all its vectors; view, magnification, colours and panels are the viewer's
+  std::string name;        ///< for the name of a file: "posture-17-step-3"
+  std::string where;       ///< "posture 17"
+  std::string load;        ///< "load step 3, 1.50 kN"; empty of a sweep
+  int posture = 0;         ///< counts what Right goes through
+  int step = 0;            ///< counts what Up goes through
   std::optional<Eigen::Vector3d> force;  ///< of the load, axes of R0, N
 };
 
@@ -69,6 +69,7 @@ ViewMaterial sweepMaterial(const campaign::Campaign& campaign, const frames::Fra
 /// available method's rows of that step, with K_c and the middle posture that these stiffnesses imply;
 /// estimates and frames as they are. What only an identification has (subsets, judgements) stays empty. A
 /// case for which a method has no rows gets empty ones.
-identification::Identification underLoadStep(const campaign::Campaign& campaign, const identification::Identification& identified, int step);
+identification::Identification underLoadStep(const campaign::Campaign& campaign,
+                                             const identification::Identification& identified, int step);
 
 }  // namespace stiffscope::app

@@ -15,7 +15,9 @@ void addViewOptions(CLI::App& app, ViewArguments& arguments) {
   app.add_option("--view", arguments.view, "front, side, top or oblique")->capture_default_str();
   app.add_option("--point", options.point, "reflector whose numbers to show, P10 say, or Pwrist");
   app.add_flag("--dark", options.dark, "dark background");
-  app.add_option("--size", arguments.size, "width and height of the window in pixels")->expected(2)->capture_default_str();
+  app.add_option("--size", arguments.size, "width and height of the window in pixels")
+      ->expected(2)
+      ->capture_default_str();
   app.add_option("--screenshot", options.screenshot, "draw once in the window, write this PNG file and end");
 }
 

@@ -1,8 +1,8 @@
 #include "app/view/view_window.h"
 
+#include <fmt/format.h>
 #include <cstdio>
 #include <filesystem>
-#include <fmt/format.h>
 
 #include "app/output.h"
 #include "app/view/view_material.h"

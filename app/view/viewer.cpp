@@ -1,9 +1,9 @@
 #include "app/view/viewer.h"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <fmt/format.h>
 #include <functional>
 #include <iterator>
 #include <optional>
@@ -62,8 +62,7 @@ render::ScenePanel pointPanel(const ViewFrame& frame, const render::ScenePoint& 
   for (const Vector& vector : vectorsOf(point, dark ? render::kDarkPalette : render::kLightPalette)) {
     if (vector.value) panel.rows.push_back({cells(vector.name, kMmPerM * *vector.value, 3), vector.colour});
   }
-  panel.rows.push_back(
-      {cells("stands at", kMmPerM * (point.position - frame.scene.frame_origin), 1), std::nullopt});
+  panel.rows.push_back({cells("stands at", kMmPerM * (point.position - frame.scene.frame_origin), 1), std::nullopt});
   panel.rows.back().cells.pop_back();
   if (frame.force) panel.rows.push_back({cells("force, N", *frame.force, 0), std::nullopt});
   return panel;
@@ -73,15 +72,14 @@ std::string pointText(const ViewFrame& frame, const render::ScenePoint& point) {
   std::string text = fmt::format("{}, {}", reports::plain(point.label), frame.where);
   if (!frame.load.empty()) text += ", " + frame.load;
   if (frame.force) {
-    text +=
-        fmt::format(", force {:.1f} {:.1f} {:.1f} N", frame.force->x(), frame.force->y(), frame.force->z());
+    text += fmt::format(", force {:.1f} {:.1f} {:.1f} N", frame.force->x(), frame.force->y(), frame.force->z());
   }
   text += '\n';
   for (const Vector& vector : vectorsOf(point, render::kLightPalette)) {
     if (!vector.value) continue;
     const Eigen::Vector3d mm = kMmPerM * *vector.value;
-    text += fmt::format("  {:<9} {:>9.4f} {:>9.4f} {:>9.4f}  length {:.4f} mm\n", vector.name, mm.x(), mm.y(),
-                        mm.z(), mm.norm());
+    text += fmt::format("  {:<9} {:>9.4f} {:>9.4f} {:>9.4f}  length {:.4f} mm\n", vector.name, mm.x(), mm.y(), mm.z(),
+                        mm.norm());
   }
   return text;
 }
@@ -112,8 +110,9 @@ double magnificationForStep(const std::vector<ViewFrame>& frames, int step, doub
 }
 
 double residualFactorForStep(const std::vector<ViewFrame>& frames, int step) {
-  return medianOverStep(frames, step,
-                        [](const render::ArmScene& scene) { return std::optional(render::automaticResidualFactor(scene)); });
+  return medianOverStep(frames, step, [](const render::ArmScene& scene) {
+    return std::optional(render::automaticResidualFactor(scene));
+  });
 }
 
 namespace {
@@ -141,10 +140,7 @@ const std::vector<ViewKey>& viewKeys() {
        "",
        [](Viewer& v) { v.settings_.magnification = std::max(v.settings_.magnification / 2, 1e-3); }},
       {{"a"}, "a", "length to suit", [](Viewer& v) { v.suitMagnification(); }},
-      {{"period", "greater"},
-       ". ,",
-       "longer, shorter residuals",
-       [](Viewer& v) { v.changeResidualFactor(true); }},
+      {{"period", "greater"}, ". ,", "longer, shorter residuals", [](Viewer& v) { v.changeResidualFactor(true); }},
       {{"comma", "less"}, "", "", [](Viewer& v) { v.changeResidualFactor(false); }},
       {{"n"}, "n", "next method", [](Viewer& v) { v.nextMethod(); }},
       {{"Tab"}, "Tab", "next point's numbers", [](Viewer& v) { v.pickNext(); }},
@@ -161,10 +157,7 @@ const std::vector<ViewKey>& viewKeys() {
       {{"b"}, "b", "light, dark background", [](Viewer& v) { v.settings_.dark = !v.settings_.dark; }},
       {{"s"}, "s", "save the picture (PNG)", [](Viewer& v) { v.save(); }},
       {{"0", "KP_0", "Home"}, "0", "reset", [](Viewer& v) { v.reset(); }},
-      {{"h", "question"},
-       "h ?",
-       "this list",
-       [](Viewer& v) { v.settings_.keys_listed = !v.settings_.keys_listed; }},
+      {{"h", "question"}, "h ?", "this list", [](Viewer& v) { v.settings_.keys_listed = !v.settings_.keys_listed; }},
       {{"q", "Escape"}, "q", "quit", [](Viewer& v) { v.window_.close(); }},
   };
   return keys;
@@ -213,8 +206,7 @@ Viewer::Viewer(std::vector<ViewMaterial> by_method, std::size_t first, std::opti
   const std::vector<ViewFrame>& frames = material().frames;
   const int step = frame().step;
   settings_.residual_factor = residualFactorForStep(frames, step);
-  settings_.magnification =
-      magnification.value_or(magnificationForStep(frames, step, settings_.residual_factor));
+  settings_.magnification = magnification.value_or(magnificationForStep(frames, step, settings_.residual_factor));
   start_ = settings_;
   for (const ViewFrame& one : frames) {
     if (one.step != step) continue;
@@ -240,8 +232,7 @@ void Viewer::stepPosture(int by) {
   const auto count = static_cast<std::ptrdiff_t>(frames.size());
   // Around the end, back to the first.
   for (std::ptrdiff_t away = 1; away <= count; ++away) {
-    const auto at =
-        static_cast<std::size_t>(((static_cast<std::ptrdiff_t>(at_) + by * away) % count + count) % count);
+    const auto at = static_cast<std::size_t>(((static_cast<std::ptrdiff_t>(at_) + by * away) % count + count) % count);
     if (!same(at)) continue;
     at_ = at;
     return;
@@ -287,8 +278,7 @@ const render::ScenePoint* Viewer::pickedPoint() const {
 }
 
 void Viewer::nextMethod() {
-  if (by_method_.size() < 2)
-    message_ = material().method.empty() ? material().lacking : "this is the only method";
+  if (by_method_.size() < 2) message_ = material().method.empty() ? material().lacking : "this is the only method";
   method_ = (method_ + 1) % by_method_.size();
 }
 
@@ -349,14 +339,12 @@ std::string Viewer::status() const {
   for (const ViewFrame& one : material().frames) {
     if (one.step == frame().step) postures.insert(one.posture);
   }
-  std::string text =
-      fmt::format("{} ({} of {})", frame().where,
-                  std::distance(postures.begin(), postures.find(frame().posture)) + 1, postures.size());
+  std::string text = fmt::format("{} ({} of {})", frame().where,
+                                 std::distance(postures.begin(), postures.find(frame().posture)) + 1, postures.size());
   if (frame().load.empty()) return text;
   text += fmt::format("   \u00b7   {}   \u00b7   vectors \u00d7 {}", frame().load,
                       render::factorText(settings_.magnification));
-  text +=
-      "   \u00b7   " + (material().method.empty() ? material().lacking : "predicted by " + material().method);
+  text += "   \u00b7   " + (material().method.empty() ? material().lacking : "predicted by " + material().method);
   return text;
 }
 

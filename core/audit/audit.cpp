@@ -13,7 +13,7 @@ namespace {
 
 /// A function of the audit and the checks that it gives, by their ids; at most three.
 struct Check {
-  Findings (*of)(const Evidence&);
+  Findings (*of)(const AuditInput&);
   std::array<const char*, 3> ids;
 };
 
@@ -73,13 +73,13 @@ AuditReport audit(preparation::PreparedCampaign& prepared) {
   report.checks = prepared.screening;
   report.rejected = prepared.preparation.rejected;
   const std::optional<campaign::Tracker> declared = prepared.campaign.tracker;
-  Evidence evidence = gatherEvidence(std::move(prepared.campaign), prepared);
+  AuditInput input = auditInput(std::move(prepared.campaign), prepared);
   for (const Check& check : kAllChecks) {
-    Findings findings = check.of(evidence);
+    Findings findings = check.of(input);
     std::move(findings.begin(), findings.end(), std::back_inserter(report.checks));
   }
   report.verdict = worst(report.checks);
-  prepared.campaign = std::move(evidence.campaign);
+  prepared.campaign = std::move(input.campaign);
   prepared.campaign.tracker = declared;
   return report;
 }

@@ -7,34 +7,33 @@ namespace stiffscope::audit {
 
 namespace {
 
-frames::SagModel sagOf(const Evidence& evidence) {
-  const frames::Frames& frames = evidence.frames;
+frames::SagModel sagOf(const AuditInput& input) {
+  const frames::Frames& frames = input.frames;
   if (!frames.sag_removed) return {};
-  return frames::SagModel(frames.arm.arm, frames.weight, evidence.arm.geometry.compliance,
-                  frames.targets_in_r0_at_zero, frames.arm.r0_from_points.inverse());
+  return frames::SagModel(frames.arm.arm, frames.weight, input.arm.geometry.compliance, frames.targets_in_r0_at_zero,
+                          frames.arm.r0_from_points.inverse());
 }
 
 }  // namespace
 
-Evidence gatherEvidence(campaign::Campaign campaign, const preparation::PreparedCampaign& found) {
-  Evidence evidence;
-  evidence.campaign = std::move(campaign);
-  evidence.drift = found.preparation.drift;
-  evidence.station = found.station;
-  evidence.scatter = found.scatter;
-  if (preparation::declaredNoise(evidence.campaign)) {
-    evidence.campaign.tracker = preparation::asNoisyAs(*evidence.campaign.tracker, preparation::noiseFactors(evidence.scatter));
-    evidence.noise = frames::trackerNoise(*evidence.campaign.tracker);
+AuditInput auditInput(campaign::Campaign campaign, const preparation::PreparedCampaign& found) {
+  AuditInput input;
+  input.campaign = std::move(campaign);
+  input.drift = found.preparation.drift;
+  input.station = found.station;
+  input.scatter = found.scatter;
+  if (preparation::declaredNoise(input.campaign)) {
+    input.campaign.tracker = preparation::asNoisyAs(*input.campaign.tracker, preparation::noiseFactors(input.scatter));
+    input.noise = frames::trackerNoise(*input.campaign.tracker);
   }
-  evidence.states = campaign::statePoints(evidence.campaign);
-  identification::SettledDay day = identification::settleDay(evidence.campaign);
-  evidence.step = day.step;
-  evidence.frames = std::move(day.frames);
-  evidence.arm = std::move(day.arm);
-  evidence.rigid = frames::rigidPoints(evidence.campaign, sagOf(evidence));
-  evidence.absolute = fitAbsolutePositions(evidence.campaign, evidence.frames, evidence.arm.geometry,
-                                           evidence.states, evidence.noise);
-  return evidence;
+  input.states = campaign::statePoints(input.campaign);
+  identification::SolvedDay day = identification::solveDay(input.campaign);
+  input.step = day.step;
+  input.frames = std::move(day.frames);
+  input.arm = std::move(day.arm);
+  input.rigid = frames::rigidPoints(input.campaign, sagOf(input));
+  input.absolute = fitAbsolutePositions(input.campaign, input.frames, input.arm.geometry, input.states, input.noise);
+  return input;
 }
 
 }  // namespace stiffscope::audit

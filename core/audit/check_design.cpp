@@ -1,9 +1,9 @@
 #include "core/audit/check_design.h"
 
-#include <algorithm>
-#include <array>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <algorithm>
+#include <array>
 
 #include "core/audit/checks.h"
 #include "core/audit/limits.h"
@@ -19,38 +19,41 @@ namespace {
 /// "joint 2: identifiable: turned by 812 Nm rms, known to 3.1 Nm", or why not.
 std::string described(std::size_t joint, const identification::JointIdentifiability& judged) {
   if (!judged.identifiable) return fmt::format("joint {}: not identifiable: {}", joint + 1, judged.reason);
-  return fmt::format("joint {}: identifiable: the load turns it by {:.4g} Nm rms, known to {:.2g} Nm",
-                     joint + 1, judged.trusted_rms, judged.uncertainty_rms);
+  return fmt::format("joint {}: identifiable: the load turns it by {:.4g} Nm rms, known to {:.2g} Nm", joint + 1,
+                     judged.trusted_rms, judged.uncertainty_rms);
 }
 
 /// A day of sweeps alone has nothing to test here; one that was loaded, and of which no load is of use, fails.
-preparation::AuditCheck withoutCases(const Evidence& evidence) {
-  const campaign::Campaign& campaign = evidence.campaign;
+preparation::AuditCheck withoutCases(const AuditInput& input) {
+  const campaign::Campaign& campaign = input.campaign;
   const bool measured = campaign.loading || campaign.displacements;
-  if (!measured) return preparation::notTestable("posture_set", "no loads: measure `loading`, `states` and `load_cell`");
+  if (!measured)
+    return preparation::notTestable("posture_set", "no loads: measure `loading`, `states` and `load_cell`");
   const std::string lacking = identification::whatLoadsLack(campaign);
-  if (lacking.empty() && evidence.step && !evidence.frames.arm.points_placed) {
-    return preparation::notTestable("posture_set", "the loading's readings cannot be brought into R0: sweep axes 1 and 2");
+  if (lacking.empty() && input.step && !input.frames.arm.points_placed) {
+    return preparation::notTestable("posture_set",
+                                    "the loading's readings cannot be brought into R0: sweep axes 1 and 2");
   }
   preparation::AuditCheck check;
   check.id = "posture_set";
   check.verdict = preparation::AuditVerdict::fail;
   check.message = !lacking.empty() ? lacking
-                  : !evidence.step ? "no load step has a force"
-                                   : "no posture has readings at the heaviest load step and, of absolute points, unloaded ones (step 0): nothing to identify from";
+                  : !input.step    ? "no load step has a force"
+                                : "no posture has readings at the heaviest load step and, of absolute points, unloaded "
+                                  "ones (step 0): nothing to identify from";
   return check;
 }
 
 }  // namespace
 
-Findings checkPostureSet(const Evidence& evidence) {
-  const identification::LoadedArm& arm = evidence.arm;
+Findings checkPostureSet(const AuditInput& input) {
+  const identification::LoadedArm& arm = input.arm;
   if (arm.cases.empty()) {
-    return {withoutCases(evidence)};
+    return {withoutCases(input)};
   }
   const std::vector<identification::CaseEquations> equations = identification::reflectorEquations(arm);
   const identification::Identifiability judged =
-      identification::judgeJoints(arm.geometry, arm.cases, *evidence.campaign.load_cell, equations);
+      identification::evaluateIdentifiability(arm.geometry, arm.cases, *input.campaign.load_cell, equations);
   preparation::AuditCheck check;
   check.id = "posture_set";
   check.unit = "condition number";
@@ -76,9 +79,9 @@ Findings checkPostureSet(const Evidence& evidence) {
     return {check};
   }
   check.value = identification::partialPose(equations, judged.mask()).condition;
-  check.message =
-      fmt::format("{} postures at load step {} identify joints {} with a condition number of {:.3g} of their equations{}",
-                  arm.cases.size(), *evidence.step, fmt::join(seen, ", "), *check.value, why);
+  check.message = fmt::format(
+      "{} postures at load step {} identify joints {} with a condition number of {:.3g} of their equations{}",
+      arm.cases.size(), *input.step, fmt::join(seen, ", "), *check.value, why);
   if (*check.value > *check.limit || expected_missing) check.verdict = preparation::AuditVerdict::warn;
   return {check};
 }
@@ -87,7 +90,8 @@ namespace {
 
 std::string joined(const std::vector<effects::Effect>& effects, const char* between) {
   std::string text;
-  for (const effects::Effect effect : effects) text += (text.empty() ? "" : between) + std::string(effects::idOf(effect));
+  for (const effects::Effect effect : effects)
+    text += (text.empty() ? "" : between) + std::string(effects::idOf(effect));
   return text;
 }
 

@@ -1,10 +1,10 @@
 #include "core/audit/check_load.h"
 
+#include <fmt/format.h>
 #include <Eigen/Dense>
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <fmt/format.h>
 #include <limits>
 #include <map>
 #include <vector>
@@ -24,19 +24,17 @@ namespace stiffscope::audit {
 
 namespace {
 
+const char* const kNoSigma = "the load cell's noise is not stated: force_sigma_n and moment_sigma_nm in campaign.xml";
 
-const char* const kNoSigma =
-    "the load cell's noise is not stated: force_sigma_n and moment_sigma_nm in campaign.xml";
-
-preparation::AuditCheck tareCheck(const Evidence& evidence) {
-  const campaign::LoadCell& cell = *evidence.campaign.load_cell;
+preparation::AuditCheck tareCheck(const AuditInput& input) {
+  const campaign::LoadCell& cell = *input.campaign.load_cell;
   Vector6d sum = Vector6d::Zero();
   Vector6d sigma;
   sigma << Eigen::Vector3d::Constant(cell.force_sigma), Eigen::Vector3d::Constant(cell.moment_sigma);
   double worst = 0.0;
   const campaign::State* worst_state = nullptr;
   int count = 0;
-  for (const campaign::State& state : evidence.campaign.states->rows) {
+  for (const campaign::State& state : input.campaign.states->rows) {
     if (state.step != 0) continue;
     sum += state.wrench_in_cell;
     ++count;
@@ -53,26 +51,26 @@ preparation::AuditCheck tareCheck(const Evidence& evidence) {
   check.unit = "of its sd";
   check.limit_source =
       preparation::byChance("chi-square of the mean unloaded reading, six components, and of each reading");
-  check.message = fmt::format(
-      "unloaded, the load cell shows ({:.2f}, {:.2f}, {:.2f}) N and ({:.2f}, {:.2f}, {:.2f}) Nm on average",
-      mean[0], mean[1], mean[2], mean[3], mean[4], mean[5]);
+  check.message =
+      fmt::format("unloaded, the load cell shows ({:.2f}, {:.2f}, {:.2f}) N and ({:.2f}, {:.2f}, {:.2f}) Nm on average",
+                  mean[0], mean[1], mean[2], mean[3], mean[4], mean[5]);
   const bool one_off = worst > numerics::chiSquareLimit(0.5 * preparation::kLevel / count, 6.0);
   if (*check.value <= *check.limit && !one_off) return check;
   check.verdict = preparation::AuditVerdict::warn;
-  check.where = campaign::rowName(evidence.campaign.states->file, worst_state->line);
+  check.where = campaign::rowName(input.campaign.states->file, worst_state->line);
   check.message += *check.value > *check.limit
                        ? ": not tared, or tared with something on it"
                        : fmt::format("; pose {} is {:.1f} sigma off",
-                                     campaign::poseName(evidence.campaign, worst_state->pose), std::sqrt(worst / 6.0));
+                                     campaign::poseName(input.campaign, worst_state->pose), std::sqrt(worst / 6.0));
   return check;
 }
 
-preparation::AuditCheck gravityCheck(const Evidence& evidence) {
-  const identification::LoadedArm& arm = evidence.arm;
+preparation::AuditCheck gravityCheck(const AuditInput& input) {
+  const identification::LoadedArm& arm = input.arm;
   if (arm.cases.empty())
     return preparation::notTestable("gravity_direction", "no postures with readings unloaded and loaded");
-  const identification::Identifiability judged =
-      identification::judgeJoints(arm.geometry, arm.cases, *evidence.campaign.load_cell, identification::reflectorEquations(arm));
+  const identification::Identifiability judged = identification::evaluateIdentifiability(
+      arm.geometry, arm.cases, *input.campaign.load_cell, identification::reflectorEquations(arm));
   if (!judged.load_hangs)
     return preparation::notTestable("gravity_direction", "the load does not hang: it is pulled to the side");
   const Eigen::Vector3d down = arm.geometry.weight.gravity_in_base.normalized();
@@ -90,9 +88,9 @@ preparation::AuditCheck gravityCheck(const Evidence& evidence) {
   check.id = "gravity_direction";
   check.value = 1e3 * judged.gravity_angle_rms;
   // Two directions: the load cell's turn as identification trusts it, and what its noise adds to one reading.
-  check.limit = 1e3 *
-                std::hypot(identification::TrustLimits().direction, evidence.campaign.load_cell->force_sigma / least_force) *
-                std::sqrt(numerics::chiSquareLimit(preparation::kLevel, 2.0));
+  check.limit =
+      1e3 * std::hypot(identification::TrustLimits().direction, input.campaign.load_cell->force_sigma / least_force) *
+      std::sqrt(numerics::chiSquareLimit(preparation::kLevel, 2.0));
   check.unit = "mrad";
   check.limit_source =
       "how far identification trusts the load cell's axes (2 mrad, one sigma) and its noise; chi-square of "
@@ -101,16 +99,16 @@ preparation::AuditCheck gravityCheck(const Evidence& evidence) {
       "a hanging load's force lies {:.2f} mrad rms off gravity, {:.2f} mrad on average, farthest "
       "{:.2f} mrad at pose {}",
       *check.value, 1e3 * std::atan2(mean.cross(down).norm(), mean.dot(down)), 1e3 * farthest,
-      campaign::poseName(evidence.campaign, worst->pose));
+      campaign::poseName(input.campaign, worst->pose));
   if (*check.value <= *check.limit) return check;
   check.verdict = preparation::AuditVerdict::warn;
-  check.where = fmt::format("pose {}", campaign::poseName(evidence.campaign, worst->pose));
+  check.where = fmt::format("pose {}", campaign::poseName(input.campaign, worst->pose));
   check.message += ": load cell turned against its declared axes, a rope that drags, or base_link not level";
   return check;
 }
 
-preparation::AuditCheck leverCheck(const Evidence& evidence) {
-  const HookFit fit = fitHook(evidence.campaign);
+preparation::AuditCheck leverCheck(const AuditInput& input) {
+  const LoadPointFit fit = fitLoadPoint(input.campaign);
   if (!fit.done) return preparation::notTestable("moment_lever", fit.reason);
   preparation::AuditCheck check;
   check.id = "moment_lever";
@@ -123,26 +121,26 @@ preparation::AuditCheck leverCheck(const Evidence& evidence) {
       "moments are those of the force at ({:.1f}, {:.1f}, {:.1f}) mm from the cell's point, but for "
       "{:.2f} Nm rms",
       1e3 * fit.lever.x(), 1e3 * fit.lever.y(), 1e3 * fit.lever.z(), fit.rms);
-  if (fit.lever.norm() > kLongestLever && forcesStandOut(evidence.campaign)) {
+  if (fit.lever.norm() > kLongestLever && forcesStandOut(input.campaign)) {
     check.verdict = preparation::AuditVerdict::fail;
     check.impossible = true;
     check.message += ": no tool is that long, forces (kN for N) or moments (N mm for Nm) are in another unit";
     return check;
   }
   if (*check.value <= *check.limit && fit.worst_chi2 <= fit.worst_limit) return check;
-  check.verdict = fit.chi2 / fit.dof > preparation::kFailVarianceRatio ? preparation::AuditVerdict::fail : preparation::AuditVerdict::warn;
-  check.where = campaign::rowName(evidence.campaign.states->file, fit.worst_line);
+  check.verdict = fit.chi2 / fit.dof > preparation::kFailVarianceRatio ? preparation::AuditVerdict::fail
+                                                                       : preparation::AuditVerdict::warn;
+  check.where = campaign::rowName(input.campaign.states->file, fit.worst_line);
   check.message += fmt::format("; worst at {} (pose {}, step {})", check.where,
-                               campaign::poseName(evidence.campaign, fit.worst_pose), fit.worst_step);
-  if (!fit.mending_signs.empty())
-    check.message += fmt::format("; with {} turned round they agree", fit.mending_signs);
+                               campaign::poseName(input.campaign, fit.worst_pose), fit.worst_step);
+  if (!fit.mending_signs.empty()) check.message += fmt::format("; with {} turned round they agree", fit.mending_signs);
   return check;
 }
 
 }  // namespace
 
-Findings checkLoadCell(const Evidence& evidence) {
-  const campaign::Campaign& campaign = evidence.campaign;
+Findings checkLoadCell(const AuditInput& input) {
+  const campaign::Campaign& campaign = input.campaign;
   if (!campaign.load_cell || !campaign.states) {
     Findings missing;
     for (const char* id : {"tare", "gravity_direction", "moment_lever"}) {
@@ -151,31 +149,34 @@ Findings checkLoadCell(const Evidence& evidence) {
     return missing;
   }
   const bool stated = campaign.load_cell->force_sigma > 0.0 && campaign.load_cell->moment_sigma > 0.0;
-  return {stated ? tareCheck(evidence) : preparation::notTestable("tare", kNoSigma), gravityCheck(evidence),
-          stated ? leverCheck(evidence) : preparation::notTestable("moment_lever", kNoSigma)};
+  return {stated ? tareCheck(input) : preparation::notTestable("tare", kNoSigma), gravityCheck(input),
+          stated ? leverCheck(input) : preparation::notTestable("moment_lever", kNoSigma)};
 }
 
-Findings checkLoadSize(const Evidence& evidence) {
-  const auto apparent = identification::apparentStiffness(evidence.arm.cases);
-  if (!apparent) return {preparation::notTestable("load_size", "no displacement under a force that can be brought into the robot's frame")};
+Findings checkLoadSize(const AuditInput& input) {
+  const auto apparent = identification::apparentStiffness(input.arm.cases);
+  if (!apparent)
+    return {preparation::notTestable("load_size",
+                                     "no displacement under a force that can be brought into the robot's frame")};
   const double value = apparent->value();
   const std::string found = identification::implausibleLoad(*apparent);
   preparation::AuditCheck check;
   check.id = "load_size";
   check.value = value * io::kMillimetre;
-  check.limit = (value > identification::kStiffArm ? identification::kStiffArm : identification::kSoftArm) * io::kMillimetre;
+  check.limit =
+      (value > identification::kStiffArm ? identification::kStiffArm : identification::kSoftArm) * io::kMillimetre;
   check.unit = "N/mm";
   check.limit_source = fmt::format(
       "force over displacement of six-axis arms: at least {:.0f} N/mm, half of what light collaborative arms "
       "give, and at "
       "most {:.0f} N/mm, which is that of machine tools",
       identification::kSoftArm * io::kMillimetre, identification::kStiffArm * io::kMillimetre);
-  check.message = found.empty() ? fmt::format("{:.4g} N rms move the reflectors by {:.3g} mm rms",
-                                              apparent->force, apparent->displacement / io::kMillimetre)
+  check.message = found.empty() ? fmt::format("{:.4g} N rms move the reflectors by {:.3g} mm rms", apparent->force,
+                                              apparent->displacement / io::kMillimetre)
                                 : found;
   if (found.empty()) return {check};
-  check.impossible =
-      (value < identification::kSofterThanAnyArm || value > identification::kStifferThanAnyArm) && forcesStandOut(evidence.campaign);
+  check.impossible = (value < identification::kSofterThanAnyArm || value > identification::kStifferThanAnyArm) &&
+                     forcesStandOut(input.campaign);
   check.verdict = check.impossible ? preparation::AuditVerdict::fail : preparation::AuditVerdict::warn;
   return {check};
 }
@@ -284,8 +285,8 @@ std::string mendingSigns(const campaign::LoadCell& cell, const std::vector<Loade
 
 }  // namespace
 
-HookFit fitHook(const campaign::Campaign& campaign) {
-  HookFit fit;
+LoadPointFit fitLoadPoint(const campaign::Campaign& campaign) {
+  LoadPointFit fit;
   const campaign::LoadCell& cell = *campaign.load_cell;
   std::vector<Loaded> states;
   states.reserve(campaign.states->rows.size());
@@ -294,11 +295,9 @@ HookFit fitHook(const campaign::Campaign& campaign) {
     most = std::max(most, state.wrench_in_cell.head<3>().norm());
   bool any_moment = false;
   for (const campaign::State& state : campaign.states->rows) {
-    if (state.step == 0 || state.wrench_in_cell.head<3>().norm() < campaign::kReturnShare * most)
-      continue;
+    if (state.step == 0 || state.wrench_in_cell.head<3>().norm() < campaign::kReturnShare * most) continue;
     const Eigen::Matrix3d turn = toolFromCell(campaign, state.q);
-    states.push_back(
-        {&state, {turn * state.wrench_in_cell.head<3>(), turn * state.wrench_in_cell.tail<3>()}, turn});
+    states.push_back({&state, {turn * state.wrench_in_cell.head<3>(), turn * state.wrench_in_cell.tail<3>()}, turn});
     any_moment |= !state.wrench_in_cell.tail<3>().isZero(0.0);
   }
   constexpr std::size_t kLeast = 4;

@@ -13,7 +13,7 @@ bool forcesStandOut(const campaign::Campaign& campaign);
 
 /// A load that hangs or pulls at one point of the tool: M = lever x F with one lever, in the load cell's
 /// axes.
-struct HookFit {
+struct LoadPointFit {
   bool done = false;
   std::string reason;                               ///< why not
   Eigen::Vector3d lever = Eigen::Vector3d::Zero();  ///< from the cell's point to the load's, in the tool, m
@@ -34,6 +34,6 @@ struct HookFit {
 /// the lever times the force's. Axes that do not turn with the flange are turned into it by forward
 /// kinematics of the URDF. Not done, with the reason: moments that were not measured, or forces along one
 /// line in the tool, which leave the lever open.
-HookFit fitHook(const campaign::Campaign& campaign);
+LoadPointFit fitLoadPoint(const campaign::Campaign& campaign);
 
 }  // namespace stiffscope::audit

@@ -88,8 +88,8 @@ class Inventory {
 
 }  // namespace
 
-Findings checkCompleteness(const Evidence& evidence) {
-  const campaign::Campaign& campaign = evidence.campaign;
+Findings checkCompleteness(const AuditInput& input) {
+  const campaign::Campaign& campaign = input.campaign;
   if (!campaign.states || (!campaign.loading && !campaign.displacements)) {
     return {preparation::notTestable("completeness", "no load states: measure `states` with `loading`")};
   }
@@ -101,17 +101,15 @@ Findings checkCompleteness(const Evidence& evidence) {
   check.limit = 0.0;
   check.unit = "gaps";
   check.limit_source = "what most postures and states of this campaign have";
-  check.message =
-      fmt::format("every one of {} postures has all steps, reflectors and repeats", inventory.size());
+  check.message = fmt::format("every one of {} postures has all steps, reflectors and repeats", inventory.size());
   if (missing.empty()) return {check};
   check.verdict = preparation::AuditVerdict::warn;
   check.where = missing.front().substr(0, missing.front().find(':'));
   constexpr std::size_t kShown = 8;
-  const std::vector<std::string> shown(
-      missing.begin(), missing.begin() + static_cast<std::ptrdiff_t>(std::min(kShown, missing.size())));
-  check.message =
-      fmt::format("missing: {}{}", fmt::join(shown, "; "),
-                  missing.size() > kShown ? fmt::format("; and {} more", missing.size() - kShown) : "");
+  const std::vector<std::string> shown(missing.begin(),
+                                       missing.begin() + static_cast<std::ptrdiff_t>(std::min(kShown, missing.size())));
+  check.message = fmt::format("missing: {}{}", fmt::join(shown, "; "),
+                              missing.size() > kShown ? fmt::format("; and {} more", missing.size() - kShown) : "");
   return {check};
 }
 
@@ -170,8 +168,8 @@ std::vector<std::string> statesApart(const campaign::Campaign& campaign) {
                           (span.last < own->second.first && state.time_s <= span.last);
       if (!within && !beyond) continue;
       found.push_back(fmt::format("{} (pose {}: the state of step {} was taken during step {})",
-                                  campaign::rowName(campaign.states->file, state.line), campaign::poseName(campaign, state.pose),
-                                  state.step, key.second));
+                                  campaign::rowName(campaign.states->file, state.line),
+                                  campaign::poseName(campaign, state.pose), state.step, key.second));
       break;
     }
   }
@@ -180,8 +178,8 @@ std::vector<std::string> statesApart(const campaign::Campaign& campaign) {
 
 }  // namespace
 
-Findings checkTimeOrder(const Evidence& evidence) {
-  const campaign::Campaign& campaign = evidence.campaign;
+Findings checkTimeOrder(const AuditInput& input) {
+  const campaign::Campaign& campaign = input.campaign;
   if (!campaign.states && !campaign.loading)
     return {preparation::notTestable("time_order", "no `states` and no `loading`")};
   std::vector<std::string> found;

@@ -37,8 +37,8 @@ double loadLeft(const campaign::State& state, const campaign::State& loaded) {
   return state.wrench_in_cell.head<3>().dot(force) / force.squaredNorm();
 }
 
-Return compare(const campaign::StatePoints& before, const campaign::StatePoints& after, const campaign::StatePoints* loaded, double left,
-               const metrology::TrackerNoise& noise) {
+Return compare(const campaign::StatePoints& before, const campaign::StatePoints& after,
+               const campaign::StatePoints* loaded, double left, const metrology::TrackerNoise& noise) {
   Return result{after.pose, after.step};
   for (const campaign::ReflectorMean& mean : after.reflectors) {
     const campaign::ReflectorMean* first = before.of(mean.target);
@@ -56,10 +56,10 @@ Return compare(const campaign::StatePoints& before, const campaign::StatePoints&
   return result;
 }
 
-std::vector<Return> returnsOf(const Evidence& evidence) {
+std::vector<Return> returnsOf(const AuditInput& input) {
   std::map<int, PoseStates> poses;
-  for (const campaign::State& state : evidence.campaign.states->rows) poses[state.pose].states[state.step] = &state;
-  for (const campaign::StatePoints& points : evidence.states) {
+  for (const campaign::State& state : input.campaign.states->rows) poses[state.pose].states[state.step] = &state;
+  for (const campaign::StatePoints& points : input.states) {
     if (points.pose >= 0) poses[points.pose].points[points.step] = &points;
   }
   std::vector<Return> found;
@@ -77,8 +77,8 @@ std::vector<Return> returnsOf(const Evidence& evidence) {
       if (state->wrench_in_cell.head<3>().norm() >= campaign::kReturnShare * force) continue;
       const auto loaded = one.points.find(most->step);
       const Return back =
-          compare(*one.points.at(0), *one.points.at(step),
-                  loaded == one.points.end() ? nullptr : loaded->second, loadLeft(*state, *most), *evidence.noise);
+          compare(*one.points.at(0), *one.points.at(step), loaded == one.points.end() ? nullptr : loaded->second,
+                  loadLeft(*state, *most), *input.noise);
       if (back.dof > 0) found.push_back(back);
     }
   }
@@ -87,17 +87,17 @@ std::vector<Return> returnsOf(const Evidence& evidence) {
 
 }  // namespace
 
-Findings checkReturnToZero(const Evidence& evidence) {
-  const campaign::Campaign& campaign = evidence.campaign;
+Findings checkReturnToZero(const AuditInput& input) {
+  const campaign::Campaign& campaign = input.campaign;
   if (!campaign.loading || !campaign.states) {
-    return {
-        preparation::notTestable("return_to_zero", "no absolute readings of load states: measure `loading` and `states`")};
-  }
-  if (!evidence.noise) {
     return {preparation::notTestable("return_to_zero",
-                        "the tracker's noise is not declared: state `tracker` in campaign.xml")};
+                                     "no absolute readings of load states: measure `loading` and `states`")};
   }
-  const std::vector<Return> returns = returnsOf(evidence);
+  if (!input.noise) {
+    return {preparation::notTestable("return_to_zero",
+                                     "the tracker's noise is not declared: state `tracker` in campaign.xml")};
+  }
+  const std::vector<Return> returns = returnsOf(input);
   if (returns.empty())
     return {preparation::notTestable("return_to_zero", "no posture was unloaded again: add a last step without load")};
   preparation::AuditCheck check;
@@ -117,13 +117,15 @@ Findings checkReturnToZero(const Evidence& evidence) {
   }
   check.value = std::sqrt(chi2 / dof);
   check.limit = std::sqrt(numerics::chiSquareLimit(preparation::kLevel, dof) / dof);
-  check.limit_source = preparation::byChance(fmt::format("chi-square of {} degrees of freedom, and of each posture", dof));
+  check.limit_source =
+      preparation::byChance(fmt::format("chi-square of {} degrees of freedom, and of each posture", dof));
   check.message = fmt::format(
       "unloaded again, reflectors stand {:.2f} times as far from step 0 as noise alone; farthest "
       "{:.0f} um at pose {}, step {}",
       *check.value, 1e6 * worst->largest, campaign::poseName(campaign, worst->pose), worst->step);
   if (*check.value <= *check.limit && beyond.empty()) return {check};
-  check.verdict = chi2 / dof > preparation::kFailVarianceRatio ? preparation::AuditVerdict::fail : preparation::AuditVerdict::warn;
+  check.verdict =
+      chi2 / dof > preparation::kFailVarianceRatio ? preparation::AuditVerdict::fail : preparation::AuditVerdict::warn;
   check.where = campaign::rowName(campaign.loading->file, worst->line);
   check.message += fmt::format("; {} of {} postures do not come back", beyond.size(), returns.size());
   if (!beyond.empty()) check.message += fmt::format(": {}", fmt::join(beyond, ", "));
@@ -147,11 +149,11 @@ double longestLever(const identification::LoadedArm& arm) {
 }
 
 /// One-sigma noise of one reading of a reflector, per coordinate, m: the largest of all states.
-double readingNoise(const Evidence& evidence) {
-  double variance = evidence.noise->covarianceAt(evidence.noise->station).trace() / 3.0;
-  for (const campaign::StatePoints& state : evidence.states) {
+double readingNoise(const AuditInput& input) {
+  double variance = input.noise->covarianceAt(input.noise->station).trace() / 3.0;
+  for (const campaign::StatePoints& state : input.states) {
     for (const campaign::ReflectorMean& mean : state.reflectors) {
-      variance = std::max(variance, mean.readings * mean.covariance(*evidence.noise).trace() / 3.0);
+      variance = std::max(variance, mean.readings * mean.covariance(*input.noise).trace() / 3.0);
     }
   }
   return std::sqrt(variance);
@@ -159,27 +161,28 @@ double readingNoise(const Evidence& evidence) {
 
 }  // namespace
 
-Findings checkServo(const Evidence& evidence) {
-  const campaign::Campaign& campaign = evidence.campaign;
-  if (evidence.arm.cases.empty()) {
-    return {preparation::notTestable("servo_change", "no postures with readings unloaded and loaded in a known geometry")};
-  }
-  if (!evidence.noise) {
+Findings checkServo(const AuditInput& input) {
+  const campaign::Campaign& campaign = input.campaign;
+  if (input.arm.cases.empty()) {
     return {
-        preparation::notTestable("servo_change", "the tracker's noise is not declared: state `tracker` in campaign.xml")};
+        preparation::notTestable("servo_change", "no postures with readings unloaded and loaded in a known geometry")};
   }
-  const double lever = longestLever(evidence.arm);
+  if (!input.noise) {
+    return {preparation::notTestable("servo_change",
+                                     "the tracker's noise is not declared: state `tracker` in campaign.xml")};
+  }
+  const double lever = longestLever(input.arm);
   preparation::AuditCheck check;
   check.id = "servo_change";
   check.unit = "deg";
   check.value = 0.0;
-  check.limit_source = fmt::format(
-      "turn that carries a reflector at the longest lever, {:.2f} m, by twice its reading noise", lever);
+  check.limit_source =
+      fmt::format("turn that carries a reflector at the longest lever, {:.2f} m, by twice its reading noise", lever);
   std::vector<const campaign::State*> unloaded(campaign.pose_ids.size(), nullptr);
   for (const campaign::State& state : campaign.states->rows) {
     if (state.step == 0) unloaded[static_cast<std::size_t>(state.pose)] = &state;
   }
-  check.limit = 2.0 * readingNoise(evidence) / lever / io::kDegree;
+  check.limit = 2.0 * readingNoise(input) / lever / io::kDegree;
   for (const campaign::State& state : campaign.states->rows) {
     const campaign::State* before = unloaded[static_cast<std::size_t>(state.pose)];
     if (before == nullptr) continue;
@@ -200,7 +203,6 @@ Findings checkServo(const Evidence& evidence) {
 
 namespace {
 
-
 /// Geometry errors put more than noise into the positions; the shift must stand out of those too.
 double misfit(const AbsoluteFit& fit) { return std::max(1.0, fit.chi2 / fit.dof); }
 
@@ -212,21 +214,20 @@ preparation::AuditCheck frameCheck(const AbsoluteFit& fit) {
   // The shift where the arm is read, or where it stands (R0's origin), whichever is larger.
   const double at_base = (displacement - fit.shift.head<3>().cross(fit.centre)).norm();
   check.value = 1e3 * std::max(displacement.norm(), at_base);
-  check.limit =
-      std::max(1e3 * identification::TrustLimits().position, ratio > 0.0 ? *check.value * std::sqrt(by_chance / ratio) : 0.0);
+  check.limit = std::max(1e3 * identification::TrustLimits().position,
+                         ratio > 0.0 ? *check.value * std::sqrt(by_chance / ratio) : 0.0);
   check.unit = "mm";
-  check.limit_source = "how far identification trusts places (0.2 mm); or, where that is larger, " +
-                       preparation::byChance("chi-square of a rigid shift, six degrees of freedom, over that of the rest");
+  check.limit_source =
+      "how far identification trusts places (0.2 mm); or, where that is larger, " +
+      preparation::byChance("chi-square of a rigid shift, six degrees of freedom, over that of the rest");
   check.message = fmt::format(
       "loading against sweeps: shift of ({:.3f}, {:.3f}, {:.3f}) mm in R0 at the arm and turn of "
       "{:.0f} urad",
-      1e3 * displacement.x(), 1e3 * displacement.y(), 1e3 * displacement.z(),
-      1e6 * fit.shift.head<3>().norm());
+      1e3 * displacement.x(), 1e3 * displacement.y(), 1e3 * displacement.z(), 1e6 * fit.shift.head<3>().norm());
   // A shift that leaves most of the misfit goes along with another fault (geometry, sag) and is not its
   // cause.
   const double explained = fit.shift_chi2 / (fit.shift_chi2 + fit.chi2);
-  check.message +=
-      fmt::format(", which explains {:.0f} % of the misfit of the unloaded positions", 100.0 * explained);
+  check.message += fmt::format(", which explains {:.0f} % of the misfit of the unloaded positions", 100.0 * explained);
   if (*check.value <= *check.limit || explained < kExplains) return check;
   check.verdict = *check.value > 2.0 * *check.limit ? preparation::AuditVerdict::fail : preparation::AuditVerdict::warn;
   check.where = "loading";
@@ -241,9 +242,8 @@ preparation::AuditCheck positionsCheck(const AbsoluteFit& fit) {
   check.value = 1e3 * fit.rms_after;
   check.limit = 1e3 * std::max(kShareOfTolerance * identification::TrustLimits().position, by_chance);
   check.unit = "mm";
-  check.limit_source =
-      "a third of the 0.2 mm to which identification trusts places; or, where that is larger, " +
-      preparation::byChance(fmt::format("chi-square of {} degrees of freedom", fit.dof));
+  check.limit_source = "a third of the 0.2 mm to which identification trusts places; or, where that is larger, " +
+                       preparation::byChance(fmt::format("chi-square of {} degrees of freedom", fit.dof));
   check.message = fmt::format(
       "{} unloaded positions miss forward kinematics with sag by {:.3f} mm rms per coordinate, "
       "{:.3f} mm once shift, reflectors, axes and sag are fitted within their uncertainties ({:.2f} "
@@ -272,8 +272,8 @@ const campaign::State* unloadedState(const campaign::Campaign& campaign, int pos
   return nullptr;
 }
 
-preparation::AuditCheck readBackCheck(const Evidence& evidence) {
-  const AbsoluteFit& fit = evidence.absolute;
+preparation::AuditCheck readBackCheck(const AuditInput& input) {
+  const AbsoluteFit& fit = input.absolute;
   preparation::AuditCheck check;
   check.id = "joint_read_back";
   check.limit = fit.score_limit;
@@ -287,12 +287,12 @@ preparation::AuditCheck readBackCheck(const Evidence& evidence) {
     // A posture whose misfit no joint angles explain has another fault, such as exchanged reflectors.
     constexpr double kMostly = 0.9;
     if (!posture.outlier || posture.explained < kMostly) continue;
-    const campaign::State* state = unloadedState(evidence.campaign, posture.pose);
-    const std::string row = campaign::rowName(evidence.campaign.states->file, state->line);
+    const campaign::State* state = unloadedState(input.campaign, posture.pose);
+    const std::string row = campaign::rowName(input.campaign.states->file, state->line);
     if (posture.score > worst) worst = posture.score, check.where = row;
-    found += fmt::format("{}{} (pose {}: joint {} stands {:.4f} deg from what is reported)",
-                         found.empty() ? "" : "; ", row, campaign::poseName(evidence.campaign, posture.pose),
-                         posture.joint + 1, posture.joint_correction / io::kDegree);
+    found += fmt::format("{}{} (pose {}: joint {} stands {:.4f} deg from what is reported)", found.empty() ? "" : "; ",
+                         row, campaign::poseName(input.campaign, posture.pose), posture.joint + 1,
+                         posture.joint_correction / io::kDegree);
   }
   check.message = "reported joint angles agree with what the reflectors say, posture by posture";
   if (found.empty()) {
@@ -306,8 +306,8 @@ preparation::AuditCheck readBackCheck(const Evidence& evidence) {
 
 }  // namespace
 
-Findings checkUnloadedPositions(const Evidence& evidence) {
-  const AbsoluteFit& fit = evidence.absolute;
+Findings checkUnloadedPositions(const AuditInput& input) {
+  const AbsoluteFit& fit = input.absolute;
   Findings findings;
   const std::string no_sag =
       "the arm's own sag is not known: state masses in the URDF, and load steps that identify stiffnesses";
@@ -315,15 +315,14 @@ Findings checkUnloadedPositions(const Evidence& evidence) {
     if (!fit.done || !fit.sag_known) findings.push_back(preparation::notTestable(id, fit.done ? no_sag : fit.reason));
   }
   if (findings.empty()) findings = {frameCheck(fit), positionsCheck(fit)};
-  constexpr std::size_t kToCompare =
-      6;  // the median needs a majority of sound postures to tell outliers from
+  constexpr std::size_t kToCompare = 6;  // the median needs a majority of sound postures to tell outliers from
   if (!fit.done) {
     findings.push_back(preparation::notTestable("joint_read_back", fit.reason));
   } else if (fit.postures.size() < kToCompare) {
     findings.push_back(
         preparation::notTestable("joint_read_back", fmt::format("fewer than {} postures to compare", kToCompare)));
   } else {
-    findings.push_back(readBackCheck(evidence));
+    findings.push_back(readBackCheck(input));
   }
   return findings;
 }

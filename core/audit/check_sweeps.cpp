@@ -1,10 +1,10 @@
 #include "core/audit/check_sweeps.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <limits>
 #include <numbers>
 
@@ -20,7 +20,6 @@
 namespace stiffscope::audit {
 
 namespace {
-
 
 /// The reading that is farthest from its circle.
 struct WorstReading {
@@ -58,12 +57,11 @@ class Causes {
 
   std::string words() const {
     if (running_.empty()) return single_;
-    return single_ +
-           fmt::format(
-               "; that of ax{} {} runs along the sweep, no one reading makes it: the axis moves as it turns, "
-               "most often because the own weight bends bearings or links, which joint springs do not "
-               "describe; identification goes on",
-               running_.size() == 1 ? "is" : "es", fmt::join(running_, ", "));
+    return single_ + fmt::format(
+                         "; that of ax{} {} runs along the sweep, no one reading makes it: the axis moves as it turns, "
+                         "most often because the own weight bends bearings or links, which joint springs do not "
+                         "describe; identification goes on",
+                         running_.size() == 1 ? "is" : "es", fmt::join(running_, ", "));
   }
 
  private:
@@ -71,7 +69,7 @@ class Causes {
   std::vector<std::size_t> running_;
 };
 
-preparation::AuditCheck residualCheck(const Evidence& evidence, const std::array<std::vector<SweptCircle>, 6>& axes) {
+preparation::AuditCheck residualCheck(const AuditInput& input, const std::array<std::vector<SweptCircle>, 6>& axes) {
   preparation::AuditCheck check;
   check.id = "circle_residual";
   check.unit = "of noise sd";
@@ -80,16 +78,16 @@ preparation::AuditCheck residualCheck(const Evidence& evidence, const std::array
   std::vector<std::string> beyond;
   Causes causes;
   for (std::size_t axis = 0; axis < 6; ++axis) {
-    const frames::MeasuredAxis& measured = evidence.frames.axes[axis];
+    const frames::MeasuredAxis& measured = input.frames.axes[axis];
     const metrology::AxisFit& fit = measured.fit;
     if (!fit.determined) continue;
-    const double limit = numerics::chiSquareLimit(preparation::kLevel / 6.0, fit.degrees_of_freedom) / fit.degrees_of_freedom;
+    const double limit =
+        numerics::chiSquareLimit(preparation::kLevel / 6.0, fit.degrees_of_freedom) / fit.degrees_of_freedom;
     const double ratio = std::sqrt(fit.chi2_per_dof);
     const WorstReading worst = worstReading(measured, axes[axis]);
-    const std::string row = campaign::rowName(evidence.campaign.circle_sweeps->file, worst.line);
+    const std::string row = campaign::rowName(input.campaign.circle_sweeps->file, worst.line);
     if (fit.chi2_per_dof > limit) {
-      beyond.push_back(
-          fmt::format("axis {} by {:.1f} um rms, {:.2f} of the noise", axis + 1, 1e6 * fit.rms, ratio));
+      beyond.push_back(fmt::format("axis {} by {:.1f} um rms, {:.2f} of the noise", axis + 1, 1e6 * fit.rms, ratio));
       causes.add(axis, worst, row);
     }
     if (ratio <= *check.value) continue;
@@ -110,21 +108,21 @@ preparation::AuditCheck residualCheck(const Evidence& evidence, const std::array
 
 }  // namespace
 
-Findings checkCircleResidual(const Evidence& evidence) {
-  if (!evidence.campaign.circle_sweeps) return {preparation::notTestable("circle_residual", kNoSweeps)};
-  if (!evidence.noise) {
+Findings checkCircleResidual(const AuditInput& input) {
+  if (!input.campaign.circle_sweeps) return {preparation::notTestable("circle_residual", kNoSweeps)};
+  if (!input.noise) {
     return {preparation::notTestable("circle_residual", "the tracker's noise is not declared: state `tracker`")};
   }
-  return {residualCheck(evidence, sweptCircles(evidence))};
+  return {residualCheck(input, sweptCircles(input))};
 }
 
 namespace {
 
-
 /// The circle that says most about its axis.
 const metrology::AxisCircle& widest(const metrology::AxisFit& fit) {
-  return *std::max_element(fit.circles.begin(), fit.circles.end(),
-                           [](const metrology::AxisCircle& a, const metrology::AxisCircle& b) { return a.radius < b.radius; });
+  return *std::max_element(
+      fit.circles.begin(), fit.circles.end(),
+      [](const metrology::AxisCircle& a, const metrology::AxisCircle& b) { return a.radius < b.radius; });
 }
 
 /// Farthest that any swept reflector stands from the axis it turns about: the reach over which a tilt works.
@@ -167,9 +165,8 @@ preparation::AuditCheck arcCheck(const frames::MeasuredAxis& axis, std::size_t n
     return check;
   }
   const bool enough = at_reach <= tolerance;
-  check.message +=
-      fmt::format(", {:.1f} times what as many readings over {:.0f} deg would give; {} for identification",
-                  arcCost(arc, readings), kWarnArcDeg, enough ? "still suffices" : "does not suffice");
+  check.message += fmt::format(", {:.1f} times what as many readings over {:.0f} deg would give; {} for identification",
+                               arcCost(arc, readings), kWarnArcDeg, enough ? "still suffices" : "does not suffice");
   const bool short_arc = *check.value < kFailArcDeg;
   if (short_arc) check.verdict = enough ? preparation::AuditVerdict::warn : preparation::AuditVerdict::fail;
   if (!short_arc && !enough) check.verdict = preparation::AuditVerdict::warn;
@@ -198,17 +195,17 @@ preparation::AuditCheck countCheck(const std::array<std::vector<SweptCircle>, 6>
 
 }  // namespace
 
-Findings checkCircleSweeps(const Evidence& evidence) {
-  if (!evidence.campaign.circle_sweeps) {
+Findings checkCircleSweeps(const AuditInput& input) {
+  if (!input.campaign.circle_sweeps) {
     Findings missing;
     for (const char* id : {"circle_arc", "circle_count"}) missing.push_back(preparation::notTestable(id, kNoSweeps));
     return missing;
   }
-  const auto axes = sweptCircles(evidence);
-  const double reach = reachOf(evidence.frames.axes);
+  const auto axes = sweptCircles(input);
+  const double reach = reachOf(input.frames.axes);
   Findings findings;
   for (std::size_t axis = 0; axis < 6; ++axis) {
-    const frames::MeasuredAxis& measured = evidence.frames.axes[axis];
+    const frames::MeasuredAxis& measured = input.frames.axes[axis];
     if (measured.fit.determined) {
       findings.push_back(arcCheck(measured, axis, reach, static_cast<int>(axes[axis].front().lines.size())));
     } else {
@@ -216,17 +213,17 @@ Findings checkCircleSweeps(const Evidence& evidence) {
       findings.back().where = campaign::axisName(axis);
     }
   }
-  findings.push_back(countCheck(axes, evidence.campaign.circle_sweeps->file));
+  findings.push_back(countCheck(axes, input.campaign.circle_sweeps->file));
   return findings;
 }
 
-Findings checkLinkLengths(const Evidence& evidence) {
+Findings checkLinkLengths(const AuditInput& input) {
   preparation::AuditCheck check;
   check.id = "link_lengths";
   check.unit = "mm";
   double farthest = -1.0;
   std::size_t at = 0;
-  const auto& links = evidence.frames.links;
+  const auto& links = input.frames.links;
   for (std::size_t i = 0; i < links.size(); ++i) {
     if (!links[i].distance_sd) continue;
     const double off = std::abs(links[i].distance - links[i].nominal_distance);
@@ -265,9 +262,9 @@ double reportedTurn(const campaign::CircleSweeps& sweeps, int axis, int target) 
 
 /// The largest circle: one of a reflector near the axis is mostly noise.
 std::size_t largestCircle(const metrology::AxisFit& fit) {
-  const auto largest =
-      std::max_element(fit.circles.begin(), fit.circles.end(),
-                       [](const metrology::AxisCircle& a, const metrology::AxisCircle& b) { return a.radius < b.radius; });
+  const auto largest = std::max_element(
+      fit.circles.begin(), fit.circles.end(),
+      [](const metrology::AxisCircle& a, const metrology::AxisCircle& b) { return a.radius < b.radius; });
   return static_cast<std::size_t>(largest - fit.circles.begin());
 }
 
@@ -279,23 +276,21 @@ preparation::AuditCheck impossible(preparation::AuditCheck check) {
 
 }  // namespace
 
-Findings checkSweepAngles(const Evidence& evidence) {
-  if (!evidence.campaign.circle_sweeps) return {preparation::notTestable("sweep_angles", kNoSweeps)};
+Findings checkSweepAngles(const AuditInput& input) {
+  if (!input.campaign.circle_sweeps) return {preparation::notTestable("sweep_angles", kNoSweeps)};
   constexpr double kLimit = 2.0;
   constexpr double kWhole = 300.0 * io::kDegree;  // beyond, the arc's end runs into its beginning
   preparation::AuditCheck check;
   check.id = "sweep_angles";
   check.unit = "times";
   check.limit = kLimit;
-  check.limit_source =
-      "a joint turns by what it reports, to a thousandth; radians under degrees are 57 times off";
+  check.limit_source = "a joint turns by what it reports, to a thousandth; radians under degrees are 57 times off";
   for (int axis = 0; axis < 6; ++axis) {
-    const frames::MeasuredAxis& measured = evidence.frames.axes[static_cast<std::size_t>(axis)];
+    const frames::MeasuredAxis& measured = input.frames.axes[static_cast<std::size_t>(axis)];
     if (!measured.measured || measured.fit.circles.empty()) continue;
     // One reflector may have been hidden over a part of the way that others were read on.
     const std::size_t largest = largestCircle(measured.fit);
-    const double reported =
-                     reportedTurn(*evidence.campaign.circle_sweeps, axis, measured.targets[largest]),
+    const double reported = reportedTurn(*input.campaign.circle_sweeps, axis, measured.targets[largest]),
                  arc = measured.fit.circles[largest].arc;
     if (reported > kWhole || arc > kWhole || arc <= 0.0) continue;
     if (reported <= 0.0) {
@@ -309,9 +304,8 @@ Findings checkSweepAngles(const Evidence& evidence) {
     if (check.value && ratio <= *check.value) continue;
     check.value = ratio;
     check.where = campaign::axisName(static_cast<std::size_t>(axis));
-    check.message =
-        fmt::format("while axis {} reports a turn of {:.4g} deg its reflectors turn by {:.4g} deg", axis + 1,
-                    reported / io::kDegree, arc / io::kDegree);
+    check.message = fmt::format("while axis {} reports a turn of {:.4g} deg its reflectors turn by {:.4g} deg",
+                                axis + 1, reported / io::kDegree, arc / io::kDegree);
   }
   if (!check.value) return {preparation::notTestable("sweep_angles", "no axis with a sweep of less than a whole turn")};
   if (*check.value <= kLimit) return {check};
@@ -335,17 +329,17 @@ double largestSd(double arc, int readings) {
 
 }  // namespace
 
-std::array<std::vector<SweptCircle>, 6> sweptCircles(const Evidence& evidence) {
+std::array<std::vector<SweptCircle>, 6> sweptCircles(const AuditInput& input) {
   std::array<std::vector<SweptCircle>, 6> axes;
-  if (!evidence.campaign.circle_sweeps) return axes;
-  const auto& rows = evidence.campaign.circle_sweeps->rows;
+  if (!input.campaign.circle_sweeps) return axes;
+  const auto& rows = input.campaign.circle_sweeps->rows;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     std::vector<SweptCircle>& circles = axes[static_cast<std::size_t>(rows[i].axis)];
     auto circle = std::find_if(circles.begin(), circles.end(),
                                [&](const SweptCircle& one) { return one.target == rows[i].target; });
     if (circle == circles.end()) circle = circles.insert(circles.end(), {rows[i].target, {}, {}});
-    circle->readings.points.push_back(evidence.rigid.circle_sweeps[i]);
-    if (evidence.noise) circle->readings.covariances.push_back(evidence.noise->covarianceAt(rows[i].point));
+    circle->readings.points.push_back(input.rigid.circle_sweeps[i]);
+    if (input.noise) circle->readings.covariances.push_back(input.noise->covarianceAt(rows[i].point));
     circle->lines.push_back(rows[i].line);
   }
   return axes;

@@ -16,7 +16,7 @@ struct SweptCircle {
 };
 
 /// Circles of each axis in the order in which MeasuredAxis has them.
-std::array<std::vector<SweptCircle>, 6> sweptCircles(const Evidence& evidence);
+std::array<std::vector<SweptCircle>, 6> sweptCircles(const AuditInput& input);
 
 /// Standard uncertainty of an axis, the larger of its two directions.
 struct AxisUncertainty {

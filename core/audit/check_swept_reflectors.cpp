@@ -12,10 +12,10 @@ namespace stiffscope::audit {
 
 namespace {
 
-
 /// Squared difference of two lines in parts of its variance: place at the middle between the circles, and
 /// direction.
-double disagreement(const metrology::MeasuredLine& common, const metrology::AxisFit& a, const metrology::AxisFit& b, double height) {
+double disagreement(const metrology::MeasuredLine& common, const metrology::AxisFit& a, const metrology::AxisFit& b,
+                    double height) {
   Eigen::Vector4d difference;
   Eigen::Matrix4d covariance = Eigen::Matrix4d::Zero();
   const Eigen::Vector3d at = common.line.point + height * common.line.direction;
@@ -33,10 +33,8 @@ double disagreement(const metrology::MeasuredLine& common, const metrology::Axis
     to_common.topRightCorner<2, 2>() = sense * along * turn;
     to_common.bottomRightCorner<2, 2>() = sense * turn;
     covariance += to_common * fit.axis.covariance * to_common.transpose();
-    difference.head<2>() +=
-        sign * Eigen::Vector2d(common.across_u.dot(place - at), common.across_v.dot(place - at));
-    difference.tail<2>() +=
-        sign * Eigen::Vector2d(common.across_u.dot(direction), common.across_v.dot(direction));
+    difference.head<2>() += sign * Eigen::Vector2d(common.across_u.dot(place - at), common.across_v.dot(place - at));
+    difference.tail<2>() += sign * Eigen::Vector2d(common.across_u.dot(direction), common.across_v.dot(direction));
   };
   difference.setZero();
   add(a, 1.0);
@@ -44,14 +42,14 @@ double disagreement(const metrology::MeasuredLine& common, const metrology::Axis
   return difference.dot(covariance.ldlt().solve(difference));
 }
 
-preparation::AuditCheck agreementCheck(const Evidence& evidence, const std::array<std::vector<SweptCircle>, 6>& axes) {
+preparation::AuditCheck agreementCheck(const AuditInput& input, const std::array<std::vector<SweptCircle>, 6>& axes) {
   preparation::AuditCheck check;
   check.id = "axis_agreement";
   check.unit = "of its sd";
   double worst = 0.0;
   int pairs = 0;
   for (std::size_t axis = 0; axis < 6; ++axis) {
-    const frames::MeasuredAxis& measured = evidence.frames.axes[axis];
+    const frames::MeasuredAxis& measured = input.frames.axes[axis];
     if (!measured.fit.determined) continue;
     std::vector<std::pair<std::size_t, metrology::AxisFit>> own;
     for (std::size_t k = 0; k < axes[axis].size(); ++k) {
@@ -68,19 +66,20 @@ preparation::AuditCheck agreementCheck(const Evidence& evidence, const std::arra
         if (chi2 <= worst) continue;
         worst = chi2;
         check.where = fmt::format("{}, {} and {}", campaign::axisName(axis),
-                                  campaign::targetName(evidence.campaign, axes[axis][own[a].first].target),
-                                  campaign::targetName(evidence.campaign, axes[axis][own[b].first].target));
+                                  campaign::targetName(input.campaign, axes[axis][own[a].first].target),
+                                  campaign::targetName(input.campaign, axes[axis][own[b].first].target));
       }
     }
   }
-  if (pairs == 0) return preparation::notTestable("axis_agreement", "no axis was swept with two reflectors well off it");
+  if (pairs == 0)
+    return preparation::notTestable("axis_agreement", "no axis was swept with two reflectors well off it");
   const double limit = numerics::chiSquareLimit(preparation::kLevel / pairs, 4.0);
   check.value = std::sqrt(worst / 4.0);
   check.limit = std::sqrt(limit / 4.0);
   check.limit_source =
       preparation::byChance(fmt::format("chi-square of place and direction, {} pairs of reflectors", pairs));
-  check.message = fmt::format(
-      "reflectors that turn about one axis agree on it within {:.2f} of the difference's sd", *check.value);
+  check.message =
+      fmt::format("reflectors that turn about one axis agree on it within {:.2f} of the difference's sd", *check.value);
   if (worst > limit) {
     check.verdict = preparation::AuditVerdict::warn;
     check.message = fmt::format(
@@ -92,7 +91,7 @@ preparation::AuditCheck agreementCheck(const Evidence& evidence, const std::arra
   return check;
 }
 
-preparation::AuditCheck onAxisCheck(const Evidence& evidence, const std::array<std::vector<SweptCircle>, 6>& axes) {
+preparation::AuditCheck onAxisCheck(const AuditInput& input, const std::array<std::vector<SweptCircle>, 6>& axes) {
   preparation::AuditCheck check;
   check.id = "reflector_on_axis";
   check.unit = "mm";
@@ -101,12 +100,12 @@ preparation::AuditCheck onAxisCheck(const Evidence& evidence, const std::array<s
   double least = INFINITY;
   std::string near;
   for (std::size_t axis = 0; axis < 6; ++axis) {
-    const metrology::AxisFit& fit = evidence.frames.axes[axis].fit;
+    const metrology::AxisFit& fit = input.frames.axes[axis].fit;
     if (!fit.determined) continue;
     for (std::size_t k = 0; k < axes[axis].size(); ++k) {
       const double radius = fit.circles[k].radius;
       const std::string name =
-          fmt::format("{}, {}", campaign::targetName(evidence.campaign, axes[axis][k].target), campaign::axisName(axis));
+          fmt::format("{}, {}", campaign::targetName(input.campaign, axes[axis][k].target), campaign::axisName(axis));
       if (radius < kReflectorRadius) {
         near += fmt::format("{}{} at {:.2f} mm", near.empty() ? "" : "; ", name, 1e3 * radius);
         check.where += (check.where.empty() ? "" : "; ") + name;
@@ -115,22 +114,22 @@ preparation::AuditCheck onAxisCheck(const Evidence& evidence, const std::array<s
     }
   }
   check.value = 1e3 * least;
-  check.message =
-      near.empty()
-          ? "every reflector stands well off the axes"
-          : "says next to nothing about the axis it stands on, nor about that joint's stiffness: " + near;
+  check.message = near.empty()
+                      ? "every reflector stands well off the axes"
+                      : "says next to nothing about the axis it stands on, nor about that joint's stiffness: " + near;
   if (!near.empty()) check.verdict = preparation::AuditVerdict::warn;
   return check;
 }
 
 }  // namespace
 
-Findings checkSweptReflectors(const Evidence& evidence) {
-  if (!evidence.campaign.circle_sweeps) {
-    return {preparation::notTestable("axis_agreement", kNoSweeps), preparation::notTestable("reflector_on_axis", kNoSweeps)};
+Findings checkSweptReflectors(const AuditInput& input) {
+  if (!input.campaign.circle_sweeps) {
+    return {preparation::notTestable("axis_agreement", kNoSweeps),
+            preparation::notTestable("reflector_on_axis", kNoSweeps)};
   }
-  const auto axes = sweptCircles(evidence);
-  return {agreementCheck(evidence, axes), onAxisCheck(evidence, axes)};
+  const auto axes = sweptCircles(input);
+  return {agreementCheck(input, axes), onAxisCheck(input, axes)};
 }
 
 }  // namespace stiffscope::audit

@@ -23,12 +23,12 @@ preparation::AuditCheck scatterCheck(const std::string& id, const char* directio
   check.unit = "of declared sd";
   check.limit_source = preparation::byChance(fmt::format("chi-square of {} degrees of freedom", dof));
   if (*check.value > *check.limit) {
-    check.verdict =
-        *check.value * *check.value > preparation::kFailVarianceRatio ? preparation::AuditVerdict::fail : preparation::AuditVerdict::warn;
+    check.verdict = *check.value * *check.value > preparation::kFailVarianceRatio ? preparation::AuditVerdict::fail
+                                                                                  : preparation::AuditVerdict::warn;
   }
   check.message =
-      fmt::format("repeats scatter {} the beam by {:.1f} um (one sigma), {:.2f} of what is declared{}",
-                  direction, 1e6 * rms, *check.value,
+      fmt::format("repeats scatter {} the beam by {:.1f} um (one sigma), {:.2f} of what is declared{}", direction,
+                  1e6 * rms, *check.value,
                   check.verdict == preparation::AuditVerdict::pass
                       ? ""
                       : ": every stated uncertainty is too small by as much; the other checks take the noise "
@@ -47,16 +47,14 @@ preparation::AuditCheck scatterCheck(const std::string& id, const char* directio
 
 }  // namespace
 
-Findings checkRepeatability(const Evidence& evidence) {
-  const preparation::RepeatScatter& scatter = evidence.scatter;
+Findings checkRepeatability(const AuditInput& input) {
+  const preparation::RepeatScatter& scatter = input.scatter;
   if (!scatter.tested) {
     return {preparation::notTestable("repeatability_along", scatter.reason),
             preparation::notTestable("repeatability_across", scatter.reason)};
   }
-  return {
-      scatterCheck("repeatability_along", "along", scatter.along_chi2, scatter.along_dof, scatter.along_rms),
-      scatterCheck("repeatability_across", "across", scatter.across_chi2, scatter.across_dof,
-                   scatter.across_rms)};
+  return {scatterCheck("repeatability_along", "along", scatter.along_chi2, scatter.along_dof, scatter.along_rms),
+          scatterCheck("repeatability_across", "across", scatter.across_chi2, scatter.across_dof, scatter.across_rms)};
 }
 
 namespace {
@@ -101,8 +99,8 @@ bool fitsRenamed(const ToolDistances& tool, const campaign::StatePoints& state, 
 }
 
 /// The exchange of names that would make a state's distances those of the tool.
-std::string exchangeIn(const campaign::Campaign& campaign, const ToolDistances& tool, const campaign::StatePoints& state,
-                       const metrology::TrackerNoise& noise) {
+std::string exchangeIn(const campaign::Campaign& campaign, const ToolDistances& tool,
+                       const campaign::StatePoints& state, const metrology::TrackerNoise& noise) {
   std::vector<std::size_t> order(state.reflectors.size());
   std::iota(order.begin(), order.end(), 0);
   while (order.size() >= 3 && std::next_permutation(order.begin(), order.end())) {
@@ -121,8 +119,8 @@ std::string exchangeIn(const campaign::Campaign& campaign, const ToolDistances& 
 
 class Inquiry {
  public:
-  Inquiry(const Evidence& evidence, ToolDistances tool)
-      : evidence_(evidence), campaign_(evidence.campaign), tool_(std::move(tool)) {}
+  Inquiry(const AuditInput& input, ToolDistances tool)
+      : input_(input), campaign_(input.campaign), tool_(std::move(tool)) {}
 
   preparation::AuditCheck run() {
     const auto worst = std::max_element(
@@ -133,17 +131,18 @@ class Inquiry {
     check_.value = std::abs(worst->change / worst->sd);
     check_.limit = tool_.limit;
     check_.limit_source = preparation::byChance(fmt::format("largest of {} normal deviates", tool_.distances.size()));
-    check_.message = fmt::format("largest change of a distance: {} to {} by {:.0f} um at {}",
-                                 campaign::targetName(campaign_, worst->first), campaign::targetName(campaign_, worst->second),
-                                 1e6 * worst->change, campaign::nameOf(campaign_, evidence_.states[worst->state]));
+    check_.message =
+        fmt::format("largest change of a distance: {} to {} by {:.0f} um at {}",
+                    campaign::targetName(campaign_, worst->first), campaign::targetName(campaign_, worst->second),
+                    1e6 * worst->change, campaign::nameOf(campaign_, input_.states[worst->state]));
     findExchanges();
     const Sum all = sumOf(tool_, [&](const ToolDistance& one) { return counts(one); });
     const bool spread = all.ratio() > all.limit();
     if (*check_.value <= *check_.limit && !spread) return check_;
     const bool doubled = all.ratio() > preparation::kFailVarianceRatio;
     check_.verdict = doubled || !exchanged_.empty() ? preparation::AuditVerdict::fail : preparation::AuditVerdict::warn;
-    check_.message += fmt::format("; over all states distances scatter {:.2f} times as far as noise alone",
-                                  std::sqrt(all.ratio()));
+    check_.message +=
+        fmt::format("; over all states distances scatter {:.2f} times as far as noise alone", std::sqrt(all.ratio()));
     nameReflector(all);
     nameExchanges();
     return check_;
@@ -155,17 +154,18 @@ class Inquiry {
   void findExchanges() {
     for (const ToolDistance& one : tool_.distances) {
       if (std::abs(one.change) <= tool_.limit * one.sd || exchanged_.contains(one.state)) continue;
-      const std::string names = exchangeIn(campaign_, tool_, evidence_.states[one.state], *evidence_.noise);
+      const std::string names = exchangeIn(campaign_, tool_, input_.states[one.state], *input_.noise);
       if (!names.empty()) exchanged_[one.state] = names;
     }
   }
 
   void nameExchanges() {
     for (const auto& [state, names] : exchanged_) {
-      const campaign::StatePoints& points = evidence_.states[state];
+      const campaign::StatePoints& points = input_.states[state];
       const std::string row = campaign::rowName(campaign::fileOf(campaign_, points), points.reflectors.front().line);
       if (state == exchanged_.begin()->first) check_.where = row;
-      check_.message += fmt::format("; reflectors exchanged at {} ({}): {}", row, campaign::nameOf(campaign_, points), names);
+      check_.message +=
+          fmt::format("; reflectors exchanged at {} ({}): {}", row, campaign::nameOf(campaign_, points), names);
     }
   }
 
@@ -175,8 +175,8 @@ class Inquiry {
     int culprit = -1;
     double least = INFINITY;
     for (int k = 0; k < static_cast<int>(campaign_.targets.size()); ++k) {
-      const Sum others = sumOf(
-          tool_, [&](const ToolDistance& one) { return counts(one) && one.first != k && one.second != k; });
+      const Sum others =
+          sumOf(tool_, [&](const ToolDistance& one) { return counts(one) && one.first != k && one.second != k; });
       if (others.dof == 0 || others.ratio() > others.limit() || others.ratio() >= least) continue;
       least = others.ratio();
       culprit = k;
@@ -201,7 +201,7 @@ class Inquiry {
     const ToolDistance* first = nullptr;
     for (const ToolDistance& one : tool_.distances) {
       if (!counts(one) || (one.first != culprit && one.second != culprit)) continue;
-      auto& [sum, count] = by_load[evidence_.states[one.state].step != 0];
+      auto& [sum, count] = by_load[input_.states[one.state].step != 0];
       sum += one.change * one.change;
       ++count;
       if (first == nullptr && std::abs(one.change) > tool_.limit * one.sd) first = &one;
@@ -209,8 +209,9 @@ class Inquiry {
     const std::string& name = campaign::targetName(campaign_, culprit);
     check_.where = name;
     if (first != nullptr) {
-      const campaign::StatePoints& state = evidence_.states[first->state];
-      check_.where = fmt::format("{}, {}", name, campaign::rowName(campaign::fileOf(campaign_, state), state.of(culprit)->line));
+      const campaign::StatePoints& state = input_.states[first->state];
+      check_.where =
+          fmt::format("{}, {}", name, campaign::rowName(campaign::fileOf(campaign_, state), state.of(culprit)->line));
     }
     const auto rms = [&](bool loaded) {
       const auto& [sum, count] = by_load[loaded];
@@ -222,7 +223,7 @@ class Inquiry {
         name, rms(true), rms(false));
   }
 
-  const Evidence& evidence_;
+  const AuditInput& input_;
   const campaign::Campaign& campaign_;
   ToolDistances tool_;
   std::map<std::size_t, std::string> exchanged_;  ///< states whose reflectors carry each other's names
@@ -231,17 +232,17 @@ class Inquiry {
 
 }  // namespace
 
-Findings checkRigidTool(const Evidence& evidence) {
-  if (!evidence.noise) {
+Findings checkRigidTool(const AuditInput& input) {
+  if (!input.noise) {
     return {
         preparation::notTestable("rigid_tool", "the tracker's noise is not declared: state `tracker` in campaign.xml")};
   }
-  ToolDistances tool = toolDistances(evidence.states, static_cast<int>(evidence.campaign.targets.size()), *evidence.noise);
+  ToolDistances tool = toolDistances(input.states, static_cast<int>(input.campaign.targets.size()), *input.noise);
   if (tool.distances.empty()) {
     return {preparation::notTestable("rigid_tool",
-                        "no two reflectors were read in the same states: read two or more in each")};
+                                     "no two reflectors were read in the same states: read two or more in each")};
   }
-  return {Inquiry(evidence, std::move(tool)).run()};
+  return {Inquiry(input, std::move(tool)).run()};
 }
 
 namespace {
@@ -257,8 +258,8 @@ std::vector<ToolDistance> distancesOf(const std::vector<campaign::StatePoints>& 
     if (a == nullptr || b == nullptr) continue;
     const Eigen::Vector3d between = b->point - a->point;
     const Eigen::Vector3d along = between.normalized();
-    found.push_back(
-        {s, first, second, between.norm(), std::sqrt(along.dot((a->covariance(noise) + b->covariance(noise)) * along))});
+    found.push_back({s, first, second, between.norm(),
+                     std::sqrt(along.dot((a->covariance(noise) + b->covariance(noise)) * along))});
   }
   return found;
 }
@@ -298,13 +299,13 @@ ToolDistances::Pair referenceOf(const std::vector<campaign::StatePoints>& states
 
 const ToolDistances::Pair* ToolDistances::pair(int first, int second) const {
   for (const Pair& one : pairs) {
-    if ((one.first == first && one.second == second) || (one.first == second && one.second == first))
-      return &one;
+    if ((one.first == first && one.second == second) || (one.first == second && one.second == first)) return &one;
   }
   return nullptr;
 }
 
-ToolDistances toolDistances(const std::vector<campaign::StatePoints>& states, int targets, const metrology::TrackerNoise& noise) {
+ToolDistances toolDistances(const std::vector<campaign::StatePoints>& states, int targets,
+                            const metrology::TrackerNoise& noise) {
   std::vector<std::vector<ToolDistance>> by_pair;
   std::size_t count = 0;
   for (int a = 0; a < targets; ++a) {

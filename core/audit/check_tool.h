@@ -31,6 +31,7 @@ struct ToolDistances {
 };
 
 /// A pair that fewer than three states show is left out.
-ToolDistances toolDistances(const std::vector<campaign::StatePoints>& states, int targets, const metrology::TrackerNoise& noise);
+ToolDistances toolDistances(const std::vector<campaign::StatePoints>& states, int targets,
+                            const metrology::TrackerNoise& noise);
 
 }  // namespace stiffscope::audit

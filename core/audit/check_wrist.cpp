@@ -20,8 +20,8 @@ namespace {
 
 constexpr Eigen::Index kCentre = 3, kAxes = 12;
 
-/// One reading: radial distance less the model's, its derivatives, its standard deviation. The derivative by its reflector's
-/// radius is 1, by the others' 0.
+/// One reading: radial distance less the model's, its derivatives, its standard deviation. The derivative by its
+/// reflector's radius is 1, by the others' 0.
 struct Row {
   double residual = 0.0, sd = 0.0;
   int target = 0;
@@ -37,9 +37,9 @@ struct Row {
   }
 };
 
-std::vector<Row> rowsOf(const Evidence& evidence) {
-  const campaign::WristSweep& sweep = *evidence.campaign.wrist_sweep;
-  const frames::Frames& frames = evidence.frames;
+std::vector<Row> rowsOf(const AuditInput& input) {
+  const campaign::WristSweep& sweep = *input.campaign.wrist_sweep;
+  const frames::Frames& frames = input.frames;
   const robot::Robot& arm = frames.arm.arm;
   const frames::WristCentre& wrist = frames.wrist;
   const frames::MovedAxes axes(frames);
@@ -49,8 +49,7 @@ std::vector<Row> rowsOf(const Evidence& evidence) {
     const campaign::WristReading& reading = sweep.rows[i];
     const auto& at_zero = frames.targets_in_r0_at_zero[static_cast<std::size_t>(reading.target)];
     if (!at_zero) continue;
-    const Eigen::Vector3d from_centre =
-        frames.arm.r0_from_points * evidence.rigid.wrist_sweep[i] - wrist.centre_in_r0;
+    const Eigen::Vector3d from_centre = frames.arm.r0_from_points * input.rigid.wrist_sweep[i] - wrist.centre_in_r0;
     const robot::ArmPosture posture = robot::postureAt(arm, reading.q);
     const Eigen::Vector3d centre = posture.motion[3] * wrist.centre_at_zero_in_r0;
     const auto modelled = [&](const robot::ArmPosture& at) { return (at.motion[6] * *at_zero - centre).norm(); };
@@ -58,12 +57,11 @@ std::vector<Row> rowsOf(const Evidence& evidence) {
     const Eigen::Vector3d seen = frames.arm.r0_from_points.linear().transpose() * radial;
     Row row;
     row.residual = from_centre.norm() - modelled(posture);
-    row.sd = std::sqrt(seen.dot(evidence.noise->covarianceAt(reading.point) * seen));
+    row.sd = std::sqrt(seen.dot(input.noise->covarianceAt(reading.point) * seen));
     row.target = reading.target;
     row.by_centre = {radial.x(), radial.y(), radial.z()};
     for (int k = 0; k < kAxes; ++k) {
-      const robot::ArmPosture moved =
-          axes.postureWithMoved(arm, reading.q, static_cast<std::size_t>(3 + k / 4), k % 4);
+      const robot::ArmPosture moved = axes.postureWithMoved(arm, reading.q, static_cast<std::size_t>(3 + k / 4), k % 4);
       row.by_axes[static_cast<std::size_t>(k)] = (modelled(moved) - modelled(posture)) / frames::MovedAxes::kStep;
     }
     rows.push_back(row);
@@ -84,10 +82,10 @@ Eigen::MatrixXd priorOf(const frames::Frames& frames, Eigen::Index targets) {
 
 }  // namespace
 
-WristResiduals wristResiduals(const Evidence& evidence) {
-  const auto targets = static_cast<Eigen::Index>(evidence.campaign.targets.size());
-  const std::vector<Row> rows = rowsOf(evidence);
-  const Eigen::MatrixXd prior = priorOf(evidence.frames, targets);
+WristResiduals wristResiduals(const AuditInput& input) {
+  const auto targets = static_cast<Eigen::Index>(input.campaign.targets.size());
+  const std::vector<Row> rows = rowsOf(input);
+  const Eigen::MatrixXd prior = priorOf(input.frames, targets);
   Eigen::MatrixXd normal = prior;
   Eigen::VectorXd right = Eigen::VectorXd::Zero(normal.rows());
   for (const Row& row : rows) {
@@ -109,8 +107,8 @@ WristResiduals wristResiduals(const Evidence& evidence) {
   result.chi2 = found.dot(prior * found);
   double farthest = -1.0;
   std::size_t at = 0;
-  for (const campaign::WristReading& reading : evidence.campaign.wrist_sweep->rows) {
-    if (!evidence.frames.targets_in_r0_at_zero[static_cast<std::size_t>(reading.target)]) continue;
+  for (const campaign::WristReading& reading : input.campaign.wrist_sweep->rows) {
+    if (!input.frames.targets_in_r0_at_zero[static_cast<std::size_t>(reading.target)]) continue;
     const Row& row = rows[at++];
     const double left = row.residual - row.jacobian(targets).dot(found), sigmas = std::abs(left) / row.sd;
     result.chi2 += sigmas * sigmas;
@@ -123,8 +121,8 @@ WristResiduals wristResiduals(const Evidence& evidence) {
 
 namespace {
 
-preparation::AuditCheck sphereCheck(const Evidence& evidence) {
-  const WristResiduals left = wristResiduals(evidence);
+preparation::AuditCheck sphereCheck(const AuditInput& input) {
+  const WristResiduals left = wristResiduals(input);
   preparation::AuditCheck check;
   check.id = "wrist_sphere";
   if (left.dof <= 0) return preparation::notTestable(check.id, "too few readings: more than centre and radii take");
@@ -136,45 +134,45 @@ preparation::AuditCheck sphereCheck(const Evidence& evidence) {
   check.message = fmt::format(
       "radial residuals of {:.1f} um rms, of which the axes' missing each other leaves {:.1f} um, "
       "{:.2f} of the noise",
-      1e6 * evidence.frames.wrist.spheres.rms, 1e6 * left.rms, *check.value);
+      1e6 * input.frames.wrist.spheres.rms, 1e6 * left.rms, *check.value);
   if (*check.value <= *check.limit) return check;
   check.verdict = preparation::AuditVerdict::warn;
-  check.where = campaign::rowName(evidence.campaign.wrist_sweep->file, left.worst);
+  check.where = campaign::rowName(input.campaign.wrist_sweep->file, left.worst);
   check.message += fmt::format(
-      "; farthest {}: a wrong reading, or the own weight bends more than the joints (bearings, links)",
-      check.where);
+      "; farthest {}: a wrong reading, or the own weight bends more than the joints (bearings, links)", check.where);
   return check;
 }
 
 /// Share of P_wrist's displacement that turning in joints 4-6 puts there; empty without loads, or where the
 /// axes meet exactly.
-std::optional<double> leakOf(const Evidence& evidence) {
-  identification::LoadedArm arm = evidence.arm;
+std::optional<double> leakOf(const AuditInput& input) {
+  identification::LoadedArm arm = input.arm;
   if (arm.wrist.empty()) return std::nullopt;
-  const Vector6d compliance = identification::sagCompliance(evidence.campaign, {}, arm);
-  const double leak = identification::wristLeak(arm, evidence.frames.wrist.centre_at_zero_in_r0, compliance);
+  const Vector6d compliance = identification::sagCompliance(input.campaign, {}, arm);
+  const double leak = identification::wristLeak(arm, input.frames.wrist.centre_at_zero_in_r0, compliance);
   return leak > 0.0 ? std::optional(leak) : std::nullopt;
 }
 
-preparation::AuditCheck missCheck(const Evidence& evidence) {
-  const frames::WristCentre& wrist = evidence.frames.wrist;
-  const std::optional<double> leak = leakOf(evidence);
+preparation::AuditCheck missCheck(const AuditInput& input) {
+  const frames::WristCentre& wrist = input.frames.wrist;
+  const std::optional<double> leak = leakOf(input);
   preparation::AuditCheck check;
   check.id = "wrist_axes_meet";
   check.unit = "mm";
   const bool first = wrist.miss_45 >= wrist.miss_56;
   const double sd = first ? wrist.miss_45_sd : wrist.miss_56_sd;
   check.value = 1e3 * std::max(wrist.miss_45, wrist.miss_56);
-  const double bearable = leak ? *check.value * identification::kWristLeakBorne / *leak : 1e3 * identification::TrustLimits().position;
+  const double bearable =
+      leak ? *check.value * identification::kWristLeakBorne / *leak : 1e3 * identification::TrustLimits().position;
   check.limit = std::max(bearable, 1e3 * numerics::normalLimit(preparation::kLevel / 2.0) * sd);
   check.where = first ? "axes 4 and 5" : "axes 5 and 6";
   check.limit_source =
       leak ? "the miss at which joints 4-6 would put 2 % into P_wrist's displacement: what decoupling bears"
            : "how far identification trusts places (0.2 mm), or what the sweeps' uncertainty would show";
-  check.message = fmt::format(
-      "axes 4 and 5 miss by {:.3f} +- {:.3f} mm, axes 5 and 6 by {:.3f} +- {:.3f} mm{}", 1e3 * wrist.miss_45,
-      1e3 * wrist.miss_45_sd, 1e3 * wrist.miss_56, 1e3 * wrist.miss_56_sd,
-      leak ? fmt::format(": joints 4-6 put {:.2f} % into P_wrist's displacement", 100.0 * *leak) : "");
+  check.message =
+      fmt::format("axes 4 and 5 miss by {:.3f} +- {:.3f} mm, axes 5 and 6 by {:.3f} +- {:.3f} mm{}",
+                  1e3 * wrist.miss_45, 1e3 * wrist.miss_45_sd, 1e3 * wrist.miss_56, 1e3 * wrist.miss_56_sd,
+                  leak ? fmt::format(": joints 4-6 put {:.2f} % into P_wrist's displacement", 100.0 * *leak) : "");
   if (*check.value <= *check.limit) return check;
   check.verdict = preparation::AuditVerdict::warn;
   check.message += "; Decoupled Partial Pose takes them to meet in one point";
@@ -183,23 +181,24 @@ preparation::AuditCheck missCheck(const Evidence& evidence) {
 
 }  // namespace
 
-Findings checkWrist(const Evidence& evidence) {
+Findings checkWrist(const AuditInput& input) {
   const char* const kNotSwept = "axes 4, 5 and 6 are not all measured: sweep each";
-  const frames::WristCentre& wrist = evidence.frames.wrist;
-  const auto& axes = evidence.frames.axes;
+  const frames::WristCentre& wrist = input.frames.wrist;
+  const auto& axes = input.frames.axes;
   const bool swept = axes[3].measured && axes[4].measured && axes[5].measured;
   Findings findings;
   if (!wrist.measured) {
     findings.push_back(preparation::notTestable("wrist_sphere", wrist.reason));
   } else if (!swept) {
     findings.push_back(preparation::notTestable("wrist_sphere", kNotSwept));
-  } else if (!evidence.noise) {
-    findings.push_back(preparation::notTestable("wrist_sphere", "the tracker's noise is not declared: state `tracker`"));
+  } else if (!input.noise) {
+    findings.push_back(
+        preparation::notTestable("wrist_sphere", "the tracker's noise is not declared: state `tracker`"));
   } else {
-    findings.push_back(sphereCheck(evidence));
+    findings.push_back(sphereCheck(input));
   }
   if (swept) {
-    findings.push_back(missCheck(evidence));
+    findings.push_back(missCheck(input));
   } else {
     findings.push_back(preparation::notTestable("wrist_axes_meet", kNotSwept));
   }

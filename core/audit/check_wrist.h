@@ -21,6 +21,6 @@ struct WristResiduals {
 /// chi-square with `dof` degrees of freedom: an axis's error is one number for the whole sweep, and added to
 /// each reading's variance instead it would be averaged away over a thousand readings that share it. The
 /// wrist is measured, axes 4-6 are, and the noise is declared.
-WristResiduals wristResiduals(const Evidence& evidence);
+WristResiduals wristResiduals(const AuditInput& input);
 
 }  // namespace stiffscope::audit

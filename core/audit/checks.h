@@ -5,7 +5,7 @@
 #include "core/audit/audit_input.h"
 #include "core/preparation/finding.h"
 
-// The checks. Each takes the evidence and gives one or more findings; none changes anything. Lost beams,
+// The checks. Each takes the input and gives one or more findings; none changes anything. Lost beams,
 // duplicates and outlying repeats are found beforehand (core/preparation/screening.h), because the others work
 // without them.
 
@@ -14,58 +14,58 @@ namespace stiffscope::audit {
 using Findings = std::vector<preparation::AuditCheck>;
 
 /// time_order: within a posture, steps follow each other in time, the states' rows as well as the readings.
-Findings checkTimeOrder(const Evidence& evidence);
+Findings checkTimeOrder(const AuditInput& input);
 
 /// completeness: each posture has every step that most have, each state every reflector and repeat.
-Findings checkCompleteness(const Evidence& evidence);
+Findings checkCompleteness(const AuditInput& input);
 
 /// repeatability_along, repeatability_across: scatter of the repeats against the declared noise.
-Findings checkRepeatability(const Evidence& evidence);
+Findings checkRepeatability(const AuditInput& input);
 
 /// rigid_tool: distances between reflectors, over sweeps, postures and loads.
-Findings checkRigidTool(const Evidence& evidence);
+Findings checkRigidTool(const AuditInput& input);
 
 /// station_drift, nest_moved: the floor nests' motion as that of the station, and what is left as that of
 /// nests.
-Findings checkNests(const Evidence& evidence);
+Findings checkNests(const AuditInput& input);
 
 /// circle_arc (one an axis), circle_count: the sweeps of each axis.
-Findings checkCircleSweeps(const Evidence& evidence);
+Findings checkCircleSweeps(const AuditInput& input);
 
 /// sweep_angles: how far each axis turns by its reflectors, against what the joint reports. Fails beyond twice or half.
-Findings checkSweepAngles(const Evidence& evidence);
+Findings checkSweepAngles(const AuditInput& input);
 
 /// circle_residual: how the readings lie on their circles.
-Findings checkCircleResidual(const Evidence& evidence);
+Findings checkCircleResidual(const AuditInput& input);
 
 /// axis_agreement, reflector_on_axis: what each reflector says of the axes it turns about.
-Findings checkSweptReflectors(const Evidence& evidence);
+Findings checkSweptReflectors(const AuditInput& input);
 
 /// link_lengths: the measured distances between axes against the URDF's. Fails beyond kMissedGeometry: no machine is
 /// built so far off its drawing.
-Findings checkLinkLengths(const Evidence& evidence);
+Findings checkLinkLengths(const AuditInput& input);
 
 /// wrist_sphere, wrist_axes_meet.
-Findings checkWrist(const Evidence& evidence);
+Findings checkWrist(const AuditInput& input);
 
 /// frame_moved, unloaded_positions, joint_read_back: unloaded absolute positions against forward kinematics.
-Findings checkUnloadedPositions(const Evidence& evidence);
+Findings checkUnloadedPositions(const AuditInput& input);
 
 /// servo_change: reported angles that change under load.
-Findings checkServo(const Evidence& evidence);
+Findings checkServo(const AuditInput& input);
 
 /// return_to_zero: reflectors back where step 0 had them once the load is off.
-Findings checkReturnToZero(const Evidence& evidence);
+Findings checkReturnToZero(const AuditInput& input);
 
 /// tare, gravity_direction, moment_lever.
-Findings checkLoadCell(const Evidence& evidence);
+Findings checkLoadCell(const AuditInput& input);
 
 /// load_size: force over displacement, against what six-axis arms give (core/identification/warnings.h).
 /// Fails where no arm is like that.
-Findings checkLoadSize(const Evidence& evidence);
+Findings checkLoadSize(const AuditInput& input);
 
 /// posture_set: condition number, and joint by joint whether it can be identified or why not.
-Findings checkPostureSet(const Evidence& evidence);
+Findings checkPostureSet(const AuditInput& input);
 
 /// What is missing where there are no sweeps.
 inline constexpr const char* kNoSweeps = "no circle sweeps: turn each axis by itself (`circle_sweeps`)";

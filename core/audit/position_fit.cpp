@@ -1,9 +1,9 @@
 #include "core/audit/position_fit.h"
 
+#include <fmt/format.h>
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 #include <map>
 
 #include "core/frames/position_equations.h"
@@ -175,7 +175,8 @@ void describe(const frames::AbsoluteRows& rows, const Weights& weights, Absolute
 }  // namespace
 
 AbsoluteFit fitAbsolutePositions(const campaign::Campaign& campaign, const frames::Frames& frames,
-                                 const frames::LoadingGeometry& geometry, const std::vector<campaign::StatePoints>& states,
+                                 const frames::LoadingGeometry& geometry,
+                                 const std::vector<campaign::StatePoints>& states,
                                  const std::optional<metrology::TrackerNoise>& noise) {
   AbsoluteFit fit;
   const frames::AbsoluteRows rows = frames::absoluteRows(campaign, frames, geometry, states, noise);
@@ -185,8 +186,7 @@ AbsoluteFit fitAbsolutePositions(const campaign::Campaign& campaign, const frame
   fit.sag_known = frames.weight.links_known && !geometry.compliance.isZero();
   constexpr std::size_t kLeastPostures = 4;  // more than shift and reflectors take, with some to check by
   if (rows.poses.size() < kLeastPostures) {
-    fit.reason =
-        fmt::format("{} unloaded postures: {} or more are needed", rows.poses.size(), kLeastPostures);
+    fit.reason = fmt::format("{} unloaded postures: {} or more are needed", rows.poses.size(), kLeastPostures);
     return fit;
   }
   fit.score_limit = scoreLimit(rows.poses.size());

@@ -20,7 +20,7 @@ struct PostureReadBack {
   double sag_doubt = 0.0;                    ///< of that joint: what a wrong sag could put there, rad
   double explained = 0.0;                    ///< share of the posture's misfit that joint angles explain
   double score = 0.0;                        ///< largest significance in parts of the campaign's own scatter
-  bool outlier = false;  ///< score beyond its limit, and more than the sag leaves in doubt
+  bool outlier = false;                      ///< score beyond its limit, and more than the sag leaves in doubt
 };
 
 /// Unloaded absolute positions against forward kinematics in the swept geometry, with the arm's own sag. In
@@ -36,7 +36,7 @@ struct AbsoluteFit {
   bool sag_known = false;                            ///< masses and stiffnesses gave the own weight's sag
   int positions = 0;                                 ///< that took part
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< mean of the positions
-  Vector6d shift = Vector6d::Zero();  ///< rotation vector (rad) then displacement at `centre` (m)
+  Vector6d shift = Vector6d::Zero();                 ///< rotation vector (rad) then displacement at `centre` (m)
   Matrix6d shift_covariance = Matrix6d::Zero();
   double shift_chi2 = 0.0;  ///< by which the shift lowers chi2; six degrees of freedom
   double chi2 = 0.0;        ///< with the shift
@@ -50,7 +50,8 @@ struct AbsoluteFit {
 /// Not done, with the reason: no declared noise, an axis that was not swept, no loading in the sweeps' frame,
 /// or too few positions.
 AbsoluteFit fitAbsolutePositions(const campaign::Campaign& campaign, const frames::Frames& frames,
-                                 const frames::LoadingGeometry& geometry, const std::vector<campaign::StatePoints>& states,
+                                 const frames::LoadingGeometry& geometry,
+                                 const std::vector<campaign::StatePoints>& states,
                                  const std::optional<metrology::TrackerNoise>& noise);
 
 }  // namespace stiffscope::audit

@@ -1,7 +1,7 @@
 #include "core/campaign/campaign_xml.h"
 
-#include <cmath>
 #include <fmt/format.h>
+#include <cmath>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -51,7 +51,8 @@ void requireNoise(const io::XmlNode& node, const std::string& attribute, double 
 
 double atMost(const io::XmlNode& node, const std::string& attribute, double limit) {
   const double value = notNegative(node, attribute);
-  if (value > limit) node.refuse(attribute, node.requiredAttribute(attribute), fmt::format("expected 0 to {:.0f}", limit));
+  if (value > limit)
+    node.refuse(attribute, node.requiredAttribute(attribute), fmt::format("expected 0 to {:.0f}", limit));
   return value;
 }
 
@@ -84,10 +85,9 @@ Target readTarget(const io::XmlNode& node) {
 }  // namespace
 
 Tracker readTracker(const io::XmlNode& node, std::vector<std::string>& warnings) {
-  io::warnOfUnknown(node,
-                {"model", "range_fixed_um", "range_per_m_um", "angle_fixed_um", "angle_per_m_um", "x_mm",
-                 "y_mm", "z_mm"},
-                {}, warnings);
+  io::warnOfUnknown(
+      node, {"model", "range_fixed_um", "range_per_m_um", "angle_fixed_um", "angle_per_m_um", "x_mm", "y_mm", "z_mm"},
+      {}, warnings);
   Tracker tracker;
   tracker.model = node.requiredAttribute("model");
   tracker.range_fixed = notNegative(node, "range_fixed_um") * io::kMicrometre;
@@ -117,8 +117,7 @@ std::vector<Target> readTargets(const io::XmlNode& node, std::vector<std::string
 }
 
 LoadCell readLoadCell(const io::XmlNode& node, std::vector<std::string>& warnings) {
-  io::warnOfUnknown(node, {"parent", "xyz_mm", "rpy_deg", "force_sigma_n", "moment_sigma_nm", "axes"}, {},
-                warnings);
+  io::warnOfUnknown(node, {"parent", "xyz_mm", "rpy_deg", "force_sigma_n", "moment_sigma_nm", "axes"}, {}, warnings);
   LoadCell cell;
   cell.parent = node.requiredName("parent");
   cell.parent_from_cell.translation() = millimetres(node, "xyz_mm");
@@ -133,7 +132,8 @@ LoadCell readLoadCell(const io::XmlNode& node, std::vector<std::string>& warning
   cell.moment_sigma = atMost(node, "moment_sigma_nm", kMostSigma);
   const double lever = cell.parent_from_cell.translation().norm() / io::kMillimetre;
   if (lever > 0.0 && lever < 1.0)
-    warnings.push_back(node.warning("xyz_mm", node.requiredAttribute("xyz_mm"), "less than a millimetre: written in metres?"));
+    warnings.push_back(
+        node.warning("xyz_mm", node.requiredAttribute("xyz_mm"), "less than a millimetre: written in metres?"));
   return cell;
 }
 
@@ -179,8 +179,7 @@ void requireFormatOne(const io::XmlNode& root) {
     root.refuse(root.name(), "", "expected <campaign> as the root of campaign.xml");
   }
   const std::string format = root.requiredAttribute("format");
-  if (format != "1")
-    root.refuse("format", format, "expected 1, the version of the format this program reads");
+  if (format != "1") root.refuse("format", format, "expected 1, the version of the format this program reads");
 }
 
 DoubleEncoder readDoubleEncoder(const io::XmlNode& node) {
@@ -188,9 +187,9 @@ DoubleEncoder readDoubleEncoder(const io::XmlNode& node) {
   if (value == "active") return DoubleEncoder::active;
   if (value == "inactive") return DoubleEncoder::inactive;
   if (value == "unspecified") return DoubleEncoder::unspecified;
-  node.refuse("double_encoder", value,
-              "expected active, inactive or unspecified" +
-                  io::nearestNameHint(value, {"active", "inactive", "unspecified"}));
+  node.refuse(
+      "double_encoder", value,
+      "expected active, inactive or unspecified" + io::nearestNameHint(value, {"active", "inactive", "unspecified"}));
 }
 
 void readRobotElement(const io::XmlNode& node, CampaignXml& xml, std::vector<std::string>& warnings) {
@@ -233,8 +232,7 @@ const std::vector<std::string>& tableElements() {
   return elements;
 }
 
-CampaignXml readCampaignXml(const std::string& file, std::string_view bytes,
-                            std::vector<std::string>& warnings) {
+CampaignXml readCampaignXml(const std::string& file, std::string_view bytes, std::vector<std::string>& warnings) {
   const io::XmlFile xml_file(file, bytes);
   const io::XmlNode root = xml_file.root();
   requireFormatOne(root);

@@ -35,7 +35,6 @@ const std::vector<std::string>& tableElements();
 /// Reads the bytes of a campaign.xml (format 1); `file` is its name for messages. What the format does not
 /// know is ignored with a warning. Throws InputError with line and attribute for everything the format does
 /// not allow; whether links and files exist is not looked at here.
-CampaignXml readCampaignXml(const std::string& file, std::string_view bytes,
-                            std::vector<std::string>& warnings);
+CampaignXml readCampaignXml(const std::string& file, std::string_view bytes, std::vector<std::string>& warnings);
 
 }  // namespace stiffscope::campaign

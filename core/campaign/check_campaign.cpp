@@ -1,10 +1,10 @@
 #include "core/campaign/check_campaign.h"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <fmt/format.h>
 
 #include "core/io/input_error.h"
 #include "core/io/units.h"
@@ -25,9 +25,8 @@ std::size_t blocksOf(std::size_t rows) { return (rows + kBlock - 1) / kBlock; }
 /// Calls work(block, from, to) for each block of rows from..to-1, on all cores.
 template <class Work>
 void inBlocks(std::size_t rows, const Work& work) {
-  numerics::onAllCores(blocksOf(rows), [&](std::size_t block) {
-    work(block, block * kBlock, std::min(rows, (block + 1) * kBlock));
-  });
+  numerics::onAllCores(blocksOf(rows),
+                       [&](std::size_t block) { work(block, block * kBlock, std::min(rows, (block + 1) * kBlock)); });
 }
 
 std::uint64_t loadState(int pose, int step) {
@@ -76,9 +75,8 @@ void requireStates(const Campaign& campaign, const Table<Row>& table, const std:
       const Row& row = table.rows[i];
       if (search.has(row.pose, row.step)) continue;
       const std::string& pose = campaign.pose_ids[static_cast<std::size_t>(row.pose)];
-      throw io::InputError({shown(campaign, table.file), row.line, "pose, step"},
-                       fmt::format("{}, {}", pose, row.step),
-                       fmt::format("expected a load state that {} has a row for", campaign.states->file));
+      throw io::InputError({shown(campaign, table.file), row.line, "pose, step"}, fmt::format("{}, {}", pose, row.step),
+                           fmt::format("expected a load state that {} has a row for", campaign.states->file));
     }
   });
 }
@@ -98,7 +96,7 @@ void checkDisplacedTargetsHavePlaces(const Campaign& campaign) {
     const Target& target = campaign.targets[static_cast<std::size_t>(row.target)];
     if (target.position_in_flange) continue;
     throw io::InputError({shown(campaign, campaign.displacements->file), row.line, "target"}, target.id,
-                     "expected a target whose place on the flange campaign.xml gives as x_mm, y_mm, z_mm");
+                         "expected a target whose place on the flange campaign.xml gives as x_mm, y_mm, z_mm");
   }
 }
 
@@ -117,10 +115,10 @@ void warnOfPosesWithoutStepZero(const Campaign& campaign, std::vector<std::strin
     ++missing;
   }
   if (first == nullptr) return;
-  warnings.push_back(io::inputMessage(
-      {shown(campaign, campaign.loading->file), first->line, "pose"},
-      campaign.pose_ids[static_cast<std::size_t>(first->pose)],
-      fmt::format("no unloaded step 0, so no displacement; poses without one: {}", missing)));
+  warnings.push_back(
+      io::inputMessage({shown(campaign, campaign.loading->file), first->line, "pose"},
+                       campaign.pose_ids[static_cast<std::size_t>(first->pose)],
+                       fmt::format("no unloaded step 0, so no displacement; poses without one: {}", missing)));
 }
 
 void warnOfAnglesOutsideLimits(const Campaign& campaign, std::vector<std::string>& warnings) {
@@ -190,7 +188,7 @@ void warnOfCellWithoutPlace(const Campaign& campaign, std::vector<std::string>& 
                                   [](const State& state) { return !state.wrench_in_cell.isZero(); });
   if (!loaded) return;
   warnings.push_back(io::inputMessage({shown(campaign, campaign.states->file), 0, ""}, "",
-                                  "no load_cell in campaign.xml says where these wrenches act"));
+                                      "no load_cell in campaign.xml says where these wrenches act"));
 }
 
 using Check = void (*)(const Campaign&, std::vector<std::string>&);
@@ -200,9 +198,15 @@ constexpr Check kChecks[] = {
     [](const Campaign& campaign, std::vector<std::string>&) { checkDisplacedTargetsHavePlaces(campaign); },
     warnOfPosesWithoutStepZero,
     warnOfAnglesOutsideLimits,
-    [](const Campaign& campaign, std::vector<std::string>& warnings) { warnOfRadians(campaign, campaign.circle_sweeps, warnings); },
-    [](const Campaign& campaign, std::vector<std::string>& warnings) { warnOfRadians(campaign, campaign.wrist_sweep, warnings); },
-    [](const Campaign& campaign, std::vector<std::string>& warnings) { warnOfRadians(campaign, campaign.states, warnings); },
+    [](const Campaign& campaign, std::vector<std::string>& warnings) {
+      warnOfRadians(campaign, campaign.circle_sweeps, warnings);
+    },
+    [](const Campaign& campaign, std::vector<std::string>& warnings) {
+      warnOfRadians(campaign, campaign.wrist_sweep, warnings);
+    },
+    [](const Campaign& campaign, std::vector<std::string>& warnings) {
+      warnOfRadians(campaign, campaign.states, warnings);
+    },
     warnOfCellWithoutPlace};
 
 }  // namespace

@@ -1,7 +1,7 @@
 #include "core/campaign/columns.h"
 
-#include <cmath>
 #include <fmt/format.h>
+#include <cmath>
 
 #include "core/io/input_error.h"
 #include "core/io/numbers.h"

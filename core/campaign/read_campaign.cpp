@@ -39,19 +39,18 @@ CampaignFiles::CampaignFiles(const fs::path& folder_or_xml, bool hashed) : hashe
   const fs::file_status status = fs::status(folder_or_xml, error);
   if (!fs::exists(status)) {
     throw io::InputError({folder_or_xml.string(), 0, ""}, "",
-                     "expected a campaign folder or its campaign.xml; there is none");
+                         "expected a campaign folder or its campaign.xml; there is none");
   }
   const bool is_folder = fs::is_directory(status);
   if (!is_folder && !isXml(folder_or_xml)) {
     throw io::InputError({folder_or_xml.string(), 0, ""}, "",
-                     "expected a campaign folder or its campaign.xml: give the folder that holds this file");
+                         "expected a campaign folder or its campaign.xml: give the folder that holds this file");
   }
   xml_ = is_folder ? folder_or_xml / "campaign.xml" : folder_or_xml;
   folder_ = is_folder ? folder_or_xml : folder_or_xml.parent_path();
   if (folder_.empty()) folder_ = ".";
   if (is_folder && !fs::exists(xml_, error)) {
-    throw io::InputError({folder_or_xml.string(), 0, ""}, "",
-                     "expected a campaign folder; it holds no campaign.xml");
+    throw io::InputError({folder_or_xml.string(), 0, ""}, "", "expected a campaign folder; it holds no campaign.xml");
   }
 }
 
@@ -60,7 +59,7 @@ io::TextFile CampaignFiles::readXml() { return readAndRecord(xml_, xml_.filename
 io::TextFile CampaignFiles::read(const FileReference& reference, std::size_t largest) {
   const auto refuse = [&](const std::string& why) {
     throw io::InputError({xmlName(), reference.line, reference.attribute}, reference.name,
-                     "expected a file inside the campaign's folder; " + why);
+                         "expected a file inside the campaign's folder; " + why);
   };
   const fs::path name(reference.name);
   if (name.is_absolute()) refuse("this path is absolute");
@@ -81,7 +80,8 @@ io::TextFile CampaignFiles::readAndRecord(const fs::path& path, const std::strin
   // Where no thread is to be had, either policy lets it be hashed when the hash is asked for.
   const auto when = file.size < kOwnThread ? std::launch::deferred : std::launch::async | std::launch::deferred;
   // What is hashed goes: the rows of all tables come while the hashes wait to be asked for.
-  read_.back().sha256 = std::async(when, [text = file]() mutable { return io::sha256Hex(std::exchange(text, {}).text()); });
+  read_.back().sha256 =
+      std::async(when, [text = file]() mutable { return io::sha256Hex(std::exchange(text, {}).text()); });
   return file;
 }
 
@@ -96,21 +96,20 @@ void CampaignFiles::requireUnchanged() const {
   for (const Read& file : read_) {
     if (io::stampOf(file.path) == file.stamp) continue;
     throw io::InputError({file.path.string(), 0, ""}, "",
-                     "expected a file that stays as it is; it changed while the campaign was read");
+                         "expected a file that stays as it is; it changed while the campaign was read");
   }
 }
 
 namespace {
 
 // The URDF's own errors name the URDF; a link that campaign.xml gets wrong is an error of campaign.xml.
-void requireLink(const CampaignFiles& files, const robot::Robot& robot, std::size_t line,
-                 const std::string& attribute, const std::string& link) {
+void requireLink(const CampaignFiles& files, const robot::Robot& robot, std::size_t line, const std::string& attribute,
+                 const std::string& link) {
   std::vector<std::string> known;
   for (const robot::LinkFrame& frame : robot.links) known.push_back(frame.name);
   if (std::find(known.begin(), known.end(), link) != known.end()) return;
-  throw io::InputError(
-      {files.xmlName(), line, attribute}, link,
-      "expected a link of the robot, on its chain or fixed to it" + io::nearestNameHint(link, known));
+  throw io::InputError({files.xmlName(), line, attribute}, link,
+                       "expected a link of the robot, on its chain or fixed to it" + io::nearestNameHint(link, known));
 }
 
 void readRobot(CampaignFiles& files, const CampaignXml& xml, Campaign& campaign) {

@@ -1,7 +1,7 @@
 #include "core/campaign/read_table.h"
 
-#include <algorithm>
 #include <fmt/format.h>
+#include <algorithm>
 
 #include "core/io/input_error.h"
 
@@ -9,15 +9,14 @@ namespace stiffscope::campaign {
 
 namespace {
 
-void refuseOtherSeparators(const std::string& file, std::size_t line,
-                           const std::vector<std::string_view>& cells) {
+void refuseOtherSeparators(const std::string& file, std::size_t line, const std::vector<std::string_view>& cells) {
   for (const std::string_view cell : cells) {
     for (const auto& [separator, name] : {std::pair{';', "semicolons"}, std::pair{'\t', "tabs"}}) {
       if (cell.find(separator) == std::string_view::npos) continue;
       throw io::InputError({file, line, ""}, std::string(cell),
-                       fmt::format("expected columns separated by commas and numbers with a decimal point; "
-                                   "this header has {}",
-                                   name));
+                           fmt::format("expected columns separated by commas and numbers with a decimal point; "
+                                       "this header has {}",
+                                       name));
     }
   }
 }
@@ -32,8 +31,7 @@ std::vector<std::string> unknownColumns(const std::vector<std::string_view>& cel
   return unknown;
 }
 
-std::string unknownColumnsWarning(const std::vector<std::string>& unknown,
-                                  const std::vector<std::string>& absent) {
+std::string unknownColumnsWarning(const std::vector<std::string>& unknown, const std::vector<std::string>& absent) {
   std::string list;
   for (const std::string& name : unknown) {
     list += fmt::format("{}'{}'{}", list.empty() ? "" : ", ", name, io::nearestNameHint(name, absent));
@@ -48,7 +46,8 @@ std::string insteadOf(const std::string& missing, const std::vector<std::string>
   for (const std::string& name : unknown) {
     std::string ascii = name;
     std::erase_if(ascii, [](char c) { return (c & 0x80) != 0; });
-    if (ascii == missing) return fmt::format(" and has '{}' with a character that does not show (a no-break space?)", missing);
+    if (ascii == missing)
+      return fmt::format(" and has '{}' with a character that does not show (a no-break space?)", missing);
   }
   return known || unknown.empty() ? "" : fmt::format("; it starts with '{}'", io::oneLine(unknown.front(), 60));
 }
@@ -57,8 +56,7 @@ std::string insteadOf(const std::string& missing, const std::vector<std::string>
 
 std::vector<std::size_t> matchHeader(const std::string& file, std::size_t line,
                                      const std::vector<std::string_view>& cells,
-                                     const std::vector<WantedColumn>& wanted,
-                                     std::vector<std::string>& warnings) {
+                                     const std::vector<WantedColumn>& wanted, std::vector<std::string>& warnings) {
   refuseOtherSeparators(file, line, cells);
   const std::vector<std::string> unknown = unknownColumns(cells, wanted);
   std::vector<std::size_t> places;
@@ -67,10 +65,11 @@ std::vector<std::size_t> matchHeader(const std::string& file, std::size_t line,
     const auto found = std::find(cells.begin(), cells.end(), column.name);
     if (found == cells.end()) {
       if (column.required) {
-        const auto named = std::count_if(cells.begin(), cells.end(), [](std::string_view cell) { return !cell.empty(); });
+        const auto named =
+            std::count_if(cells.begin(), cells.end(), [](std::string_view cell) { return !cell.empty(); });
         const bool known = static_cast<std::ptrdiff_t>(unknown.size()) < named;
         throw io::InputError({file, line, column.name}, "",
-                         "expected this column; the header lacks it" + insteadOf(column.name, unknown, known));
+                             "expected this column; the header lacks it" + insteadOf(column.name, unknown, known));
       }
       absent.push_back(column.name);
       places.push_back(kAbsentColumn);
@@ -90,12 +89,11 @@ std::vector<std::size_t> matchHeader(const std::string& file, std::size_t line,
 TableLines::TableLines(const TableSource& source, const std::vector<WantedColumn>& wanted,
                        std::vector<std::string>& warnings)
     : source_(source), lines_(source.file, source.bytes), warnings_(warnings) {
-  if (!lines_.next(cells_))
-    throw io::InputError({source.file, 0, ""}, "", "expected a header line; there is none");
+  if (!lines_.next(cells_)) throw io::InputError({source.file, 0, ""}, "", "expected a header line; there is none");
   constexpr std::size_t kMostColumns = 1000;
   if (cells_.size() > kMostColumns) {
     throw io::InputError({source.file, line(), ""}, fmt::format("{} columns", cells_.size()),
-                     fmt::format("expected at most {} columns", kMostColumns));
+                         fmt::format("expected at most {} columns", kMostColumns));
   }
   cells_in_header_ = cells_.size();
   places_ = matchHeader(source.file, line(), cells_, wanted, warnings);
@@ -124,9 +122,8 @@ bool TableLines::next() {
       throw io::InputError({source_.file, 0, ""}, "", "expected at least one row below the header");
     }
     if (lines_.endsWithoutLineEnd()) {
-      warnings_.push_back(
-          io::inputMessage({source_.file, line(), ""}, "",
-                       "the last line has no line end; its last cell may have been cut short"));
+      warnings_.push_back(io::inputMessage({source_.file, line(), ""}, "",
+                                           "the last line has no line end; its last cell may have been cut short"));
     }
     return false;
   }
@@ -140,7 +137,7 @@ void TableLines::requireCellCount() const {
   if (cells_.size() == cells_in_header_) return;
   const auto refuse = [&](const std::string& why) {
     throw io::InputError({source_.file, line(), ""}, fmt::format("{} cells", cells_.size()),
-                     fmt::format("expected {} cells, as the header has{}", cells_in_header_, why));
+                         fmt::format("expected {} cells, as the header has{}", cells_in_header_, why));
   };
   if (cells_.size() > cells_in_header_) refuse("; a decimal comma splits a number in two, write a point");
   refuse(lines_.endsWithoutLineEnd() ? "; the file ends in the middle of this line" : "");
@@ -151,7 +148,7 @@ void TableLines::requireNothingWithoutName() const {
   for (const std::size_t i : nameless_) {
     if (cells_[i].empty()) continue;
     throw io::InputError({source_.file, line(), fmt::format("column {}", i + 1)}, std::string(cells_[i]),
-                     "expected nothing in a column without a name; a decimal comma splits a number in two");
+                         "expected nothing in a column without a name; a decimal comma splits a number in two");
   }
 }
 

@@ -1,12 +1,12 @@
 #pragma once
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <functional>
 #include <limits>
 #include <mutex>
@@ -186,8 +186,7 @@ inline constexpr std::size_t kAbsentColumn = static_cast<std::size_t>(-1);
 /// columns are not separated by commas.
 std::vector<std::size_t> matchHeader(const std::string& file, std::size_t line,
                                      const std::vector<std::string_view>& cells,
-                                     const std::vector<WantedColumn>& wanted,
-                                     std::vector<std::string>& warnings);
+                                     const std::vector<WantedColumn>& wanted, std::vector<std::string>& warnings);
 
 /// A table's bytes and its name for messages.
 struct TableSource {
@@ -196,14 +195,13 @@ struct TableSource {
 };
 
 /// The data lines of a table: reads the header and hands out line after line, each with as many cells as the
-/// header has. Throws InputError where a line has more or fewer, where there is no header or no data line, where the header
-/// has more than a thousand columns, and where something stands in a column without a name (columns without a name are
-/// what a spreadsheet leaves behind the last one).
-/// A last line without a line end, but with all its cells, gives a warning: its last number may be cut short.
+/// header has. Throws InputError where a line has more or fewer, where there is no header or no data line, where the
+/// header has more than a thousand columns, and where something stands in a column without a name (columns without a
+/// name are what a spreadsheet leaves behind the last one). A last line without a line end, but with all its cells,
+/// gives a warning: its last number may be cut short.
 class TableLines {
  public:
-  TableLines(const TableSource& source, const std::vector<WantedColumn>& wanted,
-             std::vector<std::string>& warnings);
+  TableLines(const TableSource& source, const std::vector<WantedColumn>& wanted, std::vector<std::string>& warnings);
 
   /// A part of the lines behind `table`'s header, `lines_before` of the file before it: read as the whole is, but one
   /// without a row is no error. Only the last part can have a last line without a line end, so that no two of them
@@ -251,8 +249,8 @@ std::vector<WantedColumn> wantedColumns(const TableLayout<Row>& layout) {
   return wanted;
 }
 
-/// Reads the lines of a table into rows, in SI and radians. What its columns are is settled once for all lines, of which
-/// there may be millions.
+/// Reads the lines of a table into rows, in SI and radians. What its columns are is settled once for all lines, of
+/// which there may be millions.
 template <class Row>
 class RowReader {
  public:
@@ -274,7 +272,8 @@ class RowReader {
     }
   }
 
-  /// The cells of the line that `lines` gave last, and its number. Throws InputError for a cell that its column cannot hold.
+  /// The cells of the line that `lines` gave last, and its number. Throws InputError for a cell that its column cannot
+  /// hold.
   void read(const TableLines& lines, CampaignNames& names, Row& row) const {
     row.line = lines.line();
     for (const Present& present : columns_) {
@@ -303,7 +302,7 @@ class RowReader {
   /// A column that the table has.
   struct Present {
     const Column<Row>* column;
-    std::size_t place;      ///< in the table
+    std::size_t place;  ///< in the table
     Quick quick;
     std::ptrdiff_t offset;  ///< of its member in a row, bytes; of those read quickly
     NumberKind written;     ///< of a number
@@ -448,9 +447,9 @@ void closeUp(const std::vector<TablePart<Row>>& parts, std::vector<Row>& rows) {
   rows.resize(end);
 }
 
-/// readTable of a large text: its lines in parts of some `part_bytes`, shared among the cores. The parts depend on the text
-/// alone, and each numbers poses and nests by itself; put together in their order they are numbered as they first appear
-/// in the whole. nullopt where the table has an error; `names` and `warnings` may then have grown.
+/// readTable of a large text: its lines in parts of some `part_bytes`, shared among the cores. The parts depend on the
+/// text alone, and each numbers poses and nests by itself; put together in their order they are numbered as they first
+/// appear in the whole. nullopt where the table has an error; `names` and `warnings` may then have grown.
 template <class Row>
 std::optional<std::vector<Row>> readTableInParts(const TableSource& source, const TableLayout<Row>& layout,
                                                  CampaignNames& names, std::vector<std::string>& warnings,
@@ -482,13 +481,13 @@ std::optional<std::vector<Row>> readTableInParts(const TableSource& source, cons
 }
 
 template <class Row>
-[[noreturn]] void refuseRepeat(const TableSource& source, const TableLayout<Row>& layout,
-                               const KeyColumns<Row>& key, const TableLines& lines, std::size_t first_line) {
+[[noreturn]] void refuseRepeat(const TableSource& source, const TableLayout<Row>& layout, const KeyColumns<Row>& key,
+                               const TableLines& lines, std::size_t first_line) {
   std::vector<std::string_view> cells;
   for (const std::size_t i : key.places) cells.push_back(lines.cell(i));
   throw io::InputError({source.file, lines.line(), fmt::format("{}", fmt::join(layout.key, ", "))},
-                   fmt::format("{}", fmt::join(cells, ", ")),
-                   fmt::format("expected a key that does not repeat; line {} has it first", first_line));
+                       fmt::format("{}", fmt::join(cells, ", ")),
+                       fmt::format("expected a key that does not repeat; line {} has it first", first_line));
 }
 
 /// readTable line after line; the error it throws is the first of the file.

@@ -9,9 +9,7 @@
 
 namespace stiffscope::campaign {
 
-inline std::string rowName(const std::string& file, std::size_t line) {
-  return fmt::format("{}:{}", file, line);
-}
+inline std::string rowName(const std::string& file, std::size_t line) { return fmt::format("{}:{}", file, line); }
 
 /// Of a 0-based axis: "axis 1".
 inline std::string axisName(std::size_t axis) { return fmt::format("axis {}", axis + 1); }

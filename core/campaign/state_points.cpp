@@ -25,9 +25,8 @@ class Gatherer {
       key.add(index);
       key.add(pose);
       key.add(step);
-      last_ = seen_.add(states_.size(), key, [&](std::size_t other) {
-        return isOf(states_[other], source, axis, index, pose, step);
-      });
+      last_ = seen_.add(states_.size(), key,
+                        [&](std::size_t other) { return isOf(states_[other], source, axis, index, pose, step); });
       if (last_ == RepeatCheck::kNew) {
         last_ = states_.size();
         states_.emplace_back(StatePoints{source, axis, index, pose, step, {}}).reflectors.reserve(targets_);
@@ -47,8 +46,7 @@ class Gatherer {
   }
 
  private:
-  static bool isOf(const StatePoints& state, Source source, int axis, const std::string& index, int pose,
-                   int step) {
+  static bool isOf(const StatePoints& state, Source source, int axis, const std::string& index, int pose, int step) {
     return state.source == source && state.axis == axis && state.index == index && state.pose == pose &&
            state.step == step;
   }
@@ -58,8 +56,7 @@ class Gatherer {
     for (ReflectorMean& one : reflectors) {
       if (one.target == row.target) return one;
     }
-    return reflectors.emplace_back(
-        ReflectorMean{row.target, 0, Eigen::Vector3d::Zero(), row.line});
+    return reflectors.emplace_back(ReflectorMean{row.target, 0, Eigen::Vector3d::Zero(), row.line});
   }
 
   static constexpr std::size_t kFew = 1000;  // it grows
@@ -85,8 +82,7 @@ const std::string& fileOf(const Campaign& campaign, const StatePoints& state) {
 }
 
 std::string nameOf(const Campaign& campaign, const StatePoints& state) {
-  if (state.source == Source::circle_sweeps)
-    return fmt::format("axis {}, index {}", state.axis + 1, state.index);
+  if (state.source == Source::circle_sweeps) return fmt::format("axis {}, index {}", state.axis + 1, state.index);
   if (state.source == Source::wrist_sweep) return fmt::format("wrist sweep, index {}", state.index);
   return fmt::format("pose {}, step {}", poseName(campaign, state.pose), state.step);
 }

@@ -16,7 +16,9 @@ struct ReflectorMean {
   std::size_t line = 0;  ///< of its first reading
 
   /// Of the mean, m^2.
-  Eigen::Matrix3d covariance(const metrology::TrackerNoise& noise) const { return noise.covarianceAt(point) / readings; }
+  Eigen::Matrix3d covariance(const metrology::TrackerNoise& noise) const {
+    return noise.covarianceAt(point) / readings;
+  }
 };
 
 /// The reflectors while the arm stood still: one index of a sweep, or one load state.

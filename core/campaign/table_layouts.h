@@ -25,14 +25,12 @@ inline const TableLayout<Displacement>& displacementsLayout() {
   using Row = Displacement;
   static const TableLayout<Row> layout{
       "displacements",
-      joined<Row>({poseAndStepColumns<Row>(),
-                   {targetColumn<Row>(),
-                    {"dx_mm", CellKind::displacement_millimetre,
-                     [](Row& row) -> double& { return row.displacement.x(); }},
-                    {"dy_mm", CellKind::displacement_millimetre,
-                     [](Row& row) -> double& { return row.displacement.y(); }},
-                    {"dz_mm", CellKind::displacement_millimetre,
-                     [](Row& row) -> double& { return row.displacement.z(); }}}}),
+      joined<Row>(
+          {poseAndStepColumns<Row>(),
+           {targetColumn<Row>(),
+            {"dx_mm", CellKind::displacement_millimetre, [](Row& row) -> double& { return row.displacement.x(); }},
+            {"dy_mm", CellKind::displacement_millimetre, [](Row& row) -> double& { return row.displacement.y(); }},
+            {"dz_mm", CellKind::displacement_millimetre, [](Row& row) -> double& { return row.displacement.z(); }}}}),
       {"pose", "step", "target"}};
   return layout;
 }
@@ -56,9 +54,8 @@ inline const TableLayout<NestReading>& nestsLayout() {
   using Row = NestReading;
   static const TableLayout<Row> layout{
       "nests",
-      joined<Row>(
-          {{timeColumn<Row>(true), {"nest", CellKind::nest, [](Row& row) -> int& { return row.nest; }}},
-           pointColumns<Row>()}),
+      joined<Row>({{timeColumn<Row>(true), {"nest", CellKind::nest, [](Row& row) -> int& { return row.nest; }}},
+                   pointColumns<Row>()}),
       {"time_s", "nest"}};
   return layout;
 }
@@ -68,11 +65,7 @@ inline const TableLayout<State>& statesLayout() {
   using Row = State;
   static const TableLayout<Row> layout{
       "states",
-      joined<Row>(
-          {poseAndStepColumns<Row>(),
-           {timeColumn<Row>(true)},
-           jointColumns<Row>(),
-           wrenchColumns<Row>()}),
+      joined<Row>({poseAndStepColumns<Row>(), {timeColumn<Row>(true)}, jointColumns<Row>(), wrenchColumns<Row>()}),
       {"pose", "step"}};
   return layout;
 }
@@ -82,8 +75,7 @@ inline const TableLayout<WristReading>& wristSweepLayout() {
   using Row = WristReading;
   static const TableLayout<Row> layout{
       "wrist_sweep",
-      joined<Row>({{{"index", CellKind::text, [](Row& row) -> std::string& { return row.index; }},
-                    targetColumn<Row>()},
+      joined<Row>({{{"index", CellKind::text, [](Row& row) -> std::string& { return row.index; }}, targetColumn<Row>()},
                    jointColumns<Row>(),
                    pointColumns<Row>(),
                    {timeColumn<Row>(false)}}),

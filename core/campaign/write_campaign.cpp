@@ -1,11 +1,11 @@
 #include "core/campaign/write_campaign.h"
 
+#include <fmt/format.h>
+#include <tinyxml2.h>
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 #include <stdexcept>
 #include <string>
-#include <tinyxml2.h>
 #include <vector>
 
 #include "core/campaign/campaign.h"
@@ -129,9 +129,7 @@ void writeRobot(tinyxml2::XMLPrinter& printer, const Campaign& campaign) {
                                      : campaign.double_encoder == DoubleEncoder::inactive ? "inactive"
                                                                                           : "unspecified";
   Element robot(printer, "robot");
-  robot.set("urdf", "robot.urdf")
-      .set("base_link", campaign.base_link)
-      .set("flange_link", campaign.flange_link);
+  robot.set("urdf", "robot.urdf").set("base_link", campaign.base_link).set("flange_link", campaign.flange_link);
   robot.set("double_encoder", double_encoder);
   if (campaign.gravity_in_base != Campaign().gravity_in_base) {
     robot.set("gravity_m_s2", campaign.gravity_in_base);
@@ -225,8 +223,7 @@ std::string writtenName(const std::string& name, const std::string& column) {
   if (name.empty()) fail(column, "a name is empty");
   const auto is_control = [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; };
   if (std::any_of(name.begin(), name.end(), is_control)) fail(column, "a name has a control character");
-  const bool plain =
-      name.find_first_of(",\";") == std::string::npos && name.front() != ' ' && name.back() != ' ';
+  const bool plain = name.find_first_of(",\";") == std::string::npos && name.front() != ' ' && name.back() != ' ';
   if (plain) return name;
   std::string quoted = "\"";
   for (const char c : name) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);

@@ -11,7 +11,8 @@ namespace stiffscope::campaign {
 /// s with 1. Tables are named after their element (circle_sweeps.csv, whatever Table::file says), and
 /// `urdf_file` is copied beside them as robot.urdf. A time that is NaN leaves an optional column out.
 /// Throws InputError where the URDF cannot be read, std::filesystem::filesystem_error or std::runtime_error
-/// where the folder cannot be written (it is then as it was) or a value cannot be (not finite, an index without a name).
+/// where the folder cannot be written (it is then as it was) or a value cannot be (not finite, an index without a
+/// name).
 void writeCampaign(const Campaign& campaign, const std::filesystem::path& urdf_file,
                    const std::filesystem::path& folder);
 

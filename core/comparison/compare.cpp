@@ -1,9 +1,9 @@
 #include "core/comparison/compare.h"
 
+#include <fmt/format.h>
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 #include <limits>
 
 #include "core/identification/identification.h"
@@ -16,7 +16,7 @@ identification::Method Comparison::best() const { return identification::bestMet
 
 namespace {
 
-std::vector<std::string> cautionsOf(const campaign::Campaign& before_campaign, const campaign::Campaign& after_campaign,
+std::vector<std::string> warningsOf(const campaign::Campaign& before_campaign, const campaign::Campaign& after_campaign,
                                     const Comparison& result) {
   std::vector<std::string> cautions = doubtsOfOneMachine(before_campaign.robot, after_campaign.robot);
   if (before_campaign.double_encoder == after_campaign.double_encoder &&
@@ -39,7 +39,7 @@ std::vector<std::string> cautionsOf(const campaign::Campaign& before_campaign, c
 }
 
 /// What identification itself cautions of, which ratios and p-values inherit.
-void addCautions(const char* when, const identification::Identification& one, std::vector<std::string>& cautions) {
+void addWarnings(const char* when, const identification::Identification& one, std::vector<std::string>& cautions) {
   for (const std::string& caution : one.cautions) cautions.push_back(fmt::format("{}: {}", when, caution));
 }
 
@@ -57,8 +57,7 @@ Comparison compareCampaigns(const campaign::Campaign& before_campaign, const ide
   }
   result.matched = matchPostures(before_campaign, before, after_campaign, after);
   for (const identification::Method method : identification::kMethods) {
-    result.methods[static_cast<std::size_t>(method)] =
-        compareStiffness(before, after, method, result.matched);
+    result.methods[static_cast<std::size_t>(method)] = compareStiffness(before, after, method, result.matched);
   }
   result.at_wrist = deflectionAvoidedAtWrist(before, after, result.matched, options);
   result.at_targets = deflectionAvoidedAtTargets(before, after, result.matched, options);
@@ -68,9 +67,9 @@ Comparison compareCampaigns(const campaign::Campaign& before_campaign, const ide
   if (!result.comparable) {
     result.reason = result.at_targets.reason + "; " + result.of(result.best()).reason;
   }
-  result.cautions = cautionsOf(before_campaign, after_campaign, result);
-  addCautions("before", before, result.cautions);
-  addCautions("after", after, result.cautions);
+  result.cautions = warningsOf(before_campaign, after_campaign, result);
+  addWarnings("before", before, result.cautions);
+  addWarnings("after", after, result.cautions);
   return result;
 }
 
@@ -102,13 +101,14 @@ Vector6d correlations(const std::vector<Vector6d>& before, const std::vector<Vec
   return result;
 }
 
-std::string markOf(const identification::StiffnessEstimate& before, const identification::StiffnessEstimate& after, int joint) {
+std::string markOf(const identification::StiffnessEstimate& before, const identification::StiffnessEstimate& after,
+                   int joint) {
   const std::string first = before.mark(joint), second = after.mark(joint);
   return first == "negative" || second.empty() ? first : second;
 }
 
-void judge(const identification::StiffnessEstimate& before, const identification::StiffnessEstimate& after, int joint, double degrees,
-           JointChange& change) {
+void judge(const identification::StiffnessEstimate& before, const identification::StiffnessEstimate& after, int joint,
+           double degrees, JointChange& change) {
   const double c_before = before.compliance[joint], c_after = after.compliance[joint];
   const double u_before = std::sqrt(before.covariance(joint, joint)),
                u_after = std::sqrt(after.covariance(joint, joint));
@@ -133,7 +133,8 @@ void judge(const identification::StiffnessEstimate& before, const identification
 
 }  // namespace
 
-StiffnessChange compareStiffness(const identification::Identification& before, const identification::Identification& after, identification::Method method,
+StiffnessChange compareStiffness(const identification::Identification& before,
+                                 const identification::Identification& after, identification::Method method,
                                  const MatchedPostures& matched) {
   const identification::MethodResult &first = before.of(method), &second = after.of(method);
   StiffnessChange result;
@@ -151,9 +152,9 @@ StiffnessChange compareStiffness(const identification::Identification& before, c
     const bool seen_before = first.estimate.identifiable[j], seen_after = second.estimate.identifiable[j];
     if (!seen_before || !seen_after) {
       const identification::Identifiability& blind = seen_before ? after.identifiability : before.identifiability;
-      change.reason = fmt::format("not identifiable {}: {}",
-                                  seen_before ? "after" : (seen_after ? "before" : "in either campaign"),
-                                  blind.joints[j].reason);
+      change.reason =
+          fmt::format("not identifiable {}: {}", seen_before ? "after" : (seen_after ? "before" : "in either campaign"),
+                      blind.joints[j].reason);
       continue;
     }
     change.correlation = correlation[static_cast<Eigen::Index>(j)];
@@ -177,20 +178,21 @@ Normals normalOf(const std::vector<identification::CaseEquations>& equations) {
 /// Complete Pose's equations, which its result does not keep, from the load cases.
 Normals completePoseNormals(const identification::Identification& result) {
   const identification::MethodResult& method = result.of(identification::Method::complete_pose);
-  const auto torques =
-      result.finite_deflection
-          ? identification::jointTorquesWithGeometricStiffness(method.geometry, result.cases, method.estimate.compliance)
-          : identification::jointTorques(result.cases);
+  const auto torques = result.finite_deflection ? identification::jointTorquesWithGeometricStiffness(
+                                                      method.geometry, result.cases, method.estimate.compliance)
+                                                : identification::jointTorques(result.cases);
   Normals normal;
   for (std::size_t i = 0; i < result.cases.size(); ++i) {
     const identification::CaseEquations pose =
         identification::completePoseEquations(result.cases[i], result.frames.tcp_in_flange, torques[i]);
-    normal.push_back(identification::normalEquations(identification::normalised(pose, result.characteristic_length.length)));
+    normal.push_back(
+        identification::normalEquations(identification::normalised(pose, result.characteristic_length.length)));
   }
   return normal;
 }
 
-identification::NormalEquations without(const identification::NormalEquations& sum, const identification::NormalEquations& one) {
+identification::NormalEquations without(const identification::NormalEquations& sum,
+                                        const identification::NormalEquations& one) {
   return {sum.matrix - one.matrix, sum.right - one.right};
 }
 
@@ -198,12 +200,14 @@ identification::NormalEquations without(const identification::NormalEquations& s
 std::vector<Vector6d> movesOf(const identification::SubsetMethod& method) {
   const bool decoupled = !method.reflectors.empty();
   const identification::NormalEquations sum = identification::sumOf(method.normal);
-  const identification::NormalEquations reflectors = decoupled ? identification::sumOf(method.reflectors) : identification::NormalEquations{};
+  const identification::NormalEquations reflectors =
+      decoupled ? identification::sumOf(method.reflectors) : identification::NormalEquations{};
   const Vector6d all = identification::solveSubset(method, sum, reflectors);
   std::vector<Vector6d> moves;
   for (std::size_t p = 0; p < method.normal.size(); ++p) {
-    moves.push_back(all - identification::solveSubset(method, without(sum, method.normal[p]),
-                                                      decoupled ? without(reflectors, method.reflectors[p]) : reflectors));
+    moves.push_back(all -
+                    identification::solveSubset(method, without(sum, method.normal[p]),
+                                                decoupled ? without(reflectors, method.reflectors[p]) : reflectors));
   }
   return moves;
 }

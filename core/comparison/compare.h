@@ -36,7 +36,8 @@ struct StiffnessChange {
 /// (postures less a third of the unknowns, a posture giving three coordinates). What the model misses recurs
 /// in a posture that is measured twice, so the errors are correlated: r = sum over pairs d_b d_a / sqrt(sum
 /// d_b^2 sum d_a^2), d how leaving out a posture moves c (moveByEachPosture).
-StiffnessChange compareStiffness(const identification::Identification& before, const identification::Identification& after, identification::Method method,
+StiffnessChange compareStiffness(const identification::Identification& before,
+                                 const identification::Identification& after, identification::Method method,
                                  const MatchedPostures& matched);
 
 /// Two campaigns of one machine side by side: double encoders inactive and active, or before and after a

@@ -18,8 +18,7 @@ DeflectionAvoided ofPairs(const std::vector<double>& before, const std::vector<d
     return none;
   }
   std::vector<PostureDeflection> postures;
-  for (const PosturePair& pair : matched.pairs)
-    postures.push_back({pair.pose, before[pair.before], after[pair.after]});
+  for (const PosturePair& pair : matched.pairs) postures.push_back({pair.pose, before[pair.before], after[pair.after]});
   return shareAvoided(std::move(postures), options);
 }
 
@@ -56,20 +55,20 @@ DeflectionAvoided shareAvoided(std::vector<PostureDeflection> postures, const Bo
   return result;
 }
 
-DeflectionAvoided deflectionAvoidedAtWrist(const identification::Identification& before, const identification::Identification& after,
-                                           const MatchedPostures& matched, const BootstrapOptions& options) {
+DeflectionAvoided deflectionAvoidedAtWrist(const identification::Identification& before,
+                                           const identification::Identification& after, const MatchedPostures& matched,
+                                           const BootstrapOptions& options) {
   if (before.wrist_displacement.empty() || after.wrist_displacement.empty()) {
     DeflectionAvoided none;
-    none.reason =
-        std::string("P_wrist is not measured ") + (before.wrist_displacement.empty() ? "before" : "after");
+    none.reason = std::string("P_wrist is not measured ") + (before.wrist_displacement.empty() ? "before" : "after");
     return none;
   }
   return ofPairs(before.wrist_displacement, after.wrist_displacement, matched, options);
 }
 
-DeflectionAvoided deflectionAvoidedAtTargets(const identification::Identification& before, const identification::Identification& after,
-                                             const MatchedPostures& matched,
-                                             const BootstrapOptions& options) {
+DeflectionAvoided deflectionAvoidedAtTargets(const identification::Identification& before,
+                                             const identification::Identification& after,
+                                             const MatchedPostures& matched, const BootstrapOptions& options) {
   return ofPairs(before.target_displacement, after.target_displacement, matched, options);
 }
 

@@ -31,14 +31,14 @@ struct BootstrapOptions {
 };
 
 /// At P_wrist; unavailable, with the reason, where it is not measured in both campaigns.
-DeflectionAvoided deflectionAvoidedAtWrist(const identification::Identification& before, const identification::Identification& after,
-                                           const MatchedPostures& matched,
+DeflectionAvoided deflectionAvoidedAtWrist(const identification::Identification& before,
+                                           const identification::Identification& after, const MatchedPostures& matched,
                                            const BootstrapOptions& options = {});
 
 /// At the reflectors, the mean over those of a posture.
-DeflectionAvoided deflectionAvoidedAtTargets(const identification::Identification& before, const identification::Identification& after,
-                                             const MatchedPostures& matched,
-                                             const BootstrapOptions& options = {});
+DeflectionAvoided deflectionAvoidedAtTargets(const identification::Identification& before,
+                                             const identification::Identification& after,
+                                             const MatchedPostures& matched, const BootstrapOptions& options = {});
 
 /// The share of sums and its percentile bootstrap over postures (seeded): what other postures would have
 /// given.

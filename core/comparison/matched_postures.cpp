@@ -1,9 +1,9 @@
 #include "core/comparison/matched_postures.h"
 
+#include <fmt/format.h>
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 #include <unordered_map>
 
 #include "core/io/units.h"
@@ -28,12 +28,11 @@ CaseByPose casesOf(const campaign::Campaign& campaign, const identification::Ide
 }
 
 /// Why a posture is not among the load cases of a campaign.
-std::string whyAbsent(const campaign::Campaign& campaign, const identification::Identification& result, const std::string& pose,
-                      const char* when) {
+std::string whyAbsent(const campaign::Campaign& campaign, const identification::Identification& result,
+                      const std::string& pose, const char* when) {
   const std::string head = "pose " + pose + ": ";
   for (const std::string& left_out : result.left_out) {
-    if (left_out.rfind(head, 0) == 0)
-      return fmt::format("left out {}: {}", when, left_out.substr(head.size()));
+    if (left_out.rfind(head, 0) == 0) return fmt::format("left out {}: {}", when, left_out.substr(head.size()));
   }
   const auto& ids = campaign.pose_ids;
   return std::find(ids.begin(), ids.end(), pose) == ids.end()
@@ -42,7 +41,8 @@ std::string whyAbsent(const campaign::Campaign& campaign, const identification::
 }
 
 /// Why two load cases of one pose id are not the same; empty where they are.
-std::string difference(const identification::LoadCase& before, const identification::LoadCase& after, const MatchLimits& limits) {
+std::string difference(const identification::LoadCase& before, const identification::LoadCase& after,
+                       const MatchLimits& limits) {
   Eigen::Index joint = 0;
   const double angle = (after.q - before.q).cwiseAbs().maxCoeff(&joint);
   if (angle > limits.angle) {
@@ -69,9 +69,8 @@ MatchedPostures matchPostures(const campaign::Campaign& before_campaign, const i
   for (std::size_t i = 0; i < before.cases.size(); ++i) {
     const std::string& pose = poseOf(before_campaign, before.cases[i]);
     const auto place = places.find(pose);
-    const std::string reason = place == places.end()
-                                   ? whyAbsent(after_campaign, after, pose, "after")
-                                   : difference(before.cases[i], after.cases[place->second], limits);
+    const std::string reason = place == places.end() ? whyAbsent(after_campaign, after, pose, "after")
+                                                     : difference(before.cases[i], after.cases[place->second], limits);
     if (reason.empty()) {
       result.pairs.push_back({pose, i, place->second});
     } else {
@@ -80,8 +79,7 @@ MatchedPostures matchPostures(const campaign::Campaign& before_campaign, const i
   }
   for (const identification::LoadCase& load_case : after.cases) {
     const std::string& pose = poseOf(after_campaign, load_case);
-    if (!own.contains(pose))
-      result.unmatched.push_back({pose, whyAbsent(before_campaign, before, pose, "before")});
+    if (!own.contains(pose)) result.unmatched.push_back({pose, whyAbsent(before_campaign, before, pose, "before")});
   }
   return result;
 }
@@ -95,8 +93,8 @@ std::string differenceOfMachines(const robot::Robot& before, const robot::Robot&
     return turn > kSameDirection
                ? fmt::format("the URDFs describe different machines: axis {} is turned by {:.2f} deg", j + 1,
                              2.0 * std::asin(std::min(1.0, 0.5 * turn)) / io::kDegree)
-               : fmt::format("the URDFs describe different machines: axis {} stands {:.1f} mm elsewhere",
-                             j + 1, apart / io::kMillimetre);
+               : fmt::format("the URDFs describe different machines: axis {} stands {:.1f} mm elsewhere", j + 1,
+                             apart / io::kMillimetre);
   }
   return {};
 }
@@ -109,7 +107,8 @@ std::vector<std::string> doubtsOfOneMachine(const robot::Robot& before, const ro
   const Eigen::Isometry3d flanges = before.base_from_flange_at_zero.inverse() * after.base_from_flange_at_zero;
   const double apart = flanges.translation().norm(), turn = Eigen::AngleAxisd(flanges.linear()).angle();
   if (apart > kSamePlace || turn > kSameDirection) {
-    doubts.push_back(fmt::format("the URDFs place the flange {:.1f} mm and {:.2f} deg apart", apart / io::kMillimetre, turn / io::kDegree));
+    doubts.push_back(fmt::format("the URDFs place the flange {:.1f} mm and {:.2f} deg apart", apart / io::kMillimetre,
+                                 turn / io::kDegree));
   }
   double mass_before = 0.0, mass_after = 0.0, difference = 0.0;
   for (std::size_t body = 1; body < before.bodies.size(); ++body) {
@@ -118,7 +117,8 @@ std::vector<std::string> doubtsOfOneMachine(const robot::Robot& before, const ro
     difference = std::max(difference, std::abs(after.bodies[body].mass_kg - before.bodies[body].mass_kg));
   }
   if (difference > kSameMass * std::max(mass_before, mass_after)) {
-    doubts.push_back(fmt::format("the URDFs' links have different masses, {:.0f} kg and {:.0f} kg in all", mass_before, mass_after));
+    doubts.push_back(
+        fmt::format("the URDFs' links have different masses, {:.0f} kg and {:.0f} kg in all", mass_before, mass_after));
   }
   return doubts;
 }

@@ -21,7 +21,7 @@ struct UnmatchedPosture {
 
 struct MatchLimits {
   double angle = 1.745e-4;  ///< rad (0.01 deg): a robot comes back to a taught posture to a few thousandths
-  double force = 0.02;  ///< of the larger force: the deflection goes with it, and 2 % is lost in the scatter
+  double force = 0.02;      ///< of the larger force: the deflection goes with it, and 2 % is lost in the scatter
 };
 
 struct MatchedPostures {

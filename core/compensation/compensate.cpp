@@ -1,9 +1,9 @@
 #include "core/compensation/compensate.h"
 
+#include <fmt/format.h>
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 
 #include "core/campaign/read_table.h"
 #include "core/identification/load_case.h"
@@ -43,8 +43,8 @@ const campaign::TableLayout<PostureRow>& posturesLayout() {
   static const campaign::TableLayout<Row> layout{
       "postures",
       campaign::joined<Row>({{{"pose", campaign::CellKind::text, [](Row& row) -> std::string& { return row.id; }}},
-                   campaign::jointColumns<Row>(),
-                   campaign::wrenchColumns<Row>()}),
+                             campaign::jointColumns<Row>(),
+                             campaign::wrenchColumns<Row>()}),
       {"pose"}};
   return layout;
 }
@@ -72,8 +72,7 @@ std::vector<PostureToCompensate> campaignPostures(const campaign::Campaign& camp
 
 namespace {
 
-const char* const kNoRest =
-    "the loaded arm does not come to rest: the load is too large for these stiffnesses";
+const char* const kNoRest = "the loaded arm does not come to rest: the load is too large for these stiffnesses";
 
 Eigen::Vector3d rotationVector(const Eigen::Matrix3d& rotation) {
   const Eigen::AngleAxisd turn(rotation);
@@ -87,8 +86,9 @@ struct Moved {
 
 class Compensator {
  public:
-  Compensator(const campaign::Campaign& campaign, const frames::LoadingGeometry& geometry, const identification::StiffnessEstimate& estimate,
-              const Eigen::Vector3d& tcp_in_flange, const CompensateOptions& options, const effects::FurtherGive* with)
+  Compensator(const campaign::Campaign& campaign, const frames::LoadingGeometry& geometry,
+              const identification::StiffnessEstimate& estimate, const Eigen::Vector3d& tcp_in_flange,
+              const CompensateOptions& options, const effects::EffectDeflection* with)
       : campaign_(campaign),
         geometry_(geometry),
         estimate_(estimate),
@@ -105,7 +105,8 @@ class Compensator {
       return result;
     }
     const robot::ArmPosture unloaded = robot::postureAt(geometry_.arm, *unloaded_angles);
-    const auto resting = with_ ? with_->flange(asked.q, effects::FlangeLoad()) : robot::flangeAt(geometry_.arm, unloaded);
+    const auto resting =
+        with_ ? with_->flange(asked.q, effects::FlangeLoad()) : robot::flangeAt(geometry_.arm, unloaded);
     if (!resting) {
       result.reason = "the unloaded arm does not come to rest under its own weight";
       return result;
@@ -121,8 +122,9 @@ class Compensator {
 
  private:
   effects::FlangeLoad loadAt(const robot::ArmPosture& posture, const Eigen::Isometry3d& flange,
-                    const Vector6d& reading) const {
-    const robot::Wrench wrench = identification::cellWrench(*campaign_.load_cell, geometry_, posture, flange, flange, reading);
+                             const Vector6d& reading) const {
+    const robot::Wrench wrench =
+        identification::cellWrench(*campaign_.load_cell, geometry_, posture, flange, flange, reading);
     return {flange.inverse() * wrench.point, wrench.force, wrench.moment};
   }
 
@@ -149,8 +151,8 @@ class Compensator {
         outsideLimits(asked.q, "joint {} stands at {:.3f} deg, outside its limits {:.1f} to {:.1f} deg");
     if (!outside.empty()) return outside;
     if (conditioning < options_.least_conditioning) {
-      return fmt::format("too near a singularity: conditioning {:.4f}, at least {:g} is asked for",
-                         conditioning, options_.least_conditioning);
+      return fmt::format("too near a singularity: conditioning {:.4f}, at least {:g} is asked for", conditioning,
+                         options_.least_conditioning);
     }
     return turnsUnusableJoint(torqueOf(unloaded, wanted, load));
   }
@@ -162,14 +164,12 @@ class Compensator {
       const bool known = estimate_.identifiable[static_cast<std::size_t>(joint)];
       if (known && estimate_.compliance[joint] >= 0.0) continue;
       if (std::abs(torque[joint]) <= options_.share_unknown * torque.cwiseAbs().maxCoeff()) continue;
-      return known
-                 ? fmt::format(
-                       "the load turns axis {} by {:.0f} Nm and k{} came out negative: no spring has that",
-                       joint + 1, std::abs(torque[joint]), joint + 1)
-                 : fmt::format(
-                       "the load turns axis {} by {:.0f} Nm and k{} is not known: the deflection shown lacks "
-                       "its part",
-                       joint + 1, std::abs(torque[joint]), joint + 1);
+      return known ? fmt::format("the load turns axis {} by {:.0f} Nm and k{} came out negative: no spring has that",
+                                 joint + 1, std::abs(torque[joint]), joint + 1)
+                   : fmt::format(
+                         "the load turns axis {} by {:.0f} Nm and k{} is not known: the deflection shown lacks "
+                         "its part",
+                         joint + 1, std::abs(torque[joint]), joint + 1);
     }
     return {};
   }
@@ -179,8 +179,7 @@ class Compensator {
     const Matrix6d& covariance = with_ ? with_->spring_covariance : estimate_.covariance;
     Eigen::Vector3d variance = (rows * covariance * rows.transpose()).diagonal();
     if (changes.cols() > 0) variance += changes.rowwise().squaredNorm();
-    return variance.unaryExpr(
-        [](double v) { return v < 0.0 ? 0.0 : std::sqrt(v); });  // keeps what is no number
+    return variance.unaryExpr([](double v) { return v < 0.0 ? 0.0 : std::sqrt(v); });  // keeps what is no number
   }
 
   PointDeflection deflectionOf(const Eigen::Vector3d& point_in_flange, const Eigen::Isometry3d& wanted,
@@ -236,8 +235,8 @@ class Compensator {
     result.conditioning = singular[5] / singular[0];
   }
 
-  void solve(const PostureToCompensate& asked, const Vector6d& unloaded_angles,
-             const Eigen::Isometry3d& wanted, const effects::FlangeLoad& load, CompensatedPosture& result) const {
+  void solve(const PostureToCompensate& asked, const Vector6d& unloaded_angles, const Eigen::Isometry3d& wanted,
+             const effects::FlangeLoad& load, CompensatedPosture& result) const {
     const auto once = effects::loadedAngles(geometry_, estimate_.compliance, asked.q, load);
     Vector6d commands = asked.q - (*once - unloaded_angles);  // the predicted turn, mirrored: the first try
     constexpr int kMostSteps = 20;
@@ -256,8 +255,8 @@ class Compensator {
       if (step == 0) result.mirrored_remaining = result.remaining;
       if (error.cwiseAbs().maxCoeff() < kThere) {
         result.commands = commands;
-        result.reason = outsideLimits(
-            commands, "joint {} would have to go to {:.3f} deg, outside its limits {:.1f} to {:.1f} deg");
+        result.reason =
+            outsideLimits(commands, "joint {} would have to go to {:.3f} deg, outside its limits {:.1f} to {:.1f} deg");
         result.solved = result.reason.empty();
         return;
       }
@@ -282,7 +281,7 @@ class Compensator {
   const identification::StiffnessEstimate& estimate_;
   Eigen::Vector3d tcp_;
   CompensateOptions options_;
-  const effects::FurtherGive* with_;
+  const effects::EffectDeflection* with_;
 };
 
 }  // namespace
@@ -291,7 +290,7 @@ std::vector<CompensatedPosture> compensate(const campaign::Campaign& campaign, c
                                            const identification::StiffnessEstimate& estimate,
                                            const Eigen::Vector3d& tcp_in_flange,
                                            const std::vector<PostureToCompensate>& postures,
-                                           const CompensateOptions& options, const effects::FurtherGive* with) {
+                                           const CompensateOptions& options, const effects::EffectDeflection* with) {
   const Compensator compensator(campaign, geometry, estimate, tcp_in_flange, options, with);
   std::vector<CompensatedPosture> results;
   results.reserve(postures.size());

@@ -28,24 +28,22 @@ struct PointDeflection {
 /// Predicted deflection by the load, and the joint commands that cancel it.
 struct CompensatedPosture {
   PostureToCompensate posture;
-  bool predicted =
-      false;            ///< false: the arm does not come to rest under this load, and nothing below is given
-  PointDeflection tcp;  ///< of P_TCP
+  bool predicted = false;  ///< false: the arm does not come to rest under this load, and nothing below is given
+  PointDeflection tcp;     ///< of P_TCP
   Eigen::Vector3d rotation = Eigen::Vector3d::Zero();     ///< of the flange, rotation vector in R0, rad
   Eigen::Vector3d rotation_sd = Eigen::Vector3d::Zero();  ///< its standard uncertainty, rad
-  std::vector<PointDeflection>
-      targets;  ///< of the reflectors, in the order of the campaign's; empty: places not known
+  std::vector<PointDeflection> targets;  ///< of the reflectors, in the order of the campaign's; empty: places not known
   bool solved = false;
   std::string reason;                    ///< why there are no commands
   Vector6d commands = Vector6d::Zero();  ///< joint angles to command, rad
-  double mirrored_remaining = 0.0;  ///< |move of P_TCP| left where the predicted turn is subtracted once, m
+  double mirrored_remaining = 0.0;       ///< |move of P_TCP| left where the predicted turn is subtracted once, m
   double remaining = 0.0;     ///< the same by the commands: |P_TCP(loaded, commands) - P_TCP(unloaded, q)|, m
   double conditioning = 0.0;  ///< least over largest singular value of J at P_TCP, lengths over 1 m
 };
 
 struct CompensateOptions {
   double least_conditioning = 0.01;  ///< below it a posture is too near a singularity
-  double share_unknown = 0.02;  ///< of the largest joint torque: what may turn a joint of unusable stiffness
+  double share_unknown = 0.02;       ///< of the largest joint torque: what may turn a joint of unusable stiffness
 };
 
 /// For each posture: the nonlinear model (finite rotations, own weight and load on the moved arm) gives the
@@ -62,15 +60,15 @@ std::vector<CompensatedPosture> compensate(const campaign::Campaign& campaign, c
                                            const Eigen::Vector3d& tcp_in_flange,
                                            const std::vector<PostureToCompensate>& postures,
                                            const CompensateOptions& options = {},
-                                           const effects::FurtherGive* with = nullptr);
+                                           const effects::EffectDeflection* with = nullptr);
 
 /// A sentence for each posture whose commands turn a joint by more than 2 deg against its angle: ten times
 /// what a heavy load does to a weak joint, so that forces, moments or angles are rather in another unit.
 std::vector<std::string> implausibleCommands(const std::vector<CompensatedPosture>& postures);
 
 /// Reads postures and wrenches from a CSV file: `pose` (any name, not repeated), `q1_deg`..`q6_deg`, and the load-cell
-/// reading expected there, `fx_n fy_n fz_n mx_nm my_nm mz_nm`; columns in any order. Throws InputError as the campaign's
-/// tables do; unknown columns go to `warnings`.
+/// reading expected there, `fx_n fy_n fz_n mx_nm my_nm mz_nm`; columns in any order. Throws InputError as the
+/// campaign's tables do; unknown columns go to `warnings`.
 std::vector<PostureToCompensate> readPostures(const std::filesystem::path& file, std::vector<std::string>& warnings);
 
 /// The campaign's own postures in load step `step`.

@@ -17,7 +17,7 @@ Projection withField(const Projection& projection, const Eigen::VectorXd& field)
   return made;
 }
 
-double leftBy(const GapInput& input, const GapFit& fit, const Projection& made,
+double leftBy(const SystemInput& input, const GapFit& fit, const Projection& made,
               const std::vector<ChosenModel>& others, std::size_t model, const std::vector<bool>& allowed) {
   std::vector<bool> only(allowed.size(), false);
   only[model] = true;
@@ -43,14 +43,14 @@ double leftBy(const GapInput& input, const GapFit& fit, const Projection& made,
 
 }  // namespace
 
-double separation(const GapInput& input, const GapFit& fit, const Projection& projection,
+double separation(const SystemInput& input, const GapFit& fit, const Projection& projection,
                   const Eigen::VectorXd& field, const std::vector<ChosenModel>& others, std::size_t by_model,
                   const std::vector<bool>& allowed) {
   return std::max(0.0, leftBy(input, fit, withField(projection, field), others, by_model, allowed));
 }
 
-std::vector<std::vector<effects::Effect>> designAliases(const GapInput& input, const GapFit& fit,
-                                               const std::vector<bool>& allowed) {
+std::vector<std::vector<effects::Effect>> designConfounding(const SystemInput& input, const GapFit& fit,
+                                                            const std::vector<bool>& allowed) {
   std::vector<std::vector<effects::Effect>> groups;
   constexpr double kTwice = 4.0;  // twice the noise of one state's displacement, squared
   const double size = kTwice * fit.rules.loading_rows;
@@ -72,12 +72,10 @@ std::vector<std::vector<effects::Effect>> designAliases(const GapInput& input, c
       for (std::size_t other = 0; other < input.models.size(); ++other) {
         const effects::Effect effect = input.models[other].effect;
         if (!allowed[other] || std::find(group.begin(), group.end(), effect) != group.end()) continue;
-        if (separation(input, fit, fit.projection, field, {}, other, allowed) < kSeparated)
-          group.push_back(effect);
+        if (separation(input, fit, fit.projection, field, {}, other, allowed) < kSeparated) group.push_back(effect);
       }
       std::sort(group.begin(), group.end());
-      if (group.size() > 1 && std::find(groups.begin(), groups.end(), group) == groups.end())
-        groups.push_back(group);
+      if (group.size() > 1 && std::find(groups.begin(), groups.end(), group) == groups.end()) groups.push_back(group);
     }
   }
   std::sort(groups.begin(), groups.end());

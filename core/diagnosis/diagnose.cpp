@@ -1,9 +1,9 @@
 #include "core/diagnosis/diagnose.h"
 
+#include <fmt/format.h>
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 
 #include "core/diagnosis/confounding.h"
 #include "core/diagnosis/diagnosis_input.h"
@@ -25,17 +25,15 @@ void requireLoads(const campaign::Campaign& campaign) {
   const io::InputPlace place{(campaign.folder / "campaign.xml").string(), 0, {}};
   if (!campaign.states || !campaign.load_cell) {
     throw io::InputError(place, "",
-                     !campaign.states
-                         ? "no 'states': joint angles and load-cell readings are needed to diagnose"
-                         : "no 'load_cell': where the measured wrench acts is needed to diagnose");
+                         !campaign.states ? "no 'states': joint angles and load-cell readings are needed to diagnose"
+                                          : "no 'load_cell': where the measured wrench acts is needed to diagnose");
   }
   if (!campaign.loading && !campaign.displacements) {
     throw io::InputError(place, "",
-                     "neither 'loading' nor 'displacements': readings under load are needed to diagnose");
+                         "neither 'loading' nor 'displacements': readings under load are needed to diagnose");
   }
   if (!identification::heaviestStep(campaign)) {
-    throw io::InputError({(campaign.folder / campaign.states->file).string(), 0, {}}, "",
-                     "no load step has a force");
+    throw io::InputError({(campaign.folder / campaign.states->file).string(), 0, {}}, "", "no load step has a force");
   }
 }
 
@@ -46,10 +44,12 @@ std::size_t modelOf(const std::vector<effects::EffectModel>& models, effects::Ef
 }
 
 /// With one effect wanted: its models, and those of a station that moved, which nests may put in.
-std::vector<effects::EffectModel> modelsFor(const campaign::Campaign& campaign, const std::optional<effects::Effect>& only) {
+std::vector<effects::EffectModel> modelsFor(const campaign::Campaign& campaign,
+                                            const std::optional<effects::Effect>& only) {
   std::vector<effects::EffectModel> models = effects::effectModelsOf(campaign);
   std::erase_if(models, [&](const effects::EffectModel& one) {
-    return only && one.effect != *only && one.effect != effects::Effect::tracker_drift && one.effect != effects::Effect::frame_error;
+    return only && one.effect != *only && one.effect != effects::Effect::tracker_drift &&
+           one.effect != effects::Effect::frame_error;
   });
   return models;
 }
@@ -59,7 +59,7 @@ class Diagnoser {
   Diagnoser(const campaign::Campaign& campaign, const DiagnoseOptions& options)
       : original_(campaign),
         options_(options),
-        start_(gapStart(campaign, true)),
+        start_(diagnosisInput(campaign, true)),
         input_{start_.campaign,
                start_.noise.noise,
                campaign.load_cell->force_sigma,
@@ -72,7 +72,7 @@ class Diagnoser {
   Diagnosis run() {
     result_.unusable_reason = start_.reason;
     if (!start_.reason.empty()) return std::move(result_);
-    judgeTestable();
+    evaluatePreconditions();
     fit();
     describe();
     decide();
@@ -81,8 +81,8 @@ class Diagnoser {
   }
 
  private:
-  void judgeTestable() {
-    const GapData data = gapData(input_, start_.state, {});
+  void evaluatePreconditions() {
+    const LinearSystem data = linearSystem(input_, start_.state, {});
     const effects::CampaignContents has = whatIsThere(input_, data, start_.state, start_.station);
     allowed_.assign(input_.models.size(), true);
     for (std::size_t e = 0; e < effects::kEffectCount; ++e) {
@@ -104,7 +104,8 @@ class Diagnoser {
     if (start_.station.course == preparation::StationCourse::jumped)
       given_ = {modelOf(input_.models, effects::Effect::frame_error)};
     if (start_.station.course == preparation::StationCourse::drifted)
-      given_ = {modelOf(input_.models, effects::Effect::tracker_drift), modelOf(input_.models, effects::Effect::frame_error)};
+      given_ = {modelOf(input_.models, effects::Effect::tracker_drift),
+                modelOf(input_.models, effects::Effect::frame_error)};
   }
 
   void fit() {
@@ -120,8 +121,7 @@ class Diagnoser {
     const Selector selector = selectorOf(input_, fit_, fit_.projection, postures, allowed_);
     result_.usable = true;
     result_.postures = static_cast<int>(fit_.data.postures.size());
-    for (const GapPosture& posture : fit_.data.postures)
-      result_.states += static_cast<int>(posture.states.size());
+    for (const GapPosture& posture : fit_.data.postures) result_.states += static_cast<int>(posture.states.size());
     result_.state_noise = fit_.data.state_noise;
     result_.noise_source = start_.noise.source;
     result_.noise_factor_along = start_.noise.along_factor;
@@ -132,8 +132,7 @@ class Diagnoser {
     result_.left_over = leftPerEquation(fit_);
     result_.model_error = fit_.model_error;
     result_.geometric_stiffness_share = start_.geometric_stiffness_share;
-    before_ = stiffnessesAlone(alone_.data, std::vector<double>(alone_.data.postures.size(), 1.0),
-                               alone_.projection);
+    before_ = stiffnessesAlone(alone_.data, std::vector<double>(alone_.data.postures.size(), 1.0), alone_.projection);
     after_ = allParameters(fit_.nuisances, fit_.set.effects);
     result_.gap = deflectionGap(alone_, before_, fit_, after_);
     result_.positions = positionGap(alone_, before_, fit_, after_);
@@ -143,7 +142,7 @@ class Diagnoser {
     result_.where = whereDeflection(input_, alone_, before_.for_deflection);
     result_.where_after = whereDeflection(input_, fit_, after_);
     result_.where_positions = wherePosition(input_, alone_, before_.for_position);
-    result_.aliases = designAliases(input_, fit_, allowed_);
+    result_.aliases = designConfounding(input_, fit_, allowed_);
     result_.detectable = detectableSizes(input_, fit_, allowed_);
     stiffnesses();
   }
@@ -176,23 +175,21 @@ class Diagnoser {
 
   void decide() {
     result_.geometry = geometryError(input_, fit_.state);
-    const VerdictInput input{input_,    fit_,         allowed_,    start_.station,
+    const VerdictInput input{input_,           fit_,         allowed_,    start_.station,
                              result_.geometry, start_.noise, result_.gap, result_.positions};
     Decision decision = decideVerdict(input);
     result_.verdict = std::move(decision.verdict);
     result_.classes = std::move(decision.classes);
     recipes_ = std::move(decision.recipes);
     for (const Tie& tie : decision.ties) {
-      if (auto one = nextFor(input_, fit_, allowed_, tie, options_.seed))
-        result_.next.push_back(std::move(*one));
+      if (auto one = nextFor(input_, fit_, allowed_, tie, options_.seed)) result_.next.push_back(std::move(*one));
     }
   }
 
   void shrink() {
     std::vector<FitRecipe> recipes{{true, {}}};
     for (const auto& models : recipes_) recipes.push_back({false, models});
-    const auto held_out =
-        heldOutShrinks(input_, alone_, fit_, allowed_, recipes, options_.resamples, options_.seed);
+    const auto held_out = heldOutShrinks(input_, alone_, fit_, allowed_, recipes, options_.resamples, options_.seed);
     result_.shrink_together = held_out[0].deflection;
     HeldOutShrink station;
     if (!station_.empty()) {
@@ -208,23 +205,21 @@ class Diagnoser {
       one.shrink = own.deflection;
       one.shrink_of_positions = own.position;
       one.explained = own.explained;
-      const bool by_station =
-          one.in_verdict && !given_.empty() &&
-          (one.effects.front() == effects::Effect::frame_error || one.effects.front() == effects::Effect::tracker_drift);
+      const bool by_station = one.in_verdict && !given_.empty() &&
+                              (one.effects.front() == effects::Effect::frame_error ||
+                               one.effects.front() == effects::Effect::tracker_drift);
       if (!by_station) continue;
       one.shrink = station.deflection;
       one.shrink_of_positions = station.position;
-      const double noise = result_.gap.noise * result_.gap.noise,
-                   whole = result_.gap.before * result_.gap.before;
-      if (whole > 1.05 * noise)
-        one.explained = (whole - result_.gap.after * result_.gap.after) / (whole - noise);
+      const double noise = result_.gap.noise * result_.gap.noise, whole = result_.gap.before * result_.gap.before;
+      if (whole > 1.05 * noise) one.explained = (whole - result_.gap.after * result_.gap.after) / (whole - noise);
     }
   }
 
   const campaign::Campaign& original_;
   DiagnoseOptions options_;
-  GapStart start_;
-  GapInput input_;
+  DiagnosisInput start_;
+  SystemInput input_;
   std::vector<bool> allowed_;
   std::vector<std::size_t> given_;
   GapFit fit_, alone_;  // with the effects chosen, and joint stiffnesses alone
@@ -237,10 +232,12 @@ class Diagnoser {
 };
 
 /// `spread` is what is looked at of a campaign of so many postures, which the diagnosis refers to.
-Diagnosis diagnoseSpread(const campaign::Campaign& spread, std::size_t postures, bool long_sweeps, const DiagnoseOptions& options) {
+Diagnosis diagnoseSpread(const campaign::Campaign& spread, std::size_t postures, bool long_sweeps,
+                         const DiagnoseOptions& options) {
   Diagnosis diagnosis = Diagnoser(spread, options).run();
   if (long_sweeps) {
-    diagnosis.verdict.reason += fmt::format(" Of a sweep's readings {} at most took part, spread evenly over it.", preparation::kMostSwept);
+    diagnosis.verdict.reason +=
+        fmt::format(" Of a sweep's readings {} at most took part, spread evenly over it.", preparation::kMostSwept);
   }
   if (postures <= preparation::kMostDiagnosed) return diagnosis;
   const std::vector<std::size_t> places = preparation::evenlySpreadIndices(postures, preparation::kMostDiagnosed);
@@ -250,14 +247,17 @@ Diagnosis diagnoseSpread(const campaign::Campaign& spread, std::size_t postures,
   return diagnosis;
 }
 
-bool isLong(const campaign::Campaign& campaign) { return campaign.pose_ids.size() > preparation::kMostDiagnosed || preparation::hasLongSweep(campaign); }
+bool isLong(const campaign::Campaign& campaign) {
+  return campaign.pose_ids.size() > preparation::kMostDiagnosed || preparation::hasLongSweep(campaign);
+}
 
 }  // namespace
 
 Diagnosis diagnose(const campaign::Campaign& campaign, const DiagnoseOptions& options) {
   requireLoads(campaign);
   if (!isLong(campaign)) return Diagnoser(campaign, options).run();
-  return diagnoseSpread(preparation::evenlySpread(campaign, preparation::kMostDiagnosed), campaign.pose_ids.size(), preparation::hasLongSweep(campaign), options);
+  return diagnoseSpread(preparation::evenlySpread(campaign, preparation::kMostDiagnosed), campaign.pose_ids.size(),
+                        preparation::hasLongSweep(campaign), options);
 }
 
 Diagnosis diagnose(campaign::Campaign&& campaign, const DiagnoseOptions& options) {

@@ -19,12 +19,12 @@ struct Shrink {
 /// Effects that this data cannot tell apart, as one candidate.
 struct EffectClass {
   std::vector<effects::Effect> effects;
-  std::string detail;      ///< the pair, the reflector, the joint that it names; empty where nothing is named
+  std::string detail;  ///< the pair, the reflector, the joint that it names; empty where nothing is named
   /// Fall of BIC against the model without it; larger is better. Of the geometry, which no deflection is fitted by: the
   /// square of its rms over the tolerance, times the loading's equations.
   double score = 0.0;
-  Shrink shrink;           ///< of the deflection's rms
-  double explained = 0.0;  ///< the same in variance, less noise
+  Shrink shrink;               ///< of the deflection's rms
+  double explained = 0.0;      ///< the same in variance, less noise
   Shrink shrink_of_positions;  ///< of unloaded absolute positions' misfit; all zero where they are not held
                                ///< against the arm
   bool in_verdict = false;
@@ -65,8 +65,8 @@ struct WhereTable {
 
 /// What is left of one reflector's displacement in the load state of its posture that leaves the most, R0, m.
 struct PointGap {
-  int pose = 0;    ///< index into Campaign::pose_ids
-  int target = 0;  ///< index into Campaign::targets
+  int pose = 0;                                     ///< index into Campaign::pose_ids
+  int target = 0;                                   ///< index into Campaign::targets
   Eigen::Vector3d point = Eigen::Vector3d::Zero();  ///< where it stands
   Eigen::Vector3d before = Eigen::Vector3d::Zero(), after = Eigen::Vector3d::Zero();
 };
@@ -105,14 +105,14 @@ struct Diagnosis {
   bool usable = false;
   std::string unusable_reason;
   Verdict verdict;
-  std::vector<EffectClass> classes;          ///< the verdict's first, then the others; best first
+  std::vector<EffectClass> classes;                   ///< the verdict's first, then the others; best first
   std::vector<std::vector<effects::Effect>> aliases;  ///< by the postures and loads alone, before any residual
   std::vector<DetectableSize> detectable;
   std::vector<NotTestable> not_testable;
   Gap gap, positions;  ///< of the deflection; of unloaded absolute positions (deflection 0)
   bool positions_tested = false;
   std::vector<WhereTable> where, where_positions;  ///< of what stiffnesses alone leave
-  std::vector<WhereTable> where_after;  ///< of the deflection, with the verdict's effects in the model
+  std::vector<WhereTable> where_after;             ///< of the deflection, with the verdict's effects in the model
   /// By stiffnesses alone (where the station's motion was taken off: of the readings as they were), and with the
   /// verdict's effects.
   std::vector<PointGap> at_points;
@@ -123,14 +123,13 @@ struct Diagnosis {
   double state_noise = 0.0;  ///< rms noise of one state's displacement, per coordinate, m
   std::string noise_source;
   double noise_factor_along = 1.0, noise_factor_across = 1.0;  ///< found against declared
-  double significance_limit =
-      0.0;                   ///< least fall of BIC that counts: 20, or more where chance reaches more in 1 %
-  double size_limit = 0.0;   ///< below it an effect is too small to matter, m
-  double lack_of_fit = 0.0;  ///< chi2 per equation of the loading without any effect
-  double left_over = 0.0;    ///< the same with the verdict's effects
-  double model_error = 0.0;  ///< rms per coordinate that no effect explains, at the largest load, m; 0: none
+  double significance_limit = 0.0;  ///< least fall of BIC that counts: 20, or more where chance reaches more in 1 %
+  double size_limit = 0.0;          ///< below it an effect is too small to matter, m
+  double lack_of_fit = 0.0;         ///< chi2 per equation of the loading without any effect
+  double left_over = 0.0;           ///< the same with the verdict's effects
+  double model_error = 0.0;         ///< rms per coordinate that no effect explains, at the largest load, m; 0: none
   double geometric_stiffness_share = 0.0;
-  Shrink shrink_together;  ///< by all that the verdict names
+  Shrink shrink_together;                                                            ///< by all that the verdict names
   Vector6d stiffness_before = Vector6d::Zero(), stiffness_after = Vector6d::Zero();  ///< Nm/rad
   Vector6d stiffness_after_sd = Vector6d::Zero();
   std::array<bool, 6> identifiable{};

@@ -1,9 +1,9 @@
 #include "core/diagnosis/diagnosis_input.h"
 
+#include <fmt/format.h>
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 #include <limits>
 
 #include "core/frames/geometry_calibration.h"
@@ -15,7 +15,7 @@
 
 namespace stiffscope::diagnosis {
 
-void boundDriftByNests(GapStart& start, GapInput& input) {
+void boundDriftByNests(DiagnosisInput& start, SystemInput& input) {
   if (start.station.course != preparation::StationCourse::still) return;
   if (!input.absolute || start.station.rate_weight.isZero()) return;
   Matrix6d turn = Matrix6d::Zero();
@@ -23,8 +23,7 @@ void boundDriftByNests(GapStart& start, GapInput& input) {
   const double span = start.state.at.time_span;
   input.drift = -span * (turn * start.station.rate);
   input.drift_weight = turn * start.station.rate_weight * turn.transpose() / (span * span);
-  start.state.at.sweep_time =
-      0.5 * (start.station.motion.epochs.front().time_s + start.state.at.first_time);
+  start.state.at.sweep_time = 0.5 * (start.station.motion.epochs.front().time_s + start.state.at.first_time);
 }
 
 namespace {
@@ -35,8 +34,7 @@ Vector6d startCompliance(const campaign::Campaign& campaign, identification::Loa
 }
 
 bool sameFrame(const campaign::Campaign& campaign) {
-  return campaign.circle_sweeps && campaign.loading &&
-         campaign.circle_sweeps->frame == campaign.loading->frame &&
+  return campaign.circle_sweeps && campaign.loading && campaign.circle_sweeps->frame == campaign.loading->frame &&
          (!campaign.wrist_sweep || campaign.wrist_sweep->frame == campaign.loading->frame);
 }
 
@@ -93,25 +91,26 @@ NoiseFloor noiseFloor(const campaign::Campaign& campaign) {
   floor.noise.angle_fixed *= floor.across_factor;
   floor.noise.angle_per_m *= floor.across_factor;
   floor.degrees = scatter.along_dof + scatter.across_dof;
-  floor.source = fmt::format(
-      "repeats ({} degrees of freedom), {:.2f} of the declared noise along the beam, {:.2f} across",
-      scatter.along_dof + scatter.across_dof, floor.along_factor, floor.across_factor);
+  floor.source =
+      fmt::format("repeats ({} degrees of freedom), {:.2f} of the declared noise along the beam, {:.2f} across",
+                  scatter.along_dof + scatter.across_dof, floor.along_factor, floor.across_factor);
   return floor;
 }
 
-GapStart gapStart(const campaign::Campaign& campaign, bool take_off_station) {
-  GapStart start;
+DiagnosisInput diagnosisInput(const campaign::Campaign& campaign, bool take_off_station) {
+  DiagnosisInput start;
   start.campaign = preparation::screenReadings(campaign).campaign;
   std::optional<metrology::TrackerNoise> declared;
   if (campaign.tracker) declared = frames::trackerNoise(*campaign.tracker);
   start.station = preparation::stationCourse(start.campaign, declared);
-  const bool moved =
-      start.station.course == preparation::StationCourse::jumped || start.station.course == preparation::StationCourse::drifted;
-  if (start.station.course == preparation::StationCourse::drifted) spreadSweepTimes(start.station.motion, start.campaign);
-  if (moved && take_off_station) preparation::takeOffDrift(start.station.motion, start.campaign);
+  const bool moved = start.station.course == preparation::StationCourse::jumped ||
+                     start.station.course == preparation::StationCourse::drifted;
+  if (start.station.course == preparation::StationCourse::drifted)
+    spreadSweepTimes(start.station.motion, start.campaign);
+  if (moved && take_off_station) preparation::applyDriftCorrection(start.station.motion, start.campaign);
   start.campaign.nests.reset();  // they have said what they know
   start.noise = noiseFloor(start.campaign);
-  const identification::SettledDay day = identification::settleDay(start.campaign);
+  const identification::SolvedDay day = identification::solveDay(start.campaign);
   start.geometry = day.arm.geometry;
   start.absolute = start.campaign.loading && start.geometry.r0_from_loading.has_value();
   // A sag that is not known would be taken for geometry, frames and springs.
@@ -126,11 +125,11 @@ GapStart gapStart(const campaign::Campaign& campaign, bool take_off_station) {
       return start;
     }
     start.geometry = calibration.geometry;
-    arm = identification::loadedArm(start.campaign, start.geometry, day.frames.wrist, {*identification::heaviestStep(start.campaign)});
+    arm = identification::loadedArm(start.campaign, start.geometry, day.frames.wrist,
+                                    {*identification::heaviestStep(start.campaign)});
   }
   if (arm.cases.empty()) {
-    start.reason =
-        "no posture has readings unloaded and under load that can be brought into the robot's frame";
+    start.reason = "no posture has readings unloaded and under load that can be brought into the robot's frame";
     return start;
   }
   const Vector6d compliance = startCompliance(start.campaign, arm);
@@ -138,16 +137,18 @@ GapStart gapStart(const campaign::Campaign& campaign, bool take_off_station) {
   if (start.geometry.weight.links_known) start.geometry.compliance = compliance;
   start.state = startState(start.campaign, start.geometry, arm.cases);
   start.state.at.compliance = compliance;
-  if (!start.noise.known)
-    start.reason = start.noise.source + ": effects cannot be told from noise; state `tracker`";
+  if (!start.noise.known) start.reason = start.noise.source + ": effects cannot be told from noise; state `tracker`";
   return start;
 }
 
-Eigen::Vector3d loadOffset(const robot::Robot& arm, const std::vector<identification::LoadCase>& cases, double moment_sigma) {
+Eigen::Vector3d loadOffset(const robot::Robot& arm, const std::vector<identification::LoadCase>& cases,
+                           double moment_sigma) {
   std::vector<identification::ToolLoad> loads;
   for (const identification::LoadCase& one : cases) {
     const Eigen::Matrix3d flange_from_base =
-        one.flange_unloaded.value_or(robot::flangeAt(arm, identification::unloadedPosture(arm, one))).linear().transpose();
+        one.flange_unloaded.value_or(robot::flangeAt(arm, identification::unloadedPosture(arm, one)))
+            .linear()
+            .transpose();
     loads.push_back({flange_from_base * one.wrench.force, flange_from_base * one.wrench.moment});
   }
   const identification::LoadPointFit fit(loads);
@@ -162,9 +163,10 @@ namespace {
 Vector6d largestTorque(const frames::LoadingGeometry& geometry, const std::vector<identification::LoadCase>& cases) {
   Vector6d largest = Vector6d::Zero();
   for (const identification::LoadCase& one : cases) {
-    const Vector6d weight = geometry.weight.links_known
-                                ? robot::weightTorque(geometry.arm, identification::unloadedPosture(geometry.arm, one), geometry.weight)
-                                : Vector6d(Vector6d::Zero());
+    const Vector6d weight =
+        geometry.weight.links_known
+            ? robot::weightTorque(geometry.arm, identification::unloadedPosture(geometry.arm, one), geometry.weight)
+            : Vector6d(Vector6d::Zero());
     const Vector6d load = robot::jointTorque(one.axes, one.wrench);
     largest = largest.cwiseMax(weight.cwiseAbs()).cwiseMax((weight + load).cwiseAbs());
   }
@@ -173,9 +175,9 @@ Vector6d largestTorque(const frames::LoadingGeometry& geometry, const std::vecto
 
 }  // namespace
 
-GapState startState(const campaign::Campaign& campaign, const frames::LoadingGeometry& geometry,
-                    const std::vector<identification::LoadCase>& cases) {
-  GapState state;
+SystemState startState(const campaign::Campaign& campaign, const frames::LoadingGeometry& geometry,
+                       const std::vector<identification::LoadCase>& cases) {
+  SystemState state;
   state.geometry = geometry;
   state.at.compliance = geometry.compliance.cwiseMax(0.0);
   state.at.targets = static_cast<int>(campaign.targets.size());
@@ -193,8 +195,7 @@ GapState startState(const campaign::Campaign& campaign, const frames::LoadingGeo
   if (geometry.r0_from_loading && campaign.loading && !campaign.loading->rows.empty()) {
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
     for (const campaign::LoadingReading& row : campaign.loading->rows) sum += row.point;
-    state.at.epoch_centre =
-        *geometry.r0_from_loading * (sum / static_cast<double>(campaign.loading->rows.size()));
+    state.at.epoch_centre = *geometry.r0_from_loading * (sum / static_cast<double>(campaign.loading->rows.size()));
   }
   return state;
 }

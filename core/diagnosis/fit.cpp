@@ -1,9 +1,9 @@
 #include "core/diagnosis/fit.h"
 
+#include <ceres/ceres.h>
 #include <Eigen/Dense>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
-#include <ceres/ceres.h>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -20,14 +20,15 @@ namespace stiffscope::diagnosis {
 /// linearisation starts from: the arm's compliances and geometry, the wrench, the frame, the unloaded place,
 /// the shapes of effects that bend with their own size. Returns those effects that the equations made there
 /// then contain.
-ContainedEffects correct(const GapInput& input, const GapLayout& layout, const FittedSet& set,
-                         const Eigen::VectorXd& nuisances, GapState& state);
+ContainedEffects correct(const SystemInput& input, const GapLayout& layout, const FittedSet& set,
+                         const Eigen::VectorXd& nuisances, SystemState& state);
 
-/// Whether the effect, once estimated, is part of what the equations are made with: of the unloaded arm's places at least.
+/// Whether the effect, once estimated, is part of what the equations are made with: of the unloaded arm's places at
+/// least.
 bool becomesPart(const effects::EffectModel& model);
 
-/// Whether its parameters multiply other unknowns: a wrong wrench or a compensator's torque the compliances, a frame the
-/// geometry.
+/// Whether its parameters multiply other unknowns: a wrong wrench or a compensator's torque the compliances, a frame
+/// the geometry.
 bool isBilinear(const effects::EffectModel& model);
 
 /// What the set leaves of the deflection at the largest load beyond noise, rms per coordinate, m, where that
@@ -39,22 +40,19 @@ double modelError(const GapFit& fit, const FitRules& rules);
 namespace {
 
 /// Parameters of one model in a vector of all effects' parameters.
-Eigen::VectorXd ownOf(const GapInput& input, const GapLayout& layout, const Eigen::VectorXd& effects,
+Eigen::VectorXd ownOf(const SystemInput& input, const GapLayout& layout, const Eigen::VectorXd& effects,
                       std::size_t m) {
-  return effects.segment(layout.model_at[m] - layout.effects,
-                         static_cast<Eigen::Index>(input.models[m].parameters()));
+  return effects.segment(layout.model_at[m] - layout.effects, static_cast<Eigen::Index>(input.models[m].parameters()));
 }
 
 }  // namespace
 
-bool becomesPart(const effects::EffectModel& model) {
-  return model.movesArm() || isBilinear(model);
-}
+bool becomesPart(const effects::EffectModel& model) { return model.movesArm() || isBilinear(model); }
 
 bool isBilinear(const effects::EffectModel& model) { return model.correct != nullptr; }
 
-ContainedEffects correct(const GapInput& input, const GapLayout& layout, const FittedSet& set,
-                         const Eigen::VectorXd& nuisances, GapState& state) {
+ContainedEffects correct(const SystemInput& input, const GapLayout& layout, const FittedSet& set,
+                         const Eigen::VectorXd& nuisances, SystemState& state) {
   const Vector6d before = state.at.compliance;
   state.at.compliance = nuisances.head<6>().cwiseMax(0.0);
   state.geometry.compliance = state.geometry.weight.links_known ? state.at.compliance : Vector6d::Zero();
@@ -62,13 +60,13 @@ ContainedEffects correct(const GapInput& input, const GapLayout& layout, const F
   if (input.absolute) {
     const frames::LoadingGeometry there = frames::moved(state.geometry, steps, state.at.epoch_centre);
     state.r0_from_sweeps =
-        metrology::motionAbout(state.at.epoch_centre, steps.segment<6>(frames::GeometrySteps::kAxes)) * state.r0_from_sweeps;
+        metrology::motionAbout(state.at.epoch_centre, steps.segment<6>(frames::GeometrySteps::kAxes)) *
+        state.r0_from_sweeps;
     state.geometry = there;
   }
   state.corrections = {};
   state.at.compensator.resize(0);
-  ContainedEffects contained{Eigen::VectorXd::Zero(set.effects.size()),
-                             Eigen::VectorXd::Zero(set.effects.size())};
+  ContainedEffects contained{Eigen::VectorXd::Zero(set.effects.size()), Eigen::VectorXd::Zero(set.effects.size())};
   state.at.present.clear();
   state.at.harder_by_square.setZero();
   state.at.harder_by_size.setZero();
@@ -89,9 +87,9 @@ namespace {
 
 constexpr int kAlone = 2;  // rounds for the largest effect by itself
 
-std::vector<double> ones(const GapData& data) { return std::vector<double>(data.postures.size(), 1.0); }
+std::vector<double> ones(const LinearSystem& data) { return std::vector<double>(data.postures.size(), 1.0); }
 
-SelectionRules rulesFor(const GapData& data, const FitRules& rules) {
+SelectionRules rulesFor(const LinearSystem& data, const FitRules& rules) {
   SelectionRules out;
   out.loading_rows = static_cast<double>(data.loading_rows);
   out.other_rows = static_cast<double>(data.sweep_rows);
@@ -102,16 +100,15 @@ SelectionRules rulesFor(const GapData& data, const FitRules& rules) {
     count += static_cast<double>(rows);
   }
   const double deflection = count > 0.0 ? std::sqrt(squares / count) : 0.0;
-  const double limit =
-      std::max(rules.noise_share,
-               data.state_noise > 0.0 ? rules.deflection_share * deflection / data.state_noise : 0.0);
+  const double limit = std::max(rules.noise_share,
+                                data.state_noise > 0.0 ? rules.deflection_share * deflection / data.state_noise : 0.0);
   out.least_drop = limit * limit * out.loading_rows;
   return out;
 }
 
 }  // namespace
 
-Vector6d complianceVariance(const GapFit& fit, const GapInput& input) {
+Vector6d complianceVariance(const GapFit& fit, const SystemInput& input) {
   const GapLayout& layout = fit.data.layout;
   const Eigen::MatrixXd normal = sumOf(fit.data, ones(fit.data));
   std::vector<Eigen::Index> kept;
@@ -134,14 +131,12 @@ Vector6d complianceVariance(const GapFit& fit, const GapInput& input) {
   return variance;
 }
 
-Selector selectorOf(const GapInput& input, const GapFit& fit, const Projection& projection, double postures,
+Selector selectorOf(const SystemInput& input, const GapFit& fit, const Projection& projection, double postures,
                     const std::vector<bool>& allowed) {
   return Selector(input.models, fit.data.layout, projection, postures, fit.rules, allowed);
 }
 
-double leftPerEquation(const GapFit& fit) {
-  return (fit.set.chi2 - fit.rules.other_rows) / fit.rules.loading_rows;
-}
+double leftPerEquation(const GapFit& fit) { return (fit.set.chi2 - fit.rules.other_rows) / fit.rules.loading_rows; }
 
 namespace {
 
@@ -154,7 +149,7 @@ ModelsAndParts namesOf(const FittedSet& set) {
 }
 
 /// One linearisation where `fit.state` stands, and the selection on it.
-void fitOnce(const GapInput& input, const std::vector<bool>& allowed, const FitRules& rules, GapFit& fit) {
+void fitOnce(const SystemInput& input, const std::vector<bool>& allowed, const FitRules& rules, GapFit& fit) {
   fit.rules = rulesFor(fit.data, rules);
   fit.rules.given = rules.given;
   // A large effect bends what the others are judged by: it is settled before a second one is looked for.
@@ -168,12 +163,12 @@ void fitOnce(const GapInput& input, const std::vector<bool>& allowed, const FitR
 }
 
 /// The equations where the fit stands, the ones it had let go first.
-void remake(const GapInput& input, const ContainedEffects& contained, GapFit& fit) {
+void remake(const SystemInput& input, const ContainedEffects& contained, GapFit& fit) {
   fit.data = {};
-  fit.data = gapData(input, fit.state, contained);
+  fit.data = linearSystem(input, fit.state, contained);
 }
 
-GapFit settle(const GapInput& input, const GapState& start, const std::vector<bool>& allowed,
+GapFit settle(const SystemInput& input, const SystemState& start, const std::vector<bool>& allowed,
               const FitRules& rules) {
   GapFit fit, best;  // the best without its equations, of which a long day has many: they can be made again
   fit.state = start;
@@ -184,9 +179,10 @@ GapFit settle(const GapInput& input, const GapState& start, const std::vector<bo
   for (fit.rounds = 1; fit.rounds <= kMostRounds; ++fit.rounds) {
     remake(input, contained, fit);
     if (fit.rounds > kAlone) {
-      const GapState before = fit.state;
-      findSlack(input, fit.data, fit.state);
-      if (fit.state.position_slack != before.position_slack || fit.state.sweep_slack != before.sweep_slack)
+      const SystemState before = fit.state;
+      estimateInflation(input, fit.data, fit.state);
+      if (fit.state.position_inflation != before.position_inflation ||
+          fit.state.sweep_inflation != before.sweep_inflation)
         remake(input, contained, fit);
     }
     fitOnce(input, allowed, rules, fit);
@@ -197,7 +193,7 @@ GapFit settle(const GapInput& input, const GapState& start, const std::vector<bo
     last = now;
     last_chi2 = fit.set.chi2;
     if (best.rounds == 0 || fit.set.score() < best.set.score()) {
-      GapData data = std::move(fit.data);
+      LinearSystem data = std::move(fit.data);
       best = fit;
       best_contained = contained;
       fit.data = std::move(data);
@@ -212,7 +208,7 @@ GapFit settle(const GapInput& input, const GapState& start, const std::vector<bo
 
 /// The chosen set at the minimum of the nonlinear problem, where that is lower than what relinearising came
 /// to.
-void polish(const GapInput& input, const std::vector<bool>& allowed, const FitRules& rules, GapFit& fit) {
+void polish(const SystemInput& input, const std::vector<bool>& allowed, const FitRules& rules, GapFit& fit) {
   const auto fitted = fitJointly(input, fit.state, fit.data.layout, fit.set, fit.nuisances);
   if (!fitted) return;
   FitRules same = rules;
@@ -229,36 +225,35 @@ void polish(const GapInput& input, const std::vector<bool>& allowed, const FitRu
 
 }  // namespace
 
-GapFit withoutEffects(const GapInput& input, const GapState& start, const GapFit& fit) {
-  GapInput bare = input;
+GapFit withoutEffects(const SystemInput& input, const SystemState& start, const GapFit& fit) {
+  SystemInput bare = input;
   bare.models.clear();
   GapFit alone;
   alone.rules = fit.rules;
   alone.state = start;
-  alone.state.position_slack = fit.state.position_slack;
-  alone.state.sweep_slack = fit.state.sweep_slack;
+  alone.state.position_inflation = fit.state.position_inflation;
+  alone.state.sweep_inflation = fit.state.sweep_inflation;
   alone.state.model_error = fit.state.model_error;
-  alone.data = gapData(bare, alone.state, {});
+  alone.data = linearSystem(bare, alone.state, {});
   alone.projection = project(sumOf(alone.data, ones(alone.data)), alone.data.layout.effects);
   alone.nuisances = alone.nuisances_before = alone.projection.by_nothing;
   return alone;
 }
 
-GapFit fitGap(const GapInput& input, const GapState& start, const std::vector<bool>& allowed,
+GapFit fitGap(const SystemInput& input, const SystemState& start, const std::vector<bool>& allowed,
               const FitRules& rules) {
   GapFit fit = settle(input, start, allowed, rules);
   if (!rules.error_of_model) {
     polish(input, allowed, rules, fit);
     return fit;
   }
-  GapState with_error = start;
+  SystemState with_error = start;
   constexpr int kRounds = 3;
   for (int round = 0; round < kRounds; ++round) {
     fit.model_error = modelError(fit, rules);
     // What no effect explains is noise to every effect from here on, and stays the same however often it is
     // measured.
-    if (std::abs(fit.model_error - with_error.model_error) < 0.02 * fit.model_error || fit.model_error == 0.0)
-      break;
+    if (std::abs(fit.model_error - with_error.model_error) < 0.02 * fit.model_error || fit.model_error == 0.0) break;
     with_error.model_error = fit.model_error;
     fit = {};
     fit = settle(input, with_error, allowed, rules);
@@ -279,7 +274,7 @@ struct Unknowns {
   std::vector<bool> positive;
 };
 
-Unknowns unknownsOf(const GapInput& input, const GapLayout& layout, const FittedSet& set) {
+Unknowns unknownsOf(const SystemInput& input, const GapLayout& layout, const FittedSet& set) {
   Unknowns unknowns;
   const auto add = [&](Index at, double prior, bool positive) {
     unknowns.at.push_back(at);
@@ -313,7 +308,7 @@ Eigen::MatrixXd rootOf(const Eigen::MatrixXd& normal) {
 
 class GapCost : public ceres::CostFunction {
  public:
-  GapCost(const GapInput& input, const GapState& from, const GapLayout& layout, const FittedSet& set)
+  GapCost(const SystemInput& input, const SystemState& from, const GapLayout& layout, const FittedSet& set)
       : input_(input), from_(from), layout_(layout), set_(set), unknowns_(unknownsOf(input, layout, set)) {
     mutable_parameter_block_sizes()->push_back(static_cast<int>(unknowns_.at.size()));
     set_num_residuals(static_cast<int>(unknowns_.at.size()) + 1);
@@ -361,7 +356,7 @@ class GapCost : public ceres::CostFunction {
   bool makeAt(const double* x) const {
     Eigen::VectorXd there;
     const JointlyFitted moved = moveTo(x, there);
-    const GapData data = gapData(input_, moved.state, moved.contained);
+    const LinearSystem data = linearSystem(input_, moved.state, moved.contained);
     std::vector<Index> kept = unknowns_.at;
     kept.push_back(layout_.end);
     Eigen::MatrixXd normal = sumOf(data, std::vector<double>(data.postures.size(), 1.0))(kept, kept);
@@ -373,8 +368,8 @@ class GapCost : public ceres::CostFunction {
     return true;
   }
 
-  const GapInput& input_;
-  const GapState& from_;
+  const SystemInput& input_;
+  const SystemState& from_;
   const GapLayout& layout_;
   const FittedSet& set_;
   Unknowns unknowns_;
@@ -384,7 +379,7 @@ class GapCost : public ceres::CostFunction {
 
 }  // namespace
 
-std::optional<JointlyFitted> fitJointly(const GapInput& input, const GapState& from, const GapLayout& layout,
+std::optional<JointlyFitted> fitJointly(const SystemInput& input, const SystemState& from, const GapLayout& layout,
                                         const FittedSet& set, const Eigen::VectorXd& nuisances) {
   bool bilinear = false;
   for (const ChosenModel& one : set.models) {
@@ -430,8 +425,7 @@ double leftAtLargestLoad(const GapFit& fit) {
     if (s == 0) continue;
     const Eigen::Index per_state = posture.states.front().rows();
     const Eigen::Index at = posture.position_rows + static_cast<Eigen::Index>(s - 1) * per_state;
-    squares +=
-        left.segment(at, per_state).squaredNorm() - posture.noiseSquares(at, per_state);
+    squares += left.segment(at, per_state).squaredNorm() - posture.noiseSquares(at, per_state);
     count += static_cast<double>(per_state);
   }
   return count > 0.0 ? std::sqrt(std::max(0.0, squares / count)) : 0.0;

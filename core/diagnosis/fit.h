@@ -8,8 +8,8 @@ namespace stiffscope::diagnosis {
 
 /// The gap with its effects, linearised where the best set of them stands.
 struct GapFit {
-  GapState state;
-  GapData data;
+  SystemState state;
+  LinearSystem data;
   Projection projection;
   SelectionRules rules;
   FittedSet set;
@@ -21,12 +21,11 @@ struct GapFit {
 };
 
 struct FitRules {
-  double noise_share =
-      0.5;  ///< of the noise of one state's displacement: an effect below it is too small to matter
-  double deflection_share = 0.002;  ///< of the deflection: the same; the larger of the two is the limit
-  double noise_degrees = 0.0;       ///< of freedom of the noise's own estimate; 0: taken as declared
+  double noise_share = 0.5;  ///< of the noise of one state's displacement: an effect below it is too small to matter
+  double deflection_share = 0.002;      ///< of the deflection: the same; the larger of the two is the limit
+  double noise_degrees = 0.0;           ///< of freedom of the noise's own estimate; 0: taken as declared
   std::vector<std::size_t> given = {};  ///< models that other evidence puts in
-  bool error_of_model = true;       ///< take what no effect explains as an error of the model, see fitGap
+  bool error_of_model = true;           ///< take what no effect explains as an error of the model, see fitGap
   /// Where it is there nothing is chosen: these models with these parts are fitted, whatever they bring.
   std::optional<std::vector<ChosenModel>> fixed = std::nullopt;
 };
@@ -37,36 +36,36 @@ struct FitRules {
 /// Where a gap stays that no effect explains, it is taken as an error of the model that grows with the load,
 /// one a posture and reflector, and everything is fitted and selected again with that error in the
 /// covariance: an effect must then stand out of it, posture by posture.
-GapFit fitGap(const GapInput& input, const GapState& start, const std::vector<bool>& allowed,
+GapFit fitGap(const SystemInput& input, const SystemState& start, const std::vector<bool>& allowed,
               const FitRules& rules);
 
 /// The gap that joint stiffnesses alone leave: wrenches and places as declared in `start`, no effect in the
 /// equations; where `fit` stands its bilinear effects have corrected both, so that a zero parameter there is
 /// not a machine without the effect. Weighted as `fit` is.
-GapFit withoutEffects(const GapInput& input, const GapState& start, const GapFit& fit);
+GapFit withoutEffects(const SystemInput& input, const SystemState& start, const GapFit& fit);
 
 /// chi2 of the loading per equation that the set leaves.
 double leftPerEquation(const GapFit& fit);
 
 /// Variances of the six compliances with the set in the model, by the noise alone.
-Vector6d complianceVariance(const GapFit& fit, const GapInput& input);
+Vector6d complianceVariance(const GapFit& fit, const SystemInput& input);
 
-Selector selectorOf(const GapInput& input, const GapFit& fit, const Projection& projection, double postures,
+Selector selectorOf(const SystemInput& input, const GapFit& fit, const Projection& projection, double postures,
                     const std::vector<bool>& allowed);
 
 /// Where equations of the gap are made, and what they contain there.
 struct JointlyFitted {
-  GapState state;
+  SystemState state;
   ContainedEffects contained;
 };
 
 /// Nonlinear least squares (Ceres, trust region) over the set's parameters and all nuisances together, for
 /// sets with an effect whose parameters multiply other unknowns (a wrong load point times a compliance).
 /// Minimises chi2(x) = |L^-1 (y(x) - A(x) x)|^2 plus the effects' priors, from `set` and `nuisances` as found
-/// where `from` stands. The equations A, y are made afresh at every trial x (gapData), so that a step counts
+/// where `from` stands. The equations A, y are made afresh at every trial x (linearSystem), so that a step counts
 /// only where it really lowers chi2; their columns are the Jacobian. Empty where no effect of the set is
 /// bilinear, where friction or play is in it, or where nothing better was found.
-std::optional<JointlyFitted> fitJointly(const GapInput& input, const GapState& from, const GapLayout& layout,
+std::optional<JointlyFitted> fitJointly(const SystemInput& input, const SystemState& from, const GapLayout& layout,
                                         const FittedSet& set, const Eigen::VectorXd& nuisances);
 
 }  // namespace stiffscope::diagnosis

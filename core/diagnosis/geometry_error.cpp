@@ -31,7 +31,7 @@ std::vector<Vector6d> posturesOf(const campaign::Campaign& campaign) {
 
 }  // namespace
 
-GeometryError geometryError(const GapInput& input, const GapState& state) {
+GeometryError geometryError(const SystemInput& input, const SystemState& state) {
   GeometryError error;
   error.limit = kGeometryTolerance;
   const std::vector<Vector6d> postures = posturesOf(input.campaign);
@@ -43,8 +43,7 @@ GeometryError geometryError(const GapInput& input, const GapState& state) {
   const auto& found_axes = state.geometry.arm.axes_in_base_at_zero;
   Eigen::Isometry3d base = Eigen::Isometry3d::Identity();
   std::vector<Eigen::Vector3d> targets;
-  for (const auto& target : state.geometry.targets_at_zero)
-    targets.push_back(target.value_or(Eigen::Vector3d::Zero()));
+  for (const auto& target : state.geometry.targets_at_zero) targets.push_back(target.value_or(Eigen::Vector3d::Zero()));
   const auto found = targets;
   const auto count = static_cast<Eigen::Index>(targets.size());
   const auto rows = 3 * count * static_cast<Eigen::Index>(postures.size());
@@ -65,8 +64,7 @@ GeometryError geometryError(const GapInput& input, const GapState& state) {
         const auto k = static_cast<std::size_t>(t);
         const Eigen::Vector3d place = model * targets[k];
         left.segment<3>(row) = truth * found[k] - place;
-        for (int axis = 0; axis < 3; ++axis)
-          columns.block<3, 1>(row, axis) = Eigen::Vector3d::Unit(axis).cross(place);
+        for (int axis = 0; axis < 3; ++axis) columns.block<3, 1>(row, axis) = Eigen::Vector3d::Unit(axis).cross(place);
         columns.block<3, 3>(row, 3).setIdentity();
         columns.block<3, 3>(row, 6 + 3 * t) = model.linear();
         if (spring) columns.col(6 + 3 * count).segment<3>(row) = axis_2.direction.cross(place - axis_2.point);
@@ -76,14 +74,12 @@ GeometryError geometryError(const GapInput& input, const GapState& state) {
     error.rms = (left - columns * step).norm() / std::sqrt(static_cast<double>(rows));
     base = metrology::motionAbout(Eigen::Vector3d::Zero(), step.head<6>()) * base;
     zero += step[6 + 3 * count];
-    for (Eigen::Index t = 0; t < count; ++t)
-      targets[static_cast<std::size_t>(t)] += step.segment<3>(6 + 3 * t);
+    for (Eigen::Index t = 0; t < count; ++t) targets[static_cast<std::size_t>(t)] += step.segment<3>(6 + 3 * t);
   }
   for (std::size_t j = 0; j < 6; ++j) {
     const metrology::Line& axis = nominal.axes_in_base_at_zero[j];
     const Eigen::Vector3d off = metrology::nearestPoint(found_axes[j], axis.point) - axis.point;
-    error.largest_shift =
-        std::max(error.largest_shift, (off - axis.direction * axis.direction.dot(off)).norm());
+    error.largest_shift = std::max(error.largest_shift, (off - axis.direction * axis.direction.dot(off)).norm());
     error.largest_tilt = std::max(error.largest_tilt, axis.direction.cross(found_axes[j].direction).norm());
   }
   error.tested = true;

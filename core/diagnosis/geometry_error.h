@@ -12,6 +12,6 @@ namespace stiffscope::diagnosis {
 inline constexpr double kGeometryTolerance = 0.4e-3;  ///< rms per coordinate, m
 
 /// Base and reflectors of the nominal arm are placed as well as can be before the two are compared.
-GeometryError geometryError(const GapInput& input, const GapState& state);
+GeometryError geometryError(const SystemInput& input, const SystemState& state);
 
 }  // namespace stiffscope::diagnosis

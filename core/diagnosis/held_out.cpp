@@ -18,7 +18,7 @@ struct Trained {
 };
 
 /// One training sample (weights of the postures): every recipe fitted.
-std::vector<Trained> train(const GapInput& input, const GapFit& alone, const GapFit& fit,
+std::vector<Trained> train(const SystemInput& input, const GapFit& alone, const GapFit& fit,
                            const std::vector<bool>& allowed, const std::vector<FitRecipe>& recipes,
                            const std::vector<double>& weights) {
   double postures = 0.0;
@@ -52,7 +52,8 @@ double quantileOf(std::vector<double> drawn, double share) {
 /// What the spread of a bootstrap over `postures` lacks: drawing with replacement shrinks the variance by
 /// (n - 1) / n, and a quantile of draws knows nothing of the variance's own error, which Student's t does.
 double fewPostures(double postures) {
-  return std::sqrt(postures / (postures - 1.0)) * identification::studentFactor(postures - 1.0, 0.95) / identification::studentFactor(1e6, 0.95);
+  return std::sqrt(postures / (postures - 1.0)) * identification::studentFactor(postures - 1.0, 0.95) /
+         identification::studentFactor(1e6, 0.95);
 }
 
 /// Spread of the bootstrap about its median, narrowed by the root of judged over all postures and widened for
@@ -94,10 +95,9 @@ HeldOutShrink shrinkOver(const std::vector<HeldOut>& postures, int resamples, st
     positions.push_back(shrinkOf(drawn.position_before, drawn.position_after));
   }
   HeldOutShrink result;
-  result.deflection = withInterval(shrinkOf(sum.deflection_before, sum.deflection_after), deflections, 1.0,
-                                   postures.size());
-  result.position = withInterval(shrinkOf(sum.position_before, sum.position_after), positions, 1.0,
-                                 postures.size());
+  result.deflection =
+      withInterval(shrinkOf(sum.deflection_before, sum.deflection_after), deflections, 1.0, postures.size());
+  result.position = withInterval(shrinkOf(sum.position_before, sum.position_after), positions, 1.0, postures.size());
   return result;
 }
 
@@ -106,10 +106,9 @@ double noiseSquares(const GapPosture& posture) {
   return posture.noiseSquares(posture.position_rows, rows);
 }
 
-std::vector<HeldOutShrink> heldOutShrinks(const GapInput& input, const GapFit& alone, const GapFit& fit,
-                                          const std::vector<bool>& allowed,
-                                          const std::vector<FitRecipe>& recipes, int resamples,
-                                          std::uint64_t seed) {
+std::vector<HeldOutShrink> heldOutShrinks(const SystemInput& input, const GapFit& alone, const GapFit& fit,
+                                          const std::vector<bool>& allowed, const std::vector<FitRecipe>& recipes,
+                                          int resamples, std::uint64_t seed) {
   const std::size_t postures = fit.data.postures.size();
   std::vector<HeldOutShrink> result(recipes.size());
   if (postures < 4) return result;
@@ -135,8 +134,7 @@ std::vector<HeldOutShrink> heldOutShrinks(const GapInput& input, const GapFit& a
     for (std::size_t p = 0; p < postures; ++p) {
       if (weights[p] != 0.0) continue;
       for (std::size_t r = 0; r < recipes.size(); ++r)
-        add(drawn[b][r],
-            leftIn(alone.data.postures[p], trained[r].before, fit.data.postures[p], trained[r].after));
+        add(drawn[b][r], leftIn(alone.data.postures[p], trained[r].before, fit.data.postures[p], trained[r].after));
     }
   });
   double noise = 0.0;
@@ -148,17 +146,15 @@ std::vector<HeldOutShrink> heldOutShrinks(const GapInput& input, const GapFit& a
     for (const auto& one : drawn) {
       if (one[r].deflection_before > 0.0)
         deflections.push_back(shrinkOf(one[r].deflection_before, one[r].deflection_after));
-      if (one[r].position_before > 0.0)
-        positions.push_back(shrinkOf(one[r].position_before, one[r].position_after));
+      if (one[r].position_before > 0.0) positions.push_back(shrinkOf(one[r].position_before, one[r].position_after));
     }
     result[r].deflection =
         withInterval(shrinkOf(sum.deflection_before, sum.deflection_after), deflections, judged_share, postures);
     result[r].position =
         withInterval(shrinkOf(sum.position_before, sum.position_after), positions, judged_share, postures);
     const double gap = sum.deflection_before - noise;
-    result[r].explained = gap > 0.05 * noise
-                              ? std::clamp((sum.deflection_before - sum.deflection_after) / gap, -1.0, 1.0)
-                              : 0.0;
+    result[r].explained =
+        gap > 0.05 * noise ? std::clamp((sum.deflection_before - sum.deflection_after) / gap, -1.0, 1.0) : 0.0;
   }
   return result;
 }

@@ -21,18 +21,16 @@ struct FitRecipe {
 
 struct HeldOutShrink {
   Shrink deflection, position;
-  double explained =
-      0.0;  ///< 1 - (after^2 - noise^2) / (before^2 - noise^2) of the deflection, in held-out postures
+  double explained = 0.0;  ///< 1 - (after^2 - noise^2) / (before^2 - noise^2) of the deflection, in held-out postures
 };
 
 /// Leave-one-posture-out for the values. The interval: bootstrap samples of postures, each fitted (and, where
 /// the recipe says so, selected) on the postures drawn and judged on those not drawn, so that no posture
 /// stands on both sides; their spread is brought from the number of postures judged to that of all of them.
 /// `alone`: withoutEffects.
-std::vector<HeldOutShrink> heldOutShrinks(const GapInput& input, const GapFit& alone, const GapFit& fit,
-                                          const std::vector<bool>& allowed,
-                                          const std::vector<FitRecipe>& recipes, int resamples,
-                                          std::uint64_t seed);
+std::vector<HeldOutShrink> heldOutShrinks(const SystemInput& input, const GapFit& alone, const GapFit& fit,
+                                          const std::vector<bool>& allowed, const std::vector<FitRecipe>& recipes,
+                                          int resamples, std::uint64_t seed);
 
 /// The same from squares a posture that are there already, judged on bootstrap samples of the postures.
 HeldOutShrink shrinkOver(const std::vector<HeldOut>& postures, int resamples, std::uint64_t seed);

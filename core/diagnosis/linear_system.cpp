@@ -21,34 +21,34 @@ namespace stiffscope::diagnosis {
 /// displacements of a posture share its unloaded readings, and a state's coordinates its wrench.
 struct GapCovariance {
   Eigen::MatrixXd by_measuring;  ///< readings, wrench, and a station between its rounds
-  Eigen::MatrixXd whole;         ///< with the slack of positions and the error of the model
+  Eigen::MatrixXd whole;         ///< with the inflation of positions and the error of the model
   double displacement_trace = 0.0,
          displacements = 0.0;  ///< readings' variances of displacements, and how many
 };
 
-GapCovariance gapCovariance(const GapInput& input, const GapState& state, const GapRows& rows,
+GapCovariance gapCovariance(const SystemInput& input, const SystemState& state, const SystemRows& rows,
                             Eigen::Index position_rows);
 
 /// Adds to the equations what is known before the gap is looked at: how far geometry steps and own weights
 /// may go in one round, the six compliances as expected, a drift as the nests have it.
-void addKnownBeforehand(const GapInput& input, GapData& data);
+void addPriors(const SystemInput& input, LinearSystem& data);
 
 /// Adds the equations of every posture of the loading to `data`: y = A c + geometry + own weights + effects +
 /// noise for the unloaded absolute positions (where they take part) and the displacements, each posture
 /// whitened by its own covariance. Fills `loading_rows` and `state_noise`.
-void addPostureEquations(const GapInput& input, const GapState& state, const ContainedEffects& effects_now,
-                         GapData& data);
+void addPostureEquations(const SystemInput& input, const SystemState& state, const ContainedEffects& effects_now,
+                         LinearSystem& data);
 
 /// Adds the equations of circle and wrist sweeps to `data.sweeps`: absolute positions of unloaded postures,
 /// y = sag + geometry + own weights + effects + noise, whitened reading by reading.
-void addSweepEquations(const GapInput& input, const GapState& state, const ContainedEffects& effects_now,
-                       GapData& data);
+void addSweepEquations(const SystemInput& input, const SystemState& state, const ContainedEffects& effects_now,
+                       LinearSystem& data);
 
 namespace {
 
 /// The station between two rounds of the nests, where it was interpolated: one rigid motion of all
 /// reflectors in a state, a Brownian bridge over time. Postures share it; that is left out.
-void addWander(const GapInput& input, const GapRows& posture, Eigen::Index at_rest,
+void addWander(const SystemInput& input, const SystemRows& posture, Eigen::Index at_rest,
                const Eigen::Isometry3d& r0_from_points, Eigen::MatrixXd& covariance) {
   if (input.wandering == nullptr || input.wandering->wander.isZero()) return;
   const preparation::StationMotion& station = input.wandering->motion;
@@ -73,8 +73,7 @@ void addWander(const GapInput& input, const GapRows& posture, Eigen::Index at_re
       if (r > 0) seconds -= bridge(s, 0);
       if (s > 0 && r > 0) seconds += bridge(0, 0);
       covariance.block(static_cast<Eigen::Index>(s - first) * per_state,
-                       static_cast<Eigen::Index>(r - first) * per_state, per_state, per_state) +=
-          seconds * a_second;
+                       static_cast<Eigen::Index>(r - first) * per_state, per_state, per_state) += seconds * a_second;
     }
   }
 }
@@ -82,10 +81,10 @@ void addWander(const GapInput& input, const GapRows& posture, Eigen::Index at_re
 /// What the model is not good for: more noise in absolute positions; in a deflection an error that grows
 /// with the load, one number a posture, reflector and direction, so that it counts once however many load
 /// steps show it.
-void addModelError(const GapState& state, const GapRows& rows, Eigen::Index at_rest,
+void addModelError(const SystemState& state, const SystemRows& rows, Eigen::Index at_rest,
                    Eigen::MatrixXd& covariance) {
   const Eigen::Index per_state = rows.states.front().rows();
-  covariance.topLeftCorner(at_rest, at_rest) *= state.position_slack;
+  covariance.topLeftCorner(at_rest, at_rest) *= state.position_inflation;
   const double variance = state.model_error * state.model_error;
   if (variance == 0.0) return;
   const auto share = [&](std::size_t s) { return rows.states[s].load.force.norm() / state.at.largest_force; };
@@ -102,7 +101,7 @@ void addModelError(const GapState& state, const GapRows& rows, Eigen::Index at_r
 
 }  // namespace
 
-GapCovariance gapCovariance(const GapInput& input, const GapState& state, const GapRows& rows,
+GapCovariance gapCovariance(const SystemInput& input, const SystemState& state, const SystemRows& rows,
                             Eigen::Index at_rest) {
   GapCovariance result;
   const Eigen::Index per_state = rows.states.front().rows();
@@ -110,8 +109,7 @@ GapCovariance gapCovariance(const GapInput& input, const GapState& state, const 
   const Eigen::Index size = at_rest + steps * per_state;
   Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(size, size);
   // Displacements alone are in the frame of their station.
-  const Eigen::Isometry3d r0_from_points =
-      state.geometry.r0_from_loading.value_or(state.at.r0_from_base_link);
+  const Eigen::Isometry3d r0_from_points = state.geometry.r0_from_loading.value_or(state.at.r0_from_base_link);
   for (std::size_t t = 0; t < rows.states.front().points.size(); ++t) {
     const Eigen::Index row = 3 * static_cast<Eigen::Index>(t);
     const Eigen::Matrix3d reading =
@@ -175,12 +173,12 @@ GapLayout gapLayout(const std::vector<effects::EffectModel>& models, std::size_t
   return layout;
 }
 
-GapData gapData(const GapInput& input, const GapState& state, const ContainedEffects& effects_now) {
-  GapData data;
+LinearSystem linearSystem(const SystemInput& input, const SystemState& state, const ContainedEffects& effects_now) {
+  LinearSystem data;
   data.layout = gapLayout(input.models, input.campaign.targets.size());
   data.sweeps.setZero(data.layout.end + 1, data.layout.end + 1);
   addPostureEquations(input, state, effects_now, data);
-  addKnownBeforehand(input, data);
+  addPriors(input, data);
   if (input.sweeps) addSweepEquations(input, state, effects_now, data);
   return data;
 }
@@ -198,22 +196,25 @@ std::vector<TimesOfPose> timesOf(const campaign::Campaign& campaign) {
   return times;
 }
 
-Eigen::Matrix3d cellAxes(const campaign::LoadCell& cell, const frames::LoadingGeometry& geometry, const identification::LoadCase& one) {
+Eigen::Matrix3d cellAxes(const campaign::LoadCell& cell, const frames::LoadingGeometry& geometry,
+                         const identification::LoadCase& one) {
   Eigen::Matrix3d axes;
   const robot::ArmPosture posture = identification::unloadedPosture(geometry.arm, one);
   for (int k = 0; k < 3; ++k) {
     const Vector6d unit = Vector6d::Unit(k);
-    axes.col(k) = identification::cellWrench(cell, geometry, posture, one.flange_unloaded, one.flange_loaded, unit).force;
+    axes.col(k) =
+        identification::cellWrench(cell, geometry, posture, one.flange_unloaded, one.flange_loaded, unit).force;
   }
   return axes;
 }
 
 /// The wrench as the corrections have it.
-robot::Wrench corrected(const robot::Wrench& read, const effects::ArmState& state, const effects::Corrections& by, const effects::WorkingPoint& at) {
+robot::Wrench corrected(const robot::Wrench& read, const effects::ArmState& state, const effects::Corrections& by,
+                        const effects::LinearizationPoint& at) {
   robot::Wrench wrench = read;
   const Eigen::Matrix3d turn =
       metrology::motionAbout(Eigen::Vector3d::Zero(),
-                  (Vector6d() << state.cell_axes * by.cell_turn, Eigen::Vector3d::Zero()).finished())
+                             (Vector6d() << state.cell_axes * by.cell_turn, Eigen::Vector3d::Zero()).finished())
           .linear();
   wrench.force = turn * read.force;
   wrench.moment = turn * read.moment;
@@ -228,21 +229,18 @@ robot::Wrench corrected(const robot::Wrench& read, const effects::ArmState& stat
 
 class LoadingRowMaker {
  public:
-  LoadingRowMaker(const campaign::Campaign& campaign, const frames::LoadingGeometry& geometry, const effects::WorkingPoint& at,
-                  const effects::Corrections& corrections)
-      : campaign_(campaign),
-        geometry_(geometry),
-        at_(at),
-        corrections_(corrections),
-        times_(timesOf(campaign)) {
+  LoadingRowMaker(const campaign::Campaign& campaign, const frames::LoadingGeometry& geometry,
+                  const effects::LinearizationPoint& at, const effects::Corrections& corrections)
+      : campaign_(campaign), geometry_(geometry), at_(at), corrections_(corrections), times_(timesOf(campaign)) {
     const identification::LoadReadings readings(campaign, identification::loadSteps(campaign));
     for (const int step : readings.steps()) {
-      for (identification::LoadCase& one : identification::loadCases(campaign, readings, geometry, step)) cases_[one.pose].push_back(std::move(one));
+      for (identification::LoadCase& one : identification::loadCases(campaign, readings, geometry, step))
+        cases_[one.pose].push_back(std::move(one));
     }
   }
 
-  std::vector<GapRows> run() const {
-    std::vector<GapRows> rows;
+  std::vector<SystemRows> run() const {
+    std::vector<SystemRows> rows;
     for (const auto& [pose, cases] : cases_) {
       const std::vector<int> targets = commonTargets(cases);
       double largest = 0.0;
@@ -271,15 +269,15 @@ class LoadingRowMaker {
                          [&](const identification::TargetMove& move) { return move.target == target; });
   }
 
-  GapRows rowsOf(int pose, const std::vector<identification::LoadCase>& cases, const std::vector<int>& targets,
-                 double largest) const {
+  SystemRows rowsOf(int pose, const std::vector<identification::LoadCase>& cases, const std::vector<int>& targets,
+                    double largest) const {
     const auto per_state = 3 * static_cast<Eigen::Index>(targets.size());
     const auto states = static_cast<Eigen::Index>(cases.size());
-    GapRows rows;
+    SystemRows rows;
     rows.pose = pose;
     rows.displacement.resize(per_state * states);
     rows.by_compliance.resize(per_state * states, 6);
-    effects::ArmState rest = effects::restState(geometry_, at_, cases.front().q);
+    effects::ArmState rest = effects::gravityEquilibrium(geometry_, at_, cases.front().q);
     rest.pose = pose;
     rest.targets = targets;
     rest.time_s = timeOf(pose, 0);
@@ -297,7 +295,7 @@ class LoadingRowMaker {
   }
 
   void addState(const identification::LoadCase& one, const effects::ArmState& rest, double largest, Eigen::Index at_row,
-                GapRows& rows) const {
+                SystemRows& rows) const {
     effects::ArmState state = rest;
     state.step = one.step;
     state.time_s = timeOf(one.pose, one.step);
@@ -308,12 +306,13 @@ class LoadingRowMaker {
     state.load_torque = robot::jointTorque(axes, state.load);
     // Springs' torque s = tau + K_c c s, and the Jacobian at the middle of the displacement (see
     // equations.h).
-    Matrix6d change = robot::geometricStiffness(axes, state.load) + robot::geometricStiffness(axes, rest.posture, geometry_.weight);
+    Matrix6d change =
+        robot::geometricStiffness(axes, state.load) + robot::geometricStiffness(axes, rest.posture, geometry_.weight);
     change(1, 1) += compensatorSlope(at_, rest.turned);
     const Matrix6d system = Matrix6d::Identity() - change * at_.compliance.asDiagonal();
     const Vector6d torque = system.partialPivLu().solve(state.load_torque);
-    const robot::ArmPosture middle = effects::movedPosture(
-        geometry_.arm, rest.turned + 0.5 * at_.compliance.cwiseProduct(torque), rest.moved);
+    const robot::ArmPosture middle =
+        effects::movedPosture(geometry_.arm, rest.turned + 0.5 * at_.compliance.cwiseProduct(torque), rest.moved);
     const robot::ArmAxes middle_axes = robot::axesAt(geometry_.arm, middle);
     Eigen::Matrix<double, Eigen::Dynamic, 6> by_wrench(rest.rows(), 6);
     Matrix6d wrench_to_torque = robot::jacobianAt(geometry_.arm, rest.posture, state.load.point).transpose();
@@ -330,7 +329,7 @@ class LoadingRowMaker {
     rows.states.push_back(std::move(state));
   }
 
-  void addPosition(const effects::ArmState& rest, GapRows& rows) const {
+  void addPosition(const effects::ArmState& rest, SystemRows& rows) const {
     rows.position.resize(rest.rows());
     for (std::size_t t = 0; t < rest.targets.size(); ++t) {
       const auto& at_zero = geometry_.targets_at_zero[static_cast<std::size_t>(rest.targets[t])];
@@ -338,8 +337,7 @@ class LoadingRowMaker {
         rows.position.resize(0);
         return;
       }
-      rows.position.segment<3>(3 * static_cast<Eigen::Index>(t)) =
-          rest.points[t] - rest.posture.motion[6] * *at_zero;
+      rows.position.segment<3>(3 * static_cast<Eigen::Index>(t)) = rest.points[t] - rest.posture.motion[6] * *at_zero;
     }
     rows.sag_by_compliance = effects::byEachJoint(rest, rest.weight_torque);
   }
@@ -352,7 +350,7 @@ class LoadingRowMaker {
 
   const campaign::Campaign& campaign_;
   const frames::LoadingGeometry& geometry_;
-  const effects::WorkingPoint& at_;
+  const effects::LinearizationPoint& at_;
   const effects::Corrections& corrections_;
   std::vector<TimesOfPose> times_;
   std::map<int, std::vector<identification::LoadCase>> cases_;
@@ -360,18 +358,17 @@ class LoadingRowMaker {
 
 }  // namespace
 
-double compensatorSlope(const effects::WorkingPoint& at, const Vector6d& turned) {
+double compensatorSlope(const effects::LinearizationPoint& at, const Vector6d& turned) {
   double slope = 0.0;
   for (Eigen::Index k = 0; k + 1 < at.compensator.size(); k += 2) {
     const double n = static_cast<double>(k / 2 + 1);
-    slope +=
-        n * (at.compensator[k] * std::cos(n * turned[1]) - at.compensator[k + 1] * std::sin(n * turned[1]));
+    slope += n * (at.compensator[k] * std::cos(n * turned[1]) - at.compensator[k + 1] * std::sin(n * turned[1]));
   }
   return slope;
 }
 
-std::vector<GapRows> loadingRows(const campaign::Campaign& campaign, const frames::LoadingGeometry& geometry,
-                                 const effects::WorkingPoint& at, const effects::Corrections& corrections) {
+std::vector<SystemRows> loadingRows(const campaign::Campaign& campaign, const frames::LoadingGeometry& geometry,
+                                    const effects::LinearizationPoint& at, const effects::Corrections& corrections) {
   frames::LoadingGeometry shifted = geometry;
   if (shifted.r0_from_loading) {
     shifted.r0_from_loading =
@@ -381,14 +378,13 @@ std::vector<GapRows> loadingRows(const campaign::Campaign& campaign, const frame
 }
 
 std::vector<SweepRows> sweepRows(const campaign::Campaign& campaign, const frames::LoadingGeometry& geometry,
-                                 const Eigen::Isometry3d& r0_from_points, const effects::WorkingPoint& at) {
+                                 const Eigen::Isometry3d& r0_from_points, const effects::LinearizationPoint& at) {
   std::map<std::pair<int, std::string>, SweepRows> by_index;
   const auto add = [&](int axis, const auto& reading) {
     const auto& at_zero = geometry.targets_at_zero[static_cast<std::size_t>(reading.target)];
     if (!at_zero) return;
     SweepRows& rows = by_index[{axis, reading.index}];
-    if (rows.state.points.empty())
-      rows.state = effects::restState(geometry, at, reading.q);
+    if (rows.state.points.empty()) rows.state = effects::gravityEquilibrium(geometry, at, reading.q);
     rows.state.time_s = reading.time_s;
     rows.state.targets.push_back(reading.target);
     rows.state.points.push_back(r0_from_points * reading.point);
@@ -418,7 +414,7 @@ constexpr double kSweptGeometry =
     1e-3;  // m and rad: where nothing absolute is fitted, as a calibrated or sagging arm has it
 constexpr double kWeightPrior = 0.1;  // of a body's weight: masses of a URDF are no better
 
-void addGeometryAndWeights(const GapInput& input, GapData& data) {
+void addGeometryAndWeights(const SystemInput& input, LinearSystem& data) {
   for (Eigen::Index k = 0; k < frames::GeometrySteps::count(input.campaign.targets.size()); ++k) {
     const Eigen::Index at = data.layout.geometry + k;
     const double prior = input.absolute ? kGeometryPrior : kSweptGeometry;
@@ -430,7 +426,7 @@ void addGeometryAndWeights(const GapInput& input, GapData& data) {
   }
 }
 
-void addCompliances(const GapInput& input, GapData& data) {
+void addCompliances(const SystemInput& input, LinearSystem& data) {
   const Eigen::Index end = data.layout.end;
   for (Eigen::Index j = 0; j < 6; ++j) {
     const double value = input.expected.value[j], sd = input.expected.sd[j];
@@ -443,7 +439,7 @@ void addCompliances(const GapInput& input, GapData& data) {
   }
 }
 
-void addNests(const GapInput& input, GapData& data) {
+void addNests(const SystemInput& input, LinearSystem& data) {
   if (input.drift_weight.isZero()) return;
   for (std::size_t m = 0; m < input.models.size(); ++m) {
     if (input.models[m].effect != effects::Effect::tracker_drift) continue;
@@ -459,7 +455,7 @@ void addNests(const GapInput& input, GapData& data) {
 
 }  // namespace
 
-void addKnownBeforehand(const GapInput& input, GapData& data) {
+void addPriors(const SystemInput& input, LinearSystem& data) {
   addGeometryAndWeights(input, data);
   addCompliances(input, data);
   addNests(input, data);
@@ -468,8 +464,8 @@ void addKnownBeforehand(const GapInput& input, GapData& data) {
 namespace {
 
 /// Columns and right side of one posture but for the geometry's steps, unwhitened.
-GapPosture unwhitened(const GapInput& input, const GapState& state, const ContainedEffects& now,
-                      const GapLayout& layout, const GapRows& rows) {
+GapPosture unwhitened(const SystemInput& input, const SystemState& state, const ContainedEffects& now,
+                      const GapLayout& layout, const SystemRows& rows) {
   GapPosture posture;
   posture.pose = rows.pose;
   posture.states = rows.states;
@@ -484,14 +480,14 @@ GapPosture unwhitened(const GapInput& input, const GapState& state, const Contai
     const Eigen::MatrixXd rest = input.models[m].columns(state.at, rows.states, 0);
     if (at_rest > 0) posture.columns.block(0, layout.model_at[m], at_rest, rest.cols()) = rest;
     for (std::size_t s = 1; s < rows.states.size(); ++s) {
-      posture.columns.block(at_rest + static_cast<Eigen::Index>(s - 1) * per_state, layout.model_at[m],
-                            per_state, rest.cols()) =
-          input.models[m].columns(state.at, rows.states, s) - rest;
+      posture.columns.block(at_rest + static_cast<Eigen::Index>(s - 1) * per_state, layout.model_at[m], per_state,
+                            rest.cols()) = input.models[m].columns(state.at, rows.states, s) - rest;
     }
   }
   if (at_rest > 0) {
     posture.columns.topLeftCorner(at_rest, 6) = rows.sag_by_compliance;
-    posture.columns.block(0, layout.weights, at_rest, effects::kBodies) = effects::sagByBody(state.at, rows.states.front());
+    posture.columns.block(0, layout.weights, at_rest, effects::kBodies) =
+        effects::gravityDeflectionByBody(state.at, rows.states.front());
     posture.right.head(at_rest) = rows.position + rows.sag_by_compliance * state.at.compliance;
   }
   // What the corrections took off comes back, so that the right side is that of the whole effect.
@@ -505,12 +501,12 @@ GapPosture unwhitened(const GapInput& input, const GapState& state, const Contai
 }
 
 /// Derivatives of measured less modelled by the geometry's steps: differences of the rows themselves.
-void addGeometry(const GapInput& input, const GapState& state, const std::vector<GapRows>& rows,
-                 GapData& data) {
+void addGeometry(const SystemInput& input, const SystemState& state, const std::vector<SystemRows>& rows,
+                 LinearSystem& data) {
   const Eigen::Index steps = frames::GeometrySteps::count(input.campaign.targets.size());
   for (Eigen::Index k = 0; k < steps; ++k) {
-    const frames::LoadingGeometry there =
-        frames::moved(state.geometry, frames::GeometrySteps::kSmall * Eigen::VectorXd::Unit(steps, k), state.at.epoch_centre);
+    const frames::LoadingGeometry there = frames::moved(
+        state.geometry, frames::GeometrySteps::kSmall * Eigen::VectorXd::Unit(steps, k), state.at.epoch_centre);
     const auto other = loadingRows(input.campaign, there, state.at, state.corrections);
     for (std::size_t i = 0; i < rows.size(); ++i) {
       GapPosture& posture = data.postures[i];
@@ -518,9 +514,9 @@ void addGeometry(const GapInput& input, const GapState& state, const std::vector
       if (posture.position_rows > 0)
         column.head(posture.position_rows) = (rows[i].position - other[i].position) / frames::GeometrySteps::kSmall;
       const Vector6d& c = state.at.compliance;
-      column.tail(rows[i].displacement.size()) = ((rows[i].displacement - rows[i].by_compliance * c) -
-                                                  (other[i].displacement - other[i].by_compliance * c)) /
-                                                 frames::GeometrySteps::kSmall;
+      column.tail(rows[i].displacement.size()) =
+          ((rows[i].displacement - rows[i].by_compliance * c) - (other[i].displacement - other[i].by_compliance * c)) /
+          frames::GeometrySteps::kSmall;
     }
   }
 }
@@ -540,7 +536,7 @@ Eigen::MatrixXd normalOf(const GapPosture& posture, const Eigen::LLT<Eigen::Matr
   return numerics::normalMatrix(both);
 }
 
-void whiten(const GapRows& rows, const GapCovariance& covariance, GapPosture& posture) {
+void whiten(const SystemRows& rows, const GapCovariance& covariance, GapPosture& posture) {
   const Eigen::Index per_state = rows.states.front().rows();
   const Eigen::Index size = posture.right.size(), at_rest = posture.position_rows;
   posture.noise.resize(size, per_state);
@@ -548,19 +544,17 @@ void whiten(const GapRows& rows, const GapCovariance& covariance, GapPosture& po
     posture.noise.middleRows(at, per_state) = covariance.by_measuring.block(at, at, per_state, per_state);
   }
   const Eigen::LLT<Eigen::MatrixXd> cholesky(covariance.whole);
-  posture.position_lower =
-      cholesky.matrixLLT().topLeftCorner(at_rest, at_rest).triangularView<Eigen::Lower>();
+  posture.position_lower = cholesky.matrixLLT().topLeftCorner(at_rest, at_rest).triangularView<Eigen::Lower>();
   posture.normal = numerics::LowerTriangle(normalOf(posture, cholesky));
   posture.stiffness_normal = stiffnessNormalOf(posture, covariance.whole);
 }
 
 }  // namespace
 
-void addPostureEquations(const GapInput& input, const GapState& state, const ContainedEffects& effects_now,
-                         GapData& data) {
+void addPostureEquations(const SystemInput& input, const SystemState& state, const ContainedEffects& effects_now,
+                         LinearSystem& data) {
   const auto rows = loadingRows(input.campaign, state.geometry, state.at, state.corrections);
-  for (const GapRows& one : rows)
-    data.postures.push_back(unwhitened(input, state, effects_now, data.layout, one));
+  for (const SystemRows& one : rows) data.postures.push_back(unwhitened(input, state, effects_now, data.layout, one));
   addGeometry(input, state, rows, data);
   double noise = 0.0, count = 0.0;
   for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -578,25 +572,24 @@ namespace {
 
 /// [A y] of one posture, unwhitened.
 template <class Rows>
-void fill(const GapInput& input, const GapState& state, const ContainedEffects& now, const GapLayout& layout,
+void fill(const SystemInput& input, const SystemState& state, const ContainedEffects& now, const GapLayout& layout,
           const PositionByGeometry& by_geometry, const SweepRows& one, Rows both) {
   both.leftCols(6) = one.sag_by_compliance;
   both.middleCols(layout.geometry, layout.weights - layout.geometry) = by_geometry.of(one.state);
-  both.middleCols(layout.weights, effects::kBodies) = effects::sagByBody(state.at, one.state);
+  both.middleCols(layout.weights, effects::kBodies) = effects::gravityDeflectionByBody(state.at, one.state);
   for (std::size_t m = 0; m < input.models.size(); ++m) {
     const Eigen::MatrixXd columns = input.models[m].columns(state.at, {one.state}, 0);
     both.middleCols(layout.model_at[m], columns.cols()) = columns;
   }
   auto right = both.col(both.cols() - 1);
   right = one.position + one.sag_by_compliance * state.at.compliance;
-  if (now.in_positions.size() > 0)
-    right += both.middleCols(layout.effects, now.in_positions.size()) * now.in_positions;
+  if (now.in_positions.size() > 0) right += both.middleCols(layout.effects, now.in_positions.size()) * now.in_positions;
 }
 
 }  // namespace
 
-void addSweepEquations(const GapInput& input, const GapState& state, const ContainedEffects& effects_now,
-                       GapData& data) {
+void addSweepEquations(const SystemInput& input, const SystemState& state, const ContainedEffects& effects_now,
+                       LinearSystem& data) {
   const auto rows = sweepRows(input.campaign, state.geometry, state.r0_from_sweeps, state.at);
   const PositionByGeometry by_geometry(state.geometry, state.at, state.at.epoch_centre);
   Eigen::Index total = 0;
@@ -611,7 +604,7 @@ void addSweepEquations(const GapInput& input, const GapState& state, const Conta
   for (const SweepRows& one : rows) {
     for (const Eigen::Vector3d& point : one.state.points) {
       const Eigen::Matrix3d covariance =
-          state.sweep_slack * frames::readingCovariance(input.noise, state.r0_from_sweeps, point);
+          state.sweep_inflation * frames::readingCovariance(input.noise, state.r0_from_sweeps, point);
       both.middleRows<3>(row) = covariance.llt().matrixL().solve(both.middleRows<3>(row)).eval();
       row += 3;
     }

@@ -18,12 +18,11 @@ namespace stiffscope::diagnosis {
 
 /// The equations of one posture of the loading, unwhitened, in R0, m. Deflection rows: states after the
 /// first, three a reflector; absolute rows: the first state. y = A c + geometry + effects + noise.
-struct GapRows {
+struct SystemRows {
   int pose = 0;
   effects::PostureStates states;
-  Eigen::VectorXd displacement;  ///< loaded less unloaded, as measured
-  Eigen::Matrix<double, Eigen::Dynamic, 6>
-      by_compliance;         ///< of the displacement: K_c and the middle posture in
+  Eigen::VectorXd displacement;                            ///< loaded less unloaded, as measured
+  Eigen::Matrix<double, Eigen::Dynamic, 6> by_compliance;  ///< of the displacement: K_c and the middle posture in
   Eigen::VectorXd position;  ///< measured less the rigid model's; empty without absolute points
   Eigen::Matrix<double, Eigen::Dynamic, 6> sag_by_compliance;
   int unloaded_readings = 0, loaded_readings = 0;  ///< means over these, per reflector and state
@@ -40,15 +39,15 @@ struct SweepRows {
 
 /// Rows of the loading (or of `displacements`), in the order of poses. Reflectors that some step of a posture
 /// lacks are left out of that posture; a posture without a loaded state is left out.
-std::vector<GapRows> loadingRows(const campaign::Campaign& campaign, const frames::LoadingGeometry& geometry,
-                                 const effects::WorkingPoint& at, const effects::Corrections& corrections);
+std::vector<SystemRows> loadingRows(const campaign::Campaign& campaign, const frames::LoadingGeometry& geometry,
+                                    const effects::LinearizationPoint& at, const effects::Corrections& corrections);
 
 /// Rows of circle and wrist sweeps; empty where they are in another frame than the loading.
 std::vector<SweepRows> sweepRows(const campaign::Campaign& campaign, const frames::LoadingGeometry& geometry,
-                                 const Eigen::Isometry3d& r0_from_points, const effects::WorkingPoint& at);
+                                 const Eigen::Isometry3d& r0_from_points, const effects::LinearizationPoint& at);
 
 /// How the compensator's torque on joint 2 changes as the joint turns, Nm/rad.
-double compensatorSlope(const effects::WorkingPoint& at, const Vector6d& turned);
+double compensatorSlope(const effects::LinearizationPoint& at, const Vector6d& turned);
 
 /// Where everything stands in the parameter vector: joint compliances, geometry steps, own-weight factors by
 /// body (nuisances), then the effects' models in their order.
@@ -68,9 +67,9 @@ struct ComplianceExpected {
 ComplianceExpected complianceExpected(const Vector6d& identified);
 
 /// What the gap stands on, fixed for one diagnosis.
-struct GapInput {
+struct SystemInput {
   const campaign::Campaign& campaign;  ///< screened; the station's motion taken off where nests show it
-  metrology::TrackerNoise noise;        ///< by the repeats where there are enough, else as declared
+  metrology::TrackerNoise noise;       ///< by the repeats where there are enough, else as declared
   double force_sigma = 0.0, moment_sigma = 0.0;
   std::vector<effects::EffectModel> models;
   bool absolute = false;  ///< unloaded absolute positions can be held against the arm
@@ -83,12 +82,12 @@ struct GapInput {
 };
 
 /// Where one round of linearisation stands.
-struct GapState {
+struct SystemState {
   frames::LoadingGeometry geometry;
   Eigen::Isometry3d r0_from_sweeps = Eigen::Isometry3d::Identity();
-  effects::WorkingPoint at;
+  effects::LinearizationPoint at;
   effects::Corrections corrections;
-  double sweep_slack = 1.0, position_slack = 1.0;  ///< factors on the variances of absolute positions
+  double sweep_inflation = 1.0, position_inflation = 1.0;  ///< factors on the variances of absolute positions
   double model_error = 0.0;  ///< rms per coordinate of what no effect explains, at the largest load, m
 };
 
@@ -102,7 +101,7 @@ struct GapPosture {
   /// Covariance of these rows by readings, wrench and a station between its rounds, within each state: its block of the
   /// diagonal, one state's under another's.
   Eigen::MatrixXd noise;
-  Eigen::MatrixXd position_lower;  ///< Cholesky factor of that of the position rows, with the slack
+  Eigen::MatrixXd position_lower;  ///< Cholesky factor of that of the position rows, inflated
   numerics::LowerTriangle normal;
   Eigen::Matrix<double, 7, 7> stiffness_normal;  ///< the same of deflection rows alone, over the compliances
 
@@ -111,7 +110,7 @@ struct GapPosture {
 };
 
 /// All equations of the gap at one point of linearisation.
-struct GapData {
+struct LinearSystem {
   GapLayout layout;
   std::vector<GapPosture> postures;
   Eigen::MatrixXd sweeps;  ///< [A y]^T [A y] of the sweeps, and of what is known beforehand
@@ -128,7 +127,7 @@ struct ContainedEffects {
 
 /// Fills the equations. What `state` contains is added back: the right sides are those of whole effects, not
 /// of the rest.
-GapData gapData(const GapInput& input, const GapState& state, const ContainedEffects& effects_now);
+LinearSystem linearSystem(const SystemInput& input, const SystemState& state, const ContainedEffects& effects_now);
 
 GapLayout gapLayout(const std::vector<effects::EffectModel>& models, std::size_t targets);
 

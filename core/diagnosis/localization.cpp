@@ -1,9 +1,9 @@
 #include "core/diagnosis/localization.h"
 
+#include <fmt/format.h>
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 #include <map>
 #include <utility>
 
@@ -14,23 +14,23 @@ namespace stiffscope::diagnosis {
 
 namespace {
 
-Eigen::VectorXd stiffnessesIn(const GapData& data) {
+Eigen::VectorXd stiffnessesIn(const LinearSystem& data) {
   const Eigen::MatrixXd normal = sumOf(data, std::vector<double>(data.postures.size(), 1.0));
   Eigen::VectorXd parameters = Eigen::VectorXd::Zero(data.layout.end);
-  parameters.head<6>() = normal.topLeftCorner<6, 6>().completeOrthogonalDecomposition().solve(
-      normal.col(data.layout.end).head<6>());
+  parameters.head<6>() =
+      normal.topLeftCorner<6, 6>().completeOrthogonalDecomposition().solve(normal.col(data.layout.end).head<6>());
   return parameters;
 }
 
 }  // namespace
 
-std::optional<GapAsMeasured> gapAsMeasured(const campaign::Campaign& original, const GapInput& input, const GapFit& fit,
-                                           const Eigen::VectorXd& after) {
-  const GapStart raw = gapStart(original, false);
+std::optional<GapAsMeasured> gapAsMeasured(const campaign::Campaign& original, const SystemInput& input,
+                                           const GapFit& fit, const Eigen::VectorXd& after) {
+  const DiagnosisInput raw = diagnosisInput(original, false);
   if (!raw.reason.empty()) return std::nullopt;
-  const GapInput as_read{
+  const SystemInput as_read{
       raw.campaign, raw.noise.noise, input.force_sigma, input.moment_sigma, input.models, false, false, {}};
-  const GapData data = gapData(as_read, raw.state, {});
+  const LinearSystem data = linearSystem(as_read, raw.state, {});
   const Eigen::VectorXd parameters = stiffnessesIn(data);
   GapAsMeasured gap;
   std::map<int, HeldOut> left;
@@ -45,7 +45,7 @@ std::optional<GapAsMeasured> gapAsMeasured(const campaign::Campaign& original, c
         {original.pose_ids[static_cast<std::size_t>(posture.pose)], std::sqrt(squares / count)});
   }
   gap.at_points = gapAtPoints(data, parameters, fit.data, after);
-  for (const GapRows& one : loadingRows(raw.campaign, raw.state.geometry, raw.state.at, {})) {
+  for (const SystemRows& one : loadingRows(raw.campaign, raw.state.geometry, raw.state.at, {})) {
     left[one.pose].position_before = one.position.squaredNorm();
     position += left[one.pose].position_before;
     rests += static_cast<double>(one.position.size());
@@ -77,8 +77,8 @@ struct GapSquares {
 };
 
 template <class Add>
-Gap summed(const GapFit& alone, const StiffnessesAlone& before, const GapFit& fit,
-           const Eigen::VectorXd& after, const Add& add) {
+Gap summed(const GapFit& alone, const StiffnessesAlone& before, const GapFit& fit, const Eigen::VectorXd& after,
+           const Add& add) {
   GapSquares squares;
   for (std::size_t p = 0; p < fit.data.postures.size(); ++p) {
     const GapPosture& posture = fit.data.postures[p];
@@ -91,26 +91,23 @@ Gap summed(const GapFit& alone, const StiffnessesAlone& before, const GapFit& fi
 
 Gap deflectionGap(const GapFit& alone, const StiffnessesAlone& before, const GapFit& fit,
                   const Eigen::VectorXd& after) {
-  return summed(alone, before, fit, after,
-                [](const HeldOut& left, const GapPosture& posture, GapSquares& squares) {
-                  const Eigen::Index rows = posture.right.size() - posture.position_rows;
-                  squares.sum.before += left.deflection_before;
-                  squares.sum.after += left.deflection_after;
-                  squares.sum.noise += noiseSquares(posture);
-                  squares.sum.deflection += posture.right.tail(rows).squaredNorm();
-                  squares.count += static_cast<double>(rows);
-                });
+  return summed(alone, before, fit, after, [](const HeldOut& left, const GapPosture& posture, GapSquares& squares) {
+    const Eigen::Index rows = posture.right.size() - posture.position_rows;
+    squares.sum.before += left.deflection_before;
+    squares.sum.after += left.deflection_after;
+    squares.sum.noise += noiseSquares(posture);
+    squares.sum.deflection += posture.right.tail(rows).squaredNorm();
+    squares.count += static_cast<double>(rows);
+  });
 }
 
-Gap positionGap(const GapFit& alone, const StiffnessesAlone& before, const GapFit& fit,
-                const Eigen::VectorXd& after) {
-  return summed(alone, before, fit, after,
-                [](const HeldOut& left, const GapPosture& posture, GapSquares& squares) {
-                  squares.sum.before += left.position_before;
-                  squares.sum.after += left.position_after;
-                  squares.sum.noise += posture.noiseSquares(0, posture.position_rows);
-                  squares.count += static_cast<double>(posture.position_rows);
-                });
+Gap positionGap(const GapFit& alone, const StiffnessesAlone& before, const GapFit& fit, const Eigen::VectorXd& after) {
+  return summed(alone, before, fit, after, [](const HeldOut& left, const GapPosture& posture, GapSquares& squares) {
+    squares.sum.before += left.position_before;
+    squares.sum.after += left.position_after;
+    squares.sum.noise += posture.noiseSquares(0, posture.position_rows);
+    squares.count += static_cast<double>(posture.position_rows);
+  });
 }
 
 namespace {
@@ -124,7 +121,7 @@ struct LeftOver {
   int target = 0;
 };
 
-std::vector<LeftOver> leftOvers(const GapData& data, const Eigen::VectorXd& parameters, bool deflection) {
+std::vector<LeftOver> leftOvers(const LinearSystem& data, const Eigen::VectorXd& parameters, bool deflection) {
   std::vector<LeftOver> all;
   for (const GapPosture& posture : data.postures) {
     const Eigen::VectorXd left = posture.right - posture.columns * parameters;
@@ -132,8 +129,7 @@ std::vector<LeftOver> leftOvers(const GapData& data, const Eigen::VectorXd& para
     const std::size_t first = deflection ? 1 : 0, last = deflection ? posture.states.size() : 1;
     if (!deflection && posture.position_rows == 0) continue;
     for (std::size_t s = first; s < last; ++s) {
-      const Eigen::Index at =
-          deflection ? posture.position_rows + static_cast<Eigen::Index>(s - 1) * per_state : 0;
+      const Eigen::Index at = deflection ? posture.position_rows + static_cast<Eigen::Index>(s - 1) * per_state : 0;
       for (std::size_t t = 0; t < posture.states[s].points.size(); ++t) {
         const Eigen::Index row = at + 3 * static_cast<Eigen::Index>(t);
         all.push_back({left.segment<3>(row), posture.noise.block<3, 3>(row, row - at), posture.states[s].points[t],
@@ -160,8 +156,7 @@ struct Sum {
 WhereRow rowOf(const std::string& name, const Sum& sum, double whole) {
   WhereRow row;
   row.name = name;
-  if (sum.count > 0.0)
-    row.rms = std::sqrt(sum.squares / sum.count), row.noise = std::sqrt(sum.noise / sum.count);
+  if (sum.count > 0.0) row.rms = std::sqrt(sum.squares / sum.count), row.noise = std::sqrt(sum.noise / sum.count);
   row.share = whole > 0.0 ? sum.squares / whole : 0.0;
   row.significance = sum.variance > 0.0 ? (sum.squares - sum.noise) / std::sqrt(sum.variance) : 0.0;
   return row;
@@ -175,8 +170,8 @@ double wholeOf(const std::vector<LeftOver>& all) {
 
 /// One row a name, in the order of `names`; `place(one)` is the index of the name, negative to leave out.
 template <class Place>
-WhereTable tableBy(const std::string& by, const std::vector<std::string>& names,
-                   const std::vector<LeftOver>& all, const Place& place) {
+WhereTable tableBy(const std::string& by, const std::vector<std::string>& names, const std::vector<LeftOver>& all,
+                   const Place& place) {
   std::vector<Sum> sums(names.size());
   for (const LeftOver& one : all) {
     const int at = place(one);
@@ -191,8 +186,8 @@ WhereTable tableBy(const std::string& by, const std::vector<std::string>& names,
 
 /// One row a direction; `axes(one)` has them as columns of the frame at hand.
 template <class Axes>
-WhereTable tableAlong(const std::string& by, const std::vector<std::string>& names,
-                      const std::vector<LeftOver>& all, const Axes& axes) {
+WhereTable tableAlong(const std::string& by, const std::vector<std::string>& names, const std::vector<LeftOver>& all,
+                      const Axes& axes) {
   std::vector<Sum> sums(names.size());
   for (const LeftOver& one : all) {
     const Eigen::Matrix3d frame = axes(one);
@@ -207,9 +202,8 @@ WhereTable tableAlong(const std::string& by, const std::vector<std::string>& nam
   return table;
 }
 
-Eigen::Matrix3d beamAxes(const GapFit& fit, const GapInput& input, const Eigen::Vector3d& point) {
-  const Eigen::Isometry3d from_points =
-      fit.state.geometry.r0_from_loading.value_or(fit.state.at.r0_from_base_link);
+Eigen::Matrix3d beamAxes(const GapFit& fit, const SystemInput& input, const Eigen::Vector3d& point) {
+  const Eigen::Isometry3d from_points = fit.state.geometry.r0_from_loading.value_or(fit.state.at.r0_from_base_link);
   const Eigen::Vector3d along = (point - from_points * input.noise.station).normalized();
   Eigen::Matrix3d axes;
   axes.col(0) = along;
@@ -218,17 +212,15 @@ Eigen::Matrix3d beamAxes(const GapFit& fit, const GapInput& input, const Eigen::
   return axes;
 }
 
-std::vector<WhereTable> commonTables(const GapInput& input, const GapFit& fit,
-                                     const std::vector<LeftOver>& all) {
+std::vector<WhereTable> commonTables(const SystemInput& input, const GapFit& fit, const std::vector<LeftOver>& all) {
   std::vector<WhereTable> tables;
   std::vector<std::string> reflectors;
   for (const campaign::Target& target : input.campaign.targets) reflectors.push_back(target.id);
   tables.push_back(tableBy("reflector", reflectors, all, [](const LeftOver& one) { return one.target; }));
   tables.push_back(tableAlong("base axes", {"x0", "y0", "z0"}, all,
                               [](const LeftOver&) { return Eigen::Matrix3d(Eigen::Matrix3d::Identity()); }));
-  tables.push_back(tableAlong("flange axes", {"x", "y", "z"}, all, [](const LeftOver& one) {
-    return Eigen::Matrix3d(one.state->flange.linear());
-  }));
+  tables.push_back(tableAlong("flange axes", {"x", "y", "z"}, all,
+                              [](const LeftOver& one) { return Eigen::Matrix3d(one.state->flange.linear()); }));
   tables.push_back(tableAlong("tracker's beam", {"along", "across"}, all,
                               [&](const LeftOver& one) { return beamAxes(fit, input, one.point); }));
   tables.push_back(
@@ -263,7 +255,7 @@ WhereTable byJoint(const GapFit& fit, const Eigen::VectorXd& parameters, const s
 
 }  // namespace
 
-std::vector<WhereTable> whereDeflection(const GapInput& input, const GapFit& fit,
+std::vector<WhereTable> whereDeflection(const SystemInput& input, const GapFit& fit,
                                         const Eigen::VectorXd& parameters) {
   const std::vector<LeftOver> all = leftOvers(fit.data, parameters, true);
   std::vector<WhereTable> tables = commonTables(input, fit, all);
@@ -277,7 +269,7 @@ std::vector<WhereTable> whereDeflection(const GapInput& input, const GapFit& fit
     steps.push_back(fmt::format("step {}{}", step, unloads ? " (return to zero)" : ""));
   }
   tables.push_back(tableBy("load step", steps, all, [](const LeftOver& one) { return one.state->step; }));
-  const effects::WorkingPoint& at = fit.state.at;
+  const effects::LinearizationPoint& at = fit.state.at;
   tables.push_back(tableBy("time", {"first quarter", "second quarter", "third quarter", "last quarter"}, all,
                            [&](const LeftOver& one) {
                              if (!std::isfinite(one.state->time_s)) return -1;
@@ -287,15 +279,14 @@ std::vector<WhereTable> whereDeflection(const GapInput& input, const GapFit& fit
   return tables;
 }
 
-std::vector<WhereTable> wherePosition(const GapInput& input, const GapFit& fit,
-                                      const Eigen::VectorXd& parameters) {
+std::vector<WhereTable> wherePosition(const SystemInput& input, const GapFit& fit, const Eigen::VectorXd& parameters) {
   const std::vector<LeftOver> all = leftOvers(fit.data, parameters, false);
   if (all.empty()) return {};
   return commonTables(input, fit, all);
 }
 
-std::vector<PointGap> gapAtPoints(const GapData& data_before, const Eigen::VectorXd& before, const GapData& data_after,
-                                  const Eigen::VectorXd& after) {
+std::vector<PointGap> gapAtPoints(const LinearSystem& data_before, const Eigen::VectorXd& before,
+                                  const LinearSystem& data_after, const Eigen::VectorXd& after) {
   using State = std::pair<int, int>;  // pose, step
   std::map<State, std::vector<LeftOver>> left_after;
   for (const LeftOver& one : leftOvers(data_after, after, true))
@@ -305,9 +296,8 @@ std::vector<PointGap> gapAtPoints(const GapData& data_before, const Eigen::Vecto
     left_before[one.state->pose][one.state->step].push_back(one);
   std::vector<PointGap> gaps;
   for (const auto& [pose, steps] : left_before) {
-    const auto most = std::max_element(steps.begin(), steps.end(), [](const auto& a, const auto& b) {
-      return wholeOf(a.second) < wholeOf(b.second);
-    });
+    const auto most = std::max_element(
+        steps.begin(), steps.end(), [](const auto& a, const auto& b) { return wholeOf(a.second) < wholeOf(b.second); });
     const auto same = left_after.find({pose, most->first});
     if (same == left_after.end()) continue;
     for (const LeftOver& one : most->second) {

@@ -14,38 +14,33 @@ struct GapAsMeasured {
   std::optional<double> deflection, position;  ///< rms per coordinate, m; empty: no such readings
   WhereTable by_posture;                       ///< of the deflection
   std::vector<PointGap> at_points;
-  std::vector<HeldOut>
-      left;  ///< by posture of `fit`: before, of these readings; after, of `fit` with `after`
+  std::vector<HeldOut> left;  ///< by posture of `fit`: before, of these readings; after, of `fit` with `after`
 };
 
 /// `original`: nothing taken off; `after`: parameters (allParameters) of the equations of `fit`. The
 /// stiffnesses are fitted in the arm as the sweeps have it: a geometry left free would follow the station.
 /// Empty where nothing can be fitted.
-std::optional<GapAsMeasured> gapAsMeasured(const campaign::Campaign& original, const GapInput& input, const GapFit& fit,
-                                           const Eigen::VectorXd& after);
+std::optional<GapAsMeasured> gapAsMeasured(const campaign::Campaign& original, const SystemInput& input,
+                                           const GapFit& fit, const Eigen::VectorXd& after);
 
 /// How large the gap of the deflection is, rms per coordinate: left by stiffnesses alone (`before`, on the
 /// equations of `alone`, withoutEffects), by noise, and by `after`, a parameter vector (allParameters) of the
 /// equations of `fit`.
-Gap deflectionGap(const GapFit& alone, const StiffnessesAlone& before, const GapFit& fit,
-                  const Eigen::VectorXd& after);
+Gap deflectionGap(const GapFit& alone, const StiffnessesAlone& before, const GapFit& fit, const Eigen::VectorXd& after);
 
 /// The same of the unloaded absolute positions; all zero where they are not held against the arm.
-Gap positionGap(const GapFit& alone, const StiffnessesAlone& before, const GapFit& fit,
-                const Eigen::VectorXd& after);
+Gap positionGap(const GapFit& alone, const StiffnessesAlone& before, const GapFit& fit, const Eigen::VectorXd& after);
 
 /// Where the gap lies that stiffnesses alone leave: the deflection's by reflector, axes of R0, axes of the
 /// flange, along and across the beam, joint (what the angle of each joint alone would explain), posture, load
 /// step and quarter of the time; that of unloaded positions by reflector, axes, beam and posture.
 /// `parameters`: of all columns.
-std::vector<WhereTable> whereDeflection(const GapInput& input, const GapFit& fit,
-                                        const Eigen::VectorXd& parameters);
-std::vector<WhereTable> wherePosition(const GapInput& input, const GapFit& fit,
-                                      const Eigen::VectorXd& parameters);
+std::vector<WhereTable> whereDeflection(const SystemInput& input, const GapFit& fit, const Eigen::VectorXd& parameters);
+std::vector<WhereTable> wherePosition(const SystemInput& input, const GapFit& fit, const Eigen::VectorXd& parameters);
 
-/// What is left at each reflector, in the state of each posture that leaves the most before. The two data are of the same
-/// readings, as they were and as they are used; a posture that either lacks is left out.
-std::vector<PointGap> gapAtPoints(const GapData& data_before, const Eigen::VectorXd& before, const GapData& data_after,
-                                  const Eigen::VectorXd& after);
+/// What is left at each reflector, in the state of each posture that leaves the most before. The two data are of the
+/// same readings, as they were and as they are used; a posture that either lacks is left out.
+std::vector<PointGap> gapAtPoints(const LinearSystem& data_before, const Eigen::VectorXd& before,
+                                  const LinearSystem& data_after, const Eigen::VectorXd& after);
 
 }  // namespace stiffscope::diagnosis

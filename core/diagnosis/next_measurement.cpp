@@ -1,9 +1,9 @@
 #include "core/diagnosis/next_measurement.h"
 
+#include <fmt/format.h>
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 #include <limits>
 #include <numbers>
 #include <random>
@@ -22,25 +22,23 @@ Vector6d somePosture(const robot::Robot& arm, std::mt19937_64& random) {
   Vector6d q;
   for (Eigen::Index j = 0; j < 6; ++j) {
     const robot::JointLimits& limits = arm.limits[static_cast<std::size_t>(j)];
-    const double low = std::max(limits.lower, -std::numbers::pi),
-                 high = std::min(limits.upper, std::numbers::pi);
+    const double low = std::max(limits.lower, -std::numbers::pi), high = std::min(limits.upper, std::numbers::pi);
     q[j] = low + share(random) * (high - low);
   }
   return q;
 }
 
 /// Whitened normal equations of one more posture: unloaded, and under one force.
-Eigen::MatrixXd normalOf(const GapInput& input, const GapFit& fit, const Vector6d& q,
-                         const Eigen::Vector3d& force) {
+Eigen::MatrixXd normalOf(const SystemInput& input, const GapFit& fit, const Vector6d& q, const Eigen::Vector3d& force) {
   const GapPosture& like = fit.data.postures.front();
   const effects::ArmState& seen = like.states[effects::heaviestState(like.states)];
   effects::ArmState rest = effects::stateAt(fit.state.geometry, q, Vector6d::Zero());
   rest.pose = like.pose;
   rest.targets = like.states.front().targets;
   for (const int target : rest.targets) {
-    rest.points.push_back(rest.posture.motion[6] *
-                          fit.state.geometry.targets_at_zero[static_cast<std::size_t>(target)].value_or(
-                              Eigen::Vector3d::Zero()));
+    rest.points.push_back(
+        rest.posture.motion[6] *
+        fit.state.geometry.targets_at_zero[static_cast<std::size_t>(target)].value_or(Eigen::Vector3d::Zero()));
   }
   effects::ArmState loaded = rest;
   loaded.loaded = true;
@@ -62,8 +60,8 @@ Eigen::MatrixXd normalOf(const GapInput& input, const GapFit& fit, const Vector6
   return columns.transpose() * columns;
 }
 
-double leastSeparation(const GapInput& input, const GapFit& fit, const std::vector<bool>& allowed,
-                       const Tie& tie, const Projection& projection) {
+double leastSeparation(const SystemInput& input, const GapFit& fit, const std::vector<bool>& allowed, const Tie& tie,
+                       const Projection& projection) {
   const ChosenModel& chosen = fit.set.models[tie.chosen];
   const Eigen::Index at = fit.data.layout.model_at[chosen.model] - fit.data.layout.effects;
   const auto size = static_cast<Eigen::Index>(input.models[chosen.model].parameters());
@@ -75,16 +73,15 @@ double leastSeparation(const GapInput& input, const GapFit& fit, const std::vect
   for (std::size_t m = 0; m < input.models.size(); ++m) {
     const effects::Effect effect = input.models[m].effect;
     const bool tied = std::find(tie.effects.begin() + 1, tie.effects.end(), effect) != tie.effects.end();
-    if (tied && allowed[m])
-      least = std::min(least, separation(input, fit, projection, field, others, m, allowed));
+    if (tied && allowed[m]) least = std::min(least, separation(input, fit, projection, field, others, m, allowed));
   }
   return least;
 }
 
 }  // namespace
 
-std::optional<NextMeasurement> nextFor(const GapInput& input, const GapFit& fit,
-                                       const std::vector<bool>& allowed, const Tie& tie, std::uint64_t seed) {
+std::optional<NextMeasurement> nextFor(const SystemInput& input, const GapFit& fit, const std::vector<bool>& allowed,
+                                       const Tie& tie, std::uint64_t seed) {
   const Eigen::MatrixXd now = sumOf(fit.data, std::vector<double>(fit.data.postures.size(), 1.0));
   const double before = leastSeparation(input, fit, allowed, tie, project(now, fit.data.layout.effects));
   std::mt19937_64 random(seed);
@@ -105,8 +102,8 @@ std::optional<NextMeasurement> nextFor(const GapInput& input, const GapFit& fit,
       next.what = fmt::format(
           "a posture at ({:.0f}, {:.0f}, {:.0f}, {:.0f}, {:.0f}, {:.0f}) deg, pulled by {:.0f} N along {}0: "
           "it raises the least separation (chi2, {:.0f} tells apart) from {:.1f} to {:.1f}",
-          degrees[0], degrees[1], degrees[2], degrees[3], degrees[4], degrees[5], force, "xyz"[axis],
-          kSeparated, before, apart);
+          degrees[0], degrees[1], degrees[2], degrees[3], degrees[4], degrees[5], force, "xyz"[axis], kSeparated,
+          before, apart);
     }
   }
   if (best <= before) return std::nullopt;

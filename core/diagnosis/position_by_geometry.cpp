@@ -21,9 +21,7 @@ struct SmallMotion {
     const Eigen::Vector3d turned = motion.linear() * rotation;
     return {turned, motion.linear() * shift - turned.cross(motion.translation())};
   }
-  SmallMotion operator-(const SmallMotion& other) const {
-    return {rotation - other.rotation, shift - other.shift};
-  }
+  SmallMotion operator-(const SmallMotion& other) const { return {rotation - other.rotation, shift - other.shift}; }
   Eigen::Vector3d at(const Eigen::Vector3d& point) const { return rotation.cross(point) + shift; }
 };
 
@@ -44,7 +42,7 @@ struct Carried {
   std::array<Eigen::Vector3d, kJoints> moment;
 };
 
-Carried carriedBy(const robot::OwnWeight& weight, const robot::ArmPosture& posture) {
+Carried carriedBy(const robot::GravityLoad& weight, const robot::ArmPosture& posture) {
   Carried carried;
   double mass = 0.0;
   Eigen::Vector3d moment = Eigen::Vector3d::Zero();
@@ -69,10 +67,9 @@ Vector6d torqueChange(const effects::ArmState& state, const Carried& carried, co
     const SmallMotion of_axis = j < moved ? SmallMotion{} : (j == moved ? own : beyond);
     const Eigen::Vector3d arm = carried.moment[j] - carried.mass[j] * axis.point;
     const Eigen::Vector3d arm_change = beyond.rotation.cross(carried.moment[first]) +
-                                       carried.mass[first] * beyond.shift -
-                                       carried.mass[j] * of_axis.at(axis.point);
-    change[static_cast<Eigen::Index>(j)] = of_axis.rotation.cross(axis.direction).dot(arm.cross(gravity)) +
-                                           axis.direction.dot(arm_change.cross(gravity));
+                                       carried.mass[first] * beyond.shift - carried.mass[j] * of_axis.at(axis.point);
+    change[static_cast<Eigen::Index>(j)] =
+        of_axis.rotation.cross(axis.direction).dot(arm.cross(gravity)) + axis.direction.dot(arm_change.cross(gravity));
   }
   return change;
 }
@@ -84,7 +81,7 @@ struct TurnSlopes {
 
 /// By differences: play turns by all of it within a small part of the largest torque, however smooth the
 /// rest.
-TurnSlopes turnSlopes(const effects::WorkingPoint& at, const effects::ArmState& state) {
+TurnSlopes turnSlopes(const effects::LinearizationPoint& at, const effects::ArmState& state) {
   TurnSlopes slopes;
   if (!at.jointsTurn()) return slopes;
   constexpr double kTorqueStep = 1e-6, kLeast = 1e-9;  // of the joint's largest torque; Nm
@@ -104,7 +101,8 @@ TurnSlopes turnSlopes(const effects::WorkingPoint& at, const effects::ArmState& 
 }
 
 /// Joint angles by joint torques: d theta = (C + T) (d tau + K_c d theta) + U d theta.
-Matrix6d anglesByTorque(const frames::LoadingGeometry& geometry, const effects::WorkingPoint& at, const effects::ArmState& state) {
+Matrix6d anglesByTorque(const frames::LoadingGeometry& geometry, const effects::LinearizationPoint& at,
+                        const effects::ArmState& state) {
   const TurnSlopes slopes = turnSlopes(at, state);
   const Matrix6d yielding = Matrix6d(geometry.compliance.asDiagonal()) + slopes.by_torque;
   const Matrix6d stiffening = robot::geometricStiffness(state.axes, state.posture, geometry.weight);
@@ -123,13 +121,14 @@ effects::ArmState asModelled(const frames::LoadingGeometry& geometry, const effe
 
 }  // namespace
 
-PositionByGeometry::PositionByGeometry(const frames::LoadingGeometry& geometry, const effects::WorkingPoint& at,
+PositionByGeometry::PositionByGeometry(const frames::LoadingGeometry& geometry, const effects::LinearizationPoint& at,
                                        const Eigen::Vector3d& centre)
     : geometry_(geometry), at_(at), centre_(centre) {
   if (!at.bodiesMove()) return;
   const Eigen::Index steps = frames::GeometrySteps::count(geometry.targets_at_zero.size());
   for (Eigen::Index k = 0; k < frames::GeometrySteps::kAxes; ++k)
-    stepped_.push_back(frames::moved(geometry, frames::GeometrySteps::kSmall * Eigen::VectorXd::Unit(steps, k), centre));
+    stepped_.push_back(
+        frames::moved(geometry, frames::GeometrySteps::kSmall * Eigen::VectorXd::Unit(steps, k), centre));
 }
 
 void PositionByGeometry::addAxes(const effects::ArmState& modelled, Eigen::MatrixXd& columns) const {
@@ -143,9 +142,7 @@ void PositionByGeometry::addAxes(const effects::ArmState& modelled, Eigen::Matri
       const SmallMotion own = steps[k].carriedBy(modelled.posture.motion[j]);
       const SmallMotion beyond = own - steps[k].carriedBy(modelled.posture.motion[j + 1]);
       columns.col(column) = effects::byMotion(modelled, Eigen::Vector3d::Zero(), beyond.rotation, beyond.shift);
-      if (sags)
-        torques.col(column) =
-            torqueChange(modelled, carried, geometry_.weight.gravity_in_base, j, own, beyond);
+      if (sags) torques.col(column) = torqueChange(modelled, carried, geometry_.weight.gravity_in_base, j, own, beyond);
     }
   }
   if (sags)
@@ -155,10 +152,9 @@ void PositionByGeometry::addAxes(const effects::ArmState& modelled, Eigen::Matri
 
 void PositionByGeometry::addAxesByDifferences(const effects::ArmState& modelled, Eigen::MatrixXd& columns) const {
   for (std::size_t k = 0; k < stepped_.size(); ++k) {
-    const Eigen::Isometry3d there = effects::restState(stepped_[k], at_, modelled.q).posture.motion[6];
+    const Eigen::Isometry3d there = effects::gravityEquilibrium(stepped_[k], at_, modelled.q).posture.motion[6];
     for (std::size_t i = 0; i < modelled.targets.size(); ++i) {
-      const Eigen::Vector3d& at_zero =
-          *geometry_.targets_at_zero[static_cast<std::size_t>(modelled.targets[i])];
+      const Eigen::Vector3d& at_zero = *geometry_.targets_at_zero[static_cast<std::size_t>(modelled.targets[i])];
       columns.col(static_cast<Eigen::Index>(k)).segment<3>(3 * static_cast<Eigen::Index>(i)) =
           (there * at_zero - modelled.points[i]) / frames::GeometrySteps::kSmall;
     }
@@ -183,9 +179,8 @@ Eigen::MatrixXd PositionByGeometry::of(const effects::ArmState& state) const {
     }
   }
   for (std::size_t i = 0; i < state.targets.size(); ++i) {
-    columns.block<3, 3>(3 * static_cast<Eigen::Index>(i),
-                        frames::GeometrySteps::kAxes + frames::GeometrySteps::kBase + 3 * state.targets[i]) =
-        state.posture.motion[6].linear();
+    columns.block<3, 3>(3 * static_cast<Eigen::Index>(i), frames::GeometrySteps::kAxes + frames::GeometrySteps::kBase +
+                                                              3 * state.targets[i]) = state.posture.motion[6].linear();
   }
   return columns;
 }

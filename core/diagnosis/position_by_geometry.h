@@ -17,7 +17,8 @@ namespace stiffscope::diagnosis {
 class PositionByGeometry {
  public:
   /// `centre`: about which the base's steps turn. Keeps references.
-  PositionByGeometry(const frames::LoadingGeometry& geometry, const effects::WorkingPoint& at, const Eigen::Vector3d& centre);
+  PositionByGeometry(const frames::LoadingGeometry& geometry, const effects::LinearizationPoint& at,
+                     const Eigen::Vector3d& centre);
 
   Eigen::MatrixXd of(const effects::ArmState& state) const;
 
@@ -26,7 +27,7 @@ class PositionByGeometry {
   void addAxesByDifferences(const effects::ArmState& modelled, Eigen::MatrixXd& columns) const;
 
   const frames::LoadingGeometry& geometry_;
-  const effects::WorkingPoint& at_;
+  const effects::LinearizationPoint& at_;
   Eigen::Vector3d centre_;
   std::vector<frames::LoadingGeometry> stepped_;  ///< by each step of an axis; empty where no effect moves bodies
 };

@@ -5,7 +5,7 @@
 
 namespace stiffscope::diagnosis {
 
-effects::CampaignContents whatIsThere(const GapInput& input, const GapData& data, const GapState& state,
+effects::CampaignContents whatIsThere(const SystemInput& input, const LinearSystem& data, const SystemState& state,
                                       const preparation::Station& station) {
   effects::CampaignContents has;
   has.absolute = input.absolute;

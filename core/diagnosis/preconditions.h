@@ -7,7 +7,7 @@
 namespace stiffscope::diagnosis {
 
 /// What the campaign has that effects need (effects::missingFor).
-effects::CampaignContents whatIsThere(const GapInput& input, const GapData& data, const GapState& state,
+effects::CampaignContents whatIsThere(const SystemInput& input, const LinearSystem& data, const SystemState& state,
                                       const preparation::Station& station);
 
 }  // namespace stiffscope::diagnosis

@@ -22,7 +22,7 @@ Eigen::LDLT<Eigen::MatrixXd> factorised(const Eigen::MatrixXd& matrix, const Eig
 
 }  // namespace
 
-Eigen::MatrixXd sumOf(const GapData& data, const std::vector<double>& weights) {
+Eigen::MatrixXd sumOf(const LinearSystem& data, const std::vector<double>& weights) {
   Eigen::MatrixXd sum = data.sweeps;
   for (std::size_t p = 0; p < data.postures.size(); ++p) {
     if (weights[p] != 0.0) data.postures[p].normal.addTo(weights[p], sum);
@@ -58,17 +58,16 @@ Projection project(const Eigen::MatrixXd& normal, Eigen::Index effects_at) {
   return result;
 }
 
-StiffnessesAlone stiffnessesAlone(const GapData& data, const std::vector<double>& weights,
+StiffnessesAlone stiffnessesAlone(const LinearSystem& data, const std::vector<double>& weights,
                                   const Projection& projection) {
   Eigen::Matrix<double, 7, 7> sum = Eigen::Matrix<double, 7, 7>::Zero();
-  for (std::size_t p = 0; p < data.postures.size(); ++p)
-    sum += weights[p] * data.postures[p].stiffness_normal;
+  for (std::size_t p = 0; p < data.postures.size(); ++p) sum += weights[p] * data.postures[p].stiffness_normal;
   const Eigen::VectorXd scale = scaleOf(sum.diagonal().head<6>());
   StiffnessesAlone alone;
   alone.for_deflection = Eigen::VectorXd::Zero(data.layout.end);
   alone.for_deflection.head<6>() =
-      scale.asDiagonal() * factorised(sum.topLeftCorner<6, 6>(), scale)
-                               .solve(Eigen::VectorXd(scale.asDiagonal() * sum.col(6).head<6>()));
+      scale.asDiagonal() *
+      factorised(sum.topLeftCorner<6, 6>(), scale).solve(Eigen::VectorXd(scale.asDiagonal() * sum.col(6).head<6>()));
   alone.for_position = Eigen::VectorXd::Zero(data.layout.end);
   alone.for_position.head(projection.by_nothing.size()) = projection.by_nothing;
   return alone;
@@ -86,8 +85,8 @@ double complianceSd(const Projection& projection, const std::vector<Eigen::Index
       across[a] = projection.by_effects(joint, indices[static_cast<std::size_t>(a)]);
     }
     const Eigen::VectorXd scale = scaleOf(matrix.diagonal());
-    variance += across.dot(scale.asDiagonal() *
-                           factorised(matrix, scale).solve(Eigen::VectorXd(scale.asDiagonal() * across)));
+    variance +=
+        across.dot(scale.asDiagonal() * factorised(matrix, scale).solve(Eigen::VectorXd(scale.asDiagonal() * across)));
   }
   return std::sqrt(std::max(0.0, variance));
 }

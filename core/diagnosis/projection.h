@@ -21,7 +21,7 @@ struct Projection {
 };
 
 /// Sum of the postures' normal equations, each times its weight, plus the sweeps'.
-Eigen::MatrixXd sumOf(const GapData& data, const std::vector<double>& weights);
+Eigen::MatrixXd sumOf(const LinearSystem& data, const std::vector<double>& weights);
 
 /// What the model of stiffnesses alone is, a parameter vector for each of the two gaps.
 struct StiffnessesAlone {
@@ -29,7 +29,7 @@ struct StiffnessesAlone {
   Eigen::VectorXd for_position;    ///< all nuisances fitted to everything
 };
 
-StiffnessesAlone stiffnessesAlone(const GapData& data, const std::vector<double>& weights,
+StiffnessesAlone stiffnessesAlone(const LinearSystem& data, const std::vector<double>& weights,
                                   const Projection& projection);
 
 /// Nuisances, then all effects' parameters, as the columns of the equations stand.

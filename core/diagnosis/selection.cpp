@@ -115,8 +115,7 @@ std::optional<FittedSet> Selector::grown(const FittedSet& base, std::size_t mode
       double kept = 0.0;
       for (std::size_t k = 0; k < models_[model].parts[p].most.size(); ++k) {
         const Eigen::Index i = part_at_[model][p] + static_cast<Eigen::Index>(k);
-        if (projection_.before[i] > 0.0)
-          kept = std::max(kept, projection_.matrix(i, i) / projection_.before[i]);
+        if (projection_.before[i] > 0.0) kept = std::max(kept, projection_.matrix(i, i) / projection_.before[i]);
       }
       if (kept < rules_.kept_share) continue;
       parts.push_back(p);
@@ -149,8 +148,7 @@ bool Selector::worth(const FittedSet& with, const FittedSet& without) const {
   const double scale = misfit(with);
   const double drop = without.chi2 - with.chi2;
   const double removed = given_chi2_ - with.chi2;
-  return drop / scale - (with.penalty - without.penalty) > rules_.detect &&
-         drop > rules_.least_drop * scale &&
+  return drop / scale - (with.penalty - without.penalty) > rules_.detect && drop > rules_.least_drop * scale &&
          drop > std::min(rules_.share_of_removed * removed, rules_.loading_rows);
 }
 

@@ -27,8 +27,8 @@ struct FittedSet {
 };
 
 struct SelectionRules {
-  double detect = 20.0;      ///< least fall of the score (noise regime) that a first effect must bring
-  double least_drop = 0.0;   ///< least fall of chi2 that matters
+  double detect = 20.0;     ///< least fall of the score (noise regime) that a first effect must bring
+  double least_drop = 0.0;  ///< least fall of chi2 that matters
   /// Least share of what the whole set removes (of chi2) that each of its effects must bring: models of large
   /// effects are not exact to a tenth of their size, and what they leave looks like others. Never more than an
   /// effect of the size of the noise brings.

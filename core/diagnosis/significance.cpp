@@ -9,7 +9,7 @@
 
 namespace stiffscope::diagnosis {
 
-double chanceLimit(const GapInput& input, const GapFit& fit, const std::vector<bool>& allowed, int draws,
+double chanceLimit(const SystemInput& input, const GapFit& fit, const std::vector<bool>& allowed, int draws,
                    double false_alarm, std::uint64_t seed) {
   const Eigen::VectorXd scale =
       fit.projection.matrix.diagonal().unaryExpr([](double d) { return d > 0.0 ? 1.0 / std::sqrt(d) : 0.0; });
@@ -32,8 +32,7 @@ double chanceLimit(const GapInput& input, const GapFit& fit, const std::vector<b
     plain.data.layout = fit.data.layout;
     plain.rules = fit.rules;
     plain.rules.given.clear();
-    const Selector selector =
-        selectorOf(input, plain, noise, static_cast<double>(fit.data.postures.size()), allowed);
+    const Selector selector = selectorOf(input, plain, noise, static_cast<double>(fit.data.postures.size()), allowed);
     const auto ranked = selector.ranked(selector.nothing());
     best.push_back(ranked.empty() ? 0.0 : -ranked.front().score());
   }
@@ -47,7 +46,7 @@ double sizeOfDrop(const GapFit& fit, double drop) {
   return std::sqrt(std::max(0.0, drop) / fit.rules.loading_rows) * fit.data.state_noise;
 }
 
-std::vector<DetectableSize> detectableSizes(const GapInput& input, const GapFit& fit,
+std::vector<DetectableSize> detectableSizes(const SystemInput& input, const GapFit& fit,
                                             const std::vector<bool>& allowed) {
   const double drop = std::max(fit.rules.least_drop, fit.rules.detect);
   std::vector<DetectableSize> detectable;
@@ -68,8 +67,7 @@ std::vector<DetectableSize> detectableSizes(const GapInput& input, const GapFit&
     }
     DetectableSize size{effect, std::nullopt};
     if (!sizes.empty()) {
-      std::nth_element(sizes.begin(), sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2),
-                       sizes.end());
+      std::nth_element(sizes.begin(), sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2), sizes.end());
       size.size = sizes[sizes.size() / 2];
     }
     if (effect == effects::Effect::kinematic_error && input.absolute) size.size = kGeometryTolerance;

@@ -11,7 +11,7 @@ namespace stiffscope::diagnosis {
 /// The fall of the score that the best of all effects reaches by chance, exceeded in a share `false_alarm` of
 /// clean campaigns: the whole search is run on draws of pure noise. In whitened equations the right sides s
 /// of noise have covariance S (see Projection), so a draw is S^1/2 times normal numbers.
-double chanceLimit(const GapInput& input, const GapFit& fit, const std::vector<bool>& allowed, int draws,
+double chanceLimit(const SystemInput& input, const GapFit& fit, const std::vector<bool>& allowed, int draws,
                    double false_alarm, std::uint64_t seed);
 
 /// The rms per coordinate that lowers chi2 of the loading by `drop`, m.
@@ -20,7 +20,7 @@ double sizeOfDrop(const GapFit& fit, double drop);
 /// Per effect the smallest size that would have been named, m: what the median of its parts must be before
 /// the projection for what is left of it to pass the limits of significance and of size. The geometry's is a
 /// limit of its own.
-std::vector<DetectableSize> detectableSizes(const GapInput& input, const GapFit& fit,
+std::vector<DetectableSize> detectableSizes(const SystemInput& input, const GapFit& fit,
                                             const std::vector<bool>& allowed);
 
 }  // namespace stiffscope::diagnosis

@@ -8,7 +8,7 @@
 
 namespace stiffscope::diagnosis {
 
-void findSlack(const GapInput& input, const GapData& data, GapState& state) {
+void estimateInflation(const SystemInput& input, const LinearSystem& data, SystemState& state) {
   if (!input.absolute) return;
   const Eigen::Index end = data.layout.end;
   Eigen::MatrixXd normal = sumOf(data, std::vector<double>(data.postures.size(), 1.0));
@@ -34,12 +34,12 @@ void findSlack(const GapInput& input, const GapData& data, GapState& state) {
     squares += left.squaredNorm();
     count += static_cast<double>(rows);
   }
-  if (count > 0.0) state.position_slack = std::max(1.0, state.position_slack * squares / count);
+  if (count > 0.0) state.position_inflation = std::max(1.0, state.position_inflation * squares / count);
   if (data.sweep_rows > 0) {
     Eigen::VectorXd both(end + 1);
     both << all, -1.0;
     const double left = both.dot(data.sweeps * both);
-    state.sweep_slack = std::max(1.0, state.sweep_slack * left / static_cast<double>(data.sweep_rows));
+    state.sweep_inflation = std::max(1.0, state.sweep_inflation * left / static_cast<double>(data.sweep_rows));
   }
 }
 

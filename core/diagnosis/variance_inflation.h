@@ -4,8 +4,8 @@
 
 namespace stiffscope::diagnosis {
 
-/// Variance factors of the absolute positions (`state.position_slack`, `sweep_slack`), from what the largest
+/// Variance factors of the absolute positions (`state.position_inflation`, `sweep_inflation`), from what the largest
 /// model, all effects at once within their bounds, leaves of them. Never below 1.
-void findSlack(const GapInput& input, const GapData& data, GapState& state);
+void estimateInflation(const SystemInput& input, const LinearSystem& data, SystemState& state);
 
 }  // namespace stiffscope::diagnosis

@@ -1,8 +1,8 @@
 #include "core/diagnosis/verdict.h"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 
 #include "core/diagnosis/confounding.h"
 #include "core/io/units.h"
@@ -88,10 +88,10 @@ class Decider {
     decision_.verdict.entries.push_back({one.effects, ""});
     decision_.classes.push_back(one);
     decision_.recipes.emplace_back();
-    reasons_.push_back(fmt::format(
-        "the axes found by the sweeps and the unloaded positions put the reflectors {:.2f} mm rms "
-        "from where the nominal geometry does ({:.2f} mm is allowed)",
-        1e3 * from_.geometry.rms, 1e3 * kGeometryTolerance));
+    reasons_.push_back(
+        fmt::format("the axes found by the sweeps and the unloaded positions put the reflectors {:.2f} mm rms "
+                    "from where the nominal geometry does ({:.2f} mm is allowed)",
+                    1e3 * from_.geometry.rms, 1e3 * kGeometryTolerance));
   }
 
   /// A geometry that is wrong puts the flange, and with it the load cell, elsewhere along axis 6, which
@@ -117,11 +117,11 @@ class Decider {
       const effects::EffectModel& model = models_[chosen.model];
       const Eigen::VectorXd parameters = own(set().effects, chosen.model);
       // A drift has moved the frame by the time of the loading: one cause, not two.
-      if (from_.station.course == preparation::StationCourse::drifted && model.effect == effects::Effect::frame_error) continue;
+      if (from_.station.course == preparation::StationCourse::drifted && model.effect == effects::Effect::frame_error)
+        continue;
       if (followsFromGeometry(model.effect, parameters)) {
-        reasons_.push_back(
-            fmt::format("what looks like {} ({}) is no more than the wrong geometry puts there",
-                        effects::idOf(model.effect), parametersOf(model, chosen.parts, parameters)));
+        reasons_.push_back(fmt::format("what looks like {} ({}) is no more than the wrong geometry puts there",
+                                       effects::idOf(model.effect), parametersOf(model, chosen.parts, parameters)));
         continue;
       }
       EffectClass one;
@@ -176,8 +176,7 @@ class Decider {
     std::vector<effects::Effect> effects{models_[chosen.model].effect};
     Eigen::VectorXd field = Eigen::VectorXd::Zero(set().effects.size());
     const Eigen::Index at = from_.fit.data.layout.model_at[chosen.model] - from_.fit.data.layout.effects;
-    field.segment(at, static_cast<Eigen::Index>(models_[chosen.model].parameters())) =
-        own(set().effects, chosen.model);
+    field.segment(at, static_cast<Eigen::Index>(models_[chosen.model].parameters())) = own(set().effects, chosen.model);
     const double scale = selector_.misfit(set());
     for (std::size_t m = 0; m < models_.size(); ++m) {
       const effects::Effect effect = models_[m].effect;
@@ -194,9 +193,9 @@ class Decider {
     nameUnknownPositions();
     if (from_.fit.model_error == 0.0) return;
     nameUnknownOnce();
-    reasons_.push_back(fmt::format(
-        "{:.1f} um rms of the deflection at the largest load are explained by no effect of the vocabulary",
-        1e6 * from_.fit.model_error));
+    reasons_.push_back(
+        fmt::format("{:.1f} um rms of the deflection at the largest load are explained by no effect of the vocabulary",
+                    1e6 * from_.fit.model_error));
   }
 
   /// Unloaded positions that scatter beyond what noise and the repeatability of an arm put there.
@@ -209,8 +208,8 @@ class Decider {
     if (left <= limit) return;
     nameUnknownOnce();
     reasons_.push_back(
-        fmt::format("{:.1f} um rms of the unloaded positions are explained by no effect (limit {:.1f} um)",
-                    1e6 * left, 1e6 * limit));
+        fmt::format("{:.1f} um rms of the unloaded positions are explained by no effect (limit {:.1f} um)", 1e6 * left,
+                    1e6 * limit));
   }
 
   void nameUnknownOnce() {
@@ -248,8 +247,8 @@ class Decider {
         1e6 * from_.gap.before, 1e6 * from_.gap.noise, lack, lack < 100.0 ? 2 : 0);
     if (decision_.verdict.entries.empty()) {
       reason += fmt::format(
-          " No effect passes both limits: a fall of BIC of {:.0f}, {:.1f} um rms after the stiffnesses.",
-          rules.detect, 1e6 * std::sqrt(rules.least_drop / rules.loading_rows) * from_.fit.data.state_noise);
+          " No effect passes both limits: a fall of BIC of {:.0f}, {:.1f} um rms after the stiffnesses.", rules.detect,
+          1e6 * std::sqrt(rules.least_drop / rules.loading_rows) * from_.fit.data.state_noise);
     }
     for (const std::string& one : reasons_) reason += " Besides, " + one + ".";
     reason += " Floor nests: " + from_.station.in_words + ".";

@@ -8,7 +8,7 @@ namespace stiffscope::diagnosis {
 
 /// What the verdict is made from.
 struct VerdictInput {
-  const GapInput& input;
+  const SystemInput& input;
   const GapFit& fit;
   const std::vector<bool>& allowed;
   const preparation::Station& station;

@@ -22,8 +22,7 @@ std::vector<EffectModel> modelsOf(const EffectRecord& record, const std::vector<
 std::vector<EffectModel> effectModels(const std::vector<std::string>& targets) {
   std::vector<EffectModel> all;
   for (std::size_t e = 0; e < kEffectCount; ++e) {
-    for (EffectModel& model : modelsOf(recordOf(static_cast<Effect>(e)), targets))
-      all.push_back(std::move(model));
+    for (EffectModel& model : modelsOf(recordOf(static_cast<Effect>(e)), targets)) all.push_back(std::move(model));
   }
   return all;
 }

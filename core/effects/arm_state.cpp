@@ -32,8 +32,7 @@ ArmState stateMoved(const frames::LoadingGeometry& geometry, const Vector6d& q, 
 }
 
 void placeByPosture(const frames::LoadingGeometry& geometry, ArmState& state) {
-  for (int j = 0; j < 6; ++j)
-    state.axes[static_cast<std::size_t>(j)] = robot::axisAt(geometry.arm, state.posture, j);
+  for (int j = 0; j < 6; ++j) state.axes[static_cast<std::size_t>(j)] = robot::axisAt(geometry.arm, state.posture, j);
   state.flange = robot::flangeAt(geometry.arm, state.posture);
   if (!geometry.weight.links_known) return;
   state.weight_torque = robot::weightTorque(geometry.arm, state.posture, geometry.weight);

@@ -20,17 +20,15 @@ struct ArmState {
   int pose = -1;  ///< -1 in sweeps
   int step = 0;
   double time_s = campaign::kNoTime;
-  bool loaded =
-      false;  ///< its force is above the share of the posture's largest that makes it a return to zero
+  bool loaded = false;  ///< its force is above the share of the posture's largest that makes it a return to zero
   Vector6d q = Vector6d::Zero();
   Vector6d turned = Vector6d::Zero();  ///< joint angles with the sag in
   BodyMotions moved = noBodyMotions();
-  robot::ArmPosture posture;                  ///< at `turned`, its bodies moved
-  std::array<metrology::Line, 6> axes;            ///< joint axes there; the point of each is the joint's origin
+  robot::ArmPosture posture;            ///< at `turned`, its bodies moved
+  std::array<metrology::Line, 6> axes;  ///< joint axes there; the point of each is the joint's origin
   Eigen::Isometry3d flange = Eigen::Isometry3d::Identity();
-  Eigen::Matrix3d cell_axes =
-      Eigen::Matrix3d::Identity();  ///< base_from_cell: the axes the wrench was read in
-  robot::Wrench load;                      ///< on the tool; zero force where nothing pulls
+  Eigen::Matrix3d cell_axes = Eigen::Matrix3d::Identity();  ///< base_from_cell: the axes the wrench was read in
+  robot::Wrench load;                                       ///< on the tool; zero force where nothing pulls
   Vector6d load_torque = Vector6d::Zero();
   Vector6d weight_torque = Vector6d::Zero();  ///< zero where masses are not known
   /// By body b: the own weight of all bodies from b outwards, about the R0 origin.

@@ -12,7 +12,7 @@ namespace stiffscope::effects {
 
 namespace {
 
-JointAngles angles(const WorkingPoint& at, const PostureStates& posture, std::size_t i) {
+JointAngles angles(const LinearizationPoint& at, const PostureStates& posture, std::size_t i) {
   const Vector6d torque = totalTorque(posture[i]);
   JointAngles result = JointAngles::Zero(6, 7);
   for (Eigen::Index j = 0; j < 6; ++j) {
@@ -24,7 +24,7 @@ JointAngles angles(const WorkingPoint& at, const PostureStates& posture, std::si
   return result;
 }
 
-void settle(WorkingPoint& at, Eigen::VectorXd& own) {
+void settle(LinearizationPoint& at, Eigen::VectorXd& own) {
   at.play = own.head<6>();
   at.passage = std::clamp(at.passage + own[6], 0.5 * at.passage, 2.0 * at.passage);
   constexpr double kSharpest = 1e-3, kWidest = 1.0;
@@ -39,8 +39,7 @@ std::string missing(const CampaignContents& has) {
 }
 
 std::vector<EffectModel> models(const std::vector<std::string>&) {
-  EffectModel model{
-      .parts = jointParts(20e-3, true, "rad"), .most_parts = 7, .angles = &angles, .settle = &settle};
+  EffectModel model{.parts = jointParts(20e-3, true, "rad"), .most_parts = 7, .angles = &angles, .settle = &settle};
   model.parts.push_back({"width of the passage", {1.0}, false, "of the largest torque"});
   return {model};
 }

@@ -9,7 +9,7 @@ namespace stiffscope::effects {
 
 namespace {
 
-std::vector<BodyTwist> twists(const WorkingPoint&, const PostureStates& posture, std::size_t i) {
+std::vector<BodyTwist> twists(const LinearizationPoint&, const PostureStates& posture, std::size_t i) {
   std::vector<BodyTwist> twists;
   for (int j = 0; j < 6; ++j) {
     const metrology::Line& axis = posture[i].axes[static_cast<std::size_t>(j)];
@@ -27,8 +27,7 @@ std::vector<EffectModel> models(const std::vector<std::string>&) {
 }  // namespace
 
 const EffectRecord& bearingTilt() {
-  static const EffectRecord record{
-      .effect = Effect::bearing_tilt, .nature = EffectNature::machine, .models = &models};
+  static const EffectRecord record{.effect = Effect::bearing_tilt, .nature = EffectNature::machine, .models = &models};
   return record;
 }
 

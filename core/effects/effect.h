@@ -9,22 +9,22 @@ namespace stiffscope::effects {
 /// The table of effects, one line each: what a machine or a measurement may do that the joint-stiffness model does not.
 /// The first name is the effect's id, which is fixed because other programs use it; the second is the function that
 /// returns its record, defined in the effect's own file. Reports list effects in this order.
-#define STIFFSCOPE_EFFECTS(EFFECT)                      \
-  EFFECT(link_compliance, linkCompliance)               \
-  EFFECT(bearing_tilt, bearingTilt)                     \
-  EFFECT(base_compliance, baseCompliance)               \
-  EFFECT(joint_coupling, jointCoupling)                 \
-  EFFECT(joint_hardening, jointHardening)               \
-  EFFECT(backlash, backlash)                            \
-  EFFECT(hysteresis, hysteresis)                        \
-  EFFECT(gravity_compensator, gravityCompensator)       \
-  EFFECT(load_point_error, loadPointError)              \
-  EFFECT(load_cell_misalignment, loadCellMisalignment)  \
-  EFFECT(load_cell_bias, loadCellBias)                  \
-  EFFECT(frame_error, frameError)                       \
-  EFFECT(kinematic_error, kinematicError)               \
-  EFFECT(tracker_drift, trackerDrift)                   \
-  EFFECT(target_motion, targetMotion)                   \
+#define STIFFSCOPE_EFFECTS(EFFECT)                     \
+  EFFECT(link_compliance, linkCompliance)              \
+  EFFECT(bearing_tilt, bearingTilt)                    \
+  EFFECT(base_compliance, baseCompliance)              \
+  EFFECT(joint_coupling, jointCoupling)                \
+  EFFECT(joint_hardening, jointHardening)              \
+  EFFECT(backlash, backlash)                           \
+  EFFECT(hysteresis, hysteresis)                       \
+  EFFECT(gravity_compensator, gravityCompensator)      \
+  EFFECT(load_point_error, loadPointError)             \
+  EFFECT(load_cell_misalignment, loadCellMisalignment) \
+  EFFECT(load_cell_bias, loadCellBias)                 \
+  EFFECT(frame_error, frameError)                      \
+  EFFECT(kinematic_error, kinematicError)              \
+  EFFECT(tracker_drift, trackerDrift)                  \
+  EFFECT(target_motion, targetMotion)                  \
   EFFECT(tool_compliance, toolCompliance)
 
 // clang-format off

@@ -5,17 +5,15 @@
 
 namespace stiffscope::effects {
 
-bool WorkingPoint::jointsTurn() const {
-  return std::any_of(present.begin(), present.end(),
-                     [](const PresentEffect& one) { return one.model->angles; });
+bool LinearizationPoint::jointsTurn() const {
+  return std::any_of(present.begin(), present.end(), [](const PresentEffect& one) { return one.model->angles; });
 }
 
-bool WorkingPoint::bodiesMove() const {
-  return std::any_of(present.begin(), present.end(),
-                     [](const PresentEffect& one) { return one.model->twists; });
+bool LinearizationPoint::bodiesMove() const {
+  return std::any_of(present.begin(), present.end(), [](const PresentEffect& one) { return one.model->twists; });
 }
 
-Eigen::MatrixXd EffectModel::columns(const WorkingPoint& at, const PostureStates& posture,
+Eigen::MatrixXd EffectModel::columns(const LinearizationPoint& at, const PostureStates& posture,
                                      std::size_t state) const {
   if (angles) return byJoints(posture[state], angles(at, posture, state));
   if (offset) return offset(at, posture, state);
@@ -48,7 +46,7 @@ EffectPart rigidMotionPart(double most) {
   return part;
 }
 
-Eigen::VectorXd bySprings(const WorkingPoint& at, const ArmState& state, const robot::Wrench& change) {
+Eigen::VectorXd bySprings(const LinearizationPoint& at, const ArmState& state, const robot::Wrench& change) {
   Vector6d torque;
   for (int j = 0; j < 6; ++j) {
     const metrology::Line& axis = state.axes[static_cast<std::size_t>(j)];

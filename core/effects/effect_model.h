@@ -20,17 +20,17 @@ struct PresentEffect {
 /// What the models of the effects are linearised at. Effects that multiply another unknown (a wrong load
 /// point times a compliance) or bend with their own size (friction) take that other one from here and are
 /// fitted again and again.
-struct WorkingPoint {
+struct LinearizationPoint {
   Vector6d compliance = Vector6d::Zero();  ///< of the joints, rad/Nm, none negative
-  Vector6d friction = Vector6d::Zero();  ///< Nm; 0: not known yet, the joint lags from the first newton metre
-  double sticking = 1.0;        ///< stiffness with which friction holds before it slips, over the joint's own
-  int targets = 0;              ///< of the campaign
-  Eigen::VectorXd compensator;  ///< torque on joint 2: sin, cos of q_2, of 2 q_2 and so on, Nm; empty: none
-  Vector6d play = Vector6d::Zero();              ///< backlash of the joints, rad; zero: not known yet
+  Vector6d friction = Vector6d::Zero();    ///< Nm; 0: not known yet, the joint lags from the first newton metre
+  double sticking = 1.0;             ///< stiffness with which friction holds before it slips, over the joint's own
+  int targets = 0;                   ///< of the campaign
+  Eigen::VectorXd compensator;       ///< torque on joint 2: sin, cos of q_2, of 2 q_2 and so on, Nm; empty: none
+  Vector6d play = Vector6d::Zero();  ///< backlash of the joints, rad; zero: not known yet
   Vector6d harder_by_square = Vector6d::Zero();  ///< stiffness k (1 + a tau^2) of the joints: a, 1/Nm^2
   Vector6d harder_by_size = Vector6d::Zero();    ///< stiffness k (1 + a |tau|): a, 1/Nm
   Vector6d largest_torque = Vector6d::Zero();    ///< own weight and load, largest of all states, Nm
-  double passage = 0.05;  ///< part of the largest torque over which the backlash passes from side to side
+  double passage = 0.05;               ///< part of the largest torque over which the backlash passes from side to side
   std::vector<PresentEffect> present;  ///< effects in the model that move the unloaded arm
   double largest_force = 1.0;          ///< N, of the campaign: scales what is proportional to the load
   /// From the declared point of the wrench to where the load itself pulls, flange axes, m.
@@ -51,15 +51,15 @@ struct Corrections {
   Eigen::Vector3d cell_turn = Eigen::Vector3d::Zero();   ///< rad, about the cell's axes
   Eigen::Vector3d cell_force = Eigen::Vector3d::Zero();  ///< N, in the cell's axes, in loaded states
   double missing_weight = 0.0;                           ///< N, along gravity, in loaded states
-  Vector6d frame = Vector6d::Zero();  ///< shift of the loading's readings, as frame_error has it
+  Vector6d frame = Vector6d::Zero();                     ///< shift of the loading's readings, as frame_error has it
 };
 
 /// Parameters of an effect that come or stay away together: one joint's, one pair's, one reflector's.
 struct EffectPart {
-  std::string detail;        ///< "joint 3", "joints 2 and 3", "P12"; empty where nothing is to be named
-  std::vector<double> most;  ///< physical bound of each parameter's magnitude
-  bool positive = false;     ///< a compliance, a width: never negative
-  std::string unit;          ///< of the parameters
+  std::string detail;                   ///< "joint 3", "joints 2 and 3", "P12"; empty where nothing is to be named
+  std::vector<double> most;             ///< physical bound of each parameter's magnitude
+  bool positive = false;                ///< a compliance, a width: never negative
+  std::string unit;                     ///< of the parameters
   std::vector<std::string> names = {};  ///< of each parameter; empty: a single one, called as the part
   std::vector<std::string> units = {};  ///< of each parameter; empty: `unit` is that of all
 };
@@ -89,24 +89,23 @@ struct EffectModel {
   std::vector<EffectPart> parts = {};
   std::size_t most_parts = 1;  ///< that may be present together
   /// Where the effect only turns joints.
-  JointAngles (*angles)(const WorkingPoint& at, const PostureStates& posture, std::size_t state) = nullptr;
+  JointAngles (*angles)(const LinearizationPoint& at, const PostureStates& posture, std::size_t state) = nullptr;
   /// Where it moves bodies rigidly: one a parameter; those of a part have one body and one pivot.
-  std::vector<BodyTwist> (*twists)(const WorkingPoint& at, const PostureStates& posture,
+  std::vector<BodyTwist> (*twists)(const LinearizationPoint& at, const PostureStates& posture,
                                    std::size_t state) = nullptr;
   /// Else: 3 rows a reflector, one column a parameter, parts in their order, m per unit.
-  Eigen::MatrixXd (*offset)(const WorkingPoint& at, const PostureStates& posture,
-                            std::size_t state) = nullptr;
+  Eigen::MatrixXd (*offset)(const LinearizationPoint& at, const PostureStates& posture, std::size_t state) = nullptr;
   /// Its twists are those of the tool beyond the flange: the arm itself stays where it is.
   bool beyond_flange = false;
   /// Where its equations bend with their own parameters: moves the working point to these, and leaves in
   /// `own` those that are sizes of the effect (not shapes). Null: they do not bend.
-  void (*settle)(WorkingPoint& at, Eigen::VectorXd& own) = nullptr;
+  void (*settle)(LinearizationPoint& at, Eigen::VectorXd& own) = nullptr;
   /// Where its parameters multiply other unknowns: once estimated, it is put into what the equations are made
   /// with, and `own` becomes what they then contain. `compliance` is that of the equations it was found in.
-  void (*correct)(const Vector6d& compliance, WorkingPoint& at, Corrections& corrections,
+  void (*correct)(const Vector6d& compliance, LinearizationPoint& at, Corrections& corrections,
                   Eigen::VectorXd& own) = nullptr;
 
-  Eigen::MatrixXd columns(const WorkingPoint& at, const PostureStates& posture, std::size_t state) const;
+  Eigen::MatrixXd columns(const LinearizationPoint& at, const PostureStates& posture, std::size_t state) const;
 
   std::size_t parameters() const;
 
@@ -121,7 +120,7 @@ std::vector<EffectPart> jointParts(double most, bool positive, const std::string
 EffectPart rigidMotionPart(double most);
 
 /// The wrench's own displacement field: joint springs turned by the torque of a changed wrench on the tool.
-Eigen::VectorXd bySprings(const WorkingPoint& at, const ArmState& state, const robot::Wrench& change);
+Eigen::VectorXd bySprings(const LinearizationPoint& at, const ArmState& state, const robot::Wrench& change);
 
 /// What parameter `k` of a part is called, and its unit: "joint 3", "P12 x", "1/EI of link 2", "turn about
 /// x".

@@ -14,8 +14,7 @@ std::optional<Vector6d> loadedAngles(const frames::LoadingGeometry& geometry, co
   constexpr double kSettled = 1e-12;  // rad
   const auto torqueAt = [&](const Vector6d& angles) -> Vector6d {
     const robot::ArmPosture posture = robot::postureAt(geometry.arm, angles);
-    const robot::Wrench wrench{robot::flangeAt(geometry.arm, posture) * load.point_in_flange, load.force,
-                               load.moment};
+    const robot::Wrench wrench{robot::flangeAt(geometry.arm, posture) * load.point_in_flange, load.force, load.moment};
     return robot::weightTorque(geometry.arm, posture, geometry.weight) +
            robot::jointTorque(geometry.arm, posture, wrench);
   };
@@ -32,7 +31,7 @@ struct ElasticArm::Deflection {
 };
 
 ElasticArm::ElasticArm(const frames::LoadingGeometry& geometry, const Vector6d& compliance,
-                       const WorkingPoint& at, std::vector<PresentEffect> effects)
+                       const LinearizationPoint& at, std::vector<PresentEffect> effects)
     : geometry_(geometry), compliance_(compliance), at_(at), effects_(std::move(effects)) {}
 
 ElasticArm::Deflection ElasticArm::deflectionBy(const PostureStates& posture, std::size_t s) const {
@@ -54,8 +53,7 @@ ElasticArm::Deflection ElasticArm::deflectionBy(const PostureStates& posture, st
       }
       if (motion.isZero(0.0)) continue;
       // An axis stands where the body inside it does.
-      auto& there =
-          deflection.motions[static_cast<std::size_t>(first.first_body - (first.with_axis ? 1 : 0))];
+      auto& there = deflection.motions[static_cast<std::size_t>(first.first_body - (first.with_axis ? 1 : 0))];
       there = metrology::motionAbout(first.pivot, motion) * there;
     }
   }
@@ -85,8 +83,7 @@ std::optional<Eigen::Isometry3d> ElasticArm::toolMotion(const PostureStates& pos
     state.posture = place;
     placeByPosture(geometry_, state);
     if (s == 0) state.turned = angles;
-    state.load =
-        load ? robot::Wrench{tool * load->point_at_zero, load->force, load->moment} : robot::Wrench{};
+    state.load = load ? robot::Wrench{tool * load->point_at_zero, load->force, load->moment} : robot::Wrench{};
     state.load_torque = load ? robot::jointTorque(geometry_.arm, place, state.load) : Vector6d::Zero();
     deflection = deflectionBy(states, s);
     angles = state.q + compliance_.cwiseProduct(totalTorque(state)) + deflection.angles;

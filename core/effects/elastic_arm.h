@@ -25,10 +25,9 @@ std::optional<Vector6d> loadedAngles(const frames::LoadingGeometry& geometry, co
 
 /// A load that keeps its force and moment in R0 and acts at a point fixed to the tool.
 struct ToolLoad {
-  Eigen::Vector3d point_at_zero =
-      Eigen::Vector3d::Zero();                       ///< where the point stands in R0 at all joints zero, m
-  Eigen::Vector3d force = Eigen::Vector3d::Zero();   ///< R0 axes, N
-  Eigen::Vector3d moment = Eigen::Vector3d::Zero();  ///< R0 axes, about the point, Nm
+  Eigen::Vector3d point_at_zero = Eigen::Vector3d::Zero();  ///< where the point stands in R0 at all joints zero, m
+  Eigen::Vector3d force = Eigen::Vector3d::Zero();          ///< R0 axes, N
+  Eigen::Vector3d moment = Eigen::Vector3d::Zero();         ///< R0 axes, about the point, Nm
 };
 
 /// The arm on its joint springs and with what effects of the machine add, at rest, finite rotations: joint
@@ -40,14 +39,13 @@ class ElasticArm {
  public:
   /// Without effects: joint springs alone. Geometry, linearisation point and the effects' models must outlive
   /// the arm.
-  ElasticArm(const frames::LoadingGeometry& geometry, const Vector6d& compliance, const WorkingPoint& at,
+  ElasticArm(const frames::LoadingGeometry& geometry, const Vector6d& compliance, const LinearizationPoint& at,
              std::vector<PresentEffect> effects);
 
   /// Motion of the tool (what lies beyond the plate; without one, the flange) from its place at all joints
   /// zero, in state `s` of a posture: its q, its history of loads, whether it is loaded. `load` acts there;
   /// null: the own weight alone. Empty where the arm does not come to rest.
-  std::optional<Eigen::Isometry3d> toolMotion(const PostureStates& posture, std::size_t s,
-                                              const ToolLoad* load) const;
+  std::optional<Eigen::Isometry3d> toolMotion(const PostureStates& posture, std::size_t s, const ToolLoad* load) const;
 
  private:
   struct Deflection;
@@ -55,20 +53,18 @@ class ElasticArm {
 
   const frames::LoadingGeometry& geometry_;
   Vector6d compliance_;
-  const WorkingPoint& at_;
+  const LinearizationPoint& at_;
   std::vector<PresentEffect> effects_;
 };
 
 /// base_from_flange at rest with these joint commands under the load (one without force: the own weight
 /// alone). Empty where the arm does not come to rest.
-using RestingFlange =
-    std::function<std::optional<Eigen::Isometry3d>(const Vector6d& commands, const FlangeLoad& load)>;
+using RestingFlange = std::function<std::optional<Eigen::Isometry3d>(const Vector6d& commands, const FlangeLoad& load)>;
 
 /// An arm that gives at more than its joint springs.
-struct FurtherGive {
+struct EffectDeflection {
   RestingFlange flange;
-  Matrix6d spring_covariance =
-      Matrix6d::Zero();  ///< of the joint compliances, what gives besides taken as known
+  Matrix6d spring_covariance = Matrix6d::Zero();  ///< of the joint compliances, what gives besides taken as known
   /// The arm moved by one standard deviation along each independent direction of what else is uncertain,
   /// joint springs following: what such a move changes in a result is a standard uncertainty of it.
   std::vector<RestingFlange> varied;

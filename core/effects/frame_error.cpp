@@ -8,7 +8,7 @@ namespace stiffscope::effects {
 
 namespace {
 
-Eigen::MatrixXd offset(const WorkingPoint& at, const PostureStates& posture, std::size_t i) {
+Eigen::MatrixXd offset(const LinearizationPoint& at, const PostureStates& posture, std::size_t i) {
   const ArmState& state = posture[i];
   Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(state.rows(), 6);
   if (state.pose < 0) return columns;
@@ -19,7 +19,7 @@ Eigen::MatrixXd offset(const WorkingPoint& at, const PostureStates& posture, std
   return columns;
 }
 
-void correct(const Vector6d&, WorkingPoint&, Corrections& corrections, Eigen::VectorXd& own) {
+void correct(const Vector6d&, LinearizationPoint&, Corrections& corrections, Eigen::VectorXd& own) {
   corrections.frame = own;
 }
 
@@ -39,10 +39,8 @@ std::vector<EffectModel> models(const std::vector<std::string>&) {
 }  // namespace
 
 const EffectRecord& frameError() {
-  static const EffectRecord record{.effect = Effect::frame_error,
-                                   .nature = EffectNature::measurement,
-                                   .missing = &missing,
-                                   .models = &models};
+  static const EffectRecord record{
+      .effect = Effect::frame_error, .nature = EffectNature::measurement, .missing = &missing, .models = &models};
   return record;
 }
 

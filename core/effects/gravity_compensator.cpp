@@ -15,7 +15,7 @@ namespace {
 
 constexpr int kHarmonics = 4;
 
-JointAngles angles(const WorkingPoint& at, const PostureStates& posture, std::size_t i) {
+JointAngles angles(const LinearizationPoint& at, const PostureStates& posture, std::size_t i) {
   const ArmState& state = posture[i];
   const double angle = state.turned[1], compliance = at.compliance[1];
   const double give = compliance * state.load_torque[1];
@@ -29,7 +29,7 @@ JointAngles angles(const WorkingPoint& at, const PostureStates& posture, std::si
 }
 
 /// The torque turns the joint by the compliance of the equations it was found in.
-void correct(const Vector6d& compliance, WorkingPoint& at, Corrections&, Eigen::VectorXd& own) {
+void correct(const Vector6d& compliance, LinearizationPoint& at, Corrections&, Eigen::VectorXd& own) {
   if (compliance[1] <= 0.0 || at.compliance[1] <= 0.0) {
     own.setZero();
     return;
@@ -39,10 +39,8 @@ void correct(const Vector6d& compliance, WorkingPoint& at, Corrections&, Eigen::
 }
 
 std::string missing(const CampaignContents& has) {
-  if (!has.weights)
-    return "the masses of the links are not known: the spring cannot be told from the own weight";
-  if (!has.absolute)
-    return "displacements only: unloaded absolute positions against forward kinematics are needed";
+  if (!has.weights) return "the masses of the links are not known: the spring cannot be told from the own weight";
+  if (!has.absolute) return "displacements only: unloaded absolute positions against forward kinematics are needed";
   return {};
 }
 
@@ -58,10 +56,8 @@ std::vector<EffectModel> models(const std::vector<std::string>&) {
 }  // namespace
 
 const EffectRecord& gravityCompensator() {
-  static const EffectRecord record{.effect = Effect::gravity_compensator,
-                                   .nature = EffectNature::machine,
-                                   .missing = &missing,
-                                   .models = &models};
+  static const EffectRecord record{
+      .effect = Effect::gravity_compensator, .nature = EffectNature::machine, .missing = &missing, .models = &models};
   return record;
 }
 

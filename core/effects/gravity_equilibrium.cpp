@@ -10,7 +10,7 @@ namespace stiffscope::effects {
 namespace {
 
 /// Inner bodies first, so that an outer motion turns about where the inner ones have brought its pivot.
-BodyMotions motionsOf(const WorkingPoint& at, const ArmState& rest) {
+BodyMotions motionsOf(const LinearizationPoint& at, const ArmState& rest) {
   std::array<Vector6d, 7> by_body;  // rotation vector, and displacement of the R0 origin
   by_body.fill(Vector6d::Zero());
   const PostureStates posture{rest};
@@ -21,8 +21,7 @@ BodyMotions motionsOf(const WorkingPoint& at, const ArmState& rest) {
       const BodyTwist& twist = twists[k];
       Vector6d at_origin;
       at_origin << twist.rotation, twist.shift - twist.rotation.cross(twist.pivot);
-      by_body[static_cast<std::size_t>(twist.first_body)] +=
-          at_origin * one.parameters[static_cast<Eigen::Index>(k)];
+      by_body[static_cast<std::size_t>(twist.first_body)] += at_origin * one.parameters[static_cast<Eigen::Index>(k)];
     }
   }
   BodyMotions all = noBodyMotions();
@@ -44,7 +43,7 @@ BodyMotions motionsOf(const WorkingPoint& at, const ArmState& rest) {
 
 }  // namespace
 
-Vector6d presentTurn(const WorkingPoint& at, const ArmState& state) {
+Vector6d presentTurn(const LinearizationPoint& at, const ArmState& state) {
   Vector6d turn = Vector6d::Zero();
   const PostureStates rest{state};
   for (const PresentEffect& one : at.present) {
@@ -53,7 +52,7 @@ Vector6d presentTurn(const WorkingPoint& at, const ArmState& state) {
   return turn;
 }
 
-ArmState restState(const frames::LoadingGeometry& geometry, const WorkingPoint& at, const Vector6d& q) {
+ArmState gravityEquilibrium(const frames::LoadingGeometry& geometry, const LinearizationPoint& at, const Vector6d& q) {
   ArmState state = stateAt(geometry, q, Vector6d::Zero());
   if (at.present.empty()) return state;
   constexpr int kRounds = 5;  // torques change with turns and motions by a hundredth with a strong effect
@@ -75,7 +74,7 @@ ArmState restState(const frames::LoadingGeometry& geometry, const WorkingPoint& 
 namespace {
 
 /// Joint angles in place of displacements.
-Matrix6d anglesByBody(const WorkingPoint& at, const ArmState& state) {
+Matrix6d anglesByBody(const LinearizationPoint& at, const ArmState& state) {
   Matrix6d angles = Matrix6d::Zero();
   for (int body = 1; body <= 6; ++body) {
     const auto b = static_cast<std::size_t>(body);
@@ -94,7 +93,7 @@ Matrix6d anglesByBody(const WorkingPoint& at, const ArmState& state) {
 
 }  // namespace
 
-Eigen::MatrixXd sagByBody(const WorkingPoint& at, const ArmState& state) {
+Eigen::MatrixXd gravityDeflectionByBody(const LinearizationPoint& at, const ArmState& state) {
   return byJoints(state, anglesByBody(at, state));
 }
 

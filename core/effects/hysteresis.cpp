@@ -21,12 +21,12 @@ namespace {
 
 constexpr double kLeastFriction = 1e-3;  // Nm
 
-double frictionOf(const WorkingPoint& at, Eigen::Index joint) {
+double frictionOf(const LinearizationPoint& at, Eigen::Index joint) {
   return std::max(at.friction[joint], kLeastFriction);
 }
 
 /// A rigid grip: the joint's spring follows the torque only beyond the friction.
-JointAngles rigidGrip(const WorkingPoint& at, const PostureStates& posture, std::size_t i) {
+JointAngles rigidGrip(const LinearizationPoint& at, const PostureStates& posture, std::size_t i) {
   Vector6d lag;
   for (Eigen::Index j = 0; j < 6; ++j) {
     const double friction = frictionOf(at, j);
@@ -47,8 +47,7 @@ class Sliders {
  public:
   Sliders(double friction, double sticking) : stiffness_(sticking / kSliders) {
     constexpr double kMean = 0.5 * (kSliders + 1);
-    for (int s = 0; s < kSliders; ++s)
-      limit_[static_cast<std::size_t>(s)] = friction / kSliders * (s + 1) / kMean;
+    for (int s = 0; s < kSliders; ++s) limit_[static_cast<std::size_t>(s)] = friction / kSliders * (s + 1) / kMean;
   }
 
   /// Torque that friction takes once the joint has gone to equilibrium with `torque`.
@@ -80,8 +79,7 @@ class Sliders {
 };
 
 template <int kSliders>
-double lagAfter(double friction, double sticking, const PostureStates& posture, std::size_t i,
-                Eigen::Index joint) {
+double lagAfter(double friction, double sticking, const PostureStates& posture, std::size_t i, Eigen::Index joint) {
   Sliders<kSliders> sliders(friction, sticking);
   double held = 0.0;
   for (std::size_t k = 1; k <= i; ++k) held = sliders.moveTo(posture[k].load_torque[joint]);
@@ -89,7 +87,7 @@ double lagAfter(double friction, double sticking, const PostureStates& posture, 
 }
 
 template <int kSliders>
-JointAngles softGrip(const WorkingPoint& at, const PostureStates& posture, std::size_t i) {
+JointAngles softGrip(const LinearizationPoint& at, const PostureStates& posture, std::size_t i) {
   constexpr double kStep = 0.05;  // of the logarithm
   JointAngles result = JointAngles::Zero(6, 7);
   for (Eigen::Index j = 0; j < 6; ++j) {
@@ -103,14 +101,13 @@ JointAngles softGrip(const WorkingPoint& at, const PostureStates& posture, std::
 }
 
 /// Lag over compliance is friction.
-void frictionFrom(WorkingPoint& at, const Eigen::VectorXd& own) {
-  for (Eigen::Index j = 0; j < 6; ++j)
-    at.friction[j] = at.compliance[j] > 0.0 ? own[j] / at.compliance[j] : 0.0;
+void frictionFrom(LinearizationPoint& at, const Eigen::VectorXd& own) {
+  for (Eigen::Index j = 0; j < 6; ++j) at.friction[j] = at.compliance[j] > 0.0 ? own[j] / at.compliance[j] : 0.0;
 }
 
-void settleRigid(WorkingPoint& at, Eigen::VectorXd& own) { frictionFrom(at, own); }
+void settleRigid(LinearizationPoint& at, Eigen::VectorXd& own) { frictionFrom(at, own); }
 
-void settleSoft(WorkingPoint& at, Eigen::VectorXd& own) {
+void settleSoft(LinearizationPoint& at, Eigen::VectorXd& own) {
   frictionFrom(at, own);
   constexpr double kStride = 1.0, kSoftest = 0.05, kFirmest = 20.0;
   at.sticking = std::clamp(at.sticking * std::exp(std::clamp(own[6], -kStride, kStride)), kSoftest, kFirmest);

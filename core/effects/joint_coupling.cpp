@@ -10,7 +10,7 @@ namespace stiffscope::effects {
 
 namespace {
 
-JointAngles angles(const WorkingPoint&, const PostureStates& posture, std::size_t i) {
+JointAngles angles(const LinearizationPoint&, const PostureStates& posture, std::size_t i) {
   const Vector6d torque = totalTorque(posture[i]);
   JointAngles result = JointAngles::Zero(6, 15);
   Eigen::Index pair = 0;

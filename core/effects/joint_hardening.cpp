@@ -37,32 +37,32 @@ double bySpring(double x) {
 /// Stiffness over that at no torque; one that drops is followed down to half.
 Array6d stiffer(const Array6d& by) { return 1.0 + by.max(-0.5); }
 
-JointAngles cubicSpring(const WorkingPoint& at, const PostureStates& posture, std::size_t i) {
+JointAngles cubicSpring(const LinearizationPoint& at, const PostureStates& posture, std::size_t i) {
   const Array6d torque = totalTorque(posture[i]).array();
   const Array6d by = (at.harder_by_square.array() * torque.square()).unaryExpr(&bySpring);
   return Matrix6d((-torque.cube() * by).matrix().asDiagonal());
 }
 
-JointAngles cubicWhole(const WorkingPoint& at, const PostureStates& posture, std::size_t i) {
+JointAngles cubicWhole(const LinearizationPoint& at, const PostureStates& posture, std::size_t i) {
   const Array6d torque = totalTorque(posture[i]).array();
   const Array6d by = stiffer(at.harder_by_square.array() * torque.square());
   return Matrix6d((-torque.cube() / by).matrix().asDiagonal());
 }
 
-JointAngles squareWhole(const WorkingPoint& at, const PostureStates& posture, std::size_t i) {
+JointAngles squareWhole(const LinearizationPoint& at, const PostureStates& posture, std::size_t i) {
   const Array6d torque = totalTorque(posture[i]).array();
   const Array6d by = stiffer(at.harder_by_size.array() * torque.abs());
   return Matrix6d((-torque * torque.abs() / by).matrix().asDiagonal());
 }
 
 /// a_j = h_j / c_j.
-Vector6d overCompliance(const WorkingPoint& at, const Eigen::VectorXd& own) {
+Vector6d overCompliance(const LinearizationPoint& at, const Eigen::VectorXd& own) {
   return (at.compliance.array() > 0.0).select(own.array() / at.compliance.array(), 0.0);
 }
 
-void settleSquare(WorkingPoint& at, Eigen::VectorXd& own) { at.harder_by_square = overCompliance(at, own); }
+void settleSquare(LinearizationPoint& at, Eigen::VectorXd& own) { at.harder_by_square = overCompliance(at, own); }
 
-void settleSize(WorkingPoint& at, Eigen::VectorXd& own) { at.harder_by_size = overCompliance(at, own); }
+void settleSize(LinearizationPoint& at, Eigen::VectorXd& own) { at.harder_by_size = overCompliance(at, own); }
 
 EffectModel bySquare(const char* shape, decltype(EffectModel::angles) angles) {
   return {.shape = shape,
@@ -80,19 +80,19 @@ EffectModel bySize(const char* shape, decltype(EffectModel::angles) angles) {
           .settle = &settleSize};
 }
 
-JointAngles cubic(const WorkingPoint&, const PostureStates& posture, std::size_t i) {
+JointAngles cubic(const LinearizationPoint&, const PostureStates& posture, std::size_t i) {
   const Vector6d torque = totalTorque(posture[i]);
   return Matrix6d((-torque.array().cube()).matrix().asDiagonal());
 }
 
-JointAngles square(const WorkingPoint&, const PostureStates& posture, std::size_t i) {
+JointAngles square(const LinearizationPoint&, const PostureStates& posture, std::size_t i) {
   const Vector6d torque = totalTorque(posture[i]);
   return Matrix6d((-torque.cwiseProduct(torque.cwiseAbs())).asDiagonal());
 }
 
 constexpr int kKnots = 6, kBends = 4;
 
-JointAngles stages(const WorkingPoint& at, const PostureStates& posture, std::size_t i) {
+JointAngles stages(const LinearizationPoint& at, const PostureStates& posture, std::size_t i) {
   const Vector6d torque = totalTorque(posture[i]);
   JointAngles result = JointAngles::Zero(6, 6 * kKnots);
   for (Eigen::Index j = 0; j < 6; ++j) {
@@ -104,7 +104,7 @@ JointAngles stages(const WorkingPoint& at, const PostureStates& posture, std::si
   return result;
 }
 
-JointAngles smoothCurve(const WorkingPoint& at, const PostureStates& posture, std::size_t i) {
+JointAngles smoothCurve(const LinearizationPoint& at, const PostureStates& posture, std::size_t i) {
   const Vector6d torque = totalTorque(posture[i]);
   JointAngles result = JointAngles::Zero(6, 6 * kBends);
   for (Eigen::Index j = 0; j < 6; ++j) {
@@ -121,8 +121,7 @@ JointAngles smoothCurve(const WorkingPoint& at, const PostureStates& posture, st
 
 EffectModel byKnots(const char* shape, const char* knot, int knots, decltype(EffectModel::angles) angles) {
   constexpr double kMost = 1e-3;  // rad/Nm
-  EffectModel model{
-      .shape = shape, .parts = jointParts(kMost, false, "rad/Nm"), .most_parts = 6, .angles = angles};
+  EffectModel model{.shape = shape, .parts = jointParts(kMost, false, "rad/Nm"), .most_parts = 6, .angles = angles};
   for (EffectPart& part : model.parts) {
     part.most.assign(static_cast<std::size_t>(knots), kMost);
     for (int b = 1; b <= knots; ++b) part.names.push_back(fmt::format("{} {} {}", part.detail, knot, b));
@@ -131,8 +130,7 @@ EffectModel byKnots(const char* shape, const char* knot, int knots, decltype(Eff
 }
 
 std::string missing(const CampaignContents& has) {
-  if (has.load_steps < 2)
-    return "one load step: two or more loads of different size in each posture are needed";
+  if (has.load_steps < 2) return "one load step: two or more loads of different size in each posture are needed";
   return {};
 }
 
@@ -149,10 +147,8 @@ std::vector<EffectModel> models(const std::vector<std::string>&) {
 }  // namespace
 
 const EffectRecord& jointHardening() {
-  static const EffectRecord record{.effect = Effect::joint_hardening,
-                                   .nature = EffectNature::machine,
-                                   .missing = &missing,
-                                   .models = &models};
+  static const EffectRecord record{
+      .effect = Effect::joint_hardening, .nature = EffectNature::machine, .missing = &missing, .models = &models};
   return record;
 }
 

@@ -9,8 +9,7 @@ namespace {
 
 std::string missing(const CampaignContents& has) {
   if (!has.weights) return "the masses of the links are not known: the sag cannot be told from geometry";
-  if (!has.absolute)
-    return "displacements only: unloaded absolute positions or circle sweeps of all axes are needed";
+  if (!has.absolute) return "displacements only: unloaded absolute positions or circle sweeps of all axes are needed";
   return {};
 }
 

@@ -14,7 +14,7 @@ namespace {
 
 constexpr int kLinks = 4;  // bodies 1 to 4: joint origin to the next; the wrist's own bodies are compact
 
-std::vector<BodyTwist> twists(const WorkingPoint&, const PostureStates& posture, std::size_t i) {
+std::vector<BodyTwist> twists(const LinearizationPoint&, const PostureStates& posture, std::size_t i) {
   std::vector<BodyTwist> twists;
   for (int link = 0; link < kLinks; ++link) {
     const Eigen::Vector3d from = posture[i].axes[static_cast<std::size_t>(link)].point;

@@ -9,7 +9,7 @@ namespace stiffscope::effects {
 
 namespace {
 
-Eigen::MatrixXd byForces(const WorkingPoint& at, const ArmState& state, const Eigen::Vector3d& point,
+Eigen::MatrixXd byForces(const LinearizationPoint& at, const ArmState& state, const Eigen::Vector3d& point,
                          const Eigen::Matrix3Xd& forces) {
   Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(state.rows(), forces.cols());
   if (!state.loaded) return columns;
@@ -19,21 +19,21 @@ Eigen::MatrixXd byForces(const WorkingPoint& at, const ArmState& state, const Ei
   return columns;
 }
 
-Eigen::MatrixXd inCell(const WorkingPoint& at, const PostureStates& posture, std::size_t i) {
+Eigen::MatrixXd inCell(const LinearizationPoint& at, const PostureStates& posture, std::size_t i) {
   return byForces(at, posture[i], posture[i].load.point, posture[i].cell_axes);
 }
 
-Eigen::MatrixXd alongGravity(const WorkingPoint& at, const PostureStates& posture, std::size_t i) {
+Eigen::MatrixXd alongGravity(const LinearizationPoint& at, const PostureStates& posture, std::size_t i) {
   const ArmState& state = posture[i];
   return byForces(at, state, state.load.point + state.flange.linear() * at.load_offset,
                   -at.r0_from_base_link.linear().col(2));
 }
 
-void correctForce(const Vector6d&, WorkingPoint&, Corrections& corrections, Eigen::VectorXd& own) {
+void correctForce(const Vector6d&, LinearizationPoint&, Corrections& corrections, Eigen::VectorXd& own) {
   corrections.cell_force = own;
 }
 
-void correctWeight(const Vector6d&, WorkingPoint&, Corrections& corrections, Eigen::VectorXd& own) {
+void correctWeight(const Vector6d&, LinearizationPoint&, Corrections& corrections, Eigen::VectorXd& own) {
   corrections.missing_weight = own[0];
 }
 
@@ -57,10 +57,8 @@ std::vector<EffectModel> models(const std::vector<std::string>&) {
 }  // namespace
 
 const EffectRecord& loadCellBias() {
-  static const EffectRecord record{.effect = Effect::load_cell_bias,
-                                   .nature = EffectNature::measurement,
-                                   .missing = &missing,
-                                   .models = &models};
+  static const EffectRecord record{
+      .effect = Effect::load_cell_bias, .nature = EffectNature::measurement, .missing = &missing, .models = &models};
   return record;
 }
 

@@ -7,7 +7,7 @@ namespace stiffscope::effects {
 
 namespace {
 
-Eigen::MatrixXd offset(const WorkingPoint& at, const PostureStates& posture, std::size_t i) {
+Eigen::MatrixXd offset(const LinearizationPoint& at, const PostureStates& posture, std::size_t i) {
   const ArmState& state = posture[i];
   Eigen::MatrixXd columns(state.rows(), 3);
   for (int k = 0; k < 3; ++k) {
@@ -18,7 +18,7 @@ Eigen::MatrixXd offset(const WorkingPoint& at, const PostureStates& posture, std
   return columns;
 }
 
-void correct(const Vector6d&, WorkingPoint&, Corrections& corrections, Eigen::VectorXd& own) {
+void correct(const Vector6d&, LinearizationPoint&, Corrections& corrections, Eigen::VectorXd& own) {
   corrections.cell_turn = own;
 }
 

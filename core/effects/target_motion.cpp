@@ -16,7 +16,7 @@ namespace stiffscope::effects {
 namespace {
 
 /// The same field, in R0, for whichever reflector it is: one block of columns each.
-Eigen::MatrixXd forEach(const WorkingPoint& at, const ArmState& state,
+Eigen::MatrixXd forEach(const LinearizationPoint& at, const ArmState& state,
                         const Eigen::Matrix<double, 3, Eigen::Dynamic>& field) {
   Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(state.rows(), field.cols() * at.targets);
   for (std::size_t t = 0; t < state.points.size(); ++t) {
@@ -27,7 +27,7 @@ Eigen::MatrixXd forEach(const WorkingPoint& at, const ArmState& state,
 
 /// The reflector slips once the force has passed this share of the campaign's largest, and stays there.
 template <int kPercent>
-Eigen::MatrixXd lastingFrom(const WorkingPoint& at, const PostureStates& posture, std::size_t i) {
+Eigen::MatrixXd lastingFrom(const LinearizationPoint& at, const PostureStates& posture, std::size_t i) {
   double largest = 0.0;
   for (std::size_t k = 1; k <= i; ++k) largest = std::max(largest, posture[k].load.force.norm());
   const double slipped = largest > 0.01 * kPercent * at.largest_force ? 1.0 : 0.0;
@@ -43,21 +43,21 @@ std::size_t largestSoFar(const PostureStates& posture, std::size_t last) {
   return largest;
 }
 
-Eigen::MatrixXd proportional(const WorkingPoint& at, const PostureStates& posture, std::size_t i) {
+Eigen::MatrixXd proportional(const LinearizationPoint& at, const PostureStates& posture, std::size_t i) {
   const ArmState& state = posture[i];
   return forEach(at, state, state.load.force.norm() / at.largest_force * state.flange.linear());
 }
 
-Eigen::MatrixXd step(const WorkingPoint& at, const PostureStates& posture, std::size_t i) {
+Eigen::MatrixXd step(const LinearizationPoint& at, const PostureStates& posture, std::size_t i) {
   return forEach(at, posture[i], (posture[i].loaded ? 1.0 : 0.0) * posture[i].flange.linear());
 }
 
-Eigen::MatrixXd lasting(const WorkingPoint& at, const PostureStates& posture, std::size_t i) {
+Eigen::MatrixXd lasting(const LinearizationPoint& at, const PostureStates& posture, std::size_t i) {
   const double slipped = largestSoFar(posture, i) > 0 ? 1.0 : 0.0;
   return forEach(at, posture[i], slipped * posture[i].flange.linear());
 }
 
-Eigen::MatrixXd spring(const WorkingPoint& at, const PostureStates& posture, std::size_t i) {
+Eigen::MatrixXd spring(const LinearizationPoint& at, const PostureStates& posture, std::size_t i) {
   const Eigen::Matrix3d axes = posture[i].flange.linear();
   const Eigen::Vector3d f = axes.transpose() * posture[i].load.force / at.largest_force;
   Eigen::Matrix<double, 3, 6> by_entry;
@@ -67,7 +67,7 @@ Eigen::MatrixXd spring(const WorkingPoint& at, const PostureStates& posture, std
   return forEach(at, posture[i], axes * by_entry);
 }
 
-Eigen::MatrixXd pulledAlong(const WorkingPoint& at, const PostureStates& posture, std::size_t i) {
+Eigen::MatrixXd pulledAlong(const LinearizationPoint& at, const PostureStates& posture, std::size_t i) {
   return forEach(at, posture[i], posture[largestSoFar(posture, i)].load.force / at.largest_force);
 }
 
@@ -78,8 +78,7 @@ EffectModel modelOf(const std::vector<std::string>& targets, const char* shape,
   constexpr double kMost = 5e-3;  // m: a reflector further out would have left its nest
   EffectModel model{.shape = shape, .offset = offset};
   for (const std::string& target : targets) {
-    EffectPart part{target, std::vector<double>(std::max<std::size_t>(1, parameters.size()), kMost), false,
-                    "m"};
+    EffectPart part{target, std::vector<double>(std::max<std::size_t>(1, parameters.size()), kMost), false, "m"};
     for (const std::string& one : parameters) part.names.push_back(target + " " + one);
     model.parts.push_back(std::move(part));
   }
@@ -104,10 +103,8 @@ std::vector<EffectModel> models(const std::vector<std::string>& targets) {
 }  // namespace
 
 const EffectRecord& targetMotion() {
-  static const EffectRecord record{.effect = Effect::target_motion,
-                                   .nature = EffectNature::measurement,
-                                   .missing = &missing,
-                                   .models = &models};
+  static const EffectRecord record{
+      .effect = Effect::target_motion, .nature = EffectNature::measurement, .missing = &missing, .models = &models};
   return record;
 }
 

@@ -19,11 +19,11 @@ std::vector<BodyTwist> byWrench(const ArmState& state, const robot::Wrench& load
   return twists;
 }
 
-std::vector<BodyTwist> withWeight(const WorkingPoint&, const PostureStates& posture, std::size_t i) {
+std::vector<BodyTwist> withWeight(const LinearizationPoint&, const PostureStates& posture, std::size_t i) {
   return byWrench(posture[i], carried(posture[i], 6, posture[i].flange.translation()));
 }
 
-std::vector<BodyTwist> byLoad(const WorkingPoint&, const PostureStates& posture, std::size_t i) {
+std::vector<BodyTwist> byLoad(const LinearizationPoint&, const PostureStates& posture, std::size_t i) {
   return byWrench(posture[i], posture[i].load.about(posture[i].flange.translation()));
 }
 
@@ -43,17 +43,14 @@ std::string missing(const CampaignContents& has) {
 }
 
 std::vector<EffectModel> models(const std::vector<std::string>&) {
-  return {modelOf("by the load and what hangs on the flange", &withWeight),
-          modelOf("by the load alone", &byLoad)};
+  return {modelOf("by the load and what hangs on the flange", &withWeight), modelOf("by the load alone", &byLoad)};
 }
 
 }  // namespace
 
 const EffectRecord& toolCompliance() {
-  static const EffectRecord record{.effect = Effect::tool_compliance,
-                                   .nature = EffectNature::machine,
-                                   .missing = &missing,
-                                   .models = &models};
+  static const EffectRecord record{
+      .effect = Effect::tool_compliance, .nature = EffectNature::machine, .missing = &missing, .models = &models};
   return record;
 }
 

@@ -9,16 +9,14 @@ namespace stiffscope::effects {
 
 namespace {
 
-Eigen::MatrixXd offset(const WorkingPoint& at, const PostureStates& posture, std::size_t i) {
+Eigen::MatrixXd offset(const LinearizationPoint& at, const PostureStates& posture, std::size_t i) {
   const ArmState& state = posture[i];
   Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(state.rows(), 6);
   if (!std::isfinite(state.time_s)) return columns;
   const double since = (state.time_s - at.sweep_time) / at.time_span;
   for (int k = 0; k < 3; ++k) {
-    columns.col(k) =
-        since * byMotion(state, at.epoch_centre, Eigen::Vector3d::Unit(k), Eigen::Vector3d::Zero());
-    columns.col(3 + k) =
-        since * byMotion(state, at.epoch_centre, Eigen::Vector3d::Zero(), Eigen::Vector3d::Unit(k));
+    columns.col(k) = since * byMotion(state, at.epoch_centre, Eigen::Vector3d::Unit(k), Eigen::Vector3d::Zero());
+    columns.col(3 + k) = since * byMotion(state, at.epoch_centre, Eigen::Vector3d::Zero(), Eigen::Vector3d::Unit(k));
   }
   return columns;
 }
@@ -36,10 +34,8 @@ std::vector<EffectModel> models(const std::vector<std::string>&) {
 }  // namespace
 
 const EffectRecord& trackerDrift() {
-  static const EffectRecord record{.effect = Effect::tracker_drift,
-                                   .nature = EffectNature::measurement,
-                                   .missing = &missing,
-                                   .models = &models};
+  static const EffectRecord record{
+      .effect = Effect::tracker_drift, .nature = EffectNature::measurement, .missing = &missing, .models = &models};
   return record;
 }
 

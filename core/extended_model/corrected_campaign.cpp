@@ -1,8 +1,8 @@
 #include "core/extended_model/corrected_campaign.h"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 #include <map>
 
 #include "core/effects/all.h"
@@ -31,9 +31,9 @@ void moveLoadPoint(const Eigen::Vector3d& by, campaign::Campaign& campaign) {
   const robot::LinkFrame* parent = linkNamed(campaign.robot, cell.parent);
   if (parent == nullptr || parent->body != 6) {
     throw io::InputError({"--with"}, std::string(effects::idOf(effects::Effect::load_point_error)),
-                     fmt::format("the load cell's parent {} does not move with the flange: its point cannot be "
-                                 "corrected by one number",
-                                 cell.parent));
+                         fmt::format("the load cell's parent {} does not move with the flange: its point cannot be "
+                                     "corrected by one number",
+                                     cell.parent));
   }
   cell.parent_from_cell.pretranslate(parent->base_from_link_at_zero.linear().transpose() *
                                      campaign.robot.base_from_flange_at_zero.linear() * by);
@@ -60,20 +60,20 @@ const effects::ArmState* stateOf(const diagnosis::GapFit& fit, const campaign::S
 /// What the effects correct in wrenches and frame, as the fit's own equations have it.
 effects::Corrections correctionsBy(const EffectFit& effects, const Eigen::VectorXd& parameters) {
   const diagnosis::GapLayout& layout = effects.fit.data.layout;
-  effects::WorkingPoint at = effects.fit.state.at;
+  effects::LinearizationPoint at = effects.fit.state.at;
   effects::Corrections corrections;
   for (const diagnosis::ChosenModel& one : effects.fit.set.models) {
     const effects::EffectModel& model = effects.input->models[one.model];
     if (!model.correct) continue;
-    Eigen::VectorXd own = parameters.segment(layout.model_at[one.model] - layout.effects,
-                                             static_cast<Eigen::Index>(model.parameters()));
+    Eigen::VectorXd own =
+        parameters.segment(layout.model_at[one.model] - layout.effects, static_cast<Eigen::Index>(model.parameters()));
     model.correct(at.compliance, at, corrections, own);
   }
   return corrections;
 }
 
-/// Corrects the load cell's declared point, and the readings in `states` by a finite rotation and a missing force. Throws
-/// InputError where the point does not move with the flange.
+/// Corrects the load cell's declared point, and the readings in `states` by a finite rotation and a missing force.
+/// Throws InputError where the point does not move with the flange.
 void correctWrenches(const EffectFit& effects, const effects::Corrections& by, campaign::Campaign& campaign) {
   if (!by.load_point.isZero(0.0)) moveLoadPoint(by.load_point, campaign);
   const Eigen::Matrix3d turn = turnOf(by.cell_turn);
@@ -98,20 +98,19 @@ bool shiftsReadings(const effects::EffectModel& model) {
 }
 
 bool hasMachine(const EffectFit& effects) {
-  return std::any_of(effects.fit.set.models.begin(), effects.fit.set.models.end(),
-                     [&](const diagnosis::ChosenModel& one) {
-                       return effects::natureOf(effects.input->models[one.model].effect) ==
-                              effects::EffectNature::machine;
-                     });
+  return std::any_of(
+      effects.fit.set.models.begin(), effects.fit.set.models.end(), [&](const diagnosis::ChosenModel& one) {
+        return effects::natureOf(effects.input->models[one.model].effect) == effects::EffectNature::machine;
+      });
 }
 
 }  // namespace
 
-PostureOffsets::PostureOffsets(const EffectFit& effects, const Eigen::VectorXd& parameters, const effects::PostureStates& posture,
-                               Which which)
+PostureOffsets::PostureOffsets(const EffectFit& effects, const Eigen::VectorXd& parameters,
+                               const effects::PostureStates& posture, Which which)
     : effects_(effects), parameters_(parameters), posture_(posture), which_(which) {
   if (!which.machine || !hasMachine(effects)) return;
-  const diagnosis::GapState& state = effects.fit.state;
+  const diagnosis::SystemState& state = effects.fit.state;
   const effects::ElasticArm with(state.geometry, state.at.compliance, state.at, machineEffects(effects, parameters));
   const effects::ElasticArm springs(state.geometry, state.at.compliance, state.at, {});
   for (std::size_t s = 0; s < posture.size(); ++s) {
@@ -136,12 +135,12 @@ std::vector<Eigen::Vector3d> PostureOffsets::linear(int target, const Eigen::Vec
   const diagnosis::GapLayout& layout = effects_.fit.data.layout;
   for (const diagnosis::ChosenModel& one : effects_.fit.set.models) {
     const effects::EffectModel& model = effects_.input->models[one.model];
-    const bool wanted = machine ? effects::natureOf(model.effect) == effects::EffectNature::machine : shiftsReadings(model);
+    const bool wanted =
+        machine ? effects::natureOf(model.effect) == effects::EffectNature::machine : shiftsReadings(model);
     if (!wanted) continue;
-    const Eigen::VectorXd own = parameters_.segment(layout.model_at[one.model] - layout.effects,
-                                                    static_cast<Eigen::Index>(model.parameters()));
-    for (std::size_t s = 0; s < states.size(); ++s)
-      offsets[s] += model.columns(effects_.fit.state.at, states, s) * own;
+    const Eigen::VectorXd own =
+        parameters_.segment(layout.model_at[one.model] - layout.effects, static_cast<Eigen::Index>(model.parameters()));
+    for (std::size_t s = 0; s < states.size(); ++s) offsets[s] += model.columns(effects_.fit.state.at, states, s) * own;
   }
   return offsets;
 }
@@ -178,11 +177,13 @@ class Shifter {
     }
     const Eigen::Isometry3d r0_from_loading = state_.geometry.r0_from_loading.value_or(Eigen::Isometry3d::Identity());
     const Eigen::Isometry3d loading_from_r0 = r0_from_loading.inverse();
-    const Eigen::Isometry3d corrected = metrology::motionAbout(state_.at.epoch_centre, options_.frame).inverse() * r0_from_loading;
+    const Eigen::Isometry3d corrected =
+        metrology::motionAbout(state_.at.epoch_centre, options_.frame).inverse() * r0_from_loading;
     const auto places = unloadedPlaces(table, corrected);
     for (campaign::LoadingReading& row : table.rows) {
       const Eigen::Vector3d point = corrected * row.point;
-      row.point = loading_from_r0 * (point - offsetIn(row.pose, row.step, row.target, places.at({row.pose, row.target})));
+      row.point =
+          loading_from_r0 * (point - offsetIn(row.pose, row.step, row.target, places.at({row.pose, row.target})));
     }
   }
 
@@ -194,8 +195,8 @@ class Shifter {
       const auto& at_zero = state_.geometry.targets_at_zero[static_cast<std::size_t>(row.target)];
       if (known == postures_.end() || !at_zero) continue;
       const Eigen::Vector3d place = known->second.front().posture.motion[6] * *at_zero;
-      row.displacement -= table_from_r0 * (offsetIn(row.pose, row.step, row.target, place) -
-                                           offsetIn(row.pose, 0, row.target, place));
+      row.displacement -=
+          table_from_r0 * (offsetIn(row.pose, row.step, row.target, place) - offsetIn(row.pose, 0, row.target, place));
     }
   }
 
@@ -214,14 +215,15 @@ class Shifter {
 
   /// The arm at rest, not loaded, with the effects' own turns in.
   effects::ArmState atRest(int pose, const Vector6d& q, double time_s) const {
-    effects::ArmState state = effects::restState(state_.geometry, state_.at, q);
+    effects::ArmState state = effects::gravityEquilibrium(state_.geometry, state_.at, q);
     state.pose = pose;
     state.time_s = time_s;
     return state;
   }
 
   /// Where reflectors stand in step 0 (mean of its readings), else wherever they were read.
-  static std::map<Key, Eigen::Vector3d> unloadedPlaces(const campaign::Loading& table, const Eigen::Isometry3d& r0_from_loading) {
+  static std::map<Key, Eigen::Vector3d> unloadedPlaces(const campaign::Loading& table,
+                                                       const Eigen::Isometry3d& r0_from_loading) {
     std::map<Key, std::pair<Eigen::Vector3d, int>> sums;
     for (const bool unloaded : {true, false}) {
       std::map<Key, std::pair<Eigen::Vector3d, int>> here;
@@ -257,7 +259,7 @@ class Shifter {
   const EffectFit& effects_;
   const Eigen::VectorXd& parameters_;
   const ShiftOptions& options_;
-  const diagnosis::GapState& state_;
+  const diagnosis::SystemState& state_;
   std::map<int, effects::PostureStates> postures_;
   std::map<int, PostureOffsets> by_pose_;
   std::map<Key, std::vector<Eigen::Vector3d>> offsets_;
@@ -297,8 +299,9 @@ void leaveOutUnknown(const EffectFit& effects, campaign::Campaign& campaign, std
 
 }  // namespace
 
-campaign::Campaign withoutEffects(const campaign::Campaign& campaign, const EffectFit& effects, const Eigen::VectorXd& parameters,
-                        TakenOff which, std::vector<std::string>* left_out) {
+campaign::Campaign withoutEffects(const campaign::Campaign& campaign, const EffectFit& effects,
+                                  const Eigen::VectorXd& parameters, TakenOff which,
+                                  std::vector<std::string>* left_out) {
   campaign::Campaign result = campaign;
   if (effects.fit.set.models.empty()) return result;
   leaveOutUnknown(effects, result, left_out);

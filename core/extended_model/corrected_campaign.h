@@ -15,10 +15,11 @@ class PostureOffsets {
     bool machine = true, readings = true;
   };
 
-  PostureOffsets(const EffectFit& effects, const Eigen::VectorXd& parameters, const effects::PostureStates& posture, Which which);
+  PostureOffsets(const EffectFit& effects, const Eigen::VectorXd& parameters, const effects::PostureStates& posture,
+                 Which which);
 
-  /// Of a reflector that stands at `place` unloaded, one a state. The machine's part is the difference between where the
-  /// arm with its effects stands and where joint springs alone would have it (ElasticArm), readings' the fit's own
+  /// Of a reflector that stands at `place` unloaded, one a state. The machine's part is the difference between where
+  /// the arm with its effects stands and where joint springs alone would have it (ElasticArm), readings' the fit's own
   /// linear model.
   std::vector<Eigen::Vector3d> of(int target, const Eigen::Vector3d& place) const;
 
@@ -40,7 +41,8 @@ struct ShiftOptions {
   bool sweeps = true;                 ///< false: the sweeps stay as they are
 };
 
-/// Takes what the effects add (PostureOffsets) off every reading of loading, displacements and, where they took part in the fit, sweeps.
+/// Takes what the effects add (PostureOffsets) off every reading of loading, displacements and, where they took part in
+/// the fit, sweeps.
 void shiftReadings(const EffectFit& effects, const Eigen::VectorXd& parameters, const ShiftOptions& options,
                    campaign::Campaign& campaign);
 
@@ -51,15 +53,16 @@ enum class TakenOff {
 };
 
 /// The campaign as it would have been read without the effects, at the given size of their parameters (as
-/// EffectFit::parameters). Off every reading of loading, displacements and, where they took part in the fit, sweeps goes
-/// what the effects add in its state, own weight's part included. Effects that act through the
-/// wrench change the load cell's declared point (load_point_error) or the readings in `states` (misalignment, bias); a
-/// moved frame is undone by its finite motion.
+/// EffectFit::parameters). Off every reading of loading, displacements and, where they took part in the fit, sweeps
+/// goes what the effects add in its state, own weight's part included. Effects that act through the wrench change the
+/// load cell's declared point (load_point_error) or the readings in `states` (misalignment, bias); a moved frame is
+/// undone by its finite motion.
 ///
-/// Postures whose loaded readings the fit does not have (no reflector read in all load steps) cannot be corrected and are
-/// left out, named in `left_out`. Throws InputError where the load cell's point does not move with the flange and is to be
-/// corrected.
-campaign::Campaign withoutEffects(const campaign::Campaign& campaign, const EffectFit& effects, const Eigen::VectorXd& parameters,
-                        TakenOff which, std::vector<std::string>* left_out = nullptr);
+/// Postures whose loaded readings the fit does not have (no reflector read in all load steps) cannot be corrected and
+/// are left out, named in `left_out`. Throws InputError where the load cell's point does not move with the flange and
+/// is to be corrected.
+campaign::Campaign withoutEffects(const campaign::Campaign& campaign, const EffectFit& effects,
+                                  const Eigen::VectorXd& parameters, TakenOff which,
+                                  std::vector<std::string>* left_out = nullptr);
 
 }  // namespace stiffscope::extended_model

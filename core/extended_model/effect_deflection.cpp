@@ -10,13 +10,14 @@ namespace stiffscope::extended_model {
 
 namespace {
 
-effects::RestingFlange flangeOf(const ImprovedModel& model, const frames::LoadingGeometry& geometry, const Eigen::VectorXd& parameters,
-                       const Vector6d& compliance) {
+effects::RestingFlange flangeOf(const ExtendedModel& model, const frames::LoadingGeometry& geometry,
+                                const Eigen::VectorXd& parameters, const Vector6d& compliance) {
   const auto arm = std::make_shared<const effects::ElasticArm>(geometry, compliance, model.effects.fit.state.at,
-                                                             machineEffects(model.effects, parameters));
-  return [&model, &geometry, arm](const Vector6d& commands, const effects::FlangeLoad& load) -> std::optional<Eigen::Isometry3d> {
+                                                               machineEffects(model.effects, parameters));
+  return [&model, &geometry, arm](const Vector6d& commands,
+                                  const effects::FlangeLoad& load) -> std::optional<Eigen::Isometry3d> {
     const Eigen::Isometry3d& at_zero = geometry.arm.base_from_flange_at_zero;
-    const effects::ArmState rest = effects::restState(geometry, model.effects.fit.state.at, commands);
+    const effects::ArmState rest = effects::gravityEquilibrium(geometry, model.effects.fit.state.at, commands);
     effects::PostureStates states{rest, rest};
     states[1].step = 1;
     states[1].loaded = true;
@@ -29,16 +30,16 @@ effects::RestingFlange flangeOf(const ImprovedModel& model, const frames::Loadin
 
 }  // namespace
 
-bool givesFurther(const EffectFit& effects) {
+bool deflectsByEffects(const EffectFit& effects) {
   return std::any_of(effects.added.begin(), effects.added.end(), [](const AddedEffect& one) {
     return effects::natureOf(one.effect) == effects::EffectNature::machine;
   });
 }
 
-effects::FurtherGive furtherGive(const ImprovedModel& model, identification::Method method) {
+effects::EffectDeflection effectDeflection(const ExtendedModel& model, identification::Method method) {
   const identification::MethodResult& own = model.with.of(method);
   const identification::StiffnessEstimate& estimate = own.estimate;
-  effects::FurtherGive give;
+  effects::EffectDeflection give;
   give.flange = flangeOf(model, own.geometry, model.effects.parameters(), estimate.compliance);
   give.spring_covariance = estimate.covariance - estimate.parts.effects;
   const auto& columns = model.spread.compliance[static_cast<std::size_t>(method)];

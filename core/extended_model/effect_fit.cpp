@@ -1,10 +1,10 @@
 #include "core/extended_model/effect_fit.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "core/diagnosis/diagnosis_input.h"
 #include "core/diagnosis/held_out.h"
@@ -22,26 +22,31 @@ const io::InputPlace kOption{"--with"};
 const char* const kNotTold =
     "these postures and loads cannot tell it from stiffnesses and geometry, or only with sizes that no machine has";
 
-std::vector<effects::EffectModel> modelsOf(const std::vector<WantedEffect>& wanted, const campaign::Campaign& campaign) {
+std::vector<effects::EffectModel> modelsOf(const std::vector<RequestedEffect>& wanted,
+                                           const campaign::Campaign& campaign) {
   std::vector<effects::EffectModel> models = effects::effectModelsOf(campaign);
   std::erase_if(models, [&](const effects::EffectModel& model) {
     return std::none_of(wanted.begin(), wanted.end(),
-                        [&](const WantedEffect& one) { return one.effect == model.effect; });
+                        [&](const RequestedEffect& one) { return one.effect == model.effect; });
   });
   return models;
 }
 
-void requireTestable(const std::vector<WantedEffect>& wanted, const diagnosis::GapInput& input, const diagnosis::GapStart& start) {
-  const effects::CampaignContents has = diagnosis::whatIsThere(input, diagnosis::gapData(input, start.state, {}), start.state, start.station);
-  for (const WantedEffect& one : wanted) {
+void requireTestable(const std::vector<RequestedEffect>& wanted, const diagnosis::SystemInput& input,
+                     const diagnosis::DiagnosisInput& start) {
+  const effects::CampaignContents has =
+      diagnosis::whatIsThere(input, diagnosis::linearSystem(input, start.state, {}), start.state, start.station);
+  for (const RequestedEffect& one : wanted) {
     const std::string missing = effects::missingFor(one.effect, has);
     if (!missing.empty())
-      throw io::InputError(kOption, std::string(effects::idOf(one.effect)), "this campaign cannot show that effect: " + missing);
+      throw io::InputError(kOption, std::string(effects::idOf(one.effect)),
+                           "this campaign cannot show that effect: " + missing);
   }
 }
 
 /// The models of an effect with the parts asked for, each in full.
-std::vector<diagnosis::ChosenModel> asAsked(const WantedEffect& wanted, const std::vector<effects::EffectModel>& models) {
+std::vector<diagnosis::ChosenModel> asAsked(const RequestedEffect& wanted,
+                                            const std::vector<effects::EffectModel>& models) {
   std::vector<diagnosis::ChosenModel> choices;
   for (std::size_t m = 0; m < models.size(); ++m) {
     if (models[m].effect != wanted.effect) continue;
@@ -56,10 +61,10 @@ std::vector<diagnosis::ChosenModel> asAsked(const WantedEffect& wanted, const st
 }
 
 /// The one way to fit what was asked for, where there is only one.
-std::optional<std::vector<diagnosis::ChosenModel>> withoutChoice(const std::vector<WantedEffect>& wanted,
-                                                      const std::vector<effects::EffectModel>& models) {
+std::optional<std::vector<diagnosis::ChosenModel>> withoutChoice(const std::vector<RequestedEffect>& wanted,
+                                                                 const std::vector<effects::EffectModel>& models) {
   std::vector<diagnosis::ChosenModel> chosen;
-  for (const WantedEffect& one : wanted) {
+  for (const RequestedEffect& one : wanted) {
     std::vector<diagnosis::ChosenModel> choices = asAsked(one, models);
     for (std::size_t m = 0; choices.empty() && m < models.size(); ++m) {
       if (models[m].effect == one.effect && models[m].parts.size() > 1) return std::nullopt;
@@ -74,7 +79,7 @@ std::optional<std::vector<diagnosis::ChosenModel>> withoutChoice(const std::vect
 }
 
 /// An effect of which stiffnesses and geometry leave nothing in these postures has no size.
-void requireSeen(const diagnosis::GapFit& fit, const diagnosis::GapInput& input) {
+void requireSeen(const diagnosis::GapFit& fit, const diagnosis::SystemInput& input) {
   for (const diagnosis::ChosenModel& one : fit.set.models) {
     const Eigen::Index first = fit.data.layout.model_at[one.model] - fit.data.layout.effects;
     bool seen = false;
@@ -86,21 +91,23 @@ void requireSeen(const diagnosis::GapFit& fit, const diagnosis::GapInput& input)
 
 class Chooser {
  public:
-  Chooser(const diagnosis::GapInput& input, const diagnosis::GapFit& fit, const std::vector<bool>& allowed)
+  Chooser(const diagnosis::SystemInput& input, const diagnosis::GapFit& fit, const std::vector<bool>& allowed)
       : models_(input.models),
         fit_(fit),
-        selector_(diagnosis::selectorOf(input, fit, fit.projection, static_cast<double>(fit.data.postures.size()), allowed)) {}
+        selector_(diagnosis::selectorOf(input, fit, fit.projection, static_cast<double>(fit.data.postures.size()),
+                                        allowed)) {}
 
-  /// What was asked for by its parts, what the free selection took of the rest, and then, put in beside these, what that did
-  /// not make.
-  std::vector<diagnosis::ChosenModel> run(const std::vector<WantedEffect>& wanted) const {
+  /// What was asked for by its parts, what the free selection took of the rest, and then, put in beside these, what
+  /// that did not make.
+  std::vector<diagnosis::ChosenModel> run(const std::vector<RequestedEffect>& wanted) const {
     std::vector<diagnosis::ChosenModel> chosen;
-    std::vector<WantedEffect> missing;
-    for (const WantedEffect& one : wanted) {
+    std::vector<RequestedEffect> missing;
+    for (const RequestedEffect& one : wanted) {
       const auto choices = asAsked(one, models_);
       const auto& found = fit_.set.models;
-      const auto own = std::find_if(found.begin(), found.end(),
-                                    [&](const diagnosis::ChosenModel& m) { return models_[m.model].effect == one.effect; });
+      const auto own = std::find_if(found.begin(), found.end(), [&](const diagnosis::ChosenModel& m) {
+        return models_[m.model].effect == one.effect;
+      });
       if (!choices.empty()) {
         chosen.push_back(bestOf(choices, one, chosen));
       } else if (own != found.end()) {
@@ -109,13 +116,14 @@ class Chooser {
         missing.push_back(one);
       }
     }
-    for (const WantedEffect& one : missing) chosen.push_back(bestOf(beside(chosen, one), one, chosen));
+    for (const RequestedEffect& one : missing) chosen.push_back(bestOf(beside(chosen, one), one, chosen));
     return chosen;
   }
 
  private:
   /// The effect beside the others, its parts chosen greedily, by each of its equations.
-  std::vector<diagnosis::ChosenModel> beside(const std::vector<diagnosis::ChosenModel>& others, const WantedEffect& wanted) const {
+  std::vector<diagnosis::ChosenModel> beside(const std::vector<diagnosis::ChosenModel>& others,
+                                             const RequestedEffect& wanted) const {
     std::vector<diagnosis::ChosenModel> choices;
     for (const diagnosis::FittedSet& set : selector_.ranked(selector_.fit(others))) {
       if (models_[set.models.back().model].effect == wanted.effect) choices.push_back(set.models.back());
@@ -123,10 +131,9 @@ class Chooser {
     return choices;
   }
 
-  diagnosis::ChosenModel bestOf(const std::vector<diagnosis::ChosenModel>& choices, const WantedEffect& wanted,
-                     const std::vector<diagnosis::ChosenModel>& others) const {
-    if (choices.empty())
-      throw io::InputError(kOption, std::string(effects::idOf(wanted.effect)), kNotTold);
+  diagnosis::ChosenModel bestOf(const std::vector<diagnosis::ChosenModel>& choices, const RequestedEffect& wanted,
+                                const std::vector<diagnosis::ChosenModel>& others) const {
+    if (choices.empty()) throw io::InputError(kOption, std::string(effects::idOf(wanted.effect)), kNotTold);
     std::vector<double> scores;
     for (const diagnosis::ChosenModel& choice : choices) {
       std::vector<diagnosis::ChosenModel> all = others;
@@ -141,8 +148,8 @@ class Chooser {
   diagnosis::Selector selector_;
 };
 
-/// How well an effect's equation describes a machine that has it: sizes of single effects came back within one per cent from
-/// the simulator, which solves the loaded equilibrium of another mechanism with finite rotations.
+/// How well an effect's equation describes a machine that has it: sizes of single effects came back within one per cent
+/// from the simulator, which solves the loaded equilibrium of another mechanism with finite rotations.
 constexpr double kModelShare = 0.01;
 
 /// Of the joint fit with all nuisances, and of the equations themselves.
@@ -174,7 +181,7 @@ Eigen::MatrixXd covarianceOfFree(const EffectFit& effects) {
 
 void describe(EffectFit& effects, const std::vector<bool>& allowed) {
   const diagnosis::GapFit& fit = effects.fit;
-  const diagnosis::GapInput& input = *effects.input;
+  const diagnosis::SystemInput& input = *effects.input;
   const diagnosis::Selector selector =
       diagnosis::selectorOf(input, fit, fit.projection, static_cast<double>(fit.data.postures.size()), allowed);
   for (std::size_t i = 0; i < fit.set.models.size(); ++i) {
@@ -191,7 +198,8 @@ void describe(EffectFit& effects, const std::vector<bool>& allowed) {
       if (there && !part.detail.empty()) details.push_back(part.detail);
       for (std::size_t k = 0; k < part.most.size(); ++k, ++at) {
         if (!there) continue;
-        EffectParameter parameter{effects::parameterName(part, k), effects::parameterUnit(part, k), fit.set.effects[at], 0.0};
+        EffectParameter parameter{effects::parameterName(part, k), effects::parameterUnit(part, k), fit.set.effects[at],
+                                  0.0};
         const auto free = std::find(effects.free.begin(), effects.free.end(), at) - effects.free.begin();
         if (free < effects.covariance.rows()) parameter.sd = std::sqrt(effects.covariance(free, free));
         if (std::abs(parameter.value) > part.most[k]) one.plausible = false;
@@ -205,11 +213,11 @@ void describe(EffectFit& effects, const std::vector<bool>& allowed) {
 
 }  // namespace
 
-EffectFit fitEffects(const campaign::Campaign& campaign, const WantedEffects& asked) {
+EffectFit fitEffects(const campaign::Campaign& campaign, const RequestedEffects& asked) {
   EffectFit effects;
   effects.notes = asked.notes;
-  std::vector<WantedEffect> wanted;
-  for (const WantedEffect& one : asked.effects) {
+  std::vector<RequestedEffect> wanted;
+  for (const RequestedEffect& one : asked.effects) {
     if (effects::natureOf(one.effect) == effects::EffectNature::geometry) {
       effects.geometry.push_back(one.effect);
     } else {
@@ -217,13 +225,14 @@ EffectFit fitEffects(const campaign::Campaign& campaign, const WantedEffects& as
     }
   }
   if (asked.effects.empty()) return effects;
-  auto start = std::make_unique<diagnosis::GapStart>(diagnosis::gapStart(campaign, true));
+  auto start = std::make_unique<diagnosis::DiagnosisInput>(diagnosis::diagnosisInput(campaign, true));
   if (!start->reason.empty())
-    throw io::InputError(kOption, std::string(effects::idOf(asked.effects.front().effect)), "there is no gap to fit it to: " + start->reason);
-  auto input = std::make_unique<diagnosis::GapInput>(diagnosis::GapInput{start->campaign, start->noise.noise, campaign.load_cell->force_sigma,
-                                                   campaign.load_cell->moment_sigma, modelsOf(wanted, campaign),
-                                                   start->absolute, start->sweeps,
-                                                   diagnosis::complianceExpected(start->state.at.compliance)});
+    throw io::InputError(kOption, std::string(effects::idOf(asked.effects.front().effect)),
+                         "there is no gap to fit it to: " + start->reason);
+  auto input = std::make_unique<diagnosis::SystemInput>(
+      diagnosis::SystemInput{start->campaign, start->noise.noise, campaign.load_cell->force_sigma,
+                             campaign.load_cell->moment_sigma, modelsOf(wanted, campaign), start->absolute,
+                             start->sweeps, diagnosis::complianceExpected(start->state.at.compliance)});
   requireTestable(asked.effects, *input, *start);
   if (wanted.empty()) return effects;
   diagnosis::boundDriftByNests(*start, *input);
@@ -247,7 +256,7 @@ EffectFit fitEffects(const campaign::Campaign& campaign, const WantedEffects& as
   const diagnosis::StiffnessesAlone before =
       diagnosis::stiffnessesAlone(alone.data, std::vector<double>(alone.data.postures.size(), 1.0), alone.projection);
   effects.gap = diagnosis::deflectionGap(alone, before, effects.fit,
-                              diagnosis::allParameters(effects.fit.nuisances, effects.fit.set.effects));
+                                         diagnosis::allParameters(effects.fit.nuisances, effects.fit.set.effects));
   describe(effects, allowed);
   if (effects.free.empty()) {  // of size zero: the gap stays what stiffnesses alone leave
     effects.gap.after = effects.gap.before;
@@ -268,8 +277,8 @@ std::vector<effects::PresentEffect> machineEffects(const EffectFit& effects, con
   for (const diagnosis::ChosenModel& one : effects.fit.set.models) {
     const effects::EffectModel& model = effects.input->models[one.model];
     if (effects::natureOf(model.effect) != effects::EffectNature::machine) continue;
-    const Eigen::VectorXd own = parameters.segment(layout.model_at[one.model] - layout.effects,
-                                                   static_cast<Eigen::Index>(model.parameters()));
+    const Eigen::VectorXd own =
+        parameters.segment(layout.model_at[one.model] - layout.effects, static_cast<Eigen::Index>(model.parameters()));
     if (!own.isZero(0.0)) machine.push_back({&model, own});
   }
   return machine;
@@ -277,11 +286,14 @@ std::vector<effects::PresentEffect> machineEffects(const EffectFit& effects, con
 
 Eigen::VectorXd parametersFrom(const EffectFit& effects, const std::vector<double>& weights) {
   const diagnosis::GapFit& fit = effects.fit;
-  const diagnosis::Projection projection = diagnosis::project(diagnosis::sumOf(fit.data, weights), fit.data.layout.effects);
+  const diagnosis::Projection projection =
+      diagnosis::project(diagnosis::sumOf(fit.data, weights), fit.data.layout.effects);
   double postures = 0.0;
   for (const double weight : weights) postures += weight;
   const std::vector<bool> allowed(effects.input->models.size(), true);
-  return diagnosis::selectorOf(*effects.input, fit, projection, std::max(2.0, postures), allowed).fit(fit.set.models).effects;
+  return diagnosis::selectorOf(*effects.input, fit, projection, std::max(2.0, postures), allowed)
+      .fit(fit.set.models)
+      .effects;
 }
 
 }  // namespace stiffscope::extended_model

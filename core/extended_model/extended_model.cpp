@@ -21,23 +21,26 @@
 namespace stiffscope::extended_model {
 
 /// Judges a method of `model.with` with the effects in the model: displacements are the machine's own, and on every
-/// subset of postures (all up to a thousand, else a thousand drawn) effects and springs are fitted anew, the effects by one
-/// linear step, the equations moved along with them to first order. Fills shares, residuals, `subsets`, and the bootstrap
-/// where it is asked for, of every available method.
-void judgeImproved(const campaign::Campaign& measured, const identification::IdentifyOptions& options, ImprovedModel& model);
+/// subset of postures (all up to a thousand, else a thousand drawn) effects and springs are fitted anew, the effects by
+/// one linear step, the equations moved along with them to first order. Fills shares, residuals, `subsets`, and the
+/// bootstrap where it is asked for, of every available method.
+void evaluateExtended(const campaign::Campaign& measured, const identification::IdentifyOptions& options,
+                      ExtendedModel& model);
 
 /// The equations of one method in its own geometry, a posture each, at known compliances (K_c, middle posture).
 struct MethodRows {
-  std::vector<identification::CaseEquations> solved;   ///< what the method solves first: pose (normalised), reflectors, P_wrist
+  std::vector<identification::CaseEquations>
+      solved;  ///< what the method solves first: pose (normalised), reflectors, P_wrist
   std::vector<identification::CaseEquations> targets;  ///< the reflectors', which the decoupled method solves second
   std::vector<identification::CaseEquations> wrist;    ///< P_wrist's; empty where not measured
 };
 
 /// Of `method` in `result`, whose frames, length and compliances stand, from the readings of `campaign`.
-MethodRows methodRows(const campaign::Campaign& campaign, const identification::Identification& result, identification::Method method);
+MethodRows methodRows(const campaign::Campaign& campaign, const identification::Identification& result,
+                      identification::Method method);
 
-/// rows + sum_k step_k (moved_k - rows): equations that change with further parameters, to first order. All must have the
-/// same postures and points.
+/// rows + sum_k step_k (moved_k - rows): equations that change with further parameters, to first order. All must have
+/// the same postures and points.
 class MovingRows {
  public:
   MovingRows(MethodRows at, std::vector<MethodRows> moved);
@@ -74,23 +77,23 @@ Eigen::MatrixXd rootOf(const Eigen::MatrixXd& covariance) {
 /// The effects' parameters moved along a column.
 Eigen::VectorXd movedBy(const EffectFit& effects, const Eigen::VectorXd& column) {
   Eigen::VectorXd parameters = effects.parameters();
-  for (std::size_t i = 0; i < effects.free.size(); ++i) parameters[effects.free[i]] += column[static_cast<Eigen::Index>(i)];
+  for (std::size_t i = 0; i < effects.free.size(); ++i)
+    parameters[effects.free[i]] += column[static_cast<Eigen::Index>(i)];
   return parameters;
 }
 
-void findSpread(const campaign::Campaign& used, const identification::IdentifyOptions& options, ImprovedModel& model) {
+void findSpread(const campaign::Campaign& used, const identification::IdentifyOptions& options, ExtendedModel& model) {
   EffectSpread& spread = model.spread;
   spread.parameters = rootOf(model.effects.covariance);
   for (auto& columns : spread.compliance) columns.setZero(6, spread.parameters.cols());
   for (Eigen::Index k = 0; k < spread.parameters.cols(); ++k) {
-    const campaign::Campaign moved = withoutEffects(used, model.effects, movedBy(model.effects, spread.parameters.col(k)),
-                                          TakenOff::everything);
+    const campaign::Campaign moved =
+        withoutEffects(used, model.effects, movedBy(model.effects, spread.parameters.col(k)), TakenOff::everything);
     const identification::Identification there = identification::identify(moved, options);
     for (const identification::Method which : identification::kMethods) {
       const identification::MethodResult &here = model.with.of(which), &other = there.of(which);
       if (!here.available || !other.available) continue;
-      spread.compliance[static_cast<std::size_t>(which)].col(k) =
-          other.estimate.compliance - here.estimate.compliance;
+      spread.compliance[static_cast<std::size_t>(which)].col(k) = other.estimate.compliance - here.estimate.compliance;
     }
   }
 }
@@ -103,14 +106,14 @@ double rowsOf(const identification::MethodResult& method, identification::Method
   return rows;
 }
 
-void addEffectsUncertainty(ImprovedModel& model) {
+void addEffectsUncertainty(ExtendedModel& model) {
   const auto taken = static_cast<double>(model.effects.free.size());
   for (const identification::Method which : identification::kMethods) {
     identification::MethodResult& method = model.with.methods[static_cast<std::size_t>(which)];
     if (!method.available) continue;
     identification::StiffnessEstimate& estimate = method.estimate;
-    const auto unknowns = static_cast<double>(
-        std::count(estimate.identifiable.begin(), estimate.identifiable.end(), true));
+    const auto unknowns =
+        static_cast<double>(std::count(estimate.identifiable.begin(), estimate.identifiable.end(), true));
     const double rows = rowsOf(method, which);
     if (rows > unknowns + taken) {
       const double factor = (rows - unknowns) / (rows - unknowns - taken);
@@ -125,8 +128,9 @@ void addEffectsUncertainty(ImprovedModel& model) {
 
 }  // namespace
 
-ImprovedModel improveModel(const campaign::Campaign& campaign, EffectFit effects, const identification::IdentifyOptions& options) {
-  ImprovedModel model;
+ExtendedModel extendModel(const campaign::Campaign& campaign, EffectFit effects,
+                          const identification::IdentifyOptions& options) {
+  ExtendedModel model;
   model.effects = std::move(effects);
   model.without = identification::identify(campaign, options);
   // Effects of size zero change nothing and have no covariance to propagate.
@@ -136,17 +140,17 @@ ImprovedModel improveModel(const campaign::Campaign& campaign, EffectFit effects
     return model;
   }
   std::vector<std::string> left_out;
-  model.campaign =
-      withoutEffects(campaign, model.effects, model.effects.parameters(), TakenOff::everything, &left_out);
+  model.campaign = withoutEffects(campaign, model.effects, model.effects.parameters(), TakenOff::everything, &left_out);
   identification::IdentifyOptions own = valuesOnly(options);
   own.robust = options.robust;
   model.with = identification::identify(model.campaign, own);
   model.with.left_out.insert(model.with.left_out.end(), left_out.begin(), left_out.end());
-  const campaign::Campaign used = model.with.robust ? identification::withoutPostures(campaign, model.with.outlying) : campaign;
+  const campaign::Campaign used =
+      model.with.robust ? identification::withoutPostures(campaign, model.with.outlying) : campaign;
   findSpread(used, valuesOnly(options), model);
   addEffectsUncertainty(model);
-  judgeImproved(used, options, model);
-  model.with.cautions = identification::cautionsOf(model.campaign, model.with);
+  evaluateExtended(used, options, model);
+  model.with.cautions = identification::warningsOf(model.campaign, model.with);
   return model;
 }
 
@@ -216,8 +220,9 @@ class PointJudge {
 /// The effects' parameters fitted on postures with weights, as steps along the columns of the spread.
 class EffectRefit {
  public:
-  explicit EffectRefit(const ImprovedModel& model)
-      : effects_(model.effects), from_parameters_(model.spread.parameters.completeOrthogonalDecomposition().pseudoInverse()) {}
+  explicit EffectRefit(const ExtendedModel& model)
+      : effects_(model.effects),
+        from_parameters_(model.spread.parameters.completeOrthogonalDecomposition().pseudoInverse()) {}
 
   /// `poses` and `weights` of the method's postures; others do not take part.
   Eigen::VectorXd steps(const std::vector<identification::CaseEquations>& rows, const Weights& weights) const {
@@ -239,7 +244,8 @@ class EffectRefit {
 
 Vector6d solved(const MethodRows& rows, const Weights& weights, bool decoupled, const robot::JointMask& unknown) {
   identification::NormalEquations first, second;
-  const auto addTo = [&](const identification::CaseEquations& one, double weight, identification::NormalEquations& sum) {
+  const auto addTo = [&](const identification::CaseEquations& one, double weight,
+                         identification::NormalEquations& sum) {
     const identification::NormalEquations own = identification::normalEquations(one);
     sum += {weight * own.matrix, weight * own.right};
   };
@@ -248,14 +254,21 @@ Vector6d solved(const MethodRows& rows, const Weights& weights, bool decoupled, 
     addTo(rows.solved[p], weights[p], first);
     if (decoupled) addTo(rows.targets[p], weights[p], second);
   }
-  return decoupled ? identification::solveDecoupled(first, second, unknown) : identification::solveNormal(first, unknown);
+  return decoupled ? identification::solveDecoupled(first, second, unknown)
+                   : identification::solveNormal(first, unknown);
 }
 
 class MethodJudge {
  public:
-  MethodJudge(const campaign::Campaign& measured, const identification::IdentifyOptions& options, const ImprovedModel& model, identification::Method which)
-      : options_(options), model_(model), which_(which), own_(model.with.of(which)), refit_(model),
-        rows_(rowsFrom(measured)), true_(trueRows(measured)) {}
+  MethodJudge(const campaign::Campaign& measured, const identification::IdentifyOptions& options,
+              const ExtendedModel& model, identification::Method which)
+      : options_(options),
+        model_(model),
+        which_(which),
+        own_(model.with.of(which)),
+        refit_(model),
+        rows_(rowsFrom(measured)),
+        true_(trueRows(measured)) {}
 
   void fill(identification::MethodResult& out) const {
     if (!rows_.movable()) return;
@@ -265,8 +278,11 @@ class MethodJudge {
     if (true_.targets.size() != here.targets.size()) return;
     out.subsets = study(wrist, at_wrist, at_targets);
     const Vector6d& c = own_.estimate.compliance;
-    if (wrist) out.at_wrist = identification::Compensation{at_wrist.allPostures(here.wrist, c), out.subsets.at_wrist.compensated};
-    out.at_targets = identification::Compensation{at_targets.allPostures(here.targets, c), out.subsets.at_targets.compensated};
+    if (wrist)
+      out.at_wrist =
+          identification::Compensation{at_wrist.allPostures(here.wrist, c), out.subsets.at_wrist.compensated};
+    out.at_targets =
+        identification::Compensation{at_targets.allPostures(here.targets, c), out.subsets.at_targets.compensated};
     out.bootstrap = bootstrap();
   }
 
@@ -331,7 +347,7 @@ class MethodJudge {
   }
 
   const identification::IdentifyOptions& options_;
-  const ImprovedModel& model_;
+  const ExtendedModel& model_;
   identification::Method which_;
   const identification::MethodResult& own_;
   EffectRefit refit_;
@@ -340,13 +356,16 @@ class MethodJudge {
 };
 
 /// Displacements by case of the campaign with only the measurement's faults taken off.
-void describeDisplacements(const campaign::Campaign& measured, ImprovedModel& model) {
+void describeDisplacements(const campaign::Campaign& measured, ExtendedModel& model) {
   identification::Identification& with = model.with;
   const campaign::Campaign truth =
       withoutEffects(measured, model.effects, model.effects.parameters(), TakenOff::measurement);
-  for (const identification::Method which : {identification::Method::decoupled_partial_pose, identification::Method::complete_pose, identification::Method::partial_pose}) {
+  for (const identification::Method which :
+       {identification::Method::decoupled_partial_pose, identification::Method::complete_pose,
+        identification::Method::partial_pose}) {
     if (!with.of(which).available) continue;
-    const identification::LoadedArm arm = identification::loadedArm(truth, with.of(which).geometry, with.frames.wrist, with.steps);
+    const identification::LoadedArm arm =
+        identification::loadedArm(truth, with.of(which).geometry, with.frames.wrist, with.steps);
     const auto scaled = [](const std::vector<double>& now, const std::vector<double>& before, double share) {
       const double sum = std::accumulate(now.begin(), now.end(), 0.0);
       return sum > 0.0 ? share * std::accumulate(before.begin(), before.end(), 0.0) / sum : share;
@@ -371,7 +390,8 @@ void describeDisplacements(const campaign::Campaign& measured, ImprovedModel& mo
 
 }  // namespace
 
-void judgeImproved(const campaign::Campaign& measured, const identification::IdentifyOptions& options, ImprovedModel& model) {
+void evaluateExtended(const campaign::Campaign& measured, const identification::IdentifyOptions& options,
+                      ExtendedModel& model) {
   for (const identification::Method which : identification::kMethods) {
     if (!model.with.of(which).available) continue;
     MethodJudge(measured, options, model, which).fill(model.with.methods[static_cast<std::size_t>(which)]);
@@ -407,11 +427,13 @@ void add(const Rows& change, double step, Rows& to) {
 
 }  // namespace
 
-MethodRows methodRows(const campaign::Campaign& campaign, const identification::Identification& result, identification::Method method) {
+MethodRows methodRows(const campaign::Campaign& campaign, const identification::Identification& result,
+                      identification::Method method) {
   const identification::MethodResult& own = result.of(method);
   identification::LoadedArm arm = identification::loadedArm(campaign, own.geometry, result.frames.wrist, result.steps);
   // One settling with the compliances as they are: only the equations are wanted.
-  identification::settleArm(arm, result.finite_deflection, [&](const identification::LoadedArm&) { return own.estimate.compliance; });
+  identification::solveLoadedArm(arm, result.finite_deflection,
+                                 [&](const identification::LoadedArm&) { return own.estimate.compliance; });
   MethodRows rows;
   rows.targets = identification::byPosture(identification::reflectorEquations(arm));
   rows.wrist = identification::byPosture(identification::wristPointEquations(arm));
@@ -433,7 +455,8 @@ MethodRows methodRows(const campaign::Campaign& campaign, const identification::
 
 MovingRows::MovingRows(MethodRows at, std::vector<MethodRows> moved) : at_(std::move(at)), moved_(std::move(moved)) {
   for (MethodRows& one : moved_) {
-    movable_ = movable_ && alike(at_.solved, one.solved) && alike(at_.targets, one.targets) && alike(at_.wrist, one.wrist);
+    movable_ =
+        movable_ && alike(at_.solved, one.solved) && alike(at_.targets, one.targets) && alike(at_.wrist, one.wrist);
     if (!movable_) return;
     subtract(at_.solved, one.solved);
     subtract(at_.targets, one.targets);

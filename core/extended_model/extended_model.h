@@ -11,14 +11,14 @@ namespace stiffscope::extended_model {
 /// parameters, one column each: S itself, and the change of the compliances when the parameters move by that column,
 /// by running the whole identification again.
 struct EffectSpread {
-  Eigen::MatrixXd parameters;                                         ///< S; rows as EffectFit::free
+  Eigen::MatrixXd parameters;                                          ///< S; rows as EffectFit::free
   std::array<Eigen::Matrix<double, 6, Eigen::Dynamic>, 3> compliance;  ///< by Method; rad/Nm
 };
 
 /// Joint springs with further effects.
 ///
-/// The effects come from one joint fit (effect_fit.h). What they do is taken off the campaign (corrected_campaign.h), and the three
-/// methods run on the rest as on any campaign. What then stands in `with`:
+/// The effects come from one joint fit (effect_fit.h). What they do is taken off the campaign (corrected_campaign.h),
+/// and the three methods run on the rest as on any campaign. What then stands in `with`:
 ///  - uncertainty: the scatter between postures that is left, what frames and calibration share, and, as a part of its
 ///    own, sum_k d_k d_k^T over the columns of EffectSpread. Of least squares the two add exactly, because the springs'
 ///    estimate at given effects is uncorrelated with the effects' own; that the effects are weighted otherwise than the
@@ -27,7 +27,7 @@ struct EffectSpread {
 ///    springs left in. Shares compensated are of these;
 ///  - subsets: the effects' parameters are fitted anew on each subset's postures, so that held out is held out.
 /// Parts that were chosen because they stand out stay chosen in all of this.
-struct ImprovedModel {
+struct ExtendedModel {
   EffectFit effects;
   campaign::Campaign campaign;  ///< what `with` was identified from
   identification::Identification without, with;
@@ -35,6 +35,7 @@ struct ImprovedModel {
 };
 
 /// `campaign`: as identification sees it. No effect added, or all of size zero: `with` is `without`.
-ImprovedModel improveModel(const campaign::Campaign& campaign, EffectFit effects, const identification::IdentifyOptions& options);
+ExtendedModel extendModel(const campaign::Campaign& campaign, EffectFit effects,
+                          const identification::IdentifyOptions& options);
 
 }  // namespace stiffscope::extended_model

@@ -21,23 +21,23 @@ struct EffectParameter {
 /// One effect as it was added.
 struct AddedEffect {
   effects::Effect effect = effects::Effect::link_compliance;
-  std::string detail;  ///< its parts, in words; empty where nothing is named
-  std::string shape;   ///< which of the effect's equations, where it has several
-  double score = 0.0;  ///< fall of BIC that it brings beside the others; chance alone reaches 20 hardly ever
+  std::string detail;     ///< its parts, in words; empty where nothing is named
+  std::string shape;      ///< which of the effect's equations, where it has several
+  double score = 0.0;     ///< fall of BIC that it brings beside the others; chance alone reaches 20 hardly ever
   bool plausible = true;  ///< within the physical bounds of effect_model.h
   std::vector<EffectParameter> parameters;
 };
 
 /// A set of effects fitted jointly with stiffnesses, geometry and weights on everything the campaign has (all load
-/// steps, unloaded positions, sweeps), by the diagnosis's weighted equations: A c + E theta = y. Which parts and which of
-/// the equations of an effect is chosen by BIC where it is not given; then this set is fitted, whatever it brings.
+/// steps, unloaded positions, sweeps), by the diagnosis's weighted equations: A c + E theta = y. Which parts and which
+/// of the equations of an effect is chosen by BIC where it is not given; then this set is fitted, whatever it brings.
 struct EffectFit {
-  std::unique_ptr<const diagnosis::GapStart> start;  ///< what `input` refers to
-  std::unique_ptr<const diagnosis::GapInput> input;  ///< its models: only those of the effects wanted
+  std::unique_ptr<const diagnosis::DiagnosisInput> start;  ///< what `input` refers to
+  std::unique_ptr<const diagnosis::SystemInput> input;     ///< its models: only those of the effects wanted
   diagnosis::GapFit fit;
-  std::vector<AddedEffect> added;    ///< as asked for
-  std::vector<effects::Effect> geometry;      ///< of those asked for, what identification corrects by itself
-  std::vector<std::string> notes;    ///< sentences
+  std::vector<AddedEffect> added;         ///< as asked for
+  std::vector<effects::Effect> geometry;  ///< of those asked for, what identification corrects by itself
+  std::vector<std::string> notes;         ///< sentences
 
   /// Which entries of the effects' parameter vector (fit.set.effects) are free, and their covariance: of the joint
   /// fit, so that what the effects share with stiffnesses and geometry is in it, times chi2 per equation where that is
@@ -45,9 +45,10 @@ struct EffectFit {
   std::vector<Eigen::Index> free;
   Eigen::MatrixXd covariance;
 
-  diagnosis::Gap gap;  ///< of the deflection, rms per coordinate over all load steps: stiffnesses alone, noise, with the effects
-  diagnosis::Shrink shrink;           ///< of that rms on postures held out
-  double explained = 0.0;  ///< the same in variance, less noise: the share of the gap that the effects explain
+  diagnosis::Gap
+      gap;  ///< of the deflection, rms per coordinate over all load steps: stiffnesses alone, noise, with the effects
+  diagnosis::Shrink shrink;  ///< of that rms on postures held out
+  double explained = 0.0;    ///< the same in variance, less noise: the share of the gap that the effects explain
 
   const Eigen::VectorXd& parameters() const { return fit.set.effects; }
 };

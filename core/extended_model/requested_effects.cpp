@@ -1,8 +1,8 @@
 #include "core/extended_model/requested_effects.h"
 
-#include <algorithm>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <algorithm>
 #include <set>
 
 #include "core/effects/all.h"
@@ -19,7 +19,8 @@ effects::Effect effectNamed(const std::string& id, const std::string& word) {
   std::vector<std::string> known{"auto"};
   for (const auto one : effects::kEffectIds) known.emplace_back(one);
   throw io::InputError(kOption, word,
-                   fmt::format("expected auto or effects of: {}{}", fmt::join(effects::kEffectIds, ", "), io::nearestNameHint(id, known)));
+                       fmt::format("expected auto or effects of: {}{}", fmt::join(effects::kEffectIds, ", "),
+                                   io::nearestNameHint(id, known)));
 }
 
 std::vector<std::string> partsOf(effects::Effect effect, const campaign::Campaign& campaign) {
@@ -35,7 +36,8 @@ std::vector<std::string> partsOf(effects::Effect effect, const campaign::Campaig
 }
 
 /// "3" is joint 3 or link 3, "2-3" the pair.
-std::string partNamed(effects::Effect effect, const std::string& detail, const std::string& word, const campaign::Campaign& campaign) {
+std::string partNamed(effects::Effect effect, const std::string& detail, const std::string& word,
+                      const campaign::Campaign& campaign) {
   const std::vector<std::string> names = partsOf(effect, campaign);
   std::vector<std::string> meant{detail, "joint " + detail, "link " + detail};
   if (const std::size_t dash = detail.find('-'); dash != std::string::npos) {
@@ -47,14 +49,14 @@ std::string partNamed(effects::Effect effect, const std::string& detail, const s
     if (std::find(names.begin(), names.end(), one) != names.end()) return one;
   }
   throw io::InputError(kOption, word,
-                   names.empty() ? fmt::format("{} has no parts to name", effects::idOf(effect))
-                                 : fmt::format("expected one of its parts: {}", fmt::join(names, ", ")));
+                       names.empty() ? fmt::format("{} has no parts to name", effects::idOf(effect))
+                                     : fmt::format("expected one of its parts: {}", fmt::join(names, ", ")));
 }
 
-WantedEffect& entryOf(std::vector<WantedEffect>& wanted, effects::Effect effect) {
-  const auto found = std::find_if(wanted.begin(), wanted.end(),
-                                  [&](const WantedEffect& one) { return one.effect == effect; });
-  return found != wanted.end() ? *found : wanted.emplace_back(WantedEffect{effect, {}});
+RequestedEffect& entryOf(std::vector<RequestedEffect>& wanted, effects::Effect effect) {
+  const auto found =
+      std::find_if(wanted.begin(), wanted.end(), [&](const RequestedEffect& one) { return one.effect == effect; });
+  return found != wanted.end() ? *found : wanted.emplace_back(RequestedEffect{effect, {}});
 }
 
 /// "joint 2, joint 3 or joint 4": the parts chosen, without those that would have done as well.
@@ -71,19 +73,19 @@ std::vector<std::string> partsIn(const std::string& detail) {
 
 }  // namespace
 
-WantedEffects wantedEffects(const std::vector<std::string>& words, const campaign::Campaign& campaign) {
-  WantedEffects wanted;
+RequestedEffects requestedEffects(const std::vector<std::string>& words, const campaign::Campaign& campaign) {
+  RequestedEffects wanted;
   for (const std::string& word : words) {
     const std::size_t colon = word.find(':');
     const effects::Effect effect = effectNamed(word.substr(0, colon), word);
-    WantedEffect& entry = entryOf(wanted.effects, effect);
+    RequestedEffect& entry = entryOf(wanted.effects, effect);
     if (colon != std::string::npos) entry.parts.push_back(partNamed(effect, word.substr(colon + 1), word, campaign));
   }
   return wanted;
 }
 
-WantedEffects namedBy(const diagnosis::Diagnosis& diagnosis) {
-  WantedEffects wanted;
+RequestedEffects namedBy(const diagnosis::Diagnosis& diagnosis) {
+  RequestedEffects wanted;
   if (!diagnosis.usable) {
     wanted.notes.push_back("the diagnosis has no gap to look at, so nothing is added: " + diagnosis.unusable_reason);
     return wanted;
@@ -96,7 +98,7 @@ WantedEffects namedBy(const diagnosis::Diagnosis& diagnosis) {
       continue;
     }
     const effects::Effect effect = entry.effects.front();
-    WantedEffect& one = entryOf(wanted.effects, effect);
+    RequestedEffect& one = entryOf(wanted.effects, effect);
     const std::vector<std::string> parts = partsIn(entry.detail);
     one.parts.insert(one.parts.end(), parts.begin(), parts.end());
     std::vector<std::string_view> others;
@@ -104,13 +106,14 @@ WantedEffects namedBy(const diagnosis::Diagnosis& diagnosis) {
       if (other != effect) others.push_back(effects::idOf(other));
     }
     if (!others.empty()) {
-      wanted.notes.push_back(
-          fmt::format("{} is added because it fits best; this data cannot tell it from {}", effects::idOf(effect), fmt::join(others, " or ")));
+      wanted.notes.push_back(fmt::format("{} is added because it fits best; this data cannot tell it from {}",
+                                         effects::idOf(effect), fmt::join(others, " or ")));
     }
   }
   if (wanted.effects.empty() && !diagnosis.verdict.entries.empty()) {
     wanted.notes = {
-        "the diagnosis finds a gap that no effect explains (unknown): there is nothing to add, and the model stays as it is"};
+        "the diagnosis finds a gap that no effect explains (unknown): there is nothing to add, and the model stays as "
+        "it is"};
   }
   return wanted;
 }

@@ -9,23 +9,23 @@
 namespace stiffscope::extended_model {
 
 /// An effect that the model is to have.
-struct WantedEffect {
+struct RequestedEffect {
   effects::Effect effect = effects::Effect::link_compliance;
   std::vector<std::string> parts;  ///< as its model names them ("joint 3"); empty: those that stand out
 };
 
 /// What the model is to have besides joint springs, and what there is to say about how it came to that.
-struct WantedEffects {
-  std::vector<WantedEffect> effects;
+struct RequestedEffects {
+  std::vector<RequestedEffect> effects;
   std::vector<std::string> notes;  ///< sentences
 };
 
 /// Of words such as `bearing_tilt`, `bearing_tilt:3`, `joint_coupling:2-3`, `target_motion:P12`; an effect that
 /// comes again with another detail has both. Throws InputError with the nearest known name.
-WantedEffects wantedEffects(const std::vector<std::string>& words, const campaign::Campaign& campaign);
+RequestedEffects requestedEffects(const std::vector<std::string>& words, const campaign::Campaign& campaign);
 
 /// What a diagnosis names. Of effects that it cannot tell apart the first, which fits best. Nothing, and why,
 /// where it names none, or only `unknown`.
-WantedEffects namedBy(const diagnosis::Diagnosis& diagnosis);
+RequestedEffects namedBy(const diagnosis::Diagnosis& diagnosis);
 
 }  // namespace stiffscope::extended_model

@@ -17,7 +17,7 @@ MovedAxes::MovedAxes(const Frames& frames) {
 }
 
 robot::ArmPosture MovedAxes::postureWithMoved(const robot::Robot& arm, const Vector6d& q, std::size_t axis,
-                                       int parameter) const {
+                                              int parameter) const {
   robot::Robot changed = arm;
   const metrology::Line moved = axes_[axis].moved(kStep * Eigen::Vector4d::Unit(parameter));
   changed.axes_in_base_at_zero[axis].point += moved.point - axes_[axis].line.point;
@@ -25,8 +25,7 @@ robot::ArmPosture MovedAxes::postureWithMoved(const robot::Robot& arm, const Vec
   return robot::postureAt(changed, q);
 }
 
-LoadingGeometry moved(const LoadingGeometry& geometry, const Eigen::VectorXd& steps,
-                      const Eigen::Vector3d& centre) {
+LoadingGeometry moved(const LoadingGeometry& geometry, const Eigen::VectorXd& steps, const Eigen::Vector3d& centre) {
   LoadingGeometry result = geometry;
   robot::Robot& arm = result.arm;
   for (std::size_t j = 0; j < 6; ++j) {

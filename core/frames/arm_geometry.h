@@ -35,10 +35,10 @@ class MovedAxes {
 struct LoadingGeometry {
   robot::Robot arm;
   std::vector<std::optional<Eigen::Vector3d>> targets_at_zero;
-  std::optional<Eigen::Isometry3d> r0_from_loading;  ///< empty: absolute points of the loading cannot be used
+  std::optional<Eigen::Isometry3d> r0_from_loading;    ///< empty: absolute points of the loading cannot be used
   std::optional<Eigen::Matrix3d> displacements_in_r0;  ///< turns the `displacements` table's vectors into R0
   Eigen::Isometry3d r0_from_base_link = Eigen::Isometry3d::Identity();
-  robot::OwnWeight weight;
+  robot::GravityLoad weight;
   Vector6d compliance = Vector6d::Zero();  ///< for the own weight's sag, rad/Nm; zero: rigid
 
   /// Joint angles with the sag in.
@@ -55,13 +55,10 @@ struct GeometrySteps {
   static constexpr Eigen::Index kAxes = 24, kBase = 6;
   /// For differences, m and rad: far above rounding, far below where the model curves.
   static constexpr double kSmall = 1e-6;
-  static Eigen::Index count(std::size_t targets) {
-    return kAxes + kBase + 3 * static_cast<Eigen::Index>(targets);
-  }
+  static Eigen::Index count(std::size_t targets) { return kAxes + kBase + 3 * static_cast<Eigen::Index>(targets); }
 };
 
 /// The geometry moved by such steps. The flange, and what is fixed to it, follows axes 5 and 6 (see ArmInR0).
-LoadingGeometry moved(const LoadingGeometry& geometry, const Eigen::VectorXd& steps,
-                      const Eigen::Vector3d& centre);
+LoadingGeometry moved(const LoadingGeometry& geometry, const Eigen::VectorXd& steps, const Eigen::Vector3d& centre);
 
 }  // namespace stiffscope::frames

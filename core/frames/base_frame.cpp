@@ -16,7 +16,8 @@ robot::Robot inFrame(const robot::Robot& nominal, const Eigen::Isometry3d& r0_fr
   robot::Robot robot = nominal;
   for (metrology::Line& axis : robot.axes_in_base_at_zero) axis = movedBy(r0_from_base_link, axis);
   for (robot::BodyMass& body : robot.bodies) body.com_in_base_at_zero = r0_from_base_link * body.com_in_base_at_zero;
-  for (robot::LinkFrame& link : robot.links) link.base_from_link_at_zero = r0_from_base_link * link.base_from_link_at_zero;
+  for (robot::LinkFrame& link : robot.links)
+    link.base_from_link_at_zero = r0_from_base_link * link.base_from_link_at_zero;
   robot.base_from_flange_at_zero = r0_from_base_link * nominal.base_from_flange_at_zero;
   return robot;
 }
@@ -28,7 +29,8 @@ Eigen::Isometry3d frameOnAxes56(const std::array<metrology::Line, 6>& axes) {
 
 }  // namespace
 
-Eigen::Isometry3d flangeCarry(const std::array<metrology::Line, 6>& nominal, const std::array<metrology::Line, 6>& actual) {
+Eigen::Isometry3d flangeCarry(const std::array<metrology::Line, 6>& nominal,
+                              const std::array<metrology::Line, 6>& actual) {
   return frameOnAxes56(actual) * frameOnAxes56(nominal).inverse();
 }
 

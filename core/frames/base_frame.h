@@ -11,7 +11,7 @@ namespace stiffscope::frames {
 
 /// Where R0 stands, and the robot's geometry in it: the URDF's with what the sweeps correct.
 struct ArmInR0 {
-  robot::Robot arm;  ///< its base frame is R0
+  robot::Robot arm;                                                     ///< its base frame is R0
   Eigen::Isometry3d r0_from_base_link = Eigen::Isometry3d::Identity();  ///< by the rule on the URDF's axes
   bool points_placed = false;  ///< R0 is known in the frame of the sweeps' readings
   Eigen::Isometry3d r0_from_points = Eigen::Isometry3d::Identity();
@@ -23,7 +23,8 @@ struct ArmInR0 {
 ArmInR0 armInR0(const robot::Robot& nominal, const std::array<MeasuredAxis, 6>& axes);
 
 /// The rigid motion that carries the flange from where the nominal axes 5 and 6 put it to where these put it.
-Eigen::Isometry3d flangeCarry(const std::array<metrology::Line, 6>& nominal, const std::array<metrology::Line, 6>& actual);
+Eigen::Isometry3d flangeCarry(const std::array<metrology::Line, 6>& nominal,
+                              const std::array<metrology::Line, 6>& actual);
 
 /// The rule of the campaign format for R0, on the nominal robot: which way axis 1 and axis 2 are directed to become
 /// z0 and y0 (+1: as the joint turns, -1: against it), and where R0 stands.

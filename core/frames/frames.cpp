@@ -40,18 +40,20 @@ metrology::Line directedAlong(const Eigen::Vector3d& direction, metrology::Line 
 }
 
 /// Error of R0, distances and angles, as they follow from the axes; smooth where distances and angles are zero.
-metrology::LineNumbers numbersOf(const std::vector<metrology::MeasuredLine>& axes, const std::array<LinkGeometry, 5>& links) {
+metrology::LineNumbers numbersOf(const std::vector<metrology::MeasuredLine>& axes,
+                                 const std::array<LinkGeometry, 5>& links) {
   std::vector<metrology::LinePairNumber> distances, angles;
   for (std::size_t i = 0; i < links.size(); ++i) {
     const metrology::MeasuredLine &first = axes[i], &second = axes[i + 1];
-    distances.push_back(links[i].near_parallel ? metrology::LinePairNumber() : metrology::signedDistance(first.line, second.line));
+    distances.push_back(links[i].near_parallel ? metrology::LinePairNumber()
+                                               : metrology::signedDistance(first.line, second.line));
     // Exactly parallel axes, as only drawings have them, tilt about any normal.
     angles.push_back(metrology::tiltAbout(metrology::commonNormal(first.line, second.line).value_or(first.across_u)));
   }
   return [distances, angles](const std::vector<metrology::Line>& moved) {
     Eigen::VectorXd numbers(kOfAxes);
     const Eigen::Isometry3d r0 = metrology::baseFrame(directedAlong(Eigen::Vector3d::UnitZ(), moved[0]),
-                                           directedAlong(Eigen::Vector3d::UnitY(), moved[1]));
+                                                      directedAlong(Eigen::Vector3d::UnitY(), moved[1]));
     numbers.segment<6>(Layout::kR0) = metrology::frameError(Eigen::Isometry3d::Identity(), r0);
     std::array<metrology::Line, 6> lines;
     std::copy(moved.begin(), moved.end(), lines.begin());
@@ -115,8 +117,8 @@ FramesCovariance framesCovariance(const std::array<MeasuredAxis, 6>& axes, const
   return covariance;
 }
 
-void stateUncertainties(const FramesCovariance& covariance, const std::array<MeasuredAxis, 6>& axes,
-                        const ArmInR0& arm, std::array<LinkGeometry, 5>& links, WristCentre& wrist) {
+void stateUncertainties(const FramesCovariance& covariance, const std::array<MeasuredAxis, 6>& axes, const ArmInR0& arm,
+                        std::array<LinkGeometry, 5>& links, WristCentre& wrist) {
   if (!arm.points_placed) return;
   const Eigen::MatrixXd total = covariance.total();
   for (std::size_t i = 0; i < links.size(); ++i) {
@@ -153,7 +155,8 @@ std::vector<std::optional<Eigen::Vector3d>> targetsAtZero(const campaign::Campai
     Eigen::Isometry3d zero_from_now = Eigen::Isometry3d::Identity();
     for (std::size_t row = 0; row < rows.size(); ++row) {
       // The reflectors of one stop follow each other.
-      if (row == 0 || rows[row].q != rows[row - 1].q) zero_from_now = robot::postureAt(arm.arm, rows[row].q).motion[6].inverse();
+      if (row == 0 || rows[row].q != rows[row - 1].q)
+        zero_from_now = robot::postureAt(arm.arm, rows[row].q).motion[6].inverse();
       const auto k = static_cast<std::size_t>(rows[row].target);
       sums[k] += zero_from_now * (arm.r0_from_points * rigid[row]);
       ++counts[k];
@@ -192,7 +195,8 @@ Frames measureOnce(const campaign::Campaign& campaign, const SagModel& sag) {
   frames.targets_in_r0_at_zero = targetsAtZero(campaign, frames.arm, points);
   frames.wrist = measureWristCentre(campaign, frames.arm, points, frames.targets_in_r0_at_zero);
   frames.tcp_in_flange = tcpInFlange(frames.arm.arm);
-  frames.weight = robot::ownWeight(campaign.robot, campaign.tool, campaign.gravity_in_base, frames.arm.arm, frames.arm.r0_from_base_link);
+  frames.weight = robot::gravityLoad(campaign.robot, campaign.tool, campaign.gravity_in_base, frames.arm.arm,
+                                     frames.arm.r0_from_base_link);
   return frames;
 }
 
@@ -200,7 +204,8 @@ Frames measureOnce(const campaign::Campaign& campaign, const SagModel& sag) {
 Eigen::VectorXd change(const Frames& from, const Frames& to, std::size_t targets) {
   using At = FramesCovariance;
   Eigen::VectorXd numbers = Eigen::VectorXd::Zero(At::kRadii + static_cast<Eigen::Index>(targets));
-  numbers.segment<6>(At::kR0) = metrology::frameError(from.arm.r0_from_points.inverse(), to.arm.r0_from_points.inverse());
+  numbers.segment<6>(At::kR0) =
+      metrology::frameError(from.arm.r0_from_points.inverse(), to.arm.r0_from_points.inverse());
   for (std::size_t i = 0; i < from.links.size(); ++i) {
     const auto row = static_cast<Eigen::Index>(i);
     numbers[At::kDistances + row] = to.links[i].distance - from.links[i].distance;
@@ -231,9 +236,11 @@ std::optional<Eigen::MatrixXd> sagPart(const Frames& frames, const Vector6d& com
   return by_compliance * covariance * by_compliance.transpose();
 }
 
-void propagate(const campaign::Campaign& campaign, Frames& frames, const std::optional<Eigen::MatrixXd>& sag = std::nullopt) {
+void propagate(const campaign::Campaign& campaign, Frames& frames,
+               const std::optional<Eigen::MatrixXd>& sag = std::nullopt) {
   const Eigen::Vector3d station = campaign.tracker ? campaign.tracker->station : Eigen::Vector3d::Zero();
-  frames.covariance = framesCovariance(frames.axes, frames.arm, frames.links, frames.wrist, campaign.targets.size(), station);
+  frames.covariance =
+      framesCovariance(frames.axes, frames.arm, frames.links, frames.wrist, campaign.targets.size(), station);
   if (sag) frames.covariance.sag = *sag;
   stateUncertainties(frames.covariance, frames.axes, frames.arm, frames.links, frames.wrist);
 }
@@ -263,9 +270,9 @@ Frames refineFrames(const campaign::Campaign& campaign, const Frames& so_far, co
   for (std::size_t i = 0; i < frames.links.size(); ++i) {
     frames.links[i].distance_by_sag = frames.links[i].distance - as_read.links[i].distance;
   }
-  propagate(campaign, frames, covariance && covariance->allFinite()
-                                  ? sagPart(frames, compliance, *covariance, measuredWith)
-                                  : std::nullopt);
+  propagate(
+      campaign, frames,
+      covariance && covariance->allFinite() ? sagPart(frames, compliance, *covariance, measuredWith) : std::nullopt);
   return frames;
 }
 

@@ -42,8 +42,8 @@ FramesCovariance framesCovariance(const std::array<MeasuredAxis, 6>& axes, const
                                   std::size_t targets, const Eigen::Vector3d& station);
 
 /// Puts the standard uncertainties into links and wrist.
-void stateUncertainties(const FramesCovariance& covariance, const std::array<MeasuredAxis, 6>& axes,
-                        const ArmInR0& arm, std::array<LinkGeometry, 5>& links, WristCentre& wrist);
+void stateUncertainties(const FramesCovariance& covariance, const std::array<MeasuredAxis, 6>& axes, const ArmInR0& arm,
+                        std::array<LinkGeometry, 5>& links, WristCentre& wrist);
 
 /// Where each reflector would stand in R0 with all joints at zero: the mean of its sweep readings, referred to the
 /// rigid arm and turned back by their joint angles. Where a target's place on the flange is declared and no
@@ -60,11 +60,11 @@ struct Frames {
   std::vector<std::optional<Eigen::Vector3d>> targets_in_r0_at_zero;
   WristCentre wrist;
   Eigen::Vector3d tcp_in_flange = Eigen::Vector3d::Zero();  ///< P_TCP: where axis 6 pierces the flange plane
-  robot::OwnWeight weight;              ///< in R0
-  bool sag_removed = false;      ///< readings were referred to the rigid arm
-  double largest_sag = 0.0;      ///< of a reading of the sweeps, taken off, m
-  std::string sag_note;          ///< why not, or with which stiffnesses
-  FramesCovariance covariance;   ///< of R0, links and wrist; the arm's own sag is in it as far as stiffnesses tell
+  robot::GravityLoad weight;                                ///< in R0
+  bool sag_removed = false;                                 ///< readings were referred to the rigid arm
+  double largest_sag = 0.0;                                 ///< of a reading of the sweeps, taken off, m
+  std::string sag_note;                                     ///< why not, or with which stiffnesses
+  FramesCovariance covariance;  ///< of R0, links and wrist; the arm's own sag is in it as far as stiffnesses tell
 };
 
 /// With the arm taken as rigid under its own weight.

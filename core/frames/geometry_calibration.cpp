@@ -1,12 +1,12 @@
 #include "core/frames/geometry_calibration.h"
 
+#include <ceres/ceres.h>
+#include <ceres/jet.h>
+#include <fmt/format.h>
 #include <Eigen/Dense>
 #include <algorithm>
 #include <array>
-#include <ceres/ceres.h>
-#include <ceres/jet.h>
 #include <cmath>
-#include <fmt/format.h>
 
 #include "core/frames/base_frame.h"
 #include "core/frames/unloaded_positions.h"
@@ -38,11 +38,10 @@ class Calibration {
     build();
     result.rms_before = plainRms();
     const std::vector<int> unseen_axes = findUnseen();
-    result.parameters =
-        24 + 6 + 3 * static_cast<int>(used_targets_.size()) - static_cast<int>(unseen_axes.size());
+    result.parameters = 24 + 6 + 3 * static_cast<int>(used_targets_.size()) - static_cast<int>(unseen_axes.size());
     if (3 * result.positions <= result.parameters) {
-      result.reason = fmt::format("{} unloaded positions do not determine {} parameters", result.positions,
-                                  result.parameters);
+      result.reason =
+          fmt::format("{} unloaded positions do not determine {} parameters", result.positions, result.parameters);
       return result;
     }
     for (const int k : unseen_axes) result.fixed.push_back(axisParameterName(k));
@@ -106,8 +105,7 @@ class Calibration {
     }
     for (const UnloadedPosition& position : positions_) {
       const auto k = static_cast<std::size_t>(position.target);
-      if (std::find(used_targets_.begin(), used_targets_.end(), k) == used_targets_.end())
-        used_targets_.push_back(k);
+      if (std::find(used_targets_.begin(), used_targets_.end(), k) == used_targets_.end()) used_targets_.push_back(k);
       auto* cost = new PositionCost({start_, begin_.sagged(position.q), position.point, whitening(position)});
       costs_.push_back(cost);
       problem_.AddResidualBlock(cost, nullptr, parameters_.axes.data(), parameters_.base.data(),
@@ -140,15 +138,14 @@ class Calibration {
   Eigen::MatrixXd jacobian() {
     ceres::Problem::EvaluateOptions options;
     options.parameter_blocks = {parameters_.base.data()};
-    for (const std::size_t k : used_targets_)
-      options.parameter_blocks.push_back(parameters_.targets[k].data());
+    for (const std::size_t k : used_targets_) options.parameter_blocks.push_back(parameters_.targets[k].data());
     options.parameter_blocks.push_back(parameters_.axes.data());
     ceres::CRSMatrix sparse;
     problem_.Evaluate(options, nullptr, nullptr, nullptr, &sparse);
     Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(sparse.num_rows, sparse.num_cols);
     for (int row = 0; row < sparse.num_rows; ++row) {
-      for (int at = sparse.rows[static_cast<std::size_t>(row)];
-           at < sparse.rows[static_cast<std::size_t>(row) + 1]; ++at) {
+      for (int at = sparse.rows[static_cast<std::size_t>(row)]; at < sparse.rows[static_cast<std::size_t>(row) + 1];
+           ++at) {
         dense(row, sparse.cols[static_cast<std::size_t>(at)]) = sparse.values[static_cast<std::size_t>(at)];
       }
     }
@@ -183,8 +180,8 @@ class Calibration {
     const Eigen::LLT<Eigen::MatrixXd> normal(scaled.transpose() * scaled);
     if (normal.info() != Eigen::Success) return;
     // (L L^T)^-1 = S S^T, S = L^-T.
-    const Eigen::MatrixXd root = std::sqrt(factor) * scale.asDiagonal() *
-                                 normal.matrixU().solve(Eigen::MatrixXd::Identity(free, free));
+    const Eigen::MatrixXd root =
+        std::sqrt(factor) * scale.asDiagonal() * normal.matrixU().solve(Eigen::MatrixXd::Identity(free, free));
     const CalibrationParameters found = parameters_;
     for (Eigen::Index k = 0; k < free; ++k) {
       for (Eigen::Index i = 0; i < free; ++i) *numbers[static_cast<std::size_t>(i)] += root(i, k);
@@ -223,9 +220,8 @@ class Calibration {
     LoadingGeometry geometry = begin_;
     for (std::size_t j = 0; j < 6; ++j) {
       const metrology::MeasuredLine from{start_.axes[j], start_.across_u[j], start_.across_v[j],
-                              Eigen::Matrix4d::Zero()};
-      geometry.arm.axes_in_base_at_zero[j] =
-          from.moved(Eigen::Map<const Eigen::Vector4d>(&parameters_.axes[4 * j]));
+                                         Eigen::Matrix4d::Zero()};
+      geometry.arm.axes_in_base_at_zero[j] = from.moved(Eigen::Map<const Eigen::Vector4d>(&parameters_.axes[4 * j]));
     }
     const Eigen::Isometry3d carry = flangeCarry(start_.axes, geometry.arm.axes_in_base_at_zero);
     geometry.arm.base_from_flange_at_zero = carry * geometry.arm.base_from_flange_at_zero;
@@ -237,8 +233,7 @@ class Calibration {
     }
     Eigen::Isometry3d moved = Eigen::Isometry3d::Identity();
     const Eigen::Map<const Eigen::Vector3d> turn(parameters_.base.data());
-    if (turn.norm() > 0.0)
-      moved.linear() = Eigen::AngleAxisd(turn.norm(), turn.normalized()).toRotationMatrix();
+    if (turn.norm() > 0.0) moved.linear() = Eigen::AngleAxisd(turn.norm(), turn.normalized()).toRotationMatrix();
     moved.translation() = Eigen::Map<const Eigen::Vector3d>(parameters_.base.data() + 3);
     geometry.r0_from_loading = (moved * start_.points_from_base).inverse();
     return geometry;
@@ -283,8 +278,7 @@ Step<Own> differentiated(const double* own, const Eigen::Vector3d& point, const 
   using Jet = ceres::Jet<double, Own + 3>;
   std::array<Jet, Own> numbers;
   for (int k = 0; k < Own; ++k) numbers[static_cast<std::size_t>(k)] = Jet(own[k], k);
-  const Eigen::Matrix<Jet, 3, 1> moving(Jet(point.x(), Own), Jet(point.y(), Own + 1),
-                                        Jet(point.z(), Own + 2));
+  const Eigen::Matrix<Jet, 3, 1> moving(Jet(point.x(), Own), Jet(point.y(), Own + 1), Jet(point.z(), Own + 2));
   const Eigen::Matrix<Jet, 3, 1> moved = step(numbers.data(), moving);
   Step<Own> result;
   for (int row = 0; row < 3; ++row) {
@@ -304,12 +298,11 @@ bool PositionCost::Evaluate(const double* const* parameters, double* residuals, 
   std::array<Step<4>, 6> joints;
   for (int joint = 5; joint >= 0; --joint) {
     joints[static_cast<std::size_t>(joint)] = differentiated<4>(
-        axes + 4 * joint, x,
-        [&](const auto* own, const auto& point) { return residual_.turned(joint, own, point); });
+        axes + 4 * joint, x, [&](const auto* own, const auto& point) { return residual_.turned(joint, own, point); });
     x = joints[static_cast<std::size_t>(joint)].out;
   }
-  const Step<6> placed = differentiated<6>(
-      base, x, [&](const auto* own, const auto& point) { return residual_.placed(own, point); });
+  const Step<6> placed =
+      differentiated<6>(base, x, [&](const auto* own, const auto& point) { return residual_.placed(own, point); });
   Eigen::Map<Eigen::Vector3d> left(residuals);
   left = residual_.whiten * (residual_.measured - placed.out);
   if (jacobians[1] != nullptr) derivatives<6>(jacobians[1]) = -residual_.whiten * placed.by_own;

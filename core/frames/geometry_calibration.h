@@ -1,9 +1,9 @@
 #pragma once
 
-#include <Eigen/Geometry>
-#include <array>
 #include <ceres/rotation.h>
 #include <ceres/sized_cost_function.h>
+#include <Eigen/Geometry>
+#include <array>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -21,7 +21,7 @@ struct GeometryCalibration {
   /// The geometry moved along each column of a root S of its covariance C = S S^T: by (J^T J)^-1 of the whitened
   /// residuals, times chi^2 over degrees of freedom where that is above one, or no tracker is declared.
   std::vector<LoadingGeometry> spread;
-  double rms_before = 0.0;   ///< plain, per coordinate, m: the starting geometry
+  double rms_before = 0.0;  ///< plain, per coordinate, m: the starting geometry
   double rms_after = 0.0;
   int positions = 0;               ///< unloaded reflector positions used
   int parameters = 0;              ///< that were estimated
@@ -65,8 +65,8 @@ struct PositionResidual {
   Eigen::Matrix<T, 3, 1> turned(int joint, const T* own, const Eigen::Matrix<T, 3, 1>& x) const {
     using Vector = Eigen::Matrix<T, 3, 1>;
     const auto j = static_cast<std::size_t>(joint);
-    const Vector point = start.axes[j].point.cast<T>() + start.across_u[j].cast<T>() * own[0] +
-                         start.across_v[j].cast<T>() * own[1];
+    const Vector point =
+        start.axes[j].point.cast<T>() + start.across_u[j].cast<T>() * own[0] + start.across_v[j].cast<T>() * own[1];
     const Vector direction = (start.axes[j].direction.cast<T>() + start.across_u[j].cast<T>() * own[2] +
                               start.across_v[j].cast<T>() * own[3])
                                  .normalized();
@@ -98,9 +98,9 @@ struct PositionResidual {
   }
 };
 
-/// PositionResidual with its derivatives by axes, base and target. A joint's turn depends on that axis's four numbers and
-/// on the point that it turns, so each is differentiated by those seven alone and the chain is multiplied out from the
-/// base to the target: a tenth of the work of carrying all 33 derivatives through every step.
+/// PositionResidual with its derivatives by axes, base and target. A joint's turn depends on that axis's four numbers
+/// and on the point that it turns, so each is differentiated by those seven alone and the chain is multiplied out from
+/// the base to the target: a tenth of the work of carrying all 33 derivatives through every step.
 class PositionCost : public ceres::SizedCostFunction<3, 24, 6, 3> {
  public:
   explicit PositionCost(PositionResidual residual) : residual_(std::move(residual)) {}

@@ -13,7 +13,8 @@ namespace {
 template <class Row>
 std::vector<Eigen::Vector3d> lessSag(const std::vector<Row>& rows, const SagModel& sag, double& largest) {
   std::vector<Eigen::Vector3d> points(rows.size());
-  numerics::smallWorkOnAllCores(rows.size(), [&](std::size_t i) { points[i] = sag.displacement(rows[i].q, rows[i].target); });
+  numerics::smallWorkOnAllCores(rows.size(),
+                                [&](std::size_t i) { points[i] = sag.displacement(rows[i].q, rows[i].target); });
   for (std::size_t i = 0; i < rows.size(); ++i) {
     largest = std::max(largest, points[i].norm());
     points[i] = rows[i].point - points[i];
@@ -30,7 +31,7 @@ RigidPoints rigidPoints(const campaign::Campaign& campaign, const SagModel& sag)
   return points;
 }
 
-SagModel::SagModel(robot::Robot arm_in_r0, robot::OwnWeight weight, const Vector6d& compliance,
+SagModel::SagModel(robot::Robot arm_in_r0, robot::GravityLoad weight, const Vector6d& compliance,
                    std::vector<std::optional<Eigen::Vector3d>> targets_in_r0_at_zero,
                    const Eigen::Isometry3d& points_from_r0)
     : active_(weight.any() && !compliance.isZero()),

@@ -15,7 +15,7 @@ class SagModel {
  public:
   /// No sag: masses or stiffnesses not known.
   SagModel() = default;
-  SagModel(robot::Robot arm_in_r0, robot::OwnWeight weight, const Vector6d& compliance,
+  SagModel(robot::Robot arm_in_r0, robot::GravityLoad weight, const Vector6d& compliance,
            std::vector<std::optional<Eigen::Vector3d>> targets_in_r0_at_zero, const Eigen::Isometry3d& points_from_r0);
 
   bool active() const { return active_; }
@@ -26,7 +26,7 @@ class SagModel {
  private:
   bool active_ = false;
   robot::Robot arm_;
-  robot::OwnWeight weight_;
+  robot::GravityLoad weight_;
   Vector6d compliance_ = Vector6d::Zero();
   std::vector<std::optional<Eigen::Vector3d>> targets_;
   Eigen::Matrix3d points_from_r0_ = Eigen::Matrix3d::Identity();

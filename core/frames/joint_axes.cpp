@@ -1,8 +1,8 @@
 #include "core/frames/joint_axes.h"
 
+#include <fmt/format.h>
 #include <Eigen/Geometry>
 #include <cmath>
-#include <fmt/format.h>
 #include <map>
 
 #include "metrology/lines.h"
@@ -106,8 +106,8 @@ bool turnBackToZero(const std::array<MeasuredAxis, 6>& axes, int axis, MeasuredA
     if (measured.swept_at[before] == 0.0) continue;
     const MeasuredAxis& earlier = axes[static_cast<std::size_t>(before)];
     if (!earlier.measured) {
-      measured.reason = fmt::format("axis {} stood away from zero during its sweep and is not measured itself",
-                                    before + 1);
+      measured.reason =
+          fmt::format("axis {} stood away from zero during its sweep and is not measured itself", before + 1);
       return false;
     }
     back = turnAbout(earlier.at_zero.line, -measured.swept_at[before]) * back;

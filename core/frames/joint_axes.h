@@ -16,7 +16,7 @@ namespace stiffscope::frames {
 struct MeasuredAxis {
   bool measured = false;
   std::string reason;      ///< why not measured
-  metrology::AxisFit fit;             ///< circles in the order of `targets`
+  metrology::AxisFit fit;  ///< circles in the order of `targets`
   std::vector<int> targets;
   Vector6d swept_at = Vector6d::Zero();  ///< joint angles of the first reading, rad
   /// The axis where it was swept, in the frame of the readings, directed as the joint turns positively. Its

@@ -1,8 +1,8 @@
 #include "core/frames/position_equations.h"
 
+#include <fmt/format.h>
 #include <Eigen/Dense>
 #include <algorithm>
-#include <fmt/format.h>
 
 #include "core/frames/arm_geometry.h"
 #include "core/robot/gravity_load.h"
@@ -26,8 +26,7 @@ class RowMaker {
     for (Eigen::Index j = 0; j < 6; ++j) {
       prior.block<4, 4>(at + 4 * j, at + 4 * j) = axes_.covariance(static_cast<std::size_t>(j)).inverse();
     }
-    prior.bottomRightCorner<6, 6>() =
-        Matrix6d::Identity() / (kSagShare * kSagShare);
+    prior.bottomRightCorner<6, 6>() = Matrix6d::Identity() / (kSagShare * kSagShare);
     return prior;
   }
 
@@ -77,12 +76,10 @@ class RowMaker {
 
 std::string missing(const campaign::Campaign& campaign, const Frames& frames, const LoadingGeometry& geometry,
                     const std::optional<metrology::TrackerNoise>& noise) {
-  if (!campaign.loading || !campaign.states)
-    return "no absolute readings unloaded: measure `loading` with step 0";
+  if (!campaign.loading || !campaign.states) return "no absolute readings unloaded: measure `loading` with step 0";
   if (!noise) return "the tracker's noise is not declared: state `tracker` in campaign.xml";
   for (std::size_t j = 0; j < 6; ++j) {
-    if (!frames.axes[j].measured)
-      return fmt::format("axis {} is not measured: {}", j + 1, frames.axes[j].reason);
+    if (!frames.axes[j].measured) return fmt::format("axis {} is not measured: {}", j + 1, frames.axes[j].reason);
   }
   if (!geometry.r0_from_loading) return "the loading's readings are in another frame than the sweeps'";
   return {};
@@ -91,7 +88,8 @@ std::string missing(const campaign::Campaign& campaign, const Frames& frames, co
 }  // namespace
 
 AbsoluteRows absoluteRows(const campaign::Campaign& campaign, const Frames& frames, const LoadingGeometry& geometry,
-                          const std::vector<campaign::StatePoints>& states, const std::optional<metrology::TrackerNoise>& noise) {
+                          const std::vector<campaign::StatePoints>& states,
+                          const std::optional<metrology::TrackerNoise>& noise) {
   AbsoluteRows result;
   result.reason = missing(campaign, frames, geometry, noise);
   if (!result.reason.empty()) return result;

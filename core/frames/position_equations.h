@@ -37,11 +37,11 @@ struct AbsoluteRows {
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< mean of the measured points
   int targets = 0;
   int parameters = 0;
-  Eigen::MatrixXd
-      prior;  ///< inverse covariance of what is known beforehand: axes by their sweeps, compliances
+  Eigen::MatrixXd prior;  ///< inverse covariance of what is known beforehand: axes by their sweeps, compliances
 };
 
 AbsoluteRows absoluteRows(const campaign::Campaign& campaign, const Frames& frames, const LoadingGeometry& geometry,
-                          const std::vector<campaign::StatePoints>& states, const std::optional<metrology::TrackerNoise>& noise);
+                          const std::vector<campaign::StatePoints>& states,
+                          const std::optional<metrology::TrackerNoise>& noise);
 
 }  // namespace stiffscope::frames

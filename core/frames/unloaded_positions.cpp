@@ -56,8 +56,7 @@ std::optional<BaseFromPostures> baseFromPostures(const LoadingGeometry& geometry
   for (const auto& [pose, seen] : poses) {
     const auto turn = measuredTurn(first, seen);
     if (!turn) continue;
-    const Eigen::Matrix3d by_model =
-        seen.posture.motion[6].linear() * first.posture.motion[6].linear().transpose();
+    const Eigen::Matrix3d by_model = seen.posture.motion[6].linear() * first.posture.motion[6].linear().transpose();
     cross += rotationVector(*turn) * rotationVector(by_model).transpose();
   }
   const Eigen::JacobiSVD<Eigen::Matrix3d> svd(cross, Eigen::ComputeFullU | Eigen::ComputeFullV);
@@ -87,8 +86,7 @@ std::optional<BaseFromPostures> baseFromPostures(const LoadingGeometry& geometry
     }
   }
   for (std::size_t k = 0; k < target_count; ++k) {
-    if (counts[k] == 0)
-      normal.block<3, 3>(3 + 3 * static_cast<int>(k), 3 + 3 * static_cast<int>(k)).setIdentity();
+    if (counts[k] == 0) normal.block<3, 3>(3 + 3 * static_cast<int>(k), 3 + 3 * static_cast<int>(k)).setIdentity();
   }
   const Eigen::VectorXd solution = normal.ldlt().solve(right);
   BaseFromPostures result;

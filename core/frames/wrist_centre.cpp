@@ -68,7 +68,7 @@ void fillTable(const SweepOfTargets& sweep, WristCentre& wrist) {
 
 void compareWithAxes(const ArmInR0& arm, const robot::ArmPosture& posture, WristCentre& wrist) {
   const metrology::Line axis_4 = robot::axisAt(arm.arm, posture, 3), axis_5 = robot::axisAt(arm.arm, posture, 4),
-             axis_6 = robot::axisAt(arm.arm, posture, 5);
+                        axis_6 = robot::axisAt(arm.arm, posture, 5);
   const metrology::CommonPerpendicular wrist_56 = metrology::commonPerpendicular(axis_5, axis_6);
   wrist.nearest_axes_56_in_r0 = 0.5 * (wrist_56.foot_on_first + wrist_56.foot_on_second);
   wrist.miss_45 = metrology::commonPerpendicular(axis_4, axis_5).distance;

@@ -36,9 +36,8 @@ PostureBootstrap bootstrapPostures(const SubsetMethod& method, const PostureBoot
   PostureBootstrap result;
   if (method.normal.empty() || options.draws <= 0) return result;
   result.compliances.resize(static_cast<std::size_t>(options.draws));
-  numerics::onAllCores(result.compliances.size(), [&](std::size_t draw) {
-    result.compliances[draw] = solveDraw(method, options.seed, draw);
-  });
+  numerics::onAllCores(result.compliances.size(),
+                       [&](std::size_t draw) { result.compliances[draw] = solveDraw(method, options.seed, draw); });
   return result;
 }
 

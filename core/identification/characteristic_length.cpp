@@ -24,8 +24,7 @@ struct StackedJacobian {
 
 }  // namespace
 
-CharacteristicLength characteristicLength(const std::vector<LoadCase>& cases,
-                                          const Eigen::Vector3d& tcp_in_flange) {
+CharacteristicLength characteristicLength(const std::vector<LoadCase>& cases, const Eigen::Vector3d& tcp_in_flange) {
   StackedJacobian stacked;
   for (const LoadCase& load_case : cases) {
     const Matrix6d jacobian = robot::jacobianAt(load_case.axes, *load_case.flange_unloaded * tcp_in_flange);

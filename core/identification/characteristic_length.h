@@ -15,7 +15,6 @@ struct CharacteristicLength {
 };
 
 /// Golden-section search on log L within 0.05 m to 20 m, started at the best point of `curve`.
-CharacteristicLength characteristicLength(const std::vector<LoadCase>& cases,
-                                          const Eigen::Vector3d& tcp_in_flange);
+CharacteristicLength characteristicLength(const std::vector<LoadCase>& cases, const Eigen::Vector3d& tcp_in_flange);
 
 }  // namespace stiffscope::identification

@@ -37,7 +37,9 @@ DeflectionJudge DeflectionJudge::byPosture(const std::vector<CaseEquations>& equ
 
 DeflectionJudge::DeflectionJudge(const std::vector<CaseEquations>& equations, const std::vector<std::size_t>& first)
     : points_(first.size()), displacement_(first.size()) {
-  const auto end = [&](std::size_t posture) { return posture + 1 < first.size() ? first[posture + 1] : equations.size(); };
+  const auto end = [&](std::size_t posture) {
+    return posture + 1 < first.size() ? first[posture + 1] : equations.size();
+  };
   std::vector<std::size_t> from(first.size());
   std::size_t count = 0;
   for (std::size_t posture = 0; posture < first.size(); ++posture) {

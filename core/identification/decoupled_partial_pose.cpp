@@ -28,7 +28,9 @@ robot::JointMask wristOf(const robot::JointMask& unknown) {
   return {false, false, false, unknown[3], unknown[4], unknown[5]};
 }
 
-Vector6d armPartOf(const Vector6d& compliance) { return (Vector6d() << compliance.head<3>(), Eigen::Vector3d::Zero()).finished(); }
+Vector6d armPartOf(const Vector6d& compliance) {
+  return (Vector6d() << compliance.head<3>(), Eigen::Vector3d::Zero()).finished();
+}
 
 double variance(const std::vector<CaseEquations>& equations, const Vector6d& compliance) {
   double sum = 0.0;
@@ -43,8 +45,8 @@ double variance(const std::vector<CaseEquations>& equations, const Vector6d& com
 /// A posture acts on the arm through P_wrist, and on the wrist through its reflectors and, the arm's model being
 /// subtracted, through the arm: its uncertainty reaches the wrist's.
 void setDecoupledScatter(const std::vector<NormalEquations>& wrist, const std::vector<NormalEquations>& reflectors,
-                         const NormalEquations& wrist_sum, const NormalEquations& reflector_sum,
-                         double wrist_variance, double reflector_variance, StiffnessEstimate& estimate) {
+                         const NormalEquations& wrist_sum, const NormalEquations& reflector_sum, double wrist_variance,
+                         double reflector_variance, StiffnessEstimate& estimate) {
   const robot::JointMask arm_joints = armOf(estimate.identifiable), wrist_joints = wristOf(estimate.identifiable);
   const Vector6d arm_only = armPartOf(estimate.compliance);
   const Matrix6d arm_inverse = inverseNormal(wrist_sum, arm_joints);
@@ -83,7 +85,8 @@ StiffnessEstimate decoupledPartialPose(const std::vector<CaseEquations>& wrist_e
                                        const robot::JointMask& unknown) {
   StiffnessEstimate estimate;
   estimate.identifiable = unknown;
-  const std::vector<NormalEquations> wrist = normalByPosture(wrist_equations), reflectors = normalByPosture(reflector_equations);
+  const std::vector<NormalEquations> wrist = normalByPosture(wrist_equations),
+                                     reflectors = normalByPosture(reflector_equations);
   const NormalEquations wrist_sum = sumOf(wrist), reflector_sum = sumOf(reflectors);
   estimate.compliance = solveDecoupled(wrist_sum, reflector_sum, unknown);
   setDecoupledScatter(wrist, reflectors, wrist_sum, reflector_sum,

@@ -94,8 +94,7 @@ ScaledNormal scaledNormal(const Matrix6d& matrix, const robot::JointMask& unknow
   // Joints left out get a unit diagonal: one fixed-size solve serves every mask.
   ScaledNormal scaled{matrix, Vector6d::Zero()};
   for (int j = 0; j < 6; ++j) {
-    if (unknown[static_cast<std::size_t>(j)] && matrix(j, j) > 0.0)
-      scaled.scale[j] = 1.0 / std::sqrt(matrix(j, j));
+    if (unknown[static_cast<std::size_t>(j)] && matrix(j, j) > 0.0) scaled.scale[j] = 1.0 / std::sqrt(matrix(j, j));
   }
   scaled.matrix = scaled.scale.asDiagonal() * matrix * scaled.scale.asDiagonal();
   for (int j = 0; j < 6; ++j) {
@@ -212,12 +211,11 @@ class SpringTorque {
 robot::Wrench turnedWrench(const robot::Robot& arm, const LoadCase& load_case, const Vector6d& loaded) {
   const auto body = static_cast<std::size_t>(load_case.wrench_turns_with);
   const Eigen::Matrix3d turn = robot::postureAt(arm, loaded).motion[body].linear() * load_case.unturned.transpose();
-  return {load_case.wrench.point, turn * load_case.wrench_unturned.force,
-          turn * load_case.wrench_unturned.moment};
+  return {load_case.wrench.point, turn * load_case.wrench_unturned.force, turn * load_case.wrench_unturned.moment};
 }
 
 robot::ArmAxes middleOf(const robot::Robot& arm, const LoadCase& load_case, const Vector6d& compliance,
-                 const Vector6d& torque) {
+                        const Vector6d& torque) {
   return robot::axesAt(arm, robot::postureAt(arm, load_case.q_sagged + 0.5 * compliance.cwiseProduct(torque)));
 }
 
@@ -225,8 +223,8 @@ robot::ArmAxes middleOf(const robot::Robot& arm, const LoadCase& load_case, cons
 
 std::vector<Vector6d> jointTorques(const std::vector<LoadCase>& cases) {
   std::vector<Vector6d> torques(cases.size());
-  numerics::smallWorkOnAllCores(cases.size(),
-                      [&](std::size_t i) { torques[i] = robot::jointTorque(cases[i].axes, cases[i].wrench); });
+  numerics::smallWorkOnAllCores(
+      cases.size(), [&](std::size_t i) { torques[i] = robot::jointTorque(cases[i].axes, cases[i].wrench); });
   return torques;
 }
 
@@ -240,8 +238,8 @@ std::vector<Vector6d> jointTorquesWithGeometricStiffness(const frames::LoadingGe
   return torques;
 }
 
-void settleLoads(const frames::LoadingGeometry& geometry, const Vector6d& compliance, std::vector<LoadCase>& cases,
-                 std::vector<Vector6d>& torques) {
+void updateLoadedConfiguration(const frames::LoadingGeometry& geometry, const Vector6d& compliance,
+                               std::vector<LoadCase>& cases, std::vector<Vector6d>& torques) {
   torques.resize(cases.size());
   numerics::smallWorkOnAllCores(cases.size(), [&](std::size_t i) {
     LoadCase& load_case = cases[i];

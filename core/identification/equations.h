@@ -31,8 +31,8 @@ std::vector<Vector6d> jointTorquesWithGeometricStiffness(const frames::LoadingGe
 /// directed by that of the model (force and moment were read in axes that have turned with their body by c
 /// torque; first order in the deflection, as K_c is); torques by those; and the axes of the Jacobians at the
 /// middle of the displacement.
-void settleLoads(const frames::LoadingGeometry& geometry, const Vector6d& compliance, std::vector<LoadCase>& cases,
-                 std::vector<Vector6d>& torques);
+void updateLoadedConfiguration(const frames::LoadingGeometry& geometry, const Vector6d& compliance,
+                               std::vector<LoadCase>& cases, std::vector<Vector6d>& torques);
 
 /// Takes each case's Jacobians at the middle of its displacement: q_sagged + c torque / 2.
 void takeJacobiansAtMiddle(const frames::LoadingGeometry& geometry, const Vector6d& compliance,

@@ -65,16 +65,20 @@ double studentFactor(double dof, double coverage) { return numerics::studentLimi
 
 double coverageFactor(const StiffnessEstimate& estimate, int joint, double coverage) {
   const double dof = estimate.dof(joint);
-  if (!(dof > 0.0) || !std::isfinite(estimate.covariance(joint, joint))) return std::numeric_limits<double>::quiet_NaN();
+  if (!(dof > 0.0) || !std::isfinite(estimate.covariance(joint, joint)))
+    return std::numeric_limits<double>::quiet_NaN();
   return studentFactor(dof, coverage);
 }
 
 double matchedDof(const Eigen::MatrixXd& influence_covariance, const EqualWeights& more) {
   if (!(influence_covariance.trace() > 0.0)) return 0.0;
   const Eigen::VectorXd weights =
-      Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(influence_covariance, Eigen::EigenvaluesOnly).eigenvalues().cwiseMax(0.0);
+      Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(influence_covariance, Eigen::EigenvaluesOnly)
+          .eigenvalues()
+          .cwiseMax(0.0);
   const double factor = coverageFactor(weights, more, kStatedCoverage);
-  // By the same rule as the factor, so that its error drops out. The tail at a given factor falls as the degrees of freedom grow.
+  // By the same rule as the factor, so that its error drops out. The tail at a given factor falls as the degrees of
+  // freedom grow.
   return crossing(0.3, 1e4, 1.0 - kStatedCoverage, [&](double dof) { return studentTail(factor, dof); });
 }
 
@@ -87,9 +91,8 @@ std::vector<Eigen::Index> largest(const Eigen::VectorXd& own, Eigen::Index count
   std::vector<Eigen::Index> postures(static_cast<std::size_t>(own.size()));
   std::iota(postures.begin(), postures.end(), Eigen::Index{0});
   const auto end = postures.begin() + std::min(count, own.size());
-  std::partial_sort(postures.begin(), end, postures.end(), [&](Eigen::Index a, Eigen::Index b) {
-    return own[a] > own[b] || (own[a] == own[b] && a < b);
-  });
+  std::partial_sort(postures.begin(), end, postures.end(),
+                    [&](Eigen::Index a, Eigen::Index b) { return own[a] > own[b] || (own[a] == own[b] && a < b); });
   postures.erase(end, postures.end());
   std::sort(postures.begin(), postures.end());
   return postures;
@@ -124,8 +127,9 @@ InfluenceCovariance combined(double a, const InfluenceCovariance& first, double 
   return sum;
 }
 
-InfluenceCovariance influenceCovariance(const std::vector<PostureGain>& gains, const std::vector<NormalEquations>& normal,
-                                        const Matrix6d& inverse, int joint) {
+InfluenceCovariance influenceCovariance(const std::vector<PostureGain>& gains,
+                                        const std::vector<NormalEquations>& normal, const Matrix6d& inverse,
+                                        int joint) {
   const auto n = static_cast<Eigen::Index>(gains.size());
   InfluenceCovariance covariance{Eigen::VectorXd(n), Eigen::MatrixXd(6, n), -inverse};
   for (Eigen::Index p = 0; p < n; ++p) {
@@ -273,11 +277,14 @@ void setScatterOfOneStage(const std::vector<NormalEquations>& normal, const Norm
   });
   const Matrix6d inverse = inverseNormal(sum, estimate.identifiable);
   Vector6d dof = Vector6d::Zero();
-  numerics::onAllCores(6, [&](std::size_t j) {
-    if (!estimate.identifiable[j]) return;
-    const auto joint = static_cast<int>(j);
-    dof[joint] = matchedDof(influenceCovariance(gains, normal, inverse, joint));
-  }, normal.size() >= numerics::kWorthThreads);
+  numerics::onAllCores(
+      6,
+      [&](std::size_t j) {
+        if (!estimate.identifiable[j]) return;
+        const auto joint = static_cast<int>(j);
+        dof[joint] = matchedDof(influenceCovariance(gains, normal, inverse, joint));
+      },
+      normal.size() >= numerics::kWorthThreads);
   setScatter(std::move(influences), dof, estimate);
 }
 

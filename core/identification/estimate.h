@@ -11,12 +11,12 @@ namespace stiffscope::identification {
 
 /// What the covariance of the compliances is made of; independent of each other, so that they add.
 ///
-/// `scatter` is the errors that differ between postures, whatever they are: the tracker's noise, the load cell's, the angles',
-/// and what joint springs do not explain. The others are errors that all postures share, which no scatter shows:
-/// derivatives of the whole solution times the covariance of what was estimated on the way. Two loops are left out, both of
-/// a thousandth: noise of the unloaded readings that also calibrate Partial Pose's geometry, and stiffnesses that
-/// take the sag off the sweeps they stand on. A load cell's gain, axes and point are taken as declared: the format has
-/// no uncertainty for them.
+/// `scatter` is the errors that differ between postures, whatever they are: the tracker's noise, the load cell's, the
+/// angles', and what joint springs do not explain. The others are errors that all postures share, which no scatter
+/// shows: derivatives of the whole solution times the covariance of what was estimated on the way. Two loops are left
+/// out, both of a thousandth: noise of the unloaded readings that also calibrate Partial Pose's geometry, and
+/// stiffnesses that take the sag off the sweeps they stand on. A load cell's gain, axes and point are taken as
+/// declared: the format has no uncertainty for them.
 struct CovarianceParts {
   Matrix6d scatter = Matrix6d::Zero();
   Matrix6d frames = Matrix6d::Zero();    ///< the measured axes: R0, links, the flange's place
@@ -33,8 +33,8 @@ struct StiffnessEstimate {
   /// Of c: `parts` summed, what scatters between the postures and what they all have in common.
   Matrix6d covariance = Matrix6d::Zero();
   CovarianceParts parts;
-  std::vector<Vector6d> influences;             ///< g_p, one a posture
-  Vector6d scatter_dof = Vector6d::Zero();      ///< of the scatter, by matchedDof
+  std::vector<Vector6d> influences;         ///< g_p, one a posture
+  Vector6d scatter_dof = Vector6d::Zero();  ///< of the scatter, by matchedDof
   robot::JointMask identifiable{};
   double condition = 0.0;     ///< of the stacked equations, columns scaled to unit length
   double rms_residual = 0.0;  ///< plain, of the positions the method fits, per coordinate, m
@@ -67,9 +67,9 @@ void setScatterOfOneStage(const std::vector<NormalEquations>& normal, const Norm
 /// Fills rms_residual and sigma from the positional residuals of `equations`.
 void describeResiduals(const std::vector<CaseEquations>& equations, StiffnessEstimate& estimate);
 
-/// k of U = k u for a normal error whose estimated variance is a sum of squares of correlated normal numbers: weights, the
-/// eigenvalues of the numbers' covariance, positive. By Craig's integral, P(|z| > k s) = 2/pi times the
-/// integral over 0..pi/2 of prod (1 + k^2 w_i / sin^2 t)^-1/2, w normalised to sum one; exact for independent z and s.
+/// k of U = k u for a normal error whose estimated variance is a sum of squares of correlated normal numbers: weights,
+/// the eigenvalues of the numbers' covariance, positive. By Craig's integral, P(|z| > k s) = 2/pi times the integral
+/// over 0..pi/2 of prod (1 + k^2 w_i / sin^2 t)^-1/2, w normalised to sum one; exact for independent z and s.
 double coverageFactor(const Eigen::VectorXd& weights, double coverage);
 
 /// `count` more weights of one size; count need not be whole.
@@ -92,8 +92,8 @@ double matchedDof(const Eigen::MatrixXd& influence_covariance, const EqualWeight
 
 /// How the residuals of a posture move the compliances, M_p in g_p = M_p A_p^T (b_p - A_p c), g_p its influence:
 /// M_p A_p^T = N^-1 A_p^T (I - H_p)^-1/2, H_p = A_p N^-1 A_p^T. The root makes up for what the posture pulled the fit
-/// towards itself (Bell and McCaffrey 2002, CR2), which matters for few postures. With N = L L^T and G = L^-1 A_p^T A_p L^-T
-/// it acts on six numbers: M_p = L^-T (I - G)^-1/2 L^-1.
+/// towards itself (Bell and McCaffrey 2002, CR2), which matters for few postures. With N = L L^T and G = L^-1 A_p^T A_p
+/// L^-T it acts on six numbers: M_p = L^-T (I - G)^-1/2 L^-1.
 using PostureGain = Matrix6d;
 
 /// Gains in one least-squares problem.
@@ -118,8 +118,8 @@ double satterthwaite(const Eigen::MatrixXd& covariance);
 /// Whether the two are of one posture.
 bool sharePosture(const CaseEquations& a, const CaseEquations& b);
 
-/// Equations of equal `posture` in a row, joined to one: the errors of a posture (its unloaded readings above all) are in
-/// all its load steps, so it acts as one.
+/// Equations of equal `posture` in a row, joined to one: the errors of a posture (its unloaded readings above all) are
+/// in all its load steps, so it acts as one.
 std::vector<CaseEquations> byPosture(std::vector<CaseEquations> equations);
 
 /// The normal equations of those, one a posture.
@@ -143,15 +143,15 @@ struct InfluenceCovariance {
 /// a first + b second, of the same postures.
 InfluenceCovariance combined(double a, const InfluenceCovariance& first, double b, const InfluenceCovariance& second);
 
-/// If all residuals came from errors that are independent and have variance 1: with l_p the row of M_p A_p^T (PostureGain)
-/// and U_p = A_p^T l_p, C_pq = delta_pq |l_p|^2 - U_p^T N^-1 U_q. `normal`: A_p^T A_p.
-InfluenceCovariance influenceCovariance(const std::vector<PostureGain>& gains, const std::vector<NormalEquations>& normal,
-                                        const Matrix6d& inverse, int joint);
+/// If all residuals came from errors that are independent and have variance 1: with l_p the row of M_p A_p^T
+/// (PostureGain) and U_p = A_p^T l_p, C_pq = delta_pq |l_p|^2 - U_p^T N^-1 U_q. `normal`: A_p^T A_p.
+InfluenceCovariance influenceCovariance(const std::vector<PostureGain>& gains,
+                                        const std::vector<NormalEquations>& normal, const Matrix6d& inverse, int joint);
 
 /// Degrees of freedom of Student's t with the same factor at the stated coverage as a sum of squares of influences with
-/// that covariance. Up to 64 postures by the eigenvalues of C. Of more, the 64 with the largest influence are taken so and
-/// the others, each below a 64th of the sum, as equal weights of the same trace, C's squares kept: for them only the second
-/// moment matters.
+/// that covariance. Up to 64 postures by the eigenvalues of C. Of more, the 64 with the largest influence are taken so
+/// and the others, each below a 64th of the sum, as equal weights of the same trace, C's squares kept: for them only
+/// the second moment matters.
 double matchedDof(const InfluenceCovariance& covariance);
 
 /// Between two numbers; infinite where it is open.

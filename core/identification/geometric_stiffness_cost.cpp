@@ -8,8 +8,7 @@ std::vector<GeometricStiffnessCost> geometricStiffnessCosts(const Identification
   if (!solved.available) return costs;
   const Vector6d& compliance = solved.estimate.compliance;
   const std::vector<Vector6d> plain = jointTorques(result.cases);
-  const std::vector<Vector6d> full =
-      jointTorquesWithGeometricStiffness(solved.geometry, result.cases, compliance);
+  const std::vector<Vector6d> full = jointTorquesWithGeometricStiffness(solved.geometry, result.cases, compliance);
   for (std::size_t i = 0; i < result.cases.size(); ++i) {
     const LoadCase& load_case = result.cases[i];
     const robot::ArmAxes& axes = jacobianAxes(load_case);

@@ -1,8 +1,8 @@
 #include "core/identification/identifiability.h"
 
+#include <fmt/format.h>
 #include <Eigen/Dense>
 #include <cmath>
-#include <fmt/format.h>
 
 #include "core/numerics/parallel.h"
 #include "core/robot/kinematics.h"
@@ -37,8 +37,8 @@ Vector6d torqueVariance(const robot::ArmAxes& axes, const robot::Wrench& wrench,
   return variance;
 }
 
-void judgeHanging(const frames::LoadingGeometry& geometry, const std::vector<LoadCase>& cases,
-                  const TrustLimits& limits, Identifiability& result) {
+void evaluateHanging(const frames::LoadingGeometry& geometry, const std::vector<LoadCase>& cases,
+                     const TrustLimits& limits, Identifiability& result) {
   if (geometry.weight.gravity_in_base.squaredNorm() == 0.0) return;
   const Eigen::Vector3d down = geometry.weight.gravity_in_base.normalized();
   double sum = 0.0;
@@ -76,8 +76,8 @@ struct LeverSquares {
 
 /// Marks joints about whose axis the measured points hardly move: their distance from it is no more than the
 /// place of the axis is trusted to. A column of the equations is that distance times the torque.
-void judgeLever(const std::vector<CaseEquations>& equations, const std::vector<Vector6d>& torques,
-                const TrustLimits& limits, Identifiability& result) {
+void evaluateLever(const std::vector<CaseEquations>& equations, const std::vector<Vector6d>& torques,
+                   const TrustLimits& limits, Identifiability& result) {
   const auto sum = numerics::sumInBlocks<LeverSquares>(equations.size(), [&](std::size_t i, LeverSquares& all) {
     const auto points = static_cast<double>(equations[i].matrix.rows() / 3);
     all += {equations[i].matrix.colwise().squaredNorm().transpose(), torques[i].cwiseAbs2() * points};
@@ -87,9 +87,8 @@ void judgeLever(const std::vector<CaseEquations>& equations, const std::vector<V
     const double lever = sum.torques[j] > 0.0 ? std::sqrt(sum.columns[j] / sum.torques[j]) : 0.0;
     if (!joint.identifiable || lever > limits.least_ratio * limits.position) continue;
     joint.identifiable = false;
-    joint.reason =
-        fmt::format("the measured points stand {:.2f} mm rms from axis {}: its turning does not move them",
-                    1e3 * lever, j + 1);
+    joint.reason = fmt::format("the measured points stand {:.2f} mm rms from axis {}: its turning does not move them",
+                               1e3 * lever, j + 1);
   }
 }
 
@@ -111,24 +110,22 @@ std::string combinationReason(const Vector6d& unseen, const Vector6d& lengths) {
         "that only 1/k{} {} {}/k{} is determined; postures in which axis {} stands otherwise to the load "
         "than axis {} "
         "would part them",
-        a + 1, b + 1, a + 1, ratio < 0.0 ? "-" : "+", fmt::format("{:.3g}", std::abs(ratio)), b + 1, a + 1,
-        b + 1);
+        a + 1, b + 1, a + 1, ratio < 0.0 ? "-" : "+", fmt::format("{:.3g}", std::abs(ratio)), b + 1, a + 1, b + 1);
   }
   std::string names, terms;
   for (const int j : joints) {
     const double share = unseen[j] / lengths[j] / (unseen[joints[0]] / lengths[joints[0]]);
     names += fmt::format("{}{}", names.empty() ? "" : ", ", j + 1);
-    terms += terms.empty() ? fmt::format("1/k{}", j + 1)
-                           : fmt::format(" {} {:.3g} at 1/k{}", share < 0.0 ? "and -" : "and +",
-                                         std::abs(share), j + 1);
+    terms += terms.empty()
+                 ? fmt::format("1/k{}", j + 1)
+                 : fmt::format(" {} {:.3g} at 1/k{}", share < 0.0 ? "and -" : "and +", std::abs(share), j + 1);
   }
-  return fmt::format(
-      "these postures only see a combination of joints {}: adding +1 at {} changes no displacement", names,
-      terms);
+  return fmt::format("these postures only see a combination of joints {}: adding +1 at {} changes no displacement",
+                     names, terms);
 }
 
 /// Marks joints that take part in a combination which the equations do not see.
-void judgeRank(const std::vector<CaseEquations>& equations, Identifiability& result) {
+void evaluateRank(const std::vector<CaseEquations>& equations, Identifiability& result) {
   const auto sum = numerics::sumInBlocks<NormalEquations>(
       equations.size(), [&](std::size_t i, NormalEquations& all) { all += normalEquations(equations[i]); });
   Matrix6d scaled = Matrix6d::Identity();
@@ -163,19 +160,20 @@ robot::JointMask Identifiability::mask() const {
   return unknown;
 }
 
-Identifiability judgeJoints(const frames::LoadingGeometry& geometry, const std::vector<LoadCase>& cases,
-                            const campaign::LoadCell& cell, const std::vector<CaseEquations>& equations,
-                            const TrustLimits& limits) {
+Identifiability evaluateIdentifiability(const frames::LoadingGeometry& geometry, const std::vector<LoadCase>& cases,
+                                        const campaign::LoadCell& cell, const std::vector<CaseEquations>& equations,
+                                        const TrustLimits& limits) {
   Identifiability result;
   if (cases.empty()) return result;
-  judgeHanging(geometry, cases, limits, result);
+  evaluateHanging(geometry, cases, limits, result);
   const Eigen::Vector3d down = geometry.weight.gravity_in_base.normalized();
   std::vector<Vector6d> torques(cases.size());
   const auto sum = numerics::sumInBlocks<TorqueSquares>(cases.size(), [&](std::size_t i, TorqueSquares& all) {
     const LoadCase& load_case = cases[i];
     const robot::ArmAxes& axes = load_case.axes;
     torques[i] = robot::jointTorque(axes, load_case.wrench);
-    const Vector6d hanging = result.load_hangs ? robot::jointTorque(axes, hangingPart(load_case.wrench, down)) : torques[i];
+    const Vector6d hanging =
+        result.load_hangs ? robot::jointTorque(axes, hangingPart(load_case.wrench, down)) : torques[i];
     all += {torques[i].cwiseAbs2(), hanging.cwiseAbs2(), torqueVariance(axes, load_case.wrench, cell, limits)};
   });
   const double n = static_cast<double>(cases.size());
@@ -184,22 +182,20 @@ Identifiability judgeJoints(const frames::LoadingGeometry& geometry, const std::
     joint.torque_rms = std::sqrt(sum.torque[j] / n);
     joint.trusted_rms = std::sqrt(sum.trusted[j] / n);
     joint.uncertainty_rms = std::sqrt(sum.variance[j] / n);
-    joint.identifiable =
-        joint.trusted_rms > 0.0 && joint.trusted_rms > limits.least_ratio * joint.uncertainty_rms;
+    joint.identifiable = joint.trusted_rms > 0.0 && joint.trusted_rms > limits.least_ratio * joint.uncertainty_rms;
     if (joint.identifiable) continue;
-    joint.reason =
-        result.load_hangs && joint.torque_rms > joint.trusted_rms
-            ? fmt::format(
-                  "the load only hangs and does not turn axis {}: {:.1f} Nm rms of torque, of which "
-                  "a load along gravity gives {:.1f} Nm",
-                  j + 1, joint.torque_rms, joint.trusted_rms)
-            : fmt::format(
-                  "the load turns axis {} by {:.1f} Nm rms, no more than {:g} times the {:.1f} Nm "
-                  "that wrench, frame and angle uncertainty put there",
-                  j + 1, joint.trusted_rms, limits.least_ratio, joint.uncertainty_rms);
+    joint.reason = result.load_hangs && joint.torque_rms > joint.trusted_rms
+                       ? fmt::format(
+                             "the load only hangs and does not turn axis {}: {:.1f} Nm rms of torque, of which "
+                             "a load along gravity gives {:.1f} Nm",
+                             j + 1, joint.torque_rms, joint.trusted_rms)
+                       : fmt::format(
+                             "the load turns axis {} by {:.1f} Nm rms, no more than {:g} times the {:.1f} Nm "
+                             "that wrench, frame and angle uncertainty put there",
+                             j + 1, joint.trusted_rms, limits.least_ratio, joint.uncertainty_rms);
   }
-  judgeLever(equations, torques, limits, result);
-  judgeRank(equations, result);
+  evaluateLever(equations, torques, limits, result);
+  evaluateRank(equations, result);
   return result;
 }
 

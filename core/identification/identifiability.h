@@ -39,8 +39,8 @@ struct Identifiability {
 /// stiffness (method: What every method reports). Nor is a joint identifiable whose axis the measured points
 /// stand on, or whose column is a combination of others'. `equations`: positions only, one a case, made with
 /// the cases' torques.
-Identifiability judgeJoints(const frames::LoadingGeometry& geometry, const std::vector<LoadCase>& cases,
-                            const campaign::LoadCell& cell, const std::vector<CaseEquations>& equations,
-                            const TrustLimits& limits = {});
+Identifiability evaluateIdentifiability(const frames::LoadingGeometry& geometry, const std::vector<LoadCase>& cases,
+                                        const campaign::LoadCell& cell, const std::vector<CaseEquations>& equations,
+                                        const TrustLimits& limits = {});
 
 }  // namespace stiffscope::identification

@@ -41,7 +41,7 @@ struct MethodResult {
   bool available = false;
   std::string reason;  ///< why not, and what measurement would make it available
   StiffnessEstimate estimate;
-  frames::LoadingGeometry geometry;                ///< the method's own
+  frames::LoadingGeometry geometry;        ///< the method's own
   std::vector<CaseEquations> wrist_rows;   ///< P_wrist's equations in that geometry; empty where not measured
   std::vector<CaseEquations> target_rows;  ///< the reflectors'
   std::vector<double> wrist_residual;      ///< |displacement left| of P_wrist, per load case, m
@@ -60,9 +60,9 @@ struct LengthSensitivity {
 };
 
 struct Identification {
-  int step = 0;            ///< the one with the largest mean force of those used
-  std::vector<int> steps;  ///< used, together
-  frames::Frames frames;                            ///< the own weight's sag taken off where it can be
+  int step = 0;                             ///< the one with the largest mean force of those used
+  std::vector<int> steps;                   ///< used, together
+  frames::Frames frames;                    ///< the own weight's sag taken off where it can be
   std::vector<LoadCase> cases;              ///< in the swept geometry
   std::vector<std::string> left_out;        ///< postures that are not used, with the reason
   std::vector<OutlyingPosture> outlying;    ///< disagree with the rest; used nevertheless, unless `robust`
@@ -76,7 +76,7 @@ struct Identification {
   std::vector<LengthSensitivity> length_sensitivity;
   std::array<MethodResult, 3> methods;  ///< by Method
   std::optional<NoiseShare> noise;
-  std::vector<std::string> cautions;       ///< cautionsOf this result
+  std::vector<std::string> cautions;       ///< warningsOf this result
   double servo_change = 0.0;               ///< largest change of a reported joint angle under load, rad
   double geometric_stiffness_share = 0.0;  ///< rms change of the joint torques by K_c, relative
   bool finite_deflection = true;

@@ -43,11 +43,11 @@ void describeLoads(const campaign::Campaign& campaign, LoadedArm shown, Identifi
   result.wrist = std::move(shown.wrist);
 }
 
-frames::Frames settledFrames(const campaign::Campaign& campaign) {
+frames::Frames solvedFrames(const campaign::Campaign& campaign) {
   if (!campaign.loading || !whatLoadsLack(campaign).empty() || !heaviestStep(campaign)) {
     return frames::measureFrames(campaign);
   }
-  return settleFrames(campaign, {chosenStep(campaign, {})}, {}).frames;
+  return solveFrames(campaign, {chosenStep(campaign, {})}, {}).frames;
 }
 
 namespace {
@@ -62,11 +62,11 @@ Identification identifyOnce(const campaign::Campaign& campaign, const IdentifyOp
   result.step = chosenStep(campaign, options.step);
   result.steps = options.all_steps ? loadedSteps(campaign) : std::vector<int>{result.step};
   result.finite_deflection = options.finite_deflection;
-  SettledFrames settled = settleFrames(campaign, result.steps, options);
+  SolvedFrames settled = solveFrames(campaign, result.steps, options);
   result.frames = std::move(settled.frames);
   result.left_out = std::move(settled.left_out);
   MethodRuns runs{campaign, options, std::move(settled.arm), {}, {}};
-  judgeJointsIn(runs.swept, runs, result);
+  evaluateIdentifiabilityIn(runs.swept, runs, result);
   runCompletePose(runs, result);
   runPartialPose(runs, result);
   runDecoupledPartialPose(runs, result);
@@ -88,18 +88,18 @@ Identification identify(const campaign::Campaign& campaign, const IdentifyOption
     result.robust = true;
     nameLeftOut(campaign, outlying, result.left_out);
   }
-  result.cautions = cautionsOf(campaign, result);
+  result.cautions = warningsOf(campaign, result);
   return result;
 }
 
 Identification framesAlone(const campaign::Campaign& campaign) {
   Identification result;
   const std::string lacking = whatLoadsLack(campaign);
-  result.frames = settledFrames(campaign);
+  result.frames = solvedFrames(campaign);
   for (MethodResult& method : result.methods) method.reason = lacking;
   for (JointIdentifiability& joint : result.identifiability.joints) joint.reason = lacking;
   result.calibration.reason = lacking;
-  result.cautions = cautionsOf(campaign, result);
+  result.cautions = warningsOf(campaign, result);
   return result;
 }
 

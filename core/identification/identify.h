@@ -22,7 +22,7 @@ Identification identify(const campaign::Campaign& campaign, const IdentifyOption
 
 /// The frames alone: with the own weight taken off where the campaign has what identifies the stiffnesses,
 /// else without.
-frames::Frames settledFrames(const campaign::Campaign& campaign);
+frames::Frames solvedFrames(const campaign::Campaign& campaign);
 
 /// The result for a campaign without loads (core/identification/load_case.h, whatLoadsLack): its frames, step
 /// 0, no load case, and for every method and joint what is missing.

@@ -1,8 +1,8 @@
 #include "core/identification/load_case.h"
 
-#include <algorithm>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <algorithm>
 #include <map>
 #include <set>
 #include <stdexcept>
@@ -24,8 +24,8 @@ const robot::LinkFrame& linkNamed(const robot::Robot& arm, const std::string& na
 }
 
 /// A link's place: with the flange as given for what is fixed to it, by the posture for the rest.
-Eigen::Isometry3d placeOf(const robot::LinkFrame& link, const frames::LoadingGeometry& geometry, const robot::ArmPosture& posture,
-                          const std::optional<Eigen::Isometry3d>& flange) {
+Eigen::Isometry3d placeOf(const robot::LinkFrame& link, const frames::LoadingGeometry& geometry,
+                          const robot::ArmPosture& posture, const std::optional<Eigen::Isometry3d>& flange) {
   if (link.body == 6 && flange) {
     return *flange * geometry.arm.base_from_flange_at_zero.inverse() * link.base_from_link_at_zero;
   }
@@ -38,15 +38,14 @@ int bodyOfCellAxes(const campaign::LoadCell& cell, const frames::LoadingGeometry
   return linkNamed(geometry.arm, cell.axes_link ? *cell.axes_link : cell.parent).body;
 }
 
-robot::Wrench cellWrench(const campaign::LoadCell& cell, const frames::LoadingGeometry& geometry, const robot::ArmPosture& posture,
-                  const std::optional<Eigen::Isometry3d>& flange_unloaded,
-                  const std::optional<Eigen::Isometry3d>& flange_loaded, const Vector6d& reading) {
+robot::Wrench cellWrench(const campaign::LoadCell& cell, const frames::LoadingGeometry& geometry,
+                         const robot::ArmPosture& posture, const std::optional<Eigen::Isometry3d>& flange_unloaded,
+                         const std::optional<Eigen::Isometry3d>& flange_loaded, const Vector6d& reading) {
   const robot::LinkFrame& parent = linkNamed(geometry.arm, cell.parent);
   const Eigen::Matrix3d axes =
-      cell.axes_link
-          ? placeOf(linkNamed(geometry.arm, *cell.axes_link), geometry, posture, flange_loaded).linear()
-          : Eigen::Matrix3d(placeOf(parent, geometry, posture, flange_loaded).linear() *
-                            cell.parent_from_cell.linear());
+      cell.axes_link ? placeOf(linkNamed(geometry.arm, *cell.axes_link), geometry, posture, flange_loaded).linear()
+                     : Eigen::Matrix3d(placeOf(parent, geometry, posture, flange_loaded).linear() *
+                                       cell.parent_from_cell.linear());
   return {placeOf(parent, geometry, posture, flange_unloaded) * cell.parent_from_cell.translation(),
           axes * reading.head<3>(), axes * reading.tail<3>()};
 }
@@ -59,8 +58,8 @@ LoadReadings::LoadReadings(const campaign::Campaign& campaign, std::vector<int> 
   const auto asked = [&](int step) { return slot(step) <= steps_.size(); };
   const auto add = [&](const auto& row, const Eigen::Vector3d& value, std::vector<ReadingSum>& table) {
     if (!asked(row.step)) return;
-    ReadingSum& sum = table[at(static_cast<std::size_t>(row.pose), row.step) * targets_ +
-                            static_cast<std::size_t>(row.target)];
+    ReadingSum& sum =
+        table[at(static_cast<std::size_t>(row.pose), row.step) * targets_ + static_cast<std::size_t>(row.target)];
     sum.sum += value;
     ++sum.readings;
   };
@@ -80,7 +79,8 @@ LoadReadings::LoadReadings(const campaign::Campaign& campaign, std::vector<int> 
       for (const campaign::Displacement& row : campaign.displacements->rows) add(row, row.displacement, differences_);
     }
   };
-  numerics::onAllCores(2, [&](std::size_t i) { i == 0 ? gatherStates() : gatherReadings(); }, poses_ >= numerics::kWorthThreads);
+  numerics::onAllCores(
+      2, [&](std::size_t i) { i == 0 ? gatherStates() : gatherReadings(); }, poses_ >= numerics::kWorthThreads);
 }
 
 std::size_t LoadReadings::slot(int step) const {
@@ -88,8 +88,7 @@ std::size_t LoadReadings::slot(int step) const {
   return 1 + static_cast<std::size_t>(std::find(steps_.begin(), steps_.end(), step) - steps_.begin());
 }
 
-std::span<const ReadingSum> LoadReadings::of(const std::vector<ReadingSum>& table, std::size_t pose,
-                                             int step) const {
+std::span<const ReadingSum> LoadReadings::of(const std::vector<ReadingSum>& table, std::size_t pose, int step) const {
   if (table.empty()) return {};
   return {table.data() + at(pose, step) * targets_, targets_};
 }
@@ -161,9 +160,9 @@ int chosenStep(const campaign::Campaign& campaign, const std::optional<int>& ask
     const std::vector<int> steps = loadSteps(campaign);
     if (std::find(steps.begin(), steps.end(), *asked) == steps.end()) {
       throw io::InputError(inFile(campaign, campaign.states->file), std::to_string(*asked),
-                       steps.empty() ? "not a load step of this campaign, which has none"
-                                     : fmt::format("not a load step of this campaign, which has {}",
-                                                   fmt::join(steps, ", ")));
+                           steps.empty()
+                               ? "not a load step of this campaign, which has none"
+                               : fmt::format("not a load step of this campaign, which has {}", fmt::join(steps, ", ")));
     }
     return *asked;
   }
@@ -210,8 +209,7 @@ std::optional<Eigen::Isometry3d> measuredFlange(const frames::LoadingGeometry& g
 }
 
 /// Displacements without absolute points: put on the model's place of the reflector.
-std::vector<TargetMove> declaredMoves(const frames::LoadingGeometry& geometry,
-                                      std::span<const ReadingSum> differences,
+std::vector<TargetMove> declaredMoves(const frames::LoadingGeometry& geometry, std::span<const ReadingSum> differences,
                                       const Eigen::Matrix3d& r0_from_table, const robot::ArmPosture& posture) {
   std::vector<TargetMove> moves;
   moves.reserve(differences.size());
@@ -251,8 +249,7 @@ std::optional<int> heaviestStep(const campaign::Campaign& campaign) {
 }
 
 std::vector<LoadCase> loadCases(const campaign::Campaign& campaign, const LoadReadings& readings,
-                                const frames::LoadingGeometry& geometry, int step,
-                                std::vector<std::string>* left_out) {
+                                const frames::LoadingGeometry& geometry, int step, std::vector<std::string>* left_out) {
   std::vector<LoadCase> cases;
   if (!campaign.states || !campaign.load_cell) return cases;
   const bool absolute = campaign.loading.has_value() && geometry.r0_from_loading.has_value();

@@ -15,9 +15,9 @@ namespace stiffscope::identification {
 /// The load cell's reading as a wrench in R0 (paper (30)): directed as the flange stands loaded, acting where
 /// the cell stands unloaded. Flange poses (base_from_flange) are those measured by the reflectors where there
 /// are any, else the model's at `posture`. `reading`: force (N) then moment (Nm) in the load cell's axes.
-robot::Wrench cellWrench(const campaign::LoadCell& cell, const frames::LoadingGeometry& geometry, const robot::ArmPosture& posture,
-                  const std::optional<Eigen::Isometry3d>& flange_unloaded,
-                  const std::optional<Eigen::Isometry3d>& flange_loaded, const Vector6d& reading);
+robot::Wrench cellWrench(const campaign::LoadCell& cell, const frames::LoadingGeometry& geometry,
+                         const robot::ArmPosture& posture, const std::optional<Eigen::Isometry3d>& flange_unloaded,
+                         const std::optional<Eigen::Isometry3d>& flange_loaded, const Vector6d& reading);
 
 /// The body whose turn directs the load cell's axes: 0 where they stand still, 6 where they turn with the
 /// flange.
@@ -31,9 +31,9 @@ struct ReadingSum {
   Eigen::Vector3d mean() const { return sum / readings; }
 };
 
-/// What the tables say of some load steps, posture by posture: all of a load case that does not depend on the geometry, so
-/// that it is gathered once for the many geometries in which an uncertainty asks. Refers to rows of the campaign, which
-/// must stay.
+/// What the tables say of some load steps, posture by posture: all of a load case that does not depend on the geometry,
+/// so that it is gathered once for the many geometries in which an uncertainty asks. Refers to rows of the campaign,
+/// which must stay.
 class LoadReadings {
  public:
   LoadReadings(const campaign::Campaign& campaign, std::vector<int> steps);
@@ -56,7 +56,7 @@ class LoadReadings {
 
   std::vector<int> steps_;
   std::size_t poses_, targets_;
-  std::vector<const campaign::State*> states_;  // by slot, then pose
+  std::vector<const campaign::State*> states_;    // by slot, then pose
   std::vector<ReadingSum> points_, differences_;  // by slot, then pose, then target
 };
 
@@ -78,17 +78,17 @@ struct LoadCase {
   Vector6d q = Vector6d::Zero();         ///< as the controller reports it unloaded, rad
   Vector6d servo = Vector6d::Zero();     ///< change of the reported angles under load: apart, not subtracted
   Vector6d q_sagged = Vector6d::Zero();  ///< q with the own weight's sag in: the unloaded arm
-  robot::ArmAxes axes;                          ///< of the unloaded arm
+  robot::ArmAxes axes;                   ///< of the unloaded arm
   /// Where Jacobians of measured points are taken: empty, at the unloaded arm; else at the middle of the
   /// displacement, which makes J c tau the displacement to third order in the deflection.
   std::optional<robot::ArmAxes> middle;
   robot::Wrench wrench;  ///< forces directed as the flange is measured loaded; point where it stands unloaded
   /// Body whose turn under load directs the wrench but is not measured: `wrench` is then directed as at
-  /// the unloaded arm, until settleLoads directs it by the model. 0: directed as measured, or by axes that
-  /// stand still.
+  /// the unloaded arm, until updateLoadedConfiguration directs it by the model. 0: directed as measured, or by axes
+  /// that stand still.
   int wrench_turns_with = 0;
-  /// The next two are only meant where that is not 0: the wrench directed as at the unloaded arm, and how the body stands
-  /// turned there (ArmPosture::motion).
+  /// The next two are only meant where that is not 0: the wrench directed as at the unloaded arm, and how the body
+  /// stands turned there (ArmPosture::motion).
   robot::Wrench wrench_unturned;
   Eigen::Matrix3d unturned = Eigen::Matrix3d::Identity();
   std::vector<TargetMove> targets;

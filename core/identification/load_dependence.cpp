@@ -28,8 +28,8 @@ double meanForce(const std::vector<LoadCase>& cases) {
 }
 
 /// Empty where the step lacks what the method needs.
-std::optional<Solved> solveStep(const campaign::Campaign& campaign, const LoadReadings& readings, const IdentifyOptions& options,
-                                const Identification& result, Method method, int step) {
+std::optional<Solved> solveStep(const campaign::Campaign& campaign, const LoadReadings& readings,
+                                const IdentifyOptions& options, const Identification& result, Method method, int step) {
   const MethodResult& own = result.of(method);
   LoadedArm arm = loadedArm(campaign, readings, own.geometry, result.frames.wrist, {step});
   if (arm.cases.empty()) return std::nullopt;
@@ -40,13 +40,13 @@ std::optional<Solved> solveStep(const campaign::Campaign& campaign, const LoadRe
   one.result.mean_force = meanForce(arm.cases);
   const MethodSolution how{method, result.frames.tcp_in_flange, result.characteristic_length.length,
                            own.estimate.identifiable, campaign.tracker ? &*campaign.tracker : nullptr};
-  one.result.estimate = how.settledEstimate(arm, options.finite_deflection);
+  one.result.estimate = how.solvedEstimate(arm, options.finite_deflection);
   for (const LoadCase& load_case : arm.cases) one.poses.push_back(load_case.pose);
   return one;
 }
 
-std::vector<Solved> solveSteps(const campaign::Campaign& campaign, const LoadReadings& readings, const IdentifyOptions& options,
-                               const Identification& result, Method method) {
+std::vector<Solved> solveSteps(const campaign::Campaign& campaign, const LoadReadings& readings,
+                               const IdentifyOptions& options, const Identification& result, Method method) {
   std::vector<Solved> solved;
   if (!result.of(method).available) return solved;
   // One at a time, each on all cores: the loaded arms of many postures take megabytes.

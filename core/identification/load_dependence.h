@@ -28,10 +28,11 @@ struct StepsOfMethod {
   std::array<LoadDependence, 6> joints;
 };
 
-/// Every load step on its own, in the frames and the calibrated geometry that all have in common. The steps of a posture
-/// share the unloaded readings, and steps share frames: differences are judged by the differences of the postures'
-/// influences, in which what is shared drops out. `p_linear` is the F test of a clustered covariance (Pustejovsky and
-/// Tipton 2018, HTZ): (nu - q + 1) / (nu q) d^T V^-1 d with q contrasts and the postures' effective degrees nu.
+/// Every load step on its own, in the frames and the calibrated geometry that all have in common. The steps of a
+/// posture share the unloaded readings, and steps share frames: differences are judged by the differences of the
+/// postures' influences, in which what is shared drops out. `p_linear` is the F test of a clustered covariance
+/// (Pustejovsky and Tipton 2018, HTZ): (nu - q + 1) / (nu q) d^T V^-1 d with q contrasts and the postures' effective
+/// degrees nu.
 struct StepStudy {
   std::array<StepsOfMethod, 3> methods;  ///< by Method
 };

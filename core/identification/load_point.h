@@ -13,8 +13,8 @@ struct ToolLoad {
 /// The matrix L with L d = d x F: the moment of a force at d, linear in d.
 Eigen::Matrix3d momentByPoint(const Eigen::Vector3d& force);
 
-/// Where a load hangs or pulls: the point d through which all loads pass as nearly as can be, M = d x F, by least squares,
-/// in the axes and from the point of the loads, m.
+/// Where a load hangs or pulls: the point d through which all loads pass as nearly as can be, M = d x F, by least
+/// squares, in the axes and from the point of the loads, m.
 class LoadPointFit {
  public:
   explicit LoadPointFit(const std::vector<ToolLoad>& loads);

@@ -1,7 +1,7 @@
 #include "core/identification/loaded_arm.h"
 
-#include <algorithm>
 #include <fmt/format.h>
+#include <algorithm>
 #include <optional>
 
 #include "core/identification/complete_pose.h"
@@ -65,20 +65,18 @@ std::vector<LoadCase> casesOf(const campaign::Campaign& campaign, const LoadRead
   std::vector<LoadCase> cases;
   for (const int step : steps) {
     std::vector<std::string> lacking;
-    for (LoadCase& one : loadCases(campaign, readings, geometry, step, &lacking))
-      cases.push_back(std::move(one));
+    for (LoadCase& one : loadCases(campaign, readings, geometry, step, &lacking)) cases.push_back(std::move(one));
     for (const std::string& reason : lacking) {
       if (left_out) left_out->push_back(fmt::format("{} (step {})", reason, step));
     }
   }
-  std::stable_sort(cases.begin(), cases.end(),
-                   [](const LoadCase& a, const LoadCase& b) { return a.pose < b.pose; });
+  std::stable_sort(cases.begin(), cases.end(), [](const LoadCase& a, const LoadCase& b) { return a.pose < b.pose; });
   return cases;
 }
 
 /// P_wrist in all the cases; those that do not give it are left out if most do, else there is none of any.
-void addWristMoves(const campaign::Campaign& campaign, const frames::WristCentre& wrist, std::vector<std::string>* left_out,
-                   LoadedArm& arm) {
+void addWristMoves(const campaign::Campaign& campaign, const frames::WristCentre& wrist,
+                   std::vector<std::string>* left_out, LoadedArm& arm) {
   if (arm.cases.empty() || !arm.cases.front().absolute) return;
   std::vector<std::optional<WristMove>> moves;
   std::vector<bool> has;
@@ -97,13 +95,11 @@ void addWristMoves(const campaign::Campaign& campaign, const frames::WristCentre
 
 }  // namespace
 
-bool LoadedArm::hasFlangePoses() const {
-  return !cases.empty() && std::all_of(cases.begin(), cases.end(), hasPose);
-}
+bool LoadedArm::hasFlangePoses() const { return !cases.empty() && std::all_of(cases.begin(), cases.end(), hasPose); }
 
-LoadedArm loadedArm(const campaign::Campaign& campaign, const LoadReadings& readings, const frames::LoadingGeometry& geometry,
-                    const frames::WristCentre& wrist, const std::vector<int>& steps,
-                    std::vector<std::string>* left_out) {
+LoadedArm loadedArm(const campaign::Campaign& campaign, const LoadReadings& readings,
+                    const frames::LoadingGeometry& geometry, const frames::WristCentre& wrist,
+                    const std::vector<int>& steps, std::vector<std::string>* left_out) {
   LoadedArm arm{geometry, casesOf(campaign, readings, geometry, steps, left_out), {}, {}};
   std::vector<bool> poses;
   for (const LoadCase& load_case : arm.cases) poses.push_back(hasPose(load_case));
@@ -113,16 +109,16 @@ LoadedArm loadedArm(const campaign::Campaign& campaign, const LoadReadings& read
   return arm;
 }
 
-LoadedArm loadedArm(const campaign::Campaign& campaign, const frames::LoadingGeometry& geometry, const frames::WristCentre& wrist,
-                    const std::vector<int>& steps, std::vector<std::string>* left_out) {
+LoadedArm loadedArm(const campaign::Campaign& campaign, const frames::LoadingGeometry& geometry,
+                    const frames::WristCentre& wrist, const std::vector<int>& steps,
+                    std::vector<std::string>* left_out) {
   return loadedArm(campaign, LoadReadings(campaign, steps), geometry, wrist, steps, left_out);
 }
 
 std::vector<CaseEquations> reflectorEquations(const LoadedArm& arm) {
   std::vector<CaseEquations> equations(arm.cases.size());
-  numerics::smallWorkOnAllCores(arm.cases.size(), [&](std::size_t i) {
-    equations[i] = partialPoseEquations(arm.cases[i], arm.torques[i]);
-  });
+  numerics::smallWorkOnAllCores(
+      arm.cases.size(), [&](std::size_t i) { equations[i] = partialPoseEquations(arm.cases[i], arm.torques[i]); });
   return equations;
 }
 

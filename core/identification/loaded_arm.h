@@ -24,11 +24,12 @@ struct LoadedArm {
 /// Where reflectors in most postures give a flange pose, or P_wrist, a posture that lacks it is left out, so
 /// that all methods see the same postures; `left_out` names it. Cases in the order of poses, then of `steps`,
 /// which the readings have.
-LoadedArm loadedArm(const campaign::Campaign& campaign, const LoadReadings& readings, const frames::LoadingGeometry& geometry,
+LoadedArm loadedArm(const campaign::Campaign& campaign, const LoadReadings& readings,
+                    const frames::LoadingGeometry& geometry, const frames::WristCentre& wrist,
+                    const std::vector<int>& steps, std::vector<std::string>* left_out = nullptr);
+LoadedArm loadedArm(const campaign::Campaign& campaign, const frames::LoadingGeometry& geometry,
                     const frames::WristCentre& wrist, const std::vector<int>& steps,
                     std::vector<std::string>* left_out = nullptr);
-LoadedArm loadedArm(const campaign::Campaign& campaign, const frames::LoadingGeometry& geometry, const frames::WristCentre& wrist,
-                    const std::vector<int>& steps, std::vector<std::string>* left_out = nullptr);
 
 /// Equations of all cases: the reflectors', P_wrist's, the pose's at P_TCP.
 std::vector<CaseEquations> reflectorEquations(const LoadedArm& arm);
@@ -45,7 +46,7 @@ struct PointEquations {
 /// hundredth, so two rounds leave a millionth. Without `finite_deflection` the unloaded arm's torques and
 /// postures.
 template <class Compliance>
-void settleArm(LoadedArm& arm, bool finite_deflection, const Compliance& compliance) {
+void solveLoadedArm(LoadedArm& arm, bool finite_deflection, const Compliance& compliance) {
   for (LoadCase& load_case : arm.cases) {
     load_case.middle.reset();
     if (load_case.wrench_turns_with != 0) load_case.wrench = load_case.wrench_unturned;
@@ -53,7 +54,7 @@ void settleArm(LoadedArm& arm, bool finite_deflection, const Compliance& complia
   arm.torques = jointTorques(arm.cases);
   constexpr int kRounds = 2;
   for (int round = 0; finite_deflection && round < kRounds; ++round) {
-    settleLoads(arm.geometry, compliance(arm), arm.cases, arm.torques);
+    updateLoadedConfiguration(arm.geometry, compliance(arm), arm.cases, arm.torques);
   }
 }
 

@@ -1,7 +1,7 @@
 #include "core/identification/method_runs.h"
 
-#include <algorithm>
 #include <fmt/format.h>
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <utility>
@@ -18,8 +18,9 @@ namespace stiffscope::identification {
 /// Judges a solved method, `out.estimate`, on all postures and on subsets, and fills the rest of `out`. `equations` are
 /// those of the arm's points, `normal` the method's normal equations, one a posture (byPosture); the decoupled method's
 /// are those of P_wrist, and its second stage takes the reflectors'.
-void judgeMethod(const frames::LoadingGeometry& geometry, PointEquations equations, std::vector<NormalEquations> normal,
-                 bool decoupled, const IdentifyOptions& options, MethodResult& out);
+void evaluateMethod(const frames::LoadingGeometry& geometry, PointEquations equations,
+                    std::vector<NormalEquations> normal, bool decoupled, const IdentifyOptions& options,
+                    MethodResult& out);
 
 // Why a method cannot be had, and what measurement would make it available; empty where nothing stands in
 // its way.
@@ -43,8 +44,8 @@ Compensation compensationBy(const StiffnessEstimate& estimate, const DeflectionJ
   return {judge.compensated(estimate.compliance), subsets.compensated};
 }
 
-/// Mean over a case's points of what is left of the displacement; `by_posture` judges the same, which with one load step
-/// is a case each.
+/// Mean over a case's points of what is left of the displacement; `by_posture` judges the same, which with one load
+/// step is a case each.
 std::vector<double> residualByCase(const std::vector<CaseEquations>& rows, const DeflectionJudge& by_posture,
                                    const Vector6d& compliance) {
   std::optional<DeflectionJudge> by_case;
@@ -56,8 +57,9 @@ std::vector<double> residualByCase(const std::vector<CaseEquations>& rows, const
 
 }  // namespace
 
-void judgeMethod(const frames::LoadingGeometry& geometry, PointEquations equations, std::vector<NormalEquations> normal,
-                 bool decoupled, const IdentifyOptions& options, MethodResult& out) {
+void evaluateMethod(const frames::LoadingGeometry& geometry, PointEquations equations,
+                    std::vector<NormalEquations> normal, bool decoupled, const IdentifyOptions& options,
+                    MethodResult& out) {
   out.available = true;
   out.geometry = geometry;
   out.wrist_rows = std::move(equations.wrist);
@@ -108,7 +110,8 @@ std::string whyNoFlangePoses(const campaign::Campaign& campaign, const LoadedArm
       campaign.targets.size());
 }
 
-std::string whyNoWristPoint(const campaign::Campaign& campaign, const LoadedArm& arm, const frames::WristCentre& wrist) {
+std::string whyNoWristPoint(const campaign::Campaign& campaign, const LoadedArm& arm,
+                            const frames::WristCentre& wrist) {
   if (!arm.wrist.empty()) return {};
   std::string reason =
       wrist.measured ? "P_wrist needs absolute readings of three reflectors of known radius in every posture: measure "
@@ -130,9 +133,7 @@ std::string whyNotDecoupled(const frames::WristCentre& wrist, double leak) {
 
 namespace {
 
-MethodResult& methodOf(Identification& result, Method which) {
-  return result.methods[static_cast<std::size_t>(which)];
-}
+MethodResult& methodOf(Identification& result, Method which) { return result.methods[static_cast<std::size_t>(which)]; }
 
 MethodSolution solutionOf(Method which, const MethodRuns& runs, const Identification& result) {
   return {which, result.frames.tcp_in_flange, result.characteristic_length.length, runs.unknown,
@@ -143,7 +144,7 @@ MethodSolution solutionOf(Method which, const MethodRuns& runs, const Identifica
 PointEquations solve(Method which, LoadedArm& arm, const MethodRuns& runs, Identification& result) {
   PointEquations equations;
   methodOf(result, which).estimate =
-      solutionOf(which, runs, result).settledEstimate(arm, runs.options.finite_deflection, &equations);
+      solutionOf(which, runs, result).solvedEstimate(arm, runs.options.finite_deflection, &equations);
   return equations;
 }
 
@@ -156,8 +157,7 @@ LoadedArm calibratedArm(const MethodRuns& runs, Identification& result) {
   for (int round = 0;; ++round) {
     result.calibration = frames::calibrateGeometry(runs.campaign, start);
     if (!result.calibration.done) return runs.swept;
-    LoadedArm arm =
-        loadedArm(runs.campaign, readings, result.calibration.geometry, result.frames.wrist, result.steps);
+    LoadedArm arm = loadedArm(runs.campaign, readings, result.calibration.geometry, result.frames.wrist, result.steps);
     if (!settle_sag || round == kSagRounds || arm.cases.empty()) return arm;
     start.compliance = sagCompliance(runs.campaign, runs.options, arm);
   }
@@ -165,9 +165,9 @@ LoadedArm calibratedArm(const MethodRuns& runs, Identification& result) {
 
 }  // namespace
 
-void judgeJointsIn(const LoadedArm& arm, MethodRuns& runs, Identification& result) {
-  result.identifiability = judgeJoints(arm.geometry, arm.cases, *runs.campaign.load_cell,
-                                       reflectorEquations(arm), runs.options.trust);
+void evaluateIdentifiabilityIn(const LoadedArm& arm, MethodRuns& runs, Identification& result) {
+  result.identifiability = evaluateIdentifiability(arm.geometry, arm.cases, *runs.campaign.load_cell,
+                                                   reflectorEquations(arm), runs.options.trust);
   runs.unknown = result.identifiability.mask();
 }
 
@@ -191,7 +191,7 @@ void runCompletePose(MethodRuns& runs, Identification& result) {
     const auto& [at, condition] = result.characteristic_length.curve[i];
     result.length_sensitivity.push_back({at, condition, solveNormal(sum.at(at), runs.unknown)});
   }
-  judgeMethod(runs.swept.geometry, std::move(equations), normalByPosture(scaled), false, runs.options, out);
+  evaluateMethod(runs.swept.geometry, std::move(equations), normalByPosture(scaled), false, runs.options, out);
 }
 
 void runPartialPose(MethodRuns& runs, Identification& result) {
@@ -209,14 +209,14 @@ void runPartialPose(MethodRuns& runs, Identification& result) {
         "the campaign has displacements only, no absolute positions: the URDF's geometry stands";
   }
   // No swept geometry to judge by: judge in this one.
-  if (runs.unknown == robot::JointMask{}) judgeJointsIn(arm, runs, result);
+  if (runs.unknown == robot::JointMask{}) evaluateIdentifiabilityIn(arm, runs, result);
   out.reason = whyNoPositions(runs.campaign, arm, runs.unknown);
   if (!out.reason.empty()) return;
   PointEquations equations = solve(Method::partial_pose, arm, runs, result);
   std::vector<NormalEquations> normal = normalByPosture(equations.reflectors);
-  judgeMethod(arm.geometry, std::move(equations), std::move(normal), false, runs.options, out);
+  evaluateMethod(arm.geometry, std::move(equations), std::move(normal), false, runs.options, out);
   if (!runs.campaign.loading)
-    settleArm(arm, false, [](const LoadedArm&) { return Vector6d(); });  // unloaded again
+    solveLoadedArm(arm, false, [](const LoadedArm&) { return Vector6d(); });  // unloaded again
   if (runs.swept.cases.empty()) runs.calibrated = std::move(arm);
 }
 
@@ -230,11 +230,10 @@ void runDecoupledPartialPose(MethodRuns& runs, Identification& result) {
   if (!out.reason.empty()) return;
   PointEquations equations = solve(Method::decoupled_partial_pose, runs.swept, runs, result);
   const frames::WristCentre& wrist = result.frames.wrist;
-  out.reason =
-      whyNotDecoupled(wrist, wristLeak(runs.swept, wrist.centre_at_zero_in_r0, out.estimate.compliance));
+  out.reason = whyNotDecoupled(wrist, wristLeak(runs.swept, wrist.centre_at_zero_in_r0, out.estimate.compliance));
   if (!out.reason.empty()) return;
   std::vector<NormalEquations> normal = normalByPosture(equations.wrist);
-  judgeMethod(runs.swept.geometry, std::move(equations), std::move(normal), true, runs.options, out);
+  evaluateMethod(runs.swept.geometry, std::move(equations), std::move(normal), true, runs.options, out);
 }
 
 void addSharedUncertainty(const MethodRuns& runs, Identification& result) {
@@ -244,8 +243,7 @@ void addSharedUncertainty(const MethodRuns& runs, Identification& result) {
     MethodResult& method = methodOf(result, which);
     if (!method.available || (which == Method::partial_pose && result.calibration.done)) continue;
     swept.push_back(which);
-    solves.emplace_back(
-        [how = solutionOf(which, runs, result)](const LoadedArm& arm) { return how.compliance(arm); });
+    solves.emplace_back([how = solutionOf(which, runs, result)](const LoadedArm& arm) { return how.compliance(arm); });
   }
   const std::vector<SweptParts> parts =
       sweptParts(runs.campaign, result.frames, runs.swept.geometry, result.steps, solves);

@@ -16,7 +16,8 @@ MethodSolution sagMethod(const campaign::Campaign& campaign, const IdentifyOptio
   MethodSolution how;
   how.method = arm.wrist.empty() ? Method::partial_pose : Method::decoupled_partial_pose;
   how.unknown =
-      judgeJoints(arm.geometry, arm.cases, *campaign.load_cell, reflectorEquations(arm), options.trust).mask();
+      evaluateIdentifiability(arm.geometry, arm.cases, *campaign.load_cell, reflectorEquations(arm), options.trust)
+          .mask();
   return how;
 }
 
@@ -27,24 +28,25 @@ Vector6d liftsNothing(const Vector6d& compliance) { return compliance.cwiseMax(0
 
 StiffnessEstimate sagStiffness(const campaign::Campaign& campaign, const IdentifyOptions& options, LoadedArm& arm) {
   const MethodSolution how = sagMethod(campaign, options, arm);
-  StiffnessEstimate estimate = how.settledEstimate(arm, options.finite_deflection);
+  StiffnessEstimate estimate = how.solvedEstimate(arm, options.finite_deflection);
   estimate.compliance = liftsNothing(estimate.compliance);
   return estimate;
 }
 
 Vector6d sagCompliance(const campaign::Campaign& campaign, const IdentifyOptions& options, LoadedArm& arm) {
   const MethodSolution how = sagMethod(campaign, options, arm);
-  return liftsNothing(how.settledCompliance(arm, options.finite_deflection));
+  return liftsNothing(how.solvedCompliance(arm, options.finite_deflection));
 }
 
-SettledFrames settleFrames(const campaign::Campaign& campaign, const std::vector<int>& steps, const IdentifyOptions& options) {
-  SettledFrames settled;
+SolvedFrames solveFrames(const campaign::Campaign& campaign, const std::vector<int>& steps,
+                         const IdentifyOptions& options) {
+  SolvedFrames settled;
   settled.frames = frames::measureFrames(campaign);
   Vector6d compliance = Vector6d::Zero();
   const LoadReadings readings(campaign, steps);
   const auto armNow = [&](std::vector<std::string>* left_out) {
-    return loadedArm(campaign, readings, frames::sweptGeometry(campaign, settled.frames, compliance), settled.frames.wrist, steps,
-                     left_out);
+    return loadedArm(campaign, readings, frames::sweptGeometry(campaign, settled.frames, compliance),
+                     settled.frames.wrist, steps, left_out);
   };
   for (int round = 0; round < kSagRounds && settled.frames.weight.links_known; ++round) {
     LoadedArm arm = armNow(nullptr);
@@ -62,11 +64,11 @@ SettledFrames settleFrames(const campaign::Campaign& campaign, const std::vector
   return settled;
 }
 
-SettledDay settleDay(const campaign::Campaign& campaign) {
-  SettledDay day;
+SolvedDay solveDay(const campaign::Campaign& campaign) {
+  SolvedDay day;
   if (campaign.states && campaign.load_cell) day.step = heaviestStep(campaign);
   if (day.step && (campaign.loading || campaign.displacements)) {
-    SettledFrames settled = settleFrames(campaign, {*day.step}, {});
+    SolvedFrames settled = solveFrames(campaign, {*day.step}, {});
     day.frames = std::move(settled.frames);
     day.arm = std::move(settled.arm);
     return day;
@@ -107,13 +109,14 @@ Vector6d MethodSolution::compliance(const LoadedArm& arm) const {
   return solveNormal(reflectorNormal(arm), unknown);
 }
 
-Vector6d MethodSolution::settledCompliance(LoadedArm& arm, bool finite_deflection) const {
-  settleArm(arm, finite_deflection, [this](const LoadedArm& now) { return compliance(now); });
+Vector6d MethodSolution::solvedCompliance(LoadedArm& arm, bool finite_deflection) const {
+  solveLoadedArm(arm, finite_deflection, [this](const LoadedArm& now) { return compliance(now); });
   return compliance(arm);
 }
 
-StiffnessEstimate MethodSolution::settledEstimate(LoadedArm& arm, bool finite_deflection, PointEquations* equations) const {
-  settleArm(arm, finite_deflection, [this](const LoadedArm& now) { return compliance(now); });
+StiffnessEstimate MethodSolution::solvedEstimate(LoadedArm& arm, bool finite_deflection,
+                                                 PointEquations* equations) const {
+  solveLoadedArm(arm, finite_deflection, [this](const LoadedArm& now) { return compliance(now); });
   PointEquations settled;
   if (equations != nullptr || method == Method::decoupled_partial_pose) settled.wrist = wristPointEquations(arm);
   if (equations != nullptr || method != Method::complete_pose) settled.reflectors = reflectorEquations(arm);

@@ -11,8 +11,7 @@ namespace {
 
 /// Covariance between the influences of the postures on one joint, for errors W: with r = (I - H) e and l_p
 /// the row of M_p A_p^T, l_p^T [(I - H) W (I - H)^T]_pq l_q. `inner`: A^T W A of all.
-InfluenceCovariance covarianceByNoise(const std::vector<PostureGain>& gains,
-                                      const std::vector<NormalEquations>& normal,
+InfluenceCovariance covarianceByNoise(const std::vector<PostureGain>& gains, const std::vector<NormalEquations>& normal,
                                       const std::vector<Matrix6d>& noise, const Matrix6d& inverse,
                                       const Matrix6d& inner, int joint) {
   const auto n = static_cast<Eigen::Index>(gains.size());
@@ -41,8 +40,8 @@ std::vector<Matrix6d> reflectorNoise(const campaign::Tracker& tracker, const Loa
     Matrix6d sum = Matrix6d::Zero();
     for (std::size_t k = 0; k < load_case.targets.size(); ++k) {
       const Matrix36d rows = equations[i].matrix.middleRows<3>(static_cast<Eigen::Index>(3 * k));
-      sum += rows.transpose() *
-             displacementCovariance(tracker, *arm.geometry.r0_from_loading, load_case.targets[k]) * rows;
+      sum += rows.transpose() * displacementCovariance(tracker, *arm.geometry.r0_from_loading, load_case.targets[k]) *
+             rows;
     }
     noise.push_back(sum);
   }
@@ -120,16 +119,13 @@ Eigen::Matrix3d displacementCovariance(const campaign::Tracker& tracker, const E
 
 std::optional<NoiseShare> noiseShare(const campaign::Campaign& campaign, const frames::LoadingGeometry& geometry,
                                      const std::vector<LoadCase>& cases, const std::vector<WristMove>& wrist,
-                                     const std::vector<double>& radii,
-                                     const Eigen::Vector3d& centre_at_zero) {
-  if (!campaign.tracker || !geometry.r0_from_loading || cases.empty() || !cases.front().absolute)
-    return std::nullopt;
+                                     const std::vector<double>& radii, const Eigen::Vector3d& centre_at_zero) {
+  if (!campaign.tracker || !geometry.r0_from_loading || cases.empty() || !cases.front().absolute) return std::nullopt;
   double wrist_error = 0.0, wrist_sum = 0.0, target_error = 0.0, target_sum = 0.0, trace = 0.0;
   int moves = 0;
   for (std::size_t i = 0; i < cases.size(); ++i) {
     if (!wrist.empty()) {
-      wrist_error +=
-          kMeanNorm * std::sqrt(wristErrorVariance(campaign, geometry, cases[i], radii, centre_at_zero));
+      wrist_error += kMeanNorm * std::sqrt(wristErrorVariance(campaign, geometry, cases[i], radii, centre_at_zero));
       wrist_sum += wrist[i].displacement().norm();
     }
     for (const TargetMove& move : cases[i].targets) {

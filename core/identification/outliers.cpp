@@ -1,9 +1,9 @@
 #include "core/identification/outliers.h"
 
+#include <fmt/format.h>
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 
 #include "core/identification/estimate.h"
 #include "core/io/units.h"
@@ -52,8 +52,7 @@ class Sums {
     mix << -d, 1.0;
     Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(rows, rows);
     for (Eigen::Index k = 0; k < 7; ++k) {
-      for (Eigen::Index l = 0; l < 7; ++l)
-        sum += mix[k] * mix[l] * moments_.block(k * rows, l * rows, rows, rows);
+      for (Eigen::Index l = 0; l < 7; ++l) sum += mix[k] * mix[l] * moments_.block(k * rows, l * rows, rows, rows);
     }
     const Eigen::VectorXd moved = own.residual - own.equations->matrix * d;
     if (rows > 0) sum -= moved * moved.transpose();
@@ -70,8 +69,7 @@ class Sums {
     const Eigen::Index rows = postures.front().residual.size(), size = 7 * rows;
     Eigen::MatrixXd entries(size, static_cast<Eigen::Index>(postures.size()));
     numerics::smallWorkOnAllCores(postures.size(), [&](std::size_t p) {
-      entries.col(static_cast<Eigen::Index>(p)) << postures[p].equations->matrix.reshaped(),
-          postures[p].residual;
+      entries.col(static_cast<Eigen::Index>(p)) << postures[p].equations->matrix.reshaped(), postures[p].residual;
     });
     moments_.setZero(size, size);
     constexpr Eigen::Index kColumns = 7;
@@ -132,8 +130,7 @@ double pValue(const Sums& all, const Posture& own, double f, const robot::JointM
   const Vector6d step = solveNormal(without(all.normal, own), unknown);
   // How many independent numbers a posture's residual is; without common coordinates the least there can be.
   const double per_posture = std::max(1.0, satterthwaite(all.momentsWithout(own, step)));
-  const double below =
-      per_posture * dofWithout(all, own, unknowns) / static_cast<double>(own.residual.size());
+  const double below = per_posture * dofWithout(all, own, unknowns) / static_cast<double>(own.residual.size());
   const double tail = metrology::fTail(f, std::max(1, static_cast<int>(per_posture)), std::max(1.0, below));
   return std::min(1.0, tail * postures);
 }
@@ -150,8 +147,7 @@ std::vector<Posture> fitAll(const std::vector<const CaseEquations*>& equations, 
   numerics::smallWorkOnAllCores(equations.size(), [&](std::size_t p) {
     const auto& matrix = equations[p]->matrix;
     postures[p].residual = equations[p]->right - matrix * compliance;
-    for (Eigen::Index j = 0; j < 6; ++j)
-      postures[p].normal.right[j] = matrix.col(j).dot(postures[p].residual);
+    for (Eigen::Index j = 0; j < 6; ++j) postures[p].normal.right[j] = matrix.col(j).dot(postures[p].residual);
   });
   return postures;
 }
@@ -228,8 +224,9 @@ void nameLeftOut(const campaign::Campaign& campaign, const std::vector<OutlyingP
   for (const OutlyingPosture& one : postures) {
     const std::string start = fmt::format("pose {}:", campaign.pose_ids[static_cast<std::size_t>(one.posture)]);
     std::erase_if(left_out, [&](const std::string& text) { return text.starts_with(start); });
-    left_out.push_back(fmt::format("{} disagrees with the other postures by {:.0f} µm per coordinate, {:.1f} times theirs",
-                                   start, one.rms / io::kMicrometre, one.rms / one.others));
+    left_out.push_back(
+        fmt::format("{} disagrees with the other postures by {:.0f} µm per coordinate, {:.1f} times theirs", start,
+                    one.rms / io::kMicrometre, one.rms / one.others));
   }
 }
 

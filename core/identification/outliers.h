@@ -10,20 +10,21 @@ namespace stiffscope::identification {
 
 /// A posture whose displacements disagree with what the others' springs say.
 struct OutlyingPosture {
-  int posture = 0;        ///< CaseEquations::posture
-  double rms = 0.0;       ///< its residual against the fit to the others, per coordinate, m
-  double others = 0.0;    ///< that of the others, each against the fit that leaves this one out, m
-  double f = 0.0;         ///< ratio of the studentised mean squares
-  double p_value = 1.0;   ///< of it, times the number of postures (Bonferroni)
+  int posture = 0;       ///< CaseEquations::posture
+  double rms = 0.0;      ///< its residual against the fit to the others, per coordinate, m
+  double others = 0.0;   ///< that of the others, each against the fit that leaves this one out, m
+  double f = 0.0;        ///< ratio of the studentised mean squares
+  double p_value = 1.0;  ///< of it, times the number of postures (Bonferroni)
 };
 
-/// Leave-one-posture-out: Q_p = e^T (I - H_p) e, e = b_p - A_p c(without p), against the mean of the others' Q in the fit
-/// without p, an F ratio. Coordinates of a posture are not independent (a wrench error moves all of them), so a Q
-/// counts for tr(S)^2 / tr(S^2) degrees of freedom only, S the residuals' second moments over the postures. The worst is
-/// taken away first and the rest judged again, down to half of the postures. `unknown`: joints solved for. Equations: one
-/// a posture, positions. Empty with fewer than five postures. A posture counts as outlying at 0.1 %, all postures
-/// together.
-std::vector<OutlyingPosture> outlyingPostures(const std::vector<CaseEquations>& equations, const robot::JointMask& unknown);
+/// Leave-one-posture-out: Q_p = e^T (I - H_p) e, e = b_p - A_p c(without p), against the mean of the others' Q in the
+/// fit without p, an F ratio. Coordinates of a posture are not independent (a wrench error moves all of them), so a Q
+/// counts for tr(S)^2 / tr(S^2) degrees of freedom only, S the residuals' second moments over the postures. The worst
+/// is taken away first and the rest judged again, down to half of the postures. `unknown`: joints solved for.
+/// Equations: one a posture, positions. Empty with fewer than five postures. A posture counts as outlying at 0.1 %, all
+/// postures together.
+std::vector<OutlyingPosture> outlyingPostures(const std::vector<CaseEquations>& equations,
+                                              const robot::JointMask& unknown);
 
 /// Takes away the load states and readings of the postures marked, by pose; their ids keep their places.
 void dropPostures(const std::vector<bool>& dropped, campaign::Campaign& campaign);

@@ -13,8 +13,7 @@ CaseEquations partialPoseEquations(const LoadCase& load_case, const Vector6d& to
   const robot::ArmAxes& axes = jacobianAxes(load_case);
   Eigen::Index row = 0;
   for (const TargetMove& move : load_case.targets) {
-    equations.matrix.middleRows<3>(row) =
-        pointRows(axes, jacobianPoint(load_case, move.unloaded, move.loaded), torque);
+    equations.matrix.middleRows<3>(row) = pointRows(axes, jacobianPoint(load_case, move.unloaded, move.loaded), torque);
     equations.right.segment<3>(row) = move.displacement();
     row += 3;
   }
@@ -25,8 +24,8 @@ StiffnessEstimate partialPose(const std::vector<CaseEquations>& equations, const
   return partialPose(equations, normalByPosture(equations), unknown);
 }
 
-StiffnessEstimate partialPose(const std::vector<CaseEquations>& equations,
-                              const std::vector<NormalEquations>& normal, const robot::JointMask& unknown) {
+StiffnessEstimate partialPose(const std::vector<CaseEquations>& equations, const std::vector<NormalEquations>& normal,
+                              const robot::JointMask& unknown) {
   StiffnessEstimate estimate;
   estimate.identifiable = unknown;
   const NormalEquations sum = sumOf(normal);

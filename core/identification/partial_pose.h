@@ -10,8 +10,8 @@ namespace stiffscope::identification {
 CaseEquations partialPoseEquations(const LoadCase& load_case, const Vector6d& torque);
 
 /// All six compliances at once. `normal`: normalByPosture(equations).
-StiffnessEstimate partialPose(const std::vector<CaseEquations>& equations,
-                              const std::vector<NormalEquations>& normal, const robot::JointMask& unknown);
+StiffnessEstimate partialPose(const std::vector<CaseEquations>& equations, const std::vector<NormalEquations>& normal,
+                              const robot::JointMask& unknown);
 StiffnessEstimate partialPose(const std::vector<CaseEquations>& equations, const robot::JointMask& unknown);
 
 }  // namespace stiffscope::identification

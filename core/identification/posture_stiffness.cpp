@@ -59,14 +59,18 @@ PostureStiffness postureStiffness(const frames::LoadingGeometry& geometry, const
 }
 
 PostureStiffnesses::PostureStiffnesses(const campaign::Campaign& campaign, const Identification& result, Method method)
-    : campaign_(campaign), result_(result), solved_(result.of(method)), size_(solved_.available ? result.cases.size() : 0) {
+    : campaign_(campaign),
+      result_(result),
+      solved_(result.of(method)),
+      size_(solved_.available ? result.cases.size() : 0) {
   if (size_ > 0) length_ = lengthOf(result, solved_.geometry);
 }
 
 PostureStiffness PostureStiffnesses::at(std::size_t load_case) const {
   const LoadCase& one = result_.cases[load_case];
-  PostureStiffness posture = postureStiffness(solved_.geometry, solved_.estimate, unloadedPosture(solved_.geometry.arm, one),
-                                              one.wrench, result_.frames.tcp_in_flange, length_);
+  PostureStiffness posture =
+      postureStiffness(solved_.geometry, solved_.estimate, unloadedPosture(solved_.geometry.arm, one), one.wrench,
+                       result_.frames.tcp_in_flange, length_);
   posture.pose = campaign_.pose_ids[static_cast<std::size_t>(one.pose)];
   return posture;
 }

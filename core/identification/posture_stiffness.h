@@ -26,12 +26,11 @@ PostureConditioning postureConditioning(const Matrix6d& jacobian, double length)
 /// The arm's Cartesian stiffness at P_TCP in one posture and under one load, in R0.
 struct PostureStiffness {
   std::string pose;
-  PostureConditioning conditioning;  ///< at P_TCP, by the characteristic length given
-  robot::CartesianStiffness without_kc;     ///< paper (6)
-  robot::CartesianStiffness with_kc;        ///< paper (4), K_c of the load and of the own weight
-  double kc_share = 0.0;             ///< geometricStiffnessShare of the two
-  std::vector<int>
-      rigid_joints;  ///< 0..5: not identifiable, taken as rigid, so that stiffnesses are too high
+  PostureConditioning conditioning;      ///< at P_TCP, by the characteristic length given
+  robot::CartesianStiffness without_kc;  ///< paper (6)
+  robot::CartesianStiffness with_kc;     ///< paper (4), K_c of the load and of the own weight
+  double kc_share = 0.0;                 ///< geometricStiffnessShare of the two
+  std::vector<int> rigid_joints;         ///< 0..5: not identifiable, taken as rigid, so that stiffnesses are too high
 };
 
 /// One posture: the arm at the joint angles of `posture` under `wrench` (R0), its point `tcp_in_flange`.
@@ -40,8 +39,8 @@ PostureStiffness postureStiffness(const frames::LoadingGeometry& geometry, const
                                   const Eigen::Vector3d& tcp_in_flange, double length);
 
 /// The load cases of an identified campaign by one method, each under its measured load; L is the campaign's
-/// characteristic length, by the arm's model where Complete Pose has no flange poses to find it from. Refers to both. One
-/// posture takes 1.5 kB, so it is computed when asked for.
+/// characteristic length, by the arm's model where Complete Pose has no flange poses to find it from. Refers to both.
+/// One posture takes 1.5 kB, so it is computed when asked for.
 class PostureStiffnesses {
  public:
   PostureStiffnesses(const campaign::Campaign& campaign, const Identification& result, Method method);

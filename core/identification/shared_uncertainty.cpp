@@ -12,7 +12,11 @@ class MovedFrames {
  public:
   MovedFrames(const campaign::Campaign& campaign, const frames::Frames& frames, const frames::LoadingGeometry& geometry,
               const std::vector<int>& steps)
-      : campaign_(campaign), frames_(frames), compliance_(geometry.compliance), readings_(campaign, steps), moved_(frames) {}
+      : campaign_(campaign),
+        frames_(frames),
+        compliance_(geometry.compliance),
+        readings_(campaign, steps),
+        moved_(frames) {}
 
   /// `axes`: lines of the axes that are measured, in their order.
   LoadedArm withAxes(const std::vector<metrology::Line>& axes) {
@@ -38,7 +42,8 @@ class MovedFrames {
 
  private:
   LoadedArm load(const frames::Frames& frames) const {
-    return loadedArm(campaign_, readings_, frames::sweptGeometry(campaign_, frames, compliance_), frames.wrist, readings_.steps());
+    return loadedArm(campaign_, readings_, frames::sweptGeometry(campaign_, frames, compliance_), frames.wrist,
+                     readings_.steps());
   }
 
   const campaign::Campaign& campaign_;
@@ -56,8 +61,9 @@ Eigen::VectorXd solveAll(const std::vector<ComplianceOf>& solves, const LoadedAr
 
 }  // namespace
 
-std::vector<SweptParts> sweptParts(const campaign::Campaign& campaign, const frames::Frames& frames, const frames::LoadingGeometry& geometry,
-                                   const std::vector<int>& steps, const std::vector<ComplianceOf>& solves) {
+std::vector<SweptParts> sweptParts(const campaign::Campaign& campaign, const frames::Frames& frames,
+                                   const frames::LoadingGeometry& geometry, const std::vector<int>& steps,
+                                   const std::vector<ComplianceOf>& solves) {
   std::vector<SweptParts> parts(solves.size());
   if (solves.empty() || !frames.arm.points_placed) return parts;
   MovedFrames moved(campaign, frames, geometry, steps);
@@ -92,8 +98,8 @@ std::vector<SweptParts> sweptParts(const campaign::Campaign& campaign, const fra
   return parts;
 }
 
-Matrix6d calibratedPart(const campaign::Campaign& campaign, const frames::GeometryCalibration& calibration, const frames::WristCentre& wrist,
-                        const std::vector<int>& steps, const ComplianceOf& solve) {
+Matrix6d calibratedPart(const campaign::Campaign& campaign, const frames::GeometryCalibration& calibration,
+                        const frames::WristCentre& wrist, const std::vector<int>& steps, const ComplianceOf& solve) {
   const LoadReadings readings(campaign, steps);
   const Vector6d unmoved = solve(loadedArm(campaign, readings, calibration.geometry, wrist, steps));
   Matrix6d covariance = Matrix6d::Zero();

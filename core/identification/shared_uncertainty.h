@@ -22,11 +22,12 @@ using ComplianceOf = std::function<Vector6d(const LoadedArm&)>;
 struct SweptParts {
   Matrix6d frames = Matrix6d::Zero(), wrist = Matrix6d::Zero();
 };
-std::vector<SweptParts> sweptParts(const campaign::Campaign& campaign, const frames::Frames& frames, const frames::LoadingGeometry& geometry,
-                                   const std::vector<int>& steps, const std::vector<ComplianceOf>& solves);
+std::vector<SweptParts> sweptParts(const campaign::Campaign& campaign, const frames::Frames& frames,
+                                   const frames::LoadingGeometry& geometry, const std::vector<int>& steps,
+                                   const std::vector<ComplianceOf>& solves);
 
 /// Of the compliances in the calibrated geometry, by its covariance (GeometryCalibration::spread).
-Matrix6d calibratedPart(const campaign::Campaign& campaign, const frames::GeometryCalibration& calibration, const frames::WristCentre& wrist,
-                        const std::vector<int>& steps, const ComplianceOf& solve);
+Matrix6d calibratedPart(const campaign::Campaign& campaign, const frames::GeometryCalibration& calibration,
+                        const frames::WristCentre& wrist, const std::vector<int>& steps, const ComplianceOf& solve);
 
 }  // namespace stiffscope::identification

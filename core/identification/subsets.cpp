@@ -28,7 +28,7 @@ struct Subset {
 };
 
 /// Judges solved subsets: some at a time are quicker than one by one.
-void judgeSubsets(const SubsetMethod& method, std::span<Subset> subsets);
+void evaluateSubsets(const SubsetMethod& method, std::span<Subset> subsets);
 
 /// Results of some subsets, in the order in which they were added.
 struct SubsetSums {
@@ -42,7 +42,8 @@ void add(const Subset& subset, SubsetSums& sums);
 
 /// `count` random subsets of `size` postures, by the Mersenne twister of that seed, some in each of the sums, in
 /// the order in which they are drawn; solved and judged on all cores, with the same results whatever their number.
-std::vector<SubsetSums> sampleSubsets(const SubsetMethod& method, std::size_t size, std::size_t count, std::uint64_t seed);
+std::vector<SubsetSums> sampleSubsets(const SubsetMethod& method, std::size_t size, std::size_t count,
+                                      std::uint64_t seed);
 
 namespace {
 
@@ -207,10 +208,11 @@ std::vector<SubsetSums> sampleSubsets(const SubsetMethod& method, std::size_t si
   for (std::size_t done = 0; !drawn.empty(); done += drawn.size(), drawn.swap(drawn_next)) {
     const std::size_t groups = (drawn.size() + kGroup - 1) / kGroup;
     numerics::onAllCores(1 + groups, [&](std::size_t i) {
-      if (i == 0) return drawNext(draws, std::min({at_once, 2 * drawn.size(), count - done - drawn.size()}), drawn_next);
+      if (i == 0)
+        return drawNext(draws, std::min({at_once, 2 * drawn.size(), count - done - drawn.size()}), drawn_next);
       const std::size_t from = (i - 1) * kGroup, to = std::min(drawn.size(), from + kGroup);
       std::vector<Subset> subsets = solver.solve(std::span(drawn).subspan(from, to - from));
-      judgeSubsets(method, subsets);
+      evaluateSubsets(method, subsets);
       for (const Subset& one : subsets) add(one, sums[(done + from) / kGroup]);
     });
   }
@@ -258,7 +260,7 @@ Vector6d solveSubset(const SubsetMethod& method, const NormalEquations& normal, 
                                    : solveDecoupled(normal, reflectors, method.unknown);
 }
 
-void judgeSubsets(const SubsetMethod& method, std::span<Subset> subsets) {
+void evaluateSubsets(const SubsetMethod& method, std::span<Subset> subsets) {
   judge(method.at_wrist, subsets, &Subset::at_wrist);
   judge(method.at_targets, subsets, &Subset::at_targets);
 }
@@ -312,7 +314,7 @@ class Walk {
   void descend(int depth, int next, SubsetSums& chunk) {
     if (depth == size_) {
       subset_.compliance = solveSubset(method_, normal_.back(), reflectors_.back());
-      judgeSubsets(method_, {&subset_, 1});
+      evaluateSubsets(method_, {&subset_, 1});
       add(subset_, chunk);
       return;
     }
@@ -333,7 +335,7 @@ std::vector<SubsetSums> walkAll(const SubsetMethod& method, int size) {
   const int n = static_cast<int>(method.normal.size());
   std::vector<SubsetSums> chunks(static_cast<std::size_t>(n - size + 1));
   numerics::onAllCores(chunks.size(),
-             [&](std::size_t first) { Walk(method, size).from(static_cast<int>(first), chunks[first]); });
+                       [&](std::size_t first) { Walk(method, size).from(static_cast<int>(first), chunks[first]); });
   return chunks;
 }
 
@@ -365,10 +367,9 @@ SubsetStudy studySubsets(const SubsetMethod& method, const SubsetOptions& option
     chunks = walkAll(method, study.size);
   } else {
     constexpr std::uint64_t kWork = 2'000'000;  // postures added in all: keeps ten thousand postures quick
-    const std::uint64_t affordable =
-        std::max<std::uint64_t>(200, kWork / static_cast<std::uint64_t>(study.of));
-    chunks = sampleSubsets(method, static_cast<std::size_t>(study.size), std::min(options.sample, affordable),
-                           options.seed);
+    const std::uint64_t affordable = std::max<std::uint64_t>(200, kWork / static_cast<std::uint64_t>(study.of));
+    chunks =
+        sampleSubsets(method, static_cast<std::size_t>(study.size), std::min(options.sample, affordable), options.seed);
   }
   Eigen::ArrayXd held_out = Eigen::ArrayXd::Zero(study.of);
   for (const SubsetSums& chunk : chunks) {

@@ -1,8 +1,8 @@
 #include "core/identification/warnings.h"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 
 #include "core/identification/identification.h"
 #include "core/io/units.h"
@@ -48,31 +48,31 @@ bool hasPositive(const StiffnessEstimate& estimate) {
   return false;
 }
 
-std::string residualCaution(const Identification& result, const MethodResult& method) {
+std::string residualWarning(const Identification& result, const MethodResult& method) {
   if (!result.noise || method.estimate.sigma < kAboveNoise * result.noise->per_coordinate) return {};
   return fmt::format(
-      "the residual of {:.0f} µm per coordinate is {:.0f} times the {:.1f} µm of the tracker's noise: something other than "
+      "the residual of {:.0f} µm per coordinate is {:.0f} times the {:.1f} µm of the tracker's noise: something other "
+      "than "
       "joint springs is in the data, and the stated uncertainties hold it only as far as it scatters between postures",
       method.estimate.sigma / io::kMicrometre, method.estimate.sigma / result.noise->per_coordinate,
       result.noise->per_coordinate / io::kMicrometre);
 }
 
 /// Always said, whether they are left out or not.
-std::string outlyingCaution(const campaign::Campaign& campaign, const Identification& result) {
+std::string outlyingWarning(const campaign::Campaign& campaign, const Identification& result) {
   if (result.outlying.empty()) return {};
   std::string postures;
   for (const OutlyingPosture& one : result.outlying) {
-    postures += fmt::format("{}{} ({:.0f} µm per coordinate against {:.0f} µm of the others)", postures.empty() ? "" : ", ",
-                            campaign.pose_ids[static_cast<std::size_t>(one.posture)], one.rms / io::kMicrometre,
-                            one.others / io::kMicrometre);
+    postures += fmt::format("{}{} ({:.0f} µm per coordinate against {:.0f} µm of the others)",
+                            postures.empty() ? "" : ", ", campaign.pose_ids[static_cast<std::size_t>(one.posture)],
+                            one.rms / io::kMicrometre, one.others / io::kMicrometre);
   }
-  return fmt::format(
-      "outlying posture{}: {}: the springs of the other postures do not explain {}; {}",
-      result.outlying.size() == 1 ? "" : "s", postures, result.outlying.size() == 1 ? "it" : "them",
-      result.robust ? "left out as asked" : "used nevertheless; `identify --robust` leaves out");
+  return fmt::format("outlying posture{}: {}: the springs of the other postures do not explain {}; {}",
+                     result.outlying.size() == 1 ? "" : "s", postures, result.outlying.size() == 1 ? "it" : "them",
+                     result.robust ? "left out as asked" : "used nevertheless; `identify --robust` leaves out");
 }
 
-void addSweepCautions(const frames::Frames& frames, std::vector<std::string>& cautions) {
+void addSweepWarnings(const frames::Frames& frames, std::vector<std::string>& cautions) {
   for (std::size_t i = 0; i < frames.axes.size(); ++i) {
     const metrology::AxisFit& fit = frames.axes[i].fit;
     if (!frames.axes[i].measured || fit.chi2_per_dof < kAboveNoise * kAboveNoise) continue;
@@ -85,7 +85,7 @@ void addSweepCautions(const frames::Frames& frames, std::vector<std::string>& ca
 
 }  // namespace
 
-std::vector<std::string> cautionsOf(const campaign::Campaign& campaign, const Identification& result) {
+std::vector<std::string> warningsOf(const campaign::Campaign& campaign, const Identification& result) {
   std::vector<std::string> cautions;
   const MethodResult& best = result.of(bestMethod(result));
   const MethodResult* method = best.available ? &best : nullptr;
@@ -104,23 +104,24 @@ std::vector<std::string> cautionsOf(const campaign::Campaign& campaign, const Id
           "every stiffness is negative: the wrench may be that of the robot on the load, not of the load on "
           "the robot");
     }
-    if (std::string text = residualCaution(result, *method); !text.empty()) cautions.push_back(std::move(text));
+    if (std::string text = residualWarning(result, *method); !text.empty()) cautions.push_back(std::move(text));
     if (!method->estimate.covariance.allFinite()) {
       cautions.push_back(fmt::format("{} posture{} too few to state uncertainties from scatter", result.cases.size(),
                                      result.cases.size() == 1 ? " is" : "s are"));
     }
   }
-  if (std::string text = outlyingCaution(campaign, result); !text.empty()) cautions.push_back(std::move(text));
+  if (std::string text = outlyingWarning(campaign, result); !text.empty()) cautions.push_back(std::move(text));
   if (result.noise && result.noise->at_targets > kMostNoise) {
     cautions.push_back("the tracker's noise is more than half of the deflection: this load step hardly moves the arm");
   }
   if (result.frames.sag_removed) {
-    cautions.push_back(fmt::format(
-        "axes and lengths stand on sweeps from which up to {:.1f} mm of the arm's own sag was taken off by the identified "
-        "stiffnesses; what those get wrong of it is not in the stated uncertainties",
-        result.frames.largest_sag / io::kMillimetre));
+    cautions.push_back(
+        fmt::format("axes and lengths stand on sweeps from which up to {:.1f} mm of the arm's own sag was taken off by "
+                    "the identified "
+                    "stiffnesses; what those get wrong of it is not in the stated uncertainties",
+                    result.frames.largest_sag / io::kMillimetre));
   }
-  addSweepCautions(result.frames, cautions);
+  addSweepWarnings(result.frames, cautions);
   return cautions;
 }
 

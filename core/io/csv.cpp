@@ -38,13 +38,15 @@ std::string_view plainCell(std::string_view& line) {
 /// The cell without the blanks around it.
 std::string_view trimmed(const char* begin, const char* end) {
   const auto beyondBlank = [](char c) { return static_cast<unsigned char>(c) > ' '; };
-  if (begin != end && beyondBlank(*begin) && beyondBlank(end[-1])) return {begin, static_cast<std::size_t>(end - begin)};
+  if (begin != end && beyondBlank(*begin) && beyondBlank(end[-1]))
+    return {begin, static_cast<std::size_t>(end - begin)};
   while (begin != end && isBlank(*begin)) ++begin;
   while (begin != end && isBlank(end[-1])) --end;
   return {begin, static_cast<std::size_t>(end - begin)};
 }
 
-/// In blocks that one byte can count: compilers turn such a sum into many at once, and a sum of larger numbers into few.
+/// In blocks that one byte can count: compilers turn such a sum into many at once, and a sum of larger numbers into
+/// few.
 std::size_t countOf(std::string_view bytes, char wanted) {
   constexpr std::size_t kBlock = 240;
   std::size_t count = 0;
@@ -190,8 +192,7 @@ std::uint64_t bitsOf(const unsigned char* flags) {
   if constexpr (std::endian::native == std::endian::little) {
     std::uint64_t eight = 0;
     std::memcpy(&eight, flags, sizeof eight);
-    bits =
-        (eight * 0x0102040810204080ull) >> 56;  // each factor brings one byte's bit to its place at the top
+    bits = (eight * 0x0102040810204080ull) >> 56;  // each factor brings one byte's bit to its place at the top
   } else {
     for (std::size_t i = 0; i < 8; ++i) bits |= std::uint64_t{flags[i]} << i;
   }

@@ -86,8 +86,8 @@ class CsvLines {
 /// Lines as CsvLines cuts them, blank ones too.
 std::size_t linesIn(std::string_view bytes);
 
-/// `bytes`, whole lines as CsvLines cuts them, in parts of `least` bytes or a few more (the last may be smaller). Each but
-/// the last ends with a LF, behind which a line starts whatever the others end with.
+/// `bytes`, whole lines as CsvLines cuts them, in parts of `least` bytes or a few more (the last may be smaller). Each
+/// but the last ends with a LF, behind which a line starts whatever the others end with.
 std::vector<std::string_view> partsOfLines(std::string_view bytes, std::size_t least);
 
 }  // namespace stiffscope::io

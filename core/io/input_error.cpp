@@ -1,10 +1,10 @@
 #include "core/io/input_error.h"
 
+#include <fmt/format.h>
+#include <utf8.h>
 #include <algorithm>
 #include <cstdint>
-#include <fmt/format.h>
 #include <numeric>
-#include <utf8.h>
 
 namespace stiffscope::io {
 

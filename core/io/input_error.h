@@ -11,7 +11,7 @@ namespace stiffscope::io {
 /// Where in a user's file something is wrong. Parts that do not apply stay empty (line 0, column "").
 struct InputPlace {
   std::string file;
-  std::size_t line = 0;  ///< counted from 1, the header line included
+  std::size_t line = 0;     ///< counted from 1, the header line included
   std::string column = {};  ///< a table's column name, or an XML attribute or element
 };
 

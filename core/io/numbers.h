@@ -17,8 +17,8 @@ struct ParsedNumber {
 /// what they are.
 ParsedNumber parseNumber(std::string_view text);
 
-/// The value where the whole of `text` is one finite decimal number without '+'; else NaN. For tables of millions of cells,
-/// which ask parseNumber only about the cells that are none.
+/// The value where the whole of `text` is one finite decimal number without '+'; else NaN. For tables of millions of
+/// cells, which ask parseNumber only about the cells that are none.
 double numberOrNan(std::string_view text);
 
 /// Reads the whole of `text` as one integer; nullopt where it is none or too large. A leading '+' is

@@ -1,19 +1,19 @@
 #include "core/io/read_file.h"
 
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <openssl/evp.h>
+#include <sys/mman.h>
+#include <unistd.h>
 #include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstdint>
 #include <cstring>
-#include <fcntl.h>
-#include <fmt/format.h>
 #include <mutex>
 #include <numeric>
-#include <openssl/evp.h>
 #include <set>
 #include <stdexcept>
-#include <sys/mman.h>
-#include <unistd.h>
 #include <utility>
 #include <vector>
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <sys/stat.h>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -7,13 +8,12 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <sys/stat.h>
 
 namespace stiffscope::io {
 
 /// Which file it is and its state: two stamps that are equal mean that nobody wrote to it, or replaced it, between
-/// them, as far as the file system's clock shows (a write within the same tick of some milliseconds and without a change
-/// of size stays unseen).
+/// them, as far as the file system's clock shows (a write within the same tick of some milliseconds and without a
+/// change of size stays unseen).
 struct FileStamp {
   std::uint64_t device = 0, inode = 0;
   std::int64_t size = 0;
@@ -34,9 +34,9 @@ void recordRead(const FileStamp& stamp);
 /// Throws std::runtime_error where `path` was read.
 void requireNotRead(const std::filesystem::path& path);
 
-/// Asks for large pages for memory that is about to be filled for the first time, where the system has them: each page of
-/// four kilobytes that is touched costs its attention, a quarter of the time that reading a million rows takes. Changes
-/// nothing but the time; of less than a few megabytes not even that.
+/// Asks for large pages for memory that is about to be filled for the first time, where the system has them: each page
+/// of four kilobytes that is touched costs its attention, a quarter of the time that reading a million rows takes.
+/// Changes nothing but the time; of less than a few megabytes not even that.
 void askForLargePages(void* begin, std::size_t bytes);
 
 /// Largest files that are read: tables of some ten million readings, and XML that no person and no exporter exceeds. A
@@ -54,8 +54,8 @@ struct TextFile {
 };
 
 /// A text file, read once. Throws InputError, naming the file and what was expected, where it is missing, a directory,
-/// a device or a pipe, unreadable, empty, larger than `largest`, no text in UTF-8, or changes while it is read. Large files
-/// are read on all cores.
+/// a device or a pipe, unreadable, empty, larger than `largest`, no text in UTF-8, or changes while it is read. Large
+/// files are read on all cores.
 TextFile readTextFileWithStamp(const std::filesystem::path& path, std::size_t largest = kLargestTable);
 
 /// The bytes alone.

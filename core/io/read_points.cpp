@@ -1,9 +1,9 @@
 #include "core/io/read_points.h"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <fmt/format.h>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -51,8 +51,8 @@ bool startsName(std::string_view cell) {
   return !cell.empty() && (std::isalpha(static_cast<unsigned char>(cell[0])) != 0 || cell[0] == '"');
 }
 
-Eigen::Vector3d pointIn(const std::vector<std::string_view>& cells, const std::string& file,
-                        std::size_t line, bool first) {
+Eigen::Vector3d pointIn(const std::vector<std::string_view>& cells, const std::string& file, std::size_t line,
+                        bool first) {
   Eigen::Vector3d point;
   for (std::size_t k = 0; k < std::min(cells.size(), kColumns.size()); ++k) {
     const ParsedNumber number = parseNumber(cells[k]);
@@ -97,8 +97,7 @@ std::vector<Eigen::Vector3d> parsePoints(std::string_view bytes, const std::stri
     }
     points.push_back(pointIn(cells, file, line, points.empty()));
   }
-  if (points.empty())
-    throw InputError({file, 0, ""}, "", "expected points, x y z on each line; there are none");
+  if (points.empty()) throw InputError({file, 0, ""}, "", "expected points, x y z on each line; there are none");
   if (count && (*count < 0 || static_cast<std::size_t>(*count) != points.size())) {
     throw InputError({file, count_line, "count"}, fmt::format("{}", *count),
                      fmt::format("expected the number of points that follow, {}", points.size()));

@@ -1,11 +1,11 @@
 #include "core/io/write_file.h"
 
-#include <cerrno>
-#include <cstring>
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <stdexcept>
 #include <unistd.h>
+#include <cerrno>
+#include <cstring>
+#include <stdexcept>
 
 namespace stiffscope::io {
 
@@ -71,8 +71,7 @@ void writeFileWhole(const fs::path& path, const ByteSource& bytes) {
 void makeFolder(const std::filesystem::path& folder) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
-  if (error)
-    throw std::runtime_error(folder.string() + ": expected a folder that can be written: " + error.message());
+  if (error) throw std::runtime_error(folder.string() + ": expected a folder that can be written: " + error.message());
 }
 
 }  // namespace stiffscope::io

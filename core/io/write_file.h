@@ -22,8 +22,7 @@ void writeFileWhole(const std::filesystem::path& path, const ByteSource& bytes);
 
 /// Writes `bytes` to `file` directly and waits until they are on the disk; messages name `named`. For files
 /// that another step puts in their place.
-void writeFileNamed(const std::filesystem::path& file, const ByteSource& bytes,
-                    const std::filesystem::path& named);
+void writeFileNamed(const std::filesystem::path& file, const ByteSource& bytes, const std::filesystem::path& named);
 
 /// Makes a folder and those above it where they are absent. Throws std::runtime_error with path and reason.
 void makeFolder(const std::filesystem::path& folder);

@@ -1,30 +1,30 @@
 #include "core/io/write_folder.h"
 
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
 #include <algorithm>
 #include <cerrno>
 #include <chrono>
 #include <cstdio>
 #include <cstring>
-#include <fcntl.h>
 #include <filesystem>
-#include <fmt/format.h>
 #include <stdexcept>
 #include <string>
-#include <sys/file.h>
-#include <sys/stat.h>
 #include <thread>
-#include <unistd.h>
 
 #include "core/io/write_file.h"
 
 namespace stiffscope::io {
 
-/// Held by one run at a time of those that write folders beside each other, as long as its process lives. A folder that was
-/// replaced stands unlocked under the name of a part, where another run would take it for abandoned.
+/// Held by one run at a time of those that write folders beside each other, as long as its process lives. A folder that
+/// was replaced stands unlocked under the name of a part, where another run would take it for abandoned.
 class FolderTurn {
  public:
-  /// Waits for it some seconds, and then, or where nothing can be locked, does without: a run that stands still must not
-  /// hold up others for ever.
+  /// Waits for it some seconds, and then, or where nothing can be locked, does without: a run that stands still must
+  /// not hold up others for ever.
   explicit FolderTurn(const std::filesystem::path& parent);
   ~FolderTurn();
   FolderTurn(const FolderTurn&) = delete;
@@ -220,9 +220,7 @@ class Prepared {
   }
 
  private:
-  fs::path partOf(const FileToWrite& file) const {
-    return folder_ / fmt::format(".{}.{}.part", file.name, ::getpid());
-  }
+  fs::path partOf(const FileToWrite& file) const { return folder_ / fmt::format(".{}.{}.part", file.name, ::getpid()); }
 
   const fs::path& folder_;
   const std::vector<FileToWrite>& files_;

@@ -21,7 +21,8 @@ struct FileToWrite {
 /// Writes files into a folder (made where absent) so that they appear together or not at all, whenever the program is
 /// killed, the disk fills, or another run writes to the same folder: they are written to a new folder beside it, into
 /// which what else the old one holds is linked, and the two folders are exchanged in one step (renameat2). A killed run
-/// may leave that new folder, `.NAME.part-XXXXXX`, which the next one removes. Runs that write beside each other take turns.
+/// may leave that new folder, `.NAME.part-XXXXXX`, which the next one removes. Runs that write beside each other take
+/// turns.
 ///
 /// Where folders cannot be exchanged (a mount point, a folder above it without write permission, a file system without
 /// the call, the current folder), all files are written under other names first and then renamed one by one, in the

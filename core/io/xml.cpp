@@ -41,12 +41,14 @@ std::size_t behindVerbatim(std::string_view bytes, std::size_t at) {
 }
 
 bool isKnownReference(std::string_view name) {
-  if (name.starts_with("#x")) return name.size() > 2 && name.find_first_not_of("0123456789abcdefABCDEF", 2) == name.npos;
+  if (name.starts_with("#x"))
+    return name.size() > 2 && name.find_first_not_of("0123456789abcdefABCDEF", 2) == name.npos;
   if (name.starts_with("#")) return name.size() > 1 && name.find_first_not_of("0123456789", 1) == name.npos;
   return name == "amp" || name == "lt" || name == "gt" || name == "quot" || name == "apos";
 }
 
-// XML knows no other '&' without a DOCTYPE, and tinyxml2 mixes up the letters behind one that follows a known reference.
+// XML knows no other '&' without a DOCTYPE, and tinyxml2 mixes up the letters behind one that follows a known
+// reference.
 void refuseOtherReferences(const std::string& file, std::string_view bytes) {
   constexpr std::size_t kLongestReference = 12;
   for (std::size_t at = bytes.find_first_of("<&"); at < bytes.size(); at = bytes.find_first_of("<&", at)) {
@@ -64,7 +66,8 @@ void refuseOtherReferences(const std::string& file, std::string_view bytes) {
   }
 }
 
-// tinyxml2 compares every attribute of an element with all before it: a hundred thousand of them would take half a minute.
+// tinyxml2 compares every attribute of an element with all before it: a hundred thousand of them would take half a
+// minute.
 void refuseManyAttributes(const std::string& file, std::string_view bytes) {
   constexpr int kMost = 1000;
   for (std::size_t at = bytes.find('<'); at < bytes.size(); at = bytes.find('<', at)) {
@@ -75,10 +78,12 @@ void refuseManyAttributes(const std::string& file, std::string_view bytes) {
       continue;
     }
     int attributes = 0;
-    for (at = bytes.find_first_of("\"'>", at); at < bytes.size() && bytes[at] != '>'; at = bytes.find_first_of("\"'>", at)) {
+    for (at = bytes.find_first_of("\"'>", at); at < bytes.size() && bytes[at] != '>';
+         at = bytes.find_first_of("\"'>", at)) {
       at = bytes.find(bytes[at], at + 1);  // the end of the value
       if (++attributes > kMost) {
-        throw InputError({file, lineOf(bytes, element), ""}, "", fmt::format("expected an element of at most {} attributes", kMost));
+        throw InputError({file, lineOf(bytes, element), ""}, "",
+                         fmt::format("expected an element of at most {} attributes", kMost));
       }
       if (at != bytes.npos) ++at;
     }
@@ -177,8 +182,7 @@ std::vector<XmlNode> XmlNode::children() const {
 
 std::vector<XmlNode> XmlNode::children(const std::string& name) const {
   std::vector<XmlNode> found;
-  for (auto* e = element_->FirstChildElement(name.c_str()); e != nullptr;
-       e = e->NextSiblingElement(name.c_str())) {
+  for (auto* e = element_->FirstChildElement(name.c_str()); e != nullptr; e = e->NextSiblingElement(name.c_str())) {
     found.emplace_back(*file_, *e);
   }
   return found;
@@ -188,8 +192,7 @@ std::optional<XmlNode> XmlNode::child(const std::string& name) const {
   const std::vector<XmlNode> found = children(name);
   if (found.empty()) return std::nullopt;
   if (found.size() > 1) {
-    found[1].refuse(name, "",
-                    fmt::format("expected this element once; the first is in line {}", found[0].line()));
+    found[1].refuse(name, "", fmt::format("expected this element once; the first is in line {}", found[0].line()));
   }
   return found.front();
 }
@@ -207,9 +210,7 @@ std::vector<std::string> XmlNode::attributeNames() const {
   return names;
 }
 
-bool XmlNode::has(const std::string& attribute) const {
-  return element_->FindAttribute(attribute.c_str()) != nullptr;
-}
+bool XmlNode::has(const std::string& attribute) const { return element_->FindAttribute(attribute.c_str()) != nullptr; }
 
 std::optional<std::string> XmlNode::attribute(const std::string& name) const {
   const char* value = element_->Attribute(name.c_str());
@@ -218,8 +219,7 @@ std::optional<std::string> XmlNode::attribute(const std::string& name) const {
 
 std::string XmlNode::requiredAttribute(const std::string& wanted) const {
   if (const auto value = attribute(wanted)) return *value;
-  refuse(wanted, "",
-         fmt::format("expected this attribute of <{}>{}", name(), misspelling(wanted, attributeNames())));
+  refuse(wanted, "", fmt::format("expected this attribute of <{}>{}", name(), misspelling(wanted, attributeNames())));
 }
 
 std::string XmlNode::requiredName(const std::string& wanted) const {
@@ -252,32 +252,28 @@ Eigen::Vector3d XmlNode::vector(const std::string& wanted) const {
   return numbers;
 }
 
-void XmlNode::refuse(const std::string& column, const std::string& value,
-                     const std::string& expectation) const {
+void XmlNode::refuse(const std::string& column, const std::string& value, const std::string& expectation) const {
   throw InputError({*file_, line(), column}, value, expectation);
 }
 
-std::string XmlNode::warning(const std::string& column, const std::string& value,
-                             const std::string& finding) const {
+std::string XmlNode::warning(const std::string& column, const std::string& value, const std::string& finding) const {
   return inputMessage({*file_, line(), column}, value, finding);
 }
 
 void warnOfUnknown(const XmlNode& node, const std::vector<std::string>& attributes,
                    const std::vector<std::string>& elements, std::vector<std::string>& warnings) {
   const auto unknown = [](const std::string& name, const std::vector<std::string>& known) {
-    const bool of_namespace =
-        name.starts_with("xmlns") || name.starts_with("xsi:") || name.starts_with("xml:");
+    const bool of_namespace = name.starts_with("xmlns") || name.starts_with("xsi:") || name.starts_with("xml:");
     return !of_namespace && std::find(known.begin(), known.end(), name) == known.end();
   };
   for (const std::string& name : node.attributeNames()) {
     if (!unknown(name, attributes)) continue;
-    warnings.push_back(
-        node.warning(name, "", "unknown attribute, ignored" + nearestNameHint(name, attributes)));
+    warnings.push_back(node.warning(name, "", "unknown attribute, ignored" + nearestNameHint(name, attributes)));
   }
   for (const XmlNode& child : node.children()) {
     if (!unknown(child.name(), elements)) continue;
-    warnings.push_back(child.warning(child.name(), "",
-                                     "unknown element, ignored" + nearestNameHint(child.name(), elements)));
+    warnings.push_back(
+        child.warning(child.name(), "", "unknown element, ignored" + nearestNameHint(child.name(), elements)));
   }
 }
 

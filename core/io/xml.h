@@ -48,8 +48,7 @@ class XmlNode {
   Eigen::Vector3d vector(const std::string& attribute) const;    ///< exactly three finite numbers
 
   /// Throws the InputError; `column` is an attribute or element name.
-  [[noreturn]] void refuse(const std::string& column, const std::string& value,
-                           const std::string& expectation) const;
+  [[noreturn]] void refuse(const std::string& column, const std::string& value, const std::string& expectation) const;
   /// A one-line warning about this element.
   std::string warning(const std::string& column, const std::string& value, const std::string& finding) const;
 

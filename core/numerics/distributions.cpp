@@ -13,8 +13,9 @@ namespace {
 namespace math = boost::math;
 using math::policies::ignore_error;
 // Arguments that no distribution has give NaN or infinity and do not throw: a check without readings has no limit.
-using Policy = math::policies::policy<math::policies::domain_error<ignore_error>, math::policies::overflow_error<ignore_error>,
-                                      math::policies::promote_double<false>>;
+using Policy =
+    math::policies::policy<math::policies::domain_error<ignore_error>, math::policies::overflow_error<ignore_error>,
+                           math::policies::promote_double<false>>;
 
 /// Where there is nothing to exceed, or everything may: zero.
 bool hasLimit(double tail, double dof) { return tail < 1.0 && dof > 0.0; }

@@ -22,7 +22,8 @@ struct Rate {
 };
 
 /// The interval of C. J. Clopper and E. S. Pearson (Biometrika 26, 1934): the shares p at which neither
-/// P(X >= hits) nor P(X <= hits) is below (1 - level) / 2, X binomial. Without trials (0, 1). Throws std::invalid_argument where hits are not from 0 to trials.
+/// P(X >= hits) nor P(X <= hits) is below (1 - level) / 2, X binomial. Without trials (0, 1). Throws
+/// std::invalid_argument where hits are not from 0 to trials.
 Rate binomialRate(int hits, int trials, double level = 0.95);
 
 }  // namespace stiffscope::numerics

@@ -29,8 +29,7 @@ std::uint64_t subsetCount(int n, int m) {
   std::uint64_t count = 1;
   for (int i = 1; i <= m; ++i) {
     const auto factor = static_cast<std::uint64_t>(n - m + i);
-    if (count > std::numeric_limits<std::uint64_t>::max() / factor)
-      return std::numeric_limits<std::uint64_t>::max();
+    if (count > std::numeric_limits<std::uint64_t>::max() / factor) return std::numeric_limits<std::uint64_t>::max();
     count = count * factor / static_cast<std::uint64_t>(i);
   }
   return count;
@@ -48,7 +47,8 @@ std::span<const std::uint32_t> SubsetDraws::next() {
   return std::span(order_).first(size_);
 }
 
-void forEachSubset(int n, int m, std::uint64_t most, std::uint64_t seed, const std::function<void(const Weights&)>& visit) {
+void forEachSubset(int n, int m, std::uint64_t most, std::uint64_t seed,
+                   const std::function<void(const Weights&)>& visit) {
   const auto count = static_cast<std::size_t>(n), size = static_cast<std::size_t>(m);
   Weights used(count, 0.0);
   if (subsetCount(n, m) <= most) {

@@ -8,7 +8,8 @@
 #include <vector>
 
 // Which postures take part, and how often: bootstrap samples, subsets, leave-one-out. What is solved on them is the
-// caller's. Everything is seeded: std::mt19937_64 is fully specified by the standard, and so is what is done with its words.
+// caller's. Everything is seeded: std::mt19937_64 is fully specified by the standard, and so is what is done with its
+// words.
 
 namespace stiffscope::numerics {
 
@@ -50,8 +51,9 @@ class SubsetDraws {
   std::size_t size_;
 };
 
-/// Calls `visit` with every subset of m of n as weights, those of the lowest indices first; with `most` drawn ones where
-/// there are more subsets than that.
-void forEachSubset(int n, int m, std::uint64_t most, std::uint64_t seed, const std::function<void(const Weights&)>& visit);
+/// Calls `visit` with every subset of m of n as weights, those of the lowest indices first; with `most` drawn ones
+/// where there are more subsets than that.
+void forEachSubset(int n, int m, std::uint64_t most, std::uint64_t seed,
+                   const std::function<void(const Weights&)>& visit);
 
 }  // namespace stiffscope::numerics

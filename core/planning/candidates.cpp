@@ -1,9 +1,9 @@
 #include "core/planning/candidates.h"
 
+#include <fmt/format.h>
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 #include <numbers>
 #include <random>
 
@@ -17,9 +17,12 @@ namespace stiffscope::planning {
 
 namespace {
 
-frames::LoadingGeometry geometryFor(const campaign::Campaign& campaign, const identification::Identification* identified) {
+frames::LoadingGeometry geometryFor(const campaign::Campaign& campaign,
+                                    const identification::Identification* identified) {
   if (identified == nullptr) return frames::sweptGeometry(campaign, frames::measureFrames(campaign), Vector6d::Zero());
-  for (const identification::Method method : {identification::Method::decoupled_partial_pose, identification::Method::partial_pose, identification::Method::complete_pose}) {
+  for (const identification::Method method :
+       {identification::Method::decoupled_partial_pose, identification::Method::partial_pose,
+        identification::Method::complete_pose}) {
     if (identified->of(method).available) return identified->of(method).geometry;
   }
   return frames::sweptGeometry(campaign, identified->frames, Vector6d::Zero());
@@ -57,20 +60,22 @@ void placeTargets(const campaign::Campaign& campaign, PlanningArm& arm) {
 }
 
 /// The measured wrenches of the identified load step, in R0.
-std::vector<std::pair<robot::ArmPosture, robot::Wrench>> measuredWrenches(const campaign::Campaign& campaign, const PlanningArm& arm,
-                                                            int step) {
+std::vector<std::pair<robot::ArmPosture, robot::Wrench>> measuredWrenches(const campaign::Campaign& campaign,
+                                                                          const PlanningArm& arm, int step) {
   std::vector<std::pair<robot::ArmPosture, robot::Wrench>> wrenches;
   for (const campaign::State& state : campaign.states->rows) {
     if (state.step != step) continue;
     const robot::ArmPosture posture = robot::postureAt(arm.geometry.arm, arm.geometry.sagged(state.q));
-    wrenches.emplace_back(posture, identification::cellWrench(arm.cell, arm.geometry, posture, {}, {}, state.wrench_in_cell));
+    wrenches.emplace_back(posture,
+                          identification::cellWrench(arm.cell, arm.geometry, posture, {}, {}, state.wrench_in_cell));
   }
   return wrenches;
 }
 
 /// The point of the flange on the measured forces' lines, by least squares of M = (hook - point) x F in
 /// flange axes.
-Eigen::Vector3d hookOf(const std::vector<std::pair<robot::ArmPosture, robot::Wrench>>& wrenches, const robot::Robot& arm) {
+Eigen::Vector3d hookOf(const std::vector<std::pair<robot::ArmPosture, robot::Wrench>>& wrenches,
+                       const robot::Robot& arm) {
   Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
   Eigen::Vector3d right = Eigen::Vector3d::Zero();
   for (const auto& [posture, wrench] : wrenches) {
@@ -89,24 +94,22 @@ Eigen::Vector3d hookOf(const std::vector<std::pair<robot::ArmPosture, robot::Wre
   return solver.solve(right);
 }
 
-void placeLoad(const campaign::Campaign& campaign, const identification::Identification* identified, const PlanningInputs& inputs,
-               PlanningArm& arm) {
+void placeLoad(const campaign::Campaign& campaign, const identification::Identification* identified,
+               const PlanningInputs& inputs, PlanningArm& arm) {
   arm.pull = inputs.pull.value_or(identified != nullptr && !identified->identifiability.load_hangs);
   std::vector<std::pair<robot::ArmPosture, robot::Wrench>> measured;
   if (identified != nullptr) measured = measuredWrenches(campaign, arm, identified->step);
   if (inputs.load) {
     arm.load = *inputs.load;
   } else if (!measured.empty()) {
-    for (const auto& one : measured)
-      arm.load += one.second.force.norm() / static_cast<double>(measured.size());
-    arm.assumed.push_back(
-        fmt::format("the load of the measured step {}: {:.0f} N", identified->step, arm.load));
+    for (const auto& one : measured) arm.load += one.second.force.norm() / static_cast<double>(measured.size());
+    arm.assumed.push_back(fmt::format("the load of the measured step {}: {:.0f} N", identified->step, arm.load));
   }
   if (!(arm.load > 0.0) || !std::isfinite(arm.load)) {
-    throw io::InputError({inputs.pull.value_or(false) ? "--pull" : "--load"},
-                     inputs.load ? fmt::format("{:g}", *inputs.load) : "",
-                     inputs.load ? "expected the load in newtons, above 0"
-                                 : "expected the load in newtons, above 0: this campaign has no measured one to take");
+    throw io::InputError(
+        {inputs.pull.value_or(false) ? "--pull" : "--load"}, inputs.load ? fmt::format("{:g}", *inputs.load) : "",
+        inputs.load ? "expected the load in newtons, above 0"
+                    : "expected the load in newtons, above 0: this campaign has no measured one to take");
   }
   if (inputs.hook_in_flange) {
     arm.hook_in_flange = *inputs.hook_in_flange;
@@ -127,8 +130,8 @@ void placeLoad(const campaign::Campaign& campaign, const identification::Identif
   }
 }
 
-void placeTracker(const campaign::Campaign& campaign, const identification::Identification* identified, const PlanningInputs& inputs,
-                  PlanningArm& arm) {
+void placeTracker(const campaign::Campaign& campaign, const identification::Identification* identified,
+                  const PlanningInputs& inputs, PlanningArm& arm) {
   const frames::Frames frames = identified != nullptr ? identified->frames : frames::measureFrames(campaign);
   if (inputs.tracker_in_base) {
     arm.station = arm.geometry.r0_from_base_link * *inputs.tracker_in_base;
@@ -148,8 +151,8 @@ void placeTracker(const campaign::Campaign& campaign, const identification::Iden
   }
   if (arm.sigma <= 0.0) arm.sigma = inputs.tracker_sigma, arm.noise.reset();
   if (!campaign.tracker) {
-    arm.assumed.push_back(fmt::format(
-        "{:.0f} um of noise in each coordinate of a reading: no tracker is declared", 1e6 * arm.sigma));
+    arm.assumed.push_back(
+        fmt::format("{:.0f} um of noise in each coordinate of a reading: no tracker is declared", 1e6 * arm.sigma));
   }
 }
 
@@ -210,8 +213,8 @@ Skeleton skeletonOf(const PlanningArm& arm, const robot::ArmPosture& posture) {
 
 /// Distance of a point from the part of a line that starts at `from` and is `length` long; infinite beside
 /// its ends.
-double distanceFromLine(const Eigen::Vector3d& point, const Eigen::Vector3d& from,
-                        const Eigen::Vector3d& direction, double length) {
+double distanceFromLine(const Eigen::Vector3d& point, const Eigen::Vector3d& from, const Eigen::Vector3d& direction,
+                        double length) {
   const double along = (point - from).dot(direction);
   if (along <= 0.0 || along >= length) return std::numeric_limits<double>::infinity();
   return (point - from - along * direction).norm();
@@ -227,8 +230,7 @@ double clearanceOfLine(const std::vector<Eigen::Vector3d>& points, const Eigen::
 }
 
 bool nearBody(const Skeleton& skeleton, const Eigen::Vector3d& point, double clearance) {
-  return std::any_of(skeleton.points.begin(),
-                     skeleton.points.begin() + static_cast<std::ptrdiff_t>(skeleton.forearm),
+  return std::any_of(skeleton.points.begin(), skeleton.points.begin() + static_cast<std::ptrdiff_t>(skeleton.forearm),
                      [&](const Eigen::Vector3d& own) { return (own - point).norm() < clearance; });
 }
 
@@ -274,16 +276,15 @@ PostureRule brokenRule(const PlanningArm& arm, const PostureRules& rules, const 
                        const Eigen::Vector3d& direction) {
   const Eigen::Isometry3d flange = robot::flangeAt(arm.geometry.arm, posture);
   const Matrix6d jacobian = robot::jacobianAt(arm.geometry.arm, posture, flange.translation());
-  if (identification::postureConditioning(jacobian, 1.0).dexterity < rules.least_dexterity) return PostureRule::singularity;
+  if (identification::postureConditioning(jacobian, 1.0).dexterity < rules.least_dexterity)
+    return PostureRule::singularity;
 
   const Eigen::Isometry3d base_from_r0 = arm.geometry.r0_from_base_link.inverse();
   const Skeleton skeleton = skeletonOf(arm, posture);
   const Eigen::Vector3d hook = flange * arm.hook_in_flange;
   std::vector<Eigen::Vector3d> targets;
   for (const Eigen::Vector3d& target : arm.targets_in_flange) targets.push_back(flange * target);
-  const auto lower = [&](const Eigen::Vector3d& point, double height) {
-    return (base_from_r0 * point).z() < height;
-  };
+  const auto lower = [&](const Eigen::Vector3d& point, double height) { return (base_from_r0 * point).z() < height; };
   if (!arm.pull && lower(hook, rules.least_hook_height)) return PostureRule::low;
   for (const Eigen::Vector3d& target : targets) {
     if (lower(target, rules.least_height)) return PostureRule::low;
@@ -291,13 +292,11 @@ PostureRule brokenRule(const PlanningArm& arm, const PostureRules& rules, const 
   for (std::size_t k = skeleton.forearm; k < skeleton.points.size(); ++k) {
     if (lower(skeleton.points[k], rules.least_height)) return PostureRule::low;
   }
-  if (!arm.pull &&
-      -direction.dot(flange.linear() * arm.outward_in_flange) > std::sin(rules.most_outward_up)) {
+  if (!arm.pull && -direction.dot(flange.linear() * arm.outward_in_flange) > std::sin(rules.most_outward_up)) {
     return PostureRule::hanging;
   }
   constexpr double kLine = 3.0;  // m of cable or chain
-  if (clearanceOfLine(skeleton.points, hook, direction, kLine) < rules.line_clearance)
-    return PostureRule::load_line;
+  if (clearanceOfLine(skeleton.points, hook, direction, kLine) < rules.line_clearance) return PostureRule::load_line;
   if (nearBody(skeleton, hook, rules.body_clearance)) return PostureRule::body;
   for (const Eigen::Vector3d& target : targets) {
     if (nearBody(skeleton, target, rules.body_clearance)) return PostureRule::body;
@@ -315,7 +314,7 @@ std::array<robot::JointLimits, 6> postureBox(const robot::Robot& arm, const Post
     const double low = rules.low[joint] / io::kDegree, high = rules.high[joint] / io::kDegree;
     if (low > high) {
       throw io::InputError({"--min-deg"}, fmt::format("{:g}", low),
-                       fmt::format("expected at most the {:g} of --max-deg for joint {}", high, j + 1));
+                           fmt::format("expected at most the {:g} of --max-deg for joint {}", high, j + 1));
     }
     const bool starts_too_high = rules.low[joint] > arm.limits[j].upper - rules.limit_margin;
     throw io::InputError(
@@ -336,8 +335,7 @@ double uniform(std::mt19937_64& random, double low, double high) {
 }
 
 std::string whyNone(const CandidateDraw& draw) {
-  std::string text =
-      fmt::format("expected limits within which some posture keeps the rules; of {} drawn", draw.drawn);
+  std::string text = fmt::format("expected limits within which some posture keeps the rules; of {} drawn", draw.drawn);
   for (std::size_t rule = 1; rule < kPostureRules; ++rule) {
     if (draw.broken[rule] == 0) continue;
     text += fmt::format("; {}: {}", wordsFor(static_cast<PostureRule>(rule)), draw.broken[rule]);
@@ -384,8 +382,7 @@ Candidate candidateAt(const PlanningArm& arm, const Vector6d& q, const Eigen::Ve
   return candidate;
 }
 
-CandidateDraw drawCandidates(const PlanningArm& arm, const PostureRules& rules, int count,
-                             std::uint64_t seed) {
+CandidateDraw drawCandidates(const PlanningArm& arm, const PostureRules& rules, int count, std::uint64_t seed) {
   const std::array<robot::JointLimits, 6> box = postureBox(arm.geometry.arm, rules);
   const std::vector<Eigen::Vector3d> directions = loadDirections(arm);
   std::mt19937_64 random(seed);
@@ -393,8 +390,7 @@ CandidateDraw drawCandidates(const PlanningArm& arm, const PostureRules& rules, 
   constexpr int kTriesEach = 400;
   while (static_cast<int>(draw.kept.size()) < count && draw.drawn < kTriesEach * count) {
     Vector6d q;
-    for (std::size_t j = 0; j < 6; ++j)
-      q[static_cast<Eigen::Index>(j)] = uniform(random, box[j].lower, box[j].upper);
+    for (std::size_t j = 0; j < 6; ++j) q[static_cast<Eigen::Index>(j)] = uniform(random, box[j].lower, box[j].upper);
     const Eigen::Vector3d& direction = directions[random() % directions.size()];
     ++draw.drawn;
     const PostureRule broken =
@@ -412,7 +408,8 @@ Vector6d expectedReading(const PlanningArm& arm, const Candidate& candidate) {
   Eigen::Matrix3d axes;
   Eigen::Vector3d point = Eigen::Vector3d::Zero();
   for (int axis = 0; axis < 3; ++axis) {
-    const robot::Wrench unit = identification::cellWrench(arm.cell, arm.geometry, posture, {}, {}, Vector6d::Unit(axis));
+    const robot::Wrench unit =
+        identification::cellWrench(arm.cell, arm.geometry, posture, {}, {}, Vector6d::Unit(axis));
     axes.col(axis) = unit.force;
     point = unit.point;
   }

@@ -17,8 +17,8 @@ struct PlanningInputs {
       pull;  ///< a cable pulls in any of several directions, or (false) the load hangs; empty: as measured
   std::optional<Eigen::Vector3d> hook_in_flange;   ///< where the load acts; empty: from the measured wrenches
   std::optional<Eigen::Vector3d> tracker_in_base;  ///< the station; empty: where the sweeps place it
-  int repeats = 3;               ///< readings of a reflector in a state: their mean has less noise
-  double tracker_sigma = 20e-6;  ///< m per coordinate, where the campaign declares no tracker
+  int repeats = 3;                                 ///< readings of a reflector in a state: their mean has less noise
+  double tracker_sigma = 20e-6;                    ///< m per coordinate, where the campaign declares no tracker
 };
 
 /// What a plan is made for: the arm in R0 with its reflectors, load and tracker, as far as they are known.
@@ -30,10 +30,10 @@ struct PlanningArm {
   Eigen::Vector3d hook_in_flange = Eigen::Vector3d::Zero();
   double load = 0.0;  ///< N
   bool pull = false;
-  std::optional<Eigen::Vector3d> station;  ///< in R0, m
-  std::optional<metrology::TrackerNoise> noise;       ///< about `station`; empty: isotropic `sigma`
-  double sigma = 0.0;                      ///< m per coordinate of one reading, where `noise` is empty
-  double misfit = 0.0;  ///< m per coordinate: what the identified model leaves, 0 if unknown
+  std::optional<Eigen::Vector3d> station;        ///< in R0, m
+  std::optional<metrology::TrackerNoise> noise;  ///< about `station`; empty: isotropic `sigma`
+  double sigma = 0.0;                            ///< m per coordinate of one reading, where `noise` is empty
+  double misfit = 0.0;                           ///< m per coordinate: what the identified model leaves, 0 if unknown
   int repeats = 1;
   std::vector<std::string> assumed;  ///< what was taken for granted, a sentence each
 
@@ -84,7 +84,7 @@ std::array<robot::JointLimits, 6> postureBox(const robot::Robot& arm, const Post
 struct Candidate {
   Vector6d q = Vector6d::Zero();                        ///< rad
   Eigen::Vector3d direction = Eigen::Vector3d::Zero();  ///< of the load, unit, R0
-  identification::LoadCase load_case;                                   ///< posture and wrench, R0; no readings
+  identification::LoadCase load_case;                   ///< posture and wrench, R0; no readings
   /// Of the compliances c: sum over the reflectors of A^T S^-1 A, A = J_m diag(J_w^T W) as in paper (12), S
   /// the covariance of the reflector's displacement. (Nm/rad)^2.
   Matrix6d information = Matrix6d::Zero();
@@ -100,8 +100,7 @@ struct CandidateDraw {
 /// (horizontally along and against base_link's x and y, down, and half way between), drawn too. Stops at
 /// `count` kept, or when 400 times as many were drawn. Throws InputError with the count of each rule broken
 /// where not one keeps them all.
-CandidateDraw drawCandidates(const PlanningArm& arm, const PostureRules& rules, int count,
-                             std::uint64_t seed);
+CandidateDraw drawCandidates(const PlanningArm& arm, const PostureRules& rules, int count, std::uint64_t seed);
 
 /// The same of a posture that is given.
 Candidate candidateAt(const PlanningArm& arm, const Vector6d& q, const Eigen::Vector3d& direction);

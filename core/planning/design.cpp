@@ -51,8 +51,7 @@ Vector6d standardDeviations(const Matrix6d& information, const robot::JointMask&
   const Eigen::LLT<Matrix6d> cholesky(normal.matrix);
   Vector6d sd = Vector6d::Constant(std::numeric_limits<double>::quiet_NaN());
   const bool determined = cholesky.info() == Eigen::Success;
-  const Matrix6d inverse =
-      determined ? Matrix6d(cholesky.solve(Matrix6d::Identity())) : Matrix6d::Zero().eval();
+  const Matrix6d inverse = determined ? Matrix6d(cholesky.solve(Matrix6d::Identity())) : Matrix6d::Zero().eval();
   for (int j = 0; j < 6; ++j) {
     if (!unknown[static_cast<std::size_t>(j)]) continue;
     const bool seen = determined && normal.scale[j] > 0.0;
@@ -68,7 +67,6 @@ double designValue(const Matrix6d& information, const robot::JointMask& unknown,
 }
 
 namespace {
-
 
 class Exchange {
  public:
@@ -99,8 +97,7 @@ class Exchange {
     const Eigen::LLT<Matrix6d> cholesky(sum);
     if (cholesky.info() != Eigen::Success) return kNever;
     const Matrix6d inverse = cholesky.solve(Matrix6d::Identity());
-    return balanceOf(scale_.cwiseProduct(inverse.diagonal().cwiseSqrt()), *problem_.reference,
-                     problem_.unknown);
+    return balanceOf(scale_.cwiseProduct(inverse.diagonal().cwiseSqrt()), *problem_.reference, problem_.unknown);
   }
 
   /// The best candidate to join `others`; the candidate count where none may.
@@ -194,9 +191,8 @@ Design exchangeDesign(const DesignProblem& problem, int count, const ExchangeOpt
   double best_value = kNever;
   const bool given = !options.from.empty();
   for (int start = 0; start < std::max(1, options.starts + (given ? 1 : 0)); ++start) {
-    std::vector<std::size_t> chosen = given && start == 0
-                                          ? options.from
-                                          : randomChoice(exchange, problem.information.size(), count, random);
+    std::vector<std::size_t> chosen =
+        given && start == 0 ? options.from : randomChoice(exchange, problem.information.size(), count, random);
     best.passes += exchange.improve(chosen, options.most_passes);
     const double value = exchange.valueOf(exchange.sumOf(chosen));
     if (start > 0 &&
@@ -220,8 +216,8 @@ bool alike(const PlanningArm& arm, const Candidate& a, const Candidate& b, doubl
 }
 
 void refineDesign(const PlanningArm& arm, const PostureRules& rules, const Matrix6d& known,
-                  const robot::JointMask& unknown, const std::vector<Candidate>& measured,
-                  const RefineOptions& options, std::vector<Candidate>& chosen) {
+                  const robot::JointMask& unknown, const std::vector<Candidate>& measured, const RefineOptions& options,
+                  std::vector<Candidate>& chosen) {
   const std::array<robot::JointLimits, 6> box = postureBox(arm.geometry.arm, rules);
   Matrix6d sum = known;
   for (const Candidate& one : chosen) sum += one.information;
@@ -231,9 +227,8 @@ void refineDesign(const PlanningArm& arm, const PostureRules& rules, const Matri
     for (std::size_t k = 0; k < chosen.size(); ++k) {
       if (k != place && alike(arm, moved, chosen[k], options.least_separation)) return false;
     }
-    return std::none_of(measured.begin(), measured.end(), [&](const Candidate& one) {
-      return alike(arm, moved, one, options.least_separation);
-    });
+    return std::none_of(measured.begin(), measured.end(),
+                        [&](const Candidate& one) { return alike(arm, moved, one, options.least_separation); });
   };
   const auto tryMove = [&](std::size_t place, int joint, double step) {
     Vector6d q = chosen[place].q;

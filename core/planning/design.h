@@ -80,8 +80,8 @@ bool alike(const PlanningArm& arm, const Candidate& a, const Candidate& b, doubl
 /// Meyer and C. J. Nachtsheim, Technometrics 37 (1995) 60. What a finite list of candidates in six joints
 /// leaves open.
 void refineDesign(const PlanningArm& arm, const PostureRules& rules, const Matrix6d& known,
-                  const robot::JointMask& unknown, const std::vector<Candidate>& measured,
-                  const RefineOptions& options, std::vector<Candidate>& chosen);
+                  const robot::JointMask& unknown, const std::vector<Candidate>& measured, const RefineOptions& options,
+                  std::vector<Candidate>& chosen);
 
 /// What random postures give, by the same rules and loads.
 struct RandomPostures {

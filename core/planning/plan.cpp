@@ -1,8 +1,8 @@
 #include "core/planning/plan.h"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 #include <limits>
 
 #include "core/identification/posture_stiffness.h"
@@ -17,7 +17,9 @@ namespace {
 /// The method whose geometry the plan takes.
 const identification::MethodResult* referenceOf(const identification::Identification* identified) {
   if (identified == nullptr) return nullptr;
-  for (const identification::Method method : {identification::Method::decoupled_partial_pose, identification::Method::partial_pose, identification::Method::complete_pose}) {
+  for (const identification::Method method :
+       {identification::Method::decoupled_partial_pose, identification::Method::partial_pose,
+        identification::Method::complete_pose}) {
     if (identified->of(method).available) return &identified->of(method);
   }
   return nullptr;
@@ -26,7 +28,8 @@ const identification::MethodResult* referenceOf(const identification::Identifica
 identification::CaseEquations equationsOf(const PlanningArm& arm, const Candidate& candidate) {
   const identification::LoadCase& load_case = candidate.load_case;
   const Vector6d torque = robot::jointTorque(load_case.axes, load_case.wrench);
-  const Eigen::Isometry3d flange = robot::flangeAt(arm.geometry.arm, identification::unloadedPosture(arm.geometry.arm, load_case));
+  const Eigen::Isometry3d flange =
+      robot::flangeAt(arm.geometry.arm, identification::unloadedPosture(arm.geometry.arm, load_case));
   identification::CaseEquations equations;
   equations.matrix.resize(static_cast<Eigen::Index>(3 * arm.targets_in_flange.size()), 6);
   for (std::size_t k = 0; k < arm.targets_in_flange.size(); ++k) {
@@ -39,11 +42,9 @@ identification::CaseEquations equationsOf(const PlanningArm& arm, const Candidat
 
 class Planner {
  public:
-  Planner(const campaign::Campaign& campaign, const identification::Identification* identified, const PlanOptions& options)
-      : campaign_(campaign),
-        identified_(identified),
-        reference_(referenceOf(identified)),
-        options_(options) {}
+  Planner(const campaign::Campaign& campaign, const identification::Identification* identified,
+          const PlanOptions& options)
+      : campaign_(campaign), identified_(identified), reference_(referenceOf(identified)), options_(options) {}
 
   Plan run() {
     checkOptions();
@@ -88,7 +89,8 @@ class Planner {
       cases.insert(cases.end(), identified_->cases.begin(), identified_->cases.end());
       equations.insert(equations.end(), reference_->target_rows.begin(), reference_->target_rows.end());
     }
-    const identification::Identifiability judged = identification::judgeJoints(plan_.arm.geometry, cases, plan_.arm.cell, equations);
+    const identification::Identifiability judged =
+        identification::evaluateIdentifiability(plan_.arm.geometry, cases, plan_.arm.cell, equations);
     plan_.unknown = judged.mask();
     for (std::size_t j = 0; j < 6; ++j) plan_.not_seen[j] = judged.joints[j].reason;
     plan_.usable = std::any_of(plan_.unknown.begin(), plan_.unknown.end(), [](bool one) { return one; });
@@ -179,8 +181,7 @@ class Planner {
 
   void compareWith(RandomPostures& random) const {
     const auto unknowns = std::count(plan_.unknown.begin(), plan_.unknown.end(), true);
-    random.efficiency =
-        std::exp((plan_.log_determinant - random.log_determinant) / static_cast<double>(unknowns));
+    random.efficiency = std::exp((plan_.log_determinant - random.log_determinant) / static_cast<double>(unknowns));
   }
 
   void describe(const std::vector<Candidate>& chosen) {
@@ -192,11 +193,11 @@ class Planner {
       posture.id = freeId(number);
       posture.candidate = one;
       posture.reading = expectedReading(plan_.arm, posture.candidate);
-      posture.pull_in_base =
-          plan_.arm.geometry.r0_from_base_link.linear().transpose() * posture.candidate.direction;
+      posture.pull_in_base = plan_.arm.geometry.r0_from_base_link.linear().transpose() * posture.candidate.direction;
       const robot::ArmPosture at = identification::unloadedPosture(plan_.arm.geometry.arm, posture.candidate.load_case);
       const Eigen::Vector3d flange = robot::flangeAt(plan_.arm.geometry.arm, at).translation();
-      posture.dexterity = identification::postureConditioning(robot::jacobianAt(plan_.arm.geometry.arm, at, flange), 1.0).dexterity;
+      posture.dexterity =
+          identification::postureConditioning(robot::jacobianAt(plan_.arm.geometry.arm, at, flange), 1.0).dexterity;
       if (plan_.arm.station) posture.tracker_distance = (flange - *plan_.arm.station).norm();
       sum += one.information;
       const double after = logDeterminant(sum, plan_.unknown);
@@ -218,7 +219,8 @@ class Planner {
 
 }  // namespace
 
-Plan planCampaign(const campaign::Campaign& campaign, const identification::Identification* identified, const PlanOptions& options) {
+Plan planCampaign(const campaign::Campaign& campaign, const identification::Identification* identified,
+                  const PlanOptions& options) {
   return Planner(campaign, identified, options).run();
 }
 

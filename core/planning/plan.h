@@ -18,11 +18,10 @@ enum class PlanCriterion {
 
 struct PlanOptions {
   int postures = 10;
-  bool augment = false;   ///< the postures are added to those that the campaign has measured
-  int candidates = 3000;  ///< more find a few per cent more information, and take longer
-  int random_sets = 200;  ///< to hold the choice against
-  double least_separation =
-      0.26;  ///< rad (15 deg) in some joint: postures as good as equal are no new evidence
+  bool augment = false;            ///< the postures are added to those that the campaign has measured
+  int candidates = 3000;           ///< more find a few per cent more information, and take longer
+  int random_sets = 200;           ///< to hold the choice against
+  double least_separation = 0.26;  ///< rad (15 deg) in some joint: postures as good as equal are no new evidence
   PlanCriterion criterion = PlanCriterion::balanced;
   std::uint64_t seed = 1;
   PlanningInputs inputs;
@@ -33,14 +32,12 @@ struct PlanOptions {
 struct PlannedPosture {
   std::string id;
   Candidate candidate;
-  Vector6d reading = Vector6d::Zero();  ///< expected of the load cell, N and Nm in its axes
+  Vector6d reading = Vector6d::Zero();                     ///< expected of the load cell, N and Nm in its axes
   Eigen::Vector3d pull_in_base = Eigen::Vector3d::Zero();  ///< unit, base_link axes
   double dexterity = 0.0;                                  ///< 1 / kappa at the flange, lengths over 1 m
   std::optional<double> tracker_distance;                  ///< from the station to the flange, m
-  double log_det_gain =
-      0.0;  ///< by which this one raises log det of the information; infinite while that is singular
-  Vector6d sd =
-      Vector6d::Zero();  ///< of the compliances with it and all before it, rad/Nm (standardDeviations)
+  double log_det_gain = 0.0;  ///< by which this one raises log det of the information; infinite while that is singular
+  Vector6d sd = Vector6d::Zero();  ///< of the compliances with it and all before it, rad/Nm (standardDeviations)
   std::vector<std::vector<std::string>> separates;  ///< groups of effects that it tells apart
 };
 
@@ -49,9 +46,9 @@ struct Plan {
   bool usable = false;  ///< some joint's stiffness would be seen
   std::string reason;   ///< why not
   robot::JointMask unknown{};
-  std::array<std::string, 6> not_seen;  ///< why a joint would not be
-  int measured = 0;                     ///< postures that are counted in already
-  int asked = 0;  ///< postures asked for: `postures` may be fewer, where no more keep apart
+  std::array<std::string, 6> not_seen;      ///< why a joint would not be
+  int measured = 0;                         ///< postures that are counted in already
+  int asked = 0;                            ///< postures asked for: `postures` may be fewer, where no more keep apart
   Vector6d sd_measured = Vector6d::Zero();  ///< by those alone, rad/Nm; only meant where there are some
   std::vector<PlannedPosture> postures;
   double log_determinant = 0.0;
@@ -65,6 +62,7 @@ struct Plan {
 /// expected there (and, after a campaign, the misfit its model left). `identified` is that campaign's
 /// identification; it is needed to augment, and else places sweeps, hook and load where it is given. Throws
 /// InputError for what cannot be planned for.
-Plan planCampaign(const campaign::Campaign& campaign, const identification::Identification* identified, const PlanOptions& options);
+Plan planCampaign(const campaign::Campaign& campaign, const identification::Identification* identified,
+                  const PlanOptions& options);
 
 }  // namespace stiffscope::planning

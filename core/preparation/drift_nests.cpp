@@ -94,7 +94,9 @@ struct RoundEquations {
 class NetworkStep {
  public:
   NetworkStep(std::size_t rounds, std::size_t places)
-      : size_(3 * static_cast<Eigen::Index>(places)), rounds_(rounds), normal_(Eigen::MatrixXd::Zero(size_, size_)),
+      : size_(3 * static_cast<Eigen::Index>(places)),
+        rounds_(rounds),
+        normal_(Eigen::MatrixXd::Zero(size_, size_)),
         right_(Eigen::VectorXd::Zero(size_)) {
     for (RoundEquations& round : rounds_) round.by_places.setZero(6, size_);
   }
@@ -169,8 +171,9 @@ void improve(const std::vector<NestRound>& rounds, const metrology::TrackerNoise
 std::vector<NestRound> nestRounds(const campaign::Nests& nests) {
   std::vector<const campaign::NestReading*> rows;
   for (const campaign::NestReading& row : nests.rows) rows.push_back(&row);
-  std::stable_sort(rows.begin(), rows.end(),
-                   [](const campaign::NestReading* a, const campaign::NestReading* b) { return a->time_s < b->time_s; });
+  std::stable_sort(rows.begin(), rows.end(), [](const campaign::NestReading* a, const campaign::NestReading* b) {
+    return a->time_s < b->time_s;
+  });
   std::vector<NestRound> rounds;
   for (const campaign::NestReading* row : rows) {
     if (rounds.empty() || rounds.back().readings.contains(row->nest)) rounds.emplace_back();
@@ -189,8 +192,7 @@ NestNetwork fitNestNetwork(const std::vector<NestRound>& rounds, const metrology
   NestNetwork network;
   const std::vector<NestRound> used = usable(rounds, left_out);
   if (used.size() < 2 || !start(used, centre, network)) return network;
-  constexpr int kSteps =
-      4;  // from a registration that is near the optimum already; the last gives chi2 there
+  constexpr int kSteps = 4;  // from a registration that is near the optimum already; the last gives chi2 there
   for (int step = 0; step < kSteps; ++step) improve(used, noise, centre, network);
   network.determined = true;
   return network;
@@ -244,13 +246,15 @@ std::vector<double> pauses(const campaign::Loading& loading, double from_s, doub
 
 /// Whitened squared misfit of the unloaded positions with the station's motion taken off; places, axes and the
 /// sag of each joint are free, because they are larger than a jump may be.
-double misfitOf(const campaign::Campaign& campaign, const metrology::TrackerNoise& noise, const StationMotion& station) {
+double misfitOf(const campaign::Campaign& campaign, const metrology::TrackerNoise& noise,
+                const StationMotion& station) {
   campaign::Campaign corrected = campaign;
-  takeOffDrift(station, corrected);
+  applyDriftCorrection(station, corrected);
   const frames::Frames frames = frames::measureFrames(corrected);
   constexpr double kAnyCompliance = 1e-6;  // rad/Nm; what it really is, is fitted
   const frames::LoadingGeometry geometry = frames::sweptGeometry(corrected, frames, Vector6d::Constant(kAnyCompliance));
-  const frames::AbsoluteRows rows = frames::absoluteRows(corrected, frames, geometry, campaign::statePoints(corrected), noise);
+  const frames::AbsoluteRows rows =
+      frames::absoluteRows(corrected, frames, geometry, campaign::statePoints(corrected), noise);
   if (!rows.reason.empty()) return INFINITY;
   Eigen::MatrixXd columns(3 * static_cast<Eigen::Index>(rows.rows.size()), rows.parameters);
   Eigen::VectorXd left(columns.rows());
@@ -268,7 +272,8 @@ double misfitOf(const campaign::Campaign& campaign, const metrology::TrackerNois
 
 }  // namespace
 
-double jumpTime(const campaign::Campaign& campaign, const metrology::TrackerNoise& noise, StationMotion station, std::size_t round) {
+double jumpTime(const campaign::Campaign& campaign, const metrology::TrackerNoise& noise, StationMotion station,
+                std::size_t round) {
   const double from = station.epochs[round - 1].time_s, to = station.epochs[round].time_s;
   if (!campaign.loading || campaign.loading->frame != campaign::PointFrame::tracker) return 0.5 * (from + to);
   double best = INFINITY, best_time = 0.5 * (from + to);
@@ -400,12 +405,11 @@ StationMotion stationMotion(const campaign::Campaign& campaign, const std::optio
   }
   result.epochs = network.epochs;
   result.moved_limit = numerics::chiSquareLimit(kLevel / static_cast<double>(result.epochs.size()), 3.0);
-  for (const StationEpoch& epoch : result.epochs)
-    result.moved |= result.significance(epoch) > result.moved_limit;
+  for (const StationEpoch& epoch : result.epochs) result.moved |= result.significance(epoch) > result.moved_limit;
   return result;
 }
 
-void takeOffDrift(const StationMotion& station, campaign::Campaign& campaign) {
+void applyDriftCorrection(const StationMotion& station, campaign::Campaign& campaign) {
   forEachDriftingTable(campaign, [&](auto& table) {
     for (auto& row : table.rows) {
       if (std::isfinite(row.time_s)) row.point = station.firstFrom(row.time_s) * row.point;

@@ -40,9 +40,7 @@ struct StationMotion {
 
   /// Whether the nests lose their shape and no single one explains it: they are then no reference for the
   /// station.
-  bool deforming() const {
-    return deformation_dof > 0 && deformation_chi2 > deformation_limit && !moved_nest;
-  }
+  bool deforming() const { return deformation_dof > 0 && deformation_chi2 > deformation_limit && !moved_nest; }
 
   /// Squared displacement at the centre in parts of its variance.
   double significance(const StationEpoch& epoch) const;
@@ -69,12 +67,13 @@ void forEachDriftingTable(CampaignType& campaign, const Visit& visit) {
 }
 
 /// Takes the motion off the readings that state a time and are in the tracker's frame; the rest stays.
-void takeOffDrift(const StationMotion& station, campaign::Campaign& campaign);
+void applyDriftCorrection(const StationMotion& station, campaign::Campaign& campaign);
 
 /// When the station jumped that did so between round `round` of the nests and the one before, s: between two
 /// postures, where the unloaded positions then fit the arm best, or at the interval's start or end; its middle
 /// where the positions cannot say.
-double jumpTime(const campaign::Campaign& campaign, const metrology::TrackerNoise& noise, StationMotion station, std::size_t round);
+double jumpTime(const campaign::Campaign& campaign, const metrology::TrackerNoise& noise, StationMotion station,
+                std::size_t round);
 
 /// Tells a jump of the station between two rounds from drift, and says when it jumped.
 ///

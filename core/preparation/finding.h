@@ -18,11 +18,10 @@ struct AuditCheck {
   std::optional<double> value;  ///< in `unit`; empty where the check is not testable
   std::optional<double> limit;  ///< beyond which it warns, in `unit`
   std::string unit;
-  std::string where;         ///< `FILE:LINE` where a row is guilty; else the axis, posture, reflector or nest
-  std::string message;       ///< what was found; what is missing where the check is not testable
-  std::string limit_source;  ///< where the limit comes from, in words
-  std::vector<std::string>
-      details;  ///< more to know, a sentence each: joint by joint where a check is of several
+  std::string where;                 ///< `FILE:LINE` where a row is guilty; else the axis, posture, reflector or nest
+  std::string message;               ///< what was found; what is missing where the check is not testable
+  std::string limit_source;          ///< where the limit comes from, in words
+  std::vector<std::string> details;  ///< more to know, a sentence each: joint by joint where a check is of several
   /// No machine is like that: a unit or a table is wrong, and nothing computed from the readings means anything.
   bool impossible = false;
 };
@@ -40,15 +39,15 @@ AuditCheck notTestable(const std::string& id, const std::string& missing);
 /// Chance that a campaign without any fault gets a finding, over all checks together.
 inline constexpr double kFalseFinding = 0.01;
 
-/// A check by its id in reports and JSON, and in how many ways chance alone can carry it over a limit: 0 where the limit
-/// is one of practice, 2 where a largest value and a sum are each held against a limit of their own.
+/// A check by its id in reports and JSON, and in how many ways chance alone can carry it over a limit: 0 where the
+/// limit is one of practice, 2 where a largest value and a sum are each held against a limit of their own.
 struct AuditCheckId {
   std::string_view id;
   int limits_by_chance = 0;
 };
 
-/// Every check of the audit in the order of the report. Screening gives the first three, core/audit/audit.cpp says which
-/// function gives the others. A new check is one line here and one there; the compiler compares both.
+/// Every check of the audit in the order of the report. Screening gives the first three, core/audit/audit.cpp says
+/// which function gives the others. A new check is one line here and one there; the compiler compares both.
 inline constexpr std::size_t kScreeningChecks = 3;
 inline constexpr std::array<AuditCheckId, 29> kAuditCheckIds{{
     {"lost_beam"},

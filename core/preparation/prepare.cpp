@@ -1,8 +1,8 @@
 #include "core/preparation/prepare.h"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 #include <utility>
 
 #include "core/campaign/row_names.h"
@@ -42,7 +42,7 @@ DriftCorrection correctDrift(const StationMotion& station, campaign::Campaign& c
   }
   drift.until_s = station.epochs.back().time_s;
   countReadings(campaign, drift);
-  takeOffDrift(station, campaign);
+  applyDriftCorrection(station, campaign);
   return drift;
 }
 
@@ -56,7 +56,8 @@ PreparedCampaign prepareCampaign(campaign::Campaign read) {
   prepared.preparation.rejected = std::move(screening.rejected);
   prepared.scatter = repeatScatter(prepared.campaign);
   std::optional<metrology::TrackerNoise> noise;
-  if (declaredNoise(prepared.campaign)) noise = frames::trackerNoise(asNoisyAs(*prepared.campaign.tracker, noiseFactors(prepared.scatter)));
+  if (declaredNoise(prepared.campaign))
+    noise = frames::trackerNoise(asNoisyAs(*prepared.campaign.tracker, noiseFactors(prepared.scatter)));
   prepared.station = stationMotion(prepared.campaign, noise);
   if (prepared.station.moved && !prepared.station.deforming()) {
     findJumps(prepared.campaign, *noise, prepared.station);

@@ -59,7 +59,7 @@ void addScatter(const metrology::TrackerNoise& noise, const Repeats& repeats, Re
 
 /// Squared distance of each repeat from the mean of the others, by the declared noise.
 std::vector<std::pair<const campaign::LoadingReading*, double>> distances(const metrology::TrackerNoise& noise,
-                                                                const std::vector<Repeats>& states) {
+                                                                          const std::vector<Repeats>& states) {
   std::vector<std::pair<const campaign::LoadingReading*, double>> result;
   for (const Repeats& repeats : states) {
     const double others = static_cast<double>(repeats.size()) - 1.0;
@@ -87,14 +87,14 @@ std::vector<RejectedReading> outliers(const std::string& file, const metrology::
   for (Repeats& repeats : states) {
     while (repeats.size() >= 2) {
       const auto own = distances(noise, {repeats});
-      const auto worst = std::max_element(own.begin(), own.end(),
-                                          [](const auto& a, const auto& b) { return a.second < b.second; });
+      const auto worst =
+          std::max_element(own.begin(), own.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
       if (worst->second <= limit) break;
       const auto reject = [&](const campaign::LoadingReading* row) {
         found.push_back({file, row->line,
                          fmt::format("stands {:.3f} mm from the mean of its state's other repeats",
-                                     1e3 * (row->point - (sumOf(repeats) - row->point) /
-                                                             (static_cast<double>(repeats.size()) - 1.0))
+                                     1e3 * (row->point -
+                                            (sumOf(repeats) - row->point) / (static_cast<double>(repeats.size()) - 1.0))
                                                .norm())});
       };
       if (repeats.size() == 2) {

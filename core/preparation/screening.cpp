@@ -51,8 +51,8 @@ std::vector<RejectedReading> duplicates(const campaign::Campaign& campaign) {
       const std::size_t first =
           seen.add(i, place, [&](std::size_t other) { return table.rows[other].point == row.point; });
       if (first == campaign::RepeatCheck::kNew) continue;
-      found.push_back({table.file, row.line,
-                       fmt::format("the same point to the last digit as line {}", table.rows[first].line)});
+      found.push_back(
+          {table.file, row.line, fmt::format("the same point to the last digit as line {}", table.rows[first].line)});
     }
   });
   return found;
@@ -77,9 +77,8 @@ AuditCheck countCheck(const std::string& id, const std::vector<RejectedReading>&
 
 Screening screenReadings(campaign::Campaign campaign) {
   Screening result{std::move(campaign), {}, {}};
-  const auto screen = [&](const std::string& id, AuditVerdict verdict,
-                          const std::vector<RejectedReading>& found, const std::string& what,
-                          const std::string& source) {
+  const auto screen = [&](const std::string& id, AuditVerdict verdict, const std::vector<RejectedReading>& found,
+                          const std::string& what, const std::string& source) {
     result.checks.push_back(countCheck(id, found, verdict, what, source));
     result.rejected.insert(result.rejected.end(), found.begin(), found.end());
     dropRejected(found, result.campaign);
@@ -96,8 +95,8 @@ Screening screenReadings(campaign::Campaign campaign) {
     }
     return result;
   }
-  screen("lost_beam", AuditVerdict::fail, lostBeams(result.campaign),
-         "readings at (0, 0, 0): the beam was lost", "no reflector stands inside the station");
+  screen("lost_beam", AuditVerdict::fail, lostBeams(result.campaign), "readings at (0, 0, 0): the beam was lost",
+         "no reflector stands inside the station");
   screen("duplicate_readings", AuditVerdict::warn, duplicates(result.campaign),
          "readings repeat another's coordinates to the last digit: copied, or the beam still on another "
          "reflector",

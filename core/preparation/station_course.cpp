@@ -1,8 +1,8 @@
 #include "core/preparation/station_course.h"
 
+#include <fmt/format.h>
 #include <Eigen/Dense>
 #include <algorithm>
-#include <fmt/format.h>
 
 #include "core/preparation/drift_nests.h"
 #include "core/robot/kinematics.h"
@@ -127,9 +127,8 @@ Station stationCourse(const campaign::Campaign& campaign, const std::optional<me
     if (jumped) motion.epochs[at].jumped_at = jumpTime(campaign, *noise, motion, at);
   }
   result.in_words =
-      jumped && fits
-          ? fmt::format("the tracker moved once, by {:.3f} mm where the arm was read", 1e3 * result.moved_by)
-          : fmt::format("the tracker wandered, by {:.3f} mm where the arm was read", 1e3 * result.moved_by);
+      jumped && fits ? fmt::format("the tracker moved once, by {:.3f} mm where the arm was read", 1e3 * result.moved_by)
+                     : fmt::format("the tracker wandered, by {:.3f} mm where the arm was read", 1e3 * result.moved_by);
   return result;
 }
 

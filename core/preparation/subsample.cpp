@@ -11,12 +11,13 @@ constexpr int kNotKept = -1;
 
 /// The rows of the postures that are kept; `now` is the new index of each posture.
 template <class Row>
-std::optional<campaign::Table<Row>> ofPostures(const std::optional<campaign::Table<Row>>& table, const std::vector<int>& now) {
+std::optional<campaign::Table<Row>> ofPostures(const std::optional<campaign::Table<Row>>& table,
+                                               const std::vector<int>& now) {
   if (!table) return std::nullopt;
   const auto posture = [&](const Row& row) { return now[static_cast<std::size_t>(row.pose)]; };
   campaign::Table<Row> kept{table->file, table->frame, {}};
-  kept.rows.reserve(static_cast<std::size_t>(std::count_if(
-      table->rows.begin(), table->rows.end(), [&](const Row& row) { return posture(row) != kNotKept; })));
+  kept.rows.reserve(static_cast<std::size_t>(
+      std::count_if(table->rows.begin(), table->rows.end(), [&](const Row& row) { return posture(row) != kNotKept; })));
   for (const Row& row : table->rows) {
     if (posture(row) == kNotKept) continue;
     kept.rows.push_back(row);
@@ -25,9 +26,11 @@ std::optional<campaign::Table<Row>> ofPostures(const std::optional<campaign::Tab
   return kept;
 }
 
-/// As many readings of every kind, spread evenly over it: `kind(row)` is the reflector, with the axis of a circle sweep.
+/// As many readings of every kind, spread evenly over it: `kind(row)` is the reflector, with the axis of a circle
+/// sweep.
 template <class Row, class Kind>
-std::optional<campaign::Table<Row>> ofReadings(const std::optional<campaign::Table<Row>>& table, std::size_t most, const Kind& kind) {
+std::optional<campaign::Table<Row>> ofReadings(const std::optional<campaign::Table<Row>>& table, std::size_t most,
+                                               const Kind& kind) {
   if (!table || table->rows.size() <= most) return table;
   std::map<int, std::vector<std::size_t>> kinds;
   for (std::size_t i = 0; i < table->rows.size(); ++i) kinds[kind(table->rows[i])].push_back(i);
@@ -63,13 +66,29 @@ campaign::Campaign evenlySpread(const campaign::Campaign& campaign, std::size_t 
     kept_ids.push_back(pose_ids[posture]);
   }
   const int reflectors = static_cast<int>(targets.size());
-  return {folder,        name,        date,           texts,       robot,
-          base_link,     flange_link, double_encoder, gravity,     tracker,
-          targets,       load_cell,   tool,
-          ofReadings(circle_sweeps, most_swept, [&](const campaign::CircleReading& row) { return row.axis * reflectors + row.target; }),
+  return {folder,
+          name,
+          date,
+          texts,
+          robot,
+          base_link,
+          flange_link,
+          double_encoder,
+          gravity,
+          tracker,
+          targets,
+          load_cell,
+          tool,
+          ofReadings(circle_sweeps, most_swept,
+                     [&](const campaign::CircleReading& row) { return row.axis * reflectors + row.target; }),
           ofReadings(wrist_sweep, most_swept, [](const campaign::WristReading& row) { return row.target; }),
-          ofPostures(loading, now), ofPostures(states, now), ofPostures(displacements, now), nests, kept_ids,
-          nest_ids,      inputs};
+          ofPostures(loading, now),
+          ofPostures(states, now),
+          ofPostures(displacements, now),
+          nests,
+          kept_ids,
+          nest_ids,
+          inputs};
 }
 
 bool hasLongSweep(const campaign::Campaign& campaign, std::size_t most_swept) {

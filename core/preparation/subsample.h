@@ -15,7 +15,8 @@ std::vector<std::size_t> evenlySpreadIndices(std::size_t count, std::size_t most
 
 /// The campaign of those postures alone, numbered anew in their order, and of each sweep `most_swept` readings, as many
 /// of each axis and reflector, spread evenly. The other readings are never copied.
-campaign::Campaign evenlySpread(const campaign::Campaign& campaign, std::size_t most, std::size_t most_swept = kMostSwept);
+campaign::Campaign evenlySpread(const campaign::Campaign& campaign, std::size_t most,
+                                std::size_t most_swept = kMostSwept);
 
 /// Whether evenlySpread of that many would leave sweep readings out.
 bool hasLongSweep(const campaign::Campaign& campaign, std::size_t most_swept = kMostSwept);

@@ -8,7 +8,7 @@ namespace stiffscope::robot {
 
 /// Translational stiffness of a point in one direction: what a force along it meets, N/m.
 struct PrincipalStiffness {
-  double stiffness = 0.0;  ///< infinite where joint springs do not let the point move
+  double stiffness = 0.0;                               ///< infinite where joint springs do not let the point move
   Eigen::Vector3d direction = Eigen::Vector3d::Zero();  ///< unit, its largest component positive
 };
 
@@ -19,9 +19,8 @@ struct CartesianStiffness {
   /// C_x = J (K_theta - K_c)^-1 J^T: displacement (m) and rotation (rad) by force (N) and moment (Nm) at the
   /// point.
   Matrix6d compliance = Matrix6d::Zero();
-  bool invertible = false;  ///< false in a singularity, and where a joint counts as rigid
-  Matrix6d stiffness =
-      Matrix6d::Zero();  ///< K_x = C_x^-1, paper (4); (6) without K_c. Zero if not invertible
+  bool invertible = false;                ///< false in a singularity, and where a joint counts as rigid
+  Matrix6d stiffness = Matrix6d::Zero();  ///< K_x = C_x^-1, paper (4); (6) without K_c. Zero if not invertible
   /// Of the translational block of C_x: a force alone acts, the flange is free to turn. Softest direction
   /// first.
   std::array<PrincipalStiffness, 3> principal;
@@ -32,8 +31,7 @@ struct CartesianStiffness {
 /// (Nm/rad, zero: paper (6)). Symmetric where K_c is, which a moment that keeps its direction spoils a
 /// little. The principal directions are those of the symmetric part.
 CartesianStiffness cartesianStiffness(const Eigen::Vector3d& point, const Matrix6d& jacobian,
-                                      const Vector6d& compliance,
-                                      const Matrix6d& geometric = Matrix6d::Zero());
+                                      const Vector6d& compliance, const Matrix6d& geometric = Matrix6d::Zero());
 
 /// By how much K_c changes the springs at the point: the Frobenius norm of the change of C_x's translational
 /// block, over that of the block without K_c. Dumas et al. place the robot where this may be neglected.

@@ -32,7 +32,7 @@ Matrix6d geometricStiffness(const ArmAxes& axes, const Wrench& wrench_in_base) {
   return stiffness;
 }
 
-Matrix6d geometricStiffness(const ArmAxes& axes, const ArmPosture& posture, const OwnWeight& weight) {
+Matrix6d geometricStiffness(const ArmAxes& axes, const ArmPosture& posture, const GravityLoad& weight) {
   Matrix6d stiffness = Matrix6d::Zero();
   if (!weight.any()) return stiffness;
   for (int body = 1; body <= 6; ++body) {

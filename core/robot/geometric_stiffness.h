@@ -12,6 +12,6 @@ namespace stiffscope::robot {
 Matrix6d geometricStiffness(const ArmAxes& axes, const Wrench& wrench_in_base);
 
 /// The own weight's share of K_c; `axes` are those at that posture.
-Matrix6d geometricStiffness(const ArmAxes& axes, const ArmPosture& posture, const OwnWeight& weight);
+Matrix6d geometricStiffness(const ArmAxes& axes, const ArmPosture& posture, const GravityLoad& weight);
 
 }  // namespace stiffscope::robot

@@ -6,16 +6,15 @@
 
 namespace stiffscope::robot {
 
-bool OwnWeight::any() const {
+bool GravityLoad::any() const {
   return gravity_in_base.squaredNorm() > 0.0 &&
-         std::any_of(bodies.begin() + 1, bodies.end(),
-                     [](const BodyMass& body) { return body.mass_kg > 0.0; });
+         std::any_of(bodies.begin() + 1, bodies.end(), [](const BodyMass& body) { return body.mass_kg > 0.0; });
 }
 
-OwnWeight ownWeight(const Robot& nominal, const std::optional<Tool>& tool,
-                    const Eigen::Vector3d& gravity_in_base_link, const Robot& arm,
-                    const Eigen::Isometry3d& base_from_base_link) {
-  OwnWeight weight;
+GravityLoad gravityLoad(const Robot& nominal, const std::optional<Tool>& tool,
+                        const Eigen::Vector3d& gravity_in_base_link, const Robot& arm,
+                        const Eigen::Isometry3d& base_from_base_link) {
+  GravityLoad weight;
   weight.gravity_in_base = base_from_base_link.linear() * gravity_in_base_link;
   weight.links_known = true;
   for (std::size_t body = 1; body < weight.bodies.size(); ++body) {
@@ -27,14 +26,13 @@ OwnWeight ownWeight(const Robot& nominal, const std::optional<Tool>& tool,
     BodyMass& last = weight.bodies[6];
     const Eigen::Vector3d tool_com = arm.base_from_flange_at_zero * tool->com_in_flange;
     const double together = last.mass_kg + tool->mass_kg;
-    last.com_in_base_at_zero =
-        (last.mass_kg * last.com_in_base_at_zero + tool->mass_kg * tool_com) / together;
+    last.com_in_base_at_zero = (last.mass_kg * last.com_in_base_at_zero + tool->mass_kg * tool_com) / together;
     last.mass_kg = together;
   }
   return weight;
 }
 
-Vector6d weightTorque(const Robot& robot, const ArmPosture& posture, const OwnWeight& weight) {
+Vector6d weightTorque(const Robot& robot, const ArmPosture& posture, const GravityLoad& weight) {
   // Sum from the tip inwards: force and moment about the base origin of all that hangs beyond each joint.
   Vector6d torque = Vector6d::Zero();
   Eigen::Vector3d force = Eigen::Vector3d::Zero(), moment = Eigen::Vector3d::Zero();
@@ -49,8 +47,7 @@ Vector6d weightTorque(const Robot& robot, const ArmPosture& posture, const OwnWe
   return torque;
 }
 
-Vector6d saggedAngles(const Robot& robot, const Vector6d& q, const OwnWeight& weight,
-                      const Vector6d& compliance) {
+Vector6d saggedAngles(const Robot& robot, const Vector6d& q, const GravityLoad& weight, const Vector6d& compliance) {
   if (!weight.any() || compliance.isZero()) return q;
   constexpr int kSteps = 3;
   return springEquilibrium(

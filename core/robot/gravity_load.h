@@ -14,24 +14,25 @@ struct Tool {
 };
 
 /// The arm's own weight as dead loads: each body's mass at its centre, the tool with the last body.
-struct OwnWeight {
-  std::array<BodyMass, 7> bodies;                           ///< centres in the base frame of the arm, joints zero
+struct GravityLoad {
+  std::array<BodyMass, 7> bodies;                             ///< centres in the base frame of the arm, joints zero
   Eigen::Vector3d gravity_in_base = Eigen::Vector3d::Zero();  ///< m/s^2
-  bool links_known = false;                                 ///< false: the URDF states no link masses
+  bool links_known = false;                                   ///< false: the URDF states no link masses
 
   bool any() const;
 };
 
-/// Masses of `nominal`'s links (the URDF's, in base_link) and of the tool, which the flange of `arm` carries, brought to
-/// `base_from_base_link` axes (R0 or base_link). Link masses are known when every body beyond joint 2 states one.
-OwnWeight ownWeight(const Robot& nominal, const std::optional<Tool>& tool, const Eigen::Vector3d& gravity_in_base_link,
-                    const Robot& arm, const Eigen::Isometry3d& base_from_base_link);
+/// Masses of `nominal`'s links (the URDF's, in base_link) and of the tool, which the flange of `arm` carries, brought
+/// to `base_from_base_link` axes (R0 or base_link). Link masses are known when every body beyond joint 2 states one.
+GravityLoad gravityLoad(const Robot& nominal, const std::optional<Tool>& tool,
+                        const Eigen::Vector3d& gravity_in_base_link, const Robot& arm,
+                        const Eigen::Isometry3d& base_from_base_link);
 
 /// Joint torques of the own weight at a posture, Nm.
-Vector6d weightTorque(const Robot& robot, const ArmPosture& posture, const OwnWeight& weight);
+Vector6d weightTorque(const Robot& robot, const ArmPosture& posture, const GravityLoad& weight);
 
 /// Joint angles of the arm with its springs loaded by its own weight: q + c * weightTorque(q + ...), rad.
 /// `compliance` c in rad/Nm. Fixed-point iteration: the sag is small against the posture, three steps reach 1e-9 rad.
-Vector6d saggedAngles(const Robot& robot, const Vector6d& q, const OwnWeight& weight, const Vector6d& compliance);
+Vector6d saggedAngles(const Robot& robot, const Vector6d& q, const GravityLoad& weight, const Vector6d& compliance);
 
 }  // namespace stiffscope::robot

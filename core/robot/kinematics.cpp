@@ -43,8 +43,7 @@ metrology::Line axisAt(const Robot& robot, const ArmPosture& posture, int joint)
 
 ArmAxes axesAt(const Robot& robot, const ArmPosture& posture) {
   ArmAxes axes;
-  for (int joint = 0; joint < 6; ++joint)
-    axes[static_cast<std::size_t>(joint)] = axisAt(robot, posture, joint);
+  for (int joint = 0; joint < 6; ++joint) axes[static_cast<std::size_t>(joint)] = axisAt(robot, posture, joint);
   return axes;
 }
 

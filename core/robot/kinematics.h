@@ -34,7 +34,6 @@ ArmAxes axesAt(const Robot& robot, const ArmPosture& posture);
 /// base_from_flange at this posture.
 Eigen::Isometry3d flangeAt(const Robot& robot, const ArmPosture& posture);
 
-
 /// Jacobian of a point of the flange body, paper (1): rows 0-2 the velocity of the point at `point_in_base`,
 /// rows 3-5 the angular velocity, both in base axes; column j is [z_j x (p - p_j); z_j].
 Matrix6d jacobianAt(const ArmAxes& axes, const Eigen::Vector3d& point_in_base);

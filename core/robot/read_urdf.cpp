@@ -1,8 +1,8 @@
 #include "core/robot/read_urdf.h"
 
+#include <fmt/format.h>
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <fmt/format.h>
 #include <limits>
 #include <map>
 #include <set>
@@ -64,9 +64,10 @@ Eigen::Vector3d urdfAxis(const io::XmlNode& joint);
 
 namespace {
 
-// A robot description may hold elements of other programs, which are passed over; one that is nearly a name which is read
-// here would be passed over too, and its value with it.
-void refuseMisspelt(const io::XmlNode& node, const std::vector<std::string>& elements, const std::vector<std::string>& attributes) {
+// A robot description may hold elements of other programs, which are passed over; one that is nearly a name which is
+// read here would be passed over too, and its value with it.
+void refuseMisspelt(const io::XmlNode& node, const std::vector<std::string>& elements,
+                    const std::vector<std::string>& attributes) {
   const auto check = [&](const std::string& name, const std::vector<std::string>& known, const io::XmlNode& where) {
     if (std::find(known.begin(), known.end(), name) != known.end()) return;
     const std::string hint = io::nearestNameHint(name, known);
@@ -99,8 +100,9 @@ void UrdfModel::addLink(const io::XmlNode& node) {
 }
 
 void UrdfModel::addJoint(const io::XmlNode& node) {
-  refuseMisspelt(node, {"origin", "parent", "child", "axis", "calibration", "dynamics", "limit", "mimic", "safety_controller"},
-                 {"name", "type"});
+  refuseMisspelt(
+      node, {"origin", "parent", "child", "axis", "calibration", "dynamics", "limit", "mimic", "safety_controller"},
+      {"name", "type"});
   const UrdfJoint joint{node.requiredName("name"), node.requiredName("type"),
                         node.requiredChild("parent").requiredName("link"),
                         node.requiredChild("child").requiredName("link"), node};
@@ -177,8 +179,7 @@ namespace {
 
 using Chain = std::vector<const UrdfJoint*>;
 
-void requireLink(const UrdfModel& model, const io::XmlNode& where, const std::string& role,
-                 const std::string& name) {
+void requireLink(const UrdfModel& model, const io::XmlNode& where, const std::string& role, const std::string& name) {
   if (model.hasLink(name)) return;
   where.refuse(role, name, "expected a link of the robot" + io::nearestNameHint(name, model.linkNames()));
 }
@@ -191,9 +192,8 @@ Chain chainBetween(const UrdfModel& model, const std::string& base, const std::s
   for (std::string link = flange; link != base;) {
     const UrdfJoint* joint = model.jointAbove(link);
     if (joint == nullptr) {
-      model.robot().refuse(
-          "flange_link", flange,
-          fmt::format("expected a link beyond '{}'; the way back from it ends at '{}'", base, link));
+      model.robot().refuse("flange_link", flange,
+                           fmt::format("expected a link beyond '{}'; the way back from it ends at '{}'", base, link));
     }
     if (chain.size() == model.joints().size()) {
       joint->node.refuse("joint", joint->name, "expected a chain without a loop; this joint is part of one");
@@ -214,9 +214,9 @@ void requireSixRevolute(const UrdfModel& model, const Chain& chain, const std::s
   for (const UrdfJoint* joint : chain) {
     if (joint->fixed()) continue;
     if (!turns(*joint)) {
-      joint->node.refuse("type", joint->type,
-                         fmt::format("expected revolute joints between '{}' and '{}'; joint '{}' is not",
-                                     base, flange, joint->name));
+      joint->node.refuse(
+          "type", joint->type,
+          fmt::format("expected revolute joints between '{}' and '{}'; joint '{}' is not", base, flange, joint->name));
     }
     if (!joint->node.children("mimic").empty()) {
       joint->node.refuse("mimic", joint->name,
@@ -225,10 +225,9 @@ void requireSixRevolute(const UrdfModel& model, const Chain& chain, const std::s
     turning.push_back(joint->name);
   }
   if (turning.size() != 6) {
-    model.robot().refuse(
-        "joint", "",
-        fmt::format("expected six revolute joints between '{}' and '{}'; there are {}{}{}", base, flange,
-                    turning.size(), turning.empty() ? "" : ": ", fmt::join(turning, ", ")));
+    model.robot().refuse("joint", "",
+                         fmt::format("expected six revolute joints between '{}' and '{}'; there are {}{}{}", base,
+                                     flange, turning.size(), turning.empty() ? "" : ": ", fmt::join(turning, ", ")));
   }
 }
 
@@ -278,8 +277,7 @@ void placeAttachedLinks(const UrdfModel& model, Robot& robot) {
       if (!placed.insert(other).second) continue;
       requireLink(model, joint->node, below ? "child" : "parent", other);
       const Eigen::Isometry3d step = urdfOrigin(joint->node);
-      robot.links.push_back(
-          {other, carrier.body, carrier.base_from_link_at_zero * (below ? step : step.inverse())});
+      robot.links.push_back({other, carrier.body, carrier.base_from_link_at_zero * (below ? step : step.inverse())});
     }
   }
 }
@@ -293,8 +291,7 @@ void addMass(const UrdfModel& model, const LinkFrame& frame, Robot& robot) {
   if (mass_kg == 0.0) return;
   const Eigen::Vector3d com = frame.base_from_link_at_zero * urdfOrigin(*inertial).translation();
   BodyMass& body = robot.bodies[static_cast<std::size_t>(frame.body)];
-  body.com_in_base_at_zero =
-      (body.mass_kg * body.com_in_base_at_zero + mass_kg * com) / (body.mass_kg + mass_kg);
+  body.com_in_base_at_zero = (body.mass_kg * body.com_in_base_at_zero + mass_kg * com) / (body.mass_kg + mass_kg);
   body.mass_kg += mass_kg;
 }
 
@@ -313,8 +310,7 @@ Robot parseUrdf(std::string_view bytes, const std::string& file, const std::stri
   return robot;
 }
 
-Robot readUrdf(const std::filesystem::path& file, const std::string& base_link,
-               const std::string& flange_link) {
+Robot readUrdf(const std::filesystem::path& file, const std::string& base_link, const std::string& flange_link) {
   return parseUrdf(io::readTextFile(file, io::kLargestXml), file.string(), base_link, flange_link);
 }
 

@@ -15,8 +15,7 @@ namespace stiffscope::robot {
 /// Throws InputError with the reason where the file cannot be read, where the chain is not six revolute
 /// joints (a mimic or other joint on it, a loop, a link that is missing or has two parents), or where a
 /// number on the chain is none (xacro that was not expanded).
-Robot readUrdf(const std::filesystem::path& file, const std::string& base_link,
-               const std::string& flange_link);
+Robot readUrdf(const std::filesystem::path& file, const std::string& base_link, const std::string& flange_link);
 
 /// The same from the bytes of a URDF; `file` is its name for messages.
 Robot parseUrdf(std::string_view bytes, const std::string& file, const std::string& base_link,

@@ -29,8 +29,7 @@ Eigen::Vector3d toolPoint(const ElasticMachine& machine, const Placement& placem
                           const Eigen::Vector3d& point_in_flange);
 
 /// All forces on what lies beyond each element, in their order: weights, springs between bodies, tool, load.
-std::vector<ForceSum> forcesBeyond(const ElasticMachine& machine, const Placement& placement,
-                                   const AppliedLoad& load);
+std::vector<ForceSum> forcesBeyond(const ElasticMachine& machine, const Placement& placement, const AppliedLoad& load);
 
 namespace {
 
@@ -110,8 +109,7 @@ Eigen::MatrixXd chainHessian(const ElasticMachine& machine, const Placement& pla
       const Eigen::Index column = begin + static_cast<Eigen::Index>(k);
       const int direction = element.free[k];
       for (std::size_t l = 0; l < element.free.size(); ++l) {
-        hessian(begin + static_cast<Eigen::Index>(l), column) +=
-            element.stiffness(element.free[l], direction);
+        hessian(begin + static_cast<Eigen::Index>(l), column) += element.stiffness(element.free[l], direction);
       }
       const Eigen::Vector3d axis = frame.linear().col(direction % 3);
       const bool turns = direction >= 3;
@@ -145,8 +143,7 @@ Eigen::MatrixXd chainHessian(const ElasticMachine& machine, const Placement& pla
 
 void addCurveTorques(const ElasticMachine& machine, const Eigen::VectorXd& x, Anchors anchors,
                      Eigen::VectorXd& gradient) {
-  forCurves(machine, x, anchors,
-            [&](Eigen::Index k, const CurvePoint& point) { gradient[k] += point.torque; });
+  forCurves(machine, x, anchors, [&](Eigen::Index k, const CurvePoint& point) { gradient[k] += point.torque; });
 }
 
 }  // namespace
@@ -172,8 +169,8 @@ Placement place(const ElasticMachine& machine, const Vector6d& q, const Eigen::V
   give(-1, false);
   placement.body_motions[0] = motion;
   for (int i = 0; i < 6; ++i) {
-    motion = motion * machine.axis_errors[i] *
-             turnAbout(machine.nominal.axes_in_base_at_zero[i], machine.zeros[i] + q[i]);
+    motion =
+        motion * machine.axis_errors[i] * turnAbout(machine.nominal.axes_in_base_at_zero[i], machine.zeros[i] + q[i]);
     give(i, false);
     placement.body_motions[i + 1] = motion;
     give(i, true);
@@ -201,11 +198,10 @@ double potentialEnergy(const ElasticMachine& machine, const Vector6d& q, const A
   }
   for (int b = 1; b < 7; ++b) {
     const robot::BodyMass& body = machine.bodies[b];
-    energy -=
-        body.mass_kg * machine.gravity_in_base.dot(placement.body_motions[b] * body.com_in_base_at_zero);
+    energy -= body.mass_kg * machine.gravity_in_base.dot(placement.body_motions[b] * body.com_in_base_at_zero);
   }
-  energy -= machine.tool.mass_kg *
-            machine.gravity_in_base.dot(toolPoint(machine, placement, machine.tool.com_in_flange));
+  energy -=
+      machine.tool.mass_kg * machine.gravity_in_base.dot(toolPoint(machine, placement, machine.tool.com_in_flange));
   return energy + loadPotential(load, toolPoint(machine, placement, loadPointInFlange(load)));
 }
 
@@ -226,17 +222,14 @@ EnergySlopes energySlopes(const ElasticMachine& machine, const Vector6d& q, cons
                           const Eigen::VectorXd& x, Anchors anchors) {
   const Placement placement = place(machine, q, x);
   const std::vector<ForceSum> forces = forcesBeyond(machine, placement, load);
-  EnergySlopes slopes{chainGradient(machine, placement, forces, x),
-                      chainHessian(machine, placement, forces, x)};
+  EnergySlopes slopes{chainGradient(machine, placement, forces, x), chainHessian(machine, placement, forces, x)};
   addCurveTorques(machine, x, anchors, slopes.gradient);
   addCurveRates(machine, x, anchors, slopes.hessian);
   return slopes;
 }
 
-void addCurveRates(const ElasticMachine& machine, const Eigen::VectorXd& x, Anchors anchors,
-                   Eigen::MatrixXd& hessian) {
-  forCurves(machine, x, anchors,
-            [&](Eigen::Index k, const CurvePoint& point) { hessian(k, k) += point.rate; });
+void addCurveRates(const ElasticMachine& machine, const Eigen::VectorXd& x, Anchors anchors, Eigen::MatrixXd& hessian) {
+  forCurves(machine, x, anchors, [&](Eigen::Index k, const CurvePoint& point) { hessian(k, k) += point.rate; });
 }
 
 namespace {
@@ -252,8 +245,8 @@ Eigen::MatrixXd energyHessian(const ElasticMachine& machine, const Vector6d& q, 
     Eigen::VectorXd above = x, below = x;
     above[k] += kDifference;
     below[k] -= kDifference;
-    hessian.col(k) = (smoothGradient(machine, q, load, above) - smoothGradient(machine, q, load, below)) /
-                     (2.0 * kDifference);
+    hessian.col(k) =
+        (smoothGradient(machine, q, load, above) - smoothGradient(machine, q, load, below)) / (2.0 * kDifference);
   }
   hessian = 0.5 * (hessian + hessian.transpose()).eval();
   addCurveRates(machine, x, anchors, hessian);
@@ -280,8 +273,7 @@ Descent descentStep(const Eigen::MatrixXd& hessian, const Eigen::VectorXd& gradi
 
 /// Fraction of the step at which the energy is no higher than `energy` (to its rounding).
 double acceptedFraction(const ElasticMachine& machine, const Vector6d& q, const AppliedLoad& load,
-                        const Eigen::VectorXd& x, const Eigen::VectorXd& step, double energy,
-                        Anchors anchors) {
+                        const Eigen::VectorXd& x, const Eigen::VectorXd& step, double energy, Anchors anchors) {
   constexpr double kRounding = 1e-13;
   double fraction = 1.0;
   for (int halving = 0; halving < 40; ++halving, fraction *= 0.5) {
@@ -305,8 +297,8 @@ void fillPlaces(const ElasticMachine& machine, const AppliedLoad& load, MachineS
 
 /// Newton's steps with the analytic Hessian, from the unstrained machine. False, with nothing promised of x,
 /// where they do not shrink at once to nothing or the machine gives more than that Hessian is right for.
-bool settleQuickly(const ElasticMachine& machine, const AppliedLoad& load, Anchors anchors,
-                   MachineState& state, Eigen::VectorXd& x) {
+bool settleQuickly(const ElasticMachine& machine, const AppliedLoad& load, Anchors anchors, MachineState& state,
+                   Eigen::VectorXd& x) {
   constexpr int kMostSteps = 15;
   constexpr double kSmall = 0.05;  // m and rad
   double before = kSmall;
@@ -333,8 +325,8 @@ bool settleQuickly(const ElasticMachine& machine, const AppliedLoad& load, Ancho
   return false;
 }
 
-void settleCarefully(const ElasticMachine& machine, const AppliedLoad& load, Anchors anchors,
-                     MachineState& state, Eigen::VectorXd& x) {
+void settleCarefully(const ElasticMachine& machine, const AppliedLoad& load, Anchors anchors, MachineState& state,
+                     Eigen::VectorXd& x) {
   while (!state.converged && state.iterations < kMostIterations) {
     const Eigen::MatrixXd hessian = energyHessian(machine, state.q, load, x, anchors);
     const Descent descent = descentStep(hessian, energyGradient(machine, state.q, load, x, anchors));
@@ -349,7 +341,6 @@ void settleCarefully(const ElasticMachine& machine, const AppliedLoad& load, Anc
 }
 
 }  // namespace
-
 
 MachineState stateAt(const ElasticMachine& machine, const Vector6d& q, const AppliedLoad& load,
                      const Eigen::VectorXd& x) {
@@ -383,14 +374,12 @@ Eigen::VectorXd arrivedAnchors(const ElasticMachine& machine, const MachineState
   Eigen::VectorXd anchors(machine.sliderCount());
   Eigen::Index at = 0;
   for (const CoordinateCurve& one : machine.curves) {
-    for (std::size_t s = 0; s < one.curve.sliders.size(); ++s)
-      anchors[at++] = rest.deformation[one.coordinate];
+    for (std::size_t s = 0; s < one.curve.sliders.size(); ++s) anchors[at++] = rest.deformation[one.coordinate];
   }
   return anchors;
 }
 
-Eigen::VectorXd slippedAnchors(const ElasticMachine& machine, const MachineState& state,
-                               Eigen::VectorXd anchors) {
+Eigen::VectorXd slippedAnchors(const ElasticMachine& machine, const MachineState& state, Eigen::VectorXd anchors) {
   Eigen::Index at = 0;
   for (const CoordinateCurve& one : machine.curves) {
     slip(one.curve, state.deformation[one.coordinate], anchors.data() + at);
@@ -399,11 +388,9 @@ Eigen::VectorXd slippedAnchors(const ElasticMachine& machine, const MachineState
   return anchors;
 }
 
-Eigen::Isometry3d baseFromLink(const ElasticMachine& machine, const MachineState& state,
-                               const robot::LinkFrame& link) {
+Eigen::Isometry3d baseFromLink(const ElasticMachine& machine, const MachineState& state, const robot::LinkFrame& link) {
   if (link.body == 6) {  // beyond the last link element, as the flange is
-    return state.base_from_flange * machine.nominal.base_from_flange_at_zero.inverse() *
-           link.base_from_link_at_zero;
+    return state.base_from_flange * machine.nominal.base_from_flange_at_zero.inverse() * link.base_from_link_at_zero;
   }
   return state.body_motions[link.body] * link.base_from_link_at_zero;
 }
@@ -411,10 +398,8 @@ Eigen::Isometry3d baseFromLink(const ElasticMachine& machine, const MachineState
 namespace {
 
 /// Forces on the tool: its weight and the load.
-void addToolForces(const ElasticMachine& machine, const Placement& placement, const AppliedLoad& load,
-                   ForceSum& sum) {
-  sum.add(machine.tool.mass_kg * machine.gravity_in_base,
-          toolPoint(machine, placement, machine.tool.com_in_flange));
+void addToolForces(const ElasticMachine& machine, const Placement& placement, const AppliedLoad& load, ForceSum& sum) {
+  sum.add(machine.tool.mass_kg * machine.gravity_in_base, toolPoint(machine, placement, machine.tool.com_in_flange));
   const Eigen::Vector3d point = toolPoint(machine, placement, loadPointInFlange(load));
   sum.add(loadForce(load, point), point);
 }
@@ -435,8 +420,7 @@ Eigen::Vector3d toolPoint(const ElasticMachine& machine, const Placement& placem
   return placement.tool_motion * (machine.nominal.base_from_flange_at_zero * point_in_flange);
 }
 
-std::vector<ForceSum> forcesBeyond(const ElasticMachine& machine, const Placement& placement,
-                                   const AppliedLoad& load) {
+std::vector<ForceSum> forcesBeyond(const ElasticMachine& machine, const Placement& placement, const AppliedLoad& load) {
   std::vector<SpringNow> springs;
   for (const LinkSpring& spring : machine.truth.link_springs) {
     springs.push_back(springNow(spring, placement.body_motions));
@@ -453,8 +437,7 @@ std::vector<ForceSum> forcesBeyond(const ElasticMachine& machine, const Placemen
     for (; body >= innermost; --body) {
       if (body > 0) {
         const robot::BodyMass& mass = machine.bodies[body];
-        beyond.add(mass.mass_kg * machine.gravity_in_base,
-                   placement.body_motions[body] * mass.com_in_base_at_zero);
+        beyond.add(mass.mass_kg * machine.gravity_in_base, placement.body_motions[body] * mass.com_in_base_at_zero);
       }
       addSpringForces(machine.truth.link_springs, springs, body, beyond);
     }

@@ -13,10 +13,9 @@ namespace stiffscope::simulation {
 /// Where everything stands when the motors are at q (reported angles, rad) and the elastic coordinates are x
 /// (one a free direction of every element, chain order; m and rad).
 struct Placement {
-  std::array<Eigen::Isometry3d, 7>
-      body_motions;               ///< nominal place at zero -> place now, base_link; [0] the base
-  Eigen::Isometry3d tool_motion;  ///< the same beyond the last link element: flange and tool
-  std::vector<Eigen::Isometry3d> before_giving;  ///< base_from_element of each element, before it gives
+  std::array<Eigen::Isometry3d, 7> body_motions;  ///< nominal place at zero -> place now, base_link; [0] the base
+  Eigen::Isometry3d tool_motion;                  ///< the same beyond the last link element: flange and tool
+  std::vector<Eigen::Isometry3d> before_giving;   ///< base_from_element of each element, before it gives
 };
 
 Placement place(const ElasticMachine& machine, const Vector6d& q, const Eigen::VectorXd& x);
@@ -55,8 +54,7 @@ EnergySlopes energySlopes(const ElasticMachine& machine, const Vector6d& q, cons
                           const Eigen::VectorXd& x, Anchors anchors);
 
 /// Adds the curves' rates at x to the diagonal.
-void addCurveRates(const ElasticMachine& machine, const Eigen::VectorXd& x, Anchors anchors,
-                   Eigen::MatrixXd& hessian);
+void addCurveRates(const ElasticMachine& machine, const Eigen::VectorXd& x, Anchors anchors, Eigen::MatrixXd& hessian);
 
 /// The machine at rest: no noise anywhere. All places in base_link (the ground's), m.
 struct MachineState {
@@ -71,8 +69,7 @@ struct MachineState {
   double energy = 0.0;                                             ///< J
   double last_step = 0.0;  ///< largest change of a coordinate in the last Newton step, m or rad
   int iterations = 0;
-  bool converged =
-      false;  ///< last_step below 1e-12, at a minimum of the energy; if not, the state is the last tried
+  bool converged = false;  ///< last_step below 1e-12, at a minimum of the energy; if not, the state is the last tried
 };
 
 /// The stable equilibrium under own weight, tool and load with the motors held at q: the minimum of the
@@ -93,11 +90,9 @@ MachineState stateAt(const ElasticMachine& machine, const Vector6d& q, const App
 /// Friction through a posture's loads. At arrival every slider is anchored where the machine rests; after
 /// each load those slip that carry more than they hold. Both return the anchors.
 Eigen::VectorXd arrivedAnchors(const ElasticMachine& machine, const MachineState& rest);
-Eigen::VectorXd slippedAnchors(const ElasticMachine& machine, const MachineState& state,
-                               Eigen::VectorXd anchors);
+Eigen::VectorXd slippedAnchors(const ElasticMachine& machine, const MachineState& state, Eigen::VectorXd anchors);
 
 /// Place of one of nominal.links in that state.
-Eigen::Isometry3d baseFromLink(const ElasticMachine& machine, const MachineState& state,
-                               const robot::LinkFrame& link);
+Eigen::Isometry3d baseFromLink(const ElasticMachine& machine, const MachineState& state, const robot::LinkFrame& link);
 
 }  // namespace stiffscope::simulation

@@ -128,8 +128,8 @@ Eigen::Vector3d trackerError(const campaign::Tracker& tracker, double factor, co
   const double along = tracker.range_fixed + tracker.range_per_m * distance;
   const double across = tracker.angle_fixed + tracker.angle_per_m * distance;
   const Eigen::Vector3d draw = random.normal3();
-  return factor * (axes.col(2) * (along * draw[0]) + axes.col(0) * (across * draw[1]) +
-                   axes.col(1) * (across * draw[2]));
+  return factor *
+         (axes.col(2) * (along * draw[0]) + axes.col(0) * (across * draw[1]) + axes.col(1) * (across * draw[2]));
 }
 
 void addTrackerNoise(double factor, std::uint64_t noise_seed, campaign::Campaign& campaign) {

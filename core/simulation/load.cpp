@@ -9,8 +9,7 @@ namespace stiffscope::simulation {
 
 int loadSteps(const LoadingSpec& loading) {
   const auto* weights = std::get_if<HangingWeights>(&loading.load);
-  const std::size_t loaded =
-      weights ? weights->masses_kg.size() : std::get<CablePull>(loading.load).tensions.size();
+  const std::size_t loaded = weights ? weights->masses_kg.size() : std::get<CablePull>(loading.load).tensions.size();
   return static_cast<int>(loaded) + (loading.return_to_zero ? 1 : 0);
 }
 
@@ -24,8 +23,7 @@ AppliedLoad loadAtStep(const LoadingSpec& loading, int step, const Eigen::Vector
   }
   const auto& cable = std::get<CablePull>(loading.load);
   if (index >= cable.tensions.size()) return {};
-  if (cable.anchor)
-    return AnchoredCable{loading.hook_in_flange, *cable.anchor, cable.tensions[index], unread};
+  if (cable.anchor) return AnchoredCable{loading.hook_in_flange, *cable.anchor, cable.tensions[index], unread};
   const Eigen::Vector3d direction =
       pull_direction ? *pull_direction : cable.direction.value_or(Eigen::Vector3d::Zero());
   return DeadForce{loading.hook_in_flange, cable.tensions[index] * direction, unread};
@@ -63,8 +61,7 @@ Eigen::Vector3d unreadForce(const AppliedLoad& load) {
 double loadPotential(const AppliedLoad& load, const Eigen::Vector3d& point_in_base) {
   if (std::holds_alternative<DeadForce>(load)) return -loadForce(load, point_in_base).dot(point_in_base);
   if (const auto* cable = std::get_if<AnchoredCable>(&load)) {
-    return cable->tension * (cable->anchor_in_base - point_in_base).norm() -
-           cable->unread_in_base.dot(point_in_base);
+    return cable->tension * (cable->anchor_in_base - point_in_base).norm() - cable->unread_in_base.dot(point_in_base);
   }
   return 0.0;
 }

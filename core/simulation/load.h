@@ -19,13 +19,11 @@ struct AnchoredCable {
   Eigen::Vector3d point_in_flange = Eigen::Vector3d::Zero();
   Eigen::Vector3d anchor_in_base = Eigen::Vector3d::Zero();
   double tension = 0.0;
-  Eigen::Vector3d unread_in_base =
-      Eigen::Vector3d::Zero();  ///< a dead force, N, as well, but past the load cell
+  Eigen::Vector3d unread_in_base = Eigen::Vector3d::Zero();  ///< a dead force, N, as well, but past the load cell
 };
 
 /// What acts on the machine besides its own weight; monostate: nothing.
 using AppliedLoad = std::variant<std::monostate, DeadForce, AnchoredCable>;
-
 
 /// Steps of a pose beyond the unloaded step 0, the return to zero included.
 int loadSteps(const LoadingSpec& loading);

@@ -166,7 +166,7 @@ ElasticElement linkElement(const SimulationSpec& spec, const LinkBeam& beam) {
   const double length = (tip - root).norm();
   if (length < 1e-3) {
     throw io::InputError({spec.file.string(), 0, "after_joint"}, std::to_string(beam.joint + 1),
-                     "expected a joint whose point and the next one's are at least 1 mm apart in the URDF");
+                         "expected a joint whose point and the next one's are at least 1 mm apart in the URDF");
   }
   ElasticElement element;
   element.name = "link " + std::to_string(beam.joint + 1);
@@ -208,7 +208,6 @@ std::vector<ElasticElement> elasticElements(const SimulationSpec& spec) {
 
 }  // namespace
 
-
 int ElasticMachine::coordinateCount() const {
   std::size_t count = 0;
   for (const auto& element : elements) count += element.free.size();
@@ -243,8 +242,8 @@ ElasticMachine buildMachine(const SimulationSpec& spec) {
     body.mass_kg *= std::max(0.0, 1.0 + spec.machine.mass_relative_sigma * random.normal());
   }
 
-  const Eigen::Vector3d tilt_axis(std::cos(spec.machine.base_tilt_azimuth),
-                                  std::sin(spec.machine.base_tilt_azimuth), 0.0);
+  const Eigen::Vector3d tilt_axis(std::cos(spec.machine.base_tilt_azimuth), std::sin(spec.machine.base_tilt_azimuth),
+                                  0.0);
   // base_link turned by +tilt in the world sees gravity turned by -tilt.
   machine.gravity_in_base =
       rotationExp(-spec.machine.base_tilt * tilt_axis) * Eigen::Vector3d(0.0, 0.0, -kStandardGravity);
@@ -301,9 +300,7 @@ TorqueCurve contactCurve(const OneSidedContact& contact) {
 
 namespace {
 
-double waveAt(const JointWave& wave, double q) {
-  return wave.amplitude * std::sin(wave.cycles * q + wave.phase);
-}
+double waveAt(const JointWave& wave, double q) { return wave.amplitude * std::sin(wave.cycles * q + wave.phase); }
 
 /// 1 - exp(-t / tau): how far a slow change has come.
 double comeSoFar(double time_s, double time_constant) { return -std::expm1(-time_s / time_constant); }
@@ -322,7 +319,6 @@ void scaleTorsion(ElasticMachine& machine, int joint, double factor) {
 }
 
 }  // namespace
-
 
 bool ElasticMachine::changes() const {
   return !truth.growths.empty() || std::any_of(truth.joints.begin(), truth.joints.end(), [](const auto& one) {
@@ -347,9 +343,8 @@ ElasticMachine machineAt(const ElasticMachine& machine, const Vector6d& q, doubl
     const std::size_t joint = static_cast<std::size_t>(growth.joint);
     const auto& axes = machine.nominal.axes_in_base_at_zero;
     const Eigen::Vector3d along = (axes[joint + 1].point - axes[joint].point).normalized();
-    now.axis_errors[joint + 1] =
-        Eigen::Translation3d(growth.growth * comeSoFar(time_s, growth.time_constant) * along) *
-        now.axis_errors[joint + 1];
+    now.axis_errors[joint + 1] = Eigen::Translation3d(growth.growth * comeSoFar(time_s, growth.time_constant) * along) *
+                                 now.axis_errors[joint + 1];
   }
   return now;
 }
@@ -406,8 +401,7 @@ void slip(const TorqueCurve& curve, double twist, double* anchors) {
   }
 }
 
-std::vector<TorqueCurve::Stage> stagesByTorque(const std::vector<double>& torques,
-                                               const std::vector<double>& rates) {
+std::vector<TorqueCurve::Stage> stagesByTorque(const std::vector<double>& torques, const std::vector<double>& rates) {
   std::vector<TorqueCurve::Stage> stages;
   double torque = 0.0, twist = 0.0;
   for (std::size_t k = 0; k < rates.size(); ++k) {

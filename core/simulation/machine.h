@@ -63,8 +63,7 @@ void slip(const TorqueCurve& curve, double twist, double* anchors);
 
 /// The stages of an odd curve given by the torques (Nm, rising) where the rate changes: rates.size() is one
 /// more than torques.size().
-std::vector<TorqueCurve::Stage> stagesByTorque(const std::vector<double>& torques,
-                                               const std::vector<double>& rates);
+std::vector<TorqueCurve::Stage> stagesByTorque(const std::vector<double>& torques, const std::vector<double>& rates);
 
 /// A place where the machine gives: up to three translations u (m) and a rotation vector r (rad) of what lies
 /// beyond it, both in the element's frame as it was before giving: x -> Exp(r) x + u. Its strain energy is
@@ -75,8 +74,7 @@ struct ElasticElement {
   bool is_link = false;  ///< a beam's tip: follows the joint's own element and the mass of the body
   Eigen::Isometry3d base_from_element_at_zero = Eigen::Isometry3d::Identity();  ///< z along the axis or beam
   std::vector<int> free;  ///< which of (ux uy uz rx ry rz) can move
-  Eigen::Matrix<double, 6, 6> stiffness =
-      Eigen::Matrix<double, 6, 6>::Zero();  ///< K; rows not free play no part
+  Eigen::Matrix<double, 6, 6> stiffness = Eigen::Matrix<double, 6, 6>::Zero();  ///< K; rows not free play no part
 };
 
 /// A torque curve of one elastic coordinate, besides what K gives it.
@@ -85,7 +83,6 @@ struct CoordinateCurve {
   int joint = -1;  ///< whose torsion it is; -1: the base's
   TorqueCurve curve;
 };
-
 
 /// The machine as it truly is. Everything stands where the nominal robot has it in base_link at all joints
 /// zero; a body's place follows from the chain base element, then per joint i: frame error E_i, motor turn
@@ -96,8 +93,8 @@ struct ElasticMachine {
   robot::Robot nominal;
   std::array<Eigen::Isometry3d, 6> axis_errors;  ///< E_i, in base_link at zero, nominal place to true place
   std::array<double, 6> zeros{};                 ///< rad
-  std::vector<ElasticElement> elements;  ///< in chain order
-  std::array<robot::BodyMass, 7> bodies;                    ///< true masses, at nominal places; [6] without the tool
+  std::vector<ElasticElement> elements;          ///< in chain order
+  std::array<robot::BodyMass, 7> bodies;         ///< true masses, at nominal places; [6] without the tool
   robot::Tool tool;
   Eigen::Vector3d gravity_in_base{0.0, 0.0, -9.80665};  ///< the true one
   std::vector<TrueTarget> targets;

@@ -1,8 +1,8 @@
 #include "core/simulation/measure.h"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 #include <utility>
 
 #include "core/campaign/campaign.h"
@@ -27,8 +27,7 @@ struct Session {
   double last_nests_s = 0.0;
 
   /// The machine at rest at reported angles q, now. Throws InputError where it is not stable or collapses.
-  MachineState rest(const Vector6d& q, const AppliedLoad& load = {},
-                    const Eigen::VectorXd* anchors = nullptr) const;
+  MachineState rest(const Vector6d& q, const AppliedLoad& load = {}, const Eigen::VectorXd* anchors = nullptr) const;
   Vector6d reported(const Vector6d& q) const;  ///< rounded to the read-back resolution
   /// The time a reading is finished; the clock moves on to it.
   double takeReading();
@@ -62,8 +61,8 @@ struct PostureRun {
 };
 
 /// The state as it is at the time of a reading: swinging, creeping.
-MachineState stateNow(const Session& session, const PostureRun& run, const AppliedLoad& load,
-                      const MachineState& rest, const Eigen::VectorXd& late, double since_s) {
+MachineState stateNow(const Session& session, const PostureRun& run, const AppliedLoad& load, const MachineState& rest,
+                      const Eigen::VectorXd& late, double since_s) {
   const SimulationSpec& spec = session.spec;
   const AppliedLoad swung = swungLoad(*spec.loading, load, session.now_s);
   const bool swings = spec.loading->swing != 0.0 && std::holds_alternative<DeadForce>(load);
@@ -76,8 +75,7 @@ MachineState stateNow(const Session& session, const PostureRun& run, const Appli
                            : stateAt(machine, rest.q, swung, x);
 }
 
-void readTargets(Session& session, PostureRun& run, const AppliedLoad& load, const MachineState& rest,
-                 int step) {
+void readTargets(Session& session, PostureRun& run, const AppliedLoad& load, const MachineState& rest, int step) {
   const SimulationSpec& spec = session.spec;
   const double changed_s = session.now_s;
   Eigen::VectorXd late;  // of the deformation, at the change of load
@@ -114,8 +112,8 @@ void measureState(Session& session, PostureRun& run, int step) {
   const AppliedLoad load =
       loadAtStep(*spec.loading, step, session.machine.gravity_in_base, run.posture.pull_direction, unread);
   const MachineState rest = session.rest(run.posture.q, load, step > 0 ? &run.anchors : nullptr);
-  run.anchors = step > 0 ? slippedAnchors(session.machine, rest, std::move(run.anchors))
-                         : arrivedAnchors(session.machine, rest);
+  run.anchors =
+      step > 0 ? slippedAnchors(session.machine, rest, std::move(run.anchors)) : arrivedAnchors(session.machine, rest);
   campaign::State row;
   row.pose = run.pose;
   row.step = step;
@@ -159,8 +157,7 @@ Row reading(Session& session, const MachineState& state, int index, int target) 
   row.target = target;
   row.q = session.reported(state.q);
   row.time_s = session.takeReading();
-  row.point =
-      session.station.readRobot(state.targets_in_base[static_cast<std::size_t>(target)], session.now_s);
+  row.point = session.station.readRobot(state.targets_in_base[static_cast<std::size_t>(target)], session.now_s);
   return row;
 }
 
@@ -216,8 +213,7 @@ void measureWristSweep(Session& session) {
 
 namespace {
 
-constexpr double kLargest =
-    0.1;  ///< m and rad: what gives more has collapsed, and linear springs no longer hold
+constexpr double kLargest = 0.1;  ///< m and rad: what gives more has collapsed, and linear springs no longer hold
 
 }  // namespace
 
@@ -227,12 +223,12 @@ MachineState Session::rest(const Vector6d& q, const AppliedLoad& load, const Eig
   const bool small = state.deformation.size() == 0 || state.deformation.cwiseAbs().maxCoeff() < kLargest;
   if (!state.converged || !small) {
     const Vector6d deg = q / io::kDegree;
-    throw io::InputError({spec.file.string(), 0, "q_deg"},
-                     fmt::format("{:.3f} {:.3f} {:.3f} {:.3f} {:.3f} {:.3f}", deg[0], deg[1], deg[2], deg[3],
-                                 deg[4], deg[5]),
-                     "expected a posture where the machine rests stably, giving less than 0.1 rad; stiffness "
-                     "is too low or the "
-                     "load too large");
+    throw io::InputError(
+        {spec.file.string(), 0, "q_deg"},
+        fmt::format("{:.3f} {:.3f} {:.3f} {:.3f} {:.3f} {:.3f}", deg[0], deg[1], deg[2], deg[3], deg[4], deg[5]),
+        "expected a posture where the machine rests stably, giving less than 0.1 rad; stiffness "
+        "is too low or the "
+        "load too large");
   }
   return state;
 }

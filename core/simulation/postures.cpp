@@ -1,8 +1,8 @@
 #include "core/simulation/postures.h"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 #include <limits>
 
 #include "core/io/input_error.h"

@@ -33,8 +33,7 @@ JointBacklash readBacklash(const io::XmlNode& node) {
   JointBacklash backlash{positive(node, "width_deg", io::kDegree)};
   backlash.rest = optionalPositive(node, "rest_share", 1.0).value_or(backlash.rest);
   if (backlash.rest > 1.0) {
-    node.refuse("rest_share", node.requiredAttribute("rest_share"),
-                "expected a share of the stiffness, at most 1");
+    node.refuse("rest_share", node.requiredAttribute("rest_share"), "expected a share of the stiffness, at most 1");
   }
   return backlash;
 }
@@ -82,8 +81,8 @@ JointStiffness readJoint(const io::XmlNode& node) {
     refuseUnknown(*child, {"share", "time_constant_s"});
     joint.softening = JointSoftening{shareBelowOne(*child), positive(*child, "time_constant_s", 1.0)};
   }
-  const bool needs_torsion = joint.cubic > 0.0 || joint.stages || joint.backlash || joint.friction ||
-                             joint.rate_wave || joint.softening;
+  const bool needs_torsion =
+      joint.cubic > 0.0 || joint.stages || joint.backlash || joint.friction || joint.rate_wave || joint.softening;
   if (needs_torsion && !joint.torsion) {
     node.refuse("stiffness_nm_per_rad", "", "expected a stiffness: this joint's other elements build on it");
   }
@@ -100,8 +99,7 @@ void readJoints(const io::XmlNode& root, MachineSpec& machine) {
   std::array<bool, 6> seen{};
   for (const io::XmlNode& node : joints->children("joint")) {
     const int joint = integer(node, "index", 1, 6) - 1;
-    if (seen[joint])
-      node.refuse("index", node.requiredAttribute("index"), "expected every joint at most once");
+    if (seen[joint]) node.refuse("index", node.requiredAttribute("index"), "expected every joint at most once");
     seen[joint] = true;
     machine.joints[joint] = readJoint(node);
   }
@@ -110,9 +108,8 @@ void readJoints(const io::XmlNode& root, MachineSpec& machine) {
 void readBase(const io::XmlNode& root, MachineSpec& machine) {
   const std::optional<io::XmlNode> base = root.child("base");
   if (!base) return;
-  refuseUnknown(
-      *base, {"rotation_nm_per_rad", "translation_n_per_m", "tilt_deg", "tilt_azimuth_deg", "tilt_declared"},
-      {"contact"});
+  refuseUnknown(*base, {"rotation_nm_per_rad", "translation_n_per_m", "tilt_deg", "tilt_azimuth_deg", "tilt_declared"},
+                {"contact"});
   const auto stiffness = [&](const char* name) -> std::optional<Eigen::Vector3d> {
     if (!base->has(name)) return std::nullopt;
     const Eigen::Vector3d three = base->vector(name);
@@ -156,8 +153,7 @@ void readLinks(const io::XmlNode& root, MachineSpec& machine) {
 void readGeometry(const io::XmlNode& root, MachineSpec& machine) {
   const std::optional<io::XmlNode> node = root.child("geometry");
   if (!node) return;
-  refuseUnknown(*node,
-                {"position_sigma_mm", "direction_sigma_deg", "zero_sigma_deg", "wrist_position_sigma_mm"},
+  refuseUnknown(*node, {"position_sigma_mm", "direction_sigma_deg", "zero_sigma_deg", "wrist_position_sigma_mm"},
                 {"axis"});
   GeometryErrors& geometry = machine.geometry;
   geometry.position_sigma = nonNegativeOr(*node, "position_sigma_mm", io::kMillimetre, 0.0);
@@ -210,8 +206,7 @@ SharedSpring readSharedSpring(const io::XmlNode& node, const MachineSpec& machin
       node.refuse("joints", node.requiredAttribute("joints"), "expected two different joints from 1 to 6");
     }
     if (!machine.joints[static_cast<std::size_t>(joint)].torsion) {
-      node.refuse("joints", node.requiredAttribute("joints"),
-                  "expected joints that have stiffness_nm_per_rad");
+      node.refuse("joints", node.requiredAttribute("joints"), "expected joints that have stiffness_nm_per_rad");
     }
     spring.joints[k] = joint;
   }
@@ -261,8 +256,7 @@ void readBaseContacts(const io::XmlNode& base, MachineSpec& machine) {
     contact.positive = choice<bool>(node, "side", {{"positive", true}, {"negative", false}});
     contact.stiffness = positive(node, "stiffness_nm_per_rad", 1.0);
     contact.gap = nonNegativeOr(node, "gap_deg", io::kDegree, 0.0);
-    if (!machine.base_rotation)
-      node.refuse("contact", "", "expected rotation_nm_per_rad of the base beside it");
+    if (!machine.base_rotation) node.refuse("contact", "", "expected rotation_nm_per_rad of the base beside it");
     machine.base_contacts.push_back(contact);
   }
 }

@@ -51,9 +51,8 @@ TrackerSpec readTracker(const io::XmlNode& root) {
 std::optional<LoadCellSpec> readLoadCell(const io::XmlNode& root, const robot::Robot& robot) {
   const std::optional<io::XmlNode> node = root.child("load_cell");
   if (!node) return std::nullopt;
-  refuseUnknown(*node,
-                {"parent", "xyz_mm", "rpy_deg", "force_sigma_n", "moment_sigma_nm", "true_misalignment_deg",
-                 "true_bias_n", "true_bias_nm", "true_gain_error", "true_place_error_mm", "unread_force_n"});
+  refuseUnknown(*node, {"parent", "xyz_mm", "rpy_deg", "force_sigma_n", "moment_sigma_nm", "true_misalignment_deg",
+                        "true_bias_n", "true_bias_nm", "true_gain_error", "true_place_error_mm", "unread_force_n"});
   LoadCellSpec cell;
   cell.declared.parent = node->requiredName("parent");
   std::vector<std::string> links;
@@ -95,8 +94,7 @@ CablePull readCable(const io::XmlNode& node) {
   CablePull cable{steps(node, "tensions_n"), std::nullopt, optionalDirection(node, "direction")};
   if (node.has("anchor_mm")) cable.anchor = node.vector("anchor_mm") * io::kMillimetre;
   if (cable.anchor && cable.direction) {
-    node.refuse("direction", node.requiredAttribute("direction"),
-                "expected anchor_mm or direction, not both");
+    node.refuse("direction", node.requiredAttribute("direction"), "expected anchor_mm or direction, not both");
   }
   return cable;
 }
@@ -120,9 +118,9 @@ void readListed(const io::XmlNode& node, SimulationSpec& spec) {
 }
 
 PostureDraw readDraw(const io::XmlNode& node) {
-  refuseUnknown(node, {"count", "candidates", "min_deg", "max_deg", "min_abs_sin_q5", "max_flange_up_deg",
-                       "min_height_mm", "max_height_mm", "min_tracker_distance_mm", "max_tracker_distance_mm",
-                       "min_hang_clearance_mm"});
+  refuseUnknown(node,
+                {"count", "candidates", "min_deg", "max_deg", "min_abs_sin_q5", "max_flange_up_deg", "min_height_mm",
+                 "max_height_mm", "min_tracker_distance_mm", "max_tracker_distance_mm", "min_hang_clearance_mm"});
   PostureDraw draw;
   draw.count = integer(node, "count", 1, kMost);
   draw.candidates = integer(node, "candidates", 1, 1000, 1);
@@ -195,8 +193,7 @@ namespace {
 
 constexpr double kHour = 3600.0;  ///< s
 
-Vector6d shiftAndTurn(const io::XmlNode& node, const std::string& shift_mm, const std::string& turn_deg,
-                      double unit) {
+Vector6d shiftAndTurn(const io::XmlNode& node, const std::string& shift_mm, const std::string& turn_deg, double unit) {
   const Eigen::Vector3d zero = Eigen::Vector3d::Zero();
   return (Vector6d() << vectorOr(node, shift_mm, io::kMillimetre * unit, zero),
           vectorOr(node, turn_deg, io::kDegree * unit, zero))
@@ -219,8 +216,7 @@ StationSpec readStation(const io::XmlNode& root) {
   if (!node) return station;
   refuseUnknown(*node, {}, {"drift", "tracker_moved", "robot_moved", "refraction"});
   if (const auto drift = node->child("drift")) {
-    refuseUnknown(*drift,
-                  {"ramp_mm_per_h", "ramp_deg_per_h", "walk_mm_per_sqrt_h", "walk_deg_per_sqrt_h", "knot_s"});
+    refuseUnknown(*drift, {"ramp_mm_per_h", "ramp_deg_per_h", "walk_mm_per_sqrt_h", "walk_deg_per_sqrt_h", "knot_s"});
     station.ramp = shiftAndTurn(*drift, "ramp_mm_per_h", "ramp_deg_per_h", 1.0 / kHour);
     station.walk = shiftAndTurn(*drift, "walk_mm_per_sqrt_h", "walk_deg_per_sqrt_h", 1.0 / std::sqrt(kHour));
     for (const char* name : {"walk_mm_per_sqrt_h", "walk_deg_per_sqrt_h"}) {
@@ -229,8 +225,7 @@ StationSpec readStation(const io::XmlNode& root) {
       }
     }
     station.knot_s = optionalPositive(*drift, "knot_s", 1.0).value_or(station.knot_s);
-    if (station.knot_s < 1.0)
-      drift->refuse("knot_s", drift->requiredAttribute("knot_s"), "expected at least 1");
+    if (station.knot_s < 1.0) drift->refuse("knot_s", drift->requiredAttribute("knot_s"), "expected at least 1");
   }
   station.tracker_moved = readMoved(*node, "tracker_moved");
   station.robot_moved = readMoved(*node, "robot_moved");
@@ -246,8 +241,7 @@ TargetMotion readTargetMotion(const io::XmlNode& node) {
   using Kind = TargetMotion::Kind;
   TargetMotion motion;
   motion.kind = choice<Kind>(
-      node, "kind",
-      {{"proportional", Kind::proportional}, {"slip", Kind::slip}, {"compliant", Kind::compliant}});
+      node, "kind", {{"proportional", Kind::proportional}, {"slip", Kind::slip}, {"compliant", Kind::compliant}});
   if (motion.kind == Kind::compliant) {
     refuseUnknown(node, {"kind", "compliance_um_per_kn"});
     motion.compliance = node.number("compliance_um_per_kn") * io::kMicrometre / 1000.0;
@@ -299,8 +293,7 @@ std::optional<WristSweepSpec> readWristSweep(const io::XmlNode& root, std::size_
   sweep.readings = integer(*node, "readings", count, 1000000);
   if (node->has("scheme")) {
     sweep.scheme = choice<WristScheme>(
-        *node, "scheme",
-        {{"one_target", WristScheme::one_target}, {"all_targets", WristScheme::all_targets}});
+        *node, "scheme", {{"one_target", WristScheme::one_target}, {"all_targets", WristScheme::all_targets}});
   }
   if (sweep.scheme == WristScheme::all_targets && sweep.readings % count != 0) {
     node->refuse("readings", node->requiredAttribute("readings"),
@@ -348,9 +341,9 @@ void readRobot(const io::XmlNode& root, const std::filesystem::path& folder, Sim
   spec.flange_link = node.requiredName("flange_link");
   if (node.has("double_encoder")) {
     spec.double_encoder = choice<campaign::DoubleEncoder>(node, "double_encoder",
-                                                {{"active", campaign::DoubleEncoder::active},
-                                                 {"inactive", campaign::DoubleEncoder::inactive},
-                                                 {"unspecified", campaign::DoubleEncoder::unspecified}});
+                                                          {{"active", campaign::DoubleEncoder::active},
+                                                           {"inactive", campaign::DoubleEncoder::inactive},
+                                                           {"unspecified", campaign::DoubleEncoder::unspecified}});
   }
   spec.read_back_resolution = nonNegativeOr(node, "read_back_resolution_deg", io::kDegree, 0.0);
   spec.nominal = robot::readUrdf(spec.urdf_file, spec.base_link, spec.flange_link);
@@ -367,11 +360,11 @@ SimulationSpec parseSimulationSpec(std::string_view bytes, const std::filesystem
   const io::XmlFile xml(file.string(), bytes);
   const io::XmlNode root = xml.root();
   if (root.name() != "simulation") root.refuse(root.name(), "", "expected the root element 'simulation'");
-  refuseUnknown(root, {"format", "name", "date", "seed", "measurement"},
-                {"robot",        "joints",      "base",      "link",         "geometry",   "tool",
-                 "tool_plate",   "coupling",    "spring",    "growth",       "creep",      "targets",
-                 "tracker",      "station",     "load_cell", "hanging_load", "cable_load", "postures",
-                 "circle_sweep", "wrist_sweep", "nests",     "times"});
+  refuseUnknown(
+      root, {"format", "name", "date", "seed", "measurement"},
+      {"robot",      "joints",   "base",         "link",        "geometry", "tool",    "tool_plate", "coupling",
+       "spring",     "growth",   "creep",        "targets",     "tracker",  "station", "load_cell",  "hanging_load",
+       "cable_load", "postures", "circle_sweep", "wrist_sweep", "nests",    "times"});
   integer(root, "format", 1, 1);
 
   SimulationSpec spec;

@@ -16,7 +16,8 @@ namespace stiffscope::simulation {
 ///       [measurement=1] (another one draws other noise on the same machine)
 ///   robot: urdf base_link flange_link [double_encoder=unspecified] [read_back_resolution_deg=0]
 ///   [joints]: [mass_relative_sigma=0] (of the URDF's link masses)
-///     [joint]...: index (1..6; one that is not listed is rigid, and `rigidJoints` names it) [stiffness_nm_per_rad=rigid] [bearing_nm_per_rad=rigid] (across the axis)
+///     [joint]...: index (1..6; one that is not listed is rigid, and `rigidJoints` names it)
+///     [stiffness_nm_per_rad=rigid] [bearing_nm_per_rad=rigid] (across the axis)
 ///         [cubic_nm_per_rad3=0] (times twist cubed, besides)
 ///       [stages]: torques_nm (rising) stiffness_nm_per_rad (one more; instead of the joint's)
 ///       [backlash]: width_deg (in all) [rest_share=0.001] (of the stiffness, felt inside)
@@ -81,8 +82,8 @@ SimulationSpec readSimulationSpec(const std::filesystem::path& file);
 /// The same from the bytes of such a file; `file` is its name, and its folder is where the URDF is looked for.
 SimulationSpec parseSimulationSpec(std::string_view bytes, const std::filesystem::path& file);
 
-/// The joints (1..6) to which a specification gives no stiffness about their axes: what is taken for them is rigid, which
-/// a user may not have meant.
+/// The joints (1..6) to which a specification gives no stiffness about their axes: what is taken for them is rigid,
+/// which a user may not have meant.
 std::vector<int> rigidJoints(const SimulationSpec& spec);
 
 }  // namespace stiffscope::simulation

@@ -206,9 +206,9 @@ struct StationSpec {
   /// Somebody pushed it, or the robot, after the wrist sweep and before the loading.
   std::optional<Eigen::Isometry3d> tracker_moved;  ///< place before -> place after, tracker axes
   std::optional<Eigen::Isometry3d> robot_moved;    ///< the same, base_link axes; the direction of gravity in
-                                                 ///< the robot is kept, nests do not see it
-  double scale = 0.0;             ///< distances read / true - 1, from a wrong index of the air
-  double scale_per_second = 0.0;  ///< as the hall gets warm
+                                                   ///< the robot is kept, nests do not see it
+  double scale = 0.0;                              ///< distances read / true - 1, from a wrong index of the air
+  double scale_per_second = 0.0;                   ///< as the hall gets warm
 };
 
 struct TrackerSpec {
@@ -219,12 +219,10 @@ struct TrackerSpec {
 
 struct LoadCellSpec {
   campaign::LoadCell declared;
-  Eigen::Vector3d misalignment =
-      Eigen::Vector3d::Zero();       ///< rotation vector, declared axes to true axes, rad
-  Vector6d bias = Vector6d::Zero();  ///< added to readings under load (N, Nm; cell axes)
-  double gain_error = 0.0;           ///< reading / truth - 1, all six components
-  Eigen::Vector3d place_error =
-      Eigen::Vector3d::Zero();  ///< true place less declared place, in the declared axes, m
+  Eigen::Vector3d misalignment = Eigen::Vector3d::Zero();  ///< rotation vector, declared axes to true axes, rad
+  Vector6d bias = Vector6d::Zero();                        ///< added to readings under load (N, Nm; cell axes)
+  double gain_error = 0.0;                                 ///< reading / truth - 1, all six components
+  Eigen::Vector3d place_error = Eigen::Vector3d::Zero();   ///< true place less declared place, in the declared axes, m
   Eigen::Vector3d unread_force =
       Eigen::Vector3d::Zero();  ///< on the hook in every loaded state but never read (base_link, N)
 };
@@ -265,8 +263,8 @@ struct PostureDraw {
   int candidates = 1;  ///< of this many that keep the rules, the one farthest from the postures chosen before
   Vector6d low = Vector6d::Zero(), high = Vector6d::Zero();
   double min_abs_sin_q5 = 0.0;
-  std::optional<double> max_flange_up;  ///< rad, of the flange's z axis above the horizontal of base_link
-  std::optional<double> min_height, max_height;                      ///< of the flange in base_link, m
+  std::optional<double> max_flange_up;           ///< rad, of the flange's z axis above the horizontal of base_link
+  std::optional<double> min_height, max_height;  ///< of the flange in base_link, m
   std::optional<double> min_tracker_distance, max_tracker_distance;  ///< of the flange, m
   /// The line below the hook stays this far (m, horizontally) from every part of the arm's skeleton below it.
   std::optional<double> min_hang_clearance;
@@ -301,7 +299,6 @@ struct Timing {
   double nest_interval_s = 3600.0;
 };
 
-
 /// A machine and its measurement. Empty tables: that part of the day did not happen.
 struct SimulationSpec {
   std::filesystem::path file;  ///< as read; empty when made in memory
@@ -331,7 +328,6 @@ struct SimulationSpec {
   bool nests_after_sweeps = false;  ///< read once more between wrist sweep and loading
   Timing timing;
 };
-
 
 /// What everything is drawn from that belongs to the measurement and not to the machine.
 inline std::uint64_t noiseSeed(const SimulationSpec& spec) {

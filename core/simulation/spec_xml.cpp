@@ -1,9 +1,9 @@
 #include "core/simulation/spec_xml.h"
 
-#include <algorithm>
-#include <charconv>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <algorithm>
+#include <charconv>
 #include <sstream>
 
 #include "core/io/input_error.h"
@@ -37,14 +37,13 @@ void refuseUnknown(const io::XmlNode& node, const std::vector<std::string>& attr
   }
   for (const io::XmlNode& child : node.children()) {
     if (listed(elements, child.name())) continue;
-    child.refuse(child.name(), "",
-                 fmt::format("expected an element that '{}' has{}", node.name(),
-                             io::nearestNameHint(child.name(), elements)));
+    child.refuse(
+        child.name(), "",
+        fmt::format("expected an element that '{}' has{}", node.name(), io::nearestNameHint(child.name(), elements)));
   }
 }
 
-std::vector<double> numberList(const io::XmlNode& node, const std::string& attribute, std::size_t count,
-                               double unit) {
+std::vector<double> numberList(const io::XmlNode& node, const std::string& attribute, std::size_t count, double unit) {
   const std::string text = node.requiredAttribute(attribute);
   std::istringstream words(text);
   std::vector<double> numbers;

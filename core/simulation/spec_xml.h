@@ -42,8 +42,7 @@ void refuseUnknown(const io::XmlNode& node, const std::vector<std::string>& attr
                    const std::vector<std::string>& elements = {});
 
 /// Exactly `count` numbers (any number of them, at least one, for 0), times `unit`.
-std::vector<double> numberList(const io::XmlNode& node, const std::string& attribute, std::size_t count,
-                               double unit);
+std::vector<double> numberList(const io::XmlNode& node, const std::string& attribute, std::size_t count, double unit);
 
 std::optional<double> optionalNumber(const io::XmlNode& node, const std::string& attribute, double unit);
 double numberOr(const io::XmlNode& node, const std::string& attribute, double unit, double otherwise);

@@ -126,8 +126,8 @@ std::vector<CasePlan> planCases(int count, std::uint64_t seed) {
   return plans;
 }
 
-double strengthFor(const EffectDraw& draw, const simulation::SimulationSpec& clean, const EffectSizer& sizer, double size,
-                   EffectSize& sizes) {
+double strengthFor(const EffectDraw& draw, const simulation::SimulationSpec& clean, const EffectSizer& sizer,
+                   double size, EffectSize& sizes) {
   constexpr int kMostTries = 14;
   constexpr double kNear = 0.1;
   double strength = 1e-3 * draw.most;
@@ -184,8 +184,7 @@ BlindCase drawCase(const CasePlan& plan, std::uint64_t seed, const std::string& 
   const auto drawSize = [&] { return least * std::pow(10.0 / least, random.uniform()); };
   for (const effects::Effect effect : plan.effects) {
     const double size = drawSize();
-    one.effects.push_back(
-        place([&] { return drawEffect(effect, clean, random); }, size, machine.spec, clean, sizer));
+    one.effects.push_back(place([&] { return drawEffect(effect, clean, random); }, size, machine.spec, clean, sizer));
   }
   if (plan.kind == CaseKind::outside) {
     const double size = drawSize();

@@ -20,7 +20,7 @@ const char* nameOf(CaseKind kind);  ///< none, single, double, outside
 struct CasePlan {
   CaseKind kind = CaseKind::none;
   std::vector<effects::Effect> effects;  ///< one for a single, two for a double
-  std::string outside;          ///< id, for one outside the vocabulary
+  std::string outside;                   ///< id, for one outside the vocabulary
 };
 std::vector<CasePlan> planCases(int count, std::uint64_t seed);
 
@@ -52,8 +52,8 @@ BlindCase drawCase(const CasePlan& plan, std::uint64_t seed, const std::string& 
                    const std::filesystem::path& urdf_file);
 
 /// Strength at which `sizer` finds this size, sought from below; `sizes` is what was found there.
-double strengthFor(const EffectDraw& draw, const simulation::SimulationSpec& clean, const EffectSizer& sizer, double size,
-                   EffectSize& sizes);
+double strengthFor(const EffectDraw& draw, const simulation::SimulationSpec& clean, const EffectSizer& sizer,
+                   double size, EffectSize& sizes);
 
 double sizeOf(const EffectSize& sizes, Shows shows);
 

@@ -1,9 +1,9 @@
 #include "core/validation/draw.h"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <fmt/format.h>
 #include <utility>
 
 #include "core/io/units.h"
@@ -96,8 +96,8 @@ std::string jointXml(int index, int sense, const Part& part) {
       "  <joint name=\"joint_{0}\" type=\"revolute\">\n    <parent link=\"{1}\"/><child link=\"link_{0}\"/>\n"
       "    <origin xyz=\"{2:.6g} 0 {3:.6g}\" rpy=\"0 0 0\"/><axis xyz=\"{4}\"/>\n"
       "    <limit lower=\"{5}\" upper=\"{6}\" effort=\"0\" velocity=\"0\"/>\n  </joint>\n",
-      index, index == 1 ? "base_link" : fmt::format("link_{}", index - 1), part.x, part.z,
-      part.axis[sense > 0 ? 0 : 1], limits[0], limits[1]);
+      index, index == 1 ? "base_link" : fmt::format("link_{}", index - 1), part.x, part.z, part.axis[sense > 0 ? 0 : 1],
+      limits[0], limits[1]);
 }
 
 }  // namespace
@@ -160,8 +160,7 @@ void addInstruments(const ArmModel& model, numerics::RandomStream& random, simul
     const double angle = 2.0 * std::numbers::pi * t / 3 + random.uniform(-0.3, 0.3);
     const double radius = size * random.uniform(0.9, 1.2);
     spec.targets.push_back(
-        {"P1" + std::to_string(t),
-         {radius * std::cos(angle), radius * std::sin(angle), random.uniform(0.03, 0.09)}});
+        {"P1" + std::to_string(t), {radius * std::cos(angle), radius * std::sin(angle), random.uniform(0.03, 0.09)}});
   }
   simulation::TrackerSpec& tracker = spec.tracker;
   const double quality = random.uniform(0.8, 1.3);
@@ -169,18 +168,17 @@ void addInstruments(const ArmModel& model, numerics::RandomStream& random, simul
                       6e-6 * quality,     2.2e-6 * quality, Vector3d::Zero()};
   const double bearing = random.uniform(-0.6, 0.6);
   const double distance = 1.3 * reach(model) + random.uniform(0.8, 1.6);
-  tracker.base_from_tracker.linear() =
-      (Eigen::AngleAxisd(random.uniform(-3.1, 3.1), Vector3d::UnitZ()) *
-       Eigen::AngleAxisd(0.3 * io::kDegree * random.normal(), Vector3d::UnitX()) *
-       Eigen::AngleAxisd(0.3 * io::kDegree * random.normal(), Vector3d::UnitY()))
-          .toRotationMatrix();
+  tracker.base_from_tracker.linear() = (Eigen::AngleAxisd(random.uniform(-3.1, 3.1), Vector3d::UnitZ()) *
+                                        Eigen::AngleAxisd(0.3 * io::kDegree * random.normal(), Vector3d::UnitX()) *
+                                        Eigen::AngleAxisd(0.3 * io::kDegree * random.normal(), Vector3d::UnitY()))
+                                           .toRotationMatrix();
   tracker.base_from_tracker.translation() << distance * std::cos(bearing), distance * std::sin(bearing),
       random.uniform(0.9, 1.4);
   const double round = reach(model) + 0.5;
   for (int n = 0; n < 4; ++n) {
     const double angle = 0.7 + 1.4 * n + random.uniform(-0.3, 0.3);
-    spec.nests.push_back({"N" + std::to_string(n + 1),
-                          {round * std::cos(angle), round * std::sin(angle), random.uniform(0.02, 0.5)}});
+    spec.nests.push_back(
+        {"N" + std::to_string(n + 1), {round * std::cos(angle), round * std::sin(angle), random.uniform(0.02, 0.5)}});
   }
   spec.nests_after_sweeps = true;
   spec.timing.nest_interval_s = 2400.0;
@@ -208,14 +206,12 @@ std::string addLoad(const ArmModel& model, numerics::RandomStream& random, simul
     spec.loading->load = cable;
   }
   const double size = 0.02 + 0.04 * reach(model);
-  spec.loading->hook_in_flange =
-      Vector3d(random.uniform(-size, size), random.uniform(-size, size), 0.16 + size);
+  spec.loading->hook_in_flange = Vector3d(random.uniform(-size, size), random.uniform(-size, size), 0.16 + size);
   spec.load_cell.emplace();
   campaign::LoadCell& cell = spec.load_cell->declared;
   cell.parent = "tool0";
   cell.parent_from_cell.translation() = Vector3d(0, 0, 0.09);
-  cell.parent_from_cell.linear() =
-      Eigen::AngleAxisd(random.uniform(-0.5, 0.5), Vector3d::UnitZ()).toRotationMatrix();
+  cell.parent_from_cell.linear() = Eigen::AngleAxisd(random.uniform(-0.5, 0.5), Vector3d::UnitZ()).toRotationMatrix();
   cell.force_sigma = 6e-4 * full;
   cell.moment_sigma = 2e-4 * full;
   return hanging ? "hanging" : "cable";

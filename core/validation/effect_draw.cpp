@@ -43,8 +43,7 @@ std::string jointName(int joint) { return "joint " + std::to_string(joint + 1); 
 
 double length(const simulation::SimulationSpec& spec, int joint) {
   const auto& axes = spec.nominal.axes_in_base_at_zero;
-  return (axes[static_cast<std::size_t>(joint) + 1].point - axes[static_cast<std::size_t>(joint)].point)
-      .norm();
+  return (axes[static_cast<std::size_t>(joint) + 1].point - axes[static_cast<std::size_t>(joint)].point).norm();
 }
 
 /// A beam as stiff, at strength 1, as the joint it follows: EI / L and GJ / L are the joint's stiffness.
@@ -115,8 +114,7 @@ EffectDraw jointHardening(const simulation::SimulationSpec& machine, numerics::R
     if (kind == 0) {
       one.cubic = s * k * std::pow(k / torque, 2);
     } else if (kind == 1) {  // a catalogue's K1, K2, K3, growing
-      one.stages =
-          simulation::JointStages{{0.25 * torque, 0.7 * torque}, {k, k * (1 + s), k * (1 + 1.6 * s)}};
+      one.stages = simulation::JointStages{{0.25 * torque, 0.7 * torque}, {k, k * (1 + s), k * (1 + 1.6 * s)}};
     } else {  // and dropping
       one.stages = simulation::JointStages{{0.3 * torque, 0.8 * torque}, {k, k / (1 + s), k / (1 + 1.6 * s)}};
     }
@@ -133,8 +131,7 @@ EffectDraw backlash(const simulation::SimulationSpec& machine, numerics::RandomS
   draw.most = 10.0;
   draw.apply = [=](double s, simulation::SimulationSpec& spec) {
     if (s > 0.0) {
-      spec.machine.joints[static_cast<std::size_t>(joint)].backlash =
-          simulation::JointBacklash{s * twist, 0.02};
+      spec.machine.joints[static_cast<std::size_t>(joint)].backlash = simulation::JointBacklash{s * twist, 0.02};
     }
   };
   return draw;
@@ -154,8 +151,8 @@ EffectDraw hysteresis(const simulation::SimulationSpec& machine, numerics::Rando
     for (int i = 0; i < 3; ++i) {
       if (which < 3 && i != which) continue;
       simulation::JointStiffness& one = spec.machine.joints[static_cast<std::size_t>(i)];
-      one.friction = simulation::JointFriction{s * torque[static_cast<std::size_t>(i)],
-                                               sticking * *one.torsion, sliders};
+      one.friction =
+          simulation::JointFriction{s * torque[static_cast<std::size_t>(i)], sticking * *one.torsion, sliders};
     }
   };
   return draw;
@@ -175,8 +172,7 @@ EffectDraw gravityCompensator(const simulation::SimulationSpec& machine, numeric
   draw.most = 5.0;
   draw.apply = [=](double s, simulation::SimulationSpec& spec) {
     if (s > 0.0) {
-      spec.machine.link_springs.push_back(
-          {1, 2, from, to, s * rate * weight / (to - from).norm(), s * weight});
+      spec.machine.link_springs.push_back({1, 2, from, to, s * rate * weight / (to - from).norm(), s * weight});
     }
   };
   return draw;
@@ -252,8 +248,7 @@ EffectDraw kinematicError(const simulation::SimulationSpec& machine, numerics::R
       if (zero) {
         error.zero += size;
       } else {
-        error.offset +=
-            size * (link.norm() > 1e-3 ? Vector3d(link.normalized()) : Vector3d(Vector3d::UnitX()));
+        error.offset += size * (link.norm() > 1e-3 ? Vector3d(link.normalized()) : Vector3d(Vector3d::UnitX()));
       }
     };
     add(first, sign * s);
@@ -283,10 +278,9 @@ EffectDraw trackerDrift(numerics::RandomStream& random) {
 
 EffectDraw targetMotion(const simulation::SimulationSpec& machine, numerics::RandomStream& random) {
   using Kind = simulation::TargetMotion::Kind;
-  const std::size_t which =
-      static_cast<std::size_t>(drawIndex(static_cast<int>(machine.targets.size()), random));
-  const Kind kind = std::array{Kind::proportional, Kind::compliant,
-                               Kind::slip}[static_cast<std::size_t>(drawIndex(3, random))];
+  const std::size_t which = static_cast<std::size_t>(drawIndex(static_cast<int>(machine.targets.size()), random));
+  const Kind kind =
+      std::array{Kind::proportional, Kind::compliant, Kind::slip}[static_cast<std::size_t>(drawIndex(3, random))];
   const Vector3d direction = drawDirection(random);
   const double full = fullLoad(machine);
   EffectDraw draw;
@@ -353,7 +347,8 @@ EffectDraw drawOf(effects::Effect effect, const simulation::SimulationSpec& mach
 
 }  // namespace
 
-EffectDraw drawEffect(effects::Effect effect, const simulation::SimulationSpec& machine, numerics::RandomStream& random) {
+EffectDraw drawEffect(effects::Effect effect, const simulation::SimulationSpec& machine,
+                      numerics::RandomStream& random) {
   EffectDraw draw = drawOf(effect, machine, random);
   draw.effect = effect;
   return draw;

@@ -21,14 +21,15 @@ enum class Shows {
 /// An effect as it was drawn, all but its strength: which joint, which way, which mechanism.
 struct EffectDraw {
   std::optional<effects::Effect> effect;  ///< empty: outside the vocabulary
-  std::string detail;            ///< the pair, the reflector, the joint; outside the vocabulary: what it is
+  std::string detail;                     ///< the pair, the reflector, the joint; outside the vocabulary: what it is
   Shows shows = Shows::deflection;
   double most = 1.0;  ///< greatest strength that a real machine might have
   std::function<void(double strength, simulation::SimulationSpec& spec)> apply;  ///< strength 0: nothing
 };
 
 /// An effect of the vocabulary on this machine. Mechanism and place are drawn.
-EffectDraw drawEffect(effects::Effect effect, const simulation::SimulationSpec& machine, numerics::RandomStream& random);
+EffectDraw drawEffect(effects::Effect effect, const simulation::SimulationSpec& machine,
+                      numerics::RandomStream& random);
 
 /// Ids of the effects outside the vocabulary: creep, stiffness_ripple, warming_drives, swinging_load,
 /// cracked_floor, thermal_growth, eccentric_encoder, dress_pack, refraction.

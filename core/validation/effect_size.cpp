@@ -134,8 +134,7 @@ EffectSizer::EffectSizer(const simulation::SimulationSpec& clean)
     pose = key[0];
   }
   identifiable_ = identifiableBy(undisturbed_);
-  background_ =
-      whitened(leftOver(undisturbed_, undisturbed_.displacement - undisturbed_.columns * compliance_));
+  background_ = whitened(leftOver(undisturbed_, undisturbed_.displacement - undisturbed_.columns * compliance_));
   designPositions();
   simulation::SimulationSpec nominal = clean;
   nominal.machine.geometry = {};
@@ -155,8 +154,7 @@ EffectSizer::Deflections EffectSizer::deflections(const campaign::Campaign& camp
     if (key[1] == 0) continue;
     const Vector3d zero = reference.at({key[0], 0, key[2]}).value();
     const Eigen::Matrix3d sight = sightAxes(*campaign.tracker, zero);
-    all.displacement.segment<3>(row) =
-        sight.transpose() * (mean.value() - means.at({key[0], 0, key[2]}).value());
+    all.displacement.segment<3>(row) = sight.transpose() * (mean.value() - means.at({key[0], 0, key[2]}).value());
     const campaign::State& state = *states.at({key[0], key[1]});
     const ArmNow arm = armAt(geometry_, state.q);
     const Eigen::Isometry3d cell = arm.flange * campaign.load_cell->parent_from_cell;
@@ -167,9 +165,8 @@ EffectSizer::Deflections EffectSizer::deflections(const campaign::Campaign& camp
     for (std::size_t i = 0; i < 6; ++i) {
       const metrology::Line& axis = arm.axes[i];
       const double torque = axis.direction.dot(moment + (cell.translation() - axis.point).cross(force));
-      all.columns.block<3, 1>(row, static_cast<Index>(i)) = sight.transpose() *
-                                                            base_from_tracker_.transpose() *
-                                                            axis.direction.cross(point - axis.point) * torque;
+      all.columns.block<3, 1>(row, static_cast<Index>(i)) =
+          sight.transpose() * base_from_tracker_.transpose() * axis.direction.cross(point - axis.point) * torque;
     }
     row += 3;
   }
@@ -188,8 +185,7 @@ VectorXd EffectSizer::leftOver(const Deflections& of, const VectorXd& gap) const
   if (identifiable_.empty()) return gap;
   const Eigen::MatrixXd columns = of.columns(Eigen::all, identifiable_);
   const VectorXd weight = displacement_sigma_.cwiseInverse();
-  const VectorXd change =
-      (weight.asDiagonal() * columns).eval().colPivHouseholderQr().solve(weight.cwiseProduct(gap));
+  const VectorXd change = (weight.asDiagonal() * columns).eval().colPivHouseholderQr().solve(weight.cwiseProduct(gap));
   return gap - columns * change;
 }
 
@@ -226,17 +222,15 @@ void EffectSizer::designPositions() {
   const Index targets = static_cast<Index>(reference_.targets.size());
   Eigen::MatrixXd design = Eigen::MatrixXd::Zero(unloaded_.size(), 6 + 3 * targets);
   Index row = 0;
-  const Index before =
-      forUnloaded(reference_, [&](const Vector6d& q, int target, const Vector3d& point, int readings) {
-        const Vector3d sigma = sigmaAt(*reference_.tracker, point) / std::sqrt(readings);
-        // One sigma for all three directions will do for what is a nuisance.
-        unloaded_sigma_.segment<3>(row).setConstant(std::sqrt(sigma.squaredNorm() / 3.0));
-        design.block<3, 3>(row, 0).setIdentity();
-        design.block<3, 3>(row, 3) = -simulation::skew(point);
-        design.block<3, 3>(row, 6 + 3 * target) =
-            base_from_tracker_.transpose() * armAt(geometry_, q).flange.linear();
-        row += 3;
-      });
+  const Index before = forUnloaded(reference_, [&](const Vector6d& q, int target, const Vector3d& point, int readings) {
+    const Vector3d sigma = sigmaAt(*reference_.tracker, point) / std::sqrt(readings);
+    // One sigma for all three directions will do for what is a nuisance.
+    unloaded_sigma_.segment<3>(row).setConstant(std::sqrt(sigma.squaredNorm() / 3.0));
+    design.block<3, 3>(row, 0).setIdentity();
+    design.block<3, 3>(row, 3) = -simulation::skew(point);
+    design.block<3, 3>(row, 6 + 3 * target) = base_from_tracker_.transpose() * armAt(geometry_, q).flange.linear();
+    row += 3;
+  });
   first_of_step_0_ = 3 * before;
   const Index rest = unloaded_.size() - first_of_step_0_;
   position_noise_ = rms(unloaded_sigma_.tail(rest));
@@ -259,8 +253,7 @@ EffectSize EffectSizer::measure(const simulation::SimulationSpec& with) const {
   const VectorXd after = undisturbed_.displacement - undisturbed_.columns * compliance_;
   EffectSize size;
   size.deflection = whitened(leftOver(disturbed, before - after));
-  const double rms_before = rms(leftHeldOut(disturbed, before)),
-               rms_after = rms(leftHeldOut(undisturbed_, after));
+  const double rms_before = rms(leftHeldOut(disturbed, before)), rms_after = rms(leftHeldOut(undisturbed_, after));
   const double noise = true_noise_factor_ * rms(displacement_sigma_);
   size.shrink = rms_before > 0.0 ? 1.0 - rms_after / rms_before : 0.0;
   size.shrink_seen = 1.0 - std::hypot(rms_after, noise) / std::hypot(rms_before, noise);

@@ -57,8 +57,8 @@ class EffectSizer {
   Eigen::VectorXd leftOver(const Deflections& of, const Eigen::VectorXd& gap) const;  ///< m
   Eigen::VectorXd leftHeldOut(const Deflections& of,
                               const Eigen::VectorXd& gap) const;  ///< m; posture by posture
-  double whitened(const Eigen::VectorXd& residual) const;                             ///< rms
-  double positionsLeft(const Eigen::VectorXd& difference) const;                      ///< m
+  double whitened(const Eigen::VectorXd& residual) const;         ///< rms
+  double positionsLeft(const Eigen::VectorXd& difference) const;  ///< m
   void designPositions();
 
   std::vector<Eigen::Index> pose_ends_;  ///< rows of the deflections, past the last of each pose

@@ -42,8 +42,7 @@ EffectDraw warmingDrives(const simulation::SimulationSpec&, numerics::RandomStre
   draw.most = 0.8;
   draw.apply = [=](double s, simulation::SimulationSpec& spec) {
     if (s <= 0.0) return;
-    for (auto& joint : spec.machine.joints)
-      joint.softening = simulation::JointSoftening{std::min(s, 0.8), time};
+    for (auto& joint : spec.machine.joints) joint.softening = simulation::JointSoftening{std::min(s, 0.8), time};
   };
   return draw;
 }
@@ -150,7 +149,8 @@ const std::vector<std::string>& outsideKinds() {
   return names;
 }
 
-EffectDraw drawOutside(const std::string& kind, const simulation::SimulationSpec& machine, numerics::RandomStream& random) {
+EffectDraw drawOutside(const std::string& kind, const simulation::SimulationSpec& machine,
+                       numerics::RandomStream& random) {
   for (const auto& [name, draw] : kKinds) {
     if (name != kind) continue;
     EffectDraw effect = draw(machine, random);

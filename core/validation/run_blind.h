@@ -37,10 +37,11 @@ struct BlindResult {
 /// The whole test, in this order: machines drawn and measured into out/cases/NNN; their truth into
 /// out/labels.csv, whose hash is sealed (event, out/seal.txt); every campaign read back from its folder and
 /// diagnosed; the answers frozen in out/answers.csv, their hash added to seal.txt; then both files opened
-/// again from disk and scored. `distance`, where given, is asked of the cases outside the vocabulary, of size 2 and more, after that, for their rates
-/// alone; out/distances.csv keeps it. The same count and seed give the same bytes. A diagnosis that throws has not
-/// answered. An earlier run's cases in the same place are replaced. Throws InputError or std::runtime_error
-/// where a file cannot be written, out/cases is somebody else's, or either file is not what was hashed.
+/// again from disk and scored. `distance`, where given, is asked of the cases outside the vocabulary, of size 2 and
+/// more, after that, for their rates alone; out/distances.csv keeps it. The same count and seed give the same bytes. A
+/// diagnosis that throws has not answered. An earlier run's cases in the same place are replaced. Throws InputError or
+/// std::runtime_error where a file cannot be written, out/cases is somebody else's, or either file is not what was
+/// hashed.
 BlindResult runBlind(const BlindOptions& options, const Diagnose& diagnose, const BlindEvents& events = {},
                      const Distance& distance = {});
 

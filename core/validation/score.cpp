@@ -32,8 +32,7 @@ std::string columnOf(const Label& label, const Answer& answer) {
   if (answer.entries.size() > 1) return "several";
   const Answer::Entry& only = answer.entries.front();
   if (only.effects.empty()) return "unknown";
-  if (label.kind == CaseKind::single && has(only.effects, label.effects.front().id))
-    return label.effects.front().id;
+  if (label.kind == CaseKind::single && has(only.effects, label.effects.front().id)) return label.effects.front().id;
   return only.effects.front();
 }
 
@@ -82,9 +81,7 @@ numerics::Rate rateOf(const std::vector<ScoredCase>& cases, const Choose& counts
 }
 
 bool right(const ScoredCase& one) { return one.right; }
-double sizeOf(const ScoredCase& one) {
-  return one.label.effects.empty() ? 0.0 : one.label.effects.front().size;
-}
+double sizeOf(const ScoredCase& one) { return one.label.effects.empty() ? 0.0 : one.label.effects.front().size; }
 
 Choose kind(CaseKind wanted, double least = 0.0) {
   return [=](const ScoredCase& one) { return one.label.kind == wanted && sizeOf(one) >= least; };
@@ -115,8 +112,8 @@ std::vector<NamedRate> allRates(const std::vector<ScoredCase>& cases) {
   };
   const Choose named = [](const ScoredCase& one) {
     const bool names = one.label.kind == CaseKind::single && one.right;
-    return names && (one.label.effects.front().id == "joint_coupling" ||
-                     one.label.effects.front().id == "target_motion");
+    return names &&
+           (one.label.effects.front().id == "joint_coupling" || one.label.effects.front().id == "target_motion");
   };
   const Choose first = [](const ScoredCase& one) { return one.first; };
   const Choose apart = [](const ScoredCase& one) {
@@ -128,30 +125,23 @@ std::vector<NamedRate> allRates(const std::vector<ScoredCase>& cases) {
       {"singles", "singles: the effect and nothing else", rateOf(cases, kind(CaseKind::single), right)},
       {"singles_first_from_2", "size 2 and more: the effect first, in a class of at most three",
        rateOf(cases, kind(CaseKind::single, 2.0), first)},
-      {"singles_first_from_5", "the same, of size 5 and more",
-       rateOf(cases, kind(CaseKind::single, 5.0), first)},
+      {"singles_first_from_5", "the same, of size 5 and more", rateOf(cases, kind(CaseKind::single, 5.0), first)},
       {"singles_from_2", "alone, of size 2 and more", rateOf(cases, kind(CaseKind::single, 2.0), right)},
       {"singles_from_5", "the same, of size 5 and more", rateOf(cases, kind(CaseKind::single, 5.0), right)},
       {"singles_found_from_2", "size 2 and more: the effect, perhaps with others",
        rateOf(cases, kind(CaseKind::single, 2.0), found)},
       {"false_alarms", "clean machines: something was said", rateOf(cases, kind(CaseKind::none), alarm)},
-      {"false_alarms_noise_right", "the same, the tracker's noise declared right",
-       rateOf(cases, clean(true), alarm)},
+      {"false_alarms_noise_right", "the same, the tracker's noise declared right", rateOf(cases, clean(true), alarm)},
       {"false_alarms_noise_wrong", "the same, declared wrong", rateOf(cases, clean(false), alarm)},
-      {"unknown", "outside the vocabulary: unknown was said",
-       rateOf(cases, kind(CaseKind::outside), unknown)},
-      {"unknown_from_2", "the same, of size 2 and more",
-       rateOf(cases, kind(CaseKind::outside, 2.0), unknown)},
-      {"unknown_apart", "the same, two noises and more from what any effect can do",
-       rateOf(cases, apart, unknown)},
+      {"unknown", "outside the vocabulary: unknown was said", rateOf(cases, kind(CaseKind::outside), unknown)},
+      {"unknown_from_2", "the same, of size 2 and more", rateOf(cases, kind(CaseKind::outside, 2.0), unknown)},
+      {"unknown_apart", "the same, two noises and more from what any effect can do", rateOf(cases, apart, unknown)},
       {"outside_none_from_2", "outside the vocabulary, size 2 and more: none was said",
        rateOf(cases, kind(CaseKind::outside, 2.0), none)},
       {"doubles", "doubles: both and nothing else", rateOf(cases, kind(CaseKind::pair), right)},
-      {"doubles_both_found", "doubles: both, perhaps with others",
-       rateOf(cases, kind(CaseKind::pair), found)},
+      {"doubles_both_found", "doubles: both, perhaps with others", rateOf(cases, kind(CaseKind::pair), found)},
       {"doubles_one_found", "doubles: at least one", rateOf(cases, kind(CaseKind::pair), one_found)},
-      {"detail", "pair or reflector named as it is, where the effect is right",
-       rateOf(cases, named, namesDetail)},
+      {"detail", "pair or reflector named as it is, where the effect is right", rateOf(cases, named, namesDetail)},
       {"failed", "no answer at all", rateOf(cases, everything, failed)}};
 }
 
@@ -161,9 +151,8 @@ EffectScore effectScore(const std::vector<ScoredCase>& cases, const std::string&
       return one.label.kind == wanted && one.label.effects.front().id == id && sizeOf(one) >= least;
     });
   };
-  EffectScore effect{
-      id, rateOf(cases, of(0.0), right), rateOf(cases, of(2.0), right), rateOf(cases, of(5.0), right), 0,
-      0.0};
+  EffectScore effect{id, rateOf(cases, of(0.0), right), rateOf(cases, of(2.0), right), rateOf(cases, of(5.0), right), 0,
+                     0.0};
   int found = 0;
   for (const ScoredCase& one : cases) {
     if (!of(0.0)(one)) continue;
@@ -189,8 +178,7 @@ Confusion confusionOf(const std::vector<ScoredCase>& cases) {
                               : one.label.kind == CaseKind::outside ? "outside"
                                                                     : one.label.effects.front().id;
     const auto row = std::find(table.truths.begin(), table.truths.end(), truth) - table.truths.begin();
-    const auto column =
-        std::find(table.answers.begin(), table.answers.end(), one.column) - table.answers.begin();
+    const auto column = std::find(table.answers.begin(), table.answers.end(), one.column) - table.answers.begin();
     ++table.counts.at(static_cast<std::size_t>(row)).at(static_cast<std::size_t>(column));
   }
   return table;
@@ -259,9 +247,8 @@ Score score(const std::vector<Label>& labels, const std::vector<Answer>& answers
   result.shrinks = shrinksOf(result.cases);
   result.rates.push_back(coverage("shrink_covered", "the promised interval holds the shrink that can be seen",
                                   result.shrinks, &ShrinkPair::truth_seen));
-  result.rates.push_back(coverage("shrink_covered_noise_free",
-                                  "the promised interval holds the noise-free shrink", result.shrinks,
-                                  &ShrinkPair::truth));
+  result.rates.push_back(coverage("shrink_covered_noise_free", "the promised interval holds the noise-free shrink",
+                                  result.shrinks, &ShrinkPair::truth));
   result.confusion = confusionOf(result.cases);
   return result;
 }

@@ -15,8 +15,7 @@ namespace stiffscope::validation {
 struct ScoredCase {
   Label label;
   Answer answer;
-  bool found =
-      false;  ///< every true effect is a member of some entry (none: nothing was said; outside: unknown)
+  bool found = false;  ///< every true effect is a member of some entry (none: nothing was said; outside: unknown)
   bool right = false;  ///< found, and nothing else was said
   bool first = false;  ///< the first entry has the (first) true effect, beside at most two others
   int class_size = 0;  ///< members of the entry with the (first) true effect; 0 where not found

@@ -1,9 +1,9 @@
 #include "core/validation/tables.h"
 
-#include <algorithm>
-#include <array>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <algorithm>
+#include <array>
 #include <map>
 #include <string>
 #include <vector>
@@ -99,9 +99,9 @@ std::string answersCsv(const std::vector<Answer>& answers) {
     }
     if (entries.empty()) entries.push_back("none");
     for (const Answer::Promise& promise : one.promises) {
-      classes.push_back(fmt::format("{}:{}:{}:{}:{}", fmt::join(promise.effects, "|"),
-                                    shortNumber(promise.value), shortNumber(promise.low),
-                                    shortNumber(promise.high), shortNumber(promise.explained)));
+      classes.push_back(fmt::format("{}:{}:{}:{}:{}", fmt::join(promise.effects, "|"), shortNumber(promise.value),
+                                    shortNumber(promise.low), shortNumber(promise.high),
+                                    shortNumber(promise.explained)));
     }
     csv += fmt::format("{},{},{},{},{}\n", one.name,
                        one.failure.empty() ? fmt::format("{}", fmt::join(entries, "+")) : "failed",
@@ -125,8 +125,7 @@ std::vector<Answer> readAnswers(const std::string& file, const std::string& byte
                                   at < details.size() ? details[at] : ""});
       }
     }
-    for (const std::string& one : split(row.text("classes"), ';'))
-      answer.promises.push_back(promiseOf(row, one));
+    for (const std::string& one : split(row.text("classes"), ';')) answer.promises.push_back(promiseOf(row, one));
     answers.push_back(std::move(answer));
   }
   return answers;
@@ -135,8 +134,8 @@ std::vector<Answer> readAnswers(const std::string& file, const std::string& byte
 namespace {
 
 const std::vector<std::string> kLabelColumns{"case",         "kind",       "effects",   "details", "shows",
-                                        "sizes",        "deflection", "positions", "shrink",  "shrink_seen",
-                                        "noise_factor", "background", "arm",       "loading"};
+                                             "sizes",        "deflection", "positions", "shrink",  "shrink_seen",
+                                             "noise_factor", "background", "arm",       "loading"};
 
 const char* nameOf(Shows shows) {
   switch (shows) {
@@ -181,8 +180,7 @@ Label labelOf(const std::string& name, const BlindCase& one) {
               one.loading};
   for (const PlacedEffect& placed : one.effects) {
     label.effects.push_back({placed.effect ? std::string(effects::idOf(*placed.effect)) : placed.detail, placed.detail,
-                             nameOf(placed.shows), placed.size(), placed.sizes.deflection,
-                             placed.sizes.positions});
+                             nameOf(placed.shows), placed.size(), placed.sizes.deflection, placed.sizes.positions});
   }
   return label;
 }
@@ -198,9 +196,8 @@ std::string labelsCsv(const std::vector<Label>& labels) {
                        joined(one.effects, [](const LabelledEffect& e) { return e.detail; }),
                        joined(one.effects, [](const LabelledEffect& e) { return e.shows; }),
                        numbers(&LabelledEffect::size), numbers(&LabelledEffect::deflection),
-                       numbers(&LabelledEffect::positions), shortNumber(one.shrink),
-                       shortNumber(one.shrink_seen), shortNumber(one.noise_factor),
-                       shortNumber(one.background), one.arm, one.loading);
+                       numbers(&LabelledEffect::positions), shortNumber(one.shrink), shortNumber(one.shrink_seen),
+                       shortNumber(one.noise_factor), shortNumber(one.background), one.arm, one.loading);
   }
   return csv;
 }
@@ -217,14 +214,12 @@ std::vector<Label> readLabels(const std::string& file, const std::string& bytes)
                 row.number("background"),
                 row.text("arm"),
                 row.text("loading")};
-    const std::vector<std::string> ids = split(row.text("effects"), '+'),
-                                   details = split(row.text("details"), '+'),
+    const std::vector<std::string> ids = split(row.text("effects"), '+'), details = split(row.text("details"), '+'),
                                    shows = split(row.text("shows"), '+');
     const std::vector<double> sizes = row.numbers("sizes"), deflection = row.numbers("deflection"),
                               positions = row.numbers("positions");
     const std::size_t count = ids.size();
-    if (shows.size() != count || sizes.size() != count || deflection.size() != count ||
-        positions.size() != count) {
+    if (shows.size() != count || sizes.size() != count || deflection.size() != count || positions.size() != count) {
       row.refuse("effects", "as many effects as sizes");
     }
     for (std::size_t e = 0; e < count; ++e) {
@@ -263,12 +258,12 @@ std::vector<TableRow> readTable(const std::string& file, const std::string& byte
   std::vector<TableRow> rows;
   bool header = true;
   while (lines.next(cells)) {
-    const bool expected = cells.size() == columns.size() &&
-                          (!header || std::equal(cells.begin(), cells.end(), columns.begin()));
+    const bool expected =
+        cells.size() == columns.size() && (!header || std::equal(cells.begin(), cells.end(), columns.begin()));
     if (!expected) {
-      throw io::InputError({file, lines.line(), ""}, fmt::format("{}", fmt::join(cells, ",")),
-                       fmt::format("expected {}{}", header ? "the header " : "a cell for each of ",
-                                   fmt::join(columns, ",")));
+      throw io::InputError(
+          {file, lines.line(), ""}, fmt::format("{}", fmt::join(cells, ",")),
+          fmt::format("expected {}{}", header ? "the header " : "a cell for each of ", fmt::join(columns, ",")));
     }
     std::map<std::string, std::string> named;
     for (std::size_t c = 0; c < columns.size(); ++c) named[columns[c]] = std::string(cells[c]);

@@ -1,10 +1,10 @@
 #include "render/vtk/arm_layers.h"
 
-#include <cmath>
 #include <fmt/format.h>
+#include <vtkRenderer.h>
+#include <cmath>
 #include <stdexcept>
 #include <utility>
-#include <vtkRenderer.h>
 
 #include "render/arm_scene.h"
 #include "render/vtk/arm_shape.h"
@@ -25,8 +25,7 @@ void requireFinite(const Eigen::Vector3d& v, const std::string& what) {
 void requireFinite(const ScenePoint& point) {
   requireFinite(point.position, fmt::format("the position of '{}'", point.label));
   if (point.measured) requireFinite(*point.measured, fmt::format("the measured vector of '{}'", point.label));
-  if (point.predicted)
-    requireFinite(*point.predicted, fmt::format("the predicted vector of '{}'", point.label));
+  if (point.predicted) requireFinite(*point.predicted, fmt::format("the predicted vector of '{}'", point.label));
   if (point.residual) requireFinite(*point.residual, fmt::format("the residual vector of '{}'", point.label));
 }
 
@@ -138,8 +137,8 @@ void ArmLayers::paintBack(Canvas& canvas) {
 
 void ArmLayers::addSolids(const Box& room, double unit) {
   const double magnification = scene_.magnification.value_or(automaticMagnification(scene_));
-  stage_ = std::make_unique<SceneStage>(SceneStage{scene_, surface_, unit, magnification, viewAxesOf(scene_),
-                                                   room, projectionIn(room, scene_, unit, magnification)});
+  stage_ = std::make_unique<SceneStage>(SceneStage{scene_, surface_, unit, magnification, viewAxesOf(scene_), room,
+                                                   projectionIn(room, scene_, unit, magnification)});
   addArmsTo(*layers_[kGhosts], *stage_, true);
   addArmsTo(*layers_[kArms], *stage_, false);
   const auto kinds = vectorKinds(scene_);

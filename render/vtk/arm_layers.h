@@ -1,8 +1,8 @@
 #pragma once
 
+#include <vtkSmartPointer.h>
 #include <memory>
 #include <vector>
-#include <vtkSmartPointer.h>
 
 #include "render/vtk/painting.h"
 #include "render/vtk/scene_stage.h"

@@ -1,8 +1,5 @@
 #include "render/vtk/arm_shape.h"
 
-#include <Eigen/Geometry>
-#include <algorithm>
-#include <cmath>
 #include <vtkActor.h>
 #include <vtkCellArray.h>
 #include <vtkNew.h>
@@ -12,6 +9,9 @@
 #include <vtkPolyDataMapper.h>
 #include <vtkProperty.h>
 #include <vtkUnsignedCharArray.h>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
 
 #include "render/ticks.h"
 #include "render/vtk/chart_frame.h"
@@ -35,8 +35,8 @@ int Mesh::addVertex(const Eigen::Vector3d& point, const Eigen::Vector3d& normal,
 
 void Mesh::addQuad(int a, int b, int c, int d) { triangles_.insert(triangles_.end(), {a, b, c, a, c, d}); }
 
-void Mesh::addCone(const Eigen::Vector3d& from, double from_radius, const Eigen::Vector3d& to,
-                   double to_radius, Colour colour) {
+void Mesh::addCone(const Eigen::Vector3d& from, double from_radius, const Eigen::Vector3d& to, double to_radius,
+                   Colour colour) {
   const double length = (to - from).norm();
   if (!(length > 1e-9)) return;
   const Eigen::Vector3d axis = (to - from) / length;
@@ -67,9 +67,7 @@ void Mesh::addSphere(const Eigen::Vector3d& centre, double radius, Colour colour
   addSphere(centre, radius, colour, kSides);
 }
 
-void Mesh::addDot(const Eigen::Vector3d& centre, double radius, Colour colour) {
-  addSphere(centre, radius, colour, 8);
-}
+void Mesh::addDot(const Eigen::Vector3d& centre, double radius, Colour colour) { addSphere(centre, radius, colour, 8); }
 
 void Mesh::addSphere(const Eigen::Vector3d& centre, double radius, Colour colour, int sides) {
   const int rings = sides / 2;
@@ -153,8 +151,7 @@ void addPedestal(Mesh& mesh, const Eigen::Vector3d& first_joint, double radius, 
   if (first_joint.z() > plate.z()) mesh.addCone(plate, 1.7 * radius, first_joint, 1.5 * radius, colour);
 }
 
-void addDrum(Mesh& mesh, const Eigen::Vector3d& joint, const Eigen::Vector3d& axis, double radius,
-             Colour colour) {
+void addDrum(Mesh& mesh, const Eigen::Vector3d& joint, const Eigen::Vector3d& axis, double radius, Colour colour) {
   const Eigen::Vector3d half = 1.35 * radius * axis.normalized();
   mesh.addCone(joint - half, 1.28 * radius, joint + half, 1.28 * radius, colour);
 }
@@ -212,8 +209,7 @@ void addArm(Mesh& mesh, const ArmPose& pose, const Palette& palette) {
   addFlange(mesh, pose, proportions, paint);
 }
 
-Eigen::AlignedBox3d extentOf(const ArmScene& scene, double magnification,
-                             const Eigen::Matrix3d& base_to_view) {
+Eigen::AlignedBox3d extentOf(const ArmScene& scene, double magnification, const Eigen::Matrix3d& base_to_view) {
   Eigen::AlignedBox3d box;
   const auto include = [&](const Eigen::Vector3d& point, double around) {
     const Eigen::Vector3d p = base_to_view * point;

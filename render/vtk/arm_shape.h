@@ -1,10 +1,10 @@
 #pragma once
 
+#include <vtkSmartPointer.h>
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <cstdint>
 #include <vector>
-#include <vtkSmartPointer.h>
 
 #include "render/arm_scene.h"
 #include "render/colours.h"
@@ -71,7 +71,6 @@ FloorGrid floorOf(const ArmScene& scene);
 
 /// The box around all that is drawn of the scene but the floor, in the base frame turned by `base_to_view`
 /// (rows: the view axes), m.
-Eigen::AlignedBox3d extentOf(const ArmScene& scene, double magnification,
-                             const Eigen::Matrix3d& base_to_view);
+Eigen::AlignedBox3d extentOf(const ArmScene& scene, double magnification, const Eigen::Matrix3d& base_to_view);
 
 }  // namespace stiffscope::render

@@ -1,20 +1,20 @@
 #include "render/vtk/canvas.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <vtkBrush.h>
+#include <vtkContext2D.h>
+#include <vtkPen.h>
+#include <vtkTextProperty.h>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
-#include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <stdexcept>
 #include <system_error>
 #include <utility>
 #include <vector>
-#include <vtkBrush.h>
-#include <vtkContext2D.h>
-#include <vtkPen.h>
-#include <vtkTextProperty.h>
 
 // The text of the canvas: measured, with subscripts, cut and wrapped.
 
@@ -79,7 +79,8 @@ std::vector<Run> runsOf(const std::string& text) {
   }
   // A line break would begin a second line where there is no room for it.
   for (Run& run : runs) {
-    std::replace_if(run.text.begin(), run.text.end(), [](unsigned char c) { return c < 0x20 || c == 0x7F; }, ' ');
+    std::replace_if(
+        run.text.begin(), run.text.end(), [](unsigned char c) { return c < 0x20 || c == 0x7F; }, ' ');
   }
   return runs;
 }
@@ -126,7 +127,8 @@ void Canvas::text(const std::string& text, Spot anchor, AlignX x, AlignY y, cons
     const double at_x = up ? below : left + along;
     const double at_y = up ? top + height - along : below;
     context_.DrawString(static_cast<float>(std::round(at_x * surface_.scale)),
-                        static_cast<float>(std::round((surface_.size.height - at_y) * surface_.scale)), run.text.c_str());
+                        static_cast<float>(std::round((surface_.size.height - at_y) * surface_.scale)),
+                        run.text.c_str());
     along += run_width;
   }
 }
@@ -140,14 +142,12 @@ std::string Canvas::shortened(const std::string& text, double width, const TextS
     if ((static_cast<unsigned char>(text[at]) & 0xC0) != 0x80) ends.push_back(at);
   }
   const auto cut = [&text](std::size_t end) { return text.substr(0, end) + "\u2026"; };
-  const auto first_too_long = std::partition_point(ends.begin(), ends.end(), [&](std::size_t end) {
-    return measure(cut(end), style).x <= width;
-  });
+  const auto first_too_long = std::partition_point(
+      ends.begin(), ends.end(), [&](std::size_t end) { return measure(cut(end), style).x <= width; });
   return first_too_long == ends.begin() ? "" : cut(*std::prev(first_too_long));
 }
 
-std::vector<std::string> Canvas::wrapped(const std::string& text, double width,
-                                         const TextStyle& style) const {
+std::vector<std::string> Canvas::wrapped(const std::string& text, double width, const TextStyle& style) const {
   std::vector<std::string> lines;
   std::string line;
   std::size_t at = 0;
@@ -172,8 +172,7 @@ std::vector<std::string> Canvas::wrapped(const std::string& text, double width,
 namespace {
 
 std::vector<std::string> foldersToSearch() {
-  if (const char* chosen = std::getenv("STIFFSCOPE_FONTS"); chosen != nullptr && *chosen != '\0')
-    return {chosen};
+  if (const char* chosen = std::getenv("STIFFSCOPE_FONTS"); chosen != nullptr && *chosen != '\0') return {chosen};
   return {
 #ifdef STIFFSCOPE_FONT_DIR
       STIFFSCOPE_FONT_DIR,
@@ -226,8 +225,7 @@ void Canvas::polygon(const std::vector<Spot>& corners, Colour colour) {
 }
 
 void Canvas::fill(const Box& box, Colour colour) {
-  polygon({{box.left, box.top}, {box.right, box.top}, {box.right, box.bottom}, {box.left, box.bottom}},
-          colour);
+  polygon({{box.left, box.top}, {box.right, box.top}, {box.right, box.bottom}, {box.left, box.bottom}}, colour);
 }
 
 void Canvas::outline(const Box& box, Colour colour, double width) {

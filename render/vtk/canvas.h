@@ -27,8 +27,8 @@ inline constexpr int kSupersampling = 2;
 
 /// What a canvas paints on.
 struct Surface {
-  Size size;                       ///< of the picture
-  double scale = kSupersampling;   ///< rendered pixels to one of the picture, in each direction
+  Size size;                      ///< of the picture
+  double scale = kSupersampling;  ///< rendered pixels to one of the picture, in each direction
   Palette palette = kLightPalette;
 };
 

@@ -14,8 +14,8 @@ double YAxis::at(double value) const {
 }
 
 bool YAxis::shows(double value) const {
-  const double slack = 1e-9 * (upper - lower);
-  return value >= lower - (logarithmic ? 0 : slack) && value <= upper + slack;
+  const double inflation = 1e-9 * (upper - lower);
+  return value >= lower - (logarithmic ? 0 : inflation) && value <= upper + inflation;
 }
 
 YAxis linearAxis(const Canvas& canvas, double lower, double upper, double height, bool widen) {
@@ -33,8 +33,8 @@ YAxis linearAxis(const Canvas& canvas, double lower, double upper, double height
     const double step = axis.ticks.positions[1] - axis.ticks.positions[0];
     axis.lower = std::floor(lower / step + 1e-9) * step;
     axis.upper = std::ceil(upper / step - 1e-9) * step;
-    axis.ticks = linearTicks(axis.lower, axis.upper,
-                             static_cast<int>(std::lround((axis.upper - axis.lower) / step)) + 1);
+    axis.ticks =
+        linearTicks(axis.lower, axis.upper, static_cast<int>(std::lround((axis.upper - axis.lower) / step)) + 1);
   }
   return axis;
 }
@@ -76,8 +76,8 @@ void drawYAxis(Canvas& canvas, const Box& plot, YAxis& axis) {
   canvas.fill({plot.left - u, plot.top, plot.left, plot.bottom}, colours::kAxis);
 }
 
-CategoryLabels fitCategoryLabels(const Canvas& canvas, const std::vector<std::string>& categories,
-                                 double band, double room) {
+CategoryLabels fitCategoryLabels(const Canvas& canvas, const std::vector<std::string>& categories, double band,
+                                 double room) {
   const TextStyle style = labelStyle(canvas);
   double widest = 0;
   std::size_t longest = 0;
@@ -112,16 +112,16 @@ void drawCategories(Canvas& canvas, const Box& plot, const std::vector<std::stri
   for (std::size_t i = 0; i < categories.size(); i += static_cast<std::size_t>(labels.every)) {
     const double x = plot.left + (static_cast<double>(i) + 0.5) * band;
     if (labels.direction == Direction::Up) {
-      canvas.text(canvas.shortened(categories[i], labels.height, style), {x, top}, AlignX::Centre,
-                  AlignY::Top, style, Direction::Up);
+      canvas.text(canvas.shortened(categories[i], labels.height, style), {x, top}, AlignX::Centre, AlignY::Top, style,
+                  Direction::Up);
     } else {
       canvas.text(categories[i], {x, top}, AlignX::Centre, AlignY::Top, style);
     }
   }
   if (title.empty()) return;
   const TextStyle title_style = axisTitleStyle(canvas);
-  canvas.text(canvas.shortened(title, plot.width(), title_style),
-              {plot.middleX(), top + labels.height + 4 * u}, AlignX::Centre, AlignY::Top, title_style);
+  canvas.text(canvas.shortened(title, plot.width(), title_style), {plot.middleX(), top + labels.height + 4 * u},
+              AlignX::Centre, AlignY::Top, title_style);
 }
 
 void drawInCategoryFrame(Canvas& canvas, const CategoryFrame& frame,
@@ -138,11 +138,9 @@ void drawInCategoryFrame(Canvas& canvas, const CategoryFrame& frame,
   YAxis axis = frame.axis(free.height() - 60 * u);
   Box plot = free;
   plot.left = Canvas::snapped(plot.left + tickLabelWidth(canvas, axis));
-  const CategoryLabels labels =
-      fitCategoryLabels(canvas, frame.categories, plot.width() / static_cast<double>(frame.categories.size()),
-                        0.25 * free.height());
-  plot.bottom -=
-      labels.height + 10 * u + (frame.category_title.empty() ? 0 : 1.2 * axisTitleStyle(canvas).size);
+  const CategoryLabels labels = fitCategoryLabels(
+      canvas, frame.categories, plot.width() / static_cast<double>(frame.categories.size()), 0.25 * free.height());
+  plot.bottom -= labels.height + 10 * u + (frame.category_title.empty() ? 0 : 1.2 * axisTitleStyle(canvas).size);
   drawYTitle(canvas, title_left, plot, y_title);
   drawYAxis(canvas, plot, axis);
   draw(plot, axis);
@@ -190,10 +188,9 @@ void drawArrow(Canvas& canvas, Spot from, Spot to, Colour colour, double width, 
   const Spot neck{to.x - head * along.x, to.y - head * along.y};
   const double half = 0.4 * head;
   canvas.line(from, neck, colour, width);
-  canvas.polygon({to,
-                  {neck.x - half * along.y, neck.y + half * along.x},
-                  {neck.x + half * along.y, neck.y - half * along.x}},
-                 colour);
+  canvas.polygon(
+      {to, {neck.x - half * along.y, neck.y + half * along.x}, {neck.x + half * along.y, neck.y - half * along.x}},
+      colour);
 }
 
 void drawKey(Canvas& canvas, Key key, const Box& box, Colour colour) {
@@ -220,7 +217,11 @@ void drawKey(Canvas& canvas, Key key, const Box& box, Colour colour) {
     case Key::MediumArrow:
     case Key::ThinArrow:
       drawArrow(canvas, {box.left - 0.4 * r, centre.y}, {box.right + 0.4 * r, centre.y}, colour,
-                (key == Key::ThickArrow ? 5 : key == Key::MediumArrow ? 3.5 : 2.5) * canvas.unit(), 1.2 * r);
+                (key == Key::ThickArrow    ? 5
+                 : key == Key::MediumArrow ? 3.5
+                                           : 2.5) *
+                    canvas.unit(),
+                1.2 * r);
       break;
   }
 }

@@ -57,8 +57,8 @@ struct CategoryLabels {
   int every = 1;
   double height = 0;
 };
-CategoryLabels fitCategoryLabels(const Canvas& canvas, const std::vector<std::string>& categories,
-                                 double band, double room);
+CategoryLabels fitCategoryLabels(const Canvas& canvas, const std::vector<std::string>& categories, double band,
+                                 double room);
 /// Labels under the bottom of `plot`, the title below them.
 void drawCategories(Canvas& canvas, const Box& plot, const std::vector<std::string>& categories,
                     const CategoryLabels& labels, const std::string& title);

@@ -1,8 +1,8 @@
 #include "render/vtk/painters.h"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 #include <stdexcept>
 
 #include "render/vtk/chart_frame.h"
@@ -22,9 +22,8 @@ void requireConsistent(const DotRowChart& chart) {
     const bool there =
         std::all_of(group.begin(), group.end(), [&](std::size_t row) { return row < chart.rows.size(); });
     if (!there || group.size() < 2) {
-      throw std::invalid_argument(
-          fmt::format("dot chart '{}': a group of rows {}, expected two or more of {}", chart.title,
-                      fmt::join(group, ", "), chart.rows.size()));
+      throw std::invalid_argument(fmt::format("dot chart '{}': a group of rows {}, expected two or more of {}",
+                                              chart.title, fmt::join(group, ", "), chart.rows.size()));
     }
   }
 }
@@ -40,9 +39,7 @@ struct RowFrame {
   double lower = 1, upper = 10;  ///< of the axis
 
   double yOf(std::size_t i) const { return plot.top + (static_cast<double>(i) + 0.5) * row; }
-  double xOf(double size) const {
-    return plot.left + std::log(size / lower) / std::log(upper / lower) * plot.width();
-  }
+  double xOf(double size) const { return plot.left + std::log(size / lower) / std::log(upper / lower) * plot.width(); }
   double xOfGroup(std::size_t g) const { return columns + (static_cast<double>(g) + 0.5) * column; }
 };
 
@@ -73,15 +70,13 @@ RowFrame frameOf(const Canvas& canvas, const DotRowChart& chart, const Box& free
   const double u = canvas.unit();
   RowFrame frame;
   double widest = 0;
-  for (const DotRow& row : chart.rows)
-    widest = std::max(widest, canvas.measure(row.name, nameStyle(canvas, row)).x);
+  for (const DotRow& row : chart.rows) widest = std::max(widest, canvas.measure(row.name, nameStyle(canvas, row)).x);
   frame.names = free.left;
   frame.columns = free.left + std::min(widest, 0.3 * free.width()) + 14 * u;
   frame.groups = std::min(chart.groups.size(), kMostGroups);
   frame.column = 30 * u;
   // The title over the columns may be wider than they are.
-  const double columns =
-      frame.groups == 0 ? 0 : std::max(frame.column * static_cast<double>(frame.groups), 110 * u);
+  const double columns = frame.groups == 0 ? 0 : std::max(frame.column * static_cast<double>(frame.groups), 110 * u);
   frame.plot = {frame.columns + columns + 14 * u, free.top + head, free.right,
                 free.bottom - 1.3 * labelStyle(canvas).size - 1.5 * axisTitleStyle(canvas).size};
   frame.row = frame.plot.height() / static_cast<double>(chart.rows.size());
@@ -105,8 +100,7 @@ void drawAxis(Canvas& canvas, const DotRowChart& chart, const RowFrame& frame) {
   }
   canvas.fill({frame.plot.left, frame.plot.bottom - u, frame.plot.right, frame.plot.bottom}, colours::kAxis);
   canvas.text(canvas.shortened(chart.x_title, frame.plot.width(), title),
-              {frame.plot.middleX(), frame.plot.bottom + 8 * u + 1.2 * style.size}, AlignX::Centre,
-              AlignY::Top, title);
+              {frame.plot.middleX(), frame.plot.bottom + 8 * u + 1.2 * style.size}, AlignX::Centre, AlignY::Top, title);
 }
 
 void drawGroups(Canvas& canvas, const DotRowChart& chart, const RowFrame& frame) {
@@ -114,8 +108,7 @@ void drawGroups(Canvas& canvas, const DotRowChart& chart, const RowFrame& frame)
   for (std::size_t g = 0; g < frame.groups; ++g) {
     const double x = frame.xOfGroup(g);
     const auto [first, last] = std::minmax_element(chart.groups[g].begin(), chart.groups[g].end());
-    for (std::size_t i = 0; i < chart.rows.size(); ++i)
-      canvas.disc({x, frame.yOf(i)}, 0.45 * radius, colours::kNone);
+    for (std::size_t i = 0; i < chart.rows.size(); ++i) canvas.disc({x, frame.yOf(i)}, 0.45 * radius, colours::kNone);
     canvas.line({x, frame.yOf(*first)}, {x, frame.yOf(*last)}, colours::kInk, 3 * u);
     for (const std::size_t row : chart.groups[g]) canvas.disc({x, frame.yOf(row)}, radius, colours::kInk);
   }
@@ -124,17 +117,16 @@ void drawGroups(Canvas& canvas, const DotRowChart& chart, const RowFrame& frame)
 void drawRow(Canvas& canvas, const RowFrame& frame, const DotRow& row, double y, Colour ground) {
   const double u = canvas.unit(), radius = std::min(7 * u, 0.32 * frame.row);
   const TextStyle style = nameStyle(canvas, row);
-  canvas.text(canvas.shortened(row.name, frame.columns - frame.names - 14 * u, style), {frame.names, y},
-              AlignX::Left, AlignY::Centre, style);
+  canvas.text(canvas.shortened(row.name, frame.columns - frame.names - 14 * u, style), {frame.names, y}, AlignX::Left,
+              AlignY::Centre, style);
   if (!hasDot(row)) {
     TextStyle faint = labelStyle(canvas);
     faint.colour = canvas.palette().faint_ink;
     const std::string words = canvas.shortened(row.words, frame.plot.width() - 16 * u, faint);
     const Spot extent = canvas.measure(words, faint);
     // Over grid and reference line, which would strike the words through.
-    canvas.fill(
-        {frame.plot.left + 4 * u, y - extent.y / 2, frame.plot.left + 12 * u + extent.x, y + extent.y / 2},
-        ground);
+    canvas.fill({frame.plot.left + 4 * u, y - extent.y / 2, frame.plot.left + 12 * u + extent.x, y + extent.y / 2},
+                ground);
     canvas.text(words, {frame.plot.left + 8 * u, y}, AlignX::Left, AlignY::Centre, faint);
     return;
   }
@@ -146,14 +138,13 @@ void drawRow(Canvas& canvas, const RowFrame& frame, const DotRow& row, double y,
   else
     drawPoint(canvas, {x, y}, radius, colour, false);
   const std::string number = fmt::format("{:.{}f}", row.size, row.size < 9.95 ? 1 : 0);
-  const double beside =
-      std::min(x + 1.35 * radius + 7 * u, frame.plot.right - canvas.measure(number, style).x);
+  const double beside = std::min(x + 1.35 * radius + 7 * u, frame.plot.right - canvas.measure(number, style).x);
   canvas.text(number, {beside, y}, AlignX::Left, AlignY::Centre, style);
 }
 
 std::vector<LegendEntry> legendOf(const DotRowChart& chart) {
-  const bool any_marked = std::any_of(chart.rows.begin(), chart.rows.end(),
-                                      [](const DotRow& row) { return row.marked && hasDot(row); });
+  const bool any_marked =
+      std::any_of(chart.rows.begin(), chart.rows.end(), [](const DotRow& row) { return row.marked && hasDot(row); });
   std::vector<LegendEntry> legend{{Key::Point, kDot, chart.dot_name}};
   if (any_marked) legend.push_back({Key::Diamond, kMarkedDot, chart.marked_name});
   if (std::isfinite(chart.reference)) legend.push_back({Key::Dashes, colours::kInk, chart.reference_name});
@@ -174,8 +165,7 @@ void paintChart(Canvas& canvas, const DotRowChart& chart) {
   const double line = canvas.measure("0", style).y;
   const RowFrame frame = frameOf(canvas, chart, free, line * static_cast<double>(over.size()) + 8 * u);
   for (std::size_t i = 0; i < over.size(); ++i)
-    canvas.text(over[i], {frame.columns, free.top + static_cast<double>(i) * line}, AlignX::Left, AlignY::Top,
-                style);
+    canvas.text(over[i], {frame.columns, free.top + static_cast<double>(i) * line}, AlignX::Left, AlignY::Top, style);
   for (std::size_t i = 0; i < chart.rows.size(); i += 2)
     canvas.fill({frame.names, frame.yOf(i) - frame.row / 2, frame.plot.right, frame.yOf(i) + frame.row / 2},
                 colours::kBand);

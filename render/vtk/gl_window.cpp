@@ -8,8 +8,8 @@ namespace stiffscope::render {
 namespace {
 
 // Mesa's software renderer keeps what it has drawn until it draws there again; with threads of its own it draws in
-// several places in turn. On the calling thread there is one, and a picture is done as soon: most of it is drawn on that
-// thread anyway. Who sets the number has it.
+// several places in turn. On the calling thread there is one, and a picture is done as soon: most of it is drawn on
+// that thread anyway. Who sets the number has it.
 void drawOnThisThread() {
   constexpr int kUnlessSet = 0;
   ::setenv("LP_NUM_THREADS", "0", kUnlessSet);
@@ -56,9 +56,9 @@ namespace stiffscope::render {
 
 namespace {
 
-/// A window that has pixels where it is drawn on, and nowhere else. VTK makes three framebuffers of a window's size, seven
-/// images in all: the others are what a display shows and what multisampling needs, and there is neither here. They
-/// stay of one pixel.
+/// A window that has pixels where it is drawn on, and nowhere else. VTK makes three framebuffers of a window's size,
+/// seven images in all: the others are what a display shows and what multisampling needs, and there is neither here.
+/// They stay of one pixel.
 class DrawnOnlyWindow : public vtkGenericOpenGLRenderWindow {
  public:
   static DrawnOnlyWindow* New();
@@ -82,9 +82,7 @@ struct GlWindow::Context {
   OSMesaContext handle = nullptr;
   std::array<unsigned char, kSide * kSide * 4> buffer{};
 
-  bool makeCurrent() {
-    return OSMesaMakeCurrent(handle, buffer.data(), GL_UNSIGNED_BYTE, kSide, kSide) == GL_TRUE;
-  }
+  bool makeCurrent() { return OSMesaMakeCurrent(handle, buffer.data(), GL_UNSIGNED_BYTE, kSide, kSide) == GL_TRUE; }
   ~Context() {
     if (handle != nullptr) OSMesaDestroyContext(handle);
   }

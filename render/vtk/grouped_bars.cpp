@@ -1,8 +1,8 @@
 #include "render/vtk/painters.h"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 #include <stdexcept>
 
 #include "render/vtk/chart_frame.h"
@@ -15,15 +15,15 @@ namespace {
 void requireConsistent(const GroupedBarChart& chart) {
   if (chart.categories.empty() || chart.series.empty()) {
     throw std::invalid_argument(
-        fmt::format("bar chart '{}' has {} categories and {} series, expected one of each at least",
-                    chart.title, chart.categories.size(), chart.series.size()));
+        fmt::format("bar chart '{}' has {} categories and {} series, expected one of each at least", chart.title,
+                    chart.categories.size(), chart.series.size()));
   }
   for (const BarSeries& series : chart.series) {
     const bool errors_fit = series.errors.empty() || series.errors.size() == series.values.size();
     if (series.values.size() != chart.categories.size() || !errors_fit) {
-      throw std::invalid_argument(fmt::format(
-          "bar chart '{}': series '{}' has {} values and {} errors for {} categories", chart.title,
-          series.name, series.values.size(), series.errors.size(), chart.categories.size()));
+      throw std::invalid_argument(
+          fmt::format("bar chart '{}': series '{}' has {} values and {} errors for {} categories", chart.title,
+                      series.name, series.values.size(), series.errors.size(), chart.categories.size()));
     }
   }
 }
@@ -59,8 +59,8 @@ void drawBars(Canvas& canvas, const Box& plot, const YAxis& axis, const GroupedB
       const double value = series.values[i];
       if (!std::isfinite(value)) continue;
       const double left = Canvas::snapped(start + bar * static_cast<double>(s));
-      const double right = std::max(
-          left + 1, Canvas::snapped(start + bar * static_cast<double>(s + 1)) - (bar > 8 * u ? u : 0));
+      const double right =
+          std::max(left + 1, Canvas::snapped(start + bar * static_cast<double>(s + 1)) - (bar > 8 * u ? u : 0));
       const double end = Canvas::snapped(axis.at(value));
       canvas.fill({left, std::min(zero, end), right, std::max(zero, end)}, series.colour);
       if (const double error = errorAt(series, i); error > 0) {
@@ -73,14 +73,10 @@ void drawBars(Canvas& canvas, const Box& plot, const YAxis& axis, const GroupedB
 }
 
 void paintChart(Canvas& canvas, const GroupedBarChart& chart) {
-  CategoryFrame frame{chart.title,  chart.subtitle, "", chart.y_title, chart.category_title,
-                      chart.categories, {}, {}};
-  for (const BarSeries& series : chart.series)
-    frame.legend.push_back({Key::Square, series.colour, series.name});
+  CategoryFrame frame{chart.title, chart.subtitle, "", chart.y_title, chart.category_title, chart.categories, {}, {}};
+  for (const BarSeries& series : chart.series) frame.legend.push_back({Key::Square, series.colour, series.name});
   frame.axis = [&](double height) { return axisFor(canvas, chart, height); };
-  drawInCategoryFrame(canvas, frame, [&](const Box& plot, const YAxis& axis) {
-    drawBars(canvas, plot, axis, chart);
-  });
+  drawInCategoryFrame(canvas, frame, [&](const Box& plot, const YAxis& axis) { drawBars(canvas, plot, axis, chart); });
 }
 
 }  // namespace

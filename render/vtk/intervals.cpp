@@ -1,8 +1,8 @@
 #include "render/vtk/painters.h"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 #include <limits>
 #include <stdexcept>
 
@@ -17,24 +17,22 @@ void requireConsistent(const IntervalChart& chart) {
   const std::size_t count = chart.categories.size();
   if (count == 0 || chart.series.empty()) {
     throw std::invalid_argument(
-        fmt::format("interval chart '{}' has {} categories and {} series, expected one of each at least",
-                    chart.title, count, chart.series.size()));
+        fmt::format("interval chart '{}' has {} categories and {} series, expected one of each at least", chart.title,
+                    count, chart.series.size()));
   }
   if (!chart.references.empty() && chart.references.size() != count) {
-    throw std::invalid_argument(fmt::format("interval chart '{}' has {} references for {} categories",
-                                            chart.title, chart.references.size(), count));
+    throw std::invalid_argument(fmt::format("interval chart '{}' has {} references for {} categories", chart.title,
+                                            chart.references.size(), count));
   }
   for (const IntervalSeries& series : chart.series) {
     if (series.intervals.size() != count) {
-      throw std::invalid_argument(
-          fmt::format("interval chart '{}': series '{}' has {} intervals for {} categories", chart.title,
-                      series.name, series.intervals.size(), count));
+      throw std::invalid_argument(fmt::format("interval chart '{}': series '{}' has {} intervals for {} categories",
+                                              chart.title, series.name, series.intervals.size(), count));
     }
     for (const Interval& i : series.intervals) {
       if (std::isfinite(i.value) && (i.lower > i.value || i.upper < i.value)) {
-        throw std::invalid_argument(
-            fmt::format("interval chart '{}': series '{}' has {} in an interval from {} to {}", chart.title,
-                        series.name, i.value, i.lower, i.upper));
+        throw std::invalid_argument(fmt::format("interval chart '{}': series '{}' has {} in an interval from {} to {}",
+                                                chart.title, series.name, i.value, i.lower, i.upper));
       }
     }
   }
@@ -72,20 +70,16 @@ bool offLogAxis(const Interval& interval) {
   return std::isfinite(interval.value) && (interval.value <= 0 || interval.lower <= 0);
 }
 
-void drawInterval(Canvas& canvas, double x, const YAxis& axis, const Interval& interval, Colour colour,
-                  double radius) {
+void drawInterval(Canvas& canvas, double x, const YAxis& axis, const Interval& interval, Colour colour, double radius) {
   const double u = canvas.unit();
   const auto at = [&axis](double value) {
-    return placeable(value, axis.logarithmic) ? axis.at(std::clamp(value, axis.lower, axis.upper))
-                                              : axis.bottom;
+    return placeable(value, axis.logarithmic) ? axis.at(std::clamp(value, axis.lower, axis.upper)) : axis.bottom;
   };
-  if (std::isfinite(interval.lower) && std::isfinite(interval.upper) &&
-      at(interval.lower) > at(interval.upper)) {
+  if (std::isfinite(interval.lower) && std::isfinite(interval.upper) && at(interval.lower) > at(interval.upper)) {
     drawWhisker(canvas, x, at(interval.lower), at(interval.upper), 0.9 * radius, colour,
                 placeable(interval.lower, axis.logarithmic), placeable(interval.upper, axis.logarithmic));
   }
-  if (axis.logarithmic && offLogAxis(interval))
-    drawArrowMark(canvas, {x, axis.bottom}, 11 * u, colour, false);
+  if (axis.logarithmic && offLogAxis(interval)) drawArrowMark(canvas, {x, axis.bottom}, 11 * u, colour, false);
   if (placeable(interval.value, axis.logarithmic)) {
     drawPoint(canvas, {x, at(interval.value)}, radius, colour, interval.doubtful);
   }
@@ -105,8 +99,7 @@ void drawSeries(Canvas& canvas, const Box& plot, const YAxis& axis, const Interv
     for (std::size_t s = 0; s < chart.series.size(); ++s) {
       const Interval& interval = chart.series[s].intervals[i];
       if (!std::isfinite(interval.value)) continue;
-      const double x =
-          middle + (static_cast<double>(s) - 0.5 * static_cast<double>(chart.series.size() - 1)) * step;
+      const double x = middle + (static_cast<double>(s) - 0.5 * static_cast<double>(chart.series.size() - 1)) * step;
       drawInterval(canvas, x, axis, interval, chart.series[s].colour, radius);
     }
   }
@@ -126,8 +119,7 @@ void drawBandEdges(Canvas& canvas, const Box& plot, const YAxis& axis, const Int
 }
 
 void paintChart(Canvas& canvas, const IntervalChart& chart) {
-  CategoryFrame frame{chart.title, chart.subtitle, "", chart.y_title, chart.category_title,
-                      chart.categories, {}, {}};
+  CategoryFrame frame{chart.title, chart.subtitle, "", chart.y_title, chart.category_title, chart.categories, {}, {}};
   bool any_off = false;
   for (const IntervalSeries& series : chart.series) {
     frame.legend.push_back({Key::Point, series.colour, series.name});

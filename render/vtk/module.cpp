@@ -1,6 +1,6 @@
 #include "render/backend.h"
-#include "render/vtk/painters.h"
 #include "render/vtk/offscreen_picture.h"
+#include "render/vtk/painters.h"
 
 // The entry of the module: what the loader in render/backend.cpp looks for.
 

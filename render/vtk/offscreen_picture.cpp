@@ -1,14 +1,14 @@
 #include "render/vtk/offscreen_picture.h"
 
-#include <algorithm>
 #include <fmt/format.h>
-#include <mutex>
-#include <stdexcept>
-#include <vector>
 #include <vtkNew.h>
 #include <vtkRenderer.h>
 #include <vtkSmartPointer.h>
 #include <vtkUnsignedCharArray.h>
+#include <algorithm>
+#include <mutex>
+#include <stdexcept>
+#include <vector>
 
 #include "render/image.h"
 #include "render/vtk/arm_layers.h"
@@ -36,8 +36,8 @@ Image drawArmScene(const ArmScene& scene, Size size) {
 
 void requireUsable(Size size) {
   if (size.width < 480 || size.height < 320 || size.width > 8000 || size.height > 8000) {
-    throw std::invalid_argument(fmt::format("a picture of {} x {} pixels: expected 480 x 320 to 8000 x 8000",
-                                            size.width, size.height));
+    throw std::invalid_argument(
+        fmt::format("a picture of {} x {} pixels: expected 480 x 320 to 8000 x 8000", size.width, size.height));
   }
 }
 
@@ -81,8 +81,8 @@ struct Shown {
   const std::vector<vtkSmartPointer<vtkRenderer>>& layers;
 };
 
-/// Means over squares of kSupersampling pixels, of rendered rows into the picture's rows from `y` upwards: VTK's run from
-/// bottom to top.
+/// Means over squares of kSupersampling pixels, of rendered rows into the picture's rows from `y` upwards: VTK's run
+/// from bottom to top.
 void averageDown(const std::uint8_t* rendered, int rows, int y, Image& image) {
   constexpr int k = kSupersampling;
   const std::ptrdiff_t row = 3 * static_cast<std::ptrdiff_t>(image.width) * k;
@@ -112,8 +112,7 @@ Image readDown(vtkRenderWindow& window, Size size) {
     const int width = kSupersampling * size.width, first = kSupersampling * low, height = kSupersampling * rows;
     window.GetPixelData(0, first, width - 1, first + height - 1, front, pixels);
     if (pixels->GetNumberOfValues() != vtkIdType{3} * width * height) {
-      throw std::runtime_error(
-          fmt::format("cannot draw pictures: no pixels came back for {} x {}", width, height));
+      throw std::runtime_error(fmt::format("cannot draw pictures: no pixels came back for {} x {}", width, height));
     }
     averageDown(pixels->GetPointer(0), rows, size.height - 1 - low, image);
   }

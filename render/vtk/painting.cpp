@@ -1,10 +1,6 @@
 #include "render/vtk/painting.h"
 
-#include <exception>
 #include <fmt/format.h>
-#include <stdexcept>
-#include <string>
-#include <utility>
 #include <vtkContext2D.h>
 #include <vtkContextActor.h>
 #include <vtkContextItem.h>
@@ -12,6 +8,10 @@
 #include <vtkNew.h>
 #include <vtkObjectFactory.h>
 #include <vtkRenderer.h>
+#include <exception>
+#include <stdexcept>
+#include <string>
+#include <utility>
 
 namespace stiffscope::render {
 
@@ -60,8 +60,7 @@ vtkStandardNewMacro(PaintedItem);
 Painting::Painting(vtkRenderer& layer, const Surface& surface, std::function<void(Canvas&)> paint)
     : outcome_(std::make_shared<Outcome>()) {
   const vtkNew<PaintedItem> item;
-  item->paint = [outcome = outcome_, surface, paint = std::move(paint),
-                 fonts = findFonts()](vtkContext2D& context) {
+  item->paint = [outcome = outcome_, surface, paint = std::move(paint), fonts = findFonts()](vtkContext2D& context) {
     try {
       Canvas canvas(context, surface, fonts);
       paint(canvas);

@@ -1,10 +1,10 @@
 #pragma once
 
-#include <functional>
-#include <memory>
 #include <vtkNew.h>
 #include <vtkOutputWindow.h>
 #include <vtkSmartPointer.h>
+#include <functional>
+#include <memory>
 
 #include "render/vtk/canvas.h"
 

@@ -1,9 +1,9 @@
-#include "render/vtk/painters.h"
 #include "render/vtk/chart_frame.h"
+#include "render/vtk/painters.h"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 #include <limits>
 #include <stdexcept>
 
@@ -81,12 +81,11 @@ void drawNumbers(Canvas& canvas, const Box& plot, const Range& range, const std:
   if (title.empty()) return;
   const TextStyle title_style = axisTitleStyle(canvas);
   canvas.text(canvas.shortened(title, plot.width(), title_style),
-              {plot.middleX(), plot.bottom + 10 * u + canvas.measure("0", style).y}, AlignX::Centre,
-              AlignY::Top, title_style);
+              {plot.middleX(), plot.bottom + 10 * u + canvas.measure("0", style).y}, AlignX::Centre, AlignY::Top,
+              title_style);
 }
 
-void drawSeries(Canvas& canvas, const Box& plot, const Range& x_range, const YAxis& axis,
-                const PointSeries& series) {
+void drawSeries(Canvas& canvas, const Box& plot, const Range& x_range, const YAxis& axis, const PointSeries& series) {
   const double u = canvas.unit();
   const double apart = plot.width() / std::max<double>(1.0, static_cast<double>(series.points.size()));
   const double radius = std::clamp(0.3 * apart, 2.2 * u, 5 * u);
@@ -98,8 +97,7 @@ void drawSeries(Canvas& canvas, const Box& plot, const Range& x_range, const YAx
   for (std::size_t i = 0; i < series.errors.size(); ++i) {
     const double y = series.points[i].y, error = series.errors[i];
     if (!std::isfinite(y) || !(error > 0.0)) continue;
-    drawWhisker(canvas, spots[i].x, axis.at(y - error), axis.at(y + error), 0.8 * radius, series.colour, true,
-                true);
+    drawWhisker(canvas, spots[i].x, axis.at(y - error), axis.at(y + error), 0.8 * radius, series.colour, true, true);
   }
   drawMarks(canvas, series, spots, radius);
 }
@@ -112,8 +110,8 @@ void drawDiagram(Canvas& canvas, const Box& cell, const PointPanel& panel) {
   if (!panel.title.empty()) {
     TextStyle title = axisTitleStyle(canvas);
     title.bold = true;
-    canvas.text(canvas.shortened(panel.title, cell.width(), title), {cell.left, cell.top}, AlignX::Left,
-                AlignY::Top, title);
+    canvas.text(canvas.shortened(panel.title, cell.width(), title), {cell.left, cell.top}, AlignX::Left, AlignY::Top,
+                title);
     free.top += canvas.measure("0", title).y + 8 * u;
   }
   const double title_left = free.left;
@@ -125,8 +123,7 @@ void drawDiagram(Canvas& canvas, const Box& cell, const PointPanel& panel) {
   CategoryLabels labels;
   labels.height = canvas.measure("0", labelStyle(canvas)).y;
   if (!panel.categories.empty()) {
-    labels = fitCategoryLabels(canvas, panel.categories,
-                               plot.width() / static_cast<double>(panel.categories.size()),
+    labels = fitCategoryLabels(canvas, panel.categories, plot.width() / static_cast<double>(panel.categories.size()),
                                0.25 * free.height());
   }
   plot.bottom -= labels.height + 10 * u + (panel.x_title.empty() ? 0 : 1.2 * axisTitleStyle(canvas).size);
@@ -150,8 +147,8 @@ void drawShape(Canvas& canvas, const Box& cell, const ShapePanel& panel) {
   const double u = canvas.unit();
   TextStyle title = axisTitleStyle(canvas);
   title.bold = true;
-  canvas.text(canvas.shortened(panel.title, cell.width(), title), {cell.left, cell.top}, AlignX::Left,
-              AlignY::Top, title);
+  canvas.text(canvas.shortened(panel.title, cell.width(), title), {cell.left, cell.top}, AlignX::Left, AlignY::Top,
+              title);
   Box free = cell;
   free.top += canvas.measure("0", title).y + 8 * u;
   const TextStyle label = labelStyle(canvas);
@@ -176,11 +173,10 @@ void drawShape(Canvas& canvas, const Box& cell, const ShapePanel& panel) {
   if (panel.scale_name.empty()) return;
   const double bar = scale * panel.scale_bar, y = cell.bottom - canvas.measure("0", label).y / 2;
   canvas.line({cell.left, y}, {cell.left + bar, y}, colours::kInk, 2 * u);
-  for (const double x : {cell.left, cell.left + bar})
-    canvas.line({x, y - 5 * u}, {x, y + 5 * u}, colours::kInk, 2 * u);
+  for (const double x : {cell.left, cell.left + bar}) canvas.line({x, y - 5 * u}, {x, y + 5 * u}, colours::kInk, 2 * u);
   const double from = cell.left + bar + 8 * u;
-  canvas.text(canvas.shortened(panel.scale_name, cell.right - from, label), {from, y}, AlignX::Left,
-              AlignY::Centre, label);
+  canvas.text(canvas.shortened(panel.scale_name, cell.right - from, label), {from, y}, AlignX::Left, AlignY::Centre,
+              label);
 }
 
 namespace {
@@ -196,8 +192,7 @@ void requireConsistent(const PointChart& chart) {
       for (const PointSeries& series : panel.series) {
         if (series.errors.empty() || series.errors.size() == series.points.size()) continue;
         throw std::invalid_argument(fmt::format("point chart '{}': series '{}' has {} errors for {} points",
-                                                chart.title, series.name, series.errors.size(),
-                                                series.points.size()));
+                                                chart.title, series.name, series.errors.size(), series.points.size()));
       }
     }
   };
@@ -239,8 +234,7 @@ std::vector<LegendEntry> legendOf(const std::vector<Panel>& panels) {
 }
 
 template <class Panel, class Draw>
-void drawGrid(Canvas& canvas, const Box& free, const std::vector<Panel>& panels, int columns,
-              const Draw& draw) {
+void drawGrid(Canvas& canvas, const Box& free, const std::vector<Panel>& panels, int columns, const Draw& draw) {
   const auto across = static_cast<std::size_t>(columns);
   const std::size_t rows = (panels.size() + across - 1) / across;
   const double gap = 18 * canvas.unit();
@@ -277,8 +271,7 @@ void drawPointMark(Canvas& canvas, Spot centre, double radius, Colour colour, Po
       drawDiamond(canvas, centre, 1.15 * radius, colour);
       break;
     case PointMark::Square:
-      canvas.fill({centre.x - 0.9 * radius, centre.y - 0.9 * radius, centre.x + 0.9 * radius,
-                   centre.y + 0.9 * radius},
+      canvas.fill({centre.x - 0.9 * radius, centre.y - 0.9 * radius, centre.x + 0.9 * radius, centre.y + 0.9 * radius},
                   colour);
       break;
     case PointMark::None:

@@ -1,14 +1,13 @@
 #include "render/vtk/projection.h"
 
-#include <algorithm>
 #include <vtkCamera.h>
 #include <vtkRenderer.h>
+#include <algorithm>
 
 namespace stiffscope::render {
 
 ViewAxes viewAxesOf(const ArmScene& scene) {
-  const Eigen::Vector3d direction =
-      scene.view_direction ? scene.view_direction->normalized() : directionOf(scene.view);
+  const Eigen::Vector3d direction = scene.view_direction ? scene.view_direction->normalized() : directionOf(scene.view);
   const bool vertical = std::abs(direction.z()) > 0.999;
   const Eigen::Vector3d upwards = vertical ? Eigen::Vector3d::UnitY() : Eigen::Vector3d::UnitZ();
   const Eigen::Vector3d right = direction.cross(upwards).normalized();
@@ -33,8 +32,7 @@ Projection::Projection(const ViewAxes& axes, const Eigen::AlignedBox3d& extent, 
 }
 
 SceneFraming Projection::framingOf(const Box& room) const {
-  return {axes_.right * centre_in_view_.x() + axes_.up * centre_in_view_.y() +
-              axes_.to_viewer * centre_in_view_.z(),
+  return {axes_.right * centre_in_view_.x() + axes_.up * centre_in_view_.y() + axes_.to_viewer * centre_in_view_.z(),
           room.height() / scale_};
 }
 

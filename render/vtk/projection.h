@@ -18,9 +18,7 @@ struct ViewAxes {
   Eigen::Vector3d to_viewer;
 
   /// x to the right, y up, z to the viewer.
-  Eigen::Vector3d inView(const Eigen::Vector3d& v) const {
-    return {right.dot(v), up.dot(v), to_viewer.dot(v)};
-  }
+  Eigen::Vector3d inView(const Eigen::Vector3d& v) const { return {right.dot(v), up.dot(v), to_viewer.dot(v)}; }
 };
 ViewAxes viewAxesOf(const ArmScene& scene);
 

@@ -1,15 +1,15 @@
 #include "render/vtk/scene_stage.h"
 
+#include <fmt/format.h>
+#include <vtkActor.h>
+#include <vtkRenderer.h>
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <fmt/format.h>
 #include <limits>
 #include <string>
 #include <utility>
 #include <vector>
-#include <vtkActor.h>
-#include <vtkRenderer.h>
 
 #include "render/ticks.h"
 #include "render/vtk/arm_shape.h"
@@ -61,8 +61,8 @@ double LabelPlacer::coverage(const Box& box) const {
     covered += (std::min(box.right, other.right) - std::max(box.left, other.left)) *
                (std::min(box.bottom, other.bottom) - std::max(box.top, other.top));
   }
-  const bool inside = box.left >= room_.left && box.right <= room_.right && box.top >= room_.top &&
-                      box.bottom <= room_.bottom;
+  const bool inside =
+      box.left >= room_.left && box.right <= room_.right && box.top >= room_.top && box.bottom <= room_.bottom;
   return inside ? covered : covered + 1e6;
 }
 
@@ -127,8 +127,7 @@ PanelLayout layoutOf(const Canvas& canvas, const ScenePanel& panel) {
   }
   layout.width = layout.mark;
   for (const double column : layout.columns) layout.width += column;
-  if (!layout.columns.empty())
-    layout.width += static_cast<double>(layout.columns.size() - 1) * kColumnGap * u;
+  if (!layout.columns.empty()) layout.width += static_cast<double>(layout.columns.size() - 1) * kColumnGap * u;
   layout.width = std::max(layout.width, canvas.measure(panel.title, panelTitleStyle(canvas)).x);
   return layout;
 }
@@ -147,8 +146,7 @@ void paintRow(Canvas& canvas, const ScenePanel& panel, const ScenePanel::Row& ro
 }
 
 /// Returns where the panel ends. What would be lower than `bottom` is left out.
-double paintPanel(Canvas& canvas, const ScenePanel& panel, const PanelLayout& layout, Spot corner,
-                  double bottom) {
+double paintPanel(Canvas& canvas, const ScenePanel& panel, const PanelLayout& layout, Spot corner, double bottom) {
   const double line = kLine * canvas.unit();
   double y = corner.y + line / 2;
   if (!panel.title.empty() && y + line / 2 <= bottom) {
@@ -205,8 +203,7 @@ void takeArm(LabelPlacer& labels, const SceneStage& stage, const ArmPose& pose) 
     take(pose.joint_points[i - 1], pose.joint_points[i], proportions.radiusAt(along));
     along += (pose.joint_points[i] - pose.joint_points[i - 1]).norm();
   }
-  for (const ScenePoint& target : pose.targets)
-    take(pose.joint_points.back(), target.position, proportions.tip_radius);
+  for (const ScenePoint& target : pose.targets) take(pose.joint_points.back(), target.position, proportions.tip_radius);
 }
 
 void paintTriad(Canvas& canvas, const SceneStage& stage, LabelPlacer& labels) {
@@ -231,8 +228,7 @@ void paintRing(Canvas& canvas, const SceneStage& stage, const Eigen::Vector3d& p
     const double angle = 2 * M_PI * i / kPieces;
     return Spot{centre.x + radius * std::cos(angle), centre.y + radius * std::sin(angle)};
   };
-  for (const auto& [colour, width] :
-       {std::pair{canvas.palette().paper, 5.0}, std::pair{canvas.palette().ink, 2.5}}) {
+  for (const auto& [colour, width] : {std::pair{canvas.palette().paper, 5.0}, std::pair{canvas.palette().ink, 2.5}}) {
     for (int i = 0; i < kPieces; ++i) canvas.line(at(i), at(i + 1), colour, width * stage.unit);
   }
 }
@@ -268,8 +264,7 @@ void paintLabels(Canvas& canvas, const SceneStage& stage) {
   for (const SceneTrace& trace : stage.scene.traces) {
     if (trace.faint || trace.points.empty() || trace.label.empty()) continue;
     if (!inRoom(stage, trace.points.back())) continue;
-    labels.place(trace.label, stage.projection.spotOf(trace.points.back()), 11 * stage.unit,
-                 labelStyle(canvas));
+    labels.place(trace.label, stage.projection.spotOf(trace.points.back()), 11 * stage.unit, labelStyle(canvas));
   }
 }
 
@@ -316,8 +311,7 @@ void addDotsTo(vtkRenderer& layer, const SceneStage& stage) {
   const double metres = stage.unit / stage.projection.pixelsPerMetre();
   for (const ArmPose& pose : stage.scene.poses) {
     if (!pose.wrist) continue;
-    mesh.addSphere(pose.wrist->position, 6 * metres,
-                   paler(palette.wrist, pose.ghost ? 0.6 : 1, palette.paper));
+    mesh.addSphere(pose.wrist->position, 6 * metres, paler(palette.wrist, pose.ghost ? 0.6 : 1, palette.paper));
   }
   for (const SceneTrace& trace : stage.scene.traces) {
     const Colour colour = paler(palette.measured, trace.faint ? 0.35 : 1, palette.paper);
@@ -345,8 +339,7 @@ SceneLayout paintSurroundings(Canvas& canvas, const ArmScene& scene) {
   for (std::size_t i = 0; i < kinds.size(); ++i) {
     if (!hasVectors(scene, kinds[i])) continue;
     const bool alone = kinds[i].factor == 1 || !others;
-    const std::string longer =
-        alone ? "" : fmt::format(", {} times longer", shortNumber(kinds[i].factor));
+    const std::string longer = alone ? "" : fmt::format(", {} times longer", shortNumber(kinds[i].factor));
     legend.push_back({kKeys[i], kinds[i].colour, kinds[i].name.empty() ? "" : kinds[i].name + longer});
   }
   if (!scene.traces.empty()) legend.push_back({Key::Point, canvas.palette().measured, scene.trace_name});
@@ -364,10 +357,8 @@ void paintFloor(Canvas& canvas, const SceneStage& stage) {
     canvas.line(stage.projection.spotOf(from), stage.projection.spotOf(to), stage.surface.palette.grid,
                 1.25 * stage.unit);
   };
-  for (int i = floor.x_first; i <= floor.x_last; ++i)
-    line(floor.at(i, floor.y_first), floor.at(i, floor.y_last));
-  for (int j = floor.y_first; j <= floor.y_last; ++j)
-    line(floor.at(floor.x_first, j), floor.at(floor.x_last, j));
+  for (int i = floor.x_first; i <= floor.x_last; ++i) line(floor.at(i, floor.y_first), floor.at(i, floor.y_last));
+  for (int j = floor.y_first; j <= floor.y_last; ++j) line(floor.at(floor.x_first, j), floor.at(floor.x_last, j));
 }
 
 namespace {
@@ -399,8 +390,7 @@ void paintScale(Canvas& canvas, const SceneStage& stage, const Box& strip) {
     left += 40 * stage.unit;
   }
   if (residual && (!others || kinds[2].factor != 1)) {
-    paintReference(canvas, stage, stage.magnification * kinds[2].factor, kinds[2], "residual",
-                   {left, strip.middleY()});
+    paintReference(canvas, stage, stage.magnification * kinds[2].factor, kinds[2], "residual", {left, strip.middleY()});
   }
 }
 
@@ -410,8 +400,7 @@ std::array<VectorKind, 3> vectorKinds(const ArmScene& scene) {
   const Palette& palette = paletteOf(scene);
   return {{{&ScenePoint::measured, palette.measured, kMeasuredWidth, 1, scene.measured_name},
            {&ScenePoint::predicted, palette.predicted, kPredictedWidth, 1, scene.predicted_name},
-           {&ScenePoint::residual, palette.residual, kResidualWidth, scene.residual_factor,
-            scene.residual_name}}};
+           {&ScenePoint::residual, palette.residual, kResidualWidth, scene.residual_factor, scene.residual_name}}};
 }
 
 bool hasVectors(const ArmScene& scene, const VectorKind& kind) {

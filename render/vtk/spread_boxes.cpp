@@ -1,9 +1,9 @@
 #include "render/vtk/painters.h"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <fmt/format.h>
 #include <limits>
 #include <stdexcept>
 #include <string>
@@ -30,21 +30,21 @@ std::string noteOn(const SpreadChart& chart, const std::vector<ValueRange>& rang
 void requireConsistent(const SpreadChart& chart) {
   if (chart.methods.empty() || chart.panels.empty()) {
     throw std::invalid_argument(
-        fmt::format("spread chart '{}' has {} methods and {} panels, expected one of each at least",
-                    chart.title, chart.methods.size(), chart.panels.size()));
+        fmt::format("spread chart '{}' has {} methods and {} panels, expected one of each at least", chart.title,
+                    chart.methods.size(), chart.panels.size()));
   }
   for (const SpreadPanel& panel : chart.panels) {
     const bool references_fit = panel.references.empty() || panel.references.size() == chart.methods.size();
     if (panel.spreads.size() != chart.methods.size() || !references_fit) {
-      throw std::invalid_argument(fmt::format(
-          "spread chart '{}': panel '{}' has {} spreads and {} references for {} methods", chart.title,
-          panel.title, panel.spreads.size(), panel.references.size(), chart.methods.size()));
+      throw std::invalid_argument(
+          fmt::format("spread chart '{}': panel '{}' has {} spreads and {} references for {} methods", chart.title,
+                      panel.title, panel.spreads.size(), panel.references.size(), chart.methods.size()));
     }
     for (const auto& spread : panel.spreads) {
       if (!spread) continue;
       const std::array p = {spread->p5, spread->p25, spread->p50, spread->p75, spread->p95};
-      const bool finite = std::isfinite(spread->mean) &&
-                          std::all_of(p.begin(), p.end(), [](double x) { return std::isfinite(x); });
+      const bool finite =
+          std::isfinite(spread->mean) && std::all_of(p.begin(), p.end(), [](double x) { return std::isfinite(x); });
       if (!finite || !std::is_sorted(p.begin(), p.end())) {
         throw std::invalid_argument(
             fmt::format("spread chart '{}': panel '{}' has percentiles {} {} {} {} {} and mean {}, "
@@ -115,8 +115,7 @@ std::vector<ValueRange> rangesOf(const SpreadChart& chart) {
   for (const SpreadPanel& panel : chart.panels) ranges.push_back(rangeOf(panel));
   if (chart.axis == SpreadAxis::Shared) {
     ValueRange all = ranges[0];
-    for (const ValueRange& range : ranges)
-      all = {std::min(all.lower, range.lower), std::max(all.upper, range.upper)};
+    for (const ValueRange& range : ranges) all = {std::min(all.lower, range.lower), std::max(all.upper, range.upper)};
     ranges.assign(ranges.size(), all);
   }
   return ranges;
@@ -140,8 +139,7 @@ void drawBox(Canvas& canvas, const Column& column, const YAxis& axis, const Spre
   const Box box{x - half, at(spread.p75), x + half, std::max(at(spread.p25), at(spread.p75) + 2 * u)};
   canvas.fill(box, paler(colour, 0.45));
   canvas.outline(box, colour, std::min(1.5 * u, box.height() / 2));
-  if (axis.shows(spread.p50))
-    canvas.line({box.left, at(spread.p50)}, {box.right, at(spread.p50)}, colour, 3 * u);
+  if (axis.shows(spread.p50)) canvas.line({box.left, at(spread.p50)}, {box.right, at(spread.p50)}, colour, 3 * u);
   if (axis.shows(spread.mean)) drawDiamond(canvas, {x, at(spread.mean)}, 5 * u, colour);
   if (!axis.shows(spread.p95) || spread.mean > axis.upper) {
     drawArrowMark(canvas, {x, axis.top}, 11 * u, colour, true);
@@ -152,14 +150,14 @@ void drawBox(Canvas& canvas, const Column& column, const YAxis& axis, const Spre
 }
 
 // Means that lie off the axis, one under the other, in the strip kept free for them at the edge.
-void printMeansOff(Canvas& canvas, const Box& plot, double first, const SpreadChart& chart,
-                   const SpreadPanel& panel, const ValueRange& range, bool upwards) {
+void printMeansOff(Canvas& canvas, const Box& plot, double first, const SpreadChart& chart, const SpreadPanel& panel,
+                   const ValueRange& range, bool upwards) {
   TextStyle style = noteStyle(canvas);
   for (std::size_t m = 0; m < panel.spreads.size(); ++m) {
     if (!meanOff(panel.spreads[m], range, upwards)) continue;
     style.colour = chart.methods[m].colour;
-    canvas.text("mean " + shortNumber(panel.spreads[m]->mean), {plot.middleX(), first}, AlignX::Centre,
-                AlignY::Top, style);
+    canvas.text("mean " + shortNumber(panel.spreads[m]->mean), {plot.middleX(), first}, AlignX::Centre, AlignY::Top,
+                style);
     first += 1.25 * style.size;
   }
 }
@@ -169,9 +167,8 @@ double stripHeight(const Canvas& canvas, const SpreadChart& chart, const std::ve
   std::ptrdiff_t most = 0;
   for (std::size_t i = 0; i < ranges.size(); ++i) {
     const auto& spreads = chart.panels[i].spreads;
-    most = std::max(most, std::count_if(spreads.begin(), spreads.end(), [&](const auto& spread) {
-                      return meanOff(spread, ranges[i], upwards);
-                    }));
+    most = std::max(most, std::count_if(spreads.begin(), spreads.end(),
+                                        [&](const auto& spread) { return meanOff(spread, ranges[i], upwards); }));
   }
   return static_cast<double>(most) * 1.25 * noteStyle(canvas).size;
 }
@@ -183,8 +180,7 @@ void drawPanel(Canvas& canvas, Box cell, const SpreadChart& chart, std::size_t i
   TextStyle title = axisTitleStyle(canvas);
   title.bold = true;
   const double title_height = canvas.measure("0", title).y;
-  Box plot{cell.left, cell.top + title_height + strip_above + 6 * u, cell.right,
-           cell.bottom - strip_below - 8 * u};
+  Box plot{cell.left, cell.top + title_height + strip_above + 6 * u, cell.right, cell.bottom - strip_below - 8 * u};
   YAxis axis = linearAxis(canvas, range.lower, range.upper, plot.height(), false);
   plot.left = Canvas::snapped(plot.left + tickLabelWidth(canvas, axis));
   canvas.text(canvas.shortened(panel.title, plot.width(), title), {plot.middleX(), cell.top}, AlignX::Centre,
@@ -203,8 +199,7 @@ void drawPanel(Canvas& canvas, Box cell, const SpreadChart& chart, std::size_t i
     } else {
       canvas.text("none", {column.x, plot.bottom - 3 * u}, AlignX::Centre, AlignY::Bottom, noteStyle(canvas));
     }
-    if (panel.spreads[m] && m < panel.references.size() && panel.references[m] &&
-        axis.shows(*panel.references[m])) {
+    if (panel.spreads[m] && m < panel.references.size() && panel.references[m] && axis.shows(*panel.references[m])) {
       const double y = axis.at(*panel.references[m]);
       canvas.line({column.x - 0.48 * band, y}, {column.x + 0.48 * band, y}, colours::kInk, 1.75 * u, 5 * u);
     }
@@ -219,8 +214,7 @@ void paintChart(Canvas& canvas, const SpreadChart& chart) {
   takeMargin(canvas, free);
   takeHeader(canvas, free, chart.title, chart.subtitle);
   std::vector<LegendEntry> legend;
-  for (const SpreadMethod& method : chart.methods)
-    legend.push_back({Key::Square, method.colour, method.name});
+  for (const SpreadMethod& method : chart.methods) legend.push_back({Key::Square, method.colour, method.name});
   legend.push_back({Key::Median, colours::kFaintInk, "median"});
   legend.push_back({Key::Diamond, colours::kFaintInk, "mean"});
   legend.push_back({Key::Dashes, colours::kInk, chart.reference_name});

@@ -1,11 +1,5 @@
 #include "render/window/arm_window.h"
 
-#include <algorithm>
-#include <cmath>
-#include <cstdint>
-#include <exception>
-#include <stdexcept>
-#include <utility>
 #include <vtkCallbackCommand.h>
 #include <vtkCommand.h>
 #include <vtkLogger.h>
@@ -15,6 +9,12 @@
 #include <vtkRenderer.h>
 #include <vtkSmartPointer.h>
 #include <vtkUnsignedCharArray.h>
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <exception>
+#include <stdexcept>
+#include <utility>
 
 #include "render/arm_window.h"
 #include "render/view_camera.h"
@@ -192,15 +192,14 @@ void ArmWindow::Implementation::draw() {
 
 void ArmWindow::Implementation::observe() {
   command_->SetClientData(this);
-  command_->SetCallback([](vtkObject*, unsigned long event, void* self, void*) {
-    static_cast<Implementation*>(self)->handle(event);
-  });
-  for (const auto event : {vtkCommand::KeyPressEvent, vtkCommand::MouseMoveEvent,
-                           vtkCommand::LeftButtonPressEvent, vtkCommand::LeftButtonReleaseEvent,
-                           vtkCommand::MiddleButtonPressEvent, vtkCommand::MiddleButtonReleaseEvent,
-                           vtkCommand::RightButtonPressEvent, vtkCommand::RightButtonReleaseEvent,
-                           vtkCommand::MouseWheelForwardEvent, vtkCommand::MouseWheelBackwardEvent,
-                           vtkCommand::ConfigureEvent, vtkCommand::ExposeEvent, vtkCommand::ExitEvent}) {
+  command_->SetCallback(
+      [](vtkObject*, unsigned long event, void* self, void*) { static_cast<Implementation*>(self)->handle(event); });
+  for (const auto event :
+       {vtkCommand::KeyPressEvent, vtkCommand::MouseMoveEvent, vtkCommand::LeftButtonPressEvent,
+        vtkCommand::LeftButtonReleaseEvent, vtkCommand::MiddleButtonPressEvent, vtkCommand::MiddleButtonReleaseEvent,
+        vtkCommand::RightButtonPressEvent, vtkCommand::RightButtonReleaseEvent, vtkCommand::MouseWheelForwardEvent,
+        vtkCommand::MouseWheelBackwardEvent, vtkCommand::ConfigureEvent, vtkCommand::ExposeEvent,
+        vtkCommand::ExitEvent}) {
     interactor_->AddObserver(event, command_);
   }
 }
@@ -254,8 +253,7 @@ void ArmWindow::Implementation::move(Hand::Motion motion) {
     case Hand::Kind::Nothing:
       break;
     case Hand::Kind::Turn:  // half a turn over the height of the room
-      changeView(
-          [&](ViewCamera& camera) { camera.turn(M_PI * motion.x / height, M_PI * motion.y / height); });
+      changeView([&](ViewCamera& camera) { camera.turn(M_PI * motion.x / height, M_PI * motion.y / height); });
       break;
     case Hand::Kind::Shift:
       changeView([&](ViewCamera& camera) { camera.shift(motion.x / height, -motion.y / height); });

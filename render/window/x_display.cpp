@@ -3,14 +3,14 @@
 #include <GL/glx.h>
 #include <X11/Xatom.h>
 #include <X11/Xlib.h>
+#include <fmt/format.h>
+#include <vtkRenderWindow.h>
+#include <vtkRenderWindowInteractor.h>
 #include <array>
 #include <cstdlib>
-#include <fmt/format.h>
 #include <memory>
 #include <set>
 #include <string>
-#include <vtkRenderWindow.h>
-#include <vtkRenderWindowInteractor.h>
 
 #include "render/arm_window.h"
 
@@ -29,15 +29,8 @@ int ignoreError(Display*, XErrorEvent*) { return 0; }
 using CreateContext = GLXContext (*)(Display*, GLXFBConfig, GLXContext, Bool, const int*);
 
 bool hasCoreContext(Display* display) {
-  const std::array<int, 9> wanted{GLX_X_RENDERABLE,
-                                  True,
-                                  GLX_DRAWABLE_TYPE,
-                                  GLX_WINDOW_BIT,
-                                  GLX_DOUBLEBUFFER,
-                                  True,
-                                  GLX_RED_SIZE,
-                                  8,
-                                  None};
+  const std::array<int, 9> wanted{
+      GLX_X_RENDERABLE, True, GLX_DRAWABLE_TYPE, GLX_WINDOW_BIT, GLX_DOUBLEBUFFER, True, GLX_RED_SIZE, 8, None};
   int count = 0;
   const std::unique_ptr<GLXFBConfig, int (*)(void*)> configs(
       glXChooseFBConfig(display, DefaultScreen(display), wanted.data(), &count), XFree);
@@ -62,9 +55,8 @@ void requireDisplay() {
   const std::string name = set == nullptr ? "" : set;
   const std::unique_ptr<Display, int (*)(Display*)> display(XOpenDisplay(nullptr), XCloseDisplay);
   if (!display) {
-    throw NoDisplay(name.empty()
-                        ? "no display to open a window on: DISPLAY is not set"
-                        : fmt::format("no display to open a window on: DISPLAY '{}' does not answer", name));
+    throw NoDisplay(name.empty() ? "no display to open a window on: DISPLAY is not set"
+                                 : fmt::format("no display to open a window on: DISPLAY '{}' does not answer", name));
   }
   if (!glXQueryExtension(display.get(), nullptr, nullptr)) {
     throw NoDisplay(fmt::format("the display '{}' has no OpenGL (no GLX)", name));
@@ -92,9 +84,9 @@ void nameWindow(vtkRenderWindow& window, const std::string& name) {
   Display* display = displayOf(window);
   const auto id = reinterpret_cast<Window>(window.GetGenericWindowId());
   if (display == nullptr || id == 0) return;
-  XChangeProperty(display, id, XInternAtom(display, "_NET_WM_NAME", False),
-                  XInternAtom(display, "UTF8_STRING", False), 8, PropModeReplace,
-                  reinterpret_cast<const unsigned char*>(name.data()), static_cast<int>(name.size()));
+  XChangeProperty(display, id, XInternAtom(display, "_NET_WM_NAME", False), XInternAtom(display, "UTF8_STRING", False),
+                  8, PropModeReplace, reinterpret_cast<const unsigned char*>(name.data()),
+                  static_cast<int>(name.size()));
   XFlush(display);
 }
 

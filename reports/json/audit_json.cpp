@@ -1,6 +1,6 @@
 #include "core/audit/audit.h"
-#include "reports/json/json_document.h"
 #include "reports/json/json.h"
+#include "reports/json/json_document.h"
 
 #include "reports/json/campaign_json.h"
 

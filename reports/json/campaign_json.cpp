@@ -53,7 +53,8 @@ const char* nameOf(campaign::DoubleEncoder state) {
 
 Json campaignJson(const campaign::Campaign& campaign) {
   Json inputs = Json::array();
-  for (const campaign::InputFile& input : campaign.inputs) inputs.push_back({{"file", input.name}, {"sha256", input.sha256}});
+  for (const campaign::InputFile& input : campaign.inputs)
+    inputs.push_back({{"file", input.name}, {"sha256", input.sha256}});
   return {{"name", campaign.name},
           {"date", campaign.date},
           {"robot", campaign.robot.name},

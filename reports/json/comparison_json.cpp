@@ -52,7 +52,8 @@ Json avoidedJson(const comparison::DeflectionAvoided& avoided, const char* place
 
 }  // namespace
 
-Json comparisonJson(const campaign::Campaign& before, const campaign::Campaign& after, const comparison::Comparison& comparison) {
+Json comparisonJson(const campaign::Campaign& before, const campaign::Campaign& after,
+                    const comparison::Comparison& comparison) {
   Json json{{"before", campaignJson(before)}, {"after", campaignJson(after)}};
   json["comparable"] = comparison.comparable;
   if (!comparison.comparable) json["reason"] = comparison.reason;

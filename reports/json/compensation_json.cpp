@@ -52,8 +52,7 @@ Json compensationJson(const campaign::Campaign& campaign, identification::Method
   for (const compensation::CompensatedPosture& posture : postures) {
     rows.push_back(rowJson(campaign, posture));
   }
-  return {
-      {"campaign", campaignJson(campaign)}, {"method", namesOf(method).key}, {"frame", "r0"}, {"rows", rows}};
+  return {{"campaign", campaignJson(campaign)}, {"method", namesOf(method).key}, {"frame", "r0"}, {"rows", rows}};
 }
 
 }  // namespace stiffscope::reports

@@ -1,7 +1,7 @@
 #include "core/diagnosis/diagnosis.h"
 #include "reports/json/campaign_json.h"
-#include "reports/json/json_document.h"
 #include "reports/json/json.h"
+#include "reports/json/json_document.h"
 
 #include "core/io/units.h"
 
@@ -112,8 +112,7 @@ Json diagnosisJson(const campaign::Campaign& campaign, const diagnosis::Diagnosi
                    {"source", diagnosis.noise_source},
                    {"factor_along_beam", number(diagnosis.noise_factor_along)},
                    {"factor_across_beam", number(diagnosis.noise_factor_across)}};
-  json["chi2_per_equation"] = {{"before", number(diagnosis.lack_of_fit)},
-                               {"after", number(diagnosis.left_over)}};
+  json["chi2_per_equation"] = {{"before", number(diagnosis.lack_of_fit)}, {"after", number(diagnosis.left_over)}};
   json["geometric_stiffness_share"] = number(diagnosis.geometric_stiffness_share);
   json["stiffness_before_nm_per_rad"] = stiffnessJson(diagnosis, diagnosis.stiffness_before);
   json["stiffness_after_nm_per_rad"] = stiffnessJson(diagnosis, diagnosis.stiffness_after);
@@ -122,8 +121,7 @@ Json diagnosisJson(const campaign::Campaign& campaign, const diagnosis::Diagnosi
   json["where_after"] = tablesJson(diagnosis.where_after);
   if (diagnosis.positions_tested) json["where_positions"] = tablesJson(diagnosis.where_positions);
   for (const diagnosis::NextMeasurement& one : diagnosis.next)
-    next.push_back(
-        {{"separates", idsOf(one.separates)}, {"measure", one.what}, {"gain_chi2", number(one.gain)}});
+    next.push_back({{"separates", idsOf(one.separates)}, {"measure", one.what}, {"gain_chi2", number(one.gain)}});
   json["next"] = next;
   return json;
 }

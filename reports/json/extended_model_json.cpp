@@ -1,6 +1,6 @@
 #include "core/extended_model/extended_model.h"
-#include "reports/json/json_document.h"
 #include "reports/json/json.h"
+#include "reports/json/json_document.h"
 
 #include <cmath>
 
@@ -80,7 +80,7 @@ Json methodJson(const identification::MethodResult& method) {
 
 }  // namespace
 
-Json improvedJson(const extended_model::ImprovedModel& model, const std::vector<identification::Method>& methods) {
+Json extendedModelJson(const extended_model::ExtendedModel& model, const std::vector<identification::Method>& methods) {
   Json effects = Json::array(), geometry = Json::array();
   for (const extended_model::AddedEffect& one : model.effects.added) effects.push_back(addedJson(one));
   for (const effects::Effect effect : model.effects.geometry) geometry.push_back(effectJson(effect));
@@ -103,8 +103,9 @@ Json improvedJson(const extended_model::ImprovedModel& model, const std::vector<
   return json;
 }
 
-Json withEffects(Json json, const extended_model::ImprovedModel& model, const std::vector<identification::Method>& methods) {
-  json["with"] = improvedJson(model, methods);
+Json withEffects(Json json, const extended_model::ExtendedModel& model,
+                 const std::vector<identification::Method>& methods) {
+  json["with"] = extendedModelJson(model, methods);
   return json;
 }
 

@@ -45,8 +45,7 @@ void addFit(const Fit& fit, Json& json) {
   json["parameters"] = fit.kParameters;
   if (fit.covariance) {
     Json rows = Json::array();
-    for (Eigen::Index row = 0; row < fit.covariance->rows(); ++row)
-      rows.push_back(array(fit.covariance->row(row)));
+    for (Eigen::Index row = 0; row < fit.covariance->rows(); ++row) rows.push_back(array(fit.covariance->row(row)));
     json["covariance"] = rows;
   } else {
     json["covariance"] = nullptr;

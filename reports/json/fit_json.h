@@ -26,7 +26,9 @@ struct Snooping {
 struct ShapeFit {
   std::string shape;       ///< line, plane, circle, sphere or cylinder
   std::size_t points = 0;  ///< that were fitted
-  std::variant<metrology::FittedLine, metrology::FittedPlane, metrology::FittedCircle, metrology::FittedSphere, metrology::FittedCylinder> fit;
+  std::variant<metrology::FittedLine, metrology::FittedPlane, metrology::FittedCircle, metrology::FittedSphere,
+               metrology::FittedCylinder>
+      fit;
   std::optional<Snooping> snooping;  ///< where it was asked for
 
   const metrology::FitQuality& quality() const;

@@ -96,12 +96,10 @@ Json wristJson(const campaign::Campaign& campaign, const frames::Frames& frames)
   if (!wrist.measured) json["reason"] = wrist.reason;
   json["center_m"] = wrist.measured ? array(wrist.centre_in_r0) : Json(nullptr);
   json["center_at_q1_q2_q3_deg"] = array(Eigen::Vector3d(wrist.q.head<3>()), 1.0 / io::kDegree);
-  json["miss_mm"] = {{"axes_4_5", wrist.miss_45 / io::kMillimetre},
-                     {"sd_axes_4_5", wrist.miss_45_sd / io::kMillimetre},
-                     {"from_axes_4_5", sourceOf(frames, {3, 4})},
-                     {"axes_5_6", wrist.miss_56 / io::kMillimetre},
-                     {"sd_axes_5_6", wrist.miss_56_sd / io::kMillimetre},
-                     {"from_axes_5_6", sourceOf(frames, {4, 5})}};
+  json["miss_mm"] = {
+      {"axes_4_5", wrist.miss_45 / io::kMillimetre},       {"sd_axes_4_5", wrist.miss_45_sd / io::kMillimetre},
+      {"from_axes_4_5", sourceOf(frames, {3, 4})},         {"axes_5_6", wrist.miss_56 / io::kMillimetre},
+      {"sd_axes_5_6", wrist.miss_56_sd / io::kMillimetre}, {"from_axes_5_6", sourceOf(frames, {4, 5})}};
   json["nearest_axes_5_6_from"] = sourceOf(frames, {4, 5});
   json["nearest_axes_5_6_m"] = array(wrist.nearest_axes_56_in_r0);
   json["reflector_barycenter_m"] = array(wrist.reflector_barycentre_in_r0);
@@ -112,7 +110,8 @@ Json wristJson(const campaign::Campaign& campaign, const frames::Frames& frames)
   json["covariance_of_readings_alone_mm2"] =
       rows(wrist.spheres.covariance.topLeftCorner<3, 3>(), 1.0 / (io::kMillimetre * io::kMillimetre));
   Json radii = Json::object(), radii_sd = Json::object();
-  for (std::size_t k = 0; k < wrist.radii.size(); ++k) radii[campaign.targets[k].id] = number(wrist.radii[k] / io::kMillimetre);
+  for (std::size_t k = 0; k < wrist.radii.size(); ++k)
+    radii[campaign.targets[k].id] = number(wrist.radii[k] / io::kMillimetre);
   for (std::size_t k = 0; k < wrist.targets.size(); ++k) {
     const auto at = static_cast<Eigen::Index>(3 + k);
     radii_sd[campaign.targets[static_cast<std::size_t>(wrist.targets[k])].id] =

@@ -53,7 +53,9 @@ Json maskedByJoint(const robot::JointMask& identifiable, const auto& entry) {
   return list;
 }
 
-Json intervalJson(const identification::CoverageInterval& interval) { return Json::array({number(interval.low), number(interval.high)}); }
+Json intervalJson(const identification::CoverageInterval& interval) {
+  return Json::array({number(interval.low), number(interval.high)});
+}
 
 Json correlationJson(const identification::StiffnessEstimate& estimate) {
   const Matrix6d matrix = identification::correlation(estimate);
@@ -84,11 +86,13 @@ Json stepsJson(const identification::StepsOfMethod& steps, const robot::JointMas
          {"mean_force_n", one.mean_force},
          {"stiffness_nm_per_rad", maskedByJoint(identifiable, [&](int j) { return number(estimate.stiffness(j)); })},
          {"sd_nm_per_rad", maskedByJoint(identifiable, [&](int j) { return number(estimate.stiffnessSd(j)); })},
-         {"interval_nm_per_rad",
-          maskedByJoint(identifiable, [&](int j) { return intervalJson(identification::stiffnessInterval(estimate, j)); })}});
+         {"interval_nm_per_rad", maskedByJoint(identifiable, [&](int j) {
+            return intervalJson(identification::stiffnessInterval(estimate, j));
+          })}});
   }
   const auto dependence = [&](const auto& member) {
-    return maskedByJoint(identifiable, [&](int j) { return number(steps.joints[static_cast<std::size_t>(j)].*member); });
+    return maskedByJoint(identifiable,
+                         [&](int j) { return number(steps.joints[static_cast<std::size_t>(j)].*member); });
   };
   return {{"steps", rows},
           {"compliance_change", dependence(&identification::LoadDependence::change)},
@@ -103,7 +107,8 @@ void addUncertainty(const identification::MethodResult& method, Json& json) {
   const identification::StiffnessEstimate& estimate = method.estimate;
   const robot::JointMask& seen = estimate.identifiable;
   json["coverage"] = identification::kStatedCoverage;
-  json["interval_nm_per_rad"] = maskedByJoint(seen, [&](int j) { return intervalJson(identification::stiffnessInterval(estimate, j)); });
+  json["interval_nm_per_rad"] =
+      maskedByJoint(seen, [&](int j) { return intervalJson(identification::stiffnessInterval(estimate, j)); });
   json["dof"] = maskedByJoint(seen, [&](int j) { return number(estimate.dof(j)); });
   json["sd_compliance_rad_per_nm"] =
       maskedByJoint(seen, [&](int j) { return number(std::sqrt(estimate.covariance(j, j))); });
@@ -119,7 +124,8 @@ void addUncertainty(const identification::MethodResult& method, Json& json) {
        maskedByJoint(seen, [&](int j) { return intervalJson(method.bootstrap.compliance(j)); })}};
 }
 
-Json withSteps(Json json, const identification::StepStudy& study, const identification::Identification& result, const std::vector<identification::Method>& methods) {
+Json withSteps(Json json, const identification::StepStudy& study, const identification::Identification& result,
+               const std::vector<identification::Method>& methods) {
   Json by_method = Json::object();
   for (const identification::Method which : methods) {
     by_method[namesOf(which).key] =
@@ -151,7 +157,9 @@ Json compensationJson(const std::optional<identification::Compensation>& compens
 
 Json spreadJson(const identification::MethodResult& method) {
   const identification::SubsetStudy& study = method.subsets;
-  Json json{{"postures_used", study.size}, {"of", study.of}, {"subsets", study.compliances.size()},
+  Json json{{"postures_used", study.size},
+            {"of", study.of},
+            {"subsets", study.compliances.size()},
             {"every_subset", study.every_subset}};
   Json joints = Json::array();
   for (int joint = 0; joint < 6; ++joint) {
@@ -219,7 +227,8 @@ Json calibrationJson(const frames::GeometryCalibration& calibration) {
 }
 
 /// What one posture's displacement is, and what the methods leave of it.
-Json postureJson(const campaign::Campaign& campaign, const identification::Identification& result, const std::vector<identification::Method>& methods, std::size_t i) {
+Json postureJson(const campaign::Campaign& campaign, const identification::Identification& result,
+                 const std::vector<identification::Method>& methods, std::size_t i) {
   Json posture{{"pose", campaign.pose_ids[static_cast<std::size_t>(result.cases[i].pose)]}};
   if (result.steps.size() > 1) posture["step"] = result.cases[i].step;
   if (!result.wrist_displacement.empty()) posture["wrist_mm"] = result.wrist_displacement[i] / io::kMillimetre;
@@ -228,7 +237,8 @@ Json postureJson(const campaign::Campaign& campaign, const identification::Ident
     const identification::MethodResult& method = result.of(which);
     if (!method.available) continue;
     const std::string key = namesOf(which).key;
-    if (i < method.wrist_residual.size()) posture["wrist_after_" + key + "_mm"] = method.wrist_residual[i] / io::kMillimetre;
+    if (i < method.wrist_residual.size())
+      posture["wrist_after_" + key + "_mm"] = method.wrist_residual[i] / io::kMillimetre;
     if (i < method.target_residual.size()) {
       posture["targets_mean_after_" + key + "_mm"] = method.target_residual[i] / io::kMillimetre;
     }
@@ -237,8 +247,11 @@ Json postureJson(const campaign::Campaign& campaign, const identification::Ident
 }
 
 /// Cartesian stiffness and what neglecting K_c costs, by the best of the methods there is.
-JsonDocument cartesianJson(const campaign::Campaign& campaign, const identification::Identification& result, const std::vector<identification::Method>& methods) {
-  for (const identification::Method which : {identification::Method::decoupled_partial_pose, identification::Method::partial_pose, identification::Method::complete_pose}) {
+JsonDocument cartesianJson(const campaign::Campaign& campaign, const identification::Identification& result,
+                           const std::vector<identification::Method>& methods) {
+  for (const identification::Method which :
+       {identification::Method::decoupled_partial_pose, identification::Method::partial_pose,
+        identification::Method::complete_pose}) {
     if (!result.of(which).available || std::find(methods.begin(), methods.end(), which) == methods.end()) continue;
     JsonDocument document(Json{{"method", namesOf(which).key}});
     const auto row = [stiffnesses = identification::PostureStiffnesses(campaign, result, which),
@@ -269,7 +282,8 @@ Json outlyingJson(const campaign::Campaign& campaign, const identification::Iden
 
 }  // namespace
 
-JsonDocument identificationJson(const campaign::Campaign& campaign, const identification::Identification& result, const std::vector<identification::Method>& methods) {
+JsonDocument identificationJson(const campaign::Campaign& campaign, const identification::Identification& result,
+                                const std::vector<identification::Method>& methods) {
   JsonDocument document(Json::object());
   Json& json = document.json;
   json["campaign"] = campaignJson(campaign);
@@ -283,10 +297,11 @@ JsonDocument identificationJson(const campaign::Campaign& campaign, const identi
   for (const identification::Method which : methods) by_method[namesOf(which).key] = methodJson(result.of(which));
   json["methods"] = by_method;
   json["identifiability"] = identifiabilityJson(result.identifiability);
-  json["noise_share"] = result.noise ? Json{{"wrist", result.noise->at_wrist ? number(*result.noise->at_wrist) : Json(nullptr)},
-                                          {"targets", number(result.noise->at_targets)},
-                                          {"per_coordinate_um", result.noise->per_coordinate / io::kMicrometre}}
-                                     : Json(nullptr);
+  json["noise_share"] = result.noise
+                            ? Json{{"wrist", result.noise->at_wrist ? number(*result.noise->at_wrist) : Json(nullptr)},
+                                   {"targets", number(result.noise->at_targets)},
+                                   {"per_coordinate_um", result.noise->per_coordinate / io::kMicrometre}}
+                            : Json(nullptr);
   json["geometric_stiffness"] = {{"included", result.finite_deflection},
                                  {"torque_change_share", result.geometric_stiffness_share}};
   json["servo_change_deg"] = result.servo_change / io::kDegree;
@@ -296,14 +311,18 @@ JsonDocument identificationJson(const campaign::Campaign& campaign, const identi
     Json curve = Json::array();
     for (const identification::LengthSensitivity& at : result.length_sensitivity) {
       Json stiffness = Json::array();
-      for (int j = 0; j < 6; ++j) stiffness.push_back(at.compliance[j] == 0.0 ? Json(nullptr) : number(1.0 / at.compliance[j]));
-      curve.push_back({{"length_m", at.length}, {"jacobian_condition", at.condition}, {"stiffness_nm_per_rad", stiffness}});
+      for (int j = 0; j < 6; ++j)
+        stiffness.push_back(at.compliance[j] == 0.0 ? Json(nullptr) : number(1.0 / at.compliance[j]));
+      curve.push_back(
+          {{"length_m", at.length}, {"jacobian_condition", at.condition}, {"stiffness_nm_per_rad", stiffness}});
     }
     json["characteristic_length"] = {{"length_m", result.characteristic_length.length},
                                      {"jacobian_condition", result.characteristic_length.condition},
                                      {"sensitivity", curve}};
   }
-  const auto posture = [&campaign, &result, methods](std::size_t i) { return postureJson(campaign, result, methods, i); };
+  const auto posture = [&campaign, &result, methods](std::size_t i) {
+    return postureJson(campaign, result, methods, i);
+  };
   document.setRows("per_posture", {result.cases.size(), posture});
   document.set("/posture_stiffness"_json_pointer, cartesianJson(campaign, result, methods));
   return document;

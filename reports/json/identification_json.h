@@ -9,15 +9,17 @@ namespace stiffscope::reports {
 
 /// The result of `identify`, which has to live as long, as the campaign has: rows of the postures are made as they are
 /// written. `methods` may leave some out: those asked for.
-JsonDocument identificationJson(const campaign::Campaign& campaign, const identification::Identification& result, const std::vector<identification::Method>& methods);
+JsonDocument identificationJson(const campaign::Campaign& campaign, const identification::Identification& result,
+                                const std::vector<identification::Method>& methods);
 
 /// Adds to a method's object: `coverage`, `interval_nm_per_rad` and `interval_compliance_rad_per_nm` ([low, high], null
 /// where open), `dof`, `sd_compliance_rad_per_nm`, `correlation` (6x6, null rows of joints that are not
 /// identifiable), `contributions` (standard deviation of the compliance by each part), `bootstrap` where there is one.
 void addUncertainty(const identification::MethodResult& method, Json& json);
 
-/// `json` with `by_step`: per method its stiffness by load step, and whether it depends on the load; null where there are
-/// no two steps.
-Json withSteps(Json json, const identification::StepStudy& study, const identification::Identification& result, const std::vector<identification::Method>& methods);
+/// `json` with `by_step`: per method its stiffness by load step, and whether it depends on the load; null where there
+/// are no two steps.
+Json withSteps(Json json, const identification::StepStudy& study, const identification::Identification& result,
+               const std::vector<identification::Method>& methods);
 
 }  // namespace stiffscope::reports

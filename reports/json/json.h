@@ -6,17 +6,40 @@
 
 // Results as JSON, a function a command.
 
-namespace stiffscope::audit { struct AuditReport; }
-namespace stiffscope::campaign { struct Campaign; }
-namespace stiffscope::comparison { struct Comparison; }
-namespace stiffscope::compensation { struct CompensatedPosture; }
-namespace stiffscope::diagnosis { struct Diagnosis; }
-namespace stiffscope::extended_model { struct ImprovedModel; }
-namespace stiffscope::frames { struct Frames; }
-namespace stiffscope::identification { enum class Method; }
-namespace stiffscope::planning { struct Plan; }
-namespace stiffscope::preparation { enum class AuditVerdict; }
-namespace stiffscope::validation { struct BlindOptions; struct BlindResult; }
+namespace stiffscope::audit {
+struct AuditReport;
+}
+namespace stiffscope::campaign {
+struct Campaign;
+}
+namespace stiffscope::comparison {
+struct Comparison;
+}
+namespace stiffscope::compensation {
+struct CompensatedPosture;
+}
+namespace stiffscope::diagnosis {
+struct Diagnosis;
+}
+namespace stiffscope::extended_model {
+struct ExtendedModel;
+}
+namespace stiffscope::frames {
+struct Frames;
+}
+namespace stiffscope::identification {
+enum class Method;
+}
+namespace stiffscope::planning {
+struct Plan;
+}
+namespace stiffscope::preparation {
+enum class AuditVerdict;
+}
+namespace stiffscope::validation {
+struct BlindOptions;
+struct BlindResult;
+}  // namespace stiffscope::validation
 
 namespace stiffscope::reports {
 
@@ -24,7 +47,8 @@ struct ReportContent;
 
 /// The result of `compare`. `joints` are those of the best method that both campaigns have (`method`); all of
 /// them stand under `methods`.
-Json comparisonJson(const campaign::Campaign& before, const campaign::Campaign& after, const comparison::Comparison& comparison);
+Json comparisonJson(const campaign::Campaign& before, const campaign::Campaign& after,
+                    const comparison::Comparison& comparison);
 
 /// The result of `compensate`: a row a posture.
 Json compensationJson(const campaign::Campaign& campaign, identification::Method method,
@@ -34,16 +58,17 @@ Json compensationJson(const campaign::Campaign& campaign, identification::Method
 /// an inner one what this data cannot tell apart; [["none"]], or ["unknown"] among them.
 Json diagnosisJson(const campaign::Campaign& campaign, const diagnosis::Diagnosis& diagnosis);
 
-/// The result of `frames`: R0, axes, link lengths, wrist centre with Table I, P_TCP. Axes, points and the wrist stand in
-/// R0 with all joints at zero unless the key says otherwise; what was not measured is null with a reason, or the URDF's,
-/// and then `from` beside it says "nominal" (or "partly nominal", between a measured axis and one that was not).
+/// The result of `frames`: R0, axes, link lengths, wrist centre with Table I, P_TCP. Axes, points and the wrist stand
+/// in R0 with all joints at zero unless the key says otherwise; what was not measured is null with a reason, or the
+/// URDF's, and then `from` beside it says "nominal" (or "partly nominal", between a measured axis and one that was
+/// not).
 Json framesJson(const campaign::Campaign& campaign, const frames::Frames& frames);
 
 /// The result of `plan`: a row a posture, and what random postures would give.
 Json planJson(const campaign::Campaign& campaign, const planning::Plan& plan);
 
-/// `results.json` of a report: the names of the files it wrote, per campaign what was done to the readings and the results
-/// of `audit`, `frames` and `identify`, and what the double encoders avoid. The content has to live as long.
+/// `results.json` of a report: the names of the files it wrote, per campaign what was done to the readings and the
+/// results of `audit`, `frames` and `identify`, and what the double encoders avoid. The content has to live as long.
 JsonDocument resultsJson(const ReportContent& content);
 
 /// Keys: seal, answers_sha256, seed, cases (list: truth, sizes in noises, answer, found, right), confusion
@@ -58,9 +83,10 @@ Json auditJson(const campaign::Campaign& campaign, const audit::AuditReport& rep
 const char* nameOf(preparation::AuditVerdict verdict);
 
 /// `with`: the effects added to the joint springs, what they explain, and each method without and with them.
-Json improvedJson(const extended_model::ImprovedModel& model, const std::vector<identification::Method>& methods);
+Json extendedModelJson(const extended_model::ExtendedModel& model, const std::vector<identification::Method>& methods);
 
 /// A result with that key.
-Json withEffects(Json json, const extended_model::ImprovedModel& model, const std::vector<identification::Method>& methods);
+Json withEffects(Json json, const extended_model::ExtendedModel& model,
+                 const std::vector<identification::Method>& methods);
 
 }  // namespace stiffscope::reports

@@ -18,15 +18,14 @@ void addUncertainties(const planning::Plan& plan, const Vector6d& sd, Json& row)
 }
 
 Json rowJson(const planning::Plan& plan, const planning::PlannedPosture& posture) {
-  Json row{
-      {"pose", posture.id},
-      {"q_deg", array(posture.candidate.q, 1.0 / io::kDegree)},
-      {"load_n", plan.arm.load},
-      {"direction_in_base_link", array(posture.pull_in_base)},
-      {"expected_force_in_cell_n", array(posture.reading.head<3>())},
-      {"expected_moment_in_cell_nm", array(posture.reading.tail<3>())},
-      {"dexterity", posture.dexterity},
-      {"tracker_distance_m", posture.tracker_distance ? Json(*posture.tracker_distance) : Json(nullptr)}};
+  Json row{{"pose", posture.id},
+           {"q_deg", array(posture.candidate.q, 1.0 / io::kDegree)},
+           {"load_n", plan.arm.load},
+           {"direction_in_base_link", array(posture.pull_in_base)},
+           {"expected_force_in_cell_n", array(posture.reading.head<3>())},
+           {"expected_moment_in_cell_nm", array(posture.reading.tail<3>())},
+           {"dexterity", posture.dexterity},
+           {"tracker_distance_m", posture.tracker_distance ? Json(*posture.tracker_distance) : Json(nullptr)}};
   Json gain{{"log_det", number(posture.log_det_gain)}};
   addUncertainties(plan, posture.sd, gain);
   row["gain"] = gain;

@@ -1,16 +1,16 @@
+#include "reports/json/json.h"
 #include "reports/json/json_document.h"
 #include "reports/report_content.h"
-#include "reports/json/json.h"
 
 #include <utility>
 
-#include "core/io/units.h"
 #include "core/audit/audit.h"
-#include "reports/json/campaign_json.h"
+#include "core/campaign/campaign.h"
 #include "core/diagnosis/diagnosis.h"
 #include "core/extended_model/extended_model.h"
-#include "core/campaign/campaign.h"
 #include "core/frames/frames.h"
+#include "core/io/units.h"
+#include "reports/json/campaign_json.h"
 #include "reports/json/identification_json.h"
 #include "reports/words/verdict.h"
 
@@ -25,7 +25,11 @@ Json avoidedJson(const AvoidedByEncoders& avoided) {
                         {"inactive_mm", posture.before / io::kMillimetre},
                         {"active_mm", posture.after / io::kMillimetre}});
   }
-  return {{"share", avoided.share}, {"low", number(avoided.low)}, {"high", number(avoided.high)}, {"at", avoided.at_wrist ? "P_wrist" : "reflectors"}, {"postures", postures}};
+  return {{"share", avoided.share},
+          {"low", number(avoided.low)},
+          {"high", number(avoided.high)},
+          {"at", avoided.at_wrist ? "P_wrist" : "reflectors"},
+          {"postures", postures}};
 }
 
 JsonDocument campaignResults(const ReportCampaign& one) {
@@ -34,8 +38,12 @@ JsonDocument campaignResults(const ReportCampaign& one) {
   if (one.preparation != nullptr) json["preparation"] = preparationJson(*one.preparation);
   if (one.audit != nullptr) json["audit"] = auditJson(one.campaign, *one.audit);
   json["frames"] = framesJson(one.campaign, one.identification.frames);
-  document.set("/identify"_json_pointer, identificationJson(one.campaign, one.identification, {identification::kMethods.begin(), identification::kMethods.end()}));
-  if (one.improved != nullptr) json["identify"]["with"] = improvedJson(*one.improved, {identification::kMethods.begin(), identification::kMethods.end()});
+  document.set("/identify"_json_pointer,
+               identificationJson(one.campaign, one.identification,
+                                  {identification::kMethods.begin(), identification::kMethods.end()}));
+  if (one.improved != nullptr)
+    json["identify"]["with"] =
+        extendedModelJson(*one.improved, {identification::kMethods.begin(), identification::kMethods.end()});
   if (one.diagnosis != nullptr) json["diagnose"] = diagnosisJson(one.campaign, *one.diagnosis);
   return document;
 }
@@ -50,7 +58,8 @@ JsonDocument resultsJson(const ReportContent& content) {
   json["versions"] = std::move(versions);
   json["campaigns"] = Json::array();
   const Json::json_pointer campaigns("/campaigns");
-  for (std::size_t i = 0; i < content.campaigns.size(); ++i) document.set(campaigns / i, campaignResults(content.campaigns[i]));
+  for (std::size_t i = 0; i < content.campaigns.size(); ++i)
+    document.set(campaigns / i, campaignResults(content.campaigns[i]));
   json["cautions"] = doubtsOfTheMachine(content.campaigns);
   json["avoided"] = content.avoided && content.avoided->available ? avoidedJson(*content.avoided) : Json(nullptr);
   return document;

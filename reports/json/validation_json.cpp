@@ -1,11 +1,10 @@
 #include "core/validation/run_blind.h"
-#include "reports/json/json_document.h"
 #include "reports/json/json.h"
+#include "reports/json/json_document.h"
 
 namespace stiffscope::reports {
 
 namespace {
-
 
 Json rateJson(const numerics::Rate& rate) {
   return {{"hits", rate.hits},
@@ -81,9 +80,8 @@ Json blindJson(const validation::BlindOptions& options, const validation::BlindR
   Json json{{"seal", result.seal}, {"answers_sha256", result.answers_hash}, {"seed", options.seed}};
   json["cases"] = Json::array();
   for (const validation::ScoredCase& one : score.cases) json["cases"].push_back(caseJson(one));
-  json["confusion"] = {{"truths", score.confusion.truths},
-                       {"answers", score.confusion.answers},
-                       {"counts", score.confusion.counts}};
+  json["confusion"] = {
+      {"truths", score.confusion.truths}, {"answers", score.confusion.answers}, {"counts", score.confusion.counts}};
   json["rates"] = Json::object();
   for (const validation::NamedRate& one : score.rates) {
     json["rates"][one.id] = rateJson(one.rate);

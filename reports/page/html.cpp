@@ -1,10 +1,10 @@
 #include "reports/page/html.h"
 
-#include <algorithm>
 #include <fmt/format.h>
+#include <tinyxml2.h>
+#include <algorithm>
 #include <limits>
 #include <stdexcept>
-#include <tinyxml2.h>
 
 #include "core/io/input_error.h"
 #include "reports/csv/csv_table.h"
@@ -40,8 +40,7 @@ void writeGroup(Html& html, const reports::RowGroup& group, std::size_t columns)
   bool first = true;
   for (const reports::Row& row : group.rows) {
     if (row.size() + (group.header.empty() ? 0 : 1) != columns) {
-      throw std::invalid_argument(
-          fmt::format("a table row of {} cells under {} columns", row.size(), columns));
+      throw std::invalid_argument(fmt::format("a table row of {} cells under {} columns", row.size(), columns));
     }
     const auto line = html.element("tr");
     if (first && !group.header.empty()) {
@@ -61,15 +60,15 @@ void writeTable(Html& html, const reports::Table& table) {
   if (empty) return;
   const std::string name = reports::plain(table.caption);
   // A wide table is scrolled by keyboard too.
-  const auto scroll = html.element(
-      "div", {{"class", "scroll"}, {"role", "region"}, {"aria-label", name}, {"tabindex", "0"}});
+  const auto scroll =
+      html.element("div", {{"class", "scroll"}, {"role", "region"}, {"aria-label", name}, {"tabindex", "0"}});
   const bool grouped = std::any_of(table.groups.begin(), table.groups.end(),
                                    [](const reports::RowGroup& group) { return !group.header.empty(); });
   std::size_t rows = 0;
   for (const reports::RowGroup& group : table.groups) rows += group.rows.size();
   constexpr std::size_t kMostOnAPage = 16;  // a longer table is broken between groups, its head repeated
   std::string kind = table.words ? "words" : grouped ? "grouped" : "numeric";
-  if (rows > kMostOnAPage || table.words) kind += " long";  // rows of words are high
+  if (rows > kMostOnAPage || table.words) kind += " long";     // rows of words are high
   if (!grouped && !table.words && rows > 2) kind += " sorts";  // a group's header spans its rows in their order
   html.keepTable(table.id, reports::csvTable(table));
   const auto element = html.element("table", {{"class", kind}});

@@ -1,7 +1,7 @@
 #include "reports/page/report_page.h"
 
-#include <algorithm>
 #include <fmt/format.h>
+#include <algorithm>
 
 #include "reports/page/html.h"
 #include "reports/page/sections.h"
@@ -78,7 +78,7 @@ ReportPage makeReportPage(const reports::ReportContent& content) {
     writeStiffness(html, content);
     if (anyLoads(content)) writeSubsets(html, content);
     if (anyLoads(content)) writeCompensation(html, content);
-    writeImproved(html, content);
+    writeExtendedModel(html, content);
     writeGap(html, content);
     writeFigures(html, content);
     writeAudit(html, content);

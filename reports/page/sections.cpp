@@ -1,8 +1,8 @@
 #include "reports/page/sections.h"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 
 #include "reports/page/html.h"
 #include "reports/report_content.h"
@@ -39,9 +39,8 @@ void writeFiguresOf(Html& html, const reports::ReportContent& content, const std
   int number = 0;
   for (const char* earlier : reports::kFigureSections) {
     if (section == earlier) break;
-    number +=
-        static_cast<int>(std::count_if(content.figures.begin(), content.figures.end(),
-                                       [&](const reports::Figure& figure) { return figure.section == earlier; }));
+    number += static_cast<int>(std::count_if(content.figures.begin(), content.figures.end(),
+                                             [&](const reports::Figure& figure) { return figure.section == earlier; }));
   }
   const auto grid = html.element("div", {{"class", "figures"}});
   for (const reports::Figure& figure : content.figures) {
@@ -79,9 +78,10 @@ std::string campaignLine(const campaign::Campaign& campaign) {
 /// The campaign the first numbers are of: the one with active double encoders where there are several, as in
 /// the paper.
 const reports::ReportCampaign& leading(const reports::ReportContent& content) {
-  const auto active = std::find_if(
-      content.campaigns.begin(), content.campaigns.end(),
-      [](const reports::ReportCampaign& one) { return one.campaign.double_encoder == campaign::DoubleEncoder::active; });
+  const auto active =
+      std::find_if(content.campaigns.begin(), content.campaigns.end(), [](const reports::ReportCampaign& one) {
+        return one.campaign.double_encoder == campaign::DoubleEncoder::active;
+      });
   return active == content.campaigns.end() ? content.campaigns.front() : *active;
 }
 
@@ -94,9 +94,10 @@ std::string stateOf(const reports::ReportCampaign& one) {
 KeyNumber deflection(const reports::ReportCampaign& one, const reports::JudgedPoint& point) {
   const auto& displacement = reports::displacementAt(one.identification, point.at_wrist);
   if (displacement.empty()) return {"–", "deflection: no posture could be used"};
-  return {fmt::format("{}\u00a0mm", reports::fixed(kMmPerM * reports::mean(displacement), 2)),
-          fmt::format("mean deflection at {} under {}\u00a0kN, {} postures{}", point.name,
-                      reports::fixed(1e-3 * reports::meanForce(one.identification), 2), displacement.size(), stateOf(one))};
+  return {
+      fmt::format("{}\u00a0mm", reports::fixed(kMmPerM * reports::mean(displacement), 2)),
+      fmt::format("mean deflection at {} under {}\u00a0kN, {} postures{}", point.name,
+                  reports::fixed(1e-3 * reports::meanForce(one.identification), 2), displacement.size(), stateOf(one))};
 }
 
 KeyNumber compensated(const reports::ReportCampaign& one, const reports::JudgedPoint& point) {
@@ -163,14 +164,13 @@ std::vector<KeyNumber> sweepNumbers(const frames::Frames& frames) {
 std::vector<KeyNumber> keyNumbers(const reports::ReportContent& content) {
   const reports::ReportCampaign& one = leading(content);
   const reports::JudgedPoint point = reports::judgedPoint(one);
-  const bool sweeps_alone =
-      one.identification.cases.empty() && one.identification.frames.axes.front().measured;
+  const bool sweeps_alone = one.identification.cases.empty() && one.identification.frames.axes.front().measured;
   if (sweeps_alone) return sweepNumbers(one.identification.frames);
   return {deflection(one, point), compensated(one, point), third(content, one)};
 }
 
 /// The checks of the audit that found something, by name; the audit's own section explains them.
-void addAuditCautions(const audit::AuditReport& audit, std::vector<std::string>& items) {
+void addAuditWarnings(const audit::AuditReport& audit, std::vector<std::string>& items) {
   for (const preparation::AuditVerdict verdict : {preparation::AuditVerdict::fail, preparation::AuditVerdict::warn}) {
     std::vector<std::string> names;
     for (const preparation::AuditCheck& check : audit.checks) {
@@ -186,11 +186,10 @@ void addAuditCautions(const audit::AuditReport& audit, std::vector<std::string>&
 }
 
 /// What a reader must know before believing the numbers of a campaign.
-std::vector<std::string> cautionsOf(const reports::ReportCampaign& one) {
+std::vector<std::string> warningsOf(const reports::ReportCampaign& one) {
   std::vector<std::string> items;
-  if (one.audit != nullptr) addAuditCautions(*one.audit, items);
-  if (one.preparation != nullptr &&
-      (one.preparation->drift.taken_off || !one.preparation->rejected.empty())) {
+  if (one.audit != nullptr) addAuditWarnings(*one.audit, items);
+  if (one.preparation != nullptr && (one.preparation->drift.taken_off || !one.preparation->rejected.empty())) {
     items.push_back(fmt::format("Readings: {}.", reports::withMicro(reports::preparationWords(*one.preparation))));
   }
   for (const std::string& caution : one.identification.cautions)
@@ -198,12 +197,12 @@ std::vector<std::string> cautionsOf(const reports::ReportCampaign& one) {
   return items;
 }
 
-void writeCautions(Html& html, const reports::ReportContent& content) {
+void writeWarnings(Html& html, const reports::ReportContent& content) {
   const auto& campaigns = content.campaigns;
   std::vector<std::string> of_all;
   for (const std::string& doubt : reports::doubtsOfTheMachine(campaigns)) of_all.push_back(reports::asIs(doubt) + ".");
   const bool any = std::any_of(campaigns.begin(), campaigns.end(),
-                               [](const reports::ReportCampaign& one) { return !cautionsOf(one).empty(); });
+                               [](const reports::ReportCampaign& one) { return !warningsOf(one).empty(); });
   if (!any && of_all.empty()) return;
   html.paragraph("Before you believe these numbers:");
   html.list(of_all);
@@ -211,7 +210,7 @@ void writeCautions(Html& html, const reports::ReportContent& content) {
   for (const reports::ReportCampaign& one : campaigns) {
     const auto column = html.element("div");
     if (campaigns.size() > 1) html.paragraph(reports::asIs(one.campaign.name), "name");
-    html.list(cautionsOf(one));
+    html.list(warningsOf(one));
   }
 }
 
@@ -233,7 +232,7 @@ void writeOpening(Html& html, const reports::ReportContent& content) {
       html.leaf("span", number.words);
     }
   }
-  writeCautions(html, content);
+  writeWarnings(html, content);
 }
 
 void writeForEach(Html& html, const reports::ReportContent& content, const char* id, const char* heading,

@@ -16,14 +16,16 @@ void writeLinks(Html& html, const reports::ReportContent& content);         ///<
 void writeStiffness(Html& html, const reports::ReportContent& content);     ///< by method, from all postures
 void writeSubsets(Html& html, const reports::ReportContent& content);       ///< Table II
 void writeCompensation(Html& html, const reports::ReportContent& content);  ///< compensated and avoided shares
-void writeImproved(Html& html, const reports::ReportContent& content);  ///< effects in the model: without and with them
+void writeExtendedModel(Html& html,
+                        const reports::ReportContent& content);    ///< effects in the model: without and with them
 void writeGap(Html& html, const reports::ReportContent& content);  ///< the diagnosis: where, which, how far, what next
 void writeFigures(Html& html, const reports::ReportContent& content);
 bool hasFigures(const reports::ReportContent& content, const std::string& section);
 /// The figures of a section; nothing where there is none.
 void writeFiguresOf(Html& html, const reports::ReportContent& content, const std::string& section);
-void writeAudit(Html& html, const reports::ReportContent& content);       ///< checks with their limits; rejected readings
-void writeScope(Html& html, const reports::ReportContent& content);  ///< uncertainty, decision rule, what results relate to
+void writeAudit(Html& html, const reports::ReportContent& content);  ///< checks with their limits; rejected readings
+void writeScope(Html& html,
+                const reports::ReportContent& content);  ///< uncertainty, decision rule, what results relate to
 void writeLeftOut(Html& html, const reports::ReportContent& content);     ///< what was not used or not found, and why
 void writeProvenance(Html& html, const reports::ReportContent& content);  ///< inputs, versions, settings
 

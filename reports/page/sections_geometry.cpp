@@ -1,6 +1,6 @@
+#include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 
 #include "core/io/units.h"
 #include "reports/page/html.h"
@@ -22,10 +22,11 @@ void add(reports::RowGroup& group, const char* name, const std::string& text) {
 std::string own(const std::string& text) { return text.empty() ? text : reports::asIs(text); }
 
 std::string trackerWords(const campaign::Tracker& tracker) {
-  return fmt::format(
-      "{}; one sigma {} µm + {} µm/m along the beam, {} µm + {} µm/m across it", reports::asIs(tracker.model),
-      reports::significant(tracker.range_fixed / io::kMicrometre, 2), reports::significant(tracker.range_per_m / io::kMicrometre, 2),
-      reports::significant(tracker.angle_fixed / io::kMicrometre, 2), reports::significant(tracker.angle_per_m / io::kMicrometre, 2));
+  return fmt::format("{}; one sigma {} µm + {} µm/m along the beam, {} µm + {} µm/m across it",
+                     reports::asIs(tracker.model), reports::significant(tracker.range_fixed / io::kMicrometre, 2),
+                     reports::significant(tracker.range_per_m / io::kMicrometre, 2),
+                     reports::significant(tracker.angle_fixed / io::kMicrometre, 2),
+                     reports::significant(tracker.angle_per_m / io::kMicrometre, 2));
 }
 
 std::string loadWords(const identification::Identification& result) {
@@ -38,8 +39,7 @@ std::string loadWords(const identification::Identification& result) {
 }
 
 std::string deflectionWords(const identification::Identification& result) {
-  if (!result.finite_deflection)
-    return "small deflections: K_{c} neglected, Jacobians at the unloaded posture";
+  if (!result.finite_deflection) return "small deflections: K_{c} neglected, Jacobians at the unloaded posture";
   return fmt::format(
       "finite: K_{{c}} of (4) included (it changes the joint torques by {}), Jacobians at the middle of the "
       "displacement",
@@ -48,10 +48,10 @@ std::string deflectionWords(const identification::Identification& result) {
 
 std::string calibrationWords(const frames::GeometryCalibration& calibration) {
   if (!calibration.done) return fmt::format("not calibrated: {}", calibration.reason);
-  return fmt::format(
-      "{} parameters from {} unloaded positions; rms {} mm before, {} mm after, per coordinate",
-      calibration.parameters, calibration.positions, reports::significant(calibration.rms_before / io::kMillimetre, 3),
-      reports::significant(calibration.rms_after / io::kMillimetre, 3));
+  return fmt::format("{} parameters from {} unloaded positions; rms {} mm before, {} mm after, per coordinate",
+                     calibration.parameters, calibration.positions,
+                     reports::significant(calibration.rms_before / io::kMillimetre, 3),
+                     reports::significant(calibration.rms_after / io::kMillimetre, 3));
 }
 
 reports::RowGroup conditions(const reports::ReportCampaign& one) {
@@ -66,18 +66,19 @@ reports::RowGroup conditions(const reports::ReportCampaign& one) {
   add(group, "Customer", own(campaign.texts.customer));
   add(group, "Operator", own(campaign.texts.operator_name));
   add(group, "Conditions", own(campaign.texts.conditions));
-  add(group, "Tracker",
-      campaign.tracker ? trackerWords(*campaign.tracker) : "not declared: no noise is known");
-  if (one.preparation != nullptr) add(group, "Readings", reports::withMicro(reports::preparationWords(*one.preparation)));
+  add(group, "Tracker", campaign.tracker ? trackerWords(*campaign.tracker) : "not declared: no noise is known");
+  if (one.preparation != nullptr)
+    add(group, "Readings", reports::withMicro(reports::preparationWords(*one.preparation)));
   add(group, "Postures", fmt::format("{} used, {} left out", result.cases.size(), result.left_out.size()));
   add(group, "Load", result.cases.empty() ? "none was measured that could be used" : loadWords(result));
   add(group, "Own weight", result.frames.sag_note);
   if (!result.cases.empty()) add(group, "Deflection", deflectionWords(result));
-  if (!result.cases.empty()) add(group, "Servo",
-      result.servo_change == 0.0
-          ? std::string("reported joint angles do not change under load")
-          : fmt::format("reported joint angles change by at most {}° under load; not subtracted",
-                        reports::significant(result.servo_change / io::kDegree, 2)));
+  if (!result.cases.empty())
+    add(group, "Servo",
+        result.servo_change == 0.0
+            ? std::string("reported joint angles do not change under load")
+            : fmt::format("reported joint angles change by at most {}° under load; not subtracted",
+                          reports::significant(result.servo_change / io::kDegree, 2)));
   if (result.of(identification::Method::complete_pose).available) {
     add(group, "Characteristic length",
         fmt::format("{} m, condition number {} there", reports::significant(result.characteristic_length.length, 3),
@@ -107,20 +108,19 @@ void writeConditions(Html& html, const reports::ReportContent& content) {
 namespace {
 
 reports::Table linkTable(const frames::Frames& frames, Notes& notes) {
-  reports::Table table{"Distance and angle between consecutive axes",
-              {"Axes", "Distance (mm)", "Nominal (mm)", "Difference (mm)", "Angle (°)", "Nominal (°)",
-               "Difference (°)"},
-              {{}}};
+  reports::Table table{
+      "Distance and angle between consecutive axes",
+      {"Axes", "Distance (mm)", "Nominal (mm)", "Difference (mm)", "Angle (°)", "Nominal (°)", "Difference (°)"},
+      {{}}};
   table.id = "links";
   for (std::size_t i = 0; i < frames.links.size(); ++i) {
     const frames::LinkGeometry& link = frames.links[i];
-    reports::Row row{
-        reports::Cell(fmt::format("{} and {}", i + 1, i + 2),
-             link.near_parallel
-                 ? notes.mark("These axes are within a degree of parallel: the distance is that across the "
-                              "first axis, at the foot on it of the common perpendicular with the axis "
-                              "before (Hayati).")
-                 : "")};
+    reports::Row row{reports::Cell(
+        fmt::format("{} and {}", i + 1, i + 2),
+        link.near_parallel ? notes.mark("These axes are within a degree of parallel: the distance is that across the "
+                                        "first axis, at the foot on it of the common perpendicular with the axis "
+                                        "before (Hayati).")
+                           : "")};
     const auto add = [&](double value, const std::optional<double>& sd, double nominal, double unit) {
       row.emplace_back(sd ? reports::withUncertainty(value / unit, *sd / unit) : "not measured");
       row.emplace_back(reports::fixed(nominal / unit, 3));
@@ -155,13 +155,11 @@ void writeLinks(Html& html, const reports::ReportContent& content) {
     const frames::Frames& frames = one.identification.frames;
     std::vector<std::string> unmeasured;
     for (std::size_t i = 0; i < frames.axes.size(); ++i) {
-      if (!frames.axes[i].measured)
-        unmeasured.push_back(fmt::format("Axis {}: {}.", i + 1, frames.axes[i].reason));
+      if (!frames.axes[i].measured) unmeasured.push_back(fmt::format("Axis {}: {}.", i + 1, frames.axes[i].reason));
     }
     if (unmeasured.size() == frames.axes.size()) {
-      html.paragraph(
-          fmt::format("No axis was measured ({}); the geometry is that of the robot's description.",
-                      frames.axes.front().reason));
+      html.paragraph(fmt::format("No axis was measured ({}); the geometry is that of the robot's description.",
+                                 frames.axes.front().reason));
       return;
     }
     Notes notes;
@@ -180,10 +178,9 @@ void addPoint(reports::Row& row, const Eigen::Vector3d& point) {
 }
 
 reports::Table tableOne(const reports::ReportCampaign& one, const frames::WristCentre& wrist) {
-  reports::Table table{
-      "Table I: centre of the sphere of each reflector's own sweep, in R_{0}",
-      {"Reflector", "X (mm)", "Y (mm)", "Z (mm)", "Offset (mm)", "Radius (mm)", "rms (µm)", "Count"},
-      {{}}};
+  reports::Table table{"Table I: centre of the sphere of each reflector's own sweep, in R_{0}",
+                       {"Reflector", "X (mm)", "Y (mm)", "Z (mm)", "Offset (mm)", "Radius (mm)", "rms (µm)", "Count"},
+                       {{}}};
   table.id = "wrist-spheres";
   for (const frames::WristTableRow& line : wrist.table) {
     reports::Row row{reports::pointName(one.campaign.targets[static_cast<std::size_t>(line.target)].id)};
@@ -197,7 +194,7 @@ reports::Table tableOne(const reports::ReportCampaign& one, const frames::WristC
   reports::Row mean_row{"Mean of them"};
   for (int k = 0; k < 3; ++k) {
     mean_row.emplace_back(reports::withUncertainty(wrist.table_mean_in_r0[k] / io::kMillimetre,
-                                          std::sqrt(wrist.table_mean_covariance(k, k)) / io::kMillimetre));
+                                                   std::sqrt(wrist.table_mean_covariance(k, k)) / io::kMillimetre));
   }
   for (int k = 0; k < 4; ++k) mean_row.emplace_back("–");
   table.groups.push_back({"", {std::move(mean_row)}});
@@ -206,8 +203,8 @@ reports::Table tableOne(const reports::ReportCampaign& one, const frames::WristC
 
 reports::Table sideBySide(const frames::WristCentre& wrist) {
   reports::Table table{"Three ways to a wrist centre, in R_{0}",
-              {"Point", "X (mm)", "Y (mm)", "Z (mm)", "From the sphere centre (mm)"},
-              {{}}};
+                       {"Point", "X (mm)", "Y (mm)", "Z (mm)", "From the sphere centre (mm)"},
+                       {{}}};
   table.id = "wrist-centres";
   const auto add = [&](const char* name, const Eigen::Vector3d& point) {
     reports::Row row{name};
@@ -218,7 +215,7 @@ reports::Table sideBySide(const frames::WristCentre& wrist) {
   reports::Row sphere{"P_{wrist}: common centre of all spheres"};
   for (int k = 0; k < 3; ++k) {
     sphere.emplace_back(reports::withUncertainty(wrist.centre_in_r0[k] / io::kMillimetre,
-                                        std::sqrt(wrist.covariance(k, k)) / io::kMillimetre));
+                                                 std::sqrt(wrist.covariance(k, k)) / io::kMillimetre));
   }
   sphere.emplace_back("–");
   table.groups.front().rows.push_back(std::move(sphere));

@@ -1,7 +1,7 @@
+#include <fmt/format.h>
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <fmt/format.h>
 
 #include "core/io/units.h"
 #include "reports/page/html.h"
@@ -80,8 +80,7 @@ std::vector<std::string> actionsOf(const diagnosis::Diagnosis& diagnosis) {
     std::vector<std::string> of_class;
     for (const effects::Effect effect : entry.effects) {
       std::string remedy = reports::effectRemedy(effect);
-      if (std::find(of_class.begin(), of_class.end(), remedy) == of_class.end())
-        of_class.push_back(std::move(remedy));
+      if (std::find(of_class.begin(), of_class.end(), remedy) == of_class.end()) of_class.push_back(std::move(remedy));
     }
     for (const std::string& remedy : of_class) {
       const std::string action =
@@ -108,21 +107,23 @@ std::string fallOf(const diagnosis::EffectClass& one) {
 
 reports::Table classesTable(const diagnosis::Diagnosis& diagnosis) {
   reports::Table table{"Which effect: the verdict's first, then the other candidates, best first",
-              {"Effect", "In the verdict", "Fall of BIC", "Shrink held out (%)", "95 % (%)", "Explained (%)"},
-              {},
-              false,
-              "diagnosis"};
+                       {"Effect", "In the verdict", "Fall of BIC", "Shrink held out (%)", "95 % (%)", "Explained (%)"},
+                       {},
+                       false,
+                       "diagnosis"};
   reports::RowGroup group;
   for (const diagnosis::EffectClass& one : diagnosis.classes) {
-    group.rows.push_back({reports::Cell(reports::effectNames(one.effects), reports::asIs(reports::shortDetail(one.detail))),
-                          one.in_verdict ? "yes" : "no", fallOf(one), shareOf(one.shrink.value, 1),
-                          interval(one.shrink), reports::fixed(100.0 * one.explained, 0)});
+    group.rows.push_back(
+        {reports::Cell(reports::effectNames(one.effects), reports::asIs(reports::shortDetail(one.detail))),
+         one.in_verdict ? "yes" : "no", fallOf(one), shareOf(one.shrink.value, 1), interval(one.shrink),
+         reports::fixed(100.0 * one.explained, 0)});
   }
   table.groups.push_back(std::move(group));
   return table;
 }
 
-const diagnosis::WhereRow* rowOf(const std::vector<diagnosis::WhereTable>& tables, const std::string& by, const std::string& name) {
+const diagnosis::WhereRow* rowOf(const std::vector<diagnosis::WhereTable>& tables, const std::string& by,
+                                 const std::string& name) {
   for (const diagnosis::WhereTable& table : tables) {
     if (table.by != by) continue;
     for (const diagnosis::WhereRow& row : table.rows) {
@@ -136,10 +137,10 @@ const diagnosis::WhereRow* rowOf(const std::vector<diagnosis::WhereTable>& table
 reports::Table whereTable(const diagnosis::Diagnosis& diagnosis) {
   const bool positions = !diagnosis.where_positions.empty();
   reports::Table table{"Where the gap lies that joint stiffnesses leave, rms per coordinate",
-              {"By", "Part", "Deflection (µm)", "Noise (µm)", "Share (%)", "Above noise (sd)"},
-              {},
-              false,
-              "gap"};
+                       {"By", "Part", "Deflection (µm)", "Noise (µm)", "Share (%)", "Above noise (sd)"},
+                       {},
+                       false,
+                       "gap"};
   if (positions) {
     for (const char* column : {"Unloaded (µm)", "Noise (µm)"}) table.columns.emplace_back(column);
   }
@@ -149,7 +150,7 @@ reports::Table whereTable(const diagnosis::Diagnosis& diagnosis) {
     reports::RowGroup group{one.by, {}};
     for (const diagnosis::WhereRow& row : one.rows) {
       reports::Row cells{reports::asIs(row.name), inUm(row.rms), inUm(row.noise), reports::fixed(100.0 * row.share, 0),
-                reports::fixed(row.significance, std::abs(row.significance) < 10.0 ? 1 : 0)};
+                         reports::fixed(row.significance, std::abs(row.significance) < 10.0 ? 1 : 0)};
       if (positions) {
         const diagnosis::WhereRow* at_rest = rowOf(diagnosis.where_positions, one.by, row.name);
         cells.emplace_back(at_rest ? inUm(at_rest->rms) : "–");
@@ -184,10 +185,10 @@ reports::Table stiffnessTable(const diagnosis::Diagnosis& diagnosis) {
 
 reports::Table detectableTable(const diagnosis::Diagnosis& diagnosis) {
   reports::Table table{"Smallest size that would have been seen, rms per coordinate",
-              {"Effect", "Size (µm)"},
-              {},
-              false,
-              "diagnosis-detectable"};
+                       {"Effect", "Size (µm)"},
+                       {},
+                       false,
+                       "diagnosis-detectable"};
   reports::RowGroup group;
   for (const diagnosis::DetectableSize& one : diagnosis.detectable) {
     if (one.size) group.rows.push_back({reports::effectName(one.effect), inUm(*one.size)});
@@ -281,7 +282,8 @@ reports::Row parameterRow(const extended_model::EffectParameter& parameter, int 
 }
 
 reports::Table parametersTable(const extended_model::EffectFit& effects) {
-  reports::Table table{"Effects in the model, fitted jointly with the stiffnesses", {"Effect", "Parameter", "Value ± u", "Unit"}, {}};
+  reports::Table table{
+      "Effects in the model, fitted jointly with the stiffnesses", {"Effect", "Parameter", "Value ± u", "Unit"}, {}};
   table.id = "effects";
   for (const extended_model::AddedEffect& one : effects.added) {
     reports::RowGroup group{reports::effectName(one.effect), {}};
@@ -303,8 +305,9 @@ reports::Cell stiffnessOf(const identification::MethodResult& method, int joint)
   return reports::withUncertainty(1e-6 * method.estimate.stiffness(joint), 1e-6 * expanded);
 }
 
-reports::Table stiffnessWithEffectsTable(const extended_model::ImprovedModel& model) {
-  reports::Table table{"Stiffness k ± U without and with the effects, 10⁶\u00a0Nm/rad", {"Joint", "Method", "Without", "With"}, {}};
+reports::Table stiffnessWithEffectsTable(const extended_model::ExtendedModel& model) {
+  reports::Table table{
+      "Stiffness k ± U without and with the effects, 10⁶\u00a0Nm/rad", {"Joint", "Method", "Without", "With"}, {}};
   table.id = "effects-stiffness";
   for (int joint = 0; joint < 6; ++joint) {
     reports::RowGroup group{reports::jointName(joint), {}};
@@ -318,10 +321,11 @@ reports::Table stiffnessWithEffectsTable(const extended_model::ImprovedModel& mo
   return table;
 }
 
-reports::Table residualTable(const extended_model::ImprovedModel& model) {
-  reports::Table table{"What is left without and with the effects",
-              {"Method", "rms without (µm)", "rms with (µm)", "Compensated without, held out", "with, held out"},
-              {{}}};
+reports::Table residualTable(const extended_model::ExtendedModel& model) {
+  reports::Table table{
+      "What is left without and with the effects",
+      {"Method", "rms without (µm)", "rms with (µm)", "Compensated without, held out", "with, held out"},
+      {{}}};
   table.id = "effects-residuals";
   const auto share = [](const identification::MethodResult& method) {
     const auto held_out = reports::heldOut(method, false);
@@ -330,18 +334,20 @@ reports::Table residualTable(const extended_model::ImprovedModel& model) {
   for (const identification::Method method : identification::kMethods) {
     const identification::MethodResult &without = model.without.of(method), &with = model.with.of(method);
     if (!without.available || !with.available) continue;
-    table.groups.front().rows.push_back({reports::longName(method), reports::fixed(without.estimate.rms_residual / io::kMicrometre, 1),
-                                         reports::fixed(with.estimate.rms_residual / io::kMicrometre, 1), share(without), share(with)});
+    table.groups.front().rows.push_back(
+        {reports::longName(method), reports::fixed(without.estimate.rms_residual / io::kMicrometre, 1),
+         reports::fixed(with.estimate.rms_residual / io::kMicrometre, 1), share(without), share(with)});
   }
   return table;
 }
 
-void writeModel(Html& html, const extended_model::ImprovedModel& model) {
+void writeModel(Html& html, const extended_model::ExtendedModel& model) {
   html.paragraph(reports::asIs(reports::gainWords(model)));
   std::vector<std::string> uses;
   for (const extended_model::AddedEffect& one : model.effects.added) {
     const std::string doubt = reports::doubtOf(one);
-    uses.push_back(reports::asIs(fmt::format("{}: {}{}.", reports::effectName(one.effect), reports::effectUse(one.effect), doubt.empty() ? "" : "; " + doubt)));
+    uses.push_back(reports::asIs(fmt::format("{}: {}{}.", reports::effectName(one.effect),
+                                             reports::effectUse(one.effect), doubt.empty() ? "" : "; " + doubt)));
   }
   for (const effects::Effect effect : model.effects.geometry)
     uses.push_back(reports::asIs(fmt::format("{}: {}.", reports::effectName(effect), reports::effectUse(effect))));
@@ -355,15 +361,18 @@ void writeModel(Html& html, const extended_model::ImprovedModel& model) {
   writeTable(html, stiffnessWithEffectsTable(model));
   writeTable(html, residualTable(model));
   html.paragraph(
-      "Every other number and picture of this page, the diagnosis aside, is of the model with the effects: what they do is taken off the readings, "
-      "and stiffnesses are those of the joint springs beside them. Their own uncertainty is in every ±. Shares are of the "
-      "machine's deflection, effects of the machine in it; the effects were fitted anew on the postures of every subset.",
+      "Every other number and picture of this page, the diagnosis aside, is of the model with the effects: what they "
+      "do is taken off the readings, "
+      "and stiffnesses are those of the joint springs beside them. Their own uncertainty is in every ±. Shares are of "
+      "the "
+      "machine's deflection, effects of the machine in it; the effects were fitted anew on the postures of every "
+      "subset.",
       "faint");
 }
 
 }  // namespace
 
-void writeImproved(Html& html, const reports::ReportContent& content) {
+void writeExtendedModel(Html& html, const reports::ReportContent& content) {
   const bool any = std::any_of(content.campaigns.begin(), content.campaigns.end(),
                                [](const reports::ReportCampaign& one) { return one.improved != nullptr; });
   if (!any) return;

@@ -1,6 +1,6 @@
+#include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 
 #include "core/preparation/finding.h"
 #include "reports/page/html.h"
@@ -30,7 +30,8 @@ const char* meaningOf(preparation::AuditVerdict verdict) {
 std::string withUnit(const std::optional<double>& value, const std::string& unit) {
   if (!value) return "–";
   const bool whole = std::abs(*value) < 1e6 && *value == std::round(*value);
-  return fmt::format("{}\u00a0{}", whole ? reports::fixed(*value, 0) : reports::significant(*value, 3), reports::withMicro(unit));
+  return fmt::format("{}\u00a0{}", whole ? reports::fixed(*value, 0) : reports::significant(*value, 3),
+                     reports::withMicro(unit));
 }
 
 /// A limit's source without what holds for all that are by chance; that is said once.
@@ -50,19 +51,19 @@ bool anyByChance(const audit::AuditReport& report) {
 reports::Row findingRow(const preparation::AuditCheck& check) {
   const std::string where = check.where.empty() ? "" : fmt::format(" ({})", check.where);
   const std::string source = sourceOf(check);
-  return {
-      reports::auditName(check.id), reports::auditWord(check.verdict), withUnit(check.value, check.unit),
-      withUnit(check.limit, check.unit),
-      reports::Cell(reports::withMicro(check.message) + where + ".", source.empty() ? "" : fmt::format("Limit: {}.", source))};
+  return {reports::auditName(check.id), reports::auditWord(check.verdict), withUnit(check.value, check.unit),
+          withUnit(check.limit, check.unit),
+          reports::Cell(reports::withMicro(check.message) + where + ".",
+                        source.empty() ? "" : fmt::format("Limit: {}.", source))};
 }
 
 /// Worst first: a reader looks for what is wrong.
 reports::Table findingsTable(const audit::AuditReport& report) {
   reports::Table table{"Findings",
-              {"Check", "Verdict", "Found", "Limit", "What was found, and where the limit comes from"},
-              {},
-              true,
-              "audit-findings"};
+                       {"Check", "Verdict", "Found", "Limit", "What was found, and where the limit comes from"},
+                       {},
+                       true,
+                       "audit-findings"};
   for (const preparation::AuditVerdict verdict : {preparation::AuditVerdict::fail, preparation::AuditVerdict::warn}) {
     reports::RowGroup group;
     for (const preparation::AuditCheck& check : report.checks) {
@@ -75,8 +76,8 @@ reports::Table findingsTable(const audit::AuditReport& report) {
 
 /// "100 to 300 deg" of checks that are made several times, axis by axis, against one limit.
 std::string rangeOf(const std::vector<const preparation::AuditCheck*>& same) {
-  const auto [least, most] =
-      std::minmax_element(same.begin(), same.end(), [](const preparation::AuditCheck* a, const preparation::AuditCheck* b) {
+  const auto [least, most] = std::minmax_element(
+      same.begin(), same.end(), [](const preparation::AuditCheck* a, const preparation::AuditCheck* b) {
         return a->value.value_or(0.0) < b->value.value_or(0.0);
       });
   const std::string low = withUnit((*least)->value, ""), high = withUnit((*most)->value, (*most)->unit);
@@ -100,7 +101,8 @@ reports::Table passedTable(const audit::AuditReport& report) {
   for (const auto& line : lines) {
     const preparation::AuditCheck& check = *line.front();
     table.groups.front().rows.push_back(
-        {reports::Cell(reports::auditName(check.id), line.size() > 1 ? fmt::format("({} times)", line.size()) : std::string()),
+        {reports::Cell(reports::auditName(check.id),
+                       line.size() > 1 ? fmt::format("({} times)", line.size()) : std::string()),
          rangeOf(line), withUnit(check.limit, check.unit), sourceOf(check)});
   }
   return table;
@@ -111,7 +113,8 @@ std::vector<std::string> furtherWords(const audit::AuditReport& report, bool dia
   std::vector<std::string> items;
   for (const preparation::AuditCheck& check : report.checks) {
     if (check.verdict == preparation::AuditVerdict::not_testable)
-      items.push_back(fmt::format("{}, not testable: {}.", reports::auditName(check.id), reports::withMicro(check.message)));
+      items.push_back(
+          fmt::format("{}, not testable: {}.", reports::auditName(check.id), reports::withMicro(check.message)));
     std::vector<std::string> details;
     for (const std::string& detail : check.details) {
       // Which effects could be told apart has a place of its own where there is a diagnosis.
@@ -134,7 +137,9 @@ void writeRejected(Html& html, const reports::ReportCampaign& one) {
   html.paragraph(fmt::format("{} reading{} rejected{}:", rejected.size(), rejected.size() == 1 ? "" : "s",
                              raw ? ", but used all the same, because raw readings were asked for"
                                  : " and left out of everything on this page"));
-  const auto words = [](const preparation::RejectedReading& reading) { return reports::withMicro(reports::rejectedWords(reading)); };
+  const auto words = [](const preparation::RejectedReading& reading) {
+    return reports::withMicro(reports::rejectedWords(reading));
+  };
   html.list(reports::listed(rejected, words, reports::kListedInResults));
 }
 
@@ -164,7 +169,8 @@ namespace {
 
 /// Postures and parameters; joints, methods and the wrist centre say so where their numbers would stand.
 std::vector<std::string> leftOut(const identification::Identification& result) {
-  std::vector<std::string> items = reports::listed(result.left_out, [](const std::string& one) { return one; }, reports::kListedInResults);
+  std::vector<std::string> items = reports::listed(
+      result.left_out, [](const std::string& one) { return one; }, reports::kListedInResults);
   if (!result.calibration.fixed.empty()) {
     items.push_back(fmt::format("PP's geometry, kept at its start because the positions do not see it: {}.",
                                 fmt::join(result.calibration.fixed, ", ")));
@@ -185,7 +191,7 @@ void writeLeftOut(Html& html, const reports::ReportContent& content) {
 namespace {
 
 reports::Table namedTable(const char* id, const char* caption, const char* name, const char* value,
-                 const std::vector<reports::NamedText>& lines) {
+                          const std::vector<reports::NamedText>& lines) {
   reports::Table table{caption, {name, value}, {{}}, true, id};
   for (const reports::NamedText& line : lines) table.groups.front().rows.push_back({line.name, line.text});
   return table;
@@ -220,8 +226,10 @@ void writeScope(Html& html, const reports::ReportContent&) {
   html.leaf("h2", "Uncertainty, decision rule and scope");
   html.list(
       {"Uncertainty: the standard uncertainty u of a compliance is from the scatter between postures (sandwich "
-       "estimate, CR2) and from what they all share and the campaign tells of: frames, wrist radii, geometry; that of a "
-       "stiffness is u(c)/c², to first order. U = k u with Student's t for about 95\u00a0%. The scales of the load cell "
+       "estimate, CR2) and from what they all share and the campaign tells of: frames, wrist radii, geometry; that of "
+       "a "
+       "stiffness is u(c)/c², to first order. U = k u with Student's t for about 95\u00a0%. The scales of the load "
+       "cell "
        "and of the tracker, of which no reading tells, are not in it.",
        "Decision rule: no statement of conformity to a specification is made. A joint counts as seen where the load "
        "turns it by more than three times what wrench, frame and angle uncertainty alone would. A stiffness is "

@@ -1,5 +1,5 @@
-#include <cmath>
 #include <fmt/format.h>
+#include <cmath>
 #include <limits>
 
 #include "core/identification/estimate.h"
@@ -15,26 +15,29 @@ namespace stiffscope::page {
 
 namespace {
 
-reports::Row shareRow(const reports::ReportContent& content, const reports::ReportCampaign& campaign, identification::Method method, bool at_wrist) {
+reports::Row shareRow(const reports::ReportContent& content, const reports::ReportCampaign& campaign,
+                      identification::Method method, bool at_wrist) {
   const identification::MethodResult& one = campaign.identification.of(method);
   const identification::Compensation& compensation = *reports::compensationAt(one, at_wrist);
   const bool subsets = !one.subsets.compliances.empty();
   const auto ofSubsets = [&](double share) { return subsets ? reports::percent(share) : std::string("–"); };
-  reports::Row row{reports::shortName(method), reports::percent(compensation.all_postures), ofSubsets(compensation.subsets.used),
-          ofSubsets(compensation.subsets.held_out), ofSubsets(compensation.subsets.all)};
+  reports::Row row{reports::shortName(method), reports::percent(compensation.all_postures),
+                   ofSubsets(compensation.subsets.used), ofSubsets(compensation.subsets.held_out),
+                   ofSubsets(compensation.subsets.all)};
   if (content.compare_with_paper) {
     // The paper compensates what the active double encoders leave, and judges at P_wrist.
     const bool comparable = at_wrist && campaign.campaign.double_encoder == campaign::DoubleEncoder::active;
-    row.emplace_back(comparable ? reports::percent(reports::kPaperCompensated[static_cast<std::size_t>(method)], 0) : "–");
+    row.emplace_back(comparable ? reports::percent(reports::kPaperCompensated[static_cast<std::size_t>(method)], 0)
+                                : "–");
   }
   return row;
 }
 
 reports::Table shareTable(const reports::ReportContent& content, const reports::ReportCampaign& one) {
-  reports::Table table{"Share of the deflection compensated",
-              {"At", "Method", "All postures: fitted and judged", "Subsets: used", "Subsets: held out",
-               "Subsets: all"},
-              {}};
+  reports::Table table{
+      "Share of the deflection compensated",
+      {"At", "Method", "All postures: fitted and judged", "Subsets: used", "Subsets: held out", "Subsets: all"},
+      {}};
   table.id = "compensation";
   if (content.compare_with_paper) table.columns.emplace_back("Paper: all");
   for (const bool at_wrist : {true, false}) {
@@ -54,14 +57,13 @@ std::string noiseWords(const reports::ReportCampaign& one) {
   const identification::Identification& result = one.identification;
   if (!result.noise) {
     return fmt::format("What noise alone forbids is not known: {}.",
-                       one.campaign.tracker
-                           ? "the campaign has displacements only, not the readings they come from"
-                           : "the tracker's noise is not declared");
+                       one.campaign.tracker ? "the campaign has displacements only, not the readings they come from"
+                                            : "the tracker's noise is not declared");
   }
   const std::string at_targets = reports::percent(result.noise->at_targets);
   if (!result.noise->at_wrist) {
-    return fmt::format(
-        "Noise of the tracker alone forbids about {} at the reflectors: no model can take that away.", at_targets);
+    return fmt::format("Noise of the tracker alone forbids about {} at the reflectors: no model can take that away.",
+                       at_targets);
   }
   return fmt::format(
       "Noise of the tracker alone forbids about {} at P_{{wrist}} and {} at the reflectors: no model can take that "
@@ -77,7 +79,8 @@ void writeAvoided(Html& html, const reports::ReportContent& content) {
         "With the double encoders active the deflection at {} is smaller than with them inactive by {}, over {} "
         "postures at the same joint angles under the same load; the interval is of what other postures would give.",
         reports::pointOf(*content.avoided), reports::shareWords(*content.avoided), content.avoided->postures.size());
-    if (content.compare_with_paper) words += fmt::format(" The paper: {}.", reports::percent(reports::kPaperAvoided, 0));
+    if (content.compare_with_paper)
+      words += fmt::format(" The paper: {}.", reports::percent(reports::kPaperAvoided, 0));
   } else {
     words = fmt::format("Not known: {}.", content.avoided->reason);
   }
@@ -122,7 +125,8 @@ std::string markNote(const std::string& mark) {
                             : "Imprecise: the standard uncertainty exceeds the value.";
 }
 
-reports::Cell stiffnessCell(const identification::Identification& result, identification::Method method, int joint, Notes& notes) {
+reports::Cell stiffnessCell(const identification::Identification& result, identification::Method method, int joint,
+                            Notes& notes) {
   const identification::MethodResult& one = result.of(method);
   if (!one.available) return {"not available", notes.mark(unavailable(result, method))};
   if (!one.estimate.identifiable[static_cast<std::size_t>(joint)]) {
@@ -133,16 +137,19 @@ reports::Cell stiffnessCell(const identification::Identification& result, identi
   const double expanded = reports::coverageOf(one.estimate, joint).factor * one.estimate.stiffnessSd(joint);
   const std::string value = reports::withUncertainty(one.estimate.stiffness(joint) / kMega, expanded / kMega);
   const std::string mark = one.estimate.mark(joint);
-  return mark.empty() ? reports::Cell(value) : reports::Cell(value, fmt::format("{} {}", mark, notes.mark(markNote(mark))));
+  return mark.empty() ? reports::Cell(value)
+                      : reports::Cell(value, fmt::format("{} {}", mark, notes.mark(markNote(mark))));
 }
 
 reports::Table stiffnessTable(const identification::Identification& result, Notes& notes) {
   reports::Table table{"Joint stiffness k ± U, 10⁶\u00a0Nm/rad, from all postures", {"Joint"}, {{}}};
   table.id = "stiffness";
-  for (const identification::Method method : identification::kMethods) table.columns.push_back(reports::longName(method));
+  for (const identification::Method method : identification::kMethods)
+    table.columns.push_back(reports::longName(method));
   for (int joint = 0; joint < 6; ++joint) {
     reports::Row row{reports::jointName(joint)};
-    for (const identification::Method method : identification::kMethods) row.push_back(stiffnessCell(result, method, joint, notes));
+    for (const identification::Method method : identification::kMethods)
+      row.push_back(stiffnessCell(result, method, joint, notes));
     table.groups.front().rows.push_back(std::move(row));
   }
   return table;
@@ -162,7 +169,7 @@ reports::Table complianceTable(const identification::Identification& result) {
       const identification::StiffnessEstimate& estimate = result.of(method).estimate;
       if (!result.of(method).available) continue;
       row.emplace_back(reports::withUncertainty(1e9 * estimate.compliance[joint],
-                                       1e9 * std::sqrt(estimate.covariance(joint, joint))));
+                                                1e9 * std::sqrt(estimate.covariance(joint, joint))));
     }
     table.groups.front().rows.push_back(std::move(row));
   }
@@ -185,9 +192,8 @@ reports::Table fitTable(const identification::Identification& result) {
 
 /// CP's result against the characteristic length, which is not unique.
 reports::Table lengthTable(const identification::Identification& result) {
-  reports::Table table{"Complete Pose against the characteristic length L: stiffness in 10⁶\u00a0Nm/rad",
-              {"L (m)", "Condition"},
-              {{}}};
+  reports::Table table{
+      "Complete Pose against the characteristic length L: stiffness in 10⁶\u00a0Nm/rad", {"L (m)", "Condition"}, {{}}};
   table.id = "characteristic-length";
   const auto& seen = result.of(identification::Method::complete_pose).estimate.identifiable;
   for (int joint = 0; joint < 6; ++joint) {
@@ -198,8 +204,7 @@ reports::Table lengthTable(const identification::Identification& result) {
     const identification::LengthSensitivity& at = result.length_sensitivity[i];
     reports::Row row{reports::significant(at.length, 3), reports::significant(at.condition, 3)};
     for (int joint = 0; joint < 6; ++joint) {
-      if (seen[static_cast<std::size_t>(joint)])
-        row.emplace_back(reports::significant(1e-6 / at.compliance[joint], 3));
+      if (seen[static_cast<std::size_t>(joint)]) row.emplace_back(reports::significant(1e-6 / at.compliance[joint], 3));
     }
     table.groups.front().rows.push_back(std::move(row));
   }
@@ -211,7 +216,9 @@ std::string range(const std::string& low, const std::string& high) {
 }
 
 /// One decimal where it matters to Student's t.
-std::string degrees(double of_freedom) { return of_freedom < 100.0 ? reports::fixed(of_freedom, 1) : reports::significant(of_freedom, 3); }
+std::string degrees(double of_freedom) {
+  return of_freedom < 100.0 ? reports::fixed(of_freedom, 1) : reports::significant(of_freedom, 3);
+}
 
 std::string uncertaintyWords(const identification::Identification& result) {
   std::vector<std::string> factors;
@@ -226,13 +233,16 @@ std::string uncertaintyWords(const identification::Identification& result) {
     }
     if (most.factor == 0.0) continue;
     const std::string freedom = range(degrees(most.degrees_of_freedom), degrees(least.degrees_of_freedom));
-    factors.push_back(fmt::format("{} for {} ({} degree{} of freedom)", range(reports::fixed(least.factor, 2), reports::fixed(most.factor, 2)),
+    factors.push_back(fmt::format("{} for {} ({} degree{} of freedom)",
+                                  range(reports::fixed(least.factor, 2), reports::fixed(most.factor, 2)),
                                   reports::shortName(method), freedom, freedom == "1.0" ? "" : "s"));
   }
   if (factors.empty()) return "Too few postures for an uncertainty.";
   return fmt::format(
-      "± is the expanded uncertainty U = k u, coverage about 95\u00a0%, with the coverage factor k from Student's t, joint by "
-      "joint: {}. The standard uncertainty u is from the scatter between postures and from what they all share: frames, "
+      "± is the expanded uncertainty U = k u, coverage about 95\u00a0%, with the coverage factor k from Student's t, "
+      "joint by "
+      "joint: {}. The standard uncertainty u is from the scatter between postures and from what they all share: "
+      "frames, "
       "wrist radii, calibrated geometry.",
       fmt::join(factors, ", "));
 }
@@ -250,10 +260,11 @@ std::string wideIntervals(const identification::Identification& result) {
       if (!std::isfinite(compliance.low) || compliance.high - c < kWide * std::abs(c)) continue;
       const identification::CoverageInterval own = identification::stiffnessInterval(compliance);
       wide.push_back(std::isfinite(own.high)
-                         ? fmt::format("{} by {} is between {} and {}", reports::jointName(joint), reports::shortName(method),
-                                       reports::significant(own.low / kMega, 3), reports::significant(own.high / kMega, 3))
-                         : fmt::format("{} by {} is only known to be above {}", reports::jointName(joint), reports::shortName(method),
-                                       reports::significant(own.low / kMega, 3)));
+                         ? fmt::format("{} by {} is between {} and {}", reports::jointName(joint),
+                                       reports::shortName(method), reports::significant(own.low / kMega, 3),
+                                       reports::significant(own.high / kMega, 3))
+                         : fmt::format("{} by {} is only known to be above {}", reports::jointName(joint),
+                                       reports::shortName(method), reports::significant(own.low / kMega, 3)));
     }
   }
   if (wide.empty()) return {};
@@ -283,25 +294,28 @@ void writeStiffness(Html& html, const reports::ReportContent& content) {
 
 namespace {
 
-
-reports::Row spreadRow(const reports::ReportContent& content, const reports::ReportCampaign& one, identification::Method method, int joint) {
+reports::Row spreadRow(const reports::ReportContent& content, const reports::ReportCampaign& one,
+                       identification::Method method, int joint) {
   const identification::StiffnessSpread spread = identification::spreadOf(one.identification.of(method).subsets, joint);
   const double width = (spread.high - spread.low) / kMega;
   reports::Row row{reports::shortName(method), reports::withUncertainty(spread.mean / kMega, spread.sd / kMega),
-          reports::toPlaceOf(spread.median / kMega, width),
-          fmt::format("{} to {}", reports::toPlaceOf(spread.low / kMega, width), reports::toPlaceOf(spread.high / kMega, width)),
-          reports::percent(spread.share_negative)};
+                   reports::toPlaceOf(spread.median / kMega, width),
+                   fmt::format("{} to {}", reports::toPlaceOf(spread.low / kMega, width),
+                               reports::toPlaceOf(spread.high / kMega, width)),
+                   reports::percent(spread.share_negative)};
   if (content.compare_with_paper) {
     const auto paper = reports::paperStiffness(one.campaign.double_encoder, method, joint);
-    row.emplace_back(paper ? fmt::format("{} & {}", reports::asPrinted(paper->mean), reports::asPrinted(paper->sd)) : "–");
+    row.emplace_back(paper ? fmt::format("{} & {}", reports::asPrinted(paper->mean), reports::asPrinted(paper->sd))
+                           : "–");
   }
   return row;
 }
 
-reports::Table tableTwo(const reports::ReportContent& content, const reports::ReportCampaign& one, const identification::SubsetStudy& any) {
+reports::Table tableTwo(const reports::ReportContent& content, const reports::ReportCampaign& one,
+                        const identification::SubsetStudy& any) {
   reports::Table table{fmt::format("Table II: joint stiffness over {}, 10⁶\u00a0Nm/rad", reports::subsetWords(any)),
-              {"Joint", "Method", "Mean ± sd", "Median", "5 to 95\u00a0%", "Negative"},
-              {}};
+                       {"Joint", "Method", "Mean ± sd", "Median", "5 to 95\u00a0%", "Negative"},
+                       {}};
   table.id = "subsets";
   if (content.compare_with_paper) table.columns.emplace_back("Paper, mean & sd");
   for (int joint = 0; joint < 6; ++joint) {
@@ -328,8 +342,7 @@ void writeSubsets(Html& html, const reports::ReportContent& content) {
     }
     const identification::SubsetStudy& study = one.identification.of(*shown).subsets;
     if (study.compliances.empty()) {
-      html.paragraph(
-          fmt::format("{} postures are too few to draw subsets from.", one.identification.cases.size()));
+      html.paragraph(fmt::format("{} postures are too few to draw subsets from.", one.identification.cases.size()));
       return;
     }
     writeTable(html, tableTwo(content, one, study));

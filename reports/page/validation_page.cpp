@@ -26,8 +26,7 @@ std::string styleOf(int count, int row_total, bool right) {
   constexpr const char* kNarrow = "padding:.28rem .4rem;text-align:center";
   if (count == 0) return kNarrow;
   const double share = static_cast<double>(count) / row_total;
-  return fmt::format("{};background:rgba({},{:.2f})", kNarrow, right ? "40,140,80" : "200,80,40",
-                     0.12 + 0.6 * share);
+  return fmt::format("{};background:rgba({},{:.2f})", kNarrow, right ? "40,140,80" : "200,80,40", 0.12 + 0.6 * share);
 }
 
 }  // namespace
@@ -57,14 +56,12 @@ void writeBlindConfusion(Html& html, const validation::Confusion& confusion) {
     for (std::size_t c = 0; c < counts.size(); ++c) {
       const bool right = confusion.answers[c] == confusion.truths[r] ||
                          (confusion.truths[r] == "outside" && confusion.answers[c] == "unknown");
-      html.leaf("td", counts[c] > 0 ? std::to_string(counts[c]) : "",
-                {{"style", styleOf(counts[c], total, right)}});
+      html.leaf("td", counts[c] > 0 ? std::to_string(counts[c]) : "", {{"style", styleOf(counts[c], total, right)}});
     }
   }
 }
 
 namespace {
-
 
 void writeHead(Html& html, const std::string& seal) {
   const auto head = html.element("head");
@@ -78,18 +75,16 @@ void writeHead(Html& html, const std::string& seal) {
 void writeNumber(Html& html, const numerics::Rate& rate, const char* words) {
   const auto item = html.element("li");
   html.leaf("b", rate.trials > 0 ? reports::percent(rate.value(), 0) : "–");
-  html.leaf("span", rate.trials > 0
-                        ? fmt::format("{}: {} of {}, 95 % interval {} to {}", words, rate.hits, rate.trials,
-                                      reports::percent(rate.low, 0), reports::percent(rate.high, 0))
-                        : fmt::format("{}: no case", words));
+  html.leaf("span", rate.trials > 0 ? fmt::format("{}: {} of {}, 95 % interval {} to {}", words, rate.hits, rate.trials,
+                                                  reports::percent(rate.low, 0), reports::percent(rate.high, 0))
+                                    : fmt::format("{}: no case", words));
 }
 
 void writeOpening(Html& html, const validation::BlindOptions& options, const validation::BlindResult& result) {
   const auto header = html.element("header");
   html.leaf("h1", "The diagnosis on machines whose effect was withheld");
-  html.paragraph(
-      fmt::format("{} simulated machines, seed {}. Truth sealed before the diagnosis started, SHA-256",
-                  result.score.cases.size(), options.seed));
+  html.paragraph(fmt::format("{} simulated machines, seed {}. Truth sealed before the diagnosis started, SHA-256",
+                             result.score.cases.size(), options.seed));
   html.leaf("code", result.seal);
   html.paragraph("Answers frozen before the seal was opened, SHA-256");
   html.leaf("code", result.answers_hash);
@@ -123,7 +118,6 @@ std::string blindPage(const validation::BlindOptions& options, const validation:
 
 namespace {
 
-
 std::string counted(const numerics::Rate& rate) {
   return rate.trials > 0 ? fmt::format("{} / {}", rate.hits, rate.trials) : "–";
 }
@@ -140,8 +134,8 @@ reports::Row rateRow(const std::string& words, const numerics::Rate& rate) {
 
 reports::Table effectTable(const char* caption, const std::vector<validation::EffectScore>& effects) {
   reports::Table table{caption,
-              {"effect", "right", "size 2 and more", "size 5 and more", "said none", "members of the class"},
-              {{"", {}}}};
+                       {"effect", "right", "size 2 and more", "size 5 and more", "said none", "members of the class"},
+                       {{"", {}}}};
   for (const validation::EffectScore& one : effects) {
     if (one.all.trials == 0) continue;
     table.groups[0].rows.push_back({one.id, counted(one.all), counted(one.from_2), counted(one.from_5),
@@ -190,9 +184,10 @@ void writeBlindShrink(Html& html, const validation::Score& score) {
       "", {"case", "effect", "promised", "interval", "true, seen", "true, noise-free", "held"}, {{"", {}}}};
   for (const validation::ShrinkPair& one : score.shrinks) {
     const bool held = one.low <= one.truth_seen && one.truth_seen <= one.high;
-    table.groups[0].rows.push_back({one.name, one.effect, reports::percent(one.promised, 0),
-                                    fmt::format("{} to {}", reports::percent(one.low, 0), reports::percent(one.high, 0)),
-                                    reports::percent(one.truth_seen, 0), reports::percent(one.truth, 0), held ? "yes" : "no"});
+    table.groups[0].rows.push_back(
+        {one.name, one.effect, reports::percent(one.promised, 0),
+         fmt::format("{} to {}", reports::percent(one.low, 0), reports::percent(one.high, 0)),
+         reports::percent(one.truth_seen, 0), reports::percent(one.truth, 0), held ? "yes" : "no"});
   }
   writeTable(html, table);
 }

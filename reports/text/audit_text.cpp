@@ -1,8 +1,8 @@
-#include "reports/text/text.h"
 #include "core/audit/audit.h"
+#include "reports/text/text.h"
 
-#include <algorithm>
 #include <fmt/format.h>
+#include <algorithm>
 #include <iterator>
 
 #include "reports/json/json.h"
@@ -23,8 +23,7 @@ const char* worded(preparation::AuditVerdict verdict) {
 std::string figure(const std::optional<double>& value) { return value ? fmt::format("{:.4g}", *value) : "-"; }
 
 void writeTable(const audit::AuditReport& report, Out out) {
-  fmt::format_to(out, "  {:<21}{:<13}{:>10}{:>10}  {:<16}{}\n", "check", "verdict", "figure", "limit", "unit",
-                 "where");
+  fmt::format_to(out, "  {:<21}{:<13}{:>10}{:>10}  {:<16}{}\n", "check", "verdict", "figure", "limit", "unit", "where");
   for (const preparation::AuditCheck& check : report.checks) {
     std::string line = fmt::format("  {:<21}{:<13}{:>10}{:>10}  {:<16}{}", check.id, worded(check.verdict),
                                    figure(check.value), figure(check.limit), check.unit, check.where);
@@ -47,7 +46,9 @@ void writeDetails(const audit::AuditReport& report, Out out) {
   for (const preparation::AuditCheck& check : report.checks) {
     if (check.details.empty()) continue;
     fmt::format_to(out, "\n{}, in detail\n", check.id);
-    for (const std::string& detail : listed(check.details, [](const std::string& one) { return one; }, kListedInJson)) fmt::format_to(out, "  {}\n", wrapped(detail, 4));
+    for (const std::string& detail : listed(
+             check.details, [](const std::string& one) { return one; }, kListedInJson))
+      fmt::format_to(out, "  {}\n", wrapped(detail, 4));
   }
 }
 
@@ -70,17 +71,20 @@ std::string auditText(const campaign::Campaign& campaign, const audit::AuditRepo
   std::string text;
   Out out(text);
   fmt::format_to(out, "{}: {}\n\n", campaign.name,
-                 report.verdict == preparation::AuditVerdict::pass   ? "pass: fit to identify from"
-                 : report.verdict == preparation::AuditVerdict::warn ? "warn: fit to identify from with what is said below"
-                                                        : "fail: not fit to identify from");
+                 report.verdict == preparation::AuditVerdict::pass ? "pass: fit to identify from"
+                 : report.verdict == preparation::AuditVerdict::warn
+                     ? "warn: fit to identify from with what is said below"
+                     : "fail: not fit to identify from");
   writeTable(report, out);
   writeMessages(report, preparation::AuditVerdict::fail, "Fails", out);
   writeMessages(report, preparation::AuditVerdict::warn, "Warns", out);
   writeMessages(report, preparation::AuditVerdict::not_testable, "Not testable", out);
   writeShortArcs(report, out);
   writeDetails(report, out);
-  if (!report.rejected.empty()) fmt::format_to(out, "\nReadings to leave out, as the other commands do without --raw\n");
-  for (const std::string& entry : listed(report.rejected, rejectedWords, kListedInJson)) fmt::format_to(out, "  {}\n", wrapped(entry, 4));
+  if (!report.rejected.empty())
+    fmt::format_to(out, "\nReadings to leave out, as the other commands do without --raw\n");
+  for (const std::string& entry : listed(report.rejected, rejectedWords, kListedInJson))
+    fmt::format_to(out, "  {}\n", wrapped(entry, 4));
   return text;
 }
 

@@ -1,8 +1,8 @@
-#include "reports/text/text.h"
 #include "core/comparison/compare.h"
+#include "reports/text/text.h"
 
-#include <cmath>
 #include <fmt/format.h>
+#include <cmath>
 #include <iterator>
 
 #include "core/io/units.h"
@@ -31,8 +31,8 @@ void writeMethod(const comparison::StiffnessChange& change, identification::Meth
                    wrapped(fmt::format("{}: not comparable: {}", namesOf(method).full, change.reason), 2));
     return;
   }
-  fmt::format_to(out, "\n{}, 1e6 Nm/rad, +- one standard uncertainty\n  {:<4}{:>20}{:>20}{:>18}{:>10}{:>8}\n", namesOf(method).full, "",
-                 "before", "after", "ratio", "p", "corr.");
+  fmt::format_to(out, "\n{}, 1e6 Nm/rad, +- one standard uncertainty\n  {:<4}{:>20}{:>20}{:>18}{:>10}{:>8}\n",
+                 namesOf(method).full, "", "before", "after", "ratio", "p", "corr.");
   for (std::size_t j = 0; j < 6; ++j) {
     const comparison::JointChange& joint = change.joints[j];
     if (!joint.comparable) {
@@ -48,31 +48,31 @@ void writeMethod(const comparison::StiffnessChange& change, identification::Meth
 
 void writeShare(const comparison::DeflectionAvoided& avoided, const char* place, Out out) {
   if (!avoided.available) {
-    fmt::format_to(out, "\n{}\n",
-                   wrapped(fmt::format("Deflection avoided at {}: {}", place, avoided.reason), 2));
+    fmt::format_to(out, "\n{}\n", wrapped(fmt::format("Deflection avoided at {}: {}", place, avoided.reason), 2));
     return;
   }
   fmt::format_to(out, "\nDeflection avoided at {}: {:.1f} %", place, 100.0 * avoided.share);
   if (std::isfinite(avoided.low)) {
-    fmt::format_to(out, " (95 % interval over postures {:.1f} to {:.1f} %)", 100.0 * avoided.low,
-                   100.0 * avoided.high);
+    fmt::format_to(out, " (95 % interval over postures {:.1f} to {:.1f} %)", 100.0 * avoided.low, 100.0 * avoided.high);
   }
   fmt::format_to(out, ", {} postures\n", avoided.postures.size());
 }
 
 void writePostures(const comparison::DeflectionAvoided& avoided, const char* place, Out out) {
-  fmt::format_to(out, "\nThe deflection at {}, posture by posture\n  {:<12}{:>14}{:>14}{:>12}\n", place,
-                 "pose", "before (um)", "after (um)", "avoided, %");
+  fmt::format_to(out, "\nThe deflection at {}, posture by posture\n  {:<12}{:>14}{:>14}{:>12}\n", place, "pose",
+                 "before (um)", "after (um)", "avoided, %");
   const auto row = [](const comparison::PostureDeflection& one) {
-    return fmt::format("{:<12}{:>14.1f}{:>14.1f}{:>12.1f}", one.pose, one.before / io::kMicrometre, one.after / io::kMicrometre,
-                       100.0 * one.share());
+    return fmt::format("{:<12}{:>14.1f}{:>14.1f}{:>12.1f}", one.pose, one.before / io::kMicrometre,
+                       one.after / io::kMicrometre, 100.0 * one.share());
   };
-  for (const std::string& line : listed(avoided.postures, row, kListedInJson, kMostRows)) fmt::format_to(out, "  {}\n", line);
+  for (const std::string& line : listed(avoided.postures, row, kListedInJson, kMostRows))
+    fmt::format_to(out, "  {}\n", line);
 }
 
 }  // namespace
 
-std::string comparisonText(const campaign::Campaign& before, const campaign::Campaign& after, const comparison::Comparison& comparison) {
+std::string comparisonText(const campaign::Campaign& before, const campaign::Campaign& after,
+                           const comparison::Comparison& comparison) {
   std::string text;
   Out out(text);
   fmt::format_to(out, "before: {}\nafter:  {}\n", before.name, after.name);
@@ -82,18 +82,21 @@ std::string comparisonText(const campaign::Campaign& before, const campaign::Cam
   for (const std::string& caution : comparison.cautions)
     fmt::format_to(out, "  {}\n", wrapped("caution: " + caution, 4));
   if (comparison.comparable) {
-    for (const identification::Method method : identification::kMethods) writeMethod(comparison.of(method), method, out);
-    fmt::format_to(
-        out,
-        "  p: probability of a difference as large without any change; the errors' correlation (corr.), by\n"
-        "  the postures measured in both campaigns, is counted\n");
+    for (const identification::Method method : identification::kMethods)
+      writeMethod(comparison.of(method), method, out);
+    fmt::format_to(out,
+                   "  p: probability of a difference as large without any change; the errors' correlation (corr.), by\n"
+                   "  the postures measured in both campaigns, is counted\n");
     if (comparison.judgedAtWrist()) writeShare(comparison.at_wrist, "P_wrist", out);
     writeShare(comparison.at_targets, "the reflectors", out);
     if (comparison.avoided().available)
       writePostures(comparison.avoided(), comparison.judgedAtWrist() ? "P_wrist" : "the reflectors", out);
   }
-  const auto words = [](const comparison::UnmatchedPosture& one) { return fmt::format("not compared: pose {}: {}", one.pose, one.reason); };
-  for (const std::string& entry : listed(comparison.matched.unmatched, words, kListedInJson)) fmt::format_to(out, "  {}\n", wrapped(entry, 4));
+  const auto words = [](const comparison::UnmatchedPosture& one) {
+    return fmt::format("not compared: pose {}: {}", one.pose, one.reason);
+  };
+  for (const std::string& entry : listed(comparison.matched.unmatched, words, kListedInJson))
+    fmt::format_to(out, "  {}\n", wrapped(entry, 4));
   return text;
 }
 

@@ -1,6 +1,6 @@
-#include "reports/text/text.h"
 #include "core/compensation/compensate.h"
 #include "core/identification/identify.h"
+#include "reports/text/text.h"
 
 #include <fmt/format.h>
 #include <iterator>
@@ -29,7 +29,8 @@ std::string compensationText(const campaign::Campaign& campaign, identification:
     fmt::format_to(out, "  {:<10}{:>9.3f}{:>9.3f}{:>9.3f}{:>9.3f}   ", posture.posture.id, unsignedZero(mm.x(), 3),
                    unsignedZero(mm.y(), 3), unsignedZero(mm.z(), 3), posture.tcp.sd.norm() / io::kMillimetre);
     if (posture.solved) {
-      for (int joint = 0; joint < 6; ++joint) fmt::format_to(out, "{:>10.4f}", unsignedZero(posture.commands[joint] / io::kDegree, 4));
+      for (int joint = 0; joint < 6; ++joint)
+        fmt::format_to(out, "{:>10.4f}", unsignedZero(posture.commands[joint] / io::kDegree, 4));
       fmt::format_to(out, "\n");
     } else {
       fmt::format_to(out, "refused: {}\n", posture.reason);
@@ -38,8 +39,7 @@ std::string compensationText(const campaign::Campaign& campaign, identification:
   fmt::format_to(out,
                  "\n  Deflection of P_TCP under each row's load; +- is its standard uncertainty (mm, length of the "
                  "three)\n  from the stiffnesses and the effects in the model. Commands are joints 1 to 6.\n");
-  for (const std::string& caution : cautions)
-    fmt::format_to(out, "{}\n", wrapped("Caution: " + caution + ".", 2));
+  for (const std::string& caution : cautions) fmt::format_to(out, "{}\n", wrapped("Caution: " + caution + ".", 2));
   return text;
 }
 

@@ -1,6 +1,6 @@
-#include "reports/text/text.h"
 #include "core/campaign/campaign.h"
 #include "core/diagnosis/diagnosis.h"
+#include "reports/text/text.h"
 
 #include <fmt/format.h>
 #include <iterator>
@@ -21,7 +21,8 @@ std::string verdictWords(const diagnosis::Verdict& verdict);
 
 std::string effectNames(const std::vector<effects::Effect>& effects) {
   std::string names;
-  for (const effects::Effect effect : effects) names += (names.empty() ? "" : " or ") + std::string(effects::idOf(effect));
+  for (const effects::Effect effect : effects)
+    names += (names.empty() ? "" : " or ") + std::string(effects::idOf(effect));
   return names;
 }
 
@@ -48,10 +49,8 @@ std::string interval(const diagnosis::Shrink& shrink) {
 
 void writeClasses(const diagnosis::Diagnosis& diagnosis, Out out) {
   if (diagnosis.classes.empty()) return;
-  fmt::format_to(out,
-                 "\nWhich: candidates, and what each takes off the deflection's gap on postures held out\n");
-  fmt::format_to(out, "  {:<2}{:<44}{:>12}{:>9}  {:<17}{:>10}\n", "", "effect", "score", "shrink", "95 %",
-                 "explained");
+  fmt::format_to(out, "\nWhich: candidates, and what each takes off the deflection's gap on postures held out\n");
+  fmt::format_to(out, "  {:<2}{:<44}{:>12}{:>9}  {:<17}{:>10}\n", "", "effect", "score", "shrink", "95 %", "explained");
   for (const diagnosis::EffectClass& one : diagnosis.classes) {
     fmt::format_to(out, "  {:<2}{:<44}{:>12.0f}{:>9.3f}  {:<17}{:>10.3f}\n", one.in_verdict ? "*" : "",
                    effectNames(one.effects), unsignedZero(one.score, 0), unsignedZero(one.shrink.value, 3),
@@ -71,17 +70,18 @@ void writeTables(const std::vector<diagnosis::WhereTable>& tables, const char* t
   constexpr std::size_t kMostRows = 8;
   for (const diagnosis::WhereTable& table : tables) {
     if (table.rows.size() > kMostRows) continue;  // postures: in the JSON
-    fmt::format_to(out, "  {:<24}{:>10}{:>10}{:>9}{:>14}\n", "by " + table.by, "rms, um", "noise", "share",
-                   "sd above");
+    fmt::format_to(out, "  {:<24}{:>10}{:>10}{:>9}{:>14}\n", "by " + table.by, "rms, um", "noise", "share", "sd above");
     for (const diagnosis::WhereRow& row : table.rows) {
-      fmt::format_to(out, "    {:<22}{:>10.1f}{:>10.1f}{:>8.0f}%{:>14.1f}\n", row.name, um(row.rms),
-                     um(row.noise), 100.0 * row.share, row.significance);
+      fmt::format_to(out, "    {:<22}{:>10.1f}{:>10.1f}{:>8.0f}%{:>14.1f}\n", row.name, um(row.rms), um(row.noise),
+                     100.0 * row.share, row.significance);
     }
   }
 }
 
 void writeStiffnesses(const diagnosis::Diagnosis& diagnosis, Out out) {
-  fmt::format_to(out, "\nStiffness, 1e6 Nm/rad      before     after         u  (all load steps together; one standard uncertainty)\n");
+  fmt::format_to(
+      out,
+      "\nStiffness, 1e6 Nm/rad      before     after         u  (all load steps together; one standard uncertainty)\n");
   for (int j = 0; j < 6; ++j) {
     if (!diagnosis.identifiable[static_cast<std::size_t>(j)]) {
       fmt::format_to(out, "  joint {}           not identifiable\n", j + 1);
@@ -117,23 +117,19 @@ void writeLimits(const diagnosis::Diagnosis& diagnosis, Out out) {
 std::string diagnosisText(const campaign::Campaign& campaign, const diagnosis::Diagnosis& diagnosis) {
   std::string text;
   Out out(text);
-  if (!diagnosis.usable)
-    return fmt::format("{}: no diagnosis: {}\n", campaign.name, diagnosis.unusable_reason);
+  if (!diagnosis.usable) return fmt::format("{}: no diagnosis: {}\n", campaign.name, diagnosis.unusable_reason);
   fmt::format_to(out, "{}: {}\n\n", campaign.name, verdictWords(diagnosis.verdict));
   fmt::format_to(out, "{}\n", wrapped(diagnosis.verdict.reason, 0));
-  fmt::format_to(
-      out, "\nGap of the deflection ({:.0f} um rms): {:.1f} um before, {:.1f} um after, noise {:.1f} um\n",
-      um(diagnosis.gap.deflection), um(diagnosis.gap.before), um(diagnosis.gap.after),
-      um(diagnosis.gap.noise));
+  fmt::format_to(out, "\nGap of the deflection ({:.0f} um rms): {:.1f} um before, {:.1f} um after, noise {:.1f} um\n",
+                 um(diagnosis.gap.deflection), um(diagnosis.gap.before), um(diagnosis.gap.after),
+                 um(diagnosis.gap.noise));
   if (diagnosis.positions_tested) {
     fmt::format_to(out, "Gap of unloaded positions: {:.1f} um before, {:.1f} um after, noise {:.1f} um\n",
-                   um(diagnosis.positions.before), um(diagnosis.positions.after),
-                   um(diagnosis.positions.noise));
+                   um(diagnosis.positions.before), um(diagnosis.positions.after), um(diagnosis.positions.noise));
   }
   writeClasses(diagnosis, out);
   for (const auto& group : diagnosis.aliases)
-    fmt::format_to(out, "  These postures and loads cannot always separate: {}\n",
-                   wrapped(effectNames(group), 4));
+    fmt::format_to(out, "  These postures and loads cannot always separate: {}\n", wrapped(effectNames(group), 4));
   writeTables(diagnosis.where, "Where the deflection's gap lies", out);
   writeTables(diagnosis.where_positions, "Where the gap of unloaded positions lies", out);
   writeStiffnesses(diagnosis, out);

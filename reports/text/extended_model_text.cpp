@@ -1,8 +1,8 @@
-#include "reports/text/text.h"
 #include "core/extended_model/extended_model.h"
+#include "reports/text/text.h"
 
-#include <cmath>
 #include <fmt/format.h>
+#include <cmath>
 #include <iterator>
 
 #include "core/identification/estimate.h"
@@ -40,19 +40,23 @@ void writeEffect(const extended_model::AddedEffect& one, Out out) {
     }
     fmt::format_to(out, "    {:<24}{:>12.4g} +-{:.2g} {}\n", name, parameter.value, parameter.sd, parameter.unit);
   }
-  if (const std::string doubt = doubtOf(one); !doubt.empty()) fmt::format_to(out, "    {}\n", wrapped("Caution: " + doubt + ".", 4));
+  if (const std::string doubt = doubtOf(one); !doubt.empty())
+    fmt::format_to(out, "    {}\n", wrapped("Caution: " + doubt + ".", 4));
 }
 
 std::string stiffnessCell(const identification::StiffnessEstimate& estimate, int joint) {
   if (!estimate.identifiable[static_cast<std::size_t>(joint)]) return "-";
-  const double expanded = identification::coverageFactor(estimate, joint, identification::kStatedCoverage) * estimate.stiffnessSd(joint) * 1e-6;
+  const double expanded = identification::coverageFactor(estimate, joint, identification::kStatedCoverage) *
+                          estimate.stiffnessSd(joint) * 1e-6;
   return fmt::format("{:.4f} +-{}", estimate.stiffness(joint) * 1e-6,
                      std::isfinite(expanded) ? fmt::format("{:.4f}", expanded) : "?");
 }
 
-std::string heldOut(const identification::MethodResult& method, const std::optional<identification::Compensation>& share) {
+std::string heldOut(const identification::MethodResult& method,
+                    const std::optional<identification::Compensation>& share) {
   if (!share) return "-";
-  return fmt::format("{:.2f}", 100.0 * (method.subsets.compliances.empty() ? share->all_postures : share->subsets.held_out));
+  return fmt::format("{:.2f}",
+                     100.0 * (method.subsets.compliances.empty() ? share->all_postures : share->subsets.held_out));
 }
 
 /// The standard uncertainty that the effects alone make.
@@ -62,8 +66,12 @@ std::string byEffects(const identification::StiffnessEstimate& estimate, int joi
                                    (estimate.compliance[joint] * estimate.compliance[joint]) * 1e-6);
 }
 
-void writeStiffnesses(const extended_model::ImprovedModel& model, const std::vector<identification::Method>& methods, Out out) {
-  fmt::format_to(out, "\nStiffness without and with, 1e6 Nm/rad, with its expanded uncertainty U; by effects: their part of the\n  standard uncertainty\n  {:<14}", "");
+void writeStiffnesses(const extended_model::ExtendedModel& model, const std::vector<identification::Method>& methods,
+                      Out out) {
+  fmt::format_to(out,
+                 "\nStiffness without and with, 1e6 Nm/rad, with its expanded uncertainty U; by effects: their part of "
+                 "the\n  standard uncertainty\n  {:<14}",
+                 "");
   for (int joint = 1; joint <= 6; ++joint) fmt::format_to(out, " {:>17}", fmt::format("k{}", joint));
   fmt::format_to(out, "\n");
   for (const identification::Method which : methods) {
@@ -79,10 +87,10 @@ void writeStiffnesses(const extended_model::ImprovedModel& model, const std::vec
   }
 }
 
-void writeResiduals(const extended_model::ImprovedModel& model, const std::vector<identification::Method>& methods, Out out) {
-  fmt::format_to(out,
-                 "\n  {:<14}{:>20}{:>26}{:>20}\n  {:<14}{:>20}{:>26}{:>20}\n", "", "rms residual (um)", "compensated at P_wrist",
-                 "at the reflectors", "", "", "held out, %", "held out, %");
+void writeResiduals(const extended_model::ExtendedModel& model, const std::vector<identification::Method>& methods,
+                    Out out) {
+  fmt::format_to(out, "\n  {:<14}{:>20}{:>26}{:>20}\n  {:<14}{:>20}{:>26}{:>20}\n", "", "rms residual (um)",
+                 "compensated at P_wrist", "at the reflectors", "", "", "held out, %", "held out, %");
   for (const identification::Method which : methods) {
     const auto row = [&](const char* name, const identification::MethodResult& method) {
       if (!method.available) return;
@@ -101,22 +109,25 @@ std::string addedEffectsText(const extended_model::EffectFit& effects) {
   std::string text = fmt::format("\nAdded to the joint springs: {}\n", addedNames(effects));
   const auto out = std::back_inserter(text);
   for (const extended_model::AddedEffect& one : effects.added) writeEffect(one, out);
-  for (const effects::Effect effect : effects.geometry) fmt::format_to(out, "  {}\n", wrapped(fmt::format("{}: {}", effects::idOf(effect), reports::effectUse(effect)), 4));
+  for (const effects::Effect effect : effects.geometry)
+    fmt::format_to(out, "  {}\n", wrapped(fmt::format("{}: {}", effects::idOf(effect), reports::effectUse(effect)), 4));
   for (const std::string& note : effects.notes) fmt::format_to(out, "  {}\n", wrapped("Note: " + note + ".", 4));
   if (!effects.added.empty()) fmt::format_to(out, "{}\n", wrapped(explainedWords(effects), 0));
   return text;
 }
 
-std::string improvedText(const extended_model::ImprovedModel& model, const std::vector<identification::Method>& methods) {
+std::string extendedModelText(const extended_model::ExtendedModel& model,
+                              const std::vector<identification::Method>& methods) {
   std::string text = addedEffectsText(model.effects);
   if (model.effects.added.empty()) return text;
   const auto out = std::back_inserter(text);
   writeStiffnesses(model, methods, out);
   writeResiduals(model, methods, out);
-  fmt::format_to(out, "{}\n",
-                 wrapped("Held out: springs and effects fitted anew on the postures of each subset; parts of an effect stay as "
-                         "chosen. Stiffnesses are those of the joint springs beside the effects.",
-                         0));
+  fmt::format_to(
+      out, "{}\n",
+      wrapped("Held out: springs and effects fitted anew on the postures of each subset; parts of an effect stay as "
+              "chosen. Stiffnesses are those of the joint springs beside the effects.",
+              0));
   return text;
 }
 

@@ -1,8 +1,8 @@
-#include "reports/text/text.h"
 #include "reports/json/fit_json.h"
+#include "reports/text/text.h"
 
-#include <cmath>
 #include <fmt/format.h>
+#include <cmath>
 #include <vector>
 
 #include "reports/words/listed.h"
@@ -53,7 +53,8 @@ std::string snoopingText(const Snooping& snooping) {
   const auto words = [](const metrology::RejectedReading& one) {
     return fmt::format("point {}: w {:.3g}, above {:.3g}", one.index + 1, one.w, one.critical_w);
   };
-  for (const std::string& entry : listed(snooping.rejected, words, kListedInJson)) text += fmt::format("    {}\n", entry);
+  for (const std::string& entry : listed(snooping.rejected, words, kListedInJson))
+    text += fmt::format("    {}\n", entry);
   return text;
 }
 
@@ -61,15 +62,14 @@ std::string snoopingText(const Snooping& snooping) {
 
 std::string fitText(const ShapeFit& fitted) {
   const metrology::FitQuality& quality = fitted.quality();
-  std::string text =
-      fmt::format("{} through {} points, in the file's length unit\n", fitted.shape, fitted.points);
+  std::string text = fmt::format("{} through {} points, in the file's length unit\n", fitted.shape, fitted.points);
   if (fitted.snooping) text += snoopingText(*fitted.snooping);
   if (!quality.determined) return text + fmt::format("  undetermined: {}\n", quality.reason);
   text += std::visit([](const auto& one) { return parametersText(one); }, fitted.fit);
   text += fmt::format("  rms distance of a point {:.4g}", quality.rms);
   text += quality.degrees_of_freedom > 0
-              ? fmt::format(", residual standard deviation {:.4g} over {} degrees of freedom\n",
-                            quality.residual_sd, quality.degrees_of_freedom)
+              ? fmt::format(", residual standard deviation {:.4g} over {} degrees of freedom\n", quality.residual_sd,
+                            quality.degrees_of_freedom)
               : "; no degree of freedom is left to tell an uncertainty by\n";
   return text + fmt::format("  method: {}\n", quality.method);
 }

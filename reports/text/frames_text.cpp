@@ -1,10 +1,10 @@
-#include "reports/text/text.h"
 #include "core/campaign/campaign.h"
 #include "core/frames/frames.h"
+#include "reports/text/text.h"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 #include <iterator>
 
 #include "core/io/units.h"
@@ -22,7 +22,8 @@ Eigen::VectorXd shown(const Eigen::Ref<const Eigen::VectorXd>& values, int decim
 }
 
 std::string plusMinus(double value, const std::optional<double>& sd, int decimals) {
-  return sd ? fmt::format("{:.{}f} +- {:.{}f}", value, decimals, *sd, decimals) : fmt::format("{:.{}f}", value, decimals);
+  return sd ? fmt::format("{:.{}f} +- {:.{}f}", value, decimals, *sd, decimals)
+            : fmt::format("{:.{}f}", value, decimals);
 }
 
 void writeAxes(const frames::Frames& frames, Out out) {
@@ -49,15 +50,15 @@ void writeSagStake(const frames::Frames& frames, Out out) {
   fmt::format_to(out, "  taking off the sag moved the distances by");
   for (std::size_t i = 0; i < frames.links.size(); ++i) {
     const frames::LinkGeometry& link = frames.links[i];
-    fmt::format_to(out, "{} {:.3f} +- {:.3f}", i == 0 ? "" : ",", unsignedZero(link.distance_by_sag / io::kMillimetre, 3),
-                   link.distance_sag_sd / io::kMillimetre);
+    fmt::format_to(out, "{} {:.3f} +- {:.3f}", i == 0 ? "" : ",",
+                   unsignedZero(link.distance_by_sag / io::kMillimetre, 3), link.distance_sag_sd / io::kMillimetre);
   }
   fmt::format_to(out, " mm;\n  +- holds the stiffnesses' uncertainty, not bearings that give across their axes\n");
 }
 
 void writeLinks(const frames::Frames& frames, Out out) {
-  fmt::format_to(out, "\nBetween consecutive axes\n  {:<7}{:>24}{:>12}{:>26}{:>12}\n", "axes", "distance (mm)", "nominal",
-                 "angle (deg)", "nominal");
+  fmt::format_to(out, "\nBetween consecutive axes\n  {:<7}{:>24}{:>12}{:>26}{:>12}\n", "axes", "distance (mm)",
+                 "nominal", "angle (deg)", "nominal");
   for (std::size_t i = 0; i < frames.links.size(); ++i) {
     const frames::LinkGeometry& link = frames.links[i];
     const auto length_sd = link.distance_sd ? std::optional(*link.distance_sd / io::kMillimetre) : std::nullopt;
@@ -117,7 +118,8 @@ void writeR0(const frames::Frames& frames, Out out) {
     fmt::format_to(out, "R0 stands on the URDF's axes: axes 1 and 2 are not both measured.\n");
     return;
   }
-  fmt::format_to(out, "r0_from_{} (m)\n", frames.points_frame == campaign::PointFrame::tracker ? "tracker" : "base_link");
+  fmt::format_to(out, "r0_from_{} (m)\n",
+                 frames.points_frame == campaign::PointFrame::tracker ? "tracker" : "base_link");
   for (int row = 0; row < 3; ++row) {
     const Eigen::Vector4d values = frames.arm.r0_from_points.matrix().row(row).transpose();
     fmt::format_to(out, "  {:>13.9f}{:>13.9f}{:>13.9f}{:>13.6f}\n", unsignedZero(values[0], 9),
@@ -125,8 +127,10 @@ void writeR0(const frames::Frames& frames, Out out) {
   }
   const metrology::FrameError sd = frames.covariance.r0().diagonal().cwiseSqrt();
   const Eigen::Vector3d turn = 1e6 * sd.head<3>(), origin = sd.tail<3>() / io::kMillimetre;
-  fmt::format_to(out, "  standard uncertainty about x0, y0, z0 {:.1f}, {:.1f}, {:.1f} urad; of the origin "
-                 "{:.4f}, {:.4f}, {:.4f} mm\n", turn.x(), turn.y(), turn.z(), origin.x(), origin.y(), origin.z());
+  fmt::format_to(out,
+                 "  standard uncertainty about x0, y0, z0 {:.1f}, {:.1f}, {:.1f} urad; of the origin "
+                 "{:.4f}, {:.4f}, {:.4f} mm\n",
+                 turn.x(), turn.y(), turn.z(), origin.x(), origin.y(), origin.z());
 }
 
 }  // namespace

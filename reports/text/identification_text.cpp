@@ -1,13 +1,13 @@
-#include "reports/text/text.h"
 #include "core/identification/geometric_stiffness_cost.h"
 #include "core/identification/identify.h"
 #include "core/identification/load_dependence.h"
 #include "core/identification/posture_stiffness.h"
+#include "reports/text/text.h"
 
-#include <algorithm>
-#include <cmath>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <algorithm>
+#include <cmath>
 #include <iterator>
 
 #include "core/identification/estimate.h"
@@ -33,7 +33,8 @@ std::string bounds(const identification::CoverageInterval& interval) {
 }
 
 template <class Write>
-void forEachSeen(const identification::Identification& result, const std::vector<identification::Method>& methods, const Write& write) {
+void forEachSeen(const identification::Identification& result, const std::vector<identification::Method>& methods,
+                 const Write& write) {
   for (const identification::Method which : methods) {
     const identification::MethodResult& method = result.of(which);
     for (int joint = 0; method.available && joint < 6; ++joint) {
@@ -44,36 +45,45 @@ void forEachSeen(const identification::Identification& result, const std::vector
 
 }  // namespace
 
-std::string wideIntervals(const identification::Identification& result, const std::vector<identification::Method>& methods) {
+std::string wideIntervals(const identification::Identification& result,
+                          const std::vector<identification::Method>& methods) {
   std::string text;
-  constexpr double kWide = 0.2;  // relative half width: beyond it the two sides differ by a tenth of a standard deviation
-  forEachSeen(result, methods, [&](identification::Method which, const identification::MethodResult& method, int joint) {
-    const identification::CoverageInterval compliance = identification::complianceInterval(method.estimate, joint);
-    if (!std::isfinite(compliance.low)) return;
-    const double c = method.estimate.compliance[joint];
-    if (compliance.high - c < kWide * std::abs(c)) return;
-    const bool open = compliance.low <= 0.0 && compliance.high >= 0.0;
-    text += fmt::format("  {} k{}: 95 % interval {}{}\n", namesOf(which).brief, joint + 1, bounds(identification::stiffnessInterval(compliance)),
-                        open ? " (its compliance may be zero: this data only bounds it from below)" : "");
-  });
+  constexpr double kWide =
+      0.2;  // relative half width: beyond it the two sides differ by a tenth of a standard deviation
+  forEachSeen(
+      result, methods, [&](identification::Method which, const identification::MethodResult& method, int joint) {
+        const identification::CoverageInterval compliance = identification::complianceInterval(method.estimate, joint);
+        if (!std::isfinite(compliance.low)) return;
+        const double c = method.estimate.compliance[joint];
+        if (compliance.high - c < kWide * std::abs(c)) return;
+        const bool open = compliance.low <= 0.0 && compliance.high >= 0.0;
+        text += fmt::format("  {} k{}: 95 % interval {}{}\n", namesOf(which).brief, joint + 1,
+                            bounds(identification::stiffnessInterval(compliance)),
+                            open ? " (its compliance may be zero: this data only bounds it from below)" : "");
+      });
   return text;
 }
 
-std::string bootstrapText(const identification::Identification& result, const std::vector<identification::Method>& methods) {
+std::string bootstrapText(const identification::Identification& result,
+                          const std::vector<identification::Method>& methods) {
   std::string rows;
   std::size_t draws = 0;
-  forEachSeen(result, methods, [&](identification::Method which, const identification::MethodResult& method, int joint) {
-    if (method.bootstrap.compliances.empty()) return;
-    draws = method.bootstrap.compliances.size();
-    rows += fmt::format("  {:<5}k{} {:>26}{:>26}\n", namesOf(which).brief, joint + 1,
-                        bounds(identification::stiffnessInterval(method.estimate, joint)), bounds(method.bootstrap.stiffness(joint)));
-  });
+  forEachSeen(result, methods,
+              [&](identification::Method which, const identification::MethodResult& method, int joint) {
+                if (method.bootstrap.compliances.empty()) return;
+                draws = method.bootstrap.compliances.size();
+                rows += fmt::format("  {:<5}k{} {:>26}{:>26}\n", namesOf(which).brief, joint + 1,
+                                    bounds(identification::stiffnessInterval(method.estimate, joint)),
+                                    bounds(method.bootstrap.stiffness(joint)));
+              });
   if (rows.empty()) return {};
-  return fmt::format("\n95 % intervals, 1e6 Nm/rad: stated, and percentiles of {} draws of the postures\n  {:<5}   {:>26}{:>26}\n{}",
-                     draws, "", "stated", "bootstrap", rows);
+  return fmt::format(
+      "\n95 % intervals, 1e6 Nm/rad: stated, and percentiles of {} draws of the postures\n  {:<5}   {:>26}{:>26}\n{}",
+      draws, "", "stated", "bootstrap", rows);
 }
 
-std::string stepsText(const identification::StepStudy& study, const identification::Identification& result, const std::vector<identification::Method>& methods) {
+std::string stepsText(const identification::StepStudy& study, const identification::Identification& result,
+                      const std::vector<identification::Method>& methods) {
   std::string text;
   const auto out = std::back_inserter(text);
   for (const identification::Method which : methods) {
@@ -100,20 +110,25 @@ std::string stepsText(const identification::StepStudy& study, const identificati
     row("p, linear", [&](int j) { return fmt::format("{:.3g}", own.joints[static_cast<std::size_t>(j)].p_linear); });
   }
   if (!text.empty()) {
-    text += "  p: how often steps of equal stiffness would differ as much by chance; below 0.05 / 6 the stiffness depends on "
-            "the load\n";
+    text +=
+        "  p: how often steps of equal stiffness would differ as much by chance; below 0.05 / 6 the stiffness depends "
+        "on "
+        "the load\n";
   }
   return text;
 }
 
-std::string posturesText(const campaign::Campaign& campaign, const identification::Identification& result, identification::Method method) {
+std::string posturesText(const campaign::Campaign& campaign, const identification::Identification& result,
+                         identification::Method method) {
   const identification::PostureStiffnesses postures(campaign, result, method);
-  const std::vector<identification::GeometricStiffnessCost> costs = identification::geometricStiffnessCosts(result, method);
+  const std::vector<identification::GeometricStiffnessCost> costs =
+      identification::geometricStiffnessCosts(result, method);
   if (postures.size() == 0) return {};
-  std::string text = fmt::format("\nPostures at P_TCP by {}: softest and stiffest direction, what neglecting K_c costs\n"
-                                 "  kappa: condition number of the posture's Jacobian by P_TCP, 1 at best\n"
-                                 "  {:<12}{:>8}{:>16}{:>16}{:>12}\n",
-                                 namesOf(method).full, "pose", "kappa", "softest (N/um)", "stiffest", "K_c (um)");
+  std::string text = fmt::format(
+      "\nPostures at P_TCP by {}: softest and stiffest direction, what neglecting K_c costs\n"
+      "  kappa: condition number of the posture's Jacobian by P_TCP, 1 at best\n"
+      "  {:<12}{:>8}{:>16}{:>16}{:>12}\n",
+      namesOf(method).full, "pose", "kappa", "softest (N/um)", "stiffest", "K_c (um)");
   for (std::size_t i = 0; i < postures.size(); ++i) {
     const identification::PostureStiffness posture = postures.at(i);
     const auto& principal = posture.with_kc.principal;
@@ -131,13 +146,16 @@ using Out = std::back_insert_iterator<std::string>;
 std::string stiffnessCell(const identification::StiffnessEstimate& estimate, int joint) {
   if (!estimate.identifiable[static_cast<std::size_t>(joint)]) return "-";
   const char* mark = estimate.mark(joint).empty() ? "" : (estimate.mark(joint) == "negative" ? "!" : "?");
-  const double expanded = identification::coverageFactor(estimate, joint, identification::kStatedCoverage) * estimate.stiffnessSd(joint) * 1e-6;
+  const double expanded = identification::coverageFactor(estimate, joint, identification::kStatedCoverage) *
+                          estimate.stiffnessSd(joint) * 1e-6;
   return fmt::format("{:.4f} +-{}{}", estimate.stiffness(joint) * 1e-6,
                      std::isfinite(expanded) ? fmt::format("{:.4f}", expanded) : "?", mark);
 }
 
-void writeStiffness(const identification::Identification& result, const std::vector<identification::Method>& methods, Out out) {
-  fmt::format_to(out, "\nStiffness, 1e6 Nm/rad, with its expanded uncertainty U (coverage 95 %, Student's t)\n  {:<5}", "");
+void writeStiffness(const identification::Identification& result, const std::vector<identification::Method>& methods,
+                    Out out) {
+  fmt::format_to(out, "\nStiffness, 1e6 Nm/rad, with its expanded uncertainty U (coverage 95 %, Student's t)\n  {:<5}",
+                 "");
   for (int joint = 1; joint <= 6; ++joint) fmt::format_to(out, " {:>17}", fmt::format("k{}", joint));
   fmt::format_to(out, "\n");
   bool negative = false, imprecise = false;
@@ -168,7 +186,8 @@ void writeStiffness(const identification::Identification& result, const std::vec
   }
 }
 
-void writeResiduals(const identification::Identification& result, const std::vector<identification::Method>& methods, Out out) {
+void writeResiduals(const identification::Identification& result, const std::vector<identification::Method>& methods,
+                    Out out) {
   fmt::format_to(out, "\n  {:<5}{:>12}{:>20}{:>24}\n", "", "condition", "rms residual (um)", "over dof, sigma (um)");
   for (const identification::Method which : methods) {
     const identification::MethodResult& method = result.of(which);
@@ -179,14 +198,15 @@ void writeResiduals(const identification::Identification& result, const std::vec
   fmt::format_to(out, "  condition: condition number of the method's equations, columns of unit length; 1 at best\n");
 }
 
-void writeCompensation(const identification::Identification& result, const std::vector<identification::Method>& methods, Out out) {
+void writeCompensation(const identification::Identification& result, const std::vector<identification::Method>& methods,
+                       Out out) {
   const auto table = [&](const char* place, const auto& member) {
     const bool any = std::any_of(methods.begin(), methods.end(), [&](identification::Method which) {
       return result.of(which).available && (result.of(which).*member).has_value();
     });
     if (!any) return;
-    fmt::format_to(out, "\nShare of the deflection compensated at {}, %\n  {:<5}{:>8}{:>10}{:>8}{:>16}\n", place, "", "used",
-                   "held out", "all", "all identify");
+    fmt::format_to(out, "\nShare of the deflection compensated at {}, %\n  {:<5}{:>8}{:>10}{:>8}{:>16}\n", place, "",
+                   "used", "held out", "all", "all identify");
     for (const identification::Method which : methods) {
       const identification::MethodResult& method = result.of(which);
       if (!method.available || !(method.*member)) continue;
@@ -196,8 +216,9 @@ void writeCompensation(const identification::Identification& result, const std::
                        100.0 * share.all_postures);
         continue;
       }
-      fmt::format_to(out, "  {:<5}{:>8.2f}{:>10.2f}{:>8.2f}{:>16.2f}\n", namesOf(which).brief, 100.0 * share.subsets.used,
-                     100.0 * share.subsets.held_out, 100.0 * share.subsets.all, 100.0 * share.all_postures);
+      fmt::format_to(out, "  {:<5}{:>8.2f}{:>10.2f}{:>8.2f}{:>16.2f}\n", namesOf(which).brief,
+                     100.0 * share.subsets.used, 100.0 * share.subsets.held_out, 100.0 * share.subsets.all,
+                     100.0 * share.all_postures);
     }
   };
   table("P_wrist (which sees joints 1-3)", &identification::MethodResult::at_wrist);
@@ -227,7 +248,8 @@ std::string identificationText(const campaign::Campaign& campaign, const identif
   std::string text;
   Out out(text);
   fmt::format_to(out, "{}: joint stiffness from load step{} {}, {} postures\n", campaign.name,
-                 result.steps.size() > 1 ? "s" : "", fmt::join(result.steps, ", "), identification::postureCount(result));
+                 result.steps.size() > 1 ? "s" : "", fmt::join(result.steps, ", "),
+                 identification::postureCount(result));
   const auto words = [](const std::string& posture) { return "left out: " + posture; };
   for (const std::string& entry : listed(result.left_out, words, kListedInJson)) fmt::format_to(out, "  {}\n", entry);
   writeStiffness(result, methods, out);
@@ -239,19 +261,25 @@ std::string identificationText(const campaign::Campaign& campaign, const identif
     fmt::format_to(out, "{}\n", wrapped("Caution: " + caution + ".", 2));
   }
   if (result.calibration.done) {
-    fmt::format_to(out, "{}\n", wrapped(fmt::format("Partial Pose's geometry: unloaded positions missed by {:.3f} mm rms "
-                                                    "before and {:.3f} mm after calibration of {} parameters.",
-                                                    result.calibration.rms_before / io::kMillimetre,
-                                                    result.calibration.rms_after / io::kMillimetre,
-                                                    result.calibration.parameters), 0));
+    fmt::format_to(out, "{}\n",
+                   wrapped(fmt::format("Partial Pose's geometry: unloaded positions missed by {:.3f} mm rms "
+                                       "before and {:.3f} mm after calibration of {} parameters.",
+                                       result.calibration.rms_before / io::kMillimetre,
+                                       result.calibration.rms_after / io::kMillimetre, result.calibration.parameters),
+                           0));
   }
   fmt::format_to(out, "{}\n", wrapped(fmt::format("Own weight: {}.", result.frames.sag_note), 0));
-  fmt::format_to(out, "{}\n", wrapped(fmt::format("K_c is {}; it changes the joint torques by {:.2f} %.",
-                                                  result.finite_deflection ? "included" : "neglected",
-                                                  100.0 * result.geometric_stiffness_share), 0));
+  fmt::format_to(out, "{}\n",
+                 wrapped(fmt::format("K_c is {}; it changes the joint torques by {:.2f} %.",
+                                     result.finite_deflection ? "included" : "neglected",
+                                     100.0 * result.geometric_stiffness_share),
+                         0));
   if (result.servo_change > 0.0) {
-    fmt::format_to(out, "{}\n", wrapped(fmt::format("The reported joint angles change under load by up to {:.4f} deg: "
-                                                    "servo, not subtracted.", result.servo_change / io::kDegree), 0));
+    fmt::format_to(out, "{}\n",
+                   wrapped(fmt::format("The reported joint angles change under load by up to {:.4f} deg: "
+                                       "servo, not subtracted.",
+                                       result.servo_change / io::kDegree),
+                           0));
   }
   return text;
 }

@@ -1,8 +1,8 @@
-#include "reports/text/text.h"
 #include "core/planning/plan.h"
+#include "reports/text/text.h"
 
-#include <cmath>
 #include <fmt/format.h>
+#include <cmath>
 #include <iterator>
 
 #include "core/io/units.h"
@@ -59,8 +59,7 @@ void writeGain(const planning::Plan& plan, Out out) {
   writeUncertainties(plan, fmt::format("{}{} planned", plan.measured > 0 ? "and " : "", plan.postures.size()),
                      plan.postures.back().sd, out);
   for (const planning::RandomPostures* random : {&plan.random_same, &plan.random_double}) {
-    writeUncertainties(plan,
-                       fmt::format("{}{} random (median)", plan.measured > 0 ? "and " : "", random->postures),
+    writeUncertainties(plan, fmt::format("{}{} random (median)", plan.measured > 0 ? "and " : "", random->postures),
                        random->sd, out);
   }
   if (plan.measured == 0) {
@@ -83,24 +82,21 @@ std::string joined(const Eigen::Ref<const Eigen::VectorXd>& values, int decimals
 std::string planText(const campaign::Campaign& campaign, const planning::Plan& plan) {
   std::string text;
   Out out(text);
-  fmt::format_to(out, "{}: {} postures {}, {:.0f} N {}; chosen from {} of {} drawn\n", campaign.name,
-                 plan.asked, plan.measured > 0 ? "to add" : "to measure", plan.arm.load,
-                 plan.arm.pull ? "of pull" : "hanging", plan.candidates, plan.drawn);
-  for (const std::string& assumed : plan.arm.assumed)
-    fmt::format_to(out, "  {}\n", wrapped("taken: " + assumed, 4));
+  fmt::format_to(out, "{}: {} postures {}, {:.0f} N {}; chosen from {} of {} drawn\n", campaign.name, plan.asked,
+                 plan.measured > 0 ? "to add" : "to measure", plan.arm.load, plan.arm.pull ? "of pull" : "hanging",
+                 plan.candidates, plan.drawn);
+  for (const std::string& assumed : plan.arm.assumed) fmt::format_to(out, "  {}\n", wrapped("taken: " + assumed, 4));
   if (!plan.usable) {
     fmt::format_to(out, "  no plan: {}\n", plan.reason);
     return text;
   }
   for (std::size_t j = 0; j < 6; ++j) {
     if (!plan.unknown[j]) {
-      fmt::format_to(out, "  {}\n",
-                     wrapped(fmt::format("k{} will not be seen: {}", j + 1, plan.not_seen[j]), 4));
+      fmt::format_to(out, "  {}\n", wrapped(fmt::format("k{} will not be seen: {}", j + 1, plan.not_seen[j]), 4));
     }
   }
   if (static_cast<int>(plan.postures.size()) < plan.asked) {
-    fmt::format_to(out, "  only {} postures keep apart from each other within the limits\n",
-                   plan.postures.size());
+    fmt::format_to(out, "  only {} postures keep apart from each other within the limits\n", plan.postures.size());
   }
   if (plan.postures.empty()) return text;
   writePostures(plan, out);

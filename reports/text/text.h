@@ -5,16 +5,39 @@
 
 // Results for a terminal: plain text, no line over 100 columns but for names from the campaign.
 
-namespace stiffscope::audit { struct AuditReport; }
-namespace stiffscope::campaign { struct Campaign; }
-namespace stiffscope::comparison { struct Comparison; }
-namespace stiffscope::compensation { struct CompensatedPosture; }
-namespace stiffscope::diagnosis { struct Diagnosis; }
-namespace stiffscope::extended_model { struct EffectFit; struct ImprovedModel; }
-namespace stiffscope::frames { struct Frames; }
-namespace stiffscope::identification { struct Identification; struct StepStudy; enum class Method; }
-namespace stiffscope::planning { struct Plan; }
-namespace stiffscope::validation { struct BlindResult; }
+namespace stiffscope::audit {
+struct AuditReport;
+}
+namespace stiffscope::campaign {
+struct Campaign;
+}
+namespace stiffscope::comparison {
+struct Comparison;
+}
+namespace stiffscope::compensation {
+struct CompensatedPosture;
+}
+namespace stiffscope::diagnosis {
+struct Diagnosis;
+}
+namespace stiffscope::extended_model {
+struct EffectFit;
+struct ExtendedModel;
+}  // namespace stiffscope::extended_model
+namespace stiffscope::frames {
+struct Frames;
+}
+namespace stiffscope::identification {
+struct Identification;
+struct StepStudy;
+enum class Method;
+}  // namespace stiffscope::identification
+namespace stiffscope::planning {
+struct Plan;
+}
+namespace stiffscope::validation {
+struct BlindResult;
+}
 
 namespace stiffscope::reports {
 
@@ -25,7 +48,8 @@ struct ShapeFit;
 std::string auditText(const campaign::Campaign& campaign, const audit::AuditReport& report);
 
 /// The result of `compare` for a terminal.
-std::string comparisonText(const campaign::Campaign& before, const campaign::Campaign& after, const comparison::Comparison& comparison);
+std::string comparisonText(const campaign::Campaign& before, const campaign::Campaign& after,
+                           const comparison::Comparison& comparison);
 
 /// The result of `compensate` for a terminal, and under it what a reader must know, a sentence each.
 std::string compensationText(const campaign::Campaign& campaign, identification::Method method,
@@ -40,7 +64,8 @@ std::string diagnosisText(const campaign::Campaign& campaign, const diagnosis::D
 std::string addedEffectsText(const extended_model::EffectFit& effects);
 
 /// The same with each method without and with the effects: stiffnesses, residuals, shares compensated.
-std::string improvedText(const extended_model::ImprovedModel& model, const std::vector<identification::Method>& methods);
+std::string extendedModelText(const extended_model::ExtendedModel& model,
+                              const std::vector<identification::Method>& methods);
 
 /// The fitted shape for people: each parameter with its standard uncertainty, the residuals, and the method.
 std::string fitText(const ShapeFit& fitted);
@@ -53,16 +78,20 @@ std::string identificationText(const campaign::Campaign& campaign, const identif
                                const std::vector<identification::Method>& methods);
 
 /// Joints whose interval is wide or open, a line each: there a symmetric uncertainty of the stiffness misleads.
-std::string wideIntervals(const identification::Identification& result, const std::vector<identification::Method>& methods);
+std::string wideIntervals(const identification::Identification& result,
+                          const std::vector<identification::Method>& methods);
 
 /// Percentile intervals of the bootstrap beside the stated ones; empty where there is none.
-std::string bootstrapText(const identification::Identification& result, const std::vector<identification::Method>& methods);
+std::string bootstrapText(const identification::Identification& result,
+                          const std::vector<identification::Method>& methods);
 
 /// Stiffness by load step and whether it depends on the load.
-std::string stepsText(const identification::StepStudy& study, const identification::Identification& result, const std::vector<identification::Method>& methods);
+std::string stepsText(const identification::StepStudy& study, const identification::Identification& result,
+                      const std::vector<identification::Method>& methods);
 
 /// Conditioning, softest and stiffest direction at P_TCP, and what neglecting K_c costs, a line a posture.
-std::string posturesText(const campaign::Campaign& campaign, const identification::Identification& result, identification::Method method);
+std::string posturesText(const campaign::Campaign& campaign, const identification::Identification& result,
+                         identification::Method method);
 
 /// The result of `plan` for a terminal.
 std::string planText(const campaign::Campaign& campaign, const planning::Plan& plan);

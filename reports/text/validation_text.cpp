@@ -1,12 +1,11 @@
-#include "reports/text/text.h"
 #include "core/validation/run_blind.h"
+#include "reports/text/text.h"
 
 #include <fmt/format.h>
 
 namespace stiffscope::reports {
 
 namespace {
-
 
 std::string counted(const numerics::Rate& rate) {
   if (rate.trials == 0) return "-";
@@ -16,8 +15,8 @@ std::string counted(const numerics::Rate& rate) {
 std::string effectLines(const std::vector<validation::EffectScore>& effects) {
   std::string text;
   for (const validation::EffectScore& one : effects) {
-    text += fmt::format("  {:<24}{:>8}{:>10}{:>10}{:>10}{:>9}\n", one.id, counted(one.all),
-                        counted(one.from_2), counted(one.from_5), one.answered_none,
+    text += fmt::format("  {:<24}{:>8}{:>10}{:>10}{:>10}{:>9}\n", one.id, counted(one.all), counted(one.from_2),
+                        counted(one.from_5), one.answered_none,
                         one.mean_class_size > 0.0 ? fmt::format("{:.1f}", one.mean_class_size) : "-");
   }
   return text;
@@ -36,8 +35,8 @@ std::string blindText(const validation::BlindResult& result) {
                           100 * one.rate.value(), 100 * one.rate.low, 100 * one.rate.high);
     }
   }
-  text += fmt::format("\n  {:<24}{:>8}{:>10}{:>10}{:>10}{:>9}\n", "singles answered right", "all",
-                      "size >= 2", "size >= 5", "said none", "class of");
+  text += fmt::format("\n  {:<24}{:>8}{:>10}{:>10}{:>10}{:>9}\n", "singles answered right", "all", "size >= 2",
+                      "size >= 5", "said none", "class of");
   text += effectLines(result.score.effects);
   text += "\n  outside the vocabulary, unknown said alone\n" + effectLines(result.score.outside);
   return text;

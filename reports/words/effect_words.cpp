@@ -18,17 +18,15 @@ struct Words {
 
 constexpr const char* kIntoTheModel =
     "compensate with the stiffnesses found with it in the model: those without it have taken part of it in";
-constexpr const char* kOfMachine =
-    "the machine does it: taken off the readings and added to predicted deflections";
+constexpr const char* kOfMachine = "the machine does it: taken off the readings and added to predicted deflections";
 constexpr const char* kOfWrenches =
     "a fault of the measured wrenches: these are corrected; a planned load is taken as it is stated";
 
 /// In the order of Effect.
 constexpr std::array kWords{
-    Words{effects::Effect::link_compliance, "a link bends and twists along its length", kIntoTheModel,
+    Words{effects::Effect::link_compliance, "a link bends and twists along its length", kIntoTheModel, kOfMachine},
+    Words{effects::Effect::bearing_tilt, "a joint also gives about the two directions across its axis", kIntoTheModel,
           kOfMachine},
-    Words{effects::Effect::bearing_tilt, "a joint also gives about the two directions across its axis",
-          kIntoTheModel, kOfMachine},
     Words{effects::Effect::base_compliance, "pedestal or floor gives",
           "check the anchors, with one reflector on the pedestal and one on the floor beside it under load",
           kOfMachine},
@@ -48,12 +46,9 @@ constexpr std::array kWords{
           "measure where the load attaches, correct `xyz_mm` of `load_cell`, and identify again",
           "the load acts elsewhere than declared: the point is corrected, for planned loads too"},
     Words{effects::Effect::load_cell_misalignment, "the load cell is turned against its declared axes",
-          "check how the cell is mounted, correct `rpy_deg` or `axes` of `load_cell`, and identify again",
-          kOfWrenches},
-    Words{effects::Effect::load_cell_bias,
-          "a constant force is added to the loaded readings, or missing from them",
-          "tare the cell with nothing hanging, account for all that hangs below it, and measure again",
-          kOfWrenches},
+          "check how the cell is mounted, correct `rpy_deg` or `axes` of `load_cell`, and identify again", kOfWrenches},
+    Words{effects::Effect::load_cell_bias, "a constant force is added to the loaded readings, or missing from them",
+          "tare the cell with nothing hanging, account for all that hangs below it, and measure again", kOfWrenches},
     Words{effects::Effect::frame_error, "the tracker, or the robot, moved between the sweeps and the loading",
           "repeat the sweeps, or read three or more floor nests with every set of readings",
           "a fault of the measurement: the loading's readings are brought back into the sweeps' frame; no "
@@ -77,13 +72,11 @@ consteval bool hasAllWords() {
   if (kWords.size() != effects::kEffectCount) return false;
   for (std::size_t i = 0; i < kWords.size(); ++i) {
     const Words& own = kWords[i];
-    if (own.effect != static_cast<effects::Effect>(i) || !own.meaning || !own.remedy || !own.use)
-      return false;
+    if (own.effect != static_cast<effects::Effect>(i) || !own.meaning || !own.remedy || !own.use) return false;
   }
   return true;
 }
-static_assert(hasAllWords(),
-              "every effect needs a line of words, in the order of the table in core/effects/effect.h");
+static_assert(hasAllWords(), "every effect needs a line of words, in the order of the table in core/effects/effect.h");
 
 const Words& wordsOf(effects::Effect effect) { return kWords[static_cast<std::size_t>(effect)]; }
 
@@ -137,12 +130,10 @@ std::string namedWords(const diagnosis::Verdict& verdict) {
 }
 
 std::string presentWords(const diagnosis::Verdict& verdict) {
-  const bool unknown =
-      std::any_of(verdict.entries.begin(), verdict.entries.end(),
-                  [](const diagnosis::VerdictEntry& entry) { return entry.effects.empty(); });
+  const bool unknown = std::any_of(verdict.entries.begin(), verdict.entries.end(),
+                                   [](const diagnosis::VerdictEntry& entry) { return entry.effects.empty(); });
   std::string words = namedWords(verdict);
-  if (unknown)
-    words += std::string(words.empty() ? "" : ", and ") + "something that no known effect explains";
+  if (unknown) words += std::string(words.empty() ? "" : ", and ") + "something that no known effect explains";
   return words.empty() ? "nothing" : words;
 }
 

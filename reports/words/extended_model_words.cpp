@@ -14,7 +14,8 @@ std::string addedNames(const extended_model::EffectFit& effects) {
   if (effects.added.empty()) return "nothing";
   std::vector<std::string> names;
   for (const extended_model::AddedEffect& one : effects.added) {
-    names.push_back(one.detail.empty() ? std::string(effects::idOf(one.effect)) : fmt::format("{} ({})", effects::idOf(one.effect), one.detail));
+    names.push_back(one.detail.empty() ? std::string(effects::idOf(one.effect))
+                                       : fmt::format("{} ({})", effects::idOf(one.effect), one.detail));
   }
   return fmt::format("{}", fmt::join(names, " and "));
 }
@@ -23,11 +24,13 @@ std::string explainedWords(const extended_model::EffectFit& effects) {
   const diagnosis::Gap& gap = effects.gap;
   const diagnosis::Shrink& shrink = effects.shrink;
   return fmt::format(
-      "Stiffnesses alone leave {:.1f} µm rms per coordinate of the deflection in all load steps, {} {:.1f} µm; noise alone "
-      "{:.1f} µm. On postures held out the rms shrinks by {:.0f} % ({:.0f} to {:.0f} %), and {:.0f} % of what is above the noise "
+      "Stiffnesses alone leave {:.1f} µm rms per coordinate of the deflection in all load steps, {} {:.1f} µm; noise "
+      "alone "
+      "{:.1f} µm. On postures held out the rms shrinks by {:.0f} % ({:.0f} to {:.0f} %), and {:.0f} % of what is above "
+      "the noise "
       "is explained.",
-      gap.before / io::kMicrometre, "with the effects", gap.after / io::kMicrometre, gap.noise / io::kMicrometre, 100.0 * shrink.value,
-      100.0 * shrink.low, 100.0 * shrink.high, 100.0 * effects.explained);
+      gap.before / io::kMicrometre, "with the effects", gap.after / io::kMicrometre, gap.noise / io::kMicrometre,
+      100.0 * shrink.value, 100.0 * shrink.low, 100.0 * shrink.high, 100.0 * effects.explained);
 }
 
 namespace {
@@ -44,7 +47,7 @@ std::string addedWords(const extended_model::EffectFit& effects) {
 
 }  // namespace
 
-std::string gainWords(const extended_model::ImprovedModel& model) {
+std::string gainWords(const extended_model::ExtendedModel& model) {
   if (model.effects.added.empty()) {
     std::string words = "No effect was added to the joint springs.";
     for (const std::string& note : model.effects.notes) words += " Note: " + note + ".";
@@ -55,11 +58,12 @@ std::string gainWords(const extended_model::ImprovedModel& model) {
   if (!without.available || !with.available)
     return fmt::format("With {} in the model no method can be compared.", addedWords(model.effects));
   const auto share = [](const identification::MethodResult& method) {
-    return 100.0 * (method.subsets.compliances.empty() ? method.at_targets->all_postures
-                                                       : method.at_targets->subsets.held_out);
+    return 100.0 *
+           (method.subsets.compliances.empty() ? method.at_targets->all_postures : method.at_targets->subsets.held_out);
   };
   return fmt::format(
-      "With {} in the model {} leaves {:.0f} µm rms per coordinate instead of {:.0f} µm, and compensates {:.1f} % instead of "
+      "With {} in the model {} leaves {:.0f} µm rms per coordinate instead of {:.0f} µm, and compensates {:.1f} % "
+      "instead of "
       "{:.1f} % of the reflectors' deflection{}.",
       addedWords(model.effects), namesOf(which).brief, with.estimate.rms_residual / io::kMicrometre,
       without.estimate.rms_residual / io::kMicrometre, share(with), share(without),
@@ -70,9 +74,10 @@ std::string doubtOf(const extended_model::AddedEffect& effect) {
   if (!effect.plausible) return "its size is beyond what a machine can have: do not believe it";
   constexpr double kStandsOut = 20.0;  // of BIC, the diagnosis's own limit
   if (effect.score < kStandsOut)
-    return fmt::format("it does not stand out of the noise here (a fall of BIC of {:.1f}, {:.0f} would count): it was added "
-                       "because it was asked for",
-                       effect.score, kStandsOut);
+    return fmt::format(
+        "it does not stand out of the noise here (a fall of BIC of {:.1f}, {:.0f} would count): it was added "
+        "because it was asked for",
+        effect.score, kStandsOut);
   return {};
 }
 

@@ -14,7 +14,7 @@ std::string explainedWords(const extended_model::EffectFit& effects);
 
 /// "With bearing_tilt (joint 3) in the model DPP leaves 9 µm rms instead of 42 µm, and compensates ..."; by
 /// the method that stands for the campaign. Where nothing was added, that and why.
-std::string gainWords(const extended_model::ImprovedModel& model);
+std::string gainWords(const extended_model::ExtendedModel& model);
 
 /// What an effect came out as that a reader must know: beyond its bounds, or within the noise; empty where neither.
 std::string doubtOf(const extended_model::AddedEffect& effect);

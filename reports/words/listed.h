@@ -1,7 +1,7 @@
 #pragma once
 
-#include <cstddef>
 #include <fmt/format.h>
+#include <cstddef>
 #include <string>
 #include <vector>
 

@@ -1,9 +1,9 @@
 #include "reports/words/names.h"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <fmt/format.h>
 #include <numeric>
 
 #include "reports/words/rich_text.h"
@@ -23,9 +23,8 @@ std::string sourceMark(const frames::Frames& frames, std::initializer_list<std::
 }
 
 const MethodNames& namesOf(identification::Method method) {
-  static constexpr std::array<MethodNames, 3> kNames{{{"cp", "CP", "Complete Pose"},
-                                                      {"pp", "PP", "Partial Pose"},
-                                                      {"dpp", "DPP", "Decoupled Partial Pose"}}};
+  static constexpr std::array<MethodNames, 3> kNames{
+      {{"cp", "CP", "Complete Pose"}, {"pp", "PP", "Partial Pose"}, {"dpp", "DPP", "Decoupled Partial Pose"}}};
   return kNames[static_cast<std::size_t>(method)];
 }
 
@@ -50,9 +49,9 @@ std::string shortName(identification::Method method) { return namesOf(method).br
 std::string jointName(int joint) { return fmt::format("k_{{{}}}", joint + 1); }
 
 std::string pointName(const std::string& target_id) {
-  const bool numbered = target_id.size() > 1 && std::isalpha(static_cast<unsigned char>(target_id[0])) != 0 &&
-                        std::all_of(target_id.begin() + 1, target_id.end(),
-                                    [](unsigned char c) { return std::isdigit(c) != 0; });
+  const bool numbered =
+      target_id.size() > 1 && std::isalpha(static_cast<unsigned char>(target_id[0])) != 0 &&
+      std::all_of(target_id.begin() + 1, target_id.end(), [](unsigned char c) { return std::isdigit(c) != 0; });
   return numbered ? fmt::format("{}_{{{}}}", target_id[0], target_id.substr(1)) : asIs(target_id);
 }
 
@@ -83,7 +82,7 @@ std::string encoderState(campaign::DoubleEncoder state) {
 
 std::string encoderWords(campaign::DoubleEncoder state) {
   return state == campaign::DoubleEncoder::unspecified ? std::string()
-                                             : fmt::format("double encoders {}", encoderState(state));
+                                                       : fmt::format("double encoders {}", encoderState(state));
 }
 
 JudgedPoint judgedPoint(const ReportCampaign& one) {
@@ -107,8 +106,7 @@ const std::vector<double>& residualAt(const identification::MethodResult& method
 
 std::vector<double> heldOutResidualAt(const ReportCampaign& one, identification::Method method, bool at_wrist) {
   const identification::MethodResult& result = one.identification.of(method);
-  std::vector<double> left =
-      at_wrist ? result.subsets.at_wrist.left_held_out : result.subsets.at_targets.left_held_out;
+  std::vector<double> left = at_wrist ? result.subsets.at_wrist.left_held_out : result.subsets.at_targets.left_held_out;
   if (left.empty()) return residualAt(result, at_wrist);
   for (std::size_t i = 0; !at_wrist && i < left.size(); ++i) {
     left[i] /= static_cast<double>(one.identification.cases[i].targets.size());
@@ -116,7 +114,8 @@ std::vector<double> heldOutResidualAt(const ReportCampaign& one, identification:
   return left;
 }
 
-const std::optional<identification::Compensation>& compensationAt(const identification::MethodResult& method, bool at_wrist) {
+const std::optional<identification::Compensation>& compensationAt(const identification::MethodResult& method,
+                                                                  bool at_wrist) {
   return at_wrist ? method.at_wrist : method.at_targets;
 }
 
@@ -127,7 +126,9 @@ std::optional<double> heldOut(const identification::MethodResult& method, bool a
 }
 
 std::optional<identification::Method> shownMethod(const identification::Identification& identification) {
-  for (const identification::Method method : {identification::Method::decoupled_partial_pose, identification::Method::partial_pose, identification::Method::complete_pose}) {
+  for (const identification::Method method :
+       {identification::Method::decoupled_partial_pose, identification::Method::partial_pose,
+        identification::Method::complete_pose}) {
     if (identification.of(method).available) return method;
   }
   return std::nullopt;
@@ -140,7 +141,8 @@ std::string capitalised(std::string text) {
 
 double meanForce(const identification::Identification& identification) {
   std::vector<double> forces;
-  for (const identification::LoadCase& load_case : identification.cases) forces.push_back(load_case.wrench.force.norm());
+  for (const identification::LoadCase& load_case : identification.cases)
+    forces.push_back(load_case.wrench.force.norm());
   return mean(forces);
 }
 

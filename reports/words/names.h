@@ -29,14 +29,14 @@ struct MethodNames {
 
 const MethodNames& namesOf(identification::Method method);
 
-std::string longName(identification::Method method);                  ///< "Decoupled Partial Pose (DPP)"
-std::string shortName(identification::Method method);                 ///< "DPP"
-std::string jointName(int joint);                     ///< 0-based: "k_{1}"
-std::string pointName(const std::string& target_id);  ///< "P10" as "P_{10}"; other names to the letter
-std::string auditName(const std::string& check_id);   ///< "station drift"
-std::string auditWord(preparation::AuditVerdict verdict);          ///< "warns"
-std::string encoderState(campaign::DoubleEncoder state);        ///< "active", "inactive", "not declared"
-std::string encoderWords(campaign::DoubleEncoder state);        ///< "double encoders active"; empty where not declared
+std::string longName(identification::Method method);       ///< "Decoupled Partial Pose (DPP)"
+std::string shortName(identification::Method method);      ///< "DPP"
+std::string jointName(int joint);                          ///< 0-based: "k_{1}"
+std::string pointName(const std::string& target_id);       ///< "P10" as "P_{10}"; other names to the letter
+std::string auditName(const std::string& check_id);        ///< "station drift"
+std::string auditWord(preparation::AuditVerdict verdict);  ///< "warns"
+std::string encoderState(campaign::DoubleEncoder state);   ///< "active", "inactive", "not declared"
+std::string encoderWords(campaign::DoubleEncoder state);   ///< "double encoders active"; empty where not declared
 
 /// Where deflections of a campaign are judged: P_wrist where it is measured, else the reflectors (mean over
 /// them).
@@ -50,13 +50,14 @@ JudgedPoint judgedPoint(const ReportCampaign& one);
 std::string postureName(const ReportCampaign& one, std::size_t load_case);
 
 const std::vector<double>& displacementAt(const identification::Identification& identification,
-                                          bool at_wrist);                          ///< m, per case
+                                          bool at_wrist);                                          ///< m, per case
 const std::vector<double>& residualAt(const identification::MethodResult& method, bool at_wrist);  ///< m, per case
 
 /// What is left in each posture by stiffnesses identified on others, mean over the subsets that leave it out; without
 /// subsets, by those from all postures. m, per case; at the reflectors the mean over them.
 std::vector<double> heldOutResidualAt(const ReportCampaign& one, identification::Method method, bool at_wrist);
-const std::optional<identification::Compensation>& compensationAt(const identification::MethodResult& method, bool at_wrist);
+const std::optional<identification::Compensation>& compensationAt(const identification::MethodResult& method,
+                                                                  bool at_wrist);
 
 /// Compensated on the postures held out, mean over the subsets; empty where there are no subsets.
 std::optional<double> heldOut(const identification::MethodResult& method, bool at_wrist);
@@ -67,7 +68,7 @@ std::optional<identification::Method> shownMethod(const identification::Identifi
 std::string capitalised(std::string text);  ///< its first letter, where that is of the alphabet
 
 double meanForce(const identification::Identification& identification);  ///< N, over the load cases; 0 without one
-double mean(const std::vector<double>& values);          ///< 0 of none
+double mean(const std::vector<double>& values);                          ///< 0 of none
 
 /// "all 92 378 subsets of 10 of 19 postures"; empty where there are none.
 std::string subsetWords(const identification::SubsetStudy& study);

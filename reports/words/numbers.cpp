@@ -1,10 +1,10 @@
 #include "reports/words/numbers.h"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <array>
 #include <cctype>
 #include <cmath>
-#include <fmt/format.h>
 #include <sstream>
 #include <string_view>
 #include <utility>
@@ -29,9 +29,7 @@ std::string withMinus(const std::string& digits) {
   return rest.find_first_of("123456789") == std::string::npos ? rest : fmt::format("−{}", rest);
 }
 
-int exponentOf(double value) {
-  return value == 0.0 ? 0 : static_cast<int>(std::floor(std::log10(std::abs(value))));
-}
+int exponentOf(double value) { return value == 0.0 ? 0 : static_cast<int>(std::floor(std::log10(std::abs(value)))); }
 
 /// Decimal places that show `digits` significant digits of a value once it is rounded to them.
 int placesFor(double value, int digits) {

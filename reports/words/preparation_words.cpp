@@ -13,9 +13,9 @@ namespace {
 
 std::string driftWords(const preparation::DriftCorrection& drift) {
   if (!drift.taken_off) return fmt::format("no drift of the station taken off: {}", drift.reason);
-  std::string text = fmt::format(
-      "the station's motion by the floor nests taken off {} of them: at most {:.3f} mm and {:.0f} urad",
-      drift.readings, drift.displacement / io::kMillimetre, 1e6 * drift.turn);
+  std::string text =
+      fmt::format("the station's motion by the floor nests taken off {} of them: at most {:.3f} mm and {:.0f} urad",
+                  drift.readings, drift.displacement / io::kMillimetre, 1e6 * drift.turn);
   if (drift.jumps_s.empty()) {
     text += fmt::format(", a drift over {:.0f} s", drift.until_s);
   } else {
@@ -38,14 +38,14 @@ std::string rejectedWords(const preparation::RejectedReading& reading) {
 std::string preparationWords(const preparation::Preparation& preparation) {
   if (preparation.raw) return "raw: nothing left out, no drift taken off";
   const std::size_t count = preparation.rejected.size();
-  return fmt::format("{} left out; {}", count == 0 ? "none" : std::to_string(count),
-                     driftWords(preparation.drift));
+  return fmt::format("{} left out; {}", count == 0 ? "none" : std::to_string(count), driftWords(preparation.drift));
 }
 
 std::string preparationText(const preparation::Preparation& preparation) {
   std::string text = wrapped(fmt::format("Readings: {}.", preparationWords(preparation)), 0) + '\n';
   const auto words = [](const preparation::RejectedReading& reading) { return "left out: " + rejectedWords(reading); };
-  for (const std::string& entry : listed(preparation.rejected, words, kListedInJson)) text += fmt::format("  {}\n", wrapped(entry, 4));
+  for (const std::string& entry : listed(preparation.rejected, words, kListedInJson))
+    text += fmt::format("  {}\n", wrapped(entry, 4));
   return text;
 }
 

@@ -53,7 +53,8 @@ std::string plain(const std::string& rich_text) {
 std::string asIs(const std::string& text) {
   std::string inside = text;
   std::erase(inside, kAsIs);
-  const bool marks = inside.find("_{") != std::string::npos || inside.find('`') != std::string::npos || inside.ends_with('_');
+  const bool marks =
+      inside.find("_{") != std::string::npos || inside.find('`') != std::string::npos || inside.ends_with('_');
   return marks ? kAsIs + inside + kAsIs : inside;
 }
 

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-// Rich texts of the page and its pictures: `x_{abc}` sets abc as a subscript, a word between backticks is code; what asIs made
-// stays to the letter.
+// Rich texts of the page and its pictures: `x_{abc}` sets abc as a subscript, a word between backticks is code; what
+// asIs made stays to the letter.
 
 namespace stiffscope::reports {
 

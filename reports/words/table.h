@@ -28,7 +28,7 @@ struct Table {
   std::string caption;
   std::vector<std::string> columns;  ///< headers; one more than a row is wide where groups have headers
   std::vector<RowGroup> groups;
-  bool words = false;  ///< cells hold words, set flush left, not numbers
+  bool words = false;   ///< cells hold words, set flush left, not numbers
   std::string id = {};  ///< of its file beside the page, without ".csv"; empty: by its number
 };
 

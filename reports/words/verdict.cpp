@@ -1,7 +1,7 @@
 #include "reports/words/verdict.h"
 
-#include <algorithm>
 #include <fmt/format.h>
+#include <algorithm>
 
 #include "core/comparison/matched_postures.h"
 #include "reports/words/effect_words.h"
@@ -39,12 +39,10 @@ std::string jointsSentence(const identification::Identification& identification)
     if (!seen) unseen.push_back(jointName(joint));
     if (seen && !estimate.mark(joint).empty()) doubtful.push_back(jointName(joint));
   }
-  std::string text =
-      fmt::format("{} finds the stiffness of {} of 6 joints", longName(*shown), 6 - unseen.size());
+  std::string text = fmt::format("{} finds the stiffness of {} of 6 joints", longName(*shown), 6 - unseen.size());
   if (!unseen.empty()) {
-    text += fmt::format(
-        "; {} cannot be seen{}", fmt::join(unseen, ", "),
-        identification.identifiability.load_hangs ? " under a load that only hangs" : " in this data");
+    text += fmt::format("; {} cannot be seen{}", fmt::join(unseen, ", "),
+                        identification.identifiability.load_hangs ? " under a load that only hangs" : " in this data");
   }
   if (!doubtful.empty()) {
     text += fmt::format("; {} {} not to be trusted", fmt::join(doubtful, ", "), doubtful.size() == 1 ? "is" : "are");
@@ -59,12 +57,10 @@ std::string compensatedWords(const ReportCampaign& one) {
   if (!shown || !compensationAt(one.identification.of(*shown), point.at_wrist)) return {};
   const identification::MethodResult& method = one.identification.of(*shown);
   if (const auto held_out = heldOut(method, point.at_wrist)) {
-    return fmt::format("{} of the deflection at {} in postures it has not seen", percent(*held_out, 0),
-                       point.name);
+    return fmt::format("{} of the deflection at {} in postures it has not seen", percent(*held_out, 0), point.name);
   }
   return fmt::format("{} of the deflection at {} in the postures it was fitted to, too few to hold some out",
-                     percent(compensationAt(method, point.at_wrist)->all_postures, 0),
-                     point.name);
+                     percent(compensationAt(method, point.at_wrist)->all_postures, 0), point.name);
 }
 
 /// What tells the campaigns of a report apart: the state of the double encoders, else the name.
@@ -96,8 +92,8 @@ std::string together(const std::vector<ReportCampaign>& campaigns) {
 std::string oneByOne(const std::vector<ReportCampaign>& campaigns) {
   std::string text;
   for (const ReportCampaign& one : campaigns) {
-    text += fmt::format("{}{}, {}", text.empty() ? "" : " ", capitalised(labelOf(one)),
-                        jointsSentence(one.identification));
+    text +=
+        fmt::format("{}{}, {}", text.empty() ? "" : " ", capitalised(labelOf(one)), jointsSentence(one.identification));
     const std::string words = compensatedWords(one);
     if (!words.empty()) text += fmt::format(" It takes away {}.", words);
   }
@@ -109,7 +105,7 @@ std::string gapSentence(const ReportCampaign& one) {
   if (one.diagnosis == nullptr || !one.diagnosis->usable) return {};
   if (one.diagnosis->verdict.entries.empty()) return "What joint springs leave is noise, or too small to matter.";
   return asIs(fmt::format("Besides joint springs the readings show {} (see What the model misses).",
-                                presentWords(one.diagnosis->verdict)));
+                          presentWords(one.diagnosis->verdict)));
 }
 
 /// Said once where it is the same in all campaigns.
@@ -128,13 +124,12 @@ std::string gapSentences(const std::vector<ReportCampaign>& campaigns) {
 
 }  // namespace
 
-std::string verdictOf(const std::vector<ReportCampaign>& campaigns,
-                      const std::optional<AvoidedByEncoders>& avoided) {
+std::string verdictOf(const std::vector<ReportCampaign>& campaigns, const std::optional<AvoidedByEncoders>& avoided) {
   if (campaigns.empty()) return {};
   std::string text = sameJoints(campaigns) ? together(campaigns) : oneByOne(campaigns);
   if (avoided && avoided->available) {
-    text += fmt::format(" The double encoders avoid {} of the deflection at {}.",
-                        percent(avoided->share, 0), pointOf(*avoided));
+    text += fmt::format(" The double encoders avoid {} of the deflection at {}.", percent(avoided->share, 0),
+                        pointOf(*avoided));
   }
   text += gapSentences(campaigns);
   return text;

@@ -14,9 +14,8 @@ namespace stiffscope::reports {
 std::vector<std::string> doubtsOfTheMachine(const std::vector<ReportCampaign>& campaigns);
 
 /// The result in plain words, one or two sentences a campaign: which joint stiffnesses are known, by which
-/// method, what share of the deflection they compensate at which point; then what the double encoders avoid, and what the
-/// diagnosis finds besides joint springs.
-std::string verdictOf(const std::vector<ReportCampaign>& campaigns,
-                      const std::optional<AvoidedByEncoders>& avoided);
+/// method, what share of the deflection they compensate at which point; then what the double encoders avoid, and what
+/// the diagnosis finds besides joint springs.
+std::string verdictOf(const std::vector<ReportCampaign>& campaigns, const std::optional<AvoidedByEncoders>& avoided);
 
 }  // namespace stiffscope::reports

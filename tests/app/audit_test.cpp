@@ -81,7 +81,8 @@ TEST(AuditCommand, WhatCannotBeIsNotSearchedForEffects) {
   EXPECT_EQ(ran.status, 1) << ran.err;
   EXPECT_NE(ran.out.find("units, angles or the tracker's"), std::string::npos) << ran.out;
   EXPECT_EQ(ran.out.find("could be told apart"), std::string::npos) << ran.out;
-  EXPECT_NE(runProgram("audit '" + kSample.string() + "'", scratch.path()).out.find("could be told apart"), std::string::npos);
+  EXPECT_NE(runProgram("audit '" + kSample.string() + "'", scratch.path()).out.find("could be told apart"),
+            std::string::npos);
 }
 
 }  // namespace

@@ -26,7 +26,9 @@ struct Spoilt {
 
 std::vector<Spoilt> spoiltCampaigns() {
   return {
-      {"malformed XML", [](const fs::path& c) { replaceOnce(c / "campaign.xml", "</campaign>", ""); }, {"campaign.xml:"}},
+      {"malformed XML",
+       [](const fs::path& c) { replaceOnce(c / "campaign.xml", "</campaign>", ""); },
+       {"campaign.xml:"}},
       {"no XML at all", [](const fs::path& c) { std::ofstream(c / "campaign.xml") << "hello\n"; }, {"campaign.xml"}},
       {"missing table", [](const fs::path& c) { fs::remove(c / "loading.csv"); }, {"loading.csv"}},
       {"truncated last line",
@@ -48,14 +50,18 @@ std::vector<Spoilt> spoiltCampaigns() {
        [](const fs::path& c) {
          const std::string text = contentsOf(c / "states.csv");
          const auto second = text.find('\n') + 1;
-         std::ofstream(c / "states.csv", std::ios::binary) << text << text.substr(second, text.find('\n', second) + 1 - second);
+         std::ofstream(c / "states.csv", std::ios::binary)
+             << text << text.substr(second, text.find('\n', second) + 1 - second);
        },
        {"states.csv:97:", "pose, step", "line 2"}},
-      {"unknown target", [](const fs::path& c) { replaceOnce(c / "loading.csv", ",P11,", ",P13,"); },
+      {"unknown target",
+       [](const fs::path& c) { replaceOnce(c / "loading.csv", ",P11,", ",P13,"); },
        {"loading.csv:", "target", "'P13'"}},
       {"forces in the columns of angles",
-       [](const fs::path& c) { replaceOnce(c / "states.csv", "q1_deg,q2_deg,q3_deg,q4_deg,q5_deg,q6_deg,fx_n,fy_n,fz_n",
-                                           "fx_n,fy_n,fz_n,q4_deg,q5_deg,q6_deg,q1_deg,q2_deg,q3_deg"); },
+       [](const fs::path& c) {
+         replaceOnce(c / "states.csv", "q1_deg,q2_deg,q3_deg,q4_deg,q5_deg,q6_deg,fx_n,fy_n,fz_n",
+                     "fx_n,fy_n,fz_n,q4_deg,q5_deg,q6_deg,q1_deg,q2_deg,q3_deg");
+       },
        {"states.csv:", "q"}},
   };
 }
@@ -130,7 +136,8 @@ TEST(BadInput, NoAuditPassesADayThatNothingCanBeIdentifiedFrom) {
     }
   };
   const auto without_cell = [](const fs::path& c) { replaceOnce(c / "campaign.xml", "<load_cell", "<load_sell"); };
-  for (const auto& spoil : {std::function<void(const fs::path&)>(never_unloaded), std::function<void(const fs::path&)>(without_cell)}) {
+  for (const auto& spoil :
+       {std::function<void(const fs::path&)>(never_unloaded), std::function<void(const fs::path&)>(without_cell)}) {
     const ScratchFolder scratch;
     const fs::path campaign = scratch.path() / "campaign";
     fs::copy(STIFFSCOPE_SOURCE_DIR "/samples/active", campaign);

@@ -20,8 +20,8 @@ TEST(Blind, SealsDiagnosesAndScores) {
   ASSERT_EQ(json["cases"].size(), 2u);
   EXPECT_EQ(json["rates"]["failed"]["hits"], 0);
   // Silent in a pipe but for the two hashes, the seal first.
-  EXPECT_EQ(ran.err, "labels sealed, SHA-256 " + json["seal"].get<std::string>() +
-                         "\nanswers frozen, SHA-256 " + json["answers_sha256"].get<std::string>() + "\n");
+  EXPECT_EQ(ran.err, "labels sealed, SHA-256 " + json["seal"].get<std::string>() + "\nanswers frozen, SHA-256 " +
+                         json["answers_sha256"].get<std::string>() + "\n");
   EXPECT_EQ(contentsOf(out / "seal.txt").find(json["seal"].get<std::string>() + "  labels.csv\n"), 0u);
   EXPECT_FALSE(fs::exists(out / "cases"));
   EXPECT_EQ(contentsOf(out / "blind.html").rfind("<!DOCTYPE html>", 0), 0u);

@@ -31,8 +31,9 @@ TEST(CommandLine, HelpOfTheWindowNamesItsOptions) {
 
 TEST(CommandLine, AnOptionBeforeItsCommandIsToldItsPlace) {
   const ScratchFolder scratch;
-  for (const std::string words : {"--json out.json identify '" + kActive + "'", "--json=out.json identify '" + kActive + "'",
-                                  std::string("--method dpp identify x"), std::string("--raw")}) {
+  for (const std::string words :
+       {"--json out.json identify '" + kActive + "'", "--json=out.json identify '" + kActive + "'",
+        std::string("--method dpp identify x"), std::string("--raw")}) {
     const Ran ran = runProgram(words, scratch.path());
     EXPECT_EQ(ran.status, 2) << words;
     EXPECT_NE(ran.err.find("belongs after the command's name"), std::string::npos) << ran.err;
@@ -126,10 +127,12 @@ TEST(CommandLine, SimulateNamesJointsThatItTakesAsRigid) {
   spec.erase(joint, spec.find("/>", joint) + 2 - joint);
   std::ofstream(scratch.path() / "spec.xml") << spec;
   std::filesystem::copy(STIFFSCOPE_SOURCE_DIR "/samples/m900ib700.urdf", scratch.path() / "m900ib700.urdf");
-  const Ran ran = runProgram("simulate '" + (scratch.path() / "spec.xml").string() + "' --out '" +
-                                 (scratch.path() / "day").string() + "'", scratch.path());
+  const Ran ran = runProgram(
+      "simulate '" + (scratch.path() / "spec.xml").string() + "' --out '" + (scratch.path() / "day").string() + "'",
+      scratch.path());
   EXPECT_EQ(ran.status, 0) << ran.err;
-  EXPECT_NE(ran.err.find("spec.xml: joints: no stiffness_nm_per_rad for joint 4: taken as rigid"), std::string::npos) << ran.err;
+  EXPECT_NE(ran.err.find("spec.xml: joints: no stiffness_nm_per_rad for joint 4: taken as rigid"), std::string::npos)
+      << ran.err;
 }
 
 TEST(CommandLine, CompensateTakesPosturesFromAFile) {
@@ -145,7 +148,8 @@ TEST(CommandLine, CompensateTakesPosturesFromAFile) {
   std::ofstream(file) << "pose,q1_deg,q2_deg,q3_deg,q4_deg,q5_deg,q6_deg,fx_n,fy_n,fz_n,mx_nm,my_nm,mz_nm\n"
                       << "hanging," << posture << "\nsingular,10,20,-10,40,0,30,0,0,0,0,0,0\n"
                       << "aside,0,10,10,0,-60,0,0,1000,0,0,0,0\n";
-  const Ran ran = runProgram("compensate '" + kActive + "' --postures '" + file.string() + "' --json -", scratch.path());
+  const Ran ran =
+      runProgram("compensate '" + kActive + "' --postures '" + file.string() + "' --json -", scratch.path());
   const auto rows = nlohmann::json::parse(ran.out)["rows"];
   ASSERT_EQ(rows.size(), 3u);
   EXPECT_LT(rows[0]["remaining_mm"].get<double>(), 1e-5);

@@ -60,7 +60,8 @@ TEST(DeflectionScene, EveryJointPointIsOnItsAxis) {
   load_case.q_sagged = Vector6d::Constant(0.4);
   const render::ArmPose pose = app::armPose(of(small), 0, identification::Method::decoupled_partial_pose);
   for (int joint = 0; joint < 6; ++joint) {
-    const metrology::Line axis = robot::axisAt(small.campaign.robot, identification::unloadedPosture(small.campaign.robot, load_case), joint);
+    const metrology::Line axis =
+        robot::axisAt(small.campaign.robot, identification::unloadedPosture(small.campaign.robot, load_case), joint);
     const Eigen::Vector3d off = pose.joint_points[static_cast<std::size_t>(joint)] - axis.point;
     EXPECT_LT(off.cross(axis.direction).norm(), 1e-12) << joint;  // rounding only
   }
@@ -145,8 +146,8 @@ TEST(Figures, APracticeCampaignFillsAPage) {
     EXPECT_FALSE(figure.alt.empty());
     EXPECT_EQ(figure.alt.find("_{"), std::string::npos) << figure.alt;
   }
-  EXPECT_EQ(ids, (std::vector<std::string>{"deflection", "all-postures", "compensation", "compensation-zoom",
-                                           "subsets", "stiffness", "residuals", "circles", "wrist-sphere", "station"}));
+  EXPECT_EQ(ids, (std::vector<std::string>{"deflection", "all-postures", "compensation", "compensation-zoom", "subsets",
+                                           "stiffness", "residuals", "circles", "wrist-sphere", "station"}));
   EXPECT_LT(page::reportPage(content).size(), 5'000'000u);
   const render::GroupedBarChart chart = app::residualBars(content.campaigns[0]);
   EXPECT_EQ(chart.series.size(), 4u);

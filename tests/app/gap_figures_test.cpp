@@ -3,8 +3,8 @@
 
 #include <cmath>
 #include <filesystem>
-#include "app/figures/figures.h"
 #include "app/figures/arm_scenes.h"
+#include "app/figures/figures.h"
 #include "core/campaign/read_campaign.h"
 #include "core/diagnosis/diagnose.h"
 #include "reports/words/effect_words.h"
@@ -73,8 +73,7 @@ TEST(GapScene, BeforeAndAfterToOneScaleSeenAlike) {
   EXPECT_NE(app::describeGapBefore(shown.one, *scenes).caption.find("300\u00a0µm, of P_{10} in posture C"),
             std::string::npos)
       << app::describeGapBefore(shown.one, *scenes).caption;
-  EXPECT_NE(scenes->after.subtitle.find("bearing tilt (joints 2 and 3)"), std::string::npos)
-      << scenes->after.subtitle;
+  EXPECT_NE(scenes->after.subtitle.find("bearing tilt (joints 2 and 3)"), std::string::npos) << scenes->after.subtitle;
 }
 
 TEST(GapScene, OfALongDayNoMoreArrowsThanPartEachOther) {
@@ -128,7 +127,8 @@ TEST(GapAtPoints, OfATrackerThatMovedTheGapBeforeIsOfTheReadingsAsTheyWere) {
   EXPECT_NEAR(std::sqrt(squares / found.postures), found.gap.before, 1e-9);
   ASSERT_EQ(found.at_points.size(), 3u * static_cast<std::size_t>(found.postures));
   double before = 0.0, after = 0.0;
-  for (const diagnosis::PointGap& gap : found.at_points) before += gap.before.squaredNorm(), after += gap.after.squaredNorm();
+  for (const diagnosis::PointGap& gap : found.at_points)
+    before += gap.before.squaredNorm(), after += gap.after.squaredNorm();
   // The state of each posture that leaves the most leaves more than all of its states in the mean.
   EXPECT_GT(std::sqrt(before / 3.0 / static_cast<double>(found.at_points.size())), found.gap.before);
   EXPECT_LT(after, 0.1 * before);  // the nests take the station's motion off
@@ -158,8 +158,7 @@ TEST(EffectWords, JointsInShort) {
 }
 
 TEST(WithMicro, WholeWordsOnly) {
-  EXPECT_EQ(reports::withMicro("by 31 um and 3 urad, 0.3 +- 0.1 um/min"),
-            "by 31 µm and 3 µrad, 0.3 ± 0.1 µm/min");
+  EXPECT_EQ(reports::withMicro("by 31 um and 3 urad, 0.3 +- 0.1 um/min"), "by 31 µm and 3 µrad, 0.3 ± 0.1 µm/min");
   EXPECT_EQ(reports::withMicro("maximum sum of drum_1"), "maximum sum of drum_1");
 }
 

@@ -29,37 +29,43 @@ class KeptInputs : public ::testing::Test {
 
 TEST_F(KeptInputs, JsonOntoAnyFileOfTheCampaign) {
   for (const char* const file : {"states.csv", "loading.csv", "circle_sweeps.csv", "robot.urdf", "campaign.xml"}) {
-    refused("frames" + quoted(campaign_) + "--json" + quoted(campaign_ / file), campaign_ / file, "it is an input of this run");
+    refused("frames" + quoted(campaign_) + "--json" + quoted(campaign_ / file), campaign_ / file,
+            "it is an input of this run");
   }
   const fs::path link = scratch_.path() / "link.json";
   fs::create_symlink(campaign_ / "states.csv", link);
-  refused("frames" + quoted(campaign_) + "--json" + quoted(link), campaign_ / "states.csv", "it is an input of this run");
+  refused("frames" + quoted(campaign_) + "--json" + quoted(link), campaign_ / "states.csv",
+          "it is an input of this run");
 }
 
 TEST_F(KeptInputs, PointsAndPostures) {
   const fs::path points = scratch_.path() / "points.txt";
   std::ofstream(points) << "0 0 0\n1 0 0\n0 1 0\n1 1 0.01\n";
   refused("fit plane" + quoted(points) + "--json" + quoted(points), points, "it is an input of this run");
-  refused("plan" + quoted(campaign_) + "--candidates 50 --out" + quoted(campaign_ / "states.csv"), campaign_ / "states.csv",
-          "it is an input of this run");
+  refused("plan" + quoted(campaign_) + "--candidates 50 --out" + quoted(campaign_ / "states.csv"),
+          campaign_ / "states.csv", "it is an input of this run");
 }
 
 TEST_F(KeptInputs, TwoResultsInOneFile) {
   const fs::path file = scratch_.path() / "plan.csv";
-  const Ran ran = runProgram("plan" + quoted(campaign_) + "--candidates 50 --out" + quoted(file) + "--json" + quoted(file), scratch_.path());
+  const Ran ran = runProgram(
+      "plan" + quoted(campaign_) + "--candidates 50 --out" + quoted(file) + "--json" + quoted(file), scratch_.path());
   EXPECT_EQ(ran.status, 2);
   EXPECT_NE(ran.err.find("expected another file for --json than for --out"), std::string::npos) << ran.err;
 }
 
 TEST_F(KeptInputs, AReportGoesIntoNoCampaignAndOverNoFileOfTheUser) {
-  refused("report" + quoted(campaign_) + "--out" + quoted(campaign_), campaign_ / "campaign.xml", "it holds a campaign");
+  refused("report" + quoted(campaign_) + "--out" + quoted(campaign_), campaign_ / "campaign.xml",
+          "it holds a campaign");
   const fs::path out = scratch_.path() / "out";
   fs::create_directory(out);
   std::ofstream(out / "stiffness.csv") << "mine\n";
-  refused("report" + quoted(campaign_) + "--out" + quoted(out), out / "stiffness.csv", "stiffness.csv: not written: it is there and of no earlier report");
+  refused("report" + quoted(campaign_) + "--out" + quoted(out), out / "stiffness.csv",
+          "stiffness.csv: not written: it is there and of no earlier report");
   EXPECT_FALSE(fs::exists(out / "report.html"));
   fs::remove(out / "stiffness.csv");
-  for (int run = 0; run < 2; ++run) EXPECT_EQ(runProgram("report" + quoted(campaign_) + "--out" + quoted(out), scratch_.path()).status, 0);
+  for (int run = 0; run < 2; ++run)
+    EXPECT_EQ(runProgram("report" + quoted(campaign_) + "--out" + quoted(out), scratch_.path()).status, 0);
 }
 
 TEST_F(KeptInputs, ASimulationReplacesACampaignWhereAskedTo) {

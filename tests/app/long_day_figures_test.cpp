@@ -63,8 +63,9 @@ TEST(LongDay, BarsOfTwoHundredPosturesAndTheLongestInWords) {
   for (const render::BarSeries& series : chart.series) EXPECT_EQ(series.values.size(), 200u);
   EXPECT_DOUBLE_EQ(chart.series[0].values[1], 2.0);  // the sixth posture, p5, is the third once more
   const std::string caption = app::describeResidualBars(day.report()).caption;
-  EXPECT_NE(caption.find("Drawn: 200 of 1000 postures, spread evenly. The longest of all is 7.50\u00a0mm, in posture p617."),
-            std::string::npos)
+  EXPECT_NE(
+      caption.find("Drawn: 200 of 1000 postures, spread evenly. The longest of all is 7.50\u00a0mm, in posture p617."),
+      std::string::npos)
       << caption;
   const SmallResult three;
   EXPECT_EQ(app::describeResidualBars({three.campaign, three.identification}).caption.find("Drawn"), std::string::npos);
@@ -87,7 +88,8 @@ TEST(LongDay, ResidualsOfAHundredPosturesAtTheirPlaces) {
   EXPECT_NEAR(chart->diagrams[2].series[0].points[2].y, -200.0, 1e-9);
   const std::string caption = app::describeResidualDirections(day.report(), *chart).caption;
   // Of p617, the third once more, 9 times 2 mm less the 1.8 mm that DPP predicts.
-  EXPECT_NE(caption.find("The longest residual of all is 16000\u00a0µm, of P_{10} in posture p617."), std::string::npos) << caption;
+  EXPECT_NE(caption.find("The longest residual of all is 16000\u00a0µm, of P_{10} in posture p617."), std::string::npos)
+      << caption;
 }
 
 TEST(LongDay, EachReflectorOfAWristSweepIsDrawnWhereTheyTakeTurns) {
@@ -99,7 +101,12 @@ TEST(LongDay, EachReflectorOfAWristSweepIsDrawnWhereTheyTakeTurns) {
   frames::RigidPoints points;
   for (int i = 0; i < 30'000; ++i) {
     const double azimuth = 0.001 * i;
-    sweep.rows.push_back({std::to_string(i / 3), i % 3, Vector6d::Zero(), {std::cos(azimuth), std::sin(azimuth), 0.0}, campaign::kNoTime, 0});
+    sweep.rows.push_back({std::to_string(i / 3),
+                          i % 3,
+                          Vector6d::Zero(),
+                          {std::cos(azimuth), std::sin(azimuth), 0.0},
+                          campaign::kNoTime,
+                          0});
     points.wrist_sweep.push_back(sweep.rows.back().point);
   }
   small.campaign.wrist_sweep = std::move(sweep);
@@ -113,7 +120,8 @@ TEST(LongDay, EachReflectorOfAWristSweepIsDrawnWhereTheyTakeTurns) {
   ASSERT_TRUE(chart.has_value());
   ASSERT_EQ(chart->diagrams[0].series.size(), 4u);  // three reflectors and the line of means
   for (std::size_t target = 0; target < 3; ++target) EXPECT_EQ(chart->diagrams[0].series[target].points.size(), 1000u);
-  EXPECT_NE(app::describeWristSphere(report).caption.find("Drawn: 1000 of 10000 readings of a reflector, spread evenly. The means are of all."),
+  EXPECT_NE(app::describeWristSphere(report).caption.find(
+                "Drawn: 1000 of 10000 readings of a reflector, spread evenly. The means are of all."),
             std::string::npos);
 }
 

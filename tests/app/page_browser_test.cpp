@@ -63,9 +63,10 @@ class PageInABrowser : public ::testing::Test {
   static void SetUpTestSuite() {
     scratch_ = new ScratchFolder();
     const std::string samples = STIFFSCOPE_SOURCE_DIR "/samples/";
-    status_ = runProgram("report '" + samples + "inactive' '" + samples + "active' --paper --out '" + out().string() + "'",
-                         scratch_->path())
-                  .status;
+    status_ =
+        runProgram("report '" + samples + "inactive' '" + samples + "active' --paper --out '" + out().string() + "'",
+                   scratch_->path())
+            .status;
   }
   static void TearDownTestSuite() { delete scratch_; }
   void SetUp() override {
@@ -88,15 +89,15 @@ class PageInABrowser : public ::testing::Test {
     page.replace(end, 7, extra + kMeasure);
     const auto copy = scratch() / "copy.html";
     std::ofstream(copy, std::ios::binary) << page;
-    const Ran ran = runBrowser("--window-size=" + std::to_string(width) + ",2000 --dump-dom 'file://" +
-                                   copy.string() + "'",
-                               scratch());
+    const Ran ran = runBrowser(
+        "--window-size=" + std::to_string(width) + ",2000 --dump-dom 'file://" + copy.string() + "'", scratch());
     const bool console = ran.err.find("CONSOLE") != std::string::npos;
     // The script names the marks too; the verdict comes last.
     const std::size_t close = ran.out.rfind("@@"), open = ran.out.rfind("@@{", close);
     if (open == std::string::npos) return {{}, console};
     std::string verdict = ran.out.substr(open + 2, close - open - 2);
-    for (std::size_t at = verdict.find("&lt;"); at != std::string::npos; at = verdict.find("&lt;")) verdict.replace(at, 4, "<");
+    for (std::size_t at = verdict.find("&lt;"); at != std::string::npos; at = verdict.find("&lt;"))
+      verdict.replace(at, 4, "<");
     return {nlohmann::json::parse(verdict, nullptr, false), console};
   }
 
@@ -124,11 +125,11 @@ TEST_F(PageInABrowser, NothingOverlapsNothingIsFetched) {
 }
 
 TEST_F(PageInABrowser, TheMeasureSeesFaults) {
-  const auto [found, console] = measured(1000,
-                                         "<p style='position:absolute;top:30px;left:20px'>over the title</p>"
-                                         "<p style='width:2000px'>wide</p><p style='white-space:nowrap'>" +
-                                             std::string(400, 'w') +
-                                             "</p><img src='file:///nowhere.png'><script>console.error('x')</script>");
+  const auto [found, console] =
+      measured(1000,
+               "<p style='position:absolute;top:30px;left:20px'>over the title</p>"
+               "<p style='width:2000px'>wide</p><p style='white-space:nowrap'>" +
+                   std::string(400, 'w') + "</p><img src='file:///nowhere.png'><script>console.error('x')</script>");
   ASSERT_TRUE(found.is_object());
   EXPECT_TRUE(console);
   EXPECT_NE(found["overlaps"].dump().find("over the title"), std::string::npos);
@@ -145,8 +146,8 @@ TEST_F(PageInABrowser, PrintsOnFullPagesWithItsIdOnEach) {
   ASSERT_EQ(info.status, 0) << info.err;
   EXPECT_NE(info.out.find("(A4)"), std::string::npos) << info.out;
   const int pages = std::stoi(info.out.substr(info.out.find("Pages:") + 6));
-  // 29 figures two a page, and two campaigns of a dozen tables, a page and a half of audit and two of diagnosis each: 30
-  // here; other fonts move a page or two.
+  // 29 figures two a page, and two campaigns of a dozen tables, a page and a half of audit and two of diagnosis each:
+  // 30 here; other fonts move a page or two.
   EXPECT_GE(pages, 22);
   EXPECT_LE(pages, 36);
   const std::string html = contentsOf(page);

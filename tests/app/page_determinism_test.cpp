@@ -20,8 +20,14 @@ TEST(PageTwice, TheSameCampaignGivesTheSameBytes) {
   const std::filesystem::path sample = STIFFSCOPE_SOURCE_DIR "/samples/active";
   const auto elsewhere = scratch.path() / "another name";
   std::filesystem::copy(sample, elsewhere, std::filesystem::copy_options::recursive);
-  ASSERT_EQ(runProgram("report '" + sample.string() + "' --out '" + (scratch.path() / "a").string() + "'", scratch.path()).status, 0);
-  ASSERT_EQ(runProgram("report '" + elsewhere.string() + "' --out '" + (scratch.path() / "b").string() + "'", scratch.path()).status, 0);
+  ASSERT_EQ(
+      runProgram("report '" + sample.string() + "' --out '" + (scratch.path() / "a").string() + "'", scratch.path())
+          .status,
+      0);
+  ASSERT_EQ(
+      runProgram("report '" + elsewhere.string() + "' --out '" + (scratch.path() / "b").string() + "'", scratch.path())
+          .status,
+      0);
   const auto first = filesIn(scratch.path() / "a"), second = filesIn(scratch.path() / "b");
   EXPECT_GT(first.size(), 20u);  // page, results, ten pictures, a dozen tables
   ASSERT_EQ(first.size(), second.size());

@@ -32,7 +32,8 @@ TEST(WholeFigures, LookAsTheyDid) {
   const auto figures = app::makeFigures({sample().report});
   for (const char* id : {"compensation", "stiffness", "residuals", "circles", "station"}) {
     SCOPED_TRACE(id);
-    const auto figure = std::find_if(figures.begin(), figures.end(), [id](const reports::Figure& f) { return f.id == id; });
+    const auto figure =
+        std::find_if(figures.begin(), figures.end(), [id](const reports::Figure& f) { return f.id == id; });
     ASSERT_NE(figure, figures.end());
     cv::Mat drawn = cv::imdecode(figure->png, cv::IMREAD_GRAYSCALE);
     cv::resize(drawn, drawn, {}, 0.5, 0.5, cv::INTER_AREA);
@@ -90,7 +91,8 @@ TEST(ResidualDirections, TheSquaresAddUpToThoseOfTheFit) {
   ASSERT_EQ(chart->diagrams.size(), 6u);
   double square = 0.0;
   for (std::size_t d = 0; d < 3; ++d) square += std::pow(rmsOfY(chart->diagrams[d]), 2) / 3.0;
-  const double stated = 1e6 * sample().identification.of(identification::Method::decoupled_partial_pose).estimate.rms_residual;
+  const double stated =
+      1e6 * sample().identification.of(identification::Method::decoupled_partial_pose).estimate.rms_residual;
   EXPECT_NEAR(std::sqrt(square), stated, 1e-6 * stated);  // rounding
 }
 

@@ -66,8 +66,7 @@ TEST(Preparation, RawKeepsEverythingAndSaysSo) {
   EXPECT_GT(raw["methods"]["pp"]["rms_residual_mm"].get<double>(),
             10.0 * clean["methods"]["pp"]["rms_residual_mm"].get<double>());
   const Ran text = runProgram("identify --raw" + quoted(spoilt), scratch.path());
-  EXPECT_NE(text.out.find("Readings: raw: nothing left out, no drift taken off."), std::string::npos)
-      << text.out;
+  EXPECT_NE(text.out.find("Readings: raw: nothing left out, no drift taken off."), std::string::npos) << text.out;
 }
 
 TEST(Preparation, EveryCommandHasRawAndTheNearestNameOfIt) {
@@ -85,8 +84,7 @@ TEST(Preparation, AnUnknownStepListsThoseThereAre) {
   const ScratchFolder scratch;
   const Ran ran = runProgram("identify --step 9" + quoted(kSample), scratch.path());
   EXPECT_EQ(ran.status, 2);
-  EXPECT_NE(ran.err.find("'9': not a load step of this campaign, which has 1, 2, 3, 4"), std::string::npos)
-      << ran.err;
+  EXPECT_NE(ran.err.find("'9': not a load step of this campaign, which has 1, 2, 3, 4"), std::string::npos) << ran.err;
 }
 
 }  // namespace

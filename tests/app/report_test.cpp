@@ -72,8 +72,7 @@ TEST(Report, SweepsAloneGiveFramesAuditAndReasons) {
     EXPECT_NE(reason.find("no 'states'"), std::string::npos) << reason;
   }
   const std::string page = contentsOf(out / "report.html");
-  EXPECT_NE(page.find("no 'states': joint angles and load-cell readings are needed to identify"),
-            std::string::npos);
+  EXPECT_NE(page.find("no 'states': joint angles and load-cell readings are needed to identify"), std::string::npos);
   EXPECT_NE(page.find("<section id=\"audit\">"), std::string::npos);
   EXPECT_EQ(page.find(">nan"), std::string::npos);
   EXPECT_EQ(picturesIn(out), (std::vector<std::string>{"circles.png", "station.png", "wrist-sphere.png"}));
@@ -104,8 +103,7 @@ TEST(Report, TakesAwayTheEarlierOnesPicturesAndNothingElse) {
 TEST(Frames, NominalValuesAreMarked) {
   const ScratchFolder scratch;
   const fs::path folder = sweepsOnly(scratch, "circle_sweeps");
-  const json frames =
-      json::parse(runProgram("frames '" + folder.string() + "' --json -", scratch.path()).out);
+  const json frames = json::parse(runProgram("frames '" + folder.string() + "' --json -", scratch.path()).out);
   EXPECT_EQ(frames["r0_placed_by"], "nominal");
   for (const json& axis : frames["axes"]) EXPECT_EQ(axis["from"], "nominal");
   for (const json& link : frames["links"]) EXPECT_EQ(link["from"], "nominal");
@@ -113,8 +111,10 @@ TEST(Frames, NominalValuesAreMarked) {
   EXPECT_EQ(frames["tcp_in_flange_from"], "nominal");
   const Ran text = runProgram("frames '" + folder.string() + "'", scratch.path());
   EXPECT_EQ(text.status, 1);
-  EXPECT_NE(text.err.find("no frame is measured: R0 needs sweeps of axes 1 and 2 (`circle_sweeps`): the campaign has no circle sweeps"),
-            std::string::npos)
+  EXPECT_NE(
+      text.err.find(
+          "no frame is measured: R0 needs sweeps of axes 1 and 2 (`circle_sweeps`): the campaign has no circle sweeps"),
+      std::string::npos)
       << text.err;
   EXPECT_NE(text.out.find("mm in the flange (nominal)"), std::string::npos) << text.out;
   EXPECT_NE(text.out.find("1-2"), std::string::npos);

@@ -12,8 +12,8 @@ TEST(Samples, AreWhatTheirSpecificationsMake) {
   for (const std::string name : {"inactive", "active"}) {
     const ScratchFolder scratch;
     const fs::path made = scratch.path() / name;
-    const Ran ran = runProgram("simulate '" STIFFSCOPE_SOURCE_DIR "/samples/" + name + ".xml' --out '" + made.string() + "'",
-                               scratch.path());
+    const Ran ran = runProgram(
+        "simulate '" STIFFSCOPE_SOURCE_DIR "/samples/" + name + ".xml' --out '" + made.string() + "'", scratch.path());
     ASSERT_EQ(ran.status, 0) << ran.err;
     int files = 0;
     for (const auto& entry : fs::directory_iterator(fs::path(STIFFSCOPE_SOURCE_DIR) / "samples" / name)) {

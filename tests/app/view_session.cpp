@@ -72,8 +72,7 @@ struct ViewSession::Connection {
     unsigned long count = 0, rest_of_it = 0;
     unsigned char* data = nullptr;
     XGetWindowProperty(display, id, XInternAtom(display, "_NET_WM_NAME", False), 0, 1000, False,
-                       XInternAtom(display, "UTF8_STRING", False), &type, &format, &count, &rest_of_it,
-                       &data);
+                       XInternAtom(display, "UTF8_STRING", False), &type, &format, &count, &rest_of_it, &data);
     std::string name = data == nullptr ? "" : std::string(reinterpret_cast<char*>(data), count);
     if (data != nullptr) XFree(data);
     return name;

@@ -30,8 +30,7 @@ class VirtualDisplay {
 class ViewSession {
  public:
   /// Starts the program with these words in `folder`, and waits until its window is drawn.
-  ViewSession(const std::string& display, std::vector<std::string> words,
-              const std::filesystem::path& folder);
+  ViewSession(const std::string& display, std::vector<std::string> words, const std::filesystem::path& folder);
   ~ViewSession();
   ViewSession(const ViewSession&) = delete;
   ViewSession& operator=(const ViewSession&) = delete;

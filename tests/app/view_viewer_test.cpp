@@ -30,9 +30,9 @@ struct Hand {
     }
   }
 
-  app::Viewer viewer(std::vector<std::optional<identification::Method>> methods = {identification::Method::decoupled_partial_pose,
-                                                              identification::Method::partial_pose},
-                std::optional<double> magnification = std::nullopt) {
+  app::Viewer viewer(std::vector<std::optional<identification::Method>> methods =
+                         {identification::Method::decoupled_partial_pose, identification::Method::partial_pose},
+                     std::optional<double> magnification = std::nullopt) {
     std::vector<app::ViewMaterial> by_method;
     for (const auto& method : methods) {
       by_method.push_back(app::loadMaterial(small.campaign, small.identification, method));
@@ -130,7 +130,8 @@ TEST(Viewer, PickedPointSaysItsNumbersAndStaysPickedFromPostureToPosture) {
 
 TEST(Viewer, WithoutAModelTheMeasuredVectorsStay) {
   Hand hand;
-  hand.small.method(identification::Method::partial_pose).reason = "the load turns no joint enough to see its stiffness";
+  hand.small.method(identification::Method::partial_pose).reason =
+      "the load turns no joint enough to see its stiffness";
   app::Viewer viewer = hand.viewer({std::nullopt});
   const render::ScenePoint wrist = *viewer.scene().poses[0].wrist;
   EXPECT_TRUE(wrist.measured);

@@ -27,12 +27,8 @@ cv::Mat channel(const cv::Mat& picture, int which) {
   one.convertTo(one, CV_32S);
   return one;
 }
-cv::Mat redOf(const cv::Mat& p) {
-  return (channel(p, 2) - channel(p, 1) > 70) & (channel(p, 2) - channel(p, 0) > 70);
-}
-cv::Mat blueOf(const cv::Mat& p) {
-  return (channel(p, 0) - channel(p, 2) > 60) & (channel(p, 0) - channel(p, 1) > 40);
-}
+cv::Mat redOf(const cv::Mat& p) { return (channel(p, 2) - channel(p, 1) > 70) & (channel(p, 2) - channel(p, 0) > 70); }
+cv::Mat blueOf(const cv::Mat& p) { return (channel(p, 0) - channel(p, 2) > 60) & (channel(p, 0) - channel(p, 1) > 40); }
 cv::Mat greenOf(const cv::Mat& p) {
   return (channel(p, 1) - channel(p, 2) > 60) & (channel(p, 1) - channel(p, 0) > 20);
 }
@@ -65,10 +61,9 @@ TEST(ViewWindow, DrawsTheMeasuredVectorAtItsPlaceAndAllObeyTheirKeys) {
   const VirtualDisplay display;
   NEED_XVFB(display);
   const ScratchFolder scratch;
-  ViewSession window(
-      display.name(),
-      {kActive, "--view", "side", "--pose", "5", "--magnification", "60", "--size", "1000", "700"},
-      scratch.path());
+  ViewSession window(display.name(),
+                     {kActive, "--view", "side", "--pose", "5", "--magnification", "60", "--size", "1000", "700"},
+                     scratch.path());
   ASSERT_TRUE(window.opened());
   EXPECT_NE(window.title().find("posture 5, load step 3"), std::string::npos) << window.title();
   const auto darkAtTheRight = [&] {  // letters of the list of keys
@@ -102,8 +97,7 @@ TEST(ViewWindow, DrawsTheMeasuredVectorAtItsPlaceAndAllObeyTheirKeys) {
   EXPECT_NEAR(other_wrist.y - wrist.y, -scale * apart.z(), 2);  // pixels: centres of shaded balls
   const auto at = [&](double share) {
     const Eigen::Vector3d v = 60 * share * *point.measured;
-    return cv::Point(cv::saturate_cast<int>(wrist.x + scale * v.x()),
-                     cv::saturate_cast<int>(wrist.y - scale * v.z()));
+    return cv::Point(cv::saturate_cast<int>(wrist.x + scale * v.x()), cv::saturate_cast<int>(wrist.y - scale * v.z()));
   };
   EXPECT_NE(redOf(here).at<std::uint8_t>(at(0.7)), 0) << at(0.7);
   EXPECT_EQ(redOf(here).at<std::uint8_t>(at(1.3)), 0) << at(1.3);
@@ -120,24 +114,22 @@ TEST(ViewWindow, MagnificationDoublesArrowsAndClickingReadsNumbers) {
   const VirtualDisplay display;
   NEED_XVFB(display);
   const ScratchFolder scratch;
-  ViewSession window(
-      display.name(),
-      {kActive, "--view", "side", "--pose", "5", "--magnification", "80", "--size", "1000", "700"},
-      scratch.path());
+  ViewSession window(display.name(),
+                     {kActive, "--view", "side", "--pose", "5", "--magnification", "80", "--size", "1000", "700"},
+                     scratch.path());
   ASSERT_TRUE(window.opened());
   window.press("h");
   window.press("p");
   window.press("r");
-  const auto lengthNow =
-      [&] {  // from the wrist centre to the lowest tip below it, which is that of its own arrow
-        const cv::Mat now = window.picture();
-        const cv::Point2d wrist = centreOf(amberOf(now));
-        cv::Mat column = redOf(now).colRange(static_cast<int>(wrist.x) - 6, static_cast<int>(wrist.x) + 7);
-        column.rowRange(0, static_cast<int>(wrist.y)).setTo(0);
-        column.rowRange(now.rows - 60, now.rows).setTo(0);
-        const cv::Rect extent = cv::boundingRect(column);
-        return extent.br().y - wrist.y;
-      };
+  const auto lengthNow = [&] {  // from the wrist centre to the lowest tip below it, which is that of its own arrow
+    const cv::Mat now = window.picture();
+    const cv::Point2d wrist = centreOf(amberOf(now));
+    cv::Mat column = redOf(now).colRange(static_cast<int>(wrist.x) - 6, static_cast<int>(wrist.x) + 7);
+    column.rowRange(0, static_cast<int>(wrist.y)).setTo(0);
+    column.rowRange(now.rows - 60, now.rows).setTo(0);
+    const cv::Rect extent = cv::boundingRect(column);
+    return extent.br().y - wrist.y;
+  };
   const double once = lengthNow();
   EXPECT_GT(once, 5);
   window.press("plus", true);
@@ -196,8 +188,8 @@ TEST(ViewWindow, TurnsZoomsAndComesBack) {
 Ran runView(const std::string& words, const std::string& display, const std::filesystem::path& scratch) {
   const std::string out = (scratch / "stdout").string(), err = (scratch / "stderr").string();
   const std::string set = display.empty() ? "env -u DISPLAY" : "env DISPLAY=" + display;
-  const int raw = std::system(
-      (set + " '" STIFFSCOPE_VIEW_BINARY "' " + words + " >'" + out + "' 2>'" + err + "'").c_str());
+  const int raw =
+      std::system((set + " '" STIFFSCOPE_VIEW_BINARY "' " + words + " >'" + out + "' 2>'" + err + "'").c_str());
   return {WIFEXITED(raw) ? WEXITSTATUS(raw) : -1, contentsOf(out), contentsOf(err)};
 }
 
@@ -216,22 +208,19 @@ TEST(ViewWindow, WrongWordsAndNoDisplayAreOneLineAndStatusTwo) {
     EXPECT_NE(ran.err.find(hint), std::string::npos) << ran.err;
     EXPECT_EQ(std::count(ran.err.begin(), ran.err.end(), '\n'), 1) << ran.err;
   }
-  for (const char* words : {"--help", "--version"})
-    EXPECT_EQ(runView(words, "", scratch.path()).status, 0) << words;
+  for (const char* words : {"--help", "--version"}) EXPECT_EQ(runView(words, "", scratch.path()).status, 0) << words;
 }
 
 /// samples/active without these elements of its campaign.xml.
-std::filesystem::path campaignWithout(const std::vector<std::string>& elements,
-                                      const std::filesystem::path& scratch) {
+std::filesystem::path campaignWithout(const std::vector<std::string>& elements, const std::filesystem::path& scratch) {
   const std::filesystem::path folder = scratch / "campaign";
   std::filesystem::remove_all(folder);
   std::filesystem::copy(kActive, folder);
   std::istringstream lines(contentsOf(folder / "campaign.xml"));
   std::ofstream left(folder / "campaign.xml.new");
   for (std::string line; std::getline(lines, line);) {
-    const bool out = std::any_of(elements.begin(), elements.end(), [&](const std::string& name) {
-      return line.find("<" + name) != std::string::npos;
-    });
+    const bool out = std::any_of(elements.begin(), elements.end(),
+                                 [&](const std::string& name) { return line.find("<" + name) != std::string::npos; });
     if (!out) left << line << '\n';
   }
   left.close();
@@ -244,8 +233,8 @@ TEST(ViewWindow, ScreenshotsOfLoadsAndOfSweepsAlone) {
   NEED_XVFB(display);
   const ScratchFolder scratch;
   const std::string shot = (scratch.path() / "shot.png").string();
-  const Ran whole = runView("'" + kActive + "' --screenshot '" + shot + "' --size 800 600 --point P10",
-                            display.name(), scratch.path());
+  const Ran whole = runView("'" + kActive + "' --screenshot '" + shot + "' --size 800 600 --point P10", display.name(),
+                            scratch.path());
   ASSERT_EQ(whole.status, 0) << whole.err;
   EXPECT_EQ(whole.out.rfind("P10, posture ", 0), 0u) << whole.out;
   const cv::Mat loads = cv::imread(shot);

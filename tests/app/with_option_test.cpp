@@ -21,7 +21,8 @@ TEST(WithOption, TheSamplesStiffnessesComeBackWithTheirBearings) {
     const auto& own = json["methods"][method];
     EXPECT_TRUE(own["stiffness_nm_per_rad"][0].is_null());
     for (std::size_t j = 1; j < 6; ++j) {
-      // Three times the stated interval: one day shows no coverage, but a bearing left in k3 misses by a factor of four.
+      // Three times the stated interval: one day shows no coverage, but a bearing left in k3 misses by a factor of
+      // four.
       const double value = own["stiffness_nm_per_rad"][j].get<double>(), sd = own["sd_nm_per_rad"][j].get<double>();
       EXPECT_NEAR(value, kTruth[j], 6.0 * sd) << method << " k" << j + 1;
       EXPECT_NEAR(value, kTruth[j], 0.03 * kTruth[j]) << method << " k" << j + 1;
@@ -76,12 +77,16 @@ TEST(WithOption, AnEffectOfSizeZeroChangesNothing) {
   ASSERT_EQ(with.status, 0) << with.err;
   EXPECT_EQ(nlohmann::json::parse(with.out)["methods"], nlohmann::json::parse(without.out)["methods"]);
   EXPECT_EQ(runProgram("compensate " + kActive + " --with backlash", scratch.path()).status, 0);
-  EXPECT_EQ(runProgram("report " + kActive + " --with backlash --out '" + (scratch.path() / "page").string() + "'", scratch.path()).status, 0);
+  EXPECT_EQ(runProgram("report " + kActive + " --with backlash --out '" + (scratch.path() / "page").string() + "'",
+                       scratch.path())
+                .status,
+            0);
 }
 
 TEST(WithOption, CompensateSaysWhatEnters) {
   const ScratchFolder scratch;
-  const Ran ran = runProgram("compensate " + kActive + " --with bearing_tilt,load_point_error --json -", scratch.path());
+  const Ran ran =
+      runProgram("compensate " + kActive + " --with bearing_tilt,load_point_error --json -", scratch.path());
   ASSERT_EQ(ran.status, 0) << ran.err;
   const auto json = nlohmann::json::parse(ran.out);
   EXPECT_EQ(json["rows"].size(), 19u);

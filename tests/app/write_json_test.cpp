@@ -9,8 +9,9 @@ namespace stiffscope {
 namespace {
 
 reports::Json row(int i) {
-  return {{"pose", "p" + std::to_string(i)}, {"text", "two\nlines, \"quoted\", \xC2\xB5m"}, {"value", 1.0 / (i + 3)},
-          {"none", nullptr},  {"empty", reports::Json::array()}, {"direction", {i, -i, {{"deep", {1, 2}}}}}};
+  return {{"pose", "p" + std::to_string(i)}, {"text", "two\nlines, \"quoted\", \xC2\xB5m"},
+          {"value", 1.0 / (i + 3)},          {"none", nullptr},
+          {"empty", reports::Json::array()}, {"direction", {i, -i, {{"deep", {1, 2}}}}}};
 }
 
 reports::Json rows(int count) {
@@ -28,15 +29,21 @@ std::string jsonText(const reports::JsonDocument& document) {
 TEST(WriteJson, WritesWhatDumpGives) {
   for (const int count : {0, 1, 499, 500, 512, 2000, 2048, 2049, 5000}) {
     const reports::Json list = rows(count);
-    const reports::Json object{{"name", "a"}, {"rows", list}, {"key \"\n", {{"deeper", {{"rows", list}, {"", 1}}}, {"x", reports::Json::object()}}}};
-    for (const reports::Json& json : {list, object, reports::Json{{"lists", {list, list}}}}) EXPECT_EQ(jsonText(json), json.dump(1) + '\n');
+    const reports::Json object{{"name", "a"},
+                               {"rows", list},
+                               {"key \"\n", {{"deeper", {{"rows", list}, {"", 1}}}, {"x", reports::Json::object()}}}};
+    for (const reports::Json& json : {list, object, reports::Json{{"lists", {list, list}}}})
+      EXPECT_EQ(jsonText(json), json.dump(1) + '\n');
   }
-  for (const reports::Json& json : {reports::Json(nullptr), reports::Json("a\nb"), reports::Json(2.5), reports::Json::object()}) EXPECT_EQ(jsonText(json), json.dump(1) + '\n');
+  for (const reports::Json& json :
+       {reports::Json(nullptr), reports::Json("a\nb"), reports::Json(2.5), reports::Json::object()})
+    EXPECT_EQ(jsonText(json), json.dump(1) + '\n');
 }
 
 TEST(WriteJson, WritesRowsMadeOnTheWayAsIfTheyHadStoodThere) {
   for (const int count : {0, 1, 499, 2048, 5000}) {
-    const reports::JsonRows made{static_cast<std::size_t>(count), [](std::size_t i) { return row(static_cast<int>(i)); }};
+    const reports::JsonRows made{static_cast<std::size_t>(count),
+                                 [](std::size_t i) { return row(static_cast<int>(i)); }};
     reports::JsonDocument inner(reports::Json{{"a/b~c", 1}, {"first", "x"}});
     inner.setRows("a/b~c", made);  // keys that a pointer has to escape
     reports::JsonDocument document(reports::Json{{"name", "n"}, {"parts", reports::Json::array()}});
@@ -47,10 +54,11 @@ TEST(WriteJson, WritesRowsMadeOnTheWayAsIfTheyHadStoodThere) {
     document.json["end"] = nullptr;
 
     const reports::Json list = rows(count);
-    const reports::Json whole{{"name", "n"},
-                     {"parts", {{{"a/b~c", list}, {"first", "x"}}, {{"a/b~c", list}, {"first", "x"}, {"more", true}}}},
-                     {"rows", list},
-                     {"end", nullptr}};
+    const reports::Json whole{
+        {"name", "n"},
+        {"parts", {{{"a/b~c", list}, {"first", "x"}}, {{"a/b~c", list}, {"first", "x"}, {"more", true}}}},
+        {"rows", list},
+        {"end", nullptr}};
     EXPECT_EQ(jsonText(document), whole.dump(1) + '\n') << count;
   }
 }

@@ -19,10 +19,18 @@ void Mutator::change(std::string& text) {
     case 0:
       if (at < text.size()) text[at] = static_cast<char>(text[at] ^ (1 << below(8)));
       break;
-    case 1: text.erase(at, length); break;
-    case 2: text.insert(at, text.substr(at, length)); break;
-    case 3: text.insert(at, 1, static_cast<char>(below(256))); break;
-    case 4: text.resize(at); break;
+    case 1:
+      text.erase(at, length);
+      break;
+    case 2:
+      text.insert(at, text.substr(at, length));
+      break;
+    case 3:
+      text.insert(at, 1, static_cast<char>(below(256)));
+      break;
+    case 4:
+      text.resize(at);
+      break;
     case 5: {
       const std::string& other = texts_[below(texts_.size())];
       const std::size_t from = below(other.size() + 1);

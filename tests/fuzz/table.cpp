@@ -1,5 +1,5 @@
-#include "core/campaign/table_layouts.h"
 #include "core/campaign/read_table.h"
+#include "core/campaign/table_layouts.h"
 #include "tests/fuzz/expect_input_error.h"
 
 namespace {
@@ -17,12 +17,18 @@ void readAs(const campaign::TableLayout<Row>& layout, std::string_view bytes) {
 
 void readAsTable(char kind, std::string_view bytes) {
   switch (kind) {
-    case 'c': return readAs(campaign::circleSweepsLayout(), bytes);
-    case 'w': return readAs(campaign::wristSweepLayout(), bytes);
-    case 'l': return readAs(campaign::loadingLayout(), bytes);
-    case 's': return readAs(campaign::statesLayout(), bytes);
-    case 'd': return readAs(campaign::displacementsLayout(), bytes);
-    default: return readAs(campaign::nestsLayout(), bytes);
+    case 'c':
+      return readAs(campaign::circleSweepsLayout(), bytes);
+    case 'w':
+      return readAs(campaign::wristSweepLayout(), bytes);
+    case 'l':
+      return readAs(campaign::loadingLayout(), bytes);
+    case 's':
+      return readAs(campaign::statesLayout(), bytes);
+    case 'd':
+      return readAs(campaign::displacementsLayout(), bytes);
+    default:
+      return readAs(campaign::nestsLayout(), bytes);
   }
 }
 

@@ -14,13 +14,14 @@ const Eigen::Vector3d kAxis = Eigen::Vector3d(0.3, -0.2, 0.9).normalized();
 metrology::CirclePoints arc(double radius, double height, double from, double degrees, int stops) {
   metrology::CirclePoints circle;
   for (int i = 0; i < stops; ++i) {
-    circle.points.push_back(
-        onCircle(kCentre, kAxis, radius, height, from + radians(degrees) * i / (stops - 1)));
+    circle.points.push_back(onCircle(kCentre, kAxis, radius, height, from + radians(degrees) * i / (stops - 1)));
   }
   return circle;
 }
 
-double missOfCentre(const metrology::AxisFit& fit) { return (metrology::nearestPoint(fit.axis.line, kCentre) - kCentre).norm(); }
+double missOfCentre(const metrology::AxisFit& fit) {
+  return (metrology::nearestPoint(fit.axis.line, kCentre) - kCentre).norm();
+}
 
 void expectFinite(const metrology::AxisFit& fit) {
   EXPECT_TRUE(fit.axis.line.point.allFinite());
@@ -83,14 +84,15 @@ TEST(FitAxis, AnisotropicWeightsDoNotMoveAnExactFitAndAgreeWhereTheyAreEqual) {
   const metrology::AxisFit equal = metrology::fitAxis(disturbed);
   // The same least squares: differences are those of stopping at steps of 1e-12.
   EXPECT_LT((plain.axis.line.direction - equal.axis.line.direction).norm(), 1e-11);
-  EXPECT_LT((metrology::nearestPoint(plain.axis.line, kCentre) - metrology::nearestPoint(equal.axis.line, kCentre)).norm(), 1e-11);
+  EXPECT_LT(
+      (metrology::nearestPoint(plain.axis.line, kCentre) - metrology::nearestPoint(equal.axis.line, kCentre)).norm(),
+      1e-11);
   EXPECT_GT(equal.chi2_per_dof,
             0.3);  // 24 degrees of freedom: 0.3 to 2.2 holds but for one seed in a thousand
   EXPECT_LT(equal.chi2_per_dof, 2.2);
 
   for (metrology::CirclePoints& circle : circles) {
-    for (const Eigen::Vector3d& point : circle.points)
-      circle.covariances.push_back(seenFromOrigin(point, 5e-6, 5e-5));
+    for (const Eigen::Vector3d& point : circle.points) circle.covariances.push_back(seenFromOrigin(point, 5e-6, 5e-5));
   }
   const metrology::AxisFit weighted = metrology::fitAxis(circles);
   ASSERT_TRUE(weighted.determined);
@@ -127,7 +129,7 @@ TEST(FitAxis, AReflectorNearTheAxisWithNoise) {
   // A radius of 50 um with noise of 20 um: its direction is noise, the other two circles carry the axis.
   Noise noise(8);
   std::vector<metrology::CirclePoints> circles{arc(0.5, 0.3, 0.2, 180, 13), arc(0.4, -0.1, 0.5, 180, 13),
-                                    arc(5e-5, 0.1, 0.0, 180, 13)};
+                                               arc(5e-5, 0.1, 0.0, 180, 13)};
   for (metrology::CirclePoints& circle : circles) {
     for (Eigen::Vector3d& point : circle.points) point += 2e-5 * noise.normal3();
   }
@@ -160,8 +162,7 @@ TEST(FitAxis, RefusesWhatDetermineNoAxis) {
 TEST(FitAxis, ThreePlacesReadAgainAndAgain) {
   // Three stops read five times each: exact and determined, as three points are.
   metrology::CirclePoints circle;
-  for (int i = 0; i < 15; ++i)
-    circle.points.push_back(onCircle(kCentre, kAxis, 1.2, 0.1, radians(60.0) * (i % 3)));
+  for (int i = 0; i < 15; ++i) circle.points.push_back(onCircle(kCentre, kAxis, 1.2, 0.1, radians(60.0) * (i % 3)));
   const metrology::AxisFit fit = metrology::fitAxis({circle});
   ASSERT_TRUE(fit.determined) << fit.reason;
   EXPECT_LT(missOfCentre(fit), 1e-12);
@@ -213,18 +214,14 @@ TEST(FitAxis, NplCircleWithItsPublishedCovariance) {
   to_centre << Eigen::Matrix2d::Identity(), fit.circles[0].height * Eigen::Matrix2d::Identity();
   const Eigen::Matrix3d of_centre =
       across * to_centre * fit.axis.covariance * to_centre.transpose() * across.transpose();
-  const Eigen::Matrix3d of_direction =
-      across * fit.axis.covariance.bottomRightCorner<2, 2>() * across.transpose();
-  for (int row = 0; row < 2;
-       ++row) {  // the z row of the centre also holds the plane's height: not the line's
+  const Eigen::Matrix3d of_direction = across * fit.axis.covariance.bottomRightCorner<2, 2>() * across.transpose();
+  for (int row = 0; row < 2; ++row) {  // the z row of the centre also holds the plane's height: not the line's
     for (int column = 0; column < 2; ++column) {
       EXPECT_NEAR(1e3 * of_centre(row, column),
-                  published["Vx0n_1e-3"][static_cast<std::size_t>(row)][static_cast<std::size_t>(column)]
-                      .get<double>(),
+                  published["Vx0n_1e-3"][static_cast<std::size_t>(row)][static_cast<std::size_t>(column)].get<double>(),
                   6e-5);
       EXPECT_NEAR(1e7 * of_direction(row, column),
-                  published["Van_1e-7"][static_cast<std::size_t>(row)][static_cast<std::size_t>(column)]
-                      .get<double>(),
+                  published["Van_1e-7"][static_cast<std::size_t>(row)][static_cast<std::size_t>(column)].get<double>(),
                   6e-5);
     }
   }
@@ -236,8 +233,7 @@ TEST(FitAxis, PublishedExactCircles) {
   for (const auto& one : (*file)["circle3d_exact_pizzamiglio"]["cases"]) {
     metrology::CirclePoints circle;
     for (const auto& point : one["points"]) circle.points.push_back(vector(point));
-    if (circle.points.size() < 4)
-      circle.points.insert(circle.points.end(), circle.points.begin(), circle.points.end());
+    if (circle.points.size() < 4) circle.points.insert(circle.points.end(), circle.points.begin(), circle.points.end());
     const metrology::AxisFit fit = metrology::fitAxis({circle});
     ASSERT_TRUE(fit.determined) << fit.reason;
     EXPECT_LT((metrology::nearestPoint(fit.axis.line, vector(one["c"])) - vector(one["c"])).norm(), 1e-12);
@@ -245,8 +241,7 @@ TEST(FitAxis, PublishedExactCircles) {
     EXPECT_NEAR(fit.circles[0].radius, one.contains("r") ? one["r"].get<double>() : 1.5, 1e-12);
   }
   metrology::CirclePoints line;
-  for (const auto& point : (*file)["circle3d_exact_pizzamiglio"]["must_fail"][0])
-    line.points.push_back(vector(point));
+  for (const auto& point : (*file)["circle3d_exact_pizzamiglio"]["must_fail"][0]) line.points.push_back(vector(point));
   EXPECT_FALSE(metrology::fitAxis({line}).determined);
 }
 

@@ -42,8 +42,8 @@ double axisCoverage(double degrees) {
     std::vector<metrology::CirclePoints> circles(3);
     for (std::size_t target = 0; target < 3; ++target) {
       for (int i = 0; i < kStops; ++i) {
-        const Eigen::Vector3d point = onCircle(kCentre, kAxis, radii[target], heights[target],
-                                               from[target] + radians(degrees) * i / kStops);
+        const Eigen::Vector3d point =
+            onCircle(kCentre, kAxis, radii[target], heights[target], from[target] + radians(degrees) * i / kStops);
         const Eigen::Matrix3d covariance = seenFromOrigin(point, kAlong, kAcross);
         circles[target].points.push_back(point + noise.draw(covariance));
         circles[target].covariances.push_back(covariance);
@@ -99,8 +99,7 @@ TEST(Coverage, CommonCentreOfSpheres) {
     Eigen::VectorXd error(6);
     error << kCentre - fit.centre, radii[0] - fit.radii[0], radii[1] - fit.radii[1], radii[2] - fit.radii[2];
     const Eigen::Vector3d of_centre = error.head<3>();
-    centre_inside +=
-        of_centre.dot(fit.covariance.topLeftCorner<3, 3>().ldlt().solve(of_centre)) < kChiSquare3;
+    centre_inside += of_centre.dot(fit.covariance.topLeftCorner<3, 3>().ldlt().solve(of_centre)) < kChiSquare3;
     all_inside += error.dot(fit.covariance.ldlt().solve(error)) < kChiSquare6;
   }
   EXPECT_GT(centre_inside, 0.93 * kFits);
@@ -147,7 +146,8 @@ void expectCoverage(const std::string& what, int inside) {
 }
 
 TEST(Coverage, Circles) {
-  for (const metrology::CircleStrategy strategy : {metrology::CircleStrategy::full, metrology::CircleStrategy::plane_first}) {
+  for (const metrology::CircleStrategy strategy :
+       {metrology::CircleStrategy::full, metrology::CircleStrategy::plane_first}) {
     for (const double degrees : {40.0, 90.0, 360.0}) {
       Noise noise(static_cast<std::uint64_t>(degrees));
       const auto ideal = arcPoints(degrees, 0.0);

@@ -22,7 +22,8 @@ const Eigen::Vector3d kAxis = Eigen::Vector3d(0.3, -0.2, 0.9).normalized();
 TEST(FitPlane, ByHand) {
   // A square at z = 1, its corners lifted and lowered by 0.01 in turn: the plane is z = 1, every residual
   // 0.01.
-  const metrology::FittedPlane fit = metrology::fitPlane({{{0, 0, 1.01}, {1, 0, 0.99}, {1, 1, 1.01}, {0, 1, 0.99}}, {}});
+  const metrology::FittedPlane fit =
+      metrology::fitPlane({{{0, 0, 1.01}, {1, 0, 0.99}, {1, 1, 1.01}, {0, 1, 0.99}}, {}});
   ASSERT_TRUE(fit.determined) << fit.reason;
   EXPECT_LT((fit.plane.normal - Eigen::Vector3d::UnitZ()).norm(), 1e-15);
   EXPECT_LT((fit.plane.point - Eigen::Vector3d(0.5, 0.5, 1.0)).norm(), 1e-15);
@@ -48,7 +49,8 @@ TEST(FitLine, ByHand) {
 TEST(FitCircle, BothStrategiesNameThemselvesAndAgreeOnAFlatCircle) {
   Points points;
   for (int i = 0; i < 9; ++i) points.push_back(onCircle(kCentre, kAxis, 1.2, 0.0, radians(20.0 * i)));
-  for (const metrology::CircleStrategy strategy : {metrology::CircleStrategy::full, metrology::CircleStrategy::plane_first}) {
+  for (const metrology::CircleStrategy strategy :
+       {metrology::CircleStrategy::full, metrology::CircleStrategy::plane_first}) {
     const metrology::FittedCircle fit = metrology::fitCircle({points, {}}, strategy);
     ASSERT_TRUE(fit.determined) << fit.reason;
     EXPECT_LT((fit.circle.centre - kCentre).norm(), 1e-15 * 8);  // roundings of the coordinates of the points
@@ -97,9 +99,12 @@ std::string reasonOf(const Fit& fit) {
 
 Reasons reasonsFor(const Points& points) {
   const metrology::MeasuredPoints readings{points, {}};
-  return {reasonOf(metrology::fitLine(readings)),   reasonOf(metrology::fitPlane(readings)),
-          reasonOf(metrology::fitCircle(readings)), reasonOf(metrology::fitCircle(readings, metrology::CircleStrategy::plane_first)),
-          reasonOf(metrology::fitSphere(readings)), reasonOf(metrology::fitCylinder(readings))};
+  return {reasonOf(metrology::fitLine(readings)),
+          reasonOf(metrology::fitPlane(readings)),
+          reasonOf(metrology::fitCircle(readings)),
+          reasonOf(metrology::fitCircle(readings, metrology::CircleStrategy::plane_first)),
+          reasonOf(metrology::fitSphere(readings)),
+          reasonOf(metrology::fitCylinder(readings))};
 }
 
 void expectAll(const Points& points, const std::string& word) {
@@ -170,13 +175,13 @@ TEST(Fits, RefuseWhatTheScatterContradicts) {
     line.push_back(Eigen::Vector3d(0.1 * i, 0, 0) + 1e-4 * noise.normal3());
     plane.push_back(Eigen::Vector3d(noise.uniform(), noise.uniform(), 0) + 1e-4 * noise.normal3());
   }
-  for (const metrology::CircleStrategy strategy : {metrology::CircleStrategy::full, metrology::CircleStrategy::plane_first}) {
+  for (const metrology::CircleStrategy strategy :
+       {metrology::CircleStrategy::full, metrology::CircleStrategy::plane_first}) {
     EXPECT_FALSE(metrology::fitCircle({line, {}}, strategy).determined);
   }
   EXPECT_FALSE(metrology::fitPlane({line, {}}).determined);
   const metrology::FittedSphere sphere = metrology::fitSphere({plane, {}});
-  EXPECT_FALSE(sphere.determined) << sphere.sphere.radius << " " << sphere.rms << " "
-                                  << (*sphere.covariance)(3, 3);
+  EXPECT_FALSE(sphere.determined) << sphere.sphere.radius << " " << sphere.rms << " " << (*sphere.covariance)(3, 3);
 }
 
 TEST(FitSphere, RefusesFewerThanFourAndWrongCovariances) {
@@ -205,10 +210,8 @@ TEST(FitCircle, NplExampleToAllPrintedDigits) {
     EXPECT_NEAR(fit.circle.normal[k], published["an"][at].get<double>(), 1e-4 * half);
     for (std::size_t column = 0; column < 3; ++column) {
       const auto j = static_cast<Eigen::Index>(column);
-      EXPECT_NEAR(1e3 * (*fit.covariance)(k, j), published["Vx0n_1e-3"][at][column].get<double>(),
-                  1e-4 * half);
-      EXPECT_NEAR(1e7 * (*fit.covariance)(3 + k, 3 + j), published["Van_1e-7"][at][column].get<double>(),
-                  1e-4 * half);
+      EXPECT_NEAR(1e3 * (*fit.covariance)(k, j), published["Vx0n_1e-3"][at][column].get<double>(), 1e-4 * half);
+      EXPECT_NEAR(1e7 * (*fit.covariance)(3 + k, 3 + j), published["Van_1e-7"][at][column].get<double>(), 1e-4 * half);
     }
   }
   EXPECT_NEAR(fit.circle.radius, published["rn"].get<double>(), 1e-4 * half);
@@ -222,8 +225,7 @@ TEST(FitCircle, PublishedGeometricCirclesInAnyPlane) {
   for (const char* name : {"circle2d_gander_golub_strebel_1994", "circle2d_skimage_5186"}) {
     const auto& one = (*file)[name];
     const auto& answer = one[one.contains("geometric_recomputed") ? "geometric_recomputed" : "geometric"];
-    for (const double height :
-         {0.0, 5.0}) {  // planes off the origin: some programs return a wrong centre there
+    for (const double height : {0.0, 5.0}) {  // planes off the origin: some programs return a wrong centre there
       Points points;
       for (std::size_t i = 0; i < one["x"].size(); ++i) {
         points.push_back({one["x"][i].get<double>(), one["y"][i].get<double>(), height});
@@ -246,8 +248,7 @@ struct Found {
 void compare(const nlohmann::json& test, Found found) {
   Eigen::Vector3d expected = Eigen::Vector3d::Zero();
   for (const auto& one : test["expected"]) {
-    if (one["what"][0] == "direction")
-      expected[one["what"][1].get<Eigen::Index>()] = one["value"].get<double>();
+    if (one["what"][0] == "direction") expected[one["what"][1].get<Eigen::Index>()] = one["value"].get<double>();
   }
   if (expected.dot(found.direction) < 0.0) found.direction *= -1.0;
   for (const auto& one : test["expected"]) {
@@ -299,8 +300,7 @@ TEST(Fits, OpenIndyVectorsWithinTheirOwnTolerances) {
       compare(test, {Eigen::Vector3d::Zero(), fit.sphere.radius,
                      fit.residual_sd * std::sqrt(fit.degrees_of_freedom / coordinates)});
       for (const auto& one : test["expected"]) {
-        if (one["what"][0] != "residual" || one["what"][1] >= 3000)
-          continue;  // 3000: points that were not fitted
+        if (one["what"][0] != "residual" || one["what"][1] >= 3000) continue;  // 3000: points that were not fitted
         const Eigen::Vector3d& point = points.points[one["what"][1].get<std::size_t>() - 1000];
         EXPECT_NEAR((point - fit.sphere.centre).norm() - fit.sphere.radius, one["value"].get<double>(), 1e-5);
       }

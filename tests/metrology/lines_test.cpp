@@ -1,8 +1,8 @@
-#include <gtest/gtest.h>
-#include "metrology/rigid_motion.h"
 #include "metrology/lines.h"
+#include <gtest/gtest.h>
 #include "metrology/axis_fit.h"
 #include "metrology/measured_points.h"
+#include "metrology/rigid_motion.h"
 #include "tests/metrology/simulated_points.h"
 
 namespace stiffscope {
@@ -10,7 +10,8 @@ namespace {
 
 TEST(CommonPerpendicular, ByHand) {
   // The x axis, and a line along y three above it at x = 2.
-  const metrology::CommonPerpendicular found = metrology::commonPerpendicular({{-7, 0, 0}, {1, 0, 0}}, {{2, 11, 3}, {0, 1, 0}});
+  const metrology::CommonPerpendicular found =
+      metrology::commonPerpendicular({{-7, 0, 0}, {1, 0, 0}}, {{2, 11, 3}, {0, 1, 0}});
   EXPECT_LT((found.foot_on_first - Eigen::Vector3d(2, 0, 0)).norm(), 1e-15);
   EXPECT_LT((found.foot_on_second - Eigen::Vector3d(2, 0, 3)).norm(), 1e-15);
   EXPECT_DOUBLE_EQ(found.distance, 3.0);
@@ -33,7 +34,8 @@ TEST(CommonPerpendicular, IsTheShortestWay) {
 }
 
 TEST(CommonPerpendicular, ParallelLinesAreFiniteAndKeepTheirDistance) {
-  const metrology::CommonPerpendicular found = metrology::commonPerpendicular({{0, 0, 5}, {0, 0, 1}}, {{3, 4, -2}, {0, 0, 1}});
+  const metrology::CommonPerpendicular found =
+      metrology::commonPerpendicular({{0, 0, 5}, {0, 0, 1}}, {{3, 4, -2}, {0, 0, 1}});
   EXPECT_DOUBLE_EQ(found.distance, 5.0);
   EXPECT_DOUBLE_EQ(found.angle, 0.0);
   EXPECT_TRUE(found.foot_on_first.allFinite());
@@ -64,7 +66,8 @@ TEST(SweptArc, ByHand) {
   EXPECT_DOUBLE_EQ(metrology::sweptArc(axis, {at(10)}), 0.0);
   EXPECT_NEAR(metrology::sweptArc(axis, {at(10), at(50), at(30)}), radians(40), 1e-14);
   EXPECT_NEAR(metrology::sweptArc(axis, {at(170), at(-170), at(180)}), radians(20), 1e-14);  // through the cut of atan2
-  EXPECT_NEAR(metrology::sweptArc(axis, {at(0), at(90), at(180), at(270)}), radians(270), 1e-14);  // a full turn of four
+  EXPECT_NEAR(metrology::sweptArc(axis, {at(0), at(90), at(180), at(270)}), radians(270),
+              1e-14);  // a full turn of four
   EXPECT_NEAR(metrology::sweptArc(axis, {at(25), at(25), at(25)}), 0.0, 1e-14);
 }
 

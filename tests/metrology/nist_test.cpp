@@ -9,8 +9,8 @@
 #include <vector>
 #include "metrology/axis_fit.h"
 #include "metrology/circle_fit.h"
-#include "metrology/lines.h"
 #include "metrology/cylinder_fit.h"
+#include "metrology/lines.h"
 #include "metrology/plane_fit.h"
 #include "metrology/sphere_fit.h"
 #include "tests/metrology/reference.h"
@@ -44,9 +44,8 @@ std::vector<Pair> pairsOf(const std::string& shape) {
   if (!std::filesystem::exists(folder)) return pairs;
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
     if (entry.path().extension() != ".ds") continue;
-    Pair pair{entry.path().stem().string(),
-              {},
-              numbersIn(std::filesystem::path(entry.path()).replace_extension(".fit"))};
+    Pair pair{
+        entry.path().stem().string(), {}, numbersIn(std::filesystem::path(entry.path()).replace_extension(".fit"))};
     const std::vector<double> data = numbersIn(entry.path());
     Eigen::Vector3d mean = Eigen::Vector3d::Zero();
     for (std::size_t k = 1; k + 2 < data.size(); k += 3)
@@ -81,9 +80,7 @@ class Worst {
 };
 
 double apart(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
-  return a.normalized()
-      .cross(b.normalized())
-      .norm();  // printed directions are of unit length to their last digit only
+  return a.normalized().cross(b.normalized()).norm();  // printed directions are of unit length to their last digit only
 }
 
 TEST(Nist, Planes) {

@@ -89,8 +89,7 @@ std::vector<Eigen::Vector3d> points(const Scene& scene, double height, std::uint
   for (int i = 0; i < 40; ++i) {
     const double angle = radians(scene.degrees) * noise.uniform(),
                  along = height * scene.size * (noise.uniform() - 0.5);
-    all.push_back(onCircle(centreOf(scene), kAxis, scene.size, along, angle) +
-                  1e-5 * scene.size * noise.normal3());
+    all.push_back(onCircle(centreOf(scene), kAxis, scene.size, along, angle) + 1e-5 * scene.size * noise.normal3());
   }
   return all;
 }
@@ -102,9 +101,9 @@ std::vector<Eigen::Vector3d> cap(const Scene& scene, std::uint64_t seed) {
   for (int i = 0; i < 60; ++i) {
     const double z = lowest + (1.0 - lowest) * noise.uniform(), angle = 7.0 * noise.uniform(),
                  across = std::sqrt(1.0 - z * z);
-    all.push_back(centreOf(scene) +
-                  scene.size * (Eigen::Vector3d(across * std::cos(angle), across * std::sin(angle), z) +
-                                1e-5 * noise.normal3()));
+    all.push_back(
+        centreOf(scene) +
+        scene.size * (Eigen::Vector3d(across * std::cos(angle), across * std::sin(angle), z) + 1e-5 * noise.normal3()));
   }
   return all;
 }
@@ -121,20 +120,17 @@ TEST(Precision, CirclesOnShortArcsFarAway) {
     const auto data = points(scene, 0.0, 3);
     const metrology::FittedCircle fit = metrology::fitCircle({data, {}});
     ASSERT_TRUE(fit.determined) << fit.reason;
-    const Reference exact =
-        leastSquares(Kind::circle, data,
-                     {centreOf(scene).cast<Real>(), kAxis.cast<Real>(), static_cast<Real>(scene.size)});
+    const Reference exact = leastSquares(
+        Kind::circle, data, {centreOf(scene).cast<Real>(), kAxis.cast<Real>(), static_cast<Real>(scene.size)});
     const auto centre = static_cast<double>((fit.circle.centre.cast<Real>() - exact.point).norm());
     const auto direction = static_cast<double>(fit.circle.normal.cast<Real>().cross(exact.direction).norm());
     EXPECT_LT(centre, allowed(scene)) << scene.degrees << " " << scene.offset;
-    EXPECT_LT(std::abs(static_cast<double>(fit.circle.radius - exact.radius)), allowed(scene))
-        << scene.degrees;
+    EXPECT_LT(std::abs(static_cast<double>(fit.circle.radius - exact.radius)), allowed(scene)) << scene.degrees;
     EXPECT_LT(direction, 1e-14) << scene.degrees << " " << scene.offset;
     worst = std::max(worst, centre / allowed(scene));
     worst_direction = std::max(worst_direction, direction);
   }
-  std::printf("circles against long double: centre %.2f of what is allowed, normal %.1e\n", worst,
-              worst_direction);
+  std::printf("circles against long double: centre %.2f of what is allowed, normal %.1e\n", worst, worst_direction);
 }
 
 TEST(Precision, SpheresOnSmallCapsFarAway) {
@@ -143,13 +139,11 @@ TEST(Precision, SpheresOnSmallCapsFarAway) {
     const auto data = cap(scene, 4);
     const metrology::FittedSphere fit = metrology::fitSphere({data, {}});
     ASSERT_TRUE(fit.determined) << fit.reason;
-    const Reference exact =
-        leastSquares(Kind::sphere, data,
-                     {centreOf(scene).cast<Real>(), kAxis.cast<Real>(), static_cast<Real>(scene.size)});
+    const Reference exact = leastSquares(
+        Kind::sphere, data, {centreOf(scene).cast<Real>(), kAxis.cast<Real>(), static_cast<Real>(scene.size)});
     const auto centre = static_cast<double>((fit.sphere.centre.cast<Real>() - exact.point).norm());
     EXPECT_LT(centre, allowed(scene)) << scene.degrees << " " << scene.offset;
-    EXPECT_LT(std::abs(static_cast<double>(fit.sphere.radius - exact.radius)), allowed(scene))
-        << scene.degrees;
+    EXPECT_LT(std::abs(static_cast<double>(fit.sphere.radius - exact.radius)), allowed(scene)) << scene.degrees;
     worst = std::max(worst, centre / allowed(scene));
   }
   std::printf("spheres against long double: centre %.2f of what is allowed\n", worst);
@@ -161,16 +155,13 @@ TEST(Precision, CylindersOnShortArcsFarAway) {
     const auto data = points(scene, 1.0, 5);
     const metrology::FittedCylinder fit = metrology::fitCylinder({data, {}});
     ASSERT_TRUE(fit.determined) << scene.degrees << ": " << fit.reason;
-    const Reference exact =
-        leastSquares(Kind::cylinder, data,
-                     {centreOf(scene).cast<Real>(), kAxis.cast<Real>(), static_cast<Real>(scene.size)});
+    const Reference exact = leastSquares(
+        Kind::cylinder, data, {centreOf(scene).cast<Real>(), kAxis.cast<Real>(), static_cast<Real>(scene.size)});
     const Vector from = fit.cylinder.axis.point.cast<Real>() - exact.point;
     const auto miss = static_cast<double>(from.cross(exact.direction).norm());
-    const auto direction =
-        static_cast<double>(fit.cylinder.axis.direction.cast<Real>().cross(exact.direction).norm());
+    const auto direction = static_cast<double>(fit.cylinder.axis.direction.cast<Real>().cross(exact.direction).norm());
     EXPECT_LT(miss, allowed(scene)) << scene.degrees << " " << scene.offset;
-    EXPECT_LT(std::abs(static_cast<double>(fit.cylinder.radius - exact.radius)), allowed(scene))
-        << scene.degrees;
+    EXPECT_LT(std::abs(static_cast<double>(fit.cylinder.radius - exact.radius)), allowed(scene)) << scene.degrees;
     EXPECT_LT(direction, 1e-14) << scene.degrees << " " << scene.offset;
     worst = std::max(worst, miss / allowed(scene));
   }

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
-#include "metrology/rigid_motion.h"
 #include "metrology/lines.h"
+#include "metrology/rigid_motion.h"
 #include "tests/metrology/simulated_points.h"
 
 namespace stiffscope {
@@ -60,7 +60,8 @@ TEST(FrameError, AFrameTurnedByHand) {
   off.linear() = Eigen::AngleAxisd(1e-3, Eigen::Vector3d::UnitZ()).toRotationMatrix();
   off.translation() << 2e-3, 0, 0;
   const metrology::FrameError error = metrology::frameError(truth, truth * off);
-  EXPECT_LT((error - (metrology::FrameError() << 0, 0, 1e-3, 2e-3, 0, 0).finished()).norm(), 1e-9);  // third order of 1e-3
+  EXPECT_LT((error - (metrology::FrameError() << 0, 0, 1e-3, 2e-3, 0, 0).finished()).norm(),
+            1e-9);  // third order of 1e-3
   const Eigen::Vector3d x(1, 0, 0);
   const Eigen::Vector3d change = metrology::pointByFrameError(x) * error;
   EXPECT_LT((change - Eigen::Vector3d(-2e-3, -1e-3, 0)).norm(), 1e-9);

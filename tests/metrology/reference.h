@@ -12,9 +12,7 @@
 
 namespace stiffscope {
 
-inline std::filesystem::path referenceFolder() {
-  return std::filesystem::path(STIFFSCOPE_SHARED_DIR) / "reference";
-}
+inline std::filesystem::path referenceFolder() { return std::filesystem::path(STIFFSCOPE_SHARED_DIR) / "reference"; }
 
 inline std::optional<nlohmann::json> reference(const std::string& name) {
   std::ifstream file(referenceFolder() / name);
@@ -25,8 +23,7 @@ inline std::optional<nlohmann::json> reference(const std::string& name) {
 /// A point of two or three numbers.
 inline Eigen::Vector3d vector(const nlohmann::json& numbers) {
   Eigen::Vector3d point = Eigen::Vector3d::Zero();
-  for (std::size_t i = 0; i < numbers.size(); ++i)
-    point[static_cast<Eigen::Index>(i)] = numbers[i].get<double>();
+  for (std::size_t i = 0; i < numbers.size(); ++i) point[static_cast<Eigen::Index>(i)] = numbers[i].get<double>();
   return point;
 }
 

@@ -73,8 +73,7 @@ TEST(RegisterRigid, NeverAReflection) {
   Noise noise(3);
   Points solid, mirrored;
   for (int i = 0; i < 5; ++i)
-    solid.push_back(noise.normal3()),
-        mirrored.push_back(solid.back().cwiseProduct(Eigen::Vector3d(1, 1, -1)));
+    solid.push_back(noise.normal3()), mirrored.push_back(solid.back().cwiseProduct(Eigen::Vector3d(1, 1, -1)));
   const metrology::RigidRegistration found = metrology::registerRigid(solid, mirrored);
   ASSERT_TRUE(found.determined);
   EXPECT_NEAR(found.to_from_source.linear().determinant(), 1.0, 1e-12);
@@ -126,7 +125,8 @@ TEST(RegisterRigid, OfThreePointsIsThatOfTheSingularVectors) {
     Points twice = source, twice_to = to;
     twice.insert(twice.end(), source.begin(), source.end());
     twice_to.insert(twice_to.end(), to.begin(), to.end());
-    const metrology::RigidRegistration three = metrology::registerRigid(source, to), six = metrology::registerRigid(twice, twice_to);
+    const metrology::RigidRegistration three = metrology::registerRigid(source, to),
+                                       six = metrology::registerRigid(twice, twice_to);
     ASSERT_TRUE(three.determined && six.determined);
     // Rounding over the least singular value that counts, a hundredth of the largest at worst here.
     EXPECT_TRUE(three.to_from_source.isApprox(six.to_from_source, 1e-11)) << n;

@@ -37,8 +37,7 @@ Eigen::Vector3d on(Shape shape, Noise& noise) {
 
 metrology::MeasuredPoints readings(Shape shape, std::size_t count, Noise& noise, bool with_covariances) {
   metrology::MeasuredPoints points;
-  for (std::size_t i = 0; i < count; ++i)
-    points.points.push_back(on(shape, noise) + kNoise * noise.normal3());
+  for (std::size_t i = 0; i < count; ++i) points.points.push_back(on(shape, noise) + kNoise * noise.normal3());
   if (with_covariances) points.covariances.assign(count, kNoise * kNoise * Eigen::Matrix3d::Identity());
   return points;
 }
@@ -85,7 +84,8 @@ TEST(TailProbability, TablesOfStudentChiSquareAndF) {
   EXPECT_NEAR(metrology::fLimit(0.05, 1, 30), 4.17, 5e-3);
   EXPECT_NEAR(metrology::fLimit(0.05, 2, 120), 3.07, 5e-3);
   for (const double below : {10.0, 30.0, 100.0, 1e3, 3e4, 1e5, 1e6}) {
-    for (const int above : {1, 2}) EXPECT_NEAR(metrology::fTail(metrology::fLimit(1e-4, above, below), above, below), 1e-4, 1e-14) << below;
+    for (const int above : {1, 2})
+      EXPECT_NEAR(metrology::fTail(metrology::fLimit(1e-4, above, below), above, below), 1e-4, 1e-14) << below;
     // F of two degrees has its tail in closed form: (1 + 2 f / n)^(-n / 2).
     EXPECT_NEAR(metrology::fTail(9.0, 2, below) / std::pow(1.0 + 18.0 / below, -0.5 * below), 1.0, 1e-9) << below;
   }
@@ -100,8 +100,7 @@ TEST(FitRobustly, GoodReadingsAreRarelyRejected) {
     for (const bool with_covariances : {false, true}) {
       Noise noise(40 + static_cast<std::uint64_t>(shape));
       int sets = 0;
-      for (int k = 0; k < 2000; ++k)
-        sets += !leftOut(shape, readings(shape, 20, noise, with_covariances)).empty();
+      for (int k = 0; k < 2000; ++k) sets += !leftOut(shape, readings(shape, 20, noise, with_covariances)).empty();
       EXPECT_GT(sets, 4) << static_cast<int>(shape) << with_covariances;
       EXPECT_LT(sets, 36) << static_cast<int>(shape) << with_covariances;
     }
@@ -132,8 +131,9 @@ TEST(FitRobustly, GoodCirclesOfAnAxisAreRarelyRejected) {
         for (int i = 0; i < 13; ++i) {
           const Eigen::Vector3d point = onCircle(kCentre, kAxis, 1.8 + 0.1 * static_cast<double>(target),
                                                  0.2 * static_cast<double>(target), radians(7.0 * i));
-          const Eigen::Matrix3d covariance = with_covariances ? seenFromOrigin(point, 0.3 * kNoise, kNoise)
-                                                              : Eigen::Matrix3d(kNoise * kNoise * Eigen::Matrix3d::Identity());
+          const Eigen::Matrix3d covariance = with_covariances
+                                                 ? seenFromOrigin(point, 0.3 * kNoise, kNoise)
+                                                 : Eigen::Matrix3d(kNoise * kNoise * Eigen::Matrix3d::Identity());
           circles[target].points.push_back(point + noise.draw(covariance));
           if (with_covariances) circles[target].covariances.push_back(covariance);
         }
@@ -178,7 +178,8 @@ TEST(FitRobustly, DegreesOfFreedomAreThoseOfTheReadingsLeft) {
   Noise noise(5);
   metrology::MeasuredPoints points = readings(Shape::circle, 20, noise, false);
   points.points[7] += Eigen::Vector3d(0, 0, 0.01);
-  const auto robust = metrology::fitRobustly(points, [](const metrology::MeasuredPoints& some) { return metrology::fitCircle(some); });
+  const auto robust =
+      metrology::fitRobustly(points, [](const metrology::MeasuredPoints& some) { return metrology::fitCircle(some); });
   ASSERT_EQ(robust.rejected.size(), 1u);
   EXPECT_EQ(robust.rejected[0].index, 7u);
   EXPECT_GT(robust.rejected[0].w, robust.rejected[0].critical_w);
@@ -193,9 +194,9 @@ TEST(FitRobustly, ALostBeamAmongTheCirclesOfAnAxis) {
   std::vector<metrology::CirclePoints> circles(3);
   for (std::size_t k = 0; k < 3; ++k) {
     for (int i = 0; i < 13; ++i) {
-      circles[k].points.push_back(onCircle(kCentre, kAxis, 1.8 + 0.1 * static_cast<double>(k),
-                                           0.2 * static_cast<double>(k), radians(9.0 * i)) +
-                                  kNoise * noise.normal3());
+      circles[k].points.push_back(
+          onCircle(kCentre, kAxis, 1.8 + 0.1 * static_cast<double>(k), 0.2 * static_cast<double>(k), radians(9.0 * i)) +
+          kNoise * noise.normal3());
     }
   }
   circles[1].points[6].setZero();

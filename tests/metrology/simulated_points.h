@@ -49,8 +49,7 @@ inline Eigen::Matrix3d seenFromOrigin(const Eigen::Vector3d& point, double along
 inline Eigen::Vector3d onCircle(const Eigen::Vector3d& centre, const Eigen::Vector3d& axis, double radius,
                                 double height, double angle) {
   // Any perpendicular serves; this one is made without the library's.
-  const Eigen::Vector3d helper =
-      std::abs(axis.x()) < 0.6 ? Eigen::Vector3d::UnitX() : Eigen::Vector3d::UnitY();
+  const Eigen::Vector3d helper = std::abs(axis.x()) < 0.6 ? Eigen::Vector3d::UnitX() : Eigen::Vector3d::UnitY();
   const Eigen::Vector3d u = (helper - helper.dot(axis) * axis).normalized();
   return centre + height * axis + radius * (std::cos(angle) * u + std::sin(angle) * axis.cross(u));
 }

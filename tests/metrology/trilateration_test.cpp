@@ -49,7 +49,7 @@ TEST(Trilaterate, TheSamePointWhicheverReflectorIsTheOrigin) {
     if (first->height_squared < 1e-2) continue;  // near the reflectors' plane the root magnifies rounding
     for (std::size_t shift = 1; shift < 3; ++shift) {
       const auto turned = metrology::trilaterate({points[shift], points[(shift + 1) % 3], points[(shift + 2) % 3]},
-                                      {radii[shift], radii[(shift + 1) % 3], radii[(shift + 2) % 3]});
+                                                 {radii[shift], radii[(shift + 1) % 3], radii[(shift + 2) % 3]});
       ASSERT_TRUE(turned);
       // A cyclic permutation keeps the side of e_z, so the roots keep their order. Rounding, over sides of
       // decimetres.
@@ -68,8 +68,7 @@ TEST(Trilaterate, RootsLieOnAllThreeSpheres) {
     const Eigen::Vector3d wrist = noise.normal3();
     Points points;
     Radii radii;
-    for (std::size_t i = 0; i < 3; ++i)
-      points[i] = wrist + noise.normal3(), radii[i] = (points[i] - wrist).norm();
+    for (std::size_t i = 0; i < 3; ++i) points[i] = wrist + noise.normal3(), radii[i] = (points[i] - wrist).norm();
     const auto both = metrology::trilaterate(points, radii);
     ASSERT_TRUE(both);
     for (const Eigen::Vector3d& root : both->roots) {
@@ -88,12 +87,12 @@ TEST(Trilaterate, SpheresThatDoNotMeet) {
 }
 
 TEST(Trilaterate, RefusesReflectorsInOneLineOrPlace) {
-  EXPECT_FALSE(
-      metrology::trilaterate({Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(1, 1, 0), Eigen::Vector3d(3, 3, 0)}, {1, 1, 1}));
-  EXPECT_FALSE(
-      metrology::trilaterate({Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(3, 3, 0)}, {1, 1, 1}));
-  EXPECT_FALSE(
-      metrology::trilaterate({Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(0, 2, 0), Eigen::Vector3d(1, 0, 0)}, {1, 1, 1}));
+  EXPECT_FALSE(metrology::trilaterate({Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(1, 1, 0), Eigen::Vector3d(3, 3, 0)},
+                                      {1, 1, 1}));
+  EXPECT_FALSE(metrology::trilaterate({Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(3, 3, 0)},
+                                      {1, 1, 1}));
+  EXPECT_FALSE(metrology::trilaterate({Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(0, 2, 0), Eigen::Vector3d(1, 0, 0)},
+                                      {1, 1, 1}));
 }
 
 TEST(NearerRoot, TakesTheOneAsked) {
@@ -123,12 +122,10 @@ TEST(Trilaterate, PublishedPlaneCaseFindsTheTruthNotTheMirrorMinimum) {
   const Eigen::Vector3d truth = vector(one["truth"]);
   Points points;
   Radii radii;
-  for (std::size_t i = 0; i < 3; ++i)
-    points[i] = vector(one["anchors"][i]), radii[i] = (points[i] - truth).norm();
+  for (std::size_t i = 0; i < 3; ++i) points[i] = vector(one["anchors"][i]), radii[i] = (points[i] - truth).norm();
   const auto both = metrology::trilaterate(points, radii);
   ASSERT_TRUE(both);
-  for (const Eigen::Vector3d& root : both->roots)
-    EXPECT_LT((root - truth).norm(), 1e-6);  // root of rounding, 1e-13
+  for (const Eigen::Vector3d& root : both->roots) EXPECT_LT((root - truth).norm(), 1e-6);  // root of rounding, 1e-13
 }
 
 }  // namespace

@@ -18,8 +18,7 @@ render::ArmScene scene(render::View view) {
   scene.measured_name.clear();
   scene.predicted_name.clear();
   render::ArmPose pose;
-  pose.joint_points = {{0, 0, 0},   {0.4, 0, 0.9}, {0.4, 0, 2.0}, {0.6, 0, 2.1},
-                       {2, 0, 2.1}, {2, 0, 2.1},   {2.3, 0, 2.1}};
+  pose.joint_points = {{0, 0, 0}, {0.4, 0, 0.9}, {0.4, 0, 2.0}, {0.6, 0, 2.1}, {2, 0, 2.1}, {2, 0, 2.1}, {2.3, 0, 2.1}};
   pose.axis_directions = {Vector3d::UnitZ(), Vector3d::UnitY(), Vector3d::UnitY(),
                           Vector3d::UnitX(), Vector3d::UnitY(), Vector3d::UnitX()};
   pose.wrist = render::ScenePoint{"P_{wrist}", {2, 0, 2.1}, {}, {}};
@@ -212,8 +211,7 @@ TEST(ArmPicture, GhostsAndTargetsAreNotClipped) {
   for (const render::View view : {render::View::Oblique, render::View::Front, render::View::Side, render::View::Top}) {
     render::ArmScene drawn = scene(view);
     drawn.title = "Deflection";
-    drawn.poses[0].targets = {
-        {"P_{10}", {2.4, 0.2, 2.3}, Vector3d(0.001, 0, -0.003), Vector3d(0.001, 0, -0.002)}};
+    drawn.poses[0].targets = {{"P_{10}", {2.4, 0.2, 2.3}, Vector3d(0.001, 0, -0.003), Vector3d(0.001, 0, -0.002)}};
     drawn.poses.push_back(drawn.poses[0]);
     drawn.poses[1].ghost = true;
     for (Vector3d& point : drawn.poses[1].joint_points) point = {-point.y(), point.x(), point.z()};

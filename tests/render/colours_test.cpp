@@ -19,8 +19,8 @@ Eigen::Vector3d lab(const Eigen::Vector3d& rgb) {
   Eigen::Matrix3d xyz_from_rgb;
   xyz_from_rgb << 0.4124, 0.3576, 0.1805, 0.2126, 0.7152, 0.0722, 0.0193, 0.1192, 0.9505;
   const Eigen::Vector3d xyz = (xyz_from_rgb * rgb).cwiseQuotient(Eigen::Vector3d(0.9505, 1.0, 1.089));
-  const Eigen::Vector3d f = xyz.unaryExpr(
-      [](double t) { return t > 216.0 / 24389.0 ? std::cbrt(t) : (24389.0 / 27.0 * t + 16.0) / 116.0; });
+  const Eigen::Vector3d f =
+      xyz.unaryExpr([](double t) { return t > 216.0 / 24389.0 ? std::cbrt(t) : (24389.0 / 27.0 * t + 16.0) / 116.0; });
   return {116.0 * f.y() - 16.0, 500.0 * (f.x() - f.y()), 200.0 * (f.y() - f.z())};
 }
 
@@ -77,7 +77,9 @@ TEST(Colours, OfASceneStayApartOnLightAndDark) {
   }
 }
 
-TEST(Colours, OfTheMethodsToo) { expectApart({render::colours::kNone, render::colours::kCp, render::colours::kPp, render::colours::kDpp}); }
+TEST(Colours, OfTheMethodsToo) {
+  expectApart({render::colours::kNone, render::colours::kCp, render::colours::kPp, render::colours::kDpp});
+}
 
 }  // namespace
 }  // namespace stiffscope

@@ -60,8 +60,7 @@ TEST(DotRows, FitsWhateverItIsGiven) {
   chart.reference = 3.0;
   chart.reference_name = "limit";
   for (int i = 0; i < 16; ++i)
-    chart.rows.push_back(
-        {std::string(80, 'w'), i % 3 ? std::pow(10.0, i % 5) : NAN, std::string(400, 'x'), i == 4});
+    chart.rows.push_back({std::string(80, 'w'), i % 3 ? std::pow(10.0, i % 5) : NAN, std::string(400, 'x'), i == 4});
   for (std::size_t i = 0; i < 20; ++i) chart.groups.push_back({i % 16, (i + 5) % 16});
   expectNothingClipped(decoded(render::render(chart)));
   expectNothingClipped(decoded(render::render(chart, {480, 320})));
@@ -74,8 +73,7 @@ TEST(DotRows, RefusesAGroupOfARowThatThereIsNot) {
     render::render(chart);
     FAIL() << "accepted";
   } catch (const std::invalid_argument& error) {
-    EXPECT_NE(std::string(error.what()).find("a group of rows 0, 7, expected two or more of 3"),
-              std::string::npos)
+    EXPECT_NE(std::string(error.what()).find("a group of rows 0, 7, expected two or more of 3"), std::string::npos)
         << error.what();
   }
 }

@@ -94,8 +94,7 @@ TEST(GroupedBars, WhiskerIsAsLongAsItsError) {
   const cv::Rect first = bars[0], second = bars[1];
   // Above the middle of the second bar there is ink for an eighth of its height; the first has no whisker.
   const auto inkAbove = [&picture](const cv::Rect& bar, int height) {
-    const cv::Mat dark =
-        picture(cv::Rect(bar.x + bar.width / 2 - 2, bar.y - height, 4, height)) < cv::Scalar::all(110);
+    const cv::Mat dark = picture(cv::Rect(bar.x + bar.width / 2 - 2, bar.y - height, 4, height)) < cv::Scalar::all(110);
     cv::Mat rows;
     std::vector<cv::Mat> channels;
     cv::split(dark, channels);

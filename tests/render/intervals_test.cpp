@@ -43,7 +43,8 @@ TEST(Intervals, DoubtfulPointIsHollow) {
   const auto colourInside = [&picture](const cv::Rect& r) {
     return picture.at<cv::Vec3b>(r.y + r.height / 2, r.x + r.width / 2);
   };
-  EXPECT_EQ(colourInside(points[0]), cv::Vec3b(render::colours::kDpp.blue, render::colours::kDpp.green, render::colours::kDpp.red));
+  EXPECT_EQ(colourInside(points[0]),
+            cv::Vec3b(render::colours::kDpp.blue, render::colours::kDpp.green, render::colours::kDpp.red));
   EXPECT_EQ(colourInside(points[1]), cv::Vec3b(255, 255, 255));
 }
 
@@ -68,8 +69,7 @@ TEST(Intervals, RefusesAnIntervalWithoutItsValue) {
     render::render(plain({{5, 6, 7}}));
     FAIL() << "accepted";
   } catch (const std::invalid_argument& error) {
-    EXPECT_NE(std::string(error.what()).find("has 5 in an interval from 6 to 7"), std::string::npos)
-        << error.what();
+    EXPECT_NE(std::string(error.what()).find("has 5 in an interval from 6 to 7"), std::string::npos) << error.what();
   }
 }
 

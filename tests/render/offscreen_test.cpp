@@ -89,9 +89,8 @@ TEST(Offscreen, MissingFontIsSaid) {
     render::render(titled("no font"));
     ADD_FAILURE() << "drew without a font";
   } catch (const std::runtime_error& error) {
-    EXPECT_NE(
-        std::string(error.what()).find("no DejaVuSans.ttf and DejaVuSans-Bold.ttf in /nonexistent/fonts"),
-        std::string::npos)
+    EXPECT_NE(std::string(error.what()).find("no DejaVuSans.ttf and DejaVuSans-Bold.ttf in /nonexistent/fonts"),
+              std::string::npos)
         << error.what();
   }
   unsetenv("STIFFSCOPE_FONTS");

@@ -80,8 +80,12 @@ TEST(PointChart, AShapeIsTrueToScale) {
 TEST(PointChart, AHostileTitleLeavesThePlotItsRoom) {
   render::PointChart plain = postures(19, 1), hostile = plain;
   plain.title = "Two lines of a title " + std::string(120, 'i');
-  for (const std::string& name : {std::string(10'000, 'W'), std::string("<script>alert(\"1\")</script>\n\u202E\u05d0\u05d1"),
-                                  [] { std::string words; while (words.size() < 10'000) words += "many words "; return words; }()}) {
+  for (const std::string& name :
+       {std::string(10'000, 'W'), std::string("<script>alert(\"1\")</script>\n\u202E\u05d0\u05d1"), [] {
+          std::string words;
+          while (words.size() < 10'000) words += "many words ";
+          return words;
+        }()}) {
     hostile.title = name;
     hostile.subtitle = name;
     const auto start = std::chrono::steady_clock::now();

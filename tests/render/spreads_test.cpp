@@ -16,12 +16,11 @@ render::SpreadChart panels(std::vector<std::optional<render::Spread>> spreads) {
   return chart;
 }
 
-std::vector<cv::Rect> outlines(const cv::Mat& picture) {
-  return piecesOf(maskOf(picture, render::colours::kPp), 100);
-}
+std::vector<cv::Rect> outlines(const cv::Mat& picture) { return piecesOf(maskOf(picture, render::colours::kPp), 100); }
 
 TEST(Spreads, BoxesAndWhiskersFollowThePercentiles) {
-  const cv::Mat picture = decoded(render::render(panels({render::Spread{1, 2, 3, 4, 5, 3}, render::Spread{1, 1.5, 3, 4.5, 9, 3}})));
+  const cv::Mat picture =
+      decoded(render::render(panels({render::Spread{1, 2, 3, 4, 5, 3}, render::Spread{1, 1.5, 3, 4.5, 9, 3}})));
   const auto boxes = outlines(picture);
   ASSERT_EQ(boxes.size(), 2u);
   // Whole pieces run from the 5 % to the 95 % whisker.
@@ -44,8 +43,7 @@ TEST(Spreads, TailBeyondTheAxisIsCutWithAnArrow) {
   // The arrow: at the top of the heavy one the ink is pointed, and widens below the tip.
   const cv::Mat mask = maskOf(picture, render::colours::kPp);
   EXPECT_LT(cv::countNonZero(mask.row(cut[1].y)(cv::Range::all(), cv::Range(cut[1].x, cut[1].br().x))), 4);
-  EXPECT_GT(cv::countNonZero(mask.row(cut[1].y + 8)(cv::Range::all(), cv::Range(cut[1].x, cut[1].br().x))),
-            6);
+  EXPECT_GT(cv::countNonZero(mask.row(cut[1].y + 8)(cv::Range::all(), cv::Range(cut[1].x, cut[1].br().x))), 6);
   // The mean is printed above it.
   const cv::Rect above(cut[1].x - 40, cut[1].y - 22, cut[1].width + 80, 18);
   EXPECT_GT(cv::countNonZero(inkOf(picture)(above)), 60);
@@ -73,7 +71,8 @@ TEST(Spreads, MissingSpreadLeavesAGap) {
 
 TEST(Spreads, ManyPanelsAndConstantValuesAreNotClipped) {
   for (const std::size_t count : {1, 6, 12, 20}) {
-    render::SpreadChart chart = panels(std::vector<std::optional<render::Spread>>(count, render::Spread{2, 2, 2, 2, 2, 2}));
+    render::SpreadChart chart =
+        panels(std::vector<std::optional<render::Spread>>(count, render::Spread{2, 2, 2, 2, 2, 2}));
     chart.axis = render::SpreadAxis::OwnPerPanel;
     expectNothingClipped(decoded(render::render(chart)));
   }

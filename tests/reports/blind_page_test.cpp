@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 #include <tinyxml2.h>
 #include "core/validation/run_blind.h"
-#include "reports/json/json_document.h"
 #include "reports/json/json.h"
+#include "reports/json/json_document.h"
 #include "reports/page/validation_page.h"
 #include "reports/text/text.h"
 

@@ -21,7 +21,8 @@ TEST(CsvTable, AHeaderThatNamesBothIsSplitToo) {
 }
 
 TEST(CsvTable, GroupsAndRemarksStandInEveryRow) {
-  const reports::Table table{"c", {"At", "Method", "Value"}, {{"wrist", {{"CP", reports::Cell("1", "negative a")}, {"PP", "2"}}}}};
+  const reports::Table table{
+      "c", {"At", "Method", "Value"}, {{"wrist", {{"CP", reports::Cell("1", "negative a")}, {"PP", "2"}}}}};
   EXPECT_EQ(reports::csvTable(table), "At,Method,Value,Remark\r\nwrist,CP,1,negative a\r\nwrist,PP,2,\r\n");
 }
 

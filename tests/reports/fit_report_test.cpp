@@ -92,7 +92,8 @@ TEST(FitJson, UndeterminedGivesTheReasonAndNoNumber) {
 }
 
 TEST(FitText, NamesEachParameterWithItsStandardUncertainty) {
-  const metrology::FittedSphere sphere = metrology::fitSphere({{{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1.2}}, {}});
+  const metrology::FittedSphere sphere =
+      metrology::fitSphere({{{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1.2}}, {}});
   const std::string text = reports::fitText({"sphere", 6, sphere, std::nullopt});
   EXPECT_EQ(text.find("sphere through 6 points"), 0u);
   for (const char* name : {"center_x", "center_y", "center_z", "radius", "standard unc.", "2 degrees of freedom"}) {

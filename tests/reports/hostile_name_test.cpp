@@ -1,9 +1,9 @@
 #include <gtest/gtest.h>
 #include <tinyxml2.h>
 #include "reports/page/html.h"
-#include "reports/words/names.h"
-#include "reports/report_content.h"
 #include "reports/page/report_page.h"
+#include "reports/report_content.h"
+#include "reports/words/names.h"
 #include "reports/words/verdict.h"
 #include "tests/reports/small_result.h"
 
@@ -41,9 +41,9 @@ TEST(HostileName, ChangesNothingButItsOwnText) {
   const SmallResult harmless;
   const std::string expected = skeletonOf(page::reportPage(contentOf(harmless)));
   for (const std::string& name :
-       {std::string("<script>alert(1)</script>"), std::string("\"'><img src=x onerror=alert(1)>"), std::string(10'000, 'x'),
-        std::string("\u202Eright to left \u05d0\u05d1\u05d2"), std::string("two\nlines\r\n\x1b[31mred"),
-        std::string("sub_{script} `code` & &amp; \xff\xfe")}) {
+       {std::string("<script>alert(1)</script>"), std::string("\"'><img src=x onerror=alert(1)>"),
+        std::string(10'000, 'x'), std::string("\u202Eright to left \u05d0\u05d1\u05d2"),
+        std::string("two\nlines\r\n\x1b[31mred"), std::string("sub_{script} `code` & &amp; \xff\xfe")}) {
     SmallResult hostile;
     hostile.campaign.name = name;
     hostile.campaign.date = name;
@@ -106,7 +106,8 @@ TEST(Page, EveryTableIsAFileToo) {
   const SmallResult small;
   const page::ReportPage page = page::makeReportPage(contentOf(small));
   std::size_t on_page = 0;
-  for (std::size_t at = page.html.find("<table"); at != std::string::npos; at = page.html.find("<table", at + 1)) ++on_page;
+  for (std::size_t at = page.html.find("<table"); at != std::string::npos; at = page.html.find("<table", at + 1))
+    ++on_page;
   EXPECT_EQ(page.tables.size(), on_page);
   std::vector<std::string> names;
   for (const reports::TableFile& table : page.tables) names.push_back(table.name);

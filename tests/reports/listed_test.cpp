@@ -11,7 +11,8 @@ namespace {
 std::vector<std::string> squares(int count, std::size_t most = reports::kMostListed) {
   std::vector<int> numbers;
   for (int i = 1; i <= count; ++i) numbers.push_back(i);
-  return reports::listed(numbers, [](int i) { return std::to_string(i * i); }, reports::kListedInJson, most);
+  return reports::listed(
+      numbers, [](int i) { return std::to_string(i * i); }, reports::kListedInJson, most);
 }
 
 TEST(Listed, TenAreShownWhole) {

@@ -29,8 +29,7 @@ void parse(const std::string& page, tinyxml2::XMLDocument& document) {
   ASSERT_EQ(document.Parse(page.c_str(), page.size()), tinyxml2::XML_SUCCESS) << document.ErrorStr();
 }
 
-void eachElement(const tinyxml2::XMLElement* from,
-                 const std::function<void(const tinyxml2::XMLElement&)>& see) {
+void eachElement(const tinyxml2::XMLElement* from, const std::function<void(const tinyxml2::XMLElement&)>& see) {
   for (; from != nullptr; from = from->NextSiblingElement()) {
     see(*from);
     eachElement(from->FirstChildElement(), see);
@@ -48,8 +47,8 @@ TEST(Page, EverySectionIsThereInOrder) {
   const SmallResult small;
   const std::string page = page::reportPage(contentOf(small));
   std::size_t at = 0;
-  for (const char* id : {"conditions", "wrist", "links", "stiffness", "subsets", "compensation", "figures",
-                         "left-out", "provenance", "versions"}) {
+  for (const char* id : {"conditions", "wrist", "links", "stiffness", "subsets", "compensation", "figures", "left-out",
+                         "provenance", "versions"}) {
     const std::size_t found = page.find("<section id=\"" + std::string(id) + "\">", at);
     ASSERT_NE(found, std::string::npos) << id;
     at = found;
@@ -158,8 +157,8 @@ TEST(Page, WhatIsMissingSaysWhy) {
 TEST(Page, NumbersAreThoseOfTheResult) {
   const SmallResult small;
   const std::string page = page::reportPage(contentOf(small));
-  EXPECT_TRUE(has(page, "2.00\u00a0mm"));    // the mean of 1, 3 and 2
-  EXPECT_TRUE(has(page, ">85\u00a0%<"));     // held out
+  EXPECT_TRUE(has(page, "2.00\u00a0mm"));  // the mean of 1, 3 and 2
+  EXPECT_TRUE(has(page, ">85\u00a0%<"));   // held out
   // One degree of freedom, t = 12.71 (any table).
   EXPECT_TRUE(has(page, "12.71 for PP (1.0 degree of freedom)"));
   EXPECT_TRUE(has(page, "5.0 ± 6.4"));     // 1/0.2e-6, a tenth of it times 12.71
@@ -182,10 +181,19 @@ TEST(Page, TheAuditWithItsLimitsAndRejectedReadings) {
   const SmallResult small;
   audit::AuditReport audited;
   audited.verdict = preparation::AuditVerdict::fail;
-  audited.checks = {{"station_drift", preparation::AuditVerdict::warn, 12.5, 10.0, "um", "900 s", "it moved", "chi-square", {}},
-                    {"lost_beam", preparation::AuditVerdict::fail, 1.0, 0.0, "readings", "loading.csv:7", "one lost", "none is", {}},
-                    {"tare", preparation::AuditVerdict::not_testable, {}, {}, "", "", "no load cell", "", {}},
-                    {"posture_set", preparation::AuditVerdict::pass, 2.6, 100.0, "condition", "", "fine", "practice", {"joint 1: seen"}}};
+  audited.checks = {
+      {"station_drift", preparation::AuditVerdict::warn, 12.5, 10.0, "um", "900 s", "it moved", "chi-square", {}},
+      {"lost_beam", preparation::AuditVerdict::fail, 1.0, 0.0, "readings", "loading.csv:7", "one lost", "none is", {}},
+      {"tare", preparation::AuditVerdict::not_testable, {}, {}, "", "", "no load cell", "", {}},
+      {"posture_set",
+       preparation::AuditVerdict::pass,
+       2.6,
+       100.0,
+       "condition",
+       "",
+       "fine",
+       "practice",
+       {"joint 1: seen"}}};
   audited.rejected = {{"loading.csv", 7, "lost beam"}};
   preparation::Preparation preparation;
   preparation.rejected = audited.rejected;
@@ -206,8 +214,9 @@ TEST(Page, TheAuditWithItsLimitsAndRejectedReadings) {
   EXPECT_TRUE(has(page, "joint 1: seen"));
   EXPECT_TRUE(has(page, "1 reading rejected and left out of everything on this page"));
   EXPECT_TRUE(has(page, "loading.csv:7: lost beam"));
-  EXPECT_TRUE(has(page, "1 left out; the station's motion by the floor nests taken off 100 of them: at most 0.500 mm and "
-                        "20 µrad, a drift over 3600 s; 4 state no time and stay as they were read"));
+  EXPECT_TRUE(has(page,
+                  "1 left out; the station's motion by the floor nests taken off 100 of them: at most 0.500 mm and "
+                  "20 µrad, a drift over 3600 s; 4 state no time and stay as they were read"));
   preparation.raw = true;
   EXPECT_TRUE(has(page::reportPage(content), "but used all the same"));
 }
@@ -241,7 +250,9 @@ TEST(Page, TheTileCountsOnlyTrustedStiffnesses) {
   EXPECT_TRUE(has(page::reportPage(contentOf(small)), "<b>5 of 6</b><span>joint stiffnesses found by DPP</span>"));
   small.method(identification::Method::decoupled_partial_pose).estimate.compliance[3] = -4e-6;
   const std::string page = page::reportPage(contentOf(small));
-  EXPECT_TRUE(has(page, "<b>4 of 6</b><span>joint stiffnesses found by DPP; k<sub>4</sub> is not to be trusted and not counted</span>"));
+  EXPECT_TRUE(has(
+      page,
+      "<b>4 of 6</b><span>joint stiffnesses found by DPP; k<sub>4</sub> is not to be trusted and not counted</span>"));
   EXPECT_TRUE(has(page, "k<sub>4</sub> is not to be trusted."));  // the verdict's words
   small.method(identification::Method::decoupled_partial_pose).estimate.compliance[5] = -4e-6;
   EXPECT_TRUE(has(page::reportPage(contentOf(small)), "k<sub>4</sub>, k<sub>6</sub> are not to be trusted."));
@@ -269,7 +280,7 @@ TEST(Page, TheSameContentGivesTheSameBytes) {
 TEST(Avoided, AgainstTheSumsByHand) {
   const SmallResult inactive(campaign::DoubleEncoder::inactive, 2.0), active(campaign::DoubleEncoder::active, 1.0);
   const std::vector<reports::ReportCampaign> both{{active.campaign, active.identification},
-                                         {inactive.campaign, inactive.identification}};
+                                                  {inactive.campaign, inactive.identification}};
   const auto avoided = reports::avoidedByEncoders(both);
   ASSERT_TRUE(avoided.has_value());
   EXPECT_DOUBLE_EQ(avoided->share, 0.5);
@@ -307,7 +318,8 @@ TEST(Page, CampaignsOfDifferentMachinesAreNamed) {
   EXPECT_TRUE(has(page::reportPage(content), "<li>small and small: the URDFs name different machines: "));
   EXPECT_TRUE(has(page::reportPage(content), "a &lt;second&gt; arm."));
   other.campaign.robot.axes_in_base_at_zero[2].point.x() += 0.2;
-  EXPECT_TRUE(has(page::reportPage(content), "the URDFs describe different machines: axis 3 stands 200.0 mm elsewhere."));
+  EXPECT_TRUE(
+      has(page::reportPage(content), "the URDFs describe different machines: axis 3 stands 200.0 mm elsewhere."));
 }
 
 TEST(Page, ARealCampaignWithoutWrist) {

@@ -37,7 +37,9 @@ struct SmallResult {
     method(identification::Method::partial_pose).estimate.compliance[3] = -4e-6;
   }
 
-  identification::MethodResult& method(identification::Method which) { return identification.methods[static_cast<std::size_t>(which)]; }
+  identification::MethodResult& method(identification::Method which) {
+    return identification.methods[static_cast<std::size_t>(which)];
+  }
 
  private:
   void addCase(int pose, double displacement) {
@@ -78,8 +80,7 @@ struct SmallResult {
     result.subsets.size = 2;
     result.subsets.of = 3;
     result.subsets.every_subset = true;
-    for (const double factor : {0.9, 1.0, 1.1})
-      result.subsets.compliances.push_back(factor * estimate.compliance);
+    for (const double factor : {0.9, 1.0, 1.1}) result.subsets.compliances.push_back(factor * estimate.compliance);
     result.at_wrist = identification::Compensation{1.0 - share, {0.95, 0.85, 0.9}};
     result.at_targets = identification::Compensation{1.0 - share, {0.94, 0.84, 0.89}};
   }

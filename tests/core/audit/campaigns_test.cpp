@@ -13,19 +13,20 @@ std::filesystem::path shared(const std::string& folder) {
   return std::filesystem::path(STIFFSCOPE_SHARED_DIR) / folder;
 }
 
-audit::AuditReport auditOf(const std::string& folder) { return audit::audit(campaign::readCampaign(shared(folder)).campaign); }
+audit::AuditReport auditOf(const std::string& folder) {
+  return audit::audit(campaign::readCampaign(shared(folder)).campaign);
+}
 
 std::vector<preparation::AuditCheck> found(const audit::AuditReport& report) {
   std::vector<preparation::AuditCheck> beyond;
   for (const preparation::AuditCheck& check : report.checks) {
-    if (check.verdict == preparation::AuditVerdict::warn || check.verdict == preparation::AuditVerdict::fail) beyond.push_back(check);
+    if (check.verdict == preparation::AuditVerdict::warn || check.verdict == preparation::AuditVerdict::fail)
+      beyond.push_back(check);
   }
   return beyond;
 }
 
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
+bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 class PracticeAudit : public testing::Test {
  protected:
@@ -65,8 +66,7 @@ TEST_F(PracticeAudit, SaysWhatMoved) {
 }
 
 TEST(RealSweeps, ReflectorOnTheAxisAndTheShortArc) {
-  if (!std::filesystem::exists(shared("real")))
-    GTEST_SKIP() << "the real campaigns are not beside the checkout";
+  if (!std::filesystem::exists(shared("real"))) GTEST_SKIP() << "the real campaigns are not beside the checkout";
   const audit::AuditReport report = auditOf("real/fanuc-r2000ic-sweeps");
   bool arc = false, on_axis = false;
   for (const preparation::AuditCheck& check : report.checks) {

@@ -5,8 +5,8 @@
 #include <cstdlib>
 #include <map>
 #include "core/audit/audit.h"
-#include "core/simulation/read_spec.h"
 #include "core/simulation/measure.h"
+#include "core/simulation/read_spec.h"
 
 // False alarms: days of the samples' machine without bearings that give and with small geometry errors, whose
 // only errors are the declared noise. STIFFSCOPE_AUDIT_DAYS=200 in the environment simulates as many days
@@ -47,7 +47,8 @@ Tally auditDays(int days, std::uint64_t first_seed, double noise_factor) {
     tally.with_finding += report.verdict != preparation::AuditVerdict::pass;
     for (const preparation::AuditCheck& check : report.checks) {
       if (check.value) tally.mean_squares[check.id] += *check.value * *check.value / days;
-      if (check.verdict != preparation::AuditVerdict::warn && check.verdict != preparation::AuditVerdict::fail) continue;
+      if (check.verdict != preparation::AuditVerdict::warn && check.verdict != preparation::AuditVerdict::fail)
+        continue;
       ++tally.findings[check.id];
       if (days > 20) fmt::print("seed {}: {}: {}\n", seed, check.id, check.message);
     }

@@ -26,7 +26,8 @@ std::vector<std::string> besides(const audit::AuditReport& report, const std::ve
 #define EXPECT_ONLY(report, ...) \
   EXPECT_EQ(besides(report, std::vector<std::string>(__VA_ARGS__)), std::vector<std::string>{})
 
-campaign::LoadingReading& reading(campaign::Campaign& campaign, int pose, int step, const std::string& repeat, int target) {
+campaign::LoadingReading& reading(campaign::Campaign& campaign, int pose, int step, const std::string& repeat,
+                                  int target) {
   for (campaign::LoadingReading& row : campaign.loading->rows) {
     if (row.pose == pose && row.step == step && row.repeat == repeat && row.target == target) return row;
   }
@@ -244,7 +245,8 @@ TEST(SpoiltCampaign, WideArcsOfFewReadingsOfOneReflector) {
 
 TEST(SpoiltCampaign, OneReadingOffItsCircleIsNamed) {
   // The bearings' misfit runs along the sweep; a reading 2 mm off is another matter.
-  EXPECT_TRUE(contains(checkNamed(goodReport(), "circle_residual").message, "that of axes 3, 4, 5 runs along the sweep"));
+  EXPECT_TRUE(
+      contains(checkNamed(goodReport(), "circle_residual").message, "that of axes 3, 4, 5 runs along the sweep"));
   std::size_t line = 0;
   const audit::AuditReport report = auditSpoilt([&](campaign::Campaign& campaign) {
     for (campaign::CircleReading& row : campaign.circle_sweeps->rows) {
@@ -254,15 +256,15 @@ TEST(SpoiltCampaign, OneReadingOffItsCircleIsNamed) {
     }
   });
   const preparation::AuditCheck& check = checkNamed(report, "circle_residual");
-  EXPECT_TRUE(contains(check.message, fmt::format("most of that of axis 6 is the one reading circle_sweeps.csv:{}", line)))
+  EXPECT_TRUE(
+      contains(check.message, fmt::format("most of that of axis 6 is the one reading circle_sweeps.csv:{}", line)))
       << check.message;
 }
 
 TEST(SpoiltCampaign, AMaximumPermissibleErrorDeclaredAsSigma) {
   const audit::AuditReport report = auditSpoilt([](campaign::Campaign& campaign) {
     campaign::Tracker& tracker = *campaign.tracker;
-    for (double* figure :
-         {&tracker.range_fixed, &tracker.range_per_m, &tracker.angle_fixed, &tracker.angle_per_m})
+    for (double* figure : {&tracker.range_fixed, &tracker.range_per_m, &tracker.angle_fixed, &tracker.angle_per_m})
       *figure *= 2.5;
   });
   const preparation::AuditCheck& check = checkNamed(report, "repeatability_across");

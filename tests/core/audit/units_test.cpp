@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include "core/identification/warnings.h"
 #include "core/identification/identify.h"
+#include "core/identification/warnings.h"
 #include "core/io/units.h"
 #include "tests/fixtures/spoilt_campaign.h"
 
@@ -50,7 +50,8 @@ TEST(SpoiltCampaign, IdentifyCautionsOfForcesInAnotherUnit) {
   const auto cautions = identification::identify(campaign).cautions;
   ASSERT_FALSE(cautions.empty());
   EXPECT_TRUE(contains(cautions[0], "forces (kN for N)")) << cautions[0];
-  for (const std::string& caution : identification::identify(good()).cautions) EXPECT_FALSE(contains(caution, "another unit")) << caution;
+  for (const std::string& caution : identification::identify(good()).cautions)
+    EXPECT_FALSE(contains(caution, "another unit")) << caution;
 }
 
 TEST(SpoiltCampaign, MomentsInAnotherUnitFail) {
@@ -85,7 +86,8 @@ TEST(SpoiltCampaign, MetresUnderMillimetresFail) {
 
 TEST(SpoiltCampaign, SweepsInRadiansFail) {
   EXPECT_EQ(checkNamed(goodReport(), "sweep_angles").verdict, preparation::AuditVerdict::pass);
-  EXPECT_LT(*checkNamed(goodReport(), "sweep_angles").value, 1.01);  // sag turns joints by milliradians, of a radian or two
+  EXPECT_LT(*checkNamed(goodReport(), "sweep_angles").value,
+            1.01);  // sag turns joints by milliradians, of a radian or two
   const audit::AuditReport report = auditSpoilt([](campaign::Campaign& campaign) {
     for (campaign::CircleReading& row : campaign.circle_sweeps->rows) row.q *= io::kDegree;
   });
@@ -140,9 +142,10 @@ TEST(ApparentStiffness, ByHand) {
   const auto found = identification::apparentStiffness({load_case, load_case});
   ASSERT_TRUE(found);
   EXPECT_DOUBLE_EQ(found->force, 1000.0);
-  EXPECT_DOUBLE_EQ(found->displacement, 5e-3);  // root of (1 + 49) / 2
-  EXPECT_EQ(identification::implausibleLoad(*found), "");       // 2e5 N/m
-  EXPECT_EQ(identification::implausibleLoad({1.0, 5e-3}).rfind("1 N rms move the reflectors by 5 mm rms, 0.2 N/mm", 0), 0u)
+  EXPECT_DOUBLE_EQ(found->displacement, 5e-3);             // root of (1 + 49) / 2
+  EXPECT_EQ(identification::implausibleLoad(*found), "");  // 2e5 N/m
+  EXPECT_EQ(identification::implausibleLoad({1.0, 5e-3}).rfind("1 N rms move the reflectors by 5 mm rms, 0.2 N/mm", 0),
+            0u)
       << identification::implausibleLoad({1.0, 5e-3});
   EXPECT_TRUE(contains(identification::implausibleLoad({1000.0, 5e-6}), "lengths (m for mm)"));
   load_case.wrench.force.setZero();  // a moment alone

@@ -53,7 +53,8 @@ TEST(CheckCampaign, OfTwoReadingsWithoutStateTheFirstIsNamed) {
     FAIL() << "expected an error";
   } catch (const io::InputError& error) {
     EXPECT_STREQ(error.what(),
-                 "campaign/displacements.csv:40002: pose, step: 'P40000, 2': expected a load state that states.csv has a row for");
+                 "campaign/displacements.csv:40002: pose, step: 'P40000, 2': expected a load state that states.csv has "
+                 "a row for");
   }
 }
 
@@ -68,13 +69,15 @@ TEST(CheckCampaign, AnglesOutsideLimitsAreCountedOverAllRowsAndTheFirstNamed) {
   campaign::Campaign campaign = longCampaign();
   // Half a degree within the margin of five, and beyond it, below and above.
   campaign.states->rows[10].q[2] = 184.5 * io::kDegree;
-  for (const int row : {33'000, 66'000}) campaign.states->rows[static_cast<std::size_t>(row)].q[2] = 190.0 * io::kDegree;
+  for (const int row : {33'000, 66'000})
+    campaign.states->rows[static_cast<std::size_t>(row)].q[2] = 190.0 * io::kDegree;
   campaign.states->rows[69'999].q[5] = -190.0 * io::kDegree;
   std::vector<std::string> warnings;
   campaign::checkCampaign(campaign, warnings);
   ASSERT_EQ(warnings.size(), 2u);
-  EXPECT_EQ(warnings[0], "campaign/states.csv:33002: q3_deg: '190.00': more than 5 deg outside the limits of joint 3 "
-                         "(-180.00 to 180.00 deg); rows like this: 2");
+  EXPECT_EQ(warnings[0],
+            "campaign/states.csv:33002: q3_deg: '190.00': more than 5 deg outside the limits of joint 3 "
+            "(-180.00 to 180.00 deg); rows like this: 2");
   EXPECT_NE(warnings[1].find("campaign/states.csv:70001: q6_deg: '-190.00'"), std::string::npos) << warnings[1];
 }
 

@@ -88,9 +88,8 @@ TEST(ReadCampaign, ListsItsFilesWithTheHashOfTheirBytes) {
 
 TEST(ReadCampaign, TakesColumnsInAnyOrderWithCrlfMarkBlankLinesQuotesAndPlus) {
   const SmallCampaign files;
-  files.write(
-      "nests.csv",
-      "\xEF\xBB\xBFz_mm, nest ,y_mm,x_mm,time_s\r\n\r\n+3,\"N 1\",2,1e3,+0.5\r\n \r\n3,N2,2,-1,1\r\n");
+  files.write("nests.csv",
+              "\xEF\xBB\xBFz_mm, nest ,y_mm,x_mm,time_s\r\n\r\n+3,\"N 1\",2,1e3,+0.5\r\n \r\n3,N2,2,-1,1\r\n");
   const campaign::CampaignReading reading = campaign::readCampaign(files.folder());
   EXPECT_TRUE(reading.warnings.empty()) << shown(reading.warnings);
   const auto& rows = reading.campaign.nests->rows;
@@ -170,8 +169,7 @@ TEST(ReadCampaign, ReadsALargeTableInLinearTime) {
   std::string rows = "pose,step,repeat,target,time_s,x_mm,y_mm,z_mm\n";
   // About 40 MB; a cost that grows with the square would take hours.
   constexpr int kRows = 800000;
-  for (int i = 0; i < kRows; ++i)
-    rows += "A,0," + std::to_string(i) + ",P10,1078.0,2136.9015,156.1428,412.2275\n";
+  for (int i = 0; i < kRows; ++i) rows += "A,0," + std::to_string(i) + ",P10,1078.0,2136.9015,156.1428,412.2275\n";
   files.write("loading.csv", rows);
   const auto read = campaign::readCampaign(files.folder()).campaign.loading->rows;
   ASSERT_EQ(read.size(), static_cast<std::size_t>(kRows));
@@ -200,16 +198,15 @@ TEST(ReadCampaign, FindsARepeatedKeyFarApartInAnyOrder) {
       ADD_FAILURE() << "read a key twice";
     } catch (const io::InputError& error) {
       EXPECT_EQ(error.place().line, static_cast<std::size_t>(kRows + 2));
-      EXPECT_EQ(error.expectation(), "expected a key that does not repeat; line " + std::to_string(repeated + 2) +
-                                         " has it first");
+      EXPECT_EQ(error.expectation(),
+                "expected a key that does not repeat; line " + std::to_string(repeated + 2) + " has it first");
     }
   }
 }
 
 TEST(ReadCampaign, ReadsThePracticeAndRealCampaigns) {
   const std::filesystem::path shared(STIFFSCOPE_SHARED_DIR);
-  if (!std::filesystem::exists(shared / "practice"))
-    GTEST_SKIP() << "no practice campaigns beside the checkout";
+  if (!std::filesystem::exists(shared / "practice")) GTEST_SKIP() << "no practice campaigns beside the checkout";
   const auto rowsIn = [](const std::filesystem::path& csv) {
     std::ifstream in(csv);
     std::size_t lines = 0;

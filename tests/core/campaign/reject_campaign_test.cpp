@@ -34,7 +34,7 @@ std::string listed(const Rejected& test, const SmallCampaign& files, std::string
   for (auto at = message.find(folder); at != std::string::npos; at = message.find(folder)) {
     message.replace(at, folder.size(), "campaign");
   }
-  const std::string what = test.find == nullptr  ? "no such file"
+  const std::string what = test.find == nullptr ? "no such file"
                            : *test.find == '\0' ? "all of it `" + cell(test.replace) + "`"
                                                 : "`" + cell(test.find) + "` became `" + cell(test.replace) + "`";
   return "| " + std::string(test.file) + " | " + what + " | " + io::oneLine(message, 1000) + " |\n";
@@ -48,8 +48,7 @@ std::string expectRejected(const Rejected& test) {
     ADD_FAILURE() << "read on instead of: " << test.message;
   } catch (const io::InputError& error) {
     const std::string text = error.what();
-    EXPECT_NE(text.find(test.message), std::string::npos)
-        << "expected: " << test.message << "\ngot: " << text;
+    EXPECT_NE(text.find(test.message), std::string::npos) << "expected: " << test.message << "\ngot: " << text;
     EXPECT_EQ(text.find('\n'), std::string::npos) << text;
     EXPECT_LT(text.size(), 500u) << text;
     return listed(test, files, text);
@@ -57,11 +56,12 @@ std::string expectRejected(const Rejected& test) {
   return "";
 }
 
-// The list is documentation, and this keeps it true: it is made from what the program says. Where it differs, the new one
-// is written beside the test program, to be looked at and copied.
+// The list is documentation, and this keeps it true: it is made from what the program says. Where it differs, the new
+// one is written beside the test program, to be looked at and copied.
 TEST(RejectCampaign, SaysWhatTheListOfBadInputsHas) {
   std::string list =
-      "# What bad input is told\n\nOne change each to a small campaign that is right, and the message. Made and checked by "
+      "# What bad input is told\n\nOne change each to a small campaign that is right, and the message. Made and "
+      "checked by "
       "tests/core/campaign/reject_campaign_test.cpp.\n\n| file | change | message |\n|---|---|---|\n";
   for (const Rejected& test : kTables) list += expectRejected(test);
   for (const Rejected& test : kXml) list += expectRejected(test);
@@ -117,8 +117,8 @@ TEST(RejectCampaign, NamesAFolderThatIsNotThere) {
     campaign::readCampaign(folder.path() / "none");
     ADD_FAILURE();
   } catch (const io::InputError& error) {
-    EXPECT_EQ(error.what(), (folder.path() / "none").string() +
-                                ": expected a campaign folder or its campaign.xml; there is none");
+    EXPECT_EQ(error.what(),
+              (folder.path() / "none").string() + ": expected a campaign folder or its campaign.xml; there is none");
   }
 }
 

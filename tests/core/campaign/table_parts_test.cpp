@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
 #include <random>
-#include "core/campaign/table_layouts.h"
 #include "core/campaign/read_table.h"
+#include "core/campaign/table_layouts.h"
 #include "core/numerics/parallel.h"
 
 namespace stiffscope {
@@ -35,7 +35,8 @@ constexpr std::size_t kWhole = std::size_t{1} << 40;
 template <class Row>
 void expectSameInParts(const campaign::TableLayout<Row>& layout, const std::string& bytes) {
   const std::string whole = outcome(layout, bytes, kWhole);
-  for (const std::size_t part : {1, 7, 64, 200, 1000}) EXPECT_EQ(outcome(layout, bytes, part), whole) << part << "\n" << bytes;
+  for (const std::size_t part : {1, 7, 64, 200, 1000})
+    EXPECT_EQ(outcome(layout, bytes, part), whole) << part << "\n" << bytes;
 }
 
 const std::string kHeader = "pose,step,repeat,target,time_s,x_mm,y_mm,z_mm\n";
@@ -58,22 +59,24 @@ TEST(TableParts, CountLinesOfEveryEndAndBlankOnes) {
   for (const std::string end : {"\n", "\r\n", "\r", "\n\n\n", "\r\n \t\r\n", "\n\r", "\r\r\n"}) {
     std::string bytes;
     for (const std::string& line : {kHeader, a, b, c, a}) bytes += line.substr(0, line.size() - 1) + end;
-    expectSameInParts(campaign::loadingLayout(), bytes);                                    // line 5 or so repeats a key
-    expectSameInParts(campaign::loadingLayout(), bytes.substr(0, bytes.rfind("a,1,1")));    // it does not
-    expectSameInParts(campaign::loadingLayout(), bytes.substr(0, bytes.rfind(",P10") + 4)); // cut short
+    expectSameInParts(campaign::loadingLayout(), bytes);                                  // line 5 or so repeats a key
+    expectSameInParts(campaign::loadingLayout(), bytes.substr(0, bytes.rfind("a,1,1")));  // it does not
+    expectSameInParts(campaign::loadingLayout(), bytes.substr(0, bytes.rfind(",P10") + 4));  // cut short
   }
 }
 
 TEST(TableParts, RefuseTheFirstErrorOfTheFile) {
   const std::string good = kHeader + row("a", 1, "P10") + row("b", 1, "P10") + row("c", 1, "P11");
-  const std::string repeat = row("b", 1, "P10"), unknown = row("d", 1, "P99"), quote = "\"d,1,1,P10,5,1,2,3\n", few = "d,1\n";
+  const std::string repeat = row("b", 1, "P10"), unknown = row("d", 1, "P99"), quote = "\"d,1,1,P10,5,1,2,3\n",
+                    few = "d,1\n";
   for (const std::string& first : {repeat, unknown, quote, few}) {
     for (const std::string& second : {repeat, unknown, quote, few}) {
       expectSameInParts(campaign::loadingLayout(), good + first + row("e", 1, "P10") + second);
     }
   }
-  EXPECT_EQ(outcome(campaign::loadingLayout(), good + repeat + unknown, 1),
-            "t.csv:5: pose, step, repeat, target: 'b, 1, 1, P10': expected a key that does not repeat; line 3 has it first");
+  EXPECT_EQ(
+      outcome(campaign::loadingLayout(), good + repeat + unknown, 1),
+      "t.csv:5: pose, step, repeat, target: 'b, 1, 1, P10': expected a key that does not repeat; line 3 has it first");
   expectSameInParts(campaign::loadingLayout(), kHeader);
   expectSameInParts(campaign::loadingLayout(), kHeader + "\n\n\n");
   expectSameInParts(campaign::loadingLayout(), "");
@@ -86,7 +89,8 @@ TEST(TableParts, ReadWhatOneReadingReadsInAThousandSpoiltTables) {
   for (int table = 0; table < 1000; ++table) {
     std::string bytes = kHeader;
     for (int i = 0; i < 12; ++i) {
-      bytes += row(std::string(1, static_cast<char>('a' + random() % 4)), static_cast<int>(random() % 40), random() % 2 ? "P10" : "P11");
+      bytes += row(std::string(1, static_cast<char>('a' + random() % 4)), static_cast<int>(random() % 40),
+                   random() % 2 ? "P10" : "P11");
     }
     for (std::uint64_t k = random() % 4; k > 0; --k) {
       bytes[kHeader.size() + random() % (bytes.size() - kHeader.size())] = letters[random() % letters.size()];

@@ -19,7 +19,8 @@ constexpr double kMoment = 0.5001e-4;
 constexpr double kAttribute = 1e-11;
 
 template <class Row, class Compare>
-void expectSameRows(const std::optional<campaign::Table<Row>>& a, const std::optional<campaign::Table<Row>>& b, Compare compare) {
+void expectSameRows(const std::optional<campaign::Table<Row>>& a, const std::optional<campaign::Table<Row>>& b,
+                    Compare compare) {
   ASSERT_EQ(a.has_value(), b.has_value());
   if (!a) return;
   EXPECT_EQ(a->frame, b->frame);
@@ -38,10 +39,11 @@ void expectSameTables(const campaign::Campaign& a, const campaign::Campaign& b) 
     expectClose(x.q, y.q, kAngle);
     expectClose(x.point, y.point, kPoint);
   };
-  expectSameRows(a.circle_sweeps, b.circle_sweeps, [&](const campaign::CircleReading& x, const campaign::CircleReading& y) {
-    EXPECT_EQ(x.axis, y.axis);
-    sameSweep(x, y);
-  });
+  expectSameRows(a.circle_sweeps, b.circle_sweeps,
+                 [&](const campaign::CircleReading& x, const campaign::CircleReading& y) {
+                   EXPECT_EQ(x.axis, y.axis);
+                   sameSweep(x, y);
+                 });
   expectSameRows(a.wrist_sweep, b.wrist_sweep, sameSweep);
   expectSameRows(a.loading, b.loading, [](const campaign::LoadingReading& x, const campaign::LoadingReading& y) {
     EXPECT_EQ(std::tuple(x.pose, x.step, x.repeat, x.target), std::tuple(y.pose, y.step, y.repeat, y.target));
@@ -54,10 +56,11 @@ void expectSameTables(const campaign::Campaign& a, const campaign::Campaign& b) 
     expectClose(x.wrench_in_cell.head<3>(), y.wrench_in_cell.head<3>(), kForce);
     expectClose(x.wrench_in_cell.tail<3>(), y.wrench_in_cell.tail<3>(), kMoment);
   });
-  expectSameRows(a.displacements, b.displacements, [](const campaign::Displacement& x, const campaign::Displacement& y) {
-    EXPECT_EQ(std::tuple(x.pose, x.step, x.target), std::tuple(y.pose, y.step, y.target));
-    expectClose(x.displacement, y.displacement, kPoint);
-  });
+  expectSameRows(a.displacements, b.displacements,
+                 [](const campaign::Displacement& x, const campaign::Displacement& y) {
+                   EXPECT_EQ(std::tuple(x.pose, x.step, x.target), std::tuple(y.pose, y.step, y.target));
+                   expectClose(x.displacement, y.displacement, kPoint);
+                 });
   expectSameRows(a.nests, b.nests, [](const campaign::NestReading& x, const campaign::NestReading& y) {
     EXPECT_EQ(x.nest, y.nest);
     expectClose(x.point, y.point, kPoint);
@@ -149,10 +152,9 @@ TEST(WriteCampaign, WritesTheUnitsAndDecimalsOfTheFormat) {
   std::ifstream states(out.path() / "states.csv");
   std::getline(states, header);
   std::getline(states, row);
-  EXPECT_EQ(
-      row,
-      "A,0,1076.0,7.93121,26.73967,3.67551,-72.14435,26.25065,104.19286,-0.312,-0.039,0.265,-0.5150,0.3150,"
-      "-0.4410");
+  EXPECT_EQ(row,
+            "A,0,1076.0,7.93121,26.73967,3.67551,-72.14435,26.25065,104.19286,-0.312,-0.039,0.265,-0.5150,0.3150,"
+            "-0.4410");
 }
 
 TEST(WriteCampaign, RefusesWhatTheFormatCannotHold) {
@@ -180,8 +182,7 @@ TEST(WriteCampaign, RefusesWhatTheFormatCannotHold) {
 
 TEST(WriteCampaign, ReadsBackThePracticeAndRealCampaigns) {
   const std::filesystem::path shared(STIFFSCOPE_SHARED_DIR);
-  if (!std::filesystem::exists(shared / "practice"))
-    GTEST_SKIP() << "no practice campaigns beside the checkout";
+  if (!std::filesystem::exists(shared / "practice")) GTEST_SKIP() << "no practice campaigns beside the checkout";
   for (const char* name : {"practice/01", "real/fanuc-r2000ic-cable", "real/fanuc-r2000ic-sweeps"}) {
     expectRoundTrip(campaign::readCampaign(shared / name).campaign, shared / name / "robot.urdf");
   }

@@ -18,7 +18,7 @@ identification::IdentifyOptions quick() {
 /// One day in the tests' own laboratory, `misfit` m of something unmodelled at each reflector that is the
 /// same whenever `misfit_seed` is, and `noise` m of the tracker's.
 campaign::Campaign day(const Vector6d& compliance, std::uint64_t misfit_seed, double misfit, std::uint64_t noise_seed,
-             double noise, int postures = 12) {
+                       double noise, int postures = 12) {
   SimulatedLab lab;
   lab.compliance = compliance;
   lab.withoutMasses();
@@ -35,7 +35,8 @@ campaign::Campaign day(const Vector6d& compliance, std::uint64_t misfit_seed, do
 }
 
 comparison::Comparison compared(const campaign::Campaign& before, const campaign::Campaign& after) {
-  return comparison::compareCampaigns(before, identification::identify(before, quick()), after, identification::identify(after, quick()));
+  return comparison::compareCampaigns(before, identification::identify(before, quick()), after,
+                                      identification::identify(after, quick()));
 }
 
 TEST(Comparison, FindsWhichJointWasStiffened) {
@@ -45,7 +46,8 @@ TEST(Comparison, FindsWhichJointWasStiffened) {
       compared(day(exampleCompliance(), 1, 0.0, 2, 5e-6), day(stiffened, 1, 0.0, 3, 5e-6));
   EXPECT_TRUE(found.comparable);
   EXPECT_EQ(found.matched.pairs.size(), 12u);
-  for (const identification::Method method : {identification::Method::partial_pose, identification::Method::decoupled_partial_pose}) {
+  for (const identification::Method method :
+       {identification::Method::partial_pose, identification::Method::decoupled_partial_pose}) {
     const comparison::StiffnessChange& change = found.of(method);
     ASSERT_TRUE(change.available) << change.reason;
     EXPECT_NEAR(change.joints[2].ratio, 1.5, 0.01);  // 5 um of noise in displacements of millimetres
@@ -71,8 +73,10 @@ TEST(Comparison, ThePValueIsUniformWhereNothingChanged) {
     days.push_back(identification::identify(campaigns.back(), quick()));
   }
   for (std::size_t k = 0; k + 1 < days.size(); ++k) {
-    const comparison::MatchedPostures matched = comparison::matchPostures(campaigns[k], days[k], campaigns[k + 1], days[k + 1]);
-    const comparison::StiffnessChange change = comparison::compareStiffness(days[k], days[k + 1], identification::Method::partial_pose, matched);
+    const comparison::MatchedPostures matched =
+        comparison::matchPostures(campaigns[k], days[k], campaigns[k + 1], days[k + 1]);
+    const comparison::StiffnessChange change =
+        comparison::compareStiffness(days[k], days[k + 1], identification::Method::partial_pose, matched);
     for (const comparison::JointChange& joint : change.joints) {
       rejected += joint.p_value < 0.05;
       sum += joint.p_value;
@@ -89,7 +93,7 @@ TEST(Comparison, ThePValueIsUniformWhereNothingChanged) {
 
 TEST(Comparison, WithoutSharedPosturesNoCorrelationIsCounted) {
   campaign::Campaign before = day(exampleCompliance(), 1, 60e-6, 2, 5e-6),
-           after = day(exampleCompliance(), 1, 60e-6, 3, 5e-6);
+                     after = day(exampleCompliance(), 1, 60e-6, 3, 5e-6);
   const comparison::Comparison shared = compared(before, after);
   for (std::string& id : after.pose_ids) id = "other " + id;
   const comparison::Comparison apart = compared(before, after);
@@ -97,10 +101,9 @@ TEST(Comparison, WithoutSharedPosturesNoCorrelationIsCounted) {
   EXPECT_EQ(apart.matched.unmatched.size(), 24u);
   EXPECT_EQ(apart.matched.unmatched.front().reason, "not measured after");
   EXPECT_FALSE(apart.avoided().available);
-  EXPECT_EQ(apart.avoided().reason,
-            "no posture was measured in both campaigns with the same joint angles and load");
+  EXPECT_EQ(apart.avoided().reason, "no posture was measured in both campaigns with the same joint angles and load");
   const comparison::JointChange &with = shared.of(identification::Method::partial_pose).joints[1],
-                    &no = apart.of(identification::Method::partial_pose).joints[1];
+                                &no = apart.of(identification::Method::partial_pose).joints[1];
   EXPECT_GT(with.correlation, 0.9);
   EXPECT_EQ(no.correlation, 0.0);
   EXPECT_NEAR(no.ratio_sd, std::hypot(no.before_sd / no.before, no.after_sd / no.after) * no.ratio, 1e-12);
@@ -116,13 +119,12 @@ TEST(Comparison, LeavingOutAPostureIsSolvingWithoutIt) {
   std::vector<identification::CaseEquations> others(method.target_rows.begin() + 1, method.target_rows.end());
   const Vector6d again = identification::partialPose(others, method.estimate.identifiable).compliance;
   // Sums of ten equations less one against sums of nine: rounding, at a condition number of a few hundred.
-  EXPECT_LT((method.estimate.compliance - moves[0] - again).cwiseQuotient(again).cwiseAbs().maxCoeff(),
-            1e-10);
+  EXPECT_LT((method.estimate.compliance - moves[0] - again).cwiseQuotient(again).cwiseAbs().maxCoeff(), 1e-10);
 }
 
 TEST(Comparison, AnotherPostureOrLoadIsNamed) {
   campaign::Campaign before = day(exampleCompliance(), 1, 0.0, 2, 0.0),
-           after = day(exampleCompliance(), 1, 0.0, 2, 0.0);
+                     after = day(exampleCompliance(), 1, 0.0, 2, 0.0);
   for (campaign::State& state : after.states->rows) {
     if (state.pose == 0) state.q[3] += 0.5 * std::numbers::pi / 180.0;
     if (state.pose == 1) state.wrench_in_cell *= 1.1;
@@ -132,8 +134,7 @@ TEST(Comparison, AnotherPostureOrLoadIsNamed) {
   const comparison::Comparison found = compared(before, after);
   EXPECT_EQ(found.matched.pairs.size(), 9u);
   ASSERT_EQ(found.matched.unmatched.size(), 3u);
-  EXPECT_EQ(found.matched.unmatched[0].reason,
-            "joint 4 stands 0.500 deg apart, at most 0.010 is the same posture");
+  EXPECT_EQ(found.matched.unmatched[0].reason, "joint 4 stands 0.500 deg apart, at most 0.010 is the same posture");
   EXPECT_EQ(found.matched.unmatched[1].reason.substr(0, 27), "the loads differ by 9.1 % (");
   EXPECT_EQ(found.matched.unmatched[2].reason,
             "left out after: no reflector was read both unloaded and in this load step");
@@ -173,11 +174,13 @@ TEST(Comparison, DifferentMachinesAreNotCompared) {
 }
 
 TEST(DeflectionAvoided, SharesOfSumsByHand) {
-  const comparison::DeflectionAvoided found = comparison::shareAvoided({{"a", 2.0, 1.0}, {"b", 1.0, 1.0}, {"c", 1.0, 0.0}});
+  const comparison::DeflectionAvoided found =
+      comparison::shareAvoided({{"a", 2.0, 1.0}, {"b", 1.0, 1.0}, {"c", 1.0, 0.0}});
   EXPECT_DOUBLE_EQ(found.share, 0.5);
   EXPECT_DOUBLE_EQ(found.postures[0].share(), 0.5);
   EXPECT_TRUE(std::isnan(found.low));  // three postures: no interval
-  EXPECT_EQ(comparison::shareAvoided({{"a", 0.0, 1.0}}).reason, "nothing moved before: there is no deflection to avoid");
+  EXPECT_EQ(comparison::shareAvoided({{"a", 0.0, 1.0}}).reason,
+            "nothing moved before: there is no deflection to avoid");
 }
 
 TEST(DeflectionAvoided, TheIntervalCoversWhatMorePosturesWouldGive) {

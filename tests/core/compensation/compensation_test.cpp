@@ -6,8 +6,8 @@
 #include "core/comparison/deflection_avoided.h"
 #include "core/compensation/compensate.h"
 #include "core/identification/identify.h"
-#include "core/simulation/read_spec.h"
 #include "core/simulation/measure.h"
+#include "core/simulation/read_spec.h"
 #include "tests/fixtures/linear_machine.h"
 
 namespace stiffscope {
@@ -23,11 +23,11 @@ struct KnownArm {
 
   KnownArm() {
     lab.compliance = exampleCompliance();
-    lab.flange_from_cell.translation() =
-        lab.hook_in_flange;  // then no moment, which would turn with the cable
+    lab.flange_from_cell.translation() = lab.hook_in_flange;  // then no moment, which would turn with the cable
     campaign = lab.empty();
     geometry.arm = lab.actual.robot();
-    geometry.weight = robot::ownWeight(campaign.robot, campaign.tool, campaign.gravity_in_base, geometry.arm, Eigen::Isometry3d::Identity());
+    geometry.weight = robot::gravityLoad(campaign.robot, campaign.tool, campaign.gravity_in_base, geometry.arm,
+                                         Eigen::Isometry3d::Identity());
     for (const Eigen::Vector3d& target : lab.targets_in_flange) {
       geometry.targets_at_zero.push_back(geometry.arm.base_from_flange_at_zero * target);
     }
@@ -146,7 +146,8 @@ double meanMove(const std::vector<Eigen::Vector3d>& from, const std::vector<Eige
 // springs that its campaign shows, put back into the machine.
 TEST(Compensate, RemovesInTheSimulatorWhatTheIdentificationClaims) {
   for (const std::string sample : {"inactive", "active"}) {
-    simulation::SimulationSpec spec = simulation::readSimulationSpec(STIFFSCOPE_SOURCE_DIR "/samples/" + sample + ".xml");
+    simulation::SimulationSpec spec =
+        simulation::readSimulationSpec(STIFFSCOPE_SOURCE_DIR "/samples/" + sample + ".xml");
     spec.wrist_sweep->readings = 300;  // quicker; the sphere's centre is still known to micrometres
     const campaign::Campaign campaign = simulation::simulate(spec);
     identification::IdentifyOptions options;
@@ -156,7 +157,7 @@ TEST(Compensate, RemovesInTheSimulatorWhatTheIdentificationClaims) {
     const identification::MethodResult& method = result.of(identification::Method::decoupled_partial_pose);
     ASSERT_TRUE(method.available) << method.reason;
     const auto rows = compensation::compensate(campaign, method.geometry, method.estimate, result.frames.tcp_in_flange,
-                                 compensation::campaignPostures(campaign, result.step));
+                                               compensation::campaignPostures(campaign, result.step));
     const simulation::ElasticMachine machine = simulation::buildMachine(spec);
     std::vector<comparison::PostureDeflection> true_moves, claimed;
     for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -171,14 +172,14 @@ TEST(Compensate, RemovesInTheSimulatorWhatTheIdentificationClaims) {
                             meanMove(unloaded.targets_in_base, commanded.targets_in_base)});
       claimed.push_back({rows[i].posture.id, result.target_displacement[i], method.target_residual[i]});
     }
-    const comparison::DeflectionAvoided removed = comparison::shareAvoided(true_moves), claim = comparison::shareAvoided(claimed);
+    const comparison::DeflectionAvoided removed = comparison::shareAvoided(true_moves),
+                                        claim = comparison::shareAvoided(claimed);
     EXPECT_NEAR(claim.share, method.at_targets->all_postures, 1e-9);
     EXPECT_GE(removed.share, claim.low) << sample;
     EXPECT_GE(claim.low, 0.5);  // the claim is no empty one
     EXPECT_LE(removed.share, 1.0);
-    std::printf("%s: identification claims %.2f %% (%.2f to %.2f), the commands remove %.2f %%\n",
-                sample.c_str(), 100.0 * claim.share, 100.0 * claim.low, 100.0 * claim.high,
-                100.0 * removed.share);
+    std::printf("%s: identification claims %.2f %% (%.2f to %.2f), the commands remove %.2f %%\n", sample.c_str(),
+                100.0 * claim.share, 100.0 * claim.low, 100.0 * claim.high, 100.0 * removed.share);
   }
 }
 

@@ -26,7 +26,8 @@ TEST(Diagnose, GapBeforeIsThatOfADiagnosisThatFindsNothing) {
   ASSERT_LT(found.gap.after, 0.2 * found.gap.before);
   EXPECT_NEAR(found.gap.before, nothing.gap.before, 1e-6 * nothing.gap.before);
   for (int joint = 0; joint < 6; ++joint)
-    EXPECT_NEAR(found.stiffness_before[joint], nothing.stiffness_before[joint], 1e-6 * std::abs(nothing.stiffness_before[joint]));
+    EXPECT_NEAR(found.stiffness_before[joint], nothing.stiffness_before[joint],
+                1e-6 * std::abs(nothing.stiffness_before[joint]));
 }
 
 }  // namespace

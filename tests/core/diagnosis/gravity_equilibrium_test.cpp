@@ -1,9 +1,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include "core/diagnosis/diagnosis_input.h"
 #include "core/effects/all.h"
 #include "core/effects/gravity_equilibrium.h"
-#include "core/diagnosis/diagnosis_input.h"
 #include "tests/fixtures/chain_arm.h"
 
 // Where the unloaded arm stands with effects in the model, and what the readings say of where the load pulls.
@@ -22,11 +22,11 @@ frames::LoadingGeometry heavyArm(const ChainArm& chain) {
 
 // A rigid arm on a foot that rocks about y by 1e-5 rad/Nm under 980 N at the flange: phi = 1e-5 * 980 * x(phi),
 // x(phi) = x cos(phi) + z sin(phi), solved here to the end; the first-order offset misses it by phi^2.
-TEST(RestState, AFootThatRocksTurnsTheWholeArmByAFiniteAngle) {
+TEST(GravityEquilibrium, AFootThatRocksTurnsTheWholeArmByAFiniteAngle) {
   const ChainArm chain = exampleChain();
   const frames::LoadingGeometry geometry = heavyArm(chain);
   const Vector6d q = Vector6d::Zero();
-  effects::WorkingPoint at;
+  effects::LinearizationPoint at;
   const effects::EffectModel model = effects::modelsOf(effects::baseCompliance()).front();
   constexpr double kRock = 1e-5;
   at.present.push_back({&model, kRock * Eigen::VectorXd::Unit(5, 1)});
@@ -36,30 +36,32 @@ TEST(RestState, AFootThatRocksTurnsTheWholeArmByAFiniteAngle) {
     phi = kRock * 980.0 * (flange.x() * std::cos(phi) + flange.z() * std::sin(phi));
   ASSERT_GT(phi, 5e-3);
   const Eigen::Vector3d expected = Eigen::AngleAxisd(phi, Eigen::Vector3d::UnitY()) * flange;
-  const effects::ArmState rest = effects::restState(geometry, at, q);
+  const effects::ArmState rest = effects::gravityEquilibrium(geometry, at, q);
   // Five rounds, each a hundredth of the last; the foot's moment about x is nothing here.
   EXPECT_LT((rest.flange.translation() - expected).norm(), 1e-9);
   EXPECT_LT((rest.posture.motion[1].translation() - rest.moved[1].translation()).norm(), 1e-12);
 }
 
-TEST(RestState, IsTheSaggedArmWithoutEffects) {
+TEST(GravityEquilibrium, IsTheSaggedArmWithoutEffects) {
   const ChainArm chain = exampleChain();
   frames::LoadingGeometry geometry = heavyArm(chain);
   geometry.compliance = exampleCompliance();
   const Vector6d q = degrees(10, 20, -15, 40, 50, -30);
-  const effects::ArmState rest = effects::restState(geometry, {}, q), plain = effects::stateAt(geometry, q, Vector6d::Zero());
+  const effects::ArmState rest = effects::gravityEquilibrium(geometry, {}, q),
+                          plain = effects::stateAt(geometry, q, Vector6d::Zero());
   EXPECT_EQ((rest.flange.matrix() - plain.flange.matrix()).norm(), 0.0);
 }
 
 // The tilt of joint 4's bearing moves bodies 4 and beyond, not those before.
-TEST(RestState, ATiltMovesWhatItsBearingCarries) {
+TEST(GravityEquilibrium, ATiltMovesWhatItsBearingCarries) {
   const ChainArm chain = exampleChain();
   const frames::LoadingGeometry geometry = heavyArm(chain);
   const Vector6d q = degrees(10, 20, -15, 40, 50, -30);
-  effects::WorkingPoint at;
+  effects::LinearizationPoint at;
   const effects::EffectModel model = effects::modelsOf(effects::bearingTilt()).front();
   at.present.push_back({&model, 1e-5 * Eigen::VectorXd::Unit(6, 3)});
-  const effects::ArmState rest = effects::restState(geometry, at, q), plain = effects::stateAt(geometry, q, Vector6d::Zero());
+  const effects::ArmState rest = effects::gravityEquilibrium(geometry, at, q),
+                          plain = effects::stateAt(geometry, q, Vector6d::Zero());
   for (std::size_t b = 0; b < 4; ++b)
     EXPECT_EQ((rest.posture.motion[b].matrix() - plain.posture.motion[b].matrix()).norm(), 0.0) << b;
   EXPECT_GT((rest.flange.translation() - plain.flange.translation()).norm(), 1e-4);
@@ -75,7 +77,7 @@ identification::LoadCase pulledAt(const Eigen::Vector3d& offset, const Eigen::Ve
 TEST(LoadOffset, IsThePointAllPullsGoThrough) {
   const Eigen::Vector3d hook(0.05, -0.02, 0.11);
   const std::vector<identification::LoadCase> cases{pulledAt(hook, {0, 0, -900}), pulledAt(hook, {500, 0, -300}),
-                                    pulledAt(hook, {0, 700, 100})};
+                                                    pulledAt(hook, {0, 700, 100})};
   EXPECT_LT((diagnosis::loadOffset(robot::Robot{}, cases, 0.0) - hook).norm(), 1e-9);  // the ridge of 1e-12
   // One direction alone: what lies along the pull stays at the declared point.
   const Eigen::Vector3d found = diagnosis::loadOffset(robot::Robot{}, {cases.front()}, 0.5);

@@ -10,11 +10,12 @@ namespace {
 
 extended_model::EffectFit fitOf(const simulation::SimulationSpec& spec, const char* word) {
   const campaign::Campaign campaign = simulation::simulate(spec);
-  return extended_model::fitEffects(campaign, extended_model::wantedEffects({word}, campaign));
+  return extended_model::fitEffects(campaign, extended_model::requestedEffects({word}, campaign));
 }
 
 /// Furthest of the correction from `expected`, in the standard uncertainties of the fit.
-double furthest(const extended_model::EffectFit& effects, const Eigen::Vector3d& found, const Eigen::Vector3d& expected) {
+double furthest(const extended_model::EffectFit& effects, const Eigen::Vector3d& found,
+                const Eigen::Vector3d& expected) {
   const Eigen::VectorXd sd = effects.covariance.diagonal().cwiseSqrt();
   return (found - expected).cwiseQuotient(sd.head<3>()).cwiseAbs().maxCoeff();
 }

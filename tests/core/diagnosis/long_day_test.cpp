@@ -8,13 +8,15 @@
 #include <vector>
 #include "core/campaign/read_campaign.h"
 #include "core/diagnosis/diagnose.h"
-#include "core/preparation/subsample.h"
 #include "core/numerics/normal_equations.h"
+#include "core/preparation/subsample.h"
 
 namespace stiffscope {
 namespace {
 
-campaign::Campaign sampleDay() { return campaign::readCampaign(std::string(STIFFSCOPE_SOURCE_DIR) + "/samples/active").campaign; }
+campaign::Campaign sampleDay() {
+  return campaign::readCampaign(std::string(STIFFSCOPE_SOURCE_DIR) + "/samples/active").campaign;
+}
 
 /// The sample's postures so many times, a tenth of a micrometre apart: readings alike to the last digit are copies.
 campaign::Campaign repeated(int times) {
@@ -77,7 +79,8 @@ TEST(EvenlySpread, KeepsTheRowsOfItsPosturesAndAllElse) {
 TEST(EvenlySpread, TakesAsManyReadingsOfASweepOfEachAxisAndReflector) {
   const campaign::Campaign all = sampleDay(), some = preparation::evenlySpread(all, 100, 90);
   std::map<std::pair<int, int>, std::vector<std::size_t>> circles;
-  for (const campaign::CircleReading& row : some.circle_sweeps->rows) circles[{row.axis, row.target}].push_back(row.line);
+  for (const campaign::CircleReading& row : some.circle_sweeps->rows)
+    circles[{row.axis, row.target}].push_back(row.line);
   ASSERT_EQ(circles.size(), 18u);  // six axes, three reflectors
   for (const auto& [kind, lines] : circles) {
     EXPECT_EQ(lines.size(), 5u);
@@ -87,8 +90,9 @@ TEST(EvenlySpread, TakesAsManyReadingsOfASweepOfEachAxisAndReflector) {
   for (const campaign::WristReading& row : some.wrist_sweep->rows) ++wrist[row.target];
   EXPECT_GE(wrist.size(), 1u);
   for (const auto& [target, count] : wrist) EXPECT_EQ(count, static_cast<int>(90 / wrist.size()));
-  EXPECT_TRUE(std::is_sorted(some.wrist_sweep->rows.begin(), some.wrist_sweep->rows.end(),
-                             [](const campaign::WristReading& a, const campaign::WristReading& b) { return a.line < b.line; }));
+  EXPECT_TRUE(
+      std::is_sorted(some.wrist_sweep->rows.begin(), some.wrist_sweep->rows.end(),
+                     [](const campaign::WristReading& a, const campaign::WristReading& b) { return a.line < b.line; }));
   EXPECT_TRUE(preparation::hasLongSweep(all, 90));
   EXPECT_FALSE(preparation::hasLongSweep(all));
 }
@@ -106,10 +110,13 @@ TEST(Diagnose, OfALongSweepTheReadingsSpreadOverItTakePart) {
   diagnosis::DiagnoseOptions quick;
   quick.resamples = quick.chance_draws = 0;
   quick.only = effects::Effect::joint_coupling;
-  const diagnosis::Diagnosis by_itself = diagnosis::diagnose(preparation::evenlySpread(day, preparation::kMostDiagnosed), quick), whole = diagnosis::diagnose(day, quick);
+  const diagnosis::Diagnosis by_itself = diagnosis::diagnose(
+                                 preparation::evenlySpread(day, preparation::kMostDiagnosed), quick),
+                             whole = diagnosis::diagnose(day, quick);
   EXPECT_EQ(whole.gap.before, by_itself.gap.before);
   EXPECT_EQ(whole.gap.after, by_itself.gap.after);
-  EXPECT_NE(whole.verdict.reason.find("Of a sweep's readings 2000 at most took part"), std::string::npos) << whole.verdict.reason;
+  EXPECT_NE(whole.verdict.reason.find("Of a sweep's readings 2000 at most took part"), std::string::npos)
+      << whole.verdict.reason;
   EXPECT_EQ(whole.verdict.reason.find("postures"), by_itself.verdict.reason.find("postures"));
 }
 
@@ -121,7 +128,8 @@ TEST(LowerTriangle, AddsToTheLowerTriangleAlone) {
   EXPECT_EQ(sum, expected);
 }
 
-// What is said of a long day's postures must name them as that day does, not as the hundred that took part are numbered.
+// What is said of a long day's postures must name them as that day does, not as the hundred that took part are
+// numbered.
 TEST(Diagnose, ALongDayIsItsSpreadPosturesUnderTheirOwnNames) {
   campaign::Campaign day = repeated(11);
   const std::vector<std::string> names = day.pose_ids;
@@ -130,7 +138,8 @@ TEST(Diagnose, ALongDayIsItsSpreadPosturesUnderTheirOwnNames) {
   quick.resamples = quick.chance_draws = 0;
   quick.only = effects::Effect::joint_coupling;
   const campaign::Campaign spread = preparation::evenlySpread(day, preparation::kMostDiagnosed);
-  const diagnosis::Diagnosis by_itself = diagnosis::diagnose(spread, quick), whole = diagnosis::diagnose(std::move(day), quick);
+  const diagnosis::Diagnosis by_itself = diagnosis::diagnose(spread, quick),
+                             whole = diagnosis::diagnose(std::move(day), quick);
   EXPECT_EQ(whole.gap.before, by_itself.gap.before);
   EXPECT_EQ(whole.gap.after, by_itself.gap.after);
   ASSERT_EQ(whole.at_points.size(), by_itself.at_points.size());

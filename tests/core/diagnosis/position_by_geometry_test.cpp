@@ -1,6 +1,6 @@
+#include "core/diagnosis/position_by_geometry.h"
 #include <gtest/gtest.h>
 #include "core/effects/all.h"
-#include "core/diagnosis/position_by_geometry.h"
 #include "core/effects/gravity_equilibrium.h"
 #include "tests/fixtures/chain_arm.h"
 
@@ -22,8 +22,9 @@ frames::LoadingGeometry placedArm(const ChainArm& chain) {
 
 /// Modelled less measured: `reading` is what the station saw.
 Eigen::VectorXd modelledLessMeasured(const frames::LoadingGeometry& geometry, const Vector6d& q,
-                                     const std::vector<Eigen::Vector3d>& readings, const effects::WorkingPoint& at) {
-  const effects::ArmState state = effects::restState(geometry, at, q);
+                                     const std::vector<Eigen::Vector3d>& readings,
+                                     const effects::LinearizationPoint& at) {
+  const effects::ArmState state = effects::gravityEquilibrium(geometry, at, q);
   Eigen::VectorXd rows(3 * static_cast<Eigen::Index>(readings.size()));
   for (std::size_t t = 0; t < readings.size(); ++t) {
     rows.segment<3>(3 * static_cast<Eigen::Index>(t)) =
@@ -34,7 +35,7 @@ Eigen::VectorXd modelledLessMeasured(const frames::LoadingGeometry& geometry, co
 
 Eigen::MatrixXd byDifferences(const frames::LoadingGeometry& geometry, const Vector6d& q,
                               const std::vector<Eigen::Vector3d>& readings, const Eigen::Vector3d& centre,
-                              const effects::WorkingPoint& at = {}) {
+                              const effects::LinearizationPoint& at = {}) {
   constexpr double kStep = 1e-6;
   const Eigen::Index count = frames::GeometrySteps::count(readings.size());
   Eigen::MatrixXd columns(3 * static_cast<Eigen::Index>(readings.size()), count);
@@ -58,13 +59,13 @@ struct Case {
 
   explicit Case(const frames::LoadingGeometry& placed) : geometry(placed) {
     q << 0.3, -0.5, 0.7, 1.1, -0.9, 0.4;
-    const effects::ArmState state = effects::restState(geometry, {}, q);
+    const effects::ArmState state = effects::gravityEquilibrium(geometry, {}, q);
     for (const auto& own : geometry.targets_at_zero)
       readings.push_back(geometry.r0_from_loading->inverse() * (state.posture.motion[6] * *own) + kOff);
   }
 
-  Eigen::MatrixXd computed(const effects::WorkingPoint& at = {}) const {
-    effects::ArmState state = effects::restState(geometry, at, q);
+  Eigen::MatrixXd computed(const effects::LinearizationPoint& at = {}) const {
+    effects::ArmState state = effects::gravityEquilibrium(geometry, at, q);
     for (std::size_t t = 0; t < readings.size(); ++t) {
       state.targets.push_back(static_cast<int>(t));
       state.points.push_back(*geometry.r0_from_loading * readings[t]);
@@ -110,16 +111,17 @@ TEST(PositionByGeometry, WithPlayInTheModelIsTheDifferences) {
   const frames::LoadingGeometry geometry = heavyArm();
   const Case one(geometry);
   const effects::EffectModel model = effects::modelsOf(effects::backlash()).front();
-  effects::WorkingPoint at;
+  effects::LinearizationPoint at;
   at.largest_torque.setConstant(2000.0);
   Eigen::VectorXd play = Eigen::VectorXd::Zero(7);
   play[4] = 2e-3;
   at.play = play.head<6>();
   at.present.push_back({&model, play});
   const Eigen::MatrixXd expected = byDifferences(one.geometry, one.q, one.readings, one.centre, at);
-  const double by_play = (expected - byDifferences(one.geometry, one.q, one.readings, one.centre)).cwiseAbs().maxCoeff();
+  const double by_play =
+      (expected - byDifferences(one.geometry, one.q, one.readings, one.centre)).cwiseAbs().maxCoeff();
   ASSERT_GT(by_play, 5e-4);
-  // The sag of restState is that before the play turns the arm: a hundredth of what it changes.
+  // The sag of gravityEquilibrium is that before the play turns the arm: a hundredth of what it changes.
   EXPECT_LT((one.computed(at) - expected).cwiseAbs().maxCoeff(), 0.02 * by_play);
 }
 
@@ -128,7 +130,7 @@ TEST(PositionByGeometry, WithAFootThatRocksIsTheDifferences) {
   const frames::LoadingGeometry geometry = heavyArm();
   const Case one(geometry);
   const effects::EffectModel model = effects::modelsOf(effects::baseCompliance()).front();
-  effects::WorkingPoint at;
+  effects::LinearizationPoint at;
   at.present.push_back({&model, 1e-6 * Eigen::VectorXd::Unit(5, 1)});
   const Eigen::MatrixXd expected = byDifferences(one.geometry, one.q, one.readings, one.centre, at);
   ASSERT_GT((expected - one.computed()).cwiseAbs().maxCoeff(), 1e-3);

@@ -57,7 +57,8 @@ class Practice : public testing::TestWithParam<Answer> {};
 
 TEST_P(Practice, VerdictIsTheAnswer) {
   const Answer& answer = GetParam();
-  const diagnosis::Diagnosis diagnosis = diagnosis::diagnose(campaign::readCampaign(shared("practice/" + answer.campaign)).campaign, quick());
+  const diagnosis::Diagnosis diagnosis =
+      diagnosis::diagnose(campaign::readCampaign(shared("practice/" + answer.campaign)).campaign, quick());
   ASSERT_TRUE(diagnosis.usable) << diagnosis.unusable_reason;
   std::set<std::string> found;
   bool detail = answer.detail.empty();
@@ -74,15 +75,14 @@ TEST_P(Practice, VerdictIsTheAnswer) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Campaigns, Practice, testing::ValuesIn(answers()),
-                         [](const testing::TestParamInfo<Answer>& info) {
-                           return "c" + info.param.campaign;
-                         });
+                         [](const testing::TestParamInfo<Answer>& info) { return "c" + info.param.campaign; });
 GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(Practice);
 
 TEST(RealCable, ClaimsNoMoreThanATiltOrABendAndSaysThatMostIsUnknown) {
   if (!std::filesystem::exists(shared("real/fanuc-r2000ic-cable")))
     GTEST_SKIP() << "the real campaigns are not beside the checkout";
-  const diagnosis::Diagnosis diagnosis = diagnosis::diagnose(campaign::readCampaign(shared("real/fanuc-r2000ic-cable")).campaign, quick());
+  const diagnosis::Diagnosis diagnosis =
+      diagnosis::diagnose(campaign::readCampaign(shared("real/fanuc-r2000ic-cable")).campaign, quick());
   ASSERT_TRUE(diagnosis.usable);
   // Six stiffnesses leave 0.220 mm per coordinate, fitted plainly; whitened ones a little more.
   EXPECT_NEAR(diagnosis.gap.before, 0.22e-3, 0.02e-3);
@@ -102,16 +102,18 @@ TEST(RealCable, ClaimsNoMoreThanATiltOrABendAndSaysThatMostIsUnknown) {
   // One point, one load step, displacements only.
   std::set<effects::Effect> not_testable;
   for (const diagnosis::NotTestable& one : diagnosis.not_testable) not_testable.insert(one.effect);
-  for (const effects::Effect effect : {effects::Effect::joint_hardening, effects::Effect::hysteresis, effects::Effect::target_motion,
-                              effects::Effect::frame_error, effects::Effect::kinematic_error, effects::Effect::tracker_drift}) {
+  for (const effects::Effect effect :
+       {effects::Effect::joint_hardening, effects::Effect::hysteresis, effects::Effect::target_motion,
+        effects::Effect::frame_error, effects::Effect::kinematic_error, effects::Effect::tracker_drift}) {
     EXPECT_TRUE(not_testable.count(effect)) << effects::idOf(effect);
   }
 }
 
-// 03 is one effect of the vocabulary, within a noise of what that effect's equations can do; 20 is two, hysteresis and a
-// bias, and no one of the sixteen reaches it.
+// 03 is one effect of the vocabulary, within a noise of what that effect's equations can do; 20 is two, hysteresis and
+// a bias, and no one of the sixteen reaches it.
 TEST(PracticeDistance, OneEffectIsNearAndTwoAreFar) {
-  if (!std::filesystem::exists(shared("practice"))) GTEST_SKIP() << "the practice campaigns are not beside the checkout";
+  if (!std::filesystem::exists(shared("practice")))
+    GTEST_SKIP() << "the practice campaigns are not beside the checkout";
   const auto few = [](const char* name) {
     return preparation::evenlySpread(campaign::readCampaign(shared(std::string("practice/") + name)).campaign, 8);
   };

@@ -12,8 +12,9 @@ namespace {
 /// Six effects of two models each would hide what is tested: one model an effect, three parts of one column.
 std::vector<effects::EffectModel> models() {
   std::vector<effects::EffectModel> all;
-  for (const effects::Effect effect : {effects::Effect::link_compliance, effects::Effect::bearing_tilt, effects::Effect::base_compliance,
-                              effects::Effect::joint_coupling, effects::Effect::joint_hardening, effects::Effect::backlash}) {
+  for (const effects::Effect effect :
+       {effects::Effect::link_compliance, effects::Effect::bearing_tilt, effects::Effect::base_compliance,
+        effects::Effect::joint_coupling, effects::Effect::joint_hardening, effects::Effect::backlash}) {
     effects::EffectModel model;
     model.effect = effect;
     for (int part = 0; part < 3; ++part) model.parts.push_back({std::to_string(part), {1e6}, false, "1"});
@@ -64,8 +65,7 @@ TEST(Projection, IsLeastSquaresWithTheNuisancesIn) {
   const diagnosis::SubsetFit fit =
       diagnosis::fitSubset(projection, some, {false, false, false}, Eigen::VectorXd::Zero(Made::kEffects));
   Eigen::MatrixXd all(Made::kRows, Made::kNuisances + 3);
-  all << made.columns.leftCols(Made::kNuisances), made.columns.col(8), made.columns.col(13),
-      made.columns.col(17);
+  all << made.columns.leftCols(Made::kNuisances), made.columns.col(8), made.columns.col(13), made.columns.col(17);
   const Eigen::VectorXd direct = all.colPivHouseholderQr().solve(right);
   EXPECT_LT((fit.value - direct.tail(3)).norm(), 1e-8);  // the ridge of 1e-12 and rounding
   EXPECT_NEAR(projection.chi2_none - fit.drop, (right - all * direct).squaredNorm(), 1e-6);
@@ -118,8 +118,7 @@ TEST(Selector, FindsBothOfTwo) {
 TEST(Selector, AColumnThatTheStiffnessesSoakUpIsNotTried) {
   Noise noise(9);
   Made made(noise);
-  made.columns.col(6) =
-      made.columns.col(0) + 1e-3 * made.columns.col(6);  // a millionth of its squares is its own
+  made.columns.col(6) = made.columns.col(0) + 1e-3 * made.columns.col(6);  // a millionth of its squares is its own
   const auto table = models();
   std::vector<bool> only(table.size(), false);
   only[0] = true;

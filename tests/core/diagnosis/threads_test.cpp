@@ -15,8 +15,8 @@ void expectSame(const diagnosis::Shrink& a, const diagnosis::Shrink& b) {
 
 TEST(Diagnose, DoesNotDependOnTheNumberOfCores) {
   // The postures held out are shared among as many threads as there are cores; every digit stays.
-  const campaign::Campaign campaign =
-      preparation::evenlySpread(campaign::readCampaign(std::string(STIFFSCOPE_SOURCE_DIR) + "/samples/active").campaign, 8);
+  const campaign::Campaign campaign = preparation::evenlySpread(
+      campaign::readCampaign(std::string(STIFFSCOPE_SOURCE_DIR) + "/samples/active").campaign, 8);
   diagnosis::DiagnoseOptions quick;
   quick.resamples = 6;
   quick.chance_draws = 20;

@@ -12,8 +12,7 @@
 namespace stiffscope {
 namespace {
 
-constexpr double kRounding =
-    1e-9;  // m per unit parameter times lever and load: far below a micrometre of the field
+constexpr double kRounding = 1e-9;  // m per unit parameter times lever and load: far below a micrometre of the field
 
 /// The model of an effect with these words in its shape, the first without any.
 effects::EffectModel modelOf(const effects::EffectRecord& record, const std::string& shape = "") {
@@ -28,7 +27,7 @@ effects::EffectModel modelOf(const effects::EffectRecord& record, const std::str
 struct Bench {
   ChainArm chain = exampleChain();
   frames::LoadingGeometry geometry;
-  effects::WorkingPoint at;
+  effects::LinearizationPoint at;
   Vector6d q = degrees(10, 20, -15, 40, 50, -30);
   robot::Wrench load{{2.0, 0.1, 1.9}, {300.0, -500.0, -900.0}, {40.0, 20.0, -10.0}};
   std::vector<Eigen::Vector3d> points{{2.1, 0.3, 1.8}, {2.0, -0.2, 2.1}};
@@ -49,23 +48,18 @@ struct Bench {
     return one;
   }
   effects::PostureStates outAndBack() const { return {state(0.0), state(0.5), state(1.0), state(0.0)}; }
-  Eigen::Vector3d jointOrigin(int j) const {
-    return chain.framesAt(q)[static_cast<std::size_t>(j)].translation();
-  }
+  Eigen::Vector3d jointOrigin(int j) const { return chain.framesAt(q)[static_cast<std::size_t>(j)].translation(); }
   Eigen::Vector3d jointAxis(int j) const {
     return chain.framesAt(q)[static_cast<std::size_t>(j)].linear() * chain.axis[static_cast<std::size_t>(j)];
   }
-  Eigen::Vector3d momentAt(const Eigen::Vector3d& x) const {
-    return load.moment + (load.point - x).cross(load.force);
-  }
+  Eigen::Vector3d momentAt(const Eigen::Vector3d& x) const { return load.moment + (load.point - x).cross(load.force); }
 };
 
 TEST(BearingTilt, TurnsAcrossTheAxisByTheMomentThere) {
   const Bench bench;
   const Eigen::MatrixXd field = modelOf(effects::bearingTilt()).columns(bench.at, bench.outAndBack(), 2);
   for (int j = 0; j < 6; ++j) {
-    const Eigen::Vector3d origin = bench.jointOrigin(j), axis = bench.jointAxis(j),
-                          moment = bench.momentAt(origin);
+    const Eigen::Vector3d origin = bench.jointOrigin(j), axis = bench.jointAxis(j), moment = bench.momentAt(origin);
     const Eigen::Vector3d across = moment - axis * axis.dot(moment);
     for (int t = 0; t < 2; ++t) {
       const Eigen::Vector3d expected = across.cross(bench.points[static_cast<std::size_t>(t)] - origin);
@@ -114,7 +108,8 @@ TEST(TargetMotion, FollowsTheForceInTheNest) {
   const effects::PostureStates posture = bench.outAndBack();
   const Eigen::Matrix3d axes = posture[2].flange.linear();
   const Eigen::Vector3d along_x = axes.col(0) * axes.col(0).dot(bench.load.force) / bench.load.force.norm();
-  const effects::EffectModel spring = modelOf(effects::targetMotion(), "spring of the nest"), slip = modelOf(effects::targetMotion(), "along the pull");
+  const effects::EffectModel spring = modelOf(effects::targetMotion(), "spring of the nest"),
+                             slip = modelOf(effects::targetMotion(), "along the pull");
   for (const std::size_t state : {std::size_t{1}, std::size_t{2}, std::size_t{3}}) {
     const double share = state == 1 ? 0.5 : state == 2 ? 1.0 : 0.0, most = state == 1 ? 0.5 : 1.0;
     const Eigen::MatrixXd by_spring = spring.columns(bench.at, posture, state),
@@ -132,7 +127,8 @@ TEST(TargetMotion, FollowsTheForceInTheNest) {
 // An isotropic nest moves its reflector along the force, whichever way the flange is turned.
 TEST(TargetMotion, IsotropicNestMovesAlongTheForce) {
   const Bench bench;
-  const Eigen::MatrixXd field = modelOf(effects::targetMotion(), "spring of the nest").columns(bench.at, bench.outAndBack(), 2);
+  const Eigen::MatrixXd field =
+      modelOf(effects::targetMotion(), "spring of the nest").columns(bench.at, bench.outAndBack(), 2);
   const Eigen::Vector3d sum = field.block<3, 3>(0, 0).rowwise().sum();
   EXPECT_LT((sum - bench.load.force.normalized()).norm(), kRounding);
 }
@@ -184,11 +180,14 @@ TEST(JointHardening, WholeFormsSolveTheirSprings) {
   const auto angleBy = [&](const effects::EffectModel& model) {
     return c * tau + c * a * model.angles(bench.at, posture, 2)(1, 1);
   };
-  const double spring = angleBy(modelOf(effects::jointHardening(), "cubic term")) / c, whole = angleBy(modelOf(effects::jointHardening(), "square of the torque, to any size")) / c;
+  const double spring = angleBy(modelOf(effects::jointHardening(), "cubic term")) / c,
+               whole = angleBy(modelOf(effects::jointHardening(), "square of the torque, to any size")) / c;
   EXPECT_NEAR(spring + a * spring * spring * spring, tau, 1e-9 * std::abs(tau));  // Newton, to rounding
   EXPECT_NEAR(whole * (1.0 + a * tau * tau), tau, 1e-9 * std::abs(tau));
   const double linear =
-      c * tau + c * a * std::abs(tau) * modelOf(effects::jointHardening(), "size of the torque, to any size").angles(bench.at, posture, 2)(1, 1);
+      c * tau +
+      c * a * std::abs(tau) *
+          modelOf(effects::jointHardening(), "size of the torque, to any size").angles(bench.at, posture, 2)(1, 1);
   EXPECT_NEAR(linear / c * 1.9, tau, 1e-9 * std::abs(tau));
 }
 
@@ -199,7 +198,9 @@ TEST(JointHardening, TakesTheCubeOfTheTorque) {
                         full = modelOf(effects::jointHardening()).columns(bench.at, posture, 2);
   EXPECT_LT((full - 8.0 * half).norm(), 1e-9 * full.norm());
   const Eigen::MatrixXd other = modelOf(effects::jointHardening(), "size of the torque").columns(bench.at, posture, 2);
-  EXPECT_LT((other - 4.0 * modelOf(effects::jointHardening(), "size of the torque").columns(bench.at, posture, 1)).norm(), 1e-9 * other.norm());
+  EXPECT_LT(
+      (other - 4.0 * modelOf(effects::jointHardening(), "size of the torque").columns(bench.at, posture, 1)).norm(),
+      1e-9 * other.norm());
 }
 
 TEST(Backlash, ChangesSideWithTheTorque) {
@@ -216,7 +217,7 @@ TEST(Hysteresis, LagsOutAndBackByTheFriction) {
   bench.at.friction.setConstant(10.0);
   const effects::PostureStates posture = bench.outAndBack();
   const effects::JointAngles out = modelOf(effects::hysteresis()).angles(bench.at, posture, 2),
-                    back = modelOf(effects::hysteresis()).angles(bench.at, posture, 3);
+                             back = modelOf(effects::hysteresis()).angles(bench.at, posture, 3);
   for (int j = 0; j < 6; ++j) {
     const double torque = posture[2].load_torque[j];
     if (std::abs(torque) < 20.0) continue;  // sticks on the way back

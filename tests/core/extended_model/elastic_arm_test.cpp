@@ -30,10 +30,11 @@ TEST_P(AgainstTheSimulator, DeflectsTheSameWithFiniteRotations) {
   const simulation::ElasticMachine machine = simulation::buildMachine(spec);
   frames::LoadingGeometry geometry;
   geometry.arm = simulation::rigidGeometry(machine);
-  geometry.weight = robot::ownWeight(campaign.robot, campaign.tool, campaign.gravity_in_base, machine.nominal, Eigen::Isometry3d::Identity());
+  geometry.weight = robot::gravityLoad(campaign.robot, campaign.tool, campaign.gravity_in_base, machine.nominal,
+                                       Eigen::Isometry3d::Identity());
   Vector6d compliance;
   for (std::size_t j = 0; j < 6; ++j) compliance[static_cast<Eigen::Index>(j)] = 1.0 / *spec.machine.joints[j].torsion;
-  const effects::WorkingPoint at;
+  const effects::LinearizationPoint at;
   const effects::ElasticArm arm(geometry, compliance, at, {{&model, parameters}});
   const Eigen::Isometry3d& flange = geometry.arm.base_from_flange_at_zero;
   double most = 0.0;
@@ -42,44 +43,48 @@ TEST_P(AgainstTheSimulator, DeflectsTheSameWithFiniteRotations) {
     states[0].q = states[1].q = campaign.states->rows[row].q;
     states[1].loaded = true;
     const simulation::AppliedLoad load = simulation::loadAtStep(*spec.loading, 3, machine.gravity_in_base, {});
-    const simulation::MachineState at_rest = simulation::equilibrium(machine, states[0].q), loaded = simulation::equilibrium(machine, states[0].q, load);
-    const effects::ToolLoad own{flange * spec.loading->hook_in_flange, loaded.load_force_in_base, Eigen::Vector3d::Zero()};
+    const simulation::MachineState at_rest = simulation::equilibrium(machine, states[0].q),
+                                   loaded = simulation::equilibrium(machine, states[0].q, load);
+    const effects::ToolLoad own{flange * spec.loading->hook_in_flange, loaded.load_force_in_base,
+                                Eigen::Vector3d::Zero()};
     const auto before = arm.toolMotion(states, 0, nullptr), after = arm.toolMotion(states, 1, &own);
     ASSERT_TRUE(before && after);
     for (std::size_t t = 0; t < spec.targets.size(); ++t) {
       const Eigen::Vector3d place = flange * spec.targets[t].position_in_flange;
       const Eigen::Vector3d truth = loaded.targets_in_base[t] - at_rest.targets_in_base[t];
       most = std::max(most, truth.norm());
-      // The simulator turns a joint's drive and bearing together, the arm one after the other: half the product of the two
-      // angles (0.5 mrad each here) over a lever of 2 m, a quarter of a micrometre a joint.
+      // The simulator turns a joint's drive and bearing together, the arm one after the other: half the product of the
+      // two angles (0.5 mrad each here) over a lever of 2 m, a quarter of a micrometre a joint.
       EXPECT_LT((*after * place - *before * place - truth).norm(), 1e-6);
     }
   }
   EXPECT_GT(most, 1.5e-3) << "deflections too small to show anything";
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Mechanisms, AgainstTheSimulator,
-    testing::Values(Mechanism{"springs", effects::Effect::bearing_tilt, [](simulation::SimulationSpec&, Eigen::VectorXd&) {}},
-                    Mechanism{"bearings", effects::Effect::bearing_tilt,
-                              [](simulation::SimulationSpec& spec, Eigen::VectorXd& parameters) {
-                                const std::array<double, 6> rates{5e7, 1.6e7, 1e7, 2e6, 6e5, 3e5};
-                                for (std::size_t j = 0; j < 6; ++j) {
-                                  spec.machine.joints[j].bearing = rates[j];
-                                  parameters[static_cast<Eigen::Index>(j)] = 1.0 / *spec.machine.joints[j].bearing;
-                                }
-                              }},
-                    Mechanism{"link", effects::Effect::link_compliance,
-                              [](simulation::SimulationSpec& spec, Eigen::VectorXd& parameters) {
-                                spec.machine.links.push_back({1, 5e6, 4e6, std::nullopt, std::nullopt});
-                                parameters[2] = 1.0 / 5e6, parameters[3] = 1.0 / 4e6;
-                              }},
-                    Mechanism{"base", effects::Effect::base_compliance,
-                              [](simulation::SimulationSpec& spec, Eigen::VectorXd& parameters) {
-                                spec.machine.base_rotation = Eigen::Vector3d(3e7, 2.5e7, 1e15);
-                                parameters[0] = 1.0 / 3e7, parameters[1] = 1.0 / 2.5e7;
-                              }}),
-    [](const testing::TestParamInfo<Mechanism>& info) { return info.param.name; });
+INSTANTIATE_TEST_SUITE_P(Mechanisms, AgainstTheSimulator,
+                         testing::Values(Mechanism{"springs", effects::Effect::bearing_tilt,
+                                                   [](simulation::SimulationSpec&, Eigen::VectorXd&) {}},
+                                         Mechanism{"bearings", effects::Effect::bearing_tilt,
+                                                   [](simulation::SimulationSpec& spec, Eigen::VectorXd& parameters) {
+                                                     const std::array<double, 6> rates{5e7, 1.6e7, 1e7, 2e6, 6e5, 3e5};
+                                                     for (std::size_t j = 0; j < 6; ++j) {
+                                                       spec.machine.joints[j].bearing = rates[j];
+                                                       parameters[static_cast<Eigen::Index>(j)] =
+                                                           1.0 / *spec.machine.joints[j].bearing;
+                                                     }
+                                                   }},
+                                         Mechanism{
+                                             "link", effects::Effect::link_compliance,
+                                             [](simulation::SimulationSpec& spec, Eigen::VectorXd& parameters) {
+                                               spec.machine.links.push_back({1, 5e6, 4e6, std::nullopt, std::nullopt});
+                                               parameters[2] = 1.0 / 5e6, parameters[3] = 1.0 / 4e6;
+                                             }},
+                                         Mechanism{"base", effects::Effect::base_compliance,
+                                                   [](simulation::SimulationSpec& spec, Eigen::VectorXd& parameters) {
+                                                     spec.machine.base_rotation = Eigen::Vector3d(3e7, 2.5e7, 1e15);
+                                                     parameters[0] = 1.0 / 3e7, parameters[1] = 1.0 / 2.5e7;
+                                                   }}),
+                         [](const testing::TestParamInfo<Mechanism>& info) { return info.param.name; });
 
 }  // namespace
 }  // namespace stiffscope

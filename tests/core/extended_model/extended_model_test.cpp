@@ -6,10 +6,10 @@
 #include <cstdlib>
 #include <numeric>
 #include "core/compensation/compensate.h"
-#include "core/identification/estimate.h"
 #include "core/effects/all.h"
-#include "core/extended_model/effect_deflection.h"
 #include "core/extended_model/corrected_campaign.h"
+#include "core/extended_model/effect_deflection.h"
+#include "core/identification/estimate.h"
 #include "core/io/input_error.h"
 #include "core/simulation/equilibrium.h"
 #include "tests/fixtures/extended_day.h"
@@ -27,7 +27,9 @@ struct Hidden {
   std::vector<double> truth;  ///< of the parameters in their order; empty: not stated
 };
 
-double truthOf(const simulation::SimulationSpec& spec, int joint) { return *spec.machine.joints[static_cast<std::size_t>(joint)].torsion; }
+double truthOf(const simulation::SimulationSpec& spec, int joint) {
+  return *spec.machine.joints[static_cast<std::size_t>(joint)].torsion;
+}
 
 /// Joints whose stated interval does not hold the truth, and the largest error over the standard uncertainty.
 struct Missed {
@@ -62,7 +64,7 @@ TEST_P(HiddenEffect, TrueStiffnessesComeBackWithItAndNotWithoutIt) {
   const Hidden& hidden = GetParam();
   simulation::SimulationSpec spec = springsAlone(3);
   hidden.hide(spec);
-  const extended_model::ImprovedModel model = improvedDay(spec, {hidden.word});
+  const extended_model::ExtendedModel model = extendedDay(spec, {hidden.word});
   ASSERT_EQ(model.effects.added.size(), 1u);
   EXPECT_TRUE(model.effects.added[0].plausible);
   for (std::size_t i = 0; i < hidden.truth.size(); ++i) {
@@ -73,7 +75,8 @@ TEST_P(HiddenEffect, TrueStiffnessesComeBackWithItAndNotWithoutIt) {
     const identification::MethodResult &without = model.without.of(which), &with = model.with.of(which);
     ASSERT_TRUE(without.available && with.available) << without.reason << with.reason;
     EXPECT_GE(missedBy(without, spec).joints, 1) << "the effect is hidden in no stiffness: nothing is tested";
-    // Five joints with 10 to 20 effective degrees of freedom: 3.5 standard deviations are passed once in a hundred days.
+    // Five joints with 10 to 20 effective degrees of freedom: 3.5 standard deviations are passed once in a hundred
+    // days.
     EXPECT_LT(missedBy(with, spec).worst, 3.5);
     EXPECT_LT(with.estimate.rms_residual, without.estimate.rms_residual);
     EXPECT_GT(with.at_targets->subsets.held_out, without.at_targets->subsets.held_out);
@@ -84,20 +87,24 @@ TEST_P(HiddenEffect, TrueStiffnessesComeBackWithItAndNotWithoutIt) {
   EXPECT_GT(model.effects.explained, 0.9);
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    OfDifferentKind, HiddenEffect,
-    testing::Values(
-        Hidden{"MachineBearing", "bearing_tilt:3", &tiltJoint3, {1.0 / 4e6}},
-        Hidden{"LoadPoint", "load_point_error",
-               [](simulation::SimulationSpec& spec) { spec.load_cell->place_error = {0.03, -0.02, 0.04}; },
-               {0.03, -0.02, 0.04}},
-        Hidden{"CellTurned", "load_cell_misalignment",
-               [](simulation::SimulationSpec& spec) { spec.load_cell->misalignment = {0.05, -0.08, 0.03}; },
-               {0.05, -0.08, 0.03}},
-        Hidden{"ReflectorMoves", "target_motion:P12", &softNest, {}}),
-    [](const testing::TestParamInfo<Hidden>& info) { return info.param.name; });
+INSTANTIATE_TEST_SUITE_P(OfDifferentKind, HiddenEffect,
+                         testing::Values(Hidden{"MachineBearing", "bearing_tilt:3", &tiltJoint3, {1.0 / 4e6}},
+                                         Hidden{"LoadPoint",
+                                                "load_point_error",
+                                                [](simulation::SimulationSpec& spec) {
+                                                  spec.load_cell->place_error = {0.03, -0.02, 0.04};
+                                                },
+                                                {0.03, -0.02, 0.04}},
+                                         Hidden{"CellTurned",
+                                                "load_cell_misalignment",
+                                                [](simulation::SimulationSpec& spec) {
+                                                  spec.load_cell->misalignment = {0.05, -0.08, 0.03};
+                                                },
+                                                {0.05, -0.08, 0.03}},
+                                         Hidden{"ReflectorMoves", "target_motion:P12", &softNest, {}}),
+                         [](const testing::TestParamInfo<Hidden>& info) { return info.param.name; });
 
-TEST(ImprovedModel, StatedIntervalsHoldTheTruth) {
+TEST(ExtendedModel, StatedIntervalsHoldTheTruth) {
   const char* asked = std::getenv("STIFFSCOPE_WITH_DAYS");
   const int days = asked != nullptr ? std::atoi(asked) : 3;
   std::array<std::array<int, 6>, 3> held{}, stated{};
@@ -105,11 +112,12 @@ TEST(ImprovedModel, StatedIntervalsHoldTheTruth) {
   for (int day = 0; day < days; ++day) {
     simulation::SimulationSpec spec = springsAlone(100 + static_cast<std::uint64_t>(day));
     tiltJoint3(spec);
-    const extended_model::ImprovedModel model = improvedDay(spec, {"bearing_tilt:3"}, 1);
+    const extended_model::ExtendedModel model = extendedDay(spec, {"bearing_tilt:3"}, 1);
     for (std::size_t m = 0; m < 3; ++m) {
       const identification::StiffnessEstimate& estimate = model.with.methods[m].estimate;
       for (std::size_t j = 1; j < 6; ++j, ++all) {
-        const bool holds = identification::stiffnessInterval(estimate, static_cast<int>(j)).holds(truthOf(spec, static_cast<int>(j)));
+        const bool holds =
+            identification::stiffnessInterval(estimate, static_cast<int>(j)).holds(truthOf(spec, static_cast<int>(j)));
         held[m][j] += holds, ++stated[m][j], all_held += holds;
       }
     }
@@ -118,37 +126,40 @@ TEST(ImprovedModel, StatedIntervalsHoldTheTruth) {
     for (std::size_t j = 1; j < 6; ++j)
       fmt::print("method {} k{}: {:.1f} % of {}\n", m, j + 1, 100.0 * held[m][j] / stated[m][j], stated[m][j]);
   }
-  // The three methods share their errors: of three days 45 intervals count as 15; fewer than three of four would come once in 5000
-  // by chance at the stated 95 %. Two hundred days show a coverage to 2 %.
+  // The three methods share their errors: of three days 45 intervals count as 15; fewer than three of four would come
+  // once in 5000 by chance at the stated 95 %. Two hundred days show a coverage to 2 %.
   EXPECT_GE(static_cast<double>(all_held) / all, asked != nullptr ? 0.90 : 0.75);
 }
 
 /// How far the machine's reflectors stand from where they are unloaded, mean over postures.
-double meanLeft(const simulation::SimulationSpec& spec, int step, const std::vector<compensation::CompensatedPosture>& rows) {
+double meanLeft(const simulation::SimulationSpec& spec, int step,
+                const std::vector<compensation::CompensatedPosture>& rows) {
   const simulation::ElasticMachine machine = simulation::buildMachine(spec);
   const simulation::AppliedLoad load = simulation::loadAtStep(*spec.loading, step, machine.gravity_in_base, {});
   double sum = 0.0;
   for (const compensation::CompensatedPosture& row : rows) {
     EXPECT_TRUE(row.solved) << row.reason;
-    const simulation::MachineState rest = simulation::equilibrium(machine, row.posture.q), there = simulation::equilibrium(machine, row.commands, load);
+    const simulation::MachineState rest = simulation::equilibrium(machine, row.posture.q),
+                                   there = simulation::equilibrium(machine, row.commands, load);
     for (std::size_t t = 0; t < rest.targets_in_base.size(); ++t)
-      sum += (there.targets_in_base[t] - rest.targets_in_base[t]).norm() / static_cast<double>(rest.targets_in_base.size());
+      sum += (there.targets_in_base[t] - rest.targets_in_base[t]).norm() /
+             static_cast<double>(rest.targets_in_base.size());
   }
   return sum / static_cast<double>(rows.size());
 }
 
-TEST(ImprovedModel, CommandsWithAnEffectOfTheMachineLeaveLessOfTheTrueDeflection) {
+TEST(ExtendedModel, CommandsWithAnEffectOfTheMachineLeaveLessOfTheTrueDeflection) {
   simulation::SimulationSpec spec = springsAlone(3);
   tiltJoint3(spec);
-  const extended_model::ImprovedModel model = improvedDay(spec, {"bearing_tilt:3"});
-  ASSERT_TRUE(extended_model::givesFurther(model.effects));
+  const extended_model::ExtendedModel model = extendedDay(spec, {"bearing_tilt:3"});
+  ASSERT_TRUE(extended_model::deflectsByEffects(model.effects));
   constexpr identification::Method kMethod = identification::Method::partial_pose;
-  const auto commands = [&](const identification::Identification& result, const effects::FurtherGive* give) {
+  const auto commands = [&](const identification::Identification& result, const effects::EffectDeflection* give) {
     const identification::MethodResult& method = result.of(kMethod);
     return compensation::compensate(model.campaign, method.geometry, method.estimate, result.frames.tcp_in_flange,
-                      compensation::campaignPostures(model.campaign, result.step), {}, give);
+                                    compensation::campaignPostures(model.campaign, result.step), {}, give);
   };
-  const effects::FurtherGive give = extended_model::furtherGive(model, kMethod);
+  const effects::EffectDeflection give = extended_model::effectDeflection(model, kMethod);
   const auto plain_rows = commands(model.without, nullptr), rows = commands(model.with, &give);
   const double without = meanLeft(spec, model.with.step, plain_rows), with = meanLeft(spec, model.with.step, rows);
   EXPECT_LT(with, 0.3 * without);
@@ -162,31 +173,33 @@ TEST(ImprovedModel, CommandsWithAnEffectOfTheMachineLeaveLessOfTheTrueDeflection
   }
   // What the machine does stays in its displacements, and the effect's uncertainty is in the prediction's.
   for (std::size_t i = 0; i < moved.size(); ++i) EXPECT_NEAR(moved[i], model.without.target_displacement[i], 1e-9);
-  effects::FurtherGive springs_only = extended_model::furtherGive(model, kMethod);
+  effects::EffectDeflection springs_only = extended_model::effectDeflection(model, kMethod);
   springs_only.varied.clear();
   EXPECT_GT(rows.front().tcp.sd.norm(), commands(model.with, &springs_only).front().tcp.sd.norm());
 }
 
-TEST(ImprovedModel, AFaultOfTheMeasurementIsNoPartOfADeflection) {
+TEST(ExtendedModel, AFaultOfTheMeasurementIsNoPartOfADeflection) {
   simulation::SimulationSpec spec = springsAlone(3);
   softNest(spec);
-  const extended_model::ImprovedModel model = improvedDay(spec, {"target_motion:P12"}, 2);
-  EXPECT_FALSE(extended_model::givesFurther(model.effects));
+  const extended_model::ExtendedModel model = extendedDay(spec, {"target_motion:P12"}, 2);
+  EXPECT_FALSE(extended_model::deflectsByEffects(model.effects));
   // The displacements that shares are of: those of reflectors that sit still in their nests, read on the same day.
   spec.targets[2].motion.reset();
   const identification::Identification still = identification::identify(simulation::simulate(spec), fewSubsets(2));
   double added = 0.0;
   for (std::size_t i = 0; i < still.target_displacement.size(); ++i) {
-    // The same noise; 4 um are 1 % of what one of three reflectors moved, mean 150 um, its parameters known to half of that.
+    // The same noise; 4 um are 1 % of what one of three reflectors moved, mean 150 um, its parameters known to half of
+    // that.
     EXPECT_NEAR(model.with.target_displacement[i], still.target_displacement[i], 4e-6);
     added += model.without.target_displacement[i] - still.target_displacement[i];
   }
   EXPECT_GT(added / static_cast<double>(still.target_displacement.size()), 50e-6);
 }
 
-TEST(ImprovedModel, WithoutEffectsNothingChanges) {
+TEST(ExtendedModel, WithoutEffectsNothingChanges) {
   const campaign::Campaign campaign = simulation::simulate(springsAlone(3));
-  const extended_model::ImprovedModel model = extended_model::improveModel(campaign, extended_model::fitEffects(campaign, {}), fewSubsets(2));
+  const extended_model::ExtendedModel model =
+      extended_model::extendModel(campaign, extended_model::fitEffects(campaign, {}), fewSubsets(2));
   EXPECT_TRUE(model.effects.added.empty());
   EXPECT_EQ(model.with.of(identification::Method::partial_pose).estimate.compliance,
             model.without.of(identification::Method::partial_pose).estimate.compliance);
@@ -198,49 +211,53 @@ TEST(EffectFit, SaysWhatIsMissing) {
   const campaign::Campaign campaign = simulation::simulate(spec);
   const auto messageOf = [&](const std::vector<std::string>& words) -> std::string {
     try {
-      extended_model::fitEffects(campaign, extended_model::wantedEffects(words, campaign));
+      extended_model::fitEffects(campaign, extended_model::requestedEffects(words, campaign));
     } catch (const io::InputError& error) {
       return error.what();
     }
     return "";
   };
-  EXPECT_EQ(messageOf({"hysteresis"}),
-            "--with: 'hysteresis': this campaign cannot show that effect: no return to zero: a last, unloaded step in each "
-            "posture is needed");
-  EXPECT_EQ(messageOf({"bearing_tlt"}).rfind("--with: 'bearing_tlt': expected auto or effects of: link_compliance, ", 0), 0u);
+  EXPECT_EQ(
+      messageOf({"hysteresis"}),
+      "--with: 'hysteresis': this campaign cannot show that effect: no return to zero: a last, unloaded step in each "
+      "posture is needed");
+  EXPECT_EQ(
+      messageOf({"bearing_tlt"}).rfind("--with: 'bearing_tlt': expected auto or effects of: link_compliance, ", 0), 0u);
   EXPECT_NE(messageOf({"bearing_tlt"}).find("(did you mean 'bearing_tilt'?)"), std::string::npos);
-  EXPECT_EQ(messageOf({"target_motion:P13"}),
-            "--with: 'target_motion:P13': expected one of its parts: P10, P11, P12");
+  EXPECT_EQ(messageOf({"target_motion:P13"}), "--with: 'target_motion:P13': expected one of its parts: P10, P11, P12");
   EXPECT_EQ(messageOf({"frame_error:2"}), "--with: 'frame_error:2': frame_error has no parts to name");
 }
 
 TEST(EffectFit, GeometryIsIdentificationsOwnTask) {
   const campaign::Campaign campaign = simulation::simulate(springsAlone(3));
-  const extended_model::EffectFit fit = extended_model::fitEffects(campaign, extended_model::wantedEffects({"kinematic_error"}, campaign));
+  const extended_model::EffectFit fit =
+      extended_model::fitEffects(campaign, extended_model::requestedEffects({"kinematic_error"}, campaign));
   EXPECT_TRUE(fit.added.empty());
   EXPECT_EQ(fit.geometry, std::vector<effects::Effect>{effects::Effect::kinematic_error});
 }
 
-TEST(WantedEffects, DetailsOfOneEffectAddUp) {
+TEST(RequestedEffects, DetailsOfOneEffectAddUp) {
   const campaign::Campaign campaign = simulation::simulate(springsAlone(3));
-  const extended_model::WantedEffects wanted =
-      extended_model::wantedEffects({"bearing_tilt:2", "joint_coupling:3-2", "bearing_tilt:3", "hysteresis"}, campaign);
+  const extended_model::RequestedEffects wanted = extended_model::requestedEffects(
+      {"bearing_tilt:2", "joint_coupling:3-2", "bearing_tilt:3", "hysteresis"}, campaign);
   ASSERT_EQ(wanted.effects.size(), 3u);
   EXPECT_EQ(wanted.effects[0].parts, (std::vector<std::string>{"joint 2", "joint 3"}));
   EXPECT_EQ(wanted.effects[1].parts, std::vector<std::string>{"joints 2 and 3"});
   EXPECT_TRUE(wanted.effects[2].parts.empty());
 }
 
-TEST(WantedEffects, OfADiagnosisTakesTheFirstOfAClassAndNeverTheUnknown) {
+TEST(RequestedEffects, OfADiagnosisTakesTheFirstOfAClassAndNeverTheUnknown) {
   diagnosis::Diagnosis diagnosis;
   diagnosis.usable = true;
-  diagnosis.verdict.entries = {{{effects::Effect::bearing_tilt, effects::Effect::link_compliance}, "joint 2, joint 3 or joint 4"}, {{}, ""}};
-  extended_model::WantedEffects wanted = extended_model::namedBy(diagnosis);
+  diagnosis.verdict.entries = {
+      {{effects::Effect::bearing_tilt, effects::Effect::link_compliance}, "joint 2, joint 3 or joint 4"}, {{}, ""}};
+  extended_model::RequestedEffects wanted = extended_model::namedBy(diagnosis);
   ASSERT_EQ(wanted.effects.size(), 1u);
   EXPECT_EQ(wanted.effects[0].effect, effects::Effect::bearing_tilt);
   EXPECT_EQ(wanted.effects[0].parts, (std::vector<std::string>{"joint 2", "joint 3"}));
   ASSERT_EQ(wanted.notes.size(), 2u);
-  EXPECT_EQ(wanted.notes[0], "bearing_tilt is added because it fits best; this data cannot tell it from link_compliance");
+  EXPECT_EQ(wanted.notes[0],
+            "bearing_tilt is added because it fits best; this data cannot tell it from link_compliance");
   diagnosis.verdict.entries = {{{}, ""}};
   wanted = extended_model::namedBy(diagnosis);
   EXPECT_TRUE(wanted.effects.empty());
@@ -256,13 +273,14 @@ TEST(EffectNature, EveryEffectHasOneAndMeasurementsStayOutOfCompensation) {
   int entering = 0;
   for (std::size_t e = 0; e < effects::kEffectCount; ++e) {
     const auto effect = static_cast<effects::Effect>(e);
-    EXPECT_EQ(effects::entersCompensation(effect),
-              effects::natureOf(effect) == effects::EffectNature::machine || effects::natureOf(effect) == effects::EffectNature::load);
+    EXPECT_EQ(effects::entersCompensation(effect), effects::natureOf(effect) == effects::EffectNature::machine ||
+                                                       effects::natureOf(effect) == effects::EffectNature::load);
     entering += effects::entersCompensation(effect);
   }
   EXPECT_EQ(entering, 10);
-  for (const effects::Effect effect : {effects::Effect::tracker_drift, effects::Effect::frame_error, effects::Effect::target_motion,
-                              effects::Effect::load_cell_bias, effects::Effect::load_cell_misalignment}) {
+  for (const effects::Effect effect :
+       {effects::Effect::tracker_drift, effects::Effect::frame_error, effects::Effect::target_motion,
+        effects::Effect::load_cell_bias, effects::Effect::load_cell_misalignment}) {
     EXPECT_FALSE(effects::entersCompensation(effect)) << effects::idOf(effect);
   }
 }

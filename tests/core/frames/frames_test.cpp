@@ -58,8 +58,7 @@ TEST(MeasuredFrames, AnArmWithGeometryErrorsComesBack) {
   campaign::Campaign campaign = lab.empty();
   lab.addCircleSweeps(campaign);
   const frames::Frames frames = frames::measureFrames(campaign);
-  constexpr double kExact =
-      1e-9;  // m and rad: rounding of 4 m by circle fits over 90 degrees, turned back five times
+  constexpr double kExact = 1e-9;  // m and rad: rounding of 4 m by circle fits over 90 degrees, turned back five times
 
   ASSERT_TRUE(frames.arm.points_placed);
   const Frame base_from_r0 = baseFromR0(lab.actual);
@@ -76,9 +75,8 @@ TEST(MeasuredFrames, AnArmWithGeometryErrorsComesBack) {
   for (std::size_t j = 0; j < 5; ++j) {
     const JointLine a = jointLine(lab.actual, j), b = jointLine(lab.actual, j + 1);
     const double angle = std::asin(std::min(1.0, a.direction.cross(b.direction).norm()));
-    EXPECT_NEAR(frames.links[j].angle, angle, j == 1 ? kExact : 1e-6)
-        << j;              // asin loses half the digits at 90 degrees
-    if (j == 1) continue;  // nearly parallel: below
+    EXPECT_NEAR(frames.links[j].angle, angle, j == 1 ? kExact : 1e-6) << j;  // asin loses half the digits at 90 degrees
+    if (j == 1) continue;                                                    // nearly parallel: below
     const auto [on_a, on_b] = feet(a, b);
     EXPECT_NEAR(frames.links[j].distance, (on_a - on_b).norm(), kExact) << j;
     EXPECT_FALSE(frames.links[j].near_parallel);
@@ -96,9 +94,7 @@ TEST(MeasuredFrames, AnArmWithGeometryErrorsComesBack) {
   const auto at_zero = lab.actual.framesAt(Vector6d::Zero());
   for (std::size_t k = 0; k < 3; ++k) {
     ASSERT_TRUE(frames.targets_in_r0_at_zero[k]);
-    EXPECT_LT(
-        (base_from_r0 * *frames.targets_in_r0_at_zero[k] - at_zero[6] * lab.targets_in_flange[k]).norm(),
-        kExact);
+    EXPECT_LT((base_from_r0 * *frames.targets_in_r0_at_zero[k] - at_zero[6] * lab.targets_in_flange[k]).norm(), kExact);
   }
 
   // P_TCP: the flange plane stands 0.3 m from axis 5 along axis 6, as it does nominally; joint 6 points back
@@ -115,8 +111,7 @@ TEST(MeasuredFrames, WristCentreAndTableOne) {
   lab.withoutMasses();
   Noise noise(32);
   ChainArm disturbed = lab.nominal.disturbed(noise, 1e-3, 1e-3);
-  for (std::size_t j = 0; j < 4; ++j)
-    lab.actual.to_joint[j] = disturbed.to_joint[j];  // the wrist's axes still meet
+  for (std::size_t j = 0; j < 4; ++j) lab.actual.to_joint[j] = disturbed.to_joint[j];  // the wrist's axes still meet
   campaign::Campaign campaign = lab.empty();
   lab.addCircleSweeps(campaign);
   lab.addWristSweep(campaign);
@@ -124,13 +119,11 @@ TEST(MeasuredFrames, WristCentreAndTableOne) {
   ASSERT_TRUE(frames.wrist.measured) << frames.wrist.reason;
   const Vector6d q = campaign.wrist_sweep->rows.front().q;
   const Frame base_from_r0 = baseFromR0(lab.actual);
-  const Eigen::Vector3d centre =
-      lab.actual.framesAt(q)[4].translation();  // joint 5's origin: on all three axes
+  const Eigen::Vector3d centre = lab.actual.framesAt(q)[4].translation();  // joint 5's origin: on all three axes
   constexpr double kExact = 1e-9;
   EXPECT_LT((base_from_r0 * frames.wrist.centre_in_r0 - centre).norm(), kExact);
   EXPECT_LT((base_from_r0 * frames.wrist.nearest_axes_56_in_r0 - centre).norm(), kExact);
-  EXPECT_LT((base_from_r0 * frames.wrist.centre_at_zero_in_r0 -
-             lab.actual.framesAt(Vector6d::Zero())[4].translation())
+  EXPECT_LT((base_from_r0 * frames.wrist.centre_at_zero_in_r0 - lab.actual.framesAt(Vector6d::Zero())[4].translation())
                 .norm(),
             kExact);
   EXPECT_LT(frames.wrist.miss_45, kExact);
@@ -142,8 +135,7 @@ TEST(MeasuredFrames, WristCentreAndTableOne) {
   for (std::size_t k = 0; k < 3; ++k) {
     EXPECT_LT(frames.wrist.table[k].offset, kExact);
     EXPECT_EQ(frames.wrist.table[k].readings, 30);
-    EXPECT_NEAR(frames.wrist.radii[k], (lab.actual.flangeAt(q) * lab.targets_in_flange[k] - centre).norm(),
-                kExact);
+    EXPECT_NEAR(frames.wrist.radii[k], (lab.actual.flangeAt(q) * lab.targets_in_flange[k] - centre).norm(), kExact);
     barycentre += lab.actual.flangeAt(q_arm) * lab.targets_in_flange[k] / 3.0;
   }
   EXPECT_LT((base_from_r0 * frames.wrist.reflector_barycentre_in_r0 - barycentre).norm(), kExact);
@@ -160,14 +152,13 @@ TEST(MeasuredFrames, OwnWeightIsTakenOffByTheRightCompliance) {
   const auto error = [&](const frames::Frames& frames) {
     double worst = (frames.arm.r0_from_points.matrix() - r0_from_tracker.matrix()).cwiseAbs().maxCoeff();
     for (std::size_t j = 0; j < 6; ++j) {
-      worst = std::max(worst, distanceToLine(jointLine(lab.actual, j),
-                                             base_from_r0 * frames.arm.arm.axes_in_base_at_zero[j].point));
+      worst = std::max(
+          worst, distanceToLine(jointLine(lab.actual, j), base_from_r0 * frames.arm.arm.axes_in_base_at_zero[j].point));
     }
     const auto at_zero = lab.actual.framesAt(Vector6d::Zero());
     for (std::size_t k = 0; k < 3; ++k) {
       worst = std::max(
-          worst,
-          (base_from_r0 * *frames.targets_in_r0_at_zero[k] - at_zero[6] * lab.targets_in_flange[k]).norm());
+          worst, (base_from_r0 * *frames.targets_in_r0_at_zero[k] - at_zero[6] * lab.targets_in_flange[k]).norm());
     }
     return worst;
   };

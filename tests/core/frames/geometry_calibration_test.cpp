@@ -29,8 +29,7 @@ double worstPrediction(const SimulatedLab& lab, const frames::LoadingGeometry& g
   double worst = 0.0;
   for (int i = 0; i < 30; ++i) {
     const Vector6d q = somePosture(noise);
-    for (std::size_t k = 0; k < 3; ++k)
-      worst = std::max(worst, (predicted(geometry, q, k) - lab.seen(q, k)).norm());
+    for (std::size_t k = 0; k < 3; ++k) worst = std::max(worst, (predicted(geometry, q, k) - lab.seen(q, k)).norm());
   }
   return worst;
 }
@@ -141,10 +140,12 @@ TEST(PositionCost, HasTheDerivativesOfItsResidual) {
   frames::CalibrationStart start;
   for (std::size_t j = 0; j < 6; ++j) {
     const double at = static_cast<double>(j);
-    start.axes[j] = {Eigen::Vector3d(0.1 * at, -0.2, 0.3 * at), Eigen::Vector3d(std::sin(at), std::cos(2.0 * at), 0.5).normalized()};
+    start.axes[j] = {Eigen::Vector3d(0.1 * at, -0.2, 0.3 * at),
+                     Eigen::Vector3d(std::sin(at), std::cos(2.0 * at), 0.5).normalized()};
     metrology::basisAcross(start.axes[j].direction, start.across_u[j], start.across_v[j]);
   }
-  start.points_from_base = Eigen::Translation3d(1.0, -2.0, 0.5) * Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, -1).normalized());
+  start.points_from_base =
+      Eigen::Translation3d(1.0, -2.0, 0.5) * Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, -1).normalized());
   Vector6d q;
   q << 0.3, -0.8, 1.1, 2.0, -0.4, 0.9;
   const Eigen::Matrix3d whiten = (Eigen::Matrix3d() << 3.0, 0.2, 0.1, 0.0, 2.0, -0.3, 0.0, 0.0, 5.0).finished();
@@ -165,7 +166,8 @@ TEST(PositionCost, HasTheDerivativesOfItsResidual) {
     return all;
   };
   const auto found = evaluated(frames::PositionCost(residual));
-  const auto expected = evaluated(ceres::AutoDiffCostFunction<frames::PositionResidual, 3, 24, 6, 3>(new frames::PositionResidual(residual)));
+  const auto expected = evaluated(
+      ceres::AutoDiffCostFunction<frames::PositionResidual, 3, 24, 6, 3>(new frames::PositionResidual(residual)));
   EXPECT_LT((found - expected).cwiseAbs().maxCoeff(), 1e-13);
   EXPECT_GT(expected.cwiseAbs().colwise().maxCoeff().minCoeff(), 1e-3);  // no column is empty
 }

@@ -11,9 +11,9 @@ namespace {
 robot::Robot threeParallelAxes() {
   robot::Robot robot;
   const Eigen::Vector3d x = Eigen::Vector3d::UnitX(), y = Eigen::Vector3d::UnitY(), z = Eigen::Vector3d::UnitZ();
-  robot.axes_in_base_at_zero = {metrology::Line{{0.0, 0.0, 0.0}, z},     metrology::Line{{0.0, 0.2, 0.128}, y},
+  robot.axes_in_base_at_zero = {metrology::Line{{0.0, 0.0, 0.0}, z},      metrology::Line{{0.0, 0.2, 0.128}, y},
                                 metrology::Line{{0.6127, 0.1, 0.128}, y}, metrology::Line{{1.1843, 0.2, 0.128}, y},
-                                metrology::Line{{1.1843, 0.3, 0.1}, z},  metrology::Line{{1.3, 0.3, 0.0}, x}};
+                                metrology::Line{{1.1843, 0.3, 0.1}, z},   metrology::Line{{1.3, 0.3, 0.0}, x}};
   return robot;
 }
 

@@ -16,7 +16,7 @@ namespace {
 
 constexpr int kDraws = 2000;
 constexpr double kAlong = 6e-6, kAcross = 2.5e-5;  // m
-constexpr double kScale = 2e-5;  // relative: twenty times a tracker's, for it to show
+constexpr double kScale = 2e-5;                    // relative: twenty times a tracker's, for it to show
 const std::map<int, double> kChiSquare95{{1, 3.8415}, {3, 7.8147}, {6, 12.5916}, {9, 16.9190}};
 
 /// Axes 1-4 a millimetre and a milliradian off; the wrist's axes meet. Axis 1 stands at -14 degrees when the others are
@@ -27,8 +27,8 @@ SimulatedLab propagationLab() {
   Noise noise(32);
   const ChainArm disturbed = lab.nominal.disturbed(noise, 1e-3, 1e-3);
   for (std::size_t j = 0; j < 4; ++j) lab.actual.to_joint[j] = disturbed.to_joint[j];
-  // Angles are given as 0 to 90 degrees: one a fraction of its uncertainty below 90 is folded, and too good. Here axis 4
-  // stands clear of the right angle to axis 3; those of 4 to 5 and 5 to 6 are exactly right, where folding changes no
+  // Angles are given as 0 to 90 degrees: one a fraction of its uncertainty below 90 is folded, and too good. Here axis
+  // 4 stands clear of the right angle to axis 3; those of 4 to 5 and 5 to 6 are exactly right, where folding changes no
   // error's size.
   lab.actual.to_joint[3].rotate(Eigen::AngleAxisd(2e-3, Eigen::Vector3d::UnitZ()));
   return lab;
@@ -160,13 +160,16 @@ TEST(Propagation, StiffnessesOfTheSagByMonteCarlo) {
   lab.nominal = lab.actual = exampleChain();
   lab.compliance = exampleCompliance();
   campaign::Campaign campaign = sweptOver(lab, 90.0);
-  for (campaign::CircleReading& reading : campaign.circle_sweeps->rows) reading.point = lab.seen(lab.settled(reading.q), static_cast<std::size_t>(reading.target));
-  for (campaign::WristReading& reading : campaign.wrist_sweep->rows) reading.point = lab.seen(lab.settled(reading.q), static_cast<std::size_t>(reading.target));
+  for (campaign::CircleReading& reading : campaign.circle_sweeps->rows)
+    reading.point = lab.seen(lab.settled(reading.q), static_cast<std::size_t>(reading.target));
+  for (campaign::WristReading& reading : campaign.wrist_sweep->rows)
+    reading.point = lab.seen(lab.settled(reading.q), static_cast<std::size_t>(reading.target));
   Matrix6d half = Matrix6d(0.05 * exampleCompliance().asDiagonal());
   half(1, 0) = half(2, 1) = -0.03 * exampleCompliance()[1];
   frames::Frames start = frames::measureFrames(campaign);
   for (int round = 0; round < 2; ++round) start = frames::refineFrames(campaign, start, lab.compliance);
-  const frames::Frames stated = frames::refineFrames(campaign, start, lab.compliance, Matrix6d(half * half.transpose()));
+  const frames::Frames stated =
+      frames::refineFrames(campaign, start, lab.compliance, Matrix6d(half * half.transpose()));
 
   Noise noise(9);
   constexpr int kSagDraws = 400;
@@ -180,7 +183,8 @@ TEST(Propagation, StiffnessesOfTheSagByMonteCarlo) {
         found.wrist.centre_in_r0 - stated.wrist.centre_in_r0;
     squares += off.cwiseAbs2();
   }
-  expected << stated.covariance.sag.diagonal().head<6>(), stated.covariance.sag(frames::FramesCovariance::kDistances + 1, frames::FramesCovariance::kDistances + 1),
+  expected << stated.covariance.sag.diagonal().head<6>(),
+      stated.covariance.sag(frames::FramesCovariance::kDistances + 1, frames::FramesCovariance::kDistances + 1),
       stated.covariance.sag.diagonal().segment<3>(frames::FramesCovariance::kWristCentre);
   for (int i = 0; i < 10; ++i) {
     const double drawn = std::sqrt(squares[i] / kSagDraws), by_law = std::sqrt(expected[i]);

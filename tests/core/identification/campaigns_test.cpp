@@ -32,7 +32,8 @@ TEST(PracticeCampaigns, JointOneShowsExactlyWhereTheLoadIsPulled) {
     EXPECT_EQ(found.identifiability.joints[0].identifiable, !hanging.contains(number)) << number;
     EXPECT_EQ(found.identifiability.load_hangs, hanging.contains(number)) << number;
     if (hanging.contains(number)) {
-      for (const identification::Method method : identification::kMethods) EXPECT_EQ(found.of(method).estimate.compliance[0], 0.0);
+      for (const identification::Method method : identification::kMethods)
+        EXPECT_EQ(found.of(method).estimate.compliance[0], 0.0);
     }
     for (std::size_t joint = 1; joint < 6; ++joint) {
       EXPECT_TRUE(found.identifiability.joints[joint].identifiable) << number << " joint " << joint + 1;
@@ -63,8 +64,7 @@ TEST(PracticeCampaigns, MethodsAgreeWhereNothingIsWrong) {
 }
 
 TEST(RealCable, SixStiffnessesByPartialPose) {
-  if (!std::filesystem::exists(shared("real")))
-    GTEST_SKIP() << "the real campaigns are not beside the checkout";
+  if (!std::filesystem::exists(shared("real"))) GTEST_SKIP() << "the real campaigns are not beside the checkout";
   const identification::Identification found = quickly(shared("real") / "fanuc-r2000ic-cable");
   const identification::MethodResult& result = found.of(identification::Method::partial_pose);
   ASSERT_TRUE(result.available) << result.reason;
@@ -75,7 +75,8 @@ TEST(RealCable, SixStiffnessesByPartialPose) {
   identification::IdentifyOptions plain;
   plain.finite_deflection = false;
   plain.subsets.sample = 5;
-  const auto linear = identification::identify(campaign::readCampaign(shared("real") / "fanuc-r2000ic-cable").campaign, plain);
+  const auto linear =
+      identification::identify(campaign::readCampaign(shared("real") / "fanuc-r2000ic-cable").campaign, plain);
   for (int joint = 0; joint < 6; ++joint) {
     const double expected = independent[static_cast<std::size_t>(joint)];
     EXPECT_NEAR(1e-6 * result.estimate.stiffness(joint), expected, 0.02 * expected) << joint + 1;
@@ -84,7 +85,8 @@ TEST(RealCable, SixStiffnessesByPartialPose) {
         << joint + 1;
   }
   EXPECT_NEAR(1e3 * result.estimate.sigma, 0.220, 0.0011);  // half a per cent: see above
-  for (const identification::Method method : {identification::Method::complete_pose, identification::Method::decoupled_partial_pose}) {
+  for (const identification::Method method :
+       {identification::Method::complete_pose, identification::Method::decoupled_partial_pose}) {
     EXPECT_FALSE(found.of(method).available);
     EXPECT_FALSE(found.of(method).reason.empty());
   }

@@ -17,8 +17,7 @@ TEST(LinearMachine, TorqueIsTheTestsOwn) {
   const auto torques = machine.torques();
   for (std::size_t i = 0; i < machine.cases.size(); ++i) {
     const robot::Wrench& wrench = machine.cases[i].wrench;
-    const Vector6d own =
-        machine.chain.torqueOf(machine.cases[i].q, 6, wrench.point, wrench.force, wrench.moment);
+    const Vector6d own = machine.chain.torqueOf(machine.cases[i].q, 6, wrench.point, wrench.force, wrench.moment);
     EXPECT_LT((torques[i] - own).norm(), 1e-10 * own.norm());  // rounding of sums of 1e4 Nm
     const Eigen::Vector3d wrist =
         identification::modelledWrist(machine.geometry.arm, machine.cases[i], machine.wrist_at_zero);
@@ -51,8 +50,9 @@ TEST(CompletePose, OnlyTheDisplacementRowsAreDividedByTheLength) {
 
 TEST(PartialPose, GivesTheSpringsBack) {
   const LinearMachine machine(kPostures);
-  EXPECT_LT(worstError(identification::partialPose(machine.reflectorEquations(), kAllJoints).compliance, machine.compliance),
-            kLinear);
+  EXPECT_LT(
+      worstError(identification::partialPose(machine.reflectorEquations(), kAllJoints).compliance, machine.compliance),
+      kLinear);
 }
 
 TEST(DecoupledPartialPose, GivesTheSpringsBack) {
@@ -132,7 +132,8 @@ TEST(PartialPose, IsTheLeastSquaresOfTheStackedRows) {
 TEST(MaskedJoint, IsLeftOutAndZero) {
   const LinearMachine machine(kPostures);
   const robot::JointMask without_first{false, true, true, true, true, true};
-  const identification::StiffnessEstimate found = identification::partialPose(machine.reflectorEquations(), without_first);
+  const identification::StiffnessEstimate found =
+      identification::partialPose(machine.reflectorEquations(), without_first);
   EXPECT_EQ(found.compliance[0], 0.0);
   EXPECT_EQ(found.covariance(0, 0), 0.0);
 }
@@ -155,13 +156,13 @@ std::array<double, 6> coverage(int postures, bool decoupled) {
         move.unloaded += 2e-5 * noise.normal3();
       }
     }
-    const identification::StiffnessEstimate found = decoupled ? identification::decoupledPartialPose(machine.wristEquationsOfAll(),
-                                                                     machine.reflectorEquations(), kAllJoints)
-                                              : identification::partialPose(machine.reflectorEquations(), kAllJoints);
+    const identification::StiffnessEstimate found =
+        decoupled ? identification::decoupledPartialPose(machine.wristEquationsOfAll(), machine.reflectorEquations(),
+                                                         kAllJoints)
+                  : identification::partialPose(machine.reflectorEquations(), kAllJoints);
     for (int j = 0; j < 6; ++j) {
       const double sd = std::sqrt(found.covariance(j, j));
-      inside[static_cast<std::size_t>(j)] +=
-          std::abs(found.compliance[j] - machine.compliance[j]) < 1.96 * sd;
+      inside[static_cast<std::size_t>(j)] += std::abs(found.compliance[j] - machine.compliance[j]) < 1.96 * sd;
     }
   }
   for (double& one : inside) one /= kMachines;
@@ -203,8 +204,7 @@ TEST(WristMove, TakesTheLargestTriangleAndTheRootByTheArm) {
   LinearMachine machine(3, 1.0);
   // A fourth reflector close to the first: the triangle with it is thin. Its reading is spoilt: it must not
   // be used.
-  machine.geometry.targets_at_zero.push_back(*machine.geometry.targets_at_zero[0] +
-                                             Eigen::Vector3d(0.001, 0, 0));
+  machine.geometry.targets_at_zero.push_back(*machine.geometry.targets_at_zero[0] + Eigen::Vector3d(0.001, 0, 0));
   machine.radii.push_back((*machine.geometry.targets_at_zero[3] - machine.wrist_at_zero).norm());
   for (identification::LoadCase& one : machine.cases) {
     one.targets.push_back(one.targets[0]);

@@ -29,7 +29,7 @@ SimulatedLab springyLab() {
 }
 
 campaign::Campaign fullDay(const SimulatedLab& lab, const std::function<Eigen::Vector3d(int)>& force,
-                 int postures = 10) {
+                           int postures = 10) {
   campaign::Campaign campaign = lab.empty();
   lab.addCircleSweeps(campaign);
   lab.addWristSweep(campaign);
@@ -45,8 +45,7 @@ TEST(Identify, TheNonlinearEquilibriumGivesTheSpringsBack) {
   const identification::Identification found = identification::identify(campaign, quick());
   for (const identification::Method method : identification::kMethods) {
     ASSERT_TRUE(found.of(method).available) << found.of(method).reason;
-    EXPECT_LT(worstError(found.of(method).estimate.compliance, lab.compliance), 1e-4)
-        << static_cast<int>(method);
+    EXPECT_LT(worstError(found.of(method).estimate.compliance, lab.compliance), 1e-4) << static_cast<int>(method);
     EXPECT_GT(found.of(method).at_wrist->all_postures, 0.999);
     EXPECT_GT(found.of(method).at_targets->all_postures, 0.999);
   }
@@ -62,8 +61,7 @@ TEST(Identify, OwnWeightAndSpringsAreFoundInTurns) {
   EXPECT_TRUE(found.frames.sag_removed);
   for (const identification::Method method : identification::kMethods) {
     ASSERT_TRUE(found.of(method).available) << found.of(method).reason;
-    EXPECT_LT(worstError(found.of(method).estimate.compliance, lab.compliance), 3e-4)
-        << static_cast<int>(method);
+    EXPECT_LT(worstError(found.of(method).estimate.compliance, lab.compliance), 3e-4) << static_cast<int>(method);
   }
 }
 
@@ -71,13 +69,11 @@ TEST(Identify, AnArmWithGeometryErrorsGivesItsSpringsBack) {
   SimulatedLab lab = springyLab();
   Noise noise(32);
   const ChainArm disturbed = lab.nominal.disturbed(noise, 1e-3, 1e-3);
-  for (std::size_t j = 0; j < 4; ++j)
-    lab.actual.to_joint[j] = disturbed.to_joint[j];  // the wrist's axes still meet
+  for (std::size_t j = 0; j < 4; ++j) lab.actual.to_joint[j] = disturbed.to_joint[j];  // the wrist's axes still meet
   const identification::Identification found = identification::identify(fullDay(lab, pulledForce, 14), quick());
   for (const identification::Method method : identification::kMethods) {
     ASSERT_TRUE(found.of(method).available) << found.of(method).reason;
-    EXPECT_LT(worstError(found.of(method).estimate.compliance, lab.compliance), 2e-4)
-        << static_cast<int>(method);
+    EXPECT_LT(worstError(found.of(method).estimate.compliance, lab.compliance), 2e-4) << static_cast<int>(method);
   }
 }
 
@@ -91,7 +87,9 @@ TEST(Identify, AWristWhoseAxesMissEachOtherRefusesTheDecoupled) {
   EXPECT_FALSE(decoupled.reason.empty());
   // And one that misses by a hundredth of a millimetre does not.
   lab.actual.to_joint[5].translation().z() = 1e-5;
-  EXPECT_TRUE(identification::identify(fullDay(lab, pulledForce), quick()).of(identification::Method::decoupled_partial_pose).available);
+  EXPECT_TRUE(identification::identify(fullDay(lab, pulledForce), quick())
+                  .of(identification::Method::decoupled_partial_pose)
+                  .available);
 }
 
 TEST(Identify, AHangingLoadSaysNothingOfJointOne) {
@@ -123,7 +121,8 @@ TEST(Identify, ALoadCellTwoDegreesAskewGivesNoFirstJointEither) {
 }
 
 TEST(Identify, APulledLoadShowsJointOne) {
-  EXPECT_TRUE(identification::identify(fullDay(springyLab(), pulledForce), quick()).identifiability.joints[0].identifiable);
+  EXPECT_TRUE(
+      identification::identify(fullDay(springyLab(), pulledForce), quick()).identifiability.joints[0].identifiable);
 }
 
 TEST(Identify, WithoutWristSweepTheDecoupledSaysWhatToMeasure) {
@@ -143,7 +142,8 @@ TEST(Identify, WithoutAnySweepPartialPoseCalibratesItsBaseFromThePostures) {
   campaign::Campaign campaign = lab.empty();
   lab.addLoading(campaign, 16, pulledForce);
   const identification::Identification found = identification::identify(campaign, quick());
-  ASSERT_TRUE(found.of(identification::Method::partial_pose).available) << found.of(identification::Method::partial_pose).reason;
+  ASSERT_TRUE(found.of(identification::Method::partial_pose).available)
+      << found.of(identification::Method::partial_pose).reason;
   EXPECT_LT(worstError(found.of(identification::Method::partial_pose).estimate.compliance, lab.compliance), 2e-4);
   EXPECT_FALSE(found.of(identification::Method::complete_pose).available);
   EXPECT_NE(found.of(identification::Method::complete_pose).reason.find("circle sweeps"), std::string::npos);
@@ -156,7 +156,8 @@ TEST(Identify, WithoutAnySweepTheOwnWeightIsTakenIntoAccountToo) {
   campaign::Campaign campaign = lab.empty();
   lab.addLoading(campaign, 25, pulledForce);
   const identification::Identification found = identification::identify(campaign, quick());
-  ASSERT_TRUE(found.of(identification::Method::partial_pose).available) << found.of(identification::Method::partial_pose).reason;
+  ASSERT_TRUE(found.of(identification::Method::partial_pose).available)
+      << found.of(identification::Method::partial_pose).reason;
   EXPECT_LT(found.calibration.rms_after, 1e-6);
   EXPECT_LT(worstError(found.of(identification::Method::partial_pose).estimate.compliance, lab.compliance), 3e-4);
 }
@@ -179,7 +180,8 @@ TEST(Identify, DisplacementsInTheRobotsAxes) {
   }
   campaign.loading.reset();
   const identification::Identification found = identification::identify(campaign, quick());
-  ASSERT_TRUE(found.of(identification::Method::partial_pose).available) << found.of(identification::Method::partial_pose).reason;
+  ASSERT_TRUE(found.of(identification::Method::partial_pose).available)
+      << found.of(identification::Method::partial_pose).reason;
   EXPECT_LT(worstError(found.of(identification::Method::partial_pose).estimate.compliance, lab.compliance), 1e-4);
   EXPECT_FALSE(found.of(identification::Method::complete_pose).available);
   EXPECT_FALSE(found.of(identification::Method::decoupled_partial_pose).available);
@@ -202,7 +204,8 @@ TEST(Identify, DisplacementsInTheTrackersAxesNeedSweeps) {
   EXPECT_FALSE(lost.of(identification::Method::partial_pose).reason.empty());
   lab.addCircleSweeps(campaign);
   const identification::Identification found = identification::identify(campaign, quick());
-  ASSERT_TRUE(found.of(identification::Method::partial_pose).available) << found.of(identification::Method::partial_pose).reason;
+  ASSERT_TRUE(found.of(identification::Method::partial_pose).available)
+      << found.of(identification::Method::partial_pose).reason;
   EXPECT_LT(worstError(found.of(identification::Method::partial_pose).estimate.compliance, lab.compliance), 1e-4);
 }
 
@@ -213,9 +216,11 @@ TEST(Identify, AReflectorMissingInSomePostures) {
   std::erase_if(campaign.loading->rows,
                 [](const campaign::LoadingReading& row) { return row.pose == 3 && row.target == 1; });
   const identification::Identification found = identification::identify(campaign, quick());
-  ASSERT_TRUE(found.of(identification::Method::partial_pose).available) << found.of(identification::Method::partial_pose).reason;
+  ASSERT_TRUE(found.of(identification::Method::partial_pose).available)
+      << found.of(identification::Method::partial_pose).reason;
   EXPECT_LT(worstError(found.of(identification::Method::partial_pose).estimate.compliance, lab.compliance), 1e-4);
-  for (const identification::Method method : {identification::Method::complete_pose, identification::Method::decoupled_partial_pose}) {
+  for (const identification::Method method :
+       {identification::Method::complete_pose, identification::Method::decoupled_partial_pose}) {
     if (found.of(method).available) {
       EXPECT_LT(worstError(found.of(method).estimate.compliance, lab.compliance), 1e-3);
     } else {
@@ -263,8 +268,7 @@ TEST(Identify, ThrowsWhereThereAreNoLoadStates) {
     identification::identify(campaign, options);
     FAIL() << "step 7 was taken";
   } catch (const io::InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("'7': not a load step of this campaign, which has 1"),
-              std::string::npos)
+    EXPECT_NE(std::string(error.what()).find("'7': not a load step of this campaign, which has 1"), std::string::npos)
         << error.what();
   }
 }
@@ -312,7 +316,7 @@ TEST(JudgeJoints, AJointSeenOnlyInCombination) {
   }
   const campaign::LoadCell cell{"tool0", Eigen::Isometry3d::Identity(), {}, 1.0, 0.3};
   const identification::Identifiability found =
-      identification::judgeJoints(machine.geometry, machine.cases, cell, machine.reflectorEquations());
+      identification::evaluateIdentifiability(machine.geometry, machine.cases, cell, machine.reflectorEquations());
   EXPECT_EQ(found.mask(), (robot::JointMask{true, true, true, false, true, false}));
   for (const std::size_t joint : {3u, 5u}) {
     EXPECT_NE(found.joints[joint].reason.find("combination of joints 4, 6"), std::string::npos)
@@ -331,10 +335,9 @@ TEST(JudgeJoints, PointsOnAnAxisDoNotShowIt) {
     LinearMachine machine(0, 1.0);
     machine.targets_in_flange = {{beside, 0.0, 0.2}};
     Noise noise(4);
-    for (int i = 0; i < 10; ++i)
-      machine.add(somePosture(noise), 1000.0 * noise.normal3(), 200.0 * noise.normal3());
+    for (int i = 0; i < 10; ++i) machine.add(somePosture(noise), 1000.0 * noise.normal3(), 200.0 * noise.normal3());
     const identification::Identifiability found =
-        identification::judgeJoints(machine.geometry, machine.cases, cell, machine.reflectorEquations());
+        identification::evaluateIdentifiability(machine.geometry, machine.cases, cell, machine.reflectorEquations());
     EXPECT_EQ(found.mask(), (robot::JointMask{true, true, true, true, true, false})) << beside;
     EXPECT_NE(found.joints[5].reason.find("measured"), std::string::npos) << found.joints[5].reason;
   }
@@ -344,7 +347,7 @@ TEST(JudgeJoints, ATorqueBelowItsUncertaintyDoesNotCount) {
   LinearMachine machine(10, 1.0);
   const campaign::LoadCell vague{"tool0", Eigen::Isometry3d::Identity(), {}, 0.0, 1e5};  // a moment known to 1e5 Nm
   const identification::Identifiability found =
-      identification::judgeJoints(machine.geometry, machine.cases, vague, machine.reflectorEquations());
+      identification::evaluateIdentifiability(machine.geometry, machine.cases, vague, machine.reflectorEquations());
   EXPECT_EQ(found.mask(), robot::JointMask{});
   EXPECT_NE(found.joints[2].reason.find("uncertainty"), std::string::npos);
 }

@@ -19,8 +19,8 @@ TEST(NoiseShare, AgreesWithMonteCarlo) {
     for (identification::TargetMove& move : one.targets) move.unloaded_readings = 1, move.loaded_readings = 3;
     moves.push_back(machine.wristMoveOf(one));
   }
-  const auto stated =
-      identification::noiseShare(campaign, machine.geometry, machine.cases, moves, machine.radii, machine.wrist_at_zero);
+  const auto stated = identification::noiseShare(campaign, machine.geometry, machine.cases, moves, machine.radii,
+                                                 machine.wrist_at_zero);
   ASSERT_TRUE(stated);
 
   Noise noise(6);

@@ -35,7 +35,9 @@ double rms(const std::vector<identification::CaseEquations>& equations, const Ve
   return std::sqrt(sum / count);
 }
 
-TEST(OutlyingPostures, OfSoundOnesAreNone) { EXPECT_TRUE(identification::outlyingPostures(postures(40), kThree).empty()); }
+TEST(OutlyingPostures, OfSoundOnesAreNone) {
+  EXPECT_TRUE(identification::outlyingPostures(postures(40), kThree).empty());
+}
 
 TEST(OutlyingPostures, AreJudgedByTheFitToTheOthers) {
   std::vector<identification::CaseEquations> equations = postures(40);

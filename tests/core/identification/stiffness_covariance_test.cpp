@@ -4,11 +4,11 @@
 #include <numeric>
 #include <random>
 #include "core/identification/bootstrap.h"
-#include "core/identification/load_dependence.h"
 #include "core/identification/estimate.h"
 #include "core/identification/identify.h"
-#include "core/simulation/read_spec.h"
+#include "core/identification/load_dependence.h"
 #include "core/simulation/measure.h"
+#include "core/simulation/read_spec.h"
 #include "tests/fixtures/on_one_core.h"
 
 namespace stiffscope {
@@ -42,8 +42,8 @@ identification::StiffnessEstimate meanOf(const std::vector<double>& values) {
 
 TEST(StiffnessCovariance, OfAMeanIsTheBooks) {
   const identification::StiffnessEstimate estimate = meanOf({1.0, 2.0, 4.0, 7.0, 11.0});  // mean 5, sum of squares 66
-  EXPECT_NEAR(estimate.covariance(0, 0), 66.0 / (5.0 * 4.0), 1e-12);      // rounding
-  EXPECT_NEAR(estimate.dof(0), 4.0, 1e-6);  // bisection
+  EXPECT_NEAR(estimate.covariance(0, 0), 66.0 / (5.0 * 4.0), 1e-12);                      // rounding
+  EXPECT_NEAR(estimate.dof(0), 4.0, 1e-6);                                                // bisection
   const identification::CoverageInterval interval = identification::complianceInterval(estimate, 0);
   EXPECT_NEAR(interval.high - 5.0, 2.776445105 * std::sqrt(3.3), 1e-6);  // Student's t, 4 degrees, tables
   EXPECT_NEAR(interval.low + interval.high, 10.0, 1e-12);
@@ -80,7 +80,10 @@ TEST(StiffnessCovariance, SharedPartsRaiseTheDegreesOfFreedom) {
 TEST(CoverageFactor, IsStudentsForEqualWeightsAndMonteCarlosForOthers) {
   for (const int dof : {3, 6, 15}) {
     // Midpoint rule of 32 nodes against the incomplete beta function.
-    EXPECT_NEAR(identification::coverageFactor(Eigen::VectorXd::Ones(dof), 0.95) / identification::studentFactor(dof, 0.95), 1.0, 1e-3) << dof;
+    EXPECT_NEAR(
+        identification::coverageFactor(Eigen::VectorXd::Ones(dof), 0.95) / identification::studentFactor(dof, 0.95),
+        1.0, 1e-3)
+        << dof;
     EXPECT_NEAR(identification::matchedDof(Eigen::MatrixXd::Identity(dof, dof)), dof, 1e-3 * dof);
   }
   EXPECT_NEAR(identification::studentFactor(1.0, 0.95), 12.7062, 1e-3);  // tables
@@ -111,7 +114,8 @@ identification::InfluenceCovariance manyPostures(int heavy) {
   std::mt19937_64 random(11);
   std::normal_distribution<double> normal;
   constexpr int kPostures = 200;
-  identification::InfluenceCovariance covariance{Eigen::VectorXd(kPostures), Eigen::MatrixXd(6, kPostures), Matrix6d::Zero()};
+  identification::InfluenceCovariance covariance{Eigen::VectorXd(kPostures), Eigen::MatrixXd(6, kPostures),
+                                                 Matrix6d::Zero()};
   for (int p = 0; p < kPostures; ++p) {
     const double size = p % (kPostures / heavy) == 0 ? 6.0 : 1.0;
     const Vector6d row = size * Vector6d::NullaryExpr([&] { return normal(random); });
@@ -119,8 +123,8 @@ identification::InfluenceCovariance manyPostures(int heavy) {
     covariance.through.col(p) = row.squaredNorm() * row;
   }
   // What a fit of six parameters takes away: no posture's variance becomes negative.
-  covariance.middle = -(covariance.through * covariance.own.cwiseInverse().asDiagonal() * covariance.through.transpose())
-                           .inverse();
+  covariance.middle =
+      -(covariance.through * covariance.own.cwiseInverse().asDiagonal() * covariance.through.transpose()).inverse();
   return covariance;
 }
 
@@ -148,14 +152,17 @@ TEST(InfluenceCovariance, DegreesOfFreedomOfManyPosturesAreThoseOfAllEigenvalues
 }
 
 TEST(StiffnessInterval, IsOpenWhereTheComplianceMayBeZero) {
-  const identification::CoverageInterval both = identification::stiffnessInterval(identification::CoverageInterval{0.25, 0.5});
+  const identification::CoverageInterval both =
+      identification::stiffnessInterval(identification::CoverageInterval{0.25, 0.5});
   EXPECT_DOUBLE_EQ(both.low, 2.0);
   EXPECT_DOUBLE_EQ(both.high, 4.0);
-  const identification::CoverageInterval open = identification::stiffnessInterval(identification::CoverageInterval{-0.1, 0.5});
+  const identification::CoverageInterval open =
+      identification::stiffnessInterval(identification::CoverageInterval{-0.1, 0.5});
   EXPECT_DOUBLE_EQ(open.low, 2.0);
   EXPECT_TRUE(std::isinf(open.high));
   EXPECT_TRUE(open.holds(1e9));
-  const identification::CoverageInterval negative = identification::stiffnessInterval(identification::CoverageInterval{-0.5, -0.25});
+  const identification::CoverageInterval negative =
+      identification::stiffnessInterval(identification::CoverageInterval{-0.5, -0.25});
   EXPECT_DOUBLE_EQ(negative.low, -4.0);
   EXPECT_DOUBLE_EQ(negative.high, -2.0);
 }
@@ -180,7 +187,8 @@ TEST(StiffnessCovariance, OfTheSweepsIsWhatNoisySweepsScatter) {
   campaign::Campaign campaign = simulation::simulate(spec);
   spec.tracker.true_noise_factor = 1.0;
   constexpr int kDays = 40;
-  const std::array<identification::Method, 2> swept{identification::Method::complete_pose, identification::Method::decoupled_partial_pose};
+  const std::array<identification::Method, 2> swept{identification::Method::complete_pose,
+                                                    identification::Method::decoupled_partial_pose};
   std::array<Vector6d, 2> sum{Vector6d::Zero(), Vector6d::Zero()}, squares = sum, stated = sum;
   for (int day = 0; day < kDays; ++day) {
     spec.measurement = 100 + static_cast<std::uint64_t>(day);
@@ -221,7 +229,8 @@ TEST(Bootstrap, DoesNotDependOnThreadsAndAgreesWithTheScatter) {
     ASSERT_EQ(first.compliances.size(), 2000u);
     for (std::size_t i = 0; i < first.compliances.size(); ++i) ASSERT_EQ(first.compliances[i], second.compliances[i]);
     for (int j = 1; j < 6; ++j) {
-      const identification::CoverageInterval drawn = first.compliance(j), stated = identification::complianceInterval(one.of(method).estimate, j);
+      const identification::CoverageInterval drawn = first.compliance(j),
+                                             stated = identification::complianceInterval(one.of(method).estimate, j);
       // Percentiles of 19 postures are narrower than Student's by t/1.96 and by the fit's pull, 0.7 to 1 together.
       const double ratio = (drawn.high - drawn.low) / (stated.high - stated.low);
       EXPECT_GT(ratio, 0.5) << j;
@@ -256,7 +265,8 @@ TEST(OutlyingPostures, AShiftedReflectorIsFoundAndLeftOutOnRequestOnly) {
   for (const identification::Method method : identification::kMethods) {
     for (int j = 1; j < 6; ++j) {
       const double sd = std::sqrt(clean.of(method).estimate.covariance(j, j));
-      EXPECT_LT(std::abs(without.of(method).estimate.compliance[j] - clean.of(method).estimate.compliance[j]), 3.0 * sd);
+      EXPECT_LT(std::abs(without.of(method).estimate.compliance[j] - clean.of(method).estimate.compliance[j]),
+                3.0 * sd);
     }
   }
 }
@@ -266,14 +276,17 @@ TEST(ByStep, LinearSpringsStayAndStiffeningOnesAreSeen) {
   const campaign::Campaign linear = simulation::simulate(spec);
   const identification::Identification of_linear = identification::identify(linear, quick());
   const identification::StepStudy same = identification::studySteps(linear, quick(), of_linear);
-  // Joint 5: the arm's own weight, which differs between postures, hardly bends it beforehand as it does joints 2 and 3.
+  // Joint 5: the arm's own weight, which differs between postures, hardly bends it beforehand as it does joints 2
+  // and 3.
   spec.machine.joints[4].cubic = 2e10;  // at 1.7e-3 rad a sixth of the linear torque
   const campaign::Campaign stiffening = simulation::simulate(spec);
-  const identification::StepStudy other = identification::studySteps(stiffening, quick(), identification::identify(stiffening, quick()));
+  const identification::StepStudy other =
+      identification::studySteps(stiffening, quick(), identification::identify(stiffening, quick()));
   for (std::size_t m = 0; m < 3; ++m) {
     ASSERT_EQ(same.methods[m].steps.size(), 3u);
     for (std::size_t j = 1; j < 6; ++j) EXPECT_GT(same.methods[m].joints[j].p_linear, 0.03) << m << j;  // fixed seed
-    // On the same day with linear springs none is below 0.03; Complete Pose, whose rotations are noisier, sees it least.
+    // On the same day with linear springs none is below 0.03; Complete Pose, whose rotations are noisier, sees it
+    // least.
     EXPECT_LT(other.methods[m].joints[4].p_linear, m == 0 ? 0.02 : 1e-3) << m;
     EXPECT_LT(other.methods[m].joints[4].change, 0.0);
   }

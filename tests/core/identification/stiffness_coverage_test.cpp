@@ -4,14 +4,14 @@
 #include <cmath>
 #include <cstdlib>
 #include <random>
-#include "core/identification/identify.h"
 #include "core/identification/estimate.h"
+#include "core/identification/identify.h"
+#include "core/simulation/measure.h"
 #include "core/simulation/postures.h"
 #include "core/simulation/read_spec.h"
-#include "core/simulation/measure.h"
 
-// Coverage of the stated intervals on days of the samples' machine with joint springs and nothing else that gives: geometry
-// errors, tracker, load cell and read-back as in samples/active.xml, R0, links and wrist measured by sweeps.
+// Coverage of the stated intervals on days of the samples' machine with joint springs and nothing else that gives:
+// geometry errors, tracker, load cell and read-back as in samples/active.xml, R0, links and wrist measured by sweeps.
 // STIFFSCOPE_COVERAGE_DAYS=2000 in the environment simulates as many days of each load instead of the few here,
 // prints the coverage and asks for 93 to 97 %. STIFFSCOPE_COVERAGE_FIRST gives the first seed.
 

@@ -28,14 +28,16 @@ struct Problem {
     for (const identification::CaseEquations& one : decoupled ? wrist : reflectors)
       method.normal.push_back(identification::normalEquations(one));
     if (decoupled) {
-      for (const identification::CaseEquations& one : reflectors) method.reflectors.push_back(identification::normalEquations(one));
+      for (const identification::CaseEquations& one : reflectors)
+        method.reflectors.push_back(identification::normalEquations(one));
     }
     method.at_wrist = identification::DeflectionJudge(wrist);
     method.at_targets = identification::DeflectionJudge(reflectors);
   }
 };
 
-std::vector<identification::CaseEquations> chosen(const std::vector<identification::CaseEquations>& all, unsigned bits) {
+std::vector<identification::CaseEquations> chosen(const std::vector<identification::CaseEquations>& all,
+                                                  unsigned bits) {
   std::vector<identification::CaseEquations> some;
   for (std::size_t p = 0; p < all.size(); ++p) {
     if (bits >> p & 1U) some.push_back(all[p]);
@@ -67,8 +69,9 @@ TEST(Subsets, FourOfSevenAreThoseSolvedOneByOne) {
       if (std::popcount(bits) != 4) continue;
       const auto reflectors = chosen(problem.reflectors, bits);
       const Vector6d c =
-          decoupled ? identification::decoupledPartialPose(chosen(problem.wrist, bits), reflectors, kAllJoints).compliance
-                    : identification::partialPose(reflectors, kAllJoints).compliance;
+          decoupled
+              ? identification::decoupledPartialPose(chosen(problem.wrist, bits), reflectors, kAllJoints).compliance
+              : identification::partialPose(reflectors, kAllJoints).compliance;
       direct.push_back(c);
       sum.used += compensated(problem.wrist, bits, c) / 35.0;
       sum.held_out += compensated(problem.wrist, ~bits & 127U, c) / 35.0;
@@ -115,7 +118,8 @@ TEST(Subsets, ASampleIsTheSameForTheSameSeed) {
   identification::SubsetOptions options;
   options.most_all = 100;
   options.sample = 500;
-  const identification::SubsetStudy one = identification::studySubsets(problem.method, options), two = identification::studySubsets(problem.method, options);
+  const identification::SubsetStudy one = identification::studySubsets(problem.method, options),
+                                    two = identification::studySubsets(problem.method, options);
   EXPECT_FALSE(one.every_subset);
   ASSERT_EQ(one.compliances.size(), 500u);
   EXPECT_TRUE(std::equal(one.compliances.begin(), one.compliances.end(), two.compliances.begin()));
@@ -192,14 +196,14 @@ TEST(StiffnessSpread, ByHand) {
   EXPECT_DOUBLE_EQ(spread.quartile_high, 0.5);
   EXPECT_DOUBLE_EQ(spread.share_negative, 0.2);
   EXPECT_NEAR(spread.compliance_mean, 1.6, 1e-15);
-  EXPECT_NEAR(spread.compliance_sd, std::sqrt((2.4 * 2.4 + 0.36 + 5.6 * 5.6 + 0.16 + 3.4 * 3.4) / 4.0),
-              1e-12);
+  EXPECT_NEAR(spread.compliance_sd, std::sqrt((2.4 * 2.4 + 0.36 + 5.6 * 5.6 + 0.16 + 3.4 * 3.4) / 4.0), 1e-12);
 }
 
 TEST(DeflectionJudge, ByHand) {
   // Two postures of one and two points; joint 1 moves x by 1 m a unit.
   identification::CaseEquations one{Eigen::Matrix<double, 3, 6>::Zero(), Eigen::Vector3d(3, 4, 0)};
-  identification::CaseEquations two{Eigen::Matrix<double, 6, 6>::Zero(), (Eigen::VectorXd(6) << 0, 0, 2, 1, 0, 0).finished()};
+  identification::CaseEquations two{Eigen::Matrix<double, 6, 6>::Zero(),
+                                    (Eigen::VectorXd(6) << 0, 0, 2, 1, 0, 0).finished()};
   one.matrix(0, 0) = 1.0;
   two.matrix(3, 0) = 1.0;
   const identification::DeflectionJudge judge({one, two});

@@ -38,7 +38,8 @@ void expectSame(const identification::StiffnessEstimate& a, const identification
 }
 
 TEST(Identify, DoesNotDependOnTheNumberOfCores) {
-  const campaign::Campaign day = campaign::readCampaign(std::string(STIFFSCOPE_SOURCE_DIR) + "/samples/active").campaign;
+  const campaign::Campaign day =
+      campaign::readCampaign(std::string(STIFFSCOPE_SOURCE_DIR) + "/samples/active").campaign;
   const campaign::Campaign campaign = manyTimes(day, 60);  // 1140 postures: more than kWorthThreads
   const identification::Identification all = identification::identify(campaign);
   const identification::StepStudy all_steps = identification::studySteps(campaign, {}, all);

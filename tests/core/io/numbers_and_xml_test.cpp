@@ -5,8 +5,8 @@
 #include <cmath>
 #include <fstream>
 #include <random>
-#include "core/io/numbers.h"
 #include "core/io/input_error.h"
+#include "core/io/numbers.h"
 #include "core/io/write_file.h"
 #include "tests/fixtures/small_campaign.h"
 
@@ -47,8 +47,7 @@ TEST(Numbers, AreReadWholeAndTheSameInEveryLocale) {
     EXPECT_NE(io::parseNumber("1,5").expectation, "");
   }
   std::setlocale(LC_NUMERIC, restored.c_str());
-  for (const char* text :
-       {"", " 1", "1 ", "+", "-", "+-1", "++1", "1.2.3", "1e", "inf", "NaN", "1e400", "0x10"}) {
+  for (const char* text : {"", " 1", "1 ", "+", "-", "+-1", "++1", "1.2.3", "1e", "inf", "NaN", "1e400", "0x10"}) {
     EXPECT_NE(io::parseNumber(text).expectation, "") << text;
   }
   EXPECT_EQ(io::parseInteger("+7"), 7);
@@ -59,25 +58,26 @@ TEST(Numbers, AreReadWholeAndTheSameInEveryLocale) {
 TEST(Numbers, OfTablesAreTheSameBits) {
   std::mt19937_64 random(1);
   for (int i = 0; i < 200000; ++i) {
-    std::string text = std::to_string(random() % static_cast<std::uint64_t>(std::pow(10.0, 1.0 + static_cast<double>(random() % 15))));
+    std::string text =
+        std::to_string(random() % static_cast<std::uint64_t>(std::pow(10.0, 1.0 + static_cast<double>(random() % 15))));
     if (random() % 4 != 0) text.insert(random() % (text.size() + 1), ".");
     if (random() % 2 != 0) text.insert(0, "-");
     if (random() % 4 == 0) text += "e-3";
     const io::ParsedNumber expected = io::parseNumber(text);
     ASSERT_EQ(expected.expectation, "") << text;
-    ASSERT_EQ(std::bit_cast<std::uint64_t>(io::numberOrNan(text)), std::bit_cast<std::uint64_t>(expected.value)) << text;
+    ASSERT_EQ(std::bit_cast<std::uint64_t>(io::numberOrNan(text)), std::bit_cast<std::uint64_t>(expected.value))
+        << text;
   }
   EXPECT_EQ(std::signbit(io::numberOrNan("-0")), true);
-  for (const char* text : {"", "-", ".", "-.", "1.2.3", "--1", "+1", "1e", "1 ", " 1", "nan", "inf", "-infinity", "1e999", "0x10", "1,5"}) {
+  for (const char* text : {"", "-", ".", "-.", "1.2.3", "--1", "+1", "1e", "1 ", " 1", "nan", "inf", "-infinity",
+                           "1e999", "0x10", "1,5"}) {
     EXPECT_TRUE(std::isnan(io::numberOrNan(text))) << text;
   }
 }
 
 TEST(InputErrorMessage, IsOneLineWhateverTheValueHolds) {
-  const io::InputError error({"a\nb.csv", 7, "x\tmm"}, std::string(78, 'v') + "\xC3\xBC\xC3\xBC",
-                         "expected\nthis");
-  EXPECT_EQ(std::string(error.what()),
-            "a?b.csv:7: x?mm: '" + std::string(78, 'v') + "\xC3\xBC...': expected?this");
+  const io::InputError error({"a\nb.csv", 7, "x\tmm"}, std::string(78, 'v') + "\xC3\xBC\xC3\xBC", "expected\nthis");
+  EXPECT_EQ(std::string(error.what()), "a?b.csv:7: x?mm: '" + std::string(78, 'v') + "\xC3\xBC...': expected?this");
   EXPECT_EQ(std::string(io::InputError({"", 0, ""}, "\xE9\x1B[2J", "no").what()), "'??[2J': no");
 }
 
@@ -90,7 +90,8 @@ TEST(Utf8, FindsTheFirstByteThatIsNone) {
   EXPECT_EQ(io::findNotUtf8("a\xE2\x82"), 1u);         // cut short
   EXPECT_EQ(io::findNotUtf8("\xE0\x9F\xBF"), 0u);      // longer than needed, of three bytes
   EXPECT_EQ(io::findNotUtf8("\xF0\x8F\xBF\xBF"), 0u);  // and of four
-  EXPECT_EQ(io::findNotUtf8("\xEF\xBF\xBF"), std::string_view::npos);  // no character is assigned there, but it is UTF-8
+  EXPECT_EQ(io::findNotUtf8("\xEF\xBF\xBF"),
+            std::string_view::npos);  // no character is assigned there, but it is UTF-8
   EXPECT_EQ(io::findNotUtf8(""), std::string_view::npos);
 }
 

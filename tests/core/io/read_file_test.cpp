@@ -84,7 +84,8 @@ TEST(CampaignFiles, NoticesAFileThatChangesBeforeTheLastIsRead) {
 TEST(ReadCampaign, NamesItsInputsWithoutHashesWhereTheseAreNotWanted) {
   const SmallCampaign files;
   const std::vector<campaign::InputFile> hashed = campaign::readCampaign(files.folder()).campaign.inputs;
-  const std::vector<campaign::InputFile> named = campaign::readCampaign(files.folder(), campaign::Hashes::left).campaign.inputs;
+  const std::vector<campaign::InputFile> named =
+      campaign::readCampaign(files.folder(), campaign::Hashes::left).campaign.inputs;
   ASSERT_EQ(named.size(), hashed.size());
   for (std::size_t i = 0; i < named.size(); ++i) {
     EXPECT_EQ(named[i].name, hashed[i].name);
@@ -105,7 +106,9 @@ TEST(CsvLines, EndsLinesAtLfCrlfAndCr) {
   EXPECT_EQ(linesOf("a,b\n1,2\n3,\n"), expected);
   EXPECT_EQ(linesOf("a,b\r\n1,2\r\n3,"), expected);
   EXPECT_EQ(linesOf("a,b\r1,2\r3,\r"), expected);
-  EXPECT_EQ(linesOf("\xEF\xBB\xBF" "a,b\r\r\n\n 1 ,\t2\n3, \r"), expected);
+  EXPECT_EQ(linesOf("\xEF\xBB\xBF"
+                    "a,b\r\r\n\n 1 ,\t2\n3, \r"),
+            expected);
 }
 
 TEST(CsvLines, UnquotesCells) {
@@ -128,7 +131,8 @@ TEST(CsvLines, CutsTheSameWhereverACellStarts) {
 
 // The cells of a line stand where those of the line before stood.
 TEST(CsvLines, GivesEachLineItsOwnCellsAndNothingBehindTheLast) {
-  const std::vector<std::vector<std::string>> expected{{"a", "b", "c"}, {"1"}, {"", ""}, {"2", "3", "4", "5"}, {"x,"}, {"6"}};
+  const std::vector<std::vector<std::string>> expected{{"a", "b", "c"},      {"1"},  {"", ""},
+                                                       {"2", "3", "4", "5"}, {"x,"}, {"6"}};
   EXPECT_EQ(linesOf("a,b,c\n1\n,\n\n2,3,4,5\n\"x,\"\n6\n"), expected);
   for (const std::string_view bytes : {"1\n", "1\n\n\n", "1\n\n \n", "1", "1\n\n2"}) {
     io::CsvLines lines("t.csv", bytes);
@@ -170,7 +174,8 @@ TEST(ReadCampaign, IsTheSameInALocaleWithDecimalCommas) {
 TEST(XmlFile, KnowsTheFiveReferencesOfXmlAndCharacters) {
   const io::XmlFile xml("x.xml", "<a b=\"&lt;&amp;&#65;&#x42;\"><!-- &c; --><![CDATA[&d;]]></a>");
   EXPECT_EQ(xml.root().requiredAttribute("b"), "<&AB");
-  for (const char* text : {"<a>&file;</a>", "<a b=\"&x;\"/>", "<a>A & B</a>", "<a>&#;</a>", "<a>&</a>", "<a>&amp</a>"}) {
+  for (const char* text :
+       {"<a>&file;</a>", "<a b=\"&x;\"/>", "<a>A & B</a>", "<a>&#;</a>", "<a>&</a>", "<a>&amp</a>"}) {
     EXPECT_EQ(whyRefusedBy([&] { io::XmlFile("x.xml", text); }),
               "expected &amp; for an ampersand; XML without a document type has no entities of its own");
   }

@@ -31,7 +31,8 @@ void expectSays(const std::string& text, const std::vector<std::string>& parts) 
 }
 
 TEST(ReadPoints, BlanksTabsCommasAndSemicolons) {
-  const auto points = io::readPoints(written("\xEF\xBB\xBF# a comment\r\n1 2 3\r\n\r\n4\t5\t6 # more\n7,8,9\n-1e-3; 2.5 ;3\n"));
+  const auto points =
+      io::readPoints(written("\xEF\xBB\xBF# a comment\r\n1 2 3\r\n\r\n4\t5\t6 # more\n7,8,9\n-1e-3; 2.5 ;3\n"));
   ASSERT_EQ(points.size(), 4u);
   EXPECT_EQ(points[0], Eigen::Vector3d(1, 2, 3));
   EXPECT_EQ(points[1], Eigen::Vector3d(4, 5, 6));

@@ -21,19 +21,21 @@ TEST(Chance, LimitsAreThoseOfPrintedTables) {
   EXPECT_NEAR(numerics::studentLimit(0.001, 30), 3.646, 5e-4);
 }
 
-// Critical values of Student's t at two-sided 5 %, NIST e-Handbook 1.3.6.7.2, and at infinitely many degrees the normal's.
-// Between 100 degrees and infinity no table has rows; there the first terms of Cornish and Fisher's expansion (Abramowitz
-// and Stegun 26.7.5) are exact to 1e-9 and share nothing with the library.
+// Critical values of Student's t at two-sided 5 %, NIST e-Handbook 1.3.6.7.2, and at infinitely many degrees the
+// normal's. Between 100 degrees and infinity no table has rows; there the first terms of Cornish and Fisher's expansion
+// (Abramowitz and Stegun 26.7.5) are exact to 1e-9 and share nothing with the library.
 TEST(Chance, StudentFromTenDegreesToAMillion) {
   EXPECT_NEAR(numerics::studentLimit(0.05, 10), 2.228, 5e-4);
   EXPECT_NEAR(numerics::studentLimit(0.05, 30), 2.042, 5e-4);
   EXPECT_NEAR(numerics::studentLimit(0.05, 100), 1.984, 5e-4);
   for (const double dof : {1e2, 1e3, 3e4, 1e5, 1e6}) {
-    for (const auto& [tail, z] : {std::pair(0.05, 1.9599639845400545), std::pair(0.01, 2.5758293035489004), std::pair(0.001, 3.2905267314918945)}) {
+    for (const auto& [tail, z] : {std::pair(0.05, 1.9599639845400545), std::pair(0.01, 2.5758293035489004),
+                                  std::pair(0.001, 3.2905267314918945)}) {
       const double z2 = z * z;
       const double expanded = z + z * (z2 + 1) / (4 * dof) + z * (5 * z2 * z2 + 16 * z2 + 3) / (96 * dof * dof) +
                               z * (3 * z2 * z2 * z2 + 19 * z2 * z2 + 17 * z2 - 15) / (384 * dof * dof * dof);
-      EXPECT_NEAR(numerics::studentLimit(tail, dof) / expanded, 1.0, std::max(1e-12, 20.0 / std::pow(dof, 4))) << tail << " " << dof;
+      EXPECT_NEAR(numerics::studentLimit(tail, dof) / expanded, 1.0, std::max(1e-12, 20.0 / std::pow(dof, 4)))
+          << tail << " " << dof;
     }
   }
 }

@@ -6,10 +6,10 @@
 #include "core/identification/posture_stiffness.h"
 #include "core/io/input_error.h"
 #include "core/io/units.h"
-#include "core/planning/plan.h"
 #include "core/planning/design.h"
-#include "core/simulation/read_spec.h"
+#include "core/planning/plan.h"
 #include "core/simulation/measure.h"
+#include "core/simulation/read_spec.h"
 #include "tests/fixtures/linear_machine.h"
 
 namespace stiffscope {
@@ -122,7 +122,8 @@ TEST(Plan, KeepsLimitsRulesAndDistance) {
     const robot::ArmPosture posture = robot::postureAt(campaign.robot, q);
     const Eigen::Isometry3d flange = robot::flangeAt(campaign.robot, posture);
     const Matrix6d jacobian = robot::jacobianAt(campaign.robot, posture, flange.translation());
-    EXPECT_GE(identification::postureConditioning(jacobian, 1.0).dexterity, options.rules.least_dexterity - 1e-9) << one.id;
+    EXPECT_GE(identification::postureConditioning(jacobian, 1.0).dexterity, options.rules.least_dexterity - 1e-9)
+        << one.id;
     const Eigen::Vector3d hook = flange * spec.loading->hook_in_flange;
     EXPECT_GE(hook.z(), options.rules.least_hook_height - 1e-9) << one.id;
     EXPECT_LE(flange.linear()(2, 2), std::sin(options.rules.most_outward_up) + 1e-9) << one.id;
@@ -138,8 +139,7 @@ TEST(Plan, KeepsLimitsRulesAndDistance) {
       EXPECT_EQ(planning::alike(plan.arm, one.candidate, other.candidate, options.least_separation), same);
     }
   }
-  for (std::size_t k = 2; k < plan.postures.size();
-       ++k) {  // each next one adds no more than the one before it
+  for (std::size_t k = 2; k < plan.postures.size(); ++k) {  // each next one adds no more than the one before it
     EXPECT_LE(plan.postures[k].log_det_gain, plan.postures[k - 1].log_det_gain + 1e-9);
   }
   EXPECT_EQ(planning::planCampaign(campaign, nullptr, options).postures.back().candidate.q,
@@ -185,12 +185,10 @@ TEST(Plan, RefusesWithTheReason) {
   EXPECT_EQ(refusal(campaign, options), "--postures: '0': expected 1 or more postures");
   options = optionsFor(spec, 5);
   options.augment = true;
-  EXPECT_EQ(refusal(campaign, options),
-            "--add: no measured postures that identify: --postures plans the day before");
+  EXPECT_EQ(refusal(campaign, options), "--add: no measured postures that identify: --postures plans the day before");
   options = optionsFor(spec, 5);
   options.rules.low[2] = 1.5, options.rules.high[2] = 1.6;
-  EXPECT_NE(refusal(campaign, options).find("expected a range of joint 3 within its limits"),
-            std::string::npos)
+  EXPECT_NE(refusal(campaign, options).find("expected a range of joint 3 within its limits"), std::string::npos)
       << refusal(campaign, options);
   // A wrist that stays straight: every posture is near its singularity, and the message counts them.
   options = optionsFor(spec, 5);
@@ -256,11 +254,11 @@ Vector6d squaresOf(const simulation::SimulationSpec& spec) {
   identification::IdentifyOptions quick;
   quick.subsets.most_all = 1;
   quick.subsets.sample = 2;
-  const identification::StiffnessEstimate estimate = identification::identify(simulation::simulate(spec), quick).of(identification::Method::partial_pose).estimate;
+  const identification::StiffnessEstimate estimate =
+      identification::identify(simulation::simulate(spec), quick).of(identification::Method::partial_pose).estimate;
   Vector6d squares = Vector6d::Zero();
   for (int j = 1; j < 6; ++j) {
-    squares[j] =
-        estimate.covariance(j, j) * std::pow(*spec.machine.joints[static_cast<std::size_t>(j)].torsion, 2);
+    squares[j] = estimate.covariance(j, j) * std::pow(*spec.machine.joints[static_cast<std::size_t>(j)].torsion, 2);
   }
   return squares;
 }

@@ -1,7 +1,7 @@
+#include "core/preparation/prepare.h"
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include "core/audit/audit.h"
-#include "core/preparation/prepare.h"
 #include "core/campaign/read_campaign.h"
 #include "core/identification/identify.h"
 
@@ -56,7 +56,8 @@ TEST(Prepare, RejectedReadingsAreThoseThatIdentificationDoesNotSee) {
   EXPECT_EQ(prepared.preparation.rejected[0].line, line);
   identification::IdentifyOptions quick;
   quick.subsets = {0, 100, 100, 1};
-  const identification::Identification left_out = identification::identify(prepared.campaign, quick), never_read = identification::identify(without, quick);
+  const identification::Identification left_out = identification::identify(prepared.campaign, quick),
+                                       never_read = identification::identify(without, quick);
   // The same readings: the same numbers to the last digit.
   EXPECT_EQ(left_out.of(identification::Method::partial_pose).estimate.compliance,
             never_read.of(identification::Method::partial_pose).estimate.compliance);
@@ -68,8 +69,8 @@ TEST(Prepare, DriftThatTheNestsShowIsTakenOff) {
   const preparation::PreparedCampaign prepared = preparation::prepareCampaign(drifting);
   const preparation::DriftCorrection& taken = prepared.preparation.drift;
   ASSERT_TRUE(taken.taken_off) << taken.reason;
-  EXPECT_EQ(taken.readings, good().circle_sweeps->rows.size() + good().wrist_sweep->rows.size() +
-                                good().loading->rows.size());
+  EXPECT_EQ(taken.readings,
+            good().circle_sweeps->rows.size() + good().wrist_sweep->rows.size() + good().loading->rows.size());
   EXPECT_EQ(taken.without_time, 0u);
   EXPECT_TRUE(taken.jumps_s.empty());
   EXPECT_NEAR(taken.displacement, 5e-8 * taken.until_s, 55e-6);

@@ -2,8 +2,8 @@
 
 #include <Eigen/Dense>
 #include <cmath>
-#include "core/identification/posture_stiffness.h"
 #include "core/effects/elastic_arm.h"
+#include "core/identification/posture_stiffness.h"
 #include "core/robot/geometric_stiffness.h"
 #include "tests/fixtures/linear_machine.h"
 
@@ -14,10 +14,10 @@ namespace {
 /// the other axes pass through the flange and are rigid.
 robot::Robot planarArm(double a, double b) {
   robot::Robot arm;
-  const Eigen::Vector3d x = Eigen::Vector3d::UnitX(), y = Eigen::Vector3d::UnitY(),
-                        z = Eigen::Vector3d::UnitZ();
-  arm.axes_in_base_at_zero = {metrology::Line{{0, 0, 0}, z},     metrology::Line{{a, 0, 0}, z},     metrology::Line{{a + b, 0, 0}, y},
-                              metrology::Line{{a + b, 0, 0}, x}, metrology::Line{{a + b, 0, 0}, y}, metrology::Line{{a + b, 0, 0}, x}};
+  const Eigen::Vector3d x = Eigen::Vector3d::UnitX(), y = Eigen::Vector3d::UnitY(), z = Eigen::Vector3d::UnitZ();
+  arm.axes_in_base_at_zero = {metrology::Line{{0, 0, 0}, z},     metrology::Line{{a, 0, 0}, z},
+                              metrology::Line{{a + b, 0, 0}, y}, metrology::Line{{a + b, 0, 0}, x},
+                              metrology::Line{{a + b, 0, 0}, y}, metrology::Line{{a + b, 0, 0}, x}};
   arm.base_from_flange_at_zero.translation() << a + b, 0, 0;
   return arm;
 }
@@ -105,10 +105,10 @@ TEST(CartesianStiffness, IsReciprocalAndInvertsToPaper4) {
     const robot::ArmPosture posture = arm.rest(arm.load);
     const Eigen::Vector3d point = robot::flangeAt(arm.geometry.arm, posture) * arm.tcp;
     const robot::Wrench wrench{robot::flangeAt(arm.geometry.arm, posture) * arm.load.point_in_flange, arm.load.force,
-                        Eigen::Vector3d::Zero()};
+                               Eigen::Vector3d::Zero()};
     const Matrix6d jacobian = robot::jacobianAt(arm.geometry.arm, posture, point);
-    const robot::CartesianStiffness found =
-        robot::cartesianStiffness(point, jacobian, arm.c, robot::geometricStiffness(robot::axesAt(arm.geometry.arm, posture), wrench));
+    const robot::CartesianStiffness found = robot::cartesianStiffness(
+        point, jacobian, arm.c, robot::geometricStiffness(robot::axesAt(arm.geometry.arm, posture), wrench));
     ASSERT_TRUE(found.invertible);
     const Matrix6d &k = found.stiffness, &compliance = found.compliance;
     // A force at one place and a moment at another do the same work each on the other's displacement (Betti).
@@ -135,8 +135,8 @@ TEST(PostureConditioning, ByHandAndInASingularity) {
   // Axis 5 at zero puts axes 4 and 6 in one line.
   const robot::Robot arm = exampleChain().robot();
   const robot::ArmPosture straight = robot::postureAt(arm, degrees(10, 20, -10, 30, 0, 40));
-  const identification::PostureConditioning singular =
-      identification::postureConditioning(robot::jacobianAt(arm, straight, robot::flangeAt(arm, straight).translation()), 0.5);
+  const identification::PostureConditioning singular = identification::postureConditioning(
+      robot::jacobianAt(arm, straight, robot::flangeAt(arm, straight).translation()), 0.5);
   EXPECT_TRUE(std::isinf(singular.kappa));
   EXPECT_EQ(singular.dexterity, 0.0);
 }
@@ -147,7 +147,8 @@ Matrix6d differencedJacobian(const robot::Robot& arm, const Vector6d& q) {
   Matrix6d jacobian;
   for (int j = 0; j < 6; ++j) {
     const Vector6d step = kStep * Vector6d::Unit(j);
-    const Eigen::Isometry3d ahead = robot::flangeAt(arm, robot::postureAt(arm, q + step)), behind = robot::flangeAt(arm, robot::postureAt(arm, q - step));
+    const Eigen::Isometry3d ahead = robot::flangeAt(arm, robot::postureAt(arm, q + step)),
+                            behind = robot::flangeAt(arm, robot::postureAt(arm, q - step));
     const Eigen::AngleAxisd turn(ahead.linear() * behind.linear().transpose());
     jacobian.col(j) << ahead.translation() - behind.translation(), turn.angle() * turn.axis();
   }

@@ -6,12 +6,12 @@ TEST(RobotByKdl, IsNotBuilt) { GTEST_SKIP() << "urdfdom or KDL is not here"; }
 
 #else
 
+#include <urdf_parser/urdf_parser.h>
 #include <filesystem>
 #include <kdl/chaindynparam.hpp>
 #include <kdl/chainfksolverpos_recursive.hpp>
 #include <kdl/chainjnttojacsolver.hpp>
 #include <random>
-#include <urdf_parser/urdf_parser.h>
 
 #include "core/robot/gravity_load.h"
 #include "core/robot/kinematics.h"
@@ -27,7 +27,8 @@ namespace fs = std::filesystem;
 
 KDL::Frame frameOf(const urdf::Pose& pose) {
   const auto& r = pose.rotation;
-  return {KDL::Rotation::Quaternion(r.x, r.y, r.z, r.w), KDL::Vector(pose.position.x, pose.position.y, pose.position.z)};
+  return {KDL::Rotation::Quaternion(r.x, r.y, r.z, r.w),
+          KDL::Vector(pose.position.x, pose.position.y, pose.position.z)};
 }
 
 /// Mass and centre of a link alone; KDL wants a rotational inertia too, which statics does not use.
@@ -57,8 +58,9 @@ KDL::Chain chainOf(const urdf::ModelInterface& model, const std::string& base, c
     const urdf::Joint& joint = *links[i]->parent_joint;
     const KDL::Frame origin = frameOf(joint.parent_to_joint_origin_transform);
     const KDL::Vector axis(joint.axis.x, joint.axis.y, joint.axis.z);
-    const KDL::Joint moves = joint.type == urdf::Joint::FIXED ? KDL::Joint(joint.name, KDL::Joint::None)
-                                                              : KDL::Joint(joint.name, origin.p, origin.M * axis, KDL::Joint::RotAxis);
+    const KDL::Joint moves = joint.type == urdf::Joint::FIXED
+                                 ? KDL::Joint(joint.name, KDL::Joint::None)
+                                 : KDL::Joint(joint.name, origin.p, origin.M * axis, KDL::Joint::RotAxis);
     chain.addSegment(KDL::Segment(links[i]->name, moves, origin,
                                   inertiaWithAttached(*links[i], i > 0 ? links[i - 1].get() : nullptr)));
   }
@@ -85,14 +87,16 @@ std::array<robot::BodyMass, 7> bodiesOf(const KDL::Chain& chain) {
     const double mass = segment.getInertia().getMass();
     if (mass == 0.0) continue;
     robot::BodyMass& sum = bodies[body];
-    sum.com_in_base_at_zero = (sum.mass_kg * sum.com_in_base_at_zero + mass * vectorOf(at * segment.getInertia().getCOG())) / (sum.mass_kg + mass);
+    sum.com_in_base_at_zero =
+        (sum.mass_kg * sum.com_in_base_at_zero + mass * vectorOf(at * segment.getInertia().getCOG())) /
+        (sum.mass_kg + mass);
     sum.mass_kg += mass;
   }
   return bodies;
 }
 
-// Positions of a few metres, torques of some 1e4 Nm: rounding of a dozen products in double precision. URDFs write angles
-// with some ten digits and urdfdom keeps them as quaternions, which costs no more.
+// Positions of a few metres, torques of some 1e4 Nm: rounding of a dozen products in double precision. URDFs write
+// angles with some ten digits and urdfdom keeps them as quaternions, which costs no more.
 constexpr double kMetres = 1e-11, kTorque = 1e-8;
 
 void expectTheSame(const fs::path& file) {
@@ -104,7 +108,7 @@ void expectTheSame(const fs::path& file) {
   const robot::Robot ours = robot::readUrdf(file, "base_link", "tool0");
 
   const auto bodies = bodiesOf(chain);
-  robot::OwnWeight weight;
+  robot::GravityLoad weight;
   weight.gravity_in_base = {0.3, -0.5, -9.79};
   weight.bodies = ours.bodies;
   for (std::size_t b = 1; b < bodies.size(); ++b) {
@@ -129,12 +133,14 @@ void expectTheSame(const fs::path& file) {
     const Eigen::Isometry3d base_from_flange = robot::flangeAt(ours, posture);
     EXPECT_LT((base_from_flange.translation() - vectorOf(flange.p)).norm(), kMetres);
     for (int row = 0; row < 3; ++row) {
-      for (int column = 0; column < 3; ++column) EXPECT_NEAR(base_from_flange.linear()(row, column), flange.M(row, column), kMetres);
+      for (int column = 0; column < 3; ++column)
+        EXPECT_NEAR(base_from_flange.linear()(row, column), flange.M(row, column), kMetres);
     }
 
     KDL::Jacobian columns(6);
     ASSERT_GE(jacobian.JntToJac(joints, columns), 0);
-    EXPECT_LT((robot::jacobianAt(ours, posture, base_from_flange.translation()) - columns.data).cwiseAbs().maxCoeff(), kMetres);
+    EXPECT_LT((robot::jacobianAt(ours, posture, base_from_flange.translation()) - columns.data).cwiseAbs().maxCoeff(),
+              kMetres);
 
     // KDL states the torque that holds the arm, which is opposite to what its weight makes.
     KDL::JntArray holding(6);
@@ -144,7 +150,9 @@ void expectTheSame(const fs::path& file) {
 }
 
 TEST(RobotByKdl, TheSample) { expectTheSame(STIFFSCOPE_SOURCE_DIR "/samples/m900ib700.urdf"); }
-TEST(RobotByKdl, RotatedOriginsFixedJointsAndSideBranches) { expectTheSame(STIFFSCOPE_SOURCE_DIR "/tests/data/rotated_arm.urdf"); }
+TEST(RobotByKdl, RotatedOriginsFixedJointsAndSideBranches) {
+  expectTheSame(STIFFSCOPE_SOURCE_DIR "/tests/data/rotated_arm.urdf");
+}
 TEST(RobotByKdl, DefaultsOfUrdf) { expectTheSame(STIFFSCOPE_SOURCE_DIR "/tests/data/plain_arm.urdf"); }
 
 TEST(RobotByKdl, RealAndPracticeCampaigns) {

@@ -9,9 +9,7 @@
 namespace stiffscope {
 namespace {
 
-double apart(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) {
-  return (a.matrix() - b.matrix()).norm();
-}
+double apart(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) { return (a.matrix() - b.matrix()).norm(); }
 
 Vector6d anyPosture(Noise& noise) {
   return Vector6d::NullaryExpr([&] { return 3.1 * (2.0 * noise.uniform() - 1.0); });
@@ -98,9 +96,8 @@ TEST(Kinematics, AgainstDenavitHartenberg) {
     // The flange's z is along z5 both ways; its x and y are those of DH up to a fixed turn about it.
     EXPECT_LT((found.linear().col(2) - flange.block<3, 1>(0, 2)).norm(), 1e-13);
     const Eigen::Matrix3d at_zero = exampleChain().flangeAt(Vector6d::Zero()).linear();
-    const Eigen::Matrix4d dh_zero = dh(0, 0.94, 0.41, kQuarter) * dh(kQuarter, 0, 1.12, 0) *
-                                    dh(0, 0, 0.25, kQuarter) * dh(0, 1.285, 0, -kQuarter) *
-                                    dh(0, 0, 0, kQuarter) * dh(0, 0.3, 0, 0);
+    const Eigen::Matrix4d dh_zero = dh(0, 0.94, 0.41, kQuarter) * dh(kQuarter, 0, 1.12, 0) * dh(0, 0, 0.25, kQuarter) *
+                                    dh(0, 1.285, 0, -kQuarter) * dh(0, 0, 0, kQuarter) * dh(0, 0.3, 0, 0);
     const Eigen::Matrix3d fixed = dh_zero.topLeftCorner<3, 3>().transpose() * at_zero;
     EXPECT_LT((found.linear() - flange.topLeftCorner<3, 3>() * fixed).norm(), 1e-13);
   }

@@ -74,8 +74,7 @@ TEST(ReadUrdf, PlacesAxesInTheBaseAtZero) {
   expectAxis(3, {0.3, 1, 1.5}, {0, 1, 0});
   expectAxis(4, {0.3, 1, 1.5}, {-1, 0, 0});
   expectAxis(5, {0.3, 1.2, 1.5}, {0, 1, 0});
-  EXPECT_NEAR((robot.base_from_flange_at_zero.translation() - Eigen::Vector3d(0.3, 1.2, 1.5)).norm(), 0,
-              kRounding);
+  EXPECT_NEAR((robot.base_from_flange_at_zero.translation() - Eigen::Vector3d(0.3, 1.2, 1.5)).norm(), 0, kRounding);
 }
 
 TEST(ReadUrdf, ReadsLimits) {
@@ -116,50 +115,39 @@ const RejectedUrdf kRejected[] = {
     {"<robot name", "<sdf name", "odd.urdf"},
     {"name=\"j2\" type=\"revolute\"", "name=\"j2\" type=\"prismatic\"",
      "type: 'prismatic': expected revolute joints between 'base' and 'tool0'; joint 'j2' is not"},
-    {"name=\"j2\" type=\"revolute\"", "name=\"j2\" type=\"floating\"",
-     "type: 'floating': expected revolute joints"},
-    {"name=\"j2\" type=\"revolute\"", "name=\"j2\" type=\"planar\"",
-     "type: 'planar': expected revolute joints"},
+    {"name=\"j2\" type=\"revolute\"", "name=\"j2\" type=\"floating\"", "type: 'floating': expected revolute joints"},
+    {"name=\"j2\" type=\"revolute\"", "name=\"j2\" type=\"planar\"", "type: 'planar': expected revolute joints"},
     {"name=\"j2\" type=\"revolute\"", "name=\"j2\" type=\"fixed\"",
      "expected six revolute joints between 'base' and 'tool0'; there are 5: j1, j3, j4, j5, j6"},
-    {"name=\"face\" type=\"fixed\"", "name=\"face\" type=\"continuous\"",
-     "there are 7: j1, j2, j3, j4, j5, j6, face"},
+    {"name=\"face\" type=\"fixed\"", "name=\"face\" type=\"continuous\"", "there are 7: j1, j2, j3, j4, j5, j6, face"},
     {"<axis xyz=\"0 0 2\"/>", "<mimic joint=\"j2\"/>",
      "mimic: 'j1': expected six joints with angles of their own; this one follows another joint"},
     {"<axis xyz=\"0 0 2\"/>", "<axis xyz=\"0 0 0\"/>", "xyz: '0 0 0': expected an axis that is not zero"},
-    {"<axis xyz=\"0 0 2\"/>", "<axis xyz=\"0 ${s} 1\"/>",
-     "xyz: '0 ${s} 1': expected a number; expand xacro first"},
+    {"<axis xyz=\"0 0 2\"/>", "<axis xyz=\"0 ${s} 1\"/>", "xyz: '0 ${s} 1': expected a number; expand xacro first"},
     {"<origin xyz=\"0.3 0 0\"/>", "<origin xyz=\"${length} 0 0\"/>", "expand xacro first"},
-    {"<origin xyz=\"0.3 0 0\"/>", "<origin xyz=\"300 0 0\"/>",
-     "xyz: '300 0 0': expected metres, within +-200 m"},
+    {"<origin xyz=\"0.3 0 0\"/>", "<origin xyz=\"300 0 0\"/>", "xyz: '300 0 0': expected metres, within +-200 m"},
     {"<origin xyz=\"0.3 0 0\"/>", "<origin xyz=\"0.3 0\"/>", "xyz: '0.3 0': expected three numbers; found 2"},
-    {"<limit lower=\"-1\" upper=\"2\" effort=\"0\" velocity=\"0\"/>", "",
-     "limit: expected this element in <joint>"},
+    {"<limit lower=\"-1\" upper=\"2\" effort=\"0\" velocity=\"0\"/>", "", "limit: expected this element in <joint>"},
     {"lower=\"-1\" upper=\"2\"", "lower=\"3\" upper=\"2\"",
      "lower: '3': expected at most the upper limit of joint 'j2', 2"},
     {"<mass value=\"100\"/>", "<mass value=\"-100\"/>", "value: '-100': expected a mass of 0 or more"},
     {"<mass value=\"100\"/>", "<mass value=\"heavy\"/>", "value: 'heavy': expected a number"},
     {"<mass value=\"100\"/>", "", "mass: expected this element in <inertial>"},
     {"<link name=\"l3\"/>", "", "'l3': expected a link of the robot"},
-    {"<link name=\"l3\"/>", "<link name=\"l3\"/><link name=\"l2\"/>",
-     "link: 'l2': expected a name of its own"},
+    {"<link name=\"l3\"/>", "<link name=\"l3\"/><link name=\"l2\"/>", "link: 'l2': expected a name of its own"},
     {"<link name=\"l3\"/>", "<link/>", "name: expected this attribute of <link>"},
-    {"<link name=\"motor\">", "<link name=\"motr\">",
-     "child: 'motor': expected a link of the robot (did you mean"},
+    {"<link name=\"motor\">", "<link name=\"motr\">", "child: 'motor': expected a link of the robot (did you mean"},
     {"<child link=\"finger\"/>", "<child link=\"l2\"/>",
      "child: 'l2': expected a link with one parent; joints 'j2' and 'grip' both carry it"},
     {"<parent link=\"base\"/><child link=\"l1\"/>", "<parent link=\"l6\"/><child link=\"l1\"/>",
      "expected a chain without a loop; this joint is part of one"},
-    {"<parent link=\"l1\"/><child link=\"l2\"/>", "<parent link=\"finger\"/><child link=\"l2\"/>",
-     "without a loop"},
+    {"<parent link=\"l1\"/><child link=\"l2\"/>", "<parent link=\"finger\"/><child link=\"l2\"/>", "without a loop"},
     {"<parent link=\"base\"/><child link=\"l1\"/>", "<parent link=\"pillar\"/><child link=\"l1\"/>",
      "parent: 'pillar': expected a link of the robot"},
-    {"<parent link=\"l1\"/><child link=\"l2\"/>", "<child link=\"l2\"/>",
-     "parent: expected this element in <joint>"},
+    {"<parent link=\"l1\"/><child link=\"l2\"/>", "<child link=\"l2\"/>", "parent: expected this element in <joint>"},
     {"<joint name=\"j1\" type=\"continuous\"><parent link=\"base\"/>",
      "<joint name=\"j1\" type=\"continuous\"><parent link=\"wheel2\"/>", "expected a link of the robot"},
-    {"<joint name=\"j3\"", "<joint name=\"j2\"",
-     "joint: 'j2': expected a name of its own; another joint has it"},
+    {"<joint name=\"j3\"", "<joint name=\"j2\"", "joint: 'j2': expected a name of its own; another joint has it"},
     {"<link name=\"world\"/>", "<link name=\"world\"/><!--", "expected well-formed XML"},
 };
 
@@ -174,8 +162,7 @@ TEST(ReadUrdf, RefusesWhatIsNoChainOfSixJoints) {
       ADD_FAILURE() << "read on instead of: " << test.message;
     } catch (const io::InputError& error) {
       const std::string what = error.what();
-      EXPECT_NE(what.find(test.message), std::string::npos)
-          << "expected: " << test.message << "\ngot: " << what;
+      EXPECT_NE(what.find(test.message), std::string::npos) << "expected: " << test.message << "\ngot: " << what;
       EXPECT_TRUE(what.starts_with("odd.urdf:") && what.find('\n') == std::string::npos) << what;
     }
   }

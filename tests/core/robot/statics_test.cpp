@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 #include "core/robot/geometric_stiffness.h"
-#include "core/robot/wrench.h"
 #include "core/robot/gravity_load.h"
+#include "core/robot/wrench.h"
 #include "tests/fixtures/example_arm.h"
 
 namespace stiffscope {
@@ -10,8 +10,8 @@ namespace {
 const Vector6d kPosture = (Vector6d() << 0.3, 0.4, -0.5, 0.6, 0.7, -0.8).finished();
 const Vector6d kCompliance = (Vector6d() << 1 / 4.0, 1 / 3.2, 1 / 2.6, 1 / 0.42, 1 / 0.23, 1 / 0.089).finished() * 1e-6;
 
-robot::OwnWeight weightOf(const robot::Robot& arm) {
-  robot::OwnWeight weight;
+robot::GravityLoad weightOf(const robot::Robot& arm) {
+  robot::GravityLoad weight;
   weight.bodies = arm.bodies;
   weight.gravity_in_base = {0, 0, -9.80665};
   weight.links_known = true;
@@ -44,14 +44,14 @@ TEST(JointTorque, AHandCase) {
   EXPECT_NEAR(torque[5], 0.0, 1e-9);
 }
 
-TEST(OwnWeight, TorqueIsTheSumOverBodies) {
+TEST(GravityLoad, TorqueIsTheSumOverBodies) {
   const robot::Robot arm = exampleArm();
-  const robot::OwnWeight weight = weightOf(arm);
+  const robot::GravityLoad weight = weightOf(arm);
   const robot::ArmPosture posture = robot::postureAt(arm, kPosture);
   Vector6d sum = Vector6d::Zero();
   for (std::size_t body = 1; body <= 6; ++body) {
     const robot::Wrench pull{posture.motion[body] * weight.bodies[body].com_in_base_at_zero,
-                      weight.bodies[body].mass_kg * weight.gravity_in_base, Eigen::Vector3d::Zero()};
+                             weight.bodies[body].mass_kg * weight.gravity_in_base, Eigen::Vector3d::Zero()};
     Vector6d one = robot::jointTorque(arm, posture, pull);
     one.tail(6 - static_cast<Eigen::Index>(body)).setZero();  // joints beyond the body do not carry it
     sum += one;
@@ -61,7 +61,7 @@ TEST(OwnWeight, TorqueIsTheSumOverBodies) {
 
 TEST(GeometricStiffness, IsTheDerivativeOfTheTorques) {
   const robot::Robot arm = exampleArm();
-  const robot::OwnWeight weight = weightOf(arm);
+  const robot::GravityLoad weight = weightOf(arm);
   const Eigen::Vector3d hook = arm.base_from_flange_at_zero * Eigen::Vector3d(0.05, -0.1, 0.4);
   const robot::ArmPosture posture = robot::postureAt(arm, kPosture);
   robot::Wrench load = hanging(posture, hook, 1500.0);
@@ -87,7 +87,7 @@ TEST(GeometricStiffness, IsTheDerivativeOfTheTorques) {
 TEST(GeometricStiffness, LeavesSecondOrderOfTheNonlinearDisplacement) {
   // Equilibrium of the springs with all loads on the moved arm, by iteration, against the linear formula with K_c.
   const robot::Robot arm = exampleArm();
-  const robot::OwnWeight weight = weightOf(arm);
+  const robot::GravityLoad weight = weightOf(arm);
   const Eigen::Vector3d hook = arm.base_from_flange_at_zero * Eigen::Vector3d(0.05, -0.1, 0.4);
   const auto settle = [&](double newton) {
     Vector6d q = kPosture;

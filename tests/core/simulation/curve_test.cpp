@@ -23,7 +23,8 @@ simulation::SimulationSpec axisTwo(double rate) {
 simulation::AppliedLoad down(double force) { return simulation::DeadForce{Vector3d::Zero(), Vector3d(0, 0, -force)}; }
 
 double twist(const simulation::SimulationSpec& spec, double force) {
-  const simulation::MachineState state = simulation::equilibrium(simulation::buildMachine(spec), Vector6d::Zero(), down(force));
+  const simulation::MachineState state =
+      simulation::equilibrium(simulation::buildMachine(spec), Vector6d::Zero(), down(force));
   EXPECT_TRUE(state.converged);
   return state.deformation[0];
 }
@@ -72,7 +73,7 @@ TEST(SimulationCurve, torqueIsTheEnergysSlopeAndRateTheTorques) {
   for (const double at : {-7e-3, -1.2e-3, 3e-4, 2.2e-3, 6e-3}) {  // no corner within 1e-6 of these
     const double h = 1e-6;
     const simulation::CurvePoint up = simulation::evaluate(curve, at + h, anchors.data()),
-                     below = simulation::evaluate(curve, at - h, anchors.data());
+                                 below = simulation::evaluate(curve, at - h, anchors.data());
     const simulation::CurvePoint point = simulation::evaluate(curve, at, anchors.data());
     EXPECT_NEAR((up.energy - below.energy) / (2 * h), point.torque, 1e-5) << at;  // cubic t h^2
     EXPECT_NEAR((up.torque - below.torque) / (2 * h), point.rate, 1e-6 * point.rate + 1e-2) << at;
@@ -115,7 +116,7 @@ TEST(SimulationCurve, frictionKeepsTheWayBackFromTheWayOut) {
   const campaign::Campaign campaign = simulation::measureWithoutNoise(simulation::buildMachine(spec), spec);
   const double out = (torque - f) / 1e6, back = kf * (out - f / kf) / (1e6 + kf);
   const auto height = [&](std::size_t step) { return campaign.loading->rows[3 * step].point.z(); };
-  const double lever = 1.6 + 0.06;  // the target stands 0.06 m ahead of the flange
+  const double lever = 1.6 + 0.06;                                      // the target stands 0.06 m ahead of the flange
   EXPECT_NEAR(height(0) - height(1), lever * out, 2e-3 * lever * out);  // relative to the twist, 1e-3
   EXPECT_NEAR(height(0) - height(2), lever * back, 3e-3 * lever * out);
   EXPECT_LT(kf * (out - f / kf - back), f);  // or it would slip again

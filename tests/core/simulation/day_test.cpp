@@ -27,7 +27,9 @@ simulation::SimulationSpec day() {
   return spec;
 }
 
-campaign::Campaign perfect(const simulation::SimulationSpec& spec) { return simulation::measureWithoutNoise(simulation::buildMachine(spec), spec); }
+campaign::Campaign perfect(const simulation::SimulationSpec& spec) {
+  return simulation::measureWithoutNoise(simulation::buildMachine(spec), spec);
+}
 
 /// Largest difference of two tables' points, rows where `counts`.
 template <class Rows, class Counts>

@@ -17,9 +17,8 @@ constexpr double kDegree = simulation_test::kDeg;
 /// Specifications of one short text, to which an element is added.
 class SimulationEffectsSpec : public testing::Test {
  protected:
-  fs::path folder =
-      fs::temp_directory_path() /
-      ("stiffscope_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
+  fs::path folder = fs::temp_directory_path() /
+                    ("stiffscope_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
 
   void SetUp() override {
     fs::remove_all(folder);
@@ -30,9 +29,9 @@ class SimulationEffectsSpec : public testing::Test {
 
   /// `added` in the root, the others inside their elements.
   simulation::SimulationSpec read(const std::string& added, const std::string& in_joint = "",
-                      const std::string& joint_attributes = "stiffness_nm_per_rad='3e6'",
-                      const std::string& in_target = "", const std::string& in_load = "",
-                      const std::string& cell = "") {
+                                  const std::string& joint_attributes = "stiffness_nm_per_rad='3e6'",
+                                  const std::string& in_target = "", const std::string& in_load = "",
+                                  const std::string& cell = "") {
     std::ofstream(folder / "spec.xml", std::ios::binary)
         << "<simulation format='1' name='n' date='2026-01-01' seed='1'>\n"
            "<robot urdf='m900ib700.urdf' base_link='base_link' flange_link='tool0'/>\n"
@@ -165,20 +164,17 @@ TEST_F(SimulationEffectsSpec, refusesWhatTheMachineCannotHave) {
             "translation_n_per_m: '1 1 0': expected three numbers above 0");
   EXPECT_EQ(complaint("<growth after_joint='6' growth_mm='1' time_constant_s='1'/>"),
             "after_joint: '6': expected a whole number from 1 to 5");
-  EXPECT_EQ(complaint("<creep share='1.5' time_constant_s='1'/>"),
-            "share: '1.5': expected a share, at most 1");
+  EXPECT_EQ(complaint("<creep share='1.5' time_constant_s='1'/>"), "share: '1.5': expected a share, at most 1");
 }
 
 TEST_F(SimulationEffectsSpec, refusesWhatADayCannotHave) {
   EXPECT_EQ(complaint("<station><drift walk_mm_per_sqrt_h='0 -1 0'/></station>"),
             "walk_mm_per_sqrt_h: '0 -1 0': expected three numbers not below 0");
   EXPECT_EQ(complaint("<station><tracker_moved/></station>"), "tracker_moved: expected xyz_mm or rpy_deg");
-  EXPECT_EQ(
-      complaint("", "", "stiffness_nm_per_rad='3e6'", "<motion kind='slips' shift_um='1 0 0' at_n='1'/>"),
-      "kind: 'slips': expected one of proportional, slip, compliant (did you mean 'slip'?)");
-  EXPECT_EQ(
-      complaint("", "", "stiffness_nm_per_rad='3e6'", "<motion kind='slip' shift_um='1 0 0' at_n='0'/>"),
-      "at_n: '0': expected a number above 0");
+  EXPECT_EQ(complaint("", "", "stiffness_nm_per_rad='3e6'", "<motion kind='slips' shift_um='1 0 0' at_n='1'/>"),
+            "kind: 'slips': expected one of proportional, slip, compliant (did you mean 'slip'?)");
+  EXPECT_EQ(complaint("", "", "stiffness_nm_per_rad='3e6'", "<motion kind='slip' shift_um='1 0 0' at_n='0'/>"),
+            "at_n: '0': expected a number above 0");
   EXPECT_EQ(complaint("", "", "stiffness_nm_per_rad='3e6'", "", "<swing angle_deg='1' period_s='0'/>"),
             "period_s: '0': expected a number above 0");
 }

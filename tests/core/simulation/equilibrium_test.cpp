@@ -42,16 +42,15 @@ Vector3d linearDisplacement(const simulation::SimulationSpec& spec, const Vector
     const Vector3d directions[3] = {axis, axis.unitOrthogonal(), axis.cross(axis.unitOrthogonal())};
     for (int k = 0; k < 3; ++k) {
       const double stiffness = k == 0 ? *spec.machine.joints[i].torsion : *spec.machine.joints[i].bearing;
-      const double torque =
-          column(spec.nominal, q, load.point_in_flange, i, directions[k]).dot(load.force_in_base);
+      const double torque = column(spec.nominal, q, load.point_in_flange, i, directions[k]).dot(load.force_in_base);
       sum += column(spec.nominal, q, measured, i, directions[k]) * torque / stiffness;
     }
   }
   return sum;
 }
 
-double energyAt(const simulation::ElasticMachine& machine, const simulation::AppliedLoad& load, Eigen::VectorXd x, Eigen::Index k,
-                double step) {
+double energyAt(const simulation::ElasticMachine& machine, const simulation::AppliedLoad& load, Eigen::VectorXd x,
+                Eigen::Index k, double step) {
   x[k] += step;
   return simulation::potentialEnergy(machine, posture(), load, x);
 }
@@ -71,8 +70,8 @@ TEST(SimulationEquilibrium, oneSpringByHand) {
     (2e4 * t < force * (a * std::cos(t) + b * std::sin(t)) ? low : high) = t;
   }
   const simulation::ElasticMachine machine = simulation::buildMachine(spec);
-  const simulation::MachineState state =
-      simulation::equilibrium(machine, Vector6d::Zero(), simulation::DeadForce{Vector3d::Zero(), Vector3d(0, 0, -force)});
+  const simulation::MachineState state = simulation::equilibrium(
+      machine, Vector6d::Zero(), simulation::DeadForce{Vector3d::Zero(), Vector3d(0, 0, -force)});
   ASSERT_TRUE(state.converged);
   EXPECT_GT(low, 0.1);
   EXPECT_NEAR(state.deformation[0], low, 1e-12);  // the solver's own promise
@@ -91,8 +90,8 @@ TEST(SimulationEquilibrium, beamByHand) {
   const double u = force * (l * l * l / (3 * ei) + l / kga + 0.3 * l * l / (2 * ei));
   const double r = force * (l * l / (2 * ei) + 0.3 * l / ei);
   const simulation::ElasticMachine machine = simulation::buildMachine(spec);
-  const simulation::MachineState state =
-      simulation::equilibrium(machine, Vector6d::Zero(), simulation::DeadForce{Vector3d::Zero(), Vector3d(0, 0, -force)});
+  const simulation::MachineState state = simulation::equilibrium(
+      machine, Vector6d::Zero(), simulation::DeadForce{Vector3d::Zero(), Vector3d(0, 0, -force)});
   ASSERT_TRUE(state.converged);
   // A micrometre: finite rotations matter to 1e-6 of it only.
   EXPECT_NEAR(2.2 - state.base_from_flange.translation().z(), u + 0.3 * r, 1e-5 * u);
@@ -100,8 +99,9 @@ TEST(SimulationEquilibrium, beamByHand) {
 
 TEST(SimulationEquilibrium, gradientIsThatOfTheEnergy) {
   const simulation::ElasticMachine machine = simulation::buildMachine(fullSpec());
-  const simulation::AppliedLoad loads[] = {std::monostate{}, simulation::DeadForce{{0.1, 0.05, 0.2}, {300, -200, -1400}},
-                               simulation::AnchoredCable{{0.1, 0.05, 0.2}, {3.0, 1.0, 0.0}, 2000}};
+  const simulation::AppliedLoad loads[] = {std::monostate{},
+                                           simulation::DeadForce{{0.1, 0.05, 0.2}, {300, -200, -1400}},
+                                           simulation::AnchoredCable{{0.1, 0.05, 0.2}, {3.0, 1.0, 0.0}, 2000}};
   numerics::RandomStream random(1, "test");
   for (const simulation::AppliedLoad& load : loads) {
     for (const double size : {1e-9, 1e-3, 0.3}) {  // at nothing, at real size, at turns that are not small
@@ -110,8 +110,7 @@ TEST(SimulationEquilibrium, gradientIsThatOfTheEnergy) {
       const Eigen::VectorXd gradient = simulation::energyGradient(machine, posture(), load, x);
       for (Eigen::Index k = 0; k < x.size(); ++k) {
         const double h = 1e-5;
-        const double difference =
-            (energyAt(machine, load, x, k, h) - energyAt(machine, load, x, k, -h)) / (2 * h);
+        const double difference = (energyAt(machine, load, x, k, h) - energyAt(machine, load, x, k, -h)) / (2 * h);
         // Energies up to 1e9 J (stiff directions strained by 0.3) are rounded to 1e-16 of themselves, over
         // 2e-5.
         EXPECT_NEAR(gradient[k], difference, 1e-2 + 1e-8 * gradient.cwiseAbs().maxCoeff())
@@ -163,7 +162,8 @@ TEST(SimulationEquilibrium, withoutComplianceItIsRigidKinematics) {
   simulation::SimulationSpec spec = armSpec();
   spec.machine.joints = {};
   const simulation::ElasticMachine machine = simulation::buildMachine(spec);
-  const simulation::MachineState state = simulation::equilibrium(machine, posture(), simulation::DeadForce{{0, 0, 0}, {0, 0, -1e6}});
+  const simulation::MachineState state =
+      simulation::equilibrium(machine, posture(), simulation::DeadForce{{0, 0, 0}, {0, 0, -1e6}});
   ASSERT_TRUE(state.converged);
   for (int t = 0; t < 3; ++t) {
     const Vector3d rigid = rigidPoint(spec.nominal, posture(), spec.targets[t].position_in_flange);
@@ -214,8 +214,8 @@ TEST(SimulationRotation, exponentialAndItsJacobian) {
     for (int k = 0; k < 3; ++k) {
       const double h = 1e-6;
       const Vector3d dv = h * Vector3d::Unit(k);
-      const Eigen::Matrix3d turn = (simulation::rotationExp(v + dv) - simulation::rotationExp(v - dv)) /
-                                   (2 * h) * rotation.transpose();
+      const Eigen::Matrix3d turn =
+          (simulation::rotationExp(v + dv) - simulation::rotationExp(v - dv)) / (2 * h) * rotation.transpose();
       const Vector3d rate(turn(2, 1), turn(0, 2), turn(1, 0));
       EXPECT_LT((rate - simulation::leftJacobian(v).col(k)).norm(), 1e-9) << size;  // rounding over h
     }

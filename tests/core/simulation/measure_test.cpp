@@ -79,10 +79,10 @@ TEST(SimulationMeasure, withoutNoiseItIsTheEquilibrium) {
   const Eigen::Isometry3d tracker_from_base = spec.tracker.base_from_tracker.inverse();
   for (const campaign::LoadingReading& reading : campaign.loading->rows) {
     const simulation::DeadForce weight{spec.loading->hook_in_flange,
-                           (reading.step == 1 ? 50.0 : 150.0) * machine.gravity_in_base};
+                                       (reading.step == 1 ? 50.0 : 150.0) * machine.gravity_in_base};
     const bool loaded = reading.step == 1 || reading.step == 2;
-    const simulation::MachineState state =
-        simulation::equilibrium(machine, postures[reading.pose].q, loaded ? simulation::AppliedLoad(weight) : simulation::AppliedLoad());
+    const simulation::MachineState state = simulation::equilibrium(
+        machine, postures[reading.pose].q, loaded ? simulation::AppliedLoad(weight) : simulation::AppliedLoad());
     EXPECT_EQ(reading.point, tracker_from_base * state.targets_in_base[reading.target]);
   }
   for (const campaign::State& row : campaign.states->rows) {
@@ -145,8 +145,7 @@ TEST(SimulationMeasure, drawnPosturesKeepTheirRulesAndAreNested) {
     simulation::loadingPostures(spec);
     FAIL();
   } catch (const std::exception& error) {
-    EXPECT_NE(std::string(error.what()).find("expected rules that some posture of the box keeps"),
-              std::string::npos)
+    EXPECT_NE(std::string(error.what()).find("expected rules that some posture of the box keeps"), std::string::npos)
         << error.what();
   }
 }

@@ -43,8 +43,7 @@ TEST(SimulationTrackerNoise, hasItsSigmaAlongAndAcrossTheBeam) {
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
   Vector3d mean = Vector3d::Zero();
   for (int n = 0; n < kDraws; ++n) {
-    const Vector3d e =
-        frame.transpose() * simulation::trackerError(tracker, factor, distance * sight, random) * 1e6;
+    const Vector3d e = frame.transpose() * simulation::trackerError(tracker, factor, distance * sight, random) * 1e6;
     mean += e / kDraws;
     covariance += e * e.transpose() / kDraws;
   }

@@ -31,7 +31,8 @@ double squaredByHand(const Vector6d& a, const Vector6d& b) {
 }
 
 TEST(PostureSpacing, WithoutAnyIsInfinite) {
-  EXPECT_EQ(simulation::PostureSpacing(kLow, kHigh).squaredToNearest(kLow, 0.0), std::numeric_limits<double>::infinity());
+  EXPECT_EQ(simulation::PostureSpacing(kLow, kHigh).squaredToNearest(kLow, 0.0),
+            std::numeric_limits<double>::infinity());
 }
 
 TEST(PostureSpacing, IsTheLeastOfAllDistances) {

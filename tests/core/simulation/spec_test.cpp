@@ -25,9 +25,8 @@ std::string bytesOf(const fs::path& file) {
 
 class SimulationSpecFile : public testing::Test {
  protected:
-  fs::path folder =
-      fs::temp_directory_path() /
-      ("stiffscope_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
+  fs::path folder = fs::temp_directory_path() /
+                    ("stiffscope_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
 
   void SetUp() override {
     fs::remove_all(folder);
@@ -68,7 +67,8 @@ TEST_F(SimulationSpecFile, aJointLeftOutIsRigidAndNamed) {
   const std::size_t at = text.find("<joint index=\"4\"");
   const std::string joint = text.substr(at, text.find("/>", at) + 2 - at);
   EXPECT_EQ(simulation::rigidJoints(readWith(joint, "")), std::vector<int>{4});
-  EXPECT_EQ(simulation::rigidJoints(readWith(joint, "<joint index=\"4\" bearing_nm_per_rad=\"2e6\"/>")), std::vector<int>{4});
+  EXPECT_EQ(simulation::rigidJoints(readWith(joint, "<joint index=\"4\" bearing_nm_per_rad=\"2e6\"/>")),
+            std::vector<int>{4});
 }
 
 TEST(SimulationSpec, samplesAreOneMachineInTwoStates) {
@@ -137,8 +137,7 @@ TEST_F(SimulationSpecFile, refusesWhatItDoesNotUnderstand) {
   EXPECT_EQ(complaint("bearing_nm_per_rad=\"5e7\"", "bearing_nm_pr_rad=\"5e7\""),
             "bearing_nm_pr_rad: '5e7': expected an attribute that 'joint' has (did you mean "
             "'bearing_nm_per_rad'?)");
-  EXPECT_EQ(complaint("<times ", "<time "),
-            "time: expected an element that 'simulation' has (did you mean 'times'?)");
+  EXPECT_EQ(complaint("<times ", "<time "), "time: expected an element that 'simulation' has (did you mean 'times'?)");
   EXPECT_EQ(complaint("seed=\"20170924\"", "seed=\"-1\""),
             "seed: '-1': expected a whole number from 0 to 18446744073709551615");
   EXPECT_EQ(complaint("stiffness_nm_per_rad=\"4.0e6\"", "stiffness_nm_per_rad=\"0\""),
@@ -147,14 +146,12 @@ TEST_F(SimulationSpecFile, refusesWhatItDoesNotUnderstand) {
             "scheme: 'one_targt': expected one of one_target, all_targets (did you mean 'one_target'?)");
   EXPECT_EQ(complaint("parent=\"tool0\"", "parent=\"tool1\""),
             "parent: 'tool1': expected a link of the robot's chain (did you mean 'tool0'?)");
-  EXPECT_EQ(complaint("<joint index=\"2\"", "<joint index=\"1\""),
-            "index: '1': expected every joint at most once");
+  EXPECT_EQ(complaint("<joint index=\"2\"", "<joint index=\"1\""), "index: '1': expected every joint at most once");
   EXPECT_EQ(complaint("max_deg=\"50 55 30 120 100 150\"", "max_deg=\"50 55 30 120 100\""),
             "max_deg: '50 55 30 120 100': expected 6 numbers separated by blanks");
-  EXPECT_EQ(
-      complaint("masses_kg=\"51 102 153\"", "masses_kg=\"0 51 102 153\""),
-      "masses_kg: '0 51 102 153': expected numbers above 0, one a step (the unloaded step 0 and the return "
-      "are not listed)");
+  EXPECT_EQ(complaint("masses_kg=\"51 102 153\"", "masses_kg=\"0 51 102 153\""),
+            "masses_kg: '0 51 102 153': expected numbers above 0, one a step (the unloaded step 0 and the return "
+            "are not listed)");
   EXPECT_EQ(complaint("<hanging_load masses_kg=\"51 102 153\"", "<cable_load tensions_n=\"51 102 153\""),
             "draw: expected a direction: cable_load has neither anchor_mm nor direction");
 }

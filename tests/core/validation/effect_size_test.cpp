@@ -2,9 +2,9 @@
 
 #include <filesystem>
 #include <numbers>
+#include "core/simulation/postures.h"
 #include "core/validation/case.h"
 #include "core/validation/draw.h"
-#include "core/simulation/postures.h"
 
 namespace stiffscope {
 
@@ -15,9 +15,9 @@ namespace {
 struct Lab {
   simulation::SimulationSpec spec;
   explicit Lab(std::uint64_t seed)
-      : spec(validation::drawMachine(seed, "case",
-                         std::filesystem::temp_directory_path() / "stiffscope_blind_size" /
-                             std::to_string(seed) / "robot.urdf")
+      : spec(validation::drawMachine(
+                 seed, "case",
+                 std::filesystem::temp_directory_path() / "stiffscope_blind_size" / std::to_string(seed) / "robot.urdf")
                  .spec) {}
 };
 
@@ -78,8 +78,9 @@ TEST(BlindSize, growsInProportion) {
   const Lab lab(3);
   const validation::EffectSizer sizer(lab.spec);
   numerics::RandomStream random(1, "test");
-  for (const effects::Effect effect : {effects::Effect::bearing_tilt, effects::Effect::load_cell_misalignment, effects::Effect::load_cell_bias,
-                              effects::Effect::kinematic_error, effects::Effect::frame_error, effects::Effect::tracker_drift}) {
+  for (const effects::Effect effect :
+       {effects::Effect::bearing_tilt, effects::Effect::load_cell_misalignment, effects::Effect::load_cell_bias,
+        effects::Effect::kinematic_error, effects::Effect::frame_error, effects::Effect::tracker_drift}) {
     const validation::EffectDraw draw = validation::drawEffect(effect, lab.spec, random);
     const auto sized = [&](double strength) {
       simulation::SimulationSpec spec = lab.spec;
@@ -103,7 +104,8 @@ TEST(BlindSize, theStrengthForASizeIsFound) {
     const double strength = validation::strengthFor(draw, lab.spec, sizer, 3.0, sizes);
     simulation::SimulationSpec spec = lab.spec;
     draw.apply(strength, spec);
-    EXPECT_EQ(validation::sizeOf(sizer.measure(spec), draw.shows), validation::sizeOf(sizes, draw.shows)) << effects::kEffectIds[e];
+    EXPECT_EQ(validation::sizeOf(sizer.measure(spec), draw.shows), validation::sizeOf(sizes, draw.shows))
+        << effects::kEffectIds[e];
     EXPECT_LE(strength, draw.most);
     ++effects;
     reached += std::abs(std::log(validation::sizeOf(sizes, draw.shows) / 3.0)) < 0.1 ? 1 : 0;

@@ -3,8 +3,8 @@
 #include <filesystem>
 #include <fstream>
 #include <sstream>
-#include "core/validation/run_blind.h"
 #include "core/io/read_file.h"
+#include "core/validation/run_blind.h"
 
 namespace stiffscope {
 
@@ -34,9 +34,8 @@ validation::DiagnosisAnswer standIn(const campaign::Campaign& campaign) {
 
 class BlindRun : public testing::Test {
  protected:
-  fs::path folder =
-      fs::temp_directory_path() /
-      ("stiffscope_blind_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
+  fs::path folder = fs::temp_directory_path() /
+                    ("stiffscope_blind_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
   void SetUp() override { fs::remove_all(folder); }
   void TearDown() override { fs::remove_all(folder); }
 
@@ -49,7 +48,7 @@ class BlindRun : public testing::Test {
 
 TEST_F(BlindRun, theSameSeedGivesTheSameBytesOnAnyNumberOfThreads) {
   const validation::BlindResult one = validation::runBlind(options(5, 1, "one"), standIn),
-                    two = validation::runBlind(options(5, 2, "two"), standIn);
+                                two = validation::runBlind(options(5, 2, "two"), standIn);
   EXPECT_EQ(one.seal, two.seal);
   EXPECT_EQ(one.answers_hash, two.answers_hash);
   std::size_t files = 0;
@@ -98,8 +97,7 @@ TEST_F(BlindRun, aLabelThatIsChangedBreaksTheSeal) {
     validation::runBlind(asked, standIn, events);
     FAIL();
   } catch (const std::runtime_error& error) {
-    EXPECT_NE(std::string(error.what()).find("labels.csv: not what was sealed"), std::string::npos)
-        << error.what();
+    EXPECT_NE(std::string(error.what()).find("labels.csv: not what was sealed"), std::string::npos) << error.what();
   }
   validation::Label label;
   const std::string before = io::sha256Hex(validation::labelsCsv({label}));
@@ -110,8 +108,8 @@ TEST_F(BlindRun, aLabelThatIsChangedBreaksTheSeal) {
 TEST_F(BlindRun, aDiagnosisThatThrowsHasNotAnswered) {
   validation::BlindOptions asked = options(2, 2, "run");
   asked.discard = true;
-  const validation::BlindResult result =
-      validation::runBlind(asked, [](const campaign::Campaign&) -> validation::DiagnosisAnswer { throw std::runtime_error("no, nothing"); });
+  const validation::BlindResult result = validation::runBlind(
+      asked, [](const campaign::Campaign&) -> validation::DiagnosisAnswer { throw std::runtime_error("no, nothing"); });
   EXPECT_EQ(result.score.rate("failed").hits, 2);
   EXPECT_EQ(result.score.cases[0].answer.failure, "no  nothing");
   EXPECT_FALSE(fs::exists(asked.out / "cases"));

@@ -1,14 +1,13 @@
-#include <gtest/gtest.h>
 #include "core/validation/score.h"
+#include <gtest/gtest.h>
 #include "core/io/input_error.h"
 
 namespace stiffscope {
 
-
 namespace {
 
 validation::Label single(const std::string& name, const std::string& effect, double size,
-             const std::string& detail = "") {
+                         const std::string& detail = "") {
   validation::Label label;
   label.name = name;
   label.kind = validation::CaseKind::single;
@@ -19,7 +18,7 @@ validation::Label single(const std::string& name, const std::string& effect, dou
 }
 
 validation::Answer says(const std::string& name, std::vector<std::vector<std::string>> entries,
-            const std::string& detail = "") {
+                        const std::string& detail = "") {
   validation::Answer answer;
   answer.name = name;
   for (auto& effects : entries) answer.entries.push_back({std::move(effects), detail});
@@ -61,11 +60,11 @@ TEST(BlindInterval, holdsTheTruthOftenEnough) {
 
 TEST(BlindScore, singlesByHand) {
   const std::vector<validation::Label> labels{single("1", "hysteresis", 0.7), single("2", "hysteresis", 3.0),
-                                  single("3", "bearing_tilt", 6.0), single("4", "backlash", 6.0),
-                                  single("5", "joint_coupling", 8.0, "joints 2 and 3")};
+                                              single("3", "bearing_tilt", 6.0), single("4", "backlash", 6.0),
+                                              single("5", "joint_coupling", 8.0, "joints 2 and 3")};
   const std::vector<validation::Answer> answers{says("1", {}), says("2", {{"hysteresis"}, {"base_compliance"}}),
-                                    says("3", {{"link_compliance", "bearing_tilt"}}), says("4", {{}}),
-                                    says("5", {{"joint_coupling"}}, "joints 2 and 3")};
+                                                says("3", {{"link_compliance", "bearing_tilt"}}), says("4", {{}}),
+                                                says("5", {{"joint_coupling"}}, "joints 2 and 3")};
   const validation::Score result = validation::score(labels, answers);
   EXPECT_EQ(result.rate("singles").hits, 2);
   EXPECT_EQ(result.rate("singles").trials, 5);
@@ -102,11 +101,11 @@ TEST(BlindScore, cleanUnknownAndDoublesByHand) {
   labels[4].effects = labels[5].effects = {{"hysteresis", "", "deflection", 4.0, 4.0, 0.0},
                                            {"load_cell_bias", "", "deflection", 4.0, 4.0, 0.0}};
   const std::vector<validation::Answer> answers{says("0", {}),
-                                    says("1", {{"backlash"}}),
-                                    says("2", {{"backlash"}, {}}),
-                                    says("3", {{"tracker_drift"}}),
-                                    says("4", {{"load_cell_bias", "backlash"}, {"hysteresis"}}),
-                                    says("5", {{"hysteresis"}})};
+                                                says("1", {{"backlash"}}),
+                                                says("2", {{"backlash"}, {}}),
+                                                says("3", {{"tracker_drift"}}),
+                                                says("4", {{"load_cell_bias", "backlash"}, {"hysteresis"}}),
+                                                says("5", {{"hysteresis"}})};
   const validation::Score result = validation::score(labels, answers, {{"2", 2.5}, {"3", 0.4}});
   EXPECT_EQ(result.rate("unknown_apart").trials, 1);  // the other one is what a drift can do
   EXPECT_EQ(result.rate("unknown_apart").hits, 1);
@@ -163,7 +162,8 @@ TEST(BlindTables, labelsAndAnswersSurviveWriting) {
   best.effects = {effects::Effect::hysteresis, effects::Effect::backlash};
   best.shrink = {0.5, 0.25, 0.75};
   const std::vector<diagnosis::EffectClass> classes{best};
-  const std::vector<validation::Answer> given{validation::answerOf("0001", {verdict, classes}), validation::answerOf("0002", {})};
+  const std::vector<validation::Answer> given{validation::answerOf("0001", {verdict, classes}),
+                                              validation::answerOf("0002", {})};
   const std::vector<validation::Answer> frozen = validation::readAnswers("answers.csv", validation::answersCsv(given));
   ASSERT_EQ(frozen.size(), 2u);
   EXPECT_EQ(frozen[0].entries.at(0).effects, (std::vector<std::string>{"hysteresis", "backlash"}));
