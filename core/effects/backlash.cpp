@@ -12,7 +12,7 @@ namespace stiffscope::effects {
 
 namespace {
 
-JointAngles angles(const LinearizationPoint& at, const PostureStates& posture, std::size_t i) {
+JointAngles backlashAngles(const LinearizationPoint& at, const PostureStates& posture, std::size_t i) {
   const Vector6d torque = totalTorque(posture[i]);
   JointAngles result = JointAngles::Zero(6, 7);
   for (Eigen::Index j = 0; j < 6; ++j) {
@@ -32,14 +32,15 @@ void settle(LinearizationPoint& at, Eigen::VectorXd& own) {
   own[6] = 0.0;
 }
 
-std::string missing(const CampaignContents& has) {
+std::string backlashMissing(const CampaignContents& has) {
   if (has.load_steps < 2 && !has.weights)
     return "one load step and no masses: lost motion needs torques that pass zero, from two or more loads";
   return {};
 }
 
-std::vector<EffectModel> models(const std::vector<std::string>&) {
-  EffectModel model{.parts = jointParts(20e-3, true, "rad"), .most_parts = 7, .angles = &angles, .settle = &settle};
+std::vector<EffectModel> backlashModels(const std::vector<std::string>&) {
+  EffectModel model{
+      .parts = jointParts(20e-3, true, "rad"), .most_parts = 7, .angles = &backlashAngles, .settle = &settle};
   model.parts.push_back({"width of the passage", {1.0}, false, "of the largest torque"});
   return {model};
 }
@@ -47,8 +48,10 @@ std::vector<EffectModel> models(const std::vector<std::string>&) {
 }  // namespace
 
 const EffectRecord& backlash() {
-  static const EffectRecord record{
-      .effect = Effect::backlash, .nature = EffectNature::machine, .missing = &missing, .models = &models};
+  static const EffectRecord record{.effect = Effect::backlash,
+                                   .nature = EffectNature::machine,
+                                   .missing = &backlashMissing,
+                                   .models = &backlashModels};
   return record;
 }
 

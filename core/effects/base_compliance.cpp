@@ -9,7 +9,7 @@ namespace stiffscope::effects {
 
 namespace {
 
-std::vector<BodyTwist> twists(const LinearizationPoint& at, const PostureStates& posture, std::size_t i) {
+std::vector<BodyTwist> baseComplianceTwists(const LinearizationPoint& at, const PostureStates& posture, std::size_t i) {
   const Eigen::Vector3d foot = at.r0_from_base_link.translation();
   const Eigen::Matrix3d axes = at.r0_from_base_link.linear();
   const robot::Wrench load = carried(posture[i], 1, foot);
@@ -19,8 +19,8 @@ std::vector<BodyTwist> twists(const LinearizationPoint& at, const PostureStates&
   return twists;
 }
 
-std::vector<EffectModel> models(const std::vector<std::string>&) {
-  EffectModel model{.most_parts = 5, .twists = &twists};
+std::vector<EffectModel> baseComplianceModels(const std::vector<std::string>&) {
+  EffectModel model{.most_parts = 5, .twists = &baseComplianceTwists};
   for (const char* name : {"rocking about x", "rocking about y"}) model.parts.push_back({name, {1e-5}, true, "rad/Nm"});
   for (const char* name : {"shift along x", "shift along y", "shift along z"})
     model.parts.push_back({name, {1e-5}, true, "m/N"});
@@ -31,7 +31,7 @@ std::vector<EffectModel> models(const std::vector<std::string>&) {
 
 const EffectRecord& baseCompliance() {
   static const EffectRecord record{
-      .effect = Effect::base_compliance, .nature = EffectNature::machine, .models = &models};
+      .effect = Effect::base_compliance, .nature = EffectNature::machine, .models = &baseComplianceModels};
   return record;
 }
 

@@ -9,7 +9,7 @@ namespace stiffscope::effects {
 
 namespace {
 
-std::vector<BodyTwist> twists(const LinearizationPoint&, const PostureStates& posture, std::size_t i) {
+std::vector<BodyTwist> bearingTiltTwists(const LinearizationPoint&, const PostureStates& posture, std::size_t i) {
   std::vector<BodyTwist> twists;
   for (int j = 0; j < 6; ++j) {
     const metrology::Line& axis = posture[i].axes[static_cast<std::size_t>(j)];
@@ -20,14 +20,15 @@ std::vector<BodyTwist> twists(const LinearizationPoint&, const PostureStates& po
   return twists;
 }
 
-std::vector<EffectModel> models(const std::vector<std::string>&) {
-  return {{.parts = jointParts(1e-5, true, "rad/Nm"), .most_parts = 6, .twists = &twists}};
+std::vector<EffectModel> bearingTiltModels(const std::vector<std::string>&) {
+  return {{.parts = jointParts(1e-5, true, "rad/Nm"), .most_parts = 6, .twists = &bearingTiltTwists}};
 }
 
 }  // namespace
 
 const EffectRecord& bearingTilt() {
-  static const EffectRecord record{.effect = Effect::bearing_tilt, .nature = EffectNature::machine, .models = &models};
+  static const EffectRecord record{
+      .effect = Effect::bearing_tilt, .nature = EffectNature::machine, .models = &bearingTiltModels};
   return record;
 }
 

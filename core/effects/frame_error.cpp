@@ -8,7 +8,7 @@ namespace stiffscope::effects {
 
 namespace {
 
-Eigen::MatrixXd offset(const LinearizationPoint& at, const PostureStates& posture, std::size_t i) {
+Eigen::MatrixXd frameErrorOffset(const LinearizationPoint& at, const PostureStates& posture, std::size_t i) {
   const ArmState& state = posture[i];
   Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(state.rows(), 6);
   if (state.pose < 0) return columns;
@@ -19,11 +19,11 @@ Eigen::MatrixXd offset(const LinearizationPoint& at, const PostureStates& postur
   return columns;
 }
 
-void correct(const Vector6d&, LinearizationPoint&, Corrections& corrections, Eigen::VectorXd& own) {
+void frameErrorCorrect(const Vector6d&, LinearizationPoint&, Corrections& corrections, Eigen::VectorXd& own) {
   corrections.frame = own;
 }
 
-std::string missing(const CampaignContents& has) {
+std::string frameErrorMissing(const CampaignContents& has) {
   if (!has.weights && !has.nests)
     return "the masses of the links are not known: the sag in absolute positions hides it; state them, or "
            "read nests";
@@ -32,15 +32,17 @@ std::string missing(const CampaignContents& has) {
   return {};
 }
 
-std::vector<EffectModel> models(const std::vector<std::string>&) {
-  return {{.parts = {rigidMotionPart(0.1)}, .offset = &offset, .correct = &correct}};
+std::vector<EffectModel> frameErrorModels(const std::vector<std::string>&) {
+  return {{.parts = {rigidMotionPart(0.1)}, .offset = &frameErrorOffset, .correct = &frameErrorCorrect}};
 }
 
 }  // namespace
 
 const EffectRecord& frameError() {
-  static const EffectRecord record{
-      .effect = Effect::frame_error, .nature = EffectNature::measurement, .missing = &missing, .models = &models};
+  static const EffectRecord record{.effect = Effect::frame_error,
+                                   .nature = EffectNature::measurement,
+                                   .missing = &frameErrorMissing,
+                                   .models = &frameErrorModels};
   return record;
 }
 

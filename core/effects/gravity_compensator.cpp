@@ -15,7 +15,7 @@ namespace {
 
 constexpr int kHarmonics = 4;
 
-JointAngles angles(const LinearizationPoint& at, const PostureStates& posture, std::size_t i) {
+JointAngles gravityCompensatorAngles(const LinearizationPoint& at, const PostureStates& posture, std::size_t i) {
   const ArmState& state = posture[i];
   const double angle = state.turned[1], compliance = at.compliance[1];
   const double give = compliance * state.load_torque[1];
@@ -29,7 +29,7 @@ JointAngles angles(const LinearizationPoint& at, const PostureStates& posture, s
 }
 
 /// The torque turns the joint by the compliance of the equations it was found in.
-void correct(const Vector6d& compliance, LinearizationPoint& at, Corrections&, Eigen::VectorXd& own) {
+void gravityCompensatorCorrect(const Vector6d& compliance, LinearizationPoint& at, Corrections&, Eigen::VectorXd& own) {
   if (compliance[1] <= 0.0 || at.compliance[1] <= 0.0) {
     own.setZero();
     return;
@@ -38,26 +38,28 @@ void correct(const Vector6d& compliance, LinearizationPoint& at, Corrections&, E
   at.compensator = own;
 }
 
-std::string missing(const CampaignContents& has) {
+std::string gravityCompensatorMissing(const CampaignContents& has) {
   if (!has.weights) return "the masses of the links are not known: the spring cannot be told from the own weight";
   if (!has.absolute) return "displacements only: unloaded absolute positions against forward kinematics are needed";
   return {};
 }
 
-std::vector<EffectModel> models(const std::vector<std::string>&) {
+std::vector<EffectModel> gravityCompensatorModels(const std::vector<std::string>&) {
   EffectPart part{"", std::vector<double>(2 * kHarmonics, 1e6), false, "Nm"};
   for (int n = 1; n <= kHarmonics; ++n) {
     part.names.push_back(fmt::format("sin {} q2", n));
     part.names.push_back(fmt::format("cos {} q2", n));
   }
-  return {{.parts = {part}, .angles = &angles, .correct = &correct}};
+  return {{.parts = {part}, .angles = &gravityCompensatorAngles, .correct = &gravityCompensatorCorrect}};
 }
 
 }  // namespace
 
 const EffectRecord& gravityCompensator() {
-  static const EffectRecord record{
-      .effect = Effect::gravity_compensator, .nature = EffectNature::machine, .missing = &missing, .models = &models};
+  static const EffectRecord record{.effect = Effect::gravity_compensator,
+                                   .nature = EffectNature::machine,
+                                   .missing = &gravityCompensatorMissing,
+                                   .models = &gravityCompensatorModels};
   return record;
 }
 

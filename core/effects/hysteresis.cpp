@@ -125,12 +125,12 @@ EffectModel softModel(const char* shape, decltype(EffectModel::angles) angles) {
   return model;
 }
 
-std::string missing(const CampaignContents& has) {
+std::string hysteresisMissing(const CampaignContents& has) {
   if (!has.return_to_zero) return "no return to zero: a last, unloaded step in each posture is needed";
   return {};
 }
 
-std::vector<EffectModel> models(const std::vector<std::string>&) {
+std::vector<EffectModel> hysteresisModels(const std::vector<std::string>&) {
   return {{.shape = "a rigid grip",
            .parts = jointParts(20e-3, true, "rad"),
            .most_parts = 6,
@@ -143,8 +143,10 @@ std::vector<EffectModel> models(const std::vector<std::string>&) {
 }  // namespace
 
 const EffectRecord& hysteresis() {
-  static const EffectRecord record{
-      .effect = Effect::hysteresis, .nature = EffectNature::machine, .missing = &missing, .models = &models};
+  static const EffectRecord record{.effect = Effect::hysteresis,
+                                   .nature = EffectNature::machine,
+                                   .missing = &hysteresisMissing,
+                                   .models = &hysteresisModels};
   return record;
 }
 

@@ -10,7 +10,7 @@ namespace stiffscope::effects {
 
 namespace {
 
-JointAngles angles(const LinearizationPoint&, const PostureStates& posture, std::size_t i) {
+JointAngles jointCouplingAngles(const LinearizationPoint&, const PostureStates& posture, std::size_t i) {
   const Vector6d torque = totalTorque(posture[i]);
   JointAngles result = JointAngles::Zero(6, 15);
   Eigen::Index pair = 0;
@@ -23,8 +23,8 @@ JointAngles angles(const LinearizationPoint&, const PostureStates& posture, std:
   return result;
 }
 
-std::vector<EffectModel> models(const std::vector<std::string>&) {
-  EffectModel model{.angles = &angles};
+std::vector<EffectModel> jointCouplingModels(const std::vector<std::string>&) {
+  EffectModel model{.angles = &jointCouplingAngles};
   for (int a = 1; a <= 6; ++a) {
     for (int b = a + 1; b <= 6; ++b)
       model.parts.push_back({fmt::format("joints {} and {}", a, b), {1e-4}, false, "rad/Nm"});
@@ -36,7 +36,7 @@ std::vector<EffectModel> models(const std::vector<std::string>&) {
 
 const EffectRecord& jointCoupling() {
   static const EffectRecord record{
-      .effect = Effect::joint_coupling, .nature = EffectNature::machine, .models = &models};
+      .effect = Effect::joint_coupling, .nature = EffectNature::machine, .models = &jointCouplingModels};
   return record;
 }
 

@@ -129,12 +129,12 @@ EffectModel byKnots(const char* shape, const char* knot, int knots, decltype(Eff
   return model;
 }
 
-std::string missing(const CampaignContents& has) {
+std::string jointHardeningMissing(const CampaignContents& has) {
   if (has.load_steps < 2) return "one load step: two or more loads of different size in each posture are needed";
   return {};
 }
 
-std::vector<EffectModel> models(const std::vector<std::string>&) {
+std::vector<EffectModel> jointHardeningModels(const std::vector<std::string>&) {
   return {bySquare("stiffness with the square of the torque", &cubic),
           bySize("stiffness with the size of the torque", &square),
           bySquare("a spring with a cubic term", &cubicSpring),
@@ -147,8 +147,10 @@ std::vector<EffectModel> models(const std::vector<std::string>&) {
 }  // namespace
 
 const EffectRecord& jointHardening() {
-  static const EffectRecord record{
-      .effect = Effect::joint_hardening, .nature = EffectNature::machine, .missing = &missing, .models = &models};
+  static const EffectRecord record{.effect = Effect::joint_hardening,
+                                   .nature = EffectNature::machine,
+                                   .missing = &jointHardeningMissing,
+                                   .models = &jointHardeningModels};
   return record;
 }
 

@@ -7,7 +7,7 @@ namespace stiffscope::effects {
 
 namespace {
 
-std::string missing(const CampaignContents& has) {
+std::string kinematicErrorMissing(const CampaignContents& has) {
   if (!has.weights) return "the masses of the links are not known: the sag cannot be told from geometry";
   if (!has.absolute) return "displacements only: unloaded absolute positions or circle sweeps of all axes are needed";
   return {};
@@ -17,7 +17,7 @@ std::string missing(const CampaignContents& has) {
 
 const EffectRecord& kinematicError() {
   static const EffectRecord record{
-      .effect = Effect::kinematic_error, .nature = EffectNature::geometry, .missing = &missing};
+      .effect = Effect::kinematic_error, .nature = EffectNature::geometry, .missing = &kinematicErrorMissing};
   return record;
 }
 

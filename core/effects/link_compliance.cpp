@@ -14,7 +14,7 @@ namespace {
 
 constexpr int kLinks = 4;  // bodies 1 to 4: joint origin to the next; the wrist's own bodies are compact
 
-std::vector<BodyTwist> twists(const LinearizationPoint&, const PostureStates& posture, std::size_t i) {
+std::vector<BodyTwist> linkComplianceTwists(const LinearizationPoint&, const PostureStates& posture, std::size_t i) {
   std::vector<BodyTwist> twists;
   for (int link = 0; link < kLinks; ++link) {
     const Eigen::Vector3d from = posture[i].axes[static_cast<std::size_t>(link)].point;
@@ -38,8 +38,8 @@ std::vector<BodyTwist> twists(const LinearizationPoint&, const PostureStates& po
   return twists;
 }
 
-std::vector<EffectModel> models(const std::vector<std::string>&) {
-  EffectModel model{.most_parts = kLinks, .twists = &twists};
+std::vector<EffectModel> linkComplianceModels(const std::vector<std::string>&) {
+  EffectModel model{.most_parts = kLinks, .twists = &linkComplianceTwists};
   for (int link = 1; link <= kLinks; ++link) {
     const std::string name = fmt::format("link {}", link);
     model.parts.push_back({name, {1e-4, 1e-4}, true, "1/(N m^2)", {"1/EI of " + name, "1/GJ of " + name}});
@@ -51,7 +51,7 @@ std::vector<EffectModel> models(const std::vector<std::string>&) {
 
 const EffectRecord& linkCompliance() {
   static const EffectRecord record{
-      .effect = Effect::link_compliance, .nature = EffectNature::machine, .models = &models};
+      .effect = Effect::link_compliance, .nature = EffectNature::machine, .models = &linkComplianceModels};
   return record;
 }
 

@@ -37,13 +37,13 @@ void correctWeight(const Vector6d&, LinearizationPoint&, Corrections& correction
   corrections.missing_weight = own[0];
 }
 
-std::string missing(const CampaignContents& has) {
+std::string loadCellBiasMissing(const CampaignContents& has) {
   if (has.load_steps < 2)
     return "one load step: a constant part of the force needs two or more loads of different size";
   return {};
 }
 
-std::vector<EffectModel> models(const std::vector<std::string>&) {
+std::vector<EffectModel> loadCellBiasModels(const std::vector<std::string>&) {
   return {{.shape = "constant in the cell's axes",
            .parts = {{"", {2e3, 2e3, 2e3}, false, "N", {"x", "y", "z"}}},
            .offset = &inCell,
@@ -57,8 +57,10 @@ std::vector<EffectModel> models(const std::vector<std::string>&) {
 }  // namespace
 
 const EffectRecord& loadCellBias() {
-  static const EffectRecord record{
-      .effect = Effect::load_cell_bias, .nature = EffectNature::measurement, .missing = &missing, .models = &models};
+  static const EffectRecord record{.effect = Effect::load_cell_bias,
+                                   .nature = EffectNature::measurement,
+                                   .missing = &loadCellBiasMissing,
+                                   .models = &loadCellBiasModels};
   return record;
 }
 

@@ -7,7 +7,7 @@ namespace stiffscope::effects {
 
 namespace {
 
-Eigen::MatrixXd offset(const LinearizationPoint& at, const PostureStates& posture, std::size_t i) {
+Eigen::MatrixXd loadCellMisalignmentOffset(const LinearizationPoint& at, const PostureStates& posture, std::size_t i) {
   const ArmState& state = posture[i];
   Eigen::MatrixXd columns(state.rows(), 3);
   for (int k = 0; k < 3; ++k) {
@@ -18,20 +18,21 @@ Eigen::MatrixXd offset(const LinearizationPoint& at, const PostureStates& postur
   return columns;
 }
 
-void correct(const Vector6d&, LinearizationPoint&, Corrections& corrections, Eigen::VectorXd& own) {
+void loadCellMisalignmentCorrect(const Vector6d&, LinearizationPoint&, Corrections& corrections, Eigen::VectorXd& own) {
   corrections.cell_turn = own;
 }
 
-std::vector<EffectModel> models(const std::vector<std::string>&) {
+std::vector<EffectModel> loadCellMisalignmentModels(const std::vector<std::string>&) {
   const EffectPart turn{"", {0.3, 0.3, 0.3}, false, "rad", {"turn about x", "turn about y", "turn about z"}};
-  return {{.parts = {turn}, .offset = &offset, .correct = &correct}};
+  return {{.parts = {turn}, .offset = &loadCellMisalignmentOffset, .correct = &loadCellMisalignmentCorrect}};
 }
 
 }  // namespace
 
 const EffectRecord& loadCellMisalignment() {
-  static const EffectRecord record{
-      .effect = Effect::load_cell_misalignment, .nature = EffectNature::measurement, .models = &models};
+  static const EffectRecord record{.effect = Effect::load_cell_misalignment,
+                                   .nature = EffectNature::measurement,
+                                   .models = &loadCellMisalignmentModels};
   return record;
 }
 

@@ -8,7 +8,7 @@ namespace stiffscope::effects {
 
 namespace {
 
-Eigen::MatrixXd offset(const LinearizationPoint& at, const PostureStates& posture, std::size_t i) {
+Eigen::MatrixXd loadPointErrorOffset(const LinearizationPoint& at, const PostureStates& posture, std::size_t i) {
   const ArmState& state = posture[i];
   Eigen::MatrixXd columns(state.rows(), 3);
   for (int k = 0; k < 3; ++k) {
@@ -18,18 +18,21 @@ Eigen::MatrixXd offset(const LinearizationPoint& at, const PostureStates& postur
   return columns;
 }
 
-void correct(const Vector6d&, LinearizationPoint&, Corrections& corrections, Eigen::VectorXd& own) {
+void loadPointErrorCorrect(const Vector6d&, LinearizationPoint&, Corrections& corrections, Eigen::VectorXd& own) {
   corrections.load_point = own;
 }
 
-std::vector<EffectModel> models(const std::vector<std::string>&) {
-  return {{.parts = {{"", {0.3, 0.3, 0.3}, false, "m", {"x", "y", "z"}}}, .offset = &offset, .correct = &correct}};
+std::vector<EffectModel> loadPointErrorModels(const std::vector<std::string>&) {
+  return {{.parts = {{"", {0.3, 0.3, 0.3}, false, "m", {"x", "y", "z"}}},
+           .offset = &loadPointErrorOffset,
+           .correct = &loadPointErrorCorrect}};
 }
 
 }  // namespace
 
 const EffectRecord& loadPointError() {
-  static const EffectRecord record{.effect = Effect::load_point_error, .nature = EffectNature::load, .models = &models};
+  static const EffectRecord record{
+      .effect = Effect::load_point_error, .nature = EffectNature::load, .models = &loadPointErrorModels};
   return record;
 }
 

@@ -85,12 +85,12 @@ EffectModel modelOf(const std::vector<std::string>& targets, const char* shape,
   return model;
 }
 
-std::string missing(const CampaignContents& has) {
+std::string targetMotionMissing(const CampaignContents& has) {
   if (has.reflectors < 3) return "fewer than three reflectors: one that moves shows only against two others";
   return {};
 }
 
-std::vector<EffectModel> models(const std::vector<std::string>& targets) {
+std::vector<EffectModel> targetMotionModels(const std::vector<std::string>& targets) {
   return {modelOf(targets, "in proportion to the load", kAlongAxes, &proportional),
           modelOf(targets, "by a step under load", kAlongAxes, &step),
           modelOf(targets, "by a slip that stays", kAlongAxes, &lasting),
@@ -103,8 +103,10 @@ std::vector<EffectModel> models(const std::vector<std::string>& targets) {
 }  // namespace
 
 const EffectRecord& targetMotion() {
-  static const EffectRecord record{
-      .effect = Effect::target_motion, .nature = EffectNature::measurement, .missing = &missing, .models = &models};
+  static const EffectRecord record{.effect = Effect::target_motion,
+                                   .nature = EffectNature::measurement,
+                                   .missing = &targetMotionMissing,
+                                   .models = &targetMotionModels};
   return record;
 }
 

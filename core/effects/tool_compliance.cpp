@@ -36,21 +36,23 @@ EffectModel modelOf(const char* shape, decltype(EffectModel::twists) twists) {
   return model;
 }
 
-std::string missing(const CampaignContents& has) {
+std::string toolComplianceMissing(const CampaignContents& has) {
   if (has.reflectors < 2 && !has.moments)
     return "one reflector at the loaded point: more reflectors, and moments, on the tool are needed";
   return {};
 }
 
-std::vector<EffectModel> models(const std::vector<std::string>&) {
+std::vector<EffectModel> toolComplianceModels(const std::vector<std::string>&) {
   return {modelOf("by the load and what hangs on the flange", &withWeight), modelOf("by the load alone", &byLoad)};
 }
 
 }  // namespace
 
 const EffectRecord& toolCompliance() {
-  static const EffectRecord record{
-      .effect = Effect::tool_compliance, .nature = EffectNature::machine, .missing = &missing, .models = &models};
+  static const EffectRecord record{.effect = Effect::tool_compliance,
+                                   .nature = EffectNature::machine,
+                                   .missing = &toolComplianceMissing,
+                                   .models = &toolComplianceModels};
   return record;
 }
 

@@ -9,7 +9,7 @@ namespace stiffscope::effects {
 
 namespace {
 
-Eigen::MatrixXd offset(const LinearizationPoint& at, const PostureStates& posture, std::size_t i) {
+Eigen::MatrixXd trackerDriftOffset(const LinearizationPoint& at, const PostureStates& posture, std::size_t i) {
   const ArmState& state = posture[i];
   Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(state.rows(), 6);
   if (!std::isfinite(state.time_s)) return columns;
@@ -21,21 +21,23 @@ Eigen::MatrixXd offset(const LinearizationPoint& at, const PostureStates& postur
   return columns;
 }
 
-std::string missing(const CampaignContents& has) {
+std::string trackerDriftMissing(const CampaignContents& has) {
   if (!has.nests && (!has.times || !has.absolute))
     return "no floor nests and no absolute positions with times: read three nests before, during and after";
   return {};
 }
 
-std::vector<EffectModel> models(const std::vector<std::string>&) {
-  return {{.parts = {rigidMotionPart(0.05)}, .offset = &offset}};
+std::vector<EffectModel> trackerDriftModels(const std::vector<std::string>&) {
+  return {{.parts = {rigidMotionPart(0.05)}, .offset = &trackerDriftOffset}};
 }
 
 }  // namespace
 
 const EffectRecord& trackerDrift() {
-  static const EffectRecord record{
-      .effect = Effect::tracker_drift, .nature = EffectNature::measurement, .missing = &missing, .models = &models};
+  static const EffectRecord record{.effect = Effect::tracker_drift,
+                                   .nature = EffectNature::measurement,
+                                   .missing = &trackerDriftMissing,
+                                   .models = &trackerDriftModels};
   return record;
 }
 

@@ -18,7 +18,6 @@ namespace stiffscope::extended_model {
 
 namespace {
 
-const io::InputPlace kOption{"--with"};
 const char* const kNotTold =
     "these postures and loads cannot tell it from stiffnesses and geometry, or only with sizes that no machine has";
 
@@ -39,7 +38,7 @@ void requireTestable(const std::vector<RequestedEffect>& wanted, const diagnosis
   for (const RequestedEffect& one : wanted) {
     const std::string missing = effects::missingFor(one.effect, has);
     if (!missing.empty())
-      throw io::InputError(kOption, std::string(effects::idOf(one.effect)),
+      throw io::InputError(kWithOption, std::string(effects::idOf(one.effect)),
                            "this campaign cannot show that effect: " + missing);
   }
 }
@@ -85,7 +84,7 @@ void requireSeen(const diagnosis::GapFit& fit, const diagnosis::SystemInput& inp
     bool seen = false;
     for (Eigen::Index i = first; i < first + static_cast<Eigen::Index>(input.models[one.model].parameters()); ++i)
       seen = seen || fit.projection.matrix(i, i) > fit.rules.kept_share * fit.projection.before[i];
-    if (!seen) throw io::InputError(kOption, std::string(effects::idOf(input.models[one.model].effect)), kNotTold);
+    if (!seen) throw io::InputError(kWithOption, std::string(effects::idOf(input.models[one.model].effect)), kNotTold);
   }
 }
 
@@ -133,7 +132,7 @@ class Chooser {
 
   diagnosis::ChosenModel bestOf(const std::vector<diagnosis::ChosenModel>& choices, const RequestedEffect& wanted,
                                 const std::vector<diagnosis::ChosenModel>& others) const {
-    if (choices.empty()) throw io::InputError(kOption, std::string(effects::idOf(wanted.effect)), kNotTold);
+    if (choices.empty()) throw io::InputError(kWithOption, std::string(effects::idOf(wanted.effect)), kNotTold);
     std::vector<double> scores;
     for (const diagnosis::ChosenModel& choice : choices) {
       std::vector<diagnosis::ChosenModel> all = others;
@@ -232,7 +231,7 @@ EffectFit fitEffects(const preparation::PreparedCampaign& prepared, const Reques
   if (asked.effects.empty()) return effects;
   auto start = std::make_unique<diagnosis::DiagnosisInput>(diagnosis::diagnosisInput(prepared));
   if (!start->reason.empty())
-    throw io::InputError(kOption, std::string(effects::idOf(asked.effects.front().effect)),
+    throw io::InputError(kWithOption, std::string(effects::idOf(asked.effects.front().effect)),
                          "there is no gap to fit it to: " + start->reason);
   auto input = std::make_unique<diagnosis::SystemInput>(
       diagnosis::SystemInput{start->campaign, start->noise.noise, campaign.load_cell->force_sigma,

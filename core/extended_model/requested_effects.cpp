@@ -12,13 +12,11 @@ namespace stiffscope::extended_model {
 
 namespace {
 
-const io::InputPlace kOption{"--with"};
-
 effects::Effect effectNamed(const std::string& id, const std::string& word) {
   if (const auto effect = effects::effectOf(id)) return *effect;
   std::vector<std::string> known{"auto"};
   for (const auto one : effects::kEffectIds) known.emplace_back(one);
-  throw io::InputError(kOption, word,
+  throw io::InputError(kWithOption, word,
                        fmt::format("expected auto or effects of: {}{}", fmt::join(effects::kEffectIds, ", "),
                                    io::nearestNameHint(id, known)));
 }
@@ -48,7 +46,7 @@ std::string partNamed(effects::Effect effect, const std::string& detail, const s
   for (const std::string& one : meant) {
     if (std::find(names.begin(), names.end(), one) != names.end()) return one;
   }
-  throw io::InputError(kOption, word,
+  throw io::InputError(kWithOption, word,
                        names.empty() ? fmt::format("{} has no parts to name", effects::idOf(effect))
                                      : fmt::format("expected one of its parts: {}", fmt::join(names, ", ")));
 }

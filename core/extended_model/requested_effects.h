@@ -5,8 +5,12 @@
 
 #include "core/campaign/campaign.h"
 #include "core/diagnosis/diagnosis.h"
+#include "core/io/input_error.h"
 
 namespace stiffscope::extended_model {
+
+/// Where a message about a requested effect points.
+inline const io::InputPlace kWithOption{"--with"};
 
 /// An effect that the model is to have.
 struct RequestedEffect {

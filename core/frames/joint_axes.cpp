@@ -38,8 +38,6 @@ AxesCovariance axesCovariance(const std::array<MeasuredAxis, 6>& axes) {
 
 namespace {
 
-constexpr double kStandsStill = 1e-5;  // rad: a controller's read-back resolution
-
 Eigen::Isometry3d turnAbout(const metrology::Line& axis, double angle) {
   const Eigen::Matrix3d turn = Eigen::AngleAxisd(angle, axis.direction).toRotationMatrix();
   Eigen::Isometry3d motion = Eigen::Isometry3d::Identity();

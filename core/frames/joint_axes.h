@@ -12,6 +12,9 @@
 
 namespace stiffscope::frames {
 
+/// rad: a joint that moves less stands still; the resolution of a controller's read-back.
+inline constexpr double kStandsStill = 1e-5;
+
 /// One joint axis from its circle sweeps.
 struct MeasuredAxis {
   bool measured = false;

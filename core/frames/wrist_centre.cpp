@@ -3,14 +3,13 @@
 #include <cmath>
 #include <limits>
 
+#include "core/frames/joint_axes.h"
 #include "core/robot/kinematics.h"
 #include "metrology/lines.h"
 
 namespace stiffscope::frames {
 
 namespace {
-
-constexpr double kStandsStill = 1e-5;  // rad
 
 struct SweepOfTargets {
   std::vector<metrology::SpherePoints> spheres;

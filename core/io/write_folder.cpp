@@ -119,7 +119,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-[[noreturn]] void fail(const fs::path& folder, const std::string& reason) {
+[[noreturn]] void failFolder(const fs::path& folder, const std::string& reason) {
   throw std::runtime_error(fmt::format("{}: cannot be written: {}", folder.string(), reason));
 }
 
@@ -230,13 +230,13 @@ class Prepared {
 
 void writeFolderWhole(const fs::path& folder, const std::vector<FileToWrite>& files,
                       const std::vector<std::string>& superseded) try {
-  if (folder.empty()) fail(folder, "it names no folder");
+  if (folder.empty()) failFolder(folder, "it names no folder");
   // Links are followed and a slash at the end is cut, so that the folder itself has a name beside which to write.
   fs::path target = fs::weakly_canonical(fs::absolute(folder));
   if (target.filename().empty()) target = target.parent_path();
   const fs::file_status status = fs::status(target);
-  if (fs::exists(status) && !fs::is_directory(status)) fail(folder, "it is no folder");
-  if (fs::exists(status) && ::access(target.c_str(), W_OK | X_OK) != 0) fail(folder, std::strerror(errno));
+  if (fs::exists(status) && !fs::is_directory(status)) failFolder(folder, "it is no folder");
+  if (fs::exists(status) && ::access(target.c_str(), W_OK | X_OK) != 0) failFolder(folder, std::strerror(errno));
   if (!fs::exists(status)) makeFolder(target.parent_path());
   const FolderTurn turn(target.parent_path());
   if (writeByExchange(target, files, superseded)) return;
@@ -246,7 +246,7 @@ void writeFolderWhole(const fs::path& folder, const std::vector<FileToWrite>& fi
   prepared.rename();
   removeFiles(target, superseded);
 } catch (const fs::filesystem_error& error) {
-  fail(folder, error.code().message());
+  failFolder(folder, error.code().message());
 }
 
 }  // namespace stiffscope::io
