@@ -5,7 +5,7 @@
 #include "core/audit/audit_input.h"
 #include "core/preparation/finding.h"
 
-// The checks. Each takes the evidence and gives one or more findings; none changes anything. Lost beams,
+// The checks. Each takes the input and gives one or more findings; none changes anything. Lost beams,
 // duplicates and outlying repeats are found beforehand (core/preparation/screening.h), because the others work
 // without them.
 

@@ -21,7 +21,7 @@ namespace stiffscope::diagnosis {
 /// displacements of a posture share its unloaded readings, and a state's coordinates its wrench.
 struct GapCovariance {
   Eigen::MatrixXd by_measuring;  ///< readings, wrench, and a station between its rounds
-  Eigen::MatrixXd whole;         ///< with the slack of positions and the error of the model
+  Eigen::MatrixXd whole;         ///< with the inflation of positions and the error of the model
   double displacement_trace = 0.0,
          displacements = 0.0;  ///< readings' variances of displacements, and how many
 };

@@ -101,7 +101,7 @@ struct GapPosture {
   /// Covariance of these rows by readings, wrench and a station between its rounds, within each state: its block of the
   /// diagonal, one state's under another's.
   Eigen::MatrixXd noise;
-  Eigen::MatrixXd position_lower;  ///< Cholesky factor of that of the position rows, with the slack
+  Eigen::MatrixXd position_lower;  ///< Cholesky factor of that of the position rows, inflated
   numerics::LowerTriangle normal;
   Eigen::Matrix<double, 7, 7> stiffness_normal;  ///< the same of deflection rows alone, over the compliances
 
