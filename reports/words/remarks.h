@@ -1,0 +1,12 @@
+#pragma once
+
+#include <string>
+
+#include "reports/words/remark_words.h"
+
+namespace stiffscope::reports {
+
+// One function a library: the sentence for each of its remarks, by a switch without a default, so that the compiler
+// warns of a remark without words. Defined in the file that bears the library's name (audit_remarks.cpp).
+
+}  // namespace stiffscope::reports
