@@ -71,7 +71,8 @@ Candidate circleAlong(const Eigen::Vector3d& w, const Gathered& all) {
   const double square = lift.col(0).dot(all.mean);
   const double lever = 2.0 * std::sqrt(std::max(square, 1e-300));
   lift.col(0) /= lever;
-  const Eigen::Matrix3d moments = lift.transpose() * all.covariance * lift;
+  const Eigen::Matrix<double, 9, 3> lifted = all.covariance * lift;
+  const Eigen::Matrix3d moments = lift.transpose() * lifted;
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(moments);
   const Eigen::Vector3d least = eigen.eigenvectors().col(0);
   const Eigen::Vector2d centre = -0.5 * lever * least.tail<2>() / least[0];

@@ -37,7 +37,8 @@ double controlled(const Observation& seen, const Model::Size& size, const Column
     for (int c = 0; c < size.columns(); ++c) rows(r, c) = seen.rows[r][c];
   }
   const Eigen::Matrix2d left = Eigen::Matrix2d::Identity() - rows * cofactor * rows.transpose();
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen(left);
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen;
+  eigen.computeDirect(left);
   constexpr double kUncontrolled = 1e-8;  // beyond the rounding of the cofactor on arcs of some degrees
   if (!(eigen.eigenvalues()[0] > kUncontrolled)) return 0.0;
   const Eigen::Vector2d across = eigen.eigenvectors().transpose() * residual;

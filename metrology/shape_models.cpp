@@ -3,6 +3,8 @@
 #include <Eigen/Dense>
 #include <cmath>
 
+#include "metrology/linear_algebra.h"
+
 namespace stiffscope::metrology {
 
 template <int Dim>
@@ -45,8 +47,7 @@ std::optional<Eigen::Matrix<double, Dim, 1>> algebraicCentre(const LocalPoints& 
   if (!(lever > 0.0)) return std::nullopt;
   moments.row(0) /= lever;
   moments.col(0) /= lever;
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, Dim + 1, Dim + 1>> eigen(moments);
-  const Lifted least = eigen.eigenvectors().col(0);
+  const Lifted least = symmetricEigen(moments).vectors.col(0);
   constexpr double kStraight = 1e-12;  // half the points' extent over the distance to the centre
   if (!(std::abs(least[0]) > kStraight)) return std::nullopt;
   const Flat centre = -0.5 * lever * least.template tail<Dim>() / least[0];

@@ -19,6 +19,7 @@
 #include "core/numerics/distributions.h"
 #include "core/preparation/finding.h"
 #include "core/robot/kinematics.h"
+#include "metrology/linear_algebra.h"
 
 namespace stiffscope::audit {
 
@@ -238,7 +239,7 @@ double misfit(const campaign::LoadCell& cell, const Loaded& one, const Eigen::Ve
   const Eigen::Matrix3d covariance = cell.moment_sigma * cell.moment_sigma * Eigen::Matrix3d::Identity() +
                                      cell.force_sigma * cell.force_sigma * through * through.transpose();
   const Eigen::Vector3d residual = one.load.moment - identification::momentByPoint(one.load.force) * at;
-  return residual.dot(covariance.ldlt().solve(residual));
+  return mahalanobisSquared(residual, covariance);
 }
 
 double total(const campaign::LoadCell& cell, const std::vector<Loaded>& states, const Eigen::Vector3d& at) {
@@ -306,7 +307,7 @@ LoadPointFit fitLoadPoint(const campaign::Campaign& campaign) {
   if (!fit.reason.empty()) return fit;
   const identification::LoadPointFit load_point = fitLoadPoint(states);
   constexpr double kOneLine = 1e-4;  // squared sine of the forces' spread in the tool
-  const Eigen::Vector3d seen = load_point.normal().selfadjointView<Eigen::Lower>().eigenvalues();
+  const Eigen::Vector3d seen = symmetricEigenvalues(load_point.normal());
   if (seen[0] < kOneLine * seen[2]) {
     fit.reason = "the forces lie along one line in the tool: turn the flange between postures";
     return fit;

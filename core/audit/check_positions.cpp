@@ -11,6 +11,7 @@
 #include "core/io/units.h"
 #include "core/numerics/distributions.h"
 #include "core/preparation/finding.h"
+#include "metrology/linear_algebra.h"
 
 namespace stiffscope::audit {
 
@@ -47,7 +48,7 @@ Return compare(const campaign::StatePoints& before, const campaign::StatePoints&
     // A small load that is left displaces in proportion.
     const campaign::ReflectorMean* under_load = loaded != nullptr ? loaded->of(mean.target) : nullptr;
     if (under_load != nullptr) off -= left * (under_load->point - first->point);
-    result.chi2 += off.dot((mean.covariance(noise) + first->covariance(noise)).ldlt().solve(off));
+    result.chi2 += mahalanobisSquared(off, mean.covariance(noise) + first->covariance(noise));
     result.dof += 3;
     if (off.norm() <= result.largest) continue;
     result.largest = off.norm();

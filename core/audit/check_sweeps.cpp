@@ -16,6 +16,7 @@
 #include "core/io/units.h"
 #include "core/numerics/distributions.h"
 #include "core/preparation/finding.h"
+#include "metrology/linear_algebra.h"
 
 namespace stiffscope::audit {
 
@@ -322,9 +323,9 @@ double largestSd(double arc, int readings) {
     const double at = arc * (static_cast<double>(i) / (readings - 1) - 0.5);
     design.row(i) << std::cos(at), std::sin(at), 1.0;
   }
-  const Eigen::Matrix3d covariance = (design.transpose() * design).inverse();
-  const Eigen::Matrix2d block = covariance.topLeftCorner<2, 2>();
-  return std::sqrt(block.selfadjointView<Eigen::Lower>().eigenvalues()[1]);
+  const Eigen::Matrix3d normal = design.transpose() * design;
+  const Eigen::Matrix3d covariance = normal.inverse();
+  return std::sqrt(symmetricEigenvalues(covariance.topLeftCorner<2, 2>())[1]);
 }
 
 }  // namespace
@@ -347,7 +348,7 @@ std::array<std::vector<SweptCircle>, 6> sweptCircles(const AuditInput& input) {
 
 AxisUncertainty uncertaintyOf(const metrology::AxisFit& fit) {
   const auto larger = [](const Eigen::Matrix2d& covariance) {
-    return std::sqrt(std::max(0.0, covariance.selfadjointView<Eigen::Lower>().eigenvalues()[1]));
+    return std::sqrt(std::max(0.0, symmetricEigenvalues(covariance)[1]));
   };
   // The fit's parameters are taken at axis.line.point; the circles' middle is where the place is known best.
   double middle = 0.0;

@@ -7,6 +7,7 @@
 #include "core/campaign/row_names.h"
 #include "core/numerics/distributions.h"
 #include "core/preparation/finding.h"
+#include "metrology/linear_algebra.h"
 
 namespace stiffscope::audit {
 
@@ -39,7 +40,7 @@ double disagreement(const metrology::MeasuredLine& common, const metrology::Axis
   difference.setZero();
   add(a, 1.0);
   add(b, -1.0);
-  return difference.dot(covariance.ldlt().solve(difference));
+  return mahalanobisSquared(Eigen::VectorXd(difference), covariance);
 }
 
 preparation::AuditCheck agreementCheck(const AuditInput& input, const std::array<std::vector<SweptCircle>, 6>& axes) {

@@ -13,6 +13,7 @@
 #include "core/identification/method_solution.h"
 #include "core/numerics/distributions.h"
 #include "core/preparation/finding.h"
+#include "metrology/linear_algebra.h"
 
 namespace stiffscope::audit {
 
@@ -103,7 +104,7 @@ WristResiduals wristResiduals(const AuditInput& input) {
       --result.dof;
     }
   }
-  const Eigen::VectorXd found = normal.ldlt().solve(right);
+  const Eigen::VectorXd found = solveSymmetric(normal, right);
   result.chi2 = found.dot(prior * found);
   double farthest = -1.0;
   std::size_t at = 0;

@@ -9,6 +9,7 @@
 #include "core/frames/position_equations.h"
 #include "core/numerics/distributions.h"
 #include "core/preparation/finding.h"
+#include "metrology/linear_algebra.h"
 
 namespace stiffscope::audit {
 
@@ -46,7 +47,8 @@ Normal sumUp(const frames::AbsoluteRows& rows, const Weights& weights) {
 double leastSquares(const Normal& normal, Eigen::Index from) {
   const Eigen::Index size = normal.right.size() - from;
   const Eigen::VectorXd right = normal.right.tail(size);
-  return normal.squares - right.dot(normal.matrix.bottomRightCorner(size, size).ldlt().solve(right));
+  return normal.squares -
+         right.dot(Eigen::VectorXd(solveSymmetric(Eigen::MatrixXd(normal.matrix.bottomRightCorner(size, size)), right)));
 }
 
 constexpr double kSigmas = 3.0;  // of the share to which the sag is trusted
@@ -66,9 +68,8 @@ PostureReadBack readBackOf(const std::vector<const frames::AbsoluteRow*>& rows, 
     right += row->by_angles.transpose() * row->weight * left;
     squares += left.dot(row->weight * left);
   }
-  const Eigen::CompleteOrthogonalDecomposition<Matrix6d> solver(normal);
-  result.correction = solver.solve(right);
-  const Vector6d sd = solver.pseudoInverse().diagonal().cwiseMax(0.0).cwiseSqrt();
+  result.correction = leastSquaresSolution(normal, right);
+  const Vector6d sd = pseudoInverse(normal).diagonal().cwiseMax(0.0).cwiseSqrt();
   double best = -1.0;
   for (int j = 0; j < 6; ++j) {
     result.significance[j] = sd[j] > 0.0 ? result.correction[j] / sd[j] : 0.0;
@@ -110,7 +111,7 @@ Eigen::VectorXd robustFit(const frames::AbsoluteRows& rows) {
   constexpr int kRounds = 20;
   for (int round = 0; round < kRounds; ++round) {
     const Normal normal = sumUp(rows, weights);
-    parameters = normal.matrix.ldlt().solve(normal.right);
+    parameters = solveSymmetric(normal.matrix, normal.right);
     std::map<int, double> misfits;
     for (const frames::AbsoluteRow& row : rows.rows) {
       const Eigen::Vector3d left = row.residual - row.jacobian * parameters;
@@ -154,11 +155,9 @@ double scoreLimit(std::size_t postures) {
 
 void describe(const frames::AbsoluteRows& rows, const Weights& weights, AbsoluteFit& fit) {
   const Normal normal = sumUp(rows, weights);
-  const Eigen::VectorXd parameters = normal.matrix.ldlt().solve(normal.right);
+  const Eigen::VectorXd parameters = solveSymmetric(normal.matrix, normal.right);
   fit.shift = parameters.head<6>();
-  fit.shift_covariance = normal.matrix.ldlt()
-                             .solve(Eigen::MatrixXd::Identity(normal.right.size(), normal.right.size()))
-                             .topLeftCorner<6, 6>();
+  fit.shift_covariance = solveSymmetric(normal.matrix, Eigen::MatrixXd::Identity(normal.right.size(), 6)).topRows<6>();
   fit.chi2 = leastSquares(normal, 0);
   fit.shift_chi2 = leastSquares(normal, 6) - fit.chi2;
   fit.positions = normal.rows / 3;

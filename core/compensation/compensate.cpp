@@ -10,6 +10,7 @@
 #include "core/io/read_file.h"
 #include "core/io/units.h"
 #include "core/robot/wrench.h"
+#include "metrology/linear_algebra.h"
 
 namespace stiffscope::compensation {
 
@@ -231,7 +232,7 @@ class Compensator {
         result.targets.push_back(deflectionOf(flange_from_zero * *place, wanted, loaded, unloaded, torque, varied));
       }
     }
-    const Vector6d singular = Eigen::JacobiSVD<Matrix6d>(jacobian).singularValues();
+    const Vector6d singular = singularValues(jacobian);
     result.conditioning = singular[5] / singular[0];
   }
 
@@ -260,7 +261,7 @@ class Compensator {
         result.solved = result.reason.empty();
         return;
       }
-      commands += robot::jacobianAt(geometry_.arm, *posture, flange * tcp_).partialPivLu().solve(error);
+      commands += solveLu(robot::jacobianAt(geometry_.arm, *posture, flange * tcp_), error);
     }
     result.reason = "the steps towards the wanted pose do not converge";
   }

@@ -12,6 +12,7 @@
 #include "core/diagnosis/projection.h"
 #include "core/diagnosis/selection.h"
 #include "core/diagnosis/variance_inflation.h"
+#include "metrology/linear_algebra.h"
 #include "metrology/rigid_motion.h"
 
 namespace stiffscope::diagnosis {
@@ -125,7 +126,7 @@ Vector6d complianceVariance(const GapFit& fit, const SystemInput& input) {
       matrix.diagonal().unaryExpr([](double d) { return d > 0.0 ? 1.0 / std::sqrt(d) : 0.0; });
   matrix = scale.asDiagonal() * matrix * scale.asDiagonal();
   matrix.diagonal().setConstant(1.0 + 1e-10);
-  const Eigen::MatrixXd inverse = matrix.ldlt().solve(Eigen::MatrixXd::Identity(matrix.rows(), 6));
+  const Eigen::MatrixXd inverse = solveSymmetric(matrix, Eigen::MatrixXd::Identity(matrix.rows(), 6));
   Vector6d variance;
   for (Eigen::Index j = 0; j < 6; ++j) variance[j] = scale[j] * scale[j] * inverse(j, j);
   return variance;
@@ -301,9 +302,9 @@ Unknowns unknownsOf(const SystemInput& input, const GapLayout& layout, const Fit
 Eigen::MatrixXd rootOf(const Eigen::MatrixXd& normal) {
   const Eigen::VectorXd size = normal.diagonal().cwiseMax(0.0).cwiseSqrt();
   const Eigen::VectorXd even = size.unaryExpr([](double s) { return s > 0.0 ? 1.0 / s : 0.0; });
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(even.asDiagonal() * normal * even.asDiagonal());
-  const Eigen::VectorXd roots = eigen.eigenvalues().cwiseMax(0.0).cwiseSqrt();
-  return roots.asDiagonal() * eigen.eigenvectors().transpose() * size.asDiagonal();
+  const SymmetricEigen eigen = symmetricEigen(even.asDiagonal() * normal * even.asDiagonal());
+  const Eigen::VectorXd roots = eigen.values.cwiseMax(0.0).cwiseSqrt();
+  return roots.asDiagonal() * eigen.vectors.transpose() * size.asDiagonal();
 }
 
 class GapCost : public ceres::CostFunction {

@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 
+#include "metrology/linear_algebra.h"
 #include "metrology/lines.h"
 #include "metrology/rigid_motion.h"
 
@@ -70,7 +71,7 @@ GeometryError geometryError(const SystemInput& input, const SystemState& state) 
         if (spring) columns.col(6 + 3 * count).segment<3>(row) = axis_2.direction.cross(place - axis_2.point);
       }
     }
-    const Eigen::VectorXd step = columns.completeOrthogonalDecomposition().solve(left);
+    const Eigen::VectorXd step = leastSquaresSolution(columns, left);
     error.rms = (left - columns * step).norm() / std::sqrt(static_cast<double>(rows));
     base = metrology::motionAbout(Eigen::Vector3d::Zero(), step.head<6>()) * base;
     zero += step[6 + 3 * count];

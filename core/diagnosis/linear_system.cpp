@@ -13,6 +13,7 @@
 #include "core/preparation/finding.h"
 #include "core/robot/geometric_stiffness.h"
 #include "core/robot/wrench.h"
+#include "metrology/linear_algebra.h"
 #include "metrology/rigid_motion.h"
 
 namespace stiffscope::diagnosis {
@@ -310,7 +311,7 @@ class LoadingRowMaker {
         robot::geometricStiffness(axes, state.load) + robot::geometricStiffness(axes, rest.posture, geometry_.weight);
     change(1, 1) += compensatorSlope(at_, rest.turned);
     const Matrix6d system = Matrix6d::Identity() - change * at_.compliance.asDiagonal();
-    const Vector6d torque = system.partialPivLu().solve(state.load_torque);
+    const Vector6d torque = solveLu(system, state.load_torque);
     const robot::ArmPosture middle =
         effects::movedPosture(geometry_.arm, rest.turned + 0.5 * at_.compliance.cwiseProduct(torque), rest.moved);
     const robot::ArmAxes middle_axes = robot::axesAt(geometry_.arm, middle);

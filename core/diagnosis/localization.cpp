@@ -9,6 +9,7 @@
 
 #include "core/diagnosis/diagnosis_input.h"
 #include "core/diagnosis/held_out.h"
+#include "metrology/linear_algebra.h"
 
 namespace stiffscope::diagnosis {
 
@@ -17,8 +18,7 @@ namespace {
 Eigen::VectorXd stiffnessesIn(const LinearSystem& data) {
   const Eigen::MatrixXd normal = sumOf(data, std::vector<double>(data.postures.size(), 1.0));
   Eigen::VectorXd parameters = Eigen::VectorXd::Zero(data.layout.end);
-  parameters.head<6>() =
-      normal.topLeftCorner<6, 6>().completeOrthogonalDecomposition().solve(normal.col(data.layout.end).head<6>());
+  parameters.head<6>() = leastSquaresSolution(normal.topLeftCorner<6, 6>(), normal.col(data.layout.end).head<6>());
   return parameters;
 }
 

@@ -5,6 +5,7 @@
 
 #include "core/effects/gravity_equilibrium.h"
 #include "core/robot/geometric_stiffness.h"
+#include "metrology/linear_algebra.h"
 #include "metrology/lines.h"
 
 namespace stiffscope::diagnosis {
@@ -106,7 +107,7 @@ Matrix6d anglesByTorque(const frames::LoadingGeometry& geometry, const effects::
   const TurnSlopes slopes = turnSlopes(at, state);
   const Matrix6d yielding = Matrix6d(geometry.compliance.asDiagonal()) + slopes.by_torque;
   const Matrix6d stiffening = robot::geometricStiffness(state.axes, state.posture, geometry.weight);
-  return (Matrix6d::Identity() - yielding * stiffening - slopes.by_angle).partialPivLu().solve(yielding);
+  return solveLu(Matrix6d::Identity() - yielding * stiffening - slopes.by_angle, yielding);
 }
 
 /// Its reflectors where the arm has them, which may be centimetres from where they were read.

@@ -6,6 +6,7 @@
 #include <random>
 
 #include "core/diagnosis/geometry_error.h"
+#include "metrology/linear_algebra.h"
 
 namespace stiffscope::diagnosis {
 
@@ -13,11 +14,10 @@ double chanceLimit(const SystemInput& input, const GapFit& fit, const std::vecto
                    double false_alarm, std::uint64_t seed) {
   const Eigen::VectorXd scale =
       fit.projection.matrix.diagonal().unaryExpr([](double d) { return d > 0.0 ? 1.0 / std::sqrt(d) : 0.0; });
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(scale.asDiagonal() * fit.projection.matrix *
-                                                              scale.asDiagonal());
+  const SymmetricEigen scaled = symmetricEigen(scale.asDiagonal() * fit.projection.matrix * scale.asDiagonal());
   const Eigen::MatrixXd root =
       scale.cwiseInverse().unaryExpr([](double d) { return std::isfinite(d) ? d : 0.0; }).asDiagonal() *
-      solver.eigenvectors() * solver.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal();
+      scaled.vectors * scaled.values.cwiseMax(0.0).cwiseSqrt().asDiagonal();
   std::mt19937_64 random(seed);
   std::normal_distribution<double> normal;
   std::vector<double> best;

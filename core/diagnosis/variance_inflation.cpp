@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/diagnosis/projection.h"
+#include "metrology/linear_algebra.h"
 
 namespace stiffscope::diagnosis {
 
@@ -23,8 +24,7 @@ void estimateInflation(const SystemInput& input, const LinearSystem& data, Syste
       normal.diagonal().head(end).unaryExpr([](double d) { return d > 0.0 ? 1.0 / std::sqrt(d) : 0.0; });
   Eigen::MatrixXd even = scale.asDiagonal() * normal.topLeftCorner(end, end) * scale.asDiagonal();
   even.diagonal().setConstant(1.0 + 1e-10);
-  const Eigen::VectorXd all =
-      scale.asDiagonal() * even.ldlt().solve(Eigen::VectorXd(scale.asDiagonal() * normal.col(end).head(end)));
+  const Eigen::VectorXd all = scale.asDiagonal() * solveSymmetric(even, scale.asDiagonal() * normal.col(end).head(end));
   double squares = 0.0, count = 0.0;
   for (const GapPosture& posture : data.postures) {
     const Eigen::Index rows = posture.position_rows;

@@ -13,6 +13,7 @@
 #include "core/effects/all.h"
 #include "core/extended_model/corrected_campaign.h"
 #include "core/io/input_error.h"
+#include "metrology/linear_algebra.h"
 
 namespace stiffscope::extended_model {
 
@@ -161,7 +162,7 @@ Eigen::MatrixXd covarianceOfFree(const EffectFit& effects) {
       matrix.diagonal().unaryExpr([](double d) { return d > 0.0 ? 1.0 / std::sqrt(d) : 0.0; });
   matrix = scale.asDiagonal() * matrix * scale.asDiagonal();
   matrix.diagonal().setConstant(1.0 + 1e-12);
-  const Eigen::MatrixXd inverse = matrix.ldlt().solve(Eigen::MatrixXd::Identity(matrix.rows(), matrix.cols()));
+  const Eigen::MatrixXd inverse = solveSymmetric(matrix, Eigen::MatrixXd::Identity(matrix.rows(), matrix.cols()));
   Eigen::MatrixXd covariance =
       std::max(1.0, diagnosis::leftPerEquation(effects.fit)) * (scale.asDiagonal() * inverse * scale.asDiagonal());
   for (const diagnosis::ChosenModel& one : effects.fit.set.models) {

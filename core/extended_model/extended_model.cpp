@@ -17,6 +17,7 @@
 #include "core/identification/outliers.h"
 #include "core/identification/warnings.h"
 #include "core/numerics/resampling.h"
+#include "metrology/linear_algebra.h"
 
 namespace stiffscope::extended_model {
 
@@ -70,8 +71,8 @@ identification::IdentifyOptions valuesOnly(identification::IdentifyOptions optio
 Eigen::MatrixXd rootOf(const Eigen::MatrixXd& covariance) {
   const Eigen::VectorXd sd = covariance.diagonal().cwiseMax(0.0).cwiseSqrt();
   const Eigen::VectorXd inverse = sd.unaryExpr([](double d) { return d > 0.0 ? 1.0 / d : 0.0; });
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> own(inverse.asDiagonal() * covariance * inverse.asDiagonal());
-  return sd.asDiagonal() * own.eigenvectors() * own.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal();
+  const SymmetricEigen own = symmetricEigen(inverse.asDiagonal() * covariance * inverse.asDiagonal());
+  return sd.asDiagonal() * own.vectors * own.values.cwiseMax(0.0).cwiseSqrt().asDiagonal();
 }
 
 /// The effects' parameters moved along a column.
@@ -221,8 +222,7 @@ class PointJudge {
 class EffectRefit {
  public:
   explicit EffectRefit(const ExtendedModel& model)
-      : effects_(model.effects),
-        from_parameters_(model.spread.parameters.completeOrthogonalDecomposition().pseudoInverse()) {}
+      : effects_(model.effects), from_parameters_(pseudoInverse(model.spread.parameters)) {}
 
   /// `poses` and `weights` of the method's postures; others do not take part.
   Eigen::VectorXd steps(const std::vector<identification::CaseEquations>& rows, const Weights& weights) const {

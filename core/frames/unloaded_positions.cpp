@@ -4,6 +4,7 @@
 #include <map>
 
 #include "core/robot/kinematics.h"
+#include "metrology/linear_algebra.h"
 #include "metrology/registration.h"
 
 namespace stiffscope::frames {
@@ -88,7 +89,7 @@ std::optional<BaseFromPostures> baseFromPostures(const LoadingGeometry& geometry
   for (std::size_t k = 0; k < target_count; ++k) {
     if (counts[k] == 0) normal.block<3, 3>(3 + 3 * static_cast<int>(k), 3 + 3 * static_cast<int>(k)).setIdentity();
   }
-  const Eigen::VectorXd solution = normal.ldlt().solve(right);
+  const Eigen::VectorXd solution = solveSymmetric(normal, right);
   BaseFromPostures result;
   result.points_from_base.linear() = points_from_base;
   result.points_from_base.translation() = solution.head<3>();

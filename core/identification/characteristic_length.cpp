@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/robot/kinematics.h"
+#include "metrology/linear_algebra.h"
 
 namespace stiffscope::identification {
 
@@ -17,8 +18,8 @@ struct StackedJacobian {
 
   double condition(double length) const {
     const Matrix6d gram = linear / (length * length) + angular;
-    const Eigen::SelfAdjointEigenSolver<Matrix6d> eigen(gram, Eigen::EigenvaluesOnly);
-    return std::sqrt(eigen.eigenvalues()[5] / eigen.eigenvalues()[0]);
+    const Eigen::VectorXd values = symmetricEigenvalues(gram);
+    return std::sqrt(values[5] / values[0]);
   }
 };
 

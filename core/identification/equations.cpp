@@ -10,6 +10,7 @@
 #include "core/robot/geometric_stiffness.h"
 #include "core/robot/kinematics.h"
 #include "core/robot/wrench.h"
+#include "metrology/linear_algebra.h"
 #include "metrology/trilateration.h"
 
 namespace stiffscope::identification {
@@ -108,10 +109,7 @@ Vector6d solveNormal(const NormalEquations& sum, const robot::JointMask& unknown
   const Vector6d right = scaled.scale.cwiseProduct(sum.right);
   // The plain Cholesky factors are twice as quick, which counts over 92,378 subsets; the pivoted ones bear a
   // rank loss.
-  const Eigen::LLT<Matrix6d> quick(scaled.matrix);
-  const Vector6d solution =
-      quick.info() == Eigen::Success ? quick.solve(right).eval() : scaled.matrix.ldlt().solve(right).eval();
-  return scaled.scale.cwiseProduct(solution);
+  return scaled.scale.cwiseProduct(solvePositive(scaled.matrix, right));
 }
 
 double conditionNumber(const std::vector<CaseEquations>& equations, const robot::JointMask& unknown) {
@@ -128,7 +126,7 @@ double conditionNumber(const std::vector<CaseEquations>& equations, const robot:
     unit.rightCols<1>() = triangle.col(j) / length;
   }
   if (unit.cols() == 0 || factor.rows() < unit.cols()) return std::numeric_limits<double>::infinity();
-  const Eigen::VectorXd values = unit.jacobiSvd().singularValues();
+  const Eigen::VectorXd values = singularValues(unit);
   return values[0] / values[unit.cols() - 1];
 }
 
@@ -198,7 +196,7 @@ class SpringTorque {
   Vector6d under(const robot::Wrench& wrench) const {
     const Matrix6d change = robot::geometricStiffness(axes_, wrench) + by_weight_;
     const Matrix6d system = Matrix6d::Identity() - change * compliance_.asDiagonal();
-    return system.partialPivLu().solve(robot::jointTorque(axes_, wrench));
+    return solveLu(system, robot::jointTorque(axes_, wrench));
   }
 
  private:

@@ -11,6 +11,7 @@
 
 #include "core/numerics/distributions.h"
 #include "core/numerics/parallel.h"
+#include "metrology/linear_algebra.h"
 
 namespace stiffscope::identification {
 
@@ -72,10 +73,7 @@ double coverageFactor(const StiffnessEstimate& estimate, int joint, double cover
 
 double matchedDof(const Eigen::MatrixXd& influence_covariance, const EqualWeights& more) {
   if (!(influence_covariance.trace() > 0.0)) return 0.0;
-  const Eigen::VectorXd weights =
-      Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(influence_covariance, Eigen::EigenvaluesOnly)
-          .eigenvalues()
-          .cwiseMax(0.0);
+  const Eigen::VectorXd weights = symmetricEigenvalues(influence_covariance).cwiseMax(0.0);
   const double factor = coverageFactor(weights, more, kStatedCoverage);
   // By the same rule as the factor, so that its error drops out. The tail at a given factor falls as the degrees of
   // freedom grow.
@@ -165,10 +163,10 @@ Matrix6d inverseRootOfRest(const Matrix6d& g) {
     }
     return Matrix6d::Identity() + sum;
   }
-  const Eigen::SelfAdjointEigenSolver<Matrix6d> own(g);
+  const SymmetricEigen own = symmetricEigen(g);
   constexpr double kMost = 0.95;  // a posture that alone determines a combination has no residual to correct
-  const Vector6d root = (1.0 - own.eigenvalues().array().min(kMost)).rsqrt();
-  return own.eigenvectors() * root.asDiagonal() * own.eigenvectors().transpose();
+  const Vector6d root = (1.0 - own.values.array().min(kMost)).rsqrt();
+  return own.vectors * root.asDiagonal() * own.vectors.transpose();
 }
 
 }  // namespace
@@ -185,7 +183,7 @@ PostureGain PostureGains::of(const Matrix6d& own) const {
 
 Matrix6d inverseNormal(const NormalEquations& sum, const robot::JointMask& unknown) {
   const ScaledNormal scaled = scaledNormal(sum.matrix, unknown);
-  return scaled.scale.asDiagonal() * scaled.matrix.inverse() * scaled.scale.asDiagonal();
+  return scaled.scale.asDiagonal() * inverseOf(scaled.matrix) * scaled.scale.asDiagonal();
 }
 
 double satterthwaite(const Eigen::MatrixXd& covariance) {

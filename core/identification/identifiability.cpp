@@ -7,6 +7,7 @@
 #include "core/numerics/parallel.h"
 #include "core/robot/kinematics.h"
 #include "core/robot/wrench.h"
+#include "metrology/linear_algebra.h"
 
 namespace stiffscope::identification {
 
@@ -137,11 +138,11 @@ void evaluateRank(const std::vector<CaseEquations>& equations, Identifiability& 
       }
     }
   }
-  const Eigen::SelfAdjointEigenSolver<Matrix6d> eigen(scaled);
+  const SymmetricEigen eigen = symmetricEigen(scaled);
   constexpr double kUnseen = 1e-8;  // squared singular value of unit columns: a condition number of 1e4
   for (int k = 0; k < 6; ++k) {
-    if (eigen.eigenvalues()[k] > kUnseen) break;
-    const Vector6d unseen = eigen.eigenvectors().col(k);
+    if (eigen.values[k] > kUnseen) break;
+    const Vector6d unseen = eigen.vectors.col(k);
     const std::string reason = combinationReason(unseen, sum.matrix.diagonal().cwiseSqrt());
     for (int j = 0; j < 6; ++j) {
       if (std::abs(unseen[j]) <= kTakesPart) continue;

@@ -9,6 +9,7 @@
 #include "core/identification/loaded_arm.h"
 #include "core/identification/method_solution.h"
 #include "core/identification/outliers.h"
+#include "metrology/linear_algebra.h"
 #include "metrology/tail_probability.h"
 
 namespace stiffscope::identification {
@@ -99,7 +100,7 @@ LoadDependence dependence(const std::vector<Solved>& solved, int joint) {
   if (!(covariance(q - 1, q - 1) > 0.0) || !(dof > contrasts)) return result;
   const double t = result.change / result.change_sd;
   result.p_change = metrology::fTail(t * t, 1, dof);
-  const double wald = differences.dot(covariance.ldlt().solve(differences));
+  const double wald = mahalanobisSquared(differences, covariance);
   const double below = dof - contrasts + 1.0;
   result.p_linear = metrology::fTail(std::max(0.0, wald) * below / (dof * contrasts), static_cast<int>(q), below);
   return result;

@@ -6,13 +6,14 @@
 #include <vector>
 
 #include "core/robot/geometric_stiffness.h"
+#include "metrology/linear_algebra.h"
 
 namespace stiffscope::identification {
 
 PostureConditioning postureConditioning(const Matrix6d& jacobian, double length) {
   Matrix6d normalised = jacobian;
   normalised.topRows<3>() /= length;
-  const Vector6d singular = Eigen::JacobiSVD<Matrix6d>(normalised).singularValues();
+  const Vector6d singular = singularValues(normalised);
   constexpr double kRounding = 1e-14;  // of the largest: nothing is left of the least
   PostureConditioning result;
   if (singular[5] <= kRounding * singular[0]) {

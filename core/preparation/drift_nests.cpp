@@ -11,6 +11,7 @@
 #include "core/frames/position_equations.h"
 #include "core/numerics/distributions.h"
 #include "core/preparation/finding.h"
+#include "metrology/linear_algebra.h"
 #include "metrology/registration.h"
 #include "metrology/rigid_motion.h"
 
@@ -117,18 +118,21 @@ class NetworkStep {
   void apply(NestNetwork& network) const {
     Eigen::MatrixXd left = normal_;
     Eigen::VectorXd right = right_;
-    std::vector<Eigen::LDLT<Matrix6d>> own(rounds_.size());
+    // Of each round N_e^-1 of [N_ep, right, I].
+    std::vector<Eigen::MatrixXd> own(rounds_.size());
     for (std::size_t e = 1; e < rounds_.size(); ++e) {
-      own[e].compute(rounds_[e].normal);
-      left -= rounds_[e].by_places.transpose() * own[e].solve(rounds_[e].by_places);
-      right -= rounds_[e].by_places.transpose() * own[e].solve(rounds_[e].right);
+      Eigen::MatrixXd columns(6, size_ + 7);
+      columns << rounds_[e].by_places, rounds_[e].right, Matrix6d::Identity();
+      own[e] = solveSymmetric(rounds_[e].normal, columns);
+      left -= rounds_[e].by_places.transpose() * own[e].leftCols(size_);
+      right -= rounds_[e].by_places.transpose() * own[e].col(size_);
     }
-    const Eigen::MatrixXd covariance = left.ldlt().solve(Eigen::MatrixXd::Identity(size_, size_));
+    const Eigen::MatrixXd covariance = solveSymmetric(left, Eigen::MatrixXd::Identity(size_, size_));
     const Eigen::VectorXd moved = covariance * right;
     for (std::size_t e = 1; e < rounds_.size(); ++e) {
-      const Eigen::MatrixXd carried = own[e].solve(rounds_[e].by_places);
-      network.epochs[e].motion += own[e].solve(rounds_[e].right) - carried * moved;
-      network.epochs[e].covariance = own[e].solve(Matrix6d::Identity()) + carried * covariance * carried.transpose();
+      const Eigen::MatrixXd carried = own[e].leftCols(size_);
+      network.epochs[e].motion += own[e].col(size_) - carried * moved;
+      network.epochs[e].covariance = own[e].rightCols(6) + carried * covariance * carried.transpose();
     }
     Eigen::Index at = 0;
     for (auto& [nest, place] : network.places) place += moved.segment<3>(at), at += 3;
@@ -267,7 +271,7 @@ double misfitOf(const campaign::Campaign& campaign, const metrology::TrackerNois
   }
   const Eigen::VectorXd scale = columns.colwise().norm().cwiseMax(1e-300);
   columns = columns * scale.cwiseInverse().asDiagonal();
-  return (left - columns * columns.completeOrthogonalDecomposition().solve(left)).squaredNorm();
+  return (left - columns * leastSquaresSolution(columns, left)).squaredNorm();
 }
 
 }  // namespace
@@ -333,7 +337,7 @@ void describeMovedNest(const std::vector<NestRound>& rounds, const NestNetwork& 
     if (!first) first = place;
     const Eigen::Vector3d off = place - *first;
     result.moved_nest_by = std::max(result.moved_nest_by, off.norm());
-    const double significance = off.dot((2.0 * noise.covarianceAt(found->second->point)).ldlt().solve(off));
+    const double significance = mahalanobisSquared(off, 2.0 * noise.covarianceAt(found->second->point));
     if (significance > limit && result.moved_nest_line == 0) result.moved_nest_line = found->second->line;
   }
 }
@@ -363,7 +367,7 @@ double StationMotion::significance(const StationEpoch& epoch) const {
   const Eigen::Vector3d displacement = epoch.motion.tail<3>();
   const Eigen::Matrix3d covariance = epoch.covariance.bottomRightCorner<3, 3>();
   if (covariance.isZero(0.0)) return 0.0;
-  return displacement.dot(covariance.ldlt().solve(displacement));
+  return mahalanobisSquared(displacement, covariance);
 }
 
 Eigen::Isometry3d StationMotion::firstFrom(double time_s) const {

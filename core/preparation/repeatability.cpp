@@ -10,6 +10,7 @@
 #include "core/frames/joint_axes.h"
 #include "core/numerics/distributions.h"
 #include "core/preparation/finding.h"
+#include "metrology/linear_algebra.h"
 
 namespace stiffscope::preparation {
 
@@ -68,7 +69,7 @@ std::vector<std::pair<const campaign::LoadingReading*, double>> distances(const 
     for (const campaign::LoadingReading* row : repeats) {
       const Eigen::Vector3d off = row->point - (sum - row->point) / others;
       const Eigen::Matrix3d covariance = (1.0 + 1.0 / others) * noise.covarianceAt(row->point);
-      result.emplace_back(row, off.dot(covariance.ldlt().solve(off)));
+      result.emplace_back(row, mahalanobisSquared(off, covariance));
     }
   }
   return result;

@@ -6,6 +6,7 @@
 
 #include "core/preparation/drift_nests.h"
 #include "core/robot/kinematics.h"
+#include "metrology/linear_algebra.h"
 
 namespace stiffscope::preparation {
 
@@ -25,14 +26,14 @@ Course fitCourse(const StationMotion& station, std::vector<double> share) {
   Matrix6d normal = Matrix6d::Zero();
   Vector6d right = Vector6d::Zero();
   for (std::size_t e = 1; e < station.epochs.size(); ++e) {
-    const Matrix6d weight = station.epochs[e].covariance.inverse();
+    const Matrix6d weight = inverseOf(station.epochs[e].covariance);
     normal += course.share[e] * course.share[e] * weight;
     right += course.share[e] * weight * station.epochs[e].motion;
   }
-  course.motion = normal.ldlt().solve(right);
+  course.motion = solveSymmetric(normal, right);
   for (std::size_t e = 1; e < station.epochs.size(); ++e) {
     const Vector6d left = station.epochs[e].motion - course.share[e] * course.motion;
-    course.chi2 += left.dot(station.epochs[e].covariance.ldlt().solve(left));
+    course.chi2 += left.dot(solveSymmetric(station.epochs[e].covariance, left));
   }
   return course;
 }
@@ -54,11 +55,11 @@ void findRate(DriftModel& station) {
   Vector6d right = Vector6d::Zero();
   for (std::size_t e = 1; e < epochs.size(); ++e) {
     const double since = epochs[e].time_s - epochs.front().time_s;
-    const Matrix6d weight = epochs[e].covariance.inverse();
+    const Matrix6d weight = inverseOf(epochs[e].covariance);
     station.rate_weight += since * since * weight;
     right += since * weight * epochs[e].motion;
   }
-  station.rate = station.rate_weight.ldlt().solve(right);
+  station.rate = solveSymmetric(station.rate_weight, right);
   if (!station.rate.allFinite()) station.rate.setZero(), station.rate_weight.setZero();
 }
 

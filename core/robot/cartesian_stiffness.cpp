@@ -3,6 +3,8 @@
 #include <Eigen/Dense>
 #include <limits>
 
+#include "metrology/linear_algebra.h"
+
 namespace stiffscope::robot {
 
 namespace {
@@ -31,9 +33,8 @@ CartesianStiffness cartesianStiffness(const Eigen::Vector3d& point, const Matrix
   CartesianStiffness result;
   result.point = point;
   // (K - K_c)^-1 = (I - C K_c)^-1 C, which bears rigid joints.
-  const Matrix6d joints = (Matrix6d::Identity() - compliance.asDiagonal() * geometric)
-                              .partialPivLu()
-                              .solve(Matrix6d(compliance.asDiagonal()));
+  const Matrix6d joints =
+      solveLu(Matrix6d::Identity() - compliance.asDiagonal() * geometric, Matrix6d(compliance.asDiagonal()));
   result.compliance = jacobian * joints * jacobian.transpose();
   result.principal = principalStiffness(result.compliance.topLeftCorner<3, 3>());
   const Eigen::FullPivLU<Matrix6d> jacobian_lu(jacobian);

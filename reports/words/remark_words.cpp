@@ -20,8 +20,7 @@ std::pair<const std::type_index, Words> of() {
 }
 
 const std::unordered_map<std::type_index, Words>& families() {
-  static const std::unordered_map<std::type_index, Words> all{
-  };
+  static const std::unordered_map<std::type_index, Words> all{};
   return all;
 }
 

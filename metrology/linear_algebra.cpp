@@ -1,0 +1,57 @@
+#include "metrology/linear_algebra.h"
+
+#include <Eigen/Dense>
+
+namespace stiffscope {
+
+namespace {
+
+using Vector6d = Eigen::Matrix<double, 6, 1>;
+using Matrix6d = Eigen::Matrix<double, 6, 6>;
+
+}  // namespace
+
+Eigen::MatrixXd solveSymmetric(const Eigen::MatrixXd& a, const Eigen::Ref<const Eigen::MatrixXd>& b) {
+  return a.ldlt().solve(b);
+}
+
+Vector6d solveSymmetric(const Matrix6d& a, const Vector6d& b) { return a.ldlt().solve(b); }
+
+Vector6d solvePositive(const Matrix6d& a, const Vector6d& b) {
+  const Eigen::LLT<Matrix6d> cholesky(a);
+  if (cholesky.info() != Eigen::Success) return solveSymmetric(a, b);
+  return cholesky.solve(b);
+}
+
+Vector6d solveLu(const Matrix6d& a, const Vector6d& b) { return a.partialPivLu().solve(b); }
+
+Matrix6d solveLu(const Matrix6d& a, const Matrix6d& b) { return a.partialPivLu().solve(b); }
+
+Matrix6d inverseOf(const Matrix6d& a) { return a.inverse(); }
+
+Eigen::VectorXd leastSquaresSolution(const Eigen::MatrixXd& a, const Eigen::VectorXd& b) {
+  return a.completeOrthogonalDecomposition().solve(b);
+}
+
+Eigen::MatrixXd pseudoInverse(const Eigen::MatrixXd& a) { return a.completeOrthogonalDecomposition().pseudoInverse(); }
+
+double mahalanobisSquared(const Eigen::Vector3d& v, const Eigen::Matrix3d& covariance) {
+  return v.dot(covariance.ldlt().solve(v));
+}
+
+double mahalanobisSquared(const Eigen::VectorXd& v, const Eigen::MatrixXd& covariance) {
+  return v.dot(Eigen::VectorXd(covariance.ldlt().solve(v)));
+}
+
+SymmetricEigen symmetricEigen(const Eigen::MatrixXd& a) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(a);
+  return {solver.eigenvalues(), solver.eigenvectors()};
+}
+
+Eigen::VectorXd symmetricEigenvalues(const Eigen::MatrixXd& a) {
+  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(a, Eigen::EigenvaluesOnly).eigenvalues();
+}
+
+Eigen::VectorXd singularValues(const Eigen::MatrixXd& a) { return Eigen::JacobiSVD<Eigen::MatrixXd>(a).singularValues(); }
+
+}  // namespace stiffscope

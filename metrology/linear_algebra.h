@@ -1,0 +1,39 @@
+#pragma once
+
+#include <Eigen/Core>
+
+// Decompositions of Eigen that many files use, compiled once: each costs a compiler seconds wherever it is named.
+namespace stiffscope {
+
+/// Solution of A x = b for a symmetric A, positive or negative semidefinite: LDL^T with pivoting.
+Eigen::MatrixXd solveSymmetric(const Eigen::MatrixXd& a, const Eigen::Ref<const Eigen::MatrixXd>& b);
+Eigen::Matrix<double, 6, 1> solveSymmetric(const Eigen::Matrix<double, 6, 6>& a, const Eigen::Matrix<double, 6, 1>& b);
+
+/// Solution of A x = b for a positive definite A: Cholesky, and where that breaks down solveSymmetric.
+Eigen::Matrix<double, 6, 1> solvePositive(const Eigen::Matrix<double, 6, 6>& a, const Eigen::Matrix<double, 6, 1>& b);
+
+/// Solution of A x = b for an invertible A: LU with partial pivoting.
+Eigen::Matrix<double, 6, 1> solveLu(const Eigen::Matrix<double, 6, 6>& a, const Eigen::Matrix<double, 6, 1>& b);
+Eigen::Matrix<double, 6, 6> solveLu(const Eigen::Matrix<double, 6, 6>& a, const Eigen::Matrix<double, 6, 6>& b);
+Eigen::Matrix<double, 6, 6> inverseOf(const Eigen::Matrix<double, 6, 6>& a);
+
+/// The x of least length among those that minimise |A x - b|: complete orthogonal decomposition.
+Eigen::VectorXd leastSquaresSolution(const Eigen::MatrixXd& a, const Eigen::VectorXd& b);
+Eigen::MatrixXd pseudoInverse(const Eigen::MatrixXd& a);
+
+/// v^T C^-1 v: the squared distance of v from zero in parts of its covariance C (Mahalanobis).
+double mahalanobisSquared(const Eigen::Vector3d& v, const Eigen::Matrix3d& covariance);
+double mahalanobisSquared(const Eigen::VectorXd& v, const Eigen::MatrixXd& covariance);
+
+/// Of a symmetric matrix, of which the lower half is read; eigenvalues ascend.
+struct SymmetricEigen {
+  Eigen::VectorXd values;
+  Eigen::MatrixXd vectors;  ///< columns of length 1
+};
+SymmetricEigen symmetricEigen(const Eigen::MatrixXd& a);
+Eigen::VectorXd symmetricEigenvalues(const Eigen::MatrixXd& a);
+
+/// Singular values, descending.
+Eigen::VectorXd singularValues(const Eigen::MatrixXd& a);
+
+}  // namespace stiffscope
