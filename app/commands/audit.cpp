@@ -41,10 +41,10 @@ int auditCampaign(const std::string& folder, const std::string& json_file) {
 }  // namespace
 
 void addAudit(CLI::App& app, Run& run) {
-  struct Arguments {
+  struct AuditArguments {
     std::string campaign, json;
   };
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<AuditArguments>();
   CLI::App* command = app.add_subcommand("audit", "Is this data fit to identify from?");
   command->add_option("CAMPAIGN", arguments->campaign, "campaign folder or its campaign.xml")->required();
   command->add_option("--json", arguments->json, "write the result to this file, - for standard output");

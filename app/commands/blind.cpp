@@ -38,11 +38,11 @@ validation::DiagnosisAnswer diagnosed(const campaign::Campaign& campaign) {
 }  // namespace
 
 void addBlind(CLI::App& app, Run& run) {
-  struct Arguments {
+  struct BlindArguments {
     validation::BlindOptions options;
     std::string out, json;
   };
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<BlindArguments>();
   CLI::App* command = app.add_subcommand("blind", "The diagnosis checked on machines whose effect is withheld");
   command->add_option("--cases", arguments->options.cases, "how many machines")
       ->check(CLI::Range(1, 9999))

@@ -15,13 +15,13 @@ namespace stiffscope::app {
 
 namespace {
 
-struct Arguments {
+struct CompareArguments {
   std::string before, after, json, step;
   bool neglect_kc = false, raw = false;
   comparison::BootstrapOptions bootstrap;
 };
 
-int compareTwo(const Arguments& arguments) {
+int compareTwo(const CompareArguments& arguments) {
   identification::IdentifyOptions options;
   options.step = loadStepNamed(arguments.step);
   options.finite_deflection = !arguments.neglect_kc;
@@ -50,7 +50,7 @@ int compareTwo(const Arguments& arguments) {
 }  // namespace
 
 void addCompare(CLI::App& app, Run& run) {
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<CompareArguments>();
   CLI::App* command = app.add_subcommand("compare", "Two states of one machine: stiffness, and deflection avoided");
   command->add_option("BEFORE", arguments->before, "campaign before, or with the double encoders inactive")->required();
   command->add_option("AFTER", arguments->after, "campaign after, or with the double encoders active")->required();

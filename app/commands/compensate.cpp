@@ -23,13 +23,13 @@ namespace stiffscope::app {
 
 namespace {
 
-struct Arguments {
+struct CompensateArguments {
   std::string campaign, postures, json, method, step;
   bool raw = false;
   std::vector<std::string> with;
 };
 
-int compensateCampaign(const Arguments& arguments) {
+int compensateCampaign(const CompensateArguments& arguments) {
   std::vector<identification::Method> methods;
   if (!arguments.method.empty()) methods = methodsNamed(arguments.method);
   if (methods.size() > 1) throw io::InputError({"--method"}, arguments.method, "expected one of cp, pp or dpp");
@@ -81,7 +81,7 @@ int compensateCampaign(const Arguments& arguments) {
 }  // namespace
 
 void addCompensate(CLI::App& app, Run& run) {
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<CompensateArguments>();
   CLI::App* command = app.add_subcommand("compensate", "Predicted deflection, and the joint commands that cancel it");
   command->add_option("CAMPAIGN", arguments->campaign, "campaign folder or its campaign.xml")->required();
   command->add_option(

@@ -16,10 +16,10 @@
 namespace stiffscope::app {
 
 void addDiagnose(CLI::App& app, Run& run) {
-  struct Arguments {
+  struct DiagnoseArguments {
     std::string campaign, json;
   };
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<DiagnoseArguments>();
   CLI::App* command =
       app.add_subcommand("diagnose", "What the stiffness model misses: where, which effect, how far it shrinks");
   command->add_option("CAMPAIGN", arguments->campaign, "campaign folder or its campaign.xml")->required();

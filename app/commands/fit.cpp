@@ -49,11 +49,11 @@ reports::ShapeFit fitShape(const std::string& shape, metrology::CircleStrategy s
 }  // namespace
 
 void addFit(CLI::App& app, Run& run) {
-  struct Arguments {
+  struct FitArguments {
     std::string shape, file, json, strategy;
     bool robust = false;
   };
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<FitArguments>();
   CLI::App* command = app.add_subcommand("fit", "A line, plane, circle, sphere or cylinder through points of a file");
   command->add_option("SHAPE", arguments->shape, "line, plane, circle, sphere or cylinder")->required();
   command->add_option("FILE", arguments->file, "points, x y z a line; a first line with only their count is accepted")

@@ -16,11 +16,11 @@
 namespace stiffscope::app {
 
 void addFrames(CLI::App& app, Run& run) {
-  struct Arguments {
+  struct FramesArguments {
     std::string campaign, json;
     bool raw = false;
   };
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<FramesArguments>();
   CLI::App* command =
       app.add_subcommand("frames", "Axes, R0, link lengths, P_TCP and the wrist centre from the sweeps");
   command->add_option("CAMPAIGN", arguments->campaign, "campaign folder or its campaign.xml")->required();

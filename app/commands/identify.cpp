@@ -25,14 +25,14 @@ namespace stiffscope::app {
 
 namespace {
 
-struct Arguments {
+struct IdentifyArguments {
   std::string campaign, json, method = "all", step;
   int subset_size = 0, bootstrap = 0;
   bool neglect_kc = false, raw = false, robust = false, postures = false;
   std::vector<std::string> with;
 };
 
-identification::IdentifyOptions optionsOf(const Arguments& arguments, bool subset_given) {
+identification::IdentifyOptions optionsOf(const IdentifyArguments& arguments, bool subset_given) {
   identification::IdentifyOptions options;
   options.all_steps = arguments.step == "all";
   if (!options.all_steps) options.step = loadStepNamed(arguments.step, ", or all");
@@ -61,7 +61,7 @@ std::optional<identification::Method> bestOf(const identification::Identificatio
   return std::nullopt;
 }
 
-int identifyCampaign(const Arguments& arguments, bool subset_given) {
+int identifyCampaign(const IdentifyArguments& arguments, bool subset_given) {
   const std::vector<identification::Method> methods = methodsNamed(arguments.method);
   const identification::IdentifyOptions options = optionsOf(arguments, subset_given);
   const preparation::PreparedCampaign prepared =
@@ -102,7 +102,7 @@ int identifyCampaign(const Arguments& arguments, bool subset_given) {
 }  // namespace
 
 void addIdentify(CLI::App& app, Run& run) {
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<IdentifyArguments>();
   CLI::App* command = app.add_subcommand("identify", "Joint stiffness by Complete, Partial and Decoupled Partial Pose");
   command->add_option("CAMPAIGN", arguments->campaign, "campaign folder or its campaign.xml")->required();
   command->add_option("--method", arguments->method, "cp, pp, dpp or all")->capture_default_str();

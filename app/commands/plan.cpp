@@ -21,7 +21,7 @@ namespace stiffscope::app {
 
 namespace {
 
-struct Arguments {
+struct PlanArguments {
   std::string campaign, json, out, criterion = "balanced";
   double load = 0.0, pull = 0.0;
   int add = 0;
@@ -39,7 +39,7 @@ std::optional<Eigen::Vector3d> millimetres(const std::vector<double>& values) {
   return Eigen::Vector3d(values[0], values[1], values[2]) * io::kMillimetre;
 }
 
-planning::PlanOptions optionsOf(const Arguments& arguments, const Given& given) {
+planning::PlanOptions optionsOf(const PlanArguments& arguments, const Given& given) {
   planning::PlanOptions options = arguments.options;
   const bool pull = given.pull->count() > 0;
   if (pull || given.load->count() > 0) {
@@ -74,14 +74,14 @@ std::optional<identification::Identification> identified(const campaign::Campaig
 }
 
 /// Of two results in one file one would be lost.
-void requireTwoFiles(const Arguments& arguments) {
+void requireTwoFiles(const PlanArguments& arguments) {
   if (arguments.out.empty() || arguments.json.empty() || arguments.json == "-") return;
   namespace fs = std::filesystem;
   if (fs::weakly_canonical(arguments.out) != fs::weakly_canonical(arguments.json)) return;
   throw std::runtime_error(arguments.json + ": expected another file for --json than for --out");
 }
 
-int planDay(const Arguments& arguments, const Given& given) {
+int planDay(const PlanArguments& arguments, const Given& given) {
   requireTwoFiles(arguments);
   const planning::PlanOptions options = optionsOf(arguments, given);
   const campaign::Campaign campaign = preparation::prepareCampaign(openCampaign(arguments.campaign)).campaign;
@@ -100,7 +100,7 @@ int planDay(const Arguments& arguments, const Given& given) {
 }  // namespace
 
 void addPlan(CLI::App& app, Run& run) {
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<PlanArguments>();
   planning::PlanOptions& options = arguments->options;
   CLI::App* command = app.add_subcommand("plan", "Postures and loads to measure, before the day or after it");
   command

@@ -119,7 +119,7 @@ void writeReportFiles(const fs::path& folder, const reports::ReportContent& cont
 
 namespace {
 
-struct Arguments {
+struct ReportArguments {
   std::vector<std::string> campaigns;
   std::string out, step;
   bool neglect_kc = false, paper = false, raw = false;
@@ -149,7 +149,7 @@ struct Result {
   const campaign::Campaign& campaign() const { return improved ? improved->campaign : prepared.campaign; }
   const identification::Identification& identification() const { return improved ? improved->with : own; }
 
-  Result(const std::string& folder, const Arguments& arguments, const identification::IdentifyOptions& options) {
+  Result(const std::string& folder, const ReportArguments& arguments, const identification::IdentifyOptions& options) {
     campaign::Campaign read = openCampaign(folder);
     prepared = arguments.raw ? preparation::leaveRaw(std::move(read)) : preparation::prepareCampaign(std::move(read));
     loaded = identification::whatLoadsLack(prepared.campaign).empty();
@@ -206,7 +206,7 @@ void addExtendedModel(const std::vector<std::string>& words, const std::list<Res
   }
 }
 
-int writeReport(const Arguments& arguments) {
+int writeReport(const ReportArguments& arguments) {
   requireNoCampaign(arguments.out, "expected a folder of the report's own");
   identification::IdentifyOptions options;
   options.step = loadStepNamed(arguments.step);
@@ -239,7 +239,7 @@ int writeReport(const Arguments& arguments) {
 }  // namespace
 
 void addReport(CLI::App& app, Run& run) {
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<ReportArguments>();
   CLI::App* command = app.add_subcommand("report", "Everything as one page with its pictures");
   command->add_option("CAMPAIGN", arguments->campaigns, "campaign folders; two of one machine are compared")
       ->required()

@@ -14,11 +14,11 @@
 namespace stiffscope::app {
 
 void addSimulate(CLI::App& app, Run& run) {
-  struct Arguments {
+  struct SimulateArguments {
     std::string spec, out;
     bool replace = false;
   };
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<SimulateArguments>();
   CLI::App* command = app.add_subcommand("simulate", "A campaign measured on a described machine");
   command->add_option("SPEC", arguments->spec, "description of the machine and the day (XML)")->required();
   command->add_option("--out", arguments->out, "campaign folder to write")->required();

@@ -87,7 +87,6 @@ render::ArmPose armPose(const reports::ReportCampaign& one, std::size_t index,
 
 namespace {
 
-constexpr double kMmPerM = 1e3;
 
 void nameVectors(render::ArmScene& scene, std::optional<identification::Method> method) {
   if (!method) return;
@@ -104,7 +103,7 @@ Eigen::Vector3d placeOfR0(const reports::ReportCampaign& one) {
 
 std::string framesWords(const reports::ReportCampaign& one) {
   return fmt::format("The axes drawn are R_{{0}}, {} mm above base_link.",
-                     reports::fixed(kMmPerM * heightOfR0(one.identification.frames), 0));
+                     reports::fixed(reports::kMmPerM * heightOfR0(one.identification.frames), 0));
 }
 
 /// "The same load moves", or the range of loads where they differ by more than a fiftieth.
@@ -176,14 +175,14 @@ render::ArmScene allPosturesScene(const reports::ReportCampaign& one) {
 reports::Figure describeDeflectionScene(const reports::ReportCampaign& one, double magnification) {
   const std::size_t index = medianCase(one);
   const reports::JudgedPoint point = reports::judgedPoint(one);
-  const double displacement = kMmPerM * reports::displacementAt(one.identification, point.at_wrist)[index];
+  const double displacement = reports::kMmPerM * reports::displacementAt(one.identification, point.at_wrist)[index];
   reports::Figure figure;
   figure.id = "deflection";
   figure.title = fmt::format("Deflection in posture {}", reports::postureName(one, index));
   figure.caption = fmt::format("The posture with the median displacement of {}, {}\u00a0mm, magnified {} times.",
                                point.name, reports::fixed(displacement, 2), render::factorText(magnification));
   if (const auto shown = reports::shownMethod(one.identification)) {
-    const double left = kMmPerM * reports::residualAt(one.identification.of(*shown), point.at_wrist)[index];
+    const double left = reports::kMmPerM * reports::residualAt(one.identification.of(*shown), point.at_wrist)[index];
     figure.caption += fmt::format(" Where the arrows part is what {} leaves: {}\u00a0mm at {}",
                                   reports::shortName(*shown), reports::significant(left, 2), point.name);
     const double factor = deflectionScene(one).residual_factor;
@@ -209,8 +208,8 @@ reports::Figure describeAllPostures(const reports::ReportCampaign& one, double m
   figure.caption = fmt::format(
       "{} {} by {} to {}\u00a0mm, depending on the posture; vectors magnified {} "
       "times. {}",
-      loadWords(one.identification), point.name, reports::fixed(kMmPerM * *least, 2),
-      reports::fixed(kMmPerM * *most, 2), render::factorText(magnification), framesWords(one));
+      loadWords(one.identification), point.name, reports::fixed(reports::kMmPerM * *least, 2),
+      reports::fixed(reports::kMmPerM * *most, 2), render::factorText(magnification), framesWords(one));
   figure.alt = fmt::format("All {} postures of the arm, pale, with an arrow for the displacement of {} in each.",
                            values.size(), reports::plain(vectorPoint(one)));
   return figure;

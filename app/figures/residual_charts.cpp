@@ -17,7 +17,6 @@ namespace stiffscope::app {
 
 namespace {
 
-constexpr double kMmPerM = 1e3;
 constexpr render::Colour kActive{70, 78, 96};  // slate: no method's colour
 
 }  // namespace
@@ -33,8 +32,8 @@ render::GroupedBarChart encoderBars(const reports::AvoidedByEncoders& avoided) {
                   {"double encoders active", kActive, {}, {}}};
   for (const comparison::PostureDeflection& posture : avoided.postures) {
     chart.categories.push_back(reports::asIs(posture.pose));
-    chart.series[0].values.push_back(kMmPerM * posture.before);
-    chart.series[1].values.push_back(kMmPerM * posture.after);
+    chart.series[0].values.push_back(reports::kMmPerM * posture.before);
+    chart.series[1].values.push_back(reports::kMmPerM * posture.after);
   }
   return chart;
 }
@@ -66,7 +65,7 @@ constexpr std::size_t kMostPostures = 200;  // four bars each are hardly a pixel
 std::vector<double> drawnInMm(const std::vector<double>& values) {
   std::vector<double> drawn;
   for (const std::size_t i : preparation::evenlySpreadIndices(values.size(), kMostPostures))
-    drawn.push_back(kMmPerM * values[i]);
+    drawn.push_back(reports::kMmPerM * values[i]);
   return drawn;
 }
 
@@ -108,7 +107,7 @@ std::string drawnOf(const reports::ReportCampaign& one, const std::vector<double
   if (words.empty()) return {};
   const auto longest = std::max_element(values.begin(), values.end());
   return fmt::format("{} The longest of all is {}\u00a0mm, in posture {}.", words,
-                     reports::fixed(kMmPerM * *longest, 2),
+                     reports::fixed(reports::kMmPerM * *longest, 2),
                      reports::postureName(one, static_cast<std::size_t>(longest - values.begin())));
 }
 
@@ -121,7 +120,7 @@ std::string leftWords(const reports::ReportCampaign& one, std::initializer_list<
     if (!result.available) continue;
     parts.push_back(fmt::format(
         "{} {}", reports::shortName(method),
-        reports::significant(kMmPerM * reports::mean(reports::heldOutResidualAt(one, method, at_wrist)), 2)));
+        reports::significant(reports::kMmPerM * reports::mean(reports::heldOutResidualAt(one, method, at_wrist)), 2)));
   }
   return fmt::format("{}", fmt::join(parts, ", "));
 }
@@ -154,7 +153,7 @@ reports::Figure describeResidualBars(const reports::ReportCampaign& one) {
   figure.title = fmt::format("Displacement of {} before and after compensation", point.name);
   figure.caption = fmt::format(
       "Mean over the postures: {}\u00a0mm without compensation (grey).",
-      reports::fixed(kMmPerM * reports::mean(reports::displacementAt(one.identification, point.at_wrist)), 2));
+      reports::fixed(reports::kMmPerM * reports::mean(reports::displacementAt(one.identification, point.at_wrist)), 2));
   const std::string left = leftWords(one, {identification::Method::complete_pose, identification::Method::partial_pose,
                                            identification::Method::decoupled_partial_pose});
   if (!left.empty()) figure.caption += fmt::format(" Left after compensation, in mm: {}.", left);

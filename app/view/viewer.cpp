@@ -33,7 +33,6 @@ double residualFactorForStep(const std::vector<ViewFrame>& frames, int step);
 
 namespace {
 
-constexpr double kMmPerM = 1e3;
 
 struct Vector {
   const char* name;
@@ -60,9 +59,9 @@ render::ScenePanel pointPanel(const ViewFrame& frame, const render::ScenePoint& 
   panel.title = fmt::format("{} in {}", point.label, frame.where);
   panel.rows.push_back({{"in R_{0}, mm", "x_{0}", "y_{0}", "z_{0}", "length"}, std::nullopt});
   for (const Vector& vector : vectorsOf(point, dark ? render::kDarkPalette : render::kLightPalette)) {
-    if (vector.value) panel.rows.push_back({cells(vector.name, kMmPerM * *vector.value, 3), vector.colour});
+    if (vector.value) panel.rows.push_back({cells(vector.name, reports::kMmPerM * *vector.value, 3), vector.colour});
   }
-  panel.rows.push_back({cells("stands at", kMmPerM * (point.position - frame.scene.frame_origin), 1), std::nullopt});
+  panel.rows.push_back({cells("stands at", reports::kMmPerM * (point.position - frame.scene.frame_origin), 1), std::nullopt});
   panel.rows.back().cells.pop_back();
   if (frame.force) panel.rows.push_back({cells("force, N", *frame.force, 0), std::nullopt});
   return panel;
@@ -77,7 +76,7 @@ std::string pointText(const ViewFrame& frame, const render::ScenePoint& point) {
   text += '\n';
   for (const Vector& vector : vectorsOf(point, render::kLightPalette)) {
     if (!vector.value) continue;
-    const Eigen::Vector3d mm = kMmPerM * *vector.value;
+    const Eigen::Vector3d mm = reports::kMmPerM * *vector.value;
     text += fmt::format("  {:<9} {:>9.4f} {:>9.4f} {:>9.4f}  length {:.4f} mm\n", vector.name, mm.x(), mm.y(), mm.z(),
                         mm.norm());
   }

@@ -13,7 +13,7 @@ namespace stiffscope::reports {
 
 namespace {
 
-const char* nameOf(effects::EffectNature nature) {
+const char* natureKey(effects::EffectNature nature) {
   switch (nature) {
     case effects::EffectNature::machine:
       return "machine";
@@ -29,7 +29,7 @@ const char* nameOf(effects::EffectNature nature) {
 
 Json effectJson(effects::Effect effect) {
   return {{"effect", std::string(effects::idOf(effect))},
-          {"nature", nameOf(effects::natureOf(effect))},
+          {"nature", natureKey(effects::natureOf(effect))},
           {"enters_compensation", effects::entersCompensation(effect)},
           {"use", reports::effectUse(effect)}};
 }
@@ -57,7 +57,7 @@ Json shareJson(const std::optional<identification::Compensation>& share, bool su
           {"all_postures", number(share->all_postures)}};
 }
 
-Json methodJson(const identification::MethodResult& method) {
+Json shownMethodJson(const identification::MethodResult& method) {
   if (!method.available) return {{"unavailable", method.reason}};
   const identification::StiffnessEstimate& estimate = method.estimate;
   const auto byJoint = [&](const auto& entry) {
@@ -96,8 +96,8 @@ Json extendedModelJson(const extended_model::ExtendedModel& model, const std::ve
                  {"after_um", number(gap.after / io::kMicrometre)}};
   Json by_method = Json::object();
   for (const identification::Method which : methods) {
-    by_method[namesOf(which).key] = {{"without", methodJson(model.without.of(which))},
-                                     {"with", methodJson(model.with.of(which))}};
+    by_method[namesOf(which).key] = {{"without", shownMethodJson(model.without.of(which))},
+                                     {"with", shownMethodJson(model.with.of(which))}};
   }
   json["methods"] = by_method;
   return json;

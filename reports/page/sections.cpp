@@ -57,7 +57,6 @@ void writeFigures(Html& html, const reports::ReportContent& content) {
 
 namespace {
 
-constexpr double kMmPerM = 1e3;
 
 struct KeyNumber {
   std::string value, words;
@@ -95,7 +94,7 @@ KeyNumber deflection(const reports::ReportCampaign& one, const reports::JudgedPo
   const auto& displacement = reports::displacementAt(one.identification, point.at_wrist);
   if (displacement.empty()) return {"–", "deflection: no posture could be used"};
   return {
-      fmt::format("{}\u00a0mm", reports::fixed(kMmPerM * reports::mean(displacement), 2)),
+      fmt::format("{}\u00a0mm", reports::fixed(reports::kMmPerM * reports::mean(displacement), 2)),
       fmt::format("mean deflection at {} under {}\u00a0kN, {} postures{}", point.name,
                   reports::fixed(1e-3 * reports::meanForce(one.identification), 2), displacement.size(), stateOf(one))};
 }
@@ -155,7 +154,7 @@ std::vector<KeyNumber> sweepNumbers(const frames::Frames& frames) {
     if (link.distance_sd) off = std::max(off, std::abs(link.distance - link.nominal_distance));
   }
   return {{fmt::format("{} of 6", measured), "joint axes found from their sweeps"},
-          {fmt::format("{}\u00a0mm", reports::significant(kMmPerM * off, 2)),
+          {fmt::format("{}\u00a0mm", reports::significant(reports::kMmPerM * off, 2)),
            "largest difference of a distance between axes from the nominal one"},
           {fmt::format("{}\u00a0µm", reports::significant(1e6 * rms, 2)),
            "rms by which readings leave their circles, of the worst axis"}};

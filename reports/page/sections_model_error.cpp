@@ -15,7 +15,7 @@ namespace stiffscope::page {
 
 namespace {
 
-constexpr double kMega = 1e-6;  // to 10^6 Nm/rad
+constexpr double kPerMega = 1e-6;  // to 10^6 Nm/rad
 
 std::string inUm(double metres) { return reports::fixed(metres / io::kMicrometre, 1); }
 
@@ -175,9 +175,9 @@ reports::Table stiffnessTable(const diagnosis::Diagnosis& diagnosis) {
   reports::RowGroup group;
   for (int j = 0; j < 6; ++j) {
     if (!diagnosis.identifiable[static_cast<std::size_t>(j)]) continue;
-    const double sd = kMega * diagnosis.stiffness_after_sd[j];
-    group.rows.push_back({reports::jointName(j), reports::toPlaceOf(kMega * diagnosis.stiffness_before[j], sd),
-                          reports::withUncertainty(kMega * diagnosis.stiffness_after[j], sd)});
+    const double sd = kPerMega * diagnosis.stiffness_after_sd[j];
+    group.rows.push_back({reports::jointName(j), reports::toPlaceOf(kPerMega * diagnosis.stiffness_before[j], sd),
+                          reports::withUncertainty(kPerMega * diagnosis.stiffness_after[j], sd)});
   }
   table.groups.push_back(std::move(group));
   return table;

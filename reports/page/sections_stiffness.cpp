@@ -113,7 +113,6 @@ void writeCompensation(Html& html, const reports::ReportContent& content) {
 
 namespace {
 
-constexpr double kMega = 1e6;
 
 std::string unavailable(const identification::Identification& result, identification::Method method) {
   return fmt::format("{} is not available: {}.", reports::longName(method), result.of(method).reason);
@@ -135,7 +134,7 @@ reports::Cell stiffnessCell(const identification::Identification& result, identi
             notes.mark(fmt::format("{} is not identifiable: {}.", reports::jointName(joint), reason))};
   }
   const double expanded = reports::coverageOf(one.estimate, joint).factor * one.estimate.stiffnessSd(joint);
-  const std::string value = reports::withUncertainty(one.estimate.stiffness(joint) / kMega, expanded / kMega);
+  const std::string value = reports::withUncertainty(one.estimate.stiffness(joint) / reports::kMega, expanded / reports::kMega);
   const std::string mark = one.estimate.mark(joint);
   return mark.empty() ? reports::Cell(value)
                       : reports::Cell(value, fmt::format("{} {}", mark, notes.mark(markNote(mark))));
@@ -261,10 +260,10 @@ std::string wideIntervals(const identification::Identification& result) {
       const identification::CoverageInterval own = identification::stiffnessInterval(compliance);
       wide.push_back(std::isfinite(own.high)
                          ? fmt::format("{} by {} is between {} and {}", reports::jointName(joint),
-                                       reports::shortName(method), reports::significant(own.low / kMega, 3),
-                                       reports::significant(own.high / kMega, 3))
+                                       reports::shortName(method), reports::significant(own.low / reports::kMega, 3),
+                                       reports::significant(own.high / reports::kMega, 3))
                          : fmt::format("{} by {} is only known to be above {}", reports::jointName(joint),
-                                       reports::shortName(method), reports::significant(own.low / kMega, 3)));
+                                       reports::shortName(method), reports::significant(own.low / reports::kMega, 3)));
     }
   }
   if (wide.empty()) return {};
@@ -297,11 +296,11 @@ namespace {
 reports::Row spreadRow(const reports::ReportContent& content, const reports::ReportCampaign& one,
                        identification::Method method, int joint) {
   const identification::StiffnessSpread spread = identification::spreadOf(one.identification.of(method).subsets, joint);
-  const double width = (spread.high - spread.low) / kMega;
-  reports::Row row{reports::shortName(method), reports::withUncertainty(spread.mean / kMega, spread.sd / kMega),
-                   reports::toPlaceOf(spread.median / kMega, width),
-                   fmt::format("{} to {}", reports::toPlaceOf(spread.low / kMega, width),
-                               reports::toPlaceOf(spread.high / kMega, width)),
+  const double width = (spread.high - spread.low) / reports::kMega;
+  reports::Row row{reports::shortName(method), reports::withUncertainty(spread.mean / reports::kMega, spread.sd / reports::kMega),
+                   reports::toPlaceOf(spread.median / reports::kMega, width),
+                   fmt::format("{} to {}", reports::toPlaceOf(spread.low / reports::kMega, width),
+                               reports::toPlaceOf(spread.high / reports::kMega, width)),
                    reports::percent(spread.share_negative)};
   if (content.compare_with_paper) {
     const auto paper = reports::paperStiffness(one.campaign.double_encoder, method, joint);

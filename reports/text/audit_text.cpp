@@ -20,13 +20,13 @@ const char* worded(preparation::AuditVerdict verdict) {
   return verdict == preparation::AuditVerdict::not_testable ? "not testable" : nameOf(verdict);
 }
 
-std::string figure(const std::optional<double>& value) { return value ? fmt::format("{:.4g}", *value) : "-"; }
+std::string figureCell(const std::optional<double>& value) { return value ? fmt::format("{:.4g}", *value) : "-"; }
 
-void writeTable(const audit::AuditReport& report, Out out) {
+void writeChecks(const audit::AuditReport& report, Out out) {
   fmt::format_to(out, "  {:<21}{:<13}{:>10}{:>10}  {:<16}{}\n", "check", "verdict", "figure", "limit", "unit", "where");
   for (const preparation::AuditCheck& check : report.checks) {
     std::string line = fmt::format("  {:<21}{:<13}{:>10}{:>10}  {:<16}{}", check.id, worded(check.verdict),
-                                   figure(check.value), figure(check.limit), check.unit, check.where);
+                                   figureCell(check.value), figureCell(check.limit), check.unit, check.where);
     line.erase(line.find_last_not_of(' ') + 1);
     fmt::format_to(out, "{}\n", line);
   }
@@ -75,7 +75,7 @@ std::string auditText(const campaign::Campaign& campaign, const audit::AuditRepo
                  : report.verdict == preparation::AuditVerdict::warn
                      ? "warn: fit to identify from with what is said below"
                      : "fail: not fit to identify from");
-  writeTable(report, out);
+  writeChecks(report, out);
   writeMessages(report, preparation::AuditVerdict::fail, "Fails", out);
   writeMessages(report, preparation::AuditVerdict::warn, "Warns", out);
   writeMessages(report, preparation::AuditVerdict::not_testable, "Not testable", out);

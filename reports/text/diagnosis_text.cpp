@@ -14,12 +14,12 @@
 namespace stiffscope::reports {
 
 /// "bearing_tilt or link_compliance".
-std::string effectNames(const std::vector<effects::Effect>& effects);
+std::string effectIds(const std::vector<effects::Effect>& effects);
 
 /// What is present, in one line: "hysteresis (joint 2), and unknown"; "none" where nothing is.
 std::string verdictWords(const diagnosis::Verdict& verdict);
 
-std::string effectNames(const std::vector<effects::Effect>& effects) {
+std::string effectIds(const std::vector<effects::Effect>& effects) {
   std::string names;
   for (const effects::Effect effect : effects)
     names += (names.empty() ? "" : " or ") + std::string(effects::idOf(effect));
@@ -31,7 +31,7 @@ std::string verdictWords(const diagnosis::Verdict& verdict) {
   std::string line;
   for (const diagnosis::VerdictEntry& entry : verdict.entries) {
     line += line.empty() ? "" : ", and ";
-    line += entry.effects.empty() ? "unknown" : effectNames(entry.effects);
+    line += entry.effects.empty() ? "unknown" : effectIds(entry.effects);
     if (!entry.detail.empty()) line += " (" + entry.detail + ")";
   }
   return line;
@@ -53,7 +53,7 @@ void writeClasses(const diagnosis::Diagnosis& diagnosis, Out out) {
   fmt::format_to(out, "  {:<2}{:<44}{:>12}{:>9}  {:<17}{:>10}\n", "", "effect", "score", "shrink", "95 %", "explained");
   for (const diagnosis::EffectClass& one : diagnosis.classes) {
     fmt::format_to(out, "  {:<2}{:<44}{:>12.0f}{:>9.3f}  {:<17}{:>10.3f}\n", one.in_verdict ? "*" : "",
-                   effectNames(one.effects), unsignedZero(one.score, 0), unsignedZero(one.shrink.value, 3),
+                   effectIds(one.effects), unsignedZero(one.score, 0), unsignedZero(one.shrink.value, 3),
                    interval(one.shrink), unsignedZero(one.explained, 3));
     if (!one.in_verdict) continue;
     if (!one.detail.empty()) fmt::format_to(out, "    {}\n", wrapped(one.detail, 4));
@@ -129,7 +129,7 @@ std::string diagnosisText(const campaign::Campaign& campaign, const diagnosis::D
   }
   writeClasses(diagnosis, out);
   for (const auto& group : diagnosis.aliases)
-    fmt::format_to(out, "  These postures and loads cannot always separate: {}\n", wrapped(effectNames(group), 4));
+    fmt::format_to(out, "  These postures and loads cannot always separate: {}\n", wrapped(effectIds(group), 4));
   writeTables(diagnosis.where, "Where the deflection's gap lies", out);
   writeTables(diagnosis.where_positions, "Where the gap of unloaded positions lies", out);
   writeStiffnesses(diagnosis, out);

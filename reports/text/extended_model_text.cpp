@@ -52,7 +52,7 @@ std::string stiffnessCell(const identification::StiffnessEstimate& estimate, int
                      std::isfinite(expanded) ? fmt::format("{:.4f}", expanded) : "?");
 }
 
-std::string heldOut(const identification::MethodResult& method,
+std::string heldOutCell(const identification::MethodResult& method,
                     const std::optional<identification::Compensation>& share) {
   if (!share) return "-";
   return fmt::format("{:.2f}",
@@ -95,8 +95,8 @@ void writeResiduals(const extended_model::ExtendedModel& model, const std::vecto
     const auto row = [&](const char* name, const identification::MethodResult& method) {
       if (!method.available) return;
       fmt::format_to(out, "  {:<14}{:>20.1f}{:>26}{:>20}\n", fmt::format("{} {}", namesOf(which).brief, name),
-                     method.estimate.rms_residual / io::kMicrometre, heldOut(method, method.at_wrist),
-                     heldOut(method, method.at_targets));
+                     method.estimate.rms_residual / io::kMicrometre, heldOutCell(method, method.at_wrist),
+                     heldOutCell(method, method.at_targets));
     };
     row("without", model.without.of(which));
     row("with", model.with.of(which));

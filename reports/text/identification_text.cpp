@@ -21,7 +21,6 @@ namespace stiffscope::reports {
 
 namespace {
 
-constexpr double kMega = 1e6;
 
 std::string bounds(const identification::CoverageInterval& interval) {
   if (std::isfinite(interval.low) && std::isfinite(interval.high)) {
@@ -143,7 +142,7 @@ namespace {
 
 using Out = std::back_insert_iterator<std::string>;
 
-std::string stiffnessCell(const identification::StiffnessEstimate& estimate, int joint) {
+std::string markedStiffnessCell(const identification::StiffnessEstimate& estimate, int joint) {
   if (!estimate.identifiable[static_cast<std::size_t>(joint)]) return "-";
   const char* mark = estimate.mark(joint).empty() ? "" : (estimate.mark(joint) == "negative" ? "!" : "?");
   const double expanded = identification::coverageFactor(estimate, joint, identification::kStatedCoverage) *
@@ -164,7 +163,7 @@ void writeStiffness(const identification::Identification& result, const std::vec
     if (!method.available) continue;
     fmt::format_to(out, "  {:<5}", namesOf(which).brief);
     for (int joint = 0; joint < 6; ++joint) {
-      fmt::format_to(out, " {:>17}", stiffnessCell(method.estimate, joint));
+      fmt::format_to(out, " {:>17}", markedStiffnessCell(method.estimate, joint));
       if (!method.estimate.identifiable[static_cast<std::size_t>(joint)]) continue;
       negative |= method.estimate.mark(joint) == "negative";
       imprecise |= method.estimate.mark(joint) == "imprecise";

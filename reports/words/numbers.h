@@ -9,6 +9,9 @@
 
 namespace stiffscope::reports {
 
+inline constexpr double kMmPerM = 1e3;
+inline constexpr double kMega = 1e6;
+
 /// From standard to expanded uncertainty, U = k u (GUM, annex G): Student's t for 95 % at the effective degrees of
 /// freedom of a joint's compliance. NaN where none is left.
 struct Coverage {
