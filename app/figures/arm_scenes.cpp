@@ -87,7 +87,6 @@ render::ArmPose armPose(const reports::ReportCampaign& one, std::size_t index,
 
 namespace {
 
-
 void nameVectors(render::ArmScene& scene, std::optional<identification::Method> method) {
   if (!method) return;
   scene.predicted_name = fmt::format("predicted by {}", reports::shortName(*method));

@@ -33,7 +33,6 @@ double residualFactorForStep(const std::vector<ViewFrame>& frames, int step);
 
 namespace {
 
-
 struct Vector {
   const char* name;
   const std::optional<Eigen::Vector3d>& value;
@@ -61,7 +60,8 @@ render::ScenePanel pointPanel(const ViewFrame& frame, const render::ScenePoint& 
   for (const Vector& vector : vectorsOf(point, dark ? render::kDarkPalette : render::kLightPalette)) {
     if (vector.value) panel.rows.push_back({cells(vector.name, reports::kMmPerM * *vector.value, 3), vector.colour});
   }
-  panel.rows.push_back({cells("stands at", reports::kMmPerM * (point.position - frame.scene.frame_origin), 1), std::nullopt});
+  panel.rows.push_back(
+      {cells("stands at", reports::kMmPerM * (point.position - frame.scene.frame_origin), 1), std::nullopt});
   panel.rows.back().cells.pop_back();
   if (frame.force) panel.rows.push_back({cells("force, N", *frame.force, 0), std::nullopt});
   return panel;

@@ -47,8 +47,8 @@ Normal sumUp(const frames::AbsoluteRows& rows, const Weights& weights) {
 double leastSquares(const Normal& normal, Eigen::Index from) {
   const Eigen::Index size = normal.right.size() - from;
   const Eigen::VectorXd right = normal.right.tail(size);
-  return normal.squares -
-         right.dot(Eigen::VectorXd(solveSymmetric(Eigen::MatrixXd(normal.matrix.bottomRightCorner(size, size)), right)));
+  return normal.squares - right.dot(Eigen::VectorXd(
+                              solveSymmetric(Eigen::MatrixXd(normal.matrix.bottomRightCorner(size, size)), right)));
 }
 
 constexpr double kSigmas = 3.0;  // of the share to which the sag is trusted

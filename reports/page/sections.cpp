@@ -57,7 +57,6 @@ void writeFigures(Html& html, const reports::ReportContent& content) {
 
 namespace {
 
-
 struct KeyNumber {
   std::string value, words;
 };

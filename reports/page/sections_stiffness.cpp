@@ -113,7 +113,6 @@ void writeCompensation(Html& html, const reports::ReportContent& content) {
 
 namespace {
 
-
 std::string unavailable(const identification::Identification& result, identification::Method method) {
   return fmt::format("{} is not available: {}.", reports::longName(method), result.of(method).reason);
 }
@@ -134,7 +133,8 @@ reports::Cell stiffnessCell(const identification::Identification& result, identi
             notes.mark(fmt::format("{} is not identifiable: {}.", reports::jointName(joint), reason))};
   }
   const double expanded = reports::coverageOf(one.estimate, joint).factor * one.estimate.stiffnessSd(joint);
-  const std::string value = reports::withUncertainty(one.estimate.stiffness(joint) / reports::kMega, expanded / reports::kMega);
+  const std::string value =
+      reports::withUncertainty(one.estimate.stiffness(joint) / reports::kMega, expanded / reports::kMega);
   const std::string mark = one.estimate.mark(joint);
   return mark.empty() ? reports::Cell(value)
                       : reports::Cell(value, fmt::format("{} {}", mark, notes.mark(markNote(mark))));
@@ -297,7 +297,8 @@ reports::Row spreadRow(const reports::ReportContent& content, const reports::Rep
                        identification::Method method, int joint) {
   const identification::StiffnessSpread spread = identification::spreadOf(one.identification.of(method).subsets, joint);
   const double width = (spread.high - spread.low) / reports::kMega;
-  reports::Row row{reports::shortName(method), reports::withUncertainty(spread.mean / reports::kMega, spread.sd / reports::kMega),
+  reports::Row row{reports::shortName(method),
+                   reports::withUncertainty(spread.mean / reports::kMega, spread.sd / reports::kMega),
                    reports::toPlaceOf(spread.median / reports::kMega, width),
                    fmt::format("{} to {}", reports::toPlaceOf(spread.low / reports::kMega, width),
                                reports::toPlaceOf(spread.high / reports::kMega, width)),

@@ -53,7 +53,7 @@ std::string stiffnessCell(const identification::StiffnessEstimate& estimate, int
 }
 
 std::string heldOutCell(const identification::MethodResult& method,
-                    const std::optional<identification::Compensation>& share) {
+                        const std::optional<identification::Compensation>& share) {
   if (!share) return "-";
   return fmt::format("{:.2f}",
                      100.0 * (method.subsets.compliances.empty() ? share->all_postures : share->subsets.held_out));

@@ -21,7 +21,6 @@ namespace stiffscope::reports {
 
 namespace {
 
-
 std::string bounds(const identification::CoverageInterval& interval) {
   if (std::isfinite(interval.low) && std::isfinite(interval.high)) {
     return fmt::format("{:.4f} to {:.4f}", interval.low / kMega, interval.high / kMega);
