@@ -11,16 +11,16 @@ namespace stiffscope::reports {
 
 namespace {
 
-using Words = std::string (*)(int id, const RemarkValues& values);
+using FamilyWords = std::string (*)(int id, const RemarkValues& values);
 
 /// The function for the remarks of one library, by the enumeration that it takes.
 template <class Id, std::string (*kWords)(Id, const RemarkValues&)>
-std::pair<const std::type_index, Words> of() {
+std::pair<const std::type_index, FamilyWords> of() {
   return {typeid(Id), [](int id, const RemarkValues& values) { return kWords(static_cast<Id>(id), values); }};
 }
 
-const std::unordered_map<std::type_index, Words>& families() {
-  static const std::unordered_map<std::type_index, Words> all{};
+const std::unordered_map<std::type_index, FamilyWords>& families() {
+  static const std::unordered_map<std::type_index, FamilyWords> all{};
   return all;
 }
 
