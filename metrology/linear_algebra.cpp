@@ -15,11 +15,11 @@ Eigen::MatrixXd solveSymmetric(const Eigen::MatrixXd& a, const Eigen::Ref<const 
   return a.ldlt().solve(b);
 }
 
-Vector6d solveSymmetric(const Matrix6d& a, const Vector6d& b) { return a.ldlt().solve(b); }
+Vector6d solveSymmetric6(const Matrix6d& a, const Vector6d& b) { return a.ldlt().solve(b); }
 
 Vector6d solvePositive(const Matrix6d& a, const Vector6d& b) {
   const Eigen::LLT<Matrix6d> cholesky(a);
-  if (cholesky.info() != Eigen::Success) return solveSymmetric(a, b);
+  if (cholesky.info() != Eigen::Success) return solveSymmetric6(a, b);
   return cholesky.solve(b);
 }
 

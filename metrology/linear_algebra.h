@@ -7,7 +7,7 @@ namespace stiffscope {
 
 /// Solution of A x = b for a symmetric A, positive or negative semidefinite: LDL^T with pivoting.
 Eigen::MatrixXd solveSymmetric(const Eigen::MatrixXd& a, const Eigen::Ref<const Eigen::MatrixXd>& b);
-Eigen::Matrix<double, 6, 1> solveSymmetric(const Eigen::Matrix<double, 6, 6>& a, const Eigen::Matrix<double, 6, 1>& b);
+Eigen::Matrix<double, 6, 1> solveSymmetric6(const Eigen::Matrix<double, 6, 6>& a, const Eigen::Matrix<double, 6, 1>& b);
 
 /// Solution of A x = b for a positive definite A: Cholesky, and where that breaks down solveSymmetric.
 Eigen::Matrix<double, 6, 1> solvePositive(const Eigen::Matrix<double, 6, 6>& a, const Eigen::Matrix<double, 6, 1>& b);
