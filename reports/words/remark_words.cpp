@@ -21,6 +21,8 @@ std::pair<const std::type_index, Words> of() {
 
 const std::unordered_map<std::type_index, Words>& families() {
   static const std::unordered_map<std::type_index, Words> all{
+      of<audit::RemarkId, &auditWords>(),
+      of<preparation::RemarkId, &preparationWords>(),
   };
   return all;
 }
