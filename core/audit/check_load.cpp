@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "core/audit/checks.h"
-#include "core/audit/remarks.h"
 #include "core/audit/limits.h"
+#include "core/audit/remarks.h"
 #include "core/campaign/row_names.h"
 #include "core/identification/identifiability.h"
 #include "core/identification/load_point.h"
@@ -55,21 +55,19 @@ preparation::AuditCheck tareCheck(const AuditInput& input) {
   if (*check.value <= *check.limit && !one_off) return check;
   check.verdict = preparation::AuditVerdict::warn;
   check.where = preparation::atRow(input.campaign.states->file, worst_state->line);
-  check.message =
-      says({*check.value > *check.limit ? Remark(RemarkId::not_tared)
-                                        : Remark(RemarkId::one_pose_off, campaign::poseName(input.campaign, worst_state->pose),
-                                                 std::sqrt(worst / 6.0))});
+  check.message = says({*check.value > *check.limit
+                            ? Remark(RemarkId::not_tared)
+                            : Remark(RemarkId::one_pose_off, campaign::poseName(input.campaign, worst_state->pose),
+                                     std::sqrt(worst / 6.0))});
   return check;
 }
 
 preparation::AuditCheck gravityCheck(const AuditInput& input) {
   const identification::LoadedArm& arm = input.arm;
-  if (arm.cases.empty())
-    return preparation::notTestable("gravity_direction", Remark(RemarkId::no_compared_postures));
+  if (arm.cases.empty()) return preparation::notTestable("gravity_direction", Remark(RemarkId::no_compared_postures));
   const identification::Identifiability judged = identification::evaluateIdentifiability(
       arm.geometry, arm.cases, *input.campaign.load_cell, identification::reflectorEquations(arm));
-  if (!judged.load_hangs)
-    return preparation::notTestable("gravity_direction", Remark(RemarkId::load_does_not_hang));
+  if (!judged.load_hangs) return preparation::notTestable("gravity_direction", Remark(RemarkId::load_does_not_hang));
   const Eigen::Vector3d down = arm.geometry.weight.gravity_in_base.normalized();
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
   double least_force = INFINITY, farthest = -1.0;
@@ -128,8 +126,7 @@ preparation::AuditCheck leverCheck(const AuditInput& input) {
   check.where = Remark(preparation::RemarkId::at_name, row);
   std::vector<Remark> more{
       Remark(RemarkId::worst_state, row, campaign::poseName(input.campaign, fit.worst_pose), fit.worst_step)};
-  if (!fit.mending_signs.empty())
-    more.push_back(Remark(RemarkId::signs_mend, fit.mending_signs, fit.mends_all_states));
+  if (!fit.mending_signs.empty()) more.push_back(Remark(RemarkId::signs_mend, fit.mending_signs, fit.mends_all_states));
   check.message = says(std::move(more));
   return check;
 }
@@ -155,8 +152,7 @@ Findings checkLoadCell(const AuditInput& input) {
 
 Findings checkLoadSize(const AuditInput& input) {
   const auto apparent = identification::apparentStiffness(input.arm.cases);
-  if (!apparent)
-    return {preparation::notTestable("load_size", Remark(RemarkId::no_displacement_under_force))};
+  if (!apparent) return {preparation::notTestable("load_size", Remark(RemarkId::no_displacement_under_force))};
   const double value = apparent->value();
   const std::string found = identification::implausibleLoad(*apparent);
   preparation::AuditCheck check;
@@ -321,8 +317,7 @@ LoadPointFit fitLoadPoint(const campaign::Campaign& campaign) {
   fit.worst_pose = states[worst].state->pose;
   fit.worst_step = states[worst].state->step;
   const double limit = numerics::chiSquareLimit(preparation::kLevel, fit.dof);
-  if (fit.chi2 > limit || fit.worst_chi2 > fit.worst_limit)
-    findMendingSigns(cell, states, worst, limit, fit);
+  if (fit.chi2 > limit || fit.worst_chi2 > fit.worst_limit) findMendingSigns(cell, states, worst, limit, fit);
   fit.done = true;
   return fit;
 }

@@ -69,9 +69,8 @@ preparation::AuditCheck nestCheck(const AuditInput& input) {
   check.verdict = preparation::AuditVerdict::warn;
   if (station.moved_nest) {
     const std::string& name = input.campaign.nest_ids[static_cast<std::size_t>(*station.moved_nest)];
-    check.where = station.moved_nest_line > 0
-                      ? preparation::atRow(input.campaign.nests->file, station.moved_nest_line)
-                      : Remark(preparation::RemarkId::at_name, name);
+    check.where = station.moved_nest_line > 0 ? preparation::atRow(input.campaign.nests->file, station.moved_nest_line)
+                                              : Remark(preparation::RemarkId::at_name, name);
     check.message = says({Remark(RemarkId::nest_moved, name, station.moved_nest_by)});
   } else {
     check.verdict = preparation::AuditVerdict::fail;

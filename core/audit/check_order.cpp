@@ -49,7 +49,8 @@ class Inventory {
         const std::string& name = campaign::poseName(campaign_, pose);
         if (has == steps.end()) {
           // A step that only some postures have is a choice, not a gap.
-          if (2 * count > static_cast<int>(readings_.size())) found.push_back(Remark(RemarkId::step_not_read, name, step));
+          if (2 * count > static_cast<int>(readings_.size()))
+            found.push_back(Remark(RemarkId::step_not_read, name, step));
           continue;
         }
         describeState(name, step, has->second, found);
@@ -75,8 +76,8 @@ class Inventory {
       const auto has = targets.find(target);
       const int count = has == targets.end() ? 0 : has->second;
       if (count >= repeats_) continue;
-      found.push_back(Remark(RemarkId::too_few_readings, pose, step, count, repeats_,
-                             campaign::targetName(campaign_, target)));
+      found.push_back(
+          Remark(RemarkId::too_few_readings, pose, step, count, repeats_, campaign::targetName(campaign_, target)));
     }
   }
 

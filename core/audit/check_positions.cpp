@@ -4,8 +4,8 @@
 #include <map>
 
 #include "core/audit/checks.h"
-#include "core/audit/remarks.h"
 #include "core/audit/limits.h"
+#include "core/audit/remarks.h"
 #include "core/campaign/row_names.h"
 #include "core/identification/identifiability.h"
 #include "core/identification/warnings.h"
@@ -94,12 +94,10 @@ Findings checkReturnToZero(const AuditInput& input) {
     return {preparation::notTestable("return_to_zero", Remark(RemarkId::no_readings_of_states))};
   }
   if (!input.noise) {
-    return {preparation::notTestable("return_to_zero",
-                                     Remark(preparation::RemarkId::tracker_noise_not_declared))};
+    return {preparation::notTestable("return_to_zero", Remark(preparation::RemarkId::tracker_noise_not_declared))};
   }
   const std::vector<Return> returns = returnsOf(input);
-  if (returns.empty())
-    return {preparation::notTestable("return_to_zero", Remark(RemarkId::no_unloading))};
+  if (returns.empty()) return {preparation::notTestable("return_to_zero", Remark(RemarkId::no_unloading))};
   preparation::AuditCheck check;
   check.id = "return_to_zero";
   double chi2 = 0.0;
@@ -161,12 +159,10 @@ double readingNoise(const AuditInput& input) {
 Findings checkServo(const AuditInput& input) {
   const campaign::Campaign& campaign = input.campaign;
   if (input.arm.cases.empty()) {
-    return {
-        preparation::notTestable("servo_change", Remark(RemarkId::no_compared_postures_in_geometry))};
+    return {preparation::notTestable("servo_change", Remark(RemarkId::no_compared_postures_in_geometry))};
   }
   if (!input.noise) {
-    return {preparation::notTestable("servo_change",
-                                     Remark(preparation::RemarkId::tracker_noise_not_declared))};
+    return {preparation::notTestable("servo_change", Remark(preparation::RemarkId::tracker_noise_not_declared))};
   }
   const double lever = longestLever(input.arm);
   preparation::AuditCheck check;
@@ -207,10 +203,9 @@ preparation::AuditCheck frameCheck(const AbsoluteFit& fit) {
   // The shift where the arm is read, or where it stands (R0's origin), whichever is larger.
   const double at_base = (displacement - fit.shift.head<3>().cross(fit.centre)).norm();
   check.value = std::max(displacement.norm(), at_base);
-  check.limit = std::max(identification::TrustLimits().position,
-                         ratio > 0.0 ? *check.value * std::sqrt(by_chance / ratio) : 0.0);
-  check.limit_source =
-      Remark(RemarkId::places_or_chance, preparation::byChance(Remark(RemarkId::chi_square_of_shift)));
+  check.limit =
+      std::max(identification::TrustLimits().position, ratio > 0.0 ? *check.value * std::sqrt(by_chance / ratio) : 0.0);
+  check.limit_source = Remark(RemarkId::places_or_chance, preparation::byChance(Remark(RemarkId::chi_square_of_shift)));
   // A shift that leaves most of the misfit goes along with another fault (geometry, sag) and is not its
   // cause.
   const double explained = fit.shift_chi2 / (fit.shift_chi2 + fit.chi2);

@@ -181,7 +181,8 @@ preparation::AuditCheck countCheck(const std::array<std::vector<SweptCircle>, 6>
 Findings checkCircleSweeps(const AuditInput& input) {
   if (!input.campaign.circle_sweeps) {
     Findings missing;
-    for (const char* id : {"circle_arc", "circle_count"}) missing.push_back(preparation::notTestable(id, Remark(RemarkId::no_sweeps)));
+    for (const char* id : {"circle_arc", "circle_count"})
+      missing.push_back(preparation::notTestable(id, Remark(RemarkId::no_sweeps)));
     return missing;
   }
   const auto axes = sweptCircles(input);
@@ -222,8 +223,7 @@ Findings checkLinkLengths(const AuditInput& input) {
   check.where = Remark(RemarkId::at_axes, at + 1, at + 2);
   check.impossible = *check.value > *check.limit;
   if (check.impossible) check.verdict = preparation::AuditVerdict::fail;
-  check.message =
-      Remark(RemarkId::axes_apart, at + 1, at + 2, link.distance, link.nominal_distance, check.impossible);
+  check.message = Remark(RemarkId::axes_apart, at + 1, at + 2, link.distance, link.nominal_distance, check.impossible);
   return {check};
 }
 

@@ -71,8 +71,7 @@ preparation::AuditCheck agreementCheck(const AuditInput& input, const std::array
       }
     }
   }
-  if (pairs == 0)
-    return preparation::notTestable("axis_agreement", Remark(RemarkId::no_two_reflectors_off_axis));
+  if (pairs == 0) return preparation::notTestable("axis_agreement", Remark(RemarkId::no_two_reflectors_off_axis));
   const double limit = numerics::chiSquareLimit(preparation::kLevel / pairs, 4.0);
   check.value = std::sqrt(worst / 4.0);
   check.limit = std::sqrt(limit / 4.0);

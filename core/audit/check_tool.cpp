@@ -27,8 +27,8 @@ preparation::AuditCheck scatterCheck(const std::string& id, bool along, double c
     check.verdict = *check.value * *check.value > preparation::kFailVarianceRatio ? preparation::AuditVerdict::fail
                                                                                   : preparation::AuditVerdict::warn;
   }
-  check.message = Remark(RemarkId::repeats_scatter, along, rms, *check.value,
-                         check.verdict != preparation::AuditVerdict::pass);
+  check.message =
+      Remark(RemarkId::repeats_scatter, along, rms, *check.value, check.verdict != preparation::AuditVerdict::pass);
   // Repeats within seconds do not see all that a data sheet covers; less than half of it is another matter.
   constexpr double kFarBelow = 0.5;
   if (*check.value < kFarBelow) check.details.push_back(Remark(RemarkId::repeats_scatter_little));
@@ -213,7 +213,7 @@ class Inquiry {
   const campaign::Campaign& campaign_;
   ToolDistances tool_;
   std::map<std::size_t, std::vector<std::string>> exchanged_;  ///< states whose reflectors carry each other's names
-  std::vector<Remark> more_;  ///< to say beside the largest change
+  std::vector<Remark> more_;                                   ///< to say beside the largest change
   preparation::AuditCheck check_;
 };
 
@@ -221,13 +221,11 @@ class Inquiry {
 
 Findings checkRigidTool(const AuditInput& input) {
   if (!input.noise) {
-    return {
-        preparation::notTestable("rigid_tool", Remark(preparation::RemarkId::tracker_noise_not_declared))};
+    return {preparation::notTestable("rigid_tool", Remark(preparation::RemarkId::tracker_noise_not_declared))};
   }
   ToolDistances tool = toolDistances(input.states, static_cast<int>(input.campaign.targets.size()), *input.noise);
   if (tool.distances.empty()) {
-    return {preparation::notTestable("rigid_tool",
-                                     Remark(RemarkId::no_two_reflectors_in_states))};
+    return {preparation::notTestable("rigid_tool", Remark(RemarkId::no_two_reflectors_in_states))};
   }
   return {Inquiry(input, std::move(tool)).run()};
 }

@@ -191,8 +191,7 @@ Findings checkWrist(const AuditInput& input) {
   } else if (!swept) {
     findings.push_back(preparation::notTestable("wrist_sphere", not_swept));
   } else if (!input.noise) {
-    findings.push_back(
-        preparation::notTestable("wrist_sphere", Remark(RemarkId::tracker_not_declared)));
+    findings.push_back(preparation::notTestable("wrist_sphere", Remark(RemarkId::tracker_not_declared)));
   } else {
     findings.push_back(sphereCheck(input));
   }

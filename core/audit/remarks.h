@@ -75,9 +75,9 @@ enum class RemarkId {
   no_unloading,
   no_compared_postures_in_geometry,
   sag_not_known,
-  few_unloaded_postures,     ///< how many, how many are needed
-  few_postures_to_compare,   ///< how many are needed
-  axis_not_measured,         ///< axis, why (remark)
+  few_unloaded_postures,    ///< how many, how many are needed
+  few_postures_to_compare,  ///< how many are needed
+  axis_not_measured,        ///< axis, why (remark)
   no_neighbouring_axes,
   no_sweep_below_whole_turn,
   no_two_reflectors_off_axis,
@@ -87,29 +87,29 @@ enum class RemarkId {
 
   // time_order, completeness.
   steps_follow,
-  steps_out_of_order,     ///< remarks step_too_early, state_during
-  step_too_early,         ///< row, posture, step, step before whose end it begins
-  state_during,           ///< row, posture, step, step during which it was taken
-  all_there,              ///< postures
-  missing,                ///< remarks: the four below
-  step_not_read,          ///< posture, step
-  no_row_in_states,       ///< posture, step
-  too_few_readings,       ///< posture, step, readings, of how many, reflector
-  posture_not_read,       ///< posture
+  steps_out_of_order,  ///< remarks step_too_early, state_during
+  step_too_early,      ///< row, posture, step, step before whose end it begins
+  state_during,        ///< row, posture, step, step during which it was taken
+  all_there,           ///< postures
+  missing,             ///< remarks: the four below
+  step_not_read,       ///< posture, step
+  no_row_in_states,    ///< posture, step
+  too_few_readings,    ///< posture, step, readings, of how many, reflector
+  posture_not_read,    ///< posture
 
   // repeatability_along, repeatability_across, rigid_tool.
   repeats_scatter,  ///< whether along the beam, one sigma in m, in parts of what is declared, whether beyond the limit
   repeats_scatter_little,
-  distance_changes,     ///< both reflectors, m, state, more
-  distances_scatter,    ///< in parts of the noise
-  reflectors_exchanged, ///< row, state, reflectors in pairs: what it is called, what it is
+  distance_changes,      ///< both reflectors, m, state, more
+  distances_scatter,     ///< in parts of the noise
+  reflectors_exchanged,  ///< row, state, reflectors in pairs: what it is called, what it is
   no_one_reflector,
-  reflector_moves,      ///< reflector, rms change of its distances in m: under load, without
+  reflector_moves,  ///< reflector, rms change of its distances in m: under load, without
 
   // station_drift, nest_moved.
-  station_moved,         ///< m, rad, when in s, more
-  station_drifts,        ///< m, s
-  station_jumps,         ///< when, s
+  station_moved,   ///< m, rad, when in s, more
+  station_drifts,  ///< m, s
+  station_jumps,   ///< when, s
   motion_taken_off,
   motion_not_taken_off,  ///< why (remark)
   nests_left,            ///< in parts of the noise, more
@@ -117,59 +117,59 @@ enum class RemarkId {
   nests_not_mended,
 
   // circle_arc, circle_count, sweep_angles, circle_residual, axis_agreement, reflector_on_axis, link_lengths.
-  arc_known,           ///< axis, arc rad, direction rad, place m, at the reach m, reach m, more
+  arc_known,  ///< axis, arc rad, direction rad, place m, at the reach m, reach m, more
   wide_not_enough,
-  short_arc,           ///< times as uncertain, as over an arc of rad, whether it still suffices
-  smallest_circle,     ///< readings
-  angle_stays,         ///< axis, turn of its reflectors rad
-  angle_and_turn,      ///< axis, reported turn rad, that of its reflectors rad, whether impossible
+  short_arc,        ///< times as uncertain, as over an arc of rad, whether it still suffices
+  smallest_circle,  ///< readings
+  angle_stays,      ///< axis, turn of its reflectors rad
+  angle_and_turn,   ///< axis, reported turn rad, that of its reflectors rad, whether impossible
   on_circles,
-  off_circles,         ///< remarks axis_off_circles, more
-  axis_off_circles,    ///< axis, rms m, in parts of the noise
-  one_reading_off,     ///< axis, row
-  runs_along_sweep,    ///< axes
-  reflectors_agree,    ///< in parts of the difference's sd
-  reflectors_disagree, ///< in parts of the difference's sd
+  off_circles,          ///< remarks axis_off_circles, more
+  axis_off_circles,     ///< axis, rms m, in parts of the noise
+  one_reading_off,      ///< axis, row
+  runs_along_sweep,     ///< axes
+  reflectors_agree,     ///< in parts of the difference's sd
+  reflectors_disagree,  ///< in parts of the difference's sd
   well_off_axes,
-  on_axis,             ///< remarks reflector_near_axis
-  reflector_near_axis, ///< at_reflector, radius m
-  axes_apart,          ///< both axes, distance m, in the URDF m, whether impossible
+  on_axis,              ///< remarks reflector_near_axis
+  reflector_near_axis,  ///< at_reflector, radius m
+  axes_apart,           ///< both axes, distance m, in the URDF m, whether impossible
 
   // wrist_sphere, wrist_axes_meet.
-  wrist_residuals,       ///< rms m, of it without the axes' missing each other m, in parts of the noise, more
-  wrist_reading_off,     ///< row
-  wrist_axes_miss,       ///< axes 4 and 5, their sd, axes 5 and 6, their sd, all in m; more
-  wrist_leak,            ///< share of the displacement
+  wrist_residuals,    ///< rms m, of it without the axes' missing each other m, in parts of the noise, more
+  wrist_reading_off,  ///< row
+  wrist_axes_miss,    ///< axes 4 and 5, their sd, axes 5 and 6, their sd, all in m; more
+  wrist_leak,         ///< share of the displacement
   decoupling_needs_one_point,
 
   // frame_moved, unloaded_positions, joint_read_back.
-  loading_shifted,         ///< shift in R0 m, turn rad, explained share of the misfit, more
+  loading_shifted,  ///< shift in R0 m, turn rad, explained share of the misfit, more
   tracker_or_robot_moved,
-  positions_miss,          ///< positions, rms as read m, rms as fitted m, in parts of what is left open, more
+  positions_miss,  ///< positions, rms as read m, rms as fitted m, in parts of what is left open, more
   positions_impossible,
   geometry_does_not_carry,
   angles_agree,
-  angles_stale,            ///< remarks joint_off
-  joint_off,               ///< row, posture, joint, rad
+  angles_stale,  ///< remarks joint_off
+  joint_off,     ///< row, posture, joint, rad
 
   // servo_change, return_to_zero.
-  angle_changes,       ///< joint, posture, step, whether beyond the limit
+  angle_changes,  ///< joint, posture, step, whether beyond the limit
   no_angle_changes,
-  comes_back,          ///< in parts of the noise, farthest m, its posture, its step, more
-  do_not_come_back,    ///< remarks posture_off, of how many postures
-  posture_off,         ///< posture, m
+  comes_back,        ///< in parts of the noise, farthest m, its posture, its step, more
+  do_not_come_back,  ///< remarks posture_off, of how many postures
+  posture_off,       ///< posture, m
 
   // tare, gravity_direction, moment_lever, load_size.
-  unloaded_reading,    ///< mean force N and moment Nm, more
+  unloaded_reading,  ///< mean force N and moment Nm, more
   not_tared,
-  one_pose_off,        ///< posture, in sigma
-  force_off_gravity,   ///< rms, on average, farthest, rad; posture of the farthest, more
+  one_pose_off,       ///< posture, in sigma
+  force_off_gravity,  ///< rms, on average, farthest, rad; posture of the farthest, more
   cell_rope_or_base,
-  moments_of_force,    ///< lever m, rms left Nm, more
+  moments_of_force,  ///< lever m, rms left Nm, more
   lever_too_long,
-  worst_state,         ///< row, posture, step
-  signs_mend,          ///< components of the moment, whether of all states
-  load_moves,          ///< rms N, rms m
+  worst_state,  ///< row, posture, step
+  signs_mend,   ///< components of the moment, whether of all states
+  load_moves,   ///< rms N, rms m
 
   // posture_set.
   joint_identifiable,      ///< joint, rms Nm by the load, uncertainty Nm

@@ -75,7 +75,8 @@ DiagnosisInput diagnosisInput(const preparation::PreparedCampaign& prepared) {
   if (start.geometry.weight.links_known) start.geometry.compliance = compliance;
   start.state = startState(start.campaign, start.geometry, arm.cases);
   start.state.at.compliance = compliance;
-  if (!start.noise.known) start.reason = reports::words(start.noise.source) + ": effects cannot be told from noise; state `tracker`";
+  if (!start.noise.known)
+    start.reason = reports::words(start.noise.source) + ": effects cannot be told from noise; state `tracker`";
   return start;
 }
 

@@ -22,9 +22,9 @@ enum class RemarkId {
 
   // Screening: what was found, and where its limits come from.
   no_such_readings,
-  readings_at_zero,    ///< how many
-  readings_repeated,   ///< how many
-  repeats_stand_apart, ///< how many
+  readings_at_zero,     ///< how many
+  readings_repeated,    ///< how many
+  repeats_stand_apart,  ///< how many
   nothing_inside_station,
   no_chance_of_same_digits,
   chi_square_of_repeat,

@@ -92,8 +92,7 @@ std::vector<RejectedReading> outliers(const std::string& file, const metrology::
           std::max_element(own.begin(), own.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
       if (worst->second <= limit) break;
       const auto reject = [&](const campaign::LoadingReading* row) {
-        const Eigen::Vector3d of_others =
-            (sumOf(repeats) - row->point) / (static_cast<double>(repeats.size()) - 1.0);
+        const Eigen::Vector3d of_others = (sumOf(repeats) - row->point) / (static_cast<double>(repeats.size()) - 1.0);
         found.push_back({file, row->line, Remark(RemarkId::stands_from_state, (row->point - of_others).norm())});
       };
       if (repeats.size() == 2) {

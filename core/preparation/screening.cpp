@@ -92,12 +92,12 @@ Screening screenReadings(campaign::Campaign campaign) {
   }
   screen("lost_beam", AuditVerdict::fail, lostBeams(result.campaign), RemarkId::readings_at_zero,
          Remark(RemarkId::nothing_inside_station));
-  screen("duplicate_readings", AuditVerdict::warn, duplicates(result.campaign),
-         RemarkId::readings_repeated, Remark(RemarkId::no_chance_of_same_digits));
+  screen("duplicate_readings", AuditVerdict::warn, duplicates(result.campaign), RemarkId::readings_repeated,
+         Remark(RemarkId::no_chance_of_same_digits));
   const RepeatScatter scatter = repeatScatter(result.campaign);
   if (scatter.tested) {
-    screen("repeat_outliers", AuditVerdict::warn, scatter.outliers,
-           RemarkId::repeats_stand_apart, byChance(Remark(RemarkId::chi_square_of_repeat)));
+    screen("repeat_outliers", AuditVerdict::warn, scatter.outliers, RemarkId::repeats_stand_apart,
+           byChance(Remark(RemarkId::chi_square_of_repeat)));
   } else {
     result.checks.push_back(notTestable("repeat_outliers", scatter.reason));
   }

@@ -86,8 +86,7 @@ std::string rangeOf(const std::vector<const preparation::AuditCheck*>& same) {
         return a->value.value_or(0.0) < b->value.value_or(0.0);
       });
   const reports::AuditFigures of_most = reports::figuresOf(**most);
-  const std::string low = withUnit(reports::figuresOf(**least).value, ""),
-                    high = withUnit(of_most.value, of_most.unit);
+  const std::string low = withUnit(reports::figuresOf(**least).value, ""), high = withUnit(of_most.value, of_most.unit);
   return same.size() == 1 ? high : fmt::format("{}to {}", low, high);
 }
 

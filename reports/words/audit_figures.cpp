@@ -52,9 +52,9 @@ constexpr std::array kPrinted{
 };
 
 consteval bool printsAllChecks() {
-  return std::equal(kPrinted.begin(), kPrinted.end(), preparation::kAuditCheckIds.begin(),
-                    preparation::kAuditCheckIds.end(),
-                    [](const PrintedUnit& unit, const preparation::AuditCheckId& check) { return unit.id == check.id; });
+  return std::equal(
+      kPrinted.begin(), kPrinted.end(), preparation::kAuditCheckIds.begin(), preparation::kAuditCheckIds.end(),
+      [](const PrintedUnit& unit, const preparation::AuditCheckId& check) { return unit.id == check.id; });
 }
 static_assert(printsAllChecks(), "every check needs its unit, in the order of preparation::kAuditCheckIds");
 
@@ -62,8 +62,8 @@ static_assert(printsAllChecks(), "every check needs its unit, in the order of pr
 
 AuditFigures figuresOf(const preparation::AuditCheck& check) {
   if (!check.value && !check.limit) return {};
-  const auto unit = std::find_if(kPrinted.begin(), kPrinted.end(),
-                                 [&check](const PrintedUnit& one) { return one.id == check.id; });
+  const auto unit =
+      std::find_if(kPrinted.begin(), kPrinted.end(), [&check](const PrintedUnit& one) { return one.id == check.id; });
   if (unit == kPrinted.end()) throw std::logic_error("no unit for the check " + check.id);
   const auto printed = [unit](const std::optional<double>& figure) {
     return figure ? std::optional(*figure * unit->times / unit->by) : std::nullopt;

@@ -29,8 +29,10 @@ TEST(PreparationText, TenReadingsAndTheNumberOfTheRest) {
     preparation.rejected.push_back({"loading.csv", line, Remark(preparation::RemarkId::beam_lost)});
   const std::string text = reports::preparationText(preparation);
   EXPECT_NE(text.find("25 left out"), std::string::npos) << text;
-  EXPECT_NE(text.find("  left out: loading.csv:11: lost beam: the point is (0, 0, 0)\n  and 15 more; all of them in --json\n"),
-            std::string::npos)
+  EXPECT_NE(
+      text.find(
+          "  left out: loading.csv:11: lost beam: the point is (0, 0, 0)\n  and 15 more; all of them in --json\n"),
+      std::string::npos)
       << text;
   EXPECT_EQ(text.find("loading.csv:12"), std::string::npos) << text;
 }

@@ -80,7 +80,8 @@ TEST(RealSweeps, ReflectorOnTheAxisAndTheShortArc) {
       EXPECT_EQ(check.verdict, preparation::AuditVerdict::warn);
       EXPECT_NEAR(*check.value, 60.0 * io::kDegree, 0.1 * io::kDegree);  // six stops of 12 deg
       EXPECT_TRUE(contains(check.message, "urad in direction")) << reports::words(check.message);
-      EXPECT_TRUE(contains(check.message, "2.2 times what as many readings over 90 deg")) << reports::words(check.message);
+      EXPECT_TRUE(contains(check.message, "2.2 times what as many readings over 90 deg"))
+          << reports::words(check.message);
     }
     if (check.id == "reflector_on_axis") {
       on_axis = true;

@@ -202,7 +202,8 @@ TEST(SpoiltCampaign, SignOfAMomentTurnedRound) {
   const preparation::AuditCheck& check = checkNamed(report, "moment_lever");
   EXPECT_NE(check.verdict, preparation::AuditVerdict::pass);
   EXPECT_EQ(reports::words(check.where), fmt::format("states.csv:{}", line));
-  EXPECT_TRUE(contains(check.message, "with mx of that state turned round they agree")) << reports::words(check.message);
+  EXPECT_TRUE(contains(check.message, "with mx of that state turned round they agree"))
+      << reports::words(check.message);
 }
 
 TEST(SpoiltCampaign, StaleJointAngle) {

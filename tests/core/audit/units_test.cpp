@@ -19,7 +19,8 @@ TEST(SpoiltCampaign, AnglesInAnotherUnitFail) {
   EXPECT_EQ(report.verdict, preparation::AuditVerdict::fail);
   const preparation::AuditCheck& check = checkNamed(report, "unloaded_positions");
   EXPECT_EQ(check.verdict, preparation::AuditVerdict::fail);
-  EXPECT_TRUE(contains(check.message, "units, angles or the tracker's place are wrong")) << reports::words(check.message);
+  EXPECT_TRUE(contains(check.message, "units, angles or the tracker's place are wrong"))
+      << reports::words(check.message);
 }
 
 // A load cell's file in kN: forces a thousandth of what they were, the moments as before or in kNm, too.
@@ -79,7 +80,8 @@ TEST(SpoiltCampaign, MetresUnderMillimetresFail) {
   const preparation::AuditCheck& lengths = checkNamed(report, "link_lengths");
   EXPECT_EQ(lengths.verdict, preparation::AuditVerdict::fail);
   EXPECT_EQ(reports::words(lengths.where), "axes 2 and 3");  // the longest link, 1120 mm
-  EXPECT_TRUE(contains(lengths.message, "another unit, or the URDF is another machine's")) << reports::words(lengths.message);
+  EXPECT_TRUE(contains(lengths.message, "another unit, or the URDF is another machine's"))
+      << reports::words(lengths.message);
   EXPECT_EQ(checkNamed(report, "load_size").verdict, preparation::AuditVerdict::warn);
   EXPECT_TRUE(audit::findsTheImpossible(report));
 }
