@@ -1,13 +1,11 @@
 #include "core/audit/check_design.h"
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <algorithm>
 #include <array>
 
 #include "core/audit/checks.h"
 #include "core/audit/limits.h"
-#include "core/campaign/row_names.h"
+#include "core/audit/remarks.h"
 #include "core/identification/identifiability.h"
 #include "core/identification/load_case.h"
 #include "core/identification/partial_pose.h"
@@ -16,31 +14,26 @@ namespace stiffscope::audit {
 
 namespace {
 
-/// "joint 2: identifiable: turned by 812 Nm rms, known to 3.1 Nm", or why not.
-std::string described(std::size_t joint, const identification::JointIdentifiability& judged) {
-  if (!judged.identifiable) return fmt::format("joint {}: not identifiable: {}", joint + 1, judged.reason);
-  return fmt::format("joint {}: identifiable: the load turns it by {:.4g} Nm rms, known to {:.2g} Nm", joint + 1,
-                     judged.trusted_rms, judged.uncertainty_rms);
+Remark described(std::size_t joint, const identification::JointIdentifiability& judged) {
+  if (!judged.identifiable) return Remark(RemarkId::joint_not_identifiable, joint + 1, verbatim(judged.reason));
+  return Remark(RemarkId::joint_identifiable, joint + 1, judged.trusted_rms, judged.uncertainty_rms);
 }
 
 /// A day of sweeps alone has nothing to test here; one that was loaded, and of which no load is of use, fails.
 preparation::AuditCheck withoutCases(const AuditInput& input) {
   const campaign::Campaign& campaign = input.campaign;
   const bool measured = campaign.loading || campaign.displacements;
-  if (!measured)
-    return preparation::notTestable("posture_set", "no loads: measure `loading`, `states` and `load_cell`");
+  if (!measured) return preparation::notTestable("posture_set", Remark(RemarkId::no_loads));
   const std::string lacking = identification::whatLoadsLack(campaign);
   if (lacking.empty() && input.step && !input.frames.arm.points_placed) {
-    return preparation::notTestable("posture_set",
-                                    "the loading's readings cannot be brought into R0: sweep axes 1 and 2");
+    return preparation::notTestable("posture_set", Remark(RemarkId::loading_not_in_r0));
   }
   preparation::AuditCheck check;
   check.id = "posture_set";
   check.verdict = preparation::AuditVerdict::fail;
-  check.message = !lacking.empty() ? lacking
-                  : !input.step    ? "no load step has a force"
-                                : "no posture has readings at the heaviest load step and, of absolute points, unloaded "
-                                  "ones (step 0): nothing to identify from";
+  check.message = !lacking.empty() ? verbatim(lacking)
+                  : !input.step    ? Remark(RemarkId::no_step_with_force)
+                                   : Remark(RemarkId::no_posture_to_identify_from);
   return check;
 }
 
@@ -56,43 +49,40 @@ Findings checkPostureSet(const AuditInput& input) {
       identification::evaluateIdentifiability(arm.geometry, arm.cases, *input.campaign.load_cell, equations);
   preparation::AuditCheck check;
   check.id = "posture_set";
-  check.unit = "condition number";
   check.limit = kCondition;
-  check.limit_source = "calibration practice: condition number, columns of unit length, below 100";
-  std::vector<std::string> seen, reasons;
+  check.limit_source = Remark(RemarkId::condition_practice);
+  std::vector<std::size_t> seen;
+  std::vector<Remark> missing;
   bool expected_missing = false;
   for (std::size_t j = 0; j < 6; ++j) {
     const identification::JointIdentifiability& joint = judged.joints[j];
     check.details.push_back(described(j, joint));
     if (joint.identifiable) {
-      seen.push_back(std::to_string(j + 1));
+      seen.push_back(j + 1);
       continue;
     }
-    reasons.push_back(fmt::format("joint {}: {}", j + 1, joint.reason));
+    missing.push_back(Remark(RemarkId::joint_missing, j + 1, verbatim(joint.reason)));
     // A load that hangs never turns an upright axis 1: every day with weights is like that, and is no fault.
     expected_missing |= !(j == 0 && judged.load_hangs);
   }
-  const std::string why = reasons.empty() ? "" : fmt::format("; {}", fmt::join(reasons, "; "));
   if (seen.empty()) {
     check.verdict = preparation::AuditVerdict::fail;
-    check.message = "no joint can be identified" + why;
+    check.message = Remark(RemarkId::no_joint_identified, missing);
     return {check};
   }
   check.value = identification::partialPose(equations, judged.mask()).condition;
-  check.message = fmt::format(
-      "{} postures at load step {} identify joints {} with a condition number of {:.3g} of their equations{}",
-      arm.cases.size(), *input.step, fmt::join(seen, ", "), *check.value, why);
+  check.message =
+      Remark(RemarkId::joints_identified, arm.cases.size(), *input.step, seen, *check.value, std::move(missing));
   if (*check.value > *check.limit || expected_missing) check.verdict = preparation::AuditVerdict::warn;
   return {check};
 }
 
 namespace {
 
-std::string joined(const std::vector<effects::Effect>& effects, const char* between) {
-  std::string text;
-  for (const effects::Effect effect : effects)
-    text += (text.empty() ? "" : between) + std::string(effects::idOf(effect));
-  return text;
+std::vector<std::string> idsOf(const std::vector<effects::Effect>& effects) {
+  std::vector<std::string> ids;
+  for (const effects::Effect effect : effects) ids.emplace_back(effects::idOf(effect));
+  return ids;
 }
 
 }  // namespace
@@ -115,13 +105,12 @@ void addSeparableEffects(const diagnosis::Diagnosis& diagnosis, AuditReport& rep
   for (std::size_t i = 0; i < effects::kEffectCount; ++i) {
     if (apart[i]) told.push_back(static_cast<effects::Effect>(i));
   }
-  if (!told.empty()) check->details.push_back("effects that could be told apart: " + joined(told, ", "));
+  if (!told.empty()) check->details.push_back(Remark(RemarkId::effects_apart, idsOf(told)));
   for (const auto& group : diagnosis.aliases) {
-    check->details.push_back("effects that could not always be told apart: " + joined(group, " or "));
+    check->details.push_back(Remark(RemarkId::effects_alike, idsOf(group)));
   }
   if (!untestable.empty()) {
-    check->details.push_back("effects that cannot be tested here (diagnose says what is missing): " +
-                             joined(untestable, ", "));
+    check->details.push_back(Remark(RemarkId::effects_not_testable, idsOf(untestable)));
   }
 }
 

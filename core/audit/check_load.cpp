@@ -1,6 +1,5 @@
 #include "core/audit/check_load.h"
 
-#include <fmt/format.h>
 #include <Eigen/Dense>
 #include <algorithm>
 #include <array>
@@ -11,21 +10,20 @@
 
 #include "core/audit/checks.h"
 #include "core/audit/limits.h"
+#include "core/audit/remarks.h"
 #include "core/campaign/row_names.h"
 #include "core/identification/identifiability.h"
 #include "core/identification/load_point.h"
 #include "core/identification/warnings.h"
-#include "core/io/units.h"
 #include "core/numerics/distributions.h"
 #include "core/preparation/finding.h"
+#include "core/preparation/remarks.h"
 #include "core/robot/kinematics.h"
 #include "metrology/linear_algebra.h"
 
 namespace stiffscope::audit {
 
 namespace {
-
-const char* const kNoSigma = "the load cell's noise is not stated: force_sigma_n and moment_sigma_nm in campaign.xml";
 
 preparation::AuditCheck tareCheck(const AuditInput& input) {
   const campaign::LoadCell& cell = *input.campaign.load_cell;
@@ -42,38 +40,35 @@ preparation::AuditCheck tareCheck(const AuditInput& input) {
     const double chi2 = state.wrench_in_cell.cwiseQuotient(sigma).squaredNorm();
     if (worst_state == nullptr || chi2 > worst) worst = chi2, worst_state = &state;
   }
-  if (worst_state == nullptr) return preparation::notTestable("tare", "no unloaded states (step 0)");
+  if (worst_state == nullptr) return preparation::notTestable("tare", Remark(RemarkId::no_unloaded_states));
   const Vector6d mean = sum / count;
   const double of_mean = count * mean.cwiseQuotient(sigma).squaredNorm();
   preparation::AuditCheck check;
   check.id = "tare";
   check.value = std::sqrt(of_mean / 6.0);
   check.limit = std::sqrt(numerics::chiSquareLimit(0.5 * preparation::kLevel, 6.0) / 6.0);
-  check.unit = "of its sd";
-  check.limit_source =
-      preparation::byChance("chi-square of the mean unloaded reading, six components, and of each reading");
-  check.message =
-      fmt::format("unloaded, the load cell shows ({:.2f}, {:.2f}, {:.2f}) N and ({:.2f}, {:.2f}, {:.2f}) Nm on average",
-                  mean[0], mean[1], mean[2], mean[3], mean[4], mean[5]);
+  check.limit_source = preparation::byChance(Remark(RemarkId::chi_square_of_tare));
+  const auto says = [&mean](std::vector<Remark> more) {
+    return Remark(RemarkId::unloaded_reading, std::vector<double>(mean.begin(), mean.end()), std::move(more));
+  };
+  check.message = says({});
   const bool one_off = worst > numerics::chiSquareLimit(0.5 * preparation::kLevel / count, 6.0);
   if (*check.value <= *check.limit && !one_off) return check;
   check.verdict = preparation::AuditVerdict::warn;
-  check.where = campaign::rowName(input.campaign.states->file, worst_state->line);
-  check.message += *check.value > *check.limit
-                       ? ": not tared, or tared with something on it"
-                       : fmt::format("; pose {} is {:.1f} sigma off",
-                                     campaign::poseName(input.campaign, worst_state->pose), std::sqrt(worst / 6.0));
+  check.where = preparation::atRow(input.campaign.states->file, worst_state->line);
+  check.message = says({*check.value > *check.limit
+                            ? Remark(RemarkId::not_tared)
+                            : Remark(RemarkId::one_pose_off, campaign::poseName(input.campaign, worst_state->pose),
+                                     std::sqrt(worst / 6.0))});
   return check;
 }
 
 preparation::AuditCheck gravityCheck(const AuditInput& input) {
   const identification::LoadedArm& arm = input.arm;
-  if (arm.cases.empty())
-    return preparation::notTestable("gravity_direction", "no postures with readings unloaded and loaded");
+  if (arm.cases.empty()) return preparation::notTestable("gravity_direction", Remark(RemarkId::no_compared_postures));
   const identification::Identifiability judged = identification::evaluateIdentifiability(
       arm.geometry, arm.cases, *input.campaign.load_cell, identification::reflectorEquations(arm));
-  if (!judged.load_hangs)
-    return preparation::notTestable("gravity_direction", "the load does not hang: it is pulled to the side");
+  if (!judged.load_hangs) return preparation::notTestable("gravity_direction", Remark(RemarkId::load_does_not_hang));
   const Eigen::Vector3d down = arm.geometry.weight.gravity_in_base.normalized();
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
   double least_force = INFINITY, farthest = -1.0;
@@ -87,24 +82,22 @@ preparation::AuditCheck gravityCheck(const AuditInput& input) {
   }
   preparation::AuditCheck check;
   check.id = "gravity_direction";
-  check.value = 1e3 * judged.gravity_angle_rms;
+  check.value = judged.gravity_angle_rms;
   // Two directions: the load cell's turn as identification trusts it, and what its noise adds to one reading.
   check.limit =
-      1e3 * std::hypot(identification::TrustLimits().direction, input.campaign.load_cell->force_sigma / least_force) *
+      std::hypot(identification::TrustLimits().direction, input.campaign.load_cell->force_sigma / least_force) *
       std::sqrt(numerics::chiSquareLimit(preparation::kLevel, 2.0));
-  check.unit = "mrad";
-  check.limit_source =
-      "how far identification trusts the load cell's axes (2 mrad, one sigma) and its noise; chi-square of "
-      "two directions";
-  check.message = fmt::format(
-      "a hanging load's force lies {:.2f} mrad rms off gravity, {:.2f} mrad on average, farthest "
-      "{:.2f} mrad at pose {}",
-      *check.value, 1e3 * std::atan2(mean.cross(down).norm(), mean.dot(down)), 1e3 * farthest,
-      campaign::poseName(input.campaign, worst->pose));
+  check.limit_source = Remark(RemarkId::load_cell_axes);
+  const std::string& pose = campaign::poseName(input.campaign, worst->pose);
+  const auto says = [&](std::vector<Remark> more) {
+    return Remark(RemarkId::force_off_gravity, *check.value, std::atan2(mean.cross(down).norm(), mean.dot(down)),
+                  farthest, pose, std::move(more));
+  };
+  check.message = says({});
   if (*check.value <= *check.limit) return check;
   check.verdict = preparation::AuditVerdict::warn;
-  check.where = fmt::format("pose {}", campaign::poseName(input.campaign, worst->pose));
-  check.message += ": load cell turned against its declared axes, a rope that drags, or base_link not level";
+  check.where = Remark(RemarkId::at_pose, pose);
+  check.message = says({Remark(RemarkId::cell_rope_or_base)});
   return check;
 }
 
@@ -115,26 +108,27 @@ preparation::AuditCheck leverCheck(const AuditInput& input) {
   check.id = "moment_lever";
   check.value = std::sqrt(fit.chi2 / fit.dof);
   check.limit = std::sqrt(numerics::chiSquareLimit(0.5 * preparation::kLevel, fit.dof) / fit.dof);
-  check.unit = "of its sd";
-  check.limit_source =
-      preparation::byChance(fmt::format("chi-square of {} degrees of freedom, and of each state", fit.dof));
-  check.message = fmt::format(
-      "moments are those of the force at ({:.1f}, {:.1f}, {:.1f}) mm from the cell's point, but for "
-      "{:.2f} Nm rms",
-      1e3 * fit.lever.x(), 1e3 * fit.lever.y(), 1e3 * fit.lever.z(), fit.rms);
+  check.limit_source = preparation::byChance(Remark(RemarkId::chi_square_and_states, fit.dof));
+  const auto says = [&fit](std::vector<Remark> more) {
+    return Remark(RemarkId::moments_of_force, std::vector<double>(fit.lever.begin(), fit.lever.end()), fit.rms,
+                  std::move(more));
+  };
+  check.message = says({});
   if (fit.lever.norm() > kLongestLever && forcesStandOut(input.campaign)) {
     check.verdict = preparation::AuditVerdict::fail;
     check.impossible = true;
-    check.message += ": no tool is that long, forces (kN for N) or moments (N mm for Nm) are in another unit";
+    check.message = says({Remark(RemarkId::lever_too_long)});
     return check;
   }
   if (*check.value <= *check.limit && fit.worst_chi2 <= fit.worst_limit) return check;
   check.verdict = fit.chi2 / fit.dof > preparation::kFailVarianceRatio ? preparation::AuditVerdict::fail
                                                                        : preparation::AuditVerdict::warn;
-  check.where = campaign::rowName(input.campaign.states->file, fit.worst_line);
-  check.message += fmt::format("; worst at {} (pose {}, step {})", check.where,
-                               campaign::poseName(input.campaign, fit.worst_pose), fit.worst_step);
-  if (!fit.mending_signs.empty()) check.message += fmt::format("; with {} turned round they agree", fit.mending_signs);
+  const std::string row = campaign::rowName(input.campaign.states->file, fit.worst_line);
+  check.where = Remark(preparation::RemarkId::at_name, row);
+  std::vector<Remark> more{
+      Remark(RemarkId::worst_state, row, campaign::poseName(input.campaign, fit.worst_pose), fit.worst_step)};
+  if (!fit.mending_signs.empty()) more.push_back(Remark(RemarkId::signs_mend, fit.mending_signs, fit.mends_all_states));
+  check.message = says(std::move(more));
   return check;
 }
 
@@ -145,36 +139,30 @@ Findings checkLoadCell(const AuditInput& input) {
   if (!campaign.load_cell || !campaign.states) {
     Findings missing;
     for (const char* id : {"tare", "gravity_direction", "moment_lever"}) {
-      missing.push_back(preparation::notTestable(id, "no load cell readings: `load_cell` and `states`"));
+      missing.push_back(preparation::notTestable(id, Remark(RemarkId::no_load_cell_readings)));
     }
     return missing;
   }
   const bool stated = campaign.load_cell->force_sigma > 0.0 && campaign.load_cell->moment_sigma > 0.0;
-  return {stated ? tareCheck(input) : preparation::notTestable("tare", kNoSigma), gravityCheck(input),
-          stated ? leverCheck(input) : preparation::notTestable("moment_lever", kNoSigma)};
+  const auto notStated = [](const char* id) {
+    return preparation::notTestable(id, Remark(RemarkId::load_cell_noise_not_stated));
+  };
+  return {stated ? tareCheck(input) : notStated("tare"), gravityCheck(input),
+          stated ? leverCheck(input) : notStated("moment_lever")};
 }
 
 Findings checkLoadSize(const AuditInput& input) {
   const auto apparent = identification::apparentStiffness(input.arm.cases);
-  if (!apparent)
-    return {preparation::notTestable("load_size",
-                                     "no displacement under a force that can be brought into the robot's frame")};
+  if (!apparent) return {preparation::notTestable("load_size", Remark(RemarkId::no_displacement_under_force))};
   const double value = apparent->value();
   const std::string found = identification::implausibleLoad(*apparent);
   preparation::AuditCheck check;
   check.id = "load_size";
-  check.value = value * io::kMillimetre;
-  check.limit =
-      (value > identification::kStiffArm ? identification::kStiffArm : identification::kSoftArm) * io::kMillimetre;
-  check.unit = "N/mm";
-  check.limit_source = fmt::format(
-      "force over displacement of six-axis arms: at least {:.0f} N/mm, half of what light collaborative arms "
-      "give, and at "
-      "most {:.0f} N/mm, which is that of machine tools",
-      identification::kSoftArm * io::kMillimetre, identification::kStiffArm * io::kMillimetre);
-  check.message = found.empty() ? fmt::format("{:.4g} N rms move the reflectors by {:.3g} mm rms", apparent->force,
-                                              apparent->displacement / io::kMillimetre)
-                                : found;
+  check.value = value;
+  check.limit = value > identification::kStiffArm ? identification::kStiffArm : identification::kSoftArm;
+  check.limit_source = Remark(RemarkId::arms_stiffness, identification::kSoftArm, identification::kStiffArm);
+  check.message =
+      found.empty() ? Remark(RemarkId::load_moves, apparent->force, apparent->displacement) : verbatim(found);
   if (found.empty()) return {check};
   check.impossible = (value < identification::kSofterThanAnyArm || value > identification::kStifferThanAnyArm) &&
                      forcesStandOut(input.campaign);
@@ -258,18 +246,18 @@ Loaded withSigns(Loaded one, const Eigen::Vector3d& signs) {
   return one;
 }
 
-std::string namesOf(const Eigen::Vector3d& signs) {
-  std::string names;
+std::vector<std::string> namesOf(const Eigen::Vector3d& signs) {
+  std::vector<std::string> names;
   const std::array<const char*, 3> kNames{"mx", "my", "mz"};
   for (std::size_t k = 0; k < 3; ++k) {
-    if (signs[static_cast<int>(k)] < 0.0) names += (names.empty() ? "" : ", ") + std::string(kNames[k]);
+    if (signs[static_cast<int>(k)] < 0.0) names.push_back(kNames[k]);
   }
   return names;
 }
 
-/// Signs that mend the fit: of the worst state alone, or of all.
-std::string mendingSigns(const campaign::LoadCell& cell, const std::vector<Loaded>& states, std::size_t worst,
-                         double limit) {
+/// Finds signs that mend the fit: of the worst state alone, or of all.
+void findMendingSigns(const campaign::LoadCell& cell, const std::vector<Loaded>& states, std::size_t worst,
+                      double limit, LoadPointFit& fit) {
   for (const bool all : {false, true}) {
     for (const Eigen::Vector3d& signs : signChoices()) {
       std::vector<Loaded> turned = states;
@@ -277,11 +265,12 @@ std::string mendingSigns(const campaign::LoadCell& cell, const std::vector<Loade
         if (all || i == worst) turned[i] = withSigns(turned[i], signs);
       }
       if (total(cell, turned, fitLoadPoint(turned).point()) <= limit) {
-        return fmt::format("{}{}", namesOf(signs), all ? " of all states" : " of that state");
+        fit.mending_signs = namesOf(signs);
+        fit.mends_all_states = all;
+        return;
       }
     }
   }
-  return {};
 }
 
 }  // namespace
@@ -302,14 +291,14 @@ LoadPointFit fitLoadPoint(const campaign::Campaign& campaign) {
     any_moment |= !state.wrench_in_cell.tail<3>().isZero(0.0);
   }
   constexpr std::size_t kLeast = 4;
-  if (states.size() < kLeast) fit.reason = "fewer than four loaded states";
-  if (!any_moment) fit.reason = "no moments were measured";
+  if (states.size() < kLeast) fit.reason = Remark(RemarkId::few_loaded_states);
+  if (!any_moment) fit.reason = Remark(RemarkId::no_moments);
   if (!fit.reason.empty()) return fit;
   const identification::LoadPointFit load_point = fitLoadPoint(states);
   constexpr double kOneLine = 1e-4;  // squared sine of the forces' spread in the tool
   const Eigen::Vector3d seen = symmetricEigenvalues(load_point.normal());
   if (seen[0] < kOneLine * seen[2]) {
-    fit.reason = "the forces lie along one line in the tool: turn the flange between postures";
+    fit.reason = Remark(RemarkId::forces_on_one_line);
     return fit;
   }
   fit.lever = load_point.point();
@@ -329,8 +318,7 @@ LoadPointFit fitLoadPoint(const campaign::Campaign& campaign) {
   fit.worst_pose = states[worst].state->pose;
   fit.worst_step = states[worst].state->step;
   const double limit = numerics::chiSquareLimit(preparation::kLevel, fit.dof);
-  if (fit.chi2 > limit || fit.worst_chi2 > fit.worst_limit)
-    fit.mending_signs = mendingSigns(cell, states, worst, limit);
+  if (fit.chi2 > limit || fit.worst_chi2 > fit.worst_limit) findMendingSigns(cell, states, worst, limit, fit);
   fit.done = true;
   return fit;
 }

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "core/campaign/campaign.h"
+#include "metrology/remark.h"
 
 namespace stiffscope::audit {
 
@@ -15,7 +17,7 @@ bool forcesStandOut(const campaign::Campaign& campaign);
 /// axes.
 struct LoadPointFit {
   bool done = false;
-  std::string reason;                               ///< why not
+  Remark reason;                                    ///< why not
   Eigen::Vector3d lever = Eigen::Vector3d::Zero();  ///< from the cell's point to the load's, in the tool, m
   double chi2 = 0.0;
   int dof = 0;
@@ -25,9 +27,9 @@ struct LoadPointFit {
   std::size_t worst_line = 0;  ///< in the states' file
   int worst_pose = 0;
   int worst_step = 0;
-  /// Components of the moment (of the worst state, or of all) whose turned sign mends the fit; empty: none
-  /// does.
-  std::string mending_signs;
+  /// Components of the moment whose turned sign mends the fit; empty: none does.
+  std::vector<std::string> mending_signs;
+  bool mends_all_states = false;  ///< turned in all states, not in the worst alone
 };
 
 /// Weighted least squares over all states with a force; the moment's variance is that of the moment and of

@@ -5,7 +5,9 @@
 #include <set>
 
 #include "core/audit/checks.h"
+#include "core/audit/remarks.h"
 #include "core/campaign/row_names.h"
+#include "core/preparation/remarks.h"
 
 namespace stiffscope::audit {
 
@@ -39,24 +41,25 @@ class Inventory {
     repeats_ = mostCommon(repeats);
   }
 
-  std::vector<std::string> missing() const {
-    std::vector<std::string> found;
+  std::vector<Remark> missing() const {
+    std::vector<Remark> found;
     for (const auto& [pose, steps] : readings_) {
       for (const auto& [step, count] : poses_with_) {
         const auto has = steps.find(step);
-        const std::string name = fmt::format("pose {}, step {}", campaign::poseName(campaign_, pose), step);
+        const std::string& name = campaign::poseName(campaign_, pose);
         if (has == steps.end()) {
           // A step that only some postures have is a choice, not a gap.
-          if (2 * count > static_cast<int>(readings_.size())) found.push_back(name + ": no readings");
+          if (2 * count > static_cast<int>(readings_.size()))
+            found.push_back(Remark(RemarkId::step_not_read, name, step));
           continue;
         }
-        describeState(name, has->second, found);
-        if (!states_.contains({pose, step})) found.push_back(name + ": no row in states");
+        describeState(name, step, has->second, found);
+        if (!states_.contains({pose, step})) found.push_back(Remark(RemarkId::no_row_in_states, name, step));
       }
     }
     for (std::size_t pose = 0; pose < campaign_.pose_ids.size(); ++pose) {
       if (!readings_.contains(static_cast<int>(pose))) {
-        found.push_back(fmt::format("pose {}: no readings", campaign_.pose_ids[pose]));
+        found.push_back(Remark(RemarkId::posture_not_read, campaign_.pose_ids[pose]));
       }
     }
     return found;
@@ -67,14 +70,14 @@ class Inventory {
  private:
   void add(int pose, int step, int target) { ++readings_[pose][step][target]; }
 
-  void describeState(const std::string& name, const std::map<int, int>& targets,
-                     std::vector<std::string>& found) const {
+  void describeState(const std::string& pose, int step, const std::map<int, int>& targets,
+                     std::vector<Remark>& found) const {
     for (const int target : targets_) {
       const auto has = targets.find(target);
       const int count = has == targets.end() ? 0 : has->second;
       if (count >= repeats_) continue;
       found.push_back(
-          fmt::format("{}: {} of {} readings of {}", name, count, repeats_, campaign::targetName(campaign_, target)));
+          Remark(RemarkId::too_few_readings, pose, step, count, repeats_, campaign::targetName(campaign_, target)));
     }
   }
 
@@ -86,30 +89,32 @@ class Inventory {
   int repeats_ = 0;
 };
 
+/// The state, or the posture, in which something is missing.
+Remark placeOf(const Remark& gap) {
+  Remark place(gap.is(RemarkId::posture_not_read) ? RemarkId::at_pose : RemarkId::at_state);
+  place.values.assign(gap.values.begin(), gap.values.begin() + (place.is(RemarkId::at_pose) ? 1 : 2));
+  return place;
+}
+
 }  // namespace
 
 Findings checkCompleteness(const AuditInput& input) {
   const campaign::Campaign& campaign = input.campaign;
   if (!campaign.states || (!campaign.loading && !campaign.displacements)) {
-    return {preparation::notTestable("completeness", "no load states: measure `states` with `loading`")};
+    return {preparation::notTestable("completeness", Remark(RemarkId::no_load_states))};
   }
   const Inventory inventory(campaign);
-  const std::vector<std::string> missing = inventory.missing();
+  std::vector<Remark> missing = inventory.missing();
   preparation::AuditCheck check;
   check.id = "completeness";
   check.value = static_cast<double>(missing.size());
   check.limit = 0.0;
-  check.unit = "gaps";
-  check.limit_source = "what most postures and states of this campaign have";
-  check.message = fmt::format("every one of {} postures has all steps, reflectors and repeats", inventory.size());
+  check.limit_source = Remark(RemarkId::what_most_have);
+  check.message = Remark(RemarkId::all_there, inventory.size());
   if (missing.empty()) return {check};
   check.verdict = preparation::AuditVerdict::warn;
-  check.where = missing.front().substr(0, missing.front().find(':'));
-  constexpr std::size_t kShown = 8;
-  const std::vector<std::string> shown(missing.begin(),
-                                       missing.begin() + static_cast<std::ptrdiff_t>(std::min(kShown, missing.size())));
-  check.message = fmt::format("missing: {}{}", fmt::join(shown, "; "),
-                              missing.size() > kShown ? fmt::format("; and {} more", missing.size() - kShown) : "");
+  check.where = placeOf(missing.front());
+  check.message = Remark(RemarkId::missing, std::move(missing));
   return {check};
 }
 
@@ -122,7 +127,7 @@ struct Span {
 
 /// Rows that come before the last one of an earlier step of their posture.
 template <class Row>
-std::vector<std::string> outOfOrder(const campaign::Campaign& campaign, const campaign::Table<Row>& table) {
+std::vector<Remark> outOfOrder(const campaign::Campaign& campaign, const campaign::Table<Row>& table) {
   std::map<int, std::map<int, Span>> poses;
   for (const Row& row : table.rows) {
     if (!std::isfinite(row.time_s)) continue;
@@ -130,15 +135,14 @@ std::vector<std::string> outOfOrder(const campaign::Campaign& campaign, const ca
     if (row.time_s < span.first) span.first = row.time_s, span.line = row.line;
     span.last = std::max(span.last, row.time_s);
   }
-  std::vector<std::string> found;
+  std::vector<Remark> found;
   for (const auto& [pose, steps] : poses) {
     const Span* before = nullptr;
     int step_before = 0;
     for (const auto& [step, span] : steps) {
       if (before != nullptr && span.first < before->last) {
-        found.push_back(fmt::format("{} (pose {}: step {} before step {} ends)",
-                                    campaign::rowName(table.file, span.line), campaign::poseName(campaign, pose), step,
-                                    step_before));
+        found.push_back(Remark(RemarkId::step_too_early, campaign::rowName(table.file, span.line),
+                               campaign::poseName(campaign, pose), step, step_before));
       }
       before = &span;
       step_before = step;
@@ -148,14 +152,14 @@ std::vector<std::string> outOfOrder(const campaign::Campaign& campaign, const ca
 }
 
 /// Load states whose row is older or younger than all readings of another step than its own.
-std::vector<std::string> statesApart(const campaign::Campaign& campaign) {
+std::vector<Remark> statesApart(const campaign::Campaign& campaign) {
   std::map<std::pair<int, int>, Span> readings;
   for (const campaign::LoadingReading& row : campaign.loading->rows) {
     Span& span = readings[{row.pose, row.step}];
     span.first = std::min(span.first, row.time_s);
     span.last = std::max(span.last, row.time_s);
   }
-  std::vector<std::string> found;
+  std::vector<Remark> found;
   for (const campaign::State& state : campaign.states->rows) {
     const auto own = readings.find({state.pose, state.step});
     if (own == readings.end() || !std::isfinite(state.time_s)) continue;
@@ -167,9 +171,8 @@ std::vector<std::string> statesApart(const campaign::Campaign& campaign) {
       const bool beyond = (span.first > own->second.last && state.time_s >= span.first) ||
                           (span.last < own->second.first && state.time_s <= span.last);
       if (!within && !beyond) continue;
-      found.push_back(fmt::format("{} (pose {}: the state of step {} was taken during step {})",
-                                  campaign::rowName(campaign.states->file, state.line),
-                                  campaign::poseName(campaign, state.pose), state.step, key.second));
+      found.push_back(Remark(RemarkId::state_during, campaign::rowName(campaign.states->file, state.line),
+                             campaign::poseName(campaign, state.pose), state.step, key.second));
       break;
     }
   }
@@ -181,8 +184,8 @@ std::vector<std::string> statesApart(const campaign::Campaign& campaign) {
 Findings checkTimeOrder(const AuditInput& input) {
   const campaign::Campaign& campaign = input.campaign;
   if (!campaign.states && !campaign.loading)
-    return {preparation::notTestable("time_order", "no `states` and no `loading`")};
-  std::vector<std::string> found;
+    return {preparation::notTestable("time_order", Remark(RemarkId::no_states_nor_loading))};
+  std::vector<Remark> found;
   if (campaign.loading) found = outOfOrder(campaign, *campaign.loading);
   if (campaign.states) {
     const auto states = outOfOrder(campaign, *campaign.states);
@@ -193,13 +196,12 @@ Findings checkTimeOrder(const AuditInput& input) {
   check.id = "time_order";
   check.value = static_cast<double>(found.size());
   check.limit = 0.0;
-  check.unit = "steps";
-  check.limit_source = "later steps follow in time (campaign format)";
-  check.message = "steps follow each other in time in every posture";
+  check.limit_source = Remark(RemarkId::order_of_format);
+  check.message = Remark(RemarkId::steps_follow);
   if (found.empty()) return {check};
   check.verdict = preparation::AuditVerdict::fail;
-  check.where = found.front().substr(0, found.front().find(' '));
-  check.message = fmt::format("steps out of order: {}", fmt::join(found, "; "));
+  check.where = Remark(preparation::RemarkId::at_name, std::get<std::string>(found.front().values.front()));
+  check.message = Remark(RemarkId::steps_out_of_order, std::move(found));
   return {check};
 }
 

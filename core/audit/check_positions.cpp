@@ -5,12 +5,13 @@
 
 #include "core/audit/checks.h"
 #include "core/audit/limits.h"
+#include "core/audit/remarks.h"
 #include "core/campaign/row_names.h"
 #include "core/identification/identifiability.h"
 #include "core/identification/warnings.h"
-#include "core/io/units.h"
 #include "core/numerics/distributions.h"
 #include "core/preparation/finding.h"
+#include "core/preparation/remarks.h"
 #include "metrology/linear_algebra.h"
 
 namespace stiffscope::audit {
@@ -91,46 +92,40 @@ std::vector<Return> returnsOf(const AuditInput& input) {
 Findings checkReturnToZero(const AuditInput& input) {
   const campaign::Campaign& campaign = input.campaign;
   if (!campaign.loading || !campaign.states) {
-    return {preparation::notTestable("return_to_zero",
-                                     "no absolute readings of load states: measure `loading` and `states`")};
+    return {preparation::notTestable("return_to_zero", Remark(RemarkId::no_readings_of_states))};
   }
   if (!input.noise) {
-    return {preparation::notTestable("return_to_zero",
-                                     "the tracker's noise is not declared: state `tracker` in campaign.xml")};
+    return {preparation::notTestable("return_to_zero", Remark(preparation::RemarkId::tracker_noise_not_declared))};
   }
   const std::vector<Return> returns = returnsOf(input);
-  if (returns.empty())
-    return {preparation::notTestable("return_to_zero", "no posture was unloaded again: add a last step without load")};
+  if (returns.empty()) return {preparation::notTestable("return_to_zero", Remark(RemarkId::no_unloading))};
   preparation::AuditCheck check;
   check.id = "return_to_zero";
-  check.unit = "of noise";
   double chi2 = 0.0;
   int dof = 0;
-  std::vector<std::string> beyond;
+  std::vector<Remark> beyond;
   const Return* worst = &returns.front();
   for (const Return& one : returns) {
     chi2 += one.chi2;
     dof += one.dof;
     if (one.chi2 > numerics::chiSquareLimit(preparation::kLevel / static_cast<double>(returns.size()), one.dof)) {
-      beyond.push_back(fmt::format("{} by {:.0f} um", campaign::poseName(campaign, one.pose), 1e6 * one.largest));
+      beyond.push_back(Remark(RemarkId::posture_off, campaign::poseName(campaign, one.pose), one.largest));
     }
     if (one.chi2 / one.dof > worst->chi2 / worst->dof) worst = &one;
   }
   check.value = std::sqrt(chi2 / dof);
   check.limit = std::sqrt(numerics::chiSquareLimit(preparation::kLevel, dof) / dof);
-  check.limit_source =
-      preparation::byChance(fmt::format("chi-square of {} degrees of freedom, and of each posture", dof));
-  check.message = fmt::format(
-      "unloaded again, reflectors stand {:.2f} times as far from step 0 as noise alone; farthest "
-      "{:.0f} um at pose {}, step {}",
-      *check.value, 1e6 * worst->largest, campaign::poseName(campaign, worst->pose), worst->step);
+  check.limit_source = preparation::byChance(Remark(RemarkId::chi_square_and_postures, dof));
+  const auto says = [&](std::vector<Remark> more) {
+    return Remark(RemarkId::comes_back, *check.value, worst->largest, campaign::poseName(campaign, worst->pose),
+                  worst->step, std::move(more));
+  };
+  check.message = says({});
   if (*check.value <= *check.limit && beyond.empty()) return {check};
   check.verdict =
       chi2 / dof > preparation::kFailVarianceRatio ? preparation::AuditVerdict::fail : preparation::AuditVerdict::warn;
-  check.where = campaign::rowName(campaign.loading->file, worst->line);
-  check.message += fmt::format("; {} of {} postures do not come back", beyond.size(), returns.size());
-  if (!beyond.empty()) check.message += fmt::format(": {}", fmt::join(beyond, ", "));
-  check.message += "; friction, backlash, a slipping part, or drift that nests do not show";
+  check.where = preparation::atRow(campaign.loading->file, worst->line);
+  check.message = says({Remark(RemarkId::do_not_come_back, std::move(beyond), returns.size())});
   return {check};
 }
 
@@ -165,40 +160,34 @@ double readingNoise(const AuditInput& input) {
 Findings checkServo(const AuditInput& input) {
   const campaign::Campaign& campaign = input.campaign;
   if (input.arm.cases.empty()) {
-    return {
-        preparation::notTestable("servo_change", "no postures with readings unloaded and loaded in a known geometry")};
+    return {preparation::notTestable("servo_change", Remark(RemarkId::no_compared_postures_in_geometry))};
   }
   if (!input.noise) {
-    return {preparation::notTestable("servo_change",
-                                     "the tracker's noise is not declared: state `tracker` in campaign.xml")};
+    return {preparation::notTestable("servo_change", Remark(preparation::RemarkId::tracker_noise_not_declared))};
   }
   const double lever = longestLever(input.arm);
   preparation::AuditCheck check;
   check.id = "servo_change";
-  check.unit = "deg";
   check.value = 0.0;
-  check.limit_source =
-      fmt::format("turn that carries a reflector at the longest lever, {:.2f} m, by twice its reading noise", lever);
+  check.limit_source = Remark(RemarkId::turn_at_lever, lever);
   std::vector<const campaign::State*> unloaded(campaign.pose_ids.size(), nullptr);
   for (const campaign::State& state : campaign.states->rows) {
     if (state.step == 0) unloaded[static_cast<std::size_t>(state.pose)] = &state;
   }
-  check.limit = 2.0 * readingNoise(input) / lever / io::kDegree;
+  check.limit = 2.0 * readingNoise(input) / lever;
+  check.message = Remark(RemarkId::no_angle_changes);
   for (const campaign::State& state : campaign.states->rows) {
     const campaign::State* before = unloaded[static_cast<std::size_t>(state.pose)];
     if (before == nullptr) continue;
     int joint = 0;
-    const double change = (state.q - before->q).cwiseAbs().maxCoeff(&joint) / io::kDegree;
+    const double change = (state.q - before->q).cwiseAbs().maxCoeff(&joint);
     if (change <= *check.value) continue;
     check.value = change;
-    check.where = campaign::rowName(campaign.states->file, state.line);
-    check.message = fmt::format("joint {}'s reported angle changes most, at pose {}, step {}", joint + 1,
-                                campaign::poseName(campaign, state.pose), state.step);
+    check.where = preparation::atRow(campaign.states->file, state.line);
+    check.message = Remark(RemarkId::angle_changes, joint + 1, campaign::poseName(campaign, state.pose), state.step,
+                           change > *check.limit);
   }
-  if (*check.value == 0.0) check.message = "no reported angle changes under load";
-  if (*check.value <= *check.limit) return {check};
-  check.verdict = preparation::AuditVerdict::warn;
-  check.message += ": the servo gives way, and identification counts that as stiffness of the closed loop";
+  if (*check.value > *check.limit) check.verdict = preparation::AuditVerdict::warn;
   return {check};
 }
 
@@ -214,25 +203,22 @@ preparation::AuditCheck frameCheck(const AbsoluteFit& fit) {
   const Eigen::Vector3d displacement = fit.shift.tail<3>();
   // The shift where the arm is read, or where it stands (R0's origin), whichever is larger.
   const double at_base = (displacement - fit.shift.head<3>().cross(fit.centre)).norm();
-  check.value = 1e3 * std::max(displacement.norm(), at_base);
-  check.limit = std::max(1e3 * identification::TrustLimits().position,
-                         ratio > 0.0 ? *check.value * std::sqrt(by_chance / ratio) : 0.0);
-  check.unit = "mm";
-  check.limit_source =
-      "how far identification trusts places (0.2 mm); or, where that is larger, " +
-      preparation::byChance("chi-square of a rigid shift, six degrees of freedom, over that of the rest");
-  check.message = fmt::format(
-      "loading against sweeps: shift of ({:.3f}, {:.3f}, {:.3f}) mm in R0 at the arm and turn of "
-      "{:.0f} urad",
-      1e3 * displacement.x(), 1e3 * displacement.y(), 1e3 * displacement.z(), 1e6 * fit.shift.head<3>().norm());
+  check.value = std::max(displacement.norm(), at_base);
+  check.limit =
+      std::max(identification::TrustLimits().position, ratio > 0.0 ? *check.value * std::sqrt(by_chance / ratio) : 0.0);
+  check.limit_source = Remark(RemarkId::places_or_chance, preparation::byChance(Remark(RemarkId::chi_square_of_shift)));
   // A shift that leaves most of the misfit goes along with another fault (geometry, sag) and is not its
   // cause.
   const double explained = fit.shift_chi2 / (fit.shift_chi2 + fit.chi2);
-  check.message += fmt::format(", which explains {:.0f} % of the misfit of the unloaded positions", 100.0 * explained);
+  const auto says = [&](std::vector<Remark> more) {
+    return Remark(RemarkId::loading_shifted, std::vector<double>(displacement.begin(), displacement.end()),
+                  fit.shift.head<3>().norm(), explained, std::move(more));
+  };
+  check.message = says({});
   if (*check.value <= *check.limit || explained < kExplains) return check;
   check.verdict = *check.value > 2.0 * *check.limit ? preparation::AuditVerdict::fail : preparation::AuditVerdict::warn;
-  check.where = "loading";
-  check.message += ": tracker or robot moved between sweeps and loading";
+  check.where = Remark(RemarkId::at_loading);
+  check.message = says({Remark(RemarkId::tracker_or_robot_moved)});
   return check;
 }
 
@@ -240,29 +226,24 @@ preparation::AuditCheck positionsCheck(const AbsoluteFit& fit) {
   preparation::AuditCheck check;
   check.id = "unloaded_positions";
   const double by_chance = fit.rms_after * std::sqrt(numerics::chiSquareLimit(preparation::kLevel, fit.dof) / fit.chi2);
-  check.value = 1e3 * fit.rms_after;
-  check.limit = 1e3 * std::max(kShareOfTolerance * identification::TrustLimits().position, by_chance);
-  check.unit = "mm";
-  check.limit_source = "a third of the 0.2 mm to which identification trusts places; or, where that is larger, " +
-                       preparation::byChance(fmt::format("chi-square of {} degrees of freedom", fit.dof));
-  check.message = fmt::format(
-      "{} unloaded positions miss forward kinematics with sag by {:.3f} mm rms per coordinate, "
-      "{:.3f} mm once shift, reflectors, axes and sag are fitted within their uncertainties ({:.2f} "
-      "of what these leave open)",
-      fit.positions, 1e3 * fit.rms_before, 1e3 * fit.rms_after, std::sqrt(fit.chi2 / fit.dof));
+  check.value = fit.rms_after;
+  check.limit = std::max(kShareOfTolerance * identification::TrustLimits().position, by_chance);
+  check.limit_source =
+      Remark(RemarkId::third_of_places_or_chance, preparation::byChance(Remark(RemarkId::chi_square, fit.dof)));
+  const auto says = [&fit](std::vector<Remark> more) {
+    return Remark(RemarkId::positions_miss, fit.positions, fit.rms_before, fit.rms_after, std::sqrt(fit.chi2 / fit.dof),
+                  std::move(more));
+  };
+  check.message = says({});
   if (*check.value <= *check.limit) return check;
   if (fit.rms_after > identification::kMissedGeometry) {
     check.verdict = preparation::AuditVerdict::fail;
     check.impossible = true;
-    check.message +=
-        "; far more than own weight leaves once it is taken off: units, angles or the tracker's place are wrong in "
-        "one of the tables";
+    check.message = says({Remark(RemarkId::positions_impossible)});
     return check;
   }
   check.verdict = preparation::AuditVerdict::warn;
-  check.message +=
-      "; the swept geometry does not carry over to the postures: joint zeros, gear errors, or the own weight "
-      "bends more than the joints (bearings, links)";
+  check.message = says({Remark(RemarkId::geometry_does_not_carry)});
   return check;
 }
 
@@ -279,9 +260,8 @@ preparation::AuditCheck readBackCheck(const AuditInput& input) {
   check.id = "joint_read_back";
   check.limit = fit.score_limit;
   check.value = 0.0;
-  check.unit = "of scatter";
-  check.limit_source = preparation::byChance("Student's t by the median absolute deviation between postures");
-  std::string found;
+  check.limit_source = preparation::byChance(Remark(RemarkId::student_between_postures));
+  std::vector<Remark> found;
   double worst = 0.0;
   for (const PostureReadBack& posture : fit.postures) {
     check.value = std::max(*check.value, posture.score);
@@ -290,18 +270,17 @@ preparation::AuditCheck readBackCheck(const AuditInput& input) {
     if (!posture.outlier || posture.explained < kMostly) continue;
     const campaign::State* state = unloadedState(input.campaign, posture.pose);
     const std::string row = campaign::rowName(input.campaign.states->file, state->line);
-    if (posture.score > worst) worst = posture.score, check.where = row;
-    found += fmt::format("{}{} (pose {}: joint {} stands {:.4f} deg from what is reported)", found.empty() ? "" : "; ",
-                         row, campaign::poseName(input.campaign, posture.pose), posture.joint + 1,
-                         posture.joint_correction / io::kDegree);
+    if (posture.score > worst) worst = posture.score, check.where = Remark(preparation::RemarkId::at_name, row);
+    found.push_back(Remark(RemarkId::joint_off, row, campaign::poseName(input.campaign, posture.pose),
+                           posture.joint + 1, posture.joint_correction));
   }
-  check.message = "reported joint angles agree with what the reflectors say, posture by posture";
+  check.message = Remark(RemarkId::angles_agree);
   if (found.empty()) {
     check.value = std::min(*check.value, *check.limit);
     return check;
   }
   check.verdict = preparation::AuditVerdict::fail;
-  check.message = "reported before the arm settled, or stale: " + found;
+  check.message = Remark(RemarkId::angles_stale, std::move(found));
   return check;
 }
 
@@ -310,8 +289,7 @@ preparation::AuditCheck readBackCheck(const AuditInput& input) {
 Findings checkUnloadedPositions(const AuditInput& input) {
   const AbsoluteFit& fit = input.absolute;
   Findings findings;
-  const std::string no_sag =
-      "the arm's own sag is not known: state masses in the URDF, and load steps that identify stiffnesses";
+  const Remark no_sag(RemarkId::sag_not_known);
   for (const char* id : {"frame_moved", "unloaded_positions"}) {
     if (!fit.done || !fit.sag_known) findings.push_back(preparation::notTestable(id, fit.done ? no_sag : fit.reason));
   }
@@ -321,7 +299,7 @@ Findings checkUnloadedPositions(const AuditInput& input) {
     findings.push_back(preparation::notTestable("joint_read_back", fit.reason));
   } else if (fit.postures.size() < kToCompare) {
     findings.push_back(
-        preparation::notTestable("joint_read_back", fmt::format("fewer than {} postures to compare", kToCompare)));
+        preparation::notTestable("joint_read_back", Remark(RemarkId::few_postures_to_compare, kToCompare)));
   } else {
     findings.push_back(readBackCheck(input));
   }

@@ -1,7 +1,5 @@
 #include "core/audit/check_sweeps.h"
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
@@ -10,6 +8,7 @@
 
 #include "core/audit/checks.h"
 #include "core/audit/limits.h"
+#include "core/audit/remarks.h"
 #include "core/campaign/row_names.h"
 #include "core/identification/identifiability.h"
 #include "core/identification/warnings.h"
@@ -50,33 +49,29 @@ class Causes {
  public:
   void add(std::size_t axis, const WorstReading& worst, const std::string& row) {
     if (worst.share > kExplains) {
-      single_ += fmt::format("; most of that of axis {} is the one reading {}", axis + 1, row);
+      causes_.push_back(Remark(RemarkId::one_reading_off, axis + 1, row));
     } else {
       running_.push_back(axis + 1);
     }
   }
 
-  std::string words() const {
-    if (running_.empty()) return single_;
-    return single_ + fmt::format(
-                         "; that of ax{} {} runs along the sweep, no one reading makes it: the axis moves as it turns, "
-                         "most often because the own weight bends bearings or links, which joint springs do not "
-                         "describe; identification goes on",
-                         running_.size() == 1 ? "is" : "es", fmt::join(running_, ", "));
+  std::vector<Remark> all() const {
+    std::vector<Remark> all = causes_;
+    if (!running_.empty()) all.push_back(Remark(RemarkId::runs_along_sweep, running_));
+    return all;
   }
 
  private:
-  std::string single_;
+  std::vector<Remark> causes_;
   std::vector<std::size_t> running_;
 };
 
 preparation::AuditCheck residualCheck(const AuditInput& input, const std::array<std::vector<SweptCircle>, 6>& axes) {
   preparation::AuditCheck check;
   check.id = "circle_residual";
-  check.unit = "of noise sd";
-  check.limit_source = preparation::byChance("chi-square of each axis's residuals");
+  check.limit_source = preparation::byChance(Remark(RemarkId::chi_square_of_axes));
   check.value = 0.0;
-  std::vector<std::string> beyond;
+  std::vector<Remark> beyond;
   Causes causes;
   for (std::size_t axis = 0; axis < 6; ++axis) {
     const frames::MeasuredAxis& measured = input.frames.axes[axis];
@@ -88,31 +83,27 @@ preparation::AuditCheck residualCheck(const AuditInput& input, const std::array<
     const WorstReading worst = worstReading(measured, axes[axis]);
     const std::string row = campaign::rowName(input.campaign.circle_sweeps->file, worst.line);
     if (fit.chi2_per_dof > limit) {
-      beyond.push_back(fmt::format("axis {} by {:.1f} um rms, {:.2f} of the noise", axis + 1, 1e6 * fit.rms, ratio));
+      beyond.push_back(Remark(RemarkId::axis_off_circles, axis + 1, fit.rms, ratio));
       causes.add(axis, worst, row);
     }
     if (ratio <= *check.value) continue;
     check.value = ratio;
     check.limit = std::sqrt(limit);
-    check.where = fmt::format("{}, {}", campaign::axisName(axis), row);
+    check.where = Remark(RemarkId::at_axis_row, axis + 1, row);
   }
-  check.message = "readings lie on their circles within the noise";
+  check.message = Remark(RemarkId::on_circles);
   if (beyond.empty()) return check;
   check.verdict = preparation::AuditVerdict::warn;
-  check.message = fmt::format(
-      "readings leave their circles by more than noise: {}; the stated uncertainties of the axes are widened "
-      "by "
-      "it{}",
-      fmt::join(beyond, ", "), causes.words());
+  check.message = Remark(RemarkId::off_circles, std::move(beyond), causes.all());
   return check;
 }
 
 }  // namespace
 
 Findings checkCircleResidual(const AuditInput& input) {
-  if (!input.campaign.circle_sweeps) return {preparation::notTestable("circle_residual", kNoSweeps)};
+  if (!input.campaign.circle_sweeps) return {preparation::notTestable("circle_residual", Remark(RemarkId::no_sweeps))};
   if (!input.noise) {
-    return {preparation::notTestable("circle_residual", "the tracker's noise is not declared: state `tracker`")};
+    return {preparation::notTestable("circle_residual", Remark(RemarkId::tracker_not_declared))};
   }
   return {residualCheck(input, sweptCircles(input))};
 }
@@ -142,33 +133,26 @@ preparation::AuditCheck arcCheck(const frames::MeasuredAxis& axis, std::size_t n
   const double tolerance = kShareOfTolerance * identification::TrustLimits().position;
   preparation::AuditCheck check;
   check.id = "circle_arc";
-  check.value = arc / io::kDegree;
-  check.limit = kWarnArcDeg;
-  check.unit = "deg";
-  check.where = campaign::axisName(number);
-  check.limit_source = fmt::format(
-      "circle-point practice: warn below {:.0f} deg, fail below {:.0f} deg, unless the axis is "
-      "still known at the arm's reach to {:.0f} um, a third of the {:.1f} mm to which "
-      "identification trusts places",
-      kWarnArcDeg, kFailArcDeg, 1e6 * tolerance, 1e3 * identification::TrustLimits().position);
-  check.message = fmt::format(
-      "{}: arc of {:.1f} deg; known to {:.1f} urad in direction and {:.1f} um in place (one sigma), "
-      "{:.0f} um at the reach of {:.2f} m",
-      campaign::axisName(number), *check.value, 1e6 * uncertainty.direction, 1e6 * uncertainty.place, 1e6 * at_reach,
-      reach);
-  if (*check.value >= kWarnArcDeg) {
+  check.value = arc;
+  check.limit = kWarnArc;
+  check.where = Remark(RemarkId::at_axis, number + 1);
+  check.limit_source =
+      Remark(RemarkId::arc_practice, kWarnArc, kFailArc, tolerance, identification::TrustLimits().position);
+  const auto says = [&](std::vector<Remark> more) {
+    return Remark(RemarkId::arc_known, number + 1, arc, uncertainty.direction, uncertainty.place, at_reach, reach,
+                  std::move(more));
+  };
+  if (arc >= kWarnArc) {
+    check.message = says({});
     // Residuals widen the stated uncertainty; they are circle_residual's to name.
     if (at_reach <= tolerance * std::max(1.0, std::sqrt(axis.fit.chi2_per_dof))) return check;
     check.verdict = preparation::AuditVerdict::warn;
-    check.message +=
-        "; does not suffice for identification, wide as it is: take more readings, or reflectors farther "
-        "from the axis and along it";
+    check.message = says({Remark(RemarkId::wide_not_enough)});
     return check;
   }
   const bool enough = at_reach <= tolerance;
-  check.message += fmt::format(", {:.1f} times what as many readings over {:.0f} deg would give; {} for identification",
-                               arcCost(arc, readings), kWarnArcDeg, enough ? "still suffices" : "does not suffice");
-  const bool short_arc = *check.value < kFailArcDeg;
+  check.message = says({Remark(RemarkId::short_arc, arcCost(arc, readings), kWarnArc, enough)});
+  const bool short_arc = arc < kFailArc;
   if (short_arc) check.verdict = enough ? preparation::AuditVerdict::warn : preparation::AuditVerdict::fail;
   if (!short_arc && !enough) check.verdict = preparation::AuditVerdict::warn;
   return check;
@@ -177,19 +161,18 @@ preparation::AuditCheck arcCheck(const frames::MeasuredAxis& axis, std::size_t n
 preparation::AuditCheck countCheck(const std::array<std::vector<SweptCircle>, 6>& axes, const std::string& file) {
   preparation::AuditCheck check;
   check.id = "circle_count";
-  check.unit = "readings";
   check.limit = kLeastCircleReadings;
-  check.limit_source = "three readings make a circle, twice as many leave as many again to check it by";
+  check.limit_source = Remark(RemarkId::circle_redundancy);
   std::size_t least = SIZE_MAX;
   for (std::size_t axis = 0; axis < 6; ++axis) {
     for (const SweptCircle& circle : axes[axis]) {
       if (circle.lines.size() >= least) continue;
       least = circle.lines.size();
-      check.where = fmt::format("{}, {}", campaign::axisName(axis), campaign::rowName(file, circle.lines.front()));
+      check.where = Remark(RemarkId::at_axis_row, axis + 1, campaign::rowName(file, circle.lines.front()));
     }
   }
   check.value = static_cast<double>(least);
-  check.message = fmt::format("the smallest circle has {} readings", least);
+  check.message = Remark(RemarkId::smallest_circle, least);
   if (*check.value < *check.limit) check.verdict = preparation::AuditVerdict::warn;
   return check;
 }
@@ -199,7 +182,8 @@ preparation::AuditCheck countCheck(const std::array<std::vector<SweptCircle>, 6>
 Findings checkCircleSweeps(const AuditInput& input) {
   if (!input.campaign.circle_sweeps) {
     Findings missing;
-    for (const char* id : {"circle_arc", "circle_count"}) missing.push_back(preparation::notTestable(id, kNoSweeps));
+    for (const char* id : {"circle_arc", "circle_count"})
+      missing.push_back(preparation::notTestable(id, Remark(RemarkId::no_sweeps)));
     return missing;
   }
   const auto axes = sweptCircles(input);
@@ -210,8 +194,9 @@ Findings checkCircleSweeps(const AuditInput& input) {
     if (measured.fit.determined) {
       findings.push_back(arcCheck(measured, axis, reach, static_cast<int>(axes[axis].front().lines.size())));
     } else {
-      findings.push_back(preparation::notTestable("circle_arc", fmt::format("axis {}: {}", axis + 1, measured.reason)));
-      findings.back().where = campaign::axisName(axis);
+      findings.push_back(preparation::notTestable(
+          "circle_arc", Remark(RemarkId::axis_not_measured, axis + 1, verbatim(measured.reason))));
+      findings.back().where = Remark(RemarkId::at_axis, axis + 1);
     }
   }
   findings.push_back(countCheck(axes, input.campaign.circle_sweeps->file));
@@ -221,7 +206,6 @@ Findings checkCircleSweeps(const AuditInput& input) {
 Findings checkLinkLengths(const AuditInput& input) {
   preparation::AuditCheck check;
   check.id = "link_lengths";
-  check.unit = "mm";
   double farthest = -1.0;
   std::size_t at = 0;
   const auto& links = input.frames.links;
@@ -230,21 +214,17 @@ Findings checkLinkLengths(const AuditInput& input) {
     const double off = std::abs(links[i].distance - links[i].nominal_distance);
     if (off > farthest) farthest = off, at = i;
   }
-  if (farthest < 0.0) return {preparation::notTestable("link_lengths", "no two neighbouring axes with circle sweeps")};
+  if (farthest < 0.0) return {preparation::notTestable("link_lengths", Remark(RemarkId::no_neighbouring_axes))};
   const frames::LinkGeometry& link = links[at];
-  check.value = farthest / io::kMillimetre;
+  check.value = farthest;
   // A short arc may leave a distance open by more than machines differ.
   constexpr double kByChance = 5.0;
-  check.limit = std::max(identification::kMissedGeometry, kByChance * *link.distance_sd) / io::kMillimetre;
-  check.limit_source =
-      "20 mm, where machines are built to a few; or, where that is larger, five standard uncertainties";
-  check.where = fmt::format("axes {} and {}", at + 1, at + 2);
-  check.message = fmt::format("axes {} and {} stand {:.3f} mm apart, {:.3f} mm in the URDF", at + 1, at + 2,
-                              link.distance / io::kMillimetre, link.nominal_distance / io::kMillimetre);
-  if (*check.value <= *check.limit) return {check};
-  check.verdict = preparation::AuditVerdict::fail;
-  check.impossible = true;
-  check.message += ": points or angles of the sweeps are in another unit, or the URDF is another machine's";
+  check.limit = std::max(identification::kMissedGeometry, kByChance * *link.distance_sd);
+  check.limit_source = Remark(RemarkId::built_to_drawing);
+  check.where = Remark(RemarkId::at_axes, at + 1, at + 2);
+  check.impossible = *check.value > *check.limit;
+  if (check.impossible) check.verdict = preparation::AuditVerdict::fail;
+  check.message = Remark(RemarkId::axes_apart, at + 1, at + 2, link.distance, link.nominal_distance, check.impossible);
   return {check};
 }
 
@@ -278,14 +258,13 @@ preparation::AuditCheck impossible(preparation::AuditCheck check) {
 }  // namespace
 
 Findings checkSweepAngles(const AuditInput& input) {
-  if (!input.campaign.circle_sweeps) return {preparation::notTestable("sweep_angles", kNoSweeps)};
+  if (!input.campaign.circle_sweeps) return {preparation::notTestable("sweep_angles", Remark(RemarkId::no_sweeps))};
   constexpr double kLimit = 2.0;
   constexpr double kWhole = 300.0 * io::kDegree;  // beyond, the arc's end runs into its beginning
   preparation::AuditCheck check;
   check.id = "sweep_angles";
-  check.unit = "times";
   check.limit = kLimit;
-  check.limit_source = "a joint turns by what it reports, to a thousandth; radians under degrees are 57 times off";
+  check.limit_source = Remark(RemarkId::turns_as_reported);
   for (int axis = 0; axis < 6; ++axis) {
     const frames::MeasuredAxis& measured = input.frames.axes[static_cast<std::size_t>(axis)];
     if (!measured.measured || measured.fit.circles.empty()) continue;
@@ -296,21 +275,18 @@ Findings checkSweepAngles(const AuditInput& input) {
     if (reported > kWhole || arc > kWhole || arc <= 0.0) continue;
     if (reported <= 0.0) {
       check.value.reset();
-      check.where = campaign::axisName(static_cast<std::size_t>(axis));
-      check.message = fmt::format("axis {} reports one and the same angle while its reflectors turn by {:.4g} deg",
-                                  axis + 1, arc / io::kDegree);
+      check.where = Remark(RemarkId::at_axis, axis + 1);
+      check.message = Remark(RemarkId::angle_stays, axis + 1, arc);
       return {impossible(check)};
     }
     const double ratio = std::max(arc / reported, reported / arc);
     if (check.value && ratio <= *check.value) continue;
     check.value = ratio;
-    check.where = campaign::axisName(static_cast<std::size_t>(axis));
-    check.message = fmt::format("while axis {} reports a turn of {:.4g} deg its reflectors turn by {:.4g} deg",
-                                axis + 1, reported / io::kDegree, arc / io::kDegree);
+    check.where = Remark(RemarkId::at_axis, axis + 1);
+    check.message = Remark(RemarkId::angle_and_turn, axis + 1, reported, arc, ratio > kLimit);
   }
-  if (!check.value) return {preparation::notTestable("sweep_angles", "no axis with a sweep of less than a whole turn")};
+  if (!check.value) return {preparation::notTestable("sweep_angles", Remark(RemarkId::no_sweep_below_whole_turn))};
   if (*check.value <= kLimit) return {check};
-  check.message += ": angles in another unit (radians for degrees), or those of another joint";
   return {impossible(check)};
 }
 

@@ -4,6 +4,7 @@
 #include "core/audit/check_sweeps.h"
 #include "core/audit/checks.h"
 #include "core/audit/limits.h"
+#include "core/audit/remarks.h"
 #include "core/campaign/row_names.h"
 #include "core/numerics/distributions.h"
 #include "core/preparation/finding.h"
@@ -46,7 +47,6 @@ double disagreement(const metrology::MeasuredLine& common, const metrology::Axis
 preparation::AuditCheck agreementCheck(const AuditInput& input, const std::array<std::vector<SweptCircle>, 6>& axes) {
   preparation::AuditCheck check;
   check.id = "axis_agreement";
-  check.unit = "of its sd";
   double worst = 0.0;
   int pairs = 0;
   for (std::size_t axis = 0; axis < 6; ++axis) {
@@ -66,59 +66,48 @@ preparation::AuditCheck agreementCheck(const AuditInput& input, const std::array
         const double chi2 = disagreement(measured.fit.axis, own[a].second, own[b].second, height);
         if (chi2 <= worst) continue;
         worst = chi2;
-        check.where = fmt::format("{}, {} and {}", campaign::axisName(axis),
-                                  campaign::targetName(input.campaign, axes[axis][own[a].first].target),
-                                  campaign::targetName(input.campaign, axes[axis][own[b].first].target));
+        check.where = Remark(RemarkId::at_axis_and_pair, axis + 1,
+                             campaign::targetName(input.campaign, axes[axis][own[a].first].target),
+                             campaign::targetName(input.campaign, axes[axis][own[b].first].target));
       }
     }
   }
-  if (pairs == 0)
-    return preparation::notTestable("axis_agreement", "no axis was swept with two reflectors well off it");
+  if (pairs == 0) return preparation::notTestable("axis_agreement", Remark(RemarkId::no_two_reflectors_off_axis));
   const double limit = numerics::chiSquareLimit(preparation::kLevel / pairs, 4.0);
   check.value = std::sqrt(worst / 4.0);
   check.limit = std::sqrt(limit / 4.0);
-  check.limit_source =
-      preparation::byChance(fmt::format("chi-square of place and direction, {} pairs of reflectors", pairs));
-  check.message =
-      fmt::format("reflectors that turn about one axis agree on it within {:.2f} of the difference's sd", *check.value);
-  if (worst > limit) {
-    check.verdict = preparation::AuditVerdict::warn;
-    check.message = fmt::format(
-        "reflectors that turn about one axis place it apart by {:.2f} of the difference's sd: the own "
-        "weight bends more than the joints (bearings, links) or is not what the URDF's masses make it, or a "
-        "reflector moved (rigid_tool then shows it too)",
-        *check.value);
-  }
+  check.limit_source = preparation::byChance(Remark(RemarkId::chi_square_of_pairs, pairs));
+  if (worst > limit) check.verdict = preparation::AuditVerdict::warn;
+  check.message = Remark(worst > limit ? RemarkId::reflectors_disagree : RemarkId::reflectors_agree, *check.value);
   return check;
 }
 
 preparation::AuditCheck onAxisCheck(const AuditInput& input, const std::array<std::vector<SweptCircle>, 6>& axes) {
   preparation::AuditCheck check;
   check.id = "reflector_on_axis";
-  check.unit = "mm";
-  check.limit = 1e3 * kReflectorRadius;
-  check.limit_source = "radius of a 1.5 inch reflector: nearer, the axis passes through the reflector itself";
+  check.limit = kReflectorRadius;
+  check.limit_source = Remark(RemarkId::reflector_radius);
   double least = INFINITY;
-  std::string near;
+  std::vector<Remark> names, near;
   for (std::size_t axis = 0; axis < 6; ++axis) {
     const metrology::AxisFit& fit = input.frames.axes[axis].fit;
     if (!fit.determined) continue;
     for (std::size_t k = 0; k < axes[axis].size(); ++k) {
       const double radius = fit.circles[k].radius;
-      const std::string name =
-          fmt::format("{}, {}", campaign::targetName(input.campaign, axes[axis][k].target), campaign::axisName(axis));
       if (radius < kReflectorRadius) {
-        near += fmt::format("{}{} at {:.2f} mm", near.empty() ? "" : "; ", name, 1e3 * radius);
-        check.where += (check.where.empty() ? "" : "; ") + name;
+        names.push_back(
+            Remark(RemarkId::at_reflector, campaign::targetName(input.campaign, axes[axis][k].target), axis + 1));
+        near.push_back(Remark(RemarkId::reflector_near_axis, names.back(), radius));
       }
       least = std::min(least, radius);
     }
   }
-  check.value = 1e3 * least;
-  check.message = near.empty()
-                      ? "every reflector stands well off the axes"
-                      : "says next to nothing about the axis it stands on, nor about that joint's stiffness: " + near;
-  if (!near.empty()) check.verdict = preparation::AuditVerdict::warn;
+  check.value = least;
+  check.message = Remark(RemarkId::well_off_axes);
+  if (near.empty()) return check;
+  check.verdict = preparation::AuditVerdict::warn;
+  check.where = Remark(RemarkId::at_reflectors, std::move(names));
+  check.message = Remark(RemarkId::on_axis, std::move(near));
   return check;
 }
 
@@ -126,8 +115,8 @@ preparation::AuditCheck onAxisCheck(const AuditInput& input, const std::array<st
 
 Findings checkSweptReflectors(const AuditInput& input) {
   if (!input.campaign.circle_sweeps) {
-    return {preparation::notTestable("axis_agreement", kNoSweeps),
-            preparation::notTestable("reflector_on_axis", kNoSweeps)};
+    return {preparation::notTestable("axis_agreement", Remark(RemarkId::no_sweeps)),
+            preparation::notTestable("reflector_on_axis", Remark(RemarkId::no_sweeps))};
   }
   const auto axes = sweptCircles(input);
   return {agreementCheck(input, axes), onAxisCheck(input, axes)};

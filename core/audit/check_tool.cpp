@@ -6,42 +6,32 @@
 #include <numeric>
 
 #include "core/audit/checks.h"
+#include "core/audit/remarks.h"
 #include "core/campaign/row_names.h"
 #include "core/numerics/distributions.h"
 #include "core/preparation/finding.h"
+#include "core/preparation/remarks.h"
 #include "core/preparation/repeatability.h"
 
 namespace stiffscope::audit {
 
 namespace {
 
-preparation::AuditCheck scatterCheck(const std::string& id, const char* direction, double chi2, int dof, double rms) {
+preparation::AuditCheck scatterCheck(const std::string& id, bool along, double chi2, int dof, double rms) {
   preparation::AuditCheck check;
   check.id = id;
   check.value = std::sqrt(chi2 / dof);
   check.limit = std::sqrt(numerics::chiSquareLimit(preparation::kLevel, dof) / dof);
-  check.unit = "of declared sd";
-  check.limit_source = preparation::byChance(fmt::format("chi-square of {} degrees of freedom", dof));
+  check.limit_source = preparation::byChance(Remark(RemarkId::chi_square, dof));
   if (*check.value > *check.limit) {
     check.verdict = *check.value * *check.value > preparation::kFailVarianceRatio ? preparation::AuditVerdict::fail
                                                                                   : preparation::AuditVerdict::warn;
   }
   check.message =
-      fmt::format("repeats scatter {} the beam by {:.1f} um (one sigma), {:.2f} of what is declared{}", direction,
-                  1e6 * rms, *check.value,
-                  check.verdict == preparation::AuditVerdict::pass
-                      ? ""
-                      : ": every stated uncertainty is too small by as much; the other checks take the noise "
-                        "as the repeats show it");
+      Remark(RemarkId::repeats_scatter, along, rms, *check.value, check.verdict != preparation::AuditVerdict::pass);
   // Repeats within seconds do not see all that a data sheet covers; less than half of it is another matter.
   constexpr double kFarBelow = 0.5;
-  if (*check.value < kFarBelow) {
-    check.details.push_back(
-        fmt::format("repeats scatter by less than half of what is declared: one sigma of a reading is asked "
-                    "for, not the maximum "
-                    "permissible error of a data sheet (ISO 10360-10); checks and uncertainties are as lax "
-                    "as the declaration"));
-  }
+  if (*check.value < kFarBelow) check.details.push_back(Remark(RemarkId::repeats_scatter_little));
   return check;
 }
 
@@ -53,8 +43,8 @@ Findings checkRepeatability(const AuditInput& input) {
     return {preparation::notTestable("repeatability_along", scatter.reason),
             preparation::notTestable("repeatability_across", scatter.reason)};
   }
-  return {scatterCheck("repeatability_along", "along", scatter.along_chi2, scatter.along_dof, scatter.along_rms),
-          scatterCheck("repeatability_across", "across", scatter.across_chi2, scatter.across_dof, scatter.across_rms)};
+  return {scatterCheck("repeatability_along", true, scatter.along_chi2, scatter.along_dof, scatter.along_rms),
+          scatterCheck("repeatability_across", false, scatter.across_chi2, scatter.across_dof, scatter.across_rms)};
 }
 
 namespace {
@@ -98,19 +88,19 @@ bool fitsRenamed(const ToolDistances& tool, const campaign::StatePoints& state, 
   return true;
 }
 
-/// The exchange of names that would make a state's distances those of the tool.
-std::string exchangeIn(const campaign::Campaign& campaign, const ToolDistances& tool,
-                       const campaign::StatePoints& state, const metrology::TrackerNoise& noise) {
+/// The exchange of names that would make a state's distances those of the tool: in pairs, what a reflector is called
+/// and what it is.
+std::vector<std::string> exchangeIn(const campaign::Campaign& campaign, const ToolDistances& tool,
+                                    const campaign::StatePoints& state, const metrology::TrackerNoise& noise) {
   std::vector<std::size_t> order(state.reflectors.size());
   std::iota(order.begin(), order.end(), 0);
   while (order.size() >= 3 && std::next_permutation(order.begin(), order.end())) {
     if (!fitsRenamed(tool, state, order, noise)) continue;
-    std::string names;
+    std::vector<std::string> names;
     for (std::size_t k = 0; k < order.size(); ++k) {
       if (order[k] == k) continue;
-      names += fmt::format("{}{} is {}", names.empty() ? "" : ", ",
-                           campaign::targetName(campaign, state.reflectors[k].target),
-                           campaign::targetName(campaign, state.reflectors[order[k]].target));
+      names.push_back(campaign::targetName(campaign, state.reflectors[k].target));
+      names.push_back(campaign::targetName(campaign, state.reflectors[order[k]].target));
     }
     return names;
   }
@@ -127,24 +117,25 @@ class Inquiry {
         tool_.distances.begin(), tool_.distances.end(),
         [](const auto& a, const auto& b) { return std::abs(a.change / a.sd) < std::abs(b.change / b.sd); });
     check_.id = "rigid_tool";
-    check_.unit = "sigma";
     check_.value = std::abs(worst->change / worst->sd);
     check_.limit = tool_.limit;
-    check_.limit_source = preparation::byChance(fmt::format("largest of {} normal deviates", tool_.distances.size()));
-    check_.message =
-        fmt::format("largest change of a distance: {} to {} by {:.0f} um at {}",
-                    campaign::targetName(campaign_, worst->first), campaign::targetName(campaign_, worst->second),
-                    1e6 * worst->change, campaign::nameOf(campaign_, input_.states[worst->state]));
+    check_.limit_source = preparation::byChance(Remark(RemarkId::normal_deviates, tool_.distances.size()));
+    const std::string state = campaign::nameOf(campaign_, input_.states[worst->state]);
+    const auto says = [&] {
+      return Remark(RemarkId::distance_changes, campaign::targetName(campaign_, worst->first),
+                    campaign::targetName(campaign_, worst->second), worst->change, state, more_);
+    };
+    check_.message = says();
     findExchanges();
     const Sum all = sumOf(tool_, [&](const ToolDistance& one) { return counts(one); });
     const bool spread = all.ratio() > all.limit();
     if (*check_.value <= *check_.limit && !spread) return check_;
     const bool doubled = all.ratio() > preparation::kFailVarianceRatio;
     check_.verdict = doubled || !exchanged_.empty() ? preparation::AuditVerdict::fail : preparation::AuditVerdict::warn;
-    check_.message +=
-        fmt::format("; over all states distances scatter {:.2f} times as far as noise alone", std::sqrt(all.ratio()));
+    more_.push_back(Remark(RemarkId::distances_scatter, std::sqrt(all.ratio())));
     nameReflector(all);
     nameExchanges();
+    check_.message = says();
     return check_;
   }
 
@@ -154,7 +145,7 @@ class Inquiry {
   void findExchanges() {
     for (const ToolDistance& one : tool_.distances) {
       if (std::abs(one.change) <= tool_.limit * one.sd || exchanged_.contains(one.state)) continue;
-      const std::string names = exchangeIn(campaign_, tool_, input_.states[one.state], *input_.noise);
+      const std::vector<std::string> names = exchangeIn(campaign_, tool_, input_.states[one.state], *input_.noise);
       if (!names.empty()) exchanged_[one.state] = names;
     }
   }
@@ -163,9 +154,9 @@ class Inquiry {
     for (const auto& [state, names] : exchanged_) {
       const campaign::StatePoints& points = input_.states[state];
       const std::string row = campaign::rowName(campaign::fileOf(campaign_, points), points.reflectors.front().line);
-      if (state == exchanged_.begin()->first) check_.where = row;
-      check_.message +=
-          fmt::format("; reflectors exchanged at {} ({}): {}", row, campaign::nameOf(campaign_, points), names);
+      const std::string name = campaign::nameOf(campaign_, points);
+      if (state == exchanged_.begin()->first) check_.where = Remark(preparation::RemarkId::at_name, row);
+      more_.push_back(Remark(RemarkId::reflectors_exchanged, row, name, names));
     }
   }
 
@@ -182,9 +173,7 @@ class Inquiry {
       culprit = k;
     }
     if (culprit < 0) {
-      check_.message +=
-          "; no one reflector explains it: two move, the tool itself bends, or the tracker's noise is larger "
-          "than declared";
+      more_.push_back(Remark(RemarkId::no_one_reflector));
       return;
     }
     describe(culprit);
@@ -207,26 +196,24 @@ class Inquiry {
       if (first == nullptr && std::abs(one.change) > tool_.limit * one.sd) first = &one;
     }
     const std::string& name = campaign::targetName(campaign_, culprit);
-    check_.where = name;
+    check_.where = Remark(preparation::RemarkId::at_name, name);
     if (first != nullptr) {
       const campaign::StatePoints& state = input_.states[first->state];
-      check_.where =
-          fmt::format("{}, {}", name, campaign::rowName(campaign::fileOf(campaign_, state), state.of(culprit)->line));
+      check_.where = Remark(RemarkId::at_moved_reflector, name,
+                            campaign::rowName(campaign::fileOf(campaign_, state), state.of(culprit)->line));
     }
     const auto rms = [&](bool loaded) {
       const auto& [sum, count] = by_load[loaded];
-      return count > 0 ? 1e6 * std::sqrt(sum / count) : 0.0;
+      return count > 0 ? std::sqrt(sum / count) : 0.0;
     };
-    check_.message += fmt::format(
-        "; reflector {} moves: the distances between the others hold, its own change by {:.0f} um "
-        "rms under load and {:.0f} um without",
-        name, rms(true), rms(false));
+    more_.push_back(Remark(RemarkId::reflector_moves, name, rms(true), rms(false)));
   }
 
   const AuditInput& input_;
   const campaign::Campaign& campaign_;
   ToolDistances tool_;
-  std::map<std::size_t, std::string> exchanged_;  ///< states whose reflectors carry each other's names
+  std::map<std::size_t, std::vector<std::string>> exchanged_;  ///< states whose reflectors carry each other's names
+  std::vector<Remark> more_;                                   ///< to say beside the largest change
   preparation::AuditCheck check_;
 };
 
@@ -234,13 +221,11 @@ class Inquiry {
 
 Findings checkRigidTool(const AuditInput& input) {
   if (!input.noise) {
-    return {
-        preparation::notTestable("rigid_tool", "the tracker's noise is not declared: state `tracker` in campaign.xml")};
+    return {preparation::notTestable("rigid_tool", Remark(preparation::RemarkId::tracker_noise_not_declared))};
   }
   ToolDistances tool = toolDistances(input.states, static_cast<int>(input.campaign.targets.size()), *input.noise);
   if (tool.distances.empty()) {
-    return {preparation::notTestable("rigid_tool",
-                                     "no two reflectors were read in the same states: read two or more in each")};
+    return {preparation::notTestable("rigid_tool", Remark(RemarkId::no_two_reflectors_in_states))};
   }
   return {Inquiry(input, std::move(tool)).run()};
 }

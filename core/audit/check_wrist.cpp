@@ -7,12 +7,14 @@
 #include <vector>
 
 #include "core/audit/checks.h"
+#include "core/audit/remarks.h"
 #include "core/campaign/row_names.h"
 #include "core/frames/arm_geometry.h"
 #include "core/identification/decoupled_partial_pose.h"
 #include "core/identification/method_solution.h"
 #include "core/numerics/distributions.h"
 #include "core/preparation/finding.h"
+#include "core/preparation/remarks.h"
 #include "metrology/linear_algebra.h"
 
 namespace stiffscope::audit {
@@ -126,21 +128,19 @@ preparation::AuditCheck sphereCheck(const AuditInput& input) {
   const WristResiduals left = wristResiduals(input);
   preparation::AuditCheck check;
   check.id = "wrist_sphere";
-  if (left.dof <= 0) return preparation::notTestable(check.id, "too few readings: more than centre and radii take");
+  if (left.dof <= 0) return preparation::notTestable(check.id, Remark(RemarkId::few_wrist_readings));
   check.value = std::sqrt(left.chi2 / left.dof);
   check.limit = std::sqrt(numerics::chiSquareLimit(preparation::kLevel, left.dof) / left.dof);
-  check.unit = "of noise sd";
-  check.limit_source = preparation::byChance(
-      fmt::format("chi-square of {} degrees of freedom, axes 4-6 held by their own sweeps", left.dof));
-  check.message = fmt::format(
-      "radial residuals of {:.1f} um rms, of which the axes' missing each other leaves {:.1f} um, "
-      "{:.2f} of the noise",
-      1e6 * input.frames.wrist.spheres.rms, 1e6 * left.rms, *check.value);
+  check.limit_source = preparation::byChance(Remark(RemarkId::chi_square_held_axes, left.dof));
+  const auto says = [&](std::vector<Remark> more) {
+    return Remark(RemarkId::wrist_residuals, input.frames.wrist.spheres.rms, left.rms, *check.value, std::move(more));
+  };
+  check.message = says({});
   if (*check.value <= *check.limit) return check;
   check.verdict = preparation::AuditVerdict::warn;
-  check.where = campaign::rowName(input.campaign.wrist_sweep->file, left.worst);
-  check.message += fmt::format(
-      "; farthest {}: a wrong reading, or the own weight bends more than the joints (bearings, links)", check.where);
+  const std::string row = campaign::rowName(input.campaign.wrist_sweep->file, left.worst);
+  check.where = Remark(preparation::RemarkId::at_name, row);
+  check.message = says({Remark(RemarkId::wrist_reading_off, row)});
   return check;
 }
 
@@ -159,49 +159,47 @@ preparation::AuditCheck missCheck(const AuditInput& input) {
   const std::optional<double> leak = leakOf(input);
   preparation::AuditCheck check;
   check.id = "wrist_axes_meet";
-  check.unit = "mm";
   const bool first = wrist.miss_45 >= wrist.miss_56;
   const double sd = first ? wrist.miss_45_sd : wrist.miss_56_sd;
-  check.value = 1e3 * std::max(wrist.miss_45, wrist.miss_56);
+  check.value = std::max(wrist.miss_45, wrist.miss_56);
   const double bearable =
-      leak ? *check.value * identification::kWristLeakBorne / *leak : 1e3 * identification::TrustLimits().position;
-  check.limit = std::max(bearable, 1e3 * numerics::normalLimit(preparation::kLevel / 2.0) * sd);
-  check.where = first ? "axes 4 and 5" : "axes 5 and 6";
-  check.limit_source =
-      leak ? "the miss at which joints 4-6 would put 2 % into P_wrist's displacement: what decoupling bears"
-           : "how far identification trusts places (0.2 mm), or what the sweeps' uncertainty would show";
+      leak ? *check.value * identification::kWristLeakBorne / *leak : identification::TrustLimits().position;
+  check.limit = std::max(bearable, numerics::normalLimit(preparation::kLevel / 2.0) * sd);
+  check.where = first ? Remark(RemarkId::at_axes, 4, 5) : Remark(RemarkId::at_axes, 5, 6);
+  check.limit_source = Remark(leak ? RemarkId::leak_that_decoupling_bears : RemarkId::places_or_sweeps);
+  std::vector<Remark> more;
+  if (leak) more.push_back(Remark(RemarkId::wrist_leak, *leak));
+  if (*check.value > *check.limit) {
+    check.verdict = preparation::AuditVerdict::warn;
+    more.push_back(Remark(RemarkId::decoupling_needs_one_point));
+  }
   check.message =
-      fmt::format("axes 4 and 5 miss by {:.3f} +- {:.3f} mm, axes 5 and 6 by {:.3f} +- {:.3f} mm{}",
-                  1e3 * wrist.miss_45, 1e3 * wrist.miss_45_sd, 1e3 * wrist.miss_56, 1e3 * wrist.miss_56_sd,
-                  leak ? fmt::format(": joints 4-6 put {:.2f} % into P_wrist's displacement", 100.0 * *leak) : "");
-  if (*check.value <= *check.limit) return check;
-  check.verdict = preparation::AuditVerdict::warn;
-  check.message += "; Decoupled Partial Pose takes them to meet in one point";
+      Remark(RemarkId::wrist_axes_miss,
+             std::vector<double>{wrist.miss_45, wrist.miss_45_sd, wrist.miss_56, wrist.miss_56_sd}, std::move(more));
   return check;
 }
 
 }  // namespace
 
 Findings checkWrist(const AuditInput& input) {
-  const char* const kNotSwept = "axes 4, 5 and 6 are not all measured: sweep each";
+  const Remark not_swept(RemarkId::wrist_axes_not_swept);
   const frames::WristCentre& wrist = input.frames.wrist;
   const auto& axes = input.frames.axes;
   const bool swept = axes[3].measured && axes[4].measured && axes[5].measured;
   Findings findings;
   if (!wrist.measured) {
-    findings.push_back(preparation::notTestable("wrist_sphere", wrist.reason));
+    findings.push_back(preparation::notTestable("wrist_sphere", verbatim(wrist.reason)));
   } else if (!swept) {
-    findings.push_back(preparation::notTestable("wrist_sphere", kNotSwept));
+    findings.push_back(preparation::notTestable("wrist_sphere", not_swept));
   } else if (!input.noise) {
-    findings.push_back(
-        preparation::notTestable("wrist_sphere", "the tracker's noise is not declared: state `tracker`"));
+    findings.push_back(preparation::notTestable("wrist_sphere", Remark(RemarkId::tracker_not_declared)));
   } else {
     findings.push_back(sphereCheck(input));
   }
   if (swept) {
     findings.push_back(missCheck(input));
   } else {
-    findings.push_back(preparation::notTestable("wrist_axes_meet", kNotSwept));
+    findings.push_back(preparation::notTestable("wrist_axes_meet", not_swept));
   }
   return findings;
 }

@@ -67,7 +67,4 @@ Findings checkLoadSize(const AuditInput& input);
 /// posture_set: condition number, and joint by joint whether it can be identified or why not.
 Findings checkPostureSet(const AuditInput& input);
 
-/// What is missing where there are no sweeps.
-inline constexpr const char* kNoSweeps = "no circle sweeps: turn each axis by itself (`circle_sweeps`)";
-
 }  // namespace stiffscope::audit

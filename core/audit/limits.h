@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/io/units.h"
 #include "core/preparation/finding.h"
 
 // Every limit of the audit, with where it comes from. None is fitted to a campaign: they come from the
@@ -12,8 +13,8 @@ namespace stiffscope::audit {
 /// (largest eigenvalue of the inverse of the normal matrix of cos, sin, 1). What an arc costs is judged at
 /// the arm's reach; these say from where on a reader should know it, and from where on it fails if it costs
 /// too much.
-inline constexpr double kWarnArcDeg = 90.0;
-inline constexpr double kFailArcDeg = 45.0;
+inline constexpr double kWarnArc = 90.0 * io::kDegree;
+inline constexpr double kFailArc = 45.0 * io::kDegree;
 
 /// What one contribution may use of a tolerance: a third, which raises a root sum of squares by 5 % (Berndt's
 /// golden rule of metrology: a tenth to a third). The tolerance here is how far identification trusts places

@@ -1,11 +1,11 @@
 #include "core/audit/position_fit.h"
 
-#include <fmt/format.h>
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <map>
 
+#include "core/audit/remarks.h"
 #include "core/frames/position_equations.h"
 #include "core/numerics/distributions.h"
 #include "core/preparation/finding.h"
@@ -179,13 +179,15 @@ AbsoluteFit fitAbsolutePositions(const campaign::Campaign& campaign, const frame
                                  const std::optional<metrology::TrackerNoise>& noise) {
   AbsoluteFit fit;
   const frames::AbsoluteRows rows = frames::absoluteRows(campaign, frames, geometry, states, noise);
-  fit.reason = rows.reason;
-  if (!rows.reason.empty()) return fit;
+  if (!rows.reason.empty()) {
+    fit.reason = verbatim(rows.reason);
+    return fit;
+  }
   fit.centre = rows.centre;
   fit.sag_known = frames.weight.links_known && !geometry.compliance.isZero();
   constexpr std::size_t kLeastPostures = 4;  // more than shift and reflectors take, with some to check by
   if (rows.poses.size() < kLeastPostures) {
-    fit.reason = fmt::format("{} unloaded postures: {} or more are needed", rows.poses.size(), kLeastPostures);
+    fit.reason = Remark(RemarkId::few_unloaded_postures, rows.poses.size(), kLeastPostures);
     return fit;
   }
   fit.score_limit = scoreLimit(rows.poses.size());

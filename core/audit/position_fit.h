@@ -1,12 +1,12 @@
 #pragma once
 
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "core/campaign/state_points.h"
 #include "core/frames/arm_geometry.h"
 #include "core/frames/frames.h"
+#include "metrology/remark.h"
 
 namespace stiffscope::audit {
 
@@ -32,7 +32,7 @@ struct PostureReadBack {
 /// apart are left out.
 struct AbsoluteFit {
   bool done = false;
-  std::string reason;                                ///< why not
+  Remark reason;                                     ///< why not
   bool sag_known = false;                            ///< masses and stiffnesses gave the own weight's sag
   int positions = 0;                                 ///< that took part
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< mean of the positions

@@ -17,6 +17,10 @@
 #include "core/io/input_error.h"
 #include "core/preparation/subsample.h"
 
+namespace stiffscope::reports {
+std::string words(const Remark& remark);  // MERGE: until the diagnosis's own texts are remarks
+}  // namespace stiffscope::reports
+
 namespace stiffscope::diagnosis {
 
 namespace {
@@ -123,7 +127,7 @@ class Diagnoser {
     result_.postures = static_cast<int>(fit_.data.postures.size());
     for (const GapPosture& posture : fit_.data.postures) result_.states += static_cast<int>(posture.states.size());
     result_.state_noise = fit_.data.state_noise;
-    result_.noise_source = start_.noise.source;
+    result_.noise_source = reports::words(start_.noise.source);
     result_.noise_factor_along = start_.noise.along_factor;
     result_.noise_factor_across = start_.noise.across_factor;
     result_.significance_limit = fit_.rules.detect;

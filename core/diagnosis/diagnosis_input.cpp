@@ -11,6 +11,10 @@
 #include "core/identification/load_point.h"
 #include "core/robot/wrench.h"
 
+namespace stiffscope::reports {
+std::string words(const Remark& remark);  // MERGE: until the diagnosis's own texts are remarks
+}  // namespace stiffscope::reports
+
 namespace stiffscope::diagnosis {
 
 void boundDriftByNests(DiagnosisInput& start, SystemInput& input) {
@@ -71,7 +75,8 @@ DiagnosisInput diagnosisInput(const preparation::PreparedCampaign& prepared) {
   if (start.geometry.weight.links_known) start.geometry.compliance = compliance;
   start.state = startState(start.campaign, start.geometry, arm.cases);
   start.state.at.compliance = compliance;
-  if (!start.noise.known) start.reason = start.noise.source + ": effects cannot be told from noise; state `tracker`";
+  if (!start.noise.known)
+    start.reason = reports::words(start.noise.source) + ": effects cannot be told from noise; state `tracker`";
   return start;
 }
 

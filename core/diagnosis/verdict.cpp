@@ -7,6 +7,10 @@
 #include "core/diagnosis/confounding.h"
 #include "core/io/units.h"
 
+namespace stiffscope::reports {
+std::string words(const Remark& remark);  // MERGE: until the diagnosis's own texts are remarks
+}  // namespace stiffscope::reports
+
 namespace stiffscope::diagnosis {
 
 namespace {
@@ -251,7 +255,7 @@ class Decider {
           1e6 * std::sqrt(rules.least_drop / rules.loading_rows) * from_.fit.data.state_noise);
     }
     for (const std::string& one : reasons_) reason += " Besides, " + one + ".";
-    reason += " Floor nests: " + from_.station.in_words + ".";
+    reason += " Floor nests: " + reports::words(from_.station.remark) + ".";
     if (from_.input.absolute)
       reason += fmt::format(" Unloaded absolute positions{} take part in every fit.",
                             from_.input.sweeps ? " and the sweeps" : "");

@@ -11,6 +11,7 @@
 #include "core/frames/position_equations.h"
 #include "core/numerics/distributions.h"
 #include "core/preparation/finding.h"
+#include "core/preparation/remarks.h"
 #include "metrology/linear_algebra.h"
 #include "metrology/registration.h"
 #include "metrology/rigid_motion.h"
@@ -385,11 +386,11 @@ Eigen::Isometry3d StationMotion::firstFrom(double time_s) const {
 StationMotion stationMotion(const campaign::Campaign& campaign, const std::optional<metrology::TrackerNoise>& noise) {
   StationMotion result;
   if (!campaign.nests) {
-    result.reason = "no floor nests: measure three or more before, during and after the day (`nests`)";
+    result.reason = Remark(RemarkId::no_floor_nests);
     return result;
   }
   if (!noise) {
-    result.reason = "the tracker's noise is not declared: state `tracker` in campaign.xml";
+    result.reason = Remark(RemarkId::tracker_noise_not_declared);
     return result;
   }
   result.centre = whereTheArmWasRead(campaign);
@@ -397,7 +398,7 @@ StationMotion stationMotion(const campaign::Campaign& campaign, const std::optio
   constexpr int kNone = -1;
   NestNetwork network = fitNestNetwork(rounds, *noise, result.centre, kNone);
   if (!network.determined) {
-    result.reason = "three nests that do not stand in one line, in two rounds or more, are needed";
+    result.reason = Remark(RemarkId::too_few_nests);
     return result;
   }
   result.tested = true;

@@ -2,11 +2,11 @@
 
 #include <Eigen/Geometry>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "core/campaign/campaign.h"
 #include "metrology/measured_points.h"
+#include "metrology/remark.h"
 
 namespace stiffscope::preparation {
 
@@ -26,7 +26,7 @@ struct StationEpoch {
 /// noise.
 struct StationMotion {
   bool tested = false;
-  std::string reason;                                ///< why not
+  Remark reason;                                     ///< why not
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< where the arm was read: mean of the loading's points
   std::vector<StationEpoch> epochs;
   bool moved = false;             ///< some round's displacement at the centre exceeds its noise

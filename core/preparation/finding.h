@@ -7,6 +7,8 @@
 #include <string_view>
 #include <vector>
 
+#include "metrology/remark.h"
+
 namespace stiffscope::preparation {
 
 enum class AuditVerdict { pass, warn, fail, not_testable };
@@ -15,13 +17,12 @@ enum class AuditVerdict { pass, warn, fail, not_testable };
 struct AuditCheck {
   std::string id;
   AuditVerdict verdict = AuditVerdict::pass;
-  std::optional<double> value;  ///< in `unit`; empty where the check is not testable
-  std::optional<double> limit;  ///< beyond which it warns, in `unit`
-  std::string unit;
-  std::string where;                 ///< `FILE:LINE` where a row is guilty; else the axis, posture, reflector or nest
-  std::string message;               ///< what was found; what is missing where the check is not testable
-  std::string limit_source;          ///< where the limit comes from, in words
-  std::vector<std::string> details;  ///< more to know, a sentence each: joint by joint where a check is of several
+  std::optional<double> value;  ///< SI units and radians, or a pure number; empty where the check is not testable
+  std::optional<double> limit;  ///< beyond which it warns, as `value`
+  Remark where;                 ///< the row where one is guilty; else the axis, posture, reflector or nest
+  Remark message;               ///< what was found; what is missing where the check is not testable
+  Remark limit_source;          ///< where the limit comes from
+  std::vector<Remark> details;  ///< more to know: joint by joint where a check is of several
   /// No machine is like that: a unit or a table is wrong, and nothing computed from the readings means anything.
   bool impossible = false;
 };
@@ -30,11 +31,11 @@ struct AuditCheck {
 struct RejectedReading {
   std::string file;  ///< as campaign.xml names it
   std::size_t line = 0;
-  std::string reason;
+  Remark reason;
 };
 
 /// A finding that cannot be had, with what is missing.
-AuditCheck notTestable(const std::string& id, const std::string& missing);
+AuditCheck notTestable(const std::string& id, Remark missing);
 
 /// Chance that a campaign without any fault gets a finding, over all checks together.
 inline constexpr double kFalseFinding = 0.01;
@@ -95,9 +96,10 @@ inline constexpr double kLevel = kFalseFinding / limitsByChance();
 /// stated with k = 2 for 95 % (GUM 6.2) then covers 68 %. As a ratio of variances:
 inline constexpr double kFailVarianceRatio = 4.0;
 
-/// For limit_source.
-inline std::string byChance(const std::string& statistic) {
-  return statistic + "; 1 % false findings over the whole audit, shared by all that is tried";
-}
+/// For limit_source: the limit of a statistic at that level.
+Remark byChance(Remark statistic);
+
+/// For AuditCheck::where.
+Remark atRow(const std::string& file, std::size_t line);
 
 }  // namespace stiffscope::preparation

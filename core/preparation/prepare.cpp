@@ -8,6 +8,7 @@
 #include "core/campaign/row_names.h"
 #include "core/frames/joint_axes.h"
 #include "core/preparation/drift_nests.h"
+#include "core/preparation/remarks.h"
 #include "core/preparation/repeatability.h"
 
 namespace stiffscope::preparation {
@@ -15,10 +16,9 @@ namespace stiffscope::preparation {
 namespace {
 
 /// Why the station's motion cannot or need not be taken off; empty where it should be.
-std::string whyNot(const DriftModel& station) {
+Remark whyNot(const DriftModel& station) {
   if (station.moved()) return {};
-  return station.course == StationCourse::still ? "the nests show no motion of the station beyond their noise"
-                                                : station.in_words;
+  return station.course == StationCourse::still ? Remark(RemarkId::no_motion_beyond_noise) : station.remark;
 }
 
 /// Sweeps that state no time are taken to have been read row by row, evenly, between the first round of the nests and
@@ -100,7 +100,7 @@ PreparedCampaign asMeasured(PreparedCampaign prepared) {
   if (!prepared.preparation.drift.taken_off) return prepared;
   putBackDrift(prepared.drift.motion, prepared.campaign);
   prepared.preparation.drift = {};
-  prepared.preparation.drift.reason = "readings as they were measured were asked for";
+  prepared.preparation.drift.reason = Remark(RemarkId::as_measured_asked_for);
   return prepared;
 }
 
@@ -110,7 +110,7 @@ PreparedCampaign leaveRaw(campaign::Campaign read) {
   prepared.preparation.raw = true;
   prepared.preparation.declared = prepared.campaign.tracker;
   prepared.noise = noiseModel(prepared.campaign, repeatScatter(prepared.campaign));
-  prepared.preparation.drift.reason = "raw readings were asked for";
+  prepared.preparation.drift.reason = Remark(RemarkId::raw_asked_for);
   return prepared;
 }
 

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "core/preparation/drift_nests.h"
@@ -14,7 +13,7 @@ namespace stiffscope::preparation {
 /// The station's motion that was taken off the readings, or why it was not.
 struct DriftCorrection {
   bool taken_off = false;
-  std::string reason;            ///< why not, in words
+  Remark reason;                 ///< why not
   double displacement = 0.0;     ///< largest of all nest rounds against the first, where the arm was read, m
   double turn = 0.0;             ///< largest of all rounds, rad
   double until_s = 0.0;          ///< time of the last round

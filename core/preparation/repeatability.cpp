@@ -1,6 +1,5 @@
 #include "core/preparation/repeatability.h"
 
-#include <fmt/format.h>
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
@@ -10,6 +9,7 @@
 #include "core/frames/joint_axes.h"
 #include "core/numerics/distributions.h"
 #include "core/preparation/finding.h"
+#include "core/preparation/remarks.h"
 #include "metrology/linear_algebra.h"
 
 namespace stiffscope::preparation {
@@ -93,11 +93,8 @@ std::vector<RejectedReading> outliers(const std::string& file, const metrology::
           std::max_element(own.begin(), own.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
       if (worst->second <= limit) break;
       const auto reject = [&](const campaign::LoadingReading* row) {
-        found.push_back({file, row->line,
-                         fmt::format("stands {:.3f} mm from the mean of its state's other repeats",
-                                     1e3 * (row->point -
-                                            (sumOf(repeats) - row->point) / (static_cast<double>(repeats.size()) - 1.0))
-                                               .norm())});
+        const Eigen::Vector3d of_others = (sumOf(repeats) - row->point) / (static_cast<double>(repeats.size()) - 1.0);
+        found.push_back({file, row->line, Remark(RemarkId::stands_from_state, (row->point - of_others).norm())});
       };
       if (repeats.size() == 2) {
         for (const campaign::LoadingReading* row : repeats) reject(row);
@@ -115,17 +112,17 @@ std::vector<RejectedReading> outliers(const std::string& file, const metrology::
 RepeatScatter repeatScatter(const campaign::Campaign& campaign) {
   RepeatScatter scatter;
   if (!campaign.loading) {
-    scatter.reason = "no absolute readings under load: measure `loading`";
+    scatter.reason = Remark(RemarkId::no_loading);
     return scatter;
   }
   const std::optional<metrology::TrackerNoise> noise = declaredNoise(campaign);
   if (!noise) {
-    scatter.reason = "the tracker's noise is not declared: state `tracker` in campaign.xml";
+    scatter.reason = Remark(RemarkId::tracker_noise_not_declared);
     return scatter;
   }
   const std::vector<Repeats> states = statesWithRepeats(*campaign.loading);
   if (states.empty()) {
-    scatter.reason = "no state was read more than once: measure each at least twice";
+    scatter.reason = Remark(RemarkId::no_repeats);
     return scatter;
   }
   for (const Repeats& repeats : states) addScatter(*noise, repeats, scatter);
@@ -163,17 +160,17 @@ NoiseFactors noiseFactors(const RepeatScatter& scatter) {
 NoiseModel noiseModel(const campaign::Campaign& campaign, const RepeatScatter& scatter) {
   NoiseModel model;
   if (!campaign.tracker) {
-    model.source = "the tracker's noise is not declared";
+    model.source = Remark(RemarkId::noise_not_declared);
     return model;
   }
   model.noise = frames::trackerNoise(*campaign.tracker);
   model.known = model.noise.range_fixed + model.noise.range_per_m > 0.0 &&
                 model.noise.angle_fixed + model.noise.angle_per_m > 0.0;
-  model.source = "the tracker's declared noise";
+  model.source = Remark(RemarkId::noise_as_declared);
   if (!model.known || !campaign.loading) return model;
   constexpr int kEnough = 30;
   if (scatter.along_dof < kEnough) {
-    model.source += ", because there are too few repeats to check it";
+    model.source = Remark(RemarkId::noise_as_declared_few_repeats);
     return model;
   }
   model.along_factor = std::sqrt(scatter.along_chi2 / scatter.along_dof);
@@ -183,9 +180,8 @@ NoiseModel noiseModel(const campaign::Campaign& campaign, const RepeatScatter& s
   model.noise.angle_fixed *= model.across_factor;
   model.noise.angle_per_m *= model.across_factor;
   model.degrees = scatter.along_dof + scatter.across_dof;
-  model.source =
-      fmt::format("repeats ({} degrees of freedom), {:.2f} of the declared noise along the beam, {:.2f} across",
-                  scatter.along_dof + scatter.across_dof, model.along_factor, model.across_factor);
+  model.source = Remark(RemarkId::noise_by_repeats, scatter.along_dof + scatter.across_dof, model.along_factor,
+                        model.across_factor);
   return model;
 }
 

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "core/campaign/campaign.h"
@@ -13,7 +12,7 @@ namespace stiffscope::preparation {
 /// How far repeats of one reflector in one load state scatter, in parts of the instrument's declared noise.
 struct RepeatScatter {
   bool tested = false;
-  std::string reason;        ///< why not
+  Remark reason;             ///< why not
   double along_chi2 = 0.0;   ///< sum of squares along the beam over the declared variance
   double across_chi2 = 0.0;  ///< the same of both directions across it
   int along_dof = 0;
@@ -52,7 +51,7 @@ struct NoiseModel {
   metrology::TrackerNoise noise;
   double along_factor = 1.0, across_factor = 1.0;  ///< standard deviations found against declared
   double degrees = 0.0;                            ///< of freedom of what it was found from; 0: as declared
-  std::string source;
+  Remark source;
 };
 
 /// `campaign`: with its tracker as declared; `scatter`: of its repeats against that.

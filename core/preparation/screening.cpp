@@ -8,6 +8,7 @@
 #include "core/campaign/read_table.h"
 #include "core/campaign/row_names.h"
 #include "core/preparation/finding.h"
+#include "core/preparation/remarks.h"
 #include "core/preparation/repeatability.h"
 
 namespace stiffscope::preparation {
@@ -34,7 +35,7 @@ std::vector<RejectedReading> lostBeams(const campaign::Campaign& campaign) {
   std::vector<RejectedReading> found;
   campaign::forEachPointTable(campaign, [&](const auto& table) {
     for (const auto& row : table.rows) {
-      if (row.point.isZero(0.0)) found.push_back({table.file, row.line, "lost beam: the point is (0, 0, 0)"});
+      if (row.point.isZero(0.0)) found.push_back({table.file, row.line, Remark(RemarkId::beam_lost)});
     }
   });
   return found;
@@ -51,25 +52,23 @@ std::vector<RejectedReading> duplicates(const campaign::Campaign& campaign) {
       const std::size_t first =
           seen.add(i, place, [&](std::size_t other) { return table.rows[other].point == row.point; });
       if (first == campaign::RepeatCheck::kNew) continue;
-      found.push_back(
-          {table.file, row.line, fmt::format("the same point to the last digit as line {}", table.rows[first].line)});
+      found.push_back({table.file, row.line, Remark(RemarkId::same_as_line, table.rows[first].line)});
     }
   });
   return found;
 }
 
 AuditCheck countCheck(const std::string& id, const std::vector<RejectedReading>& found, AuditVerdict verdict,
-                      const std::string& what, const std::string& source) {
+                      RemarkId what, Remark source) {
   AuditCheck check;
   check.id = id;
   check.value = static_cast<double>(found.size());
   check.limit = 0.0;
-  check.unit = "readings";
-  check.limit_source = source;
-  check.message = found.empty() ? "none" : fmt::format("{} {}", found.size(), what);
+  check.limit_source = std::move(source);
+  check.message = found.empty() ? Remark(RemarkId::no_such_readings) : Remark(what, found.size());
   if (found.empty()) return check;
   check.verdict = verdict;
-  check.where = campaign::rowName(found.front().file, found.front().line);
+  check.where = atRow(found.front().file, found.front().line);
   return check;
 }
 
@@ -78,7 +77,7 @@ AuditCheck countCheck(const std::string& id, const std::vector<RejectedReading>&
 Screening screenReadings(campaign::Campaign campaign) {
   Screening result{std::move(campaign), {}, {}};
   const auto screen = [&](const std::string& id, AuditVerdict verdict, const std::vector<RejectedReading>& found,
-                          const std::string& what, const std::string& source) {
+                          RemarkId what, const Remark& source) {
     result.checks.push_back(countCheck(id, found, verdict, what, source));
     result.rejected.insert(result.rejected.end(), found.begin(), found.end());
     dropRejected(found, result.campaign);
@@ -87,31 +86,20 @@ Screening screenReadings(campaign::Campaign campaign) {
   campaign::forEachPointTable(result.campaign, [&](const auto&) { any_points = true; });
   if (!any_points) {
     for (const char* id : {"lost_beam", "duplicate_readings", "repeat_outliers"}) {
-      AuditCheck check;
-      check.id = id;
-      check.verdict = AuditVerdict::not_testable;
-      check.message = "no readings of points: measure `circle_sweeps`, `wrist_sweep` or `loading`";
-      result.checks.push_back(check);
+      result.checks.push_back(notTestable(id, Remark(RemarkId::no_point_readings)));
     }
     return result;
   }
-  screen("lost_beam", AuditVerdict::fail, lostBeams(result.campaign), "readings at (0, 0, 0): the beam was lost",
-         "no reflector stands inside the station");
-  screen("duplicate_readings", AuditVerdict::warn, duplicates(result.campaign),
-         "readings repeat another's coordinates to the last digit: copied, or the beam still on another "
-         "reflector",
-         "two readings do not agree to the last digit by chance");
+  screen("lost_beam", AuditVerdict::fail, lostBeams(result.campaign), RemarkId::readings_at_zero,
+         Remark(RemarkId::nothing_inside_station));
+  screen("duplicate_readings", AuditVerdict::warn, duplicates(result.campaign), RemarkId::readings_repeated,
+         Remark(RemarkId::no_chance_of_same_digits));
   const RepeatScatter scatter = repeatScatter(result.campaign);
   if (scatter.tested) {
-    screen("repeat_outliers", AuditVerdict::warn, scatter.outliers,
-           "repeats stand apart from the others of their state",
-           byChance("chi-square of a reading against its state's others, three coordinates"));
+    screen("repeat_outliers", AuditVerdict::warn, scatter.outliers, RemarkId::repeats_stand_apart,
+           byChance(Remark(RemarkId::chi_square_of_repeat)));
   } else {
-    AuditCheck check;
-    check.id = "repeat_outliers";
-    check.verdict = AuditVerdict::not_testable;
-    check.message = scatter.reason;
-    result.checks.push_back(check);
+    result.checks.push_back(notTestable("repeat_outliers", scatter.reason));
   }
   return result;
 }

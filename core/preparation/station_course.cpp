@@ -1,10 +1,10 @@
 #include "core/preparation/station_course.h"
 
-#include <fmt/format.h>
 #include <Eigen/Dense>
 #include <algorithm>
 
 #include "core/preparation/drift_nests.h"
+#include "core/preparation/remarks.h"
 #include "core/robot/kinematics.h"
 #include "metrology/linear_algebra.h"
 
@@ -94,17 +94,17 @@ DriftModel stationCourse(const campaign::Campaign& campaign, const std::optional
   result.motion = stationMotion(campaign, noise);
   result.rounds = result.motion;
   if (!result.motion.tested) {
-    result.in_words = result.motion.reason;
+    result.remark = result.motion.reason;
     return result;
   }
   findRate(result);
   if (!result.motion.moved) {
     result.course = StationCourse::still;
-    result.in_words = fmt::format("{} rounds, the tracker stood still", result.motion.epochs.size());
+    result.remark = Remark(RemarkId::station_stood_still, result.motion.epochs.size());
     return result;
   }
   if (result.motion.deforming()) {
-    result.in_words = "the nests themselves moved against each other, more than one of them: they are no reference";
+    result.remark = Remark(RemarkId::nests_deform);
     return result;
   }
   findJumps(campaign, *noise, result.motion);
@@ -133,9 +133,8 @@ DriftModel stationCourse(const campaign::Campaign& campaign, const std::optional
     }
     if (jumped) motion.epochs[at].jumped_at = jumpTime(campaign, *noise, motion, at);
   }
-  result.in_words =
-      jumped && fits ? fmt::format("the tracker moved once, by {:.3f} mm where the arm was read", 1e3 * result.moved_by)
-                     : fmt::format("the tracker wandered, by {:.3f} mm where the arm was read", 1e3 * result.moved_by);
+  const bool jumped_once = result.course == StationCourse::jumped;
+  result.remark = Remark(jumped_once ? RemarkId::station_jumped : RemarkId::station_wandered, result.moved_by);
   return result;
 }
 

@@ -22,7 +22,7 @@ struct DriftModel {
   /// parameters of `rate`: interpolation leaves a Brownian bridge of it. Zero where a jump or a drift fits.
   Eigen::Matrix<double, 6, 6> wander = Eigen::Matrix<double, 6, 6>::Zero();
   double moved_by = 0.0;  ///< largest displacement where the arm was read, m
-  std::string in_words;
+  Remark remark;          ///< the course, or why it was not tested
 };
 
 /// Covariance of a Brownian bridge between the rounds at two times, for a unit of it a second: (s - a)(b - t)

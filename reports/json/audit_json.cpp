@@ -3,6 +3,8 @@
 #include "reports/json/json_document.h"
 
 #include "reports/json/campaign_json.h"
+#include "reports/words/audit_figures.h"
+#include "reports/words/remark_words.h"
 
 namespace stiffscope::reports {
 
@@ -29,15 +31,16 @@ const char* nameOf(preparation::AuditVerdict verdict) {
 Json auditJson(const campaign::Campaign& campaign, const audit::AuditReport& report) {
   Json checks = Json::array();
   for (const preparation::AuditCheck& check : report.checks) {
+    const AuditFigures figures = figuresOf(check);
     checks.push_back({{"id", check.id},
                       {"verdict", nameOf(check.verdict)},
-                      {"value", figure(check.value)},
-                      {"limit", figure(check.limit)},
-                      {"unit", check.unit},
-                      {"where", check.where},
-                      {"message", check.message},
-                      {"limit_source", check.limit_source}});
-    if (!check.details.empty()) checks.back()["details"] = check.details;
+                      {"value", figure(figures.value)},
+                      {"limit", figure(figures.limit)},
+                      {"unit", figures.unit},
+                      {"where", words(check.where)},
+                      {"message", words(check.message)},
+                      {"limit_source", words(check.limit_source)}});
+    if (!check.details.empty()) checks.back()["details"] = words(check.details);
   }
   return {{"campaign", campaignJson(campaign)},
           {"verdict", nameOf(report.verdict)},

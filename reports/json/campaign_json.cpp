@@ -1,13 +1,14 @@
 #include "reports/json/campaign_json.h"
 
 #include "core/io/units.h"
+#include "reports/words/remark_words.h"
 
 namespace stiffscope::reports {
 
 namespace {
 
 Json driftJson(const preparation::DriftCorrection& drift) {
-  if (!drift.taken_off) return {{"taken_off", false}, {"reason", drift.reason}};
+  if (!drift.taken_off) return {{"taken_off", false}, {"reason", words(drift.reason)}};
   constexpr double kMicroradian = 1e-6;
   return {{"taken_off", true},
           {"largest_mm", drift.displacement / io::kMillimetre},
@@ -23,7 +24,7 @@ Json driftJson(const preparation::DriftCorrection& drift) {
 Json rejectedJson(const std::vector<preparation::RejectedReading>& rejected) {
   Json list = Json::array();
   for (const preparation::RejectedReading& reading : rejected) {
-    list.push_back({{"file", reading.file}, {"line", reading.line}, {"reason", reading.reason}});
+    list.push_back({{"file", reading.file}, {"line", reading.line}, {"reason", words(reading.reason)}});
   }
   return list;
 }

@@ -9,6 +9,7 @@
 #include "reports/words/names.h"
 #include "reports/words/numbers.h"
 #include "reports/words/preparation_words.h"
+#include "reports/words/remark_words.h"
 #include "reports/words/verdict.h"
 
 namespace stiffscope::page {
@@ -174,7 +175,7 @@ void addAuditWarnings(const audit::AuditReport& audit, std::vector<std::string>&
     for (const preparation::AuditCheck& check : audit.checks) {
       if (check.verdict != verdict) continue;
       names.push_back(reports::auditName(check.id));
-      if (!check.where.empty() && check.id == "circle_arc") names.back() += " of " + check.where;
+      if (!check.where.empty() && check.id == "circle_arc") names.back() += " of " + reports::words(check.where);
     }
     if (!names.empty()) {
       items.push_back(

@@ -1,14 +1,18 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 
+#include "core/audit/remarks.h"
 #include "core/preparation/finding.h"
 #include "reports/page/html.h"
 #include "reports/page/sections.h"
+#include "reports/words/audit_figures.h"
 #include "reports/words/listed.h"
 #include "reports/words/names.h"
 #include "reports/words/numbers.h"
 #include "reports/words/preparation_words.h"
+#include "reports/words/remark_words.h"
 
 namespace stiffscope::page {
 
@@ -36,24 +40,25 @@ std::string withUnit(const std::optional<double>& value, const std::string& unit
 
 /// A limit's source without what holds for all that are by chance; that is said once.
 std::string sourceOf(const preparation::AuditCheck& check) {
-  const std::string common = preparation::byChance("");
-  std::string source = check.limit_source;
-  if (source.ends_with(common)) source.resize(source.size() - common.size());
+  constexpr std::string_view kCommon = reports::kChanceIsShared;
+  std::string source = reports::words(check.limit_source);
+  if (source.ends_with(kCommon)) source.resize(source.size() - kCommon.size());
   return reports::withMicro(source);
 }
 
 bool anyByChance(const audit::AuditReport& report) {
   return std::any_of(report.checks.begin(), report.checks.end(), [](const preparation::AuditCheck& check) {
-    return check.limit_source.ends_with(preparation::byChance(""));
+    return reports::words(check.limit_source).ends_with(reports::kChanceIsShared);
   });
 }
 
 reports::Row findingRow(const preparation::AuditCheck& check) {
-  const std::string where = check.where.empty() ? "" : fmt::format(" ({})", check.where);
+  const std::string where = check.where.empty() ? "" : fmt::format(" ({})", reports::words(check.where));
   const std::string source = sourceOf(check);
-  return {reports::auditName(check.id), reports::auditWord(check.verdict), withUnit(check.value, check.unit),
-          withUnit(check.limit, check.unit),
-          reports::Cell(reports::withMicro(check.message) + where + ".",
+  const reports::AuditFigures figures = reports::figuresOf(check);
+  return {reports::auditName(check.id), reports::auditWord(check.verdict), withUnit(figures.value, figures.unit),
+          withUnit(figures.limit, figures.unit),
+          reports::Cell(reports::withMicro(reports::words(check.message)) + where + ".",
                         source.empty() ? "" : fmt::format("Limit: {}.", source))};
 }
 
@@ -80,7 +85,8 @@ std::string rangeOf(const std::vector<const preparation::AuditCheck*>& same) {
       same.begin(), same.end(), [](const preparation::AuditCheck* a, const preparation::AuditCheck* b) {
         return a->value.value_or(0.0) < b->value.value_or(0.0);
       });
-  const std::string low = withUnit((*least)->value, ""), high = withUnit((*most)->value, (*most)->unit);
+  const reports::AuditFigures of_most = reports::figuresOf(**most);
+  const std::string low = withUnit(reports::figuresOf(**least).value, ""), high = withUnit(of_most.value, of_most.unit);
   return same.size() == 1 ? high : fmt::format("{}to {}", low, high);
 }
 
@@ -100,12 +106,18 @@ reports::Table passedTable(const audit::AuditReport& report) {
   }
   for (const auto& line : lines) {
     const preparation::AuditCheck& check = *line.front();
+    const reports::AuditFigures figures = reports::figuresOf(check);
     table.groups.front().rows.push_back(
         {reports::Cell(reports::auditName(check.id),
                        line.size() > 1 ? fmt::format("({} times)", line.size()) : std::string()),
-         rangeOf(line), withUnit(check.limit, check.unit), sourceOf(check)});
+         rangeOf(line), withUnit(figures.limit, figures.unit), sourceOf(check)});
   }
   return table;
+}
+
+bool isOnEffects(const Remark& detail) {
+  return detail.is(audit::RemarkId::effects_apart) || detail.is(audit::RemarkId::effects_alike) ||
+         detail.is(audit::RemarkId::effects_not_testable);
 }
 
 /// Sentences on what has no verdict, and on what checks say besides it.
@@ -113,13 +125,12 @@ std::vector<std::string> furtherWords(const audit::AuditReport& report, bool dia
   std::vector<std::string> items;
   for (const preparation::AuditCheck& check : report.checks) {
     if (check.verdict == preparation::AuditVerdict::not_testable)
-      items.push_back(
-          fmt::format("{}, not testable: {}.", reports::auditName(check.id), reports::withMicro(check.message)));
+      items.push_back(fmt::format("{}, not testable: {}.", reports::auditName(check.id),
+                                  reports::withMicro(reports::words(check.message))));
     std::vector<std::string> details;
-    for (const std::string& detail : check.details) {
+    for (const Remark& detail : check.details) {
       // Which effects could be told apart has a place of its own where there is a diagnosis.
-      const bool told = diagnosed && detail.rfind("effects that", 0) == 0;
-      if (!told) details.push_back(reports::withMicro(detail));
+      if (!diagnosed || !isOnEffects(detail)) details.push_back(reports::withMicro(reports::words(detail)));
     }
     if (!details.empty())
       items.push_back(fmt::format("{}: {}.", reports::auditName(check.id), fmt::join(details, "; ")));

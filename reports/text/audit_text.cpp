@@ -6,9 +6,11 @@
 #include <iterator>
 
 #include "reports/json/json.h"
+#include "reports/words/audit_figures.h"
 #include "reports/words/listed.h"
 #include "reports/words/numbers.h"
 #include "reports/words/preparation_words.h"
+#include "reports/words/remark_words.h"
 
 namespace stiffscope::reports {
 
@@ -25,8 +27,9 @@ std::string figureCell(const std::optional<double>& value) { return value ? fmt:
 void writeChecks(const audit::AuditReport& report, Out out) {
   fmt::format_to(out, "  {:<21}{:<13}{:>10}{:>10}  {:<16}{}\n", "check", "verdict", "figure", "limit", "unit", "where");
   for (const preparation::AuditCheck& check : report.checks) {
+    const AuditFigures figures = figuresOf(check);
     std::string line = fmt::format("  {:<21}{:<13}{:>10}{:>10}  {:<16}{}", check.id, worded(check.verdict),
-                                   figureCell(check.value), figureCell(check.limit), check.unit, check.where);
+                                   figureCell(figures.value), figureCell(figures.limit), figures.unit, words(check.where));
     line.erase(line.find_last_not_of(' ') + 1);
     fmt::format_to(out, "{}\n", line);
   }
@@ -37,7 +40,7 @@ void writeShortArcs(const audit::AuditReport& report, Out out) {
   for (const preparation::AuditCheck& check : report.checks) {
     if (check.id != "circle_arc" || check.verdict != preparation::AuditVerdict::pass || *check.value >= *check.limit)
       continue;
-    fmt::format_to(out, "\n{}\n", wrapped(fmt::format("Passes below its limit: {}.", check.message), 2));
+    fmt::format_to(out, "\n{}\n", wrapped(fmt::format("Passes below its limit: {}.", words(check.message)), 2));
   }
 }
 
@@ -47,7 +50,7 @@ void writeDetails(const audit::AuditReport& report, Out out) {
     if (check.details.empty()) continue;
     fmt::format_to(out, "\n{}, in detail\n", check.id);
     for (const std::string& detail : listed(
-             check.details, [](const std::string& one) { return one; }, kListedInJson))
+             check.details, [](const Remark& one) { return words(one); }, kListedInJson))
       fmt::format_to(out, "  {}\n", wrapped(detail, 4));
   }
 }
@@ -58,9 +61,9 @@ void writeMessages(const audit::AuditReport& report, preparation::AuditVerdict v
     if (check.verdict != verdict) continue;
     if (first) fmt::format_to(out, "\n{}\n", title);
     first = false;
-    fmt::format_to(out, "  {}\n", wrapped(fmt::format("{}: {}", check.id, check.message), 4));
+    fmt::format_to(out, "  {}\n", wrapped(fmt::format("{}: {}", check.id, words(check.message)), 4));
     if (!check.limit_source.empty()) {
-      fmt::format_to(out, "    {}\n", wrapped(fmt::format("Limit: {}.", check.limit_source), 6));
+      fmt::format_to(out, "    {}\n", wrapped(fmt::format("Limit: {}.", words(check.limit_source)), 6));
     }
   }
 }

@@ -6,13 +6,14 @@
 #include "core/io/units.h"
 #include "reports/words/listed.h"
 #include "reports/words/numbers.h"
+#include "reports/words/remark_words.h"
 
 namespace stiffscope::reports {
 
 namespace {
 
 std::string driftWords(const preparation::DriftCorrection& drift) {
-  if (!drift.taken_off) return fmt::format("no drift of the station taken off: {}", drift.reason);
+  if (!drift.taken_off) return fmt::format("no drift of the station taken off: {}", words(drift.reason));
   std::string text =
       fmt::format("the station's motion by the floor nests taken off {} of them: at most {:.3f} mm and {:.0f} urad",
                   drift.readings, drift.displacement / io::kMillimetre, 1e6 * drift.turn);
@@ -35,7 +36,7 @@ std::string driftWords(const preparation::DriftCorrection& drift) {
 }  // namespace
 
 std::string rejectedWords(const preparation::RejectedReading& reading) {
-  return fmt::format("{}:{}: {}", reading.file, reading.line, reading.reason);
+  return fmt::format("{}:{}: {}", reading.file, reading.line, words(reading.reason));
 }
 
 std::string preparationWords(const preparation::Preparation& preparation) {

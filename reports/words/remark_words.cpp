@@ -20,7 +20,10 @@ std::pair<const std::type_index, FamilyWords> of() {
 }
 
 const std::unordered_map<std::type_index, FamilyWords>& families() {
-  static const std::unordered_map<std::type_index, FamilyWords> all{};
+  static const std::unordered_map<std::type_index, FamilyWords> all{
+      of<audit::RemarkId, &auditWords>(),
+      of<preparation::RemarkId, &preparationWords>(),
+  };
   return all;
 }
 

@@ -2,11 +2,15 @@
 
 #include <string>
 
+#include "core/audit/remarks.h"
+#include "core/preparation/remarks.h"
 #include "reports/words/remark_words.h"
 
 namespace stiffscope::reports {
 
 // One function a library: the sentence for each of its remarks, by a switch without a default, so that the compiler
 // warns of a remark without words. Defined in the file that bears the library's name (audit_remarks.cpp).
+std::string auditWords(audit::RemarkId id, const RemarkValues& values);
+std::string preparationWords(preparation::RemarkId id, const RemarkValues& values);
 
 }  // namespace stiffscope::reports

@@ -4,7 +4,9 @@
 #include <cmath>
 #include <filesystem>
 #include <functional>
+#include "core/audit/remarks.h"
 #include "core/campaign/read_campaign.h"
+#include "core/preparation/remarks.h"
 #include "reports/page/report_page.h"
 #include "reports/words/verdict.h"
 #include "tests/reports/small_result.h"
@@ -181,23 +183,42 @@ TEST(Page, TheAuditWithItsLimitsAndRejectedReadings) {
   const SmallResult small;
   audit::AuditReport audited;
   audited.verdict = preparation::AuditVerdict::fail;
-  audited.checks = {
-      {"station_drift", preparation::AuditVerdict::warn, 12.5, 10.0, "um", "900 s", "it moved", "chi-square", {}},
-      {"lost_beam", preparation::AuditVerdict::fail, 1.0, 0.0, "readings", "loading.csv:7", "one lost", "none is", {}},
-      {"tare", preparation::AuditVerdict::not_testable, {}, {}, "", "", "no load cell", "", {}},
-      {"posture_set",
-       preparation::AuditVerdict::pass,
-       2.6,
-       100.0,
-       "condition",
-       "",
-       "fine",
-       "practice",
-       {"joint 1: seen"}}};
-  audited.rejected = {{"loading.csv", 7, "lost beam"}};
+  audited.checks = {{"station_drift",
+                     preparation::AuditVerdict::warn,
+                     12.5e-6,
+                     10e-6,
+                     Remark(audit::RemarkId::at_time, 900.0),
+                     Remark(preparation::RemarkId::station_wandered, 12.5e-6),
+                     preparation::byChance(Remark(audit::RemarkId::chi_square, 6)),
+                     {}},
+                    {"lost_beam",
+                     preparation::AuditVerdict::fail,
+                     1.0,
+                     0.0,
+                     preparation::atRow("loading.csv", 7),
+                     Remark(preparation::RemarkId::readings_at_zero, 1),
+                     Remark(preparation::RemarkId::nothing_inside_station),
+                     {}},
+                    {"tare",
+                     preparation::AuditVerdict::not_testable,
+                     {},
+                     {},
+                     {},
+                     Remark(audit::RemarkId::no_load_cell_readings),
+                     {},
+                     {}},
+                    {"posture_set",
+                     preparation::AuditVerdict::pass,
+                     2.6,
+                     100.0,
+                     {},
+                     Remark(audit::RemarkId::joints_identified, 19, 3, std::vector<int>{1}, 2.6, std::vector<Remark>{}),
+                     Remark(audit::RemarkId::condition_practice),
+                     {Remark(audit::RemarkId::joint_identifiable, 1, 812.0, 3.1)}}};
+  audited.rejected = {{"loading.csv", 7, Remark(preparation::RemarkId::beam_lost)}};
   preparation::Preparation preparation;
   preparation.rejected = audited.rejected;
-  preparation.drift = {true, "", 0.5e-3, 20e-6, 3600.0, {}, 100, 4};
+  preparation.drift = {true, {}, 0.5e-3, 20e-6, 3600.0, {}, 100, 4};
   reports::ReportContent content = contentOf(small);
   EXPECT_FALSE(has(page::reportPage(content), "id=\"audit\""));  // nothing is said of an audit that was not made
   content.campaigns[0].audit = &audited;
@@ -210,8 +231,8 @@ TEST(Page, TheAuditWithItsLimitsAndRejectedReadings) {
   EXPECT_TRUE(has(page, "The audit of the readings warns on: station drift."));
   EXPECT_TRUE(has(page, "<li>Readings: 1 left out; the station's motion"));
   EXPECT_TRUE(has(page, "12.5\u00a0µm"));
-  EXPECT_TRUE(has(page, "it moved (900 s)"));
-  EXPECT_TRUE(has(page, "joint 1: seen"));
+  EXPECT_TRUE(has(page, "where the arm was read (900 s)"));
+  EXPECT_TRUE(has(page, "joint 1: identifiable"));
   EXPECT_TRUE(has(page, "1 reading rejected and left out of everything on this page"));
   EXPECT_TRUE(has(page, "loading.csv:7: lost beam"));
   EXPECT_TRUE(has(page,

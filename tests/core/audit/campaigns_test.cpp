@@ -1,7 +1,10 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include "core/audit/audit.h"
+#include "core/audit/remarks.h"
 #include "core/campaign/read_campaign.h"
+#include "core/io/units.h"
+#include "reports/words/remark_words.h"
 
 // The audit of the campaigns kept beside the checkout: their causes are known, and readings alone show some
 // of them.
@@ -26,7 +29,9 @@ std::vector<preparation::AuditCheck> found(const audit::AuditReport& report) {
   return beyond;
 }
 
-bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+bool contains(const Remark& remark, const std::string& part) {
+  return reports::words(remark).find(part) != std::string::npos;
+}
 
 class PracticeAudit : public testing::Test {
  protected:
@@ -61,8 +66,8 @@ TEST_F(PracticeAudit, SaysWhatMoved) {
   EXPECT_TRUE(contains(found(auditOf("practice/13")).at(0).message, "it jumped"));
   EXPECT_TRUE(contains(found(auditOf("practice/15")).at(0).message, "a drift of"));
   const preparation::AuditCheck tool = found(auditOf("practice/16")).at(0);
-  EXPECT_TRUE(contains(tool.message, "reflector P12 moves")) << tool.message;
-  EXPECT_TRUE(contains(tool.where, "P12")) << tool.where;
+  EXPECT_TRUE(contains(tool.message, "reflector P12 moves")) << reports::words(tool.message);
+  EXPECT_TRUE(contains(tool.where, "P12")) << reports::words(tool.where);
 }
 
 TEST(RealSweeps, ReflectorOnTheAxisAndTheShortArc) {
@@ -70,18 +75,19 @@ TEST(RealSweeps, ReflectorOnTheAxisAndTheShortArc) {
   const audit::AuditReport report = auditOf("real/fanuc-r2000ic-sweeps");
   bool arc = false, on_axis = false;
   for (const preparation::AuditCheck& check : report.checks) {
-    if (check.id == "circle_arc" && check.where == "axis 1") {
+    if (check.id == "circle_arc" && check.where == Remark(audit::RemarkId::at_axis, 1)) {
       arc = true;
       EXPECT_EQ(check.verdict, preparation::AuditVerdict::warn);
-      EXPECT_NEAR(*check.value, 60.0, 0.1);  // six stops of 12 deg
-      EXPECT_TRUE(contains(check.message, "urad in direction")) << check.message;
-      EXPECT_TRUE(contains(check.message, "2.2 times what as many readings over 90 deg")) << check.message;
+      EXPECT_NEAR(*check.value, 60.0 * io::kDegree, 0.1 * io::kDegree);  // six stops of 12 deg
+      EXPECT_TRUE(contains(check.message, "urad in direction")) << reports::words(check.message);
+      EXPECT_TRUE(contains(check.message, "2.2 times what as many readings over 90 deg"))
+          << reports::words(check.message);
     }
     if (check.id == "reflector_on_axis") {
       on_axis = true;
       EXPECT_EQ(check.verdict, preparation::AuditVerdict::warn);
-      EXPECT_EQ(check.where, "P10, axis 4; P10, axis 6");
-      EXPECT_LT(*check.value, 2.0);  // mm
+      EXPECT_EQ(reports::words(check.where), "P10, axis 4; P10, axis 6");
+      EXPECT_LT(*check.value, 2e-3);  // m
     }
   }
   EXPECT_TRUE(arc && on_axis);

@@ -7,6 +7,7 @@
 #include "core/audit/audit.h"
 #include "core/simulation/measure.h"
 #include "core/simulation/read_spec.h"
+#include "reports/words/remark_words.h"
 
 // False alarms: days of the samples' machine without bearings that give and with small geometry errors, whose
 // only errors are the declared noise. STIFFSCOPE_AUDIT_DAYS=200 in the environment simulates as many days
@@ -50,7 +51,7 @@ Tally auditDays(int days, std::uint64_t first_seed, double noise_factor) {
       if (check.verdict != preparation::AuditVerdict::warn && check.verdict != preparation::AuditVerdict::fail)
         continue;
       ++tally.findings[check.id];
-      if (days > 20) fmt::print("seed {}: {}: {}\n", seed, check.id, check.message);
+      if (days > 20) fmt::print("seed {}: {}: {}\n", seed, check.id, reports::words(check.message));
     }
   }
   return tally;

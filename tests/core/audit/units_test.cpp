@@ -19,7 +19,8 @@ TEST(SpoiltCampaign, AnglesInAnotherUnitFail) {
   EXPECT_EQ(report.verdict, preparation::AuditVerdict::fail);
   const preparation::AuditCheck& check = checkNamed(report, "unloaded_positions");
   EXPECT_EQ(check.verdict, preparation::AuditVerdict::fail);
-  EXPECT_TRUE(contains(check.message, "units, angles or the tracker's place are wrong")) << check.message;
+  EXPECT_TRUE(contains(check.message, "units, angles or the tracker's place are wrong"))
+      << reports::words(check.message);
 }
 
 // A load cell's file in kN: forces a thousandth of what they were, the moments as before or in kNm, too.
@@ -31,7 +32,7 @@ TEST(SpoiltCampaign, ForcesInAnotherUnitFail) {
   });
   const preparation::AuditCheck& lever = checkNamed(forces, "moment_lever");
   EXPECT_EQ(lever.verdict, preparation::AuditVerdict::fail);
-  EXPECT_TRUE(contains(lever.message, "no tool is that long, forces (kN for N)")) << lever.message;
+  EXPECT_TRUE(contains(lever.message, "no tool is that long, forces (kN for N)")) << reports::words(lever.message);
   EXPECT_EQ(checkNamed(forces, "load_size").verdict, preparation::AuditVerdict::fail);
   EXPECT_TRUE(audit::findsTheImpossible(forces));
 
@@ -41,7 +42,7 @@ TEST(SpoiltCampaign, ForcesInAnotherUnitFail) {
   const preparation::AuditCheck& size = checkNamed(both, "load_size");
   EXPECT_EQ(size.verdict, preparation::AuditVerdict::fail);
   EXPECT_NEAR(*size.value, 1e-3 * *checkNamed(goodReport(), "load_size").value, 1e-3 * *size.value);  // noise of places
-  EXPECT_TRUE(contains(size.message, "forces (kN for N)")) << size.message;
+  EXPECT_TRUE(contains(size.message, "forces (kN for N)")) << reports::words(size.message);
 }
 
 TEST(SpoiltCampaign, IdentifyCautionsOfForcesInAnotherUnit) {
@@ -60,7 +61,7 @@ TEST(SpoiltCampaign, MomentsInAnotherUnitFail) {
   });
   const preparation::AuditCheck& lever = checkNamed(report, "moment_lever");
   EXPECT_EQ(lever.verdict, preparation::AuditVerdict::fail);
-  EXPECT_TRUE(contains(lever.message, "moments (N mm for Nm)")) << lever.message;
+  EXPECT_TRUE(contains(lever.message, "moments (N mm for Nm)")) << reports::words(lever.message);
   EXPECT_EQ(checkNamed(report, "load_size").verdict, preparation::AuditVerdict::pass);  // which looks at forces
 }
 
@@ -78,8 +79,9 @@ TEST(SpoiltCampaign, MetresUnderMillimetresFail) {
   });
   const preparation::AuditCheck& lengths = checkNamed(report, "link_lengths");
   EXPECT_EQ(lengths.verdict, preparation::AuditVerdict::fail);
-  EXPECT_EQ(lengths.where, "axes 2 and 3");  // the longest link, 1120 mm
-  EXPECT_TRUE(contains(lengths.message, "another unit, or the URDF is another machine's")) << lengths.message;
+  EXPECT_EQ(reports::words(lengths.where), "axes 2 and 3");  // the longest link, 1120 mm
+  EXPECT_TRUE(contains(lengths.message, "another unit, or the URDF is another machine's"))
+      << reports::words(lengths.message);
   EXPECT_EQ(checkNamed(report, "load_size").verdict, preparation::AuditVerdict::warn);
   EXPECT_TRUE(audit::findsTheImpossible(report));
 }
@@ -94,7 +96,7 @@ TEST(SpoiltCampaign, SweepsInRadiansFail) {
   const preparation::AuditCheck& check = checkNamed(report, "sweep_angles");
   EXPECT_EQ(check.verdict, preparation::AuditVerdict::fail);
   EXPECT_NEAR(*check.value, 57.3, 0.1);
-  EXPECT_TRUE(contains(check.message, "in another unit (radians for degrees)")) << check.message;
+  EXPECT_TRUE(contains(check.message, "in another unit (radians for degrees)")) << reports::words(check.message);
   EXPECT_TRUE(audit::findsTheImpossible(report));
 }
 
@@ -106,8 +108,8 @@ TEST(SpoiltCampaign, AReflectorHiddenForAPartOfTheSweepIsNoOtherUnit) {
     });
   });
   const preparation::AuditCheck& check = checkNamed(report, "sweep_angles");
-  EXPECT_EQ(check.verdict, preparation::AuditVerdict::pass) << check.message;
-  EXPECT_LT(*check.value, 1.01) << check.message;
+  EXPECT_EQ(check.verdict, preparation::AuditVerdict::pass) << reports::words(check.message);
+  EXPECT_LT(*check.value, 1.01) << reports::words(check.message);
 }
 
 TEST(SpoiltCampaign, AnAxisThatReportsOneAngleFails) {
@@ -119,7 +121,7 @@ TEST(SpoiltCampaign, AnAxisThatReportsOneAngleFails) {
   const preparation::AuditCheck& check = checkNamed(report, "sweep_angles");
   EXPECT_EQ(check.verdict, preparation::AuditVerdict::fail);
   EXPECT_FALSE(check.value);
-  EXPECT_TRUE(contains(check.message, "axis 5 reports one and the same angle")) << check.message;
+  EXPECT_TRUE(contains(check.message, "axis 5 reports one and the same angle")) << reports::words(check.message);
 }
 
 // Forces that are noise say nothing of units, whatever stiffness and lever follow from them.

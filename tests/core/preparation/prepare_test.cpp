@@ -4,6 +4,8 @@
 #include "core/audit/audit.h"
 #include "core/campaign/read_campaign.h"
 #include "core/identification/identify.h"
+#include "core/preparation/remarks.h"
+#include "reports/words/remark_words.h"
 
 // What is done to a campaign before anything is identified from it.
 
@@ -41,7 +43,7 @@ TEST(Prepare, AGoodCampaignIsLeftAsItIs) {
   EXPECT_FALSE(prepared.preparation.raw);
   EXPECT_TRUE(prepared.preparation.rejected.empty());
   EXPECT_FALSE(prepared.preparation.drift.taken_off);
-  EXPECT_NE(prepared.preparation.drift.reason.find("no motion of the station"), std::string::npos);
+  EXPECT_TRUE(prepared.preparation.drift.reason.is(preparation::RemarkId::no_motion_beyond_noise));
   EXPECT_EQ(farthestApart(prepared.campaign, good()), 0.0);
 }
 
@@ -68,7 +70,7 @@ TEST(Prepare, DriftThatTheNestsShowIsTakenOff) {
   driftAll(drifting, 5e-8);  // 3 um a minute
   const preparation::PreparedCampaign prepared = preparation::prepareCampaign(drifting);
   const preparation::DriftCorrection& taken = prepared.preparation.drift;
-  ASSERT_TRUE(taken.taken_off) << taken.reason;
+  ASSERT_TRUE(taken.taken_off) << reports::words(taken.reason);
   EXPECT_EQ(taken.readings,
             good().circle_sweeps->rows.size() + good().wrist_sweep->rows.size() + good().loading->rows.size());
   EXPECT_EQ(taken.without_time, 0u);
@@ -123,8 +125,8 @@ TEST(Prepare, NestsThatDeformAreNoReference) {
   }
   const preparation::PreparedCampaign prepared = preparation::prepareCampaign(moved);
   EXPECT_FALSE(prepared.preparation.drift.taken_off);
-  EXPECT_NE(prepared.preparation.drift.reason.find("moved against each other"), std::string::npos)
-      << prepared.preparation.drift.reason;
+  EXPECT_TRUE(prepared.preparation.drift.reason.is(preparation::RemarkId::nests_deform))
+      << reports::words(prepared.preparation.drift.reason);
   EXPECT_EQ(farthestApart(prepared.campaign, moved), 0.0);
 }
 
@@ -133,7 +135,7 @@ TEST(Prepare, WithoutNestsItSaysSo) {
   campaign.nests.reset();
   const preparation::DriftCorrection& drift = preparation::prepareCampaign(campaign).preparation.drift;
   EXPECT_FALSE(drift.taken_off);
-  EXPECT_NE(drift.reason.find("no floor nests"), std::string::npos) << drift.reason;
+  EXPECT_TRUE(drift.reason.is(preparation::RemarkId::no_floor_nests)) << reports::words(drift.reason);
 }
 
 TEST(Prepare, RawIsRaw) {
@@ -173,7 +175,7 @@ TEST(Prepare, AnAuditOfWhatIsPreparedIsTheSame) {
     EXPECT_EQ(of_prepared.checks[i].id, of_day.checks[i].id);
     EXPECT_EQ(of_prepared.checks[i].verdict, of_day.checks[i].verdict);
     EXPECT_EQ(of_prepared.checks[i].value, of_day.checks[i].value) << of_day.checks[i].id;
-    EXPECT_EQ(of_prepared.checks[i].message, of_day.checks[i].message);
+    EXPECT_EQ(reports::words(of_prepared.checks[i].message), reports::words(of_day.checks[i].message));
   }
   EXPECT_EQ(of_prepared.rejected.size(), of_day.rejected.size());
   EXPECT_EQ(prepared.preparation.declared->range_fixed, day.tracker->range_fixed);

@@ -1,0 +1,188 @@
+#pragma once
+
+#include <string>
+
+#include "metrology/remark.h"
+
+namespace stiffscope::audit {
+
+/// What the checks have to say; reports/words has the sentences. Joints and axes by their numbers from 1, postures,
+/// reflectors and rows (FILE:LINE) by name. `more` are remarks that go on with the sentence, often none.
+enum class RemarkId {
+  verbatim,  ///< the text; MERGE: goes with the function below
+
+  // Where something is.
+  at_axis,             ///< axis
+  at_axis_row,         ///< axis, row
+  at_axes,             ///< both axes
+  at_axis_and_pair,    ///< axis, both reflectors
+  at_reflector,        ///< reflector, axis
+  at_reflectors,       ///< remarks at_reflector
+  at_moved_reflector,  ///< reflector, row
+  at_pose,             ///< posture
+  at_state,            ///< posture, load step
+  at_time,             ///< s
+  at_loading,
+
+  // Where a limit comes from.
+  chi_square,               ///< degrees of freedom
+  chi_square_and_states,    ///< degrees of freedom
+  chi_square_and_postures,  ///< degrees of freedom
+  chi_square_held_axes,     ///< degrees of freedom
+  chi_square_of_axes,
+  chi_square_of_pairs,  ///< pairs of reflectors
+  chi_square_of_tare,
+  chi_square_of_displacement,
+  chi_square_of_shift,
+  normal_deviates,  ///< how many
+  student_between_postures,
+  places_or_chance,           ///< by_chance
+  third_of_places_or_chance,  ///< by_chance
+  order_of_format,
+  what_most_have,
+  arc_practice,  ///< arcs below which it warns and fails, rad; tolerance at the arm's reach, trusted place, m
+  circle_redundancy,
+  turns_as_reported,
+  reflector_radius,
+  built_to_drawing,
+  leak_that_decoupling_bears,
+  places_or_sweeps,
+  turn_at_lever,  ///< longest lever, m
+  load_cell_axes,
+  arms_stiffness,  ///< softest and stiffest arm, N/m
+  condition_practice,
+
+  // What is missing.
+  no_sweeps,
+  tracker_not_declared,
+  no_loads,
+  loading_not_in_r0,
+  no_step_with_force,
+  no_posture_to_identify_from,
+  load_cell_noise_not_stated,
+  no_unloaded_states,
+  no_compared_postures,
+  load_does_not_hang,
+  no_load_cell_readings,
+  no_displacement_under_force,
+  few_loaded_states,
+  no_moments,
+  forces_on_one_line,
+  few_nests_or_rounds,
+  no_load_states,
+  no_states_nor_loading,
+  no_readings_of_states,
+  no_unloading,
+  no_compared_postures_in_geometry,
+  sag_not_known,
+  few_unloaded_postures,    ///< how many, how many are needed
+  few_postures_to_compare,  ///< how many are needed
+  axis_not_measured,        ///< axis, why (remark)
+  no_neighbouring_axes,
+  no_sweep_below_whole_turn,
+  no_two_reflectors_off_axis,
+  no_two_reflectors_in_states,
+  few_wrist_readings,
+  wrist_axes_not_swept,
+
+  // time_order, completeness.
+  steps_follow,
+  steps_out_of_order,  ///< remarks step_too_early, state_during
+  step_too_early,      ///< row, posture, step, step before whose end it begins
+  state_during,        ///< row, posture, step, step during which it was taken
+  all_there,           ///< postures
+  missing,             ///< remarks: the four below
+  step_not_read,       ///< posture, step
+  no_row_in_states,    ///< posture, step
+  too_few_readings,    ///< posture, step, readings, of how many, reflector
+  posture_not_read,    ///< posture
+
+  // repeatability_along, repeatability_across, rigid_tool.
+  repeats_scatter,  ///< whether along the beam, one sigma in m, in parts of what is declared, whether beyond the limit
+  repeats_scatter_little,
+  distance_changes,      ///< both reflectors, m, state, more
+  distances_scatter,     ///< in parts of the noise
+  reflectors_exchanged,  ///< row, state, reflectors in pairs: what it is called, what it is
+  no_one_reflector,
+  reflector_moves,  ///< reflector, rms change of its distances in m: under load, without
+
+  // station_drift, nest_moved.
+  station_moved,   ///< m, rad, when in s, more
+  station_drifts,  ///< m, s
+  station_jumps,   ///< when, s
+  motion_taken_off,
+  motion_not_taken_off,  ///< why (remark)
+  nests_left,            ///< in parts of the noise, more
+  nest_moved,            ///< nest, m
+  nests_not_mended,
+
+  // circle_arc, circle_count, sweep_angles, circle_residual, axis_agreement, reflector_on_axis, link_lengths.
+  arc_known,  ///< axis, arc rad, direction rad, place m, at the reach m, reach m, more
+  wide_not_enough,
+  short_arc,        ///< times as uncertain, as over an arc of rad, whether it still suffices
+  smallest_circle,  ///< readings
+  angle_stays,      ///< axis, turn of its reflectors rad
+  angle_and_turn,   ///< axis, reported turn rad, that of its reflectors rad, whether impossible
+  on_circles,
+  off_circles,          ///< remarks axis_off_circles, more
+  axis_off_circles,     ///< axis, rms m, in parts of the noise
+  one_reading_off,      ///< axis, row
+  runs_along_sweep,     ///< axes
+  reflectors_agree,     ///< in parts of the difference's sd
+  reflectors_disagree,  ///< in parts of the difference's sd
+  well_off_axes,
+  on_axis,              ///< remarks reflector_near_axis
+  reflector_near_axis,  ///< at_reflector, radius m
+  axes_apart,           ///< both axes, distance m, in the URDF m, whether impossible
+
+  // wrist_sphere, wrist_axes_meet.
+  wrist_residuals,    ///< rms m, of it without the axes' missing each other m, in parts of the noise, more
+  wrist_reading_off,  ///< row
+  wrist_axes_miss,    ///< axes 4 and 5, their sd, axes 5 and 6, their sd, all in m; more
+  wrist_leak,         ///< share of the displacement
+  decoupling_needs_one_point,
+
+  // frame_moved, unloaded_positions, joint_read_back.
+  loading_shifted,  ///< shift in R0 m, turn rad, explained share of the misfit, more
+  tracker_or_robot_moved,
+  positions_miss,  ///< positions, rms as read m, rms as fitted m, in parts of what is left open, more
+  positions_impossible,
+  geometry_does_not_carry,
+  angles_agree,
+  angles_stale,  ///< remarks joint_off
+  joint_off,     ///< row, posture, joint, rad
+
+  // servo_change, return_to_zero.
+  angle_changes,  ///< joint, posture, step, whether beyond the limit
+  no_angle_changes,
+  comes_back,        ///< in parts of the noise, farthest m, its posture, its step, more
+  do_not_come_back,  ///< remarks posture_off, of how many postures
+  posture_off,       ///< posture, m
+
+  // tare, gravity_direction, moment_lever, load_size.
+  unloaded_reading,  ///< mean force N and moment Nm, more
+  not_tared,
+  one_pose_off,       ///< posture, in sigma
+  force_off_gravity,  ///< rms, on average, farthest, rad; posture of the farthest, more
+  cell_rope_or_base,
+  moments_of_force,  ///< lever m, rms left Nm, more
+  lever_too_long,
+  worst_state,  ///< row, posture, step
+  signs_mend,   ///< components of the moment, whether of all states
+  load_moves,   ///< rms N, rms m
+
+  // posture_set.
+  joint_identifiable,      ///< joint, rms Nm by the load, uncertainty Nm
+  joint_not_identifiable,  ///< joint, why (remark)
+  joint_missing,           ///< joint, why (remark)
+  no_joint_identified,     ///< remarks joint_missing
+  joints_identified,       ///< postures, load step, joints, condition number, remarks joint_missing
+  effects_apart,           ///< ids of effects
+  effects_alike,           ///< ids of effects
+  effects_not_testable,    ///< ids of effects
+};
+
+/// A reason of another library. MERGE: once that is a remark, it stands where this is called.
+inline Remark verbatim(const std::string& text) { return Remark(RemarkId::verbatim, text); }
+
+}  // namespace stiffscope::audit
