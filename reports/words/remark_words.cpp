@@ -21,6 +21,9 @@ std::pair<const std::type_index, Words> of() {
 
 const std::unordered_map<std::type_index, Words>& families() {
   static const std::unordered_map<std::type_index, Words> all{
+      of<frames::RemarkId, &framesWords>(),
+      of<identification::RemarkId, &identificationWords>(),
+      of<metrology::RemarkId, &metrologyWords>(),
   };
   return all;
 }

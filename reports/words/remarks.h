@@ -2,11 +2,18 @@
 
 #include <string>
 
+#include "core/frames/remarks.h"
+#include "core/identification/remarks.h"
+#include "metrology/remarks.h"
 #include "reports/words/remark_words.h"
 
 namespace stiffscope::reports {
 
 // One function a library: the sentence for each of its remarks, by a switch without a default, so that the compiler
 // warns of a remark without words. Defined in the file that bears the library's name (audit_remarks.cpp).
+
+std::string framesWords(frames::RemarkId id, const RemarkValues& values);
+std::string identificationWords(identification::RemarkId id, const RemarkValues& values);
+std::string metrologyWords(metrology::RemarkId id, const RemarkValues& values);
 
 }  // namespace stiffscope::reports
