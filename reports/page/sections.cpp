@@ -9,6 +9,7 @@
 #include "reports/words/names.h"
 #include "reports/words/numbers.h"
 #include "reports/words/preparation_words.h"
+#include "reports/words/remark_words.h"
 #include "reports/words/verdict.h"
 
 namespace stiffscope::page {
@@ -192,8 +193,8 @@ std::vector<std::string> warningsOf(const reports::ReportCampaign& one) {
   if (one.preparation != nullptr && (one.preparation->drift.taken_off || !one.preparation->rejected.empty())) {
     items.push_back(fmt::format("Readings: {}.", reports::withMicro(reports::preparationWords(*one.preparation))));
   }
-  for (const std::string& caution : one.identification.cautions)
-    items.push_back(reports::capitalised(reports::withMicro(caution)) + ".");
+  for (const Remark& caution : one.identification.cautions)
+    items.push_back(reports::capitalised(reports::withMicro(reports::words(caution))) + ".");
   return items;
 }
 
