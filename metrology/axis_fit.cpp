@@ -6,6 +6,7 @@
 
 #include "metrology/least_squares.h"
 #include "metrology/lines.h"
+#include "metrology/remarks.h"
 #include "metrology/shape_models.h"
 
 namespace stiffscope::metrology {
@@ -27,11 +28,11 @@ double sweptArc(const Line& axis, const std::vector<Eigen::Vector3d>& points) {
 
 namespace {
 
-std::string tooFew(const std::vector<CirclePoints>& circles) {
+Remark tooFew(const std::vector<CirclePoints>& circles) {
   const auto holdsPlane = [](const CirclePoints& circle) { return circle.points.size() >= 3; };
   const auto isEmpty = [](const CirclePoints& circle) { return circle.points.empty(); };
-  if (std::none_of(circles.begin(), circles.end(), holdsPlane)) return "no reflector has three readings or more";
-  if (std::any_of(circles.begin(), circles.end(), isEmpty)) return "a reflector has no readings";
+  if (std::none_of(circles.begin(), circles.end(), holdsPlane)) return Remark(RemarkId::no_reflector_with_three);
+  if (std::any_of(circles.begin(), circles.end(), isEmpty)) return Remark(RemarkId::reflector_without_readings);
   return {};
 }
 
@@ -63,11 +64,11 @@ AxisFit fitAxis(const std::vector<CirclePoints>& circles) {
   const Estimate estimate = fitLeastSquares(*model, local, firstOwn(*model, local));
   fit.degrees_of_freedom = estimate.degreesOfFreedom();
   if (fit.degrees_of_freedom < 1) {
-    fit.reason = "too few readings for an axis with its uncertainty";
+    fit.reason = Remark(RemarkId::too_few_for_axis);
     return fit;
   }
   if (!estimate.determined) {
-    fit.reason = "the readings do not determine the axis";
+    fit.reason = Remark(RemarkId::axis_not_determined);
     return fit;
   }
   fit.axis = model->axis.measured();

@@ -1,11 +1,11 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <string>
 #include <vector>
 
 #include "metrology/lines.h"
 #include "metrology/measured_points.h"
+#include "metrology/remark.h"
 
 namespace stiffscope::metrology {
 
@@ -23,8 +23,8 @@ struct AxisCircle {
 /// Result of the circle-point method for one axis (paper, II.D).
 struct AxisFit {
   bool determined = false;
-  std::string reason;  ///< why not determined
-  MeasuredLine axis;   ///< direction sense as the fit found it: the caller gives it a sign
+  Remark reason;      ///< why not determined
+  MeasuredLine axis;  ///< direction sense as the fit found it: the caller gives it a sign
   std::vector<AxisCircle> circles;
   double rms = 0.0;           ///< plain, over radial and axial residuals of all points, m
   double chi2_per_dof = 0.0;  ///< with covariances given: weighted; 1 without

@@ -2,6 +2,7 @@
 
 #include "metrology/least_squares.h"
 #include "metrology/measured_points.h"
+#include "metrology/remarks.h"
 #include "metrology/shape_models.h"
 
 namespace stiffscope::metrology {
@@ -67,7 +68,7 @@ Eigen::Matrix<double, 6, 6> covarianceOfParts(const FittedPart& plane, const Fit
 /// fitCircle's plane-first strategy: NIST's strategy 1.
 FittedCircle fitPlaneFirst(const LocalPoints& local) {
   FittedCircle fit;
-  fit.method = "plane-first: a plane by orthogonal distances, then a circle in it by radial ones";
+  fit.method = Remark(RemarkId::circle_plane_first);
   const auto start = circlesStart(local, fit.reason);
   if (!start) return fit;
   PlanesModel plane_model(AxisFrame(Eigen::Vector3d::Zero(), start->axis.direction()));
@@ -106,7 +107,7 @@ FittedCircle fitPlaneFirst(const LocalPoints& local) {
 
 FittedCircle fitInSpace(const LocalPoints& local) {
   FittedCircle fit;
-  fit.method = "full: orthogonal distances in space, Gauss-Newton from Taubin's circle";
+  fit.method = Remark(RemarkId::circle_in_space);
   auto model = circlesStart(local, fit.reason);
   if (!model) return fit;
   const Estimate estimate = fitLeastSquares(*model, local, firstOwn(*model, local));
@@ -143,9 +144,9 @@ bool flatEnough(const LocalPoints& local) {
 void refuseWhatIsNotSignificant(FittedCircle& fit) {
   if (!fit.determined || !fit.covariance) return;
   if (std::sqrt(fit.covariance->block<3, 3>(3, 3).trace()) > kNoDirection) {
-    fit.reason = "the normal is undetermined: the readings lie on one line within their scatter";
+    fit.reason = Remark(RemarkId::normal_on_line_in_scatter);
   } else if (!curved(fit.circle.radius, std::sqrt((*fit.covariance)(6, 6)))) {
-    fit.reason = "the radius is undetermined: against their scatter the readings could lie on a straight line";
+    fit.reason = Remark(RemarkId::radius_of_straight_line);
   }
   if (!fit.reason.empty()) {
     fit.circle = {};
@@ -159,10 +160,10 @@ void refuseWhatIsNotSignificant(FittedCircle& fit) {
 FittedCircle fitCircle(const MeasuredPoints& points, CircleStrategy strategy) {
   const LocalPoints local = localPoints(&points, 1);
   FittedCircle fit;
-  if (std::string few = tooFewReadings(3, points.points.size()); !few.empty()) {
+  if (Remark few = tooFewReadings(3, points.points.size()); !few.empty()) {
     fit.reason = std::move(few);
   } else if (local.flaw.empty() && !flatEnough(local)) {
-    fit.reason = "the normal is undetermined: the readings lie on one line within their scatter";
+    fit.reason = Remark(RemarkId::normal_on_line_in_scatter);
   } else if (local.flaw.empty()) {
     fit = strategy == CircleStrategy::full ? fitInSpace(local) : fitPlaneFirst(local);
   } else {

@@ -8,6 +8,7 @@
 
 #include "metrology/least_squares.h"
 #include "metrology/measured_points.h"
+#include "metrology/remarks.h"
 #include "metrology/shape_models.h"
 
 namespace stiffscope::metrology {
@@ -215,13 +216,13 @@ void writeResult(const CylinderEstimate& estimate, const LocalPoints& local, Fit
   fit.covariance = covarianceOf(full, estimate, local.weighted());
 }
 
-std::string whyNotSignificant(const FittedCylinder& fit) {
+Remark whyNotSignificant(const FittedCylinder& fit) {
   if (!fit.covariance) return {};
   if (std::sqrt(fit.covariance->block<3, 3>(3, 3).trace()) > kNoDirection) {
-    return "the direction of the axis is undetermined against the scatter of the readings";
+    return Remark(RemarkId::axis_direction_in_scatter);
   }
   if (!curved(fit.cylinder.radius, std::sqrt((*fit.covariance)(6, 6)))) {
-    return "the radius is undetermined: against their scatter the readings could lie in a plane";
+    return Remark(RemarkId::radius_of_plane);
   }
   return {};
 }
@@ -230,26 +231,25 @@ std::string whyNotSignificant(const FittedCylinder& fit) {
 
 FittedCylinder fitCylinder(const MeasuredPoints& points) {
   FittedCylinder fit;
-  fit.method = "orthogonal distances, Gauss-Newton from each algebraic minimum, the least sum";
+  fit.method = Remark(RemarkId::cylinder_least_sum);
   const LocalPoints local = localPoints(&points, 1);
   fit.reason = tooFewReadings(5, points.points.size());
   if (fit.reason.empty()) fit.reason = local.flaw;
   if (!fit.reason.empty()) return fit;
   const PrincipalAxes axes = principalAxes(local);
   if (!spreads(axes.spread[0], axes.spread[2], local)) {
-    fit.reason = spreads(axes.spread[1], axes.spread[2], local)
-                     ? "the axis is undetermined: the readings lie in one plane"
-                     : "the axis is undetermined: the readings lie on one line";
+    fit.reason = spreads(axes.spread[1], axes.spread[2], local) ? Remark(RemarkId::axis_in_one_plane)
+                                                                : Remark(RemarkId::axis_on_one_line);
     return fit;
   }
   const std::vector<CylinderEstimate> minima = localMinima(local);
   if (minima.empty()) {
-    fit.reason = "no cylinder is nearest to the readings: the fit does not settle";
+    fit.reason = Remark(RemarkId::no_nearest_cylinder);
     return fit;
   }
   if (!describeQuality(minima.front(), local, fit)) return fit;
   if (minima.size() > 1 && !preferred(minima[0], minima[1], local)) {
-    fit.reason = "two different cylinders fit the readings alike";
+    fit.reason = Remark(RemarkId::two_cylinders_alike);
     return fit;
   }
   writeResult(minima.front(), local, fit);

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "metrology/remarks.h"
+
 namespace stiffscope::metrology {
 
 namespace {
@@ -17,13 +19,13 @@ Eigen::Vector3d meanOf(const MeasuredPoints* groups, std::size_t count, std::siz
   return mean / static_cast<double>(points);
 }
 
-std::string flawOfCovariances(const MeasuredPoints& group, bool expected) {
+Remark flawOfCovariances(const MeasuredPoints& group, bool expected) {
   if (!expected && group.covariances.empty()) return {};
-  if (group.covariances.size() != group.points.size()) return "the covariances are not one a reading";
+  if (group.covariances.size() != group.points.size()) return Remark(RemarkId::covariances_not_one_a_reading);
   for (const Eigen::Matrix3d& covariance : group.covariances) {
     const Eigen::LLT<Eigen::Matrix3d> cholesky(covariance);
     if (!covariance.allFinite() || cholesky.info() != Eigen::Success) {
-      return "a reading's covariance is not positive definite";
+      return Remark(RemarkId::covariance_not_positive_definite);
     }
   }
   return {};
@@ -42,7 +44,7 @@ LocalPoints localPoints(const MeasuredPoints* groups, std::size_t count) {
   std::size_t points = 0;
   for (std::size_t k = 0; k < count; ++k) points += groups[k].points.size();
   if (points == 0) {
-    local.flaw = "no readings";
+    local.flaw = Remark(RemarkId::no_readings);
     return local;
   }
   const bool weighted = !groups[0].covariances.empty();
@@ -58,7 +60,7 @@ LocalPoints localPoints(const MeasuredPoints* groups, std::size_t count) {
       // Written so that a coordinate that is not a number stays one.
       const double from_mean = (point - local.origin).cwiseAbs().sum();
       if (!(from_mean <= std::numeric_limits<double>::max())) {
-        local.flaw = "a reading is not a finite number";
+        local.flaw = Remark(RemarkId::reading_not_finite);
         return local;
       }
       size = std::max(size, (point - local.origin).cwiseAbs().maxCoeff());
@@ -69,11 +71,11 @@ LocalPoints localPoints(const MeasuredPoints* groups, std::size_t count) {
   constexpr double kDigits = 1e4;     // of the spread that double precision must hold
   constexpr double kLargest = 1e140;  // covariances and their sums are squares
   if (!(size > 4.0 * kRounding * farthest)) {
-    local.flaw = "the readings all lie in one place";
+    local.flaw = Remark(RemarkId::readings_in_one_place);
   } else if (farthest > kLargest || size < 1.0 / kLargest) {
-    local.flaw = "the readings are too large or too small for squares in double precision";
+    local.flaw = Remark(RemarkId::squares_beyond_double);
   } else if (size < kDigits * kRounding * farthest) {
-    local.flaw = "the readings lie so far from the origin that double precision does not hold their spread";
+    local.flaw = Remark(RemarkId::readings_too_far_out);
   }
   if (!local.flaw.empty()) return local;
 
@@ -300,8 +302,7 @@ Eigen::MatrixXd covarianceOf(const Eigen::MatrixXd& derivatives, const Estimate&
 bool describeQuality(const Estimate& estimate, const LocalPoints& local, FitQuality& quality) {
   quality.degrees_of_freedom = estimate.degreesOfFreedom();
   if (!estimate.determined) {
-    quality.reason = estimate.converged ? "the readings leave a parameter of the shape free"
-                                        : "no shape of this kind is nearest to the readings: the fit does not settle";
+    quality.reason = estimate.converged ? Remark(RemarkId::parameter_free) : Remark(RemarkId::does_not_settle);
     return false;
   }
   const int dof = quality.degrees_of_freedom;

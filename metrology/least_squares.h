@@ -3,7 +3,6 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstddef>
-#include <string>
 #include <vector>
 
 #include "metrology/measured_points.h"
@@ -24,7 +23,7 @@ struct LocalPoints {
   double scale = 1.0;
   double rounding = 0.0;  ///< of the readings' coordinates in double precision, in local units
   std::vector<LocalGroup> groups;
-  std::string flaw;  ///< why nothing can be fitted to the readings; empty where something can
+  Remark flaw;  ///< why nothing can be fitted to the readings; empty where something can
 
   std::size_t count() const;
   bool weighted() const { return groups.front().covariances != nullptr; }

@@ -4,20 +4,21 @@
 #include <cmath>
 
 #include "metrology/measured_points.h"
+#include "metrology/remarks.h"
 #include "metrology/shape_models.h"
 
 namespace stiffscope::metrology {
 
 FittedLine fitLine(const MeasuredPoints& points) {
   FittedLine fit;
-  fit.method = "orthogonal distances, Gauss-Newton from the first principal axis";
+  fit.method = Remark(RemarkId::line_orthogonal);
   const LocalPoints local = localPoints(&points, 1);
   fit.reason = tooFewReadings(2, points.points.size());
   if (fit.reason.empty()) fit.reason = local.flaw;
   if (!fit.reason.empty()) return fit;
   const PrincipalAxes axes = principalAxes(local);
   if (!standsOut(axes.spread[2], axes.spread[1], local.count())) {
-    fit.reason = "the direction is undetermined: the readings spread alike in two directions, within their scatter";
+    fit.reason = Remark(RemarkId::direction_spread_alike);
     return fit;
   }
   LineModel model(AxisFrame(Eigen::Vector3d::Zero(), axes.directions.col(2)));
@@ -35,7 +36,7 @@ FittedLine fitLine(const MeasuredPoints& points) {
   if (tellsUncertainty(estimate, local)) {
     const double factor = varianceFactor(estimate, local.weighted());
     if (std::sqrt(factor * std::max(estimate.cofactor(2, 2), estimate.cofactor(3, 3))) > kNoDirection) {
-      fit.reason = "the direction is undetermined: the readings scatter across as they spread along";
+      fit.reason = Remark(RemarkId::direction_scatter_as_spread);
       return fit;
     }
     fit.covariance = covarianceOf(full, estimate, local.weighted());

@@ -2,8 +2,10 @@
 
 #include <Eigen/Core>
 #include <cstddef>
-#include <string>
 #include <vector>
+
+#include "metrology/remark.h"
+#include "metrology/remarks.h"
 
 namespace stiffscope::metrology {
 
@@ -16,8 +18,8 @@ namespace stiffscope::metrology {
 /// normal matrix, times chi2 / degrees_of_freedom where that exceeds 1.
 struct FitQuality {
   bool determined = false;
-  std::string reason;          ///< what is not determined, and why
-  const char* method = "";     ///< which distances are minimised, from which start
+  Remark reason;               ///< what is not determined, and why
+  Remark method;               ///< which distances are minimised, from which start
   double rms = 0.0;            ///< root of the mean square distance of a point from the shape
   double residual_sd = 0.0;    ///< root of the sum of squared distances over degrees_of_freedom; 0 where there are none
   double chi2_per_dof = 0.0;   ///< weighted, where covariances are given; 1 without
@@ -26,10 +28,9 @@ struct FitQuality {
 
 /// Why `given` readings cannot make a shape that takes `needed`; empty where they are enough, and for none at
 /// all, which has a reason of its own (LocalPoints::flaw).
-inline std::string tooFewReadings(std::size_t needed, std::size_t given) {
+inline Remark tooFewReadings(std::size_t needed, std::size_t given) {
   if (given == 0 || given >= needed) return {};
-  return std::to_string(needed) + " readings or more are needed, " + std::to_string(given) +
-         (given == 1 ? " is" : " are") + " given";
+  return Remark(RemarkId::too_few_readings, needed, given);
 }
 
 /// Readings of points in one frame. `covariances` is empty, or one a point, in the square of the points'

@@ -4,24 +4,25 @@
 #include <cmath>
 
 #include "metrology/measured_points.h"
+#include "metrology/remarks.h"
 #include "metrology/shape_models.h"
 
 namespace stiffscope::metrology {
 
 FittedPlane fitPlane(const MeasuredPoints& points) {
   FittedPlane fit;
-  fit.method = "orthogonal distances, Gauss-Newton from the last principal axis";
+  fit.method = Remark(RemarkId::plane_orthogonal);
   const LocalPoints local = localPoints(&points, 1);
   fit.reason = tooFewReadings(3, points.points.size());
   if (fit.reason.empty()) fit.reason = local.flaw;
   if (!fit.reason.empty()) return fit;
   const PrincipalAxes axes = principalAxes(local);
   if (!spreads(axes.spread[1], axes.spread[2], local)) {
-    fit.reason = "the normal is undetermined: the readings lie on one line";
+    fit.reason = Remark(RemarkId::normal_on_one_line);
     return fit;
   }
   if (!standsOut(axes.spread[1], axes.spread[0], local.count())) {
-    fit.reason = "the normal is undetermined: the readings spread alike in two directions, within their scatter";
+    fit.reason = Remark(RemarkId::normal_spread_alike);
     return fit;
   }
   PlanesModel model(AxisFrame(Eigen::Vector3d::Zero(), axes.directions.col(0)));
@@ -37,7 +38,7 @@ FittedPlane fitPlane(const MeasuredPoints& points) {
   if (tellsUncertainty(estimate, local)) {
     const double factor = varianceFactor(estimate, local.weighted());
     if (std::sqrt(factor * std::max(estimate.cofactor(0, 0), estimate.cofactor(1, 1))) > kNoDirection) {
-      fit.reason = "the normal is undetermined: the readings lie on one line within their scatter";
+      fit.reason = Remark(RemarkId::normal_on_line_in_scatter);
       return fit;
     }
     fit.covariance = covarianceOf(full, estimate, local.weighted());

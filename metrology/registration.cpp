@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "metrology/least_squares.h"
+#include "metrology/remarks.h"
 
 namespace stiffscope::metrology {
 
@@ -56,7 +57,7 @@ std::optional<Eigen::Matrix3d> rotationOf(const Eigen::Matrix3d& cross) {
 RigidRegistration registerRigid(const std::vector<Eigen::Vector3d>& source, const std::vector<Eigen::Vector3d>& to) {
   RigidRegistration result;
   if (source.size() < 3 || source.size() != to.size()) {
-    result.reason = "fewer than three common points";
+    result.reason = Remark(RemarkId::too_few_common_points);
     return result;
   }
   const Eigen::Vector3d source_mean = mean(source), to_mean = mean(to);
@@ -68,7 +69,7 @@ RigidRegistration registerRigid(const std::vector<Eigen::Vector3d>& source, cons
   if (source.size() == 3) rotation = rotationOfTriangles(source, to, cross);
   if (!rotation) rotation = rotationOf(cross);
   if (!rotation) {
-    result.reason = "the points lie on one line";
+    result.reason = Remark(RemarkId::points_on_one_line);
     return result;
   }
   result.to_from_source.linear() = *rotation;
@@ -125,7 +126,9 @@ WeightedRegistration registerRigid(const std::vector<Eigen::Vector3d>& source, c
   result.determined = false;
   const MeasuredPoints goal{to, covariances};
   const LocalPoints local = localPoints(&goal, 1);
-  result.reason = !local.flaw.empty() ? local.flaw : covariances.empty() ? "the covariances are not one a pair" : "";
+  result.reason = !local.flaw.empty()   ? local.flaw
+                  : covariances.empty() ? Remark(RemarkId::covariances_not_one_a_pair)
+                                        : Remark();
   if (!result.reason.empty()) return result;
   Eigen::Vector3d source_mean = Eigen::Vector3d::Zero();
   for (const Eigen::Vector3d& point : source) source_mean += point / static_cast<double>(source.size());
@@ -138,7 +141,7 @@ WeightedRegistration registerRigid(const std::vector<Eigen::Vector3d>& source, c
   MotionModel model(start, from);
   const Estimate estimate = fitLeastSquares(model, local);
   if (!estimate.determined) {
-    result.reason = "the points do not determine the motion";
+    result.reason = Remark(RemarkId::motion_not_determined);
     return result;
   }
   const Eigen::Isometry3d& found = model.to_from_source;

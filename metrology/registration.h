@@ -1,14 +1,15 @@
 #pragma once
 
 #include <Eigen/Geometry>
-#include <string>
 #include <vector>
+
+#include "metrology/remark.h"
 
 namespace stiffscope::metrology {
 
 struct RigidRegistration {
   bool determined = false;
-  std::string reason;
+  Remark reason;
   Eigen::Isometry3d to_from_source = Eigen::Isometry3d::Identity();
   double rms = 0.0;  ///< per coordinate, m
 };

@@ -12,6 +12,7 @@
 #include "metrology/cylinder_fit.h"
 #include "metrology/line_fit.h"
 #include "metrology/plane_fit.h"
+#include "metrology/remarks.h"
 #include "metrology/sphere_fit.h"
 
 namespace stiffscope::metrology {
@@ -103,7 +104,7 @@ auto fitRobustly(const Readings& readings, const FitFunction& fitTo, double fami
   }
   if (found.contradictory) {
     fit = {};
-    fit.reason = "more than a third of the readings contradict the others: it cannot be told which are wrong";
+    fit.reason = Remark(RemarkId::readings_contradict);
   }
   return RobustFit<Fit>{std::move(fit), std::move(found.rejected), family_level, found.critical_w};
 }

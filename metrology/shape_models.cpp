@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "metrology/linear_algebra.h"
+#include "metrology/remarks.h"
 
 namespace stiffscope::metrology {
 
@@ -127,10 +128,10 @@ void SpheresModel::move(const Eigen::VectorXd& step) {
   centre += Eigen::Vector3d(step);
 }
 
-std::optional<CirclesModel> circlesStart(const LocalPoints& local, std::string& reason) {
+std::optional<CirclesModel> circlesStart(const LocalPoints& local, Remark& reason) {
   const PrincipalAxes axes = principalAxes(local);
   if (!spreads(axes.spread[1], axes.spread[2], local)) {
-    reason = "the readings lie on one line";
+    reason = Remark(RemarkId::readings_on_one_line);
     return std::nullopt;
   }
   const AxisFrame flat(Eigen::Vector3d::Zero(), axes.directions.col(0));
@@ -138,7 +139,7 @@ std::optional<CirclesModel> circlesStart(const LocalPoints& local, std::string& 
   basis << flat.u(), flat.v();
   const auto centre = algebraicCentre<2>(local, basis);
   if (!centre) {
-    reason = "the readings lie on one line";
+    reason = Remark(RemarkId::readings_on_one_line);
     return std::nullopt;
   }
   return CirclesModel(AxisFrame(basis * *centre, flat.direction()));

@@ -5,21 +5,20 @@
 
 #include "metrology/least_squares.h"
 #include "metrology/measured_points.h"
+#include "metrology/remarks.h"
 #include "metrology/shape_models.h"
 
 namespace stiffscope::metrology {
 
 namespace {
 
-constexpr const char* kInOnePlane = "the readings of a reflector lie in one plane";
-
 /// Taubin's common centre; empty, with the reason, where the points lie in one plane.
-std::optional<SpheresModel> spheresStart(const LocalPoints& local, std::string& reason) {
+std::optional<SpheresModel> spheresStart(const LocalPoints& local, Remark& reason) {
   const PrincipalAxes axes = principalAxes(local);
   const bool thick = spreads(axes.spread[0], axes.spread[2], local);
   const auto centre = thick ? algebraicCentre<3>(local, axes.directions) : std::nullopt;
   if (!centre) {
-    reason = kInOnePlane;
+    reason = Remark(RemarkId::reflector_in_one_plane);
     return std::nullopt;
   }
   return SpheresModel(axes.directions * *centre);
@@ -41,7 +40,7 @@ Eigen::RowVectorXd firstRadii(const Eigen::Vector3d& centre, const LocalPoints& 
 SphereFit fitSpheres(const std::vector<SpherePoints>& spheres) {
   SphereFit fit;
   for (const SpherePoints& sphere : spheres) {
-    if (sphere.points.size() < 4) fit.reason = "fewer than four readings of a reflector";
+    if (sphere.points.size() < 4) fit.reason = Remark(RemarkId::reflector_under_four);
   }
   if (!fit.reason.empty()) return fit;
   const LocalPoints local = localPoints(spheres.data(), spheres.size());
@@ -53,11 +52,11 @@ SphereFit fitSpheres(const std::vector<SpherePoints>& spheres) {
   const Estimate estimate = fitLeastSquares(*model, local, firstRadii(model->centre, local));
   fit.degrees_of_freedom = estimate.degreesOfFreedom();
   if (!tellsUncertainty(estimate, local)) {
-    fit.reason = "too few readings for a centre with its uncertainty";
+    fit.reason = Remark(RemarkId::too_few_for_centre);
     return fit;
   }
   if (!estimate.determined) {
-    fit.reason = "the readings do not determine the centre";
+    fit.reason = Remark(RemarkId::centre_not_determined);
     return fit;
   }
   fit.centre = local.origin + local.scale * model->centre;
@@ -74,14 +73,14 @@ SphereFit fitSpheres(const std::vector<SpherePoints>& spheres) {
 
 FittedSphere fitSphere(const MeasuredPoints& points) {
   FittedSphere fit;
-  fit.method = "orthogonal distances, Gauss-Newton from Taubin's sphere";
+  fit.method = Remark(RemarkId::sphere_radial);
   const LocalPoints local = localPoints(&points, 1);
   fit.reason = tooFewReadings(4, points.points.size());
   if (fit.reason.empty()) fit.reason = local.flaw;
   if (!fit.reason.empty()) return fit;
   auto model = spheresStart(local, fit.reason);
   if (!model) {
-    fit.reason = "the centre is undetermined: the readings lie in one plane";
+    fit.reason = Remark(RemarkId::centre_in_one_plane);
     return fit;
   }
   const Estimate estimate = fitLeastSquares(*model, local, firstRadii(model->centre, local));
@@ -89,7 +88,7 @@ FittedSphere fitSphere(const MeasuredPoints& points) {
   if (tellsUncertainty(estimate, local)) {
     fit.covariance = local.scale * local.scale * varianceFactor(estimate, local.weighted()) * estimate.cofactor;
     if (!curved(local.scale * estimate.own(0, 0), std::sqrt((*fit.covariance)(3, 3)))) {
-      fit.reason = "the radius is undetermined: against their scatter the readings could lie in a plane";
+      fit.reason = Remark(RemarkId::radius_of_plane);
       fit.covariance.reset();
       return fit;
     }

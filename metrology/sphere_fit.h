@@ -3,10 +3,10 @@
 #include <Eigen/Core>
 #include <array>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "metrology/measured_points.h"
+#include "metrology/remark.h"
 
 namespace stiffscope::metrology {
 
@@ -16,7 +16,7 @@ using SpherePoints = MeasuredPoints;
 /// Concentric spheres, one a reflector.
 struct SphereFit {
   bool determined = false;
-  std::string reason;
+  Remark reason;
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();
   std::vector<double> radii;   ///< one a reflector, m
   Eigen::MatrixXd covariance;  ///< of (centre, radii), m^2

@@ -18,6 +18,7 @@
 #include "reports/text/text.h"
 #include "reports/words/names.h"
 #include "reports/words/preparation_words.h"
+#include "reports/words/remark_words.h"
 
 namespace stiffscope::app {
 
@@ -46,7 +47,7 @@ int compensateCampaign(const CompensateArguments& arguments) {
   if (!method.available) {
     throw io::InputError(
         {arguments.campaign}, "",
-        std::string(reports::namesOf(methods.front()).full) + " is unavailable here: " + method.reason);
+        std::string(reports::namesOf(methods.front()).full) + " is unavailable here: " + reports::words(method.reason));
   }
   std::vector<std::string> warnings;
   const std::vector<compensation::PostureToCompensate> asked =
@@ -58,7 +59,7 @@ int compensateCampaign(const CompensateArguments& arguments) {
     give = extended_model::effectDeflection(*improved, methods.front());
   const std::vector<compensation::CompensatedPosture> rows = compensation::compensate(
       campaign, method.geometry, method.estimate, result.frames.tcp_in_flange, asked, {}, give ? &*give : nullptr);
-  std::vector<std::string> cautions = result.cautions;
+  std::vector<std::string> cautions = reports::words(result.cautions);
   for (std::string& sentence : compensation::implausibleCommands(rows)) cautions.push_back(std::move(sentence));
   deliver(
       [&] {

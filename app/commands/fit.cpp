@@ -10,6 +10,7 @@
 #include "metrology/robust_fit.h"
 #include "reports/json/fit_json.h"
 #include "reports/text/text.h"
+#include "reports/words/remark_words.h"
 
 namespace stiffscope::app {
 
@@ -81,7 +82,7 @@ void addFit(CLI::App& app, Run& run) {
       deliver([&] { return reports::fitJson(fitted); }, [&] { return reports::fitText(fitted); }, arguments->json);
       if (fitted.quality().determined) return kDone;
       std::fprintf(stderr, "stiffscope: %s: %s: %s\n", arguments->file.c_str(), arguments->shape.c_str(),
-                   fitted.quality().reason.c_str());
+                   reports::words(fitted.quality().reason).c_str());
       return kNotUsable;
     };
   });

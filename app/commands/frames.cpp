@@ -12,6 +12,7 @@
 #include "reports/json/json.h"
 #include "reports/text/text.h"
 #include "reports/words/preparation_words.h"
+#include "reports/words/remark_words.h"
 
 namespace stiffscope::app {
 
@@ -38,7 +39,7 @@ void addFrames(CLI::App& app, Run& run) {
       const frames::MeasuredAxis& missing = frames.axes[0].measured ? frames.axes[1] : frames.axes[0];
       std::fprintf(stderr,
                    "stiffscope: %s: no frame is measured: R0 needs sweeps of axes 1 and 2 (`circle_sweeps`): %s\n",
-                   arguments->campaign.c_str(), missing.reason.c_str());
+                   arguments->campaign.c_str(), reports::words(missing.reason).c_str());
       return kNotUsable;
     };
   });

@@ -13,6 +13,7 @@
 #include "reports/page/html.h"
 #include "reports/words/names.h"
 #include "reports/words/numbers.h"
+#include "reports/words/remark_words.h"
 
 namespace stiffscope::app {
 
@@ -42,7 +43,8 @@ ViewMaterial loadMaterial(const campaign::Campaign& campaign, const identificati
   if (method) {
     material.method = reports::shortName(*method);
   } else {
-    material.lacking = "nothing is predicted: " + identified.of(identification::Method::partial_pose).reason;
+    material.lacking =
+        "nothing is predicted: " + reports::words(identified.of(identification::Method::partial_pose).reason);
   }
   for (const int step : identification::loadSteps(campaign)) {
     const identification::Identification other =
@@ -72,7 +74,8 @@ std::vector<identification::Method> methodsToShow(const identification::Identifi
   if (!wanted.empty()) {
     const std::vector<identification::Method> named = methodsNamed(wanted);
     if (named.size() == 1 && !result.of(named.front()).available) {
-      throw io::InputError({"--method"}, wanted, "not available here: " + result.of(named.front()).reason);
+      throw io::InputError({"--method"}, wanted,
+                           "not available here: " + reports::words(result.of(named.front()).reason));
     }
     if (named.size() == 1) methods.push_back(named.front());
   }
@@ -142,13 +145,13 @@ OpenedMaterial openSweeps(const campaign::Campaign& campaign, const ViewOptions&
 }  // namespace
 
 OpenedMaterial openMaterial(const campaign::Campaign& campaign, const ViewOptions& options) {
-  const std::string lacking = identification::whatLoadsLack(campaign);
-  if (!lacking.empty()) return openSweeps(campaign, options, lacking);
+  const Remark lacking = identification::whatLoadsLack(campaign);
+  if (!lacking.empty()) return openSweeps(campaign, options, reports::words(lacking));
   if (!identification::heaviestStep(campaign)) return openSweeps(campaign, options, "no load step has a force");
   const identification::Identification result = identified(campaign, options);
   OpenedMaterial opened = openLoads(campaign, result, options);
   if (!opened.by_method.empty()) return opened;
-  return openSweeps(campaign, options, result.of(identification::Method::partial_pose).reason);
+  return openSweeps(campaign, options, reports::words(result.of(identification::Method::partial_pose).reason));
 }
 
 namespace {
@@ -187,7 +190,7 @@ std::vector<render::SceneTrace> tracesOf(const campaign::Campaign& campaign, con
 }
 
 std::string axisWords(const frames::MeasuredAxis& axis) {
-  if (!axis.measured) return "not measured: " + axis.reason;
+  if (!axis.measured) return "not measured: " + reports::words(axis.reason);
   double arc = 0.0;
   for (const metrology::AxisCircle& circle : axis.fit.circles) arc = std::max(arc, circle.arc);
   return fmt::format("arc {}\u00b0, circles fitted to {}\u00a0\u00b5m rms", reports::fixed(arc / io::kDegree, 0),

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 
+#include "core/frames/remarks.h"
 #include "core/robot/kinematics.h"
 #include "metrology/lines.h"
 #include "metrology/rigid_motion.h"
@@ -250,9 +251,7 @@ void propagate(const campaign::Campaign& campaign, Frames& frames,
 Frames measureFrames(const campaign::Campaign& campaign) {
   Frames frames = measureOnce(campaign, SagModel());
   propagate(campaign, frames);
-  frames.sag_note = frames.weight.links_known
-                        ? "no stiffness is known, so the arm's own sag is left in"
-                        : "the robot's link masses are not known, so the arm's own sag is left in";
+  frames.sag_note = Remark(frames.weight.links_known ? RemarkId::sag_without_stiffness : RemarkId::sag_without_masses);
   return frames;
 }
 
@@ -265,7 +264,7 @@ Frames refineFrames(const campaign::Campaign& campaign, const Frames& so_far, co
   };
   Frames frames = measuredWith(compliance);
   frames.sag_removed = true;
-  frames.sag_note = "the arm's own sag is taken off the readings by the identified stiffnesses and the URDF's masses";
+  frames.sag_note = Remark(RemarkId::sag_taken_off);
   const Frames as_read = measureOnce(campaign, SagModel());
   for (std::size_t i = 0; i < frames.links.size(); ++i) {
     frames.links[i].distance_by_sag = frames.links[i].distance - as_read.links[i].distance;

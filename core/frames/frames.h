@@ -2,7 +2,6 @@
 
 #include <Eigen/Core>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "core/campaign/campaign.h"
@@ -11,6 +10,7 @@
 #include "core/frames/joint_axes.h"
 #include "core/frames/link_geometry.h"
 #include "core/frames/wrist_centre.h"
+#include "metrology/remark.h"
 #include "metrology/rigid_motion.h"
 
 namespace stiffscope::frames {
@@ -63,7 +63,7 @@ struct Frames {
   robot::GravityLoad weight;                                ///< in R0
   bool sag_removed = false;                                 ///< readings were referred to the rigid arm
   double largest_sag = 0.0;                                 ///< of a reading of the sweeps, taken off, m
-  std::string sag_note;                                     ///< why not, or with which stiffnesses
+  Remark sag_note;                                          ///< why not, or with which stiffnesses
   FramesCovariance covariance;  ///< of R0, links and wrist; the arm's own sag is in it as far as stiffnesses tell
 };
 

@@ -2,13 +2,13 @@
 
 #include <ceres/ceres.h>
 #include <ceres/jet.h>
-#include <fmt/format.h>
 #include <Eigen/Dense>
 #include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "core/frames/base_frame.h"
+#include "core/frames/remarks.h"
 #include "core/frames/unloaded_positions.h"
 #include "core/numerics/rank.h"
 #include "metrology/lines.h"
@@ -16,11 +16,6 @@
 namespace stiffscope::frames {
 
 namespace {
-
-std::string axisParameterName(int k) {
-  static const std::array<const char*, 4> kKinds{"place (u)", "place (v)", "direction (u)", "direction (v)"};
-  return fmt::format("axis {} {}", k / 4 + 1, kKinds[static_cast<std::size_t>(k % 4)]);
-}
 
 class Calibration {
  public:
@@ -31,7 +26,7 @@ class Calibration {
     positions_ = unloadedPositions(campaign_);
     result.positions = static_cast<int>(positions_.size());
     if (positions_.empty()) {
-      result.reason = "there are no absolute unloaded positions (loading, step 0) to calibrate on";
+      result.reason = Remark(RemarkId::no_unloaded_positions);
       return result;
     }
     if (!begin(result)) return result;
@@ -40,11 +35,10 @@ class Calibration {
     const std::vector<int> unseen_axes = findUnseen();
     result.parameters = 24 + 6 + 3 * static_cast<int>(used_targets_.size()) - static_cast<int>(unseen_axes.size());
     if (3 * result.positions <= result.parameters) {
-      result.reason =
-          fmt::format("{} unloaded positions do not determine {} parameters", result.positions, result.parameters);
+      result.reason = Remark(RemarkId::too_few_positions, result.positions, result.parameters);
       return result;
     }
-    for (const int k : unseen_axes) result.fixed.push_back(axisParameterName(k));
+    for (const int k : unseen_axes) result.fixed.push_back(Remark(RemarkId::axis_parameter, k / 4 + 1, k % 4));
     if (!unseen_axes.empty() && unseen_axes.size() < 24) {
       problem_.SetManifold(parameters_.axes.data(), new ceres::SubsetManifold(24, unseen_axes));
     } else if (unseen_axes.size() == 24) {
@@ -60,7 +54,7 @@ class Calibration {
     ceres::Solver::Summary summary;
     ceres::Solve(options, &problem_, &summary);
     if (!summary.IsSolutionUsable()) {
-      result.reason = "the calibration did not converge: " + summary.message;
+      result.reason = Remark(RemarkId::calibration_not_settling, summary.message);
       return result;
     }
     result.rms_after = plainRms();
@@ -83,9 +77,7 @@ class Calibration {
     if (!placed) {
       const auto found = baseFromPostures(begin_, positions_, campaign_.targets.size());
       if (!found) {
-        result.reason =
-            "the base's place is not known from sweeps, and finding it from postures needs three "
-            "reflectors in three postures that turn the flange about different axes";
+        result.reason = Remark(RemarkId::base_not_placed);
         return false;
       }
       start_.points_from_base = found->points_from_base;

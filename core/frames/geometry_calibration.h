@@ -5,27 +5,27 @@
 #include <Eigen/Geometry>
 #include <array>
 #include <cmath>
-#include <string>
 #include <vector>
 
 #include "core/frames/arm_geometry.h"
 #include "core/robot/robot.h"
+#include "metrology/remark.h"
 
 namespace stiffscope::frames {
 
 /// Result of calibrating geometry, base and tool points on unloaded absolute positions.
 struct GeometryCalibration {
   bool done = false;
-  std::string reason;        ///< why not
+  Remark reason;             ///< why not
   LoadingGeometry geometry;  ///< the calibrated one; its compliance is that of the start
   /// The geometry moved along each column of a root S of its covariance C = S S^T: by (J^T J)^-1 of the whitened
   /// residuals, times chi^2 over degrees of freedom where that is above one, or no tracker is declared.
   std::vector<LoadingGeometry> spread;
   double rms_before = 0.0;  ///< plain, per coordinate, m: the starting geometry
   double rms_after = 0.0;
-  int positions = 0;               ///< unloaded reflector positions used
-  int parameters = 0;              ///< that were estimated
-  std::vector<std::string> fixed;  ///< parameters that the data cannot see, kept at their start
+  int positions = 0;          ///< unloaded reflector positions used
+  int parameters = 0;         ///< that were estimated
+  std::vector<Remark> fixed;  ///< parameters that the data cannot see, kept at their start
 };
 
 /// Partial Pose's first step (Wu, Klimchik et al.; paper IV.B): the four parameters of each joint axis, the

@@ -1,10 +1,10 @@
 #include "core/frames/joint_axes.h"
 
-#include <fmt/format.h>
 #include <Eigen/Geometry>
 #include <cmath>
 #include <map>
 
+#include "core/frames/remarks.h"
 #include "metrology/lines.h"
 
 namespace stiffscope::frames {
@@ -104,8 +104,7 @@ bool turnBackToZero(const std::array<MeasuredAxis, 6>& axes, int axis, MeasuredA
     if (measured.swept_at[before] == 0.0) continue;
     const MeasuredAxis& earlier = axes[static_cast<std::size_t>(before)];
     if (!earlier.measured) {
-      measured.reason =
-          fmt::format("axis {} stood away from zero during its sweep and is not measured itself", before + 1);
+      measured.reason = Remark(RemarkId::earlier_axis_not_known, before + 1);
       return false;
     }
     back = turnAbout(earlier.at_zero.line, -measured.swept_at[before]) * back;
@@ -137,16 +136,16 @@ std::array<MeasuredAxis, 6> measureAxes(const campaign::Campaign& campaign, cons
   for (int axis = 0; axis < 6; ++axis) {
     MeasuredAxis& measured = axes[static_cast<std::size_t>(axis)];
     if (!campaign.circle_sweeps) {
-      measured.reason = "the campaign has no circle sweeps";
+      measured.reason = Remark(RemarkId::no_circle_sweeps);
       continue;
     }
     const Sweep sweep = collect(campaign, axis, points);
     if (sweep.circles.empty()) {
-      measured.reason = "it was not swept";
+      measured.reason = Remark(RemarkId::not_swept);
       continue;
     }
     if (sweep.others_moved) {
-      measured.reason = "other joints moved during its sweep";
+      measured.reason = Remark(RemarkId::other_joints_moved);
       continue;
     }
     measured.fit = metrology::fitAxis(sweep.circles);

@@ -2,13 +2,13 @@
 
 #include <Eigen/Core>
 #include <array>
-#include <string>
 #include <vector>
 
 #include "core/campaign/campaign.h"
 #include "core/frames/gravity_sag.h"
 #include "metrology/axis_fit.h"
 #include "metrology/measured_points.h"
+#include "metrology/remark.h"
 
 namespace stiffscope::frames {
 
@@ -18,7 +18,7 @@ inline constexpr double kStandsStill = 1e-5;
 /// One joint axis from its circle sweeps.
 struct MeasuredAxis {
   bool measured = false;
-  std::string reason;      ///< why not measured
+  Remark reason;           ///< why not measured
   metrology::AxisFit fit;  ///< circles in the order of `targets`
   std::vector<int> targets;
   Vector6d swept_at = Vector6d::Zero();  ///< joint angles of the first reading, rad

@@ -1,10 +1,10 @@
 #include "core/frames/position_equations.h"
 
-#include <fmt/format.h>
 #include <Eigen/Dense>
 #include <algorithm>
 
 #include "core/frames/arm_geometry.h"
+#include "core/frames/remarks.h"
 #include "core/robot/gravity_load.h"
 
 namespace stiffscope::frames {
@@ -74,14 +74,14 @@ class RowMaker {
   MovedAxes axes_;
 };
 
-std::string missing(const campaign::Campaign& campaign, const Frames& frames, const LoadingGeometry& geometry,
-                    const std::optional<metrology::TrackerNoise>& noise) {
-  if (!campaign.loading || !campaign.states) return "no absolute readings unloaded: measure `loading` with step 0";
-  if (!noise) return "the tracker's noise is not declared: state `tracker` in campaign.xml";
+Remark missing(const campaign::Campaign& campaign, const Frames& frames, const LoadingGeometry& geometry,
+               const std::optional<metrology::TrackerNoise>& noise) {
+  if (!campaign.loading || !campaign.states) return Remark(RemarkId::no_absolute_readings);
+  if (!noise) return Remark(RemarkId::tracker_noise_not_declared);
   for (std::size_t j = 0; j < 6; ++j) {
-    if (!frames.axes[j].measured) return fmt::format("axis {} is not measured: {}", j + 1, frames.axes[j].reason);
+    if (!frames.axes[j].measured) return Remark(RemarkId::axis_not_measured, j + 1, frames.axes[j].reason);
   }
-  if (!geometry.r0_from_loading) return "the loading's readings are in another frame than the sweeps'";
+  if (!geometry.r0_from_loading) return Remark(RemarkId::loading_in_other_frame);
   return {};
 }
 

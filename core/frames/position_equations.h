@@ -1,7 +1,6 @@
 #pragma once
 
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "core/campaign/state_points.h"
@@ -31,7 +30,7 @@ struct AbsoluteRow {
 };
 
 struct AbsoluteRows {
-  std::string reason;  ///< why there are none
+  Remark reason;  ///< why there are none
   std::vector<AbsoluteRow> rows;
   std::vector<int> poses;
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< mean of the measured points

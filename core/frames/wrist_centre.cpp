@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "core/frames/joint_axes.h"
+#include "core/frames/remarks.h"
 #include "core/robot/kinematics.h"
 #include "metrology/lines.h"
 
@@ -89,25 +90,25 @@ WristCentre measureWristCentre(const campaign::Campaign& campaign, const ArmInR0
   if (seen > 0) wrist.reflector_barycentre_in_r0 /= seen;
 
   if (!campaign.wrist_sweep) {
-    wrist.reason = "the campaign has no wrist sweep";
+    wrist.reason = Remark(RemarkId::no_wrist_sweep);
     return wrist;
   }
   if (!arm.points_placed) {
-    wrist.reason = "R0 is not known in the frame of the readings: axes 1 and 2 were not swept";
+    wrist.reason = Remark(RemarkId::r0_not_in_frame_of_readings);
     return wrist;
   }
   // R0 is placed, so there are circle sweeps.
   if (campaign.wrist_sweep->frame != campaign.circle_sweeps->frame) {
-    wrist.reason = "the wrist sweep's readings are in another frame than the circle sweeps'";
+    wrist.reason = Remark(RemarkId::wrist_sweep_in_other_frame);
     return wrist;
   }
   if (!armStoodStill(*campaign.wrist_sweep)) {
-    wrist.reason = "axes 1-3 moved during the wrist sweep";
+    wrist.reason = Remark(RemarkId::arm_moved_in_wrist_sweep);
     return wrist;
   }
   const SweepOfTargets sweep = collect(campaign, arm, points);
   if (sweep.spheres.empty()) {
-    wrist.reason = "no reflector has four readings in the wrist sweep";
+    wrist.reason = Remark(RemarkId::wrist_reflectors_under_four);
     return wrist;
   }
   wrist.spheres = metrology::fitSpheres(sweep.spheres);

@@ -1,11 +1,11 @@
 #pragma once
 
-#include <string>
 #include <vector>
 
 #include "core/campaign/campaign.h"
 #include "core/frames/base_frame.h"
 #include "core/frames/gravity_sag.h"
+#include "metrology/remark.h"
 #include "metrology/sphere_fit.h"
 
 namespace stiffscope::frames {
@@ -24,7 +24,7 @@ struct WristTableRow {
 /// The wrist centre by the wrist sweep (paper, II.D).
 struct WristCentre {
   bool measured = false;
-  std::string reason;
+  Remark reason;
   Vector6d q = Vector6d::Zero();                           ///< axes 1-3 during the sweep (4-6 zero)
   Eigen::Vector3d centre_in_r0 = Eigen::Vector3d::Zero();  ///< common centre of all spheres, at q
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();    ///< of it, with R0's (FramesCovariance); R0 axes, m^2

@@ -9,6 +9,7 @@
 #include <numeric>
 #include <utility>
 
+#include "core/identification/remarks.h"
 #include "core/numerics/distributions.h"
 #include "core/numerics/parallel.h"
 #include "metrology/linear_algebra.h"
@@ -240,9 +241,9 @@ double StiffnessEstimate::dof(int joint) const {
   return scatter_dof[joint] * ratio * ratio;
 }
 
-std::string StiffnessEstimate::mark(int joint) const {
-  if (compliance[joint] < 0.0) return "negative";
-  if (stiffnessSd(joint) > std::abs(stiffness(joint))) return "imprecise";
+Remark StiffnessEstimate::mark(int joint) const {
+  if (compliance[joint] < 0.0) return Remark(RemarkId::negative);
+  if (stiffnessSd(joint) > std::abs(stiffness(joint))) return Remark(RemarkId::imprecise);
   return {};
 }
 

@@ -49,7 +49,7 @@ struct StiffnessEstimate {
   double stiffnessSd(int joint) const;
   /// What a reader must know of the entry: "negative", "imprecise" (standard deviation above the value), or
   /// empty.
-  std::string mark(int joint) const;
+  Remark mark(int joint) const;
 };
 
 /// Covariance of least squares from the scatter between postures, which errors shared within a posture (its

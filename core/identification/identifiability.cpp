@@ -1,9 +1,9 @@
 #include "core/identification/identifiability.h"
 
-#include <fmt/format.h>
 #include <Eigen/Dense>
 #include <cmath>
 
+#include "core/identification/remarks.h"
 #include "core/numerics/parallel.h"
 #include "core/robot/kinematics.h"
 #include "core/robot/wrench.h"
@@ -88,8 +88,7 @@ void evaluateLever(const std::vector<CaseEquations>& equations, const std::vecto
     const double lever = sum.torques[j] > 0.0 ? std::sqrt(sum.columns[j] / sum.torques[j]) : 0.0;
     if (!joint.identifiable || lever > limits.least_ratio * limits.position) continue;
     joint.identifiable = false;
-    joint.reason = fmt::format("the measured points stand {:.2f} mm rms from axis {}: its turning does not move them",
-                               1e3 * lever, j + 1);
+    joint.reason = Remark(RemarkId::points_on_axis, j + 1, lever);
   }
 }
 
@@ -97,7 +96,7 @@ constexpr double kTakesPart = 0.05;  // share of a joint in an unseen combinatio
 
 /// `unseen`: of the columns at unit length, the combination that moves no measured point; `lengths` of the
 /// columns. Two joints whose columns are parallel: what is seen is c_a + ratio c_b.
-std::string combinationReason(const Vector6d& unseen, const Vector6d& lengths) {
+Remark combinationReason(const Vector6d& unseen, const Vector6d& lengths) {
   std::vector<int> joints;
   for (int j = 0; j < 6; ++j) {
     if (std::abs(unseen[j]) > kTakesPart) joints.push_back(j);
@@ -105,24 +104,15 @@ std::string combinationReason(const Vector6d& unseen, const Vector6d& lengths) {
   if (joints.size() == 2) {
     const int a = joints[0], b = joints[1];
     const double ratio = -(unseen[a] / lengths[a]) / (unseen[b] / lengths[b]);
-    return fmt::format(
-        "these postures only see a combination of joints {}, {}: the two move the reflectors in proportion "
-        "in every posture, so "
-        "that only 1/k{} {} {}/k{} is determined; postures in which axis {} stands otherwise to the load "
-        "than axis {} "
-        "would part them",
-        a + 1, b + 1, a + 1, ratio < 0.0 ? "-" : "+", fmt::format("{:.3g}", std::abs(ratio)), b + 1, a + 1, b + 1);
+    return Remark(RemarkId::two_joints_combined, a + 1, b + 1, ratio);
   }
-  std::string names, terms;
+  std::vector<int> numbers;
+  std::vector<double> steps;
   for (const int j : joints) {
-    const double share = unseen[j] / lengths[j] / (unseen[joints[0]] / lengths[joints[0]]);
-    names += fmt::format("{}{}", names.empty() ? "" : ", ", j + 1);
-    terms += terms.empty()
-                 ? fmt::format("1/k{}", j + 1)
-                 : fmt::format(" {} {:.3g} at 1/k{}", share < 0.0 ? "and -" : "and +", std::abs(share), j + 1);
+    numbers.push_back(j + 1);
+    steps.push_back(unseen[j] / lengths[j] / (unseen[joints[0]] / lengths[joints[0]]));
   }
-  return fmt::format("these postures only see a combination of joints {}: adding +1 at {} changes no displacement",
-                     names, terms);
+  return Remark(RemarkId::joints_combined, numbers, steps);
 }
 
 /// Marks joints that take part in a combination which the equations do not see.
@@ -143,7 +133,7 @@ void evaluateRank(const std::vector<CaseEquations>& equations, Identifiability& 
   for (int k = 0; k < 6; ++k) {
     if (eigen.values[k] > kUnseen) break;
     const Vector6d unseen = eigen.vectors.col(k);
-    const std::string reason = combinationReason(unseen, sum.matrix.diagonal().cwiseSqrt());
+    const Remark reason = combinationReason(unseen, sum.matrix.diagonal().cwiseSqrt());
     for (int j = 0; j < 6; ++j) {
       if (std::abs(unseen[j]) <= kTakesPart) continue;
       JointIdentifiability& joint = result.joints[static_cast<std::size_t>(j)];
@@ -186,14 +176,9 @@ Identifiability evaluateIdentifiability(const frames::LoadingGeometry& geometry,
     joint.identifiable = joint.trusted_rms > 0.0 && joint.trusted_rms > limits.least_ratio * joint.uncertainty_rms;
     if (joint.identifiable) continue;
     joint.reason = result.load_hangs && joint.torque_rms > joint.trusted_rms
-                       ? fmt::format(
-                             "the load only hangs and does not turn axis {}: {:.1f} Nm rms of torque, of which "
-                             "a load along gravity gives {:.1f} Nm",
-                             j + 1, joint.torque_rms, joint.trusted_rms)
-                       : fmt::format(
-                             "the load turns axis {} by {:.1f} Nm rms, no more than {:g} times the {:.1f} Nm "
-                             "that wrench, frame and angle uncertainty put there",
-                             j + 1, joint.trusted_rms, limits.least_ratio, joint.uncertainty_rms);
+                       ? Remark(RemarkId::load_hangs, j + 1, joint.torque_rms, joint.trusted_rms)
+                       : Remark(RemarkId::load_turns_too_little, j + 1, joint.trusted_rms, limits.least_ratio,
+                                joint.uncertainty_rms);
   }
   evaluateLever(equations, torques, limits, result);
   evaluateRank(equations, result);

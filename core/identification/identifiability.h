@@ -1,10 +1,10 @@
 #pragma once
 
 #include <array>
-#include <string>
 #include <vector>
 
 #include "core/identification/equations.h"
+#include "metrology/remark.h"
 
 namespace stiffscope::identification {
 
@@ -19,7 +19,7 @@ struct TrustLimits {
 /// Whether this data turns a joint enough for its compliance to be seen.
 struct JointIdentifiability {
   bool identifiable = false;
-  std::string reason;            ///< in words, where it is not
+  Remark reason;                 ///< why not
   double torque_rms = 0.0;       ///< over the load cases, Nm
   double trusted_rms = 0.0;      ///< of it, what a hanging load explains where the load hangs; else the same
   double uncertainty_rms = 0.0;  ///< what wrench, frame and angle uncertainty alone put there, Nm

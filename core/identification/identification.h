@@ -2,7 +2,6 @@
 
 #include <array>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "core/frames/geometry_calibration.h"
@@ -39,7 +38,7 @@ struct Compensation {
 
 struct MethodResult {
   bool available = false;
-  std::string reason;  ///< why not, and what measurement would make it available
+  Remark reason;  ///< why not, and what measurement would make it available
   StiffnessEstimate estimate;
   frames::LoadingGeometry geometry;        ///< the method's own
   std::vector<CaseEquations> wrist_rows;   ///< P_wrist's equations in that geometry; empty where not measured
@@ -64,7 +63,7 @@ struct Identification {
   std::vector<int> steps;                   ///< used, together
   frames::Frames frames;                    ///< the own weight's sag taken off where it can be
   std::vector<LoadCase> cases;              ///< in the swept geometry
-  std::vector<std::string> left_out;        ///< postures that are not used, with the reason
+  std::vector<LeftOutPosture> left_out;     ///< postures that are not used, with the reason
   std::vector<OutlyingPosture> outlying;    ///< disagree with the rest; used nevertheless, unless `robust`
   bool robust = false;                      ///< `outlying` are left out
   std::vector<WristMove> wrist;             ///< one a case; empty where P_wrist is not measured
@@ -76,7 +75,7 @@ struct Identification {
   std::vector<LengthSensitivity> length_sensitivity;
   std::array<MethodResult, 3> methods;  ///< by Method
   std::optional<NoiseShare> noise;
-  std::vector<std::string> cautions;       ///< warningsOf this result
+  std::vector<Remark> cautions;            ///< warningsOf this result
   double servo_change = 0.0;               ///< largest change of a reported joint angle under load, rad
   double geometric_stiffness_share = 0.0;  ///< rms change of the joint torques by K_c, relative
   bool finite_deflection = true;

@@ -94,7 +94,7 @@ Identification identify(const campaign::Campaign& campaign, const IdentifyOption
 
 Identification framesAlone(const campaign::Campaign& campaign) {
   Identification result;
-  const std::string lacking = whatLoadsLack(campaign);
+  const Remark lacking = whatLoadsLack(campaign);
   result.frames = solvedFrames(campaign);
   for (MethodResult& method : result.methods) method.reason = lacking;
   for (JointIdentifiability& joint : result.identifiability.joints) joint.reason = lacking;

@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "core/identification/remarks.h"
 #include "core/io/input_error.h"
 #include "core/numerics/parallel.h"
 #include "metrology/registration.h"
@@ -99,14 +100,23 @@ io::InputPlace inFile(const campaign::Campaign& campaign, const std::string& fil
   return {(campaign.folder / file).string(), 0, {}};
 }
 
+/// What whatLoadsLack found, as an error in the input.
+const char* expectationOf(const Remark& lacking) {
+  if (lacking.is(RemarkId::no_states)) {
+    return "no 'states': joint angles and load-cell readings are needed to identify";
+  }
+  if (lacking.is(RemarkId::no_load_cell)) {
+    return "no 'load_cell': where the measured wrench acts is needed to identify";
+  }
+  return "neither 'loading' nor 'displacements': readings under load are needed to identify";
+}
+
 }  // namespace
 
-std::string whatLoadsLack(const campaign::Campaign& campaign) {
-  if (!campaign.states) return "no 'states': joint angles and load-cell readings are needed to identify";
-  if (!campaign.load_cell) return "no 'load_cell': where the measured wrench acts is needed to identify";
-  if (!campaign.loading && !campaign.displacements) {
-    return "neither 'loading' nor 'displacements': readings under load are needed to identify";
-  }
+Remark whatLoadsLack(const campaign::Campaign& campaign) {
+  if (!campaign.states) return Remark(RemarkId::no_states);
+  if (!campaign.load_cell) return Remark(RemarkId::no_load_cell);
+  if (!campaign.loading && !campaign.displacements) return Remark(RemarkId::no_readings_under_load);
   return {};
 }
 
@@ -154,8 +164,8 @@ std::vector<int> loadedSteps(const campaign::Campaign& campaign) {
 }
 
 int chosenStep(const campaign::Campaign& campaign, const std::optional<int>& asked) {
-  const std::string lacking = whatLoadsLack(campaign);
-  if (!lacking.empty()) throw io::InputError(inFile(campaign, "campaign.xml"), "", lacking);
+  const Remark lacking = whatLoadsLack(campaign);
+  if (!lacking.empty()) throw io::InputError(inFile(campaign, "campaign.xml"), "", expectationOf(lacking));
   if (asked) {
     const std::vector<int> steps = loadSteps(campaign);
     if (std::find(steps.begin(), steps.end(), *asked) == steps.end()) {
@@ -249,16 +259,17 @@ std::optional<int> heaviestStep(const campaign::Campaign& campaign) {
 }
 
 std::vector<LoadCase> loadCases(const campaign::Campaign& campaign, const LoadReadings& readings,
-                                const frames::LoadingGeometry& geometry, int step, std::vector<std::string>* left_out) {
+                                const frames::LoadingGeometry& geometry, int step,
+                                std::vector<LeftOutPosture>* left_out) {
   std::vector<LoadCase> cases;
   if (!campaign.states || !campaign.load_cell) return cases;
   const bool absolute = campaign.loading.has_value() && geometry.r0_from_loading.has_value();
   if (!absolute && (!campaign.displacements || !geometry.displacements_in_r0)) return cases;
   const int turns_with = bodyOfCellAxes(*campaign.load_cell, geometry);
-  // Why a posture has no case; null where it has.
-  const auto fill = [&](std::size_t pose, LoadCase& load_case) -> const char* {
+  // Why a posture has no case; empty where it has.
+  const auto fill = [&](std::size_t pose, LoadCase& load_case) -> Remark {
     const campaign::State *unloaded = readings.state(pose, 0), *loaded = readings.state(pose, step);
-    if (loaded == nullptr) return "no state of this load step";
+    if (loaded == nullptr) return Remark(RemarkId::no_state_of_step);
     load_case.pose = static_cast<int>(pose);
     load_case.step = step;
     load_case.q = unloaded ? unloaded->q : loaded->q;
@@ -275,24 +286,24 @@ std::vector<LoadCase> loadCases(const campaign::Campaign& campaign, const LoadRe
       load_case.targets =
           declaredMoves(geometry, readings.differences(pose, step), *geometry.displacements_in_r0, posture);
     }
-    if (load_case.targets.empty()) return "no reflector was read both unloaded and in this load step";
+    if (load_case.targets.empty()) return Remark(RemarkId::no_reflector_in_both_states);
     load_case.wrench = cellWrench(*campaign.load_cell, geometry, posture, load_case.flange_unloaded,
                                   load_case.flange_loaded, loaded->wrench_in_cell);
     load_case.wrench_unturned = load_case.wrench;
     load_case.wrench_turns_with = turns_with == 6 && load_case.flange_loaded ? 0 : turns_with;
     load_case.unturned = posture.motion[static_cast<std::size_t>(load_case.wrench_turns_with)].linear();
-    return nullptr;
+    return {};
   };
   cases.resize(readings.poses());
-  std::vector<const char*> lacking(cases.size());
+  std::vector<Remark> lacking(cases.size());
   numerics::smallWorkOnAllCores(cases.size(), [&](std::size_t pose) { lacking[pose] = fill(pose, cases[pose]); });
   std::size_t kept = 0;
   for (std::size_t pose = 0; pose < cases.size(); ++pose) {
-    if (lacking[pose] == nullptr) {
+    if (lacking[pose].empty()) {
       if (kept != pose) cases[kept] = std::move(cases[pose]);
       ++kept;
     } else if (left_out) {
-      left_out->push_back(fmt::format("pose {}: {}", campaign.pose_ids[pose], lacking[pose]));
+      left_out->push_back({campaign.pose_ids[pose], std::move(lacking[pose])});
     }
   }
   cases.resize(kept);
@@ -300,7 +311,7 @@ std::vector<LoadCase> loadCases(const campaign::Campaign& campaign, const LoadRe
 }
 
 std::vector<LoadCase> loadCases(const campaign::Campaign& campaign, const frames::LoadingGeometry& geometry, int step,
-                                std::vector<std::string>* left_out) {
+                                std::vector<LeftOutPosture>* left_out) {
   return loadCases(campaign, LoadReadings(campaign, {step}), geometry, step, left_out);
 }
 

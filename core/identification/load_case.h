@@ -9,6 +9,7 @@
 #include "core/campaign/campaign.h"
 #include "core/frames/arm_geometry.h"
 #include "core/robot/wrench.h"
+#include "metrology/remark.h"
 
 namespace stiffscope::identification {
 
@@ -110,18 +111,24 @@ Eigen::Vector3d jacobianPoint(const LoadCase& load_case, const Eigen::Vector3d& 
 /// Empty where no step has a force.
 std::optional<int> heaviestStep(const campaign::Campaign& campaign);
 
+/// A posture that is not used.
+struct LeftOutPosture {
+  std::string pose;  ///< its id
+  Remark reason;
+};
+
 /// The load cases of one of the readings' steps, a posture each, in the order of the campaign's poses. A
 /// posture without that step, without an unloaded state or without a common reflector has none, and is named
 /// in `left_out`.
 std::vector<LoadCase> loadCases(const campaign::Campaign& campaign, const LoadReadings& readings,
                                 const frames::LoadingGeometry& geometry, int step,
-                                std::vector<std::string>* left_out = nullptr);
+                                std::vector<LeftOutPosture>* left_out = nullptr);
 std::vector<LoadCase> loadCases(const campaign::Campaign& campaign, const frames::LoadingGeometry& geometry, int step,
-                                std::vector<std::string>* left_out = nullptr);
+                                std::vector<LeftOutPosture>* left_out = nullptr);
 
 /// What a campaign lacks to be identified from at all, and what it is needed for; empty where it has joint
 /// angles, wrenches and readings under load. A day of sweeps alone lacks these.
-std::string whatLoadsLack(const campaign::Campaign& campaign);
+Remark whatLoadsLack(const campaign::Campaign& campaign);
 
 /// Mean force of each step that `states` has, 0 among them, N.
 std::map<int, double> meanForces(const campaign::Campaign& campaign);

@@ -1,11 +1,11 @@
 #include "core/identification/loaded_arm.h"
 
-#include <fmt/format.h>
 #include <algorithm>
 #include <optional>
 
 #include "core/identification/complete_pose.h"
 #include "core/identification/partial_pose.h"
+#include "core/identification/remarks.h"
 #include "core/numerics/parallel.h"
 
 namespace stiffscope::identification {
@@ -40,8 +40,8 @@ namespace {
 bool hasPose(const LoadCase& load_case) { return load_case.flange_unloaded && load_case.flange_loaded; }
 
 /// Keeps the cases that have something, if most do: then it is those others that lack it, not the campaign.
-void keepMost(const campaign::Campaign& campaign, const std::vector<bool>& has, const char* reason,
-              std::vector<LoadCase>& cases, std::vector<std::string>* left_out) {
+void keepMost(const campaign::Campaign& campaign, const std::vector<bool>& has, RemarkId reason,
+              std::vector<LoadCase>& cases, std::vector<LeftOutPosture>* left_out) {
   const auto count = static_cast<std::size_t>(std::count(has.begin(), has.end(), true));
   if (count == cases.size() || 2 * count <= cases.size()) return;
   std::size_t kept = 0;
@@ -50,8 +50,7 @@ void keepMost(const campaign::Campaign& campaign, const std::vector<bool>& has, 
       if (kept != i) cases[kept] = std::move(cases[i]);
       ++kept;
     } else if (left_out) {
-      left_out->push_back(
-          fmt::format("pose {}: {}", campaign.pose_ids[static_cast<std::size_t>(cases[i].pose)], reason));
+      left_out->push_back({campaign.pose_ids[static_cast<std::size_t>(cases[i].pose)], Remark(reason)});
     }
   }
   cases.resize(kept);
@@ -60,14 +59,14 @@ void keepMost(const campaign::Campaign& campaign, const std::vector<bool>& has, 
 /// Of all the steps, by pose. With several steps a case that cannot be used says of which step it is.
 std::vector<LoadCase> casesOf(const campaign::Campaign& campaign, const LoadReadings& readings,
                               const frames::LoadingGeometry& geometry, const std::vector<int>& steps,
-                              std::vector<std::string>* left_out) {
+                              std::vector<LeftOutPosture>* left_out) {
   if (steps.size() == 1) return loadCases(campaign, readings, geometry, steps.front(), left_out);
   std::vector<LoadCase> cases;
   for (const int step : steps) {
-    std::vector<std::string> lacking;
+    std::vector<LeftOutPosture> lacking;
     for (LoadCase& one : loadCases(campaign, readings, geometry, step, &lacking)) cases.push_back(std::move(one));
-    for (const std::string& reason : lacking) {
-      if (left_out) left_out->push_back(fmt::format("{} (step {})", reason, step));
+    for (const LeftOutPosture& one : lacking) {
+      if (left_out) left_out->push_back({one.pose, Remark(RemarkId::in_step, one.reason, step)});
     }
   }
   std::stable_sort(cases.begin(), cases.end(), [](const LoadCase& a, const LoadCase& b) { return a.pose < b.pose; });
@@ -76,7 +75,7 @@ std::vector<LoadCase> casesOf(const campaign::Campaign& campaign, const LoadRead
 
 /// P_wrist in all the cases; those that do not give it are left out if most do, else there is none of any.
 void addWristMoves(const campaign::Campaign& campaign, const frames::WristCentre& wrist,
-                   std::vector<std::string>* left_out, LoadedArm& arm) {
+                   std::vector<LeftOutPosture>* left_out, LoadedArm& arm) {
   if (arm.cases.empty() || !arm.cases.front().absolute) return;
   std::vector<std::optional<WristMove>> moves;
   std::vector<bool> has;
@@ -86,7 +85,7 @@ void addWristMoves(const campaign::Campaign& campaign, const frames::WristCentre
     moves.push_back(wristMove(load_case, wrist.radii, modelled));
     has.push_back(moves.back().has_value());
   }
-  keepMost(campaign, has, "no P_wrist from reflectors of known radius", arm.cases, left_out);
+  keepMost(campaign, has, RemarkId::no_wrist_point, arm.cases, left_out);
   std::erase_if(moves, [](const auto& move) { return !move; });
   if (moves.size() != arm.cases.size()) return;
   arm.wrist.reserve(moves.size());
@@ -99,11 +98,11 @@ bool LoadedArm::hasFlangePoses() const { return !cases.empty() && std::all_of(ca
 
 LoadedArm loadedArm(const campaign::Campaign& campaign, const LoadReadings& readings,
                     const frames::LoadingGeometry& geometry, const frames::WristCentre& wrist,
-                    const std::vector<int>& steps, std::vector<std::string>* left_out) {
+                    const std::vector<int>& steps, std::vector<LeftOutPosture>* left_out) {
   LoadedArm arm{geometry, casesOf(campaign, readings, geometry, steps, left_out), {}, {}};
   std::vector<bool> poses;
   for (const LoadCase& load_case : arm.cases) poses.push_back(hasPose(load_case));
-  keepMost(campaign, poses, "fewer than three reflectors read in both states", arm.cases, left_out);
+  keepMost(campaign, poses, RemarkId::under_three_reflectors, arm.cases, left_out);
   if (wrist.measured) addWristMoves(campaign, wrist, left_out, arm);
   arm.torques = jointTorques(arm.cases);
   return arm;
@@ -111,7 +110,7 @@ LoadedArm loadedArm(const campaign::Campaign& campaign, const LoadReadings& read
 
 LoadedArm loadedArm(const campaign::Campaign& campaign, const frames::LoadingGeometry& geometry,
                     const frames::WristCentre& wrist, const std::vector<int>& steps,
-                    std::vector<std::string>* left_out) {
+                    std::vector<LeftOutPosture>* left_out) {
   return loadedArm(campaign, LoadReadings(campaign, steps), geometry, wrist, steps, left_out);
 }
 

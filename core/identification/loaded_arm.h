@@ -1,6 +1,5 @@
 #pragma once
 
-#include <string>
 #include <vector>
 
 #include "core/frames/frames.h"
@@ -26,10 +25,10 @@ struct LoadedArm {
 /// which the readings have.
 LoadedArm loadedArm(const campaign::Campaign& campaign, const LoadReadings& readings,
                     const frames::LoadingGeometry& geometry, const frames::WristCentre& wrist,
-                    const std::vector<int>& steps, std::vector<std::string>* left_out = nullptr);
+                    const std::vector<int>& steps, std::vector<LeftOutPosture>* left_out = nullptr);
 LoadedArm loadedArm(const campaign::Campaign& campaign, const frames::LoadingGeometry& geometry,
                     const frames::WristCentre& wrist, const std::vector<int>& steps,
-                    std::vector<std::string>* left_out = nullptr);
+                    std::vector<LeftOutPosture>* left_out = nullptr);
 
 /// Equations of all cases: the reflectors', P_wrist's, the pose's at P_TCP.
 std::vector<CaseEquations> reflectorEquations(const LoadedArm& arm);

@@ -1,9 +1,7 @@
 #include "core/identification/method_runs.h"
 
-#include <fmt/format.h>
 #include <algorithm>
 #include <optional>
-#include <string>
 #include <utility>
 
 #include "core/identification/decoupled_partial_pose.h"
@@ -11,6 +9,7 @@
 #include "core/identification/identification.h"
 #include "core/identification/loaded_arm.h"
 #include "core/identification/method_solution.h"
+#include "core/identification/remarks.h"
 #include "core/identification/shared_uncertainty.h"
 
 namespace stiffscope::identification {
@@ -26,16 +25,16 @@ void evaluateMethod(const frames::LoadingGeometry& geometry, PointEquations equa
 // its way.
 
 /// What all methods need: postures read unloaded and loaded, placed in R0, and a joint that the load turns.
-std::string whyNoPositions(const campaign::Campaign& campaign, const LoadedArm& arm, const robot::JointMask& unknown);
+Remark whyNoPositions(const campaign::Campaign& campaign, const LoadedArm& arm, const robot::JointMask& unknown);
 
 /// Complete Pose: the flange's pose in every posture. The arm has cases.
-std::string whyNoFlangePoses(const campaign::Campaign& campaign, const LoadedArm& arm);
+Remark whyNoFlangePoses(const campaign::Campaign& campaign, const LoadedArm& arm);
 
 /// Decoupled Partial Pose: P_wrist in every posture.
-std::string whyNoWristPoint(const campaign::Campaign& campaign, const LoadedArm& arm, const frames::WristCentre& wrist);
+Remark whyNoWristPoint(const campaign::Campaign& campaign, const LoadedArm& arm, const frames::WristCentre& wrist);
 
 /// Decoupled Partial Pose: axes that meet nearly enough; `leak` is wristLeak's share.
-std::string whyNotDecoupled(const frames::WristCentre& wrist, double leak);
+Remark whyNotDecoupled(const frames::WristCentre& wrist, double leak);
 
 namespace {
 
@@ -82,53 +81,38 @@ void evaluateMethod(const frames::LoadingGeometry& geometry, PointEquations equa
   out.target_residual = residualByCase(out.target_rows, subset.at_targets, out.estimate.compliance);
 }
 
-std::string whyNoPositions(const campaign::Campaign& campaign, const LoadedArm& arm, const robot::JointMask& unknown) {
+Remark whyNoPositions(const campaign::Campaign& campaign, const LoadedArm& arm, const robot::JointMask& unknown) {
   if (arm.cases.empty()) {
     if (!campaign.loading && campaign.displacements && !arm.geometry.displacements_in_r0) {
-      return "the displacements are in the tracker's frame: circle sweeps of axes 1 and 2 would place it, or "
-             "frame=\"base_link\" if they are in the robot's";
+      return Remark(RemarkId::displacements_not_placed);
     }
-    return campaign.loading && !arm.geometry.r0_from_loading
-               ? "the loading's readings cannot be brought into R0: circle sweeps of axes 1 and 2 would "
-                 "place them"
-               : "no posture has readings unloaded and under this load";
+    return Remark(campaign.loading && !arm.geometry.r0_from_loading ? RemarkId::loading_not_placed
+                                                                    : RemarkId::no_posture_in_both_states);
   }
   if (std::none_of(unknown.begin(), unknown.end(), [](bool one) { return one; })) {
-    return "the load turns no joint enough to see its stiffness";
+    return Remark(RemarkId::no_joint_turned);
   }
   return {};
 }
 
-std::string whyNoFlangePoses(const campaign::Campaign& campaign, const LoadedArm& arm) {
+Remark whyNoFlangePoses(const campaign::Campaign& campaign, const LoadedArm& arm) {
   if (arm.hasFlangePoses()) return {};
   if (arm.cases.front().absolute) {
-    return "a flange pose needs three reflectors, placed by circle sweeps, in every posture";
+    return Remark(RemarkId::flange_pose_not_everywhere);
   }
-  return fmt::format(
-      "a flange pose needs absolute positions of three reflectors; this campaign has displacements of {} "
-      "point(s): measure `loading` with three",
-      campaign.targets.size());
+  return Remark(RemarkId::flange_pose_by_displacements, campaign.targets.size());
 }
 
-std::string whyNoWristPoint(const campaign::Campaign& campaign, const LoadedArm& arm,
-                            const frames::WristCentre& wrist) {
+Remark whyNoWristPoint(const campaign::Campaign& campaign, const LoadedArm& arm, const frames::WristCentre& wrist) {
   if (!arm.wrist.empty()) return {};
-  std::string reason =
-      wrist.measured ? "P_wrist needs absolute readings of three reflectors of known radius in every posture: measure "
-                       "`loading` and the wrist sweep with three"
-                     : "the wrist centre is not measured: " + wrist.reason;
-  if (!campaign.wrist_sweep) {
-    reason += "; measure a wrist sweep (axes 4-6 moving) and `loading` with three reflectors";
-  }
-  return reason;
+  const Remark reason = wrist.measured ? Remark(RemarkId::wrist_point_not_everywhere)
+                                       : Remark(RemarkId::wrist_centre_not_measured, wrist.reason);
+  return campaign.wrist_sweep ? reason : Remark(RemarkId::wrist_sweep_wanted, reason);
 }
 
-std::string whyNotDecoupled(const frames::WristCentre& wrist, double leak) {
+Remark whyNotDecoupled(const frames::WristCentre& wrist, double leak) {
   if (leak <= kWristLeakBorne) return {};
-  return fmt::format(
-      "the wrist's axes do not meet (4 and 5 miss by {:.3f} mm, 5 and 6 by {:.3f} mm): turning in joints 4-6 "
-      "moves P_wrist by {:.1f} % of its displacement, more than the {:.0f} % that decoupling bears",
-      1e3 * wrist.miss_45, 1e3 * wrist.miss_56, 100.0 * leak, 100.0 * kWristLeakBorne);
+  return Remark(RemarkId::wrist_axes_apart, wrist.miss_45, wrist.miss_56, leak, kWristLeakBorne);
 }
 
 namespace {
@@ -201,12 +185,11 @@ void runPartialPose(MethodRuns& runs, Identification& result) {
   if (runs.campaign.loading) {
     own = calibratedArm(runs, result);
     if (!result.calibration.done) {
-      out.reason = "the geometry cannot be calibrated: " + result.calibration.reason;
+      out.reason = Remark(RemarkId::geometry_not_calibrated, result.calibration.reason);
       return;
     }
   } else {
-    result.calibration.reason =
-        "the campaign has displacements only, no absolute positions: the URDF's geometry stands";
+    result.calibration.reason = Remark(RemarkId::displacements_by_model_only);
   }
   // No swept geometry to judge by: judge in this one.
   if (runs.unknown == robot::JointMask{}) evaluateIdentifiabilityIn(arm, runs, result);
@@ -224,7 +207,7 @@ void runDecoupledPartialPose(MethodRuns& runs, Identification& result) {
   MethodResult& out = methodOf(result, Method::decoupled_partial_pose);
   out.reason = whyNoPositions(runs.campaign, runs.swept, runs.unknown);
   if (!out.reason.empty() && !runs.campaign.wrist_sweep) {
-    out.reason += "; and P_wrist needs a wrist sweep (axes 4-6 moving) with three reflectors";
+    out.reason = Remark(RemarkId::wrist_sweep_wanted_too, out.reason);
   }
   if (out.reason.empty()) out.reason = whyNoWristPoint(runs.campaign, runs.swept, result.frames.wrist);
   if (!out.reason.empty()) return;

@@ -44,7 +44,7 @@ SolvedFrames solveFrames(const campaign::Campaign& campaign, const std::vector<i
   settled.frames = frames::measureFrames(campaign);
   Vector6d compliance = Vector6d::Zero();
   const LoadReadings readings(campaign, steps);
-  const auto armNow = [&](std::vector<std::string>* left_out) {
+  const auto armNow = [&](std::vector<LeftOutPosture>* left_out) {
     return loadedArm(campaign, readings, frames::sweptGeometry(campaign, settled.frames, compliance),
                      settled.frames.wrist, steps, left_out);
   };

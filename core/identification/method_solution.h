@@ -28,8 +28,8 @@ struct MethodSolution {
 /// Frames from which the own weight's sag is taken off, and the loaded arm in them.
 struct SolvedFrames {
   frames::Frames frames;
-  LoadedArm arm;                      ///< in the swept geometry
-  std::vector<std::string> left_out;  ///< postures that cannot be used, with the reason
+  LoadedArm arm;                         ///< in the swept geometry
+  std::vector<LeftOutPosture> left_out;  ///< postures that cannot be used, with the reason
 };
 
 /// The own weight needs stiffnesses to be taken off the sweeps, and the stiffnesses need the sweeps: the two

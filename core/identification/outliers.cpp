@@ -1,12 +1,11 @@
 #include "core/identification/outliers.h"
 
-#include <fmt/format.h>
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 
 #include "core/identification/estimate.h"
-#include "core/io/units.h"
+#include "core/identification/remarks.h"
 #include "core/numerics/parallel.h"
 #include "metrology/tail_probability.h"
 
@@ -220,13 +219,11 @@ campaign::Campaign withoutPostures(const campaign::Campaign& campaign, const std
 }
 
 void nameLeftOut(const campaign::Campaign& campaign, const std::vector<OutlyingPosture>& postures,
-                 std::vector<std::string>& left_out) {
+                 std::vector<LeftOutPosture>& left_out) {
   for (const OutlyingPosture& one : postures) {
-    const std::string start = fmt::format("pose {}:", campaign.pose_ids[static_cast<std::size_t>(one.posture)]);
-    std::erase_if(left_out, [&](const std::string& text) { return text.starts_with(start); });
-    left_out.push_back(
-        fmt::format("{} disagrees with the other postures by {:.0f} µm per coordinate, {:.1f} times theirs", start,
-                    one.rms / io::kMicrometre, one.rms / one.others));
+    const std::string& pose = campaign.pose_ids[static_cast<std::size_t>(one.posture)];
+    std::erase_if(left_out, [&](const LeftOutPosture& other) { return other.pose == pose; });
+    left_out.push_back({pose, Remark(RemarkId::disagrees, one.rms, one.rms / one.others)});
   }
 }
 

@@ -1,10 +1,10 @@
 #pragma once
 
-#include <string>
 #include <vector>
 
 #include "core/campaign/campaign.h"
 #include "core/identification/equations.h"
+#include "core/identification/load_case.h"
 
 namespace stiffscope::identification {
 
@@ -34,6 +34,6 @@ campaign::Campaign withoutPostures(const campaign::Campaign& campaign, const std
 
 /// Replaces what `left_out` says of these postures by why they are left out.
 void nameLeftOut(const campaign::Campaign& campaign, const std::vector<OutlyingPosture>& postures,
-                 std::vector<std::string>& left_out);
+                 std::vector<LeftOutPosture>& left_out);
 
 }  // namespace stiffscope::identification

@@ -1,11 +1,11 @@
 #pragma once
 
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "core/identification/identification.h"
 #include "core/identification/load_case.h"
+#include "metrology/remark.h"
 
 namespace stiffscope::identification {
 
@@ -31,19 +31,18 @@ inline constexpr double kStiffArm = 5e7;
 inline constexpr double kSofterThanAnyArm = 1e3;
 inline constexpr double kStifferThanAnyArm = 1e9;
 
-/// A sentence part on a stiffness outside kSoftArm to kStiffArm, with the units that explain it; empty
-/// inside.
-std::string implausibleLoad(const ApparentStiffness& apparent);
+/// Of a stiffness outside kSoftArm to kStiffArm, which wrong units explain; empty inside.
+Remark implausibleLoad(const ApparentStiffness& apparent);
 
 /// Unloaded positions that miss by more, rms, m: an arm's own sag is taken off before, and what that leaves of a heavy
 /// one is a millimetre or two. Units, angles or the tracker's place are wrong.
 inline constexpr double kMissedGeometry = 0.020;
 
-/// What a reader must know before believing the numbers, a sentence each: a residual far above the tracker's noise,
+/// What a reader must know before believing the numbers: a residual far above the tracker's noise,
 /// negative stiffnesses, forces too small or too large for what they move, a geometry that the readings miss by
 /// centimetres, sweeps that do not fit, too few postures. Limits: three times the noise for residuals (beyond what a
 /// misdeclared tracker explains), kMissedGeometry for a geometry, half the deflection for noise.
-std::vector<std::string> warningsOf(const campaign::Campaign& campaign, const Identification& result);
+std::vector<Remark> warningsOf(const campaign::Campaign& campaign, const Identification& result);
 
 /// Whether some available method has a joint with a positive stiffness.
 bool anyUsable(const Identification& result, const std::vector<Method>& methods);

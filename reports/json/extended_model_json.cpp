@@ -8,6 +8,7 @@
 #include "core/io/units.h"
 #include "reports/words/effect_words.h"
 #include "reports/words/names.h"
+#include "reports/words/remark_words.h"
 
 namespace stiffscope::reports {
 
@@ -58,7 +59,7 @@ Json shareJson(const std::optional<identification::Compensation>& share, bool su
 }
 
 Json shownMethodJson(const identification::MethodResult& method) {
-  if (!method.available) return {{"unavailable", method.reason}};
+  if (!method.available) return {{"unavailable", words(method.reason)}};
   const identification::StiffnessEstimate& estimate = method.estimate;
   const auto byJoint = [&](const auto& entry) {
     Json list = Json::array();

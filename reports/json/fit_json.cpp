@@ -1,4 +1,5 @@
 #include "reports/json/fit_json.h"
+#include "reports/words/remark_words.h"
 
 namespace stiffscope::reports {
 
@@ -35,7 +36,7 @@ template <class Fit>
 void addFit(const Fit& fit, Json& json) {
   json["determined"] = fit.determined;
   if (!fit.determined) {
-    json["reason"] = fit.reason;
+    json["reason"] = words(fit.reason);
     return;
   }
   addShape(fit, json);
@@ -70,7 +71,7 @@ const metrology::FitQuality& ShapeFit::quality() const {
 }
 
 Json fitJson(const ShapeFit& fitted) {
-  Json json{{"shape", fitted.shape}, {"points", fitted.points}, {"method", fitted.quality().method}};
+  Json json{{"shape", fitted.shape}, {"points", fitted.points}, {"method", words(fitted.quality().method)}};
   std::visit([&json](const auto& one) { addFit(one, json); }, fitted.fit);
   if (fitted.snooping) json["snooping"] = snoopingJson(*fitted.snooping);
   return json;

@@ -7,6 +7,7 @@
 
 #include "core/io/units.h"
 #include "reports/words/names.h"
+#include "reports/words/remark_words.h"
 
 namespace stiffscope::reports {
 
@@ -57,7 +58,7 @@ Json axisJson(const campaign::Campaign& campaign, const frames::Frames& frames, 
   const frames::MeasuredAxis& axis = frames.axes[i];
   const metrology::Line& line = frames.arm.arm.axes_in_base_at_zero[i];
   Json json{{"axis", i + 1}, {"measured", axis.measured}, {"from", sourceOf(frames, {i})}};
-  if (!axis.measured) json["reason"] = axis.reason;
+  if (!axis.measured) json["reason"] = words(axis.reason);
   json["point_m"] = array(line.point);
   json["direction"] = array(line.direction);
   if (!axis.measured) return json;
@@ -93,7 +94,7 @@ Json linkJson(const frames::Frames& frames, std::size_t i) {
 Json wristJson(const campaign::Campaign& campaign, const frames::Frames& frames) {
   const frames::WristCentre& wrist = frames.wrist;
   Json json{{"measured", wrist.measured}};
-  if (!wrist.measured) json["reason"] = wrist.reason;
+  if (!wrist.measured) json["reason"] = words(wrist.reason);
   json["center_m"] = wrist.measured ? array(wrist.centre_in_r0) : Json(nullptr);
   json["center_at_q1_q2_q3_deg"] = array(Eigen::Vector3d(wrist.q.head<3>()), 1.0 / io::kDegree);
   json["miss_mm"] = {
@@ -148,7 +149,7 @@ Json framesJson(const campaign::Campaign& campaign, const frames::Frames& frames
   const bool measured_in_base = frames.arm.points_placed && frames.points_frame == campaign::PointFrame::base_link;
   json["r0_from_base_link"] = matrix(measured_in_base ? frames.arm.r0_from_points : frames.arm.r0_from_base_link);
   addCovariances(frames, json);
-  json["own_weight"] = {{"removed", frames.sag_removed}, {"note", frames.sag_note}};
+  json["own_weight"] = {{"removed", frames.sag_removed}, {"note", words(frames.sag_note)}};
   Json axes = Json::array();
   for (std::size_t i = 0; i < 6; ++i) axes.push_back(axisJson(campaign, frames, i));
   json["axes"] = axes;

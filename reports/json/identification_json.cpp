@@ -11,6 +11,7 @@
 #include "core/io/units.h"
 #include "reports/json/json_document.h"
 #include "reports/words/names.h"
+#include "reports/words/remark_words.h"
 
 namespace stiffscope::reports {
 
@@ -182,14 +183,14 @@ Json spreadJson(const identification::MethodResult& method) {
 }
 
 Json methodJson(const identification::MethodResult& method) {
-  if (!method.available) return {{"unavailable", method.reason}};
+  if (!method.available) return {{"unavailable", words(method.reason)}};
   const identification::StiffnessEstimate& estimate = method.estimate;
   Json json;
   json["stiffness_nm_per_rad"] = byJoint(estimate, [&](int j) { return number(estimate.stiffness(j)); });
   json["sd_nm_per_rad"] = byJoint(estimate, [&](int j) { return number(estimate.stiffnessSd(j)); });
   json["compliance_rad_per_nm"] = byJoint(estimate, [&](int j) { return number(estimate.compliance[j]); });
   json["identifiable"] = estimate.identifiable;
-  json["mark"] = byJoint(estimate, [&](int j) { return Json(estimate.mark(j)); });
+  json["mark"] = byJoint(estimate, [&](int j) { return Json(words(estimate.mark(j))); });
   addUncertainty(method, json);
   json["condition"] = number(estimate.condition);
   json["rms_residual_mm"] = estimate.rms_residual / io::kMillimetre;
@@ -206,7 +207,7 @@ Json identifiabilityJson(const identification::Identifiability& judged) {
   for (std::size_t j = 0; j < 6; ++j) {
     const identification::JointIdentifiability& joint = judged.joints[j];
     Json one{{"joint", j + 1}, {"identifiable", joint.identifiable}};
-    if (!joint.identifiable) one["reason"] = joint.reason;
+    if (!joint.identifiable) one["reason"] = words(joint.reason);
     one["torque_rms_nm"] = joint.torque_rms;
     one["trusted_torque_rms_nm"] = joint.trusted_rms;
     one["torque_uncertainty_nm"] = joint.uncertainty_rms;
@@ -218,10 +219,10 @@ Json identifiabilityJson(const identification::Identifiability& judged) {
 }
 
 Json calibrationJson(const frames::GeometryCalibration& calibration) {
-  if (!calibration.done) return {{"unavailable", calibration.reason}};
+  if (!calibration.done) return {{"unavailable", words(calibration.reason)}};
   return {{"positions", calibration.positions},
           {"parameters", calibration.parameters},
-          {"fixed", calibration.fixed},
+          {"fixed", words(calibration.fixed)},
           {"rms_before_mm", calibration.rms_before / io::kMillimetre},
           {"rms_after_mm", calibration.rms_after / io::kMillimetre}};
 }
@@ -290,9 +291,10 @@ JsonDocument identificationJson(const campaign::Campaign& campaign, const identi
   json["step"] = result.step;
   json["steps"] = result.steps;
   json["postures"] = identification::postureCount(result);
-  json["left_out"] = result.left_out;
+  json["left_out"] = Json::array();
+  for (const identification::LeftOutPosture& one : result.left_out) json["left_out"].push_back(leftOutWords(one));
   json["outlying"] = outlyingJson(campaign, result);
-  json["cautions"] = result.cautions;
+  json["cautions"] = words(result.cautions);
   Json by_method = Json::object();
   for (const identification::Method which : methods) by_method[namesOf(which).key] = methodJson(result.of(which));
   json["methods"] = by_method;
@@ -306,7 +308,7 @@ JsonDocument identificationJson(const campaign::Campaign& campaign, const identi
                                  {"torque_change_share", result.geometric_stiffness_share}};
   json["servo_change_deg"] = result.servo_change / io::kDegree;
   json["calibration"] = calibrationJson(result.calibration);
-  json["own_weight"] = {{"removed", result.frames.sag_removed}, {"note", result.frames.sag_note}};
+  json["own_weight"] = {{"removed", result.frames.sag_removed}, {"note", words(result.frames.sag_note)}};
   if (!result.length_sensitivity.empty()) {
     Json curve = Json::array();
     for (const identification::LengthSensitivity& at : result.length_sensitivity) {

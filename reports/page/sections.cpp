@@ -191,8 +191,8 @@ std::vector<std::string> warningsOf(const reports::ReportCampaign& one) {
   if (one.preparation != nullptr && (one.preparation->drift.taken_off || !one.preparation->rejected.empty())) {
     items.push_back(fmt::format("Readings: {}.", reports::withMicro(reports::preparationWords(*one.preparation))));
   }
-  for (const std::string& caution : one.identification.cautions)
-    items.push_back(reports::capitalised(reports::withMicro(caution)) + ".");
+  for (const Remark& caution : one.identification.cautions)
+    items.push_back(reports::capitalised(reports::withMicro(reports::words(caution))) + ".");
   return items;
 }
 

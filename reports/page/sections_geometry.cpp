@@ -9,6 +9,7 @@
 #include "reports/words/numbers.h"
 #include "reports/words/paper_values.h"
 #include "reports/words/preparation_words.h"
+#include "reports/words/remark_words.h"
 
 namespace stiffscope::page {
 
@@ -47,7 +48,7 @@ std::string deflectionWords(const identification::Identification& result) {
 }
 
 std::string calibrationWords(const frames::GeometryCalibration& calibration) {
-  if (!calibration.done) return fmt::format("not calibrated: {}", calibration.reason);
+  if (!calibration.done) return fmt::format("not calibrated: {}", reports::words(calibration.reason));
   return fmt::format("{} parameters from {} unloaded positions; rms {} mm before, {} mm after, per coordinate",
                      calibration.parameters, calibration.positions,
                      reports::significant(calibration.rms_before / io::kMillimetre, 3),
@@ -73,7 +74,7 @@ reports::RowGroup conditions(const reports::ReportCampaign& one) {
     add(group, "Readings", reports::withMicro(reports::preparationWords(*one.preparation)));
   add(group, "Postures", fmt::format("{} used, {} left out", result.cases.size(), result.left_out.size()));
   add(group, "Load", result.cases.empty() ? "none was measured that could be used" : loadWords(result));
-  add(group, "Own weight", result.frames.sag_note);
+  add(group, "Own weight", reports::words(result.frames.sag_note));
   if (!result.cases.empty()) add(group, "Deflection", deflectionWords(result));
   if (!result.cases.empty())
     add(group, "Servo",
@@ -157,11 +158,12 @@ void writeLinks(Html& html, const reports::ReportContent& content) {
     const frames::Frames& frames = one.identification.frames;
     std::vector<std::string> unmeasured;
     for (std::size_t i = 0; i < frames.axes.size(); ++i) {
-      if (!frames.axes[i].measured) unmeasured.push_back(fmt::format("Axis {}: {}.", i + 1, frames.axes[i].reason));
+      if (!frames.axes[i].measured)
+        unmeasured.push_back(fmt::format("Axis {}: {}.", i + 1, reports::words(frames.axes[i].reason)));
     }
     if (unmeasured.size() == frames.axes.size()) {
       html.paragraph(fmt::format("No axis was measured ({}); the geometry is that of the robot's description.",
-                                 frames.axes.front().reason));
+                                 reports::words(frames.axes.front().reason)));
       return;
     }
     Notes notes;
@@ -257,7 +259,7 @@ void writeWrist(Html& html, const reports::ReportContent& content) {
     if (wrist.measured) {
       writeMeasured(html, content, one, wrist);
     } else {
-      html.paragraph(fmt::format("P_{{wrist}} is not measured: {}.", wrist.reason));
+      html.paragraph(fmt::format("P_{{wrist}} is not measured: {}.", reports::words(wrist.reason)));
     }
   });
 }

@@ -180,11 +180,10 @@ namespace {
 
 /// Postures and parameters; joints, methods and the wrist centre say so where their numbers would stand.
 std::vector<std::string> leftOut(const identification::Identification& result) {
-  std::vector<std::string> items = reports::listed(
-      result.left_out, [](const std::string& one) { return one; }, reports::kListedInResults);
+  std::vector<std::string> items = reports::listed(result.left_out, reports::leftOutWords, reports::kListedInResults);
   if (!result.calibration.fixed.empty()) {
     items.push_back(fmt::format("PP's geometry, kept at its start because the positions do not see it: {}.",
-                                fmt::join(result.calibration.fixed, ", ")));
+                                fmt::join(reports::words(result.calibration.fixed), ", ")));
   }
   return items;
 }

@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "core/identification/estimate.h"
+#include "core/identification/remarks.h"
 #include "core/identification/subsets.h"
 #include "core/io/units.h"
 #include "reports/page/html.h"
@@ -10,6 +11,7 @@
 #include "reports/words/names.h"
 #include "reports/words/numbers.h"
 #include "reports/words/paper_values.h"
+#include "reports/words/remark_words.h"
 
 namespace stiffscope::page {
 
@@ -114,13 +116,14 @@ void writeCompensation(Html& html, const reports::ReportContent& content) {
 namespace {
 
 std::string unavailable(const identification::Identification& result, identification::Method method) {
-  return fmt::format("{} is not available: {}.", reports::longName(method), result.of(method).reason);
+  return fmt::format("{} is not available: {}.", reports::longName(method), reports::words(result.of(method).reason));
 }
 
-std::string markNote(const std::string& mark) {
-  return mark == "negative" ? "Negative: the data fits this joint with a stiffness that no spring has; "
-                              "printed as found, not clamped."
-                            : "Imprecise: the standard uncertainty exceeds the value.";
+std::string markNote(const Remark& mark) {
+  return mark.is(identification::RemarkId::negative)
+             ? "Negative: the data fits this joint with a stiffness that no spring has; "
+               "printed as found, not clamped."
+             : "Imprecise: the standard uncertainty exceeds the value.";
 }
 
 reports::Cell stiffnessCell(const identification::Identification& result, identification::Method method, int joint,
@@ -128,16 +131,16 @@ reports::Cell stiffnessCell(const identification::Identification& result, identi
   const identification::MethodResult& one = result.of(method);
   if (!one.available) return {"not available", notes.mark(unavailable(result, method))};
   if (!one.estimate.identifiable[static_cast<std::size_t>(joint)]) {
-    const std::string& reason = result.identifiability.joints[static_cast<std::size_t>(joint)].reason;
+    const Remark& reason = result.identifiability.joints[static_cast<std::size_t>(joint)].reason;
     return {"not identifiable",
-            notes.mark(fmt::format("{} is not identifiable: {}.", reports::jointName(joint), reason))};
+            notes.mark(fmt::format("{} is not identifiable: {}.", reports::jointName(joint), reports::words(reason)))};
   }
   const double expanded = reports::coverageOf(one.estimate, joint).factor * one.estimate.stiffnessSd(joint);
   const std::string value =
       reports::withUncertainty(one.estimate.stiffness(joint) / reports::kMega, expanded / reports::kMega);
-  const std::string mark = one.estimate.mark(joint);
+  const Remark mark = one.estimate.mark(joint);
   return mark.empty() ? reports::Cell(value)
-                      : reports::Cell(value, fmt::format("{} {}", mark, notes.mark(markNote(mark))));
+                      : reports::Cell(value, fmt::format("{} {}", reports::words(mark), notes.mark(markNote(mark))));
 }
 
 reports::Table stiffnessTable(const identification::Identification& result, Notes& notes) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "reports/words/listed.h"
+#include "reports/words/remark_words.h"
 
 namespace stiffscope::reports {
 
@@ -64,14 +65,14 @@ std::string fitText(const ShapeFit& fitted) {
   const metrology::FitQuality& quality = fitted.quality();
   std::string text = fmt::format("{} through {} points, in the file's length unit\n", fitted.shape, fitted.points);
   if (fitted.snooping) text += snoopingText(*fitted.snooping);
-  if (!quality.determined) return text + fmt::format("  undetermined: {}\n", quality.reason);
+  if (!quality.determined) return text + fmt::format("  undetermined: {}\n", words(quality.reason));
   text += std::visit([](const auto& one) { return parametersText(one); }, fitted.fit);
   text += fmt::format("  rms distance of a point {:.4g}", quality.rms);
   text += quality.degrees_of_freedom > 0
               ? fmt::format(", residual standard deviation {:.4g} over {} degrees of freedom\n", quality.residual_sd,
                             quality.degrees_of_freedom)
               : "; no degree of freedom is left to tell an uncertainty by\n";
-  return text + fmt::format("  method: {}\n", quality.method);
+  return text + fmt::format("  method: {}\n", words(quality.method));
 }
 
 }  // namespace stiffscope::reports

@@ -10,6 +10,7 @@
 #include "core/io/units.h"
 #include "reports/words/names.h"
 #include "reports/words/numbers.h"
+#include "reports/words/remark_words.h"
 
 namespace stiffscope::reports {
 
@@ -40,7 +41,7 @@ void writeAxes(const frames::Frames& frames, Out out) {
       for (const metrology::AxisCircle& circle : axis.fit.circles) arc = std::max(arc, circle.arc);
       fmt::format_to(out, "{:>6.0f}d{:>6.1f} um\n", arc / io::kDegree, axis.fit.rms / io::kMicrometre);
     } else {
-      fmt::format_to(out, "  nominal: {}\n", axis.reason);
+      fmt::format_to(out, "  nominal: {}\n", words(axis.reason));
     }
   }
 }
@@ -81,7 +82,7 @@ void writeLinks(const frames::Frames& frames, Out out) {
 void writeWrist(const campaign::Campaign& campaign, const frames::Frames& frames, Out out) {
   const frames::WristCentre& wrist = frames.wrist;
   if (!wrist.measured) {
-    fmt::format_to(out, "\nWrist centre: not measured: {}\n", wrist.reason);
+    fmt::format_to(out, "\nWrist centre: not measured: {}\n", words(wrist.reason));
     return;
   }
   fmt::format_to(out, "\nWrist centre in R0 by reflector (Table I), mm\n  {:<12}{:>11}{:>11}{:>11}{:>9}{:>10}{:>10}\n",
@@ -146,7 +147,7 @@ std::string framesText(const campaign::Campaign& campaign, const frames::Frames&
   fmt::format_to(out, "\nP_TCP, where axis 6 pierces the flange plane: ({:.3f}, {:.3f}, {:.3f}) mm in the flange{}\n",
                  tcp.x(), tcp.y(), tcp.z(), sourceMark(frames, {4, 5}));
   writeWrist(campaign, frames, out);
-  fmt::format_to(out, "\n{}\n", wrapped("Own weight: " + frames.sag_note + ".", 0));
+  fmt::format_to(out, "\n{}\n", wrapped("Own weight: " + words(frames.sag_note) + ".", 0));
   return text;
 }
 

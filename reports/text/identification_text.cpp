@@ -2,6 +2,7 @@
 #include "core/identification/identify.h"
 #include "core/identification/load_dependence.h"
 #include "core/identification/posture_stiffness.h"
+#include "core/identification/remarks.h"
 #include "reports/text/text.h"
 
 #include <fmt/format.h>
@@ -16,6 +17,7 @@
 #include "reports/words/listed.h"
 #include "reports/words/names.h"
 #include "reports/words/numbers.h"
+#include "reports/words/remark_words.h"
 
 namespace stiffscope::reports {
 
@@ -143,7 +145,8 @@ using Out = std::back_insert_iterator<std::string>;
 
 std::string markedStiffnessCell(const identification::StiffnessEstimate& estimate, int joint) {
   if (!estimate.identifiable[static_cast<std::size_t>(joint)]) return "-";
-  const char* mark = estimate.mark(joint).empty() ? "" : (estimate.mark(joint) == "negative" ? "!" : "?");
+  const char* mark =
+      estimate.mark(joint).empty() ? "" : (estimate.mark(joint).is(identification::RemarkId::negative) ? "!" : "?");
   const double expanded = identification::coverageFactor(estimate, joint, identification::kStatedCoverage) *
                           estimate.stiffnessSd(joint) * 1e-6;
   return fmt::format("{:.4f} +-{}{}", estimate.stiffness(joint) * 1e-6,
@@ -164,8 +167,8 @@ void writeStiffness(const identification::Identification& result, const std::vec
     for (int joint = 0; joint < 6; ++joint) {
       fmt::format_to(out, " {:>17}", markedStiffnessCell(method.estimate, joint));
       if (!method.estimate.identifiable[static_cast<std::size_t>(joint)]) continue;
-      negative |= method.estimate.mark(joint) == "negative";
-      imprecise |= method.estimate.mark(joint) == "imprecise";
+      negative |= method.estimate.mark(joint).is(identification::RemarkId::negative);
+      imprecise |= method.estimate.mark(joint).is(identification::RemarkId::imprecise);
     }
     fmt::format_to(out, "\n");
   }
@@ -175,12 +178,13 @@ void writeStiffness(const identification::Identification& result, const std::vec
   for (std::size_t j = 0; j < 6; ++j) {
     const identification::JointIdentifiability& joint = result.identifiability.joints[j];
     if (joint.identifiable || joint.reason.empty()) continue;
-    fmt::format_to(out, "  {}\n", wrapped(fmt::format("k{} is not identifiable: {}", j + 1, joint.reason), 4));
+    fmt::format_to(out, "  {}\n", wrapped(fmt::format("k{} is not identifiable: {}", j + 1, words(joint.reason)), 4));
   }
   for (const identification::Method which : methods) {
     const identification::MethodResult& method = result.of(which);
     if (method.available) continue;
-    fmt::format_to(out, "  {}\n", wrapped(fmt::format("{} is unavailable: {}", namesOf(which).full, method.reason), 4));
+    fmt::format_to(out, "  {}\n",
+                   wrapped(fmt::format("{} is unavailable: {}", namesOf(which).full, words(method.reason)), 4));
   }
 }
 
@@ -248,14 +252,14 @@ std::string identificationText(const campaign::Campaign& campaign, const identif
   fmt::format_to(out, "{}: joint stiffness from load step{} {}, {} postures\n", campaign.name,
                  result.steps.size() > 1 ? "s" : "", fmt::join(result.steps, ", "),
                  identification::postureCount(result));
-  const auto words = [](const std::string& posture) { return "left out: " + posture; };
-  for (const std::string& entry : listed(result.left_out, words, kListedInJson)) fmt::format_to(out, "  {}\n", entry);
+  const auto leftOut = [](const identification::LeftOutPosture& one) { return "left out: " + leftOutWords(one); };
+  for (const std::string& entry : listed(result.left_out, leftOut, kListedInJson)) fmt::format_to(out, "  {}\n", entry);
   writeStiffness(result, methods, out);
   writeResiduals(result, methods, out);
   writeCompensation(result, methods, out);
   fmt::format_to(out, "{}", bootstrapText(result, methods));
   fmt::format_to(out, "\n");
-  for (const std::string& caution : result.cautions) {
+  for (const std::string& caution : words(result.cautions)) {
     fmt::format_to(out, "{}\n", wrapped("Caution: " + caution + ".", 2));
   }
   if (result.calibration.done) {
@@ -266,7 +270,7 @@ std::string identificationText(const campaign::Campaign& campaign, const identif
                                        result.calibration.rms_after / io::kMillimetre, result.calibration.parameters),
                            0));
   }
-  fmt::format_to(out, "{}\n", wrapped(fmt::format("Own weight: {}.", result.frames.sag_note), 0));
+  fmt::format_to(out, "{}\n", wrapped(fmt::format("Own weight: {}.", words(result.frames.sag_note)), 0));
   fmt::format_to(out, "{}\n",
                  wrapped(fmt::format("K_c is {}; it changes the joint torques by {:.2f} %.",
                                      result.finite_deflection ? "included" : "neglected",

@@ -6,6 +6,7 @@
 #include <cctype>
 #include <numeric>
 
+#include "reports/words/remark_words.h"
 #include "reports/words/rich_text.h"
 
 namespace stiffscope::reports {
@@ -90,6 +91,10 @@ JudgedPoint judgedPoint(const ReportCampaign& one) {
   const std::size_t count = one.campaign.targets.size();
   if (count == 1) return {false, fmt::format("the reflector {}", pointName(one.campaign.targets.front().id))};
   return {false, fmt::format("the reflectors (mean of {})", count)};
+}
+
+std::string leftOutWords(const identification::LeftOutPosture& posture) {
+  return fmt::format("pose {}: {}", posture.pose, words(posture.reason));
 }
 
 std::string postureName(const ReportCampaign& one, std::size_t load_case) {

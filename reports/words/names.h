@@ -46,6 +46,9 @@ struct JudgedPoint {
 };
 JudgedPoint judgedPoint(const ReportCampaign& one);
 
+/// "pose 3: no state of this load step"; a plain text.
+std::string leftOutWords(const identification::LeftOutPosture& posture);
+
 /// The name of the posture of a load case, to the letter.
 std::string postureName(const ReportCampaign& one, std::size_t load_case);
 

@@ -22,6 +22,9 @@ std::pair<const std::type_index, FamilyWords> of() {
 const std::unordered_map<std::type_index, FamilyWords>& families() {
   static const std::unordered_map<std::type_index, FamilyWords> all{
       of<audit::RemarkId, &auditWords>(),
+      of<frames::RemarkId, &framesWords>(),
+      of<identification::RemarkId, &identificationWords>(),
+      of<metrology::RemarkId, &metrologyWords>(),
       of<preparation::RemarkId, &preparationWords>(),
   };
   return all;

@@ -3,7 +3,10 @@
 #include <string>
 
 #include "core/audit/remarks.h"
+#include "core/frames/remarks.h"
+#include "core/identification/remarks.h"
 #include "core/preparation/remarks.h"
+#include "metrology/remarks.h"
 #include "reports/words/remark_words.h"
 
 namespace stiffscope::reports {
@@ -12,5 +15,9 @@ namespace stiffscope::reports {
 // warns of a remark without words. Defined in the file that bears the library's name (audit_remarks.cpp).
 std::string auditWords(audit::RemarkId id, const RemarkValues& values);
 std::string preparationWords(preparation::RemarkId id, const RemarkValues& values);
+
+std::string framesWords(frames::RemarkId id, const RemarkValues& values);
+std::string identificationWords(identification::RemarkId id, const RemarkValues& values);
+std::string metrologyWords(metrology::RemarkId id, const RemarkValues& values);
 
 }  // namespace stiffscope::reports

@@ -7,6 +7,7 @@
 #include "reports/words/effect_words.h"
 #include "reports/words/names.h"
 #include "reports/words/numbers.h"
+#include "reports/words/remark_words.h"
 #include "reports/words/rich_text.h"
 
 namespace stiffscope::reports {
@@ -30,7 +31,7 @@ std::string jointsSentence(const identification::Identification& identification)
   const auto shown = shownMethod(identification);
   if (!shown) {
     return fmt::format("no joint stiffness can be identified: {}.",
-                       identification.of(identification::Method::partial_pose).reason);
+                       words(identification.of(identification::Method::partial_pose).reason));
   }
   const identification::StiffnessEstimate& estimate = identification.of(*shown).estimate;
   std::vector<std::string> unseen, doubtful;

@@ -2,6 +2,7 @@
 #include "app/view/view_material.h"
 #include "app/view/viewer.h"
 #include "core/campaign/read_campaign.h"
+#include "core/identification/remarks.h"
 #include "tests/reports/small_result.h"
 
 namespace stiffscope {
@@ -130,8 +131,7 @@ TEST(Viewer, PickedPointSaysItsNumbersAndStaysPickedFromPostureToPosture) {
 
 TEST(Viewer, WithoutAModelTheMeasuredVectorsStay) {
   Hand hand;
-  hand.small.method(identification::Method::partial_pose).reason =
-      "the load turns no joint enough to see its stiffness";
+  hand.small.method(identification::Method::partial_pose).reason = Remark(identification::RemarkId::no_joint_turned);
   app::Viewer viewer = hand.viewer({std::nullopt});
   const render::ScenePoint wrist = *viewer.scene().poses[0].wrist;
   EXPECT_TRUE(wrist.measured);

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 #include "metrology/lines.h"
+#include "reports/words/remark_words.h"
 #include "tests/metrology/reference.h"
 #include "tests/metrology/simulated_points.h"
 
@@ -35,7 +36,7 @@ void expectFinite(const metrology::AxisFit& fit) {
 void expectRefused(const std::vector<metrology::CirclePoints>& circles, const std::string& word) {
   const metrology::AxisFit fit = metrology::fitAxis(circles);
   EXPECT_FALSE(fit.determined);
-  EXPECT_NE(fit.reason.find(word), std::string::npos) << fit.reason;
+  EXPECT_NE(reports::words(fit.reason).find(word), std::string::npos) << reports::words(fit.reason);
   expectFinite(fit);
 }
 
@@ -43,7 +44,7 @@ TEST(FitAxis, OneCircleByHand) {
   // Radius 5 about z at height 1, centre (1, 2): 3-4-5 triangles.
   const metrology::CirclePoints circle{{{6, 2, 1}, {4, 6, 1}, {1, 7, 1}, {-3, 5, 1}, {-4, 2, 1}, {1, -3, 1}}, {}};
   const metrology::AxisFit fit = metrology::fitAxis({circle});
-  ASSERT_TRUE(fit.determined) << fit.reason;
+  ASSERT_TRUE(fit.determined) << reports::words(fit.reason);
   EXPECT_NEAR(std::abs(fit.axis.line.direction.z()), 1.0, 1e-14);
   const Eigen::Vector3d foot = metrology::nearestPoint(fit.axis.line, {1, 2, 1});
   EXPECT_LT((foot - Eigen::Vector3d(1, 2, 1)).norm(), 1e-13);  // rounding of numbers of 10
@@ -56,7 +57,7 @@ TEST(FitAxis, ExactCirclesOfThreeReflectors) {
   for (const double degrees : {10.0, 40.0, 90.0, 280.0}) {
     const metrology::AxisFit fit = metrology::fitAxis(
         {arc(1.9, 0.3, 0.2, degrees, 9), arc(2.3, -0.1, 0.5, degrees, 9), arc(0.4, 0.0, 2.0, degrees, 9)});
-    ASSERT_TRUE(fit.determined) << fit.reason;
+    ASSERT_TRUE(fit.determined) << reports::words(fit.reason);
     // Rounding (4e-16 of 4 m) grows with the inverse of the sagitta, 0.4 % of the radius at 10 degrees, and
     // its square.
     const double tolerance = degrees < 20.0 ? 1e-10 : 1e-12;
@@ -117,7 +118,7 @@ TEST(FitAxis, AReflectorOnTheAxisSaysNothingAndHarmsNothing) {
   for (int i = 0; i < 9; ++i) on_axis.points.push_back(kCentre + 0.2 * kAxis);
   const metrology::AxisFit fit = metrology::fitAxis({arc(1.9, 0.3, 0.2, 90, 9), on_axis});
   expectFinite(fit);
-  ASSERT_TRUE(fit.determined) << fit.reason;
+  ASSERT_TRUE(fit.determined) << reports::words(fit.reason);
   // The radius of a circle of no size makes the outward direction arbitrary; the exact answer still fits
   // exactly.
   EXPECT_LT(missOfCentre(fit), 1e-9);
@@ -134,7 +135,7 @@ TEST(FitAxis, AReflectorNearTheAxisWithNoise) {
     for (Eigen::Vector3d& point : circle.points) point += 2e-5 * noise.normal3();
   }
   const metrology::AxisFit fit = metrology::fitAxis(circles);
-  ASSERT_TRUE(fit.determined) << fit.reason;
+  ASSERT_TRUE(fit.determined) << reports::words(fit.reason);
   expectFinite(fit);
   EXPECT_LT(missOfCentre(fit), 6e-5);  // 20 um over 26 points, some eightfold by the half turn
 }
@@ -164,7 +165,7 @@ TEST(FitAxis, ThreePlacesReadAgainAndAgain) {
   metrology::CirclePoints circle;
   for (int i = 0; i < 15; ++i) circle.points.push_back(onCircle(kCentre, kAxis, 1.2, 0.1, radians(60.0) * (i % 3)));
   const metrology::AxisFit fit = metrology::fitAxis({circle});
-  ASSERT_TRUE(fit.determined) << fit.reason;
+  ASSERT_TRUE(fit.determined) << reports::words(fit.reason);
   EXPECT_LT(missOfCentre(fit), 1e-12);
 }
 
@@ -175,7 +176,7 @@ TEST(FitAxis, ACircleThatWasHardlyReadJoinsIn) {
   once.points.resize(1);
   const metrology::AxisFit fit = metrology::fitAxis({arc(1.9, 0.3, 0.2, 90, 9), lost, once});
   expectFinite(fit);
-  ASSERT_TRUE(fit.determined) << fit.reason;
+  ASSERT_TRUE(fit.determined) << reports::words(fit.reason);
   EXPECT_LT(missOfCentre(fit), 1e-11);
   expectRefused({arc(1.9, 0.3, 0.2, 90, 9), never}, "no readings");
 }
@@ -193,7 +194,7 @@ TEST(FitAxis, NplCircleWithItsPublishedCovariance) {
   metrology::CirclePoints circle;
   for (const auto& point : (*file)["points"]) circle.points.push_back(vector(point));
   const metrology::AxisFit fit = metrology::fitAxis({circle});
-  ASSERT_TRUE(fit.determined) << fit.reason;
+  ASSERT_TRUE(fit.determined) << reports::words(fit.reason);
   const auto& published = (*file)["published"];
   const auto& recomputed = (*file)["recomputed_independently"];
   const Eigen::Vector3d axis = fit.axis.line.direction * (fit.axis.line.direction.z() < 0.0 ? -1.0 : 1.0);
@@ -235,7 +236,7 @@ TEST(FitAxis, PublishedExactCircles) {
     for (const auto& point : one["points"]) circle.points.push_back(vector(point));
     if (circle.points.size() < 4) circle.points.insert(circle.points.end(), circle.points.begin(), circle.points.end());
     const metrology::AxisFit fit = metrology::fitAxis({circle});
-    ASSERT_TRUE(fit.determined) << fit.reason;
+    ASSERT_TRUE(fit.determined) << reports::words(fit.reason);
     EXPECT_LT((metrology::nearestPoint(fit.axis.line, vector(one["c"])) - vector(one["c"])).norm(), 1e-12);
     // Where the points are not on a circle the entry's note has the geometric radius.
     EXPECT_NEAR(fit.circles[0].radius, one.contains("r") ? one["r"].get<double>() : 1.5, 1e-12);

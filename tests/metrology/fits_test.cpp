@@ -7,7 +7,9 @@
 #include "metrology/cylinder_fit.h"
 #include "metrology/line_fit.h"
 #include "metrology/plane_fit.h"
+#include "metrology/remarks.h"
 #include "metrology/sphere_fit.h"
+#include "reports/words/remark_words.h"
 #include "tests/metrology/reference.h"
 #include "tests/metrology/simulated_points.h"
 
@@ -24,7 +26,7 @@ TEST(FitPlane, ByHand) {
   // 0.01.
   const metrology::FittedPlane fit =
       metrology::fitPlane({{{0, 0, 1.01}, {1, 0, 0.99}, {1, 1, 1.01}, {0, 1, 0.99}}, {}});
-  ASSERT_TRUE(fit.determined) << fit.reason;
+  ASSERT_TRUE(fit.determined) << reports::words(fit.reason);
   EXPECT_LT((fit.plane.normal - Eigen::Vector3d::UnitZ()).norm(), 1e-15);
   EXPECT_LT((fit.plane.point - Eigen::Vector3d(0.5, 0.5, 1.0)).norm(), 1e-15);
   EXPECT_NEAR(fit.rms, 0.01, 1e-15);
@@ -37,7 +39,7 @@ TEST(FitPlane, ByHand) {
 TEST(FitLine, ByHand) {
   // Along x, off by 0.1 to and fro in y: symmetric about the middle, so the line is y = 0.
   const metrology::FittedLine fit = metrology::fitLine({{{-3, 0.1, 5}, {-1, -0.1, 5}, {1, -0.1, 5}, {3, 0.1, 5}}, {}});
-  ASSERT_TRUE(fit.determined) << fit.reason;
+  ASSERT_TRUE(fit.determined) << reports::words(fit.reason);
   EXPECT_LT((fit.line.direction - Eigen::Vector3d::UnitX()).norm(), 1e-15);
   EXPECT_LT((fit.line.point - Eigen::Vector3d(0, 0, 5)).norm(), 1e-15);
   EXPECT_EQ(fit.degrees_of_freedom, 4);
@@ -52,11 +54,12 @@ TEST(FitCircle, BothStrategiesNameThemselvesAndAgreeOnAFlatCircle) {
   for (const metrology::CircleStrategy strategy :
        {metrology::CircleStrategy::full, metrology::CircleStrategy::plane_first}) {
     const metrology::FittedCircle fit = metrology::fitCircle({points, {}}, strategy);
-    ASSERT_TRUE(fit.determined) << fit.reason;
+    ASSERT_TRUE(fit.determined) << reports::words(fit.reason);
     EXPECT_LT((fit.circle.centre - kCentre).norm(), 1e-15 * 8);  // roundings of the coordinates of the points
     EXPECT_LT((fit.circle.normal - kAxis).norm(), 1e-15 * 8);
     EXPECT_NEAR(fit.circle.radius, 1.2, 1e-15 * 8);
-    EXPECT_EQ(std::string(fit.method).substr(0, 4), strategy == metrology::CircleStrategy::full ? "full" : "plan");
+    EXPECT_TRUE(fit.method.is(strategy == metrology::CircleStrategy::full ? metrology::RemarkId::circle_in_space
+                                                                          : metrology::RemarkId::circle_plane_first));
   }
 }
 
@@ -65,7 +68,7 @@ TEST(FitCylinder, ByHandAndWithoutAStartGiven) {
   for (int i = 0; i < 24; ++i)
     points.push_back({3.0 + 2.0 * std::cos(0.7 * i), 4.0 + 2.0 * std::sin(0.7 * i), 0.1 * i});
   const metrology::FittedCylinder fit = metrology::fitCylinder({points, {}});
-  ASSERT_TRUE(fit.determined) << fit.reason;
+  ASSERT_TRUE(fit.determined) << reports::words(fit.reason);
   EXPECT_LT((fit.cylinder.axis.direction - Eigen::Vector3d::UnitZ()).norm(), 1e-14);
   EXPECT_LT((fit.cylinder.axis.point.head<2>() - Eigen::Vector2d(3, 4)).norm(), 1e-14);
   EXPECT_NEAR(fit.cylinder.axis.point.z(), 1.15, 1e-14);  // the points' mean
@@ -75,7 +78,7 @@ TEST(FitCylinder, ByHandAndWithoutAStartGiven) {
 TEST(Fits, AnExactShapeHasNoCovarianceUnlessTheReadingsHave) {
   metrology::MeasuredPoints points{{{1, 0, 0}, {0, 1, 0}, {-1, 0, 0}}, {}};
   const metrology::FittedCircle bare = metrology::fitCircle(points);
-  ASSERT_TRUE(bare.determined) << bare.reason;
+  ASSERT_TRUE(bare.determined) << reports::words(bare.reason);
   EXPECT_FALSE(bare.covariance);
   points.covariances.assign(3, 1e-10 * Eigen::Matrix3d::Identity());
   ASSERT_TRUE(metrology::fitCircle(points).covariance);
@@ -90,11 +93,11 @@ struct Reasons {
 
 template <class Fit>
 std::string reasonOf(const Fit& fit) {
-  EXPECT_EQ(fit.determined, fit.reason.empty()) << fit.reason;
+  EXPECT_EQ(fit.determined, fit.reason.empty()) << reports::words(fit.reason);
   EXPECT_TRUE(fit.determined || !fit.covariance);
   EXPECT_TRUE(!fit.covariance || fit.covariance->allFinite());
   EXPECT_TRUE(std::isfinite(fit.rms + fit.residual_sd + fit.chi2_per_dof));
-  return fit.reason;
+  return reports::words(fit.reason);
 }
 
 Reasons reasonsFor(const Points& points) {
@@ -162,10 +165,10 @@ TEST(Fits, RefuseWhatDeterminesNoShape) {
   EXPECT_NE(on_ring.cylinder.find("one plane"), std::string::npos) << on_ring.cylinder;
   // A cube has no direction in which it spreads most or least.
   const Points cube{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}, {0, 0, 1}, {1, 0, 1}, {0, 1, 1}, {1, 1, 1}};
-  EXPECT_NE(metrology::fitLine({cube, {}}).reason.find("alike"), std::string::npos);
-  EXPECT_NE(metrology::fitPlane({cube, {}}).reason.find("alike"), std::string::npos);
-  EXPECT_NE(metrology::fitCylinder({cube, {}}).reason.find("two different"), std::string::npos)
-      << metrology::fitCylinder({cube, {}}).reason;
+  EXPECT_TRUE(metrology::fitLine({cube, {}}).reason.is(metrology::RemarkId::direction_spread_alike));
+  EXPECT_TRUE(metrology::fitPlane({cube, {}}).reason.is(metrology::RemarkId::normal_spread_alike));
+  EXPECT_TRUE(metrology::fitCylinder({cube, {}}).reason.is(metrology::RemarkId::two_cylinders_alike))
+      << reports::words(metrology::fitCylinder({cube, {}}).reason);
 }
 
 TEST(Fits, RefuseWhatTheScatterContradicts) {
@@ -188,11 +191,11 @@ TEST(FitSphere, RefusesFewerThanFourAndWrongCovariances) {
   EXPECT_FALSE(metrology::fitSphere({{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {}}).determined);
   const Points points{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {-1, 0, 0}, {0, -1, 0}};
   metrology::MeasuredPoints readings{points, {Eigen::Matrix3d::Identity()}};
-  EXPECT_NE(metrology::fitSphere(readings).reason.find("one a reading"), std::string::npos);
+  EXPECT_TRUE(metrology::fitSphere(readings).reason.is(metrology::RemarkId::covariances_not_one_a_reading));
   readings.covariances.assign(5, Eigen::Matrix3d::Identity());
   EXPECT_TRUE(metrology::fitSphere(readings).determined);
   readings.covariances[2] = -Eigen::Matrix3d::Identity();
-  EXPECT_NE(metrology::fitSphere(readings).reason.find("positive definite"), std::string::npos);
+  EXPECT_TRUE(metrology::fitSphere(readings).reason.is(metrology::RemarkId::covariance_not_positive_definite));
 }
 
 TEST(FitCircle, NplExampleToAllPrintedDigits) {
@@ -201,7 +204,7 @@ TEST(FitCircle, NplExampleToAllPrintedDigits) {
   Points points;
   for (const auto& point : (*file)["points"]) points.push_back(vector(point));
   const metrology::FittedCircle fit = metrology::fitCircle({points, {}});
-  ASSERT_TRUE(fit.determined) << fit.reason;
+  ASSERT_TRUE(fit.determined) << reports::words(fit.reason);
   const auto& published = (*file)["published"];
   const double half = 0.5001;  // of the last printed digit
   for (int k = 0; k < 3; ++k) {
@@ -231,7 +234,7 @@ TEST(FitCircle, PublishedGeometricCirclesInAnyPlane) {
         points.push_back({one["x"][i].get<double>(), one["y"][i].get<double>(), height});
       }
       const metrology::FittedCircle fit = metrology::fitCircle({points, {}});
-      ASSERT_TRUE(fit.determined) << name << ": " << fit.reason;
+      ASSERT_TRUE(fit.determined) << name << ": " << reports::words(fit.reason);
       const Eigen::Vector3d centre = vector(answer["c"]) + height * Eigen::Vector3d::UnitZ();
       EXPECT_LT((fit.circle.centre - centre).norm(), 2e-8) << name;  // as printed: eight decimals and more
       EXPECT_NEAR(fit.circle.radius, answer["r"].get<double>(), 2e-8) << name;
@@ -280,20 +283,20 @@ TEST(Fits, OpenIndyVectorsWithinTheirOwnTolerances) {
     ++compared;
     if (named("Plane") && !named("Circle")) {
       const metrology::FittedPlane fit = metrology::fitPlane(points);
-      ASSERT_TRUE(fit.determined) << fit.reason;
+      ASSERT_TRUE(fit.determined) << reports::words(fit.reason);
       compare(test, {fit.plane.normal, 0.0, fit.residual_sd});
     } else if (named("Line")) {
       const metrology::FittedLine fit = metrology::fitLine(points);
-      ASSERT_TRUE(fit.determined) << fit.reason;
+      ASSERT_TRUE(fit.determined) << reports::words(fit.reason);
       // OpenIndy counts a point's distance as one residual (n - 2), not as its two components (2 n - 4).
       compare(test, {fit.line.direction, 0.0, std::sqrt(2.0) * fit.residual_sd});
     } else if (named("Circle")) {
       const metrology::FittedCircle fit = metrology::fitCircle(points, metrology::CircleStrategy::plane_first);
-      ASSERT_TRUE(fit.determined) << fit.reason;
+      ASSERT_TRUE(fit.determined) << reports::words(fit.reason);
       compare(test, {fit.circle.normal, fit.circle.radius, fit.residual_sd});
     } else if (named("Sphere")) {
       const metrology::FittedSphere fit = metrology::fitSphere(points);
-      ASSERT_TRUE(fit.determined) << fit.reason;
+      ASSERT_TRUE(fit.determined) << reports::words(fit.reason);
       // Of a sphere it counts three coordinates a point (3 n - 4); its residuals, printed to 1e-5, say the
       // same.
       const double coordinates = 3.0 * static_cast<double>(points.points.size()) - 4.0;
@@ -306,7 +309,7 @@ TEST(Fits, OpenIndyVectorsWithinTheirOwnTolerances) {
       }
     } else {
       const metrology::FittedCylinder fit = metrology::fitCylinder(points);
-      ASSERT_TRUE(fit.determined) << fit.reason;
+      ASSERT_TRUE(fit.determined) << reports::words(fit.reason);
       compare(test, {fit.cylinder.axis.direction, fit.cylinder.radius, fit.residual_sd});
     }
   }

@@ -13,6 +13,7 @@
 #include "metrology/lines.h"
 #include "metrology/plane_fit.h"
 #include "metrology/sphere_fit.h"
+#include "reports/words/remark_words.h"
 #include "tests/metrology/reference.h"
 
 // Certified least-squares answers of NIST's Algorithm Testing System (default test of ASME B89.4.10). They are printed
@@ -89,7 +90,7 @@ TEST(Nist, Planes) {
   Worst worst("plane");
   for (const Pair& pair : pairs) {
     const metrology::FittedPlane fit = metrology::fitPlane(pair.points);
-    ASSERT_TRUE(fit.determined) << pair.name << ": " << fit.reason;
+    ASSERT_TRUE(fit.determined) << pair.name << ": " << reports::words(fit.reason);
     worst.pair();
     worst.see(pair, "point", std::abs(fit.plane.normal.dot(pair.vectorAt(0) - fit.plane.point)) / pair.scale);
     worst.see(pair, "normal", apart(fit.plane.normal, pair.vectorAt(3)));
@@ -102,7 +103,7 @@ TEST(Nist, Spheres) {
   Worst worst("sphere");
   for (const Pair& pair : pairs) {
     const metrology::FittedSphere fit = metrology::fitSphere(pair.points);
-    ASSERT_TRUE(fit.determined) << pair.name << ": " << fit.reason;
+    ASSERT_TRUE(fit.determined) << pair.name << ": " << reports::words(fit.reason);
     worst.pair();
     worst.see(pair, "centre", (fit.sphere.centre - pair.vectorAt(0)).norm() / pair.scale);
     worst.see(pair, "radius", std::abs(fit.sphere.radius - pair.certified[3] / 2.0) / pair.scale);
@@ -115,7 +116,7 @@ TEST(Nist, Cylinders) {
   Worst worst("cylinder");
   for (const Pair& pair : pairs) {
     const metrology::FittedCylinder fit = metrology::fitCylinder(pair.points);
-    EXPECT_TRUE(fit.determined) << pair.name << ": " << fit.reason;
+    EXPECT_TRUE(fit.determined) << pair.name << ": " << reports::words(fit.reason);
     worst.pair();
     const Eigen::Vector3d certified = pair.vectorAt(0);
     worst.see(pair, "point", (metrology::nearestPoint(fit.cylinder.axis, certified) - certified).norm() / pair.scale);
@@ -128,7 +129,7 @@ void compareCircles(const std::string& shape, metrology::CircleStrategy strategy
   Worst worst(shape);
   for (const Pair& pair : pairsOf(shape)) {
     const metrology::FittedCircle fit = metrology::fitCircle(pair.points, strategy);
-    ASSERT_TRUE(fit.determined) << pair.name << ": " << fit.reason;
+    ASSERT_TRUE(fit.determined) << pair.name << ": " << reports::words(fit.reason);
     worst.pair();
     worst.see(pair, "centre", (fit.circle.centre - pair.vectorAt(0)).norm() / pair.scale);
     worst.see(pair, "normal", apart(fit.circle.normal, pair.vectorAt(3)));

@@ -6,6 +6,7 @@
 #include "metrology/cylinder_fit.h"
 #include "metrology/plane_fit.h"
 #include "metrology/sphere_fit.h"
+#include "reports/words/remark_words.h"
 #include "tests/metrology/simulated_points.h"
 
 // Where no certificate is at hand: short arcs and data far from the origin, against the same least squares
@@ -119,7 +120,7 @@ TEST(Precision, CirclesOnShortArcsFarAway) {
   for (const Scene& scene : kScenes) {
     const auto data = points(scene, 0.0, 3);
     const metrology::FittedCircle fit = metrology::fitCircle({data, {}});
-    ASSERT_TRUE(fit.determined) << fit.reason;
+    ASSERT_TRUE(fit.determined) << reports::words(fit.reason);
     const Reference exact = leastSquares(
         Kind::circle, data, {centreOf(scene).cast<Real>(), kAxis.cast<Real>(), static_cast<Real>(scene.size)});
     const auto centre = static_cast<double>((fit.circle.centre.cast<Real>() - exact.point).norm());
@@ -138,7 +139,7 @@ TEST(Precision, SpheresOnSmallCapsFarAway) {
   for (const Scene& scene : kScenes) {
     const auto data = cap(scene, 4);
     const metrology::FittedSphere fit = metrology::fitSphere({data, {}});
-    ASSERT_TRUE(fit.determined) << fit.reason;
+    ASSERT_TRUE(fit.determined) << reports::words(fit.reason);
     const Reference exact = leastSquares(
         Kind::sphere, data, {centreOf(scene).cast<Real>(), kAxis.cast<Real>(), static_cast<Real>(scene.size)});
     const auto centre = static_cast<double>((fit.sphere.centre.cast<Real>() - exact.point).norm());
@@ -154,7 +155,7 @@ TEST(Precision, CylindersOnShortArcsFarAway) {
   for (const Scene& scene : kScenes) {
     const auto data = points(scene, 1.0, 5);
     const metrology::FittedCylinder fit = metrology::fitCylinder({data, {}});
-    ASSERT_TRUE(fit.determined) << scene.degrees << ": " << fit.reason;
+    ASSERT_TRUE(fit.determined) << scene.degrees << ": " << reports::words(fit.reason);
     const Reference exact = leastSquares(
         Kind::cylinder, data, {centreOf(scene).cast<Real>(), kAxis.cast<Real>(), static_cast<Real>(scene.size)});
     const Vector from = fit.cylinder.axis.point.cast<Real>() - exact.point;

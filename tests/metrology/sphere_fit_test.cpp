@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "reports/words/remark_words.h"
 #include "tests/metrology/reference.h"
 #include "tests/metrology/simulated_points.h"
 
@@ -23,7 +24,7 @@ metrology::SpherePoints cap(double radius, double half_angle_deg, int count, std
 void expectRefused(const std::vector<metrology::SpherePoints>& spheres, const std::string& word) {
   const metrology::SphereFit fit = metrology::fitSpheres(spheres);
   EXPECT_FALSE(fit.determined);
-  EXPECT_NE(fit.reason.find(word), std::string::npos) << fit.reason;
+  EXPECT_NE(reports::words(fit.reason).find(word), std::string::npos) << reports::words(fit.reason);
   EXPECT_TRUE(fit.centre.allFinite());
 }
 
@@ -31,7 +32,7 @@ TEST(FitSpheres, OneSphereByHand) {
   // The six ends of the coordinate axes of a sphere of radius 2 about (1, 2, 3).
   const metrology::SphereFit fit =
       metrology::fitSpheres({{{{3, 2, 3}, {-1, 2, 3}, {1, 4, 3}, {1, 0, 3}, {1, 2, 5}, {1, 2, 1}}, {}}});
-  ASSERT_TRUE(fit.determined) << fit.reason;
+  ASSERT_TRUE(fit.determined) << reports::words(fit.reason);
   EXPECT_LT((fit.centre - Eigen::Vector3d(1, 2, 3)).norm(), 1e-14);
   EXPECT_NEAR(fit.radii[0], 2.0, 1e-14);
   EXPECT_EQ(fit.degrees_of_freedom, 2);
@@ -41,7 +42,7 @@ TEST(FitSpheres, ExactConcentricSpheres) {
   for (const double half_angle : {10.0, 60.0, 180.0}) {
     const metrology::SphereFit fit =
         metrology::fitSpheres({cap(0.55, half_angle, 12, 1), cap(0.6, half_angle, 9, 2), cap(0.3, half_angle, 7, 3)});
-    ASSERT_TRUE(fit.determined) << fit.reason;
+    ASSERT_TRUE(fit.determined) << reports::words(fit.reason);
     EXPECT_LT((fit.centre - kCentre).norm(), 1e-12) << half_angle;  // rounding over a cap of 1.5 % height
     EXPECT_NEAR(fit.radii[0], 0.55, 1e-12);
     EXPECT_NEAR(fit.radii[1], 0.6, 1e-12);
@@ -57,7 +58,7 @@ TEST(FitSpheres, ACommonCentreNeedsNoSphereToBeWhole) {
     flat_y.points.push_back(onCircle(kCentre, Eigen::Vector3d::UnitY(), 0.4, -0.1, radians(40.0 * i)));
   }
   const metrology::SphereFit fit = metrology::fitSpheres({flat_x, flat_y});
-  ASSERT_TRUE(fit.determined) << fit.reason;
+  ASSERT_TRUE(fit.determined) << reports::words(fit.reason);
   EXPECT_LT((fit.centre - kCentre).norm(), 1e-12);
 }
 
@@ -81,7 +82,7 @@ TEST(FitSpheres, FourPointsLeaveNothingToTellTheUncertaintyBy) {
   expectRefused({sphere}, "too few");
   sphere.covariances.assign(4, 1e-10 * Eigen::Matrix3d::Identity());
   const metrology::SphereFit weighted = metrology::fitSpheres({sphere});
-  ASSERT_TRUE(weighted.determined) << weighted.reason;
+  ASSERT_TRUE(weighted.determined) << reports::words(weighted.reason);
   const Eigen::Matrix3d covariance = weighted.covariance.topLeftCorner(3, 3);
   EXPECT_GT(covariance.trace(), 1e-10);  // no better than one coordinate of one reading
 }
@@ -114,7 +115,7 @@ TEST(FitSpheres, NistReferenceSpheres) {
     double diameter = 0.0;
     answer >> centre.x() >> centre.y() >> centre.z() >> diameter;
     const metrology::SphereFit fit = metrology::fitSpheres({sphere});
-    ASSERT_TRUE(fit.determined) << entry.path() << fit.reason;
+    ASSERT_TRUE(fit.determined) << entry.path() << reports::words(fit.reason);
     // NIST's own answers hold to about 1e-11 of the size; parts of a sphere lose two to three digits of that.
     EXPECT_LT((fit.centre - centre).norm(), 1e-8 * diameter) << entry.path();
     EXPECT_NEAR(2.0 * fit.radii[0], diameter, 1e-8 * diameter) << entry.path();

@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include "reports/json/fit_json.h"
 #include "reports/text/text.h"
+#include "reports/words/remark_words.h"
 
 namespace stiffscope {
 namespace {
@@ -30,7 +31,7 @@ Eigen::MatrixXd matrixOf(const reports::Json& rows) {
 
 TEST(FitJson, CovarianceIsOfTheFullVectorsInTheOrderOfParameters) {
   const metrology::FittedCircle circle = metrology::fitCircle(pattern(true));
-  ASSERT_TRUE(circle.determined) << circle.reason;
+  ASSERT_TRUE(circle.determined) << reports::words(circle.reason);
   const reports::Json json = reports::fitJson({"circle", 24, circle, std::nullopt});
   const std::vector<std::string> order{"center_x", "center_y", "center_z", "normal_x",
                                        "normal_y", "normal_z", "radius"};

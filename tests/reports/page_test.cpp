@@ -6,6 +6,7 @@
 #include <functional>
 #include "core/audit/remarks.h"
 #include "core/campaign/read_campaign.h"
+#include "core/identification/remarks.h"
 #include "core/preparation/remarks.h"
 #include "reports/page/report_page.h"
 #include "reports/words/verdict.h"
@@ -111,7 +112,7 @@ TEST(Page, AHostileNameStaysText) {
   const std::string hostile = "<script>alert(\"1\")</script> & 'quotes'\x01\xff";
   small.campaign.name = small.campaign.targets[0].id = small.campaign.robot.name = hostile;
   small.campaign.texts.conditions = small.campaign.inputs[0].name = hostile;
-  small.identification.left_out = {hostile};
+  small.identification.left_out = {{hostile, Remark(identification::RemarkId::no_wrist_point)}};
   reports::ReportContent content = contentOf(small);
   content.title = content.command_line = content.figures[0].alt = content.figures[0].caption = hostile;
   const std::string page = page::reportPage(content);
@@ -148,8 +149,10 @@ TEST(Page, WhatIsMissingSaysWhy) {
   const std::string page = page::reportPage(contentOf(small));
   EXPECT_TRUE(has(page, "is not measured: the campaign has no wrist sweep."));
   EXPECT_TRUE(has(page, "No axis was measured (the campaign has no circle sweeps)"));
-  EXPECT_TRUE(has(page, "Complete Pose (CP) is not available: a flange pose needs three reflectors."));
-  EXPECT_TRUE(has(page, "</sub> is not identifiable: the load only hangs."));
+  EXPECT_TRUE(has(page,
+                  "Complete Pose (CP) is not available: a flange pose needs three reflectors, placed by circle sweeps, "
+                  "in every posture."));
+  EXPECT_TRUE(has(page, "</sub> is not identifiable: the load only hangs and does not turn axis 1: "));
   EXPECT_TRUE(has(page, "Negative: "));
   EXPECT_FALSE(has(page, ">nan"));
   EXPECT_FALSE(has(page, " nan"));
@@ -282,13 +285,15 @@ TEST(Page, TheTileCountsOnlyTrustedStiffnesses) {
 TEST(Page, NoMethodAtAll) {
   SmallResult small;
   for (identification::MethodResult& method : small.identification.methods) method = {};
-  for (identification::MethodResult& method : small.identification.methods) method.reason = "the load turns no joint";
+  for (identification::MethodResult& method : small.identification.methods)
+    method.reason = Remark(identification::RemarkId::no_joint_turned);
   small.identification.cases.clear();
   small.identification.wrist.clear();
   small.identification.wrist_displacement.clear();
   small.identification.target_displacement.clear();
   const reports::ReportContent content = contentOf(small);
-  EXPECT_EQ(content.verdict, "No joint stiffness can be identified: the load turns no joint.");
+  EXPECT_EQ(content.verdict,
+            "No joint stiffness can be identified: the load turns no joint enough to see its stiffness.");
   tinyxml2::XMLDocument document;
   parse(page::reportPage(content), document);
 }

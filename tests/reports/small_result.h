@@ -3,7 +3,9 @@
 #include <cmath>
 #include <vector>
 #include "core/campaign/campaign.h"
+#include "core/frames/remarks.h"
 #include "core/identification/identify.h"
+#include "core/identification/remarks.h"
 #include "tests/fixtures/example_arm.h"
 
 namespace stiffscope {
@@ -25,13 +27,14 @@ struct SmallResult {
     campaign.inputs = {{"campaign.xml", "0123456789abcdef"}};
     identification.step = 1;
     identification.frames.arm.arm = campaign.robot;
-    identification.frames.wrist.reason = "the campaign has no wrist sweep";
-    for (frames::MeasuredAxis& axis : identification.frames.axes) axis.reason = "the campaign has no circle sweeps";
+    identification.frames.wrist.reason = Remark(frames::RemarkId::no_wrist_sweep);
+    for (frames::MeasuredAxis& axis : identification.frames.axes)
+      axis.reason = Remark(frames::RemarkId::no_circle_sweeps);
     for (int pose = 0; pose < 3; ++pose) addCase(pose, scale * 1e-3 * (pose == 0 ? 1 : pose == 1 ? 3 : 2));
     for (std::size_t j = 1; j < 6; ++j) identification.identifiability.joints[j].identifiable = true;
-    identification.identifiability.joints[0].reason = "the load only hangs";
+    identification.identifiability.joints[0].reason = Remark(identification::RemarkId::load_hangs, 1, 20.0, 1.0);
     identification.identifiability.load_hangs = true;
-    method(identification::Method::complete_pose).reason = "a flange pose needs three reflectors";
+    method(identification::Method::complete_pose).reason = Remark(identification::RemarkId::flange_pose_not_everywhere);
     fill(method(identification::Method::partial_pose), 0.2);
     fill(method(identification::Method::decoupled_partial_pose), 0.1);
     method(identification::Method::partial_pose).estimate.compliance[3] = -4e-6;

@@ -8,6 +8,7 @@
 #include "core/identification/identify.h"
 #include "core/simulation/measure.h"
 #include "core/simulation/read_spec.h"
+#include "reports/words/remark_words.h"
 #include "tests/fixtures/linear_machine.h"
 
 namespace stiffscope {
@@ -155,7 +156,7 @@ TEST(Compensate, RemovesInTheSimulatorWhatTheIdentificationClaims) {
     options.subsets.sample = 300;
     const identification::Identification result = identification::identify(campaign, options);
     const identification::MethodResult& method = result.of(identification::Method::decoupled_partial_pose);
-    ASSERT_TRUE(method.available) << method.reason;
+    ASSERT_TRUE(method.available) << reports::words(method.reason);
     const auto rows = compensation::compensate(campaign, method.geometry, method.estimate, result.frames.tcp_in_flange,
                                                compensation::campaignPostures(campaign, result.step));
     const simulation::ElasticMachine machine = simulation::buildMachine(spec);

@@ -12,6 +12,7 @@
 #include "core/identification/estimate.h"
 #include "core/io/input_error.h"
 #include "core/simulation/equilibrium.h"
+#include "reports/words/remark_words.h"
 #include "tests/fixtures/extended_day.h"
 
 // Machines of the simulator with one hidden effect, identified without and with it. STIFFSCOPE_WITH_DAYS=200 in the
@@ -73,7 +74,7 @@ TEST_P(HiddenEffect, TrueStiffnessesComeBackWithItAndNotWithoutIt) {
   }
   for (const identification::Method which : identification::kMethods) {
     const identification::MethodResult &without = model.without.of(which), &with = model.with.of(which);
-    ASSERT_TRUE(without.available && with.available) << without.reason << with.reason;
+    ASSERT_TRUE(without.available && with.available) << reports::words(without.reason) << reports::words(with.reason);
     EXPECT_GE(missedBy(without, spec).joints, 1) << "the effect is hidden in no stiffness: nothing is tested";
     // Five joints with 10 to 20 effective degrees of freedom: 3.5 standard deviations are passed once in a hundred
     // days.

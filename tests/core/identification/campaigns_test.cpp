@@ -4,6 +4,8 @@
 #include <set>
 #include "core/campaign/read_campaign.h"
 #include "core/identification/identify.h"
+#include "core/identification/remarks.h"
+#include "reports/words/remark_words.h"
 
 // Identification of the campaigns kept beside the checkout: simulated ones of another make with known
 // structure, and a real machine pulled by a cable.
@@ -47,7 +49,7 @@ TEST(PracticeCampaigns, MethodsAgreeWhereNothingIsWrong) {
   for (const char* number : {"01", "18"}) {
     const identification::Identification found = quickly(shared("practice") / number);
     for (const identification::Method method : identification::kMethods) {
-      ASSERT_TRUE(found.of(method).available) << number << found.of(method).reason;
+      ASSERT_TRUE(found.of(method).available) << number << reports::words(found.of(method).reason);
       // Tracker noise alone keeps about 1 % of P_wrist's displacement (noiseShare).
       EXPECT_GT(found.of(method).at_wrist->all_postures, 0.987) << number;
     }
@@ -67,7 +69,7 @@ TEST(RealCable, SixStiffnessesByPartialPose) {
   if (!std::filesystem::exists(shared("real"))) GTEST_SKIP() << "the real campaigns are not beside the checkout";
   const identification::Identification found = quickly(shared("real") / "fanuc-r2000ic-cable");
   const identification::MethodResult& result = found.of(identification::Method::partial_pose);
-  ASSERT_TRUE(result.available) << result.reason;
+  ASSERT_TRUE(result.available) << reports::words(result.reason);
   // 1e6 Nm/rad, made outside this repository: numpy's lstsq of the linear model (URDF multiplied out joint by
   // joint, Jacobians unloaded, no K_c) gives these and 0.2200 mm; K_c and the middle of the displacement,
   // which it neglects, are well below 2 %.
@@ -90,9 +92,10 @@ TEST(RealCable, SixStiffnessesByPartialPose) {
     EXPECT_FALSE(found.of(method).available);
     EXPECT_FALSE(found.of(method).reason.empty());
   }
-  EXPECT_NE(found.of(identification::Method::complete_pose).reason.find("absolute positions of three reflectors"),
+  EXPECT_TRUE(found.of(identification::Method::complete_pose)
+                  .reason.is(identification::RemarkId::flange_pose_by_displacements));
+  EXPECT_NE(reports::words(found.of(identification::Method::decoupled_partial_pose).reason).find("wrist sweep"),
             std::string::npos);
-  EXPECT_NE(found.of(identification::Method::decoupled_partial_pose).reason.find("wrist sweep"), std::string::npos);
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include "core/identification/remarks.h"
 #include "core/robot/wrench.h"
 #include "metrology/trilateration.h"
 #include "tests/fixtures/linear_machine.h"
@@ -35,7 +36,7 @@ TEST(CompletePose, GivesTheSpringsBackAtAnyCharacteristicLength) {
     for (const double length : {0.05, 0.35, 1.0, 4.0, 20.0}) {
       const identification::StiffnessEstimate found = identification::completePose(equations, length, kAllJoints);
       EXPECT_LT(worstError(found.compliance, machine.compliance), kLinear) << length;
-      EXPECT_EQ(found.mark(4), "");
+      EXPECT_TRUE(found.mark(4).empty());
     }
   }
 }
@@ -194,9 +195,9 @@ TEST(Mark, NegativeAndImprecise) {
   identification::StiffnessEstimate estimate;
   estimate.compliance << 1e-6, -1e-6, 1e-6, 1e-6, 1e-6, 1e-6;
   estimate.covariance.diagonal() << 1e-14, 1e-14, 4e-12, 1e-14, 1e-14, 1e-14;
-  EXPECT_EQ(estimate.mark(0), "");
-  EXPECT_EQ(estimate.mark(1), "negative");
-  EXPECT_EQ(estimate.mark(2), "imprecise");  // sd(c) = 2 c
+  EXPECT_TRUE(estimate.mark(0).empty());
+  EXPECT_TRUE(estimate.mark(1).is(identification::RemarkId::negative));
+  EXPECT_TRUE(estimate.mark(2).is(identification::RemarkId::imprecise));  // sd(c) = 2 c
   EXPECT_NEAR(estimate.stiffnessSd(0), 1e-7 / 1e-12, 1.0);
 }
 

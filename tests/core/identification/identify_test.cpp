@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 #include "core/identification/decoupled_partial_pose.h"
+#include "core/identification/remarks.h"
 #include "core/io/input_error.h"
 #include "metrology/lines.h"
+#include "reports/words/remark_words.h"
 #include "tests/fixtures/example_arm.h"
 #include "tests/fixtures/linear_machine.h"
 
@@ -44,7 +46,7 @@ TEST(Identify, TheNonlinearEquilibriumGivesTheSpringsBack) {
   const campaign::Campaign campaign = fullDay(lab, pulledForce);
   const identification::Identification found = identification::identify(campaign, quick());
   for (const identification::Method method : identification::kMethods) {
-    ASSERT_TRUE(found.of(method).available) << found.of(method).reason;
+    ASSERT_TRUE(found.of(method).available) << reports::words(found.of(method).reason);
     EXPECT_LT(worstError(found.of(method).estimate.compliance, lab.compliance), 1e-4) << static_cast<int>(method);
     EXPECT_GT(found.of(method).at_wrist->all_postures, 0.999);
     EXPECT_GT(found.of(method).at_targets->all_postures, 0.999);
@@ -60,7 +62,7 @@ TEST(Identify, OwnWeightAndSpringsAreFoundInTurns) {
   const identification::Identification found = identification::identify(fullDay(lab, pulledForce), quick());
   EXPECT_TRUE(found.frames.sag_removed);
   for (const identification::Method method : identification::kMethods) {
-    ASSERT_TRUE(found.of(method).available) << found.of(method).reason;
+    ASSERT_TRUE(found.of(method).available) << reports::words(found.of(method).reason);
     EXPECT_LT(worstError(found.of(method).estimate.compliance, lab.compliance), 3e-4) << static_cast<int>(method);
   }
 }
@@ -72,7 +74,7 @@ TEST(Identify, AnArmWithGeometryErrorsGivesItsSpringsBack) {
   for (std::size_t j = 0; j < 4; ++j) lab.actual.to_joint[j] = disturbed.to_joint[j];  // the wrist's axes still meet
   const identification::Identification found = identification::identify(fullDay(lab, pulledForce, 14), quick());
   for (const identification::Method method : identification::kMethods) {
-    ASSERT_TRUE(found.of(method).available) << found.of(method).reason;
+    ASSERT_TRUE(found.of(method).available) << reports::words(found.of(method).reason);
     EXPECT_LT(worstError(found.of(method).estimate.compliance, lab.compliance), 2e-4) << static_cast<int>(method);
   }
 }
@@ -97,9 +99,9 @@ TEST(Identify, AHangingLoadSaysNothingOfJointOne) {
   const identification::Identification found = identification::identify(fullDay(lab, hangingForce), quick());
   EXPECT_TRUE(found.identifiability.load_hangs);
   EXPECT_FALSE(found.identifiability.joints[0].identifiable);
-  EXPECT_NE(found.identifiability.joints[0].reason.find("hangs"), std::string::npos);
+  EXPECT_TRUE(found.identifiability.joints[0].reason.is(identification::RemarkId::load_hangs));
   for (const identification::Method method : identification::kMethods) {
-    ASSERT_TRUE(found.of(method).available) << found.of(method).reason;
+    ASSERT_TRUE(found.of(method).available) << reports::words(found.of(method).reason);
     EXPECT_EQ(found.of(method).estimate.compliance[0], 0.0);
     EXPECT_LT(worstError(found.of(method).estimate.compliance, lab.compliance, kWithoutFirst), 1e-4);
   }
@@ -133,7 +135,8 @@ TEST(Identify, WithoutWristSweepTheDecoupledSaysWhatToMeasure) {
   EXPECT_TRUE(found.of(identification::Method::complete_pose).available);
   EXPECT_TRUE(found.of(identification::Method::partial_pose).available);
   EXPECT_FALSE(found.of(identification::Method::decoupled_partial_pose).available);
-  EXPECT_NE(found.of(identification::Method::decoupled_partial_pose).reason.find("wrist sweep"), std::string::npos);
+  EXPECT_NE(reports::words(found.of(identification::Method::decoupled_partial_pose).reason).find("wrist sweep"),
+            std::string::npos);
   EXPECT_FALSE(found.of(identification::Method::partial_pose).at_wrist);
 }
 
@@ -143,10 +146,11 @@ TEST(Identify, WithoutAnySweepPartialPoseCalibratesItsBaseFromThePostures) {
   lab.addLoading(campaign, 16, pulledForce);
   const identification::Identification found = identification::identify(campaign, quick());
   ASSERT_TRUE(found.of(identification::Method::partial_pose).available)
-      << found.of(identification::Method::partial_pose).reason;
+      << reports::words(found.of(identification::Method::partial_pose).reason);
   EXPECT_LT(worstError(found.of(identification::Method::partial_pose).estimate.compliance, lab.compliance), 2e-4);
   EXPECT_FALSE(found.of(identification::Method::complete_pose).available);
-  EXPECT_NE(found.of(identification::Method::complete_pose).reason.find("circle sweeps"), std::string::npos);
+  EXPECT_NE(reports::words(found.of(identification::Method::complete_pose).reason).find("circle sweeps"),
+            std::string::npos);
 }
 
 TEST(Identify, WithoutAnySweepTheOwnWeightIsTakenIntoAccountToo) {
@@ -157,7 +161,7 @@ TEST(Identify, WithoutAnySweepTheOwnWeightIsTakenIntoAccountToo) {
   lab.addLoading(campaign, 25, pulledForce);
   const identification::Identification found = identification::identify(campaign, quick());
   ASSERT_TRUE(found.of(identification::Method::partial_pose).available)
-      << found.of(identification::Method::partial_pose).reason;
+      << reports::words(found.of(identification::Method::partial_pose).reason);
   EXPECT_LT(found.calibration.rms_after, 1e-6);
   EXPECT_LT(worstError(found.of(identification::Method::partial_pose).estimate.compliance, lab.compliance), 3e-4);
 }
@@ -181,7 +185,7 @@ TEST(Identify, DisplacementsInTheRobotsAxes) {
   campaign.loading.reset();
   const identification::Identification found = identification::identify(campaign, quick());
   ASSERT_TRUE(found.of(identification::Method::partial_pose).available)
-      << found.of(identification::Method::partial_pose).reason;
+      << reports::words(found.of(identification::Method::partial_pose).reason);
   EXPECT_LT(worstError(found.of(identification::Method::partial_pose).estimate.compliance, lab.compliance), 1e-4);
   EXPECT_FALSE(found.of(identification::Method::complete_pose).available);
   EXPECT_FALSE(found.of(identification::Method::decoupled_partial_pose).available);
@@ -205,7 +209,7 @@ TEST(Identify, DisplacementsInTheTrackersAxesNeedSweeps) {
   lab.addCircleSweeps(campaign);
   const identification::Identification found = identification::identify(campaign, quick());
   ASSERT_TRUE(found.of(identification::Method::partial_pose).available)
-      << found.of(identification::Method::partial_pose).reason;
+      << reports::words(found.of(identification::Method::partial_pose).reason);
   EXPECT_LT(worstError(found.of(identification::Method::partial_pose).estimate.compliance, lab.compliance), 1e-4);
 }
 
@@ -217,14 +221,15 @@ TEST(Identify, AReflectorMissingInSomePostures) {
                 [](const campaign::LoadingReading& row) { return row.pose == 3 && row.target == 1; });
   const identification::Identification found = identification::identify(campaign, quick());
   ASSERT_TRUE(found.of(identification::Method::partial_pose).available)
-      << found.of(identification::Method::partial_pose).reason;
+      << reports::words(found.of(identification::Method::partial_pose).reason);
   EXPECT_LT(worstError(found.of(identification::Method::partial_pose).estimate.compliance, lab.compliance), 1e-4);
   for (const identification::Method method :
        {identification::Method::complete_pose, identification::Method::decoupled_partial_pose}) {
     if (found.of(method).available) {
       EXPECT_LT(worstError(found.of(method).estimate.compliance, lab.compliance), 1e-3);
     } else {
-      EXPECT_NE(found.of(method).reason.find("every posture"), std::string::npos) << found.of(method).reason;
+      EXPECT_NE(reports::words(found.of(method).reason).find("every posture"), std::string::npos)
+          << reports::words(found.of(method).reason);
     }
   }
 }
@@ -235,7 +240,7 @@ TEST(Identify, FiveReflectors) {
   lab.targets_in_flange.push_back({-0.2, -0.1, 0.0});
   const identification::Identification found = identification::identify(fullDay(lab, pulledForce), quick());
   for (const identification::Method method : identification::kMethods) {
-    ASSERT_TRUE(found.of(method).available) << found.of(method).reason;
+    ASSERT_TRUE(found.of(method).available) << reports::words(found.of(method).reason);
     EXPECT_LT(worstError(found.of(method).estimate.compliance, lab.compliance), 1e-4);
   }
 }
@@ -282,7 +287,7 @@ TEST(Identify, SweepsAloneGiveFramesAndSayWhatIsMissing) {
   EXPECT_TRUE(result.cases.empty());
   for (const identification::MethodResult& method : result.methods) {
     EXPECT_FALSE(method.available);
-    EXPECT_NE(method.reason.find("no 'states'"), std::string::npos) << method.reason;
+    EXPECT_TRUE(method.reason.is(identification::RemarkId::no_states)) << reports::words(method.reason);
   }
 }
 
@@ -319,11 +324,11 @@ TEST(JudgeJoints, AJointSeenOnlyInCombination) {
       identification::evaluateIdentifiability(machine.geometry, machine.cases, cell, machine.reflectorEquations());
   EXPECT_EQ(found.mask(), (robot::JointMask{true, true, true, false, true, false}));
   for (const std::size_t joint : {3u, 5u}) {
-    EXPECT_NE(found.joints[joint].reason.find("combination of joints 4, 6"), std::string::npos)
-        << found.joints[joint].reason;
+    EXPECT_NE(reports::words(found.joints[joint].reason).find("combination of joints 4, 6"), std::string::npos)
+        << reports::words(found.joints[joint].reason);
     // One axis for both: what the load turns is their sum.
-    EXPECT_NE(found.joints[joint].reason.find("only 1/k4 + 1/k6 is determined"), std::string::npos)
-        << found.joints[joint].reason;
+    EXPECT_NE(reports::words(found.joints[joint].reason).find("only 1/k4 + 1/k6 is determined"), std::string::npos)
+        << reports::words(found.joints[joint].reason);
   }
 }
 
@@ -339,7 +344,8 @@ TEST(JudgeJoints, PointsOnAnAxisDoNotShowIt) {
     const identification::Identifiability found =
         identification::evaluateIdentifiability(machine.geometry, machine.cases, cell, machine.reflectorEquations());
     EXPECT_EQ(found.mask(), (robot::JointMask{true, true, true, true, true, false})) << beside;
-    EXPECT_NE(found.joints[5].reason.find("measured"), std::string::npos) << found.joints[5].reason;
+    EXPECT_TRUE(found.joints[5].reason.is(identification::RemarkId::points_on_axis))
+        << reports::words(found.joints[5].reason);
   }
 }
 
@@ -349,7 +355,7 @@ TEST(JudgeJoints, ATorqueBelowItsUncertaintyDoesNotCount) {
   const identification::Identifiability found =
       identification::evaluateIdentifiability(machine.geometry, machine.cases, vague, machine.reflectorEquations());
   EXPECT_EQ(found.mask(), robot::JointMask{});
-  EXPECT_NE(found.joints[2].reason.find("uncertainty"), std::string::npos);
+  EXPECT_TRUE(found.joints[2].reason.is(identification::RemarkId::load_turns_too_little));
 }
 
 }  // namespace

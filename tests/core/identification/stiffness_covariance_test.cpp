@@ -7,6 +7,7 @@
 #include "core/identification/estimate.h"
 #include "core/identification/identify.h"
 #include "core/identification/load_dependence.h"
+#include "core/identification/remarks.h"
 #include "core/simulation/measure.h"
 #include "core/simulation/read_spec.h"
 #include "tests/fixtures/on_one_core.h"
@@ -253,14 +254,15 @@ TEST(OutlyingPostures, AShiftedReflectorIsFoundAndLeftOutOnRequestOnly) {
   EXPECT_EQ(found.outlying[0].posture, 7);
   EXPECT_EQ(found.cases.size(), 19u);
   const bool said = std::any_of(found.cautions.begin(), found.cautions.end(),
-                                [](const std::string& text) { return text.starts_with("outlying posture"); });
+                                [](const Remark& one) { return one.is(identification::RemarkId::outlying_postures); });
   EXPECT_TRUE(said);
   identification::IdentifyOptions robust = quick();
   robust.robust = true;
   const identification::Identification without = identification::identify(spoilt, robust);
   EXPECT_EQ(without.cases.size(), 18u);
   ASSERT_EQ(without.left_out.size(), 1u);
-  EXPECT_NE(without.left_out[0].find("disagrees"), std::string::npos);
+  EXPECT_EQ(without.left_out[0].pose, spoilt.pose_ids[7]);
+  EXPECT_TRUE(without.left_out[0].reason.is(identification::RemarkId::disagrees));
   // What is left is a clean day with a posture less: within a few of its own uncertainties of the whole.
   for (const identification::Method method : identification::kMethods) {
     for (int j = 1; j < 6; ++j) {

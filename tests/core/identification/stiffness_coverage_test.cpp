@@ -9,6 +9,7 @@
 #include "core/simulation/measure.h"
 #include "core/simulation/postures.h"
 #include "core/simulation/read_spec.h"
+#include "reports/words/remark_words.h"
 
 // Coverage of the stated intervals on days of the samples' machine with joint springs and nothing else that gives:
 // geometry errors, tracker, load cell and read-back as in samples/active.xml, R0, links and wrist measured by sweeps.
@@ -61,7 +62,7 @@ Tally coverage(int days, std::uint64_t first_seed, bool pulled) {
     const identification::Identification found = identification::identify(simulation::simulate(spec), options);
     for (std::size_t m = 0; m < identification::kMethods.size(); ++m) {
       const identification::MethodResult& method = found.methods[m];
-      EXPECT_TRUE(method.available) << method.reason;
+      EXPECT_TRUE(method.available) << reports::words(method.reason);
       for (std::size_t j = 0; j < 6; ++j) {
         if (!method.available || !method.estimate.identifiable[j]) continue;
         const int joint = static_cast<int>(j);

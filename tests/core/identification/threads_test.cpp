@@ -4,6 +4,7 @@
 #include "core/campaign/read_campaign.h"
 #include "core/identification/identify.h"
 #include "core/identification/load_dependence.h"
+#include "reports/words/remark_words.h"
 #include "tests/fixtures/on_one_core.h"
 
 namespace stiffscope {
@@ -48,7 +49,7 @@ TEST(Identify, DoesNotDependOnTheNumberOfCores) {
   const identification::StepStudy one_steps = identification::studySteps(campaign, {}, one);
   for (std::size_t m = 0; m < all.methods.size(); ++m) {
     const identification::MethodResult &a = all.methods[m], &b = one.methods[m];
-    ASSERT_TRUE(a.available) << a.reason;
+    ASSERT_TRUE(a.available) << reports::words(a.reason);
     expectSame(a.estimate, b.estimate);
     EXPECT_EQ(a.subsets.compliances, b.subsets.compliances);
     EXPECT_EQ(a.subsets.at_targets.left_held_out, b.subsets.at_targets.left_held_out);

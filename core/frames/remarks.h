@@ -1,0 +1,35 @@
+#pragma once
+
+namespace stiffscope::frames {
+
+/// Why axes, wrist centre and geometry are not measured, and what is known of the arm's own sag.
+enum class RemarkId {
+  // an axis
+  no_circle_sweeps,        ///< of the whole campaign
+  not_swept,               ///< the axis
+  other_joints_moved,      ///< during its sweep
+  earlier_axis_not_known,  ///< number of an axis that stood away from zero and is not measured
+  // the wrist centre
+  no_wrist_sweep,
+  r0_not_in_frame_of_readings,
+  wrist_sweep_in_other_frame,
+  arm_moved_in_wrist_sweep,
+  wrist_reflectors_under_four,
+  // the arm's own sag
+  sag_without_stiffness,
+  sag_without_masses,
+  sag_taken_off,
+  // calibration of the geometry
+  no_unloaded_positions,
+  base_not_placed,
+  too_few_positions,         ///< positions, parameters
+  calibration_not_settling,  ///< what the solver says
+  axis_parameter,            ///< axis number, which of it: 0, 1 place along u, v; 2, 3 direction along u, v
+  // equations of absolute unloaded positions
+  no_absolute_readings,
+  tracker_noise_not_declared,
+  axis_not_measured,  ///< axis number, why
+  loading_in_other_frame
+};
+
+}  // namespace stiffscope::frames

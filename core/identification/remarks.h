@@ -1,0 +1,53 @@
+#pragma once
+
+namespace stiffscope::identification {
+
+/// Why methods, joints and postures are not to be had, and what to know before believing stiffnesses.
+enum class RemarkId {
+  // what a campaign lacks
+  no_states,
+  no_load_cell,
+  no_readings_under_load,
+  // why a method is not available
+  displacements_not_placed,
+  loading_not_placed,
+  no_posture_in_both_states,
+  no_joint_turned,
+  flange_pose_not_everywhere,
+  flange_pose_by_displacements,  ///< reflectors
+  wrist_point_not_everywhere,
+  wrist_centre_not_measured,    ///< why
+  wrist_sweep_wanted,           ///< why there is no P_wrist
+  wrist_sweep_wanted_too,       ///< why there are no positions
+  wrist_axes_apart,             ///< distance of axes 4 and 5 m, of 5 and 6 m, share of P_wrist's motion, most share
+  geometry_not_calibrated,      ///< why
+  displacements_by_model_only,  ///< of the calibration: not done
+  // why a joint is not identifiable
+  points_on_axis,         ///< axis number, distance of the measured points rms m
+  load_hangs,             ///< axis number, torque rms Nm, by a load along gravity rms Nm
+  load_turns_too_little,  ///< axis number, torque rms Nm, least ratio, torque by the uncertainties rms Nm
+  two_joints_combined,    ///< joint numbers a and b, r of the compliance c_a + r c_b that is seen
+  joints_combined,        ///< joint numbers, steps of their compliances that together move nothing, the first 1
+  // why a posture is left out
+  no_state_of_step,
+  no_reflector_in_both_states,
+  under_three_reflectors,
+  no_wrist_point,
+  disagrees,  ///< left per coordinate rms m, times that of the other postures
+  in_step,    ///< why, load step: where several steps are used together
+  // what to know before believing
+  geometry_missed,   ///< unloaded positions missed by rms m
+  implausible_load,  ///< force rms N, displacement rms m
+  all_negative,
+  residual_above_noise,  ///< residual per coordinate m, noise per coordinate m
+  too_few_postures,      ///< load cases
+  outlying_postures,     ///< names, left per coordinate rms of each m, of the others m, whether left out (1)
+  mostly_noise,
+  sag_in_sweeps,      ///< largest sag taken off m
+  sweep_above_noise,  ///< axis number, residual rms m, times the noise
+  // of a joint's stiffness
+  negative,
+  imprecise  ///< standard deviation above the value
+};
+
+}  // namespace stiffscope::identification

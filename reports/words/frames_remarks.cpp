@@ -1,0 +1,61 @@
+#include <fmt/format.h>
+#include <array>
+
+#include "core/frames/remarks.h"
+#include "reports/words/remarks.h"
+
+namespace stiffscope::reports {
+
+std::string framesWords(frames::RemarkId id, const RemarkValues& values) {
+  using frames::RemarkId;
+  static constexpr std::array<const char*, 4> kAxisParameters{"place (u)", "place (v)", "direction (u)",
+                                                              "direction (v)"};
+  switch (id) {
+    case RemarkId::no_circle_sweeps:
+      return "the campaign has no circle sweeps";
+    case RemarkId::not_swept:
+      return "it was not swept";
+    case RemarkId::other_joints_moved:
+      return "other joints moved during its sweep";
+    case RemarkId::earlier_axis_not_known:
+      return fmt::format("axis {} stood away from zero during its sweep and is not measured itself", values.count(0));
+    case RemarkId::no_wrist_sweep:
+      return "the campaign has no wrist sweep";
+    case RemarkId::r0_not_in_frame_of_readings:
+      return "R0 is not known in the frame of the readings: axes 1 and 2 were not swept";
+    case RemarkId::wrist_sweep_in_other_frame:
+      return "the wrist sweep's readings are in another frame than the circle sweeps'";
+    case RemarkId::arm_moved_in_wrist_sweep:
+      return "axes 1-3 moved during the wrist sweep";
+    case RemarkId::wrist_reflectors_under_four:
+      return "no reflector has four readings in the wrist sweep";
+    case RemarkId::sag_without_stiffness:
+      return "no stiffness is known, so the arm's own sag is left in";
+    case RemarkId::sag_without_masses:
+      return "the robot's link masses are not known, so the arm's own sag is left in";
+    case RemarkId::sag_taken_off:
+      return "the arm's own sag is taken off the readings by the identified stiffnesses and the URDF's masses";
+    case RemarkId::no_unloaded_positions:
+      return "there are no absolute unloaded positions (loading, step 0) to calibrate on";
+    case RemarkId::base_not_placed:
+      return "the base's place is not known from sweeps, and finding it from postures needs three "
+             "reflectors in three postures that turn the flange about different axes";
+    case RemarkId::too_few_positions:
+      return fmt::format("{} unloaded positions do not determine {} parameters", values.count(0), values.count(1));
+    case RemarkId::calibration_not_settling:
+      return "the calibration did not converge: " + values.name(0);
+    case RemarkId::axis_parameter:
+      return fmt::format("axis {} {}", values.count(0), kAxisParameters.at(static_cast<std::size_t>(values.count(1))));
+    case RemarkId::no_absolute_readings:
+      return "no absolute readings unloaded: measure `loading` with step 0";
+    case RemarkId::tracker_noise_not_declared:
+      return "the tracker's noise is not declared: state `tracker` in campaign.xml";
+    case RemarkId::axis_not_measured:
+      return fmt::format("axis {} is not measured: {}", values.count(0), values.words(1));
+    case RemarkId::loading_in_other_frame:
+      return "the loading's readings are in another frame than the sweeps'";
+  }
+  return {};
+}
+
+}  // namespace stiffscope::reports
