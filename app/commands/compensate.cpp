@@ -18,6 +18,7 @@
 #include "reports/text/text.h"
 #include "reports/words/names.h"
 #include "reports/words/preparation_words.h"
+#include "reports/words/remark_words.h"
 
 namespace stiffscope::app {
 
@@ -58,8 +59,8 @@ int compensateCampaign(const Arguments& arguments) {
     give = extended_model::effectDeflection(*improved, methods.front());
   const std::vector<compensation::CompensatedPosture> rows = compensation::compensate(
       campaign, method.geometry, method.estimate, result.frames.tcp_in_flange, asked, {}, give ? &*give : nullptr);
-  std::vector<std::string> cautions = result.cautions;
-  for (std::string& sentence : compensation::implausibleCommands(rows)) cautions.push_back(std::move(sentence));
+  std::vector<std::string> cautions = result.cautions;  // MERGE: reports::words(result.cautions)
+  for (const Remark& caution : compensation::implausibleCommands(rows)) cautions.push_back(reports::words(caution));
   deliver(
       [&] {
         reports::Json json = reports::compensationJson(campaign, methods.front(), rows);

@@ -1,6 +1,5 @@
 #include "core/diagnosis/diagnose.h"
 
-#include <fmt/format.h>
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
@@ -87,7 +86,7 @@ class Diagnoser {
     allowed_.assign(input_.models.size(), true);
     for (std::size_t e = 0; e < effects::kEffectCount; ++e) {
       const auto effect = static_cast<effects::Effect>(e);
-      const std::string missing = effects::missingFor(effect, has);
+      const Remark missing = effects::missingFor(effect, has);
       if (missing.empty()) continue;
       result_.not_testable.push_back({effect, missing});
       for (std::size_t m = 0; m < input_.models.size(); ++m) {
@@ -240,14 +239,12 @@ Diagnosis diagnoseSpread(const preparation::PreparedCampaign& spread, std::size_
                          const DiagnoseOptions& options) {
   Diagnosis diagnosis = Diagnoser(spread, options).run();
   if (long_sweeps) {
-    diagnosis.verdict.reason +=
-        fmt::format(" Of a sweep's readings {} at most took part, spread evenly over it.", preparation::kMostSwept);
+    diagnosis.verdict.reasons.push_back(Remark(RemarkId::sweeps_thinned, preparation::kMostSwept));
   }
   if (postures <= preparation::kMostDiagnosed) return diagnosis;
   const std::vector<std::size_t> places = preparation::evenlySpreadIndices(postures, preparation::kMostDiagnosed);
   for (PointGap& one : diagnosis.at_points) one.pose = static_cast<int>(places[static_cast<std::size_t>(one.pose)]);
-  diagnosis.verdict.reason +=
-      fmt::format(" Of {} postures {} took part, spread evenly over the day.", postures, diagnosis.postures);
+  diagnosis.verdict.reasons.push_back(Remark(RemarkId::postures_thinned, postures, diagnosis.postures));
   return diagnosis;
 }
 

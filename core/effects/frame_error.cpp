@@ -23,12 +23,11 @@ void frameErrorCorrect(const Vector6d&, LinearizationPoint&, Corrections& correc
   corrections.frame = own;
 }
 
-std::string frameErrorMissing(const CampaignContents& has) {
+Remark frameErrorMissing(const CampaignContents& has) {
   if (!has.weights && !has.nests)
-    return "the masses of the links are not known: the sag in absolute positions hides it; state them, or "
-           "read nests";
+    return Remark(RemarkId::frame_needs_masses_or_nests);
   if (has.weights && (!has.absolute || !has.sweeps))
-    return "needs circle sweeps and absolute unloaded positions in the same frame of the tracker";
+    return Remark(RemarkId::frame_needs_sweeps_and_positions);
   return {};
 }
 

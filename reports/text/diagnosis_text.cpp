@@ -9,17 +9,19 @@
 
 #include "core/diagnosis/diagnosis.h"
 #include "core/io/units.h"
+#include "reports/words/effect_words.h"
 #include "reports/words/numbers.h"
+#include "reports/words/remark_words.h"
 
 namespace stiffscope::reports {
 
 /// "bearing_tilt or link_compliance".
-std::string effectNames(const std::vector<effects::Effect>& effects);
+std::string effectIds(const std::vector<effects::Effect>& effects);
 
 /// What is present, in one line: "hysteresis (joint 2), and unknown"; "none" where nothing is.
 std::string verdictWords(const diagnosis::Verdict& verdict);
 
-std::string effectNames(const std::vector<effects::Effect>& effects) {
+std::string effectIds(const std::vector<effects::Effect>& effects) {
   std::string names;
   for (const effects::Effect effect : effects)
     names += (names.empty() ? "" : " or ") + std::string(effects::idOf(effect));
@@ -31,7 +33,7 @@ std::string verdictWords(const diagnosis::Verdict& verdict) {
   std::string line;
   for (const diagnosis::VerdictEntry& entry : verdict.entries) {
     line += line.empty() ? "" : ", and ";
-    line += entry.effects.empty() ? "unknown" : effectNames(entry.effects);
+    line += entry.effects.empty() ? "unknown" : effectIds(entry.effects);
     if (!entry.detail.empty()) line += " (" + entry.detail + ")";
   }
   return line;
@@ -53,11 +55,11 @@ void writeClasses(const diagnosis::Diagnosis& diagnosis, Out out) {
   fmt::format_to(out, "  {:<2}{:<44}{:>12}{:>9}  {:<17}{:>10}\n", "", "effect", "score", "shrink", "95 %", "explained");
   for (const diagnosis::EffectClass& one : diagnosis.classes) {
     fmt::format_to(out, "  {:<2}{:<44}{:>12.0f}{:>9.3f}  {:<17}{:>10.3f}\n", one.in_verdict ? "*" : "",
-                   effectNames(one.effects), unsignedZero(one.score, 0), unsignedZero(one.shrink.value, 3),
+                   effectIds(one.effects), unsignedZero(one.score, 0), unsignedZero(one.shrink.value, 3),
                    interval(one.shrink), unsignedZero(one.explained, 3));
     if (!one.in_verdict) continue;
     if (!one.detail.empty()) fmt::format_to(out, "    {}\n", wrapped(one.detail, 4));
-    if (!one.parameters.empty()) fmt::format_to(out, "    {}\n", wrapped(one.parameters, 4));
+    if (!one.parameters.empty()) fmt::format_to(out, "    {}\n", wrapped(words(one.parameters), 4));
     if (diagnosis.positions_tested)
       fmt::format_to(out, "    absolute positions: shrink {:.3f} ({})\n",
                      unsignedZero(one.shrink_of_positions.value, 3), interval(one.shrink_of_positions));
@@ -97,7 +99,7 @@ void writeStiffnesses(const diagnosis::Diagnosis& diagnosis, Out out) {
 
 void writeLimits(const diagnosis::Diagnosis& diagnosis, Out out) {
   fmt::format_to(out, "\nNoise: {:.1f} um rms in one state's displacement; {}.\n", um(diagnosis.state_noise),
-                 diagnosis.noise_source);
+                 diagnosis.noise_source);  // MERGE: words()
   fmt::format_to(out, "Limits: a fall of BIC of {:.0f}, and {:.1f} um rms after the stiffnesses.\n",
                  diagnosis.significance_limit, um(diagnosis.size_limit));
   fmt::format_to(out, "Smallest size that would have been seen, um rms per coordinate:\n");
@@ -109,7 +111,7 @@ void writeLimits(const diagnosis::Diagnosis& diagnosis, Out out) {
   fmt::format_to(out, "  {}\n", wrapped(sizes, 2));
   for (const diagnosis::NotTestable& one : diagnosis.not_testable)
     fmt::format_to(out, "  {}\n",
-                   wrapped(fmt::format("{} not testable here: {}", effects::idOf(one.effect), one.missing), 4));
+                   wrapped(fmt::format("{} not testable here: {}", effects::idOf(one.effect), words(one.missing)), 4));
 }
 
 }  // namespace
@@ -117,9 +119,9 @@ void writeLimits(const diagnosis::Diagnosis& diagnosis, Out out) {
 std::string diagnosisText(const campaign::Campaign& campaign, const diagnosis::Diagnosis& diagnosis) {
   std::string text;
   Out out(text);
-  if (!diagnosis.usable) return fmt::format("{}: no diagnosis: {}\n", campaign.name, diagnosis.unusable_reason);
+  if (!diagnosis.usable) return fmt::format("{}: no diagnosis: {}\n", campaign.name, words(diagnosis.unusable_reason));
   fmt::format_to(out, "{}: {}\n\n", campaign.name, verdictWords(diagnosis.verdict));
-  fmt::format_to(out, "{}\n", wrapped(diagnosis.verdict.reason, 0));
+  fmt::format_to(out, "{}\n", wrapped(reasonWords(diagnosis.verdict), 0));
   fmt::format_to(out, "\nGap of the deflection ({:.0f} um rms): {:.1f} um before, {:.1f} um after, noise {:.1f} um\n",
                  um(diagnosis.gap.deflection), um(diagnosis.gap.before), um(diagnosis.gap.after),
                  um(diagnosis.gap.noise));
@@ -129,12 +131,12 @@ std::string diagnosisText(const campaign::Campaign& campaign, const diagnosis::D
   }
   writeClasses(diagnosis, out);
   for (const auto& group : diagnosis.aliases)
-    fmt::format_to(out, "  These postures and loads cannot always separate: {}\n", wrapped(effectNames(group), 4));
+    fmt::format_to(out, "  These postures and loads cannot always separate: {}\n", wrapped(effectIds(group), 4));
   writeTables(diagnosis.where, "Where the deflection's gap lies", out);
   writeTables(diagnosis.where_positions, "Where the gap of unloaded positions lies", out);
   writeStiffnesses(diagnosis, out);
   writeLimits(diagnosis, out);
-  for (const diagnosis::NextMeasurement& one : diagnosis.next) fmt::format_to(out, "Next: {}\n", wrapped(one.what, 2));
+  for (const diagnosis::NextMeasurement& one : diagnosis.next) fmt::format_to(out, "Next: {}\n", wrapped(words(one.what), 2));
   return text;
 }
 

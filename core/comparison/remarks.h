@@ -1,0 +1,7 @@
+#pragma once
+
+namespace stiffscope::comparison {
+
+enum class RemarkId {};
+
+}  // namespace stiffscope::comparison

@@ -1,0 +1,7 @@
+#pragma once
+
+namespace stiffscope::planning {
+
+enum class RemarkId {};
+
+}  // namespace stiffscope::planning

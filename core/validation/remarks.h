@@ -1,0 +1,7 @@
+#pragma once
+
+namespace stiffscope::validation {
+
+enum class RemarkId {};
+
+}  // namespace stiffscope::validation
