@@ -13,9 +13,8 @@ namespace stiffscope {
 struct Remark;
 
 /// What a remark speaks of: numbers in SI units and radians, counts, names, and remarks within it.
-using RemarkValue =
-    std::variant<double, std::int64_t, std::string, std::vector<double>, std::vector<std::int64_t>,
-                 std::vector<std::string>, std::vector<Remark>>;
+using RemarkValue = std::variant<double, std::int64_t, std::string, std::vector<double>, std::vector<std::int64_t>,
+                                 std::vector<std::string>, std::vector<Remark>>;
 
 /// What there is to say about a result, without words: why there is none, or what to know before believing it. Each
 /// library that remarks has an enumeration `RemarkId`; reports/words has a sentence for each of its enumerators, which
@@ -24,7 +23,7 @@ struct Remark {
   Remark() = default;
 
   template <class Id, class... Values>
-    requires std::is_enum_v<Id>
+  requires std::is_enum_v<Id>
   explicit Remark(Id remark_id, Values&&... its) : family(typeid(Id)), id(static_cast<int>(remark_id)) {
     (values.push_back(valueOf(std::forward<Values>(its))), ...);
   }

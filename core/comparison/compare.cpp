@@ -60,8 +60,7 @@ Comparison compareCampaigns(const campaign::Campaign& before_campaign, const ide
       result.avoided().available || std::any_of(result.methods.begin(), result.methods.end(),
                                                 [](const StiffnessChange& one) { return one.available; });
   if (!result.comparable) {
-    result.reason =
-        Remark(RemarkId::nothing_comparable, result.at_targets.reason, result.of(result.best()).reason);
+    result.reason = Remark(RemarkId::nothing_comparable, result.at_targets.reason, result.of(result.best()).reason);
   }
   result.cautions = warningsOf(before_campaign, after_campaign, result);
   addWarnings(When::before, before, result.cautions);

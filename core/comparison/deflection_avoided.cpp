@@ -60,8 +60,7 @@ DeflectionAvoided deflectionAvoidedAtWrist(const identification::Identification&
                                            const BootstrapOptions& options) {
   if (before.wrist_displacement.empty() || after.wrist_displacement.empty()) {
     DeflectionAvoided none;
-    none.reason =
-        Remark(RemarkId::wrist_not_measured, before.wrist_displacement.empty() ? When::before : When::after);
+    none.reason = Remark(RemarkId::wrist_not_measured, before.wrist_displacement.empty() ? When::before : When::after);
     return none;
   }
   return ofPairs(before.wrist_displacement, after.wrist_displacement, matched, options);

@@ -81,9 +81,8 @@ Remark differenceOfMachines(const robot::Robot& before, const robot::Robot& afte
     const double turn = (a.direction - b.direction).norm();
     const double apart = (b.point - a.point).cross(a.direction).norm();  // points slide along their axis
     if (turn <= kSameDirection && apart <= kSamePlace) continue;
-    return turn > kSameDirection
-               ? Remark(RemarkId::axis_turned, j + 1, 2.0 * std::asin(std::min(1.0, 0.5 * turn)))
-               : Remark(RemarkId::axis_elsewhere, j + 1, apart);
+    return turn > kSameDirection ? Remark(RemarkId::axis_turned, j + 1, 2.0 * std::asin(std::min(1.0, 0.5 * turn)))
+                                 : Remark(RemarkId::axis_elsewhere, j + 1, apart);
   }
   return {};
 }

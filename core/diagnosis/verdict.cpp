@@ -76,8 +76,7 @@ class Decider {
     const double size = from_.geometry.rms / kGeometryTolerance;
     one.score = size * size * static_cast<double>(from_.fit.rules.loading_rows);
     one.in_verdict = true;
-    one.parameters =
-        Remark(RemarkId::axes_off_nominal, from_.geometry.largest_shift, from_.geometry.largest_tilt);
+    one.parameters = Remark(RemarkId::axes_off_nominal, from_.geometry.largest_shift, from_.geometry.largest_tilt);
     decision_.verdict.entries.push_back({one.effects, ""});
     decision_.classes.push_back(one);
     decision_.recipes.emplace_back();

@@ -33,8 +33,7 @@ void settle(LinearizationPoint& at, Eigen::VectorXd& own) {
 }
 
 Remark backlashMissing(const CampaignContents& has) {
-  if (has.load_steps < 2 && !has.weights)
-    return Remark(RemarkId::backlash_needs_loads_or_masses);
+  if (has.load_steps < 2 && !has.weights) return Remark(RemarkId::backlash_needs_loads_or_masses);
   return {};
 }
 

@@ -24,10 +24,8 @@ void frameErrorCorrect(const Vector6d&, LinearizationPoint&, Corrections& correc
 }
 
 Remark frameErrorMissing(const CampaignContents& has) {
-  if (!has.weights && !has.nests)
-    return Remark(RemarkId::frame_needs_masses_or_nests);
-  if (has.weights && (!has.absolute || !has.sweeps))
-    return Remark(RemarkId::frame_needs_sweeps_and_positions);
+  if (!has.weights && !has.nests) return Remark(RemarkId::frame_needs_masses_or_nests);
+  if (has.weights && (!has.absolute || !has.sweeps)) return Remark(RemarkId::frame_needs_sweeps_and_positions);
   return {};
 }
 

@@ -38,8 +38,7 @@ void correctWeight(const Vector6d&, LinearizationPoint&, Corrections& correction
 }
 
 Remark loadCellBiasMissing(const CampaignContents& has) {
-  if (has.load_steps < 2)
-    return Remark(RemarkId::bias_needs_two_loads);
+  if (has.load_steps < 2) return Remark(RemarkId::bias_needs_two_loads);
   return {};
 }
 

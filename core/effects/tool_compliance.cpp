@@ -37,8 +37,7 @@ EffectModel modelOf(const char* shape, decltype(EffectModel::twists) twists) {
 }
 
 Remark toolComplianceMissing(const CampaignContents& has) {
-  if (has.reflectors < 2 && !has.moments)
-    return Remark(RemarkId::tool_needs_reflectors_or_moments);
+  if (has.reflectors < 2 && !has.moments) return Remark(RemarkId::tool_needs_reflectors_or_moments);
   return {};
 }
 

@@ -22,8 +22,7 @@ Eigen::MatrixXd trackerDriftOffset(const LinearizationPoint& at, const PostureSt
 }
 
 Remark trackerDriftMissing(const CampaignContents& has) {
-  if (!has.nests && (!has.times || !has.absolute))
-    return Remark(RemarkId::drift_needs_nests_or_timed_positions);
+  if (!has.nests && (!has.times || !has.absolute)) return Remark(RemarkId::drift_needs_nests_or_timed_positions);
   return {};
 }
 

@@ -125,7 +125,8 @@ std::vector<NamedRate> allRates(const std::vector<ScoredCase>& cases) {
       {"singles", Remark(RemarkId::singles_right), rateOf(cases, kind(CaseKind::single), right)},
       {"singles_first_from_2", Remark(RemarkId::singles_from_2_first),
        rateOf(cases, kind(CaseKind::single, 2.0), first)},
-      {"singles_first_from_5", Remark(RemarkId::singles_from_5_first), rateOf(cases, kind(CaseKind::single, 5.0), first)},
+      {"singles_first_from_5", Remark(RemarkId::singles_from_5_first),
+       rateOf(cases, kind(CaseKind::single, 5.0), first)},
       {"singles_from_2", Remark(RemarkId::singles_from_2_alone), rateOf(cases, kind(CaseKind::single, 2.0), right)},
       {"singles_from_5", Remark(RemarkId::singles_from_5_alone), rateOf(cases, kind(CaseKind::single, 5.0), right)},
       {"singles_found_from_2", Remark(RemarkId::singles_from_2_found),
@@ -134,10 +135,10 @@ std::vector<NamedRate> allRates(const std::vector<ScoredCase>& cases) {
       {"false_alarms_noise_right", Remark(RemarkId::clean_alarmed_noise_right), rateOf(cases, clean(true), alarm)},
       {"false_alarms_noise_wrong", Remark(RemarkId::clean_alarmed_noise_wrong), rateOf(cases, clean(false), alarm)},
       {"unknown", Remark(RemarkId::outside_unknown), rateOf(cases, kind(CaseKind::outside), unknown)},
-      {"unknown_from_2", Remark(RemarkId::outside_from_2_unknown), rateOf(cases, kind(CaseKind::outside, 2.0), unknown)},
+      {"unknown_from_2", Remark(RemarkId::outside_from_2_unknown),
+       rateOf(cases, kind(CaseKind::outside, 2.0), unknown)},
       {"unknown_apart", Remark(RemarkId::outside_apart_unknown), rateOf(cases, apart, unknown)},
-      {"outside_none_from_2", Remark(RemarkId::outside_from_2_none),
-       rateOf(cases, kind(CaseKind::outside, 2.0), none)},
+      {"outside_none_from_2", Remark(RemarkId::outside_from_2_none), rateOf(cases, kind(CaseKind::outside, 2.0), none)},
       {"doubles", Remark(RemarkId::doubles_right), rateOf(cases, kind(CaseKind::pair), right)},
       {"doubles_both_found", Remark(RemarkId::doubles_found), rateOf(cases, kind(CaseKind::pair), found)},
       {"doubles_one_found", Remark(RemarkId::doubles_one_found), rateOf(cases, kind(CaseKind::pair), one_found)},
@@ -200,8 +201,7 @@ std::vector<ShrinkPair> shrinksOf(const std::vector<ScoredCase>& cases) {
   return pairs;
 }
 
-NamedRate coverage(const char* id, RemarkId meaning, const std::vector<ShrinkPair>& pairs,
-                   double ShrinkPair::*truth) {
+NamedRate coverage(const char* id, RemarkId meaning, const std::vector<ShrinkPair>& pairs, double ShrinkPair::*truth) {
   int covered = 0;
   for (const ShrinkPair& one : pairs) covered += one.low <= one.*truth && one.*truth <= one.high ? 1 : 0;
   return {id, Remark(meaning), numerics::binomialRate(covered, static_cast<int>(pairs.size()))};
@@ -243,10 +243,10 @@ Score score(const std::vector<Label>& labels, const std::vector<Answer>& answers
     sizes.rate = rateOf(result.cases, in, right);
   }
   result.shrinks = shrinksOf(result.cases);
-  result.rates.push_back(coverage("shrink_covered", RemarkId::shrinks_seen_covered,
-                                  result.shrinks, &ShrinkPair::truth_seen));
-  result.rates.push_back(coverage("shrink_covered_noise_free", RemarkId::shrinks_noise_free_covered,
-                                  result.shrinks, &ShrinkPair::truth));
+  result.rates.push_back(
+      coverage("shrink_covered", RemarkId::shrinks_seen_covered, result.shrinks, &ShrinkPair::truth_seen));
+  result.rates.push_back(
+      coverage("shrink_covered_noise_free", RemarkId::shrinks_noise_free_covered, result.shrinks, &ShrinkPair::truth));
   result.confusion = confusionOf(result.cases);
   return result;
 }

@@ -123,7 +123,8 @@ Json diagnosisJson(const campaign::Campaign& campaign, const diagnosis::Diagnosi
   json["where_after"] = tablesJson(diagnosis.where_after);
   if (diagnosis.positions_tested) json["where_positions"] = tablesJson(diagnosis.where_positions);
   for (const diagnosis::NextMeasurement& one : diagnosis.next)
-    next.push_back({{"separates", idsOf(one.separates)}, {"measure", words(one.what)}, {"gain_chi2", number(one.gain)}});
+    next.push_back(
+        {{"separates", idsOf(one.separates)}, {"measure", words(one.what)}, {"gain_chi2", number(one.gain)}});
   json["next"] = next;
   return json;
 }

@@ -203,7 +203,8 @@ void writeNotTestable(Html& html, const diagnosis::Diagnosis& diagnosis) {
   html.paragraph("Not testable with this data:");
   std::vector<std::string> missing;
   for (const diagnosis::NotTestable& one : diagnosis.not_testable)
-    missing.push_back(fmt::format("{}: {}.", reports::effectName(one.effect), reports::withMicro(reports::words(one.missing))));
+    missing.push_back(
+        fmt::format("{}: {}.", reports::effectName(one.effect), reports::withMicro(reports::words(one.missing))));
   html.list(missing);
 }
 

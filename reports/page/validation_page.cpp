@@ -153,7 +153,8 @@ void writeBlindRates(Html& html, const validation::Score& score) {
   html.leaf("h2", "Rates");
   reports::Table table{
       "With exact 95 % intervals (Clopper and Pearson)", {"", "cases", "share", "interval"}, {{"", {}}}};
-  for (const validation::NamedRate& one : score.rates) table.groups[0].rows.push_back(rateRow(reports::words(one.meaning), one.rate));
+  for (const validation::NamedRate& one : score.rates)
+    table.groups[0].rows.push_back(rateRow(reports::words(one.meaning), one.rate));
   writeTable(html, table);
 }
 

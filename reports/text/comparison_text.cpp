@@ -49,7 +49,8 @@ void writeMethod(const comparison::StiffnessChange& change, identification::Meth
 
 void writeShare(const comparison::DeflectionAvoided& avoided, const char* place, Out out) {
   if (!avoided.available) {
-    fmt::format_to(out, "\n{}\n", wrapped(fmt::format("Deflection avoided at {}: {}", place, words(avoided.reason)), 2));
+    fmt::format_to(out, "\n{}\n",
+                   wrapped(fmt::format("Deflection avoided at {}: {}", place, words(avoided.reason)), 2));
     return;
   }
   fmt::format_to(out, "\nDeflection avoided at {}: {:.1f} %", place, 100.0 * avoided.share);

@@ -136,7 +136,8 @@ std::string diagnosisText(const campaign::Campaign& campaign, const diagnosis::D
   writeTables(diagnosis.where_positions, "Where the gap of unloaded positions lies", out);
   writeStiffnesses(diagnosis, out);
   writeLimits(diagnosis, out);
-  for (const diagnosis::NextMeasurement& one : diagnosis.next) fmt::format_to(out, "Next: {}\n", wrapped(words(one.what), 2));
+  for (const diagnosis::NextMeasurement& one : diagnosis.next)
+    fmt::format_to(out, "Next: {}\n", wrapped(words(one.what), 2));
   return text;
 }
 

@@ -86,7 +86,8 @@ std::string planText(const campaign::Campaign& campaign, const planning::Plan& p
   fmt::format_to(out, "{}: {} postures {}, {:.0f} N {}; chosen from {} of {} drawn\n", campaign.name, plan.asked,
                  plan.measured > 0 ? "to add" : "to measure", plan.arm.load, plan.arm.pull ? "of pull" : "hanging",
                  plan.candidates, plan.drawn);
-  for (const std::string& assumed : words(plan.arm.assumed)) fmt::format_to(out, "  {}\n", wrapped("taken: " + assumed, 4));
+  for (const std::string& assumed : words(plan.arm.assumed))
+    fmt::format_to(out, "  {}\n", wrapped("taken: " + assumed, 4));
   if (!plan.usable) {
     fmt::format_to(out, "  no plan: {}\n", words(plan.reason));
     return text;

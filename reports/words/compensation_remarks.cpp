@@ -28,14 +28,16 @@ std::string compensationWords(compensation::RemarkId id, const RemarkValues& val
       return fmt::format("the load turns axis {} by {:.0f} Nm and k{} came out negative: no spring has that",
                          values.count(0), values.number(1), values.count(0));
     case turns_joint_of_unknown_k:
-      return fmt::format("the load turns axis {} by {:.0f} Nm and k{} is not known: the deflection shown lacks its part",
-                         values.count(0), values.number(1), values.count(0));
+      return fmt::format(
+          "the load turns axis {} by {:.0f} Nm and k{} is not known: the deflection shown lacks its part",
+          values.count(0), values.number(1), values.count(0));
     case steps_do_not_converge:
       return "the steps towards the wanted pose do not converge";
     case implausible_command:
-      return fmt::format("posture {} would turn joint {} by {:.1f} deg, which no load does to a sound arm: its wrench "
-                         "may not be in N and Nm",
-                         values.name(0), values.count(1), degrees(2));
+      return fmt::format(
+          "posture {} would turn joint {} by {:.1f} deg, which no load does to a sound arm: its wrench "
+          "may not be in N and Nm",
+          values.name(0), values.count(1), degrees(2));
   }
   return {};
 }

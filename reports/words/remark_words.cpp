@@ -21,12 +21,9 @@ std::pair<const std::type_index, Words> of() {
 
 const std::unordered_map<std::type_index, Words>& families() {
   static const std::unordered_map<std::type_index, Words> all{
-      of<comparison::RemarkId, &comparisonWords>(),
-      of<compensation::RemarkId, &compensationWords>(),
-      of<diagnosis::RemarkId, &diagnosisWords>(),
-      of<effects::RemarkId, &effectsWords>(),
-      of<extended_model::RemarkId, &extendedModelWords>(),
-      of<planning::RemarkId, &planningWords>(),
+      of<comparison::RemarkId, &comparisonWords>(),        of<compensation::RemarkId, &compensationWords>(),
+      of<diagnosis::RemarkId, &diagnosisWords>(),          of<effects::RemarkId, &effectsWords>(),
+      of<extended_model::RemarkId, &extendedModelWords>(), of<planning::RemarkId, &planningWords>(),
       of<validation::RemarkId, &validationWords>(),
   };
   return all;

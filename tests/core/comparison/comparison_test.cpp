@@ -164,7 +164,8 @@ TEST(Comparison, OneMachineHasOneUrdf) {
   const comparison::Comparison found = compared(before, after);
   EXPECT_TRUE(found.comparable);  // the same axes
   ASSERT_GE(found.cautions.size(), 3u);
-  EXPECT_EQ(reports::words(found.cautions[0]), "the URDFs name different machines: " + before.robot.name + " and another");
+  EXPECT_EQ(reports::words(found.cautions[0]),
+            "the URDFs name different machines: " + before.robot.name + " and another");
   EXPECT_EQ(reports::words(found.cautions[1]), "the URDFs place the flange 200.0 mm and 0.00 deg apart");
   EXPECT_TRUE(found.cautions[2].is(comparison::RemarkId::other_masses)) << reports::words(found.cautions[2]);
 }
