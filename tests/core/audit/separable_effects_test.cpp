@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "core/effects/remarks.h"
+
 namespace stiffscope {
 namespace {
 
