@@ -27,7 +27,9 @@ CaseByPose casesOf(const campaign::Campaign& campaign, const identification::Ide
 /// Why a posture is not among the load cases of a campaign.
 Remark whyAbsent(const campaign::Campaign& campaign, const identification::Identification& result,
                  const std::string& pose, When when) {
-  // MERGE: by the posture that the entry of left_out carries, not by the words
+  // MERGE: for (const identification::LeftOutPosture& one : result.left_out) {
+  //          if (one.pose == pose) return Remark(RemarkId::left_out, when, one.reason);
+  //        }
   const std::string head = "pose " + pose + ": ";
   for (const std::string& left_out : result.left_out) {
     if (left_out.rfind(head, 0) == 0) return Remark(RemarkId::left_out, when, left_out.substr(head.size()));

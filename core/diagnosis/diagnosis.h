@@ -123,7 +123,7 @@ struct Diagnosis {
   GeometryError geometry;
 
   double state_noise = 0.0;  ///< rms noise of one state's displacement, per coordinate, m
-  std::string noise_source;  // MERGE: Remark, as NoiseModel::source
+  std::string noise_source;  // MERGE: Remark
   double noise_factor_along = 1.0, noise_factor_across = 1.0;  ///< found against declared
   double significance_limit = 0.0;  ///< least fall of BIC that counts: 20, or more where chance reaches more in 1 %
   double size_limit = 0.0;          ///< below it an effect is too small to matter, m

@@ -232,7 +232,7 @@ class Decider {
                            std::sqrt(rules.least_drop / rules.loading_rows) * from_.fit.data.state_noise);
     }
     reasons.insert(reasons.end(), besides_.begin(), besides_.end());
-    reasons.emplace_back(RemarkId::floor_nests, from_.station.in_words);
+    reasons.emplace_back(RemarkId::floor_nests, from_.station.in_words);  // MERGE: from_.station.remark
     if (from_.input.absolute) reasons.emplace_back(RemarkId::positions_take_part, from_.input.sweeps);
   }
 

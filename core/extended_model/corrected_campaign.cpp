@@ -290,8 +290,10 @@ void leaveOutUnknown(const EffectFit& effects, campaign::Campaign& campaign, std
     without.emplace_back();
     without.back().posture = row.pose;
     if (left_out == nullptr) continue;
-    // MERGE: left_out->emplace_back(RemarkId::not_read_in_all_steps, campaign.pose_ids[...]); vector<Remark>* here, in
-    // corrected_campaign.h and in extendModel()
+    // MERGE: left_out->push_back({campaign.pose_ids[static_cast<std::size_t>(row.pose)],
+    //                             Remark(RemarkId::not_read_in_all_steps)});
+    // with std::vector<identification::LeftOutPosture>* left_out here and in withoutEffects, and that vector in
+    // extendModel
     left_out->push_back(
         fmt::format("pose {}: no reflector read in all its load steps, so the effects cannot be taken off",
                     campaign.pose_ids[static_cast<std::size_t>(row.pose)]));

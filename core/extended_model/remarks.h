@@ -14,7 +14,7 @@ enum class RemarkId {
   lacks_what_shows_it,  ///< what is missing
   not_told_from_stiffnesses,
   // Why a posture is left out.
-  not_read_in_all_steps,  ///< posture
+  not_read_in_all_steps,
 };
 
 }  // namespace stiffscope::extended_model

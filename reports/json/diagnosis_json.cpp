@@ -111,7 +111,7 @@ Json diagnosisJson(const campaign::Campaign& campaign, const diagnosis::Diagnosi
   json["limits"] = {{"significance_bic", number(diagnosis.significance_limit)},
                     {"size_um", micrometres(diagnosis.size_limit)}};
   json["noise"] = {{"state_um", micrometres(diagnosis.state_noise)},
-                   {"source", diagnosis.noise_source},  // MERGE: words()
+                   {"source", diagnosis.noise_source},  // MERGE: words(diagnosis.noise_source)
                    {"factor_along_beam", number(diagnosis.noise_factor_along)},
                    {"factor_across_beam", number(diagnosis.noise_factor_across)}};
   json["chi2_per_equation"] = {{"before", number(diagnosis.lack_of_fit)}, {"after", number(diagnosis.left_over)}};

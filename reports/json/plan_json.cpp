@@ -58,7 +58,7 @@ Json planJson(const campaign::Campaign& campaign, const planning::Plan& plan) {
   Json identifiable = Json::array(), reasons = Json::object();
   for (std::size_t j = 0; j < 6; ++j) {
     identifiable.push_back(static_cast<bool>(plan.unknown[j]));
-    if (!plan.unknown[j]) reasons["k" + std::to_string(j + 1)] = plan.not_seen[j];  // MERGE: words()
+    if (!plan.unknown[j]) reasons["k" + std::to_string(j + 1)] = plan.not_seen[j];  // MERGE: words(plan.not_seen[j])
   }
   json["identifiable"] = identifiable;
   json["not_identifiable"] = reasons;

@@ -99,7 +99,7 @@ void writeStiffnesses(const diagnosis::Diagnosis& diagnosis, Out out) {
 
 void writeLimits(const diagnosis::Diagnosis& diagnosis, Out out) {
   fmt::format_to(out, "\nNoise: {:.1f} um rms in one state's displacement; {}.\n", um(diagnosis.state_noise),
-                 diagnosis.noise_source);  // MERGE: words()
+                 diagnosis.noise_source);  // MERGE: words(diagnosis.noise_source)
   fmt::format_to(out, "Limits: a fall of BIC of {:.0f}, and {:.1f} um rms after the stiffnesses.\n",
                  diagnosis.significance_limit, um(diagnosis.size_limit));
   fmt::format_to(out, "Smallest size that would have been seen, um rms per coordinate:\n");

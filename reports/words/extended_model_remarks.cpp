@@ -30,8 +30,7 @@ std::string extendedModelWords(extended_model::RemarkId id, const RemarkValues& 
       return "these postures and loads cannot tell it from stiffnesses and geometry, or only with sizes that no "
              "machine has";
     case not_read_in_all_steps:
-      return fmt::format("pose {}: no reflector read in all its load steps, so the effects cannot be taken off",
-                         values.name(0));
+      return "no reflector read in all its load steps, so the effects cannot be taken off";
   }
   return {};
 }
