@@ -16,6 +16,7 @@
 #include "core/diagnosis/diagnose.h"
 #include "core/io/input_error.h"
 #include "core/io/numbers.h"
+#include "reports/words/remark_words.h"
 
 namespace stiffscope::app {
 
@@ -135,10 +136,17 @@ extended_model::EffectFit effectsAsked(const preparation::PreparedCampaign& prep
                                        const std::vector<std::string>& words) {
   // Raw readings, too, are screened before effects are sought in them.
   if (prepared.preparation.raw) return effectsAsked(preparation::prepareCampaign(prepared.campaign), words);
-  if (std::find(words.begin(), words.end(), "auto") == words.end())
-    return extended_model::fitEffects(prepared, extended_model::requestedEffects(words, prepared.campaign));
-  if (words.size() > 1) throw io::InputError({"--with"}, "auto", "expected auto alone, or effects without it");
-  return extended_model::fitEffects(prepared, extended_model::namedBy(diagnosis::diagnose(prepared)));
+  const bool by_diagnosis = std::find(words.begin(), words.end(), "auto") != words.end();
+  if (by_diagnosis && words.size() > 1)
+    throw io::InputError({"--with"}, "auto", "expected auto alone, or effects without it");
+  try {
+    return extended_model::fitEffects(prepared, by_diagnosis
+                                                    ? extended_model::namedBy(diagnosis::diagnose(prepared))
+                                                    : extended_model::requestedEffects(words, prepared.campaign));
+  } catch (const extended_model::UnfitEffect& error) {
+    throw io::InputError(extended_model::kWithOption, std::string(effects::idOf(error.effect())),
+                         reports::words(error.reason()));
+  }
 }
 
 }  // namespace stiffscope::app

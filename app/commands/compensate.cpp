@@ -60,7 +60,7 @@ int compensateCampaign(const CompensateArguments& arguments) {
   const std::vector<compensation::CompensatedPosture> rows = compensation::compensate(
       campaign, method.geometry, method.estimate, result.frames.tcp_in_flange, asked, {}, give ? &*give : nullptr);
   std::vector<std::string> cautions = reports::words(result.cautions);
-  for (std::string& sentence : compensation::implausibleCommands(rows)) cautions.push_back(std::move(sentence));
+  for (const Remark& caution : compensation::implausibleCommands(rows)) cautions.push_back(reports::words(caution));
   deliver(
       [&] {
         reports::Json json = reports::compensationJson(campaign, methods.front(), rows);

@@ -8,6 +8,7 @@
 #include "reports/page/html.h"
 #include "reports/words/effect_words.h"
 #include "reports/words/numbers.h"
+#include "reports/words/remark_words.h"
 
 namespace stiffscope::app {
 
@@ -24,8 +25,10 @@ std::string withoutSize(const diagnosis::Diagnosis& diagnosis, effects::Effect e
   const auto missing = std::find_if(diagnosis.not_testable.begin(), diagnosis.not_testable.end(),
                                     [effect](const diagnosis::NotTestable& one) { return one.effect == effect; });
   // What would make it testable is said in full beside the picture.
-  if (missing != diagnosis.not_testable.end())
-    return "not testable: " + reports::asIs(missing->missing.substr(0, missing->missing.find(':')));
+  if (missing != diagnosis.not_testable.end()) {
+    const std::string in_full = reports::words(missing->missing);
+    return "not testable: " + reports::asIs(in_full.substr(0, in_full.find(':')));
+  }
   return effect == effects::Effect::tracker_drift ? "judged by the floor nests themselves"
                                                   : "hidden behind joint springs and geometry in these postures";
 }

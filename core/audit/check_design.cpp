@@ -15,7 +15,7 @@ namespace stiffscope::audit {
 namespace {
 
 Remark described(std::size_t joint, const identification::JointIdentifiability& judged) {
-  if (!judged.identifiable) return Remark(RemarkId::joint_not_identifiable, joint + 1, verbatim(judged.reason));
+  if (!judged.identifiable) return Remark(RemarkId::joint_not_identifiable, joint + 1, judged.reason);
   return Remark(RemarkId::joint_identifiable, joint + 1, judged.trusted_rms, judged.uncertainty_rms);
 }
 
@@ -24,14 +24,14 @@ preparation::AuditCheck withoutCases(const AuditInput& input) {
   const campaign::Campaign& campaign = input.campaign;
   const bool measured = campaign.loading || campaign.displacements;
   if (!measured) return preparation::notTestable("posture_set", Remark(RemarkId::no_loads));
-  const std::string lacking = identification::whatLoadsLack(campaign);
+  const Remark lacking = identification::whatLoadsLack(campaign);
   if (lacking.empty() && input.step && !input.frames.arm.points_placed) {
     return preparation::notTestable("posture_set", Remark(RemarkId::loading_not_in_r0));
   }
   preparation::AuditCheck check;
   check.id = "posture_set";
   check.verdict = preparation::AuditVerdict::fail;
-  check.message = !lacking.empty() ? verbatim(lacking)
+  check.message = !lacking.empty() ? lacking
                   : !input.step    ? Remark(RemarkId::no_step_with_force)
                                    : Remark(RemarkId::no_posture_to_identify_from);
   return check;
@@ -61,7 +61,7 @@ Findings checkPostureSet(const AuditInput& input) {
       seen.push_back(j + 1);
       continue;
     }
-    missing.push_back(Remark(RemarkId::joint_missing, j + 1, verbatim(joint.reason)));
+    missing.push_back(Remark(RemarkId::joint_missing, j + 1, joint.reason));
     // A load that hangs never turns an upright axis 1: every day with weights is like that, and is no fault.
     expected_missing |= !(j == 0 && judged.load_hangs);
   }

@@ -155,14 +155,13 @@ Findings checkLoadSize(const AuditInput& input) {
   const auto apparent = identification::apparentStiffness(input.arm.cases);
   if (!apparent) return {preparation::notTestable("load_size", Remark(RemarkId::no_displacement_under_force))};
   const double value = apparent->value();
-  const std::string found = identification::implausibleLoad(*apparent);
+  const Remark found = identification::implausibleLoad(*apparent);
   preparation::AuditCheck check;
   check.id = "load_size";
   check.value = value;
   check.limit = value > identification::kStiffArm ? identification::kStiffArm : identification::kSoftArm;
   check.limit_source = Remark(RemarkId::arms_stiffness, identification::kSoftArm, identification::kStiffArm);
-  check.message =
-      found.empty() ? Remark(RemarkId::load_moves, apparent->force, apparent->displacement) : verbatim(found);
+  check.message = found.empty() ? Remark(RemarkId::load_moves, apparent->force, apparent->displacement) : found;
   if (found.empty()) return {check};
   check.impossible = (value < identification::kSofterThanAnyArm || value > identification::kStifferThanAnyArm) &&
                      forcesStandOut(input.campaign);

@@ -194,8 +194,8 @@ Findings checkCircleSweeps(const AuditInput& input) {
     if (measured.fit.determined) {
       findings.push_back(arcCheck(measured, axis, reach, static_cast<int>(axes[axis].front().lines.size())));
     } else {
-      findings.push_back(preparation::notTestable(
-          "circle_arc", Remark(RemarkId::axis_not_measured, axis + 1, verbatim(measured.reason))));
+      findings.push_back(
+          preparation::notTestable("circle_arc", Remark(RemarkId::axis_not_measured, axis + 1, measured.reason)));
       findings.back().where = Remark(RemarkId::at_axis, axis + 1);
     }
   }

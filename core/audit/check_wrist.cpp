@@ -188,7 +188,7 @@ Findings checkWrist(const AuditInput& input) {
   const bool swept = axes[3].measured && axes[4].measured && axes[5].measured;
   Findings findings;
   if (!wrist.measured) {
-    findings.push_back(preparation::notTestable("wrist_sphere", verbatim(wrist.reason)));
+    findings.push_back(preparation::notTestable("wrist_sphere", wrist.reason));
   } else if (!swept) {
     findings.push_back(preparation::notTestable("wrist_sphere", not_swept));
   } else if (!input.noise) {

@@ -180,7 +180,7 @@ AbsoluteFit fitAbsolutePositions(const campaign::Campaign& campaign, const frame
   AbsoluteFit fit;
   const frames::AbsoluteRows rows = frames::absoluteRows(campaign, frames, geometry, states, noise);
   if (!rows.reason.empty()) {
-    fit.reason = verbatim(rows.reason);
+    fit.reason = rows.reason;
     return fit;
   }
   fit.centre = rows.centre;

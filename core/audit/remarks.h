@@ -9,7 +9,6 @@ namespace stiffscope::audit {
 /// What the checks have to say; reports/words has the sentences. Joints and axes by their numbers from 1, postures,
 /// reflectors and rows (FILE:LINE) by name. `more` are remarks that go on with the sentence, often none.
 enum class RemarkId {
-  verbatim,  ///< the text; MERGE: goes with the function below
 
   // Where something is.
   at_axis,             ///< axis
@@ -181,8 +180,5 @@ enum class RemarkId {
   effects_alike,           ///< ids of effects
   effects_not_testable,    ///< ids of effects
 };
-
-/// A reason of another library. MERGE: once that is a remark, it stands where this is called.
-inline Remark verbatim(const std::string& text) { return Remark(RemarkId::verbatim, text); }
 
 }  // namespace stiffscope::audit

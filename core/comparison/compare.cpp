@@ -1,6 +1,5 @@
 #include "core/comparison/compare.h"
 
-#include <fmt/format.h>
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
@@ -16,31 +15,27 @@ identification::Method Comparison::best() const { return identification::bestMet
 
 namespace {
 
-std::vector<std::string> warningsOf(const campaign::Campaign& before_campaign, const campaign::Campaign& after_campaign,
-                                    const Comparison& result) {
-  std::vector<std::string> cautions = doubtsOfOneMachine(before_campaign.robot, after_campaign.robot);
+std::vector<Remark> warningsOf(const campaign::Campaign& before_campaign, const campaign::Campaign& after_campaign,
+                               const Comparison& result) {
+  std::vector<Remark> cautions = doubtsOfOneMachine(before_campaign.robot, after_campaign.robot);
   if (before_campaign.double_encoder == after_campaign.double_encoder &&
       before_campaign.double_encoder != campaign::DoubleEncoder::unspecified) {
-    cautions.push_back(
-        fmt::format("both campaigns were measured with double encoders {}",
-                    before_campaign.double_encoder == campaign::DoubleEncoder::active ? "active" : "inactive"));
+    cautions.emplace_back(RemarkId::same_encoders, before_campaign.double_encoder == campaign::DoubleEncoder::active);
   }
   if (before_campaign.double_encoder == campaign::DoubleEncoder::active &&
       after_campaign.double_encoder == campaign::DoubleEncoder::inactive) {
-    cautions.push_back(
-        "the first campaign has the double encoders active and the second inactive: the other way "
-        "round, `avoided` is what the encoders avoid");
+    cautions.emplace_back(RemarkId::encoders_swapped);
   }
   const std::size_t all = result.matched.pairs.size() + result.matched.unmatched.size();
   if (!result.matched.pairs.empty() && 2 * result.matched.pairs.size() < all) {
-    cautions.push_back(fmt::format("only {} of {} postures correspond", result.matched.pairs.size(), all));
+    cautions.emplace_back(RemarkId::few_correspond, result.matched.pairs.size(), all);
   }
   return cautions;
 }
 
 /// What identification itself cautions of, which ratios and p-values inherit.
-void addWarnings(const char* when, const identification::Identification& one, std::vector<std::string>& cautions) {
-  for (const std::string& caution : one.cautions) cautions.push_back(fmt::format("{}: {}", when, caution));
+void addWarnings(When when, const identification::Identification& one, std::vector<Remark>& cautions) {
+  for (const auto& caution : one.cautions) cautions.emplace_back(RemarkId::of_one_campaign, when, caution);
 }
 
 }  // namespace
@@ -65,11 +60,11 @@ Comparison compareCampaigns(const campaign::Campaign& before_campaign, const ide
       result.avoided().available || std::any_of(result.methods.begin(), result.methods.end(),
                                                 [](const StiffnessChange& one) { return one.available; });
   if (!result.comparable) {
-    result.reason = result.at_targets.reason + "; " + result.of(result.best()).reason;
+    result.reason = Remark(RemarkId::nothing_comparable, result.at_targets.reason, result.of(result.best()).reason);
   }
   result.cautions = warningsOf(before_campaign, after_campaign, result);
-  addWarnings("before", before, result.cautions);
-  addWarnings("after", after, result.cautions);
+  addWarnings(When::before, before, result.cautions);
+  addWarnings(When::after, after, result.cautions);
   return result;
 }
 
@@ -139,7 +134,8 @@ StiffnessChange compareStiffness(const identification::Identification& before,
   const identification::MethodResult &first = before.of(method), &second = after.of(method);
   StiffnessChange result;
   if (!first.available || !second.available) {
-    result.reason = !first.available ? "before: " + first.reason : "after: " + second.reason;
+    result.reason = !first.available ? Remark(RemarkId::of_one_campaign, When::before, first.reason)
+                                     : Remark(RemarkId::of_one_campaign, When::after, second.reason);
     return result;
   }
   const std::vector<Vector6d> moves_before = moveByEachPosture(before, method);
@@ -152,16 +148,15 @@ StiffnessChange compareStiffness(const identification::Identification& before,
     const bool seen_before = first.estimate.identifiable[j], seen_after = second.estimate.identifiable[j];
     if (!seen_before || !seen_after) {
       const identification::Identifiability& blind = seen_before ? after.identifiability : before.identifiability;
-      change.reason =
-          fmt::format("not identifiable {}: {}", seen_before ? "after" : (seen_after ? "before" : "in either campaign"),
-                      blind.joints[j].reason);
+      const When when = seen_before ? When::after : (seen_after ? When::before : When::both);
+      change.reason = Remark(RemarkId::not_identifiable, when, blind.joints[j].reason);
       continue;
     }
     change.correlation = correlation[static_cast<Eigen::Index>(j)];
     judge(first.estimate, second.estimate, static_cast<int>(j), degrees, change);
     result.available = true;
   }
-  if (!result.available) result.reason = "no joint is identifiable in both campaigns";
+  if (!result.available) result.reason = Remark(RemarkId::no_joint_in_both);
   return result;
 }
 

@@ -6,14 +6,16 @@
 
 #include "core/comparison/deflection_avoided.h"
 #include "core/comparison/matched_postures.h"
+#include "core/comparison/remarks.h"
 #include "core/identification/identify.h"
+#include "metrology/remark.h"
 
 namespace stiffscope::comparison {
 
 /// One joint's stiffness in both campaigns.
 struct JointChange {
   bool comparable = false;
-  std::string reason;  ///< why not: which campaign does not identify it, and why
+  Remark reason;  ///< why not: which campaign does not identify it, and why
   double before = 0.0,
          before_sd = 0.0;  ///< k and its standard uncertainty, Nm/rad; sd not a number: none stated
   double after = 0.0, after_sd = 0.0;
@@ -26,7 +28,7 @@ struct JointChange {
 
 struct StiffnessChange {
   bool available = false;
-  std::string reason;
+  Remark reason;
   std::array<JointChange, 6> joints;
 };
 
@@ -43,9 +45,9 @@ StiffnessChange compareStiffness(const identification::Identification& before,
 /// Two campaigns of one machine side by side: double encoders inactive and active, or before and after a
 /// repair.
 struct Comparison {
-  bool comparable = false;            ///< some stiffness or some deflection is
-  std::string reason;                 ///< why nothing is
-  std::vector<std::string> cautions;  ///< what a reader must know before believing the numbers
+  bool comparable = false;       ///< some stiffness or some deflection is
+  Remark reason;                 ///< why nothing is
+  std::vector<Remark> cautions;  ///< what a reader must know before believing the numbers
   MatchedPostures matched;
   std::array<StiffnessChange, 3> methods;  ///< by Method
   DeflectionAvoided at_wrist, at_targets;

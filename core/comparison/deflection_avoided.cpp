@@ -14,7 +14,7 @@ DeflectionAvoided ofPairs(const std::vector<double>& before, const std::vector<d
                           const MatchedPostures& matched, const BootstrapOptions& options) {
   if (matched.pairs.empty()) {
     DeflectionAvoided none;
-    none.reason = "no posture was measured in both campaigns with the same joint angles and load";
+    none.reason = Remark(RemarkId::no_posture_in_both);
     return none;
   }
   std::vector<PostureDeflection> postures;
@@ -31,7 +31,7 @@ DeflectionAvoided shareAvoided(std::vector<PostureDeflection> postures, const Bo
   result.postures = std::move(postures);
   result.low = result.high = std::numeric_limits<double>::quiet_NaN();
   if (!(before > 0.0)) {
-    result.reason = "nothing moved before: there is no deflection to avoid";
+    result.reason = Remark(RemarkId::nothing_moved_before);
     return result;
   }
   result.available = true;
@@ -60,7 +60,7 @@ DeflectionAvoided deflectionAvoidedAtWrist(const identification::Identification&
                                            const BootstrapOptions& options) {
   if (before.wrist_displacement.empty() || after.wrist_displacement.empty()) {
     DeflectionAvoided none;
-    none.reason = std::string("P_wrist is not measured ") + (before.wrist_displacement.empty() ? "before" : "after");
+    none.reason = Remark(RemarkId::wrist_not_measured, before.wrist_displacement.empty() ? When::before : When::after);
     return none;
   }
   return ofPairs(before.wrist_displacement, after.wrist_displacement, matched, options);

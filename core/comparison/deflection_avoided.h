@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/comparison/matched_postures.h"
+#include "metrology/remark.h"
 
 namespace stiffscope::comparison {
 
@@ -19,7 +20,7 @@ struct PostureDeflection {
 /// |before| over matched postures. Negative where it has more.
 struct DeflectionAvoided {
   bool available = false;
-  std::string reason;
+  Remark reason;
   double share = 0.0;
   double low = 0.0, high = 0.0;  ///< 95 % interval; not a number with fewer than five postures
   std::vector<PostureDeflection> postures;

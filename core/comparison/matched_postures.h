@@ -3,7 +3,9 @@
 #include <string>
 #include <vector>
 
+#include "core/comparison/remarks.h"
 #include "core/identification/identify.h"
+#include "metrology/remark.h"
 
 namespace stiffscope::comparison {
 
@@ -16,7 +18,7 @@ struct PosturePair {
 /// A posture of either campaign that the other lacks, or has otherwise.
 struct UnmatchedPosture {
   std::string pose;
-  std::string reason;
+  Remark reason;
 };
 
 struct MatchLimits {
@@ -37,10 +39,10 @@ MatchedPostures matchPostures(const campaign::Campaign& before_campaign, const i
 
 /// Why the two nominal arms are not one machine: an axis that stands more than 1 mm or 1 mrad elsewhere in
 /// base_link. Empty where they are.
-std::string differenceOfMachines(const robot::Robot& before, const robot::Robot& after);
+Remark differenceOfMachines(const robot::Robot& before, const robot::Robot& after);
 
-/// What else in two URDFs with the same axes says that they are not of one machine, a sentence each: another name, a
+/// What else in two URDFs with the same axes says that they are not of one machine: another name, a
 /// flange elsewhere, other masses beyond joint 1. One machine in two states has one URDF.
-std::vector<std::string> doubtsOfOneMachine(const robot::Robot& before, const robot::Robot& after);
+std::vector<Remark> doubtsOfOneMachine(const robot::Robot& before, const robot::Robot& after);
 
 }  // namespace stiffscope::comparison

@@ -1,6 +1,5 @@
 #include "core/compensation/compensate.h"
 
-#include <fmt/format.h>
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
@@ -14,20 +13,17 @@
 
 namespace stiffscope::compensation {
 
-std::vector<std::string> implausibleCommands(const std::vector<CompensatedPosture>& postures) {
+std::vector<Remark> implausibleCommands(const std::vector<CompensatedPosture>& postures) {
   constexpr double kMost = 2.0 * io::kDegree;
-  std::vector<std::string> sentences;
+  std::vector<Remark> remarks;
   for (const CompensatedPosture& posture : postures) {
     if (!posture.solved) continue;
     Eigen::Index joint = 0;
     const double turn = (posture.commands - posture.posture.q).cwiseAbs().maxCoeff(&joint);
     if (turn <= kMost) continue;
-    sentences.push_back(
-        fmt::format("posture {} would turn joint {} by {:.1f} deg, which no load does to a sound arm: its "
-                    "wrench may not be in N and Nm",
-                    posture.posture.id, joint + 1, turn / io::kDegree));
+    remarks.emplace_back(RemarkId::implausible_command, posture.posture.id, joint + 1, turn);
   }
-  return sentences;
+  return remarks;
 }
 
 namespace {
@@ -73,8 +69,6 @@ std::vector<PostureToCompensate> campaignPostures(const campaign::Campaign& camp
 
 namespace {
 
-const char* const kNoRest = "the loaded arm does not come to rest: the load is too large for these stiffnesses";
-
 Eigen::Vector3d rotationVector(const Eigen::Matrix3d& rotation) {
   const Eigen::AngleAxisd turn(rotation);
   return turn.angle() * turn.axis();
@@ -102,14 +96,14 @@ class Compensator {
     result.posture = asked;
     const auto unloaded_angles = effects::loadedAngles(geometry_, estimate_.compliance, asked.q, effects::FlangeLoad());
     if (!unloaded_angles) {
-      result.reason = "the unloaded arm does not come to rest under its own weight";
+      result.reason = Remark(RemarkId::unloaded_arm_does_not_rest);
       return result;
     }
     const robot::ArmPosture unloaded = robot::postureAt(geometry_.arm, *unloaded_angles);
     const auto resting =
         with_ ? with_->flange(asked.q, effects::FlangeLoad()) : robot::flangeAt(geometry_.arm, unloaded);
     if (!resting) {
-      result.reason = "the unloaded arm does not come to rest under its own weight";
+      result.reason = Remark(RemarkId::unloaded_arm_does_not_rest);
       return result;
     }
     const Eigen::Isometry3d wanted = *resting;
@@ -146,31 +140,24 @@ class Compensator {
     return with_ ? with_->flange(commands, load) : robot::flangeAt(geometry_.arm, posture);
   }
 
-  std::string refusal(const PostureToCompensate& asked, const robot::ArmPosture& unloaded,
-                      const Eigen::Isometry3d& wanted, const effects::FlangeLoad& load, double conditioning) const {
-    const std::string outside =
-        outsideLimits(asked.q, "joint {} stands at {:.3f} deg, outside its limits {:.1f} to {:.1f} deg");
+  Remark refusal(const PostureToCompensate& asked, const robot::ArmPosture& unloaded, const Eigen::Isometry3d& wanted,
+                 const effects::FlangeLoad& load, double conditioning) const {
+    const Remark outside = outsideLimits(asked.q, RemarkId::posture_outside_limits);
     if (!outside.empty()) return outside;
-    if (conditioning < options_.least_conditioning) {
-      return fmt::format("too near a singularity: conditioning {:.4f}, at least {:g} is asked for", conditioning,
-                         options_.least_conditioning);
-    }
+    if (conditioning < options_.least_conditioning)
+      return Remark(RemarkId::near_singularity, conditioning, options_.least_conditioning);
     return turnsUnusableJoint(torqueOf(unloaded, wanted, load));
   }
 
   /// The reason to refuse where the load turns a joint of unknown stiffness, which counts as rigid here, or
   /// of a negative one, by which the commands would go the wrong way.
-  std::string turnsUnusableJoint(const Vector6d& torque) const {
+  Remark turnsUnusableJoint(const Vector6d& torque) const {
     for (int joint = 0; joint < 6; ++joint) {
       const bool known = estimate_.identifiable[static_cast<std::size_t>(joint)];
       if (known && estimate_.compliance[joint] >= 0.0) continue;
       if (std::abs(torque[joint]) <= options_.share_unknown * torque.cwiseAbs().maxCoeff()) continue;
-      return known ? fmt::format("the load turns axis {} by {:.0f} Nm and k{} came out negative: no spring has that",
-                                 joint + 1, std::abs(torque[joint]), joint + 1)
-                   : fmt::format(
-                         "the load turns axis {} by {:.0f} Nm and k{} is not known: the deflection shown lacks "
-                         "its part",
-                         joint + 1, std::abs(torque[joint]), joint + 1);
+      return Remark(known ? RemarkId::turns_joint_of_negative_k : RemarkId::turns_joint_of_unknown_k, joint + 1,
+                    std::abs(torque[joint]));
     }
     return {};
   }
@@ -210,7 +197,7 @@ class Compensator {
     const auto posture = loadedPosture(result.posture.q, load);
     const auto resting = posture ? loadedFlange(result.posture.q, *posture, load) : std::nullopt;
     if (!resting) {
-      result.reason = kNoRest;
+      result.reason = Remark(RemarkId::loaded_arm_does_not_rest);
       return;
     }
     result.predicted = true;
@@ -246,7 +233,7 @@ class Compensator {
       const auto posture = loadedPosture(commands, load);
       const auto resting = posture ? loadedFlange(commands, *posture, load) : std::nullopt;
       if (!resting) {
-        result.reason = kNoRest;
+        result.reason = Remark(RemarkId::loaded_arm_does_not_rest);
         return;
       }
       const Eigen::Isometry3d& flange = *resting;
@@ -256,23 +243,20 @@ class Compensator {
       if (step == 0) result.mirrored_remaining = result.remaining;
       if (error.cwiseAbs().maxCoeff() < kThere) {
         result.commands = commands;
-        result.reason =
-            outsideLimits(commands, "joint {} would have to go to {:.3f} deg, outside its limits {:.1f} to {:.1f} deg");
+        result.reason = outsideLimits(commands, RemarkId::command_outside_limits);
         result.solved = result.reason.empty();
         return;
       }
       commands += solveLu(robot::jacobianAt(geometry_.arm, *posture, flange * tcp_), error);
     }
-    result.reason = "the steps towards the wanted pose do not converge";
+    result.reason = Remark(RemarkId::steps_do_not_converge);
   }
 
-  std::string outsideLimits(const Vector6d& angles, const char* words) const {
+  Remark outsideLimits(const Vector6d& angles, RemarkId what) const {
     for (int joint = 0; joint < 6; ++joint) {
       const robot::JointLimits& limits = geometry_.arm.limits[static_cast<std::size_t>(joint)];
-      if (angles[joint] < limits.lower || angles[joint] > limits.upper) {
-        return fmt::format(fmt::runtime(words), joint + 1, angles[joint] / io::kDegree, limits.lower / io::kDegree,
-                           limits.upper / io::kDegree);
-      }
+      if (angles[joint] < limits.lower || angles[joint] > limits.upper)
+        return Remark(what, joint + 1, angles[joint], limits.lower, limits.upper);
     }
     return {};
   }

@@ -6,8 +6,10 @@
 #include <vector>
 
 #include "core/campaign/campaign.h"
+#include "core/compensation/remarks.h"
 #include "core/effects/elastic_arm.h"
 #include "core/identification/estimate.h"
+#include "metrology/remark.h"
 
 namespace stiffscope::compensation {
 
@@ -34,7 +36,7 @@ struct CompensatedPosture {
   Eigen::Vector3d rotation_sd = Eigen::Vector3d::Zero();  ///< its standard uncertainty, rad
   std::vector<PointDeflection> targets;  ///< of the reflectors, in the order of the campaign's; empty: places not known
   bool solved = false;
-  std::string reason;                    ///< why there are no commands
+  Remark reason;                         ///< why there are no commands
   Vector6d commands = Vector6d::Zero();  ///< joint angles to command, rad
   double mirrored_remaining = 0.0;       ///< |move of P_TCP| left where the predicted turn is subtracted once, m
   double remaining = 0.0;     ///< the same by the commands: |P_TCP(loaded, commands) - P_TCP(unloaded, q)|, m
@@ -62,9 +64,9 @@ std::vector<CompensatedPosture> compensate(const campaign::Campaign& campaign, c
                                            const CompensateOptions& options = {},
                                            const effects::EffectDeflection* with = nullptr);
 
-/// A sentence for each posture whose commands turn a joint by more than 2 deg against its angle: ten times
+/// A remark on each posture whose commands turn a joint by more than 2 deg against its angle: ten times
 /// what a heavy load does to a weak joint, so that forces, moments or angles are rather in another unit.
-std::vector<std::string> implausibleCommands(const std::vector<CompensatedPosture>& postures);
+std::vector<Remark> implausibleCommands(const std::vector<CompensatedPosture>& postures);
 
 /// Reads postures and wrenches from a CSV file: `pose` (any name, not repeated), `q1_deg`..`q6_deg`, and the load-cell
 /// reading expected there, `fx_n fy_n fz_n mx_nm my_nm mz_nm`; columns in any order. Throws InputError as the

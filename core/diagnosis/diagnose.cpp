@@ -1,6 +1,5 @@
 #include "core/diagnosis/diagnose.h"
 
-#include <fmt/format.h>
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
@@ -16,10 +15,6 @@
 #include "core/diagnosis/verdict.h"
 #include "core/io/input_error.h"
 #include "core/preparation/subsample.h"
-
-namespace stiffscope::reports {
-std::string words(const Remark& remark);  // MERGE: until the diagnosis's own texts are remarks
-}  // namespace stiffscope::reports
 
 namespace stiffscope::diagnosis {
 
@@ -91,7 +86,7 @@ class Diagnoser {
     allowed_.assign(input_.models.size(), true);
     for (std::size_t e = 0; e < effects::kEffectCount; ++e) {
       const auto effect = static_cast<effects::Effect>(e);
-      const std::string missing = effects::missingFor(effect, has);
+      const Remark missing = effects::missingFor(effect, has);
       if (missing.empty()) continue;
       result_.not_testable.push_back({effect, missing});
       for (std::size_t m = 0; m < input_.models.size(); ++m) {
@@ -127,7 +122,7 @@ class Diagnoser {
     result_.postures = static_cast<int>(fit_.data.postures.size());
     for (const GapPosture& posture : fit_.data.postures) result_.states += static_cast<int>(posture.states.size());
     result_.state_noise = fit_.data.state_noise;
-    result_.noise_source = reports::words(start_.noise.source);
+    result_.noise_source = start_.noise.source;
     result_.noise_factor_along = start_.noise.along_factor;
     result_.noise_factor_across = start_.noise.across_factor;
     result_.significance_limit = fit_.rules.detect;
@@ -244,14 +239,12 @@ Diagnosis diagnoseSpread(const preparation::PreparedCampaign& spread, std::size_
                          const DiagnoseOptions& options) {
   Diagnosis diagnosis = Diagnoser(spread, options).run();
   if (long_sweeps) {
-    diagnosis.verdict.reason +=
-        fmt::format(" Of a sweep's readings {} at most took part, spread evenly over it.", preparation::kMostSwept);
+    diagnosis.verdict.reasons.push_back(Remark(RemarkId::sweeps_thinned, preparation::kMostSwept));
   }
   if (postures <= preparation::kMostDiagnosed) return diagnosis;
   const std::vector<std::size_t> places = preparation::evenlySpreadIndices(postures, preparation::kMostDiagnosed);
   for (PointGap& one : diagnosis.at_points) one.pose = static_cast<int>(places[static_cast<std::size_t>(one.pose)]);
-  diagnosis.verdict.reason +=
-      fmt::format(" Of {} postures {} took part, spread evenly over the day.", postures, diagnosis.postures);
+  diagnosis.verdict.reasons.push_back(Remark(RemarkId::postures_thinned, postures, diagnosis.postures));
   return diagnosis;
 }
 

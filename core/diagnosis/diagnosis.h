@@ -5,8 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "core/diagnosis/remarks.h"
 #include "core/effects/effect.h"
 #include "core/robot/robot.h"
+#include "metrology/remark.h"
 
 namespace stiffscope::diagnosis {
 
@@ -28,7 +30,7 @@ struct EffectClass {
   Shrink shrink_of_positions;  ///< of unloaded absolute positions' misfit; all zero where they are not held
                                ///< against the arm
   bool in_verdict = false;
-  std::string parameters;  ///< fitted values in words, of the first effect
+  Remark parameters;  ///< fitted values of the first effect
 };
 
 /// One member of a verdict: effects that cannot be told apart, or `unknown` where `effects` is empty.
@@ -40,7 +42,7 @@ struct VerdictEntry {
 /// What a diagnosis says is present. Empty `entries`: none.
 struct Verdict {
   std::vector<VerdictEntry> entries;
-  std::string reason;  ///< in words, with the free evidence that was used
+  std::vector<Remark> reasons;  ///< a sentence each, with the free evidence that was used
 };
 
 /// The gap of the deflection, rms per coordinate, m.
@@ -78,13 +80,13 @@ struct DetectableSize {
 
 struct NotTestable {
   effects::Effect effect = effects::Effect::link_compliance;
-  std::string missing;
+  Remark missing;
 };
 
 /// A measurement that would separate what is tied, or make something testable.
 struct NextMeasurement {
   std::vector<effects::Effect> separates;
-  std::string what;
+  Remark what;
   double gain = 0.0;  ///< of chi2 between the tied effects, expected; 0 where it makes something testable
 };
 
@@ -93,7 +95,7 @@ struct NextMeasurement {
 /// as can be, against where the axes that were found put them. No load, no own weight.
 struct GeometryError {
   bool tested = false;
-  std::string reason;          ///< why not
+  Remark reason;               ///< why not
   double rms = 0.0;            ///< per coordinate, m
   double limit = 0.0;          ///< above it, it is named
   double largest_shift = 0.0;  ///< of an axis, across it, m
@@ -103,7 +105,7 @@ struct GeometryError {
 /// Answer of `diagnose`.
 struct Diagnosis {
   bool usable = false;
-  std::string unusable_reason;
+  Remark unusable_reason;
   Verdict verdict;
   std::vector<EffectClass> classes;                   ///< the verdict's first, then the others; best first
   std::vector<std::vector<effects::Effect>> aliases;  ///< by the postures and loads alone, before any residual
@@ -121,7 +123,7 @@ struct Diagnosis {
   GeometryError geometry;
 
   double state_noise = 0.0;  ///< rms noise of one state's displacement, per coordinate, m
-  std::string noise_source;
+  Remark noise_source;
   double noise_factor_along = 1.0, noise_factor_across = 1.0;  ///< found against declared
   double significance_limit = 0.0;  ///< least fall of BIC that counts: 20, or more where chance reaches more in 1 %
   double size_limit = 0.0;          ///< below it an effect is too small to matter, m

@@ -1,19 +1,15 @@
 #include "core/diagnosis/diagnosis_input.h"
 
-#include <fmt/format.h>
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "core/diagnosis/remarks.h"
 #include "core/frames/geometry_calibration.h"
 #include "core/identification/identify.h"
 #include "core/identification/load_point.h"
 #include "core/robot/wrench.h"
-
-namespace stiffscope::reports {
-std::string words(const Remark& remark);  // MERGE: until the diagnosis's own texts are remarks
-}  // namespace stiffscope::reports
 
 namespace stiffscope::diagnosis {
 
@@ -59,7 +55,7 @@ DiagnosisInput diagnosisInput(const preparation::PreparedCampaign& prepared) {
     const frames::GeometryCalibration calibration = frames::calibrateGeometry(start.campaign, start.geometry);
     start.absolute = calibration.done && start.geometry.weight.links_known;
     if (!calibration.done) {
-      start.reason = "the readings cannot be brought into the robot's frame: " + calibration.reason;
+      start.reason = Remark(RemarkId::readings_not_in_robot_frame, calibration.reason);
       return start;
     }
     start.geometry = calibration.geometry;
@@ -67,7 +63,7 @@ DiagnosisInput diagnosisInput(const preparation::PreparedCampaign& prepared) {
                                     {*identification::heaviestStep(start.campaign)});
   }
   if (arm.cases.empty()) {
-    start.reason = "no posture has readings unloaded and under load that can be brought into the robot's frame";
+    start.reason = Remark(RemarkId::no_usable_posture);
     return start;
   }
   const Vector6d compliance = startCompliance(start.campaign, arm);
@@ -75,8 +71,7 @@ DiagnosisInput diagnosisInput(const preparation::PreparedCampaign& prepared) {
   if (start.geometry.weight.links_known) start.geometry.compliance = compliance;
   start.state = startState(start.campaign, start.geometry, arm.cases);
   start.state.at.compliance = compliance;
-  if (!start.noise.known)
-    start.reason = reports::words(start.noise.source) + ": effects cannot be told from noise; state `tracker`";
+  if (!start.noise.known) start.reason = Remark(RemarkId::noise_not_known, start.noise.source);
   return start;
 }
 

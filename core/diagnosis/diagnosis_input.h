@@ -1,12 +1,11 @@
 #pragma once
 
-#include <string>
-
 #include "core/diagnosis/fit.h"
 #include "core/diagnosis/linear_system.h"
 #include "core/identification/loaded_arm.h"
 #include "core/identification/method_solution.h"
 #include "core/preparation/prepare.h"
+#include "metrology/remark.h"
 
 namespace stiffscope::diagnosis {
 
@@ -20,7 +19,7 @@ struct DiagnosisInput {
   bool absolute = false, sweeps = false;
   SystemState state;
   double geometric_stiffness_share = 0.0;
-  std::string reason;  ///< why there is no gap to look at; empty where there is
+  Remark reason;  ///< why there is no gap to look at; empty where there is
 };
 
 DiagnosisInput diagnosisInput(const preparation::PreparedCampaign& prepared);

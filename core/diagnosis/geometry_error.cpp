@@ -37,7 +37,7 @@ GeometryError geometryError(const SystemInput& input, const SystemState& state) 
   error.limit = kGeometryTolerance;
   const std::vector<Vector6d> postures = posturesOf(input.campaign);
   if (!input.absolute || postures.size() < 4) {
-    error.reason = "absolute unloaded positions (`loading`, or circle sweeps of all axes) are needed";
+    error.reason = Remark(RemarkId::geometry_needs_positions);
     return error;
   }
   const robot::Robot nominal = nominalIn(input.campaign, state.geometry);

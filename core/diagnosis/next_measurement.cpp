@@ -1,6 +1,5 @@
 #include "core/diagnosis/next_measurement.h"
 
-#include <fmt/format.h>
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
@@ -98,12 +97,8 @@ std::optional<NextMeasurement> nextFor(const SystemInput& input, const GapFit& f
       const double apart = leastSeparation(input, fit, allowed, tie, project(more, fit.data.layout.effects));
       if (apart <= best) continue;
       best = apart;
-      const Vector6d degrees = q * (180.0 / std::numbers::pi);
-      next.what = fmt::format(
-          "a posture at ({:.0f}, {:.0f}, {:.0f}, {:.0f}, {:.0f}, {:.0f}) deg, pulled by {:.0f} N along {}0: "
-          "it raises the least separation (chi2, {:.0f} tells apart) from {:.1f} to {:.1f}",
-          degrees[0], degrees[1], degrees[2], degrees[3], degrees[4], degrees[5], force, "xyz"[axis], kSeparated,
-          before, apart);
+      next.what = Remark(RemarkId::posture_that_separates, std::vector<double>(q.begin(), q.end()), force, axis,
+                         kSeparated, before, apart);
     }
   }
   if (best <= before) return std::nullopt;

@@ -1,15 +1,9 @@
 #include "core/diagnosis/verdict.h"
 
-#include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
 
 #include "core/diagnosis/confounding.h"
-#include "core/io/units.h"
-
-namespace stiffscope::reports {
-std::string words(const Remark& remark);  // MERGE: until the diagnosis's own texts are remarks
-}  // namespace stiffscope::reports
 
 namespace stiffscope::diagnosis {
 
@@ -27,24 +21,19 @@ std::string detailOf(const effects::EffectModel& model, const std::vector<std::s
   return detail;
 }
 
-std::string parametersOf(const effects::EffectModel& model, const std::vector<std::size_t>& parts,
-                         const Eigen::VectorXd& own) {
-  std::string words;
+Remark parametersOf(const effects::EffectModel& model, const std::vector<std::size_t>& parts,
+                    const Eigen::VectorXd& own) {
+  std::vector<Remark> fitted;
   Eigen::Index at = 0;
   for (std::size_t p = 0; p < model.parts.size(); ++p) {
     const effects::EffectPart& part = model.parts[p];
     if (std::find(parts.begin(), parts.end(), p) != parts.end()) {
-      words += fmt::format("{}{}{}", words.empty() ? "" : "; ", part.detail, part.detail.empty() ? "" : ": ");
-      const bool length = part.unit == "m";
-      for (std::size_t k = 0; k < part.most.size(); ++k) {
-        const double value = own[at + static_cast<Eigen::Index>(k)];
-        words += fmt::format("{}{:.4g}", k > 0 ? ", " : "", length ? value / io::kMillimetre : value);
-      }
-      words += length ? " mm" : " " + part.unit;
+      const auto its = own.segment(at, static_cast<Eigen::Index>(part.most.size()));
+      fitted.emplace_back(RemarkId::fitted_part, part.detail, part.unit, std::vector<double>(its.begin(), its.end()));
     }
     at += static_cast<Eigen::Index>(part.most.size());
   }
-  return words;
+  return fitted.empty() ? Remark() : Remark(RemarkId::fitted_parts, std::move(fitted));
 }
 
 class Decider {
@@ -87,15 +76,11 @@ class Decider {
     const double size = from_.geometry.rms / kGeometryTolerance;
     one.score = size * size * static_cast<double>(from_.fit.rules.loading_rows);
     one.in_verdict = true;
-    one.parameters = fmt::format("axes up to {:.3f} mm and {:.3f} mrad from the nominal ones",
-                                 1e3 * from_.geometry.largest_shift, 1e3 * from_.geometry.largest_tilt);
+    one.parameters = Remark(RemarkId::axes_off_nominal, from_.geometry.largest_shift, from_.geometry.largest_tilt);
     decision_.verdict.entries.push_back({one.effects, ""});
     decision_.classes.push_back(one);
     decision_.recipes.emplace_back();
-    reasons_.push_back(
-        fmt::format("the axes found by the sweeps and the unloaded positions put the reflectors {:.2f} mm rms "
-                    "from where the nominal geometry does ({:.2f} mm is allowed)",
-                    1e3 * from_.geometry.rms, 1e3 * kGeometryTolerance));
+    besides_.emplace_back(RemarkId::geometry_off_nominal, from_.geometry.rms, kGeometryTolerance);
   }
 
   /// A geometry that is wrong puts the flange, and with it the load cell, elsewhere along axis 6, which
@@ -124,8 +109,8 @@ class Decider {
       if (from_.station.course == preparation::StationCourse::drifted && model.effect == effects::Effect::frame_error)
         continue;
       if (followsFromGeometry(model.effect, parameters)) {
-        reasons_.push_back(fmt::format("what looks like {} ({}) is no more than the wrong geometry puts there",
-                                       effects::idOf(model.effect), parametersOf(model, chosen.parts, parameters)));
+        besides_.emplace_back(RemarkId::follows_from_geometry, std::string(effects::idOf(model.effect)),
+                              parametersOf(model, chosen.parts, parameters));
         continue;
       }
       EffectClass one;
@@ -197,9 +182,7 @@ class Decider {
     nameUnknownPositions();
     if (from_.fit.model_error == 0.0) return;
     nameUnknownOnce();
-    reasons_.push_back(
-        fmt::format("{:.1f} um rms of the deflection at the largest load are explained by no effect of the vocabulary",
-                    1e6 * from_.fit.model_error));
+    besides_.emplace_back(RemarkId::deflection_not_explained, from_.fit.model_error);
   }
 
   /// Unloaded positions that scatter beyond what noise and the repeatability of an arm put there.
@@ -211,9 +194,7 @@ class Decider {
     const double limit = std::max(kStates * from_.fit.data.state_noise, kShareOfRemoved * removed);
     if (left <= limit) return;
     nameUnknownOnce();
-    reasons_.push_back(
-        fmt::format("{:.1f} um rms of the unloaded positions are explained by no effect (limit {:.1f} um)", 1e6 * left,
-                    1e6 * limit));
+    besides_.emplace_back(RemarkId::positions_not_explained, left, limit);
   }
 
   void nameUnknownOnce() {
@@ -242,23 +223,17 @@ class Decider {
   }
 
   void explain() {
-    std::string& reason = decision_.verdict.reason;
+    std::vector<Remark>& reasons = decision_.verdict.reasons;
     const auto& rules = from_.fit.rules;
     const double lack = (from_.fit.projection.chi2_none - rules.other_rows) / rules.loading_rows;
-    reason = fmt::format(
-        "Stiffnesses alone leave {:.1f} um rms per coordinate of the deflection, noise alone {:.1f} um "
-        "(chi2 per equation {:.{}f}).",
-        1e6 * from_.gap.before, 1e6 * from_.gap.noise, lack, lack < 100.0 ? 2 : 0);
+    reasons.emplace_back(RemarkId::left_by_stiffnesses, from_.gap.before, from_.gap.noise, lack);
     if (decision_.verdict.entries.empty()) {
-      reason += fmt::format(
-          " No effect passes both limits: a fall of BIC of {:.0f}, {:.1f} um rms after the stiffnesses.", rules.detect,
-          1e6 * std::sqrt(rules.least_drop / rules.loading_rows) * from_.fit.data.state_noise);
+      reasons.emplace_back(RemarkId::no_effect_passes, rules.detect,
+                           std::sqrt(rules.least_drop / rules.loading_rows) * from_.fit.data.state_noise);
     }
-    for (const std::string& one : reasons_) reason += " Besides, " + one + ".";
-    reason += " Floor nests: " + reports::words(from_.station.remark) + ".";
-    if (from_.input.absolute)
-      reason += fmt::format(" Unloaded absolute positions{} take part in every fit.",
-                            from_.input.sweeps ? " and the sweeps" : "");
+    reasons.insert(reasons.end(), besides_.begin(), besides_.end());
+    reasons.emplace_back(RemarkId::floor_nests, from_.station.remark);
+    if (from_.input.absolute) reasons.emplace_back(RemarkId::positions_take_part, from_.input.sweeps);
   }
 
   const VerdictInput& from_;
@@ -267,7 +242,7 @@ class Decider {
   Decision decision_;
   bool geometry_named_ = false;
   std::vector<effects::Effect> named_;
-  std::vector<std::string> reasons_;
+  std::vector<Remark> besides_;
 };
 
 }  // namespace

@@ -39,9 +39,9 @@ bool entersCompensation(Effect effect) {
   return natureOf(effect) == EffectNature::machine || natureOf(effect) == EffectNature::load;
 }
 
-std::string missingFor(Effect effect, const CampaignContents& contents) {
+Remark missingFor(Effect effect, const CampaignContents& contents) {
   const EffectRecord& record = recordOf(effect);
-  return record.missing ? record.missing(contents) : std::string();
+  return record.missing ? record.missing(contents) : Remark();
 }
 
 }  // namespace stiffscope::effects

@@ -30,7 +30,7 @@ EffectNature natureOf(Effect effect);
 /// Whether the effect has a part in what the machine does under a planned load.
 bool entersCompensation(Effect effect);
 
-/// Why an effect cannot be tested with this, in words that name what is missing; empty where it can.
-std::string missingFor(Effect effect, const CampaignContents& contents);
+/// What is missing to test an effect with this; empty where nothing is.
+Remark missingFor(Effect effect, const CampaignContents& contents);
 
 }  // namespace stiffscope::effects

@@ -32,9 +32,8 @@ void settle(LinearizationPoint& at, Eigen::VectorXd& own) {
   own[6] = 0.0;
 }
 
-std::string backlashMissing(const CampaignContents& has) {
-  if (has.load_steps < 2 && !has.weights)
-    return "one load step and no masses: lost motion needs torques that pass zero, from two or more loads";
+Remark backlashMissing(const CampaignContents& has) {
+  if (has.load_steps < 2 && !has.weights) return Remark(RemarkId::backlash_needs_loads_or_masses);
   return {};
 }
 

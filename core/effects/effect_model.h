@@ -6,6 +6,8 @@
 
 #include "core/effects/arm_state.h"
 #include "core/effects/effect.h"
+#include "core/effects/remarks.h"
+#include "metrology/remark.h"
 
 namespace stiffscope::effects {
 
@@ -151,9 +153,8 @@ struct CampaignContents {
 struct EffectRecord {
   Effect effect = {};
   EffectNature nature = EffectNature::machine;
-  /// Why it cannot be tested with this, in words that name what is missing; empty where it can. Null: it
-  /// always can.
-  std::string (*missing)(const CampaignContents& contents) = nullptr;
+  /// What is missing to test it with this; empty where nothing is. Null: nothing ever is.
+  Remark (*missing)(const CampaignContents& contents) = nullptr;
   /// Its equations, one or more, for reflectors of these names. Null: it has no columns.
   std::vector<EffectModel> (*models)(const std::vector<std::string>& targets) = nullptr;
 };

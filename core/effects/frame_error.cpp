@@ -23,12 +23,9 @@ void frameErrorCorrect(const Vector6d&, LinearizationPoint&, Corrections& correc
   corrections.frame = own;
 }
 
-std::string frameErrorMissing(const CampaignContents& has) {
-  if (!has.weights && !has.nests)
-    return "the masses of the links are not known: the sag in absolute positions hides it; state them, or "
-           "read nests";
-  if (has.weights && (!has.absolute || !has.sweeps))
-    return "needs circle sweeps and absolute unloaded positions in the same frame of the tracker";
+Remark frameErrorMissing(const CampaignContents& has) {
+  if (!has.weights && !has.nests) return Remark(RemarkId::frame_needs_masses_or_nests);
+  if (has.weights && (!has.absolute || !has.sweeps)) return Remark(RemarkId::frame_needs_sweeps_and_positions);
   return {};
 }
 

@@ -38,9 +38,9 @@ void gravityCompensatorCorrect(const Vector6d& compliance, LinearizationPoint& a
   at.compensator = own;
 }
 
-std::string gravityCompensatorMissing(const CampaignContents& has) {
-  if (!has.weights) return "the masses of the links are not known: the spring cannot be told from the own weight";
-  if (!has.absolute) return "displacements only: unloaded absolute positions against forward kinematics are needed";
+Remark gravityCompensatorMissing(const CampaignContents& has) {
+  if (!has.weights) return Remark(RemarkId::compensator_needs_masses);
+  if (!has.absolute) return Remark(RemarkId::compensator_needs_positions);
   return {};
 }
 

@@ -125,8 +125,8 @@ EffectModel softModel(const char* shape, decltype(EffectModel::angles) angles) {
   return model;
 }
 
-std::string hysteresisMissing(const CampaignContents& has) {
-  if (!has.return_to_zero) return "no return to zero: a last, unloaded step in each posture is needed";
+Remark hysteresisMissing(const CampaignContents& has) {
+  if (!has.return_to_zero) return Remark(RemarkId::hysteresis_needs_return_to_zero);
   return {};
 }
 

@@ -129,8 +129,8 @@ EffectModel byKnots(const char* shape, const char* knot, int knots, decltype(Eff
   return model;
 }
 
-std::string jointHardeningMissing(const CampaignContents& has) {
-  if (has.load_steps < 2) return "one load step: two or more loads of different size in each posture are needed";
+Remark jointHardeningMissing(const CampaignContents& has) {
+  if (has.load_steps < 2) return Remark(RemarkId::hardening_needs_two_loads);
   return {};
 }
 

@@ -7,9 +7,9 @@ namespace stiffscope::effects {
 
 namespace {
 
-std::string kinematicErrorMissing(const CampaignContents& has) {
-  if (!has.weights) return "the masses of the links are not known: the sag cannot be told from geometry";
-  if (!has.absolute) return "displacements only: unloaded absolute positions or circle sweeps of all axes are needed";
+Remark kinematicErrorMissing(const CampaignContents& has) {
+  if (!has.weights) return Remark(RemarkId::geometry_needs_masses);
+  if (!has.absolute) return Remark(RemarkId::geometry_needs_positions);
   return {};
 }
 

@@ -37,9 +37,8 @@ void correctWeight(const Vector6d&, LinearizationPoint&, Corrections& correction
   corrections.missing_weight = own[0];
 }
 
-std::string loadCellBiasMissing(const CampaignContents& has) {
-  if (has.load_steps < 2)
-    return "one load step: a constant part of the force needs two or more loads of different size";
+Remark loadCellBiasMissing(const CampaignContents& has) {
+  if (has.load_steps < 2) return Remark(RemarkId::bias_needs_two_loads);
   return {};
 }
 

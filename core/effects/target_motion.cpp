@@ -85,8 +85,8 @@ EffectModel modelOf(const std::vector<std::string>& targets, const char* shape,
   return model;
 }
 
-std::string targetMotionMissing(const CampaignContents& has) {
-  if (has.reflectors < 3) return "fewer than three reflectors: one that moves shows only against two others";
+Remark targetMotionMissing(const CampaignContents& has) {
+  if (has.reflectors < 3) return Remark(RemarkId::target_needs_three_reflectors);
   return {};
 }
 

@@ -36,9 +36,8 @@ EffectModel modelOf(const char* shape, decltype(EffectModel::twists) twists) {
   return model;
 }
 
-std::string toolComplianceMissing(const CampaignContents& has) {
-  if (has.reflectors < 2 && !has.moments)
-    return "one reflector at the loaded point: more reflectors, and moments, on the tool are needed";
+Remark toolComplianceMissing(const CampaignContents& has) {
+  if (has.reflectors < 2 && !has.moments) return Remark(RemarkId::tool_needs_reflectors_or_moments);
   return {};
 }
 

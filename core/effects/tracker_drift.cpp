@@ -21,9 +21,8 @@ Eigen::MatrixXd trackerDriftOffset(const LinearizationPoint& at, const PostureSt
   return columns;
 }
 
-std::string trackerDriftMissing(const CampaignContents& has) {
-  if (!has.nests && (!has.times || !has.absolute))
-    return "no floor nests and no absolute positions with times: read three nests before, during and after";
+Remark trackerDriftMissing(const CampaignContents& has) {
+  if (!has.nests && (!has.times || !has.absolute)) return Remark(RemarkId::drift_needs_nests_or_timed_positions);
   return {};
 }
 

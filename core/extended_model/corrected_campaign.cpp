@@ -280,7 +280,8 @@ void shiftReadings(const EffectFit& effects, const Eigen::VectorXd& parameters, 
 
 namespace {
 
-void leaveOutUnknown(const EffectFit& effects, campaign::Campaign& campaign, std::vector<std::string>* left_out) {
+void leaveOutUnknown(const EffectFit& effects, campaign::Campaign& campaign,
+                     std::vector<identification::LeftOutPosture>* left_out) {
   std::vector<identification::OutlyingPosture> without;
   for (const campaign::State& row : campaign.states->rows) {
     const auto known = [&](const diagnosis::GapPosture& one) { return one.pose == row.pose; };
@@ -291,8 +292,7 @@ void leaveOutUnknown(const EffectFit& effects, campaign::Campaign& campaign, std
     without.back().posture = row.pose;
     if (left_out == nullptr) continue;
     left_out->push_back(
-        fmt::format("pose {}: no reflector read in all its load steps, so the effects cannot be taken off",
-                    campaign.pose_ids[static_cast<std::size_t>(row.pose)]));
+        {campaign.pose_ids[static_cast<std::size_t>(row.pose)], Remark(RemarkId::not_read_in_all_steps)});
   }
   if (!without.empty()) campaign = identification::withoutPostures(campaign, without);
 }
@@ -301,7 +301,7 @@ void leaveOutUnknown(const EffectFit& effects, campaign::Campaign& campaign, std
 
 campaign::Campaign withoutEffects(const campaign::Campaign& campaign, const EffectFit& effects,
                                   const Eigen::VectorXd& parameters, TakenOff which,
-                                  std::vector<std::string>* left_out) {
+                                  std::vector<identification::LeftOutPosture>* left_out) {
   campaign::Campaign result = campaign;
   if (effects.fit.set.models.empty()) return result;
   leaveOutUnknown(effects, result, left_out);

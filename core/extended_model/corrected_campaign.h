@@ -63,6 +63,6 @@ enum class TakenOff {
 /// is to be corrected.
 campaign::Campaign withoutEffects(const campaign::Campaign& campaign, const EffectFit& effects,
                                   const Eigen::VectorXd& parameters, TakenOff which,
-                                  std::vector<std::string>* left_out = nullptr);
+                                  std::vector<identification::LeftOutPosture>* left_out = nullptr);
 
 }  // namespace stiffscope::extended_model

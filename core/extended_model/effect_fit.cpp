@@ -12,15 +12,11 @@
 #include "core/diagnosis/preconditions.h"
 #include "core/effects/all.h"
 #include "core/extended_model/corrected_campaign.h"
-#include "core/io/input_error.h"
 #include "metrology/linear_algebra.h"
 
 namespace stiffscope::extended_model {
 
 namespace {
-
-const char* const kNotTold =
-    "these postures and loads cannot tell it from stiffnesses and geometry, or only with sizes that no machine has";
 
 std::vector<effects::EffectModel> modelsOf(const std::vector<RequestedEffect>& wanted,
                                            const campaign::Campaign& campaign) {
@@ -37,10 +33,8 @@ void requireTestable(const std::vector<RequestedEffect>& wanted, const diagnosis
   const effects::CampaignContents has =
       diagnosis::whatIsThere(input, diagnosis::linearSystem(input, start.state, {}), start.state, start.station);
   for (const RequestedEffect& one : wanted) {
-    const std::string missing = effects::missingFor(one.effect, has);
-    if (!missing.empty())
-      throw io::InputError(kWithOption, std::string(effects::idOf(one.effect)),
-                           "this campaign cannot show that effect: " + missing);
+    const Remark missing = effects::missingFor(one.effect, has);
+    if (!missing.empty()) throw UnfitEffect(one.effect, Remark(RemarkId::lacks_what_shows_it, missing));
   }
 }
 
@@ -85,7 +79,7 @@ void requireSeen(const diagnosis::GapFit& fit, const diagnosis::SystemInput& inp
     bool seen = false;
     for (Eigen::Index i = first; i < first + static_cast<Eigen::Index>(input.models[one.model].parameters()); ++i)
       seen = seen || fit.projection.matrix(i, i) > fit.rules.kept_share * fit.projection.before[i];
-    if (!seen) throw io::InputError(kWithOption, std::string(effects::idOf(input.models[one.model].effect)), kNotTold);
+    if (!seen) throw UnfitEffect(input.models[one.model].effect, Remark(RemarkId::not_told_from_stiffnesses));
   }
 }
 
@@ -133,7 +127,7 @@ class Chooser {
 
   diagnosis::ChosenModel bestOf(const std::vector<diagnosis::ChosenModel>& choices, const RequestedEffect& wanted,
                                 const std::vector<diagnosis::ChosenModel>& others) const {
-    if (choices.empty()) throw io::InputError(kWithOption, std::string(effects::idOf(wanted.effect)), kNotTold);
+    if (choices.empty()) throw UnfitEffect(wanted.effect, Remark(RemarkId::not_told_from_stiffnesses));
     std::vector<double> scores;
     for (const diagnosis::ChosenModel& choice : choices) {
       std::vector<diagnosis::ChosenModel> all = others;
@@ -232,8 +226,7 @@ EffectFit fitEffects(const preparation::PreparedCampaign& prepared, const Reques
   if (asked.effects.empty()) return effects;
   auto start = std::make_unique<diagnosis::DiagnosisInput>(diagnosis::diagnosisInput(prepared));
   if (!start->reason.empty())
-    throw io::InputError(kWithOption, std::string(effects::idOf(asked.effects.front().effect)),
-                         "there is no gap to fit it to: " + start->reason);
+    throw UnfitEffect(asked.effects.front().effect, Remark(RemarkId::no_gap_to_fit, start->reason));
   auto input = std::make_unique<diagnosis::SystemInput>(
       diagnosis::SystemInput{start->campaign, start->noise.noise, campaign.load_cell->force_sigma,
                              campaign.load_cell->moment_sigma, modelsOf(wanted, campaign), start->absolute,

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <stdexcept>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "core/extended_model/fitted_effects.h"
@@ -8,9 +11,22 @@
 
 namespace stiffscope::extended_model {
 
-/// Throws InputError where an
-/// effect cannot be tested with what the campaign has, naming what is missing, or where it cannot be told from
-/// stiffnesses and geometry in these postures. No effect to fit: `added` is empty.
+/// An effect that was asked for and cannot be fitted to the campaign, and why.
+class UnfitEffect : public std::runtime_error {
+ public:
+  UnfitEffect(effects::Effect effect, Remark reason)
+      : std::runtime_error(std::string(effects::idOf(effect))), effect_(effect), reason_(std::move(reason)) {}
+
+  effects::Effect effect() const { return effect_; }
+  const Remark& reason() const { return reason_; }
+
+ private:
+  effects::Effect effect_;
+  Remark reason_;
+};
+
+/// Throws UnfitEffect where an effect cannot be tested with what the campaign has, naming what is missing, or where it
+/// cannot be told from stiffnesses and geometry in these postures. No effect to fit: `added` is empty.
 EffectFit fitEffects(const preparation::PreparedCampaign& prepared, const RequestedEffects& wanted);
 /// Of a campaign as it was read, which is prepared first.
 EffectFit fitEffects(const campaign::Campaign& campaign, const RequestedEffects& wanted);

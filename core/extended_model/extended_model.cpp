@@ -140,7 +140,7 @@ ExtendedModel extendModel(const campaign::Campaign& campaign, EffectFit effects,
     model.campaign = campaign;
     return model;
   }
-  std::vector<std::string> left_out;
+  std::vector<identification::LeftOutPosture> left_out;
   model.campaign = withoutEffects(campaign, model.effects, model.effects.parameters(), TakenOff::everything, &left_out);
   identification::IdentifyOptions own = valuesOnly(options);
   own.robust = options.robust;

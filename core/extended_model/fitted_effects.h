@@ -8,6 +8,7 @@
 #include "core/diagnosis/diagnosis_input.h"
 #include "core/diagnosis/fit.h"
 #include "core/extended_model/requested_effects.h"
+#include "metrology/remark.h"
 
 namespace stiffscope::extended_model {
 
@@ -37,7 +38,7 @@ struct EffectFit {
   diagnosis::GapFit fit;
   std::vector<AddedEffect> added;         ///< as asked for
   std::vector<effects::Effect> geometry;  ///< of those asked for, what identification corrects by itself
-  std::vector<std::string> notes;         ///< sentences
+  std::vector<Remark> notes;              ///< on how it came to these effects
 
   /// Which entries of the effects' parameter vector (fit.set.effects) are free, and their covariance: of the joint
   /// fit, so that what the effects share with stiffnesses and geometry is in it, times chi2 per equation where that is

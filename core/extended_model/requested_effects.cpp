@@ -85,33 +85,28 @@ RequestedEffects requestedEffects(const std::vector<std::string>& words, const c
 RequestedEffects namedBy(const diagnosis::Diagnosis& diagnosis) {
   RequestedEffects wanted;
   if (!diagnosis.usable) {
-    wanted.notes.push_back("the diagnosis has no gap to look at, so nothing is added: " + diagnosis.unusable_reason);
+    wanted.notes.emplace_back(RemarkId::diagnosis_has_no_gap, diagnosis.unusable_reason);
     return wanted;
   }
-  if (diagnosis.verdict.entries.empty()) wanted.notes.push_back("the diagnosis names no effect: nothing is added");
+  if (diagnosis.verdict.entries.empty()) wanted.notes.emplace_back(RemarkId::diagnosis_names_none);
   for (const diagnosis::VerdictEntry& entry : diagnosis.verdict.entries) {
     if (entry.effects.empty()) {
-      wanted.notes.push_back(
-          "the diagnosis also finds a gap that no effect explains (unknown): nothing can be added for it");
+      wanted.notes.emplace_back(RemarkId::diagnosis_finds_unknown);
       continue;
     }
     const effects::Effect effect = entry.effects.front();
     RequestedEffect& one = entryOf(wanted.effects, effect);
     const std::vector<std::string> parts = partsIn(entry.detail);
     one.parts.insert(one.parts.end(), parts.begin(), parts.end());
-    std::vector<std::string_view> others;
+    std::vector<std::string> others;
     for (const effects::Effect other : entry.effects) {
-      if (other != effect) others.push_back(effects::idOf(other));
+      if (other != effect) others.emplace_back(effects::idOf(other));
     }
-    if (!others.empty()) {
-      wanted.notes.push_back(fmt::format("{} is added because it fits best; this data cannot tell it from {}",
-                                         effects::idOf(effect), fmt::join(others, " or ")));
-    }
+    if (!others.empty())
+      wanted.notes.emplace_back(RemarkId::taken_of_a_class, std::string(effects::idOf(effect)), others);
   }
   if (wanted.effects.empty() && !diagnosis.verdict.entries.empty()) {
-    wanted.notes = {
-        "the diagnosis finds a gap that no effect explains (unknown): there is nothing to add, and the model stays as "
-        "it is"};
+    wanted.notes = {Remark(RemarkId::diagnosis_finds_only_unknown)};
   }
   return wanted;
 }

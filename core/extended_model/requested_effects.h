@@ -5,7 +5,9 @@
 
 #include "core/campaign/campaign.h"
 #include "core/diagnosis/diagnosis.h"
+#include "core/extended_model/remarks.h"
 #include "core/io/input_error.h"
+#include "metrology/remark.h"
 
 namespace stiffscope::extended_model {
 
@@ -21,7 +23,7 @@ struct RequestedEffect {
 /// What the model is to have besides joint springs, and what there is to say about how it came to that.
 struct RequestedEffects {
   std::vector<RequestedEffect> effects;
-  std::vector<std::string> notes;  ///< sentences
+  std::vector<Remark> notes;
 };
 
 /// Of words such as `bearing_tilt`, `bearing_tilt:3`, `joint_coupling:2-3`, `target_motion:P12`; an effect that

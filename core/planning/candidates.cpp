@@ -54,9 +54,7 @@ void placeTargets(const campaign::Campaign& campaign, PlanningArm& arm) {
     const Eigen::AngleAxisd turn(2.0 * std::numbers::pi * k / 3.0, arm.outward_in_flange);
     arm.targets_in_flange.push_back(kAhead * arm.outward_in_flange + kRadius * (turn * across));
   }
-  arm.assumed.push_back(
-      "three reflectors on a ring of 250 mm radius, 50 mm ahead of the flange: the campaign gives no "
-      "x_mm, y_mm, z_mm of its targets and no sweep places them");
+  arm.assumed.emplace_back(RemarkId::reflectors_on_ring, kRadius, kAhead);
 }
 
 /// The measured wrenches of the identified load step, in R0.
@@ -103,7 +101,7 @@ void placeLoad(const campaign::Campaign& campaign, const identification::Identif
     arm.load = *inputs.load;
   } else if (!measured.empty()) {
     for (const auto& one : measured) arm.load += one.second.force.norm() / static_cast<double>(measured.size());
-    arm.assumed.push_back(fmt::format("the load of the measured step {}: {:.0f} N", identified->step, arm.load));
+    arm.assumed.emplace_back(RemarkId::load_of_step, identified->step, arm.load);
   }
   if (!(arm.load > 0.0) || !std::isfinite(arm.load)) {
     throw io::InputError(
@@ -115,18 +113,13 @@ void placeLoad(const campaign::Campaign& campaign, const identification::Identif
     arm.hook_in_flange = *inputs.hook_in_flange;
   } else if (!measured.empty()) {
     arm.hook_in_flange = hookOf(measured, arm.geometry.arm);
-    const Eigen::Vector3d mm = 1e3 * arm.hook_in_flange;
-    arm.assumed.push_back(
-        fmt::format("the load acts at {:.0f} {:.0f} {:.0f} mm on the flange, where the measured "
-                    "wrenches have it",
-                    mm.x(), mm.y(), mm.z()));
+    arm.assumed.emplace_back(RemarkId::load_where_measured,
+                             std::vector<double>(arm.hook_in_flange.begin(), arm.hook_in_flange.end()));
   } else {
     const robot::ArmPosture zero = robot::postureAt(arm.geometry.arm, Vector6d::Zero());
     const robot::Wrench at_cell = identification::cellWrench(arm.cell, arm.geometry, zero, {}, {}, Vector6d::Zero());
     arm.hook_in_flange = arm.geometry.arm.base_from_flange_at_zero.inverse() * at_cell.point;
-    arm.assumed.push_back(
-        "the load acts at the load cell's point: --hook says where it does, and a hook aside of axis 6 "
-        "is what turns joint 6");
+    arm.assumed.emplace_back(RemarkId::load_at_cell);
   }
 }
 
@@ -138,9 +131,7 @@ void placeTracker(const campaign::Campaign& campaign, const identification::Iden
   } else if (campaign.tracker && frames.arm.points_placed && frames.points_frame == campaign::PointFrame::tracker) {
     arm.station = frames.arm.r0_from_points * campaign.tracker->station;
   } else {
-    arm.assumed.push_back(
-        "no line of sight is looked at, and noise is the same everywhere: where the tracker will stand "
-        "is not known (--tracker)");
+    arm.assumed.emplace_back(RemarkId::tracker_not_placed);
   }
   arm.sigma = inputs.tracker_sigma;
   if (campaign.tracker) {
@@ -150,10 +141,7 @@ void placeTracker(const campaign::Campaign& campaign, const identification::Iden
     if (arm.station) noise.station = *arm.station, arm.noise = noise;
   }
   if (arm.sigma <= 0.0) arm.sigma = inputs.tracker_sigma, arm.noise.reset();
-  if (!campaign.tracker) {
-    arm.assumed.push_back(
-        fmt::format("{:.0f} um of noise in each coordinate of a reading: no tracker is declared", 1e6 * arm.sigma));
-  }
+  if (!campaign.tracker) arm.assumed.emplace_back(RemarkId::noise_not_declared, arm.sigma);
 }
 
 }  // namespace
@@ -176,7 +164,7 @@ PlanningArm planningArm(const campaign::Campaign& campaign, const identification
     arm.cell = *campaign.load_cell;
   } else {
     arm.cell.parent = campaign.flange_link;
-    arm.assumed.push_back("a load cell in the flange, its axes the flange's: none is declared");
+    arm.assumed.emplace_back(RemarkId::cell_in_flange);
   }
   placeTargets(campaign, arm);
   placeLoad(campaign, identified, inputs, arm);

@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "core/identification/identify.h"
+#include "core/planning/remarks.h"
+#include "metrology/remark.h"
 
 namespace stiffscope::planning {
 
@@ -35,7 +37,7 @@ struct PlanningArm {
   double sigma = 0.0;                            ///< m per coordinate of one reading, where `noise` is empty
   double misfit = 0.0;                           ///< m per coordinate: what the identified model leaves, 0 if unknown
   int repeats = 1;
-  std::vector<std::string> assumed;  ///< what was taken for granted, a sentence each
+  std::vector<Remark> assumed;  ///< what was taken for granted
 
   /// Covariance of a reflector's displacement at `point` (R0), m^2: unloaded and loaded means, and the
   /// misfit.

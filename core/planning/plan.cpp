@@ -94,7 +94,7 @@ class Planner {
     plan_.unknown = judged.mask();
     for (std::size_t j = 0; j < 6; ++j) plan_.not_seen[j] = judged.joints[j].reason;
     plan_.usable = std::any_of(plan_.unknown.begin(), plan_.unknown.end(), [](bool one) { return one; });
-    if (!plan_.usable) plan_.reason = "this load turns no joint enough to see its stiffness";
+    if (!plan_.usable) plan_.reason = Remark(RemarkId::no_joint_seen);
   }
 
   /// The problem for the exchange: information, what is measured, which are alike.

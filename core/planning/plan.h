@@ -44,9 +44,9 @@ struct PlannedPosture {
 struct Plan {
   PlanningArm arm;
   bool usable = false;  ///< some joint's stiffness would be seen
-  std::string reason;   ///< why not
+  Remark reason;        ///< why not
   robot::JointMask unknown{};
-  std::array<std::string, 6> not_seen;      ///< why a joint would not be
+  std::array<Remark, 6> not_seen;           ///< why a joint would not be
   int measured = 0;                         ///< postures that are counted in already
   int asked = 0;                            ///< postures asked for: `postures` may be fewer, where no more keep apart
   Vector6d sd_measured = Vector6d::Zero();  ///< by those alone, rad/Nm; only meant where there are some

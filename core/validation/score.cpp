@@ -122,27 +122,28 @@ std::vector<NamedRate> allRates(const std::vector<ScoredCase>& cases) {
   const Choose everything = [](const ScoredCase&) { return true; };
   const Choose failed = [](const ScoredCase& one) { return !one.answer.failure.empty(); };
   return {
-      {"singles", "singles: the effect and nothing else", rateOf(cases, kind(CaseKind::single), right)},
-      {"singles_first_from_2", "size 2 and more: the effect first, in a class of at most three",
+      {"singles", Remark(RemarkId::singles_right), rateOf(cases, kind(CaseKind::single), right)},
+      {"singles_first_from_2", Remark(RemarkId::singles_from_2_first),
        rateOf(cases, kind(CaseKind::single, 2.0), first)},
-      {"singles_first_from_5", "the same, of size 5 and more", rateOf(cases, kind(CaseKind::single, 5.0), first)},
-      {"singles_from_2", "alone, of size 2 and more", rateOf(cases, kind(CaseKind::single, 2.0), right)},
-      {"singles_from_5", "the same, of size 5 and more", rateOf(cases, kind(CaseKind::single, 5.0), right)},
-      {"singles_found_from_2", "size 2 and more: the effect, perhaps with others",
+      {"singles_first_from_5", Remark(RemarkId::singles_from_5_first),
+       rateOf(cases, kind(CaseKind::single, 5.0), first)},
+      {"singles_from_2", Remark(RemarkId::singles_from_2_alone), rateOf(cases, kind(CaseKind::single, 2.0), right)},
+      {"singles_from_5", Remark(RemarkId::singles_from_5_alone), rateOf(cases, kind(CaseKind::single, 5.0), right)},
+      {"singles_found_from_2", Remark(RemarkId::singles_from_2_found),
        rateOf(cases, kind(CaseKind::single, 2.0), found)},
-      {"false_alarms", "clean machines: something was said", rateOf(cases, kind(CaseKind::none), alarm)},
-      {"false_alarms_noise_right", "the same, the tracker's noise declared right", rateOf(cases, clean(true), alarm)},
-      {"false_alarms_noise_wrong", "the same, declared wrong", rateOf(cases, clean(false), alarm)},
-      {"unknown", "outside the vocabulary: unknown was said", rateOf(cases, kind(CaseKind::outside), unknown)},
-      {"unknown_from_2", "the same, of size 2 and more", rateOf(cases, kind(CaseKind::outside, 2.0), unknown)},
-      {"unknown_apart", "the same, two noises and more from what any effect can do", rateOf(cases, apart, unknown)},
-      {"outside_none_from_2", "outside the vocabulary, size 2 and more: none was said",
-       rateOf(cases, kind(CaseKind::outside, 2.0), none)},
-      {"doubles", "doubles: both and nothing else", rateOf(cases, kind(CaseKind::pair), right)},
-      {"doubles_both_found", "doubles: both, perhaps with others", rateOf(cases, kind(CaseKind::pair), found)},
-      {"doubles_one_found", "doubles: at least one", rateOf(cases, kind(CaseKind::pair), one_found)},
-      {"detail", "pair or reflector named as it is, where the effect is right", rateOf(cases, named, namesDetail)},
-      {"failed", "no answer at all", rateOf(cases, everything, failed)}};
+      {"false_alarms", Remark(RemarkId::clean_alarmed), rateOf(cases, kind(CaseKind::none), alarm)},
+      {"false_alarms_noise_right", Remark(RemarkId::clean_alarmed_noise_right), rateOf(cases, clean(true), alarm)},
+      {"false_alarms_noise_wrong", Remark(RemarkId::clean_alarmed_noise_wrong), rateOf(cases, clean(false), alarm)},
+      {"unknown", Remark(RemarkId::outside_unknown), rateOf(cases, kind(CaseKind::outside), unknown)},
+      {"unknown_from_2", Remark(RemarkId::outside_from_2_unknown),
+       rateOf(cases, kind(CaseKind::outside, 2.0), unknown)},
+      {"unknown_apart", Remark(RemarkId::outside_apart_unknown), rateOf(cases, apart, unknown)},
+      {"outside_none_from_2", Remark(RemarkId::outside_from_2_none), rateOf(cases, kind(CaseKind::outside, 2.0), none)},
+      {"doubles", Remark(RemarkId::doubles_right), rateOf(cases, kind(CaseKind::pair), right)},
+      {"doubles_both_found", Remark(RemarkId::doubles_found), rateOf(cases, kind(CaseKind::pair), found)},
+      {"doubles_one_found", Remark(RemarkId::doubles_one_found), rateOf(cases, kind(CaseKind::pair), one_found)},
+      {"detail", Remark(RemarkId::details_right), rateOf(cases, named, namesDetail)},
+      {"failed", Remark(RemarkId::cases_failed), rateOf(cases, everything, failed)}};
 }
 
 EffectScore effectScore(const std::vector<ScoredCase>& cases, const std::string& id, CaseKind wanted) {
@@ -200,11 +201,10 @@ std::vector<ShrinkPair> shrinksOf(const std::vector<ScoredCase>& cases) {
   return pairs;
 }
 
-NamedRate coverage(const char* id, const char* meaning, const std::vector<ShrinkPair>& pairs,
-                   double ShrinkPair::*truth) {
+NamedRate coverage(const char* id, RemarkId meaning, const std::vector<ShrinkPair>& pairs, double ShrinkPair::*truth) {
   int covered = 0;
   for (const ShrinkPair& one : pairs) covered += one.low <= one.*truth && one.*truth <= one.high ? 1 : 0;
-  return {id, meaning, numerics::binomialRate(covered, static_cast<int>(pairs.size()))};
+  return {id, Remark(meaning), numerics::binomialRate(covered, static_cast<int>(pairs.size()))};
 }
 
 }  // namespace
@@ -235,20 +235,18 @@ Score score(const std::vector<Label>& labels, const std::vector<Answer>& answers
   for (const std::string& id : outsideKinds()) {
     result.outside.push_back(effectScore(result.cases, id, CaseKind::outside));
   }
-  const std::vector<std::pair<double, double>> classes{{0.0, 1.0}, {1.0, 2.0}, {2.0, 5.0}, {5.0, 1e300}};
-  const std::vector<std::string> names{"below 1", "1 to 2", "2 to 5", "5 and more"};
-  for (std::size_t c = 0; c < classes.size(); ++c) {
-    const auto [low, high] = classes[c];
-    const Choose in = [&, low = low, high = high](const ScoredCase& one) {
-      return one.label.kind == CaseKind::single && sizeOf(one) >= low && sizeOf(one) < high;
+  result.by_size = {{0.0, 1.0}, {1.0, 2.0}, {2.0, 5.0}, {5.0}};
+  for (SizeClass& sizes : result.by_size) {
+    const Choose in = [&sizes](const ScoredCase& one) {
+      return one.label.kind == CaseKind::single && sizeOf(one) >= sizes.least && sizeOf(one) < sizes.below;
     };
-    result.by_size.emplace_back(names[c], rateOf(result.cases, in, right));
+    sizes.rate = rateOf(result.cases, in, right);
   }
   result.shrinks = shrinksOf(result.cases);
-  result.rates.push_back(coverage("shrink_covered", "the promised interval holds the shrink that can be seen",
-                                  result.shrinks, &ShrinkPair::truth_seen));
-  result.rates.push_back(coverage("shrink_covered_noise_free", "the promised interval holds the noise-free shrink",
-                                  result.shrinks, &ShrinkPair::truth));
+  result.rates.push_back(
+      coverage("shrink_covered", RemarkId::shrinks_seen_covered, result.shrinks, &ShrinkPair::truth_seen));
+  result.rates.push_back(
+      coverage("shrink_covered_noise_free", RemarkId::shrinks_noise_free_covered, result.shrinks, &ShrinkPair::truth));
   result.confusion = confusionOf(result.cases);
   return result;
 }

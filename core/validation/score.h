@@ -1,13 +1,15 @@
 #pragma once
 
+#include <limits>
 #include <map>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "core/numerics/distributions.h"
+#include "core/validation/remarks.h"
 #include "core/validation/tables.h"
+#include "metrology/remark.h"
 
 namespace stiffscope::validation {
 
@@ -29,8 +31,16 @@ struct ScoredCase {
 constexpr double kApart = 2.0;
 
 struct NamedRate {
-  std::string id, meaning;
+  std::string id;
+  Remark meaning;  ///< what it counts
   numerics::Rate rate;
+};
+
+/// Singles answered right whose size is in [least, below), in noises.
+struct SizeClass {
+  double least = 0.0;
+  double below = std::numeric_limits<double>::infinity();
+  numerics::Rate rate = {};
 };
 
 struct EffectScore {
@@ -56,7 +66,7 @@ struct Score {
   std::vector<NamedRate> rates;
   std::vector<EffectScore> effects;  ///< in the vocabulary's order
   std::vector<EffectScore> outside;  ///< the kinds outside it; right: unknown and nothing else
-  std::vector<std::pair<std::string, numerics::Rate>> by_size;  ///< singles right in 0.5-1, 1-2, 2-5, 5 and more noises
+  std::vector<SizeClass> by_size;
   std::vector<ShrinkPair> shrinks;
   Confusion confusion;
 

@@ -4,6 +4,7 @@
 
 #include "core/io/units.h"
 #include "reports/words/names.h"
+#include "reports/words/remark_words.h"
 
 namespace stiffscope::reports {
 
@@ -27,7 +28,7 @@ Json jointsJson(const comparison::StiffnessChange& change) {
       if (!joint.mark.empty()) row["mark"] = joint.mark;
     } else {
       for (const char* key : {"before", "after", "ratio", "p_value"}) row[key] = nullptr;
-      row["reason"] = joint.reason;
+      row["reason"] = words(joint.reason);
     }
     joints.push_back(row);
   }
@@ -35,7 +36,7 @@ Json jointsJson(const comparison::StiffnessChange& change) {
 }
 
 Json avoidedJson(const comparison::DeflectionAvoided& avoided, const char* place) {
-  if (!avoided.available) return {{"at", place}, {"unavailable", avoided.reason}};
+  if (!avoided.available) return {{"at", place}, {"unavailable", words(avoided.reason)}};
   Json postures = Json::array();
   for (const comparison::PostureDeflection& one : avoided.postures) {
     postures.push_back({{"pose", one.pose},
@@ -56,7 +57,7 @@ Json comparisonJson(const campaign::Campaign& before, const campaign::Campaign& 
                     const comparison::Comparison& comparison) {
   Json json{{"before", campaignJson(before)}, {"after", campaignJson(after)}};
   json["comparable"] = comparison.comparable;
-  if (!comparison.comparable) json["reason"] = comparison.reason;
+  if (!comparison.comparable) json["reason"] = words(comparison.reason);
   const identification::Method best = comparison.best();
   const bool any = comparison.of(best).available;
   json["method"] = any ? Json(namesOf(best).key) : Json(nullptr);
@@ -65,7 +66,7 @@ Json comparisonJson(const campaign::Campaign& before, const campaign::Campaign& 
   for (const identification::Method method : identification::kMethods) {
     const comparison::StiffnessChange& change = comparison.of(method);
     methods[namesOf(method).key] =
-        change.available ? Json{{"joints", jointsJson(change)}} : Json{{"unavailable", change.reason}};
+        change.available ? Json{{"joints", jointsJson(change)}} : Json{{"unavailable", words(change.reason)}};
   }
   json["methods"] = methods;
   const bool wrist = comparison.judgedAtWrist();
@@ -73,10 +74,10 @@ Json comparisonJson(const campaign::Campaign& before, const campaign::Campaign& 
   json["avoided_at_targets"] = avoidedJson(comparison.at_targets, "reflectors");
   Json unmatched = Json::array();
   for (const comparison::UnmatchedPosture& one : comparison.matched.unmatched) {
-    unmatched.push_back({{"pose", one.pose}, {"reason", one.reason}});
+    unmatched.push_back({{"pose", one.pose}, {"reason", words(one.reason)}});
   }
   json["unmatched"] = unmatched;
-  json["cautions"] = comparison.cautions;
+  json["cautions"] = words(comparison.cautions);
   return json;
 }
 

@@ -5,6 +5,7 @@
 
 #include "core/io/units.h"
 #include "reports/words/names.h"
+#include "reports/words/remark_words.h"
 
 namespace stiffscope::reports {
 
@@ -39,7 +40,7 @@ Json rowJson(const campaign::Campaign& campaign, const compensation::Compensated
     row["remaining_mirrored_once_mm"] = posture.mirrored_remaining / io::kMillimetre;
   } else {
     row["command_deg"] = nullptr;
-    row["refused"] = posture.reason;
+    row["refused"] = words(posture.reason);
   }
   return row;
 }

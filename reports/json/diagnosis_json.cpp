@@ -4,6 +4,8 @@
 #include "reports/json/json_document.h"
 
 #include "core/io/units.h"
+#include "reports/words/effect_words.h"
+#include "reports/words/remark_words.h"
 
 namespace stiffscope::reports {
 
@@ -35,7 +37,7 @@ Json classJson(const diagnosis::EffectClass& one, bool positions) {
             {"score", number(one.score)},       {"in_verdict", one.in_verdict},
             {"shrink", shrinkJson(one.shrink)}, {"explained", number(one.explained)}};
   if (positions) json["shrink_of_positions"] = shrinkJson(one.shrink_of_positions);
-  json["parameters"] = one.parameters;
+  json["parameters"] = words(one.parameters);
   return json;
 }
 
@@ -75,14 +77,14 @@ Json stiffnessJson(const diagnosis::Diagnosis& diagnosis, const Vector6d& values
 Json diagnosisJson(const campaign::Campaign& campaign, const diagnosis::Diagnosis& diagnosis) {
   Json json{{"campaign", campaignJson(campaign)}, {"usable", diagnosis.usable}};
   if (!diagnosis.usable) {
-    json["reason"] = diagnosis.unusable_reason;
+    json["reason"] = words(diagnosis.unusable_reason);
     return json;
   }
   json["verdict"] = verdictJson(diagnosis.verdict);
   Json details = Json::array();
   for (const diagnosis::VerdictEntry& entry : diagnosis.verdict.entries) details.push_back(entry.detail);
   json["verdict_details"] = details;
-  json["reason"] = diagnosis.verdict.reason;
+  json["reason"] = reasonWords(diagnosis.verdict);
   Json classes = Json::array(), aliases = Json::array(), next = Json::array();
   for (const diagnosis::EffectClass& one : diagnosis.classes)
     classes.push_back(classJson(one, diagnosis.positions_tested));
@@ -96,7 +98,7 @@ Json diagnosisJson(const campaign::Campaign& campaign, const diagnosis::Diagnosi
   for (const diagnosis::DetectableSize& one : diagnosis.detectable)
     detectable[std::string(effects::idOf(one.effect))] = one.size ? micrometres(*one.size) : Json(nullptr);
   for (const diagnosis::NotTestable& one : diagnosis.not_testable)
-    not_testable[std::string(effects::idOf(one.effect))] = one.missing;
+    not_testable[std::string(effects::idOf(one.effect))] = words(one.missing);
   json["detectable_um"] = detectable;
   json["not_testable"] = not_testable;
   if (diagnosis.geometry.tested) {
@@ -109,7 +111,7 @@ Json diagnosisJson(const campaign::Campaign& campaign, const diagnosis::Diagnosi
   json["limits"] = {{"significance_bic", number(diagnosis.significance_limit)},
                     {"size_um", micrometres(diagnosis.size_limit)}};
   json["noise"] = {{"state_um", micrometres(diagnosis.state_noise)},
-                   {"source", diagnosis.noise_source},
+                   {"source", words(diagnosis.noise_source)},
                    {"factor_along_beam", number(diagnosis.noise_factor_along)},
                    {"factor_across_beam", number(diagnosis.noise_factor_across)}};
   json["chi2_per_equation"] = {{"before", number(diagnosis.lack_of_fit)}, {"after", number(diagnosis.left_over)}};
@@ -121,7 +123,8 @@ Json diagnosisJson(const campaign::Campaign& campaign, const diagnosis::Diagnosi
   json["where_after"] = tablesJson(diagnosis.where_after);
   if (diagnosis.positions_tested) json["where_positions"] = tablesJson(diagnosis.where_positions);
   for (const diagnosis::NextMeasurement& one : diagnosis.next)
-    next.push_back({{"separates", idsOf(one.separates)}, {"measure", one.what}, {"gain_chi2", number(one.gain)}});
+    next.push_back(
+        {{"separates", idsOf(one.separates)}, {"measure", words(one.what)}, {"gain_chi2", number(one.gain)}});
   json["next"] = next;
   return json;
 }

@@ -85,7 +85,7 @@ Json extendedModelJson(const extended_model::ExtendedModel& model, const std::ve
   Json effects = Json::array(), geometry = Json::array();
   for (const extended_model::AddedEffect& one : model.effects.added) effects.push_back(addedJson(one));
   for (const effects::Effect effect : model.effects.geometry) geometry.push_back(effectJson(effect));
-  Json json{{"effects", effects}, {"nothing_added_for", geometry}, {"notes", model.effects.notes}};
+  Json json{{"effects", effects}, {"nothing_added_for", geometry}, {"notes", words(model.effects.notes)}};
   if (model.effects.added.empty()) return json;
   const diagnosis::Gap& gap = model.effects.gap;
   const diagnosis::Shrink& shrink = model.effects.shrink;

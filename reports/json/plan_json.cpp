@@ -3,6 +3,7 @@
 #include "reports/json/json.h"
 
 #include "core/io/units.h"
+#include "reports/words/remark_words.h"
 
 namespace stiffscope::reports {
 
@@ -49,15 +50,15 @@ Json planJson(const campaign::Campaign& campaign, const planning::Plan& plan) {
             {"hook_in_flange_mm", array(plan.arm.hook_in_flange, 1.0 / io::kMillimetre)},
             {"candidates", plan.candidates},
             {"drawn", plan.drawn},
-            {"assumed", plan.arm.assumed}};
+            {"assumed", words(plan.arm.assumed)}};
   if (!plan.usable) {
-    json["unavailable"] = plan.reason;
+    json["unavailable"] = words(plan.reason);
     return json;
   }
   Json identifiable = Json::array(), reasons = Json::object();
   for (std::size_t j = 0; j < 6; ++j) {
     identifiable.push_back(static_cast<bool>(plan.unknown[j]));
-    if (!plan.unknown[j]) reasons["k" + std::to_string(j + 1)] = plan.not_seen[j];
+    if (!plan.unknown[j]) reasons["k" + std::to_string(j + 1)] = words(plan.not_seen[j]);
   }
   json["identifiable"] = identifiable;
   json["not_identifiable"] = reasons;

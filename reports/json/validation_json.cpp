@@ -1,6 +1,8 @@
 #include "core/validation/run_blind.h"
 #include "reports/json/json.h"
 #include "reports/json/json_document.h"
+#include "reports/words/remark_words.h"
+#include "reports/words/validation_words.h"
 
 namespace stiffscope::reports {
 
@@ -85,12 +87,12 @@ Json blindJson(const validation::BlindOptions& options, const validation::BlindR
   json["rates"] = Json::object();
   for (const validation::NamedRate& one : score.rates) {
     json["rates"][one.id] = rateJson(one.rate);
-    json["rates"][one.id]["meaning"] = one.meaning;
+    json["rates"][one.id]["meaning"] = words(one.meaning);
   }
   json["by_size"] = Json::array();
-  for (const auto& [name, rate] : score.by_size) {
-    json["by_size"].push_back(rateJson(rate));
-    json["by_size"].back()["size"] = name;
+  for (const validation::SizeClass& one : score.by_size) {
+    json["by_size"].push_back(rateJson(one.rate));
+    json["by_size"].back()["size"] = sizeWords(one);
   }
   json["effects"] = effectsJson(score.effects);
   json["outside"] = effectsJson(score.outside);

@@ -10,6 +10,7 @@
 #include "reports/words/extended_model_words.h"
 #include "reports/words/names.h"
 #include "reports/words/numbers.h"
+#include "reports/words/remark_words.h"
 
 namespace stiffscope::page {
 
@@ -95,7 +96,7 @@ std::vector<std::string> actionsOf(const diagnosis::Diagnosis& diagnosis) {
   }
   for (const diagnosis::NextMeasurement& one : diagnosis.next) {
     actions.push_back(fmt::format("To tell {} apart, measure {}.", reports::effectNames(one.separates, " and "),
-                                  reports::withMicro(one.what)));
+                                  reports::withMicro(reports::words(one.what))));
   }
   return actions;
 }
@@ -202,13 +203,14 @@ void writeNotTestable(Html& html, const diagnosis::Diagnosis& diagnosis) {
   html.paragraph("Not testable with this data:");
   std::vector<std::string> missing;
   for (const diagnosis::NotTestable& one : diagnosis.not_testable)
-    missing.push_back(fmt::format("{}: {}.", reports::effectName(one.effect), reports::withMicro(one.missing)));
+    missing.push_back(
+        fmt::format("{}: {}.", reports::effectName(one.effect), reports::withMicro(reports::words(one.missing))));
   html.list(missing);
 }
 
 void writeDiagnosis(Html& html, const diagnosis::Diagnosis& diagnosis) {
   if (!diagnosis.usable) {
-    html.paragraph(fmt::format("No diagnosis: {}.", reports::asIs(diagnosis.unusable_reason)));
+    html.paragraph(fmt::format("No diagnosis: {}.", reports::asIs(reports::words(diagnosis.unusable_reason))));
     return;
   }
   html.paragraph(reports::asIs(findingOf(diagnosis)), "finding");
@@ -216,7 +218,7 @@ void writeDiagnosis(Html& html, const diagnosis::Diagnosis& diagnosis) {
   const std::vector<std::string> actions = actionsOf(diagnosis);
   if (!actions.empty()) html.paragraph("What to do:");
   html.list(actions);
-  html.paragraph(reports::withMicro(diagnosis.verdict.reason), "faint");
+  html.paragraph(reports::withMicro(reports::reasonWords(diagnosis.verdict)), "faint");
   writeTable(html, classesTable(diagnosis));
   if (!reports::namedWords(diagnosis.verdict).empty()) {
     writeTable(html, stiffnessTable(diagnosis));
@@ -352,7 +354,7 @@ void writeModel(Html& html, const extended_model::ExtendedModel& model) {
   for (const effects::Effect effect : model.effects.geometry)
     uses.push_back(reports::asIs(fmt::format("{}: {}.", reports::effectName(effect), reports::effectUse(effect))));
   if (!model.effects.added.empty()) {
-    for (const std::string& note : model.effects.notes) uses.push_back(reports::asIs(note + "."));
+    for (const std::string& note : reports::words(model.effects.notes)) uses.push_back(reports::asIs(note + "."));
   }
   html.list(uses);
   if (model.effects.added.empty()) return;

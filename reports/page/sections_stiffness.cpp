@@ -84,7 +84,7 @@ void writeAvoided(Html& html, const reports::ReportContent& content) {
     if (content.compare_with_paper)
       words += fmt::format(" The paper: {}.", reports::percent(reports::kPaperAvoided, 0));
   } else {
-    words = fmt::format("Not known: {}.", content.avoided->reason);
+    words = fmt::format("Not known: {}.", reports::words(content.avoided->reason));
   }
   html.leaf("h3", "Avoided by the double encoders");
   html.paragraph(words);

@@ -7,6 +7,8 @@
 #include "reports/page/html.h"
 #include "reports/page/style.h"
 #include "reports/words/numbers.h"
+#include "reports/words/remark_words.h"
+#include "reports/words/validation_words.h"
 
 namespace stiffscope::page {
 
@@ -151,7 +153,8 @@ void writeBlindRates(Html& html, const validation::Score& score) {
   html.leaf("h2", "Rates");
   reports::Table table{
       "With exact 95 % intervals (Clopper and Pearson)", {"", "cases", "share", "interval"}, {{"", {}}}};
-  for (const validation::NamedRate& one : score.rates) table.groups[0].rows.push_back(rateRow(one.meaning, one.rate));
+  for (const validation::NamedRate& one : score.rates)
+    table.groups[0].rows.push_back(rateRow(reports::words(one.meaning), one.rate));
   writeTable(html, table);
 }
 
@@ -159,7 +162,8 @@ void writeBlindSizes(Html& html, const validation::Score& score) {
   html.leaf("h2", "Accuracy against size");
   html.paragraph("One effect on the machine, named with nothing else beside it.");
   reports::Table table{"By size in noises", {"size", "right", "share", "interval"}, {{"", {}}}};
-  for (const auto& [name, rate] : score.by_size) table.groups[0].rows.push_back(rateRow(name, rate));
+  for (const validation::SizeClass& one : score.by_size)
+    table.groups[0].rows.push_back(rateRow(reports::sizeWords(one), one.rate));
   writeTable(html, table);
 }
 

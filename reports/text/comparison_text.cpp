@@ -9,6 +9,7 @@
 #include "reports/words/listed.h"
 #include "reports/words/names.h"
 #include "reports/words/numbers.h"
+#include "reports/words/remark_words.h"
 
 namespace stiffscope::reports {
 
@@ -28,7 +29,7 @@ std::string pText(double p) {
 void writeMethod(const comparison::StiffnessChange& change, identification::Method method, Out out) {
   if (!change.available) {
     fmt::format_to(out, "\n{}\n",
-                   wrapped(fmt::format("{}: not comparable: {}", namesOf(method).full, change.reason), 2));
+                   wrapped(fmt::format("{}: not comparable: {}", namesOf(method).full, words(change.reason)), 2));
     return;
   }
   fmt::format_to(out, "\n{}, 1e6 Nm/rad, +- one standard uncertainty\n  {:<4}{:>20}{:>20}{:>18}{:>10}{:>8}\n",
@@ -36,7 +37,7 @@ void writeMethod(const comparison::StiffnessChange& change, identification::Meth
   for (std::size_t j = 0; j < 6; ++j) {
     const comparison::JointChange& joint = change.joints[j];
     if (!joint.comparable) {
-      fmt::format_to(out, "  {}\n", wrapped(fmt::format("k{}  {}", j + 1, joint.reason), 6));
+      fmt::format_to(out, "  {}\n", wrapped(fmt::format("k{}  {}", j + 1, words(joint.reason)), 6));
       continue;
     }
     fmt::format_to(out, "  k{:<3}{:>20}{:>20}{:>18}{:>10}{:>8.2f}{}\n", j + 1,
@@ -48,7 +49,8 @@ void writeMethod(const comparison::StiffnessChange& change, identification::Meth
 
 void writeShare(const comparison::DeflectionAvoided& avoided, const char* place, Out out) {
   if (!avoided.available) {
-    fmt::format_to(out, "\n{}\n", wrapped(fmt::format("Deflection avoided at {}: {}", place, avoided.reason), 2));
+    fmt::format_to(out, "\n{}\n",
+                   wrapped(fmt::format("Deflection avoided at {}: {}", place, words(avoided.reason)), 2));
     return;
   }
   fmt::format_to(out, "\nDeflection avoided at {}: {:.1f} %", place, 100.0 * avoided.share);
@@ -77,9 +79,9 @@ std::string comparisonText(const campaign::Campaign& before, const campaign::Cam
   Out out(text);
   fmt::format_to(out, "before: {}\nafter:  {}\n", before.name, after.name);
   if (!comparison.comparable) {
-    fmt::format_to(out, "\n{}\n", wrapped("Nothing is comparable: " + comparison.reason, 2));
+    fmt::format_to(out, "\n{}\n", wrapped("Nothing is comparable: " + words(comparison.reason), 2));
   }
-  for (const std::string& caution : comparison.cautions)
+  for (const std::string& caution : words(comparison.cautions))
     fmt::format_to(out, "  {}\n", wrapped("caution: " + caution, 4));
   if (comparison.comparable) {
     for (const identification::Method method : identification::kMethods)
@@ -92,10 +94,10 @@ std::string comparisonText(const campaign::Campaign& before, const campaign::Cam
     if (comparison.avoided().available)
       writePostures(comparison.avoided(), comparison.judgedAtWrist() ? "P_wrist" : "the reflectors", out);
   }
-  const auto words = [](const comparison::UnmatchedPosture& one) {
-    return fmt::format("not compared: pose {}: {}", one.pose, one.reason);
+  const auto line = [](const comparison::UnmatchedPosture& one) {
+    return fmt::format("not compared: pose {}: {}", one.pose, words(one.reason));
   };
-  for (const std::string& entry : listed(comparison.matched.unmatched, words, kListedInJson))
+  for (const std::string& entry : listed(comparison.matched.unmatched, line, kListedInJson))
     fmt::format_to(out, "  {}\n", wrapped(entry, 4));
   return text;
 }

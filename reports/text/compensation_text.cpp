@@ -8,6 +8,7 @@
 #include "core/io/units.h"
 #include "reports/words/names.h"
 #include "reports/words/numbers.h"
+#include "reports/words/remark_words.h"
 
 namespace stiffscope::reports {
 
@@ -22,7 +23,7 @@ std::string compensationText(const campaign::Campaign& campaign, identification:
   for (const compensation::CompensatedPosture& posture : postures) {
     if (!posture.predicted) {
       fmt::format_to(out, "  {:<10}{:>9}{:>9}{:>9}{:>9}   refused: {}\n", posture.posture.id, "-", "-", "-", "-",
-                     posture.reason);
+                     words(posture.reason));
       continue;
     }
     const Eigen::Vector3d mm = posture.tcp.deflection / io::kMillimetre;
@@ -33,7 +34,7 @@ std::string compensationText(const campaign::Campaign& campaign, identification:
         fmt::format_to(out, "{:>10.4f}", unsignedZero(posture.commands[joint] / io::kDegree, 4));
       fmt::format_to(out, "\n");
     } else {
-      fmt::format_to(out, "refused: {}\n", posture.reason);
+      fmt::format_to(out, "refused: {}\n", words(posture.reason));
     }
   }
   fmt::format_to(out,

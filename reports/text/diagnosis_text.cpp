@@ -9,7 +9,9 @@
 
 #include "core/diagnosis/diagnosis.h"
 #include "core/io/units.h"
+#include "reports/words/effect_words.h"
 #include "reports/words/numbers.h"
+#include "reports/words/remark_words.h"
 
 namespace stiffscope::reports {
 
@@ -57,7 +59,7 @@ void writeClasses(const diagnosis::Diagnosis& diagnosis, Out out) {
                    interval(one.shrink), unsignedZero(one.explained, 3));
     if (!one.in_verdict) continue;
     if (!one.detail.empty()) fmt::format_to(out, "    {}\n", wrapped(one.detail, 4));
-    if (!one.parameters.empty()) fmt::format_to(out, "    {}\n", wrapped(one.parameters, 4));
+    if (!one.parameters.empty()) fmt::format_to(out, "    {}\n", wrapped(words(one.parameters), 4));
     if (diagnosis.positions_tested)
       fmt::format_to(out, "    absolute positions: shrink {:.3f} ({})\n",
                      unsignedZero(one.shrink_of_positions.value, 3), interval(one.shrink_of_positions));
@@ -97,7 +99,7 @@ void writeStiffnesses(const diagnosis::Diagnosis& diagnosis, Out out) {
 
 void writeLimits(const diagnosis::Diagnosis& diagnosis, Out out) {
   fmt::format_to(out, "\nNoise: {:.1f} um rms in one state's displacement; {}.\n", um(diagnosis.state_noise),
-                 diagnosis.noise_source);
+                 words(diagnosis.noise_source));
   fmt::format_to(out, "Limits: a fall of BIC of {:.0f}, and {:.1f} um rms after the stiffnesses.\n",
                  diagnosis.significance_limit, um(diagnosis.size_limit));
   fmt::format_to(out, "Smallest size that would have been seen, um rms per coordinate:\n");
@@ -109,7 +111,7 @@ void writeLimits(const diagnosis::Diagnosis& diagnosis, Out out) {
   fmt::format_to(out, "  {}\n", wrapped(sizes, 2));
   for (const diagnosis::NotTestable& one : diagnosis.not_testable)
     fmt::format_to(out, "  {}\n",
-                   wrapped(fmt::format("{} not testable here: {}", effects::idOf(one.effect), one.missing), 4));
+                   wrapped(fmt::format("{} not testable here: {}", effects::idOf(one.effect), words(one.missing)), 4));
 }
 
 }  // namespace
@@ -117,9 +119,9 @@ void writeLimits(const diagnosis::Diagnosis& diagnosis, Out out) {
 std::string diagnosisText(const campaign::Campaign& campaign, const diagnosis::Diagnosis& diagnosis) {
   std::string text;
   Out out(text);
-  if (!diagnosis.usable) return fmt::format("{}: no diagnosis: {}\n", campaign.name, diagnosis.unusable_reason);
+  if (!diagnosis.usable) return fmt::format("{}: no diagnosis: {}\n", campaign.name, words(diagnosis.unusable_reason));
   fmt::format_to(out, "{}: {}\n\n", campaign.name, verdictWords(diagnosis.verdict));
-  fmt::format_to(out, "{}\n", wrapped(diagnosis.verdict.reason, 0));
+  fmt::format_to(out, "{}\n", wrapped(reasonWords(diagnosis.verdict), 0));
   fmt::format_to(out, "\nGap of the deflection ({:.0f} um rms): {:.1f} um before, {:.1f} um after, noise {:.1f} um\n",
                  um(diagnosis.gap.deflection), um(diagnosis.gap.before), um(diagnosis.gap.after),
                  um(diagnosis.gap.noise));
@@ -134,7 +136,8 @@ std::string diagnosisText(const campaign::Campaign& campaign, const diagnosis::D
   writeTables(diagnosis.where_positions, "Where the gap of unloaded positions lies", out);
   writeStiffnesses(diagnosis, out);
   writeLimits(diagnosis, out);
-  for (const diagnosis::NextMeasurement& one : diagnosis.next) fmt::format_to(out, "Next: {}\n", wrapped(one.what, 2));
+  for (const diagnosis::NextMeasurement& one : diagnosis.next)
+    fmt::format_to(out, "Next: {}\n", wrapped(words(one.what), 2));
   return text;
 }
 

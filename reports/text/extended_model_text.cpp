@@ -11,6 +11,7 @@
 #include "reports/words/extended_model_words.h"
 #include "reports/words/names.h"
 #include "reports/words/numbers.h"
+#include "reports/words/remark_words.h"
 
 namespace stiffscope::reports {
 
@@ -111,7 +112,7 @@ std::string addedEffectsText(const extended_model::EffectFit& effects) {
   for (const extended_model::AddedEffect& one : effects.added) writeEffect(one, out);
   for (const effects::Effect effect : effects.geometry)
     fmt::format_to(out, "  {}\n", wrapped(fmt::format("{}: {}", effects::idOf(effect), reports::effectUse(effect)), 4));
-  for (const std::string& note : effects.notes) fmt::format_to(out, "  {}\n", wrapped("Note: " + note + ".", 4));
+  for (const std::string& note : words(effects.notes)) fmt::format_to(out, "  {}\n", wrapped("Note: " + note + ".", 4));
   if (!effects.added.empty()) fmt::format_to(out, "{}\n", wrapped(explainedWords(effects), 0));
   return text;
 }

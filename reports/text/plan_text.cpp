@@ -7,6 +7,7 @@
 
 #include "core/io/units.h"
 #include "reports/words/numbers.h"
+#include "reports/words/remark_words.h"
 
 namespace stiffscope::reports {
 
@@ -85,14 +86,16 @@ std::string planText(const campaign::Campaign& campaign, const planning::Plan& p
   fmt::format_to(out, "{}: {} postures {}, {:.0f} N {}; chosen from {} of {} drawn\n", campaign.name, plan.asked,
                  plan.measured > 0 ? "to add" : "to measure", plan.arm.load, plan.arm.pull ? "of pull" : "hanging",
                  plan.candidates, plan.drawn);
-  for (const std::string& assumed : plan.arm.assumed) fmt::format_to(out, "  {}\n", wrapped("taken: " + assumed, 4));
+  for (const std::string& assumed : words(plan.arm.assumed))
+    fmt::format_to(out, "  {}\n", wrapped("taken: " + assumed, 4));
   if (!plan.usable) {
-    fmt::format_to(out, "  no plan: {}\n", plan.reason);
+    fmt::format_to(out, "  no plan: {}\n", words(plan.reason));
     return text;
   }
   for (std::size_t j = 0; j < 6; ++j) {
     if (!plan.unknown[j]) {
-      fmt::format_to(out, "  {}\n", wrapped(fmt::format("k{} will not be seen: {}", j + 1, plan.not_seen[j]), 4));
+      fmt::format_to(out, "  {}\n",
+                     wrapped(fmt::format("k{} will not be seen: {}", j + 1, words(plan.not_seen[j])), 4));
     }
   }
   if (static_cast<int>(plan.postures.size()) < plan.asked) {

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include "reports/words/remark_words.h"
+
 namespace stiffscope::reports {
 
 namespace {
@@ -29,9 +31,9 @@ std::string blindText(const validation::BlindResult& result) {
                                  result.score.cases.size(), result.seal, result.answers_hash);
   for (const validation::NamedRate& one : result.score.rates) {
     if (one.rate.trials == 0) {
-      text += fmt::format("  {:<66}   no case\n", one.meaning);
+      text += fmt::format("  {:<66}   no case\n", words(one.meaning));
     } else {
-      text += fmt::format("  {:<66}{:>8}  {:3.0f} % ({:.0f}-{:.0f})\n", one.meaning, counted(one.rate),
+      text += fmt::format("  {:<66}{:>8}  {:3.0f} % ({:.0f}-{:.0f})\n", words(one.meaning), counted(one.rate),
                           100 * one.rate.value(), 100 * one.rate.low, 100 * one.rate.high);
     }
   }

@@ -66,8 +66,6 @@ std::string unloadedReading(const RemarkValues& values) {
 
 std::string auditWords(RemarkId id, const RemarkValues& values) {
   switch (id) {
-    case RemarkId::verbatim:
-      return values.name(0);
     case RemarkId::at_axis:
       return fmt::format("axis {}", values.count(0));
     case RemarkId::at_axis_row:

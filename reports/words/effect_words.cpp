@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 
+#include "reports/words/remark_words.h"
+
 namespace stiffscope::reports {
 
 namespace {
@@ -135,6 +137,10 @@ std::string presentWords(const diagnosis::Verdict& verdict) {
   std::string words = namedWords(verdict);
   if (unknown) words += std::string(words.empty() ? "" : ", and ") + "something that no known effect explains";
   return words.empty() ? "nothing" : words;
+}
+
+std::string reasonWords(const diagnosis::Verdict& verdict) {
+  return fmt::format("{}", fmt::join(words(verdict.reasons), " "));
 }
 
 }  // namespace stiffscope::reports

@@ -26,4 +26,7 @@ std::string namedWords(const diagnosis::Verdict& verdict);
 /// present.
 std::string presentWords(const diagnosis::Verdict& verdict);
 
+/// Why the verdict is what it is, sentence after sentence.
+std::string reasonWords(const diagnosis::Verdict& verdict);
+
 }  // namespace stiffscope::reports

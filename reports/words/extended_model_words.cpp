@@ -7,6 +7,7 @@
 #include "core/io/units.h"
 #include "reports/words/effect_words.h"
 #include "reports/words/names.h"
+#include "reports/words/remark_words.h"
 
 namespace stiffscope::reports {
 
@@ -49,9 +50,9 @@ std::string addedWords(const extended_model::EffectFit& effects) {
 
 std::string gainWords(const extended_model::ExtendedModel& model) {
   if (model.effects.added.empty()) {
-    std::string words = "No effect was added to the joint springs.";
-    for (const std::string& note : model.effects.notes) words += " Note: " + note + ".";
-    return words;
+    std::string text = "No effect was added to the joint springs.";
+    for (const std::string& note : words(model.effects.notes)) text += " Note: " + note + ".";
+    return text;
   }
   const identification::Method which = identification::bestMethod(model.with);
   const identification::MethodResult &without = model.without.of(which), &with = model.with.of(which);

@@ -22,35 +22,22 @@ std::pair<const std::type_index, FamilyWords> of() {
 const std::unordered_map<std::type_index, FamilyWords>& families() {
   static const std::unordered_map<std::type_index, FamilyWords> all{
       of<audit::RemarkId, &auditWords>(),
+      of<comparison::RemarkId, &comparisonWords>(),
+      of<compensation::RemarkId, &compensationWords>(),
+      of<diagnosis::RemarkId, &diagnosisWords>(),
+      of<effects::RemarkId, &effectsWords>(),
+      of<extended_model::RemarkId, &extendedModelWords>(),
       of<frames::RemarkId, &framesWords>(),
       of<identification::RemarkId, &identificationWords>(),
       of<metrology::RemarkId, &metrologyWords>(),
+      of<planning::RemarkId, &planningWords>(),
       of<preparation::RemarkId, &preparationWords>(),
+      of<validation::RemarkId, &validationWords>(),
   };
   return all;
 }
 
 }  // namespace
-
-template <class Value>
-const Value& RemarkValues::get(std::size_t place) const {
-  const Value* value = place < remark_.values.size() ? std::get_if<Value>(&remark_.values[place]) : nullptr;
-  if (value == nullptr) {
-    throw std::logic_error(
-        fmt::format("remark {} of {}: no such value at place {}", remark_.id, remark_.family.name(), place));
-  }
-  return *value;
-}
-
-template const double& RemarkValues::get<double>(std::size_t) const;
-template const std::int64_t& RemarkValues::get<std::int64_t>(std::size_t) const;
-template const std::string& RemarkValues::get<std::string>(std::size_t) const;
-template const std::vector<double>& RemarkValues::get<std::vector<double>>(std::size_t) const;
-template const std::vector<std::int64_t>& RemarkValues::get<std::vector<std::int64_t>>(std::size_t) const;
-template const std::vector<std::string>& RemarkValues::get<std::vector<std::string>>(std::size_t) const;
-template const std::vector<Remark>& RemarkValues::get<std::vector<Remark>>(std::size_t) const;
-
-std::string RemarkValues::words(std::size_t place) const { return reports::words(remarks(place).at(0)); }
 
 std::string words(const Remark& remark) {
   if (remark.empty()) return {};

@@ -16,9 +16,9 @@ std::vector<std::string> doubtsOfTheMachine(const std::vector<ReportCampaign>& c
   std::vector<std::string> sentences;
   for (std::size_t i = 1; i < campaigns.size(); ++i) {
     const campaign::Campaign &first = campaigns.front().campaign, &other = campaigns[i].campaign;
-    std::vector<std::string> doubts{comparison::differenceOfMachines(first.robot, other.robot)};
+    std::vector<Remark> doubts{comparison::differenceOfMachines(first.robot, other.robot)};
     if (doubts.front().empty()) doubts = comparison::doubtsOfOneMachine(first.robot, other.robot);
-    for (const std::string& doubt : doubts)
+    for (const std::string& doubt : words(doubts))
       sentences.push_back(fmt::format("{} and {}: {}", first.name, other.name, doubt));
   }
   return sentences;

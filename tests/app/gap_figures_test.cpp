@@ -7,6 +7,7 @@
 #include "app/figures/figures.h"
 #include "core/campaign/read_campaign.h"
 #include "core/diagnosis/diagnose.h"
+#include "core/effects/remarks.h"
 #include "reports/words/effect_words.h"
 #include "reports/words/numbers.h"
 #include "tests/reports/small_result.h"
@@ -23,7 +24,7 @@ diagnosis::Diagnosis byHand() {
   for (std::size_t e = 0; e < effects::kEffectCount; ++e)
     diagnosis.detectable.push_back({static_cast<effects::Effect>(e), 1e-6 * static_cast<double>(e + 1)});
   diagnosis.detectable[static_cast<std::size_t>(effects::Effect::hysteresis)].size.reset();
-  diagnosis.not_testable = {{effects::Effect::hysteresis, "no return to zero: a last, unloaded step is needed"}};
+  diagnosis.not_testable = {{effects::Effect::hysteresis, Remark(effects::RemarkId::hysteresis_needs_return_to_zero)}};
   diagnosis.size_limit = 5e-6;
   for (int pose = 0; pose < 3; ++pose) {
     for (int target = 0; target < 3; ++target)

@@ -250,8 +250,10 @@ TEST(Page, TheDiagnosisSaysWhatToDo) {
   diagnosis::Diagnosis diagnosis;
   diagnosis.usable = true;
   diagnosis.verdict.entries = {{{effects::Effect::load_cell_bias}, ""}};
-  diagnosis.verdict.reason = "Stiffnesses alone leave 30.0 um rms";
-  diagnosis.next = {{{effects::Effect::load_cell_bias, effects::Effect::hysteresis}, "a posture at (0, 0) deg", 4.0}};
+  diagnosis.verdict.reasons = {Remark(diagnosis::RemarkId::left_by_stiffnesses, 30e-6, 5e-6, 36.0)};
+  diagnosis.next = {{{effects::Effect::load_cell_bias, effects::Effect::hysteresis}, {}, 4.0}};
+  diagnosis.next[0].what =
+      Remark(diagnosis::RemarkId::posture_that_separates, std::vector<double>(6, 0.0), 1e3, 2, 9.0, 4.0, 8.0);
   reports::ReportContent content = contentOf(small);
   content.campaigns[0].diagnosis = &diagnosis;
   content.figures[0].section = "gap";

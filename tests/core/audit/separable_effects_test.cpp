@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 #include "reports/words/remark_words.h"
 
+#include "core/effects/remarks.h"
+
 namespace stiffscope {
 namespace {
 
@@ -18,7 +20,7 @@ TEST(SeparableEffects, AreAddedToThePostureSet) {
   diagnosis::Diagnosis diagnosis;
   diagnosis.usable = true;
   diagnosis.aliases = {{effects::Effect::bearing_tilt, effects::Effect::link_compliance}};
-  diagnosis.not_testable = {{effects::Effect::hysteresis, "no return to zero"}};
+  diagnosis.not_testable = {{effects::Effect::hysteresis, Remark(effects::RemarkId::hysteresis_needs_return_to_zero)}};
   audit::AuditReport report = withPostureSet();
   audit::addSeparableEffects(diagnosis, report);
   const auto& details = report.checks[0].details;

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numeric>
 #include "core/comparison/compare.h"
+#include "reports/words/remark_words.h"
 #include "tests/fixtures/linear_machine.h"
 
 namespace stiffscope {
@@ -49,7 +50,7 @@ TEST(Comparison, FindsWhichJointWasStiffened) {
   for (const identification::Method method :
        {identification::Method::partial_pose, identification::Method::decoupled_partial_pose}) {
     const comparison::StiffnessChange& change = found.of(method);
-    ASSERT_TRUE(change.available) << change.reason;
+    ASSERT_TRUE(change.available) << reports::words(change.reason);
     EXPECT_NEAR(change.joints[2].ratio, 1.5, 0.01);  // 5 um of noise in displacements of millimetres
     EXPECT_LT(change.joints[2].p_value, 1e-6);
     for (const std::size_t j : {0u, 1u, 4u}) {
@@ -99,9 +100,10 @@ TEST(Comparison, WithoutSharedPosturesNoCorrelationIsCounted) {
   const comparison::Comparison apart = compared(before, after);
   EXPECT_TRUE(apart.matched.pairs.empty());
   EXPECT_EQ(apart.matched.unmatched.size(), 24u);
-  EXPECT_EQ(apart.matched.unmatched.front().reason, "not measured after");
+  EXPECT_TRUE(apart.matched.unmatched.front().reason ==
+              Remark(comparison::RemarkId::not_measured, comparison::When::after));
   EXPECT_FALSE(apart.avoided().available);
-  EXPECT_EQ(apart.avoided().reason, "no posture was measured in both campaigns with the same joint angles and load");
+  EXPECT_TRUE(apart.avoided().reason.is(comparison::RemarkId::no_posture_in_both));
   const comparison::JointChange &with = shared.of(identification::Method::partial_pose).joints[1],
                                 &no = apart.of(identification::Method::partial_pose).joints[1];
   EXPECT_GT(with.correlation, 0.9);
@@ -134,9 +136,10 @@ TEST(Comparison, AnotherPostureOrLoadIsNamed) {
   const comparison::Comparison found = compared(before, after);
   EXPECT_EQ(found.matched.pairs.size(), 9u);
   ASSERT_EQ(found.matched.unmatched.size(), 3u);
-  EXPECT_EQ(found.matched.unmatched[0].reason, "joint 4 stands 0.500 deg apart, at most 0.010 is the same posture");
-  EXPECT_EQ(found.matched.unmatched[1].reason.substr(0, 27), "the loads differ by 9.1 % (");
-  EXPECT_EQ(found.matched.unmatched[2].reason,
+  EXPECT_EQ(reports::words(found.matched.unmatched[0].reason),
+            "joint 4 stands 0.500 deg apart, at most 0.010 is the same posture");
+  EXPECT_EQ(reports::words(found.matched.unmatched[1].reason).substr(0, 27), "the loads differ by 9.1 % (");
+  EXPECT_EQ(reports::words(found.matched.unmatched[2].reason),
             "left out after: no reflector was read both unloaded and in this load step");
 }
 
@@ -147,7 +150,8 @@ TEST(Comparison, InheritsTheCautionsOfIdentification) {
   EXPECT_TRUE(compared(clean, clean).cautions.empty());
   const comparison::Comparison found = compared(clean, turned);
   ASSERT_EQ(found.cautions.size(), 1u);
-  EXPECT_EQ(found.cautions[0].rfind("after: every stiffness is negative", 0), 0u) << found.cautions[0];
+  EXPECT_EQ(reports::words(found.cautions[0]).rfind("after: every stiffness is negative", 0), 0u)
+      << reports::words(found.cautions[0]);
 }
 
 TEST(Comparison, OneMachineHasOneUrdf) {
@@ -160,9 +164,10 @@ TEST(Comparison, OneMachineHasOneUrdf) {
   const comparison::Comparison found = compared(before, after);
   EXPECT_TRUE(found.comparable);  // the same axes
   ASSERT_GE(found.cautions.size(), 3u);
-  EXPECT_EQ(found.cautions[0], "the URDFs name different machines: " + before.robot.name + " and another");
-  EXPECT_EQ(found.cautions[1], "the URDFs place the flange 200.0 mm and 0.00 deg apart");
-  EXPECT_EQ(found.cautions[2].rfind("the URDFs' links have different masses", 0), 0u) << found.cautions[2];
+  EXPECT_EQ(reports::words(found.cautions[0]),
+            "the URDFs name different machines: " + before.robot.name + " and another");
+  EXPECT_EQ(reports::words(found.cautions[1]), "the URDFs place the flange 200.0 mm and 0.00 deg apart");
+  EXPECT_TRUE(found.cautions[2].is(comparison::RemarkId::other_masses)) << reports::words(found.cautions[2]);
 }
 
 TEST(Comparison, DifferentMachinesAreNotCompared) {
@@ -170,7 +175,7 @@ TEST(Comparison, DifferentMachinesAreNotCompared) {
   after.robot.axes_in_base_at_zero[2].point.x() += 0.2;
   const comparison::Comparison found = compared(before, after);
   EXPECT_FALSE(found.comparable);
-  EXPECT_EQ(found.reason, "the URDFs describe different machines: axis 3 stands 200.0 mm elsewhere");
+  EXPECT_EQ(reports::words(found.reason), "the URDFs describe different machines: axis 3 stands 200.0 mm elsewhere");
 }
 
 TEST(DeflectionAvoided, SharesOfSumsByHand) {
@@ -179,8 +184,7 @@ TEST(DeflectionAvoided, SharesOfSumsByHand) {
   EXPECT_DOUBLE_EQ(found.share, 0.5);
   EXPECT_DOUBLE_EQ(found.postures[0].share(), 0.5);
   EXPECT_TRUE(std::isnan(found.low));  // three postures: no interval
-  EXPECT_EQ(comparison::shareAvoided({{"a", 0.0, 1.0}}).reason,
-            "nothing moved before: there is no deflection to avoid");
+  EXPECT_TRUE(comparison::shareAvoided({{"a", 0.0, 1.0}}).reason.is(comparison::RemarkId::nothing_moved_before));
 }
 
 TEST(DeflectionAvoided, TheIntervalCoversWhatMorePosturesWouldGive) {

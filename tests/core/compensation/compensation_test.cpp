@@ -52,7 +52,7 @@ TEST(Compensate, CommandsBringTheLoadedArmBack) {
     const Vector6d q = somePosture(noise);
     const Eigen::Vector3d force(500, -400, -1500);
     const compensation::CompensatedPosture found = arm.run(arm.asked(q, force));
-    ASSERT_TRUE(found.solved) << found.reason;
+    ASSERT_TRUE(found.solved) << reports::words(found.reason);
     const Eigen::Isometry3d wanted = arm.lab.actual.flangeAt(arm.lab.settled(q));
     const Eigen::Isometry3d loaded = arm.lab.actual.flangeAt(arm.lab.settled(q, force));
     const Eigen::Isometry3d back = arm.lab.actual.flangeAt(arm.lab.settled(found.commands, force));
@@ -102,10 +102,11 @@ TEST(Compensate, AMomentInNewtonMillimetresIsCautionedOf) {
   EXPECT_TRUE(compensation::implausibleCommands({arm.run(asked)}).empty());
   asked.wrench_in_cell.tail<3>() *= 1e3;
   const compensation::CompensatedPosture turned = arm.run(asked);
-  ASSERT_TRUE(turned.solved) << turned.reason;
-  const std::vector<std::string> sentences = compensation::implausibleCommands({turned});
-  ASSERT_EQ(sentences.size(), 1u);
-  EXPECT_EQ(sentences[0].rfind("posture a would turn joint ", 0), 0u) << sentences[0];
+  ASSERT_TRUE(turned.solved) << reports::words(turned.reason);
+  const std::vector<Remark> remarks = compensation::implausibleCommands({turned});
+  ASSERT_EQ(remarks.size(), 1u);
+  EXPECT_TRUE(remarks[0].is(compensation::RemarkId::implausible_command));
+  EXPECT_EQ(reports::words(remarks[0]).rfind("posture a would turn joint ", 0), 0u) << reports::words(remarks[0]);
 }
 
 TEST(Compensate, RefusesWithTheReason) {
@@ -113,27 +114,27 @@ TEST(Compensate, RefusesWithTheReason) {
   const compensation::CompensatedPosture straight = arm.run(arm.asked(degrees(20, 10, -20, 50, 0.1, -30)));
   EXPECT_FALSE(straight.solved);
   EXPECT_TRUE(straight.predicted);
-  EXPECT_EQ(straight.reason.substr(0, 37), "too near a singularity: conditioning ") << straight.reason;
+  EXPECT_TRUE(straight.reason.is(compensation::RemarkId::near_singularity)) << reports::words(straight.reason);
 
   const compensation::PostureToCompensate fine = arm.asked(degrees(20, 10, -20, 50, 60, -30));
   const double command = arm.run(fine).commands[1], middle = 0.5 * (command + fine.q[1]);
   arm.geometry.arm.limits[1] = command > middle ? robot::JointLimits{-6.2, middle} : robot::JointLimits{middle, 6.2};
   const compensation::CompensatedPosture at_limit = arm.run(fine);
   EXPECT_FALSE(at_limit.solved);
-  EXPECT_EQ(at_limit.reason.substr(0, 28), "joint 2 would have to go to ") << at_limit.reason;
+  EXPECT_EQ(reports::words(at_limit.reason).rfind("joint 2 would have to go to ", 0), 0u);
   arm.geometry.arm.limits[1] = {-1.0, 0.1};
-  EXPECT_EQ(arm.run(fine).reason, "joint 2 stands at 10.000 deg, outside its limits -57.3 to 5.7 deg");
+  EXPECT_EQ(reports::words(arm.run(fine).reason), "joint 2 stands at 10.000 deg, outside its limits -57.3 to 5.7 deg");
   arm.geometry.arm.limits[1] = {-6.2, 6.2};
 
   arm.estimate.identifiable[3] = false;
-  EXPECT_NE(arm.run(fine).reason.find("k4 is not known"), std::string::npos) << arm.run(fine).reason;
+  EXPECT_NE(reports::words(arm.run(fine).reason).find("k4 is not known"), std::string::npos);
   arm.estimate.identifiable[3] = true;
   arm.estimate.compliance[3] *= -1.0;
-  EXPECT_NE(arm.run(fine).reason.find("k4 came out negative: no spring has that"), std::string::npos);
+  EXPECT_NE(reports::words(arm.run(fine).reason).find("k4 came out negative: no spring has that"), std::string::npos);
   arm.estimate.compliance = arm.lab.compliance * 1e4;
   const compensation::CompensatedPosture collapsed = arm.run(fine);
   EXPECT_FALSE(collapsed.predicted);
-  EXPECT_NE(collapsed.reason.find("does not come to rest"), std::string::npos);
+  EXPECT_TRUE(collapsed.reason.is(compensation::RemarkId::loaded_arm_does_not_rest));
 }
 
 /// How far a machine's reflectors stand from their places unloaded, mean over them.
@@ -162,7 +163,7 @@ TEST(Compensate, RemovesInTheSimulatorWhatTheIdentificationClaims) {
     const simulation::ElasticMachine machine = simulation::buildMachine(spec);
     std::vector<comparison::PostureDeflection> true_moves, claimed;
     for (std::size_t i = 0; i < rows.size(); ++i) {
-      ASSERT_TRUE(rows[i].solved) << rows[i].reason;
+      ASSERT_TRUE(rows[i].solved) << reports::words(rows[i].reason);
       const simulation::AppliedLoad load =
           simulation::loadAtStep(*spec.loading, result.step, machine.gravity_in_base, {});
       const simulation::MachineState unloaded = simulation::equilibrium(machine, rows[i].posture.q);

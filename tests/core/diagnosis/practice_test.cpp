@@ -9,6 +9,8 @@
 #include "core/diagnosis/diagnose.h"
 #include "core/diagnosis/effect_distance.h"
 #include "core/preparation/subsample.h"
+#include "reports/words/effect_words.h"
+#include "reports/words/remark_words.h"
 
 // The practice campaigns kept beside the checkout: made by another simulator, their causes in answers.csv.
 
@@ -59,7 +61,7 @@ TEST_P(Practice, VerdictIsTheAnswer) {
   const Answer& answer = GetParam();
   const diagnosis::Diagnosis diagnosis =
       diagnosis::diagnose(campaign::readCampaign(shared("practice/" + answer.campaign)).campaign, quick());
-  ASSERT_TRUE(diagnosis.usable) << diagnosis.unusable_reason;
+  ASSERT_TRUE(diagnosis.usable) << reports::words(diagnosis.unusable_reason);
   std::set<std::string> found;
   bool detail = answer.detail.empty();
   for (const diagnosis::VerdictEntry& entry : diagnosis.verdict.entries) {
@@ -67,7 +69,7 @@ TEST_P(Practice, VerdictIsTheAnswer) {
     found.insert(entry.effects.empty() ? "unknown" : std::string(effects::idOf(entry.effects.front())));
     detail |= entry.detail == answer.detail;
   }
-  EXPECT_EQ(found, answer.effects) << diagnosis.verdict.reason;
+  EXPECT_EQ(found, answer.effects) << reports::reasonWords(diagnosis.verdict);
   EXPECT_TRUE(detail) << "expected to name " << answer.detail;
   if (!answer.effects.empty() && !diagnosis.classes.empty()) {
     EXPECT_TRUE(diagnosis.classes.front().in_verdict);

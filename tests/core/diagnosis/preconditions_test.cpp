@@ -4,7 +4,7 @@
 #include "core/diagnosis/held_out.h"
 #include "core/effects/all.h"
 
-// What a campaign lacks makes effects not testable, with what is missing in words; and shrinks from squares
+// What a campaign lacks makes effects not testable, with what is missing; and shrinks from squares
 // by posture.
 
 namespace stiffscope {
@@ -18,38 +18,38 @@ effects::CampaignContents everything() {
   return has;
 }
 
-bool says(effects::Effect effect, const effects::CampaignContents& has, const std::string& words) {
-  return effects::missingFor(effect, has).find(words) != std::string::npos;
+bool says(effects::Effect effect, const effects::CampaignContents& has, effects::RemarkId what) {
+  return effects::missingFor(effect, has).is(what);
 }
 
 TEST(Testable, NothingIsMissingFromAFullDay) {
   for (std::size_t e = 0; e < effects::kEffectCount; ++e) {
-    EXPECT_EQ(effects::missingFor(static_cast<effects::Effect>(e), everything()), "") << effects::kEffectIds[e];
+    EXPECT_TRUE(effects::missingFor(static_cast<effects::Effect>(e), everything()).empty()) << effects::kEffectIds[e];
   }
 }
 
 TEST(Testable, SaysWhatIsMissing) {
   effects::CampaignContents one_step = everything();
   one_step.load_steps = 1;
-  EXPECT_TRUE(says(effects::Effect::joint_hardening, one_step, "two or more loads"));
-  EXPECT_TRUE(says(effects::Effect::load_cell_bias, one_step, "two or more loads"));
-  EXPECT_EQ(effects::missingFor(effects::Effect::bearing_tilt, one_step), "");
+  EXPECT_TRUE(says(effects::Effect::joint_hardening, one_step, effects::RemarkId::hardening_needs_two_loads));
+  EXPECT_TRUE(says(effects::Effect::load_cell_bias, one_step, effects::RemarkId::bias_needs_two_loads));
+  EXPECT_TRUE(effects::missingFor(effects::Effect::bearing_tilt, one_step).empty());
   effects::CampaignContents no_return = everything();
   no_return.return_to_zero = false;
-  EXPECT_TRUE(says(effects::Effect::hysteresis, no_return, "return to zero"));
+  EXPECT_TRUE(says(effects::Effect::hysteresis, no_return, effects::RemarkId::hysteresis_needs_return_to_zero));
   effects::CampaignContents two_reflectors = everything();
   two_reflectors.reflectors = 2;
-  EXPECT_TRUE(says(effects::Effect::target_motion, two_reflectors, "three reflectors"));
+  EXPECT_TRUE(says(effects::Effect::target_motion, two_reflectors, effects::RemarkId::target_needs_three_reflectors));
   effects::CampaignContents no_masses = everything();
   no_masses.weights = no_masses.absolute = false;
-  EXPECT_TRUE(says(effects::Effect::gravity_compensator, no_masses, "masses"));
-  EXPECT_TRUE(says(effects::Effect::kinematic_error, no_masses, "masses"));
+  EXPECT_TRUE(says(effects::Effect::gravity_compensator, no_masses, effects::RemarkId::compensator_needs_masses));
+  EXPECT_TRUE(says(effects::Effect::kinematic_error, no_masses, effects::RemarkId::geometry_needs_masses));
   effects::CampaignContents no_sweeps = everything();
   no_sweeps.sweeps = false;
-  EXPECT_TRUE(says(effects::Effect::frame_error, no_sweeps, "circle sweeps"));
+  EXPECT_TRUE(says(effects::Effect::frame_error, no_sweeps, effects::RemarkId::frame_needs_sweeps_and_positions));
   effects::CampaignContents no_nests = everything();
   no_nests.nests = no_nests.absolute = false;
-  EXPECT_TRUE(says(effects::Effect::tracker_drift, no_nests, "floor nests"));
+  EXPECT_TRUE(says(effects::Effect::tracker_drift, no_nests, effects::RemarkId::drift_needs_nests_or_timed_positions));
 }
 
 // Twelve postures that all halve: 0.5, without any spread. One that does not shrink among them: the interval

@@ -139,7 +139,7 @@ double meanLeft(const simulation::SimulationSpec& spec, int step,
   const simulation::AppliedLoad load = simulation::loadAtStep(*spec.loading, step, machine.gravity_in_base, {});
   double sum = 0.0;
   for (const compensation::CompensatedPosture& row : rows) {
-    EXPECT_TRUE(row.solved) << row.reason;
+    EXPECT_TRUE(row.solved) << reports::words(row.reason);
     const simulation::MachineState rest = simulation::equilibrium(machine, row.posture.q),
                                    there = simulation::equilibrium(machine, row.commands, load);
     for (std::size_t t = 0; t < rest.targets_in_base.size(); ++t)
@@ -215,13 +215,15 @@ TEST(EffectFit, SaysWhatIsMissing) {
       extended_model::fitEffects(campaign, extended_model::requestedEffects(words, campaign));
     } catch (const io::InputError& error) {
       return error.what();
+    } catch (const extended_model::UnfitEffect& error) {
+      return fmt::format("{}: {}", error.what(), reports::words(error.reason()));
     }
     return "";
   };
   EXPECT_EQ(
       messageOf({"hysteresis"}),
-      "--with: 'hysteresis': this campaign cannot show that effect: no return to zero: a last, unloaded step in each "
-      "posture is needed");
+      "hysteresis: this campaign cannot show that effect: no return to zero: a last, unloaded step in each posture is "
+      "needed");
   EXPECT_EQ(
       messageOf({"bearing_tlt"}).rfind("--with: 'bearing_tlt': expected auto or effects of: link_compliance, ", 0), 0u);
   EXPECT_NE(messageOf({"bearing_tlt"}).find("(did you mean 'bearing_tilt'?)"), std::string::npos);
@@ -257,17 +259,19 @@ TEST(RequestedEffects, OfADiagnosisTakesTheFirstOfAClassAndNeverTheUnknown) {
   EXPECT_EQ(wanted.effects[0].effect, effects::Effect::bearing_tilt);
   EXPECT_EQ(wanted.effects[0].parts, (std::vector<std::string>{"joint 2", "joint 3"}));
   ASSERT_EQ(wanted.notes.size(), 2u);
-  EXPECT_EQ(wanted.notes[0],
+  EXPECT_EQ(reports::words(wanted.notes[0]),
             "bearing_tilt is added because it fits best; this data cannot tell it from link_compliance");
+  EXPECT_TRUE(wanted.notes[1].is(extended_model::RemarkId::diagnosis_finds_unknown));
   diagnosis.verdict.entries = {{{}, ""}};
   wanted = extended_model::namedBy(diagnosis);
   EXPECT_TRUE(wanted.effects.empty());
-  EXPECT_EQ(wanted.notes.size(), 1u);
-  EXPECT_NE(wanted.notes[0].find("unknown"), std::string::npos);
+  ASSERT_EQ(wanted.notes.size(), 1u);
+  EXPECT_TRUE(wanted.notes[0].is(extended_model::RemarkId::diagnosis_finds_only_unknown));
   diagnosis.verdict.entries.clear();
   wanted = extended_model::namedBy(diagnosis);
   EXPECT_TRUE(wanted.effects.empty());
-  EXPECT_EQ(wanted.notes, std::vector<std::string>{"the diagnosis names no effect: nothing is added"});
+  ASSERT_EQ(wanted.notes.size(), 1u);
+  EXPECT_TRUE(wanted.notes[0].is(extended_model::RemarkId::diagnosis_names_none));
 }
 
 TEST(EffectNature, EveryEffectHasOneAndMeasurementsStayOutOfCompensation) {

@@ -86,8 +86,8 @@ TEST(BlindScore, singlesByHand) {
   EXPECT_EQ(at("backlash", "unknown"), 1);
   EXPECT_EQ(result.effects[static_cast<std::size_t>(effects::Effect::bearing_tilt)].mean_class_size, 2.0);
   EXPECT_EQ(result.effects[static_cast<std::size_t>(effects::Effect::hysteresis)].answered_none, 1);
-  EXPECT_EQ(result.by_size[0].second.trials, 1);
-  EXPECT_EQ(result.by_size[3].second.hits, 2);
+  EXPECT_EQ(result.by_size[0].rate.trials, 1);
+  EXPECT_EQ(result.by_size[3].rate.hits, 2);
 }
 
 TEST(BlindScore, cleanUnknownAndDoublesByHand) {

@@ -1,0 +1,35 @@
+#pragma once
+
+namespace stiffscope::comparison {
+
+/// Which of the two campaigns a remark is of.
+enum class When { before, after, both };
+
+enum class RemarkId {
+  // What says that the two machines are not one.
+  axis_turned,       ///< axis number, turn rad
+  axis_elsewhere,    ///< axis number, distance m
+  other_name,        ///< name before, after
+  flange_elsewhere,  ///< distance m, turn rad
+  other_masses,      ///< of all links before kg, after kg
+  // What else to know before believing the numbers.
+  same_encoders,  ///< whether active
+  encoders_swapped,
+  few_correspond,  ///< postures that correspond, postures
+  // Why something cannot be compared.
+  nothing_comparable,  ///< why no deflection, why no stiffness
+  of_one_campaign,     ///< When, what its identification says
+  not_identifiable,    ///< When, why
+  no_joint_in_both,
+  no_posture_in_both,
+  nothing_moved_before,
+  wrist_not_measured,  ///< When
+  // Why a posture has no counterpart.
+  left_out,       ///< When, why
+  not_measured,   ///< When
+  no_load_state,  ///< When, load step
+  other_angles,   ///< joint number, difference rad, limit rad
+  other_load,     ///< difference N, force before N, after N, limit as a share of the larger
+};
+
+}  // namespace stiffscope::comparison

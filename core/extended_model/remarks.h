@@ -1,0 +1,20 @@
+#pragma once
+
+namespace stiffscope::extended_model {
+
+enum class RemarkId {
+  // How the model came to its effects.
+  diagnosis_has_no_gap,  ///< why
+  diagnosis_names_none,
+  diagnosis_finds_unknown,  ///< besides what it names
+  diagnosis_finds_only_unknown,
+  taken_of_a_class,  ///< id of the effect, ids of those that cannot be told from it
+  // Why an effect cannot be fitted.
+  no_gap_to_fit,        ///< why
+  lacks_what_shows_it,  ///< what is missing
+  not_told_from_stiffnesses,
+  // Why a posture is left out.
+  not_read_in_all_steps,
+};
+
+}  // namespace stiffscope::extended_model

@@ -1,0 +1,18 @@
+#pragma once
+
+namespace stiffscope::planning {
+
+enum class RemarkId {
+  // What was taken for granted.
+  cell_in_flange,
+  reflectors_on_ring,   ///< radius m, distance ahead of the flange m
+  load_of_step,         ///< load step, force N
+  load_where_measured,  ///< where it acts, flange axes m
+  load_at_cell,
+  tracker_not_placed,
+  noise_not_declared,  ///< standard deviation per coordinate m
+  // Why there is no plan.
+  no_joint_seen,
+};
+
+}  // namespace stiffscope::planning

@@ -1,0 +1,38 @@
+#include "core/extended_model/remarks.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "reports/words/remarks.h"
+
+namespace stiffscope::reports {
+
+std::string extendedModelWords(extended_model::RemarkId id, const RemarkValues& values) {
+  using enum extended_model::RemarkId;
+  switch (id) {
+    case diagnosis_has_no_gap:
+      return "the diagnosis has no gap to look at, so nothing is added: " + values.words(0);
+    case diagnosis_names_none:
+      return "the diagnosis names no effect: nothing is added";
+    case diagnosis_finds_unknown:
+      return "the diagnosis also finds a gap that no effect explains (unknown): nothing can be added for it";
+    case diagnosis_finds_only_unknown:
+      return "the diagnosis finds a gap that no effect explains (unknown): there is nothing to add, and the model "
+             "stays as it is";
+    case taken_of_a_class:
+      return fmt::format("{} is added because it fits best; this data cannot tell it from {}", values.name(0),
+                         fmt::join(values.names(1), " or "));
+    case no_gap_to_fit:
+      return "there is no gap to fit it to: " + values.words(0);
+    case lacks_what_shows_it:
+      return "this campaign cannot show that effect: " + values.words(0);
+    case not_told_from_stiffnesses:
+      return "these postures and loads cannot tell it from stiffnesses and geometry, or only with sizes that no "
+             "machine has";
+    case not_read_in_all_steps:
+      return "no reflector read in all its load steps, so the effects cannot be taken off";
+  }
+  return {};
+}
+
+}  // namespace stiffscope::reports

@@ -1,0 +1,42 @@
+#include "core/planning/remarks.h"
+
+#include <fmt/format.h>
+
+#include "core/io/units.h"
+#include "reports/words/remarks.h"
+
+namespace stiffscope::reports {
+
+std::string planningWords(planning::RemarkId id, const RemarkValues& values) {
+  using enum planning::RemarkId;
+  switch (id) {
+    case cell_in_flange:
+      return "a load cell in the flange, its axes the flange's: none is declared";
+    case reflectors_on_ring:
+      return fmt::format(
+          "three reflectors on a ring of {:.0f} mm radius, {:.0f} mm ahead of the flange: the campaign gives no x_mm, "
+          "y_mm, z_mm of its targets and no sweep places them",
+          values.number(0) / io::kMillimetre, values.number(1) / io::kMillimetre);
+    case load_of_step:
+      return fmt::format("the load of the measured step {}: {:.0f} N", values.count(0), values.number(1));
+    case load_where_measured: {
+      const std::vector<double>& place = values.numbers(0);
+      return fmt::format("the load acts at {:.0f} {:.0f} {:.0f} mm on the flange, where the measured wrenches have it",
+                         1e3 * place[0], 1e3 * place[1], 1e3 * place[2]);
+    }
+    case load_at_cell:
+      return "the load acts at the load cell's point: --hook says where it does, and a hook aside of axis 6 is what "
+             "turns joint 6";
+    case tracker_not_placed:
+      return "no line of sight is looked at, and noise is the same everywhere: where the tracker will stand is not "
+             "known (--tracker)";
+    case noise_not_declared:
+      return fmt::format("{:.0f} um of noise in each coordinate of a reading: no tracker is declared",
+                         1e6 * values.number(0));
+    case no_joint_seen:
+      return "this load turns no joint enough to see its stiffness";
+  }
+  return {};
+}
+
+}  // namespace stiffscope::reports
