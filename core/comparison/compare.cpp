@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "core/identification/identification.h"
+#include "core/identification/remarks.h"
 #include "core/identification/subsets.h"
 #include "metrology/tail_probability.h"
 
@@ -96,10 +97,10 @@ Vector6d correlations(const std::vector<Vector6d>& before, const std::vector<Vec
   return result;
 }
 
-std::string markOf(const identification::StiffnessEstimate& before, const identification::StiffnessEstimate& after,
-                   int joint) {
-  const std::string first = before.mark(joint), second = after.mark(joint);
-  return first == "negative" || second.empty() ? first : second;
+Remark markOf(const identification::StiffnessEstimate& before, const identification::StiffnessEstimate& after,
+              int joint) {
+  Remark first = before.mark(joint), second = after.mark(joint);
+  return first.is(identification::RemarkId::negative) || second.empty() ? first : second;
 }
 
 void judge(const identification::StiffnessEstimate& before, const identification::StiffnessEstimate& after, int joint,

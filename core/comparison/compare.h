@@ -23,7 +23,7 @@ struct JointChange {
   double ratio_sd = 0.0;     ///< to first order, correlation included
   double correlation = 0.0;  ///< of the two errors, by the postures that both share
   double p_value = 0.0;      ///< two-sided, of no change; not a number where an uncertainty is
-  std::string mark;          ///< of either entry: "negative" or "imprecise"; else empty
+  Remark mark;               ///< of either entry: negative or imprecise; else empty
 };
 
 struct StiffnessChange {

@@ -25,7 +25,7 @@ Json jointsJson(const comparison::StiffnessChange& change) {
       row["sd_ratio"] = number(joint.ratio_sd);
       row["p_value"] = number(joint.p_value);
       row["correlation"] = number(joint.correlation);
-      if (!joint.mark.empty()) row["mark"] = joint.mark;
+      if (!joint.mark.empty()) row["mark"] = words(joint.mark);
     } else {
       for (const char* key : {"before", "after", "ratio", "p_value"}) row[key] = nullptr;
       row["reason"] = words(joint.reason);

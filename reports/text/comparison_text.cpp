@@ -43,7 +43,7 @@ void writeMethod(const comparison::StiffnessChange& change, identification::Meth
     fmt::format_to(out, "  k{:<3}{:>20}{:>20}{:>18}{:>10}{:>8.2f}{}\n", j + 1,
                    withSd(joint.before * 1e-6, joint.before_sd * 1e-6),
                    withSd(joint.after * 1e-6, joint.after_sd * 1e-6), withSd(joint.ratio, joint.ratio_sd),
-                   pText(joint.p_value), joint.correlation, joint.mark.empty() ? "" : "  " + joint.mark);
+                   pText(joint.p_value), joint.correlation, joint.mark.empty() ? "" : "  " + words(joint.mark));
   }
 }
 

@@ -8,8 +8,6 @@
 
 namespace stiffscope::reports {
 
-using audit::RemarkId;
-
 namespace {
 
 constexpr double kMinute = 60.0;  // s
@@ -64,180 +62,180 @@ std::string unloadedReading(const RemarkValues& values) {
 
 }  // namespace
 
-std::string auditWords(RemarkId id, const RemarkValues& values) {
+std::string auditWords(audit::RemarkId id, const RemarkValues& values) {
   switch (id) {
-    case RemarkId::at_axis:
+    case audit::RemarkId::at_axis:
       return fmt::format("axis {}", values.count(0));
-    case RemarkId::at_axis_row:
+    case audit::RemarkId::at_axis_row:
       return fmt::format("axis {}, {}", values.count(0), values.name(1));
-    case RemarkId::at_axes:
+    case audit::RemarkId::at_axes:
       return fmt::format("axes {} and {}", values.count(0), values.count(1));
-    case RemarkId::at_axis_and_pair:
+    case audit::RemarkId::at_axis_and_pair:
       return fmt::format("axis {}, {} and {}", values.count(0), values.name(1), values.name(2));
-    case RemarkId::at_reflector:
+    case audit::RemarkId::at_reflector:
       return fmt::format("{}, axis {}", values.name(0), values.count(1));
-    case RemarkId::at_reflectors:
+    case audit::RemarkId::at_reflectors:
       return joined(values, 0, "; ");
-    case RemarkId::at_moved_reflector:
+    case audit::RemarkId::at_moved_reflector:
       return fmt::format("{}, {}", values.name(0), values.name(1));
-    case RemarkId::at_pose:
+    case audit::RemarkId::at_pose:
       return fmt::format("pose {}", values.name(0));
-    case RemarkId::at_state:
+    case audit::RemarkId::at_state:
       return state(values);
-    case RemarkId::at_time:
+    case audit::RemarkId::at_time:
       return fmt::format("{:.0f} s", values.number(0));
-    case RemarkId::at_loading:
+    case audit::RemarkId::at_loading:
       return "loading";
-    case RemarkId::chi_square:
+    case audit::RemarkId::chi_square:
       return fmt::format("chi-square of {} degrees of freedom", values.count(0));
-    case RemarkId::chi_square_and_states:
+    case audit::RemarkId::chi_square_and_states:
       return fmt::format("chi-square of {} degrees of freedom, and of each state", values.count(0));
-    case RemarkId::chi_square_and_postures:
+    case audit::RemarkId::chi_square_and_postures:
       return fmt::format("chi-square of {} degrees of freedom, and of each posture", values.count(0));
-    case RemarkId::chi_square_held_axes:
+    case audit::RemarkId::chi_square_held_axes:
       return fmt::format("chi-square of {} degrees of freedom, axes 4-6 held by their own sweeps", values.count(0));
-    case RemarkId::chi_square_of_axes:
+    case audit::RemarkId::chi_square_of_axes:
       return "chi-square of each axis's residuals";
-    case RemarkId::chi_square_of_pairs:
+    case audit::RemarkId::chi_square_of_pairs:
       return fmt::format("chi-square of place and direction, {} pairs of reflectors", values.count(0));
-    case RemarkId::chi_square_of_tare:
+    case audit::RemarkId::chi_square_of_tare:
       return "chi-square of the mean unloaded reading, six components, and of each reading";
-    case RemarkId::chi_square_of_displacement:
+    case audit::RemarkId::chi_square_of_displacement:
       return "chi-square of the displacement where the arm stands, by the nests' declared noise";
-    case RemarkId::chi_square_of_shift:
+    case audit::RemarkId::chi_square_of_shift:
       return "chi-square of a rigid shift, six degrees of freedom, over that of the rest";
-    case RemarkId::normal_deviates:
+    case audit::RemarkId::normal_deviates:
       return fmt::format("largest of {} normal deviates", values.count(0));
-    case RemarkId::student_between_postures:
+    case audit::RemarkId::student_between_postures:
       return "Student's t by the median absolute deviation between postures";
-    case RemarkId::places_or_chance:
+    case audit::RemarkId::places_or_chance:
       return "how far identification trusts places (0.2 mm); or, where that is larger, " + values.words(0);
-    case RemarkId::third_of_places_or_chance:
+    case audit::RemarkId::third_of_places_or_chance:
       return "a third of the 0.2 mm to which identification trusts places; or, where that is larger, " +
              values.words(0);
-    case RemarkId::order_of_format:
+    case audit::RemarkId::order_of_format:
       return "later steps follow in time (campaign format)";
-    case RemarkId::what_most_have:
+    case audit::RemarkId::what_most_have:
       return "what most postures and states of this campaign have";
-    case RemarkId::arc_practice:
+    case audit::RemarkId::arc_practice:
       return fmt::format(
           "circle-point practice: warn below {:.0f} deg, fail below {:.0f} deg, unless the axis is still "
           "known at the arm's reach to {:.0f} um, a third of the {:.1f} mm to which identification trusts "
           "places",
           values.number(0) / io::kDegree, values.number(1) / io::kDegree, 1e6 * values.number(2),
           1e3 * values.number(3));
-    case RemarkId::circle_redundancy:
+    case audit::RemarkId::circle_redundancy:
       return "three readings make a circle, twice as many leave as many again to check it by";
-    case RemarkId::turns_as_reported:
+    case audit::RemarkId::turns_as_reported:
       return "a joint turns by what it reports, to a thousandth; radians under degrees are 57 times off";
-    case RemarkId::reflector_radius:
+    case audit::RemarkId::reflector_radius:
       return "radius of a 1.5 inch reflector: nearer, the axis passes through the reflector itself";
-    case RemarkId::built_to_drawing:
+    case audit::RemarkId::built_to_drawing:
       return "20 mm, where machines are built to a few; or, where that is larger, five standard uncertainties";
-    case RemarkId::leak_that_decoupling_bears:
+    case audit::RemarkId::leak_that_decoupling_bears:
       return "the miss at which joints 4-6 would put 2 % into P_wrist's displacement: what decoupling bears";
-    case RemarkId::places_or_sweeps:
+    case audit::RemarkId::places_or_sweeps:
       return "how far identification trusts places (0.2 mm), or what the sweeps' uncertainty would show";
-    case RemarkId::turn_at_lever:
+    case audit::RemarkId::turn_at_lever:
       return fmt::format("turn that carries a reflector at the longest lever, {:.2f} m, by twice its reading noise",
                          values.number(0));
-    case RemarkId::load_cell_axes:
+    case audit::RemarkId::load_cell_axes:
       return "how far identification trusts the load cell's axes (2 mrad, one sigma) and its noise; chi-square "
              "of two directions";
-    case RemarkId::arms_stiffness:
+    case audit::RemarkId::arms_stiffness:
       return fmt::format(
           "force over displacement of six-axis arms: at least {:.0f} N/mm, half of what light collaborative "
           "arms give, and at most {:.0f} N/mm, which is that of machine tools",
           values.number(0) * io::kMillimetre, values.number(1) * io::kMillimetre);
-    case RemarkId::condition_practice:
+    case audit::RemarkId::condition_practice:
       return "calibration practice: condition number, columns of unit length, below 100";
-    case RemarkId::no_sweeps:
+    case audit::RemarkId::no_sweeps:
       return "no circle sweeps: turn each axis by itself (`circle_sweeps`)";
-    case RemarkId::tracker_not_declared:
+    case audit::RemarkId::tracker_not_declared:
       return "the tracker's noise is not declared: state `tracker`";
-    case RemarkId::no_loads:
+    case audit::RemarkId::no_loads:
       return "no loads: measure `loading`, `states` and `load_cell`";
-    case RemarkId::loading_not_in_r0:
+    case audit::RemarkId::loading_not_in_r0:
       return "the loading's readings cannot be brought into R0: sweep axes 1 and 2";
-    case RemarkId::no_step_with_force:
+    case audit::RemarkId::no_step_with_force:
       return "no load step has a force";
-    case RemarkId::no_posture_to_identify_from:
+    case audit::RemarkId::no_posture_to_identify_from:
       return "no posture has readings at the heaviest load step and, of absolute points, unloaded ones (step "
              "0): nothing to identify from";
-    case RemarkId::load_cell_noise_not_stated:
+    case audit::RemarkId::load_cell_noise_not_stated:
       return "the load cell's noise is not stated: force_sigma_n and moment_sigma_nm in campaign.xml";
-    case RemarkId::no_unloaded_states:
+    case audit::RemarkId::no_unloaded_states:
       return "no unloaded states (step 0)";
-    case RemarkId::no_compared_postures:
+    case audit::RemarkId::no_compared_postures:
       return "no postures with readings unloaded and loaded";
-    case RemarkId::load_does_not_hang:
+    case audit::RemarkId::load_does_not_hang:
       return "the load does not hang: it is pulled to the side";
-    case RemarkId::no_load_cell_readings:
+    case audit::RemarkId::no_load_cell_readings:
       return "no load cell readings: `load_cell` and `states`";
-    case RemarkId::no_displacement_under_force:
+    case audit::RemarkId::no_displacement_under_force:
       return "no displacement under a force that can be brought into the robot's frame";
-    case RemarkId::few_loaded_states:
+    case audit::RemarkId::few_loaded_states:
       return "fewer than four loaded states";
-    case RemarkId::no_moments:
+    case audit::RemarkId::no_moments:
       return "no moments were measured";
-    case RemarkId::forces_on_one_line:
+    case audit::RemarkId::forces_on_one_line:
       return "the forces lie along one line in the tool: turn the flange between postures";
-    case RemarkId::few_nests_or_rounds:
+    case audit::RemarkId::few_nests_or_rounds:
       return "too few nests or rounds to tell a moving nest from the station: measure four";
-    case RemarkId::no_load_states:
+    case audit::RemarkId::no_load_states:
       return "no load states: measure `states` with `loading`";
-    case RemarkId::no_states_nor_loading:
+    case audit::RemarkId::no_states_nor_loading:
       return "no `states` and no `loading`";
-    case RemarkId::no_readings_of_states:
+    case audit::RemarkId::no_readings_of_states:
       return "no absolute readings of load states: measure `loading` and `states`";
-    case RemarkId::no_unloading:
+    case audit::RemarkId::no_unloading:
       return "no posture was unloaded again: add a last step without load";
-    case RemarkId::no_compared_postures_in_geometry:
+    case audit::RemarkId::no_compared_postures_in_geometry:
       return "no postures with readings unloaded and loaded in a known geometry";
-    case RemarkId::sag_not_known:
+    case audit::RemarkId::sag_not_known:
       return "the arm's own sag is not known: state masses in the URDF, and load steps that identify stiffnesses";
-    case RemarkId::few_unloaded_postures:
+    case audit::RemarkId::few_unloaded_postures:
       return fmt::format("{} unloaded postures: {} or more are needed", values.count(0), values.count(1));
-    case RemarkId::few_postures_to_compare:
+    case audit::RemarkId::few_postures_to_compare:
       return fmt::format("fewer than {} postures to compare", values.count(0));
-    case RemarkId::axis_not_measured:
+    case audit::RemarkId::axis_not_measured:
       return fmt::format("axis {}: {}", values.count(0), values.words(1));
-    case RemarkId::no_neighbouring_axes:
+    case audit::RemarkId::no_neighbouring_axes:
       return "no two neighbouring axes with circle sweeps";
-    case RemarkId::no_sweep_below_whole_turn:
+    case audit::RemarkId::no_sweep_below_whole_turn:
       return "no axis with a sweep of less than a whole turn";
-    case RemarkId::no_two_reflectors_off_axis:
+    case audit::RemarkId::no_two_reflectors_off_axis:
       return "no axis was swept with two reflectors well off it";
-    case RemarkId::no_two_reflectors_in_states:
+    case audit::RemarkId::no_two_reflectors_in_states:
       return "no two reflectors were read in the same states: read two or more in each";
-    case RemarkId::few_wrist_readings:
+    case audit::RemarkId::few_wrist_readings:
       return "too few readings: more than centre and radii take";
-    case RemarkId::wrist_axes_not_swept:
+    case audit::RemarkId::wrist_axes_not_swept:
       return "axes 4, 5 and 6 are not all measured: sweep each";
-    case RemarkId::steps_follow:
+    case audit::RemarkId::steps_follow:
       return "steps follow each other in time in every posture";
-    case RemarkId::steps_out_of_order:
+    case audit::RemarkId::steps_out_of_order:
       return fmt::format("steps out of order: {}", joined(values, 0, "; "));
-    case RemarkId::step_too_early:
+    case audit::RemarkId::step_too_early:
       return fmt::format("{} (pose {}: step {} before step {} ends)", values.name(0), values.name(1), values.count(2),
                          values.count(3));
-    case RemarkId::state_during:
+    case audit::RemarkId::state_during:
       return fmt::format("{} (pose {}: the state of step {} was taken during step {})", values.name(0), values.name(1),
                          values.count(2), values.count(3));
-    case RemarkId::all_there:
+    case audit::RemarkId::all_there:
       return fmt::format("every one of {} postures has all steps, reflectors and repeats", values.count(0));
-    case RemarkId::missing:
+    case audit::RemarkId::missing:
       return missing(values.remarks(0));
-    case RemarkId::step_not_read:
+    case audit::RemarkId::step_not_read:
       return state(values) + ": no readings";
-    case RemarkId::no_row_in_states:
+    case audit::RemarkId::no_row_in_states:
       return state(values) + ": no row in states";
-    case RemarkId::too_few_readings:
+    case audit::RemarkId::too_few_readings:
       return fmt::format("{}: {} of {} readings of {}", state(values), values.count(2), values.count(3),
                          values.name(4));
-    case RemarkId::posture_not_read:
+    case audit::RemarkId::posture_not_read:
       return fmt::format("pose {}: no readings", values.name(0));
-    case RemarkId::repeats_scatter:
+    case audit::RemarkId::repeats_scatter:
       return fmt::format(
           "repeats scatter {} the beam by {:.1f} um (one sigma), {:.2f} of what is declared{}",
           values.count(0) != 0 ? "along" : "across", 1e6 * values.number(1), values.number(2),
@@ -245,215 +243,215 @@ std::string auditWords(RemarkId id, const RemarkValues& values) {
               ? ": every stated uncertainty is too small by as much; the other checks take the noise as the "
                 "repeats show it"
               : "");
-    case RemarkId::repeats_scatter_little:
+    case audit::RemarkId::repeats_scatter_little:
       return "repeats scatter by less than half of what is declared: one sigma of a reading is asked for, not "
              "the maximum permissible error of a data sheet (ISO 10360-10); checks and uncertainties are as lax "
              "as the declaration";
-    case RemarkId::distance_changes:
+    case audit::RemarkId::distance_changes:
       return fmt::format("largest change of a distance: {} to {} by {:.0f} um at {}{}", values.name(0), values.name(1),
                          1e6 * values.number(2), values.name(3), more(values, 4));
-    case RemarkId::distances_scatter:
+    case audit::RemarkId::distances_scatter:
       return fmt::format("; over all states distances scatter {:.2f} times as far as noise alone", values.number(0));
-    case RemarkId::reflectors_exchanged:
+    case audit::RemarkId::reflectors_exchanged:
       return fmt::format("; reflectors exchanged at {} ({}): {}", values.name(0), values.name(1),
                          exchange(values.names(2)));
-    case RemarkId::no_one_reflector:
+    case audit::RemarkId::no_one_reflector:
       return "; no one reflector explains it: two move, the tool itself bends, or the tracker's noise is larger "
              "than declared";
-    case RemarkId::reflector_moves:
+    case audit::RemarkId::reflector_moves:
       return fmt::format(
           "; reflector {} moves: the distances between the others hold, its own change by {:.0f} um rms "
           "under load and {:.0f} um without",
           values.name(0), 1e6 * values.number(1), 1e6 * values.number(2));
-    case RemarkId::station_moved:
+    case audit::RemarkId::station_moved:
       return fmt::format("at the arm the station moved by {:.0f} um and turned by {:.1f} urad at most, at {:.0f} s{}",
                          1e6 * values.number(0), 1e6 * values.number(1), values.number(2), more(values, 3));
-    case RemarkId::station_drifts:
+    case audit::RemarkId::station_drifts:
       return fmt::format("; a drift of {:.2f} um/min on average",
                          1e6 * values.number(0) / (values.number(1) / kMinute));
-    case RemarkId::station_jumps:
+    case audit::RemarkId::station_jumps:
       return fmt::format("; it jumped at about {:.0f} s: the tracker was moved", fmt::join(values.numbers(0), " s, "));
-    case RemarkId::motion_taken_off:
+    case audit::RemarkId::motion_taken_off:
       return "; readings with a time are referred to the first round, here and in identification";
-    case RemarkId::motion_not_taken_off:
+    case audit::RemarkId::motion_not_taken_off:
       return "; not taken off the readings: " + values.words(0);
-    case RemarkId::nests_left:
+    case audit::RemarkId::nests_left:
       return fmt::format("what no motion of the station explains is {:.2f} of the noise{}", values.number(0),
                          more(values, 1));
-    case RemarkId::nest_moved:
+    case audit::RemarkId::nest_moved:
       return fmt::format(
           "; nest {} moved by up to {:.0f} um against the others and is left out of the station's motion",
           values.name(0), 1e6 * values.number(1));
-    case RemarkId::nests_not_mended:
+    case audit::RemarkId::nests_not_mended:
       return "; leaving out any one nest does not mend it: more than one moved, or the readings are wrong";
-    case RemarkId::arc_known:
+    case audit::RemarkId::arc_known:
       return fmt::format(
           "axis {}: arc of {:.1f} deg; known to {:.1f} urad in direction and {:.1f} um in place (one sigma), "
           "{:.0f} um at the reach of {:.2f} m{}",
           values.count(0), values.number(1) / io::kDegree, 1e6 * values.number(2), 1e6 * values.number(3),
           1e6 * values.number(4), values.number(5), more(values, 6));
-    case RemarkId::wide_not_enough:
+    case audit::RemarkId::wide_not_enough:
       return "; does not suffice for identification, wide as it is: take more readings, or reflectors farther "
              "from the axis and along it";
-    case RemarkId::short_arc:
+    case audit::RemarkId::short_arc:
       return fmt::format(", {:.1f} times what as many readings over {:.0f} deg would give; {} for identification",
                          values.number(0), values.number(1) / io::kDegree,
                          values.count(2) != 0 ? "still suffices" : "does not suffice");
-    case RemarkId::smallest_circle:
+    case audit::RemarkId::smallest_circle:
       return fmt::format("the smallest circle has {} readings", values.count(0));
-    case RemarkId::angle_stays:
+    case audit::RemarkId::angle_stays:
       return fmt::format("axis {} reports one and the same angle while its reflectors turn by {:.4g} deg",
                          values.count(0), values.number(1) / io::kDegree);
-    case RemarkId::angle_and_turn:
+    case audit::RemarkId::angle_and_turn:
       return fmt::format(
           "while axis {} reports a turn of {:.4g} deg its reflectors turn by {:.4g} deg{}", values.count(0),
           values.number(1) / io::kDegree, values.number(2) / io::kDegree,
           values.count(3) != 0 ? ": angles in another unit (radians for degrees), or those of another joint" : "");
-    case RemarkId::on_circles:
+    case audit::RemarkId::on_circles:
       return "readings lie on their circles within the noise";
-    case RemarkId::off_circles:
+    case audit::RemarkId::off_circles:
       return fmt::format(
           "readings leave their circles by more than noise: {}; the stated uncertainties of the axes are "
           "widened by it{}",
           joined(values, 0, ", "), more(values, 1));
-    case RemarkId::axis_off_circles:
+    case audit::RemarkId::axis_off_circles:
       return fmt::format("axis {} by {:.1f} um rms, {:.2f} of the noise", values.count(0), 1e6 * values.number(1),
                          values.number(2));
-    case RemarkId::one_reading_off:
+    case audit::RemarkId::one_reading_off:
       return fmt::format("; most of that of axis {} is the one reading {}", values.count(0), values.name(1));
-    case RemarkId::runs_along_sweep:
+    case audit::RemarkId::runs_along_sweep:
       return fmt::format(
           "; that of ax{} {} runs along the sweep, no one reading makes it: the axis moves as it turns, most "
           "often because the own weight bends bearings or links, which joint springs do not describe; "
           "identification goes on",
           values.counts(0).size() == 1 ? "is" : "es", fmt::join(values.counts(0), ", "));
-    case RemarkId::reflectors_agree:
+    case audit::RemarkId::reflectors_agree:
       return fmt::format("reflectors that turn about one axis agree on it within {:.2f} of the difference's sd",
                          values.number(0));
-    case RemarkId::reflectors_disagree:
+    case audit::RemarkId::reflectors_disagree:
       return fmt::format(
           "reflectors that turn about one axis place it apart by {:.2f} of the difference's sd: the own "
           "weight bends more than the joints (bearings, links) or is not what the URDF's masses make it, or "
           "a reflector moved (rigid_tool then shows it too)",
           values.number(0));
-    case RemarkId::well_off_axes:
+    case audit::RemarkId::well_off_axes:
       return "every reflector stands well off the axes";
-    case RemarkId::on_axis:
+    case audit::RemarkId::on_axis:
       return "says next to nothing about the axis it stands on, nor about that joint's stiffness: " +
              joined(values, 0, "; ");
-    case RemarkId::reflector_near_axis:
+    case audit::RemarkId::reflector_near_axis:
       return fmt::format("{} at {:.2f} mm", values.words(0), 1e3 * values.number(1));
-    case RemarkId::axes_apart:
+    case audit::RemarkId::axes_apart:
       return fmt::format("axes {} and {} stand {:.3f} mm apart, {:.3f} mm in the URDF{}", values.count(0),
                          values.count(1), values.number(2) / io::kMillimetre, values.number(3) / io::kMillimetre,
                          values.count(4) != 0
                              ? ": points or angles of the sweeps are in another unit, or the URDF is another machine's"
                              : "");
-    case RemarkId::wrist_residuals:
+    case audit::RemarkId::wrist_residuals:
       return fmt::format(
           "radial residuals of {:.1f} um rms, of which the axes' missing each other leaves {:.1f} um, {:.2f} "
           "of the noise{}",
           1e6 * values.number(0), 1e6 * values.number(1), values.number(2), more(values, 3));
-    case RemarkId::wrist_reading_off:
+    case audit::RemarkId::wrist_reading_off:
       return fmt::format(
           "; farthest {}: a wrong reading, or the own weight bends more than the joints (bearings, links)",
           values.name(0));
-    case RemarkId::wrist_axes_miss:
+    case audit::RemarkId::wrist_axes_miss:
       return wristAxesMiss(values);
-    case RemarkId::wrist_leak:
+    case audit::RemarkId::wrist_leak:
       return fmt::format(": joints 4-6 put {:.2f} % into P_wrist's displacement", 100.0 * values.number(0));
-    case RemarkId::decoupling_needs_one_point:
+    case audit::RemarkId::decoupling_needs_one_point:
       return "; Decoupled Partial Pose takes them to meet in one point";
-    case RemarkId::loading_shifted:
+    case audit::RemarkId::loading_shifted:
       return fmt::format(
           "loading against sweeps: shift of ({}) mm in R0 at the arm and turn of {:.0f} urad, which explains "
           "{:.0f} % of the misfit of the unloaded positions{}",
           millimetres(values.numbers(0), 3), 1e6 * values.number(1), 100.0 * values.number(2), more(values, 3));
-    case RemarkId::tracker_or_robot_moved:
+    case audit::RemarkId::tracker_or_robot_moved:
       return ": tracker or robot moved between sweeps and loading";
-    case RemarkId::positions_miss:
+    case audit::RemarkId::positions_miss:
       return fmt::format(
           "{} unloaded positions miss forward kinematics with sag by {:.3f} mm rms per coordinate, {:.3f} mm "
           "once shift, reflectors, axes and sag are fitted within their uncertainties ({:.2f} of what these "
           "leave open){}",
           values.count(0), 1e3 * values.number(1), 1e3 * values.number(2), values.number(3), more(values, 4));
-    case RemarkId::positions_impossible:
+    case audit::RemarkId::positions_impossible:
       return "; far more than own weight leaves once it is taken off: units, angles or the tracker's place are "
              "wrong in one of the tables";
-    case RemarkId::geometry_does_not_carry:
+    case audit::RemarkId::geometry_does_not_carry:
       return "; the swept geometry does not carry over to the postures: joint zeros, gear errors, or the own "
              "weight bends more than the joints (bearings, links)";
-    case RemarkId::angles_agree:
+    case audit::RemarkId::angles_agree:
       return "reported joint angles agree with what the reflectors say, posture by posture";
-    case RemarkId::angles_stale:
+    case audit::RemarkId::angles_stale:
       return "reported before the arm settled, or stale: " + joined(values, 0, "; ");
-    case RemarkId::joint_off:
+    case audit::RemarkId::joint_off:
       return fmt::format("{} (pose {}: joint {} stands {:.4f} deg from what is reported)", values.name(0),
                          values.name(1), values.count(2), values.number(3) / io::kDegree);
-    case RemarkId::angle_changes:
+    case audit::RemarkId::angle_changes:
       return fmt::format("joint {}'s reported angle changes most, at pose {}, step {}{}", values.count(0),
                          values.name(1), values.count(2),
                          values.count(3) != 0
                              ? ": the servo gives way, and identification counts that as stiffness of the closed loop"
                              : "");
-    case RemarkId::no_angle_changes:
+    case audit::RemarkId::no_angle_changes:
       return "no reported angle changes under load";
-    case RemarkId::comes_back:
+    case audit::RemarkId::comes_back:
       return fmt::format(
           "unloaded again, reflectors stand {:.2f} times as far from step 0 as noise alone; farthest {:.0f} "
           "um at pose {}, step {}{}",
           values.number(0), 1e6 * values.number(1), values.name(2), values.count(3), more(values, 4));
-    case RemarkId::do_not_come_back:
+    case audit::RemarkId::do_not_come_back:
       return fmt::format(
           "; {} of {} postures do not come back{}{}; friction, backlash, a slipping part, or drift that "
           "nests do not show",
           values.remarks(0).size(), values.count(1), values.remarks(0).empty() ? "" : ": ", joined(values, 0, ", "));
-    case RemarkId::posture_off:
+    case audit::RemarkId::posture_off:
       return fmt::format("{} by {:.0f} um", values.name(0), 1e6 * values.number(1));
-    case RemarkId::unloaded_reading:
+    case audit::RemarkId::unloaded_reading:
       return unloadedReading(values);
-    case RemarkId::not_tared:
+    case audit::RemarkId::not_tared:
       return ": not tared, or tared with something on it";
-    case RemarkId::one_pose_off:
+    case audit::RemarkId::one_pose_off:
       return fmt::format("; pose {} is {:.1f} sigma off", values.name(0), values.number(1));
-    case RemarkId::force_off_gravity:
+    case audit::RemarkId::force_off_gravity:
       return fmt::format(
           "a hanging load's force lies {:.2f} mrad rms off gravity, {:.2f} mrad on average, farthest {:.2f} "
           "mrad at pose {}{}",
           1e3 * values.number(0), 1e3 * values.number(1), 1e3 * values.number(2), values.name(3), more(values, 4));
-    case RemarkId::cell_rope_or_base:
+    case audit::RemarkId::cell_rope_or_base:
       return ": load cell turned against its declared axes, a rope that drags, or base_link not level";
-    case RemarkId::moments_of_force:
+    case audit::RemarkId::moments_of_force:
       return fmt::format("moments are those of the force at ({}) mm from the cell's point, but for {:.2f} Nm rms{}",
                          millimetres(values.numbers(0), 1), values.number(1), more(values, 2));
-    case RemarkId::lever_too_long:
+    case audit::RemarkId::lever_too_long:
       return ": no tool is that long, forces (kN for N) or moments (N mm for Nm) are in another unit";
-    case RemarkId::worst_state:
+    case audit::RemarkId::worst_state:
       return fmt::format("; worst at {} (pose {}, step {})", values.name(0), values.name(1), values.count(2));
-    case RemarkId::signs_mend:
+    case audit::RemarkId::signs_mend:
       return fmt::format("; with {} of {} turned round they agree", fmt::join(values.names(0), ", "),
                          values.count(1) != 0 ? "all states" : "that state");
-    case RemarkId::load_moves:
+    case audit::RemarkId::load_moves:
       return fmt::format("{:.4g} N rms move the reflectors by {:.3g} mm rms", values.number(0),
                          values.number(1) / io::kMillimetre);
-    case RemarkId::joint_identifiable:
+    case audit::RemarkId::joint_identifiable:
       return fmt::format("joint {}: identifiable: the load turns it by {:.4g} Nm rms, known to {:.2g} Nm",
                          values.count(0), values.number(1), values.number(2));
-    case RemarkId::joint_not_identifiable:
+    case audit::RemarkId::joint_not_identifiable:
       return fmt::format("joint {}: not identifiable: {}", values.count(0), values.words(1));
-    case RemarkId::joint_missing:
+    case audit::RemarkId::joint_missing:
       return fmt::format("; joint {}: {}", values.count(0), values.words(1));
-    case RemarkId::no_joint_identified:
+    case audit::RemarkId::no_joint_identified:
       return "no joint can be identified" + more(values, 0);
-    case RemarkId::joints_identified:
+    case audit::RemarkId::joints_identified:
       return fmt::format(
           "{} postures at load step {} identify joints {} with a condition number of {:.3g} of their equations{}",
           values.count(0), values.count(1), fmt::join(values.counts(2), ", "), values.number(3), more(values, 4));
-    case RemarkId::effects_apart:
+    case audit::RemarkId::effects_apart:
       return fmt::format("effects that could be told apart: {}", fmt::join(values.names(0), ", "));
-    case RemarkId::effects_alike:
+    case audit::RemarkId::effects_alike:
       return fmt::format("effects that could not always be told apart: {}", fmt::join(values.names(0), " or "));
-    case RemarkId::effects_not_testable:
+    case audit::RemarkId::effects_not_testable:
       return fmt::format("effects that cannot be tested here (diagnose says what is missing): {}",
                          fmt::join(values.names(0), ", "));
   }

@@ -6,69 +6,67 @@
 
 namespace stiffscope::reports {
 
-using preparation::RemarkId;
-
-std::string preparationWords(RemarkId id, const RemarkValues& values) {
+std::string preparationWords(preparation::RemarkId id, const RemarkValues& values) {
   switch (id) {
-    case RemarkId::at_name:
+    case preparation::RemarkId::at_name:
       return values.name(0);
-    case RemarkId::by_chance:
+    case preparation::RemarkId::by_chance:
       return values.words(0) + kChanceIsShared;
-    case RemarkId::no_point_readings:
+    case preparation::RemarkId::no_point_readings:
       return "no readings of points: measure `circle_sweeps`, `wrist_sweep` or `loading`";
-    case RemarkId::no_loading:
+    case preparation::RemarkId::no_loading:
       return "no absolute readings under load: measure `loading`";
-    case RemarkId::no_repeats:
+    case preparation::RemarkId::no_repeats:
       return "no state was read more than once: measure each at least twice";
-    case RemarkId::tracker_noise_not_declared:
+    case preparation::RemarkId::tracker_noise_not_declared:
       return "the tracker's noise is not declared: state `tracker` in campaign.xml";
-    case RemarkId::no_floor_nests:
+    case preparation::RemarkId::no_floor_nests:
       return "no floor nests: measure three or more before, during and after the day (`nests`)";
-    case RemarkId::too_few_nests:
+    case preparation::RemarkId::too_few_nests:
       return "three nests that do not stand in one line, in two rounds or more, are needed";
-    case RemarkId::beam_lost:
+    case preparation::RemarkId::beam_lost:
       return "lost beam: the point is (0, 0, 0)";
-    case RemarkId::same_as_line:
+    case preparation::RemarkId::same_as_line:
       return fmt::format("the same point to the last digit as line {}", values.count(0));
-    case RemarkId::stands_from_state:
+    case preparation::RemarkId::stands_from_state:
       return fmt::format("stands {:.3f} mm from the mean of its state's other repeats", 1e3 * values.number(0));
-    case RemarkId::no_such_readings:
+    case preparation::RemarkId::no_such_readings:
       return "none";
-    case RemarkId::readings_at_zero:
+    case preparation::RemarkId::readings_at_zero:
       return fmt::format("{} readings at (0, 0, 0): the beam was lost", values.count(0));
-    case RemarkId::readings_repeated:
+    case preparation::RemarkId::readings_repeated:
       return fmt::format(
           "{} readings repeat another's coordinates to the last digit: copied, or the beam still on another reflector",
           values.count(0));
-    case RemarkId::repeats_stand_apart:
+    case preparation::RemarkId::repeats_stand_apart:
       return fmt::format("{} repeats stand apart from the others of their state", values.count(0));
-    case RemarkId::nothing_inside_station:
+    case preparation::RemarkId::nothing_inside_station:
       return "no reflector stands inside the station";
-    case RemarkId::no_chance_of_same_digits:
+    case preparation::RemarkId::no_chance_of_same_digits:
       return "two readings do not agree to the last digit by chance";
-    case RemarkId::chi_square_of_repeat:
+    case preparation::RemarkId::chi_square_of_repeat:
       return "chi-square of a reading against its state's others, three coordinates";
-    case RemarkId::station_stood_still:
+    case preparation::RemarkId::station_stood_still:
       return fmt::format("{} rounds, the tracker stood still", values.count(0));
-    case RemarkId::nests_deform:
+    case preparation::RemarkId::nests_deform:
       return "the nests themselves moved against each other, more than one of them: they are no reference";
-    case RemarkId::station_jumped:
+    case preparation::RemarkId::station_jumped:
       return fmt::format("the tracker moved once, by {:.3f} mm where the arm was read", 1e3 * values.number(0));
-    case RemarkId::station_wandered:
+    case preparation::RemarkId::station_wandered:
       return fmt::format("the tracker wandered, by {:.3f} mm where the arm was read", 1e3 * values.number(0));
-    case RemarkId::no_motion_beyond_noise:
+    case preparation::RemarkId::no_motion_beyond_noise:
       return "the nests show no motion of the station beyond their noise";
-    case RemarkId::as_measured_asked_for:
+    case preparation::RemarkId::as_measured_asked_for:
       return "readings as they were measured were asked for";
-    case RemarkId::raw_asked_for:
+    case preparation::RemarkId::raw_asked_for:
       return "raw readings were asked for";
-    case RemarkId::noise_not_declared:
+    case preparation::RemarkId::noise_not_declared:
       return "the tracker's noise is not declared";
-    case RemarkId::noise_as_declared:
+    case preparation::RemarkId::noise_as_declared:
       return "the tracker's declared noise";
-    case RemarkId::noise_as_declared_few_repeats:
+    case preparation::RemarkId::noise_as_declared_few_repeats:
       return "the tracker's declared noise, because there are too few repeats to check it";
-    case RemarkId::noise_by_repeats:
+    case preparation::RemarkId::noise_by_repeats:
       return fmt::format("repeats ({} degrees of freedom), {:.2f} of the declared noise along the beam, {:.2f} across",
                          values.count(0), values.number(1), values.number(2));
   }
