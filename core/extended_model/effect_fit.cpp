@@ -11,7 +11,6 @@
 #include "core/diagnosis/localization.h"
 #include "core/diagnosis/preconditions.h"
 #include "core/effects/all.h"
-#include "core/extended_model/corrected_campaign.h"
 #include "metrology/linear_algebra.h"
 
 namespace stiffscope::extended_model {

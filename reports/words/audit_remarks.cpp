@@ -4,6 +4,7 @@
 
 #include "core/audit/remarks.h"
 #include "core/io/units.h"
+#include "reports/words/remark_words.h"
 #include "reports/words/remarks.h"
 
 namespace stiffscope::reports {
@@ -109,10 +110,10 @@ std::string auditWords(audit::RemarkId id, const RemarkValues& values) {
     case audit::RemarkId::student_between_postures:
       return "Student's t by the median absolute deviation between postures";
     case audit::RemarkId::places_or_chance:
-      return "how far identification trusts places (0.2 mm); or, where that is larger, " + values.words(0);
+      return "how far identification trusts places (0.2 mm); or, where that is larger, " + words(values.remark(0));
     case audit::RemarkId::third_of_places_or_chance:
       return "a third of the 0.2 mm to which identification trusts places; or, where that is larger, " +
-             values.words(0);
+             words(values.remark(0));
     case audit::RemarkId::order_of_format:
       return "later steps follow in time (campaign format)";
     case audit::RemarkId::what_most_have:
@@ -199,7 +200,7 @@ std::string auditWords(audit::RemarkId id, const RemarkValues& values) {
     case audit::RemarkId::few_postures_to_compare:
       return fmt::format("fewer than {} postures to compare", values.count(0));
     case audit::RemarkId::axis_not_measured:
-      return fmt::format("axis {}: {}", values.count(0), values.words(1));
+      return fmt::format("axis {}: {}", values.count(0), words(values.remark(1)));
     case audit::RemarkId::no_neighbouring_axes:
       return "no two neighbouring axes with circle sweeps";
     case audit::RemarkId::no_sweep_below_whole_turn:
@@ -274,7 +275,7 @@ std::string auditWords(audit::RemarkId id, const RemarkValues& values) {
     case audit::RemarkId::motion_taken_off:
       return "; readings with a time are referred to the first round, here and in identification";
     case audit::RemarkId::motion_not_taken_off:
-      return "; not taken off the readings: " + values.words(0);
+      return "; not taken off the readings: " + words(values.remark(0));
     case audit::RemarkId::nests_left:
       return fmt::format("what no motion of the station explains is {:.2f} of the noise{}", values.number(0),
                          more(values, 1));
@@ -340,7 +341,7 @@ std::string auditWords(audit::RemarkId id, const RemarkValues& values) {
       return "says next to nothing about the axis it stands on, nor about that joint's stiffness: " +
              joined(values, 0, "; ");
     case audit::RemarkId::reflector_near_axis:
-      return fmt::format("{} at {:.2f} mm", values.words(0), 1e3 * values.number(1));
+      return fmt::format("{} at {:.2f} mm", words(values.remark(0)), 1e3 * values.number(1));
     case audit::RemarkId::axes_apart:
       return fmt::format("axes {} and {} stand {:.3f} mm apart, {:.3f} mm in the URDF{}", values.count(0),
                          values.count(1), values.number(2) / io::kMillimetre, values.number(3) / io::kMillimetre,
@@ -438,9 +439,9 @@ std::string auditWords(audit::RemarkId id, const RemarkValues& values) {
       return fmt::format("joint {}: identifiable: the load turns it by {:.4g} Nm rms, known to {:.2g} Nm",
                          values.count(0), values.number(1), values.number(2));
     case audit::RemarkId::joint_not_identifiable:
-      return fmt::format("joint {}: not identifiable: {}", values.count(0), values.words(1));
+      return fmt::format("joint {}: not identifiable: {}", values.count(0), words(values.remark(1)));
     case audit::RemarkId::joint_missing:
-      return fmt::format("; joint {}: {}", values.count(0), values.words(1));
+      return fmt::format("; joint {}: {}", values.count(0), words(values.remark(1)));
     case audit::RemarkId::no_joint_identified:
       return "no joint can be identified" + more(values, 0);
     case audit::RemarkId::joints_identified:

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "core/io/units.h"
+#include "reports/words/remark_words.h"
 #include "reports/words/remarks.h"
 
 namespace stiffscope::reports {
@@ -46,11 +47,11 @@ std::string comparisonWords(comparison::RemarkId id, const RemarkValues& values)
     case few_correspond:
       return fmt::format("only {} of {} postures correspond", values.count(0), values.count(1));
     case nothing_comparable:
-      return fmt::format("{}; {}", values.words(0), values.words(1));
+      return fmt::format("{}; {}", words(values.remark(0)), words(values.remark(1)));
     case of_one_campaign:
-      return fmt::format("{}: {}", when(0), values.words(1));
+      return fmt::format("{}: {}", when(0), words(values.remark(1)));
     case not_identifiable:
-      return fmt::format("not identifiable {}: {}", when(0), values.words(1));
+      return fmt::format("not identifiable {}: {}", when(0), words(values.remark(1)));
     case no_joint_in_both:
       return "no joint is identifiable in both campaigns";
     case no_posture_in_both:
@@ -60,7 +61,7 @@ std::string comparisonWords(comparison::RemarkId id, const RemarkValues& values)
     case wrist_not_measured:
       return fmt::format("P_wrist is not measured {}", when(0));
     case left_out:
-      return fmt::format("left out {}: {}", when(0), values.words(1));
+      return fmt::format("left out {}: {}", when(0), words(values.remark(1)));
     case not_measured:
       return fmt::format("not measured {}", when(0));
     case no_load_state:

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "core/io/units.h"
+#include "reports/words/remark_words.h"
 #include "reports/words/remarks.h"
 
 namespace stiffscope::reports {
@@ -35,11 +36,11 @@ std::string diagnosisWords(diagnosis::RemarkId id, const RemarkValues& values) {
   using enum diagnosis::RemarkId;
   switch (id) {
     case readings_not_in_robot_frame:
-      return "the readings cannot be brought into the robot's frame: " + values.words(0);
+      return "the readings cannot be brought into the robot's frame: " + words(values.remark(0));
     case no_usable_posture:
       return "no posture has readings unloaded and under load that can be brought into the robot's frame";
     case noise_not_known:
-      return values.words(0) + ": effects cannot be told from noise; state `tracker`";
+      return words(values.remark(0)) + ": effects cannot be told from noise; state `tracker`";
     case geometry_needs_positions:
       return "absolute unloaded positions (`loading`, or circle sweeps of all axes) are needed";
     case fitted_parts:
@@ -64,7 +65,7 @@ std::string diagnosisWords(diagnosis::RemarkId id, const RemarkValues& values) {
           1e3 * values.number(0), 1e3 * values.number(1));
     case follows_from_geometry:
       return fmt::format("Besides, what looks like {} ({}) is no more than the wrong geometry puts there.",
-                         values.name(0), values.words(1));
+                         values.name(0), words(values.remark(1)));
     case deflection_not_explained:
       return fmt::format(
           "Besides, {:.1f} um rms of the deflection at the largest load are explained by no effect of the vocabulary.",
@@ -74,7 +75,7 @@ std::string diagnosisWords(diagnosis::RemarkId id, const RemarkValues& values) {
           "Besides, {:.1f} um rms of the unloaded positions are explained by no effect (limit {:.1f} um).",
           1e6 * values.number(0), 1e6 * values.number(1));
     case floor_nests:
-      return fmt::format("Floor nests: {}.", values.words(0));
+      return fmt::format("Floor nests: {}.", words(values.remark(0)));
     case positions_take_part:
       return fmt::format("Unloaded absolute positions{} take part in every fit.",
                          values.count(0) != 0 ? " and the sweeps" : "");

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "reports/words/remark_words.h"
 #include "reports/words/remarks.h"
 
 namespace stiffscope::reports {
@@ -11,7 +12,7 @@ std::string extendedModelWords(extended_model::RemarkId id, const RemarkValues& 
   using enum extended_model::RemarkId;
   switch (id) {
     case diagnosis_has_no_gap:
-      return "the diagnosis has no gap to look at, so nothing is added: " + values.words(0);
+      return "the diagnosis has no gap to look at, so nothing is added: " + words(values.remark(0));
     case diagnosis_names_none:
       return "the diagnosis names no effect: nothing is added";
     case diagnosis_finds_unknown:
@@ -23,9 +24,9 @@ std::string extendedModelWords(extended_model::RemarkId id, const RemarkValues& 
       return fmt::format("{} is added because it fits best; this data cannot tell it from {}", values.name(0),
                          fmt::join(values.names(1), " or "));
     case no_gap_to_fit:
-      return "there is no gap to fit it to: " + values.words(0);
+      return "there is no gap to fit it to: " + words(values.remark(0));
     case lacks_what_shows_it:
-      return "this campaign cannot show that effect: " + values.words(0);
+      return "this campaign cannot show that effect: " + words(values.remark(0));
     case not_told_from_stiffnesses:
       return "these postures and loads cannot tell it from stiffnesses and geometry, or only with sizes that no "
              "machine has";

@@ -2,6 +2,7 @@
 #include <array>
 
 #include "core/frames/remarks.h"
+#include "reports/words/remark_words.h"
 #include "reports/words/remarks.h"
 
 namespace stiffscope::reports {
@@ -51,7 +52,7 @@ std::string framesWords(frames::RemarkId id, const RemarkValues& values) {
     case RemarkId::tracker_noise_not_declared:
       return "the tracker's noise is not declared: state `tracker` in campaign.xml";
     case RemarkId::axis_not_measured:
-      return fmt::format("axis {} is not measured: {}", values.count(0), values.words(1));
+      return fmt::format("axis {} is not measured: {}", values.count(0), words(values.remark(1)));
     case RemarkId::loading_in_other_frame:
       return "the loading's readings are in another frame than the sweeps'";
   }

@@ -7,6 +7,7 @@
 #include "core/identification/remarks.h"
 #include "core/identification/warnings.h"
 #include "core/io/units.h"
+#include "reports/words/remark_words.h"
 #include "reports/words/remarks.h"
 
 namespace stiffscope::reports {
@@ -96,18 +97,18 @@ std::string identificationWords(identification::RemarkId id, const RemarkValues&
       return "P_wrist needs absolute readings of three reflectors of known radius in every posture: measure `loading` "
              "and the wrist sweep with three";
     case RemarkId::wrist_centre_not_measured:
-      return "the wrist centre is not measured: " + values.words(0);
+      return "the wrist centre is not measured: " + words(values.remark(0));
     case RemarkId::wrist_sweep_wanted:
-      return values.words(0) + "; measure a wrist sweep (axes 4-6 moving) and `loading` with three reflectors";
+      return words(values.remark(0)) + "; measure a wrist sweep (axes 4-6 moving) and `loading` with three reflectors";
     case RemarkId::wrist_sweep_wanted_too:
-      return values.words(0) + "; and P_wrist needs a wrist sweep (axes 4-6 moving) with three reflectors";
+      return words(values.remark(0)) + "; and P_wrist needs a wrist sweep (axes 4-6 moving) with three reflectors";
     case RemarkId::wrist_axes_apart:
       return fmt::format(
           "the wrist's axes do not meet (4 and 5 miss by {:.3f} mm, 5 and 6 by {:.3f} mm): turning in joints 4-6 moves "
           "P_wrist by {:.1f} % of its displacement, more than the {:.0f} % that decoupling bears",
           1e3 * values.number(0), 1e3 * values.number(1), 100.0 * values.number(2), 100.0 * values.number(3));
     case RemarkId::geometry_not_calibrated:
-      return "the geometry cannot be calibrated: " + values.words(0);
+      return "the geometry cannot be calibrated: " + words(values.remark(0));
     case RemarkId::displacements_by_model_only:
       return "the campaign has displacements only, no absolute positions: the URDF's geometry stands";
     case RemarkId::points_on_axis:
@@ -139,7 +140,7 @@ std::string identificationWords(identification::RemarkId id, const RemarkValues&
       return fmt::format("disagrees with the other postures by {:.0f} µm per coordinate, {:.1f} times theirs",
                          values.number(0) / io::kMicrometre, values.number(1));
     case RemarkId::in_step:
-      return fmt::format("{} (step {})", values.words(0), values.count(1));
+      return fmt::format("{} (step {})", words(values.remark(0)), values.count(1));
     case RemarkId::geometry_missed:
       return fmt::format(
           "the unloaded reflectors stand {:.0f} mm rms from where sweeps and joint angles put them: units, angles or "

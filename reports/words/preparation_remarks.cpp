@@ -2,6 +2,7 @@
 
 #include "core/preparation/remarks.h"
 #include "reports/words/preparation_words.h"
+#include "reports/words/remark_words.h"
 #include "reports/words/remarks.h"
 
 namespace stiffscope::reports {
@@ -11,7 +12,7 @@ std::string preparationWords(preparation::RemarkId id, const RemarkValues& value
     case preparation::RemarkId::at_name:
       return values.name(0);
     case preparation::RemarkId::by_chance:
-      return values.words(0) + kChanceIsShared;
+      return words(values.remark(0)) + kChanceIsShared;
     case preparation::RemarkId::no_point_readings:
       return "no readings of points: measure `circle_sweeps`, `wrist_sweep` or `loading`";
     case preparation::RemarkId::no_loading:

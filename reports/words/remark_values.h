@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "metrology/remark.h"
-#include "reports/words/remark_words.h"
 
 namespace stiffscope::reports {
 
@@ -24,8 +23,8 @@ class RemarkValues {
   const std::vector<std::int64_t>& counts(std::size_t place) const { return get<std::vector<std::int64_t>>(place); }
   const std::vector<std::string>& names(std::size_t place) const { return get<std::vector<std::string>>(place); }
   const std::vector<Remark>& remarks(std::size_t place) const { return get<std::vector<Remark>>(place); }
-  /// Of the only remark at this place, in words.
-  std::string words(std::size_t place) const { return reports::words(remarks(place).at(0)); }
+  /// The only one at this place.
+  const Remark& remark(std::size_t place) const { return remarks(place).at(0); }
 
  private:
   template <class Value>

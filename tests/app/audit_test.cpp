@@ -6,7 +6,7 @@
 #include "tests/app/command.h"
 
 namespace stiffscope {
-namespace {
+namespace audit_test {
 
 namespace fs = std::filesystem;
 
@@ -85,5 +85,5 @@ TEST(AuditCommand, WhatCannotBeIsNotSearchedForEffects) {
             std::string::npos);
 }
 
-}  // namespace
+}  // namespace audit_test
 }  // namespace stiffscope

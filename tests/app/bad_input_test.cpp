@@ -6,7 +6,7 @@
 #include "tests/app/command.h"
 
 namespace stiffscope {
-namespace {
+namespace bad_input_test {
 
 namespace fs = std::filesystem;
 
@@ -159,5 +159,5 @@ TEST(BadInput, AnUnreadableFileIsNamed) {
   EXPECT_NE(ran.err.find("campaign.xml"), std::string::npos) << ran.err;
 }
 
-}  // namespace
+}  // namespace bad_input_test
 }  // namespace stiffscope

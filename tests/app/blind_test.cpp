@@ -5,7 +5,7 @@
 #include "tests/app/command.h"
 
 namespace stiffscope {
-namespace {
+namespace blind_test {
 
 namespace fs = std::filesystem;
 
@@ -34,5 +34,5 @@ TEST(Blind, RefusesNoCases) {
   EXPECT_NE(ran.err.find("--cases"), std::string::npos) << ran.err;
 }
 
-}  // namespace
+}  // namespace blind_test
 }  // namespace stiffscope

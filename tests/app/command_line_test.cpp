@@ -6,7 +6,7 @@
 #include "tests/app/command.h"
 
 namespace stiffscope {
-namespace {
+namespace command_line_test {
 
 const std::string kActive = STIFFSCOPE_SOURCE_DIR "/samples/active";
 
@@ -212,5 +212,5 @@ TEST(CommandLine, RefusesValuesThatNobodyMeans) {
   }
 }
 
-}  // namespace
+}  // namespace command_line_test
 }  // namespace stiffscope

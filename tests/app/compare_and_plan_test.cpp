@@ -6,7 +6,7 @@
 #include "tests/app/command.h"
 
 namespace stiffscope {
-namespace {
+namespace compare_and_plan_test {
 
 const std::string kInactive = STIFFSCOPE_SOURCE_DIR "/samples/inactive";
 const std::string kActive = STIFFSCOPE_SOURCE_DIR "/samples/active";
@@ -83,5 +83,5 @@ TEST(PlanCommand, PlansBeforeTheDayForCompensateAndTheSimulator) {
   EXPECT_NE(written.find("pull=\""), std::string::npos);
 }
 
-}  // namespace
+}  // namespace compare_and_plan_test
 }  // namespace stiffscope

@@ -9,7 +9,7 @@
 #include "tests/reports/small_result.h"
 
 namespace stiffscope {
-namespace {
+namespace figures_test {
 
 reports::ReportCampaign of(const SmallResult& small) { return {small.campaign, small.identification}; }
 
@@ -154,5 +154,5 @@ TEST(Figures, APracticeCampaignFillsAPage) {
   EXPECT_DOUBLE_EQ(chart.series[0].values[3], 1e3 * identification.wrist_displacement[3]);
 }
 
-}  // namespace
+}  // namespace figures_test
 }  // namespace stiffscope

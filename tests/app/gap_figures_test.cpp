@@ -13,7 +13,7 @@
 #include "tests/reports/small_result.h"
 
 namespace stiffscope {
-namespace {
+namespace gap_figures_test {
 
 /// bearing_tilt of joints 2 and 3 is present and can look like link_compliance; hysteresis is not testable.
 diagnosis::Diagnosis byHand() {
@@ -163,5 +163,5 @@ TEST(WithMicro, WholeWordsOnly) {
   EXPECT_EQ(reports::withMicro("maximum sum of drum_1"), "maximum sum of drum_1");
 }
 
-}  // namespace
+}  // namespace gap_figures_test
 }  // namespace stiffscope

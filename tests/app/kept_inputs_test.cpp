@@ -3,7 +3,7 @@
 #include "tests/app/command.h"
 
 namespace stiffscope {
-namespace {
+namespace kept_inputs_test {
 
 namespace fs = std::filesystem;
 
@@ -76,5 +76,5 @@ TEST_F(KeptInputs, ASimulationReplacesACampaignWhereAskedTo) {
   EXPECT_FALSE(contentsOf(campaign_ / "campaign.xml") == before);
 }
 
-}  // namespace
+}  // namespace kept_inputs_test
 }  // namespace stiffscope

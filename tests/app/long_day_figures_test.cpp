@@ -10,7 +10,7 @@
 #include "tests/reports/small_result.h"
 
 namespace stiffscope {
-namespace {
+namespace long_day_figures_test {
 
 constexpr std::size_t kPostures = 1000, kFarthest = 617;
 
@@ -125,5 +125,5 @@ TEST(LongDay, EachReflectorOfAWristSweepIsDrawnWhereTheyTakeTurns) {
             std::string::npos);
 }
 
-}  // namespace
+}  // namespace long_day_figures_test
 }  // namespace stiffscope

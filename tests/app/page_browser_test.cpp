@@ -9,7 +9,7 @@
 #include "tests/app/browser.h"
 
 namespace stiffscope {
-namespace {
+namespace page_browser_test {
 
 /// Measures what is drawn and writes it into the page as JSON. Text is measured by its own boxes; two overlap
 /// where they share more than a pixel each way and neither holds the other.
@@ -170,5 +170,5 @@ TEST_F(PageInABrowser, PrintsOnFullPagesWithItsIdOnEach) {
   EXPECT_EQ(half_empty, 0);
 }
 
-}  // namespace
+}  // namespace page_browser_test
 }  // namespace stiffscope

@@ -5,7 +5,7 @@
 #include "tests/app/command.h"
 
 namespace stiffscope {
-namespace {
+namespace page_determinism_test {
 
 std::map<std::string, std::string> filesIn(const std::filesystem::path& folder) {
   std::map<std::string, std::string> files;
@@ -38,5 +38,5 @@ TEST(PageTwice, TheSameCampaignGivesTheSameBytes) {
   EXPECT_LT(first.at("report.html").size(), 5'000'000u);
 }
 
-}  // namespace
+}  // namespace page_determinism_test
 }  // namespace stiffscope

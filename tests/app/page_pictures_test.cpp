@@ -9,7 +9,7 @@
 #include "core/campaign/read_campaign.h"
 
 namespace stiffscope {
-namespace {
+namespace page_pictures_test {
 
 /// The sample with the double encoders active, and its figures.
 struct Sample {
@@ -142,5 +142,5 @@ TEST(NewFigures, NothingToShowWithoutItsData) {
   EXPECT_FALSE(app::stationDrift(report, app::stationMotionOf(bare)).has_value());
 }
 
-}  // namespace
+}  // namespace page_pictures_test
 }  // namespace stiffscope

@@ -7,7 +7,7 @@
 // What the audit finds reaches the other commands, and --raw keeps it from them.
 
 namespace stiffscope {
-namespace {
+namespace preparation_test {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
@@ -87,5 +87,5 @@ TEST(Preparation, AnUnknownStepListsThoseThereAre) {
   EXPECT_NE(ran.err.find("'9': not a load step of this campaign, which has 1, 2, 3, 4"), std::string::npos) << ran.err;
 }
 
-}  // namespace
+}  // namespace preparation_test
 }  // namespace stiffscope

@@ -8,7 +8,7 @@
 // The report's folder: what is written, and what of an earlier report is taken away.
 
 namespace stiffscope {
-namespace {
+namespace report_test {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
@@ -120,5 +120,5 @@ TEST(Frames, NominalValuesAreMarked) {
   EXPECT_NE(text.out.find("1-2"), std::string::npos);
 }
 
-}  // namespace
+}  // namespace report_test
 }  // namespace stiffscope

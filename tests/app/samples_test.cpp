@@ -3,7 +3,7 @@
 #include "tests/app/command.h"
 
 namespace stiffscope {
-namespace {
+namespace samples_test {
 
 namespace fs = std::filesystem;
 
@@ -24,5 +24,5 @@ TEST(Samples, AreWhatTheirSpecificationsMake) {
   }
 }
 
-}  // namespace
+}  // namespace samples_test
 }  // namespace stiffscope

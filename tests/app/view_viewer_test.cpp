@@ -6,7 +6,7 @@
 #include "tests/reports/small_result.h"
 
 namespace stiffscope {
-namespace {
+namespace view_viewer_test {
 
 /// Three postures under one step of the result made by hand, and what the viewer asks of its window.
 struct Hand {
@@ -216,5 +216,5 @@ TEST(SweepMaterial, SaysWhyThereIsNothing) {
   EXPECT_NE(material.lacking.find("neither loads nor circle sweeps"), std::string::npos);
 }
 
-}  // namespace
+}  // namespace view_viewer_test
 }  // namespace stiffscope

@@ -13,7 +13,7 @@ TEST(ViewWindow, IsNotBuilt) { GTEST_SKIP() << "stiffscope-view or the XTest lib
 #include "tests/app/view_session.h"
 
 namespace stiffscope {
-namespace {
+namespace view_window_test {
 
 const std::string kActive = STIFFSCOPE_SOURCE_DIR "/samples/active";
 
@@ -260,7 +260,7 @@ TEST(ViewWindow, ScreenshotsOfLoadsAndOfSweepsAlone) {
   EXPECT_NE(posture.err.find("not a posture of this campaign"), std::string::npos) << posture.err;
 }
 
-}  // namespace
+}  // namespace view_window_test
 }  // namespace stiffscope
 
 #endif

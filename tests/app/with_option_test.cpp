@@ -5,7 +5,7 @@
 #include "tests/app/command.h"
 
 namespace stiffscope {
-namespace {
+namespace with_option_test {
 
 const std::string kActive = "'" STIFFSCOPE_SOURCE_DIR "/samples/active'";
 
@@ -109,5 +109,5 @@ TEST(WithOption, TheReportIsOfTheImprovedModel) {
   EXPECT_NE(page.find("in the model DPP leaves 9 µm rms"), std::string::npos);
 }
 
-}  // namespace
+}  // namespace with_option_test
 }  // namespace stiffscope

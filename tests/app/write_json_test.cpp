@@ -6,7 +6,7 @@
 #include <string>
 
 namespace stiffscope {
-namespace {
+namespace write_json_test {
 
 reports::Json row(int i) {
   return {{"pose", "p" + std::to_string(i)}, {"text", "two\nlines, \"quoted\", \xC2\xB5m"},
@@ -63,5 +63,5 @@ TEST(WriteJson, WritesRowsMadeOnTheWayAsIfTheyHadStoodThere) {
   }
 }
 
-}  // namespace
+}  // namespace write_json_test
 }  // namespace stiffscope

@@ -7,7 +7,7 @@
 #include "tests/metrology/simulated_points.h"
 
 namespace stiffscope {
-namespace {
+namespace axis_fit_test {
 
 const Eigen::Vector3d kCentre(2.1, -1.3, 0.8);
 const Eigen::Vector3d kAxis = Eigen::Vector3d(0.3, -0.2, 0.9).normalized();
@@ -246,5 +246,5 @@ TEST(FitAxis, PublishedExactCircles) {
   EXPECT_FALSE(metrology::fitAxis({line}).determined);
 }
 
-}  // namespace
+}  // namespace axis_fit_test
 }  // namespace stiffscope

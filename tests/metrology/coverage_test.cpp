@@ -14,7 +14,7 @@
 // where above 1, adds about 1 % (here 68 and 54 degrees of freedom).
 
 namespace stiffscope {
-namespace {
+namespace coverage_test {
 
 constexpr int kFits = 2000;
 constexpr double kChiSquare3 = 7.8147, kChiSquare4 = 9.4877;  // 95 % quantiles
@@ -205,5 +205,5 @@ TEST(Coverage, CylinderAxes) {
   }
 }
 
-}  // namespace
+}  // namespace coverage_test
 }  // namespace stiffscope

@@ -14,7 +14,7 @@
 #include "tests/metrology/simulated_points.h"
 
 namespace stiffscope {
-namespace {
+namespace fits_test {
 
 using Points = std::vector<Eigen::Vector3d>;
 
@@ -316,5 +316,5 @@ TEST(Fits, OpenIndyVectorsWithinTheirOwnTolerances) {
   EXPECT_GE(compared, 10);
 }
 
-}  // namespace
+}  // namespace fits_test
 }  // namespace stiffscope

@@ -6,7 +6,7 @@
 #include "tests/metrology/simulated_points.h"
 
 namespace stiffscope {
-namespace {
+namespace lines_test {
 
 TEST(CommonPerpendicular, ByHand) {
   // The x axis, and a line along y three above it at x = 2.
@@ -108,5 +108,5 @@ TEST(MeasuredLine, MovedByItsParameters) {
   EXPECT_LT((u.cross(v) - direction).norm(), 1e-15);
 }
 
-}  // namespace
+}  // namespace lines_test
 }  // namespace stiffscope

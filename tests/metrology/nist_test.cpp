@@ -21,7 +21,7 @@
 // data about their mean, directions against 1.
 
 namespace stiffscope {
-namespace {
+namespace nist_test {
 
 constexpr double kTolerance = 1e-11;
 
@@ -148,5 +148,5 @@ TEST(Nist, CirclesInAPlane) {
   compareCircles("Circle2d", metrology::CircleStrategy::plane_first);
 }
 
-}  // namespace
+}  // namespace nist_test
 }  // namespace stiffscope

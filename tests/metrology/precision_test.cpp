@@ -15,7 +15,7 @@
 // 1e-14 of the radius.
 
 namespace stiffscope {
-namespace {
+namespace precision_test {
 
 using Real = long double;
 using Vector = Eigen::Matrix<Real, 3, 1>;
@@ -169,5 +169,5 @@ TEST(Precision, CylindersOnShortArcsFarAway) {
   std::printf("cylinders against long double: axis %.2f of what is allowed\n", worst);
 }
 
-}  // namespace
+}  // namespace precision_test
 }  // namespace stiffscope

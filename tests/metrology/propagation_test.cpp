@@ -4,7 +4,7 @@
 #include "tests/metrology/simulated_points.h"
 
 namespace stiffscope {
-namespace {
+namespace propagation_test {
 
 metrology::MeasuredLine someLine() {
   metrology::MeasuredLine line;
@@ -69,5 +69,5 @@ TEST(FrameError, AFrameTurnedByHand) {
   EXPECT_LT((metrology::vectorByFrameError(x) * error - Eigen::Vector3d(0, -1e-3, 0)).norm(), 1e-9);
 }
 
-}  // namespace
+}  // namespace propagation_test
 }  // namespace stiffscope

@@ -8,7 +8,7 @@
 #include "tests/metrology/simulated_points.h"
 
 namespace stiffscope {
-namespace {
+namespace rigid_registration_test {
 
 using Points = std::vector<Eigen::Vector3d>;
 
@@ -203,5 +203,5 @@ TEST(RegisterRigid, WeightsPullTowardsThePrecisePairs) {
   EXPECT_FALSE(metrology::registerRigid(source, to, covariances).determined);
 }
 
-}  // namespace
+}  // namespace rigid_registration_test
 }  // namespace stiffscope

@@ -10,7 +10,7 @@
 #include "tests/metrology/simulated_points.h"
 
 namespace stiffscope {
-namespace {
+namespace robust_fit_test {
 
 const Eigen::Vector3d kCentre(2.1, -1.3, 0.8);
 const Eigen::Vector3d kAxis = Eigen::Vector3d(0.3, -0.2, 0.9).normalized();
@@ -226,5 +226,5 @@ TEST(FitRobustly, SaysWhereItCannotTellWhichAreWrong) {
   EXPECT_TRUE(robust.fit.reason.is(metrology::RemarkId::readings_contradict)) << reports::words(robust.fit.reason);
 }
 
-}  // namespace
+}  // namespace robust_fit_test
 }  // namespace stiffscope

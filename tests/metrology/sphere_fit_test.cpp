@@ -7,7 +7,7 @@
 #include "tests/metrology/simulated_points.h"
 
 namespace stiffscope {
-namespace {
+namespace sphere_fit_test {
 
 const Eigen::Vector3d kCentre(2.1, -1.3, 0.8);
 
@@ -124,5 +124,5 @@ TEST(FitSpheres, NistReferenceSpheres) {
   EXPECT_GT(pairs, 5);
 }
 
-}  // namespace
+}  // namespace sphere_fit_test
 }  // namespace stiffscope

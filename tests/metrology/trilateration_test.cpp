@@ -6,7 +6,7 @@
 #include "tests/metrology/simulated_points.h"
 
 namespace stiffscope {
-namespace {
+namespace trilateration_test {
 
 using Points = std::array<Eigen::Vector3d, 3>;
 using Radii = std::array<double, 3>;
@@ -128,5 +128,5 @@ TEST(Trilaterate, PublishedPlaneCaseFindsTheTruthNotTheMirrorMinimum) {
   for (const Eigen::Vector3d& root : both->roots) EXPECT_LT((root - truth).norm(), 1e-6);  // root of rounding, 1e-13
 }
 
-}  // namespace
+}  // namespace trilateration_test
 }  // namespace stiffscope

@@ -7,7 +7,7 @@
 #include "tests/render/picture.h"
 
 namespace stiffscope {
-namespace {
+namespace arm_scene_test {
 
 using Eigen::Vector3d;
 
@@ -255,5 +255,5 @@ TEST(ArmPicture, RefusesWhatCannotBeDrawn) {
   EXPECT_THROW(render::render(render::ArmScene{}), std::invalid_argument);
 }
 
-}  // namespace
+}  // namespace arm_scene_test
 }  // namespace stiffscope

@@ -7,7 +7,7 @@
 #include <vector>
 
 namespace stiffscope {
-namespace {
+namespace colours_test {
 
 Eigen::Vector3d linear(render::Colour colour) {
   const auto channel = [](double c) { return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4); };
@@ -81,5 +81,5 @@ TEST(Colours, OfTheMethodsToo) {
   expectApart({render::colours::kNone, render::colours::kCp, render::colours::kPp, render::colours::kDpp});
 }
 
-}  // namespace
+}  // namespace colours_test
 }  // namespace stiffscope

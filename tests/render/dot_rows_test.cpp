@@ -5,7 +5,7 @@
 #include "tests/render/picture.h"
 
 namespace stiffscope {
-namespace {
+namespace dot_rows_test {
 
 render::DotRowChart threeRows() {
   render::DotRowChart chart;
@@ -93,5 +93,5 @@ TEST(RichText, WhatStandsBetweenEscapesIsTakenToTheLetter) {
   EXPECT_EQ(stemsBeginAt("P_{xxxxxx}\x1b"), marked);
 }
 
-}  // namespace
+}  // namespace dot_rows_test
 }  // namespace stiffscope

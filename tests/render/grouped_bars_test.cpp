@@ -7,7 +7,7 @@
 #include "tests/render/picture.h"
 
 namespace stiffscope {
-namespace {
+namespace grouped_bars_test {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
@@ -163,5 +163,5 @@ TEST(GroupedBars, RefusesInconsistentData) {
   EXPECT_THROW(render::render(plainBars({1}), {100, 100}), std::invalid_argument);
 }
 
-}  // namespace
+}  // namespace grouped_bars_test
 }  // namespace stiffscope

@@ -6,7 +6,7 @@
 #include "tests/render/picture.h"
 
 namespace stiffscope {
-namespace {
+namespace intervals_test {
 
 render::IntervalChart plain(std::vector<render::Interval> intervals) {
   render::IntervalChart chart;
@@ -73,5 +73,5 @@ TEST(Intervals, RefusesAnIntervalWithoutItsValue) {
   }
 }
 
-}  // namespace
+}  // namespace intervals_test
 }  // namespace stiffscope

@@ -7,7 +7,7 @@
 #include "tests/render/picture.h"
 
 namespace stiffscope {
-namespace {
+namespace offscreen_test {
 
 render::GroupedBarChart titled(const std::string& title) {
   render::GroupedBarChart chart;
@@ -126,5 +126,5 @@ TEST(Png, RefusesBytesThatDoNotFit) {
   EXPECT_THROW(render::encodePng({}), std::invalid_argument);
 }
 
-}  // namespace
+}  // namespace offscreen_test
 }  // namespace stiffscope

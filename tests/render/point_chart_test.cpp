@@ -7,7 +7,7 @@
 #include "tests/render/picture.h"
 
 namespace stiffscope {
-namespace {
+namespace point_chart_test {
 
 render::PointChart postures(int count, int panels) {
   render::PointChart chart;
@@ -110,5 +110,5 @@ TEST(PointChart, RefusesWhatDoesNotFit) {
   }
 }
 
-}  // namespace
+}  // namespace point_chart_test
 }  // namespace stiffscope

@@ -6,7 +6,7 @@
 #include "tests/render/picture.h"
 
 namespace stiffscope {
-namespace {
+namespace spreads_test {
 
 render::SpreadChart panels(std::vector<std::optional<render::Spread>> spreads) {
   render::SpreadChart chart;
@@ -88,5 +88,5 @@ TEST(Spreads, RefusesPercentilesOutOfOrder) {
   EXPECT_THROW(render::render(render::SpreadChart{}), std::invalid_argument);
 }
 
-}  // namespace
+}  // namespace spreads_test
 }  // namespace stiffscope

@@ -6,7 +6,7 @@
 #include "render/spread_chart.h"
 
 namespace stiffscope {
-namespace {
+namespace ticks_test {
 
 using Strings = std::vector<std::string>;
 
@@ -68,5 +68,5 @@ TEST(Spread, PercentilesByHand) {
   EXPECT_THROW(render::spreadOf({1, std::nan("")}), std::invalid_argument);
 }
 
-}  // namespace
+}  // namespace ticks_test
 }  // namespace stiffscope

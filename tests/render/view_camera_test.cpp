@@ -5,7 +5,7 @@
 #include <Eigen/Geometry>
 
 namespace stiffscope {
-namespace {
+namespace view_camera_test {
 
 constexpr double kRounding = 1e-12;
 
@@ -71,5 +71,5 @@ TEST(ViewCamera, FromTheTopTheHeadingIsThatOfY) {
   EXPECT_GT(seenBy(camera).view_direction->y(), 0.99);
 }
 
-}  // namespace
+}  // namespace view_camera_test
 }  // namespace stiffscope

@@ -4,7 +4,7 @@
 #include "core/io/units.h"
 
 namespace stiffscope {
-namespace {
+namespace audit_figures_test {
 
 preparation::AuditCheck checkOf(const char* id, std::optional<double> value, std::optional<double> limit) {
   preparation::AuditCheck check;
@@ -30,5 +30,5 @@ TEST(AuditFigures, AUnitStandsWhereThereIsAFigure) {
   EXPECT_FALSE(none.value || none.limit);
 }
 
-}  // namespace
+}  // namespace audit_figures_test
 }  // namespace stiffscope

@@ -8,7 +8,7 @@
 
 namespace stiffscope {
 
-namespace {
+namespace blind_page_test {
 
 validation::BlindResult smallResult() {
   std::vector<validation::Label> labels(2);
@@ -24,8 +24,6 @@ validation::BlindResult smallResult() {
   answers[1].promises = {{{"hysteresis", "backlash"}, 0.55, 0.4, 0.6, 0.9}};
   return {std::string(64, 'a'), std::string(64, 'b'), validation::score(labels, answers)};
 }
-
-}  // namespace
 
 TEST(BlindReport, pageIsWellFormedAndSelfContained) {
   const std::string page = page::blindPage({}, smallResult());
@@ -57,5 +55,7 @@ TEST(BlindReport, textNamesTheRates) {
   EXPECT_NE(text.find("1/1"), std::string::npos);
   EXPECT_NE(text.find("no case"), std::string::npos);
 }
+
+}  // namespace blind_page_test
 
 }  // namespace stiffscope

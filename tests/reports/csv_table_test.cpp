@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 namespace stiffscope::page {
-namespace {
+namespace csv_table_test {
 
 TEST(CsvTable, QuotesAsTheStandardSays) {
   const reports::Table table{"c", {"Name", "Text"}, {{"", {{"a,b", "say \"so\""}, {"plain", "k_{1}"}}}}};
@@ -26,5 +26,5 @@ TEST(CsvTable, GroupsAndRemarksStandInEveryRow) {
   EXPECT_EQ(reports::csvTable(table), "At,Method,Value,Remark\r\nwrist,CP,1,negative a\r\nwrist,PP,2,\r\n");
 }
 
-}  // namespace
+}  // namespace csv_table_test
 }  // namespace stiffscope::page

@@ -6,7 +6,7 @@
 #include "reports/words/remark_words.h"
 
 namespace stiffscope {
-namespace {
+namespace fit_report_test {
 
 /// Points on a circle of radius 2 about the z axis, or on a cylinder 15 high, off by a fixed pattern of a hundredth.
 metrology::MeasuredPoints pattern(bool in_plane) {
@@ -111,5 +111,5 @@ TEST(FitText, PointsLeftOutAreCountedFromOne) {
   EXPECT_DOUBLE_EQ(json.at("snooping").at("critical_w").get<double>(), 3.4);
 }
 
-}  // namespace
+}  // namespace fit_report_test
 }  // namespace stiffscope

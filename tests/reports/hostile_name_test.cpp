@@ -8,7 +8,7 @@
 #include "tests/reports/small_result.h"
 
 namespace stiffscope {
-namespace {
+namespace hostile_name_test {
 
 reports::ReportContent contentOf(const SmallResult& small) {
   reports::ReportContent content;
@@ -116,5 +116,5 @@ TEST(Page, EveryTableIsAFileToo) {
   EXPECT_TRUE(std::binary_search(names.begin(), names.end(), "stiffness-2"));
 }
 
-}  // namespace
+}  // namespace hostile_name_test
 }  // namespace stiffscope

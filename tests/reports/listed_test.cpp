@@ -6,7 +6,7 @@
 #include <vector>
 
 namespace stiffscope {
-namespace {
+namespace listed_test {
 
 std::vector<std::string> squares(int count, std::size_t most = reports::kMostListed) {
   std::vector<int> numbers;
@@ -30,5 +30,5 @@ TEST(Listed, OfMoreTheNumberAndThePlaceOfTheRest) {
   EXPECT_EQ(squares(5, 3), (std::vector<std::string>{"1", "4", "9", "and 2 more; all of them in --json"}));
 }
 
-}  // namespace
+}  // namespace listed_test
 }  // namespace stiffscope

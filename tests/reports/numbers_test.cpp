@@ -6,7 +6,7 @@
 #include "reports/page/html.h"
 
 namespace stiffscope::page {
-namespace {
+namespace numbers_test {
 
 TEST(Numbers, ValuesEndWhereTheirUncertaintyDoes) {
   EXPECT_EQ(reports::withUncertainty(5.6012, 0.1), "5.60 ± 0.10");
@@ -46,5 +46,5 @@ TEST(Base64, TheVectorsOfRfc4648) {
   EXPECT_EQ(page::base64({0xff, 0xff, 0xfe}), "///+");
 }
 
-}  // namespace
+}  // namespace numbers_test
 }  // namespace stiffscope::page

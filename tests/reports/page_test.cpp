@@ -13,7 +13,7 @@
 #include "tests/reports/small_result.h"
 
 namespace stiffscope {
-namespace {
+namespace page_test {
 
 reports::ReportContent contentOf(const SmallResult& small) {
   reports::ReportContent content;
@@ -363,5 +363,5 @@ TEST(Page, ARealCampaignWithoutWrist) {
   EXPECT_LT(page.size(), 100'000u);  // without pictures
 }
 
-}  // namespace
+}  // namespace page_test
 }  // namespace stiffscope

@@ -4,7 +4,7 @@
 #include "core/preparation/remarks.h"
 
 namespace stiffscope {
-namespace {
+namespace preparation_text_test {
 
 TEST(PreparationText, NothingDoneSaysWhyNot) {
   preparation::Preparation preparation;
@@ -37,5 +37,5 @@ TEST(PreparationText, TenReadingsAndTheNumberOfTheRest) {
   EXPECT_EQ(text.find("loading.csv:12"), std::string::npos) << text;
 }
 
-}  // namespace
+}  // namespace preparation_text_test
 }  // namespace stiffscope

@@ -13,7 +13,7 @@
 // Remarks in SI units come out as sentences in mm, um and degrees.
 
 namespace stiffscope {
-namespace {
+namespace result_remarks_test {
 
 TEST(ResultRemarks, OfADiagnosis) {
   using enum diagnosis::RemarkId;
@@ -79,5 +79,5 @@ TEST(ResultRemarks, NothingToSayHasNoWordsAndAMissingValueIsAnError) {
   EXPECT_THROW(reports::words(Remark(comparison::RemarkId::axis_turned)), std::logic_error);
 }
 
-}  // namespace
+}  // namespace result_remarks_test
 }  // namespace stiffscope

@@ -6,7 +6,7 @@
 #include "reports/words/numbers.h"
 
 namespace stiffscope {
-namespace {
+namespace text_numbers_test {
 
 TEST(UnsignedZero, OnlyWhatRoundsToZeroLosesItsSign) {
   EXPECT_FALSE(std::signbit(reports::unsignedZero(-0.0004, 3)));
@@ -32,5 +32,5 @@ TEST(ImprovedText, MetresAreMicrometresAsInTheRest) {
   EXPECT_NE(text.find("3 +-1 N\n"), std::string::npos) << text;
 }
 
-}  // namespace
+}  // namespace text_numbers_test
 }  // namespace stiffscope

@@ -10,7 +10,7 @@
 // of them.
 
 namespace stiffscope {
-namespace {
+namespace campaigns_test {
 
 std::filesystem::path shared(const std::string& folder) {
   return std::filesystem::path(STIFFSCOPE_SHARED_DIR) / folder;
@@ -94,5 +94,5 @@ TEST(RealSweeps, ReflectorOnTheAxisAndTheShortArc) {
   EXPECT_FALSE(audit::findsTheImpossible(report));
 }
 
-}  // namespace
+}  // namespace campaigns_test
 }  // namespace stiffscope

@@ -14,7 +14,7 @@
 // instead of the few here, and prints the findings.
 
 namespace stiffscope {
-namespace {
+namespace false_alarms_test {
 
 simulation::SimulationSpec cleanDay(std::uint64_t seed, double noise_factor) {
   simulation::SimulationSpec spec = simulation::readSimulationSpec(STIFFSCOPE_SOURCE_DIR "/samples/active.xml");
@@ -89,5 +89,5 @@ TEST(AuditFalseAlarms, ANoisierTrackerIsOneFinding) {
   }
 }
 
-}  // namespace
+}  // namespace false_alarms_test
 }  // namespace stiffscope

@@ -6,7 +6,7 @@
 #include "core/effects/remarks.h"
 
 namespace stiffscope {
-namespace {
+namespace separable_effects_test {
 
 audit::AuditReport withPostureSet() {
   audit::AuditReport report;
@@ -40,5 +40,5 @@ TEST(SeparableEffects, NothingWithoutADiagnosis) {
   EXPECT_TRUE(report.checks[0].details.empty());
 }
 
-}  // namespace
+}  // namespace separable_effects_test
 }  // namespace stiffscope

@@ -10,7 +10,7 @@
 // The audit names each way a day is spoilt, with the row where a row is guilty.
 
 namespace stiffscope {
-namespace {
+namespace spoilt_test {
 
 /// Checks that found something and that the good campaign passes, but for `meant`.
 std::vector<std::string> besides(const audit::AuditReport& report, const std::vector<std::string>& meant) {
@@ -308,5 +308,5 @@ TEST(SpoiltCampaign, DoesNotComeBackToZero) {
   EXPECT_ONLY(report, {"return_to_zero"});
 }
 
-}  // namespace
+}  // namespace spoilt_test
 }  // namespace stiffscope

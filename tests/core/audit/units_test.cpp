@@ -11,7 +11,7 @@
 // Units that are another's: forces, moments, lengths and angles, and what only looks like it.
 
 namespace stiffscope {
-namespace {
+namespace units_test {
 
 // Angles that a script wrote in radians under q1_deg..q6_deg.
 TEST(SpoiltCampaign, AnglesInAnotherUnitFail) {
@@ -155,5 +155,5 @@ TEST(ApparentStiffness, ByHand) {
   EXPECT_FALSE(identification::apparentStiffness({load_case}));
 }
 
-}  // namespace
+}  // namespace units_test
 }  // namespace stiffscope

@@ -8,7 +8,7 @@
 #include "core/io/units.h"
 
 namespace stiffscope {
-namespace {
+namespace check_campaign_test {
 
 // More than two blocks of the rows that are checked at a time, 32,768.
 constexpr int kRows = 70'000;
@@ -81,5 +81,5 @@ TEST(CheckCampaign, AnglesOutsideLimitsAreCountedOverAllRowsAndTheFirstNamed) {
   EXPECT_NE(warnings[1].find("campaign/states.csv:70001: q6_deg: '-190.00'"), std::string::npos) << warnings[1];
 }
 
-}  // namespace
+}  // namespace check_campaign_test
 }  // namespace stiffscope

@@ -10,7 +10,7 @@
 #include "tests/fixtures/small_campaign.h"
 
 namespace stiffscope {
-namespace {
+namespace read_campaign_test {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kRounding = 1e-12;  // conversions of units, of values up to a few metres
@@ -237,5 +237,5 @@ TEST(ReadCampaign, ReadsThePracticeAndRealCampaigns) {
   EXPECT_GE(campaigns, 22);
 }
 
-}  // namespace
+}  // namespace read_campaign_test
 }  // namespace stiffscope

@@ -9,7 +9,7 @@
 #include "tests/fixtures/small_campaign.h"
 
 namespace stiffscope {
-namespace {
+namespace reject_campaign_test {
 
 void change(const SmallCampaign& files, const Rejected& test) {
   if (test.find == nullptr) {
@@ -139,5 +139,5 @@ TEST(RejectCampaign, NoticesATableCutShortAnywhere) {
   }
 }
 
-}  // namespace
+}  // namespace reject_campaign_test
 }  // namespace stiffscope

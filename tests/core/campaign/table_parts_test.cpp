@@ -6,7 +6,7 @@
 #include "core/numerics/parallel.h"
 
 namespace stiffscope {
-namespace {
+namespace table_parts_test {
 
 /// All that a reading gives, as text.
 template <class Row>
@@ -120,5 +120,5 @@ TEST(OnAllCores, ThrowsTheExceptionOfTheLowestIndex) {
   }
 }
 
-}  // namespace
+}  // namespace table_parts_test
 }  // namespace stiffscope

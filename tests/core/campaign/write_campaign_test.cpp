@@ -8,7 +8,7 @@
 #include "tests/fixtures/small_campaign.h"
 
 namespace stiffscope {
-namespace {
+namespace write_campaign_test {
 
 // Half of the last decimal written: 0.0001 mm, 0.00001 deg, 0.001 N, 0.0001 Nm, and the rounding of doubles.
 constexpr double kPoint = 0.5001e-7;
@@ -188,5 +188,5 @@ TEST(WriteCampaign, ReadsBackThePracticeAndRealCampaigns) {
   }
 }
 
-}  // namespace
+}  // namespace write_campaign_test
 }  // namespace stiffscope

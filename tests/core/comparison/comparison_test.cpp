@@ -7,7 +7,7 @@
 #include "tests/fixtures/linear_machine.h"
 
 namespace stiffscope {
-namespace {
+namespace comparison_test {
 
 identification::IdentifyOptions quick() {
   identification::IdentifyOptions options;
@@ -208,5 +208,5 @@ TEST(DeflectionAvoided, TheIntervalCoversWhatMorePosturesWouldGive) {
   EXPECT_LT(covered, 200);
 }
 
-}  // namespace
+}  // namespace comparison_test
 }  // namespace stiffscope

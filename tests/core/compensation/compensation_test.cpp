@@ -12,7 +12,7 @@
 #include "tests/fixtures/linear_machine.h"
 
 namespace stiffscope {
-namespace {
+namespace compensation_test {
 
 /// An arm with known springs, its campaign without readings, and the estimate that knows them.
 struct KnownArm {
@@ -185,5 +185,5 @@ TEST(Compensate, RemovesInTheSimulatorWhatTheIdentificationClaims) {
   }
 }
 
-}  // namespace
+}  // namespace compensation_test
 }  // namespace stiffscope

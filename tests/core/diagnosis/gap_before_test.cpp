@@ -5,7 +5,7 @@
 #include "tests/fixtures/extended_day.h"
 
 namespace stiffscope {
-namespace {
+namespace gap_before_test {
 
 // What stiffnesses alone leave must not depend on which effects were found later. An effect that corrects the wrench or
 // the places moves the equations themselves: a zero parameter in the corrected ones is not a machine without it.
@@ -30,5 +30,5 @@ TEST(Diagnose, GapBeforeIsThatOfADiagnosisThatFindsNothing) {
                 1e-6 * std::abs(nothing.stiffness_before[joint]));
 }
 
-}  // namespace
+}  // namespace gap_before_test
 }  // namespace stiffscope

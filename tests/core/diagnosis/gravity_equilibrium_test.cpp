@@ -9,7 +9,7 @@
 // Where the unloaded arm stands with effects in the model, and what the readings say of where the load pulls.
 
 namespace stiffscope {
-namespace {
+namespace gravity_equilibrium_test {
 
 frames::LoadingGeometry heavyArm(const ChainArm& chain) {
   frames::LoadingGeometry geometry;
@@ -84,5 +84,5 @@ TEST(LoadOffset, IsThePointAllPullsGoThrough) {
   EXPECT_LT((found - Eigen::Vector3d(hook.x(), hook.y(), 0.0)).norm(), 1e-5);
 }
 
-}  // namespace
+}  // namespace gravity_equilibrium_test
 }  // namespace stiffscope

@@ -6,7 +6,7 @@
 // The relinearised fit of a bilinear effect against Ceres on the nonlinear problem.
 
 namespace stiffscope {
-namespace {
+namespace joint_fit_test {
 
 extended_model::EffectFit fitOf(const simulation::SimulationSpec& spec, const char* word) {
   const campaign::Campaign campaign = simulation::simulate(spec);
@@ -46,5 +46,5 @@ TEST(JointFit, SetsWithoutABilinearEffectAreLeftAlone) {
   EXPECT_FALSE(diagnosis::fitJointly(*effects.input, fit.state, fit.data.layout, fit.set, fit.nuisances));
 }
 
-}  // namespace
+}  // namespace joint_fit_test
 }  // namespace stiffscope

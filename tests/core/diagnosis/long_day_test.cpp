@@ -12,7 +12,7 @@
 #include "core/preparation/subsample.h"
 
 namespace stiffscope {
-namespace {
+namespace long_day_test {
 
 campaign::Campaign sampleDay() {
   return campaign::readCampaign(std::string(STIFFSCOPE_SOURCE_DIR) + "/samples/active").campaign;
@@ -158,5 +158,5 @@ TEST(Diagnose, ALongDayIsItsSpreadPosturesUnderTheirOwnNames) {
   EXPECT_TRUE(whole.verdict.reasons.back() == Remark(diagnosis::RemarkId::postures_thinned, names.size(), 100));
 }
 
-}  // namespace
+}  // namespace long_day_test
 }  // namespace stiffscope

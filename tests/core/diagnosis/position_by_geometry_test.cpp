@@ -7,7 +7,7 @@
 // The derivatives of absolute positions by the geometry's steps, against differences of positions computed afresh.
 
 namespace stiffscope {
-namespace {
+namespace position_by_geometry_test {
 
 frames::LoadingGeometry placedArm(const ChainArm& chain) {
   frames::LoadingGeometry geometry;
@@ -138,5 +138,5 @@ TEST(PositionByGeometry, WithAFootThatRocksIsTheDifferences) {
   EXPECT_LT((one.computed(at) - expected).cwiseAbs().maxCoeff(), 1e-5);
 }
 
-}  // namespace
+}  // namespace position_by_geometry_test
 }  // namespace stiffscope

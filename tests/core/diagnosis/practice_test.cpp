@@ -15,7 +15,7 @@
 // The practice campaigns kept beside the checkout: made by another simulator, their causes in answers.csv.
 
 namespace stiffscope {
-namespace {
+namespace practice_test {
 
 std::filesystem::path shared(const std::string& folder) {
   return std::filesystem::path(STIFFSCOPE_SHARED_DIR) / folder;
@@ -131,5 +131,5 @@ TEST(PracticeDistance, OneEffectIsNearAndTwoAreFar) {
   EXPECT_GT(diagnosis::distanceFromVocabulary(few("20")), 2.0);
 }
 
-}  // namespace
+}  // namespace practice_test
 }  // namespace stiffscope

@@ -8,7 +8,7 @@
 // by posture.
 
 namespace stiffscope {
-namespace {
+namespace preconditions_test {
 
 effects::CampaignContents everything() {
   effects::CampaignContents has;
@@ -69,5 +69,5 @@ TEST(Shrink, IsThatOfRootMeanSquares) {
             0.5 + 0.05);  // not drawn at all: all halve; the median may stand a little off the value
 }
 
-}  // namespace
+}  // namespace preconditions_test
 }  // namespace stiffscope

@@ -7,7 +7,7 @@
 // The engine on equations made here: columns of a random design, white noise, effects put in.
 
 namespace stiffscope {
-namespace {
+namespace selection_test {
 
 /// Six effects of two models each would hide what is tested: one model an effect, three parts of one column.
 std::vector<effects::EffectModel> models() {
@@ -129,5 +129,5 @@ TEST(Selector, AColumnThatTheStiffnessesSoakUpIsNotTried) {
   }
 }
 
-}  // namespace
+}  // namespace selection_test
 }  // namespace stiffscope

@@ -5,7 +5,7 @@
 #include "tests/fixtures/on_one_core.h"
 
 namespace stiffscope {
-namespace {
+namespace threads_test {
 
 void expectSame(const diagnosis::Shrink& a, const diagnosis::Shrink& b) {
   EXPECT_EQ(a.value, b.value);
@@ -35,5 +35,5 @@ TEST(Diagnose, DoesNotDependOnTheNumberOfCores) {
   }
 }
 
-}  // namespace
+}  // namespace threads_test
 }  // namespace stiffscope

@@ -10,7 +10,7 @@
 // Each effect's displacement field against a case worked by hand, on the tests' own kinematics.
 
 namespace stiffscope {
-namespace {
+namespace effects_test {
 
 constexpr double kRounding = 1e-9;  // m per unit parameter times lever and load: far below a micrometre of the field
 
@@ -366,5 +366,5 @@ TEST(EffectTable, WhatTheMachineDoesTurnsJointsOrMovesBodies) {
   }
 }
 
-}  // namespace
+}  // namespace effects_test
 }  // namespace stiffscope

@@ -11,7 +11,7 @@
 // mechanism: what the two share is the machine's description.
 
 namespace stiffscope {
-namespace {
+namespace elastic_arm_test {
 
 struct Mechanism {
   const char* name;
@@ -86,5 +86,5 @@ INSTANTIATE_TEST_SUITE_P(Mechanisms, AgainstTheSimulator,
                                                    }}),
                          [](const testing::TestParamInfo<Mechanism>& info) { return info.param.name; });
 
-}  // namespace
+}  // namespace elastic_arm_test
 }  // namespace stiffscope

@@ -19,7 +19,7 @@
 // environment repeats the coverage test on as many days and prints it.
 
 namespace stiffscope {
-namespace {
+namespace extended_model_test {
 
 struct Hidden {
   const char* name;
@@ -290,5 +290,5 @@ TEST(EffectNature, EveryEffectHasOneAndMeasurementsStayOutOfCompensation) {
   }
 }
 
-}  // namespace
+}  // namespace extended_model_test
 }  // namespace stiffscope

@@ -8,7 +8,7 @@
 #include "tests/fixtures/simulated_lab.h"
 
 namespace stiffscope {
-namespace {
+namespace frames_test {
 
 using Frame = Eigen::Isometry3d;
 
@@ -307,5 +307,5 @@ TEST(RealSweeps, LinkLengths) {
   }
 }
 
-}  // namespace
+}  // namespace frames_test
 }  // namespace stiffscope

@@ -10,7 +10,7 @@
 #include "tests/fixtures/linear_machine.h"
 
 namespace stiffscope {
-namespace {
+namespace geometry_calibration_test {
 
 SimulatedLab labWithErrors() {
   SimulatedLab lab;
@@ -205,5 +205,5 @@ TEST(BaseFromPostures, TurnsAboutOneAxisAreNotEnough) {
   EXPECT_FALSE(frames::baseFromPostures(nominalStart(campaign), frames::unloadedPositions(campaign), 3));
 }
 
-}  // namespace
+}  // namespace geometry_calibration_test
 }  // namespace stiffscope

@@ -5,7 +5,7 @@
 // Distances between consecutive axes where these are parallel but for the errors of a machine.
 
 namespace stiffscope {
-namespace {
+namespace link_geometry_test {
 
 /// Axes 2, 3 and 4 along y, as of arms of the UR kind: 612.7 and 571.6 mm apart.
 robot::Robot threeParallelAxes() {
@@ -37,5 +37,5 @@ TEST(LinkGeometry, OfThreeParallelAxesIsNearTheUrdf) {
   EXPECT_NEAR(links[2].distance, 0.5716, 2e-4);
 }
 
-}  // namespace
+}  // namespace link_geometry_test
 }  // namespace stiffscope

@@ -12,7 +12,7 @@
 // frames_test holds against the arm to 1e-9 m.
 
 namespace stiffscope {
-namespace {
+namespace propagation_test {
 
 constexpr int kDraws = 2000;
 constexpr double kAlong = 6e-6, kAcross = 2.5e-5;  // m
@@ -194,5 +194,5 @@ TEST(Propagation, StiffnessesOfTheSagByMonteCarlo) {
   EXPECT_GT(std::abs(stated.links[1].distance_by_sag), 1e-4);  // tons on springs of 3e6 Nm/rad
 }
 
-}  // namespace
+}  // namespace propagation_test
 }  // namespace stiffscope

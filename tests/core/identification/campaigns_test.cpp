@@ -11,7 +11,7 @@
 // structure, and a real machine pulled by a cable.
 
 namespace stiffscope {
-namespace {
+namespace campaigns_test {
 
 std::filesystem::path shared(const std::string& folder) {
   return std::filesystem::path(STIFFSCOPE_SHARED_DIR) / folder;
@@ -98,5 +98,5 @@ TEST(RealCable, SixStiffnessesByPartialPose) {
             std::string::npos);
 }
 
-}  // namespace
+}  // namespace campaigns_test
 }  // namespace stiffscope

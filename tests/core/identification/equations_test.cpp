@@ -5,7 +5,7 @@
 #include "tests/fixtures/linear_machine.h"
 
 namespace stiffscope {
-namespace {
+namespace equations_test {
 
 // A tenth of a newton: joints turn by 1e-7 rad, whose second order, and rounding of 1e-16 m in displacements
 // of 1e-8 m (3 m places: 5e-16), leave about 1e-6 of a compliance; ill-conditioned postures multiply that by
@@ -249,5 +249,5 @@ TEST(CharacteristicLength, IsWhereTheStackedJacobianIsBestConditioned) {
     EXPECT_GT(condition(factor * found.length), found.condition);
 }
 
-}  // namespace
+}  // namespace equations_test
 }  // namespace stiffscope

@@ -10,7 +10,7 @@
 #include "tests/fixtures/linear_machine.h"
 
 namespace stiffscope {
-namespace {
+namespace identify_test {
 
 /// Few subsets: these tests do not look at them.
 identification::IdentifyOptions quick(bool finite_deflection = true) {
@@ -358,5 +358,5 @@ TEST(JudgeJoints, ATorqueBelowItsUncertaintyDoesNotCount) {
   EXPECT_TRUE(found.joints[2].reason.is(identification::RemarkId::load_turns_too_little));
 }
 
-}  // namespace
+}  // namespace identify_test
 }  // namespace stiffscope

@@ -5,7 +5,7 @@
 #include "tests/fixtures/linear_machine.h"
 
 namespace stiffscope {
-namespace {
+namespace noise_share_test {
 
 TEST(NoiseShare, AgreesWithMonteCarlo) {
   // The same tracker noise drawn many times: what it puts into the norm of displacements, at reflectors and
@@ -64,5 +64,5 @@ TEST(NoiseShare, NeedsATrackerAndAbsolutePoints) {
       identification::noiseShare(campaign, machine.geometry, machine.cases, {}, machine.radii, machine.wrist_at_zero));
 }
 
-}  // namespace
+}  // namespace noise_share_test
 }  // namespace stiffscope

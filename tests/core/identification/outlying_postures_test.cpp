@@ -6,7 +6,7 @@
 #include <random>
 
 namespace stiffscope {
-namespace {
+namespace outlying_postures_test {
 
 constexpr robot::JointMask kThree{false, true, true, true, false, false};
 
@@ -62,5 +62,5 @@ TEST(OutlyingPostures, AreJudgedByTheFitToTheOthers) {
   EXPECT_LT(found[1].p_value, 1e-3);
 }
 
-}  // namespace
+}  // namespace outlying_postures_test
 }  // namespace stiffscope

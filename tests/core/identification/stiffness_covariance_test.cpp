@@ -13,7 +13,7 @@
 #include "tests/fixtures/on_one_core.h"
 
 namespace stiffscope {
-namespace {
+namespace stiffness_covariance_test {
 
 constexpr robot::JointMask kFirstOnly{true, false, false, false, false, false};
 
@@ -331,5 +331,5 @@ TEST(Identifiability, AJointThatIsNotSeenDoesNotDisturbTheOthers) {
   }
 }
 
-}  // namespace
+}  // namespace stiffness_covariance_test
 }  // namespace stiffscope

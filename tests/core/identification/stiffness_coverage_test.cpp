@@ -17,7 +17,7 @@
 // prints the coverage and asks for 93 to 97 %. STIFFSCOPE_COVERAGE_FIRST gives the first seed.
 
 namespace stiffscope {
-namespace {
+namespace stiffness_coverage_test {
 
 int numberFrom(const char* variable, int otherwise) {
   const char* asked = std::getenv(variable);
@@ -129,5 +129,5 @@ TEST(StiffnessCoverage, PulledInSeveralDirections) {
   expectPooled(tally);
 }
 
-}  // namespace
+}  // namespace stiffness_coverage_test
 }  // namespace stiffscope

@@ -9,7 +9,7 @@
 #include "tests/fixtures/linear_machine.h"
 
 namespace stiffscope {
-namespace {
+namespace subsets_test {
 
 /// Equations with noise, to have subsets that differ.
 struct Problem {
@@ -229,5 +229,5 @@ TEST(DeflectionJudge, PointByPointOverManyPostures) {
   }
 }
 
-}  // namespace
+}  // namespace subsets_test
 }  // namespace stiffscope

@@ -8,7 +8,7 @@
 #include "tests/fixtures/on_one_core.h"
 
 namespace stiffscope {
-namespace {
+namespace threads_test {
 
 /// The sample's day so many times over, reading by reading moved a little: enough postures to share.
 campaign::Campaign manyTimes(const campaign::Campaign& day, int times) {
@@ -63,5 +63,5 @@ TEST(Identify, DoesNotDependOnTheNumberOfCores) {
   EXPECT_EQ(all.geometric_stiffness_share, one.geometric_stiffness_share);
 }
 
-}  // namespace
+}  // namespace threads_test
 }  // namespace stiffscope

@@ -11,7 +11,7 @@
 #include "tests/fixtures/small_campaign.h"
 
 namespace stiffscope {
-namespace {
+namespace numbers_and_xml_test {
 
 std::string contentOf(const std::filesystem::path& file) {
   std::string text;
@@ -130,5 +130,5 @@ TEST(WriteFile, SaysWhichFileAndWhy) {
   EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
 }
 
-}  // namespace
+}  // namespace numbers_and_xml_test
 }  // namespace stiffscope

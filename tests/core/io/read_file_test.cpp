@@ -15,7 +15,7 @@
 #include "tests/fixtures/small_campaign.h"
 
 namespace stiffscope {
-namespace {
+namespace read_file_test {
 
 namespace fs = std::filesystem;
 
@@ -181,5 +181,5 @@ TEST(XmlFile, KnowsTheFiveReferencesOfXmlAndCharacters) {
   }
 }
 
-}  // namespace
+}  // namespace read_file_test
 }  // namespace stiffscope

@@ -6,7 +6,7 @@
 #include "core/io/input_error.h"
 
 namespace stiffscope {
-namespace {
+namespace read_points_test {
 
 std::filesystem::path written(const std::string& text) {
   const auto file = std::filesystem::path(testing::TempDir()) /
@@ -96,5 +96,5 @@ TEST(ReadPoints, AFileThatIsNotThere) {
   EXPECT_THROW(io::readPoints(std::filesystem::path(testing::TempDir()) / "no such file"), io::InputError);
 }
 
-}  // namespace
+}  // namespace read_points_test
 }  // namespace stiffscope

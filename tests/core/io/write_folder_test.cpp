@@ -13,7 +13,7 @@
 #include "tests/fixtures/small_campaign.h"
 
 namespace stiffscope {
-namespace {
+namespace write_folder_test {
 
 namespace fs = std::filesystem;
 
@@ -197,5 +197,5 @@ TEST(WriteFolder, RunsIntoOneFolderLeaveOneWhole) {
   EXPECT_EQ(entriesIn(scratch.path()), 1u);
 }
 
-}  // namespace
+}  // namespace write_folder_test
 }  // namespace stiffscope

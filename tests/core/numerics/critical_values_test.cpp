@@ -7,7 +7,7 @@
 #include "core/numerics/distributions.h"
 
 namespace stiffscope {
-namespace {
+namespace critical_values_test {
 
 // Printed tables (Abramowitz and Stegun 26.7, 26.8, 26.10; NIST e-Handbook 1.3.6.7), to their last digit.
 TEST(Chance, LimitsAreThoseOfPrintedTables) {
@@ -74,5 +74,5 @@ TEST(Chance, SmallLevelsKeepTheirDigits) {
   EXPECT_NEAR(numerics::studentLimit(1e-6, 1) / std::tan(0.5 * std::numbers::pi * (1.0 - 1e-6)), 1.0, 1e-6);
 }
 
-}  // namespace
+}  // namespace critical_values_test
 }  // namespace stiffscope

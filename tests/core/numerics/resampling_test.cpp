@@ -6,7 +6,7 @@
 #include <set>
 
 namespace stiffscope {
-namespace {
+namespace resampling_test {
 
 using numerics::Weights;
 
@@ -51,5 +51,5 @@ TEST(Subsets, ASampleWhereTheyAreMany) {
   for (const double times : taken) EXPECT_NEAR(times, 200.0, 58.0);
 }
 
-}  // namespace
+}  // namespace resampling_test
 }  // namespace stiffscope

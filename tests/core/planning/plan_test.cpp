@@ -13,7 +13,7 @@
 #include "tests/fixtures/linear_machine.h"
 
 namespace stiffscope {
-namespace {
+namespace plan_test {
 
 Matrix6d randomInformation(Noise& noise) {
   Eigen::Matrix<double, 3, 6> rows;
@@ -305,5 +305,5 @@ TEST(Plan, TenChosenPosturesAreWorthTwentyRandomOnes) {
   EXPECT_LE(std::exp(logarithms), 0.95);
 }
 
-}  // namespace
+}  // namespace plan_test
 }  // namespace stiffscope

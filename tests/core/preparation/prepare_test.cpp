@@ -10,7 +10,7 @@
 // What is done to a campaign before anything is identified from it.
 
 namespace stiffscope {
-namespace {
+namespace prepare_test {
 
 const campaign::Campaign& good() {
   static const campaign::Campaign campaign =
@@ -185,5 +185,5 @@ TEST(Prepare, AnAuditOfWhatIsPreparedIsTheSame) {
   EXPECT_EQ(prepared.screening.size(), before.screening.size());
 }
 
-}  // namespace
+}  // namespace prepare_test
 }  // namespace stiffscope

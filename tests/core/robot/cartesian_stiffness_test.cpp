@@ -8,7 +8,7 @@
 #include "tests/fixtures/linear_machine.h"
 
 namespace stiffscope {
-namespace {
+namespace cartesian_stiffness_test {
 
 /// Axes 1 and 2 of the arm as a planar two-bar arm in the x-y plane, bars of length a and b along x at zero;
 /// the other axes pass through the flange and are rigid.
@@ -201,5 +201,5 @@ TEST(PostureStiffness, OfACampaignNamesPosturesAndRigidJoints) {
   EXPECT_GT(found.at(2).with_kc.principal[1].stiffness, found.at(2).with_kc.principal[0].stiffness);
 }
 
-}  // namespace
+}  // namespace cartesian_stiffness_test
 }  // namespace stiffscope

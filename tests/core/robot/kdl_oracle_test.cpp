@@ -21,7 +21,7 @@ TEST(RobotByKdl, IsNotBuilt) { GTEST_SKIP() << "urdfdom or KDL is not here"; }
 // kinematics and statics.
 
 namespace stiffscope {
-namespace {
+namespace kdl_oracle_test {
 
 namespace fs = std::filesystem;
 
@@ -169,7 +169,7 @@ TEST(RobotByKdl, RealAndPracticeCampaigns) {
   if (files == 0) GTEST_SKIP() << "the real and practice campaigns are not here";
 }
 
-}  // namespace
+}  // namespace kdl_oracle_test
 }  // namespace stiffscope
 
 #endif

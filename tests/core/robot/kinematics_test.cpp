@@ -7,7 +7,7 @@
 #include "tests/fixtures/chain_arm.h"
 
 namespace stiffscope {
-namespace {
+namespace kinematics_test {
 
 double apart(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) { return (a.matrix() - b.matrix()).norm(); }
 
@@ -126,5 +126,5 @@ TEST(Jacobian, AgainstFiniteDifferencesOfTheChain) {
   }
 }
 
-}  // namespace
+}  // namespace kinematics_test
 }  // namespace stiffscope

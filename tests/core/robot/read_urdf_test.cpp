@@ -8,7 +8,7 @@
 #include "core/robot/kinematics.h"
 
 namespace stiffscope {
-namespace {
+namespace read_urdf_test {
 
 constexpr double kRounding = 1e-12;
 
@@ -201,5 +201,5 @@ TEST(RollPitchYaw, TurnsAboutFixedAxesInThatOrder) {
   }
 }
 
-}  // namespace
+}  // namespace read_urdf_test
 }  // namespace stiffscope

@@ -5,7 +5,7 @@
 #include "tests/fixtures/example_arm.h"
 
 namespace stiffscope {
-namespace {
+namespace statics_test {
 
 const Vector6d kPosture = (Vector6d() << 0.3, 0.4, -0.5, 0.6, 0.7, -0.8).finished();
 const Vector6d kCompliance = (Vector6d() << 1 / 4.0, 1 / 3.2, 1 / 2.6, 1 / 0.42, 1 / 0.23, 1 / 0.089).finished() * 1e-6;
@@ -116,5 +116,5 @@ TEST(GeometricStiffness, LeavesSecondOrderOfTheNonlinearDisplacement) {
   EXPECT_LT(included, 1e-4);  // what is left is of the order of the square of the turning, 1e-3 rad
 }
 
-}  // namespace
+}  // namespace statics_test
 }  // namespace stiffscope

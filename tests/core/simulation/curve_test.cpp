@@ -9,7 +9,7 @@ using namespace simulation;
 using namespace simulation_test;
 using Eigen::Vector3d;
 
-namespace {
+namespace curve_test {
 
 /// A massless arm on the spring of axis 2 alone, lying at zero: a force F downwards at the flange, 1.6 m
 /// ahead of the axis, turns it by 1.6 F / k (to the twist itself, relatively; twists here are below 1e-3).
@@ -28,8 +28,6 @@ double twist(const simulation::SimulationSpec& spec, double force) {
   EXPECT_TRUE(state.converged);
   return state.deformation[0];
 }
-
-}  // namespace
 
 // 100 Nm at 1e5 Nm/rad, then 200 Nm more at 2e5: 1 mrad each, and 0.05 J, 0.1 J + 0.1 J.
 TEST(SimulationCurve, stagesByHand) {
@@ -136,5 +134,7 @@ TEST(SimulationCurve, frictionStartsAnewAtEveryPosture) {
     EXPECT_EQ(campaign.loading->rows[r].point, campaign.loading->rows[half + r].point);
   }
 }
+
+}  // namespace curve_test
 
 }  // namespace stiffscope

@@ -9,7 +9,7 @@ using namespace simulation;
 using namespace simulation_test;
 using Eigen::Vector3d;
 
-namespace {
+namespace day_test {
 
 /// Three weights and back to zero at two postures, a short sweep, nests.
 simulation::SimulationSpec day() {
@@ -41,8 +41,6 @@ double farthest(const Rows& a, const Rows& b, const Counts& counts) {
   return most;
 }
 constexpr auto kEvery = [](const auto&) { return true; };
-
-}  // namespace
 
 TEST(SimulationDay, aPushedTrackerMovesNestsAndLoadingButNoSweep) {
   simulation::SimulationSpec spec = day();
@@ -214,5 +212,7 @@ TEST(SimulationDay, aSwingingWeightScattersLoadedReadingsOnly) {
     EXPECT_EQ(still.states->rows[r].wrench_in_cell, swinging.states->rows[r].wrench_in_cell);
   }
 }
+
+}  // namespace day_test
 
 }  // namespace stiffscope

@@ -10,7 +10,7 @@ namespace fs = std::filesystem;
 using namespace simulation;
 using Eigen::Vector3d;
 
-namespace {
+namespace effects_spec_test {
 
 constexpr double kDegree = simulation_test::kDeg;
 
@@ -60,8 +60,6 @@ class SimulationEffectsSpec : public testing::Test {
     return "no complaint";
   }
 };
-
-}  // namespace
 
 TEST_F(SimulationEffectsSpec, readsWhatAJointHas) {
   const simulation::SimulationSpec spec =
@@ -178,5 +176,7 @@ TEST_F(SimulationEffectsSpec, refusesWhatADayCannotHave) {
   EXPECT_EQ(complaint("", "", "stiffness_nm_per_rad='3e6'", "", "<swing angle_deg='1' period_s='0'/>"),
             "period_s: '0': expected a number above 0");
 }
+
+}  // namespace effects_spec_test
 
 }  // namespace stiffscope

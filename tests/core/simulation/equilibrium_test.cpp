@@ -9,7 +9,7 @@ using namespace simulation_test;
 using Eigen::AngleAxisd;
 using Eigen::Vector3d;
 
-namespace {
+namespace equilibrium_test {
 
 /// Rigid kinematics written out a second time, with a small extra turn at one joint, fixed in its body.
 Vector3d rigidPoint(const robot::Robot& robot, const Vector6d& q, const Vector3d& in_flange, int joint = -1,
@@ -54,8 +54,6 @@ double energyAt(const simulation::ElasticMachine& machine, const simulation::App
   x[k] += step;
   return simulation::potentialEnergy(machine, posture(), load, x);
 }
-
-}  // namespace
 
 // A massless arm on the spring of axis 2 alone: the flange stands a = 1.6 m ahead of the axis and b = 1.3 m
 // above it, so k t = F (a cos t + b sin t), solved here by bisection.
@@ -221,5 +219,7 @@ TEST(SimulationRotation, exponentialAndItsJacobian) {
     }
   }
 }
+
+}  // namespace equilibrium_test
 
 }  // namespace stiffscope

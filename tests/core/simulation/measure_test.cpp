@@ -9,7 +9,7 @@ namespace stiffscope {
 using namespace simulation_test;
 using Eigen::Vector3d;
 
-namespace {
+namespace measure_test {
 
 /// A short day: two weights and back to zero at four postures, sweeps of two axes and of the wrist, two
 /// nests.
@@ -49,8 +49,6 @@ bool samePoints(const campaign::Campaign& a, const campaign::Campaign& b) {
   return same(*a.loading, *b.loading) && same(*a.circle_sweeps, *b.circle_sweeps) &&
          same(*a.wrist_sweep, *b.wrist_sweep) && same(*a.nests, *b.nests);
 }
-
-}  // namespace
 
 TEST(SimulationMeasure, everyTableHasTheRowsAskedFor) {
   const campaign::Campaign campaign = simulation::simulate(day());
@@ -187,5 +185,7 @@ TEST(SimulationMeasure, namesThePostureThatCannotCarryItsLoad) {
     EXPECT_NE(std::string(error.what()).find("rests stably"), std::string::npos) << error.what();
   }
 }
+
+}  // namespace measure_test
 
 }  // namespace stiffscope

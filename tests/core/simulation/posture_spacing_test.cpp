@@ -7,7 +7,7 @@
 #include <random>
 
 namespace stiffscope::simulation {
-namespace {
+namespace posture_spacing_test {
 
 /// A box whose third joint stands still.
 const Vector6d kLow = (Vector6d() << -1.0, -0.5, 0.3, -2.0, -3.0, 0.0).finished();
@@ -55,5 +55,5 @@ TEST(PostureSpacing, IsTheLeastOfAllDistances) {
   }
 }
 
-}  // namespace
+}  // namespace posture_spacing_test
 }  // namespace stiffscope::simulation

@@ -13,7 +13,7 @@ namespace stiffscope {
 namespace fs = std::filesystem;
 using Eigen::Vector3d;
 
-namespace {
+namespace spec_test {
 
 const fs::path kSamples = fs::path(STIFFSCOPE_SOURCE_DIR) / "samples";
 
@@ -58,8 +58,6 @@ class SimulationSpecFile : public testing::Test {
     return "no complaint";
   }
 };
-
-}  // namespace
 
 TEST_F(SimulationSpecFile, aJointLeftOutIsRigidAndNamed) {
   EXPECT_TRUE(simulation::rigidJoints(simulation::readSimulationSpec(kSamples / "inactive.xml")).empty());
@@ -160,5 +158,7 @@ TEST_F(SimulationSpecFile, refusesPosturesBeyondTheLimits) {
   EXPECT_EQ(complaint("<postures>", "<postures><posture q_deg=\"0 0 60 0 45 0\"/>"),
             "q_deg: '0 0 60 0 45 0': expected joint 3 within the limits of the URDF");
 }
+
+}  // namespace spec_test
 
 }  // namespace stiffscope

@@ -9,7 +9,7 @@ using namespace simulation;
 using namespace simulation_test;
 using Eigen::Vector3d;
 
-namespace {
+namespace springs_test {
 
 /// Everything that has an energy at once: gap, friction, cubic, shared and link springs, plate, contact.
 simulation::SimulationSpec everySpring() {
@@ -27,8 +27,6 @@ simulation::SimulationSpec everySpring() {
   machine.base_contacts = {{0, true, 4e7, 1e-5}};
   return spec;
 }
-
-}  // namespace
 
 TEST(SimulationSprings, gradientAndHessianAreThoseOfTheEnergy) {
   const simulation::ElasticMachine machine = simulation::buildMachine(everySpring());
@@ -175,5 +173,7 @@ TEST(SimulationSprings, oneSidedContact) {
   EXPECT_NEAR(turn(-100.0), 2.0 * 100.0 / 2e6, 1e-3 * 1e-4);  // the flange is 2 m out; finite turns
   EXPECT_NEAR(turn(100.0), -2.0 * 100.0 / 4e6, 1e-3 * 1e-4);
 }
+
+}  // namespace springs_test
 
 }  // namespace stiffscope

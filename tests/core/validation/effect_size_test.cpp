@@ -10,7 +10,7 @@ namespace stiffscope {
 
 using Eigen::Vector3d;
 
-namespace {
+namespace effect_size_test {
 
 struct Lab {
   simulation::SimulationSpec spec;
@@ -20,8 +20,6 @@ struct Lab {
                  std::filesystem::temp_directory_path() / "stiffscope_blind_size" / std::to_string(seed) / "robot.urdf")
                  .spec) {}
 };
-
-}  // namespace
 
 TEST(BlindArms, standAsTheirDimensionsSay) {
   for (std::uint64_t seed = 1; seed <= 8; ++seed) {
@@ -142,5 +140,7 @@ TEST(BlindEffects, everyKindOutsideTheVocabularyShows) {
   }
   EXPECT_THROW(validation::drawOutside("gremlins", lab.spec, random), std::invalid_argument);
 }
+
+}  // namespace effect_size_test
 
 }  // namespace stiffscope

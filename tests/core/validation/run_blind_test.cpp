@@ -10,7 +10,7 @@ namespace stiffscope {
 
 namespace fs = std::filesystem;
 
-namespace {
+namespace run_blind_test {
 
 std::string bytesOf(const fs::path& file) {
   std::ostringstream text;
@@ -43,8 +43,6 @@ class BlindRun : public testing::Test {
     return {cases, 7, folder / name, false, threads};
   }
 };
-
-}  // namespace
 
 TEST_F(BlindRun, theSameSeedGivesTheSameBytesOnAnyNumberOfThreads) {
   const validation::BlindResult one = validation::runBlind(options(5, 1, "one"), standIn),
@@ -161,5 +159,7 @@ TEST(BlindPlan, sharesAndBalance) {
   EXPECT_EQ(singles.size(), effects::kEffectCount);
   for (const auto& [effect, count] : singles) EXPECT_NEAR(count, 11, 1) << effects::idOf(effect);
 }
+
+}  // namespace run_blind_test
 
 }  // namespace stiffscope

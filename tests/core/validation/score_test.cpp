@@ -4,7 +4,7 @@
 
 namespace stiffscope {
 
-namespace {
+namespace score_test {
 
 validation::Label single(const std::string& name, const std::string& effect, double size,
                          const std::string& detail = "") {
@@ -24,8 +24,6 @@ validation::Answer says(const std::string& name, std::vector<std::vector<std::st
   for (auto& effects : entries) answer.entries.push_back({std::move(effects), detail});
   return answer;
 }
-
-}  // namespace
 
 // 0 of 10: 1 - 0.025^(1/10). 5 of 10: 18.71 % to 81.29 %, and 81 of 263: 25.27 % to 36.76 % (A. Agresti and
 // B. A. Coull, The American Statistician 52, 1998, give the former; the latter is that of the 1934 paper's
@@ -189,5 +187,7 @@ TEST(BlindTables, refusesWhatIsNoLabel) {
             "labels.csv:2: effects: 'backlash': expected as many effects as sizes");
   EXPECT_NE(complaint("case,kind\n").find("expected the header case,kind,effects"), std::string::npos);
 }
+
+}  // namespace score_test
 
 }  // namespace stiffscope
