@@ -4,12 +4,58 @@
 #include <string>
 #include <vector>
 
-#include "core/audit/position_fit.h"
 #include "core/campaign/state_points.h"
+#include "core/frames/arm_geometry.h"
+#include "core/frames/frames.h"
 #include "core/identification/loaded_arm.h"
 #include "core/preparation/prepare.h"
+#include "metrology/remark.h"
 
 namespace stiffscope::audit {
+
+/// What one posture's unloaded reflectors say about its reported joint angles, after the common fit.
+struct PostureReadBack {
+  int pose = 0;
+  Vector6d correction = Vector6d::Zero();    ///< angles that would put the reflectors where they are, rad
+  Vector6d significance = Vector6d::Zero();  ///< each in parts of its uncertainty by the reading noise
+  int joint = 0;                             ///< that explains most on its own
+  double joint_correction = 0.0;             ///< of that joint alone, rad
+  double sag_doubt = 0.0;                    ///< of that joint: what a wrong sag could put there, rad
+  double explained = 0.0;                    ///< share of the posture's misfit that joint angles explain
+  double score = 0.0;                        ///< largest significance in parts of the campaign's own scatter
+  bool outlier = false;                      ///< score beyond its limit, and more than the sag leaves in doubt
+};
+
+/// Unloaded absolute positions against forward kinematics in the swept geometry, with the arm's own sag. In
+/// R0.
+///
+/// One weighted linear least squares in: a rigid shift of the loading against the sweeps (free), the
+/// reflectors' places (free), the six axes (4 parameters each, held by the covariance of their sweeps) and
+/// the compliances by which the own weight sags (held to a stated share). Postures whose joint angles stand
+/// apart are left out.
+struct AbsoluteFit {
+  bool done = false;
+  Remark reason;                                     ///< why not
+  bool sag_known = false;                            ///< masses and stiffnesses gave the own weight's sag
+  int positions = 0;                                 ///< that took part
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< mean of the positions
+  Vector6d shift = Vector6d::Zero();                 ///< rotation vector (rad) then displacement at `centre` (m)
+  Matrix6d shift_covariance = Matrix6d::Zero();
+  double shift_chi2 = 0.0;  ///< by which the shift lowers chi2; six degrees of freedom
+  double chi2 = 0.0;        ///< with the shift
+  int dof = 0;
+  double rms_before = 0.0;   ///< plain, per coordinate, m: as the sweeps have it
+  double rms_after = 0.0;    ///< with everything fitted
+  double score_limit = 0.0;  ///< of PostureReadBack::score
+  std::vector<PostureReadBack> postures;
+};
+
+/// Not done, with the reason: no declared noise, an axis that was not swept, no loading in the sweeps' frame,
+/// or too few positions.
+AbsoluteFit fitAbsolutePositions(const campaign::Campaign& campaign, const frames::Frames& frames,
+                                 const frames::LoadingGeometry& geometry,
+                                 const std::vector<campaign::StatePoints>& states,
+                                 const std::optional<metrology::TrackerNoise>& noise);
 
 /// What the checks look at: the campaign as identification sees it.
 struct AuditInput {

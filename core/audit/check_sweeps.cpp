@@ -1,4 +1,4 @@
-#include "core/audit/check_sweeps.h"
+#include "core/audit/checks.h"
 
 #include <Eigen/Dense>
 #include <algorithm>
@@ -6,7 +6,6 @@
 #include <limits>
 #include <numbers>
 
-#include "core/audit/checks.h"
 #include "core/audit/limits.h"
 #include "core/audit/remarks.h"
 #include "core/campaign/row_names.h"

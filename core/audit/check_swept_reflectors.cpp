@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/audit/check_sweeps.h"
 #include "core/audit/checks.h"
 #include "core/audit/limits.h"
 #include "core/audit/remarks.h"

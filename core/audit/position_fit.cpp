@@ -1,4 +1,4 @@
-#include "core/audit/position_fit.h"
+#include "core/audit/audit_input.h"
 
 #include <Eigen/Dense>
 #include <algorithm>

@@ -11,7 +11,6 @@
 
 #include "core/diagnosis/projection.h"
 #include "core/diagnosis/selection.h"
-#include "core/diagnosis/variance_inflation.h"
 #include "metrology/linear_algebra.h"
 #include "metrology/rigid_motion.h"
 

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <map>
 
-#include "core/diagnosis/position_by_geometry.h"
 #include "core/effects/gravity_equilibrium.h"
 #include "core/frames/reading_covariance.h"
 #include "core/identification/load_case.h"

@@ -1,4 +1,4 @@
-#include "core/diagnosis/position_by_geometry.h"
+#include "core/diagnosis/linear_system.h"
 
 #include <Eigen/Dense>
 #include <algorithm>

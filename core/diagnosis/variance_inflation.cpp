@@ -1,4 +1,4 @@
-#include "core/diagnosis/variance_inflation.h"
+#include "core/diagnosis/fit.h"
 
 #include <Eigen/Dense>
 #include <algorithm>

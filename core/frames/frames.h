@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <optional>
 #include <vector>
 
@@ -8,12 +9,76 @@
 #include "core/frames/base_frame.h"
 #include "core/frames/gravity_sag.h"
 #include "core/frames/joint_axes.h"
-#include "core/frames/link_geometry.h"
-#include "core/frames/wrist_centre.h"
 #include "metrology/remark.h"
 #include "metrology/rigid_motion.h"
+#include "metrology/sphere_fit.h"
 
 namespace stiffscope::frames {
+
+/// One row of the paper's Table I.
+struct WristTableRow {
+  int target = 0;
+  Eigen::Vector3d centre_in_r0 = Eigen::Vector3d::Zero();  ///< of the sphere of this reflector's own sweep, m
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();    ///< of the centre, by its own readings; R0 axes, m^2
+  double radius = 0.0;                                     ///< m
+  double offset = 0.0;                                     ///< distance of this centre from the mean of the centres, m
+  double rms = 0.0;                                        ///< radial residuals of this reflector's sphere, m
+  int readings = 0;
+};
+
+/// The wrist centre by the wrist sweep (paper, II.D).
+struct WristCentre {
+  bool measured = false;
+  Remark reason;
+  Vector6d q = Vector6d::Zero();                           ///< axes 1-3 during the sweep (4-6 zero)
+  Eigen::Vector3d centre_in_r0 = Eigen::Vector3d::Zero();  ///< common centre of all spheres, at q
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();    ///< of it, with R0's (FramesCovariance); R0 axes, m^2
+  Eigen::Vector3d centre_at_zero_in_r0 = Eigen::Vector3d::Zero();  ///< with axes 1-3 turned back to zero
+  std::vector<double> radii;  ///< |P_wrist P1X| by target; NaN for a target that was not swept
+  metrology::SphereFit
+      spheres;               ///< in R0 as it is measured: its covariance is that of the wrist sweep's readings alone
+  std::vector<int> targets;  ///< of the spheres
+  std::vector<WristTableRow> table;  ///< Table I
+  Eigen::Vector3d table_mean_in_r0 = Eigen::Vector3d::Zero();
+  /// Of the mean: the rows' readings are independent of each other, R0 is common to them. R0 axes, m^2.
+  Eigen::Matrix3d table_mean_covariance = Eigen::Matrix3d::Zero();
+
+  // Side by side with the sphere centre, all at q (method: Wrist centre).
+  Eigen::Vector3d reflector_barycentre_in_r0 = Eigen::Vector3d::Zero();  ///< Dumas et al.
+  Eigen::Vector3d nearest_axes_56_in_r0 = Eigen::Vector3d::Zero();       ///< middle of their common perpendicular
+  double miss_45 = 0.0;                                                  ///< distance between axes 4 and 5, m
+  double miss_56 = 0.0;                                                  ///< distance between axes 5 and 6, m
+  double miss_45_sd = 0.0;  ///< standard uncertainty (FramesCovariance); 0 where the axes were not measured
+  double miss_56_sd = 0.0;
+};
+
+/// Fits concentric spheres to the wrist sweep, on the readings referred to the rigid arm.
+/// Not measured, with the reason, without a sweep, without R0 in the sweep's frame, or where the fit is undetermined.
+WristCentre measureWristCentre(const campaign::Campaign& campaign, const ArmInR0& arm, const RigidPoints& points,
+                               const std::vector<std::optional<Eigen::Vector3d>>& targets_at_zero);
+
+/// Distance and angle between two consecutive joint axes at zero.
+struct LinkGeometry {
+  double distance = 0.0;       ///< m
+  double angle = 0.0;          ///< rad, 0..pi/2
+  bool near_parallel = false;  ///< within a degree: `distance` is that across the first axis at `at_point`
+  Eigen::Vector3d at_point_in_r0 = Eigen::Vector3d::Zero();  ///< on the first axis; only meant for near_parallel
+  /// Standard uncertainties by FramesCovariance; empty where an axis was not measured.
+  std::optional<double> distance_sd, angle_sd;
+  double distance_sag_sd = 0.0;  ///< what of distance_sd comes from the stiffnesses by which the sag was taken off, m
+  double distance_by_sag = 0.0;  ///< how far taking off the sag moved the distance, m: an error of its model is of this
+  double nominal_distance = 0.0;  ///< of the URDF, by the same rule
+  double nominal_angle = 0.0;
+};
+
+/// Link i between axes i+1 and i+2 of the arm (paper, II.D: link lengths by circle-point). For axes within a degree of
+/// parallel the common perpendicular's place is undetermined: their distance is taken in the plane normal to the first,
+/// at the foot on it of the common perpendicular with the axis before (Hayati). Of three axes within a degree of
+/// parallel that foot is undetermined too, kilometres away: there the point of the axis before is carried over.
+std::array<LinkGeometry, 5> linkGeometry(const robot::Robot& nominal, const ArmInR0& arm);
+
+/// Where on axis `first` the distance to a nearly parallel next one is taken, see linkGeometry.
+Eigen::Vector3d hayatiPoint(const std::array<metrology::Line, 6>& axes, std::size_t first);
 
 /// Joint covariance of what the sweeps give, with everything that they have in common: R0 in all that is expressed in
 /// it, an axis in the two links that it ends, the sag's stiffnesses in everything. In the order

@@ -9,8 +9,7 @@
 
 #include "core/frames/base_frame.h"
 #include "core/frames/remarks.h"
-#include "core/frames/unloaded_positions.h"
-#include "core/numerics/rank.h"
+#include "core/numerics/normal_equations.h"
 #include "metrology/lines.h"
 
 namespace stiffscope::frames {

@@ -1,4 +1,4 @@
-#include "core/frames/link_geometry.h"
+#include "core/frames/frames.h"
 
 #include <numbers>
 

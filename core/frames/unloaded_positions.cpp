@@ -1,4 +1,4 @@
-#include "core/frames/unloaded_positions.h"
+#include "core/frames/geometry_calibration.h"
 
 #include <Eigen/Dense>
 #include <map>

@@ -1,4 +1,4 @@
-#include "core/frames/wrist_centre.h"
+#include "core/frames/frames.h"
 
 #include <cmath>
 #include <limits>

@@ -1,4 +1,4 @@
-#include "core/identification/characteristic_length.h"
+#include "core/identification/complete_pose.h"
 
 #include <Eigen/Dense>
 #include <algorithm>

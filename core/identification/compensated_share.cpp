@@ -1,4 +1,4 @@
-#include "core/identification/compensated_share.h"
+#include "core/identification/subsets.h"
 
 #include <algorithm>
 #include <array>

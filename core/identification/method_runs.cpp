@@ -10,7 +10,6 @@
 #include "core/identification/loaded_arm.h"
 #include "core/identification/method_solution.h"
 #include "core/identification/remarks.h"
-#include "core/identification/shared_uncertainty.h"
 
 namespace stiffscope::identification {
 

@@ -1,9 +1,35 @@
 #pragma once
 
+#include <functional>
+
+#include "core/frames/geometry_calibration.h"
+#include "core/identification/estimate.h"
 #include "core/identification/identification.h"
 #include "core/identification/loaded_arm.h"
 
 namespace stiffscope::identification {
+
+// What all postures have in common, and no scatter between them shows, carried to the compliances by differences of the
+// whole solution: J C J^T. Solutions here neglect K_c, which changes a derivative by as little as it changes the
+// torques (about a hundredth).
+
+/// Compliances by one method from a loaded arm.
+using ComplianceOf = std::function<Vector6d(const LoadedArm&)>;
+
+/// Of the compliances that `solve` gives in the swept geometry: by the six axes as they were measured (AxesCovariance),
+/// from which R0, links and the flange's place follow, and by the radii of the wrist sweep. The reflectors'
+/// places at zero go along with R0, as if they were not turned back about the measured axes, and P_TCP's place in the
+/// flange is kept: that overstates Complete Pose's part by up to two, of some thousandths of the whole.
+struct SweptParts {
+  Matrix6d frames = Matrix6d::Zero(), wrist = Matrix6d::Zero();
+};
+std::vector<SweptParts> sweptParts(const campaign::Campaign& campaign, const frames::Frames& frames,
+                                   const frames::LoadingGeometry& geometry, const std::vector<int>& steps,
+                                   const std::vector<ComplianceOf>& solves);
+
+/// Of the compliances in the calibrated geometry, by its covariance (GeometryCalibration::spread).
+Matrix6d calibratedPart(const campaign::Campaign& campaign, const frames::GeometryCalibration& calibration,
+                        const frames::WristCentre& wrist, const std::vector<int>& steps, const ComplianceOf& solve);
 
 /// What the methods work on, and what they hand to each other.
 struct MethodRuns {

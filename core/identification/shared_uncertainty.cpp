@@ -1,4 +1,4 @@
-#include "core/identification/shared_uncertainty.h"
+#include "core/identification/method_runs.h"
 
 #include "core/frames/joint_axes.h"
 #include "metrology/lines.h"

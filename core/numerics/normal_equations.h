@@ -1,8 +1,14 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <vector>
 
 namespace stiffscope::numerics {
+
+/// Columns of a Jacobian that the data cannot tell from those before them, in the order given: what is left
+/// of such a column across the span of the earlier ones is under 1e-5 of its length. Parameters that the data
+/// would rather determine come first in `order`.
+std::vector<int> columnsInSpanOfEarlier(const Eigen::MatrixXd& jacobian, const std::vector<int>& order);
 
 /// [A y]^T [A y] of whitened equations; half of it computed, the rest mirrored.
 inline Eigen::MatrixXd normalMatrix(const Eigen::MatrixXd& equations) {

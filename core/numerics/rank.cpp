@@ -1,4 +1,4 @@
-#include "core/numerics/rank.h"
+#include "core/numerics/normal_equations.h"
 
 namespace stiffscope::numerics {
 

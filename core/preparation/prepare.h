@@ -19,8 +19,8 @@ struct DriftCorrection {
   double until_s = 0.0;          ///< time of the last round
   std::vector<double> jumps_s;   ///< where the station jumped instead of drifting: when
   std::size_t readings = 0;      ///< referred to the first round
-  std::size_t spread = 0;        ///< among them: of sweeps that state no time, taken as read evenly before the loading
   std::size_t without_time = 0;  ///< in the tracker's frame, but no time says how the station stood: as read
+  std::size_t spread = 0;        ///< among them: of sweeps that state no time, taken as read evenly before the loading
 };
 
 /// What was done to a campaign before anything was computed from it.

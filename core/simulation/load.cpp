@@ -1,4 +1,4 @@
-#include "core/simulation/load.h"
+#include "core/simulation/equilibrium.h"
 
 #include <cmath>
 #include <numbers>

@@ -69,7 +69,7 @@ TEST(CommandLine, ViewIsTheWindowBesideIt) {
     GTEST_SKIP() << "the window was not built";
   const Ran help = runProgram("view --help", scratch.path());
   EXPECT_EQ(help.status, 0);
-  EXPECT_NE(help.out.find("Usage: stiffscope-view [OPTIONS] CAMPAIGN"), std::string::npos) << help.out;
+  EXPECT_NE(help.out.find("Usage: stiffscope view [OPTIONS] CAMPAIGN"), std::string::npos) << help.out;
   const Ran wrong = runProgram("view '" + kActive + "' --metod dpp", scratch.path());
   EXPECT_EQ(wrong.status, 2);
   EXPECT_NE(wrong.err.find("did you mean '--method'?"), std::string::npos) << wrong.err;

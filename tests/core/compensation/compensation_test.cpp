@@ -134,7 +134,7 @@ TEST(Compensate, RefusesWithTheReason) {
   arm.estimate.compliance = arm.lab.compliance * 1e4;
   const compensation::CompensatedPosture collapsed = arm.run(fine);
   EXPECT_FALSE(collapsed.predicted);
-  EXPECT_TRUE(collapsed.reason.is(compensation::RemarkId::loaded_arm_does_not_rest));
+  EXPECT_TRUE(collapsed.reason.is(compensation::RemarkId::unloaded_arm_does_not_rest));
 }
 
 /// How far a machine's reflectors stand from their places unloaded, mean over them.

@@ -1,5 +1,5 @@
-#include "core/diagnosis/position_by_geometry.h"
 #include <gtest/gtest.h>
+#include "core/diagnosis/linear_system.h"
 #include "core/effects/all.h"
 #include "core/effects/gravity_equilibrium.h"
 #include "tests/fixtures/chain_arm.h"

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include "core/frames/remarks.h"
-#include "core/frames/unloaded_positions.h"
 #include "reports/words/remark_words.h"
 #include "tests/fixtures/linear_machine.h"
 

@@ -77,8 +77,9 @@ class Coverage {
   void expect() const {
     for (const auto& [what, count] : inside_) {
       std::printf("coverage of %s: %.1f %%\n", what.c_str(), 100.0 * of(what));
-      EXPECT_GT(of(what), 0.93) << what;
-      EXPECT_LT(of(what), 0.97) << what;
+      // Of 2000 draws the share scatters by 0.5 %: five of that.
+      EXPECT_GT(of(what), 0.925) << what;
+      EXPECT_LT(of(what), 0.975) << what;
     }
   }
 

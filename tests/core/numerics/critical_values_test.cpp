@@ -23,7 +23,7 @@ TEST(Chance, LimitsAreThoseOfPrintedTables) {
 
 // Critical values of Student's t at two-sided 5 %, NIST e-Handbook 1.3.6.7.2, and at infinitely many degrees the
 // normal's. Between 100 degrees and infinity no table has rows; there the first terms of Cornish and Fisher's expansion
-// (Abramowitz and Stegun 26.7.5) are exact to 1e-9 and share nothing with the library.
+// (Abramowitz and Stegun 26.7.5) share nothing with the library. The next term is at most 24 / dof^4 of the value.
 TEST(Chance, StudentFromTenDegreesToAMillion) {
   EXPECT_NEAR(numerics::studentLimit(0.05, 10), 2.228, 5e-4);
   EXPECT_NEAR(numerics::studentLimit(0.05, 30), 2.042, 5e-4);
@@ -34,20 +34,21 @@ TEST(Chance, StudentFromTenDegreesToAMillion) {
       const double z2 = z * z;
       const double expanded = z + z * (z2 + 1) / (4 * dof) + z * (5 * z2 * z2 + 16 * z2 + 3) / (96 * dof * dof) +
                               z * (3 * z2 * z2 * z2 + 19 * z2 * z2 + 17 * z2 - 15) / (384 * dof * dof * dof);
-      EXPECT_NEAR(numerics::studentLimit(tail, dof) / expanded, 1.0, std::max(1e-12, 20.0 / std::pow(dof, 4)))
+      EXPECT_NEAR(numerics::studentLimit(tail, dof) / expanded, 1.0, std::max(1e-12, 30.0 / std::pow(dof, 4)))
           << tail << " " << dof;
     }
   }
 }
 
-// Wilson and Hilferty's cube (Abramowitz and Stegun 26.4.17) is good to a few 1e-4 at ten degrees and better with more.
+// Wilson and Hilferty's cube (Abramowitz and Stegun 26.4.17): its error falls with dof^-3/2, 8e-4 of the value at ten
+// degrees, where the table of NIST (1.3.6.7.4) decides.
 TEST(Chance, ChiSquareFromTenDegreesToAMillion) {
   EXPECT_NEAR(numerics::chiSquareLimit(0.05, 10), 18.307, 5e-4);
   EXPECT_NEAR(numerics::chiSquareLimit(0.05, 30), 43.773, 5e-4);
   constexpr double kZ = 1.6448536269514722;  // of 5 % on one side
   for (const double dof : {1e1, 3e1, 1e2, 1e3, 3e4, 1e5, 1e6}) {
     const double c = 2.0 / (9.0 * dof), cubed = dof * std::pow(1.0 - c + kZ * std::sqrt(c), 3);
-    EXPECT_NEAR(numerics::chiSquareLimit(0.05, dof) / cubed, 1.0, 0.01 / std::pow(dof, 1.5)) << dof;
+    EXPECT_NEAR(numerics::chiSquareLimit(0.05, dof) / cubed, 1.0, 0.03 / std::pow(dof, 1.5)) << dof;
   }
 }
 

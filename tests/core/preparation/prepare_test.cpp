@@ -179,7 +179,8 @@ TEST(Prepare, AnAuditOfWhatIsPreparedIsTheSame) {
   }
   EXPECT_EQ(of_prepared.rejected.size(), of_day.rejected.size());
   EXPECT_EQ(prepared.preparation.declared->range_fixed, day.tracker->range_fixed);
-  EXPECT_GT(prepared.campaign.tracker->range_fixed, 2.0 * day.tracker->range_fixed);  // by the repeats
+  // By the repeats: three times, less what their own scatter makes of it.
+  EXPECT_GT(prepared.campaign.tracker->range_fixed, 1.7 * day.tracker->range_fixed);
   ASSERT_EQ(prepared.campaign.loading->rows.size(), before.campaign.loading->rows.size());
   EXPECT_EQ(farthestApart(prepared.campaign, before.campaign), 0.0);
   EXPECT_EQ(prepared.screening.size(), before.screening.size());

@@ -1,6 +1,6 @@
 #include <algorithm>
 #include <map>
-#include "core/simulation/load.h"
+#include "core/simulation/equilibrium.h"
 #include "core/simulation/postures.h"
 #include "tests/fixtures/simulation_fixture.h"
 
