@@ -59,18 +59,18 @@ AbsoluteFit fitAbsolutePositions(const campaign::Campaign& campaign, const frame
 
 /// What the checks look at: the campaign as identification sees it.
 struct AuditInput {
-  const campaign::Campaign& campaign;  ///< as prepared
-  preparation::DriftCorrection drift;  ///< how far it was
-  preparation::StationMotion station;  ///< by the nests
-  preparation::RepeatScatter scatter;  ///< of the repeats, against the declared noise
+  const campaign::Campaign& campaign;       ///< as prepared
+  preparation::DriftCorrection drift = {};  ///< how far it was
+  preparation::StationMotion station = {};  ///< by the nests
+  preparation::RepeatScatter scatter = {};  ///< of the repeats, against the declared noise
   /// That of `campaign.tracker`; empty where none is declared.
-  std::optional<metrology::TrackerNoise> noise;
-  std::vector<campaign::StatePoints> states;  ///< reflectors in every state of sweeps and loading
-  std::optional<int> step;                    ///< heaviest load step
-  frames::Frames frames;                      ///< sag taken off where it can be
-  frames::RigidPoints rigid;                  ///< the sweeps' readings, sag taken off where it can be
-  identification::LoadedArm arm;              ///< in the swept geometry, under `step`; no cases where there are none
-  AbsoluteFit absolute;                       ///< unloaded positions against forward kinematics
+  std::optional<metrology::TrackerNoise> noise = {};
+  std::vector<campaign::StatePoints> states = {};  ///< reflectors in every state of sweeps and loading
+  std::optional<int> step = {};                    ///< heaviest load step
+  frames::Frames frames = {};                      ///< sag taken off where it can be
+  frames::RigidPoints rigid = {};                  ///< the sweeps' readings, sag taken off where it can be
+  identification::LoadedArm arm = {};  ///< in the swept geometry, under `step`; no cases where there are none
+  AbsoluteFit absolute = {};           ///< unloaded positions against forward kinematics
 };
 
 /// `prepared` must outlive the result.

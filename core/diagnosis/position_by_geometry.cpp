@@ -1,4 +1,4 @@
-#include "core/diagnosis/linear_system.h"
+#include "core/diagnosis/system_rows.h"
 
 #include <Eigen/Dense>
 #include <algorithm>

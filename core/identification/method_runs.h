@@ -49,7 +49,7 @@ void runCompletePose(MethodRuns& runs, Identification& result);
 void runPartialPose(MethodRuns& runs, Identification& result);
 void runDecoupledPartialPose(MethodRuns& runs, Identification& result);
 
-/// Adds what all postures share to the covariances of the methods that have run (shared_uncertainty.h).
+/// Adds what all postures share to the covariances of the methods that have run (shared_uncertainty.cpp).
 void addSharedUncertainty(const MethodRuns& runs, Identification& result);
 
 }  // namespace stiffscope::identification

@@ -209,7 +209,7 @@ TEST(StiffnessCovariance, OfTheSweepsIsWhatNoisySweepsScatter) {
       const double mean = sum[m][j] / kDays, variance = (squares[m][j] - kDays * mean * mean) / (kDays - 1);
       // A variance from 40 has a relative standard deviation of sqrt(2/39) = 0.23; four and a half of them, upwards
       // as far on a log scale. Complete Pose's part is overstated by up to two in standard deviation, because the
-      // reflectors' places at zero really follow the axes they are turned back about (shared_uncertainty.h).
+      // reflectors' places at zero really follow the axes they are turned back about (shared_uncertainty.cpp).
       const double ratio = variance / (stated[m][j] / kDays);
       EXPECT_GT(ratio, 1.0 / (m == 0 ? 4.0 * 2.5 : 2.5)) << m << " k" << j + 1;
       EXPECT_LT(ratio, 2.5) << m << " k" << j + 1;

@@ -1,0 +1,239 @@
+#include "core/diagnosis/system_rows.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "core/effects/gravity_equilibrium.h"
+#include "core/identification/load_case.h"
+#include "core/robot/geometric_stiffness.h"
+#include "core/robot/wrench.h"
+#include "metrology/linear_algebra.h"
+#include "metrology/rigid_motion.h"
+
+namespace stiffscope::diagnosis {
+
+namespace {
+
+struct TimesOfPose {
+  std::map<int, double> by_step;
+};
+
+std::vector<TimesOfPose> timesOf(const campaign::Campaign& campaign) {
+  std::vector<TimesOfPose> times(campaign.pose_ids.size());
+  for (const campaign::State& state : campaign.states->rows)
+    times[static_cast<std::size_t>(state.pose)].by_step[state.step] = state.time_s;
+  return times;
+}
+
+Eigen::Matrix3d cellAxes(const campaign::LoadCell& cell, const frames::LoadingGeometry& geometry,
+                         const identification::LoadCase& one) {
+  Eigen::Matrix3d axes;
+  const robot::ArmPosture posture = identification::unloadedPosture(geometry.arm, one);
+  for (int k = 0; k < 3; ++k) {
+    const Vector6d unit = Vector6d::Unit(k);
+    axes.col(k) =
+        identification::cellWrench(cell, geometry, posture, one.flange_unloaded, one.flange_loaded, unit).force;
+  }
+  return axes;
+}
+
+/// The wrench as the corrections have it.
+robot::Wrench corrected(const robot::Wrench& read, const effects::ArmState& state, const effects::Corrections& by,
+                        const effects::LinearizationPoint& at) {
+  robot::Wrench wrench = read;
+  const Eigen::Matrix3d turn =
+      metrology::motionAbout(Eigen::Vector3d::Zero(),
+                             (Vector6d() << state.cell_axes * by.cell_turn, Eigen::Vector3d::Zero()).finished())
+          .linear();
+  wrench.force = turn * read.force;
+  wrench.moment = turn * read.moment;
+  wrench.point += state.flange.linear() * by.load_point;
+  if (state.loaded) {
+    const Eigen::Vector3d weight = -at.r0_from_base_link.linear().col(2) * by.missing_weight;
+    wrench.force += state.cell_axes * by.cell_force + weight;
+    wrench.moment += (state.flange.linear() * at.load_offset).cross(weight);
+  }
+  return wrench;
+}
+
+class LoadingRowMaker {
+ public:
+  LoadingRowMaker(const campaign::Campaign& campaign, const frames::LoadingGeometry& geometry,
+                  const effects::LinearizationPoint& at, const effects::Corrections& corrections)
+      : campaign_(campaign), geometry_(geometry), at_(at), corrections_(corrections), times_(timesOf(campaign)) {
+    const identification::LoadReadings readings(campaign, identification::loadSteps(campaign));
+    for (const int step : readings.steps()) {
+      for (identification::LoadCase& one : identification::loadCases(campaign, readings, geometry, step))
+        cases_[one.pose].push_back(std::move(one));
+    }
+  }
+
+  std::vector<SystemRows> run() const {
+    std::vector<SystemRows> rows;
+    for (const auto& [pose, cases] : cases_) {
+      const std::vector<int> targets = commonTargets(cases);
+      double largest = 0.0;
+      for (const identification::LoadCase& one : cases) largest = std::max(largest, one.wrench.force.norm());
+      if (targets.empty() || largest <= 0.0) continue;
+      rows.push_back(rowsOf(pose, cases, targets, largest));
+    }
+    return rows;
+  }
+
+ private:
+  static std::vector<int> commonTargets(const std::vector<identification::LoadCase>& cases) {
+    std::map<int, std::size_t> seen;
+    for (const identification::LoadCase& one : cases) {
+      for (const identification::TargetMove& move : one.targets) ++seen[move.target];
+    }
+    std::vector<int> common;
+    for (const auto& [target, count] : seen) {
+      if (count == cases.size()) common.push_back(target);
+    }
+    return common;
+  }
+
+  static const identification::TargetMove& moveOf(const identification::LoadCase& one, int target) {
+    return *std::find_if(one.targets.begin(), one.targets.end(),
+                         [&](const identification::TargetMove& move) { return move.target == target; });
+  }
+
+  SystemRows rowsOf(int pose, const std::vector<identification::LoadCase>& cases, const std::vector<int>& targets,
+                    double largest) const {
+    const auto per_state = 3 * static_cast<Eigen::Index>(targets.size());
+    const auto states = static_cast<Eigen::Index>(cases.size());
+    SystemRows rows;
+    rows.pose = pose;
+    rows.displacement.resize(per_state * states);
+    rows.by_compliance.resize(per_state * states, 6);
+    effects::ArmState rest = effects::gravityEquilibrium(geometry_, at_, cases.front().q);
+    rest.pose = pose;
+    rest.targets = targets;
+    rest.time_s = timeOf(pose, 0);
+    for (const int target : targets) rest.points.push_back(moveOf(cases.front(), target).unloaded);
+    if (cases.front().flange_unloaded) rest.flange = *cases.front().flange_unloaded;
+    rows.unloaded_readings = std::max(1, cases.front().targets.front().unloaded_readings);
+    rows.loaded_readings = std::max(1, cases.front().targets.front().loaded_readings);
+    rows.states.push_back(rest);
+    for (std::size_t k = 0; k < cases.size(); ++k) {
+      addState(cases[k], rest, largest, static_cast<Eigen::Index>(k) * per_state, rows);
+    }
+    rows.states.front().cell_axes = rows.states[1].cell_axes;
+    if (cases.front().absolute) addPosition(rest, rows);
+    return rows;
+  }
+
+  void addState(const identification::LoadCase& one, const effects::ArmState& rest, double largest, Eigen::Index at_row,
+                SystemRows& rows) const {
+    effects::ArmState state = rest;
+    state.step = one.step;
+    state.time_s = timeOf(one.pose, one.step);
+    state.loaded = one.wrench.force.norm() > campaign::kReturnShare * largest;
+    state.cell_axes = cellAxes(*campaign_.load_cell, geometry_, one);
+    state.load = corrected(one.wrench, state, corrections_, at_);
+    const robot::ArmAxes axes = robot::axesAt(geometry_.arm, rest.posture);
+    state.load_torque = robot::jointTorque(axes, state.load);
+    // Springs' torque s = tau + K_c c s, and the Jacobian at the middle of the displacement (see
+    // equations.h).
+    Matrix6d change =
+        robot::geometricStiffness(axes, state.load) + robot::geometricStiffness(axes, rest.posture, geometry_.weight);
+    change(1, 1) += compensatorSlope(at_, rest.turned);
+    const Matrix6d system = Matrix6d::Identity() - change * at_.compliance.asDiagonal();
+    const Vector6d torque = solveLu(system, state.load_torque);
+    const robot::ArmPosture middle =
+        effects::movedPosture(geometry_.arm, rest.turned + 0.5 * at_.compliance.cwiseProduct(torque), rest.moved);
+    const robot::ArmAxes middle_axes = robot::axesAt(geometry_.arm, middle);
+    Eigen::Matrix<double, Eigen::Dynamic, 6> by_wrench(rest.rows(), 6);
+    Matrix6d wrench_to_torque = robot::jacobianAt(geometry_.arm, rest.posture, state.load.point).transpose();
+    for (std::size_t t = 0; t < rest.targets.size(); ++t) {
+      const identification::TargetMove& move = moveOf(one, rest.targets[t]);
+      const Matrix36d jacobian = robot::pointJacobianAt(middle_axes, 0.5 * (move.unloaded + move.loaded));
+      const Eigen::Index row = at_row + 3 * static_cast<Eigen::Index>(t);
+      rows.displacement.segment<3>(row) = move.displacement();
+      rows.by_compliance.middleRows<3>(row) = jacobian * torque.asDiagonal();
+      by_wrench.middleRows<3>(3 * static_cast<Eigen::Index>(t)) =
+          jacobian * at_.compliance.asDiagonal() * wrench_to_torque;
+    }
+    rows.by_wrench.push_back(std::move(by_wrench));
+    rows.states.push_back(std::move(state));
+  }
+
+  void addPosition(const effects::ArmState& rest, SystemRows& rows) const {
+    rows.position.resize(rest.rows());
+    for (std::size_t t = 0; t < rest.targets.size(); ++t) {
+      const auto& at_zero = geometry_.targets_at_zero[static_cast<std::size_t>(rest.targets[t])];
+      if (!at_zero) {
+        rows.position.resize(0);
+        return;
+      }
+      rows.position.segment<3>(3 * static_cast<Eigen::Index>(t)) = rest.points[t] - rest.posture.motion[6] * *at_zero;
+    }
+    rows.sag_by_compliance = effects::byEachJoint(rest, rest.weight_torque);
+  }
+
+  double timeOf(int pose, int step) const {
+    const auto& by_step = times_[static_cast<std::size_t>(pose)].by_step;
+    const auto found = by_step.find(step);
+    return found == by_step.end() ? campaign::kNoTime : found->second;
+  }
+
+  const campaign::Campaign& campaign_;
+  const frames::LoadingGeometry& geometry_;
+  const effects::LinearizationPoint& at_;
+  const effects::Corrections& corrections_;
+  std::vector<TimesOfPose> times_;
+  std::map<int, std::vector<identification::LoadCase>> cases_;
+};
+
+}  // namespace
+
+double compensatorSlope(const effects::LinearizationPoint& at, const Vector6d& turned) {
+  double slope = 0.0;
+  for (Eigen::Index k = 0; k + 1 < at.compensator.size(); k += 2) {
+    const double n = static_cast<double>(k / 2 + 1);
+    slope += n * (at.compensator[k] * std::cos(n * turned[1]) - at.compensator[k + 1] * std::sin(n * turned[1]));
+  }
+  return slope;
+}
+
+std::vector<SystemRows> loadingRows(const campaign::Campaign& campaign, const frames::LoadingGeometry& geometry,
+                                    const effects::LinearizationPoint& at, const effects::Corrections& corrections) {
+  frames::LoadingGeometry shifted = geometry;
+  if (shifted.r0_from_loading) {
+    shifted.r0_from_loading =
+        metrology::motionAbout(at.epoch_centre, corrections.frame).inverse() * *geometry.r0_from_loading;
+  }
+  return LoadingRowMaker(campaign, shifted, at, corrections).run();
+}
+
+std::vector<SweepRows> sweepRows(const campaign::Campaign& campaign, const frames::LoadingGeometry& geometry,
+                                 const Eigen::Isometry3d& r0_from_points, const effects::LinearizationPoint& at) {
+  std::map<std::pair<int, std::string>, SweepRows> by_index;
+  const auto add = [&](int axis, const auto& reading) {
+    const auto& at_zero = geometry.targets_at_zero[static_cast<std::size_t>(reading.target)];
+    if (!at_zero) return;
+    SweepRows& rows = by_index[{axis, reading.index}];
+    if (rows.state.points.empty()) rows.state = effects::gravityEquilibrium(geometry, at, reading.q);
+    rows.state.time_s = reading.time_s;
+    rows.state.targets.push_back(reading.target);
+    rows.state.points.push_back(r0_from_points * reading.point);
+    rows.position.conservativeResize(rows.state.rows());
+    rows.position.tail<3>() = rows.state.points.back() - rows.state.posture.motion[6] * *at_zero;
+  };
+  if (campaign.circle_sweeps) {
+    for (const campaign::CircleReading& reading : campaign.circle_sweeps->rows) add(reading.axis, reading);
+  }
+  if (campaign.wrist_sweep) {
+    for (const campaign::WristReading& reading : campaign.wrist_sweep->rows) add(6, reading);
+  }
+  std::vector<SweepRows> all;
+  for (auto& [key, rows] : by_index) {
+    rows.sag_by_compliance = effects::byEachJoint(rows.state, rows.state.weight_torque);
+    all.push_back(std::move(rows));
+  }
+  return all;
+}
+
+}  // namespace stiffscope::diagnosis

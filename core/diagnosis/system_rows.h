@@ -1,0 +1,73 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "core/campaign/campaign.h"
+#include "core/effects/arm_state.h"
+#include "core/effects/effect_model.h"
+#include "core/frames/arm_geometry.h"
+
+namespace stiffscope::diagnosis {
+
+/// Derivatives of an unloaded state's absolute positions, modelled less measured, by the geometry's steps:
+/// one row a coordinate of each reflector, one column a step of GeometrySteps.
+///
+/// In a product of exponentials, moving axis j by a small motion xi moves what is beyond it by
+/// M_{j-1} xi M_{j-1}^-1 - M_j xi M_j^-1, M_b the motion of body b; the base's steps move the readings, the
+/// reflectors' steps turn with body 6. The own weight's torques tau change with axes and bodies, and with
+/// them the sag and what effects in the model turn the joints by: d theta = (C + T) (d tau + K_c d theta) + U
+/// d theta, T and U the slopes of these turns by torque and angle. Where effects in the model move bodies,
+/// all of it is by differences.
+class PositionByGeometry {
+ public:
+  /// `centre`: about which the base's steps turn. Keeps references.
+  PositionByGeometry(const frames::LoadingGeometry& geometry, const effects::LinearizationPoint& at,
+                     const Eigen::Vector3d& centre);
+
+  Eigen::MatrixXd of(const effects::ArmState& state) const;
+
+ private:
+  void addAxes(const effects::ArmState& modelled, Eigen::MatrixXd& columns) const;
+  void addAxesByDifferences(const effects::ArmState& modelled, Eigen::MatrixXd& columns) const;
+
+  const frames::LoadingGeometry& geometry_;
+  const effects::LinearizationPoint& at_;
+  Eigen::Vector3d centre_;
+  std::vector<frames::LoadingGeometry> stepped_;  ///< by each step of an axis; empty where no effect moves bodies
+};
+
+/// The equations of one posture of the loading, unwhitened, in R0, m. Deflection rows: states after the
+/// first, three a reflector; absolute rows: the first state. y = A c + geometry + effects + noise.
+struct SystemRows {
+  int pose = 0;
+  effects::PostureStates states;
+  Eigen::VectorXd displacement;                            ///< loaded less unloaded, as measured
+  Eigen::Matrix<double, Eigen::Dynamic, 6> by_compliance;  ///< of the displacement: K_c and the middle posture in
+  Eigen::VectorXd position;  ///< measured less the rigid model's; empty without absolute points
+  Eigen::Matrix<double, Eigen::Dynamic, 6> sag_by_compliance;
+  int unloaded_readings = 0, loaded_readings = 0;  ///< means over these, per reflector and state
+  std::vector<Eigen::Matrix<double, Eigen::Dynamic, 6>>
+      by_wrench;  ///< of each loaded state: displacement by its wrench
+};
+
+/// One unloaded posture of a sweep.
+struct SweepRows {
+  effects::ArmState state;
+  Eigen::VectorXd position;
+  Eigen::Matrix<double, Eigen::Dynamic, 6> sag_by_compliance;
+};
+
+/// Rows of the loading (or of `displacements`), in the order of poses. Reflectors that some step of a posture
+/// lacks are left out of that posture; a posture without a loaded state is left out.
+std::vector<SystemRows> loadingRows(const campaign::Campaign& campaign, const frames::LoadingGeometry& geometry,
+                                    const effects::LinearizationPoint& at, const effects::Corrections& corrections);
+
+/// Rows of circle and wrist sweeps; empty where they are in another frame than the loading.
+std::vector<SweepRows> sweepRows(const campaign::Campaign& campaign, const frames::LoadingGeometry& geometry,
+                                 const Eigen::Isometry3d& r0_from_points, const effects::LinearizationPoint& at);
+
+/// How the compensator's torque on joint 2 changes as the joint turns, Nm/rad.
+double compensatorSlope(const effects::LinearizationPoint& at, const Vector6d& turned);
+
+}  // namespace stiffscope::diagnosis
