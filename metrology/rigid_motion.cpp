@@ -4,6 +4,10 @@
 
 namespace stiffscope::metrology {
 
+Eigen::Matrix3d crossMatrix(const Eigen::Vector3d& v) {
+  return (Eigen::Matrix3d() << 0.0, -v.z(), v.y(), v.z(), 0.0, -v.x(), -v.y(), v.x(), 0.0).finished();
+}
+
 Eigen::Isometry3d baseFrame(const Line& axis_1, const Line& axis_2) {
   const Eigen::Vector3d z = axis_1.direction.normalized();
   const Eigen::Vector3d y = (axis_2.direction - z.dot(axis_2.direction) * z).normalized();

@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
+#include <utility>
 
 #include "core/effects/all.h"
-#include "core/effects/elastic_arm.h"
 #include "core/effects/gravity_equilibrium.h"
-#include "core/extended_model/effect_fit.h"
-#include "core/extended_model/fitted_effects.h"
+#include "core/extended_model/effect_offsets.h"
 #include "core/identification/outliers.h"
 #include "core/io/input_error.h"
 #include "metrology/rigid_motion.h"
@@ -46,27 +46,24 @@ Eigen::Matrix3d turnOf(const Eigen::Vector3d& w) {
   return Eigen::AngleAxisd(size, w / size).toRotationMatrix();
 }
 
-/// The state of a row under load; null where the fit does not have it.
-const effects::ArmState* stateOf(const diagnosis::GapFit& fit, const campaign::State& row) {
+/// The fit's states under load by pose and step.
+std::map<std::pair<int, int>, const effects::ArmState*> loadedStates(const diagnosis::GapFit& fit) {
+  std::map<std::pair<int, int>, const effects::ArmState*> states;
   for (const diagnosis::GapPosture& posture : fit.data.postures) {
-    if (posture.pose != row.pose) continue;
-    for (std::size_t s = 1; s < posture.states.size(); ++s) {
-      if (posture.states[s].step == row.step) return &posture.states[s];
-    }
+    for (std::size_t s = 1; s < posture.states.size(); ++s)
+      states[{posture.pose, posture.states[s].step}] = &posture.states[s];
   }
-  return nullptr;
+  return states;
 }
 
 /// What the effects correct in wrenches and frame, as the fit's own equations have it.
-effects::Corrections correctionsBy(const EffectFit& effects, const Eigen::VectorXd& parameters) {
-  const diagnosis::GapLayout& layout = effects.fit.data.layout;
+effects::Corrections correctionsBy(const EffectFit& effects) {
   effects::LinearizationPoint at = effects.fit.state.at;
   effects::Corrections corrections;
   for (const diagnosis::ChosenModel& one : effects.fit.set.models) {
     const effects::EffectModel& model = effects.input->models[one.model];
     if (!model.correct) continue;
-    Eigen::VectorXd own =
-        parameters.segment(layout.model_at[one.model] - layout.effects, static_cast<Eigen::Index>(model.parameters()));
+    Eigen::VectorXd own = effects.parametersOf(one);
     model.correct(at.compliance, at, corrections, own);
   }
   return corrections;
@@ -78,9 +75,11 @@ void correctWrenches(const EffectFit& effects, const effects::Corrections& by, c
   if (!by.load_point.isZero(0.0)) moveLoadPoint(by.load_point, campaign);
   const Eigen::Matrix3d turn = turnOf(by.cell_turn);
   const Eigen::Vector3d weight = -by.missing_weight * effects.fit.state.at.r0_from_base_link.linear().col(2);
+  const std::map<std::pair<int, int>, const effects::ArmState*> states = loadedStates(effects.fit);
   for (campaign::State& row : campaign.states->rows) {
-    const effects::ArmState* state = stateOf(effects.fit, row);
-    if (state == nullptr) continue;
+    const auto found = states.find({row.pose, row.step});
+    if (found == states.end()) continue;
+    const effects::ArmState* state = found->second;
     auto force = row.wrench_in_cell.head<3>();
     auto moment = row.wrench_in_cell.tail<3>();
     force = turn * Eigen::Vector3d(force);
@@ -92,82 +91,12 @@ void correctWrenches(const EffectFit& effects, const effects::Corrections& by, c
   }
 }
 
-/// Whether the effect shifts readings: other faults of the measurement act through the wrench or the frame.
-bool shiftsReadings(const effects::EffectModel& model) {
-  return effects::natureOf(model.effect) == effects::EffectNature::measurement && !model.correct;
-}
-
-bool hasMachine(const EffectFit& effects) {
-  return std::any_of(
-      effects.fit.set.models.begin(), effects.fit.set.models.end(), [&](const diagnosis::ChosenModel& one) {
-        return effects::natureOf(effects.input->models[one.model].effect) == effects::EffectNature::machine;
-      });
-}
-
-}  // namespace
-
-PostureOffsets::PostureOffsets(const EffectFit& effects, const Eigen::VectorXd& parameters,
-                               const effects::PostureStates& posture, Which which)
-    : effects_(effects), parameters_(parameters), posture_(posture), which_(which) {
-  if (!which.machine || !hasMachine(effects)) return;
-  const diagnosis::SystemState& state = effects.fit.state;
-  const effects::ElasticArm with(state.geometry, state.at.compliance, state.at, machineEffects(effects, parameters));
-  const effects::ElasticArm springs(state.geometry, state.at.compliance, state.at, {});
-  for (std::size_t s = 0; s < posture.size(); ++s) {
-    effects::ToolLoad load{{}, posture[s].load.force, posture[s].load.moment};
-    const auto restOf = [&](const effects::ElasticArm& arm) {
-      if (s > 0) load.point_at_zero = with_.front().inverse() * posture[s].load.point;
-      return arm.toolMotion(posture, s, s > 0 ? &load : nullptr);
-    };
-    const auto one = restOf(with), other = restOf(springs);
-    if (!one || !other) {
-      with_.clear(), without_.clear();
-      return;
-    }
-    with_.push_back(*one), without_.push_back(*other);
-  }
-}
-
-std::vector<Eigen::Vector3d> PostureOffsets::linear(int target, const Eigen::Vector3d& place, bool machine) const {
-  effects::PostureStates states = posture_;
-  for (effects::ArmState& state : states) state.targets = {target}, state.points = {place};
-  std::vector<Eigen::Vector3d> offsets(states.size(), Eigen::Vector3d::Zero());
-  const diagnosis::GapLayout& layout = effects_.fit.data.layout;
-  for (const diagnosis::ChosenModel& one : effects_.fit.set.models) {
-    const effects::EffectModel& model = effects_.input->models[one.model];
-    const bool wanted =
-        machine ? effects::natureOf(model.effect) == effects::EffectNature::machine : shiftsReadings(model);
-    if (!wanted) continue;
-    const Eigen::VectorXd own =
-        parameters_.segment(layout.model_at[one.model] - layout.effects, static_cast<Eigen::Index>(model.parameters()));
-    for (std::size_t s = 0; s < states.size(); ++s) offsets[s] += model.columns(effects_.fit.state.at, states, s) * own;
-  }
-  return offsets;
-}
-
-std::vector<Eigen::Vector3d> PostureOffsets::byMachine(const Eigen::Vector3d& place) const {
-  std::vector<Eigen::Vector3d> offsets;
-  const Eigen::Vector3d at_zero = with_.front().inverse() * place;
-  for (std::size_t s = 0; s < with_.size(); ++s) offsets.push_back(with_[s] * at_zero - without_[s] * at_zero);
-  return offsets;
-}
-
-std::vector<Eigen::Vector3d> PostureOffsets::of(int target, const Eigen::Vector3d& place) const {
-  std::vector<Eigen::Vector3d> offsets(posture_.size(), Eigen::Vector3d::Zero());
-  const auto add = [&](const std::vector<Eigen::Vector3d>& more) {
-    for (std::size_t s = 0; s < offsets.size(); ++s) offsets[s] += more[s];
-  };
-  if (which_.readings) add(linear(target, place, false));
-  if (which_.machine) add(with_.empty() ? linear(target, place, true) : byMachine(place));
-  return offsets;
-}
-
-namespace {
-
+/// Takes what the effects add (PostureOffsets) off readings.
 class Shifter {
  public:
-  Shifter(const EffectFit& effects, const Eigen::VectorXd& parameters, const ShiftOptions& options)
-      : effects_(effects), parameters_(parameters), options_(options), state_(effects.fit.state) {
+  /// `frame`: motion of the loading's frame, as frame_error has it, that is undone first.
+  Shifter(const EffectFit& effects, const Vector6d& frame)
+      : effects_(effects), frame_(frame), state_(effects.fit.state) {
     for (const diagnosis::GapPosture& posture : effects.fit.data.postures) postures_[posture.pose] = posture.states;
   }
 
@@ -178,7 +107,7 @@ class Shifter {
     const Eigen::Isometry3d r0_from_loading = state_.geometry.r0_from_loading.value_or(Eigen::Isometry3d::Identity());
     const Eigen::Isometry3d loading_from_r0 = r0_from_loading.inverse();
     const Eigen::Isometry3d corrected =
-        metrology::motionAbout(state_.at.epoch_centre, options_.frame).inverse() * r0_from_loading;
+        metrology::motionAbout(state_.at.epoch_centre, frame_).inverse() * r0_from_loading;
     const auto places = unloadedPlaces(table, corrected);
     for (campaign::LoadingReading& row : table.rows) {
       const Eigen::Vector3d point = corrected * row.point;
@@ -205,7 +134,7 @@ class Shifter {
     const Eigen::Matrix3d sweeps_from_r0 = state_.r0_from_sweeps.linear().transpose();
     for (Row& row : rows) {
       const effects::PostureStates states{atRest(-1, row.q, row.time_s)};
-      const PostureOffsets offsets(effects_, parameters_, states, options_.which);
+      const PostureOffsets offsets(effects_, states, {});
       row.point -= sweeps_from_r0 * offsets.of(row.target, state_.r0_from_sweeps * row.point).front();
     }
   }
@@ -246,8 +175,7 @@ class Shifter {
     const effects::PostureStates& states = known->second;
     const Key key{pose, target};
     if (offsets_.count(key) == 0) {
-      const PostureOffsets& own =
-          by_pose_.try_emplace(pose, effects_, parameters_, states, options_.which).first->second;
+      const PostureOffsets& own = by_pose_.try_emplace(pose, effects_, states, PostureOffsets::Which{}).first->second;
       offsets_[key] = own.of(target, place);
     }
     for (std::size_t s = 0; s < states.size(); ++s) {
@@ -257,41 +185,34 @@ class Shifter {
   }
 
   const EffectFit& effects_;
-  const Eigen::VectorXd& parameters_;
-  const ShiftOptions& options_;
+  Vector6d frame_;
   const diagnosis::SystemState& state_;
   std::map<int, effects::PostureStates> postures_;
   std::map<int, PostureOffsets> by_pose_;
   std::map<Key, std::vector<Eigen::Vector3d>> offsets_;
 };
 
-}  // namespace
-
-void shiftReadings(const EffectFit& effects, const Eigen::VectorXd& parameters, const ShiftOptions& options,
-                   campaign::Campaign& campaign) {
-  Shifter shifter(effects, parameters, options);
+/// Every reading of loading, displacements and, where they took part in the fit, sweeps.
+void shiftReadings(const EffectFit& effects, const Vector6d& frame, campaign::Campaign& campaign) {
+  Shifter shifter(effects, frame);
   if (campaign.loading && campaign.states && effects.fit.state.geometry.r0_from_loading)
     shifter.loading(*campaign.states, *campaign.loading);
   if (campaign.displacements) shifter.displacements(*campaign.displacements);
-  if (!options.sweeps || !effects.input->sweeps) return;
+  if (!effects.input->sweeps) return;
   if (campaign.circle_sweeps) shifter.sweep(campaign.circle_sweeps->rows);
   if (campaign.wrist_sweep) shifter.sweep(campaign.wrist_sweep->rows);
 }
 
-namespace {
-
 void leaveOutUnknown(const EffectFit& effects, campaign::Campaign& campaign,
-                     std::vector<identification::LeftOutPosture>* left_out) {
+                     std::vector<identification::LeftOutPosture>& left_out) {
+  std::set<int> known;
+  for (const diagnosis::GapPosture& one : effects.fit.data.postures) known.insert(one.pose);
   std::vector<identification::OutlyingPosture> without;
   for (const campaign::State& row : campaign.states->rows) {
-    const auto known = [&](const diagnosis::GapPosture& one) { return one.pose == row.pose; };
-    const auto& postures = effects.fit.data.postures;
-    if (row.step == 0 || std::any_of(postures.begin(), postures.end(), known)) continue;
-    if (!without.empty() && without.back().posture == row.pose) continue;
+    if (row.step == 0 || !known.insert(row.pose).second) continue;
     without.emplace_back();
     without.back().posture = row.pose;
-    if (left_out == nullptr) continue;
-    left_out->push_back(
+    left_out.push_back(
         {campaign.pose_ids[static_cast<std::size_t>(row.pose)], Remark(RemarkId::not_read_in_all_steps)});
   }
   if (!without.empty()) campaign = identification::withoutPostures(campaign, without);
@@ -299,19 +220,14 @@ void leaveOutUnknown(const EffectFit& effects, campaign::Campaign& campaign,
 
 }  // namespace
 
-campaign::Campaign withoutEffects(const campaign::Campaign& campaign, const EffectFit& effects,
-                                  const Eigen::VectorXd& parameters, TakenOff which,
-                                  std::vector<identification::LeftOutPosture>* left_out) {
+campaign::Campaign correctedFor(const EffectFit& effects, const campaign::Campaign& campaign,
+                                std::vector<identification::LeftOutPosture>& left_out) {
   campaign::Campaign result = campaign;
   if (effects.fit.set.models.empty()) return result;
   leaveOutUnknown(effects, result, left_out);
-  const effects::Corrections corrections = correctionsBy(effects, parameters);
+  const effects::Corrections corrections = correctionsBy(effects);
   correctWrenches(effects, corrections, result);
-  ShiftOptions options;
-  options.which.machine = which != TakenOff::measurement;
-  options.frame = corrections.frame;
-  options.sweeps = which == TakenOff::everything;
-  shiftReadings(effects, parameters, options, result);
+  shiftReadings(effects, corrections.frame, result);
   return result;
 }
 

@@ -9,7 +9,7 @@ namespace stiffscope::extended_model {
 
 /// How an effect's uncertainty reaches a method's compliances. With Sigma = S S^T the covariance of the effects' free
 /// parameters, one column each: S itself, and the change of the compliances when the parameters move by that column,
-/// by running the whole identification again.
+/// to first order through the method's equations.
 struct EffectSpread {
   Eigen::MatrixXd parameters;                                          ///< S; rows as EffectFit::free
   std::array<Eigen::Matrix<double, 6, Eigen::Dynamic>, 3> compliance;  ///< by Method; rad/Nm
@@ -17,8 +17,9 @@ struct EffectSpread {
 
 /// Joint springs with further effects.
 ///
-/// The effects come from one joint fit (effect_fit.h). What they do is taken off the campaign (corrected_campaign.h),
-/// and the three methods run on the rest as on any campaign. What then stands in `with`:
+/// The effects come from one joint fit (effect_fit.h). The readings are corrected for them once (corrected_campaign.h),
+/// and the three methods run on the rest as on any campaign. All that asks for other sizes of the effects goes through
+/// the methods' equations A c + E theta = b (method_equations.h). What then stands in `with`:
 ///  - uncertainty: the scatter between postures that is left, what frames and calibration share, and, as a part of its
 ///    own, sum_k d_k d_k^T over the columns of EffectSpread. Of least squares the two add exactly, because the springs'
 ///    estimate at given effects is uncorrelated with the effects' own; that the effects are weighted otherwise than the

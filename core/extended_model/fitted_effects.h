@@ -52,6 +52,13 @@ struct EffectFit {
   double explained = 0.0;    ///< the same in variance, less noise: the share of the gap that the effects explain
 
   const Eigen::VectorXd& parameters() const { return fit.set.effects; }
+  /// First of an effect's parameters among all, and its own.
+  Eigen::Index firstOf(const diagnosis::ChosenModel& one) const {
+    return fit.data.layout.model_at[one.model] - fit.data.layout.effects;
+  }
+  Eigen::VectorXd parametersOf(const diagnosis::ChosenModel& one) const {
+    return parameters().segment(firstOf(one), static_cast<Eigen::Index>(input->models[one.model].parameters()));
+  }
 };
 
 }  // namespace stiffscope::extended_model

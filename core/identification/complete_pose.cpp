@@ -1,7 +1,10 @@
 #include "core/identification/complete_pose.h"
 
+#include <algorithm>
+
 #include "core/identification/estimate.h"
 #include "core/robot/kinematics.h"
+#include "metrology/rigid_motion.h"
 
 namespace stiffscope::identification {
 
@@ -17,6 +20,41 @@ CaseEquations completePoseEquations(const LoadCase& load_case, const Eigen::Vect
   equations.right.resize(6);
   equations.right << loaded - unloaded, rotation.angle() * rotation.axis();
   return equations;
+}
+
+Eigen::Matrix<double, 6, Eigen::Dynamic> poseByReflectors(const frames::LoadingGeometry& geometry,
+                                                          const LoadCase& load_case,
+                                                          const Eigen::Vector3d& tcp_in_flange) {
+  using metrology::crossMatrix;
+  const auto known = [&](const TargetMove& move) {
+    return geometry.targets_at_zero[static_cast<std::size_t>(move.target)].has_value();
+  };
+  const auto middle = [](const TargetMove& move) -> Eigen::Vector3d { return 0.5 * (move.unloaded + move.loaded); };
+  const auto count = static_cast<double>(std::count_if(load_case.targets.begin(), load_case.targets.end(), known));
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();
+  for (const TargetMove& move : load_case.targets) {
+    if (known(move)) centre += middle(move) / count;
+  }
+  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();
+  for (const TargetMove& move : load_case.targets) {
+    const Eigen::Matrix3d arm = crossMatrix(middle(move) - centre);
+    if (known(move)) inertia -= arm * arm;
+  }
+  const Eigen::Matrix3d inverse = inertia.inverse();
+  const Eigen::Vector3d tcp =
+      0.5 * (*load_case.flange_unloaded * tcp_in_flange + *load_case.flange_loaded * tcp_in_flange);
+  Eigen::Matrix<double, 6, Eigen::Dynamic> map =
+      Eigen::Matrix<double, 6, Eigen::Dynamic>::Zero(6, static_cast<Eigen::Index>(3 * load_case.targets.size()));
+  Eigen::Index at = 0;
+  for (const TargetMove& move : load_case.targets) {
+    if (known(move)) {
+      const Eigen::Matrix3d rotation = inverse * crossMatrix(middle(move) - centre);
+      map.block<3, 3>(0, at) = Eigen::Matrix3d::Identity() / count - crossMatrix(tcp - centre) * rotation;
+      map.block<3, 3>(3, at) = rotation;
+    }
+    at += 3;
+  }
+  return map;
 }
 
 CaseEquations normalised(const CaseEquations& pose_equations, double characteristic_length) {

@@ -25,7 +25,14 @@ CharacteristicLength characteristicLength(const std::vector<LoadCase>& cases, co
 CaseEquations completePoseEquations(const LoadCase& load_case, const Eigen::Vector3d& tcp_in_flange,
                                     const Vector6d& torque);
 
-/// The same with the displacement rows divided by the characteristic length.
+/// How the right-hand side of completePoseEquations follows small displacements of the case's reflectors, three columns
+/// each in their order: the least-squares rigid motion, taken in the middle of the move.
+/// `geometry`: in which the flange's poses were found.
+Eigen::Matrix<double, 6, Eigen::Dynamic> poseByReflectors(const frames::LoadingGeometry& geometry,
+                                                          const LoadCase& load_case,
+                                                          const Eigen::Vector3d& tcp_in_flange);
+
+/// Pose equations with the displacement rows divided by the characteristic length.
 CaseEquations normalised(const CaseEquations& pose_equations, double characteristic_length);
 
 /// All six compliances at once from normalised equations; residuals are judged at P_TCP's displacement.

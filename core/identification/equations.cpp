@@ -175,6 +175,27 @@ std::optional<WristMove> wristMove(const LoadCase& load_case, const std::vector<
   return WristMove{metrology::nearerRoot(*unloaded, modelled), metrology::nearerRoot(*loaded, modelled)};
 }
 
+Eigen::Matrix<double, 3, Eigen::Dynamic> wristByReflectors(const LoadCase& load_case, const std::vector<double>& radii,
+                                                           const WristMove& wrist) {
+  Eigen::Matrix<double, 3, Eigen::Dynamic> map =
+      Eigen::Matrix<double, 3, Eigen::Dynamic>::Zero(3, static_cast<Eigen::Index>(3 * load_case.targets.size()));
+  const auto three = largestTriangle(load_case, radii);
+  if (!three) return map;
+  const Eigen::Vector3d centre = 0.5 * (wrist.unloaded + wrist.loaded);
+  // The distance to each reflector stays: (w - p_i) . (dw - dp_i) = 0.
+  Eigen::Matrix3d toward;
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    const TargetMove& move = *(*three)[static_cast<std::size_t>(i)];
+    toward.row(i) = (centre - 0.5 * (move.unloaded + move.loaded)).transpose();
+  }
+  const Eigen::Matrix3d inverse = toward.inverse();
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    const auto at = (*three)[static_cast<std::size_t>(i)] - load_case.targets.data();
+    map.middleCols<3>(3 * at) = inverse.col(i) * toward.row(i);
+  }
+  return map;
+}
+
 CaseEquations wristEquations(const LoadCase& load_case, const WristMove& wrist, const Vector6d& torque) {
   const Eigen::Vector3d point = jacobianPoint(load_case, wrist.unloaded, wrist.loaded);
   return {pointRows(jacobianAxes(load_case), point, torque), wrist.displacement(), load_case.pose};

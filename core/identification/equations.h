@@ -92,6 +92,11 @@ Eigen::Vector3d modelledWrist(const robot::Robot& arm, const LoadCase& load_case
 std::optional<WristMove> wristMove(const LoadCase& load_case, const std::vector<double>& radii,
                                    const Eigen::Vector3d& modelled);
 
+/// How P_wrist follows small displacements of the case's reflectors, three columns each in their order: the derivative
+/// of (13)-(20), taken in the middle of the move. Zero columns for reflectors that wristMove does not use.
+Eigen::Matrix<double, 3, Eigen::Dynamic> wristByReflectors(const LoadCase& load_case, const std::vector<double>& radii,
+                                                           const WristMove& wrist);
+
 /// The equations of P_wrist's displacement. Columns 4-6 are nearly zero: the wrist's axes meet there.
 CaseEquations wristEquations(const LoadCase& load_case, const WristMove& wrist, const Vector6d& torque);
 

@@ -43,6 +43,7 @@ struct MethodResult {
   frames::LoadingGeometry geometry;        ///< the method's own
   std::vector<CaseEquations> wrist_rows;   ///< P_wrist's equations in that geometry; empty where not measured
   std::vector<CaseEquations> target_rows;  ///< the reflectors'
+  std::vector<CaseEquations> pose_rows;    ///< Complete Pose's own, not normalised; empty for the other methods
   std::vector<double> wrist_residual;      ///< |displacement left| of P_wrist, per load case, m
   std::vector<double> target_residual;     ///< the same, mean over the reflectors
   std::optional<Compensation> at_wrist;    ///< empty where P_wrist is not measured

@@ -166,7 +166,8 @@ void runCompletePose(MethodRuns& runs, Identification& result) {
   constexpr int kEvery = 5;
   PoseNormal sum;
   std::vector<CaseEquations> scaled;
-  for (const CaseEquations& one : poseEquations(runs.swept, tcp)) {
+  out.pose_rows = poseEquations(runs.swept, tcp);
+  for (const CaseEquations& one : out.pose_rows) {
     sum.add(one);
     scaled.push_back(normalised(one, length));
   }

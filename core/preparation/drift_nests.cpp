@@ -46,12 +46,6 @@ namespace {
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
 using Vector6d = Eigen::Matrix<double, 6, 1>;
 
-Eigen::Matrix3d crossMatrix(const Eigen::Vector3d& v) {
-  Eigen::Matrix3d m;
-  m << 0.0, -v.z(), v.y(), v.z(), 0.0, -v.x(), -v.y(), v.x(), 0.0;
-  return m;
-}
-
 std::vector<NestRound> usable(const std::vector<NestRound>& rounds, int left_out) {
   std::vector<NestRound> result = rounds;
   for (NestRound& round : result) round.readings.erase(left_out);
@@ -163,7 +157,7 @@ void improve(const std::vector<NestRound>& rounds, const metrology::TrackerNoise
       network.chi2 += residual.dot(weight * residual);
       coordinates += 3;
       Eigen::Matrix<double, 3, 6> by_motion;
-      by_motion << -crossMatrix(moved - centre), Eigen::Matrix3d::Identity();
+      by_motion << -metrology::crossMatrix(moved - centre), Eigen::Matrix3d::Identity();
       equations.add(e, std::distance(network.places.begin(), place), by_motion, weight, residual);
     }
   }

@@ -1,0 +1,94 @@
+#include "core/extended_model/effect_offsets.h"
+
+#include <algorithm>
+
+#include "core/effects/elastic_arm.h"
+#include "core/extended_model/effect_fit.h"
+
+namespace stiffscope::extended_model {
+
+namespace {
+
+/// Whether the effect shifts readings: other faults of the measurement act through the wrench or the frame.
+bool shiftsReadings(const effects::EffectModel& model) {
+  return effects::natureOf(model.effect) == effects::EffectNature::measurement && !model.correct;
+}
+
+bool hasMachine(const EffectFit& effects) {
+  return std::any_of(
+      effects.fit.set.models.begin(), effects.fit.set.models.end(), [&](const diagnosis::ChosenModel& one) {
+        return effects::natureOf(effects.input->models[one.model].effect) == effects::EffectNature::machine;
+      });
+}
+
+}  // namespace
+
+PostureOffsets::PostureOffsets(const EffectFit& effects, const effects::PostureStates& posture, Which which)
+    : effects_(effects), posture_(posture), which_(which) {
+  if (!which.machine || !hasMachine(effects)) return;
+  const diagnosis::SystemState& state = effects.fit.state;
+  const effects::ElasticArm with(state.geometry, state.at.compliance, state.at, machineEffects(effects, effects.parameters()));
+  const effects::ElasticArm springs(state.geometry, state.at.compliance, state.at, {});
+  for (std::size_t s = 0; s < posture.size(); ++s) {
+    effects::ToolLoad load{{}, posture[s].load.force, posture[s].load.moment};
+    const auto restOf = [&](const effects::ElasticArm& arm) {
+      if (s > 0) load.point_at_zero = with_.front().inverse() * posture[s].load.point;
+      return arm.toolMotion(posture, s, s > 0 ? &load : nullptr);
+    };
+    const auto one = restOf(with), other = restOf(springs);
+    if (!one || !other) {
+      with_.clear(), without_.clear();
+      return;
+    }
+    with_.push_back(*one), without_.push_back(*other);
+  }
+}
+
+std::vector<Eigen::Vector3d> PostureOffsets::linear(int target, const Eigen::Vector3d& place, bool machine) const {
+  effects::PostureStates states = posture_;
+  for (effects::ArmState& state : states) state.targets = {target}, state.points = {place};
+  std::vector<Eigen::Vector3d> offsets(states.size(), Eigen::Vector3d::Zero());
+  for (const diagnosis::ChosenModel& one : effects_.fit.set.models) {
+    const effects::EffectModel& model = effects_.input->models[one.model];
+    const bool wanted =
+        machine ? effects::natureOf(model.effect) == effects::EffectNature::machine : shiftsReadings(model);
+    if (!wanted) continue;
+    const Eigen::VectorXd own = effects_.parametersOf(one);
+    for (std::size_t s = 0; s < states.size(); ++s) offsets[s] += model.columns(effects_.fit.state.at, states, s) * own;
+  }
+  return offsets;
+}
+
+std::vector<Eigen::Vector3d> PostureOffsets::byMachine(const Eigen::Vector3d& place) const {
+  std::vector<Eigen::Vector3d> offsets;
+  const Eigen::Vector3d at_zero = with_.front().inverse() * place;
+  for (std::size_t s = 0; s < with_.size(); ++s) offsets.push_back(with_[s] * at_zero - without_[s] * at_zero);
+  return offsets;
+}
+
+std::vector<Eigen::Vector3d> PostureOffsets::of(int target, const Eigen::Vector3d& place) const {
+  std::vector<Eigen::Vector3d> offsets(posture_.size(), Eigen::Vector3d::Zero());
+  const auto add = [&](const std::vector<Eigen::Vector3d>& more) {
+    for (std::size_t s = 0; s < offsets.size(); ++s) offsets[s] += more[s];
+  };
+  if (which_.readings) add(linear(target, place, false));
+  if (which_.machine) add(with_.empty() ? linear(target, place, true) : byMachine(place));
+  return offsets;
+}
+
+Eigen::MatrixXd displacementByEffects(const EffectFit& effects, const effects::PostureStates& posture,
+                                      std::size_t state, const std::vector<int>& targets,
+                                      const std::vector<Eigen::Vector3d>& places) {
+  effects::PostureStates states = posture;
+  for (effects::ArmState& one : states) one.targets = targets, one.points = places;
+  const auto rows = static_cast<Eigen::Index>(3 * targets.size());
+  Eigen::MatrixXd all = Eigen::MatrixXd::Zero(rows, effects.parameters().size());
+  for (const diagnosis::ChosenModel& one : effects.fit.set.models) {
+    const effects::EffectModel& model = effects.input->models[one.model];
+    all.middleCols(effects.firstOf(one), static_cast<Eigen::Index>(model.parameters())) =
+        model.columns(effects.fit.state.at, states, state) - model.columns(effects.fit.state.at, states, 0);
+  }
+  return all(Eigen::all, effects.free);
+}
+
+}  // namespace stiffscope::extended_model

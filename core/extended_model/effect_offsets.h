@@ -1,0 +1,41 @@
+#pragma once
+
+#include <vector>
+
+#include "core/extended_model/fitted_effects.h"
+
+namespace stiffscope::extended_model {
+
+/// How far the fitted effects move reflectors, in R0, m: state by state of one posture, own weight's part included.
+class PostureOffsets {
+ public:
+  /// Of effects of the machine where `machine`, and of what shifts readings where `readings`.
+  struct Which {
+    bool machine = true, readings = true;
+  };
+
+  PostureOffsets(const EffectFit& effects, const effects::PostureStates& posture, Which which);
+
+  /// Of a reflector that stands at `place` unloaded, one a state. The machine's part is the difference between where
+  /// the arm with its effects stands and where joint springs alone would have it (ElasticArm), readings' the fit's own
+  /// linear model.
+  std::vector<Eigen::Vector3d> of(int target, const Eigen::Vector3d& place) const;
+
+ private:
+  std::vector<Eigen::Vector3d> linear(int target, const Eigen::Vector3d& place, bool machine) const;
+  std::vector<Eigen::Vector3d> byMachine(const Eigen::Vector3d& place) const;
+
+  const EffectFit& effects_;
+  const effects::PostureStates& posture_;
+  Which which_;
+  /// Motion of the tool with the effects and by springs alone; empty where some state does not come to rest.
+  std::vector<Eigen::Isometry3d> with_, without_;
+};
+
+/// Displacement of reflectors in a loaded state by a unit of each of the fit's free parameters (EffectFit::free), to
+/// first order: 3 rows a reflector in the order of `targets`, which stand at `places` unloaded. R0, m per unit.
+Eigen::MatrixXd displacementByEffects(const EffectFit& effects, const effects::PostureStates& posture,
+                                      std::size_t state, const std::vector<int>& targets,
+                                      const std::vector<Eigen::Vector3d>& places);
+
+}  // namespace stiffscope::extended_model

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <vector>
+
+#include "core/extended_model/fitted_effects.h"
+#include "core/identification/identification.h"
+
+namespace stiffscope::extended_model {
+
+/// What the effects do in one load case of an identification from corrected readings (correctedFor). R0, m; three rows
+/// a reflector of the case.
+struct CaseEffects {
+  Eigen::MatrixXd by_steps;       ///< displacement by a unit of each step of the effects' parameters, to first order
+  Eigen::VectorXd by_machine;     ///< displacement that the effects of the machine add to that of its springs
+  Eigen::VectorXd wrist_machine;  ///< the same of P_wrist; empty where it is not measured
+};
+
+/// One a case of `result`. `steps`: of the effects' free parameters, one a column (EffectFit::free the rows).
+std::vector<CaseEffects> caseEffects(const EffectFit& effects, const Eigen::MatrixXd& steps,
+                                     const identification::Identification& result);
+
+/// The equations of one posture with the effects in them, b = A c + E z: z the steps by which the effects' parameters
+/// leave their fitted values, b the corrected readings' displacement.
+struct ExtendedEquations {
+  identification::CaseEquations springs;  ///< A and b
+  Eigen::MatrixXd by_steps;               ///< E
+  identification::NormalEquations normal;  ///< A^T A and A^T b
+  Eigen::Matrix<double, 6, Eigen::Dynamic> normal_by_steps;  ///< A^T E
+
+  /// b - E z.
+  Eigen::VectorXd rightAt(const Eigen::VectorXd& steps) const { return springs.right - by_steps * steps; }
+};
+
+/// Those of one method, a posture each, at its compliances (K_c, middle posture) and in its geometry.
+struct MethodEquations {
+  std::vector<ExtendedEquations>
+      solved;  ///< what the method solves first: pose (normalised), reflectors, P_wrist
+  std::vector<ExtendedEquations> reflectors;  ///< which the decoupled method solves second
+  std::vector<ExtendedEquations> wrist;       ///< P_wrist's; empty where not measured
+};
+
+/// Empty where the method's cases are not those of `result.cases`.
+MethodEquations methodEquations(const identification::Identification& result, identification::Method method,
+                                const std::vector<CaseEffects>& effects);
+
+/// The method's compliances with the effects moved by `steps`, from postures with weights.
+Vector6d solvedCompliance(const MethodEquations& equations, identification::Method method,
+                          const robot::JointMask& unknown, const std::vector<double>& weights,
+                          const Eigen::VectorXd& steps);
+
+}  // namespace stiffscope::extended_model
