@@ -27,7 +27,8 @@ PostureOffsets::PostureOffsets(const EffectFit& effects, const effects::PostureS
     : effects_(effects), posture_(posture), which_(which) {
   if (!which.machine || !hasMachine(effects)) return;
   const diagnosis::SystemState& state = effects.fit.state;
-  const effects::ElasticArm with(state.geometry, state.at.compliance, state.at, machineEffects(effects, effects.parameters()));
+  const effects::ElasticArm with(state.geometry, state.at.compliance, state.at,
+                                 machineEffects(effects, effects.parameters()));
   const effects::ElasticArm springs(state.geometry, state.at.compliance, state.at, {});
   for (std::size_t s = 0; s < posture.size(); ++s) {
     effects::ToolLoad load{{}, posture[s].load.force, posture[s].load.moment};

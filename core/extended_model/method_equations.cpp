@@ -22,6 +22,16 @@ std::size_t stateOf(const effects::PostureStates& posture, int step) {
   return 0;
 }
 
+/// From R0 as the fit of the effects has it to that of another geometry of the same readings.
+Eigen::Matrix3d turnFromFit(const EffectFit& effects, const frames::LoadingGeometry& to) {
+  const frames::LoadingGeometry& fit = effects.fit.state.geometry;
+  if (to.r0_from_loading && fit.r0_from_loading)
+    return to.r0_from_loading->linear() * fit.r0_from_loading->linear().transpose();
+  if (to.displacements_in_r0 && fit.displacements_in_r0)
+    return *to.displacements_in_r0 * fit.displacements_in_r0->transpose();
+  return Eigen::Matrix3d::Identity();
+}
+
 CaseEffects effectsIn(const EffectFit& effects, const Eigen::MatrixXd& steps, const effects::PostureStates& posture,
                       const PostureOffsets& machine, const LoadCase& load_case) {
   const std::size_t state = stateOf(posture, load_case.step);
@@ -71,12 +81,16 @@ std::vector<CaseEffects> caseEffects(const EffectFit& effects, const Eigen::Matr
                                      const identification::Identification& result) {
   std::map<int, const diagnosis::GapPosture*> postures;
   for (const diagnosis::GapPosture& one : effects.fit.data.postures) postures[one.pose] = &one;
+  const Eigen::Matrix3d turn = turnFromFit(effects, result.geometry);
   std::vector<CaseEffects> all;
   for (std::size_t i = 0; i < result.cases.size(); ++i) {
     const LoadCase& load_case = result.cases[i];
     const effects::PostureStates& states = postures.at(load_case.pose)->states;
     const PostureOffsets machine(effects, states, {true, false});
     all.push_back(effectsIn(effects, steps, states, machine, load_case));
+    for (Eigen::Index row = 0; row < all.back().by_machine.size(); row += 3) {
+      all.back().by_machine.segment<3>(row) = turn * all.back().by_machine.segment<3>(row).eval();
+    }
     if (result.wrist.empty()) continue;
     all.back().wrist_machine =
         identification::wristByReflectors(load_case, result.frames.wrist.radii, result.wrist[i]) *

@@ -22,9 +22,9 @@ std::vector<CaseEffects> caseEffects(const EffectFit& effects, const Eigen::Matr
 /// The equations of one posture with the effects in them, b = A c + E z: z the steps by which the effects' parameters
 /// leave their fitted values, b the corrected readings' displacement.
 struct ExtendedEquations {
-  identification::CaseEquations springs;  ///< A and b
-  Eigen::MatrixXd by_steps;               ///< E
-  identification::NormalEquations normal;  ///< A^T A and A^T b
+  identification::CaseEquations springs;                     ///< A and b
+  Eigen::MatrixXd by_steps;                                  ///< E
+  identification::NormalEquations normal;                    ///< A^T A and A^T b
   Eigen::Matrix<double, 6, Eigen::Dynamic> normal_by_steps;  ///< A^T E
 
   /// b - E z.
@@ -33,8 +33,7 @@ struct ExtendedEquations {
 
 /// Those of one method, a posture each, at its compliances (K_c, middle posture) and in its geometry.
 struct MethodEquations {
-  std::vector<ExtendedEquations>
-      solved;  ///< what the method solves first: pose (normalised), reflectors, P_wrist
+  std::vector<ExtendedEquations> solved;      ///< what the method solves first: pose (normalised), reflectors, P_wrist
   std::vector<ExtendedEquations> reflectors;  ///< which the decoupled method solves second
   std::vector<ExtendedEquations> wrist;       ///< P_wrist's; empty where not measured
 };

@@ -63,7 +63,8 @@ struct Identification {
   int step = 0;                             ///< the one with the largest mean force of those used
   std::vector<int> steps;                   ///< used, together
   frames::Frames frames;                    ///< the own weight's sag taken off where it can be
-  std::vector<LoadCase> cases;              ///< in the swept geometry
+  frames::LoadingGeometry geometry;         ///< the swept one; without sweeps, the calibrated
+  std::vector<LoadCase> cases;              ///< in that geometry
   std::vector<LeftOutPosture> left_out;     ///< postures that are not used, with the reason
   std::vector<OutlyingPosture> outlying;    ///< disagree with the rest; used nevertheless, unless `robust`
   bool robust = false;                      ///< `outlying` are left out

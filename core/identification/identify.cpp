@@ -39,6 +39,7 @@ void describeLoads(const campaign::Campaign& campaign, LoadedArm shown, Identifi
   if (reference.available) {
     result.geometric_stiffness_share = geometricStiffnessShare(shown, reference.estimate.compliance);
   }
+  result.geometry = std::move(shown.geometry);
   result.cases = std::move(shown.cases);
   result.wrist = std::move(shown.wrist);
 }
