@@ -90,6 +90,7 @@ std::vector<CaseEffects> caseEffects(const EffectFit& effects, const Eigen::Matr
     all.push_back(effectsIn(effects, steps, states, machine, load_case));
     for (Eigen::Index row = 0; row < all.back().by_machine.size(); row += 3) {
       all.back().by_machine.segment<3>(row) = turn * all.back().by_machine.segment<3>(row).eval();
+      all.back().by_steps.middleRows<3>(row) = turn * all.back().by_steps.middleRows<3>(row).eval();
     }
     if (result.wrist.empty()) continue;
     all.back().wrist_machine =
