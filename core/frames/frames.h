@@ -43,7 +43,7 @@ struct WristCentre {
   /// Of the mean: the rows' readings are independent of each other, R0 is common to them. R0 axes, m^2.
   Eigen::Matrix3d table_mean_covariance = Eigen::Matrix3d::Zero();
 
-  // Side by side with the sphere centre, all at q (method: Wrist centre).
+  // Side by side with the sphere centre, all at q (docs/method.md, Wrist centre).
   Eigen::Vector3d reflector_barycentre_in_r0 = Eigen::Vector3d::Zero();  ///< Dumas et al.
   Eigen::Vector3d nearest_axes_56_in_r0 = Eigen::Vector3d::Zero();       ///< middle of their common perpendicular
   double miss_45 = 0.0;                                                  ///< distance between axes 4 and 5, m

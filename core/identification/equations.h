@@ -21,8 +21,8 @@ struct CaseEquations {
 std::vector<Vector6d> jointTorques(const std::vector<LoadCase>& cases);
 
 /// The same plus K_c c (J_w^T W + K_c ...): the torque by which the springs really are turned when the load's
-/// and the own weight's torque changes as the joints give, so that A c = J_m (K - K_c)^-1 J_w^T W (method:
-/// Unknowns). `compliance` c is the current estimate; the equations stay linear for the next one.
+/// and the own weight's torque changes as the joints give, so that A c = J_m (K - K_c)^-1 J_w^T W
+/// (docs/method.md, The model). `compliance` c is the current estimate; the equations stay linear for the next one.
 std::vector<Vector6d> jointTorquesWithGeometricStiffness(const frames::LoadingGeometry& geometry,
                                                          const std::vector<LoadCase>& cases,
                                                          const Vector6d& compliance);

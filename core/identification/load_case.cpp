@@ -151,14 +151,13 @@ std::map<int, double> meanForces(const campaign::Campaign& campaign) {
 
 std::vector<int> loadedSteps(const campaign::Campaign& campaign) {
   const std::map<int, double> forces = meanForces(campaign);
-  constexpr double kReturn = 0.05;
   double most = 0.0;
   for (const auto& [step, force] : forces) {
     if (step != 0) most = std::max(most, force);
   }
   std::vector<int> steps;
   for (const auto& [step, force] : forces) {
-    if (step != 0 && most > 0.0 && force >= kReturn * most) steps.push_back(step);
+    if (step != 0 && most > 0.0 && force >= campaign::kReturnShare * most) steps.push_back(step);
   }
   return steps;
 }

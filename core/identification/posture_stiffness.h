@@ -19,8 +19,8 @@ struct PostureConditioning {
   double dexterity = 0.0;  ///< 1 / kappa, 0 to 1; 0 in a singularity
 };
 
-/// Of J_N = diag(1/L I, I) J, paper (8) with J (method: slips), J the Jacobian of a point of the flange body.
-/// `length` is the characteristic length L, m. Infinite kappas in a singularity.
+/// Of J_N = diag(1/L I, I) J, paper (8) with J (docs/method.md, Slips of the paper), J the Jacobian of a point of the
+/// flange body. `length` is the characteristic length L, m. Infinite kappas in a singularity.
 PostureConditioning postureConditioning(const Matrix6d& jacobian, double length);
 
 /// The arm's Cartesian stiffness at P_TCP in one posture and under one load, in R0.

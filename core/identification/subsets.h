@@ -22,7 +22,7 @@ struct alignas(64) PointBlock {
 void residualNorms(std::span<const PointBlock> blocks, const Vector6d& compliance, std::span<double> norms);
 
 /// How much of the deflection a model takes away at some points: 1 - sum |residual| / sum |displacement|,
-/// over postures (method: Before and after). Prepared for many evaluations.
+/// over postures (docs/method.md, What every method reports). Prepared for many evaluations.
 class DeflectionJudge {
  public:
   DeflectionJudge() = default;
