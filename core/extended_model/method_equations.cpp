@@ -22,18 +22,22 @@ std::size_t stateOf(const effects::PostureStates& posture, int step) {
   return 0;
 }
 
-/// From R0 as the fit of the effects has it to that of another geometry of the same readings.
-Eigen::Matrix3d turnFromFit(const EffectFit& effects, const frames::LoadingGeometry& to) {
+/// From a geometry's R0 to that of the fit of the effects, both of the same readings.
+Eigen::Isometry3d fitFrom(const frames::LoadingGeometry& from, const EffectFit& effects) {
   const frames::LoadingGeometry& fit = effects.fit.state.geometry;
-  if (to.r0_from_loading && fit.r0_from_loading)
-    return to.r0_from_loading->linear() * fit.r0_from_loading->linear().transpose();
-  if (to.displacements_in_r0 && fit.displacements_in_r0)
-    return *to.displacements_in_r0 * fit.displacements_in_r0->transpose();
-  return Eigen::Matrix3d::Identity();
+  Eigen::Isometry3d motion = Eigen::Isometry3d::Identity();
+  if (from.r0_from_loading && fit.r0_from_loading) {
+    motion = *fit.r0_from_loading * from.r0_from_loading->inverse();
+  } else if (from.displacements_in_r0 && fit.displacements_in_r0) {
+    motion.linear() = *fit.displacements_in_r0 * from.displacements_in_r0->transpose();
+  }
+  return motion;
 }
 
 CaseEffects effectsIn(const EffectFit& effects, const Eigen::MatrixXd& steps, const effects::PostureStates& posture,
-                      const PostureOffsets& machine, const LoadCase& load_case) {
+                      const Eigen::Isometry3d& fit_from_r0, const LoadCase& load_case) {
+  const PostureOffsets machine(effects, posture, {true, false});
+  const Eigen::Matrix3d back = fit_from_r0.linear().transpose();
   const std::size_t state = stateOf(posture, load_case.step);
   std::vector<int> targets;
   std::vector<Eigen::Vector3d> places;
@@ -41,13 +45,19 @@ CaseEffects effectsIn(const EffectFit& effects, const Eigen::MatrixXd& steps, co
   here.by_machine.resize(static_cast<Eigen::Index>(3 * load_case.targets.size()));
   Eigen::Index row = 0;
   for (const identification::TargetMove& move : load_case.targets) {
+    // The offsets are those where the reflector was read: the corrected place and what the correction took off.
+    const Eigen::Vector3d corrected = fit_from_r0 * move.unloaded;
+    const Eigen::Vector3d place = corrected + machine.of(move.target, corrected).front();
+    const std::vector<Eigen::Vector3d> offsets = machine.of(move.target, place);
     targets.push_back(move.target);
-    places.push_back(move.unloaded);
-    const std::vector<Eigen::Vector3d> offsets = machine.of(move.target, move.unloaded);
-    here.by_machine.segment<3>(row) = offsets[state] - offsets[0];
+    places.push_back(place);
+    here.by_machine.segment<3>(row) = back * (offsets[state] - offsets[0]);
     row += 3;
   }
   here.by_steps = displacementByEffects(effects, posture, state, targets, places) * steps;
+  for (Eigen::Index at = 0; at < row; at += 3) {
+    here.by_steps.middleRows<3>(at) = back * here.by_steps.middleRows<3>(at).eval();
+  }
   return here;
 }
 
@@ -81,17 +91,11 @@ std::vector<CaseEffects> caseEffects(const EffectFit& effects, const Eigen::Matr
                                      const identification::Identification& result) {
   std::map<int, const diagnosis::GapPosture*> postures;
   for (const diagnosis::GapPosture& one : effects.fit.data.postures) postures[one.pose] = &one;
-  const Eigen::Matrix3d turn = turnFromFit(effects, result.geometry);
+  const Eigen::Isometry3d fit_from_r0 = fitFrom(result.geometry, effects);
   std::vector<CaseEffects> all;
   for (std::size_t i = 0; i < result.cases.size(); ++i) {
     const LoadCase& load_case = result.cases[i];
-    const effects::PostureStates& states = postures.at(load_case.pose)->states;
-    const PostureOffsets machine(effects, states, {true, false});
-    all.push_back(effectsIn(effects, steps, states, machine, load_case));
-    for (Eigen::Index row = 0; row < all.back().by_machine.size(); row += 3) {
-      all.back().by_machine.segment<3>(row) = turn * all.back().by_machine.segment<3>(row).eval();
-      all.back().by_steps.middleRows<3>(row) = turn * all.back().by_steps.middleRows<3>(row).eval();
-    }
+    all.push_back(effectsIn(effects, steps, postures.at(load_case.pose)->states, fit_from_r0, load_case));
     if (result.wrist.empty()) continue;
     all.back().wrist_machine =
         identification::wristByReflectors(load_case, result.frames.wrist.radii, result.wrist[i]) *
