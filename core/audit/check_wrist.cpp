@@ -2,14 +2,13 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <vector>
 
 #include "core/audit/checks.h"
 #include "core/audit/remarks.h"
 #include "core/campaign/row_names.h"
-#include "core/frames/arm_geometry.h"
+#include "core/frames/arm_parameters.h"
 #include "core/identification/decoupled_partial_pose.h"
 #include "core/identification/method_solution.h"
 #include "core/numerics/distributions.h"
@@ -28,14 +27,14 @@ constexpr Eigen::Index kCentre = 3, kAxes = 12;
 struct Row {
   double residual = 0.0, sd = 0.0;
   int target = 0;
-  std::array<double, kCentre> by_centre{};
-  std::array<double, kAxes> by_axes{};
+  Eigen::RowVector3d by_centre;
+  Eigen::Matrix<double, 1, kAxes> by_axes;
 
   Eigen::RowVectorXd jacobian(Eigen::Index targets) const {
     Eigen::RowVectorXd all = Eigen::RowVectorXd::Zero(kCentre + targets + kAxes);
-    for (Eigen::Index k = 0; k < kCentre; ++k) all[k] = by_centre[static_cast<std::size_t>(k)];
+    all.head<kCentre>() = by_centre;
     all[kCentre + target] = 1.0;
-    for (Eigen::Index k = 0; k < kAxes; ++k) all[kCentre + targets + k] = by_axes[static_cast<std::size_t>(k)];
+    all.tail<kAxes>() = by_axes;
     return all;
   }
 };
@@ -45,7 +44,7 @@ std::vector<Row> rowsOf(const AuditInput& input) {
   const frames::Frames& frames = input.frames;
   const robot::Robot& arm = frames.arm.arm;
   const frames::WristCentre& wrist = frames.wrist;
-  const frames::MovedAxes axes(frames);
+  const frames::PlacedArm placed(frames::sweptAxes(frames, arm.axes_in_base_at_zero));
   std::vector<Row> rows;
   rows.reserve(sweep.rows.size());
   for (std::size_t i = 0; i < sweep.rows.size(); ++i) {
@@ -55,18 +54,17 @@ std::vector<Row> rowsOf(const AuditInput& input) {
     const Eigen::Vector3d from_centre = frames.arm.r0_from_points * input.rigid.wrist_sweep[i] - wrist.centre_in_r0;
     const robot::ArmPosture posture = robot::postureAt(arm, reading.q);
     const Eigen::Vector3d centre = posture.motion[3] * wrist.centre_at_zero_in_r0;
-    const auto modelled = [&](const robot::ArmPosture& at) { return (at.motion[6] * *at_zero - centre).norm(); };
+    const Eigen::Vector3d modelled = posture.motion[6] * *at_zero;
     const Eigen::Vector3d radial = from_centre.normalized();
     const Eigen::Vector3d seen = frames.arm.r0_from_points.linear().transpose() * radial;
     Row row;
-    row.residual = from_centre.norm() - modelled(posture);
+    row.residual = from_centre.norm() - (modelled - centre).norm();
     row.sd = std::sqrt(seen.dot(input.noise->covarianceAt(reading.point) * seen));
     row.target = reading.target;
-    row.by_centre = {radial.x(), radial.y(), radial.z()};
-    for (int k = 0; k < kAxes; ++k) {
-      const robot::ArmPosture moved = axes.postureWithMoved(arm, reading.q, static_cast<std::size_t>(3 + k / 4), k % 4);
-      row.by_axes[static_cast<std::size_t>(k)] = (modelled(moved) - modelled(posture)) / frames::MovedAxes::kStep;
-    }
+    row.by_centre = radial.transpose();
+    // Axes 4 to 6 do not move the centre.
+    row.by_axes = (modelled - centre).normalized().transpose() *
+                  frames::PlacedPosture(placed, posture).byAxes(modelled).rightCols<kAxes>();
     rows.push_back(row);
   }
   return rows;
@@ -74,11 +72,11 @@ std::vector<Row> rowsOf(const AuditInput& input) {
 
 /// Normal matrix of the prior on the axes.
 Eigen::MatrixXd priorOf(const frames::Frames& frames, Eigen::Index targets) {
-  const frames::MovedAxes axes(frames);
   const Eigen::Index at = kCentre + targets;
   Eigen::MatrixXd prior = Eigen::MatrixXd::Zero(at + kAxes, at + kAxes);
   for (Eigen::Index j = 0; j < 3; ++j) {
-    prior.block<4, 4>(at + 4 * j, at + 4 * j) = axes.covariance(static_cast<std::size_t>(3 + j)).inverse();
+    prior.block<4, 4>(at + 4 * j, at + 4 * j) =
+        frames.axes[static_cast<std::size_t>(3 + j)].at_zero.covariance.inverse();
   }
   return prior;
 }

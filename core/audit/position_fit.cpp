@@ -6,6 +6,7 @@
 #include <map>
 
 #include "core/audit/remarks.h"
+#include "core/frames/arm_parameters.h"
 #include "core/frames/position_equations.h"
 #include "core/numerics/distributions.h"
 #include "core/preparation/finding.h"
@@ -44,11 +45,16 @@ Normal sumUp(const frames::AbsoluteRows& rows, const Weights& weights) {
   return normal;
 }
 
-double leastSquares(const Normal& normal, Eigen::Index from) {
-  const Eigen::Index size = normal.right.size() - from;
-  const Eigen::VectorXd right = normal.right.tail(size);
-  return normal.squares - right.dot(Eigen::VectorXd(
-                              solveSymmetric(Eigen::MatrixXd(normal.matrix.bottomRightCorner(size, size)), right)));
+constexpr Eigen::Index kShiftAt = frames::ArmParameters::kBaseAt;
+
+double leastSquares(Normal normal, bool shift_held) {
+  if (shift_held) {
+    normal.matrix.middleRows<6>(kShiftAt).setZero();
+    normal.matrix.middleCols<6>(kShiftAt).setZero();
+    normal.matrix.block<6, 6>(kShiftAt, kShiftAt).setIdentity();
+    normal.right.segment<6>(kShiftAt).setZero();
+  }
+  return normal.squares - normal.right.dot(Eigen::VectorXd(solveSymmetric(normal.matrix, normal.right)));
 }
 
 constexpr double kSigmas = 3.0;  // of the share to which the sag is trusted
@@ -156,10 +162,12 @@ double scoreLimit(std::size_t postures) {
 void describe(const frames::AbsoluteRows& rows, const Weights& weights, AbsoluteFit& fit) {
   const Normal normal = sumUp(rows, weights);
   const Eigen::VectorXd parameters = solveSymmetric(normal.matrix, normal.right);
-  fit.shift = parameters.head<6>();
-  fit.shift_covariance = solveSymmetric(normal.matrix, Eigen::MatrixXd::Identity(normal.right.size(), 6)).topRows<6>();
-  fit.chi2 = leastSquares(normal, 0);
-  fit.shift_chi2 = leastSquares(normal, 6) - fit.chi2;
+  fit.shift = -parameters.segment<6>(kShiftAt);  // what the readings' motion takes back
+  const Eigen::Index size = normal.right.size();
+  fit.shift_covariance = solveSymmetric(normal.matrix, Eigen::MatrixXd::Identity(size, size).middleCols<6>(kShiftAt))
+                             .middleRows<6>(kShiftAt);
+  fit.chi2 = leastSquares(normal, false);
+  fit.shift_chi2 = leastSquares(normal, true) - fit.chi2;
   fit.positions = normal.rows / 3;
   fit.dof = normal.rows - 6 - 3 * rows.targets;
   for (const frames::AbsoluteRow& row : rows.rows) {

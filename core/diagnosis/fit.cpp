@@ -11,6 +11,7 @@
 
 #include "core/diagnosis/projection.h"
 #include "core/diagnosis/selection.h"
+#include "core/frames/arm_parameters.h"
 #include "metrology/linear_algebra.h"
 #include "metrology/rigid_motion.h"
 
@@ -60,7 +61,7 @@ ContainedEffects correct(const SystemInput& input, const GapLayout& layout, cons
   if (input.absolute) {
     const frames::LoadingGeometry there = frames::moved(state.geometry, steps, state.at.epoch_centre);
     state.r0_from_sweeps =
-        metrology::motionAbout(state.at.epoch_centre, steps.segment<6>(frames::GeometrySteps::kAxes)) *
+        metrology::motionAbout(state.at.epoch_centre, steps.segment<6>(frames::ArmParameters::kBaseAt)) *
         state.r0_from_sweeps;
     state.geometry = there;
   }

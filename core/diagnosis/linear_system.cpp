@@ -6,6 +6,7 @@
 #include <map>
 
 #include "core/effects/gravity_equilibrium.h"
+#include "core/frames/arm_parameters.h"
 #include "core/frames/reading_covariance.h"
 #include "core/identification/load_case.h"
 #include "core/numerics/normal_equations.h"
@@ -160,7 +161,7 @@ ComplianceExpected complianceExpected(const Vector6d& identified) {
 
 GapLayout gapLayout(const std::vector<effects::EffectModel>& models, std::size_t targets) {
   GapLayout layout;
-  layout.weights = layout.geometry + frames::GeometrySteps::count(targets);
+  layout.weights = layout.geometry + frames::ArmParameters::count(targets);
   layout.effects = layout.weights + effects::kBodies;
   layout.end = layout.effects;
   for (const effects::EffectModel& model : models) {
@@ -190,7 +191,7 @@ constexpr double kSweptGeometry =
 constexpr double kWeightPrior = 0.1;  // of a body's weight: masses of a URDF are no better
 
 void addGeometryAndWeights(const SystemInput& input, LinearSystem& data) {
-  for (Eigen::Index k = 0; k < frames::GeometrySteps::count(input.campaign.targets.size()); ++k) {
+  for (Eigen::Index k = 0; k < frames::ArmParameters::count(input.campaign.targets.size()); ++k) {
     const Eigen::Index at = data.layout.geometry + k;
     const double prior = input.absolute ? kGeometryPrior : kSweptGeometry;
     data.sweeps(at, at) += 1.0 / (prior * prior);
@@ -278,20 +279,20 @@ GapPosture unwhitened(const SystemInput& input, const SystemState& state, const 
 /// Derivatives of measured less modelled by the geometry's steps: differences of the rows themselves.
 void addGeometry(const SystemInput& input, const SystemState& state, const std::vector<SystemRows>& rows,
                  LinearSystem& data) {
-  const Eigen::Index steps = frames::GeometrySteps::count(input.campaign.targets.size());
+  const Eigen::Index steps = frames::ArmParameters::count(input.campaign.targets.size());
   for (Eigen::Index k = 0; k < steps; ++k) {
     const frames::LoadingGeometry there = frames::moved(
-        state.geometry, frames::GeometrySteps::kSmall * Eigen::VectorXd::Unit(steps, k), state.at.epoch_centre);
+        state.geometry, frames::ArmParameters::kSmall * Eigen::VectorXd::Unit(steps, k), state.at.epoch_centre);
     const auto other = loadingRows(input.campaign, there, state.at, state.corrections);
     for (std::size_t i = 0; i < rows.size(); ++i) {
       GapPosture& posture = data.postures[i];
       auto column = posture.columns.col(data.layout.geometry + k);
       if (posture.position_rows > 0)
-        column.head(posture.position_rows) = (rows[i].position - other[i].position) / frames::GeometrySteps::kSmall;
+        column.head(posture.position_rows) = (rows[i].position - other[i].position) / frames::ArmParameters::kSmall;
       const Vector6d& c = state.at.compliance;
       column.tail(rows[i].displacement.size()) =
           ((rows[i].displacement - rows[i].by_compliance * c) - (other[i].displacement - other[i].by_compliance * c)) /
-          frames::GeometrySteps::kSmall;
+          frames::ArmParameters::kSmall;
     }
   }
 }

@@ -6,36 +6,14 @@
 #include "core/effects/gravity_equilibrium.h"
 #include "core/robot/geometric_stiffness.h"
 #include "metrology/linear_algebra.h"
-#include "metrology/lines.h"
 
 namespace stiffscope::diagnosis {
 
 namespace {
 
-constexpr std::size_t kJoints = 6, kStepsPerAxis = 4;
+using frames::ArmParameters;
 
-/// A small motion: rotation, and shift of what stands at the origin.
-struct SmallMotion {
-  Eigen::Vector3d rotation = Eigen::Vector3d::Zero(), shift = Eigen::Vector3d::Zero();
-
-  SmallMotion carriedBy(const Eigen::Isometry3d& motion) const {
-    const Eigen::Vector3d turned = motion.linear() * rotation;
-    return {turned, motion.linear() * shift - turned.cross(motion.translation())};
-  }
-  SmallMotion operator-(const SmallMotion& other) const { return {rotation - other.rotation, shift - other.shift}; }
-  Eigen::Vector3d at(const Eigen::Vector3d& point) const { return rotation.cross(point) + shift; }
-};
-
-/// The four steps of an axis as motions of it, in the order of GeometrySteps.
-std::array<SmallMotion, kStepsPerAxis> stepsOf(const metrology::Line& axis) {
-  Eigen::Vector3d u, v;
-  metrology::basisAcross(axis.direction, u, v);
-  const auto tilt = [&](const Eigen::Vector3d& towards) {
-    const Eigen::Vector3d rotation = axis.direction.cross(towards);
-    return SmallMotion{rotation, -rotation.cross(axis.point)};
-  };
-  return {{{Eigen::Vector3d::Zero(), u}, {Eigen::Vector3d::Zero(), v}, tilt(u), tilt(v)}};
-}
+constexpr std::size_t kJoints = 6;
 
 /// What each joint carries: mass, and its first moment about the origin.
 struct Carried {
@@ -57,15 +35,16 @@ Carried carriedBy(const robot::GravityLoad& weight, const robot::ArmPosture& pos
   return carried;
 }
 
-/// How tau_j = z_j . ((S_j - m_j p_j) x g) changes as axis `moved` does by `own` and all beyond it by
-/// `beyond`.
+/// How tau_j = z_j . ((S_j - m_j p_j) x g) changes with parameter k of the axes.
 Vector6d torqueChange(const effects::ArmState& state, const Carried& carried, const Eigen::Vector3d& gravity,
-                      std::size_t moved, const SmallMotion& own, const SmallMotion& beyond) {
+                      const frames::PlacedPosture& posture, std::size_t k) {
+  const std::size_t moved = k / 4;
+  const frames::SmallMotion& beyond = posture.beyondAxis(k);
   Vector6d change;
   for (std::size_t j = 0; j < kJoints; ++j) {
     const metrology::Line& axis = state.axes[j];
     const std::size_t first = std::max(j, moved);
-    const SmallMotion of_axis = j < moved ? SmallMotion{} : (j == moved ? own : beyond);
+    const frames::SmallMotion of_axis = j < moved ? frames::SmallMotion{} : (j == moved ? posture.ofAxis(k) : beyond);
     const Eigen::Vector3d arm = carried.moment[j] - carried.mass[j] * axis.point;
     const Eigen::Vector3d arm_change = beyond.rotation.cross(carried.moment[first]) +
                                        carried.mass[first] * beyond.shift - carried.mass[j] * of_axis.at(axis.point);
@@ -124,31 +103,23 @@ effects::ArmState asModelled(const frames::LoadingGeometry& geometry, const effe
 
 PositionByGeometry::PositionByGeometry(const frames::LoadingGeometry& geometry, const effects::LinearizationPoint& at,
                                        const Eigen::Vector3d& centre)
-    : geometry_(geometry), at_(at), centre_(centre) {
+    : geometry_(geometry), at_(at), arm_(frames::axesAtStart(geometry.arm.axes_in_base_at_zero), centre) {
   if (!at.bodiesMove()) return;
-  const Eigen::Index steps = frames::GeometrySteps::count(geometry.targets_at_zero.size());
-  for (Eigen::Index k = 0; k < frames::GeometrySteps::kAxes; ++k)
-    stepped_.push_back(
-        frames::moved(geometry, frames::GeometrySteps::kSmall * Eigen::VectorXd::Unit(steps, k), centre));
+  const Eigen::Index steps = ArmParameters::count(geometry.targets_at_zero.size());
+  for (Eigen::Index k = 0; k < ArmParameters::kAxes; ++k)
+    stepped_.push_back(frames::moved(geometry, ArmParameters::kSmall * Eigen::VectorXd::Unit(steps, k), centre));
 }
 
-void PositionByGeometry::addAxes(const effects::ArmState& modelled, Eigen::MatrixXd& columns) const {
-  const bool sags = geometry_.weight.links_known && !(geometry_.compliance.isZero() && !at_.jointsTurn());
+void PositionByGeometry::addSag(const effects::ArmState& modelled, const frames::PlacedPosture& posture,
+                                Eigen::MatrixXd& columns) const {
+  if (!geometry_.weight.links_known || (geometry_.compliance.isZero() && !at_.jointsTurn())) return;
   const Carried carried = carriedBy(geometry_.weight, modelled.posture);
-  Eigen::Matrix<double, 6, frames::GeometrySteps::kAxes> torques;
-  for (std::size_t j = 0; j < kJoints; ++j) {
-    const auto steps = stepsOf(geometry_.arm.axes_in_base_at_zero[j]);
-    for (std::size_t k = 0; k < kStepsPerAxis; ++k) {
-      const auto column = static_cast<Eigen::Index>(kStepsPerAxis * j + k);
-      const SmallMotion own = steps[k].carriedBy(modelled.posture.motion[j]);
-      const SmallMotion beyond = own - steps[k].carriedBy(modelled.posture.motion[j + 1]);
-      columns.col(column) = effects::byMotion(modelled, Eigen::Vector3d::Zero(), beyond.rotation, beyond.shift);
-      if (sags) torques.col(column) = torqueChange(modelled, carried, geometry_.weight.gravity_in_base, j, own, beyond);
-    }
-  }
-  if (sags)
-    columns.leftCols<frames::GeometrySteps::kAxes>() +=
-        effects::byJoints(modelled, anglesByTorque(geometry_, at_, modelled) * torques);
+  Eigen::Matrix<double, 6, ArmParameters::kAxes> torques;
+  for (std::size_t k = 0; k < ArmParameters::kAxes; ++k)
+    torques.col(static_cast<Eigen::Index>(k)) =
+        torqueChange(modelled, carried, geometry_.weight.gravity_in_base, posture, k);
+  columns.leftCols<ArmParameters::kAxes>() +=
+      effects::byJoints(modelled, anglesByTorque(geometry_, at_, modelled) * torques);
 }
 
 void PositionByGeometry::addAxesByDifferences(const effects::ArmState& modelled, Eigen::MatrixXd& columns) const {
@@ -157,31 +128,27 @@ void PositionByGeometry::addAxesByDifferences(const effects::ArmState& modelled,
     for (std::size_t i = 0; i < modelled.targets.size(); ++i) {
       const Eigen::Vector3d& at_zero = *geometry_.targets_at_zero[static_cast<std::size_t>(modelled.targets[i])];
       columns.col(static_cast<Eigen::Index>(k)).segment<3>(3 * static_cast<Eigen::Index>(i)) =
-          (there * at_zero - modelled.points[i]) / frames::GeometrySteps::kSmall;
+          (there * at_zero - modelled.points[i]) / ArmParameters::kSmall;
     }
   }
 }
 
 Eigen::MatrixXd PositionByGeometry::of(const effects::ArmState& state) const {
-  const Eigen::Vector3d none = Eigen::Vector3d::Zero();
-  Eigen::MatrixXd columns =
-      Eigen::MatrixXd::Zero(state.rows(), frames::GeometrySteps::count(geometry_.targets_at_zero.size()));
+  Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(state.rows(), ArmParameters::count(geometry_.targets_at_zero.size()));
   const effects::ArmState modelled = asModelled(geometry_, state);
+  const frames::PlacedPosture posture(arm_, state.posture);
+  for (std::size_t i = 0; i < state.targets.size(); ++i) {
+    auto rows = columns.middleRows<3>(3 * static_cast<Eigen::Index>(i));
+    if (stepped_.empty()) rows.leftCols<ArmParameters::kAxes>() = posture.byAxes(modelled.points[i]);
+    // The readings' motion moves what was read.
+    if (geometry_.r0_from_loading)
+      rows.middleCols<ArmParameters::kBase>(ArmParameters::kBaseAt) = posture.byBase(state.points[i]);
+    rows.middleCols<3>(ArmParameters::targetAt(static_cast<std::size_t>(state.targets[i]))) = posture.byTarget();
+  }
   if (stepped_.empty()) {
-    addAxes(modelled, columns);
+    addSag(modelled, posture, columns);
   } else {
     addAxesByDifferences(modelled, columns);
-  }
-  if (geometry_.r0_from_loading) {
-    for (int k = 0; k < 3; ++k) {
-      const Eigen::Vector3d axis = Eigen::Vector3d::Unit(k);
-      columns.col(frames::GeometrySteps::kAxes + k) = -effects::byMotion(state, centre_, axis, none);
-      columns.col(frames::GeometrySteps::kAxes + 3 + k) = -effects::byMotion(state, centre_, none, axis);
-    }
-  }
-  for (std::size_t i = 0; i < state.targets.size(); ++i) {
-    columns.block<3, 3>(3 * static_cast<Eigen::Index>(i), frames::GeometrySteps::kAxes + frames::GeometrySteps::kBase +
-                                                              3 * state.targets[i]) = state.posture.motion[6].linear();
   }
   return columns;
 }

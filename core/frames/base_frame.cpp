@@ -29,9 +29,12 @@ Eigen::Isometry3d frameOnAxes56(const std::array<metrology::Line, 6>& axes) {
 
 }  // namespace
 
-Eigen::Isometry3d flangeCarry(const std::array<metrology::Line, 6>& nominal,
-                              const std::array<metrology::Line, 6>& actual) {
-  return frameOnAxes56(actual) * frameOnAxes56(nominal).inverse();
+void carryFlange(const std::array<metrology::Line, 6>& from, robot::Robot& arm) {
+  const Eigen::Isometry3d carry = frameOnAxes56(arm.axes_in_base_at_zero) * frameOnAxes56(from).inverse();
+  arm.base_from_flange_at_zero = carry * arm.base_from_flange_at_zero;
+  for (robot::LinkFrame& link : arm.links) {
+    if (link.body == 6) link.base_from_link_at_zero = carry * link.base_from_link_at_zero;
+  }
 }
 
 ArmInR0 armInR0(const robot::Robot& nominal, const std::array<MeasuredAxis, 6>& axes) {
@@ -54,13 +57,7 @@ ArmInR0 armInR0(const robot::Robot& nominal, const std::array<MeasuredAxis, 6>& 
     const metrology::Line measured = movedBy(result.r0_from_points, axes[i].at_zero.line);
     axis = {metrology::nearestPoint(measured, axis.point), measured.direction};
   }
-  if (axes[4].measured && axes[5].measured) {
-    const Eigen::Isometry3d carry = flangeCarry(nominal_in_r0, result.arm.axes_in_base_at_zero);
-    result.arm.base_from_flange_at_zero = carry * result.arm.base_from_flange_at_zero;
-    for (robot::LinkFrame& link : result.arm.links) {
-      if (link.body == 6) link.base_from_link_at_zero = carry * link.base_from_link_at_zero;
-    }
-  }
+  if (axes[4].measured && axes[5].measured) carryFlange(nominal_in_r0, result.arm);
   return result;
 }
 

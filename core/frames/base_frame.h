@@ -22,9 +22,8 @@ struct ArmInR0 {
 /// axis 6, x along the part of axis 5 across it, and the origin at the foot of their common perpendicular on axis 6.
 ArmInR0 armInR0(const robot::Robot& nominal, const std::array<MeasuredAxis, 6>& axes);
 
-/// The rigid motion that carries the flange from where the nominal axes 5 and 6 put it to where these put it.
-Eigen::Isometry3d flangeCarry(const std::array<metrology::Line, 6>& nominal,
-                              const std::array<metrology::Line, 6>& actual);
+/// Carries the arm's flange, and what is fixed to it, from where axes 5 and 6 of `from` put it to where its own put it.
+void carryFlange(const std::array<metrology::Line, 6>& from, robot::Robot& arm);
 
 /// The rule of the campaign format for R0, on the nominal robot: which way axis 1 and axis 2 are directed to become
 /// z0 and y0 (+1: as the joint turns, -1: against it), and where R0 stands.

@@ -1,24 +1,104 @@
 #include "core/frames/geometry_calibration.h"
 
 #include <ceres/ceres.h>
-#include <ceres/jet.h>
 #include <Eigen/Dense>
 #include <algorithm>
-#include <array>
 #include <cmath>
 
-#include "core/frames/base_frame.h"
+#include "core/frames/arm_parameters.h"
 #include "core/frames/remarks.h"
 #include "core/numerics/normal_equations.h"
-#include "metrology/lines.h"
 
 namespace stiffscope::frames {
 
 namespace {
 
+struct ReflectorReading {
+  std::size_t target;
+  Eigen::Vector3d at_zero;  ///< of the reflector, to start with
+  Eigen::Vector3d point;    ///< in R0 as the start has it
+  Eigen::Matrix3d whiten;
+};
+
+struct UnloadedPosture {
+  Vector6d q;  ///< with the sag in
+  std::vector<ReflectorReading> reflectors;
+};
+
+using WhitenedRows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+/// Measured less modelled places of all reflectors, whitened, by ArmParameters: one block of each, so that the arm is
+/// placed once and each posture computed once.
+class PositionsCost : public ceres::CostFunction {
+ public:
+  PositionsCost(const AxesAtStart& axes, const Eigen::Vector3d& centre, std::vector<UnloadedPosture> postures,
+                Eigen::Index parameters)
+      : axes_(axes), centre_(centre), postures_(std::move(postures)) {
+    int rows = 0;
+    for (const UnloadedPosture& one : postures_) rows += 3 * static_cast<int>(one.reflectors.size());
+    set_num_residuals(rows);
+    mutable_parameter_block_sizes()->push_back(static_cast<int>(parameters));
+  }
+
+  bool Evaluate(const double* const* parameters, double* residuals, double** jacobians) const override {
+    const Eigen::Index count = parameter_block_sizes().front();
+    const Eigen::Map<const Eigen::VectorXd> steps(parameters[0], count);
+    double* const jacobian = jacobians != nullptr ? jacobians[0] : nullptr;
+    Eigen::Index row = 0;
+    forEach(steps, [&](const PlacedPosture& posture, const ReflectorReading& reading, const Eigen::Vector3d& position) {
+      Eigen::Map<Eigen::Vector3d>(residuals + row) = reading.whiten * (reading.point - position);
+      if (jacobian != nullptr) {
+        Eigen::Map<Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::RowMajor>> rows(jacobian + row * count, 3, count);
+        rows.leftCols<ArmParameters::kAxes>() = -reading.whiten * posture.byAxes(position);
+        rows.middleCols<ArmParameters::kBase>(ArmParameters::kBaseAt) = -reading.whiten * posture.byBase(position);
+        rows.rightCols(count - ArmParameters::kTargetsAt).setZero();
+        rows.middleCols<3>(ArmParameters::targetAt(reading.target)) = -reading.whiten * posture.byTarget();
+      }
+      row += 3;
+    });
+    return true;
+  }
+
+  WhitenedRows jacobian(const Eigen::VectorXd& steps) const {
+    WhitenedRows rows(num_residuals(), steps.size());
+    Eigen::VectorXd residuals(num_residuals());
+    const double* at = steps.data();
+    double* into = rows.data();
+    Evaluate(&at, residuals.data(), &into);
+    return rows;
+  }
+
+  /// Plain, per coordinate, m.
+  double rms(const Eigen::VectorXd& steps) const {
+    double sum = 0.0;
+    forEach(steps, [&](const PlacedPosture&, const ReflectorReading& reading, const Eigen::Vector3d& position) {
+      sum += (reading.point - position).squaredNorm();
+    });
+    return std::sqrt(sum / num_residuals());
+  }
+
+ private:
+  template <class Use>
+  void forEach(const Eigen::Ref<const Eigen::VectorXd>& steps, const Use& use) const {
+    const PlacedArm arm(axes_, centre_, steps.head<ArmParameters::kAxes>(),
+                        steps.segment<ArmParameters::kBase>(ArmParameters::kBaseAt));
+    for (const UnloadedPosture& one : postures_) {
+      const PlacedPosture posture(arm, one.q);
+      for (const ReflectorReading& reading : one.reflectors) {
+        const Eigen::Vector3d step = steps.segment<3>(ArmParameters::targetAt(reading.target));
+        use(posture, reading, posture.position(reading.at_zero + step));
+      }
+    }
+  }
+
+  AxesAtStart axes_;
+  Eigen::Vector3d centre_;
+  std::vector<UnloadedPosture> postures_;
+};
+
 class Calibration {
  public:
-  Calibration(const campaign::Campaign& campaign, const LoadingGeometry& start) : campaign_(campaign), begin_(start) {}
+  Calibration(const campaign::Campaign& campaign, const LoadingGeometry& start) : campaign_(campaign), start_(start) {}
 
   GeometryCalibration run() {
     GeometryCalibration result;
@@ -28,21 +108,21 @@ class Calibration {
       result.reason = Remark(RemarkId::no_unloaded_positions);
       return result;
     }
-    if (!begin(result)) return result;
+    if (!placeStart()) {
+      result.reason = Remark(RemarkId::base_not_placed);
+      return result;
+    }
     build();
-    result.rms_before = plainRms();
-    const std::vector<int> unseen_axes = findUnseen();
-    result.parameters = 24 + 6 + 3 * static_cast<int>(used_targets_.size()) - static_cast<int>(unseen_axes.size());
+    result.rms_before = cost_->rms(steps_);
+    const std::vector<int> unseen = unseenOfAxes();
+    const std::vector<int> free = freeParameters(unseen);
+    result.parameters = static_cast<int>(free.size());
     if (3 * result.positions <= result.parameters) {
       result.reason = Remark(RemarkId::too_few_positions, result.positions, result.parameters);
       return result;
     }
-    for (const int k : unseen_axes) result.fixed.push_back(Remark(RemarkId::axis_parameter, k / 4 + 1, k % 4));
-    if (!unseen_axes.empty() && unseen_axes.size() < 24) {
-      problem_.SetManifold(parameters_.axes.data(), new ceres::SubsetManifold(24, unseen_axes));
-    } else if (unseen_axes.size() == 24) {
-      problem_.SetParameterBlockConstant(parameters_.axes.data());
-    }
+    for (const int k : unseen) result.fixed.push_back(Remark(RemarkId::axis_parameter, k / 4 + 1, k % 4));
+    holdAllBut(free);
     ceres::Solver::Options options;
     options.linear_solver_type = ceres::DENSE_NORMAL_CHOLESKY;
     options.num_threads = 1;
@@ -56,188 +136,122 @@ class Calibration {
       result.reason = Remark(RemarkId::calibration_not_settling, summary.message);
       return result;
     }
-    result.rms_after = plainRms();
-    result.geometry = calibrated();
-    spread(unseen_axes, 2.0 * summary.final_cost / (3.0 * result.positions - result.parameters), result);
+    result.rms_after = cost_->rms(steps_);
+    result.geometry = moved(start_, steps_, centre_);
+    spread(free, 2.0 * summary.final_cost / (3.0 * result.positions - result.parameters), result);
     result.done = true;
     return result;
   }
 
  private:
-  bool begin(GeometryCalibration& result) {
-    targets_ = begin_.targets_at_zero;
-    if (begin_.r0_from_loading) {
-      start_.points_from_base = begin_.r0_from_loading->inverse();
-    }
-    const bool placed = begin_.r0_from_loading.has_value() &&
+  /// Base and reflectors by the postures where the sweeps do not place them. False where those do not either.
+  bool placeStart() {
+    const bool placed = start_.r0_from_loading.has_value() &&
                         std::all_of(positions_.begin(), positions_.end(), [&](const UnloadedPosition& p) {
-                          return targets_[static_cast<std::size_t>(p.target)].has_value();
+                          return start_.targets_at_zero[static_cast<std::size_t>(p.target)].has_value();
                         });
-    if (!placed) {
-      const auto found = baseFromPostures(begin_, positions_, campaign_.targets.size());
-      if (!found) {
-        result.reason = Remark(RemarkId::base_not_placed);
-        return false;
-      }
-      start_.points_from_base = found->points_from_base;
-      targets_ = found->targets_at_zero;
-    }
-    start_.axes = begin_.arm.axes_in_base_at_zero;
-    for (std::size_t j = 0; j < 6; ++j) {
-      metrology::basisAcross(start_.axes[j].direction, start_.across_u[j], start_.across_v[j]);
+    if (placed) return true;
+    const auto found = baseFromPostures(start_, positions_, campaign_.targets.size());
+    if (!found) return false;
+    start_.r0_from_loading = found->points_from_base.inverse();
+    for (std::size_t t = 0; t < found->targets_at_zero.size(); ++t) {
+      if (found->targets_at_zero[t]) start_.targets_at_zero[t] = found->targets_at_zero[t];
     }
     return true;
   }
 
   void build() {
-    parameters_.targets.resize(targets_.size());
-    for (std::size_t k = 0; k < targets_.size(); ++k) {
-      if (targets_[k]) parameters_.targets[k] = {targets_[k]->x(), targets_[k]->y(), targets_[k]->z()};
-    }
+    std::vector<UnloadedPosture> postures;
+    int pose = -1;
     for (const UnloadedPosition& position : positions_) {
-      const auto k = static_cast<std::size_t>(position.target);
-      if (std::find(used_targets_.begin(), used_targets_.end(), k) == used_targets_.end()) used_targets_.push_back(k);
-      auto* cost = new PositionCost({start_, begin_.sagged(position.q), position.point, whitening(position)});
-      costs_.push_back(cost);
-      problem_.AddResidualBlock(cost, nullptr, parameters_.axes.data(), parameters_.base.data(),
-                                parameters_.targets[k].data());
+      if (position.pose != pose) postures.push_back({start_.sagged(position.q), {}});
+      pose = position.pose;
+      const auto target = static_cast<std::size_t>(position.target);
+      const Eigen::Vector3d point = *start_.r0_from_loading * position.point;
+      centre_ += point / static_cast<double>(positions_.size());
+      postures.back().reflectors.push_back({target, *start_.targets_at_zero[target], point, whitening(position)});
+      if (std::find(used_targets_.begin(), used_targets_.end(), target) == used_targets_.end())
+        used_targets_.push_back(target);
     }
     std::sort(used_targets_.begin(), used_targets_.end());
+    steps_ = Eigen::VectorXd::Zero(ArmParameters::count(start_.targets_at_zero.size()));
+    cost_ =
+        new PositionsCost(axesAtStart(start_.arm.axes_in_base_at_zero), centre_, std::move(postures), steps_.size());
+    problem_.AddResidualBlock(cost_, nullptr, steps_.data());
   }
 
   Eigen::Matrix3d whitening(const UnloadedPosition& position) const {
     if (!campaign_.tracker) return Eigen::Matrix3d::Identity();
     const Eigen::Matrix3d covariance =
         trackerNoise(*campaign_.tracker).covarianceAt(position.point) / position.readings;
-    return covariance.inverse().llt().matrixU();
+    const Eigen::Matrix3d in_loading = covariance.inverse().llt().matrixU();
+    return in_loading * start_.r0_from_loading->linear().transpose();
   }
 
-  double plainRms() const {
-    double sum = 0.0;
-    for (std::size_t i = 0; i < positions_.size(); ++i) {
-      PositionResidual plain = costs_[i]->residual();
-      plain.whiten.setIdentity();
-      Eigen::Vector3d residual;
-      plain(parameters_.axes.data(), parameters_.base.data(),
-            parameters_.targets[static_cast<std::size_t>(positions_[i].target)].data(), residual.data());
-      sum += residual.squaredNorm();
+  /// In the order in which fits would rather determine them: base, reflectors, then of the axes those that are not
+  /// `unseen`.
+  std::vector<int> freeParameters(const std::vector<int>& unseen) const {
+    std::vector<int> free;
+    for (int k = 0; k < ArmParameters::kBase; ++k) free.push_back(ArmParameters::kBaseAt + k);
+    for (const std::size_t t : used_targets_) {
+      for (int k = 0; k < 3; ++k) free.push_back(static_cast<int>(ArmParameters::targetAt(t)) + k);
     }
-    return std::sqrt(sum / (3.0 * static_cast<double>(positions_.size())));
-  }
-
-  /// Of the whitened residuals by base, reflectors, axes, in this order.
-  Eigen::MatrixXd jacobian() {
-    ceres::Problem::EvaluateOptions options;
-    options.parameter_blocks = {parameters_.base.data()};
-    for (const std::size_t k : used_targets_) options.parameter_blocks.push_back(parameters_.targets[k].data());
-    options.parameter_blocks.push_back(parameters_.axes.data());
-    ceres::CRSMatrix sparse;
-    problem_.Evaluate(options, nullptr, nullptr, nullptr, &sparse);
-    Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(sparse.num_rows, sparse.num_cols);
-    for (int row = 0; row < sparse.num_rows; ++row) {
-      for (int at = sparse.rows[static_cast<std::size_t>(row)]; at < sparse.rows[static_cast<std::size_t>(row) + 1];
-           ++at) {
-        dense(row, sparse.cols[static_cast<std::size_t>(at)]) = sparse.values[static_cast<std::size_t>(at)];
-      }
+    for (int k = 0; k < ArmParameters::kAxes; ++k) {
+      if (std::find(unseen.begin(), unseen.end(), k) == unseen.end()) free.push_back(k);
     }
-    return dense;
-  }
-
-  /// The numbers of a column of the Jacobian with the axes' fixed parameters taken out.
-  std::vector<double*> freeNumbers(const std::vector<int>& unseen_axes) {
-    std::vector<double*> numbers;
-    for (double& one : parameters_.base) numbers.push_back(&one);
-    for (const std::size_t k : used_targets_) {
-      for (double& one : parameters_.targets[k]) numbers.push_back(&one);
-    }
-    for (int k = 0; k < 24; ++k) {
-      if (std::find(unseen_axes.begin(), unseen_axes.end(), k) == unseen_axes.end()) {
-        numbers.push_back(&parameters_.axes[static_cast<std::size_t>(k)]);
-      }
-    }
-    return numbers;
-  }
-
-  void spread(const std::vector<int>& unseen_axes, double chi2_per_dof, GeometryCalibration& result) {
-    const std::vector<double*> numbers = freeNumbers(unseen_axes);
-    const auto free = static_cast<Eigen::Index>(numbers.size());
-    // The manifold has taken the fixed columns out; without one all are free, or the axes' block is constant.
-    const Eigen::MatrixXd columns = jacobian();
-    if (columns.cols() != free) return;
-    const Eigen::VectorXd scale = columns.colwise().norm().cwiseInverse();
-    if (!scale.allFinite()) return;
-    const Eigen::MatrixXd scaled = columns * scale.asDiagonal();
-    const double factor = campaign_.tracker ? std::max(1.0, chi2_per_dof) : chi2_per_dof;
-    const Eigen::LLT<Eigen::MatrixXd> normal(scaled.transpose() * scaled);
-    if (normal.info() != Eigen::Success) return;
-    // (L L^T)^-1 = S S^T, S = L^-T.
-    const Eigen::MatrixXd root =
-        std::sqrt(factor) * scale.asDiagonal() * normal.matrixU().solve(Eigen::MatrixXd::Identity(free, free));
-    const CalibrationParameters found = parameters_;
-    for (Eigen::Index k = 0; k < free; ++k) {
-      for (Eigen::Index i = 0; i < free; ++i) *numbers[static_cast<std::size_t>(i)] += root(i, k);
-      result.spread.push_back(calibrated());
-      restore(found);
-    }
-  }
-
-  /// In place: the solver and freeNumbers hold addresses.
-  void restore(const CalibrationParameters& from) {
-    parameters_.axes = from.axes;
-    parameters_.base = from.base;
-    std::copy(from.targets.begin(), from.targets.end(), parameters_.targets.begin());
+    return free;
   }
 
   /// Axis parameters whose column of the Jacobian lies in the span of those before it. Base and reflectors
   /// come first and the axes from the tip inwards, so that what is free by choice of frame is fixed in axes 1
   /// and 2, which define R0.
-  std::vector<int> findUnseen() {
-    const Eigen::MatrixXd columns = jacobian();
-    const int axes_at = 6 + 3 * static_cast<int>(used_targets_.size());
-    std::vector<int> order;
-    for (int k = 0; k < axes_at; ++k) order.push_back(k);
+  std::vector<int> unseenOfAxes() const {
+    std::vector<int> order = freeParameters({});
+    auto axes = order.end() - ArmParameters::kAxes;
     for (int axis = 5; axis >= 0; --axis) {
-      for (int k = 0; k < 4; ++k) order.push_back(axes_at + 4 * axis + k);
+      for (int k = 0; k < 4; ++k) *axes++ = 4 * axis + k;
     }
     std::vector<int> unseen;
-    for (const int column : numerics::columnsInSpanOfEarlier(columns, order)) {
-      if (column >= axes_at) unseen.push_back(column - axes_at);
+    for (const int column : numerics::columnsInSpanOfEarlier(cost_->jacobian(steps_), order)) {
+      if (column < ArmParameters::kAxes) unseen.push_back(column);
     }
     std::sort(unseen.begin(), unseen.end());
     return unseen;
   }
 
-  LoadingGeometry calibrated() const {
-    LoadingGeometry geometry = begin_;
-    for (std::size_t j = 0; j < 6; ++j) {
-      const metrology::MeasuredLine from{start_.axes[j], start_.across_u[j], start_.across_v[j],
-                                         Eigen::Matrix4d::Zero()};
-      geometry.arm.axes_in_base_at_zero[j] = from.moved(Eigen::Map<const Eigen::Vector4d>(&parameters_.axes[4 * j]));
+  void holdAllBut(const std::vector<int>& free) {
+    std::vector<int> held;
+    for (int k = 0; k < static_cast<int>(steps_.size()); ++k) {
+      if (std::find(free.begin(), free.end(), k) == free.end()) held.push_back(k);
     }
-    const Eigen::Isometry3d carry = flangeCarry(start_.axes, geometry.arm.axes_in_base_at_zero);
-    geometry.arm.base_from_flange_at_zero = carry * geometry.arm.base_from_flange_at_zero;
-    for (robot::LinkFrame& link : geometry.arm.links) {
-      if (link.body == 6) link.base_from_link_at_zero = carry * link.base_from_link_at_zero;
+    if (!held.empty())
+      problem_.SetManifold(steps_.data(), new ceres::SubsetManifold(static_cast<int>(steps_.size()), held));
+  }
+
+  void spread(const std::vector<int>& free, double chi2_per_dof, GeometryCalibration& result) const {
+    const Eigen::MatrixXd columns = cost_->jacobian(steps_)(Eigen::all, free);
+    const Eigen::VectorXd scale = columns.colwise().norm().cwiseInverse();
+    if (!scale.allFinite()) return;
+    const double factor = campaign_.tracker ? std::max(1.0, chi2_per_dof) : chi2_per_dof;
+    const Eigen::LLT<Eigen::MatrixXd> normal(numerics::normalMatrix(columns * scale.asDiagonal()));
+    if (normal.info() != Eigen::Success) return;
+    // (L L^T)^-1 = S S^T, S = L^-T.
+    const Eigen::MatrixXd root = std::sqrt(factor) * scale.asDiagonal() *
+                                 normal.matrixU().solve(Eigen::MatrixXd::Identity(columns.cols(), columns.cols()));
+    for (Eigen::Index k = 0; k < root.cols(); ++k) {
+      Eigen::VectorXd there = steps_;
+      there(free) += root.col(k);
+      result.spread.push_back(moved(start_, there, centre_));
     }
-    for (const std::size_t k : used_targets_) {
-      geometry.targets_at_zero[k] = Eigen::Map<const Eigen::Vector3d>(parameters_.targets[k].data());
-    }
-    Eigen::Isometry3d moved = Eigen::Isometry3d::Identity();
-    const Eigen::Map<const Eigen::Vector3d> turn(parameters_.base.data());
-    if (turn.norm() > 0.0) moved.linear() = Eigen::AngleAxisd(turn.norm(), turn.normalized()).toRotationMatrix();
-    moved.translation() = Eigen::Map<const Eigen::Vector3d>(parameters_.base.data() + 3);
-    geometry.r0_from_loading = (moved * start_.points_from_base).inverse();
-    return geometry;
   }
 
   const campaign::Campaign& campaign_;
-  const LoadingGeometry& begin_;
+  LoadingGeometry start_;
   std::vector<UnloadedPosition> positions_;
-  std::vector<std::optional<Eigen::Vector3d>> targets_;
   std::vector<std::size_t> used_targets_;
-  std::vector<const PositionCost*> costs_;  // owned by the problem
-  CalibrationStart start_;
-  CalibrationParameters parameters_;
+  Eigen::Vector3d centre_ = Eigen::Vector3d::Zero();  ///< mean of the measured points, in R0
+  Eigen::VectorXd steps_;                             ///< ArmParameters; the solver holds its address
+  PositionsCost* cost_ = nullptr;                     ///< owned by the problem
   ceres::Problem problem_;
 };
 
@@ -245,68 +259,6 @@ class Calibration {
 
 GeometryCalibration calibrateGeometry(const campaign::Campaign& campaign, const LoadingGeometry& start) {
   return Calibration(campaign, start).run();
-}
-
-namespace {
-
-/// A block of derivatives as the solver keeps it: row by row.
-template <int Columns>
-auto derivatives(double* at) {
-  return Eigen::Map<Eigen::Matrix<double, 3, Columns, Eigen::RowMajor>>(at);
-}
-
-/// Derivatives of a step of the chain by its own numbers and by the point that comes in.
-template <int Own>
-struct Step {
-  Eigen::Vector3d out;
-  Eigen::Matrix<double, 3, Own> by_own;
-  Eigen::Matrix3d by_point;
-};
-
-/// `step(own, point)` for numbers and points of any scalar.
-template <int Own, class Function>
-Step<Own> differentiated(const double* own, const Eigen::Vector3d& point, const Function& step) {
-  using Jet = ceres::Jet<double, Own + 3>;
-  std::array<Jet, Own> numbers;
-  for (int k = 0; k < Own; ++k) numbers[static_cast<std::size_t>(k)] = Jet(own[k], k);
-  const Eigen::Matrix<Jet, 3, 1> moving(Jet(point.x(), Own), Jet(point.y(), Own + 1), Jet(point.z(), Own + 2));
-  const Eigen::Matrix<Jet, 3, 1> moved = step(numbers.data(), moving);
-  Step<Own> result;
-  for (int row = 0; row < 3; ++row) {
-    result.out[row] = moved[row].a;
-    result.by_own.row(row) = moved[row].v.template head<Own>().transpose();
-    result.by_point.row(row) = moved[row].v.template tail<3>().transpose();
-  }
-  return result;
-}
-
-}  // namespace
-
-bool PositionCost::Evaluate(const double* const* parameters, double* residuals, double** jacobians) const {
-  const double *axes = parameters[0], *base = parameters[1], *target = parameters[2];
-  if (jacobians == nullptr) return residual_(axes, base, target, residuals);
-  Eigen::Vector3d x(target[0], target[1], target[2]);
-  std::array<Step<4>, 6> joints;
-  for (int joint = 5; joint >= 0; --joint) {
-    joints[static_cast<std::size_t>(joint)] = differentiated<4>(
-        axes + 4 * joint, x, [&](const auto* own, const auto& point) { return residual_.turned(joint, own, point); });
-    x = joints[static_cast<std::size_t>(joint)].out;
-  }
-  const Step<6> placed =
-      differentiated<6>(base, x, [&](const auto* own, const auto& point) { return residual_.placed(own, point); });
-  Eigen::Map<Eigen::Vector3d> left(residuals);
-  left = residual_.whiten * (residual_.measured - placed.out);
-  if (jacobians[1] != nullptr) derivatives<6>(jacobians[1]) = -residual_.whiten * placed.by_own;
-  Eigen::Matrix3d chain = -residual_.whiten * placed.by_point;
-  for (int joint = 0; joint < 6; ++joint) {
-    const Step<4>& step = joints[static_cast<std::size_t>(joint)];
-    if (jacobians[0] != nullptr) {
-      derivatives<24>(jacobians[0]).middleCols<4>(4 * joint) = chain * step.by_own;
-    }
-    chain = (chain * step.by_point).eval();
-  }
-  if (jacobians[2] != nullptr) derivatives<3>(jacobians[2]) = chain;
-  return true;
 }
 
 }  // namespace stiffscope::frames

@@ -1,10 +1,6 @@
 #pragma once
 
-#include <ceres/rotation.h>
-#include <ceres/sized_cost_function.h>
 #include <Eigen/Geometry>
-#include <array>
-#include <cmath>
 #include <optional>
 #include <vector>
 
@@ -58,89 +54,12 @@ struct GeometryCalibration {
   std::vector<Remark> fixed;  ///< parameters that the data cannot see, kept at their start
 };
 
-/// Partial Pose's first step (Wu, Klimchik et al.; paper IV.B): the four parameters of each joint axis, the
-/// pose of the base in the loading's readings and the reflectors' places, by least squares on where the
+/// Partial Pose's first step (Wu, Klimchik et al.; paper IV.B): ArmParameters by least squares on where the
 /// reflectors stand unloaded in all postures (step 0), with the own weight's sag at `start.compliance` in the
-/// model; weighted by the tracker's covariance where it is declared. Solved by Ceres (Levenberg-Marquardt,
-/// automatic derivatives). Parameters that the positions do not see (the axes can be shifted against base and
-/// tool) are found from the rank of the Jacobian, fixed and named. Not done, with the reason: without
-/// absolute unloaded points, with fewer positions than parameters, or where the base's place can neither be
-/// taken from the sweeps nor from three or more reflectors.
+/// model; weighted by the tracker's covariance where it is declared. Solved by Ceres (Levenberg-Marquardt). Parameters
+/// that the positions do not see (the axes can be shifted against base and tool) are found from the rank of the
+/// Jacobian, fixed and named. Not done, with the reason: without absolute unloaded points, with fewer positions than
+/// parameters, or where the base's place can neither be taken from the sweeps nor from three or more reflectors.
 GeometryCalibration calibrateGeometry(const campaign::Campaign& campaign, const LoadingGeometry& start);
-
-/// Estimated numbers, as steps from the start: per axis shift_u, shift_v (m), tilt_u, tilt_v (rad); the
-/// base's small motion, rotation vector then translation, in the readings' frame; the reflectors' places at
-/// zero (m).
-struct CalibrationParameters {
-  std::array<double, 24> axes{};
-  std::array<double, 6> base{};
-  std::vector<std::array<double, 3>> targets;
-};
-
-struct CalibrationStart {
-  std::array<metrology::Line, 6> axes;
-  std::array<Eigen::Vector3d, 6> across_u, across_v;
-  Eigen::Isometry3d points_from_base;
-};
-
-/// Residual: measured minus modelled place of one reflector, in the readings' frame, whitened.
-struct PositionResidual {
-  const CalibrationStart& start;
-  Vector6d q;  // with the sag in
-  Eigen::Vector3d measured;
-  Eigen::Matrix3d whiten;
-
-  /// A point turned about a joint's axis by its angle, the axis moved by its four numbers `own`.
-  template <class T>
-  Eigen::Matrix<T, 3, 1> turned(int joint, const T* own, const Eigen::Matrix<T, 3, 1>& x) const {
-    using Vector = Eigen::Matrix<T, 3, 1>;
-    const auto j = static_cast<std::size_t>(joint);
-    const Vector point =
-        start.axes[j].point.cast<T>() + start.across_u[j].cast<T>() * own[0] + start.across_v[j].cast<T>() * own[1];
-    const Vector direction = (start.axes[j].direction.cast<T>() + start.across_u[j].cast<T>() * own[2] +
-                              start.across_v[j].cast<T>() * own[3])
-                                 .normalized();
-    const Vector from = x - point;
-    const double cosine = std::cos(q[joint]), sine = std::sin(q[joint]);
-    return point + from * T(cosine) + direction.cross(from) * T(sine) +
-           direction * (direction.dot(from) * T(1.0 - cosine));
-  }
-
-  /// A point of the arm's base in the readings' frame, that moved by `base`.
-  template <class T>
-  Eigen::Matrix<T, 3, 1> placed(const T* base, const Eigen::Matrix<T, 3, 1>& x) const {
-    using Vector = Eigen::Matrix<T, 3, 1>;
-    const Vector at_start =
-        start.points_from_base.linear().cast<T>() * x + start.points_from_base.translation().cast<T>();
-    Vector moved;
-    ceres::AngleAxisRotatePoint(base, at_start.data(), moved.data());
-    return moved + Vector(base[3], base[4], base[5]);
-  }
-
-  template <class T>
-  bool operator()(const T* axes, const T* base, const T* target, T* residual) const {
-    using Vector = Eigen::Matrix<T, 3, 1>;
-    Vector x(target[0], target[1], target[2]);
-    // Innermost turn first: exp(xi_1 q_1) ... exp(xi_6 q_6) x.
-    for (int joint = 5; joint >= 0; --joint) x = turned(joint, axes + 4 * joint, x);
-    Eigen::Map<Vector>(residual, 3) = whiten.cast<T>() * (measured.cast<T>() - placed(base, x));
-    return true;
-  }
-};
-
-/// PositionResidual with its derivatives by axes, base and target. A joint's turn depends on that axis's four numbers
-/// and on the point that it turns, so each is differentiated by those seven alone and the chain is multiplied out from
-/// the base to the target: a tenth of the work of carrying all 33 derivatives through every step.
-class PositionCost : public ceres::SizedCostFunction<3, 24, 6, 3> {
- public:
-  explicit PositionCost(PositionResidual residual) : residual_(std::move(residual)) {}
-
-  const PositionResidual& residual() const { return residual_; }
-
-  bool Evaluate(const double* const* parameters, double* residuals, double** jacobians) const override;
-
- private:
-  PositionResidual residual_;
-};
 
 }  // namespace stiffscope::frames

@@ -3,75 +3,66 @@
 #include <Eigen/Dense>
 #include <algorithm>
 
-#include "core/frames/arm_geometry.h"
+#include "core/frames/arm_parameters.h"
 #include "core/frames/remarks.h"
-#include "core/robot/gravity_load.h"
+#include "metrology/rigid_motion.h"
 
 namespace stiffscope::frames {
 
 namespace {
 
-constexpr Eigen::Index kShift = 6, kAxes = 24, kCompliances = 6;
-
 class RowMaker {
  public:
   RowMaker(const Frames& frames, const LoadingGeometry& geometry, std::size_t targets)
-      : geometry_(geometry), targets_(static_cast<Eigen::Index>(targets)), axes_(frames) {}
+      : geometry_(geometry),
+        axes_(sweptAxes(frames, geometry.arm.axes_in_base_at_zero)),
+        arm_(axes_),
+        steps_(ArmParameters::count(targets)) {}
 
-  Eigen::Index parameters() const { return kShift + 3 * targets_ + kAxes + kCompliances; }
+  Eigen::Index parameters() const { return steps_ + 6; }
 
   Eigen::MatrixXd prior() const {
     Eigen::MatrixXd prior = Eigen::MatrixXd::Zero(parameters(), parameters());
-    const Eigen::Index at = kShift + 3 * targets_;
     for (Eigen::Index j = 0; j < 6; ++j) {
-      prior.block<4, 4>(at + 4 * j, at + 4 * j) = axes_.covariance(static_cast<std::size_t>(j)).inverse();
+      prior.block<4, 4>(4 * j, 4 * j) = axes_[static_cast<std::size_t>(j)].covariance.inverse();
     }
     prior.bottomRightCorner<6, 6>() = Matrix6d::Identity() / (kSagShare * kSagShare);
     return prior;
   }
 
-  /// Rows of one posture; `r0_from_loading` has brought the measured points into R0.
+  /// Rows of one posture but for the base's columns; `r0_from_loading` has brought the measured points into R0.
   void add(const campaign::StatePoints& state, const Vector6d& q, const metrology::TrackerNoise& noise,
            AbsoluteRows& result) const {
-    const robot::Robot& arm = geometry_.arm;
     const Eigen::Isometry3d& r0_from_loading = *geometry_.r0_from_loading;
     const Vector6d sagged = geometry_.sagged(q);
-    const robot::ArmPosture posture = robot::postureAt(arm, sagged);
-    std::vector<robot::ArmPosture> moved;  // by each axis parameter, then by each compliance
-    for (std::size_t j = 0; j < 6; ++j) {
-      for (int k = 0; k < 4; ++k) moved.push_back(axes_.postureWithMoved(arm, sagged, j, k));
-    }
-    const Vector6d sag = sagged - q;
+    const PlacedPosture posture(arm_, sagged);
     for (const campaign::ReflectorMean& mean : state.reflectors) {
       const auto& at_zero = geometry_.targets_at_zero[static_cast<std::size_t>(mean.target)];
       if (!at_zero) continue;
       AbsoluteRow row;
       row.pose = state.pose;
       row.target = mean.target;
-      const Eigen::Vector3d modelled = posture.motion[6] * *at_zero;
+      const Eigen::Vector3d modelled = posture.position(*at_zero);
       row.point = r0_from_loading * mean.point;
       row.residual = row.point - modelled;
       const Eigen::Matrix3d covariance = noise.covarianceAt(mean.point) / mean.readings;
       row.weight = (r0_from_loading.linear() * covariance * r0_from_loading.linear().transpose()).inverse();
-      row.by_angles = robot::jacobianAt(arm, posture, modelled).topRows<3>();
+      row.by_angles = posture.byAngles(modelled);
       row.jacobian = Eigen::MatrixXd::Zero(3, parameters());
-      row.jacobian.block<3, 3>(0, 3).setIdentity();
-      row.jacobian.block<3, 3>(0, kShift + 3 * mean.target) = posture.motion[6].linear();
-      for (Eigen::Index k = 0; k < kAxes; ++k) {
-        row.jacobian.col(kShift + 3 * targets_ + k) =
-            (moved[static_cast<std::size_t>(k)].motion[6] * *at_zero - modelled) / MovedAxes::kStep;
-      }
+      row.jacobian.leftCols<ArmParameters::kAxes>() = posture.byAxes(modelled);
+      row.jacobian.middleCols<3>(ArmParameters::targetAt(static_cast<std::size_t>(mean.target))) = posture.byTarget();
       // The sag is proportional to each compliance: q_sagged = q + c tau.
-      row.sag = sag;
-      row.jacobian.rightCols<6>() = row.by_angles * sag.asDiagonal();
+      row.sag = sagged - q;
+      row.jacobian.rightCols<6>() = row.by_angles * row.sag.asDiagonal();
       result.rows.push_back(std::move(row));
     }
   }
 
  private:
   const LoadingGeometry& geometry_;
-  Eigen::Index targets_;
-  MovedAxes axes_;
+  AxesAtStart axes_;
+  PlacedArm arm_;
+  Eigen::Index steps_;
 };
 
 Remark missing(const campaign::Campaign& campaign, const Frames& frames, const LoadingGeometry& geometry,
@@ -113,8 +104,8 @@ AbsoluteRows absoluteRows(const campaign::Campaign& campaign, const Frames& fram
     result.centre += row.point / static_cast<double>(result.rows.size());
   }
   for (AbsoluteRow& row : result.rows) {
-    const Eigen::Vector3d lever = row.point - result.centre;
-    for (int k = 0; k < 3; ++k) row.jacobian.col(k) = Eigen::Vector3d::Unit(k).cross(lever);
+    // The readings' motion moves what was read, which need not be near the model.
+    row.jacobian.middleCols<6>(ArmParameters::kBaseAt) = metrology::pointByFrameError(row.point - result.centre);
   }
   result.targets = static_cast<int>(std::count(seen.begin(), seen.end(), true));
   return result;

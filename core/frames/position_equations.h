@@ -16,8 +16,7 @@ namespace stiffscope::frames {
 inline constexpr double kSagShare = 0.1;
 
 /// One unloaded reflector against the model, in R0: measured less modelled, and how the model moves with the
-/// parameters: shift of the loading (rotation vector, displacement at the centre), reflectors' places (3
-/// each), axes (4 each, as MeasuredLine), compliances in parts of themselves (6).
+/// parameters: ArmParameters about the centre, axes as swept, then the compliances in parts of themselves (6).
 struct AbsoluteRow {
   int pose = 0;
   int target = 0;

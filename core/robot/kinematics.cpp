@@ -21,10 +21,14 @@ Eigen::Vector3d rpyFromRotation(const Eigen::Matrix3d& r) {
 }
 
 ArmPosture postureAt(const Robot& robot, const Vector6d& q) {
+  return postureAt(robot.axes_in_base_at_zero, q, Eigen::Isometry3d::Identity());
+}
+
+ArmPosture postureAt(const ArmAxes& axes_at_zero, const Vector6d& q, const Eigen::Isometry3d& base) {
   ArmPosture posture;
-  posture.motion[0].setIdentity();
+  posture.motion[0] = base;
   for (int joint = 0; joint < 6; ++joint) {
-    const metrology::Line& axis = robot.axes_in_base_at_zero[static_cast<std::size_t>(joint)];
+    const metrology::Line& axis = axes_at_zero[static_cast<std::size_t>(joint)];
     const Eigen::Matrix3d turn = Eigen::AngleAxisd(q[joint], axis.direction).toRotationMatrix();
     const Eigen::Isometry3d& before = posture.motion[static_cast<std::size_t>(joint)];
     Eigen::Isometry3d& after = posture.motion[static_cast<std::size_t>(joint) + 1];

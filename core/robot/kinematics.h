@@ -21,14 +21,19 @@ struct ArmPosture {
   std::array<Eigen::Isometry3d, 7> motion;
 };
 
+/// Joint axes of an arm in its base frame, all at zero or all at one posture.
+using ArmAxes = std::array<metrology::Line, 6>;
+
 /// Rigid forward kinematics: motion[b] = exp(xi_1 q_1) ... exp(xi_b q_b). q in rad.
 ArmPosture postureAt(const Robot& robot, const Vector6d& q);
+
+/// The same of axes at zero, all bodies carried along by a motion of the base: motion[0] is that.
+ArmPosture postureAt(const ArmAxes& axes_at_zero, const Vector6d& q, const Eigen::Isometry3d& base);
 
 /// Joint axis `joint` (0..5) in the base frame at this posture.
 metrology::Line axisAt(const Robot& robot, const ArmPosture& posture, int joint);
 
 /// All six of them: what Jacobians of several points at one posture have in common.
-using ArmAxes = std::array<metrology::Line, 6>;
 ArmAxes axesAt(const Robot& robot, const ArmPosture& posture);
 
 /// base_from_flange at this posture.

@@ -37,7 +37,7 @@ Eigen::MatrixXd byDifferences(const frames::LoadingGeometry& geometry, const Vec
                               const std::vector<Eigen::Vector3d>& readings, const Eigen::Vector3d& centre,
                               const effects::LinearizationPoint& at = {}) {
   constexpr double kStep = 1e-6;
-  const Eigen::Index count = frames::GeometrySteps::count(readings.size());
+  const Eigen::Index count = frames::ArmParameters::count(readings.size());
   Eigen::MatrixXd columns(3 * static_cast<Eigen::Index>(readings.size()), count);
   for (Eigen::Index k = 0; k < count; ++k) {
     const Eigen::VectorXd step = kStep * Eigen::VectorXd::Unit(count, k);

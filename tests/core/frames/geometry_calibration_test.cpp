@@ -1,6 +1,5 @@
 #include "core/frames/geometry_calibration.h"
 
-#include <ceres/autodiff_cost_function.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -134,43 +133,6 @@ TEST(CalibrateGeometry, FewPosturesFixMoreThanTheChoiceOfFrame) {
   ASSERT_TRUE(found.done) << reports::words(found.reason);
   EXPECT_EQ(found.parameters, 21);
   EXPECT_EQ(found.fixed.size(), 18u);
-}
-
-TEST(PositionCost, HasTheDerivativesOfItsResidual) {
-  // Against automatic differentiation of the whole chain at once; only the order of products differs.
-  frames::CalibrationStart start;
-  for (std::size_t j = 0; j < 6; ++j) {
-    const double at = static_cast<double>(j);
-    start.axes[j] = {Eigen::Vector3d(0.1 * at, -0.2, 0.3 * at),
-                     Eigen::Vector3d(std::sin(at), std::cos(2.0 * at), 0.5).normalized()};
-    metrology::basisAcross(start.axes[j].direction, start.across_u[j], start.across_v[j]);
-  }
-  start.points_from_base =
-      Eigen::Translation3d(1.0, -2.0, 0.5) * Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, -1).normalized());
-  Vector6d q;
-  q << 0.3, -0.8, 1.1, 2.0, -0.4, 0.9;
-  const Eigen::Matrix3d whiten = (Eigen::Matrix3d() << 3.0, 0.2, 0.1, 0.0, 2.0, -0.3, 0.0, 0.0, 5.0).finished();
-  const frames::PositionResidual residual{start, q, Eigen::Vector3d(0.4, 0.1, 1.2), whiten};
-  std::array<double, 24> axes;
-  for (std::size_t k = 0; k < axes.size(); ++k) axes[k] = 1e-2 * std::cos(3.0 * static_cast<double>(k));
-  const std::array<double, 6> base{0.02, -0.01, 0.03, 0.1, 0.2, -0.1};
-  const std::array<double, 3> target{0.3, -0.2, 1.4};
-  const std::array<const double*, 3> parameters{axes.data(), base.data(), target.data()};
-  const auto evaluated = [&](const ceres::CostFunction& cost) {
-    std::array<Eigen::Matrix<double, 3, 24, Eigen::RowMajor>, 3> blocks;
-    std::array<double*, 3> jacobians{blocks[0].data(), blocks[1].data(), blocks[2].data()};
-    Eigen::Matrix<double, 3, 34> all = Eigen::Matrix<double, 3, 34>::Zero();
-    Eigen::Vector3d value;
-    EXPECT_TRUE(cost.Evaluate(parameters.data(), value.data(), jacobians.data()));
-    all << value, blocks[0], Eigen::Map<Eigen::Matrix<double, 3, 6, Eigen::RowMajor>>(blocks[1].data()),
-        Eigen::Map<Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(blocks[2].data());
-    return all;
-  };
-  const auto found = evaluated(frames::PositionCost(residual));
-  const auto expected = evaluated(
-      ceres::AutoDiffCostFunction<frames::PositionResidual, 3, 24, 6, 3>(new frames::PositionResidual(residual)));
-  EXPECT_LT((found - expected).cwiseAbs().maxCoeff(), 1e-13);
-  EXPECT_GT(expected.cwiseAbs().colwise().maxCoeff().minCoeff(), 1e-3);  // no column is empty
 }
 
 TEST(BaseFromPostures, NominalArmExactly) {

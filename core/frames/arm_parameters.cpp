@@ -1,0 +1,119 @@
+#include "core/frames/arm_parameters.h"
+
+#include <cmath>
+
+#include "core/frames/base_frame.h"
+#include "metrology/rigid_motion.h"
+
+namespace stiffscope::frames {
+
+AxesAtStart axesAtStart(const robot::ArmAxes& axes) {
+  AxesAtStart start;
+  for (std::size_t j = 0; j < start.size(); ++j) {
+    start[j].line = axes[j];
+    metrology::basisAcross(start[j].line.direction, start[j].across_u, start[j].across_v);
+  }
+  return start;
+}
+
+AxesAtStart sweptAxes(const Frames& frames, const robot::ArmAxes& axes) {
+  const Eigen::Matrix3d turn = frames.arm.r0_from_points.linear();
+  AxesAtStart start;
+  for (std::size_t j = 0; j < start.size(); ++j) {
+    const metrology::MeasuredLine& swept = frames.axes[j].at_zero;
+    start[j] = {axes[j], turn * swept.across_u, turn * swept.across_v, swept.covariance};
+  }
+  return start;
+}
+
+LoadingGeometry moved(const LoadingGeometry& geometry, const Eigen::VectorXd& steps, const Eigen::Vector3d& centre) {
+  LoadingGeometry result = geometry;
+  const AxesAtStart start = axesAtStart(geometry.arm.axes_in_base_at_zero);
+  for (std::size_t j = 0; j < start.size(); ++j) {
+    result.arm.axes_in_base_at_zero[j] = start[j].moved(steps.segment<4>(4 * static_cast<Eigen::Index>(j)));
+  }
+  if (!steps.segment<8>(16).isZero()) carryFlange(geometry.arm.axes_in_base_at_zero, result.arm);
+  if (result.r0_from_loading) {
+    const Vector6d of_readings = steps.segment<ArmParameters::kBase>(ArmParameters::kBaseAt);
+    result.r0_from_loading = metrology::motionAbout(centre, of_readings) * *geometry.r0_from_loading;
+  }
+  for (std::size_t t = 0; t < result.targets_at_zero.size(); ++t) {
+    if (!result.targets_at_zero[t]) continue;
+    *result.targets_at_zero[t] += steps.segment<3>(ArmParameters::targetAt(t));
+  }
+  return result;
+}
+
+namespace {
+
+SmallMotion carriedBy(const Eigen::Isometry3d& motion, const SmallMotion& small) {
+  const Eigen::Vector3d turned = motion.linear() * small.rotation;
+  return {turned, motion.linear() * small.shift - turned.cross(motion.translation())};
+}
+
+/// exp([r + dr]) = exp([J dr]) exp([r]) to first order (left Jacobian of SO(3)).
+Eigen::Matrix3d leftJacobian(const Eigen::Vector3d& r) {
+  const double square = r.squaredNorm(), angle = std::sqrt(square);
+  const bool small = angle < 1e-2;  // the next terms of the series are below 1e-11
+  const double first = small ? 0.5 - square / 24.0 : (1.0 - std::cos(angle)) / square;
+  const double second = small ? 1.0 / 6.0 - square / 120.0 : (angle - std::sin(angle)) / (square * angle);
+  const Eigen::Matrix3d cross = metrology::vectorByFrameError(r).leftCols<3>();
+  return Eigen::Matrix3d::Identity() + first * cross + second * cross * cross;
+}
+
+}  // namespace
+
+PlacedArm::PlacedArm(const AxesAtStart& start, const Eigen::Vector3d& about)
+    : PlacedArm(start, about, AxesSteps::Zero(), Vector6d::Zero()) {}
+
+PlacedArm::PlacedArm(const AxesAtStart& start, const Eigen::Vector3d& about, const AxesSteps& axes_by,
+                     const Vector6d& base_by)
+    : centre(about) {
+  for (std::size_t j = 0; j < axes.size(); ++j) {
+    const Eigen::Vector4d own = axes_by.segment<4>(4 * static_cast<Eigen::Index>(j));
+    axes[j] = own.isZero(0.0) ? start[j].line : start[j].moved(own);
+    const double length = std::sqrt(1.0 + own.tail<2>().squaredNorm());
+    const auto tilt = [&](const Eigen::Vector3d& across) {
+      const Eigen::Vector3d rotation = axes[j].direction.cross(across) / length;
+      return SmallMotion{rotation, -rotation.cross(axes[j].point)};
+    };
+    steps[4 * j].shift = start[j].across_u;
+    steps[4 * j + 1].shift = start[j].across_v;
+    steps[4 * j + 2] = tilt(start[j].across_u);
+    steps[4 * j + 3] = tilt(start[j].across_v);
+  }
+  if (base_by.isZero(0.0)) return;
+  base = metrology::motionAbout(centre, base_by).inverse();
+  turn_by_rotation = leftJacobian(-base_by.head<3>());
+}
+
+PlacedPosture::PlacedPosture(const PlacedArm& arm, const robot::ArmPosture& posture) : arm_(arm), posture_(posture) {
+  for (std::size_t k = 0; k < of_axis_.size(); ++k) {
+    of_axis_[k] = carriedBy(posture.motion[k / 4], arm.steps[k]);
+    const SmallMotion back = carriedBy(posture.motion[k / 4 + 1], arm.steps[k]);
+    beyond_[k] = {of_axis_[k].rotation - back.rotation, of_axis_[k].shift - back.shift};
+  }
+}
+
+Eigen::Matrix<double, 3, ArmParameters::kAxes> PlacedPosture::byAxes(const Eigen::Vector3d& position) const {
+  Eigen::Matrix<double, 3, ArmParameters::kAxes> columns;
+  for (std::size_t k = 0; k < beyond_.size(); ++k) columns.col(static_cast<Eigen::Index>(k)) = beyond_[k].at(position);
+  return columns;
+}
+
+Eigen::Matrix<double, 3, ArmParameters::kBase> PlacedPosture::byBase(const Eigen::Vector3d& position) const {
+  Eigen::Matrix<double, 3, ArmParameters::kBase> columns;
+  columns.leftCols<3>() = metrology::vectorByFrameError(position - arm_.centre).leftCols<3>() * arm_.turn_by_rotation;
+  columns.rightCols<3>() = -arm_.base.linear();
+  return columns;
+}
+
+Matrix36d PlacedPosture::byAngles(const Eigen::Vector3d& position) const {
+  robot::ArmAxes axes;
+  for (std::size_t j = 0; j < axes.size(); ++j) {
+    axes[j] = {posture_.motion[j] * arm_.axes[j].point, posture_.motion[j].linear() * arm_.axes[j].direction};
+  }
+  return robot::pointJacobianAt(axes, position);
+}
+
+}  // namespace stiffscope::frames
