@@ -5,9 +5,6 @@
 
 namespace stiffscope::diagnosis {
 
-namespace {
-
-/// The same equations with the noise-free readings of a field.
 Projection withField(const Projection& projection, const Eigen::VectorXd& field) {
   Projection made;
   made.matrix = projection.matrix;
@@ -17,8 +14,11 @@ Projection withField(const Projection& projection, const Eigen::VectorXd& field)
   return made;
 }
 
+namespace {
+
 double leftBy(const SystemInput& input, const GapFit& fit, const Projection& made,
-              const std::vector<ChosenModel>& others, std::size_t model, const std::vector<bool>& allowed) {
+              const std::vector<ChosenModel>& others, std::size_t model, const std::vector<bool>& allowed,
+              double matters) {
   std::vector<bool> only(allowed.size(), false);
   only[model] = true;
   // No price for parts here: the question is what the effect can imitate at all.
@@ -27,14 +27,17 @@ double leftBy(const SystemInput& input, const GapFit& fit, const Projection& mad
   std::vector<ChosenModel> models = base.models;
   std::vector<std::size_t> parts(input.models[model].parts.size());
   double least = base.chi2;
+  constexpr double kRough = 1e-6;  // far above what roughChi2 is off by
+  const auto mayLeave = [&](double chi2) { return selector.roughChi2(models) <= chi2 + kRough * made.chi2_none; };
   if (input.models[model].most_parts >= parts.size()) {
     for (std::size_t p = 0; p < parts.size(); ++p) parts[p] = p;
     models.push_back({model, parts});
-    return std::min(least, selector.fit(models).chi2);
+    return mayLeave(matters) ? std::min(least, selector.fit(models).chi2) : least;
   }
   for (std::size_t p = 0; p < parts.size(); ++p) {
     models = base.models;
     models.push_back({model, {p}});
+    if (!mayLeave(std::min(least, matters))) continue;
     const FittedSet set = selector.fit(models);
     if (set.plausible) least = std::min(least, set.chi2);
   }
@@ -43,10 +46,10 @@ double leftBy(const SystemInput& input, const GapFit& fit, const Projection& mad
 
 }  // namespace
 
-double separation(const SystemInput& input, const GapFit& fit, const Projection& projection,
-                  const Eigen::VectorXd& field, const std::vector<ChosenModel>& others, std::size_t by_model,
-                  const std::vector<bool>& allowed) {
-  return std::max(0.0, leftBy(input, fit, withField(projection, field), others, by_model, allowed));
+double separation(const SystemInput& input, const GapFit& fit, const Projection& made,
+                  const std::vector<ChosenModel>& others, std::size_t by_model, const std::vector<bool>& allowed,
+                  double matters) {
+  return std::max(0.0, leftBy(input, fit, made, others, by_model, allowed, matters));
 }
 
 std::vector<std::vector<effects::Effect>> designConfounding(const SystemInput& input, const GapFit& fit,
@@ -68,11 +71,12 @@ std::vector<std::vector<effects::Effect>> designConfounding(const SystemInput& i
       const double norm = field.dot(fit.projection.matrix * field);
       if (norm <= 0.0) continue;
       field *= std::sqrt(size / norm);
+      const Projection made = withField(fit.projection, field);
       std::vector<effects::Effect> group{input.models[m].effect};
       for (std::size_t other = 0; other < input.models.size(); ++other) {
         const effects::Effect effect = input.models[other].effect;
         if (!allowed[other] || std::find(group.begin(), group.end(), effect) != group.end()) continue;
-        if (separation(input, fit, fit.projection, field, {}, other, allowed) < kSeparated) group.push_back(effect);
+        if (separation(input, fit, made, {}, other, allowed, kSeparated) < kSeparated) group.push_back(effect);
       }
       std::sort(group.begin(), group.end());
       if (group.size() > 1 && std::find(groups.begin(), groups.end(), group) == groups.end()) groups.push_back(group);

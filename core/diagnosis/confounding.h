@@ -1,15 +1,19 @@
 #pragma once
 
+#include <limits>
+
 #include "core/diagnosis/fit.h"
 
 namespace stiffscope::diagnosis {
 
-/// chi2 by which a field of one effect, free of noise, stays unexplained by another effect (its best
-/// parameters) on top of `others`, which stay in the model. `field`: effect parameters of the one;
-/// `projection`: of the design at hand.
-double separation(const SystemInput& input, const GapFit& fit, const Projection& projection,
-                  const Eigen::VectorXd& field, const std::vector<ChosenModel>& others, std::size_t by_model,
-                  const std::vector<bool>& allowed);
+/// The equations of a design with the readings, free of noise, of a field. `field`: effect parameters.
+Projection withField(const Projection& projection, const Eigen::VectorXd& field);
+
+/// chi2 by which the field of one effect, which `made` is made with, stays unexplained by another effect (its best
+/// parameters) on top of `others`, which stay in the model. From `matters` on it may come out too large.
+double separation(const SystemInput& input, const GapFit& fit, const Projection& made,
+                  const std::vector<ChosenModel>& others, std::size_t by_model, const std::vector<bool>& allowed,
+                  double matters = std::numeric_limits<double>::infinity());
 
 /// Effects that noise hides from each other: a field is told apart from another effect's where that leaves
 /// three standard deviations of chi2 or more.

@@ -81,7 +81,10 @@ class Diagnoser {
 
  private:
   void evaluatePreconditions() {
-    const LinearSystem data = linearSystem(input_, start_.state, {});
+    SystemInput loading = input_;  // whatIsThere asks for states alone
+    loading.models.clear();
+    loading.sweeps = false;
+    const LinearSystem data = linearSystem(loading, start_.state, {});
     const effects::CampaignContents has = whatIsThere(input_, data, start_.state, start_.station);
     allowed_.assign(input_.models.size(), true);
     for (std::size_t e = 0; e < effects::kEffectCount; ++e) {
@@ -116,8 +119,6 @@ class Diagnoser {
 
   void describe() {
     alone_ = withoutEffects(input_, start_.state, fit_);
-    const double postures = static_cast<double>(fit_.data.postures.size());
-    const Selector selector = selectorOf(input_, fit_, fit_.projection, postures, allowed_);
     result_.usable = true;
     result_.postures = static_cast<int>(fit_.data.postures.size());
     for (const GapPosture& posture : fit_.data.postures) result_.states += static_cast<int>(posture.states.size());

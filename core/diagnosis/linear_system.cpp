@@ -24,30 +24,35 @@ struct GapCovariance {
          displacements = 0.0;  ///< readings' variances of displacements, and how many
 };
 
-GapCovariance gapCovariance(const SystemInput& input, const SystemState& state, const SystemRows& rows,
-                            Eigen::Index position_rows);
+GapCovariance gapCovariance(const SystemInput& input, const SystemState& state, const GapPosture& posture);
 
-/// Adds to the equations what is known before the gap is looked at: how far geometry steps and own weights
+/// Adds to `data.beforehand` what is known before the gap is looked at: how far geometry steps and own weights
 /// may go in one round, the six compliances as expected, a drift as the nests have it.
 void addPriors(const SystemInput& input, LinearSystem& data);
 
 /// Adds the equations of every posture of the loading to `data`: y = A c + geometry + own weights + effects +
-/// noise for the unloaded absolute positions (where they take part) and the displacements, each posture
-/// whitened by its own covariance. Fills `loading_rows` and `state_noise`.
+/// noise for the unloaded absolute positions (where they take part) and the displacements, unwhitened. Fills
+/// `loading_rows`.
 void addPostureEquations(const SystemInput& input, const SystemState& state, const ContainedEffects& effects_now,
                          LinearSystem& data);
 
-/// Adds the equations of circle and wrist sweeps to `data.sweeps`: absolute positions of unloaded postures,
-/// y = sag + geometry + own weights + effects + noise, whitened reading by reading.
+/// Whitens each posture by its own covariance: fills `normal` and what else follows from that, and `state_noise`.
+void whitenPostures(const SystemInput& input, const SystemState& state, LinearSystem& data);
+
+/// Fills `data.as_read` with the equations of circle and wrist sweeps: absolute positions of unloaded postures,
+/// y = sag + geometry + own weights + effects + noise.
 void addSweepEquations(const SystemInput& input, const SystemState& state, const ContainedEffects& effects_now,
                        LinearSystem& data);
+
+/// Their normal equations, whitened reading by reading.
+Eigen::MatrixXd sweepNormal(const SystemInput& input, const SystemState& state, SweepEquations equations);
 
 namespace {
 
 /// The station between two rounds of the nests, where it was interpolated: one rigid motion of all
 /// reflectors in a state, a Brownian bridge over time. Postures share it; that is left out.
-void addWander(const SystemInput& input, const SystemRows& posture, Eigen::Index at_rest,
-               const Eigen::Isometry3d& r0_from_points, Eigen::MatrixXd& covariance) {
+void addWander(const SystemInput& input, const GapPosture& posture, const Eigen::Isometry3d& r0_from_points,
+               Eigen::MatrixXd& covariance) {
   if (input.wandering == nullptr || input.wandering->wander.isZero()) return;
   const preparation::StationMotion& station = input.wandering->motion;
   const effects::ArmState& rest = posture.states.front();
@@ -63,7 +68,7 @@ void addWander(const SystemInput& input, const SystemRows& posture, Eigen::Index
     return preparation::bridgeBetweenRounds(station, posture.states[s].time_s, posture.states[r].time_s);
   };
   const Eigen::Index per_state = rest.rows();
-  const std::size_t first = at_rest > 0 ? 0 : 1;
+  const std::size_t first = posture.position_rows > 0 ? 0 : 1;
   for (std::size_t s = first; s < posture.states.size(); ++s) {
     for (std::size_t r = first; r < posture.states.size(); ++r) {
       double seconds = bridge(s, r);
@@ -79,15 +84,14 @@ void addWander(const SystemInput& input, const SystemRows& posture, Eigen::Index
 /// What the model is not good for: more noise in absolute positions; in a deflection an error that grows
 /// with the load, one number a posture, reflector and direction, so that it counts once however many load
 /// steps show it.
-void addModelError(const SystemState& state, const SystemRows& rows, Eigen::Index at_rest,
-                   Eigen::MatrixXd& covariance) {
-  const Eigen::Index per_state = rows.states.front().rows();
+void addModelError(const SystemState& state, const GapPosture& posture, Eigen::MatrixXd& covariance) {
+  const Eigen::Index per_state = posture.states.front().rows(), at_rest = posture.position_rows;
   covariance.topLeftCorner(at_rest, at_rest) *= state.position_inflation;
   const double variance = state.model_error * state.model_error;
   if (variance == 0.0) return;
-  const auto share = [&](std::size_t s) { return rows.states[s].load.force.norm() / state.at.largest_force; };
-  for (std::size_t s = 1; s < rows.states.size(); ++s) {
-    for (std::size_t r = 1; r < rows.states.size(); ++r) {
+  const auto share = [&](std::size_t s) { return posture.states[s].load.force.norm() / state.at.largest_force; };
+  for (std::size_t s = 1; s < posture.states.size(); ++s) {
+    for (std::size_t r = 1; r < posture.states.size(); ++r) {
       covariance
           .block(at_rest + static_cast<Eigen::Index>(s - 1) * per_state,
                  at_rest + static_cast<Eigen::Index>(r - 1) * per_state, per_state, per_state)
@@ -99,20 +103,19 @@ void addModelError(const SystemState& state, const SystemRows& rows, Eigen::Inde
 
 }  // namespace
 
-GapCovariance gapCovariance(const SystemInput& input, const SystemState& state, const SystemRows& rows,
-                            Eigen::Index at_rest) {
+GapCovariance gapCovariance(const SystemInput& input, const SystemState& state, const GapPosture& posture) {
   GapCovariance result;
-  const Eigen::Index per_state = rows.states.front().rows();
-  const auto steps = static_cast<Eigen::Index>(rows.states.size()) - 1;
+  const Eigen::Index per_state = posture.states.front().rows(), at_rest = posture.position_rows;
+  const auto steps = static_cast<Eigen::Index>(posture.states.size()) - 1;
   const Eigen::Index size = at_rest + steps * per_state;
   Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(size, size);
   // Displacements alone are in the frame of their station.
   const Eigen::Isometry3d r0_from_points = state.geometry.r0_from_loading.value_or(state.at.r0_from_base_link);
-  for (std::size_t t = 0; t < rows.states.front().points.size(); ++t) {
+  for (std::size_t t = 0; t < posture.states.front().points.size(); ++t) {
     const Eigen::Index row = 3 * static_cast<Eigen::Index>(t);
     const Eigen::Matrix3d reading =
-        frames::readingCovariance(input.noise, r0_from_points, rows.states.front().points[t]);
-    const Eigen::Matrix3d rest = reading / rows.unloaded_readings, loaded = reading / rows.loaded_readings;
+        frames::readingCovariance(input.noise, r0_from_points, posture.states.front().points[t]);
+    const Eigen::Matrix3d rest = reading / posture.unloaded_readings, loaded = reading / posture.loaded_readings;
     result.displacement_trace += (rest + loaded).trace() * static_cast<double>(steps);
     result.displacements += 3.0 * static_cast<double>(steps);
     if (at_rest > 0) covariance.block<3, 3>(row, row) = rest;
@@ -129,13 +132,13 @@ GapCovariance gapCovariance(const SystemInput& input, const SystemState& state, 
   variances << Eigen::Vector3d::Constant(input.force_sigma * input.force_sigma),
       Eigen::Vector3d::Constant(input.moment_sigma * input.moment_sigma);
   for (Eigen::Index s = 0; s < steps; ++s) {
-    const auto& by_wrench = rows.by_wrench[static_cast<std::size_t>(s)];
+    const auto& by_wrench = posture.by_wrench[static_cast<std::size_t>(s)];
     covariance.block(at_rest + s * per_state, at_rest + s * per_state, per_state, per_state) +=
         by_wrench * variances.asDiagonal() * by_wrench.transpose();
   }
-  addWander(input, rows, at_rest, r0_from_points, covariance);
+  addWander(input, posture, r0_from_points, covariance);
   result.by_measuring = covariance;
-  addModelError(state, rows, at_rest, covariance);
+  addModelError(state, posture, covariance);
   result.whole = std::move(covariance);
   return result;
 }
@@ -171,14 +174,26 @@ GapLayout gapLayout(const std::vector<effects::EffectModel>& models, std::size_t
   return layout;
 }
 
-LinearSystem linearSystem(const SystemInput& input, const SystemState& state, const ContainedEffects& effects_now) {
+LinearSystem linearSystem(const SystemInput& input, const SystemState& state, const ContainedEffects& effects_now,
+                          Weighed weighed) {
   LinearSystem data;
   data.layout = gapLayout(input.models, input.campaign.targets.size());
-  data.sweeps.setZero(data.layout.end + 1, data.layout.end + 1);
   addPostureEquations(input, state, effects_now, data);
+  whitenPostures(input, state, data);
+  data.beforehand.setZero(data.layout.end + 1, data.layout.end + 1);
   addPriors(input, data);
-  if (input.sweeps) addSweepEquations(input, state, effects_now, data);
+  data.sweeps = data.beforehand;
+  if (!input.sweeps) return data;
+  addSweepEquations(input, state, effects_now, data);
+  data.sweeps += sweepNormal(input, state, weighed == Weighed::again ? data.as_read : std::move(data.as_read));
   return data;
+}
+
+void weighAgain(const SystemInput& input, const SystemState& state, LinearSystem& data) {
+  whitenPostures(input, state, data);
+  data.sweeps = data.beforehand;
+  if (input.sweeps) data.sweeps += sweepNormal(input, state, std::move(data.as_read));
+  data.as_read = {};
 }
 
 namespace {
@@ -194,11 +209,11 @@ void addGeometryAndWeights(const SystemInput& input, LinearSystem& data) {
   for (Eigen::Index k = 0; k < frames::ArmParameters::count(input.campaign.targets.size()); ++k) {
     const Eigen::Index at = data.layout.geometry + k;
     const double prior = input.absolute ? kGeometryPrior : kSweptGeometry;
-    data.sweeps(at, at) += 1.0 / (prior * prior);
+    data.beforehand(at, at) += 1.0 / (prior * prior);
   }
   for (Eigen::Index k = 0; k < effects::kBodies; ++k) {
     const Eigen::Index at = data.layout.weights + k;
-    data.sweeps(at, at) += 1.0 / (kWeightPrior * kWeightPrior);
+    data.beforehand(at, at) += 1.0 / (kWeightPrior * kWeightPrior);
   }
 }
 
@@ -208,10 +223,10 @@ void addCompliances(const SystemInput& input, LinearSystem& data) {
     const double value = input.expected.value[j], sd = input.expected.sd[j];
     if (sd <= 0.0) continue;
     const double weight = 1.0 / (sd * sd);
-    data.sweeps(j, j) += weight;
-    data.sweeps(j, end) += weight * value;
-    data.sweeps(end, j) += weight * value;
-    data.sweeps(end, end) += weight * value * value;
+    data.beforehand(j, j) += weight;
+    data.beforehand(j, end) += weight * value;
+    data.beforehand(end, j) += weight * value;
+    data.beforehand(end, end) += weight * value * value;
   }
 }
 
@@ -221,10 +236,10 @@ void addNests(const SystemInput& input, LinearSystem& data) {
     if (input.models[m].effect != effects::Effect::tracker_drift) continue;
     const Eigen::Index at = data.layout.model_at[m], end = data.layout.end;
     const Vector6d right = input.drift_weight * input.drift;
-    data.sweeps.block<6, 6>(at, at) += input.drift_weight;
-    data.sweeps.block<6, 1>(at, end) += right;
-    data.sweeps.block<1, 6>(end, at) += right.transpose();
-    data.sweeps(end, end) += input.drift.dot(right);
+    data.beforehand.block<6, 6>(at, at) += input.drift_weight;
+    data.beforehand.block<6, 1>(at, end) += right;
+    data.beforehand.block<1, 6>(end, at) += right.transpose();
+    data.beforehand(end, end) += input.drift.dot(right);
     data.sweep_rows += 6;
   }
 }
@@ -245,6 +260,9 @@ GapPosture unwhitened(const SystemInput& input, const SystemState& state, const 
   GapPosture posture;
   posture.pose = rows.pose;
   posture.states = rows.states;
+  posture.unloaded_readings = rows.unloaded_readings;
+  posture.loaded_readings = rows.loaded_readings;
+  posture.by_wrench = rows.by_wrench;
   const Eigen::Index at_rest = input.absolute ? rows.position.size() : 0;
   const Eigen::Index per_state = rows.states.front().rows();
   posture.position_rows = at_rest;
@@ -312,8 +330,8 @@ Eigen::MatrixXd normalOf(const GapPosture& posture, const Eigen::LLT<Eigen::Matr
   return numerics::normalMatrix(both);
 }
 
-void whiten(const SystemRows& rows, const GapCovariance& covariance, GapPosture& posture) {
-  const Eigen::Index per_state = rows.states.front().rows();
+void whiten(const GapCovariance& covariance, GapPosture& posture) {
+  const Eigen::Index per_state = posture.states.front().rows();
   const Eigen::Index size = posture.right.size(), at_rest = posture.position_rows;
   posture.noise.resize(size, per_state);
   for (Eigen::Index at = 0; at < size; at += per_state) {
@@ -332,14 +350,16 @@ void addPostureEquations(const SystemInput& input, const SystemState& state, con
   const auto rows = loadingRows(input.campaign, state.geometry, state.at, state.corrections);
   for (const SystemRows& one : rows) data.postures.push_back(unwhitened(input, state, effects_now, data.layout, one));
   addGeometry(input, state, rows, data);
+  for (const GapPosture& posture : data.postures) data.loading_rows += posture.right.size();
+}
+
+void whitenPostures(const SystemInput& input, const SystemState& state, LinearSystem& data) {
   double noise = 0.0, count = 0.0;
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    GapPosture& posture = data.postures[i];
-    const GapCovariance covariance = gapCovariance(input, state, rows[i], posture.position_rows);
-    whiten(rows[i], covariance, posture);
+  for (GapPosture& posture : data.postures) {
+    const GapCovariance covariance = gapCovariance(input, state, posture);
+    whiten(covariance, posture);
     noise += covariance.displacement_trace;
     count += covariance.displacements;
-    data.loading_rows += posture.right.size();
   }
   data.state_noise = count > 0.0 ? std::sqrt(noise / count) : 0.0;
 }
@@ -353,8 +373,9 @@ void fill(const SystemInput& input, const SystemState& state, const ContainedEff
   both.leftCols(6) = one.sag_by_compliance;
   both.middleCols(layout.geometry, layout.weights - layout.geometry) = by_geometry.of(one.state);
   both.middleCols(layout.weights, effects::kBodies) = effects::gravityDeflectionByBody(state.at, one.state);
+  const effects::PostureStates alone{one.state};
   for (std::size_t m = 0; m < input.models.size(); ++m) {
-    const Eigen::MatrixXd columns = input.models[m].columns(state.at, {one.state}, 0);
+    const Eigen::MatrixXd columns = input.models[m].columns(state.at, alone, 0);
     both.middleCols(layout.model_at[m], columns.cols()) = columns;
   }
   auto right = both.col(both.cols() - 1);
@@ -370,23 +391,26 @@ void addSweepEquations(const SystemInput& input, const SystemState& state, const
   const PositionByGeometry by_geometry(state.geometry, state.at, state.at.epoch_centre);
   Eigen::Index total = 0;
   for (const SweepRows& one : rows) total += one.position.size();
-  Eigen::MatrixXd both = Eigen::MatrixXd::Zero(total, data.layout.end + 1);
+  data.as_read.rows.setZero(total, data.layout.end + 1);
   Eigen::Index row = 0;
   for (const SweepRows& one : rows) {
-    fill(input, state, effects_now, data.layout, by_geometry, one, both.middleRows(row, one.position.size()));
-    row += one.position.size();
+    auto own = data.as_read.rows.middleRows(row, one.position.size());
+    fill(input, state, effects_now, data.layout, by_geometry, one, own);
+    row += own.rows();
+    data.as_read.points.insert(data.as_read.points.end(), one.state.points.begin(), one.state.points.end());
   }
-  row = 0;
-  for (const SweepRows& one : rows) {
-    for (const Eigen::Vector3d& point : one.state.points) {
-      const Eigen::Matrix3d covariance =
-          state.sweep_inflation * frames::readingCovariance(input.noise, state.r0_from_sweeps, point);
-      both.middleRows<3>(row) = covariance.llt().matrixL().solve(both.middleRows<3>(row)).eval();
-      row += 3;
-    }
-  }
-  data.sweeps += numerics::normalMatrix(both);
   data.sweep_rows += total;
+}
+
+Eigen::MatrixXd sweepNormal(const SystemInput& input, const SystemState& state, SweepEquations equations) {
+  Eigen::Index row = 0;
+  for (const Eigen::Vector3d& point : equations.points) {
+    const Eigen::Matrix3d covariance =
+        state.sweep_inflation * frames::readingCovariance(input.noise, state.r0_from_sweeps, point);
+    equations.rows.middleRows<3>(row) = covariance.llt().matrixL().solve(equations.rows.middleRows<3>(row)).eval();
+    row += 3;
+  }
+  return numerics::normalMatrix(equations.rows);
 }
 
 }  // namespace stiffscope::diagnosis

@@ -65,6 +65,8 @@ struct GapPosture {
   Eigen::MatrixXd columns;  ///< unwhitened: position rows first, then deflection rows
   Eigen::VectorXd right;
   Eigen::Index position_rows = 0;
+  int unloaded_readings = 0, loaded_readings = 0;  ///< as in SystemRows, with what its wrench does
+  std::vector<Eigen::Matrix<double, Eigen::Dynamic, 6>> by_wrench;
   /// Covariance of these rows by readings, wrench and a station between its rounds, within each state: its block of the
   /// diagonal, one state's under another's.
   Eigen::MatrixXd noise;
@@ -76,11 +78,19 @@ struct GapPosture {
   double noiseSquares(Eigen::Index first, Eigen::Index rows) const;
 };
 
+/// Equations of the sweeps, [A y], as they are read: three rows a reading.
+struct SweepEquations {
+  Eigen::MatrixXd rows;
+  std::vector<Eigen::Vector3d> points;  ///< of the readings, in R0
+};
+
 /// All equations of the gap at one point of linearisation.
 struct LinearSystem {
   GapLayout layout;
   std::vector<GapPosture> postures;
-  Eigen::MatrixXd sweeps;  ///< [A y]^T [A y] of the sweeps, and of what is known beforehand
+  Eigen::MatrixXd sweeps;      ///< [A y]^T [A y] of the sweeps, and of what is known beforehand
+  Eigen::MatrixXd beforehand;  ///< of what is known beforehand alone
+  SweepEquations as_read;      ///< kept where they may be weighed again: tens of megabytes
   Eigen::Index sweep_rows = 0;
   Eigen::Index loading_rows = 0;
   double state_noise = 0.0;  ///< rms noise of one state's displacement, per coordinate, m
@@ -92,9 +102,17 @@ struct ContainedEffects {
   Eigen::VectorXd in_positions, in_deflections;
 };
 
+/// Whether equations will be weighed again.
+enum class Weighed { once, again };
+
 /// Fills the equations. What `state` contains is added back: the right sides are those of whole effects, not
 /// of the rest.
-LinearSystem linearSystem(const SystemInput& input, const SystemState& state, const ContainedEffects& effects_now);
+LinearSystem linearSystem(const SystemInput& input, const SystemState& state, const ContainedEffects& effects_now,
+                          Weighed weighed = Weighed::once);
+
+/// Weighs the equations made at `state` anew, where since then nothing but variances has changed in it: its factors on
+/// those of absolute positions, and the error of the model. Lets the sweeps' equations go.
+void weighAgain(const SystemInput& input, const SystemState& state, LinearSystem& data);
 
 GapLayout gapLayout(const std::vector<effects::EffectModel>& models, std::size_t targets);
 

@@ -68,11 +68,12 @@ double leastSeparation(const SystemInput& input, const GapFit& fit, const std::v
   field.segment(at, size) = fit.set.effects.segment(at, size);
   std::vector<ChosenModel> others = fit.set.models;
   others.erase(others.begin() + static_cast<std::ptrdiff_t>(tie.chosen));
+  const Projection made = withField(projection, field);
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t m = 0; m < input.models.size(); ++m) {
     const effects::Effect effect = input.models[m].effect;
     const bool tied = std::find(tie.effects.begin() + 1, tie.effects.end(), effect) != tie.effects.end();
-    if (tied && allowed[m]) least = std::min(least, separation(input, fit, projection, field, others, m, allowed));
+    if (tied && allowed[m]) least = std::min(least, separation(input, fit, made, others, m, allowed));
   }
   return least;
 }

@@ -8,6 +8,8 @@ namespace stiffscope::diagnosis {
 
 namespace {
 
+constexpr double kRounding = 1e-12;  // on the unit diagonal
+
 /// Unit diagonal; a column that is nothing keeps its unknown at zero.
 Eigen::VectorXd scaleOf(const Eigen::VectorXd& diagonal) {
   return diagonal.unaryExpr([](double d) { return d > 0.0 ? 1.0 / std::sqrt(d) : 0.0; });
@@ -15,7 +17,6 @@ Eigen::VectorXd scaleOf(const Eigen::VectorXd& diagonal) {
 
 Eigen::LDLT<Eigen::MatrixXd> factorised(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& scale) {
   Eigen::MatrixXd even = scale.asDiagonal() * matrix * scale.asDiagonal();
-  constexpr double kRounding = 1e-12;
   for (Eigen::Index i = 0; i < even.rows(); ++i) even(i, i) = 1.0 + kRounding;
   return even.ldlt();
 }
@@ -127,6 +128,79 @@ SubsetFit fitSubset(const Projection& projection, const std::vector<Eigen::Index
     active.erase(active.begin() + worst);
   }
   return fit;
+}
+
+GrowingSubset::GrowingSubset(const Projection& projection, const Eigen::VectorXd& prior)
+    : projection_(projection), prior_(prior) {}
+
+void GrowingSubset::add(Eigen::Index index, bool positive) {
+  constexpr double kLeastPivot = 0.1 * kRounding;
+  const double own = std::max(projection_.matrix(index, index), 0.0) + prior_[index];
+  Unknown one{index, positive, own > 0.0 ? 1.0 / std::sqrt(own) : 0.0};
+  double pivot = 1.0 + kRounding, turned = one.scale * projection_.right[index];
+  const std::size_t row = lower_.size();
+  std::size_t at = 0;  // begin of the row of each parameter before it
+  for (std::size_t j = 0; j < unknowns_.size(); ++j, at += j) {
+    double left = one.scale * unknowns_[j].scale * projection_.matrix(unknowns_[j].index, index);
+    for (std::size_t k = 0; k < j; ++k) left -= lower_[row + k] * lower_[at + k];
+    left /= lower_[at + j];
+    lower_.push_back(left);
+    pivot -= left * left;
+    turned -= left * unknowns_[j].turned;
+  }
+  one.sound = pivot > kLeastPivot && (unknowns_.empty() || unknowns_.back().sound);
+  const double root = one.sound ? std::sqrt(pivot) : 1.0;
+  lower_.push_back(root);
+  one.turned = turned / root;
+  one.drop = (unknowns_.empty() ? 0.0 : unknowns_.back().drop) + one.turned * one.turned;
+  unknowns_.push_back(one);
+}
+
+void GrowingSubset::cutTo(std::size_t size) {
+  unknowns_.resize(size);
+  lower_.resize(size * (size + 1) / 2);
+}
+
+void GrowingSubset::remove(std::size_t place) {
+  const std::vector<Unknown> beyond(unknowns_.begin() + static_cast<std::ptrdiff_t>(place) + 1, unknowns_.end());
+  cutTo(place);
+  for (const Unknown& one : beyond) add(one.index, one.positive);
+}
+
+std::ptrdiff_t GrowingSubset::mostNegative() const {
+  if (std::none_of(unknowns_.begin(), unknowns_.end(), [](const Unknown& one) { return one.positive; })) return -1;
+  std::vector<double> value;  // in its own scale
+  for (const Unknown& one : unknowns_) value.push_back(one.turned);
+  std::ptrdiff_t worst = -1;
+  double least = 0.0;
+  std::size_t at = lower_.size();
+  for (std::size_t i = value.size(); i-- > 0;) {
+    at -= i + 1;
+    value[i] /= lower_[at + i];
+    for (std::size_t j = 0; j < i; ++j) value[j] -= lower_[at + j] * value[i];
+    if (unknowns_[i].positive && value[i] < least) least = value[i], worst = static_cast<std::ptrdiff_t>(i);
+  }
+  return worst;
+}
+
+double GrowingSubset::drop() const {
+  if (unknowns_.empty()) return 0.0;
+  if (!unknowns_.back().sound) return dropOfSubset();
+  const std::ptrdiff_t worst = mostNegative();
+  if (worst < 0) return unknowns_.back().drop;
+  GrowingSubset fewer = *this;
+  fewer.remove(static_cast<std::size_t>(worst));
+  return fewer.drop();
+}
+
+double GrowingSubset::dropOfSubset() const {
+  std::vector<Eigen::Index> indices;
+  std::vector<bool> positive;
+  for (const Unknown& one : unknowns_) {
+    indices.push_back(one.index);
+    positive.push_back(one.positive);
+  }
+  return fitSubset(projection_, indices, positive, prior_).drop;
 }
 
 }  // namespace stiffscope::diagnosis

@@ -52,4 +52,35 @@ struct SubsetFit {
 SubsetFit fitSubset(const Projection& projection, const std::vector<Eigen::Index>& indices,
                     const std::vector<bool>& positive, const Eigen::VectorXd& prior);
 
+/// The fall of chi2 by fitSubset, to within rounding, of many sets that begin alike: a parameter adds a row to the
+/// Cholesky factor of the scaled equations. Keeps references.
+class GrowingSubset {
+ public:
+  GrowingSubset(const Projection& projection, const Eigen::VectorXd& prior);
+
+  void add(Eigen::Index index, bool positive);
+  void cutTo(std::size_t size);  ///< the first so many of the parameters
+  std::size_t size() const { return unknowns_.size(); }
+  double drop() const;
+
+ private:
+  struct Unknown {
+    Eigen::Index index = 0;
+    bool positive = false;
+    double scale = 0.0;
+    double turned = 0.0;  ///< row of L^-1 b
+    double drop = 0.0;    ///< of chi2 with it and those before it, none bounded
+    bool sound = true;    ///< its row, and all before it, is more than rounding
+  };
+
+  std::ptrdiff_t mostNegative() const;  ///< of those that must be positive; -1: none is negative
+  void remove(std::size_t place);
+  double dropOfSubset() const;
+
+  const Projection& projection_;
+  const Eigen::VectorXd& prior_;
+  std::vector<Unknown> unknowns_;
+  std::vector<double> lower_;  ///< rows of the factor, one after the other
+};
+
 }  // namespace stiffscope::diagnosis

@@ -103,31 +103,76 @@ FittedSet Selector::given() const {
   return fit(models);
 }
 
+bool Selector::isSeen(std::size_t model, std::size_t part) const {
+  double kept = 0.0;
+  for (std::size_t k = 0; k < models_[model].parts[part].most.size(); ++k) {
+    const Eigen::Index i = part_at_[model][part] + static_cast<Eigen::Index>(k);
+    if (projection_.before[i] > 0.0) kept = std::max(kept, projection_.matrix(i, i) / projection_.before[i]);
+  }
+  return kept >= rules_.kept_share;
+}
+
+void Selector::addPart(std::size_t model, std::size_t part, GrowingSubset& subset) const {
+  const effects::EffectPart& one = models_[model].parts[part];
+  for (std::size_t k = 0; k < one.most.size(); ++k)
+    subset.add(part_at_[model][part] + static_cast<Eigen::Index>(k), one.positive);
+}
+
+GrowingSubset Selector::subsetOf(const std::vector<ChosenModel>& models) const {
+  GrowingSubset subset(projection_, prior_);
+  for (const ChosenModel& one : models) {
+    for (const std::size_t part : one.parts) addPart(one.model, part, subset);
+  }
+  return subset;
+}
+
+double Selector::roughChi2(const std::vector<ChosenModel>& models) const {
+  return projection_.chi2_none - subsetOf(models).drop();
+}
+
+/// The models with that part more of the last one which lowers chi2 most. `subset`: of the models.
+std::optional<FittedSet> Selector::withBestPart(std::vector<ChosenModel> models, GrowingSubset& subset) const {
+  std::vector<std::size_t>& parts = models.back().parts;
+  const std::size_t model = models.back().model, common = subset.size();
+  std::vector<std::size_t> candidates;
+  for (std::size_t p = 0; p < models_[model].parts.size(); ++p) {
+    if (std::find(parts.begin(), parts.end(), p) == parts.end() && isSeen(model, p)) candidates.push_back(p);
+  }
+  std::vector<double> drops;
+  for (const std::size_t p : candidates) {
+    addPart(model, p, subset);
+    drops.push_back(subset.drop());
+    subset.cutTo(common);
+  }
+  const double most = drops.empty() ? 0.0 : *std::max_element(drops.begin(), drops.end());
+  constexpr double kNear = 1e-6;  // far above what `drops` are off by
+  std::optional<FittedSet> best;
+  for (std::size_t c = 0; c < candidates.size(); ++c) {
+    // Parts that bring the same bring nothing, for they would have to be negative: the first stands for all.
+    const bool repeats = std::find(drops.begin(), drops.begin() + static_cast<std::ptrdiff_t>(c), drops[c]) !=
+                         drops.begin() + static_cast<std::ptrdiff_t>(c);
+    if (repeats || drops[c] < most - kNear * most) continue;
+    parts.push_back(candidates[c]);
+    FittedSet tried = fit(models);
+    parts.pop_back();
+    if (!best || tried.chi2 < best->chi2) best = std::move(tried);
+  }
+  return best;
+}
+
 std::optional<FittedSet> Selector::grown(const FittedSet& base, std::size_t model) const {
   std::optional<FittedSet> best, plausible;
+  GrowingSubset subset = subsetOf(base.models);
   std::vector<ChosenModel> models = base.models;
   models.push_back({model, {}});
   while (models.back().parts.size() < models_[model].most_parts) {
-    std::optional<FittedSet> next;
-    for (std::size_t p = 0; p < models_[model].parts.size(); ++p) {
-      auto& parts = models.back().parts;
-      if (std::find(parts.begin(), parts.end(), p) != parts.end()) continue;
-      double kept = 0.0;
-      for (std::size_t k = 0; k < models_[model].parts[p].most.size(); ++k) {
-        const Eigen::Index i = part_at_[model][p] + static_cast<Eigen::Index>(k);
-        if (projection_.before[i] > 0.0) kept = std::max(kept, projection_.matrix(i, i) / projection_.before[i]);
-      }
-      if (kept < rules_.kept_share) continue;
-      parts.push_back(p);
-      FittedSet tried = fit(models);
-      parts.pop_back();
-      if (!next || tried.chi2 < next->chi2) next = std::move(tried);
-    }
+    std::optional<FittedSet> next = withBestPart(models, subset);
     if (!next) break;
     // What the whole set cannot explain counts as noise when a further part asks to be let in.
     if (best && (best->chi2 - next->chi2) / misfit(*next) <= next->penalty - best->penalty) break;
     best = std::move(next);
     models = best->models;
+    addPart(model, models.back().parts.back(), subset);
     if (best->plausible) plausible = best;
   }
   return plausible;
@@ -184,15 +229,17 @@ FittedSet Selector::pruned(FittedSet set) const {
 
 FittedSet Selector::select() const {
   FittedSet current = given();
+  std::vector<FittedSet> singles;
   constexpr std::size_t kFew = 6;
   for (std::size_t count = 0; count < rules_.most_effects; ++count) {
-    const std::vector<FittedSet> next = ranked(current);
+    std::vector<FittedSet> next = ranked(current);
     if (next.empty()) break;
     FittedSet best = next.front();
+    if (count == 0) singles = std::move(next);
     if (count == 1) {
       // All pairs of the best few, single and second, may beat the forward pair.
-      const std::vector<FittedSet> singles = ranked(given());
       for (std::size_t a = 0; a < std::min(kFew, singles.size()); ++a) {
+        if (singles[a].models == current.models) continue;  // `next` already
         const std::vector<FittedSet> pairs = ranked(singles[a]);
         if (!pairs.empty() && pairs.front().score() < best.score()) best = pairs.front();
       }

@@ -12,6 +12,8 @@ namespace stiffscope::diagnosis {
 struct ChosenModel {
   std::size_t model = 0;
   std::vector<std::size_t> parts;
+
+  bool operator==(const ChosenModel&) const = default;
 };
 
 /// A set of models fitted together.
@@ -52,12 +54,18 @@ class Selector {
   FittedSet given() const;
   FittedSet select() const;
   FittedSet fit(const std::vector<ChosenModel>& models) const;
+  /// chi2 of fit(models) to within rounding, at a fraction of its cost.
+  double roughChi2(const std::vector<ChosenModel>& models) const;
 
   /// How far beyond noise the best set leaves the loading: chi2 per degree of freedom, at least 1.
   double misfit(const FittedSet& set) const;
 
  private:
   std::optional<FittedSet> grown(const FittedSet& base, std::size_t model) const;
+  std::optional<FittedSet> withBestPart(std::vector<ChosenModel> models, GrowingSubset& subset) const;
+  void addPart(std::size_t model, std::size_t part, GrowingSubset& subset) const;
+  GrowingSubset subsetOf(const std::vector<ChosenModel>& models) const;
+  bool isSeen(std::size_t model, std::size_t part) const;
   bool worth(const FittedSet& with, const FittedSet& without) const;
   FittedSet regrown(FittedSet set) const;  ///< parts of each model chosen again beside the others
   FittedSet pruned(FittedSet set) const;

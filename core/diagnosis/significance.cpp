@@ -21,17 +21,17 @@ double chanceLimit(const SystemInput& input, const GapFit& fit, const std::vecto
   std::mt19937_64 random(seed);
   std::normal_distribution<double> normal;
   std::vector<double> best;
+  Projection noise = fit.projection;
+  noise.chi2_none = 0.0;
+  noise.by_effects.resize(0, 0);  // the data's own stiffnesses say nothing here
+  GapFit plain;
+  plain.data.layout = fit.data.layout;
+  plain.rules = fit.rules;
+  plain.rules.given.clear();
   for (int draw = 0; draw < draws; ++draw) {
-    Projection noise = fit.projection;
     Eigen::VectorXd numbers(noise.right.size());
     for (double& number : numbers) number = normal(random);
     noise.right = root * numbers;
-    noise.chi2_none = 0.0;
-    noise.by_effects.resize(0, 0);  // the data's own stiffnesses say nothing here
-    GapFit plain;
-    plain.data.layout = fit.data.layout;
-    plain.rules = fit.rules;
-    plain.rules.given.clear();
     const Selector selector = selectorOf(input, plain, noise, static_cast<double>(fit.data.postures.size()), allowed);
     const auto ranked = selector.ranked(selector.nothing());
     best.push_back(ranked.empty() ? 0.0 : -ranked.front().score());

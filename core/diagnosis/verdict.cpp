@@ -166,13 +166,13 @@ class Decider {
     Eigen::VectorXd field = Eigen::VectorXd::Zero(set().effects.size());
     const Eigen::Index at = from_.fit.data.layout.model_at[chosen.model] - from_.fit.data.layout.effects;
     field.segment(at, static_cast<Eigen::Index>(models_[chosen.model].parameters())) = own(set().effects, chosen.model);
+    const Projection made = withField(from_.fit.projection, field);
     const double scale = selector_.misfit(set());
     for (std::size_t m = 0; m < models_.size(); ++m) {
       const effects::Effect effect = models_[m].effect;
       if (!from_.allowed[m] || set().has(models_, effect)) continue;
       if (std::find(effects.begin(), effects.end(), effect) != effects.end()) continue;
-      const double apart =
-          separation(from_.input, from_.fit, from_.fit.projection, field, without(i), m, from_.allowed);
+      const double apart = separation(from_.input, from_.fit, made, without(i), m, from_.allowed);
       if (apart < kSeparated * scale) effects.push_back(effect);
     }
     return effects;

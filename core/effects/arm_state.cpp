@@ -24,18 +24,22 @@ ArmState stateMoved(const frames::LoadingGeometry& geometry, const Vector6d& q, 
                     const BodyMotions& moved) {
   ArmState state;
   state.q = q;
+  moveTo(geometry, turned, moved, state);
+  return state;
+}
+
+void moveTo(const frames::LoadingGeometry& geometry, const Vector6d& turned, const BodyMotions& moved,
+            ArmState& state) {
   state.turned = turned;
   state.moved = moved;
   state.posture = movedPosture(geometry.arm, turned, moved);
   placeByPosture(geometry, state);
-  return state;
 }
 
 void placeByPosture(const frames::LoadingGeometry& geometry, ArmState& state) {
   for (int j = 0; j < 6; ++j) state.axes[static_cast<std::size_t>(j)] = robot::axisAt(geometry.arm, state.posture, j);
   state.flange = robot::flangeAt(geometry.arm, state.posture);
   if (!geometry.weight.links_known) return;
-  state.weight_torque = robot::weightTorque(geometry.arm, state.posture, geometry.weight);
   robot::Wrench sum;
   for (std::size_t b = 6; b >= 1; --b) {
     const robot::BodyMass& body = geometry.weight.bodies[b];
@@ -43,6 +47,9 @@ void placeByPosture(const frames::LoadingGeometry& geometry, ArmState& state) {
     sum.force += pull;
     sum.moment += (state.posture.motion[b] * body.com_in_base_at_zero).cross(pull);
     state.weight_from_body[b] = sum;
+    const metrology::Line& axis = state.axes[b - 1];
+    state.weight_torque[static_cast<Eigen::Index>(b) - 1] =
+        axis.direction.dot(sum.moment - axis.point.cross(sum.force));
   }
   state.weight_from_body[0] = sum;
 }

@@ -50,6 +50,9 @@ ArmState stateAt(const frames::LoadingGeometry& geometry, const Vector6d& q, con
 ArmState stateMoved(const frames::LoadingGeometry& geometry, const Vector6d& q, const Vector6d& turned,
                     const BodyMotions& moved);
 
+/// The same of a state that is there already: what does not hang on angles and bodies stays.
+void moveTo(const frames::LoadingGeometry& geometry, const Vector6d& turned, const BodyMotions& moved, ArmState& state);
+
 /// The posture at these angles with its bodies moved.
 robot::ArmPosture movedPosture(const robot::Robot& arm, const Vector6d& turned, const BodyMotions& moved);
 

@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <array>
+#include <utility>
 
 #include "metrology/rigid_motion.h"
 
@@ -10,13 +11,12 @@ namespace stiffscope::effects {
 namespace {
 
 /// Inner bodies first, so that an outer motion turns about where the inner ones have brought its pivot.
-BodyMotions motionsOf(const LinearizationPoint& at, const ArmState& rest) {
+BodyMotions motionsOf(const LinearizationPoint& at, const PostureStates& rest) {
   std::array<Vector6d, 7> by_body;  // rotation vector, and displacement of the R0 origin
   by_body.fill(Vector6d::Zero());
-  const PostureStates posture{rest};
   for (const PresentEffect& one : at.present) {
     if (!one.model->twists) continue;
-    const std::vector<BodyTwist> twists = one.model->twists(at, posture, 0);
+    const std::vector<BodyTwist> twists = one.model->twists(at, rest, 0);
     for (std::size_t k = 0; k < twists.size(); ++k) {
       const BodyTwist& twist = twists[k];
       Vector6d at_origin;
@@ -41,34 +41,38 @@ BodyMotions motionsOf(const LinearizationPoint& at, const ArmState& rest) {
   return all;
 }
 
-}  // namespace
-
-Vector6d presentTurn(const LinearizationPoint& at, const ArmState& state) {
+Vector6d turnOf(const LinearizationPoint& at, const PostureStates& rest) {
   Vector6d turn = Vector6d::Zero();
-  const PostureStates rest{state};
   for (const PresentEffect& one : at.present) {
     if (one.model->angles) turn += one.model->angles(at, rest, 0) * one.parameters;
   }
   return turn;
 }
 
+}  // namespace
+
+Vector6d presentTurn(const LinearizationPoint& at, const ArmState& state) { return turnOf(at, {state}); }
+
 ArmState gravityEquilibrium(const frames::LoadingGeometry& geometry, const LinearizationPoint& at, const Vector6d& q) {
-  ArmState state = stateAt(geometry, q, Vector6d::Zero());
-  if (at.present.empty()) return state;
+  const Vector6d sagged = geometry.sagged(q);
+  PostureStates rest{stateMoved(geometry, q, sagged, noBodyMotions())};
+  ArmState& state = rest.front();
+  if (at.present.empty()) return std::move(state);
+  const bool turns = at.jointsTurn(), bodies = at.bodiesMove();
   constexpr int kRounds = 5;  // torques change with turns and motions by a hundredth with a strong effect
   for (int round = 0; round < kRounds; ++round) {
-    const Vector6d turn = presentTurn(at, state);
-    if (!at.bodiesMove()) {
-      state = stateAt(geometry, q, turn);
+    const Vector6d turn = turns ? turnOf(at, rest) : Vector6d(Vector6d::Zero());
+    if (!bodies) {
+      moveTo(geometry, sagged + turn, noBodyMotions(), state);
       continue;
     }
     const Vector6d sag = geometry.compliance.cwiseProduct(state.weight_torque);
     const Eigen::Matrix4d before = state.flange.matrix();
-    state = stateMoved(geometry, q, q + sag + turn, motionsOf(at, state));
+    moveTo(geometry, q + sag + turn, motionsOf(at, rest), state);
     constexpr double kSettled = 1e-10;  // m and rad
     if ((state.flange.matrix() - before).cwiseAbs().maxCoeff() < kSettled) break;
   }
-  return state;
+  return std::move(state);
 }
 
 namespace {

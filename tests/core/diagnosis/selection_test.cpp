@@ -81,6 +81,48 @@ TEST(Projection, ACompliancesSignIsKept) {
   EXPECT_EQ(fit.drop, 0.0);
 }
 
+// The same fall of chi2 by another road, signs and all; 1e-9 of it is what rounding makes of well separated columns.
+TEST(Projection, AGrowingSubsetBringsWhatTheSubsetBrings) {
+  Noise noise(7);
+  const Made made(noise);
+  const diagnosis::Projection projection = made.projection(white(noise));
+  const Eigen::VectorXd prior = Eigen::VectorXd::Constant(Made::kEffects, 1.0);
+  int bounded = 0;
+  for (int draw = 0; draw < 50; ++draw) {
+    std::vector<Eigen::Index> indices;
+    std::vector<bool> positive;
+    diagnosis::GrowingSubset growing(projection, prior);
+    for (Eigen::Index i = 0; i < Made::kEffects; ++i) {
+      if (noise.normal() < 0.0) continue;
+      indices.push_back(i);
+      positive.push_back(noise.normal() > 0.0);
+      growing.add(indices.back(), positive.back());
+      const diagnosis::SubsetFit fit = diagnosis::fitSubset(projection, indices, positive, prior);
+      ASSERT_NEAR(growing.drop(), fit.drop, 1e-9 * fit.drop);
+      bounded += static_cast<int>((fit.value.array() == 0.0).count());
+    }
+    growing.cutTo(growing.size() / 2);
+    indices.resize(growing.size());
+    positive.resize(growing.size());
+    const double half = diagnosis::fitSubset(projection, indices, positive, prior).drop;
+    ASSERT_NEAR(growing.drop(), half, 1e-9 * half);
+  }
+  EXPECT_GT(bounded, 100) << "no sign was kept";
+}
+
+// Two columns that are one leave nothing of the second: it is up to the ridge of 1e-12 how they share.
+TEST(Projection, AGrowingSubsetBearsAColumnTwice) {
+  Noise noise(8);
+  Made made(noise);
+  made.columns.col(Made::kNuisances + 1) = made.columns.col(Made::kNuisances);
+  const diagnosis::Projection projection = made.projection(white(noise));
+  const Eigen::VectorXd prior = Eigen::VectorXd::Zero(Made::kEffects);
+  diagnosis::GrowingSubset growing(projection, prior);
+  for (const Eigen::Index i : {0, 1, 2}) growing.add(i, false);
+  const double twice = diagnosis::fitSubset(projection, {0, 1, 2}, {false, false, false}, prior).drop;
+  EXPECT_NEAR(growing.drop(), twice, 1e-6 * twice);
+}
+
 // 10 units of BIC beyond the price of the search (24 postures): chi-square of one degree must exceed 22
 // somewhere in 18 columns, a chance of 5e-5; 300 clean draws see none in all but one of sixty runs, and the
 // seed is fixed.
