@@ -21,7 +21,10 @@ AxesAtStart sweptAxes(const Frames& frames, const robot::ArmAxes& axes) {
   AxesAtStart start;
   for (std::size_t j = 0; j < start.size(); ++j) {
     const metrology::MeasuredLine& swept = frames.axes[j].at_zero;
-    start[j] = {axes[j], turn * swept.across_u, turn * swept.across_v, swept.covariance};
+    const metrology::Line& axis = axes[j];
+    const Eigen::Vector3d beside = frames.arm.r0_from_points * swept.line.point - axis.point;
+    const Eigen::Vector3d point = axis.point + axis.direction.dot(beside) * axis.direction;
+    start[j] = {{point, axis.direction}, turn * swept.across_u, turn * swept.across_v, swept.covariance};
   }
   return start;
 }
@@ -57,7 +60,7 @@ Eigen::Matrix3d leftJacobian(const Eigen::Vector3d& r) {
   const bool small = angle < 1e-2;  // the next terms of the series are below 1e-11
   const double first = small ? 0.5 - square / 24.0 : (1.0 - std::cos(angle)) / square;
   const double second = small ? 1.0 / 6.0 - square / 120.0 : (angle - std::sin(angle)) / (square * angle);
-  const Eigen::Matrix3d cross = metrology::vectorByFrameError(r).leftCols<3>();
+  const Eigen::Matrix3d cross = metrology::crossMatrix(r);
   return Eigen::Matrix3d::Identity() + first * cross + second * cross * cross;
 }
 

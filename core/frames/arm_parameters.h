@@ -32,8 +32,8 @@ using AxesAtStart = std::array<metrology::MeasuredLine, 6>;
 /// Directions across by metrology::basisAcross, no covariance: what `moved` takes.
 AxesAtStart axesAtStart(const robot::ArmAxes& axes);
 
-/// `axes` with directions and covariances of their sweeps, these as they are at the sweeps' own points of the axes.
-/// Only meant for axes that were measured.
+/// `axes` with directions across and covariances of their sweeps, each at the sweep's own point of the axis, for which
+/// its covariance is. Only meant for axes that were measured.
 AxesAtStart sweptAxes(const Frames& frames, const robot::ArmAxes& axes);
 
 /// The geometry moved by all of its parameters, `steps` as long as ArmParameters::count of its reflectors. The flange,
