@@ -126,6 +126,7 @@ vtkSmartPointer<vtkActor> Mesh::actor() const {
   auto actor = vtkSmartPointer<vtkActor>::New();
   actor->SetMapper(mapper);
   actor->GetProperty()->LightingOff();
+  actor->GetProperty()->BackfaceCullingOn();
   return actor;
 }
 

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 #include <vtkBrush.h>
 #include <vtkContext2D.h>
+#include <vtkFreeTypeTools.h>
 #include <vtkPen.h>
 #include <vtkTextProperty.h>
 #include <algorithm>
@@ -11,6 +12,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <limits>
 #include <stdexcept>
 #include <system_error>
 #include <utility>
@@ -34,10 +36,14 @@ void Canvas::setStyle(double size, bool bold, Colour colour, Direction direction
 }
 
 double Canvas::runWidth(const std::string& run, double size, bool bold) const {
-  setStyle(size, bold, colours::kInk, Direction::Across);
-  std::array<float, 4> bounds{};
-  context_.ComputeStringBounds(run.c_str(), bounds.data());
-  return bounds[2] / surface_.scale;
+  const auto [place, is_new] = widths_.try_emplace({run, size, bold}, 0.0);
+  if (is_new) {
+    setStyle(size, bold, colours::kInk, Direction::Across);
+    std::array<float, 4> bounds{};
+    context_.ComputeStringBounds(run.c_str(), bounds.data());
+    place->second = bounds[2] / surface_.scale;
+  }
+  return place->second;
 }
 
 namespace {
@@ -199,11 +205,26 @@ Fonts findFonts() {
                   fmt::join(folders, ", ")));
 }
 
+namespace {
+
+/// FreeType 2.12 begins to count the bytes of its cache of glyphs anywhere (its `cur_weight`): where it takes it for
+/// full, it renders each letter anew each time. No cache is full of as many as these, and no picture has many letters.
+void keepGlyphs() {
+  static const bool kept = [] {
+    vtkFreeTypeTools::GetInstance()->SetMaximumNumberOfBytes(std::numeric_limits<unsigned long>::max());
+    return true;
+  }();
+  static_cast<void>(kept);
+}
+
+}  // namespace
+
 Canvas::Canvas(vtkContext2D& context, const Surface& surface, Fonts fonts)
     : context_(context),
       surface_(surface),
       fonts_(std::move(fonts)),
       unit_(std::clamp(std::min(surface.size.width / 1200.0, surface.size.height / 700.0), 0.7, 4.0)) {
+  keepGlyphs();
   context_.GetPen()->SetLineType(vtkPen::NO_PEN);
 }
 

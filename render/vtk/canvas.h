@@ -1,6 +1,8 @@
 #pragma once
 
+#include <map>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "render/colours.h"
@@ -103,6 +105,7 @@ class Canvas {
   Surface surface_;
   Fonts fonts_;
   double unit_;
+  mutable std::map<std::tuple<std::string, double, bool>, double> widths_;  ///< of runs measured so far
 };
 
 }  // namespace stiffscope::render

@@ -71,6 +71,8 @@ class DrawnOnlyWindow : public vtkGenericOpenGLRenderWindow {
     std::tie(Size[0], Size[1]) = size;
     RenderFramebuffer->Resize(size.first, size.second);
   }
+  /// Superclass::Frame copies what was drawn to what a display shows.
+  void Frame() override {}
 };
 vtkStandardNewMacro(DrawnOnlyWindow);
 

@@ -81,19 +81,21 @@ struct Shown {
   const std::vector<vtkSmartPointer<vtkRenderer>>& layers;
 };
 
+constexpr int kChannels = 4;  // as they are rendered, so that reading does not convert them; a picture has three
+
 /// Means over squares of kSupersampling pixels, of rendered rows into the picture's rows from `y` upwards: VTK's run
 /// from bottom to top.
 void averageDown(const std::uint8_t* rendered, int rows, int y, Image& image) {
   constexpr int k = kSupersampling;
-  const std::ptrdiff_t row = 3 * static_cast<std::ptrdiff_t>(image.width) * k;
+  const std::ptrdiff_t row = kChannels * static_cast<std::ptrdiff_t>(image.width) * k;
   for (int up = 0; up < rows; ++up) {
     const std::uint8_t* in = rendered + row * k * up;
     std::uint8_t* out = image.rgb.data() + 3 * static_cast<std::ptrdiff_t>(image.width) * (y - up);
-    for (int x = 0; x < image.width; ++x, in += 3 * k, out += 3) {
+    for (int x = 0; x < image.width; ++x, in += kChannels * k, out += 3) {
       for (int channel = 0; channel < 3; ++channel) {
         int sum = k * k / 2;
         for (int i = 0; i < k; ++i) {
-          for (int j = 0; j < k; ++j) sum += in[row * i + 3 * j + channel];
+          for (int j = 0; j < k; ++j) sum += in[row * i + kChannels * j + channel];
         }
         out[channel] = static_cast<std::uint8_t>(sum / (k * k));
       }
@@ -110,8 +112,8 @@ Image readDown(vtkRenderWindow& window, Size size) {
   for (int low = 0; low < size.height; low += kBand) {
     const int rows = std::min(kBand, size.height - low);
     const int width = kSupersampling * size.width, first = kSupersampling * low, height = kSupersampling * rows;
-    window.GetPixelData(0, first, width - 1, first + height - 1, front, pixels);
-    if (pixels->GetNumberOfValues() != vtkIdType{3} * width * height) {
+    window.GetRGBACharPixelData(0, first, width - 1, first + height - 1, front, pixels);
+    if (pixels->GetNumberOfValues() != vtkIdType{kChannels} * width * height) {
       throw std::runtime_error(fmt::format("cannot draw pictures: no pixels came back for {} x {}", width, height));
     }
     averageDown(pixels->GetPointer(0), rows, size.height - 1 - low, image);
