@@ -138,14 +138,14 @@ std::string_view CsvLines::quotedCell(std::string_view& line) {
   line.remove_prefix(1);
   bool doubled = false;
   std::size_t size = 0;
-  for (;; ++size) {
+  for (;;) {
     size = line.find('"', size);
     if (size == std::string_view::npos) {
       throw InputError({file_, line_, ""}, "\"", "expected a closing quote on the same line");
     }
     if (size + 1 == line.size() || line[size + 1] != '"') break;
     doubled = true;
-    ++size;
+    size += 2;
   }
   std::string_view cell = line.substr(0, size);
   line.remove_prefix(size + 1);
