@@ -48,8 +48,8 @@ struct AuditCheckId {
 };
 
 /// Every check of the audit in the order of the report. Screening gives the first three, core/audit/audit.cpp says
-/// which function gives the others, reports/words/audit_figures.cpp in which unit its value is printed. A new check is one
-/// line in each; the compiler compares the three.
+/// which function gives the others, reports/words/audit_figures.cpp in which unit its value is printed. A new check is
+/// one line in each; the compiler compares the three.
 inline constexpr std::size_t kScreeningChecks = 3;
 inline constexpr std::array<AuditCheckId, 29> kAuditCheckIds{{
     {"lost_beam"},
