@@ -13,10 +13,8 @@
 #include <system_error>
 
 #include "app/output.h"
-#include "core/diagnosis/diagnose.h"
 #include "core/io/input_error.h"
 #include "core/io/numbers.h"
-#include "reports/words/remark_words.h"
 
 namespace stiffscope::app {
 
@@ -119,34 +117,6 @@ int explainUsageError(const CLI::App& app, const CLI::ParseError& error) {
                app.get_subcommands().empty() ? "" : chosen(app).get_name().c_str(),
                app.get_subcommands().empty() ? "" : " ");
   return kBadInput;
-}
-
-void addWithOption(CLI::App& command, std::vector<std::string>& words) {
-  command
-      .add_option(
-          "--with", words,
-          "effects that the model has besides joint springs, by their names in diagnose, with a part where that is "
-          "to be chosen (bearing_tilt:3, joint_coupling:2-3, target_motion:P12); auto: what diagnose finds")
-      ->type_name("EFFECT")
-      ->delimiter(',')
-      ->allow_extra_args(false);
-}
-
-extended_model::EffectFit effectsAsked(const preparation::PreparedCampaign& prepared,
-                                       const std::vector<std::string>& words) {
-  // Raw readings, too, are screened before effects are sought in them.
-  if (prepared.preparation.raw) return effectsAsked(preparation::prepareCampaign(prepared.campaign), words);
-  const bool by_diagnosis = std::find(words.begin(), words.end(), "auto") != words.end();
-  if (by_diagnosis && words.size() > 1)
-    throw io::InputError({"--with"}, "auto", "expected auto alone, or effects without it");
-  try {
-    return extended_model::fitEffects(prepared, by_diagnosis
-                                                    ? extended_model::namedBy(diagnosis::diagnose(prepared))
-                                                    : extended_model::requestedEffects(words, prepared.campaign));
-  } catch (const extended_model::UnfitEffect& error) {
-    throw io::InputError(extended_model::kWithOption, std::string(effects::idOf(error.effect())),
-                         reports::words(error.reason()));
-  }
 }
 
 }  // namespace stiffscope::app

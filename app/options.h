@@ -5,22 +5,12 @@
 #include <string>
 #include <vector>
 
-#include "core/extended_model/extended_model.h"
 #include "core/identification/identify.h"
-#include "core/preparation/prepare.h"
-
-namespace CLI {
-class App;
-}
 
 namespace CLI {
 class App;
 class ParseError;
 }  // namespace CLI
-
-namespace CLI {
-class App;
-}
 
 namespace stiffscope::app {
 
@@ -42,13 +32,5 @@ std::optional<int> loadStepNamed(const std::string& step, const std::string& als
 /// One line to standard error for a command line that cannot be understood; a word that is not known gets the
 /// nearest one that is. Returns the exit status.
 int explainUsageError(const CLI::App& app, const CLI::ParseError& error);
-
-/// Adds --with EFFECT to a command: may come again, or take several names with commas between them.
-void addWithOption(CLI::App& command, std::vector<std::string>& words);
-
-/// The effects that `words` ask for, fitted to the campaign as it is used; `auto`: what `diagnose` finds in it.
-/// Throws InputError for names that are unknown or do not go together, and for effects that the campaign cannot show.
-extended_model::EffectFit effectsAsked(const preparation::PreparedCampaign& prepared,
-                                       const std::vector<std::string>& words);
 
 }  // namespace stiffscope::app

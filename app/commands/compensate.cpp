@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "app/command_line.h"
+#include "app/model.h"
 #include "app/options.h"
 #include "app/output.h"
 #include "app/prepared.h"
@@ -27,7 +28,7 @@ namespace {
 struct CompensateArguments {
   std::string campaign, postures, json, method, step;
   bool raw = false;
-  std::vector<std::string> with;
+  ModelChoice model;
 };
 
 int compensateCampaign(const CompensateArguments& arguments) {
@@ -37,9 +38,7 @@ int compensateCampaign(const CompensateArguments& arguments) {
   identification::IdentifyOptions options;
   options.step = loadStepNamed(arguments.step);
   const preparation::PreparedCampaign prepared = openPrepared(arguments.campaign, arguments.raw);
-  std::optional<extended_model::ExtendedModel> improved;
-  if (!arguments.with.empty())
-    improved = extended_model::extendModel(prepared.campaign, effectsAsked(prepared, arguments.with), options);
+  const std::optional<extended_model::ExtendedModel> improved = modelOf(prepared, arguments.model, options);
   const campaign::Campaign& campaign = improved ? improved->campaign : prepared.campaign;
   const identification::Identification result = improved ? improved->with : identification::identify(campaign, options);
   if (methods.empty()) methods = {identification::bestMethod(result)};
@@ -91,7 +90,7 @@ void addCompensate(CLI::App& app, Run& run) {
       "campaign's own");
   command->add_option("--method", arguments->method, "cp, pp or dpp; without it the best that is available, dpp first");
   command->add_option("--step", arguments->step, "load step to identify from");
-  addWithOption(*command, arguments->with);
+  addModelOptions(*command, arguments->model);
   addRawOption(*command, arguments->raw);
   command->add_option("--json", arguments->json, "write the result to this file, - for standard output");
   command->callback([arguments, &run] { run = [arguments] { return compensateCampaign(*arguments); }; });

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "app/command_line.h"
+#include "app/model.h"
 #include "app/options.h"
 #include "app/output.h"
 #include "app/prepared.h"
@@ -29,7 +30,7 @@ struct IdentifyArguments {
   std::string campaign, json, method = "all", step;
   int subset_size = 0, bootstrap = 0;
   bool neglect_kc = false, raw = false, robust = false, postures = false;
-  std::vector<std::string> with;
+  ModelChoice model;
 };
 
 identification::IdentifyOptions optionsOf(const IdentifyArguments& arguments, bool subset_given) {
@@ -66,9 +67,7 @@ int identifyCampaign(const IdentifyArguments& arguments, bool subset_given) {
   const identification::IdentifyOptions options = optionsOf(arguments, subset_given);
   const preparation::PreparedCampaign prepared =
       openPrepared(arguments.campaign, arguments.raw, hashesFor(arguments.json));
-  std::optional<extended_model::ExtendedModel> improved;
-  if (!arguments.with.empty())
-    improved = extended_model::extendModel(prepared.campaign, effectsAsked(prepared, arguments.with), options);
+  const std::optional<extended_model::ExtendedModel> improved = modelOf(prepared, arguments.model, options);
   const campaign::Campaign& campaign = improved ? improved->campaign : prepared.campaign;
   const identification::Identification result = improved ? improved->with : identification::identify(campaign, options);
   if (options.subsets.size >= static_cast<int>(result.cases.size()) && !result.cases.empty()) {
@@ -91,7 +90,10 @@ int identifyCampaign(const IdentifyArguments& arguments, bool subset_given) {
       [&] {
         reports::JsonDocument document = reports::identificationJson(campaign, result, methods);
         document.json = reports::withSteps(std::move(document.json), steps, result, methods);
-        if (improved) document.json = reports::withEffects(std::move(document.json), *improved, methods);
+        if (improved) {
+          document.json = reports::withEffects(std::move(document.json), *improved, methods);
+          document.json = reports::withSupport(std::move(document.json), *improved, methods);
+        }
         document.json = reports::withPreparation(std::move(document.json), prepared.preparation);
         return document;
       },
@@ -119,7 +121,7 @@ void addIdentify(CLI::App& app, Run& run) {
   command->add_option("--bootstrap", arguments->bootstrap,
                       "draws of the postures for percentile intervals beside the stated ones");
   command->add_flag("--postures", arguments->postures, "Cartesian stiffness and the share of K_c, posture by posture");
-  addWithOption(*command, arguments->with);
+  addModelOptions(*command, arguments->model);
   addRawOption(*command, arguments->raw);
   command->add_option("--json", arguments->json, "write the result to this file, - for standard output");
   command->callback([arguments, subset, &run] {

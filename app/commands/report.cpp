@@ -18,6 +18,7 @@
 
 #include "app/command_line.h"
 #include "app/figures/figures.h"
+#include "app/model.h"
 #include "app/options.h"
 #include "app/output.h"
 #include "app/prepared.h"
@@ -123,7 +124,7 @@ struct ReportArguments {
   std::vector<std::string> campaigns;
   std::string out, step;
   bool neglect_kc = false, paper = false, raw = false;
-  std::vector<std::string> with;
+  ModelChoice model;
 };
 
 /// Takes away the rows that are load cases by now: neither page nor picture shows them, and they are most of a long
@@ -154,9 +155,8 @@ struct Result {
     prepared = arguments.raw ? preparation::leaveRaw(std::move(read)) : preparation::prepareCampaign(std::move(read));
     loaded = identification::whatLoadsLack(prepared.campaign).empty();
     if (loaded) diagnosis = arguments.raw ? diagnosis::diagnose(prepared.campaign) : diagnosis::diagnose(prepared);
-    if (loaded && !arguments.with.empty()) {
-      improved = extended_model::extendModel(prepared.campaign, effectsAsked(prepared, arguments.with), options);
-    } else {
+    if (loaded) improved = modelOf(prepared, arguments.model, options);
+    if (!improved) {
       own = loaded ? identification::identify(prepared.campaign, options)
                    : identification::framesAlone(prepared.campaign);
     }
@@ -196,10 +196,14 @@ std::vector<reports::NamedText> settingsOf(const identification::IdentifyOptions
 }
 
 /// What the page says first of the effects in the model, campaign by campaign.
-void addExtendedModel(const std::vector<std::string>& words, const std::list<Result>& results,
-                      reports::ReportContent& content) {
-  if (words.empty()) return;
-  content.settings.push_back({"effects in the model", reports::asIs(fmt::format("{}", fmt::join(words, ", ")))});
+void addExtendedModel(const ModelChoice& choice, const std::list<Result>& results, reports::ReportContent& content) {
+  if (choice.springs_only) {
+    content.settings.push_back({"effects in the model", "none: joint springs only"});
+    return;
+  }
+  content.settings.push_back(
+      {"effects in the model", choice.with.empty() ? "those that the data support"
+                                                   : reports::asIs(fmt::format("{}", fmt::join(choice.with, ", ")))});
   content.settings.push_back({"subsets with effects", "all up to 1000, else a sample with seed 1"});
   for (const Result& one : results) {
     if (one.improved) content.verdict += " " + reports::asIs(reports::gainWords(*one.improved));
@@ -225,7 +229,7 @@ int writeReport(const ReportArguments& arguments) {
   content.settings = settingsOf(options, results);
   content.title = "Joint stiffness";
   content.verdict = reports::verdictOf(content.campaigns, content.avoided);
-  addExtendedModel(arguments.with, results, content);
+  addExtendedModel(arguments.model, results, content);
   content.figures = makeFigures(content.campaigns, {arguments.paper});
 
   // Everything is made before the first file is written, and appears at once.
@@ -249,7 +253,7 @@ void addReport(CLI::App& app, Run& run) {
       ->required();
   command->add_option("--step", arguments->step, "load step to identify from");
   command->add_flag("--neglect-kc", arguments->neglect_kc, "neglect K_c, as the paper does");
-  addWithOption(*command, arguments->with);
+  addModelOptions(*command, arguments->model);
   addRawOption(*command, arguments->raw);
   command->add_flag("--paper", arguments->paper, "put the figures of Ambiehl et al. (IROS 2017) beside these");
   command->callback([arguments, &run] { run = [arguments] { return writeReport(*arguments); }; });

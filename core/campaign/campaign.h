@@ -115,6 +115,7 @@ struct LoadCell {
   std::optional<std::string> axes_link;  ///< wrench components parallel to this link's axes, rpy ignored
   double force_sigma = 0.0;              ///< N; 0: not stated
   double moment_sigma = 0.0;             ///< Nm; 0: not stated
+  double gain_sigma = 0.0;               ///< standard uncertainty of the cell's scale, a share; 0: not stated
 };
 
 /// A file that was read, as the report lists it.

@@ -117,7 +117,9 @@ std::vector<Target> readTargets(const io::XmlNode& node, std::vector<std::string
 }
 
 LoadCell readLoadCell(const io::XmlNode& node, std::vector<std::string>& warnings) {
-  io::warnOfUnknown(node, {"parent", "xyz_mm", "rpy_deg", "force_sigma_n", "moment_sigma_nm", "axes"}, {}, warnings);
+  io::warnOfUnknown(node,
+                    {"parent", "xyz_mm", "rpy_deg", "force_sigma_n", "moment_sigma_nm", "axes", "gain_sigma_percent"},
+                    {}, warnings);
   LoadCell cell;
   cell.parent = node.requiredName("parent");
   cell.parent_from_cell.translation() = millimetres(node, "xyz_mm");
@@ -130,6 +132,8 @@ LoadCell readLoadCell(const io::XmlNode& node, std::vector<std::string>& warning
   constexpr double kMostSigma = 1e6;  // N and Nm, as of the readings themselves
   cell.force_sigma = atMost(node, "force_sigma_n", kMostSigma);
   cell.moment_sigma = atMost(node, "moment_sigma_nm", kMostSigma);
+  constexpr double kMostGainPercent = 50.0;
+  if (node.has("gain_sigma_percent")) cell.gain_sigma = atMost(node, "gain_sigma_percent", kMostGainPercent) / 100.0;
   const double lever = cell.parent_from_cell.translation().norm() / io::kMillimetre;
   if (lever > 0.0 && lever < 1.0)
     warnings.push_back(

@@ -164,6 +164,7 @@ void writeLoadCell(tinyxml2::XMLPrinter& printer, const LoadCell& cell) {
   const Eigen::Vector3d rpy = robot::rpyFromRotation(cell.parent_from_cell.linear());
   if (!cell.axes_link) element.set("rpy_deg", Eigen::Vector3d(rpy / io::kDegree));
   element.set("force_sigma_n", cell.force_sigma).set("moment_sigma_nm", cell.moment_sigma);
+  if (cell.gain_sigma > 0.0) element.set("gain_sigma_percent", 100.0 * cell.gain_sigma);
 }
 
 template <class Row>

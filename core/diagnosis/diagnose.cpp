@@ -5,12 +5,11 @@
 #include <cmath>
 
 #include "core/diagnosis/confounding.h"
-#include "core/diagnosis/diagnosis_input.h"
+#include "core/diagnosis/gap_study.h"
 #include "core/diagnosis/geometry_error.h"
 #include "core/diagnosis/held_out.h"
 #include "core/diagnosis/localization.h"
 #include "core/diagnosis/next_measurement.h"
-#include "core/diagnosis/preconditions.h"
 #include "core/diagnosis/significance.h"
 #include "core/diagnosis/verdict.h"
 #include "core/io/input_error.h"
@@ -36,43 +35,24 @@ void requireLoads(const campaign::Campaign& campaign) {
   }
 }
 
-std::size_t modelOf(const std::vector<effects::EffectModel>& models, effects::Effect effect) {
-  return static_cast<std::size_t>(std::find_if(models.begin(), models.end(),
-                                               [&](const effects::EffectModel& one) { return one.effect == effect; }) -
-                                  models.begin());
-}
-
-/// With one effect wanted: its models, and those of a station that moved, which nests may put in.
-std::vector<effects::EffectModel> modelsFor(const campaign::Campaign& campaign,
-                                            const std::optional<effects::Effect>& only) {
-  std::vector<effects::EffectModel> models = effects::effectModelsOf(campaign);
-  std::erase_if(models, [&](const effects::EffectModel& one) {
-    return only && one.effect != *only && one.effect != effects::Effect::tracker_drift &&
-           one.effect != effects::Effect::frame_error;
-  });
-  return models;
-}
-
 class Diagnoser {
  public:
-  Diagnoser(const preparation::PreparedCampaign& prepared, const DiagnoseOptions& options)
+  Diagnoser(const preparation::PreparedCampaign& prepared, GapStudy& study, const DiagnoseOptions& options)
       : prepared_(prepared),
         options_(options),
-        start_(diagnosisInput(prepared)),
-        input_{start_.campaign,
-               start_.noise.noise,
-               prepared.campaign.load_cell->force_sigma,
-               prepared.campaign.load_cell->moment_sigma,
-               modelsFor(prepared.campaign, options.only),
-               start_.absolute,
-               start_.sweeps,
-               complianceExpected(start_.state.at.compliance)} {}
+        start_(*study.start),
+        input_(*study.input),
+        allowed_(study.allowed),
+        given_(study.given),
+        fit_(study.fit) {
+    result_.not_testable = study.not_testable;
+  }
 
   Diagnosis run() {
     result_.unusable_reason = start_.reason;
     if (!start_.reason.empty()) return std::move(result_);
-    evaluatePreconditions();
-    fit();
+    fit_.rules.detect = std::max(fit_.rules.detect, chanceLimit(input_, fit_, allowed_, options_.chance_draws,
+                                                                options_.false_alarm, options_.seed));
     describe();
     decide();
     if (options_.resamples > 0) shrink();
@@ -80,43 +60,6 @@ class Diagnoser {
   }
 
  private:
-  void evaluatePreconditions() {
-    SystemInput loading = input_;  // whatIsThere asks for states alone
-    loading.models.clear();
-    loading.sweeps = false;
-    const LinearSystem data = linearSystem(loading, start_.state, {});
-    const effects::CampaignContents has = whatIsThere(input_, data, start_.state, start_.station);
-    allowed_.assign(input_.models.size(), true);
-    for (std::size_t e = 0; e < effects::kEffectCount; ++e) {
-      const auto effect = static_cast<effects::Effect>(e);
-      const Remark missing = effects::missingFor(effect, has);
-      if (missing.empty()) continue;
-      result_.not_testable.push_back({effect, missing});
-      for (std::size_t m = 0; m < input_.models.size(); ++m) {
-        if (input_.models[m].effect == effect) allowed_[m] = false;
-      }
-    }
-    for (std::size_t m = 0; options_.only && m < input_.models.size(); ++m) {
-      if (input_.models[m].effect != *options_.only) allowed_[m] = false;
-    }
-    boundDriftByNests(start_, input_);
-    if (start_.station.course == preparation::StationCourse::drifted) input_.wandering = &start_.station;
-    if (start_.station.course == preparation::StationCourse::jumped)
-      allowed_[modelOf(input_.models, effects::Effect::tracker_drift)] = false;
-    if (start_.station.course == preparation::StationCourse::jumped)
-      given_ = {modelOf(input_.models, effects::Effect::frame_error)};
-    if (start_.station.course == preparation::StationCourse::drifted)
-      given_ = {modelOf(input_.models, effects::Effect::tracker_drift),
-                modelOf(input_.models, effects::Effect::frame_error)};
-  }
-
-  void fit() {
-    const FitRules rules{options_.noise_share, options_.deflection_share, start_.noise.degrees, given_, !options_.only};
-    fit_ = fitGap(input_, start_.state, allowed_, rules);
-    fit_.rules.detect = std::max(fit_.rules.detect, chanceLimit(input_, fit_, allowed_, options_.chance_draws,
-                                                                options_.false_alarm, options_.seed));
-  }
-
   void describe() {
     alone_ = withoutEffects(input_, start_.state, fit_);
     result_.usable = true;
@@ -218,11 +161,12 @@ class Diagnoser {
 
   const preparation::PreparedCampaign& prepared_;
   DiagnoseOptions options_;
-  DiagnosisInput start_;
-  SystemInput input_;
-  std::vector<bool> allowed_;
-  std::vector<std::size_t> given_;
-  GapFit fit_, alone_;  // with the effects chosen, and joint stiffnesses alone
+  const DiagnosisInput& start_;
+  const SystemInput& input_;
+  const std::vector<bool>& allowed_;
+  const std::vector<std::size_t>& given_;
+  GapFit& fit_;   // with the effects chosen
+  GapFit alone_;  // joint stiffnesses alone
   StiffnessesAlone before_;
   Eigen::VectorXd after_;
   std::vector<std::vector<ChosenModel>> recipes_;
@@ -231,14 +175,15 @@ class Diagnoser {
   Diagnosis result_;
 };
 
-bool isLong(const campaign::Campaign& campaign) {
-  return campaign.pose_ids.size() > preparation::kMostDiagnosed || preparation::hasLongSweep(campaign);
+Diagnosis diagnoseAll(const preparation::PreparedCampaign& prepared, const DiagnoseOptions& options) {
+  GapStudy study = studyGap(prepared, options);
+  return Diagnoser(prepared, study, options).run();
 }
 
 /// `spread` is what is looked at of a campaign of so many postures, which the diagnosis refers to.
 Diagnosis diagnoseSpread(const preparation::PreparedCampaign& spread, std::size_t postures, bool long_sweeps,
                          const DiagnoseOptions& options) {
-  Diagnosis diagnosis = Diagnoser(spread, options).run();
+  Diagnosis diagnosis = diagnoseAll(spread, options);
   if (long_sweeps) {
     diagnosis.verdict.reasons.push_back(Remark(RemarkId::sweeps_thinned, preparation::kMostSwept));
   }
@@ -247,16 +192,6 @@ Diagnosis diagnoseSpread(const preparation::PreparedCampaign& spread, std::size_
   for (PointGap& one : diagnosis.at_points) one.pose = static_cast<int>(places[static_cast<std::size_t>(one.pose)]);
   diagnosis.verdict.reasons.push_back(Remark(RemarkId::postures_thinned, postures, diagnosis.postures));
   return diagnosis;
-}
-
-/// Everything of `prepared` but the readings that take no part.
-preparation::PreparedCampaign spreadEvenly(const preparation::PreparedCampaign& prepared) {
-  return {preparation::evenlySpread(prepared.campaign, preparation::kMostDiagnosed),
-          prepared.preparation,
-          {},
-          prepared.scatter,
-          prepared.noise,
-          prepared.drift};
 }
 
 }  // namespace
@@ -268,17 +203,17 @@ Diagnosis diagnose(const campaign::Campaign& campaign, const DiagnoseOptions& op
 Diagnosis diagnose(campaign::Campaign&& campaign, const DiagnoseOptions& options) {
   requireLoads(campaign);
   preparation::PreparedCampaign prepared = preparation::prepareCampaign(std::move(campaign));
-  if (!isLong(prepared.campaign)) return Diagnoser(prepared, options).run();
+  if (!isLong(prepared.campaign)) return diagnoseAll(prepared, options);
   const std::size_t postures = prepared.campaign.pose_ids.size();
   const bool long_sweeps = preparation::hasLongSweep(prepared.campaign);
-  prepared = spreadEvenly(prepared);
+  prepared = spreadForDiagnosis(prepared);
   return diagnoseSpread(prepared, postures, long_sweeps, options);
 }
 
 Diagnosis diagnose(const preparation::PreparedCampaign& prepared, const DiagnoseOptions& options) {
   requireLoads(prepared.campaign);
-  if (!isLong(prepared.campaign)) return Diagnoser(prepared, options).run();
-  return diagnoseSpread(spreadEvenly(prepared), prepared.campaign.pose_ids.size(),
+  if (!isLong(prepared.campaign)) return diagnoseAll(prepared, options);
+  return diagnoseSpread(spreadForDiagnosis(prepared), prepared.campaign.pose_ids.size(),
                         preparation::hasLongSweep(prepared.campaign), options);
 }
 

@@ -21,8 +21,9 @@ std::vector<effects::EffectModel> modelsOf(const std::vector<RequestedEffect>& w
                                            const campaign::Campaign& campaign) {
   std::vector<effects::EffectModel> models = effects::effectModelsOf(campaign);
   std::erase_if(models, [&](const effects::EffectModel& model) {
-    return std::none_of(wanted.begin(), wanted.end(),
-                        [&](const RequestedEffect& one) { return one.effect == model.effect; });
+    return std::none_of(wanted.begin(), wanted.end(), [&](const RequestedEffect& one) {
+      return one.effect == model.effect && (one.shape.empty() || one.shape == model.shape);
+    });
   });
   return models;
 }

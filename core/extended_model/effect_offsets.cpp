@@ -77,19 +77,27 @@ std::vector<Eigen::Vector3d> PostureOffsets::of(int target, const Eigen::Vector3
   return offsets;
 }
 
-Eigen::MatrixXd displacementByEffects(const EffectFit& effects, const effects::PostureStates& posture,
+EffectColumns columnsOf(const EffectFit& effects) {
+  EffectColumns columns{{}, effects.free};
+  for (const diagnosis::ChosenModel& one : effects.fit.set.models) columns.models.push_back(one.model);
+  return columns;
+}
+
+Eigen::MatrixXd displacementByEffects(const diagnosis::SystemInput& input, const diagnosis::GapFit& fit,
+                                      const EffectColumns& columns, const effects::PostureStates& posture,
                                       std::size_t state, const std::vector<int>& targets,
                                       const std::vector<Eigen::Vector3d>& places) {
   effects::PostureStates states = posture;
   for (effects::ArmState& one : states) one.targets = targets, one.points = places;
   const auto rows = static_cast<Eigen::Index>(3 * targets.size());
-  Eigen::MatrixXd all = Eigen::MatrixXd::Zero(rows, effects.parameters().size());
-  for (const diagnosis::ChosenModel& one : effects.fit.set.models) {
-    const effects::EffectModel& model = effects.input->models[one.model];
-    all.middleCols(effects.firstOf(one), static_cast<Eigen::Index>(model.parameters())) =
-        model.columns(effects.fit.state.at, states, state) - model.columns(effects.fit.state.at, states, 0);
+  const diagnosis::GapLayout& layout = fit.data.layout;
+  Eigen::MatrixXd all = Eigen::MatrixXd::Zero(rows, layout.end - layout.effects);
+  for (const std::size_t m : columns.models) {
+    const effects::EffectModel& model = input.models[m];
+    all.middleCols(layout.model_at[m] - layout.effects, static_cast<Eigen::Index>(model.parameters())) =
+        model.columns(fit.state.at, states, state) - model.columns(fit.state.at, states, 0);
   }
-  return all(Eigen::all, effects.free);
+  return all(Eigen::all, columns.parameters);
 }
 
 }  // namespace stiffscope::extended_model

@@ -32,9 +32,20 @@ class PostureOffsets {
   std::vector<Eigen::Isometry3d> with_, without_;
 };
 
-/// Displacement of reflectors in a loaded state by a unit of each of the fit's free parameters (EffectFit::free), to
-/// first order: 3 rows a reflector in the order of `targets`, which stand at `places` unloaded. R0, m per unit.
-Eigen::MatrixXd displacementByEffects(const EffectFit& effects, const effects::PostureStates& posture,
+/// Parameters of effects as the linear system counts them: models of its input, and rows of the vector of all effects'
+/// parameters.
+struct EffectColumns {
+  std::vector<std::size_t> models;
+  std::vector<Eigen::Index> parameters;
+};
+
+/// The fitted ones: EffectFit::free.
+EffectColumns columnsOf(const EffectFit& effects);
+
+/// Displacement of reflectors in a loaded state by a unit of each of the parameters, to first order where the fit
+/// stands: 3 rows a reflector in the order of `targets`, which stand at `places` unloaded. R0, m per unit.
+Eigen::MatrixXd displacementByEffects(const diagnosis::SystemInput& input, const diagnosis::GapFit& fit,
+                                      const EffectColumns& columns, const effects::PostureStates& posture,
                                       std::size_t state, const std::vector<int>& targets,
                                       const std::vector<Eigen::Vector3d>& places);
 

@@ -9,6 +9,7 @@
 #include <random>
 #include <utility>
 
+#include "core/diagnosis/diagnose.h"
 #include "core/extended_model/corrected_campaign.h"
 #include "core/extended_model/effect_fit.h"
 #include "core/extended_model/method_equations.h"
@@ -116,6 +117,46 @@ ExtendedModel extendModel(const campaign::Campaign& campaign, EffectFit effects,
   addEffectsUncertainty(model);
   evaluateExtended(options, cases, model);
   model.with.cautions = identification::warningsOf(model.campaign, model.with);
+  return model;
+}
+
+namespace {
+
+/// The study's effects fitted to the whole day, and nothing where one of them cannot be.
+EffectFit chosenEffects(const preparation::PreparedCampaign& prepared, const diagnosis::GapStudy& study) {
+  try {
+    return fitEffects(prepared, chosenBy(study));
+  } catch (const UnfitEffect& error) {
+    EffectFit none;
+    none.notes.push_back(error.reason());
+    return none;
+  }
+}
+
+}  // namespace
+
+ExtendedModel supportedModel(const preparation::PreparedCampaign& prepared, const campaign::Campaign& campaign,
+                             const identification::IdentifyOptions& options) {
+  const bool thinned = diagnosis::isLong(prepared.campaign);
+  std::optional<preparation::PreparedCampaign> spread;
+  if (thinned) spread = diagnosis::spreadForDiagnosis(prepared);
+  const diagnosis::GapStudy study = diagnosis::studyGap(spread ? *spread : prepared, {});
+  if (!study.usable()) {
+    EffectFit none;
+    none.notes.emplace_back(RemarkId::diagnosis_has_no_gap, study.start->reason);
+    return extendModel(campaign, std::move(none), options);
+  }
+  ExtendedModel model = extendModel(campaign, chosenEffects(prepared, study), options);
+  const double gain = prepared.campaign.load_cell->gain_sigma;
+  if (!thinned) {
+    model.hidden = weighHiddenEffects(study, model.effects, model.with, model.without, gain, model.with);
+    return model;
+  }
+  std::vector<identification::LeftOutPosture> left_out;
+  campaign::Campaign seen = study.start->campaign;
+  if (!model.effects.free.empty()) seen = correctedFor(model.effects, seen, left_out);
+  model.hidden = weighHiddenEffects(study, model.effects, identification::identify(seen, valuesOnly(options)),
+                                    model.without, gain, model.with);
   return model;
 }
 

@@ -1,9 +1,13 @@
 #pragma once
 
 #include <array>
+#include <optional>
 
+#include "core/diagnosis/gap_study.h"
 #include "core/extended_model/effect_fit.h"
+#include "core/extended_model/hidden_effects.h"
 #include "core/identification/identify.h"
+#include "core/preparation/prepare.h"
 
 namespace stiffscope::extended_model {
 
@@ -33,10 +37,21 @@ struct ExtendedModel {
   campaign::Campaign campaign;  ///< what `with` was identified from
   identification::Identification without, with;
   EffectSpread spread;
+  std::optional<HiddenEffects> hidden;  ///< of the model that the data support: what could still hide
 };
 
 /// `campaign`: as identification sees it. No effect added, or all of size zero: `with` is `without`.
 ExtendedModel extendModel(const campaign::Campaign& campaign, EffectFit effects,
                           const identification::IdentifyOptions& options);
+
+/// The model that the data support: the effects that the joint fit of a diagnosis chooses, joint springs alone where it
+/// chooses none, and in the intervals what could still hide (hidden_effects.h). Of a long day the effects are chosen,
+/// and what could hide is weighed, on the postures that the diagnosis looks at; values are of all.
+///
+/// `prepared`: screened and corrected for drift. `campaign`: what is identified from, `prepared.campaign` or the same
+/// day as it was read. Where there is no gap to look at, springs alone, with `hidden` empty and the reason in the
+/// notes.
+ExtendedModel supportedModel(const preparation::PreparedCampaign& prepared, const campaign::Campaign& campaign,
+                             const identification::IdentifyOptions& options);
 
 }  // namespace stiffscope::extended_model

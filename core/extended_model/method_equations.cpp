@@ -23,8 +23,7 @@ std::size_t stateOf(const effects::PostureStates& posture, int step) {
 }
 
 /// From a geometry's R0 to that of the fit of the effects, both of the same readings.
-Eigen::Isometry3d fitFrom(const frames::LoadingGeometry& from, const EffectFit& effects) {
-  const frames::LoadingGeometry& fit = effects.fit.state.geometry;
+Eigen::Isometry3d fitFrom(const frames::LoadingGeometry& from, const frames::LoadingGeometry& fit) {
   Eigen::Isometry3d motion = Eigen::Isometry3d::Identity();
   if (from.r0_from_loading && fit.r0_from_loading) {
     motion = *fit.r0_from_loading * from.r0_from_loading->inverse();
@@ -32,6 +31,12 @@ Eigen::Isometry3d fitFrom(const frames::LoadingGeometry& from, const EffectFit& 
     motion.linear() = *fit.displacements_in_r0 * from.displacements_in_r0->transpose();
   }
   return motion;
+}
+
+/// Rows by three turned.
+void turn(const Eigen::Matrix3d& rotation, Eigen::MatrixXd& rows) {
+  for (Eigen::Index at = 0; at < rows.rows(); at += 3)
+    rows.middleRows<3>(at) = rotation * rows.middleRows<3>(at).eval();
 }
 
 CaseEffects effectsIn(const EffectFit& effects, const Eigen::MatrixXd& steps, const effects::PostureStates& posture,
@@ -54,10 +59,9 @@ CaseEffects effectsIn(const EffectFit& effects, const Eigen::MatrixXd& steps, co
     here.by_machine.segment<3>(row) = back * (offsets[state] - offsets[0]);
     row += 3;
   }
-  here.by_steps = displacementByEffects(effects, posture, state, targets, places) * steps;
-  for (Eigen::Index at = 0; at < row; at += 3) {
-    here.by_steps.middleRows<3>(at) = back * here.by_steps.middleRows<3>(at).eval();
-  }
+  here.by_steps =
+      displacementByEffects(*effects.input, effects.fit, columnsOf(effects), posture, state, targets, places) * steps;
+  turn(back, here.by_steps);
   return here;
 }
 
@@ -85,13 +89,45 @@ void fillNormal(std::vector<ExtendedEquations>& postures) {
   }
 }
 
+std::map<int, const diagnosis::GapPosture*> posturesOf(const diagnosis::GapFit& fit) {
+  std::map<int, const diagnosis::GapPosture*> postures;
+  for (const diagnosis::GapPosture& one : fit.data.postures) postures[one.pose] = &one;
+  return postures;
+}
+
 }  // namespace
+
+std::vector<CaseEffects> caseEffects(const diagnosis::GapStudy& study, const EffectColumns& columns,
+                                     const identification::Identification& result) {
+  const std::map<int, const diagnosis::GapPosture*> postures = posturesOf(study.fit);
+  const Eigen::Isometry3d fit_from_r0 = fitFrom(result.geometry, study.fit.state.geometry);
+  std::vector<CaseEffects> all(result.cases.size());
+  for (std::size_t i = 0; i < result.cases.size(); ++i) {
+    const LoadCase& load_case = result.cases[i];
+    std::vector<int> targets;
+    std::vector<Eigen::Vector3d> places;
+    for (const identification::TargetMove& move : load_case.targets) {
+      targets.push_back(move.target);
+      places.push_back(fit_from_r0 * move.unloaded);
+    }
+    const auto found = postures.find(load_case.pose);
+    if (found == postures.end()) {
+      all[i].by_steps.setZero(static_cast<Eigen::Index>(3 * targets.size()),
+                              static_cast<Eigen::Index>(columns.parameters.size()));
+      continue;
+    }
+    const effects::PostureStates& states = found->second->states;
+    all[i].by_steps = displacementByEffects(*study.input, study.fit, columns, states, stateOf(states, load_case.step),
+                                            targets, places);
+    turn(fit_from_r0.linear().transpose(), all[i].by_steps);
+  }
+  return all;
+}
 
 std::vector<CaseEffects> caseEffects(const EffectFit& effects, const Eigen::MatrixXd& steps,
                                      const identification::Identification& result) {
-  std::map<int, const diagnosis::GapPosture*> postures;
-  for (const diagnosis::GapPosture& one : effects.fit.data.postures) postures[one.pose] = &one;
-  const Eigen::Isometry3d fit_from_r0 = fitFrom(result.geometry, effects);
+  const std::map<int, const diagnosis::GapPosture*> postures = posturesOf(effects.fit);
+  const Eigen::Isometry3d fit_from_r0 = fitFrom(result.geometry, effects.fit.state.geometry);
   std::vector<CaseEffects> all;
   for (std::size_t i = 0; i < result.cases.size(); ++i) {
     const LoadCase& load_case = result.cases[i];

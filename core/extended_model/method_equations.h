@@ -2,6 +2,8 @@
 
 #include <vector>
 
+#include "core/diagnosis/gap_study.h"
+#include "core/extended_model/effect_offsets.h"
 #include "core/extended_model/fitted_effects.h"
 #include "core/identification/identification.h"
 
@@ -17,6 +19,11 @@ struct CaseEffects {
 
 /// One a case of `result`. `steps`: of the effects' free parameters, one a column (EffectFit::free the rows).
 std::vector<CaseEffects> caseEffects(const EffectFit& effects, const Eigen::MatrixXd& steps,
+                                     const identification::Identification& result);
+
+/// The same of any parameters of a study's equations, a step each of its own unit; `by_machine` empty. In postures that
+/// the study does not have (not every reflector read in all load steps) nothing moves.
+std::vector<CaseEffects> caseEffects(const diagnosis::GapStudy& study, const EffectColumns& columns,
                                      const identification::Identification& result);
 
 /// The equations of one posture with the effects in them, b = A c + E z: z the steps by which the effects' parameters

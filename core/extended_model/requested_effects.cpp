@@ -111,4 +111,18 @@ RequestedEffects namedBy(const diagnosis::Diagnosis& diagnosis) {
   return wanted;
 }
 
+RequestedEffects chosenBy(const diagnosis::GapStudy& study) {
+  RequestedEffects wanted;
+  for (const diagnosis::ChosenModel& one : study.fit.set.models) {
+    if (std::find(study.given.begin(), study.given.end(), one.model) != study.given.end()) continue;
+    const effects::EffectModel& model = study.input->models[one.model];
+    RequestedEffect effect{model.effect, {}, model.shape};
+    for (const std::size_t part : one.parts) {
+      if (!model.parts[part].detail.empty()) effect.parts.push_back(model.parts[part].detail);
+    }
+    wanted.effects.push_back(std::move(effect));
+  }
+  return wanted;
+}
+
 }  // namespace stiffscope::extended_model

@@ -5,6 +5,7 @@
 
 #include "core/campaign/campaign.h"
 #include "core/diagnosis/diagnosis.h"
+#include "core/diagnosis/gap_study.h"
 #include "core/extended_model/remarks.h"
 #include "core/io/input_error.h"
 #include "metrology/remark.h"
@@ -18,6 +19,7 @@ inline const io::InputPlace kWithOption{"--with"};
 struct RequestedEffect {
   effects::Effect effect = effects::Effect::link_compliance;
   std::vector<std::string> parts;  ///< as its model names them ("joint 3"); empty: those that stand out
+  std::string shape = {};          ///< the one of its models that is meant; empty: the best
 };
 
 /// What the model is to have besides joint springs, and what there is to say about how it came to that.
@@ -33,5 +35,9 @@ RequestedEffects requestedEffects(const std::vector<std::string>& words, const c
 /// What a diagnosis names. Of effects that it cannot tell apart the first, which fits best. Nothing, and why,
 /// where it names none, or only `unknown`.
 RequestedEffects namedBy(const diagnosis::Diagnosis& diagnosis);
+
+/// What the joint fit of a diagnosis has chosen, part by part; without what the nests put in, which preparation has
+/// taken off the readings.
+RequestedEffects chosenBy(const diagnosis::GapStudy& study);
 
 }  // namespace stiffscope::extended_model

@@ -305,6 +305,7 @@ constexpr double kInfinite = std::numeric_limits<double>::infinity();
 }  // namespace
 
 CoverageInterval complianceInterval(const StiffnessEstimate& estimate, int joint, double coverage) {
+  if (!estimate.stated.empty() && coverage == kStatedCoverage) return estimate.stated[static_cast<std::size_t>(joint)];
   const double reach = coverageFactor(estimate, joint, coverage) * std::sqrt(estimate.covariance(joint, joint));
   if (!std::isfinite(reach)) return {-kInfinite, kInfinite};
   return {estimate.compliance[joint] - reach, estimate.compliance[joint] + reach};
@@ -318,6 +319,13 @@ CoverageInterval stiffnessInterval(const CoverageInterval& compliance) {
 
 CoverageInterval stiffnessInterval(const StiffnessEstimate& estimate, int joint, double coverage) {
   return stiffnessInterval(complianceInterval(estimate, joint, coverage));
+}
+
+double expandedUncertainty(const StiffnessEstimate& estimate, int joint) {
+  if (estimate.stated.empty()) return coverageFactor(estimate, joint, kStatedCoverage) * estimate.stiffnessSd(joint);
+  const CoverageInterval interval = stiffnessInterval(estimate, joint);
+  const double k = estimate.stiffness(joint);
+  return std::max(interval.high - k, k - interval.low);
 }
 
 Matrix6d correlation(const StiffnessEstimate& estimate) {

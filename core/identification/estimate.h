@@ -27,6 +27,12 @@ struct CovarianceParts {
   Matrix6d total() const { return scatter + frames + wrist + geometry + effects; }
 };
 
+/// Between two numbers; infinite where it is open.
+struct CoverageInterval {
+  double low = 0.0, high = 0.0;
+  bool holds(double value) const { return low <= value && value <= high; }
+};
+
 /// Joint stiffnesses by one method, from one set of load cases.
 struct StiffnessEstimate {
   Vector6d compliance = Vector6d::Zero();  ///< c = 1/k, rad/Nm; 0 for a joint that is not identifiable
@@ -35,6 +41,9 @@ struct StiffnessEstimate {
   CovarianceParts parts;
   std::vector<Vector6d> influences;         ///< g_p, one a posture
   Vector6d scatter_dof = Vector6d::Zero();  ///< of the scatter, by matchedDof
+  /// Where effects besides joint springs were weighed (extended_model/hidden_effects.h): for each joint the interval of
+  /// c at the stated coverage, which holds what could still hide. Empty without: Student's interval is the stated one.
+  std::vector<CoverageInterval> stated;
   robot::JointMask identifiable{};
   double condition = 0.0;     ///< of the stacked equations, columns scaled to unit length
   double rms_residual = 0.0;  ///< plain, of the positions the method fits, per coordinate, m
@@ -154,23 +163,22 @@ InfluenceCovariance influenceCovariance(const std::vector<PostureGain>& gains,
 /// the second moment matters.
 double matchedDof(const InfluenceCovariance& covariance);
 
-/// Between two numbers; infinite where it is open.
-struct CoverageInterval {
-  double low = 0.0, high = 0.0;
-  bool holds(double value) const { return low <= value && value <= high; }
-};
-
 /// Coverage of the intervals that reports state.
 inline constexpr double kStatedCoverage = 0.95;
 
-/// c -+ t u(c), t the quantile of Student's distribution with the estimate's effective degrees of freedom. Infinite
-/// where the postures are too few for an uncertainty.
+/// The estimate's own `stated` one where it has that and `coverage` is the stated one; else c -+ t u(c), t the quantile
+/// of Student's distribution with the estimate's effective degrees of freedom. Infinite where the postures are too few
+/// for an uncertainty.
 CoverageInterval complianceInterval(const StiffnessEstimate& estimate, int joint, double coverage = kStatedCoverage);
 
 /// 1/c over an interval of compliances. Where that includes zero, the data only says that the joint is stiffer than
 /// 1/high: the result is open above. Both ends negative for an interval that lies below zero.
 CoverageInterval stiffnessInterval(const CoverageInterval& compliance);
 CoverageInterval stiffnessInterval(const StiffnessEstimate& estimate, int joint, double coverage = kStatedCoverage);
+
+/// U of k, Nm/rad, at the stated coverage: t u(k) to first order, or, of an estimate with a `stated` interval, the
+/// distance of its farther end, so that k -+ U holds it. Infinite where the interval is open.
+double expandedUncertainty(const StiffnessEstimate& estimate, int joint);
 
 /// Correlation of the compliances; rows and columns of joints that are not identifiable are zero.
 Matrix6d correlation(const StiffnessEstimate& estimate);

@@ -7,6 +7,7 @@
 #include "core/effects/all.h"
 #include "core/io/units.h"
 #include "reports/words/effect_words.h"
+#include "reports/words/extended_model_words.h"
 #include "reports/words/names.h"
 #include "reports/words/remark_words.h"
 
@@ -101,6 +102,52 @@ Json extendedModelJson(const extended_model::ExtendedModel& model, const std::ve
                                      {"with", shownMethodJson(model.with.of(which))}};
   }
   json["methods"] = by_method;
+  return json;
+}
+
+namespace {
+
+Json budgetJson(const std::vector<extended_model::BudgetLine>& budget,
+                const identification::StiffnessEstimate& estimate) {
+  Json rows = Json::array();
+  for (const extended_model::BudgetLine& line : budget) {
+    Json u = Json::array(), dof = Json::array();
+    for (int j = 0; j < 6; ++j) {
+      const bool seen = estimate.identifiable[static_cast<std::size_t>(j)];
+      const double slope = 1.0 / (estimate.compliance[j] * estimate.compliance[j]);
+      const double sd = std::copysign(std::sqrt(std::abs(line.variance[j])), line.variance[j]);
+      u.push_back(seen ? number(sd * slope) : Json(nullptr));
+      dof.push_back(seen && line.dof[j] > 0.0 ? number(line.dof[j]) : Json(nullptr));
+    }
+    rows.push_back({{"source", budgetKey(line)}, {"in_model", line.in_model}, {"u_nm_per_rad", u}, {"dof", dof}});
+  }
+  return rows;
+}
+
+}  // namespace
+
+Json withSupport(Json json, const extended_model::ExtendedModel& model,
+                 const std::vector<identification::Method>& methods) {
+  if (!model.hidden) return json;
+  const extended_model::HiddenEffects& hidden = *model.hidden;
+  Json effects = Json::array();
+  for (const extended_model::AddedEffect& one : model.effects.added)
+    effects.push_back({{"effect", std::string(effects::idOf(one.effect))}, {"detail", one.detail}});
+  json["model"] = {{"effects", effects},
+                   {"lack_of_fit", number(hidden.lack_of_fit)},
+                   {"left_over", number(hidden.left_over)},
+                   {"unexplained_share", number(hidden.unexplained_share)},
+                   {"unexplained", hidden.unexplained},
+                   {"message", residualWords(model)}};
+  Json apparent = Json::object();
+  for (const identification::Method which : methods) {
+    const char* key = namesOf(which).key;
+    apparent[key] = shownMethodJson(model.without.of(which));
+    if (model.with.of(which).available)
+      json["methods"][key]["budget"] =
+          budgetJson(hidden.budget[static_cast<std::size_t>(which)], model.with.of(which).estimate);
+  }
+  json["apparent"] = apparent;
   return json;
 }
 

@@ -85,6 +85,12 @@ const char* nameOf(preparation::AuditVerdict verdict);
 /// `with`: the effects added to the joint springs, what they explain, and each method without and with them.
 Json extendedModelJson(const extended_model::ExtendedModel& model, const std::vector<identification::Method>& methods);
 
+/// `model` of the model that the data support (its effects, what springs alone and the model leave of the noise's
+/// chi-square, whether that is explained), `apparent` (each method by joint springs alone) and, in each of `methods`,
+/// `budget`: rows {source, in_model, u_nm_per_rad[6], dof[6]}.
+Json withSupport(Json json, const extended_model::ExtendedModel& model,
+                 const std::vector<identification::Method>& methods);
+
 /// A result with that key.
 Json withEffects(Json json, const extended_model::ExtendedModel& model,
                  const std::vector<identification::Method>& methods);

@@ -2,6 +2,7 @@
 #include "reports/text/text.h"
 
 #include <fmt/format.h>
+#include <algorithm>
 #include <cmath>
 #include <iterator>
 
@@ -47,8 +48,7 @@ void writeEffect(const extended_model::AddedEffect& one, Out out) {
 
 std::string stiffnessCell(const identification::StiffnessEstimate& estimate, int joint) {
   if (!estimate.identifiable[static_cast<std::size_t>(joint)]) return "-";
-  const double expanded = identification::coverageFactor(estimate, joint, identification::kStatedCoverage) *
-                          estimate.stiffnessSd(joint) * 1e-6;
+  const double expanded = identification::expandedUncertainty(estimate, joint) * 1e-6;
   return fmt::format("{:.4f} +-{}", estimate.stiffness(joint) * 1e-6,
                      std::isfinite(expanded) ? fmt::format("{:.4f}", expanded) : "?");
 }
@@ -82,7 +82,7 @@ void writeStiffnesses(const extended_model::ExtendedModel& model, const std::vec
       for (int joint = 0; joint < 6; ++joint) fmt::format_to(out, " {:>17}", cell(method.estimate, joint));
       fmt::format_to(out, "\n");
     };
-    row("without", model.without.of(which), stiffnessCell);
+    row(model.hidden ? "apparent" : "without", model.without.of(which), stiffnessCell);
     row("with", model.with.of(which), stiffnessCell);
     row("by effects", model.with.of(which), byEffects);
   }
@@ -104,6 +104,49 @@ void writeResiduals(const extended_model::ExtendedModel& model, const std::vecto
   }
 }
 
+/// Standard uncertainties of k in per cent, line by line; lines that are nowhere above a twentieth of the whole are
+/// left out.
+void writeBudget(const std::vector<extended_model::BudgetLine>& budget,
+                 const identification::StiffnessEstimate& estimate, identification::Method which, Out out) {
+  if (budget.empty()) return;
+  fmt::format_to(out, "\nWhere the uncertainty of {} comes from: standard uncertainty of k, %\n  {:<34}",
+                 namesOf(which).brief, "");
+  for (int joint = 1; joint <= 6; ++joint) fmt::format_to(out, "{:>10}", fmt::format("k{}", joint));
+  fmt::format_to(out, "\n");
+  const auto cell = [&](int j, double variance) {
+    if (!estimate.identifiable[static_cast<std::size_t>(j)]) return std::string("-");
+    const double share = std::sqrt(std::abs(variance)) / std::abs(estimate.compliance[j]);
+    return fmt::format("{}{:.2f}", variance < 0.0 ? "-" : "", 100.0 * share);
+  };
+  const auto row = [&](const std::string& name, const Vector6d& variance) {
+    fmt::format_to(out, "  {:<34}", name);
+    for (int j = 0; j < 6; ++j) fmt::format_to(out, "{:>10}", cell(j, variance[j]));
+    fmt::format_to(out, "\n");
+  };
+  constexpr double kShown = 0.05 * 0.05;
+  for (const extended_model::BudgetLine& line : budget) {
+    bool shown = line.in_model;
+    for (int j = 0; j < 6; ++j)
+      shown = shown || (estimate.identifiable[static_cast<std::size_t>(j)] &&
+                        std::abs(line.variance[j]) > kShown * estimate.covariance(j, j));
+    if (shown) row(budgetWords(line), line.variance);
+  }
+  row("together", estimate.covariance.diagonal());
+}
+
+/// Of the method that a reader takes first.
+void writeHidden(const extended_model::ExtendedModel& model, const std::vector<identification::Method>& methods,
+                 Out out) {
+  fmt::format_to(out, "\n{}\n", wrapped(residualWords(model), 0));
+  for (const identification::Method which :
+       {identification::Method::decoupled_partial_pose, identification::Method::partial_pose,
+        identification::Method::complete_pose}) {
+    if (std::find(methods.begin(), methods.end(), which) == methods.end() || !model.with.of(which).available) continue;
+    writeBudget(model.hidden->budget[static_cast<std::size_t>(which)], model.with.of(which).estimate, which, out);
+    return;
+  }
+}
+
 }  // namespace
 
 std::string addedEffectsText(const extended_model::EffectFit& effects) {
@@ -120,8 +163,11 @@ std::string addedEffectsText(const extended_model::EffectFit& effects) {
 std::string extendedModelText(const extended_model::ExtendedModel& model,
                               const std::vector<identification::Method>& methods) {
   std::string text = addedEffectsText(model.effects);
-  if (model.effects.added.empty()) return text;
   const auto out = std::back_inserter(text);
+  if (model.effects.added.empty()) {
+    if (model.hidden) writeHidden(model, methods, out);
+    return text;
+  }
   writeStiffnesses(model, methods, out);
   writeResiduals(model, methods, out);
   fmt::format_to(
@@ -129,6 +175,7 @@ std::string extendedModelText(const extended_model::ExtendedModel& model,
       wrapped("Held out: springs and effects fitted anew on the postures of each subset; parts of an effect stay as "
               "chosen. Stiffnesses are those of the joint springs beside the effects.",
               0));
+  if (model.hidden) writeHidden(model, methods, out);
   return text;
 }
 

@@ -147,16 +147,17 @@ std::string markedStiffnessCell(const identification::StiffnessEstimate& estimat
   if (!estimate.identifiable[static_cast<std::size_t>(joint)]) return "-";
   const char* mark =
       estimate.mark(joint).empty() ? "" : (estimate.mark(joint).is(identification::RemarkId::negative) ? "!" : "?");
-  const double expanded = identification::coverageFactor(estimate, joint, identification::kStatedCoverage) *
-                          estimate.stiffnessSd(joint) * 1e-6;
+  const double expanded = identification::expandedUncertainty(estimate, joint) * 1e-6;
   return fmt::format("{:.4f} +-{}{}", estimate.stiffness(joint) * 1e-6,
                      std::isfinite(expanded) ? fmt::format("{:.4f}", expanded) : "?", mark);
 }
 
 void writeStiffness(const identification::Identification& result, const std::vector<identification::Method>& methods,
                     Out out) {
-  fmt::format_to(out, "\nStiffness, 1e6 Nm/rad, with its expanded uncertainty U (coverage 95 %, Student's t)\n  {:<5}",
-                 "");
+  const bool weighed = std::any_of(result.methods.begin(), result.methods.end(),
+                                   [](const auto& method) { return !method.estimate.stated.empty(); });
+  fmt::format_to(out, "\nStiffness, 1e6 Nm/rad, with its expanded uncertainty U (coverage 95 %, {})\n  {:<5}",
+                 weighed ? "effects that could hide in it" : "Student's t", "");
   for (int joint = 1; joint <= 6; ++joint) fmt::format_to(out, " {:>17}", fmt::format("k{}", joint));
   fmt::format_to(out, "\n");
   bool negative = false, imprecise = false;

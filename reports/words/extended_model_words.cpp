@@ -48,6 +48,67 @@ std::string addedWords(const extended_model::EffectFit& effects) {
 
 }  // namespace
 
+std::string budgetKey(const extended_model::BudgetLine& line) {
+  using extended_model::BudgetSource;
+  switch (line.source) {
+    case BudgetSource::scatter:
+      return "scatter";
+    case BudgetSource::frames:
+      return "frames";
+    case BudgetSource::wrist:
+      return "wrist";
+    case BudgetSource::geometry:
+      return "geometry";
+    case BudgetSource::effect:
+      return std::string(effects::idOf(*line.effect));
+    case BudgetSource::correlation:
+      return "correlation_of_effects";
+    case BudgetSource::load_cell_gain:
+      return "load_cell_gain";
+    case BudgetSource::apparent:
+      return "apparent";
+  }
+  return {};
+}
+
+std::string budgetWords(const extended_model::BudgetLine& line) {
+  using extended_model::BudgetSource;
+  switch (line.source) {
+    case BudgetSource::scatter:
+      return "scatter between postures";
+    case BudgetSource::frames:
+      return "measured axes";
+    case BudgetSource::wrist:
+      return "radii about the wrist";
+    case BudgetSource::geometry:
+      return "calibrated geometry";
+    case BudgetSource::effect:
+      return fmt::format("{}, {}", effectName(*line.effect), line.in_model ? "as fitted" : "could hide");
+    case BudgetSource::correlation:
+      return "effects in common";
+    case BudgetSource::load_cell_gain:
+      return "load cell's scale";
+    case BudgetSource::apparent:
+      return "no model explains the gap";
+  }
+  return {};
+}
+
+std::string residualWords(const extended_model::ExtendedModel& model) {
+  const extended_model::HiddenEffects& hidden = *model.hidden;
+  std::string text = fmt::format("Joint springs alone leave {:.3g} times the noise's chi-square", hidden.lack_of_fit);
+  if (!model.effects.added.empty()) text += fmt::format(", the model {:.3g}", hidden.left_over);
+  if (hidden.unexplained)
+    return text + fmt::format(
+                      "; {:.0f} % of the gap is explained by no effect that is known here: values are apparent "
+                      "ones, and the intervals hold what springs alone say, too.",
+                      100.0 * hidden.unexplained_share);
+  constexpr double kNotNoise = 1.25;
+  const double left = model.effects.added.empty() ? hidden.lack_of_fit : hidden.left_over;
+  if (left > kNotNoise) return text + "; what is left is more than noise, and in the scatter between postures.";
+  return text + "; 1 is noise.";
+}
+
 std::string gainWords(const extended_model::ExtendedModel& model) {
   if (model.effects.added.empty()) {
     std::string text = "No effect was added to the joint springs.";

@@ -16,6 +16,15 @@ std::string explainedWords(const extended_model::EffectFit& effects);
 /// the method that stands for the campaign. Where nothing was added, that and why.
 std::string gainWords(const extended_model::ExtendedModel& model);
 
+/// What a line of the budget stands for: "scatter between postures", "bearing tilt, fitted", "backlash, could hide".
+std::string budgetWords(const extended_model::BudgetLine& line);
+/// Its key in JSON and CSV.
+std::string budgetKey(const extended_model::BudgetLine& line);
+
+/// What springs alone and the model leave of the readings, in multiples of the noise, and whether that is explained:
+/// said whatever the sizes are.
+std::string residualWords(const extended_model::ExtendedModel& model);
+
 /// What an effect came out as that a reader must know: beyond its bounds, or within the noise; empty where neither.
 std::string doubtOf(const extended_model::AddedEffect& effect);
 

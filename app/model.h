@@ -1,0 +1,32 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/extended_model/extended_model.h"
+#include "core/identification/identify.h"
+#include "core/preparation/prepare.h"
+
+namespace CLI {
+class App;
+}
+
+namespace stiffscope::app {
+
+/// Which model a command computes by.
+struct ModelChoice {
+  std::vector<std::string> with;  ///< effects asked for; empty or "auto": what the data support
+  bool springs_only = false;      ///< the paper's
+};
+
+/// Adds --with and --springs-only to a command.
+void addModelOptions(CLI::App& command, ModelChoice& choice);
+
+/// The model that was asked for, fitted to the campaign as it is used; empty for joint springs alone. Throws InputError
+/// for names that are unknown or do not go together, and for effects that the campaign cannot show.
+std::optional<extended_model::ExtendedModel> modelOf(const preparation::PreparedCampaign& prepared,
+                                                     const ModelChoice& choice,
+                                                     const identification::IdentifyOptions& options);
+
+}  // namespace stiffscope::app

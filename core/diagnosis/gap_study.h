@@ -1,0 +1,38 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "core/diagnosis/diagnosis.h"
+#include "core/diagnosis/diagnosis_input.h"
+#include "core/diagnosis/fit.h"
+#include "core/preparation/prepare.h"
+
+namespace stiffscope::diagnosis {
+
+struct DiagnoseOptions;
+
+/// The joint fit that a diagnosis stands on: every effect that the campaign can show in the equations, and of them the
+/// set that the data support (fitGap). The diagnosis judges it; the model that identification uses by default is made
+/// of it, so that both speak of the same machine.
+struct GapStudy {
+  std::unique_ptr<const DiagnosisInput> start;  ///< what `input` refers to
+  std::unique_ptr<const SystemInput> input;     ///< with every effect's models
+  std::vector<bool> allowed;                    ///< of those models: what the campaign can show
+  std::vector<std::size_t> given;               ///< models that the nests put in
+  std::vector<NotTestable> not_testable;        ///< effects, and what is missing to show them
+  GapFit fit;                                   ///< empty where `start->reason` says why there is no gap
+
+  bool usable() const { return start->reason.empty(); }
+};
+
+/// `prepared` must have been thinned where the day is long (spreadForDiagnosis).
+GapStudy studyGap(const preparation::PreparedCampaign& prepared, const DiagnoseOptions& options);
+
+/// Whether a day has more postures, or longer sweeps, than a diagnosis looks at.
+bool isLong(const campaign::Campaign& campaign);
+
+/// Everything of `prepared` but the readings that take no part in the diagnosis of a long day.
+preparation::PreparedCampaign spreadForDiagnosis(const preparation::PreparedCampaign& prepared);
+
+}  // namespace stiffscope::diagnosis

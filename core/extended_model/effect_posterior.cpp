@@ -1,0 +1,147 @@
+#include "core/extended_model/effect_posterior.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+
+#include "core/numerics/random.h"
+
+namespace stiffscope::extended_model {
+
+namespace {
+
+using numerics::RandomStream;
+
+double exponential(RandomStream& random) { return -std::log(random.uniform()); }
+
+/// Gamma of shape `halves` / 2 and scale 1.
+double gammaOfHalves(std::size_t halves, RandomStream& random) {
+  double sum = 0.0;
+  for (std::size_t k = 0; k < halves / 2; ++k) sum += exponential(random);
+  if (halves % 2 == 1) {
+    const double z = random.normal();
+    sum += 0.5 * z * z;
+  }
+  return sum;
+}
+
+/// N(mean, sd^2) given that it is positive.
+double positiveNormal(double mean, double sd, RandomStream& random) {
+  const double least = -mean / sd;  // of the standard normal number
+  constexpr double kTail = 5.0;
+  if (least < kTail) {
+    const double above = 0.5 * std::erfc(least / std::sqrt(2.0));
+    const double p = std::clamp(random.uniform() * above, 1e-300, 1.0 - 1e-16);
+    return std::max(0.0, mean - sd * numerics::inverseNormal(p));
+  }
+  // Beyond it by rejection from an exponential (Robert, Statistics and Computing 5, 1995, 121).
+  for (;;) {
+    const double beyond = exponential(random) / least;
+    if (std::log(random.uniform()) <= -0.5 * beyond * beyond) return sd * beyond;
+  }
+}
+
+class Sampler {
+ public:
+  Sampler(const EffectEvidence& evidence, std::uint64_t seed)
+      : evidence_(evidence), random_(seed, "what could hide"), x_(Eigen::VectorXd::Zero(evidence.right.size())) {
+    for (std::size_t i = 0; i < evidence.positive.size(); ++i)
+      (evidence.positive[i] ? positive_ : free_).push_back(static_cast<Eigen::Index>(i));
+    const std::size_t groups =
+        evidence.group.empty() ? 0 : *std::max_element(evidence.group.begin(), evidence.group.end()) + 1;
+    members_.resize(groups, 0);
+    for (const std::size_t g : evidence.group) ++members_[g];
+    local_ = local_mix_ = Eigen::VectorXd::Ones(x_.size());
+    effect_ = Eigen::VectorXd::Constant(static_cast<Eigen::Index>(groups), kUsual * kUsual);
+    effect_mix_ = Eigen::VectorXd::Ones(effect_.size());
+    among_free_ = evidence.normal(free_, free_);
+    free_positive_ = evidence.normal(free_, positive_);
+    among_positive_ = evidence.normal(positive_, positive_);
+  }
+
+  const Eigen::VectorXd& next() {
+    drawParameters();
+    drawScales();
+    return x_;
+  }
+
+ private:
+  double priorWeight(Eigen::Index i) const { return 1.0 / (local_[i] * effect_[groupOf(i)]); }
+  Eigen::Index groupOf(Eigen::Index i) const {
+    return static_cast<Eigen::Index>(evidence_.group[static_cast<std::size_t>(i)]);
+  }
+
+  void drawParameters() {
+    // Parameters of either sign by a factor of their own block, rows and columns scaled to a unit diagonal.
+    Eigen::MatrixXd block = among_free_;
+    for (Eigen::Index i = 0; i < block.rows(); ++i) block(i, i) += priorWeight(free_[static_cast<std::size_t>(i)]);
+    const Eigen::VectorXd scale = block.diagonal().cwiseSqrt().cwiseInverse();
+    block = scale.asDiagonal() * block * scale.asDiagonal();
+    block.diagonal().array() += kRounding;
+    const Eigen::LLT<Eigen::MatrixXd> factor(block);
+    const Eigen::MatrixXd through = factor.matrixL().solve(scale.asDiagonal() * free_positive_);
+    const Eigen::VectorXd turned = factor.matrixL().solve(scale.cwiseProduct(evidence_.right(free_).eval()));
+    drawPositive(through, turned);
+    Eigen::VectorXd noise(block.rows());
+    for (double& one : noise) one = random_.normal();
+    const Eigen::VectorXd whitened = turned - through * x_(positive_).eval() + noise;
+    x_(free_) = scale.cwiseProduct(Eigen::VectorXd(factor.matrixU().solve(whitened)));
+  }
+
+  /// One after the other, those of either sign integrated out.
+  void drawPositive(const Eigen::MatrixXd& through, const Eigen::VectorXd& turned) {
+    Eigen::MatrixXd weight = among_positive_ - through.transpose() * through;
+    for (Eigen::Index i = 0; i < weight.rows(); ++i)
+      weight(i, i) = std::max(weight(i, i), 0.0) + priorWeight(positive_[static_cast<std::size_t>(i)]);
+    Eigen::VectorXd y = x_(positive_);
+    Eigen::VectorXd slope = evidence_.right(positive_).eval() - through.transpose() * turned - weight * y;
+    constexpr int kSweeps = 4;  // cheap beside the factor, and neighbours in a class follow each other slowly
+    for (int sweep = 0; sweep < kSweeps; ++sweep) {
+      for (Eigen::Index i = 0; i < y.size(); ++i) {
+        const double variance = 1.0 / weight(i, i);
+        const double drawn = positiveNormal(y[i] + variance * slope[i], std::sqrt(variance), random_);
+        slope -= weight.col(i) * (drawn - y[i]);
+        y[i] = drawn;
+      }
+    }
+    x_(positive_) = y;
+  }
+
+  void drawScales() {
+    Eigen::VectorXd sum = Eigen::VectorXd::Zero(effect_.size());
+    for (Eigen::Index i = 0; i < x_.size(); ++i) {
+      const double square = std::max(x_[i] * x_[i], kLeastSquare);
+      local_[i] = (1.0 / local_mix_[i] + square / (2.0 * effect_[groupOf(i)])) / exponential(random_);
+      local_mix_[i] = (1.0 + 1.0 / local_[i]) / exponential(random_);
+      sum[groupOf(i)] += square / local_[i];
+    }
+    for (Eigen::Index g = 0; g < effect_.size(); ++g) {
+      const std::size_t members = members_[static_cast<std::size_t>(g)];
+      effect_[g] = (1.0 / effect_mix_[g] + 0.5 * sum[g]) / gammaOfHalves(members + 1, random_);
+      effect_mix_[g] = (1.0 / (kUsual * kUsual) + 1.0 / effect_[g]) / exponential(random_);
+    }
+  }
+
+  static constexpr double kRounding = 1e-10, kLeastSquare = 1e-60;
+
+  const EffectEvidence& evidence_;
+  RandomStream random_;
+  Eigen::VectorXd x_;
+  std::vector<Eigen::Index> free_, positive_;
+  std::vector<std::size_t> members_;                                  ///< parameters of each effect
+  Eigen::VectorXd local_, local_mix_, effect_, effect_mix_;           ///< l^2, t^2 and what mixes them
+  Eigen::MatrixXd among_free_, free_positive_, among_positive_;
+};
+
+}  // namespace
+
+Eigen::MatrixXd drawEffects(const EffectEvidence& evidence, const PosteriorOptions& options) {
+  Eigen::MatrixXd draws(evidence.right.size(), options.draws);
+  if (draws.size() == 0) return draws;
+  Sampler sampler(evidence, options.seed);
+  for (int i = 0; i < options.warm_up; ++i) sampler.next();
+  for (int i = 0; i < options.draws; ++i) draws.col(i) = sampler.next();
+  return draws;
+}
+
+}  // namespace stiffscope::extended_model

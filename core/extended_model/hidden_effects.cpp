@@ -1,0 +1,271 @@
+#include "core/extended_model/hidden_effects.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include "core/extended_model/effect_posterior.h"
+#include "core/extended_model/method_equations.h"
+#include "core/identification/estimate.h"
+#include "core/numerics/random.h"
+
+namespace stiffscope::extended_model {
+
+namespace {
+
+using identification::Method;
+using identification::StiffnessEstimate;
+
+/// The parameters that may hide, and draws of how far they are from what was fitted.
+struct HiddenParameters {
+  EffectColumns columns;
+  std::vector<effects::Effect> effect;  ///< of each parameter
+  Eigen::MatrixXd off;                  ///< theta - theta_fit, a draw each column
+};
+
+/// One model for each effect that the campaign can show: the chosen one, else the first.
+std::vector<std::size_t> modelOfEach(const diagnosis::GapStudy& study) {
+  std::map<effects::Effect, std::size_t> model_of;
+  const std::vector<effects::EffectModel>& models = study.input->models;
+  for (const diagnosis::ChosenModel& one : study.fit.set.models) model_of.emplace(models[one.model].effect, one.model);
+  for (std::size_t m = 0; m < models.size(); ++m) {
+    if (study.allowed[m]) model_of.emplace(models[m].effect, m);
+  }
+  std::vector<std::size_t> chosen;
+  for (const auto& [effect, model] : model_of) chosen.push_back(model);
+  std::sort(chosen.begin(), chosen.end());
+  return chosen;
+}
+
+/// What was fitted of a model of the study; zero where it was not.
+Eigen::VectorXd fittedOf(const effects::EffectModel& model, const EffectFit& fitted) {
+  if (fitted.input) {
+    for (const diagnosis::ChosenModel& one : fitted.fit.set.models) {
+      const effects::EffectModel& own = fitted.input->models[one.model];
+      if (own.effect == model.effect && own.shape == model.shape) return fitted.parametersOf(one);
+    }
+  }
+  return Eigen::VectorXd::Zero(static_cast<Eigen::Index>(model.parameters()));
+}
+
+HiddenParameters hiddenParameters(const diagnosis::GapStudy& study, const EffectFit& fitted) {
+  const diagnosis::GapLayout& layout = study.fit.data.layout;
+  const diagnosis::Projection& projection = study.fit.projection;
+  HiddenParameters hidden;
+  EffectEvidence evidence;
+  std::vector<double> bound, at_fit;
+  hidden.columns.models = modelOfEach(study);
+  for (std::size_t g = 0; g < hidden.columns.models.size(); ++g) {
+    const std::size_t m = hidden.columns.models[g];
+    const effects::EffectModel& model = study.input->models[m];
+    const Eigen::VectorXd own = fittedOf(model, fitted);
+    Eigen::Index at = layout.model_at[m] - layout.effects, of_own = 0;
+    for (const effects::EffectPart& part : model.parts) {
+      for (const double most : part.most) {
+        if (projection.before[at] > 0.0) {
+          hidden.columns.parameters.push_back(at);
+          hidden.effect.push_back(model.effect);
+          evidence.group.push_back(g);
+          evidence.positive.push_back(part.positive);
+          bound.push_back(most);
+          at_fit.push_back(own[of_own]);
+        }
+        ++at, ++of_own;
+      }
+    }
+  }
+  const Eigen::VectorXd scale = Eigen::VectorXd::Map(bound.data(), static_cast<Eigen::Index>(bound.size()));
+  const Eigen::VectorXd from = Eigen::VectorXd::Map(at_fit.data(), scale.size());
+  // What no effect explains counts as noise.
+  const double noise = std::max(1.0, diagnosis::leftPerEquation(study.fit));
+  const std::vector<Eigen::Index>& kept = hidden.columns.parameters;
+  evidence.normal = scale.asDiagonal() * projection.matrix(kept, kept) * scale.asDiagonal() / noise;
+  evidence.right = scale.cwiseProduct(projection.right(kept).eval()) / noise;
+  hidden.off = (scale.asDiagonal() * drawEffects(evidence)).colwise() - from;
+  return hidden;
+}
+
+/// -H: how a method's compliances follow each parameter.
+Eigen::Matrix<double, 6, Eigen::Dynamic> gains(const std::vector<CaseEffects>& cases,
+                                               const identification::Identification& seen, Method which,
+                                               Eigen::Index parameters) {
+  const MethodEquations equations = methodEquations(seen, which, cases);
+  if (equations.reflectors.empty()) return {};
+  const std::vector<double> all(equations.reflectors.size(), 1.0);
+  const auto at = [&](const Eigen::VectorXd& steps) {
+    return solvedCompliance(equations, which, seen.of(which).estimate.identifiable, all, steps);
+  };
+  const Vector6d here = at(Eigen::VectorXd::Zero(parameters));
+  Eigen::Matrix<double, 6, Eigen::Dynamic> gain(6, parameters);
+  for (Eigen::Index k = 0; k < parameters; ++k) gain.col(k) = at(Eigen::VectorXd::Unit(parameters, k)) - here;
+  return gain;
+}
+
+bool allPositive(const Vector6d& compliance, const robot::JointMask& identifiable) {
+  for (int j = 0; j < 6; ++j) {
+    if (identifiable[static_cast<std::size_t>(j)] && compliance[j] <= 0.0) return false;
+  }
+  return true;
+}
+
+/// Columns of draws with no negative stiffness; all where hardly one is without.
+std::vector<Eigen::Index> possibleDraws(const StiffnessEstimate& estimate, const Eigen::MatrixXd& moved) {
+  std::vector<Eigen::Index> kept, all;
+  for (Eigen::Index d = 0; d < moved.cols(); ++d) {
+    all.push_back(d);
+    if (allPositive(estimate.compliance + moved.col(d), estimate.identifiable)) kept.push_back(d);
+  }
+  constexpr std::size_t kFew = 20;
+  return kept.size() < kFew ? all : kept;
+}
+
+Vector6d meanSquare(const Eigen::MatrixXd& rows) {
+  return rows.cols() > 0 ? Vector6d(rows.rowwise().squaredNorm() / static_cast<double>(rows.cols()))
+                         : Vector6d(Vector6d::Zero());
+}
+
+identification::CoverageInterval quantiles(std::vector<double>& values, double coverage) {
+  std::sort(values.begin(), values.end());
+  const auto at = [&](double p) { return values[static_cast<std::size_t>(p * static_cast<double>(values.size() - 1))]; };
+  return {at(0.5 * (1.0 - coverage)), at(0.5 * (1.0 + coverage))};
+}
+
+class MethodWeigher {
+ public:
+  MethodWeigher(const HiddenParameters& hidden, double gain_sd, bool unexplained)
+      : hidden_(hidden), gain_sd_(gain_sd), unexplained_(unexplained) {}
+
+  std::vector<BudgetLine> weigh(const Eigen::Matrix<double, 6, Eigen::Dynamic>& gain, const StiffnessEstimate& alone,
+                                const std::vector<effects::Effect>& in_model, StiffnessEstimate& estimate) const {
+    const Eigen::MatrixXd moved_by_all = gain * hidden_.off;
+    const std::vector<Eigen::Index> kept = possibleDraws(estimate, moved_by_all);
+    const Eigen::MatrixXd moved = moved_by_all(Eigen::all, kept), off = hidden_.off(Eigen::all, kept);
+    StiffnessEstimate own = estimate;  // without the effects, whose part the draws are
+    own.parts.effects.setZero();
+    own.covariance = own.parts.total();
+    std::vector<BudgetLine> budget = sharedLines(own);
+    addEffectLines(gain, off, moved, in_model, budget);
+    Vector6d more = Vector6d::Zero();
+    if (gain_sd_ > 0.0) {
+      more = (gain_sd_ * estimate.compliance).cwiseAbs2();
+      budget.push_back({BudgetSource::load_cell_gain, std::nullopt, false, more, {}});
+    }
+    if (unexplained_) {
+      const Vector6d apart = 0.25 * (alone.compliance - estimate.compliance).cwiseAbs2();
+      budget.push_back({BudgetSource::apparent, std::nullopt, false, apart, {}});
+      more += apart;
+    }
+    estimate.parts.effects = moved * moved.transpose() / static_cast<double>(moved.cols());
+    estimate.parts.effects += more.asDiagonal();
+    estimate.covariance = estimate.parts.total();
+    estimate.stated = intervals(moved, own, alone, estimate.compliance);
+    return budget;
+  }
+
+ private:
+  static std::vector<BudgetLine> sharedLines(const StiffnessEstimate& own) {
+    std::vector<BudgetLine> lines;
+    const auto add = [&](BudgetSource source, const Matrix6d& part, const Vector6d& dof) {
+      if (part.diagonal().cwiseAbs().maxCoeff() > 0.0)
+        lines.push_back({source, std::nullopt, false, part.diagonal(), dof});
+    };
+    add(BudgetSource::scatter, own.parts.scatter, own.scatter_dof);
+    add(BudgetSource::frames, own.parts.frames, Vector6d::Zero());
+    add(BudgetSource::wrist, own.parts.wrist, Vector6d::Zero());
+    add(BudgetSource::geometry, own.parts.geometry, Vector6d::Zero());
+    return lines;
+  }
+
+  void addEffectLines(const Eigen::Matrix<double, 6, Eigen::Dynamic>& gain, const Eigen::MatrixXd& off,
+                      const Eigen::MatrixXd& moved, const std::vector<effects::Effect>& in_model,
+                      std::vector<BudgetLine>& budget) const {
+    Vector6d common = meanSquare(moved);
+    for (std::size_t first = 0; first < hidden_.effect.size();) {
+      std::size_t end = first;
+      while (end < hidden_.effect.size() && hidden_.effect[end] == hidden_.effect[first]) ++end;
+      const auto from = static_cast<Eigen::Index>(first), count = static_cast<Eigen::Index>(end - first);
+      const effects::Effect effect = hidden_.effect[first];
+      BudgetLine line{BudgetSource::effect, effect, false, {}, {}};
+      line.in_model = std::find(in_model.begin(), in_model.end(), effect) != in_model.end();
+      line.variance = meanSquare(gain.middleCols(from, count) * off.middleRows(from, count));
+      common -= line.variance;
+      budget.push_back(line);
+      first = end;
+    }
+    budget.push_back({BudgetSource::correlation, std::nullopt, false, common, {}});
+  }
+
+  /// A draw of the effects each, with one of everything else. `own`: uncertainty without effects.
+  std::vector<identification::CoverageInterval> intervals(const Eigen::MatrixXd& moved, const StiffnessEstimate& own,
+                                                          const StiffnessEstimate& alone,
+                                                          const Vector6d& compliance) const {
+    constexpr double kNormal = 1.959963984540054;  // of 95 % of a normal number
+    numerics::RandomStream random(1, "intervals");
+    std::vector<identification::CoverageInterval> all(6);
+    for (int j = 0; j < 6; ++j) {
+      if (!own.identifiable[static_cast<std::size_t>(j)]) continue;
+      const auto sdOf = [&](const StiffnessEstimate& one) {
+        return std::sqrt(std::max(0.0, one.covariance(j, j))) *
+               identification::coverageFactor(one, j, identification::kStatedCoverage) / kNormal;
+      };
+      const double sd = sdOf(own), alone_sd = unexplained_ ? sdOf(alone) : 0.0;
+      std::vector<double> values;
+      constexpr int kEach = 5;  // numbers of the rest for each draw of the effects
+      for (Eigen::Index d = 0; d < moved.cols(); ++d) {
+        for (int k = 0; k < kEach; ++k) {
+          const double factor = 1.0 + gain_sd_ * random.normal();
+          values.push_back(factor * (compliance[j] + moved(j, d) + sd * random.normal()));
+          if (unexplained_) values.push_back(factor * (alone.compliance[j] + alone_sd * random.normal()));
+        }
+      }
+      identification::CoverageInterval& interval = all[static_cast<std::size_t>(j)];
+      if (!std::isfinite(sd + alone_sd)) {
+        interval = {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+        continue;
+      }
+      interval = quantiles(values, identification::kStatedCoverage);
+      interval.low = std::min(interval.low, compliance[j]);
+      interval.high = std::max(interval.high, compliance[j]);
+    }
+    return all;
+  }
+
+  const HiddenParameters& hidden_;
+  double gain_sd_;
+  bool unexplained_;
+};
+
+}  // namespace
+
+HiddenEffects weighHiddenEffects(const diagnosis::GapStudy& study, const EffectFit& fitted,
+                                 const identification::Identification& seen,
+                                 const identification::Identification& without, double gain_sd,
+                                 identification::Identification& with) {
+  HiddenEffects result;
+  const diagnosis::GapFit& fit = study.fit;
+  result.lack_of_fit = (fit.projection.chi2_none - fit.rules.other_rows) / fit.rules.loading_rows;
+  result.left_over = diagnosis::leftPerEquation(fit);
+  const double gap = result.lack_of_fit - 1.0, left = result.left_over - 1.0;
+  result.unexplained_share = gap > 0.0 ? std::clamp(left / gap, 0.0, 1.0) : 0.0;
+  // A tenth more than noise is what linearisation leaves of large effects; a model that explains seven eighths of the
+  // gap is the better one wherever that was tried.
+  constexpr double kMuch = 1.1, kShare = 0.15;
+  result.unexplained = (result.left_over > kMuch || fit.model_error > 0.0) && left > kShare * gap;
+  const HiddenParameters hidden = hiddenParameters(study, fitted);
+  const std::vector<CaseEffects> cases = caseEffects(study, hidden.columns, seen);
+  std::vector<effects::Effect> in_model;
+  for (const AddedEffect& one : fitted.added) in_model.push_back(one.effect);
+  const MethodWeigher weigher(hidden, gain_sd, result.unexplained);
+  for (const Method which : identification::kMethods) {
+    const auto at = static_cast<std::size_t>(which);
+    if (!with.of(which).available || !seen.of(which).available || !without.of(which).available) continue;
+    const auto gain = gains(cases, seen, which, hidden.off.rows());
+    if (gain.cols() == 0) continue;
+    result.budget[at] = weigher.weigh(gain, without.of(which).estimate, in_model, with.methods[at].estimate);
+  }
+  return result;
+}
+
+}  // namespace stiffscope::extended_model
