@@ -12,10 +12,11 @@ namespace stiffscope::app {
 void addModelOptions(CLI::App& command, ModelChoice& choice) {
   CLI::Option* with =
       command
-          .add_option("--with", choice.with,
-                      "effects that the model has besides joint springs, by their names in diagnose, with a part where "
-                      "that is to be chosen (bearing_tilt:3, joint_coupling:2-3, target_motion:P12); without it, and by "
-                      "auto, those that the data support")
+          .add_option(
+              "--with", choice.with,
+              "effects that the model has besides joint springs, by their names in diagnose, with a part where "
+              "that is to be chosen (bearing_tilt:3, joint_coupling:2-3, target_motion:P12); without it, and by "
+              "auto, those that the data support")
           ->type_name("EFFECT")
           ->delimiter(',')
           ->allow_extra_args(false);
@@ -41,7 +42,8 @@ std::optional<extended_model::ExtendedModel> modelOf(const preparation::Prepared
                                                      const ModelChoice& choice,
                                                      const identification::IdentifyOptions& options) {
   if (choice.springs_only) return std::nullopt;
-  const bool by_data = choice.with.empty() || std::find(choice.with.begin(), choice.with.end(), "auto") != choice.with.end();
+  const bool by_data =
+      choice.with.empty() || std::find(choice.with.begin(), choice.with.end(), "auto") != choice.with.end();
   if (by_data && choice.with.size() > 1)
     throw io::InputError({"--with"}, "auto", "expected auto alone, or effects without it");
   // Raw readings, too, are screened before effects are sought in them.

@@ -70,10 +70,10 @@ void takeStation(DiagnosisInput& start, SystemInput& input, GapStudy& study) {
 GapStudy studyGap(const preparation::PreparedCampaign& prepared, const DiagnoseOptions& options) {
   GapStudy study;
   auto start = std::make_unique<DiagnosisInput>(diagnosisInput(prepared));
-  auto input = std::make_unique<SystemInput>(SystemInput{
-      start->campaign, start->noise.noise, prepared.campaign.load_cell->force_sigma,
-      prepared.campaign.load_cell->moment_sigma, modelsFor(prepared.campaign, options.only), start->absolute,
-      start->sweeps, complianceExpected(start->state.at.compliance)});
+  auto input = std::make_unique<SystemInput>(
+      SystemInput{start->campaign, start->noise.noise, prepared.campaign.load_cell->force_sigma,
+                  prepared.campaign.load_cell->moment_sigma, modelsFor(prepared.campaign, options.only),
+                  start->absolute, start->sweeps, complianceExpected(start->state.at.compliance)});
   DiagnosisInput& begun = *start;
   study.start = std::move(start);
   if (study.usable()) {

@@ -128,8 +128,8 @@ class Sampler {
   RandomStream random_;
   Eigen::VectorXd x_;
   std::vector<Eigen::Index> free_, positive_;
-  std::vector<std::size_t> members_;                                  ///< parameters of each effect
-  Eigen::VectorXd local_, local_mix_, effect_, effect_mix_;           ///< l^2, t^2 and what mixes them
+  std::vector<std::size_t> members_;                         ///< parameters of each effect
+  Eigen::VectorXd local_, local_mix_, effect_, effect_mix_;  ///< l^2, t^2 and what mixes them
   Eigen::MatrixXd among_free_, free_positive_, among_positive_;
 };
 

@@ -128,7 +128,9 @@ Vector6d meanSquare(const Eigen::MatrixXd& rows) {
 
 identification::CoverageInterval quantiles(std::vector<double>& values, double coverage) {
   std::sort(values.begin(), values.end());
-  const auto at = [&](double p) { return values[static_cast<std::size_t>(p * static_cast<double>(values.size() - 1))]; };
+  const auto at = [&](double p) {
+    return values[static_cast<std::size_t>(p * static_cast<double>(values.size() - 1))];
+  };
   return {at(0.5 * (1.0 - coverage)), at(0.5 * (1.0 + coverage))};
 }
 

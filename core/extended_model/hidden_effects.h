@@ -26,17 +26,17 @@ enum class BudgetSource {
 struct BudgetLine {
   BudgetSource source = BudgetSource::scatter;
   std::optional<effects::Effect> effect;
-  bool in_model = false;                   ///< of an effect: fitted, not only possible
-  Vector6d variance = Vector6d::Zero();    ///< of c, rad^2/(Nm)^2; negative where a correlation takes away
-  Vector6d dof = Vector6d::Zero();         ///< degrees of freedom; 0: known exactly, or from all draws together
+  bool in_model = false;                 ///< of an effect: fitted, not only possible
+  Vector6d variance = Vector6d::Zero();  ///< of c, rad^2/(Nm)^2; negative where a correlation takes away
+  Vector6d dof = Vector6d::Zero();       ///< degrees of freedom; 0: known exactly, or from all draws together
 };
 
 /// How far the data let anything besides the fitted model move the stiffnesses.
 struct HiddenEffects {
   double lack_of_fit = 0.0;  ///< chi2 per equation of the loading that joint springs alone leave
   double left_over = 0.0;    ///< the same of the model
-  /// Share of the gap beyond noise that the model leaves, and whether that is too much to call the model an explanation:
-  /// then the intervals hold what joint springs alone say, too.
+  /// Share of the gap beyond noise that the model leaves, and whether that is too much to call the model an
+  /// explanation: then the intervals hold what joint springs alone say, too.
   double unexplained_share = 0.0;
   bool unexplained = false;
   std::array<std::vector<BudgetLine>, 3> budget;  ///< by Method; empty where that is not available
@@ -45,12 +45,13 @@ struct HiddenEffects {
 /// Puts into the estimates of `with` the intervals that hold what could still hide.
 ///
 /// With theta the parameters of all effects that the campaign can show, a method's compliances are to first order c
-/// = c_fit - H (theta - theta_fit): H through the method's own equations (method_equations.h), theta_fit what `with` was
-/// corrected for, theta from its posterior on the study's equations (effect_posterior.h). Draws with a negative
+/// = c_fit - H (theta - theta_fit): H through the method's own equations (method_equations.h), theta_fit what `with`
+/// was corrected for, theta from its posterior on the study's equations (effect_posterior.h). Draws with a negative
 /// stiffness are left out. With the scatter between postures, what frames and calibration share, and the declared gain
 /// of the load cell they give each interval by its quantiles; it is widened to hold c_fit.
 ///
-/// Where the model explains too little, half of the draws are those of `without`, joint springs alone: neither is right.
+/// Where the model explains too little, half of the draws are those of `without`, joint springs alone: neither is
+/// right.
 ///
 /// `seen`: cases and equations from which H is taken, of postures that the study has; `with` itself where it has all.
 HiddenEffects weighHiddenEffects(const diagnosis::GapStudy& study, const EffectFit& fitted,

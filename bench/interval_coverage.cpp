@@ -1,0 +1,211 @@
+// How often stated intervals hold the true stiffness, on simulated machines of several families.
+//
+// interval_coverage FAMILY COUNT SEED [ROWS.csv]: one line of text by model. FAMILY: clean (joint springs alone), none (and
+// bearings of a thousandth), single (each effect of the vocabulary in turn), double, bearings_links, as_they_are (bearings,
+// links, base and friction at half their usual sizes), gain (a load cell one per cent off, declared so), outside (something
+// that no effect of the vocabulary is). ROWS.csv: every joint and method.
+
+#include <fmt/format.h>
+#include <Eigen/Dense>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <exception>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <limits>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "core/extended_model/extended_model.h"
+#include "core/identification/estimate.h"
+#include "core/numerics/parallel.h"
+#include "core/numerics/random.h"
+#include "core/preparation/prepare.h"
+#include "core/simulation/measure.h"
+#include "core/validation/case.h"
+#include "core/validation/effect_size.h"
+#include "core/validation/effect_draw.h"
+
+namespace {
+
+using namespace stiffscope;
+
+constexpr const char* kFamilies = "clean none single double bearings_links as_they_are gain outside";
+
+double logUniform(numerics::RandomStream& random, double low, double high) {
+  return low * std::pow(high / low, random.uniform());
+}
+
+/// Bearings and links as real arms have them, at half their usual size: what tilts and bends is six to fifteen, three to
+/// eight times stiffer than the drives.
+void addBearingsAndLinks(numerics::RandomStream& random, simulation::MachineSpec& machine) {
+  for (simulation::JointStiffness& joint : machine.joints) joint.bearing = *joint.torsion * logUniform(random, 12, 30);
+  for (const int joint : {1, 2}) {
+    simulation::LinkBeam beam;
+    beam.joint = joint;
+    constexpr double kLength = 1.0;  // m
+    const double rate = *machine.joints[static_cast<std::size_t>(joint)].torsion * kLength;
+    beam.bending = rate * logUniform(random, 6, 16);
+    beam.torsion = rate * logUniform(random, 6, 16);
+    std::erase_if(machine.links, [&](const simulation::LinkBeam& one) { return one.joint == joint; });
+    machine.links.push_back(beam);
+  }
+  std::sort(machine.links.begin(), machine.links.end(),
+            [](const simulation::LinkBeam& a, const simulation::LinkBeam& b) { return a.joint < b.joint; });
+}
+
+void addBaseAndFriction(numerics::RandomStream& random, simulation::SimulationSpec& spec) {
+  simulation::MachineSpec& machine = spec.machine;
+  machine.base_rotation = Eigen::Vector3d::Constant(*machine.joints[1].torsion * logUniform(random, 16, 40));
+  for (int j = 0; j < 6; ++j) {
+    simulation::JointStiffness& joint = machine.joints[static_cast<std::size_t>(j)];
+    simulation::JointFriction friction;
+    friction.torque = logUniform(random, 0.0025, 0.01) * validation::usualTorque(spec, j);
+    friction.rate = *joint.torsion;
+    joint.friction = friction;
+  }
+}
+
+validation::BlindCase draw(const std::string& family, int i, std::uint64_t seed, const std::filesystem::path& urdf) {
+  using validation::CaseKind;
+  validation::CasePlan plan;
+  const auto effect = [](int k) { return static_cast<effects::Effect>(k % static_cast<int>(effects::kEffectCount)); };
+  if (family == "single") {
+    plan = {CaseKind::single, {effect(i)}, {}};
+  } else if (family == "double") {
+    const int other = i + 1 + (i / static_cast<int>(effects::kEffectCount) * 5) % 15;
+    plan = {CaseKind::pair, {effect(i), effect(other)}, {}};
+  } else if (family == "outside") {
+    const auto kinds = validation::outsideKinds();
+    plan = {CaseKind::outside, {}, std::string(kinds[static_cast<std::size_t>(i) % kinds.size()])};
+  }
+  validation::BlindCase one = validation::drawCase(plan, seed, fmt::format("{} {}", family, i), urdf);
+  numerics::RandomStream random(seed, "as they are");
+  if (family == "clean" || family == "gain") {
+    for (simulation::JointStiffness& joint : one.spec.machine.joints) joint.bearing.reset();
+    one.spec.machine.links.clear();
+  }
+  if (family == "bearings_links" || family == "as_they_are") addBearingsAndLinks(random, one.spec.machine);
+  if (family == "as_they_are") addBaseAndFriction(random, one.spec);
+  if (family == "gain") {
+    one.spec.load_cell->declared.gain_sigma = 0.01;
+    one.spec.load_cell->gain_error = 0.01 * random.normal();
+  }
+  return one;
+}
+
+/// What each joint gives when it alone is loaded: springs that two joints share are part of it.
+Vector6d trueCompliance(const simulation::MachineSpec& machine) {
+  Matrix6d stiffness = Matrix6d::Zero();
+  for (int j = 0; j < 6; ++j) stiffness(j, j) = *machine.joints[static_cast<std::size_t>(j)].torsion;
+  for (const simulation::SharedSpring& spring : machine.shared_springs) {
+    Vector6d arms = Vector6d::Zero();
+    for (std::size_t k = 0; k < 2; ++k) arms[spring.joints[k]] += spring.arms[k];
+    stiffness += spring.rate * arms * arms.transpose();
+  }
+  return stiffness.inverse().diagonal();
+}
+
+struct Row {
+  int machine = 0, joint = 0;
+  std::string effects, method, model;
+  double error = 0.0, half_width = 0.0;  ///< shares of k
+  bool holds = false;
+};
+
+void addRows(const identification::Identification& result, const char* model, const Vector6d& truth, const Row& like,
+             std::vector<Row>& rows) {
+  for (const identification::Method which : identification::kMethods) {
+    if (!result.of(which).available) continue;
+    const identification::StiffnessEstimate& estimate = result.of(which).estimate;
+    for (int j = 0; j < 6; ++j) {
+      if (!estimate.identifiable[static_cast<std::size_t>(j)]) continue;
+      const identification::CoverageInterval k = identification::stiffnessInterval(estimate, j);
+      Row row = like;
+      row.joint = j + 1;
+      row.method = std::array{"cp", "pp", "dpp"}[static_cast<std::size_t>(which)];
+      row.model = model;
+      row.error = estimate.stiffness(j) * truth[j] - 1.0;
+      row.half_width = 0.5 * (k.high - k.low) * truth[j];
+      row.holds = identification::complianceInterval(estimate, j).holds(truth[j]);
+      rows.push_back(row);
+    }
+  }
+}
+
+double quantile(std::vector<double> values, double p) {
+  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
+  std::sort(values.begin(), values.end());
+  return values[static_cast<std::size_t>(p * static_cast<double>(values.size() - 1))];
+}
+
+void print(const std::string& family, const std::string& model, const std::vector<Row>& rows) {
+  std::vector<double> errors, widths;
+  std::array<std::array<int, 2>, 6> by_joint{};
+  int holds = 0;
+  for (const Row& row : rows) {
+    if (row.model != model) continue;
+    errors.push_back(std::abs(row.error));
+    widths.push_back(row.half_width);
+    holds += row.holds;
+    auto& own = by_joint[static_cast<std::size_t>(row.joint - 1)];
+    own[0] += row.holds, ++own[1];
+  }
+  fmt::print("{:<15}{:<8} {:>5} intervals, hold {:5.1f} %, median half width {:6.2f} %, median error {:6.2f} % (90 %: {:.1f} %), by joint",
+             family, model, errors.size(), 100.0 * holds / std::max<double>(1.0, static_cast<double>(errors.size())),
+             100.0 * quantile(widths, 0.5), 100.0 * quantile(errors, 0.5), 100.0 * quantile(errors, 0.9));
+  for (const auto& own : by_joint) fmt::print(" {:.0f}", 100.0 * own[0] / std::max(1, own[1]));
+  fmt::print("\n");
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc < 4) {
+    std::cerr << "interval_coverage FAMILY COUNT SEED [ROWS.csv]; FAMILY is one of " << kFamilies << "\n";
+    return 2;
+  }
+  const std::string family = argv[1];
+  const int count = std::stoi(argv[2]);
+  const std::uint64_t base = std::stoull(argv[3]);
+  const std::filesystem::path folder = std::filesystem::temp_directory_path() / fmt::format("interval_coverage_{}", base);
+  std::filesystem::create_directories(folder);
+  std::vector<Row> rows;
+  std::mutex mutex;
+  numerics::onAllCores(static_cast<std::size_t>(count), [&](std::size_t machine) {
+    const int i = static_cast<int>(machine);
+    try {
+      const std::uint64_t seed = base * 1'000'000 + machine;
+      const validation::BlindCase one = draw(family, i, seed, folder / fmt::format("{}_{}.urdf", family, i));
+      const preparation::PreparedCampaign prepared = preparation::prepareCampaign(simulation::simulate(one.spec));
+      identification::IdentifyOptions options;
+      options.subsets.size = std::numeric_limits<int>::max();  // shares are not asked for
+      const extended_model::ExtendedModel model =
+          extended_model::supportedModel(prepared, prepared.campaign, options);
+      Row like;
+      like.machine = i;
+      for (const validation::PlacedEffect& effect : one.effects)
+        like.effects += (effect.effect ? std::string(effects::idOf(*effect.effect)) : std::string("outside")) + " " + effect.detail + ";";
+      const Vector6d truth = trueCompliance(one.spec.machine);
+      const std::lock_guard<std::mutex> lock(mutex);
+      addRows(model.without, "springs", truth, like, rows);
+      addRows(model.with, "default", truth, like, rows);
+    } catch (const std::exception& error) {
+      const std::lock_guard<std::mutex> lock(mutex);
+      std::cerr << family << ' ' << i << ": " << error.what() << '\n';
+    }
+  });
+  print(family, "springs", rows);
+  print(family, "default", rows);
+  if (argc > 4) {
+    std::ofstream csv(argv[4]);
+    csv << "machine,effects,joint,method,model,error,half_width,holds\n";
+    for (const Row& row : rows)
+      csv << fmt::format("{},{},{},{},{},{:.6g},{:.6g},{}\n", row.machine, row.effects, row.joint, row.method, row.model,
+                         row.error, row.half_width, row.holds ? 1 : 0);
+  }
+}

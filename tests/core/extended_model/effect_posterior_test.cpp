@@ -1,0 +1,125 @@
+#include "core/extended_model/effect_posterior.h"
+
+#include <gtest/gtest.h>
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+namespace stiffscope::extended_model {
+namespace {
+
+double normalDensity(double x, double sd) {
+  return std::exp(-0.5 * x * x / (sd * sd)) / (sd * std::sqrt(2.0 * std::numbers::pi));
+}
+
+/// The horseshoe's density of one parameter that is an effect by itself: the product v of two half Cauchy numbers of
+/// scale 1 has density 4/pi^2 ln v / (v^2 - 1); integrated here over ln v.
+double priorDensity(double x) {
+  double sum = 0.0;
+  constexpr double kStep = 0.02;
+  for (double u = -18.0 + 0.5 * kStep; u < 14.0; u += kStep) {
+    const double v = std::exp(u);
+    const double density = std::abs(v - 1.0) < 1e-9 ? 0.5 : u / (v * v - 1.0);
+    sum += normalDensity(x, kUsual * v) * 4.0 / (std::numbers::pi * std::numbers::pi) * density * v * kStep;
+  }
+  return sum;
+}
+
+/// Of a density on a grid fine near zero, where the prior has its pole: numbers +-exp(s).
+struct Grid {
+  std::vector<double> x, weight;
+
+  explicit Grid(bool positive) {
+    constexpr double kStep = 0.02;
+    for (double s = std::log(1e-7); s < std::log(20.0); s += kStep) {
+      const double size = std::exp(s);
+      if (!positive) x.push_back(-size), weight.push_back(size * kStep);
+      x.push_back(size), weight.push_back(size * kStep);
+    }
+  }
+};
+
+EffectEvidence evidence(const Eigen::MatrixXd& normal, const Eigen::VectorXd& right, std::vector<bool> positive) {
+  EffectEvidence one;
+  one.normal = normal;
+  one.right = right;
+  one.positive = std::move(positive);
+  for (std::size_t i = 0; i < one.positive.size(); ++i) one.group.push_back(i);
+  return one;
+}
+
+double shareBelow(const Eigen::MatrixXd& draws, Eigen::Index row, double limit) {
+  return (draws.row(row).array() < limit).cast<double>().mean();
+}
+
+/// Draws are correlated; of 20,000 some thousands count. The step of the grid is below a hundredth.
+constexpr double kTolerance = 0.025;
+constexpr PosteriorOptions kMany{20000, 500, 3};
+
+void compareOne(double mean, double sd, bool positive) {
+  const Eigen::MatrixXd normal = Eigen::MatrixXd::Constant(1, 1, 1.0 / (sd * sd));
+  const Eigen::MatrixXd draws =
+      drawEffects(evidence(normal, Eigen::VectorXd::Constant(1, mean / (sd * sd)), {positive}), kMany);
+  const Grid grid(positive);
+  std::vector<double> mass;
+  double whole = 0.0;
+  for (std::size_t i = 0; i < grid.x.size(); ++i) {
+    mass.push_back(grid.weight[i] * priorDensity(grid.x[i]) * normalDensity(grid.x[i] - mean, sd));
+    whole += mass.back();
+  }
+  for (const double limit : {-0.5 * sd, -0.1 * sd, 0.1 * sd, 0.5 * sd, mean, mean + sd}) {
+    if (positive && limit <= 0.0) continue;
+    double below = 0.0;
+    for (std::size_t i = 0; i < grid.x.size(); ++i) below += grid.x[i] < limit ? mass[i] : 0.0;
+    EXPECT_NEAR(shareBelow(draws, 0, limit), below / whole, kTolerance) << "below " << limit << " of mean " << mean;
+  }
+}
+
+TEST(EffectPosterior, OneParameterByNumericalIntegration) {
+  compareOne(0.0, 0.05, false);
+  compareOne(0.1, 0.05, false);
+  compareOne(0.5, 0.02, false);
+}
+
+TEST(EffectPosterior, OnePositiveParameterByNumericalIntegration) {
+  compareOne(0.02, 0.05, true);
+  compareOne(-0.05, 0.03, true);
+}
+
+TEST(EffectPosterior, APairThatTheDataCannotTellApart) {
+  // x + y = 0.3 +- 0.01 and nearly nothing of x - y; x positive.
+  Eigen::Matrix2d normal;
+  normal << 1e4, 1e4, 1e4, 1e4;
+  normal += 4.0 * Eigen::Matrix2d::Identity();
+  const Eigen::Vector2d right(3000.0, 3000.0);
+  const Eigen::MatrixXd draws = drawEffects(evidence(normal, right, {true, false}), kMany);
+  // Along the valley y = 0.3 - x by a grid of its own, across it by 17 points of the normal number.
+  double whole = 0.0, mean_x = 0.0;
+  for (double x = 5e-5; x < 3.0; x += 1e-4) {
+    for (double z = -4.0; z <= 4.0; z += 0.5) {
+      const double y = 0.3 - x + 0.01 * z;
+      const Eigen::Vector2d at(x, y);
+      const double chi2 = at.dot(normal * at) - 2.0 * right.dot(at);
+      const double mass = priorDensity(x) * priorDensity(y) * std::exp(-0.5 * (chi2 + 900.0));
+      whole += mass;
+      mean_x += mass * std::min(x, 0.6);
+    }
+  }
+  EXPECT_NEAR(draws.row(0).array().min(0.6).mean(), mean_x / whole, 0.03);
+  EXPECT_NEAR((draws.row(0) + draws.row(1)).mean(), 0.3, 0.005);
+  EXPECT_GE(draws.row(0).minCoeff(), 0.0);
+}
+
+TEST(EffectPosterior, TheSameSeedGivesTheSameDraws) {
+  const Eigen::MatrixXd normal = 100.0 * Eigen::MatrixXd::Identity(3, 3);
+  const EffectEvidence one = evidence(normal, Eigen::Vector3d(1.0, 0.0, 30.0), {true, false, true});
+  EXPECT_EQ(drawEffects(one), drawEffects(one));
+  EXPECT_NE(drawEffects(one), drawEffects(one, {600, 150, 2}));
+}
+
+TEST(EffectPosterior, NothingToDraw) { EXPECT_EQ(drawEffects(EffectEvidence{}).rows(), 0); }
+
+}  // namespace
+}  // namespace stiffscope::extended_model
