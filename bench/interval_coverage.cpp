@@ -1,9 +1,9 @@
 // How often stated intervals hold the true stiffness, on simulated machines of several families.
 //
-// interval_coverage FAMILY COUNT SEED [ROWS.csv]: one line of text by model. FAMILY: clean (joint springs alone), none (and
-// bearings of a thousandth), single (each effect of the vocabulary in turn), double, bearings_links, as_they_are (bearings,
-// links, base and friction at half their usual sizes), gain (a load cell one per cent off, declared so), outside (something
-// that no effect of the vocabulary is). ROWS.csv: every joint and method.
+// interval_coverage FAMILY COUNT SEED [ROWS.csv]: one line of text by model. FAMILY: clean (joint springs alone), none
+// (and bearings of a thousandth), single (each effect of the vocabulary in turn), double, bearings_links, as_they_are
+// (bearings, links, base and friction at half their usual sizes), gain (a load cell one per cent off, declared so),
+// outside (something that no effect of the vocabulary is). ROWS.csv: every joint and method.
 
 #include <fmt/format.h>
 #include <Eigen/Dense>
@@ -27,8 +27,8 @@
 #include "core/preparation/prepare.h"
 #include "core/simulation/measure.h"
 #include "core/validation/case.h"
-#include "core/validation/effect_size.h"
 #include "core/validation/effect_draw.h"
+#include "core/validation/effect_size.h"
 
 namespace {
 
@@ -40,8 +40,8 @@ double logUniform(numerics::RandomStream& random, double low, double high) {
   return low * std::pow(high / low, random.uniform());
 }
 
-/// Bearings and links as real arms have them, at half their usual size: what tilts and bends is six to fifteen, three to
-/// eight times stiffer than the drives.
+/// Bearings and links as real arms have them, at half their usual size: what tilts and bends is six to fifteen, three
+/// to eight times stiffer than the drives.
 void addBearingsAndLinks(numerics::RandomStream& random, simulation::MachineSpec& machine) {
   for (simulation::JointStiffness& joint : machine.joints) joint.bearing = *joint.torsion * logUniform(random, 12, 30);
   for (const int joint : {1, 2}) {
@@ -155,9 +155,11 @@ void print(const std::string& family, const std::string& model, const std::vecto
     auto& own = by_joint[static_cast<std::size_t>(row.joint - 1)];
     own[0] += row.holds, ++own[1];
   }
-  fmt::print("{:<15}{:<8} {:>5} intervals, hold {:5.1f} %, median half width {:6.2f} %, median error {:6.2f} % (90 %: {:.1f} %), by joint",
-             family, model, errors.size(), 100.0 * holds / std::max<double>(1.0, static_cast<double>(errors.size())),
-             100.0 * quantile(widths, 0.5), 100.0 * quantile(errors, 0.5), 100.0 * quantile(errors, 0.9));
+  fmt::print(
+      "{:<15}{:<8} {:>5} intervals, hold {:5.1f} %, median half width {:6.2f} %, median error {:6.2f} % (90 %: {:.1f} "
+      "%), by joint",
+      family, model, errors.size(), 100.0 * holds / std::max<double>(1.0, static_cast<double>(errors.size())),
+      100.0 * quantile(widths, 0.5), 100.0 * quantile(errors, 0.5), 100.0 * quantile(errors, 0.9));
   for (const auto& own : by_joint) fmt::print(" {:.0f}", 100.0 * own[0] / std::max(1, own[1]));
   fmt::print("\n");
 }
@@ -172,7 +174,8 @@ int main(int argc, char** argv) {
   const std::string family = argv[1];
   const int count = std::stoi(argv[2]);
   const std::uint64_t base = std::stoull(argv[3]);
-  const std::filesystem::path folder = std::filesystem::temp_directory_path() / fmt::format("interval_coverage_{}", base);
+  const std::filesystem::path folder =
+      std::filesystem::temp_directory_path() / fmt::format("interval_coverage_{}", base);
   std::filesystem::create_directories(folder);
   std::vector<Row> rows;
   std::mutex mutex;
@@ -184,12 +187,12 @@ int main(int argc, char** argv) {
       const preparation::PreparedCampaign prepared = preparation::prepareCampaign(simulation::simulate(one.spec));
       identification::IdentifyOptions options;
       options.subsets.size = std::numeric_limits<int>::max();  // shares are not asked for
-      const extended_model::ExtendedModel model =
-          extended_model::supportedModel(prepared, prepared.campaign, options);
+      const extended_model::ExtendedModel model = extended_model::supportedModel(prepared, prepared.campaign, options);
       Row like;
       like.machine = i;
       for (const validation::PlacedEffect& effect : one.effects)
-        like.effects += (effect.effect ? std::string(effects::idOf(*effect.effect)) : std::string("outside")) + " " + effect.detail + ";";
+        like.effects += (effect.effect ? std::string(effects::idOf(*effect.effect)) : std::string("outside")) + " " +
+                        effect.detail + ";";
       const Vector6d truth = trueCompliance(one.spec.machine);
       const std::lock_guard<std::mutex> lock(mutex);
       addRows(model.without, "springs", truth, like, rows);
@@ -205,7 +208,7 @@ int main(int argc, char** argv) {
     std::ofstream csv(argv[4]);
     csv << "machine,effects,joint,method,model,error,half_width,holds\n";
     for (const Row& row : rows)
-      csv << fmt::format("{},{},{},{},{},{:.6g},{:.6g},{}\n", row.machine, row.effects, row.joint, row.method, row.model,
-                         row.error, row.half_width, row.holds ? 1 : 0);
+      csv << fmt::format("{},{},{},{},{},{:.6g},{:.6g},{}\n", row.machine, row.effects, row.joint, row.method,
+                         row.model, row.error, row.half_width, row.holds ? 1 : 0);
   }
 }

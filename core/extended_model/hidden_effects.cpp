@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <utility>
 
@@ -162,7 +163,7 @@ class MethodWeigher {
     estimate.parts.effects = moved * moved.transpose() / static_cast<double>(moved.cols());
     estimate.parts.effects += more.asDiagonal();
     estimate.covariance = estimate.parts.total();
-    estimate.stated = intervals(moved, own, alone, estimate.compliance);
+    state(moved, own, alone, estimate);
     return budget;
   }
 
@@ -199,39 +200,47 @@ class MethodWeigher {
     budget.push_back({BudgetSource::correlation, std::nullopt, false, common, {}});
   }
 
-  /// A draw of the effects each, with one of everything else. `own`: uncertainty without effects.
-  std::vector<identification::CoverageInterval> intervals(const Eigen::MatrixXd& moved, const StiffnessEstimate& own,
-                                                          const StiffnessEstimate& alone,
-                                                          const Vector6d& compliance) const {
+  /// A draw of the effects each, with some of everything else. `own`: uncertainty without effects.
+  std::vector<double> draws(const Eigen::MatrixXd& moved, const StiffnessEstimate& own, const StiffnessEstimate& alone,
+                            int j, numerics::RandomStream& random) const {
     constexpr double kNormal = 1.959963984540054;  // of 95 % of a normal number
+    const auto sdOf = [&](const StiffnessEstimate& one) {
+      return std::sqrt(std::max(0.0, one.covariance(j, j))) *
+             identification::coverageFactor(one, j, identification::kStatedCoverage) / kNormal;
+    };
+    const double sd = sdOf(own), alone_sd = unexplained_ ? sdOf(alone) : 0.0;
+    std::vector<double> values;
+    if (!std::isfinite(sd + alone_sd)) return values;
+    constexpr int kEach = 5;
+    for (Eigen::Index d = 0; d < moved.cols(); ++d) {
+      for (int k = 0; k < kEach; ++k) {
+        const double factor = 1.0 + gain_sd_ * random.normal();
+        values.push_back(factor * (own.compliance[j] + moved(j, d) + sd * random.normal()));
+        if (unexplained_) values.push_back(factor * (alone.compliance[j] + alone_sd * random.normal()));
+      }
+    }
+    return values;
+  }
+
+  void state(const Eigen::MatrixXd& moved, const StiffnessEstimate& own, const StiffnessEstimate& alone,
+             StiffnessEstimate& estimate) const {
+    // A fit with a negative stiffness is none: what the possible draws have in their middle stands for it.
+    const bool possible = allPositive(own.compliance, own.identifiable);
     numerics::RandomStream random(1, "intervals");
-    std::vector<identification::CoverageInterval> all(6);
+    estimate.stated.assign(6, {});
     for (int j = 0; j < 6; ++j) {
       if (!own.identifiable[static_cast<std::size_t>(j)]) continue;
-      const auto sdOf = [&](const StiffnessEstimate& one) {
-        return std::sqrt(std::max(0.0, one.covariance(j, j))) *
-               identification::coverageFactor(one, j, identification::kStatedCoverage) / kNormal;
-      };
-      const double sd = sdOf(own), alone_sd = unexplained_ ? sdOf(alone) : 0.0;
-      std::vector<double> values;
-      constexpr int kEach = 5;  // numbers of the rest for each draw of the effects
-      for (Eigen::Index d = 0; d < moved.cols(); ++d) {
-        for (int k = 0; k < kEach; ++k) {
-          const double factor = 1.0 + gain_sd_ * random.normal();
-          values.push_back(factor * (compliance[j] + moved(j, d) + sd * random.normal()));
-          if (unexplained_) values.push_back(factor * (alone.compliance[j] + alone_sd * random.normal()));
-        }
-      }
-      identification::CoverageInterval& interval = all[static_cast<std::size_t>(j)];
-      if (!std::isfinite(sd + alone_sd)) {
+      identification::CoverageInterval& interval = estimate.stated[static_cast<std::size_t>(j)];
+      std::vector<double> values = draws(moved, own, alone, j, random);
+      if (values.empty()) {
         interval = {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
         continue;
       }
       interval = quantiles(values, identification::kStatedCoverage);
-      interval.low = std::min(interval.low, compliance[j]);
-      interval.high = std::max(interval.high, compliance[j]);
+      if (!possible) estimate.compliance[j] = values[values.size() / 2];
+      interval.low = std::min(interval.low, estimate.compliance[j]);
+      interval.high = std::max(interval.high, estimate.compliance[j]);
     }
-    return all;
   }
 
   const HiddenParameters& hidden_;

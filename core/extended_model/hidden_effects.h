@@ -47,8 +47,9 @@ struct HiddenEffects {
 /// With theta the parameters of all effects that the campaign can show, a method's compliances are to first order c
 /// = c_fit - H (theta - theta_fit): H through the method's own equations (method_equations.h), theta_fit what `with`
 /// was corrected for, theta from its posterior on the study's equations (effect_posterior.h). Draws with a negative
-/// stiffness are left out. With the scatter between postures, what frames and calibration share, and the declared gain
-/// of the load cell they give each interval by its quantiles; it is widened to hold c_fit.
+/// stiffness are left out, and where c_fit itself has one the medians of the rest stand for it. With the scatter
+/// between postures, what frames and calibration share, and the declared gain of the load cell they give each interval
+/// by its quantiles; it is widened to hold c_fit.
 ///
 /// Where the model explains too little, half of the draws are those of `without`, joint springs alone: neither is
 /// right.
