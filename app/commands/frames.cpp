@@ -1,8 +1,10 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>
+#include <optional>
 
 #include "app/command_line.h"
+#include "app/model.h"
 #include "app/output.h"
 #include "app/prepared.h"
 #include "core/campaign/campaign.h"
@@ -20,18 +22,22 @@ void addFrames(CLI::App& app, Run& run) {
   struct FramesArguments {
     std::string campaign, json;
     bool raw = false;
+    ModelChoice model;
   };
   const auto arguments = std::make_shared<FramesArguments>();
   CLI::App* command =
       app.add_subcommand("frames", "Axes, R0, link lengths, P_TCP and the wrist centre from the sweeps");
   command->add_option("CAMPAIGN", arguments->campaign, "campaign folder or its campaign.xml")->required();
+  addModelOptions(*command, arguments->model);
   addRawOption(*command, arguments->raw);
   command->add_option("--json", arguments->json, "write the result to this file, - for standard output");
   command->callback([arguments, &run] {
     run = [arguments] {
       const preparation::PreparedCampaign prepared = openPrepared(arguments->campaign, arguments->raw);
+      std::optional<extended_model::ExtendedModel> model;
+      if (identification::whatLoadsLack(prepared.campaign).empty()) model = modelOf(prepared, arguments->model, {});
       const campaign::Campaign& campaign = prepared.campaign;
-      const frames::Frames frames = identification::solvedFrames(campaign);
+      const frames::Frames frames = model ? model->with.frames : identification::solvedFrames(campaign);
       deliver([&] { return reports::withPreparation(reports::framesJson(campaign, frames), prepared.preparation); },
               [&] { return reports::framesText(campaign, frames) + reports::preparationText(prepared.preparation); },
               arguments->json);

@@ -153,10 +153,10 @@ ExtendedModel supportedModel(const preparation::PreparedCampaign& prepared, cons
     return model;
   }
   std::vector<identification::LeftOutPosture> left_out;
-  campaign::Campaign seen = study.start->campaign;
-  if (!model.effects.free.empty()) seen = correctedFor(model.effects, seen, left_out);
-  model.hidden = weighHiddenEffects(study, model.effects, identification::identify(seen, valuesOnly(options)),
-                                    model.without, gain, model.with);
+  const EffectFit own = chosenEffects(*spread, study);
+  campaign::Campaign seen = own.free.empty() ? spread->campaign : correctedFor(own, spread->campaign, left_out);
+  model.hidden = weighHiddenEffects(study, own, identification::identify(seen, valuesOnly(options)), model.without,
+                                    gain, model.with);
   return model;
 }
 
