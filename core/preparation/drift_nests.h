@@ -34,6 +34,8 @@ struct StationMotion {
   double deformation_chi2 = 0.0;  ///< what no rigid motion explains, of all nests
   int deformation_dof = 0;
   double deformation_limit = 0.0;
+  double rigid_chi2 = 0.0;  ///< the same of the nests that `epochs` come from: without one that moved
+  int rigid_dof = 0;
   std::optional<int> moved_nest;    ///< without it the others are rigid; left out of `epochs`
   double moved_nest_by = 0.0;       ///< how far it went at most against the others, m
   std::size_t moved_nest_line = 0;  ///< of its first reading away from its place
