@@ -42,9 +42,9 @@ class NoiseSources {
   }
   /// The one that least else is in.
   const NoiseSum& smallest() const {
-    return std::min_element(sources_.begin(), sources_.end(), [](const NoiseSource& a, const NoiseSource& b) {
-             return a.sum.ratio() < b.sum.ratio();
-           })->sum;
+    return std::min_element(sources_.begin(), sources_.end(),
+                            [](const NoiseSource& a, const NoiseSource& b) { return a.sum.ratio() < b.sum.ratio(); })
+        ->sum;
   }
   /// Some scatter by less than chance makes of the declared noise.
   bool below() const {
@@ -141,12 +141,17 @@ DeclaredNoise judgeTracker(const AuditInput& input) {
     day.add(over(input.station.rigid_chi2, input.station.rigid_dof), kNests, Remark(RemarkId::nests_show),
             judged.evidence);
   }
+  NoiseSum short_sweeps;  // of few readings: together
   for (std::size_t axis = 0; axis < 6; ++axis) {
     const metrology::AxisFit& fit = input.frames.axes[axis].fit;
     if (!input.frames.axes[axis].measured || !fit.determined) continue;
-    day.add(over(fit.chi2_per_dof * fit.degrees_of_freedom, fit.degrees_of_freedom), kSweeps,
-            Remark(RemarkId::sweep_shows, axis + 1), judged.evidence);
+    const NoiseSum sum = over(fit.chi2_per_dof * fit.degrees_of_freedom, fit.degrees_of_freedom);
+    day.add(sum, kSweeps, Remark(RemarkId::sweep_shows, axis + 1), judged.evidence);
+    if (sum.dof >= kEnoughToJudge) continue;
+    short_sweeps.chi2 += sum.chi2;
+    short_sweeps.dof += sum.dof;
   }
+  day.add(short_sweeps, kSweeps, Remark(RemarkId::short_sweeps_show), judged.evidence);
   const NoiseSum returns = scatterOfReturns(input);
   day.add(over(returns.chi2, returns.dof), kReturns, Remark(RemarkId::returns_show), judged.evidence);
   if (along.dof >= kEnoughToJudge) {

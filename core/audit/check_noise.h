@@ -18,13 +18,13 @@ struct NoiseSum {
 struct DeclaredNoise {
   Remark where;   ///< the instrument
   Remark reason;  ///< why nothing can be said; empty where something can
-  /// Its figures found against declared where these are wrong by more than a factor of two, else 1: of the tracker along
-  /// and across the beam, of the load cell one for all.
+  /// Its figures found against declared where these are wrong by more than a factor of two, else 1: of the tracker
+  /// along and across the beam, of the load cell one for all.
   std::vector<double> factors;
-  double deviation = 1.0;           ///< larger of factor and its inverse that the readings bear out
-  bool too_large = false;           ///< declared is more than twice of what is found
-  bool too_small = false;           ///< declared is less than half of what is found
-  std::vector<Remark> evidence;     ///< each kind of readings with its ratio
+  double deviation = 1.0;            ///< larger of factor and its inverse that the readings bear out
+  bool too_large = false;            ///< declared is more than twice of what is found
+  bool too_small = false;            ///< declared is less than half of what is found
+  std::vector<Remark> evidence;      ///< each kind of readings with its ratio
   double before = 0.0, after = 0.0;  ///< ratio of the readings over the day, with the figures as declared and as found
 };
 
@@ -32,8 +32,8 @@ struct DeclaredNoise {
 ///
 /// At once: repeats of one state, along and across the beam; the load cell's unloaded readings about their mean. They
 /// give the size. Over the day: what rounds of floor nests, circles of each swept axis and returns to zero leave; the
-/// load cell's moments against one lever. Whatever else is wrong adds to these, so the smallest of them is taken, and it
-/// has to be beyond chance on the same side. Repeats within seconds that are quiet while the day is as noisy as
+/// load cell's moments against one lever. Whatever else is wrong adds to these, so the smallest of them is taken, and
+/// it has to be beyond chance on the same side. Repeats within seconds that are quiet while the day is as noisy as
 /// declared are no wrong declaration, nor is one kind of readings that scatters where another does not.
 ///
 /// A ratio of two, as between standard deviation and the stated interval of most data sheets. A kind has a say from

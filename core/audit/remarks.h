@@ -111,13 +111,14 @@ enum class RemarkId {
   // repeatability_along, repeatability_across, noise_declared, rigid_tool.
   repeats_scatter,  ///< whether along the beam, one sigma in m, in parts of what is declared, whether beyond the limit
   repeats_scatter_little,
-  noise_borne_out,     ///< times, remarks: the seven below
+  noise_borne_out,     ///< times, remarks: the eight below
   noise_too_large,     ///< the same
   noise_too_small,     ///< the same
   repeats_along_show,  ///< of what is declared, as the next
   repeats_across_show,
   nests_show,
   sweep_shows,  ///< axis, of what is declared
+  short_sweeps_show,
   returns_show,
   unloaded_cell_shows,
   lever_shows,

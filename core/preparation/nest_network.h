@@ -21,11 +21,11 @@ std::vector<NestRound> nestRounds(const campaign::Nests& nests);
 /// What a reading of a nest leaves once places and motions are fitted.
 struct NestResidual {
   const campaign::NestReading* reading = nullptr;
-  std::size_t round = 0;                                ///< index into NestNetwork::epochs
-  Eigen::Vector3d off = Eigen::Vector3d::Zero();        ///< from its nest's place, in the first round's frame, m
+  std::size_t round = 0;                                 ///< index into NestNetwork::epochs
+  Eigen::Vector3d off = Eigen::Vector3d::Zero();         ///< from its nest's place, in the first round's frame, m
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< of `off`, by the declared noise; singular where the
-                                                        ///< motion takes up what the reading is off
-  double chi2 = 0.0;                                    ///< `off` in parts of the reading's own noise
+                                                         ///< motion takes up what the reading is off
+  double chi2 = 0.0;                                     ///< `off` in parts of the reading's own noise
 };
 
 /// Places of the nests and motions of the station that fit the rounds best.

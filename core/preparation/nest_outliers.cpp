@@ -140,8 +140,8 @@ struct Apart {
 };
 
 Apart apart(const NestResidual& one, const metrology::TrackerNoise& noise) {
-  // A direction of which the fit leaves less than a twentieth of the reading's variance shows next to nothing.
-  constexpr double kShown = 0.05;
+  // What the fit leaves of a reading's variance in a direction that the motion takes up is rounding, and curvature.
+  constexpr double kShown = 1e-3;
   const double least = kShown * noise.covarianceAt(one.reading->point).trace() / 3.0;
   const SymmetricEigen parts = symmetricEigen(one.covariance);
   Apart result;
@@ -220,9 +220,7 @@ std::set<int> takeBackMoved(const std::vector<NestRound>& rounds, const NestDist
   }
   std::set<int> moved;
   for (const auto& [nest, own] : rounds_of) {
-    const auto reading = [&rounds, &own = own, nest = nest](std::size_t k) {
-      return rounds[own[k]].readings.at(nest);
-    };
+    const auto reading = [&rounds, &own = own, nest = nest](std::size_t k) { return rounds[own[k]].readings.at(nest); };
     const auto astray = [&](std::size_t k) { return stray.contains(reading(k)); };
     for (std::size_t first = 0; first < own.size();) {
       std::size_t end = first + 1;

@@ -31,9 +31,9 @@ struct NestOutliers {
 /// nest that was moved, which core/preparation/drift_nests.h judges: they stay. So do more than one in twenty, and more
 /// than three, by the second step: they are no single readings.
 ///
-/// Five nests tell whose an error across their plane is, four only that there is one, three show it in their plane alone;
-/// of two none is known to be wrong. Not tested: no nests,
-/// no declared noise, fewer than three rounds or three nests.
+/// Of five nests an error across their plane leaves one or two in doubt and enough for the motion; four show only that
+/// there is one, and the round is lost; three show it in their plane alone; of two none is known to be wrong. Not
+/// tested: no nests, no declared noise, fewer than three rounds or three nests.
 NestOutliers nestOutliers(const campaign::Campaign& campaign);
 
 }  // namespace stiffscope::preparation

@@ -305,6 +305,8 @@ std::string auditWords(audit::RemarkId id, const RemarkValues& values) {
       return fmt::format("floor nests {:.2f}", values.number(0));
     case audit::RemarkId::sweep_shows:
       return fmt::format("sweep of axis {} {:.2f}", values.count(0), values.number(1));
+    case audit::RemarkId::short_sweeps_show:
+      return fmt::format("short sweeps together {:.2f}", values.number(0));
     case audit::RemarkId::returns_show:
       return fmt::format("returns to zero {:.2f}", values.number(0));
     case audit::RemarkId::unloaded_cell_shows:

@@ -142,7 +142,8 @@ TEST(DeclaredNoise, SaysWhatToDeclareInstead) {
   EXPECT_EQ(audit::audit(dayOf(1, {1.0 / kTrackerTimes})).verdict, preparation::AuditVerdict::fail);
 }
 
-// Quiet repeats within seconds are no proof: the day, from round to round and circle to circle, is as noisy as declared.
+// Quiet repeats within seconds are no proof: the day, from round to round and circle to circle, is as noisy as
+// declared.
 TEST(DeclaredNoise, QuietRepeatsOfANoisyDayAreNoFinding) {
   campaign::Campaign campaign = dayOf(11, {});
   std::map<std::tuple<int, int, int>, Eigen::Vector3d> first;

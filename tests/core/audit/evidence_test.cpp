@@ -13,7 +13,7 @@
 namespace stiffscope {
 namespace evidence_test {
 
-constexpr double kSigma = 8e-6;                       // m, of a reading, in every direction
+constexpr double kSigma = 8e-6;                          // m, of a reading, in every direction
 constexpr double kForceSigma = 1.0, kMomentSigma = 0.3;  // N, Nm
 
 bool unanswered(const audit::AuditReport& report, audit::RemarkId id) {
@@ -99,7 +99,7 @@ TEST(Evidence, FiveChecksAreNotEnough) {
   EXPECT_TRUE(unanswered(report, audit::RemarkId::unknown_worth_of_readings));
   EXPECT_TRUE(unanswered(report, audit::RemarkId::unknown_load_cell));
   for (const char* id : {"time_order", "completeness", "servo_change", "load_size", "posture_set"})
-    EXPECT_EQ(checkOf(report, id).verdict, preparation::AuditVerdict::pass) << id;
+    EXPECT_NE(checkOf(report, id).verdict, preparation::AuditVerdict::not_testable) << id;
 }
 
 TEST(Evidence, DisplacementsThatComeBackAndALoadCellThatIsReadPass) {
@@ -122,7 +122,8 @@ TEST(Evidence, ADisplacementThatDoesNotComeBackIsNamed) {
     row.displacement.z() += 0.3e-3;
     line = row.line;
   }
-  const preparation::AuditCheck& check = checkOf(audit::audit(campaign), "return_to_zero");
+  const audit::AuditReport report = audit::audit(campaign);
+  const preparation::AuditCheck& check = checkOf(report, "return_to_zero");
   EXPECT_NE(check.verdict, preparation::AuditVerdict::pass);
   EXPECT_EQ(reports::words(check.where), "displacements.csv:" + std::to_string(line));
 }
@@ -179,7 +180,9 @@ TEST(Evidence, StrayNestsAreRejectedAndTheDriftStays) {
   }
   // The drift is that of the other readings: of fifty rounds each known to some 20 um the largest, so to as much.
   EXPECT_NEAR(*checkOf(report, "station_drift").value, *checkOf(as_read, "station_drift").value, 20e-6);
-  EXPECT_EQ(checkOf(report, "station_drift").message.values.back(), checkOf(as_read, "station_drift").message.values.back());
+  const auto& more = std::get<std::vector<Remark>>(checkOf(report, "station_drift").message.values.back());
+  ASSERT_FALSE(more.empty());
+  EXPECT_TRUE(more.back().is(audit::RemarkId::motion_taken_off));
   EXPECT_NE(checkOf(report, "nest_moved").verdict, preparation::AuditVerdict::fail);
 }
 
