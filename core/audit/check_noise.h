@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "core/audit/audit.h"
 #include "core/audit/audit_input.h"
+#include "core/audit/suspected.h"
 
 namespace stiffscope::audit {
 

@@ -11,7 +11,6 @@
 #include "core/frames/position_equations.h"
 #include "core/numerics/distributions.h"
 #include "core/preparation/finding.h"
-#include "core/preparation/nest_network.h"
 #include "core/preparation/remarks.h"
 #include "metrology/linear_algebra.h"
 #include "metrology/rigid_motion.h"

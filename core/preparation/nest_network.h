@@ -1,13 +1,24 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <vector>
 
 #include "core/campaign/campaign.h"
-#include "core/preparation/drift_nests.h"
 #include "metrology/measured_points.h"
 
 namespace stiffscope::preparation {
+
+/// How the station stood at one round of the nests against the first round.
+struct StationEpoch {
+  double time_s = 0.0;
+  /// Rotation vector (rad) then displacement at `centre` (m) that bring this round's readings onto the
+  /// first's.
+  Eigen::Matrix<double, 6, 1> motion = Eigen::Matrix<double, 6, 1>::Zero();
+  Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();  ///< by the declared noise
+  /// Where the station jumped between the round before and this one instead of drifting: when, s.
+  std::optional<double> jumped_at;
+};
 
 /// One round of nest readings.
 struct NestRound {

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "core/numerics/distributions.h"
+#include "core/preparation/drift_nests.h"
 #include "core/preparation/nest_network.h"
 #include "core/preparation/remarks.h"
 #include "core/preparation/repeatability.h"
