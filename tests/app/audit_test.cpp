@@ -64,9 +64,10 @@ TEST(AuditCommand, ADayWithNothingToTestExitsWithOne) {
   const ScratchFolder scratch;
   const fs::path empty = scratch.path() / "empty";
   fs::create_directory(empty);
-  std::ofstream(empty / "campaign.xml") << "<campaign format=\"1\" name=\"nothing\" date=\"2026-01-01\">"
-                                           "<robot urdf=\"robot.urdf\" base_link=\"base_link\" flange_link=\"tool0\"/>"
-                                           "<targets><target id=\"P10\"/></targets></campaign>\n";
+  std::ofstream(empty / "campaign.xml")
+      << "<campaign format=\"1\" name=\"nothing\" date=\"2026-01-01\">"
+         "<robot urdf=\"robot.urdf\" base_link=\"base_link\" flange_link=\"tool0\" double_encoder=\"unspecified\"/>"
+         "<targets><target id=\"P10\"/></targets></campaign>\n";
   fs::copy(fs::path(STIFFSCOPE_SOURCE_DIR) / "samples" / "m900ib700.urdf", empty / "robot.urdf");
   const Ran text = runProgram("audit '" + empty.string() + "'", scratch.path());
   EXPECT_EQ(text.status, 1) << text.err;
