@@ -30,8 +30,7 @@ std::optional<Method> methodOfBoth(const Identification& before, const Identific
 }
 
 std::vector<Eigen::VectorXd> residuals(const std::vector<CaseEquations>& equations, const robot::JointMask& joints) {
-  const Vector6d compliance =
-      identification::solveNormal(identification::normalEquations(equations), joints);
+  const Vector6d compliance = identification::solveNormal(identification::normalEquations(equations), joints);
   std::vector<Eigen::VectorXd> left;
   for (const CaseEquations& one : equations) left.emplace_back(one.right - one.matrix * compliance);
   return left;
@@ -109,8 +108,8 @@ CommonResidual commonResidual(const campaign::Campaign& before_campaign, const I
   std::vector<double> products;
   for (const PosturePair& pair : matched.pairs) {
     double own = 0.0;
-    for (const ReflectorPair& one : reflectorsInBoth(before_campaign, before.cases[pair.before], after_campaign,
-                                                     after.cases[pair.after])) {
+    for (const ReflectorPair& one :
+         reflectorsInBoth(before_campaign, before.cases[pair.before], after_campaign, after.cases[pair.after])) {
       const Eigen::Vector3d b = left_before[pair.before].segment<3>(static_cast<Eigen::Index>(3 * one.before)),
                             a = left_after[pair.after].segment<3>(static_cast<Eigen::Index>(3 * one.after));
       own += b.dot(a);

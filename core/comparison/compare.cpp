@@ -26,13 +26,14 @@ std::vector<Remark> warningsOf(const campaign::Campaign& before_campaign, const 
       after_campaign.double_encoder == campaign::DoubleEncoder::inactive) {
     cautions.emplace_back(RemarkId::encoders_swapped);
   }
-  const std::size_t all = result.matched.pairs.size() + result.matched.unmatched.size();
-  if (!result.matched.pairs.empty() && 2 * result.matched.pairs.size() < all) {
-    cautions.emplace_back(RemarkId::few_correspond, result.matched.pairs.size(), all);
+  const std::size_t pairs = result.matched.pairs.size(), all = pairs + result.matched.unmatched.size();
+  const bool apart = std::any_of(result.methods.begin(), result.methods.end(),
+                                 [](const StiffnessChange& one) { return one.available && !one.same_postures; });
+  if (apart) {
+    cautions.emplace_back(RemarkId::other_postures, pairs);
+  } else if (pairs > 0 && 2 * pairs < all) {
+    cautions.emplace_back(RemarkId::few_correspond, pairs, all);
   }
-  const bool any_apart = std::any_of(result.methods.begin(), result.methods.end(),
-                                     [](const StiffnessChange& one) { return one.available && !one.same_postures; });
-  if (any_apart) cautions.emplace_back(RemarkId::other_postures, result.matched.pairs.size());
   const CommonResidual& left = result.residual;
   if (left.differenceAboveNoise()) {
     cautions.emplace_back(RemarkId::difference_above_noise, left.of_difference,
@@ -44,6 +45,15 @@ std::vector<Remark> warningsOf(const campaign::Campaign& before_campaign, const 
 /// What identification itself cautions of, which ratios and p-values inherit.
 void addWarnings(When when, const identification::Identification& one, std::vector<Remark>& cautions) {
   for (const auto& caution : one.cautions) cautions.emplace_back(RemarkId::of_one_campaign, when, caution);
+}
+
+double avoidedRest(const StiffnessChange& change, const DeflectionAvoided& at_targets) {
+  if (!change.available || !at_targets.available) return std::numeric_limits<double>::quiet_NaN();
+  double rest = at_targets.share;
+  for (const JointChange& joint : change.joints) {
+    if (joint.comparable) rest -= joint.avoided.value;
+  }
+  return rest;
 }
 
 }  // namespace
@@ -66,6 +76,7 @@ Comparison compareCampaigns(const campaign::Campaign& before_campaign, const ide
   result.residual = commonResidual(before_campaign, before, after_campaign, after, result.matched);
   result.at_wrist = deflectionAvoidedAtWrist(before, after, result.matched, options);
   result.at_targets = deflectionAvoidedAtTargets(before, after, result.matched, options);
+  for (StiffnessChange& change : result.methods) change.avoided_rest = avoidedRest(change, result.at_targets);
   result.comparable =
       result.avoided().available || std::any_of(result.methods.begin(), result.methods.end(),
                                                 [](const StiffnessChange& one) { return one.available; });
@@ -100,9 +111,9 @@ double pOfZero(const Uncertain& number, double size) {
 /// The stiffnesses of each campaign's own identification.
 void stateStiffnesses(const identification::StiffnessEstimate& before, const identification::StiffnessEstimate& after,
                       int joint, JointChange& change) {
-  change.before = before.stiffness(joint), change.before_sd = before.stiffnessSd(joint);
-  change.after = after.stiffness(joint), change.after_sd = after.stiffnessSd(joint);
-  change.ratio = before.compliance[joint] / after.compliance[joint];
+  change.before = {before.stiffness(joint), before.stiffnessSd(joint), before.dof(joint)};
+  change.after = {after.stiffness(joint), after.stiffnessSd(joint), after.dof(joint)};
+  change.ratio.value = before.compliance[joint] / after.compliance[joint];
   change.mark = markOf(before, after, joint);
 }
 
@@ -112,7 +123,8 @@ void judge(const PairedFit& fit, int joint, double avoided_by_unit, JointChange&
   change.correlation = fit.correlation(joint);
   change.p_value = pOfZero(change.difference, std::abs(fit.before[joint]));
   change.taken = fit.shareTaken(joint);
-  change.ratio_sd = change.ratio * change.ratio * change.taken.sd;  // r = 1 / (1 - share)
+  change.ratio.sd = change.ratio.value * change.ratio.value * change.taken.sd;  // r = 1 / (1 - share)
+  change.ratio.dof = change.taken.dof;
   const Uncertain before = fit.combination(joint, 1.0, 0.0);
   if (!(before.value > before.expanded())) change.taken.value = change.taken.sd = kNone;
   change.avoided = {-avoided_by_unit * change.difference.value, std::abs(avoided_by_unit) * change.difference.sd,
@@ -143,9 +155,9 @@ StiffnessChange compareStiffness(const campaign::Campaign& before_campaign,
   const PairedFit fit = pairedFit(before_campaign, before, after_campaign, after, method, matched);
   result.available = fit.available;
   result.same_postures = fit.same_postures, result.postures = fit.postures;
-  const Vector6d by_unit =
-      fit.available ? avoidedByUnit(before_campaign, before, after_campaign, after, method, matched)
-                    : Vector6d(Vector6d::Zero());
+  const Vector6d by_unit = fit.available
+                               ? avoidedByUnit(before_campaign, before, after_campaign, after, method, matched)
+                               : Vector6d(Vector6d::Zero());
   for (std::size_t j = 0; j < 6; ++j) {
     JointChange& change = result.joints[j];
     if (!fit.joints[j]) {

@@ -26,11 +26,9 @@ struct JointChange {
   Uncertain taken;       ///< share of the compliance before that is gone; not a number where that is not above zero
   Uncertain avoided;     ///< share of the deflection at the reflectors that this avoids (avoidedByUnit); not a number
                          ///< where no posture corresponds
-  double before = 0.0,
-         before_sd = 0.0;  ///< k and its standard uncertainty, Nm/rad; sd not a number: none stated
-  double after = 0.0, after_sd = 0.0;
-  double ratio = 0.0;        ///< after / before. Keeps the bias of both unless what springs leave is noise
-  double ratio_sd = 0.0;     ///< to first order, correlation included
+  Uncertain before, after;   ///< k of each campaign's identification, Nm/rad
+  Uncertain ratio;           ///< after / before, to first order, correlation included. Keeps the bias of both unless
+                             ///< what springs leave is noise (CommonResidual)
   double correlation = 0.0;  ///< of the two scatter errors, by the postures that both share
   Remark mark;               ///< of either entry: negative or imprecise; else empty
 };
@@ -41,6 +39,9 @@ struct StiffnessChange {
   std::array<JointChange, 6> joints;
   bool same_postures = false;  ///< differences are of fits on the postures that correspond
   std::size_t postures = 0;    ///< that correspond
+  /// Of the share of the deflection avoided at the reflectors, what the joints' `avoided` leave; not a number where
+  /// none of these is one.
+  double avoided_rest = 0.0;
 };
 
 /// Compares by one method. The test is on the difference of compliances, whose error is nearly normal where that of

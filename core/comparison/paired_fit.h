@@ -56,9 +56,9 @@ struct PairedFit {
 };
 
 /// Solves both on the postures that correspond where these are at least half of the postures of the state that has
-/// fewer, and enough for an uncertainty; else on all postures of each. Complete Pose with one characteristic length (the
-/// geometric mean), which else would be a difference of its own. Not available where the method is not in both, or no
-/// joint is identifiable in both.
+/// fewer, and enough for an uncertainty; else on all postures of each. Complete Pose with one characteristic length
+/// (the geometric mean), which else would be a difference of its own. Not available where the method is not in both, or
+/// no joint is identifiable in both.
 PairedFit pairedFit(const campaign::Campaign& before_campaign, const identification::Identification& before,
                     const campaign::Campaign& after_campaign, const identification::Identification& after,
                     identification::Method method, const MatchedPostures& matched);

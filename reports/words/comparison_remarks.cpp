@@ -48,13 +48,16 @@ std::string comparisonWords(comparison::RemarkId id, const RemarkValues& values)
       return fmt::format("only {} of {} postures correspond", values.count(0), values.count(1));
     case other_postures:
       return fmt::format(
-          "only {} postures correspond, too few to solve both states from: the differences are of all postures of each, "
-          "and what the model misses does not cancel in them but as far as the postures are the same; the uncertainties "
+          "only {} postures correspond, too few to solve both states from: the differences are of all postures of "
+          "each, "
+          "and what the model misses does not cancel in them but as far as the postures are the same; the "
+          "uncertainties "
           "hold it as far as it scatters between postures",
           values.count(0));
     case difference_above_noise:
       return fmt::format(
-          "changes of joint compliances leave {:.0f} um per coordinate of the difference between the states, {:.0f} times "
+          "changes of joint compliances leave {:.0f} um per coordinate of the difference between the states, {:.0f} "
+          "times "
           "the tracker's noise: something else changed too, and does not cancel",
           values.number(0) / io::kMicrometre, values.number(0) / values.number(1));
     case nothing_comparable:

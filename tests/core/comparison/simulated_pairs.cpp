@@ -13,7 +13,9 @@ namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
 
-std::uint64_t seedOf(std::uint64_t first_seed, int pair) { return 1000 * first_seed + static_cast<std::uint64_t>(pair); }
+std::uint64_t seedOf(std::uint64_t first_seed, int pair) {
+  return 1000 * first_seed + static_cast<std::uint64_t>(pair);
+}
 
 void hideBearingsAndLinks(numerics::RandomStream& random, simulation::SimulationSpec& spec) {
   for (simulation::JointStiffness& joint : spec.machine.joints) {
@@ -53,8 +55,8 @@ simulation::SimulationSpec anotherDay(const simulation::SimulationSpec& first, c
   numerics::RandomStream random(first.seed, fmt::format("day {}", measurement));
   Eigen::Isometry3d& tracker = spec.tracker.base_from_tracker;
   tracker.translation() += 0.3 * random.normal3();
-  tracker.linear() =
-      Eigen::AngleAxisd(3.0 * kDegree * random.normal(), Eigen::Vector3d::UnitZ()).toRotationMatrix() * tracker.linear();
+  tracker.linear() = Eigen::AngleAxisd(3.0 * kDegree * random.normal(), Eigen::Vector3d::UnitZ()).toRotationMatrix() *
+                     tracker.linear();
   for (simulation::ListedPosture& posture : spec.postures) {
     for (int j = 0; j < 6; ++j) {
       posture.q[j] += 0.002 * kDegree * std::clamp(random.normal(), -3.0, 3.0);
