@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "metrology/tail_probability.h"
 
@@ -17,7 +18,7 @@ using identification::Method;
 constexpr double kAboveNoise = 3.0;  // times: beyond what a tracker's declared noise may be wrong by
 constexpr double kNearNoise = 1.3;   // times, where nothing else tells a misfit from noise
 constexpr double kRecurs = 0.05;     // level of the test for a misfit in common
-constexpr std::size_t kFewest = 4;   // postures whose products make a t test
+constexpr std::size_t kFewest = 6;   // postures whose products make a t test, after a fit to them
 
 std::optional<Method> methodOfBoth(const Identification& before, const Identification& after) {
   for (const Method method : {Method::partial_pose, Method::complete_pose, Method::decoupled_partial_pose}) {
@@ -87,6 +88,43 @@ bool CommonResidual::differenceAboveNoise() const {
          of_difference > kAboveNoise * std::hypot(*noise_before, *noise_after);
 }
 
+namespace {
+
+/// By fits to the postures of both: one to others would leave a misfit of its own.
+void judgePairs(const campaign::Campaign& before_campaign, const Identification& before,
+                const campaign::Campaign& after_campaign, const Identification& after, Method method,
+                const std::vector<PosturePair>& pairs, CommonResidual& result) {
+  robot::JointMask joints = before.of(method).estimate.identifiable;
+  for (std::size_t j = 0; j < 6; ++j) joints[j] = joints[j] && after.of(method).estimate.identifiable[j];
+  std::vector<CaseEquations> rows_before, rows_after;
+  for (const PosturePair& pair : pairs) {
+    rows_before.push_back(before.of(method).target_rows[pair.before]);
+    rows_after.push_back(after.of(method).target_rows[pair.after]);
+  }
+  const std::vector<Eigen::VectorXd> first = residuals(rows_before, joints), second = residuals(rows_after, joints);
+  double squares_before = 0.0, squares_after = 0.0, squares = 0.0;
+  Eigen::Index rows = 0;
+  std::vector<double> products;
+  for (std::size_t p = 0; p < pairs.size(); ++p) {
+    double own = 0.0;
+    for (const ReflectorPair& one : reflectorsInBoth(before_campaign, before.cases[pairs[p].before], after_campaign,
+                                                     after.cases[pairs[p].after])) {
+      const Eigen::Vector3d b = first[p].segment<3>(static_cast<Eigen::Index>(3 * one.before)),
+                            a = second[p].segment<3>(static_cast<Eigen::Index>(3 * one.after));
+      own += b.dot(a);
+      squares_before += b.squaredNorm(), squares_after += a.squaredNorm(), squares += (a - b).squaredNorm();
+      rows += 3;
+    }
+    products.push_back(own);
+  }
+  const double scale = std::sqrt(squares_before * squares_after);
+  result.correlation = scale > 0.0 ? std::accumulate(products.begin(), products.end(), 0.0) / scale : 0.0;
+  result.of_difference = sigmaOf(squares, rows, joints);
+  result.recurs_p = pOfNoMean(products);
+}
+
+}  // namespace
+
 CommonResidual commonResidual(const campaign::Campaign& before_campaign, const Identification& before,
                               const campaign::Campaign& after_campaign, const Identification& after,
                               const MatchedPostures& matched) {
@@ -96,33 +134,13 @@ CommonResidual commonResidual(const campaign::Campaign& before_campaign, const I
   if (!method) return result;
   const robot::JointMask &joints_before = before.of(*method).estimate.identifiable,
                          &joints_after = after.of(*method).estimate.identifiable;
-  const std::vector<Eigen::VectorXd> left_before = residuals(before.of(*method).target_rows, joints_before),
-                                     left_after = residuals(after.of(*method).target_rows, joints_after);
   result.available = true;
-  result.before = sigmaOf(left_before, joints_before), result.after = sigmaOf(left_after, joints_after);
+  result.before = sigmaOf(residuals(before.of(*method).target_rows, joints_before), joints_before);
+  result.after = sigmaOf(residuals(after.of(*method).target_rows, joints_after), joints_after);
   result.noise_before = noiseOf(before), result.noise_after = noiseOf(after);
   if (matched.pairs.size() < kFewest) return result;
 
-  double squares_before = 0.0, squares_after = 0.0, product = 0.0, squares = 0.0;
-  Eigen::Index rows = 0;
-  std::vector<double> products;
-  for (const PosturePair& pair : matched.pairs) {
-    double own = 0.0;
-    for (const ReflectorPair& one :
-         reflectorsInBoth(before_campaign, before.cases[pair.before], after_campaign, after.cases[pair.after])) {
-      const Eigen::Vector3d b = left_before[pair.before].segment<3>(static_cast<Eigen::Index>(3 * one.before)),
-                            a = left_after[pair.after].segment<3>(static_cast<Eigen::Index>(3 * one.after));
-      own += b.dot(a);
-      squares_before += b.squaredNorm(), squares_after += a.squaredNorm(), squares += (a - b).squaredNorm();
-      rows += 3;
-    }
-    product += own;
-    products.push_back(own);
-  }
-  const double scale = std::sqrt(squares_before * squares_after);
-  result.correlation = scale > 0.0 ? product / scale : 0.0;
-  result.of_difference = sigmaOf(squares, rows, joints_before);
-  result.recurs_p = pOfNoMean(products);
+  judgePairs(before_campaign, before, after_campaign, after, *method, matched.pairs, result);
   return result;
 }
 

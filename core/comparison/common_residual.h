@@ -13,7 +13,7 @@ struct CommonResidual {
   bool available = false;
   double before = 0.0, after = 0.0;
   std::optional<double> noise_before, noise_after;  ///< of the tracker; empty where not declared
-  // Where postures correspond (four or more), else not numbers:
+  // Where postures correspond (six or more), by fits to these; else not numbers:
   double of_difference = 0.0;  ///< of what after leaves less what before leaves
   double correlation = 0.0;    ///< of the two
   /// Of no misfit in common: one-sided, Student's t of the postures' products r_b . r_a, whose mean is zero where both

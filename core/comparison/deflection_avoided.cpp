@@ -77,6 +77,7 @@ Vector6d avoidedByUnit(const campaign::Campaign& before_campaign, const identifi
                        identification::Method method, const MatchedPostures& matched) {
   const auto &rows_before = before.of(method).target_rows, &rows_after = after.of(method).target_rows;
   Vector6d sum = Vector6d::Zero();
+  if (rows_before.size() != before.cases.size() || rows_after.size() != after.cases.size()) return sum;
   double whole = 0.0;
   for (const PosturePair& pair : matched.pairs) {
     const identification::LoadCase &first = before.cases[pair.before], &second = after.cases[pair.after];

@@ -140,10 +140,11 @@ bool enough(const MatchedPostures& matched, const Identification& before, const 
   return pairs >= kFewest && 2 * pairs >= std::min(before.cases.size(), after.cases.size());
 }
 
+/// Whether a method has equations and influences of all load cases; its own geometry may leave one out.
 bool hasEquations(const Identification& result, Method method) {
   const identification::MethodResult& own = result.of(method);
   const std::size_t cases = result.cases.size();
-  return own.available && own.target_rows.size() == cases &&
+  return own.target_rows.size() == cases && own.estimate.influences.size() == cases &&
          (method != Method::decoupled_partial_pose || own.wrist_rows.size() == cases) &&
          (method != Method::complete_pose || own.pose_rows.size() == cases);
 }
@@ -154,7 +155,7 @@ PairedFit pairedFit(const campaign::Campaign& before_campaign, const Identificat
                     const campaign::Campaign& after_campaign, const Identification& after, Method method,
                     const MatchedPostures& matched) {
   PairedFit fit;
-  if (!hasEquations(before, method) || !hasEquations(after, method)) return fit;
+  if (!before.of(method).available || !after.of(method).available) return fit;
   const StiffnessEstimate &first = before.of(method).estimate, &second = after.of(method).estimate;
   for (std::size_t j = 0; j < 6; ++j) {
     fit.joints[j] = first.identifiable[j] && second.identifiable[j];
@@ -162,10 +163,11 @@ PairedFit pairedFit(const campaign::Campaign& before_campaign, const Identificat
   }
   if (!fit.available) return fit;
   fit.shared_before = sharedVariance(first), fit.shared_after = sharedVariance(second);
-  fit.same_postures = enough(matched, before, after);
+  const bool paired = hasEquations(before, method) && hasEquations(after, method);
+  fit.same_postures = paired && enough(matched, before, after);
   fit.postures = matched.pairs.size();
   StiffnessEstimate solved_before = first, solved_after = second;
-  std::vector<PosturePair> pairs = matched.pairs;
+  std::vector<PosturePair> pairs = paired ? matched.pairs : std::vector<PosturePair>{};
   if (fit.same_postures) {
     std::vector<std::size_t> cases_before, cases_after;
     for (std::size_t p = 0; p < pairs.size(); ++p) {

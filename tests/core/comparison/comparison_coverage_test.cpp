@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <vector>
+#include "core/campaign/row_names.h"
 #include "core/comparison/compare.h"
 #include "core/preparation/prepare.h"
 #include "core/simulation/measure.h"
@@ -35,13 +36,22 @@ struct Day {
   identification::Identification identification;
 };
 
+/// Lines as a day read from files has them: readings are rejected by file and line.
+campaign::Campaign numbered(campaign::Campaign day) {
+  std::size_t line = 0;
+  campaign::forEachPointTable(day, [&](auto& table) {
+    for (auto& row : table.rows) row.line = ++line;
+  });
+  return day;
+}
+
 /// As `compare` sees a day, but for the subsets, which it does not use.
 Day measured(const simulation::SimulationSpec& spec) {
   identification::IdentifyOptions options;
   options.subsets.most_all = 1;
   options.subsets.sample = 1;
   Day day;
-  day.campaign = preparation::prepareCampaign(simulation::simulate(spec)).campaign;
+  day.campaign = preparation::prepareCampaign(numbered(simulation::simulate(spec))).campaign;
   day.identification = identification::identify(day.campaign, options);
   return day;
 }
