@@ -51,7 +51,7 @@ TEST(CompareCommand, TheSamplesDifferencesAreThoseTheyWereMadeWith) {
       const double u = row["u_compliance_difference_rad_per_nm"].get<double>();
       // 95 % each, of 15: one may be outside U, none by half of it.
       EXPECT_NEAR(row["compliance_difference_rad_per_nm"].get<double>(), truth, 1.5 * u) << method << ' ' << j;
-      EXPECT_LT(u, 0.1 * std::abs(truth)) << method << ' ' << j;
+      EXPECT_LT(u, 0.2 * std::abs(truth)) << method << ' ' << j;
       EXPECT_LT(row["p_value_holm"].get<double>(), 0.01);
       EXPECT_TRUE(row["ratio_keeps_bias"].get<bool>());
       avoided += row["avoided_at_targets"].get<double>();
