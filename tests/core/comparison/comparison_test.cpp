@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 #include "core/comparison/compare.h"
@@ -99,6 +100,8 @@ TEST(Comparison, WithoutSharedPosturesNoCorrelationIsCounted) {
   for (std::string& id : after.pose_ids) id = "other " + id;
   const comparison::Comparison apart = compared(before, after);
   EXPECT_TRUE(apart.matched.pairs.empty());
+  EXPECT_FALSE(apart.of(identification::Method::partial_pose).same_postures);
+  EXPECT_TRUE(apart.cautions.front().is(comparison::RemarkId::other_postures));
   EXPECT_EQ(apart.matched.unmatched.size(), 24u);
   EXPECT_TRUE(apart.matched.unmatched.front().reason ==
               Remark(comparison::RemarkId::not_measured, comparison::When::after));
@@ -141,6 +144,24 @@ TEST(Comparison, WhatBothStatesMissCancelsInTheDifference) {
     }
     EXPECT_LT(change.joints[1].p_holm, 1e-4);
   }
+}
+
+TEST(Comparison, ADifferenceThatIsMoreThanJointsIsCautionedOf) {
+  // Another misfit in every posture of the second day: 60 um each, where 5 um twice in each state are noise.
+  campaign::Campaign before = day(exampleCompliance(), 7, 60e-6, 2, 5e-6),
+                     other = day(exampleCompliance(), 8, 60e-6, 3, 5e-6),
+                     same = day(exampleCompliance(), 7, 60e-6, 4, 5e-6);
+  for (campaign::Campaign* one : {&before, &other, &same}) {
+    one->tracker = campaign::Tracker{"tracker", 5e-6, 0.0, 5e-6, 0.0, Eigen::Vector3d::Zero()};
+  }
+  const auto cautioned = [&](const campaign::Campaign& after) {
+    const comparison::Comparison found = compared(before, after);
+    EXPECT_FALSE(found.residual.isNoise());
+    return std::any_of(found.cautions.begin(), found.cautions.end(),
+                       [](const Remark& one) { return one.is(comparison::RemarkId::difference_above_noise); });
+  };
+  EXPECT_TRUE(cautioned(other));
+  EXPECT_FALSE(cautioned(same));
 }
 
 TEST(Comparison, NoiseAloneIsCalledNoise) {
