@@ -14,7 +14,8 @@ struct Campaign;
 }
 namespace stiffscope::comparison {
 struct Comparison;
-}
+struct StiffnessChange;
+}  // namespace stiffscope::comparison
 namespace stiffscope::compensation {
 struct CompensatedPosture;
 }
@@ -44,6 +45,9 @@ struct BlindResult;
 namespace stiffscope::reports {
 
 struct ReportContent;
+
+/// One method's part of `compare`, joint by joint; `ratios_hold`: what joint springs leave is noise.
+Json changeJson(const comparison::StiffnessChange& change, bool ratios_hold);
 
 /// The result of `compare`. `joints` are those of the best method that both campaigns have (`method`); all of
 /// them stand under `methods`.
