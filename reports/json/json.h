@@ -36,6 +36,9 @@ struct Plan;
 namespace stiffscope::preparation {
 enum class AuditVerdict;
 }
+namespace stiffscope::simulation {
+struct SimulationSpec;
+}
 namespace stiffscope::validation {
 struct BlindOptions;
 struct BlindResult;
@@ -71,10 +74,15 @@ Json planJson(const campaign::Campaign& campaign, const planning::Plan& plan);
 /// results of `audit`, `frames` and `identify`, and what the double encoders avoid. The content has to live as long.
 JsonDocument resultsJson(const ReportContent& content);
 
-/// Keys: seal, answers_sha256, seed, cases (list: truth, sizes in noises, answer, found, right), confusion
-/// (truths, answers, counts: rows are truths), rates (by id: meaning, hits, trials, value, low, high at 95 %,
-/// value null without trials), by_size, effects, outside, shrink (promised against true).
+/// Keys: seal, answers_sha256, seed, as_is_share, cases (list: truth, sizes in noises, true stiffnesses, answer, found,
+/// right), confusion (truths, answers, counts: rows are truths), rates (by id: meaning, hits, trials, value, low, high
+/// at 95 %, value null without trials), by_size, effects, outside, as_is, shrink (promised against true).
 Json blindJson(const validation::BlindOptions& options, const validation::BlindResult& result);
+
+/// truth.json of `simulate`: what the machine truly is, drawn values included, under the keys that `identify` and
+/// `frames` have for what they find of it (stiffness_nm_per_rad, axes, links), SI otherwise. `effects`: what it has
+/// besides joint springs, one entry a mechanism. Null: rigid. docs/simulation-format.md lists the keys.
+Json truthJson(const simulation::SimulationSpec& spec);
 
 /// The result of `audit`: verdict, checks with figure and limit (null where not testable), rejected readings.
 Json auditJson(const campaign::Campaign& campaign, const audit::AuditReport& report);
