@@ -20,7 +20,8 @@ struct CompensatedPosture;
 }
 namespace stiffscope::diagnosis {
 struct Diagnosis;
-}
+struct SpikeStudy;
+}  // namespace stiffscope::diagnosis
 namespace stiffscope::extended_model {
 struct ExtendedModel;
 }
@@ -60,6 +61,11 @@ Json compensationJson(const campaign::Campaign& campaign, identification::Method
 /// The result of `diagnose`. `verdict` is a list of lists of effect ids: the outer names all that is present,
 /// an inner one what this data cannot tell apart; [["none"]], or ["unknown"] among them.
 Json diagnosisJson(const campaign::Campaign& campaign, const diagnosis::Diagnosis& diagnosis);
+
+/// The result of `diagnose --spike`: that of `diagnose` with `spike`: seed, draws, baseline (the verdict without any
+/// effect added), effects (effect, detectable_um and reason where it was not added, in_baseline, sizes: times, size_um,
+/// draws, named, part_named, class_size, other_named, unknown, others by id). Counts are of draws.
+Json withSpikes(Json diagnosis, const diagnosis::SpikeStudy& study);
 
 /// The result of `frames`: R0, axes, link lengths, wrist centre with Table I, P_TCP. Axes, points and the wrist stand
 /// in R0 with all joints at zero unless the key says otherwise; what was not measured is null with a reason, or the
