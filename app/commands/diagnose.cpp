@@ -35,6 +35,7 @@ struct DiagnoseArguments {
 std::vector<effects::Effect> effectsToAdd(const std::vector<std::string>& words) {
   std::vector<effects::Effect> wanted;
   for (const std::string& word : words) {
+    if (word.empty()) continue;  // the option without a value
     const auto effect = effects::effectOf(word);
     if (!effect) {
       const std::vector<std::string> known(effects::kEffectIds.begin(), effects::kEffectIds.end());

@@ -23,7 +23,8 @@ void addSimulate(CLI::App& app, Run& run) {
   const auto arguments = std::make_shared<SimulateArguments>();
   CLI::App* command = app.add_subcommand("simulate", "A campaign measured on a described machine");
   command->add_option("SPEC", arguments->spec, "description of the machine and the day (XML)")->required();
-  command->add_option("--out", arguments->out, "campaign folder to write, with truth.json: what the machine truly is")->required();
+  command->add_option("--out", arguments->out, "campaign folder to write, with truth.json: what the machine truly is")
+      ->required();
   command->add_flag("--replace", arguments->replace, "write over a campaign that is there");
   command->callback([arguments, &run] {
     run = [arguments] {

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <algorithm>
+#include <utility>
 
 #include "app/figures/chart_style.h"
 #include "core/io/units.h"
@@ -41,10 +42,12 @@ render::PointPanel spikePanel(const diagnosis::SpikedEffect& one) {
   panel.y_title = "Draws (%)";
   panel.x_title = "Times that size";
   for (const Counts& at : one.sizes) panel.categories.push_back(fmt::format("{:g}", at.times));
-  panel.series = {wholeAxis(), shareOf(one, "named", 0, [](const Counts& at) { return at.named; }),
-                  shareOf(one, "named with its part", 2, [](const Counts& at) { return at.part_named; }),
-                  shareOf(one, "another named, or unknown", 1,
-                          [](const Counts& at) { return std::min(at.draws, at.other_named + at.unknown); })};
+  render::PointSeries named = shareOf(one, "named", 0, [](const Counts& at) { return at.named; });
+  named.mark = render::PointMark::Ring;  // shows what lies under it
+  panel.series = {wholeAxis(), shareOf(one, "named with its part", 2, [](const Counts& at) { return at.part_named; }),
+                  std::move(named), shareOf(one, "another named, or unknown", 1, [](const Counts& at) {
+                    return std::min(at.draws, at.other_named + at.unknown);
+                  })};
   return panel;
 }
 

@@ -46,9 +46,8 @@ class SpikeScorer {
     bool other = false;
     for (const VerdictEntry& entry : answer->entries) {
       if (entry.effects.empty() || entryWith(Verdict{{entry}, {}}, spike.effect) != nullptr) continue;
-      const bool known = std::any_of(entry.effects.begin(), entry.effects.end(), [&](effects::Effect effect) {
-        return entryWith(baseline_, effect) != nullptr;
-      });
+      const bool known = std::any_of(entry.effects.begin(), entry.effects.end(),
+                                     [&](effects::Effect effect) { return entryWith(baseline_, effect) != nullptr; });
       if (known) continue;
       other = true;
       ++others_[entry.effects.front()];
@@ -105,8 +104,8 @@ std::vector<effects::Effect> wantedOf(const SpikeOptions& options) {
 }
 
 SpikedEffect described(effects::Effect effect, const Diagnosis& baseline) {
-  SpikedEffect one{effect, std::nullopt, Remark(RemarkId::spike_hidden), entryWith(baseline.verdict, effect) != nullptr,
-                   {}};
+  SpikedEffect one{
+      effect, std::nullopt, Remark(RemarkId::spike_hidden), entryWith(baseline.verdict, effect) != nullptr, {}};
   for (const DetectableSize& size : baseline.detectable) {
     if (size.effect == effect) one.detectable = size.size;
   }
@@ -120,8 +119,7 @@ SpikedEffect described(effects::Effect effect, const Diagnosis& baseline) {
 
 /// The postures of a long day that a diagnosis looks at.
 campaign::Campaign dayOf(const campaign::Campaign& campaign) {
-  const bool is_long =
-      campaign.pose_ids.size() > preparation::kMostDiagnosed || preparation::hasLongSweep(campaign);
+  const bool is_long = campaign.pose_ids.size() > preparation::kMostDiagnosed || preparation::hasLongSweep(campaign);
   return is_long ? preparation::evenlySpread(campaign, preparation::kMostDiagnosed) : campaign;
 }
 

@@ -12,19 +12,19 @@
 namespace stiffscope::diagnosis {
 
 struct SpikeOptions {
-  std::vector<effects::Effect> effects;             ///< empty: all
+  std::vector<effects::Effect> effects;              ///< empty: all
   std::vector<double> sizes = {0.5, 1.0, 2.0, 4.0};  ///< times the effect's smallest detectable size
-  int draws = 8;                                    ///< realisations of an effect; each in all sizes
+  int draws = 8;                                     ///< realisations of an effect; each in all sizes
   std::uint64_t seed = 1;
 };
 
 /// What is said of a day with an effect added in one size.
 struct SpikeCounts {
-  double times = 0.0;  ///< the detectable size
-  double size = 0.0;   ///< m
-  int draws = 0;       ///< realisations that are within the physical bounds at this size and have an answer
-  int named = 0;       ///< the effect is a member of an entry of the verdict
-  int part_named = 0;  ///< and the entry names the drawn parts; of effects without named parts: as `named`
+  double times = 0.0;       ///< the detectable size
+  double size = 0.0;        ///< m
+  int draws = 0;            ///< realisations that are within the physical bounds at this size and have an answer
+  int named = 0;            ///< the effect is a member of an entry of the verdict
+  int part_named = 0;       ///< and the entry names the drawn parts; of effects without named parts: as `named`
   double class_size = 0.0;  ///< members of that entry, mean over `named`
   /// Answers with an entry that neither has the effect nor any that the day itself is said to have.
   int other_named = 0;

@@ -79,7 +79,10 @@ std::optional<Spike> SpikedDay::draw(effects::Effect effect, double largest, num
     constexpr double kTwoParts = 1.0 / 3.0;
     const bool two = random.uniform() < kTwoParts && model.most_parts > 1;
     if (two && other.model == chosen.front().model && other.part != chosen.front().part) chosen.push_back(other);
-    spike = {effect, chosen.front().model, {}, Eigen::VectorXd::Zero(static_cast<Eigen::Index>(model.parameters())),
+    spike = {effect,
+             chosen.front().model,
+             {},
+             Eigen::VectorXd::Zero(static_cast<Eigen::Index>(model.parameters())),
              std::numeric_limits<double>::infinity()};
     const Eigen::Index first = data_.layout.model_at[spike.model] - data_.layout.effects;
     for (const Part& one : chosen) {
@@ -87,12 +90,13 @@ std::optional<Spike> SpikedDay::draw(effects::Effect effect, double largest, num
       if (!part.detail.empty()) spike.parts.push_back(part.detail);
       for (Eigen::Index k = 0; k < static_cast<Eigen::Index>(part.most.size()); ++k) {
         const double own = normal_(one.first + k, one.first + k), number = random.normal();
-        if (own > 0.0) spike.parameters[one.first - first + k] = (part.positive ? std::abs(number) : number) / std::sqrt(own);
+        if (own > 0.0)
+          spike.parameters[one.first - first + k] = (part.positive ? std::abs(number) : number) / std::sqrt(own);
       }
     }
     const auto block = normal_.block(first, first, spike.parameters.size(), spike.parameters.size());
-    const double now = data_.state_noise *
-                       std::sqrt(spike.parameters.dot(block * spike.parameters) / static_cast<double>(data_.loading_rows));
+    const double now = data_.state_noise * std::sqrt(spike.parameters.dot(block * spike.parameters) /
+                                                     static_cast<double>(data_.loading_rows));
     if (!(now > 0.0)) continue;
     spike.parameters /= now;
     for (const Part& one : chosen) {
@@ -110,7 +114,10 @@ std::optional<Spike> SpikedDay::draw(effects::Effect effect, double largest, num
 /// One zero or one length, or two of them.
 std::optional<Spike> SpikedDay::drawGeometry(numerics::RandomStream& random) const {
   if (!input_.absolute) return std::nullopt;
-  Spike spike{effects::Effect::kinematic_error, 0, {}, Eigen::VectorXd::Zero(2 * kLinks),
+  Spike spike{effects::Effect::kinematic_error,
+              0,
+              {},
+              Eigen::VectorXd::Zero(2 * kLinks),
               std::numeric_limits<double>::infinity()};
   const Eigen::Index kind = random.uniform() < 0.5 ? 0 : kLinks;
   for (int drawn = 0; drawn < 2; ++drawn) {
@@ -156,9 +163,9 @@ double SpikedDay::geometryLeft(const Eigen::VectorXd& errors) const {
       columns.block<3, 3>(row + 3 * static_cast<Eigen::Index>(t), 6 + 3 * state.targets[t]) = state.flange.linear();
     row += state.rows();
   }
-  return rows == 0 ? 0.0
-                   : (moved - columns * leastSquaresSolution(columns, moved)).norm() /
-                         std::sqrt(static_cast<double>(rows));
+  return rows == 0
+             ? 0.0
+             : (moved - columns * leastSquaresSolution(columns, moved)).norm() / std::sqrt(static_cast<double>(rows));
 }
 
 SpikedDay::Field SpikedDay::fieldOf(const Spike& spike, double size) const {

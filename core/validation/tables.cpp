@@ -133,9 +133,9 @@ std::vector<Answer> readAnswers(const std::string& file, const std::string& byte
 
 namespace {
 
-const std::vector<std::string> kLabelColumns{"case",         "kind",       "effects",   "details", "shows",
-                                             "sizes",        "deflection", "positions", "shrink",  "shrink_seen",
-                                             "noise_factor", "background", "arm",       "loading", "stiffness_nm_per_rad"};
+const std::vector<std::string> kLabelColumns{
+    "case",   "kind",        "effects",      "details",    "shows", "sizes",   "deflection",          "positions",
+    "shrink", "shrink_seen", "noise_factor", "background", "arm",   "loading", "stiffness_nm_per_rad"};
 
 const char* nameOf(Shows shows) {
   switch (shows) {
@@ -158,8 +158,7 @@ std::string joined(const std::vector<LabelledEffect>& effects, const Part& part)
 }
 
 CaseKind kindOf(const TableRow& row) {
-  for (const CaseKind kind :
-       {CaseKind::none, CaseKind::single, CaseKind::pair, CaseKind::outside, CaseKind::as_is}) {
+  for (const CaseKind kind : {CaseKind::none, CaseKind::single, CaseKind::pair, CaseKind::outside, CaseKind::as_is}) {
     if (row.text("kind") == nameOf(kind)) return kind;
   }
   row.refuse("kind", "none, single, double, outside or as_is");

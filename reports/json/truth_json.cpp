@@ -35,9 +35,8 @@ Json effectsOfJoint(const simulation::JointStiffness& joint) {
                     {"stage_stiffness_nm_per_rad", joint.stages->rates}});
   }
   if (joint.backlash) {
-    list.push_back({{"effect", "backlash"},
-                    {"width_rad", joint.backlash->width},
-                    {"rest_share", joint.backlash->rest}});
+    list.push_back(
+        {{"effect", "backlash"}, {"width_rad", joint.backlash->width}, {"rest_share", joint.backlash->rest}});
   }
   if (joint.friction) {
     list.push_back({{"effect", "hysteresis"},
@@ -47,10 +46,8 @@ Json effectsOfJoint(const simulation::JointStiffness& joint) {
   }
   const auto wave = [&](const char* effect, const char* amplitude, const std::optional<simulation::JointWave>& one) {
     if (!one) return;
-    list.push_back({{"effect", effect},
-                    {amplitude, one->amplitude},
-                    {"cycles_per_turn", one->cycles},
-                    {"phase_rad", one->phase}});
+    list.push_back(
+        {{"effect", effect}, {amplitude, one->amplitude}, {"cycles_per_turn", one->cycles}, {"phase_rad", one->phase}});
   };
   wave("stiffness_ripple", "share", joint.rate_wave);
   wave("eccentric_encoder", "amplitude_rad", joint.angle_wave);
@@ -99,12 +96,12 @@ void addStructure(const simulation::SimulationSpec& spec, Json& list) {
                     {"rotation_nm_per_rad", array(machine.tool_plate->rotation)}});
   }
   for (const simulation::SharedSpring& shared : machine.shared_springs) {
-    list.push_back({{"effect", "joint_coupling"},
-                    {"part", "joints " + std::to_string(shared.joints[0] + 1) + " and " +
-                                 std::to_string(shared.joints[1] + 1)},
-                    {"spring_rate", shared.rate},
-                    {"spring_rate_unit", "N/m with arms in m, or Nm/rad with ratios"},
-                    {"arms", shared.arms}});
+    list.push_back(
+        {{"effect", "joint_coupling"},
+         {"part", "joints " + std::to_string(shared.joints[0] + 1) + " and " + std::to_string(shared.joints[1] + 1)},
+         {"spring_rate", shared.rate},
+         {"spring_rate_unit", "N/m with arms in m, or Nm/rad with ratios"},
+         {"arms", shared.arms}});
   }
   for (const simulation::LinkSpring& spring : machine.link_springs) {
     // A spring on joint 2 alone is what the vocabulary calls a compensator.
@@ -128,7 +125,8 @@ void addStructure(const simulation::SimulationSpec& spec, Json& list) {
         {{"effect", "creep"}, {"share", machine.creep->share}, {"time_constant_s", machine.creep->time_constant}});
   }
   if (machine.base_tilt != 0.0 && !machine.base_tilt_declared) {
-    list.push_back({{"effect", "base_tilt"}, {"tilt_rad", machine.base_tilt}, {"azimuth_rad", machine.base_tilt_azimuth}});
+    list.push_back(
+        {{"effect", "base_tilt"}, {"tilt_rad", machine.base_tilt}, {"azimuth_rad", machine.base_tilt_azimuth}});
   }
 }
 
@@ -180,8 +178,7 @@ void addStation(const simulation::SimulationSpec& spec, Json& list) {
   if (station.tracker_moved) list.push_back(movedJson("tracker", *station.tracker_moved, "tracker"));
   if (station.robot_moved) list.push_back(movedJson("robot", *station.robot_moved, "base_link"));
   if (station.scale != 0.0 || station.scale_per_second != 0.0) {
-    list.push_back(
-        {{"effect", "refraction"}, {"scale", station.scale}, {"scale_per_s", station.scale_per_second}});
+    list.push_back({{"effect", "refraction"}, {"scale", station.scale}, {"scale_per_s", station.scale_per_second}});
   }
   for (const simulation::TrueTarget& target : spec.targets) {
     if (!target.motion) continue;

@@ -80,7 +80,9 @@ Json shrinkJson(const std::vector<validation::ShrinkPair>& pairs) {
 
 Json blindJson(const validation::BlindOptions& options, const validation::BlindResult& result) {
   const validation::Score& score = result.score;
-  Json json{{"seal", result.seal}, {"answers_sha256", result.answers_hash}, {"seed", options.seed},
+  Json json{{"seal", result.seal},
+            {"answers_sha256", result.answers_hash},
+            {"seed", options.seed},
             {"as_is_share", options.as_is_share}};
   json["cases"] = Json::array();
   for (const validation::ScoredCase& one : score.cases) json["cases"].push_back(caseJson(one));

@@ -36,7 +36,8 @@ std::string styleOf(int count, int row_total, bool right) {
 void writeBlindConfusion(Html& html, const validation::Confusion& confusion) {
   html.leaf("h2", "What was, and what was said");
   html.paragraph(
-      "Rows: the truth, doubles and machines as they are aside. Columns: the answer; a class with the true effect in it counts as "
+      "Rows: the truth, doubles and machines as they are aside. Columns: the answer; a class with the true effect in "
+      "it counts as "
       "that effect.");
   const auto scroll = html.element("div", {{"class", "scroll"}});
   const auto table = html.element("table");
@@ -171,8 +172,7 @@ void writeBlindEffects(Html& html, const validation::Score& score) {
   html.leaf("h2", "Effect by effect");
   writeTable(html, effectTable("Singles answered right", score.effects));
   writeTable(html, effectTable("Outside the vocabulary: unknown, and nothing else, was said", score.outside));
-  if (!score.as_is.empty())
-    writeTable(html, effectTable("Machines as they are: the effect was named", score.as_is));
+  if (!score.as_is.empty()) writeTable(html, effectTable("Machines as they are: the effect was named", score.as_is));
 }
 
 void writeBlindShrink(Html& html, const validation::Score& score) {

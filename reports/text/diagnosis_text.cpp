@@ -195,11 +195,12 @@ void writeSpikedEffect(const diagnosis::SpikedEffect& one, Out out) {
 std::string spikeText(const diagnosis::Diagnosis& baseline, const diagnosis::SpikeStudy& study) {
   std::string text;
   Out out(text);
-  fmt::format_to(out, "\n{}\n",
-                 wrapped(fmt::format("Proof by effects added to this day's own readings ({} draws a size, seed {}). Without "
-                                     "any: {}. That stays in the readings.",
-                                     study.draws, study.seed, verdictWords(baseline.verdict)),
-                         0));
+  fmt::format_to(
+      out, "\n{}\n",
+      wrapped(fmt::format("Proof by effects added to this day's own readings ({} draws a size, seed {}). Without "
+                          "any: {}. That stays in the readings.",
+                          study.draws, study.seed, verdictWords(baseline.verdict)),
+              0));
   std::string sizes;
   for (const diagnosis::SpikedEffect& one : study.effects) {
     if (one.sizes.empty()) continue;
