@@ -109,6 +109,15 @@ void addDiagnose(CLI::App& app, Run& run) {
           ->delimiter(',')
           ->expected(0, 1)
           ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  command
+      ->add_option("--sizes", arguments->options.sizes,
+                   "sizes to add, times the smallest that would have been seen, with commas between them")
+      ->type_name("FLOAT,...")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->check(CLI::Range(1e-3, 1e3))
+      ->capture_default_str()
+      ->needs(spike);
   command->add_option("--draws", arguments->options.draws, "days for each effect and size")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str()

@@ -43,11 +43,12 @@ render::PointPanel spikePanel(const diagnosis::SpikedEffect& one) {
   panel.x_title = "Times that size";
   for (const Counts& at : one.sizes) panel.categories.push_back(fmt::format("{:g}", at.times));
   render::PointSeries named = shareOf(one, "named", 0, [](const Counts& at) { return at.named; });
-  named.mark = render::PointMark::Ring;  // shows what lies under it
-  panel.series = {wholeAxis(), shareOf(one, "named with its part", 2, [](const Counts& at) { return at.part_named; }),
-                  std::move(named), shareOf(one, "another named, or unknown", 1, [](const Counts& at) {
-                    return std::min(at.draws, at.other_named + at.unknown);
-                  })};
+  named.mark = render::PointMark::Ring;  // drawn last, and shows what lies under it
+  panel.series = {wholeAxis(),
+                  shareOf(one, "another named, or unknown", 1,
+                          [](const Counts& at) { return std::min(at.draws, at.other_named + at.unknown); }),
+                  shareOf(one, "named with its part", 2, [](const Counts& at) { return at.part_named; }),
+                  std::move(named)};
   return panel;
 }
 

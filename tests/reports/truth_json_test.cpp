@@ -50,8 +50,7 @@ TEST(TruthJson, NamesEachEffectWithItsParameters) {
   spec.load_cell->place_error = {0.0, 0.02, 0.0};
   spec.station.ramp[1] = 1e-8;
   spec.station.robot_moved = Eigen::Isometry3d(Eigen::AngleAxisd(1e-4, Eigen::Vector3d::UnitZ()));
-  spec.targets[2].motion =
-      simulation::TargetMotion{simulation::TargetMotion::Kind::slip, {1e-5, 0.0, 0.0}, 800.0, 0.0};
+  spec.targets[2].motion = simulation::TargetMotion{simulation::TargetMotion::Kind::slip, {1e-5, 0.0, 0.0}, 800.0, 0.0};
   const reports::Json truth = reports::truthJson(spec);
   EXPECT_EQ(truth["effects"].size(), 9u);
   EXPECT_EQ(effectsCalled(truth, "hysteresis").at(0)["torque_nm"], 40.0);

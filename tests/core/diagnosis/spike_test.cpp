@@ -24,8 +24,8 @@ std::size_t modelOf(const campaign::Campaign& campaign, effects::Effect effect) 
   return static_cast<std::size_t>(found - models.begin());
 }
 
-/// A day and what it becomes by an effect: `day` to `spiked` as it was added, `before` to `truth` as the simulator has it,
-/// both of these without noise.
+/// A day and what it becomes by an effect: `day` to `spiked` as it was added, `before` to `truth` as the simulator has
+/// it, both of these without noise.
 struct FourDays {
   const campaign::Campaign &day, &spiked, &before, &truth;
 };
@@ -63,8 +63,11 @@ TEST(SpikedDay, MovesReadingsAsABearingThatGivesDoes) {
   const campaign::Campaign truth = quietDay(spec);
   const diagnosis::SpikedDay day(campaign);
   ASSERT_TRUE(day.unusable().empty());
-  const diagnosis::Spike tilt{effects::Effect::bearing_tilt, modelOf(campaign, effects::Effect::bearing_tilt),
-                              {"joint 3"}, kCompliance * Eigen::VectorXd::Unit(6, 2), 1.0};
+  const diagnosis::Spike tilt{effects::Effect::bearing_tilt,
+                              modelOf(campaign, effects::Effect::bearing_tilt),
+                              {"joint 3"},
+                              kCompliance * Eigen::VectorXd::Unit(6, 2),
+                              1.0};
   const Compared found = compared({campaign, day.with(tilt, 1.0), before, truth}, true);
   ASSERT_GT(found.moved, 1e-4);
   EXPECT_LT(found.apart, 0.03 * found.moved);
@@ -152,9 +155,9 @@ diagnosis::DiagnoseOptions quick() {
 TEST(SpikeStudy, CountsWhatIsSeenAndWhatIsNot) {
   const campaign::Campaign campaign = shortDay();
   const diagnosis::Diagnosis baseline = diagnosis::diagnose(campaign, quick());
-  const bool clean = std::none_of(baseline.verdict.entries.begin(), baseline.verdict.entries.end(), [](const auto& one) {
-    return one.effects.empty() || one.effects.front() != effects::Effect::kinematic_error;
-  });
+  const bool clean = std::none_of(
+      baseline.verdict.entries.begin(), baseline.verdict.entries.end(),
+      [](const auto& one) { return one.effects.empty() || one.effects.front() != effects::Effect::kinematic_error; });
   ASSERT_TRUE(clean);  // the samples' arm is off its nominal geometry
   diagnosis::SpikeOptions options;
   options.effects = {effects::Effect::target_motion, effects::Effect::hysteresis};

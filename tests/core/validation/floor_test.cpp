@@ -77,8 +77,8 @@ TEST(BlindFloor, fortyMachines) {
   expectCeiling(score, "false_alarms", 0.02);
 }
 
-// One machine an effect, at eight times the noise: its verdict has the effect in a class of at most three, and names
-// nothing that is not there.
+// One machine an effect, at eight times the noise: its verdict begins with the effect, in a class of at most three, and
+// names nothing that is not there. Unknown beside it is no name: at that size an equation's own error is seen.
 TEST(BlindFloor, everyEffectIsNamedWhereItIsLarge) {
   const fs::path folder = fs::temp_directory_path() / "stiffscope_effect_floor";
   fs::remove_all(folder);
@@ -96,10 +96,13 @@ TEST(BlindFloor, everyEffectIsNamedWhereItIsLarge) {
       for (const effects::Effect member : entry.effects) said[e] += std::string(effects::idOf(member)) + " ";
       said[e] += "(" + entry.detail + "); ";
     }
-    const bool alone = verdict.entries.size() == 1 && verdict.entries.front().effects.size() <= 3;
-    if (!alone) return;
-    const std::vector<effects::Effect>& members = verdict.entries.front().effects;
-    good[e] = std::find(members.begin(), members.end(), effect) != members.end() ? 1 : 0;
+    const auto hasIt = [effect](const diagnosis::VerdictEntry& entry) {
+      return std::find(entry.effects.begin(), entry.effects.end(), effect) != entry.effects.end();
+    };
+    if (verdict.entries.empty() || verdict.entries.front().effects.size() > 3) return;
+    const bool others = std::any_of(verdict.entries.begin(), verdict.entries.end(),
+                                    [&](const auto& entry) { return !entry.effects.empty() && !hasIt(entry); });
+    good[e] = hasIt(verdict.entries.front()) && !others ? 1 : 0;
   });
   fs::remove_all(folder);
   for (std::size_t e = 0; e < effects::kEffectCount; ++e)
