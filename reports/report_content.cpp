@@ -18,6 +18,20 @@ const ReportCampaign* firstWith(const std::vector<ReportCampaign>& campaigns, ca
   return found == campaigns.end() ? nullptr : &*found;
 }
 
+void addJoints(const ReportCampaign& inactive, const ReportCampaign& active, const comparison::MatchedPostures& matched,
+               AvoidedByEncoders& avoided) {
+  using identification::Method;
+  for (const Method method : {Method::decoupled_partial_pose, Method::partial_pose, Method::complete_pose}) {
+    avoided.method = method;
+    avoided.by_joint = comparison::compareStiffness(inactive.campaign, inactive.identification, active.campaign,
+                                                    active.identification, method, matched);
+    if (avoided.by_joint.available) break;
+  }
+  avoided.residual_is_noise = comparison::commonResidual(inactive.campaign, inactive.identification, active.campaign,
+                                                         active.identification, matched)
+                                  .isNoise();
+}
+
 }  // namespace
 
 std::optional<AvoidedByEncoders> avoidedByEncoders(const std::vector<ReportCampaign>& campaigns) {
@@ -35,6 +49,7 @@ std::optional<AvoidedByEncoders> avoidedByEncoders(const std::vector<ReportCampa
   if (!avoided.available)
     static_cast<comparison::DeflectionAvoided&>(avoided) =
         comparison::deflectionAvoidedAtTargets(before, after, matched);
+  addJoints(*inactive, *active, matched, avoided);
   return avoided;
 }
 

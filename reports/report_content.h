@@ -8,7 +8,7 @@
 
 #include "core/audit/audit.h"
 #include "core/campaign/campaign.h"
-#include "core/comparison/deflection_avoided.h"
+#include "core/comparison/compare.h"
 #include "core/diagnosis/diagnosis.h"
 #include "core/extended_model/extended_model.h"
 #include "core/identification/identify.h"
@@ -34,6 +34,10 @@ struct ReportCampaign {
 /// What active double encoders keep away of the deflection (paper, IV.E), with its interval over postures.
 struct AvoidedByEncoders : comparison::DeflectionAvoided {
   bool at_wrist = false;  ///< judged at P_wrist; else at the reflectors (means)
+  /// Joint by joint: what the active encoders take away of each compliance, by the method that stands for both.
+  identification::Method method = identification::Method::complete_pose;
+  comparison::StiffnessChange by_joint;
+  bool residual_is_noise = false;  ///< shares of the inactive compliance are of springs alone
 };
 
 /// Of the first campaign with the double encoders inactive (before) against the first with them active

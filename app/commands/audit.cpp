@@ -35,7 +35,9 @@ int auditCampaign(const std::string& folder, const std::string& json_file) {
   if (loaded && !audit::findsTheImpossible(report)) audit::addSeparableEffects(designOf(prepared), report);
   deliver([&] { return reports::auditJson(words, report); }, [&] { return reports::auditText(words, report); },
           json_file);
-  return report.verdict == preparation::AuditVerdict::fail ? kNotUsable : kDone;
+  const bool usable =
+      report.verdict == preparation::AuditVerdict::pass || report.verdict == preparation::AuditVerdict::warn;
+  return usable ? kDone : kNotUsable;
 }
 
 }  // namespace
@@ -46,6 +48,11 @@ void addAudit(CLI::App& app, Run& run) {
   };
   const auto arguments = std::make_shared<AuditArguments>();
   CLI::App* command = app.add_subcommand("audit", "Is this data fit to identify from?");
+  command->footer(
+      "Verdict: fail where a check fails; not_testable where too few could be made to tell: a pass needs to know that\n"
+      "postures and loads identify joints, that force and displacement are those of an arm, what a reading under load "
+      "is\n"
+      "worth, and that the load cell shows the load; else warn or pass. Status 0 for pass and warn, else 1.");
   command->add_option("CAMPAIGN", arguments->campaign, "campaign folder or its campaign.xml")->required();
   command->add_option("--json", arguments->json, "write the result to this file, - for standard output");
   command->callback(

@@ -51,6 +51,11 @@ void addBlind(CLI::App& app, Run& run) {
   command->add_option("--out", arguments->out, "folder for campaigns, labels, answers, results.json, blind.html")
       ->required();
   command->add_flag("--discard", arguments->options.discard, "remove the campaigns when done");
+  command
+      ->add_option("--as-is", arguments->options.as_is_share,
+                   "share of the cases that are machines as they are: several effects at half their usual size")
+      ->check(CLI::Range(0.0, 0.5))
+      ->capture_default_str();
   command->add_option("--threads", arguments->options.threads, "at work at a time; the result is the same")
       ->check(CLI::Range(1, 64))
       ->capture_default_str();

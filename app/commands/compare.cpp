@@ -51,7 +51,15 @@ int compareTwo(const CompareArguments& arguments) {
 
 void addCompare(CLI::App& app, Run& run) {
   const auto arguments = std::make_shared<CompareArguments>();
-  CLI::App* command = app.add_subcommand("compare", "Two states of one machine: stiffness, and deflection avoided");
+  CLI::App* command = app.add_subcommand("compare", "Two states of one machine: compliances, and deflection avoided");
+  command->footer(
+      "States the difference of compliances first, with U (95 %): where both campaigns measured the same postures, "
+      "what\n"
+      "the model misses cancels in it. Then the ratio of stiffnesses (in brackets where it keeps the bias of both), "
+      "the\n"
+      "p-value of each joint and the same corrected for the joints tested (Holm), what is taken away of each "
+      "compliance\n"
+      "and what that avoids of the deflection at the reflectors. docs/method.md has the formulas.");
   command->add_option("BEFORE", arguments->before, "campaign before, or with the double encoders inactive")->required();
   command->add_option("AFTER", arguments->after, "campaign after, or with the double encoders active")->required();
   command->add_option("--step", arguments->step, "load step of both to identify from");

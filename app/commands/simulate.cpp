@@ -10,6 +10,8 @@
 #include "core/campaign/write_campaign.h"
 #include "core/simulation/measure.h"
 #include "core/simulation/read_spec.h"
+#include "reports/json/json.h"
+#include "reports/json/json_document.h"
 
 namespace stiffscope::app {
 
@@ -21,7 +23,8 @@ void addSimulate(CLI::App& app, Run& run) {
   const auto arguments = std::make_shared<SimulateArguments>();
   CLI::App* command = app.add_subcommand("simulate", "A campaign measured on a described machine");
   command->add_option("SPEC", arguments->spec, "description of the machine and the day (XML)")->required();
-  command->add_option("--out", arguments->out, "campaign folder to write")->required();
+  command->add_option("--out", arguments->out, "campaign folder to write, with truth.json: what the machine truly is")
+      ->required();
   command->add_flag("--replace", arguments->replace, "write over a campaign that is there");
   command->callback([arguments, &run] {
     run = [arguments] {
@@ -39,7 +42,8 @@ void addSimulate(CLI::App& app, Run& run) {
                        ": tracker: no noise declared in range or in angle: no command reads such a "
                        "campaign; for readings without noise declare some and set true_noise_factor=\"0\""});
       }
-      campaign::writeCampaign(simulation::simulate(spec), spec.urdf_file, arguments->out);
+      campaign::writeCampaign(simulation::simulate(spec), spec.urdf_file, arguments->out,
+                              {{"truth.json", reports::truthJson(spec).dump(1) + '\n'}});
       std::printf("%s: campaign written\n", arguments->out.c_str());
       return kDone;
     };

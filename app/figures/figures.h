@@ -3,6 +3,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/diagnosis/spike_study.h"
 #include "core/frames/gravity_sag.h"
 #include "core/preparation/drift_nests.h"
 #include "render/dot_row_chart.h"
@@ -107,5 +108,10 @@ reports::Figure describeStationDrift(const preparation::StationMotion& station);
 
 /// By the declared noise; not tested where none is declared.
 preparation::StationMotion stationMotionOf(const campaign::Campaign& campaign);
+
+/// What `diagnose --spike` counts: a panel an effect with the share of draws over the size, %: named, named with its
+/// part, and something else said. None where no effect was added.
+std::optional<render::PointChart> spikeCurves(const campaign::Campaign& campaign, const diagnosis::Diagnosis& baseline,
+                                              const diagnosis::SpikeStudy& study);
 
 }  // namespace stiffscope::app

@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <iterator>
+#include <set>
 #include <utility>
 
+#include "core/audit/check_noise.h"
 #include "core/audit/checks.h"
+#include "core/audit/remarks.h"
 
 namespace stiffscope::audit {
 
@@ -18,10 +21,11 @@ struct Check {
 };
 
 /// In the order in which the day goes, which is that of the report.
-constexpr std::array<Check, 17> kAllChecks{{
+constexpr std::array<Check, 18> kAllChecks{{
     {checkTimeOrder, {"time_order"}},
     {checkCompleteness, {"completeness"}},
     {checkRepeatability, {"repeatability_along", "repeatability_across"}},
+    {checkDeclaredNoise, {"noise_declared"}},
     {checkRigidTool, {"rigid_tool"}},
     {checkNests, {"station_drift", "nest_moved"}},
     {checkCircleSweeps, {"circle_arc", "circle_count"}},
@@ -52,12 +56,46 @@ constexpr bool givesAllChecks() {
 }
 static_assert(givesAllChecks(), "preparation::kAuditCheckIds and kAllChecks name different checks");
 
-preparation::AuditVerdict worst(const std::vector<preparation::AuditCheck>& checks) {
+/// What a pass needs to know, and the checks of which each alone would tell; at most five.
+struct Question {
+  RemarkId unanswered;
+  std::array<const char*, 5> ids;
+};
+
+constexpr std::array kQuestions{
+    Question{RemarkId::unknown_if_it_identifies, {"posture_set"}},
+    Question{RemarkId::unknown_size, {"load_size"}},
+    Question{RemarkId::unknown_worth_of_readings,
+             {"repeatability_along", "repeatability_across", "rigid_tool", "unloaded_positions", "return_to_zero"}},
+    Question{RemarkId::unknown_load_cell, {"tare", "gravity_direction", "moment_lever"}},
+};
+
+/// Ids of the checks that could be made, of one of several places at least.
+std::set<std::string> madeChecks(const std::vector<preparation::AuditCheck>& checks) {
+  std::set<std::string> made;
+  for (const preparation::AuditCheck& check : checks) {
+    if (check.verdict != preparation::AuditVerdict::not_testable) made.insert(check.id);
+  }
+  return made;
+}
+
+std::vector<Remark> unansweredBy(const std::set<std::string>& made) {
+  std::vector<Remark> unanswered;
+  for (const Question& question : kQuestions) {
+    const bool told = std::any_of(question.ids.begin(), question.ids.end(),
+                                  [&](const char* id) { return id != nullptr && made.contains(id); });
+    if (!told) unanswered.push_back(Remark(question.unanswered));
+  }
+  return unanswered;
+}
+
+preparation::AuditVerdict verdictOf(const AuditReport& report) {
   const auto any = [&](preparation::AuditVerdict verdict) {
-    return std::any_of(checks.begin(), checks.end(),
+    return std::any_of(report.checks.begin(), report.checks.end(),
                        [&](const preparation::AuditCheck& check) { return check.verdict == verdict; });
   };
   if (any(preparation::AuditVerdict::fail)) return preparation::AuditVerdict::fail;
+  if (!report.unanswered.empty()) return preparation::AuditVerdict::not_testable;
   return any(preparation::AuditVerdict::warn) ? preparation::AuditVerdict::warn : preparation::AuditVerdict::pass;
 }
 
@@ -74,7 +112,12 @@ AuditReport audit(const preparation::PreparedCampaign& prepared) {
     Findings findings = check.of(input);
     std::move(findings.begin(), findings.end(), std::back_inserter(report.checks));
   }
-  report.verdict = worst(report.checks);
+  const std::set<std::string> made = madeChecks(report.checks);
+  report.made = static_cast<int>(made.size());
+  report.of = static_cast<int>(preparation::kAuditCheckIds.size());
+  report.unanswered = unansweredBy(made);
+  report.suspected = suspectedNoise(input);
+  report.verdict = verdictOf(report);
   return report;
 }
 

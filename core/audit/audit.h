@@ -4,15 +4,31 @@
 #include <string>
 #include <vector>
 
+#include "core/audit/suspected.h"
 #include "core/preparation/finding.h"
 #include "core/preparation/prepare.h"
 
 namespace stiffscope::audit {
 
 /// Is this data fit to identify from?
+///
+/// Fail: a check fails. Not testable: none does, but checks could not be made without which nothing says that the data
+/// are fit. Warn, pass: by the worst check. What a pass needs, each by one check at least that could be made:
+///
+/// - the postures and loads identify joints: posture_set;
+/// - force and displacement are those of an arm: load_size;
+/// - a reading under load is worth what is declared: repeatability_along, repeatability_across, rigid_tool,
+///   unloaded_positions or return_to_zero;
+/// - the load cell shows the load: tare, gravity_direction or moment_lever.
+///
+/// Nothing that only sharpens the result is needed: a day of displacements without sweeps can pass.
 struct AuditReport {
-  preparation::AuditVerdict verdict = preparation::AuditVerdict::pass;  ///< the worst of the checks: pass, warn or fail
+  preparation::AuditVerdict verdict = preparation::AuditVerdict::pass;
   std::vector<preparation::AuditCheck> checks;
+  int made = 0;                    ///< checks, by their ids, that could be made
+  int of = 0;                      ///< checks there are
+  std::vector<Remark> unanswered;  ///< of what a pass needs, with the measurement that would tell
+  std::vector<Suspected> suspected;
   std::vector<preparation::RejectedReading> rejected;
 };
 

@@ -19,11 +19,17 @@ Remark described(std::size_t joint, const identification::JointIdentifiability& 
   return Remark(RemarkId::joint_identifiable, joint + 1, judged.trusted_rms, judged.uncertainty_rms);
 }
 
-/// A day of sweeps alone has nothing to test here; one that was loaded, and of which no load is of use, fails.
+bool everLoaded(const campaign::Campaign& campaign) {
+  const auto anyStep = [](const auto& table) {
+    return table && std::any_of(table->rows.begin(), table->rows.end(), [](const auto& row) { return row.step != 0; });
+  };
+  return anyStep(campaign.states) || anyStep(campaign.loading) || anyStep(campaign.displacements);
+}
+
+/// A day without a load has nothing to test here; one that was loaded, and of which no load is of use, fails.
 preparation::AuditCheck withoutCases(const AuditInput& input) {
   const campaign::Campaign& campaign = input.campaign;
-  const bool measured = campaign.loading || campaign.displacements;
-  if (!measured) return preparation::notTestable("posture_set", Remark(RemarkId::no_loads));
+  if (!everLoaded(campaign)) return preparation::notTestable("posture_set", Remark(RemarkId::no_loads));
   const Remark lacking = identification::whatLoadsLack(campaign);
   if (lacking.empty() && input.step && !input.frames.arm.points_placed) {
     return preparation::notTestable("posture_set", Remark(RemarkId::loading_not_in_r0));

@@ -213,7 +213,7 @@ Eigen::Matrix3d toolFromCell(const campaign::Campaign& campaign, const Vector6d&
   return Eigen::Matrix3d::Identity();  // fixed to the flange: one constant turn changes nothing
 }
 
-identification::LoadPointFit fitLoadPoint(const std::vector<Loaded>& states) {
+identification::LoadPointFit loadPointOf(const std::vector<Loaded>& states) {
   std::vector<identification::ToolLoad> loads;
   for (const Loaded& one : states) loads.push_back(one.load);
   return identification::LoadPointFit(loads);
@@ -263,7 +263,7 @@ void findMendingSigns(const campaign::LoadCell& cell, const std::vector<Loaded>&
       for (std::size_t i = 0; i < turned.size(); ++i) {
         if (all || i == worst) turned[i] = withSigns(turned[i], signs);
       }
-      if (total(cell, turned, fitLoadPoint(turned).point()) <= limit) {
+      if (total(cell, turned, loadPointOf(turned).point()) <= limit) {
         fit.mending_signs = namesOf(signs);
         fit.mends_all_states = all;
         return;
@@ -293,7 +293,7 @@ LoadPointFit fitLoadPoint(const campaign::Campaign& campaign) {
   if (states.size() < kLeast) fit.reason = Remark(RemarkId::few_loaded_states);
   if (!any_moment) fit.reason = Remark(RemarkId::no_moments);
   if (!fit.reason.empty()) return fit;
-  const identification::LoadPointFit load_point = fitLoadPoint(states);
+  const identification::LoadPointFit load_point = loadPointOf(states);
   constexpr double kOneLine = 1e-4;  // squared sine of the forces' spread in the tool
   const Eigen::Vector3d seen = symmetricEigenvalues(load_point.normal());
   if (seen[0] < kOneLine * seen[2]) {

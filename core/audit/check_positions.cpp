@@ -3,6 +3,7 @@
 #include <cmath>
 #include <map>
 
+#include "core/audit/check_noise.h"
 #include "core/audit/checks.h"
 #include "core/audit/limits.h"
 #include "core/audit/remarks.h"
@@ -31,6 +32,7 @@ struct Return {
 struct PoseStates {
   std::map<int, const campaign::State*> states;
   std::map<int, const campaign::StatePoints*> points;
+  std::map<int, std::vector<const campaign::Displacement*>> displacements;  ///< where there are no points
 };
 
 /// The load left in `state`, in parts of that in `loaded`.
@@ -58,9 +60,56 @@ Return compare(const campaign::StatePoints& before, const campaign::StatePoints&
   return result;
 }
 
+/// Of a displacement in its table's axes: two readings where the reflector stands by the model, which is where the load
+/// cases have it. None where the table's frame is not known in the robot's.
+std::map<std::pair<int, int>, Eigen::Matrix3d> displacementNoise(const AuditInput& input) {
+  std::map<std::pair<int, int>, Eigen::Matrix3d> noise;
+  const bool in_base = input.campaign.displacements->frame == campaign::PointFrame::base_link;
+  if (!in_base && !input.frames.arm.points_placed) return noise;
+  const Eigen::Isometry3d r0_from_table =
+      in_base ? input.arm.geometry.r0_from_base_link : input.frames.arm.r0_from_points;
+  const Eigen::Isometry3d table_from_r0 = r0_from_table.inverse();
+  for (const identification::LoadCase& load_case : input.arm.cases) {
+    for (const identification::TargetMove& move : load_case.targets)
+      noise[{load_case.pose, move.target}] = 2.0 * input.noise->covarianceAt(table_from_r0 * move.unloaded);
+  }
+  return noise;
+}
+
+/// The same of displacements, which are from step 0 already.
+Return compare(const campaign::State& after, const PoseStates& pose, const campaign::State& loaded, double left,
+               const std::map<std::pair<int, int>, Eigen::Matrix3d>& noise) {
+  Return result{after.pose, after.step};
+  const auto rows = pose.displacements.find(after.step), under_load = pose.displacements.find(loaded.step);
+  if (rows == pose.displacements.end()) return result;
+  for (const campaign::Displacement* row : rows->second) {
+    const auto covariance = noise.find({row->pose, row->target});
+    if (covariance == noise.end()) continue;
+    Eigen::Vector3d off = row->displacement;
+    if (under_load != pose.displacements.end()) {
+      for (const campaign::Displacement* other : under_load->second) {
+        if (other->target == row->target) off -= left * other->displacement;
+      }
+    }
+    result.chi2 += mahalanobisSquared(off, covariance->second);
+    result.dof += 3;
+    if (off.norm() <= result.largest) continue;
+    result.largest = off.norm();
+    result.line = row->line;
+  }
+  return result;
+}
+
 std::vector<Return> returnsOf(const AuditInput& input) {
   std::map<int, PoseStates> poses;
   for (const campaign::State& state : input.campaign.states->rows) poses[state.pose].states[state.step] = &state;
+  const bool displaced = !input.campaign.loading && input.campaign.displacements;
+  std::map<std::pair<int, int>, Eigen::Matrix3d> noise;
+  if (displaced) {
+    noise = displacementNoise(input);
+    for (const campaign::Displacement& row : input.campaign.displacements->rows)
+      poses[row.pose].displacements[row.step].push_back(&row);
+  }
   for (const campaign::StatePoints& points : input.states) {
     if (points.pose >= 0) poses[points.pose].points[points.step] = &points;
   }
@@ -72,11 +121,16 @@ std::vector<Return> returnsOf(const AuditInput& input) {
       if (most == nullptr || state->wrench_in_cell.head<3>().norm() > most->wrench_in_cell.head<3>().norm())
         most = state;
     }
-    if (most == nullptr || !one.points.contains(0)) continue;
+    if (most == nullptr || (!displaced && !one.points.contains(0))) continue;
     const double force = most->wrench_in_cell.head<3>().norm();
     for (const auto& [step, state] : one.states) {
-      if (step <= most->step || !one.points.contains(step)) continue;
+      if (step <= most->step || (!displaced && !one.points.contains(step))) continue;
       if (state->wrench_in_cell.head<3>().norm() >= campaign::kReturnShare * force) continue;
+      if (displaced) {
+        const Return back = compare(*state, one, *most, loadLeft(*state, *most), noise);
+        if (back.dof > 0) found.push_back(back);
+        continue;
+      }
       const auto loaded = one.points.find(most->step);
       const Return back =
           compare(*one.points.at(0), *one.points.at(step), loaded == one.points.end() ? nullptr : loaded->second,
@@ -89,9 +143,20 @@ std::vector<Return> returnsOf(const AuditInput& input) {
 
 }  // namespace
 
+NoiseSum scatterOfReturns(const AuditInput& input) {
+  NoiseSum sum;
+  const bool measured = input.campaign.loading || input.campaign.displacements;
+  if (!measured || !input.campaign.states || !input.noise) return sum;
+  for (const Return& one : returnsOf(input)) {
+    sum.chi2 += one.chi2;
+    sum.dof += one.dof;
+  }
+  return sum;
+}
+
 Findings checkReturnToZero(const AuditInput& input) {
   const campaign::Campaign& campaign = input.campaign;
-  if (!campaign.loading || !campaign.states) {
+  if ((!campaign.loading && !campaign.displacements) || !campaign.states) {
     return {preparation::notTestable("return_to_zero", Remark(RemarkId::no_readings_of_states))};
   }
   if (!input.noise) {
@@ -124,7 +189,8 @@ Findings checkReturnToZero(const AuditInput& input) {
   if (*check.value <= *check.limit && beyond.empty()) return {check};
   check.verdict =
       chi2 / dof > preparation::kFailVarianceRatio ? preparation::AuditVerdict::fail : preparation::AuditVerdict::warn;
-  check.where = preparation::atRow(campaign.loading->file, worst->line);
+  check.where =
+      preparation::atRow(campaign.loading ? campaign.loading->file : campaign.displacements->file, worst->line);
   check.message = says({Remark(RemarkId::do_not_come_back, std::move(beyond), returns.size())});
   return {check};
 }

@@ -48,6 +48,10 @@ Findings checkCompleteness(const AuditInput& input);
 /// repeatability_along, repeatability_across: scatter of the repeats against the declared noise.
 Findings checkRepeatability(const AuditInput& input);
 
+/// noise_declared, of the tracker and of the load cell: their declared noise against what the readings show
+/// (core/audit/check_noise.h). Warns where too large, because all limits are then as lax; fails where too small.
+Findings checkDeclaredNoise(const AuditInput& input);
+
 /// rigid_tool: distances between reflectors, over sweeps, postures and loads.
 Findings checkRigidTool(const AuditInput& input);
 
@@ -80,7 +84,7 @@ Findings checkUnloadedPositions(const AuditInput& input);
 /// servo_change: reported angles that change under load.
 Findings checkServo(const AuditInput& input);
 
-/// return_to_zero: reflectors back where step 0 had them once the load is off.
+/// return_to_zero: reflectors back where step 0 had them once the load is off, by points or by displacements.
 Findings checkReturnToZero(const AuditInput& input);
 
 /// tare, gravity_direction, moment_lever.

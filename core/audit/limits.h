@@ -39,6 +39,11 @@ inline constexpr double kReflectorRadius = 19.05e-3;
 /// asks for less than 100.
 inline constexpr double kCondition = 100.0;
 
+/// How far a declared noise may be from what the readings show, as a ratio of standard deviations, either way: an
+/// interval stated with k = 2 for 95 % (GUM 6.2) then covers 68 %, or is twice as wide as it need be. Data sheets give
+/// maximum permissible errors, which are two to three sigma (ISO 10360-10); one sigma is asked for.
+inline constexpr double kWrongNoise = 2.0;
+
 /// Longest lever of a load about the load cell, m: the longest arms of any maker reach less than 5 m, and a tool is
 /// shorter than its arm. Forces or moments in another unit give one of a hundred metres.
 inline constexpr double kLongestLever = 5.0;

@@ -22,6 +22,14 @@ enum class RemarkId {
   at_state,            ///< posture, load step
   at_time,             ///< s
   at_loading,
+  at_tracker,
+  at_load_cell,
+
+  // What a pass needs, and no check tells.
+  unknown_if_it_identifies,
+  unknown_size,
+  unknown_worth_of_readings,
+  unknown_load_cell,
 
   // Where a limit comes from.
   chi_square,               ///< degrees of freedom
@@ -33,6 +41,7 @@ enum class RemarkId {
   chi_square_of_tare,
   chi_square_of_displacement,
   chi_square_of_shift,
+  factor_of_two,    ///< degrees of freedom that are needed
   normal_deviates,  ///< how many
   student_between_postures,
   places_or_chance,           ///< by_chance
@@ -65,6 +74,9 @@ enum class RemarkId {
   no_load_cell_readings,
   no_displacement_under_force,
   few_loaded_states,
+  one_kind_scatters,
+  too_few_to_judge_tracker,  ///< degrees of freedom that are needed
+  too_few_to_judge_load_cell,
   no_moments,
   forces_on_one_line,
   few_nests_or_rounds,
@@ -96,12 +108,25 @@ enum class RemarkId {
   too_few_readings,    ///< posture, step, readings, of how many, reflector
   posture_not_read,    ///< posture
 
-  // repeatability_along, repeatability_across, rigid_tool.
+  // repeatability_along, repeatability_across, noise_declared, rigid_tool.
   repeats_scatter,  ///< whether along the beam, one sigma in m, in parts of what is declared, whether beyond the limit
   repeats_scatter_little,
-  distance_changes,      ///< both reflectors, m, state, more
-  distances_scatter,     ///< in parts of the noise
-  reflectors_exchanged,  ///< row, state, reflectors in pairs: what it is called, what it is
+  noise_borne_out,     ///< times, remarks: the eight below
+  noise_too_large,     ///< the same
+  noise_too_small,     ///< the same
+  repeats_along_show,  ///< of what is declared, as the next
+  repeats_across_show,
+  nests_show,
+  sweep_shows,  ///< axis, of what is declared
+  short_sweeps_show,
+  returns_show,
+  unloaded_cell_shows,
+  lever_shows,
+  declare_tracker_noise,    ///< along, across: by what to multiply what is declared
+  declare_load_cell_noise,  ///< the same, of all figures
+  distance_changes,         ///< both reflectors, m, state, more
+  distances_scatter,        ///< in parts of the noise
+  reflectors_exchanged,     ///< row, state, reflectors in pairs: what it is called, what it is
   no_one_reflector,
   reflector_moves,  ///< reflector, rms change of its distances in m: under load, without
 

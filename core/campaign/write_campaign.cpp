@@ -262,7 +262,7 @@ CampaignNames namesOf(const Campaign& campaign) {
 }  // namespace
 
 void writeCampaign(const Campaign& campaign, const std::filesystem::path& urdf_file,
-                   const std::filesystem::path& folder) {
+                   const std::filesystem::path& folder, const std::vector<io::FileToWrite>& beside) {
   const std::string urdf = io::readTextFile(urdf_file, io::kLargestXml);
   const CampaignNames names = namesOf(campaign);
   std::vector<io::FileToWrite> files{{"robot.urdf", urdf}};
@@ -272,6 +272,7 @@ void writeCampaign(const Campaign& campaign, const std::filesystem::path& urdf_f
   addTable(statesLayout(), campaign.states, names, files);
   addTable(displacementsLayout(), campaign.displacements, names, files);
   addTable(nestsLayout(), campaign.nests, names, files);
+  files.insert(files.end(), beside.begin(), beside.end());
   // Last, because a folder with a campaign.xml passes for a campaign.
   files.push_back({"campaign.xml", writtenCampaignXml(campaign)});
   io::writeFolderWhole(folder, files);

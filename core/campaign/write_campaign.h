@@ -1,8 +1,10 @@
 #pragma once
 
 #include <filesystem>
+#include <vector>
 
 #include "core/campaign/campaign.h"
+#include "core/io/write_folder.h"
 
 namespace stiffscope::campaign {
 
@@ -10,10 +12,10 @@ namespace stiffscope::campaign {
 /// format, with the same bytes for the same campaign: mm with 4 decimals, deg with 5, N with 3, Nm with 4,
 /// s with 1. Tables are named after their element (circle_sweeps.csv, whatever Table::file says), and
 /// `urdf_file` is copied beside them as robot.urdf. A time that is NaN leaves an optional column out.
-/// Throws InputError where the URDF cannot be read, std::filesystem::filesystem_error or std::runtime_error
-/// where the folder cannot be written (it is then as it was) or a value cannot be (not finite, an index without a
-/// name).
+/// `beside`: further files that come with it. Throws InputError where the URDF cannot be read,
+/// std::filesystem::filesystem_error or std::runtime_error where the folder cannot be written (it is then as it was) or
+/// a value cannot be (not finite, an index without a name).
 void writeCampaign(const Campaign& campaign, const std::filesystem::path& urdf_file,
-                   const std::filesystem::path& folder);
+                   const std::filesystem::path& folder, const std::vector<io::FileToWrite>& beside = {});
 
 }  // namespace stiffscope::campaign

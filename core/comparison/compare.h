@@ -4,25 +4,32 @@
 #include <string>
 #include <vector>
 
+#include "core/comparison/common_residual.h"
 #include "core/comparison/deflection_avoided.h"
 #include "core/comparison/matched_postures.h"
+#include "core/comparison/paired_fit.h"
 #include "core/comparison/remarks.h"
 #include "core/identification/identify.h"
 #include "metrology/remark.h"
 
 namespace stiffscope::comparison {
 
-/// One joint's stiffness in both campaigns.
+/// One joint in both campaigns.
 struct JointChange {
   bool comparable = false;
   Remark reason;  ///< why not: which campaign does not identify it, and why
-  double before = 0.0,
-         before_sd = 0.0;  ///< k and its standard uncertainty, Nm/rad; sd not a number: none stated
-  double after = 0.0, after_sd = 0.0;
-  double ratio = 0.0;        ///< after / before
-  double ratio_sd = 0.0;     ///< to first order, correlation included
-  double correlation = 0.0;  ///< of the two errors, by the postures that both share
-  double p_value = 0.0;      ///< two-sided, of no change; not a number where an uncertainty is
+  /// c_after - c_before, rad/Nm, from the same postures where enough correspond: what both states share cancels
+  /// (PairedFit). This is the result; what follows of stiffnesses is each campaign's own identification.
+  Uncertain difference;
+  double p_value = 0.0;  ///< two-sided, of no difference; not a number where an uncertainty is
+  double p_holm = 0.0;   ///< the same corrected for the number of joints (holm)
+  Uncertain taken;       ///< share of the compliance before that is gone; not a number where that is not above zero
+  Uncertain avoided;     ///< share of the deflection at the reflectors that this avoids (avoidedByUnit); not a number
+                         ///< where no posture corresponds
+  Uncertain before, after;   ///< k of each campaign's identification, Nm/rad
+  Uncertain ratio;           ///< after / before, to first order, correlation included. Keeps the bias of both unless
+                             ///< what springs leave is noise (CommonResidual)
+  double correlation = 0.0;  ///< of the two scatter errors, by the postures that both share
   Remark mark;               ///< of either entry: negative or imprecise; else empty
 };
 
@@ -30,15 +37,18 @@ struct StiffnessChange {
   bool available = false;
   Remark reason;
   std::array<JointChange, 6> joints;
+  bool same_postures = false;  ///< differences are of fits on the postures that correspond
+  std::size_t postures = 0;    ///< that correspond
+  /// Of the share of the deflection avoided at the reflectors, what the joints' `avoided` leave; not a number where
+  /// none of these is one.
+  double avoided_rest = 0.0;
 };
 
-/// Compares by one method. The test is on compliances, whose errors are nearly normal where those of k = 1/c
-/// are heavy-tailed: t = (c_a - c_b) / sqrt(u_b^2 + u_a^2 - 2 r u_b u_a), u the stated standard
-/// uncertainties, against Student's distribution with the degrees of freedom of the smaller campaign
-/// (postures less a third of the unknowns, a posture giving three coordinates). What the model misses recurs
-/// in a posture that is measured twice, so the errors are correlated: r = sum over pairs d_b d_a / sqrt(sum
-/// d_b^2 sum d_a^2), d how leaving out a posture moves c (moveByEachPosture).
-StiffnessChange compareStiffness(const identification::Identification& before,
+/// Compares by one method. The test is on the difference of compliances, whose error is nearly normal where that of
+/// k = 1/c is heavy-tailed: t = (c_a - c_b) / u against Student's distribution, u and its degrees of freedom those of
+/// PairedFit.
+StiffnessChange compareStiffness(const campaign::Campaign& before_campaign,
+                                 const identification::Identification& before, const campaign::Campaign& after_campaign,
                                  const identification::Identification& after, identification::Method method,
                                  const MatchedPostures& matched);
 
@@ -50,6 +60,7 @@ struct Comparison {
   std::vector<Remark> cautions;  ///< what a reader must know before believing the numbers
   MatchedPostures matched;
   std::array<StiffnessChange, 3> methods;  ///< by Method
+  CommonResidual residual;                 ///< whether ratios are to be believed: isNoise
   DeflectionAvoided at_wrist, at_targets;
 
   const StiffnessChange& of(identification::Method method) const { return methods[static_cast<std::size_t>(method)]; }
@@ -64,11 +75,5 @@ struct Comparison {
 Comparison compareCampaigns(const campaign::Campaign& before_campaign, const identification::Identification& before,
                             const campaign::Campaign& after_campaign, const identification::Identification& after,
                             const BootstrapOptions& options = {});
-
-/// By how much each posture moves a method's compliances: the estimate from all postures less the estimate
-/// without it, one vector a load case, rad/Nm (the jackknife's differences; B. Efron, The Jackknife, the
-/// Bootstrap and Other Resampling Plans, 1982, chapter 3). The equations are those that `method` was solved
-/// from last, so nothing is linearised but the finite deflection. Empty where the method is unavailable.
-std::vector<Vector6d> moveByEachPosture(const identification::Identification& result, identification::Method method);
 
 }  // namespace stiffscope::comparison

@@ -73,6 +73,22 @@ MatchedPostures matchPostures(const campaign::Campaign& before_campaign, const i
   return result;
 }
 
+std::vector<ReflectorPair> reflectorsInBoth(const campaign::Campaign& before_campaign,
+                                            const identification::LoadCase& before,
+                                            const campaign::Campaign& after_campaign,
+                                            const identification::LoadCase& after) {
+  const auto idOf = [](const campaign::Campaign& campaign, const identification::TargetMove& move) {
+    return campaign.targets[static_cast<std::size_t>(move.target)].id;
+  };
+  std::vector<ReflectorPair> pairs;
+  for (std::size_t b = 0; b < before.targets.size(); ++b) {
+    for (std::size_t a = 0; a < after.targets.size(); ++a) {
+      if (idOf(before_campaign, before.targets[b]) == idOf(after_campaign, after.targets[a])) pairs.push_back({b, a});
+    }
+  }
+  return pairs;
+}
+
 Remark differenceOfMachines(const robot::Robot& before, const robot::Robot& after) {
   for (std::size_t j = 0; j < 6; ++j) {
     const metrology::Line &a = before.axes_in_base_at_zero[j], &b = after.axes_in_base_at_zero[j];

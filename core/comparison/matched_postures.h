@@ -37,6 +37,17 @@ MatchedPostures matchPostures(const campaign::Campaign& before_campaign, const i
                               const campaign::Campaign& after_campaign, const identification::Identification& after,
                               const MatchLimits& limits = {});
 
+/// A reflector that both states of a posture read: its place among the targets of each load case.
+struct ReflectorPair {
+  std::size_t before = 0, after = 0;
+};
+
+/// By their ids, in the order of the campaign before.
+std::vector<ReflectorPair> reflectorsInBoth(const campaign::Campaign& before_campaign,
+                                            const identification::LoadCase& before,
+                                            const campaign::Campaign& after_campaign,
+                                            const identification::LoadCase& after);
+
 /// Why the two nominal arms are not one machine: an axis that stands more than 1 mm or 1 mrad elsewhere in
 /// base_link. Empty where they are.
 Remark differenceOfMachines(const robot::Robot& before, const robot::Robot& after);

@@ -15,7 +15,9 @@ enum class RemarkId {
   // What else to know before believing the numbers.
   same_encoders,  ///< whether active
   encoders_swapped,
-  few_correspond,  ///< postures that correspond, postures
+  few_correspond,          ///< postures that correspond, postures
+  other_postures,          ///< postures that correspond: differences are of all postures of each
+  difference_above_noise,  ///< residual of the difference per coordinate m, noise in it m
   // Why something cannot be compared.
   nothing_comparable,  ///< why no deflection, why no stiffness
   of_one_campaign,     ///< When, what its identification says

@@ -51,11 +51,13 @@ class Diagnoser {
   Diagnosis run() {
     result_.unusable_reason = start_.reason;
     if (!start_.reason.empty()) return std::move(result_);
-    fit_.rules.detect = std::max(fit_.rules.detect, chanceLimit(input_, fit_, allowed_, options_.chance_draws,
-                                                                options_.false_alarm, options_.seed));
+    const double chance = options_.chance_limit ? *options_.chance_limit
+                                                : chanceLimit(input_, fit_, allowed_, options_.chance_draws,
+                                                              options_.false_alarm, options_.seed);
+    fit_.rules.detect = std::max(fit_.rules.detect, chance);
     describe();
     decide();
-    if (options_.resamples > 0) shrink();
+    if (options_.resamples > 0 && !options_.verdict_only) shrink();
     return std::move(result_);
   }
 
@@ -80,6 +82,7 @@ class Diagnoser {
     result_.gap = deflectionGap(alone_, before_, fit_, after_);
     result_.positions = positionGap(alone_, before_, fit_, after_);
     result_.positions_tested = input_.absolute;
+    if (options_.verdict_only) return;
     result_.at_points = gapAtPoints(alone_.data, before_.for_deflection, fit_.data, after_);
     asMeasured();
     result_.where = whereDeflection(input_, alone_, before_.for_deflection);
@@ -123,6 +126,7 @@ class Diagnoser {
     Decision decision = decideVerdict(input);
     result_.verdict = std::move(decision.verdict);
     result_.classes = std::move(decision.classes);
+    if (options_.verdict_only) return;
     recipes_ = std::move(decision.recipes);
     for (const Tie& tie : decision.ties) {
       if (auto one = nextFor(input_, fit_, allowed_, tie, options_.seed)) result_.next.push_back(std::move(*one));

@@ -16,6 +16,11 @@ struct DiagnoseOptions {
   std::uint64_t seed = 1;     ///< of both; the same input gives the same answer
   double noise_share = 0.5;   ///< see FitRules
   double deflection_share = 0.002;
+  /// What chance reaches, of the same postures and loads with other readings (Diagnosis::significance_limit); empty:
+  /// drawn.
+  std::optional<double> chance_limit;
+  bool verdict_only =
+      false;  ///< gap and verdict alone: not where the gap lies, what could be told apart, what comes next
   std::optional<effects::Effect> only;  ///< the one effect that may be chosen; what it leaves is then left as it is
 };
 

@@ -23,6 +23,8 @@ enum class RemarkId {
   positions_take_part,       ///< whether the sweeps do, too
   sweeps_thinned,            ///< readings of a sweep that took part at most
   postures_thinned,          ///< postures, those that took part
+  // Why an effect is not added to a day.
+  spike_hidden,
   // What to measure next.
   posture_that_separates,  ///< joint angles rad, force N, axis of R0 (0 to 2); chi2: what tells apart, before, after
 };

@@ -5,21 +5,11 @@
 #include <vector>
 
 #include "core/campaign/campaign.h"
+#include "core/preparation/nest_network.h"
 #include "metrology/measured_points.h"
 #include "metrology/remark.h"
 
 namespace stiffscope::preparation {
-
-/// How the station stood at one round of the nests against the first round.
-struct StationEpoch {
-  double time_s = 0.0;
-  /// Rotation vector (rad) then displacement at `centre` (m) that bring this round's readings onto the
-  /// first's.
-  Eigen::Matrix<double, 6, 1> motion = Eigen::Matrix<double, 6, 1>::Zero();
-  Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();  ///< by the declared noise
-  /// Where the station jumped between the round before and this one instead of drifting: when, s.
-  std::optional<double> jumped_at;
-};
 
 /// The station's motion by floor nests, split from motion of the nests themselves: nests' places and one
 /// rigid motion a round (6 parameters, the first round's zero), by least squares weighted with the declared
@@ -34,6 +24,8 @@ struct StationMotion {
   double deformation_chi2 = 0.0;  ///< what no rigid motion explains, of all nests
   int deformation_dof = 0;
   double deformation_limit = 0.0;
+  double rigid_chi2 = 0.0;  ///< the same of the nests that `epochs` come from: without one that moved
+  int rigid_dof = 0;
   std::optional<int> moved_nest;    ///< without it the others are rigid; left out of `epochs`
   double moved_nest_by = 0.0;       ///< how far it went at most against the others, m
   std::size_t moved_nest_line = 0;  ///< of its first reading away from its place

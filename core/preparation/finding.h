@@ -47,19 +47,21 @@ struct AuditCheckId {
   int limits_by_chance = 0;
 };
 
-/// Every check of the audit in the order of the report. Screening gives the first three, core/audit/audit.cpp says
+/// Every check of the audit in the order of the report. Screening gives the first four, core/audit/audit.cpp says
 /// which function gives the others, reports/words/audit_figures.cpp in which unit its value is printed. A new check is
 /// one line in each; the compiler compares the three.
-inline constexpr std::size_t kScreeningChecks = 3;
-inline constexpr std::array<AuditCheckId, 29> kAuditCheckIds{{
+inline constexpr std::size_t kScreeningChecks = 4;
+inline constexpr std::array<AuditCheckId, 31> kAuditCheckIds{{
     {"lost_beam"},
     {"duplicate_readings"},
     {"repeat_outliers", 1},
+    {"nest_outliers", 1},
     {"time_order"},
     {"completeness"},
     {"repeatability_along", 1},
     {"repeatability_across", 1},
-    {"rigid_tool", 2},  // the largest change of a distance, and the scatter of all
+    {"noise_declared"},  // a factor of two, which chance does not make of thirty degrees of freedom
+    {"rigid_tool", 2},   // the largest change of a distance, and the scatter of all
     {"station_drift", 1},
     {"nest_moved", 1},
     {"circle_arc"},

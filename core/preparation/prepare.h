@@ -44,12 +44,12 @@ struct PreparedCampaign {
 };
 
 /// A campaign as identification should see it: without the readings that screening rejects (lost beams,
-/// duplicates, outlying repeats), and referred to the first round of the floor nests where these show that
-/// the station moved: one jump or a steady drift where either fits the rounds, else from round to round. The motion is
-/// taken off only where it is larger than noise explains (chi-square at the audit's level) and where the nests, one
-/// that moved left out, keep their shape: nests that do not are no reference. Sweeps that state no time are taken to
-/// have been read row by row, evenly, between the first round of the nests and the last one before the loading, where
-/// the station drifted.
+/// duplicates, outlying repeats and nest readings), and referred to the first round of the floor nests where these show
+/// that the station moved: one jump or a steady drift where either fits the rounds, else from round to round. The
+/// motion is taken off only where it is larger than noise explains (chi-square at the audit's level) and where the
+/// nests, one that moved left out, keep their shape: nests that do not are no reference. Sweeps that state no time are
+/// taken to have been read row by row, evenly, between the first round of the nests and the last one before the
+/// loading, where the station drifted.
 PreparedCampaign prepareCampaign(campaign::Campaign read);
 
 /// The same readings with the station's motion put back on them: as they were measured, but for rounding.

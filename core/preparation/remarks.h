@@ -14,20 +14,26 @@ enum class RemarkId {
   tracker_noise_not_declared,
   no_floor_nests,
   too_few_nests,
+  too_few_rounds_to_tell,
 
   // Readings that should not be used.
   beam_lost,
   same_as_line,       ///< line of the other reading
   stands_from_state,  ///< m, from the mean of its state's other repeats
+  one_of_round_wrong,
+  stands_from_nest,  ///< m, from where the other nests put it; nest
 
   // Screening: what was found, and where its limits come from.
   no_such_readings,
   readings_at_zero,     ///< how many
   readings_repeated,    ///< how many
   repeats_stand_apart,  ///< how many
+  nests_stand_apart,    ///< how many
+  rounds_of_few_nests,  ///< how many rounds of three nests or fewer, of how many
   nothing_inside_station,
   no_chance_of_same_digits,
   chi_square_of_repeat,
+  chi_square_of_nest_reading,
 
   // The station's course by the nests, and why its motion is not taken off.
   station_stood_still,  ///< rounds of the nests

@@ -8,6 +8,7 @@
 #include "core/campaign/read_table.h"
 #include "core/campaign/row_names.h"
 #include "core/preparation/finding.h"
+#include "core/preparation/nest_outliers.h"
 #include "core/preparation/remarks.h"
 #include "core/preparation/repeatability.h"
 
@@ -85,7 +86,7 @@ Screening screenReadings(campaign::Campaign campaign) {
   bool any_points = false;
   campaign::forEachPointTable(result.campaign, [&](const auto&) { any_points = true; });
   if (!any_points) {
-    for (const char* id : {"lost_beam", "duplicate_readings", "repeat_outliers"}) {
+    for (const char* id : {"lost_beam", "duplicate_readings", "repeat_outliers", "nest_outliers"}) {
       result.checks.push_back(notTestable(id, Remark(RemarkId::no_point_readings)));
     }
     return result;
@@ -101,6 +102,15 @@ Screening screenReadings(campaign::Campaign campaign) {
   } else {
     result.checks.push_back(notTestable("repeat_outliers", scatter.reason));
   }
+  const NestOutliers nests = nestOutliers(result.campaign);
+  if (!nests.tested) {
+    result.checks.push_back(notTestable("nest_outliers", nests.reason));
+    return result;
+  }
+  screen("nest_outliers", AuditVerdict::warn, nests.readings, RemarkId::nests_stand_apart,
+         byChance(Remark(RemarkId::chi_square_of_nest_reading)));
+  if (nests.rounds_of_three > 0)
+    result.checks.back().details.push_back(Remark(RemarkId::rounds_of_few_nests, nests.rounds_of_three, nests.rounds));
   return result;
 }
 

@@ -296,12 +296,32 @@ campaign::Campaign measureWithoutNoise(const ElasticMachine& machine, const Simu
   return std::move(session.campaign);
 }
 
+namespace {
+
+/// Lines as the written tables have them: readings are rejected by file and line.
+void numberRows(campaign::Campaign& campaign) {
+  const auto number = [](auto& table) {
+    if (!table) return;
+    std::size_t line = 2;
+    for (auto& row : table->rows) row.line = line++;
+  };
+  number(campaign.circle_sweeps);
+  number(campaign.wrist_sweep);
+  number(campaign.loading);
+  number(campaign.states);
+  number(campaign.displacements);
+  number(campaign.nests);
+}
+
+}  // namespace
+
 campaign::Campaign simulate(const SimulationSpec& spec) {
   using namespace simulation;
   campaign::Campaign campaign = measureWithoutNoise(buildMachine(spec), spec);
   const std::uint64_t noise_seed = noiseSeed(spec);
   if (spec.load_cell && campaign.states) addLoadCellErrors(*spec.load_cell, noise_seed, *campaign.states);
   addTrackerNoise(spec.tracker.true_noise_factor, noise_seed, campaign);
+  numberRows(campaign);
   return campaign;
 }
 

@@ -80,6 +80,8 @@ const char* nameOf(CaseKind kind) {
       return "double";
     case CaseKind::outside:
       return "outside";
+    case CaseKind::as_is:
+      return "as_is";
   }
   return "";
 }
@@ -98,9 +100,10 @@ double sizeOf(const EffectSize& sizes, Shows shows) {
 
 double PlacedEffect::size() const { return sizeOf(sizes, shows); }
 
-std::vector<CasePlan> planCases(int count, std::uint64_t seed) {
+std::vector<CasePlan> planCases(int count, std::uint64_t seed, double as_is_share) {
   numerics::RandomStream random(seed, "plan");
   const int none = (count + 2) / 5, pairs = count / 8, outside = count / 8;
+  const int as_is = std::min(static_cast<int>(count * as_is_share), count - none - pairs - outside);
   Rounds effects(static_cast<int>(effects::kEffectCount)), kinds(static_cast<int>(outsideKinds().size()));
   std::vector<CasePlan> plans;
   for (int c = 0; c < count; ++c) {
@@ -116,6 +119,11 @@ std::vector<CasePlan> planCases(int count, std::uint64_t seed) {
     } else if (c < none + pairs + outside) {
       plan.kind = CaseKind::outside;
       plan.outside = outsideKinds()[static_cast<std::size_t>(kinds.next(random))];
+    } else if (c < none + pairs + outside + as_is) {
+      using enum effects::Effect;
+      plan.kind = CaseKind::as_is;
+      plan.effects = {bearing_tilt, link_compliance};
+      if (c % 2 == 0) plan.effects.insert(plan.effects.end(), {base_compliance, hysteresis});
     } else {
       plan.kind = CaseKind::single;
       plan.effects = {static_cast<effects::Effect>(effects.next(random))};
@@ -181,8 +189,17 @@ BlindCase drawCase(const CasePlan& plan, std::uint64_t seed, const std::string& 
   const EffectSizer sizer(clean);
   one.background = sizer.background();
   const double least = plan.kind == CaseKind::pair ? 2.0 : 0.5;
-  const auto drawSize = [&] { return least * std::pow(10.0 / least, random.uniform()); };
+  const auto drawSize = [&] {
+    const double size = least * std::pow(10.0 / least, random.uniform());
+    return plan.size.value_or(size);
+  };
   for (const effects::Effect effect : plan.effects) {
+    if (plan.kind == CaseKind::as_is) {
+      const EffectDraw draw = drawAsIs(effect, clean, random);
+      one.effects.push_back({effect, draw.detail, draw.shows, tried(draw, 1.0, clean, sizer)});
+      draw.apply(1.0, machine.spec);
+      continue;
+    }
     const double size = drawSize();
     one.effects.push_back(place([&] { return drawEffect(effect, clean, random); }, size, machine.spec, clean, sizer));
   }

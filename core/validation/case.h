@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,18 +12,29 @@
 
 namespace stiffscope::validation {
 
-enum class CaseKind { none, single, pair, outside };
+enum class CaseKind {
+  none,
+  single,
+  pair,
+  outside,
+  as_is,  ///< an arm as it is: several effects of the vocabulary at half their usual size
+};
 
-const char* nameOf(CaseKind kind);  ///< none, single, double, outside
+const char* nameOf(CaseKind kind);  ///< none, single, double, outside, as_is
+
+/// Share of the cases that are machines as they are, where nothing else is asked for.
+constexpr double kAsIsShare = 0.125;
 
 /// What every case is to be, in an order mixed from the seed: a fifth none, an eighth doubles, an eighth
-/// outside the vocabulary, the rest singles, each effect (and each outside kind) as often as any other.
+/// outside the vocabulary, `as_is_share` machines as they are (bearings and links, or these with base and friction,
+/// as often), the rest singles, each effect (and each outside kind) as often as any other.
 struct CasePlan {
   CaseKind kind = CaseKind::none;
-  std::vector<effects::Effect> effects;  ///< one for a single, two for a double
+  std::vector<effects::Effect> effects;  ///< one for a single, two for a double, all of a machine as it is
   std::string outside;                   ///< id, for one outside the vocabulary
+  std::optional<double> size = {};       ///< to seek, of each effect, in noises; empty: drawn
 };
-std::vector<CasePlan> planCases(int count, std::uint64_t seed);
+std::vector<CasePlan> planCases(int count, std::uint64_t seed, double as_is_share = kAsIsShare);
 
 /// An effect in a case, with its size as the machine shows it.
 struct PlacedEffect {
@@ -46,7 +58,8 @@ struct BlindCase {
 /// Machine, effects and strengths. Sizes are drawn evenly in their logarithm from 0.5 to 10 (doubles from 2),
 /// and the strength that gives that size is sought on the noise-free machine to a tenth. Where no strength a
 /// real machine might have comes near it, joint, direction and mechanism are drawn again, up to eight times;
-/// then the one that shows most stays, and its label says how little that is. In three cases of ten the tracker's true
+/// then the one that shows most stays, and its label says how little that is. A machine as it is has its effects at
+/// the size of drawAsIs, whatever that shows. In three cases of ten the tracker's true
 /// noise is 0.75 to 1.25 times the declared.
 BlindCase drawCase(const CasePlan& plan, std::uint64_t seed, const std::string& name,
                    const std::filesystem::path& urdf_file);

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <stdexcept>
 
 #include "core/io/units.h"
 #include "core/simulation/machine.h"
@@ -345,7 +346,90 @@ EffectDraw drawOf(effects::Effect effect, const simulation::SimulationSpec& mach
   return {};
 }
 
+/// Strength 1 is half of what an arm of this kind usually has.
+constexpr double kHalf = 0.5;
+
+EffectDraw bearingsAsTheyAre(numerics::RandomStream& random) {
+  std::array<double, 6> stiffer{};
+  for (double& ratio : stiffer) ratio = random.uniform(8.0, 18.0) / kHalf;
+  EffectDraw draw;
+  draw.detail = "joints 1 to 6";
+  draw.apply = [=](double s, simulation::SimulationSpec& spec) {
+    if (s <= 0.0) return;
+    for (std::size_t i = 0; i < 6; ++i)
+      spec.machine.joints[i].bearing = stiffer[i] / s * *spec.machine.joints[i].torsion;
+  };
+  return draw;
+}
+
+EffectDraw linksAsTheyAre(const simulation::SimulationSpec& machine, numerics::RandomStream& random) {
+  struct Link {
+    int joint;
+    double bending, torsion;  // Nm^2
+  };
+  std::vector<Link> links;
+  for (const int joint : {1, 3}) {
+    const double ratio = random.uniform(4.0, 10.0) / kHalf, twist = random.uniform(0.5, 2.0);
+    const double rigidity = ratio * torsion(machine, std::min(joint, 2)) * length(machine, joint);
+    links.push_back({joint, rigidity, rigidity / twist});
+  }
+  EffectDraw draw;
+  draw.detail = "upper arm and forearm";
+  draw.apply = [=](double s, simulation::SimulationSpec& spec) {
+    if (s <= 0.0) return;
+    for (const Link& one : links)
+      spec.machine.links.push_back({one.joint, one.bending / s, one.torsion / s, std::nullopt, std::nullopt});
+  };
+  return draw;
+}
+
+EffectDraw baseAsItIs(const simulation::SimulationSpec& machine, numerics::RandomStream& random) {
+  const double about_x = random.uniform(10.0, 25.0) / kHalf, about_y = random.uniform(10.0, 25.0) / kHalf;
+  const Vector3d rates = torsion(machine, 1) * Vector3d(about_x, about_y, 10.0 * about_x);
+  EffectDraw draw;
+  draw.apply = [=](double s, simulation::SimulationSpec& spec) {
+    if (s > 0.0) spec.machine.base_rotation = rates / s;
+  };
+  return draw;
+}
+
+EffectDraw frictionAsItIs(const simulation::SimulationSpec& machine, numerics::RandomStream& random) {
+  std::array<simulation::JointFriction, 6> frictions;
+  for (std::size_t i = 0; i < 6; ++i) {
+    const double share = kHalf * random.uniform(0.01, 0.02);
+    frictions[i] = {share * usualTorque(machine, static_cast<int>(i)),
+                    random.uniform(0.5, 1.5) * torsion(machine, static_cast<int>(i)), 1 + drawIndex(6, random)};
+  }
+  EffectDraw draw;
+  draw.detail = "joints 1 to 6";
+  draw.apply = [=](double s, simulation::SimulationSpec& spec) {
+    if (s <= 0.0) return;
+    for (std::size_t i = 0; i < 6; ++i) {
+      spec.machine.joints[i].friction = frictions[i];
+      spec.machine.joints[i].friction->torque *= s;
+    }
+  };
+  return draw;
+}
+
 }  // namespace
+
+EffectDraw drawAsIs(effects::Effect effect, const simulation::SimulationSpec& machine, numerics::RandomStream& random) {
+  EffectDraw draw;
+  if (effect == effects::Effect::bearing_tilt) {
+    draw = bearingsAsTheyAre(random);
+  } else if (effect == effects::Effect::link_compliance) {
+    draw = linksAsTheyAre(machine, random);
+  } else if (effect == effects::Effect::base_compliance) {
+    draw = baseAsItIs(machine, random);
+  } else if (effect == effects::Effect::hysteresis) {
+    draw = frictionAsItIs(machine, random);
+  } else {
+    throw std::invalid_argument("no arm is known to have " + std::string(effects::idOf(effect)) + " as it is");
+  }
+  draw.effect = effect;
+  return draw;
+}
 
 EffectDraw drawEffect(effects::Effect effect, const simulation::SimulationSpec& machine,
                       numerics::RandomStream& random) {

@@ -31,6 +31,15 @@ struct EffectDraw {
 EffectDraw drawEffect(effects::Effect effect, const simulation::SimulationSpec& machine,
                       numerics::RandomStream& random);
 
+/// What an arm as it is has of an effect, at half its usual size, at strength 1. Of torsion k in the joint (Nm/rad):
+///   bearing_tilt     every joint; across its axis 2 k times 8 to 18, in place of the machine's own
+///   link_compliance  upper arm and forearm; EI / L = 2 k times 4 to 10, of the joint that the link follows (at most
+///                    joint 3's), GJ / L half to twice EI / L
+///   base_compliance  about x and y 2 k_2 times 10 to 25, about z ten times that
+///   hysteresis       every joint; friction of half a hundredth to one hundredth of its usual torque
+/// Throws std::invalid_argument for another effect.
+EffectDraw drawAsIs(effects::Effect effect, const simulation::SimulationSpec& machine, numerics::RandomStream& random);
+
 /// Ids of the effects outside the vocabulary: creep, stiffness_ripple, warming_drives, swinging_load,
 /// cracked_floor, thermal_growth, eccentric_encoder, dress_pack, refraction.
 const std::vector<std::string>& outsideKinds();

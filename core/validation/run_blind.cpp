@@ -94,7 +94,7 @@ BlindResult runBlind(const BlindOptions& options, const Diagnose& diagnose, cons
   }
   fs::remove_all(folder);
   io::makeFolder(folder);
-  const std::vector<CasePlan> plans = planCases(options.cases, options.seed);
+  const std::vector<CasePlan> plans = planCases(options.cases, options.seed, options.as_is_share);
   const std::size_t count = plans.size();
 
   BlindResult result;

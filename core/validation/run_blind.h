@@ -14,8 +14,9 @@ struct BlindOptions {
   int cases = 300;
   std::uint64_t seed = 1;
   std::filesystem::path out;
-  bool discard = false;  ///< remove the campaigns when done
-  int threads = 2;       ///< the result does not depend on it
+  bool discard = false;             ///< remove the campaigns when done
+  int threads = 2;                  ///< the result does not depend on it
+  double as_is_share = kAsIsShare;  ///< see planCases
 };
 
 /// Told of what goes on; any may be empty. Called from one thread at a time.

@@ -25,6 +25,17 @@ bool saysUnknown(const Answer& answer) {
                      [](const Answer::Entry& entry) { return entry.effects.empty(); });
 }
 
+/// Whether the entry names effects none of which is there.
+bool namesWrong(const Label& label, const Answer::Entry& entry) {
+  return !entry.effects.empty() && std::none_of(label.effects.begin(), label.effects.end(),
+                                                [&](const LabelledEffect& e) { return has(entry.effects, e.id); });
+}
+
+bool namesWrong(const Label& label, const Answer& answer) {
+  return std::any_of(answer.entries.begin(), answer.entries.end(),
+                     [&](const Answer::Entry& entry) { return namesWrong(label, entry); });
+}
+
 /// The true effect's own column where it was found, else the first thing that was said.
 std::string columnOf(const Label& label, const Answer& answer) {
   if (!answer.failure.empty()) return "failed";
@@ -44,19 +55,25 @@ ScoredCase scoreCase(const Label& label, const Answer& answer) {
       one.found = answer.entries.empty();
       break;
     case CaseKind::outside:
-      one.found = saysUnknown(answer);
+      one.found = saysUnknown(answer) && !namesWrong(label, answer);
       break;
     case CaseKind::single:
     case CaseKind::pair:
       one.found = std::all_of(label.effects.begin(), label.effects.end(),
                               [&](const LabelledEffect& e) { return entryWith(answer, e.id) != nullptr; });
       break;
+    case CaseKind::as_is:
+      one.found = std::any_of(label.effects.begin(), label.effects.end(),
+                              [&](const LabelledEffect& e) { return entryWith(answer, e.id) != nullptr; });
+      one.right = one.found && !namesWrong(label, answer);
+      return one;
   }
   const std::size_t expected = label.kind == CaseKind::none   ? 0
                                : label.kind == CaseKind::pair ? label.effects.size()
                                                               : 1;
-  // Two true effects may stand in one class that cannot tell them apart.
-  one.right = one.found && answer.entries.size() <= expected;
+  // Two true effects may stand in one class that cannot tell them apart: the other entry is then of neither.
+  const bool unknown = saysUnknown(answer) && label.kind != CaseKind::outside;
+  one.right = one.found && answer.entries.size() <= expected && !unknown && !namesWrong(label, answer);
   if (one.found && !label.effects.empty() && label.kind != CaseKind::outside) {
     one.class_size = static_cast<int>(entryWith(answer, label.effects.front().id)->effects.size());
   }
@@ -96,6 +113,20 @@ bool namesDetail(const ScoredCase& one) {
   return entry != nullptr && entry->detail.find(truth.detail) != std::string::npos;
 }
 
+/// Of all effects that machines as they are have in this size or more, or of those with this id.
+numerics::Rate effectsNamed(const std::vector<ScoredCase>& cases, double least, const std::string& id = {}) {
+  int trials = 0, named = 0;
+  for (const ScoredCase& one : cases) {
+    if (one.label.kind != CaseKind::as_is) continue;
+    for (const LabelledEffect& effect : one.label.effects) {
+      if (effect.size < least || (!id.empty() && effect.id != id)) continue;
+      ++trials;
+      if (entryWith(one.answer, effect.id) != nullptr) ++named;
+    }
+  }
+  return numerics::binomialRate(named, trials);
+}
+
 std::vector<NamedRate> allRates(const std::vector<ScoredCase>& cases) {
   const auto clean = [](bool declared_right) {
     return Choose([=](const ScoredCase& one) {
@@ -103,7 +134,11 @@ std::vector<NamedRate> allRates(const std::vector<ScoredCase>& cases) {
     });
   };
   const Choose alarm = [](const ScoredCase& one) { return !one.answer.entries.empty(); };
-  const Choose unknown = [](const ScoredCase& one) { return saysUnknown(one.answer); };
+  const Choose says_unknown = [](const ScoredCase& one) { return saysUnknown(one.answer); };
+  const Choose wrong_name = [](const ScoredCase& one) { return namesWrong(one.label, one.answer); };
+  const Choose unknown_beside = [](const ScoredCase& one) {
+    return saysUnknown(one.answer) && namesWrong(one.label, one.answer);
+  };
   const Choose none = [](const ScoredCase& one) { return one.answer.entries.empty(); };
   const Choose found = [](const ScoredCase& one) { return one.found; };
   const Choose one_found = [](const ScoredCase& one) {
@@ -134,14 +169,23 @@ std::vector<NamedRate> allRates(const std::vector<ScoredCase>& cases) {
       {"false_alarms", Remark(RemarkId::clean_alarmed), rateOf(cases, kind(CaseKind::none), alarm)},
       {"false_alarms_noise_right", Remark(RemarkId::clean_alarmed_noise_right), rateOf(cases, clean(true), alarm)},
       {"false_alarms_noise_wrong", Remark(RemarkId::clean_alarmed_noise_wrong), rateOf(cases, clean(false), alarm)},
-      {"unknown", Remark(RemarkId::outside_unknown), rateOf(cases, kind(CaseKind::outside), unknown)},
-      {"unknown_from_2", Remark(RemarkId::outside_from_2_unknown),
-       rateOf(cases, kind(CaseKind::outside, 2.0), unknown)},
-      {"unknown_apart", Remark(RemarkId::outside_apart_unknown), rateOf(cases, apart, unknown)},
+      {"unknown", Remark(RemarkId::outside_unknown), rateOf(cases, kind(CaseKind::outside), found)},
+      {"unknown_from_2", Remark(RemarkId::outside_from_2_unknown), rateOf(cases, kind(CaseKind::outside, 2.0), found)},
+      {"unknown_apart", Remark(RemarkId::outside_apart_unknown), rateOf(cases, apart, found)},
       {"outside_none_from_2", Remark(RemarkId::outside_from_2_none), rateOf(cases, kind(CaseKind::outside, 2.0), none)},
+      {"outside_wrong_name", Remark(RemarkId::outside_wrongly_named),
+       rateOf(cases, kind(CaseKind::outside), wrong_name)},
+      {"outside_unknown_beside", Remark(RemarkId::outside_unknown_beside_a_name),
+       rateOf(cases, kind(CaseKind::outside), unknown_beside)},
       {"doubles", Remark(RemarkId::doubles_right), rateOf(cases, kind(CaseKind::pair), right)},
       {"doubles_both_found", Remark(RemarkId::doubles_found), rateOf(cases, kind(CaseKind::pair), found)},
       {"doubles_one_found", Remark(RemarkId::doubles_one_found), rateOf(cases, kind(CaseKind::pair), one_found)},
+      {"as_is", Remark(RemarkId::as_is_right), rateOf(cases, kind(CaseKind::as_is), right)},
+      {"as_is_wrong_name", Remark(RemarkId::as_is_wrongly_named), rateOf(cases, kind(CaseKind::as_is), wrong_name)},
+      {"as_is_unknown", Remark(RemarkId::as_is_unknown), rateOf(cases, kind(CaseKind::as_is), says_unknown)},
+      {"as_is_none", Remark(RemarkId::as_is_none), rateOf(cases, kind(CaseKind::as_is), none)},
+      {"as_is_effects", Remark(RemarkId::as_is_effects_found), effectsNamed(cases, 0.0)},
+      {"as_is_effects_from_2", Remark(RemarkId::as_is_effects_from_2_found), effectsNamed(cases, 2.0)},
       {"detail", Remark(RemarkId::details_right), rateOf(cases, named, namesDetail)},
       {"failed", Remark(RemarkId::cases_failed), rateOf(cases, everything, failed)}};
 }
@@ -165,6 +209,29 @@ EffectScore effectScore(const std::vector<ScoredCase>& cases, const std::string&
   return effect;
 }
 
+/// How often each effect of a machine as it is was named, and in a class of how many.
+std::vector<EffectScore> asIsScores(const std::vector<ScoredCase>& cases) {
+  std::vector<EffectScore> scores;
+  for (const std::string_view name : effects::kEffectIds) {
+    const std::string id(name);
+    EffectScore effect{id, effectsNamed(cases, 0.0, id), effectsNamed(cases, 2.0, id), effectsNamed(cases, 5.0, id), 0,
+                       0.0};
+    if (effect.all.trials == 0) continue;
+    for (const ScoredCase& one : cases) {
+      const auto& there = one.label.effects;
+      if (one.label.kind != CaseKind::as_is ||
+          std::none_of(there.begin(), there.end(), [&](const LabelledEffect& e) { return e.id == id; }))
+        continue;
+      effect.answered_none += one.answer.failure.empty() && one.answer.entries.empty() ? 1 : 0;
+      if (const Answer::Entry* entry = entryWith(one.answer, id))
+        effect.mean_class_size += static_cast<double>(entry->effects.size());
+    }
+    if (effect.all.hits > 0) effect.mean_class_size /= effect.all.hits;
+    scores.push_back(effect);
+  }
+  return scores;
+}
+
 Confusion confusionOf(const std::vector<ScoredCase>& cases) {
   Confusion table;
   table.truths.emplace_back("none");
@@ -174,7 +241,7 @@ Confusion confusionOf(const std::vector<ScoredCase>& cases) {
   for (const char* other : {"unknown", "several", "failed"}) table.answers.emplace_back(other);
   table.counts.assign(table.truths.size(), std::vector<int>(table.answers.size(), 0));
   for (const ScoredCase& one : cases) {
-    if (one.label.kind == CaseKind::pair) continue;
+    if (one.label.kind == CaseKind::pair || one.label.kind == CaseKind::as_is) continue;
     const std::string truth = one.label.kind == CaseKind::none      ? "none"
                               : one.label.kind == CaseKind::outside ? "outside"
                                                                     : one.label.effects.front().id;
@@ -235,6 +302,7 @@ Score score(const std::vector<Label>& labels, const std::vector<Answer>& answers
   for (const std::string& id : outsideKinds()) {
     result.outside.push_back(effectScore(result.cases, id, CaseKind::outside));
   }
+  result.as_is = asIsScores(result.cases);
   result.by_size = {{0.0, 1.0}, {1.0, 2.0}, {2.0, 5.0}, {5.0}};
   for (SizeClass& sizes : result.by_size) {
     const Choose in = [&sizes](const ScoredCase& one) {

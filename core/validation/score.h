@@ -17,8 +17,11 @@ namespace stiffscope::validation {
 struct ScoredCase {
   Label label;
   Answer answer;
-  bool found = false;  ///< every true effect is a member of some entry (none: nothing was said; outside: unknown)
-  bool right = false;  ///< found, and nothing else was said
+  /// Every true effect is a member of some entry. None: nothing was said. Outside: unknown was said and nothing named.
+  /// A machine as it is: some true effect is a member of some entry.
+  bool found = false;
+  /// Found, and nothing else was said; of a machine as it is: and no effect was named that is not there.
+  bool right = false;
   bool first = false;  ///< the first entry has the (first) true effect, beside at most two others
   int class_size = 0;  ///< members of the entry with the (first) true effect; 0 where not found
   std::string column;  ///< of the confusion matrix
@@ -45,7 +48,7 @@ struct SizeClass {
 
 struct EffectScore {
   std::string id;
-  numerics::Rate all, from_2, from_5;  ///< singles answered right
+  numerics::Rate all, from_2, from_5;  ///< answered right, by its size
   int answered_none = 0;
   double mean_class_size = 0.0;  ///< of those found
 };
@@ -66,6 +69,7 @@ struct Score {
   std::vector<NamedRate> rates;
   std::vector<EffectScore> effects;  ///< in the vocabulary's order
   std::vector<EffectScore> outside;  ///< the kinds outside it; right: unknown and nothing else
+  std::vector<EffectScore> as_is;    ///< the effects of machines as they are; right: named
   std::vector<SizeClass> by_size;
   std::vector<ShrinkPair> shrinks;
   Confusion confusion;
@@ -74,7 +78,8 @@ struct Score {
 };
 
 /// Answers against labels, case by case in the labels' order. A class of effects that cannot be told apart
-/// counts as right when the true one is among them; how many it had is reported beside it. Throws
+/// counts as right when the true one is among them; how many it had is reported beside it. Unknown says that nothing of
+/// the vocabulary explains what is left: beside the name of an effect that is not there it is wrong as well. Throws
 /// std::invalid_argument where a label has no answer. `distances`: by case, see ScoredCase.
 Score score(const std::vector<Label>& labels, const std::vector<Answer>& answers,
             const std::map<std::string, double>& distances = {});

@@ -133,9 +133,9 @@ std::vector<Answer> readAnswers(const std::string& file, const std::string& byte
 
 namespace {
 
-const std::vector<std::string> kLabelColumns{"case",         "kind",       "effects",   "details", "shows",
-                                             "sizes",        "deflection", "positions", "shrink",  "shrink_seen",
-                                             "noise_factor", "background", "arm",       "loading"};
+const std::vector<std::string> kLabelColumns{
+    "case",   "kind",        "effects",      "details",    "shows", "sizes",   "deflection",          "positions",
+    "shrink", "shrink_seen", "noise_factor", "background", "arm",   "loading", "stiffness_nm_per_rad"};
 
 const char* nameOf(Shows shows) {
   switch (shows) {
@@ -158,10 +158,10 @@ std::string joined(const std::vector<LabelledEffect>& effects, const Part& part)
 }
 
 CaseKind kindOf(const TableRow& row) {
-  for (const CaseKind kind : {CaseKind::none, CaseKind::single, CaseKind::pair, CaseKind::outside}) {
+  for (const CaseKind kind : {CaseKind::none, CaseKind::single, CaseKind::pair, CaseKind::outside, CaseKind::as_is}) {
     if (row.text("kind") == nameOf(kind)) return kind;
   }
-  row.refuse("kind", "none, single, double or outside");
+  row.refuse("kind", "none, single, double, outside or as_is");
 }
 
 }  // namespace
@@ -177,7 +177,9 @@ Label labelOf(const std::string& name, const BlindCase& one) {
               one.spec.tracker.true_noise_factor,
               one.background,
               one.arm,
-              one.loading};
+              one.loading,
+              {}};
+  for (std::size_t i = 0; i < 6; ++i) label.stiffness[i] = one.spec.machine.joints[i].torsion.value_or(0.0);
   for (const PlacedEffect& placed : one.effects) {
     label.effects.push_back({placed.effect ? std::string(effects::idOf(*placed.effect)) : placed.detail, placed.detail,
                              nameOf(placed.shows), placed.size(), placed.sizes.deflection, placed.sizes.positions});
@@ -191,13 +193,16 @@ std::string labelsCsv(const std::vector<Label>& labels) {
     const auto numbers = [&](double LabelledEffect::*member) {
       return joined(one.effects, [&](const LabelledEffect& e) { return shortNumber(e.*member); });
     };
-    csv += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", one.name, nameOf(one.kind),
+    std::vector<std::string> stiffness;
+    for (const double value : one.stiffness) stiffness.push_back(fmt::format("{:.1f}", value));  // no exponent's '+'
+    csv += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", one.name, nameOf(one.kind),
                        joined(one.effects, [](const LabelledEffect& e) { return e.id; }),
                        joined(one.effects, [](const LabelledEffect& e) { return e.detail; }),
                        joined(one.effects, [](const LabelledEffect& e) { return e.shows; }),
                        numbers(&LabelledEffect::size), numbers(&LabelledEffect::deflection),
                        numbers(&LabelledEffect::positions), shortNumber(one.shrink), shortNumber(one.shrink_seen),
-                       shortNumber(one.noise_factor), shortNumber(one.background), one.arm, one.loading);
+                       shortNumber(one.noise_factor), shortNumber(one.background), one.arm, one.loading,
+                       fmt::join(stiffness, "+"));
   }
   return csv;
 }
@@ -213,7 +218,11 @@ std::vector<Label> readLabels(const std::string& file, const std::string& bytes)
                 row.number("noise_factor"),
                 row.number("background"),
                 row.text("arm"),
-                row.text("loading")};
+                row.text("loading"),
+                {}};
+    const std::vector<double> stiffness = row.numbers("stiffness_nm_per_rad");
+    if (stiffness.size() != label.stiffness.size()) row.refuse("stiffness_nm_per_rad", "six numbers joined by '+'");
+    std::copy(stiffness.begin(), stiffness.end(), label.stiffness.begin());
     const std::vector<std::string> ids = split(row.text("effects"), '+'), details = split(row.text("details"), '+'),
                                    shows = split(row.text("shows"), '+');
     const std::vector<double> sizes = row.numbers("sizes"), deflection = row.numbers("deflection"),

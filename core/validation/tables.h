@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <functional>
 #include <string>
 #include <vector>
@@ -61,12 +62,16 @@ struct Label {
   double noise_factor = 1.0;               ///< true noise of the tracker over declared
   double background = 0.0;
   std::string arm, loading;
+  /// Of the joints' springs, Nm/rad: where the stiffness changes with torque or time, that without torque at the
+  /// start of the day. What an interval of an identification has to hold.
+  std::array<double, 6> stiffness{};
 };
 
 Label labelOf(const std::string& name, const BlindCase& one);
 
 /// One line a case: case,kind,effects,details,shows,sizes,deflection,positions,shrink,shrink_seen,
-/// noise_factor,background,arm,loading; a double's two joined by '+'. Numbers with six significant digits.
+/// noise_factor,background,arm,loading,stiffness_nm_per_rad; of several effects, and of the six joints, joined by '+'.
+/// Numbers with six significant digits, stiffnesses to a tenth.
 std::string labelsCsv(const std::vector<Label>& labels);
 
 /// Reads it back. Throws InputError where a line is not of that form.

@@ -42,9 +42,21 @@ Json auditJson(const campaign::Campaign& campaign, const audit::AuditReport& rep
                       {"limit_source", words(check.limit_source)}});
     if (!check.details.empty()) checks.back()["details"] = words(check.details);
   }
+  Json suspected = Json::array();
+  for (const audit::Suspected& one : report.suspected) {
+    suspected.push_back({{"mistake", one.mistake},
+                         {"where", words(one.where)},
+                         {"remedy", words(one.remedy)},
+                         {"before", number(one.before)},
+                         {"after", number(one.after)}});
+  }
   return {{"campaign", campaignJson(campaign)},
           {"verdict", nameOf(report.verdict)},
+          {"made", report.made},
+          {"of", report.of},
+          {"unanswered", words(report.unanswered)},
           {"checks", checks},
+          {"suspected", suspected},
           {"rejected", rejectedJson(report.rejected)}};
 }
 

@@ -10,29 +10,62 @@ namespace stiffscope::reports {
 
 namespace {
 
-Json jointsJson(const comparison::StiffnessChange& change) {
+/// The change of the compliance and what follows of it: U is the expanded uncertainty, 95 %.
+void addDifference(const comparison::JointChange& joint, Json& row) {
+  row["compliance_difference_rad_per_nm"] = number(joint.difference.value);
+  row["u_compliance_difference_rad_per_nm"] = number(joint.difference.expanded());
+  row["sd_compliance_difference_rad_per_nm"] = number(joint.difference.sd);
+  row["degrees_of_freedom"] = number(joint.difference.dof);
+  row["p_value"] = number(joint.p_value);
+  row["p_value_holm"] = number(joint.p_holm);
+  row["taken_away"] = number(joint.taken.value);
+  row["u_taken_away"] = number(joint.taken.expanded());
+  row["avoided_at_targets"] = number(joint.avoided.value);
+  row["u_avoided_at_targets"] = number(joint.avoided.expanded());
+}
+
+Json jointsJson(const comparison::StiffnessChange& change, bool ratios_hold) {
   Json joints = Json::array();
   for (std::size_t j = 0; j < 6; ++j) {
     const comparison::JointChange& joint = change.joints[j];
     Json row{{"joint", j + 1}};
     if (joint.comparable) {
-      row["before"] = number(joint.before);
-      row["sd_before"] = number(joint.before_sd);
-      row["after"] = number(joint.after);
-      row["sd_after"] = number(joint.after_sd);
+      addDifference(joint, row);
+      row["before"] = number(joint.before.value);
+      row["sd_before"] = number(joint.before.sd);
+      row["after"] = number(joint.after.value);
+      row["sd_after"] = number(joint.after.sd);
       row["unit"] = "Nm/rad";
-      row["ratio"] = number(joint.ratio);
-      row["sd_ratio"] = number(joint.ratio_sd);
-      row["p_value"] = number(joint.p_value);
+      row["ratio"] = number(joint.ratio.value);
+      row["sd_ratio"] = number(joint.ratio.sd);
+      row["u_ratio"] = number(joint.ratio.expanded());
+      row["ratio_keeps_bias"] = !ratios_hold;
       row["correlation"] = number(joint.correlation);
       if (!joint.mark.empty()) row["mark"] = words(joint.mark);
     } else {
-      for (const char* key : {"before", "after", "ratio", "p_value"}) row[key] = nullptr;
+      for (const char* key : {"compliance_difference_rad_per_nm", "before", "after", "ratio", "p_value"}) {
+        row[key] = nullptr;
+      }
       row["reason"] = words(joint.reason);
     }
     joints.push_back(row);
   }
   return joints;
+}
+
+Json residualJson(const comparison::CommonResidual& residual) {
+  if (!residual.available) return nullptr;
+  const auto micrometres = [](const std::optional<double>& value) {
+    return value ? number(*value / io::kMicrometre) : Json(nullptr);
+  };
+  return {{"before_um", micrometres(residual.before)},
+          {"after_um", micrometres(residual.after)},
+          {"noise_before_um", micrometres(residual.noise_before)},
+          {"noise_after_um", micrometres(residual.noise_after)},
+          {"difference_um", micrometres(residual.of_difference)},
+          {"correlation", number(residual.correlation)},
+          {"recurs_p_value", number(residual.recurs_p)},
+          {"is_noise", residual.isNoise()}};
 }
 
 Json avoidedJson(const comparison::DeflectionAvoided& avoided, const char* place) {
@@ -53,6 +86,14 @@ Json avoidedJson(const comparison::DeflectionAvoided& avoided, const char* place
 
 }  // namespace
 
+Json changeJson(const comparison::StiffnessChange& change, bool ratios_hold) {
+  if (!change.available) return {{"unavailable", words(change.reason)}};
+  return {{"same_postures", change.same_postures},
+          {"postures", change.postures},
+          {"joints", jointsJson(change, ratios_hold)},
+          {"avoided_rest_at_targets", number(change.avoided_rest)}};
+}
+
 Json comparisonJson(const campaign::Campaign& before, const campaign::Campaign& after,
                     const comparison::Comparison& comparison) {
   Json json{{"before", campaignJson(before)}, {"after", campaignJson(after)}};
@@ -61,14 +102,14 @@ Json comparisonJson(const campaign::Campaign& before, const campaign::Campaign& 
   const identification::Method best = comparison.best();
   const bool any = comparison.of(best).available;
   json["method"] = any ? Json(namesOf(best).key) : Json(nullptr);
-  json["joints"] = any ? jointsJson(comparison.of(best)) : Json::array();
+  const bool ratios_hold = comparison.residual.isNoise();
+  json["joints"] = any ? jointsJson(comparison.of(best), ratios_hold) : Json::array();
   Json methods;
   for (const identification::Method method : identification::kMethods) {
-    const comparison::StiffnessChange& change = comparison.of(method);
-    methods[namesOf(method).key] =
-        change.available ? Json{{"joints", jointsJson(change)}} : Json{{"unavailable", words(change.reason)}};
+    methods[namesOf(method).key] = changeJson(comparison.of(method), ratios_hold);
   }
   json["methods"] = methods;
+  json["residual"] = residualJson(comparison.residual);
   const bool wrist = comparison.judgedAtWrist();
   json["avoided"] = avoidedJson(comparison.avoided(), wrist ? "P_wrist" : "reflectors");
   json["avoided_at_targets"] = avoidedJson(comparison.at_targets, "reflectors");

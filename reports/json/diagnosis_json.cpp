@@ -1,4 +1,5 @@
 #include "core/diagnosis/diagnosis.h"
+#include "core/diagnosis/spike_study.h"
 #include "reports/json/campaign_json.h"
 #include "reports/json/json.h"
 #include "reports/json/json_document.h"
@@ -127,6 +128,42 @@ Json diagnosisJson(const campaign::Campaign& campaign, const diagnosis::Diagnosi
         {{"separates", idsOf(one.separates)}, {"measure", words(one.what)}, {"gain_chi2", number(one.gain)}});
   json["next"] = next;
   return json;
+}
+
+namespace {
+
+Json spikeCountsJson(const diagnosis::SpikeCounts& at) {
+  Json others = Json::object();
+  for (const auto& [effect, count] : at.others) others[std::string(effects::idOf(effect))] = count;
+  return {{"times", at.times},
+          {"size_um", micrometres(at.size)},
+          {"draws", at.draws},
+          {"named", at.named},
+          {"part_named", at.part_named},
+          {"class_size", at.named > 0 ? number(at.class_size) : Json(nullptr)},
+          {"other_named", at.other_named},
+          {"unknown", at.unknown},
+          {"others", others}};
+}
+
+}  // namespace
+
+Json withSpikes(Json diagnosis, const diagnosis::SpikeStudy& study) {
+  Json effects = Json::array();
+  for (const diagnosis::SpikedEffect& one : study.effects) {
+    Json json{{"effect", std::string(effects::idOf(one.effect))},
+              {"detectable_um", one.detectable ? micrometres(*one.detectable) : Json(nullptr)},
+              {"in_baseline", one.in_baseline}};
+    if (!one.detectable) json["reason"] = words(one.reason);
+    json["sizes"] = Json::array();
+    for (const diagnosis::SpikeCounts& at : one.sizes) json["sizes"].push_back(spikeCountsJson(at));
+    effects.push_back(std::move(json));
+  }
+  diagnosis["spike"] = {{"seed", study.seed},
+                        {"draws", study.draws},
+                        {"baseline", diagnosis.contains("verdict") ? diagnosis["verdict"] : Json(nullptr)},
+                        {"effects", effects}};
+  return diagnosis;
 }
 
 }  // namespace stiffscope::reports

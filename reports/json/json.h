@@ -14,13 +14,15 @@ struct Campaign;
 }
 namespace stiffscope::comparison {
 struct Comparison;
-}
+struct StiffnessChange;
+}  // namespace stiffscope::comparison
 namespace stiffscope::compensation {
 struct CompensatedPosture;
 }
 namespace stiffscope::diagnosis {
 struct Diagnosis;
-}
+struct SpikeStudy;
+}  // namespace stiffscope::diagnosis
 namespace stiffscope::extended_model {
 struct ExtendedModel;
 }
@@ -36,6 +38,9 @@ struct Plan;
 namespace stiffscope::preparation {
 enum class AuditVerdict;
 }
+namespace stiffscope::simulation {
+struct SimulationSpec;
+}
 namespace stiffscope::validation {
 struct BlindOptions;
 struct BlindResult;
@@ -44,6 +49,9 @@ struct BlindResult;
 namespace stiffscope::reports {
 
 struct ReportContent;
+
+/// One method's part of `compare`, joint by joint; `ratios_hold`: what joint springs leave is noise.
+Json changeJson(const comparison::StiffnessChange& change, bool ratios_hold);
 
 /// The result of `compare`. `joints` are those of the best method that both campaigns have (`method`); all of
 /// them stand under `methods`.
@@ -58,6 +66,11 @@ Json compensationJson(const campaign::Campaign& campaign, identification::Method
 /// an inner one what this data cannot tell apart; [["none"]], or ["unknown"] among them.
 Json diagnosisJson(const campaign::Campaign& campaign, const diagnosis::Diagnosis& diagnosis);
 
+/// The result of `diagnose --spike`: that of `diagnose` with `spike`: seed, draws, baseline (the verdict without any
+/// effect added), effects (effect, detectable_um and reason where it was not added, in_baseline, sizes: times, size_um,
+/// draws, named, part_named, class_size, other_named, unknown, others by id). Counts are of draws.
+Json withSpikes(Json diagnosis, const diagnosis::SpikeStudy& study);
+
 /// The result of `frames`: R0, axes, link lengths, wrist centre with Table I, P_TCP. Axes, points and the wrist stand
 /// in R0 with all joints at zero unless the key says otherwise; what was not measured is null with a reason, or the
 /// URDF's, and then `from` beside it says "nominal" (or "partly nominal", between a measured axis and one that was
@@ -71,10 +84,15 @@ Json planJson(const campaign::Campaign& campaign, const planning::Plan& plan);
 /// results of `audit`, `frames` and `identify`, and what the double encoders avoid. The content has to live as long.
 JsonDocument resultsJson(const ReportContent& content);
 
-/// Keys: seal, answers_sha256, seed, cases (list: truth, sizes in noises, answer, found, right), confusion
-/// (truths, answers, counts: rows are truths), rates (by id: meaning, hits, trials, value, low, high at 95 %,
-/// value null without trials), by_size, effects, outside, shrink (promised against true).
+/// Keys: seal, answers_sha256, seed, as_is_share, cases (list: truth, sizes in noises, true stiffnesses, answer, found,
+/// right), confusion (truths, answers, counts: rows are truths), rates (by id: meaning, hits, trials, value, low, high
+/// at 95 %, value null without trials), by_size, effects, outside, as_is, shrink (promised against true).
 Json blindJson(const validation::BlindOptions& options, const validation::BlindResult& result);
+
+/// truth.json of `simulate`: what the machine truly is, drawn values included, under the keys that `identify` and
+/// `frames` have for what they find of it (stiffness_nm_per_rad, axes, links), SI otherwise. `effects`: what it has
+/// besides joint springs, one entry a mechanism. Null: rigid. docs/simulation-format.md lists the keys.
+Json truthJson(const simulation::SimulationSpec& spec);
 
 /// The result of `audit`: verdict, checks with figure and limit (null where not testable), rejected readings.
 Json auditJson(const campaign::Campaign& campaign, const audit::AuditReport& report);

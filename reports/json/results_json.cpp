@@ -12,6 +12,7 @@
 #include "core/io/units.h"
 #include "reports/json/campaign_json.h"
 #include "reports/json/identification_json.h"
+#include "reports/words/names.h"
 #include "reports/words/verdict.h"
 
 namespace stiffscope::reports {
@@ -29,7 +30,10 @@ Json avoidedJson(const AvoidedByEncoders& avoided) {
           {"low", number(avoided.low)},
           {"high", number(avoided.high)},
           {"at", avoided.at_wrist ? "P_wrist" : "reflectors"},
-          {"postures", postures}};
+          {"postures", postures},
+          {"method", namesOf(avoided.method).key},
+          {"joints", avoided.by_joint.available ? changeJson(avoided.by_joint, avoided.residual_is_noise)["joints"]
+                                                : Json::array()}};
 }
 
 JsonDocument campaignResults(const ReportCampaign& one) {

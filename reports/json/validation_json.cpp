@@ -42,6 +42,7 @@ Json caseJson(const validation::ScoredCase& one) {
             {"loading", one.label.loading},
             {"noise_factor", one.label.noise_factor},
             {"background", one.label.background},
+            {"true_stiffness_nm_per_rad", one.label.stiffness},
             {"verdict", one.answer.failure.empty() ? verdictJson(one.answer) : Json(nullptr)}};
   if (!one.answer.failure.empty()) json["failure"] = one.answer.failure;
   if (one.distance) json["noises_from_any_effect"] = *one.distance;
@@ -79,7 +80,10 @@ Json shrinkJson(const std::vector<validation::ShrinkPair>& pairs) {
 
 Json blindJson(const validation::BlindOptions& options, const validation::BlindResult& result) {
   const validation::Score& score = result.score;
-  Json json{{"seal", result.seal}, {"answers_sha256", result.answers_hash}, {"seed", options.seed}};
+  Json json{{"seal", result.seal},
+            {"answers_sha256", result.answers_hash},
+            {"seed", options.seed},
+            {"as_is_share", options.as_is_share}};
   json["cases"] = Json::array();
   for (const validation::ScoredCase& one : score.cases) json["cases"].push_back(caseJson(one));
   json["confusion"] = {
@@ -96,6 +100,7 @@ Json blindJson(const validation::BlindOptions& options, const validation::BlindR
   }
   json["effects"] = effectsJson(score.effects);
   json["outside"] = effectsJson(score.outside);
+  json["as_is"] = effectsJson(score.as_is);
   json["shrink"] = shrinkJson(score.shrinks);
   return json;
 }

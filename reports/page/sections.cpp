@@ -184,10 +184,21 @@ void addAuditWarnings(const audit::AuditReport& audit, std::vector<std::string>&
   }
 }
 
+/// That the audit could not be made far enough to say that the readings are fit.
+void addUntested(const audit::AuditReport& audit, std::vector<std::string>& items) {
+  if (audit.verdict != preparation::AuditVerdict::not_testable) return;
+  items.push_back(
+      fmt::format("The audit could make {} of {} checks, too few to say that the readings are fit to identify from.",
+                  audit.made, audit.of));
+}
+
 /// What a reader must know before believing the numbers of a campaign.
 std::vector<std::string> warningsOf(const reports::ReportCampaign& one) {
   std::vector<std::string> items;
-  if (one.audit != nullptr) addAuditWarnings(*one.audit, items);
+  if (one.audit != nullptr) {
+    addUntested(*one.audit, items);
+    addAuditWarnings(*one.audit, items);
+  }
   if (one.preparation != nullptr && (one.preparation->drift.taken_off || !one.preparation->rejected.empty())) {
     items.push_back(fmt::format("Readings: {}.", reports::withMicro(reports::preparationWords(*one.preparation))));
   }

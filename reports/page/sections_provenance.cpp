@@ -24,8 +24,9 @@ const char* meaningOf(preparation::AuditVerdict verdict) {
       return "The audit passes: the readings are fit to identify from.";
     case preparation::AuditVerdict::warn:
       return "The audit warns: the readings are fit to identify from, with what is said below.";
-    case preparation::AuditVerdict::fail:
     case preparation::AuditVerdict::not_testable:
+      return "The audit cannot tell: too little was measured to say whether the readings are fit to identify from.";
+    case preparation::AuditVerdict::fail:
       break;
   }
   return "The audit fails: as they were read, the readings are not fit to identify from.";
@@ -138,6 +139,26 @@ std::vector<std::string> furtherWords(const audit::AuditReport& report, bool dia
   return items;
 }
 
+/// What nothing tells, where a pass needs it.
+void writeUnanswered(Html& html, const audit::AuditReport& report) {
+  if (report.unanswered.empty()) return;
+  html.paragraph("Nothing in this campaign tells, and a pass needs it:");
+  std::vector<std::string> items;
+  for (const Remark& one : report.unanswered) items.push_back(reports::withMicro(reports::words(one)) + ".");
+  html.list(items);
+}
+
+void writeSuspected(Html& html, const audit::AuditReport& report) {
+  std::vector<std::string> items;
+  for (const audit::Suspected& one : report.suspected) {
+    items.push_back(fmt::format(
+        "Suspected: {} of the {}; {}; readings over the day then scatter by {:.2f} of it instead "
+        "of {:.2f}.",
+        reports::auditName(one.mistake), reports::words(one.where), reports::words(one.remedy), one.after, one.before));
+  }
+  html.list(items);
+}
+
 void writeRejected(Html& html, const reports::ReportCampaign& one) {
   const auto& rejected = one.audit->rejected;
   if (rejected.empty()) {
@@ -162,8 +183,11 @@ void writeAudit(Html& html, const reports::ReportContent& content) {
   if (!any) return;
   writeForEach(html, content, "audit", "Audit of the readings", [&](const reports::ReportCampaign& one) {
     if (one.audit == nullptr) return;
-    html.paragraph(meaningOf(one.audit->verdict));
+    html.paragraph(fmt::format("{} {} of {} checks could be made.", meaningOf(one.audit->verdict), one.audit->made,
+                               one.audit->of));
+    writeUnanswered(html, *one.audit);
     writeTable(html, findingsTable(*one.audit));
+    writeSuspected(html, *one.audit);
     writeTable(html, passedTable(*one.audit));
     html.list(furtherWords(*one.audit, one.diagnosis != nullptr && one.diagnosis->usable));
     if (anyByChance(*one.audit)) {

@@ -73,6 +73,52 @@ std::string noiseWords(const reports::ReportCampaign& one) {
       reports::percent(*result.noise->at_wrist), at_targets);
 }
 
+std::string withU(const comparison::Uncertain& number, double times) {
+  return std::isfinite(number.value) ? reports::withUncertainty(times * number.value, times * number.expanded()) : "–";
+}
+
+std::string pWords(double p) {
+  if (!std::isfinite(p)) return "–";
+  return p < 1e-4 ? "< 0.0001" : reports::fixed(p, 4);
+}
+
+/// What the active encoders take away, joint by joint.
+reports::Table takenTable(const reports::AvoidedByEncoders& avoided) {
+  reports::Table table{fmt::format("What the double encoders take away ± U, by {}", reports::longName(avoided.method)),
+                       {"Joint", "Compliance 1/k, 10⁻⁹\u00a0rad/Nm", "Share of it, %",
+                        "Of the deflection at the reflectors, %", "p (Holm)"},
+                       {{}}};
+  table.id = "taken-away";
+  for (std::size_t j = 0; j < 6; ++j) {
+    const comparison::JointChange& joint = avoided.by_joint.joints[j];
+    if (!joint.comparable) continue;
+    const comparison::Uncertain gone{-joint.difference.value, joint.difference.sd, joint.difference.dof};
+    table.groups.front().rows.push_back({fmt::format("1/{}", reports::jointName(static_cast<int>(j))), withU(gone, 1e9),
+                                         withU(joint.taken, 100.0), withU(joint.avoided, 100.0), pWords(joint.p_holm)});
+  }
+  return table;
+}
+
+void writeTaken(Html& html, const reports::AvoidedByEncoders& avoided) {
+  if (!avoided.by_joint.available) return;
+  writeTable(html, takenTable(avoided));
+  std::string words = avoided.by_joint.same_postures
+                          ? fmt::format(
+                                "Differences of compliances fitted on the {} postures of both states: what both "
+                                "share cancels.",
+                                avoided.by_joint.postures)
+                          : std::string(
+                                "Differences of compliances fitted on other postures: what the model misses does not "
+                                "cancel.");
+  if (!avoided.residual_is_noise) {
+    words +=
+        " What joint springs leave is more than noise, or not known to be noise: shares are of the apparent "
+        "compliance, "
+        "which holds what else gives as the joint does.";
+  }
+  html.paragraph(words, "faint");
+}
+
 void writeAvoided(Html& html, const reports::ReportContent& content) {
   std::string words;
   if (!content.avoided) return;  // the two states were not both measured: there is nothing to explain
@@ -88,6 +134,7 @@ void writeAvoided(Html& html, const reports::ReportContent& content) {
   }
   html.leaf("h3", "Avoided by the double encoders");
   html.paragraph(words);
+  writeTaken(html, *content.avoided);
 }
 
 }  // namespace

@@ -36,7 +36,8 @@ std::string styleOf(int count, int row_total, bool right) {
 void writeBlindConfusion(Html& html, const validation::Confusion& confusion) {
   html.leaf("h2", "What was, and what was said");
   html.paragraph(
-      "Rows: the truth, doubles aside. Columns: the answer; a class with the true effect in it counts as "
+      "Rows: the truth, doubles and machines as they are aside. Columns: the answer; a class with the true effect in "
+      "it counts as "
       "that effect.");
   const auto scroll = html.element("div", {{"class", "scroll"}});
   const auto table = html.element("table");
@@ -171,6 +172,7 @@ void writeBlindEffects(Html& html, const validation::Score& score) {
   html.leaf("h2", "Effect by effect");
   writeTable(html, effectTable("Singles answered right", score.effects));
   writeTable(html, effectTable("Outside the vocabulary: unknown, and nothing else, was said", score.outside));
+  if (!score.as_is.empty()) writeTable(html, effectTable("Machines as they are: the effect was named", score.as_is));
 }
 
 void writeBlindShrink(Html& html, const validation::Score& score) {
@@ -215,6 +217,9 @@ void writeBlindMethod(Html& html) {
        "positions, less a rigid motion and the reflectors' places, in units of the noise of one state's "
        "position and, "
        "where the nests do not see it, of the machine's own departures from nominal.",
+       "Machines as they are have bearings and links that give, every second one also a base and friction, each at "
+       "half its usual size. An answer is right when it names at least one of these effects and none that is not "
+       "there; unknown beside it says that more is left.",
        "A class of effects that cannot be told apart counts as right when the true one is a member; how many "
        "members "
        "it had is in the tables."});

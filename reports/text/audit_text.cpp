@@ -36,6 +36,40 @@ void writeChecks(const audit::AuditReport& report, Out out) {
   }
 }
 
+const char* meaningOf(preparation::AuditVerdict verdict) {
+  switch (verdict) {
+    case preparation::AuditVerdict::pass:
+      return "pass: fit to identify from";
+    case preparation::AuditVerdict::warn:
+      return "warn: fit to identify from with what is said below";
+    case preparation::AuditVerdict::not_testable:
+      return "not testable: too little was measured to say whether it is fit to identify from";
+    case preparation::AuditVerdict::fail:
+      break;
+  }
+  return "fail: not fit to identify from";
+}
+
+/// What nothing tells, where a pass needs it.
+void writeUnanswered(const audit::AuditReport& report, Out out) {
+  if (report.unanswered.empty()) return;
+  fmt::format_to(out, "\nNothing in this campaign tells, and a pass needs it\n");
+  for (const Remark& one : report.unanswered) fmt::format_to(out, "  {}\n", wrapped(words(one), 4));
+}
+
+void writeSuspected(const audit::AuditReport& report, Out out) {
+  if (report.suspected.empty()) return;
+  fmt::format_to(out, "\nSuspected\n");
+  for (const audit::Suspected& one : report.suspected) {
+    fmt::format_to(
+        out, "  {}\n",
+        wrapped(fmt::format("{} of the {}: {}; readings over the day then scatter by {:.2f} of it instead of "
+                            "{:.2f}",
+                            one.mistake, words(one.where), words(one.remedy), one.after, one.before),
+                4));
+  }
+}
+
 /// Short arcs that still suffice pass, but a reader should know what they cost.
 void writeShortArcs(const audit::AuditReport& report, Out out) {
   for (const preparation::AuditCheck& check : report.checks) {
@@ -74,12 +108,12 @@ void writeMessages(const audit::AuditReport& report, preparation::AuditVerdict v
 std::string auditText(const campaign::Campaign& campaign, const audit::AuditReport& report) {
   std::string text;
   Out out(text);
-  fmt::format_to(out, "{}: {}\n\n", campaign.name,
-                 report.verdict == preparation::AuditVerdict::pass ? "pass: fit to identify from"
-                 : report.verdict == preparation::AuditVerdict::warn
-                     ? "warn: fit to identify from with what is said below"
-                     : "fail: not fit to identify from");
+  fmt::format_to(out, "{}: {}\n{} of {} checks could be made\n", campaign.name, meaningOf(report.verdict), report.made,
+                 report.of);
+  writeUnanswered(report, out);
+  fmt::format_to(out, "\n");
   writeChecks(report, out);
+  writeSuspected(report, out);
   writeMessages(report, preparation::AuditVerdict::fail, "Fails", out);
   writeMessages(report, preparation::AuditVerdict::warn, "Warns", out);
   writeMessages(report, preparation::AuditVerdict::not_testable, "Not testable", out);

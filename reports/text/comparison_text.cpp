@@ -17,8 +17,12 @@ namespace {
 
 using Out = std::back_insert_iterator<std::string>;
 
-std::string withSd(double value, double sd) {
-  return fmt::format("{:.4f} +-{}", value, std::isfinite(sd) ? fmt::format("{:.4f}", sd) : "?");
+/// A value and its expanded uncertainty.
+std::string withU(const comparison::Uncertain& number, double times, int decimals) {
+  if (!std::isfinite(number.value)) return "-";
+  const double expanded = times * number.expanded();
+  return fmt::format("{:.{}f} +-{}", unsignedZero(times * number.value, decimals), decimals,
+                     std::isfinite(expanded) ? fmt::format("{:.{}f}", expanded, decimals) : "?");
 }
 
 std::string pText(double p) {
@@ -26,25 +30,76 @@ std::string pText(double p) {
   return p < 1e-4 ? "< 0.0001" : fmt::format("{:.4f}", p);
 }
 
-void writeMethod(const comparison::StiffnessChange& change, identification::Method method, Out out) {
+constexpr double kMicroradian = 1e-6;
+
+void writeDifferences(const comparison::StiffnessChange& change, Out out) {
+  fmt::format_to(out, "  {:<4}{:>26}{:>11}{:>11}{:>20}{:>20}\n", "", "difference (urad/Nm)", "p", "Holm",
+                 "taken away, %", "of deflection, %");
+  for (std::size_t j = 0; j < 6; ++j) {
+    const comparison::JointChange& joint = change.joints[j];
+    if (!joint.comparable) {
+      fmt::format_to(out, "  {}\n", wrapped(fmt::format("c{}  {}", j + 1, words(joint.reason)), 6));
+      continue;
+    }
+    fmt::format_to(out, "  c{:<3}{:>26}{:>11}{:>11}{:>20}{:>20}\n", j + 1,
+                   withU(joint.difference, 1.0 / kMicroradian, 4), pText(joint.p_value), pText(joint.p_holm),
+                   withU(joint.taken, 100.0, 2), withU(joint.avoided, 100.0, 2));
+  }
+}
+
+void writeStiffnesses(const comparison::StiffnessChange& change, bool ratios_hold, Out out) {
+  fmt::format_to(out, "  {:<4}{:>22}{:>22}{:>24}{:>8}\n", "", "before (1e6 Nm/rad)", "after (1e6 Nm/rad)", "ratio",
+                 "corr.");
+  for (std::size_t j = 0; j < 6; ++j) {
+    const comparison::JointChange& joint = change.joints[j];
+    if (!joint.comparable) continue;
+    const std::string ratio = withU(joint.ratio, 1.0, 4);
+    fmt::format_to(out, "  k{:<3}{:>22}{:>22}{:>24}{:>8.2f}{}\n", j + 1, withU(joint.before, 1e-6, 4),
+                   withU(joint.after, 1e-6, 4), ratios_hold ? ratio : "(" + ratio + ")", joint.correlation,
+                   joint.mark.empty() ? "" : "  " + words(joint.mark));
+  }
+}
+
+void writeMethod(const comparison::StiffnessChange& change, identification::Method method, bool ratios_hold, Out out) {
   if (!change.available) {
     fmt::format_to(out, "\n{}\n",
                    wrapped(fmt::format("{}: not comparable: {}", namesOf(method).full, words(change.reason)), 2));
     return;
   }
-  fmt::format_to(out, "\n{}, 1e6 Nm/rad, +- one standard uncertainty\n  {:<4}{:>20}{:>20}{:>18}{:>10}{:>8}\n",
-                 namesOf(method).full, "", "before", "after", "ratio", "p", "corr.");
-  for (std::size_t j = 0; j < 6; ++j) {
-    const comparison::JointChange& joint = change.joints[j];
-    if (!joint.comparable) {
-      fmt::format_to(out, "  {}\n", wrapped(fmt::format("k{}  {}", j + 1, words(joint.reason)), 6));
-      continue;
-    }
-    fmt::format_to(out, "  k{:<3}{:>20}{:>20}{:>18}{:>10}{:>8.2f}{}\n", j + 1,
-                   withSd(joint.before * 1e-6, joint.before_sd * 1e-6),
-                   withSd(joint.after * 1e-6, joint.after_sd * 1e-6), withSd(joint.ratio, joint.ratio_sd),
-                   pText(joint.p_value), joint.correlation, joint.mark.empty() ? "" : "  " + words(joint.mark));
+  const std::string from = change.same_postures ? fmt::format("the {} postures of both", change.postures)
+                                                : std::string("all postures of each");
+  fmt::format_to(out, "\n{}: compliance after - before from {}, +- U (95 %)\n", namesOf(method).full, from);
+  writeDifferences(change, out);
+  writeStiffnesses(change, ratios_hold, out);
+}
+
+/// What the columns mean, once for all methods.
+void writeLegend(const comparison::Comparison& comparison, Out out) {
+  const comparison::CommonResidual& left = comparison.residual;
+  std::string text =
+      "p: probability of a difference as large without any change; Holm: the same corrected for the joints tested. "
+      "Taken "
+      "away: share of the compliance before that is gone. Of deflection: share of the deflection at the reflectors "
+      "that "
+      "this avoids. corr.: of the scatter errors of before and after, by the postures measured in both; a difference "
+      "counts it.";
+  fmt::format_to(out, "\n  {}\n", wrapped(text, 2));
+  if (!left.available) return;
+  const auto micrometres = [](double value) { return value / io::kMicrometre; };
+  text = fmt::format("Joint springs leave {:.1f} um per coordinate before and {:.1f} um after",
+                     micrometres(left.before), micrometres(left.after));
+  if (left.noise_before && left.noise_after) {
+    text += fmt::format(" (noise of the tracker: {:.1f} and {:.1f} um)", micrometres(*left.noise_before),
+                        micrometres(*left.noise_after));
   }
+  if (std::isfinite(left.of_difference)) {
+    text += fmt::format(", {:.1f} um of the difference", micrometres(left.of_difference));
+  }
+  text += left.isNoise() ? ". It is noise, as far as it shows: ratios of stiffnesses hold."
+                         : ". It is more than noise, or not known to be noise: the stiffnesses are apparent ones, and "
+                           "ratios (in brackets) and shares of the compliance before keep the bias of both. The "
+                           "difference of compliances does not, as far as both states miss the same.";
+  fmt::format_to(out, "  {}\n", wrapped(text, 2));
 }
 
 void writeShare(const comparison::DeflectionAvoided& avoided, const char* place, Out out) {
@@ -85,10 +140,8 @@ std::string comparisonText(const campaign::Campaign& before, const campaign::Cam
     fmt::format_to(out, "  {}\n", wrapped("caution: " + caution, 4));
   if (comparison.comparable) {
     for (const identification::Method method : identification::kMethods)
-      writeMethod(comparison.of(method), method, out);
-    fmt::format_to(out,
-                   "  p: probability of a difference as large without any change; the errors' correlation (corr.), by\n"
-                   "  the postures measured in both campaigns, is counted\n");
+      writeMethod(comparison.of(method), method, comparison.residual.isNoise(), out);
+    writeLegend(comparison, out);
     if (comparison.judgedAtWrist()) writeShare(comparison.at_wrist, "P_wrist", out);
     writeShare(comparison.at_targets, "the reflectors", out);
     if (comparison.avoided().available)

@@ -3,11 +3,14 @@
 #include "reports/text/text.h"
 
 #include <fmt/format.h>
+#include <algorithm>
 #include <iterator>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/diagnosis/diagnosis.h"
+#include "core/diagnosis/spike_study.h"
 #include "core/io/units.h"
 #include "reports/words/effect_words.h"
 #include "reports/words/numbers.h"
@@ -138,6 +141,83 @@ std::string diagnosisText(const campaign::Campaign& campaign, const diagnosis::D
   writeLimits(diagnosis, out);
   for (const diagnosis::NextMeasurement& one : diagnosis.next)
     fmt::format_to(out, "Next: {}\n", wrapped(words(one.what), 2));
+  return text;
+}
+
+namespace {
+
+/// "3/8", "-" without a draw.
+std::string ofDraws(int count, const diagnosis::SpikeCounts& at) {
+  return at.draws == 0 ? "-" : fmt::format("{}/{}", count, at.draws);
+}
+
+/// "base_compliance 3, unknown 1": what was said besides, and how often over all sizes.
+std::string saidBesides(const diagnosis::SpikedEffect& one) {
+  std::string text;
+  std::vector<std::pair<std::string, int>> sums;
+  const auto add = [&](const std::string& name, int count) {
+    if (count == 0) return;
+    const auto found = std::find_if(sums.begin(), sums.end(), [&](const auto& sum) { return sum.first == name; });
+    if (found != sums.end()) {
+      found->second += count;
+    } else {
+      sums.emplace_back(name, count);
+    }
+  };
+  for (const diagnosis::SpikeCounts& at : one.sizes) {
+    for (const auto& [effect, count] : at.others) add(std::string(effects::idOf(effect)), count);
+    add("unknown", at.unknown);
+  }
+  for (const auto& [name, count] : sums) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", name, count);
+  return text;
+}
+
+void writeSpikedEffect(const diagnosis::SpikedEffect& one, Out out) {
+  const std::string name = fmt::format("{}{}", effects::idOf(one.effect), one.in_baseline ? " *" : "");
+  if (!one.detectable) {
+    fmt::format_to(out, "  {}\n", wrapped(fmt::format("{:<25} not added: {}", name, words(one.reason)), 4));
+    return;
+  }
+  fmt::format_to(out, "  {:<25}{:>8.1f} ", name, um(*one.detectable));
+  int draws = 0, other = 0, parts = 0, named = 0;
+  for (const diagnosis::SpikeCounts& at : one.sizes) {
+    fmt::format_to(out, "{:>7}", ofDraws(at.named, at));
+    draws += at.draws, other += at.other_named, parts += at.part_named, named += at.named;
+  }
+  fmt::format_to(out, "{:>10}{:>9}\n", named > 0 ? fmt::format("{}/{}", parts, named) : "-",
+                 draws > 0 ? fmt::format("{}/{}", other, draws) : "-");
+  const std::string besides = saidBesides(one);
+  if (!besides.empty()) fmt::format_to(out, "      besides: {}\n", wrapped(besides, 8));
+}
+
+}  // namespace
+
+std::string spikeText(const diagnosis::Diagnosis& baseline, const diagnosis::SpikeStudy& study) {
+  std::string text;
+  Out out(text);
+  fmt::format_to(
+      out, "\n{}\n",
+      wrapped(fmt::format("Proof by effects added to this day's own readings ({} draws a size, seed {}). Without "
+                          "any: {}. That stays in the readings.",
+                          study.draws, study.seed, verdictWords(baseline.verdict)),
+              0));
+  std::string sizes;
+  for (const diagnosis::SpikedEffect& one : study.effects) {
+    if (one.sizes.empty()) continue;
+    for (const diagnosis::SpikeCounts& at : one.sizes) sizes += fmt::format("{:>7}", fmt::format("x {:g}", at.times));
+    break;
+  }
+  fmt::format_to(out, "  {:<25}{:>8} {}{:>10}{:>9}\n", "named, of draws", "size, um", sizes, "its part", "another");
+  bool marked = false;
+  for (const diagnosis::SpikedEffect& one : study.effects) {
+    writeSpikedEffect(one, out);
+    marked = marked || one.in_baseline;
+  }
+  if (marked) fmt::format_to(out, "  * named without being added: only its part says something\n");
+  fmt::format_to(out, "{}\n",
+                 wrapped("The size is the smallest that would have been seen, as above. What is added follows the "
+                         "effect's own equation: whether the machine does is not shown.",
+                         0));
   return text;
 }
 

@@ -19,7 +19,8 @@ struct CompensatedPosture;
 }
 namespace stiffscope::diagnosis {
 struct Diagnosis;
-}
+struct SpikeStudy;
+}  // namespace stiffscope::diagnosis
 namespace stiffscope::extended_model {
 struct EffectFit;
 struct ExtendedModel;
@@ -59,6 +60,9 @@ std::string compensationText(const campaign::Campaign& campaign, identification:
 /// The diagnosis for people: the verdict with its reason, the candidates with how far each shrinks the gap,
 /// where the gap lies, stiffnesses before and after, what could not be tested and what to measure next.
 std::string diagnosisText(const campaign::Campaign& campaign, const diagnosis::Diagnosis& diagnosis);
+
+/// How often each effect was named that was added to the day's readings, by size, and what else was said.
+std::string spikeText(const diagnosis::Diagnosis& baseline, const diagnosis::SpikeStudy& study);
 
 /// What was added to the joint springs, with which sizes, what it explains, what is done with it.
 std::string addedEffectsText(const extended_model::EffectFit& effects);

@@ -41,6 +41,8 @@ std::string blindText(const validation::BlindResult& result) {
                       "size >= 5", "said none", "class of");
   text += effectLines(result.score.effects);
   text += "\n  outside the vocabulary, unknown said alone\n" + effectLines(result.score.outside);
+  if (!result.score.as_is.empty())
+    text += "\n  machines as they are, the effect named\n" + effectLines(result.score.as_is);
   return text;
 }
 

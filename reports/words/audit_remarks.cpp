@@ -87,6 +87,25 @@ std::string auditWords(audit::RemarkId id, const RemarkValues& values) {
       return fmt::format("{:.0f} s", values.number(0));
     case audit::RemarkId::at_loading:
       return "loading";
+    case audit::RemarkId::at_tracker:
+      return "tracker";
+    case audit::RemarkId::at_load_cell:
+      return "load cell";
+    case audit::RemarkId::unknown_if_it_identifies:
+      return "whether postures and loads identify any joint (posture_set): measure `states` with a load cell, and "
+             "`loading` or `displacements`, unloaded and under load";
+    case audit::RemarkId::unknown_size:
+      return "whether displacements are of the size that forces make (load_size): measure `loading` or "
+             "`displacements` under a known force";
+    case audit::RemarkId::unknown_worth_of_readings:
+      return "what a reading under load is worth (one of repeatability, rigid_tool, unloaded_positions, "
+             "return_to_zero): read each state of `loading` twice or more, or several reflectors in each, and add a "
+             "last "
+             "step without load, which `displacements` may have, too";
+    case audit::RemarkId::unknown_load_cell:
+      return "whether the load cell shows the load (one of tare, gravity_direction, moment_lever): state "
+             "force_sigma_n and moment_sigma_nm, and write what the cell shows unloaded and its moments as they were "
+             "read; or let the load hang";
     case audit::RemarkId::chi_square:
       return fmt::format("chi-square of {} degrees of freedom", values.count(0));
     case audit::RemarkId::chi_square_and_states:
@@ -105,6 +124,11 @@ std::string auditWords(audit::RemarkId id, const RemarkValues& values) {
       return "chi-square of the displacement where the arm stands, by the nests' declared noise";
     case audit::RemarkId::chi_square_of_shift:
       return "chi-square of a rigid shift, six degrees of freedom, over that of the rest";
+    case audit::RemarkId::factor_of_two:
+      return fmt::format(
+          "a factor of two either way, by kinds of readings with {} degrees of freedom or more: an "
+          "interval of 95 % then covers 68 %, or is twice as wide as it need be",
+          values.count(0));
     case audit::RemarkId::normal_deviates:
       return fmt::format("largest of {} normal deviates", values.count(0));
     case audit::RemarkId::student_between_postures:
@@ -177,6 +201,17 @@ std::string auditWords(audit::RemarkId id, const RemarkValues& values) {
       return "no displacement under a force that can be brought into the robot's frame";
     case audit::RemarkId::few_loaded_states:
       return "fewer than four loaded states";
+    case audit::RemarkId::one_kind_scatters:
+      return "one kind of readings alone scatters by more than is declared: its own fault and a noise declared too "
+             "small cannot be told apart; read each state of `loading` three times";
+    case audit::RemarkId::too_few_to_judge_tracker:
+      return fmt::format(
+          "no repeats, nests, sweeps or returns to zero with {} degrees of freedom: read each state of "
+          "`loading` three times",
+          values.count(0));
+    case audit::RemarkId::too_few_to_judge_load_cell:
+      return "too few unloaded readings of the load cell as it shows them (not set to zero), or loaded states with "
+             "moments: write both for six postures or more";
     case audit::RemarkId::no_moments:
       return "no moments were measured";
     case audit::RemarkId::forces_on_one_line:
@@ -188,7 +223,7 @@ std::string auditWords(audit::RemarkId id, const RemarkValues& values) {
     case audit::RemarkId::no_states_nor_loading:
       return "no `states` and no `loading`";
     case audit::RemarkId::no_readings_of_states:
-      return "no absolute readings of load states: measure `loading` and `states`";
+      return "no readings of load states: measure `states` with `loading` or `displacements`";
     case audit::RemarkId::no_unloading:
       return "no posture was unloaded again: add a last step without load";
     case audit::RemarkId::no_compared_postures_in_geometry:
@@ -248,6 +283,42 @@ std::string auditWords(audit::RemarkId id, const RemarkValues& values) {
       return "repeats scatter by less than half of what is declared: one sigma of a reading is asked for, not "
              "the maximum permissible error of a data sheet (ISO 10360-10); checks and uncertainties are as lax "
              "as the declaration";
+    case audit::RemarkId::noise_borne_out:
+      return fmt::format("readings bear the declared noise out within a factor of {:.2f}: of it show {}",
+                         values.number(0), joined(values, 1, ", "));
+    case audit::RemarkId::noise_too_large:
+      return fmt::format(
+          "declared about {:.1f} times too large: of the declared noise show {}; one sigma of a reading is asked for, "
+          "not a maximum permissible error; checks and stated uncertainties are as lax as the declaration",
+          values.number(0), joined(values, 1, ", "));
+    case audit::RemarkId::noise_too_small:
+      return fmt::format(
+          "declared about {:.1f} times too small: of the declared noise show {}; every uncertainty stated from it is "
+          "too "
+          "small by as much",
+          values.number(0), joined(values, 1, ", "));
+    case audit::RemarkId::repeats_along_show:
+      return fmt::format("repeats along the beam {:.2f}", values.number(0));
+    case audit::RemarkId::repeats_across_show:
+      return fmt::format("repeats across it {:.2f}", values.number(0));
+    case audit::RemarkId::nests_show:
+      return fmt::format("floor nests {:.2f}", values.number(0));
+    case audit::RemarkId::sweep_shows:
+      return fmt::format("sweep of axis {} {:.2f}", values.count(0), values.number(1));
+    case audit::RemarkId::short_sweeps_show:
+      return fmt::format("short sweeps together {:.2f}", values.number(0));
+    case audit::RemarkId::returns_show:
+      return fmt::format("returns to zero {:.2f}", values.number(0));
+    case audit::RemarkId::unloaded_cell_shows:
+      return fmt::format("unloaded readings {:.2f}", values.number(0));
+    case audit::RemarkId::lever_shows:
+      return fmt::format("moments against one lever {:.2f}", values.number(0));
+    case audit::RemarkId::declare_tracker_noise:
+      return fmt::format(
+          "multiply range_fixed_um and range_per_m_um by {:.2g}, angle_fixed_um and angle_per_m_um by {:.2g}",
+          values.numbers(0).at(0), values.numbers(0).at(1));
+    case audit::RemarkId::declare_load_cell_noise:
+      return fmt::format("multiply force_sigma_n and moment_sigma_nm by {:.2g}", values.numbers(0).at(0));
     case audit::RemarkId::distance_changes:
       return fmt::format("largest change of a distance: {} to {} by {:.0f} um at {}{}", values.name(0), values.name(1),
                          1e6 * values.number(2), values.name(3), more(values, 4));

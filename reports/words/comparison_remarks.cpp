@@ -46,6 +46,20 @@ std::string comparisonWords(comparison::RemarkId id, const RemarkValues& values)
              "`avoided` is what the encoders avoid";
     case few_correspond:
       return fmt::format("only {} of {} postures correspond", values.count(0), values.count(1));
+    case other_postures:
+      return fmt::format(
+          "only {} postures correspond, too few to solve both states from: the differences are of all postures of "
+          "each, "
+          "and what the model misses does not cancel in them but as far as the postures are the same; the "
+          "uncertainties "
+          "hold it as far as it scatters between postures",
+          values.count(0));
+    case difference_above_noise:
+      return fmt::format(
+          "changes of joint compliances leave {:.0f} µm per coordinate of the difference between the states, {:.0f} "
+          "times "
+          "the tracker's noise: something else changed too, and does not cancel",
+          values.number(0) / io::kMicrometre, values.number(0) / values.number(1));
     case nothing_comparable:
       return fmt::format("{}; {}", words(values.remark(0)), words(values.remark(1)));
     case of_one_campaign:

@@ -83,6 +83,8 @@ std::string diagnosisWords(diagnosis::RemarkId id, const RemarkValues& values) {
       return fmt::format("Of a sweep's readings {} at most took part, spread evenly over it.", values.count(0));
     case postures_thinned:
       return fmt::format("Of {} postures {} took part, spread evenly over the day.", values.count(0), values.count(1));
+    case spike_hidden:
+      return "joint springs and geometry, or the floor nests, hide it here from any size on";
     case posture_that_separates:
       return postureThatSeparates(values);
   }

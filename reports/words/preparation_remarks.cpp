@@ -25,12 +25,19 @@ std::string preparationWords(preparation::RemarkId id, const RemarkValues& value
       return "no floor nests: measure three or more before, during and after the day (`nests`)";
     case preparation::RemarkId::too_few_nests:
       return "three nests that do not stand in one line, in two rounds or more, are needed";
+    case preparation::RemarkId::too_few_rounds_to_tell:
+      return "three rounds of three nests or more are needed to tell a wrong reading from a nest that moved";
     case preparation::RemarkId::beam_lost:
       return "lost beam: the point is (0, 0, 0)";
     case preparation::RemarkId::same_as_line:
       return fmt::format("the same point to the last digit as line {}", values.count(0));
     case preparation::RemarkId::stands_from_state:
       return fmt::format("stands {:.3f} mm from the mean of its state's other repeats", 1e3 * values.number(0));
+    case preparation::RemarkId::one_of_round_wrong:
+      return "contradicts other nests of its round, and which of them is wrong cannot be told";
+    case preparation::RemarkId::stands_from_nest:
+      return fmt::format("stands {:.3f} mm from nest {} by what the other nests say of the station",
+                         1e3 * values.number(0), values.name(1));
     case preparation::RemarkId::no_such_readings:
       return "none";
     case preparation::RemarkId::readings_at_zero:
@@ -41,12 +48,22 @@ std::string preparationWords(preparation::RemarkId id, const RemarkValues& value
           values.count(0));
     case preparation::RemarkId::repeats_stand_apart:
       return fmt::format("{} repeats stand apart from the others of their state", values.count(0));
+    case preparation::RemarkId::nests_stand_apart:
+      return fmt::format("{} readings of nests stand apart from what the nests' other readings say of them",
+                         values.count(0));
+    case preparation::RemarkId::rounds_of_few_nests:
+      return fmt::format(
+          "{} of {} rounds have three nests or fewer: of three a reading that is off across their plane cannot be "
+          "told, of two none can; measure four, better five",
+          values.count(0), values.count(1));
     case preparation::RemarkId::nothing_inside_station:
       return "no reflector stands inside the station";
     case preparation::RemarkId::no_chance_of_same_digits:
       return "two readings do not agree to the last digit by chance";
     case preparation::RemarkId::chi_square_of_repeat:
       return "chi-square of a reading against its state's others, three coordinates";
+    case preparation::RemarkId::chi_square_of_nest_reading:
+      return "chi-square of a nest's reading against all others, three coordinates";
     case preparation::RemarkId::station_stood_still:
       return fmt::format("{} rounds, the tracker stood still", values.count(0));
     case preparation::RemarkId::nests_deform:

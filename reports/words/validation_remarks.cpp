@@ -25,13 +25,29 @@ std::string validationWords(validation::RemarkId id, const RemarkValues&) {
     case clean_alarmed_noise_wrong:
       return "the same, declared wrong";
     case outside_unknown:
-      return "outside the vocabulary: unknown was said";
+      return "outside the vocabulary: unknown was said, and no name";
     case outside_from_2_unknown:
       return "the same, of size 2 and more";
     case outside_apart_unknown:
       return "the same, two noises and more from what any effect can do";
     case outside_from_2_none:
       return "outside the vocabulary, size 2 and more: none was said";
+    case outside_wrongly_named:
+      return "outside the vocabulary: an effect was named";
+    case outside_unknown_beside_a_name:
+      return "the same, unknown beside it";
+    case as_is_right:
+      return "machines as they are: of their effects, and nothing else";
+    case as_is_wrongly_named:
+      return "machines as they are: an effect was named that is not there";
+    case as_is_unknown:
+      return "machines as they are: unknown was said, alone or beside";
+    case as_is_none:
+      return "machines as they are: none was said";
+    case as_is_effects_found:
+      return "effects of machines as they are: named";
+    case as_is_effects_from_2_found:
+      return "the same, of size 2 and more";
     case doubles_right:
       return "doubles: both and nothing else";
     case doubles_found:

@@ -18,6 +18,10 @@ TEST(AuditCommand, GivesEveryCheckItsFigureLimitAndSource) {
   EXPECT_EQ(ran.status, 0) << ran.err;
   const auto json = nlohmann::json::parse(ran.out);
   EXPECT_EQ(json["verdict"], "warn");
+  EXPECT_EQ(json["made"], 31);
+  EXPECT_EQ(json["of"], 31);
+  EXPECT_TRUE(json["unanswered"].empty());
+  EXPECT_TRUE(json["suspected"].empty());
   EXPECT_TRUE(json["rejected"].empty());
   for (const auto& check : json["checks"]) {
     for (const char* key : {"id", "verdict", "value", "limit", "unit", "where", "message"})
@@ -54,6 +58,50 @@ TEST(AuditCommand, AFailedAuditExitsWithOneAndNamesTheRow) {
   EXPECT_EQ(ran.status, 1) << ran.err;
   EXPECT_NE(ran.out.find("not fit to identify from"), std::string::npos) << ran.out;
   EXPECT_NE(ran.out.find("loading.csv:100: lost beam"), std::string::npos) << ran.out;
+}
+
+TEST(AuditCommand, ADayWithNothingToTestExitsWithOne) {
+  const ScratchFolder scratch;
+  const fs::path empty = scratch.path() / "empty";
+  fs::create_directory(empty);
+  std::ofstream(empty / "campaign.xml")
+      << "<campaign format=\"1\" name=\"nothing\" date=\"2026-01-01\">"
+         "<robot urdf=\"robot.urdf\" base_link=\"base_link\" flange_link=\"tool0\" double_encoder=\"unspecified\"/>"
+         "<targets><target id=\"P10\"/></targets></campaign>\n";
+  fs::copy(fs::path(STIFFSCOPE_SOURCE_DIR) / "samples" / "m900ib700.urdf", empty / "robot.urdf");
+  const Ran text = runProgram("audit '" + empty.string() + "'", scratch.path());
+  EXPECT_EQ(text.status, 1) << text.err;
+  EXPECT_NE(text.out.find("nothing: not testable: too little was measured"), std::string::npos) << text.out;
+  EXPECT_NE(text.out.find("0 of 31 checks could be made"), std::string::npos) << text.out;
+  const Ran ran = runProgram("audit '" + empty.string() + "' --json -", scratch.path());
+  EXPECT_EQ(ran.status, 1) << ran.err;
+  const auto json = nlohmann::json::parse(ran.out);
+  EXPECT_EQ(json["verdict"], "not_testable");
+  EXPECT_EQ(json["made"], 0);
+  EXPECT_EQ(json["unanswered"].size(), 4u);
+}
+
+TEST(AuditCommand, ADeclaredNoiseThatIsWrongIsSuspected) {
+  const ScratchFolder scratch;
+  const fs::path spoilt = spoiltSample(scratch, "campaign.xml", [](int, std::string line) {
+    for (const auto& [declared, wrong] :
+         {std::pair<std::string, std::string>{"range_fixed_um=\"4\"", "range_fixed_um=\"16\""},
+          {"range_per_m_um=\"0.6\"", "range_per_m_um=\"2.4\""},
+          {"angle_fixed_um=\"6\"", "angle_fixed_um=\"24\""},
+          {"angle_per_m_um=\"2.4\"", "angle_per_m_um=\"9.6\""}}) {
+      const std::size_t at = line.find(declared);
+      if (at != std::string::npos) line.replace(at, declared.size(), wrong);
+    }
+    return line;
+  });
+  const auto json = nlohmann::json::parse(runProgram("audit '" + spoilt.string() + "' --json -", scratch.path()).out);
+  ASSERT_EQ(json["suspected"].size(), 1u);
+  const auto& one = json["suspected"][0];
+  EXPECT_EQ(one["mistake"], "noise_declared");
+  EXPECT_EQ(one["where"], "tracker");
+  EXPECT_NE(one["remedy"].get<std::string>().find("angle_fixed_um"), std::string::npos);
+  EXPECT_LT(one["before"], 0.4);
+  EXPECT_NEAR(one["after"].get<double>(), 1.0, 0.3);
 }
 
 TEST(AuditCommand, ACampaignThatIsNotThereIsBadInput) {

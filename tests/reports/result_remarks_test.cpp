@@ -70,6 +70,13 @@ TEST(ResultRemarks, OfAComparison) {
       "no posture was measured in both campaigns with the same joint angles and load; no joint is identifiable in "
       "both campaigns");
   EXPECT_EQ(reports::words(Remark(wrist_not_measured, comparison::When::after)), "P_wrist is not measured after");
+  EXPECT_EQ(reports::words(Remark(other_postures, 3)).rfind("only 3 postures correspond", 0), 0u);
+  EXPECT_EQ(reports::words(Remark(difference_above_noise, 80e-6, 10e-6))
+                .rfind("changes of joint compliances leave 80 \u00b5m per coordinate of the difference between the "
+                       "states, 8 times",
+                       0),
+            0u)
+      << reports::words(Remark(difference_above_noise, 80e-6, 10e-6));
   EXPECT_EQ(reports::words(Remark(other_load, 100.0, 1000.0, 1100.0, 0.02)),
             "the loads differ by 9.1 % (1000 N before, 1100 N after), at most 2 % is the same load");
 }

@@ -2,12 +2,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdlib>
 #include <map>
 #include "core/audit/audit.h"
-#include "core/simulation/measure.h"
-#include "core/simulation/read_spec.h"
 #include "reports/words/remark_words.h"
+#include "tests/fixtures/clean_day.h"
 
 // False alarms: days of the samples' machine without bearings that give and with small geometry errors, whose
 // only errors are the declared noise. STIFFSCOPE_AUDIT_DAYS=200 in the environment simulates as many days
@@ -15,22 +13,6 @@
 
 namespace stiffscope {
 namespace false_alarms_test {
-
-simulation::SimulationSpec cleanDay(std::uint64_t seed, double noise_factor) {
-  simulation::SimulationSpec spec = simulation::readSimulationSpec(STIFFSCOPE_SOURCE_DIR "/samples/active.xml");
-  spec.seed = seed;
-  for (auto& joint : spec.machine.joints) joint.bearing.reset();
-  spec.machine.geometry.position_sigma = 0.05e-3;
-  spec.machine.geometry.direction_sigma = 1e-4;
-  spec.machine.geometry.zero_sigma = 0.0;
-  spec.tracker.true_noise_factor = noise_factor;
-  return spec;
-}
-
-int daysOr(int few) {
-  const char* asked = std::getenv("STIFFSCOPE_AUDIT_DAYS");
-  return asked != nullptr ? std::atoi(asked) : few;
-}
 
 struct Tally {
   int days = 0;

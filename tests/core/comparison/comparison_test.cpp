@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 #include "core/comparison/compare.h"
@@ -51,10 +52,10 @@ TEST(Comparison, FindsWhichJointWasStiffened) {
        {identification::Method::partial_pose, identification::Method::decoupled_partial_pose}) {
     const comparison::StiffnessChange& change = found.of(method);
     ASSERT_TRUE(change.available) << reports::words(change.reason);
-    EXPECT_NEAR(change.joints[2].ratio, 1.5, 0.01);  // 5 um of noise in displacements of millimetres
+    EXPECT_NEAR(change.joints[2].ratio.value, 1.5, 0.01);  // 5 um of noise in displacements of millimetres
     EXPECT_LT(change.joints[2].p_value, 1e-6);
     for (const std::size_t j : {0u, 1u, 4u}) {
-      EXPECT_NEAR(change.joints[j].ratio, 1.0, 4.0 * change.joints[j].ratio_sd) << j;
+      EXPECT_NEAR(change.joints[j].ratio.value, 1.0, 4.0 * change.joints[j].ratio.sd) << j;
       EXPECT_GT(change.joints[j].p_value, 1e-3) << j;
     }
   }
@@ -76,8 +77,8 @@ TEST(Comparison, ThePValueIsUniformWhereNothingChanged) {
   for (std::size_t k = 0; k + 1 < days.size(); ++k) {
     const comparison::MatchedPostures matched =
         comparison::matchPostures(campaigns[k], days[k], campaigns[k + 1], days[k + 1]);
-    const comparison::StiffnessChange change =
-        comparison::compareStiffness(days[k], days[k + 1], identification::Method::partial_pose, matched);
+    const comparison::StiffnessChange change = comparison::compareStiffness(
+        campaigns[k], days[k], campaigns[k + 1], days[k + 1], identification::Method::partial_pose, matched);
     for (const comparison::JointChange& joint : change.joints) {
       rejected += joint.p_value < 0.05;
       sum += joint.p_value;
@@ -99,6 +100,8 @@ TEST(Comparison, WithoutSharedPosturesNoCorrelationIsCounted) {
   for (std::string& id : after.pose_ids) id = "other " + id;
   const comparison::Comparison apart = compared(before, after);
   EXPECT_TRUE(apart.matched.pairs.empty());
+  EXPECT_FALSE(apart.of(identification::Method::partial_pose).same_postures);
+  EXPECT_TRUE(apart.cautions.front().is(comparison::RemarkId::other_postures));
   EXPECT_EQ(apart.matched.unmatched.size(), 24u);
   EXPECT_TRUE(apart.matched.unmatched.front().reason ==
               Remark(comparison::RemarkId::not_measured, comparison::When::after));
@@ -108,20 +111,118 @@ TEST(Comparison, WithoutSharedPosturesNoCorrelationIsCounted) {
                                 &no = apart.of(identification::Method::partial_pose).joints[1];
   EXPECT_GT(with.correlation, 0.9);
   EXPECT_EQ(no.correlation, 0.0);
-  EXPECT_NEAR(no.ratio_sd, std::hypot(no.before_sd / no.before, no.after_sd / no.after) * no.ratio, 1e-12);
-  EXPECT_LT(with.ratio_sd, 0.5 * no.ratio_sd);
+  EXPECT_NEAR(no.ratio.sd, std::hypot(no.before.sd / no.before.value, no.after.sd / no.after.value) * no.ratio.value,
+              1e-12);
+  EXPECT_LT(with.ratio.sd, 0.5 * no.ratio.sd);
+  EXPECT_LT(with.difference.sd, 0.5 * no.difference.sd);
 }
 
-TEST(Comparison, LeavingOutAPostureIsSolvingWithoutIt) {
-  const campaign::Campaign campaign = day(exampleCompliance(), 1, 60e-6, 2, 5e-6);
-  const identification::Identification all = identification::identify(campaign, quick());
-  const identification::MethodResult& method = all.of(identification::Method::partial_pose);
-  const std::vector<Vector6d> moves = comparison::moveByEachPosture(all, identification::Method::partial_pose);
-  ASSERT_EQ(moves.size(), 12u);
-  std::vector<identification::CaseEquations> others(method.target_rows.begin() + 1, method.target_rows.end());
-  const Vector6d again = identification::partialPose(others, method.estimate.identifiable).compliance;
-  // Sums of ten equations less one against sums of nine: rounding, at a condition number of a few hundred.
-  EXPECT_LT((method.estimate.compliance - moves[0] - again).cwiseQuotient(again).cwiseAbs().maxCoeff(), 1e-10);
+TEST(Comparison, WhatBothStatesMissCancelsInTheDifference) {
+  // 60 um that recur in every posture, 5 um of noise: the compliances of each state are off by tens of the difference's
+  // uncertainty, the difference is not.
+  Vector6d softened = exampleCompliance();
+  softened[1] *= 1.3;
+  const comparison::Comparison found =
+      compared(day(exampleCompliance(), 7, 60e-6, 2, 5e-6), day(softened, 7, 60e-6, 3, 5e-6));
+  EXPECT_FALSE(found.residual.isNoise());
+  EXPECT_LT(found.residual.recurs_p, 1e-3);
+  EXPECT_GT(found.residual.correlation, 0.9);
+  // Noise of unloaded and loaded reading in both states: 5 um times 2.
+  EXPECT_NEAR(found.residual.of_difference, 10e-6, 2e-6);
+  for (const comparison::StiffnessChange& change : found.methods) {
+    ASSERT_TRUE(change.available && change.same_postures);
+    EXPECT_EQ(change.postures, 12u);
+    for (int j = 0; j < 6; ++j) {
+      const comparison::JointChange& joint = change.joints[static_cast<std::size_t>(j)];
+      const double truth = softened[j] - exampleCompliance()[j];
+      // t of six degrees and more exceeds 6 once in a thousand; of 18 numbers.
+      EXPECT_NEAR(joint.difference.value, truth, 6.0 * joint.difference.sd) << j;
+      EXPECT_LT(joint.difference.sd, 0.3 * std::hypot(joint.before.sd / std::pow(joint.before.value, 2),
+                                                      joint.after.sd / std::pow(joint.after.value, 2)))
+          << j;
+      EXPECT_GE(joint.p_holm, joint.p_value);
+    }
+    EXPECT_LT(change.joints[1].p_holm, 1e-4);
+  }
+}
+
+TEST(Comparison, ADifferenceThatIsMoreThanJointsIsCautionedOf) {
+  // Another misfit in every posture of the second day: 60 um each, where 5 um twice in each state are noise.
+  campaign::Campaign before = day(exampleCompliance(), 7, 60e-6, 2, 5e-6),
+                     other = day(exampleCompliance(), 8, 60e-6, 3, 5e-6),
+                     same = day(exampleCompliance(), 7, 60e-6, 4, 5e-6);
+  for (campaign::Campaign* one : {&before, &other, &same}) {
+    one->tracker = campaign::Tracker{"tracker", 5e-6, 0.0, 5e-6, 0.0, Eigen::Vector3d::Zero()};
+  }
+  const auto cautioned = [&](const campaign::Campaign& after) {
+    const comparison::Comparison found = compared(before, after);
+    EXPECT_FALSE(found.residual.isNoise());
+    return std::any_of(found.cautions.begin(), found.cautions.end(),
+                       [](const Remark& one) { return one.is(comparison::RemarkId::difference_above_noise); });
+  };
+  EXPECT_TRUE(cautioned(other));
+  EXPECT_FALSE(cautioned(same));
+}
+
+TEST(Comparison, NoiseAloneIsCalledNoise) {
+  const comparison::Comparison found =
+      compared(day(exampleCompliance(), 7, 0.0, 2, 20e-6), day(exampleCompliance(), 7, 0.0, 3, 20e-6));
+  EXPECT_GT(found.residual.recurs_p, 1e-3);
+  EXPECT_LT(std::abs(found.residual.correlation), 0.4);  // 102 degrees of freedom: four standard deviations
+}
+
+TEST(Comparison, JointsAndARestMakeUpTheDeflectionAvoided) {
+  // Without noise all of what is avoided is the joints': a rest is of second order in deflections of millimetres.
+  Vector6d stiffened = exampleCompliance();
+  stiffened[1] *= 0.6, stiffened[2] *= 0.7, stiffened[4] *= 1.1;
+  const comparison::Comparison found =
+      compared(day(exampleCompliance(), 1, 0.0, 2, 0.0), day(stiffened, 1, 0.0, 3, 0.0));
+  for (const comparison::StiffnessChange& change : found.methods) {
+    ASSERT_TRUE(change.available);
+    double sum = 0.0;
+    for (const comparison::JointChange& joint : change.joints) sum += joint.avoided.value;
+    EXPECT_NEAR(sum + change.avoided_rest, found.at_targets.share, 1e-12);
+    EXPECT_LT(std::abs(change.avoided_rest), 0.002);
+    EXPECT_NEAR(change.joints[1].taken.value, 0.4, 0.002);
+    EXPECT_NEAR(change.joints[2].taken.value, 0.3, 0.002);
+    EXPECT_LT(change.joints[4].avoided.value, 0.0);
+    EXPECT_NEAR(change.joints[3].avoided.value, 0.0, 0.001);
+  }
+}
+
+TEST(PairedFit, UncertaintiesByHand) {
+  comparison::PairedFit fit;
+  fit.same_postures = true;
+  fit.before[0] = 4.0, fit.after[0] = 3.0;
+  const auto moved = [](double by) { return Vector6d(by * Vector6d::Unit(0)); };
+  fit.influences = {{moved(1.0), moved(1.5)}, {moved(-2.0), moved(-1.0)}};
+  fit.dof_before[0] = 7.0, fit.dof_after[0] = 5.0;
+  fit.shared_before[0] = 0.25, fit.shared_after[0] = 0.5;
+  const comparison::Uncertain difference = fit.difference(0);
+  EXPECT_DOUBLE_EQ(difference.value, -1.0);
+  EXPECT_DOUBLE_EQ(difference.sd * difference.sd, 0.25 + 1.0 + 0.25 + 0.5);  // (1.5 - 1)^2 + (-1 + 2)^2, and shared
+  EXPECT_DOUBLE_EQ(difference.dof, 5.0 * std::pow(2.0 / 1.25, 2));
+  // t of 12 degrees 2.1788, of 13 2.1604: of 12.8 2.1638.
+  EXPECT_NEAR(difference.expanded(), 2.1638 * std::sqrt(2.0), 0.001);
+  EXPECT_DOUBLE_EQ(fit.correlation(0), (1.5 + 2.0) / std::sqrt(5.0 * 3.25));
+  const comparison::Uncertain taken = fit.shareTaken(0);  // 1 - a / b: weights 3/16 and -1/4
+  EXPECT_DOUBLE_EQ(taken.value, 0.25);
+  EXPECT_NEAR(taken.sd * taken.sd,
+              std::pow(3.0 / 16 - 1.5 / 4, 2) + std::pow(-6.0 / 16 + 1.0 / 4, 2) + 9.0 / 256 * 0.25 + 0.5 / 16, 1e-15);
+  fit.same_postures = false;  // Welch and Satterthwaite of 5 (7 degrees) and 3.25 (5)
+  EXPECT_NEAR(fit.difference(0).dof, std::pow(8.25, 2) / (25.0 / 7.0 + 3.25 * 3.25 / 5.0) * std::pow(2.0 / 1.25, 2),
+              1e-12);
+}
+
+TEST(Holm, TheTextbookCase) {
+  // 0.01, 0.02, 0.03, 0.04 of four: 0.04, 0.06, 0.06, 0.06; a number that is none is no test.
+  const std::vector<double> corrected = comparison::holm({0.04, std::nan(""), 0.01, 0.03, 0.02});
+  EXPECT_NEAR(corrected[2], 0.04, 1e-15);
+  EXPECT_NEAR(corrected[4], 0.06, 1e-15);
+  EXPECT_NEAR(corrected[3], 0.06, 1e-15);
+  EXPECT_NEAR(corrected[0], 0.06, 1e-15);
+  EXPECT_TRUE(std::isnan(corrected[1]));
+  EXPECT_EQ(comparison::holm({0.6, 0.7}), (std::vector<double>{1.0, 1.0}));
 }
 
 TEST(Comparison, AnotherPostureOrLoadIsNamed) {
@@ -149,9 +250,10 @@ TEST(Comparison, InheritsTheCautionsOfIdentification) {
   for (campaign::State& row : turned.states->rows) row.wrench_in_cell *= -1.0;
   EXPECT_TRUE(compared(clean, clean).cautions.empty());
   const comparison::Comparison found = compared(clean, turned);
-  ASSERT_EQ(found.cautions.size(), 1u);
-  EXPECT_EQ(reports::words(found.cautions[0]).rfind("after: every stiffness is negative", 0), 0u)
-      << reports::words(found.cautions[0]);
+  ASSERT_EQ(found.cautions.size(), 2u);
+  EXPECT_TRUE(found.cautions[0].is(comparison::RemarkId::other_postures)) << reports::words(found.cautions[0]);
+  EXPECT_EQ(reports::words(found.cautions[1]).rfind("after: every stiffness is negative", 0), 0u)
+      << reports::words(found.cautions[1]);
 }
 
 TEST(Comparison, OneMachineHasOneUrdf) {

@@ -141,6 +141,46 @@ TEST(BlindEffects, everyKindOutsideTheVocabularyShows) {
   EXPECT_THROW(validation::drawOutside("gremlins", lab.spec, random), std::invalid_argument);
 }
 
+// Half of what an arm of this kind usually has: across its axis a joint 16 to 36 times as stiff as about it, links 8 to
+// 20, the base 20 to 50 times joint 2, friction 0.5 to 1 % of the torque of the full load.
+TEST(BlindAsIs, hasEveryEffectAtHalfItsUsualSize) {
+  const validation::CasePlan plan{validation::CaseKind::as_is,
+                                  {effects::Effect::bearing_tilt, effects::Effect::link_compliance,
+                                   effects::Effect::base_compliance, effects::Effect::hysteresis},
+                                  ""};
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    const Lab clean(seed);
+    const validation::BlindCase one = validation::drawCase(
+        plan, seed, "case",
+        std::filesystem::temp_directory_path() / "stiffscope_blind_size" / std::to_string(seed) / "robot.urdf");
+    const auto within = [](double value, double low, double high) { return low <= value && value <= high; };
+    const auto& machine = one.spec.machine;
+    for (int i = 0; i < 6; ++i) {
+      const simulation::JointStiffness& joint = machine.joints[static_cast<std::size_t>(i)];
+      EXPECT_EQ(*joint.torsion, *clean.spec.machine.joints[static_cast<std::size_t>(i)].torsion);
+      EXPECT_TRUE(within(*joint.bearing / *joint.torsion, 16.0, 36.0)) << *joint.bearing / *joint.torsion;
+      const double share = joint.friction->torque / validation::usualTorque(one.spec, i);
+      EXPECT_TRUE(within(share, 0.005, 0.01)) << share;
+    }
+    ASSERT_EQ(machine.links.size(), 2u);
+    for (const simulation::LinkBeam& link : machine.links) {
+      const auto& axes = one.spec.nominal.axes_in_base_at_zero;
+      const auto at = static_cast<std::size_t>(link.joint);
+      const double rate = *link.bending / (axes[at + 1].point - axes[at].point).norm();
+      EXPECT_TRUE(within(rate / *machine.joints[std::min<std::size_t>(at, 2)].torsion, 8.0, 20.0)) << rate;
+    }
+    EXPECT_TRUE(within(machine.base_rotation->x() / *machine.joints[1].torsion, 20.0, 50.0));
+    EXPECT_EQ(one.effects.size(), 4u);
+    EXPECT_GT(one.together.deflection, 0.0);
+  }
+  EXPECT_THROW(
+      {
+        numerics::RandomStream random(1, "any");
+        validation::drawAsIs(effects::Effect::backlash, Lab(1).spec, random);
+      },
+      std::invalid_argument);
+}
+
 }  // namespace effect_size_test
 
 }  // namespace stiffscope

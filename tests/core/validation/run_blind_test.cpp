@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -156,8 +157,30 @@ TEST(BlindPlan, sharesAndBalance) {
   EXPECT_EQ(kinds[validation::CaseKind::none], 64);
   EXPECT_EQ(kinds[validation::CaseKind::pair], 40);
   EXPECT_EQ(kinds[validation::CaseKind::outside], 40);
+  EXPECT_EQ(kinds[validation::CaseKind::as_is], 40);
   EXPECT_EQ(singles.size(), effects::kEffectCount);
-  for (const auto& [effect, count] : singles) EXPECT_NEAR(count, 11, 1) << effects::idOf(effect);
+  for (const auto& [effect, count] : singles) EXPECT_NEAR(count, 8.5, 0.6) << effects::idOf(effect);
+}
+
+// The share that is asked for comes off the singles alone; without it all is as before there were such machines.
+TEST(BlindPlan, aShareIsOfMachinesAsTheyAre) {
+  const auto count = [](const std::vector<validation::CasePlan>& plans, validation::CaseKind kind) {
+    return std::count_if(plans.begin(), plans.end(), [kind](const auto& plan) { return plan.kind == kind; });
+  };
+  const auto none = validation::planCases(80, 3, 0.0), half = validation::planCases(80, 3, 0.5);
+  EXPECT_EQ(count(none, validation::CaseKind::as_is), 0);
+  EXPECT_EQ(count(none, validation::CaseKind::single), 44);
+  EXPECT_EQ(count(half, validation::CaseKind::as_is), 40);
+  EXPECT_EQ(count(half, validation::CaseKind::single), 4);
+  for (const auto kind : {validation::CaseKind::none, validation::CaseKind::pair, validation::CaseKind::outside})
+    EXPECT_EQ(count(none, kind), count(half, kind));
+  int with_base = 0;
+  for (const validation::CasePlan& plan : half) {
+    if (plan.kind != validation::CaseKind::as_is) continue;
+    EXPECT_TRUE(plan.effects.size() == 2 || plan.effects.size() == 4);
+    with_base += plan.effects.size() == 4 ? 1 : 0;
+  }
+  EXPECT_EQ(with_base, 20);
 }
 
 }  // namespace run_blind_test

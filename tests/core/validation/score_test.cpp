@@ -106,17 +106,82 @@ TEST(BlindScore, cleanUnknownAndDoublesByHand) {
                                                 says("5", {{"hysteresis"}})};
   const validation::Score result = validation::score(labels, answers, {{"2", 2.5}, {"3", 0.4}});
   EXPECT_EQ(result.rate("unknown_apart").trials, 1);  // the other one is what a drift can do
-  EXPECT_EQ(result.rate("unknown_apart").hits, 1);
+  EXPECT_EQ(result.rate("unknown_apart").hits, 0);    // a wrong name stands beside it
   EXPECT_EQ(result.rate("false_alarms").hits, 1);
   EXPECT_EQ(result.rate("false_alarms_noise_right").hits, 0);
   EXPECT_EQ(result.rate("false_alarms_noise_right").trials, 1);
   EXPECT_EQ(result.rate("false_alarms_noise_wrong").hits, 1);
-  EXPECT_EQ(result.rate("unknown").hits, 1);
+  EXPECT_EQ(result.rate("unknown").hits, 0);
   EXPECT_EQ(result.rate("unknown").trials, 2);
-  EXPECT_FALSE(result.cases[2].right);  // unknown was said, and more
+  EXPECT_FALSE(result.cases[2].found);  // unknown was said, and a wrong name
+  EXPECT_FALSE(result.cases[2].right);
+  EXPECT_EQ(result.rate("outside_wrong_name").hits, 2);
+  EXPECT_EQ(result.rate("outside_unknown_beside").hits, 1);
   EXPECT_EQ(result.rate("doubles_both_found").hits, 1);
   EXPECT_EQ(result.rate("doubles").hits, 1);
   EXPECT_EQ(result.rate("doubles_one_found").hits, 2);
+}
+
+// Unknown alone is the answer to what the vocabulary does not have.
+TEST(BlindScore, unknownAloneIsRight) {
+  std::vector<validation::Label> labels(1);
+  labels[0].name = "1";
+  labels[0].kind = validation::CaseKind::outside;
+  labels[0].effects = {{"creep", "creep", "deflection", 4.0, 4.0, 0.0}};
+  const validation::Score result = validation::score(labels, {says("1", {{}})});
+  EXPECT_TRUE(result.cases[0].right);
+  EXPECT_EQ(result.rate("unknown").hits, 1);
+  EXPECT_EQ(result.rate("outside_wrong_name").hits, 0);
+}
+
+// Both in one class, and something beside it that is not there: as many entries as effects, and yet wrong.
+TEST(BlindScore, aDoubleWithAWrongNameOrUnknownIsWrong) {
+  validation::Label label;
+  label.kind = validation::CaseKind::pair;
+  label.effects = {{"hysteresis", "", "deflection", 4.0, 4.0, 0.0}, {"backlash", "", "deflection", 4.0, 4.0, 0.0}};
+  std::vector<validation::Label> labels(3, label);
+  for (std::size_t i = 0; i < labels.size(); ++i) labels[i].name = std::to_string(i);
+  const std::vector<validation::Answer> answers{says("0", {{"hysteresis", "backlash"}}),
+                                                says("1", {{"hysteresis", "backlash"}, {"frame_error"}}),
+                                                says("2", {{"hysteresis", "backlash"}, {}})};
+  const validation::Score result = validation::score(labels, answers);
+  EXPECT_TRUE(result.cases[0].right);
+  EXPECT_FALSE(result.cases[1].right);
+  EXPECT_FALSE(result.cases[2].right);
+  EXPECT_EQ(result.rate("doubles_both_found").hits, 3);
+}
+
+TEST(BlindScore, machinesAsTheyAreByHand) {
+  validation::Label label;
+  label.kind = validation::CaseKind::as_is;
+  label.effects = {{"bearing_tilt", "joints 1 to 6", "deflection", 6.0, 6.0, 0.0},
+                   {"link_compliance", "", "deflection", 1.0, 1.0, 0.0}};
+  std::vector<validation::Label> labels(6, label);
+  for (std::size_t i = 0; i < labels.size(); ++i) labels[i].name = std::to_string(i);
+  const std::vector<validation::Answer> answers{
+      says("0", {{"bearing_tilt"}}),                           // the one that can be seen
+      says("1", {{"bearing_tilt"}, {"link_compliance"}}),      // both
+      says("2", {{"joint_coupling", "link_compliance"}, {}}),  // in a class, and that more is left
+      says("3", {{"bearing_tilt"}, {"frame_error"}}),          // and one that is not there
+      says("4", {{"joint_coupling"}, {}}),                     // unknown beside a wrong name
+      says("5", {})};
+  const validation::Score result = validation::score(labels, answers);
+  const std::vector<bool> right{true, true, true, false, false, false};
+  for (std::size_t i = 0; i < right.size(); ++i) EXPECT_EQ(result.cases[i].right, right[i]) << i;
+  EXPECT_EQ(result.rate("as_is").hits, 3);
+  EXPECT_EQ(result.rate("as_is").trials, 6);
+  EXPECT_EQ(result.rate("as_is_wrong_name").hits, 2);
+  EXPECT_EQ(result.rate("as_is_unknown").hits, 2);
+  EXPECT_EQ(result.rate("as_is_none").hits, 1);
+  EXPECT_EQ(result.rate("as_is_effects").hits, 5);  // bearings thrice, links twice
+  EXPECT_EQ(result.rate("as_is_effects").trials, 12);
+  EXPECT_EQ(result.rate("as_is_effects_from_2").hits, 3);
+  EXPECT_EQ(result.rate("as_is_effects_from_2").trials, 6);
+  ASSERT_EQ(result.as_is.size(), 2u);
+  EXPECT_EQ(result.as_is[0].id, "link_compliance");
+  EXPECT_EQ(result.as_is[0].mean_class_size, 1.5);
+  EXPECT_EQ(result.as_is[1].all.hits, 3);
+  EXPECT_EQ(result.rate("singles").trials, 0);
 }
 
 TEST(BlindScore, shrinkIsHeldAgainstWhatCanBeSeen) {
@@ -145,12 +210,14 @@ TEST(BlindTables, labelsAndAnswersSurviveWriting) {
   std::vector<validation::Label> labels{single("0001", "joint_coupling", 3.25, "joints 2 and 3"), {}};
   labels[0].noise_factor = 0.875;
   labels[0].arm = "m20ia";
+  labels[0].stiffness = {2491720.5, 2e6, 1.5e6, 1e5, 9e4, 8e3};
   labels[1].name = "0002";
   const std::vector<validation::Label> read = validation::readLabels("labels.csv", validation::labelsCsv(labels));
   ASSERT_EQ(read.size(), 2u);
   EXPECT_EQ(read[0].effects.at(0).detail, "joints 2 and 3");
   EXPECT_EQ(read[0].effects[0].size, 3.25);
   EXPECT_EQ(read[0].noise_factor, 0.875);
+  EXPECT_EQ(read[0].stiffness, labels[0].stiffness);
   EXPECT_EQ(read[1].kind, validation::CaseKind::none);
   EXPECT_TRUE(read[1].effects.empty());
 
@@ -181,10 +248,12 @@ TEST(BlindTables, refusesWhatIsNoLabel) {
     }
     return "no complaint";
   };
-  EXPECT_EQ(complaint(header + "1,nothing,,,,,,,0,0,1,0,a,b\n"),
-            "labels.csv:2: kind: 'nothing': expected none, single, double or outside");
-  EXPECT_EQ(complaint(header + "1,single,backlash,,deflection,,,,0,0,1,0,a,b\n"),
+  EXPECT_EQ(complaint(header + "1,nothing,,,,,,,0,0,1,0,a,b,1+2+3+4+5+6\n"),
+            "labels.csv:2: kind: 'nothing': expected none, single, double, outside or as_is");
+  EXPECT_EQ(complaint(header + "1,single,backlash,,deflection,,,,0,0,1,0,a,b,1+2+3+4+5+6\n"),
             "labels.csv:2: effects: 'backlash': expected as many effects as sizes");
+  EXPECT_EQ(complaint(header + "1,none,,,,,,,0,0,1,0,a,b,1+2\n"),
+            "labels.csv:2: stiffness_nm_per_rad: '1+2': expected six numbers joined by '+'");
   EXPECT_NE(complaint("case,kind\n").find("expected the header case,kind,effects"), std::string::npos);
 }
 

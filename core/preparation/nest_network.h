@@ -1,0 +1,60 @@
+#pragma once
+
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "core/campaign/campaign.h"
+#include "metrology/measured_points.h"
+
+namespace stiffscope::preparation {
+
+/// How the station stood at one round of the nests against the first round.
+struct StationEpoch {
+  double time_s = 0.0;
+  /// Rotation vector (rad) then displacement at `centre` (m) that bring this round's readings onto the
+  /// first's.
+  Eigen::Matrix<double, 6, 1> motion = Eigen::Matrix<double, 6, 1>::Zero();
+  Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();  ///< by the declared noise
+  /// Where the station jumped between the round before and this one instead of drifting: when, s.
+  std::optional<double> jumped_at;
+};
+
+/// One round of nest readings.
+struct NestRound {
+  double time_s = 0.0;  ///< mean of its readings
+  std::map<int, const campaign::NestReading*> readings;
+};
+
+/// Rounds in the order of time; a nest that comes again starts the next one. They point into `nests`.
+std::vector<NestRound> nestRounds(const campaign::Nests& nests);
+
+/// What a reading of a nest leaves once places and motions are fitted.
+struct NestResidual {
+  const campaign::NestReading* reading = nullptr;
+  std::size_t round = 0;                                 ///< index into NestNetwork::epochs
+  Eigen::Vector3d off = Eigen::Vector3d::Zero();         ///< from its nest's place, in the first round's frame, m
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< of `off`, by the declared noise; singular where the
+                                                         ///< motion takes up what the reading is off
+  double chi2 = 0.0;                                     ///< `off` in parts of the reading's own noise
+};
+
+/// Places of the nests and motions of the station that fit the rounds best.
+struct NestNetwork {
+  bool determined = false;
+  double chi2 = 0.0;
+  int dof = 0;
+  std::vector<StationEpoch> epochs;       ///< one a round
+  std::map<int, Eigen::Vector3d> places;  ///< of the nests in the first round's frame
+  std::vector<NestResidual> residuals;    ///< of every reading of the rounds used
+};
+
+/// Gauss-Newton on whitened residuals T_e p - X_n; rounds of fewer than three nests (`left_out` not counted)
+/// are skipped. Undetermined: fewer than two such rounds, or nests on one line. `left_out` < 0: none is.
+NestNetwork fitNestNetwork(const std::vector<NestRound>& rounds, const metrology::TrackerNoise& noise,
+                           const Eigen::Vector3d& centre, int left_out);
+
+/// Mean of the loading's points; without a loading of the sweeps', else of the nests'. In the tracker's frame, m.
+Eigen::Vector3d whereTheArmWasRead(const campaign::Campaign& campaign);
+
+}  // namespace stiffscope::preparation
