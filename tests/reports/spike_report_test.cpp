@@ -17,8 +17,8 @@ diagnosis::SpikeStudy smallStudy() {
   large.times = 4.0, large.size = 48e-6, large.draws = 7, large.named = 7, large.part_named = 7;
   large.class_size = 1.0, large.unknown = 1;
   diagnosis::SpikedEffect seen{effects::Effect::hysteresis, 12e-6, {}, true, {small, large}};
-  diagnosis::SpikedEffect hidden{effects::Effect::tracker_drift, std::nullopt,
-                                 Remark(diagnosis::RemarkId::spike_hidden), false, {}};
+  diagnosis::SpikedEffect hidden{
+      effects::Effect::tracker_drift, std::nullopt, Remark(diagnosis::RemarkId::spike_hidden), false, {}};
   return {{seen, hidden}, 5, 8};
 }
 
