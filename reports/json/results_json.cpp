@@ -3,6 +3,7 @@
 #include "reports/report_content.h"
 
 #include <utility>
+#include <vector>
 
 #include "core/audit/audit.h"
 #include "core/campaign/campaign.h"
@@ -45,9 +46,11 @@ JsonDocument campaignResults(const ReportCampaign& one) {
   document.set("/identify"_json_pointer,
                identificationJson(one.campaign, one.identification,
                                   {identification::kMethods.begin(), identification::kMethods.end()}));
-  if (one.improved != nullptr)
-    json["identify"]["with"] =
-        extendedModelJson(*one.improved, {identification::kMethods.begin(), identification::kMethods.end()});
+  if (one.improved != nullptr) {
+    const std::vector<identification::Method> methods{identification::kMethods.begin(), identification::kMethods.end()};
+    json["identify"]["with"] = extendedModelJson(*one.improved, methods);
+    json["identify"] = withSupport(std::move(json["identify"]), *one.improved, methods);
+  }
   if (one.diagnosis != nullptr) json["diagnose"] = diagnosisJson(one.campaign, *one.diagnosis);
   return document;
 }
