@@ -343,6 +343,46 @@ reports::Table residualTable(const extended_model::ExtendedModel& model) {
   return table;
 }
 
+/// Of the method that stands for the campaign: standard uncertainties of k in per cent, largest lines.
+reports::Table budgetTable(const extended_model::ExtendedModel& model) {
+  const identification::Method which = identification::bestMethod(model.with);
+  const identification::StiffnessEstimate& estimate = model.with.of(which).estimate;
+  reports::Table table{fmt::format("Where the uncertainty comes from, {}: standard uncertainty of k, %",
+                                   reports::shortName(which)),
+                       {"Source"},
+                       {{}}};
+  table.id = "budget";
+  for (int j = 0; j < 6; ++j) {
+    if (estimate.identifiable[static_cast<std::size_t>(j)]) table.columns.push_back(reports::jointName(j));
+  }
+  const auto add = [&](const std::string& name, const Vector6d& variance, bool always) {
+    reports::Row row{name};
+    constexpr double kShown = 0.05 * 0.05;  // a twentieth of the whole
+    bool shown = always;
+    for (int j = 0; j < 6; ++j) {
+      if (!estimate.identifiable[static_cast<std::size_t>(j)]) continue;
+      shown = shown || std::abs(variance[j]) > kShown * estimate.covariance(j, j);
+      const double share = 100.0 * std::sqrt(std::abs(variance[j])) / std::abs(estimate.compliance[j]);
+      row.emplace_back(reports::fixed(variance[j] < 0.0 ? -share : share, 2));
+    }
+    if (shown) table.groups.front().rows.push_back(std::move(row));
+  };
+  for (const extended_model::BudgetLine& line : model.hidden->budget[static_cast<std::size_t>(which)])
+    add(reports::budgetWords(line), line.variance, line.in_model);
+  add("together", estimate.covariance.diagonal(), true);
+  return table;
+}
+
+void writeHidden(Html& html, const extended_model::ExtendedModel& model) {
+  if (!model.hidden) return;
+  html.paragraph(reports::asIs(reports::residualWords(model)));
+  writeTable(html, budgetTable(model));
+  html.paragraph(
+      "As fitted: of an effect's size in the model. Could hide: of all sizes that the data leave possible. Effects in "
+      "common: negative where effects are known better together than one by one.",
+      "faint");
+}
+
 void writeModel(Html& html, const extended_model::ExtendedModel& model) {
   html.paragraph(reports::asIs(reports::gainWords(model)));
   std::vector<std::string> uses;
@@ -357,7 +397,10 @@ void writeModel(Html& html, const extended_model::ExtendedModel& model) {
     for (const std::string& note : reports::words(model.effects.notes)) uses.push_back(reports::asIs(note + "."));
   }
   html.list(uses);
-  if (model.effects.added.empty()) return;
+  if (model.effects.added.empty()) {
+    writeHidden(html, model);
+    return;
+  }
   writeTable(html, parametersTable(model.effects));
   html.paragraph(reports::asIs(reports::explainedWords(model.effects)), "faint");
   writeTable(html, stiffnessWithEffectsTable(model));
@@ -370,6 +413,7 @@ void writeModel(Html& html, const extended_model::ExtendedModel& model) {
       "machine's deflection, effects of the machine in it; the effects were fitted anew on the postures of every "
       "subset.",
       "faint");
+  writeHidden(html, model);
 }
 
 }  // namespace

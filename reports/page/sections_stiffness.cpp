@@ -270,6 +270,13 @@ std::string degrees(double of_freedom) {
 }
 
 std::string uncertaintyWords(const identification::Identification& result) {
+  const bool weighed = std::any_of(result.methods.begin(), result.methods.end(),
+                                   [](const auto& method) { return !method.estimate.stated.empty(); });
+  if (weighed) {
+    return "± is the expanded uncertainty U, coverage about 95\u00a0%: the farther end of the interval that holds the "
+           "scatter between postures, what they all share (frames, wrist radii, calibrated geometry), and what effects in "
+           "the model or beside it could still do to each joint.";
+  }
   std::vector<std::string> factors;
   for (const identification::Method method : identification::kMethods) {
     const identification::StiffnessEstimate& estimate = result.of(method).estimate;

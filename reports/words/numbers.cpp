@@ -14,6 +14,8 @@
 namespace stiffscope::reports {
 
 Coverage coverageOf(const identification::StiffnessEstimate& estimate, int joint) {
+  if (!estimate.stated.empty())  // an interval of its own: no Student's t
+    return {identification::expandedUncertainty(estimate, joint) / estimate.stiffnessSd(joint), 0.0};
   const double factor = identification::coverageFactor(estimate, joint, identification::kStatedCoverage);
   return {factor, std::isfinite(factor) ? estimate.dof(joint) : 0.0};
 }
