@@ -124,13 +124,29 @@ namespace {
 
 /// The study's effects fitted to the whole day, and nothing where one of them cannot be.
 EffectFit chosenEffects(const preparation::PreparedCampaign& prepared, const diagnosis::GapStudy& study) {
+  EffectFit none;
   try {
-    return fitEffects(prepared, chosenBy(study));
+    EffectFit chosen = fitEffects(prepared, chosenBy(study));
+    if (chosen.free.empty() || chosen.shrink.high > 0.0) return chosen;
+    none.notes.emplace_back(RemarkId::effects_do_not_help);
   } catch (const UnfitEffect& error) {
-    EffectFit none;
     none.notes.push_back(error.reason());
-    return none;
   }
+  return none;
+}
+
+/// Whether joint springs come out negative one and all: then no model of the machine is to be looked for.
+bool contradicted(const identification::Identification& springs) {
+  bool any = false;
+  for (const identification::MethodResult& method : springs.methods) {
+    if (!method.available) continue;
+    for (int j = 0; j < 6; ++j) {
+      if (!method.estimate.identifiable[static_cast<std::size_t>(j)]) continue;
+      if (method.estimate.compliance[j] > 0.0) return false;
+      any = true;
+    }
+  }
+  return any;
 }
 
 }  // namespace
@@ -147,6 +163,11 @@ ExtendedModel supportedModel(const preparation::PreparedCampaign& prepared, cons
     return extendModel(campaign, std::move(none), options);
   }
   ExtendedModel model = extendModel(campaign, chosenEffects(prepared, study), options);
+  if (contradicted(model.without)) {
+    EffectFit none;
+    none.notes.emplace_back(RemarkId::springs_contradicted);
+    return extendModel(campaign, std::move(none), options);
+  }
   const double gain = prepared.campaign.load_cell->gain_sigma;
   if (!thinned) {
     model.hidden = weighHiddenEffects(study, model.effects, model.with, model.without, gain, model.with);

@@ -347,10 +347,10 @@ reports::Table residualTable(const extended_model::ExtendedModel& model) {
 reports::Table budgetTable(const extended_model::ExtendedModel& model) {
   const identification::Method which = identification::bestMethod(model.with);
   const identification::StiffnessEstimate& estimate = model.with.of(which).estimate;
-  reports::Table table{fmt::format("Where the uncertainty comes from, {}: standard uncertainty of k, %",
-                                   reports::shortName(which)),
-                       {"Source"},
-                       {{}}};
+  reports::Table table{
+      fmt::format("Where the uncertainty comes from, {}: standard uncertainty of k, %", reports::shortName(which)),
+      {"Source"},
+      {{}}};
   table.id = "budget";
   for (int j = 0; j < 6; ++j) {
     if (estimate.identifiable[static_cast<std::size_t>(j)]) table.columns.push_back(reports::jointName(j));

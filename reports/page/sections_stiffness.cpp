@@ -274,7 +274,8 @@ std::string uncertaintyWords(const identification::Identification& result) {
                                    [](const auto& method) { return !method.estimate.stated.empty(); });
   if (weighed) {
     return "± is the expanded uncertainty U, coverage about 95\u00a0%: the farther end of the interval that holds the "
-           "scatter between postures, what they all share (frames, wrist radii, calibrated geometry), and what effects in "
+           "scatter between postures, what they all share (frames, wrist radii, calibrated geometry), and what effects "
+           "in "
            "the model or beside it could still do to each joint.";
   }
   std::vector<std::string> factors;

@@ -20,6 +20,11 @@ std::string extendedModelWords(extended_model::RemarkId id, const RemarkValues& 
     case diagnosis_finds_only_unknown:
       return "the diagnosis finds a gap that no effect explains (unknown): there is nothing to add, and the model "
              "stays as it is";
+    case effects_do_not_help:
+      return "the effects that fit best leave more on postures held out than joint springs alone: none is added";
+    case springs_contradicted:
+      return "every stiffness is negative: wrench and readings contradict each other, and no model of the machine is "
+             "looked for";
     case taken_of_a_class:
       return fmt::format("{} is added because it fits best; this data cannot tell it from {}", values.name(0),
                          fmt::join(values.names(1), " or "));

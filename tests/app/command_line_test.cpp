@@ -31,9 +31,9 @@ TEST(CommandLine, HelpOfTheWindowNamesItsOptions) {
 
 TEST(CommandLine, AnOptionBeforeItsCommandIsToldItsPlace) {
   const ScratchFolder scratch;
-  for (const std::string words :
-       {"--json out.json identify '" + kActive + "'", "--json=out.json identify '" + kActive + "'",
-        std::string("--method dpp identify x"), std::string("--raw")}) {
+  for (const std::string& words : std::vector<std::string>{
+           "--json out.json identify '" + kActive + "'", "--json=out.json identify '" + kActive + "'",
+           std::string("--method dpp identify x"), std::string("--raw")}) {
     const Ran ran = runProgram(words, scratch.path());
     EXPECT_EQ(ran.status, 2) << words;
     EXPECT_NE(ran.err.find("belongs after the command's name"), std::string::npos) << ran.err;

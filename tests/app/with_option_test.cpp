@@ -111,7 +111,8 @@ TEST(WithOption, AGainDeclaredUncertainIsInTheIntervals) {
   xml.insert(at, "gain_sigma_percent=\"5\" ");
   std::ofstream(file) << xml;
   const auto plain = nlohmann::json::parse(runProgram("identify " + kActive + " --json -", scratch.path()).out);
-  const auto gain = nlohmann::json::parse(runProgram("identify '" + (scratch.path() / "gain").string() + "' --json -", scratch.path()).out);
+  const auto gain = nlohmann::json::parse(
+      runProgram("identify '" + (scratch.path() / "gain").string() + "' --json -", scratch.path()).out);
   const auto width = [](const nlohmann::json& json) {
     const auto& interval = json["methods"]["dpp"]["interval_nm_per_rad"][4];
     return interval[1].get<double>() - interval[0].get<double>();

@@ -32,7 +32,7 @@ struct Grid {
   std::vector<double> x, weight;
 
   explicit Grid(bool positive) {
-    constexpr double kStep = 0.02;
+    constexpr double kStep = 0.003;
     for (double s = std::log(1e-7); s < std::log(20.0); s += kStep) {
       const double size = std::exp(s);
       if (!positive) x.push_back(-size), weight.push_back(size * kStep);
@@ -54,7 +54,7 @@ double shareBelow(const Eigen::MatrixXd& draws, Eigen::Index row, double limit) 
   return (draws.row(row).array() < limit).cast<double>().mean();
 }
 
-/// Draws are correlated; of 20,000 some thousands count. The step of the grid is below a hundredth.
+/// Draws are correlated; of 20,000 some thousands count. The steps of the grid are a tenth of the smallest spread.
 constexpr double kTolerance = 0.025;
 constexpr PosteriorOptions kMany{20000, 500, 3};
 
