@@ -16,7 +16,7 @@ double normalDensity(double x, double sd) {
 
 /// The horseshoe's density of one parameter that is an effect by itself: the product v of two half Cauchy numbers of
 /// scale 1 has density 4/pi^2 ln v / (v^2 - 1); integrated here over ln v.
-double priorDensity(double x) {
+double integratedPrior(double x) {
   double sum = 0.0;
   constexpr double kStep = 0.02;
   for (double u = -18.0 + 0.5 * kStep; u < 14.0; u += kStep) {
@@ -25,6 +25,22 @@ double priorDensity(double x) {
     sum += normalDensity(x, kUsual * v) * 4.0 / (std::numbers::pi * std::numbers::pi) * density * v * kStep;
   }
   return sum;
+}
+
+/// The same from a table in ln |x|, whose steps are far below what the density needs.
+double priorDensity(double x) {
+  constexpr double kFirst = -20.0, kStep = 0.01;
+  constexpr std::size_t kCount = 2400;
+  static const std::vector<double> table = [] {
+    std::vector<double> values;
+    for (std::size_t i = 0; i < kCount; ++i)
+      values.push_back(integratedPrior(std::exp(kFirst + kStep * static_cast<double>(i))));
+    return values;
+  }();
+  const double at = std::clamp((std::log(std::abs(x) + 1e-300) - kFirst) / kStep, 0.0, static_cast<double>(kCount - 2));
+  const auto i = static_cast<std::size_t>(at);
+  const double share = at - static_cast<double>(i);
+  return (1.0 - share) * table[i] + share * table[i + 1];
 }
 
 /// Of a density on a grid fine near zero, where the prior has its pole: numbers +-exp(s).
