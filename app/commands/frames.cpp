@@ -2,6 +2,7 @@
 #include <cstdio>
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include "app/command_line.h"
 #include "app/model.h"
@@ -38,9 +39,17 @@ void addFrames(CLI::App& app, Run& run) {
       if (identification::whatLoadsLack(prepared.campaign).empty()) model = modelOf(prepared, arguments->model, {});
       const campaign::Campaign& campaign = prepared.campaign;
       const frames::Frames frames = model ? model->with.frames : identification::solvedFrames(campaign);
-      deliver([&] { return reports::withPreparation(reports::framesJson(campaign, frames), prepared.preparation); },
-              [&] { return reports::framesText(campaign, frames) + reports::preparationText(prepared.preparation); },
-              arguments->json);
+      const auto json = [&] {
+        reports::Json result = reports::framesJson(campaign, frames);
+        if (model) result = reports::withEffects(std::move(result), *model, {});
+        return reports::withPreparation(std::move(result), prepared.preparation);
+      };
+      const auto text = [&] {
+        std::string all = reports::framesText(campaign, frames);
+        if (model) all += reports::addedEffectsText(model->effects);
+        return all + reports::preparationText(prepared.preparation);
+      };
+      deliver(json, text, arguments->json);
       if (frames.arm.points_placed) return kDone;
       const frames::MeasuredAxis& missing = frames.axes[0].measured ? frames.axes[1] : frames.axes[0];
       std::fprintf(stderr,
