@@ -180,7 +180,7 @@ class Diagnoser {
 };
 
 Diagnosis diagnoseAll(const preparation::PreparedCampaign& prepared, const DiagnoseOptions& options) {
-  GapStudy study = studyGap(prepared, options);
+  GapStudy study = studyGap(prepared, {options.noise_share, options.deflection_share, options.only});
   return Diagnoser(prepared, study, options).run();
 }
 

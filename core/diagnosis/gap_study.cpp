@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "core/diagnosis/diagnose.h"
 #include "core/diagnosis/preconditions.h"
 #include "core/effects/all.h"
 #include "core/preparation/subsample.h"
@@ -30,7 +29,7 @@ std::vector<effects::EffectModel> modelsFor(const campaign::Campaign& campaign,
 }
 
 /// Which models the campaign can show, and what the others lack.
-void evaluatePreconditions(const DiagnoseOptions& options, const SystemInput& input, GapStudy& study) {
+void evaluatePreconditions(const GapOptions& options, const SystemInput& input, GapStudy& study) {
   SystemInput loading = input;  // whatIsThere asks for states alone
   loading.models.clear();
   loading.sweeps = false;
@@ -67,7 +66,7 @@ void takeStation(DiagnosisInput& start, SystemInput& input, GapStudy& study) {
 
 }  // namespace
 
-GapStudy studyGap(const preparation::PreparedCampaign& prepared, const DiagnoseOptions& options) {
+GapStudy studyGap(const preparation::PreparedCampaign& prepared, const GapOptions& options) {
   GapStudy study;
   auto start = std::make_unique<DiagnosisInput>(diagnosisInput(prepared));
   auto input = std::make_unique<SystemInput>(

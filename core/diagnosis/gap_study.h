@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "core/diagnosis/diagnosis.h"
@@ -10,7 +11,11 @@
 
 namespace stiffscope::diagnosis {
 
-struct DiagnoseOptions;
+struct GapOptions {
+  double noise_share = 0.5;                            ///< see FitRules
+  double deflection_share = 0.002;                     ///< the same
+  std::optional<effects::Effect> only = std::nullopt;  ///< the one effect that may be chosen
+};
 
 /// The joint fit that a diagnosis stands on: every effect that the campaign can show in the equations, and of them the
 /// set that the data support (fitGap). The diagnosis judges it; the model that identification uses by default is made
@@ -27,7 +32,7 @@ struct GapStudy {
 };
 
 /// `prepared` must have been thinned where the day is long (spreadForDiagnosis).
-GapStudy studyGap(const preparation::PreparedCampaign& prepared, const DiagnoseOptions& options);
+GapStudy studyGap(const preparation::PreparedCampaign& prepared, const GapOptions& options = {});
 
 /// Whether a day has more postures, or longer sweeps, than a diagnosis looks at.
 bool isLong(const campaign::Campaign& campaign);

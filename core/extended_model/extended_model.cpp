@@ -9,7 +9,6 @@
 #include <random>
 #include <utility>
 
-#include "core/diagnosis/diagnose.h"
 #include "core/extended_model/corrected_campaign.h"
 #include "core/extended_model/effect_fit.h"
 #include "core/extended_model/method_equations.h"
@@ -156,7 +155,7 @@ ExtendedModel supportedModel(const preparation::PreparedCampaign& prepared, cons
   const bool thinned = diagnosis::isLong(prepared.campaign);
   std::optional<preparation::PreparedCampaign> spread;
   if (thinned) spread = diagnosis::spreadForDiagnosis(prepared);
-  const diagnosis::GapStudy study = diagnosis::studyGap(spread ? *spread : prepared, {});
+  const diagnosis::GapStudy study = diagnosis::studyGap(spread ? *spread : prepared);
   if (!study.usable()) {
     EffectFit none;
     none.notes.emplace_back(RemarkId::diagnosis_has_no_gap, study.start->reason);
