@@ -20,12 +20,18 @@ using RemarkValue = std::variant<double, std::int64_t, std::string, std::vector<
 /// library that remarks has an enumeration `RemarkId`; reports/words has a sentence for each of its enumerators, which
 /// the compiler checks, and the units that people read.
 struct Remark {
-  Remark() = default;
+  // All that makes, copies and ends a remark is compiled once: thousands of places make one.
+  Remark();
+  Remark(const Remark&);
+  Remark(Remark&&) noexcept;
+  Remark& operator=(const Remark&);
+  Remark& operator=(Remark&&) noexcept;
+  ~Remark();
 
   template <class Id, class... Values>
   requires std::is_enum_v<Id>
-  explicit Remark(Id remark_id, Values&&... its) : family(typeid(Id)), id(static_cast<int>(remark_id)) {
-    (values.push_back(valueOf(std::forward<Values>(its))), ...);
+  explicit Remark(Id remark_id, Values&&... its) : Remark(std::type_index(typeid(Id)), static_cast<int>(remark_id)) {
+    (add(plain(std::forward<Values>(its))), ...);
   }
 
   /// Nothing to say.
@@ -41,17 +47,26 @@ struct Remark {
   std::vector<RemarkValue> values;
 
  private:
+  Remark(std::type_index family_of_id, int remark_id);
+
+  void add(double number);
+  void add(std::int64_t count);
+  void add(std::string name);
+  void add(std::vector<double> numbers);
+  void add(std::vector<std::int64_t> counts);
+  void add(std::vector<std::string> names);
+  void add(std::vector<Remark> remarks);
+  void add(const Remark& remark);
+
   template <class Value>
-  static RemarkValue valueOf(Value&& value) {
+  static decltype(auto) plain(Value&& value) {
     using Plain = std::remove_cvref_t<Value>;
     if constexpr (std::is_integral_v<Plain> || std::is_enum_v<Plain>) {
       return static_cast<std::int64_t>(value);
-    } else if constexpr (std::is_same_v<Plain, Remark>) {
-      return std::vector<Remark>{std::forward<Value>(value)};
     } else if constexpr (std::is_same_v<Plain, std::vector<int>> || std::is_same_v<Plain, std::vector<std::size_t>>) {
       return std::vector<std::int64_t>(value.begin(), value.end());
     } else {
-      return RemarkValue(std::forward<Value>(value));
+      return std::forward<Value>(value);
     }
   }
 };
