@@ -38,13 +38,13 @@ Longest longestOf(const ArmScene& scene) {
 
 Eigen::Vector3d directionOf(View view) {
   switch (view) {
-    case View::Front:
+    case View::front:
       return {-1, 0, 0};
-    case View::Side:
+    case View::side:
       return {0, 1, 0};
-    case View::Top:
+    case View::top:
       return {0, 0, -1};
-    case View::Oblique:
+    case View::oblique:
       break;
   }
   return Eigen::Vector3d(-0.5, 0.85, -0.42).normalized();

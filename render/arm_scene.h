@@ -40,10 +40,10 @@ struct SceneTrace {
 /// From where the scene is seen, in parallel projection. The base z axis points up, except from the top,
 /// where y does.
 enum class View {
-  Oblique,  ///< from above, between Front and Side: x to the right and towards the viewer, y away
-  Front,    ///< against x0: y to the right
-  Side,     ///< along y0: x to the right
-  Top       ///< against z0: x to the right, y up
+  oblique,  ///< from above, between front and side: x to the right and towards the viewer, y away
+  front,    ///< against x0: y to the right
+  side,     ///< along y0: x to the right
+  top       ///< against z0: x to the right, y up
 };
 
 /// Unit vector from the viewer into the scene.
@@ -77,7 +77,7 @@ struct ArmScene {
   std::vector<SceneTrace> traces;
   std::optional<double> magnification;  ///< of all vectors; none: automaticMagnification
   double residual_factor = 1;           ///< residual vectors are drawn this many times longer than the others
-  View view = View::Oblique;
+  View view = View::oblique;
   std::optional<Eigen::Vector3d> view_direction;  ///< from the viewer into the scene, instead of `view`
   std::optional<SceneFraming> framing;            ///< none: all that is drawn fits the picture
   /// Points that fit the picture, too, and have floor under them: those of other scenes of a series, m. The

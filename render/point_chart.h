@@ -14,13 +14,13 @@ struct PlotPoint {
   double y = 0.0;
 };
 
-enum class PointMark { Disc, Ring, Diamond, Square, None };
+enum class PointMark { disc, ring, diamond, square, none };
 
 /// Points of one kind. A point that is not finite is left out, and breaks the line.
 struct PointSeries {
   std::string name;  ///< in the legend; what has the same name in several panels stands there once; empty: not
   Colour colour;
-  PointMark mark = PointMark::Disc;
+  PointMark mark = PointMark::disc;
   bool joined = false;  ///< a line from each point to the next
   std::vector<PlotPoint> points;
   std::vector<double> errors;  ///< half-length of each whisker along y; empty, or one a point (0: none)

@@ -40,8 +40,8 @@ struct SpreadPanel {
 };
 
 enum class SpreadAxis {
-  OwnPerPanel,  ///< each panel has the scale its boxes need
-  Shared        ///< one scale for all: for values that the caller has divided by something
+  own_per_panel,  ///< each panel has the scale its boxes need
+  shared          ///< one scale for all: for values that the caller has divided by something
 };
 
 /// Distributions of identified values (Table II over all subsets of postures): per method a box over the
@@ -58,7 +58,7 @@ struct SpreadChart {
   std::string reference_name;  ///< of the dashed lines, in the legend: "paper, Table II"
   std::vector<SpreadMethod> methods;
   std::vector<SpreadPanel> panels;
-  SpreadAxis axis = SpreadAxis::OwnPerPanel;
+  SpreadAxis axis = SpreadAxis::own_per_panel;
 };
 
 /// Draws the chart. Throws std::invalid_argument when there is no method or panel, when the lengths in a

@@ -28,7 +28,7 @@ class ViewCamera {
  private:
   void hold();
 
-  View view_ = View::Oblique;
+  View view_ = View::oblique;
   std::optional<Eigen::Vector3d> direction_;
   std::optional<SceneFraming> last_, held_;
 };

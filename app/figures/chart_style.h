@@ -23,8 +23,8 @@ inline render::Colour colourOf(identification::Method method) {
 /// Colour and mark of the `index`th of several things without a colour of their own (reflectors, directions,
 /// nests): marks go on changing where colours come again.
 inline render::PointSeries seriesLook(std::size_t index) {
-  constexpr std::array<render::PointMark, 3> kMarks{render::PointMark::Disc, render::PointMark::Square,
-                                                    render::PointMark::Diamond};
+  constexpr std::array<render::PointMark, 3> kMarks{render::PointMark::disc, render::PointMark::square,
+                                                    render::PointMark::diamond};
   render::PointSeries series;
   series.colour = render::colours::kSeries[index % render::colours::kSeries.size()];
   series.mark = kMarks[index % kMarks.size()];

@@ -29,7 +29,7 @@ render::PointSeries shareOf(const diagnosis::SpikedEffect& one, const char* name
 /// Holds the axis of every panel from 0 to 100 %, drawing nothing.
 render::PointSeries wholeAxis() {
   render::PointSeries series;
-  series.mark = render::PointMark::None;
+  series.mark = render::PointMark::none;
   series.points = {{0.0, 0.0}, {0.0, 100.0}};
   return series;
 }
@@ -43,7 +43,7 @@ render::PointPanel spikePanel(const diagnosis::SpikedEffect& one) {
   panel.x_title = "Times that size";
   for (const Counts& at : one.sizes) panel.categories.push_back(fmt::format("{:g}", at.times));
   render::PointSeries named = shareOf(one, "named", 0, [](const Counts& at) { return at.named; });
-  named.mark = render::PointMark::Ring;  // drawn last, and shows what lies under it
+  named.mark = render::PointMark::ring;  // drawn last, and shows what lies under it
   panel.series = {wholeAxis(),
                   shareOf(one, "another named, or unknown", 1,
                           [](const Counts& at) { return std::min(at.draws, at.other_named + at.unknown); }),

@@ -56,7 +56,7 @@ render::PlotPoint polar(double radius, double angle) { return {radius * std::cos
 render::PointSeries fullRing(double radius) {
   render::PointSeries ring;
   ring.colour = render::colours::kAxis;
-  ring.mark = render::PointMark::None;
+  ring.mark = render::PointMark::none;
   ring.joined = true;
   constexpr int kCorners = 120;
   for (int i = 0; i <= kCorners; ++i) ring.points.push_back(polar(radius, 2.0 * std::numbers::pi * i / kCorners));
@@ -176,7 +176,7 @@ render::PointSeries sectorMeans(const std::vector<SphereResidual>& residuals, do
   render::PointSeries means;
   means.name = "mean in sectors";
   means.colour = render::colours::kInk;
-  means.mark = render::PointMark::None;
+  means.mark = render::PointMark::none;
   means.joined = true;
   for (std::size_t i = 0; i < sectors; ++i) {
     if (count[i] >= kLeastInSector)

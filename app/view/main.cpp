@@ -13,10 +13,10 @@ namespace stiffscope::app {
 namespace {
 
 render::View viewNamed(const std::string& name) {
-  if (name == "front") return render::View::Front;
-  if (name == "side") return render::View::Side;
-  if (name == "top") return render::View::Top;
-  if (name == "oblique") return render::View::Oblique;
+  if (name == "front") return render::View::front;
+  if (name == "side") return render::View::side;
+  if (name == "top") return render::View::top;
+  if (name == "oblique") return render::View::oblique;
   throw io::InputError(
       {"--view"}, name,
       "expected front, side, top or oblique" + io::nearestNameHint(name, {"front", "side", "top", "oblique"}));

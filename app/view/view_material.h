@@ -43,7 +43,7 @@ struct ViewOptions {
   std::optional<int> step;
   std::string pose;  ///< empty: the one with the median displacement
   std::optional<double> magnification;
-  render::View view = render::View::Oblique;
+  render::View view = render::View::oblique;
   bool dark = false;
   render::Size size{1280, 860};
   std::string screenshot;  ///< empty: interactive

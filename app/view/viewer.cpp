@@ -143,10 +143,10 @@ const std::vector<ViewKey>& viewKeys() {
       {{"comma", "less"}, "", "", [](Viewer& v) { v.changeResidualFactor(false); }},
       {{"n"}, "n", "next method", [](Viewer& v) { v.nextMethod(); }},
       {{"Tab"}, "Tab", "next point's numbers", [](Viewer& v) { v.pickNext(); }},
-      {{"1", "KP_1"}, "1 2 3 4", "front, side, top, oblique", [](Viewer& v) { v.window_.look(render::View::Front); }},
-      {{"2", "KP_2"}, "", "", [](Viewer& v) { v.window_.look(render::View::Side); }},
-      {{"3", "KP_3"}, "", "", [](Viewer& v) { v.window_.look(render::View::Top); }},
-      {{"4", "KP_4"}, "", "", [](Viewer& v) { v.window_.look(render::View::Oblique); }},
+      {{"1", "KP_1"}, "1 2 3 4", "front, side, top, oblique", [](Viewer& v) { v.window_.look(render::View::front); }},
+      {{"2", "KP_2"}, "", "", [](Viewer& v) { v.window_.look(render::View::side); }},
+      {{"3", "KP_3"}, "", "", [](Viewer& v) { v.window_.look(render::View::top); }},
+      {{"4", "KP_4"}, "", "", [](Viewer& v) { v.window_.look(render::View::oblique); }},
       {{"Shift+Right"}, "Shift+arrow", "turn", [](Viewer& v) { v.window_.turn(kTurn, 0); }},
       {{"Shift+Left"}, "", "", [](Viewer& v) { v.window_.turn(-kTurn, 0); }},
       {{"Shift+Down"}, "", "", [](Viewer& v) { v.window_.turn(0, kTurn); }},
@@ -299,7 +299,7 @@ void Viewer::reset() {
   settings_ = start_;
   settings_.keys_listed = keys_listed;
   picked_.clear();
-  window_.look(render::View::Oblique);
+  window_.look(render::View::oblique);
 }
 
 void Viewer::save() { message_ = window_.save(frame().name); }

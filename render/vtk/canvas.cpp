@@ -32,13 +32,13 @@ void Canvas::setStyle(double size, bool bold, Colour colour, Direction direction
   style->SetColor(colour.red / 255.0, colour.green / 255.0, colour.blue / 255.0);
   style->SetJustificationToLeft();
   style->SetVerticalJustificationToBottom();
-  style->SetOrientation(direction == Direction::Up ? 90 : 0);
+  style->SetOrientation(direction == Direction::up ? 90 : 0);
 }
 
 double Canvas::runWidth(const std::string& run, double size, bool bold) const {
   const auto [place, is_new] = widths_.try_emplace({run, size, bold}, 0.0);
   if (is_new) {
-    setStyle(size, bold, colours::kInk, Direction::Across);
+    setStyle(size, bold, colours::kInk, Direction::across);
     std::array<float, 4> bounds{};
     context_.ComputeStringBounds(run.c_str(), bounds.data());
     place->second = bounds[2] / surface_.scale;
@@ -113,12 +113,12 @@ Spot Canvas::measure(const std::string& text, const TextStyle& style) const {
 
 void Canvas::text(const std::string& text, Spot anchor, AlignX x, AlignY y, const TextStyle& style,
                   Direction direction) {
-  const bool up = direction == Direction::Up;
+  const bool up = direction == Direction::up;
   const Spot extent = measure(text, style);
   const double width = up ? extent.y : extent.x;
   const double height = up ? extent.x : extent.y;
-  const double left = anchor.x - (x == AlignX::Left ? 0 : x == AlignX::Centre ? width / 2 : width);
-  const double top = anchor.y - (y == AlignY::Top ? 0 : y == AlignY::Centre ? height / 2 : height);
+  const double left = anchor.x - (x == AlignX::left ? 0 : x == AlignX::centre ? width / 2 : width);
+  const double top = anchor.y - (y == AlignY::top ? 0 : y == AlignY::centre ? height / 2 : height);
 
   double along = 0;
   for (const Run& run : runsOf(text)) {

@@ -56,9 +56,9 @@ struct Box {
   }
 };
 
-enum class AlignX { Left, Centre, Right };
-enum class AlignY { Top, Centre, Bottom };
-enum class Direction { Across, Up };
+enum class AlignX { left, centre, right };
+enum class AlignY { top, centre, bottom };
+enum class Direction { across, up };
 
 struct TextStyle {
   double size = 14;  ///< of the font, pixels
@@ -89,9 +89,9 @@ class Canvas {
 
   /// Width and height of `text` written across; the height depends on the style only.
   Spot measure(const std::string& text, const TextStyle& style) const;
-  /// `text` placed with the named side or centre at `anchor`. Direction::Up runs from bottom to top.
+  /// `text` placed with the named side or centre at `anchor`. Direction::up runs from bottom to top.
   void text(const std::string& text, Spot anchor, AlignX x, AlignY y, const TextStyle& style,
-            Direction direction = Direction::Across);
+            Direction direction = Direction::across);
   /// `text` cut with an ellipsis, if need be, to be no wider than `width`.
   std::string shortened(const std::string& text, double width, const TextStyle& style) const;
   /// `text` broken between words into lines no wider than `width`; a single longer word is cut.

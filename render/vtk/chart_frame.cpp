@@ -70,7 +70,7 @@ void drawYAxis(Canvas& canvas, const Box& plot, YAxis& axis) {
     canvas.fill({plot.left, y - 0.5 * u, plot.right, y + 0.5 * u}, colours::kGrid);
     // Ticks of a logarithmic axis crowd towards the top of each decade.
     if (y + 0.5 * style.size > free_from) continue;
-    canvas.text(axis.ticks.labels[i], {plot.left - 8 * u, y}, AlignX::Right, AlignY::Centre, style);
+    canvas.text(axis.ticks.labels[i], {plot.left - 8 * u, y}, AlignX::right, AlignY::centre, style);
     free_from = y - 0.5 * style.size;
   }
   canvas.fill({plot.left - u, plot.top, plot.left, plot.bottom}, colours::kAxis);
@@ -97,7 +97,7 @@ CategoryLabels fitCategoryLabels(const Canvas& canvas, const std::vector<std::st
     if (labels.every > 2) labels.every = static_cast<int>(roundUp125(labels.every));
     return labels;
   }
-  labels.direction = Direction::Up;
+  labels.direction = Direction::up;
   labels.every = bands(labels.height);
   labels.height = std::min(widest, room);
   return labels;
@@ -111,17 +111,17 @@ void drawCategories(Canvas& canvas, const Box& plot, const std::vector<std::stri
   const double top = plot.bottom + 6 * u;
   for (std::size_t i = 0; i < categories.size(); i += static_cast<std::size_t>(labels.every)) {
     const double x = plot.left + (static_cast<double>(i) + 0.5) * band;
-    if (labels.direction == Direction::Up) {
-      canvas.text(canvas.shortened(categories[i], labels.height, style), {x, top}, AlignX::Centre, AlignY::Top, style,
-                  Direction::Up);
+    if (labels.direction == Direction::up) {
+      canvas.text(canvas.shortened(categories[i], labels.height, style), {x, top}, AlignX::centre, AlignY::top, style,
+                  Direction::up);
     } else {
-      canvas.text(categories[i], {x, top}, AlignX::Centre, AlignY::Top, style);
+      canvas.text(categories[i], {x, top}, AlignX::centre, AlignY::top, style);
     }
   }
   if (title.empty()) return;
   const TextStyle title_style = axisTitleStyle(canvas);
   canvas.text(canvas.shortened(title, plot.width(), title_style), {plot.middleX(), top + labels.height + 4 * u},
-              AlignX::Centre, AlignY::Top, title_style);
+              AlignX::centre, AlignY::top, title_style);
 }
 
 void drawInCategoryFrame(Canvas& canvas, const CategoryFrame& frame,
@@ -197,29 +197,29 @@ void drawKey(Canvas& canvas, Key key, const Box& box, Colour colour) {
   const Spot centre{box.middleX(), box.middleY()};
   const double r = box.width() / 2;
   switch (key) {
-    case Key::Square:
+    case Key::square:
       canvas.fill({box.left + 0.1 * r, box.top + 0.3 * r, box.right - 0.1 * r, box.bottom - 0.3 * r}, colour);
       break;
-    case Key::Point:
-    case Key::HollowPoint:
-      drawPoint(canvas, centre, 0.55 * r, colour, key == Key::HollowPoint);
+    case Key::point:
+    case Key::hollow_point:
+      drawPoint(canvas, centre, 0.55 * r, colour, key == Key::hollow_point);
       break;
-    case Key::Dashes:
+    case Key::dashes:
       canvas.line({box.left, centre.y}, {box.right, centre.y}, colour, 2 * canvas.unit(), 0.37 * box.width());
       break;
-    case Key::Diamond:
+    case Key::diamond:
       drawDiamond(canvas, centre, 0.55 * r, colour);
       break;
-    case Key::Median:
+    case Key::median:
       canvas.line({box.left, centre.y}, {box.right, centre.y}, colour, 3 * canvas.unit());
       break;
-    case Key::ThickArrow:
-    case Key::MediumArrow:
-    case Key::ThinArrow:
+    case Key::thick_arrow:
+    case Key::medium_arrow:
+    case Key::thin_arrow:
       drawArrow(canvas, {box.left - 0.4 * r, centre.y}, {box.right + 0.4 * r, centre.y}, colour,
-                (key == Key::ThickArrow    ? 5
-                 : key == Key::MediumArrow ? 3.5
-                                           : 2.5) *
+                (key == Key::thick_arrow    ? 5
+                 : key == Key::medium_arrow ? 3.5
+                                            : 2.5) *
                     canvas.unit(),
                 1.2 * r);
       break;
@@ -242,7 +242,7 @@ void takeLines(Canvas& canvas, Box& free, const std::string& text, const TextSty
     lines.back() = canvas.shortened(lines.back() + " \u2026", free.width(), style);
   }
   for (const std::string& line : lines) {
-    canvas.text(line, {free.left, free.top}, AlignX::Left, AlignY::Top, style);
+    canvas.text(line, {free.left, free.top}, AlignX::left, AlignY::top, style);
     free.top += canvas.measure(line, style).y;
   }
 }
@@ -274,7 +274,7 @@ void takeLegend(Canvas& canvas, Box& free, const std::vector<LegendEntry>& entri
     }
     const double y = free.top + row / 2;
     drawKey(canvas, entry.key, {x, y - key / 2, x + key, y + key / 2}, entry.colour);
-    canvas.text(name, {x + key + gap, y}, AlignX::Left, AlignY::Centre, style);
+    canvas.text(name, {x + key + gap, y}, AlignX::left, AlignY::centre, style);
     x += width + apart;
     any = true;
   }
@@ -286,7 +286,7 @@ void takeNote(Canvas& canvas, Box& free, const std::string& note) {
   const TextStyle style = noteStyle(canvas);
   const std::vector<std::string> lines = canvas.wrapped(note, free.width(), style);
   for (auto line = lines.rbegin(); line != lines.rend(); ++line) {
-    canvas.text(*line, {free.left, free.bottom}, AlignX::Left, AlignY::Bottom, style);
+    canvas.text(*line, {free.left, free.bottom}, AlignX::left, AlignY::bottom, style);
     free.bottom -= canvas.measure(*line, style).y;
   }
   free.bottom -= 6 * canvas.unit();
@@ -306,7 +306,7 @@ void drawYTitle(Canvas& canvas, double left, const Box& plot, const std::vector<
   for (const std::string& line : lines) {
     // A title longer than the plot is high leans to the bottom of the picture, where there is room.
     const double top = std::max(plot.middleY() - canvas.measure(line, style).x / 2, plot.top);
-    canvas.text(line, {left, top}, AlignX::Left, AlignY::Top, style, Direction::Up);
+    canvas.text(line, {left, top}, AlignX::left, AlignY::top, style, Direction::up);
     left += canvas.measure(line, style).y;
   }
 }

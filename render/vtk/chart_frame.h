@@ -9,11 +9,11 @@
 
 namespace stiffscope::render {
 
-enum class Key { Square, Point, HollowPoint, Dashes, Diamond, Median, ThickArrow, MediumArrow, ThinArrow };
+enum class Key { square, point, hollow_point, dashes, diamond, median, thick_arrow, medium_arrow, thin_arrow };
 
 /// A legend entry: a sign and what it means.
 struct LegendEntry {
-  Key key = Key::Square;
+  Key key = Key::square;
   Colour colour;
   std::string name;
 };
@@ -53,7 +53,7 @@ void drawYAxis(Canvas& canvas, const Box& plot, YAxis& axis);
 
 /// How category labels are set for bands of `band` pixels: across, upright, and only every so many.
 struct CategoryLabels {
-  Direction direction = Direction::Across;
+  Direction direction = Direction::across;
   int every = 1;
   double height = 0;
 };

@@ -95,12 +95,12 @@ void drawAxis(Canvas& canvas, const DotRowChart& chart, const RowFrame& frame) {
     const double half = canvas.measure(ticks.labels[i], style).x / 2;
     if (x - half < free_from) continue;
     if (x + half > frame.plot.right) break;
-    canvas.text(ticks.labels[i], {x, frame.plot.bottom + 6 * u}, AlignX::Centre, AlignY::Top, style);
+    canvas.text(ticks.labels[i], {x, frame.plot.bottom + 6 * u}, AlignX::centre, AlignY::top, style);
     free_from = x + half + 10 * u;
   }
   canvas.fill({frame.plot.left, frame.plot.bottom - u, frame.plot.right, frame.plot.bottom}, colours::kAxis);
   canvas.text(canvas.shortened(chart.x_title, frame.plot.width(), title),
-              {frame.plot.middleX(), frame.plot.bottom + 8 * u + 1.2 * style.size}, AlignX::Centre, AlignY::Top, title);
+              {frame.plot.middleX(), frame.plot.bottom + 8 * u + 1.2 * style.size}, AlignX::centre, AlignY::top, title);
 }
 
 void drawGroups(Canvas& canvas, const DotRowChart& chart, const RowFrame& frame) {
@@ -117,8 +117,8 @@ void drawGroups(Canvas& canvas, const DotRowChart& chart, const RowFrame& frame)
 void drawRow(Canvas& canvas, const RowFrame& frame, const DotRow& row, double y, Colour ground) {
   const double u = canvas.unit(), radius = std::min(7 * u, 0.32 * frame.row);
   const TextStyle style = nameStyle(canvas, row);
-  canvas.text(canvas.shortened(row.name, frame.columns - frame.names - 14 * u, style), {frame.names, y}, AlignX::Left,
-              AlignY::Centre, style);
+  canvas.text(canvas.shortened(row.name, frame.columns - frame.names - 14 * u, style), {frame.names, y}, AlignX::left,
+              AlignY::centre, style);
   if (!hasDot(row)) {
     TextStyle faint = labelStyle(canvas);
     faint.colour = canvas.palette().faint_ink;
@@ -127,7 +127,7 @@ void drawRow(Canvas& canvas, const RowFrame& frame, const DotRow& row, double y,
     // Over grid and reference line, which would strike the words through.
     canvas.fill({frame.plot.left + 4 * u, y - extent.y / 2, frame.plot.left + 12 * u + extent.x, y + extent.y / 2},
                 ground);
-    canvas.text(words, {frame.plot.left + 8 * u, y}, AlignX::Left, AlignY::Centre, faint);
+    canvas.text(words, {frame.plot.left + 8 * u, y}, AlignX::left, AlignY::centre, faint);
     return;
   }
   const double x = frame.xOf(row.size);
@@ -139,15 +139,15 @@ void drawRow(Canvas& canvas, const RowFrame& frame, const DotRow& row, double y,
     drawPoint(canvas, {x, y}, radius, colour, false);
   const std::string number = fmt::format("{:.{}f}", row.size, row.size < 9.95 ? 1 : 0);
   const double beside = std::min(x + 1.35 * radius + 7 * u, frame.plot.right - canvas.measure(number, style).x);
-  canvas.text(number, {beside, y}, AlignX::Left, AlignY::Centre, style);
+  canvas.text(number, {beside, y}, AlignX::left, AlignY::centre, style);
 }
 
 std::vector<LegendEntry> legendOf(const DotRowChart& chart) {
   const bool any_marked =
       std::any_of(chart.rows.begin(), chart.rows.end(), [](const DotRow& row) { return row.marked && hasDot(row); });
-  std::vector<LegendEntry> legend{{Key::Point, kDot, chart.dot_name}};
-  if (any_marked) legend.push_back({Key::Diamond, kMarkedDot, chart.marked_name});
-  if (std::isfinite(chart.reference)) legend.push_back({Key::Dashes, colours::kInk, chart.reference_name});
+  std::vector<LegendEntry> legend{{Key::point, kDot, chart.dot_name}};
+  if (any_marked) legend.push_back({Key::diamond, kMarkedDot, chart.marked_name});
+  if (std::isfinite(chart.reference)) legend.push_back({Key::dashes, colours::kInk, chart.reference_name});
   return legend;
 }
 
@@ -165,7 +165,7 @@ void paintChart(Canvas& canvas, const DotRowChart& chart) {
   const double line = canvas.measure("0", style).y;
   const RowFrame frame = frameOf(canvas, chart, free, line * static_cast<double>(over.size()) + 8 * u);
   for (std::size_t i = 0; i < over.size(); ++i)
-    canvas.text(over[i], {frame.columns, free.top + static_cast<double>(i) * line}, AlignX::Left, AlignY::Top, style);
+    canvas.text(over[i], {frame.columns, free.top + static_cast<double>(i) * line}, AlignX::left, AlignY::top, style);
   for (std::size_t i = 0; i < chart.rows.size(); i += 2)
     canvas.fill({frame.names, frame.yOf(i) - frame.row / 2, frame.plot.right, frame.yOf(i) + frame.row / 2},
                 colours::kBand);

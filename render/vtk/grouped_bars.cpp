@@ -74,7 +74,7 @@ void drawBars(Canvas& canvas, const Box& plot, const YAxis& axis, const GroupedB
 
 void paintChart(Canvas& canvas, const GroupedBarChart& chart) {
   CategoryFrame frame{chart.title, chart.subtitle, "", chart.y_title, chart.category_title, chart.categories, {}, {}};
-  for (const BarSeries& series : chart.series) frame.legend.push_back({Key::Square, series.colour, series.name});
+  for (const BarSeries& series : chart.series) frame.legend.push_back({Key::square, series.colour, series.name});
   frame.axis = [&](double height) { return axisFor(canvas, chart, height); };
   drawInCategoryFrame(canvas, frame, [&](const Box& plot, const YAxis& axis) { drawBars(canvas, plot, axis, chart); });
 }

@@ -122,11 +122,11 @@ void paintChart(Canvas& canvas, const IntervalChart& chart) {
   CategoryFrame frame{chart.title, chart.subtitle, "", chart.y_title, chart.category_title, chart.categories, {}, {}};
   bool any_off = false;
   for (const IntervalSeries& series : chart.series) {
-    frame.legend.push_back({Key::Point, series.colour, series.name});
+    frame.legend.push_back({Key::point, series.colour, series.name});
     any_off = any_off || std::any_of(series.intervals.begin(), series.intervals.end(), offLogAxis);
   }
-  frame.legend.push_back({Key::HollowPoint, colours::kFaintInk, chart.doubtful_name});
-  if (!chart.references.empty()) frame.legend.push_back({Key::Dashes, colours::kInk, chart.reference_name});
+  frame.legend.push_back({Key::hollow_point, colours::kFaintInk, chart.doubtful_name});
+  if (!chart.references.empty()) frame.legend.push_back({Key::dashes, colours::kInk, chart.reference_name});
   if (chart.logarithmic && any_off) {
     frame.note = "Arrow: value or interval reaches zero or below, which has no place on a logarithmic axis.";
   }

@@ -76,12 +76,12 @@ void drawNumbers(Canvas& canvas, const Box& plot, const Range& range, const std:
     const double share = (ticks.positions[i] - range.lower) / (range.upper - range.lower);
     const double x = Canvas::snapped(plot.left + share * plot.width());
     canvas.fill({x - 0.5 * u, plot.bottom, x + 0.5 * u, plot.bottom + 5 * u}, colours::kAxis);
-    canvas.text(ticks.labels[i], {x, plot.bottom + 6 * u}, AlignX::Centre, AlignY::Top, style);
+    canvas.text(ticks.labels[i], {x, plot.bottom + 6 * u}, AlignX::centre, AlignY::top, style);
   }
   if (title.empty()) return;
   const TextStyle title_style = axisTitleStyle(canvas);
   canvas.text(canvas.shortened(title, plot.width(), title_style),
-              {plot.middleX(), plot.bottom + 10 * u + canvas.measure("0", style).y}, AlignX::Centre, AlignY::Top,
+              {plot.middleX(), plot.bottom + 10 * u + canvas.measure("0", style).y}, AlignX::centre, AlignY::top,
               title_style);
 }
 
@@ -110,7 +110,7 @@ void drawDiagram(Canvas& canvas, const Box& cell, const PointPanel& panel) {
   if (!panel.title.empty()) {
     TextStyle title = axisTitleStyle(canvas);
     title.bold = true;
-    canvas.text(canvas.shortened(panel.title, cell.width(), title), {cell.left, cell.top}, AlignX::Left, AlignY::Top,
+    canvas.text(canvas.shortened(panel.title, cell.width(), title), {cell.left, cell.top}, AlignX::left, AlignY::top,
                 title);
     free.top += canvas.measure("0", title).y + 8 * u;
   }
@@ -147,7 +147,7 @@ void drawShape(Canvas& canvas, const Box& cell, const ShapePanel& panel) {
   const double u = canvas.unit();
   TextStyle title = axisTitleStyle(canvas);
   title.bold = true;
-  canvas.text(canvas.shortened(panel.title, cell.width(), title), {cell.left, cell.top}, AlignX::Left, AlignY::Top,
+  canvas.text(canvas.shortened(panel.title, cell.width(), title), {cell.left, cell.top}, AlignX::left, AlignY::top,
               title);
   Box free = cell;
   free.top += canvas.measure("0", title).y + 8 * u;
@@ -175,7 +175,7 @@ void drawShape(Canvas& canvas, const Box& cell, const ShapePanel& panel) {
   canvas.line({cell.left, y}, {cell.left + bar, y}, colours::kInk, 2 * u);
   for (const double x : {cell.left, cell.left + bar}) canvas.line({x, y - 5 * u}, {x, y + 5 * u}, colours::kInk, 2 * u);
   const double from = cell.left + bar + 8 * u;
-  canvas.text(canvas.shortened(panel.scale_name, cell.right - from, label), {from, y}, AlignX::Left, AlignY::Centre,
+  canvas.text(canvas.shortened(panel.scale_name, cell.right - from, label), {from, y}, AlignX::left, AlignY::centre,
               label);
 }
 
@@ -202,18 +202,18 @@ void requireConsistent(const PointChart& chart) {
 
 Key keyOf(PointMark mark) {
   switch (mark) {
-    case PointMark::Ring:
-      return Key::HollowPoint;
-    case PointMark::Diamond:
-      return Key::Diamond;
-    case PointMark::Square:
-      return Key::Square;
-    case PointMark::None:
-      return Key::Median;
-    case PointMark::Disc:
+    case PointMark::ring:
+      return Key::hollow_point;
+    case PointMark::diamond:
+      return Key::diamond;
+    case PointMark::square:
+      return Key::square;
+    case PointMark::none:
+      return Key::median;
+    case PointMark::disc:
       break;
   }
-  return Key::Point;
+  return Key::point;
 }
 
 template <class Panel>
@@ -227,7 +227,7 @@ std::vector<LegendEntry> legendOf(const std::vector<Panel>& panels) {
   for (const Panel& panel : panels) {
     for (const PointSeries& series : panel.series) add({keyOf(series.mark), series.colour, series.name});
     if constexpr (requires { panel.band; }) {
-      if (panel.band) add({Key::Square, colours::kGrid, panel.band_name});
+      if (panel.band) add({Key::square, colours::kGrid, panel.band_name});
     }
   }
   return entries;
@@ -263,18 +263,18 @@ bool finite(Spot spot) { return std::isfinite(spot.x) && std::isfinite(spot.y); 
 
 void drawPointMark(Canvas& canvas, Spot centre, double radius, Colour colour, PointMark mark) {
   switch (mark) {
-    case PointMark::Disc:
-    case PointMark::Ring:
-      drawPoint(canvas, centre, radius, colour, mark == PointMark::Ring);
+    case PointMark::disc:
+    case PointMark::ring:
+      drawPoint(canvas, centre, radius, colour, mark == PointMark::ring);
       break;
-    case PointMark::Diamond:
+    case PointMark::diamond:
       drawDiamond(canvas, centre, 1.15 * radius, colour);
       break;
-    case PointMark::Square:
+    case PointMark::square:
       canvas.fill({centre.x - 0.9 * radius, centre.y - 0.9 * radius, centre.x + 0.9 * radius, centre.y + 0.9 * radius},
                   colour);
       break;
-    case PointMark::None:
+    case PointMark::none:
       break;
   }
 }
@@ -284,7 +284,7 @@ void drawMarks(Canvas& canvas, const PointSeries& series, const std::vector<Spot
     if (finite(spots[i - 1]) && finite(spots[i]))
       canvas.line(spots[i - 1], spots[i], series.colour, 1.5 * canvas.unit());
   }
-  if (series.mark == PointMark::None) return;
+  if (series.mark == PointMark::none) return;
   for (const Spot& spot : spots) {
     if (finite(spot)) drawPointMark(canvas, spot, radius, series.colour, series.mark);
   }

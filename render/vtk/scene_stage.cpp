@@ -96,9 +96,9 @@ void LabelPlacer::place(const std::string& text, Spot spot, double clearance, co
   TextStyle rim = style;
   rim.colour = canvas_.palette().paper;
   for (const Spot& side : kSides) {
-    canvas_.text(text, {best.left + 1.5 * side.x, best.top + 1.5 * side.y}, AlignX::Left, AlignY::Top, rim);
+    canvas_.text(text, {best.left + 1.5 * side.x, best.top + 1.5 * side.y}, AlignX::left, AlignY::top, rim);
   }
-  canvas_.text(text, {best.left, best.top}, AlignX::Left, AlignY::Top, style);
+  canvas_.text(text, {best.left, best.top}, AlignX::left, AlignY::top, style);
   take(best);
 }
 
@@ -139,8 +139,8 @@ void paintRow(Canvas& canvas, const ScenePanel& panel, const ScenePanel::Row& ro
   double x = left + layout.mark;
   for (std::size_t i = 0; i < row.cells.size(); ++i) {
     const bool right = panel.numbers && i > 0;
-    canvas.text(row.cells[i], {right ? x + layout.columns[i] : x, y}, right ? AlignX::Right : AlignX::Left,
-                AlignY::Centre, panelStyle(canvas));
+    canvas.text(row.cells[i], {right ? x + layout.columns[i] : x, y}, right ? AlignX::right : AlignX::left,
+                AlignY::centre, panelStyle(canvas));
     x += layout.columns[i] + kColumnGap * u;
   }
 }
@@ -150,7 +150,7 @@ double paintPanel(Canvas& canvas, const ScenePanel& panel, const PanelLayout& la
   const double line = kLine * canvas.unit();
   double y = corner.y + line / 2;
   if (!panel.title.empty() && y + line / 2 <= bottom) {
-    canvas.text(panel.title, {corner.x, y}, AlignX::Left, AlignY::Centre, panelTitleStyle(canvas));
+    canvas.text(panel.title, {corner.x, y}, AlignX::left, AlignY::centre, panelTitleStyle(canvas));
     y += 1.1 * line;
   }
   for (const ScenePanel::Row& row : panel.rows) {
@@ -333,7 +333,7 @@ SceneLayout paintSurroundings(Canvas& canvas, const ArmScene& scene) {
   takeMargin(canvas, free);
   takeHeader(canvas, free, scene.title, scene.subtitle);
   std::vector<LegendEntry> legend;
-  constexpr std::array kKeys{Key::ThickArrow, Key::ThinArrow, Key::MediumArrow};
+  constexpr std::array kKeys{Key::thick_arrow, Key::thin_arrow, Key::medium_arrow};
   const auto kinds = vectorKinds(scene);
   const bool others = hasVectors(scene, kinds[0]) || hasVectors(scene, kinds[1]);
   for (std::size_t i = 0; i < kinds.size(); ++i) {
@@ -342,7 +342,7 @@ SceneLayout paintSurroundings(Canvas& canvas, const ArmScene& scene) {
     const std::string longer = alone ? "" : fmt::format(", {} times longer", shortNumber(kinds[i].factor));
     legend.push_back({kKeys[i], kinds[i].colour, kinds[i].name.empty() ? "" : kinds[i].name + longer});
   }
-  if (!scene.traces.empty()) legend.push_back({Key::Point, canvas.palette().measured, scene.trace_name});
+  if (!scene.traces.empty()) legend.push_back({Key::point, canvas.palette().measured, scene.trace_name});
   takeLegend(canvas, free, legend);
   takeNote(canvas, free, scene.note);
   const double top = free.bottom - 26 * canvas.unit();
@@ -372,7 +372,7 @@ double paintReference(Canvas& canvas, const SceneStage& stage, double factor, co
   drawArrow(canvas, left, tip, look.colour, look.width * stage.unit, kHeadLength * stage.unit);
   const std::string text = fmt::format("{}   {} \u00d7 {}", lengthText(reference), what, factorText(factor));
   const Spot at{tip.x + 10 * stage.unit, left.y};
-  canvas.text(text, at, AlignX::Left, AlignY::Centre, labelStyle(canvas));
+  canvas.text(text, at, AlignX::left, AlignY::centre, labelStyle(canvas));
   return at.x + canvas.measure(text, labelStyle(canvas)).x;
 }
 

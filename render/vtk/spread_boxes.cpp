@@ -113,7 +113,7 @@ namespace {
 std::vector<ValueRange> rangesOf(const SpreadChart& chart) {
   std::vector<ValueRange> ranges;
   for (const SpreadPanel& panel : chart.panels) ranges.push_back(rangeOf(panel));
-  if (chart.axis == SpreadAxis::Shared) {
+  if (chart.axis == SpreadAxis::shared) {
     ValueRange all = ranges[0];
     for (const ValueRange& range : ranges) all = {std::min(all.lower, range.lower), std::max(all.upper, range.upper)};
     ranges.assign(ranges.size(), all);
@@ -156,7 +156,7 @@ void printMeansOff(Canvas& canvas, const Box& plot, double first, const SpreadCh
   for (std::size_t m = 0; m < panel.spreads.size(); ++m) {
     if (!meanOff(panel.spreads[m], range, upwards)) continue;
     style.colour = chart.methods[m].colour;
-    canvas.text("mean " + shortNumber(panel.spreads[m]->mean), {plot.middleX(), first}, AlignX::Centre, AlignY::Top,
+    canvas.text("mean " + shortNumber(panel.spreads[m]->mean), {plot.middleX(), first}, AlignX::centre, AlignY::top,
                 style);
     first += 1.25 * style.size;
   }
@@ -183,8 +183,8 @@ void drawPanel(Canvas& canvas, Box cell, const SpreadChart& chart, std::size_t i
   Box plot{cell.left, cell.top + title_height + strip_above + 6 * u, cell.right, cell.bottom - strip_below - 8 * u};
   YAxis axis = linearAxis(canvas, range.lower, range.upper, plot.height(), false);
   plot.left = Canvas::snapped(plot.left + tickLabelWidth(canvas, axis));
-  canvas.text(canvas.shortened(panel.title, plot.width(), title), {plot.middleX(), cell.top}, AlignX::Centre,
-              AlignY::Top, title);
+  canvas.text(canvas.shortened(panel.title, plot.width(), title), {plot.middleX(), cell.top}, AlignX::centre,
+              AlignY::top, title);
   drawYAxis(canvas, plot, axis);
   canvas.fill({plot.left, plot.bottom - 0.5 * u, plot.right, plot.bottom + 0.5 * u}, colours::kAxis);
   if (axis.lower < 0 && axis.upper > 0) {
@@ -197,7 +197,7 @@ void drawPanel(Canvas& canvas, Box cell, const SpreadChart& chart, std::size_t i
     if (panel.spreads[m]) {
       drawBox(canvas, column, axis, *panel.spreads[m], chart.methods[m].colour);
     } else {
-      canvas.text("none", {column.x, plot.bottom - 3 * u}, AlignX::Centre, AlignY::Bottom, noteStyle(canvas));
+      canvas.text("none", {column.x, plot.bottom - 3 * u}, AlignX::centre, AlignY::bottom, noteStyle(canvas));
     }
     if (panel.spreads[m] && m < panel.references.size() && panel.references[m] && axis.shows(*panel.references[m])) {
       const double y = axis.at(*panel.references[m]);
@@ -214,10 +214,10 @@ void paintChart(Canvas& canvas, const SpreadChart& chart) {
   takeMargin(canvas, free);
   takeHeader(canvas, free, chart.title, chart.subtitle);
   std::vector<LegendEntry> legend;
-  for (const SpreadMethod& method : chart.methods) legend.push_back({Key::Square, method.colour, method.name});
-  legend.push_back({Key::Median, colours::kFaintInk, "median"});
-  legend.push_back({Key::Diamond, colours::kFaintInk, "mean"});
-  legend.push_back({Key::Dashes, colours::kInk, chart.reference_name});
+  for (const SpreadMethod& method : chart.methods) legend.push_back({Key::square, method.colour, method.name});
+  legend.push_back({Key::median, colours::kFaintInk, "median"});
+  legend.push_back({Key::diamond, colours::kFaintInk, "mean"});
+  legend.push_back({Key::dashes, colours::kInk, chart.reference_name});
   takeLegend(canvas, free, legend);
   takeNote(canvas, free, noteOn(chart, ranges));
   const double title_left = free.left;

@@ -33,8 +33,8 @@ constexpr double kStill = 4;  // pixels that a click may move
 
 Hand::Motion Hand::release(Kind of, Spot pointer) {
   if (drag_ != of) return {};
-  drag_ = Kind::Nothing;
-  if (of == Kind::Turn && !moved_) return {Kind::Click, pointer.x, pointer.y};
+  drag_ = Kind::nothing;
+  if (of == Kind::turn && !moved_) return {Kind::click, pointer.x, pointer.y};
   return {};
 }
 
@@ -43,21 +43,21 @@ Hand::Motion Hand::take(unsigned long event, Spot pointer) {
     case vtkCommand::LeftButtonPressEvent:
     case vtkCommand::MiddleButtonPressEvent:
     case vtkCommand::RightButtonPressEvent:
-      drag_ = event == vtkCommand::LeftButtonPressEvent ? Kind::Turn : Kind::Shift;
+      drag_ = event == vtkCommand::LeftButtonPressEvent ? Kind::turn : Kind::shift;
       pressed_ = last_ = pointer;
       moved_ = false;
       return {};
     case vtkCommand::LeftButtonReleaseEvent:
-      return release(Kind::Turn, pointer);
+      return release(Kind::turn, pointer);
     case vtkCommand::MiddleButtonReleaseEvent:
     case vtkCommand::RightButtonReleaseEvent:
-      return release(Kind::Shift, pointer);
+      return release(Kind::shift, pointer);
     case vtkCommand::MouseWheelForwardEvent:
-      return {Kind::Zoom, 0, kWheelStep};
+      return {Kind::zoom, 0, kWheelStep};
     case vtkCommand::MouseWheelBackwardEvent:
-      return {Kind::Zoom, 0, 1 / kWheelStep};
+      return {Kind::zoom, 0, 1 / kWheelStep};
     case vtkCommand::MouseMoveEvent: {
-      if (drag_ == Kind::Nothing) return {};
+      if (drag_ == Kind::nothing) return {};
       moved_ = moved_ || std::hypot(pointer.x - pressed_.x, pointer.y - pressed_.y) > kStill;
       if (!moved_) return {};
       const Motion motion{drag_, pointer.x - last_.x, pointer.y - last_.y};
@@ -250,18 +250,18 @@ void ArmWindow::Implementation::handle(unsigned long event) {
 void ArmWindow::Implementation::move(Hand::Motion motion) {
   const double height = shown_.stage() != nullptr ? shown_.stage()->room.height() : window_->GetSize()[1];
   switch (motion.kind) {
-    case Hand::Kind::Nothing:
+    case Hand::Kind::nothing:
       break;
-    case Hand::Kind::Turn:  // half a turn over the height of the room
+    case Hand::Kind::turn:  // half a turn over the height of the room
       changeView([&](ViewCamera& camera) { camera.turn(M_PI * motion.x / height, M_PI * motion.y / height); });
       break;
-    case Hand::Kind::Shift:
+    case Hand::Kind::shift:
       changeView([&](ViewCamera& camera) { camera.shift(motion.x / height, -motion.y / height); });
       break;
-    case Hand::Kind::Zoom:
+    case Hand::Kind::zoom:
       changeView([&](ViewCamera& camera) { camera.zoom(motion.y); });
       break;
-    case Hand::Kind::Click:
+    case Hand::Kind::click:
       if (events_->pick) events_->pick(pointAt({motion.x, motion.y}));
       break;
   }

@@ -12,9 +12,9 @@ namespace stiffscope::render {
 /// What the mouse does to a window, out of its single events (those of vtkCommand).
 class Hand {
  public:
-  enum class Kind { Nothing, Turn, Shift, Zoom, Click };
+  enum class Kind { nothing, turn, shift, zoom, click };
   struct Motion {
-    Kind kind = Kind::Nothing;
+    Kind kind = Kind::nothing;
     double x = 0, y = 0;  ///< pixels moved, to the right and downwards; Click: where; Zoom: y is the factor
   };
   Motion take(unsigned long event, Spot pointer);
@@ -22,7 +22,7 @@ class Hand {
  private:
   Motion release(Kind of, Spot pointer);
 
-  Kind drag_ = Kind::Nothing;
+  Kind drag_ = Kind::nothing;
   Spot pressed_, last_;
   bool moved_ = false;
 };

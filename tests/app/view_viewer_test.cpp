@@ -79,7 +79,7 @@ TEST(Viewer, KeysTakeVectorsAwayAndBringThemBack) {
   EXPECT_FALSE(wrist().predicted || wrist().residual);
   viewer.press("0");
   EXPECT_TRUE(wrist().measured && wrist().predicted && wrist().residual);
-  EXPECT_EQ(hand.looked, std::vector<render::View>{render::View::Oblique});
+  EXPECT_EQ(hand.looked, std::vector<render::View>{render::View::oblique});
   viewer.press("s");
   EXPECT_EQ(viewer.scene().note, "saved posture-A-step-1.png");
   viewer.press("q");

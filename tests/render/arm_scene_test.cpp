@@ -27,7 +27,7 @@ render::ArmScene scene(render::View view) {
   return scene;
 }
 
-enum class Hue { Red, Blue, Green, Amber };
+enum class Hue { red, blue, green, amber };
 
 // Solids are shaded, so a vector is told by its hue.
 cv::Mat hueMask(const cv::Mat& picture, Hue hue) {
@@ -37,9 +37,9 @@ cv::Mat hueMask(const cv::Mat& picture, Hue hue) {
   bgr[0].convertTo(blue, CV_32S);
   bgr[1].convertTo(green, CV_32S);
   bgr[2].convertTo(red, CV_32S);
-  if (hue == Hue::Red) return (red - green > 70) & (red - blue > 70) & (green - blue < 40);
-  if (hue == Hue::Blue) return (blue - red > 50) & (blue - green > 40);
-  if (hue == Hue::Green) return (green - red > 60) & (green - blue > 20);
+  if (hue == Hue::red) return (red - green > 70) & (red - blue > 70) & (green - blue < 40);
+  if (hue == Hue::blue) return (blue - red > 50) & (blue - green > 40);
+  if (hue == Hue::green) return (green - red > 60) & (green - blue > 20);
   return (red - blue > 100) & (green - blue > 60);
 }
 
@@ -55,10 +55,10 @@ struct Case {
 
 TEST(ArmPicture, VectorsPointTheRightWayInEveryView) {
   const std::vector<Case> cases = {
-      {render::View::Side, {0.004, 0, 0}, {1, 0}},   {render::View::Side, {0, 0, -0.004}, {0, 1}},
-      {render::View::Side, {-0.004, 0, 0}, {-1, 0}}, {render::View::Front, {0, 0.004, 0}, {1, 0}},
-      {render::View::Front, {0, 0, 0.004}, {0, -1}}, {render::View::Top, {0.004, 0, 0}, {1, 0}},
-      {render::View::Top, {0, 0.004, 0}, {0, -1}},   {render::View::Oblique, {0, 0, -0.004}, {0, 1}},
+      {render::View::side, {0.004, 0, 0}, {1, 0}},   {render::View::side, {0, 0, -0.004}, {0, 1}},
+      {render::View::side, {-0.004, 0, 0}, {-1, 0}}, {render::View::front, {0, 0.004, 0}, {1, 0}},
+      {render::View::front, {0, 0, 0.004}, {0, -1}}, {render::View::top, {0.004, 0, 0}, {1, 0}},
+      {render::View::top, {0, 0.004, 0}, {0, -1}},   {render::View::oblique, {0, 0, -0.004}, {0, 1}},
   };
   for (const Case& c : cases) {
     SCOPED_TRACE(testing::Message() << static_cast<int>(c.view) << ": " << c.vector.transpose());
@@ -66,8 +66,8 @@ TEST(ArmPicture, VectorsPointTheRightWayInEveryView) {
       render::ArmScene drawn = scene(c.view);
       (measured ? drawn.poses[0].wrist->measured : drawn.poses[0].wrist->predicted) = c.vector;
       const cv::Mat picture = decoded(render::render(drawn));
-      const cv::Point from = middle(extentOfHue(picture, Hue::Amber));
-      const cv::Rect arrow = extentOfHue(picture, measured ? Hue::Red : Hue::Blue);
+      const cv::Point from = middle(extentOfHue(picture, Hue::amber));
+      const cv::Rect arrow = extentOfHue(picture, measured ? Hue::red : Hue::blue);
       ASSERT_GT(arrow.area(), 100);
       const cv::Point way = middle(arrow) - from;
       const cv::Point across(-c.towards.y, c.towards.x);
@@ -81,11 +81,11 @@ TEST(ArmPicture, VectorsPointTheRightWayInEveryView) {
 TEST(ArmPicture, LengthIsMagnificationTimesVector) {
   // The magnification does not move the picture here: arrows stay inside of what the arm covers anyway.
   const auto lengthOf = [](double metres, double magnification) {
-    render::ArmScene drawn = scene(render::View::Side);
+    render::ArmScene drawn = scene(render::View::side);
     drawn.magnification = magnification;
     drawn.poses[0].wrist->measured = Vector3d(0, 0, -metres);
     const cv::Mat picture = decoded(render::render(drawn));
-    return extentOfHue(picture, Hue::Red).br().y - middle(extentOfHue(picture, Hue::Amber)).y;
+    return extentOfHue(picture, Hue::red).br().y - middle(extentOfHue(picture, Hue::amber)).y;
   };
   const int once = lengthOf(0.004, 100);
   EXPECT_GT(once, 50);
@@ -94,10 +94,10 @@ TEST(ArmPicture, LengthIsMagnificationTimesVector) {
 }
 
 TEST(ArmPicture, ReferenceArrowIsToTheSameScale) {
-  render::ArmScene drawn = scene(render::View::Side);
+  render::ArmScene drawn = scene(render::View::side);
   drawn.poses[0].wrist->measured = Vector3d(0, 0, -0.005);
   const cv::Mat picture = decoded(render::render(drawn));
-  const double five_mm = extentOfHue(picture, Hue::Red).br().y - middle(extentOfHue(picture, Hue::Amber)).y;
+  const double five_mm = extentOfHue(picture, Hue::red).br().y - middle(extentOfHue(picture, Hue::amber)).y;
   // The arrow stands lowest at the left; its text begins ten pixels right of its tip.
   const cv::Rect strip(0, picture.rows - 40, picture.cols, 40);
   const auto pieces = piecesOf(maskOf(picture(strip), render::colours::kInk), 100);
@@ -111,7 +111,7 @@ TEST(ArmPicture, ReferenceArrowIsToTheSameScale) {
 
 TEST(ArmPicture, ResidualVectorsHaveTheirOwnFactorAndReferenceArrow) {
   const auto drawnWith = [](double factor) {
-    render::ArmScene drawn = scene(render::View::Side);
+    render::ArmScene drawn = scene(render::View::side);
     drawn.poses[0].wrist->residual = Vector3d(0, 0, -0.001);
     drawn.poses[0].wrist->measured = Vector3d(0.004, 0, 0);
     drawn.residual_factor = factor;
@@ -120,21 +120,21 @@ TEST(ArmPicture, ResidualVectorsHaveTheirOwnFactorAndReferenceArrow) {
   // Above the strip of the scale.
   const auto lengthIn = [](const cv::Mat& picture) {
     const cv::Mat above = picture.rowRange(0, picture.rows - 60);
-    return extentOfHue(above, Hue::Green).br().y - middle(extentOfHue(above, Hue::Amber)).y;
+    return extentOfHue(above, Hue::green).br().y - middle(extentOfHue(above, Hue::amber)).y;
   };
   const cv::Mat once = drawnWith(2), twice = drawnWith(4);
   EXPECT_GT(lengthIn(once), 20);
   EXPECT_NEAR(lengthIn(twice), 2 * lengthIn(once), 3);  // pixels: edges of both
   // The reference arrow of the residual stands in the strip, in its colour, where the factor is not 1.
   const auto inStrip = [](const cv::Mat& picture) {
-    return cv::countNonZero(hueMask(picture.rowRange(picture.rows - 40, picture.rows), Hue::Green));
+    return cv::countNonZero(hueMask(picture.rowRange(picture.rows - 40, picture.rows), Hue::green));
   };
   EXPECT_GT(inStrip(once), 100);
   EXPECT_EQ(inStrip(drawnWith(1)), 0);
 }
 
 TEST(ArmPicture, ResidualFactorIsTheLargestThatStaysBelowTheOthers) {
-  render::ArmScene drawn = scene(render::View::Side);
+  render::ArmScene drawn = scene(render::View::side);
   render::ScenePoint& wrist = *drawn.poses[0].wrist;
   wrist.measured = Vector3d(0, 0, -0.002);
   wrist.residual = Vector3d(0.0003, 0, 0);  // 6.7 times: 5
@@ -148,11 +148,11 @@ TEST(ArmPicture, ResidualFactorIsTheLargestThatStaysBelowTheOthers) {
 }
 
 TEST(ArmPicture, FramingFixesScaleAndMiddle) {
-  render::ArmScene drawn = scene(render::View::Side);
+  render::ArmScene drawn = scene(render::View::side);
   const Vector3d wrist = drawn.poses[0].wrist->position;
   const auto amberAt = [&](const Vector3d& centre, double metres_high) {
     drawn.framing = render::SceneFraming{centre, metres_high};
-    return middle(extentOfHue(decoded(render::render(drawn)), Hue::Amber));
+    return middle(extentOfHue(decoded(render::render(drawn)), Hue::amber));
   };
   const cv::Point centred = amberAt(wrist, 3);
   const cv::Point aside = amberAt(wrist + Vector3d(0.5, 0, 0), 3);
@@ -164,7 +164,7 @@ TEST(ArmPicture, FramingFixesScaleAndMiddle) {
 }
 
 TEST(ArmPicture, WhatIsZoomedInStaysInItsRoom) {
-  render::ArmScene drawn = scene(render::View::Side);
+  render::ArmScene drawn = scene(render::View::side);
   drawn.title = "Deflection";
   drawn.panels = {{"Keys", {{{"q", "quit"}, std::nullopt}}, false}};
   drawn.framing = render::SceneFraming{{0.4, 0, 1.4}, 0.3};  // nothing but the upper arm
@@ -175,19 +175,19 @@ TEST(ArmPicture, WhatIsZoomedInStaysInItsRoom) {
 }
 
 TEST(ArmPicture, TracesAndPanelsAndDarkPaper) {
-  render::ArmScene drawn = scene(render::View::Side);
+  render::ArmScene drawn = scene(render::View::side);
   drawn.traces = {{"P_{10}", {{1, 0, 1}, {1.2, 0, 1.1}, {1.4, 0, 1.3}}, false}};
   drawn.dark = true;
   drawn.panels = {{"P_{10}", {{{"measured", "1.000"}, render::colours::kPredicted}}, true}};
   const cv::Mat picture = decoded(render::render(drawn));
-  EXPECT_EQ(piecesOf(hueMask(picture, Hue::Red), 15).size(), 3u);
+  EXPECT_EQ(piecesOf(hueMask(picture, Hue::red), 15).size(), 3u);
   EXPECT_EQ(piecesOf(maskOf(picture, render::colours::kPredicted), 50).size(), 1u);
   const render::Colour paper = render::kDarkPalette.paper;
   EXPECT_EQ(picture.at<cv::Vec3b>(2, 2), cv::Vec3b(paper.blue, paper.green, paper.red));
 }
 
 TEST(ArmPicture, TargetsAreLabelled) {
-  render::ArmScene drawn = scene(render::View::Side);
+  render::ArmScene drawn = scene(render::View::side);
   drawn.poses[0].targets = {{"P_{10}", {2.4, 0, 2.5}, {}, {}}};
   const cv::Mat with = decoded(render::render(drawn));
   drawn.poses[0].targets[0].label.clear();
@@ -208,7 +208,7 @@ TEST(ArmPicture, TargetsAreLabelled) {
 }
 
 TEST(ArmPicture, GhostsAndTargetsAreNotClipped) {
-  for (const render::View view : {render::View::Oblique, render::View::Front, render::View::Side, render::View::Top}) {
+  for (const render::View view : {render::View::oblique, render::View::front, render::View::side, render::View::top}) {
     render::ArmScene drawn = scene(view);
     drawn.title = "Deflection";
     drawn.poses[0].targets = {{"P_{10}", {2.4, 0.2, 2.3}, Vector3d(0.001, 0, -0.003), Vector3d(0.001, 0, -0.002)}};
@@ -222,7 +222,7 @@ TEST(ArmPicture, GhostsAndTargetsAreNotClipped) {
 }
 
 TEST(ArmPicture, MagnificationMakesTheLongestAFifth) {
-  render::ArmScene drawn = scene(render::View::Side);
+  render::ArmScene drawn = scene(render::View::side);
   // The box of all points is 2.3 m long; a fifth of it is 0.46 m = 230 x 2 mm; 1-2-5 below: 200.
   drawn.poses[0].wrist->measured = Vector3d(0, 0, -0.002);
   drawn.poses[0].wrist->predicted = Vector3d(0, 0, 0.001);
@@ -232,7 +232,7 @@ TEST(ArmPicture, MagnificationMakesTheLongestAFifth) {
 }
 
 TEST(ArmPicture, RefusesWhatCannotBeDrawn) {
-  render::ArmScene drawn = scene(render::View::Side);
+  render::ArmScene drawn = scene(render::View::side);
   drawn.poses[0].axis_directions.pop_back();
   try {
     render::render(drawn);
@@ -240,16 +240,16 @@ TEST(ArmPicture, RefusesWhatCannotBeDrawn) {
   } catch (const std::invalid_argument& error) {
     EXPECT_NE(std::string(error.what()).find("7 joint points and 5 axes"), std::string::npos) << error.what();
   }
-  drawn = scene(render::View::Side);
+  drawn = scene(render::View::side);
   drawn.poses[0].wrist->measured = Vector3d(0, 0, std::numeric_limits<double>::quiet_NaN());
   EXPECT_THROW(render::render(drawn), std::invalid_argument);
-  drawn = scene(render::View::Side);
+  drawn = scene(render::View::side);
   drawn.magnification = 0;
   EXPECT_THROW(render::render(drawn), std::invalid_argument);
-  drawn = scene(render::View::Side);
+  drawn = scene(render::View::side);
   drawn.residual_factor = -1;
   EXPECT_THROW(render::render(drawn), std::invalid_argument);
-  drawn = scene(render::View::Side);
+  drawn = scene(render::View::side);
   drawn.framing = render::SceneFraming{{0, 0, 0}, 0};
   EXPECT_THROW(render::render(drawn), std::invalid_argument);
   EXPECT_THROW(render::render(render::ArmScene{}), std::invalid_argument);

@@ -12,7 +12,7 @@ render::SpreadChart panels(std::vector<std::optional<render::Spread>> spreads) {
   render::SpreadChart chart;
   chart.methods = {{"", render::colours::kPp}};
   for (auto& spread : spreads) chart.panels.push_back({"k", {spread}, {}, {}, {}});
-  chart.axis = render::SpreadAxis::Shared;
+  chart.axis = render::SpreadAxis::shared;
   return chart;
 }
 
@@ -73,7 +73,7 @@ TEST(Spreads, ManyPanelsAndConstantValuesAreNotClipped) {
   for (const std::size_t count : {1, 6, 12, 20}) {
     render::SpreadChart chart =
         panels(std::vector<std::optional<render::Spread>>(count, render::Spread{2, 2, 2, 2, 2, 2}));
-    chart.axis = render::SpreadAxis::OwnPerPanel;
+    chart.axis = render::SpreadAxis::own_per_panel;
     expectNothingClipped(decoded(render::render(chart)));
   }
 }

@@ -17,16 +17,16 @@ render::ArmScene seenBy(const render::ViewCamera& camera) {
 
 TEST(ViewCamera, FitsUntilTheHandTakesIt) {
   render::ViewCamera camera;
-  camera.look(render::View::Front);
+  camera.look(render::View::front);
   camera.framedAs({{1, 2, 3}, 4});
   EXPECT_FALSE(seenBy(camera).framing);
   EXPECT_FALSE(seenBy(camera).view_direction);
-  EXPECT_EQ(seenBy(camera).view, render::View::Front);
+  EXPECT_EQ(seenBy(camera).view, render::View::front);
   camera.zoom(2);
   ASSERT_TRUE(seenBy(camera).framing);
   EXPECT_DOUBLE_EQ(seenBy(camera).framing->metres_high, 2);
   EXPECT_EQ(seenBy(camera).framing->centre, Eigen::Vector3d(1, 2, 3));
-  camera.look(render::View::Side);
+  camera.look(render::View::side);
   EXPECT_FALSE(seenBy(camera).framing);
 }
 
@@ -34,7 +34,7 @@ TEST(ViewCamera, FitsUntilTheHandTakesIt) {
 // other way.
 TEST(ViewCamera, ShiftingMovesTheCentreAgainstTheHand) {
   render::ViewCamera camera;
-  camera.look(render::View::Front);
+  camera.look(render::View::front);
   camera.framedAs({{0, 0, 0}, 4});
   camera.shift(0.25, -0.5);
   EXPECT_LT((seenBy(camera).framing->centre - Eigen::Vector3d(0, -1, 2)).norm(), kRounding);
@@ -44,7 +44,7 @@ TEST(ViewCamera, ShiftingMovesTheCentreAgainstTheHand) {
 // side, along the turned y axis.
 TEST(ViewCamera, TurnsTheSceneWithTheHand) {
   render::ViewCamera camera;
-  camera.look(render::View::Front);  // against x
+  camera.look(render::View::front);  // against x
   camera.turn(M_PI / 2, 0);
   // The axis that pointed at the viewer, x, now points to the right: right = direction x z.
   const Eigen::Vector3d direction = *seenBy(camera).view_direction;
@@ -53,7 +53,7 @@ TEST(ViewCamera, TurnsTheSceneWithTheHand) {
 
 TEST(ViewCamera, TippingEndsShortOfTheVertical) {
   render::ViewCamera camera;
-  camera.look(render::View::Top);
+  camera.look(render::View::top);
   for (int i = 0; i < 20; ++i) camera.turn(0.1, 0.5);
   const Eigen::Vector3d from_above = *seenBy(camera).view_direction;
   EXPECT_LT(from_above.z(), -0.99);
@@ -66,7 +66,7 @@ TEST(ViewCamera, TippingEndsShortOfTheVertical) {
 // Straight down has y up; tipping back from there looks along y.
 TEST(ViewCamera, FromTheTopTheHeadingIsThatOfY) {
   render::ViewCamera camera;
-  camera.look(render::View::Top);
+  camera.look(render::View::top);
   camera.turn(0, -M_PI / 2);
   EXPECT_GT(seenBy(camera).view_direction->y(), 0.99);
 }
