@@ -131,12 +131,19 @@ std::optional<double> heldOut(const identification::MethodResult& method, bool a
 }
 
 std::optional<identification::Method> shownMethod(const identification::Identification& identification) {
-  for (const identification::Method method :
-       {identification::Method::decoupled_partial_pose, identification::Method::partial_pose,
-        identification::Method::complete_pose}) {
-    if (identification.of(method).available) return method;
+  return identification::bestMethodOf(identification, identification::kMethods);
+}
+
+std::string shownFirstWords(const identification::Identification& result, const identification::ShownFirst& first) {
+  std::string text = fmt::format("Shown first: {}.", words(first.reason));
+  std::vector<std::string> shares;
+  for (const bool at_wrist : {false, true}) {
+    if (const auto share = heldOut(result.of(first.method), at_wrist))
+      shares.push_back(fmt::format("{:.2f} % at {}", 100.0 * *share, at_wrist ? "P_wrist" : "the reflectors"));
   }
-  return std::nullopt;
+  if (shares.empty()) return text;
+  return text + fmt::format(" On postures held out {} compensates {}.", namesOf(first.method).brief,
+                            fmt::join(shares, ", "));
 }
 
 std::string capitalised(std::string text) {
