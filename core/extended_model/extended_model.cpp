@@ -320,7 +320,7 @@ class MethodJudge {
   void fill(const MachineDisplacement& machine, identification::LengthSensitivity& out) const {
     const std::vector<double> all(equations_.reflectors.size(), 1.0);
     out.compliance = solvedCompliance(equations_, which_, own_.estimate.identifiable, all, noSteps());
-    judge(machine, out.compliance, out);
+    out.subsets = judge(machine, out.compliance, out).compliances.size();
   }
 
  private:
@@ -416,8 +416,7 @@ void judgeLengths(const identification::IdentifyOptions& options, const std::vec
   for (identification::LengthSensitivity& one : with.length_sensitivity) lengths.push_back(&one);
   if (with.residual_length) lengths.push_back(&*with.residual_length);
   for (identification::LengthSensitivity* one : lengths) {
-    const MethodEquations equations =
-        methodEquations(with, identification::Method::complete_pose, cases, one->length);
+    const MethodEquations equations = methodEquations(with, identification::Method::complete_pose, cases, one->length);
     if (equations.reflectors.empty()) return;
     MethodJudge(few, model, identification::Method::complete_pose, equations).fill(machine, *one);
   }

@@ -60,8 +60,9 @@ struct LengthSensitivity {
   double length = 0.0;     ///< m
   double condition = 0.0;  ///< of the stacked normalised Jacobian
   Vector6d compliance = Vector6d::Zero();
-  std::optional<Compensation> at_wrist;    ///< over fewer subsets than a method's; empty where P_wrist is not measured
-  std::optional<Compensation> at_targets;  ///< the same at the reflectors
+  std::size_t subsets = 0;                 ///< over which it is judged: fewer than a method is
+  std::optional<Compensation> at_wrist;    ///< empty where P_wrist is not measured
+  std::optional<Compensation> at_targets;  ///< the reflectors
 };
 
 /// The method whose numbers people read first.

@@ -52,6 +52,7 @@ class LengthStudy {
     subset_.normal.clear();
     for (const PoseNormal& one : postures_) subset_.normal.push_back(one.at(at.length));
     const SubsetStudy study = studySubsets(subset_, options_);
+    at.subsets = study.compliances.size();
     const auto judged = [&](const DeflectionJudge& judge, const SubsetJudgement& own) {
       return Compensation{judge.compensated(at.compliance), own.compensated, meanOverSubsets(own.held_out).sd};
     };
@@ -108,8 +109,8 @@ SubsetOptions subsetsOfALength(const SubsetOptions& asked, std::size_t postures,
 void studyLengths(const std::vector<LoadCase>& cases, const IdentifyOptions& options, Identification& result) {
   const MethodResult& method = result.of(Method::complete_pose);
   result.length_sensitivity = shownLengths(result.characteristic_length);
-  const std::optional<double> residual = residualVarianceLength(method.pose_rows, method.estimate.identifiable,
-                                                                result.characteristic_length.length);
+  const std::optional<double> residual =
+      residualVarianceLength(method.pose_rows, method.estimate.identifiable, result.characteristic_length.length);
   const std::size_t lengths = result.length_sensitivity.size() + 1;
   LengthStudy study(method, subsetsOfALength(options.subsets, method.pose_rows.size(), lengths));
   for (LengthSensitivity& one : result.length_sensitivity) study.solve(one);

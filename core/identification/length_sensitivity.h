@@ -7,8 +7,8 @@ namespace stiffscope::identification {
 /// The L of the residual variances, m: feasible generalised least squares of Complete Pose. Displacements weigh by the
 /// inverse variance of what they leave, rotations by theirs, so that L = s_d / s_r, s^2 the mean square of a block's
 /// residuals at the compliances of that L; iterated from `start` to a fixed point. Both blocks have three rows a pose,
-/// so the unknowns' degrees of freedom leave the ratio as it is. Empty where it does not settle between the shortest and
-/// the longest length, or a block leaves nothing.
+/// so the unknowns' degrees of freedom leave the ratio as it is. Empty where it does not settle between the shortest
+/// and the longest length, or a block leaves nothing.
 std::optional<double> residualVarianceLength(const std::vector<CaseEquations>& pose_rows,
                                              const robot::JointMask& unknown, double start);
 

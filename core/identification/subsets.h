@@ -108,9 +108,9 @@ SubsetStudy studySubsets(const SubsetMethod& method, const SubsetOptions& option
 /// method.
 Vector6d solveSubset(const SubsetMethod& method, const NormalEquations& normal, const NormalEquations& reflectors);
 
-/// A mean over subsets with the standard deviation of single subsets about it; NaN of fewer than two subsets. Of subsets
-/// of half the postures the deviation is near the standard uncertainty of the mean by the choice of postures (delete-d
-/// jackknife, Shao and Wu 1989).
+/// A mean over subsets with the standard deviation of single subsets about it; NaN of fewer than two subsets. Of
+/// subsets of half the postures the deviation is near the standard uncertainty of the mean by the choice of postures
+/// (delete-d jackknife, Shao and Wu 1989).
 struct MeanOverSubsets {
   double mean = std::numeric_limits<double>::quiet_NaN(), sd = std::numeric_limits<double>::quiet_NaN();
 };

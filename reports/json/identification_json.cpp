@@ -155,7 +155,8 @@ Json byJoint(const identification::StiffnessEstimate& estimate, const auto& entr
   return list;
 }
 
-/// `used`, `held_out` and `all` are means over the subsets, `sd_held_out` the standard deviation over them; `all_postures` is identified and judged on all postures.
+/// `used`, `held_out` and `all` are means over the subsets, `sd_held_out` the standard deviation over them;
+/// `all_postures` is identified and judged on all postures.
 Json compensationJson(const std::optional<identification::Compensation>& compensation, bool subsets) {
   if (!compensation) return nullptr;
   const identification::SubsetCompensation& mean = compensation->subsets;
@@ -278,12 +279,12 @@ Json lengthJson(const identification::LengthSensitivity& at) {
   Json stiffness = Json::array();
   for (int j = 0; j < 6; ++j)
     stiffness.push_back(at.compliance[j] == 0.0 ? Json(nullptr) : number(1.0 / at.compliance[j]));
-  const bool subsets = at.at_targets && std::isfinite(at.at_targets->held_out_sd);
   return {{"length_m", at.length},
           {"jacobian_condition", at.condition},
           {"stiffness_nm_per_rad", stiffness},
-          {"compensated", compensationJson(at.at_wrist, subsets)},
-          {"compensated_at_targets", compensationJson(at.at_targets, subsets)}};
+          {"subsets", at.subsets},
+          {"compensated", compensationJson(at.at_wrist, at.subsets > 0)},
+          {"compensated_at_targets", compensationJson(at.at_targets, at.subsets > 0)}};
 }
 
 Json outlyingJson(const campaign::Campaign& campaign, const identification::Identification& result) {
@@ -331,11 +332,11 @@ JsonDocument identificationJson(const campaign::Campaign& campaign, const identi
   if (!result.length_sensitivity.empty()) {
     Json curve = Json::array();
     for (const identification::LengthSensitivity& at : result.length_sensitivity) curve.push_back(lengthJson(at));
-    json["characteristic_length"] = {{"length_m", result.characteristic_length.length},
-                                     {"jacobian_condition", result.characteristic_length.condition},
-                                     {"sensitivity", curve},
-                                     {"by_residual_variances",
-                                      result.residual_length ? lengthJson(*result.residual_length) : Json(nullptr)}};
+    json["characteristic_length"] = {
+        {"length_m", result.characteristic_length.length},
+        {"jacobian_condition", result.characteristic_length.condition},
+        {"sensitivity", curve},
+        {"by_residual_variances", result.residual_length ? lengthJson(*result.residual_length) : Json(nullptr)}};
   }
   const auto posture = [&campaign, &result, methods](std::size_t i) {
     return postureJson(campaign, result, methods, i);

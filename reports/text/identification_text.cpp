@@ -32,6 +32,11 @@ std::string bounds(const identification::CoverageInterval& interval) {
   return "unbounded";
 }
 
+/// U, or "?" where it is open.
+std::string expandedCell(double expanded, int decimals) {
+  return std::isfinite(expanded) ? fmt::format("{:.{}f}", expanded, decimals) : "?";
+}
+
 template <class Write>
 void forEachSeen(const identification::Identification& result, const std::vector<identification::Method>& methods,
                  const Write& write) {
@@ -97,15 +102,17 @@ std::string stepsText(const identification::StepStudy& study, const identificati
       }
       fmt::format_to(out, "\n");
     };
-    fmt::format_to(out, "\n{} by load step, 1e6 Nm/rad +- standard uncertainty\n", namesOf(which).full);
+    fmt::format_to(out, "\n{} by load step, 1e6 Nm/rad +- U\n", namesOf(which).full);
     for (const identification::StepEstimate& one : own.steps) {
       row(fmt::format("{} ({:.0f} N)", one.step, one.mean_force), [&](int j) {
-        return fmt::format("{:.4f} +-{:.4f}", one.estimate.stiffness(j) / kMega, one.estimate.stiffnessSd(j) / kMega);
+        return fmt::format("{:.4f} +-{}", one.estimate.stiffness(j) / kMega,
+                           expandedCell(identification::expandedUncertainty(one.estimate, j) / kMega, 4));
       });
     }
     row("change of 1/k", [&](int j) {
       const identification::LoadDependence& joint = own.joints[static_cast<std::size_t>(j)];
-      return fmt::format("{:+.2f} +-{:.2f} %", 100.0 * joint.change, 100.0 * joint.change_sd);
+      const double factor = identification::studentFactor(joint.dof, identification::kStatedCoverage);
+      return fmt::format("{:+.2f} +-{} %", 100.0 * joint.change, expandedCell(100.0 * factor * joint.change_sd, 2));
     });
     row("p, linear", [&](int j) { return fmt::format("{:.3g}", own.joints[static_cast<std::size_t>(j)].p_linear); });
   }
@@ -148,8 +155,7 @@ std::string markedStiffnessCell(const identification::StiffnessEstimate& estimat
   const char* mark =
       estimate.mark(joint).empty() ? "" : (estimate.mark(joint).is(identification::RemarkId::negative) ? "!" : "?");
   const double expanded = identification::expandedUncertainty(estimate, joint) * 1e-6;
-  return fmt::format("{:.4f} +-{}{}", estimate.stiffness(joint) * 1e-6,
-                     std::isfinite(expanded) ? fmt::format("{:.4f}", expanded) : "?", mark);
+  return fmt::format("{:.4f} +-{}{}", estimate.stiffness(joint) * 1e-6, expandedCell(expanded, 4), mark);
 }
 
 void writeStiffness(const identification::Identification& result, const std::vector<identification::Method>& methods,
@@ -207,10 +213,9 @@ constexpr const char* kShareColumns = "    used  held out (sd)     all  all iden
 std::string shareCells(const std::optional<identification::Compensation>& share, bool subsets) {
   const auto cell = [&](double value, bool known) { return known ? fmt::format("{:.2f}", 100.0 * value) : "-"; };
   if (!share) return fmt::format("{:>8}{:>15}{:>8}{:>14}", "-", "-", "-", "-");
-  const std::string held_out =
-      subsets ? fmt::format("{:.2f} ({})", 100.0 * share->subsets.held_out,
-                            cell(share->held_out_sd, std::isfinite(share->held_out_sd)))
-              : "-";
+  const std::string held_out = subsets ? fmt::format("{:.2f} ({})", 100.0 * share->subsets.held_out,
+                                                     cell(share->held_out_sd, std::isfinite(share->held_out_sd)))
+                                       : "-";
   return fmt::format("{:>8}{:>15}{:>8}{:>14.2f}", cell(share->subsets.used, subsets), held_out,
                      cell(share->subsets.all, subsets), 100.0 * share->all_postures);
 }
@@ -237,6 +242,8 @@ void writeLengths(const identification::Identification& result, Out out) {
       "  least condition number: CP above");
   if (const auto& one = result.residual_length)
     row(one->length, one->condition, one->at_wrist, one->at_targets, "  of the residual variances");
+  fmt::format_to(out, "  over {} subsets at each length, over all at that of the least condition number\n",
+                 result.length_sensitivity.front().subsets);
 }
 
 void writeCompensation(const identification::Identification& result, const std::vector<identification::Method>& methods,
@@ -257,7 +264,8 @@ void writeCompensation(const identification::Identification& result, const std::
   for (const identification::Method which : methods) {
     const identification::SubsetStudy& study = result.of(which).subsets;
     if (study.compliances.empty()) continue;
-    fmt::format_to(out, "  means over {} of the {} out of {} postures that identify; sd: standard deviation over them\n",
+    fmt::format_to(out,
+                   "  means over {} of the {} out of {} postures that identify; sd: standard deviation over them\n",
                    study.every_subset ? fmt::format("all {} subsets", study.compliances.size())
                                       : fmt::format("{} random subsets", study.compliances.size()),
                    study.size, study.of);

@@ -83,8 +83,8 @@ std::string sharesWords(const std::vector<std::int64_t>& methods, const std::vec
 }
 
 std::string judgedAt(std::int64_t judged) {
-  const bool at_wrist = static_cast<identification::ShownFirst::Judged>(judged) ==
-                        identification::ShownFirst::Judged::at_wrist;
+  const bool at_wrist =
+      static_cast<identification::ShownFirst::Judged>(judged) == identification::ShownFirst::Judged::at_wrist;
   return at_wrist ? "P_wrist" : "the reflectors";
 }
 

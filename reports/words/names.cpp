@@ -1,6 +1,7 @@
 #include "reports/words/names.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <algorithm>
 #include <array>
 #include <cctype>
@@ -135,15 +136,16 @@ std::optional<identification::Method> shownMethod(const identification::Identifi
 }
 
 std::string shownFirstWords(const identification::Identification& result, const identification::ShownFirst& first) {
-  std::string text = fmt::format("Shown first: {}.", words(first.reason));
+  using Judged = identification::ShownFirst::Judged;
   std::vector<std::string> shares;
   for (const bool at_wrist : {false, true}) {
+    if (first.judged == (at_wrist ? Judged::at_wrist : Judged::at_reflectors)) continue;  // the reason says it
     if (const auto share = heldOut(result.of(first.method), at_wrist))
       shares.push_back(fmt::format("{:.2f} % at {}", 100.0 * *share, at_wrist ? "P_wrist" : "the reflectors"));
   }
-  if (shares.empty()) return text;
-  return text + fmt::format(" On postures held out {} compensates {}.", namesOf(first.method).brief,
-                            fmt::join(shares, ", "));
+  std::string text = fmt::format("Shown first: {}.", words(first.reason));
+  if (!shares.empty()) text += fmt::format(" Held out, it compensates {}.", fmt::join(shares, " and "));
+  return text;
 }
 
 std::string capitalised(std::string text) {

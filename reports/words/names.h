@@ -68,7 +68,7 @@ std::optional<double> heldOut(const identification::MethodResult& method, bool a
 /// The method to show first (core/identification/shown_first.h); empty where none is available.
 std::optional<identification::Method> shownMethod(const identification::Identification& identification);
 
-/// "Shown first: PP, which ..., 90.45 % at the reflectors, 83.75 % at P_wrist."; a plain text.
+/// "Shown first: PP, which .... Held out, it compensates 83.75 % at P_wrist."; a plain text.
 std::string shownFirstWords(const identification::Identification& result, const identification::ShownFirst& first);
 
 std::string capitalised(std::string text);  ///< its first letter, where that is of the alphabet
