@@ -71,8 +71,8 @@ TEST(ResidualVarianceLength, IsAFixedPointByAnotherSolver) {
 }
 
 TEST(ResidualVarianceLength, NoneWhereABlockLeavesNothingOrTheRatioIsBeyondTheTable) {
-  EXPECT_FALSE(identification::residualVarianceLength(noisyPoses(20, 1e-3, 1e-6), kAllJoints, 1.0));   // 1 km
-  EXPECT_FALSE(identification::residualVarianceLength(noisyPoses(20, 1e-7, 1e-4), kAllJoints, 1.0));   // 1 mm
+  EXPECT_FALSE(identification::residualVarianceLength(noisyPoses(20, 1e-3, 1e-6), kAllJoints, 1.0));  // 1 km
+  EXPECT_FALSE(identification::residualVarianceLength(noisyPoses(20, 1e-7, 1e-4), kAllJoints, 1.0));  // 1 mm
   EXPECT_FALSE(identification::residualVarianceLength({}, kAllJoints, 1.0));
 }
 

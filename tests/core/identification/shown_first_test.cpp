@@ -110,7 +110,8 @@ TEST(ShownFirst, AsAskedAndAsInThePaper) {
   const std::vector<Method> asked{Method::decoupled_partial_pose};
   EXPECT_EQ(identification::bestMethodOf(result, asked), Method::decoupled_partial_pose);
   EXPECT_TRUE(identification::shownFirstOf(result, asked)->reason.is(RemarkId::shown_as_asked));
-  EXPECT_TRUE(identification::shownFirstOf(result, identification::kMethods)->reason.is(RemarkId::shown_compensates_most));
+  EXPECT_TRUE(
+      identification::shownFirstOf(result, identification::kMethods)->reason.is(RemarkId::shown_compensates_most));
   const auto papers = identification::methodShownFirst(result, true);
   EXPECT_EQ(papers->method, Method::decoupled_partial_pose);
   EXPECT_TRUE(papers->reason.is(RemarkId::shown_as_in_the_paper));
