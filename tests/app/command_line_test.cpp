@@ -97,7 +97,8 @@ TEST(CommandLine, JsonHasWhatTheContractPromises) {
     EXPECT_EQ(result["identifiable"], nlohmann::json({false, true, true, true, true, true}));
     for (const char* key : {"condition", "rms_residual_mm", "sigma_mm"}) EXPECT_TRUE(result[key].is_number()) << key;
     for (const char* place : {"compensated", "compensated_at_targets"}) {
-      for (const char* key : {"used", "held_out", "sd_held_out", "all"}) EXPECT_TRUE(result[place][key].is_number()) << place << key;
+      for (const char* key : {"used", "held_out", "sd_held_out", "all"})
+        EXPECT_TRUE(result[place][key].is_number()) << place << key;
     }
   }
   const auto frames = nlohmann::json::parse(runProgram("frames '" + kActive + "' --json -", scratch.path()).out);
