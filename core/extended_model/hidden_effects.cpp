@@ -23,6 +23,7 @@ using identification::StiffnessEstimate;
 struct HiddenParameters {
   EffectColumns columns;
   std::vector<effects::Effect> effect;  ///< of each parameter
+  std::vector<HiddenParameter> named;   ///< the same with its name and fitted size
   Eigen::MatrixXd off;                  ///< theta - theta_fit, a draw each column
 };
 
@@ -68,6 +69,9 @@ HiddenParameters hiddenParameters(const diagnosis::GapStudy& study, const Effect
         if (projection.before[at] > 0.0) {
           hidden.columns.parameters.push_back(at);
           hidden.effect.push_back(model.effect);
+          const auto k = static_cast<std::size_t>(&most - part.most.data());
+          hidden.named.push_back(
+              {model.effect, effects::parameterName(part, k), effects::parameterUnit(part, k), own[of_own]});
           evidence.group.push_back(g);
           evidence.positive.push_back(part.positive);
           bound.push_back(most);
@@ -248,6 +252,15 @@ class MethodWeigher {
   bool unexplained_;
 };
 
+std::vector<SeenCombination> combinationsOf(const HiddenParameters& hidden,
+                                            const Eigen::Matrix<double, 6, Eigen::Dynamic>& gain,
+                                            const StiffnessEstimate& estimate) {
+  const Eigen::MatrixXd moved = gain * hidden.off;
+  const std::vector<Eigen::Index> kept = possibleDraws(estimate, moved);
+  const Matrix6d by_others = estimate.parts.total() - estimate.parts.effects;
+  return seenCombinations(hidden.named, moved(Eigen::all, kept), hidden.off(Eigen::all, kept), by_others, estimate);
+}
+
 }  // namespace
 
 HiddenEffects weighHiddenEffects(const diagnosis::GapStudy& study, const EffectFit& fitted,
@@ -275,6 +288,7 @@ HiddenEffects weighHiddenEffects(const diagnosis::GapStudy& study, const EffectF
     const auto gain = gains(cases, seen, which, hidden.off.rows());
     if (gain.cols() == 0) continue;
     result.budget[at] = weigher.weigh(gain, without.of(which).estimate, in_model, with.methods[at].estimate);
+    if (!result.unexplained) result.combinations[at] = combinationsOf(hidden, gain, with.methods[at].estimate);
   }
   return result;
 }

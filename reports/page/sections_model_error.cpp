@@ -382,6 +382,11 @@ void writeHidden(Html& html, const extended_model::ExtendedModel& model) {
       "As fitted: of an effect's size in the model. Could hide: of all sizes that the data leave possible. Effects in "
       "common: negative where effects are known better together than one by one.",
       "faint");
+  const identification::Method which = identification::bestMethod(model.with);
+  std::vector<std::string> combinations;
+  for (const extended_model::SeenCombination& one : model.hidden->combinations[static_cast<std::size_t>(which)])
+    combinations.push_back(reports::asIs(reports::withMicro(reports::combinationWords(one))));
+  html.list(combinations);
 }
 
 void writeModel(Html& html, const extended_model::ExtendedModel& model) {

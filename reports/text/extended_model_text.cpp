@@ -139,8 +139,12 @@ void writeBudget(const std::vector<extended_model::BudgetLine>& budget,
 void writeHidden(const extended_model::ExtendedModel& model, const std::vector<identification::Method>& methods,
                  Out out) {
   fmt::format_to(out, "\n{}\n", wrapped(residualWords(model), 0));
-  if (const auto best = identification::bestMethodOf(model.with, methods))
-    writeBudget(model.hidden->budget[static_cast<std::size_t>(*best)], model.with.of(*best).estimate, *best, out);
+  const auto best = identification::bestMethodOf(model.with, methods);
+  if (!best) return;
+  const auto at = static_cast<std::size_t>(*best);
+  writeBudget(model.hidden->budget[at], model.with.of(*best).estimate, *best, out);
+  for (const extended_model::SeenCombination& one : model.hidden->combinations[at])
+    fmt::format_to(out, "  {}\n", wrapped(fmt::format("{}: {}", namesOf(*best).brief, combinationWords(one)), 4));
 }
 
 }  // namespace
