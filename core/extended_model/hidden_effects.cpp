@@ -65,16 +65,15 @@ HiddenParameters hiddenParameters(const diagnosis::GapStudy& study, const Effect
     const Eigen::VectorXd own = fittedOf(model, fitted);
     Eigen::Index at = layout.model_at[m] - layout.effects, of_own = 0;
     for (const effects::EffectPart& part : model.parts) {
-      for (const double most : part.most) {
+      for (std::size_t k = 0; k < part.most.size(); ++k) {
         if (projection.before[at] > 0.0) {
           hidden.columns.parameters.push_back(at);
           hidden.effect.push_back(model.effect);
-          const auto k = static_cast<std::size_t>(&most - part.most.data());
           hidden.named.push_back(
               {model.effect, effects::parameterName(part, k), effects::parameterUnit(part, k), own[of_own]});
           evidence.group.push_back(g);
           evidence.positive.push_back(part.positive);
-          bound.push_back(most);
+          bound.push_back(part.most[k]);
           at_fit.push_back(own[of_own]);
         }
         ++at, ++of_own;

@@ -12,9 +12,9 @@ namespace stiffscope::extended_model {
 /// A parameter of an effect that may hide, in words of effect_model.h.
 struct HiddenParameter {
   effects::Effect effect = effects::Effect::link_compliance;
-  std::string name;   ///< "joint 3", "1/GJ of link 3"
-  std::string unit;   ///< SI
-  double fit = 0.0;   ///< what the model has of it; 0 where it has none
+  std::string name;  ///< "joint 3", "1/GJ of link 3"
+  std::string unit;  ///< SI
+  double fit = 0.0;  ///< what the model has of it; 0 where it has none
 };
 
 /// c_j + ratio theta: what the data determine where they tell neither from the other (1/k4 + L/GJ of the forearm).

@@ -33,9 +33,8 @@ TEST(SeenCombinations, TheForearmsTwistIsNamedWithTheJointThatItHidesIn) {
   Vector6d compliance = Vector6d::Ones();
   compliance[3] = 2.6;
   Matrix6d own = Matrix6d::Identity() * 1e-4;
-  const std::vector<HiddenParameter> parameters{
-      {effects::Effect::link_compliance, "1/GJ of link 3", "1/Nm2", 0.5},
-      {effects::Effect::link_compliance, "1/EI of link 3", "1/Nm2", 0.0}};
+  const std::vector<HiddenParameter> parameters{{effects::Effect::link_compliance, "1/GJ of link 3", "1/Nm2", 0.5},
+                                                {effects::Effect::link_compliance, "1/EI of link 3", "1/Nm2", 0.0}};
   const std::vector<SeenCombination> seen =
       extended_model::seenCombinations(parameters, moved, off, own, estimateOf(compliance));
   ASSERT_EQ(seen.size(), 1u);
