@@ -20,13 +20,14 @@ const ReportCampaign* firstWith(const std::vector<ReportCampaign>& campaigns, ca
 
 void addJoints(const ReportCampaign& inactive, const ReportCampaign& active, const comparison::MatchedPostures& matched,
                AvoidedByEncoders& avoided) {
-  using identification::Method;
-  for (const Method method : {Method::decoupled_partial_pose, Method::partial_pose, Method::complete_pose}) {
-    avoided.method = method;
-    avoided.by_joint = comparison::compareStiffness(inactive.campaign, inactive.identification, active.campaign,
-                                                    active.identification, method, matched);
-    if (avoided.by_joint.available) break;
+  std::array<comparison::StiffnessChange, 3> methods;
+  for (const identification::Method method : identification::kMethods) {
+    methods[static_cast<std::size_t>(method)] = comparison::compareStiffness(
+        inactive.campaign, inactive.identification, active.campaign, active.identification, method, matched);
   }
+  const auto first = comparison::comparedFirst(inactive.identification, active.identification, methods);
+  avoided.method = first ? first->method : identification::Method::complete_pose;
+  avoided.by_joint = methods[static_cast<std::size_t>(avoided.method)];
   avoided.residual_is_noise = comparison::commonResidual(inactive.campaign, inactive.identification, active.campaign,
                                                          active.identification, matched)
                                   .isNoise();

@@ -14,10 +14,12 @@
 #include "core/identification/identify.h"
 #include "core/io/input_error.h"
 #include "reports/json/campaign_json.h"
+#include "reports/json/identification_json.h"
 #include "reports/json/json.h"
 #include "reports/json/json_document.h"
 #include "reports/text/text.h"
 #include "reports/words/names.h"
+#include "reports/words/numbers.h"
 #include "reports/words/preparation_words.h"
 #include "reports/words/remark_words.h"
 
@@ -42,6 +44,8 @@ int compensateCampaign(const CompensateArguments& arguments) {
   const campaign::Campaign& campaign = improved ? improved->campaign : prepared.campaign;
   const identification::Identification result = improved ? improved->with : identification::identify(campaign, options);
   if (methods.empty()) methods = {identification::bestMethod(result)};
+  const std::optional<identification::ShownFirst> first =
+      arguments.method.empty() ? result.shown_first : identification::shownFirstOf(result, methods);
   const identification::MethodResult& method = result.of(methods.front());
   if (!method.available) {
     throw io::InputError(
@@ -63,12 +67,14 @@ int compensateCampaign(const CompensateArguments& arguments) {
   deliver(
       [&] {
         reports::Json json = reports::compensationJson(campaign, methods.front(), rows);
+        json["shown_first"] = reports::shownFirstJson(first);
         json["cautions"] = cautions;
         if (improved) json = reports::withEffects(std::move(json), *improved, methods);
         return reports::withPreparation(std::move(json), prepared.preparation);
       },
       [&] {
         return reports::compensationText(campaign, methods.front(), rows, cautions) +
+               (first ? reports::wrapped(reports::shownFirstWords(result, *first), 2) + "\n" : "") +
                (improved ? reports::extendedModelText(*improved, methods) : "") +
                reports::preparationText(prepared.preparation);
       },
@@ -88,7 +94,7 @@ void addCompensate(CLI::App& app, Run& run) {
       "--postures", arguments->postures,
       "CSV with pose, q1_deg..q6_deg and the load-cell reading fx_n..mz_nm expected there; without it the "
       "campaign's own");
-  command->add_option("--method", arguments->method, "cp, pp or dpp; without it the best that is available, dpp first");
+  command->add_option("--method", arguments->method, "cp, pp or dpp; without it the one that identify shows first");
   command->add_option("--step", arguments->step, "load step to identify from");
   addModelOptions(*command, arguments->model);
   addRawOption(*command, arguments->raw);

@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <memory>
 
 #include "app/command_line.h"
@@ -51,17 +50,6 @@ identification::IdentifyOptions optionsOf(const IdentifyArguments& arguments, bo
   return options;
 }
 
-/// The best method there is among those asked for, for what is shown of one method only.
-std::optional<identification::Method> bestOf(const identification::Identification& result,
-                                             const std::vector<identification::Method>& methods) {
-  for (const identification::Method which :
-       {identification::Method::decoupled_partial_pose, identification::Method::partial_pose,
-        identification::Method::complete_pose}) {
-    if (result.of(which).available && std::find(methods.begin(), methods.end(), which) != methods.end()) return which;
-  }
-  return std::nullopt;
-}
-
 int identifyCampaign(const IdentifyArguments& arguments, bool subset_given) {
   const std::vector<identification::Method> methods = methodsNamed(arguments.method);
   const identification::IdentifyOptions options = optionsOf(arguments, subset_given);
@@ -81,7 +69,7 @@ int identifyCampaign(const IdentifyArguments& arguments, bool subset_given) {
   const auto text = [&] {
     std::string all = reports::identificationText(campaign, result, methods);
     if (options.all_steps) all += reports::stepsText(steps, result, methods);
-    if (const auto best = bestOf(result, methods); best && arguments.postures)
+    if (const auto best = identification::bestMethodOf(result, methods); best && arguments.postures)
       all += reports::posturesText(campaign, result, *best);
     if (improved) all += reports::extendedModelText(*improved, methods);
     return all + reports::preparationText(prepared.preparation);

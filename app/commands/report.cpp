@@ -215,6 +215,7 @@ int writeReport(const ReportArguments& arguments) {
   identification::IdentifyOptions options;
   options.step = loadStepNamed(arguments.step);
   options.finite_deflection = !arguments.neglect_kc;
+  options.papers_choice = arguments.paper;
   std::list<Result> results;  // a list: the content refers to its elements
   reports::ReportContent content;
   for (const std::string& folder : arguments.campaigns) {
@@ -255,7 +256,8 @@ void addReport(CLI::App& app, Run& run) {
   command->add_flag("--neglect-kc", arguments->neglect_kc, "neglect K_c, as the paper does");
   addModelOptions(*command, arguments->model);
   addRawOption(*command, arguments->raw);
-  command->add_flag("--paper", arguments->paper, "put the figures of Ambiehl et al. (IROS 2017) beside these");
+  command->add_flag("--paper", arguments->paper,
+                    "put the figures of Ambiehl et al. (IROS 2017) beside these, and show first their method, dpp");
   command->callback([arguments, &run] { run = [arguments] { return writeReport(*arguments); }; });
 }
 

@@ -7,11 +7,27 @@
 
 #include "core/identification/identification.h"
 #include "core/identification/remarks.h"
+#include "core/identification/shown_first.h"
 #include "metrology/tail_probability.h"
 
 namespace stiffscope::comparison {
 
-identification::Method Comparison::best() const { return identification::bestMethod(*this); }
+identification::Method Comparison::best() const {
+  return shown_first ? shown_first->method : identification::Method::complete_pose;
+}
+
+std::optional<identification::ShownFirst> comparedFirst(const identification::Identification& before,
+                                                        const identification::Identification& after,
+                                                        const std::array<StiffnessChange, 3>& methods) {
+  std::array<bool, 3> usable{};
+  std::transform(methods.begin(), methods.end(), usable.begin(),
+                 [](const StiffnessChange& one) { return one.available; });
+  const auto& first = before.shown_first;
+  const bool papers = first && first->reason.is(identification::RemarkId::shown_as_in_the_paper);
+  if (papers && usable[static_cast<std::size_t>(first->method)]) return first;
+  const std::array<const identification::Identification*, 2> campaigns{&before, &after};
+  return identification::methodShownFirst(campaigns, usable);
+}
 
 namespace {
 
@@ -73,6 +89,7 @@ Comparison compareCampaigns(const campaign::Campaign& before_campaign, const ide
     result.methods[static_cast<std::size_t>(method)] =
         compareStiffness(before_campaign, before, after_campaign, after, method, result.matched);
   }
+  result.shown_first = comparedFirst(before, after, result.methods);
   result.residual = commonResidual(before_campaign, before, after_campaign, after, result.matched);
   result.at_wrist = deflectionAvoidedAtWrist(before, after, result.matched, options);
   result.at_targets = deflectionAvoidedAtTargets(before, after, result.matched, options);

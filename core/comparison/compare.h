@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -52,6 +53,11 @@ StiffnessChange compareStiffness(const campaign::Campaign& before_campaign,
                                  const identification::Identification& after, identification::Method method,
                                  const MatchedPostures& matched);
 
+/// The method shown first of those by which the two campaigns are compared.
+std::optional<identification::ShownFirst> comparedFirst(const identification::Identification& before,
+                                                        const identification::Identification& after,
+                                                        const std::array<StiffnessChange, 3>& methods);
+
 /// Two campaigns of one machine side by side: double encoders inactive and active, or before and after a
 /// repair.
 struct Comparison {
@@ -67,7 +73,9 @@ struct Comparison {
   /// The deflection avoided at P_wrist where it is measured, else at the reflectors.
   bool judgedAtWrist() const { return at_wrist.available; }
   const DeflectionAvoided& avoided() const { return at_wrist.available ? at_wrist : at_targets; }
-  /// The decoupled method where it can be had, else Partial Pose, else Complete Pose.
+  /// The method that both campaigns together show first (identification/shown_first.h) of those comparable; Complete
+  /// Pose where none is.
+  std::optional<identification::ShownFirst> shown_first;
   identification::Method best() const;
 };
 

@@ -13,6 +13,7 @@
 #include "core/extended_model/effect_fit.h"
 #include "core/extended_model/method_equations.h"
 #include "core/identification/estimate.h"
+#include "core/identification/shown_first.h"
 #include "core/identification/warnings.h"
 #include "core/numerics/resampling.h"
 #include "metrology/linear_algebra.h"
@@ -115,6 +116,7 @@ ExtendedModel extendModel(const campaign::Campaign& campaign, EffectFit effects,
   findSpread(cases, model);
   addEffectsUncertainty(model);
   evaluateExtended(options, cases, model);
+  model.with.shown_first = identification::methodShownFirst(model.with, options.papers_choice);
   model.with.cautions = identification::warningsOf(model.campaign, model.with);
   return model;
 }
@@ -215,7 +217,8 @@ class PointJudge {
       if (side == 0) sum_.left_held_out[p] += own, ++count_[p];
     }
     sum_.compensated.used += 1.0 - left[1] / whole[1];
-    sum_.compensated.held_out += 1.0 - left[0] / whole[0];
+    sum_.held_out.push_back(1.0 - left[0] / whole[0]);
+    sum_.compensated.held_out += sum_.held_out.back();
     sum_.compensated.all += 1.0 - (left[0] + left[1]) / (whole[0] + whole[1]);
   }
 
@@ -309,19 +312,36 @@ class MethodJudge {
         refit_(model, equations.reflectors) {}
 
   void fill(const MachineDisplacement& machine, identification::MethodResult& out) const {
-    PointJudge at_targets(equations_.reflectors, byPosture(model_.with.cases, machine.reflectors));
-    PointJudge at_wrist(equations_.wrist, byPosture(model_.with.cases, machine.wrist));
-    const bool wrist = !equations_.wrist.empty();
-    out.subsets = study(wrist, at_wrist, at_targets);
-    const Vector6d& c = own_.estimate.compliance;
-    const Eigen::VectorXd none = Eigen::VectorXd::Zero(model_.spread.parameters.cols());
-    if (wrist)
-      out.at_wrist = identification::Compensation{at_wrist.allPostures(none, c), out.subsets.at_wrist.compensated};
-    out.at_targets = identification::Compensation{at_targets.allPostures(none, c), out.subsets.at_targets.compensated};
+    out.subsets = judge(machine, own_.estimate.compliance, out);
     out.bootstrap = bootstrap();
   }
 
+  /// Complete Pose at the length of its equations.
+  void fill(const MachineDisplacement& machine, identification::LengthSensitivity& out) const {
+    const std::vector<double> all(equations_.reflectors.size(), 1.0);
+    out.compliance = solvedCompliance(equations_, which_, own_.estimate.identifiable, all, noSteps());
+    out.subsets = judge(machine, out.compliance, out).compliances.size();
+  }
+
  private:
+  Eigen::VectorXd noSteps() const { return Eigen::VectorXd::Zero(model_.spread.parameters.cols()); }
+
+  /// Fills `at_wrist` and `at_targets` of `out`.
+  template <class Out>
+  identification::SubsetStudy judge(const MachineDisplacement& machine, const Vector6d& compliance, Out& out) const {
+    PointJudge at_targets(equations_.reflectors, byPosture(model_.with.cases, machine.reflectors));
+    PointJudge at_wrist(equations_.wrist, byPosture(model_.with.cases, machine.wrist));
+    const bool wrist = !equations_.wrist.empty();
+    identification::SubsetStudy subsets = study(wrist, at_wrist, at_targets);
+    const auto judged = [&](const PointJudge& judge, const identification::SubsetJudgement& own) {
+      return identification::Compensation{judge.allPostures(noSteps(), compliance), own.compensated,
+                                          identification::meanOverSubsets(own.held_out).sd};
+    };
+    if (wrist) out.at_wrist = judged(at_wrist, subsets.at_wrist);
+    out.at_targets = judged(at_targets, subsets.at_targets);
+    return subsets;
+  }
+
   /// Effects and springs anew on these postures: the steps of the effects, and the compliances.
   std::pair<Eigen::VectorXd, Vector6d> anew(const Weights& weights) const {
     Eigen::VectorXd steps = refit_.steps(weights);
@@ -384,6 +404,24 @@ void describeDisplacements(const MachineDisplacement& machine, identification::I
   with.wrist_displacement = machine.wrist;
 }
 
+/// Complete Pose against its length, as the methods are judged, on fewer subsets.
+void judgeLengths(const identification::IdentifyOptions& options, const std::vector<CaseEffects>& cases,
+                  const MachineDisplacement& machine, ExtendedModel& model) {
+  identification::Identification& with = model.with;
+  if (!with.of(identification::Method::complete_pose).available) return;
+  identification::IdentifyOptions few = options;
+  constexpr std::uint64_t kMost = 50;  // each fits springs and effects anew
+  few.subsets.sample = std::min(kMost, few.subsets.sample);
+  std::vector<identification::LengthSensitivity*> lengths;
+  for (identification::LengthSensitivity& one : with.length_sensitivity) lengths.push_back(&one);
+  if (with.residual_length) lengths.push_back(&*with.residual_length);
+  for (identification::LengthSensitivity* one : lengths) {
+    const MethodEquations equations = methodEquations(with, identification::Method::complete_pose, cases, one->length);
+    if (equations.reflectors.empty()) return;
+    MethodJudge(few, model, identification::Method::complete_pose, equations).fill(machine, *one);
+  }
+}
+
 }  // namespace
 
 void evaluateExtended(const identification::IdentifyOptions& options, const std::vector<CaseEffects>& cases,
@@ -395,6 +433,7 @@ void evaluateExtended(const identification::IdentifyOptions& options, const std:
     if (equations.reflectors.empty()) continue;
     MethodJudge(options, model, which, equations).fill(machine, model.with.methods[static_cast<std::size_t>(which)]);
   }
+  judgeLengths(options, cases, machine, model);
   describeDisplacements(machine, model.with);
 }
 

@@ -23,6 +23,7 @@ using identification::StiffnessEstimate;
 struct HiddenParameters {
   EffectColumns columns;
   std::vector<effects::Effect> effect;  ///< of each parameter
+  std::vector<HiddenParameter> named;   ///< the same with its name and fitted size
   Eigen::MatrixXd off;                  ///< theta - theta_fit, a draw each column
 };
 
@@ -64,13 +65,15 @@ HiddenParameters hiddenParameters(const diagnosis::GapStudy& study, const Effect
     const Eigen::VectorXd own = fittedOf(model, fitted);
     Eigen::Index at = layout.model_at[m] - layout.effects, of_own = 0;
     for (const effects::EffectPart& part : model.parts) {
-      for (const double most : part.most) {
+      for (std::size_t k = 0; k < part.most.size(); ++k) {
         if (projection.before[at] > 0.0) {
           hidden.columns.parameters.push_back(at);
           hidden.effect.push_back(model.effect);
+          hidden.named.push_back(
+              {model.effect, effects::parameterName(part, k), effects::parameterUnit(part, k), own[of_own]});
           evidence.group.push_back(g);
           evidence.positive.push_back(part.positive);
-          bound.push_back(most);
+          bound.push_back(part.most[k]);
           at_fit.push_back(own[of_own]);
         }
         ++at, ++of_own;
@@ -248,6 +251,15 @@ class MethodWeigher {
   bool unexplained_;
 };
 
+std::vector<SeenCombination> combinationsOf(const HiddenParameters& hidden,
+                                            const Eigen::Matrix<double, 6, Eigen::Dynamic>& gain,
+                                            const StiffnessEstimate& estimate) {
+  const Eigen::MatrixXd moved = gain * hidden.off;
+  const std::vector<Eigen::Index> kept = possibleDraws(estimate, moved);
+  const Matrix6d by_others = estimate.parts.total() - estimate.parts.effects;
+  return seenCombinations(hidden.named, moved(Eigen::all, kept), hidden.off(Eigen::all, kept), by_others, estimate);
+}
+
 }  // namespace
 
 HiddenEffects weighHiddenEffects(const diagnosis::GapStudy& study, const EffectFit& fitted,
@@ -275,6 +287,7 @@ HiddenEffects weighHiddenEffects(const diagnosis::GapStudy& study, const EffectF
     const auto gain = gains(cases, seen, which, hidden.off.rows());
     if (gain.cols() == 0) continue;
     result.budget[at] = weigher.weigh(gain, without.of(which).estimate, in_model, with.methods[at].estimate);
+    if (!result.unexplained) result.combinations[at] = combinationsOf(hidden, gain, with.methods[at].estimate);
   }
   return result;
 }

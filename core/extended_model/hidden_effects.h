@@ -6,6 +6,7 @@
 
 #include "core/diagnosis/gap_study.h"
 #include "core/extended_model/fitted_effects.h"
+#include "core/extended_model/seen_combinations.h"
 #include "core/identification/identification.h"
 
 namespace stiffscope::extended_model {
@@ -40,6 +41,9 @@ struct HiddenEffects {
   double unexplained_share = 0.0;
   bool unexplained = false;
   std::array<std::vector<BudgetLine>, 3> budget;  ///< by Method; empty where that is not available
+  /// By Method: what is seen of joints that the data does not tell from an effect; none where no model explains the
+  /// gap.
+  std::array<std::vector<SeenCombination>, 3> combinations;
 };
 
 /// Puts into the estimates of `with` the intervals that hold what could still hide.

@@ -141,7 +141,7 @@ std::vector<CaseEffects> caseEffects(const EffectFit& effects, const Eigen::Matr
 }
 
 MethodEquations methodEquations(const identification::Identification& result, Method method,
-                                const std::vector<CaseEffects>& effects) {
+                                const std::vector<CaseEffects>& effects, std::optional<double> length) {
   const identification::MethodResult& own = result.of(method);
   MethodEquations equations;
   const bool alike = own.target_rows.size() == result.cases.size() &&
@@ -159,11 +159,11 @@ MethodEquations methodEquations(const identification::Identification& result, Me
              equations.wrist);
     }
     if (method != Method::complete_pose) continue;
-    const double length = result.characteristic_length.length;
+    const double divisor = length.value_or(result.characteristic_length.length);
     Eigen::MatrixXd pose =
         identification::poseByReflectors(own.geometry, load_case, result.frames.tcp_in_flange) * effects[i].by_steps;
-    pose.topRows<3>() /= length;
-    append(identification::normalised(own.pose_rows[i], length), pose, equations.solved);
+    pose.topRows<3>() /= divisor;
+    append(identification::normalised(own.pose_rows[i], divisor), pose, equations.solved);
   }
   for (auto* postures : {&equations.solved, &equations.reflectors, &equations.wrist}) fillNormal(*postures);
   if (method == Method::partial_pose) equations.solved = equations.reflectors;

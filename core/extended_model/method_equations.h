@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "core/diagnosis/gap_study.h"
@@ -45,9 +46,9 @@ struct MethodEquations {
   std::vector<ExtendedEquations> wrist;       ///< P_wrist's; empty where not measured
 };
 
-/// Empty where the method's cases are not those of `result.cases`.
+/// Empty where the method's cases are not those of `result.cases`. `length`: Complete Pose's, m; without it its own.
 MethodEquations methodEquations(const identification::Identification& result, identification::Method method,
-                                const std::vector<CaseEffects>& effects);
+                                const std::vector<CaseEffects>& effects, std::optional<double> length = std::nullopt);
 
 /// The method's compliances with the effects moved by `steps`, from postures with weights.
 Vector6d solvedCompliance(const MethodEquations& equations, identification::Method method,

@@ -16,6 +16,14 @@ namespace {
 struct StackedJacobian {
   Matrix6d linear = Matrix6d::Zero(), angular = Matrix6d::Zero();
 
+  StackedJacobian(const std::vector<LoadCase>& cases, const Eigen::Vector3d& tcp_in_flange) {
+    for (const LoadCase& load_case : cases) {
+      const Matrix6d jacobian = robot::jacobianAt(load_case.axes, *load_case.flange_unloaded * tcp_in_flange);
+      linear += jacobian.topRows<3>().transpose() * jacobian.topRows<3>();
+      angular += jacobian.bottomRows<3>().transpose() * jacobian.bottomRows<3>();
+    }
+  }
+
   double condition(double length) const {
     const Matrix6d gram = linear / (length * length) + angular;
     const Eigen::VectorXd values = symmetricEigenvalues(gram);
@@ -25,16 +33,15 @@ struct StackedJacobian {
 
 }  // namespace
 
+double jacobianCondition(const std::vector<LoadCase>& cases, const Eigen::Vector3d& tcp_in_flange, double length) {
+  return StackedJacobian(cases, tcp_in_flange).condition(length);
+}
+
 CharacteristicLength characteristicLength(const std::vector<LoadCase>& cases, const Eigen::Vector3d& tcp_in_flange) {
-  StackedJacobian stacked;
-  for (const LoadCase& load_case : cases) {
-    const Matrix6d jacobian = robot::jacobianAt(load_case.axes, *load_case.flange_unloaded * tcp_in_flange);
-    stacked.linear += jacobian.topRows<3>().transpose() * jacobian.topRows<3>();
-    stacked.angular += jacobian.bottomRows<3>().transpose() * jacobian.bottomRows<3>();
-  }
+  const StackedJacobian stacked(cases, tcp_in_flange);
   CharacteristicLength result;
   constexpr int kPoints = 61;
-  const double low = std::log(0.05), high = std::log(20.0), step = (high - low) / (kPoints - 1);
+  const double low = std::log(kShortestLength), high = std::log(kLongestLength), step = (high - low) / (kPoints - 1);
   int best = 0;
   for (int i = 0; i < kPoints; ++i) {
     const double length = std::exp(low + i * step);

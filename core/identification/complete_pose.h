@@ -7,6 +7,9 @@
 
 namespace stiffscope::identification {
 
+/// Characteristic lengths beyond which none is looked for, m.
+inline constexpr double kShortestLength = 0.05, kLongestLength = 20.0;
+
 /// The characteristic length L of paper (8) (Khan and Angeles): the length by which the displacement rows of
 /// the stacked Jacobian are divided, chosen where its condition number is least.
 struct CharacteristicLength {
@@ -17,6 +20,9 @@ struct CharacteristicLength {
 
 /// Golden-section search on log L within 0.05 m to 20 m, started at the best point of `curve`.
 CharacteristicLength characteristicLength(const std::vector<LoadCase>& cases, const Eigen::Vector3d& tcp_in_flange);
+
+/// The condition number at any length, m.
+double jacobianCondition(const std::vector<LoadCase>& cases, const Eigen::Vector3d& tcp_in_flange, double length);
 
 /// Complete Pose equations of one load case (Dumas et al.; paper (39), read as J K^-1 J^T W with only the
 /// displacement rows divided by L): the displacement of P_TCP and the small rotation of the flange, both from

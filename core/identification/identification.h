@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -27,13 +28,15 @@ struct IdentifyOptions {
   SubsetOptions subsets;
   PostureBootstrapOptions bootstrap;
   TrustLimits trust;
-  bool robust = false;  ///< leave postures out that disagree with the rest (outliers.h); they are always named
+  bool papers_choice = false;  ///< show first the paper's method, DPP, where it can be had, whatever it compensates
+  bool robust = false;         ///< leave postures out that disagree with the rest (outliers.h); they are always named
 };
 
 /// Deflection compensated by the estimate from all postures, and over the subsets.
 struct Compensation {
   double all_postures = 0.0;   ///< identified on all, judged on all
   SubsetCompensation subsets;  ///< means over the subsets: on the postures used, on those held out, on all
+  double held_out_sd = std::numeric_limits<double>::quiet_NaN();  ///< of subsets.held_out, over the subsets
 };
 
 struct MethodResult {
@@ -57,6 +60,18 @@ struct LengthSensitivity {
   double length = 0.0;     ///< m
   double condition = 0.0;  ///< of the stacked normalised Jacobian
   Vector6d compliance = Vector6d::Zero();
+  std::size_t subsets = 0;                 ///< over which it is judged: fewer than a method is
+  std::optional<Compensation> at_wrist;    ///< empty where P_wrist is not measured
+  std::optional<Compensation> at_targets;  ///< the reflectors
+};
+
+/// The method whose numbers people read first.
+struct ShownFirst {
+  enum class Judged { not_at_all, at_reflectors, at_wrist };
+
+  Method method = Method::complete_pose;
+  Judged judged = Judged::not_at_all;  ///< where held-out shares decided
+  Remark reason;
 };
 
 struct Identification {
@@ -75,7 +90,9 @@ struct Identification {
   frames::GeometryCalibration calibration;
   CharacteristicLength characteristic_length;
   std::vector<LengthSensitivity> length_sensitivity;
-  std::array<MethodResult, 3> methods;  ///< by Method
+  std::optional<LengthSensitivity> residual_length;  ///< at the L of the residual variances (length_sensitivity.h)
+  std::array<MethodResult, 3> methods;               ///< by Method
+  std::optional<ShownFirst> shown_first;             ///< empty without an available method
   std::optional<NoiseShare> noise;
   std::vector<Remark> cautions;            ///< warningsOf this result
   double servo_change = 0.0;               ///< largest change of a reported joint angle under load, rad
@@ -85,14 +102,18 @@ struct Identification {
   const MethodResult& of(Method method) const { return methods[static_cast<std::size_t>(method)]; }
 };
 
-/// The method whose result stands for a campaign where one must: the decoupled where it can be had, else Partial
-/// Pose, else Complete Pose, available or not. `result.of(method)` says `available`.
-template <class Result>
-Method bestMethod(const Result& result) {
-  for (const Method method : {Method::decoupled_partial_pose, Method::partial_pose}) {
-    if (result.of(method).available) return method;
-  }
-  return Method::complete_pose;
-}
+/// Of methods between which the data does not decide, in this order.
+inline constexpr std::array<Method, 3> kMethodsOfEquals{Method::decoupled_partial_pose, Method::partial_pose,
+                                                        Method::complete_pose};
+
+/// The method whose result stands for a campaign where one must: the one shown first, where that is among `methods`;
+/// else of these the first available in the order of equals. Empty where none is available.
+std::optional<Method> bestMethodOf(const Identification& result, std::span<const Method> methods);
+
+/// That method with the reason; one that was asked for alone is first as asked.
+std::optional<ShownFirst> shownFirstOf(const Identification& result, std::span<const Method> methods);
+
+/// bestMethodOf all; Complete Pose where none is available. `result.of(method)` says `available`.
+Method bestMethod(const Identification& result);
 
 }  // namespace stiffscope::identification

@@ -10,6 +10,7 @@
 #include "core/identification/method_runs.h"
 #include "core/identification/method_solution.h"
 #include "core/identification/outliers.h"
+#include "core/identification/shown_first.h"
 #include "core/identification/warnings.h"
 
 namespace stiffscope::identification {
@@ -72,6 +73,7 @@ Identification identifyOnce(const campaign::Campaign& campaign, const IdentifyOp
   runPartialPose(runs, result);
   runDecoupledPartialPose(runs, result);
   addSharedUncertainty(runs, result);
+  result.shown_first = methodShownFirst(result, options.papers_choice);
   LoadedArm& shown = runs.swept.cases.empty() ? runs.calibrated : runs.swept;
   result.outlying = outlyingOf(shown, runs.unknown);
   describeLoads(campaign, std::move(shown), result);

@@ -96,6 +96,7 @@ LoadDependence dependence(const std::vector<Solved>& solved, int joint) {
   const double lightest = solved[0].result.estimate.compliance[joint];
   result.change = differences[q - 1] / lightest;
   result.change_sd = std::sqrt(covariance(q - 1, q - 1)) / std::abs(lightest);
+  result.dof = dof;
   const auto contrasts = static_cast<double>(q);
   if (!(covariance(q - 1, q - 1) > 0.0) || !(dof > contrasts)) return result;
   const double t = result.change / result.change_sd;

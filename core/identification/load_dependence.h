@@ -18,6 +18,7 @@ struct StepEstimate {
 struct LoadDependence {
   /// 1/k at the heaviest step less that at the lightest, relative to the lightest, and its standard uncertainty.
   double change = 0.0, change_sd = 0.0;
+  double dof = 0.0;       ///< of change_sd, Student
   double p_change = 1.0;  ///< of that change, Student
   double p_linear = 1.0;  ///< of all steps having the same compliance
 };

@@ -7,6 +7,7 @@
 #include "core/identification/decoupled_partial_pose.h"
 #include "core/identification/estimate.h"
 #include "core/identification/identification.h"
+#include "core/identification/length_sensitivity.h"
 #include "core/identification/loaded_arm.h"
 #include "core/identification/method_solution.h"
 #include "core/identification/remarks.h"
@@ -39,7 +40,7 @@ namespace {
 
 Compensation compensationBy(const StiffnessEstimate& estimate, const DeflectionJudge& judge,
                             const SubsetJudgement& subsets) {
-  return {judge.compensated(estimate.compliance), subsets.compensated};
+  return {judge.compensated(estimate.compliance), subsets.compensated, meanOverSubsets(subsets.held_out).sd};
 }
 
 /// Mean over a case's points of what is left of the displacement; `by_posture` judges the same, which with one load
@@ -163,19 +164,11 @@ void runCompletePose(MethodRuns& runs, Identification& result) {
   result.characteristic_length = characteristicLength(runs.swept.cases, tcp);
   const double length = result.characteristic_length.length;
   PointEquations equations = solve(Method::complete_pose, runs.swept, runs, result);
-  constexpr int kEvery = 5;
-  PoseNormal sum;
   std::vector<CaseEquations> scaled;
   out.pose_rows = poseEquations(runs.swept, tcp);
-  for (const CaseEquations& one : out.pose_rows) {
-    sum.add(one);
-    scaled.push_back(normalised(one, length));
-  }
-  for (std::size_t i = 0; i < result.characteristic_length.curve.size(); i += kEvery) {
-    const auto& [at, condition] = result.characteristic_length.curve[i];
-    result.length_sensitivity.push_back({at, condition, solveNormal(sum.at(at), runs.unknown)});
-  }
+  for (const CaseEquations& one : out.pose_rows) scaled.push_back(normalised(one, length));
   evaluateMethod(runs.swept.geometry, std::move(equations), normalByPosture(scaled), false, runs.options, out);
+  studyLengths(runs.swept.cases, runs.options, result);
 }
 
 void runPartialPose(MethodRuns& runs, Identification& result) {

@@ -45,6 +45,14 @@ enum class RemarkId {
   mostly_noise,
   sag_in_sweeps,      ///< largest sag taken off m
   sweep_above_noise,  ///< axis number, residual rms m, times the noise
+  // why a method is shown first; methods by their number in Method
+  shown_compensates_most,  ///< where (ShownFirst::Judged), method, methods that were judged, their held-out shares
+  shown_as_good_as_most,   ///< where, method, the one that compensates most, by how much more, standard deviation of
+                           ///< that over the subsets, methods that were judged, their held-out shares
+  shown_alone,             ///< method
+  shown_unjudged,          ///< method
+  shown_as_in_the_paper,   ///< method
+  shown_as_asked,          ///< method
   // of a joint's stiffness
   negative,
   imprecise  ///< standard deviation above the value

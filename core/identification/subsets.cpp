@@ -63,6 +63,13 @@ std::array<double, N> quantiles(std::vector<double>& values, const std::array<do
 
 }  // namespace
 
+MeanOverSubsets meanOverSubsets(std::span<const double> values) {
+  if (values.size() < 2) return {};
+  const Eigen::Map<const Eigen::ArrayXd> all(values.data(), static_cast<Eigen::Index>(values.size()));
+  const double mean = all.mean();
+  return {mean, std::sqrt((all - mean).square().sum() / static_cast<double>(values.size() - 1))};
+}
+
 StiffnessSpread spreadOf(const SubsetStudy& study, int joint) {
   StiffnessSpread spread;
   std::vector<double> stiffness;
@@ -249,6 +256,7 @@ void judge(const DeflectionJudge& judge, std::span<Subset> subsets, SubsetResidu
 void add(const SubsetResidual& one, const Eigen::ArrayXd& used, SubsetJudgement& sum) {
   if (one.left.empty()) return;
   add(one.compensated, sum.compensated);
+  sum.held_out.push_back(one.compensated.held_out);
   sum.left_held_out.resize(one.left.size(), 0.0);
   Eigen::Map<Eigen::ArrayXd>(sum.left_held_out.data(), used.size()) += (1.0 - used) * each(one.left);
 }
@@ -341,6 +349,7 @@ std::vector<SubsetSums> walkAll(const SubsetMethod& method, int size) {
 
 void addTo(SubsetJudgement& sum, const SubsetJudgement& other) {
   add(other.compensated, sum.compensated);
+  sum.held_out.insert(sum.held_out.end(), other.held_out.begin(), other.held_out.end());
   sum.left_held_out.resize(other.left_held_out.size(), 0.0);
   for (std::size_t p = 0; p < other.left_held_out.size(); ++p) sum.left_held_out[p] += other.left_held_out[p];
 }

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -84,6 +85,8 @@ struct SubsetCompensation {
 /// A method judged at one kind of point over the subsets.
 struct SubsetJudgement {
   SubsetCompensation compensated;
+  /// One a subset, in the order of SubsetStudy::compliances: the fraction compensated on the postures it leaves out.
+  std::vector<double> held_out;
   /// Per posture: what is left of its displacement (sum over its points, m), mean over the subsets that leave
   /// it out.
   std::vector<double> left_held_out;
@@ -104,6 +107,15 @@ SubsetStudy studySubsets(const SubsetMethod& method, const SubsetOptions& option
 /// Solves the method from the sums of the equations of the postures that take part; `reflectors` only for the decoupled
 /// method.
 Vector6d solveSubset(const SubsetMethod& method, const NormalEquations& normal, const NormalEquations& reflectors);
+
+/// A mean over subsets with the standard deviation of single subsets about it; NaN of fewer than two subsets. Of
+/// subsets of half the postures the deviation is near the standard uncertainty of the mean by the choice of postures
+/// (delete-d jackknife, Shao and Wu 1989).
+struct MeanOverSubsets {
+  double mean = std::numeric_limits<double>::quiet_NaN(), sd = std::numeric_limits<double>::quiet_NaN();
+};
+
+MeanOverSubsets meanOverSubsets(std::span<const double> values);
 
 /// The distribution of one joint's stiffness over the subsets: Table II.
 struct StiffnessSpread {

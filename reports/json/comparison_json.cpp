@@ -1,5 +1,6 @@
 #include "core/comparison/compare.h"
 #include "reports/json/campaign_json.h"
+#include "reports/json/identification_json.h"
 #include "reports/json/json.h"
 
 #include "core/io/units.h"
@@ -102,6 +103,7 @@ Json comparisonJson(const campaign::Campaign& before, const campaign::Campaign& 
   const identification::Method best = comparison.best();
   const bool any = comparison.of(best).available;
   json["method"] = any ? Json(namesOf(best).key) : Json(nullptr);
+  json["shown_first"] = shownFirstJson(comparison.shown_first);
   const bool ratios_hold = comparison.residual.isNoise();
   json["joints"] = any ? jointsJson(comparison.of(best), ratios_hold) : Json::array();
   Json methods;

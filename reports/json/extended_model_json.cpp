@@ -124,6 +124,21 @@ Json budgetJson(const std::vector<extended_model::BudgetLine>& budget,
   return rows;
 }
 
+Json combinationsJson(const std::vector<extended_model::SeenCombination>& combinations) {
+  Json rows = Json::array();
+  for (const extended_model::SeenCombination& one : combinations) {
+    rows.push_back({{"joint", one.joint + 1},
+                    {"effect", std::string(effects::idOf(one.parameter.effect))},
+                    {"parameter", one.parameter.name},
+                    {"parameter_unit", one.parameter.unit},
+                    {"ratio", number(one.ratio)},
+                    {"value_rad_per_nm", number(one.value)},
+                    {"sd_rad_per_nm", number(one.sd)},
+                    {"message", combinationWords(one)}});
+  }
+  return rows;
+}
+
 }  // namespace
 
 Json withSupport(Json json, const extended_model::ExtendedModel& model,
@@ -143,9 +158,10 @@ Json withSupport(Json json, const extended_model::ExtendedModel& model,
   for (const identification::Method which : methods) {
     const char* key = namesOf(which).key;
     apparent[key] = shownMethodJson(model.without.of(which));
-    if (model.with.of(which).available)
-      json["methods"][key]["budget"] =
-          budgetJson(hidden.budget[static_cast<std::size_t>(which)], model.with.of(which).estimate);
+    if (!model.with.of(which).available) continue;
+    const auto at = static_cast<std::size_t>(which);
+    json["methods"][key]["budget"] = budgetJson(hidden.budget[at], model.with.of(which).estimate);
+    json["methods"][key]["combinations"] = combinationsJson(hidden.combinations[at]);
   }
   json["apparent"] = apparent;
   return json;

@@ -104,6 +104,15 @@ Json stepsJson(const identification::StepsOfMethod& steps, const robot::JointMas
 
 }  // namespace
 
+Json shownFirstJson(const std::optional<identification::ShownFirst>& first) {
+  using Judged = identification::ShownFirst::Judged;
+  if (!first) return nullptr;
+  Json json{{"method", namesOf(first->method).key}, {"judged_at", nullptr}, {"reason", words(first->reason)}};
+  if (first->judged != Judged::not_at_all)
+    json["judged_at"] = first->judged == Judged::at_wrist ? "P_wrist" : "reflectors";
+  return json;
+}
+
 void addUncertainty(const identification::MethodResult& method, Json& json) {
   const identification::StiffnessEstimate& estimate = method.estimate;
   const robot::JointMask& seen = estimate.identifiable;
@@ -146,12 +155,14 @@ Json byJoint(const identification::StiffnessEstimate& estimate, const auto& entr
   return list;
 }
 
-/// `used`, `held_out` and `all` are means over the subsets; `all_postures` is identified and judged on all postures.
+/// `used`, `held_out` and `all` are means over the subsets, `sd_held_out` the standard deviation over them;
+/// `all_postures` is identified and judged on all postures.
 Json compensationJson(const std::optional<identification::Compensation>& compensation, bool subsets) {
   if (!compensation) return nullptr;
   const identification::SubsetCompensation& mean = compensation->subsets;
   return {{"used", subsets ? number(mean.used) : Json(nullptr)},
           {"held_out", subsets ? number(mean.held_out) : Json(nullptr)},
+          {"sd_held_out", subsets ? number(compensation->held_out_sd) : Json(nullptr)},
           {"all", subsets ? number(mean.all) : number(compensation->all_postures)},
           {"all_postures", number(compensation->all_postures)}};
 }
@@ -250,22 +261,30 @@ Json postureJson(const campaign::Campaign& campaign, const identification::Ident
 /// Cartesian stiffness and what neglecting K_c costs, by the best of the methods there is.
 JsonDocument cartesianJson(const campaign::Campaign& campaign, const identification::Identification& result,
                            const std::vector<identification::Method>& methods) {
-  for (const identification::Method which :
-       {identification::Method::decoupled_partial_pose, identification::Method::partial_pose,
-        identification::Method::complete_pose}) {
-    if (!result.of(which).available || std::find(methods.begin(), methods.end(), which) == methods.end()) continue;
-    JsonDocument document(Json{{"method", namesOf(which).key}});
-    const auto row = [stiffnesses = identification::PostureStiffnesses(campaign, result, which),
-                      costs = identification::geometricStiffnessCosts(result, which)](std::size_t i) {
-      Json posture = postureStiffnessJson(stiffnesses.at(i));
-      posture["k_c_cost_um"] = costs[i].at_targets / io::kMicrometre;
-      posture["k_c_cost_share"] = costs[i].share;
-      return posture;
-    };
-    document.setRows("rows", {result.cases.size(), row});
-    return document;
-  }
-  return {};
+  const std::optional<identification::Method> best = identification::bestMethodOf(result, methods);
+  if (!best) return {};
+  JsonDocument document(Json{{"method", namesOf(*best).key}});
+  const auto row = [stiffnesses = identification::PostureStiffnesses(campaign, result, *best),
+                    costs = identification::geometricStiffnessCosts(result, *best)](std::size_t i) {
+    Json posture = postureStiffnessJson(stiffnesses.at(i));
+    posture["k_c_cost_um"] = costs[i].at_targets / io::kMicrometre;
+    posture["k_c_cost_share"] = costs[i].share;
+    return posture;
+  };
+  document.setRows("rows", {result.cases.size(), row});
+  return document;
+}
+
+Json lengthJson(const identification::LengthSensitivity& at) {
+  Json stiffness = Json::array();
+  for (int j = 0; j < 6; ++j)
+    stiffness.push_back(at.compliance[j] == 0.0 ? Json(nullptr) : number(1.0 / at.compliance[j]));
+  return {{"length_m", at.length},
+          {"jacobian_condition", at.condition},
+          {"stiffness_nm_per_rad", stiffness},
+          {"subsets", at.subsets},
+          {"compensated", compensationJson(at.at_wrist, at.subsets > 0)},
+          {"compensated_at_targets", compensationJson(at.at_targets, at.subsets > 0)}};
 }
 
 Json outlyingJson(const campaign::Campaign& campaign, const identification::Identification& result) {
@@ -298,6 +317,7 @@ JsonDocument identificationJson(const campaign::Campaign& campaign, const identi
   Json by_method = Json::object();
   for (const identification::Method which : methods) by_method[namesOf(which).key] = methodJson(result.of(which));
   json["methods"] = by_method;
+  json["shown_first"] = shownFirstJson(identification::shownFirstOf(result, methods));
   json["identifiability"] = identifiabilityJson(result.identifiability);
   json["noise_share"] = result.noise
                             ? Json{{"wrist", result.noise->at_wrist ? number(*result.noise->at_wrist) : Json(nullptr)},
@@ -311,16 +331,12 @@ JsonDocument identificationJson(const campaign::Campaign& campaign, const identi
   json["own_weight"] = {{"removed", result.frames.sag_removed}, {"note", words(result.frames.sag_note)}};
   if (!result.length_sensitivity.empty()) {
     Json curve = Json::array();
-    for (const identification::LengthSensitivity& at : result.length_sensitivity) {
-      Json stiffness = Json::array();
-      for (int j = 0; j < 6; ++j)
-        stiffness.push_back(at.compliance[j] == 0.0 ? Json(nullptr) : number(1.0 / at.compliance[j]));
-      curve.push_back(
-          {{"length_m", at.length}, {"jacobian_condition", at.condition}, {"stiffness_nm_per_rad", stiffness}});
-    }
-    json["characteristic_length"] = {{"length_m", result.characteristic_length.length},
-                                     {"jacobian_condition", result.characteristic_length.condition},
-                                     {"sensitivity", curve}};
+    for (const identification::LengthSensitivity& at : result.length_sensitivity) curve.push_back(lengthJson(at));
+    json["characteristic_length"] = {
+        {"length_m", result.characteristic_length.length},
+        {"jacobian_condition", result.characteristic_length.condition},
+        {"sensitivity", curve},
+        {"by_residual_variances", result.residual_length ? lengthJson(*result.residual_length) : Json(nullptr)}};
   }
   const auto posture = [&campaign, &result, methods](std::size_t i) {
     return postureJson(campaign, result, methods, i);

@@ -12,6 +12,9 @@ namespace stiffscope::reports {
 JsonDocument identificationJson(const campaign::Campaign& campaign, const identification::Identification& result,
                                 const std::vector<identification::Method>& methods);
 
+/// `method`, `judged_at` ("reflectors", "P_wrist", null where held-out shares did not decide) and `reason` in words.
+Json shownFirstJson(const std::optional<identification::ShownFirst>& first);
+
 /// Adds to a method's object: `coverage`, `interval_nm_per_rad` and `interval_compliance_rad_per_nm` ([low, high], null
 /// where open), `dof`, `sd_compliance_rad_per_nm`, `correlation` (6x6, null rows of joints that are not
 /// identifiable), `contributions` (standard deviation of the compliance by each part), `bootstrap` where there is one.

@@ -99,17 +99,23 @@ KeyNumber deflection(const reports::ReportCampaign& one, const reports::JudgedPo
                   reports::fixed(1e-3 * reports::meanForce(one.identification), 2), displacement.size(), stateOf(one))};
 }
 
-KeyNumber compensated(const reports::ReportCampaign& one, const reports::JudgedPoint& point) {
+/// At the reflectors, by which the method was chosen, and at P_wrist; beside the paper in the paper's order.
+KeyNumber compensated(const reports::ReportCampaign& one, bool paper) {
   const auto shown = reports::shownMethod(one.identification);
   if (!shown) return {"–", "compensated: no method is available, see the stiffnesses"};
   const identification::MethodResult& method = one.identification.of(*shown);
-  if (const auto share = reports::heldOut(method, point.at_wrist)) {
-    return {reports::percent(*share, 0),
-            fmt::format("of it compensated by {} in postures held out", reports::shortName(*shown))};
-  }
-  const auto& compensation = reports::compensationAt(method, point.at_wrist);
-  return {reports::percent(compensation ? compensation->all_postures : std::nan(""), 0),
-          fmt::format("of it compensated by {}, judged on the postures used", reports::shortName(*shown))};
+  const bool wrist = reports::compensationAt(method, true).has_value(), first_at_wrist = wrist && paper;
+  const auto share = [&](bool at_wrist) {
+    const auto held_out = reports::heldOut(method, at_wrist);
+    const auto& all = reports::compensationAt(method, at_wrist);
+    return reports::percent(held_out ? *held_out : all ? all->all_postures : std::nan(""), 0);
+  };
+  const auto point = [](bool at_wrist) { return at_wrist ? "P_{wrist}" : "the reflectors"; };
+  std::string words =
+      fmt::format("of the deflection at {} compensated by {} in postures {}", point(first_at_wrist),
+                  reports::shortName(*shown), reports::heldOut(method, first_at_wrist) ? "held out" : "used");
+  if (wrist) words += fmt::format("; {} at {}", share(!first_at_wrist), point(!first_at_wrist));
+  return {share(first_at_wrist), words};
 }
 
 /// The joints that the verdict does not doubt.
@@ -165,7 +171,7 @@ std::vector<KeyNumber> keyNumbers(const reports::ReportContent& content) {
   const reports::JudgedPoint point = reports::judgedPoint(one);
   const bool sweeps_alone = one.identification.cases.empty() && one.identification.frames.axes.front().measured;
   if (sweeps_alone) return sweepNumbers(one.identification.frames);
-  return {deflection(one, point), compensated(one, point), third(content, one)};
+  return {deflection(one, point), compensated(one, content.compare_with_paper), third(content, one)};
 }
 
 /// The checks of the audit that found something, by name; the audit's own section explains them.

@@ -125,7 +125,7 @@ reports::Table linkTable(const frames::Frames& frames, Notes& notes) {
                                         "before (Hayati).")
                            : "")};
     const auto add = [&](double value, const std::optional<double>& sd, double nominal, double unit) {
-      row.emplace_back(sd ? reports::withUncertainty(value / unit, *sd / unit) : "not measured");
+      row.emplace_back(sd ? reports::withUncertainty(value / unit, reports::expanded(*sd) / unit) : "not measured");
       row.emplace_back(reports::fixed(nominal / unit, 3));
       row.emplace_back(sd ? reports::fixed((value - nominal) / unit, 3) : "–");
     };
@@ -168,7 +168,7 @@ void writeLinks(Html& html, const reports::ReportContent& content) {
     }
     Notes notes;
     writeTable(html, linkTable(frames, notes));
-    html.paragraph("± is one standard uncertainty (k = 1).", "faint");
+    html.paragraph("± is the expanded uncertainty U, coverage about 95\u00a0%.", "faint");
     notes.write(html);
     writeTable(html, axisTable(frames));
     html.list(unmeasured);
@@ -197,8 +197,9 @@ reports::Table tableOne(const reports::ReportCampaign& one, const frames::WristC
   }
   reports::Row mean_row{"Mean of them"};
   for (int k = 0; k < 3; ++k) {
-    mean_row.emplace_back(reports::withUncertainty(wrist.table_mean_in_r0[k] / io::kMillimetre,
-                                                   std::sqrt(wrist.table_mean_covariance(k, k)) / io::kMillimetre));
+    mean_row.emplace_back(
+        reports::withUncertainty(wrist.table_mean_in_r0[k] / io::kMillimetre,
+                                 reports::expanded(std::sqrt(wrist.table_mean_covariance(k, k))) / io::kMillimetre));
   }
   for (int k = 0; k < 4; ++k) mean_row.emplace_back("–");
   table.groups.push_back({"", {std::move(mean_row)}});
@@ -218,8 +219,9 @@ reports::Table sideBySide(const frames::WristCentre& wrist) {
   };
   reports::Row sphere{"P_{wrist}: common centre of all spheres"};
   for (int k = 0; k < 3; ++k) {
-    sphere.emplace_back(reports::withUncertainty(wrist.centre_in_r0[k] / io::kMillimetre,
-                                                 std::sqrt(wrist.covariance(k, k)) / io::kMillimetre));
+    sphere.emplace_back(
+        reports::withUncertainty(wrist.centre_in_r0[k] / io::kMillimetre,
+                                 reports::expanded(std::sqrt(wrist.covariance(k, k))) / io::kMillimetre));
   }
   sphere.emplace_back("–");
   table.groups.front().rows.push_back(std::move(sphere));
@@ -232,7 +234,8 @@ std::string missWords(double miss, double sd) {
   if (sd <= 0.0)
     return fmt::format("{} mm (by the robot's description: not measured)",
                        reports::significant(miss / io::kMillimetre, 3));
-  return fmt::format("{} mm", reports::withUncertainty(miss / io::kMillimetre, sd / io::kMillimetre));
+  return fmt::format("{} mm",
+                     reports::withUncertainty(miss / io::kMillimetre, reports::expanded(sd) / io::kMillimetre));
 }
 
 void writeMeasured(Html& html, const reports::ReportContent& content, const reports::ReportCampaign& one,
@@ -246,9 +249,8 @@ void writeMeasured(Html& html, const reports::ReportContent& content, const repo
   html.paragraph(words);
   writeTable(html, tableOne(one, wrist));
   writeTable(html, sideBySide(wrist));
-  html.paragraph(
-      fmt::format("Axes 4 and 5 miss each other by {}, axes 5 and 6 by {}; ± is one standard uncertainty (k = 1).",
-                  missWords(wrist.miss_45, wrist.miss_45_sd), missWords(wrist.miss_56, wrist.miss_56_sd)));
+  html.paragraph(fmt::format("Axes 4 and 5 miss each other by {}, axes 5 and 6 by {}; ± is U, about 95\u00a0%.",
+                             missWords(wrist.miss_45, wrist.miss_45_sd), missWords(wrist.miss_56, wrist.miss_56_sd)));
 }
 
 }  // namespace

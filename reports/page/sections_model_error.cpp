@@ -279,13 +279,13 @@ int powerFor(const std::vector<extended_model::EffectParameter>& parameters, con
 reports::Row parameterRow(const extended_model::EffectParameter& parameter, int power) {
   const double unit = std::pow(10.0, power);
   return {reports::asIs(parameter.name.empty() ? "size" : parameter.name),
-          reports::withUncertainty(parameter.value / unit, parameter.sd / unit),
+          reports::withUncertainty(parameter.value / unit, reports::expanded(parameter.sd) / unit),
           power == 0 ? parameter.unit : fmt::format("{}\u00a0{}", powerOfTen(power), parameter.unit)};
 }
 
 reports::Table parametersTable(const extended_model::EffectFit& effects) {
   reports::Table table{
-      "Effects in the model, fitted jointly with the stiffnesses", {"Effect", "Parameter", "Value ± u", "Unit"}, {}};
+      "Effects in the model, fitted jointly with the stiffnesses", {"Effect", "Parameter", "Value ± U", "Unit"}, {}};
   table.id = "effects";
   for (const extended_model::AddedEffect& one : effects.added) {
     reports::RowGroup group{reports::effectName(one.effect), {}};
@@ -324,13 +324,13 @@ reports::Table stiffnessWithEffectsTable(const extended_model::ExtendedModel& mo
 }
 
 reports::Table residualTable(const extended_model::ExtendedModel& model) {
-  reports::Table table{
-      "What is left without and with the effects",
-      {"Method", "rms without (µm)", "rms with (µm)", "Compensated without, held out", "with, held out"},
-      {{}}};
+  reports::Table table{"What is left without and with the effects",
+                       {"Method", "rms without (µm)", "rms with (µm)", "Compensated without, held out",
+                        "with, held out", "At P_{wrist} without, held out", "At P_{wrist} with, held out"},
+                       {{}}};
   table.id = "effects-residuals";
-  const auto share = [](const identification::MethodResult& method) {
-    const auto held_out = reports::heldOut(method, false);
+  const auto share = [](const identification::MethodResult& method, bool at_wrist) {
+    const auto held_out = reports::heldOut(method, at_wrist);
     return held_out ? reports::percent(*held_out) : std::string("–");
   };
   for (const identification::Method method : identification::kMethods) {
@@ -338,7 +338,8 @@ reports::Table residualTable(const extended_model::ExtendedModel& model) {
     if (!without.available || !with.available) continue;
     table.groups.front().rows.push_back(
         {reports::longName(method), reports::fixed(without.estimate.rms_residual / io::kMicrometre, 1),
-         reports::fixed(with.estimate.rms_residual / io::kMicrometre, 1), share(without), share(with)});
+         reports::fixed(with.estimate.rms_residual / io::kMicrometre, 1), share(without, false), share(with, false),
+         share(without, true), share(with, true)});
   }
   return table;
 }
@@ -381,6 +382,11 @@ void writeHidden(Html& html, const extended_model::ExtendedModel& model) {
       "As fitted: of an effect's size in the model. Could hide: of all sizes that the data leave possible. Effects in "
       "common: negative where effects are known better together than one by one.",
       "faint");
+  const identification::Method which = identification::bestMethod(model.with);
+  std::vector<std::string> combinations;
+  for (const extended_model::SeenCombination& one : model.hidden->combinations[static_cast<std::size_t>(which)])
+    combinations.push_back(reports::asIs(reports::withMicro(reports::combinationWords(one))));
+  html.list(combinations);
 }
 
 void writeModel(Html& html, const extended_model::ExtendedModel& model) {

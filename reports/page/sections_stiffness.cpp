@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -51,6 +52,27 @@ reports::Table shareTable(const reports::ReportContent& content, const reports::
       }
     }
     table.groups.push_back(std::move(group));
+  }
+  return table;
+}
+
+/// Both points side by side, with the spread over the subsets.
+reports::Table heldOutTable(const identification::Identification& result) {
+  reports::Table table{"Share compensated on postures held out, and its standard deviation over the subsets, %",
+                       {"Method", "At the reflectors", "sd at the reflectors", "At P_{wrist}", "sd at P_{wrist}"},
+                       {{}}};
+  table.id = "held-out";
+  for (const identification::Method method : identification::kMethods) {
+    const identification::MethodResult& one = result.of(method);
+    if (!one.available || one.subsets.compliances.empty()) continue;
+    reports::Row row{reports::shortName(method)};
+    for (const bool at_wrist : {false, true}) {
+      const auto& share = reports::compensationAt(one, at_wrist);
+      row.emplace_back(share ? reports::fixed(100.0 * share->subsets.held_out, 2) : "–");
+      row.emplace_back(share && std::isfinite(share->held_out_sd) ? reports::fixed(100.0 * share->held_out_sd, 2)
+                                                                  : "–");
+    }
+    table.groups.front().rows.push_back(std::move(row));
   }
   return table;
 }
@@ -152,6 +174,10 @@ void writeCompensation(Html& html, const reports::ReportContent& content) {
       html.paragraph("No method is available, so nothing is compensated.");
       return;
     }
+    if (one.identification.shown_first)
+      html.paragraph(reports::asIs(reports::shownFirstWords(one.identification, *one.identification.shown_first)));
+    if (const reports::Table held_out = heldOutTable(one.identification); !held_out.groups.front().rows.empty())
+      writeTable(html, held_out);
     writeTable(html, shareTable(content, one));
     if (one.identification.wrist_displacement.empty()) {
       html.paragraph("P_{wrist} is not measured in the load states: shares are given at the reflectors.");
@@ -206,7 +232,7 @@ reports::Table stiffnessTable(const identification::Identification& result, Note
 
 /// Compliances are what the methods solve for: their uncertainty is symmetric where a stiffness's is not.
 reports::Table complianceTable(const identification::Identification& result) {
-  reports::Table table{"Joint compliance c ± u (standard uncertainty), 10⁻⁹\u00a0rad/Nm", {"Joint"}, {{}}};
+  reports::Table table{"Joint compliance c ± U, 10⁻⁹\u00a0rad/Nm", {"Joint"}, {{}}};
   table.id = "compliance";
   for (const identification::Method method : identification::kMethods) {
     if (result.of(method).available) table.columns.push_back(reports::longName(method));
@@ -217,8 +243,9 @@ reports::Table complianceTable(const identification::Identification& result) {
     for (const identification::Method method : identification::kMethods) {
       const identification::StiffnessEstimate& estimate = result.of(method).estimate;
       if (!result.of(method).available) continue;
-      row.emplace_back(reports::withUncertainty(1e9 * estimate.compliance[joint],
-                                                1e9 * std::sqrt(estimate.covariance(joint, joint))));
+      const identification::CoverageInterval interval = identification::complianceInterval(estimate, joint);
+      const double c = estimate.compliance[joint];
+      row.emplace_back(reports::withUncertainty(1e9 * c, 1e9 * std::max(interval.high - c, c - interval.low)));
     }
     table.groups.front().rows.push_back(std::move(row));
   }
@@ -242,21 +269,41 @@ reports::Table fitTable(const identification::Identification& result) {
 /// CP's result against the characteristic length, which is not unique.
 reports::Table lengthTable(const identification::Identification& result) {
   reports::Table table{
-      "Complete Pose against the characteristic length L: stiffness in 10⁶\u00a0Nm/rad", {"L (m)", "Condition"}, {{}}};
+      "Complete Pose against the characteristic length L: stiffness in 10⁶\u00a0Nm/rad, share compensated on postures "
+      "held out (its standard deviation over the subsets) in %",
+      {"L (m)", "Condition"},
+      {{}}};
   table.id = "characteristic-length";
+  const identification::MethodResult& own = result.of(identification::Method::complete_pose);
   const auto& seen = result.of(identification::Method::complete_pose).estimate.identifiable;
   for (int joint = 0; joint < 6; ++joint) {
     if (seen[static_cast<std::size_t>(joint)]) table.columns.push_back(reports::jointName(joint));
   }
-  constexpr std::size_t kEvery = 2;  // a dozen rows would say no more
-  for (std::size_t i = 0; i < result.length_sensitivity.size(); i += kEvery) {
-    const identification::LengthSensitivity& at = result.length_sensitivity[i];
+  table.columns.insert(table.columns.end(), {"At P_{wrist}", "At the reflectors", "Chosen by"});
+  const auto share = [](const std::optional<identification::Compensation>& at) {
+    if (!at || !std::isfinite(at->held_out_sd)) return std::string("–");
+    return fmt::format("{} ({})", reports::fixed(100.0 * at->subsets.held_out, 1),
+                       reports::fixed(100.0 * at->held_out_sd, 1));
+  };
+  const auto add = [&](const identification::LengthSensitivity& at, const char* chosen_by) {
     reports::Row row{reports::significant(at.length, 3), reports::significant(at.condition, 3)};
     for (int joint = 0; joint < 6; ++joint) {
       if (seen[static_cast<std::size_t>(joint)]) row.emplace_back(reports::significant(1e-6 / at.compliance[joint], 3));
     }
+    for (const auto& cell : {share(at.at_wrist), share(at.at_targets), std::string(chosen_by)}) row.emplace_back(cell);
     table.groups.front().rows.push_back(std::move(row));
-  }
+  };
+  constexpr std::size_t kEvery = 2;  // a dozen rows would say no more
+  for (std::size_t i = 0; i < result.length_sensitivity.size(); i += kEvery) add(result.length_sensitivity[i], "");
+  if (!own.available) return table;
+  identification::LengthSensitivity chosen;
+  chosen.length = result.characteristic_length.length;
+  chosen.condition = result.characteristic_length.condition;
+  chosen.compliance = own.estimate.compliance;
+  chosen.at_wrist = own.at_wrist;
+  chosen.at_targets = own.at_targets;
+  add(chosen, "least condition number: CP of this page");
+  if (result.residual_length) add(*result.residual_length, "residual variances");
   return table;
 }
 

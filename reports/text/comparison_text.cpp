@@ -139,8 +139,13 @@ std::string comparisonText(const campaign::Campaign& before, const campaign::Cam
   for (const std::string& caution : words(comparison.cautions))
     fmt::format_to(out, "  {}\n", wrapped("caution: " + caution, 4));
   if (comparison.comparable) {
-    for (const identification::Method method : identification::kMethods)
-      writeMethod(comparison.of(method), method, comparison.residual.isNoise(), out);
+    if (comparison.shown_first)
+      fmt::format_to(out, "\n{}\n", wrapped(fmt::format("Shown first: {}.", words(comparison.shown_first->reason)), 2));
+    const identification::Method first = comparison.best();
+    writeMethod(comparison.of(first), first, comparison.residual.isNoise(), out);
+    for (const identification::Method method : identification::kMethods) {
+      if (method != first) writeMethod(comparison.of(method), method, comparison.residual.isNoise(), out);
+    }
     writeLegend(comparison, out);
     if (comparison.judgedAtWrist()) writeShare(comparison.at_wrist, "P_wrist", out);
     writeShare(comparison.at_targets, "the reflectors", out);

@@ -40,7 +40,8 @@ void writeEffect(const extended_model::AddedEffect& one, Out out) {
       fmt::format_to(out, "    {:<24} 0 (none found)\n", name);
       continue;
     }
-    fmt::format_to(out, "    {:<24}{:>12.4g} +-{:.2g} {}\n", name, parameter.value, parameter.sd, parameter.unit);
+    fmt::format_to(out, "    {:<24}{:>12.4g} +-{:.2g} {}\n", name, parameter.value, expanded(parameter.sd),
+                   parameter.unit);
   }
   if (const std::string doubt = doubtOf(one); !doubt.empty())
     fmt::format_to(out, "    {}\n", wrapped("Caution: " + doubt + ".", 4));
@@ -56,8 +57,8 @@ std::string stiffnessCell(const identification::StiffnessEstimate& estimate, int
 std::string heldOutCell(const identification::MethodResult& method,
                         const std::optional<identification::Compensation>& share) {
   if (!share) return "-";
-  return fmt::format("{:.2f}",
-                     100.0 * (method.subsets.compliances.empty() ? share->all_postures : share->subsets.held_out));
+  if (method.subsets.compliances.empty()) return fmt::format("{:.2f}", 100.0 * share->all_postures);
+  return fmt::format("{:.2f} ({:.2f})", 100.0 * share->subsets.held_out, 100.0 * share->held_out_sd);
 }
 
 /// The standard uncertainty that the effects alone make.
@@ -91,7 +92,7 @@ void writeStiffnesses(const extended_model::ExtendedModel& model, const std::vec
 void writeResiduals(const extended_model::ExtendedModel& model, const std::vector<identification::Method>& methods,
                     Out out) {
   fmt::format_to(out, "\n  {:<14}{:>20}{:>26}{:>20}\n  {:<14}{:>20}{:>26}{:>20}\n", "", "rms residual (um)",
-                 "compensated at P_wrist", "at the reflectors", "", "", "held out, %", "held out, %");
+                 "compensated at P_wrist", "at the reflectors", "", "", "held out (sd), %", "held out (sd), %");
   for (const identification::Method which : methods) {
     const auto row = [&](const char* name, const identification::MethodResult& method) {
       if (!method.available) return;
@@ -138,19 +139,19 @@ void writeBudget(const std::vector<extended_model::BudgetLine>& budget,
 void writeHidden(const extended_model::ExtendedModel& model, const std::vector<identification::Method>& methods,
                  Out out) {
   fmt::format_to(out, "\n{}\n", wrapped(residualWords(model), 0));
-  for (const identification::Method which :
-       {identification::Method::decoupled_partial_pose, identification::Method::partial_pose,
-        identification::Method::complete_pose}) {
-    if (std::find(methods.begin(), methods.end(), which) == methods.end() || !model.with.of(which).available) continue;
-    writeBudget(model.hidden->budget[static_cast<std::size_t>(which)], model.with.of(which).estimate, which, out);
-    return;
-  }
+  const auto best = identification::bestMethodOf(model.with, methods);
+  if (!best) return;
+  const auto at = static_cast<std::size_t>(*best);
+  writeBudget(model.hidden->budget[at], model.with.of(*best).estimate, *best, out);
+  for (const extended_model::SeenCombination& one : model.hidden->combinations[at])
+    fmt::format_to(out, "  {}\n", wrapped(fmt::format("{}: {}", namesOf(*best).brief, combinationWords(one)), 4));
 }
 
 }  // namespace
 
 std::string addedEffectsText(const extended_model::EffectFit& effects) {
-  std::string text = fmt::format("\nAdded to the joint springs: {}\n", addedNames(effects));
+  std::string text = fmt::format("\nAdded to the joint springs{}: {}\n", effects.added.empty() ? "" : " (+- U, 95 %)",
+                                 addedNames(effects));
   const auto out = std::back_inserter(text);
   for (const extended_model::AddedEffect& one : effects.added) writeEffect(one, out);
   for (const effects::Effect effect : effects.geometry)

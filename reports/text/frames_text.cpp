@@ -23,7 +23,7 @@ Eigen::VectorXd shown(const Eigen::Ref<const Eigen::VectorXd>& values, int decim
 }
 
 std::string plusMinus(double value, const std::optional<double>& sd, int decimals) {
-  return sd ? fmt::format("{:.{}f} +- {:.{}f}", value, decimals, *sd, decimals)
+  return sd ? fmt::format("{:.{}f} +- {:.{}f}", value, decimals, expanded(*sd), decimals)
             : fmt::format("{:.{}f}", value, decimals);
 }
 
@@ -52,7 +52,8 @@ void writeSagStake(const frames::Frames& frames, Out out) {
   for (std::size_t i = 0; i < frames.links.size(); ++i) {
     const frames::LinkGeometry& link = frames.links[i];
     fmt::format_to(out, "{} {:.3f} +- {:.3f}", i == 0 ? "" : ",",
-                   unsignedZero(link.distance_by_sag / io::kMillimetre, 3), link.distance_sag_sd / io::kMillimetre);
+                   unsignedZero(link.distance_by_sag / io::kMillimetre, 3),
+                   expanded(link.distance_sag_sd) / io::kMillimetre);
   }
   fmt::format_to(out, " mm;\n  +- holds the stiffnesses' uncertainty, not bearings that give across their axes\n");
 }
@@ -98,7 +99,7 @@ void writeWrist(const campaign::Campaign& campaign, const frames::Frames& frames
     fmt::format_to(out, "  {:<42}{:>11.3f}{:>11.3f}{:>11.3f}\n", name, mm.x(), mm.y(), mm.z());
   };
   const auto uncertain = [&](const Eigen::Matrix3d& covariance) {
-    const Eigen::Vector3d mm = covariance.diagonal().cwiseSqrt() / io::kMillimetre;
+    const Eigen::Vector3d mm = expanded(1.0) * covariance.diagonal().cwiseSqrt() / io::kMillimetre;
     fmt::format_to(out, "  {:<42}{:>11.3f}{:>11.3f}{:>11.3f}\n", "  +-, with R0's", mm.x(), mm.y(), mm.z());
   };
   place("mean of the rows", wrist.table_mean_in_r0);
@@ -108,7 +109,7 @@ void writeWrist(const campaign::Campaign& campaign, const frames::Frames& frames
   place("nearest to axes 5 and 6", wrist.nearest_axes_56_in_r0);
   place("barycentre of the reflectors (Dumas et al.)", wrist.reflector_barycentre_in_r0);
   const auto miss = [](double value, double sd) {
-    return fmt::format("{:.3f} +- {:.3f} mm", value / io::kMillimetre, sd / io::kMillimetre);
+    return fmt::format("{:.3f} +- {:.3f} mm", value / io::kMillimetre, expanded(sd) / io::kMillimetre);
   };
   fmt::format_to(out, "  axes 4 and 5 miss by {}{}, 5 and 6 by {}{}\n", miss(wrist.miss_45, wrist.miss_45_sd),
                  sourceMark(frames, {3, 4}), miss(wrist.miss_56, wrist.miss_56_sd), sourceMark(frames, {4, 5}));
@@ -126,10 +127,10 @@ void writeR0(const frames::Frames& frames, Out out) {
     fmt::format_to(out, "  {:>13.9f}{:>13.9f}{:>13.9f}{:>13.6f}\n", unsignedZero(values[0], 9),
                    unsignedZero(values[1], 9), unsignedZero(values[2], 9), unsignedZero(values[3], 6));
   }
-  const metrology::FrameError sd = frames.covariance.r0().diagonal().cwiseSqrt();
-  const Eigen::Vector3d turn = 1e6 * sd.head<3>(), origin = sd.tail<3>() / io::kMillimetre;
+  const metrology::FrameError own = expanded(1.0) * frames.covariance.r0().diagonal().cwiseSqrt();
+  const Eigen::Vector3d turn = 1e6 * own.head<3>(), origin = own.tail<3>() / io::kMillimetre;
   fmt::format_to(out,
-                 "  standard uncertainty about x0, y0, z0 {:.1f}, {:.1f}, {:.1f} urad; of the origin "
+                 "  U about x0, y0, z0 {:.1f}, {:.1f}, {:.1f} urad; of the origin "
                  "{:.4f}, {:.4f}, {:.4f} mm\n",
                  turn.x(), turn.y(), turn.z(), origin.x(), origin.y(), origin.z());
 }
@@ -139,7 +140,7 @@ void writeR0(const frames::Frames& frames, Out out) {
 std::string framesText(const campaign::Campaign& campaign, const frames::Frames& frames) {
   std::string text;
   Out out(text);
-  fmt::format_to(out, "{}: frames and geometry\n\n", campaign.name);
+  fmt::format_to(out, "{}: frames and geometry; +- and U: expanded uncertainty, 95 %\n\n", campaign.name);
   writeR0(frames, out);
   writeAxes(frames, out);
   writeLinks(frames, out);

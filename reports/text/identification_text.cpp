@@ -32,6 +32,11 @@ std::string bounds(const identification::CoverageInterval& interval) {
   return "unbounded";
 }
 
+/// U, or "?" where it is open.
+std::string expandedCell(double expanded, int decimals) {
+  return std::isfinite(expanded) ? fmt::format("{:.{}f}", expanded, decimals) : "?";
+}
+
 template <class Write>
 void forEachSeen(const identification::Identification& result, const std::vector<identification::Method>& methods,
                  const Write& write) {
@@ -97,15 +102,17 @@ std::string stepsText(const identification::StepStudy& study, const identificati
       }
       fmt::format_to(out, "\n");
     };
-    fmt::format_to(out, "\n{} by load step, 1e6 Nm/rad +- standard uncertainty\n", namesOf(which).full);
+    fmt::format_to(out, "\n{} by load step, 1e6 Nm/rad +- U\n", namesOf(which).full);
     for (const identification::StepEstimate& one : own.steps) {
       row(fmt::format("{} ({:.0f} N)", one.step, one.mean_force), [&](int j) {
-        return fmt::format("{:.4f} +-{:.4f}", one.estimate.stiffness(j) / kMega, one.estimate.stiffnessSd(j) / kMega);
+        return fmt::format("{:.4f} +-{}", one.estimate.stiffness(j) / kMega,
+                           expandedCell(identification::expandedUncertainty(one.estimate, j) / kMega, 4));
       });
     }
     row("change of 1/k", [&](int j) {
       const identification::LoadDependence& joint = own.joints[static_cast<std::size_t>(j)];
-      return fmt::format("{:+.2f} +-{:.2f} %", 100.0 * joint.change, 100.0 * joint.change_sd);
+      const double factor = identification::studentFactor(joint.dof, identification::kStatedCoverage);
+      return fmt::format("{:+.2f} +-{} %", 100.0 * joint.change, expandedCell(100.0 * factor * joint.change_sd, 2));
     });
     row("p, linear", [&](int j) { return fmt::format("{:.3g}", own.joints[static_cast<std::size_t>(j)].p_linear); });
   }
@@ -148,8 +155,7 @@ std::string markedStiffnessCell(const identification::StiffnessEstimate& estimat
   const char* mark =
       estimate.mark(joint).empty() ? "" : (estimate.mark(joint).is(identification::RemarkId::negative) ? "!" : "?");
   const double expanded = identification::expandedUncertainty(estimate, joint) * 1e-6;
-  return fmt::format("{:.4f} +-{}{}", estimate.stiffness(joint) * 1e-6,
-                     std::isfinite(expanded) ? fmt::format("{:.4f}", expanded) : "?", mark);
+  return fmt::format("{:.4f} +-{}{}", estimate.stiffness(joint) * 1e-6, expandedCell(expanded, 4), mark);
 }
 
 void writeStiffness(const identification::Identification& result, const std::vector<identification::Method>& methods,
@@ -201,35 +207,65 @@ void writeResiduals(const identification::Identification& result, const std::vec
   fmt::format_to(out, "  condition: condition number of the method's equations, columns of unit length; 1 at best\n");
 }
 
+constexpr const char* kShareColumns = "    used  held out (sd)     all  all identify";
+
+/// At one kind of point, as in kShareColumns.
+std::string shareCells(const std::optional<identification::Compensation>& share, bool subsets) {
+  const auto cell = [&](double value, bool known) { return known ? fmt::format("{:.2f}", 100.0 * value) : "-"; };
+  if (!share) return fmt::format("{:>8}{:>15}{:>8}{:>14}", "-", "-", "-", "-");
+  const std::string held_out = subsets ? fmt::format("{:.2f} ({})", 100.0 * share->subsets.held_out,
+                                                     cell(share->held_out_sd, std::isfinite(share->held_out_sd)))
+                                       : "-";
+  return fmt::format("{:>8}{:>15}{:>8}{:>14.2f}", cell(share->subsets.used, subsets), held_out,
+                     cell(share->subsets.all, subsets), 100.0 * share->all_postures);
+}
+
+/// Complete Pose against the characteristic length: what it would compensate with another.
+void writeLengths(const identification::Identification& result, Out out) {
+  const identification::MethodResult& own = result.of(identification::Method::complete_pose);
+  if (!own.available || result.length_sensitivity.empty() || own.subsets.compliances.empty()) return;
+  fmt::format_to(out,
+                 "\nComplete Pose against the characteristic length L: share compensated on postures held out (sd), %\n"
+                 "  {:<12}{:>12}{:>18}{:>20}\n",
+                 "L (m)", "condition", "at P_wrist", "at the reflectors");
+  const auto share = [](const std::optional<identification::Compensation>& at) {
+    return at ? fmt::format("{:.2f} ({:.2f})", 100.0 * at->subsets.held_out, 100.0 * at->held_out_sd) : "-";
+  };
+  const auto row = [&](double length, double condition, const std::optional<identification::Compensation>& at_wrist,
+                       const std::optional<identification::Compensation>& at_targets, const char* mark) {
+    fmt::format_to(out, "  {:<12.3f}{:>12.2f}{:>18}{:>20}{}\n", length, condition, share(at_wrist), share(at_targets),
+                   mark);
+  };
+  for (const identification::LengthSensitivity& one : result.length_sensitivity)
+    row(one.length, one.condition, one.at_wrist, one.at_targets, "");
+  row(result.characteristic_length.length, result.characteristic_length.condition, own.at_wrist, own.at_targets,
+      "  least condition number: CP above");
+  if (const auto& one = result.residual_length)
+    row(one->length, one->condition, one->at_wrist, one->at_targets, "  of the residual variances");
+  fmt::format_to(out, "  over {} subsets at each length, over all at that of the least condition number\n",
+                 result.length_sensitivity.front().subsets);
+}
+
 void writeCompensation(const identification::Identification& result, const std::vector<identification::Method>& methods,
                        Out out) {
-  const auto table = [&](const char* place, const auto& member) {
-    const bool any = std::any_of(methods.begin(), methods.end(), [&](identification::Method which) {
-      return result.of(which).available && (result.of(which).*member).has_value();
-    });
-    if (!any) return;
-    fmt::format_to(out, "\nShare of the deflection compensated at {}, %\n  {:<5}{:>8}{:>10}{:>8}{:>16}\n", place, "",
-                   "used", "held out", "all", "all identify");
-    for (const identification::Method which : methods) {
-      const identification::MethodResult& method = result.of(which);
-      if (!method.available || !(method.*member)) continue;
-      const identification::Compensation& share = *(method.*member);
-      if (method.subsets.compliances.empty()) {
-        fmt::format_to(out, "  {:<5}{:>8}{:>10}{:>8}{:>16.2f}\n", namesOf(which).brief, "-", "-", "-",
-                       100.0 * share.all_postures);
-        continue;
-      }
-      fmt::format_to(out, "  {:<5}{:>8.2f}{:>10.2f}{:>8.2f}{:>16.2f}\n", namesOf(which).brief,
-                     100.0 * share.subsets.used, 100.0 * share.subsets.held_out, 100.0 * share.subsets.all,
-                     100.0 * share.all_postures);
-    }
-  };
-  table("P_wrist (which sees joints 1-3)", &identification::MethodResult::at_wrist);
-  table("the reflectors (which see all joints)", &identification::MethodResult::at_targets);
+  const bool any = std::any_of(methods.begin(), methods.end(),
+                               [&](identification::Method which) { return result.of(which).available; });
+  if (!any) return;
+  fmt::format_to(out, "\nShare of the deflection compensated, %\n  {:<5} |{:^44} |{:^44}\n  {:<5} |{} |{}\n", "",
+                 "at P_wrist, which sees joints 1-3", "at the reflectors, which see all joints", "", kShareColumns,
+                 kShareColumns);
+  for (const identification::Method which : methods) {
+    const identification::MethodResult& method = result.of(which);
+    if (!method.available) continue;
+    const bool subsets = !method.subsets.compliances.empty();
+    fmt::format_to(out, "  {:<5} |{} |{}\n", namesOf(which).brief, shareCells(method.at_wrist, subsets),
+                   shareCells(method.at_targets, subsets));
+  }
   for (const identification::Method which : methods) {
     const identification::SubsetStudy& study = result.of(which).subsets;
     if (study.compliances.empty()) continue;
-    fmt::format_to(out, "  means over {} of the {} out of {} postures that identify\n",
+    fmt::format_to(out,
+                   "  means over {} of the {} out of {} postures that identify; sd: standard deviation over them\n",
                    study.every_subset ? fmt::format("all {} subsets", study.compliances.size())
                                       : fmt::format("{} random subsets", study.compliances.size()),
                    study.size, study.of);
@@ -255,9 +291,13 @@ std::string identificationText(const campaign::Campaign& campaign, const identif
                  identification::postureCount(result));
   const auto leftOut = [](const identification::LeftOutPosture& one) { return "left out: " + leftOutWords(one); };
   for (const std::string& entry : listed(result.left_out, leftOut, kListedInJson)) fmt::format_to(out, "  {}\n", entry);
+  if (const auto first = identification::shownFirstOf(result, methods))
+    fmt::format_to(out, "{}\n", wrapped(shownFirstWords(result, *first), 2));
   writeStiffness(result, methods, out);
   writeResiduals(result, methods, out);
   writeCompensation(result, methods, out);
+  if (std::find(methods.begin(), methods.end(), identification::Method::complete_pose) != methods.end())
+    writeLengths(result, out);
   fmt::format_to(out, "{}", bootstrapText(result, methods));
   fmt::format_to(out, "\n");
   for (const std::string& caution : words(result.cautions)) {

@@ -4,6 +4,7 @@
 
 #include "core/audit/remarks.h"
 #include "core/io/units.h"
+#include "reports/words/numbers.h"
 #include "reports/words/remark_words.h"
 #include "reports/words/remarks.h"
 
@@ -50,8 +51,9 @@ std::string millimetres(const std::vector<double>& place, int decimals) {
 
 std::string wristAxesMiss(const RemarkValues& values) {
   const std::vector<double>& miss = values.numbers(0);
-  return fmt::format("axes 4 and 5 miss by {:.3f} +- {:.3f} mm, axes 5 and 6 by {:.3f} +- {:.3f} mm{}",
-                     1e3 * miss.at(0), 1e3 * miss.at(1), 1e3 * miss.at(2), 1e3 * miss.at(3), more(values, 1));
+  return fmt::format("axes 4 and 5 miss by {:.3f} +- {:.3f} mm, axes 5 and 6 by {:.3f} +- {:.3f} mm (U, 95 %){}",
+                     1e3 * miss.at(0), 1e3 * expanded(miss.at(1)), 1e3 * miss.at(2), 1e3 * expanded(miss.at(3)),
+                     more(values, 1));
 }
 
 std::string unloadedReading(const RemarkValues& values) {

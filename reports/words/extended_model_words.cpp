@@ -7,6 +7,7 @@
 #include "core/io/units.h"
 #include "reports/words/effect_words.h"
 #include "reports/words/names.h"
+#include "reports/words/numbers.h"
 #include "reports/words/remark_words.h"
 
 namespace stiffscope::reports {
@@ -92,6 +93,13 @@ std::string budgetWords(const extended_model::BudgetLine& line) {
       return "no model explains the gap";
   }
   return {};
+}
+
+std::string combinationWords(const extended_model::SeenCombination& seen) {
+  const std::string unit = seen.parameter.unit.empty() ? "" : ", " + seen.parameter.unit;
+  return fmt::format("only 1/k{} {} {:.3g} times {} ({}{}) is seen: {:.4g} +- {:.2g} rad/Nm (U, 95 %)", seen.joint + 1,
+                     seen.ratio < 0.0 ? "-" : "+", std::abs(seen.ratio), effectName(seen.parameter.effect),
+                     seen.parameter.name, unit, seen.value, expanded(seen.sd));
 }
 
 std::string residualWords(const extended_model::ExtendedModel& model) {

@@ -1,12 +1,16 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <string>
 #include <vector>
 
+#include "core/identification/identification.h"
 #include "core/identification/remarks.h"
 #include "core/identification/warnings.h"
 #include "core/io/units.h"
+#include "reports/words/names.h"
 #include "reports/words/remark_words.h"
 #include "reports/words/remarks.h"
 
@@ -64,6 +68,34 @@ std::string outlyingWords(const RemarkValues& values) {
   return fmt::format("outlying posture{}: {}: the springs of the other postures do not explain {}; {}", one ? "" : "s",
                      fmt::join(postures, ", "), one ? "it" : "them",
                      left_out ? "left out as asked" : "used nevertheless; `identify --robust` leaves out");
+}
+
+std::string briefOf(std::int64_t method) { return namesOf(static_cast<identification::Method>(method)).brief; }
+
+/// "PP 90.45 %, DPP 89.11 %": the largest first.
+std::string sharesWords(const std::vector<std::int64_t>& methods, const std::vector<double>& shares) {
+  std::vector<std::size_t> order(methods.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return shares[a] > shares[b]; });
+  std::vector<std::string> parts;
+  for (const std::size_t i : order) parts.push_back(fmt::format("{} {:.2f} %", briefOf(methods[i]), 100.0 * shares[i]));
+  return fmt::format("{}", fmt::join(parts, ", "));
+}
+
+std::string judgedAt(std::int64_t judged) {
+  const bool at_wrist =
+      static_cast<identification::ShownFirst::Judged>(judged) == identification::ShownFirst::Judged::at_wrist;
+  return at_wrist ? "P_wrist" : "the reflectors";
+}
+
+/// Values: see RemarkId::shown_as_good_as_most.
+std::string asGoodWords(const RemarkValues& values) {
+  const std::string own = briefOf(values.count(1));
+  return fmt::format(
+      "{}, as good as {}, which compensates most of the deflection at {} on postures held out ({}): by {:.2f} % more, "
+      "with a standard deviation of {:.2f} % over the subsets; of equals DPP goes before PP, and PP before CP",
+      own, briefOf(values.count(2)), judgedAt(values.count(0)), sharesWords(values.counts(5), values.numbers(6)),
+      100.0 * values.number(3), 100.0 * values.number(4));
 }
 
 }  // namespace
@@ -175,6 +207,21 @@ std::string identificationWords(identification::RemarkId id, const RemarkValues&
           "the circles of axis {} leave {:.0f} µm, {:.0f} times the tracker's noise: the axis bent during its sweep or "
           "a reading is wrong, and its uncertainty is of scatter only",
           values.count(0), values.number(1) / io::kMicrometre, values.number(2));
+    case RemarkId::shown_compensates_most:
+      return fmt::format("{}, which compensates most of the deflection at {} on postures held out ({})",
+                         briefOf(values.count(1)), judgedAt(values.count(0)),
+                         sharesWords(values.counts(2), values.numbers(3)));
+    case RemarkId::shown_as_good_as_most:
+      return asGoodWords(values);
+    case RemarkId::shown_alone:
+      return fmt::format("{}, the only method available", briefOf(values.count(0)));
+    case RemarkId::shown_unjudged:
+      return fmt::format("{}, the first available of DPP, PP and CP: the methods are not judged on postures held out",
+                         briefOf(values.count(0)));
+    case RemarkId::shown_as_in_the_paper:
+      return fmt::format("{}, the paper's method", briefOf(values.count(0)));
+    case RemarkId::shown_as_asked:
+      return fmt::format("{}, as asked", briefOf(values.count(0)));
     case RemarkId::negative:
       return "negative";
     case RemarkId::imprecise:

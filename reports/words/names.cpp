@@ -1,6 +1,7 @@
 #include "reports/words/names.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <algorithm>
 #include <array>
 #include <cctype>
@@ -131,12 +132,20 @@ std::optional<double> heldOut(const identification::MethodResult& method, bool a
 }
 
 std::optional<identification::Method> shownMethod(const identification::Identification& identification) {
-  for (const identification::Method method :
-       {identification::Method::decoupled_partial_pose, identification::Method::partial_pose,
-        identification::Method::complete_pose}) {
-    if (identification.of(method).available) return method;
+  return identification::bestMethodOf(identification, identification::kMethods);
+}
+
+std::string shownFirstWords(const identification::Identification& result, const identification::ShownFirst& first) {
+  using Judged = identification::ShownFirst::Judged;
+  std::vector<std::string> shares;
+  for (const bool at_wrist : {false, true}) {
+    if (first.judged == (at_wrist ? Judged::at_wrist : Judged::at_reflectors)) continue;  // the reason says it
+    if (const auto share = heldOut(result.of(first.method), at_wrist))
+      shares.push_back(fmt::format("{:.2f} % at {}", 100.0 * *share, at_wrist ? "P_wrist" : "the reflectors"));
   }
-  return std::nullopt;
+  std::string text = fmt::format("Shown first: {}.", words(first.reason));
+  if (!shares.empty()) text += fmt::format(" Held out, it compensates {}.", fmt::join(shares, " and "));
+  return text;
 }
 
 std::string capitalised(std::string text) {

@@ -65,8 +65,11 @@ const std::optional<identification::Compensation>& compensationAt(const identifi
 /// Compensated on the postures held out, mean over the subsets; empty where there are no subsets.
 std::optional<double> heldOut(const identification::MethodResult& method, bool at_wrist);
 
-/// The method to show first: of those available the paper's order of trust, DPP, PP, CP.
+/// The method to show first (core/identification/shown_first.h); empty where none is available.
 std::optional<identification::Method> shownMethod(const identification::Identification& identification);
+
+/// "Shown first: PP, which .... Held out, it compensates 83.75 % at P_wrist."; a plain text.
+std::string shownFirstWords(const identification::Identification& result, const identification::ShownFirst& first);
 
 std::string capitalised(std::string text);  ///< its first letter, where that is of the alphabet
 

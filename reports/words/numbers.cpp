@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "core/identification/estimate.h"
+#include "core/numerics/distributions.h"
 
 namespace stiffscope::reports {
 
@@ -18,6 +19,10 @@ Coverage coverageOf(const identification::StiffnessEstimate& estimate, int joint
     return {identification::expandedUncertainty(estimate, joint) / estimate.stiffnessSd(joint), 0.0};
   const double factor = identification::coverageFactor(estimate, joint, identification::kStatedCoverage);
   return {factor, std::isfinite(factor) ? estimate.dof(joint) : 0.0};
+}
+
+double expanded(double standard_uncertainty) {
+  return numerics::normalLimit(1.0 - identification::kStatedCoverage) * standard_uncertainty;
 }
 
 namespace {

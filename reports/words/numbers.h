@@ -20,15 +20,19 @@ struct Coverage {
 };
 Coverage coverageOf(const identification::StiffnessEstimate& estimate, int joint);
 
+/// U of a standard uncertainty whose degrees of freedom are many: 1.96 u, 95 % of a normal distribution. What people
+/// read behind ± is a U, unless its heading names something else.
+double expanded(double standard_uncertainty);
+
 /// `decimals` places; "–" (no number) where the value is not finite.
 std::string fixed(double value, int decimals);
 
 /// `digits` significant digits without exponent below 10^7; above, with one.
 std::string significant(double value, int digits);
 
-/// "5.60 ± 0.10": the standard uncertainty to two digits, the value to the same
-/// place. Without a finite positive uncertainty the value to four digits.
-std::string withUncertainty(double value, double standard_uncertainty);
+/// "5.60 ± 0.10": the uncertainty (or spread) to two digits, the value to the same place. Without a finite positive
+/// uncertainty the value to four digits.
+std::string withUncertainty(double value, double uncertainty);
 
 /// `value` to the place of the second digit of `width`, a range or an uncertainty: numbers beside it have the
 /// same digits. Without a finite positive width four significant digits.

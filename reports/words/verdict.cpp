@@ -51,17 +51,20 @@ std::string jointsSentence(const identification::Identification& identification)
   return text + ".";
 }
 
-/// "92 % of the deflection at P_{wrist} in postures it has not seen"; empty without a method.
+/// "92 % of the deflection at the reflectors and 88 % at P_{wrist} in postures it has not seen"; empty without a
+/// method.
 std::string compensatedWords(const ReportCampaign& one) {
   const auto shown = shownMethod(one.identification);
-  const JudgedPoint point = judgedPoint(one);
-  if (!shown || !compensationAt(one.identification.of(*shown), point.at_wrist)) return {};
+  if (!shown || !compensationAt(one.identification.of(*shown), false)) return {};
   const identification::MethodResult& method = one.identification.of(*shown);
-  if (const auto held_out = heldOut(method, point.at_wrist)) {
-    return fmt::format("{} of the deflection at {} in postures it has not seen", percent(*held_out, 0), point.name);
-  }
-  return fmt::format("{} of the deflection at {} in the postures it was fitted to, too few to hold some out",
-                     percent(compensationAt(method, point.at_wrist)->all_postures, 0), point.name);
+  const auto held_out = heldOut(method, false);
+  const auto share = [&](bool at_wrist) {
+    return percent(held_out ? *heldOut(method, at_wrist) : compensationAt(method, at_wrist)->all_postures, 0);
+  };
+  std::string text = fmt::format("{} of the deflection at the reflectors", share(false));
+  if (compensationAt(method, true)) text += fmt::format(" and {} at P_{{wrist}}", share(true));
+  return text +
+         (held_out ? " in postures it has not seen" : " in the postures it was fitted to, too few to hold some out");
 }
 
 /// What tells the campaigns of a report apart: the state of the double encoders, else the name.

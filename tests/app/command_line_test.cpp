@@ -97,7 +97,8 @@ TEST(CommandLine, JsonHasWhatTheContractPromises) {
     EXPECT_EQ(result["identifiable"], nlohmann::json({false, true, true, true, true, true}));
     for (const char* key : {"condition", "rms_residual_mm", "sigma_mm"}) EXPECT_TRUE(result[key].is_number()) << key;
     for (const char* place : {"compensated", "compensated_at_targets"}) {
-      for (const char* key : {"used", "held_out", "all"}) EXPECT_TRUE(result[place][key].is_number()) << place << key;
+      for (const char* key : {"used", "held_out", "sd_held_out", "all"})
+        EXPECT_TRUE(result[place][key].is_number()) << place << key;
     }
   }
   const auto frames = nlohmann::json::parse(runProgram("frames '" + kActive + "' --json -", scratch.path()).out);
@@ -117,6 +118,29 @@ TEST(CommandLine, OneMethodAloneAndAnotherStep) {
   EXPECT_EQ(json["step"], 1);
   EXPECT_EQ(json["methods"].size(), 1u);
   EXPECT_TRUE(json["methods"].contains("pp"));
+  EXPECT_EQ(json["shown_first"]["reason"], "PP, as asked");
+}
+
+TEST(CommandLine, TheMethodShownFirstIsTheOneThatIsTaken) {
+  const ScratchFolder scratch;
+  const std::string springs = " '" + kActive + "' --springs-only --json -";
+  const auto identify = nlohmann::json::parse(runProgram("identify" + springs, scratch.path()).out);
+  EXPECT_EQ(identify["shown_first"]["method"], "pp");
+  EXPECT_EQ(identify["posture_stiffness"]["method"], "pp");
+  const auto at_targets = [&](const char* method) {
+    return identify["methods"][method]["compensated_at_targets"]["held_out"].get<double>();
+  };
+  EXPECT_GT(at_targets("pp"), at_targets("dpp"));
+  const auto& lengths = identify["characteristic_length"];
+  EXPECT_LT(lengths["by_residual_variances"]["length_m"].get<double>(), lengths["length_m"].get<double>());
+  EXPECT_GT(lengths["by_residual_variances"]["compensated"]["held_out"].get<double>(),
+            identify["methods"]["cp"]["compensated"]["held_out"].get<double>());
+  for (const auto& row : lengths["sensitivity"]) EXPECT_EQ(row["subsets"], 500);
+  const auto compensate = nlohmann::json::parse(runProgram("compensate" + springs, scratch.path()).out);
+  EXPECT_EQ(compensate["method"], "pp");
+  const auto asked = nlohmann::json::parse(runProgram("compensate --method dpp" + springs, scratch.path()).out);
+  EXPECT_EQ(asked["method"], "dpp");
+  EXPECT_EQ(asked["shown_first"]["reason"], "DPP, as asked");
 }
 
 TEST(CommandLine, SimulateNamesJointsThatItTakesAsRigid) {

@@ -23,7 +23,10 @@ TEST(CompareCommand, TheSamplesAvoidAThirdOfTheDeflection) {
   EXPECT_EQ(json["avoided"]["postures"].size(), 19u);
   EXPECT_TRUE(json["unmatched"].empty());
   ASSERT_EQ(json["joints"].size(), 6u);
-  EXPECT_EQ(json["method"], "dpp");
+  EXPECT_EQ(json["method"], "pp");  // by springs alone ahead at the reflectors on both days
+  EXPECT_EQ(json["shown_first"]["method"], "pp");
+  EXPECT_EQ(json["shown_first"]["judged_at"], "reflectors");
+  EXPECT_EQ(json["joints"], json["methods"]["pp"]["joints"]);
   EXPECT_TRUE(json["joints"][0]["p_value"].is_null());  // the load only hangs
   for (const int joint : {1, 2}) {
     const auto& row = json["joints"][joint];

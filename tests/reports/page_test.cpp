@@ -163,12 +163,13 @@ TEST(Page, NumbersAreThoseOfTheResult) {
   const SmallResult small;
   const std::string page = page::reportPage(contentOf(small));
   EXPECT_TRUE(has(page, "2.00\u00a0mm"));  // the mean of 1, 3 and 2
-  EXPECT_TRUE(has(page, ">85\u00a0%<"));   // held out
+  EXPECT_TRUE(has(page, ">84\u00a0%<"));   // held out at the reflectors
+  EXPECT_TRUE(has(page, "; 85\u00a0% at P<sub>wrist</sub>"));
   // One degree of freedom, t = 12.71 (any table).
   EXPECT_TRUE(has(page, "12.71 for PP (1.0 degree of freedom)"));
   EXPECT_TRUE(has(page, "5.0 ± 6.4"));     // 1/0.2e-6, a tenth of it times 12.71
   EXPECT_TRUE(has(page, "−0.25 ± 0.16"));  // joint 4 by PP: u is that of 2e-6 rad/Nm, over c squared
-  EXPECT_TRUE(has(page, "200 ± 20"));      // its compliance with the standard uncertainty
+  EXPECT_TRUE(has(page, "200 ± 250"));     // its compliance, 20 times 12.71
   EXPECT_TRUE(has(page, "all 3 subsets of 2 of 3 postures"));
   EXPECT_TRUE(has(page, "0123456789abcdef"));
 }

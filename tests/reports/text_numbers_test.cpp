@@ -27,9 +27,9 @@ TEST(ImprovedText, MetresAreMicrometresAsInTheRest) {
        true,
        {{"P12 x", "m", -75.75e-6, 1.5e-6}, {"turn about x", "rad", 2e-6, 1e-6}, {"size", "N", 3.0, 1.0}}});
   const std::string text = reports::addedEffectsText(effects);
-  EXPECT_NE(text.find("-75.75 +-1.5 um\n"), std::string::npos) << text;
-  EXPECT_NE(text.find("2 +-1 urad\n"), std::string::npos) << text;
-  EXPECT_NE(text.find("3 +-1 N\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("-75.75 +-2.9 um\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("2 +-2 urad\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("3 +-2 N\n"), std::string::npos) << text;
 }
 
 }  // namespace text_numbers_test
