@@ -291,6 +291,7 @@ class RowReader {
           continue;
         }
       }
+      if (cell.empty() && present.column->may_be_blank) continue;
       readAny(*present.column, cell, {file_, row.line, present.column->name}, names, row);
     }
   }
