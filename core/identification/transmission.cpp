@@ -30,9 +30,9 @@ constexpr std::size_t kFewestTurns = 3;  ///< postures whose torque turns round,
 
 /// Of a posture's states only these have both angles of the joint.
 struct JointStates {
-  std::vector<std::size_t> state;                     ///< places among all states
+  std::vector<std::size_t> state;                      ///< places among all states
   std::vector<double> torque, windup, reported, side;  ///< tau, q - m, q, sign(T)/2; one a state
-  std::vector<std::size_t> posture_end;               ///< a posture's states stand together and end before this
+  std::vector<std::size_t> posture_end;                ///< a posture's states stand together and end before this
   std::vector<bool> used;
 
   std::size_t size() const { return state.size(); }
@@ -75,8 +75,8 @@ struct RobustLine {
   double slope = 0.0, width = 0.0;
 };
 
-/// By differences of two states of a posture: the slope from those whose torques have one sign, the lost motion from the
-/// others. Where no two have one sign the slope is from all, and no lost motion is looked for.
+/// By differences of two states of a posture: the slope from those whose torques have one sign, the lost motion from
+/// the others. Where no two have one sign the slope is from all, and no lost motion is looked for.
 RobustLine robustLine(const JointStates& joint) {
   std::vector<Weighted> slopes, all_slopes, widths;
   const auto forPairs = [&](const auto& work) {
@@ -119,7 +119,8 @@ void leaveOutWrongReadings(JointStates& joint) {
     for (std::size_t i = from; i < to; ++i) residual[i] = own[i - from] - level;
   });
   for (const double one : residual) sizes.push_back(std::abs(one));
-  // 1.4826: from the median of absolute values to a normal standard deviation; the levels take their degrees of freedom.
+  // 1.4826: from the median of absolute values to a normal standard deviation; the levels take their degrees of
+  // freedom.
   const double n = static_cast<double>(joint.size());
   const double scatter = 1.4826 * median(sizes) * std::sqrt(n / (n - static_cast<double>(postures)));
   const double most = kWrongReading * std::max(scatter, kLeastScatter);
@@ -176,10 +177,8 @@ bool turnsRound(const JointStates& joint, const std::vector<double>& side, const
 }
 
 JointColumns columnsOf(const JointStates& joint) {
-  JointColumns columns{withinPostures(joint, joint.torque),
-                       withinPostures(joint, joint.windup),
-                       withinPostures(joint, joint.reported),
-                       withinPostures(joint, joint.side)};
+  JointColumns columns{withinPostures(joint, joint.torque), withinPostures(joint, joint.windup),
+                       withinPostures(joint, joint.reported), withinPostures(joint, joint.side)};
   if (!turnsRound(joint, columns.side, columns.torque)) columns.side.clear();
   if (columns.side.empty()) return columns;
   columns.torque = acrossOf(std::move(columns.torque), columns.side);
@@ -373,8 +372,7 @@ void describeJoint(const JointStates& joint, const JointColumns& columns, double
   const std::vector<double> torque = withinPostures(joint, joint.torque);
   out.rms_torque = std::sqrt(dot(torque, torque) / out.states);
   if (!columns.side.empty()) {
-    const std::vector<double> windup =
-        residualOf(withinPostures(joint, joint.windup), torque, compliance);
+    const std::vector<double> windup = residualOf(withinPostures(joint, joint.windup), torque, compliance);
     const std::vector<double> across = acrossOf(columns.side, torque);
     const Slope own = slopeOf(joint, across, windup, residual);
     out.lost_motion = LostMotion{dot(columns.side, windup) / dot(columns.side, columns.side), own.sd};

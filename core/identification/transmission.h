@@ -14,10 +14,10 @@ namespace stiffscope::identification {
 
 // The gear of a joint by its two encoders: no tracker takes part.
 //
-// Joint i from the motor outwards: the motor, its angle over the gear ratio m; the gear, a torsional spring c_g = 1/k_g;
-// the second encoder, which reads the link-side angle q; bearings and link, which give by c_s as far as that is a turn
-// about the axis. A load puts tau = (J_w^T W)_i on the link, in the sense of positive q. The gear pulls the link back by
-// k_g (q - m), so that at rest
+// Joint i from the motor outwards: the motor, its angle over the gear ratio m; the gear, a torsional spring c_g =
+// 1/k_g; the second encoder, which reads the link-side angle q; bearings and link, which give by c_s as far as that is
+// a turn about the axis. A load puts tau = (J_w^T W)_i on the link, in the sense of positive q. The gear pulls the link
+// back by k_g (q - m), so that at rest
 //
 //   tau - k_g (q - m) = 0,   q - m = c_g tau:
 //
@@ -109,9 +109,9 @@ enum class GearAgreement {
 /// Gear and structure of one joint apart: c_s = c - c_g in series, else c_s = c, c the compliance by the tracker.
 struct GearAndStructure {
   bool in_series = false;
-  double structure = 0.0;  ///< c_s, rad/Nm
-  double sd = 0.0;         ///< of it; the two measurements count as independent, which the load cell's scale is not:
-                           ///< in series that overstates
+  double structure = 0.0;     ///< c_s, rad/Nm
+  double sd = 0.0;            ///< of it; the two measurements count as independent, which the load cell's scale is not:
+                              ///< in series that overstates
   CoverageInterval interval;  ///< of it, 95 %: the distances of both intervals' ends, squares added
   double gear_share = 0.0;    ///< c_g / (c_g + c_s)
   GearAgreement agreement = GearAgreement::apart;
