@@ -41,12 +41,11 @@ reports::Table gearTable(const identification::Identification& result) {
     if (!gear.measured) continue;
     const identification::StiffnessEstimate& gears = transmission.estimate;
     const double expanded = identification::expandedUncertainty(gears, joint);
-    reports::Row row{reports::jointName(joint),
-                     reports::Cell(reports::withUncertainty(gears.stiffness(joint) / reports::kMega,
-                                                            expanded / reports::kMega),
-                                   reports::words(gears.mark(joint))),
-                     std::to_string(gear.states), reports::significant(1e6 * gear.rms_residual, 3),
-                     reports::wordsOf(gear.held)};
+    reports::Row row{
+        reports::jointName(joint),
+        reports::Cell(reports::withUncertainty(gears.stiffness(joint) / reports::kMega, expanded / reports::kMega),
+                      reports::words(gears.mark(joint))),
+        std::to_string(gear.states), reports::significant(1e6 * gear.rms_residual, 3), reports::wordsOf(gear.held)};
     if (shown) {
       const auto apart = identification::gearAndStructure(transmission, result.of(*shown).estimate, joint);
       row.emplace_back(apart ? intervalCell(apart->interval) : "–");
@@ -73,9 +72,8 @@ std::string pointsCsv(const campaign::Campaign& campaign, const identification::
 }  // namespace
 
 bool anySecondEncoders(const reports::ReportContent& content) {
-  return std::any_of(content.campaigns.begin(), content.campaigns.end(), [](const reports::ReportCampaign& one) {
-    return one.identification.transmission.has_value();
-  });
+  return std::any_of(content.campaigns.begin(), content.campaigns.end(),
+                     [](const reports::ReportCampaign& one) { return one.identification.transmission.has_value(); });
 }
 
 void writeTransmission(Html& html, const reports::ReportContent& content) {

@@ -48,8 +48,8 @@ std::string transmissionText(const identification::Identification& result,
       if (!gear.measured) continue;
       fmt::format_to(out, "  k{:<3}{:>20}{:>8}{:>11}", joint + 1, gearCell(transmission.estimate, joint), gear.states,
                      wordsOf(gear.held));
-      const auto apart = tracked ? identification::gearAndStructure(transmission, result.of(*method).estimate, joint)
-                                 : std::nullopt;
+      const auto apart =
+          tracked ? identification::gearAndStructure(transmission, result.of(*method).estimate, joint) : std::nullopt;
       if (apart) {
         fmt::format_to(out, "{:>24}{:>14}{:>9.0f} %\n       {}", structureCell(*apart),
                        apart->in_series ? "in series" : "", 100.0 * apart->gear_share, wordsOf(apart->agreement));

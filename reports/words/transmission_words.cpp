@@ -74,8 +74,8 @@ std::vector<std::string> transmissionNotes(const identification::Transmission& t
     }
     if (!joint.caution.empty()) notes.push_back(words(joint.caution) + ".");
     if (joint.left_out > 0) {
-      notes.push_back(fmt::format("Joint {}: {} of {} states left out, whose wind-up disagrees with the others'.", j + 1,
-                                  joint.left_out, joint.left_out + joint.states));
+      notes.push_back(fmt::format("Joint {}: {} of {} states left out, whose wind-up disagrees with the others'.",
+                                  j + 1, joint.left_out, joint.left_out + joint.states));
     }
     if (joint.lost_motion && std::abs(joint.lost_motion->width) > 3.0 * joint.lost_motion->sd) {
       notes.push_back(fmt::format("Joint {}: lost motion of {:.5f} deg (u {:.5f}) where its torque turns round.", j + 1,
@@ -83,8 +83,8 @@ std::vector<std::string> transmissionNotes(const identification::Transmission& t
     }
   }
   for (const auto& [reason, joints] : not_measured) {
-    notes.push_back(fmt::format("Not measured: joint{} {}: {}.", joints.size() > 1 ? "s" : "", fmt::join(joints, ", "),
-                                reason));
+    notes.push_back(
+        fmt::format("Not measured: joint{} {}: {}.", joints.size() > 1 ? "s" : "", fmt::join(joints, ", "), reason));
   }
   return notes;
 }

@@ -177,8 +177,8 @@ TEST(Transmission, SaysWhyAJointIsNotMeasured) {
   const ChainDay day;
   campaign::Campaign campaign = day.campaign();
   for (campaign::State& state : campaign.states->rows) {
-    state.motor_side[1] = state.q[1];                            // a copy
-    state.motor_side[2] = -state.q[2] - 0.2;                     // the other sense
+    state.motor_side[1] = state.q[1];                               // a copy
+    state.motor_side[2] = -state.q[2] - 0.2;                        // the other sense
     if (state.pose > 1) state.motor_side[3] = campaign::kNotGiven;  // blank but for two postures
   }
   const identification::Transmission found = measured(campaign);
@@ -273,7 +273,7 @@ double coverage(int days, campaign::DoubleEncoder encoder) {
       ++stated;
       held += identification::stiffnessInterval(found.estimate, static_cast<int>(j)).holds(kGear[j]);
       EXPECT_EQ(found.joints[j].held, encoder == campaign::DoubleEncoder::active ? identification::HeldSide::link
-                                                                                : identification::HeldSide::motor);
+                                                                                 : identification::HeldSide::motor);
     }
   }
   EXPECT_GT(stated, 9 * days / 2);
