@@ -64,8 +64,14 @@ void addTransmission(const campaign::Campaign& campaign, Identification& result)
   const MethodResult& best = result.of(bestMethod(result));
   Vector6d compliance = Vector6d::Zero();
   if (best.available && result.finite_deflection) compliance = best.estimate.compliance;
-  const bool swept = campaign.loading && result.geometry.r0_from_loading.has_value();
-  result.transmission = measureTransmission(campaign, result.geometry, compliance, swept ? &result.frames : nullptr);
+  GeometryPart by_axes;
+  if (campaign.loading && result.geometry.r0_from_loading) {
+    by_axes = [&](const GearsIn& gears) {
+      const ComplianceOf solve = [&](const LoadedArm& arm) { return gears(arm.geometry); };
+      return sweptParts(campaign, result.frames, result.geometry, {result.step}, {solve}).front().frames;
+    };
+  }
+  result.transmission = measureTransmission(campaign, result.geometry, compliance, by_axes);
 }
 
 Identification identifyOnce(const campaign::Campaign& campaign, const IdentifyOptions& options) {

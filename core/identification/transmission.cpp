@@ -8,7 +8,6 @@
 #include "core/identification/equations.h"
 #include "core/identification/identifiability.h"
 #include "core/identification/load_case.h"
-#include "core/identification/method_runs.h"
 #include "core/identification/remarks.h"
 #include "core/robot/gravity_load.h"
 
@@ -470,20 +469,17 @@ robot::JointMask judgeJoints(const campaign::Campaign& campaign, const EncoderDa
 
 /// What all postures share: the measured axes, by which the torques move, and the load cell's declared scale, by which
 /// all torques are wrong alike.
-void addSharedParts(const campaign::Campaign& campaign, const EncoderDay& day, const frames::LoadingGeometry& geometry,
-                    const frames::Frames* frames, const GearFit& settled, StiffnessEstimate& estimate) {
+void addSharedParts(const campaign::Campaign& campaign, const EncoderDay& day, const GeometryPart& by_axes,
+                    const GearFit& settled, StiffnessEstimate& estimate) {
   const double gain = campaign.load_cell->gain_sigma;
   estimate.parts.effects = gain * gain * estimate.compliance * estimate.compliance.transpose();
-  const std::optional<int> step = heaviestStep(campaign);
-  if (frames != nullptr && step) {
-    const auto solve = [&](const LoadedArm& arm) -> Vector6d {
-      const std::vector<LoadCase> cases = day.casesIn(arm.geometry);
+  if (by_axes) {
+    estimate.parts.frames = by_axes([&](const frames::LoadingGeometry& geometry) -> Vector6d {
+      const std::vector<LoadCase> cases = day.casesIn(geometry);
       const GearFit fit = fitOf(day, campaign.pose_ids.size(), estimate.identifiable, jointTorques(cases),
-                                day.weightTorques(arm.geometry, cases), &settled);
+                                day.weightTorques(geometry, cases), &settled);
       return solveNormal(sumOf(fit.normal), estimate.identifiable);
-    };
-    const std::vector<SweptParts> parts = sweptParts(campaign, *frames, geometry, {*step}, {solve});
-    estimate.parts.frames = parts.front().frames;
+    });
   }
   estimate.covariance = estimate.parts.total();
 }
@@ -491,7 +487,7 @@ void addSharedParts(const campaign::Campaign& campaign, const EncoderDay& day, c
 }  // namespace
 
 Transmission measureTransmission(const campaign::Campaign& campaign, const frames::LoadingGeometry& geometry,
-                                 const Vector6d& compliance, const frames::Frames* frames) {
+                                 const Vector6d& compliance, const GeometryPart& by_axes) {
   Transmission result;
   const EncoderDay day(campaign);
   std::vector<LoadCase> cases = day.casesIn(geometry);
@@ -504,7 +500,7 @@ Transmission measureTransmission(const campaign::Campaign& campaign, const frame
   const NormalEquations sum = sumOf(fit.normal);
   estimate.compliance = solveNormal(sum, estimate.identifiable);
   setScatterOfOneStage(fit.normal, sum, estimate);
-  addSharedParts(campaign, day, geometry, frames, fit, estimate);
+  addSharedParts(campaign, day, by_axes, fit, estimate);
   for (int j = 0; j < 6; ++j) {
     const auto at = static_cast<std::size_t>(j);
     GearTorsion& out = result.joints[at];

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -92,11 +93,15 @@ struct Transmission {
 /// blank, or equal to q everywhere, has no second encoder.
 bool hasSecondEncoders(const campaign::Campaign& campaign);
 
+/// Compliances of the gears in a geometry, and their covariance where what the geometry was measured by is uncertain.
+using GearsIn = std::function<Vector6d(const frames::LoadingGeometry&)>;
+using GeometryPart = std::function<Matrix6d(const GearsIn&)>;
+
 /// The gears of a campaign that has second encoders, states and a load cell; `compliance`: of the joints as the tracker
-/// sees them, for K_c; zero where it is not known. `frames`: null, or those whose measured axes share their uncertainty
-/// with all postures. Joints that cannot be measured say why; it never throws for what the data lacks.
+/// sees them, for K_c; zero where it is not known. `by_axes`: what the measured axes share with all postures; empty:
+/// they count as known. Joints that cannot be measured say why; it never throws for what the data lacks.
 Transmission measureTransmission(const campaign::Campaign& campaign, const frames::LoadingGeometry& geometry,
-                                 const Vector6d& compliance, const frames::Frames* frames);
+                                 const Vector6d& compliance, const GeometryPart& by_axes = {});
 
 /// How the gear by its encoders and the joint by the tracker go together.
 enum class GearAgreement {

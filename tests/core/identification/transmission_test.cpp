@@ -36,7 +36,7 @@ campaign::Campaign dayOf(const robot::Robot& arm) {
 identification::Transmission measured(const campaign::Campaign& campaign) {
   const frames::Frames frames = frames::measureFrames(campaign);
   const Vector6d rigid = Vector6d::Zero();
-  return identification::measureTransmission(campaign, frames::sweptGeometry(campaign, frames, rigid), rigid, nullptr);
+  return identification::measureTransmission(campaign, frames::sweptGeometry(campaign, frames, rigid), rigid);
 }
 
 campaign::State stateOf(int pose, int step, const Vector6d& q, const Eigen::Vector3d& force) {
@@ -265,8 +265,8 @@ double coverage(int days, campaign::DoubleEncoder encoder) {
       compliance[j] = 1.0 / *joint.torsion + (series ? 1.0 / joint.gear->stiffness : 0.0);
     }
     const frames::Frames frames = frames::measureFrames(campaign);
-    const identification::Transmission found = identification::measureTransmission(
-        campaign, frames::sweptGeometry(campaign, frames, compliance), compliance, nullptr);
+    const identification::Transmission found =
+        identification::measureTransmission(campaign, frames::sweptGeometry(campaign, frames, compliance), compliance);
     EXPECT_FALSE(found.joints[0].measured);
     for (std::size_t j = 1; j < 6; ++j) {
       if (!found.joints[j].measured) continue;
