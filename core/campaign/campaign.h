@@ -64,6 +64,9 @@ struct State {
   Vector6d commanded = Vector6d::Constant(kNotGiven);   ///< joint angles that were commanded, rad
   Vector6d motor_side = Vector6d::Constant(kNotGiven);  ///< motor angles over the gear ratio, rad
   double temperature_c = kNotGiven;                     ///< degrees Celsius
+  /// Of no column: what q was as reported, where it has been referred to the motor's side
+  /// (identification/motor_side.h).
+  Vector6d link_side = Vector6d::Constant(kNotGiven);
   std::size_t line = 0;
 };
 

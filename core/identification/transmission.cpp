@@ -273,10 +273,11 @@ class EncoderDay {
       if (row.pose != pose && all.size() > 0) all.posture_end.push_back(all.size());
       pose = row.pose;
       all.state.push_back(i);
+      const double reported = std::isnan(row.link_side[joint]) ? row.q[joint] : row.link_side[joint];
       const double torque = torques[i][joint], whole = torque + weight[i][joint];
       all.torque.push_back(torque);
-      all.windup.push_back(row.q[joint] - row.motor_side[joint]);
-      all.reported.push_back(row.q[joint]);
+      all.windup.push_back(reported - row.motor_side[joint]);
+      all.reported.push_back(reported);
       all.side.push_back(whole > 0.0 ? 0.5 : whole < 0.0 ? -0.5 : 0.0);
     }
     if (all.size() > 0) all.posture_end.push_back(all.size());
@@ -405,7 +406,9 @@ bool Transmission::measured() const {
 bool hasSecondEncoders(const campaign::Campaign& campaign) {
   return campaign.states &&
          std::any_of(campaign.states->rows.begin(), campaign.states->rows.end(), [](const campaign::State& row) {
-           return ((row.q - row.motor_side).array().abs() > kNoDifference).any();  // not where it is NaN
+           // Not where it is not a number.
+           return ((row.q - row.motor_side).array().abs() > kNoDifference).any() ||
+                  ((row.link_side - row.motor_side).array().abs() > kNoDifference).any();
          });
 }
 

@@ -3,6 +3,7 @@
 #include <cmath>
 #include "core/comparison/compare.h"
 #include "core/identification/identify.h"
+#include "core/identification/motor_side.h"
 #include "core/simulation/measure.h"
 #include "core/simulation/read_spec.h"
 
@@ -20,7 +21,7 @@ campaign::Campaign day(campaign::DoubleEncoder encoder, std::uint64_t measuremen
   for (const std::size_t j : {std::size_t{1}, std::size_t{2}}) {
     spec.machine.joints[j].gear = simulation::JointGear{kGear, 0.0, 3e-6, 1e-4};
   }
-  return simulation::simulate(spec);
+  return identification::referredToMotors(simulation::simulate(spec));
 }
 
 TEST(GearCheck, WhatEncodersTakeAwayAgreesWithTheGearsOwnMeasurement) {

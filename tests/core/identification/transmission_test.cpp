@@ -8,6 +8,7 @@
 #include <random>
 #include "core/frames/frames.h"
 #include "core/identification/identify.h"
+#include "core/identification/motor_side.h"
 #include "core/identification/remarks.h"
 #include "core/simulation/measure.h"
 #include "core/simulation/read_spec.h"
@@ -148,6 +149,35 @@ TEST(Transmission, SeesWhichSideIsHeldWhateverIsDeclared) {
   EXPECT_TRUE(measured(campaign).joints[2].caution.empty());
 }
 
+TEST(Transmission, ReferredToTheMotorsAnglesStandStillAndTheGearsStay) {
+  ChainDay day;
+  day.link_held = false;
+  const campaign::Campaign read = day.campaign();
+  const campaign::Campaign referred = identification::referredToMotors(read);
+  for (const campaign::State& row : referred.states->rows) {
+    const campaign::State& first = read.states->rows[static_cast<std::size_t>(4 * row.pose)];
+    // The motor stands behind the unloaded link by what the own weight winds up, by the arm's own statics; the
+    // encoders' zero is known as well as the gears, 5e-3 of some milliradians.
+    const Vector6d motor = first.q - day.gear.cwiseProduct(day.arm.weightTorque(first.q));
+    EXPECT_LT((row.q - motor).cwiseAbs().maxCoeff(), 3e-5);
+    EXPECT_EQ(row.link_side[2], read.states->rows[static_cast<std::size_t>(4 * row.pose + row.step)].q[2]);
+    EXPECT_TRUE(std::isnan(row.link_side[0]));
+  }
+  const identification::Transmission before = measured(read), after = measured(referred);
+  for (int j = 1; j < 6; ++j) {
+    EXPECT_EQ(after.joints[static_cast<std::size_t>(j)].held, identification::HeldSide::motor);
+    EXPECT_NEAR(after.estimate.compliance[j] / before.estimate.compliance[j], 1.0, 5e-3) << j;
+  }
+  // A day whose link side is held stays as it is.
+  day.link_held = true;
+  const campaign::Campaign held = day.campaign();
+  const campaign::Campaign same = identification::referredToMotors(held);
+  for (std::size_t i = 0; i < held.states->rows.size(); ++i) {
+    EXPECT_EQ(same.states->rows[i].q, held.states->rows[i].q);
+    EXPECT_TRUE(same.states->rows[i].link_side.array().isNaN().all());
+  }
+}
+
 TEST(Transmission, LostMotionStandsApartFromTheCompliance) {
   ChainDay day;
   day.lost_motion = 3e-4;
@@ -256,7 +286,7 @@ double coverage(int days, campaign::DoubleEncoder encoder) {
   int held = 0, stated = 0;
   for (int day = 0; day < days; ++day) {
     const simulation::SimulationSpec spec = encodersAlone(1000 + static_cast<std::uint64_t>(day), encoder);
-    const campaign::Campaign campaign = simulation::simulate(spec);
+    const campaign::Campaign campaign = identification::referredToMotors(simulation::simulate(spec));
     // What the tracker would give: the machine's true compliances, for K_c.
     Vector6d compliance;
     for (int j = 0; j < 6; ++j) {
@@ -310,7 +340,8 @@ TEST(Transmission, GearAndStructureApartOnAWholeDay) {
   for (const auto encoder : {campaign::DoubleEncoder::active, campaign::DoubleEncoder::inactive}) {
     for (std::uint64_t seed = 1; seed <= 6; ++seed) {
       const simulation::SimulationSpec spec = gearedDay(seed, encoder);
-      const identification::Identification found = identification::identify(simulation::simulate(spec), options);
+      const identification::Identification found =
+          identification::identify(identification::referredToMotors(simulation::simulate(spec)), options);
       ASSERT_TRUE(found.transmission.has_value());
       const identification::MethodResult& dpp = found.of(identification::Method::decoupled_partial_pose);
       ASSERT_TRUE(dpp.available);
