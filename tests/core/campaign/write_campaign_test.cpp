@@ -140,7 +140,8 @@ TEST(WriteCampaign, WritesNamesAndTextsThatNeedCare) {
 TEST(WriteCampaign, SecondEncodersAreWrittenWhereTheyAreAndBlankWhereNot) {
   const SmallCampaign files;
   campaign::Campaign campaign = campaign::readCampaign(files.folder()).campaign;
-  campaign.states->rows[0].motor_side[2] = 0.25;
+  const double motor = campaign.states->rows[0].q[2] + 0.001;
+  campaign.states->rows[0].motor_side[2] = motor;
   campaign.states->rows[1].commanded[5] = -1.5;
   campaign.states->rows[1].temperature_c = 21.25;
   const TemporaryFolder folder;
@@ -148,7 +149,7 @@ TEST(WriteCampaign, SecondEncodersAreWrittenWhereTheyAreAndBlankWhereNot) {
   const campaign::CampaignReading reading = campaign::readCampaign(folder.path() / "new");
   EXPECT_TRUE(reading.warnings.empty());
   const std::vector<campaign::State>& rows = reading.campaign.states->rows;
-  EXPECT_NEAR(rows[0].motor_side[2], 0.25, kAngle);
+  EXPECT_NEAR(rows[0].motor_side[2], motor, kAngle);
   EXPECT_TRUE(std::isnan(rows[0].commanded[5]) && std::isnan(rows[0].temperature_c));
   EXPECT_NEAR(rows[1].commanded[5], -1.5, kAngle);
   EXPECT_EQ(rows[1].temperature_c, 21.25);
