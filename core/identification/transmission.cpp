@@ -215,6 +215,13 @@ Slope slopeOf(const JointStates& joint, const std::vector<double>& column, const
   return slopeOf(joint, column, values, residualOf(values, column, dot(column, values) / dot(column, column)));
 }
 
+/// Torques of the own weight, by state; zero where masses are not known, and then nobody knows which sign the torque of
+/// load and weight together has.
+struct WeightTorques {
+  bool known = false;
+  std::vector<Vector6d> torques;
+};
+
 /// The load states of a day with motor-side angles.
 class EncoderDay {
  public:
@@ -254,17 +261,15 @@ class EncoderDay {
     return torques;
   }
 
-  /// Of the own weight, by state; zero where masses are not known.
-  std::vector<Vector6d> weightTorques(const frames::LoadingGeometry& geometry,
-                                      const std::vector<LoadCase>& cases) const {
-    std::vector<Vector6d> torques(cases.size(), Vector6d::Zero());
-    for (std::size_t i = 0; geometry.weight.links_known && i < cases.size(); ++i) {
-      torques[i] = robot::weightTorque(geometry.arm, unloadedPosture(geometry.arm, cases[i]), geometry.weight);
+  WeightTorques weightTorques(const frames::LoadingGeometry& geometry, const std::vector<LoadCase>& cases) const {
+    WeightTorques weight{geometry.weight.links_known, {cases.size(), Vector6d::Zero()}};
+    for (std::size_t i = 0; weight.known && i < cases.size(); ++i) {
+      weight.torques[i] = robot::weightTorque(geometry.arm, unloadedPosture(geometry.arm, cases[i]), geometry.weight);
     }
-    return torques;
+    return weight;
   }
 
-  JointStates statesOf(int joint, const std::vector<Vector6d>& torques, const std::vector<Vector6d>& weight) const {
+  JointStates statesOf(int joint, const std::vector<Vector6d>& torques, const WeightTorques& weight) const {
     JointStates all;
     int pose = -1;
     for (std::size_t i = 0; i < states_.size(); ++i) {
@@ -274,7 +279,8 @@ class EncoderDay {
       pose = row.pose;
       all.state.push_back(i);
       const double reported = std::isnan(row.link_side[joint]) ? row.q[joint] : row.link_side[joint];
-      const double torque = torques[i][joint], whole = torque + weight[i][joint];
+      const double torque = torques[i][joint];
+      const double whole = weight.known ? torque + weight.torques[i][joint] : 0.0;
       all.torque.push_back(torque);
       all.windup.push_back(reported - row.motor_side[joint]);
       all.reported.push_back(reported);
@@ -325,14 +331,14 @@ Remark loopCaution(HeldSide held, campaign::DoubleEncoder declared, int joint) {
   return contradicts ? Remark(RemarkId::loop_not_as_declared, joint + 1, held == HeldSide::motor) : Remark();
 }
 
-void describeOffset(const JointStates& joint, int index, const std::vector<Vector6d>& weight, double compliance,
-                    double width, GearTorsion& out) {
+void describeOffset(const JointStates& joint, int index, const WeightTorques& weight, double compliance, double width,
+                    GearTorsion& out) {
   std::vector<double> levels;
   joint.byPosture([&](std::size_t from, std::size_t to) {
     double sum = 0.0, count = 0.0;
     for (std::size_t i = from; i < to; ++i) {
       if (!joint.used[i]) continue;
-      const double torque = joint.torque[i] + weight[joint.state[i]][index];
+      const double torque = joint.torque[i] + weight.torques[joint.state[i]][index];
       sum += joint.windup[i] - compliance * torque - width * joint.side[i], ++count;
     }
     if (count > 0.0) levels.push_back(sum / count);
@@ -423,7 +429,7 @@ struct GearFit {
 
 /// With these torques. `used`: null, or a fit that has settled which states are used.
 GearFit fitOf(const EncoderDay& day, std::size_t poses, const robot::JointMask& measured,
-              const std::vector<Vector6d>& torques, const std::vector<Vector6d>& weight, const GearFit* settled) {
+              const std::vector<Vector6d>& torques, const WeightTorques& weight, const GearFit* settled) {
   GearFit fit;
   fit.normal.resize(poses);
   for (int j = 0; j < 6; ++j) {
@@ -445,8 +451,7 @@ GearFit fitOf(const EncoderDay& day, std::size_t poses, const robot::JointMask& 
 /// Which joints the loads turn enough, and why the others tell nothing.
 robot::JointMask judgeJoints(const campaign::Campaign& campaign, const EncoderDay& day,
                              const frames::LoadingGeometry& geometry, const std::vector<LoadCase>& cases,
-                             const std::vector<Vector6d>& torques, const std::vector<Vector6d>& weight,
-                             Transmission& result) {
+                             const std::vector<Vector6d>& torques, const WeightTorques& weight, Transmission& result) {
   const std::vector<int> steps = loadedSteps(campaign);
   std::vector<LoadCase> loaded;
   for (const LoadCase& one : cases) {
@@ -495,7 +500,7 @@ Transmission measureTransmission(const campaign::Campaign& campaign, const frame
   const EncoderDay day(campaign);
   std::vector<LoadCase> cases = day.casesIn(geometry);
   const std::vector<Vector6d> torques = day.torquesIn(geometry, cases, compliance);
-  const std::vector<Vector6d> weight = day.weightTorques(geometry, cases);
+  const WeightTorques weight = day.weightTorques(geometry, cases);
   StiffnessEstimate& estimate = result.estimate;
   estimate.identifiable = judgeJoints(campaign, day, geometry, cases, torques, weight, result);
   if (!result.measured()) return result;

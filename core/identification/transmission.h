@@ -33,9 +33,9 @@ namespace stiffscope::identification {
 //
 // a_p is the encoders' zero and the wind-up by the own weight at that posture, and drops out of differences within it.
 // tau is the load's torque with K_c (equations.h), T that of load and own weight together, w the lost motion of the
-// gear: it shows where a load turns T round, and is fitted where three postures or more do that. c_g comes from least
-// squares after a first slope that single wrong readings do not move (the weighted median over pairs of states, Theil
-// and Sen), from which such readings are left out.
+// gear: it shows where a load turns T round, and is fitted where masses are known and three postures or more do that.
+// c_g comes from least squares after a first slope that single wrong readings do not move (the weighted median over
+// pairs of states, Theil and Sen), from which such readings are left out.
 //
 // Frames: R0, as the torques of the methods. Units: rad, Nm, rad/Nm.
 
