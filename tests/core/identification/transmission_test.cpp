@@ -95,14 +95,14 @@ struct ChainDay {
     std::mt19937_64 random(seed);
     std::normal_distribution<double> normal;
     std::uniform_real_distribution<double> uniform(-1.0, 1.0);
-    for (int pose = 0; pose < 12; ++pose) {
+    for (int pose = 0; pose < 24; ++pose) {
       day.pose_ids.push_back(fmt::format("P{}", pose));
       Vector6d q;
       for (int j = 0; j < 6; ++j) q[j] = (j < 3 ? 0.6 : 1.2) * uniform(random);
       const Eigen::Vector3d pull = Eigen::Vector3d(normal(random), normal(random), normal(random)).normalized();
       for (int step = 0; step < 4; ++step) {
-        // Down to 4 kN: the load turns joint 3 round against its own weight in some of the postures.
-        const Eigen::Vector3d force = (step == 3 ? 0.0 : 2000.0 * step) * pull;
+        // Up to 8 kN: the load turns joint 3 round against its own weight in some of the postures.
+        const Eigen::Vector3d force = (step == 3 ? 0.0 : 4000.0 * step) * pull;
         const Eigen::Vector3d point = arm.flangeAt(q) * hook;
         const Vector6d load = arm.torqueOf(q, 6, point, force, Eigen::Vector3d::Zero());
         const Vector6d whole = load + arm.weightTorque(q);
@@ -168,7 +168,7 @@ TEST(Transmission, ReferredToTheMotorsAnglesStandStillAndTheGearsStay) {
   const identification::Transmission before = measured(read), after = measured(referred);
   for (int j = 1; j < 6; ++j) {
     EXPECT_EQ(after.joints[static_cast<std::size_t>(j)].held, identification::HeldSide::motor);
-    EXPECT_NEAR(after.estimate.compliance[j] / before.estimate.compliance[j], 1.0, 5e-3) << j;
+    EXPECT_NEAR(after.estimate.compliance[j] / before.estimate.compliance[j], 1.0, 1e-2) << j;
   }
   // A day whose link side is held stays as it is.
   day.link_held = true;
