@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "core/identification/motor_side.h"
 #include "core/io/input_error.h"
 #include "core/io/read_file.h"
 #include "core/io/write_file.h"
@@ -141,7 +142,7 @@ void writeJson(const reports::JsonDocument& document, const io::ByteSink& sink) 
 campaign::Campaign openCampaign(const std::string& folder_or_xml, campaign::Hashes hashes) {
   campaign::CampaignReading reading = campaign::readCampaign(folder_or_xml, hashes);
   printWarnings(reading.warnings);
-  return std::move(reading.campaign);
+  return identification::referredToMotors(std::move(reading.campaign));
 }
 
 void printWarnings(const std::vector<std::string>& warnings) {

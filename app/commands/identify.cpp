@@ -12,6 +12,7 @@
 #include "core/identification/identify.h"
 #include "core/identification/load_dependence.h"
 #include "core/identification/posture_stiffness.h"
+#include "core/identification/remarks.h"
 #include "core/identification/warnings.h"
 #include "core/io/input_error.h"
 #include "reports/json/campaign_json.h"
@@ -50,11 +51,34 @@ identification::IdentifyOptions optionsOf(const IdentifyArguments& arguments, bo
   return options;
 }
 
+/// A day without readings of reflectors, whose second encoders tell of the gears all the same.
+bool encodersAlone(const campaign::Campaign& campaign) {
+  return identification::whatLoadsLack(campaign).is(identification::RemarkId::no_readings_under_load) &&
+         identification::hasSecondEncoders(campaign);
+}
+
+int identifyEncodersAlone(const preparation::PreparedCampaign& prepared, const IdentifyArguments& arguments) {
+  const identification::Identification result = identification::framesAlone(prepared.campaign);
+  const auto text = [&] {
+    return prepared.campaign.name + reports::transmissionText(result, {}) +
+           reports::preparationText(prepared.preparation);
+  };
+  deliver(
+      [&] {
+        reports::JsonDocument document = reports::identificationJson(prepared.campaign, result, {});
+        document.json = reports::withPreparation(std::move(document.json), prepared.preparation);
+        return document;
+      },
+      text, arguments.json);
+  return result.transmission->measured() ? kDone : kNotUsable;
+}
+
 int identifyCampaign(const IdentifyArguments& arguments, bool subset_given) {
   const std::vector<identification::Method> methods = methodsNamed(arguments.method);
   const identification::IdentifyOptions options = optionsOf(arguments, subset_given);
   const preparation::PreparedCampaign prepared =
       openPrepared(arguments.campaign, arguments.raw, hashesFor(arguments.json));
+  if (encodersAlone(prepared.campaign)) return identifyEncodersAlone(prepared, arguments);
   const std::optional<extended_model::ExtendedModel> improved = modelOf(prepared, arguments.model, options);
   const campaign::Campaign& campaign = improved ? improved->campaign : prepared.campaign;
   const identification::Identification result = improved ? improved->with : identification::identify(campaign, options);

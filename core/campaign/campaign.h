@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "core/io/units.h"
 #include "core/robot/gravity_load.h"
 #include "core/robot/robot.h"
 
@@ -20,6 +21,9 @@ namespace stiffscope::campaign {
 enum class PointFrame { tracker, base_link };
 
 inline constexpr double kNoTime = std::numeric_limits<double>::quiet_NaN();
+
+/// What a cell holds that an optional column leaves blank, or a row whose table lacks the column.
+inline constexpr double kNotGiven = std::numeric_limits<double>::quiet_NaN();
 
 struct CircleReading {
   int axis = 0;  ///< 0..5 for axes 1..6
@@ -56,6 +60,13 @@ struct State {
   double time_s = kNoTime;
   Vector6d q = Vector6d::Zero();
   Vector6d wrench_in_cell = Vector6d::Zero();  ///< force (N) then moment (Nm), as the load cell's row says
+  // Not a number where the table does not say.
+  Vector6d commanded = Vector6d::Constant(kNotGiven);   ///< joint angles that were commanded, rad
+  Vector6d motor_side = Vector6d::Constant(kNotGiven);  ///< motor angles over the gear ratio, rad
+  double temperature_c = kNotGiven;                     ///< degrees Celsius
+  /// Of no column: what q was as reported, where it has been referred to the motor's side
+  /// (identification/motor_side.h).
+  Vector6d link_side = Vector6d::Constant(kNotGiven);
   std::size_t line = 0;
 };
 
@@ -158,6 +169,9 @@ struct Campaign {
   std::vector<std::string> nest_ids;
   std::vector<InputFile> inputs;
 };
+
+/// A motor's angle over the gear ratio farther than this from its joint's is no wind-up, rad.
+inline constexpr double kMotorSideApart = 2.0 * io::kDegree;
 
 /// A later step with a force below this share of its posture's largest is a return to zero (campaign format).
 inline constexpr double kReturnShare = 0.05;

@@ -165,6 +165,27 @@ void warnOfAnglesOutsideLimits(const Campaign& campaign, std::vector<std::string
   }
 }
 
+// Wind-up of a gear and the zero of an encoder are fractions of a degree: more is a sign, a gear ratio, a unit, or a
+// wrist whose motors drive two joints.
+void warnOfMotorSidesApart(const Campaign& campaign, std::vector<std::string>& warnings) {
+  if (!campaign.states) return;
+  for (Eigen::Index j = 0; j < 6; ++j) {
+    const State* first = nullptr;
+    std::size_t rows = 0;
+    for (const State& state : campaign.states->rows) {
+      if (!(std::abs(state.motor_side[j] - state.q[j]) > kMotorSideApart)) continue;
+      if (rows++ == 0) first = &state;
+    }
+    if (first == nullptr) continue;
+    warnings.push_back(io::inputMessage(
+        {shown(campaign, campaign.states->file), first->line, fmt::format("m{}_deg", j + 1)},
+        fmt::format("{:.5f}", first->motor_side[j] / io::kDegree),
+        fmt::format("more than {:g} deg from q{}_deg ({:.5f}): not a motor's angle over the gear ratio, in the joint's "
+                    "sense; rows like this: {}",
+                    kMotorSideApart / io::kDegree, j + 1, first->q[j] / io::kDegree, rows)));
+  }
+}
+
 // Angles in radians stay below 2 pi, and a campaign that keeps all six joints within six degrees is rare.
 template <class Row>
 void warnOfRadians(const Campaign& campaign, const std::optional<Table<Row>>& table,
@@ -198,6 +219,7 @@ constexpr Check kChecks[] = {
     [](const Campaign& campaign, std::vector<std::string>&) { checkDisplacedTargetsHavePlaces(campaign); },
     warnOfPosesWithoutStepZero,
     warnOfAnglesOutsideLimits,
+    warnOfMotorSidesApart,
     [](const Campaign& campaign, std::vector<std::string>& warnings) {
       warnOfRadians(campaign, campaign.circle_sweeps, warnings);
     },

@@ -63,7 +63,7 @@ struct CampaignNames {
   NameList targets, poses, nests;
 };
 
-/// What a column holds. The first six are numbers with the unit of their name, the others names and counts.
+/// What a column holds. The first seven are numbers with the unit of their name, the others names and counts.
 enum class CellKind {
   millimetre,
   displacement_millimetre,
@@ -71,6 +71,7 @@ enum class CellKind {
   second,
   newton,
   newton_metre,
+  celsius,
   axis,    ///< 1..6 in the file, 0..5 in memory
   step,    ///< 0, 1, 2...
   target,  ///< id of a declared target
@@ -89,13 +90,14 @@ struct NumberKind {
 };
 
 // In the order of CellKind.
-inline constexpr std::array<NumberKind, 6> kNumberKinds{{
+inline constexpr std::array<NumberKind, 7> kNumberKinds{{
     {io::kMillimetre, 200e3, "expected a coordinate in mm, within +-200 m", 4},
     {io::kMillimetre, 1e3, "expected a displacement from step 0 in mm, within +-1 m", 4},
     {io::kDegree, 720.0, "expected an angle in degrees, within +-720", 5},
     {1.0, std::numeric_limits<double>::infinity(), "expected a time in seconds", 1},
     {1.0, 1e6, "expected a force in N, within +-1e6", 3},
     {1.0, 1e6, "expected a moment in Nm, within +-1e6", 4},
+    {1.0, 200.0, "expected a temperature in degrees Celsius, within +-200", 2},
 }};
 
 /// Throws std::out_of_range for a kind that is no number.
@@ -129,6 +131,7 @@ struct Column {
   CellKind kind;
   std::variant<Number, Index, Text> member;
   bool required = true;
+  bool may_be_blank = false;  ///< a number that a row need not have: its member then stays as it is by default
 };
 
 /// A kind of table: the element of campaign.xml that names its file, its columns, and the columns that
@@ -140,14 +143,20 @@ struct TableLayout {
   std::vector<std::string> key;
 };
 
+/// An angle of each joint, as q1_deg..q6_deg for the letter q, of a row with that member.
+template <class Row, auto Member>
+std::vector<Column<Row>> angleColumns(char letter, bool required) {
+  return [=]<int... I>(std::integer_sequence<int, I...>) {
+    return std::vector<Column<Row>>{{std::string{letter, static_cast<char>('1' + I)} + "_deg", CellKind::degree,
+                                     [](Row& row) -> double& { return (row.*Member)[I]; }, required, !required}...};
+  }
+  (std::make_integer_sequence<int, 6>());
+}
+
 /// q1_deg..q6_deg, of a row with a member q.
 template <class Row>
 std::vector<Column<Row>> jointColumns() {
-  return []<int... I>(std::integer_sequence<int, I...>) {
-    return std::vector<Column<Row>>{{std::string{'q', static_cast<char>('1' + I)} + "_deg", CellKind::degree,
-                                     [](Row& row) -> double& { return row.q[I]; }}...};
-  }
-  (std::make_integer_sequence<int, 6>());
+  return angleColumns<Row, &Row::q>('q', true);
 }
 
 /// fx_n..mz_nm, of a row with a member wrench_in_cell.

@@ -97,6 +97,9 @@ TableLines::TableLines(const TableSource& source, const std::vector<WantedColumn
   }
   cells_in_header_ = cells_.size();
   places_ = matchHeader(source.file, line(), cells_, wanted, warnings);
+  for (std::size_t i = 0; i < wanted.size(); ++i) {
+    if (has(i)) shortest_row_ += wanted[i].required ? 2 : 1;
+  }
   for (std::size_t i = 0; i < cells_.size(); ++i) {
     if (cells_[i].empty()) nameless_.push_back(i);
   }
@@ -108,12 +111,14 @@ TableLines::TableLines(const TableLines& table, std::string_view part, std::size
       places_(table.places_),
       nameless_(table.nameless_),
       cells_in_header_(table.cells_in_header_),
+      shortest_row_(table.shortest_row_),
       row_required_(false),
       warnings_(table.warnings_) {}
 
-// The shortest row has one character and a separator a column: that bounds the rows of a file of empty lines.
+// The shortest row has one character and a separator a column, of an optional one perhaps the separator alone: that
+// bounds the rows of a file of empty lines.
 std::size_t TableLines::mostRows(std::size_t bytes, std::size_t lines) const {
-  return std::min(lines, bytes / (2 * places_.size()) + 1);
+  return std::min(lines, bytes / shortest_row_ + 1);
 }
 
 bool TableLines::next() {

@@ -213,7 +213,7 @@ class TableLines {
   /// What stands behind the line last given.
   std::string_view rest() const { return lines_.rest(); }
 
-  /// As many rows as there can be in `lines` lines of so many bytes; a guess where an optional column is absent.
+  /// As many rows as there can be in `lines` lines of so many bytes.
   std::size_t mostRows(std::size_t bytes, std::size_t lines) const;
 
   std::size_t line() const { return lines_.line(); }
@@ -237,6 +237,7 @@ class TableLines {
   std::vector<std::string_view> cells_;
   std::vector<std::size_t> places_, nameless_;
   std::size_t cells_in_header_ = 0;
+  std::size_t shortest_row_ = 0;  ///< bytes, its line end among them
   std::size_t rows_ = 0;
   bool row_required_ = true;
   std::vector<std::string>& warnings_;
@@ -291,6 +292,7 @@ class RowReader {
           continue;
         }
       }
+      if (cell.empty() && present.column->may_be_blank) continue;
       readAny(*present.column, cell, {file_, row.line, present.column->name}, names, row);
     }
   }

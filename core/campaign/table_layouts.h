@@ -65,7 +65,14 @@ inline const TableLayout<State>& statesLayout() {
   using Row = State;
   static const TableLayout<Row> layout{
       "states",
-      joined<Row>({poseAndStepColumns<Row>(), {timeColumn<Row>(true)}, jointColumns<Row>(), wrenchColumns<Row>()}),
+      joined<Row>(
+          {poseAndStepColumns<Row>(),
+           {timeColumn<Row>(true)},
+           jointColumns<Row>(),
+           wrenchColumns<Row>(),
+           angleColumns<Row, &Row::commanded>('c', false),
+           angleColumns<Row, &Row::motor_side>('m', false),
+           {{"temperature_c", CellKind::celsius, [](Row& row) -> double& { return row.temperature_c; }, false, true}}}),
       {"pose", "step"}};
   return layout;
 }

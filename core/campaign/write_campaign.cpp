@@ -39,7 +39,8 @@ std::string writtenIndex(CellKind kind, int index, const CampaignNames& names, c
 template <class Row>
 std::string writtenCell(const Column<Row>& column, Row& row, const CampaignNames& names) {
   if (const auto* number = std::get_if<typename Column<Row>::Number>(&column.member)) {
-    return writtenNumber(column.kind, (*number)(row), column.name);
+    const double value = (*number)(row);
+    return column.may_be_blank && std::isnan(value) ? std::string() : writtenNumber(column.kind, value, column.name);
   }
   if (const auto* index = std::get_if<typename Column<Row>::Index>(&column.member)) {
     return writtenIndex(column.kind, (*index)(row), names, column.name);
@@ -47,22 +48,24 @@ std::string writtenCell(const Column<Row>& column, Row& row, const CampaignNames
   return writtenName(std::get<typename Column<Row>::Text>(column.member)(row), column.name);
 }
 
-/// Whether every row has a value for an optional column of numbers.
+/// Whether the rows have values for an optional column of numbers: all of them, or some where the others may be blank.
 template <class Row>
-bool isComplete(const Column<Row>& column, std::vector<Row>& rows) {
+bool isGiven(const Column<Row>& column, std::vector<Row>& rows) {
   const auto* number = std::get_if<typename Column<Row>::Number>(&column.member);
-  return number == nullptr ||
-         std::all_of(rows.begin(), rows.end(), [&](Row& row) { return !std::isnan((*number)(row)); });
+  if (number == nullptr) return true;
+  const auto has = [&](Row& row) { return !std::isnan((*number)(row)); };
+  return column.may_be_blank ? std::any_of(rows.begin(), rows.end(), has) : std::all_of(rows.begin(), rows.end(), has);
 }
 
 /// The table as CSV, columns in the order of the layout. An optional column is left out unless every row has
-/// a value for it. (The rows are a copy because a layout gives access to members of rows that may change.)
+/// a value for it, or, where cells may be blank, one row. (The rows are a copy because a layout gives access to
+/// members of rows that may change.)
 template <class Row>
 std::string writtenTable(const TableLayout<Row>& layout, std::vector<Row> rows, const CampaignNames& names) {
   std::vector<const Column<Row>*> columns;
   std::string text;
   for (const Column<Row>& column : layout.columns) {
-    if (!column.required && !isComplete(column, rows)) continue;
+    if (!column.required && !isGiven(column, rows)) continue;
     if (!columns.empty()) text += ',';
     text += column.name;
     columns.push_back(&column);

@@ -149,6 +149,42 @@ void judge(const PairedFit& fit, int joint, double avoided_by_unit, JointChange&
   if (avoided_by_unit == 0.0) change.avoided.value = change.avoided.sd = kNone;
 }
 
+/// The side that is held: as the encoders show, else as the campaign declares.
+identification::HeldSide heldSide(const campaign::Campaign& campaign, const identification::Identification& one,
+                                  std::size_t joint) {
+  if (one.transmission && one.transmission->joints[joint].measured) return one.transmission->joints[joint].held;
+  switch (campaign.double_encoder) {
+    case campaign::DoubleEncoder::active:
+      return identification::HeldSide::link;
+    case campaign::DoubleEncoder::inactive:
+      return identification::HeldSide::motor;
+    case campaign::DoubleEncoder::unspecified:
+      break;
+  }
+  return identification::HeldSide::unknown;
+}
+
+/// The joint's gear by its encoders; of the two campaigns that which has it with the smaller uncertainty.
+std::optional<Uncertain> gearOf(const identification::Identification& before,
+                                const identification::Identification& after, int joint) {
+  std::optional<Uncertain> best;
+  for (const identification::Identification* one : {&before, &after}) {
+    if (!one->transmission || !one->transmission->joints[static_cast<std::size_t>(joint)].measured) continue;
+    const identification::StiffnessEstimate& gears = one->transmission->estimate;
+    const Uncertain own{gears.compliance[joint], std::sqrt(gears.covariance(joint, joint)), gears.dof(joint)};
+    if (!best || own.sd < best->sd) best = own;
+  }
+  return best;
+}
+
+GearCheck checkOf(const Uncertain& gear, const Uncertain& difference) {
+  const double a = gear.sd * gear.sd, b = difference.sd * difference.sd;
+  // Welch and Satterthwaite.
+  const Uncertain apart{-difference.value - gear.value, std::sqrt(a + b),
+                        (a + b) * (a + b) / (a * a / gear.dof + b * b / difference.dof)};
+  return {gear, pOfZero(apart, std::abs(gear.value))};
+}
+
 void correctForJoints(std::array<JointChange, 6>& joints) {
   std::vector<double> p_values;
   for (const JointChange& joint : joints) p_values.push_back(joint.comparable ? joint.p_value : kNone);
@@ -187,6 +223,11 @@ StiffnessChange compareStiffness(const campaign::Campaign& before_campaign,
     const int joint = static_cast<int>(j);
     stateStiffnesses(first.estimate, second.estimate, joint, change);
     judge(fit, joint, by_unit[joint], change);
+    const bool taken_away = heldSide(before_campaign, before, j) == identification::HeldSide::motor &&
+                            heldSide(after_campaign, after, j) == identification::HeldSide::link;
+    if (const auto gear = gearOf(before, after, joint); gear && taken_away) {
+      change.gear = checkOf(*gear, change.difference);
+    }
   }
   correctForJoints(result.joints);
   if (!result.available) result.reason = Remark(RemarkId::no_joint_in_both);

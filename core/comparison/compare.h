@@ -15,6 +15,13 @@
 
 namespace stiffscope::comparison {
 
+/// What double encoders take away of a joint by the gear's own measurement (identification/transmission.h): between a
+/// state whose motor is held and one whose link side is, c_before - c_after should be the gear's compliance.
+struct GearCheck {
+  Uncertain compliance;  ///< of the gear by its two encoders, rad/Nm, from the campaign that has it better
+  double p_value = 0.0;  ///< two-sided, of the difference of compliances and the gear being one number
+};
+
 /// One joint in both campaigns.
 struct JointChange {
   bool comparable = false;
@@ -32,6 +39,7 @@ struct JointChange {
                              ///< what springs leave is noise (CommonResidual)
   double correlation = 0.0;  ///< of the two scatter errors, by the postures that both share
   Remark mark;               ///< of either entry: negative or imprecise; else empty
+  std::optional<GearCheck> gear;  ///< empty where neither campaign measures the gear, or the loops are not these
 };
 
 struct StiffnessChange {

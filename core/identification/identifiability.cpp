@@ -151,21 +151,18 @@ robot::JointMask Identifiability::mask() const {
   return unknown;
 }
 
-Identifiability evaluateIdentifiability(const frames::LoadingGeometry& geometry, const std::vector<LoadCase>& cases,
-                                        const campaign::LoadCell& cell, const std::vector<CaseEquations>& equations,
-                                        const TrustLimits& limits) {
+Identifiability evaluateTorques(const frames::LoadingGeometry& geometry, const std::vector<LoadCase>& cases,
+                                const campaign::LoadCell& cell, const TrustLimits& limits) {
   Identifiability result;
   if (cases.empty()) return result;
   evaluateHanging(geometry, cases, limits, result);
   const Eigen::Vector3d down = geometry.weight.gravity_in_base.normalized();
-  std::vector<Vector6d> torques(cases.size());
   const auto sum = numerics::sumInBlocks<TorqueSquares>(cases.size(), [&](std::size_t i, TorqueSquares& all) {
     const LoadCase& load_case = cases[i];
     const robot::ArmAxes& axes = load_case.axes;
-    torques[i] = robot::jointTorque(axes, load_case.wrench);
-    const Vector6d hanging =
-        result.load_hangs ? robot::jointTorque(axes, hangingPart(load_case.wrench, down)) : torques[i];
-    all += {torques[i].cwiseAbs2(), hanging.cwiseAbs2(), torqueVariance(axes, load_case.wrench, cell, limits)};
+    const Vector6d torque = robot::jointTorque(axes, load_case.wrench);
+    const Vector6d hanging = result.load_hangs ? robot::jointTorque(axes, hangingPart(load_case.wrench, down)) : torque;
+    all += {torque.cwiseAbs2(), hanging.cwiseAbs2(), torqueVariance(axes, load_case.wrench, cell, limits)};
   });
   const double n = static_cast<double>(cases.size());
   for (int j = 0; j < 6; ++j) {
@@ -180,7 +177,15 @@ Identifiability evaluateIdentifiability(const frames::LoadingGeometry& geometry,
                        : Remark(RemarkId::load_turns_too_little, j + 1, joint.trusted_rms, limits.least_ratio,
                                 joint.uncertainty_rms);
   }
-  evaluateLever(equations, torques, limits, result);
+  return result;
+}
+
+Identifiability evaluateIdentifiability(const frames::LoadingGeometry& geometry, const std::vector<LoadCase>& cases,
+                                        const campaign::LoadCell& cell, const std::vector<CaseEquations>& equations,
+                                        const TrustLimits& limits) {
+  Identifiability result = evaluateTorques(geometry, cases, cell, limits);
+  if (cases.empty()) return result;
+  evaluateLever(equations, jointTorques(cases), limits, result);
   evaluateRank(equations, result);
   return result;
 }

@@ -36,9 +36,13 @@ struct Identifiability {
 /// A joint counts only if the load turns it by more than wrench, frame and angle uncertainty alone would.
 /// Where every force lies along gravity the load hangs: only its part along gravity is trusted then, because
 /// a slightly turned load cell or base would else put a little torque on a vertical axis and a number on its
-/// stiffness (docs/method.md, What every method reports). Nor is a joint identifiable whose axis the measured points
-/// stand on, or whose column is a combination of others'. `equations`: positions only, one a case, made with
-/// the cases' torques.
+/// stiffness (docs/method.md, What every method reports).
+Identifiability evaluateTorques(const frames::LoadingGeometry& geometry, const std::vector<LoadCase>& cases,
+                                const campaign::LoadCell& cell, const TrustLimits& limits = {});
+
+/// The same, and what the measured points see of the joints that the load turns: neither is a joint identifiable whose
+/// axis the measured points stand on, or whose column is a combination of others'. `equations`: positions only, one a
+/// case, made with the cases' torques.
 Identifiability evaluateIdentifiability(const frames::LoadingGeometry& geometry, const std::vector<LoadCase>& cases,
                                         const campaign::LoadCell& cell, const std::vector<CaseEquations>& equations,
                                         const TrustLimits& limits = {});

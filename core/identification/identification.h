@@ -11,6 +11,7 @@
 #include "core/identification/noise_share.h"
 #include "core/identification/outliers.h"
 #include "core/identification/subsets.h"
+#include "core/identification/transmission.h"
 
 namespace stiffscope::identification {
 
@@ -94,9 +95,10 @@ struct Identification {
   std::array<MethodResult, 3> methods;               ///< by Method
   std::optional<ShownFirst> shown_first;             ///< empty without an available method
   std::optional<NoiseShare> noise;
-  std::vector<Remark> cautions;            ///< warningsOf this result
-  double servo_change = 0.0;               ///< largest change of a reported joint angle under load, rad
-  double geometric_stiffness_share = 0.0;  ///< rms change of the joint torques by K_c, relative
+  std::optional<Transmission> transmission;  ///< gears by their two encoders; empty without second encoders
+  std::vector<Remark> cautions;              ///< warningsOf this result
+  double servo_change = 0.0;                 ///< largest change of a reported joint angle under load, rad
+  double geometric_stiffness_share = 0.0;    ///< rms change of the joint torques by K_c, relative
   bool finite_deflection = true;
 
   const MethodResult& of(Method method) const { return methods[static_cast<std::size_t>(method)]; }

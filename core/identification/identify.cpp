@@ -59,6 +59,22 @@ std::vector<OutlyingPosture> outlyingOf(const LoadedArm& arm, const robot::Joint
   return outlyingPostures(byPosture(reflectorEquations(arm)), unknown);
 }
 
+/// Gears by their two encoders, in the geometry that is shown and with K_c by the joints as the best method sees them.
+void addTransmission(const campaign::Campaign& campaign, Identification& result) {
+  if (!campaign.load_cell || !hasSecondEncoders(campaign)) return;
+  const MethodResult& best = result.of(bestMethod(result));
+  Vector6d compliance = Vector6d::Zero();
+  if (best.available && result.finite_deflection) compliance = best.estimate.compliance;
+  GeometryPart by_axes;
+  if (campaign.loading && result.geometry.r0_from_loading) {
+    by_axes = [&](const GearsIn& gears) {
+      const ComplianceOf solve = [&](const LoadedArm& arm) { return gears(arm.geometry); };
+      return sweptParts(campaign, result.frames, result.geometry, {result.step}, {solve}).front().frames;
+    };
+  }
+  result.transmission = measureTransmission(campaign, result.geometry, compliance, by_axes);
+}
+
 Identification identifyOnce(const campaign::Campaign& campaign, const IdentifyOptions& options) {
   Identification result;
   result.step = chosenStep(campaign, options.step);
@@ -77,6 +93,7 @@ Identification identifyOnce(const campaign::Campaign& campaign, const IdentifyOp
   LoadedArm& shown = runs.swept.cases.empty() ? runs.calibrated : runs.swept;
   result.outlying = outlyingOf(shown, runs.unknown);
   describeLoads(campaign, std::move(shown), result);
+  addTransmission(campaign, result);
   return result;
 }
 
@@ -102,6 +119,10 @@ Identification framesAlone(const campaign::Campaign& campaign) {
   for (MethodResult& method : result.methods) method.reason = lacking;
   for (JointIdentifiability& joint : result.identifiability.joints) joint.reason = lacking;
   result.calibration.reason = lacking;
+  if (campaign.load_cell && hasSecondEncoders(campaign)) {
+    result.geometry = frames::sweptGeometry(campaign, result.frames, Vector6d::Zero());
+    addTransmission(campaign, result);
+  }
   result.cautions = warningsOf(campaign, result);
   return result;
 }

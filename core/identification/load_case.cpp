@@ -257,6 +257,24 @@ std::optional<int> heaviestStep(const campaign::Campaign& campaign) {
   return heaviest;
 }
 
+LoadCase caseOfState(const campaign::Campaign& campaign, const frames::LoadingGeometry& geometry,
+                     const campaign::State& first, const campaign::State& state) {
+  LoadCase load_case;
+  load_case.pose = state.pose;
+  load_case.step = state.step;
+  load_case.q = first.q;
+  load_case.servo = state.q - first.q;
+  load_case.q_sagged = geometry.sagged(load_case.q);
+  const robot::ArmPosture posture = unloadedPosture(geometry.arm, load_case);
+  load_case.axes = robot::axesAt(geometry.arm, posture);
+  const Vector6d reading = state.step == 0 ? Vector6d(Vector6d::Zero()) : state.wrench_in_cell;
+  load_case.wrench = cellWrench(*campaign.load_cell, geometry, posture, std::nullopt, std::nullopt, reading);
+  load_case.wrench_unturned = load_case.wrench;
+  load_case.wrench_turns_with = bodyOfCellAxes(*campaign.load_cell, geometry);
+  load_case.unturned = posture.motion[static_cast<std::size_t>(load_case.wrench_turns_with)].linear();
+  return load_case;
+}
+
 std::vector<LoadCase> loadCases(const campaign::Campaign& campaign, const LoadReadings& readings,
                                 const frames::LoadingGeometry& geometry, int step,
                                 std::vector<LeftOutPosture>* left_out) {

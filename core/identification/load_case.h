@@ -98,6 +98,12 @@ struct LoadCase {
   std::optional<Eigen::Isometry3d> flange_loaded;
 };
 
+/// A load state without readings of reflectors, for what asks for torques alone: the wrench is directed as the model's
+/// flange stands, or turns with it (wrench_turns_with). `first`: the state whose angles are the unloaded arm's. Step 0
+/// has no wrench.
+LoadCase caseOfState(const campaign::Campaign& campaign, const frames::LoadingGeometry& geometry,
+                     const campaign::State& first, const campaign::State& state);
+
 /// The unloaded arm, all its bodies. Not kept in the load case: ten thousand of them would be most of the
 /// memory, and few steps need more than the axes.
 robot::ArmPosture unloadedPosture(const robot::Robot& arm, const LoadCase& load_case);

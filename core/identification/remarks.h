@@ -53,6 +53,12 @@ enum class RemarkId {
   shown_unjudged,          ///< method
   shown_as_in_the_paper,   ///< method
   shown_as_asked,          ///< method
+  // why the gear of a joint is not measured by its two encoders, and what to know of it
+  no_second_encoder,
+  no_loaded_state,
+  encoders_apart,            ///< joint number, median of |motor side - reported| rad
+  too_few_encoder_postures,  ///< postures with two states, fewest
+  loop_not_as_declared,      ///< joint number, whether the motor's side is held (1)
   // of a joint's stiffness
   negative,
   imprecise  ///< standard deviation above the value

@@ -2,6 +2,8 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <array>
+#include <cstdint>
 #include <vector>
 
 #include "core/campaign/campaign.h"
@@ -23,6 +25,9 @@ Vector6d loadWrenchInCell(const ElasticMachine& machine, const MachineState& sta
 /// `bias` where there is a load (a row that is not exactly zero: the unloaded reading is tared), plus noise
 /// of the declared sigmas in every row (stream "load cell").
 void addLoadCellErrors(const LoadCellSpec& cell, std::uint64_t noise_seed, campaign::States& states);
+
+/// Adds offset and noise of the second encoders (JointGear) to the motor-side angles: stream "encoders".
+void addEncoderErrors(const std::array<JointStiffness, 6>& joints, std::uint64_t noise_seed, campaign::States& states);
 
 /// Where the tracker stands through the day, and what it makes of a true point.
 class Station {

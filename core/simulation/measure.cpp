@@ -10,6 +10,7 @@
 #include "core/io/units.h"
 #include "core/numerics/random.h"
 #include "core/simulation/equilibrium.h"
+#include "core/simulation/gears.h"
 #include "core/simulation/instruments.h"
 #include "core/simulation/machine.h"
 #include "core/simulation/postures.h"
@@ -26,7 +27,7 @@ struct Session {
   double now_s = 0.0;
   double last_nests_s = 0.0;
 
-  /// The machine at rest at reported angles q, now. Throws InputError where it is not stable or collapses.
+  /// The machine at rest, now, its controller holding q. Throws InputError where it is not stable or collapses.
   MachineState rest(const Vector6d& q, const AppliedLoad& load = {}, const Eigen::VectorXd* anchors = nullptr) const;
   Vector6d reported(const Vector6d& q) const;  ///< rounded to the read-back resolution
   /// The time a reading is finished; the clock moves on to it.
@@ -67,7 +68,7 @@ MachineState stateNow(const Session& session, const PostureRun& run, const Appli
   const AppliedLoad swung = swungLoad(*spec.loading, load, session.now_s);
   const bool swings = spec.loading->swing != 0.0 && std::holds_alternative<DeadForce>(load);
   if (!swings && late.size() == 0) return rest;
-  MachineState state = swings ? session.rest(rest.q, swung, &run.anchors) : rest;
+  MachineState state = swings ? session.rest(rest.held, swung, &run.anchors) : rest;
   if (late.size() == 0) return state;
   const Eigen::VectorXd x = state.deformation - std::exp(-since_s / spec.machine.creep->time_constant) * late;
   const ElasticMachine& machine = session.machine;
@@ -119,6 +120,9 @@ void measureState(Session& session, PostureRun& run, int step) {
   row.step = step;
   row.time_s = session.now_s;
   row.q = session.reported(rest.q);
+  for (int i = 0; i < 6; ++i) {
+    if (spec.machine.joints[static_cast<std::size_t>(i)].gear) row.motor_side[i] = rest.motor_side[i];
+  }
   if (spec.load_cell) {
     row.wrench_in_cell = loadWrenchInCell(session.machine, rest, cellParent(spec), spec.load_cell->declared,
                                           spec.load_cell->place_error);
@@ -218,8 +222,10 @@ constexpr double kLargest = 0.1;  ///< m and rad: what gives more has collapsed,
 }  // namespace
 
 MachineState Session::rest(const Vector6d& q, const AppliedLoad& load, const Eigen::VectorXd* anchors) const {
-  MachineState state = machine.changes() ? equilibrium(machineAt(machine, q, now_s), q, load, anchors)
-                                         : equilibrium(machine, q, load, anchors);
+  const bool link_side_held = spec.double_encoder == campaign::DoubleEncoder::active;
+  MachineState state = machine.changes()
+                           ? equilibriumOnGears(machineAt(machine, q, now_s), q, link_side_held, load, anchors)
+                           : equilibriumOnGears(machine, q, link_side_held, load, anchors);
   const bool small = state.deformation.size() == 0 || state.deformation.cwiseAbs().maxCoeff() < kLargest;
   if (!state.converged || !small) {
     const Vector6d deg = q / io::kDegree;
@@ -320,6 +326,7 @@ campaign::Campaign simulate(const SimulationSpec& spec) {
   campaign::Campaign campaign = measureWithoutNoise(buildMachine(spec), spec);
   const std::uint64_t noise_seed = noiseSeed(spec);
   if (spec.load_cell && campaign.states) addLoadCellErrors(*spec.load_cell, noise_seed, *campaign.states);
+  if (campaign.states) addEncoderErrors(spec.machine.joints, noise_seed, *campaign.states);
   addTrackerNoise(spec.tracker.true_noise_factor, noise_seed, campaign);
   numberRows(campaign);
   return campaign;

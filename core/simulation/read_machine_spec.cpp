@@ -50,6 +50,13 @@ JointWave readWave(const io::XmlNode& node, const std::string& amplitude, double
           numberOr(node, "phase_deg", io::kDegree, 0.0)};
 }
 
+JointGear readGear(const io::XmlNode& node) {
+  refuseUnknown(node, {"stiffness_nm_per_rad", "lost_motion_deg", "encoder_sigma_deg", "encoder_offset_deg"});
+  return {positive(node, "stiffness_nm_per_rad", 1.0), nonNegativeOr(node, "lost_motion_deg", io::kDegree, 0.0),
+          nonNegativeOr(node, "encoder_sigma_deg", io::kDegree, 0.0),
+          numberOr(node, "encoder_offset_deg", io::kDegree, 0.0)};
+}
+
 double shareBelowOne(const io::XmlNode& node) {
   const double share = node.number("share");
   if (!(std::abs(share) < 1.0)) {
@@ -62,7 +69,7 @@ double shareBelowOne(const io::XmlNode& node) {
 
 JointStiffness readJoint(const io::XmlNode& node) {
   refuseUnknown(node, {"index", "stiffness_nm_per_rad", "bearing_nm_per_rad", "cubic_nm_per_rad3"},
-                {"stages", "backlash", "friction", "stiffness_ripple", "angle_error", "softening"});
+                {"stages", "backlash", "friction", "stiffness_ripple", "angle_error", "softening", "gear"});
   JointStiffness joint;
   joint.torsion = optionalPositive(node, "stiffness_nm_per_rad", 1.0);
   joint.bearing = optionalPositive(node, "bearing_nm_per_rad", 1.0);
@@ -81,6 +88,7 @@ JointStiffness readJoint(const io::XmlNode& node) {
     refuseUnknown(*child, {"share", "time_constant_s"});
     joint.softening = JointSoftening{shareBelowOne(*child), positive(*child, "time_constant_s", 1.0)};
   }
+  if (const auto child = node.child("gear")) joint.gear = readGear(*child);
   const bool needs_torsion =
       joint.cubic > 0.0 || joint.stages || joint.backlash || joint.friction || joint.rate_wave || joint.softening;
   if (needs_torsion && !joint.torsion) {

@@ -55,9 +55,22 @@ struct JointSoftening {
   double share = 0.0, time_constant = 0.0;
 };
 
-/// How one joint gives. Absent: it does not. What follows `bearing` needs `torsion`.
+/// A gear apart from the rest of its joint, between the motor and a second encoder on the link side. Under the torque T
+/// that it carries, weight included, the link runs ahead of the motor by
+///   T / stiffness + lost_motion / 2, the latter in the sense of T,
+/// and the other half of the lost motion on the way through 10 Nm either side of T = 0. What the controller holds still
+/// is by SimulationSpec::double_encoder: the link side where it is active, else the motor.
+struct JointGear {
+  double stiffness = 0.0;    ///< Nm/rad
+  double lost_motion = 0.0;  ///< rad in all
+  // Of the reading of the motor's side against that of the link's:
+  double encoder_sigma = 0.0;   ///< rad, in every state
+  double encoder_offset = 0.0;  ///< rad, always
+};
+
+/// How one joint gives. Absent: it does not. What follows `bearing` needs `torsion`, but for the gear.
 struct JointStiffness {
-  std::optional<double> torsion;  ///< about its axis, Nm/rad
+  std::optional<double> torsion;  ///< about its axis, Nm/rad; with a gear, of what lies beyond the second encoder
   std::optional<double> bearing;  ///< about each direction across its axis, at the axis's point, Nm/rad
   double cubic = 0.0;             ///< Nm/rad^3, times twist cubed, besides the rest; >= 0
   std::optional<JointStages> stages = std::nullopt;
@@ -66,6 +79,7 @@ struct JointStiffness {
   std::optional<JointWave> rate_wave = std::nullopt;   ///< of the rate, as a share of it; |amplitude| < 1
   std::optional<JointWave> angle_wave = std::nullopt;  ///< true motor angle less reported, rad
   std::optional<JointSoftening> softening = std::nullopt;
+  std::optional<JointGear> gear = std::nullopt;
 };
 
 /// A straight spring between two bodies of the arm (0: the base, i: the body beyond joint i): from carousel

@@ -42,6 +42,11 @@ Json jointsJson(const comparison::StiffnessChange& change, bool ratios_hold) {
       row["u_ratio"] = number(joint.ratio.expanded());
       row["ratio_keeps_bias"] = !ratios_hold;
       row["correlation"] = number(joint.correlation);
+      if (joint.gear) {
+        row["gear"] = {{"compliance_rad_per_nm", number(joint.gear->compliance.value)},
+                       {"u_compliance_rad_per_nm", number(joint.gear->compliance.expanded())},
+                       {"p_value_of_agreement", number(joint.gear->p_value)}};
+      }
       if (!joint.mark.empty()) row["mark"] = words(joint.mark);
     } else {
       for (const char* key : {"compliance_difference_rad_per_nm", "before", "after", "ratio", "p_value"}) {

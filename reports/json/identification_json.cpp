@@ -19,6 +19,10 @@ namespace stiffscope::reports {
 /// K_c.
 Json postureStiffnessJson(const identification::PostureStiffness& posture);
 
+Json intervalJson(const identification::CoverageInterval& interval) {
+  return Json::array({number(interval.low), number(interval.high)});
+}
+
 namespace {
 
 Json principalJson(const robot::CartesianStiffness& stiffness) {
@@ -52,10 +56,6 @@ Json maskedByJoint(const robot::JointMask& identifiable, const auto& entry) {
     list.push_back(identifiable[static_cast<std::size_t>(joint)] ? Json(entry(joint)) : Json(nullptr));
   }
   return list;
-}
-
-Json intervalJson(const identification::CoverageInterval& interval) {
-  return Json::array({number(interval.low), number(interval.high)});
 }
 
 Json correlationJson(const identification::StiffnessEstimate& estimate) {
@@ -328,6 +328,7 @@ JsonDocument identificationJson(const campaign::Campaign& campaign, const identi
                                  {"torque_change_share", result.geometric_stiffness_share}};
   json["servo_change_deg"] = result.servo_change / io::kDegree;
   json["calibration"] = calibrationJson(result.calibration);
+  if (result.transmission) json["transmission"] = transmissionJson(result, methods);
   json["own_weight"] = {{"removed", result.frames.sag_removed}, {"note", words(result.frames.sag_note)}};
   if (!result.length_sensitivity.empty()) {
     Json curve = Json::array();

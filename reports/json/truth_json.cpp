@@ -56,6 +56,14 @@ Json effectsOfJoint(const simulation::JointStiffness& joint) {
                     {"share", joint.softening->share},
                     {"time_constant_s", joint.softening->time_constant}});
   }
+  if (joint.gear) {
+    list.push_back({{"effect", "gear_apart"},
+                    {"stiffness_nm_per_rad", joint.gear->stiffness},
+                    {"compliance_rad_per_nm", 1.0 / joint.gear->stiffness},
+                    {"lost_motion_rad", joint.gear->lost_motion},
+                    {"encoder_sigma_rad", joint.gear->encoder_sigma},
+                    {"encoder_offset_rad", joint.gear->encoder_offset}});
+  }
   return list;
 }
 

@@ -38,6 +38,7 @@ void writeContents(Html& html, const reports::ReportContent& content) {
   entry("wrist", "Wrist centre");
   entry("links", "Links");
   entry("stiffness", "Stiffness");
+  if (anySecondEncoders(content)) entry("transmission", "Gears");
   if (anyLoads(content)) entry("subsets", "Spread");
   if (anyLoads(content)) entry("compensation", "Compensation");
   const bool improved = std::any_of(content.campaigns.begin(), content.campaigns.end(),
@@ -76,6 +77,7 @@ ReportPage makeReportPage(const reports::ReportContent& content) {
     writeWrist(html, content);
     writeLinks(html, content);
     writeStiffness(html, content);
+    writeTransmission(html, content);
     if (anyLoads(content)) writeSubsets(html, content);
     if (anyLoads(content)) writeCompensation(html, content);
     writeExtendedModel(html, content);

@@ -9,11 +9,13 @@
 
 namespace stiffscope::page {
 
-void writeOpening(Html& html, const reports::ReportContent& content);       ///< title, verdict, the three numbers
-void writeConditions(Html& html, const reports::ReportContent& content);    ///< method and conditions
-void writeWrist(Html& html, const reports::ReportContent& content);         ///< Table I
-void writeLinks(Html& html, const reports::ReportContent& content);         ///< link lengths and angles
-void writeStiffness(Html& html, const reports::ReportContent& content);     ///< by method, from all postures
+void writeOpening(Html& html, const reports::ReportContent& content);     ///< title, verdict, the three numbers
+void writeConditions(Html& html, const reports::ReportContent& content);  ///< method and conditions
+void writeWrist(Html& html, const reports::ReportContent& content);       ///< Table I
+void writeLinks(Html& html, const reports::ReportContent& content);       ///< link lengths and angles
+void writeStiffness(Html& html, const reports::ReportContent& content);   ///< by method, from all postures
+bool anySecondEncoders(const reports::ReportContent& content);
+void writeTransmission(Html& html, const reports::ReportContent& content);  ///< gears by two encoders; nothing without
 void writeSubsets(Html& html, const reports::ReportContent& content);       ///< Table II
 void writeCompensation(Html& html, const reports::ReportContent& content);  ///< compensated and avoided shares
 void writeExtendedModel(Html& html,

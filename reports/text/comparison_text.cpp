@@ -44,6 +44,10 @@ void writeDifferences(const comparison::StiffnessChange& change, Out out) {
     fmt::format_to(out, "  c{:<3}{:>26}{:>11}{:>11}{:>20}{:>20}\n", j + 1,
                    withU(joint.difference, 1.0 / kMicroradian, 4), pText(joint.p_value), pText(joint.p_holm),
                    withU(joint.taken, 100.0, 2), withU(joint.avoided, 100.0, 2));
+    if (!joint.gear) continue;
+    fmt::format_to(out, "      gear by its encoders {}: {} the difference, p {}\n",
+                   withU(joint.gear->compliance, 1.0 / kMicroradian, 4),
+                   joint.gear->p_value < 0.05 ? "disagrees with" : "agrees with", pText(joint.gear->p_value));
   }
 }
 

@@ -299,6 +299,7 @@ std::string identificationText(const campaign::Campaign& campaign, const identif
   if (std::find(methods.begin(), methods.end(), identification::Method::complete_pose) != methods.end())
     writeLengths(result, out);
   fmt::format_to(out, "{}", bootstrapText(result, methods));
+  if (result.transmission) fmt::format_to(out, "{}", transmissionText(result, methods));
   fmt::format_to(out, "\n");
   for (const std::string& caution : words(result.cautions)) {
     fmt::format_to(out, "{}\n", wrapped("Caution: " + caution + ".", 2));

@@ -93,6 +93,10 @@ std::string bootstrapText(const identification::Identification& result,
 std::string stepsText(const identification::StepStudy& study, const identification::Identification& result,
                       const std::vector<identification::Method>& methods);
 
+/// Gears by their two encoders beside what the tracker sees; of a result that has them.
+std::string transmissionText(const identification::Identification& result,
+                             const std::vector<identification::Method>& methods);
+
 /// Conditioning, softest and stiffest direction at P_TCP, and what neglecting K_c costs, a line a posture.
 std::string posturesText(const campaign::Campaign& campaign, const identification::Identification& result,
                          identification::Method method);

@@ -222,6 +222,27 @@ std::string identificationWords(identification::RemarkId id, const RemarkValues&
       return fmt::format("{}, the paper's method", briefOf(values.count(0)));
     case RemarkId::shown_as_asked:
       return fmt::format("{}, as asked", briefOf(values.count(0)));
+    case RemarkId::no_second_encoder:
+      return "no second encoder: `states` has no angle of its motor side, or the reported one again";
+    case RemarkId::no_loaded_state:
+      return "no load state with a force and angles of the motor side: the wind-up of a gear needs a torque";
+    case RemarkId::encoders_apart:
+      return fmt::format(
+          "m{0}_deg stands {1:.3g} deg from q{0}_deg: not the motor's angle over the gear ratio, in the joint's sense",
+          values.count(0), values.number(1) / io::kDegree);
+    case RemarkId::too_few_encoder_postures:
+      return fmt::format("angles of the motor side in two load states or more of {} posture{}; {} are needed",
+                         values.count(0), values.count(0) == 1 ? "" : "s", values.count(1));
+    case RemarkId::loop_not_as_declared:
+      return values.count(1) != 0
+                 ? fmt::format(
+                       "joint {}: double_encoder is declared active, but under load the link side moves and the "
+                       "motor stands: taken as closed on the motor",
+                       values.count(0))
+                 : fmt::format(
+                       "joint {}: double_encoder is declared inactive, but under load the motor moves and the "
+                       "link side stands: taken as closed on the link side",
+                       values.count(0));
     case RemarkId::negative:
       return "negative";
     case RemarkId::imprecise:

@@ -44,6 +44,21 @@ TEST(CheckCampaign, FindsNothingInALongOneThatIsRight) {
   EXPECT_TRUE(warnings.empty());
 }
 
+TEST(CheckCampaign, WarnsOfMotorSidesThatAreNoAnglesOfTheJoint) {
+  campaign::Campaign campaign = longCampaign();
+  for (const int row : {5, 40'000}) {
+    campaign::State& state = campaign.states->rows[static_cast<std::size_t>(row)];
+    state.motor_side[1] = -state.q[1];
+    state.motor_side[2] = state.q[2] + 0.1 * io::kDegree;
+  }
+  std::vector<std::string> warnings;
+  campaign::checkCampaign(campaign, warnings);
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_EQ(warnings[0],
+            "campaign/states.csv:7: m2_deg: '-20.00000': more than 2 deg from q2_deg (20.00000): not a motor's angle "
+            "over the gear ratio, in the joint's sense; rows like this: 2");
+}
+
 TEST(CheckCampaign, OfTwoReadingsWithoutStateTheFirstIsNamed) {
   campaign::Campaign campaign = longCampaign();
   for (const int row : {69'000, 40'000}) campaign.displacements->rows[static_cast<std::size_t>(row)].step = 2;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <fstream>
 #include <numbers>
+#include <sstream>
 #include "core/io/input_error.h"
 #include "core/io/read_file.h"
 #include "tests/fixtures/small_campaign.h"
@@ -73,6 +74,26 @@ TEST(ReadCampaign, ReadsEveryTableInSi) {
   EXPECT_NEAR(c.displacements->rows[0].displacement.x(), -0.686e-3, kRounding);
   EXPECT_EQ(c.nest_ids, (std::vector<std::string>{"N1", "N2"}));
   EXPECT_EQ(c.nests->rows[1].time_s, 2.0);
+}
+
+TEST(ReadCampaign, StatesMayHaveSecondEncodersOfSomeJointsCommandsAndTemperatures) {
+  const SmallCampaign files;
+  const std::string before = files.read("states.csv");
+  std::istringstream lines(before);
+  std::string line, table;
+  const char* more[] = {",m2_deg,m5_deg,c1_deg,temperature_c", ",1.5,,-2,23.5", ",,-0.25,,", ",1,2,3,"};
+  for (std::size_t i = 0; i < 4 && std::getline(lines, line); ++i) table += line + more[i] + '\n';
+  files.write("states.csv", table);
+  const campaign::CampaignReading reading = campaign::readCampaign(files.folder());
+  const std::vector<campaign::State>& rows = reading.campaign.states->rows;
+  ASSERT_EQ(rows.size(), 3u);
+  EXPECT_NEAR(rows[0].motor_side[1], 1.5 * kDegree, kRounding);
+  EXPECT_TRUE(std::isnan(rows[0].motor_side[0]) && std::isnan(rows[0].motor_side[4]) &&
+              std::isnan(rows[1].commanded[0]));
+  EXPECT_NEAR(rows[1].motor_side[4], -0.25 * kDegree, kRounding);
+  EXPECT_NEAR(rows[0].commanded[0], -2 * kDegree, kRounding);
+  EXPECT_EQ(rows[0].temperature_c, 23.5);
+  EXPECT_TRUE(std::isnan(rows[2].temperature_c));
 }
 
 TEST(ReadCampaign, ListsItsFilesWithTheHashOfTheirBytes) {

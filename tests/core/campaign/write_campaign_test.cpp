@@ -137,6 +137,26 @@ TEST(WriteCampaign, WritesNamesAndTextsThatNeedCare) {
   expectRoundTrip(campaign, files.folder() / "robot.urdf");
 }
 
+TEST(WriteCampaign, SecondEncodersAreWrittenWhereTheyAreAndBlankWhereNot) {
+  const SmallCampaign files;
+  campaign::Campaign campaign = campaign::readCampaign(files.folder()).campaign;
+  const double motor = campaign.states->rows[0].q[2] + 0.001;
+  campaign.states->rows[0].motor_side[2] = motor;
+  campaign.states->rows[1].commanded[5] = -1.5;
+  campaign.states->rows[1].temperature_c = 21.25;
+  const TemporaryFolder folder;
+  campaign::writeCampaign(campaign, files.folder() / "robot.urdf", folder.path() / "new");
+  const campaign::CampaignReading reading = campaign::readCampaign(folder.path() / "new");
+  EXPECT_TRUE(reading.warnings.empty());
+  const std::vector<campaign::State>& rows = reading.campaign.states->rows;
+  EXPECT_NEAR(rows[0].motor_side[2], motor, kAngle);
+  EXPECT_TRUE(std::isnan(rows[0].commanded[5]) && std::isnan(rows[0].temperature_c));
+  EXPECT_NEAR(rows[1].commanded[5], -1.5, kAngle);
+  EXPECT_EQ(rows[1].temperature_c, 21.25);
+  EXPECT_TRUE(std::isnan(rows[1].motor_side[2]) && std::isnan(rows[0].motor_side[0]));
+  expectRoundTrip(reading.campaign, files.folder() / "robot.urdf");
+}
+
 TEST(WriteCampaign, WritesTheUnitsAndDecimalsOfTheFormat) {
   const SmallCampaign files;
   const TemporaryFolder out;

@@ -67,7 +67,8 @@ TEST_F(SimulationEffectsSpec, readsWhatAJointHas) {
            "<stages torques_nm='100 300' stiffness_nm_per_rad='1e6 2e6 3e6'/><backlash width_deg='0.02'/>"
            "<friction torque_nm='80' stiffness_nm_per_rad='4e5' sliders='3'/>"
            "<stiffness_ripple share='0.1' cycles='3' phase_deg='90'/>"
-           "<angle_error amplitude_deg='0.01'/><softening share='0.2' time_constant_s='5000'/>",
+           "<angle_error amplitude_deg='0.01'/><softening share='0.2' time_constant_s='5000'/>"
+           "<gear stiffness_nm_per_rad='4e6' lost_motion_deg='0.01' encoder_sigma_deg='0.0002'/>",
            "stiffness_nm_per_rad='3e6' cubic_nm_per_rad3='1e12'");
   const simulation::JointStiffness& joint = spec.machine.joints[1];
   EXPECT_EQ(joint.cubic, 1e12);
@@ -78,6 +79,10 @@ TEST_F(SimulationEffectsSpec, readsWhatAJointHas) {
   EXPECT_NEAR(joint.rate_wave->phase, 90 * kDegree, 1e-15);
   EXPECT_EQ(joint.angle_wave->cycles, 1.0);
   EXPECT_EQ(joint.softening->time_constant, 5000.0);
+  EXPECT_EQ(joint.gear->stiffness, 4e6);
+  EXPECT_NEAR(joint.gear->lost_motion, 0.01 * kDegree, 1e-18);
+  EXPECT_NEAR(joint.gear->encoder_sigma, 0.0002 * kDegree, 1e-18);
+  EXPECT_EQ(joint.gear->encoder_offset, 0.0);
   const simulation::ElasticMachine machine = simulation::buildMachine(spec);
   ASSERT_EQ(machine.curves.size(), 1u);
   EXPECT_EQ(machine.curves[0].curve.positive.size(), 4u);  // the gap, then three stages

@@ -1,0 +1,69 @@
+#include "core/identification/motor_side.h"
+
+#include <cmath>
+
+#include "core/frames/arm_geometry.h"
+#include "core/identification/transmission.h"
+#include "core/robot/gravity_load.h"
+
+namespace stiffscope::identification {
+
+namespace {
+
+/// The URDF's arm in base_link.
+frames::LoadingGeometry nominalGeometry(const campaign::Campaign& campaign) {
+  frames::LoadingGeometry geometry;
+  geometry.arm = campaign.robot;
+  geometry.weight = robot::gravityLoad(campaign.robot, campaign.tool, campaign.gravity_in_base, campaign.robot,
+                                       Eigen::Isometry3d::Identity());
+  return geometry;
+}
+
+/// Compliances of the gears that the own weight winds up between what is held and what is read; the others zero.
+Vector6d heldGears(const Transmission& transmission) {
+  Vector6d gears = Vector6d::Zero();
+  for (int j = 0; j < 6; ++j) {
+    const GearTorsion& joint = transmission.joints[static_cast<std::size_t>(j)];
+    if (joint.measured && joint.held == HeldSide::motor) gears[j] = transmission.estimate.compliance[j];
+  }
+  return gears;
+}
+
+Vector6d weightWindUp(const frames::LoadingGeometry& geometry, const Vector6d& q, const Vector6d& gears) {
+  if (!geometry.weight.links_known) return Vector6d::Zero();
+  return gears.cwiseProduct(robot::weightTorque(geometry.arm, robot::postureAt(geometry.arm, q), geometry.weight));
+}
+
+template <class Row>
+void referSweep(std::optional<campaign::Table<Row>>& table, const frames::LoadingGeometry& geometry,
+                const Vector6d& gears) {
+  if (!table) return;
+  for (Row& row : table->rows) row.q -= weightWindUp(geometry, row.q, gears);
+}
+
+}  // namespace
+
+campaign::Campaign referredToMotors(campaign::Campaign campaign) {
+  if (!campaign.load_cell || !hasSecondEncoders(campaign)) return campaign;
+  const frames::LoadingGeometry geometry = nominalGeometry(campaign);
+  Transmission transmission = measureTransmission(campaign, geometry, Vector6d::Zero());
+  const Vector6d gears = heldGears(transmission);
+  if (gears.isZero(0.0)) return campaign;
+  // Once more with K_c as far as the gears make it.
+  transmission = measureTransmission(campaign, geometry, gears);
+  for (campaign::State& row : campaign.states->rows) {
+    const Vector6d by_weight = weightWindUp(geometry, row.q, gears);
+    for (int j = 0; j < 6; ++j) {
+      if (gears[j] == 0.0) continue;
+      row.link_side[j] = row.q[j];
+      const double offset = transmission.joints[static_cast<std::size_t>(j)].offset;
+      // A row without the motor's angle: as the sweeps.
+      row.q[j] = std::isnan(row.motor_side[j]) ? row.q[j] - by_weight[j] : row.motor_side[j] + offset;
+    }
+  }
+  referSweep(campaign.circle_sweeps, geometry, gears);
+  referSweep(campaign.wrist_sweep, geometry, gears);
+  return campaign;
+}
+
+}  // namespace stiffscope::identification

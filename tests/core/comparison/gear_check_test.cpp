@@ -1,0 +1,60 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include "core/comparison/compare.h"
+#include "core/identification/identify.h"
+#include "core/identification/motor_side.h"
+#include "core/simulation/measure.h"
+#include "core/simulation/read_spec.h"
+
+namespace stiffscope {
+namespace gear_check_test {
+
+constexpr double kGear = 5e6;  // of joints 2 and 3, Nm/rad
+
+/// A day of the samples' machine, with a gear on joints 2 and 3 and no bearings that tilt.
+campaign::Campaign day(campaign::DoubleEncoder encoder, std::uint64_t measurement) {
+  simulation::SimulationSpec spec = simulation::readSimulationSpec(STIFFSCOPE_SOURCE_DIR "/samples/active.xml");
+  spec.measurement = measurement;
+  spec.double_encoder = encoder;
+  for (auto& joint : spec.machine.joints) joint.bearing.reset();
+  for (const std::size_t j : {std::size_t{1}, std::size_t{2}}) {
+    spec.machine.joints[j].gear = simulation::JointGear{kGear, 0.0, 3e-6, 1e-4};
+  }
+  return identification::referredToMotors(simulation::simulate(spec));
+}
+
+TEST(GearCheck, WhatEncodersTakeAwayAgreesWithTheGearsOwnMeasurement) {
+  identification::IdentifyOptions options;
+  options.subsets.most_all = options.subsets.sample = 1;
+  const campaign::Campaign inactive = day(campaign::DoubleEncoder::inactive, 1);
+  const campaign::Campaign active = day(campaign::DoubleEncoder::active, 2);
+  const identification::Identification before = identification::identify(inactive, options);
+  const identification::Identification after = identification::identify(active, options);
+  const comparison::Comparison both = comparison::compareCampaigns(inactive, before, active, after);
+  const comparison::StiffnessChange& change = both.of(identification::Method::decoupled_partial_pose);
+  ASSERT_TRUE(change.available);
+  for (const std::size_t j : {std::size_t{1}, std::size_t{2}}) {
+    ASSERT_TRUE(change.joints[j].gear.has_value()) << j;
+    const comparison::GearCheck& gear = *change.joints[j].gear;
+    EXPECT_NEAR(gear.compliance.value * kGear, 1.0, 0.02) << j;
+    EXPECT_GT(gear.p_value, 0.001) << j << ": " << change.joints[j].difference.value;
+  }
+  EXPECT_FALSE(change.joints[3].gear.has_value());
+
+  // A gear measured twice as soft is not what the encoders take away.
+  identification::Identification wrong = before;
+  wrong.transmission->estimate.compliance *= 2.0;
+  wrong.transmission->estimate.covariance *= 1e-2;  // the better of the two
+  const comparison::Comparison differ = comparison::compareCampaigns(inactive, wrong, active, after);
+  EXPECT_LT(differ.of(identification::Method::decoupled_partial_pose).joints[1].gear->p_value, 1e-3);
+
+  // In the other order, or of two days in one state, there is nothing to hold against it.
+  EXPECT_FALSE(comparison::compareCampaigns(active, after, inactive, before)
+                   .of(identification::Method::decoupled_partial_pose)
+                   .joints[1]
+                   .gear.has_value());
+}
+
+}  // namespace gear_check_test
+}  // namespace stiffscope
