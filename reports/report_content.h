@@ -31,6 +31,10 @@ struct ReportCampaign {
       nullptr;  ///< effects were asked for: `campaign` and `identification` are of it
 };
 
+/// The two days' models for a comparison; none where a day has none.
+comparison::SupportedModels supportedModels(const extended_model::ExtendedModel* before,
+                                            const extended_model::ExtendedModel* after);
+
 /// What active double encoders keep away of the deflection (paper, IV.E), with its interval over postures.
 struct AvoidedByEncoders : comparison::DeflectionAvoided {
   bool at_wrist = false;  ///< judged at P_wrist; else at the reflectors (means)

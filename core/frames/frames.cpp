@@ -81,8 +81,8 @@ void addWrist(const WristCentre& wrist, Eigen::MatrixXd& covariance) {
 
 }  // namespace
 
-Eigen::MatrixXd FramesCovariance::total(double scale_sd) const {
-  return readings + sag + scale_sd * scale_sd * by_scale * by_scale.transpose();
+Eigen::MatrixXd FramesCovariance::total() const {
+  return readings + sag + scale_sd * scale_sd * by_scale * by_scale.transpose() + by_masses * by_masses.transpose();
 }
 
 FramesCovariance framesCovariance(const std::array<MeasuredAxis, 6>& axes, const ArmInR0& arm,
@@ -90,7 +90,7 @@ FramesCovariance framesCovariance(const std::array<MeasuredAxis, 6>& axes, const
                                   std::size_t targets, const Eigen::Vector3d& station) {
   const Eigen::Index size = Layout::kRadii + static_cast<Eigen::Index>(targets);
   FramesCovariance covariance{Eigen::MatrixXd::Zero(size, size), Eigen::MatrixXd::Zero(size, size),
-                              Eigen::VectorXd::Zero(size)};
+                              Eigen::VectorXd::Zero(size), Eigen::VectorXd::Zero(size)};
   if (!arm.points_placed) return covariance;
   const std::vector<metrology::MeasuredLine> lines = axesInR0(axes, arm);
   Eigen::MatrixXd by_axes = Eigen::MatrixXd::Zero(size, 24);
@@ -238,11 +238,14 @@ std::optional<Eigen::MatrixXd> sagPart(const Frames& frames, const Vector6d& com
 }
 
 void propagate(const campaign::Campaign& campaign, Frames& frames,
-               const std::optional<Eigen::MatrixXd>& sag = std::nullopt) {
+               const std::optional<Eigen::MatrixXd>& sag = std::nullopt,
+               const std::optional<Eigen::VectorXd>& by_masses = std::nullopt) {
   const Eigen::Vector3d station = campaign.tracker ? campaign.tracker->station : Eigen::Vector3d::Zero();
   frames.covariance =
       framesCovariance(frames.axes, frames.arm, frames.links, frames.wrist, campaign.targets.size(), station);
   if (sag) frames.covariance.sag = *sag;
+  if (by_masses) frames.covariance.by_masses = *by_masses;
+  if (campaign.tracker) frames.covariance.scale_sd = campaign.tracker->scale_sigma;
   stateUncertainties(frames.covariance, frames.axes, frames.arm, frames.links, frames.wrist);
 }
 
@@ -258,10 +261,11 @@ Frames measureFrames(const campaign::Campaign& campaign) {
 Frames refineFrames(const campaign::Campaign& campaign, const Frames& so_far, const Vector6d& compliance,
                     const std::optional<Matrix6d>& covariance) {
   if (!so_far.weight.links_known) return so_far;
-  const auto measuredWith = [&](const Vector6d& c) {
-    return measureOnce(campaign, SagModel(so_far.arm.arm, so_far.weight, c, so_far.targets_in_r0_at_zero,
+  const auto measuredUnder = [&](const robot::GravityLoad& weight, const Vector6d& c) {
+    return measureOnce(campaign, SagModel(so_far.arm.arm, weight, c, so_far.targets_in_r0_at_zero,
                                           so_far.arm.r0_from_points.inverse()));
   };
+  const auto measuredWith = [&](const Vector6d& c) { return measuredUnder(so_far.weight, c); };
   Frames frames = measuredWith(compliance);
   frames.sag_removed = true;
   frames.sag_note = Remark(RemarkId::sag_taken_off);
@@ -269,9 +273,19 @@ Frames refineFrames(const campaign::Campaign& campaign, const Frames& so_far, co
   for (std::size_t i = 0; i < frames.links.size(); ++i) {
     frames.links[i].distance_by_sag = frames.links[i].distance - as_read.links[i].distance;
   }
+  std::optional<Eigen::VectorXd> by_masses;
+  if (campaign.mass_sigma > 0.0 && frames.arm.points_placed) {
+    robot::Robot heavier = campaign.robot;
+    for (robot::BodyMass& body : heavier.bodies) body.mass_kg *= 1.0 + campaign.mass_sigma;
+    const robot::GravityLoad weight =
+        robot::gravityLoad(heavier, campaign.tool, campaign.gravity_in_base, so_far.arm.arm,
+                           so_far.arm.r0_from_base_link);
+    by_masses = change(frames, measuredUnder(weight, compliance), campaign.targets.size());
+  }
   propagate(
       campaign, frames,
-      covariance && covariance->allFinite() ? sagPart(frames, compliance, *covariance, measuredWith) : std::nullopt);
+      covariance && covariance->allFinite() ? sagPart(frames, compliance, *covariance, measuredWith) : std::nullopt,
+      by_masses);
   return frames;
 }
 

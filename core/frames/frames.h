@@ -94,9 +94,13 @@ struct FramesCovariance {
   Eigen::MatrixXd sag;       ///< by the covariance of the stiffnesses with which the arm's sag was taken off
   Eigen::VectorXd by_scale;  ///< how a relative error of the tracker's scale, common to all readings, moves each
 
-  /// `scale_sd` is the relative standard uncertainty of the tracker's scale. The campaign format has none; 1 K of air
-  /// temperature that is not known makes 1e-6 (Edlen's equation of the refractive index of air).
-  Eigen::MatrixXd total(double scale_sd = 0.0) const;
+  /// How one declared standard uncertainty of the URDF's masses, common to all, moves each through the sag.
+  Eigen::VectorXd by_masses;
+  /// Relative standard uncertainty of the tracker's scale as declared; 1 K of air temperature that is not known makes
+  /// 1e-6 (Edlen's equation of the refractive index of air).
+  double scale_sd = 0.0;
+
+  Eigen::MatrixXd total() const;
   metrology::FrameCovariance r0() const { return total().topLeftCorner<6, 6>(); }
 };
 

@@ -51,7 +51,7 @@ comparison::Comparison compared(const Day& before, const Day& after) {
   comparison::BootstrapOptions bootstrap;
   bootstrap.samples = 1;
   return comparison::compareCampaigns(before.campaign, before.identification, after.campaign, after.identification,
-                                      bootstrap);
+                                      {}, bootstrap);
 }
 
 double median(std::vector<double> values) {
