@@ -2,10 +2,10 @@
 //
 // interval_coverage FAMILY COUNT SEED [ROWS.csv]: one line of text by model, and one of the link lengths. FAMILY: clean
 // (joint springs alone), none (and bearings of a thousandth), single (each effect of the vocabulary in turn), double,
-// bearings_links, as_they_are (bearings, links, base and friction at half their usual sizes), outside (something that no
-// effect of the vocabulary is); and of springs alone with a fault that is declared as uncertain as it is: gain (of the
-// load cell, 1 %), cell_angles (0.5 deg about each axis), cell_point (3 mm along each), masses (all by 5 %), scale (of
-// the tracker, 50 ppm). ROWS.csv: every joint and method.
+// bearings_links, as_they_are (bearings, links, base and friction at half their usual sizes), outside (something that
+// no effect of the vocabulary is); and of springs alone with a fault that is declared as uncertain as it is: gain (of
+// the load cell, 1 %), cell_angles (0.5 deg about each axis), cell_point (3 mm along each), masses (all by 5 %), scale
+// (of the tracker, 50 ppm). ROWS.csv: every joint and method.
 
 #include <fmt/format.h>
 #include <Eigen/Dense>
@@ -201,12 +201,13 @@ double quantile(std::vector<double> values, double p) {
 }
 
 void print(const std::string& family, const std::string& model, const Lengths& lengths) {
-  fmt::print("{:<15}{:<8} {:>5} link lengths, hold {:5.1f} %, median half width {:.1f} um, median error {:.1f} um (90 %: "
-             "{:.1f}), by link",
-             family, model, lengths.errors.size(),
-             100.0 * lengths.holds / std::max<double>(1.0, static_cast<double>(lengths.errors.size())),
-             1e6 * quantile(lengths.half_widths, 0.5), 1e6 * quantile(lengths.errors, 0.5),
-             1e6 * quantile(lengths.errors, 0.9));
+  fmt::print(
+      "{:<15}{:<8} {:>5} link lengths, hold {:5.1f} %, median half width {:.1f} um, median error {:.1f} um (90 %: "
+      "{:.1f}), by link",
+      family, model, lengths.errors.size(),
+      100.0 * lengths.holds / std::max<double>(1.0, static_cast<double>(lengths.errors.size())),
+      1e6 * quantile(lengths.half_widths, 0.5), 1e6 * quantile(lengths.errors, 0.5),
+      1e6 * quantile(lengths.errors, 0.9));
   for (const auto& own : lengths.by_link) fmt::print(" {:.0f}", 100.0 * own[0] / std::max(1, own[1]));
   fmt::print("\n");
 }

@@ -51,7 +51,8 @@ int compareTwo(const CompareArguments& arguments) {
   const Day first = dayOf(prepared_before, arguments.model, options);
   const Day second = dayOf(prepared_after, arguments.model, options);
   const comparison::Comparison comparison = comparison::compareCampaigns(
-      before, first.springs(), after, second.springs(), reports::supportedModels(first.model ? &*first.model : nullptr, second.model ? &*second.model : nullptr),
+      before, first.springs(), after, second.springs(),
+      reports::supportedModels(first.model ? &*first.model : nullptr, second.model ? &*second.model : nullptr),
       arguments.bootstrap);
   deliver(
       [&] {

@@ -129,8 +129,9 @@ int planDay(const PlanArguments& arguments, const Given& given) {
   }
   const auto json = [&] {
     reports::Json result = reports::planJson(campaign, plan);
-    return measured.model ? reports::withNext(reports::withEffects(std::move(result), *measured.model, {}), measured.next)
-                          : result;
+    return measured.model
+               ? reports::withNext(reports::withEffects(std::move(result), *measured.model, {}), measured.next)
+               : result;
   };
   const auto text = [&] {
     std::string all = reports::planText(campaign, plan);

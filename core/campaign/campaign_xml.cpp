@@ -90,11 +90,10 @@ Target readTarget(const io::XmlNode& node) {
 }  // namespace
 
 Tracker readTracker(const io::XmlNode& node, std::vector<std::string>& warnings) {
-  io::warnOfUnknown(
-      node,
-      {"model", "range_fixed_um", "range_per_m_um", "angle_fixed_um", "angle_per_m_um", "x_mm", "y_mm", "z_mm",
-       "scale_sigma_ppm"},
-      {}, warnings);
+  io::warnOfUnknown(node,
+                    {"model", "range_fixed_um", "range_per_m_um", "angle_fixed_um", "angle_per_m_um", "x_mm", "y_mm",
+                     "z_mm", "scale_sigma_ppm"},
+                    {}, warnings);
   Tracker tracker;
   tracker.model = node.requiredAttribute("model");
   tracker.range_fixed = notNegative(node, "range_fixed_um") * io::kMicrometre;

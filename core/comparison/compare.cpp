@@ -27,10 +27,9 @@ std::vector<Remark> warningsOf(const campaign::Campaign& before_campaign, const 
     cautions.emplace_back(RemarkId::encoders_swapped);
   }
   const std::size_t pairs = result.matched.pairs.size(), all = pairs + result.matched.unmatched.size();
-  const bool apart = std::any_of(result.methods.begin(), result.methods.end(),
-                                 [](const StiffnessChange& one) {
-                                   return one.available && !one.same_postures && !one.by_models;
-                                 });
+  const bool apart = std::any_of(result.methods.begin(), result.methods.end(), [](const StiffnessChange& one) {
+    return one.available && !one.same_postures && !one.by_models;
+  });
   if (apart) {
     cautions.emplace_back(RemarkId::other_postures, pairs);
   } else if (pairs > 0 && 2 * pairs < all) {

@@ -12,8 +12,8 @@ namespace stiffscope::comparison {
 /// A number with its standard uncertainty; both are of the number's unit.
 struct Uncertain {
   double value = 0.0;
-  double sd = 0.0;   ///< not a number: none can be stated
-  double dof = 0.0;  ///< effective degrees of freedom of sd
+  double sd = 0.0;                              ///< not a number: none can be stated
+  double dof = 0.0;                             ///< effective degrees of freedom of sd
   std::optional<double> stated = std::nullopt;  ///< U, where it is stated and not of Student's distribution
 
   /// U = t sd: 95 %, t of Student's distribution; or as stated. Not a number where sd is.

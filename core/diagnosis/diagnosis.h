@@ -140,7 +140,7 @@ struct Diagnosis {
   double left_over = 0.0;           ///< the same with the verdict's effects
   double model_error = 0.0;         ///< rms per coordinate that no effect explains, at the largest load, m; 0: none
   double geometric_stiffness_share = 0.0;
-  Shrink shrink_together;                                                            ///< by all that the verdict names
+  Shrink shrink_together;  ///< by all that the verdict names
   /// Nm/rad, by springs alone and with the verdict's effects, with the standard uncertainty. Of the joint fit of all
   /// load steps; where a model of identification is at hand (extended_model::stateStiffnesses) of its method.
   Vector6d stiffness_before = Vector6d::Zero(), stiffness_after = Vector6d::Zero();

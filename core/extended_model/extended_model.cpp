@@ -147,19 +147,23 @@ void describeAsDiagnosed(const diagnosis::GapStudy& study, EffectFit& chosen) {
   const diagnosis::GapFit alone = diagnosis::withoutEffects(*study.input, study.start->state, fit);
   const diagnosis::StiffnessesAlone before =
       diagnosis::stiffnessesAlone(alone.data, std::vector<double>(alone.data.postures.size(), 1.0), alone.projection);
-  chosen.gap =
-      diagnosis::deflectionGap(alone, before, fit, diagnosis::allParameters(fit.nuisances, fit.set.effects));
+  chosen.gap = diagnosis::deflectionGap(alone, before, fit, diagnosis::allParameters(fit.nuisances, fit.set.effects));
   const diagnosis::DiagnoseOptions as_there;
-  const diagnosis::HeldOutShrink held_out =
-      diagnosis::heldOutShrinks(*study.input, alone, fit, study.allowed, {{true, {}}}, as_there.resamples,
-                                as_there.seed)
-          .front();
+  const diagnosis::HeldOutShrink held_out = diagnosis::heldOutShrinks(*study.input, alone, fit, study.allowed,
+                                                                      {{true, {}}}, as_there.resamples, as_there.seed)
+                                                .front();
   chosen.shrink = held_out.deflection;
   chosen.explained = held_out.explained;
 }
 
-/// More than noise in the residual is said, whatever its size.
-void cautionOfResidual(ExtendedModel& model) {
+/// More than noise in the residual is said, whatever its size; and that the sag's doubt is in the frames' uncertainty.
+void cautionBeside(ExtendedModel& model) {
+  if (model.with.frames.covariance.hidden.size() > 0) {
+    for (Remark& one : model.with.cautions) {
+      if (one.is(identification::RemarkId::sag_in_sweeps))
+        one = Remark(identification::RemarkId::sag_in_sweeps_weighed, model.with.frames.largest_sag);
+    }
+  }
   if (model.residualIsNoise()) return;
   for (const Remark& one : model.with.cautions) {
     if (one.is(identification::RemarkId::residual_above_noise)) return;
@@ -205,16 +209,17 @@ ExtendedModel supportedModel(const preparation::PreparedCampaign& prepared, cons
   }
   const Declared declared = declaredOf(model.campaign, model.with, options);
   if (!thinned) {
-    model.hidden = weighHiddenEffects(study, model.effects, model.with, model.without, declared, model.with);
-    cautionOfResidual(model);
+    model.hidden =
+        weighHiddenEffects(study, model.effects, model.campaign, model.with, model.without, declared, model.with);
+    cautionBeside(model);
     return model;
   }
   std::vector<identification::LeftOutPosture> left_out;
   const EffectFit own = chosenEffects(*spread, study);
   campaign::Campaign seen = own.free.empty() ? spread->campaign : correctedFor(own, spread->campaign, left_out);
-  model.hidden = weighHiddenEffects(study, own, identification::identify(seen, valuesOnly(options)), model.without,
-                                    declared, model.with);
-  cautionOfResidual(model);
+  model.hidden = weighHiddenEffects(study, own, seen, identification::identify(seen, valuesOnly(options)),
+                                    model.without, declared, model.with);
+  cautionBeside(model);
   return model;
 }
 

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/extended_model/effect_posterior.h"
+#include "core/extended_model/hidden_frames.h"
 #include "core/extended_model/method_equations.h"
 #include "core/identification/estimate.h"
 #include "core/numerics/random.h"
@@ -152,8 +153,8 @@ class MethodWeigher {
       : hidden_(hidden), declared_(declared), unexplained_(unexplained) {}
 
   std::vector<BudgetLine> weigh(Method which, const Eigen::Matrix<double, 6, Eigen::Dynamic>& gain,
-                                const StiffnessEstimate& alone,
-                                const std::vector<effects::Effect>& in_model, StiffnessEstimate& estimate) const {
+                                const StiffnessEstimate& alone, const std::vector<effects::Effect>& in_model,
+                                StiffnessEstimate& estimate) const {
     const Eigen::MatrixXd moved_by_all = gain * hidden_.off;
     const std::vector<Eigen::Index> kept = possibleDraws(estimate, moved_by_all);
     const Eigen::MatrixXd moved = moved_by_all(Eigen::all, kept), off = hidden_.off(Eigen::all, kept);
@@ -173,8 +174,7 @@ class MethodWeigher {
       addLine(column.source, column.compliance[static_cast<std::size_t>(which)].cwiseAbs2());
       by_columns += column.compliance[static_cast<std::size_t>(which)].cwiseAbs2();
     }
-    if (unexplained_)
-      addLine(BudgetSource::apparent, 0.25 * (alone.compliance - estimate.compliance).cwiseAbs2());
+    if (unexplained_) addLine(BudgetSource::apparent, 0.25 * (alone.compliance - estimate.compliance).cwiseAbs2());
     estimate.parts.effects = moved * moved.transpose() / static_cast<double>(moved.cols());
     estimate.parts.effects += more.asDiagonal();
     estimate.covariance = estimate.parts.total();
@@ -264,10 +264,22 @@ class MethodWeigher {
   bool unexplained_;
 };
 
+/// Puts what the draws do to the frames into their covariance. `alone`: of joint springs alone, where these are as
+/// likely.
+void weighFrames(const Eigen::MatrixXd& moved, const frames::Frames* alone, frames::Frames& frames) {
+  if (moved.cols() == 0) return;
+  frames.covariance.hidden = moved * moved.transpose() / static_cast<double>(moved.cols());
+  if (alone != nullptr && alone->arm.points_placed) {
+    const Eigen::VectorXd apart = frames::framesDifference(frames, *alone);
+    frames.covariance.hidden += 0.25 * apart * apart.transpose();
+  }
+  frames::stateUncertainties(frames.covariance, frames.axes, frames.arm, frames.links, frames.wrist);
+}
+
 }  // namespace
 
 HiddenEffects weighHiddenEffects(const diagnosis::GapStudy& study, const EffectFit& fitted,
-                                 const identification::Identification& seen,
+                                 const campaign::Campaign& seen_campaign, const identification::Identification& seen,
                                  const identification::Identification& without, const Declared& declared,
                                  identification::Identification& with) {
   HiddenEffects result;
@@ -285,11 +297,20 @@ HiddenEffects weighHiddenEffects(const diagnosis::GapStudy& study, const EffectF
   std::vector<effects::Effect> in_model;
   for (const AddedEffect& one : fitted.added) in_model.push_back(one.effect);
   const MethodWeigher weigher(hidden, declared, result.unexplained);
+  const Method of_sag =
+      with.of(Method::decoupled_partial_pose).available ? Method::decoupled_partial_pose : Method::partial_pose;
   for (const Method which : identification::kMethods) {
     const auto at = static_cast<std::size_t>(which);
     if (!with.of(which).available || !seen.of(which).available || !without.of(which).available) continue;
     const auto gain = gains(cases, seen, which, hidden.off.rows());
     if (gain.cols() == 0) continue;
+    if (which == of_sag) {
+      const Eigen::MatrixXd moved = gain * hidden.off;
+      const std::vector<Eigen::Index> kept = possibleDraws(seen.of(which).estimate, moved);
+      weighFrames(framesByEffects(study, hidden.columns, hidden.off(Eigen::all, kept), moved(Eigen::all, kept),
+                                  seen_campaign, seen.frames, seen.of(which).estimate.compliance.cwiseMax(0.0)),
+                  result.unexplained ? &without.frames : nullptr, with.frames);
+    }
     result.budget[at] = weigher.weigh(which, gain, without.of(which).estimate, in_model, with.methods[at].estimate);
   }
   return result;

@@ -65,15 +65,18 @@ struct HiddenEffects {
 /// was corrected for, theta from its posterior on the study's equations (effect_posterior.h). Draws with a negative
 /// stiffness are left out, and where c_fit itself has one the medians of the rest stand for it. With the scatter
 /// between postures, what frames and calibration share, and what is declared (Declared) they give each interval by its
-/// quantiles; it is widened to hold c_fit. Where angles or point of the load cell are declared with an uncertainty, that
-/// is what is known beforehand of the effect that they are.
+/// quantiles; it is widened to hold c_fit. Where angles or point of the load cell are declared with an uncertainty,
+/// that is what is known beforehand of the effect that they are.
 ///
 /// Where the model explains too little, half of the draws are those of `without`, joint springs alone: neither is
 /// right.
 ///
+/// The frames of `with` get what the same draws do to them (hidden_frames.h).
+///
 /// `seen`: cases and equations from which H is taken, of postures that the study has; `with` itself where it has all.
+/// `seen_campaign`: what `seen` was identified from.
 HiddenEffects weighHiddenEffects(const diagnosis::GapStudy& study, const EffectFit& fitted,
-                                 const identification::Identification& seen,
+                                 const campaign::Campaign& seen_campaign, const identification::Identification& seen,
                                  const identification::Identification& without, const Declared& declared,
                                  identification::Identification& with);
 

@@ -43,8 +43,9 @@ enum class RemarkId {
   too_few_postures,      ///< load cases
   outlying_postures,     ///< names, left per coordinate rms of each m, of the others m, whether left out (1)
   mostly_noise,
-  sag_in_sweeps,      ///< largest sag taken off m
-  sweep_above_noise,  ///< axis number, residual rms m, times the noise
+  sag_in_sweeps,          ///< largest sag taken off m
+  sag_in_sweeps_weighed,  ///< the same, what could hide in it weighed
+  sweep_above_noise,      ///< axis number, residual rms m, times the noise
   // of a joint's stiffness
   negative,
   imprecise  ///< standard deviation above the value

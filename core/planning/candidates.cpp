@@ -366,7 +366,7 @@ Candidate candidateAt(const PlanningArm& arm, const Vector6d& q, const Eigen::Ve
   Eigen::MatrixXd moves;
   if (arm.effects) moves = arm.effects(q, load_case.wrench.force, arm.hook_in_flange, arm.targets_in_flange);
   Eigen::MatrixXd among = Eigen::MatrixXd::Identity(moves.cols(), moves.cols());  // I + E^T S^-1 E, S noise alone
-  Eigen::MatrixXd across = Eigen::MatrixXd::Zero(moves.cols(), 6);                 // E^T S^-1 A
+  Eigen::MatrixXd across = Eigen::MatrixXd::Zero(moves.cols(), 6);                // E^T S^-1 A
   for (std::size_t k = 0; k < arm.targets_in_flange.size(); ++k) {
     const Eigen::Vector3d point = flange * arm.targets_in_flange[k];
     const Matrix36d rows = identification::pointRows(load_case.axes, point, torque);

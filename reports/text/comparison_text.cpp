@@ -67,8 +67,8 @@ void writeMethod(const comparison::StiffnessChange& change, identification::Meth
     return;
   }
   const std::string from = change.same_postures ? fmt::format("the {} postures of both", change.postures)
-                            : change.by_models    ? std::string("each day's own model")
-                                                 : std::string("all postures of each");
+                           : change.by_models   ? std::string("each day's own model")
+                                                : std::string("all postures of each");
   fmt::format_to(out, "\n{}: compliance after - before from {}, +- U (95 %)\n", namesOf(method).full, from);
   writeDifferences(change, out);
   writeStiffnesses(change, ratios_hold, out);
@@ -101,9 +101,9 @@ void writeLegend(const comparison::Comparison& comparison, Out out) {
               ? ". It is more than noise: differences of compliances on the same postures are by springs alone, where "
                 "what both states miss cancels; stiffnesses and ratios are of each day's own model, with the effects "
                 "that it shows."
-                         : ". It is more than noise, or not known to be noise: the stiffnesses are apparent ones, and "
-                           "ratios (in brackets) and shares of the compliance before keep the bias of both. The "
-                           "difference of compliances does not, as far as both states miss the same.";
+              : ". It is more than noise, or not known to be noise: the stiffnesses are apparent ones, and "
+                "ratios (in brackets) and shares of the compliance before keep the bias of both. The "
+                "difference of compliances does not, as far as both states miss the same.";
   fmt::format_to(out, "  {}\n", wrapped(text, 2));
 }
 

@@ -40,8 +40,8 @@ TEST(Declared, NothingIsIdentifiedForWhatIsNotDeclared) {
   EXPECT_EQ(declared.gain_sd + declared.cell_angle_sd + declared.cell_point_sd, 0.0);
 }
 
-// By hand: with the geometry of the URDF a displacement read 0.1 % too large makes every compliance 0.1 % larger, but for
-// K_c, which is a hundredth of that.
+// By hand: with the geometry of the URDF a displacement read 0.1 % too large makes every compliance 0.1 % larger, but
+// for K_c, which is a hundredth of that.
 TEST(Declared, ATrackersScaleIsThatOfTheCompliances) {
   campaign::Campaign campaign = displacementDay();
   campaign.tracker->scale_sigma = 1e-3;

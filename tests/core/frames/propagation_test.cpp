@@ -182,7 +182,8 @@ TEST(Propagation, MassesDeclaredUncertainMoveAsCompliancesDo) {
     // A hundredth: own weight turns with the sagged arm, once more by the compliance alone.
     EXPECT_NEAR(stated.covariance.by_masses[At::kDistances + static_cast<Eigen::Index>(i)], moved,
                 0.01 * std::abs(moved) + 1e-9);
-    EXPECT_NEAR(*stated.links[i].distance_sd, std::hypot(*plain.links[i].distance_sd, moved), 0.01 * std::abs(moved) + 1e-9);
+    EXPECT_NEAR(*stated.links[i].distance_sd, std::hypot(*plain.links[i].distance_sd, moved),
+                0.01 * std::abs(moved) + 1e-9);
   }
   EXPECT_GT(stated.covariance.by_masses.segment<3>(At::kDistances).norm(), 1e-5);
   EXPECT_LT((errorOfR0(plain, softer) - stated.covariance.by_masses.head<6>()).norm(),
