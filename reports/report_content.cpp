@@ -35,6 +35,7 @@ void addJoints(const ReportCampaign& inactive, const ReportCampaign& active, con
     if (avoided.by_joint.available) break;
   }
   avoided.residual_is_noise =
+      (models.effects && models.explained) ||
       comparison::commonResidual(inactive.campaign, before, active.campaign, after, matched).isNoise();
 }
 

@@ -41,7 +41,7 @@ struct AvoidedByEncoders : comparison::DeflectionAvoided {
   /// Joint by joint: what the active encoders take away of each compliance, by the method that stands for both.
   identification::Method method = identification::Method::complete_pose;
   comparison::StiffnessChange by_joint;
-  bool residual_is_noise = false;  ///< shares of the inactive compliance are of springs alone
+  bool residual_is_noise = false;  ///< else shares of the inactive compliance are of apparent stiffnesses
 };
 
 /// Of the first campaign with the double encoders inactive (before) against the first with them active

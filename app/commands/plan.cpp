@@ -96,14 +96,18 @@ Measured measuredBy(const preparation::PreparedCampaign& prepared, const ModelCh
   return measured;
 }
 
-/// How the effects in the model move reflectors, by their uncertainty; empty where there are none.
-planning::EffectMoves movesBy(const std::optional<extended_model::ExtendedModel>& model) {
-  if (!model || model->effects.free.empty()) return {};
-  return [&model = *model](const Vector6d& q, const Eigen::Vector3d& force, const Eigen::Vector3d& point_in_flange,
-                           const std::vector<Eigen::Vector3d>& targets) {
+/// What is not known of the effects in the model; empty where there are none.
+planning::EffectDoubt doubtOf(const std::optional<extended_model::ExtendedModel>& model) {
+  planning::EffectDoubt doubt;
+  if (!model || model->effects.free.empty()) return doubt;
+  doubt.moves = [&model = *model](const Vector6d& q, const Eigen::Vector3d& force,
+                                  const Eigen::Vector3d& point_in_flange, const std::vector<Eigen::Vector3d>& targets) {
     return extended_model::displacementBySteps(model.effects, model.spread.parameters, q,
                                                {point_in_flange, force, Eigen::Vector3d::Zero()}, targets);
   };
+  for (std::size_t m = 0; m < doubt.covariance.size(); ++m)
+    doubt.covariance[m] = model->spread.compliance[m] * model->spread.compliance[m].transpose();
+  return doubt;
 }
 
 /// Of two results in one file one would be lost.
@@ -120,7 +124,7 @@ int planDay(const PlanArguments& arguments, const Given& given) {
   const preparation::PreparedCampaign prepared = preparation::prepareCampaign(openCampaign(arguments.campaign));
   const Measured measured = measuredBy(prepared, arguments.model);
   const campaign::Campaign& campaign = measured.campaign(prepared.campaign);
-  options.inputs.effects = movesBy(measured.model);
+  options.inputs.effects = doubtOf(measured.model);
   const planning::Plan plan = planning::planCampaign(campaign, measured.identification(), options);
   if (!arguments.out.empty()) {
     io::requireNotRead(arguments.out);

@@ -134,7 +134,7 @@ void judge(const PairedFit& fit, int joint, double avoided_by_unit, JointChange&
   if (avoided_by_unit == 0.0) change.avoided.value = change.avoided.sd = kNone;
 }
 
-/// k of the two models, and where effects are in them the ratio, their errors as independent.
+/// k of the two models, and where effects are in them the ratio, their errors as independent, and the share taken.
 void stateModels(const identification::StiffnessEstimate& before, const identification::StiffnessEstimate& after,
                  bool effects, int joint, JointChange& change) {
   const auto stated = [&](const identification::StiffnessEstimate& one) {
@@ -149,6 +149,14 @@ void stateModels(const identification::StiffnessEstimate& before, const identifi
   change.ratio.value = change.after.value / change.before.value;
   change.ratio.sd = std::abs(change.ratio.value) * std::hypot(relative(change.before), relative(change.after));
   change.ratio.dof = std::min(change.before.dof, change.after.dof);
+  // The difference is free of bias, and so is the model's compliance before.
+  const double c_before = before.compliance[joint], d = change.difference.value;
+  const identification::CoverageInterval interval = identification::complianceInterval(before, joint);
+  const double u_before = std::max(interval.high - c_before, c_before - interval.low);
+  const double u = std::hypot(change.difference.expanded() / c_before, d * u_before / (c_before * c_before));
+  constexpr double kNormal = 1.959963984540054;
+  change.taken = {-d / c_before, u / kNormal, change.difference.dof, u};
+  if (!(c_before > u_before)) change.taken = {kNone, kNone, 0.0};
   change.ratio.stated = std::abs(change.ratio.value) * std::hypot(relative_u(change.before), relative_u(change.after));
 }
 

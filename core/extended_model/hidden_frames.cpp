@@ -79,11 +79,9 @@ Eigen::MatrixXd framesByEffects(const diagnosis::GapStudy& study, const EffectCo
     moved += (frames::framesChange(shifted, frames, compliance) - here) * (off.row(k) / size);
   }
   for (Eigen::Index j = 0; j < 6; ++j) {
-    const double size =
-        std::sqrt(compliance_off.row(j).squaredNorm() / static_cast<double>(compliance_off.cols()));
+    const double size = std::sqrt(compliance_off.row(j).squaredNorm() / static_cast<double>(compliance_off.cols()));
     if (size == 0.0) continue;
-    const Eigen::VectorXd change =
-        frames::framesChange(sweeps, frames, compliance + size * Vector6d::Unit(j)) - here;
+    const Eigen::VectorXd change = frames::framesChange(sweeps, frames, compliance + size * Vector6d::Unit(j)) - here;
     moved += change * (compliance_off.row(j) / size);
   }
   return moved;

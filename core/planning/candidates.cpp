@@ -160,6 +160,7 @@ PlanningArm planningArm(const campaign::Campaign& campaign, const identification
   arm.geometry = geometryFor(campaign, identified);
   arm.repeats = inputs.repeats;
   arm.effects = inputs.effects;
+  if (arm.effects) arm.assumed.emplace_back(RemarkId::effects_as_known_now);
   arm.outward_in_flange = outwardInFlange(arm.geometry.arm);
   if (campaign.load_cell) {
     arm.cell = *campaign.load_cell;
@@ -364,7 +365,7 @@ Candidate candidateAt(const PlanningArm& arm, const Vector6d& q, const Eigen::Ve
   load_case.wrench = {flange * arm.hook_in_flange, arm.load * direction, Eigen::Vector3d::Zero()};
   const Vector6d torque = robot::jointTorque(load_case.axes, load_case.wrench);
   Eigen::MatrixXd moves;
-  if (arm.effects) moves = arm.effects(q, load_case.wrench.force, arm.hook_in_flange, arm.targets_in_flange);
+  if (arm.effects) moves = arm.effects.moves(q, load_case.wrench.force, arm.hook_in_flange, arm.targets_in_flange);
   Eigen::MatrixXd among = Eigen::MatrixXd::Identity(moves.cols(), moves.cols());  // I + E^T S^-1 E, S noise alone
   Eigen::MatrixXd across = Eigen::MatrixXd::Zero(moves.cols(), 6);                // E^T S^-1 A
   for (std::size_t k = 0; k < arm.targets_in_flange.size(); ++k) {

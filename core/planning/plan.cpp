@@ -115,7 +115,7 @@ class Planner {
     plan_.measured = static_cast<int>(identified_->cases.size());
     for (std::size_t i = 0; i < identified_->cases.size(); ++i)
       addMeasured(identified_->cases[i], reference_->target_rows[i]);
-    if (options_.inputs.effects) loosenBy(reference_->estimate.parts.effects);
+    if (options_.inputs.effects) loosenBy(options_.inputs.effects.covariance[methodOf(reference_)]);
     plan_.sd_measured = standardDeviations(problem_.known, plan_.unknown);
   }
 
@@ -132,6 +132,10 @@ class Planner {
       if (alike(plan_.arm, candidates_[a], measured, options_.least_separation)) problem_.barred[a] = 1;
     }
     measured_.push_back(std::move(measured));
+  }
+
+  std::size_t methodOf(const identification::MethodResult* method) const {
+    return static_cast<std::size_t>(method - identified_->methods.data());
   }
 
   /// What is measured, with the covariance that the model's effects bring to the compliances: all postures share it.

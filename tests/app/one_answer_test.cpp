@@ -29,8 +29,9 @@ json reported(const std::string& campaign, const ScratchFolder& scratch) {
 /// `method`: the one that diagnose takes.
 void expectOneAnswer(const std::string& campaign, const std::string& method) {
   const ScratchFolder scratch;
-  const json identified = answerOf("identify " + campaign, scratch), diagnosed = answerOf("diagnose " + campaign, scratch),
-             framed = answerOf("frames " + campaign, scratch), report = reported(campaign, scratch);
+  const json identified = answerOf("identify " + campaign, scratch),
+             diagnosed = answerOf("diagnose " + campaign, scratch), framed = answerOf("frames " + campaign, scratch),
+             report = reported(campaign, scratch);
   const json& own = identified["methods"][method];
   EXPECT_EQ(diagnosed["stiffness_by"], method);
   EXPECT_EQ(diagnosed["stiffness_after_nm_per_rad"], own["stiffness_nm_per_rad"]);
@@ -64,7 +65,8 @@ TEST(OneAnswer, ARealDaysIntervalHoldsEachMemberOfTheClass) {
   if (!std::filesystem::exists(kCable)) GTEST_SKIP() << kCable << " is not here";
   const ScratchFolder scratch;
   const std::string campaign = "'" + kCable + "'";
-  const json identified = answerOf("identify " + campaign, scratch), diagnosed = answerOf("diagnose " + campaign, scratch);
+  const json identified = answerOf("identify " + campaign, scratch),
+             diagnosed = answerOf("diagnose " + campaign, scratch);
   const json& own = identified["methods"]["pp"];
   for (const json& k : own["stiffness_nm_per_rad"]) EXPECT_TRUE(k.is_null() || k.get<double>() > 0.0);
   EXPECT_FALSE(identified["cautions"].empty());
@@ -124,7 +126,8 @@ TEST(Declared, EachIsALineOfTheBudgetAndInTheInterval) {
     ASSERT_NE(line, nullptr) << one.source;
     EXPECT_EQ(line->value("declared", false), one.declared_effect);
     double largest = 0.0;
-    for (const json& u : (*line)["u_nm_per_rad"]) largest = std::max(largest, u.is_null() ? 0.0 : std::abs(u.get<double>()));
+    for (const json& u : (*line)["u_nm_per_rad"])
+      largest = std::max(largest, u.is_null() ? 0.0 : std::abs(u.get<double>()));
     EXPECT_GT(largest, 0.0) << one.source;
   }
   // A scale 1 % off makes displacements and the long levers of axis 2 1 % too long: d / lever^2 falls by some 1 %.
