@@ -270,8 +270,13 @@ TEST(Page, TheDiagnosisSaysWhatToDo) {
   EXPECT_TRUE(has(page, "Stiffnesses alone leave 30.0 µm rms"));
   EXPECT_LT(page.find("id=\"gap\""), page.find("<figure"));  // its figure stands in it
   EXPECT_FALSE(has(page, "id=\"figures\""));
-  diagnosis.stated.emplace().method = identification::Method::partial_pose;  // as identify states them
+  // As identify states them.
+  diagnosis.stated.emplace().method = identification::Method::partial_pose;
+  diagnosis.stated->expanded[1] = 0.3e6;
+  diagnosis.identifiable[1] = true;
+  diagnosis.stiffness_before[1] = 4.0e6, diagnosis.stiffness_after[1] = 5.0e6;
   EXPECT_TRUE(has(page::reportPage(content), "Joint stiffness by Partial Pose, by joint springs alone and with"));
+  EXPECT_TRUE(has(page::reportPage(content), "5.00 ± 0.30"));
   EXPECT_FALSE(has(page::reportPage(content), "one standard uncertainty by weights of the noise"));
   diagnosis.verdict.entries.clear();
   EXPECT_TRUE(has(page::reportPage(content), "Joint springs are enough for this machine"));
