@@ -1,9 +1,11 @@
 // How often stated intervals hold the true stiffness, on simulated machines of several families.
 //
-// interval_coverage FAMILY COUNT SEED [ROWS.csv]: one line of text by model. FAMILY: clean (joint springs alone), none
-// (and bearings of a thousandth), single (each effect of the vocabulary in turn), double, bearings_links, as_they_are
-// (bearings, links, base and friction at half their usual sizes), gain (a load cell one per cent off, declared so),
-// outside (something that no effect of the vocabulary is). ROWS.csv: every joint and method.
+// interval_coverage FAMILY COUNT SEED [ROWS.csv]: one line of text by model, and one of the link lengths. FAMILY: clean
+// (joint springs alone), none (and bearings of a thousandth), single (each effect of the vocabulary in turn), double,
+// bearings_links, as_they_are (bearings, links, base and friction at half their usual sizes), outside (something that
+// no effect of the vocabulary is); and of springs alone with a fault that is declared as uncertain as it is: gain (of
+// the load cell, 1 %), cell_angles (0.5 deg about each axis), cell_point (3 mm along each), masses (all by 5 %), scale
+// (of the tracker, 50 ppm). ROWS.csv: every joint and method.
 
 #include <fmt/format.h>
 #include <Eigen/Dense>
@@ -21,10 +23,13 @@
 #include <vector>
 
 #include "core/extended_model/extended_model.h"
+#include "core/frames/frames.h"
 #include "core/identification/estimate.h"
+#include "core/io/units.h"
 #include "core/numerics/parallel.h"
 #include "core/numerics/random.h"
 #include "core/preparation/prepare.h"
+#include "core/simulation/machine.h"
 #include "core/simulation/measure.h"
 #include "core/validation/case.h"
 #include "core/validation/effect_draw.h"
@@ -34,7 +39,14 @@ namespace {
 
 using namespace stiffscope;
 
-constexpr const char* kFamilies = "clean none single double bearings_links as_they_are gain outside";
+constexpr const char* kFamilies =
+    "clean none single double bearings_links as_they_are outside gain cell_angles cell_point masses scale";
+constexpr double kMassSigma = 0.05, kScaleSigma = 5e-5, kAngleSigma = 0.5 * io::kDegree, kPointSigma = 3e-3;
+
+bool isDeclared(const std::string& family) {
+  return family == "gain" || family == "cell_angles" || family == "cell_point" || family == "masses" ||
+         family == "scale";
+}
 
 double logUniform(numerics::RandomStream& random, double low, double high) {
   return low * std::pow(high / low, random.uniform());
@@ -85,7 +97,7 @@ validation::BlindCase draw(const std::string& family, int i, std::uint64_t seed,
   }
   validation::BlindCase one = validation::drawCase(plan, seed, fmt::format("{} {}", family, i), urdf);
   numerics::RandomStream random(seed, "as they are");
-  if (family == "clean" || family == "gain") {
+  if (family == "clean" || isDeclared(family)) {
     for (simulation::JointStiffness& joint : one.spec.machine.joints) joint.bearing.reset();
     one.spec.machine.links.clear();
   }
@@ -95,8 +107,53 @@ validation::BlindCase draw(const std::string& family, int i, std::uint64_t seed,
     one.spec.load_cell->declared.gain_sigma = 0.01;
     one.spec.load_cell->gain_error = 0.01 * random.normal();
   }
+  if (family == "cell_angles") {
+    one.spec.load_cell->declared.angle_sigma = kAngleSigma;
+    one.spec.load_cell->misalignment = kAngleSigma * random.normal3();
+  }
+  if (family == "cell_point") {
+    one.spec.load_cell->declared.point_sigma = kPointSigma;
+    one.spec.load_cell->place_error = kPointSigma * random.normal3();
+  }
+  if (family == "scale") {
+    one.spec.tracker.declared.scale_sigma = kScaleSigma;
+    one.spec.station.scale = kScaleSigma * random.normal();
+  }
   return one;
 }
+
+/// The day of a case; of the masses' family with a URDF whose masses are all off by one factor.
+campaign::Campaign dayOf(const std::string& family, const validation::BlindCase& one, std::uint64_t seed) {
+  campaign::Campaign campaign = simulation::simulate(one.spec);
+  if (family != "masses") return campaign;
+  numerics::RandomStream random(seed, "masses of the URDF");
+  const double factor = 1.0 / (1.0 + kMassSigma * random.normal());
+  for (robot::BodyMass& body : campaign.robot.bodies) body.mass_kg *= factor;
+  campaign.mass_sigma = kMassSigma;
+  return campaign;
+}
+
+/// How often the 95 % intervals of measured link lengths hold the truth, and how wide they are.
+struct Lengths {
+  int holds = 0;
+  std::vector<double> half_widths, errors;  ///< m
+  std::array<std::array<int, 2>, 5> by_link{};
+
+  void add(const frames::Frames& found, const simulation::SimulationSpec& spec) {
+    frames::ArmInR0 truth;
+    truth.arm = simulation::rigidGeometry(simulation::buildMachine(spec));
+    const std::array<frames::LinkGeometry, 5> links = frames::linkGeometry(spec.nominal, truth);
+    for (std::size_t i = 0; i < links.size(); ++i) {
+      if (!found.links[i].distance_sd) continue;
+      constexpr double kNormal = 1.96;  // of 95 %
+      half_widths.push_back(kNormal * *found.links[i].distance_sd);
+      errors.push_back(std::abs(found.links[i].distance - links[i].distance));
+      const bool held = errors.back() <= half_widths.back();
+      holds += held;
+      by_link[i][0] += held, ++by_link[i][1];
+    }
+  }
+};
 
 /// What each joint gives when it alone is loaded: springs that two joints share are part of it.
 Vector6d trueCompliance(const simulation::MachineSpec& machine) {
@@ -143,6 +200,18 @@ double quantile(std::vector<double> values, double p) {
   return values[static_cast<std::size_t>(p * static_cast<double>(values.size() - 1))];
 }
 
+void print(const std::string& family, const std::string& model, const Lengths& lengths) {
+  fmt::print(
+      "{:<15}{:<8} {:>5} link lengths, hold {:5.1f} %, median half width {:.1f} um, median error {:.1f} um (90 %: "
+      "{:.1f}), by link",
+      family, model, lengths.errors.size(),
+      100.0 * lengths.holds / std::max<double>(1.0, static_cast<double>(lengths.errors.size())),
+      1e6 * quantile(lengths.half_widths, 0.5), 1e6 * quantile(lengths.errors, 0.5),
+      1e6 * quantile(lengths.errors, 0.9));
+  for (const auto& own : lengths.by_link) fmt::print(" {:.0f}", 100.0 * own[0] / std::max(1, own[1]));
+  fmt::print("\n");
+}
+
 void print(const std::string& family, const std::string& model, const std::vector<Row>& rows) {
   std::vector<double> errors, widths;
   std::array<std::array<int, 2>, 6> by_joint{};
@@ -178,13 +247,14 @@ int main(int argc, char** argv) {
       std::filesystem::temp_directory_path() / fmt::format("interval_coverage_{}", base);
   std::filesystem::create_directories(folder);
   std::vector<Row> rows;
+  Lengths springs_lengths, default_lengths;
   std::mutex mutex;
   numerics::onAllCores(static_cast<std::size_t>(count), [&](std::size_t machine) {
     const int i = static_cast<int>(machine);
     try {
       const std::uint64_t seed = base * 1'000'000 + machine;
       const validation::BlindCase one = draw(family, i, seed, folder / fmt::format("{}_{}.urdf", family, i));
-      const preparation::PreparedCampaign prepared = preparation::prepareCampaign(simulation::simulate(one.spec));
+      const preparation::PreparedCampaign prepared = preparation::prepareCampaign(dayOf(family, one, seed));
       identification::IdentifyOptions options;
       options.subsets.size = std::numeric_limits<int>::max();  // shares are not asked for
       const extended_model::ExtendedModel model = extended_model::supportedModel(prepared, prepared.campaign, options);
@@ -197,6 +267,8 @@ int main(int argc, char** argv) {
       const std::lock_guard<std::mutex> lock(mutex);
       addRows(model.without, "springs", truth, like, rows);
       addRows(model.with, "default", truth, like, rows);
+      springs_lengths.add(model.without.frames, one.spec);
+      default_lengths.add(model.with.frames, one.spec);
     } catch (const std::exception& error) {
       const std::lock_guard<std::mutex> lock(mutex);
       std::cerr << family << ' ' << i << ": " << error.what() << '\n';
@@ -204,6 +276,8 @@ int main(int argc, char** argv) {
   });
   print(family, "springs", rows);
   print(family, "default", rows);
+  print(family, "springs", springs_lengths);
+  print(family, "default", default_lengths);
   if (argc > 4) {
     std::ofstream csv(argv[4]);
     csv << "machine,effects,joint,method,model,error,half_width,holds\n";

@@ -18,22 +18,40 @@ const ReportCampaign* firstWith(const std::vector<ReportCampaign>& campaigns, ca
   return found == campaigns.end() ? nullptr : &*found;
 }
 
+/// By joint springs alone: what both states miss cancels in what is compared.
+const identification::Identification& springsOf(const ReportCampaign& one) {
+  return one.improved != nullptr ? one.improved->without : one.identification;
+}
+
 void addJoints(const ReportCampaign& inactive, const ReportCampaign& active, const comparison::MatchedPostures& matched,
                AvoidedByEncoders& avoided) {
+  using identification::Method;
+  const identification::Identification &before = springsOf(inactive), &after = springsOf(active);
+  const comparison::SupportedModels models = supportedModels(inactive.improved, active.improved);
   std::array<comparison::StiffnessChange, 3> methods;
-  for (const identification::Method method : identification::kMethods) {
-    methods[static_cast<std::size_t>(method)] = comparison::compareStiffness(
-        inactive.campaign, inactive.identification, active.campaign, active.identification, method, matched);
+  for (const Method method : identification::kMethods) {
+    methods[static_cast<std::size_t>(method)] =
+        comparison::compareStiffness(inactive.campaign, before, active.campaign, after, method, matched, models);
   }
-  const auto first = comparison::comparedFirst(inactive.identification, active.identification, methods);
-  avoided.method = first ? first->method : identification::Method::complete_pose;
+  const auto first = comparison::comparedFirst(before, after, methods);
+  avoided.method = first ? first->method : Method::complete_pose;
   avoided.by_joint = methods[static_cast<std::size_t>(avoided.method)];
-  avoided.residual_is_noise = comparison::commonResidual(inactive.campaign, inactive.identification, active.campaign,
-                                                         active.identification, matched)
-                                  .isNoise();
+  avoided.residual_is_noise =
+      (models.effects && models.explained) ||
+      comparison::commonResidual(inactive.campaign, before, active.campaign, after, matched).isNoise();
 }
 
 }  // namespace
+
+comparison::SupportedModels supportedModels(const extended_model::ExtendedModel* before,
+                                            const extended_model::ExtendedModel* after) {
+  if (before == nullptr || after == nullptr) return {};
+  const auto explained = [](const extended_model::ExtendedModel& model) {
+    return !model.hidden || !model.hidden->unexplained;
+  };
+  return {&before->with, &after->with, !before->effects.added.empty() || !after->effects.added.empty(),
+          explained(*before) && explained(*after)};
+}
 
 std::optional<AvoidedByEncoders> avoidedByEncoders(const std::vector<ReportCampaign>& campaigns) {
   const ReportCampaign* inactive = firstWith(campaigns, campaign::DoubleEncoder::inactive);
@@ -42,7 +60,7 @@ std::optional<AvoidedByEncoders> avoidedByEncoders(const std::vector<ReportCampa
   AvoidedByEncoders avoided;
   avoided.reason = comparison::differenceOfMachines(inactive->campaign.robot, active->campaign.robot);
   if (!avoided.reason.empty()) return avoided;
-  const identification::Identification &before = inactive->identification, &after = active->identification;
+  const identification::Identification &before = springsOf(*inactive), &after = springsOf(*active);
   const comparison::MatchedPostures matched =
       comparison::matchPostures(inactive->campaign, before, active->campaign, after);
   static_cast<comparison::DeflectionAvoided&>(avoided) = comparison::deflectionAvoidedAtWrist(before, after, matched);

@@ -31,13 +31,17 @@ struct ReportCampaign {
       nullptr;  ///< effects were asked for: `campaign` and `identification` are of it
 };
 
+/// The two days' models for a comparison; none where a day has none.
+comparison::SupportedModels supportedModels(const extended_model::ExtendedModel* before,
+                                            const extended_model::ExtendedModel* after);
+
 /// What active double encoders keep away of the deflection (paper, IV.E), with its interval over postures.
 struct AvoidedByEncoders : comparison::DeflectionAvoided {
   bool at_wrist = false;  ///< judged at P_wrist; else at the reflectors (means)
   /// Joint by joint: what the active encoders take away of each compliance, by the method that stands for both.
   identification::Method method = identification::Method::complete_pose;
   comparison::StiffnessChange by_joint;
-  bool residual_is_noise = false;  ///< shares of the inactive compliance are of springs alone
+  bool residual_is_noise = false;  ///< else shares of the inactive compliance are of apparent stiffnesses
 };
 
 /// Of the first campaign with the double encoders inactive (before) against the first with them active

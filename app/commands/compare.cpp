@@ -1,13 +1,16 @@
 #include <CLI/CLI.hpp>
 #include <memory>
+#include <optional>
 
 #include "app/command_line.h"
+#include "app/model.h"
 #include "app/options.h"
 #include "app/output.h"
 #include "app/prepared.h"
 #include "core/comparison/compare.h"
 #include "reports/json/campaign_json.h"
 #include "reports/json/json.h"
+#include "reports/report_content.h"
 #include "reports/text/text.h"
 #include "reports/words/preparation_words.h"
 
@@ -18,8 +21,25 @@ namespace {
 struct CompareArguments {
   std::string before, after, json, step;
   bool neglect_kc = false, raw = false;
+  ModelChoice model;
   comparison::BootstrapOptions bootstrap;
 };
+
+/// One state: by joint springs alone, and by the model asked for.
+struct Day {
+  std::optional<extended_model::ExtendedModel> model;
+  std::optional<identification::Identification> own;  ///< where no model was asked for
+
+  const identification::Identification& springs() const { return model ? model->without : *own; }
+};
+
+Day dayOf(const preparation::PreparedCampaign& prepared, const ModelChoice& choice,
+          const identification::IdentifyOptions& options) {
+  Day day;
+  day.model = modelOf(prepared, choice, options);
+  if (!day.model) day.own = identification::identify(prepared.campaign, options);
+  return day;
+}
 
 int compareTwo(const CompareArguments& arguments) {
   identification::IdentifyOptions options;
@@ -28,9 +48,12 @@ int compareTwo(const CompareArguments& arguments) {
   const preparation::PreparedCampaign prepared_before = openPrepared(arguments.before, arguments.raw);
   const preparation::PreparedCampaign prepared_after = openPrepared(arguments.after, arguments.raw);
   const campaign::Campaign &before = prepared_before.campaign, &after = prepared_after.campaign;
-  const comparison::Comparison comparison =
-      comparison::compareCampaigns(before, identification::identify(before, options), after,
-                                   identification::identify(after, options), arguments.bootstrap);
+  const Day first = dayOf(prepared_before, arguments.model, options);
+  const Day second = dayOf(prepared_after, arguments.model, options);
+  const comparison::Comparison comparison = comparison::compareCampaigns(
+      before, first.springs(), after, second.springs(),
+      reports::supportedModels(first.model ? &*first.model : nullptr, second.model ? &*second.model : nullptr),
+      arguments.bootstrap);
   deliver(
       [&] {
         reports::Json json = reports::comparisonJson(before, after, comparison);
@@ -59,11 +82,13 @@ void addCompare(CLI::App& app, Run& run) {
       "the\n"
       "p-value of each joint and the same corrected for the joints tested (Holm), what is taken away of each "
       "compliance\n"
-      "and what that avoids of the deflection at the reflectors. docs/method.md has the formulas.");
+      "and what that avoids of the deflection at the reflectors. Stiffnesses before and after are those of identify;\n"
+      "where no postures correspond, the differences too. docs/method.md has the formulas.");
   command->add_option("BEFORE", arguments->before, "campaign before, or with the double encoders inactive")->required();
   command->add_option("AFTER", arguments->after, "campaign after, or with the double encoders active")->required();
   command->add_option("--step", arguments->step, "load step of both to identify from");
   command->add_flag("--neglect-kc", arguments->neglect_kc, "neglect K_c, as the paper does");
+  addModelOptions(*command, arguments->model);
   addRawOption(*command, arguments->raw);
   command->add_option("--seed", arguments->bootstrap.seed, "of the bootstrap over postures")->capture_default_str();
   command->add_option("--json", arguments->json, "write the result to this file, - for standard output");

@@ -4,11 +4,13 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
+#include <limits>
 #include <memory>
 #include <utility>
 
 #include "app/command_line.h"
 #include "app/figures/figures.h"
+#include "app/model.h"
 #include "app/output.h"
 #include "app/prepared.h"
 #include "core/campaign/campaign.h"
@@ -63,10 +65,20 @@ void drawSpikes(const std::string& file, const campaign::Campaign& campaign, con
   io::writeFileWhole(file, std::string_view(reinterpret_cast<const char*>(png.data()), png.size()));
 }
 
+/// The diagnosis with the stiffnesses that identify states.
+diagnosis::Diagnosis diagnosed(const preparation::PreparedCampaign& prepared) {
+  diagnosis::Diagnosis diagnosis = diagnosis::diagnose(prepared);
+  if (!diagnosis.usable) return diagnosis;
+  identification::IdentifyOptions options;
+  options.subsets.size = std::numeric_limits<int>::max();  // shares are not asked for
+  if (const auto model = modelOf(prepared, {}, options)) extended_model::stateStiffnesses(*model, diagnosis);
+  return diagnosis;
+}
+
 int diagnoseWithSpikes(DiagnoseArguments& arguments) {
   arguments.options.effects = effectsToAdd(arguments.spike);
   const campaign::Campaign campaign = openCampaign(arguments.campaign);
-  const diagnosis::Diagnosis diagnosis = diagnosis::diagnose(campaign);
+  const diagnosis::Diagnosis diagnosis = diagnosed(preparation::prepareCampaign(campaign));
   std::function<void(std::size_t, std::size_t)> progress;
   if (isatty(STDERR_FILENO) != 0) {
     progress = [](std::size_t done, std::size_t total) {
@@ -87,7 +99,7 @@ int diagnoseWithSpikes(DiagnoseArguments& arguments) {
 int diagnoseCampaign(const DiagnoseArguments& arguments) {
   campaign::Campaign campaign = openCampaign(arguments.campaign);
   const campaign::Campaign words = described(campaign);
-  const diagnosis::Diagnosis diagnosis = diagnosis::diagnose(std::move(campaign));
+  const diagnosis::Diagnosis diagnosis = diagnosed(preparation::prepareCampaign(std::move(campaign)));
   deliver([&] { return reports::diagnosisJson(words, diagnosis); },
           [&] { return reports::diagnosisText(words, diagnosis); }, arguments.json);
   return diagnosis.usable ? kDone : kNotUsable;

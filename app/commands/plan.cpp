@@ -6,7 +6,10 @@
 #include <stdexcept>
 
 #include "app/command_line.h"
+#include "app/model.h"
 #include "app/output.h"
+#include "core/diagnosis/diagnose.h"
+#include "core/extended_model/effect_offsets.h"
 #include "core/io/input_error.h"
 #include "core/io/read_file.h"
 #include "core/io/units.h"
@@ -25,6 +28,7 @@ struct PlanArguments {
   std::string campaign, json, out, criterion = "balanced";
   double load = 0.0, pull = 0.0;
   int add = 0;
+  ModelChoice model;
   std::vector<double> hook_mm, tracker_mm, min_deg, max_deg;
   planning::PlanOptions options;
 };
@@ -66,11 +70,44 @@ planning::PlanOptions optionsOf(const PlanArguments& arguments, const Given& giv
   return options;
 }
 
-/// The campaign's identification, where it has been measured.
-std::optional<identification::Identification> identified(const campaign::Campaign& campaign) {
-  const bool measured = campaign.states && campaign.load_cell && (campaign.loading || campaign.displacements);
-  if (!measured || !identification::heaviestStep(campaign)) return std::nullopt;
-  return identification::identify(campaign);
+/// What a measured campaign says: its identification, by the model asked for, and what would tell apart effects that
+/// it cannot.
+struct Measured {
+  std::optional<extended_model::ExtendedModel> model;
+  std::optional<identification::Identification> springs;
+  std::vector<diagnosis::NextMeasurement> next;
+
+  const identification::Identification* identification() const {
+    return model ? &model->with : (springs ? &*springs : nullptr);
+  }
+  const campaign::Campaign& campaign(const campaign::Campaign& as_read) const {
+    return model ? model->campaign : as_read;
+  }
+};
+
+Measured measuredBy(const preparation::PreparedCampaign& prepared, const ModelChoice& choice) {
+  const campaign::Campaign& campaign = prepared.campaign;
+  Measured measured;
+  const bool loaded = campaign.states && campaign.load_cell && (campaign.loading || campaign.displacements);
+  if (!loaded || !identification::heaviestStep(campaign)) return measured;
+  measured.model = modelOf(prepared, choice, {});
+  if (!measured.model) measured.springs = identification::identify(campaign);
+  if (measured.model) measured.next = diagnosis::diagnose(prepared).next;
+  return measured;
+}
+
+/// What is not known of the effects in the model; empty where there are none.
+planning::EffectDoubt doubtOf(const std::optional<extended_model::ExtendedModel>& model) {
+  planning::EffectDoubt doubt;
+  if (!model || model->effects.free.empty()) return doubt;
+  doubt.moves = [&model = *model](const Vector6d& q, const Eigen::Vector3d& force,
+                                  const Eigen::Vector3d& point_in_flange, const std::vector<Eigen::Vector3d>& targets) {
+    return extended_model::displacementBySteps(model.effects, model.spread.parameters, q,
+                                               {point_in_flange, force, Eigen::Vector3d::Zero()}, targets);
+  };
+  for (std::size_t m = 0; m < doubt.covariance.size(); ++m)
+    doubt.covariance[m] = model->spread.compliance[m] * model->spread.compliance[m].transpose();
+  return doubt;
 }
 
 /// Of two results in one file one would be lost.
@@ -83,17 +120,29 @@ void requireTwoFiles(const PlanArguments& arguments) {
 
 int planDay(const PlanArguments& arguments, const Given& given) {
   requireTwoFiles(arguments);
-  const planning::PlanOptions options = optionsOf(arguments, given);
-  const campaign::Campaign campaign = preparation::prepareCampaign(openCampaign(arguments.campaign)).campaign;
-  const std::optional<identification::Identification> result = identified(campaign);
-  const planning::Plan plan = planning::planCampaign(campaign, result ? &*result : nullptr, options);
+  planning::PlanOptions options = optionsOf(arguments, given);
+  const preparation::PreparedCampaign prepared = preparation::prepareCampaign(openCampaign(arguments.campaign));
+  const Measured measured = measuredBy(prepared, arguments.model);
+  const campaign::Campaign& campaign = measured.campaign(prepared.campaign);
+  options.inputs.effects = doubtOf(measured.model);
+  const planning::Plan plan = planning::planCampaign(campaign, measured.identification(), options);
   if (!arguments.out.empty()) {
     io::requireNotRead(arguments.out);
     const bool xml = std::filesystem::path(arguments.out).extension() == ".xml";
     io::writeFileWhole(arguments.out, xml ? reports::planXml(plan) : reports::planCsv(plan));
   }
-  deliver([&] { return reports::planJson(campaign, plan); }, [&] { return reports::planText(campaign, plan); },
-          arguments.json);
+  const auto json = [&] {
+    reports::Json result = reports::planJson(campaign, plan);
+    return measured.model
+               ? reports::withNext(reports::withEffects(std::move(result), *measured.model, {}), measured.next)
+               : result;
+  };
+  const auto text = [&] {
+    std::string all = reports::planText(campaign, plan);
+    if (measured.model) all += reports::addedEffectsText(measured.model->effects) + reports::nextText(measured.next);
+    return all;
+  };
+  deliver(json, text, arguments.json);
   return plan.usable && !plan.postures.empty() ? kDone : kNotUsable;
 }
 
@@ -107,6 +156,7 @@ void addPlan(CLI::App& app, Run& run) {
       ->add_option("CAMPAIGN", arguments->campaign,
                    "campaign folder or its campaign.xml; before the day it needs no tables")
       ->required();
+  addModelOptions(*command, arguments->model);
   Given given{};
   given.postures = command->add_option("--postures", options.postures, "how many")->capture_default_str();
   given.add = command->add_option("--add", arguments->add, "how many to add to those that the campaign has measured")

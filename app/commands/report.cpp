@@ -156,6 +156,7 @@ struct Result {
     loaded = identification::whatLoadsLack(prepared.campaign).empty();
     if (loaded) diagnosis = arguments.raw ? diagnosis::diagnose(prepared.campaign) : diagnosis::diagnose(prepared);
     if (loaded) improved = modelOf(prepared, arguments.model, options);
+    if (improved && diagnosis && diagnosis->usable) extended_model::stateStiffnesses(*improved, *diagnosis);
     if (!improved) {
       own = loaded ? identification::identify(prepared.campaign, options)
                    : identification::framesAlone(prepared.campaign);

@@ -111,6 +111,7 @@ struct Tracker {
   double angle_fixed = 0.0;
   double angle_per_m = 0.0;
   Eigen::Vector3d station = Eigen::Vector3d::Zero();  ///< in the frame of the file's points
+  double scale_sigma = 0.0;  ///< standard uncertainty of its scale, common to all readings, a share; 0: not stated
 };
 
 /// A reflector on the tool, rigid with the flange.
@@ -127,6 +128,8 @@ struct LoadCell {
   double force_sigma = 0.0;              ///< N; 0: not stated
   double moment_sigma = 0.0;             ///< Nm; 0: not stated
   double gain_sigma = 0.0;               ///< standard uncertainty of the cell's scale, a share; 0: not stated
+  double angle_sigma = 0.0;              ///< of its axes about each of these, rad; 0: not stated
+  double point_sigma = 0.0;              ///< of its point along each axis, m; 0: not stated
 };
 
 /// A file that was read, as the report lists it.
@@ -152,6 +155,7 @@ struct Campaign {
   std::string base_link, flange_link;
   DoubleEncoder double_encoder = DoubleEncoder::unspecified;
   Eigen::Vector3d gravity_in_base{0.0, 0.0, -9.80665};  ///< m/s^2
+  double mass_sigma = 0.0;  ///< standard uncertainty of the URDF's masses, common to all, a share; 0: not stated
 
   std::optional<Tracker> tracker;
   std::vector<Target> targets;

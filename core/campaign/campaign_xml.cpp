@@ -73,6 +73,11 @@ Eigen::Vector3d pointOf(const io::XmlNode& node) {
   return point;
 }
 
+/// A standard uncertainty that may be stated, in units of `unit`; 0 where it is not.
+double declaredSigma(const io::XmlNode& node, const char* attribute, double most, double unit) {
+  return node.has(attribute) ? atMost(node, attribute, most) * unit : 0.0;
+}
+
 Target readTarget(const io::XmlNode& node) {
   Target target{node.requiredName("id"), std::nullopt};
   const int given = node.has("x_mm") + node.has("y_mm") + node.has("z_mm");
@@ -85,9 +90,10 @@ Target readTarget(const io::XmlNode& node) {
 }  // namespace
 
 Tracker readTracker(const io::XmlNode& node, std::vector<std::string>& warnings) {
-  io::warnOfUnknown(
-      node, {"model", "range_fixed_um", "range_per_m_um", "angle_fixed_um", "angle_per_m_um", "x_mm", "y_mm", "z_mm"},
-      {}, warnings);
+  io::warnOfUnknown(node,
+                    {"model", "range_fixed_um", "range_per_m_um", "angle_fixed_um", "angle_per_m_um", "x_mm", "y_mm",
+                     "z_mm", "scale_sigma_ppm"},
+                    {}, warnings);
   Tracker tracker;
   tracker.model = node.requiredAttribute("model");
   tracker.range_fixed = notNegative(node, "range_fixed_um") * io::kMicrometre;
@@ -97,6 +103,8 @@ Tracker readTracker(const io::XmlNode& node, std::vector<std::string>& warnings)
   requireNoise(node, "range_fixed_um", tracker.range_fixed + tracker.range_per_m);
   requireNoise(node, "angle_fixed_um", tracker.angle_fixed + tracker.angle_per_m);
   tracker.station = pointOf(node);
+  constexpr double kMostPpm = 10'000.0, kPpm = 1e-6;
+  tracker.scale_sigma = declaredSigma(node, "scale_sigma_ppm", kMostPpm, kPpm);
   return tracker;
 }
 
@@ -118,7 +126,8 @@ std::vector<Target> readTargets(const io::XmlNode& node, std::vector<std::string
 
 LoadCell readLoadCell(const io::XmlNode& node, std::vector<std::string>& warnings) {
   io::warnOfUnknown(node,
-                    {"parent", "xyz_mm", "rpy_deg", "force_sigma_n", "moment_sigma_nm", "axes", "gain_sigma_percent"},
+                    {"parent", "xyz_mm", "rpy_deg", "force_sigma_n", "moment_sigma_nm", "axes", "gain_sigma_percent",
+                     "rpy_sigma_deg", "xyz_sigma_mm"},
                     {}, warnings);
   LoadCell cell;
   cell.parent = node.requiredName("parent");
@@ -133,7 +142,10 @@ LoadCell readLoadCell(const io::XmlNode& node, std::vector<std::string>& warning
   cell.force_sigma = atMost(node, "force_sigma_n", kMostSigma);
   cell.moment_sigma = atMost(node, "moment_sigma_nm", kMostSigma);
   constexpr double kMostGainPercent = 50.0;
-  if (node.has("gain_sigma_percent")) cell.gain_sigma = atMost(node, "gain_sigma_percent", kMostGainPercent) / 100.0;
+  cell.gain_sigma = declaredSigma(node, "gain_sigma_percent", kMostGainPercent, 0.01);
+  constexpr double kMostTurn = 20.0, kMostOffset = 500.0;  // deg and mm
+  cell.angle_sigma = declaredSigma(node, "rpy_sigma_deg", kMostTurn, io::kDegree);
+  cell.point_sigma = declaredSigma(node, "xyz_sigma_mm", kMostOffset, io::kMillimetre);
   const double lever = cell.parent_from_cell.translation().norm() / io::kMillimetre;
   if (lever > 0.0 && lever < 1.0)
     warnings.push_back(
@@ -197,11 +209,14 @@ DoubleEncoder readDoubleEncoder(const io::XmlNode& node) {
 }
 
 void readRobotElement(const io::XmlNode& node, CampaignXml& xml, std::vector<std::string>& warnings) {
-  io::warnOfUnknown(node, {"urdf", "base_link", "flange_link", "double_encoder", "gravity_m_s2"}, {}, warnings);
+  io::warnOfUnknown(node, {"urdf", "base_link", "flange_link", "double_encoder", "gravity_m_s2", "mass_sigma_percent"},
+                    {}, warnings);
   xml.urdf = {node.requiredName("urdf"), "urdf", node.line()};
   xml.campaign.base_link = node.requiredName("base_link");
   xml.campaign.flange_link = node.requiredName("flange_link");
   xml.campaign.double_encoder = readDoubleEncoder(node);
+  constexpr double kMostMassPercent = 50.0;
+  xml.campaign.mass_sigma = declaredSigma(node, "mass_sigma_percent", kMostMassPercent, 0.01);
   if (!node.has("gravity_m_s2")) return;
   xml.campaign.gravity_in_base = node.vector("gravity_m_s2");
   constexpr double kStrongest = 20.0;

@@ -137,6 +137,7 @@ void writeRobot(tinyxml2::XMLPrinter& printer, const Campaign& campaign) {
   if (campaign.gravity_in_base != Campaign().gravity_in_base) {
     robot.set("gravity_m_s2", campaign.gravity_in_base);
   }
+  if (campaign.mass_sigma > 0.0) robot.set("mass_sigma_percent", 100.0 * campaign.mass_sigma);
 }
 
 void writeTracker(tinyxml2::XMLPrinter& printer, const Tracker& tracker) {
@@ -147,6 +148,7 @@ void writeTracker(tinyxml2::XMLPrinter& printer, const Tracker& tracker) {
       .set("angle_fixed_um", tracker.angle_fixed / io::kMicrometre)
       .set("angle_per_m_um", tracker.angle_per_m / io::kMicrometre);
   if (!tracker.station.isZero(0.0)) element.setPoint(tracker.station);
+  if (tracker.scale_sigma > 0.0) element.set("scale_sigma_ppm", 1e6 * tracker.scale_sigma);
 }
 
 void writeTargets(tinyxml2::XMLPrinter& printer, const std::vector<Target>& targets) {
@@ -168,6 +170,8 @@ void writeLoadCell(tinyxml2::XMLPrinter& printer, const LoadCell& cell) {
   if (!cell.axes_link) element.set("rpy_deg", Eigen::Vector3d(rpy / io::kDegree));
   element.set("force_sigma_n", cell.force_sigma).set("moment_sigma_nm", cell.moment_sigma);
   if (cell.gain_sigma > 0.0) element.set("gain_sigma_percent", 100.0 * cell.gain_sigma);
+  if (cell.angle_sigma > 0.0) element.set("rpy_sigma_deg", cell.angle_sigma / io::kDegree);
+  if (cell.point_sigma > 0.0) element.set("xyz_sigma_mm", cell.point_sigma / io::kMillimetre);
 }
 
 template <class Row>

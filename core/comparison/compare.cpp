@@ -43,8 +43,9 @@ std::vector<Remark> warningsOf(const campaign::Campaign& before_campaign, const 
     cautions.emplace_back(RemarkId::encoders_swapped);
   }
   const std::size_t pairs = result.matched.pairs.size(), all = pairs + result.matched.unmatched.size();
-  const bool apart = std::any_of(result.methods.begin(), result.methods.end(),
-                                 [](const StiffnessChange& one) { return one.available && !one.same_postures; });
+  const bool apart = std::any_of(result.methods.begin(), result.methods.end(), [](const StiffnessChange& one) {
+    return one.available && !one.same_postures && !one.by_models;
+  });
   if (apart) {
     cautions.emplace_back(RemarkId::other_postures, pairs);
   } else if (pairs > 0 && 2 * pairs < all) {
@@ -76,7 +77,7 @@ double avoidedRest(const StiffnessChange& change, const DeflectionAvoided& at_ta
 
 Comparison compareCampaigns(const campaign::Campaign& before_campaign, const identification::Identification& before,
                             const campaign::Campaign& after_campaign, const identification::Identification& after,
-                            const BootstrapOptions& options) {
+                            const SupportedModels& models, const BootstrapOptions& options) {
   Comparison result;
   result.reason = differenceOfMachines(before_campaign.robot, after_campaign.robot);
   if (!result.reason.empty()) {
@@ -87,9 +88,10 @@ Comparison compareCampaigns(const campaign::Campaign& before_campaign, const ide
   result.matched = matchPostures(before_campaign, before, after_campaign, after);
   for (const identification::Method method : identification::kMethods) {
     result.methods[static_cast<std::size_t>(method)] =
-        compareStiffness(before_campaign, before, after_campaign, after, method, result.matched);
+        compareStiffness(before_campaign, before, after_campaign, after, method, result.matched, models);
   }
   result.shown_first = comparedFirst(before, after, result.methods);
+  result.models_hold = models.given() && models.effects && models.explained;
   result.residual = commonResidual(before_campaign, before, after_campaign, after, result.matched);
   result.at_wrist = deflectionAvoidedAtWrist(before, after, result.matched, options);
   result.at_targets = deflectionAvoidedAtTargets(before, after, result.matched, options);
@@ -101,8 +103,8 @@ Comparison compareCampaigns(const campaign::Campaign& before_campaign, const ide
     result.reason = Remark(RemarkId::nothing_comparable, result.at_targets.reason, result.of(result.best()).reason);
   }
   result.cautions = warningsOf(before_campaign, after_campaign, result);
-  addWarnings(When::before, before, result.cautions);
-  addWarnings(When::after, after, result.cautions);
+  addWarnings(When::before, models.given() ? *models.before : before, result.cautions);
+  addWarnings(When::after, models.given() ? *models.after : after, result.cautions);
   return result;
 }
 
@@ -185,6 +187,54 @@ GearCheck checkOf(const Uncertain& gear, const Uncertain& difference) {
   return {gear, pOfZero(apart, std::abs(gear.value))};
 }
 
+/// k of the two models, and where effects are in them the ratio, their errors as independent, and the share taken.
+void stateModels(const identification::StiffnessEstimate& before, const identification::StiffnessEstimate& after,
+                 bool effects, int joint, JointChange& change) {
+  const auto stated = [&](const identification::StiffnessEstimate& one) {
+    return Uncertain{one.stiffness(joint), one.stiffnessSd(joint), one.dof(joint),
+                     identification::expandedUncertainty(one, joint)};
+  };
+  change.before = stated(before), change.after = stated(after);
+  change.mark = markOf(before, after, joint);
+  if (!effects) return;
+  const auto relative = [](const Uncertain& k) { return k.sd / k.value; };
+  const auto relative_u = [](const Uncertain& k) { return k.expanded() / k.value; };
+  change.ratio.value = change.after.value / change.before.value;
+  change.ratio.sd = std::abs(change.ratio.value) * std::hypot(relative(change.before), relative(change.after));
+  change.ratio.dof = std::min(change.before.dof, change.after.dof);
+  // The difference is free of bias, and so is the model's compliance before.
+  const double c_before = before.compliance[joint], d = change.difference.value;
+  const identification::CoverageInterval interval = identification::complianceInterval(before, joint);
+  const double u_before = std::max(interval.high - c_before, c_before - interval.low);
+  const double u = std::hypot(change.difference.expanded() / c_before, d * u_before / (c_before * c_before));
+  constexpr double kNormal = 1.959963984540054;
+  change.taken = {-d / c_before, u / kNormal, change.difference.dof, u};
+  if (!(c_before > u_before)) change.taken = {kNone, kNone, 0.0};
+  change.ratio.stated = std::abs(change.ratio.value) * std::hypot(relative_u(change.before), relative_u(change.after));
+}
+
+/// The difference of the two models' compliances with U from their intervals, and what follows of it.
+void differByModels(const identification::StiffnessEstimate& before, const identification::StiffnessEstimate& after,
+                    int joint, double avoided_by_unit, JointChange& change) {
+  const auto u = [&](const identification::StiffnessEstimate& one) {
+    const identification::CoverageInterval c = identification::complianceInterval(one, joint);
+    return std::max(c.high - one.compliance[joint], one.compliance[joint] - c.low);
+  };
+  const double c_before = before.compliance[joint], c_after = after.compliance[joint];
+  const double u_before = u(before), u_after = u(after), expanded = std::hypot(u_before, u_after);
+  constexpr double kNormal = 1.959963984540054, kManyDegrees = 1e6;  // quantiles of draws are no Student's t
+  change.difference = {c_after - c_before, expanded / kNormal, kManyDegrees, expanded};
+  change.correlation = 0.0;
+  change.p_value = pOfZero(change.difference, std::abs(c_before));
+  const double taken_u = std::hypot(u_after / c_before, c_after * u_before / (c_before * c_before));
+  change.taken = {1.0 - c_after / c_before, taken_u / kNormal, kManyDegrees, taken_u};
+  if (!(c_before > u_before)) change.taken = {kNone, kNone, 0.0};
+  const double by_unit = std::abs(avoided_by_unit);
+  change.avoided = {-avoided_by_unit * change.difference.value, by_unit * change.difference.sd, kManyDegrees,
+                    by_unit * expanded};
+  if (avoided_by_unit == 0.0) change.avoided = {kNone, kNone, 0.0};
+}
+
 void correctForJoints(std::array<JointChange, 6>& joints) {
   std::vector<double> p_values;
   for (const JointChange& joint : joints) p_values.push_back(joint.comparable ? joint.p_value : kNone);
@@ -197,7 +247,7 @@ void correctForJoints(std::array<JointChange, 6>& joints) {
 StiffnessChange compareStiffness(const campaign::Campaign& before_campaign,
                                  const identification::Identification& before, const campaign::Campaign& after_campaign,
                                  const identification::Identification& after, identification::Method method,
-                                 const MatchedPostures& matched) {
+                                 const MatchedPostures& matched, const SupportedModels& models) {
   const identification::MethodResult &first = before.of(method), &second = after.of(method);
   StiffnessChange result;
   if (!first.available || !second.available) {
@@ -211,6 +261,8 @@ StiffnessChange compareStiffness(const campaign::Campaign& before_campaign,
   const Vector6d by_unit = fit.available
                                ? avoidedByUnit(before_campaign, before, after_campaign, after, method, matched)
                                : Vector6d(Vector6d::Zero());
+  const bool modelled = models.given() && models.before->of(method).available && models.after->of(method).available;
+  result.by_models = modelled && result.available && !result.same_postures;
   for (std::size_t j = 0; j < 6; ++j) {
     JointChange& change = result.joints[j];
     if (!fit.joints[j]) {
@@ -228,6 +280,12 @@ StiffnessChange compareStiffness(const campaign::Campaign& before_campaign,
     if (const auto gear = gearOf(before, after, joint); gear && taken_away) {
       change.gear = checkOf(*gear, change.difference);
     }
+    if (!modelled) continue;
+    const identification::StiffnessEstimate& model_before = models.before->of(method).estimate;
+    const identification::StiffnessEstimate& model_after = models.after->of(method).estimate;
+    if (!model_before.identifiable[j] || !model_after.identifiable[j]) continue;
+    stateModels(model_before, model_after, models.effects, joint, change);
+    if (result.by_models) differByModels(model_before, model_after, joint, by_unit[joint], change);
   }
   correctForJoints(result.joints);
   if (!result.available) result.reason = Remark(RemarkId::no_joint_in_both);

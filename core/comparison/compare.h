@@ -22,6 +22,16 @@ struct GearCheck {
   double p_value = 0.0;  ///< two-sided, of the difference of compliances and the gear being one number
 };
 
+/// The model that each day's data support (extended_model::supportedModel): identified from readings corrected for its
+/// effects, with intervals that hold what could still hide. Null: joint springs alone, of both.
+struct SupportedModels {
+  const identification::Identification *before = nullptr, *after = nullptr;
+  bool effects = false;    ///< some were added to either
+  bool explained = false;  ///< neither leaves a gap that no effect explains
+
+  bool given() const { return before != nullptr && after != nullptr; }
+};
+
 /// One joint in both campaigns.
 struct JointChange {
   bool comparable = false;
@@ -34,9 +44,9 @@ struct JointChange {
   Uncertain taken;       ///< share of the compliance before that is gone; not a number where that is not above zero
   Uncertain avoided;     ///< share of the deflection at the reflectors that this avoids (avoidedByUnit); not a number
                          ///< where no posture corresponds
-  Uncertain before, after;   ///< k of each campaign's identification, Nm/rad
-  Uncertain ratio;           ///< after / before, to first order, correlation included. Keeps the bias of both unless
-                             ///< what springs leave is noise (CommonResidual)
+  Uncertain before, after;   ///< k of each campaign's model (SupportedModels; else of its identification), Nm/rad
+  Uncertain ratio;           ///< after / before, to first order: by springs alone, correlation included, or of models
+                             ///< with effects, as independent. Keeps the bias of both unless ratiosHold
   double correlation = 0.0;  ///< of the two scatter errors, by the postures that both share
   Remark mark;               ///< of either entry: negative or imprecise; else empty
   std::optional<GearCheck> gear;  ///< empty where neither campaign measures the gear, or the loops are not these
@@ -47,6 +57,7 @@ struct StiffnessChange {
   Remark reason;
   std::array<JointChange, 6> joints;
   bool same_postures = false;  ///< differences are of fits on the postures that correspond
+  bool by_models = false;      ///< they are not: differences are of the two models, with their intervals
   std::size_t postures = 0;    ///< that correspond
   /// Of the share of the deflection avoided at the reflectors, what the joints' `avoided` leave; not a number where
   /// none of these is one.
@@ -55,11 +66,13 @@ struct StiffnessChange {
 
 /// Compares by one method. The test is on the difference of compliances, whose error is nearly normal where that of
 /// k = 1/c is heavy-tailed: t = (c_a - c_b) / u against Student's distribution, u and its degrees of freedom those of
-/// PairedFit.
+/// PairedFit. `before` and `after` are by joint springs alone: on the same postures what they miss cancels, and what
+/// effects would explain needs no parameters that the difference had to pay for. Where postures do not correspond
+/// nothing cancels, and the difference is that of `models` where these are given, U the root of the sum of squares.
 StiffnessChange compareStiffness(const campaign::Campaign& before_campaign,
                                  const identification::Identification& before, const campaign::Campaign& after_campaign,
                                  const identification::Identification& after, identification::Method method,
-                                 const MatchedPostures& matched);
+                                 const MatchedPostures& matched, const SupportedModels& models = {});
 
 /// The method shown first of those by which the two campaigns are compared.
 std::optional<identification::ShownFirst> comparedFirst(const identification::Identification& before,
@@ -76,6 +89,10 @@ struct Comparison {
   std::array<StiffnessChange, 3> methods;  ///< by Method
   CommonResidual residual;                 ///< whether ratios are to be believed: isNoise
   DeflectionAvoided at_wrist, at_targets;
+  bool models_hold = false;  ///< ratios are of models with effects that leave nothing unexplained
+
+  /// Whether ratios of stiffnesses are free of the bias of both.
+  bool ratiosHold() const { return residual.isNoise() || models_hold; }
 
   const StiffnessChange& of(identification::Method method) const { return methods[static_cast<std::size_t>(method)]; }
   /// The deflection avoided at P_wrist where it is measured, else at the reflectors.
@@ -90,6 +107,6 @@ struct Comparison {
 /// Never throws for what the data lacks: what cannot be compared says why.
 Comparison compareCampaigns(const campaign::Campaign& before_campaign, const identification::Identification& before,
                             const campaign::Campaign& after_campaign, const identification::Identification& after,
-                            const BootstrapOptions& options = {});
+                            const SupportedModels& models = {}, const BootstrapOptions& options = {});
 
 }  // namespace stiffscope::comparison

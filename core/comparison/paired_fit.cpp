@@ -19,6 +19,7 @@ constexpr double kManyDegrees = 1e6;  // what is known exactly, as far as Studen
 }  // namespace
 
 double Uncertain::expanded() const {
+  if (stated) return *stated;
   if (!std::isfinite(sd) || !(dof > 0.0)) return kUnstated;
   return sd * identification::studentFactor(std::min(dof, kManyDegrees), identification::kStatedCoverage);
 }

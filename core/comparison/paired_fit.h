@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "core/comparison/matched_postures.h"
@@ -11,10 +12,11 @@ namespace stiffscope::comparison {
 /// A number with its standard uncertainty; both are of the number's unit.
 struct Uncertain {
   double value = 0.0;
-  double sd = 0.0;   ///< not a number: none can be stated
-  double dof = 0.0;  ///< effective degrees of freedom of sd
+  double sd = 0.0;                              ///< not a number: none can be stated
+  double dof = 0.0;                             ///< effective degrees of freedom of sd
+  std::optional<double> stated = std::nullopt;  ///< U, where it is stated and not of Student's distribution
 
-  /// U = t sd: 95 %, t of Student's distribution. Not a number where sd is.
+  /// U = t sd: 95 %, t of Student's distribution; or as stated. Not a number where sd is.
   double expanded() const;
 };
 

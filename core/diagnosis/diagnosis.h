@@ -7,6 +7,8 @@
 
 #include "core/diagnosis/remarks.h"
 #include "core/effects/effect.h"
+#include "core/identification/estimate.h"
+#include "core/identification/identification.h"
 #include "core/robot/robot.h"
 #include "metrology/remark.h"
 
@@ -102,6 +104,13 @@ struct GeometryError {
   double largest_tilt = 0.0;   ///< of an axis, rad
 };
 
+/// What identification states of the joints' stiffnesses, 95 %, Nm/rad.
+struct StatedStiffness {
+  identification::Method method = identification::Method::decoupled_partial_pose;
+  Vector6d expanded = Vector6d::Zero();  ///< U; infinite where the interval is open
+  std::array<identification::CoverageInterval, 6> interval;
+};
+
 /// Answer of `diagnose`.
 struct Diagnosis {
   bool usable = false;
@@ -131,10 +140,13 @@ struct Diagnosis {
   double left_over = 0.0;           ///< the same with the verdict's effects
   double model_error = 0.0;         ///< rms per coordinate that no effect explains, at the largest load, m; 0: none
   double geometric_stiffness_share = 0.0;
-  Shrink shrink_together;                                                            ///< by all that the verdict names
-  Vector6d stiffness_before = Vector6d::Zero(), stiffness_after = Vector6d::Zero();  ///< Nm/rad
+  Shrink shrink_together;  ///< by all that the verdict names
+  /// Nm/rad, by springs alone and with the verdict's effects, with the standard uncertainty. Of the joint fit of all
+  /// load steps; where a model of identification is at hand (extended_model::stateStiffnesses) of its method.
+  Vector6d stiffness_before = Vector6d::Zero(), stiffness_after = Vector6d::Zero();
   Vector6d stiffness_after_sd = Vector6d::Zero();
   std::array<bool, 6> identifiable{};
+  std::optional<StatedStiffness> stated;  ///< what that method states of them
   int postures = 0, states = 0;
 };
 

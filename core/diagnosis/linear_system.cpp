@@ -211,9 +211,13 @@ void addGeometryAndWeights(const SystemInput& input, LinearSystem& data) {
     const double prior = input.absolute ? kGeometryPrior : kSweptGeometry;
     data.beforehand(at, at) += 1.0 / (prior * prior);
   }
-  for (Eigen::Index k = 0; k < effects::kBodies; ++k) {
-    const Eigen::Index at = data.layout.weights + k;
-    data.beforehand(at, at) += 1.0 / (kWeightPrior * kWeightPrior);
+  // Each body's own, and beside it what is declared common to all: the inverse of s^2 I + m^2 1 1^T.
+  constexpr double kOwn = 1.0 / (kWeightPrior * kWeightPrior);
+  const double common = input.campaign.mass_sigma * kOwn * input.campaign.mass_sigma;
+  data.beforehand.diagonal().segment(data.layout.weights, effects::kBodies).array() += kOwn;
+  if (common > 0.0) {
+    data.beforehand.block(data.layout.weights, data.layout.weights, effects::kBodies, effects::kBodies).array() -=
+        kOwn * common / (1.0 + effects::kBodies * common);
   }
 }
 

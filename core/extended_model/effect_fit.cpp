@@ -142,6 +142,30 @@ class Chooser {
   diagnosis::Selector selector_;
 };
 
+/// Those of the parts in the model: at a bound, too, as far as the data see them, since what holds a parameter there
+/// knows it no better. None where all are zero.
+std::vector<Eigen::Index> freeParameters(const EffectFit& effects) {
+  const diagnosis::GapFit& fit = effects.fit;
+  std::vector<Eigen::Index> free;
+  bool any = false;
+  for (const diagnosis::ChosenModel& one : fit.set.models) {
+    const effects::EffectModel& model = effects.input->models[one.model];
+    Eigen::Index at = effects.firstOf(one);
+    for (std::size_t p = 0; p < model.parts.size(); ++p) {
+      const bool in_model = std::find(one.parts.begin(), one.parts.end(), p) != one.parts.end();
+      for (std::size_t k = 0; k < model.parts[p].most.size(); ++k, ++at) {
+        const bool found = fit.set.effects[at] != 0.0;
+        const bool seen = fit.projection.matrix(at, at) > fit.rules.kept_share * fit.projection.before[at];
+        any = any || found;
+        if (found || (in_model && seen)) free.push_back(at);
+      }
+    }
+  }
+  if (!any) free.clear();
+  std::sort(free.begin(), free.end());
+  return free;
+}
+
 /// How well an effect's equation describes a machine that has it: sizes of single effects came back within one per cent
 /// from the simulator, which solves the loaded equilibrium of another mechanism with finite rotations.
 constexpr double kModelShare = 0.01;
@@ -246,9 +270,7 @@ EffectFit fitEffects(const preparation::PreparedCampaign& prepared, const Reques
   requireSeen(effects.fit, *input);
   effects.start = std::move(start);
   effects.input = std::move(input);
-  for (Eigen::Index i = 0; i < effects.fit.set.effects.size(); ++i) {
-    if (effects.fit.set.effects[i] != 0.0) effects.free.push_back(i);
-  }
+  effects.free = freeParameters(effects);
   effects.covariance = covarianceOfFree(effects);
   const diagnosis::GapFit alone = diagnosis::withoutEffects(*effects.input, effects.start->state, effects.fit);
   const diagnosis::StiffnessesAlone before =

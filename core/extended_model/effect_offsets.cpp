@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/effects/elastic_arm.h"
+#include "core/effects/gravity_equilibrium.h"
 #include "core/extended_model/effect_fit.h"
 
 namespace stiffscope::extended_model {
@@ -98,6 +99,29 @@ Eigen::MatrixXd displacementByEffects(const diagnosis::SystemInput& input, const
         model.columns(fit.state.at, states, state) - model.columns(fit.state.at, states, 0);
   }
   return all(Eigen::all, columns.parameters);
+}
+
+Eigen::MatrixXd displacementBySteps(const EffectFit& effects, const Eigen::MatrixXd& steps, const Vector6d& q,
+                                    const effects::FlangeLoad& load,
+                                    const std::vector<Eigen::Vector3d>& targets_in_flange) {
+  const diagnosis::SystemState& state = effects.fit.state;
+  const effects::ArmState& seen = effects.fit.data.postures.front().states.back();
+  effects::ArmState rest = effects::gravityEquilibrium(state.geometry, state.at, q);
+  rest.pose = effects.fit.data.postures.front().pose;
+  std::vector<int> targets;
+  std::vector<Eigen::Vector3d> places;
+  for (const Eigen::Vector3d& target : targets_in_flange) {
+    targets.push_back(static_cast<int>(targets.size()));
+    places.push_back(rest.flange * target);
+  }
+  effects::ArmState loaded = rest;
+  loaded.step = 1;
+  loaded.loaded = true;
+  loaded.cell_axes = rest.flange.linear() * seen.flange.linear().transpose() * seen.cell_axes;
+  loaded.load = {rest.flange * load.point_in_flange, load.force, load.moment};
+  loaded.load_torque = robot::jointTorque(state.geometry.arm, rest.posture, loaded.load);
+  return displacementByEffects(*effects.input, effects.fit, columnsOf(effects), {rest, loaded}, 1, targets, places) *
+         steps;
 }
 
 }  // namespace stiffscope::extended_model

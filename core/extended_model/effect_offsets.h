@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "core/effects/elastic_arm.h"
 #include "core/extended_model/fitted_effects.h"
 
 namespace stiffscope::extended_model {
@@ -48,5 +49,11 @@ Eigen::MatrixXd displacementByEffects(const diagnosis::SystemInput& input, const
                                       const EffectColumns& columns, const effects::PostureStates& posture,
                                       std::size_t state, const std::vector<int>& targets,
                                       const std::vector<Eigen::Vector3d>& places);
+
+/// The same at joint angles q (rad) under a load that the day need not have measured, by each column of `steps` (of
+/// EffectFit::free): of reflectors that stand at `targets_in_flange`, of the campaign's in their order. R0, m.
+Eigen::MatrixXd displacementBySteps(const EffectFit& effects, const Eigen::MatrixXd& steps, const Vector6d& q,
+                                    const effects::FlangeLoad& load,
+                                    const std::vector<Eigen::Vector3d>& targets_in_flange);
 
 }  // namespace stiffscope::extended_model

@@ -50,7 +50,7 @@ class Sampler {
     const std::size_t groups =
         evidence.group.empty() ? 0 : *std::max_element(evidence.group.begin(), evidence.group.end()) + 1;
     members_.resize(groups, 0);
-    for (const std::size_t g : evidence.group) ++members_[g];
+    for (std::size_t i = 0; i < evidence.group.size(); ++i) members_[evidence.group[i]] += !known(i);
     local_ = local_mix_ = Eigen::VectorXd::Ones(x_.size());
     effect_ = Eigen::VectorXd::Constant(static_cast<Eigen::Index>(groups), kUsual * kUsual);
     effect_mix_ = Eigen::VectorXd::Ones(effect_.size());
@@ -66,7 +66,12 @@ class Sampler {
   }
 
  private:
-  double priorWeight(Eigen::Index i) const { return 1.0 / (local_[i] * effect_[groupOf(i)]); }
+  bool known(std::size_t i) const { return i < evidence_.known_sd.size() && evidence_.known_sd[i] > 0.0; }
+  double priorWeight(Eigen::Index i) const {
+    const auto at = static_cast<std::size_t>(i);
+    if (known(at)) return 1.0 / (evidence_.known_sd[at] * evidence_.known_sd[at]);
+    return 1.0 / (local_[i] * effect_[groupOf(i)]);
+  }
   Eigen::Index groupOf(Eigen::Index i) const {
     return static_cast<Eigen::Index>(evidence_.group[static_cast<std::size_t>(i)]);
   }
@@ -110,6 +115,7 @@ class Sampler {
   void drawScales() {
     Eigen::VectorXd sum = Eigen::VectorXd::Zero(effect_.size());
     for (Eigen::Index i = 0; i < x_.size(); ++i) {
+      if (known(static_cast<std::size_t>(i))) continue;
       const double square = std::max(x_[i] * x_[i], kLeastSquare);
       local_[i] = (1.0 / local_mix_[i] + square / (2.0 * effect_[groupOf(i)])) / exponential(random_);
       local_mix_[i] = (1.0 + 1.0 / local_[i]) / exponential(random_);

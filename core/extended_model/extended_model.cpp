@@ -9,10 +9,15 @@
 #include <random>
 #include <utility>
 
+#include "core/diagnosis/diagnose.h"
+#include "core/diagnosis/held_out.h"
+#include "core/diagnosis/localization.h"
 #include "core/extended_model/corrected_campaign.h"
+#include "core/extended_model/declared.h"
 #include "core/extended_model/effect_fit.h"
 #include "core/extended_model/method_equations.h"
 #include "core/identification/estimate.h"
+#include "core/identification/remarks.h"
 #include "core/identification/shown_first.h"
 #include "core/identification/warnings.h"
 #include "core/numerics/resampling.h"
@@ -136,6 +141,39 @@ EffectFit chosenEffects(const preparation::PreparedCampaign& prepared, const dia
   return none;
 }
 
+/// Gap and shrink as the diagnosis states them, of the study's own fit, the selection repeated inside the shrink. What
+/// the nests put in is off the readings here and not there, so then the fit's own stand.
+void describeAsDiagnosed(const diagnosis::GapStudy& study, EffectFit& chosen) {
+  if (chosen.free.empty() || !study.given.empty()) return;
+  const diagnosis::GapFit& fit = study.fit;
+  const diagnosis::GapFit alone = diagnosis::withoutEffects(*study.input, study.start->state, fit);
+  const diagnosis::StiffnessesAlone before =
+      diagnosis::stiffnessesAlone(alone.data, std::vector<double>(alone.data.postures.size(), 1.0), alone.projection);
+  chosen.gap = diagnosis::deflectionGap(alone, before, fit, diagnosis::allParameters(fit.nuisances, fit.set.effects));
+  const diagnosis::DiagnoseOptions as_there;
+  const diagnosis::HeldOutShrink held_out = diagnosis::heldOutShrinks(*study.input, alone, fit, study.allowed,
+                                                                      {{true, {}}}, as_there.resamples, as_there.seed)
+                                                .front();
+  chosen.shrink = held_out.deflection;
+  chosen.explained = held_out.explained;
+}
+
+/// More than noise in the residual is said, whatever its size; and that the sag's doubt is in the frames' uncertainty.
+void cautionBeside(ExtendedModel& model) {
+  if (model.with.frames.covariance.hidden.size() > 0) {
+    for (Remark& one : model.with.cautions) {
+      if (one.is(identification::RemarkId::sag_in_sweeps))
+        one = Remark(identification::RemarkId::sag_in_sweeps_weighed, model.with.frames.largest_sag);
+    }
+  }
+  if (model.residualIsNoise()) return;
+  for (const Remark& one : model.with.cautions) {
+    if (one.is(identification::RemarkId::residual_above_noise)) return;
+  }
+  model.with.cautions.emplace_back(RemarkId::residual_beyond_noise, model.leftOver(), model.hidden->lack_of_fit,
+                                   model.hidden->unexplained);
+}
+
 /// Whether joint springs come out negative one and all: then no model of the machine is to be looked for.
 bool contradicted(const identification::Identification& springs) {
   bool any = false;
@@ -163,23 +201,47 @@ ExtendedModel supportedModel(const preparation::PreparedCampaign& prepared, cons
     none.notes.emplace_back(RemarkId::diagnosis_has_no_gap, study.start->reason);
     return extendModel(campaign, std::move(none), options);
   }
-  ExtendedModel model = extendModel(campaign, chosenEffects(prepared, study), options);
+  EffectFit chosen = chosenEffects(prepared, study);
+  describeAsDiagnosed(study, chosen);
+  ExtendedModel model = extendModel(campaign, std::move(chosen), options);
   if (contradicted(model.without)) {
     EffectFit none;
     none.notes.emplace_back(RemarkId::springs_contradicted);
     return extendModel(campaign, std::move(none), options);
   }
-  const double gain = prepared.campaign.load_cell->gain_sigma;
+  const Declared declared = declaredOf(model.campaign, model.with, options);
   if (!thinned) {
-    model.hidden = weighHiddenEffects(study, model.effects, model.with, model.without, gain, model.with);
+    model.hidden =
+        weighHiddenEffects(study, model.effects, model.campaign, model.with, model.without, declared, model.with);
+    cautionBeside(model);
     return model;
   }
   std::vector<identification::LeftOutPosture> left_out;
   const EffectFit own = chosenEffects(*spread, study);
   campaign::Campaign seen = own.free.empty() ? spread->campaign : correctedFor(own, spread->campaign, left_out);
-  model.hidden = weighHiddenEffects(study, own, identification::identify(seen, valuesOnly(options)), model.without,
-                                    gain, model.with);
+  model.hidden = weighHiddenEffects(study, own, seen, identification::identify(seen, valuesOnly(options)),
+                                    model.without, declared, model.with);
+  cautionBeside(model);
   return model;
+}
+
+void stateStiffnesses(const ExtendedModel& model, diagnosis::Diagnosis& diagnosis) {
+  const identification::Method which = identification::bestMethod(model.with);
+  if (!model.with.of(which).available || !model.without.of(which).available) return;
+  const identification::StiffnessEstimate& estimate = model.with.of(which).estimate;
+  const identification::StiffnessEstimate& alone = model.without.of(which).estimate;
+  diagnosis::StatedStiffness& stated = diagnosis.stated.emplace();
+  stated.method = which;
+  for (int j = 0; j < 6; ++j) {
+    const auto at = static_cast<std::size_t>(j);
+    diagnosis.identifiable[at] = estimate.identifiable[at];
+    if (!estimate.identifiable[at]) continue;
+    diagnosis.stiffness_before[j] = alone.stiffness(j);
+    diagnosis.stiffness_after[j] = estimate.stiffness(j);
+    diagnosis.stiffness_after_sd[j] = estimate.stiffnessSd(j);
+    stated.expanded[j] = identification::expandedUncertainty(estimate, j);
+    stated.interval[at] = identification::stiffnessInterval(estimate, j);
+  }
 }
 
 namespace {

@@ -38,6 +38,10 @@ struct ExtendedModel {
   identification::Identification without, with;
   EffectSpread spread;
   std::optional<HiddenEffects> hidden;  ///< of the model that the data support: what could still hide
+
+  /// Chi2 per equation that the model leaves, of `hidden`; and whether that is at most a quarter above noise's.
+  double leftOver() const { return effects.added.empty() ? hidden->lack_of_fit : hidden->left_over; }
+  bool residualIsNoise() const { return leftOver() <= 1.25; }
 };
 
 /// `campaign`: as identification sees it. No effect added, or all of size zero: `with` is `without`.
@@ -53,5 +57,9 @@ ExtendedModel extendModel(const campaign::Campaign& campaign, EffectFit effects,
 /// notes.
 ExtendedModel supportedModel(const preparation::PreparedCampaign& prepared, const campaign::Campaign& campaign,
                              const identification::IdentifyOptions& options);
+
+/// Puts the stiffnesses of the model's best method into a diagnosis of the same day: by springs alone, with the
+/// effects, and the interval, so that the same question has one answer. Nothing where no method is available.
+void stateStiffnesses(const ExtendedModel& model, diagnosis::Diagnosis& diagnosis);
 
 }  // namespace stiffscope::extended_model

@@ -40,7 +40,8 @@ struct EffectFit {
   std::vector<effects::Effect> geometry;  ///< of those asked for, what identification corrects by itself
   std::vector<Remark> notes;              ///< on how it came to these effects
 
-  /// Which entries of the effects' parameter vector (fit.set.effects) are free, and their covariance: of the joint
+  /// Which entries of the effects' parameter vector (fit.set.effects) are free, those at a bound among them, and their
+  /// covariance: of the joint
   /// fit, so that what the effects share with stiffnesses and geometry is in it, times chi2 per equation where that is
   /// above 1; and one per cent of an effect of the machine, as far as its equation is good for a real one.
   std::vector<Eigen::Index> free;

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/extended_model/effect_posterior.h"
+#include "core/extended_model/hidden_frames.h"
 #include "core/extended_model/method_equations.h"
 #include "core/identification/estimate.h"
 #include "core/numerics/random.h"
@@ -24,6 +25,7 @@ struct HiddenParameters {
   EffectColumns columns;
   std::vector<effects::Effect> effect;  ///< of each parameter
   std::vector<HiddenParameter> named;   ///< the same with its name and fitted size
+  std::vector<bool> declared;           ///< whether its size is known beforehand
   Eigen::MatrixXd off;                  ///< theta - theta_fit, a draw each column
 };
 
@@ -52,7 +54,14 @@ Eigen::VectorXd fittedOf(const effects::EffectModel& model, const EffectFit& fit
   return Eigen::VectorXd::Zero(static_cast<Eigen::Index>(model.parameters()));
 }
 
-HiddenParameters hiddenParameters(const diagnosis::GapStudy& study, const EffectFit& fitted) {
+/// Standard uncertainty of an effect's parameters that is declared; 0: none is.
+double declaredSd(effects::Effect effect, const Declared& declared) {
+  if (effect == effects::Effect::load_cell_misalignment) return declared.cell_angle_sd;
+  if (effect == effects::Effect::load_point_error) return declared.cell_point_sd;
+  return 0.0;
+}
+
+HiddenParameters hiddenParameters(const diagnosis::GapStudy& study, const EffectFit& fitted, const Declared& declared) {
   const diagnosis::GapLayout& layout = study.fit.data.layout;
   const diagnosis::Projection& projection = study.fit.projection;
   HiddenParameters hidden;
@@ -71,6 +80,9 @@ HiddenParameters hiddenParameters(const diagnosis::GapStudy& study, const Effect
           hidden.effect.push_back(model.effect);
           hidden.named.push_back(
               {model.effect, effects::parameterName(part, k), effects::parameterUnit(part, k), own[of_own]});
+          const double sd = declaredSd(model.effect, declared);
+          hidden.declared.push_back(sd > 0.0);
+          evidence.known_sd.push_back(sd / part.most[k]);
           evidence.group.push_back(g);
           evidence.positive.push_back(part.positive);
           bound.push_back(part.most[k]);
@@ -140,11 +152,12 @@ identification::CoverageInterval quantiles(std::vector<double>& values, double c
 
 class MethodWeigher {
  public:
-  MethodWeigher(const HiddenParameters& hidden, double gain_sd, bool unexplained)
-      : hidden_(hidden), gain_sd_(gain_sd), unexplained_(unexplained) {}
+  MethodWeigher(const HiddenParameters& hidden, const Declared& declared, bool unexplained)
+      : hidden_(hidden), declared_(declared), unexplained_(unexplained) {}
 
-  std::vector<BudgetLine> weigh(const Eigen::Matrix<double, 6, Eigen::Dynamic>& gain, const StiffnessEstimate& alone,
-                                const std::vector<effects::Effect>& in_model, StiffnessEstimate& estimate) const {
+  std::vector<BudgetLine> weigh(Method which, const Eigen::Matrix<double, 6, Eigen::Dynamic>& gain,
+                                const StiffnessEstimate& alone, const std::vector<effects::Effect>& in_model,
+                                StiffnessEstimate& estimate) const {
     const Eigen::MatrixXd moved_by_all = gain * hidden_.off;
     const std::vector<Eigen::Index> kept = possibleDraws(estimate, moved_by_all);
     const Eigen::MatrixXd moved = moved_by_all(Eigen::all, kept), off = hidden_.off(Eigen::all, kept);
@@ -153,20 +166,22 @@ class MethodWeigher {
     own.covariance = own.parts.total();
     std::vector<BudgetLine> budget = sharedLines(own);
     addEffectLines(gain, off, moved, in_model, budget);
-    Vector6d more = Vector6d::Zero();
-    if (gain_sd_ > 0.0) {
-      more = (gain_sd_ * estimate.compliance).cwiseAbs2();
-      budget.push_back({BudgetSource::load_cell_gain, std::nullopt, false, more, {}});
+    Vector6d more = Vector6d::Zero(), by_columns = Vector6d::Zero();
+    const auto addLine = [&](BudgetSource source, const Vector6d& variance) {
+      budget.push_back({source, std::nullopt, false, false, variance, {}});
+      more += variance;
+    };
+    if (declared_.gain_sd > 0.0)
+      addLine(BudgetSource::load_cell_gain, (declared_.gain_sd * estimate.compliance).cwiseAbs2());
+    for (const Declared::Column& column : declared_.columns) {
+      addLine(column.source, column.compliance[static_cast<std::size_t>(which)].cwiseAbs2());
+      by_columns += column.compliance[static_cast<std::size_t>(which)].cwiseAbs2();
     }
-    if (unexplained_) {
-      const Vector6d apart = 0.25 * (alone.compliance - estimate.compliance).cwiseAbs2();
-      budget.push_back({BudgetSource::apparent, std::nullopt, false, apart, {}});
-      more += apart;
-    }
+    if (unexplained_) addLine(BudgetSource::apparent, 0.25 * (alone.compliance - estimate.compliance).cwiseAbs2());
     estimate.parts.effects = moved * moved.transpose() / static_cast<double>(moved.cols());
     estimate.parts.effects += more.asDiagonal();
     estimate.covariance = estimate.parts.total();
-    state(moved, own, alone, estimate);
+    state(moved, own, alone, by_columns, estimate);
     return budget;
   }
 
@@ -175,7 +190,7 @@ class MethodWeigher {
     std::vector<BudgetLine> lines;
     const auto add = [&](BudgetSource source, const Matrix6d& part, const Vector6d& dof) {
       if (part.diagonal().cwiseAbs().maxCoeff() > 0.0)
-        lines.push_back({source, std::nullopt, false, part.diagonal(), dof});
+        lines.push_back({source, std::nullopt, false, false, part.diagonal(), dof});
     };
     add(BudgetSource::scatter, own.parts.scatter, own.scatter_dof);
     add(BudgetSource::frames, own.parts.frames, Vector6d::Zero());
@@ -193,23 +208,24 @@ class MethodWeigher {
       while (end < hidden_.effect.size() && hidden_.effect[end] == hidden_.effect[first]) ++end;
       const auto from = static_cast<Eigen::Index>(first), count = static_cast<Eigen::Index>(end - first);
       const effects::Effect effect = hidden_.effect[first];
-      BudgetLine line{BudgetSource::effect, effect, false, {}, {}};
+      BudgetLine line{BudgetSource::effect, effect, false, hidden_.declared[first], {}, {}};
       line.in_model = std::find(in_model.begin(), in_model.end(), effect) != in_model.end();
       line.variance = meanSquare(gain.middleCols(from, count) * off.middleRows(from, count));
       common -= line.variance;
       budget.push_back(line);
       first = end;
     }
-    budget.push_back({BudgetSource::correlation, std::nullopt, false, common, {}});
+    budget.push_back({BudgetSource::correlation, std::nullopt, false, false, common, {}});
   }
 
-  /// A draw of the effects each, with some of everything else. `own`: uncertainty without effects.
+  /// A draw of the effects each, with some of everything else. `own`: uncertainty without effects; `by_columns`:
+  /// variance by what is declared.
   std::vector<double> draws(const Eigen::MatrixXd& moved, const StiffnessEstimate& own, const StiffnessEstimate& alone,
-                            int j, numerics::RandomStream& random) const {
+                            const Vector6d& by_columns, int j, numerics::RandomStream& random) const {
     constexpr double kNormal = 1.959963984540054;  // of 95 % of a normal number
     const auto sdOf = [&](const StiffnessEstimate& one) {
-      return std::sqrt(std::max(0.0, one.covariance(j, j))) *
-             identification::coverageFactor(one, j, identification::kStatedCoverage) / kNormal;
+      const double factor = identification::coverageFactor(one, j, identification::kStatedCoverage) / kNormal;
+      return std::sqrt(std::max(0.0, one.covariance(j, j)) * factor * factor + by_columns[j]);
     };
     const double sd = sdOf(own), alone_sd = unexplained_ ? sdOf(alone) : 0.0;
     std::vector<double> values;
@@ -217,7 +233,7 @@ class MethodWeigher {
     constexpr int kEach = 5;
     for (Eigen::Index d = 0; d < moved.cols(); ++d) {
       for (int k = 0; k < kEach; ++k) {
-        const double factor = 1.0 + gain_sd_ * random.normal();
+        const double factor = 1.0 + declared_.gain_sd * random.normal();
         values.push_back(factor * (own.compliance[j] + moved(j, d) + sd * random.normal()));
         if (unexplained_) values.push_back(factor * (alone.compliance[j] + alone_sd * random.normal()));
       }
@@ -226,7 +242,7 @@ class MethodWeigher {
   }
 
   void state(const Eigen::MatrixXd& moved, const StiffnessEstimate& own, const StiffnessEstimate& alone,
-             StiffnessEstimate& estimate) const {
+             const Vector6d& by_columns, StiffnessEstimate& estimate) const {
     // A fit with a negative stiffness is none: what the possible draws have in their middle stands for it.
     const bool possible = allPositive(own.compliance, own.identifiable);
     numerics::RandomStream random(1, "intervals");
@@ -234,7 +250,7 @@ class MethodWeigher {
     for (int j = 0; j < 6; ++j) {
       if (!own.identifiable[static_cast<std::size_t>(j)]) continue;
       identification::CoverageInterval& interval = estimate.stated[static_cast<std::size_t>(j)];
-      std::vector<double> values = draws(moved, own, alone, j, random);
+      std::vector<double> values = draws(moved, own, alone, by_columns, j, random);
       if (values.empty()) {
         interval = {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
         continue;
@@ -247,24 +263,37 @@ class MethodWeigher {
   }
 
   const HiddenParameters& hidden_;
-  double gain_sd_;
+  const Declared& declared_;
   bool unexplained_;
 };
 
 std::vector<SeenCombination> combinationsOf(const HiddenParameters& hidden,
                                             const Eigen::Matrix<double, 6, Eigen::Dynamic>& gain,
                                             const StiffnessEstimate& estimate) {
-  const Eigen::MatrixXd moved = gain * hidden.off;
-  const std::vector<Eigen::Index> kept = possibleDraws(estimate, moved);
-  const Matrix6d by_others = estimate.parts.total() - estimate.parts.effects;
-  return seenCombinations(hidden.named, moved(Eigen::all, kept), hidden.off(Eigen::all, kept), by_others, estimate);
+  const Eigen::MatrixXd all = gain * hidden.off;
+  const std::vector<Eigen::Index> kept = possibleDraws(estimate, all);
+  const Eigen::MatrixXd moved = all(Eigen::all, kept);
+  const Matrix6d by_others = estimate.parts.total() - moved * moved.transpose() / static_cast<double>(moved.cols());
+  return seenCombinations(hidden.named, moved, hidden.off(Eigen::all, kept), by_others, estimate);
+}
+
+/// Puts what the draws do to the frames into their covariance. `alone`: of joint springs alone, where these are as
+/// likely.
+void weighFrames(const Eigen::MatrixXd& moved, const frames::Frames* alone, frames::Frames& frames) {
+  if (moved.cols() == 0) return;
+  frames.covariance.hidden = moved * moved.transpose() / static_cast<double>(moved.cols());
+  if (alone != nullptr && alone->arm.points_placed) {
+    const Eigen::VectorXd apart = frames::framesDifference(frames, *alone);
+    frames.covariance.hidden += 0.25 * apart * apart.transpose();
+  }
+  frames::stateUncertainties(frames.covariance, frames.axes, frames.arm, frames.links, frames.wrist);
 }
 
 }  // namespace
 
 HiddenEffects weighHiddenEffects(const diagnosis::GapStudy& study, const EffectFit& fitted,
-                                 const identification::Identification& seen,
-                                 const identification::Identification& without, double gain_sd,
+                                 const campaign::Campaign& seen_campaign, const identification::Identification& seen,
+                                 const identification::Identification& without, const Declared& declared,
                                  identification::Identification& with) {
   HiddenEffects result;
   const diagnosis::GapFit& fit = study.fit;
@@ -276,17 +305,26 @@ HiddenEffects weighHiddenEffects(const diagnosis::GapStudy& study, const EffectF
   // gap is the better one wherever that was tried.
   constexpr double kMuch = 1.1, kShare = 0.15;
   result.unexplained = (result.left_over > kMuch || fit.model_error > 0.0) && left > kShare * gap;
-  const HiddenParameters hidden = hiddenParameters(study, fitted);
+  const HiddenParameters hidden = hiddenParameters(study, fitted, declared);
   const std::vector<CaseEffects> cases = caseEffects(study, hidden.columns, seen);
   std::vector<effects::Effect> in_model;
   for (const AddedEffect& one : fitted.added) in_model.push_back(one.effect);
-  const MethodWeigher weigher(hidden, gain_sd, result.unexplained);
+  const MethodWeigher weigher(hidden, declared, result.unexplained);
+  const Method of_sag =
+      with.of(Method::decoupled_partial_pose).available ? Method::decoupled_partial_pose : Method::partial_pose;
   for (const Method which : identification::kMethods) {
     const auto at = static_cast<std::size_t>(which);
     if (!with.of(which).available || !seen.of(which).available || !without.of(which).available) continue;
     const auto gain = gains(cases, seen, which, hidden.off.rows());
     if (gain.cols() == 0) continue;
-    result.budget[at] = weigher.weigh(gain, without.of(which).estimate, in_model, with.methods[at].estimate);
+    if (which == of_sag) {
+      const Eigen::MatrixXd moved = gain * hidden.off;
+      const std::vector<Eigen::Index> kept = possibleDraws(seen.of(which).estimate, moved);
+      weighFrames(framesByEffects(study, hidden.columns, hidden.off(Eigen::all, kept), moved(Eigen::all, kept),
+                                  seen_campaign, seen.frames, seen.of(which).estimate.compliance.cwiseMax(0.0)),
+                  result.unexplained ? &without.frames : nullptr, with.frames);
+    }
+    result.budget[at] = weigher.weigh(which, gain, without.of(which).estimate, in_model, with.methods[at].estimate);
     if (!result.unexplained) result.combinations[at] = combinationsOf(hidden, gain, with.methods[at].estimate);
   }
   return result;

@@ -20,6 +20,8 @@ enum class BudgetSource {
   effect,          ///< an effect: of its fitted size where it is in the model, of all that could hide where it is not
   correlation,     ///< what the effects' parts have in common: they are known less well one by one than together
   load_cell_gain,  ///< as declared
+  masses,          ///< the URDF's, as declared
+  tracker_scale,   ///< as declared
   apparent,        ///< between this model and joint springs alone, where no model explains the gap
 };
 
@@ -28,8 +30,22 @@ struct BudgetLine {
   BudgetSource source = BudgetSource::scatter;
   std::optional<effects::Effect> effect;
   bool in_model = false;                 ///< of an effect: fitted, not only possible
+  bool declared = false;                 ///< of an effect: its size is known beforehand from what is declared
   Vector6d variance = Vector6d::Zero();  ///< of c, rad^2/(Nm)^2; negative where a correlation takes away
   Vector6d dof = Vector6d::Zero();       ///< degrees of freedom; 0: known exactly, or from all draws together
+};
+
+/// What the day declares with a standard uncertainty, and what one of these does.
+struct Declared {
+  double gain_sd = 0.0;        ///< of the load cell's scale, a share
+  double cell_angle_sd = 0.0;  ///< of its axes about each of these, rad: of load_cell_misalignment beforehand
+  double cell_point_sd = 0.0;  ///< of its point along each axis, m: of load_point_error beforehand
+
+  struct Column {
+    BudgetSource source = BudgetSource::masses;
+    std::array<Vector6d, 3> compliance;  ///< by Method: change by one standard uncertainty, rad/Nm
+  };
+  std::vector<Column> columns;
 };
 
 /// How far the data let anything besides the fitted model move the stiffnesses.
@@ -52,16 +68,20 @@ struct HiddenEffects {
 /// = c_fit - H (theta - theta_fit): H through the method's own equations (method_equations.h), theta_fit what `with`
 /// was corrected for, theta from its posterior on the study's equations (effect_posterior.h). Draws with a negative
 /// stiffness are left out, and where c_fit itself has one the medians of the rest stand for it. With the scatter
-/// between postures, what frames and calibration share, and the declared gain of the load cell they give each interval
-/// by its quantiles; it is widened to hold c_fit.
+/// between postures, what frames and calibration share, and what is declared (Declared) they give each interval by its
+/// quantiles; it is widened to hold c_fit. Where angles or point of the load cell are declared with an uncertainty,
+/// that is what is known beforehand of the effect that they are.
 ///
 /// Where the model explains too little, half of the draws are those of `without`, joint springs alone: neither is
 /// right.
 ///
+/// The frames of `with` get what the same draws do to them (hidden_frames.h).
+///
 /// `seen`: cases and equations from which H is taken, of postures that the study has; `with` itself where it has all.
+/// `seen_campaign`: what `seen` was identified from.
 HiddenEffects weighHiddenEffects(const diagnosis::GapStudy& study, const EffectFit& fitted,
-                                 const identification::Identification& seen,
-                                 const identification::Identification& without, double gain_sd,
+                                 const campaign::Campaign& seen_campaign, const identification::Identification& seen,
+                                 const identification::Identification& without, const Declared& declared,
                                  identification::Identification& with);
 
 }  // namespace stiffscope::extended_model

@@ -17,6 +17,8 @@ enum class RemarkId {
   not_told_from_stiffnesses,
   // Why a posture is left out.
   not_read_in_all_steps,
+  // What to beware of.
+  residual_beyond_noise,  ///< chi2 per equation of the model, of springs alone, whether no effect explains it
 };
 
 }  // namespace stiffscope::extended_model

@@ -81,16 +81,22 @@ void addWrist(const WristCentre& wrist, Eigen::MatrixXd& covariance) {
 
 }  // namespace
 
-Eigen::MatrixXd FramesCovariance::total(double scale_sd) const {
-  return readings + sag + scale_sd * scale_sd * by_scale * by_scale.transpose();
+Eigen::MatrixXd FramesCovariance::total() const {
+  Eigen::MatrixXd all =
+      readings + sag + scale_sd * scale_sd * by_scale * by_scale.transpose() + by_masses * by_masses.transpose();
+  if (hidden.size() > 0) all += hidden;
+  return all;
 }
 
 FramesCovariance framesCovariance(const std::array<MeasuredAxis, 6>& axes, const ArmInR0& arm,
                                   const std::array<LinkGeometry, 5>& links, const WristCentre& wrist,
                                   std::size_t targets, const Eigen::Vector3d& station) {
   const Eigen::Index size = Layout::kRadii + static_cast<Eigen::Index>(targets);
-  FramesCovariance covariance{Eigen::MatrixXd::Zero(size, size), Eigen::MatrixXd::Zero(size, size),
-                              Eigen::VectorXd::Zero(size)};
+  FramesCovariance covariance{Eigen::MatrixXd::Zero(size, size),
+                              Eigen::MatrixXd::Zero(size, size),
+                              Eigen::VectorXd::Zero(size),
+                              Eigen::VectorXd::Zero(size),
+                              {}};
   if (!arm.points_placed) return covariance;
   const std::vector<metrology::MeasuredLine> lines = axesInR0(axes, arm);
   Eigen::MatrixXd by_axes = Eigen::MatrixXd::Zero(size, 24);
@@ -201,10 +207,12 @@ Frames measureOnce(const campaign::Campaign& campaign, const SagModel& sag) {
   return frames;
 }
 
-/// How the numbers of FramesCovariance differ between two measurements.
-Eigen::VectorXd change(const Frames& from, const Frames& to, std::size_t targets) {
+}  // namespace
+
+Eigen::VectorXd framesDifference(const Frames& from, const Frames& to) {
   using At = FramesCovariance;
-  Eigen::VectorXd numbers = Eigen::VectorXd::Zero(At::kRadii + static_cast<Eigen::Index>(targets));
+  Eigen::VectorXd numbers =
+      Eigen::VectorXd::Zero(At::kRadii + static_cast<Eigen::Index>(from.targets_in_r0_at_zero.size()));
   numbers.segment<6>(At::kR0) =
       metrology::frameError(from.arm.r0_from_points.inverse(), to.arm.r0_from_points.inverse());
   for (std::size_t i = 0; i < from.links.size(); ++i) {
@@ -221,6 +229,8 @@ Eigen::VectorXd change(const Frames& from, const Frames& to, std::size_t targets
   return numbers;
 }
 
+namespace {
+
 /// The part of the covariance that comes from the compliances, by differences of the whole measurement.
 std::optional<Eigen::MatrixXd> sagPart(const Frames& frames, const Vector6d& compliance, const Matrix6d& covariance,
                                        const std::function<Frames(const Vector6d&)>& measuredWith) {
@@ -232,17 +242,20 @@ std::optional<Eigen::MatrixXd> sagPart(const Frames& frames, const Vector6d& com
   for (int joint = 0; joint < 6; ++joint) {
     if (covariance(joint, joint) == 0.0) continue;
     const Frames moved = measuredWith(compliance + kStep * Vector6d::Unit(joint));
-    if (moved.arm.points_placed) by_compliance.col(joint) = change(frames, moved, targets) / kStep;
+    if (moved.arm.points_placed) by_compliance.col(joint) = framesDifference(frames, moved) / kStep;
   }
   return by_compliance * covariance * by_compliance.transpose();
 }
 
 void propagate(const campaign::Campaign& campaign, Frames& frames,
-               const std::optional<Eigen::MatrixXd>& sag = std::nullopt) {
+               const std::optional<Eigen::MatrixXd>& sag = std::nullopt,
+               const std::optional<Eigen::VectorXd>& by_masses = std::nullopt) {
   const Eigen::Vector3d station = campaign.tracker ? campaign.tracker->station : Eigen::Vector3d::Zero();
   frames.covariance =
       framesCovariance(frames.axes, frames.arm, frames.links, frames.wrist, campaign.targets.size(), station);
   if (sag) frames.covariance.sag = *sag;
+  if (by_masses) frames.covariance.by_masses = *by_masses;
+  if (campaign.tracker) frames.covariance.scale_sd = campaign.tracker->scale_sigma;
   stateUncertainties(frames.covariance, frames.axes, frames.arm, frames.links, frames.wrist);
 }
 
@@ -258,10 +271,11 @@ Frames measureFrames(const campaign::Campaign& campaign) {
 Frames refineFrames(const campaign::Campaign& campaign, const Frames& so_far, const Vector6d& compliance,
                     const std::optional<Matrix6d>& covariance) {
   if (!so_far.weight.links_known) return so_far;
-  const auto measuredWith = [&](const Vector6d& c) {
-    return measureOnce(campaign, SagModel(so_far.arm.arm, so_far.weight, c, so_far.targets_in_r0_at_zero,
+  const auto measuredUnder = [&](const robot::GravityLoad& weight, const Vector6d& c) {
+    return measureOnce(campaign, SagModel(so_far.arm.arm, weight, c, so_far.targets_in_r0_at_zero,
                                           so_far.arm.r0_from_points.inverse()));
   };
+  const auto measuredWith = [&](const Vector6d& c) { return measuredUnder(so_far.weight, c); };
   Frames frames = measuredWith(compliance);
   frames.sag_removed = true;
   frames.sag_note = Remark(RemarkId::sag_taken_off);
@@ -269,10 +283,26 @@ Frames refineFrames(const campaign::Campaign& campaign, const Frames& so_far, co
   for (std::size_t i = 0; i < frames.links.size(); ++i) {
     frames.links[i].distance_by_sag = frames.links[i].distance - as_read.links[i].distance;
   }
+  std::optional<Eigen::VectorXd> by_masses;
+  if (campaign.mass_sigma > 0.0 && frames.arm.points_placed) {
+    robot::Robot heavier = campaign.robot;
+    for (robot::BodyMass& body : heavier.bodies) body.mass_kg *= 1.0 + campaign.mass_sigma;
+    const robot::GravityLoad weight = robot::gravityLoad(heavier, campaign.tool, campaign.gravity_in_base,
+                                                         so_far.arm.arm, so_far.arm.r0_from_base_link);
+    by_masses = framesDifference(frames, measuredUnder(weight, compliance));
+  }
   propagate(
       campaign, frames,
-      covariance && covariance->allFinite() ? sagPart(frames, compliance, *covariance, measuredWith) : std::nullopt);
+      covariance && covariance->allFinite() ? sagPart(frames, compliance, *covariance, measuredWith) : std::nullopt,
+      by_masses);
   return frames;
+}
+
+Eigen::VectorXd framesChange(const campaign::Campaign& campaign, const Frames& frames, const Vector6d& compliance) {
+  const Frames other =
+      measureOnce(campaign, SagModel(frames.arm.arm, frames.weight, compliance, frames.targets_in_r0_at_zero,
+                                     frames.arm.r0_from_points.inverse()));
+  return framesDifference(frames, other);
 }
 
 std::optional<Eigen::Isometry3d> r0FromTable(const Frames& frames, campaign::PointFrame table_frame) {

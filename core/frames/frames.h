@@ -94,9 +94,15 @@ struct FramesCovariance {
   Eigen::MatrixXd sag;       ///< by the covariance of the stiffnesses with which the arm's sag was taken off
   Eigen::VectorXd by_scale;  ///< how a relative error of the tracker's scale, common to all readings, moves each
 
-  /// `scale_sd` is the relative standard uncertainty of the tracker's scale. The campaign format has none; 1 K of air
-  /// temperature that is not known makes 1e-6 (Edlen's equation of the refractive index of air).
-  Eigen::MatrixXd total(double scale_sd = 0.0) const;
+  /// How one declared standard uncertainty of the URDF's masses, common to all, moves each through the sag.
+  Eigen::VectorXd by_masses;
+  /// By what could give besides joint springs under the own weight (extended_model::hiddenFrames); empty: not weighed.
+  Eigen::MatrixXd hidden;
+  /// Relative standard uncertainty of the tracker's scale as declared; 1 K of air temperature that is not known makes
+  /// 1e-6 (Edlen's equation of the refractive index of air).
+  double scale_sd = 0.0;
+
+  Eigen::MatrixXd total() const;
   metrology::FrameCovariance r0() const { return total().topLeftCorner<6, 6>(); }
 };
 
@@ -139,9 +145,17 @@ Frames measureFrames(const campaign::Campaign& campaign);
 /// far. Its error is that of `so_far` shrunk about a thousandfold. Where masses are not known, `so_far` with a note.
 /// `covariance` of the compliances, where it is given and finite, is propagated into that of the frames, by differences
 /// of the whole measurement. It knows nothing of what is wrong with a sag by joint springs alone: bearings that
-/// give across their axes bend the arm too, and falsify the springs; LinkGeometry::distance_by_sag shows the stake.
+/// give across their axes bend the arm too, and falsify the springs; LinkGeometry::distance_by_sag shows the stake, and
+/// FramesCovariance::hidden weighs it.
 Frames refineFrames(const campaign::Campaign& campaign, const Frames& so_far, const Vector6d& compliance,
                     const std::optional<Matrix6d>& covariance = std::nullopt);
+
+/// How the numbers of FramesCovariance differ between two measurements of the same sweeps, in their order.
+Eigen::VectorXd framesDifference(const Frames& from, const Frames& to);
+
+/// What these sweeps give with the sag of `frames` taken off by these compliances, less `frames`: the numbers of
+/// FramesCovariance in their order. Of a campaign with the tables and targets that `frames` was measured from.
+Eigen::VectorXd framesChange(const campaign::Campaign& campaign, const Frames& frames, const Vector6d& compliance);
 
 /// r0_from_points for a table: the measured frame for readings in the sweeps' frame; for readings in base_link with
 /// sweeps by the tracker, or none, the URDF's. Empty where the frame of the table is not known in R0.

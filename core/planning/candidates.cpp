@@ -159,6 +159,8 @@ PlanningArm planningArm(const campaign::Campaign& campaign, const identification
   PlanningArm arm;
   arm.geometry = geometryFor(campaign, identified);
   arm.repeats = inputs.repeats;
+  arm.effects = inputs.effects;
+  if (arm.effects) arm.assumed.emplace_back(RemarkId::effects_as_known_now);
   arm.outward_in_flange = outwardInFlange(arm.geometry.arm);
   if (campaign.load_cell) {
     arm.cell = *campaign.load_cell;
@@ -362,11 +364,23 @@ Candidate candidateAt(const PlanningArm& arm, const Vector6d& q, const Eigen::Ve
   const Eigen::Isometry3d flange = robot::flangeAt(arm.geometry.arm, posture);
   load_case.wrench = {flange * arm.hook_in_flange, arm.load * direction, Eigen::Vector3d::Zero()};
   const Vector6d torque = robot::jointTorque(load_case.axes, load_case.wrench);
-  for (const Eigen::Vector3d& target : arm.targets_in_flange) {
-    const Eigen::Vector3d point = flange * target;
+  Eigen::MatrixXd moves;
+  if (arm.effects) moves = arm.effects.moves(q, load_case.wrench.force, arm.hook_in_flange, arm.targets_in_flange);
+  Eigen::MatrixXd among = Eigen::MatrixXd::Identity(moves.cols(), moves.cols());  // I + E^T S^-1 E, S noise alone
+  Eigen::MatrixXd across = Eigen::MatrixXd::Zero(moves.cols(), 6);                // E^T S^-1 A
+  for (std::size_t k = 0; k < arm.targets_in_flange.size(); ++k) {
+    const Eigen::Vector3d point = flange * arm.targets_in_flange[k];
     const Matrix36d rows = identification::pointRows(load_case.axes, point, torque);
-    candidate.information += rows.transpose() * arm.displacementCovariance(point).llt().solve(rows);
+    const Eigen::LLT<Eigen::Matrix3d> noise(arm.displacementCovariance(point));
+    const Matrix36d weighed = noise.solve(rows);
+    candidate.information += rows.transpose() * weighed;
+    if (moves.cols() == 0) continue;
+    const Eigen::MatrixXd own = moves.middleRows<3>(static_cast<Eigen::Index>(3 * k));
+    among += own.transpose() * noise.solve(own);
+    across += own.transpose() * weighed;
   }
+  // The inverse of S + E E^T by Woodbury.
+  if (moves.cols() > 0) candidate.information -= across.transpose() * among.llt().solve(across);
   return candidate;
 }
 

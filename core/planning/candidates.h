@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -12,6 +13,19 @@
 
 namespace stiffscope::planning {
 
+/// What is not known of the effects that the model has besides joint springs, as far as the data gave their sizes; what
+/// else could hide is not in it.
+struct EffectDoubt {
+  /// How reflectors (places in the flange, m) move at joint angles q under a load (force R0, N; point in the flange, m)
+  /// by one standard uncertainty of each independent direction of it: 3 rows a reflector, R0, m. Empty: no effects.
+  std::function<Eigen::MatrixXd(const Vector6d& q, const Eigen::Vector3d& force, const Eigen::Vector3d& point_in_flange,
+                                const std::vector<Eigen::Vector3d>& targets_in_flange)>
+      moves;
+  std::array<Matrix6d, 3> covariance;  ///< by Method: what it brings to the identified compliances, (rad/Nm)^2
+
+  explicit operator bool() const { return static_cast<bool>(moves); }
+};
+
 /// What the user says of the day to come. Places in base_link or flange axes, m.
 struct PlanningInputs {
   std::optional<double> load;  ///< N; empty: the mean force of the campaign's heaviest step
@@ -21,6 +35,7 @@ struct PlanningInputs {
   std::optional<Eigen::Vector3d> tracker_in_base;  ///< the station; empty: where the sweeps place it
   int repeats = 3;                                 ///< readings of a reflector in a state: their mean has less noise
   double tracker_sigma = 20e-6;                    ///< m per coordinate, where the campaign declares no tracker
+  EffectDoubt effects;                             ///< of the model that identified; empty: joint springs alone
 };
 
 /// What a plan is made for: the arm in R0 with its reflectors, load and tracker, as far as they are known.
@@ -37,6 +52,7 @@ struct PlanningArm {
   double sigma = 0.0;                            ///< m per coordinate of one reading, where `noise` is empty
   double misfit = 0.0;                           ///< m per coordinate: what the identified model leaves, 0 if unknown
   int repeats = 1;
+  EffectDoubt effects;          ///< as in PlanningInputs
   std::vector<Remark> assumed;  ///< what was taken for granted
 
   /// Covariance of a reflector's displacement at `point` (R0), m^2: unloaded and loaded means, and the
@@ -87,8 +103,9 @@ struct Candidate {
   Vector6d q = Vector6d::Zero();                        ///< rad
   Eigen::Vector3d direction = Eigen::Vector3d::Zero();  ///< of the load, unit, R0
   identification::LoadCase load_case;                   ///< posture and wrench, R0; no readings
-  /// Of the compliances c: sum over the reflectors of A^T S^-1 A, A = J_m diag(J_w^T W) as in paper (12), S
-  /// the covariance of the reflector's displacement. (Nm/rad)^2.
+  /// Of the compliances c: A^T S^-1 A over the posture's reflectors, A = J_m diag(J_w^T W) as in paper (12), S the
+  /// covariance of their displacements: noise and misfit, and E E^T with E the moves by the effects' uncertainty
+  /// (EffectDoubt), as if a new draw of them in every posture. (Nm/rad)^2.
   Matrix6d information = Matrix6d::Zero();
 };
 

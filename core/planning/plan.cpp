@@ -1,6 +1,7 @@
 #include "core/planning/plan.h"
 
 #include <fmt/format.h>
+#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -114,6 +115,7 @@ class Planner {
     plan_.measured = static_cast<int>(identified_->cases.size());
     for (std::size_t i = 0; i < identified_->cases.size(); ++i)
       addMeasured(identified_->cases[i], reference_->target_rows[i]);
+    if (options_.inputs.effects) loosenBy(options_.inputs.effects.covariance[methodOf(reference_)]);
     plan_.sd_measured = standardDeviations(problem_.known, plan_.unknown);
   }
 
@@ -130,6 +132,24 @@ class Planner {
       if (alike(plan_.arm, candidates_[a], measured, options_.least_separation)) problem_.barred[a] = 1;
     }
     measured_.push_back(std::move(measured));
+  }
+
+  std::size_t methodOf(const identification::MethodResult* method) const {
+    return static_cast<std::size_t>(method - identified_->methods.data());
+  }
+
+  /// What is measured, with the covariance that the model's effects bring to the compliances: all postures share it.
+  void loosenBy(const Matrix6d& covariance) {
+    std::vector<Eigen::Index> joints;
+    for (Eigen::Index j = 0; j < 6; ++j) {
+      if (plan_.unknown[static_cast<std::size_t>(j)] && problem_.known(j, j) > 0.0) joints.push_back(j);
+    }
+    const Eigen::MatrixXd known = problem_.known(joints, joints), more = covariance(joints, joints);
+    // (N^-1 + C)^-1 = N (I + C N)^-1
+    const Eigen::MatrixXd both = Eigen::MatrixXd::Identity(known.rows(), known.cols()) + more * known;
+    const Eigen::MatrixXd loose = known * both.partialPivLu().inverse();
+    problem_.known.setZero();
+    problem_.known(joints, joints) = 0.5 * (loose + loose.transpose());
   }
 
   std::string freeId(int& number) const {

@@ -10,6 +10,7 @@ enum class RemarkId {
   load_where_measured,  ///< where it acts, flange axes m
   load_at_cell,
   tracker_not_placed,
+  effects_as_known_now,
   noise_not_declared,  ///< standard deviation per coordinate m
   // Why there is no plan.
   no_joint_seen,

@@ -56,9 +56,9 @@ std::vector<std::size_t> evenlySpreadIndices(std::size_t count, std::size_t most
 
 campaign::Campaign evenlySpread(const campaign::Campaign& campaign, std::size_t most, std::size_t most_swept) {
   // All of a Campaign by name: one more member does not compile until it is copied here.
-  const auto& [folder, name, date, texts, robot, base_link, flange_link, double_encoder, gravity, tracker, targets,
-               load_cell, tool, circle_sweeps, wrist_sweep, loading, states, displacements, nests, pose_ids, nest_ids,
-               inputs] = campaign;
+  const auto& [folder, name, date, texts, robot, base_link, flange_link, double_encoder, gravity, mass_sigma, tracker,
+               targets, load_cell, tool, circle_sweeps, wrist_sweep, loading, states, displacements, nests, pose_ids,
+               nest_ids, inputs] = campaign;
   std::vector<int> now(pose_ids.size(), kNotKept);
   std::vector<std::string> kept_ids;
   for (const std::size_t posture : evenlySpreadIndices(pose_ids.size(), most)) {
@@ -75,6 +75,7 @@ campaign::Campaign evenlySpread(const campaign::Campaign& campaign, std::size_t 
           flange_link,
           double_encoder,
           gravity,
+          mass_sigma,
           tracker,
           targets,
           load_cell,

@@ -34,8 +34,10 @@ Json jointsJson(const comparison::StiffnessChange& change, bool ratios_hold) {
       addDifference(joint, row);
       row["before"] = number(joint.before.value);
       row["sd_before"] = number(joint.before.sd);
+      row["u_before"] = number(joint.before.expanded());
       row["after"] = number(joint.after.value);
       row["sd_after"] = number(joint.after.sd);
+      row["u_after"] = number(joint.after.expanded());
       row["unit"] = "Nm/rad";
       row["ratio"] = number(joint.ratio.value);
       row["sd_ratio"] = number(joint.ratio.sd);
@@ -95,6 +97,7 @@ Json avoidedJson(const comparison::DeflectionAvoided& avoided, const char* place
 Json changeJson(const comparison::StiffnessChange& change, bool ratios_hold) {
   if (!change.available) return {{"unavailable", words(change.reason)}};
   return {{"same_postures", change.same_postures},
+          {"by_models", change.by_models},
           {"postures", change.postures},
           {"joints", jointsJson(change, ratios_hold)},
           {"avoided_rest_at_targets", number(change.avoided_rest)}};
@@ -109,7 +112,7 @@ Json comparisonJson(const campaign::Campaign& before, const campaign::Campaign& 
   const bool any = comparison.of(best).available;
   json["method"] = any ? Json(namesOf(best).key) : Json(nullptr);
   json["shown_first"] = shownFirstJson(comparison.shown_first);
-  const bool ratios_hold = comparison.residual.isNoise();
+  const bool ratios_hold = comparison.ratiosHold();
   json["joints"] = any ? jointsJson(comparison.of(best), ratios_hold) : Json::array();
   Json methods;
   for (const identification::Method method : identification::kMethods) {

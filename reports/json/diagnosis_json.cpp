@@ -6,6 +6,7 @@
 
 #include "core/io/units.h"
 #include "reports/words/effect_words.h"
+#include "reports/words/names.h"
 #include "reports/words/remark_words.h"
 
 namespace stiffscope::reports {
@@ -75,6 +76,15 @@ Json stiffnessJson(const diagnosis::Diagnosis& diagnosis, const Vector6d& values
 
 }  // namespace
 
+Json withNext(Json json, const std::vector<diagnosis::NextMeasurement>& measurements) {
+  Json next = Json::array();
+  for (const diagnosis::NextMeasurement& one : measurements)
+    next.push_back(
+        {{"separates", idsOf(one.separates)}, {"measure", words(one.what)}, {"gain_chi2", number(one.gain)}});
+  json["next"] = next;
+  return json;
+}
+
 Json diagnosisJson(const campaign::Campaign& campaign, const diagnosis::Diagnosis& diagnosis) {
   Json json{{"campaign", campaignJson(campaign)}, {"usable", diagnosis.usable}};
   if (!diagnosis.usable) {
@@ -86,7 +96,7 @@ Json diagnosisJson(const campaign::Campaign& campaign, const diagnosis::Diagnosi
   for (const diagnosis::VerdictEntry& entry : diagnosis.verdict.entries) details.push_back(entry.detail);
   json["verdict_details"] = details;
   json["reason"] = reasonWords(diagnosis.verdict);
-  Json classes = Json::array(), aliases = Json::array(), next = Json::array();
+  Json classes = Json::array(), aliases = Json::array();
   for (const diagnosis::EffectClass& one : diagnosis.classes)
     classes.push_back(classJson(one, diagnosis.positions_tested));
   for (const auto& group : diagnosis.aliases) aliases.push_back(idsOf(group));
@@ -120,14 +130,20 @@ Json diagnosisJson(const campaign::Campaign& campaign, const diagnosis::Diagnosi
   json["stiffness_before_nm_per_rad"] = stiffnessJson(diagnosis, diagnosis.stiffness_before);
   json["stiffness_after_nm_per_rad"] = stiffnessJson(diagnosis, diagnosis.stiffness_after);
   json["stiffness_after_sd_nm_per_rad"] = stiffnessJson(diagnosis, diagnosis.stiffness_after_sd);
+  if (diagnosis.stated) {
+    json["stiffness_by"] = namesOf(diagnosis.stated->method).key;
+    json["stiffness_u_nm_per_rad"] = stiffnessJson(diagnosis, diagnosis.stated->expanded);
+    Json intervals = Json::array();
+    for (std::size_t j = 0; j < 6; ++j) {
+      const identification::CoverageInterval& one = diagnosis.stated->interval[j];
+      intervals.push_back(diagnosis.identifiable[j] ? Json{number(one.low), number(one.high)} : Json(nullptr));
+    }
+    json["stiffness_interval_nm_per_rad"] = intervals;
+  }
   json["where"] = tablesJson(diagnosis.where);
   json["where_after"] = tablesJson(diagnosis.where_after);
   if (diagnosis.positions_tested) json["where_positions"] = tablesJson(diagnosis.where_positions);
-  for (const diagnosis::NextMeasurement& one : diagnosis.next)
-    next.push_back(
-        {{"separates", idsOf(one.separates)}, {"measure", words(one.what)}, {"gain_chi2", number(one.gain)}});
-  json["next"] = next;
-  return json;
+  return withNext(std::move(json), diagnosis.next);
 }
 
 namespace {

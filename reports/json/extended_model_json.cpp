@@ -120,6 +120,7 @@ Json budgetJson(const std::vector<extended_model::BudgetLine>& budget,
       dof.push_back(seen && line.dof[j] > 0.0 ? number(line.dof[j]) : Json(nullptr));
     }
     rows.push_back({{"source", budgetKey(line)}, {"in_model", line.in_model}, {"u_nm_per_rad", u}, {"dof", dof}});
+    if (line.declared) rows.back()["declared"] = true;
   }
   return rows;
 }

@@ -21,6 +21,7 @@ struct CompensatedPosture;
 }
 namespace stiffscope::diagnosis {
 struct Diagnosis;
+struct NextMeasurement;
 struct SpikeStudy;
 }  // namespace stiffscope::diagnosis
 namespace stiffscope::extended_model {
@@ -65,6 +66,9 @@ Json compensationJson(const campaign::Campaign& campaign, identification::Method
 /// The result of `diagnose`. `verdict` is a list of lists of effect ids: the outer names all that is present,
 /// an inner one what this data cannot tell apart; [["none"]], or ["unknown"] among them.
 Json diagnosisJson(const campaign::Campaign& campaign, const diagnosis::Diagnosis& diagnosis);
+
+/// Adds `next`: measurements that would tell effects apart, or make one testable.
+Json withNext(Json json, const std::vector<diagnosis::NextMeasurement>& measurements);
 
 /// The result of `diagnose --spike`: that of `diagnose` with `spike`: seed, draws, baseline (the verdict without any
 /// effect added), effects (effect, detectable_um and reason where it was not added, in_baseline, sizes: times, size_um,

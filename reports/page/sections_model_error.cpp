@@ -165,10 +165,13 @@ reports::Table whereTable(const diagnosis::Diagnosis& diagnosis) {
 }
 
 reports::Table stiffnessTable(const diagnosis::Diagnosis& diagnosis) {
+  const bool stated = diagnosis.stated.has_value();
   reports::Table table{
-      "Joint stiffness in the diagnosis, by joint springs alone and with the verdict's effects in the model, "
-      "k ± u, "
-      "10⁶\u00a0Nm/rad",
+      stated ? fmt::format("Joint stiffness by {}, by joint springs alone and with the effects in the model, k ± U, "
+                           "10⁶\u00a0Nm/rad",
+                           reports::namesOf(diagnosis.stated->method).full)
+             : std::string("Joint stiffness in the diagnosis, by joint springs alone and with the verdict's effects in "
+                           "the model, k ± u, 10⁶\u00a0Nm/rad"),
       {"Joint", "Alone", "With the effects"},
       {},
       false,
@@ -176,9 +179,10 @@ reports::Table stiffnessTable(const diagnosis::Diagnosis& diagnosis) {
   reports::RowGroup group;
   for (int j = 0; j < 6; ++j) {
     if (!diagnosis.identifiable[static_cast<std::size_t>(j)]) continue;
-    const double sd = kPerMega * diagnosis.stiffness_after_sd[j];
-    group.rows.push_back({reports::jointName(j), reports::toPlaceOf(kPerMega * diagnosis.stiffness_before[j], sd),
-                          reports::withUncertainty(kPerMega * diagnosis.stiffness_after[j], sd)});
+    const double plus_minus = kPerMega * (stated ? diagnosis.stated->expanded[j] : diagnosis.stiffness_after_sd[j]);
+    group.rows.push_back({reports::jointName(j),
+                          reports::toPlaceOf(kPerMega * diagnosis.stiffness_before[j], plus_minus),
+                          reports::withUncertainty(kPerMega * diagnosis.stiffness_after[j], plus_minus)});
   }
   table.groups.push_back(std::move(group));
   return table;
@@ -222,15 +226,12 @@ void writeDiagnosis(Html& html, const diagnosis::Diagnosis& diagnosis) {
   writeTable(html, classesTable(diagnosis));
   if (!reports::namedWords(diagnosis.verdict).empty()) {
     writeTable(html, stiffnessTable(diagnosis));
-    html.paragraph(
-        "These stiffnesses are not those of Joint stiffness: the diagnosis fits all load steps together, "
-        "sweeps and unloaded "
-        "positions beside them, and its u is one standard uncertainty by weights of the noise; there k is of "
-        "one load step and U "
-        "is expanded (about 95\u00a0%), from the scatter between postures. The stiffnesses to use are those "
-        "of Joint stiffness, "
-        "with the effects where a report is made with them (--with auto).",
-        "faint");
+    if (!diagnosis.stated) {
+      html.paragraph(
+          "No method of identification gives stiffnesses here: these are of the diagnosis's own fit of all load steps, "
+          "and u is one standard uncertainty by weights of the noise.",
+          "faint");
+    }
   }
   writeTable(html, whereTable(diagnosis));
   writeNotTestable(html, diagnosis);

@@ -129,6 +129,8 @@ void writeTaken(Html& html, const reports::AvoidedByEncoders& avoided) {
                                 "Differences of compliances fitted on the {} postures of both states: what both "
                                 "share cancels.",
                                 avoided.by_joint.postures)
+                      : avoided.by_joint.by_models
+                          ? std::string("Differences of the compliances of each day's own model.")
                           : std::string(
                                 "Differences of compliances fitted on other postures: what the model misses does not "
                                 "cancel.");

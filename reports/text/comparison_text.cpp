@@ -71,6 +71,7 @@ void writeMethod(const comparison::StiffnessChange& change, identification::Meth
     return;
   }
   const std::string from = change.same_postures ? fmt::format("the {} postures of both", change.postures)
+                           : change.by_models   ? std::string("each day's own model")
                                                 : std::string("all postures of each");
   fmt::format_to(out, "\n{}: compliance after - before from {}, +- U (95 %)\n", namesOf(method).full, from);
   writeDifferences(change, out);
@@ -100,9 +101,13 @@ void writeLegend(const comparison::Comparison& comparison, Out out) {
     text += fmt::format(", {:.1f} um of the difference", micrometres(left.of_difference));
   }
   text += left.isNoise() ? ". It is noise, as far as it shows: ratios of stiffnesses hold."
-                         : ". It is more than noise, or not known to be noise: the stiffnesses are apparent ones, and "
-                           "ratios (in brackets) and shares of the compliance before keep the bias of both. The "
-                           "difference of compliances does not, as far as both states miss the same.";
+          : comparison.models_hold
+              ? ". It is more than noise: differences of compliances on the same postures are by springs alone, where "
+                "what both states miss cancels; stiffnesses and ratios are of each day's own model, with the effects "
+                "that it shows."
+              : ". It is more than noise, or not known to be noise: the stiffnesses are apparent ones, and "
+                "ratios (in brackets) and shares of the compliance before keep the bias of both. The "
+                "difference of compliances does not, as far as both states miss the same.";
   fmt::format_to(out, "  {}\n", wrapped(text, 2));
 }
 
@@ -146,9 +151,9 @@ std::string comparisonText(const campaign::Campaign& before, const campaign::Cam
     if (comparison.shown_first)
       fmt::format_to(out, "\n{}\n", wrapped(fmt::format("Shown first: {}.", words(comparison.shown_first->reason)), 2));
     const identification::Method first = comparison.best();
-    writeMethod(comparison.of(first), first, comparison.residual.isNoise(), out);
+    writeMethod(comparison.of(first), first, comparison.ratiosHold(), out);
     for (const identification::Method method : identification::kMethods) {
-      if (method != first) writeMethod(comparison.of(method), method, comparison.residual.isNoise(), out);
+      if (method != first) writeMethod(comparison.of(method), method, comparison.ratiosHold(), out);
     }
     writeLegend(comparison, out);
     if (comparison.judgedAtWrist()) writeShare(comparison.at_wrist, "P_wrist", out);

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <string>
 #include <utility>
@@ -13,6 +14,7 @@
 #include "core/diagnosis/spike_study.h"
 #include "core/io/units.h"
 #include "reports/words/effect_words.h"
+#include "reports/words/names.h"
 #include "reports/words/numbers.h"
 #include "reports/words/remark_words.h"
 
@@ -83,18 +85,34 @@ void writeTables(const std::vector<diagnosis::WhereTable>& tables, const char* t
   }
 }
 
+/// "+-0.1234", "+-?" where the interval is open.
+std::string expandedCell(double expanded) {
+  return std::isfinite(expanded) ? fmt::format("+-{:.4f}", 1e-6 * expanded) : "+-?";
+}
+
+/// As identification states them; where it has none, of the diagnosis's own fit.
 void writeStiffnesses(const diagnosis::Diagnosis& diagnosis, Out out) {
-  fmt::format_to(
-      out,
-      "\nStiffness, 1e6 Nm/rad      before     after         u  (all load steps together; one standard uncertainty)\n");
+  if (diagnosis.stated) {
+    fmt::format_to(out,
+                   "\nStiffness, 1e6 Nm/rad, by {}, with its expanded uncertainty U (coverage 95 %)\n  {:<18}{:>12}"
+                   "{:>20}\n",
+                   namesOf(diagnosis.stated->method).brief, "", "springs only", "with the model");
+  } else {
+    fmt::format_to(out,
+                   "\nStiffness, 1e6 Nm/rad      before     after         u  (all load steps together; one standard "
+                   "uncertainty)\n");
+  }
   for (int j = 0; j < 6; ++j) {
     if (!diagnosis.identifiable[static_cast<std::size_t>(j)]) {
       fmt::format_to(out, "  joint {}           not identifiable\n", j + 1);
-      continue;
+    } else if (diagnosis.stated) {
+      fmt::format_to(out, "  joint {}           {:>12.4f}{:>12.4f} {}\n", j + 1, 1e-6 * diagnosis.stiffness_before[j],
+                     1e-6 * diagnosis.stiffness_after[j], expandedCell(diagnosis.stated->expanded[j]));
+    } else {
+      fmt::format_to(out, "  joint {}              {:>10.4f}{:>10.4f}{:>10.4f}\n", j + 1,
+                     1e-6 * diagnosis.stiffness_before[j], 1e-6 * diagnosis.stiffness_after[j],
+                     1e-6 * diagnosis.stiffness_after_sd[j]);
     }
-    fmt::format_to(out, "  joint {}              {:>10.4f}{:>10.4f}{:>10.4f}\n", j + 1,
-                   1e-6 * diagnosis.stiffness_before[j], 1e-6 * diagnosis.stiffness_after[j],
-                   1e-6 * diagnosis.stiffness_after_sd[j]);
   }
   fmt::format_to(out, "  K_c (no free parameter) changes the joint torques by {:.2f} %\n",
                  100.0 * diagnosis.geometric_stiffness_share);
@@ -139,8 +157,12 @@ std::string diagnosisText(const campaign::Campaign& campaign, const diagnosis::D
   writeTables(diagnosis.where_positions, "Where the gap of unloaded positions lies", out);
   writeStiffnesses(diagnosis, out);
   writeLimits(diagnosis, out);
-  for (const diagnosis::NextMeasurement& one : diagnosis.next)
-    fmt::format_to(out, "Next: {}\n", wrapped(words(one.what), 2));
+  return text + nextText(diagnosis.next);
+}
+
+std::string nextText(const std::vector<diagnosis::NextMeasurement>& next) {
+  std::string text;
+  for (const diagnosis::NextMeasurement& one : next) text += fmt::format("Next: {}\n", wrapped(words(one.what), 2));
   return text;
 }
 

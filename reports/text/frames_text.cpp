@@ -46,7 +46,8 @@ void writeAxes(const frames::Frames& frames, Out out) {
   }
 }
 
-/// The uncertainties hold what the stiffnesses leave open, not what a sag by joint springs alone gets wrong.
+/// The uncertainties hold what the stiffnesses leave open, and where that was weighed what a sag by joint springs alone
+/// gets wrong.
 void writeSagStake(const frames::Frames& frames, Out out) {
   fmt::format_to(out, "  taking off the sag moved the distances by");
   for (std::size_t i = 0; i < frames.links.size(); ++i) {
@@ -55,7 +56,9 @@ void writeSagStake(const frames::Frames& frames, Out out) {
                    unsignedZero(link.distance_by_sag / io::kMillimetre, 3),
                    expanded(link.distance_sag_sd) / io::kMillimetre);
   }
-  fmt::format_to(out, " mm;\n  +- holds the stiffnesses' uncertainty, not bearings that give across their axes\n");
+  fmt::format_to(out, " mm;\n  +- holds the stiffnesses' uncertainty, {}\n",
+                 frames.covariance.hidden.size() > 0 ? "and what could hide besides joint springs under the own weight"
+                                                     : "not bearings that give across their axes");
 }
 
 void writeLinks(const frames::Frames& frames, Out out) {

@@ -19,6 +19,7 @@ struct CompensatedPosture;
 }
 namespace stiffscope::diagnosis {
 struct Diagnosis;
+struct NextMeasurement;
 struct SpikeStudy;
 }  // namespace stiffscope::diagnosis
 namespace stiffscope::extended_model {
@@ -60,6 +61,9 @@ std::string compensationText(const campaign::Campaign& campaign, identification:
 /// The diagnosis for people: the verdict with its reason, the candidates with how far each shrinks the gap,
 /// where the gap lies, stiffnesses before and after, what could not be tested and what to measure next.
 std::string diagnosisText(const campaign::Campaign& campaign, const diagnosis::Diagnosis& diagnosis);
+
+/// What to measure to tell effects apart, a line each.
+std::string nextText(const std::vector<diagnosis::NextMeasurement>& next);
 
 /// How often each effect was named that was added to the day's readings, by size, and what else was said.
 std::string spikeText(const diagnosis::Diagnosis& baseline, const diagnosis::SpikeStudy& study);

@@ -37,6 +37,12 @@ std::string extendedModelWords(extended_model::RemarkId id, const RemarkValues& 
              "machine has";
     case not_read_in_all_steps:
       return "no reflector read in all its load steps, so the effects cannot be taken off";
+    case residual_beyond_noise:
+      return fmt::format(
+                 "more than noise is left in the readings: {:.3g} times its chi-square, {:.3g} by springs alone",
+                 values.number(0), values.number(1)) +
+             (values.count(2) != 0 ? "; no effect that is known here explains it, and the stiffnesses are apparent ones"
+                                   : "");
   }
   return {};
 }

@@ -66,6 +66,10 @@ std::string budgetKey(const extended_model::BudgetLine& line) {
       return "correlation_of_effects";
     case BudgetSource::load_cell_gain:
       return "load_cell_gain";
+    case BudgetSource::masses:
+      return "masses";
+    case BudgetSource::tracker_scale:
+      return "tracker_scale";
     case BudgetSource::apparent:
       return "apparent";
   }
@@ -84,11 +88,16 @@ std::string budgetWords(const extended_model::BudgetLine& line) {
     case BudgetSource::geometry:
       return "calibrated geometry";
     case BudgetSource::effect:
-      return fmt::format("{}, {}", effectName(*line.effect), line.in_model ? "as fitted" : "could hide");
+      return fmt::format("{}, {}", effectName(*line.effect),
+                         line.in_model ? "as fitted" : (line.declared ? "as declared" : "could hide"));
     case BudgetSource::correlation:
       return "effects in common";
     case BudgetSource::load_cell_gain:
       return "load cell's scale";
+    case BudgetSource::masses:
+      return "masses, as declared";
+    case BudgetSource::tracker_scale:
+      return "tracker's scale, as declared";
     case BudgetSource::apparent:
       return "no model explains the gap";
   }
@@ -111,9 +120,7 @@ std::string residualWords(const extended_model::ExtendedModel& model) {
                       "; {:.0f} % of the gap is explained by no effect that is known here: values are apparent "
                       "ones, and the intervals hold what springs alone say, too.",
                       100.0 * hidden.unexplained_share);
-  constexpr double kNotNoise = 1.25;
-  const double left = model.effects.added.empty() ? hidden.lack_of_fit : hidden.left_over;
-  if (left > kNotNoise) return text + "; what is left is more than noise, and in the scatter between postures.";
+  if (!model.residualIsNoise()) return text + "; what is left is more than noise, and in the scatter between postures.";
   return text + "; 1 is noise.";
 }
 

@@ -197,6 +197,11 @@ std::string identificationWords(identification::RemarkId id, const RemarkValues&
       return outlyingWords(values);
     case RemarkId::mostly_noise:
       return "the tracker's noise is more than half of the deflection: this load step hardly moves the arm";
+    case RemarkId::sag_in_sweeps_weighed:
+      return fmt::format(
+          "axes and lengths stand on sweeps from which up to {:.1f} mm of the arm's own sag was taken off by the "
+          "identified stiffnesses; what could hide in these is in the stated uncertainties",
+          values.number(0) / io::kMillimetre);
     case RemarkId::sag_in_sweeps:
       return fmt::format(
           "axes and lengths stand on sweeps from which up to {:.1f} mm of the arm's own sag was taken off by the "

@@ -30,6 +30,10 @@ std::string planningWords(planning::RemarkId id, const RemarkValues& values) {
     case tracker_not_placed:
       return "no line of sight is looked at, and noise is the same everywhere: where the tracker will stand is not "
              "known (--tracker)";
+    case effects_as_known_now:
+      return "the effects in the model, known as well as the measured postures know them; what else could hide is in "
+             "no "
+             "line of these uncertainties";
     case noise_not_declared:
       return fmt::format("{:.0f} um of noise in each coordinate of a reading: no tracker is declared",
                          1e6 * values.number(0));

@@ -265,12 +265,20 @@ TEST(Page, TheDiagnosisSaysWhatToDo) {
   const std::string page = page::reportPage(content);
   EXPECT_TRUE(has(page, "Besides joint springs the readings show load cell bias (see What the model misses)."));
   EXPECT_TRUE(has(page, "load cell bias: a constant force is added to the loaded readings"));
-  EXPECT_TRUE(has(page, "its u is one standard uncertainty by weights of the noise"));
+  EXPECT_TRUE(has(page, "and u is one standard uncertainty by weights of the noise"));
   EXPECT_TRUE(has(page, "<li>Tare the cell with nothing hanging"));
   EXPECT_TRUE(has(page, "<li>To tell load cell bias and hysteresis apart, measure a posture"));
   EXPECT_TRUE(has(page, "Stiffnesses alone leave 30.0 µm rms"));
   EXPECT_LT(page.find("id=\"gap\""), page.find("<figure"));  // its figure stands in it
   EXPECT_FALSE(has(page, "id=\"figures\""));
+  // As identify states them.
+  diagnosis.stated.emplace().method = identification::Method::partial_pose;
+  diagnosis.stated->expanded[1] = 0.3e6;
+  diagnosis.identifiable[1] = true;
+  diagnosis.stiffness_before[1] = 4.0e6, diagnosis.stiffness_after[1] = 5.0e6;
+  EXPECT_TRUE(has(page::reportPage(content), "Joint stiffness by Partial Pose, by joint springs alone and with"));
+  EXPECT_TRUE(has(page::reportPage(content), "5.00 ± 0.30"));
+  EXPECT_FALSE(has(page::reportPage(content), "one standard uncertainty by weights of the noise"));
   diagnosis.verdict.entries.clear();
   EXPECT_TRUE(has(page::reportPage(content), "Joint springs are enough for this machine"));
 }

@@ -50,6 +50,10 @@ TEST(ResultRemarks, OfAModelAndItsUse) {
   EXPECT_EQ(reports::words(Remark(extended_model::RemarkId::taken_of_a_class, std::string("hysteresis"),
                                   std::vector<std::string>{"backlash", "load_cell_bias"})),
             "hysteresis is added because it fits best; this data cannot tell it from backlash or load_cell_bias");
+  EXPECT_EQ(
+      reports::words(Remark(extended_model::RemarkId::residual_beyond_noise, 4.104, 6.9, true)),
+      "more than noise is left in the readings: 4.1 times its chi-square, 6.9 by springs alone; no effect that is "
+      "known here explains it, and the stiffnesses are apparent ones");
   EXPECT_EQ(reports::words(Remark(compensation::RemarkId::command_outside_limits, 2, 190.25 * io::kDegree, -io::kDegree,
                                   180 * io::kDegree)),
             "joint 2 would have to go to 190.250 deg, outside its limits -1.0 to 180.0 deg");

@@ -139,6 +139,22 @@ TEST(ReadCampaign, LoadCellAxesReplaceItsRotation) {
   EXPECT_TRUE(c.load_cell->parent_from_cell.linear().isIdentity(0.0));
 }
 
+TEST(ReadCampaign, DeclaredUncertaintiesInTheirUnits) {
+  const SmallCampaign files;
+  const campaign::Campaign plain = campaign::readCampaign(files.folder()).campaign;
+  EXPECT_EQ(plain.mass_sigma + plain.tracker->scale_sigma + plain.load_cell->angle_sigma + plain.load_cell->point_sigma,
+            0.0);
+  files.alter("campaign.xml", "<robot ", "<robot mass_sigma_percent=\"4\" ");
+  files.alter("campaign.xml", "<tracker ", "<tracker scale_sigma_ppm=\"3\" ");
+  files.alter("campaign.xml", "rpy_deg=\"0 0 90\"", "rpy_deg=\"0 0 90\" rpy_sigma_deg=\"90e-2\" xyz_sigma_mm=\"2\"");
+  const campaign::CampaignReading reading = campaign::readCampaign(files.folder());
+  EXPECT_TRUE(reading.warnings.empty()) << shown(reading.warnings);
+  EXPECT_NEAR(reading.campaign.mass_sigma, 0.04, kRounding);
+  EXPECT_NEAR(reading.campaign.tracker->scale_sigma, 3e-6, kRounding);
+  EXPECT_NEAR(reading.campaign.load_cell->angle_sigma, 0.9 * 3.14159265358979 / 180.0, kRounding);
+  EXPECT_NEAR(reading.campaign.load_cell->point_sigma, 0.002, kRounding);
+}
+
 struct Warned {
   const char *file, *find, *replace, *message;
 };

@@ -157,6 +157,25 @@ TEST(WriteCampaign, SecondEncodersAreWrittenWhereTheyAreAndBlankWhereNot) {
   expectRoundTrip(reading.campaign, files.folder() / "robot.urdf");
 }
 
+TEST(WriteCampaign, KeepsWhatIsDeclaredUncertain) {
+  const SmallCampaign files;
+  campaign::Campaign campaign = campaign::readCampaign(files.folder()).campaign;
+  campaign.mass_sigma = 0.03;
+  campaign.tracker->scale_sigma = 2e-6;
+  campaign.load_cell->gain_sigma = 0.005;
+  campaign.load_cell->angle_sigma = 0.004;
+  campaign.load_cell->point_sigma = 0.0015;
+  const TemporaryFolder out;
+  campaign::writeCampaign(campaign, files.folder() / "robot.urdf", out.path());
+  const campaign::CampaignReading reading = campaign::readCampaign(out.path());
+  EXPECT_TRUE(reading.warnings.empty());
+  EXPECT_NEAR(reading.campaign.mass_sigma, 0.03, kAttribute);
+  EXPECT_NEAR(reading.campaign.tracker->scale_sigma, 2e-6, kAttribute);
+  EXPECT_NEAR(reading.campaign.load_cell->gain_sigma, 0.005, kAttribute);
+  EXPECT_NEAR(reading.campaign.load_cell->angle_sigma, 0.004, kAttribute);
+  EXPECT_NEAR(reading.campaign.load_cell->point_sigma, 0.0015, kAttribute);
+}
+
 TEST(WriteCampaign, WritesTheUnitsAndDecimalsOfTheFormat) {
   const SmallCampaign files;
   const TemporaryFolder out;

@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <limits>
 #include <vector>
 #include "core/campaign/row_names.h"
 #include "core/comparison/compare.h"
+#include "core/extended_model/extended_model.h"
 #include "core/preparation/prepare.h"
 #include "core/simulation/measure.h"
 #include "reports/words/remark_words.h"
@@ -50,7 +52,7 @@ Day measured(const simulation::SimulationSpec& spec) {
 comparison::Comparison compared(const Day& before, const Day& after) {
   comparison::BootstrapOptions bootstrap;
   bootstrap.samples = 1;
-  return comparison::compareCampaigns(before.campaign, before.identification, after.campaign, after.identification,
+  return comparison::compareCampaigns(before.campaign, before.identification, after.campaign, after.identification, {},
                                       bootstrap);
 }
 
@@ -205,6 +207,59 @@ TEST(ComparisonCoverage, OtherPosturesNothingHidden) {
 // What is hidden does not cancel: the uncertainty holds it only as far as it scatters.
 TEST(ComparisonCoverage, OtherPosturesBearingsAndLinks) {
   expectCoverage("bearings and links, other postures", Hidden::bearings_and_links, Postures::others, 0.6, 1.0);
+}
+
+/// The model that a day's data support, as `compare` takes it.
+extended_model::ExtendedModel supported(const simulation::SimulationSpec& spec) {
+  identification::IdentifyOptions options;
+  options.subsets.size = std::numeric_limits<int>::max();
+  const preparation::PreparedCampaign prepared = preparation::prepareCampaign(simulation::simulate(spec));
+  return extended_model::supportedModel(prepared, prepared.campaign, options);
+}
+
+// Where no posture is in both nothing cancels. The two days' models give a difference that is nearer to the truth than
+// by springs alone, whose misfit is in it; U, of the intervals of both, is not wider, and holds it.
+TEST(ComparisonCoverage, OtherPosturesByTheDaysModels) {
+  const int pairs = std::max(4, pairsAsked() / 3);
+  Coverage by_models, by_springs;
+  for (int pair = 0; pair < pairs; ++pair) {
+    simulation::SimulationSpec first = simulated_pairs::firstDay(firstSeed(), pair, Hidden::bearings_and_links);
+    simulation::SimulationSpec second =
+        simulated_pairs::anotherDay(first, simulated_pairs::drawnChange(firstSeed(), pair));
+    choosePostures(Postures::others, first, second);
+    const extended_model::ExtendedModel before = supported(first), after = supported(second);
+    comparison::BootstrapOptions bootstrap;
+    bootstrap.samples = 1;
+    const comparison::SupportedModels models{&before.with, &after.with, true, true};
+    const auto compare = [&](const comparison::SupportedModels& by) {
+      return comparison::compareCampaigns(before.campaign, before.without, after.campaign, after.without, by,
+                                          bootstrap);
+    };
+    const comparison::Comparison modelled = compare(models);
+    for (const comparison::StiffnessChange& change : modelled.methods) EXPECT_TRUE(change.by_models);
+    judge(first, second, Hidden::bearings_and_links, modelled, by_models);
+    judge(first, second, Hidden::bearings_and_links, compare({}), by_springs);
+  }
+  std::vector<double> held, width, model_errors, spring_errors;
+  for (std::size_t m = 0; m < 3; ++m) {
+    for (std::size_t j = 0; j < 6; ++j) {
+      held.insert(held.end(), by_models.held[m][j].begin(), by_models.held[m][j].end());
+      for (std::size_t i = 0; i < by_models.width[m][j].size(); ++i) {
+        width.push_back(by_models.width[m][j][i] / by_springs.width[m][j][i]);
+        // In standard uncertainties, which are U over about 2 in both.
+        model_errors.push_back(std::abs(by_models.error[m][j][i]) * by_models.width[m][j][i]);
+        spring_errors.push_back(std::abs(by_springs.error[m][j][i]) * by_springs.width[m][j][i]);
+      }
+    }
+  }
+  fmt::print("by models: {:.0f} % held, U {:.2f} of that by springs, errors {:.2f}\n", 100.0 * mean(held),
+             median(width), median(model_errors) / median(spring_errors));
+  // As above: three independent ones a pair.
+  EXPECT_GE(mean(held), 0.93 - 4.0 * std::sqrt(0.95 * 0.05 / (3.0 * pairs)));
+  EXPECT_LE(median(width), 1.05);
+  EXPECT_LT(median(model_errors), 0.7 * median(spring_errors));
+  if (pairsAsked() < kManyPairs) return;
+  printAll("bearings and links, other postures, by the days' models", pairs, by_models);
 }
 
 struct Alarms {

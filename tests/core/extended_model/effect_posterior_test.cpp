@@ -128,6 +128,21 @@ TEST(EffectPosterior, APairThatTheDataCannotTellApart) {
   EXPECT_GE(draws.row(0).minCoeff(), 0.0);
 }
 
+// A normal prior and normal data: sd^-2 = 1/0.2^2 + 1/0.1^2, mean the data's 0.3 weighed with the prior's 0. A second
+// parameter, which the data do not see and nothing declares, keeps the horseshoe.
+TEST(EffectPosterior, WhatIsDeclaredIsANormalPrior) {
+  Eigen::Matrix2d normal = Eigen::Matrix2d::Zero();
+  normal(0, 0) = 1.0 / (0.1 * 0.1);
+  EffectEvidence one = evidence(normal, Eigen::Vector2d(0.3 * normal(0, 0), 0.0), {false, false});
+  one.known_sd = {0.2, 0.0};
+  const Eigen::MatrixXd draws = drawEffects(one, kMany);
+  const double weight = 25.0 + 100.0, mean = 0.3 * 100.0 / weight, sd = 1.0 / std::sqrt(weight);
+  EXPECT_NEAR(draws.row(0).mean(), mean, 5.0 * sd / std::sqrt(20000.0));
+  EXPECT_NEAR((draws.row(0).array() - draws.row(0).mean()).square().mean(), sd * sd, 0.05 * sd * sd);
+  EXPECT_NEAR(shareBelow(draws, 0, mean + sd), 0.8413, kTolerance);
+  EXPECT_GT((draws.row(1).array().abs() > 10.0 * kUsual).cast<double>().mean(), 0.02);  // tails that no normal has
+}
+
 TEST(EffectPosterior, TheSameSeedGivesTheSameDraws) {
   const Eigen::MatrixXd normal = 100.0 * Eigen::MatrixXd::Identity(3, 3);
   const EffectEvidence one = evidence(normal, Eigen::Vector3d(1.0, 0.0, 30.0), {true, false, true});

@@ -105,6 +105,26 @@ INSTANTIATE_TEST_SUITE_P(OfDifferentKind, HiddenEffect,
                                          Hidden{"ReflectorMoves", "target_motion:P12", &softNest, {}}),
                          [](const testing::TestParamInfo<Hidden>& info) { return info.param.name; });
 
+// Bearings that are rigid come out at zero or just above, which noise decides; either way the data know them no better,
+// and what they could take of the springs is in the springs' uncertainty.
+TEST(ExtendedModel, AParameterAtItsBoundStaysInTheCovariance) {
+  int at_bound = 0;
+  for (const std::uint64_t seed : {3, 4}) {
+    simulation::SimulationSpec spec = springsAlone(seed);
+    tiltJoint3(spec);
+    const extended_model::ExtendedModel model = extendedDay(
+        spec, {"bearing_tilt:2", "bearing_tilt:3", "bearing_tilt:4", "bearing_tilt:5", "bearing_tilt:6"}, 1);
+    ASSERT_EQ(model.effects.added.size(), 1u);
+    EXPECT_EQ(model.effects.free.size(), 5u);
+    for (const extended_model::EffectParameter& one : model.effects.added[0].parameters) {
+      at_bound += one.value == 0.0;
+      EXPECT_GT(one.sd, 0.0) << one.name;
+    }
+    EXPECT_TRUE(model.effects.covariance.diagonal().minCoeff() > 0.0);
+  }
+  EXPECT_GT(at_bound, 0) << "nothing is tested";
+}
+
 TEST(ExtendedModel, StatedIntervalsHoldTheTruth) {
   const char* asked = std::getenv("STIFFSCOPE_WITH_DAYS");
   const int days = asked != nullptr ? std::atoi(asked) : 3;

@@ -1,0 +1,59 @@
+#include "core/extended_model/declared.h"
+
+#include <limits>
+
+namespace stiffscope::extended_model {
+
+namespace {
+
+void makeHeavier(campaign::Campaign& campaign) {
+  for (robot::BodyMass& body : campaign.robot.bodies) body.mass_kg *= 1.0 + campaign.mass_sigma;
+}
+
+void stretchReadings(campaign::Campaign& campaign) {
+  const double factor = 1.0 + campaign.tracker->scale_sigma;
+  const Eigen::Vector3d station = campaign.tracker->station;
+  const auto stretch = [&](auto& table) {
+    if (!table) return;
+    for (auto& row : table->rows) row.point = station + factor * (row.point - station);
+  };
+  stretch(campaign.circle_sweeps);
+  stretch(campaign.wrist_sweep);
+  stretch(campaign.loading);
+  if (!campaign.displacements) return;
+  for (campaign::Displacement& row : campaign.displacements->rows) row.displacement *= factor;
+}
+
+}  // namespace
+
+Declared declaredOf(const campaign::Campaign& campaign, const identification::Identification& at,
+                    const identification::IdentifyOptions& options) {
+  Declared declared;
+  if (campaign.load_cell) {
+    declared.gain_sd = campaign.load_cell->gain_sigma;
+    declared.cell_angle_sd = campaign.load_cell->angle_sigma;
+    declared.cell_point_sd = campaign.load_cell->point_sigma;
+  }
+  const auto add = [&](BudgetSource source, void (*move)(campaign::Campaign&)) {
+    campaign::Campaign other = campaign;
+    move(other);
+    identification::IdentifyOptions values = options;
+    values.subsets.size = std::numeric_limits<int>::max();
+    values.bootstrap.draws = 0;
+    values.robust = false;
+    const identification::Identification moved = identification::identify(other, values);
+    Declared::Column column{source, {}};
+    for (const identification::Method which : identification::kMethods) {
+      Vector6d& change = column.compliance[static_cast<std::size_t>(which)];
+      change.setZero();
+      if (at.of(which).available && moved.of(which).available)
+        change = moved.of(which).estimate.compliance - at.of(which).estimate.compliance;
+    }
+    declared.columns.push_back(column);
+  };
+  if (campaign.mass_sigma > 0.0) add(BudgetSource::masses, &makeHeavier);
+  if (campaign.tracker && campaign.tracker->scale_sigma > 0.0) add(BudgetSource::tracker_scale, &stretchReadings);
+  return declared;
+}
+
+}  // namespace stiffscope::extended_model
