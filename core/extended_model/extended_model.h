@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <optional>
 
 #include "core/diagnosis/gap_study.h"
@@ -37,7 +38,8 @@ struct ExtendedModel {
   campaign::Campaign campaign;  ///< what `with` was identified from
   identification::Identification without, with;
   EffectSpread spread;
-  std::optional<HiddenEffects> hidden;  ///< of the model that the data support: what could still hide
+  std::optional<HiddenEffects> hidden;               ///< of the model that the data support: what could still hide
+  std::unique_ptr<const diagnosis::GapStudy> study;  ///< the equations that `hidden` was weighed in; null without it
 };
 
 /// `campaign`: as identification sees it. No effect added, or all of size zero: `with` is `without`.

@@ -19,13 +19,6 @@ namespace {
 using identification::Method;
 using identification::StiffnessEstimate;
 
-/// The parameters that may hide, and draws of how far they are from what was fitted.
-struct HiddenParameters {
-  EffectColumns columns;
-  std::vector<effects::Effect> effect;  ///< of each parameter
-  Eigen::MatrixXd off;                  ///< theta - theta_fit, a draw each column
-};
-
 /// One model for each effect that the campaign can show: the chosen one, else the first.
 std::vector<std::size_t> modelOfEach(const diagnosis::GapStudy& study) {
   std::map<effects::Effect, std::size_t> model_of;
@@ -51,10 +44,10 @@ Eigen::VectorXd fittedOf(const effects::EffectModel& model, const EffectFit& fit
   return Eigen::VectorXd::Zero(static_cast<Eigen::Index>(model.parameters()));
 }
 
-HiddenParameters hiddenParameters(const diagnosis::GapStudy& study, const EffectFit& fitted) {
+HiddenDraws hiddenDraws(const diagnosis::GapStudy& study, const EffectFit& fitted) {
   const diagnosis::GapLayout& layout = study.fit.data.layout;
   const diagnosis::Projection& projection = study.fit.projection;
-  HiddenParameters hidden;
+  HiddenDraws hidden;
   EffectEvidence evidence;
   std::vector<double> bound, at_fit;
   hidden.columns.models = modelOfEach(study);
@@ -137,11 +130,12 @@ identification::CoverageInterval quantiles(std::vector<double>& values, double c
 
 class MethodWeigher {
  public:
-  MethodWeigher(const HiddenParameters& hidden, double gain_sd, bool unexplained)
+  MethodWeigher(const HiddenDraws& hidden, double gain_sd, bool unexplained)
       : hidden_(hidden), gain_sd_(gain_sd), unexplained_(unexplained) {}
 
   std::vector<BudgetLine> weigh(const Eigen::Matrix<double, 6, Eigen::Dynamic>& gain, const StiffnessEstimate& alone,
-                                const std::vector<effects::Effect>& in_model, StiffnessEstimate& estimate) const {
+                                const std::vector<effects::Effect>& in_model, StiffnessEstimate& estimate,
+                                HiddenDraws::OfMethod& draws) const {
     const Eigen::MatrixXd moved_by_all = gain * hidden_.off;
     const std::vector<Eigen::Index> kept = possibleDraws(estimate, moved_by_all);
     const Eigen::MatrixXd moved = moved_by_all(Eigen::all, kept), off = hidden_.off(Eigen::all, kept);
@@ -164,6 +158,9 @@ class MethodWeigher {
     estimate.parts.effects += more.asDiagonal();
     estimate.covariance = estimate.parts.total();
     state(moved, own, alone, estimate);
+    draws.possible = kept;
+    draws.compliance = moved.colwise() + (own.compliance - estimate.compliance);
+    draws.others = identification::coveringCovariance(own);
     return budget;
   }
 
@@ -203,12 +200,8 @@ class MethodWeigher {
   /// A draw of the effects each, with some of everything else. `own`: uncertainty without effects.
   std::vector<double> draws(const Eigen::MatrixXd& moved, const StiffnessEstimate& own, const StiffnessEstimate& alone,
                             int j, numerics::RandomStream& random) const {
-    constexpr double kNormal = 1.959963984540054;  // of 95 % of a normal number
-    const auto sdOf = [&](const StiffnessEstimate& one) {
-      return std::sqrt(std::max(0.0, one.covariance(j, j))) *
-             identification::coverageFactor(one, j, identification::kStatedCoverage) / kNormal;
-    };
-    const double sd = sdOf(own), alone_sd = unexplained_ ? sdOf(alone) : 0.0;
+    const double sd = identification::coveringSd(own, j),
+                 alone_sd = unexplained_ ? identification::coveringSd(alone, j) : 0.0;
     std::vector<double> values;
     if (!std::isfinite(sd + alone_sd)) return values;
     constexpr int kEach = 5;
@@ -243,7 +236,7 @@ class MethodWeigher {
     }
   }
 
-  const HiddenParameters& hidden_;
+  const HiddenDraws& hidden_;
   double gain_sd_;
   bool unexplained_;
 };
@@ -264,7 +257,9 @@ HiddenEffects weighHiddenEffects(const diagnosis::GapStudy& study, const EffectF
   // gap is the better one wherever that was tried.
   constexpr double kMuch = 1.1, kShare = 0.15;
   result.unexplained = (result.left_over > kMuch || fit.model_error > 0.0) && left > kShare * gap;
-  const HiddenParameters hidden = hiddenParameters(study, fitted);
+  result.draws = hiddenDraws(study, fitted);
+  const HiddenDraws& hidden = result.draws;
+  result.gain_sd = gain_sd;
   const std::vector<CaseEffects> cases = caseEffects(study, hidden.columns, seen);
   std::vector<effects::Effect> in_model;
   for (const AddedEffect& one : fitted.added) in_model.push_back(one.effect);
@@ -274,7 +269,8 @@ HiddenEffects weighHiddenEffects(const diagnosis::GapStudy& study, const EffectF
     if (!with.of(which).available || !seen.of(which).available || !without.of(which).available) continue;
     const auto gain = gains(cases, seen, which, hidden.off.rows());
     if (gain.cols() == 0) continue;
-    result.budget[at] = weigher.weigh(gain, without.of(which).estimate, in_model, with.methods[at].estimate);
+    result.budget[at] =
+        weigher.weigh(gain, without.of(which).estimate, in_model, with.methods[at].estimate, result.draws.methods[at]);
   }
   return result;
 }

@@ -45,6 +45,8 @@ enum class RemarkId {
   mostly_noise,
   sag_in_sweeps,      ///< largest sag taken off m
   sweep_above_noise,  ///< axis number, residual rms m, times the noise
+  /// joint number, k from elsewhere and its standard uncertainty Nm/rad, its source, k of the day, ends of its interval
+  known_stiffness_contradicted,
   // of a joint's stiffness
   negative,
   imprecise  ///< standard deviation above the value
