@@ -1,11 +1,12 @@
-// How often the intervals that `compensate` states hold the true deflection, on simulated machines, by direction of load.
+// How often the intervals that `compensate` states hold the true deflection, on simulated machines, by direction of
+// load.
 //
-// compensate_coverage FAMILY COUNT SEED [ROWS.csv]: a table. FAMILY as in machine_families.h. Each machine is identified
-// from a day of hanging weights; then, at postures that the day did not have, a load of the day's largest size pulls down,
-// up, radially away from axis 1, sideways, and towards axis 1 at the height of axis 2, and the deflection that the
-// simulator's nonlinear equilibrium gives each reflector is held against what is predicted, coordinate by coordinate.
-// Sideways loads turn axis 1, which hanging weights do not show: once as the day is, once with k1 known from elsewhere to
-// 3 %.
+// compensate_coverage FAMILY COUNT SEED [ROWS.csv]: a table. FAMILY as in machine_families.h. Each machine is
+// identified from a day of hanging weights; then, at postures that the day did not have, a load of the day's largest
+// size pulls down, up, radially away from axis 1, sideways, and towards axis 1 at the height of axis 2, and the
+// deflection that the simulator's nonlinear equilibrium gives each reflector is held against what is predicted,
+// coordinate by coordinate. Sideways loads turn axis 1, which hanging weights do not show: once as the day is, once
+// with k1 known from elsewhere to 3 %.
 
 #include <fmt/format.h>
 #include <Eigen/Dense>
@@ -88,9 +89,8 @@ struct TrueCase {
 std::vector<TrueCase> trueCases(const simulation::SimulationSpec& spec, double force,
                                 const std::vector<Vector6d>& postures) {
   const simulation::ElasticMachine machine = simulation::buildMachine(spec);
-  const auto parent = std::find_if(spec.nominal.links.begin(), spec.nominal.links.end(), [&](const auto& link) {
-    return link.name == spec.load_cell->declared.parent;
-  });
+  const auto parent = std::find_if(spec.nominal.links.begin(), spec.nominal.links.end(),
+                                   [&](const auto& link) { return link.name == spec.load_cell->declared.parent; });
   std::vector<TrueCase> cases;
   for (const Vector6d& q : postures) {
     const simulation::MachineState unloaded = simulation::equilibrium(machine, q);
@@ -152,7 +152,8 @@ void addRows(const campaign::Campaign& campaign, const identification::Identific
       error += (truth - point.deflection).squaredNorm();
     }
     const auto count = static_cast<double>(std::max<std::size_t>(1, found.targets.size()));
-    row.size = std::sqrt(size / count), row.expanded = std::sqrt(expanded / count), row.error = std::sqrt(error / count);
+    row.size = std::sqrt(size / count), row.expanded = std::sqrt(expanded / count),
+    row.error = std::sqrt(error / count);
     rows.push_back(row);
   }
 }
@@ -209,10 +210,11 @@ void print(const std::string& family, const std::string& model, std::size_t dire
     coordinates += row.coordinates, held += row.held;
     sizes.push_back(row.size * 1e3), widths.push_back(row.expanded / row.size), errors.push_back(row.error / row.size);
   }
-  fmt::print("{:<15}{:<9}{:<18} {:>4} of {:>4} compensated, hold {:5.1f} %, median deflection {:.3f} mm, U {:5.1f} %, "
-             "error {:5.1f} %; refused hold {:5.1f} %",
-             family, model, kDirections[direction], solved, all, 100.0 * held / std::max(1, coordinates), median(sizes),
-             100.0 * median(widths), 100.0 * median(errors), 100.0 * refused_held / std::max(1, refused_coordinates));
+  fmt::print(
+      "{:<15}{:<9}{:<18} {:>4} of {:>4} compensated, hold {:5.1f} %, median deflection {:.3f} mm, U {:5.1f} %, "
+      "error {:5.1f} %; refused hold {:5.1f} %",
+      family, model, kDirections[direction], solved, all, 100.0 * held / std::max(1, coordinates), median(sizes),
+      100.0 * median(widths), 100.0 * median(errors), 100.0 * refused_held / std::max(1, refused_coordinates));
   for (const auto& [reason, count] : reasons) fmt::print("; {} because {}", count, reason);
   fmt::print("\n");
 }
@@ -236,8 +238,7 @@ int main(int argc, char** argv) {
     const int i = static_cast<int>(machine);
     try {
       const std::uint64_t seed = base * 1'000'000 + machine;
-      validation::BlindCase one =
-          bench::drawMachine(family, i, seed, folder / fmt::format("{}_{}.urdf", family, i));
+      validation::BlindCase one = bench::drawMachine(family, i, seed, folder / fmt::format("{}_{}.urdf", family, i));
       const double force = hangWeights(*one.spec.loading);
       constexpr int kPostures = 6;
       const std::vector<TrueCase> cases = trueCases(one.spec, force, heldOutPostures(one.spec, kPostures));
@@ -263,7 +264,7 @@ int main(int argc, char** argv) {
     csv << "machine,effects,model,direction,solved,reason,coordinates,held,deflection_m,u_m,error_m\n";
     for (const Row& row : rows)
       csv << fmt::format("{},{},{},\"{}\",{},{},{},{},{:.6g},{:.6g},{:.6g}\n", row.machine, row.effects, row.model,
-                         kDirections[row.direction], row.solved ? 1 : 0, row.reason, row.coordinates, row.held, row.size,
-                         row.expanded, row.error);
+                         kDirections[row.direction], row.solved ? 1 : 0, row.reason, row.coordinates, row.held,
+                         row.size, row.expanded, row.error);
   }
 }

@@ -55,11 +55,14 @@ int compensateCampaign(const CompensateArguments& arguments) {
       arguments.postures.empty() ? compensation::campaignPostures(campaign, result.step)
                                  : compensation::readPostures(arguments.postures, warnings);
   printWarnings(warnings);
-  const std::vector<campaign::KnownStiffness> known =
-      identification::completeByKnown(campaign.known_stiffness, method.estimate);
-  if (improved) {
-    identification::completeByKnown(campaign.known_stiffness,
-                                    improved->without.methods[static_cast<std::size_t>(methods.front())].estimate);
+  // Every model that a prediction may come from takes what is known of joints that the day cannot see.
+  std::vector<identification::StiffnessEstimate*> estimates{&method.estimate};
+  if (improved) estimates.push_back(&improved->without.methods[static_cast<std::size_t>(methods.front())].estimate);
+  std::vector<identification::StiffnessEstimate> of_the_day;
+  std::vector<campaign::KnownStiffness> known;
+  for (identification::StiffnessEstimate* estimate : estimates) {
+    of_the_day.push_back(*estimate);
+    known = identification::completeByKnown(campaign.known_stiffness, *estimate);
   }
   const double load_sd = campaign.load_cell->gain_sigma;
   const compensation::Certainty certainty = improved ? compensation::certaintyOf(*improved, methods.front(), load_sd)
@@ -71,6 +74,8 @@ int compensateCampaign(const CompensateArguments& arguments) {
       compensation::compensate(campaign, method.geometry, method.estimate, result.frames.tcp_in_flange, asked, {},
                                give ? &*give : nullptr, &certainty);
   const compensation::CompensationSummary summary = compensation::summaryOf(rows);
+  // Tables of stiffnesses are of the day.
+  for (std::size_t i = 0; i < estimates.size(); ++i) *estimates[i] = of_the_day[i];
   std::vector<std::string> cautions = reports::words(result.cautions);
   for (const Remark& caution : compensation::implausibleCommands(rows)) cautions.push_back(reports::words(caution));
   deliver(

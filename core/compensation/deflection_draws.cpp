@@ -39,7 +39,8 @@ Eigen::MatrixXd normalDraws(const Matrix6d& covariance, Eigen::Index draws, Rand
 void addUnknownJoints(const StiffnessEstimate& estimate, DeflectionDraws& draws, RandomStream& random) {
   for (int j = 0; j < 6; ++j) {
     if (estimate.identifiable[static_cast<std::size_t>(j)]) continue;
-    const double weakest = std::max({0.0, j > 0 ? estimate.compliance[j - 1] : 0.0, j < 5 ? estimate.compliance[j + 1] : 0.0});
+    const double weakest =
+        std::max({0.0, j > 0 ? estimate.compliance[j - 1] : 0.0, j < 5 ? estimate.compliance[j + 1] : 0.0});
     for (double& c : draws.compliance.row(j)) c = weakest * random.uniform();
   }
 }

@@ -13,9 +13,8 @@ namespace stiffscope::compensation {
 
 /// Displacement of points of the flange body (R0, unloaded places) under a load by a unit of each parameter, to first
 /// order: three rows a point, one column a parameter, m per unit.
-using DisplacementByParameters =
-    std::function<Eigen::MatrixXd(const Vector6d& commands, const effects::FlangeLoad& load,
-                                  const std::vector<Eigen::Vector3d>& points)>;
+using DisplacementByParameters = std::function<Eigen::MatrixXd(
+    const Vector6d& commands, const effects::FlangeLoad& load, const std::vector<Eigen::Vector3d>& points)>;
 
 /// What may be true of the arm instead of its model, a draw each column (Monte Carlo, JCGM 101). All draws are equally
 /// likely, and one draw is the same arm in all postures and under all loads: an effect that the day's loads could not
@@ -39,15 +38,16 @@ struct DeflectionDraws {
 DeflectionDraws springDraws(const identification::StiffnessEstimate& estimate, const Matrix6d& covariance,
                             double load_sd = 0.0, Eigen::Index varied = 0);
 
-/// The posterior predictive: each draw one of springs and effects together (extended_model/hidden_effects.h) with one of
-/// everything else. Where the effects were named by hand, nothing hides, and the draws are those of the fit. `model` must
-/// outlive the result.
+/// The posterior predictive: each draw one of springs and effects together (extended_model/hidden_effects.h) with one
+/// of everything else. Where the effects were named by hand, nothing hides, and the draws are those of the fit. `model`
+/// must outlive the result.
 DeflectionDraws modelDraws(const extended_model::ExtendedModel& model, identification::Method method, double load_sd);
 
 /// What a prediction of three coordinates is uncertain by.
 struct PredictionSpread {
   Eigen::Vector3d sd = Eigen::Vector3d::Zero();
-  std::array<identification::CoverageInterval, 3> interval{};  ///< of the error of each coordinate, at the stated coverage
+  std::array<identification::CoverageInterval, 3>
+      interval{};         ///< of the error of each coordinate, at the stated coverage
   double expanded = 0.0;  ///< U: the error is shorter than this at the stated coverage
 };
 

@@ -34,8 +34,8 @@ double modelError(const Identification& result, Method method, const std::vector
   for (std::size_t fold = 0; fold < folds; ++fold) {
     std::vector<double> weights(postures, 1.0);
     for (std::size_t p = fold; p < postures; p += folds) weights[p] = 0.0;
-    const Vector6d compliance = extended_model::solvedCompliance(
-        equations, method, result.of(method).estimate.identifiable, weights, no_steps);
+    const Vector6d compliance =
+        extended_model::solvedCompliance(equations, method, result.of(method).estimate.identifiable, weights, no_steps);
     for (std::size_t p = fold; p < postures; p += folds) {
       const identification::CaseEquations& own = equations.reflectors[p].springs;
       squares += (own.right - own.matrix * compliance).squaredNorm();
@@ -82,8 +82,8 @@ IdentifiedRange identifiedRange(const Identification& result, Method method) {
     // By its lever, so that forces of a day that happen to pass the wrist are no smaller moments than they could be.
     const Eigen::Vector3d lever = one.wrench.point - wristOf(one.axes);
     range.force = std::max(range.force, one.wrench.force.norm());
-    range.moment = std::max({range.moment, one.wrench.about(wristOf(one.axes)).moment.norm(),
-                             lever.norm() * one.wrench.force.norm()});
+    range.moment = std::max(
+        {range.moment, one.wrench.about(wristOf(one.axes)).moment.norm(), lever.norm() * one.wrench.force.norm()});
     range.low = range.low.cwiseMin(one.q);
     range.high = range.high.cwiseMax(one.q);
   }

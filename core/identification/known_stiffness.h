@@ -8,8 +8,8 @@
 
 namespace stiffscope::identification {
 
-/// Puts stiffnesses that are known from elsewhere into the joints that the day cannot see: c = 1/k with u(c) = u(k)/k^2,
-/// independent of the day's. Returns those put in; a joint that the day sees keeps its own value.
+/// Puts stiffnesses that are known from elsewhere into the joints that the day cannot see: c = 1/k with u(c) =
+/// u(k)/k^2, independent of the day's. Returns those put in; a joint that the day sees keeps its own value.
 std::vector<campaign::KnownStiffness> completeByKnown(const std::vector<campaign::KnownStiffness>& known,
                                                       StiffnessEstimate& estimate);
 

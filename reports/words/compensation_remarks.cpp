@@ -1,6 +1,7 @@
 #include "core/compensation/remarks.h"
 
 #include <fmt/format.h>
+#include <cmath>
 
 #include "core/io/units.h"
 #include "reports/words/remarks.h"
@@ -46,6 +47,7 @@ std::string compensationWords(compensation::RemarkId id, const RemarkValues& val
           "from",
           values.count(0), degrees(1), degrees(4), degrees(2), degrees(3));
     case uncertain_as_itself:
+      if (!std::isfinite(values.number(0))) return "the postures are too few for an uncertainty of the deflection";
       return fmt::format(
           "U of {:.3f} mm is as large as the deflection of {:.3f} mm: the day says too little of such a load in such a "
           "posture",

@@ -82,9 +82,10 @@ TEST(Certainty, LoadsBeyondTheDaysAreCautionedOfAndThenRefused) {
   EXPECT_TRUE(far.reason.is(compensation::RemarkId::load_far_beyond)) << reports::words(far.reason);
   const compensation::CompensationSummary summary = compensation::summaryOf({usual, more, far});
   EXPECT_FALSE(summary.mostRefused());
-  EXPECT_EQ(reports::summaryWords(summary),
-            "2 of 3 postures compensated, 1 of them with cautions; 1 refused: 1 because the load is far beyond those that "
-            "the stiffnesses come from");
+  EXPECT_EQ(
+      reports::summaryWords(summary),
+      "2 of 3 postures compensated, 1 of them with cautions; 1 refused: 1 because the load is far beyond those that "
+      "the stiffnesses come from");
   EXPECT_TRUE(compensation::summaryOf({usual, far, far}).mostRefused());
 }
 
@@ -161,7 +162,8 @@ TEST(IdentifiedRange, IsThatOfTheDay) {
   for (const identification::Method method : identification::kMethods) {
     const compensation::IdentifiedRange range = compensation::identifiedRange(springs, method);
     double force = 0.0;
-    for (const campaign::State& state : plain.states->rows) force = std::max(force, state.wrench_in_cell.head<3>().norm());
+    for (const campaign::State& state : plain.states->rows)
+      force = std::max(force, state.wrench_in_cell.head<3>().norm());
     EXPECT_NEAR(range.force, force, 1e-6 * force);
     for (const identification::LoadCase& one : springs.cases) {
       EXPECT_LE(compensation::loadRatio(range, one.wrench, one.axes), 1.0 + 1e-12);

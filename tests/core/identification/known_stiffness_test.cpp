@@ -27,7 +27,7 @@ TEST(KnownStiffness, StandsInWhereTheDaySeesNothing) {
   EXPECT_TRUE(estimate.identifiable[0]);
   EXPECT_DOUBLE_EQ(estimate.compliance[0], 2.5e-7);
   EXPECT_NEAR(std::sqrt(estimate.covariance(0, 0)), 0.05 * 2.5e-7, 1e-18);  // 5 % of k is 5 % of c
-  EXPECT_DOUBLE_EQ(estimate.compliance[1], 5e-7);                            // its own value stays
+  EXPECT_DOUBLE_EQ(estimate.compliance[1], 5e-7);                           // its own value stays
 }
 
 TEST(KnownStiffness, IsHeldAgainstTheDaysOwnValue) {
