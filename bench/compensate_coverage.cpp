@@ -70,10 +70,19 @@ double hangWeights(simulation::LoadingSpec& loading) {
   return kGravity * *std::max_element(masses.begin(), masses.end());
 }
 
+/// Drawn from the box of joint angles that the day's own postures span.
 std::vector<Vector6d> heldOutPostures(simulation::SimulationSpec spec, int count) {
-  spec.seed += 0x5eed;  // other draws of the same rules
+  simulation::PostureDraw draw;
+  draw.count = count;
+  draw.low = draw.high = spec.postures.front().q;
+  for (const simulation::ListedPosture& one : spec.postures) {
+    draw.low = draw.low.cwiseMin(one.q);
+    draw.high = draw.high.cwiseMax(one.q);
+  }
+  draw.min_abs_sin_q5 = 0.3;  // no singular wrists, which are refused whatever the load
+  spec.seed += 0x5eed;        // other draws than the day's
   spec.postures.clear();
-  spec.posture_draw->count = count;
+  spec.posture_draw = draw;
   std::vector<Vector6d> postures;
   for (const simulation::Posture& one : simulation::loadingPostures(spec)) postures.push_back(one.q);
   return postures;
