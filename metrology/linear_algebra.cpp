@@ -52,6 +52,13 @@ Eigen::VectorXd symmetricEigenvalues(const Eigen::MatrixXd& a) {
   return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(a, Eigen::EigenvaluesOnly).eigenvalues();
 }
 
+Eigen::MatrixXd covarianceRoot(const Eigen::MatrixXd& covariance) {
+  const Eigen::VectorXd sd = covariance.diagonal().cwiseMax(0.0).cwiseSqrt();
+  const Eigen::VectorXd inverse = sd.unaryExpr([](double d) { return d > 0.0 ? 1.0 / d : 0.0; });
+  const SymmetricEigen own = symmetricEigen(inverse.asDiagonal() * covariance * inverse.asDiagonal());
+  return sd.asDiagonal() * own.vectors * own.values.cwiseMax(0.0).cwiseSqrt().asDiagonal();
+}
+
 Eigen::VectorXd singularValues(const Eigen::MatrixXd& a) {
   return Eigen::JacobiSVD<Eigen::MatrixXd>(a).singularValues();
 }

@@ -33,6 +33,9 @@ struct SymmetricEigen {
 SymmetricEigen symmetricEigen(const Eigen::MatrixXd& a);
 Eigen::VectorXd symmetricEigenvalues(const Eigen::MatrixXd& a);
 
+/// S with S S^T = C of a covariance C, semidefinite or nearly so, by the eigenvectors of its correlation.
+Eigen::MatrixXd covarianceRoot(const Eigen::MatrixXd& covariance);
+
 /// Singular values, descending.
 Eigen::VectorXd singularValues(const Eigen::MatrixXd& a);
 

@@ -1,5 +1,4 @@
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <memory>
 
 #include "app/command_line.h"
@@ -12,6 +11,7 @@
 #include "core/extended_model/extended_model.h"
 #include "core/identification/identification.h"
 #include "core/identification/identify.h"
+#include "core/identification/known_stiffness.h"
 #include "core/io/input_error.h"
 #include "reports/json/campaign_json.h"
 #include "reports/json/identification_json.h"
@@ -40,13 +40,15 @@ int compensateCampaign(const CompensateArguments& arguments) {
   identification::IdentifyOptions options;
   options.step = loadStepNamed(arguments.step);
   const preparation::PreparedCampaign prepared = openPrepared(arguments.campaign, arguments.raw);
-  const std::optional<extended_model::ExtendedModel> improved = modelOf(prepared, arguments.model, options);
+  std::optional<extended_model::ExtendedModel> improved = modelOf(prepared, arguments.model, options);
   const campaign::Campaign& campaign = improved ? improved->campaign : prepared.campaign;
-  const identification::Identification result = improved ? improved->with : identification::identify(campaign, options);
+  std::optional<identification::Identification> springs;
+  if (!improved) springs = identification::identify(campaign, options);
+  identification::Identification& result = improved ? improved->with : *springs;
   if (methods.empty()) methods = {identification::bestMethod(result)};
   const std::optional<identification::ShownFirst> first =
       arguments.method.empty() ? result.shown_first : identification::shownFirstOf(result, methods);
-  const identification::MethodResult& method = result.of(methods.front());
+  identification::MethodResult& method = result.methods[static_cast<std::size_t>(methods.front())];
   if (!method.available) {
     throw io::InputError(
         {arguments.campaign}, "",
@@ -57,31 +59,45 @@ int compensateCampaign(const CompensateArguments& arguments) {
       arguments.postures.empty() ? compensation::campaignPostures(campaign, result.step)
                                  : compensation::readPostures(arguments.postures, warnings);
   printWarnings(warnings);
+  // Every model that a prediction may come from takes what is known of joints that the day cannot see.
+  std::vector<identification::StiffnessEstimate*> estimates{&method.estimate};
+  if (improved) estimates.push_back(&improved->without.methods[static_cast<std::size_t>(methods.front())].estimate);
+  std::vector<identification::StiffnessEstimate> of_the_day;
+  std::vector<campaign::KnownStiffness> known;
+  for (identification::StiffnessEstimate* estimate : estimates) {
+    of_the_day.push_back(*estimate);
+    known = identification::completeByKnown(campaign.known_stiffness, *estimate);
+  }
+  const double load_sd = campaign.load_cell->gain_sigma;
+  const compensation::Certainty certainty = improved ? compensation::certaintyOf(*improved, methods.front(), load_sd)
+                                                     : compensation::certaintyOf(result, methods.front(), load_sd);
   std::optional<effects::EffectDeflection> give;
   if (improved && extended_model::deflectsByEffects(improved->effects))
     give = extended_model::effectDeflection(*improved, methods.front());
-  const std::vector<compensation::CompensatedPosture> rows = compensation::compensate(
-      campaign, method.geometry, method.estimate, result.frames.tcp_in_flange, asked, {}, give ? &*give : nullptr);
+  const std::vector<compensation::CompensatedPosture> rows =
+      compensation::compensate(campaign, method.geometry, method.estimate, result.frames.tcp_in_flange, asked, {},
+                               give ? &*give : nullptr, &certainty);
+  const compensation::CompensationSummary summary = compensation::summaryOf(rows);
+  // Tables of stiffnesses are of the day.
+  for (std::size_t i = 0; i < estimates.size(); ++i) *estimates[i] = of_the_day[i];
   std::vector<std::string> cautions = reports::words(result.cautions);
   for (const Remark& caution : compensation::implausibleCommands(rows)) cautions.push_back(reports::words(caution));
   deliver(
       [&] {
-        reports::Json json = reports::compensationJson(campaign, methods.front(), rows);
+        reports::Json json = reports::compensationJson(campaign, methods.front(), rows, known);
         json["shown_first"] = reports::shownFirstJson(first);
         json["cautions"] = cautions;
         if (improved) json = reports::withEffects(std::move(json), *improved, methods);
         return reports::withPreparation(std::move(json), prepared.preparation);
       },
       [&] {
-        return reports::compensationText(campaign, methods.front(), rows, cautions) +
+        return reports::compensationText(campaign, methods.front(), rows, known, cautions) +
                (first ? reports::wrapped(reports::shownFirstWords(result, *first), 2) + "\n" : "") +
                (improved ? reports::extendedModelText(*improved, methods) : "") +
                reports::preparationText(prepared.preparation);
       },
       arguments.json);
-  const bool any =
-      std::any_of(rows.begin(), rows.end(), [](const compensation::CompensatedPosture& row) { return row.solved; });
-  return any ? kDone : kNotUsable;
+  return summary.mostRefused() ? kNotUsable : kDone;
 }
 
 }  // namespace

@@ -132,6 +132,14 @@ struct LoadCell {
   double point_sigma = 0.0;              ///< of its point along each axis, m; 0: not stated
 };
 
+/// A joint's stiffness as it is known from elsewhere: from the maker, from another day.
+struct KnownStiffness {
+  int joint = 0;           ///< 0..5 for axes 1..6
+  double stiffness = 0.0;  ///< k, Nm/rad
+  double sd = 0.0;         ///< standard uncertainty of k, Nm/rad
+  std::string source;
+};
+
 /// A file that was read, as the report lists it.
 struct InputFile {
   std::string name;    ///< as campaign.xml names it, relative to the folder
@@ -161,6 +169,7 @@ struct Campaign {
   std::vector<Target> targets;
   std::optional<LoadCell> load_cell;
   std::optional<robot::Tool> tool;
+  std::vector<KnownStiffness> known_stiffness;  ///< at most one a joint
 
   std::optional<CircleSweeps> circle_sweeps;
   std::optional<WristSweep> wrist_sweep;

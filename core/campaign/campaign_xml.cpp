@@ -1,6 +1,7 @@
 #include "core/campaign/campaign_xml.h"
 
 #include <fmt/format.h>
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <unordered_map>
@@ -21,6 +22,7 @@ Tracker readTracker(const io::XmlNode& node, std::vector<std::string>& warnings)
 std::vector<Target> readTargets(const io::XmlNode& node, std::vector<std::string>& warnings);
 LoadCell readLoadCell(const io::XmlNode& node, std::vector<std::string>& warnings);
 robot::Tool readTool(const io::XmlNode& node, std::vector<std::string>& warnings);
+KnownStiffness readKnownStiffness(const io::XmlNode& node, std::vector<std::string>& warnings);
 TableReference readTableReference(const io::XmlNode& node, std::vector<std::string>& warnings);
 
 namespace {
@@ -159,6 +161,28 @@ robot::Tool readTool(const io::XmlNode& node, std::vector<std::string>& warnings
   return {atMost(node, "mass_kg", kMostMass), millimetres(node, "com_mm")};
 }
 
+KnownStiffness readKnownStiffness(const io::XmlNode& node, std::vector<std::string>& warnings) {
+  io::warnOfUnknown(node, {"joint", "nm_per_rad", "sd_nm_per_rad", "source"}, {}, warnings);
+  KnownStiffness known;
+  const double joint = node.number("joint");
+  if (joint != std::floor(joint) || joint < 1.0 || joint > 6.0)
+    node.refuse("joint", node.requiredAttribute("joint"), "expected a joint's number, 1 to 6");
+  known.joint = static_cast<int>(joint) - 1;
+  // From a toy's joint to a hundred times the stiffest drive.
+  constexpr double kLeast = 1.0, kMost = 1e10;
+  known.stiffness = node.number("nm_per_rad");
+  if (!(known.stiffness >= kLeast && known.stiffness <= kMost))
+    node.refuse("nm_per_rad", node.requiredAttribute("nm_per_rad"), "expected Nm/rad, 1 to 1e10");
+  known.sd = node.number("sd_nm_per_rad");
+  // Nothing is known exactly, and what is known no better than to a factor of two is not known.
+  constexpr double kMostShare = 0.5;
+  if (!(known.sd > 0.0 && known.sd <= kMostShare * known.stiffness))
+    node.refuse("sd_nm_per_rad", node.requiredAttribute("sd_nm_per_rad"),
+                "expected a standard uncertainty above 0 and at most half of nm_per_rad");
+  known.source = node.requiredName("source");
+  return known;
+}
+
 TableReference readTableReference(const io::XmlNode& node, std::vector<std::string>& warnings) {
   io::warnOfUnknown(node, {"file", "frame"}, {}, warnings);
   TableReference table{{node.requiredName("file"), "file", node.line()}, PointFrame::tracker};
@@ -184,7 +208,7 @@ const std::vector<std::pair<std::string, std::string CampaignTexts::*>>& textEle
 }
 
 std::vector<std::string> knownElements() {
-  std::vector<std::string> known{"robot", "tracker", "targets", "load_cell", "tool"};
+  std::vector<std::string> known{"robot", "tracker", "targets", "load_cell", "tool", "known_stiffness"};
   known.insert(known.end(), tableElements().begin(), tableElements().end());
   for (const auto& [name, member] : textElements()) known.push_back(name);
   return known;
@@ -235,6 +259,13 @@ void readSections(const io::XmlNode& root, CampaignXml& xml, std::vector<std::st
     xml.load_cell_line = node->line();
   }
   if (const auto node = root.child("tool")) campaign.tool = readTool(*node, warnings);
+  for (const io::XmlNode& node : root.children("known_stiffness")) {
+    campaign.known_stiffness.push_back(readKnownStiffness(node, warnings));
+    const int joint = campaign.known_stiffness.back().joint;
+    if (std::count_if(campaign.known_stiffness.begin(), campaign.known_stiffness.end(),
+                      [&](const KnownStiffness& one) { return one.joint == joint; }) > 1)
+      node.refuse("joint", node.requiredAttribute("joint"), "expected a joint that does not repeat");
+  }
   for (const std::string& element : tableElements()) {
     if (const auto node = root.child(element)) xml.tables[element] = readTableReference(*node, warnings);
   }

@@ -201,6 +201,13 @@ std::string writtenCampaignXml(const Campaign& campaign) {
       tool.set("mass_kg", campaign.tool->mass_kg);
       tool.set("com_mm", Eigen::Vector3d(campaign.tool->com_in_flange / io::kMillimetre));
     }
+    for (const KnownStiffness& known : campaign.known_stiffness) {
+      Element element(printer, "known_stiffness");
+      element.set("joint", std::to_string(known.joint + 1))
+          .set("nm_per_rad", known.stiffness)
+          .set("sd_nm_per_rad", known.sd)
+          .set("source", known.source);
+    }
     writeTableReference(printer, "circle_sweeps", campaign.circle_sweeps);
     writeTableReference(printer, "wrist_sweep", campaign.wrist_sweep);
     writeTableReference(printer, "loading", campaign.loading);

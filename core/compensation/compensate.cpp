@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "core/campaign/read_table.h"
 #include "core/identification/load_case.h"
@@ -79,17 +80,29 @@ struct Moved {
   Eigen::Isometry3d unloaded, loaded;
 };
 
+/// Of the estimate's own covariance, or of that of an arm with effects.
+DeflectionDraws drawsOf(const identification::StiffnessEstimate& estimate, const effects::EffectDeflection* with) {
+  if (with == nullptr) return springDraws(estimate, identification::coveringCovariance(estimate));
+  identification::StiffnessEstimate springs = estimate;
+  springs.covariance = with->spring_covariance;
+  return springDraws(springs, identification::coveringCovariance(springs), 0.0,
+                     static_cast<Eigen::Index>(with->varied.size()));
+}
+
 class Compensator {
  public:
   Compensator(const campaign::Campaign& campaign, const frames::LoadingGeometry& geometry,
               const identification::StiffnessEstimate& estimate, const Eigen::Vector3d& tcp_in_flange,
-              const CompensateOptions& options, const effects::EffectDeflection* with)
+              const CompensateOptions& options, const effects::EffectDeflection* with, const Certainty* certainty)
       : campaign_(campaign),
         geometry_(geometry),
         estimate_(estimate),
         tcp_(tcp_in_flange),
         options_(options),
-        with_(with) {}
+        with_(with),
+        range_(certainty ? &certainty->range : nullptr),
+        own_draws_(certainty ? DeflectionDraws() : drawsOf(estimate, with)),
+        draws_(certainty ? certainty->draws : own_draws_) {}
 
   CompensatedPosture run(const PostureToCompensate& asked) const {
     CompensatedPosture result;
@@ -110,7 +123,8 @@ class Compensator {
     const effects::FlangeLoad load = loadAt(unloaded, wanted, asked.wrench_in_cell);
     predict(unloaded, wanted, load, result);
     if (!result.predicted) return result;
-    result.reason = refusal(asked, unloaded, wanted, load, result.conditioning);
+    addCautions(unloaded, wanted, load, result);
+    result.reason = refusal(unloaded, wanted, load, result);
     if (result.reason.empty()) solve(asked, *unloaded_angles, wanted, load, result);
     return result;
   }
@@ -140,13 +154,73 @@ class Compensator {
     return with_ ? with_->flange(commands, load) : robot::flangeAt(geometry_.arm, posture);
   }
 
-  Remark refusal(const PostureToCompensate& asked, const robot::ArmPosture& unloaded, const Eigen::Isometry3d& wanted,
-                 const effects::FlangeLoad& load, double conditioning) const {
-    const Remark outside = outsideLimits(asked.q, RemarkId::posture_outside_limits);
+  Remark refusal(const robot::ArmPosture& unloaded, const Eigen::Isometry3d& wanted, const effects::FlangeLoad& load,
+                 const CompensatedPosture& found) const {
+    const Remark outside = outsideLimits(found.posture.q, RemarkId::posture_outside_limits);
     if (!outside.empty()) return outside;
-    if (conditioning < options_.least_conditioning)
-      return Remark(RemarkId::near_singularity, conditioning, options_.least_conditioning);
-    return turnsUnusableJoint(torqueOf(unloaded, wanted, load));
+    if (found.conditioning < options_.least_conditioning)
+      return Remark(RemarkId::near_singularity, found.conditioning, options_.least_conditioning);
+    const Remark unusable = turnsUnusableJoint(torqueOf(unloaded, wanted, load));
+    return unusable.empty() ? beyondTheDay(found) : unusable;
+  }
+
+  /// The reason to refuse where the day says too little of such a load in such a posture.
+  Remark beyondTheDay(const CompensatedPosture& found) const {
+    if (range_ == nullptr) return {};
+    if (found.load_ratio > options_.load_most)
+      return Remark(RemarkId::load_far_beyond, found.load_ratio, options_.load_most);
+    for (int joint = turnsFreely(0) ? 1 : 0; joint < 6; ++joint) {
+      if (beyondAngles(found.posture.q, joint) > options_.posture_most)
+        return Remark(RemarkId::posture_far_beyond, joint + 1, found.posture.q[joint], range_->low[joint],
+                      range_->high[joint], options_.posture_most);
+    }
+    const double size = found.tcp.deflection.norm();
+    const bool negligible = found.tcp.expanded <= options_.negligible;
+    if (!negligible && !(found.tcp.expanded <= options_.uncertain_most * size))
+      return Remark(RemarkId::uncertain_as_itself, found.tcp.expanded, size);
+    return {};
+  }
+
+  void addCautions(const robot::ArmPosture& unloaded, const Eigen::Isometry3d& wanted, const effects::FlangeLoad& load,
+                   CompensatedPosture& result) const {
+    if (range_ == nullptr) return;
+    const robot::ArmAxes axes = robot::axesAt(geometry_.arm, unloaded);
+    result.load_ratio = loadRatio(*range_, {wanted * load.point_in_flange, load.force, load.moment}, axes);
+    if (result.load_ratio > options_.load_caution)
+      result.cautions.emplace_back(RemarkId::load_beyond, result.load_ratio);
+    const Vector6d torque = torqueOf(unloaded, wanted, load);
+    const Matrix36d rows = robot::pointJacobianAt(axes, wanted * tcp_);
+    const double size = result.tcp.deflection.norm();
+    for (int joint = 0; joint < 6; ++joint) {
+      if (beyondAngles(result.posture.q, joint) > options_.posture_caution)
+        result.cautions.emplace_back(RemarkId::posture_beyond, joint + 1, result.posture.q[joint], range_->low[joint],
+                                     range_->high[joint]);
+      // A joint that the day cannot see has its stiffness, if any, from elsewhere; one that moves little may be wrong.
+      constexpr double kMovesLittle = 0.2;
+      const double largest = range_->torque[joint], part = std::abs(torque[joint] * estimate_.compliance[joint]);
+      const bool seen = largest > options_.share_unknown * range_->torque.maxCoeff();
+      if (seen && std::abs(torque[joint]) > options_.load_caution * largest &&
+          part * rows.col(joint).norm() > kMovesLittle * size)
+        result.cautions.emplace_back(RemarkId::torque_beyond, joint + 1, std::abs(torque[joint]), largest);
+    }
+    if (result.tcp.expanded > options_.negligible && result.tcp.expanded > options_.uncertain_caution * size)
+      result.cautions.emplace_back(RemarkId::uncertain, result.tcp.expanded, size);
+  }
+
+  /// How far a joint stands outside the angles that identified, rad; whole turns do not count.
+  double beyondAngles(const Vector6d& q, int joint) const {
+    constexpr double kTurn = 2.0 * std::numbers::pi;
+    const double low = range_->low[joint], high = range_->high[joint];
+    const double past = std::remainder(q[joint] - 0.5 * (low + high), kTurn);
+    return std::max(0.0, std::abs(past) - 0.5 * (high - low));
+  }
+
+  /// Whether a joint's axis is upright, so that its angle does not change how weights load the arm.
+  bool turnsFreely(int joint) const {
+    constexpr double kUpright = 0.087;  // rad, 5 deg
+    const Eigen::Vector3d& axis = geometry_.arm.axes_in_base_at_zero[static_cast<std::size_t>(joint)].direction;
+    const Eigen::Vector3d& gravity = geometry_.weight.gravity_in_base;
+    return axis.cross(gravity).norm() <= std::sin(kUpright) * gravity.norm();
   }
 
   /// The reason to refuse where the load turns a joint of unknown stiffness, which counts as rigid here, or
@@ -162,34 +236,79 @@ class Compensator {
     return {};
   }
 
-  /// `changes`: of the result by what else is uncertain, one column each.
-  Eigen::Vector3d sdOf(const Matrix36d& rows, const Eigen::Matrix3Xd& changes) const {
-    const Matrix6d& covariance = with_ ? with_->spring_covariance : estimate_.covariance;
-    Eigen::Vector3d variance = (rows * covariance * rows.transpose()).diagonal();
-    if (changes.cols() > 0) variance += changes.rowwise().squaredNorm();
-    return variance.unaryExpr([](double v) { return v < 0.0 ? 0.0 : std::sqrt(v); });  // keeps what is no number
+  /// Errors of three coordinates, a draw each column. `rows`: of the joints, J diag(tau); `by`: of the effects'
+  /// parameters; `left`: model error of each, m (or rad).
+  Eigen::Matrix3Xd errorsOf(const Matrix36d& rows, const Eigen::Ref<const Eigen::MatrixXd>& by,
+                            const Eigen::Vector3d& predicted, double left) const {
+    Eigen::Matrix3Xd errors = rows * draws_.compliance + left * draws_.model_error;
+    if (by.cols() > 0) errors += by * draws_.parameters;
+    errors += predicted * draws_.load.transpose();
+    for (std::size_t d = 0; d < draws_.springs_alone.size(); ++d) {
+      if (draws_.springs_alone[d]) errors.col(static_cast<Eigen::Index>(d)) -= predicted;
+    }
+    return errors;
   }
 
-  PointDeflection deflectionOf(const Eigen::Vector3d& point_in_flange, const Eigen::Isometry3d& wanted,
-                               const Eigen::Isometry3d& loaded, const robot::ArmPosture& unloaded,
-                               const Vector6d& torque, const std::vector<Moved>& varied) const {
-    const Eigen::Vector3d place = wanted * point_in_flange, deflection = loaded * point_in_flange - place;
-    const Matrix36d rows = robot::jacobianAt(geometry_.arm, unloaded, place).topRows<3>() * torque.asDiagonal();
-    Eigen::Matrix3Xd changes(3, static_cast<Eigen::Index>(varied.size()));
-    for (std::size_t k = 0; k < varied.size(); ++k)
-      changes.col(static_cast<Eigen::Index>(k)) =
-          varied[k].loaded * point_in_flange - varied[k].unloaded * point_in_flange - deflection;
-    return {deflection, sdOf(rows, changes)};
+  PointDeflection deflectionOf(const Eigen::Vector3d& deflection, const Matrix36d& rows,
+                               const Eigen::Ref<const Eigen::MatrixXd>& by, double left) const {
+    const PredictionSpread spread = spreadOf(errorsOf(rows, by, deflection, left));
+    PointDeflection point{deflection, spread.sd, spread.interval, spread.expanded};
+    for (int k = 0; k < 3; ++k) {
+      identification::CoverageInterval& interval = point.interval[static_cast<std::size_t>(k)];
+      interval = {interval.low + deflection[k], interval.high + deflection[k]};
+    }
+    return point;
   }
 
-  /// The flange of the arm with what is uncertain moved; those that do not come to rest are left out.
-  std::vector<Moved> variedBy(const Vector6d& q, const effects::FlangeLoad& load) const {
+  /// The flange of the arm with what is uncertain moved; as it is where that does not come to rest.
+  std::vector<Moved> variedBy(const Vector6d& q, const effects::FlangeLoad& load, const Moved& as_it_is) const {
     std::vector<Moved> moved;
-    for (std::size_t k = 0; with_ != nullptr && k < with_->varied.size(); ++k) {
-      const auto unloaded = with_->varied[k](q, effects::FlangeLoad()), loaded = with_->varied[k](q, load);
-      if (unloaded && loaded) moved.push_back({*unloaded, *loaded});
+    for (const effects::RestingFlange& flange : with_->varied) {
+      const auto unloaded = flange(q, effects::FlangeLoad()), loaded = flange(q, load);
+      moved.push_back(unloaded && loaded ? Moved{*unloaded, *loaded} : as_it_is);
     }
     return moved;
+  }
+
+  /// What a unit of each uncertain parameter changes: of the deflection of the points (fixed to the flange, which
+  /// stands at `flange.unloaded`), three rows each, and of the flange's rotation.
+  Eigen::MatrixXd byParameters(const Vector6d& q, const effects::FlangeLoad& load, const Moved& flange,
+                               const std::vector<Eigen::Vector3d>& points) const {
+    const auto count = static_cast<Eigen::Index>(points.size());
+    Eigen::MatrixXd by = Eigen::MatrixXd::Zero(3 * count + 3, draws_.parameters.rows());
+    if (by.cols() == 0) return by;
+    if (draws_.by) {
+      std::vector<Eigen::Vector3d> places;
+      for (const Eigen::Vector3d& point : points) places.push_back(flange.unloaded * point);
+      for (int k = 0; k < 3; ++k) places.push_back(places.front() + Eigen::Vector3d::Unit(k));
+      const Eigen::MatrixXd moves = draws_.by(q, load, places);
+      by.topRows(3 * count) = moves.topRows(3 * count);
+      // A small turn moves the points one metre off along the axes by its cross product.
+      for (Eigen::Index c = 0; c < by.cols(); ++c) {
+        for (int k = 0; k < 3; ++k) {
+          const Eigen::Vector3d off = moves.col(c).segment<3>(3 * (count + k)) - moves.col(c).head<3>();
+          by.col(c).tail<3>() += 0.5 * Eigen::Vector3d::Unit(k).cross(off);
+        }
+      }
+      return by;
+    }
+    const std::vector<Moved> varied = variedBy(q, load, flange);
+    for (std::size_t v = 0; v < varied.size(); ++v) {
+      const auto c = static_cast<Eigen::Index>(v);
+      for (Eigen::Index p = 0; p < count; ++p) {
+        const Eigen::Vector3d& point = points[static_cast<std::size_t>(p)];
+        by.col(c).segment<3>(3 * p) = moveOf(varied[v], point) - moveOf(flange, point);
+      }
+      by.col(c).tail<3>() = turnOf(varied[v]) - turnOf(flange);
+    }
+    return by;
+  }
+
+  static Eigen::Vector3d moveOf(const Moved& flange, const Eigen::Vector3d& point_in_flange) {
+    return flange.loaded * point_in_flange - flange.unloaded * point_in_flange;
+  }
+  static Eigen::Vector3d turnOf(const Moved& flange) {
+    return rotationVector(flange.loaded.linear() * flange.unloaded.linear().transpose());
   }
 
   void predict(const robot::ArmPosture& unloaded, const Eigen::Isometry3d& wanted, const effects::FlangeLoad& load,
@@ -201,24 +320,35 @@ class Compensator {
       return;
     }
     result.predicted = true;
-    const Eigen::Isometry3d& loaded = *resting;
+    const Moved flange{wanted, *resting};
     const Vector6d torque = torqueOf(unloaded, wanted, load);
-    const Matrix6d jacobian = robot::jacobianAt(geometry_.arm, unloaded, wanted * tcp_);
-    const std::vector<Moved> varied = variedBy(result.posture.q, load);
-    result.tcp = deflectionOf(tcp_, wanted, loaded, unloaded, torque, varied);
-    result.rotation = rotationVector(loaded.linear() * wanted.linear().transpose());
-    Eigen::Matrix3Xd turns(3, static_cast<Eigen::Index>(varied.size()));
-    for (std::size_t k = 0; k < varied.size(); ++k)
-      turns.col(static_cast<Eigen::Index>(k)) =
-          rotationVector(varied[k].loaded.linear() * varied[k].unloaded.linear().transpose()) - result.rotation;
-    result.rotation_sd = sdOf(jacobian.bottomRows<3>() * torque.asDiagonal(), turns);
+    std::vector<Eigen::Vector3d> points{tcp_};
     const auto& places = geometry_.targets_at_zero;
     if (std::all_of(places.begin(), places.end(), [](const auto& place) { return place.has_value(); })) {
       const Eigen::Isometry3d flange_from_zero = geometry_.arm.base_from_flange_at_zero.inverse();
-      for (const auto& place : places) {
-        result.targets.push_back(deflectionOf(flange_from_zero * *place, wanted, loaded, unloaded, torque, varied));
+      for (const auto& place : places) points.push_back(flange_from_zero * *place);
+    }
+    const Eigen::MatrixXd by = byParameters(result.posture.q, load, flange, points);
+    const robot::ArmAxes axes = robot::axesAt(geometry_.arm, unloaded);
+    const double left = range_ ? range_->model_error *
+                                     loadRatio(*range_, {wanted * load.point_in_flange, load.force, load.moment}, axes)
+                               : 0.0;
+    for (std::size_t p = 0; p < points.size(); ++p) {
+      const Matrix36d rows = robot::pointJacobianAt(axes, wanted * points[p]) * torque.asDiagonal();
+      const PointDeflection point =
+          deflectionOf(moveOf(flange, points[p]), rows, by.middleRows<3>(3 * static_cast<Eigen::Index>(p)), left);
+      if (p == 0) {
+        result.tcp = point;
+      } else {
+        result.targets.push_back(point);
       }
     }
+    const Matrix6d jacobian = robot::jacobianAt(geometry_.arm, unloaded, wanted * tcp_);
+    result.rotation = turnOf(flange);
+    const double turn_left = range_ && range_->tool_size > 0.0 ? left / range_->tool_size : 0.0;
+    result.rotation_sd = spreadOf(errorsOf(jacobian.bottomRows<3>() * torque.asDiagonal(), by.bottomRows<3>(),
+                                           result.rotation, turn_left))
+                             .sd;
     const Vector6d singular = singularValues(jacobian);
     result.conditioning = singular[5] / singular[0];
   }
@@ -267,6 +397,9 @@ class Compensator {
   Eigen::Vector3d tcp_;
   CompensateOptions options_;
   const effects::EffectDeflection* with_;
+  const IdentifiedRange* range_;  ///< null: not known
+  DeflectionDraws own_draws_;     ///< where none are given
+  const DeflectionDraws& draws_;
 };
 
 }  // namespace
@@ -275,12 +408,46 @@ std::vector<CompensatedPosture> compensate(const campaign::Campaign& campaign, c
                                            const identification::StiffnessEstimate& estimate,
                                            const Eigen::Vector3d& tcp_in_flange,
                                            const std::vector<PostureToCompensate>& postures,
-                                           const CompensateOptions& options, const effects::EffectDeflection* with) {
-  const Compensator compensator(campaign, geometry, estimate, tcp_in_flange, options, with);
+                                           const CompensateOptions& options, const effects::EffectDeflection* with,
+                                           const Certainty* certainty) {
+  const Compensator compensator(campaign, geometry, estimate, tcp_in_flange, options, with, certainty);
   std::vector<CompensatedPosture> results;
   results.reserve(postures.size());
   for (const PostureToCompensate& posture : postures) results.push_back(compensator.run(posture));
   return results;
+}
+
+Certainty certaintyOf(const identification::Identification& result, identification::Method method, double load_sd) {
+  const identification::StiffnessEstimate& estimate = result.of(method).estimate;
+  return {springDraws(estimate, identification::coveringCovariance(estimate), load_sd),
+          identifiedRange(result, method)};
+}
+
+Certainty certaintyOf(const extended_model::ExtendedModel& model, identification::Method method, double load_sd) {
+  return {modelDraws(model, method, load_sd), identifiedRange(model.with, method)};
+}
+
+CompensationSummary summaryOf(const std::vector<CompensatedPosture>& postures) {
+  CompensationSummary summary;
+  summary.asked = postures.size();
+  for (const CompensatedPosture& posture : postures) {
+    if (posture.solved) {
+      ++summary.compensated;
+      summary.cautioned += !posture.cautions.empty();
+      continue;
+    }
+    const auto same = std::find_if(summary.refused.begin(), summary.refused.end(), [&](const auto& one) {
+      return one.first.family == posture.reason.family && one.first.id == posture.reason.id;
+    });
+    if (same == summary.refused.end()) {
+      summary.refused.emplace_back(posture.reason, 1);
+    } else {
+      ++same->second;
+    }
+  }
+  std::stable_sort(summary.refused.begin(), summary.refused.end(),
+                   [](const auto& a, const auto& b) { return a.second > b.second; });
+  return summary;
 }
 
 }  // namespace stiffscope::compensation

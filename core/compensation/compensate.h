@@ -3,9 +3,12 @@
 #include <array>
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/campaign/campaign.h"
+#include "core/compensation/deflection_draws.h"
+#include "core/compensation/identified_range.h"
 #include "core/compensation/remarks.h"
 #include "core/effects/elastic_arm.h"
 #include "core/identification/estimate.h"
@@ -20,11 +23,12 @@ struct PostureToCompensate {
   Vector6d wrench_in_cell = Vector6d::Zero();  ///< N, Nm, in the load cell's axes
 };
 
-/// Predicted move of one point of the flange body by the load, loaded less unloaded, and its standard
-/// uncertainty from the stiffnesses' covariance: R0 axes, m.
+/// Predicted move of one point of the flange body by the load, loaded less unloaded: R0 axes, m.
 struct PointDeflection {
   Eigen::Vector3d deflection = Eigen::Vector3d::Zero();
-  Eigen::Vector3d sd = Eigen::Vector3d::Zero();
+  Eigen::Vector3d sd = Eigen::Vector3d::Zero();                ///< standard uncertainty of each coordinate
+  std::array<identification::CoverageInterval, 3> interval{};  ///< of each coordinate, at the stated coverage
+  double expanded = 0.0;  ///< U: the point is nearer than this to where it is predicted, at the stated coverage
 };
 
 /// Predicted deflection by the load, and the joint commands that cancel it.
@@ -35,6 +39,8 @@ struct CompensatedPosture {
   Eigen::Vector3d rotation = Eigen::Vector3d::Zero();     ///< of the flange, rotation vector in R0, rad
   Eigen::Vector3d rotation_sd = Eigen::Vector3d::Zero();  ///< its standard uncertainty, rad
   std::vector<PointDeflection> targets;  ///< of the reflectors, in the order of the campaign's; empty: places not known
+  double load_ratio = 0.0;               ///< to the largest load that identified (loadRatio); 0: nothing known of that
+  std::vector<Remark> cautions;          ///< what to know of the prediction, refused or not
   bool solved = false;
   Remark reason;                         ///< why there are no commands
   Vector6d commands = Vector6d::Zero();  ///< joint angles to command, rad
@@ -46,23 +52,65 @@ struct CompensatedPosture {
 struct CompensateOptions {
   double least_conditioning = 0.01;  ///< below it a posture is too near a singularity
   double share_unknown = 0.02;       ///< of the largest joint torque: what may turn a joint of unusable stiffness
+
+  /// Loads over the largest that identified. Drives are linear within their usual range of torque, and half as much
+  /// again changes little; beyond five times gears are in another stage of their curve, and nothing the day showed says
+  /// which.
+  double load_caution = 1.5, load_most = 5.0;
+  /// Joint angles beyond those that identified, rad. A quarter turn puts every part of the arm across the direction
+  /// that the load had along it. Of an upright axis 1 there is no limit: turning about it leaves the load on the arm as
+  /// it was.
+  double posture_caution = 0.26, posture_most = 1.57;
+  /// U over the size of the deflection of P_TCP: from one on, commands may do more harm than good.
+  double uncertain_caution = 0.5, uncertain_most = 1.0;
+  double negligible = 1e-6;  ///< U, m, below which no share matters
 };
+
+/// How far predictions can be trusted: what may be true instead of the model, and what it stands on.
+struct Certainty {
+  DeflectionDraws draws;
+  IdentifiedRange range;
+};
+
+/// Of joint springs alone, and of a model with effects (which must outlive the result). `load_sd`: of the load cell's
+/// scale, a share.
+Certainty certaintyOf(const identification::Identification& result, identification::Method method, double load_sd);
+Certainty certaintyOf(const extended_model::ExtendedModel& model, identification::Method method, double load_sd);
 
 /// For each posture: the nonlinear model (finite rotations, own weight and load on the moved arm) gives the
 /// loaded pose; Newton steps on the commands bring the loaded flange back onto the pose that the unloaded arm
 /// has at q. The wrench is taken into R0 at the unloaded flange and keeps its direction. No commands, with
 /// the reason, where the posture is outside the joint limits or a command would be, near a singularity, where
 /// the steps do not converge, and where more than `share_unknown` of the largest joint torque turns a joint
-/// whose stiffness is not known or came out negative. Uncertainties are first order, J diag(tau) U_c
-/// diag(tau) J^T; not a number where U_c is not.
+/// whose stiffness is not known or came out negative. Nor, with `certainty`, far beyond the loads and postures that
+/// identified, or where the prediction is as uncertain as it is large; before that there are cautions.
 ///
-/// `with`: an arm that gives at more than its joint springs takes the place of these; its uncertainty adds in squares.
+/// Uncertainty: each draw of the certainty moves a point, to first order, by J diag(tau) (c_draw - c) and the columns
+/// of its effects times their parameters; to that comes the error of the wrench's size, and the model error that the
+/// day left, times the load's ratio to the day's. Not a number where the stiffnesses' uncertainty is not. Without
+/// `certainty` the stiffnesses' covariance is all, and `with`'s.
+///
+/// `with`: an arm that gives at more than its joint springs takes the place of these.
 std::vector<CompensatedPosture> compensate(const campaign::Campaign& campaign, const frames::LoadingGeometry& geometry,
                                            const identification::StiffnessEstimate& estimate,
                                            const Eigen::Vector3d& tcp_in_flange,
                                            const std::vector<PostureToCompensate>& postures,
                                            const CompensateOptions& options = {},
-                                           const effects::EffectDeflection* with = nullptr);
+                                           const effects::EffectDeflection* with = nullptr,
+                                           const Certainty* certainty = nullptr);
+
+/// How many postures have commands, and why others have none.
+struct CompensationSummary {
+  std::size_t asked = 0, compensated = 0;
+  std::size_t cautioned = 0;  ///< of those with commands
+  /// The first reason of its kind, and how many postures have one of that kind; most frequent first.
+  std::vector<std::pair<Remark, std::size_t>> refused;
+
+  /// Whether most postures have no commands.
+  bool mostRefused() const { return 2 * compensated < asked || compensated == 0; }
+};
+
+CompensationSummary summaryOf(const std::vector<CompensatedPosture>& postures);
 
 /// A remark on each posture whose commands turn a joint by more than 2 deg against its angle: ten times
 /// what a heavy load does to a weak joint, so that forces, moments or angles are rather in another unit.

@@ -12,6 +12,14 @@ enum class RemarkId {
   turns_joint_of_negative_k,  ///< joint number, torque Nm
   turns_joint_of_unknown_k,   ///< joint number, torque Nm
   steps_do_not_converge,
+  load_far_beyond,      ///< load over the largest that identified, most that is predicted
+  posture_far_beyond,   ///< joint number, its angle, least and largest angle that identified, rad; most beyond, rad
+  uncertain_as_itself,  ///< U of the deflection of P_TCP m, its size m
+  // What to know of a posture with commands.
+  load_beyond,     ///< load over the largest that identified
+  torque_beyond,   ///< joint number, its torque by the load Nm, the largest that identified Nm
+  posture_beyond,  ///< joint number, its angle, least and largest angle that identified, rad
+  uncertain,       ///< U of the deflection of P_TCP m, its size m
   // What commands are not to be believed.
   implausible_command,  ///< posture, joint number, turn rad
 };

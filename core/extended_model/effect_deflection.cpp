@@ -5,6 +5,8 @@
 #include "core/effects/all.h"
 #include "core/effects/gravity_equilibrium.h"
 #include "core/extended_model/effect_fit.h"
+#include "core/extended_model/effect_offsets.h"
+#include "core/robot/wrench.h"
 
 namespace stiffscope::extended_model {
 
@@ -50,6 +52,26 @@ effects::EffectDeflection effectDeflection(const ExtendedModel& model, identific
     give.varied.push_back(flangeOf(model, own.geometry, parameters, estimate.compliance + columns.col(k)));
   }
   return give;
+}
+
+Eigen::MatrixXd displacementByHidden(const ExtendedModel& model, identification::Method method,
+                                     const Vector6d& commands, const effects::FlangeLoad& load,
+                                     const std::vector<Eigen::Vector3d>& points) {
+  const diagnosis::GapStudy& study = *model.study;
+  const frames::LoadingGeometry& geometry = model.with.of(method).geometry;
+  const effects::ArmState rest = effects::gravityEquilibrium(geometry, study.fit.state.at, commands);
+  effects::PostureStates states{rest, rest};
+  states[1].step = 1;
+  states[1].loaded = true;
+  states[1].load = {rest.flange * load.point_in_flange, load.force, load.moment};
+  states[1].load_torque = robot::jointTorque(geometry.arm, rest.posture, states[1].load);
+  EffectColumns moving = model.hidden->draws.columns;
+  std::erase_if(moving.models, [&](std::size_t m) {
+    const effects::EffectNature nature = effects::natureOf(study.input->models[m].effect);
+    return nature != effects::EffectNature::machine && nature != effects::EffectNature::load;
+  });
+  const std::vector<int> targets(points.size(), 0);  // none of these effects asks which point it is
+  return displacementByEffects(*study.input, study.fit, moving, states, 1, targets, points);
 }
 
 }  // namespace stiffscope::extended_model

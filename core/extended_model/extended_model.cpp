@@ -42,14 +42,6 @@ identification::IdentifyOptions valuesOnly(identification::IdentifyOptions optio
   return options;
 }
 
-/// S of Sigma = S S^T by eigenvectors, the parameters in their own standard deviations.
-Eigen::MatrixXd rootOf(const Eigen::MatrixXd& covariance) {
-  const Eigen::VectorXd sd = covariance.diagonal().cwiseMax(0.0).cwiseSqrt();
-  const Eigen::VectorXd inverse = sd.unaryExpr([](double d) { return d > 0.0 ? 1.0 / d : 0.0; });
-  const SymmetricEigen own = symmetricEigen(inverse.asDiagonal() * covariance * inverse.asDiagonal());
-  return sd.asDiagonal() * own.vectors * own.values.cwiseMax(0.0).cwiseSqrt().asDiagonal();
-}
-
 /// To first order: d c = -G E S, G the method's solution of its equations A c + E theta = b.
 void findSpread(const std::vector<CaseEffects>& cases, ExtendedModel& model) {
   EffectSpread& spread = model.spread;
@@ -116,7 +108,7 @@ ExtendedModel extendModel(const campaign::Campaign& campaign, EffectFit effects,
   own.robust = options.robust;
   model.with = identification::identify(model.campaign, own);
   model.with.left_out.insert(model.with.left_out.end(), left_out.begin(), left_out.end());
-  model.spread.parameters = rootOf(model.effects.covariance);
+  model.spread.parameters = covarianceRoot(model.effects.covariance);
   const std::vector<CaseEffects> cases = caseEffects(model.effects, model.spread.parameters, model.with);
   findSpread(cases, model);
   addEffectsUncertainty(model);
@@ -195,7 +187,8 @@ ExtendedModel supportedModel(const preparation::PreparedCampaign& prepared, cons
   const bool thinned = diagnosis::isLong(prepared.campaign);
   std::optional<preparation::PreparedCampaign> spread;
   if (thinned) spread = diagnosis::spreadForDiagnosis(prepared);
-  const diagnosis::GapStudy study = diagnosis::studyGap(spread ? *spread : prepared);
+  auto whole = std::make_unique<const diagnosis::GapStudy>(diagnosis::studyGap(spread ? *spread : prepared));
+  const diagnosis::GapStudy& study = *whole;
   if (!study.usable()) {
     EffectFit none;
     none.notes.emplace_back(RemarkId::diagnosis_has_no_gap, study.start->reason);
@@ -210,17 +203,20 @@ ExtendedModel supportedModel(const preparation::PreparedCampaign& prepared, cons
     return extendModel(campaign, std::move(none), options);
   }
   const Declared declared = declaredOf(model.campaign, model.with, options);
+  model.study = std::move(whole);
   if (!thinned) {
     model.hidden =
         weighHiddenEffects(study, model.effects, model.campaign, model.with, model.without, declared, model.with);
-    cautionBeside(model);
-    return model;
+  } else {
+    std::vector<identification::LeftOutPosture> left_out;
+    const EffectFit own = chosenEffects(*spread, study);
+    campaign::Campaign seen = own.free.empty() ? spread->campaign : correctedFor(own, spread->campaign, left_out);
+    model.hidden = weighHiddenEffects(study, own, seen, identification::identify(seen, valuesOnly(options)),
+                                      model.without, declared, model.with);
   }
-  std::vector<identification::LeftOutPosture> left_out;
-  const EffectFit own = chosenEffects(*spread, study);
-  campaign::Campaign seen = own.free.empty() ? spread->campaign : correctedFor(own, spread->campaign, left_out);
-  model.hidden = weighHiddenEffects(study, own, seen, identification::identify(seen, valuesOnly(options)),
-                                    model.without, declared, model.with);
+  // What is known from elsewhere is held against the intervals that are stated.
+  if (!model.campaign.known_stiffness.empty())
+    model.with.cautions = identification::warningsOf(model.campaign, model.with);
   cautionBeside(model);
   return model;
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <optional>
 
 #include "core/diagnosis/gap_study.h"
@@ -38,6 +39,7 @@ struct ExtendedModel {
   identification::Identification without, with;
   EffectSpread spread;
   std::optional<HiddenEffects> hidden;  ///< of the model that the data support: what could still hide
+  std::unique_ptr<const diagnosis::GapStudy> study;  ///< the equations that `hidden` was weighed in; null without it
 
   /// Chi2 per equation that the model leaves, of `hidden`; and whether that is at most a quarter above noise's.
   double leftOver() const { return effects.added.empty() ? hidden->lack_of_fit : hidden->left_over; }

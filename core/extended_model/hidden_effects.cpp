@@ -20,15 +20,6 @@ namespace {
 using identification::Method;
 using identification::StiffnessEstimate;
 
-/// The parameters that may hide, and draws of how far they are from what was fitted.
-struct HiddenParameters {
-  EffectColumns columns;
-  std::vector<effects::Effect> effect;  ///< of each parameter
-  std::vector<HiddenParameter> named;   ///< the same with its name and fitted size
-  std::vector<bool> declared;           ///< whether its size is known beforehand
-  Eigen::MatrixXd off;                  ///< theta - theta_fit, a draw each column
-};
-
 /// One model for each effect that the campaign can show: the chosen one, else the first.
 std::vector<std::size_t> modelOfEach(const diagnosis::GapStudy& study) {
   std::map<effects::Effect, std::size_t> model_of;
@@ -61,10 +52,10 @@ double declaredSd(effects::Effect effect, const Declared& declared) {
   return 0.0;
 }
 
-HiddenParameters hiddenParameters(const diagnosis::GapStudy& study, const EffectFit& fitted, const Declared& declared) {
+HiddenDraws hiddenDraws(const diagnosis::GapStudy& study, const EffectFit& fitted, const Declared& declared) {
   const diagnosis::GapLayout& layout = study.fit.data.layout;
   const diagnosis::Projection& projection = study.fit.projection;
-  HiddenParameters hidden;
+  HiddenDraws hidden;
   EffectEvidence evidence;
   std::vector<double> bound, at_fit;
   hidden.columns.models = modelOfEach(study);
@@ -152,12 +143,12 @@ identification::CoverageInterval quantiles(std::vector<double>& values, double c
 
 class MethodWeigher {
  public:
-  MethodWeigher(const HiddenParameters& hidden, const Declared& declared, bool unexplained)
+  MethodWeigher(const HiddenDraws& hidden, const Declared& declared, bool unexplained)
       : hidden_(hidden), declared_(declared), unexplained_(unexplained) {}
 
   std::vector<BudgetLine> weigh(Method which, const Eigen::Matrix<double, 6, Eigen::Dynamic>& gain,
                                 const StiffnessEstimate& alone, const std::vector<effects::Effect>& in_model,
-                                StiffnessEstimate& estimate) const {
+                                StiffnessEstimate& estimate, HiddenDraws::OfMethod& draws) const {
     const Eigen::MatrixXd moved_by_all = gain * hidden_.off;
     const std::vector<Eigen::Index> kept = possibleDraws(estimate, moved_by_all);
     const Eigen::MatrixXd moved = moved_by_all(Eigen::all, kept), off = hidden_.off(Eigen::all, kept);
@@ -182,6 +173,10 @@ class MethodWeigher {
     estimate.parts.effects += more.asDiagonal();
     estimate.covariance = estimate.parts.total();
     state(moved, own, alone, by_columns, estimate);
+    draws.possible = kept;
+    draws.compliance = moved.colwise() + (own.compliance - estimate.compliance);
+    draws.others = identification::coveringCovariance(own);
+    draws.others += by_columns.asDiagonal();
     return budget;
   }
 
@@ -222,10 +217,8 @@ class MethodWeigher {
   /// variance by what is declared.
   std::vector<double> draws(const Eigen::MatrixXd& moved, const StiffnessEstimate& own, const StiffnessEstimate& alone,
                             const Vector6d& by_columns, int j, numerics::RandomStream& random) const {
-    constexpr double kNormal = 1.959963984540054;  // of 95 % of a normal number
     const auto sdOf = [&](const StiffnessEstimate& one) {
-      const double factor = identification::coverageFactor(one, j, identification::kStatedCoverage) / kNormal;
-      return std::sqrt(std::max(0.0, one.covariance(j, j)) * factor * factor + by_columns[j]);
+      return std::hypot(identification::coveringSd(one, j), std::sqrt(by_columns[j]));
     };
     const double sd = sdOf(own), alone_sd = unexplained_ ? sdOf(alone) : 0.0;
     std::vector<double> values;
@@ -262,12 +255,12 @@ class MethodWeigher {
     }
   }
 
-  const HiddenParameters& hidden_;
+  const HiddenDraws& hidden_;
   const Declared& declared_;
   bool unexplained_;
 };
 
-std::vector<SeenCombination> combinationsOf(const HiddenParameters& hidden,
+std::vector<SeenCombination> combinationsOf(const HiddenDraws& hidden,
                                             const Eigen::Matrix<double, 6, Eigen::Dynamic>& gain,
                                             const StiffnessEstimate& estimate) {
   const Eigen::MatrixXd all = gain * hidden.off;
@@ -305,7 +298,9 @@ HiddenEffects weighHiddenEffects(const diagnosis::GapStudy& study, const EffectF
   // gap is the better one wherever that was tried.
   constexpr double kMuch = 1.1, kShare = 0.15;
   result.unexplained = (result.left_over > kMuch || fit.model_error > 0.0) && left > kShare * gap;
-  const HiddenParameters hidden = hiddenParameters(study, fitted, declared);
+  result.draws = hiddenDraws(study, fitted, declared);
+  const HiddenDraws& hidden = result.draws;
+  result.gain_sd = declared.gain_sd;
   const std::vector<CaseEffects> cases = caseEffects(study, hidden.columns, seen);
   std::vector<effects::Effect> in_model;
   for (const AddedEffect& one : fitted.added) in_model.push_back(one.effect);
@@ -324,7 +319,8 @@ HiddenEffects weighHiddenEffects(const diagnosis::GapStudy& study, const EffectF
                                   seen_campaign, seen.frames, seen.of(which).estimate.compliance.cwiseMax(0.0)),
                   result.unexplained ? &without.frames : nullptr, with.frames);
     }
-    result.budget[at] = weigher.weigh(which, gain, without.of(which).estimate, in_model, with.methods[at].estimate);
+    result.budget[at] = weigher.weigh(which, gain, without.of(which).estimate, in_model, with.methods[at].estimate,
+                                      result.draws.methods[at]);
     if (!result.unexplained) result.combinations[at] = combinationsOf(hidden, gain, with.methods[at].estimate);
   }
   return result;

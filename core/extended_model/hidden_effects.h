@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/diagnosis/gap_study.h"
+#include "core/extended_model/effect_offsets.h"
 #include "core/extended_model/fitted_effects.h"
 #include "core/extended_model/seen_combinations.h"
 #include "core/identification/identification.h"
@@ -48,6 +49,23 @@ struct Declared {
   std::vector<Column> columns;
 };
 
+/// What else may be true of the machine, a draw each column: all that intervals and predictions are made of.
+struct HiddenDraws {
+  EffectColumns columns;                ///< the effects' parameters in the study's equations
+  std::vector<effects::Effect> effect;  ///< of each of them
+  std::vector<HiddenParameter> named;   ///< the same with its name and fitted size
+  std::vector<bool> declared;           ///< whether its size is known beforehand
+  Eigen::MatrixXd off;                  ///< theta - theta_fit
+
+  /// Of one method's compliances.
+  struct OfMethod {
+    std::vector<Eigen::Index> possible;                   ///< draws in which no stiffness is negative
+    Eigen::Matrix<double, 6, Eigen::Dynamic> compliance;  ///< c of these draws less the estimate's, rad/Nm
+    Matrix6d others = Matrix6d::Zero();  ///< covariance of c by what is no effect, for normal numbers of its coverage
+  };
+  std::array<OfMethod, 3> methods;  ///< by Method; without draws where that is not available
+};
+
 /// How far the data let anything besides the fitted model move the stiffnesses.
 struct HiddenEffects {
   double lack_of_fit = 0.0;  ///< chi2 per equation of the loading that joint springs alone leave
@@ -60,6 +78,8 @@ struct HiddenEffects {
   /// By Method: what is seen of joints that the data does not tell from an effect; none where no model explains the
   /// gap.
   std::array<std::vector<SeenCombination>, 3> combinations;
+  HiddenDraws draws;
+  double gain_sd = 0.0;  ///< of the load cell's scale, as declared
 };
 
 /// Puts into the estimates of `with` the intervals that hold what could still hide.

@@ -328,6 +328,23 @@ double expandedUncertainty(const StiffnessEstimate& estimate, int joint) {
   return std::max(interval.high - k, k - interval.low);
 }
 
+double coveringSd(const StiffnessEstimate& estimate, int joint) {
+  constexpr double kNormal = 1.959963984540054;  // of 95 % of a normal number
+  return std::sqrt(std::max(0.0, estimate.covariance(joint, joint))) *
+         coverageFactor(estimate, joint, kStatedCoverage) / kNormal;
+}
+
+Matrix6d coveringCovariance(const StiffnessEstimate& estimate) {
+  Vector6d scale = Vector6d::Zero();
+  for (int j = 0; j < 6; ++j) {
+    const double sd = std::sqrt(std::max(0.0, estimate.covariance(j, j)));
+    if (!estimate.identifiable[static_cast<std::size_t>(j)]) continue;
+    const double covering = sd > 0.0 ? coveringSd(estimate, j) / sd : 1.0;
+    scale[j] = std::isfinite(covering) ? covering : 1.0;  // known without degrees of freedom: normal as it stands
+  }
+  return scale.asDiagonal() * estimate.covariance * scale.asDiagonal();
+}
+
 Matrix6d correlation(const StiffnessEstimate& estimate) {
   Vector6d scale = Vector6d::Zero();
   for (int j = 0; j < 6; ++j) {

@@ -180,6 +180,13 @@ CoverageInterval stiffnessInterval(const StiffnessEstimate& estimate, int joint,
 /// distance of its farther end, so that k -+ U holds it. Infinite where the interval is open.
 double expandedUncertainty(const StiffnessEstimate& estimate, int joint);
 
+/// Standard deviation, rad/Nm, of a normal number that has c's coverage factor: u(c) by Student's over the normal
+/// quantile at the stated coverage. For sums of such numbers with others.
+double coveringSd(const StiffnessEstimate& estimate, int joint);
+
+/// The covariance scaled to those; rows and columns of joints that are not identifiable are zero.
+Matrix6d coveringCovariance(const StiffnessEstimate& estimate);
+
 /// Correlation of the compliances; rows and columns of joints that are not identifiable are zero.
 Matrix6d correlation(const StiffnessEstimate& estimate);
 

@@ -43,8 +43,6 @@ enum class RemarkId {
   too_few_postures,      ///< load cases
   outlying_postures,     ///< names, left per coordinate rms of each m, of the others m, whether left out (1)
   mostly_noise,
-  sag_in_sweeps,      ///< largest sag taken off m
-  sweep_above_noise,  ///< axis number, residual rms m, times the noise
   // why a method is shown first; methods by their number in Method
   shown_compensates_most,  ///< where (ShownFirst::Judged), method, methods that were judged, their held-out shares
   shown_as_good_as_most,   ///< where, method, the one that compensates most, by how much more, standard deviation of
@@ -62,6 +60,8 @@ enum class RemarkId {
   sag_in_sweeps,          ///< largest sag taken off m
   sag_in_sweeps_weighed,  ///< the same, what could hide in it weighed
   sweep_above_noise,      ///< axis number, residual rms m, times the noise
+  /// joint number, k from elsewhere and its standard uncertainty Nm/rad, its source, k of the day, ends of its interval
+  known_stiffness_contradicted,
   // of a joint's stiffness
   negative,
   imprecise  ///< standard deviation above the value

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/identification/identification.h"
+#include "core/identification/known_stiffness.h"
 #include "core/identification/remarks.h"
 
 namespace stiffscope::identification {
@@ -81,6 +82,7 @@ std::vector<Remark> warningsOf(const campaign::Campaign& campaign, const Identif
   if (method != nullptr) {
     if (!hasPositive(method->estimate)) add(Remark(RemarkId::all_negative));
     add(residualWarning(result, *method));
+    for (Remark& remark : contradictedKnown(campaign.known_stiffness, method->estimate)) add(std::move(remark));
     if (!method->estimate.covariance.allFinite()) add(Remark(RemarkId::too_few_postures, result.cases.size()));
   }
   add(outlyingWarning(campaign, result));

@@ -4,6 +4,7 @@
 #include "reports/json/json.h"
 
 #include "core/io/units.h"
+#include "reports/words/compensation_words.h"
 #include "reports/words/names.h"
 #include "reports/words/remark_words.h"
 
@@ -11,12 +12,21 @@ namespace stiffscope::reports {
 
 namespace {
 
+Json intervalJson(const compensation::PointDeflection& point) {
+  Json list = Json::array();
+  for (const identification::CoverageInterval& one : point.interval)
+    list.push_back(Json::array({number(one.low / io::kMillimetre), number(one.high / io::kMillimetre)}));
+  return list;
+}
+
 Json targetsJson(const campaign::Campaign& campaign, const std::vector<compensation::PointDeflection>& targets) {
   Json list = Json::array();
   for (std::size_t k = 0; k < targets.size(); ++k) {
     list.push_back({{"target", campaign.targets[k].id},
                     {"deflection_mm", array(targets[k].deflection, 1.0 / io::kMillimetre)},
-                    {"sd_deflection_mm", array(targets[k].sd, 1.0 / io::kMillimetre)}});
+                    {"sd_deflection_mm", array(targets[k].sd, 1.0 / io::kMillimetre)},
+                    {"interval_deflection_mm", intervalJson(targets[k])},
+                    {"u_deflection_mm", number(targets[k].expanded / io::kMillimetre)}});
   }
   return list;
 }
@@ -26,10 +36,13 @@ Json rowJson(const campaign::Campaign& campaign, const compensation::Compensated
   if (posture.predicted) {
     row["tcp_deflection_mm"] = array(posture.tcp.deflection, 1.0 / io::kMillimetre);
     row["sd_tcp_deflection_mm"] = array(posture.tcp.sd, 1.0 / io::kMillimetre);
+    row["interval_tcp_deflection_mm"] = intervalJson(posture.tcp);
+    row["u_tcp_deflection_mm"] = number(posture.tcp.expanded / io::kMillimetre);
     row["flange_rotation_deg"] = array(posture.rotation, 1.0 / io::kDegree);
     row["sd_flange_rotation_deg"] = array(posture.rotation_sd, 1.0 / io::kDegree);
     row["targets"] = targetsJson(campaign, posture.targets);
     row["conditioning"] = posture.conditioning;
+    row["load_ratio"] = posture.load_ratio > 0.0 ? Json(posture.load_ratio) : Json(nullptr);
   } else {
     row["tcp_deflection_mm"] = nullptr;
   }
@@ -42,18 +55,45 @@ Json rowJson(const campaign::Campaign& campaign, const compensation::Compensated
     row["command_deg"] = nullptr;
     row["refused"] = words(posture.reason);
   }
+  row["cautions"] = words(posture.cautions);
   return row;
+}
+
+Json summaryJson(const std::vector<compensation::CompensatedPosture>& postures) {
+  const compensation::CompensationSummary summary = compensation::summaryOf(postures);
+  Json refused = Json::array();
+  for (const auto& [reason, count] : summary.refused)
+    refused.push_back({{"because", refusalWords(reason)}, {"postures", count}});
+  return {{"postures", summary.asked},
+          {"compensated", summary.compensated},
+          {"cautioned", summary.cautioned},
+          {"refused", refused},
+          {"text", summaryWords(summary)}};
+}
+
+Json knownJson(const std::vector<campaign::KnownStiffness>& known) {
+  Json list = Json::array();
+  for (const campaign::KnownStiffness& one : known)
+    list.push_back(
+        {{"joint", one.joint + 1}, {"nm_per_rad", one.stiffness}, {"sd_nm_per_rad", one.sd}, {"source", one.source}});
+  return list;
 }
 
 }  // namespace
 
 Json compensationJson(const campaign::Campaign& campaign, identification::Method method,
-                      const std::vector<compensation::CompensatedPosture>& postures) {
+                      const std::vector<compensation::CompensatedPosture>& postures,
+                      const std::vector<campaign::KnownStiffness>& known) {
   Json rows = Json::array();
   for (const compensation::CompensatedPosture& posture : postures) {
     rows.push_back(rowJson(campaign, posture));
   }
-  return {{"campaign", campaignJson(campaign)}, {"method", namesOf(method).key}, {"frame", "r0"}, {"rows", rows}};
+  return {{"campaign", campaignJson(campaign)},
+          {"method", namesOf(method).key},
+          {"frame", "r0"},
+          {"known_stiffness", knownJson(known)},
+          {"rows", rows},
+          {"summary", summaryJson(postures)}};
 }
 
 }  // namespace stiffscope::reports

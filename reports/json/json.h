@@ -11,7 +11,8 @@ struct AuditReport;
 }
 namespace stiffscope::campaign {
 struct Campaign;
-}
+struct KnownStiffness;
+}  // namespace stiffscope::campaign
 namespace stiffscope::comparison {
 struct Comparison;
 struct StiffnessChange;
@@ -59,9 +60,11 @@ Json changeJson(const comparison::StiffnessChange& change, bool ratios_hold);
 Json comparisonJson(const campaign::Campaign& before, const campaign::Campaign& after,
                     const comparison::Comparison& comparison);
 
-/// The result of `compensate`: a row a posture.
+/// The result of `compensate`: a row a posture, and the summary. `known`: stiffnesses from elsewhere that stand in for
+/// joints which the day cannot see.
 Json compensationJson(const campaign::Campaign& campaign, identification::Method method,
-                      const std::vector<compensation::CompensatedPosture>& postures);
+                      const std::vector<compensation::CompensatedPosture>& postures,
+                      const std::vector<campaign::KnownStiffness>& known);
 
 /// The result of `diagnose`. `verdict` is a list of lists of effect ids: the outer names all that is present,
 /// an inner one what this data cannot tell apart; [["none"]], or ["unknown"] among them.

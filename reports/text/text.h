@@ -10,7 +10,8 @@ struct AuditReport;
 }
 namespace stiffscope::campaign {
 struct Campaign;
-}
+struct KnownStiffness;
+}  // namespace stiffscope::campaign
 namespace stiffscope::comparison {
 struct Comparison;
 }
@@ -56,6 +57,7 @@ std::string comparisonText(const campaign::Campaign& before, const campaign::Cam
 /// The result of `compensate` for a terminal, and under it what a reader must know, a sentence each.
 std::string compensationText(const campaign::Campaign& campaign, identification::Method method,
                              const std::vector<compensation::CompensatedPosture>& postures,
+                             const std::vector<campaign::KnownStiffness>& known,
                              const std::vector<std::string>& cautions);
 
 /// The diagnosis for people: the verdict with its reason, the candidates with how far each shrinks the gap,

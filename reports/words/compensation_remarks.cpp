@@ -1,6 +1,7 @@
 #include "core/compensation/remarks.h"
 
 #include <fmt/format.h>
+#include <cmath>
 
 #include "core/io/units.h"
 #include "reports/words/remarks.h"
@@ -33,6 +34,36 @@ std::string compensationWords(compensation::RemarkId id, const RemarkValues& val
           values.count(0), values.number(1), values.count(0));
     case steps_do_not_converge:
       return "the steps towards the wanted pose do not converge";
+    case load_far_beyond:
+      return fmt::format(
+          "the load is {:.1f} times the largest that the stiffnesses come from; beyond {:g} times nothing the day "
+          "showed "
+          "says how the arm gives",
+          values.number(0), values.number(1));
+    case posture_far_beyond:
+      return fmt::format(
+          "joint {} stands at {:.1f} deg, more than {:.0f} deg outside the {:.1f} to {:.1f} deg that the stiffnesses "
+          "come "
+          "from",
+          values.count(0), degrees(1), degrees(4), degrees(2), degrees(3));
+    case uncertain_as_itself:
+      if (!std::isfinite(values.number(0))) return "the postures are too few for an uncertainty of the deflection";
+      return fmt::format(
+          "U of {:.3f} mm is as large as the deflection of {:.3f} mm: the day says too little of such a load in such a "
+          "posture",
+          values.number(0) / io::kMillimetre, values.number(1) / io::kMillimetre);
+    case load_beyond:
+      return fmt::format("the load is {:.1f} times the largest that the stiffnesses come from", values.number(0));
+    case torque_beyond:
+      return fmt::format("axis {} is turned by {:.0f} Nm, where the stiffnesses come from {:.0f} Nm at most",
+                         values.count(0), values.number(1), values.number(2));
+    case posture_beyond:
+      return fmt::format(
+          "joint {} stands at {:.1f} deg, outside the {:.1f} to {:.1f} deg that the stiffnesses come from",
+          values.count(0), degrees(1), degrees(2), degrees(3));
+    case uncertain:
+      return fmt::format("U is {:.3f} mm, more than half of the deflection of {:.3f} mm",
+                         values.number(0) / io::kMillimetre, values.number(1) / io::kMillimetre);
     case implausible_command:
       return fmt::format(
           "posture {} would turn joint {} by {:.1f} deg, which no load does to a sound arm: its wrench "

@@ -248,6 +248,16 @@ std::string identificationWords(identification::RemarkId id, const RemarkValues&
                        "joint {}: double_encoder is declared inactive, but under load the motor moves and the "
                        "link side stands: taken as closed on the link side",
                        values.count(0));
+    case RemarkId::known_stiffness_contradicted: {
+      const double low = values.number(5) / 1e6, high = values.number(6) / 1e6;
+      return fmt::format(
+          "k{} is known from {} as {:.4f} +- {:.4f} (standard uncertainty), but this day says {:.4f}, with 95 % {}; "
+          "all "
+          "in 1e6 Nm/rad: one of the two is wrong, or the machine changed. The day's own is used",
+          values.count(0), values.name(3), values.number(1) / 1e6, values.number(2) / 1e6, values.number(4) / 1e6,
+          std::isfinite(low) && std::isfinite(high) ? fmt::format("from {:.4f} to {:.4f}", low, high)
+                                                    : fmt::format("above {:.4f}", low));
+    }
     case RemarkId::negative:
       return "negative";
     case RemarkId::imprecise:

@@ -183,6 +183,39 @@ TEST(CommandLine, CompensateTakesPosturesFromAFile) {
   EXPECT_NE(rows[2]["refused"].get<std::string>().find("k1 is not known"), std::string::npos);
 }
 
+TEST(CommandLine, CompensateKnowsHowFarTheDayReaches) {
+  const ScratchFolder scratch;
+  const std::filesystem::path campaign = scratch.path() / "known", file = scratch.path() / "postures.csv";
+  std::filesystem::copy(kActive, campaign);
+  std::string xml = contentsOf((campaign / "campaign.xml").string());
+  xml.insert(xml.find("<tool "),
+             "<known_stiffness joint=\"1\" nm_per_rad=\"8e6\" sd_nm_per_rad=\"4e5\" source=\"maker\"/>");
+  std::ofstream(campaign / "campaign.xml") << xml;
+  std::ofstream(file) << "pose,q1_deg,q2_deg,q3_deg,q4_deg,q5_deg,q6_deg,fx_n,fy_n,fz_n,mx_nm,my_nm,mz_nm\n"
+                      << "aside,0,10,10,0,-60,0,0,1000,0,0,0,0\nheavy,0,10,10,0,-60,0,0,20000,0,0,0,0\n"
+                      << "heavier,0,10,10,0,-60,0,0,25000,0,0,0,0\n";
+  const Ran ran =
+      runProgram("compensate '" + campaign.string() + "' --postures '" + file.string() + "' --json -", scratch.path());
+  EXPECT_EQ(ran.status, 1) << ran.err;  // most are refused
+  const auto json = nlohmann::json::parse(ran.out);
+  const auto& rows = json["rows"];
+  ASSERT_EQ(rows.size(), 3u);
+  for (const int heavy : {1, 2}) {
+    EXPECT_NE(rows[heavy]["refused"].get<std::string>().find("times the largest"), std::string::npos) << rows[heavy];
+    EXPECT_EQ(rows[heavy]["tcp_deflection_mm"].size(), 3u);
+  }
+  EXPECT_EQ(json["summary"]["refused"][0]["postures"], 2);
+  // The interval of a coordinate holds what is predicted and is as wide as k1's 5 % and more.
+  const auto& interval = rows[0]["interval_tcp_deflection_mm"];
+  for (int k = 0; k < 3; ++k) {
+    EXPECT_LE(interval[k][0].get<double>(), rows[0]["tcp_deflection_mm"][k].get<double>());
+    EXPECT_GE(interval[k][1].get<double>(), rows[0]["tcp_deflection_mm"][k].get<double>());
+  }
+  EXPECT_GT(rows[0]["u_tcp_deflection_mm"].get<double>(), 0.0);
+  ASSERT_EQ(json["known_stiffness"].size(), 1u);
+  EXPECT_EQ(json["known_stiffness"][0]["source"], "maker");
+}
+
 TEST(CommandLine, NegativeStiffnessesAreNotASuccess) {
   const ScratchFolder scratch;
   const std::filesystem::path campaign = scratch.path() / "negative";

@@ -155,6 +155,53 @@ TEST(ReadCampaign, DeclaredUncertaintiesInTheirUnits) {
   EXPECT_NEAR(reading.campaign.load_cell->point_sigma, 0.002, kRounding);
 }
 
+TEST(ReadCampaign, StiffnessesKnownFromElsewhere) {
+  const SmallCampaign files;
+  const std::string first =
+      "<known_stiffness joint=\"1\" nm_per_rad=\"5.6e6\" sd_nm_per_rad=\"2e5\" source=\"maker\"/>";
+  files.alter("campaign.xml", "<tool mass_kg",
+              first +
+                  "<known_stiffness joint=\"6\" nm_per_rad=\"8e4\" "
+                  "sd_nm_per_rad=\"1e3\" source=\"1 May\"/><tool mass_kg");
+  const campaign::CampaignReading reading = campaign::readCampaign(files.folder());
+  EXPECT_TRUE(reading.warnings.empty()) << shown(reading.warnings);
+  const auto& known = reading.campaign.known_stiffness;
+  ASSERT_EQ(known.size(), 2u);
+  EXPECT_EQ(known[0].joint, 0);
+  EXPECT_EQ(known[0].stiffness, 5.6e6);
+  EXPECT_EQ(known[0].sd, 2e5);
+  EXPECT_EQ(known[1].joint, 5);
+  EXPECT_EQ(known[1].source, "1 May");
+}
+
+TEST(ReadCampaign, RefusesStiffnessesThatCannotBeKnown) {
+  const std::pair<const char*, const char*> cases[] = {
+      {"joint=\"7\" nm_per_rad=\"5e6\" sd_nm_per_rad=\"2e5\" source=\"m\"",
+       "campaign.xml:15: joint: '7': expected a joint's number, 1 to 6"},
+      {"joint=\"1.5\" nm_per_rad=\"5e6\" sd_nm_per_rad=\"2e5\" source=\"m\"",
+       "joint: '1.5': expected a joint's number"},
+      {"joint=\"1\" nm_per_rad=\"-5e6\" sd_nm_per_rad=\"2e5\" source=\"m\"",
+       "nm_per_rad: '-5e6': expected Nm/rad, 1 to 1e10"},
+      {"joint=\"1\" nm_per_rad=\"5e6\" sd_nm_per_rad=\"0\" source=\"m\"",
+       "sd_nm_per_rad: '0': expected a standard uncertainty above 0 and at most half of nm_per_rad"},
+      {"joint=\"1\" nm_per_rad=\"5e6\" sd_nm_per_rad=\"3e6\" source=\"m\"", "sd_nm_per_rad: '3e6'"},
+      {"joint=\"1\" nm_per_rad=\"5e6\" source=\"m\"", "sd_nm_per_rad: expected this attribute"},
+      {"joint=\"1\" nm_per_rad=\"5e6\" sd_nm_per_rad=\"2e5\"", "source: expected this attribute"},
+      {"joint=\"1\" nm_per_rad=\"5e6\" sd_nm_per_rad=\"2e5\" source=\"m\"/><known_stiffness joint=\"1\" "
+       "nm_per_rad=\"5e6\" sd_nm_per_rad=\"2e5\" source=\"m\"",
+       "joint: '1': expected a joint that does not repeat"}};
+  for (const auto& [attributes, message] : cases) {
+    const SmallCampaign files;
+    files.alter("campaign.xml", "<tool mass_kg", std::string("<known_stiffness ") + attributes + "/><tool mass_kg");
+    try {
+      campaign::readCampaign(files.folder());
+      ADD_FAILURE() << "read on instead of: " << message;
+    } catch (const io::InputError& error) {
+      EXPECT_NE(std::string(error.what()).find(message), std::string::npos) << error.what();
+    }
+  }
+}
+
 struct Warned {
   const char *file, *find, *replace, *message;
 };

@@ -97,6 +97,13 @@ void expectSame(const campaign::Campaign& a, const campaign::Campaign& b) {
   }
   ASSERT_EQ(a.tool.has_value(), b.tool.has_value());
   if (a.tool) expectClose(a.tool->com_in_flange, b.tool->com_in_flange, kAttribute);
+  ASSERT_EQ(a.known_stiffness.size(), b.known_stiffness.size());
+  for (std::size_t i = 0; i < a.known_stiffness.size(); ++i) {
+    EXPECT_EQ(std::tie(a.known_stiffness[i].joint, a.known_stiffness[i].source),
+              std::tie(b.known_stiffness[i].joint, b.known_stiffness[i].source));
+    EXPECT_EQ(a.known_stiffness[i].stiffness, b.known_stiffness[i].stiffness);
+    EXPECT_EQ(a.known_stiffness[i].sd, b.known_stiffness[i].sd);
+  }
   expectSameTables(a, b);
 }
 
@@ -125,6 +132,7 @@ TEST(WriteCampaign, WritesNamesAndTextsThatNeedCare) {
   const SmallCampaign files;
   campaign::Campaign campaign = campaign::readCampaign(files.folder()).campaign;
   campaign.name = "a <b> & \"c\"";
+  campaign.known_stiffness = {{0, 5.6e6, 2e5, "maker <a> & \"b\""}};
   campaign.texts.laboratory = "M\xC3\xBCller & S\xC3\xB6hne <lab>";
   campaign.targets[0].id = "P,10 \"left\"";
   campaign.pose_ids[0] = "pose, 1; A";

@@ -1,0 +1,111 @@
+#include "bench/machine_families.h"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+
+#include "core/io/units.h"
+#include "core/numerics/random.h"
+#include "core/simulation/measure.h"
+#include "core/validation/effect_draw.h"
+#include "core/validation/effect_size.h"
+
+namespace stiffscope::bench {
+
+namespace {
+
+constexpr double kMassSigma = 0.05, kScaleSigma = 5e-5, kAngleSigma = 0.5 * io::kDegree, kPointSigma = 3e-3;
+
+bool isDeclared(const std::string& family) {
+  return family == "gain" || family == "cell_angles" || family == "cell_point" || family == "masses" ||
+         family == "scale";
+}
+
+double logUniform(numerics::RandomStream& random, double low, double high) {
+  return low * std::pow(high / low, random.uniform());
+}
+
+/// Bearings and links as real arms have them, at half their usual size: what tilts and bends is six to fifteen, three
+/// to eight times stiffer than the drives.
+void addBearingsAndLinks(numerics::RandomStream& random, simulation::MachineSpec& machine) {
+  for (simulation::JointStiffness& joint : machine.joints) joint.bearing = *joint.torsion * logUniform(random, 12, 30);
+  for (const int joint : {1, 2}) {
+    simulation::LinkBeam beam;
+    beam.joint = joint;
+    constexpr double kLength = 1.0;  // m
+    const double rate = *machine.joints[static_cast<std::size_t>(joint)].torsion * kLength;
+    beam.bending = rate * logUniform(random, 6, 16);
+    beam.torsion = rate * logUniform(random, 6, 16);
+    std::erase_if(machine.links, [&](const simulation::LinkBeam& one) { return one.joint == joint; });
+    machine.links.push_back(beam);
+  }
+  std::sort(machine.links.begin(), machine.links.end(),
+            [](const simulation::LinkBeam& a, const simulation::LinkBeam& b) { return a.joint < b.joint; });
+}
+
+void addBaseAndFriction(numerics::RandomStream& random, simulation::SimulationSpec& spec) {
+  simulation::MachineSpec& machine = spec.machine;
+  machine.base_rotation = Eigen::Vector3d::Constant(*machine.joints[1].torsion * logUniform(random, 16, 40));
+  for (int j = 0; j < 6; ++j) {
+    simulation::JointStiffness& joint = machine.joints[static_cast<std::size_t>(j)];
+    simulation::JointFriction friction;
+    friction.torque = logUniform(random, 0.0025, 0.01) * validation::usualTorque(spec, j);
+    friction.rate = *joint.torsion;
+    joint.friction = friction;
+  }
+}
+
+}  // namespace
+
+validation::BlindCase drawMachine(const std::string& family, int i, std::uint64_t seed,
+                                  const std::filesystem::path& urdf) {
+  using validation::CaseKind;
+  validation::CasePlan plan;
+  const auto effect = [](int k) { return static_cast<effects::Effect>(k % static_cast<int>(effects::kEffectCount)); };
+  if (family == "single") {
+    plan = {CaseKind::single, {effect(i)}, {}};
+  } else if (family == "double") {
+    const int other = i + 1 + (i / static_cast<int>(effects::kEffectCount) * 5) % 15;
+    plan = {CaseKind::pair, {effect(i), effect(other)}, {}};
+  } else if (family == "outside") {
+    const auto kinds = validation::outsideKinds();
+    plan = {CaseKind::outside, {}, std::string(kinds[static_cast<std::size_t>(i) % kinds.size()])};
+  }
+  validation::BlindCase one = validation::drawCase(plan, seed, fmt::format("{} {}", family, i), urdf);
+  numerics::RandomStream random(seed, "as they are");
+  if (family == "clean" || isDeclared(family)) {
+    for (simulation::JointStiffness& joint : one.spec.machine.joints) joint.bearing.reset();
+    one.spec.machine.links.clear();
+  }
+  if (family == "bearings_links" || family == "as_they_are") addBearingsAndLinks(random, one.spec.machine);
+  if (family == "as_they_are") addBaseAndFriction(random, one.spec);
+  if (family == "gain") {
+    one.spec.load_cell->declared.gain_sigma = 0.01;
+    one.spec.load_cell->gain_error = 0.01 * random.normal();
+  }
+  if (family == "cell_angles") {
+    one.spec.load_cell->declared.angle_sigma = kAngleSigma;
+    one.spec.load_cell->misalignment = kAngleSigma * random.normal3();
+  }
+  if (family == "cell_point") {
+    one.spec.load_cell->declared.point_sigma = kPointSigma;
+    one.spec.load_cell->place_error = kPointSigma * random.normal3();
+  }
+  if (family == "scale") {
+    one.spec.tracker.declared.scale_sigma = kScaleSigma;
+    one.spec.station.scale = kScaleSigma * random.normal();
+  }
+  return one;
+}
+
+campaign::Campaign dayOf(const std::string& family, const validation::BlindCase& one, std::uint64_t seed) {
+  campaign::Campaign campaign = simulation::simulate(one.spec);
+  if (family != "masses") return campaign;
+  numerics::RandomStream random(seed, "masses of the URDF");
+  const double factor = 1.0 / (1.0 + kMassSigma * random.normal());
+  for (robot::BodyMass& body : campaign.robot.bodies) body.mass_kg *= factor;
+  campaign.mass_sigma = kMassSigma;
+  return campaign;
+}
+
+}  // namespace stiffscope::bench

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+
+#include "core/campaign/campaign.h"
+#include "core/validation/case.h"
+
+namespace stiffscope::bench {
+
+/// Families of simulated machines by which stated uncertainties are judged: clean (joint springs alone), none (and
+/// bearings of a thousandth), single (each effect of the vocabulary in turn), double, bearings_links, as_they_are
+/// (bearings, links, base and friction at half their usual sizes), outside (something that no effect of the vocabulary
+/// is); and of springs alone with a fault that is declared as uncertain as it is: gain (of the load cell, 1 %),
+/// cell_angles (0.5 deg about each axis), cell_point (3 mm along each), masses (all by 5 %), scale (of the tracker, 50
+/// ppm).
+inline constexpr const char* kFamilies =
+    "clean none single double bearings_links as_they_are outside gain cell_angles cell_point masses scale";
+
+/// Machine `i` of a family; its URDF is written to `urdf`.
+validation::BlindCase drawMachine(const std::string& family, int i, std::uint64_t seed,
+                                  const std::filesystem::path& urdf);
+
+/// The day of a machine; of the masses' family with a URDF whose masses are all off by one factor.
+campaign::Campaign dayOf(const std::string& family, const validation::BlindCase& one, std::uint64_t seed);
+
+}  // namespace stiffscope::bench

@@ -1,0 +1,61 @@
+#include "reports/words/compensation_words.h"
+
+#include <fmt/format.h>
+
+#include "core/compensation/remarks.h"
+
+namespace stiffscope::reports {
+
+namespace {
+
+const char* refusalWords(compensation::RemarkId reason) {
+  using enum compensation::RemarkId;
+  switch (reason) {
+    case unloaded_arm_does_not_rest:
+    case loaded_arm_does_not_rest:
+      return "the arm does not come to rest";
+    case posture_outside_limits:
+      return "a joint stands outside its limits";
+    case command_outside_limits:
+      return "a command would be outside a joint's limits";
+    case near_singularity:
+      return "the posture is too near a singularity";
+    case turns_joint_of_negative_k:
+      return "the load turns a joint whose stiffness came out negative";
+    case turns_joint_of_unknown_k:
+      return "the load turns a joint whose stiffness is not known";
+    case steps_do_not_converge:
+      return "the steps towards the wanted pose do not converge";
+    case load_far_beyond:
+      return "the load is far beyond those that the stiffnesses come from";
+    case posture_far_beyond:
+      return "the posture is far from those that the stiffnesses come from";
+    case uncertain_as_itself:
+      return "the deflection is as uncertain as it is large";
+    case load_beyond:
+    case torque_beyond:
+    case posture_beyond:
+    case uncertain:
+    case implausible_command:
+      break;  // no reasons to refuse
+  }
+  return "";
+}
+
+}  // namespace
+
+std::string refusalWords(const Remark& reason) { return refusalWords(static_cast<compensation::RemarkId>(reason.id)); }
+
+std::string summaryWords(const compensation::CompensationSummary& summary) {
+  std::string text = fmt::format("{} of {} postures compensated", summary.compensated, summary.asked);
+  if (summary.cautioned > 0) text += fmt::format(", {} of them with cautions", summary.cautioned);
+  if (summary.refused.empty()) return text;
+  text += fmt::format("; {} refused: ", summary.asked - summary.compensated);
+  for (std::size_t i = 0; i < summary.refused.size(); ++i) {
+    const auto& [reason, count] = summary.refused[i];
+    text += fmt::format("{}{} because {}", i > 0 ? ", " : "", count, refusalWords(reason));
+  }
+  return text;
+}
+
+}  // namespace stiffscope::reports
