@@ -129,6 +129,7 @@ struct Column {
   CellKind kind;
   std::variant<Number, Index, Text> member;
   bool required = true;
+  std::string together = {};  ///< optional columns of one such name are there all or none
 };
 
 /// A kind of table: the element of campaign.xml that names its file, its columns, and the columns that
@@ -150,15 +151,16 @@ std::vector<Column<Row>> jointColumns() {
   (std::make_integer_sequence<int, 6>());
 }
 
-/// fx_n..mz_nm, of a row with a member wrench_in_cell.
+/// fx_n..mz_nm, of a row with a member wrench_in_cell; none of them: nothing pulls.
 template <class Row>
 std::vector<Column<Row>> wrenchColumns() {
-  return {{"fx_n", CellKind::newton, [](Row& row) -> double& { return row.wrench_in_cell[0]; }},
-          {"fy_n", CellKind::newton, [](Row& row) -> double& { return row.wrench_in_cell[1]; }},
-          {"fz_n", CellKind::newton, [](Row& row) -> double& { return row.wrench_in_cell[2]; }},
-          {"mx_nm", CellKind::newton_metre, [](Row& row) -> double& { return row.wrench_in_cell[3]; }},
-          {"my_nm", CellKind::newton_metre, [](Row& row) -> double& { return row.wrench_in_cell[4]; }},
-          {"mz_nm", CellKind::newton_metre, [](Row& row) -> double& { return row.wrench_in_cell[5]; }}};
+  return {
+      {"fx_n", CellKind::newton, [](Row& row) -> double& { return row.wrench_in_cell[0]; }, false, "wrench"},
+      {"fy_n", CellKind::newton, [](Row& row) -> double& { return row.wrench_in_cell[1]; }, false, "wrench"},
+      {"fz_n", CellKind::newton, [](Row& row) -> double& { return row.wrench_in_cell[2]; }, false, "wrench"},
+      {"mx_nm", CellKind::newton_metre, [](Row& row) -> double& { return row.wrench_in_cell[3]; }, false, "wrench"},
+      {"my_nm", CellKind::newton_metre, [](Row& row) -> double& { return row.wrench_in_cell[4]; }, false, "wrench"},
+      {"mz_nm", CellKind::newton_metre, [](Row& row) -> double& { return row.wrench_in_cell[5]; }, false, "wrench"}};
 }
 
 /// x_mm, y_mm, z_mm, of a row with a member point.

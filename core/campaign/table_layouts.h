@@ -41,9 +41,9 @@ inline const TableLayout<LoadingReading>& loadingLayout() {
   static const TableLayout<Row> layout{
       "loading",
       joined<Row>({poseAndStepColumns<Row>(),
-                   {{"repeat", CellKind::text, [](Row& row) -> std::string& { return row.repeat; }},
+                   {{"repeat", CellKind::text, [](Row& row) -> std::string& { return row.repeat; }, false},
                     targetColumn<Row>(),
-                    timeColumn<Row>(true)},
+                    timeColumn<Row>(false)},
                    pointColumns<Row>()}),
       {"pose", "step", "repeat", "target"}};
   return layout;
@@ -65,7 +65,7 @@ inline const TableLayout<State>& statesLayout() {
   using Row = State;
   static const TableLayout<Row> layout{
       "states",
-      joined<Row>({poseAndStepColumns<Row>(), {timeColumn<Row>(true)}, jointColumns<Row>(), wrenchColumns<Row>()}),
+      joined<Row>({poseAndStepColumns<Row>(), {timeColumn<Row>(false)}, jointColumns<Row>(), wrenchColumns<Row>()}),
       {"pose", "step"}};
   return layout;
 }

@@ -47,9 +47,11 @@ std::string writtenCell(const Column<Row>& column, Row& row, const CampaignNames
   return writtenName(std::get<typename Column<Row>::Text>(column.member)(row), column.name);
 }
 
-/// Whether every row has a value for an optional column of numbers.
+/// Whether every row has a value for an optional column of numbers or texts.
 template <class Row>
 bool isComplete(const Column<Row>& column, std::vector<Row>& rows) {
+  if (const auto* text = std::get_if<typename Column<Row>::Text>(&column.member))
+    return std::all_of(rows.begin(), rows.end(), [&](Row& row) { return !(*text)(row).empty(); });
   const auto* number = std::get_if<typename Column<Row>::Number>(&column.member);
   return number == nullptr ||
          std::all_of(rows.begin(), rows.end(), [&](Row& row) { return !std::isnan((*number)(row)); });

@@ -1,0 +1,502 @@
+#include "core/calibration/arm_fit.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+
+#include "core/numerics/parallel.h"
+#include "core/robot/kinematics.h"
+#include "metrology/linear_algebra.h"
+#include "metrology/rigid_motion.h"
+
+namespace stiffscope::calibration {
+
+using frames::ArmParameters;
+
+namespace {
+
+constexpr double kMedianChi2Of3 = 2.365974;  // of a chi-square variable with three degrees of freedom
+
+/// The arm and its readings at some values of all parameters.
+class FittedDay {
+ public:
+  FittedDay(const UnloadedDay& day, const ArmFit& fit)
+      : fit_(fit),
+        arm_(fit.start, fit.centre, fit.steps.head<ArmParameters::kAxes>(),
+             fit.steps.segment<ArmParameters::kBase>(ArmParameters::kBaseAt)),
+        station_(fit.place.base_from_points * day.station) {
+    for (const EffectPart& part : fit.parts) {
+      for (const EffectTerm& term : part.terms) terms_.push_back(&term);
+    }
+  }
+
+  const frames::PlacedArm& arm() const { return arm_; }
+  const std::vector<const EffectTerm*>& terms() const { return terms_; }
+
+  Vector6d anglesOf(const Posture& posture) const {
+    Vector6d q = posture.q;
+    for (std::size_t k = 0; k < terms_.size(); ++k) {
+      if (terms_[k]->angles) q += fit_.sizes[static_cast<Eigen::Index>(k)] * terms_[k]->angles(posture);
+    }
+    return q;
+  }
+
+  ReflectorAt reflector(const frames::PlacedPosture& placed, const Reading& reading) const {
+    const auto target = static_cast<std::size_t>(reading.target);
+    const Eigen::Vector3d at_zero =
+        fit_.place.targets_at_zero[target] + fit_.steps.segment<3>(ArmParameters::targetAt(target));
+    return {placed, reading.target, placed.position(at_zero), station_};
+  }
+
+  Eigen::Vector3d residual(const Posture& posture, const Reading& reading, const ReflectorAt& at) const {
+    Eigen::Vector3d modelled = at.position;
+    for (std::size_t k = 0; k < terms_.size(); ++k) {
+      const double size = fit_.sizes[static_cast<Eigen::Index>(k)];
+      if (terms_[k]->offset && size != 0.0) modelled += size * terms_[k]->offset(posture, at);
+    }
+    return fit_.place.base_from_points * reading.point - modelled;
+  }
+
+  /// Of the residual, in base_link.
+  Eigen::Matrix3d covariance(const Reading& reading) const {
+    const Eigen::Matrix3d& turn = fit_.place.base_from_points.linear();
+    return turn * reading.covariance * turn.transpose() + fit_.model_sd * fit_.model_sd * Eigen::Matrix3d::Identity();
+  }
+
+  /// L^-1 of the covariance L L^T.
+  Eigen::Matrix3d whitening(const Reading& reading) const {
+    const Eigen::Matrix3d lower = covariance(reading).llt().matrixL();
+    return lower.triangularView<Eigen::Lower>().solve(Eigen::Matrix3d::Identity());
+  }
+
+  /// Derivatives of where a reading is modelled by (steps, sizes).
+  void derivatives(const Posture& posture, const frames::PlacedPosture& placed, const ReflectorAt& at, bool axes,
+                   Eigen::Ref<Eigen::MatrixXd> columns) const {
+    columns.setZero();
+    if (axes) columns.leftCols<ArmParameters::kAxes>() = placed.byAxes(at.position);
+    columns.middleCols<ArmParameters::kBase>(ArmParameters::kBaseAt) = placed.byBase(at.position);
+    columns.middleCols<3>(ArmParameters::targetAt(static_cast<std::size_t>(at.target))) = placed.byTarget();
+    const Matrix36d by_angles = placed.byAngles(at.position);
+    for (std::size_t k = 0; k < terms_.size(); ++k) {
+      const Eigen::Index column = fit_.steps.size() + static_cast<Eigen::Index>(k);
+      columns.col(column) =
+          terms_[k]->angles ? Eigen::Vector3d(by_angles * terms_[k]->angles(posture)) : terms_[k]->offset(posture, at);
+    }
+  }
+
+ private:
+  const ArmFit& fit_;
+  frames::PlacedArm arm_;
+  Eigen::Vector3d station_;
+  std::vector<const EffectTerm*> terms_;
+};
+
+/// Sums over postures: normal equations of (steps, sizes), the residual as their last row and column.
+struct NormalSum {
+  Eigen::MatrixXd normal;
+  double weighted_chi2 = 0.0, weight = 0.0;
+  double squares_together = 0.0, squares_apart = 0.0;  ///< of the whitened residuals of a posture's reflectors
+
+  NormalSum& operator+=(const NormalSum& other) {
+    if (normal.size() == 0) {
+      *this = other;
+      return *this;
+    }
+    if (other.normal.size() > 0) normal += other.normal;
+    weighted_chi2 += other.weighted_chi2;
+    weight += other.weight;
+    squares_together += other.squares_together;
+    squares_apart += other.squares_apart;
+    return *this;
+  }
+};
+
+class Fitting {
+ public:
+  Fitting(const UnloadedDay& day, const FitOptions& options, ArmFit& fit) : day_(day), options_(options), fit_(fit) {
+    std::size_t at = 0;
+    for (const Posture& posture : day.postures) {
+      first_.push_back(at);
+      at += posture.readings.size();
+    }
+    used_ = options.weights.empty() ? std::vector<double>(at, 1.0) : options.weights;
+    distances_.assign(at, 0.0);
+    fit_.weights = used_;
+    prior_ = Eigen::VectorXd::Zero(fit_.steps.size() + fit_.sizes.size());
+    constexpr double kAnywhere = 1.0;  // m and rad: base and reflectors, found by the start to millimetres
+    prior_.head(fit_.steps.size()).setConstant(1.0 / (kAnywhere * kAnywhere));
+    for (Eigen::Index k = 0; k < ArmParameters::kAxes; ++k) {
+      const double sd = k % 4 < 2 ? kAxisShiftPrior : kAxisTiltPrior;
+      prior_[k] = 1.0 / (sd * sd);
+    }
+    Eigen::Index k = fit_.steps.size();
+    for (const EffectPart& part : fit_.parts) {
+      for (const EffectTerm& term : part.terms) prior_[k++] = 1.0 / (term.most * term.most);
+    }
+  }
+
+  void run() {
+    startScale();
+    if (options_.robust) {
+      iterate(true);
+      reject();
+    }
+    iterate(false);
+    while (refuseNegative()) iterate(false);
+    if (options_.robust) {
+      // The rejected are judged once more by the model as it is without them.
+      reject();
+      iterate(false);
+      while (refuseNegative()) iterate(false);
+    }
+    conclude();
+  }
+
+ private:
+  Eigen::Index count() const { return prior_.size(); }
+
+  /// Readings of weight above zero.
+  std::size_t usedReadings() const {
+    return static_cast<std::size_t>(
+        std::count_if(fit_.weights.begin(), fit_.weights.end(), [](double w) { return w > 0.0; }));
+  }
+
+  double dofShare() const {
+    const double rows = 3.0 * static_cast<double>(usedReadings());
+    return std::max(0.05, (rows - static_cast<double>(fit_.free.size())) / std::max(1.0, rows));
+  }
+
+  void startScale() {
+    const std::vector<Eigen::Vector3d> residuals = residualsOf(day_, fit_);
+    std::vector<double> squares;
+    for (std::size_t i = 0; i < residuals.size(); ++i) {
+      if (used_[i] > 0.0) squares.push_back(residuals[i].squaredNorm());
+    }
+    const auto middle = squares.begin() + static_cast<std::ptrdiff_t>(squares.size() / 2);
+    std::nth_element(squares.begin(), middle, squares.end());
+    fit_.model_sd = std::sqrt(*middle / kMedianChi2Of3);
+  }
+
+  NormalSum sums() {
+    const FittedDay fitted(day_, fit_);
+    return numerics::sumInBlocks<NormalSum>(day_.postures.size(), [&](std::size_t i, NormalSum& sum) {
+      const Posture& posture = day_.postures[i];
+      if (sum.normal.size() == 0) sum.normal = Eigen::MatrixXd::Zero(count() + 1, count() + 1);
+      const auto rows = 3 * static_cast<Eigen::Index>(posture.readings.size());
+      const auto own = used_.begin() + static_cast<std::ptrdiff_t>(first_[i]);
+      if (std::none_of(own, own + static_cast<std::ptrdiff_t>(posture.readings.size()),
+                       [](double w) { return w > 0.0; }))
+        return;
+      const frames::PlacedPosture placed(fitted.arm(), fitted.anglesOf(posture));
+      Eigen::MatrixXd equations(rows, count() + 1), columns(3, count());
+      Eigen::Vector3d together = Eigen::Vector3d::Zero();
+      Eigen::Index row = 0;
+      for (std::size_t k = 0; k < posture.readings.size(); ++k) {
+        const Reading& reading = posture.readings[k];
+        const double weight = fit_.weights[first_[i] + k];
+        const ReflectorAt at = fitted.reflector(placed, reading);
+        const Eigen::Matrix3d white = fitted.whitening(reading);
+        const Eigen::Vector3d residual = white * fitted.residual(posture, reading, at);
+        distances_[first_[i] + k] = residual.squaredNorm();
+        if (weight <= 0.0) continue;
+        fitted.derivatives(posture, placed, at, options_.axes, columns);
+        const double root = std::sqrt(weight);
+        equations.block(row, 0, 3, count()).noalias() = root * white * columns;
+        equations.block(row, count(), 3, 1) = root * residual;
+        row += 3;
+        sum.weighted_chi2 += weight * residual.squaredNorm();
+        sum.weight += weight;
+        together += residual;
+        sum.squares_apart += residual.squaredNorm();
+      }
+      sum.squares_together += together.squaredNorm();
+      sum.normal.selfadjointView<Eigen::Lower>().rankUpdate(equations.topRows(row).transpose());
+    });
+  }
+
+  /// What is a choice of frame, and what the postures do not see: base and reflectors come first, then the axes from
+  /// the tip inwards, and a parameter is held whose column lies in the span of those before it. A hundred-thousandth of
+  /// the column's length is no information.
+  void chooseFree(const Eigen::MatrixXd& normal) {
+    fit_.free.clear();
+    fit_.held.clear();
+    std::vector<int> order;
+    for (int k = ArmParameters::kBaseAt; k < static_cast<int>(fit_.steps.size()); ++k) order.push_back(k);
+    for (int axis = 5; options_.axes && axis >= 0; --axis) {
+      for (int k = 0; k < 4; ++k) order.push_back(4 * axis + k);
+    }
+    const auto size = static_cast<Eigen::Index>(order.size());
+    Eigen::MatrixXd lower = Eigen::MatrixXd::Zero(size, size);
+    Eigen::Index rank = 0;
+    constexpr double kNothingNew = 1e-10;  // of squares
+    for (const int column : order) {
+      const double own = normal(column, column);
+      // Forward substitution of this column's products with those that are free.
+      Eigen::VectorXd row(rank);
+      for (Eigen::Index r = 0; r < rank; ++r) {
+        const int other = fit_.free[static_cast<std::size_t>(r)];
+        const double product = normal(std::max(column, other), std::min(column, other));
+        row[r] = (product - lower.row(r).head(r).dot(row.head(r))) / lower(r, r);
+      }
+      const double rest = own - row.squaredNorm();
+      if (own > 0.0 && rest > kNothingNew * own) {
+        lower.row(rank).head(rank) = row.transpose();
+        lower(rank, rank) = std::sqrt(rest);
+        ++rank;
+        fit_.free.push_back(column);
+      } else if (column < ArmParameters::kAxes) {
+        fit_.held.push_back(column);
+      }
+    }
+    std::sort(fit_.held.begin(), fit_.held.end());
+    std::sort(fit_.free.begin(), fit_.free.end());
+    for (Eigen::Index k = 0; k < fit_.sizes.size(); ++k) {
+      if (!fit_.refused[static_cast<std::size_t>(k)]) fit_.free.push_back(static_cast<int>(fit_.steps.size() + k));
+    }
+  }
+
+  double valueOf(int k) const {
+    const auto at = static_cast<Eigen::Index>(k);
+    return at < fit_.steps.size() ? fit_.steps[at] : fit_.sizes[at - fit_.steps.size()];
+  }
+
+  /// Normal matrix with the prior, and the right side, of what is free.
+  void freeSystem(const Eigen::MatrixXd& normal, Eigen::MatrixXd& matrix, Eigen::VectorXd& right) const {
+    const auto size = static_cast<Eigen::Index>(fit_.free.size());
+    matrix.resize(size, size);
+    right.resize(size);
+    for (Eigen::Index r = 0; r < size; ++r) {
+      const int i = fit_.free[static_cast<std::size_t>(r)];
+      for (Eigen::Index c = 0; c <= r; ++c) {
+        const int j = fit_.free[static_cast<std::size_t>(c)];
+        matrix(r, c) = matrix(c, r) = normal(std::max(i, j), std::min(i, j));
+      }
+      matrix(r, r) += prior_[i];
+      right[r] = normal(count(), i) - prior_[i] * valueOf(i);
+    }
+  }
+
+  /// Gauss-Newton until the step is small against its uncertainty and the scale stands.
+  void iterate(bool robust) {
+    constexpr int kMost = 30;
+    constexpr double kSmallStep = 1e-6;
+    for (int turn = 0; turn < kMost; ++turn) {
+      const NormalSum sum = sums();
+      if (fit_.free.empty()) chooseFree(sum.normal);
+      Eigen::MatrixXd matrix;
+      Eigen::VectorXd right;
+      freeSystem(sum.normal, matrix, right);
+      const Eigen::VectorXd step = solveSymmetric(matrix, right);
+      for (std::size_t k = 0; k < fit_.free.size(); ++k) {
+        const Eigen::Index at = fit_.free[k];
+        (at < fit_.steps.size() ? fit_.steps[at] : fit_.sizes[at - fit_.steps.size()]) +=
+            step[static_cast<Eigen::Index>(k)];
+      }
+      const double scale = rescale(robust ? medianScale() : sum.weighted_chi2 / (3.0 * sum.weight * dofShare()));
+      if (robust) reweight();
+      const double length = step.dot(right) / static_cast<double>(std::max<std::size_t>(1, fit_.free.size()));
+      fit_.chi2_per_dof = sum.weighted_chi2 / std::max(1e-300, 3.0 * sum.weight * dofShare());
+      constexpr double kSameScale = 1e-3;
+      if (turn > 1 && length < kSmallStep && std::abs(scale - 1.0) < kSameScale) return;
+    }
+  }
+
+  /// Median of the squared distances against that of chi-square with three degrees of freedom.
+  double medianScale() const {
+    std::vector<double> squares;
+    for (std::size_t i = 0; i < distances_.size(); ++i) {
+      if (used_[i] > 0.0) squares.push_back(distances_[i]);
+    }
+    const auto middle = squares.begin() + static_cast<std::ptrdiff_t>(squares.size() / 2);
+    std::nth_element(squares.begin(), middle, squares.end());
+    return *middle / (kMedianChi2Of3 * dofShare());
+  }
+
+  /// The variance beyond the tracker's that brings `chi2_per_dof` to one; the change of the whole standard deviation.
+  double rescale(double chi2_per_dof) {
+    double declared = 0.0;
+    std::size_t readings = 0;
+    for (const Posture& posture : day_.postures) {
+      for (const Reading& reading : posture.readings) declared += reading.covariance.trace() / 3.0, ++readings;
+    }
+    declared /= static_cast<double>(std::max<std::size_t>(1, readings));
+    const double before = declared + fit_.model_sd * fit_.model_sd;
+    constexpr double kLeast = 1e-8;  // m: a tracker that declares nothing is better than no instrument
+    const double least = declared > 0.0 ? 0.0 : kLeast * kLeast;
+    const double model = std::max(least, chi2_per_dof * before - declared);
+    fit_.model_sd = std::sqrt(model);
+    return std::sqrt((declared + model) / before);
+  }
+
+  void reweight() {
+    for (std::size_t i = 0; i < used_.size(); ++i) {
+      const double inside = 1.0 - distances_[i] / (options_.gross * options_.gross);
+      fit_.weights[i] = used_[i] > 0.0 && inside > 0.0 ? inside * inside : 0.0;
+    }
+  }
+
+  void reject() {
+    sums();
+    const double limit = options_.gross * options_.gross * std::max(1.0, medianScale());
+    for (std::size_t i = 0; i < used_.size(); ++i)
+      fit_.weights[i] = used_[i] > 0.0 && distances_[i] < limit ? 1.0 : 0.0;
+  }
+
+  /// The most negative of the compliances, in parts of its uncertainty, is put to zero. False where there is none.
+  bool refuseNegative() {
+    Eigen::Index worst = -1, k = 0;
+    double least = 0.0;
+    for (const EffectPart& part : fit_.parts) {
+      for (const EffectTerm& term : part.terms) {
+        if (term.positive && fit_.sizes[k] / term.most < least) {
+          least = fit_.sizes[k] / term.most;
+          worst = k;
+        }
+        ++k;
+      }
+    }
+    if (worst < 0) return false;
+    fit_.sizes[worst] = 0.0;
+    fit_.refused[static_cast<std::size_t>(worst)] = true;
+    std::erase(fit_.free, static_cast<int>(fit_.steps.size() + worst));
+    return true;
+  }
+
+  void conclude() {
+    const NormalSum sum = sums();
+    Eigen::MatrixXd matrix;
+    Eigen::VectorXd right;
+    freeSystem(sum.normal, matrix, right);
+    // Reflectors of one posture share what the model misses: the sum of their residuals has a larger variance.
+    fit_.design_effect = sum.squares_apart > 0.0 ? std::max(1.0, sum.squares_together / sum.squares_apart) : 1.0;
+    const double factor = std::max(1.0, fit_.chi2_per_dof) * (fit_.model_sd > 0.0 ? fit_.design_effect : 1.0);
+    fit_.covariance = factor * solveSymmetric(matrix, Eigen::MatrixXd::Identity(matrix.rows(), matrix.cols()));
+    fit_.parameters = static_cast<int>(fit_.free.size());
+    fit_.done = fit_.steps.allFinite() && fit_.sizes.allFinite();
+  }
+
+  const UnloadedDay& day_;
+  const FitOptions& options_;
+  ArmFit& fit_;
+  std::vector<std::size_t> first_;  ///< reading of each posture
+  std::vector<double> used_;
+  std::vector<double> distances_;  ///< squared, of each reading in parts of its covariance
+  Eigen::VectorXd prior_;          ///< inverse variances
+};
+
+}  // namespace
+
+robot::Robot ArmFit::arm(const robot::Robot& nominal) const {
+  frames::LoadingGeometry geometry;
+  geometry.arm = nominal;
+  return frames::moved(geometry, steps, centre).arm;
+}
+
+Eigen::Isometry3d ArmFit::basePointsMotion() const {
+  const Vector6d base = steps.segment<ArmParameters::kBase>(ArmParameters::kBaseAt);
+  return metrology::motionAbout(centre, base) * place.base_from_points;
+}
+
+std::vector<Eigen::Vector3d> ArmFit::targetsAtZero() const {
+  std::vector<Eigen::Vector3d> all = place.targets_at_zero;
+  for (std::size_t t = 0; t < all.size(); ++t) all[t] += steps.segment<3>(ArmParameters::targetAt(t));
+  return all;
+}
+
+double ArmFit::sd(int parameter) const {
+  const auto found = std::find(free.begin(), free.end(), parameter);
+  if (found == free.end()) return 0.0;
+  const auto at = static_cast<Eigen::Index>(found - free.begin());
+  return std::sqrt(std::max(0.0, covariance(at, at)));
+}
+
+ArmFit fitArm(const UnloadedDay& day, const ArmPlace& place, const std::vector<EffectPart>& parts,
+              const FitOptions& options) {
+  ArmFit fit;
+  fit.place = place;
+  fit.start = frames::axesAtStart(day.arm.axes_in_base_at_zero);
+  fit.parts = parts;
+  Eigen::Index terms = 0;
+  for (const EffectPart& part : parts) terms += static_cast<Eigen::Index>(part.terms.size());
+  fit.sizes = Eigen::VectorXd::Zero(terms);
+  fit.refused.assign(static_cast<std::size_t>(terms), false);
+  fit.steps = Eigen::VectorXd::Zero(ArmParameters::count(day.targets.size()));
+  const double readings = static_cast<double>(std::max<std::size_t>(1, day.readings()));
+  for (const Posture& posture : day.postures) {
+    for (const Reading& reading : posture.readings) fit.centre += place.base_from_points * reading.point / readings;
+  }
+  Fitting(day, options, fit).run();
+  return fit;
+}
+
+std::vector<Eigen::Vector3d> residualsOf(const UnloadedDay& day, const ArmFit& fit) {
+  const FittedDay fitted(day, fit);
+  std::vector<Eigen::Vector3d> residuals;
+  residuals.reserve(day.readings());
+  for (const Posture& posture : day.postures) {
+    const frames::PlacedPosture placed(fitted.arm(), fitted.anglesOf(posture));
+    for (const Reading& reading : posture.readings)
+      residuals.push_back(fitted.residual(posture, reading, fitted.reflector(placed, reading)));
+  }
+  return residuals;
+}
+
+PostureEquations equationsOf(const UnloadedDay& day, const ArmFit& fit, std::size_t i, std::size_t first_reading) {
+  const FittedDay fitted(day, fit);
+  const Posture& posture = day.postures[i];
+  const frames::PlacedPosture placed(fitted.arm(), fitted.anglesOf(posture));
+  PostureEquations equations;
+  const auto rows = 3 * static_cast<Eigen::Index>(posture.readings.size());
+  const Eigen::Index all = fit.steps.size() + fit.sizes.size();
+  equations.by_parameters.resize(rows, static_cast<Eigen::Index>(fit.free.size()));
+  equations.by_angles.resize(rows, 6);
+  equations.by_motion.resize(rows, 6);
+  equations.residual.resize(rows);
+  Eigen::MatrixXd columns(3, all);
+  Eigen::Index row = 0;
+  for (std::size_t k = 0; k < posture.readings.size(); ++k) {
+    if (fit.weights[first_reading + k] <= 0.0) continue;
+    const Reading& reading = posture.readings[k];
+    const ReflectorAt at = fitted.reflector(placed, reading);
+    const Eigen::Matrix3d white = fitted.whitening(reading);
+    fitted.derivatives(posture, placed, at, true, columns);
+    equations.by_parameters.middleRows<3>(row) = white * columns(Eigen::all, fit.free);
+    equations.by_angles.middleRows<3>(row) = white * placed.byAngles(at.position);
+    equations.by_motion.block<3, 3>(row, 0) = -white * metrology::crossMatrix(at.position);
+    equations.by_motion.block<3, 3>(row, 3) = white;
+    equations.residual.segment<3>(row) = white * fitted.residual(posture, reading, at);
+    equations.targets.push_back(reading.target);
+    equations.whitening.push_back(white);
+    equations.positions.push_back(at.position);
+    row += 3;
+  }
+  equations.by_parameters.conservativeResize(row, Eigen::NoChange);
+  equations.by_angles.conservativeResize(row, Eigen::NoChange);
+  equations.by_motion.conservativeResize(row, Eigen::NoChange);
+  equations.residual.conservativeResize(row);
+  return equations;
+}
+
+Eigen::MatrixXd columnsOf(const UnloadedDay& day, const ArmFit& fit, std::size_t i, const PostureEquations& equations,
+                          const std::vector<EffectTerm>& terms) {
+  const FittedDay fitted(day, fit);
+  const Posture& posture = day.postures[i];
+  const frames::PlacedPosture placed(fitted.arm(), fitted.anglesOf(posture));
+  const Eigen::Vector3d station = fit.place.base_from_points * day.station;
+  Eigen::MatrixXd columns(equations.residual.size(), static_cast<Eigen::Index>(terms.size()));
+  for (std::size_t k = 0; k < terms.size(); ++k) {
+    const auto column = static_cast<Eigen::Index>(k);
+    if (terms[k].angles) {
+      columns.col(column) = equations.by_angles * terms[k].angles(posture);
+      continue;
+    }
+    for (std::size_t r = 0; r < equations.targets.size(); ++r) {
+      const ReflectorAt at{placed, equations.targets[r], equations.positions[r], station};
+      columns.col(column).segment<3>(3 * static_cast<Eigen::Index>(r)) =
+          equations.whitening[r] * terms[k].offset(posture, at);
+    }
+  }
+  return columns;
+}
+
+}  // namespace stiffscope::calibration
