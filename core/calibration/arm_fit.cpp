@@ -122,6 +122,12 @@ class Fitting {
     used_ = options.weights.empty() ? std::vector<double>(at, 1.0) : options.weights;
     distances_.assign(at, 0.0);
     fit_.weights = used_;
+    for (std::size_t i = 0; i < first_.size(); ++i) {
+      bool any = false;
+      for (std::size_t k = 0; k < day.postures[i].readings.size(); ++k) any = any || used_[first_[i] + k] > 0.0;
+      if (any) all_.push_back(i);
+    }
+    visited_ = all_;
     prior_ = Eigen::VectorXd::Zero(fit_.steps.size() + fit_.sizes.size());
     constexpr double kAnywhere = 1.0;  // m and rad: base and reflectors, found by the start to millimetres
     prior_.head(fit_.steps.size()).setConstant(1.0 / (kAnywhere * kAnywhere));
@@ -135,10 +141,13 @@ class Fitting {
     }
   }
 
-  void run() {
-    startScale();
+  /// `known`: the scale is that of an earlier fit, which is where this one starts.
+  void run(bool known) {
+    if (!known) startScale();
     if (options_.robust) {
+      visited_ = evenly(all_);
       iterate(true);
+      visited_ = all_;
       reject();
     }
     iterate(false);
@@ -155,10 +164,32 @@ class Fitting {
  private:
   Eigen::Index count() const { return prior_.size(); }
 
-  /// Readings of weight above zero.
+  /// Some of the postures, neighbours by fours: what is wrong among ten thousand is told by a model of two thousand.
+  static std::vector<std::size_t> evenly(const std::vector<std::size_t>& all) {
+    constexpr std::size_t kEnough = 2000, kTogether = 4;
+    const std::size_t every = all.size() / kEnough + 1;
+    std::vector<std::size_t> some;
+    for (std::size_t k = 0; k < all.size(); ++k) {
+      if ((k / kTogether) % every == 0) some.push_back(all[k]);
+    }
+    return some;
+  }
+
+  /// Calls with each reading of the postures visited that may be used.
+  template <class Use>
+  void forEachUsed(const Use& use) const {
+    for (const std::size_t i : visited_) {
+      for (std::size_t k = first_[i]; k < first_[i] + day_.postures[i].readings.size(); ++k) {
+        if (used_[k] > 0.0) use(k);
+      }
+    }
+  }
+
+  /// Of the postures visited, of weight above zero.
   std::size_t usedReadings() const {
-    return static_cast<std::size_t>(
-        std::count_if(fit_.weights.begin(), fit_.weights.end(), [](double w) { return w > 0.0; }));
+    std::size_t sum = 0;
+    forEachUsed([&](std::size_t k) { sum += fit_.weights[k] > 0.0 ? 1 : 0; });
+    return sum;
   }
 
   double dofShare() const {
@@ -179,39 +210,50 @@ class Fitting {
 
   NormalSum sums() {
     const FittedDay fitted(day_, fit_);
-    return numerics::sumInBlocks<NormalSum>(day_.postures.size(), [&](std::size_t i, NormalSum& sum) {
-      const Posture& posture = day_.postures[i];
+    // Some postures together: their rows make a product of matrices that is worth its name.
+    constexpr std::size_t kTogether = 16;
+    const std::size_t groups = (visited_.size() + kTogether - 1) / kTogether;
+    return numerics::sumInBlocks<NormalSum>(groups, [&](std::size_t group, NormalSum& sum) {
+      const std::size_t from = group * kTogether, end = std::min(visited_.size(), from + kTogether);
+      Eigen::Index rows = 0;
+      for (std::size_t v = from; v < end; ++v)
+        rows += 3 * static_cast<Eigen::Index>(day_.postures[visited_[v]].readings.size());
       if (sum.normal.size() == 0) sum.normal = Eigen::MatrixXd::Zero(count() + 1, count() + 1);
-      const auto rows = 3 * static_cast<Eigen::Index>(posture.readings.size());
-      const auto own = used_.begin() + static_cast<std::ptrdiff_t>(first_[i]);
-      if (std::none_of(own, own + static_cast<std::ptrdiff_t>(posture.readings.size()),
-                       [](double w) { return w > 0.0; }))
-        return;
-      const frames::PlacedPosture placed(fitted.arm(), fitted.anglesOf(posture));
-      Eigen::MatrixXd equations(rows, count() + 1), columns(3, count());
-      Eigen::Vector3d together = Eigen::Vector3d::Zero();
+      Eigen::MatrixXd equations(count() + 1, rows);
       Eigen::Index row = 0;
-      for (std::size_t k = 0; k < posture.readings.size(); ++k) {
-        const Reading& reading = posture.readings[k];
-        const double weight = fit_.weights[first_[i] + k];
-        const ReflectorAt at = fitted.reflector(placed, reading);
-        const Eigen::Matrix3d white = fitted.whitening(reading);
-        const Eigen::Vector3d residual = white * fitted.residual(posture, reading, at);
-        distances_[first_[i] + k] = residual.squaredNorm();
-        if (weight <= 0.0) continue;
-        fitted.derivatives(posture, placed, at, options_.axes, columns);
-        const double root = std::sqrt(weight);
-        equations.block(row, 0, 3, count()).noalias() = root * white * columns;
-        equations.block(row, count(), 3, 1) = root * residual;
-        row += 3;
-        sum.weighted_chi2 += weight * residual.squaredNorm();
-        sum.weight += weight;
-        together += residual;
-        sum.squares_apart += residual.squaredNorm();
-      }
-      sum.squares_together += together.squaredNorm();
-      sum.normal.selfadjointView<Eigen::Lower>().rankUpdate(equations.topRows(row).transpose());
+      for (std::size_t v = from; v < end; ++v) row += addPosture(fitted, visited_[v], equations, row, sum);
+      sum.normal.selfadjointView<Eigen::Lower>().rankUpdate(equations.leftCols(row));
     });
+  }
+
+  /// Writes the weighted equations of a posture's readings, a column each, from `at` on; how many there are.
+  Eigen::Index addPosture(const FittedDay& fitted, std::size_t i, Eigen::MatrixXd& equations, Eigen::Index at,
+                          NormalSum& sum) {
+    const Posture& posture = day_.postures[i];
+    const frames::PlacedPosture placed(fitted.arm(), fitted.anglesOf(posture));
+    Eigen::MatrixXd columns(3, count());
+    Eigen::Vector3d together = Eigen::Vector3d::Zero();
+    Eigen::Index written = 0;
+    for (std::size_t k = 0; k < posture.readings.size(); ++k) {
+      const Reading& reading = posture.readings[k];
+      const double weight = fit_.weights[first_[i] + k];
+      const ReflectorAt reflector = fitted.reflector(placed, reading);
+      const Eigen::Matrix3d white = fitted.whitening(reading);
+      const Eigen::Vector3d residual = white * fitted.residual(posture, reading, reflector);
+      distances_[first_[i] + k] = residual.squaredNorm();
+      if (weight <= 0.0) continue;
+      fitted.derivatives(posture, placed, reflector, options_.axes, columns);
+      const double root = std::sqrt(weight);
+      equations.block(0, at + written, count(), 3).noalias() = columns.transpose() * (root * white).transpose();
+      equations.block(count(), at + written, 1, 3) = root * residual.transpose();
+      written += 3;
+      sum.weighted_chi2 += weight * residual.squaredNorm();
+      sum.weight += weight;
+      together += residual;
+      sum.squares_apart += residual.squaredNorm();
+    }
+    sum.squares_together += together.squaredNorm();
+    return written;
   }
 
   /// What is a choice of frame, and what the postures do not see: base and reflectors come first, then the axes from
@@ -279,7 +321,7 @@ class Fitting {
   /// Gauss-Newton until the step is small against its uncertainty and the scale stands.
   void iterate(bool robust) {
     constexpr int kMost = 30;
-    constexpr double kSmallStep = 1e-6;
+    constexpr double kSmallStep = 1e-4;  // mean square, in parts of the uncertainty: a hundredth of it
     for (int turn = 0; turn < kMost; ++turn) {
       const NormalSum sum = sums();
       if (fit_.free.empty()) chooseFree(sum.normal);
@@ -296,30 +338,32 @@ class Fitting {
       if (robust) reweight();
       const double length = step.dot(right) / static_cast<double>(std::max<std::size_t>(1, fit_.free.size()));
       fit_.chi2_per_dof = sum.weighted_chi2 / std::max(1e-300, 3.0 * sum.weight * dofShare());
-      constexpr double kSameScale = 1e-3;
-      if (turn > 1 && length < kSmallStep && std::abs(scale - 1.0) < kSameScale) return;
+      constexpr double kSameScale = 3e-3;
+      if (turn > 0 && length < kSmallStep && std::abs(scale - 1.0) < kSameScale) return;
     }
   }
 
   /// Median of the squared distances against that of chi-square with three degrees of freedom.
   double medianScale() const {
     std::vector<double> squares;
-    for (std::size_t i = 0; i < distances_.size(); ++i) {
-      if (used_[i] > 0.0) squares.push_back(distances_[i]);
-    }
+    forEachUsed([&](std::size_t k) { squares.push_back(distances_[k]); });
     const auto middle = squares.begin() + static_cast<std::ptrdiff_t>(squares.size() / 2);
     std::nth_element(squares.begin(), middle, squares.end());
     return *middle / (kMedianChi2Of3 * dofShare());
   }
 
+  /// Of the tracker, mean of all coordinates.
+  double declaredVariance() const {
+    double sum = 0.0;
+    for (const Posture& posture : day_.postures) {
+      for (const Reading& reading : posture.readings) sum += reading.covariance.trace() / 3.0;
+    }
+    return sum / static_cast<double>(std::max<std::size_t>(1, used_.size()));
+  }
+
   /// The variance beyond the tracker's that brings `chi2_per_dof` to one; the change of the whole standard deviation.
   double rescale(double chi2_per_dof) {
-    double declared = 0.0;
-    std::size_t readings = 0;
-    for (const Posture& posture : day_.postures) {
-      for (const Reading& reading : posture.readings) declared += reading.covariance.trace() / 3.0, ++readings;
-    }
-    declared /= static_cast<double>(std::max<std::size_t>(1, readings));
+    const double declared = declaredVariance();
     const double before = declared + fit_.model_sd * fit_.model_sd;
     constexpr double kLeast = 1e-8;  // m: a tracker that declares nothing is better than no instrument
     const double least = declared > 0.0 ? 0.0 : kLeast * kLeast;
@@ -329,17 +373,16 @@ class Fitting {
   }
 
   void reweight() {
-    for (std::size_t i = 0; i < used_.size(); ++i) {
-      const double inside = 1.0 - distances_[i] / (options_.gross * options_.gross);
-      fit_.weights[i] = used_[i] > 0.0 && inside > 0.0 ? inside * inside : 0.0;
-    }
+    forEachUsed([&](std::size_t k) {
+      const double inside = 1.0 - distances_[k] / (options_.gross * options_.gross);
+      fit_.weights[k] = inside > 0.0 ? inside * inside : 0.0;
+    });
   }
 
   void reject() {
     sums();
     const double limit = options_.gross * options_.gross * std::max(1.0, medianScale());
-    for (std::size_t i = 0; i < used_.size(); ++i)
-      fit_.weights[i] = used_[i] > 0.0 && distances_[i] < limit ? 1.0 : 0.0;
+    forEachUsed([&](std::size_t k) { fit_.weights[k] = distances_[k] < limit ? 1.0 : 0.0; });
   }
 
   /// The most negative of the compliances, in parts of its uncertainty, is put to zero. False where there is none.
@@ -378,7 +421,8 @@ class Fitting {
   const UnloadedDay& day_;
   const FitOptions& options_;
   ArmFit& fit_;
-  std::vector<std::size_t> first_;  ///< reading of each posture
+  std::vector<std::size_t> first_;          ///< reading of each posture
+  std::vector<std::size_t> all_, visited_;  ///< postures with readings that may be used; those that sums go over
   std::vector<double> used_;
   std::vector<double> distances_;  ///< squared, of each reading in parts of its covariance
   Eigen::VectorXd prior_;          ///< inverse variances
@@ -411,7 +455,7 @@ double ArmFit::sd(int parameter) const {
 }
 
 ArmFit fitArm(const UnloadedDay& day, const ArmPlace& place, const std::vector<EffectPart>& parts,
-              const FitOptions& options) {
+              const FitOptions& options, const ArmFit* from) {
   ArmFit fit;
   fit.place = place;
   fit.start = frames::axesAtStart(day.arm.axes_in_base_at_zero);
@@ -425,7 +469,12 @@ ArmFit fitArm(const UnloadedDay& day, const ArmPlace& place, const std::vector<E
   for (const Posture& posture : day.postures) {
     for (const Reading& reading : posture.readings) fit.centre += place.base_from_points * reading.point / readings;
   }
-  Fitting(day, options, fit).run();
+  if (from != nullptr) {
+    fit.steps = from->steps;
+    if (!options.axes) fit.steps.head<ArmParameters::kAxes>().setZero();
+    fit.model_sd = from->model_sd;
+  }
+  Fitting(day, options, fit).run(from != nullptr);
   return fit;
 }
 

@@ -60,8 +60,9 @@ struct ArmFit {
 /// tracker's and, where the model leaves more than that, a share that is alike for all (variance component found with
 /// the fit). `robust`: Tukey's biweight until it settles, then what is beyond kGross is rejected and the rest counts
 /// fully. Compliances that come out negative are refused one after the other.
+/// Starts from the axes, base and reflectors of `from` where there is one, a fit of the same day from the same place.
 ArmFit fitArm(const UnloadedDay& day, const ArmPlace& place, const std::vector<EffectPart>& parts,
-              const FitOptions& options);
+              const FitOptions& options, const ArmFit* from = nullptr);
 
 /// Measured less modelled of every reading of a day, in the order of the day, in base_link, m.
 std::vector<Eigen::Vector3d> residualsOf(const UnloadedDay& day, const ArmFit& fit);

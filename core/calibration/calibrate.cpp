@@ -32,13 +32,18 @@ ModelFits fitModels(const UnloadedDay& day, const std::vector<double>& weights, 
   const ArmFit first = fitArm(day, *place, {}, {.weights = weights, .gross = kGrossOfGeometry});
   SelectionOptions selection;
   selection.inner_fold = innerFolds(options, selection.inner_folds);
-  ArmFit effects = fitArm(day, *place, selectEffects(day, first, selection), {.weights = weights});
+  ArmFit effects = fitArm(day, *place, selectEffects(day, first, selection), {.weights = weights}, &first);
   const FitOptions right{.robust = false, .weights = effects.weights};
-  models.fits.emplace_back(CalibratedModel::nominal,
-                           fitArm(day, *place, {}, {.axes = false, .robust = false, .weights = effects.weights}));
-  models.fits.emplace_back(CalibratedModel::geometry, fitArm(day, *place, {}, right));
-  if (day.masses_known)
-    models.fits.emplace_back(CalibratedModel::gravity, fitArm(day, *place, jointCompliances(day), right));
+  const FitOptions without_axes{.axes = false, .robust = false, .weights = effects.weights};
+  ArmFit geometry = fitArm(day, *place, {}, right, &first);
+  models.fits.emplace_back(CalibratedModel::nominal, fitArm(day, *place, {}, without_axes));
+  if (day.masses_known) {
+    ArmFit gravity = fitArm(day, *place, jointCompliances(day), right, &geometry);
+    models.fits.emplace_back(CalibratedModel::geometry, std::move(geometry));
+    models.fits.emplace_back(CalibratedModel::gravity, std::move(gravity));
+  } else {
+    models.fits.emplace_back(CalibratedModel::geometry, std::move(geometry));
+  }
   models.fits.emplace_back(CalibratedModel::effects, std::move(effects));
   return models;
 }

@@ -37,7 +37,7 @@ class Selection {
   std::vector<EffectPart> run() {
     std::vector<EffectPart> found;
     const std::vector<EffectPart> fixed = fixedParts(day_);
-    for (const EffectPart& part : fixed) fixed_columns_.push_back(orthogonal(columnsOfPart(part)));
+    setFixedColumns(fixed);
     Periodogram periodogram(equations_, postures_, day_, basis_, residual_);
     std::vector<bool> gone(fixed.size(), false);
     for (int round = 0; round < options_.most_parts; ++round) {
@@ -113,6 +113,7 @@ class Selection {
     residual_ -= basis_ * coefficients_;
     setDesignEffect();
     setFolds();
+    setNormals();
   }
 
   /// Reflectors of one posture err together: what looks like three readings is worth fewer.
@@ -132,13 +133,35 @@ class Selection {
     for (const std::size_t i : postures_) fold_.push_back(options_.inner_fold(day_.postures[i].pose));
   }
 
-  Eigen::MatrixXd columnsOfPart(const EffectPart& part) const {
-    Eigen::MatrixXd columns(residual_.size(), static_cast<Eigen::Index>(part.terms.size()));
+  Eigen::MatrixXd columnsOfPart(const EffectPart& part) const { return columnsOfTerms(part.terms); }
+
+  Eigen::MatrixXd columnsOfTerms(const std::vector<EffectTerm>& terms) const {
+    Eigen::MatrixXd columns(residual_.size(), static_cast<Eigen::Index>(terms.size()));
     for (std::size_t k = 0; k < postures_.size(); ++k) {
       columns.middleRows(first_row_[k], equations_[k].residual.size()) =
-          columnsOf(day_, fit_, postures_[k], equations_[k], part.terms);
+          columnsOf(day_, fit_, postures_[k], equations_[k], terms);
     }
     return columns;
+  }
+
+  /// All of them in one pass over the postures.
+  void setFixedColumns(const std::vector<EffectPart>& fixed) {
+    std::vector<EffectTerm> terms;
+    for (const EffectPart& part : fixed) terms.insert(terms.end(), part.terms.begin(), part.terms.end());
+    const std::size_t of_fixed = terms.size(), targets = day_.targets.size() > 1 ? day_.targets.size() : 0;
+    for (std::size_t target = 0; target < targets; ++target) {
+      const EffectPart always = targetMotion(day_, static_cast<int>(target), -1.0);
+      terms.insert(terms.end(), always.terms.begin(), always.terms.end());
+    }
+    const Eigen::MatrixXd all = columnsOfTerms(terms);
+    const Eigen::MatrixXd across = orthogonal(all.leftCols(static_cast<Eigen::Index>(of_fixed)));
+    Eigen::Index at = 0;
+    for (const EffectPart& part : fixed) {
+      const auto width = static_cast<Eigen::Index>(part.terms.size());
+      fixed_columns_.push_back(across.middleCols(at, width));
+      at += width;
+    }
+    for (std::size_t target = 0; target < targets; ++target, at += 3) target_columns_.push_back(all.middleCols(at, 3));
   }
 
   /// Across the basis; a column of which next to nothing is left is what geometry and the parts found can do.
@@ -179,36 +202,33 @@ class Selection {
 
   /// What starts at a posture and stays: sums over the postures from there on, for all starts in one pass.
   void addJumps(std::vector<Candidate>& candidates) const {
-    std::vector<Eigen::MatrixXd> motions, none;
-    for (const PostureEquations& one : equations_) motions.push_back(one.by_motion);
-    if (const auto jump = bestStart(motions))
-      candidates.push_back({frameError(jump->first), jump->second, static_cast<int>(postures_.size())});
-    if (day_.targets.size() < 2) return;  // the only one's motion is the flange's
-    for (std::size_t target = 0; target < day_.targets.size(); ++target) {
-      const EffectPart always = targetMotion(day_, static_cast<int>(target), -1.0);
-      std::vector<Eigen::MatrixXd> columns;
-      for (std::size_t k = 0; k < postures_.size(); ++k)
-        columns.push_back(columnsOf(day_, fit_, postures_[k], equations_[k], always.terms));
-      if (const auto jump = bestStart(columns)) {
-        candidates.push_back({targetMotion(day_, static_cast<int>(target), jump->first), jump->second,
-                              static_cast<int>(postures_.size())});
-      }
+    const int tried = static_cast<int>(postures_.size());
+    if (const auto jump = bestStart([&](std::size_t k) { return equations_[k].by_motion; }, 6))
+      candidates.push_back({frameError(jump->first), jump->second, tried});
+    // The only reflector's motion would be the flange's: it has no columns.
+    for (std::size_t target = 0; target < target_columns_.size(); ++target) {
+      const auto columns = [&](std::size_t k) -> Eigen::MatrixXd {
+        return target_columns_[target].middleRows(first_row_[k], equations_[k].residual.size());
+      };
+      if (const auto jump = bestStart(columns, 3))
+        candidates.push_back({targetMotion(day_, static_cast<int>(target), jump->first), jump->second, tried});
     }
   }
 
   /// Time of the best start and its gain.
-  std::optional<std::pair<double, double>> bestStart(const std::vector<Eigen::MatrixXd>& columns) const {
-    const Eigen::Index width = columns.front().cols();
+  template <class Columns>
+  std::optional<std::pair<double, double>> bestStart(const Columns& columns_of, Eigen::Index width) const {
     Eigen::MatrixXd products = Eigen::MatrixXd::Zero(basis_.cols(), width), own = Eigen::MatrixXd::Zero(width, width);
     Eigen::VectorXd right = Eigen::VectorXd::Zero(width);
     std::optional<std::pair<double, double>> best;
     // Five postures on either side: fewer are outliers.
     constexpr std::size_t kFewest = 5;
     for (std::size_t k = postures_.size(); k-- > kFewest;) {
-      const auto rows = columns[k].rows();
-      products.noalias() += basis_.middleRows(first_row_[k], rows).transpose() * columns[k];
-      own.noalias() += columns[k].transpose() * columns[k];
-      right.noalias() += columns[k].transpose() * residual_.segment(first_row_[k], rows);
+      const Eigen::MatrixXd columns = columns_of(k);
+      const Eigen::Index rows = columns.rows();
+      products.noalias() += basis_.middleRows(first_row_[k], rows).transpose() * columns;
+      own.noalias() += columns.transpose() * columns;
+      right.noalias() += columns.transpose() * residual_.segment(first_row_[k], rows);
       if (k + kFewest > postures_.size()) continue;
       const Eigen::MatrixXd across = own - products.transpose() * products;
       if ((across.diagonal().array() < kAliased * kAliased * own.diagonal().array()).any()) continue;
@@ -228,35 +248,82 @@ class Selection {
     if (log_chance > std::log(options_.chance)) return false;
     candidate.part.chance = std::exp(log_chance);
     const Eigen::MatrixXd columns = orthogonal(columnsOfPart(candidate.part));
-    const double without = heldOut(Eigen::MatrixXd(residual_.size(), 0)), with = heldOut(columns);
-    return with < (1.0 - options_.least_gain) * without;
+    return heldOut(normalsWith(columns)) < (1.0 - options_.least_gain) * without_;
   }
 
-  /// Sum of squared residuals, each inner fold by what the others fit: geometry, parts found, and `columns`.
-  double heldOut(const Eigen::MatrixXd& columns) const {
-    const Eigen::Index width = basis_.cols() + columns.cols();
-    std::vector<Eigen::MatrixXd> normals(static_cast<std::size_t>(options_.inner_folds),
-                                         Eigen::MatrixXd::Zero(width + 1, width + 1));
-    for (std::size_t k = 0; k < postures_.size(); ++k) {
-      const Eigen::Index rows = equations_[k].residual.size(), from = first_row_[k];
-      Eigen::MatrixXd all(rows, width + 1);
-      all << basis_.middleRows(from, rows), columns.middleRows(from, rows), residual_.segment(from, rows);
-      normals[static_cast<std::size_t>(fold_[k])].selfadjointView<Eigen::Lower>().rankUpdate(all.transpose());
+  /// Normal equations of one inner fold, the residual apart.
+  struct FoldNormal {
+    Eigen::MatrixXd matrix;
+    Eigen::VectorXd right;
+    double square = 0.0;
+  };
+
+  /// Products of the rows of each fold: of `left` with `right`.
+  std::vector<Eigen::MatrixXd> productsByFold(const Eigen::MatrixXd& left, const Eigen::MatrixXd& right) const {
+    std::vector<Eigen::MatrixXd> products(static_cast<std::size_t>(options_.inner_folds),
+                                          Eigen::MatrixXd::Zero(left.cols(), right.cols()));
+    for (std::size_t k = 0; k < postures_.size();) {
+      // Postures in a row that are of one fold.
+      std::size_t end = k + 1;
+      while (end < postures_.size() && fold_[end] == fold_[k]) ++end;
+      const Eigen::Index from = first_row_[k], rows = first_row_[end - 1] + equations_[end - 1].residual.size() - from;
+      products[static_cast<std::size_t>(fold_[k])].noalias() +=
+          left.middleRows(from, rows).transpose() * right.middleRows(from, rows);
+      k = end;
     }
-    Eigen::MatrixXd total = Eigen::MatrixXd::Zero(width + 1, width + 1);
-    for (Eigen::MatrixXd& normal : normals) {
-      normal.triangularView<Eigen::StrictlyUpper>() = normal.transpose();
-      total += normal;
+    return products;
+  }
+
+  /// Of the basis with `columns` beside it; those of the basis alone are kept.
+  std::vector<FoldNormal> normalsWith(const Eigen::MatrixXd& columns) const {
+    const Eigen::Index before = basis_.cols(), width = before + columns.cols();
+    const auto across = productsByFold(basis_, columns), own = productsByFold(columns, columns),
+               right = productsByFold(columns, residual_);
+    std::vector<FoldNormal> normals = normals_;
+    for (std::size_t f = 0; f < normals.size(); ++f) {
+      FoldNormal& normal = normals[f];
+      normal.matrix.conservativeResize(width, width);
+      normal.matrix.topRightCorner(before, columns.cols()) = across[f];
+      normal.matrix.bottomLeftCorner(columns.cols(), before) = across[f].transpose();
+      normal.matrix.bottomRightCorner(columns.cols(), columns.cols()) = own[f];
+      normal.right.conservativeResize(width);
+      normal.right.tail(columns.cols()) = right[f];
     }
+    return normals;
+  }
+
+  void setNormals() {
+    const auto own = productsByFold(basis_, basis_);
+    normals_.resize(own.size());
+    for (std::size_t f = 0; f < own.size(); ++f) normals_[f].matrix = own[f];
+    setRightSides();
+  }
+
+  void setRightSides() {
+    const auto right = productsByFold(basis_, residual_), square = productsByFold(residual_, residual_);
+    for (std::size_t f = 0; f < normals_.size(); ++f) {
+      normals_[f].right = right[f];
+      normals_[f].square = square[f](0, 0);
+    }
+    without_ = heldOut(normals_);
+  }
+
+  /// Sum of squared residuals, each inner fold by what the others fit.
+  static double heldOut(const std::vector<FoldNormal>& normals) {
+    Eigen::MatrixXd matrix = normals.front().matrix;
+    Eigen::VectorXd right = normals.front().right;
+    for (std::size_t f = 1; f < normals.size(); ++f) {
+      matrix += normals[f].matrix;
+      right += normals[f].right;
+    }
+    constexpr double kDamping = 1e-9;  // of what the whole day sees: a fold that cannot see a direction leaves it
+    const Eigen::VectorXd damping = kDamping * matrix.diagonal();
     double sum = 0.0;
-    for (const Eigen::MatrixXd& normal : normals) {
-      const Eigen::MatrixXd others = total - normal;
-      Eigen::MatrixXd matrix = others.topLeftCorner(width, width);
-      constexpr double kDamping = 1e-9;  // of what the whole day sees: a fold that cannot see a direction leaves it
-      matrix.diagonal() += kDamping * total.diagonal().head(width);
-      const Eigen::VectorXd sizes = solveSymmetric(matrix, others.col(width).head(width));
-      sum += normal(width, width) - 2.0 * sizes.dot(normal.col(width).head(width)) +
-             sizes.dot(Eigen::VectorXd(normal.topLeftCorner(width, width) * sizes));
+    for (const FoldNormal& normal : normals) {
+      Eigen::MatrixXd others = matrix - normal.matrix;
+      others.diagonal() += damping;
+      const Eigen::VectorXd sizes = solveSymmetric(others, Eigen::VectorXd(right - normal.right));
+      sum += normal.square - 2.0 * sizes.dot(normal.right) + sizes.dot(Eigen::VectorXd(normal.matrix * sizes));
     }
     return sum;
   }
@@ -272,11 +339,13 @@ class Selection {
       directions.conservativeResize(Eigen::NoChange, directions.cols() + 1);
       directions.rightCols<1>() = direction / length;
     }
+    normals_ = normalsWith(directions);
     coefficients_ = directions.transpose() * residual_;
     residual_ -= directions * coefficients_;
     const Eigen::Index before = basis_.cols();
     basis_.conservativeResize(Eigen::NoChange, before + directions.cols());
     basis_.rightCols(directions.cols()) = directions;
+    setRightSides();
     return directions;
   }
 
@@ -292,7 +361,9 @@ class Selection {
   std::vector<int> fold_;
   Eigen::MatrixXd basis_;  ///< orthonormal: geometry, then the parts found
   Eigen::VectorXd residual_, coefficients_;
-  std::vector<Eigen::MatrixXd> fixed_columns_;
+  std::vector<Eigen::MatrixXd> fixed_columns_, target_columns_;
+  std::vector<FoldNormal> normals_;  ///< of the basis
+  double without_ = 0.0;             ///< held-out sum of squares of the basis alone
   double design_effect_ = 1.0;
 };
 

@@ -151,16 +151,21 @@ std::vector<Column<Row>> jointColumns() {
   (std::make_integer_sequence<int, 6>());
 }
 
-/// fx_n..mz_nm, of a row with a member wrench_in_cell; none of them: nothing pulls.
+/// fx_n..mz_nm, of a row with a member wrench_in_cell. Not required: all or none of them, and with none nothing pulls.
 template <class Row>
-std::vector<Column<Row>> wrenchColumns() {
-  return {
-      {"fx_n", CellKind::newton, [](Row& row) -> double& { return row.wrench_in_cell[0]; }, false, "wrench"},
-      {"fy_n", CellKind::newton, [](Row& row) -> double& { return row.wrench_in_cell[1]; }, false, "wrench"},
-      {"fz_n", CellKind::newton, [](Row& row) -> double& { return row.wrench_in_cell[2]; }, false, "wrench"},
-      {"mx_nm", CellKind::newton_metre, [](Row& row) -> double& { return row.wrench_in_cell[3]; }, false, "wrench"},
-      {"my_nm", CellKind::newton_metre, [](Row& row) -> double& { return row.wrench_in_cell[4]; }, false, "wrench"},
-      {"mz_nm", CellKind::newton_metre, [](Row& row) -> double& { return row.wrench_in_cell[5]; }, false, "wrench"}};
+std::vector<Column<Row>> wrenchColumns(bool required) {
+  std::vector<Column<Row>> columns{
+      {"fx_n", CellKind::newton, [](Row& row) -> double& { return row.wrench_in_cell[0]; }},
+      {"fy_n", CellKind::newton, [](Row& row) -> double& { return row.wrench_in_cell[1]; }},
+      {"fz_n", CellKind::newton, [](Row& row) -> double& { return row.wrench_in_cell[2]; }},
+      {"mx_nm", CellKind::newton_metre, [](Row& row) -> double& { return row.wrench_in_cell[3]; }},
+      {"my_nm", CellKind::newton_metre, [](Row& row) -> double& { return row.wrench_in_cell[4]; }},
+      {"mz_nm", CellKind::newton_metre, [](Row& row) -> double& { return row.wrench_in_cell[5]; }}};
+  for (Column<Row>& column : columns) {
+    column.required = required;
+    if (!required) column.together = "wrench";
+  }
+  return columns;
 }
 
 /// x_mm, y_mm, z_mm, of a row with a member point.

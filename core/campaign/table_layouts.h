@@ -65,7 +65,8 @@ inline const TableLayout<State>& statesLayout() {
   using Row = State;
   static const TableLayout<Row> layout{
       "states",
-      joined<Row>({poseAndStepColumns<Row>(), {timeColumn<Row>(false)}, jointColumns<Row>(), wrenchColumns<Row>()}),
+      joined<Row>(
+          {poseAndStepColumns<Row>(), {timeColumn<Row>(false)}, jointColumns<Row>(), wrenchColumns<Row>(false)}),
       {"pose", "step"}};
   return layout;
 }

@@ -41,7 +41,7 @@ const campaign::TableLayout<PostureRow>& posturesLayout() {
       "postures",
       campaign::joined<Row>({{{"pose", campaign::CellKind::text, [](Row& row) -> std::string& { return row.id; }}},
                              campaign::jointColumns<Row>(),
-                             campaign::wrenchColumns<Row>()}),
+                             campaign::wrenchColumns<Row>(true)}),
       {"pose"}};
   return layout;
 }
