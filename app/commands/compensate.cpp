@@ -38,6 +38,7 @@ int compensateCampaign(const CompensateArguments& arguments) {
   identification::IdentifyOptions options;
   options.step = loadStepNamed(arguments.step);
   const preparation::PreparedCampaign prepared = openPrepared(arguments.campaign, arguments.raw);
+  requireLoad(prepared.campaign);
   const std::optional<extended_model::ExtendedModel> improved = modelOf(prepared, arguments.model, options);
   const campaign::Campaign& campaign = improved ? improved->campaign : prepared.campaign;
   const identification::Identification result = improved ? improved->with : identification::identify(campaign, options);

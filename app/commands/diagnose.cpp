@@ -66,6 +66,7 @@ void drawSpikes(const std::string& file, const campaign::Campaign& campaign, con
 int diagnoseWithSpikes(DiagnoseArguments& arguments) {
   arguments.options.effects = effectsToAdd(arguments.spike);
   const campaign::Campaign campaign = openCampaign(arguments.campaign);
+  requireLoad(campaign);
   const diagnosis::Diagnosis diagnosis = diagnosis::diagnose(campaign);
   std::function<void(std::size_t, std::size_t)> progress;
   if (isatty(STDERR_FILENO) != 0) {
@@ -86,6 +87,7 @@ int diagnoseWithSpikes(DiagnoseArguments& arguments) {
 
 int diagnoseCampaign(const DiagnoseArguments& arguments) {
   campaign::Campaign campaign = openCampaign(arguments.campaign);
+  requireLoad(campaign);
   const campaign::Campaign words = described(campaign);
   const diagnosis::Diagnosis diagnosis = diagnosis::diagnose(std::move(campaign));
   deliver([&] { return reports::diagnosisJson(words, diagnosis); },

@@ -64,24 +64,4 @@ struct ArmFit {
 ArmFit fitArm(const UnloadedDay& day, const ArmPlace& place, const std::vector<EffectPart>& parts,
               const FitOptions& options, const ArmFit* from = nullptr);
 
-/// Measured less modelled of every reading of a day, in the order of the day, in base_link, m.
-std::vector<Eigen::Vector3d> residualsOf(const UnloadedDay& day, const ArmFit& fit);
-
-/// Equations of the readings about a fit: whitened residuals and their derivatives by (steps, sizes of `fit`), a block
-/// of rows a posture; only readings of weight above 0.
-struct PostureEquations {
-  Eigen::MatrixXd by_parameters;  ///< 3 rows a reading, by `fit.free`
-  Eigen::MatrixXd by_angles;      ///< by the joint angles, 6 columns
-  Eigen::MatrixXd by_motion;      ///< by a turn about the base origin (3) and a shift (3) of all that is seen
-  Eigen::VectorXd residual;
-  std::vector<int> targets;                ///< of each reading
-  std::vector<Eigen::Matrix3d> whitening;  ///< of each reading
-  std::vector<Eigen::Vector3d> positions;  ///< of each reading, as modelled
-};
-PostureEquations equationsOf(const UnloadedDay& day, const ArmFit& fit, std::size_t posture, std::size_t first_reading);
-
-/// Whitened columns of terms in a posture, a column a term.
-Eigen::MatrixXd columnsOf(const UnloadedDay& day, const ArmFit& fit, std::size_t posture,
-                          const PostureEquations& equations, const std::vector<EffectTerm>& terms);
-
 }  // namespace stiffscope::calibration

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "core/calibration/fitted_day.h"
 #include "core/numerics/parallel.h"
 
 namespace stiffscope::calibration {

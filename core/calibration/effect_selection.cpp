@@ -6,6 +6,7 @@
 #include <limits>
 #include <numeric>
 
+#include "core/calibration/fitted_day.h"
 #include "core/calibration/periodogram.h"
 #include "metrology/linear_algebra.h"
 

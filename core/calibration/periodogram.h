@@ -4,7 +4,7 @@
 #include <array>
 #include <vector>
 
-#include "core/calibration/arm_fit.h"
+#include "core/calibration/fitted_day.h"
 
 namespace stiffscope::calibration {
 

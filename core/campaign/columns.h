@@ -153,7 +153,7 @@ std::vector<Column<Row>> jointColumns() {
 
 /// fx_n..mz_nm, of a row with a member wrench_in_cell. Not required: all or none of them, and with none nothing pulls.
 template <class Row>
-std::vector<Column<Row>> wrenchColumns(bool required) {
+std::vector<Column<Row>> wrenchColumns(bool required = true) {
   std::vector<Column<Row>> columns{
       {"fx_n", CellKind::newton, [](Row& row) -> double& { return row.wrench_in_cell[0]; }},
       {"fy_n", CellKind::newton, [](Row& row) -> double& { return row.wrench_in_cell[1]; }},

@@ -41,7 +41,7 @@ const campaign::TableLayout<PostureRow>& posturesLayout() {
       "postures",
       campaign::joined<Row>({{{"pose", campaign::CellKind::text, [](Row& row) -> std::string& { return row.id; }}},
                              campaign::jointColumns<Row>(),
-                             campaign::wrenchColumns<Row>(true)}),
+                             campaign::wrenchColumns<Row>()}),
       {"pose"}};
   return layout;
 }

@@ -12,7 +12,6 @@
 #include "core/diagnosis/next_measurement.h"
 #include "core/diagnosis/significance.h"
 #include "core/diagnosis/verdict.h"
-#include "core/identification/remarks.h"
 #include "core/io/input_error.h"
 #include "core/preparation/subsample.h"
 
@@ -22,8 +21,6 @@ namespace {
 
 void requireLoads(const campaign::Campaign& campaign) {
   const io::InputPlace place{(campaign.folder / "campaign.xml").string(), 0, {}};
-  if (identification::whatLoadsLack(campaign).is(identification::RemarkId::no_load))
-    throw io::InputError(place, "", "no load: `stiffscope calibrate` fits the geometry of unloaded postures");
   if (!campaign.states || !campaign.load_cell) {
     throw io::InputError(place, "",
                          !campaign.states ? "no 'states': joint angles and load-cell readings are needed to diagnose"

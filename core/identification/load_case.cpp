@@ -102,9 +102,6 @@ io::InputPlace inFile(const campaign::Campaign& campaign, const std::string& fil
 
 /// What whatLoadsLack found, as an error in the input.
 const char* expectationOf(const Remark& lacking) {
-  if (lacking.is(RemarkId::no_load)) {
-    return "no load: stiffness needs one; `stiffscope calibrate` fits the geometry of unloaded postures";
-  }
   if (lacking.is(RemarkId::no_states)) {
     return "no 'states': joint angles and load-cell readings are needed to identify";
   }
@@ -118,9 +115,7 @@ const char* expectationOf(const Remark& lacking) {
 
 Remark whatLoadsLack(const campaign::Campaign& campaign) {
   if (!campaign.states) return Remark(RemarkId::no_states);
-  const bool pulled = std::any_of(campaign.states->rows.begin(), campaign.states->rows.end(),
-                                  [](const campaign::State& state) { return !state.wrench_in_cell.isZero(); });
-  if (!campaign.load_cell) return Remark(pulled || !campaign.loading ? RemarkId::no_load_cell : RemarkId::no_load);
+  if (!campaign.load_cell) return Remark(RemarkId::no_load_cell);
   if (!campaign.loading && !campaign.displacements) return Remark(RemarkId::no_readings_under_load);
   return {};
 }

@@ -6,7 +6,6 @@ namespace stiffscope::identification {
 enum class RemarkId {
   // what a campaign lacks
   no_states,
-  no_load,  ///< none at all: a day of unloaded postures
   no_load_cell,
   no_readings_under_load,
   // why a method is not available

@@ -73,8 +73,6 @@ std::string identificationWords(identification::RemarkId id, const RemarkValues&
   switch (id) {
     case RemarkId::no_states:
       return "no 'states': joint angles and load-cell readings are needed to identify";
-    case RemarkId::no_load:
-      return "no load: stiffness needs one; `calibrate` fits the geometry of unloaded postures";
     case RemarkId::no_load_cell:
       return "no 'load_cell': where the measured wrench acts is needed to identify";
     case RemarkId::no_readings_under_load:
