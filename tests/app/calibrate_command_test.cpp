@@ -17,9 +17,9 @@ TEST(CalibrateCommand, WritesModelsAxesTableAndUrdf) {
   if (!dayIsHere()) GTEST_SKIP() << "the practice days are not here";
   const ScratchFolder scratch;
   const std::string urdf = (scratch.path() / "calibrated.urdf").string(), csv = (scratch.path() / "axes.csv").string();
-  const Ran ran = runProgram("calibrate '" + kDay + "' --folds 3 --fold-size 2 --json - --urdf '" + urdf + "' --csv '" +
-                                 csv + "'",
-                             scratch.path());
+  const Ran ran =
+      runProgram("calibrate '" + kDay + "' --folds 3 --fold-size 2 --json - --urdf '" + urdf + "' --csv '" + csv + "'",
+                 scratch.path());
   ASSERT_EQ(ran.status, 0) << ran.err;
   const auto json = nlohmann::json::parse(ran.out);
   EXPECT_EQ(json["folds"], 3);

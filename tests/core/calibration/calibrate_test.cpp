@@ -54,20 +54,25 @@ TEST(Calibrate, FindsAGearsOwnOrder) {
   EXPECT_LT(result.of(CalibratedModel::effects).held_out.rms, 0.8 * result.of(CalibratedModel::geometry).held_out.rms);
 }
 
+/// By a few standard deviations of a reading, and by a hundred: the latter looks like two fifths of gross readings.
 TEST(Calibrate, FindsAReflectorThatMoved) {
-  Noise noise(13);
-  UnloadedSpec spec = builtOtherwise(noise);
-  spec.postures = 100;
-  campaign::Campaign campaign = unloadedCampaign(spec, noise);
-  for (campaign::LoadingReading& reading : campaign.loading->rows) {
-    if (reading.target != 1 || reading.pose < 60) continue;
-    const Vector6d& q = campaign.states->rows[static_cast<std::size_t>(reading.pose)].q;
-    reading.point +=
-        spec.tracker_from_base.linear() * (spec.built.flangeAt(q).linear() * Eigen::Vector3d(150e-6, 0, -100e-6));
+  for (const double size : {150e-6, 2e-3}) {
+    SCOPED_TRACE(size);
+    Noise noise(13);
+    UnloadedSpec spec = builtOtherwise(noise);
+    spec.postures = 100;
+    campaign::Campaign campaign = unloadedCampaign(spec, noise);
+    for (campaign::LoadingReading& reading : campaign.loading->rows) {
+      if (reading.target != 1 || reading.pose < 60) continue;
+      const Vector6d& q = campaign.states->rows[static_cast<std::size_t>(reading.pose)].q;
+      reading.point += spec.tracker_from_base.linear() *
+                       (spec.built.flangeAt(q).linear() * (size * Eigen::Vector3d(1.0, 0.0, -0.7)));
+    }
+    const calibration::Calibration result = calibration::calibrate(campaign, {});
+    ASSERT_TRUE(has(result.best().fit, calibration::UnloadedEffect::target_motion, "P11"));
+    EXPECT_NEAR(*result.best().fit.parts.front().from, 60.0 / 99.0, 3.0 / 99.0);
+    EXPECT_TRUE(result.rejected.empty());
   }
-  const calibration::Calibration result = calibration::calibrate(campaign, {});
-  ASSERT_TRUE(has(result.best().fit, calibration::UnloadedEffect::target_motion, "P11"));
-  EXPECT_NEAR(*result.best().fit.parts.front().from, 60.0 / 99.0, 3.0 / 99.0);
 }
 
 TEST(Calibrate, FoldsAreBlocksOfTheCampaignsOrder) {
@@ -101,15 +106,15 @@ struct Reference {
 
 TEST(Calibrate, RealDaysAreBelowTheReference) {
   for (const Reference& reference :
-       {Reference{"ur5-unloaded", 1, 0.1123, 0.0953}, Reference{"ur10-unloaded", 2, 0.439, 0.378}}) {
+       {Reference{"ur5-unloaded", 1, 0.1123, 0.0726}, Reference{"ur10-unloaded", 2, 0.439, 0.309}}) {
     const fs::path folder = fs::path(STIFFSCOPE_SHARED_DIR) / "real" / reference.day;
     if (!fs::is_directory(folder)) GTEST_SKIP() << "the real days are not here";
     SCOPED_TRACE(reference.day);
     const preparation::PreparedCampaign day = preparation::prepareCampaign(campaign::readCampaign(folder).campaign);
     const auto result = calibration::calibrate(day.campaign, {.folds = 2, .fold_size = reference.fold_size});
     ASSERT_TRUE(result.reason.empty());
-    // To the digits that the reference states.
-    EXPECT_LE(result.of(CalibratedModel::geometry).held_out.rms, (reference.geometry + 0.0005) * 1e-3);
+    // Which readings count differs in a few, by the duplicates and by single readings of a posture: half a per cent.
+    EXPECT_LE(result.of(CalibratedModel::geometry).held_out.rms, 1.005 * reference.geometry * 1e-3);
     EXPECT_LT(result.of(CalibratedModel::effects).held_out.rms, reference.best * 1e-3);
   }
 }
