@@ -77,7 +77,8 @@ class Selection {
     for (std::size_t i = 0; i < day_.postures.size(); ++i) {
       first_reading_.push_back(reading);
       bool any = false;
-      for (std::size_t k = 0; k < day_.postures[i].readings.size(); ++k) any = any || fit_.weights[reading++] > 0.0;
+      for (std::size_t k = 0; k < day_.postures[i].readings.size(); ++k, ++reading)
+        any = any || fit_.weights[reading] > 0.0;
       if (any) usable.push_back(i);
     }
     constexpr std::size_t kTogether = 4;

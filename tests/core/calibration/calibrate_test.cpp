@@ -54,6 +54,22 @@ TEST(Calibrate, FindsAGearsOwnOrder) {
   EXPECT_LT(result.of(CalibratedModel::effects).held_out.rms, 0.8 * result.of(CalibratedModel::geometry).held_out.rms);
 }
 
+// A hundredth of the readings a decimetre off and some beams lost: the same effect is found, and only they are left
+// out.
+TEST(Calibrate, GrossReadingsHideNoEffect) {
+  Noise noise(16);
+  UnloadedSpec spec = builtOtherwise(noise);
+  spec.postures = 150;
+  spec.joint_errors = [](const Vector6d& q) { return Vector6d(60e-6 * std::sin(2.0 * q[1]) * Vector6d::Unit(1)); };
+  campaign::Campaign campaign = unloadedCampaign(spec, noise);
+  for (const std::size_t row : {3u, 101u, 250u, 377u, 440u}) campaign.loading->rows[row].point.x() += 0.1;
+  for (const std::size_t row : {400u, 200u, 10u}) campaign.loading->rows.erase(campaign.loading->rows.begin() + row);
+  const calibration::Calibration result = calibration::calibrate(campaign, {});
+  EXPECT_EQ(result.rejected.size(), 5u);
+  // Sine of twice the angle, or what 70 degrees of it cannot tell from that: what is left is noise.
+  EXPECT_LT(result.of(CalibratedModel::effects).held_out.rms, 1.4 * std::sqrt(3.0) * 20e-6);
+}
+
 /// By a few standard deviations of a reading, and by a hundred: the latter looks like two fifths of gross readings.
 TEST(Calibrate, FindsAReflectorThatMoved) {
   for (const double size : {150e-6, 2e-3}) {
