@@ -46,7 +46,7 @@ void writeUrdf(const campaign::Campaign& campaign, const calibration::Calibratio
   const std::string bytes = io::readTextFile(urdf, io::kLargestXml);
   io::requireNotRead(file);
   io::writeFileWhole(file, calibration::calibratedUrdf(bytes, urdf.string(), campaign.base_link, campaign.flange_link,
-                                                       campaign.robot, calibration.best().fit.arm(campaign.robot)));
+                                                       campaign.robot, calibration.geometry().fit.arm(campaign.robot)));
 }
 
 int calibrateCampaign(const CalibrateArguments& arguments) {

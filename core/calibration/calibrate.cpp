@@ -173,7 +173,7 @@ Calibration calibrate(const campaign::Campaign& campaign, const CalibrationOptio
     result.models.push_back(std::move(model));
   }
   result.rejected = rejectedOf(campaign, day, result.best().fit);
-  result.not_identifiable = notIdentifiable(result.best().fit);
+  result.not_identifiable = notIdentifiable(result.geometry().fit);
   if (!day.masses_known) result.notes.push_back(Remark(RemarkId::no_masses));
   return result;
 }

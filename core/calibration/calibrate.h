@@ -42,11 +42,13 @@ struct Calibration {
   UnloadedDay day;
   std::vector<ModelResult> models;                     ///< gravity is absent where the URDF has no masses
   std::vector<preparation::RejectedReading> rejected;  ///< by the fullest model
-  std::vector<Remark> not_identifiable;                ///< axis parameters of the fullest model
+  std::vector<Remark> not_identifiable;                ///< axis parameters of the geometry
   std::vector<Remark> notes;
 
   const ModelResult& of(CalibratedModel model) const;
-  /// The fullest, by which readings are judged and of which axes, uncertainties and the URDF are.
+  /// The rigid arm that predicts best without effects: axes, base, reflectors and URDF as other programs take them.
+  const ModelResult& geometry() const { return of(CalibratedModel::geometry); }
+  /// The fullest, by which readings are judged. Its axes are those with the effects beside them.
   const ModelResult& best() const { return models.back(); }
 };
 

@@ -118,7 +118,7 @@ Json calibrationJson(const campaign::Campaign& campaign, const calibration::Cali
     return json;
   }
   const calibration::UnloadedDay& day = calibration.day;
-  const ArmFit& fit = calibration.best().fit;
+  const ArmFit& fit = calibration.geometry().fit;
   const robot::Robot arm = fit.arm(day.arm);
   json["postures"] = day.postures.size();
   json["readings"] = day.readings();
@@ -129,6 +129,11 @@ Json calibrationJson(const campaign::Campaign& campaign, const calibration::Cali
   Json axes = Json::array();
   for (std::size_t j = 0; j < 6; ++j) axes.push_back(axisJson(day, fit, arm, j));
   json["axes"] = axes;
+  const ArmFit& best = calibration.best().fit;
+  const robot::Robot arm_with_effects = best.arm(day.arm);
+  Json with_effects = Json::array();
+  for (std::size_t j = 0; j < 6; ++j) with_effects.push_back(axisJson(day, best, arm_with_effects, j));
+  json["axes_with_effects"] = with_effects;
   json["not_identifiable"] = words(calibration.not_identifiable);
   json["base_link_from_tracker"] = matrix(fit.basePointsMotion());
   json["base_link_from_flange_at_zero"] = matrix(arm.base_from_flange_at_zero);
@@ -142,7 +147,7 @@ Json calibrationJson(const campaign::Campaign& campaign, const calibration::Cali
   json["link_parameters"] = {{"calibrated", parametersJson(calibration::denavitHartenberg(arm, day.arm))},
                              {"nominal", parametersJson(calibration::denavitHartenberg(day.arm, day.arm))}};
   json["masses_known"] = day.masses_known;
-  json["stiffness_by_own_weight"] = day.masses_known ? stiffnessJson(fit) : Json(nullptr);
+  json["stiffness_by_own_weight"] = day.masses_known ? stiffnessJson(best) : Json(nullptr);
   json["notes"] = words(calibration.notes);
   return json;
 }

@@ -55,8 +55,9 @@ namespace stiffscope::reports {
 struct ReportContent;
 
 /// The result of `calibrate`: folds, postures, models (each: effects by id, parts with their sizes, fitted and held-out
-/// errors in mm), rejected readings, axes in base_link with their standard uncertainties, not_identifiable, base,
-/// reflectors, Denavit and Hartenberg's parameters beside the URDF's, stiffness where masses are known.
+/// errors in mm), rejected readings, axes of the geometry in base_link with their standard uncertainties,
+/// not_identifiable, base, reflectors, Denavit and Hartenberg's parameters beside the URDF's, stiffness where masses
+/// are known.
 Json calibrationJson(const campaign::Campaign& campaign, const calibration::Calibration& calibration,
                      const calibration::CalibrationOptions& options);
 

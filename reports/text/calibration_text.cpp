@@ -50,10 +50,11 @@ void writeEffects(const calibration::Calibration& calibration, Out out) {
 }
 
 void writeAxes(const calibration::Calibration& calibration, Out out) {
-  const calibration::ArmFit& fit = calibration.best().fit;
+  const calibration::ArmFit& fit = calibration.geometry().fit;
   const robot::Robot arm = fit.arm(calibration.day.arm);
   fmt::format_to(out,
-                 "\nAxes against the URDF's, in base_link at zero (u, v across the axis; +- standard uncertainty)\n"
+                 "\nAxes of the geometry against the URDF's, in base_link at zero (u, v across the axis; +- standard "
+                 "uncertainty)\n"
                  "  {:<6}{:>38}{:>42}\n",
                  "axis", "moved, mm", "tilted, mdeg");
   constexpr double kMillidegree = 1e-3 * io::kDegree;
@@ -119,7 +120,7 @@ std::string calibrationText(const campaign::Campaign& campaign, const calibratio
 }
 
 std::string calibrationCsv(const calibration::Calibration& calibration) {
-  const calibration::ArmFit& fit = calibration.best().fit;
+  const calibration::ArmFit& fit = calibration.geometry().fit;
   const robot::Robot arm = fit.arm(calibration.day.arm);
   const calibration::DenavitHartenberg now = calibration::denavitHartenberg(arm, calibration.day.arm),
                                        before =
