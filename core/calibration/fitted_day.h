@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "core/calibration/arm_fit.h"
+#include "core/calibration/fitted_arm.h"
 
 namespace stiffscope::calibration {
 

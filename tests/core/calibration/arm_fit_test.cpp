@@ -103,7 +103,6 @@ TEST(ArmFit, IntervalsHoldTheTruth) {
   }
   const double share = static_cast<double>(inside) / all;
   RecordProperty("share", std::to_string(share));
-  std::printf("intervals of the axes hold the truth in %.4f of %d\n", share, all);
   EXPECT_GT(share, 0.93);
   EXPECT_LT(share, 0.97);
 }
