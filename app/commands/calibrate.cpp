@@ -83,8 +83,8 @@ int calibrateCampaign(const CalibrateArguments& arguments) {
 
 void addCalibrate(CLI::App& app, Run& run) {
   const auto arguments = std::make_shared<CalibrateArguments>();
-  CLI::App* command = app.add_subcommand(
-      "calibrate", "Geometry, own weight and effects of the unloaded arm, held-out errors, and the calibrated URDF");
+  CLI::App* command =
+      app.add_subcommand("calibrate", "Geometry, own weight and effects from unloaded postures, held out");
   command->add_option("CAMPAIGN", arguments->campaign, "campaign folder or its campaign.xml")->required();
   command->add_option("--folds", arguments->options.folds, "parts of the postures, each predicted by the others")
       ->capture_default_str();
