@@ -17,6 +17,7 @@ int runCommandLine(int count, char** words) {
   addFit(app, run);
   addFrames(app, run);
   addIdentify(app, run);
+  addCalibrate(app, run);
   addCompensate(app, run);
   addCompare(app, run);
   addPlan(app, run);

@@ -1,9 +1,12 @@
 #include "app/prepared.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <utility>
+#include <vector>
 
 #include "app/output.h"
+#include "core/io/input_error.h"
 
 namespace stiffscope::app {
 
@@ -21,6 +24,16 @@ void addRawOption(CLI::App& command, bool& raw) {
   command.add_flag("--raw", raw,
                    "take the readings as they were read: leave out none that the audit rejects, take off no drift "
                    "that the floor nests show");
+}
+
+void requireLoad(const campaign::Campaign& campaign) {
+  if (!campaign.states || !campaign.loading || campaign.load_cell) return;
+  const std::vector<campaign::State>& states = campaign.states->rows;
+  const bool pulled = std::any_of(states.begin(), states.end(),
+                                  [](const campaign::State& state) { return !state.wrench_in_cell.isZero(); });
+  if (pulled) return;
+  throw io::InputError({(campaign.folder / "campaign.xml").string(), 0, ""}, "",
+                       "no load: stiffness and its gap need one; `stiffscope calibrate` fits unloaded postures");
 }
 
 preparation::PreparedCampaign openPrepared(const std::string& folder_or_xml, bool raw, campaign::Hashes hashes) {

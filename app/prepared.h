@@ -18,6 +18,10 @@ campaign::Campaign described(const campaign::Campaign& campaign);
 /// Adds --raw to a command.
 void addRawOption(CLI::App& command, bool& raw);
 
+/// Throws InputError for a day of unloaded postures: no load cell, and no wrench that is not zero. `calibrate` is for
+/// it.
+void requireLoad(const campaign::Campaign& campaign);
+
 /// A campaign as the commands compute from it: without rejected readings and referred to where the station
 /// first stood, as the audit finds them; with `raw` as it was read. Warnings go to standard error.
 preparation::PreparedCampaign openPrepared(const std::string& folder_or_xml, bool raw,

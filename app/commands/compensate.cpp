@@ -40,6 +40,7 @@ int compensateCampaign(const CompensateArguments& arguments) {
   identification::IdentifyOptions options;
   options.step = loadStepNamed(arguments.step);
   const preparation::PreparedCampaign prepared = openPrepared(arguments.campaign, arguments.raw);
+  requireLoad(prepared.campaign);
   std::optional<extended_model::ExtendedModel> improved = modelOf(prepared, arguments.model, options);
   const campaign::Campaign& campaign = improved ? improved->campaign : prepared.campaign;
   std::optional<identification::Identification> springs;

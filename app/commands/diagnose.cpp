@@ -78,6 +78,7 @@ diagnosis::Diagnosis diagnosed(const preparation::PreparedCampaign& prepared) {
 int diagnoseWithSpikes(DiagnoseArguments& arguments) {
   arguments.options.effects = effectsToAdd(arguments.spike);
   const campaign::Campaign campaign = openCampaign(arguments.campaign);
+  requireLoad(campaign);
   const diagnosis::Diagnosis diagnosis = diagnosed(preparation::prepareCampaign(campaign));
   std::function<void(std::size_t, std::size_t)> progress;
   if (isatty(STDERR_FILENO) != 0) {
@@ -98,6 +99,7 @@ int diagnoseWithSpikes(DiagnoseArguments& arguments) {
 
 int diagnoseCampaign(const DiagnoseArguments& arguments) {
   campaign::Campaign campaign = openCampaign(arguments.campaign);
+  requireLoad(campaign);
   const campaign::Campaign words = described(campaign);
   const diagnosis::Diagnosis diagnosis = diagnosed(preparation::prepareCampaign(std::move(campaign)));
   deliver([&] { return reports::diagnosisJson(words, diagnosis); },

@@ -79,6 +79,7 @@ int identifyCampaign(const IdentifyArguments& arguments, bool subset_given) {
   const preparation::PreparedCampaign prepared =
       openPrepared(arguments.campaign, arguments.raw, hashesFor(arguments.json));
   if (encodersAlone(prepared.campaign)) return identifyEncodersAlone(prepared, arguments);
+  requireLoad(prepared.campaign);
   const std::optional<extended_model::ExtendedModel> improved = modelOf(prepared, arguments.model, options);
   const campaign::Campaign& campaign = improved ? improved->campaign : prepared.campaign;
   const identification::Identification result = improved ? improved->with : identification::identify(campaign, options);

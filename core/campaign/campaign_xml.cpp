@@ -223,7 +223,7 @@ void requireFormatOne(const io::XmlNode& root) {
 }
 
 DoubleEncoder readDoubleEncoder(const io::XmlNode& node) {
-  const std::string value = node.requiredAttribute("double_encoder");
+  const std::string value = node.attribute("double_encoder").value_or("unspecified");
   if (value == "active") return DoubleEncoder::active;
   if (value == "inactive") return DoubleEncoder::inactive;
   if (value == "unspecified") return DoubleEncoder::unspecified;

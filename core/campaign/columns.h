@@ -132,6 +132,7 @@ struct Column {
   std::variant<Number, Index, Text> member;
   bool required = true;
   bool may_be_blank = false;  ///< a number that a row need not have: its member then stays as it is by default
+  std::string together = {};  ///< optional columns of one such name are there all or none
 };
 
 /// A kind of table: the element of campaign.xml that names its file, its columns, and the columns that
@@ -159,15 +160,21 @@ std::vector<Column<Row>> jointColumns() {
   return angleColumns<Row, &Row::q>('q', true);
 }
 
-/// fx_n..mz_nm, of a row with a member wrench_in_cell.
+/// fx_n..mz_nm, of a row with a member wrench_in_cell. Not required: all or none of them, and with none nothing pulls.
 template <class Row>
-std::vector<Column<Row>> wrenchColumns() {
-  return {{"fx_n", CellKind::newton, [](Row& row) -> double& { return row.wrench_in_cell[0]; }},
-          {"fy_n", CellKind::newton, [](Row& row) -> double& { return row.wrench_in_cell[1]; }},
-          {"fz_n", CellKind::newton, [](Row& row) -> double& { return row.wrench_in_cell[2]; }},
-          {"mx_nm", CellKind::newton_metre, [](Row& row) -> double& { return row.wrench_in_cell[3]; }},
-          {"my_nm", CellKind::newton_metre, [](Row& row) -> double& { return row.wrench_in_cell[4]; }},
-          {"mz_nm", CellKind::newton_metre, [](Row& row) -> double& { return row.wrench_in_cell[5]; }}};
+std::vector<Column<Row>> wrenchColumns(bool required = true) {
+  std::vector<Column<Row>> columns{
+      {"fx_n", CellKind::newton, [](Row& row) -> double& { return row.wrench_in_cell[0]; }},
+      {"fy_n", CellKind::newton, [](Row& row) -> double& { return row.wrench_in_cell[1]; }},
+      {"fz_n", CellKind::newton, [](Row& row) -> double& { return row.wrench_in_cell[2]; }},
+      {"mx_nm", CellKind::newton_metre, [](Row& row) -> double& { return row.wrench_in_cell[3]; }},
+      {"my_nm", CellKind::newton_metre, [](Row& row) -> double& { return row.wrench_in_cell[4]; }},
+      {"mz_nm", CellKind::newton_metre, [](Row& row) -> double& { return row.wrench_in_cell[5]; }}};
+  for (Column<Row>& column : columns) {
+    column.required = required;
+    if (!required) column.together = "wrench";
+  }
+  return columns;
 }
 
 /// x_mm, y_mm, z_mm, of a row with a member point.

@@ -52,6 +52,14 @@ std::string insteadOf(const std::string& missing, const std::vector<std::string>
   return known || unknown.empty() ? "" : fmt::format("; it starts with '{}'", io::oneLine(unknown.front(), 60));
 }
 
+/// Whether the header has any of the columns that are there together.
+bool someOf(const std::string& together, const std::vector<WantedColumn>& wanted,
+            const std::vector<std::string_view>& cells) {
+  return !together.empty() && std::any_of(wanted.begin(), wanted.end(), [&](const WantedColumn& column) {
+    return column.together == together && std::find(cells.begin(), cells.end(), column.name) != cells.end();
+  });
+}
+
 }  // namespace
 
 std::vector<std::size_t> matchHeader(const std::string& file, std::size_t line,
@@ -64,7 +72,7 @@ std::vector<std::size_t> matchHeader(const std::string& file, std::size_t line,
   for (const WantedColumn& column : wanted) {
     const auto found = std::find(cells.begin(), cells.end(), column.name);
     if (found == cells.end()) {
-      if (column.required) {
+      if (column.required || someOf(column.together, wanted, cells)) {
         const auto named =
             std::count_if(cells.begin(), cells.end(), [](std::string_view cell) { return !cell.empty(); });
         const bool known = static_cast<std::ptrdiff_t>(unknown.size()) < named;

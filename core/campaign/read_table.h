@@ -176,6 +176,7 @@ class RowRepeats {
 struct WantedColumn {
   std::string name;
   bool required = true;
+  std::string together = {};  ///< optional columns of one such name are there all or none
 };
 
 inline constexpr std::size_t kAbsentColumn = static_cast<std::size_t>(-1);
@@ -246,7 +247,7 @@ class TableLines {
 template <class Row>
 std::vector<WantedColumn> wantedColumns(const TableLayout<Row>& layout) {
   std::vector<WantedColumn> wanted;
-  for (const Column<Row>& column : layout.columns) wanted.push_back({column.name, column.required});
+  for (const Column<Row>& column : layout.columns) wanted.push_back({column.name, column.required, column.together});
   return wanted;
 }
 
@@ -486,7 +487,9 @@ template <class Row>
 [[noreturn]] void refuseRepeat(const TableSource& source, const TableLayout<Row>& layout, const KeyColumns<Row>& key,
                                const TableLines& lines, std::size_t first_line) {
   std::vector<std::string_view> cells;
-  for (const std::size_t i : key.places) cells.push_back(lines.cell(i));
+  for (const std::size_t i : key.places) {
+    if (lines.has(i)) cells.push_back(lines.cell(i));
+  }
   throw io::InputError({source.file, lines.line(), fmt::format("{}", fmt::join(layout.key, ", "))},
                        fmt::format("{}", fmt::join(cells, ", ")),
                        fmt::format("expected a key that does not repeat; line {} has it first", first_line));

@@ -41,9 +41,9 @@ inline const TableLayout<LoadingReading>& loadingLayout() {
   static const TableLayout<Row> layout{
       "loading",
       joined<Row>({poseAndStepColumns<Row>(),
-                   {{"repeat", CellKind::text, [](Row& row) -> std::string& { return row.repeat; }},
+                   {{"repeat", CellKind::text, [](Row& row) -> std::string& { return row.repeat; }, false},
                     targetColumn<Row>(),
-                    timeColumn<Row>(true)},
+                    timeColumn<Row>(false)},
                    pointColumns<Row>()}),
       {"pose", "step", "repeat", "target"}};
   return layout;
@@ -67,9 +67,9 @@ inline const TableLayout<State>& statesLayout() {
       "states",
       joined<Row>(
           {poseAndStepColumns<Row>(),
-           {timeColumn<Row>(true)},
+           {timeColumn<Row>(false)},
            jointColumns<Row>(),
-           wrenchColumns<Row>(),
+           wrenchColumns<Row>(false),
            angleColumns<Row, &Row::commanded>('c', false),
            angleColumns<Row, &Row::motor_side>('m', false),
            {{"temperature_c", CellKind::celsius, [](Row& row) -> double& { return row.temperature_c; }, false, true}}}),

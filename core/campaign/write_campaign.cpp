@@ -48,9 +48,11 @@ std::string writtenCell(const Column<Row>& column, Row& row, const CampaignNames
   return writtenName(std::get<typename Column<Row>::Text>(column.member)(row), column.name);
 }
 
-/// Whether the rows have values for an optional column of numbers: all of them, or some where the others may be blank.
+/// Whether the rows have values for an optional column: all of them, or some where the others may be blank.
 template <class Row>
 bool isGiven(const Column<Row>& column, std::vector<Row>& rows) {
+  if (const auto* text = std::get_if<typename Column<Row>::Text>(&column.member))
+    return std::all_of(rows.begin(), rows.end(), [&](Row& row) { return !(*text)(row).empty(); });
   const auto* number = std::get_if<typename Column<Row>::Number>(&column.member);
   if (number == nullptr) return true;
   const auto has = [&](Row& row) { return !std::isnan((*number)(row)); };

@@ -9,6 +9,10 @@
 namespace stiffscope::audit {
 struct AuditReport;
 }
+namespace stiffscope::calibration {
+struct Calibration;
+struct CalibrationOptions;
+}  // namespace stiffscope::calibration
 namespace stiffscope::campaign {
 struct Campaign;
 struct KnownStiffness;
@@ -51,6 +55,13 @@ struct BlindResult;
 namespace stiffscope::reports {
 
 struct ReportContent;
+
+/// The result of `calibrate`: folds, postures, models (each: effects by id, parts with their sizes, fitted and held-out
+/// errors in mm), rejected readings, axes of the geometry in base_link with their standard uncertainties,
+/// not_identifiable, base, reflectors, Denavit and Hartenberg's parameters beside the URDF's, stiffness where masses
+/// are known.
+Json calibrationJson(const campaign::Campaign& campaign, const calibration::Calibration& calibration,
+                     const calibration::CalibrationOptions& options);
 
 /// One method's part of `compare`, joint by joint; `ratios_hold`: what joint springs leave is noise.
 Json changeJson(const comparison::StiffnessChange& change, bool ratios_hold);

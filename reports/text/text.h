@@ -8,6 +8,10 @@
 namespace stiffscope::audit {
 struct AuditReport;
 }
+namespace stiffscope::calibration {
+struct Calibration;
+struct CalibrationOptions;
+}  // namespace stiffscope::calibration
 namespace stiffscope::campaign {
 struct Campaign;
 struct KnownStiffness;
@@ -49,6 +53,15 @@ struct ShapeFit;
 /// The audit for people: a table of the checks, then what those that did not pass say, then the rejected
 /// readings.
 std::string auditText(const campaign::Campaign& campaign, const audit::AuditReport& report);
+
+/// The result of `calibrate` for a terminal.
+std::string calibrationText(const campaign::Campaign& campaign, const calibration::Calibration& calibration,
+                            const calibration::CalibrationOptions& options);
+
+/// Its axes as a CSV table, a row an axis: point_x_m..point_z_m, direction_x..direction_z, standard uncertainties
+/// across the axis, and the parameters to the next axis (theta_deg, d_mm, a_mm, alpha_deg, beta_deg) with the URDF's
+/// beside them.
+std::string calibrationCsv(const calibration::Calibration& calibration);
 
 /// The result of `compare` for a terminal.
 std::string comparisonText(const campaign::Campaign& before, const campaign::Campaign& after,

@@ -22,6 +22,7 @@ std::pair<const std::type_index, FamilyWords> of() {
 const std::unordered_map<std::type_index, FamilyWords>& families() {
   static const std::unordered_map<std::type_index, FamilyWords> all{
       of<audit::RemarkId, &auditWords>(),
+      of<calibration::RemarkId, &calibrationWords>(),
       of<comparison::RemarkId, &comparisonWords>(),
       of<compensation::RemarkId, &compensationWords>(),
       of<diagnosis::RemarkId, &diagnosisWords>(),

@@ -53,6 +53,32 @@ TEST(ReadCampaign, ReadsEverySectionInSi) {
   EXPECT_NEAR(c.tool->com_in_flange.z(), 0.1, kRounding);
 }
 
+// A day of unloaded postures has less: no forces, no times, no repeats, no encoders' state.
+TEST(ReadCampaign, AnUnloadedDayLacksForcesTimesAndRepeats) {
+  const SmallCampaign files;
+  files.alter("campaign.xml", " double_encoder=\"active\"", "");
+  files.write("states.csv", "pose,step,q1_deg,q2_deg,q3_deg,q4_deg,q5_deg,q6_deg\nA,0,1,2,3,4,5,6\nB,0,6,5,4,3,2,1\n");
+  files.write("loading.csv", "pose,step,target,x_mm,y_mm,z_mm\nA,0,P10,1,2,3\nA,0,P11,4,5,6\nB,0,P10,7,8,9\n");
+  files.alter("campaign.xml", "<displacements", "<!-- <displacements");
+  files.alter("campaign.xml", "<nests", "--> <nests");
+  const campaign::Campaign c = campaign::readCampaign(files.folder()).campaign;
+  EXPECT_EQ(c.double_encoder, campaign::DoubleEncoder::unspecified);
+  ASSERT_EQ(c.states->rows.size(), 2u);
+  EXPECT_TRUE(std::isnan(c.states->rows[0].time_s));
+  EXPECT_TRUE(c.states->rows[0].wrench_in_cell.isZero(0.0));
+  ASSERT_EQ(c.loading->rows.size(), 3u);
+  EXPECT_TRUE(std::isnan(c.loading->rows[1].time_s));
+  files.write("loading.csv", "pose,step,target,x_mm,y_mm,z_mm\nA,0,P10,1,2,3\nA,0,P10,4,5,6\nB,0,P10,7,8,9\n");
+  try {
+    campaign::readCampaign(files.folder());
+    FAIL() << "the same reflector twice, and no repeat tells them apart";
+  } catch (const io::InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("'A, 0, P10': expected a key that does not repeat; line 2"),
+              std::string::npos)
+        << error.what();
+  }
+}
+
 TEST(ReadCampaign, ReadsEveryTableInSi) {
   const SmallCampaign files;
   const campaign::Campaign c = campaign::readCampaign(files.folder() / "campaign.xml").campaign;

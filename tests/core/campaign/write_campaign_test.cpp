@@ -217,7 +217,7 @@ TEST(WriteCampaign, RefusesWhatTheFormatCannotHold) {
     }
     return "";
   };
-  EXPECT_EQ(why([](campaign::Campaign& c) { c.loading->rows[0].time_s = campaign::kNoTime; }),
+  EXPECT_EQ(why([](campaign::Campaign& c) { c.nests->rows[0].time_s = campaign::kNoTime; }),
             "the campaign cannot be written: time_s: a value is not finite");
   EXPECT_EQ(why([](campaign::Campaign& c) { c.nests->rows[0].nest = 7; }),
             "the campaign cannot be written: nest: index 7 has no name");

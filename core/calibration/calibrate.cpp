@@ -1,0 +1,181 @@
+#include "core/calibration/calibrate.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "core/calibration/fitted_day.h"
+#include "core/numerics/parallel.h"
+
+namespace stiffscope::calibration {
+
+using frames::ArmParameters;
+
+namespace {
+
+/// All models of one set of postures.
+struct ModelFits {
+  bool placed = false;
+  std::vector<std::pair<CalibratedModel, ArmFit>> fits;
+};
+
+std::function<int(int)> innerFolds(const CalibrationOptions& options, int inner) {
+  // Blocks that hold one piece of every fold: of each fold's others every inner fold has its share.
+  const int block = std::max(1, options.folds * options.fold_size);
+  return [block, inner](int pose) { return (pose / block) % inner; };
+}
+
+ModelFits fitModels(const UnloadedDay& day, const std::vector<double>& weights, const CalibrationOptions& options) {
+  ModelFits models;
+  const auto place = placeArm(day, weights);
+  if (!place) return models;
+  models.placed = true;
+  const ArmFit first = fitArm(day, *place, {}, {.weights = weights, .gross = kGrossOfGeometry});
+  SelectionOptions selection;
+  selection.inner_fold = innerFolds(options, selection.inner_folds);
+  ArmFit effects = fitArm(day, *place, selectEffects(day, first, selection), {.weights = weights}, &first);
+  const FitOptions right{.robust = false, .weights = effects.weights};
+  const FitOptions without_axes{.axes = false, .robust = false, .weights = effects.weights};
+  ArmFit geometry = fitArm(day, *place, {}, right, &first);
+  models.fits.emplace_back(CalibratedModel::nominal, fitArm(day, *place, {}, without_axes));
+  if (day.masses_known) {
+    ArmFit gravity = fitArm(day, *place, jointCompliances(day), right, &geometry);
+    models.fits.emplace_back(CalibratedModel::geometry, std::move(geometry));
+    models.fits.emplace_back(CalibratedModel::gravity, std::move(gravity));
+  } else {
+    models.fits.emplace_back(CalibratedModel::geometry, std::move(geometry));
+  }
+  models.fits.emplace_back(CalibratedModel::effects, std::move(effects));
+  return models;
+}
+
+void addErrors(const std::vector<Eigen::Vector3d>& residuals, const std::vector<double>& weights,
+               PositionErrors& errors) {
+  double sum = errors.rms * errors.rms * static_cast<double>(errors.readings);
+  for (std::size_t i = 0; i < residuals.size(); ++i) {
+    if (weights[i] <= 0.0) continue;
+    sum += residuals[i].squaredNorm();
+    errors.largest = std::max(errors.largest, residuals[i].norm());
+    ++errors.readings;
+  }
+  errors.rms = std::sqrt(sum / static_cast<double>(std::max<std::size_t>(1, errors.readings)));
+}
+
+/// Weight 1 of the readings of postures that `uses` asks for.
+template <class Uses>
+std::vector<double> weightsWhere(const UnloadedDay& day, const Uses& uses) {
+  std::vector<double> weights;
+  weights.reserve(day.readings());
+  for (const Posture& posture : day.postures) {
+    for (std::size_t k = 0; k < posture.readings.size(); ++k) weights.push_back(uses(posture.pose) ? 1.0 : 0.0);
+  }
+  return weights;
+}
+
+std::vector<preparation::RejectedReading> rejectedOf(const campaign::Campaign& campaign, const UnloadedDay& day,
+                                                     const ArmFit& fit) {
+  std::vector<preparation::RejectedReading> rejected;
+  const std::vector<Eigen::Vector3d> residuals = residualsOf(day, fit);
+  std::size_t at = 0;
+  for (const Posture& posture : day.postures) {
+    for (const Reading& reading : posture.readings) {
+      if (fit.weights[at] <= 0.0)
+        rejected.push_back(
+            {campaign.loading->file, reading.line, Remark(RemarkId::off_the_model, residuals[at].norm())});
+      ++at;
+    }
+  }
+  return rejected;
+}
+
+std::vector<Remark> notIdentifiable(const ArmFit& fit) {
+  std::vector<Remark> remarks;
+  for (int k = 0; k < ArmParameters::kAxes; ++k) {
+    const int axis = k / 4 + 1, which = k % 4;
+    if (std::find(fit.held.begin(), fit.held.end(), k) != fit.held.end()) {
+      // Base and joint 1's zero take all of axis 1 and two numbers of axis 2.
+      remarks.push_back(Remark(axis <= 2 ? RemarkId::choice_of_frame : RemarkId::not_seen, axis, which));
+      continue;
+    }
+    constexpr double kOfPrior = 0.5;
+    const double prior = which < 2 ? kAxisShiftPrior : kAxisTiltPrior;
+    if (fit.sd(k) > kOfPrior * prior) remarks.push_back(Remark(RemarkId::hardly_seen, axis, which, fit.sd(k)));
+  }
+  return remarks;
+}
+
+std::vector<Remark> notesOf(CalibratedModel model, const ArmFit& fit) {
+  std::vector<Remark> notes;
+  std::size_t k = 0;
+  for (const EffectPart& part : fit.parts) {
+    for (const EffectTerm& term : part.terms) {
+      if (fit.refused[k++])
+        notes.push_back(Remark(RemarkId::negative_compliance, std::string(idOf(part.effect)), term.name));
+    }
+  }
+  if (model == CalibratedModel::effects && fit.parts.empty()) notes.push_back(Remark(RemarkId::no_effect_predicts));
+  return notes;
+}
+
+}  // namespace
+
+const ModelResult& Calibration::of(CalibratedModel model) const {
+  for (const ModelResult& one : models) {
+    if (one.model == model) return one;
+  }
+  throw std::out_of_range("no such model in this calibration");
+}
+
+Calibration calibrate(const campaign::Campaign& campaign, const CalibrationOptions& options) {
+  Calibration result;
+  result.day = unloadedDay(campaign);
+  const UnloadedDay& day = result.day;
+  const std::size_t readings = day.readings();
+  if (readings == 0) {
+    result.reason = Remark(RemarkId::no_unloaded_readings);
+    return result;
+  }
+  const Eigen::Index parameters = ArmParameters::count(day.targets.size()) - ArmParameters::kBase;
+  if (3 * static_cast<Eigen::Index>(readings) <= parameters) {
+    result.reason = Remark(RemarkId::too_few_readings, readings, parameters);
+    return result;
+  }
+
+  // The whole day first, then each fold's others.
+  std::vector<ModelFits> fits(static_cast<std::size_t>(options.folds) + 1);
+  const auto foldOf = [&](int pose) { return (pose / options.fold_size) % options.folds; };
+  numerics::onAllCores(fits.size(), [&](std::size_t k) {
+    const int fold = static_cast<int>(k) - 1;
+    fits[k] = fitModels(day, weightsWhere(day, [&](int pose) { return fold < 0 || foldOf(pose) != fold; }), options);
+  });
+  if (!fits.front().placed) {
+    result.reason = Remark(RemarkId::not_placed);
+    return result;
+  }
+  const std::vector<double> right = fits.front().fits.back().second.weights;
+  for (std::size_t m = 0; m < fits.front().fits.size(); ++m) {
+    ModelResult model;
+    model.model = fits.front().fits[m].first;
+    model.fit = std::move(fits.front().fits[m].second);
+    if (!model.fit.done) {
+      result.reason = Remark(RemarkId::not_settling);
+      return result;
+    }
+    addErrors(residualsOf(day, model.fit), right, model.fitted);
+    for (int fold = 0; fold < options.folds; ++fold) {
+      const ModelFits& others = fits[static_cast<std::size_t>(fold) + 1];
+      if (!others.placed) continue;
+      std::vector<double> of_fold = weightsWhere(day, [&](int pose) { return foldOf(pose) == fold; });
+      for (std::size_t i = 0; i < of_fold.size(); ++i) of_fold[i] *= right[i];
+      addErrors(residualsOf(day, others.fits[m].second), of_fold, model.held_out);
+    }
+    model.notes = notesOf(model.model, model.fit);
+    result.models.push_back(std::move(model));
+  }
+  result.rejected = rejectedOf(campaign, day, result.best().fit);
+  result.not_identifiable = notIdentifiable(result.geometry().fit);
+  if (!day.masses_known) result.notes.push_back(Remark(RemarkId::no_masses));
+  return result;
+}
+
+}  // namespace stiffscope::calibration

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/calibration/arm_fit.h"
+#include "core/calibration/effect_selection.h"
+#include "core/calibration/remarks.h"
+#include "core/calibration/unloaded_day.h"
+#include "core/preparation/finding.h"
+#include "metrology/remark.h"
+
+namespace stiffscope::calibration {
+
+struct CalibrationOptions {
+  int folds = 2;  ///< at least 2
+  int fold_size =
+      1;  ///< posture i (from 0, in the order of the campaign) belongs to fold floor(i / fold_size) mod folds
+};
+
+/// In the order in which they are fitted; each has what the one before it has, but for `effects`, which keeps of the
+/// own weight what the selection asks for.
+enum class CalibratedModel { nominal, geometry, gravity, effects };
+
+/// Plain 3-D position errors over postures and reflectors, rejected readings left out, m.
+struct PositionErrors {
+  double rms = 0.0, largest = 0.0;
+  std::size_t readings = 0;
+};
+
+struct ModelResult {
+  CalibratedModel model = {};
+  ArmFit fit;  ///< to all postures
+  PositionErrors fitted;
+  PositionErrors held_out;  ///< each fold by what the others fit, selection of effects included, all folds pooled
+  std::vector<Remark> notes;
+};
+
+/// An unloaded day calibrated: geometry, own weight, effects, in this order.
+struct Calibration {
+  Remark reason;  ///< why there is none; then nothing else is filled
+  UnloadedDay day;
+  std::vector<ModelResult> models;                     ///< gravity is absent where the URDF has no masses
+  std::vector<preparation::RejectedReading> rejected;  ///< by the fullest model
+  std::vector<Remark> not_identifiable;                ///< axis parameters of the geometry
+  std::vector<Remark> notes;
+
+  const ModelResult& of(CalibratedModel model) const;
+  /// The rigid arm that predicts best without effects: axes, base, reflectors and URDF as other programs take them.
+  const ModelResult& geometry() const { return of(CalibratedModel::geometry); }
+  /// The fullest, by which readings are judged. Its axes are those with the effects beside them.
+  const ModelResult& best() const { return models.back(); }
+};
+
+/// Fits nominal (base and reflectors alone), geometry, geometry with the own weight's compliances, and geometry with
+/// the effects that selectEffects finds. Readings are rejected by the fullest of them; all others are fitted to what it
+/// left. Held out: postures of one fold are predicted by models of which nothing was fitted or chosen with them. A
+/// reading that is rejected by the fit to all is left out of every figure.
+Calibration calibrate(const campaign::Campaign& campaign, const CalibrationOptions& options);
+
+}  // namespace stiffscope::calibration

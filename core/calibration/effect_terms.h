@@ -1,0 +1,92 @@
+#pragma once
+
+#include <array>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/calibration/unloaded_day.h"
+#include "core/frames/arm_parameters.h"
+
+namespace stiffscope::calibration {
+
+/// The vocabulary of unloaded days: what a machine or a measurement does that the rigid calibrated arm does not. The
+/// names are ids that other programs use.
+#define STIFFSCOPE_UNLOADED_EFFECTS(EFFECT) \
+  EFFECT(joint_compliance)                  \
+  EFFECT(link_compliance)                   \
+  EFFECT(bearing_tilt)                      \
+  EFFECT(base_compliance)                   \
+  EFFECT(transmission_error)                \
+  EFFECT(ratio_error)                       \
+  EFFECT(backlash)                          \
+  EFFECT(read_back_error)                   \
+  EFFECT(tracker_drift)                     \
+  EFFECT(frame_error)                       \
+  EFFECT(target_motion)                     \
+  EFFECT(thermal_growth)                    \
+  EFFECT(scale_error)
+
+// clang-format off
+#define STIFFSCOPE_UNLOADED_ID(id) id,
+enum class UnloadedEffect { STIFFSCOPE_UNLOADED_EFFECTS(STIFFSCOPE_UNLOADED_ID) };
+#undef STIFFSCOPE_UNLOADED_ID
+#define STIFFSCOPE_UNLOADED_NAME(id) std::string_view(#id),
+inline constexpr std::array kUnloadedEffectIds{STIFFSCOPE_UNLOADED_EFFECTS(STIFFSCOPE_UNLOADED_NAME)};
+#undef STIFFSCOPE_UNLOADED_NAME
+// clang-format on
+
+constexpr std::string_view idOf(UnloadedEffect effect) { return kUnloadedEffectIds[static_cast<std::size_t>(effect)]; }
+
+/// Where a reflector stands in a posture, for terms that move it: everything in base_link.
+struct ReflectorAt {
+  const frames::PlacedPosture& arm;
+  int target = 0;
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();
+  Eigen::Vector3d station = Eigen::Vector3d::Zero();  ///< the tracker
+};
+
+/// One unknown of an effect. By a unit of it joints turn (`angles`, rad), or a reflector is seen elsewhere (`offset`,
+/// m, in base_link); exactly one of the two is set.
+struct EffectTerm {
+  std::string name, unit;
+  double most = 0.0;      ///< physical bound of its magnitude
+  bool positive = false;  ///< a compliance: never negative
+  std::function<Vector6d(const Posture&)> angles;
+  std::function<Eigen::Vector3d(const Posture&, const ReflectorAt&)> offset;
+};
+
+/// Terms that come or stay away together: one joint's harmonic, one reflector's motion.
+struct EffectPart {
+  UnloadedEffect effect = {};
+  std::string detail;  ///< "joint 2", "joints 4 and 5", "P11"; empty where nothing is to be named
+  std::vector<EffectTerm> terms = {};
+  std::optional<double> order = {};  ///< of a periodic error, per turn of the joint
+  std::optional<double> from = {};   ///< of what starts at a time: share of the day (Posture::time)
+  std::optional<double> chance =
+      {};  ///< of a part as large by noise alone, over all that were tried (false-alarm probability)
+};
+
+// One function an effect, in the file that bears its name: the parts of it that this day can be asked for.
+std::vector<EffectPart> jointCompliances(const UnloadedDay& day);  ///< c_j times the own weight's torque on joint j
+std::vector<EffectPart> bendingCompliances(
+    const UnloadedDay& day);               ///< links, bearings, base, as the loaded days have them
+std::vector<EffectPart> ratioErrors();     ///< a share of a joint's own angle, or of another's
+std::vector<EffectPart> backlashes();      ///< by the side from which the joint came
+std::vector<EffectPart> readBackErrors();  ///< a share of the move from the posture before
+std::vector<EffectPart> driftsOverTime(const UnloadedDay& day);  ///< tracker_drift, thermal_growth, scale_error
+
+/// a sin(k q_j) + b cos(k q_j) on joint j (0..5): an eccentric gear or encoder ring (k 1, 2), a gear's own order.
+EffectPart transmissionError(int joint, double order);
+
+/// From `from` (Posture::time) on: station or robot elsewhere, a reflector elsewhere on the flange, another scale.
+EffectPart frameError(double from);
+EffectPart targetMotion(const UnloadedDay& day, int target, double from);
+
+/// What of the list the day can hold: own weight only where masses are known. Periodic errors and jumps, of which there
+/// are continua, are tried by the selection itself.
+std::vector<EffectPart> fixedParts(const UnloadedDay& day);
+
+}  // namespace stiffscope::calibration

@@ -1,0 +1,147 @@
+#include "core/calibration/unloaded_day.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "core/campaign/state_points.h"
+#include "core/effects/all.h"
+#include "core/effects/arm_state.h"
+#include "core/frames/frames.h"
+
+namespace stiffscope::calibration {
+
+namespace {
+
+/// The structure's own compliances that the records of the loaded days have: their twists by the own weight alone.
+class Bending {
+ public:
+  Bending(const UnloadedDay& day) : geometry_{.arm = day.arm, .weight = day.weight} {
+    for (const effects::Effect effect :
+         {effects::Effect::link_compliance, effects::Effect::bearing_tilt, effects::Effect::base_compliance}) {
+      for (effects::EffectModel& model : effects::modelsOf(effects::recordOf(effect))) models_.push_back(model);
+    }
+  }
+
+  std::vector<BendingTerm> terms() const {
+    std::vector<BendingTerm> terms;
+    for (const effects::EffectModel& model : models_) {
+      for (const effects::EffectPart& part : model.parts) {
+        for (std::size_t k = 0; k < part.most.size(); ++k) {
+          terms.push_back({static_cast<std::size_t>(model.effect), part.detail, effects::parameterName(part, k),
+                           effects::parameterUnit(part, k), part.most[k]});
+        }
+      }
+    }
+    return terms;
+  }
+
+  std::vector<frames::SmallMotion> at(const Vector6d& q) const {
+    const effects::PostureStates states{effects::stateAt(geometry_, q, Vector6d::Zero())};
+    const effects::LinearizationPoint point;
+    std::vector<frames::SmallMotion> motions;
+    for (const effects::EffectModel& model : models_) {
+      for (const effects::BodyTwist& twist : model.twists(point, states, 0)) {
+        motions.push_back({twist.rotation, twist.shift - twist.rotation.cross(twist.pivot)});
+      }
+    }
+    return motions;
+  }
+
+ private:
+  frames::LoadingGeometry geometry_;
+  std::vector<effects::EffectModel> models_;
+};
+
+void setTimes(const std::vector<double>& times, UnloadedDay& day) {
+  const std::size_t count = day.postures.size();
+  day.times_known = std::all_of(times.begin(), times.end(), [](double t) { return std::isfinite(t); });
+  if (count == 0) return;
+  const auto [first, last] = std::minmax_element(times.begin(), times.end());
+  if (day.times_known && *last > *first) {
+    day.first_time_s = *first;
+    day.time_span_s = *last - *first;
+    for (std::size_t i = 0; i < count; ++i) day.postures[i].time = (times[i] - *first) / day.time_span_s;
+    return;
+  }
+  day.times_known = false;
+  for (std::size_t i = 0; i < count; ++i)
+    day.postures[i].time = count > 1 ? static_cast<double>(i) / static_cast<double>(count - 1) : 0.0;
+}
+
+/// Moves from posture to posture in the order of `states`, those that were not read among them: the arm went there.
+void setMoves(const campaign::States& states, UnloadedDay& day) {
+  constexpr double kStill = 1e-5;  // rad: below the last digit of most logs
+  struct Move {
+    Vector6d by = Vector6d::Zero(), side = Vector6d::Zero();
+  };
+  std::vector<Move> moves(day.pose_ids.size());
+  const campaign::State* before = nullptr;
+  Vector6d side = Vector6d::Zero();
+  for (const campaign::State& state : states.rows) {
+    const Vector6d by = before != nullptr ? Vector6d(state.q - before->q) : Vector6d(Vector6d::Zero());
+    for (Eigen::Index j = 0; j < 6; ++j) {
+      if (std::abs(by[j]) >= kStill) side[j] = by[j] > 0.0 ? 1.0 : -1.0;
+    }
+    if (state.step == 0) moves[static_cast<std::size_t>(state.pose)] = {by, side};
+    before = &state;
+  }
+  for (Posture& posture : day.postures) {
+    posture.move = moves[static_cast<std::size_t>(posture.pose)].by;
+    posture.side = moves[static_cast<std::size_t>(posture.pose)].side;
+  }
+}
+
+}  // namespace
+
+std::size_t UnloadedDay::readings() const {
+  std::size_t sum = 0;
+  for (const Posture& posture : postures) sum += posture.readings.size();
+  return sum;
+}
+
+UnloadedDay unloadedDay(const campaign::Campaign& campaign) {
+  UnloadedDay day;
+  day.arm = campaign.robot;
+  day.weight = robot::gravityLoad(campaign.robot, campaign.tool, campaign.gravity_in_base, campaign.robot,
+                                  Eigen::Isometry3d::Identity());
+  day.masses_known = day.weight.links_known && day.weight.any();
+  day.pose_ids = campaign.pose_ids;
+  for (const campaign::Target& target : campaign.targets) day.targets.push_back(target.id);
+  if (!campaign.loading || !campaign.states) return day;
+  std::optional<metrology::TrackerNoise> noise;
+  if (campaign.tracker) {
+    noise = frames::trackerNoise(*campaign.tracker);
+    day.station = campaign.tracker->station;
+  }
+  std::vector<const campaign::State*> states(campaign.pose_ids.size(), nullptr);
+  for (const campaign::State& state : campaign.states->rows) {
+    if (state.step == 0) states[static_cast<std::size_t>(state.pose)] = &state;
+  }
+  const Bending bending(day);
+  if (day.masses_known) day.bending = bending.terms();
+  std::vector<double> times;
+  for (const campaign::StatePoints& points : campaign::statePoints(campaign)) {
+    if (points.source != campaign::StatePoints::Source::loading || points.step != 0) continue;
+    const campaign::State* state = states[static_cast<std::size_t>(points.pose)];
+    if (state == nullptr) continue;
+    Posture posture;
+    posture.pose = points.pose;
+    posture.q = state->q;
+    if (day.masses_known) {
+      posture.torque = robot::weightTorque(day.arm, robot::postureAt(day.arm, posture.q), day.weight);
+      posture.bends = bending.at(posture.q);
+    }
+    for (const campaign::ReflectorMean& mean : points.reflectors) {
+      posture.readings.push_back({mean.target, mean.line, mean.point,
+                                  noise ? mean.covariance(*noise) : Eigen::Matrix3d(Eigen::Matrix3d::Zero())});
+    }
+    times.push_back(state->time_s);
+    day.postures.push_back(std::move(posture));
+  }
+  setTimes(times, day);
+  setMoves(*campaign.states, day);
+  return day;
+}
+
+}  // namespace stiffscope::calibration

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <vector>
+
+#include "core/campaign/campaign.h"
+#include "core/frames/arm_geometry.h"
+#include "core/frames/arm_parameters.h"
+
+namespace stiffscope::calibration {
+
+/// One reflector in one unloaded posture: the mean of its readings.
+struct Reading {
+  int target = 0;
+  std::size_t line = 0;                                  ///< of its first reading in the table
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();       ///< m, in the frame of the table
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< by the declared tracker, m^2; zero: not declared
+};
+
+struct Posture {
+  int pose = 0;
+  Vector6d q = Vector6d::Zero();       ///< as reported, rad
+  Vector6d move = Vector6d::Zero();    ///< q less that of the state before in `states`; zero for the first
+  Vector6d side = Vector6d::Zero();    ///< -1 or +1: sign of the joint's last move; 0 where it has not moved yet
+  Vector6d torque = Vector6d::Zero();  ///< of the own weight on the joints of the nominal arm, Nm; zero: no masses
+  double time = 0.0;                   ///< 0 at the first posture, 1 at the last: by time_s, else by the order
+  /// What bearings, links and base do by the own weight, by a unit of each of the day's elastic terms, in base_link.
+  std::vector<frames::SmallMotion> bends;
+  std::vector<Reading> readings;
+};
+
+/// One compliance of the arm's structure that its own weight bends.
+struct BendingTerm {
+  std::size_t effect = 0;  ///< index in effects::kEffectIds
+  std::string detail, name, unit;
+  double most = 0.0;  ///< physical bound; never negative
+};
+
+/// A day's unloaded postures (step 0) in the order of the campaign, with what effects of them are made of. Lengths m,
+/// angles rad. `arm` is the URDF's in base_link.
+struct UnloadedDay {
+  robot::Robot arm;
+  robot::GravityLoad weight;
+  bool masses_known = false;  ///< of every body beyond joint 2
+  bool times_known = false;   ///< every posture has one; else their order stands for time
+  double first_time_s = 0.0, time_span_s = 0.0;
+  std::vector<std::string> targets;
+  std::vector<std::string> pose_ids;
+  std::vector<BendingTerm> bending;
+  Eigen::Vector3d station = Eigen::Vector3d::Zero();  ///< of the tracker, in the frame of the table
+  std::vector<Posture> postures;
+
+  std::size_t readings() const;
+};
+
+/// Postures of `loading` at step 0 that `states` has joint angles for. Empty `postures` without either table.
+UnloadedDay unloadedDay(const campaign::Campaign& campaign);
+
+}  // namespace stiffscope::calibration

@@ -1,0 +1,58 @@
+#include "reports/words/calibration_words.h"
+
+#include <fmt/format.h>
+#include <algorithm>
+
+namespace stiffscope::reports {
+
+const char* nameOf(calibration::CalibratedModel model) {
+  switch (model) {
+    case calibration::CalibratedModel::nominal:
+      return "nominal";
+    case calibration::CalibratedModel::geometry:
+      return "geometry";
+    case calibration::CalibratedModel::gravity:
+      return "gravity";
+    case calibration::CalibratedModel::effects:
+      break;
+  }
+  return "effects";
+}
+
+std::vector<std::string> effectIdsOf(const calibration::ArmFit& fit) {
+  std::vector<std::string> ids;
+  std::size_t k = 0;
+  for (const calibration::EffectPart& part : fit.parts) {
+    bool in_model = false;
+    for (std::size_t t = 0; t < part.terms.size(); ++t) in_model = !fit.refused[k++] || in_model;
+    const std::string id(idOf(part.effect));
+    if (in_model && std::find(ids.begin(), ids.end(), id) == ids.end()) ids.push_back(id);
+  }
+  return ids;
+}
+
+std::string partName(const calibration::EffectPart& part) {
+  std::string name(idOf(part.effect));
+  std::replace(name.begin(), name.end(), '_', ' ');
+  if (part.order) return fmt::format("{} ({}, order {:g})", name, part.detail, *part.order);
+  return part.detail.empty() ? name : fmt::format("{} ({})", name, part.detail);
+}
+
+std::vector<JointStiffness> stiffnessOf(const calibration::ArmFit& fit) {
+  std::vector<JointStiffness> joints(6);
+  Eigen::Index k = 0;
+  for (const calibration::EffectPart& part : fit.parts) {
+    const bool joint = part.effect == calibration::UnloadedEffect::joint_compliance;
+    const double compliance = fit.sizes[k];
+    if (joint && compliance > 0.0) {
+      // The detail is "joint 1".."joint 6".
+      JointStiffness& of = joints.at(static_cast<std::size_t>(part.detail.back() - '1'));
+      of.value = 1.0 / compliance;
+      of.sd = fit.sd(static_cast<int>(fit.steps.size() + k)) / (compliance * compliance);
+    }
+    k += static_cast<Eigen::Index>(part.terms.size());
+  }
+  return joints;
+}
+
+}  // namespace stiffscope::reports

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/calibration/calibrate.h"
+
+// A calibration of an unloaded day in the words of its text, JSON and tables.
+
+namespace stiffscope::reports {
+
+const char* nameOf(calibration::CalibratedModel model);  ///< "nominal", "geometry", "gravity", "effects"
+
+/// Ids of the effects in a fit, each once, in the order in which they were found; refused terms are not in it.
+std::vector<std::string> effectIdsOf(const calibration::ArmFit& fit);
+
+/// "transmission error (joint 2, order 17.25)"
+std::string partName(const calibration::EffectPart& part);
+
+/// Stiffness of a joint from its compliance by the own weight, Nm/rad; 0: the fit has none.
+struct JointStiffness {
+  double value = 0.0, sd = 0.0;
+};
+std::vector<JointStiffness> stiffnessOf(const calibration::ArmFit& fit);
+
+}  // namespace stiffscope::reports

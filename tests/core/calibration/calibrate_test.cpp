@@ -1,0 +1,139 @@
+#include "core/calibration/calibrate.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "core/campaign/read_campaign.h"
+#include "core/preparation/prepare.h"
+#include "tests/core/calibration/unloaded_fixture.h"
+
+namespace stiffscope {
+namespace calibrate_test {
+
+namespace fs = std::filesystem;
+using calibration::CalibratedModel;
+
+bool has(const calibration::ArmFit& fit, calibration::UnloadedEffect effect, const std::string& detail) {
+  return std::any_of(fit.parts.begin(), fit.parts.end(), [&](const calibration::EffectPart& part) {
+    return part.effect == effect && part.detail == detail;
+  });
+}
+
+TEST(Calibrate, ACleanDayIsGeometryAlone) {
+  Noise noise(11);
+  const UnloadedSpec spec = builtOtherwise(noise);
+  const calibration::Calibration result = calibration::calibrate(unloadedCampaign(spec, noise), {});
+  ASSERT_TRUE(result.reason.empty());
+  EXPECT_TRUE(result.best().fit.parts.empty());
+  EXPECT_TRUE(result.rejected.empty());
+  EXPECT_EQ(result.not_identifiable.size(), 6u);  // the choice of frame
+  const auto& geometry = result.of(CalibratedModel::geometry);
+  // Three coordinates of 20 um each; held out a little more, by 33 parameters of 30 postures.
+  EXPECT_NEAR(geometry.fitted.rms, std::sqrt(3.0) * 20e-6, 6e-6);
+  EXPECT_GT(geometry.held_out.rms, geometry.fitted.rms);
+  EXPECT_LT(geometry.held_out.rms, 1.6 * std::sqrt(3.0) * 20e-6);
+  EXPECT_GT(result.of(CalibratedModel::nominal).held_out.rms, 10.0 * geometry.held_out.rms);
+}
+
+TEST(Calibrate, FindsAGearsOwnOrder) {
+  Noise noise(12);
+  UnloadedSpec spec = builtOtherwise(noise);
+  spec.postures = 150;
+  spec.joint_errors = [](const Vector6d& q) {
+    Vector6d error = Vector6d::Zero();
+    error[1] = 60e-6 * std::sin(17.25 * q[1] + 0.4);
+    return error;
+  };
+  const calibration::Calibration result = calibration::calibrate(unloadedCampaign(spec, noise), {});
+  const calibration::ArmFit& fit = result.best().fit;
+  ASSERT_TRUE(has(fit, calibration::UnloadedEffect::transmission_error, "joint 2"));
+  // Joint 2 turns 70 degrees in these postures: a fifth of a turn tells orders apart by some five, its peak by less.
+  EXPECT_NEAR(*fit.parts.front().order, 17.25, 1.0);
+  EXPECT_LT(*fit.parts.front().chance, 1e-6);
+  EXPECT_LT(result.of(CalibratedModel::effects).held_out.rms, 0.8 * result.of(CalibratedModel::geometry).held_out.rms);
+}
+
+// A hundredth of the readings a decimetre off and some beams lost: the same effect is found, and only they are left
+// out.
+TEST(Calibrate, GrossReadingsHideNoEffect) {
+  Noise noise(16);
+  UnloadedSpec spec = builtOtherwise(noise);
+  spec.postures = 150;
+  spec.joint_errors = [](const Vector6d& q) { return Vector6d(60e-6 * std::sin(2.0 * q[1]) * Vector6d::Unit(1)); };
+  campaign::Campaign campaign = unloadedCampaign(spec, noise);
+  for (const std::size_t row : {3u, 101u, 250u, 377u, 440u}) campaign.loading->rows[row].point.x() += 0.1;
+  for (const std::size_t row : {400u, 200u, 10u}) campaign.loading->rows.erase(campaign.loading->rows.begin() + row);
+  const calibration::Calibration result = calibration::calibrate(campaign, {});
+  EXPECT_EQ(result.rejected.size(), 5u);
+  // Sine of twice the angle, or what 70 degrees of it cannot tell from that: what is left is noise.
+  EXPECT_LT(result.of(CalibratedModel::effects).held_out.rms, 1.4 * std::sqrt(3.0) * 20e-6);
+}
+
+/// By a few standard deviations of a reading, and by a hundred: the latter looks like two fifths of gross readings.
+TEST(Calibrate, FindsAReflectorThatMoved) {
+  for (const double size : {150e-6, 2e-3}) {
+    SCOPED_TRACE(size);
+    Noise noise(13);
+    UnloadedSpec spec = builtOtherwise(noise);
+    spec.postures = 100;
+    campaign::Campaign campaign = unloadedCampaign(spec, noise);
+    for (campaign::LoadingReading& reading : campaign.loading->rows) {
+      if (reading.target != 1 || reading.pose < 60) continue;
+      const Vector6d& q = campaign.states->rows[static_cast<std::size_t>(reading.pose)].q;
+      reading.point += spec.tracker_from_base.linear() *
+                       (spec.built.flangeAt(q).linear() * (size * Eigen::Vector3d(1.0, 0.0, -0.7)));
+    }
+    const calibration::Calibration result = calibration::calibrate(campaign, {});
+    ASSERT_TRUE(has(result.best().fit, calibration::UnloadedEffect::target_motion, "P11"));
+    EXPECT_NEAR(*result.best().fit.parts.front().from, 60.0 / 99.0, 3.0 / 99.0);
+    EXPECT_TRUE(result.rejected.empty());
+  }
+}
+
+TEST(Calibrate, FoldsAreBlocksOfTheCampaignsOrder) {
+  Noise noise(14);
+  const UnloadedSpec spec = builtOtherwise(noise);
+  const campaign::Campaign campaign = unloadedCampaign(spec, noise);
+  const auto by_one = calibration::calibrate(campaign, {.folds = 2, .fold_size = 1});
+  const auto by_ten = calibration::calibrate(campaign, {.folds = 3, .fold_size = 10});
+  EXPECT_EQ(by_one.of(CalibratedModel::geometry).fitted.rms, by_ten.of(CalibratedModel::geometry).fitted.rms);
+  EXPECT_NE(by_one.of(CalibratedModel::geometry).held_out.rms, by_ten.of(CalibratedModel::geometry).held_out.rms);
+  EXPECT_EQ(by_ten.of(CalibratedModel::geometry).held_out.readings, 180u);
+}
+
+TEST(Calibrate, SaysWhyNot) {
+  Noise noise(15);
+  UnloadedSpec spec;
+  spec.postures = 3;
+  const auto few = calibration::calibrate(unloadedCampaign(spec, noise), {});
+  EXPECT_TRUE(few.reason.is(calibration::RemarkId::too_few_readings));
+  campaign::Campaign none = unloadedCampaign(spec, noise);
+  none.loading.reset();
+  EXPECT_TRUE(calibration::calibrate(none, {}).reason.is(calibration::RemarkId::no_unloaded_readings));
+}
+
+/// Held-out errors of an independent calibration, mm, as the days' own README.md states them.
+struct Reference {
+  const char* day;
+  int fold_size;
+  double geometry, best;
+};
+
+TEST(Calibrate, RealDaysAreBelowTheReference) {
+  for (const Reference& reference :
+       {Reference{"ur5-unloaded", 1, 0.1123, 0.0726}, Reference{"ur10-unloaded", 2, 0.439, 0.309}}) {
+    const fs::path folder = fs::path(STIFFSCOPE_SHARED_DIR) / "real" / reference.day;
+    if (!fs::is_directory(folder)) GTEST_SKIP() << "the real days are not here";
+    SCOPED_TRACE(reference.day);
+    const preparation::PreparedCampaign day = preparation::prepareCampaign(campaign::readCampaign(folder).campaign);
+    const auto result = calibration::calibrate(day.campaign, {.folds = 2, .fold_size = reference.fold_size});
+    ASSERT_TRUE(result.reason.empty());
+    // Which readings count differs in a few, by the duplicates and by single readings of a posture: half a per cent.
+    EXPECT_LE(result.of(CalibratedModel::geometry).held_out.rms, 1.005 * reference.geometry * 1e-3);
+    EXPECT_LT(result.of(CalibratedModel::effects).held_out.rms, reference.best * 1e-3);
+  }
+}
+
+}  // namespace calibrate_test
+}  // namespace stiffscope
