@@ -52,7 +52,7 @@ struct Gap {
 };
 
 /// A part of the gap: its rms per coordinate, what noise alone would leave there, its share of the gap's
-/// squares, and how many standard deviations of noise it stands above it.
+/// squares, and the normal deviate that noise exceeds as rarely, within numerics::kLargestDeviate.
 struct WhereRow {
   std::string name;
   double rms = 0.0, noise = 0.0;  ///< m
@@ -63,6 +63,10 @@ struct WhereRow {
 struct WhereTable {
   std::string by;  ///< "reflector", "base axes", ...
   std::vector<WhereRow> rows;
+  /// Whether several parts could explain the same: it is then shared out among them, and they add up to `explained`,
+  /// what all together explain of the gap's squares.
+  bool overlaps = false;
+  double explained = 0.0;
 };
 
 /// What is left of one reflector's displacement in the load state of its posture that leaves the most, R0, m.
@@ -128,10 +132,11 @@ struct Diagnosis {
   double significance_limit = 0.0;  ///< least fall of BIC that counts: 20, or more where chance reaches more in 1 %
   double size_limit = 0.0;          ///< below it an effect is too small to matter, m
   double lack_of_fit = 0.0;         ///< chi2 per equation of the loading without any effect
-  double left_over = 0.0;           ///< the same with the verdict's effects
+  double left_over = 0.0;           ///< the same with the effects that the fit chose
+  double left_over_limit = 0.0;     ///< what chance makes of it
   double model_error = 0.0;         ///< rms per coordinate that no effect explains, at the largest load, m; 0: none
   double geometric_stiffness_share = 0.0;
-  Shrink shrink_together;                                                            ///< by all that the verdict names
+  Shrink shrink_together;                                                            ///< by all that the fit chose
   Vector6d stiffness_before = Vector6d::Zero(), stiffness_after = Vector6d::Zero();  ///< Nm/rad
   Vector6d stiffness_after_sd = Vector6d::Zero();
   std::array<bool, 6> identifiable{};
