@@ -75,6 +75,7 @@ class Diagnoser {
     result_.size_limit = sizeOfDrop(fit_, fit_.rules.least_drop);
     result_.lack_of_fit = (alone_.projection.chi2_none - fit_.rules.other_rows) / fit_.rules.loading_rows;
     result_.left_over = leftPerEquation(fit_);
+    result_.left_over_limit = fit_.left_limit;
     result_.model_error = fit_.model_error;
     result_.geometric_stiffness_share = start_.geometric_stiffness_share;
     before_ = stiffnessesAlone(alone_.data, std::vector<double>(alone_.data.postures.size(), 1.0), alone_.projection);
@@ -184,15 +185,14 @@ Diagnosis diagnoseAll(const preparation::PreparedCampaign& prepared, const Diagn
   return Diagnoser(prepared, study, options).run();
 }
 
-/// `spread` is what is looked at of a campaign of so many postures, which the diagnosis refers to.
-Diagnosis diagnoseSpread(const preparation::PreparedCampaign& spread, std::size_t postures, bool long_sweeps,
-                         const DiagnoseOptions& options) {
+/// `spread` is what is looked at of a campaign of so many postures, which the diagnosis refers to: those at `places`.
+Diagnosis diagnoseSpread(const preparation::PreparedCampaign& spread, const std::vector<std::size_t>& places,
+                         std::size_t postures, bool long_sweeps, const DiagnoseOptions& options) {
   Diagnosis diagnosis = diagnoseAll(spread, options);
   if (long_sweeps) {
     diagnosis.verdict.reasons.push_back(Remark(RemarkId::sweeps_thinned, preparation::kMostSwept));
   }
   if (postures <= preparation::kMostDiagnosed) return diagnosis;
-  const std::vector<std::size_t> places = preparation::evenlySpreadIndices(postures, preparation::kMostDiagnosed);
   for (PointGap& one : diagnosis.at_points) one.pose = static_cast<int>(places[static_cast<std::size_t>(one.pose)]);
   diagnosis.verdict.reasons.push_back(Remark(RemarkId::postures_thinned, postures, diagnosis.postures));
   return diagnosis;
@@ -210,15 +210,17 @@ Diagnosis diagnose(campaign::Campaign&& campaign, const DiagnoseOptions& options
   if (!isLong(prepared.campaign)) return diagnoseAll(prepared, options);
   const std::size_t postures = prepared.campaign.pose_ids.size();
   const bool long_sweeps = preparation::hasLongSweep(prepared.campaign);
+  const auto places = preparation::spreadPostures(prepared.campaign, preparation::kMostDiagnosed);
   prepared = spreadForDiagnosis(prepared);
-  return diagnoseSpread(prepared, postures, long_sweeps, options);
+  return diagnoseSpread(prepared, places, postures, long_sweeps, options);
 }
 
 Diagnosis diagnose(const preparation::PreparedCampaign& prepared, const DiagnoseOptions& options) {
   requireLoads(prepared.campaign);
   if (!isLong(prepared.campaign)) return diagnoseAll(prepared, options);
-  return diagnoseSpread(spreadForDiagnosis(prepared), prepared.campaign.pose_ids.size(),
-                        preparation::hasLongSweep(prepared.campaign), options);
+  return diagnoseSpread(spreadForDiagnosis(prepared),
+                        preparation::spreadPostures(prepared.campaign, preparation::kMostDiagnosed),
+                        prepared.campaign.pose_ids.size(), preparation::hasLongSweep(prepared.campaign), options);
 }
 
 }  // namespace stiffscope::diagnosis

@@ -54,7 +54,7 @@ struct Gap {
 };
 
 /// A part of the gap: its rms per coordinate, what noise alone would leave there, its share of the gap's
-/// squares, and how many standard deviations of noise it stands above it.
+/// squares, and the normal deviate that noise exceeds as rarely, within numerics::kLargestDeviate.
 struct WhereRow {
   std::string name;
   double rms = 0.0, noise = 0.0;  ///< m
@@ -65,6 +65,10 @@ struct WhereRow {
 struct WhereTable {
   std::string by;  ///< "reflector", "base axes", ...
   std::vector<WhereRow> rows;
+  /// Whether several parts could explain the same: it is then shared out among them, and they add up to `explained`,
+  /// what all together explain of the gap's squares.
+  bool overlaps = false;
+  double explained = 0.0;
 };
 
 /// What is left of one reflector's displacement in the load state of its posture that leaves the most, R0, m.
@@ -137,10 +141,11 @@ struct Diagnosis {
   double significance_limit = 0.0;  ///< least fall of BIC that counts: 20, or more where chance reaches more in 1 %
   double size_limit = 0.0;          ///< below it an effect is too small to matter, m
   double lack_of_fit = 0.0;         ///< chi2 per equation of the loading without any effect
-  double left_over = 0.0;           ///< the same with the verdict's effects
+  double left_over = 0.0;           ///< the same with the effects that the fit chose
+  double left_over_limit = 0.0;     ///< what chance makes of it
   double model_error = 0.0;         ///< rms per coordinate that no effect explains, at the largest load, m; 0: none
   double geometric_stiffness_share = 0.0;
-  Shrink shrink_together;  ///< by all that the verdict names
+  Shrink shrink_together;  ///< by all that the fit chose
   /// Nm/rad, by springs alone and with the verdict's effects, with the standard uncertainty. Of the joint fit of all
   /// load steps; where a model of identification is at hand (extended_model::stateStiffnesses) of its method.
   Vector6d stiffness_before = Vector6d::Zero(), stiffness_after = Vector6d::Zero();

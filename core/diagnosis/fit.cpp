@@ -32,6 +32,9 @@ bool becomesPart(const effects::EffectModel& model);
 /// the geometry.
 bool isBilinear(const effects::EffectModel& model);
 
+/// What chi2 per equation may be by chance: four standard deviations of chi2, the noise's own doubt in it.
+double limitOfLeft(const GapFit& fit, const FitRules& rules);
+
 /// What the set leaves of the deflection at the largest load beyond noise, rms per coordinate, m, where that
 /// is significant (four standard deviations of chi2, the noise's own doubt in it) and matters: more than the
 /// smallest effect looked for, and more than a tenth of what the set removed, because models of large effects
@@ -248,6 +251,7 @@ GapFit fitGap(const SystemInput& input, const SystemState& start, const std::vec
   GapFit fit = settle(input, start, allowed, rules);
   if (!rules.error_of_model) {
     polish(input, allowed, rules, fit);
+    fit.left_limit = limitOfLeft(fit, rules);
     return fit;
   }
   SystemState with_error = start;
@@ -263,6 +267,7 @@ GapFit fitGap(const SystemInput& input, const SystemState& start, const std::vec
   }
   polish(input, allowed, rules, fit);
   fit.model_error = modelError(fit, rules);
+  fit.left_limit = limitOfLeft(fit, rules);
   return fit;
 }
 
@@ -436,11 +441,15 @@ double leftAtLargestLoad(const GapFit& fit) {
 
 }  // namespace
 
+double limitOfLeft(const GapFit& fit, const FitRules& rules) {
+  constexpr double kSigmas = 4.0;
+  return 1.0 + kSigmas * std::sqrt(2.0 / fit.rules.loading_rows +
+                                   (rules.noise_degrees > 0.0 ? 2.0 / rules.noise_degrees : 0.0));
+}
+
 double modelError(const GapFit& fit, const FitRules& rules) {
   const double rows = fit.rules.loading_rows, left = leftPerEquation(fit);
-  constexpr double kSigmas = 4.0;
-  const double doubt = std::sqrt(2.0 / rows + (rules.noise_degrees > 0.0 ? 2.0 / rules.noise_degrees : 0.0));
-  if (fit.state.model_error == 0.0 && left - 1.0 < kSigmas * doubt) return 0.0;
+  if (fit.state.model_error == 0.0 && left < limitOfLeft(fit, rules)) return 0.0;
   double before = 0.0, after = 0.0, count = 0.0;
   Eigen::VectorXd old = Eigen::VectorXd::Zero(fit.data.layout.end), now = old;
   old.head(fit.nuisances_before.size()) = fit.nuisances_before;

@@ -22,6 +22,7 @@ struct GapFit {
   Eigen::VectorXd nuisances_before;  ///< without any effect
   double model_error =
       0.0;  ///< rms per coordinate that the set leaves at the largest load beyond noise, m; 0: within it
+  double left_limit = 0.0;  ///< of chi2 per equation (leftPerEquation): beyond it four standard deviations of chance
   int rounds = 0;
 };
 

@@ -3,12 +3,16 @@
 #include <fmt/format.h>
 #include <Eigen/Dense>
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
+#include <cstddef>
 #include <map>
 #include <utility>
 
 #include "core/diagnosis/diagnosis_input.h"
 #include "core/diagnosis/held_out.h"
+#include "core/numerics/distributions.h"
 #include "metrology/linear_algebra.h"
 
 namespace stiffscope::diagnosis {
@@ -151,6 +155,21 @@ struct Sum {
     variance += 2.0 * (noise_here * noise_here).trace();
     count += static_cast<double>(directions.cols());
   }
+
+  /// Of the part of `left` that `form`, a symmetric matrix, takes of it: left^T form left.
+  void addPart(const Eigen::VectorXd& left, const Eigen::MatrixXd& form, const Eigen::MatrixXd& covariance) {
+    const Eigen::MatrixXd noise_here = form * covariance;
+    squares += left.dot(form * left);
+    noise += noise_here.trace();
+    variance += 2.0 * noise_here.cwiseProduct(noise_here.transpose()).sum();
+    count += form.trace();
+  }
+
+  /// The squares are a sum of weighed chi-square variables: nearly one of the same mean and variance (Satterthwaite).
+  double deviate() const {
+    if (!(variance > 0.0) || !(noise > 0.0)) return 0.0;
+    return numerics::chiSquareDeviate(2.0 * squares * noise / variance, 2.0 * noise * noise / variance);
+  }
 };
 
 WhereRow rowOf(const std::string& name, const Sum& sum, double whole) {
@@ -158,7 +177,7 @@ WhereRow rowOf(const std::string& name, const Sum& sum, double whole) {
   row.name = name;
   if (sum.count > 0.0) row.rms = std::sqrt(sum.squares / sum.count), row.noise = std::sqrt(sum.noise / sum.count);
   row.share = whole > 0.0 ? sum.squares / whole : 0.0;
-  row.significance = sum.variance > 0.0 ? (sum.squares - sum.noise) / std::sqrt(sum.variance) : 0.0;
+  row.significance = sum.deviate();
   return row;
 }
 
@@ -228,27 +247,72 @@ std::vector<WhereTable> commonTables(const SystemInput& input, const GapFit& fit
   return tables;
 }
 
-/// What the angle of one joint in each state would explain of that state, alone.
-WhereTable byJoint(const GapFit& fit, const Eigen::VectorXd& parameters, const std::vector<LeftOver>& all) {
-  WhereTable table{"joint", {}};
-  for (int joint = 0; joint < 6; ++joint) {
-    Sum sum;
-    for (const GapPosture& posture : fit.data.postures) {
-      const Eigen::VectorXd left = posture.right - posture.columns * parameters;
-      const Eigen::Index per_state = posture.states.front().rows();
-      for (std::size_t s = 1; s < posture.states.size(); ++s) {
-        const Eigen::Index at = posture.position_rows + static_cast<Eigen::Index>(s - 1) * per_state;
-        const Eigen::VectorXd column =
-            effects::byEachJoint(posture.states[s], Vector6d::Unit(joint)).col(joint).normalized();
-        const double noise = column.dot(posture.noise.middleRows(at, per_state) * column);
-        const double along = column.dot(left.segment(at, per_state));
-        sum.squares += along * along;
-        sum.noise += noise;
-        sum.variance += 2.0 * noise * noise;
-        sum.count += 1.0;
-      }
+constexpr std::size_t kTurnedJoints = 6, kJointSubsets = std::size_t{1} << kTurnedJoints;
+
+/// For every subset of the columns an orthonormal basis of what they span: that of the subset without its last column,
+/// and one vector more, zero where the column brings nothing new.
+std::array<Eigen::VectorXd, kJointSubsets> addedDirections(const Eigen::MatrixXd& columns) {
+  std::array<Eigen::VectorXd, kJointSubsets> added;
+  for (std::size_t subset = 1; subset < kJointSubsets; ++subset) {
+    const auto last = static_cast<Eigen::Index>(std::bit_width(subset)) - 1;
+    const double whole = columns.col(last).norm();
+    Eigen::VectorXd rest = columns.col(last);
+    for (int again = 0; again < 2; ++again) {  // twice, for rounding
+      for (std::size_t inner = std::bit_floor(subset) ^ subset; inner != 0; inner ^= std::bit_floor(inner))
+        rest -= added[inner].dot(rest) * added[inner];
     }
-    table.rows.push_back(rowOf(fmt::format("joint {}", joint + 1), sum, wholeOf(all)));
+    constexpr double kNothingNew = 1e-6;
+    const bool new_one = rest.norm() > kNothingNew * whole;
+    added[subset] = new_one ? Eigen::VectorXd(rest.normalized()) : Eigen::VectorXd(Eigen::VectorXd::Zero(rest.size()));
+  }
+  return added;
+}
+
+/// Share of all orders of six joints in which just the joints of a subset of this size stand before a given one.
+double shareOfOrders(int before) {
+  constexpr std::array<double, kTurnedJoints> kShares{1.0 / 6, 1.0 / 30, 1.0 / 60, 1.0 / 60, 1.0 / 30, 1.0 / 6};
+  return kShares[static_cast<std::size_t>(before)];
+}
+
+/// By joint the form Q_j with y^T Q_j y = what joint j adds to the squares of y that the joints before it explain, mean
+/// over all orders of the joints.
+std::array<Eigen::MatrixXd, kTurnedJoints> partsByJoint(const Eigen::MatrixXd& columns) {
+  const std::array<Eigen::VectorXd, kJointSubsets> added = addedDirections(columns);
+  std::array<Eigen::MatrixXd, kTurnedJoints> parts;
+  parts.fill(Eigen::MatrixXd::Zero(columns.rows(), columns.rows()));
+  // Q_j is a sum of projections P_S with shares; each direction is in the P_S of all subsets that begin like its own.
+  for (std::size_t subset = 1; subset < kJointSubsets; ++subset) {
+    Eigen::MatrixXd projection = Eigen::MatrixXd::Zero(columns.rows(), columns.rows());
+    for (std::size_t inner = subset; inner != 0; inner ^= std::bit_floor(inner))
+      projection += added[inner] * added[inner].transpose();
+    const int size = std::popcount(subset);
+    for (std::size_t joint = 0; joint < kTurnedJoints; ++joint) {
+      const bool with_it = ((subset >> joint) & 1U) != 0;
+      parts[joint] += (with_it ? shareOfOrders(size - 1) : -shareOfOrders(size)) * projection;
+    }
+  }
+  return parts;
+}
+
+/// What angles of the joints in each state would explain of that state. What two joints could both explain is shared
+/// out, so that the parts add up to what all six explain together (Shapley; Lindeman, Merenda and Gold).
+WhereTable byJoint(const GapFit& fit, const Eigen::VectorXd& parameters, const std::vector<LeftOver>& all) {
+  std::array<Sum, kTurnedJoints> sums;
+  for (const GapPosture& posture : fit.data.postures) {
+    const Eigen::VectorXd left = posture.right - posture.columns * parameters;
+    const Eigen::Index per_state = posture.states.front().rows();
+    for (std::size_t s = 1; s < posture.states.size(); ++s) {
+      const Eigen::Index at = posture.position_rows + static_cast<Eigen::Index>(s - 1) * per_state;
+      const auto parts = partsByJoint(effects::byEachJoint(posture.states[s], Vector6d::Ones()));
+      for (std::size_t joint = 0; joint < kTurnedJoints; ++joint)
+        sums[joint].addPart(left.segment(at, per_state), parts[joint], posture.noise.middleRows(at, per_state));
+    }
+  }
+  WhereTable table{"joint", {}};
+  table.overlaps = true;
+  for (std::size_t joint = 0; joint < kTurnedJoints; ++joint) {
+    table.rows.push_back(rowOf(fmt::format("joint {}", joint + 1), sums[joint], wholeOf(all)));
+    table.explained += table.rows.back().share;
   }
   return table;
 }

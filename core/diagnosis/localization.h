@@ -33,9 +33,9 @@ Gap deflectionGap(const GapFit& alone, const StiffnessesAlone& before, const Gap
 Gap positionGap(const GapFit& alone, const StiffnessesAlone& before, const GapFit& fit, const Eigen::VectorXd& after);
 
 /// Where the gap lies that stiffnesses alone leave: the deflection's by reflector, axes of R0, axes of the
-/// flange, along and across the beam, joint (what the angle of each joint alone would explain), posture, load
-/// step and quarter of the time; that of unloaded positions by reflector, axes, beam and posture.
-/// `parameters`: of all columns.
+/// flange, along and across the beam, joint (what angles of the joints would explain, shared out among them), posture,
+/// load step and quarter of the time; that of unloaded positions by reflector, axes, beam and posture. `parameters`: of
+/// all columns.
 std::vector<WhereTable> whereDeflection(const SystemInput& input, const GapFit& fit, const Eigen::VectorXd& parameters);
 std::vector<WhereTable> wherePosition(const SystemInput& input, const GapFit& fit, const Eigen::VectorXd& parameters);
 

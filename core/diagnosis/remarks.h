@@ -19,10 +19,15 @@ enum class RemarkId {
   follows_from_geometry,     ///< id of the effect, its parameters
   deflection_not_explained,  ///< rms m
   positions_not_explained,   ///< rms m, limit m
-  floor_nests,               ///< what they say
-  positions_take_part,       ///< whether the sweeps do, too
-  sweeps_thinned,            ///< readings of a sweep that took part at most
-  postures_thinned,          ///< postures, those that took part
+  candidates_only,           ///< ids of effects; share of the gap's squares beyond noise that stays, share that may
+  nests_speak_against_drift,
+  moves_while_load_stands,  ///< id of the effect; rms m, t
+  chi_square_significant,   ///< chi2 per equation that is left, its limit
+  positions_scatter,        ///< variance over the noise's, its limit
+  floor_nests,              ///< what they say
+  positions_take_part,      ///< whether the sweeps do, too
+  sweeps_thinned,           ///< readings of a sweep that took part at most
+  postures_thinned,         ///< postures, those that took part
   // Why an effect is not added to a day.
   spike_hidden,
   // What to measure next.

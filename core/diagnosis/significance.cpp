@@ -46,9 +46,27 @@ double sizeOfDrop(const GapFit& fit, double drop) {
   return std::sqrt(std::max(0.0, drop) / fit.rules.loading_rows) * fit.data.state_noise;
 }
 
+namespace {
+
+/// Squares of the effects' columns as the measurement's own noise weighs them: without the error of the model and the
+/// inflation of positions that the fit counts as noise.
+Eigen::VectorXd weighedByMeasuring(const SystemInput& input, const GapFit& fit) {
+  SystemState state = fit.state;
+  if (state.model_error == 0.0 && state.position_inflation == 1.0 && state.sweep_inflation == 1.0)
+    return fit.projection.before;
+  state.model_error = 0.0;
+  state.position_inflation = state.sweep_inflation = 1.0;
+  const LinearSystem data = linearSystem(input, state, {});
+  const Eigen::MatrixXd normal = sumOf(data, std::vector<double>(data.postures.size(), 1.0));
+  return normal.diagonal().segment(data.layout.effects, data.layout.end - data.layout.effects);
+}
+
+}  // namespace
+
 std::vector<DetectableSize> detectableSizes(const SystemInput& input, const GapFit& fit,
                                             const std::vector<bool>& allowed) {
   const double drop = std::max(fit.rules.least_drop, fit.rules.detect);
+  const Eigen::VectorXd by_measuring = weighedByMeasuring(input, fit);
   std::vector<DetectableSize> detectable;
   for (std::size_t e = 0; e < effects::kEffectCount; ++e) {
     const auto effect = static_cast<effects::Effect>(e);
@@ -57,12 +75,13 @@ std::vector<DetectableSize> detectableSizes(const SystemInput& input, const GapF
       if (input.models[m].effect != effect || !allowed[m]) continue;
       Eigen::Index at = fit.data.layout.model_at[m] - fit.data.layout.effects;
       for (const effects::EffectPart& part : input.models[m].parts) {
-        double kept = 0.0;
+        double kept = 0.0, seen = 0.0;  // by the fit's own noise, and against the measurement's
         for (std::size_t k = 0; k < part.most.size(); ++k, ++at) {
-          if (fit.projection.before[at] > 0.0)
-            kept = std::max(kept, fit.projection.matrix(at, at) / fit.projection.before[at]);
+          if (!(fit.projection.before[at] > 0.0)) continue;
+          kept = std::max(kept, fit.projection.matrix(at, at) / fit.projection.before[at]);
+          seen = std::max(seen, fit.projection.matrix(at, at) / by_measuring[at]);
         }
-        if (kept > fit.rules.kept_share) sizes.push_back(sizeOfDrop(fit, drop / kept));
+        if (kept > fit.rules.kept_share) sizes.push_back(sizeOfDrop(fit, drop / seen));
       }
     }
     DetectableSize size{effect, std::nullopt};

@@ -18,8 +18,8 @@ double chanceLimit(const SystemInput& input, const GapFit& fit, const std::vecto
 double sizeOfDrop(const GapFit& fit, double drop);
 
 /// Per effect the smallest size that would have been named, m: what the median of its parts must be before
-/// the projection for what is left of it to pass the limits of significance and of size. The geometry's is a
-/// limit of its own.
+/// the projection for what is left of it to pass the limits of significance and of size, with all that the fit counts
+/// as noise (the error of the model, the inflation of positions) in it. The geometry's is a limit of its own.
 std::vector<DetectableSize> detectableSizes(const SystemInput& input, const GapFit& fit,
                                             const std::vector<bool>& allowed);
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/diagnosis/confounding.h"
+#include "core/preparation/standing_motion.h"
 
 namespace stiffscope::diagnosis {
 
@@ -49,6 +50,7 @@ class Decider {
     nameChosen();
     rankNamed();
     nameUnknown();
+    withdrawNames();
     listOthers();
     explain();
     return std::move(decision_);
@@ -193,8 +195,125 @@ class Decider {
     constexpr double kStates = 2.0, kShareOfRemoved = 0.1;
     const double limit = std::max(kStates * from_.fit.data.state_noise, kShareOfRemoved * removed);
     if (left <= limit) return;
+    unknown_positions_ = true;
     nameUnknownOnce();
     besides_.emplace_back(RemarkId::positions_not_explained, left, limit);
+  }
+
+  /// A name must leave what looks like noise. Where something significant stays that no effect explains, an effect
+  /// whose own rows keep more than `kMostLeft` of their gap's squares beyond noise is only a candidate; so is what
+  /// other readings speak against.
+  void withdrawNames() {
+    const double deflection = from_.fit.model_error > 0.0 ? shareLeft(from_.gap) : 0.0;
+    const double positions = unknown_positions_ ? shareLeft(from_.positions) : 0.0;
+    constexpr double kMostLeft = 0.05;
+    std::vector<effects::Effect> candidates;
+    for (std::size_t i = 0; i < decision_.classes.size(); ++i) {
+      EffectClass& one = decision_.classes[i];
+      const bool geometry = one.effects.front() == effects::Effect::kinematic_error;
+      const bool keeps_gap = deflection > kMostLeft || (positions > kMostLeft && (geometry || byPositions(i)));
+      const auto& given = from_.fit.rules.given;
+      const bool by_nests = !geometry && std::find(given.begin(), given.end(), modelOf(i)) != given.end();
+      const bool refuted = refutedByNests(one) || refutedByStanding(i);
+      if (by_nests || !(keeps_gap || refuted)) continue;
+      one.in_verdict = false;
+      decision_.verdict.entries[i].effects.clear();
+      if (keeps_gap && !refuted) candidates.push_back(one.effects.front());
+    }
+    keepNamed();
+    if (candidates.empty()) return;
+    std::vector<std::string> ids;
+    for (const effects::Effect effect : candidates) ids.emplace_back(effects::idOf(effect));
+    besides_.emplace_back(RemarkId::candidates_only, ids, std::max(deflection, positions), kMostLeft);
+  }
+
+  /// What the verdict names before what it does not, and unknown where a name was taken out.
+  void keepNamed() {
+    Decision sorted;
+    for (const bool named : {true, false}) {
+      for (std::size_t i = 0; i < decision_.classes.size(); ++i) {
+        if (decision_.classes[i].in_verdict != named) continue;
+        if (named) sorted.verdict.entries.push_back(decision_.verdict.entries[i]);
+        sorted.classes.push_back(decision_.classes[i]);
+        sorted.recipes.push_back(decision_.recipes[i]);
+      }
+    }
+    const auto& entries = decision_.verdict.entries;
+    const bool said =
+        std::any_of(entries.begin(), entries.end(), [](const VerdictEntry& entry) { return entry.effects.empty(); });
+    decision_.verdict.entries = std::move(sorted.verdict.entries);
+    decision_.classes = std::move(sorted.classes);
+    decision_.recipes = std::move(sorted.recipes);
+    if (said) nameUnknownOnce();
+  }
+
+  /// Share of a gap's squares beyond noise that stays with the effects in the model.
+  static double shareLeft(const Gap& gap) {
+    const double noise = gap.noise * gap.noise, before = gap.before * gap.before - noise;
+    const double after = std::max(0.0, gap.after * gap.after - noise);
+    return before > after ? after / before : 1.0;
+  }
+
+  std::size_t modelOf(std::size_t named) const { return decision_.recipes[named].front().model; }
+
+  /// Squares of what an effect of the set does, in parts of the noise that the fit has: in unloaded positions and in
+  /// deflections; and those of its deflections, m^2.
+  struct OwnField {
+    double positions = 0.0, deflections = 0.0, squares = 0.0;
+  };
+
+  OwnField fieldOf(std::size_t named) const {
+    const Eigen::VectorXd parameters = own(set().effects, modelOf(named));
+    const Eigen::Index at = from_.fit.data.layout.model_at[modelOf(named)];
+    const double inflation = from_.fit.state.position_inflation;
+    OwnField sum;
+    for (const GapPosture& posture : from_.fit.data.postures) {
+      const Eigen::VectorXd field = posture.columns.middleCols(at, parameters.size()) * parameters;
+      for (Eigen::Index row = 0; row < field.size(); ++row) {
+        const double square = field[row] * field[row], variance = posture.noiseSquares(row, 1);
+        if (row < posture.position_rows) {
+          sum.positions += square / (inflation * variance);
+        } else {
+          sum.deflections += square / variance;
+          sum.squares += square;
+        }
+      }
+    }
+    return sum;
+  }
+
+  /// Whether unloaded positions rather than deflections show it.
+  bool byPositions(std::size_t named) const {
+    const OwnField field = fieldOf(named);
+    return field.positions > field.deflections;
+  }
+
+  /// A station that moves takes all nests along as one body: where they lose their shape it is something else.
+  bool refutedByNests(const EffectClass& one) {
+    if (one.effects.front() != effects::Effect::tracker_drift || !from_.station.rounds.deforming()) return false;
+    besides_.emplace_back(RemarkId::nests_speak_against_drift);
+    return true;
+  }
+
+  /// Friction, play and springs that harden depend on the load and on how it came: readings that go on moving while
+  /// it stands look like them from one load step to the next. Only where that motion is not small beside the effect.
+  bool refutedByStanding(std::size_t named) {
+    const effects::Effect effect = decision_.classes[named].effects.front();
+    const bool by_history = effect == effects::Effect::hysteresis || effect == effects::Effect::backlash ||
+                            effect == effects::Effect::joint_hardening;
+    if (!by_history || !standing_.significant()) return false;
+    constexpr double kNotSmall = 0.1;  // of its deflections' rms
+    const double rms = std::sqrt(fieldOf(named).squares / static_cast<double>(deflectionRows()));
+    if (standing_.rms < kNotSmall * rms) return false;
+    besides_.emplace_back(RemarkId::moves_while_load_stands, std::string(effects::idOf(effect)), standing_.rms,
+                          standing_.t);
+    return true;
+  }
+
+  Eigen::Index deflectionRows() const {
+    Eigen::Index rows = 0;
+    for (const GapPosture& posture : from_.fit.data.postures) rows += posture.right.size() - posture.position_rows;
+    return std::max<Eigen::Index>(1, rows);
   }
 
   void nameUnknownOnce() {
@@ -232,15 +351,32 @@ class Decider {
                            std::sqrt(rules.least_drop / rules.loading_rows) * from_.fit.data.state_noise);
     }
     reasons.insert(reasons.end(), besides_.begin(), besides_.end());
+    sayChiSquare();
     reasons.emplace_back(RemarkId::floor_nests, from_.station.remark);
     if (from_.input.absolute) reasons.emplace_back(RemarkId::positions_take_part, from_.input.sweeps);
+  }
+
+  /// Whatever is too small to matter: what chance does not explain is said.
+  void sayChiSquare() {
+    const double left = leftPerEquation(from_.fit), limit = from_.fit.left_limit;
+    if (from_.fit.model_error == 0.0 && left > limit)
+      decision_.verdict.reasons.emplace_back(RemarkId::chi_square_significant, left, limit);
+    if (unknown_positions_ || !from_.input.absolute) return;
+    Eigen::Index rows = 0;
+    for (const GapPosture& posture : from_.fit.data.postures) rows += posture.position_rows;
+    const double inflation = from_.fit.state.position_inflation;
+    const double by_chance =
+        1.0 + (limit - 1.0) * std::sqrt(from_.fit.rules.loading_rows / std::max(1.0, static_cast<double>(rows)));
+    if (inflation > by_chance)
+      decision_.verdict.reasons.emplace_back(RemarkId::positions_scatter, inflation, by_chance);
   }
 
   const VerdictInput& from_;
   const std::vector<effects::EffectModel>& models_;
   Selector selector_;
   Decision decision_;
-  bool geometry_named_ = false;
+  bool geometry_named_ = false, unknown_positions_ = false;
+  const preparation::StandingMotion standing_ = preparation::standingMotion(from_.input.campaign);
   std::vector<effects::Effect> named_;
   std::vector<Remark> besides_;
 };

@@ -33,7 +33,9 @@ struct Decision {
 };
 
 /// Names what the fit chose, each with the effects that this data cannot tell from it; the geometry against
-/// the nominal one; `unknown` where what is left is significant and matters; nothing where neither.
+/// the nominal one; `unknown` where what is left is significant and matters; nothing where neither. Beside `unknown` an
+/// effect is named only where it removes nearly all of the gap that shows it: else it is a candidate, a class that is
+/// not in the verdict. So is one that the nests, or repeats under a standing load, speak against.
 Decision decideVerdict(const VerdictInput& from);
 
 }  // namespace stiffscope::diagnosis

@@ -1,5 +1,6 @@
 #include "core/numerics/distributions.h"
 
+#include <algorithm>
 #include <boost/math/distributions/binomial.hpp>
 #include <boost/math/distributions/chi_squared.hpp>
 #include <boost/math/distributions/normal.hpp>
@@ -35,6 +36,16 @@ double normalLimit(double tail) {
 double studentLimit(double tail, double dof) {
   if (!hasLimit(tail, dof)) return 0.0;
   return math::quantile(math::complement(math::students_t_distribution<double, Policy>(dof), 0.5 * tail));
+}
+
+double chiSquareDeviate(double value, double dof) {
+  const math::chi_squared_distribution<double, Policy> chi_square(dof);
+  const math::normal_distribution<double, Policy> normal;
+  const double least = math::cdf(math::complement(normal, kLargestDeviate));
+  // The smaller tail of the two, which alone has all its digits.
+  const double above = math::cdf(math::complement(chi_square, std::max(0.0, value)));
+  if (above < 0.5) return math::quantile(math::complement(normal, std::max(above, least)));
+  return math::quantile(normal, std::max(math::cdf(chi_square, std::max(0.0, value)), least));
 }
 
 Rate binomialRate(int hits, int trials, double level) {

@@ -13,6 +13,13 @@ double normalLimit(double tail);
 /// The value that the magnitude of Student's t with `dof` degrees of freedom exceeds with probability `tail`.
 double studentLimit(double tail, double dof);
 
+/// The largest deviate that `chiSquareDeviate` gives: chance exceeds it in 1e-16 of all cases.
+inline constexpr double kLargestDeviate = 8.222;
+
+/// A chi-square variable's value as standard normal deviates: chance exceeds both as often. dof > 0, not necessarily
+/// whole. Within +- kLargestDeviate: beyond it neither the noise nor its distribution is known well enough.
+double chiSquareDeviate(double value, double dof);
+
 /// A share seen in trials, with its exact interval.
 struct Rate {
   int hits = 0, trials = 0;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
+#include <utility>
 
 namespace stiffscope::preparation {
 
@@ -54,6 +56,49 @@ std::vector<std::size_t> evenlySpreadIndices(std::size_t count, std::size_t most
   return spread;
 }
 
+namespace {
+
+/// By posture, whether an unloaded state and one under load were read.
+std::vector<bool> loadedPostures(const campaign::Campaign& campaign) {
+  const std::size_t postures = campaign.pose_ids.size();
+  std::vector<bool> at_rest(postures, false), loaded(postures, false);
+  if (!campaign.states) return loaded;
+  double largest = 0.0;
+  for (const campaign::State& row : campaign.states->rows)
+    largest = std::max(largest, row.wrench_in_cell.head<3>().norm());
+  std::set<std::pair<int, int>> under_load;
+  for (const campaign::State& row : campaign.states->rows) {
+    if (row.step != 0 && row.wrench_in_cell.head<3>().norm() > campaign::kReturnShare * largest)
+      under_load.insert({row.pose, row.step});
+  }
+  const auto see = [&](int pose, int step) {
+    const auto posture = static_cast<std::size_t>(pose);
+    if (step == 0) at_rest[posture] = true;
+    if (under_load.contains({pose, step})) loaded[posture] = true;
+  };
+  if (campaign.loading) {
+    for (const campaign::LoadingReading& row : campaign.loading->rows) see(row.pose, row.step);
+  }
+  if (campaign.displacements) {  // from the unloaded state by themselves
+    for (const campaign::Displacement& row : campaign.displacements->rows) see(row.pose, 0), see(row.pose, row.step);
+  }
+  for (std::size_t p = 0; p < postures; ++p) loaded[p] = loaded[p] && at_rest[p];
+  return loaded;
+}
+
+}  // namespace
+
+std::vector<std::size_t> spreadPostures(const campaign::Campaign& campaign, std::size_t most) {
+  const std::vector<bool> is_loaded = loadedPostures(campaign);
+  std::vector<std::size_t> loaded, others;
+  for (std::size_t p = 0; p < is_loaded.size(); ++p) (is_loaded[p] ? loaded : others).push_back(p);
+  std::vector<std::size_t> spread;
+  for (const std::size_t k : evenlySpreadIndices(loaded.size(), most)) spread.push_back(loaded[k]);
+  for (const std::size_t k : evenlySpreadIndices(others.size(), most - spread.size())) spread.push_back(others[k]);
+  std::sort(spread.begin(), spread.end());
+  return spread;
+}
+
 campaign::Campaign evenlySpread(const campaign::Campaign& campaign, std::size_t most, std::size_t most_swept) {
   // All of a Campaign by name: one more member does not compile until it is copied here.
   const auto& [folder, name, date, texts, robot, base_link, flange_link, double_encoder, gravity, mass_sigma, tracker,
@@ -61,7 +106,7 @@ campaign::Campaign evenlySpread(const campaign::Campaign& campaign, std::size_t 
                nests, pose_ids, nest_ids, inputs] = campaign;
   std::vector<int> now(pose_ids.size(), kNotKept);
   std::vector<std::string> kept_ids;
-  for (const std::size_t posture : evenlySpreadIndices(pose_ids.size(), most)) {
+  for (const std::size_t posture : spreadPostures(campaign, most)) {
     now[posture] = static_cast<int>(kept_ids.size());
     kept_ids.push_back(pose_ids[posture]);
   }

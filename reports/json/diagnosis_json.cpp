@@ -5,6 +5,7 @@
 #include "reports/json/json_document.h"
 
 #include "core/io/units.h"
+#include "core/numerics/distributions.h"
 #include "reports/words/effect_words.h"
 #include "reports/words/names.h"
 #include "reports/words/remark_words.h"
@@ -59,7 +60,8 @@ Json tablesJson(const std::vector<diagnosis::WhereTable>& tables) {
                       {"rms_um", micrometres(row.rms)},
                       {"noise_um", micrometres(row.noise)},
                       {"share", number(row.share)},
-                      {"significance", number(row.significance)}});
+                      {"significance", number(row.significance)},
+                      {"significance_at_limit", std::abs(row.significance) >= numerics::kLargestDeviate}});
     }
     json[table.by] = rows;
   }
@@ -125,7 +127,9 @@ Json diagnosisJson(const campaign::Campaign& campaign, const diagnosis::Diagnosi
                    {"source", words(diagnosis.noise_source)},
                    {"factor_along_beam", number(diagnosis.noise_factor_along)},
                    {"factor_across_beam", number(diagnosis.noise_factor_across)}};
-  json["chi2_per_equation"] = {{"before", number(diagnosis.lack_of_fit)}, {"after", number(diagnosis.left_over)}};
+  json["chi2_per_equation"] = {{"before", number(diagnosis.lack_of_fit)},
+                               {"after", number(diagnosis.left_over)},
+                               {"after_limit", number(diagnosis.left_over_limit)}};
   json["geometric_stiffness_share"] = number(diagnosis.geometric_stiffness_share);
   json["stiffness_before_nm_per_rad"] = stiffnessJson(diagnosis, diagnosis.stiffness_before);
   json["stiffness_after_nm_per_rad"] = stiffnessJson(diagnosis, diagnosis.stiffness_after);
@@ -142,6 +146,9 @@ Json diagnosisJson(const campaign::Campaign& campaign, const diagnosis::Diagnosi
   }
   json["where"] = tablesJson(diagnosis.where);
   json["where_after"] = tablesJson(diagnosis.where_after);
+  for (const diagnosis::WhereTable& table : diagnosis.where) {
+    if (table.overlaps) json["where_overlapping"][table.by] = {{"share_together", number(table.explained)}};
+  }
   if (diagnosis.positions_tested) json["where_positions"] = tablesJson(diagnosis.where_positions);
   return withNext(std::move(json), diagnosis.next);
 }

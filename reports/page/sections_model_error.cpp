@@ -151,7 +151,7 @@ reports::Table whereTable(const diagnosis::Diagnosis& diagnosis) {
     reports::RowGroup group{one.by, {}};
     for (const diagnosis::WhereRow& row : one.rows) {
       reports::Row cells{reports::asIs(row.name), inUm(row.rms), inUm(row.noise), reports::fixed(100.0 * row.share, 0),
-                         reports::fixed(row.significance, std::abs(row.significance) < 10.0 ? 1 : 0)};
+                         reports::asIs(reports::deviateWords(row.significance))};
       if (positions) {
         const diagnosis::WhereRow* at_rest = rowOf(diagnosis.where_positions, one.by, row.name);
         cells.emplace_back(at_rest ? inUm(at_rest->rms) : "–");
@@ -234,6 +234,9 @@ void writeDiagnosis(Html& html, const diagnosis::Diagnosis& diagnosis) {
     }
   }
   writeTable(html, whereTable(diagnosis));
+  for (const diagnosis::WhereTable& table : diagnosis.where) {
+    if (table.overlaps) html.paragraph("By " + table.by + ": " + reports::overlapWords(table), "faint");
+  }
   writeNotTestable(html, diagnosis);
   const auto fold = html.element("details");  // the figure has these numbers, too
   html.leaf("summary", "The smallest sizes as a table");

@@ -79,9 +79,10 @@ void writeTables(const std::vector<diagnosis::WhereTable>& tables, const char* t
     if (table.rows.size() > kMostRows) continue;  // postures: in the JSON
     fmt::format_to(out, "  {:<24}{:>10}{:>10}{:>9}{:>14}\n", "by " + table.by, "rms, um", "noise", "share", "sd above");
     for (const diagnosis::WhereRow& row : table.rows) {
-      fmt::format_to(out, "    {:<22}{:>10.1f}{:>10.1f}{:>8.0f}%{:>14.1f}\n", row.name, um(row.rms), um(row.noise),
-                     100.0 * row.share, row.significance);
+      fmt::format_to(out, "    {:<22}{:>10.1f}{:>10.1f}{:>8.0f}%{:>14}\n", row.name, um(row.rms), um(row.noise),
+                     100.0 * row.share, deviateWords(row.significance));
     }
+    if (table.overlaps) fmt::format_to(out, "    {}\n", wrapped(overlapWords(table), 4));
   }
 }
 

@@ -74,6 +74,32 @@ std::string diagnosisWords(diagnosis::RemarkId id, const RemarkValues& values) {
       return fmt::format(
           "Besides, {:.1f} um rms of the unloaded positions are explained by no effect (limit {:.1f} um).",
           1e6 * values.number(0), 1e6 * values.number(1));
+    case candidates_only:
+      return fmt::format(
+          "Beside that, {} {} no more than {}: with {} in the model {:.0f} % of the gap's squares beyond noise stay "
+          "({:.0f} % may).",
+          fmt::join(values.names(0), " and "), values.names(0).size() > 1 ? "are" : "is",
+          values.names(0).size() > 1 ? "candidates" : "a candidate", values.names(0).size() > 1 ? "them" : "it",
+          100.0 * values.number(1), 100.0 * values.number(2));
+    case nests_speak_against_drift:
+      return "The floor nests lose their shape: what wanders with the readings is no motion of the tracker as one "
+             "body.";
+    case moves_while_load_stands:
+      return fmt::format(
+          "While a load stood the readings moved on by {:.1f} um rms (t = {:.0f}): {} does not do that, and what "
+          "creeps "
+          "looks like it.",
+          1e6 * values.number(1), values.number(2), values.name(0));
+    case chi_square_significant:
+      return fmt::format(
+          "What is left is small and yet more than noise: chi2 per equation {:.2f}, by chance no more than {:.2f}.",
+          values.number(0), values.number(1));
+    case positions_scatter:
+      return fmt::format(
+          "Unloaded positions scatter little and yet more than noise: {:.2f} times its variance, by chance no more "
+          "than "
+          "{:.2f}.",
+          values.number(0), values.number(1));
     case floor_nests:
       return fmt::format("Floor nests: {}.", words(values.remark(0)));
     case positions_take_part:
@@ -82,7 +108,8 @@ std::string diagnosisWords(diagnosis::RemarkId id, const RemarkValues& values) {
     case sweeps_thinned:
       return fmt::format("Of a sweep's readings {} at most took part, spread evenly over it.", values.count(0));
     case postures_thinned:
-      return fmt::format("Of {} postures {} took part, spread evenly over the day.", values.count(0), values.count(1));
+      return fmt::format("Of {} postures {} took part, spread evenly over those that are loaded.", values.count(0),
+                         values.count(1));
     case spike_hidden:
       return "joint springs and geometry, or the floor nests, hide it here from any size on";
     case posture_that_separates:

@@ -3,7 +3,10 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <array>
+#include <cmath>
 
+#include "core/numerics/distributions.h"
+#include "reports/words/numbers.h"
 #include "reports/words/remark_words.h"
 
 namespace stiffscope::reports {
@@ -119,6 +122,19 @@ std::string shortDetail(const std::string& detail) {
   const std::string last = joints.back();
   joints.pop_back();
   return fmt::format("joints {} and {}", fmt::join(joints, ", "), last);
+}
+
+std::string deviateWords(double deviate) {
+  if (std::abs(deviate) < numerics::kLargestDeviate) return fmt::format("{:.1f}", unsignedZero(deviate, 1));
+  return fmt::format("{} {:.1f}", deviate > 0.0 ? ">" : "<", std::copysign(numerics::kLargestDeviate, deviate));
+}
+
+std::string overlapWords(const diagnosis::WhereTable& table) {
+  if (!table.overlaps) return {};
+  return fmt::format(
+      "Angles of several joints can explain the same: it is shared out among them. Together they explain {:.0f} % of "
+      "the gap's squares.",
+      100.0 * table.explained);
 }
 
 std::string namedWords(const diagnosis::Verdict& verdict) {

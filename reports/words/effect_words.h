@@ -26,6 +26,12 @@ std::string namedWords(const diagnosis::Verdict& verdict);
 /// present.
 std::string presentWords(const diagnosis::Verdict& verdict);
 
+/// "-1.3"; "> 8.2" and "< -8.2" at the limit of what a deviate says (numerics::kLargestDeviate).
+std::string deviateWords(double deviate);
+
+/// What a table whose parts overlap adds up to; empty where they do not.
+std::string overlapWords(const diagnosis::WhereTable& table);
+
 /// Why the verdict is what it is, sentence after sentence.
 std::string reasonWords(const diagnosis::Verdict& verdict);
 

@@ -76,6 +76,42 @@ TEST(EvenlySpread, KeepsTheRowsOfItsPosturesAndAllElse) {
   EXPECT_EQ(some.tracker->model, all.tracker->model);
 }
 
+// A thousand postures of which every thirty-third bears a load: an even spread of a hundred has three of these thirty.
+TEST(EvenlySpread, TakesAllLoadedPosturesOfADayThatHasFew) {
+  campaign::Campaign day;
+  day.states.emplace();
+  day.loading.emplace();
+  day.targets.resize(1);
+  for (int pose = 0; pose < 1000; ++pose) {
+    day.pose_ids.push_back(std::to_string(pose));
+    const bool loaded = pose % 33 == 1 && pose / 33 < 30;
+    for (int step = 0; step < (loaded ? 3 : 2); ++step) {
+      campaign::State state;
+      state.pose = pose;
+      state.step = step;
+      state.wrench_in_cell[2] = loaded && step == 1 ? 1000.0 : 10.0;  // N: a return to zero has a hook's weight
+      day.states->rows.push_back(state);
+      campaign::LoadingReading reading;
+      reading.pose = pose;
+      reading.step = step;
+      day.loading->rows.push_back(reading);
+    }
+  }
+  const auto isLoaded = [](std::size_t pose) { return pose % 33 == 1 && pose / 33 < 30; };
+  const std::vector<std::size_t> hundred = preparation::spreadPostures(day, 100);
+  ASSERT_EQ(hundred.size(), 100u);
+  EXPECT_TRUE(std::is_sorted(hundred.begin(), hundred.end()));
+  EXPECT_EQ(std::count_if(hundred.begin(), hundred.end(), isLoaded), 30);
+  const std::vector<std::size_t> ten = preparation::spreadPostures(day, 10);
+  ASSERT_EQ(ten.size(), 10u);
+  EXPECT_TRUE(std::all_of(ten.begin(), ten.end(), isLoaded));
+  EXPECT_EQ(preparation::evenlySpread(day, 100).pose_ids.size(), 100u);
+  // A posture whose loaded state was not read shows no deflection.
+  std::erase_if(day.loading->rows, [](const auto& row) { return row.pose == 1 && row.step == 1; });
+  const std::vector<std::size_t> fewer = preparation::spreadPostures(day, 29);
+  EXPECT_FALSE(std::count(fewer.begin(), fewer.end(), 1u));
+}
+
 TEST(EvenlySpread, TakesAsManyReadingsOfASweepOfEachAxisAndReflector) {
   const campaign::Campaign all = sampleDay(), some = preparation::evenlySpread(all, 100, 90);
   std::map<std::pair<int, int>, std::vector<std::size_t>> circles;

@@ -21,6 +21,18 @@ TEST(Chance, LimitsAreThoseOfPrintedTables) {
   EXPECT_NEAR(numerics::studentLimit(0.001, 30), 3.646, 5e-4);
 }
 
+// The printed critical values of chi-square at 5 % and 0.1 % are the normal's at one side, 1.645 and 3.090; two degrees
+// have exp(-x/2) as their tail, and 1e-16 of it is the limit.
+TEST(Chance, ChiSquareAsNormalDeviatesUpToTheLimit) {
+  EXPECT_NEAR(numerics::chiSquareDeviate(124.342, 100), 1.644854, 5e-5);
+  EXPECT_NEAR(numerics::chiSquareDeviate(29.5883, 10), 3.090232, 5e-5);
+  EXPECT_NEAR(numerics::chiSquareDeviate(-2.0 * std::log(0.975), 2), -1.959964, 5e-6);
+  EXPECT_LT(numerics::chiSquareDeviate(-2.0 * std::log(2e-16), 2), numerics::kLargestDeviate);
+  EXPECT_NEAR(numerics::chiSquareDeviate(-2.0 * std::log(5e-17), 2), numerics::kLargestDeviate, 1e-9);
+  EXPECT_NEAR(numerics::chiSquareDeviate(1e9, 3.5), numerics::kLargestDeviate, 1e-9);
+  EXPECT_NEAR(numerics::chiSquareDeviate(0.0, 3.5), -numerics::kLargestDeviate, 1e-9);
+}
+
 // Critical values of Student's t at two-sided 5 %, NIST e-Handbook 1.3.6.7.2, and at infinitely many degrees the
 // normal's. Between 100 degrees and infinity no table has rows; there the first terms of Cornish and Fisher's expansion
 // (Abramowitz and Stegun 26.7.5) share nothing with the library. The next term is at most 24 / dof^4 of the value.
