@@ -38,7 +38,7 @@ struct ExtendedModel {
   campaign::Campaign campaign;  ///< what `with` was identified from
   identification::Identification without, with;
   EffectSpread spread;
-  std::optional<HiddenEffects> hidden;  ///< of the model that the data support: what could still hide
+  std::optional<HiddenEffects> hidden;               ///< of the model that the data support: what could still hide
   std::unique_ptr<const diagnosis::GapStudy> study;  ///< the equations that `hidden` was weighed in; null without it
 
   /// Chi2 per equation that the model leaves, of `hidden`; and whether that is at most a quarter above noise's.
