@@ -12,7 +12,7 @@ namespace stiffscope::reports {
 
 namespace {
 
-Json intervalJson(const compensation::PointDeflection& point) {
+Json deflectionIntervalJson(const compensation::PointDeflection& point) {
   Json list = Json::array();
   for (const identification::CoverageInterval& one : point.interval)
     list.push_back(Json::array({number(one.low / io::kMillimetre), number(one.high / io::kMillimetre)}));
@@ -25,7 +25,7 @@ Json targetsJson(const campaign::Campaign& campaign, const std::vector<compensat
     list.push_back({{"target", campaign.targets[k].id},
                     {"deflection_mm", array(targets[k].deflection, 1.0 / io::kMillimetre)},
                     {"sd_deflection_mm", array(targets[k].sd, 1.0 / io::kMillimetre)},
-                    {"interval_deflection_mm", intervalJson(targets[k])},
+                    {"interval_deflection_mm", deflectionIntervalJson(targets[k])},
                     {"u_deflection_mm", number(targets[k].expanded / io::kMillimetre)}});
   }
   return list;
@@ -36,7 +36,7 @@ Json rowJson(const campaign::Campaign& campaign, const compensation::Compensated
   if (posture.predicted) {
     row["tcp_deflection_mm"] = array(posture.tcp.deflection, 1.0 / io::kMillimetre);
     row["sd_tcp_deflection_mm"] = array(posture.tcp.sd, 1.0 / io::kMillimetre);
-    row["interval_tcp_deflection_mm"] = intervalJson(posture.tcp);
+    row["interval_tcp_deflection_mm"] = deflectionIntervalJson(posture.tcp);
     row["u_tcp_deflection_mm"] = number(posture.tcp.expanded / io::kMillimetre);
     row["flange_rotation_deg"] = array(posture.rotation, 1.0 / io::kDegree);
     row["sd_flange_rotation_deg"] = array(posture.rotation_sd, 1.0 / io::kDegree);
