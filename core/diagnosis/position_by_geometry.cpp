@@ -123,12 +123,13 @@ void PositionByGeometry::addSag(const effects::ArmState& modelled, const frames:
 }
 
 void PositionByGeometry::addAxesByDifferences(const effects::ArmState& modelled, Eigen::MatrixXd& columns) const {
+  const Eigen::Isometry3d here = effects::lastBodyNear(geometry_, at_, modelled);
   for (std::size_t k = 0; k < stepped_.size(); ++k) {
-    const Eigen::Isometry3d there = effects::gravityEquilibrium(stepped_[k], at_, modelled.q).posture.motion[6];
+    const Eigen::Isometry3d there = effects::lastBodyNear(stepped_[k], at_, modelled);
     for (std::size_t i = 0; i < modelled.targets.size(); ++i) {
       const Eigen::Vector3d& at_zero = *geometry_.targets_at_zero[static_cast<std::size_t>(modelled.targets[i])];
       columns.col(static_cast<Eigen::Index>(k)).segment<3>(3 * static_cast<Eigen::Index>(i)) =
-          (there * at_zero - modelled.points[i]) / ArmParameters::kSmall;
+          (there * at_zero - here * at_zero) / ArmParameters::kSmall;
     }
   }
 }

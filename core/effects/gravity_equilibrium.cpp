@@ -75,6 +75,14 @@ ArmState gravityEquilibrium(const frames::LoadingGeometry& geometry, const Linea
   return std::move(state);
 }
 
+Eigen::Isometry3d lastBodyNear(const frames::LoadingGeometry& geometry, const LinearizationPoint& at,
+                               const ArmState& near) {
+  const PostureStates rest{stateMoved(geometry, near.q, near.turned, near.moved)};
+  Vector6d turned = near.q + geometry.compliance.cwiseProduct(rest.front().weight_torque);
+  if (at.jointsTurn()) turned += turnOf(at, rest);
+  return movedPosture(geometry.arm, turned, motionsOf(at, rest)).motion[6];
+}
+
 namespace {
 
 /// Joint angles in place of displacements.

@@ -11,6 +11,12 @@ namespace stiffscope::effects {
 /// the model do under the own weight alone, each computed where the others have left the arm.
 ArmState gravityEquilibrium(const frames::LoadingGeometry& geometry, const LinearizationPoint& at, const Vector6d& q);
 
+/// Where the last body of an arm of almost this geometry comes to, by one round of the above from where `near` rests:
+/// what its torques' change does to these torques again, a hundredth of that change, is left out. For derivatives by
+/// the geometry, of the same point twice.
+Eigen::Isometry3d lastBodyNear(const frames::LoadingGeometry& geometry, const LinearizationPoint& at,
+                               const ArmState& near);
+
 /// Joint angles by which the effects in the model turn the arm where it rests, rad.
 Vector6d presentTurn(const LinearizationPoint& at, const ArmState& rest);
 

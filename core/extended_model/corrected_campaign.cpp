@@ -46,12 +46,11 @@ Eigen::Matrix3d turnOf(const Eigen::Vector3d& w) {
   return Eigen::AngleAxisd(size, w / size).toRotationMatrix();
 }
 
-/// The fit's states under load by pose and step.
-std::map<std::pair<int, int>, const effects::ArmState*> loadedStates(const diagnosis::GapFit& fit) {
+/// The day's states under load by pose and step.
+std::map<std::pair<int, int>, const effects::ArmState*> loadedStates(const EffectFit& effects) {
   std::map<std::pair<int, int>, const effects::ArmState*> states;
-  for (const diagnosis::GapPosture& posture : fit.data.postures) {
-    for (std::size_t s = 1; s < posture.states.size(); ++s)
-      states[{posture.pose, posture.states[s].step}] = &posture.states[s];
+  for (const auto& [pose, posture] : effects.day) {
+    for (std::size_t s = 1; s < posture.states.size(); ++s) states[{pose, posture.states[s].step}] = &posture.states[s];
   }
   return states;
 }
@@ -75,7 +74,7 @@ void correctWrenches(const EffectFit& effects, const effects::Corrections& by, c
   if (!by.load_point.isZero(0.0)) moveLoadPoint(by.load_point, campaign);
   const Eigen::Matrix3d turn = turnOf(by.cell_turn);
   const Eigen::Vector3d weight = -by.missing_weight * effects.fit.state.at.r0_from_base_link.linear().col(2);
-  const std::map<std::pair<int, int>, const effects::ArmState*> states = loadedStates(effects.fit);
+  const std::map<std::pair<int, int>, const effects::ArmState*> states = loadedStates(effects);
   for (campaign::State& row : campaign.states->rows) {
     const auto found = states.find({row.pose, row.step});
     if (found == states.end()) continue;
@@ -97,7 +96,7 @@ class Shifter {
   /// `frame`: motion of the loading's frame, as frame_error has it, that is undone first.
   Shifter(const EffectFit& effects, const Vector6d& frame)
       : effects_(effects), frame_(frame), state_(effects.fit.state) {
-    for (const diagnosis::GapPosture& posture : effects.fit.data.postures) postures_[posture.pose] = posture.states;
+    for (const auto& [pose, posture] : effects.day) postures_[pose] = posture.states;
   }
 
   void loading(const campaign::States& states, campaign::Loading& table) {
@@ -206,7 +205,7 @@ void shiftReadings(const EffectFit& effects, const Vector6d& frame, campaign::Ca
 void leaveOutUnknown(const EffectFit& effects, campaign::Campaign& campaign,
                      std::vector<identification::LeftOutPosture>& left_out) {
   std::set<int> known;
-  for (const diagnosis::GapPosture& one : effects.fit.data.postures) known.insert(one.pose);
+  for (const auto& [pose, posture] : effects.day) known.insert(pose);
   std::vector<identification::OutlyingPosture> without;
   for (const campaign::State& row : campaign.states->rows) {
     if (row.step == 0 || !known.insert(row.pose).second) continue;

@@ -7,10 +7,13 @@
 #include <cmath>
 
 #include "core/diagnosis/diagnosis_input.h"
+#include "core/diagnosis/gap_study.h"
 #include "core/diagnosis/held_out.h"
 #include "core/diagnosis/localization.h"
 #include "core/diagnosis/preconditions.h"
+#include "core/diagnosis/system_rows.h"
 #include "core/effects/all.h"
+#include "core/preparation/subsample.h"
 #include "metrology/linear_algebra.h"
 
 namespace stiffscope::extended_model {
@@ -235,7 +238,9 @@ EffectFit fitEffects(const campaign::Campaign& campaign, const RequestedEffects&
   return fitEffects(preparation::prepareCampaign(campaign), asked);
 }
 
-EffectFit fitEffects(const preparation::PreparedCampaign& prepared, const RequestedEffects& asked) {
+namespace {
+
+EffectFit fitToAll(const preparation::PreparedCampaign& prepared, const RequestedEffects& asked) {
   const campaign::Campaign& campaign = prepared.campaign;
   EffectFit effects;
   effects.notes = asked.notes;
@@ -268,6 +273,8 @@ EffectFit fitEffects(const preparation::PreparedCampaign& prepared, const Reques
   }
   effects.fit = diagnosis::fitGap(*input, start->state, allowed, rules);
   requireSeen(effects.fit, *input);
+  for (std::size_t i = 0; i < effects.fit.data.postures.size(); ++i)
+    effects.day[effects.fit.data.postures[i].pose] = {effects.fit.data.postures[i].states, i};
   effects.start = std::move(start);
   effects.input = std::move(input);
   effects.free = freeParameters(effects);
@@ -289,6 +296,30 @@ EffectFit fitEffects(const preparation::PreparedCampaign& prepared, const Reques
   effects.shrink = held_out.deflection;
   effects.explained = held_out.explained;
   return effects;
+}
+
+}  // namespace
+
+EffectFit overWholeDay(EffectFit spread, const preparation::PreparedCampaign& whole) {
+  if (spread.fit.data.postures.empty()) return spread;
+  const diagnosis::SystemState& state = spread.fit.state;
+  std::map<int, DayPosture> day;
+  for (diagnosis::SystemRows& rows :
+       diagnosis::loadingRows(whole.campaign, state.geometry, state.at, state.corrections))
+    day[rows.pose].states = std::move(rows.states);
+  const std::vector<std::size_t> kept = preparation::spreadPostures(whole.campaign, preparation::kMostDiagnosed);
+  for (auto& [pose, posture] : spread.day) {
+    DayPosture& own = day[static_cast<int>(kept[static_cast<std::size_t>(pose)])];
+    own = std::move(posture);
+    for (effects::ArmState& one : own.states) one.pose = static_cast<int>(kept[static_cast<std::size_t>(pose)]);
+  }
+  spread.day = std::move(day);
+  return spread;
+}
+
+EffectFit fitEffects(const preparation::PreparedCampaign& prepared, const RequestedEffects& asked) {
+  if (!diagnosis::isLong(prepared.campaign)) return fitToAll(prepared, asked);
+  return overWholeDay(fitToAll(diagnosis::spreadForDiagnosis(prepared), asked), prepared);
 }
 
 std::vector<effects::PresentEffect> machineEffects(const EffectFit& effects, const Eigen::VectorXd& parameters) {

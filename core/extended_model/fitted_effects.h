@@ -1,6 +1,8 @@
 #pragma once
 
+#include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,6 +31,12 @@ struct AddedEffect {
   std::vector<EffectParameter> parameters;
 };
 
+/// A posture of the day as the fit sees it.
+struct DayPosture {
+  effects::PostureStates states;
+  std::optional<std::size_t> in_fit;  ///< which of the fit's postures; empty where a long day's fit left it out
+};
+
 /// A set of effects fitted jointly with stiffnesses, geometry and weights on everything the campaign has (all load
 /// steps, unloaded positions, sweeps), by the diagnosis's weighted equations: A c + E theta = y. Which parts and which
 /// of the equations of an effect is chosen by BIC where it is not given; then this set is fitted, whatever it brings.
@@ -36,6 +44,7 @@ struct EffectFit {
   std::unique_ptr<const diagnosis::DiagnosisInput> start;  ///< what `input` refers to
   std::unique_ptr<const diagnosis::SystemInput> input;     ///< its models: only those of the effects wanted
   diagnosis::GapFit fit;
+  std::map<int, DayPosture> day;          ///< by the campaign's pose: those with a reflector read in all load steps
   std::vector<AddedEffect> added;         ///< as asked for
   std::vector<effects::Effect> geometry;  ///< of those asked for, what identification corrects by itself
   std::vector<Remark> notes;              ///< on how it came to these effects

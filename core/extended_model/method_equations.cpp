@@ -126,12 +126,11 @@ std::vector<CaseEffects> caseEffects(const diagnosis::GapStudy& study, const Eff
 
 std::vector<CaseEffects> caseEffects(const EffectFit& effects, const Eigen::MatrixXd& steps,
                                      const identification::Identification& result) {
-  const std::map<int, const diagnosis::GapPosture*> postures = posturesOf(effects.fit);
   const Eigen::Isometry3d fit_from_r0 = fitFrom(result.geometry, effects.fit.state.geometry);
   std::vector<CaseEffects> all;
   for (std::size_t i = 0; i < result.cases.size(); ++i) {
     const LoadCase& load_case = result.cases[i];
-    all.push_back(effectsIn(effects, steps, postures.at(load_case.pose)->states, fit_from_r0, load_case));
+    all.push_back(effectsIn(effects, steps, effects.day.at(load_case.pose).states, fit_from_r0, load_case));
     if (result.wrist.empty()) continue;
     all.back().wrist_machine =
         identification::wristByReflectors(load_case, result.frames.wrist.radii, result.wrist[i]) *

@@ -59,8 +59,8 @@ TEST(OneAnswer, OfARealDay) {
   expectOneAnswer("'" + kCable + "'", "pp");
 }
 
-// What a class of effects that the day cannot tell apart leaves open is in the interval of k1: each member's value, and
-// that of springs alone. No stiffness is negative, and what no effect explains is said.
+// What a class of candidates that the day cannot tell apart leaves open is in the interval of k1: each member's value,
+// and that of springs alone. No stiffness is negative, and what no effect explains is said.
 TEST(OneAnswer, ARealDaysIntervalHoldsEachMemberOfTheClass) {
   if (!std::filesystem::exists(kCable)) GTEST_SKIP() << kCable << " is not here";
   const ScratchFolder scratch;
@@ -72,7 +72,7 @@ TEST(OneAnswer, ARealDaysIntervalHoldsEachMemberOfTheClass) {
   EXPECT_FALSE(identified["cautions"].empty());
   const double low = own["interval_nm_per_rad"][0][0], high = own["interval_nm_per_rad"][0][1];
   std::vector<double> values{identified["apparent"]["pp"]["stiffness_nm_per_rad"][0]};
-  for (const json& effect : diagnosed["verdict"][0]) {
+  for (const json& effect : diagnosed["classes"][0]["effects"]) {
     const json with = answerOf("identify " + campaign + " --with " + effect.get<std::string>(), scratch);
     values.push_back(with["methods"]["pp"]["stiffness_nm_per_rad"][0]);
   }

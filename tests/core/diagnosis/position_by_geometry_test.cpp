@@ -134,8 +134,8 @@ TEST(PositionByGeometry, WithAFootThatRocksIsTheDifferences) {
   at.present.push_back({&model, 1e-6 * Eigen::VectorXd::Unit(5, 1)});
   const Eigen::MatrixXd expected = byDifferences(one.geometry, one.q, one.readings, one.centre, at);
   ASSERT_GT((expected - one.computed()).cwiseAbs().maxCoeff(), 1e-3);
-  // One-sided against central differences: the model's second derivative, a few metres, over a step of 1e-6.
-  EXPECT_LT((one.computed(at) - expected).cwiseAbs().maxCoeff(), 1e-5);
+  // One round of the equilibrium: a hundredth of what the rocking changes.
+  EXPECT_LT((one.computed(at) - expected).cwiseAbs().maxCoeff(), 1e-4);
 }
 
 }  // namespace position_by_geometry_test
