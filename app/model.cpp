@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 
+#include "core/diagnosis/diagnose.h"
 #include "core/extended_model/requested_effects.h"
 #include "core/io/input_error.h"
 #include "reports/words/remark_words.h"
@@ -52,6 +53,18 @@ std::optional<extended_model::ExtendedModel> modelOf(const preparation::Prepared
   const preparation::PreparedCampaign& sought = screened ? *screened : prepared;
   if (by_data) return extended_model::supportedModel(sought, prepared.campaign, options);
   return extended_model::extendModel(prepared.campaign, effectsAsked(sought, choice.with), options);
+}
+
+diagnosis::Diagnosis diagnosisOf(const preparation::PreparedCampaign& prepared,
+                                 const std::optional<extended_model::ExtendedModel>& model) {
+  diagnosis::Diagnosis diagnosis;
+  if (prepared.preparation.raw) {
+    diagnosis = diagnosis::diagnose(prepared.campaign);
+  } else {
+    diagnosis = model && model->study ? diagnosis::diagnose(prepared, *model->study) : diagnosis::diagnose(prepared);
+  }
+  if (model && diagnosis.usable) extended_model::stateStiffnesses(*model, diagnosis);
+  return diagnosis;
 }
 
 }  // namespace stiffscope::app

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "core/diagnosis/diagnosis.h"
 #include "core/extended_model/extended_model.h"
 #include "core/identification/identify.h"
 #include "core/preparation/prepare.h"
@@ -28,5 +29,9 @@ void addModelOptions(CLI::App& command, ModelChoice& choice);
 std::optional<extended_model::ExtendedModel> modelOf(const preparation::PreparedCampaign& prepared,
                                                      const ModelChoice& choice,
                                                      const identification::IdentifyOptions& options);
+
+/// The diagnosis of a loaded day, from the model's own study where it has one, with the stiffnesses that the model has.
+diagnosis::Diagnosis diagnosisOf(const preparation::PreparedCampaign& prepared,
+                                 const std::optional<extended_model::ExtendedModel>& model);
 
 }  // namespace stiffscope::app

@@ -67,12 +67,10 @@ void drawSpikes(const std::string& file, const campaign::Campaign& campaign, con
 
 /// The diagnosis with the stiffnesses that identify states.
 diagnosis::Diagnosis diagnosed(const preparation::PreparedCampaign& prepared) {
-  diagnosis::Diagnosis diagnosis = diagnosis::diagnose(prepared);
-  if (!diagnosis.usable) return diagnosis;
+  if (!identification::whatLoadsLack(prepared.campaign).empty()) return diagnosis::diagnose(prepared);
   identification::IdentifyOptions options;
   options.subsets.size = std::numeric_limits<int>::max();  // shares are not asked for
-  if (const auto model = modelOf(prepared, {}, options)) extended_model::stateStiffnesses(*model, diagnosis);
-  return diagnosis;
+  return diagnosisOf(prepared, modelOf(prepared, {}, options));
 }
 
 int diagnoseWithSpikes(DiagnoseArguments& arguments) {

@@ -8,7 +8,6 @@
 #include "app/command_line.h"
 #include "app/model.h"
 #include "app/output.h"
-#include "core/diagnosis/diagnose.h"
 #include "core/extended_model/effect_offsets.h"
 #include "core/io/input_error.h"
 #include "core/io/read_file.h"
@@ -92,7 +91,7 @@ Measured measuredBy(const preparation::PreparedCampaign& prepared, const ModelCh
   if (!loaded || !identification::heaviestStep(campaign)) return measured;
   measured.model = modelOf(prepared, choice, {});
   if (!measured.model) measured.springs = identification::identify(campaign);
-  if (measured.model) measured.next = diagnosis::diagnose(prepared).next;
+  if (measured.model) measured.next = diagnosisOf(prepared, measured.model).next;
   return measured;
 }
 

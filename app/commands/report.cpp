@@ -24,7 +24,6 @@
 #include "app/prepared.h"
 #include "core/audit/audit.h"
 #include "core/audit/check_design.h"
-#include "core/diagnosis/diagnose.h"
 #include "core/identification/load_case.h"
 #include "core/identification/warnings.h"
 #include "core/io/write_folder.h"
@@ -154,9 +153,8 @@ struct Result {
     campaign::Campaign read = openCampaign(folder);
     prepared = arguments.raw ? preparation::leaveRaw(std::move(read)) : preparation::prepareCampaign(std::move(read));
     loaded = identification::whatLoadsLack(prepared.campaign).empty();
-    if (loaded) diagnosis = arguments.raw ? diagnosis::diagnose(prepared.campaign) : diagnosis::diagnose(prepared);
     if (loaded) improved = modelOf(prepared, arguments.model, options);
-    if (improved && diagnosis && diagnosis->usable) extended_model::stateStiffnesses(*improved, *diagnosis);
+    if (loaded) diagnosis = diagnosisOf(prepared, improved);
     if (!improved) {
       own = loaded ? identification::identify(prepared.campaign, options)
                    : identification::framesAlone(prepared.campaign);

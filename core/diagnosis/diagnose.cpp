@@ -37,7 +37,7 @@ void requireLoads(const campaign::Campaign& campaign) {
 
 class Diagnoser {
  public:
-  Diagnoser(const preparation::PreparedCampaign& prepared, GapStudy& study, const DiagnoseOptions& options)
+  Diagnoser(const preparation::PreparedCampaign& prepared, const GapStudy& study, const DiagnoseOptions& options)
       : prepared_(prepared),
         options_(options),
         start_(*study.start),
@@ -170,7 +170,7 @@ class Diagnoser {
   const SystemInput& input_;
   const std::vector<bool>& allowed_;
   const std::vector<std::size_t>& given_;
-  GapFit& fit_;   // with the effects chosen
+  GapFit fit_;    // with the effects chosen, a copy: the limit of a finding is put into its rules
   GapFit alone_;  // joint stiffnesses alone
   StiffnessesAlone before_;
   Eigen::VectorXd after_;
@@ -181,22 +181,30 @@ class Diagnoser {
 };
 
 Diagnosis diagnoseAll(const preparation::PreparedCampaign& prepared, const DiagnoseOptions& options) {
-  GapStudy study = studyGap(prepared, {options.noise_share, options.deflection_share, options.only});
+  const GapStudy study = studyGap(prepared, {options.noise_share, options.deflection_share, options.only});
   return Diagnoser(prepared, study, options).run();
 }
 
-/// `spread` is what is looked at of a campaign of so many postures, which the diagnosis refers to: those at `places`.
-Diagnosis diagnoseSpread(const preparation::PreparedCampaign& spread, const std::vector<std::size_t>& places,
-                         std::size_t postures, bool long_sweeps, const DiagnoseOptions& options) {
-  Diagnosis diagnosis = diagnoseAll(spread, options);
-  if (long_sweeps) {
-    diagnosis.verdict.reasons.push_back(Remark(RemarkId::sweeps_thinned, preparation::kMostSwept));
+/// What a long day has beside the postures that are looked at.
+struct LongDay {
+  std::vector<std::size_t> places;  ///< of the day's postures, those that are looked at
+  std::size_t postures = 0;
+  bool long_sweeps = false;
+
+  explicit LongDay(const campaign::Campaign& campaign)
+      : places(preparation::spreadPostures(campaign, preparation::kMostDiagnosed)),
+        postures(campaign.pose_ids.size()),
+        long_sweeps(preparation::hasLongSweep(campaign)) {}
+
+  /// In the day's own numbers, saying what was left out.
+  Diagnosis stated(Diagnosis diagnosis) const {
+    if (long_sweeps) diagnosis.verdict.reasons.push_back(Remark(RemarkId::sweeps_thinned, preparation::kMostSwept));
+    if (postures <= preparation::kMostDiagnosed) return diagnosis;
+    for (PointGap& one : diagnosis.at_points) one.pose = static_cast<int>(places[static_cast<std::size_t>(one.pose)]);
+    diagnosis.verdict.reasons.push_back(Remark(RemarkId::postures_thinned, postures, diagnosis.postures));
+    return diagnosis;
   }
-  if (postures <= preparation::kMostDiagnosed) return diagnosis;
-  for (PointGap& one : diagnosis.at_points) one.pose = static_cast<int>(places[static_cast<std::size_t>(one.pose)]);
-  diagnosis.verdict.reasons.push_back(Remark(RemarkId::postures_thinned, postures, diagnosis.postures));
-  return diagnosis;
-}
+};
 
 }  // namespace
 
@@ -208,19 +216,22 @@ Diagnosis diagnose(campaign::Campaign&& campaign, const DiagnoseOptions& options
   requireLoads(campaign);
   preparation::PreparedCampaign prepared = preparation::prepareCampaign(std::move(campaign));
   if (!isLong(prepared.campaign)) return diagnoseAll(prepared, options);
-  const std::size_t postures = prepared.campaign.pose_ids.size();
-  const bool long_sweeps = preparation::hasLongSweep(prepared.campaign);
-  const auto places = preparation::spreadPostures(prepared.campaign, preparation::kMostDiagnosed);
+  const LongDay day(prepared.campaign);
   prepared = spreadForDiagnosis(prepared);
-  return diagnoseSpread(prepared, places, postures, long_sweeps, options);
+  return day.stated(diagnoseAll(prepared, options));
 }
 
 Diagnosis diagnose(const preparation::PreparedCampaign& prepared, const DiagnoseOptions& options) {
   requireLoads(prepared.campaign);
   if (!isLong(prepared.campaign)) return diagnoseAll(prepared, options);
-  return diagnoseSpread(spreadForDiagnosis(prepared),
-                        preparation::spreadPostures(prepared.campaign, preparation::kMostDiagnosed),
-                        prepared.campaign.pose_ids.size(), preparation::hasLongSweep(prepared.campaign), options);
+  return LongDay(prepared.campaign).stated(diagnoseAll(spreadForDiagnosis(prepared), options));
+}
+
+Diagnosis diagnose(const preparation::PreparedCampaign& prepared, const GapStudy& study,
+                   const DiagnoseOptions& options) {
+  requireLoads(prepared.campaign);
+  if (!isLong(prepared.campaign)) return Diagnoser(prepared, study, options).run();
+  return LongDay(prepared.campaign).stated(Diagnoser(spreadForDiagnosis(prepared), study, options).run());
 }
 
 }  // namespace stiffscope::diagnosis

@@ -5,6 +5,7 @@
 
 #include "core/campaign/campaign.h"
 #include "core/diagnosis/diagnosis.h"
+#include "core/diagnosis/gap_study.h"
 #include "core/preparation/prepare.h"
 
 namespace stiffscope::diagnosis {
@@ -32,5 +33,8 @@ Diagnosis diagnose(const campaign::Campaign& campaign, const DiagnoseOptions& op
 Diagnosis diagnose(campaign::Campaign&& campaign, const DiagnoseOptions& options = {});
 /// Of a day that is prepared already, as identification and audit see it.
 Diagnosis diagnose(const preparation::PreparedCampaign& prepared, const DiagnoseOptions& options = {});
+/// Of a study that is there already: studyGap of this day, thinned where it is long, with these options' GapOptions.
+Diagnosis diagnose(const preparation::PreparedCampaign& prepared, const GapStudy& study,
+                   const DiagnoseOptions& options = {});
 
 }  // namespace stiffscope::diagnosis

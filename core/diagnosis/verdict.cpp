@@ -206,7 +206,7 @@ class Decider {
   void withdrawNames() {
     const double deflection = from_.fit.model_error > 0.0 ? shareLeft(from_.gap) : 0.0;
     const double positions = unknown_positions_ ? shareLeft(from_.positions) : 0.0;
-    constexpr double kMostLeft = 0.05;
+    constexpr double kMostLeft = 0.1;
     std::vector<effects::Effect> candidates;
     for (std::size_t i = 0; i < decision_.classes.size(); ++i) {
       EffectClass& one = decision_.classes[i];

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <map>
 #include <set>
 #include <utility>
@@ -96,12 +97,14 @@ class Shifter {
   /// `frame`: motion of the loading's frame, as frame_error has it, that is undone first.
   Shifter(const EffectFit& effects, const Vector6d& frame)
       : effects_(effects), frame_(frame), state_(effects.fit.state) {
-    for (const auto& [pose, posture] : effects.day) postures_[pose] = posture.states;
+    for (const auto& [pose, posture] : effects.day) postures_[pose] = &posture.states;
   }
 
   void loading(const campaign::States& states, campaign::Loading& table) {
     for (const campaign::State& row : states.rows) {
-      if (row.step == 0 && postures_.count(row.pose) == 0) postures_[row.pose] = {atRest(row.pose, row.q, row.time_s)};
+      if (row.step != 0 || postures_.count(row.pose) > 0) continue;
+      resting_.push_back({atRest(row.pose, row.q, row.time_s)});
+      postures_[row.pose] = &resting_.back();
     }
     const Eigen::Isometry3d r0_from_loading = state_.geometry.r0_from_loading.value_or(Eigen::Isometry3d::Identity());
     const Eigen::Isometry3d loading_from_r0 = r0_from_loading.inverse();
@@ -122,7 +125,7 @@ class Shifter {
       const auto known = postures_.find(row.pose);
       const auto& at_zero = state_.geometry.targets_at_zero[static_cast<std::size_t>(row.target)];
       if (known == postures_.end() || !at_zero) continue;
-      const Eigen::Vector3d place = known->second.front().posture.motion[6] * *at_zero;
+      const Eigen::Vector3d place = known->second->front().posture.motion[6] * *at_zero;
       row.displacement -=
           table_from_r0 * (offsetIn(row.pose, row.step, row.target, place) - offsetIn(row.pose, 0, row.target, place));
     }
@@ -171,7 +174,7 @@ class Shifter {
   Eigen::Vector3d offsetIn(int pose, int step, int target, const Eigen::Vector3d& place) {
     const auto known = postures_.find(pose);
     if (known == postures_.end()) return Eigen::Vector3d::Zero();
-    const effects::PostureStates& states = known->second;
+    const effects::PostureStates& states = *known->second;
     const Key key{pose, target};
     if (offsets_.count(key) == 0) {
       const PostureOffsets& own = by_pose_.try_emplace(pose, effects_, states, PostureOffsets::Which{}).first->second;
@@ -186,7 +189,8 @@ class Shifter {
   const EffectFit& effects_;
   Vector6d frame_;
   const diagnosis::SystemState& state_;
-  std::map<int, effects::PostureStates> postures_;
+  std::map<int, const effects::PostureStates*> postures_;
+  std::deque<effects::PostureStates> resting_;  ///< those that were never loaded
   std::map<int, PostureOffsets> by_pose_;
   std::map<Key, std::vector<Eigen::Vector3d>> offsets_;
 };
