@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "core/diagnosis/diagnose.h"
+#include "core/extended_model/extend_model.h"
 #include "core/extended_model/requested_effects.h"
 #include "core/io/input_error.h"
 #include "reports/words/remark_words.h"

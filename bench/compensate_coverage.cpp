@@ -27,7 +27,7 @@
 #include "bench/machine_families.h"
 #include "core/compensation/compensate.h"
 #include "core/extended_model/effect_deflection.h"
-#include "core/extended_model/extended_model.h"
+#include "core/extended_model/extend_model.h"
 #include "core/identification/known_stiffness.h"
 #include "core/numerics/parallel.h"
 #include "core/numerics/random.h"

@@ -23,7 +23,7 @@
 #include <vector>
 
 #include "bench/machine_families.h"
-#include "core/extended_model/extended_model.h"
+#include "core/extended_model/extend_model.h"
 #include "core/frames/frames.h"
 #include "core/identification/estimate.h"
 #include "core/numerics/parallel.h"

@@ -8,7 +8,7 @@
 #include <vector>
 #include "core/campaign/row_names.h"
 #include "core/comparison/compare.h"
-#include "core/extended_model/extended_model.h"
+#include "core/extended_model/extend_model.h"
 #include "core/preparation/prepare.h"
 #include "core/simulation/measure.h"
 #include "reports/words/remark_words.h"
