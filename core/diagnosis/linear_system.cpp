@@ -7,7 +7,6 @@
 
 #include "core/effects/gravity_equilibrium.h"
 #include "core/frames/arm_parameters.h"
-#include "core/frames/reading_covariance.h"
 #include "core/identification/load_case.h"
 #include "core/numerics/normal_equations.h"
 #include "core/preparation/finding.h"
@@ -48,6 +47,13 @@ void addSweepEquations(const SystemInput& input, const SystemState& state, const
 Eigen::MatrixXd sweepNormal(const SystemInput& input, const SystemState& state, SweepEquations equations);
 
 namespace {
+
+/// Covariance of one tracker reading at a point of R0, in R0, m^2: that of the station's frame, turned.
+Eigen::Matrix3d readingCovariance(const metrology::TrackerNoise& noise, const Eigen::Isometry3d& r0_from_points,
+                                  const Eigen::Vector3d& point_in_r0) {
+  const Eigen::Matrix3d turn = r0_from_points.linear();
+  return turn * noise.covarianceAt(r0_from_points.inverse() * point_in_r0) * turn.transpose();
+}
 
 /// The station between two rounds of the nests, where it was interpolated: one rigid motion of all
 /// reflectors in a state, a Brownian bridge over time. Postures share it; that is left out.
@@ -113,8 +119,7 @@ GapCovariance gapCovariance(const SystemInput& input, const SystemState& state, 
   const Eigen::Isometry3d r0_from_points = state.geometry.r0_from_loading.value_or(state.at.r0_from_base_link);
   for (std::size_t t = 0; t < posture.states.front().points.size(); ++t) {
     const Eigen::Index row = 3 * static_cast<Eigen::Index>(t);
-    const Eigen::Matrix3d reading =
-        frames::readingCovariance(input.noise, r0_from_points, posture.states.front().points[t]);
+    const Eigen::Matrix3d reading = readingCovariance(input.noise, r0_from_points, posture.states.front().points[t]);
     const Eigen::Matrix3d rest = reading / posture.unloaded_readings, loaded = reading / posture.loaded_readings;
     result.displacement_trace += (rest + loaded).trace() * static_cast<double>(steps);
     result.displacements += 3.0 * static_cast<double>(steps);
@@ -410,7 +415,7 @@ Eigen::MatrixXd sweepNormal(const SystemInput& input, const SystemState& state, 
   Eigen::Index row = 0;
   for (const Eigen::Vector3d& point : equations.points) {
     const Eigen::Matrix3d covariance =
-        state.sweep_inflation * frames::readingCovariance(input.noise, state.r0_from_sweeps, point);
+        state.sweep_inflation * readingCovariance(input.noise, state.r0_from_sweeps, point);
     equations.rows.middleRows<3>(row) = covariance.llt().matrixL().solve(equations.rows.middleRows<3>(row)).eval();
     row += 3;
   }
