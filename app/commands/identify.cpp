@@ -9,6 +9,7 @@
 #include "app/prepared.h"
 #include "core/extended_model/extended_model.h"
 #include "core/identification/geometric_stiffness_cost.h"
+#include "core/identification/held_out_loads.h"
 #include "core/identification/identify.h"
 #include "core/identification/load_dependence.h"
 #include "core/identification/posture_stiffness.h"
@@ -91,8 +92,14 @@ int identifyCampaign(const IdentifyArguments& arguments, bool subset_given) {
   const bool steps_shown = options.all_steps || !arguments.json.empty();
   const identification::StepStudy steps =
       steps_shown ? identification::studySteps(campaign, options, result) : identification::StepStudy{};
+  constexpr std::size_t kQuick = 1000;  // load states that are predicted without being asked for
+  const bool few = prepared.campaign.pose_ids.size() * identification::loadedSteps(campaign).size() <= kQuick;
+  const identification::HeldOutLoads loads =
+      steps_shown || few ? identification::heldOutLoads(campaign, prepared.campaign, options, result)
+                         : identification::HeldOutLoads{};
   const auto text = [&] {
     std::string all = reports::identificationText(campaign, result, methods);
+    all += reports::heldOutLoadsText(loads, result, methods, improved && !improved->effects.added.empty());
     if (options.all_steps) all += reports::stepsText(steps, result, methods);
     if (const auto best = identification::bestMethodOf(result, methods); best && arguments.postures)
       all += reports::posturesText(campaign, result, *best);
@@ -103,6 +110,7 @@ int identifyCampaign(const IdentifyArguments& arguments, bool subset_given) {
       [&] {
         reports::JsonDocument document = reports::identificationJson(campaign, result, methods);
         document.json = reports::withSteps(std::move(document.json), steps, result, methods);
+        document.json = reports::withHeldOutLoads(std::move(document.json), loads, methods);
         if (improved) {
           document.json = reports::withEffects(std::move(document.json), *improved, methods);
           document.json = reports::withSupport(std::move(document.json), *improved, methods);

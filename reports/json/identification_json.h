@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/identification/held_out_loads.h"
 #include "core/identification/identify.h"
 #include "core/identification/load_dependence.h"
 #include "reports/json/campaign_json.h"
@@ -34,5 +35,10 @@ void addUncertainty(const identification::MethodResult& method, Json& json);
 /// are no two steps.
 Json withSteps(Json json, const identification::StepStudy& study, const identification::Identification& result,
                const std::vector<identification::Method>& methods);
+
+/// `json` with `held_out_loads`: shares compensated under load steps (`levels`) and directions that took no part, by
+/// method, and the states of each direction.
+Json withHeldOutLoads(Json json, const identification::HeldOutLoads& loads,
+                      const std::vector<identification::Method>& methods);
 
 }  // namespace stiffscope::reports

@@ -35,6 +35,7 @@ namespace stiffscope::frames {
 struct Frames;
 }
 namespace stiffscope::identification {
+struct HeldOutLoads;
 struct Identification;
 struct StepStudy;
 enum class Method;
@@ -111,6 +112,10 @@ std::string bootstrapText(const identification::Identification& result,
 /// Stiffness by load step and whether it depends on the load.
 std::string stepsText(const identification::StepStudy& study, const identification::Identification& result,
                       const std::vector<identification::Method>& methods);
+
+/// Shares compensated under load steps and directions that took no part. `effects`: some are in the model.
+std::string heldOutLoadsText(const identification::HeldOutLoads& loads, const identification::Identification& result,
+                             const std::vector<identification::Method>& methods, bool effects);
 
 /// Gears by their two encoders beside what the tracker sees; of a result that has them.
 std::string transmissionText(const identification::Identification& result,

@@ -30,6 +30,12 @@ const MethodNames& namesOf(identification::Method method) {
   return kNames[static_cast<std::size_t>(method)];
 }
 
+const char* nameOfDirection(identification::LoadDirection direction) {
+  static constexpr std::array<const char*, identification::kLoadDirections> kNames{"down", "up", "outward", "inward",
+                                                                                   "sideways"};
+  return kNames[static_cast<std::size_t>(direction)];
+}
+
 namespace {
 
 std::string grouped(std::size_t count) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/frames/frames.h"
+#include "core/identification/held_out_loads.h"
 #include "core/identification/identify.h"
 #include "reports/report_content.h"
 
@@ -28,6 +29,8 @@ struct MethodNames {
 };
 
 const MethodNames& namesOf(identification::Method method);
+
+const char* nameOfDirection(identification::LoadDirection direction);  ///< "down", "sideways"
 
 std::string longName(identification::Method method);       ///< "Decoupled Partial Pose (DPP)"
 std::string shortName(identification::Method method);      ///< "DPP"
