@@ -10,6 +10,7 @@
 #include "core/diagnosis/held_out.h"
 #include "core/diagnosis/localization.h"
 #include "core/extended_model/corrected_campaign.h"
+#include "core/extended_model/course_of_day.h"
 #include "core/extended_model/declared.h"
 #include "core/extended_model/effect_fit.h"
 #include "core/extended_model/evaluate_extended.h"
@@ -139,8 +140,13 @@ void describeAsDiagnosed(const diagnosis::GapStudy& study, EffectFit& chosen) {
   chosen.explained = held_out.explained;
 }
 
-/// More than noise in the residual is said, whatever its size; and that the sag's doubt is in the frames' uncertainty.
-void cautionBeside(ExtendedModel& model) {
+/// More than noise in the residual is said, whatever its size; that joints change as the day goes on, or as a load
+/// stands; and that the sag's doubt is in the frames' uncertainty.
+void cautionBeside(const CourseOfDay& course, ExtendedModel& model) {
+  if (course.standing != 0.0)
+    model.with.cautions.emplace_back(RemarkId::moves_while_load_stands, course.standing);
+  if (course.over_day != 0.0)
+    model.with.cautions.emplace_back(RemarkId::changes_over_the_day, 2.0 * course.over_day, course.over_day_t);
   if (model.with.frames.covariance.hidden.size() > 0) {
     for (Remark& one : model.with.cautions) {
       if (one.is(identification::RemarkId::sag_in_sweeps))
@@ -200,14 +206,16 @@ ExtendedModel supportedModel(const preparation::PreparedCampaign& prepared, cons
     none.notes.emplace_back(RemarkId::springs_contradicted);
     return extendModel(campaign, std::move(none), options);
   }
-  const Declared declared = declaredOf(model.campaign, model.with, options);
+  Declared declared = declaredOf(model.campaign, model.with, options);
+  const CourseOfDay course = courseOfDay(model.campaign, model.with);
+  addCourse(course, model.with, declared);
   model.study = std::move(whole);
   model.hidden = weighHiddenEffects(study, model.effects, thinned ? seen : model.campaign,
                                     thinned ? seen_by_springs : model.with, model.without, declared, model.with);
   // What is known from elsewhere is held against the intervals that are stated.
   if (!model.campaign.known_stiffness.empty())
     model.with.cautions = identification::warningsOf(model.campaign, model.with);
-  cautionBeside(model);
+  cautionBeside(course, model);
   return model;
 }
 

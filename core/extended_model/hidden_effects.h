@@ -23,6 +23,8 @@ enum class BudgetSource {
   load_cell_gain,  ///< as declared
   masses,          ///< the URDF's, as declared
   tracker_scale,   ///< as declared
+  standing_load,   ///< joints go on giving while a load stands (course_of_day.h)
+  over_day,        ///< joints give more or less as the day goes on
   apparent,        ///< between this model and joint springs alone, where no model explains the gap
 };
 
@@ -36,7 +38,7 @@ struct BudgetLine {
   Vector6d dof = Vector6d::Zero();       ///< degrees of freedom; 0: known exactly, or from all draws together
 };
 
-/// What the day declares with a standard uncertainty, and what one of these does.
+/// What the day declares with a standard uncertainty, and what one of these does; and what its course shows.
 struct Declared {
   double gain_sd = 0.0;        ///< of the load cell's scale, a share
   double cell_angle_sd = 0.0;  ///< of its axes about each of these, rad: of load_cell_misalignment beforehand

@@ -18,6 +18,8 @@ enum class RemarkId {
   // Why a posture is left out.
   not_read_in_all_steps,
   // What to beware of.
+  moves_while_load_stands,  ///< growth between first and last repeat, a share of the displacement
+  changes_over_the_day,     ///< of all compliances from the first posture to the last, a share; its t
   residual_beyond_noise,  ///< chi2 per equation of the model, of springs alone, whether no effect explains it
 };
 

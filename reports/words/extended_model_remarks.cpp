@@ -1,6 +1,7 @@
 #include "core/extended_model/remarks.h"
 
 #include <fmt/format.h>
+#include <cmath>
 #include <fmt/ranges.h>
 
 #include "reports/words/remark_words.h"
@@ -37,6 +38,16 @@ std::string extendedModelWords(extended_model::RemarkId id, const RemarkValues& 
              "machine has";
     case not_read_in_all_steps:
       return "no reflector read in all its load steps, so the effects cannot be taken off";
+    case moves_while_load_stands:
+      return fmt::format(
+          "readings under a standing load move on by {:.2g} % of the displacement from the first repeat to the last: "
+          "stiffness here is that of loads that stand as long, and what came before is in its uncertainty",
+          100.0 * values.number(0));
+    case changes_over_the_day:
+      return fmt::format(
+          "all joints give {:.2g} % {} at the end of the day than at its beginning ({:.1f} standard uncertainties): "
+          "stiffness here is the day's mean, and its change is in the uncertainty",
+          100.0 * std::abs(values.number(0)), values.number(0) > 0.0 ? "more" : "less", std::abs(values.number(1)));
     case residual_beyond_noise:
       return fmt::format(
                  "more than noise is left in the readings: {:.3g} times its chi-square, {:.3g} by springs alone",

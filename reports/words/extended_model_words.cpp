@@ -70,6 +70,10 @@ std::string budgetKey(const extended_model::BudgetLine& line) {
       return "masses";
     case BudgetSource::tracker_scale:
       return "tracker_scale";
+    case BudgetSource::standing_load:
+      return "standing_load";
+    case BudgetSource::over_day:
+      return "over_day";
     case BudgetSource::apparent:
       return "apparent";
   }
@@ -98,6 +102,10 @@ std::string budgetWords(const extended_model::BudgetLine& line) {
       return "masses, as declared";
     case BudgetSource::tracker_scale:
       return "tracker's scale, as declared";
+    case BudgetSource::standing_load:
+      return "moves while a load stands";
+    case BudgetSource::over_day:
+      return "changes over the day";
     case BudgetSource::apparent:
       return "no model explains the gap";
   }
