@@ -116,7 +116,7 @@ void addCourse(const CourseOfDay& course, const identification::Identification& 
   };
   constexpr double kUnseen = 2.0;
   add(BudgetSource::standing_load, kUnseen * course.standing);
-  add(BudgetSource::over_day, course.over_day);
+  add(BudgetSource::over_day, kUnseen * course.over_day);
 }
 
 }  // namespace stiffscope::extended_model

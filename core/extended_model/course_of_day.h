@@ -17,13 +17,13 @@ struct CourseOfDay {
   bool any() const { return standing != 0.0 || over_day != 0.0; }
 };
 
-/// Change over the day: with s from -1 at the first posture to 1 at the last, y_p = A_p c (1 + beta s_p) by least squares
-/// over the reflectors of a method's equations, c and beta free, beta's uncertainty from the scatter between postures
-/// (sandwich). `at` was identified from `campaign`. Nothing where states have no times.
+/// Change over the day: with s from -1 at the first posture to 1 at the last, y_p = A_p c (1 + beta s_p) by least
+/// squares over the reflectors of a method's equations, c and beta free, beta's uncertainty from the scatter between
+/// postures (sandwich). `at` was identified from `campaign`. Nothing where states have no times.
 CourseOfDay courseOfDay(const campaign::Campaign& campaign, const identification::Identification& at);
 
-/// As lines of the budget, of all methods of `at`: what a joint gave at the day's ends, and at once, is off by as much
-/// from what is stated. When loads began to stand nobody reads, so that growth counts twice.
+/// As lines of the budget, of all methods of `at`: twice the growth, and twice the change from the middle of the day to its
+/// ends, as standard uncertainties. How far joints moved before the first reading nobody has read.
 void addCourse(const CourseOfDay& course, const identification::Identification& at, Declared& declared);
 
 }  // namespace stiffscope::extended_model

@@ -143,8 +143,7 @@ void describeAsDiagnosed(const diagnosis::GapStudy& study, EffectFit& chosen) {
 /// More than noise in the residual is said, whatever its size; that joints change as the day goes on, or as a load
 /// stands; and that the sag's doubt is in the frames' uncertainty.
 void cautionBeside(const CourseOfDay& course, ExtendedModel& model) {
-  if (course.standing != 0.0)
-    model.with.cautions.emplace_back(RemarkId::moves_while_load_stands, course.standing);
+  if (course.standing != 0.0) model.with.cautions.emplace_back(RemarkId::moves_while_load_stands, course.standing);
   if (course.over_day != 0.0)
     model.with.cautions.emplace_back(RemarkId::changes_over_the_day, 2.0 * course.over_day, course.over_day_t);
   if (model.with.frames.covariance.hidden.size() > 0) {

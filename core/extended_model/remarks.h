@@ -20,7 +20,7 @@ enum class RemarkId {
   // What to beware of.
   moves_while_load_stands,  ///< growth between first and last repeat, a share of the displacement
   changes_over_the_day,     ///< of all compliances from the first posture to the last, a share; its t
-  residual_beyond_noise,  ///< chi2 per equation of the model, of springs alone, whether no effect explains it
+  residual_beyond_noise,    ///< chi2 per equation of the model, of springs alone, whether no effect explains it
 };
 
 }  // namespace stiffscope::extended_model

@@ -1,8 +1,8 @@
 #include "core/extended_model/remarks.h"
 
 #include <fmt/format.h>
-#include <cmath>
 #include <fmt/ranges.h>
+#include <cmath>
 
 #include "reports/words/remark_words.h"
 #include "reports/words/remarks.h"

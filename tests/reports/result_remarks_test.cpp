@@ -54,6 +54,12 @@ TEST(ResultRemarks, OfAModelAndItsUse) {
       reports::words(Remark(extended_model::RemarkId::residual_beyond_noise, 4.104, 6.9, true)),
       "more than noise is left in the readings: 4.1 times its chi-square, 6.9 by springs alone; no effect that is "
       "known here explains it, and the stiffnesses are apparent ones");
+  EXPECT_EQ(reports::words(Remark(extended_model::RemarkId::changes_over_the_day, -0.042, -7.31)),
+            "all joints give 4.2 % less at the end of the day than at its beginning (7.3 standard uncertainties): "
+            "stiffness here is the day's mean, and its change is in the uncertainty");
+  EXPECT_EQ(reports::words(Remark(extended_model::RemarkId::moves_while_load_stands, 0.0123)),
+            "readings under a standing load move on by 1.2 % of the displacement from the first repeat to the last: "
+            "stiffness here is that of loads that stand as long, and what came before is in its uncertainty");
   EXPECT_EQ(reports::words(Remark(compensation::RemarkId::command_outside_limits, 2, 190.25 * io::kDegree, -io::kDegree,
                                   180 * io::kDegree)),
             "joint 2 would have to go to 190.250 deg, outside its limits -1.0 to 180.0 deg");
