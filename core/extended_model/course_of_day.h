@@ -22,8 +22,8 @@ struct CourseOfDay {
 /// postures (sandwich). `at` was identified from `campaign`. Nothing where states have no times.
 CourseOfDay courseOfDay(const campaign::Campaign& campaign, const identification::Identification& at);
 
-/// As lines of the budget, of all methods of `at`: twice the growth, and twice the change from the middle of the day to its
-/// ends, as standard uncertainties. How far joints moved before the first reading nobody has read.
+/// As lines of the budget, of all methods of `at`: twice the growth, and twice the change from the middle of the day to
+/// its ends, as standard uncertainties. How far joints moved before the first reading nobody has read.
 void addCourse(const CourseOfDay& course, const identification::Identification& at, Declared& declared);
 
 }  // namespace stiffscope::extended_model

@@ -8,7 +8,7 @@
 #include "reports/words/compensation_words.h"
 #include "reports/words/remark_words.h"
 #include "tests/fixtures/extended_day.h"
-#include "tests/fixtures/linear_machine.h"
+#include "tests/fixtures/known_arm.h"
 
 namespace stiffscope {
 namespace certainty_test {
@@ -30,26 +30,11 @@ TEST(PredictionSpread, OfNormalErrorsIsTheirs) {
 }
 
 /// A known arm, what its day is said to have had, and one posture.
-struct KnownDay {
-  SimulatedLab lab;
-  campaign::Campaign campaign;
-  frames::LoadingGeometry geometry;
-  identification::StiffnessEstimate estimate;
+struct KnownDay : KnownArm {
   compensation::Certainty certainty;
   Vector6d q = degrees(20, 10, -20, 50, 60, -30);
 
   KnownDay() {
-    lab.compliance = exampleCompliance();
-    lab.flange_from_cell.translation() = lab.hook_in_flange;  // then no moment, which would turn with the cable
-    campaign = lab.empty();
-    geometry.arm = lab.actual.robot();
-    geometry.weight = robot::gravityLoad(campaign.robot, campaign.tool, campaign.gravity_in_base, geometry.arm,
-                                         Eigen::Isometry3d::Identity());
-    for (const Eigen::Vector3d& target : lab.targets_in_flange)
-      geometry.targets_at_zero.push_back(geometry.arm.base_from_flange_at_zero * target);
-    estimate.compliance = lab.compliance;
-    estimate.identifiable = kAllJoints;
-    estimate.covariance = Matrix6d((0.03 * lab.compliance).cwiseAbs2().asDiagonal());
     certainty.draws = compensation::springDraws(estimate, estimate.covariance);
     certainty.range.force = 1500.0;
     certainty.range.moment = 1e9;

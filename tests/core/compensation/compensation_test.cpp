@@ -9,33 +9,14 @@
 #include "core/simulation/measure.h"
 #include "core/simulation/read_spec.h"
 #include "reports/words/remark_words.h"
-#include "tests/fixtures/linear_machine.h"
+#include "tests/fixtures/known_arm.h"
 
 namespace stiffscope {
 namespace compensation_test {
 
-/// An arm with known springs, its campaign without readings, and the estimate that knows them.
-struct KnownArm {
-  SimulatedLab lab;
-  campaign::Campaign campaign;
-  frames::LoadingGeometry geometry;
-  identification::StiffnessEstimate estimate;
+/// That arm, asked for compensation.
+struct AskedArm : KnownArm {
   Eigen::Vector3d tcp{0.0, 0.0, 0.0};
-
-  KnownArm() {
-    lab.compliance = exampleCompliance();
-    lab.flange_from_cell.translation() = lab.hook_in_flange;  // then no moment, which would turn with the cable
-    campaign = lab.empty();
-    geometry.arm = lab.actual.robot();
-    geometry.weight = robot::gravityLoad(campaign.robot, campaign.tool, campaign.gravity_in_base, geometry.arm,
-                                         Eigen::Isometry3d::Identity());
-    for (const Eigen::Vector3d& target : lab.targets_in_flange) {
-      geometry.targets_at_zero.push_back(geometry.arm.base_from_flange_at_zero * target);
-    }
-    estimate.compliance = lab.compliance;
-    estimate.identifiable = kAllJoints;
-    estimate.covariance = Matrix6d((0.03 * lab.compliance).cwiseAbs2().asDiagonal());
-  }
 
   compensation::PostureToCompensate asked(const Vector6d& q, const Eigen::Vector3d& force = {500, -400, -1500}) const {
     return {"a", q, lab.cellReading(lab.settled(q), force)};
@@ -46,7 +27,7 @@ struct KnownArm {
 };
 
 TEST(Compensate, CommandsBringTheLoadedArmBack) {
-  const KnownArm arm;
+  const AskedArm arm;
   Noise noise(4);
   for (int k = 0; k < 6; ++k) {
     const Vector6d q = somePosture(noise);
@@ -70,7 +51,7 @@ TEST(Compensate, CommandsBringTheLoadedArmBack) {
 }
 
 TEST(Compensate, UncertaintiesAreThoseOfRandomStiffnesses) {
-  KnownArm arm;
+  AskedArm arm;
   const compensation::PostureToCompensate one = arm.asked(degrees(20, 10, -20, 50, 60, -30));
   const compensation::CompensatedPosture stated = arm.run(one);
   Noise noise(8);
@@ -95,7 +76,7 @@ TEST(Compensate, UncertaintiesAreThoseOfRandomStiffnesses) {
 
 // Moments given in Nmm turn joints by tens of degrees; the right ones by hundredths.
 TEST(Compensate, AMomentInNewtonMillimetresIsCautionedOf) {
-  const KnownArm arm;
+  const AskedArm arm;
   Noise noise(6);
   compensation::PostureToCompensate asked = arm.asked(somePosture(noise));
   asked.wrench_in_cell.tail<3>() = Eigen::Vector3d(0.0, 0.0, 20.0);
@@ -110,7 +91,7 @@ TEST(Compensate, AMomentInNewtonMillimetresIsCautionedOf) {
 }
 
 TEST(Compensate, RefusesWithTheReason) {
-  KnownArm arm;
+  AskedArm arm;
   const compensation::CompensatedPosture straight = arm.run(arm.asked(degrees(20, 10, -20, 50, 0.1, -30)));
   EXPECT_FALSE(straight.solved);
   EXPECT_TRUE(straight.predicted);

@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <functional>
-
 #include "core/identification/identify.h"
 #include "core/identification/load_case.h"
 #include "tests/fixtures/example_arm.h"
@@ -23,21 +21,6 @@ identification::IdentifyOptions quick() {
   return options;
 }
 
-SimulatedLab springyLab() {
-  SimulatedLab lab;
-  lab.compliance = exampleCompliance();
-  lab.withoutMasses();
-  return lab;
-}
-
-campaign::Campaign dayOf(const SimulatedLab& lab, const std::function<Eigen::Vector3d(int)>& force, int postures) {
-  campaign::Campaign campaign = lab.empty();
-  lab.addCircleSweeps(campaign);
-  lab.addWristSweep(campaign);
-  lab.addLoading(campaign, postures, force);
-  return campaign;
-}
-
 TEST(LoadDirections, AreOfTheLargestPart) {
   const Eigen::Vector3d point(1.0, 1.0, 0.5), gravity(0.0, 0.0, -9.8);
   const auto of = [&](double x, double y, double z) { return identification::directionOf({x, y, z}, point, gravity); };
@@ -54,7 +37,7 @@ TEST(LoadDirections, AreOfTheLargestPart) {
 
 TEST(HeldOutLoads, SpringsHoldUnderDirectionsThatTookNoPart) {
   const SimulatedLab lab = springyLab();
-  const campaign::Campaign campaign = dayOf(
+  const campaign::Campaign campaign = fullDay(
       lab,
       [](int pose) {
         constexpr double kForce = 900.0;
@@ -98,7 +81,7 @@ TEST(HeldOutLoads, AJointThatOtherLoadsDoNotTurnIsNamed) {
     return pose % 4 == 0 ? Eigen::Vector3d(kForce * around[static_cast<std::size_t>(pose)])
                          : Eigen::Vector3d(0.0, 0.0, -kForce);
   };
-  const campaign::Campaign campaign = dayOf(lab, force, 24);
+  const campaign::Campaign campaign = fullDay(lab, force, 24);
   const identification::Identification found = identification::identify(campaign, quick());
   const identification::HeldOutLoads loads = identification::heldOutLoads(campaign, campaign, quick(), found);
   for (const Method method : identification::kMethods) {
@@ -122,10 +105,10 @@ TEST(HeldOutLoads, ALevelIsPredictedByTheStepsThatIdentify) {
     return [force](int pose) { return force * Eigen::Vector3d(0.1 * (pose % 3), 0.2, -1.0).normalized(); };
   };
   for (const SimulatedLab* light : {&lab, static_cast<const SimulatedLab*>(&soft)}) {
-    campaign::Campaign campaign = dayOf(lab, pull(200.0), 12);
+    campaign::Campaign campaign = fullDay(lab, pull(200.0), 12);
     for (campaign::State& row : campaign.states->rows) row.step = row.step == 1 ? 2 : row.step;
     for (campaign::LoadingReading& row : campaign.loading->rows) row.step = row.step == 1 ? 2 : row.step;
-    const campaign::Campaign lighter = dayOf(*light, pull(100.0), 12);
+    const campaign::Campaign lighter = fullDay(*light, pull(100.0), 12);
     for (const campaign::State& row : lighter.states->rows)
       if (row.step == 1) campaign.states->rows.push_back(row);
     for (const campaign::LoadingReading& row : lighter.loading->rows)

@@ -23,22 +23,6 @@ identification::IdentifyOptions quick(bool finite_deflection = true) {
 
 constexpr robot::JointMask kWithoutFirst{false, true, true, true, true, true};
 
-SimulatedLab springyLab() {
-  SimulatedLab lab;
-  lab.compliance = exampleCompliance();
-  lab.withoutMasses();
-  return lab;
-}
-
-campaign::Campaign fullDay(const SimulatedLab& lab, const std::function<Eigen::Vector3d(int)>& force,
-                           int postures = 10) {
-  campaign::Campaign campaign = lab.empty();
-  lab.addCircleSweeps(campaign);
-  lab.addWristSweep(campaign);
-  lab.addLoading(campaign, postures, force);
-  return campaign;
-}
-
 TEST(Identify, TheNonlinearEquilibriumGivesTheSpringsBack) {
   // Springs and loads in equilibrium on the moved arm, by the test's iteration. With K_c and Jacobians at the
   // middle what is left is of the third order of turns of 1e-3 to 1e-2 rad; neglected, it is of the first.
