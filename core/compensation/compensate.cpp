@@ -333,10 +333,16 @@ class Compensator {
     const double left = range_ ? range_->model_error *
                                      loadRatio(*range_, {wanted * load.point_in_flange, load.force, load.moment}, axes)
                                : 0.0;
+    // Without parameters there are no numbers to take rows of.
+    const auto rowsFrom = [&](Eigen::Index first) {
+      Eigen::Matrix3Xd three(3, by.cols());
+      if (by.cols() > 0) three = by.middleRows<3>(first);
+      return three;
+    };
     for (std::size_t p = 0; p < points.size(); ++p) {
       const Matrix36d rows = robot::pointJacobianAt(axes, wanted * points[p]) * torque.asDiagonal();
       const PointDeflection point =
-          deflectionOf(moveOf(flange, points[p]), rows, by.middleRows<3>(3 * static_cast<Eigen::Index>(p)), left);
+          deflectionOf(moveOf(flange, points[p]), rows, rowsFrom(3 * static_cast<Eigen::Index>(p)), left);
       if (p == 0) {
         result.tcp = point;
       } else {
@@ -346,7 +352,7 @@ class Compensator {
     const Matrix6d jacobian = robot::jacobianAt(geometry_.arm, unloaded, wanted * tcp_);
     result.rotation = turnOf(flange);
     const double turn_left = range_ && range_->tool_size > 0.0 ? left / range_->tool_size : 0.0;
-    result.rotation_sd = spreadOf(errorsOf(jacobian.bottomRows<3>() * torque.asDiagonal(), by.bottomRows<3>(),
+    result.rotation_sd = spreadOf(errorsOf(jacobian.bottomRows<3>() * torque.asDiagonal(), rowsFrom(by.rows() - 3),
                                            result.rotation, turn_left))
                              .sd;
     const Vector6d singular = singularValues(jacobian);

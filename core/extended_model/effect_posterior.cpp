@@ -84,7 +84,8 @@ class Sampler {
     block = scale.asDiagonal() * block * scale.asDiagonal();
     block.diagonal().array() += kRounding;
     const Eigen::LLT<Eigen::MatrixXd> factor(block);
-    const Eigen::MatrixXd through = factor.matrixL().solve(scale.asDiagonal() * free_positive_);
+    Eigen::MatrixXd through = scale.asDiagonal() * free_positive_;
+    if (through.size() > 0) factor.matrixL().solveInPlace(through);
     const Eigen::VectorXd turned = factor.matrixL().solve(scale.cwiseProduct(evidence_.right(free_).eval()));
     drawPositive(through, turned);
     Eigen::VectorXd noise(block.rows());
