@@ -170,8 +170,7 @@ void addRows(const campaign::Campaign& campaign, const identification::Identific
 void judge(const simulation::SimulationSpec& spec, const std::vector<TrueCase>& cases, std::uint64_t seed,
            const Row& like, std::vector<Row>& rows) {
   const preparation::PreparedCampaign prepared = preparation::prepareCampaign(simulation::simulate(spec));
-  identification::IdentifyOptions options;
-  options.subsets.size = std::numeric_limits<int>::max();  // shares are not asked for
+  const identification::IdentifyOptions options = identification::valuesOnly();
   extended_model::ExtendedModel model = extended_model::supportedModel(prepared, prepared.campaign, options);
   const identification::Method method = identification::bestMethod(model.with);
   const double load_sd = model.campaign.load_cell->gain_sigma;

@@ -26,6 +26,7 @@
 #include "core/extended_model/extend_model.h"
 #include "core/frames/frames.h"
 #include "core/identification/estimate.h"
+#include "core/identification/identify.h"
 #include "core/numerics/parallel.h"
 #include "core/preparation/prepare.h"
 #include "core/simulation/machine.h"
@@ -157,8 +158,7 @@ int main(int argc, char** argv) {
       const validation::BlindCase one =
           bench::drawMachine(family, i, seed, folder / fmt::format("{}_{}.urdf", family, i));
       const preparation::PreparedCampaign prepared = preparation::prepareCampaign(bench::dayOf(family, one, seed));
-      identification::IdentifyOptions options;
-      options.subsets.size = std::numeric_limits<int>::max();  // shares are not asked for
+      const identification::IdentifyOptions options = identification::valuesOnly();
       const extended_model::ExtendedModel model = extended_model::supportedModel(prepared, prepared.campaign, options);
       Row like;
       like.machine = i;

@@ -103,7 +103,7 @@ campaign::Campaign dayOf(const std::string& family, const validation::BlindCase&
   if (family != "masses") return campaign;
   numerics::RandomStream random(seed, "masses of the URDF");
   const double factor = 1.0 / (1.0 + kMassSigma * random.normal());
-  for (robot::BodyMass& body : campaign.robot.bodies) body.mass_kg *= factor;
+  robot::scaleMasses(factor, campaign.robot);
   campaign.mass_sigma = kMassSigma;
   return campaign;
 }

@@ -4,7 +4,6 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
-#include <limits>
 #include <memory>
 #include <utility>
 
@@ -17,6 +16,7 @@
 #include "core/diagnosis/diagnose.h"
 #include "core/diagnosis/diagnosis.h"
 #include "core/diagnosis/spike_study.h"
+#include "core/identification/identify.h"
 #include "core/io/input_error.h"
 #include "core/io/write_file.h"
 #include "reports/json/campaign_json.h"
@@ -68,9 +68,7 @@ void drawSpikes(const std::string& file, const campaign::Campaign& campaign, con
 /// The diagnosis with the stiffnesses that identify states.
 diagnosis::Diagnosis diagnosed(const preparation::PreparedCampaign& prepared) {
   if (!identification::whatLoadsLack(prepared.campaign).empty()) return diagnosis::diagnose(prepared);
-  identification::IdentifyOptions options;
-  options.subsets.size = std::numeric_limits<int>::max();  // shares are not asked for
-  return diagnosisOf(prepared, modelOf(prepared, {}, options));
+  return diagnosisOf(prepared, modelOf(prepared, {}, identification::valuesOnly()));
 }
 
 int diagnoseWithSpikes(DiagnoseArguments& arguments) {

@@ -9,6 +9,7 @@
 #include "core/audit/remarks.h"
 #include "core/campaign/row_names.h"
 #include "core/numerics/distributions.h"
+#include "core/numerics/resampling.h"
 #include "core/preparation/finding.h"
 #include "core/preparation/remarks.h"
 #include "core/preparation/repeatability.h"
@@ -249,12 +250,6 @@ std::vector<ToolDistance> distancesOf(const std::vector<campaign::StatePoints>& 
   return found;
 }
 
-double medianOf(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 ToolDistances::Pair referenceOf(const std::vector<campaign::StatePoints>& states,
                                 const std::vector<ToolDistance>& distances, double limit) {
   std::vector<double> unloaded;
@@ -265,7 +260,7 @@ ToolDistances::Pair referenceOf(const std::vector<campaign::StatePoints>& states
   if (all) {
     for (const ToolDistance& one : distances) unloaded.push_back(one.change);
   }
-  const double middle = medianOf(unloaded);
+  const double middle = numerics::upperMedian(unloaded);
   ToolDistances::Pair pair{distances.front().first, distances.front().second};
   double weights = 0.0, sum = 0.0;
   for (const ToolDistance& one : distances) {

@@ -9,6 +9,7 @@
 #include "core/frames/arm_parameters.h"
 #include "core/frames/position_equations.h"
 #include "core/numerics/distributions.h"
+#include "core/numerics/resampling.h"
 #include "core/preparation/finding.h"
 #include "metrology/linear_algebra.h"
 
@@ -102,12 +103,6 @@ std::vector<PostureReadBack> readBacks(const frames::AbsoluteRows& rows, const E
   return postures;
 }
 
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 /// A fit that one posture cannot pull: each is weighted down by its own misfit against the median one
 /// (Cauchy's weights, 2.385 being their usual constant), again and again.
 Eigen::VectorXd robustFit(const frames::AbsoluteRows& rows) {
@@ -126,7 +121,7 @@ Eigen::VectorXd robustFit(const frames::AbsoluteRows& rows) {
     std::vector<double> sorted;
     for (const auto& [pose, misfit] : misfits) sorted.push_back(misfit);
     constexpr double kCauchy = 2.385;
-    const double scale = kCauchy * kCauchy * std::max(median(sorted), 1e-300);
+    const double scale = kCauchy * kCauchy * std::max(numerics::upperMedian(sorted), 1e-300);
     for (const auto& [pose, misfit] : misfits) weights[pose] = 1.0 / (1.0 + misfit / scale);
   }
   return parameters;
@@ -140,9 +135,9 @@ void scorePostures(std::vector<PostureReadBack>& postures, double limit) {
   for (int j = 0; j < 6; ++j) {
     std::vector<double> values;
     for (const PostureReadBack& posture : postures) values.push_back(posture.significance[j]);
-    const double middle = median(values);
+    const double middle = numerics::upperMedian(values);
     for (double& value : values) value = std::abs(value - middle);
-    const double scale = std::max(1.0, kMadOfNormal * median(values));
+    const double scale = std::max(1.0, kMadOfNormal * numerics::upperMedian(values));
     for (PostureReadBack& posture : postures) {
       posture.score = std::max(posture.score, std::abs(posture.significance[j] - middle) / scale);
     }

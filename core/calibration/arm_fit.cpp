@@ -6,6 +6,7 @@
 
 #include "core/calibration/fitted_day.h"
 #include "core/numerics/parallel.h"
+#include "core/numerics/resampling.h"
 #include "core/robot/kinematics.h"
 #include "metrology/linear_algebra.h"
 
@@ -127,9 +128,7 @@ class Fitting {
     for (std::size_t i = 0; i < residuals.size(); ++i) {
       if (used_[i] > 0.0) squares.push_back(residuals[i].squaredNorm());
     }
-    const auto middle = squares.begin() + static_cast<std::ptrdiff_t>(squares.size() / 2);
-    std::nth_element(squares.begin(), middle, squares.end());
-    fit_.model_sd = std::sqrt(*middle / kMedianChi2Of3);
+    fit_.model_sd = std::sqrt(numerics::upperMedian(std::move(squares)) / kMedianChi2Of3);
   }
 
   NormalSum sums() {

@@ -155,15 +155,7 @@ void judge(const PairedFit& fit, int joint, double avoided_by_unit, JointChange&
 identification::HeldSide heldSide(const campaign::Campaign& campaign, const identification::Identification& one,
                                   std::size_t joint) {
   if (one.transmission && one.transmission->joints[joint].measured) return one.transmission->joints[joint].held;
-  switch (campaign.double_encoder) {
-    case campaign::DoubleEncoder::active:
-      return identification::HeldSide::link;
-    case campaign::DoubleEncoder::inactive:
-      return identification::HeldSide::motor;
-    case campaign::DoubleEncoder::unspecified:
-      break;
-  }
-  return identification::HeldSide::unknown;
+  return identification::declaredSide(campaign.double_encoder);
 }
 
 /// The joint's gear by its encoders; of the two campaigns that which has it with the smaller uncertainty.
@@ -207,8 +199,7 @@ void stateModels(const identification::StiffnessEstimate& before, const identifi
   const identification::CoverageInterval interval = identification::complianceInterval(before, joint);
   const double u_before = std::max(interval.high - c_before, c_before - interval.low);
   const double u = std::hypot(change.difference.expanded() / c_before, d * u_before / (c_before * c_before));
-  constexpr double kNormal = 1.959963984540054;
-  change.taken = {-d / c_before, u / kNormal, change.difference.dof, u};
+  change.taken = {-d / c_before, u / identification::kNormalFactor, change.difference.dof, u};
   if (!(c_before > u_before)) change.taken = {kNone, kNone, 0.0};
   change.ratio.stated = std::abs(change.ratio.value) * std::hypot(relative_u(change.before), relative_u(change.after));
 }
@@ -222,12 +213,12 @@ void differByModels(const identification::StiffnessEstimate& before, const ident
   };
   const double c_before = before.compliance[joint], c_after = after.compliance[joint];
   const double u_before = u(before), u_after = u(after), expanded = std::hypot(u_before, u_after);
-  constexpr double kNormal = 1.959963984540054, kManyDegrees = 1e6;  // quantiles of draws are no Student's t
-  change.difference = {c_after - c_before, expanded / kNormal, kManyDegrees, expanded};
+  constexpr double kManyDegrees = 1e6;  // quantiles of draws are no Student's t
+  change.difference = {c_after - c_before, expanded / identification::kNormalFactor, kManyDegrees, expanded};
   change.correlation = 0.0;
   change.p_value = pOfZero(change.difference, std::abs(c_before));
   const double taken_u = std::hypot(u_after / c_before, c_after * u_before / (c_before * c_before));
-  change.taken = {1.0 - c_after / c_before, taken_u / kNormal, kManyDegrees, taken_u};
+  change.taken = {1.0 - c_after / c_before, taken_u / identification::kNormalFactor, kManyDegrees, taken_u};
   if (!(c_before > u_before)) change.taken = {kNone, kNone, 0.0};
   const double by_unit = std::abs(avoided_by_unit);
   change.avoided = {-avoided_by_unit * change.difference.value, by_unit * change.difference.sd, kManyDegrees,

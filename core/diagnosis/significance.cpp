@@ -6,6 +6,7 @@
 #include <random>
 
 #include "core/diagnosis/geometry_error.h"
+#include "core/numerics/resampling.h"
 #include "metrology/linear_algebra.h"
 
 namespace stiffscope::diagnosis {
@@ -86,8 +87,7 @@ std::vector<DetectableSize> detectableSizes(const SystemInput& input, const GapF
     }
     DetectableSize size{effect, std::nullopt};
     if (!sizes.empty()) {
-      std::nth_element(sizes.begin(), sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2), sizes.end());
-      size.size = sizes[sizes.size() / 2];
+      size.size = numerics::upperMedian(std::move(sizes));
     }
     if (effect == effects::Effect::kinematic_error && input.absolute) size.size = kGeometryTolerance;
     detectable.push_back(size);

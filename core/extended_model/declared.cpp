@@ -1,14 +1,10 @@
 #include "core/extended_model/declared.h"
 
-#include <limits>
-
 namespace stiffscope::extended_model {
 
 namespace {
 
-void makeHeavier(campaign::Campaign& campaign) {
-  for (robot::BodyMass& body : campaign.robot.bodies) body.mass_kg *= 1.0 + campaign.mass_sigma;
-}
+void makeHeavier(campaign::Campaign& campaign) { robot::scaleMasses(1.0 + campaign.mass_sigma, campaign.robot); }
 
 void stretchReadings(campaign::Campaign& campaign) {
   const double factor = 1.0 + campaign.tracker->scale_sigma;
@@ -37,11 +33,7 @@ Declared declaredOf(const campaign::Campaign& campaign, const identification::Id
   const auto add = [&](BudgetSource source, void (*move)(campaign::Campaign&)) {
     campaign::Campaign other = campaign;
     move(other);
-    identification::IdentifyOptions values = options;
-    values.subsets.size = std::numeric_limits<int>::max();
-    values.bootstrap.draws = 0;
-    values.robust = false;
-    const identification::Identification moved = identification::identify(other, values);
+    const identification::Identification moved = identification::identify(other, identification::valuesOnly(options));
     Declared::Column column{source, {}};
     for (const identification::Method which : identification::kMethods) {
       Vector6d& change = column.compliance[static_cast<std::size_t>(which)];

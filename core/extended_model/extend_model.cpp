@@ -3,7 +3,6 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "core/diagnosis/diagnose.h"
@@ -23,14 +22,6 @@
 namespace stiffscope::extended_model {
 
 namespace {
-
-/// The values alone: no subsets, no bootstrap, no outliers sought.
-identification::IdentifyOptions valuesOnly(identification::IdentifyOptions options) {
-  options.subsets.size = std::numeric_limits<int>::max();
-  options.bootstrap.draws = 0;
-  options.robust = false;
-  return options;
-}
 
 /// To first order: d c = -G E S, G the method's solution of its equations A c + E theta = b.
 void findSpread(const std::vector<CaseEffects>& cases, ExtendedModel& model) {
@@ -94,7 +85,7 @@ ExtendedModel extendModel(const campaign::Campaign& campaign, EffectFit effects,
   }
   std::vector<identification::LeftOutPosture> left_out;
   model.campaign = correctedFor(model.effects, campaign, left_out);
-  identification::IdentifyOptions own = valuesOnly(options);
+  identification::IdentifyOptions own = identification::valuesOnly(options);
   own.robust = options.robust;
   model.with = identification::identify(model.campaign, own);
   model.with.left_out.insert(model.with.left_out.end(), left_out.begin(), left_out.end());
@@ -196,7 +187,7 @@ ExtendedModel supportedModel(const preparation::PreparedCampaign& prepared, cons
   if (thinned) {
     std::vector<identification::LeftOutPosture> left_out;
     seen = chosen.free.empty() ? spread->campaign : correctedFor(chosen, spread->campaign, left_out);
-    seen_by_springs = identification::identify(seen, valuesOnly(options));
+    seen_by_springs = identification::identify(seen, identification::valuesOnly(options));
     chosen = overWholeDay(std::move(chosen), prepared);
   }
   ExtendedModel model = extendModel(campaign, std::move(chosen), options);

@@ -286,7 +286,7 @@ Frames refineFrames(const campaign::Campaign& campaign, const Frames& so_far, co
   std::optional<Eigen::VectorXd> by_masses;
   if (campaign.mass_sigma > 0.0 && frames.arm.points_placed) {
     robot::Robot heavier = campaign.robot;
-    for (robot::BodyMass& body : heavier.bodies) body.mass_kg *= 1.0 + campaign.mass_sigma;
+    robot::scaleMasses(1.0 + campaign.mass_sigma, heavier);
     const robot::GravityLoad weight = robot::gravityLoad(heavier, campaign.tool, campaign.gravity_in_base,
                                                          so_far.arm.arm, so_far.arm.r0_from_base_link);
     by_masses = framesDifference(frames, measuredUnder(weight, compliance));

@@ -329,9 +329,8 @@ double expandedUncertainty(const StiffnessEstimate& estimate, int joint) {
 }
 
 double coveringSd(const StiffnessEstimate& estimate, int joint) {
-  constexpr double kNormal = 1.959963984540054;  // of 95 % of a normal number
   return std::sqrt(std::max(0.0, estimate.covariance(joint, joint))) *
-         coverageFactor(estimate, joint, kStatedCoverage) / kNormal;
+         coverageFactor(estimate, joint, kStatedCoverage) / kNormalFactor;
 }
 
 Matrix6d coveringCovariance(const StiffnessEstimate& estimate) {

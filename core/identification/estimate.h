@@ -165,6 +165,8 @@ double matchedDof(const InfluenceCovariance& covariance);
 
 /// Coverage of the intervals that reports state.
 inline constexpr double kStatedCoverage = 0.95;
+/// Coverage factor of a normal number at that coverage.
+inline constexpr double kNormalFactor = 1.959963984540054;
 
 /// The estimate's own `stated` one where it has that and `coverage` is the stated one; else c -+ t u(c), t the quantile
 /// of Student's distribution with the estimate's effective degrees of freedom. Infinite where the postures are too few

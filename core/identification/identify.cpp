@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "core/identification/estimate.h"
@@ -43,6 +44,13 @@ void describeLoads(const campaign::Campaign& campaign, LoadedArm shown, Identifi
   result.geometry = std::move(shown.geometry);
   result.cases = std::move(shown.cases);
   result.wrist = std::move(shown.wrist);
+}
+
+IdentifyOptions valuesOnly(IdentifyOptions options) {
+  options.subsets.size = std::numeric_limits<int>::max();
+  options.bootstrap.draws = 0;
+  options.robust = false;
+  return options;
 }
 
 frames::Frames solvedFrames(const campaign::Campaign& campaign) {

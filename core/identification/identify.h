@@ -20,6 +20,9 @@ double geometricStiffnessShare(const LoadedArm& arm, const Vector6d& compliance)
 /// are found in turns, from the rigid arm on; three rounds settle to 1e-4 of a stiffness.
 Identification identify(const campaign::Campaign& campaign, const IdentifyOptions& options = {});
 
+/// The options for values alone: no subsets, no bootstrap, no outliers sought.
+IdentifyOptions valuesOnly(IdentifyOptions options = {});
+
 /// The frames alone: with the own weight taken off where the campaign has what identifies the stiffnesses,
 /// else without.
 frames::Frames solvedFrames(const campaign::Campaign& campaign);

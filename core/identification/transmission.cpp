@@ -6,9 +6,12 @@
 #include <utility>
 
 #include "core/identification/equations.h"
+#include "core/identification/gear_line.h"
+#include "core/identification/gear_states.h"
 #include "core/identification/identifiability.h"
 #include "core/identification/load_case.h"
 #include "core/identification/remarks.h"
+#include "core/numerics/resampling.h"
 #include "core/robot/gravity_load.h"
 
 namespace stiffscope::identification {
@@ -17,284 +20,7 @@ namespace {
 
 constexpr double kNoDifference = 1e-9;  ///< rad: m is a copy of q
 
-/// Angles are written to 1e-5 deg, so that a difference of two scatters by as much at least.
-constexpr double kLeastScatter = 1.7e-7;  // rad
-
-/// A state this many robust standard deviations from the line is a wrong reading: one in a million is not by chance.
-constexpr double kWrongReading = 5.0;
-
 constexpr std::size_t kFewestPostures = 3;  ///< for a scatter between them
-
-constexpr std::size_t kFewestTurns = 3;  ///< postures whose torque turns round, for a lost motion
-
-/// Of a posture's states only these have both angles of the joint.
-struct JointStates {
-  std::vector<std::size_t> state;                      ///< places among all states
-  std::vector<double> torque, windup, reported, side;  ///< tau, q - m, q, sign(T)/2; one a state
-  std::vector<std::size_t> posture_end;                ///< a posture's states stand together and end before this
-  std::vector<bool> used;
-
-  std::size_t size() const { return state.size(); }
-
-  /// Calls work(from, to) for each posture.
-  template <class Work>
-  void byPosture(const Work& work) const {
-    std::size_t from = 0;
-    for (const std::size_t to : posture_end) work(from, to), from = to;
-  }
-};
-
-/// Value with a weight; see weightedMedian.
-struct Weighted {
-  double value, weight;
-};
-
-double weightedMedian(std::vector<Weighted> values) {
-  std::sort(values.begin(), values.end(), [](const Weighted& a, const Weighted& b) { return a.value < b.value; });
-  const double half = 0.5 * std::accumulate(values.begin(), values.end(), 0.0,
-                                            [](double sum, const Weighted& one) { return sum + one.weight; });
-  double below = 0.0;
-  for (const Weighted& one : values) {
-    below += one.weight;
-    if (below >= half) return one.value;
-  }
-  return 0.0;
-}
-
-double median(std::vector<double> values) {
-  if (values.empty()) return 0.0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  if (values.size() % 2 == 1) return *middle;
-  return 0.5 * (*middle + *std::max_element(values.begin(), middle));
-}
-
-/// Slope and lost motion that single wrong readings do not move.
-struct RobustLine {
-  double slope = 0.0, width = 0.0;
-};
-
-/// By differences of two states of a posture: the slope from those whose torques have one sign, the lost motion from
-/// the others. Where no two have one sign the slope is from all, and no lost motion is looked for.
-RobustLine robustLine(const JointStates& joint) {
-  std::vector<Weighted> slopes, all_slopes, widths;
-  const auto forPairs = [&](const auto& work) {
-    joint.byPosture([&](std::size_t from, std::size_t to) {
-      for (std::size_t a = from; a < to; ++a) {
-        for (std::size_t b = a + 1; b < to; ++b) work(a, b);
-      }
-    });
-  };
-  forPairs([&](std::size_t a, std::size_t b) {
-    const double turned = joint.torque[b] - joint.torque[a];
-    if (turned == 0.0) return;
-    const Weighted slope{(joint.windup[b] - joint.windup[a]) / turned, std::abs(turned)};
-    all_slopes.push_back(slope);
-    if (joint.side[a] == joint.side[b]) slopes.push_back(slope);
-  });
-  if (slopes.empty()) return {weightedMedian(std::move(all_slopes)), 0.0};
-  const double slope = weightedMedian(std::move(slopes));
-  forPairs([&](std::size_t a, std::size_t b) {
-    const double sides = joint.side[b] - joint.side[a];
-    if (sides == 0.0) return;
-    const double rest = joint.windup[b] - joint.windup[a] - slope * (joint.torque[b] - joint.torque[a]);
-    widths.push_back({rest / sides, std::abs(sides)});
-  });
-  return {slope, weightedMedian(std::move(widths))};
-}
-
-/// Marks the states that disagree with the line of the others.
-void leaveOutWrongReadings(JointStates& joint) {
-  const auto [slope, width] = robustLine(joint);
-  std::vector<double> residual(joint.size()), sizes;
-  const std::size_t postures = joint.posture_end.size();
-  if (joint.size() <= postures) return;
-  joint.byPosture([&, slope = slope, width = width](std::size_t from, std::size_t to) {
-    std::vector<double> own;
-    for (std::size_t i = from; i < to; ++i) {
-      own.push_back(joint.windup[i] - slope * joint.torque[i] - width * joint.side[i]);
-    }
-    const double level = median(own);
-    for (std::size_t i = from; i < to; ++i) residual[i] = own[i - from] - level;
-  });
-  for (const double one : residual) sizes.push_back(std::abs(one));
-  // 1.4826: from the median of absolute values to a normal standard deviation; the levels take their degrees of
-  // freedom.
-  const double n = static_cast<double>(joint.size());
-  const double scatter = 1.4826 * median(sizes) * std::sqrt(n / (n - static_cast<double>(postures)));
-  const double most = kWrongReading * std::max(scatter, kLeastScatter);
-  for (std::size_t i = 0; i < joint.size(); ++i) joint.used[i] = std::abs(residual[i]) <= most;
-}
-
-/// The used entries of a column less their mean in each posture; others zero.
-std::vector<double> withinPostures(const JointStates& joint, const std::vector<double>& column) {
-  std::vector<double> within(column.size(), 0.0);
-  joint.byPosture([&](std::size_t from, std::size_t to) {
-    double sum = 0.0, count = 0.0;
-    for (std::size_t i = from; i < to; ++i) {
-      if (joint.used[i]) sum += column[i], ++count;
-    }
-    for (std::size_t i = from; i < to; ++i) {
-      if (joint.used[i]) within[i] = column[i] - sum / count;
-    }
-  });
-  return within;
-}
-
-double dot(const std::vector<double>& a, const std::vector<double>& b) {
-  return std::inner_product(a.begin(), a.end(), b.begin(), 0.0);
-}
-
-/// a less its part along b.
-std::vector<double> acrossOf(std::vector<double> a, const std::vector<double>& b) {
-  const double factor = dot(a, b) / dot(b, b);
-  for (std::size_t i = 0; i < a.size(); ++i) a[i] -= factor * b[i];
-  return a;
-}
-
-/// Columns of a joint's least squares after postures' levels are taken off. With a lost motion its column is taken off
-/// too: what is left of the others gives the same slope (Frisch, Waugh and Lovell).
-struct JointColumns {
-  std::vector<double> torque, windup, reported;
-  std::vector<double> side;  ///< empty: no lost motion is fitted
-};
-
-bool turnsRound(const JointStates& joint, const std::vector<double>& side, const std::vector<double>& torque) {
-  std::size_t turns = 0;
-  joint.byPosture([&](std::size_t from, std::size_t to) {
-    for (std::size_t i = from; i < to; ++i) {
-      if (side[i] != 0.0) {
-        ++turns;
-        break;
-      }
-    }
-  });
-  if (turns < kFewestTurns) return false;
-  constexpr double kAlike = 0.98;  // correlation beyond which the two columns cannot be told apart
-  const double product = dot(side, torque);
-  return product * product < kAlike * kAlike * dot(side, side) * dot(torque, torque);
-}
-
-JointColumns columnsOf(const JointStates& joint) {
-  JointColumns columns{withinPostures(joint, joint.torque), withinPostures(joint, joint.windup),
-                       withinPostures(joint, joint.reported), withinPostures(joint, joint.side)};
-  if (!turnsRound(joint, columns.side, columns.torque)) columns.side.clear();
-  if (columns.side.empty()) return columns;
-  columns.torque = acrossOf(std::move(columns.torque), columns.side);
-  columns.windup = acrossOf(std::move(columns.windup), columns.side);
-  columns.reported = acrossOf(std::move(columns.reported), columns.side);
-  return columns;
-}
-
-/// Slope of least squares of `values` over `column` with its standard deviation by the scatter between postures.
-struct Slope {
-  double value = 0.0, sd = 0.0;
-};
-
-Slope slopeOf(const JointStates& joint, const std::vector<double>& column, const std::vector<double>& values,
-              const std::vector<double>& residual) {
-  const double square = dot(column, column);
-  double squares = 0.0, postures = 0.0;
-  joint.byPosture([&](std::size_t from, std::size_t to) {
-    double sum = 0.0, any = 0.0;
-    for (std::size_t i = from; i < to; ++i) sum += column[i] * residual[i], any += column[i] * column[i];
-    squares += sum * sum;
-    postures += any > 0.0;
-  });
-  const double rest = postures > 1.0 ? postures / (postures - 1.0) : 0.0;
-  return {dot(column, values) / square, std::sqrt(squares * rest) / square};
-}
-
-std::vector<double> residualOf(const std::vector<double>& values, const std::vector<double>& column, double slope) {
-  std::vector<double> residual(values.size());
-  for (std::size_t i = 0; i < values.size(); ++i) residual[i] = values[i] - slope * column[i];
-  return residual;
-}
-
-Slope slopeOf(const JointStates& joint, const std::vector<double>& column, const std::vector<double>& values) {
-  return slopeOf(joint, column, values, residualOf(values, column, dot(column, values) / dot(column, column)));
-}
-
-/// Torques of the own weight, by state; zero where masses are not known, and then nobody knows which sign the torque of
-/// load and weight together has.
-struct WeightTorques {
-  bool known = false;
-  std::vector<Vector6d> torques;
-};
-
-/// The load states of a day with motor-side angles.
-class EncoderDay {
- public:
-  explicit EncoderDay(const campaign::Campaign& campaign) : campaign_(campaign) {
-    std::vector<std::vector<const campaign::State*>> by_pose(campaign.pose_ids.size());
-    for (const campaign::State& row : campaign.states->rows) {
-      if (!row.motor_side.array().isNaN().all()) by_pose[static_cast<std::size_t>(row.pose)].push_back(&row);
-    }
-    for (auto& rows : by_pose) {
-      std::sort(rows.begin(), rows.end(), [](const auto* a, const auto* b) { return a->step < b->step; });
-      states_.insert(states_.end(), rows.begin(), rows.end());
-    }
-  }
-
-  const std::vector<const campaign::State*>& states() const { return states_; }
-
-  /// A case each state, in their order. An unloaded one has the wrench zero by the format, whatever the tared cell
-  /// shows.
-  std::vector<LoadCase> casesIn(const frames::LoadingGeometry& geometry) const {
-    std::vector<LoadCase> cases;
-    const campaign::State* first = nullptr;
-    for (const campaign::State* state : states_) {
-      if (first == nullptr || first->pose != state->pose) first = state;
-      cases.push_back(caseOfState(campaign_, geometry, *first, *state));
-    }
-    return cases;
-  }
-
-  /// Torques of the load in those cases. `compliance`: K_c, and how the load cell turns with the arm, are of it.
-  std::vector<Vector6d> torquesIn(const frames::LoadingGeometry& geometry, std::vector<LoadCase>& cases,
-                                  const Vector6d& compliance) const {
-    std::vector<Vector6d> torques = jointTorques(cases);
-    constexpr int kRounds = 2;
-    for (int round = 0; round < kRounds && !compliance.isZero(0.0); ++round) {
-      updateLoadedConfiguration(geometry, compliance, cases, torques);
-    }
-    return torques;
-  }
-
-  WeightTorques weightTorques(const frames::LoadingGeometry& geometry, const std::vector<LoadCase>& cases) const {
-    WeightTorques weight{geometry.weight.links_known, {cases.size(), Vector6d::Zero()}};
-    for (std::size_t i = 0; weight.known && i < cases.size(); ++i) {
-      weight.torques[i] = robot::weightTorque(geometry.arm, unloadedPosture(geometry.arm, cases[i]), geometry.weight);
-    }
-    return weight;
-  }
-
-  JointStates statesOf(int joint, const std::vector<Vector6d>& torques, const WeightTorques& weight) const {
-    JointStates all;
-    int pose = -1;
-    for (std::size_t i = 0; i < states_.size(); ++i) {
-      const campaign::State& row = *states_[i];
-      if (std::isnan(row.motor_side[joint])) continue;
-      if (row.pose != pose && all.size() > 0) all.posture_end.push_back(all.size());
-      pose = row.pose;
-      all.state.push_back(i);
-      const double reported = std::isnan(row.link_side[joint]) ? row.q[joint] : row.link_side[joint];
-      const double torque = torques[i][joint];
-      const double whole = weight.known ? torque + weight.torques[i][joint] : 0.0;
-      all.torque.push_back(torque);
-      all.windup.push_back(reported - row.motor_side[joint]);
-      all.reported.push_back(reported);
-      all.side.push_back(whole > 0.0 ? 0.5 : whole < 0.0 ? -0.5 : 0.0);
-    }
-    if (all.size() > 0) all.posture_end.push_back(all.size());
-    all.used.assign(all.size(), true);
-    return all;
-  }
-
- private:
-  const campaign::Campaign& campaign_;
-  std::vector<const campaign::State*> states_;  ///< by pose and step
-};
 
 /// Why a joint's two encoders tell nothing; empty where they do.
 Remark whyNotMeasured(const JointStates& joint, int index, const JointIdentifiability& turned) {
@@ -302,7 +28,7 @@ Remark whyNotMeasured(const JointStates& joint, int index, const JointIdentifiab
   std::vector<double> apart;
   for (const double one : joint.windup) apart.push_back(std::abs(one));
   if (*std::max_element(apart.begin(), apart.end()) <= kNoDifference) return Remark(RemarkId::no_second_encoder);
-  if (const double by = median(apart); by > campaign::kMotorSideApart) {
+  if (const double by = numerics::median(apart); by > campaign::kMotorSideApart) {
     return Remark(RemarkId::encoders_apart, index + 1, by);
   }
   if (!turned.identifiable) return turned.reason;
@@ -314,15 +40,7 @@ HeldSide heldSide(const Slope& gear, const Slope& link, campaign::DoubleEncoder 
   if (gear.value > 2.0 * gear.sd && gear.value > 2.0 * link.sd) {
     return std::abs(link.value) < 0.5 * gear.value ? HeldSide::link : HeldSide::motor;
   }
-  switch (declared) {
-    case campaign::DoubleEncoder::active:
-      return HeldSide::link;
-    case campaign::DoubleEncoder::inactive:
-      return HeldSide::motor;
-    case campaign::DoubleEncoder::unspecified:
-      break;
-  }
-  return HeldSide::unknown;
+  return declaredSide(declared);
 }
 
 Remark loopCaution(HeldSide held, campaign::DoubleEncoder declared, int joint) {
@@ -404,6 +122,18 @@ void addPoints(const JointStates& joint, int index, const std::vector<const camp
 }
 
 }  // namespace
+
+HeldSide declaredSide(campaign::DoubleEncoder declared) {
+  switch (declared) {
+    case campaign::DoubleEncoder::active:
+      return HeldSide::link;
+    case campaign::DoubleEncoder::inactive:
+      return HeldSide::motor;
+    case campaign::DoubleEncoder::unspecified:
+      break;
+  }
+  return HeldSide::unknown;
+}
 
 bool Transmission::measured() const {
   return std::any_of(joints.begin(), joints.end(), [](const GearTorsion& joint) { return joint.measured; });

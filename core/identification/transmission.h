@@ -42,6 +42,9 @@ namespace stiffscope::identification {
 /// Which of a gear's sides stands still under load.
 enum class HeldSide { unknown, link, motor };
 
+/// As the campaign declares its loops.
+HeldSide declaredSide(campaign::DoubleEncoder declared);
+
 /// Half the distance between the two branches of a gear, by the sign of its torque.
 struct LostMotion {
   double width = 0.0;  ///< rad in all

@@ -19,6 +19,11 @@ using Weights = std::vector<double>;
 /// Value below which `share` of the ascending values lie, linear between neighbours. Of at least one value.
 double quantile(const std::vector<double>& ascending, double share);
 
+/// The middle one of the values; of an even number the mean of the two in the middle. 0 of none.
+double median(std::vector<double> values);
+/// The same, of an even number the higher of the two. Of at least one value.
+double upperMedian(std::vector<double> values);
+
 /// A random index below `count`; the bias of % is below 1e-15 for a few thousand.
 inline std::size_t randomIndex(std::mt19937_64& random, std::size_t count) { return random() % count; }
 

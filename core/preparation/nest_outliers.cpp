@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "core/numerics/distributions.h"
+#include "core/numerics/resampling.h"
 #include "core/preparation/drift_nests.h"
 #include "core/preparation/nest_network.h"
 #include "core/preparation/remarks.h"
@@ -20,12 +21,6 @@ namespace stiffscope::preparation {
 namespace {
 
 using Readings = std::set<const campaign::NestReading*>;
-
-double middleOf(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 /// Distances between the nests of each round, less their medians over the rounds.
 class NestDistances {
@@ -56,7 +51,7 @@ class NestDistances {
       std::erase_if(round, [&](const auto& one) { return lengths[one.first].size() < kMajority; });
     }
     std::map<Pair, double> medians;
-    for (const auto& [pair, all] : lengths) medians[pair] = middleOf(all);
+    for (const auto& [pair, all] : lengths) medians[pair] = numerics::upperMedian(all);
     for (auto& round : changes_) {
       for (auto& [pair, change] : round) {
         change.by -= medians[pair];
@@ -64,7 +59,7 @@ class NestDistances {
       }
     }
     if (squares.empty()) return;
-    const double scale = std::max(1.0, middleOf(squares) / numerics::chiSquareLimit(0.5, 1.0));
+    const double scale = std::max(1.0, numerics::upperMedian(squares) / numerics::chiSquareLimit(0.5, 1.0));
     limit_ = std::sqrt(scale) * numerics::normalLimit(kLevel / static_cast<double>(squares.size()));
   }
 
@@ -178,7 +173,7 @@ ApartInNetwork apartIn(const NestNetwork& network, const metrology::TrackerNoise
     if (last.dof > 0) scatter.push_back(last.chi2 / middle[static_cast<std::size_t>(last.dof)]);
   }
   all.judged = static_cast<int>(scatter.size());
-  if (!scatter.empty()) all.scale = std::max(1.0, middleOf(scatter));
+  if (!scatter.empty()) all.scale = std::max(1.0, numerics::upperMedian(scatter));
   return all;
 }
 

@@ -32,6 +32,10 @@ GravityLoad gravityLoad(const Robot& nominal, const std::optional<Tool>& tool,
   return weight;
 }
 
+void scaleMasses(double factor, Robot& robot) {
+  for (BodyMass& body : robot.bodies) body.mass_kg *= factor;
+}
+
 Vector6d weightTorque(const Robot& robot, const ArmPosture& posture, const GravityLoad& weight) {
   // Sum from the tip inwards: force and moment about the base origin of all that hangs beyond each joint.
   Vector6d torque = Vector6d::Zero();

@@ -28,6 +28,9 @@ GravityLoad gravityLoad(const Robot& nominal, const std::optional<Tool>& tool,
                         const Eigen::Vector3d& gravity_in_base_link, const Robot& arm,
                         const Eigen::Isometry3d& base_from_base_link);
 
+/// Masses of the URDF all off by one factor; the tool's is apart.
+void scaleMasses(double factor, Robot& robot);
+
 /// Joint torques of the own weight at a posture, Nm.
 Vector6d weightTorque(const Robot& robot, const ArmPosture& posture, const GravityLoad& weight);
 
