@@ -1,0 +1,77 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/accuracy/remarks.h"
+#include "core/calibration/calibrate.h"
+#include "core/calibration/effect_terms.h"
+#include "core/diagnosis/diagnosis.h"
+#include "metrology/remark.h"
+
+namespace stiffscope::accuracy {
+
+using calibration::UnloadedEffect;
+
+/// One member of a verdict: effects that the day cannot tell apart, or `unknown` where `effects` is empty.
+struct AccuracyEntry {
+  std::vector<UnloadedEffect> effects;
+  std::string detail;  ///< joint, pair of joints or reflector of the first; empty where nothing is named
+};
+
+/// Effects that this day cannot tell apart, as one candidate.
+struct AccuracyClass {
+  std::vector<UnloadedEffect> effects;  ///< the best first
+  std::string detail;
+  double score = 0.0;        ///< fall of BIC against the model without it; larger is better
+  diagnosis::Shrink shrink;  ///< of the rms of the positions' residual, held out, besides what stands before it
+  double explained = 0.0;    ///< the same in variance, less noise
+  bool in_verdict = false;
+  std::vector<calibration::EffectPart> parts;  ///< of the first effect, as fitted
+  std::vector<double> sizes, sds;              ///< of their terms, in their units
+};
+
+/// Positions' gap, rms per coordinate, m.
+struct AccuracyGap {
+  double nominal = 0.0;  ///< base and reflectors alone fitted to the URDF's arm
+  double before = 0.0;   ///< geometry calibrated, held out
+  double after = 0.0;    ///< with the verdict's effects, held out
+  double noise = 0.0;    ///< of the readings
+};
+
+struct DetectableEffect {
+  UnloadedEffect effect = {};
+  std::optional<double> size;  ///< rms per coordinate of what it moves beyond the geometry, m; empty: not testable
+};
+
+struct UntestableEffect {
+  UnloadedEffect effect = {};
+  Remark missing;
+};
+
+/// Answer of `diagnose` on a day without a load.
+struct AccuracyDiagnosis {
+  bool usable = false;
+  Remark unusable_reason;
+  std::vector<AccuracyEntry> verdict;  ///< empty: none
+  std::vector<Remark> reasons;
+  std::vector<AccuracyClass> classes;                ///< the verdict's first, then the others; best first
+  std::vector<std::vector<UnloadedEffect>> aliases;  ///< by the postures alone, before any residual
+  std::vector<DetectableEffect> detectable;
+  std::vector<UntestableEffect> not_testable;
+  AccuracyGap gap;
+  diagnosis::Shrink shrink_together;  ///< by all of the verdict
+  /// Of what the geometry leaves, and of what is left with the verdict's effects beside it.
+  std::vector<diagnosis::WhereTable> where, where_after;
+  std::vector<Remark> next;
+  double size_limit = 0.0;            ///< below it an effect is too small to matter, m rms per coordinate
+  double left_over = 0.0;             ///< chi2 per equation with the verdict's effects
+  double left_over_limit = 0.0;       ///< what chance makes of it
+  bool geometry_off_nominal = false;  ///< kinematic_error is named: the URDF misses by more than its limit
+  double geometry_limit = 0.0;        ///< that limit, m rms per coordinate
+  calibration::Calibration calibration;
+  int postures = 0, readings = 0;
+};
+
+}  // namespace stiffscope::accuracy
