@@ -4,7 +4,7 @@
 
 #include "core/calibration/fitted_day.h"
 #include "core/robot/kinematics.h"
-#include "tests/core/calibration/unloaded_fixture.h"
+#include "tests/fixtures/unloaded_day.h"
 
 namespace stiffscope {
 namespace arm_fit_test {

@@ -6,7 +6,7 @@
 
 #include "core/campaign/read_campaign.h"
 #include "core/preparation/prepare.h"
-#include "tests/core/calibration/unloaded_fixture.h"
+#include "tests/fixtures/unloaded_day.h"
 
 namespace stiffscope {
 namespace calibrate_test {
