@@ -33,7 +33,7 @@ ModelFits fitModels(const UnloadedDay& day, const std::vector<double>& weights, 
   const ArmFit first = fitArm(day, *place, {}, {.weights = weights, .gross = kGrossOfGeometry});
   SelectionOptions selection;
   selection.inner_fold = innerFolds(options, selection.inner_folds);
-  ArmFit effects = fitArm(day, *place, selectEffects(day, first, selection), {.weights = weights}, &first);
+  ArmFit effects = fitArm(day, *place, selectEffects(day, first, selection).parts, {.weights = weights}, &first);
   const FitOptions right{.robust = false, .weights = effects.weights};
   const FitOptions without_axes{.axes = false, .robust = false, .weights = effects.weights};
   ArmFit geometry = fitArm(day, *place, {}, right, &first);
