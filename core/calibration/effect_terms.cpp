@@ -66,6 +66,7 @@ std::vector<EffectPart> jointCompliances(const UnloadedDay& day) {
     EffectTerm term = turning(jointName(j), "rad/Nm", kMostCompliance,
                               onJoint(j, [j](const Posture& posture) { return posture.torque[j]; }));
     term.positive = true;
+    term.compliance_of = j;
     parts.push_back({UnloadedEffect::joint_compliance, jointName(j), {std::move(term)}});
   }
   return parts;
@@ -127,13 +128,17 @@ EffectFamily compliances(UnloadedEffect effect, std::vector<EffectPart> parts) {
   return family;
 }
 
-/// A spring or cylinder on axis 2, whose torque follows the angle of joint 2, against the own weight of all joints.
+/// A spring or cylinder on axis 2 beside the own weight on all joints: its torque is a function of the angle of joint
+/// 2, of which the first two harmonics are taken.
 EffectFamily gravityCompensator(const std::vector<EffectPart>& compliances) {
   EffectFamily family{UnloadedEffect::gravity_compensator};
-  EffectPart spring = transmissionError(1, 1.0);
   EffectPart whole = wholeOf(family.effect, compliances);
-  whole.terms.insert(whole.terms.end(), spring.terms.begin(), spring.terms.end());
-  family.wholes.push_back(std::move(whole));
+  whole.needs_compliance_of = 1;
+  for (const double harmonic : {1.0, 2.0}) {
+    const EffectPart wave = transmissionError(1, harmonic);
+    whole.terms.insert(whole.terms.end(), wave.terms.begin(), wave.terms.end());
+    family.wholes.push_back(whole);
+  }
   return family;
 }
 

@@ -54,8 +54,9 @@ struct ReflectorAt {
 /// m, in base_link); exactly one of the two is set.
 struct EffectTerm {
   std::string name, unit;
-  double most = 0.0;      ///< physical bound of its magnitude
-  bool positive = false;  ///< a compliance: never negative
+  double most = 0.0;       ///< physical bound of its magnitude
+  bool positive = false;   ///< a compliance: never negative
+  int compliance_of = -1;  ///< the joint (0..5) whose compliance about its axis this is; -1: of none
   std::function<Vector6d(const Posture&)> angles;
   std::function<Eigen::Vector3d(const Posture&, const ReflectorAt&)> offset;
 };
@@ -68,8 +69,9 @@ struct EffectPart {
   std::optional<double> order = {};  ///< of a periodic error, per turn of the joint
   std::optional<double> from = {};   ///< of what starts at a time: share of the day (Posture::time)
   std::optional<double> chance =
-      {};                ///< of a part as large by noise alone, over all that were tried (false-alarm probability)
-  double penalty = 0.0;  ///< in BIC: its terms, and the alternatives that were tried
+      {};  ///< of a part as large by noise alone, over all that were tried (false-alarm probability)
+  int needs_compliance_of = -1;  ///< a joint without whose compliance among the terms this is another effect; -1: none
+  double penalty = 0.0;          ///< in BIC: its terms, and the alternatives that were tried
 };
 
 /// What may be asked of one effect. Of `parts` any number may be present, found one by one; `wholes` are other forms of

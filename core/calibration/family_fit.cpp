@@ -53,8 +53,22 @@ double FamilyFit::penalty(const Candidate& candidate) const {
 
 std::optional<FamilyFit::Prepared> FamilyFit::withItsSigns(Prepared prepared, const LinearModel& model) const {
   std::vector<EffectTerm>& terms = prepared.part.terms;
-  if (std::none_of(terms.begin(), terms.end(), [](const EffectTerm& term) { return term.positive; })) return prepared;
   Eigen::MatrixXd across = prepared.columns - model.directions * (model.directions.transpose() * prepared.columns);
+  const auto leave = [&](Eigen::Index term) {
+    terms.erase(terms.begin() + term);
+    const auto without = [term](const Eigen::MatrixXd& all) {
+      Eigen::MatrixXd rest(all.rows(), all.cols() - 1);
+      rest << all.leftCols(term), all.rightCols(all.cols() - 1 - term);
+      return rest;
+    };
+    across = without(across);
+    prepared.columns = without(prepared.columns);
+    prepared.lengths = without(prepared.lengths.transpose()).transpose();
+  };
+  for (Eigen::Index t = across.cols(); t-- > 0;) {
+    if (!(across.col(t).norm() > LinearisedDay::kAliased * prepared.lengths[t])) leave(t);
+  }
+  const auto positive = [&](Eigen::Index t) { return terms[static_cast<std::size_t>(t)].positive; };
   while (!terms.empty()) {
     Eigen::MatrixXd matrix = across.transpose() * across;
     constexpr double kDamping = 1e-9;
@@ -62,25 +76,18 @@ std::optional<FamilyFit::Prepared> FamilyFit::withItsSigns(Prepared prepared, co
     const Eigen::VectorXd size = solveSymmetric(matrix, Eigen::VectorXd(across.transpose() * model.residual));
     Eigen::Index worst = -1;
     double least = 0.0;
-    bool any_positive = false;
     for (Eigen::Index t = 0; t < size.size(); ++t) {
-      if (!terms[static_cast<std::size_t>(t)].positive) continue;
-      any_positive = true;
       const double own = size[t] * std::sqrt(matrix(t, t));
-      if (own < least || (worst < 0 && own <= 0.0)) worst = t, least = own;
+      if (positive(t) && (own < least || (worst < 0 && own <= 0.0))) worst = t, least = own;
     }
-    if (worst < 0) return any_positive ? std::optional<Prepared>(std::move(prepared)) : std::nullopt;
-    terms.erase(terms.begin() + worst);
-    const auto without = [worst](const Eigen::MatrixXd& all) {
-      Eigen::MatrixXd rest(all.rows(), all.cols() - 1);
-      rest << all.leftCols(worst), all.rightCols(all.cols() - 1 - worst);
-      return rest;
-    };
-    across = without(across);
-    prepared.columns = without(prepared.columns);
-    prepared.lengths = without(prepared.lengths.transpose()).transpose();
+    if (worst < 0) break;
+    leave(worst);
   }
-  return std::nullopt;
+  const int needed = prepared.part.needs_compliance_of;
+  const bool whole = needed < 0 || std::any_of(terms.begin(), terms.end(),
+                                               [&](const EffectTerm& term) { return term.compliance_of == needed; });
+  if (terms.empty() || !whole) return std::nullopt;
+  return prepared;
 }
 
 double FamilyFit::gainOf(const Prepared& prepared, const LinearModel& model) const {
@@ -100,7 +107,10 @@ std::optional<FamilyFit::Candidate> FamilyFit::bestPart(std::size_t family, cons
       if (highest == nullptr || peak.gain > highest->gain) highest = &peak;
     }
     if (highest == nullptr) return std::nullopt;
-    return Candidate{prepare(transmissionError(highest->joint, highest->order)), Periodogram::kTried};
+    // Once or twice a turn is what gears and encoder rings do first; any other order is one of many.
+    constexpr int kUsual = 12;
+    const bool usual = highest->order == 1.0 || highest->order == 2.0;
+    return Candidate{prepare(transmissionError(highest->joint, highest->order)), usual ? kUsual : Periodogram::kTried};
   }
   if (auto start = bestStart(families_[family].effect, model))
     return Candidate{prepare(std::move(*start)), static_cast<int>(day_.postures().size())};

@@ -39,7 +39,8 @@ class FamilyFit {
   };
 
   Prepared prepare(EffectPart part) const;
-  /// Without terms that would be of the wrong sign beside `model`, the most wrong one first.
+  /// Without terms of which nothing is left beside `model`, and without those that would be of the wrong sign, the most
+  /// wrong one first.
   std::optional<Prepared> withItsSigns(Prepared prepared, const LinearModel& model) const;
   std::optional<Candidate> bestPart(std::size_t family, const LinearModel& model, Periodogram* periodogram) const;
   std::optional<EffectPart> bestStart(UnloadedEffect effect, const LinearModel& model) const;
