@@ -51,7 +51,7 @@ double FamilyFit::penalty(const Candidate& candidate) const {
          2.0 * std::log(static_cast<double>(candidate.tried));
 }
 
-std::optional<FamilyFit::Prepared> FamilyFit::withItsSigns(Prepared prepared, const LinearModel& model) const {
+std::optional<FamilyFit::Prepared> FamilyFit::plausible(Prepared prepared, const LinearModel& model) const {
   std::vector<EffectTerm>& terms = prepared.part.terms;
   Eigen::MatrixXd across = prepared.columns - model.directions * (model.directions.transpose() * prepared.columns);
   const auto leave = [&](Eigen::Index term) {
@@ -65,8 +65,11 @@ std::optional<FamilyFit::Prepared> FamilyFit::withItsSigns(Prepared prepared, co
     prepared.columns = without(prepared.columns);
     prepared.lengths = without(prepared.lengths.transpose()).transpose();
   };
+  const auto most = [&](Eigen::Index t) { return terms[static_cast<std::size_t>(t)].most; };
   for (Eigen::Index t = across.cols(); t-- > 0;) {
-    if (!(across.col(t).norm() > LinearisedDay::kAliased * prepared.lengths[t])) leave(t);
+    const double length = across.col(t).norm();
+    // A whitened column tells its size to one over its length: to within its bound, or nothing.
+    if (!(length > LinearisedDay::kAliased * prepared.lengths[t]) || !(length * most(t) > 1.0)) leave(t);
   }
   const auto positive = [&](Eigen::Index t) { return terms[static_cast<std::size_t>(t)].positive; };
   while (!terms.empty()) {
@@ -79,6 +82,9 @@ std::optional<FamilyFit::Prepared> FamilyFit::withItsSigns(Prepared prepared, co
     for (Eigen::Index t = 0; t < size.size(); ++t) {
       const double own = size[t] * std::sqrt(matrix(t, t));
       if (positive(t) && (own < least || (worst < 0 && own <= 0.0))) worst = t, least = own;
+    }
+    for (Eigen::Index t = 0; worst < 0 && t < size.size(); ++t) {
+      if (std::abs(size[t]) > most(t)) worst = t;
     }
     if (worst < 0) break;
     leave(worst);
@@ -115,7 +121,7 @@ std::optional<FamilyFit::Candidate> FamilyFit::bestPart(std::size_t family, cons
   if (auto start = bestStart(families_[family].effect, model))
     return Candidate{prepare(std::move(*start)), static_cast<int>(day_.postures().size())};
   for (const Prepared& part : parts_[family]) {
-    const auto prepared = withItsSigns(part, model);
+    const auto prepared = plausible(part, model);
     if (!prepared) continue;
     const double own = gainOf(*prepared, model);
     if (!best || own > gain) best = Candidate{*prepared, static_cast<int>(parts_[family].size())}, gain = own;
@@ -225,7 +231,7 @@ std::optional<LinearModel> FamilyFit::fit(std::size_t family, const LinearModel&
     best = std::move(by_parts);
   }
   for (const Prepared& whole : wholes_[family]) {
-    const auto prepared = withItsSigns(whole, others);
+    const auto prepared = plausible(whole, others);
     if (!prepared) continue;
     const Candidate candidate{*prepared, static_cast<int>(wholes_[family].size())};
     LinearModel with = others;

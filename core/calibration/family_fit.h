@@ -39,9 +39,9 @@ class FamilyFit {
   };
 
   Prepared prepare(EffectPart part) const;
-  /// Without terms of which nothing is left beside `model`, and without those that would be of the wrong sign, the most
-  /// wrong one first.
-  std::optional<Prepared> withItsSigns(Prepared prepared, const LinearModel& model) const;
+  /// Without terms that the day does not tell beside `model`, and without those that would be of the wrong sign, the
+  /// most wrong one first, or beyond their physical bound.
+  std::optional<Prepared> plausible(Prepared prepared, const LinearModel& model) const;
   std::optional<Candidate> bestPart(std::size_t family, const LinearModel& model, Periodogram* periodogram) const;
   std::optional<EffectPart> bestStart(UnloadedEffect effect, const LinearModel& model) const;
   double penalty(const Candidate& candidate) const;
