@@ -19,10 +19,12 @@ struct EffectSet {
 
 class Search {
  public:
-  Search(const UnloadedDay& day, const ArmFit& geometry, std::size_t postures, const SelectionOptions& options)
+  /// On so many postures and with so many parts of one effect at most.
+  Search(const UnloadedDay& day, const ArmFit& geometry, std::size_t postures, int parts,
+         const SelectionOptions& options)
       : options_(options),
         day_(day, geometry, {postures, options.inner_folds, options.inner_fold}),
-        fits_(day_, options.chance, options.most_parts) {}
+        fits_(day_, options.chance, parts) {}
 
   /// From nothing and from the best single effects, by every kind of step.
   EffectSet best() {
@@ -163,10 +165,11 @@ class Search {
 SelectedEffects selectEffects(const UnloadedDay& day, const ArmFit& geometry, const SelectionOptions& options) {
   constexpr std::size_t kFewest = 20;  // postures
   if (day.postures.size() < kFewest) return {};
-  Search search(day, geometry, options.search_postures, options);
+  const bool enough = day.postures.size() <= options.search_postures;
+  Search search(day, geometry, options.search_postures, enough ? options.most_parts : options.search_parts, options);
   const EffectSet found = search.best();
-  if (day.postures.size() <= options.search_postures) return search.described(found);
-  Search all(day, geometry, options.most_postures, options);
+  if (enough) return search.described(found);
+  Search all(day, geometry, options.most_postures, options.most_parts, options);
   return all.described(all.refined(found));
 }
 

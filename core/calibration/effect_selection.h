@@ -16,7 +16,7 @@ struct SelectionOptions {
   /// thousand postures chance forbids nothing any more, and what is below this share of what is left moves the arm by a
   /// fraction of the noise.
   double least_gain = 0.003;
-  int most_parts = 12;  ///< of one effect
+  int search_parts = 6, most_parts = 40;  ///< of one effect, while the effects are sought and at the end
   /// Of those that tell which effects there are, and of those that tell how many parts each has: what is found grows
   /// with the root of their number, time with it.
   std::size_t search_postures = 400, most_postures = 2000;

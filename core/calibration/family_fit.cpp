@@ -53,7 +53,8 @@ double FamilyFit::penalty(const Candidate& candidate) const {
 
 std::optional<FamilyFit::Prepared> FamilyFit::plausible(Prepared prepared, const LinearModel& model) const {
   std::vector<EffectTerm>& terms = prepared.part.terms;
-  Eigen::MatrixXd across = prepared.columns - model.directions * (model.directions.transpose() * prepared.columns);
+  Eigen::MatrixXd across = prepared.columns;
+  if (model.directions.cols() > 0) across -= model.directions * (model.directions.transpose() * prepared.columns);
   const auto leave = [&](Eigen::Index term) {
     terms.erase(terms.begin() + term);
     const auto without = [term](const Eigen::MatrixXd& all) {
@@ -142,7 +143,7 @@ std::optional<EffectPart> FamilyFit::bestStart(UnloadedEffect effect, const Line
       const Eigen::MatrixXd columns = columns_of(k);
       const Eigen::Index rows = columns.rows(), from = day_.firstRow(k);
       by_geometry.noalias() += day_.geometry().middleRows(from, rows).transpose() * columns;
-      by_model.noalias() += model.directions.middleRows(from, rows).transpose() * columns;
+      if (by_model.rows() > 0) by_model.noalias() += model.directions.middleRows(from, rows).transpose() * columns;
       own.noalias() += columns.transpose() * columns;
       right.noalias() += columns.transpose() * model.residual.segment(from, rows);
       if (k + kFewestAside > postures) continue;

@@ -72,6 +72,7 @@ void Periodogram::takeOff(std::size_t j, const Eigen::MatrixXd& products) {
 }
 
 void Periodogram::projectOff(const Eigen::MatrixXd& directions, const Eigen::VectorXd& coefficients) {
+  if (directions.cols() == 0) return;
   for (std::size_t j = 0; j < joints_.size(); ++j) {
     const Eigen::MatrixXd products = productsOf(j, directions);
     joints_[j].right -= products * coefficients;
