@@ -40,7 +40,7 @@ class Search {
     singles.resize(std::min(singles.size(), kStarts));
     std::vector<EffectSet> ends{nothing};
     for (EffectSet& start : singles) {
-      if (predicts(nothing, start)) ends.push_back(improved(std::move(start), true));
+      if (predicts(nothing, start)) ends.push_back(improved(std::move(start)));
     }
     // The least scatter of all says what the equations are worth.
     setEquations(std::min_element(ends.begin(), ends.end(), [](const EffectSet& a, const EffectSet& b) {
@@ -52,13 +52,28 @@ class Search {
 
   /// The same effects on these postures, each with the parts that they show, and what else they show.
   EffectSet refined(const EffectSet& found) {
-    EffectSet start{{}, day_.geometryAlone()};
-    setEquations(start.model);
-    for (const std::size_t family : found.families) {
-      if (auto more = with(start, family)) start = std::move(*more);
-      setEquations(start.model);
+    EffectSet set{{}, day_.geometryAlone()};
+    setEquations(set.model);
+    const auto fitAll = [&] {
+      const std::vector<std::size_t> families = set.families.empty() ? found.families : set.families;
+      for (const std::size_t family : families) {
+        const EffectSet others = without(set, family);
+        auto anew = with(others, family);
+        set = anew ? std::move(*anew) : others;
+        setEquations(set.model);
+      }
+    };
+    fitAll();
+    const std::size_t at_first = set.families.size();
+    for (std::size_t f = 0; f < fits_.families().size(); ++f) {
+      if (has(set, f)) continue;
+      auto more = with(set, f);
+      if (!more || cost(*more) >= cost(set) || !predicts(set, *more)) continue;
+      set = std::move(*more);
+      setEquations(set.model);
     }
-    return improved(std::move(start), false);
+    if (set.families.size() > at_first) fitAll();
+    return set;
   }
 
   SelectedEffects described(const EffectSet& set) {
@@ -124,8 +139,8 @@ class Search {
     return day_.heldOut(more.model) < (1.0 - options_.least_gain) * day_.heldOut(fewer.model);
   }
 
-  /// Step by step to the best in reach. `replace`: an effect may give its place to another.
-  EffectSet improved(EffectSet set, bool replace) {
+  /// Step by step to the best in reach.
+  EffectSet improved(EffectSet set) {
     constexpr int kMostSteps = 20;
     for (int step = 0; step < kMostSteps; ++step) {
       setEquations(set.model);
@@ -142,7 +157,7 @@ class Search {
       for (const std::size_t family : set.families) {
         EffectSet others = without(set, family);
         for (std::size_t f = 0; f < fits_.families().size(); ++f) {
-          if (f == family || (replace && !has(set, f))) consider(with(others, f), false);
+          if (f == family || !has(set, f)) consider(with(others, f), false);
         }
         consider(std::move(others), false);
       }
