@@ -1,7 +1,7 @@
 #include "core/calibration/effect_selection.h"
 
 #include <algorithm>
-#include <limits>
+#include <cmath>
 #include <optional>
 #include <utility>
 
@@ -80,27 +80,50 @@ class Search {
     setEquations(set.model);
     SelectedEffects selected;
     selected.parts = set.model.parts;
-    for (const std::size_t family : set.families) {
-      const EffectSet others = without(set, family);
-      SelectedEffect one{fits_.families()[family].effect, cost(others) - cost(set), {}};
-      for (std::size_t other = 0; other < fits_.families().size(); ++other) {
-        if (has(set, other)) continue;
-        const auto instead = with(others, other);
-        if (!instead || cost(*instead) - cost(set) > kAsGood) continue;
-        one.rivals.push_back(
-            {fits_.families()[other].effect, instead->model.parts.back().detail, cost(*instead) - cost(set)});
-      }
-      std::sort(one.rivals.begin(), one.rivals.end(), [](const Rival& a, const Rival& b) { return a.cost < b.cost; });
-      selected.effects.push_back(std::move(one));
-    }
+    const LinearModel nothing = day_.geometryAlone();
+    selected.before = day_.heldOutByPosture(nothing);
+    selected.after = day_.heldOutByPosture(set.model);
+    for (const std::size_t family : set.families) selected.effects.push_back(describedOne(set, family));
     std::stable_sort(selected.effects.begin(), selected.effects.end(),
                      [](const SelectedEffect& a, const SelectedEffect& b) { return a.score > b.score; });
+    for (std::size_t f = 0; f < fits_.families().size(); ++f) {
+      const double fall = kLeastFall + fits_.leastPenalty(f);
+      // Of what is then left: each equation's share of the fall.
+      selected.detectable.emplace_back(fits_.families()[f].effect, std::sqrt(std::expm1(fall / equations_)));
+    }
     return selected;
   }
 
  private:
   /// Besides its parameters each effect has to be worth this: what one of a dozen reaches by chance.
   static constexpr double kLeastFall = 10.0;
+
+  SelectedEffect describedOne(const EffectSet& set, std::size_t family) const {
+    const EffectSet others = without(set, family);
+    SelectedEffect one;
+    one.effect = fits_.families()[family].effect;
+    for (const EffectPart& part : set.model.parts) {
+      if (part.effect == one.effect && one.detail.find(part.detail) == std::string::npos)
+        one.detail += (one.detail.empty() ? "" : ", ") + part.detail;
+    }
+    one.score = cost(others) - cost(set);
+    const double rows = static_cast<double>(day_.rows());
+    one.size = std::sqrt(std::max(0.0, others.model.squares() - set.model.squares()) / rows);
+    for (std::size_t other = 0; other < fits_.families().size(); ++other) {
+      if (has(set, other)) continue;
+      const auto instead = with(others, other);
+      if (!instead || cost(*instead) - cost(set) > kAsGood) continue;
+      one.rivals.push_back(
+          {fits_.families()[other].effect, instead->model.parts.back().detail, cost(*instead) - cost(set)});
+    }
+    std::sort(one.rivals.begin(), one.rivals.end(), [](const Rival& a, const Rival& b) { return a.cost < b.cost; });
+    std::vector<EffectPart> own;
+    for (const EffectPart& part : set.model.parts) {
+      if (part.effect == one.effect) own.push_back(part);
+    }
+    one.held_out = day_.heldOutByPosture(fits_.withParts(day_.geometryAlone(), own, UnloadedEffect::kinematic_error));
+    return one;
+  }
 
   void setEquations(const LinearModel& model) {
     const double rows = static_cast<double>(day_.rows() - day_.geometry().cols());

@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/calibration/arm_fit.h"
@@ -34,8 +35,11 @@ struct Rival {
 
 struct SelectedEffect {
   UnloadedEffect effect = {};
-  double score = 0.0;         ///< fall of BIC against the others without it
-  std::vector<Rival> rivals;  ///< within kAsGood, best first
+  std::string detail;            ///< of its parts, each once; empty where they name nothing
+  double score = 0.0;            ///< fall of BIC against the others without it
+  double size = 0.0;             ///< rms per coordinate of what it explains beside them, in parts of the fit's noise
+  std::vector<Rival> rivals;     ///< within kAsGood, best first
+  std::vector<double> held_out;  ///< as SelectedEffects::before, with this effect alone beside the geometry
 };
 
 /// BIC tells models apart that differ by this much: odds of 90 to 1.
@@ -44,6 +48,10 @@ inline constexpr double kAsGood = 9.0;
 struct SelectedEffects {
   std::vector<EffectPart> parts;        ///< those of an effect stand together
   std::vector<SelectedEffect> effects;  ///< the one that explains most first
+  /// Squared whitened residuals of postures that took no part in a fit: of the geometry, and with all the effects.
+  std::vector<double> before, after;
+  /// Of each effect that the day can be asked for: what it would have to explain to be named, as SelectedEffect::size.
+  std::vector<std::pair<UnloadedEffect, double>> detectable;
 };
 
 /// Effects that the residuals of `geometry` ask for. On the equations linearised about the fit, sets of effects are

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "metrology/linear_algebra.h"
@@ -15,6 +16,9 @@ double logTail(double x, int dof) {
   const double half = dof / 2.0;
   return std::min(0.0, -x / 2.0 + (half - 1.0) * std::log(std::max(1e-300, x / 2.0)) - std::lgamma(half));
 }
+
+/// Once or twice a turn of one of six joints is what gears and encoder rings do first; any other order is one of many.
+constexpr int kUsual = 12;
 
 constexpr std::size_t kFewestAside = 5;  // postures on either side of a start: fewer are outliers
 
@@ -45,10 +49,29 @@ double FamilyFit::fall(double before, double after, double equations) {
   return equations * std::log(before / std::max(1e-300, after));
 }
 
-double FamilyFit::penalty(const Candidate& candidate) const {
-  return static_cast<double>(candidate.prepared.part.terms.size()) *
-             std::log(static_cast<double>(day_.postures().size())) +
-         2.0 * std::log(static_cast<double>(candidate.tried));
+double FamilyFit::penaltyOf(std::size_t terms, int tried) const {
+  return static_cast<double>(terms) * std::log(static_cast<double>(day_.postures().size())) +
+         2.0 * std::log(static_cast<double>(tried));
+}
+
+double FamilyFit::leastPenalty(std::size_t family) const {
+  const int postures = static_cast<int>(day_.postures().size());
+  switch (families_[family].effect) {
+    case UnloadedEffect::transmission_error:
+      return penaltyOf(2, kUsual);
+    case UnloadedEffect::frame_error:
+      return penaltyOf(6, postures);
+    case UnloadedEffect::target_motion:
+      return penaltyOf(3, postures);
+    default:
+      break;
+  }
+  double least = std::numeric_limits<double>::infinity();
+  for (const Prepared& one : parts_[family])
+    least = std::min(least, penaltyOf(one.part.terms.size(), static_cast<int>(parts_[family].size())));
+  for (const Prepared& one : wholes_[family])
+    least = std::min(least, penaltyOf(one.part.terms.size(), static_cast<int>(wholes_[family].size())));
+  return least;
 }
 
 std::optional<FamilyFit::Prepared> FamilyFit::plausible(Prepared prepared, const LinearModel& model) const {
@@ -114,8 +137,6 @@ std::optional<FamilyFit::Candidate> FamilyFit::bestPart(std::size_t family, cons
       if (highest == nullptr || peak.gain > highest->gain) highest = &peak;
     }
     if (highest == nullptr) return std::nullopt;
-    // Once or twice a turn is what gears and encoder rings do first; any other order is one of many.
-    constexpr int kUsual = 12;
     const bool usual = highest->order == 1.0 || highest->order == 2.0;
     return Candidate{prepare(transmissionError(highest->joint, highest->order)), usual ? kUsual : Periodogram::kTried};
   }
@@ -215,8 +236,8 @@ std::optional<LinearModel> FamilyFit::fit(std::size_t family, const LinearModel&
     const auto candidate = bestPart(family, by_parts, periodic ? &*periodogram : nullptr);
     if (!candidate) break;
     LinearModel with = by_parts;
-    day_.add(candidate->prepared.part, candidate->prepared.columns, candidate->prepared.lengths, penalty(*candidate),
-             with);
+    day_.add(candidate->prepared.part, candidate->prepared.columns, candidate->prepared.lengths,
+             penaltyOf(candidate->prepared.part.terms.size(), candidate->tried), with);
     if (!holds(by_parts, with, *candidate, equations)) break;
     if (periodic) {
       const Eigen::Index more = with.directions.cols() - by_parts.directions.cols();
@@ -236,7 +257,8 @@ std::optional<LinearModel> FamilyFit::fit(std::size_t family, const LinearModel&
     if (!prepared) continue;
     const Candidate candidate{*prepared, static_cast<int>(wholes_[family].size())};
     LinearModel with = others;
-    day_.add(prepared->part, prepared->columns, prepared->lengths, penalty(candidate), with);
+    day_.add(prepared->part, prepared->columns, prepared->lengths,
+             penaltyOf(prepared->part.terms.size(), candidate.tried), with);
     if (!holds(others, with, candidate, equations)) continue;
     const double own = with.penalty - others.penalty - fall(others.squares(), with.squares(), equations);
     if (!best || own < cost) best = std::move(with), cost = own;

@@ -20,6 +20,9 @@ class FamilyFit {
   /// are worth.
   std::optional<LinearModel> fit(std::size_t family, const LinearModel& others, double equations) const;
 
+  /// Of the family's form with the fewest terms.
+  double leastPenalty(std::size_t family) const;
+
   /// `model` with those of `parts` that are not of `but`, with their penalties.
   LinearModel withParts(LinearModel model, const std::vector<EffectPart>& parts, UnloadedEffect but) const;
 
@@ -44,7 +47,7 @@ class FamilyFit {
   std::optional<Prepared> plausible(Prepared prepared, const LinearModel& model) const;
   std::optional<Candidate> bestPart(std::size_t family, const LinearModel& model, Periodogram* periodogram) const;
   std::optional<EffectPart> bestStart(UnloadedEffect effect, const LinearModel& model) const;
-  double penalty(const Candidate& candidate) const;
+  double penaltyOf(std::size_t terms, int tried) const;
   bool holds(const LinearModel& before, LinearModel& after, const Candidate& candidate, double equations) const;
   double gainOf(const Prepared& prepared, const LinearModel& model) const;
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 #include "metrology/linear_algebra.h"
@@ -111,42 +112,55 @@ double LinearisedDay::designEffect(const Eigen::VectorXd& residual) const {
   return apart > 0.0 ? std::max(1.0, together / apart) : 1.0;
 }
 
-double LinearisedDay::heldOut(const LinearModel& model) const {
+std::vector<double> LinearisedDay::heldOutByPosture(const LinearModel& model) const {
   const Eigen::Index of_geometry = basis_.cols(), width = of_geometry + model.directions.cols();
   struct Normal {
     Eigen::MatrixXd matrix;
     Eigen::VectorXd right;
-    double square = 0.0;
   };
   const auto folds = static_cast<std::size_t>(options_.inner_folds);
-  std::vector<Normal> normals(folds, {Eigen::MatrixXd::Zero(width, width), Eigen::VectorXd::Zero(width), 0.0});
+  std::vector<Normal> normals(folds, {Eigen::MatrixXd::Zero(width, width), Eigen::VectorXd::Zero(width)});
   Eigen::MatrixXd columns;
-  for (std::size_t k = 0; k < postures_.size();) {
-    // Postures in a row that are of one fold.
-    std::size_t end = k + 1;
-    while (end < postures_.size() && fold_[end] == fold_[k]) ++end;
-    const Eigen::Index from = first_row_[k], rows = first_row_[end - 1] + equations_[end - 1].residual.size() - from;
-    columns.resize(rows, width);
-    columns << basis_.middleRows(from, rows), model.directions.middleRows(from, rows);
-    const auto residual = model.residual.segment(from, rows);
+  // Calls with the columns of postures in a row that are of one fold.
+  const auto forEachRun = [&](const auto& work) {
+    for (std::size_t k = 0; k < postures_.size();) {
+      std::size_t end = k + 1;
+      while (end < postures_.size() && fold_[end] == fold_[k]) ++end;
+      const Eigen::Index from = first_row_[k], rows = first_row_[end - 1] + equations_[end - 1].residual.size() - from;
+      columns.resize(rows, width);
+      columns.leftCols(of_geometry) = basis_.middleRows(from, rows);
+      columns.rightCols(width - of_geometry) = model.directions.middleRows(from, rows);
+      work(k, end, from, rows);
+      k = end;
+    }
+  };
+  forEachRun([&](std::size_t k, std::size_t, Eigen::Index from, Eigen::Index rows) {
     Normal& normal = normals[static_cast<std::size_t>(fold_[k])];
     normal.matrix.noalias() += columns.transpose() * columns;
-    normal.right.noalias() += columns.transpose() * residual;
-    normal.square += residual.squaredNorm();
-    k = end;
-  }
+    normal.right.noalias() += columns.transpose() * model.residual.segment(from, rows);
+  });
   Normal all = normals.front();
   for (std::size_t f = 1; f < folds; ++f) all.matrix += normals[f].matrix, all.right += normals[f].right;
   constexpr double kDamping = 1e-9;  // of what the whole day sees: a fold that cannot see a direction leaves it
-  const Eigen::VectorXd damping = kDamping * all.matrix.diagonal();
-  double sum = 0.0;
+  std::vector<Eigen::VectorXd> sizes;
   for (const Normal& normal : normals) {
     Eigen::MatrixXd others = all.matrix - normal.matrix;
-    others.diagonal() += damping;
-    const Eigen::VectorXd sizes = solveSymmetric(others, Eigen::VectorXd(all.right - normal.right));
-    sum += normal.square - 2.0 * sizes.dot(normal.right) + sizes.dot(Eigen::VectorXd(normal.matrix * sizes));
+    others.diagonal() += kDamping * all.matrix.diagonal();
+    sizes.push_back(solveSymmetric(others, Eigen::VectorXd(all.right - normal.right)));
   }
-  return sum;
+  std::vector<double> squares;
+  forEachRun([&](std::size_t k, std::size_t end, Eigen::Index from, Eigen::Index rows) {
+    const Eigen::VectorXd left =
+        model.residual.segment(from, rows) - columns * sizes[static_cast<std::size_t>(fold_[k])];
+    for (std::size_t p = k; p < end; ++p)
+      squares.push_back(left.segment(first_row_[p] - from, equations_[p].residual.size()).squaredNorm());
+  });
+  return squares;
+}
+
+double LinearisedDay::heldOut(const LinearModel& model) const {
+  const std::vector<double> squares = heldOutByPosture(model);
+  return std::accumulate(squares.begin(), squares.end(), 0.0);
 }
 
 }  // namespace stiffscope::calibration

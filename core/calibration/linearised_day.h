@@ -55,7 +55,8 @@ class LinearisedDay {
   /// By how much reflectors of one posture err together in a residual, one at least: variance of their sum.
   double designEffect(const Eigen::VectorXd& residual) const;
 
-  /// Sum of squared residuals, each inner fold by what the others fit, geometry included.
+  /// Squared residuals of each posture, each inner fold by what the others fit, geometry included; and their sum.
+  std::vector<double> heldOutByPosture(const LinearModel& model) const;
   double heldOut(const LinearModel& model) const;
 
   static constexpr double kAliased = 1e-3;  ///< of a column's length: what is left of it is nothing of its own
