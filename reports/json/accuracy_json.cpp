@@ -13,8 +13,6 @@ namespace stiffscope::reports {
 
 namespace {
 
-Json micrometres(double metres) { return number(metres / io::kMicrometre); }
-
 Json idsOf(const std::vector<accuracy::UnloadedEffect>& effects) {
   Json ids = Json::array();
   for (const accuracy::UnloadedEffect effect : effects) ids.push_back(std::string(idOf(effect)));

@@ -14,8 +14,6 @@ namespace stiffscope::reports {
 
 namespace {
 
-Json micrometres(double metres) { return number(metres / io::kMicrometre); }
-
 Json idsOf(const std::vector<effects::Effect>& effects) {
   Json ids = Json::array();
   for (const effects::Effect effect : effects) ids.push_back(std::string(effects::idOf(effect)));

@@ -7,6 +7,8 @@
 
 namespace stiffscope::reports {
 
+Json micrometres(double metres) { return number(metres / io::kMicrometre); }
+
 Json shrinkJson(const diagnosis::Shrink& shrink) {
   return {{"value", number(shrink.value)}, {"low", number(shrink.low)}, {"high", number(shrink.high)}};
 }
@@ -17,8 +19,8 @@ Json tablesJson(const std::vector<diagnosis::WhereTable>& tables) {
     Json rows = Json::array();
     for (const diagnosis::WhereRow& row : table.rows) {
       rows.push_back({{"name", row.name},
-                      {"rms_um", number(row.rms / io::kMicrometre)},
-                      {"noise_um", number(row.noise / io::kMicrometre)},
+                      {"rms_um", micrometres(row.rms)},
+                      {"noise_um", micrometres(row.noise)},
                       {"share", number(row.share)},
                       {"significance", number(row.significance)},
                       {"significance_at_limit", std::abs(row.significance) >= numerics::kLargestDeviate}});

@@ -19,8 +19,6 @@ namespace {
 using accuracy::AccuracyDiagnosis;
 using Out = std::back_insert_iterator<std::string>;
 
-double um(double metres) { return metres / io::kMicrometre; }
-
 std::string idsOf(const std::vector<accuracy::UnloadedEffect>& effects) {
   std::string names;
   for (const accuracy::UnloadedEffect effect : effects)

@@ -49,8 +49,6 @@ namespace {
 
 using Out = std::back_insert_iterator<std::string>;
 
-double um(double metres) { return metres / io::kMicrometre; }
-
 void writeClasses(const diagnosis::Diagnosis& diagnosis, Out out) {
   if (diagnosis.classes.empty()) return;
   fmt::format_to(out, "\nWhich: candidates, and what each takes off the deflection's gap on postures held out\n");

@@ -3,15 +3,10 @@
 
 #include "core/accuracy/remarks.h"
 #include "core/io/units.h"
+#include "reports/words/numbers.h"
 #include "reports/words/remarks.h"
 
 namespace stiffscope::reports {
-
-namespace {
-
-double um(double metres) { return metres / io::kMicrometre; }
-
-}  // namespace
 
 std::string accuracyWords(accuracy::RemarkId id, const RemarkValues& values) {
   using accuracy::RemarkId;
