@@ -225,6 +225,20 @@ LinearModel FamilyFit::withParts(LinearModel model, const std::vector<EffectPart
 }
 
 std::optional<LinearModel> FamilyFit::fit(std::size_t family, const LinearModel& others, double equations) const {
+  auto fitted = fitAlone(family, others, equations);
+  if (fitted && !apart(*fitted)) return std::nullopt;
+  return fitted;
+}
+
+bool FamilyFit::apart(const LinearModel& model) {
+  const auto any = [&](UnloadedEffect effect, const std::string& detail) {
+    return std::any_of(model.parts.begin(), model.parts.end(),
+                       [&](const EffectPart& part) { return part.effect == effect && part.detail == detail; });
+  };
+  return !(any(UnloadedEffect::gravity_compensator, "") && any(UnloadedEffect::transmission_error, "joint 2"));
+}
+
+std::optional<LinearModel> FamilyFit::fitAlone(std::size_t family, const LinearModel& others, double equations) const {
   const bool periodic = families_[family].effect == UnloadedEffect::transmission_error;
   std::optional<Periodogram> periodogram;
   if (periodic) {

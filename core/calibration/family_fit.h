@@ -41,6 +41,10 @@ class FamilyFit {
     int tried = 1;
   };
 
+  std::optional<LinearModel> fitAlone(std::size_t family, const LinearModel& others, double equations) const;
+  /// False where two effects are in a model that would share one joint's angle out between them: a compensator on axis
+  /// 2 is its first harmonics, and joint 2's periodic errors have them too.
+  static bool apart(const LinearModel& model);
   Prepared prepare(EffectPart part) const;
   /// Without terms that the day does not tell beside `model`, and without those that would be of the wrong sign, the
   /// most wrong one first, or beyond their physical bound.
