@@ -77,9 +77,9 @@ void addBlind(CLI::App& app, Run& run) {
       arguments->options.out = arguments->out;
       if (arguments->options.unloaded) arguments->options.as_is_share = 0.0;
       const validation::BlindResult result =
-          arguments->options.unloaded
-              ? validation::runBlind(arguments->options, diagnosedUnloaded, eventsOnStderr())
-              : validation::runBlind(arguments->options, diagnosed, eventsOnStderr(), diagnosis::distanceFromVocabulary);
+          arguments->options.unloaded ? validation::runBlind(arguments->options, diagnosedUnloaded, eventsOnStderr())
+                                      : validation::runBlind(arguments->options, diagnosed, eventsOnStderr(),
+                                                             diagnosis::distanceFromVocabulary);
       const reports::Json json = reports::blindJson(arguments->options, result);
       io::writeFileWhole(arguments->options.out / "results.json", json.dump(1) + '\n');
       io::writeFileWhole(arguments->options.out / "blind.html", page::blindPage(arguments->options, result));

@@ -15,8 +15,9 @@ struct Arrival {
   void moveTo(const Vector6d& q);
 };
 
-/// How far each link stands from its motor within its play (LostMotion), rad: half the width, away from the side it came
-/// from, or where the torque on the joint is more than its friction, in the sense of that torque (driveTorques, Nm).
+/// How far each link stands from its motor within its play (LostMotion), rad: half the width, away from the side it
+/// came from, or where the torque on the joint is more than its friction, in the sense of that torque (driveTorques,
+/// Nm).
 Vector6d lostMotions(const MachineSpec& machine, const Arrival& arrival, const Vector6d& torques);
 bool hasLostMotion(const MachineSpec& machine);
 

@@ -107,7 +107,8 @@ Eigen::Vector3d Station::readFloor(const Eigen::Vector3d& point_in_base, double 
   const Eigen::Vector3d point = tracker_from_base_ * point_in_base;
   if (still_) return point;
   Eigen::Isometry3d first_from_now = motionOf(wandered(time_s));
-  if (spec_.tracker_moved && moved(spec_.tracker_moved_s, time_s)) first_from_now = *spec_.tracker_moved * first_from_now;
+  if (spec_.tracker_moved && moved(spec_.tracker_moved_s, time_s))
+    first_from_now = *spec_.tracker_moved * first_from_now;
   double scale = 1.0 + spec_.scale + spec_.scale_per_second * time_s;
   if (time_s >= spec_.scale_step_s) scale += spec_.scale_step;
   const Eigen::Vector3d seen = first_from_now.inverse() * point;
@@ -115,7 +116,8 @@ Eigen::Vector3d Station::readFloor(const Eigen::Vector3d& point_in_base, double 
 }
 
 Eigen::Vector3d Station::readRobot(const Eigen::Vector3d& point_in_base, double time_s) const {
-  if (spec_.robot_moved && moved(spec_.robot_moved_s, time_s)) return readFloor(*spec_.robot_moved * point_in_base, time_s);
+  if (spec_.robot_moved && moved(spec_.robot_moved_s, time_s))
+    return readFloor(*spec_.robot_moved * point_in_base, time_s);
   return readFloor(point_in_base, time_s);
 }
 

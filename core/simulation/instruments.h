@@ -64,8 +64,8 @@ class ReflectorSeats {
   /// measurement, one a reflector).
   ReflectorSeats(const SimulationSpec& spec, int posture);
 
-  /// Shifts of the targets (flange axes, m) once this force of the load on the tool (flange axes, N) is on, at a time of
-  /// the day.
+  /// Shifts of the targets (flange axes, m) once this force of the load on the tool (flange axes, N) is on, at a time
+  /// of the day.
   const std::vector<Eigen::Vector3d>& under(const Eigen::Vector3d& force_in_flange, double time_s);
 
  private:

@@ -99,7 +99,7 @@ struct ElasticMachine {
   robot::Tool tool;
   Eigen::Vector3d gravity_in_base{0.0, 0.0, -9.80665};  ///< the true one
   std::vector<TrueTarget> targets;
-  MachineSpec truth;  ///< what it was built from: the true stiffness values are here
+  MachineSpec truth;                             ///< what it was built from: the true stiffness values are here
   std::optional<TemperatureCourse> temperature;  ///< of the day
   std::array<Eigen::Index, 6> torsion_coordinates{-1, -1, -1, -1, -1, -1};  ///< of each joint; -1: rigid
   std::vector<CoordinateCurve> curves;

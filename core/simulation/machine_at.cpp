@@ -33,7 +33,8 @@ double angleError(const JointStiffness& joint, const std::optional<TemperatureCo
   if (joint.ratio) error += joint.ratio->share * q[joint.ratio->of];
   if (joint.zero_jump && time_s >= joint.zero_jump->from_s) error += joint.zero_jump->angle;
   if (joint.zero_warming && temperature) {
-    error += joint.zero_warming->per_kelvin * (temperature->lagged(time_s, joint.zero_warming->lag) - temperature->at(0.0));
+    error +=
+        joint.zero_warming->per_kelvin * (temperature->lagged(time_s, joint.zero_warming->lag) - temperature->at(0.0));
   }
   return error;
 }
@@ -64,7 +65,8 @@ ElasticMachine machineAt(const ElasticMachine& machine, const Vector6d& q, doubl
     const auto& axes = machine.nominal.axes_in_base_at_zero;
     const Eigen::Vector3d along = (axes[joint + 1].point - axes[joint].point).normalized();
     double longer = growth.growth * comeSoFar(time_s, growth.time_constant);
-    if (machine.temperature) longer += growth.per_kelvin * (machine.temperature->at(time_s) - machine.temperature->at(0.0));
+    if (machine.temperature)
+      longer += growth.per_kelvin * (machine.temperature->at(time_s) - machine.temperature->at(0.0));
     now.axis_errors[joint + 1] = Eigen::Translation3d(longer * along) * now.axis_errors[joint + 1];
   }
   return now;

@@ -184,8 +184,8 @@ Row reading(Session& session, const MachineState& state, ReflectorSeats& seats, 
   row.target = target;
   row.q = session.logged(state);
   row.time_s = session.takeReading();
-  row.point = session.station.readRobot(reflectorPlace(session, state, seats, static_cast<std::size_t>(target)),
-                                        session.now_s);
+  row.point =
+      session.station.readRobot(reflectorPlace(session, state, seats, static_cast<std::size_t>(target)), session.now_s);
   return row;
 }
 

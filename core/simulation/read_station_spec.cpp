@@ -16,8 +16,7 @@ Vector6d shiftAndTurn(const io::XmlNode& node, const std::string& shift_mm, cons
       .finished();
 }
 
-std::optional<Eigen::Isometry3d> readMoved(const io::XmlNode& station, const char* name,
-                                             std::optional<double>& at_s) {
+std::optional<Eigen::Isometry3d> readMoved(const io::XmlNode& station, const char* name, std::optional<double>& at_s) {
   const auto node = station.child(name);
   if (!node) return std::nullopt;
   refuseUnknown(*node, {"xyz_mm", "rpy_deg", "at_s"});
@@ -34,8 +33,8 @@ StationSpec readStation(const io::XmlNode& root) {
   if (!node) return station;
   refuseUnknown(*node, {}, {"drift", "tracker_moved", "robot_moved", "refraction"});
   if (const auto drift = node->child("drift")) {
-    refuseUnknown(*drift, {"ramp_mm_per_h", "ramp_deg_per_h", "limit_mm", "limit_deg", "time_constant_s", "walk_mm_per_sqrt_h",
-                           "walk_deg_per_sqrt_h", "knot_s", "smooth"});
+    refuseUnknown(*drift, {"ramp_mm_per_h", "ramp_deg_per_h", "limit_mm", "limit_deg", "time_constant_s",
+                           "walk_mm_per_sqrt_h", "walk_deg_per_sqrt_h", "knot_s", "smooth"});
     station.ramp = shiftAndTurn(*drift, "ramp_mm_per_h", "ramp_deg_per_h", 1.0 / kHour);
     station.limit = shiftAndTurn(*drift, "limit_mm", "limit_deg", 1.0);
     station.limit_time = optionalPositive(*drift, "time_constant_s", 1.0).value_or(station.limit_time);

@@ -76,9 +76,9 @@ struct JointRatio {
   int of = 0;  ///< 0..5
 };
 
-/// Play between motor and link, `width` (rad) in all. What friction holds, `friction` (Nm, absent: whatever pulls), stays
-/// at the side from which the motor came: the link lags behind it by half the width. A larger torque pulls it to the
-/// side that the torque says.
+/// Play between motor and link, `width` (rad) in all. What friction holds, `friction` (Nm, absent: whatever pulls),
+/// stays at the side from which the motor came: the link lags behind it by half the width. A larger torque pulls it to
+/// the side that the torque says.
 struct LostMotion {
   double width = 0.0;
   std::optional<double> friction;
@@ -89,14 +89,14 @@ struct ZeroJump {
   double angle = 0.0, from_s = 0.0;  ///< rad, s
 };
 
-/// A joint's zero that follows the temperature of the day, less that of its beginning, late by `lag` (s, of first order):
-/// warming and cooling have different zeros at one temperature.
+/// A joint's zero that follows the temperature of the day, less that of its beginning, late by `lag` (s, of first
+/// order): warming and cooling have different zeros at one temperature.
 struct ZeroWarming {
   double per_kelvin = 0.0, lag = 0.0;  ///< rad/K, s
 };
 
-/// How one joint gives and turns. Absent: it does not. What follows `bearing` needs `torsion`, but for the gear and what
-/// follows that.
+/// How one joint gives and turns. Absent: it does not. What follows `bearing` needs `torsion`, but for the gear and
+/// what follows that.
 struct JointStiffness {
   std::optional<double> torsion;  ///< about its axis, Nm/rad; with a gear, of what lies beyond the second encoder
   std::optional<double> bearing;  ///< about each direction across its axis, at the axis's point, Nm/rad
@@ -181,8 +181,8 @@ struct ToolPlate {
   Eigen::Vector3d rotation = Eigen::Vector3d::Zero();     ///< about them; Nm/rad
 };
 
-/// A plate between flange and reflectors whose screws are loose: it lies in one of two seats, by whether its weight pulls
-/// along `direction` or against it. In the second seat it stands `shift` and `turn` away from the first.
+/// A plate between flange and reflectors whose screws are loose: it lies in one of two seats, by whether its weight
+/// pulls along `direction` or against it. In the second seat it stands `shift` and `turn` away from the first.
 struct LoosePlate {
   Eigen::Vector3d direction = Eigen::Vector3d::UnitX();  ///< flange axes, unit; gravity along it: the second seat
   Eigen::Vector3d shift = Eigen::Vector3d::Zero();       ///< flange axes, m
@@ -200,8 +200,8 @@ struct SharedSpring {
 };
 
 /// A link that grows along itself, from the point of joint `joint` to that of the next one: as the day goes on by
-/// growth (1 - exp(-t / time_constant)) from the first reading, and by `per_kelvin` times what the temperature of the day
-/// has risen since then.
+/// growth (1 - exp(-t / time_constant)) from the first reading, and by `per_kelvin` times what the temperature of the
+/// day has risen since then.
 struct ThermalGrowth {
   int joint = 0;                             ///< 0..4
   double growth = 0.0, time_constant = 1.0;  ///< m, s
@@ -260,7 +260,7 @@ struct TrueTarget {
 /// share with the floor is in every reading, the nests' included; the frame at the first reading is the
 /// file's.
 struct StationSpec {
-  Vector6d ramp = Vector6d::Zero();  ///< shift (m/s) and turn (rad/s), steady
+  Vector6d ramp = Vector6d::Zero();   ///< shift (m/s) and turn (rad/s), steady
   Vector6d limit = Vector6d::Zero();  ///< the same towards a limit (m, rad): limit (1 - exp(-t / limit_time))
   double limit_time = 3600.0;         ///< s
   Vector6d walk = Vector6d::Zero();   ///< the same as a random walk: sigma after one second (m, rad)
@@ -271,9 +271,9 @@ struct StationSpec {
   std::optional<Eigen::Isometry3d> robot_moved;    ///< the same, base_link axes; the direction of gravity in
                                                    ///< the robot is kept, nests do not see it
   std::optional<double> tracker_moved_s, robot_moved_s;
-  double scale = 0.0;                              ///< distances read / true - 1, from a wrong index of the air
-  double scale_per_second = 0.0;                   ///< as the hall gets warm
-  double scale_step = 0.0, scale_step_s = 0.0;     ///< besides, from a time of the day on: wrong weather
+  double scale = 0.0;                           ///< distances read / true - 1, from a wrong index of the air
+  double scale_per_second = 0.0;                ///< as the hall gets warm
+  double scale_step = 0.0, scale_step_s = 0.0;  ///< besides, from a time of the day on: wrong weather
   /// Air in layers bends the beam: a point at a level distance d and a height h above the station is seen higher by
   /// d^2 / 2 (bending + bending_per_m h). 1/m and 1/m^2; a kelvin a metre bends by 1e-6 / m.
   double bending = 0.0, bending_per_m = 0.0;

@@ -17,7 +17,7 @@
 namespace stiffscope::simulation {
 
 MachineSpec readMachine(const io::XmlNode& root);
-JointStiffness readJoint(const io::XmlNode& node, int index);  ///< 0..5
+JointStiffness readJoint(const io::XmlNode& node, int index);     ///< 0..5
 void readSprings(const io::XmlNode& root, MachineSpec& machine);  ///< after the joints
 void readBaseContacts(const io::XmlNode& base, MachineSpec& machine);
 ToolPlate readToolPlate(const io::XmlNode& node);

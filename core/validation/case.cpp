@@ -136,8 +136,8 @@ std::vector<CasePlan> planCases(int count, std::uint64_t seed, double as_is_shar
   return plans;
 }
 
-double strengthFor(const EffectDraw& draw, const simulation::SimulationSpec& clean, const Sizing& sizing,
-                   double size, EffectSize& sizes) {
+double strengthFor(const EffectDraw& draw, const simulation::SimulationSpec& clean, const Sizing& sizing, double size,
+                   EffectSize& sizes) {
   constexpr int kMostTries = 14;
   constexpr double kNear = 0.1;
   double strength = 1e-3 * draw.most;

@@ -25,7 +25,8 @@ const char* nameOf(CaseKind kind);  ///< none, single, double, outside, as_is
 constexpr double kAsIsShare = 0.125;
 
 /// What every case is to be, in an order mixed from the seed: a fifth none, an eighth doubles, an eighth
-/// outside the vocabulary, `as_is_share` machines as they are (where the kind of day has such), the rest singles, each effect (and each outside kind) as often as any other.
+/// outside the vocabulary, `as_is_share` machines as they are (where the kind of day has such), the rest singles, each
+/// effect (and each outside kind) as often as any other.
 struct CasePlan {
   CaseKind kind = CaseKind::none;
   std::vector<std::string> effects;  ///< ids: one for a single, two for a double, all of a machine as it is
@@ -64,8 +65,8 @@ BlindCase drawCase(const CasePlan& plan, std::uint64_t seed, const std::string& 
                    const std::filesystem::path& urdf_file, const DayKind& days = loadedDays());
 
 /// Strength at which `sizing` finds this size, sought from below; `sizes` is what was found there.
-double strengthFor(const EffectDraw& draw, const simulation::SimulationSpec& clean, const Sizing& sizing,
-                   double size, EffectSize& sizes);
+double strengthFor(const EffectDraw& draw, const simulation::SimulationSpec& clean, const Sizing& sizing, double size,
+                   EffectSize& sizes);
 
 double sizeOf(const EffectSize& sizes, Shows shows);
 

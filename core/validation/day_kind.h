@@ -36,7 +36,8 @@ struct Sizing {
 struct DayKind {
   Vocabulary vocabulary;
   std::vector<std::vector<std::string>> as_is;  ///< effects of machines as they are, in turns; none: no such machines
-  std::function<MachineDraw(std::uint64_t seed, const std::string& name, const std::filesystem::path& urdf_file)> machine;
+  std::function<MachineDraw(std::uint64_t seed, const std::string& name, const std::filesystem::path& urdf_file)>
+      machine;
   using Draw = std::function<EffectDraw(const std::string& id, const simulation::SimulationSpec& machine,
                                         numerics::RandomStream& random)>;
   Draw effect, outside, as_is_effect;

@@ -316,7 +316,8 @@ MachineDraw drawUnloadedMachine(std::uint64_t seed, const std::string& name, con
   draw.loading = "unloaded";
   simulation::SimulationSpec& spec = draw.spec;
   spec.machine.geometry.position_sigma = 2.5e-4 * random.uniform(0.6, 1.4);
-  spec.machine.geometry.direction_sigma = spec.machine.geometry.zero_sigma = 0.01 * io::kDegree * random.uniform(0.6, 1.4);
+  spec.machine.geometry.direction_sigma = spec.machine.geometry.zero_sigma =
+      0.01 * io::kDegree * random.uniform(0.6, 1.4);
   spec.machine.mass_relative_sigma = 0.02;
   addInstruments(model, random, spec);
   if (random.uniform() < 1.0 / 7.0) spec.targets.resize(1);
@@ -325,7 +326,8 @@ MachineDraw drawUnloadedMachine(std::uint64_t seed, const std::string& name, con
   spec.unloaded_repeats = 2 + pick(random, 2);
   spec.timing = {2.0, random.uniform(6.0, 20.0), 0.0, random.uniform(400.0, 900.0)};
 
-  simulation::PostureDraw postures = postureBox(model, {-130, -50, -70, -170, -110, -170}, {130, 70, 50, 170, 110, 170});
+  simulation::PostureDraw postures =
+      postureBox(model, {-130, -50, -70, -170, -110, -170}, {130, 70, 50, 170, 110, 170});
   postures.count = 60 + pick(random, 141);
   postures.min_height = 0.1 * reach(model);
   postures.min_tracker_distance = 0.6;

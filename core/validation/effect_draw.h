@@ -54,8 +54,8 @@ EffectDraw drawOutside(const std::string& kind, const simulation::SimulationSpec
 const std::vector<std::string>& unloadedEffects();
 const std::vector<std::string>& unloadedOutsideKinds();
 
-/// One of them on a rigid machine without a load, mechanism and place drawn. Throws std::invalid_argument for an id that
-/// is not listed.
+/// One of them on a rigid machine without a load, mechanism and place drawn. Throws std::invalid_argument for an id
+/// that is not listed.
 EffectDraw drawUnloadedEffect(const std::string& id, const simulation::SimulationSpec& machine,
                               numerics::RandomStream& random);
 EffectDraw drawUnloadedOutside(const std::string& kind, const simulation::SimulationSpec& machine,

@@ -124,7 +124,8 @@ MatrixXd GeometrySizer::columnsAt(const std::vector<Vector6d>& q) const {
     const Eigen::Matrix3d sight_from_base = sight_[r].transpose() * tracker_from_base_.linear();
     columns.block<3, 3>(row, kAxisParameters) = sight_from_base;
     columns.block<3, 3>(row, kAxisParameters + 3) = -sight_from_base * simulation::skew(point);
-    columns.block<3, 3>(row, kAxisParameters + kPlaceParameters + 3 * target_of_[r]) = sight_from_base * flange.linear();
+    columns.block<3, 3>(row, kAxisParameters + kPlaceParameters + 3 * target_of_[r]) =
+        sight_from_base * flange.linear();
   }
   return sigma_.cwiseInverse().asDiagonal() * columns;
 }

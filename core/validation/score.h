@@ -80,8 +80,8 @@ struct Score {
 /// Answers against labels, case by case in the labels' order. A class of effects that cannot be told apart
 /// counts as right when the true one is among them; how many it had is reported beside it. Unknown says that nothing of
 /// the vocabulary explains what is left: beside the name of an effect that is not there it is wrong as well. Throws
-/// std::invalid_argument where a label has no answer. `distances`: by case, see ScoredCase. Tables are of `vocabulary`'s
-/// effects and kinds.
+/// std::invalid_argument where a label has no answer. `distances`: by case, see ScoredCase. Tables are of
+/// `vocabulary`'s effects and kinds.
 Score score(const std::vector<Label>& labels, const std::vector<Answer>& answers,
             const std::map<std::string, double>& distances = {},
             const Vocabulary& vocabulary = loadedDays().vocabulary);

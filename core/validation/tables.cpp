@@ -196,8 +196,8 @@ Label labelOf(const std::string& name, const BlindCase& one) {
               {}};
   for (std::size_t i = 0; i < 6; ++i) label.stiffness[i] = one.spec.machine.joints[i].torsion.value_or(0.0);
   for (const PlacedEffect& placed : one.effects) {
-    label.effects.push_back({placed.effect.empty() ? placed.detail : placed.effect, placed.detail, nameOf(placed.shows),
-                             placed.size(), placed.sizes.deflection, placed.sizes.positions});
+    label.effects.push_back({placed.effect.empty() ? plain(placed.detail) : placed.effect, plain(placed.detail),
+                             nameOf(placed.shows), placed.size(), placed.sizes.deflection, placed.sizes.positions});
   }
   return label;
 }

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "core/campaign/campaign.h"
 #include "core/accuracy/accuracy_diagnosis.h"
+#include "core/campaign/campaign.h"
 #include "core/diagnosis/diagnosis.h"
 #include "core/validation/case.h"
 
@@ -28,8 +28,8 @@ struct Answer {
   std::string failure;            ///< why there is no answer
 };
 
-/// What a diagnosis said, the name of the case aside. Of a day without a load a URDF that misses by more than the stated
-/// limit is an entry, kinematic_error.
+/// What a diagnosis said, the name of the case aside. Of a day without a load a URDF that misses by more than the
+/// stated limit is an entry, kinematic_error.
 Answer answerOf(const diagnosis::Verdict& verdict, const std::vector<diagnosis::EffectClass>& classes = {});
 Answer answerOf(const accuracy::AccuracyDiagnosis& given);
 

@@ -107,7 +107,8 @@ EffectDraw gasSpring(const simulation::SimulationSpec& machine, numerics::Random
   const double rate = random.uniform(0.3, 1.5), share = random.uniform(1.0, 2.0);
   const double stiffness = milliradianStiffness(machine, 1);
   const double arm = (to - shoulder).cross((from - to).normalized()).norm();
-  const double tension = share * 1e-3 * stiffness / std::max(arm, 0.05);  // N, whose torque is that share of the weight's
+  const double tension =
+      share * 1e-3 * stiffness / std::max(arm, 0.05);  // N, whose torque is that share of the weight's
   EffectDraw draw;
   draw.detail = jointCalled(1);
   draw.most = 5.0;
@@ -126,7 +127,7 @@ EffectDraw periodicError(numerics::RandomStream& random) {
   const double own = 5.0 + 0.25 * drawIndex(121, random);
   const double order = kind < 0.3 ? 1.0 : kind < 0.5 ? 2.0 : own;
   EffectDraw draw;
-  draw.detail = jointCalled(joint) + ", order " + (order == 1.0 ? "1" : order == 2.0 ? "2" : "of its gear");
+  draw.detail = jointCalled(joint);
   draw.most = 5e-3;
   draw.apply = [=](double s, simulation::SimulationSpec& spec) {  // s in rad
     if (s > 0.0) jointOf(spec, joint).angle_wave = simulation::JointWave{s, order, phase};
@@ -323,8 +324,8 @@ EffectDraw drawNamed(const std::string& id, const simulation::SimulationSpec& ma
 
 const std::vector<std::string>& unloadedEffects() {
   static const std::vector<std::string> ids{
-      "kinematic_error",     "joint_compliance",   "link_compliance", "bearing_tilt", "base_compliance",
-      "gravity_compensator", "transmission_error", "ratio_error",     "backlash",     "read_back_error",
+      "kinematic_error",     "joint_compliance",   "link_compliance", "bearing_tilt",   "base_compliance",
+      "gravity_compensator", "transmission_error", "ratio_error",     "backlash",       "read_back_error",
       "tracker_drift",       "frame_error",        "target_motion",   "thermal_growth", "scale_error"};
   return ids;
 }
