@@ -315,9 +315,9 @@ MachineDraw drawUnloadedMachine(std::uint64_t seed, const std::string& name, con
   MachineDraw draw = beginDraw(model, seed, name, urdf_file);
   draw.loading = "unloaded";
   simulation::SimulationSpec& spec = draw.spec;
-  spec.machine.geometry.position_sigma = 2.5e-4 * random.uniform(0.6, 1.4);
+  spec.machine.geometry.position_sigma = 2e-4 * random.uniform(0.6, 1.4);
   spec.machine.geometry.direction_sigma = spec.machine.geometry.zero_sigma =
-      0.01 * io::kDegree * random.uniform(0.6, 1.4);
+      0.008 * io::kDegree * random.uniform(0.6, 1.4);
   spec.machine.mass_relative_sigma = 0.02;
   addInstruments(model, random, spec);
   if (random.uniform() < 1.0 / 7.0) spec.targets.resize(1);

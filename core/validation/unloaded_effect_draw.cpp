@@ -38,6 +38,12 @@ simulation::JointStiffness& jointOf(simulation::SimulationSpec& spec, int joint)
   return spec.machine.joints[static_cast<std::size_t>(joint)];
 }
 
+/// Gives the joint this stiffness as well, in series with what it may have of another effect.
+void soften(simulation::SimulationSpec& spec, int joint, double stiffness) {
+  std::optional<double>& torsion = jointOf(spec, joint).torsion;
+  torsion = torsion ? 1.0 / (1.0 / *torsion + 1.0 / stiffness) : stiffness;
+}
+
 /// Joint 2, joint 3, or the four that own weight turns; strength 1: a milliradian by the weight standing out level.
 EffectDraw jointCompliance(const simulation::SimulationSpec& machine, numerics::RandomStream& random) {
   const int which = drawIndex(3, random);
@@ -54,7 +60,7 @@ EffectDraw jointCompliance(const simulation::SimulationSpec& machine, numerics::
   draw.apply = [=](double s, simulation::SimulationSpec& spec) {
     for (int i = 0; i < 6 && s > 0.0; ++i) {
       const double k = stiffness[static_cast<std::size_t>(i)];
-      if (k > 0.0) jointOf(spec, i).torsion = k / s;
+      if (k > 0.0) soften(spec, i, k / s);
     }
   };
   return draw;
@@ -114,7 +120,7 @@ EffectDraw gasSpring(const simulation::SimulationSpec& machine, numerics::Random
   draw.most = 5.0;
   draw.apply = [=](double s, simulation::SimulationSpec& spec) {
     if (s <= 0.0) return;
-    jointOf(spec, 1).torsion = stiffness / s;
+    soften(spec, 1, stiffness / s);
     spec.machine.link_springs.push_back({1, 2, from, to, rate * tension / (to - from).norm(), tension});
   };
   return draw;

@@ -39,7 +39,8 @@ Vector3d shownAt(const SimulationSpec& spec, const Vector6d& q, const Vector3d& 
 template <class TrueAngles>
 double farthestFrom(const SimulationSpec& spec, const TrueAngles& trueAngles) {
   double most = 0.0;
-  for (const campaign::LoadingReading& one : dayOf(spec).loading->rows) {
+  const campaign::Campaign day = dayOf(spec);
+  for (const campaign::LoadingReading& one : day.loading->rows) {
     const Vector3d there =
         shownAt(spec, trueAngles(one.pose), spec.targets[static_cast<std::size_t>(one.target)].position_in_flange);
     most = std::max(most, (one.point - there).norm());
@@ -123,8 +124,7 @@ TEST(SimulationUnloaded, aTorqueAboveFrictionTakesTheLinkToItsOwnSide) {
   SimulationSpec spec = rigidDay();
   spec.nominal.bodies[3] = {50.0, Vector3d(1.7, 0.0, 2.0)};
   const double torque = 50.0 * 9.80665 * 1.3, width = 6e-5;
-  // The second posture comes down to zero: by its side the link would be ahead, by the weight it is as well; the first
-  // comes up, where friction would hold it back.
+  // Joint 2 stays at zero, then comes up: held by friction its link would lag, by the weight it is ahead both times.
   spec.postures = {{deg(0, 0, 0, 0, 30, 0), {}}, {deg(0, 5, 0, 0, 30, 0), {}}};
   for (const bool held : {false, true}) {
     spec.machine.joints[1].lost_motion = LostMotion{width, held ? 1.1 * torque : 0.9 * torque};

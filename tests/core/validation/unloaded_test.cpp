@@ -31,7 +31,7 @@ TEST(BlindUnloadedMachines, areRigidAndSpreadOverTheWorkspace) {
     EXPECT_GE(spec.postures.size(), 60u);
     EXPECT_LE(spec.postures.size(), 200u);
     for (const auto& joint : spec.machine.joints) EXPECT_FALSE(joint.torsion || joint.bearing);
-    EXPECT_GE(spec.machine.geometry.position_sigma, 1.5e-4);
+    EXPECT_GE(spec.machine.geometry.position_sigma, 1.2e-4);
     with_nests += spec.nests.empty() ? 0 : 1;
     alone += spec.targets.size() == 1 ? 1 : 0;
     with_temperature += spec.temperature ? 1 : 0;
@@ -91,7 +91,8 @@ TEST(BlindUnloadedSize, ofAReflectorThatSitsElsewhereByHand) {
   const double by_hand = 1e-4 / 6.0 / noise;
   const double size = validation::GeometrySizer(lab.spec).measure(moved).positions;
   const double numbers = 9.0 * static_cast<double>(lab.spec.postures.size());
-  EXPECT_LT(size, 1.001 * by_hand);
+  // Noises differ with the distance by a half: the whitened fit is not the least of the plain rms.
+  EXPECT_LT(size, 1.02 * by_hand);
   EXPECT_GT(size, by_hand * std::sqrt(1.0 - 39.0 / numbers) * 0.97);
 }
 
@@ -141,6 +142,23 @@ TEST(BlindUnloadedSize, shrinkWithAndWithoutNoise) {
   validation::strengthFor(draw, lab.spec, days.sizing(lab.spec), 5.0, sizes);
   EXPECT_NEAR(sizes.shrink, 1.0, 1e-3);
   EXPECT_NEAR(sizes.shrink_seen, 0.8, 0.06);
+}
+
+// Two effects that both soften joint 2 soften it twice.
+TEST(BlindUnloadedEffects, aJointGivesByTheSumOfItsCompliances) {
+  simulation::SimulationSpec spec = UnloadedLab(2).spec;
+  numerics::RandomStream random(6, "test");
+  const auto& days = validation::unloadedDays();
+  validation::EffectDraw weight;
+  while (weight.detail != "joint 2") weight = days.effect("joint_compliance", spec, random);
+  const validation::EffectDraw spring = days.effect("gravity_compensator", spec, random);
+  simulation::SimulationSpec one = spec, other = spec, both = spec;
+  weight.apply(0.5, one);
+  spring.apply(2.0, other);
+  weight.apply(0.5, both);
+  spring.apply(2.0, both);
+  EXPECT_DOUBLE_EQ(1.0 / *both.machine.joints[1].torsion,
+                   1.0 / *one.machine.joints[1].torsion + 1.0 / *other.machine.joints[1].torsion);
 }
 
 TEST(BlindUnloadedPlan, sharesAndBalance) {
