@@ -279,4 +279,8 @@ AccuracyDiagnosis diagnoseAccuracy(const preparation::PreparedCampaign& prepared
   return result;
 }
 
+AccuracyDiagnosis diagnoseAccuracy(const campaign::Campaign& campaign, const calibration::CalibrationOptions& options) {
+  return diagnoseAccuracy(preparation::prepareCampaign(campaign), options);
+}
+
 }  // namespace stiffscope::accuracy

@@ -16,4 +16,8 @@ namespace stiffscope::accuracy {
 AccuracyDiagnosis diagnoseAccuracy(const preparation::PreparedCampaign& prepared,
                                    const calibration::CalibrationOptions& options = {});
 
+/// The same of a campaign as it was read, prepared first.
+AccuracyDiagnosis diagnoseAccuracy(const campaign::Campaign& campaign,
+                                   const calibration::CalibrationOptions& options = {});
+
 }  // namespace stiffscope::accuracy
