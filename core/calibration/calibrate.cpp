@@ -20,6 +20,8 @@ struct ModelFits {
   SelectedEffects selected;
 };
 
+int foldOf(int pose, const CalibrationOptions& options) { return (pose / options.fold_size) % options.folds; }
+
 std::function<int(int)> innerFolds(const CalibrationOptions& options, int inner) {
   // Blocks that hold one piece of every fold: of each fold's others every inner fold has its share.
   const int block = std::max(1, options.folds * options.fold_size);
@@ -44,6 +46,8 @@ ModelFits fitModels(const UnloadedDay& day, const std::vector<double>& weights, 
   const ArmFit first = fitArm(day, *place, {}, {.weights = weights, .gross = kGrossOfGeometry});
   SelectionOptions selection;
   selection.inner_fold = innerFolds(options, selection.inner_folds);
+  selection.outer_folds = options.folds;
+  selection.outer_fold = [&](int pose) { return foldOf(pose, options); };
   SelectedEffects selected = selectEffects(day, first, selection);
   ArmFit effects = fitArm(day, *place, selected.parts, {.weights = weights}, &first);
   if (worthAnotherLook(first, effects, selection)) {
@@ -175,10 +179,10 @@ Calibration calibrate(const campaign::Campaign& campaign, const CalibrationOptio
 
   // The whole day first, then each fold's others.
   std::vector<ModelFits> fits(static_cast<std::size_t>(options.folds) + 1);
-  const auto foldOf = [&](int pose) { return (pose / options.fold_size) % options.folds; };
   numerics::onAllCores(fits.size(), [&](std::size_t k) {
     const int fold = static_cast<int>(k) - 1;
-    fits[k] = fitModels(day, weightsWhere(day, [&](int pose) { return fold < 0 || foldOf(pose) != fold; }), options);
+    fits[k] =
+        fitModels(day, weightsWhere(day, [&](int pose) { return fold < 0 || foldOf(pose, options) != fold; }), options);
   });
   if (!fits.front().placed) {
     result.reason = Remark(RemarkId::not_placed);
@@ -202,7 +206,7 @@ Calibration calibrate(const campaign::Campaign& campaign, const CalibrationOptio
     for (int fold = 0; fold < options.folds; ++fold) {
       const ModelFits& others = fits[static_cast<std::size_t>(fold) + 1];
       if (!others.placed) continue;
-      std::vector<double> of_fold = weightsWhere(day, [&](int pose) { return foldOf(pose) == fold; });
+      std::vector<double> of_fold = weightsWhere(day, [&](int pose) { return foldOf(pose, options) == fold; });
       const std::vector<Eigen::Vector3d> residuals = residualsOf(day, others.fits[m].second);
       for (std::size_t i = 0; i < of_fold.size(); ++i) {
         if (of_fold[i] > 0.0) model.held_out_residuals[i] = residuals[i];

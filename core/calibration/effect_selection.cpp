@@ -23,7 +23,8 @@ class Search {
   Search(const UnloadedDay& day, const ArmFit& geometry, std::size_t postures, int parts,
          const SelectionOptions& options)
       : options_(options),
-        day_(day, geometry, {postures, options.inner_folds, options.inner_fold}),
+        day_(day, geometry,
+             {postures, options.inner_folds, options.inner_fold, options.outer_folds, options.outer_fold}),
         fits_(day_, options.chance, parts) {}
 
   /// From nothing and from the best single effects, by every kind of step.

@@ -24,6 +24,8 @@ struct SelectionOptions {
   int inner_folds = 5;
   /// To which of the inner folds a posture belongs, from its place in the campaign: pairs and branches stay together.
   std::function<int(int pose)> inner_fold;
+  int outer_folds = 2;  ///< those that held-out figures are stated for
+  std::function<int(int pose)> outer_fold;
 };
 
 /// An effect that does nearly as well in the place of one that was selected.
@@ -48,7 +50,7 @@ inline constexpr double kAsGood = 9.0;
 struct SelectedEffects {
   std::vector<EffectPart> parts;        ///< those of an effect stand together
   std::vector<SelectedEffect> effects;  ///< the one that explains most first
-  /// Squared whitened residuals of postures that took no part in a fit: of the geometry, and with all the effects.
+  /// Squared residuals of postures, m^2, each outer fold by what the others fit: of the geometry, and with all effects.
   std::vector<double> before, after;
   /// Of each effect that the day can be asked for: what it would have to explain to be named, as SelectedEffect::size.
   std::vector<std::pair<UnloadedEffect, double>> detectable;

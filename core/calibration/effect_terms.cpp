@@ -1,9 +1,11 @@
 #include "core/calibration/effect_terms.h"
 
 #include <fmt/format.h>
+#include <algorithm>
 #include <cmath>
 
 #include "core/effects/effect.h"
+#include "core/numerics/resampling.h"
 
 namespace stiffscope::calibration {
 
@@ -144,20 +146,18 @@ EffectFamily gravityCompensator(const std::vector<EffectPart>& compliances) {
 
 /// Legendre's polynomials of the time of the day, from -1 to 1.
 double legendre(int degree, const Posture& posture) {
-  const double x = 2.0 * posture.time - 1.0;
-  if (degree == 1) return x;
-  if (degree == 2) return (3.0 * x * x - 1.0) / 2.0;
-  return (5.0 * x * x * x - 3.0 * x) / 2.0;
+  return std::legendre(static_cast<unsigned>(degree), 2.0 * posture.time - 1.0);
 }
 
-/// Forms of what goes on over the day: polynomials up to the first, second and third degree. `terms_of(f)`: of what
+constexpr int kFewDegrees = 3, kManyDegrees = 6;
+
+/// Forms of what goes on over the day: polynomials up to the first, the second .. degree. `terms_of(f)`: of what
 /// follows a function of the posture.
 template <class TermsOf>
-std::vector<EffectPart> overTime(UnloadedEffect effect, const TermsOf& terms_of) {
-  constexpr int kDegrees = 3;
+std::vector<EffectPart> overTime(UnloadedEffect effect, int degrees, const TermsOf& terms_of) {
   std::vector<EffectPart> wholes;
   EffectPart whole{effect, "", {}};
-  for (int degree = 1; degree <= kDegrees; ++degree) {
+  for (int degree = 1; degree <= degrees; ++degree) {
     const auto more = terms_of([degree](const Posture& posture) { return legendre(degree, posture); },
                                fmt::format(" over the day, degree {}", degree));
     whole.terms.insert(whole.terms.end(), more.begin(), more.end());
@@ -183,17 +183,55 @@ std::vector<EffectTerm> scaling(Of of, const std::string& when) {
                  })};
 }
 
+/// From axis to axis: the links' directions with all joints at zero, as long as the links are.
+std::array<Eigen::Vector3d, 5> linksAtZero(const UnloadedDay& day) {
+  std::array<Eigen::Vector3d, 5> links;
+  for (std::size_t i = 0; i < links.size(); ++i)
+    links[i] = day.arm.axes_in_base_at_zero[i + 1].point - day.arm.axes_in_base_at_zero[i].point;
+  return links;
+}
+
+/// Some links grow, each in proportion to its length; what they carry moves along.
+template <class Of>
+std::vector<EffectTerm> linksGrow(const UnloadedDay& day, std::vector<std::size_t> which, Of of,
+                                  const std::string& name) {
+  const auto links = linksAtZero(day);
+  return {moving(name, "m/m", kMostGrowth,
+                 [links, which = std::move(which), of](const Posture& posture, const ReflectorAt& at) {
+                   Eigen::Vector3d offset = Eigen::Vector3d::Zero();
+                   for (const std::size_t i : which) offset += at.arm.turnOf(i + 1) * links[i];
+                   return Eigen::Vector3d(of(posture) * offset);
+                 })};
+}
+
+/// All lengths from the base to the reflectors, the arm's links without the tool, or single links.
 EffectFamily thermalGrowth(const UnloadedDay& day) {
-  EffectFamily family{
-      UnloadedEffect::thermal_growth,
-      {},
-      overTime(UnloadedEffect::thermal_growth, [](auto of, const std::string& when) { return growth(of, when); })};
-  if (day.temperature_known) {
-    EffectPart by_temperature{family.effect, "", growth([](const Posture& posture) { return posture.warmth; }, "")};
-    by_temperature.terms.front().name = "growth by temperature";
-    by_temperature.terms.front().unit = "1/K";
-    family.wholes.insert(family.wholes.begin(), std::move(by_temperature));
+  EffectFamily family{UnloadedEffect::thermal_growth};
+  const UnloadedEffect effect = family.effect;
+  const auto addAll = [](std::vector<EffectPart> more, std::vector<EffectPart>& to) {
+    to.insert(to.end(), more.begin(), more.end());
+  };
+  const auto warmth = [](const Posture& posture) { return posture.warmth; };
+  if (day.temperature_known) family.wholes.push_back({effect, "", growth(warmth, " by temperature, a kelvin")});
+  addAll(overTime(effect, kFewDegrees, [](auto of, const std::string& when) { return growth(of, when); }),
+         family.wholes);
+  const auto links = linksAtZero(day);
+  std::vector<std::size_t> all;
+  constexpr double kShort = 1e-3;  // m: two axes at one place are no link
+  for (std::size_t i = 0; i < links.size(); ++i) {
+    if (links[i].norm() > kShort) all.push_back(i);
   }
+  const auto addLinks = [&](const std::vector<std::size_t>& which, const std::string& name,
+                            std::vector<EffectPart>& to) {
+    if (day.temperature_known)
+      to.push_back({effect, "", linksGrow(day, which, warmth, "growth of " + name + " by temperature, a kelvin")});
+    addAll(overTime(
+               effect, kFewDegrees,
+               [&](auto of, const std::string& when) { return linksGrow(day, which, of, "growth of " + name + when); }),
+           to);
+  };
+  addLinks(all, "the links", family.wholes);
+  for (const std::size_t i : all) addLinks({i}, fmt::format("link {}", i + 1), family.parts);
   return family;
 }
 
@@ -202,8 +240,9 @@ std::vector<EffectPart> ratioErrors() {
   constexpr double kMostShare = 0.1;
   for (int j = 0; j < 6; ++j) {
     for (int of = 0; of < 6; ++of) {
-      // A share of the next joint out or in: wrist gears and parallelograms join neighbours.
-      if (std::abs(of - j) > 1) continue;
+      // A share of the next joint out or in, or of any other of the wrist: gears and parallelograms join these.
+      constexpr int kWrist = 3;
+      if (std::abs(of - j) > 1 && std::min(of, j) < kWrist) continue;
       const std::string detail =
           of == j ? jointName(j) : fmt::format("joints {} and {}", std::min(of, j) + 1, std::max(of, j) + 1);
       parts.push_back({UnloadedEffect::ratio_error,
@@ -224,15 +263,24 @@ EffectFamily backlash(const UnloadedDay& day) {
                                                }))}});
   }
   family.wholes.push_back(wholeOf(family.effect, family.parts));
-  // A joint that weight presses against one side of its gear stays there wherever it came from.
+  // Where more than its friction pulls on a joint the play stands on the side of the pull, wherever it came from. What
+  // the friction is nobody says: shares of the day's postures stand on either side of it.
   for (int j = 0; day.masses_known && j < 6; ++j) {
-    const auto pressed = [j](const Posture& posture) {
-      return posture.torque[j] > 0.0 ? 1.0 : posture.torque[j] < 0.0 ? -1.0 : 0.0;
-    };
-    family.parts.push_back(
-        {family.effect,
-         jointName(j),
-         {turning(jointName(j) + " by the side its weight presses on", "rad", kMostTurn, onJoint(j, pressed))}});
+    std::vector<double> pulls;
+    for (const Posture& posture : day.postures) pulls.push_back(std::abs(posture.torque[j]));
+    std::sort(pulls.begin(), pulls.end());
+    if (pulls.empty() || pulls.back() <= 0.0) continue;
+    for (const double share : {0.0, 0.25, 0.5, 0.75}) {
+      const double friction = share > 0.0 ? numerics::quantile(pulls, share) : 0.0;
+      const auto stands = [j, friction](const Posture& posture) {
+        const double pull = posture.torque[j];
+        return std::abs(pull) > friction ? (pull > 0.0 ? 1.0 : -1.0) : -posture.side[j];
+      };
+      EffectTerm term = turning(fmt::format("{}, weight of more than {:.3g} Nm pulling", jointName(j), friction), "rad",
+                                kMostTurn, onJoint(j, stands));
+      term.positive = true;
+      family.parts.push_back({family.effect, jointName(j), {std::move(term)}});
+    }
   }
   return family;
 }

@@ -39,7 +39,8 @@ void LinearisedDay::gather(const ArmFit& geometry) {
     equations_.push_back(equationsOf(day_, geometry, i, first_reading_[i]));
     first_row_.push_back(rows);
     rows += equations_.back().residual.size();
-    fold_.push_back(options_.inner_fold(day_.postures[i].pose));
+    inner_fold_.push_back(options_.inner_fold(day_.postures[i].pose));
+    outer_fold_.push_back(options_.outer_fold(day_.postures[i].pose));
   }
   const auto parameters = static_cast<Eigen::Index>(geometry.free.size());
   Eigen::MatrixXd jacobian(rows, parameters);
@@ -112,20 +113,22 @@ double LinearisedDay::designEffect(const Eigen::VectorXd& residual) const {
   return apart > 0.0 ? std::max(1.0, together / apart) : 1.0;
 }
 
-std::vector<double> LinearisedDay::heldOutByPosture(const LinearModel& model) const {
+template <class Use>
+void LinearisedDay::holdOut(const LinearModel& model, int fold_count, const std::vector<int>& fold,
+                            const Use& use) const {
   const Eigen::Index of_geometry = basis_.cols(), width = of_geometry + model.directions.cols();
   struct Normal {
     Eigen::MatrixXd matrix;
     Eigen::VectorXd right;
   };
-  const auto folds = static_cast<std::size_t>(options_.inner_folds);
+  const auto folds = static_cast<std::size_t>(fold_count);
   std::vector<Normal> normals(folds, {Eigen::MatrixXd::Zero(width, width), Eigen::VectorXd::Zero(width)});
   Eigen::MatrixXd columns;
   // Calls with the columns of postures in a row that are of one fold.
   const auto forEachRun = [&](const auto& work) {
     for (std::size_t k = 0; k < postures_.size();) {
       std::size_t end = k + 1;
-      while (end < postures_.size() && fold_[end] == fold_[k]) ++end;
+      while (end < postures_.size() && fold[end] == fold[k]) ++end;
       const Eigen::Index from = first_row_[k], rows = first_row_[end - 1] + equations_[end - 1].residual.size() - from;
       columns.resize(rows, width);
       columns.leftCols(of_geometry) = basis_.middleRows(from, rows);
@@ -135,7 +138,7 @@ std::vector<double> LinearisedDay::heldOutByPosture(const LinearModel& model) co
     }
   };
   forEachRun([&](std::size_t k, std::size_t, Eigen::Index from, Eigen::Index rows) {
-    Normal& normal = normals[static_cast<std::size_t>(fold_[k])];
+    Normal& normal = normals[static_cast<std::size_t>(fold[k])];
     normal.matrix.noalias() += columns.transpose() * columns;
     normal.right.noalias() += columns.transpose() * model.residual.segment(from, rows);
   });
@@ -148,19 +151,33 @@ std::vector<double> LinearisedDay::heldOutByPosture(const LinearModel& model) co
     others.diagonal() += kDamping * all.matrix.diagonal();
     sizes.push_back(solveSymmetric(others, Eigen::VectorXd(all.right - normal.right)));
   }
-  std::vector<double> squares;
   forEachRun([&](std::size_t k, std::size_t end, Eigen::Index from, Eigen::Index rows) {
     const Eigen::VectorXd left =
-        model.residual.segment(from, rows) - columns * sizes[static_cast<std::size_t>(fold_[k])];
-    for (std::size_t p = k; p < end; ++p)
-      squares.push_back(left.segment(first_row_[p] - from, equations_[p].residual.size()).squaredNorm());
+        model.residual.segment(from, rows) - columns * sizes[static_cast<std::size_t>(fold[k])];
+    for (std::size_t p = k; p < end; ++p) use(p, left.segment(first_row_[p] - from, equations_[p].residual.size()));
   });
-  return squares;
 }
 
 double LinearisedDay::heldOut(const LinearModel& model) const {
-  const std::vector<double> squares = heldOutByPosture(model);
-  return std::accumulate(squares.begin(), squares.end(), 0.0);
+  double sum = 0.0;
+  holdOut(model, options_.inner_folds, inner_fold_,
+          [&](std::size_t, const auto& residual) { sum += residual.squaredNorm(); });
+  return sum;
+}
+
+std::vector<double> LinearisedDay::heldOutByPosture(const LinearModel& model) const {
+  std::vector<double> squares;
+  holdOut(model, options_.outer_folds, outer_fold_, [&](std::size_t p, const auto& residual) {
+    double square = 0.0;
+    for (std::size_t r = 0; r < equations_[p].whitening.size(); ++r) {
+      // The whitening is lower triangular.
+      const Eigen::Vector3d plain = equations_[p].whitening[r].template triangularView<Eigen::Lower>().solve(
+          Eigen::Vector3d(residual.template segment<3>(3 * static_cast<Eigen::Index>(r))));
+      square += plain.squaredNorm();
+    }
+    squares.push_back(square);
+  });
+  return squares;
 }
 
 }  // namespace stiffscope::calibration

@@ -24,6 +24,8 @@ struct LinearisationOptions {
   std::size_t most_postures = 2000;  ///< evenly chosen, neighbours by fours: what comes in pairs is not split
   int inner_folds = 5;
   std::function<int(int pose)> inner_fold;  ///< of each posture, by its place in the campaign
+  int outer_folds = 2;                      ///< those that held-out figures are stated for
+  std::function<int(int pose)> outer_fold;
 };
 
 /// A day's readings as linear equations about a fit of the geometry, whitened by the noise of that fit, with what the
@@ -55,15 +57,19 @@ class LinearisedDay {
   /// By how much reflectors of one posture err together in a residual, one at least: variance of their sum.
   double designEffect(const Eigen::VectorXd& residual) const;
 
-  /// Squared residuals of each posture, each inner fold by what the others fit, geometry included; and their sum.
-  std::vector<double> heldOutByPosture(const LinearModel& model) const;
+  /// Sum of squared whitened residuals, each inner fold by what the others fit, geometry included.
   double heldOut(const LinearModel& model) const;
+  /// Squared residuals of each posture, m^2, each outer fold by what the others fit.
+  std::vector<double> heldOutByPosture(const LinearModel& model) const;
 
   static constexpr double kAliased = 1e-3;  ///< of a column's length: what is left of it is nothing of its own
 
  private:
   void choosePostures(const ArmFit& geometry);
   void gather(const ArmFit& geometry);
+  /// Calls with each posture's whitened residual, its fold predicted by the others.
+  template <class Use>
+  void holdOut(const LinearModel& model, int folds, const std::vector<int>& fold, const Use& use) const;
 
   const UnloadedDay& day_;
   const ArmFit& fit_;
@@ -72,7 +78,7 @@ class LinearisedDay {
   std::vector<std::size_t> postures_;
   std::vector<PostureEquations> equations_;
   std::vector<Eigen::Index> first_row_;
-  std::vector<int> fold_;
+  std::vector<int> inner_fold_, outer_fold_;  ///< of each posture
   Eigen::MatrixXd basis_;
   Eigen::VectorXd residual_;
 };

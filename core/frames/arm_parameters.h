@@ -77,6 +77,8 @@ class PlacedPosture {
   Eigen::Matrix<double, 3, ArmParameters::kBase> byBase(const Eigen::Vector3d& position) const;
   Eigen::Matrix3d byTarget() const { return posture_.motion[6].linear(); }
   Matrix36d byAngles(const Eigen::Vector3d& position) const;
+  /// How body b (0: the base, 6: the flange) stands turned from where it is at zero.
+  Eigen::Matrix3d turnOf(std::size_t body) const { return posture_.motion[body].linear(); }
 
   /// By a small change of axis parameter k: the axis of joint k / 4, and all that this joint carries.
   const SmallMotion& ofAxis(std::size_t k) const { return of_axis_[k]; }
