@@ -340,17 +340,17 @@ std::vector<EffectFamily> effectFamilies(const UnloadedDay& day) {
   families.push_back({UnloadedEffect::ratio_error, ratioErrors(), {}});
   families.push_back(backlash(day));
   families.push_back(readBackError());
-  families.push_back(
-      {UnloadedEffect::tracker_drift, {}, overTime(UnloadedEffect::tracker_drift, [](auto of, const std::string& when) {
-         return rigidMotion(of, when);
-       })});
+  families.push_back({UnloadedEffect::tracker_drift,
+                      {},
+                      overTime(UnloadedEffect::tracker_drift, kManyDegrees,
+                               [](auto of, const std::string& when) { return rigidMotion(of, when); })});
   families.push_back({UnloadedEffect::frame_error});
   families.push_back({UnloadedEffect::target_motion});
   families.push_back(thermalGrowth(day));
-  families.push_back(
-      {UnloadedEffect::scale_error, {}, overTime(UnloadedEffect::scale_error, [](auto of, const std::string& when) {
-         return scaling(of, when);
-       })});
+  families.push_back({UnloadedEffect::scale_error,
+                      {},
+                      overTime(UnloadedEffect::scale_error, kFewDegrees,
+                               [](auto of, const std::string& when) { return scaling(of, when); })});
   std::erase_if(families, [](const EffectFamily& family) {
     const bool scanned = family.effect == UnloadedEffect::transmission_error ||
                          family.effect == UnloadedEffect::frame_error || family.effect == UnloadedEffect::target_motion;
