@@ -25,6 +25,7 @@ struct AccuracyClass {
   std::vector<UnloadedEffect> effects;  ///< the best first
   std::string detail;
   double score = 0.0;        ///< fall of BIC against the model without it; larger is better
+  double size = 0.0;         ///< rms per coordinate of what it explains beside the others, m
   diagnosis::Shrink shrink;  ///< of the rms of the positions' residual, held out, besides what stands before it
   double explained = 0.0;    ///< the same in variance, less noise
   bool in_verdict = false;

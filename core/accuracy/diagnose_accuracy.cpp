@@ -133,11 +133,11 @@ class Decider {
         explainedOf(result_.gap.before, (1.0 - found.shrink.value) * result_.gap.before, result_.gap.noise);
     addFitted(one.effect, found);
     const std::string id(idOf(one.effect));
-    const double size = one.size * before_;
+    found.size = one.size * before_;
     found.in_verdict = true;
-    if (size < result_.size_limit) {
+    if (found.size < result_.size_limit) {
       found.in_verdict = false;
-      result_.reasons.emplace_back(RemarkId::too_small, id, size, result_.size_limit);
+      result_.reasons.emplace_back(RemarkId::too_small, id, found.size, result_.size_limit);
     } else if (one.score > kEnoughForHalf && !inEveryFold(one)) {
       found.in_verdict = false;
       result_.reasons.emplace_back(RemarkId::not_in_every_fold, id);
@@ -184,6 +184,12 @@ class Decider {
     if (result_.left_over <= result_.left_over_limit || left <= limit) return;
     unknown_ = true;
     result_.reasons.emplace_back(RemarkId::not_explained, left, limit);
+    // What is smaller than what nothing explains may be a part of that.
+    for (AccuracyClass& one : result_.classes) {
+      if (!one.in_verdict || one.effects.front() == UnloadedEffect::kinematic_error || one.size >= left) continue;
+      one.in_verdict = false;
+      result_.reasons.emplace_back(RemarkId::less_than_unknown, std::string(idOf(one.effects.front())), one.size, left);
+    }
     const double stays = 1.0 - explainedOf(before_, after_, noise);
     if (stays <= kMostLeft) return;
     std::vector<std::string> candidates;

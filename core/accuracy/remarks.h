@@ -11,6 +11,7 @@ enum class RemarkId {
   not_explained,         ///< rms per coordinate m beyond noise, limit m
   candidates_only,       ///< ids of effects; share of the gap's squares beyond noise that stays, share that may
   not_in_every_fold,     ///< id of the effect
+  less_than_unknown,     ///< id of the effect; its rms per coordinate m, that of what is not explained m
   too_small,             ///< id of the effect; rms per coordinate m, limit m
   nests_show_station,    ///< whether it jumped; largest displacement m
   nests_stand,

@@ -262,6 +262,7 @@ EffectFamily backlash(const UnloadedDay& day) {
                                                  return posture.side[j];
                                                }))}});
   }
+  for (EffectPart& part : family.parts) part.tried = 6;
   family.wholes.push_back(wholeOf(family.effect, family.parts));
   // Where more than its friction pulls on a joint the play stands on the side of the pull, wherever it came from. What
   // the friction is nobody says: shares of the day's postures stand on either side of it.

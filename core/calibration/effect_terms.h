@@ -69,7 +69,8 @@ struct EffectPart {
   std::optional<double> order = {};  ///< of a periodic error, per turn of the joint
   std::optional<double> from = {};   ///< of what starts at a time: share of the day (Posture::time)
   std::optional<double> chance =
-      {};  ///< of a part as large by noise alone, over all that were tried (false-alarm probability)
+      {};         ///< of a part as large by noise alone, over all that were tried (false-alarm probability)
+  int tried = 0;  ///< alternatives of its kind; 0: as many as the family has
   int needs_compliance_of = -1;  ///< a joint without whose compliance among the terms this is another effect; -1: none
   double penalty = 0.0;          ///< in BIC: its terms, and the alternatives that were tried
 };

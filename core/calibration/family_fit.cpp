@@ -27,12 +27,7 @@ constexpr std::size_t kFewestAside = 5;  // postures on either side of a start: 
 FamilyFit::FamilyFit(const LinearisedDay& day, double chance, int most_parts)
     : day_(day), most_parts_(most_parts), families_(effectFamilies(day.day())) {
   log_chance_ = std::log(chance / static_cast<double>(families_.size()));
-  for (const EffectFamily& family : families_) {
-    auto& parts = parts_.emplace_back();
-    for (const EffectPart& part : family.parts) parts.push_back(prepare(part));
-    auto& wholes = wholes_.emplace_back();
-    for (const EffectPart& whole : family.wholes) wholes.push_back(prepare(whole));
-  }
+  prepareColumns();
   // The only reflector's motion would be the flange's: it has no columns.
   const std::size_t targets = day.day().targets.size() > 1 ? day.day().targets.size() : 0;
   for (std::size_t target = 0; target < targets; ++target)
@@ -40,9 +35,59 @@ FamilyFit::FamilyFit(const LinearisedDay& day, double chance, int most_parts)
   periodogram_.emplace(day.equations(), day.postures(), day.day(), day.geometry(), day.geometryAlone().residual);
 }
 
-FamilyFit::Prepared FamilyFit::prepare(EffectPart part) const {
+void FamilyFit::prepareColumns() {
+  std::vector<EffectTerm> terms;
+  // Forms of an effect that are made of the same terms share their columns.
+  const auto placeOf = [&](const EffectTerm& term, std::size_t since) {
+    for (std::size_t k = since; k < terms.size(); ++k) {
+      if (terms[k].name == term.name) return k;
+    }
+    terms.push_back(term);
+    return terms.size() - 1;
+  };
+  for (const EffectFamily& family : families_) {
+    const std::size_t since = terms.size();
+    const auto prepare = [&](const std::vector<EffectPart>& parts, std::vector<Prepared>& prepared) {
+      for (const EffectPart& part : parts) {
+        Prepared& one = prepared.emplace_back();
+        one.part = part;
+        one.tried = part.tried > 0 ? part.tried : static_cast<int>(parts.size());
+        for (const EffectTerm& term : part.terms)
+          one.columns.push_back(static_cast<Eigen::Index>(placeOf(term, since)));
+      }
+    };
+    prepare(family.parts, parts_.emplace_back());
+    prepare(family.wholes, wholes_.emplace_back());
+  }
+  columns_ = day_.columnsOf(terms);
+  lengths_ = columns_.colwise().norm();
+  columns_ = day_.acrossGeometry(columns_);
+  squares_ = Eigen::MatrixXd::Zero(columns_.cols(), columns_.cols());
+  squares_.selfadjointView<Eigen::Lower>().rankUpdate(columns_.transpose());
+  squares_.triangularView<Eigen::StrictlyUpper>() = squares_.transpose();
+}
+
+FamilyFit::Products FamilyFit::productsOf(const LinearModel& model) const {
+  Products products{Eigen::MatrixXd(0, columns_.cols()), columns_.transpose() * model.residual};
+  if (model.directions.cols() > 0) products.directions = model.directions.transpose() * columns_;
+  return products;
+}
+
+void FamilyFit::extend(const LinearModel& model, Eigen::Index from, Products& products) const {
+  const Eigen::Index more = model.directions.cols() - from;
+  products.residual = columns_.transpose() * model.residual;
+  if (more == 0) return;
+  products.directions.conservativeResize(from + more, Eigen::NoChange);
+  products.directions.bottomRows(more).noalias() = model.directions.rightCols(more).transpose() * columns_;
+}
+
+FamilyFit::Candidate FamilyFit::candidateOf(EffectPart part, int tried) const {
   const Eigen::MatrixXd raw = day_.columnsOf(part.terms);
-  return {std::move(part), day_.acrossGeometry(raw), raw.colwise().norm()};
+  return {std::move(part), day_.acrossGeometry(raw), raw.colwise().norm(), tried};
+}
+
+FamilyFit::Candidate FamilyFit::candidateOf(const Prepared& prepared) const {
+  return {prepared.part, columns_(Eigen::all, prepared.columns), lengths_(prepared.columns), prepared.tried};
 }
 
 double FamilyFit::fall(double before, double after, double equations) {
@@ -67,40 +112,39 @@ double FamilyFit::leastPenalty(std::size_t family) const {
       break;
   }
   double least = std::numeric_limits<double>::infinity();
-  for (const Prepared& one : parts_[family])
-    least = std::min(least, penaltyOf(one.part.terms.size(), static_cast<int>(parts_[family].size())));
-  for (const Prepared& one : wholes_[family])
-    least = std::min(least, penaltyOf(one.part.terms.size(), static_cast<int>(wholes_[family].size())));
+  for (const auto* forms : {&parts_[family], &wholes_[family]}) {
+    for (const Prepared& one : *forms) least = std::min(least, penaltyOf(one.part.terms.size(), one.tried));
+  }
   return least;
 }
 
-std::optional<FamilyFit::Prepared> FamilyFit::plausible(Prepared prepared, const LinearModel& model) const {
+std::optional<FamilyFit::Prepared> FamilyFit::plausible(Prepared prepared, const Products& beside, double& gain) const {
   std::vector<EffectTerm>& terms = prepared.part.terms;
-  Eigen::MatrixXd across = prepared.columns;
-  if (model.directions.cols() > 0) across -= model.directions * (model.directions.transpose() * prepared.columns);
+  std::vector<Eigen::Index>& places = prepared.columns;
+  const auto count = [&] { return static_cast<Eigen::Index>(terms.size()); };
   const auto leave = [&](Eigen::Index term) {
     terms.erase(terms.begin() + term);
-    const auto without = [term](const Eigen::MatrixXd& all) {
-      Eigen::MatrixXd rest(all.rows(), all.cols() - 1);
-      rest << all.leftCols(term), all.rightCols(all.cols() - 1 - term);
-      return rest;
-    };
-    across = without(across);
-    prepared.columns = without(prepared.columns);
-    prepared.lengths = without(prepared.lengths.transpose()).transpose();
+    places.erase(places.begin() + term);
   };
   const auto most = [&](Eigen::Index t) { return terms[static_cast<std::size_t>(t)].most; };
-  for (Eigen::Index t = across.cols(); t-- > 0;) {
-    const double length = across.col(t).norm();
-    // A whitened column tells its size to one over its length: to within its bound, or nothing.
-    if (!(length > LinearisedDay::kAliased * prepared.lengths[t]) || !(length * most(t) > 1.0)) leave(t);
-  }
   const auto positive = [&](Eigen::Index t) { return terms[static_cast<std::size_t>(t)].positive; };
+  for (Eigen::Index t = count(); t-- > 0;) {
+    const Eigen::Index place = places[static_cast<std::size_t>(t)];
+    const double left = squares_(place, place) - beside.directions.col(place).squaredNorm();
+    constexpr double kSquares = LinearisedDay::kAliased * LinearisedDay::kAliased;
+    // A whitened column tells its size to one over its length: to within its bound, or nothing.
+    if (!(left > kSquares * lengths_[place] * lengths_[place]) || !(left * most(t) * most(t) > 1.0)) leave(t);
+  }
+  gain = 0.0;
   while (!terms.empty()) {
-    Eigen::MatrixXd matrix = across.transpose() * across;
+    const Eigen::MatrixXd of_directions = beside.directions(Eigen::all, places);
+    Eigen::MatrixXd matrix = squares_(places, places);
+    if (of_directions.rows() > 0) matrix -= of_directions.transpose() * of_directions;
     constexpr double kDamping = 1e-9;
-    matrix.diagonal() += kDamping * prepared.lengths.cwiseAbs2();
-    const Eigen::VectorXd size = solveSymmetric(matrix, Eigen::VectorXd(across.transpose() * model.residual));
+    matrix.diagonal() += kDamping * lengths_(places).cwiseAbs2();
+    const Eigen::VectorXd right = beside.residual(places);
+    const Eigen::VectorXd size = solveSymmetric(matrix, right);
+    gain = right.dot(size);
     Eigen::Index worst = -1;
     double least = 0.0;
     for (Eigen::Index t = 0; t < size.size(); ++t) {
@@ -120,35 +164,32 @@ std::optional<FamilyFit::Prepared> FamilyFit::plausible(Prepared prepared, const
   return prepared;
 }
 
-double FamilyFit::gainOf(const Prepared& prepared, const LinearModel& model) const {
-  LinearModel with{{}, model.directions, model.residual, 0.0};
-  day_.add(prepared.part, prepared.columns, prepared.lengths, 0.0, with);
-  return model.squares() - with.squares();
+std::optional<FamilyFit::Candidate> FamilyFit::bestPeriodic(const Periodogram& periodogram) const {
+  const std::vector<PeriodicPeak> peaks = periodogram.peaks();
+  const auto highest = std::max_element(peaks.begin(), peaks.end(),
+                                        [](const PeriodicPeak& a, const PeriodicPeak& b) { return a.gain < b.gain; });
+  if (highest == peaks.end()) return std::nullopt;
+  const bool usual = highest->order == 1.0 || highest->order == 2.0;
+  return candidateOf(transmissionError(highest->joint, highest->order), usual ? kUsual : Periodogram::kTried);
 }
 
 std::optional<FamilyFit::Candidate> FamilyFit::bestPart(std::size_t family, const LinearModel& model,
-                                                        Periodogram* periodogram) const {
-  std::optional<Candidate> best;
-  double gain = 0.0;
-  if (periodogram != nullptr) {
-    const PeriodicPeak* highest = nullptr;
-    const std::vector<PeriodicPeak> peaks = periodogram->peaks();
-    for (const PeriodicPeak& peak : peaks) {
-      if (highest == nullptr || peak.gain > highest->gain) highest = &peak;
-    }
-    if (highest == nullptr) return std::nullopt;
-    const bool usual = highest->order == 1.0 || highest->order == 2.0;
-    return Candidate{prepare(transmissionError(highest->joint, highest->order)), usual ? kUsual : Periodogram::kTried};
-  }
+                                                        const Products& beside, double equations) const {
   if (auto start = bestStart(families_[family].effect, model))
-    return Candidate{prepare(std::move(*start)), static_cast<int>(day_.postures().size())};
+    return candidateOf(std::move(*start), static_cast<int>(day_.postures().size()));
+  std::optional<Prepared> best;
+  double most = -std::numeric_limits<double>::infinity();
+  const double squares = model.squares();
   for (const Prepared& part : parts_[family]) {
-    const auto prepared = plausible(part, model);
+    double gain = 0.0;
+    auto prepared = plausible(part, beside, gain);
     if (!prepared) continue;
-    const double own = gainOf(*prepared, model);
-    if (!best || own > gain) best = Candidate{*prepared, static_cast<int>(parts_[family].size())}, gain = own;
+    const double worth =
+        fall(squares, squares - gain, equations) - penaltyOf(prepared->part.terms.size(), prepared->tried);
+    if (worth > most) best = std::move(prepared), most = worth;
   }
-  return best;
+  if (!best) return std::nullopt;
+  return candidateOf(*best);
 }
 
 /// What starts at a posture and stays: sums over the postures from there on, for all starts in one pass.
@@ -208,8 +249,8 @@ std::optional<EffectPart> FamilyFit::bestStart(UnloadedEffect effect, const Line
 bool FamilyFit::holds(const LinearModel& before, LinearModel& after, const Candidate& candidate,
                       double equations) const {
   const double chi2 = fall(before.squares(), after.squares(), equations);
-  const double log_chance = logTail(chi2, static_cast<int>(candidate.prepared.part.terms.size())) +
-                            std::log(static_cast<double>(candidate.tried));
+  const double log_chance =
+      logTail(chi2, static_cast<int>(candidate.part.terms.size())) + std::log(static_cast<double>(candidate.tried));
   after.parts.back().chance = std::exp(log_chance);
   after.parts.back().penalty = after.penalty - before.penalty;
   return log_chance < log_chance_ && chi2 > after.penalty - before.penalty;
@@ -218,8 +259,8 @@ bool FamilyFit::holds(const LinearModel& before, LinearModel& after, const Candi
 LinearModel FamilyFit::withParts(LinearModel model, const std::vector<EffectPart>& parts, UnloadedEffect but) const {
   for (const EffectPart& part : parts) {
     if (part.effect == but) continue;
-    const Prepared prepared = prepare(part);
-    day_.add(part, prepared.columns, prepared.lengths, part.penalty, model);
+    const Candidate candidate = candidateOf(part, 1);
+    day_.add(part, candidate.columns, candidate.lengths, part.penalty, model);
   }
   return model;
 }
@@ -239,44 +280,52 @@ bool FamilyFit::apart(const LinearModel& model) {
 }
 
 std::optional<LinearModel> FamilyFit::fitAlone(std::size_t family, const LinearModel& others, double equations) const {
-  const bool periodic = families_[family].effect == UnloadedEffect::transmission_error;
+  const auto with = [&](const LinearModel& before, const Candidate& candidate) -> std::optional<LinearModel> {
+    LinearModel after = before;
+    day_.add(candidate.part, candidate.columns, candidate.lengths,
+             penaltyOf(candidate.part.terms.size(), candidate.tried), after);
+    if (!holds(before, after, candidate, equations)) return std::nullopt;
+    return after;
+  };
   std::optional<Periodogram> periodogram;
-  if (periodic) {
+  Products beside;
+  if (families_[family].effect == UnloadedEffect::transmission_error) {
     periodogram = periodogram_;
     periodogram->projectOff(others.directions, others.directions.transpose() * day_.geometryAlone().residual);
-  }
-  LinearModel by_parts = others;
-  for (int k = 0; k < most_parts_; ++k) {
-    const auto candidate = bestPart(family, by_parts, periodic ? &*periodogram : nullptr);
-    if (!candidate) break;
-    LinearModel with = by_parts;
-    day_.add(candidate->prepared.part, candidate->prepared.columns, candidate->prepared.lengths,
-             penaltyOf(candidate->prepared.part.terms.size(), candidate->tried), with);
-    if (!holds(by_parts, with, *candidate, equations)) break;
-    if (periodic) {
-      const Eigen::Index more = with.directions.cols() - by_parts.directions.cols();
-      periodogram->projectOff(with.directions.rightCols(more),
-                              with.directions.rightCols(more).transpose() * by_parts.residual);
-    }
-    by_parts = std::move(with);
+  } else {
+    beside = productsOf(others);
   }
   std::optional<LinearModel> best;
   double cost = 0.0;
-  if (by_parts.parts.size() > others.parts.size()) {
-    cost = by_parts.penalty - others.penalty - fall(others.squares(), by_parts.squares(), equations);
-    best = std::move(by_parts);
-  }
+  const auto consider = [&](LinearModel model) {
+    const double own = model.penalty - others.penalty - fall(others.squares(), model.squares(), equations);
+    if (!best || own < cost) best = std::move(model), cost = own;
+  };
   for (const Prepared& whole : wholes_[family]) {
-    const auto prepared = plausible(whole, others);
+    double gain = 0.0;
+    const auto prepared = plausible(whole, beside, gain);
     if (!prepared) continue;
-    const Candidate candidate{*prepared, static_cast<int>(wholes_[family].size())};
-    LinearModel with = others;
-    day_.add(prepared->part, prepared->columns, prepared->lengths,
-             penaltyOf(prepared->part.terms.size(), candidate.tried), with);
-    if (!holds(others, with, candidate, equations)) continue;
-    const double own = with.penalty - others.penalty - fall(others.squares(), with.squares(), equations);
-    if (!best || own < cost) best = std::move(with), cost = own;
+    const double own = penaltyOf(prepared->part.terms.size(), prepared->tried) -
+                       fall(others.squares(), others.squares() - gain, equations);
+    if (own >= cost) continue;
+    if (auto model = with(others, candidateOf(*prepared))) consider(std::move(*model));
   }
+  LinearModel by_parts = others;
+  for (int k = 0; k < most_parts_; ++k) {
+    const auto candidate = periodogram ? bestPeriodic(*periodogram) : bestPart(family, by_parts, beside, equations);
+    if (!candidate) break;
+    auto more = with(by_parts, *candidate);
+    if (!more) break;
+    const Eigen::Index before = by_parts.directions.cols(), added = more->directions.cols() - before;
+    if (periodogram) {
+      periodogram->projectOff(more->directions.rightCols(added),
+                              more->directions.rightCols(added).transpose() * by_parts.residual);
+    } else {
+      extend(*more, before, beside);
+    }
+    by_parts = std::move(*more);
+  }
+  if (by_parts.parts.size() > others.parts.size()) consider(std::move(by_parts));
   return best;
 }
 

@@ -30,36 +30,53 @@ class FamilyFit {
   static double fall(double before, double after, double equations);
 
  private:
-  /// Columns of a part across the geometry, and their lengths before.
+  /// A part that is known beforehand: its columns among `columns_`.
   struct Prepared {
+    EffectPart part;
+    std::vector<Eigen::Index> columns;
+    int tried = 1;
+  };
+  /// A part to be added, with its columns across the geometry, their lengths before, and its penalty.
+  struct Candidate {
     EffectPart part;
     Eigen::MatrixXd columns;
     Eigen::VectorXd lengths;
-  };
-  struct Candidate {
-    Prepared prepared;
     int tried = 1;
+  };
+  /// The columns beside a model: their products with its directions and with its residual.
+  struct Products {
+    Eigen::MatrixXd directions;
+    Eigen::VectorXd residual;
   };
 
   std::optional<LinearModel> fitAlone(std::size_t family, const LinearModel& others, double equations) const;
   /// False where two effects are in a model that would share one joint's angle out between them: a compensator on axis
   /// 2 is its first harmonics, and joint 2's periodic errors have them too.
   static bool apart(const LinearModel& model);
-  Prepared prepare(EffectPart part) const;
-  /// Without terms that the day does not tell beside `model`, and without those that would be of the wrong sign, the
-  /// most wrong one first, or beyond their physical bound.
-  std::optional<Prepared> plausible(Prepared prepared, const LinearModel& model) const;
-  std::optional<Candidate> bestPart(std::size_t family, const LinearModel& model, Periodogram* periodogram) const;
+  void prepareColumns();
+  Products productsOf(const LinearModel& model) const;
+  /// For directions that were added to the model last.
+  void extend(const LinearModel& model, Eigen::Index from, Products& products) const;
+  Candidate candidateOf(EffectPart part, int tried) const;
+  Candidate candidateOf(const Prepared& prepared) const;
+  /// Without terms that the day does not tell beside the model, and without those that would be of the wrong sign, the
+  /// most wrong one first, or beyond their physical bound. `gain`: by how much the rest lowers the squares.
+  std::optional<Prepared> plausible(Prepared prepared, const Products& beside, double& gain) const;
+  std::optional<Candidate> bestPart(std::size_t family, const LinearModel& model, const Products& beside,
+                                    double equations) const;
+  std::optional<Candidate> bestPeriodic(const Periodogram& periodogram) const;
   std::optional<EffectPart> bestStart(UnloadedEffect effect, const LinearModel& model) const;
   double penaltyOf(std::size_t terms, int tried) const;
   bool holds(const LinearModel& before, LinearModel& after, const Candidate& candidate, double equations) const;
-  double gainOf(const Prepared& prepared, const LinearModel& model) const;
 
   const LinearisedDay& day_;
   double log_chance_;
   int most_parts_;
   std::vector<EffectFamily> families_;
   std::vector<std::vector<Prepared>> parts_, wholes_;  ///< of each family
+  Eigen::MatrixXd columns_;                            ///< of all of these, across the geometry
+  Eigen::VectorXd lengths_;                            ///< before that
+  Eigen::MatrixXd squares_;                            ///< products of the columns with each other
   std::vector<Eigen::MatrixXd> target_columns_;        ///< of each reflector's motion, raw
   std::optional<Periodogram> periodogram_;             ///< across the geometry alone
 };

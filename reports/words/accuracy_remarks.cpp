@@ -41,6 +41,11 @@ std::string accuracyWords(accuracy::RemarkId id, const RemarkValues& values) {
     case RemarkId::not_in_every_fold:
       return fmt::format("{} is found in all postures together but not in each fold's others: it is a candidate only.",
                          values.name(0));
+    case RemarkId::less_than_unknown:
+      return fmt::format(
+          "{} moves the reflectors by {:.1f} um rms, less than the {:.1f} um that nothing explains and "
+          "that it may be a part of: a candidate only.",
+          values.name(0), um(values.number(1)), um(values.number(2)));
     case RemarkId::too_small:
       return fmt::format("{} is beyond chance but moves the reflectors by {:.1f} um rms only ({:.1f} um would matter).",
                          values.name(0), um(values.number(1)), um(values.number(2)));
