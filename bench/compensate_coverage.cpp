@@ -253,8 +253,7 @@ int main(int argc, char** argv) {
       Row like;
       like.machine = i;
       for (const validation::PlacedEffect& effect : one.effects)
-        like.effects += (effect.effect ? std::string(effects::idOf(*effect.effect)) : std::string("outside")) + " " +
-                        effect.detail + ";";
+        like.effects += (effect.effect.empty() ? std::string("outside") : effect.effect) + " " + effect.detail + ";";
       std::vector<Row> own;
       judge(one.spec, cases, seed, like, own);
       const std::lock_guard<std::mutex> lock(mutex);

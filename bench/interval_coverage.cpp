@@ -163,8 +163,7 @@ int main(int argc, char** argv) {
       Row like;
       like.machine = i;
       for (const validation::PlacedEffect& effect : one.effects)
-        like.effects += (effect.effect ? std::string(effects::idOf(*effect.effect)) : std::string("outside")) + " " +
-                        effect.detail + ";";
+        like.effects += (effect.effect.empty() ? std::string("outside") : effect.effect) + " " + effect.detail + ";";
       const Vector6d truth = trueCompliance(one.spec.machine);
       const std::lock_guard<std::mutex> lock(mutex);
       addRows(model.without, "springs", truth, like, rows);

@@ -145,7 +145,8 @@ class Fitting {
       Eigen::MatrixXd equations(count() + 1, rows);
       Eigen::Index row = 0;
       for (std::size_t v = from; v < end; ++v) row += addPosture(fitted, visited_[v], equations, row, sum);
-      sum.normal.selfadjointView<Eigen::Lower>().rankUpdate(equations.leftCols(row));
+      // Where every reading of a group has lost its weight Eigen would divide by the number of its rows.
+      if (row > 0) sum.normal.selfadjointView<Eigen::Lower>().rankUpdate(equations.leftCols(row));
     });
   }
 

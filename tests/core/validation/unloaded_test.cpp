@@ -3,6 +3,8 @@
 #include <filesystem>
 #include <numbers>
 #include "core/io/read_file.h"
+#include "core/numerics/random.h"
+#include "core/simulation/measure.h"
 #include "core/validation/geometry_sizer.h"
 #include "core/validation/run_blind.h"
 
