@@ -161,7 +161,7 @@ class Decider {
 
   void nameGeometry() {
     result_.geometry_limit = kNominalLimit;
-    const double off = result_.gap.nominal;
+    const double off = std::sqrt(1.0 / 3.0) * calibration_.of(calibration::CalibratedModel::nominal).fitted.rms;
     if (off <= kNominalLimit) return;
     result_.geometry_off_nominal = true;
     AccuracyClass one;

@@ -5,6 +5,10 @@
 
 namespace stiffscope::accuracy {
 
+/// Folds of a diagnosis: neighbours by fours stay together, since consecutive postures often come in pairs of two
+/// shapes of the arm, and a fold of one shape would be judged by the other.
+inline constexpr calibration::CalibrationOptions kDiagnosisFolds{.folds = 2, .fold_size = 4};
+
 /// Where the calibrated geometry and the tracker disagree, which effect of the vocabulary of unloaded days makes it,
 /// and how far it shrinks with that effect in the model.
 ///
@@ -14,10 +18,10 @@ namespace stiffscope::accuracy {
 /// it although half of its evidence would do. Where something significant stays, the verdict says `unknown`, and an
 /// effect stands beside it only where it removes nearly all of the gap.
 AccuracyDiagnosis diagnoseAccuracy(const preparation::PreparedCampaign& prepared,
-                                   const calibration::CalibrationOptions& options = {});
+                                   const calibration::CalibrationOptions& options = kDiagnosisFolds);
 
 /// The same of a campaign as it was read, prepared first.
 AccuracyDiagnosis diagnoseAccuracy(const campaign::Campaign& campaign,
-                                   const calibration::CalibrationOptions& options = {});
+                                   const calibration::CalibrationOptions& options = kDiagnosisFolds);
 
 }  // namespace stiffscope::accuracy
