@@ -18,8 +18,10 @@ campaign::Campaign described(const campaign::Campaign& campaign);
 /// Adds --raw to a command.
 void addRawOption(CLI::App& command, bool& raw);
 
-/// Throws InputError for a day of unloaded postures: no load cell, and no wrench that is not zero. `calibrate` is for
-/// it.
+/// A day of unloaded postures: readings of them, no load cell, and no wrench that is not zero.
+bool isUnloadedDay(const campaign::Campaign& campaign);
+
+/// Throws InputError for such a day. `calibrate` is for it.
 void requireLoad(const campaign::Campaign& campaign);
 
 /// A campaign as the commands compute from it: without rejected readings and referred to where the station

@@ -162,12 +162,17 @@ Calibration calibrate(const campaign::Campaign& campaign, const CalibrationOptio
       return result;
     }
     addErrors(residualsOf(day, model.fit), right, model.fitted);
+    model.held_out_residuals.assign(readings, Eigen::Vector3d::Constant(std::nan("")));
     for (int fold = 0; fold < options.folds; ++fold) {
       const ModelFits& others = fits[static_cast<std::size_t>(fold) + 1];
       if (!others.placed) continue;
       std::vector<double> of_fold = weightsWhere(day, [&](int pose) { return foldOf(pose) == fold; });
-      for (std::size_t i = 0; i < of_fold.size(); ++i) of_fold[i] *= right[i];
-      addErrors(residualsOf(day, others.fits[m].second), of_fold, model.held_out);
+      const std::vector<Eigen::Vector3d> residuals = residualsOf(day, others.fits[m].second);
+      for (std::size_t i = 0; i < of_fold.size(); ++i) {
+        if (of_fold[i] > 0.0) model.held_out_residuals[i] = residuals[i];
+        of_fold[i] *= right[i];
+      }
+      addErrors(residuals, of_fold, model.held_out);
     }
     model.notes = notesOf(model.model, model.fit);
     result.models.push_back(std::move(model));

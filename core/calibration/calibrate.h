@@ -33,6 +33,9 @@ struct ModelResult {
   ArmFit fit;  ///< to all postures
   PositionErrors fitted;
   PositionErrors held_out;  ///< each fold by what the others fit, selection of effects included, all folds pooled
+  /// Measured less predicted, of every reading of the day in its order, by what the other folds fit, in base_link, m;
+  /// not a number where these place no arm.
+  std::vector<Eigen::Vector3d> held_out_residuals;
   std::vector<Remark> notes;
 };
 

@@ -171,21 +171,24 @@ void writeCompensation(Html& html, const reports::ReportContent& content) {
       "the mean: on the postures a subset used, on those it held out, and on all. P_{wrist} sees "
       "joints 1 to 3 only, the reflectors all six.");
   writeAvoided(html, content);
-  writeEach(html, content, "compensation", [&](const reports::ReportCampaign& one) {
-    if (!reports::shownMethod(one.identification)) {
-      html.paragraph("No method is available, so nothing is compensated.");
-      return;
-    }
-    if (one.identification.shown_first)
-      html.paragraph(reports::asIs(reports::shownFirstWords(one.identification, *one.identification.shown_first)));
-    if (const reports::Table held_out = heldOutTable(one.identification); !held_out.groups.front().rows.empty())
-      writeTable(html, held_out);
-    writeTable(html, shareTable(content, one));
-    if (one.identification.wrist_displacement.empty()) {
-      html.paragraph("P_{wrist} is not measured in the load states: shares are given at the reflectors.");
-    }
-    html.paragraph(noiseWords(one));
-  });
+  writeEach(
+      html, content, "compensation",
+      [&](const reports::ReportCampaign& one) {
+        if (!reports::shownMethod(one.identification)) {
+          html.paragraph("No method is available, so nothing is compensated.");
+          return;
+        }
+        if (one.identification.shown_first)
+          html.paragraph(reports::asIs(reports::shownFirstWords(one.identification, *one.identification.shown_first)));
+        if (const reports::Table held_out = heldOutTable(one.identification); !held_out.groups.front().rows.empty())
+          writeTable(html, held_out);
+        writeTable(html, shareTable(content, one));
+        if (one.identification.wrist_displacement.empty()) {
+          html.paragraph("P_{wrist} is not measured in the load states: shares are given at the reflectors.");
+        }
+        html.paragraph(noiseWords(one));
+      },
+      isLoaded);
 }
 
 namespace {
@@ -380,22 +383,25 @@ std::string wideIntervals(const identification::Identification& result) {
 }  // namespace
 
 void writeStiffness(Html& html, const reports::ReportContent& content) {
-  writeForEach(html, content, "stiffness", "Joint stiffness", [&](const reports::ReportCampaign& one) {
-    Notes notes;
-    writeTable(html, stiffnessTable(one.identification, notes));
-    html.paragraph(uncertaintyWords(one.identification), "faint");
-    if (const std::string wide = wideIntervals(one.identification); !wide.empty()) html.paragraph(wide);
-    notes.write(html);
-    writeTable(html, complianceTable(one.identification));
-    writeTable(html, fitTable(one.identification));
-    if (reports::shownMethod(one.identification)) {
-      html.paragraph(
-          "Residuals per coordinate, of the positions that the method fits: P_{TCP} for CP, the reflectors "
-          "for PP and DPP.",
-          "faint");
-    }
-    writeTable(html, lengthTable(one.identification));
-  });
+  writeForEach(
+      html, content, "stiffness", "Joint stiffness",
+      [&](const reports::ReportCampaign& one) {
+        Notes notes;
+        writeTable(html, stiffnessTable(one.identification, notes));
+        html.paragraph(uncertaintyWords(one.identification), "faint");
+        if (const std::string wide = wideIntervals(one.identification); !wide.empty()) html.paragraph(wide);
+        notes.write(html);
+        writeTable(html, complianceTable(one.identification));
+        writeTable(html, fitTable(one.identification));
+        if (reports::shownMethod(one.identification)) {
+          html.paragraph(
+              "Residuals per coordinate, of the positions that the method fits: P_{TCP} for CP, the reflectors "
+              "for PP and DPP.",
+              "faint");
+        }
+        writeTable(html, lengthTable(one.identification));
+      },
+      isLoaded);
 }
 
 namespace {
@@ -441,24 +447,27 @@ reports::Table tableTwo(const reports::ReportContent& content, const reports::Re
 }  // namespace
 
 void writeSubsets(Html& html, const reports::ReportContent& content) {
-  writeForEach(html, content, "subsets", "Spread over subsets of postures", [&](const reports::ReportCampaign& one) {
-    const auto shown = reports::shownMethod(one.identification);
-    if (!shown) {
-      html.paragraph("No method is available, so there is no spread to show.");
-      return;
-    }
-    const identification::SubsetStudy& study = one.identification.of(*shown).subsets;
-    if (study.compliances.empty()) {
-      html.paragraph(fmt::format("{} postures are too few to draw subsets from.", one.identification.cases.size()));
-      return;
-    }
-    writeTable(html, tableTwo(content, one, study));
-    html.paragraph(
-        "A stiffness is one over a compliance: where the compliance comes near zero in some "
-        "subsets, the mean of the stiffness is carried off by a few of them, and the median is the "
-        "number to read.",
-        "faint");
-  });
+  writeForEach(
+      html, content, "subsets", "Spread over subsets of postures",
+      [&](const reports::ReportCampaign& one) {
+        const auto shown = reports::shownMethod(one.identification);
+        if (!shown) {
+          html.paragraph("No method is available, so there is no spread to show.");
+          return;
+        }
+        const identification::SubsetStudy& study = one.identification.of(*shown).subsets;
+        if (study.compliances.empty()) {
+          html.paragraph(fmt::format("{} postures are too few to draw subsets from.", one.identification.cases.size()));
+          return;
+        }
+        writeTable(html, tableTwo(content, one, study));
+        html.paragraph(
+            "A stiffness is one over a compliance: where the compliance comes near zero in some "
+            "subsets, the mean of the stiffness is carried off by a few of them, and the median is the "
+            "number to read.",
+            "faint");
+      },
+      isLoaded);
 }
 
 }  // namespace stiffscope::page

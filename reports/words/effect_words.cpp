@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/numerics/distributions.h"
+#include "reports/words/entry_words.h"
 #include "reports/words/numbers.h"
 #include "reports/words/remark_words.h"
 
@@ -87,16 +88,10 @@ const Words& wordsOf(effects::Effect effect) { return kWords[static_cast<std::si
 
 }  // namespace
 
-std::string effectName(effects::Effect effect) {
-  std::string name(effects::idOf(effect));
-  std::replace(name.begin(), name.end(), '_', ' ');
-  return name;
-}
+std::string effectName(effects::Effect effect) { return nameOfId(effects::idOf(effect)); }
 
 std::string effectNames(const std::vector<effects::Effect>& effects, const char* between) {
-  std::string names;
-  for (const effects::Effect effect : effects) names += (names.empty() ? "" : between) + effectName(effect);
-  return names;
+  return namesJoined(effects, between);
 }
 
 std::string effectMeaning(effects::Effect effect) { return wordsOf(effect).meaning; }
@@ -137,23 +132,9 @@ std::string overlapWords(const diagnosis::WhereTable& table) {
       100.0 * table.explained);
 }
 
-std::string namedWords(const diagnosis::Verdict& verdict) {
-  std::string words;
-  for (const diagnosis::VerdictEntry& entry : verdict.entries) {
-    if (entry.effects.empty()) continue;
-    words += (words.empty() ? "" : ", and ") + effectNames(entry.effects);
-    if (!entry.detail.empty()) words += fmt::format(" ({})", shortDetail(entry.detail));
-  }
-  return words;
-}
+std::string namedWords(const diagnosis::Verdict& verdict) { return namedOf(verdict.entries); }
 
-std::string presentWords(const diagnosis::Verdict& verdict) {
-  const bool unknown = std::any_of(verdict.entries.begin(), verdict.entries.end(),
-                                   [](const diagnosis::VerdictEntry& entry) { return entry.effects.empty(); });
-  std::string words = namedWords(verdict);
-  if (unknown) words += std::string(words.empty() ? "" : ", and ") + "something that no known effect explains";
-  return words.empty() ? "nothing" : words;
-}
+std::string presentWords(const diagnosis::Verdict& verdict) { return presentOf(verdict.entries); }
 
 std::string reasonWords(const diagnosis::Verdict& verdict) {
   return fmt::format("{}", fmt::join(words(verdict.reasons), " "));
