@@ -32,7 +32,7 @@ std::vector<CalibratedModel> drawnModels(const calibration::Calibration& calibra
 }
 
 render::Colour colourOf(CalibratedModel model) {
-  if (model == CalibratedModel::nominal) return render::colours::kNone;
+  if (model == CalibratedModel::nominal) return render::colours::kAxis;
   return render::colours::kSeries[model == CalibratedModel::geometry ? 0 : 1];
 }
 
@@ -107,8 +107,14 @@ namespace {
 constexpr std::size_t kMostPlaces = 1200;  // more in one map hide each other
 
 /// From small to large: lightness falls, so that a grey print and colour-blind eyes see it, too.
-constexpr std::array<render::Colour, 6> kByError{
-    {{181, 222, 43}, {78, 195, 107}, {31, 148, 140}, {46, 108, 142}, {72, 60, 140}, {68, 1, 84}}};
+constexpr std::array<render::Colour, 8> kByError{{{181, 222, 43},
+                                                  {110, 206, 88},
+                                                  {53, 183, 121},
+                                                  {31, 158, 137},
+                                                  {38, 130, 142},
+                                                  {49, 104, 142},
+                                                  {66, 64, 134},
+                                                  {68, 1, 84}}};
 
 /// Limits between the colours, m, ascending: of the series 1-2-5, from the better half by the best model to the largest
 /// by the nominal one.
@@ -159,7 +165,7 @@ render::ShapePanel mapPanel(const std::vector<ReadingError>& errors, CalibratedM
                             const std::vector<double>& limits, const Projection& projection, double reach) {
   const Extent extent = extentOf(errors, projection);
   render::ShapePanel panel;
-  panel.title = fmt::format("{}, {}", reports::capitalised(reports::modelWords(model)), projection.words);
+  panel.title = fmt::format("{}, {}", reports::capitalised(reports::shortModelWords(model)), projection.words);
   render::PointSeries frame;  // all panels to one scale
   frame.mark = render::PointMark::none;
   frame.points = {{reach, reach}};
@@ -167,7 +173,7 @@ render::ShapePanel mapPanel(const std::vector<ReadingError>& errors, CalibratedM
   for (std::size_t c = 0; c <= limits.size(); ++c) {
     render::PointSeries series;
     series.name = classWords(limits, c);
-    series.colour = kByError[std::min(c + kByError.size() - 1 - limits.size(), kByError.size() - 1)];
+    series.colour = kByError[c * (kByError.size() - 1) / limits.size()];
     panel.series.push_back(std::move(series));
   }
   for (const std::size_t i : preparation::evenlySpreadIndices(errors.size(), kMostPlaces)) {

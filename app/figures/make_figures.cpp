@@ -74,6 +74,12 @@ class FigureList {
     if (!one_.accuracy->calibration.reason.empty()) return;
     add("accuracy", describeAccuracyCurves(one_), accuracyCurves(one_));
     add("accuracy", describeAccuracyMap(one_), accuracyMap(one_), kScene);
+    if (const auto scenes = accuracyScenes(one_)) {
+      add("accuracy-gap", describeAccuracyBefore(one_, *scenes), scenes->before, kScene);
+      if (!one_.accuracy->calibration.best().fit.parts.empty())
+        add("accuracy-gap", describeAccuracyAfter(one_, *scenes), scenes->after, kScene);
+    }
+    if (const auto classes = effectClasses(one_)) add("accuracy-gap", describeEffectClasses(one_), *classes);
     add("station", describeResidualsOverDay(one_), residualsOverDay(one_), kScene);
   }
 

@@ -53,13 +53,12 @@ reports::Table worstTable(const calibration::Calibration& calibration,
   const bool effects = !calibration.best().fit.parts.empty();
   const CalibratedModel last = effects ? CalibratedModel::effects : CalibratedModel::geometry;
   const bool reflectors = calibration.day.targets.size() > 1;
-  reports::Table table{
-      fmt::format("Worst postures, by the model of {}: position error and its direction in base_link, mm",
-                  reports::modelWords(last)),
-      {"Posture"},
-      {{}},
-      false,
-      "worst-postures"};
+  reports::Table table{fmt::format("Worst postures, {}: position error, and its direction in base_link, mm",
+                                   reports::shortModelWords(last)),
+                       {"Posture"},
+                       {{}},
+                       false,
+                       "worst-postures"};
   if (reflectors) table.columns.emplace_back("Reflector");
   for (const char* column : {"Nominal", "Calibrated"}) table.columns.emplace_back(column);
   if (effects) table.columns.emplace_back("With effects");

@@ -36,8 +36,8 @@ reports::Table axesTable(const calibration::Calibration& calibration) {
   const calibration::ArmFit& fit = calibration.geometry().fit;
   reports::Table table{
       "Axes against the URDF's, in base_link with all joints at zero: value ± standard uncertainty u, across the axis",
-      {"Axis", "u along", "v along", "Moved along u (mm)", "Moved along v (mm)", "Tilted to u (mdeg)",
-       "Tilted to v (mdeg)"},
+      {"Axis", "u along", "v along", "Moved along u (mm)", "Moved along v (mm)", "Tilted towards u (mdeg)",
+       "Tilted towards v (mdeg)"},
       {{}},
       false,
       "axes"};

@@ -31,6 +31,20 @@ const char* modelWords(CalibratedModel model) {
   return "geometry and effects";
 }
 
+const char* shortModelWords(CalibratedModel model) {
+  switch (model) {
+    case CalibratedModel::nominal:
+      return "nominal";
+    case CalibratedModel::geometry:
+      return "calibrated";
+    case CalibratedModel::gravity:
+      return "with own weight";
+    case CalibratedModel::effects:
+      break;
+  }
+  return "with effects";
+}
+
 std::string millimetres(double metres) { return significant(metres / io::kMillimetre, 3) + "\u00a0mm"; }
 
 namespace {

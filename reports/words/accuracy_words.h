@@ -9,7 +9,8 @@
 
 namespace stiffscope::reports {
 
-const char* modelWords(calibration::CalibratedModel model);  ///< "geometry calibrated"
+const char* modelWords(calibration::CalibratedModel model);       ///< "geometry calibrated"
+const char* shortModelWords(calibration::CalibratedModel model);  ///< "calibrated": heads a column
 
 /// "0.158 mm", to three digits.
 std::string millimetres(double metres);
