@@ -39,11 +39,10 @@ std::vector<Section> sectionsOf(const reports::ReportContent& content) {
   const bool improved = any([](const reports::ReportCampaign& one) { return one.improved != nullptr; });
   const bool diagnosed = any([](const reports::ReportCampaign& one) { return one.diagnosis != nullptr; });
   const bool calibrated = any(isCalibrated);
-  const bool unloaded = any([](const reports::ReportCampaign& one) { return one.accuracy != nullptr; });
   return {{"conditions", "Conditions", writeConditions, true},
           {"accuracy", "Accuracy", writeAccuracy, calibrated},
           {"parameters", "Parameters", writeParameters, calibrated},
-          {"station", "Station", writeStation, unloaded},
+          {"station", "Station", writeStation, any(hasStation)},
           {"accuracy-gap", "What the geometry misses", writeAccuracyGap, calibrated},
           {"next", "What to do next", writeNextSteps, any(hasActions)},
           {"wrist", "Wrist centre", writeWrist, any(hasWrist)},

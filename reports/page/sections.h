@@ -44,6 +44,7 @@ using About = std::function<bool(const reports::ReportCampaign&)>;
 bool isLoaded(const reports::ReportCampaign& one);
 bool isCalibrated(const reports::ReportCampaign& one);  ///< a day without a load that could be
 bool hasActions(const reports::ReportCampaign& one);    ///< calibrated, with something to do
+bool hasStation(const reports::ReportCampaign& one);    ///< without a load, with something to say of its course
 bool hasAxes(const reports::ReportCampaign& one);       ///< loaded, or with circle sweeps
 bool isAudited(const reports::ReportCampaign& one);
 bool hasLeftOut(const reports::ReportCampaign& one);  ///< loaded, or with something left out

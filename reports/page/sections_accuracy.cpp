@@ -43,7 +43,8 @@ reports::Table modelsTable(const calibration::Calibration& calibration,
 
 std::string anglesOf(const Vector6d& q) {
   std::string text;
-  for (int j = 0; j < 6; ++j) text += (j > 0 ? ", " : "") + reports::fixed(q[j] / io::kDegree, 1);
+  for (int j = 0; j < 6; ++j)
+    text += (j > 0 ? ", " : "") + reports::fixed(reports::unsignedZero(q[j] / io::kDegree, 0), 0);
   return text;
 }
 
@@ -72,7 +73,7 @@ reports::Table worstTable(const calibration::Calibration& calibration,
       row.emplace_back(inMm(error.of(model).norm()));
     if (effects) row.emplace_back(inMm(error.of(last).norm()));
     for (int k = 0; k < 3; ++k) row.emplace_back(inMm(error.of(last)[k]));
-    row.emplace_back(anglesOf(posture.q));
+    row.emplace_back("", anglesOf(posture.q));
     table.groups.front().rows.push_back(std::move(row));
   }
   return table;

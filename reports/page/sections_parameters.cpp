@@ -40,7 +40,7 @@ reports::Table axesTable(const calibration::Calibration& calibration) {
        "Tilted towards v (mdeg)"},
       {{}},
       false,
-      "axes"};
+      "calibrated-axes"};
   for (int j = 0; j < 6; ++j) {
     const metrology::MeasuredLine& start = fit.start[static_cast<std::size_t>(j)];
     reports::Row row{fmt::format("{}", j + 1), directionWords(start.across_u), directionWords(start.across_v)};

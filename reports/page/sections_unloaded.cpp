@@ -49,6 +49,15 @@ reports::Table quartersTable(const calibration::Calibration& calibration) {
   return table;
 }
 
+/// Angles and lengths in millionths, as the page has them elsewhere.
+extended_model::EffectParameter inMillionths(const calibration::EffectTerm& term, double value, double sd) {
+  constexpr double kMillionth = 1e-6;
+  for (const char* unit : {"rad", "m", "rad/rad", "m/m"}) {
+    if (term.unit == unit) return {term.name, "µ" + term.unit, value / kMillionth, sd / kMillionth};
+  }
+  return {term.name, term.unit, value, sd};
+}
+
 reports::Table effectsTable(const calibration::ArmFit& fit) {
   reports::Table table = effectParametersTable("Effects beside the geometry, in the order in which they were found");
   std::size_t k = 0;
@@ -57,7 +66,7 @@ reports::Table effectsTable(const calibration::ArmFit& fit) {
     for (const calibration::EffectTerm& term : part.terms) {
       const int at = static_cast<int>(fit.steps.size()) + static_cast<int>(k);
       if (!fit.refused[k])
-        parameters.push_back({term.name, term.unit, fit.sizes[static_cast<Eigen::Index>(k)], fit.sd(at)});
+        parameters.push_back(inMillionths(term, fit.sizes[static_cast<Eigen::Index>(k)], fit.sd(at)));
       ++k;
     }
     if (!parameters.empty()) table.groups.push_back(parameterGroup(reports::partName(part), parameters));
@@ -76,6 +85,7 @@ void writeCause(Html& html, const accuracy::AccuracyDiagnosis& accuracy) {
     return;
   }
   html.paragraph(reports::asIs(reports::accuracyFinding(accuracy)), "finding");
+  html.list(reports::accuracyMeanings(accuracy));
   if (const std::string figures = reports::accuracyFigures(accuracy); !figures.empty()) html.paragraph(figures);
   const std::vector<std::string> reasons = reports::words(accuracy.reasons);
   if (!reasons.empty()) html.paragraph(reports::withMicro(fmt::format("{}", fmt::join(reasons, " "))), "faint");
@@ -93,6 +103,10 @@ void writeCause(Html& html, const accuracy::AccuracyDiagnosis& accuracy) {
 
 }  // namespace
 
+bool hasStation(const reports::ReportCampaign& one) {
+  return one.accuracy != nullptr && (one.preparation != nullptr || isCalibrated(one));
+}
+
 void writeStation(Html& html, const reports::ReportContent& content) {
   const auto write = [&](const reports::ReportCampaign& one) {
     if (one.preparation != nullptr) {
@@ -100,8 +114,7 @@ void writeStation(Html& html, const reports::ReportContent& content) {
     }
     if (isCalibrated(one)) writeTable(html, quartersTable(one.accuracy->calibration));
   };
-  writeForEach(html, content, "station", "The station over the day", write,
-               [](const reports::ReportCampaign& one) { return one.accuracy != nullptr; });
+  writeForEach(html, content, "station", "The station over the day", write, hasStation);
 }
 
 void writeAccuracyGap(Html& html, const reports::ReportContent& content) {

@@ -120,14 +120,18 @@ std::string accuracyFinding(const accuracy::AccuracyDiagnosis& accuracy) {
         "matter{}.",
         small);
   }
-  std::string text = fmt::format("Besides the geometry the readings show {}", presentWords(accuracy.verdict));
+  return fmt::format("Besides the geometry the readings show {}.", presentWords(accuracy.verdict));
+}
+
+std::vector<std::string> accuracyMeanings(const accuracy::AccuracyDiagnosis& accuracy) {
   std::vector<std::string> meanings;
   for (const accuracy::AccuracyEntry& entry : accuracy.verdict) {
-    for (const calibration::UnloadedEffect effect : entry.effects)
-      meanings.push_back(fmt::format("{}: {}", effectName(effect), effectMeaning(effect)));
+    for (const calibration::UnloadedEffect effect : entry.effects) {
+      const std::string meaning = fmt::format("{}: {}.", capitalised(effectName(effect)), effectMeaning(effect));
+      if (std::find(meanings.begin(), meanings.end(), meaning) == meanings.end()) meanings.push_back(meaning);
+    }
   }
-  if (meanings.empty()) return text + ".";
-  return fmt::format("{}. That is, {}.", text, fmt::join(meanings, "; "));
+  return meanings;
 }
 
 std::string accuracyFigures(const accuracy::AccuracyDiagnosis& accuracy) {

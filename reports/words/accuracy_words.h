@@ -24,8 +24,9 @@ std::string sweepsVerdict(const ReportCampaign& one);
 /// Largest difference of a distance between measured axes from the nominal one, m.
 double largestLinkDifference(const frames::Frames& frames);
 
-/// What is there besides the geometry, with what it means.
+/// What is there besides the geometry; and what each effect of it means.
 std::string accuracyFinding(const accuracy::AccuracyDiagnosis& accuracy);
+std::vector<std::string> accuracyMeanings(const accuracy::AccuracyDiagnosis& accuracy);
 
 /// How far the gap falls, with noise and interval; empty where nothing is known of it.
 std::string accuracyFigures(const accuracy::AccuracyDiagnosis& accuracy);

@@ -153,8 +153,11 @@ std::string verdictOf(const std::vector<ReportCampaign>& campaigns, const std::o
     text += (text.empty() ? "" : " ") + name + words;
   };
   for (const ReportCampaign& one : ofKind(campaigns, DayKind::unloaded)) add(one, accuracyVerdict(one));
-  const std::string stiffness = stiffnessVerdict(ofKind(campaigns, DayKind::loaded), avoided);
-  if (!stiffness.empty()) text += (text.empty() ? "" : " ") + stiffness;
+  const std::vector<ReportCampaign> loaded = ofKind(campaigns, DayKind::loaded);
+  if (loaded.size() == 1)
+    add(loaded.front(), stiffnessVerdict(loaded, avoided));
+  else if (!loaded.empty())
+    text += (text.empty() ? "" : " ") + stiffnessVerdict(loaded, avoided);
   for (const ReportCampaign& one : ofKind(campaigns, DayKind::sweeps)) add(one, sweepsVerdict(one));
   return text;
 }
