@@ -79,8 +79,7 @@ bool anySecondEncoders(const reports::ReportContent& content) {
 void writeTransmission(Html& html, const reports::ReportContent& content) {
   if (!anySecondEncoders(content)) return;
   writeForEach(
-      html, content, "transmission", "Gears by two encoders",
-      [&](const reports::ReportCampaign& one) {
+      html, content, "transmission", "Gears by two encoders", isLoaded, [&](const reports::ReportCampaign& one) {
         const auto& transmission = one.identification.transmission;
         if (!transmission) {
           html.paragraph("No angles of the motors' side beside those of the joints.");
@@ -104,8 +103,7 @@ void writeTransmission(Html& html, const reports::ReportContent& content) {
               "faint");
         }
         for (const std::string& note : reports::transmissionNotes(*transmission)) html.paragraph(reports::asIs(note));
-      },
-      isLoaded);
+      });
 }
 
 }  // namespace stiffscope::page

@@ -264,6 +264,8 @@ void writeOpening(Html& html, const reports::ReportContent& content) {
   writeWarnings(html, content);
 }
 
+bool isAny(const reports::ReportCampaign&) { return true; }
+
 bool isLoaded(const reports::ReportCampaign& one) { return kindOf(one) == reports::DayKind::loaded; }
 
 bool isCalibrated(const reports::ReportCampaign& one) {
@@ -278,27 +280,27 @@ bool hasWrist(const reports::ReportCampaign& one) { return isLoaded(one) || one.
 namespace {
 
 std::size_t countOf(const reports::ReportContent& content, const About& about) {
-  if (!about) return content.campaigns.size();
   return static_cast<std::size_t>(std::count_if(content.campaigns.begin(), content.campaigns.end(), about));
 }
 
 }  // namespace
 
 void writeForEach(Html& html, const reports::ReportContent& content, const char* id, const char* heading,
-                  const std::function<void(const reports::ReportCampaign&)>& write, const About& about) {
-  if (about && countOf(content, about) == 0) return;
+                  const About& about, const std::function<void(const reports::ReportCampaign&)>& write) {
+  // A report of no campaign keeps its headings.
+  if (!content.campaigns.empty() && countOf(content, about) == 0) return;
   const auto section = html.element("section", {{"id", id}});
   html.leaf("h2", heading);
-  writeEach(html, content, id, write, about);
+  writeEach(html, content, id, about, write);
 }
 
-void writeEach(Html& html, const reports::ReportContent& content, const char* id,
-               const std::function<void(const reports::ReportCampaign&)>& write, const About& about) {
+void writeEach(Html& html, const reports::ReportContent& content, const char* id, const About& about,
+               const std::function<void(const reports::ReportCampaign&)>& write) {
   const bool several = countOf(content, about) > 1;
   {
     const auto row = html.element("div", {{"class", several ? "several" : "one"}});
     for (std::size_t i = 0; i < content.campaigns.size(); ++i) {
-      if (about && !about(content.campaigns[i])) continue;
+      if (!about(content.campaigns[i])) continue;
       const auto column = html.element("div", {{"class", "each"}});
       if (content.campaigns.size() > 1) {
         html.leaf("h3", reports::asIs(content.campaigns[i].campaign.name));

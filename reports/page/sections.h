@@ -39,8 +39,9 @@ void writeScope(Html& html,
 void writeLeftOut(Html& html, const reports::ReportContent& content);     ///< what was not used or not found, and why
 void writeProvenance(Html& html, const reports::ReportContent& content);  ///< inputs, versions, settings
 
-/// Which campaigns a section is about; empty: all.
-using About = std::function<bool(const reports::ReportCampaign&)>;
+/// Which campaigns a section is about.
+using About = bool (*)(const reports::ReportCampaign&);
+bool isAny(const reports::ReportCampaign& one);
 bool isLoaded(const reports::ReportCampaign& one);
 bool isCalibrated(const reports::ReportCampaign& one);  ///< a day without a load that could be
 bool hasActions(const reports::ReportCampaign& one);    ///< calibrated, with something to do
@@ -53,11 +54,11 @@ bool hasWrist(const reports::ReportCampaign& one);    ///< loaded, or with a wri
 /// A section with its heading; `write` is called for each campaign that it is `about`, under an h3 with its name where
 /// there are several. Nothing where it is about none.
 void writeForEach(Html& html, const reports::ReportContent& content, const char* id, const char* heading,
-                  const std::function<void(const reports::ReportCampaign&)>& write, const About& about = {});
+                  const About& about, const std::function<void(const reports::ReportCampaign&)>& write);
 
 /// The same without a section of its own; then the figures of the section `id`: of a single campaign in its columns, of
 /// several below them.
-void writeEach(Html& html, const reports::ReportContent& content, const char* id,
-               const std::function<void(const reports::ReportCampaign&)>& write, const About& about = {});
+void writeEach(Html& html, const reports::ReportContent& content, const char* id, const About& about,
+               const std::function<void(const reports::ReportCampaign&)>& write);
 
 }  // namespace stiffscope::page

@@ -93,7 +93,7 @@ void writeAccuracy(Html& html, const reports::ReportContent& content) {
     html.list(notes);
     writeTable(html, worstTable(calibration, errors));
   };
-  writeForEach(html, content, "accuracy", "Accuracy before and after", write, isCalibrated);
+  writeForEach(html, content, "accuracy", "Accuracy before and after", isCalibrated, write);
 }
 
 }  // namespace stiffscope::page

@@ -111,7 +111,7 @@ void writeConditions(Html& html, const reports::ReportContent& content) {
   for (const DayKind kind : {DayKind::unloaded, DayKind::loaded, DayKind::sweeps}) {
     if (reports::anyOfKind(content.campaigns, kind)) html.paragraph(reports::methodWords(kind));
   }
-  writeEach(html, content, "conditions", [&](const reports::ReportCampaign& one) {
+  writeEach(html, content, "conditions", isAny, [&](const reports::ReportCampaign& one) {
     writeTable(html, {"Conditions of the measurement", {"What", "As measured"}, {conditions(one)}, true, "conditions"});
   });
 }
@@ -162,28 +162,25 @@ reports::Table axisTable(const frames::Frames& frames) {
 }  // namespace
 
 void writeLinks(Html& html, const reports::ReportContent& content) {
-  writeForEach(
-      html, content, "links", "Link lengths and angles",
-      [&](const reports::ReportCampaign& one) {
-        const frames::Frames& frames = one.identification.frames;
-        std::vector<std::string> unmeasured;
-        for (std::size_t i = 0; i < frames.axes.size(); ++i) {
-          if (!frames.axes[i].measured)
-            unmeasured.push_back(fmt::format("Axis {}: {}.", i + 1, reports::words(frames.axes[i].reason)));
-        }
-        if (unmeasured.size() == frames.axes.size()) {
-          html.paragraph(fmt::format("No axis was measured ({}); the geometry is that of the robot's description.",
-                                     reports::words(frames.axes.front().reason)));
-          return;
-        }
-        Notes notes;
-        writeTable(html, linkTable(frames, notes));
-        html.paragraph("± is the expanded uncertainty U, coverage about 95\u00a0%.", "faint");
-        notes.write(html);
-        writeTable(html, axisTable(frames));
-        html.list(unmeasured);
-      },
-      hasAxes);
+  writeForEach(html, content, "links", "Link lengths and angles", hasAxes, [&](const reports::ReportCampaign& one) {
+    const frames::Frames& frames = one.identification.frames;
+    std::vector<std::string> unmeasured;
+    for (std::size_t i = 0; i < frames.axes.size(); ++i) {
+      if (!frames.axes[i].measured)
+        unmeasured.push_back(fmt::format("Axis {}: {}.", i + 1, reports::words(frames.axes[i].reason)));
+    }
+    if (unmeasured.size() == frames.axes.size()) {
+      html.paragraph(fmt::format("No axis was measured ({}); the geometry is that of the robot's description.",
+                                 reports::words(frames.axes.front().reason)));
+      return;
+    }
+    Notes notes;
+    writeTable(html, linkTable(frames, notes));
+    html.paragraph("± is the expanded uncertainty U, coverage about 95\u00a0%.", "faint");
+    notes.write(html);
+    writeTable(html, axisTable(frames));
+    html.list(unmeasured);
+  });
 }
 
 namespace {
@@ -267,17 +264,14 @@ void writeMeasured(Html& html, const reports::ReportContent& content, const repo
 }  // namespace
 
 void writeWrist(Html& html, const reports::ReportContent& content) {
-  writeForEach(
-      html, content, "wrist", "Wrist centre",
-      [&](const reports::ReportCampaign& one) {
-        const frames::WristCentre& wrist = one.identification.frames.wrist;
-        if (wrist.measured) {
-          writeMeasured(html, content, one, wrist);
-        } else {
-          html.paragraph(fmt::format("P_{{wrist}} is not measured: {}.", reports::words(wrist.reason)));
-        }
-      },
-      hasWrist);
+  writeForEach(html, content, "wrist", "Wrist centre", hasWrist, [&](const reports::ReportCampaign& one) {
+    const frames::WristCentre& wrist = one.identification.frames.wrist;
+    if (wrist.measured) {
+      writeMeasured(html, content, one, wrist);
+    } else {
+      html.paragraph(fmt::format("P_{{wrist}} is not measured: {}.", reports::words(wrist.reason)));
+    }
+  });
 }
 
 }  // namespace stiffscope::page

@@ -158,12 +158,9 @@ void writeGap(Html& html, const reports::ReportContent& content) {
   const bool any = std::any_of(content.campaigns.begin(), content.campaigns.end(),
                                [](const reports::ReportCampaign& one) { return one.diagnosis != nullptr; });
   if (!any) return;
-  writeForEach(
-      html, content, "gap", "What the model misses",
-      [&](const reports::ReportCampaign& one) {
-        if (one.diagnosis != nullptr) writeDiagnosis(html, *one.diagnosis);
-      },
-      isLoaded);
+  writeForEach(html, content, "gap", "What the model misses", isLoaded, [&](const reports::ReportCampaign& one) {
+    if (one.diagnosis != nullptr) writeDiagnosis(html, *one.diagnosis);
+  });
 }
 
 namespace {
@@ -306,12 +303,9 @@ void writeExtendedModel(Html& html, const reports::ReportContent& content) {
   const bool any = std::any_of(content.campaigns.begin(), content.campaigns.end(),
                                [](const reports::ReportCampaign& one) { return one.improved != nullptr; });
   if (!any) return;
-  writeForEach(
-      html, content, "effects", "Effects in the model",
-      [&](const reports::ReportCampaign& one) {
-        if (one.improved != nullptr) writeModel(html, *one.improved);
-      },
-      isLoaded);
+  writeForEach(html, content, "effects", "Effects in the model", isLoaded, [&](const reports::ReportCampaign& one) {
+    if (one.improved != nullptr) writeModel(html, *one.improved);
+  });
 }
 
 }  // namespace stiffscope::page

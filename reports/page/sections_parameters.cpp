@@ -143,7 +143,7 @@ void writeParameters(Html& html, const reports::ReportContent& content) {
     writeTable(html, placesTable(calibration));
     writeTable(html, stiffnessTable(calibration));
   };
-  writeForEach(html, content, "parameters", "Parameters of the calibrated geometry", write, isCalibrated);
+  writeForEach(html, content, "parameters", "Parameters of the calibrated geometry", isCalibrated, write);
 }
 
 }  // namespace stiffscope::page

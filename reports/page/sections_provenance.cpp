@@ -193,7 +193,7 @@ void writeAudit(Html& html, const reports::ReportContent& content) {
     }
     writeRejected(html, one);
   };
-  writeForEach(html, content, "audit", "Audit of the readings", write, isAudited);
+  writeForEach(html, content, "audit", "Audit of the readings", isAudited, write);
 }
 
 namespace {
@@ -226,7 +226,7 @@ void writeLeftOut(Html& html, const reports::ReportContent& content) {
     if (isLoaded(one) && one.identification.left_out.empty()) html.paragraph("No posture was left out.");
     html.list(items);
   };
-  writeForEach(html, content, "left-out", "What was left out, and why", write, hasLeftOut);
+  writeForEach(html, content, "left-out", "What was left out, and why", hasLeftOut, write);
 }
 
 namespace {
@@ -241,7 +241,7 @@ reports::Table namedTable(const char* id, const char* caption, const char* name,
 }  // namespace
 
 void writeProvenance(Html& html, const reports::ReportContent& content) {
-  writeForEach(html, content, "provenance", "Inputs", [&](const reports::ReportCampaign& one) {
+  writeForEach(html, content, "provenance", "Inputs", isAny, [&](const reports::ReportCampaign& one) {
     if (one.campaign.inputs.empty()) html.paragraph("No file was read: the campaign comes from memory.");
     reports::Table table{"Files read", {"File", "SHA-256 of its bytes"}, {{}}, true, "inputs"};
     for (const campaign::InputFile& file : one.campaign.inputs)

@@ -171,24 +171,21 @@ void writeCompensation(Html& html, const reports::ReportContent& content) {
       "the mean: on the postures a subset used, on those it held out, and on all. P_{wrist} sees "
       "joints 1 to 3 only, the reflectors all six.");
   writeAvoided(html, content);
-  writeEach(
-      html, content, "compensation",
-      [&](const reports::ReportCampaign& one) {
-        if (!reports::shownMethod(one.identification)) {
-          html.paragraph("No method is available, so nothing is compensated.");
-          return;
-        }
-        if (one.identification.shown_first)
-          html.paragraph(reports::asIs(reports::shownFirstWords(one.identification, *one.identification.shown_first)));
-        if (const reports::Table held_out = heldOutTable(one.identification); !held_out.groups.front().rows.empty())
-          writeTable(html, held_out);
-        writeTable(html, shareTable(content, one));
-        if (one.identification.wrist_displacement.empty()) {
-          html.paragraph("P_{wrist} is not measured in the load states: shares are given at the reflectors.");
-        }
-        html.paragraph(noiseWords(one));
-      },
-      isLoaded);
+  writeEach(html, content, "compensation", isLoaded, [&](const reports::ReportCampaign& one) {
+    if (!reports::shownMethod(one.identification)) {
+      html.paragraph("No method is available, so nothing is compensated.");
+      return;
+    }
+    if (one.identification.shown_first)
+      html.paragraph(reports::asIs(reports::shownFirstWords(one.identification, *one.identification.shown_first)));
+    if (const reports::Table held_out = heldOutTable(one.identification); !held_out.groups.front().rows.empty())
+      writeTable(html, held_out);
+    writeTable(html, shareTable(content, one));
+    if (one.identification.wrist_displacement.empty()) {
+      html.paragraph("P_{wrist} is not measured in the load states: shares are given at the reflectors.");
+    }
+    html.paragraph(noiseWords(one));
+  });
 }
 
 namespace {
@@ -383,25 +380,22 @@ std::string wideIntervals(const identification::Identification& result) {
 }  // namespace
 
 void writeStiffness(Html& html, const reports::ReportContent& content) {
-  writeForEach(
-      html, content, "stiffness", "Joint stiffness",
-      [&](const reports::ReportCampaign& one) {
-        Notes notes;
-        writeTable(html, stiffnessTable(one.identification, notes));
-        html.paragraph(uncertaintyWords(one.identification), "faint");
-        if (const std::string wide = wideIntervals(one.identification); !wide.empty()) html.paragraph(wide);
-        notes.write(html);
-        writeTable(html, complianceTable(one.identification));
-        writeTable(html, fitTable(one.identification));
-        if (reports::shownMethod(one.identification)) {
-          html.paragraph(
-              "Residuals per coordinate, of the positions that the method fits: P_{TCP} for CP, the reflectors "
-              "for PP and DPP.",
-              "faint");
-        }
-        writeTable(html, lengthTable(one.identification));
-      },
-      isLoaded);
+  writeForEach(html, content, "stiffness", "Joint stiffness", isLoaded, [&](const reports::ReportCampaign& one) {
+    Notes notes;
+    writeTable(html, stiffnessTable(one.identification, notes));
+    html.paragraph(uncertaintyWords(one.identification), "faint");
+    if (const std::string wide = wideIntervals(one.identification); !wide.empty()) html.paragraph(wide);
+    notes.write(html);
+    writeTable(html, complianceTable(one.identification));
+    writeTable(html, fitTable(one.identification));
+    if (reports::shownMethod(one.identification)) {
+      html.paragraph(
+          "Residuals per coordinate, of the positions that the method fits: P_{TCP} for CP, the reflectors "
+          "for PP and DPP.",
+          "faint");
+    }
+    writeTable(html, lengthTable(one.identification));
+  });
 }
 
 namespace {
@@ -448,8 +442,7 @@ reports::Table tableTwo(const reports::ReportContent& content, const reports::Re
 
 void writeSubsets(Html& html, const reports::ReportContent& content) {
   writeForEach(
-      html, content, "subsets", "Spread over subsets of postures",
-      [&](const reports::ReportCampaign& one) {
+      html, content, "subsets", "Spread over subsets of postures", isLoaded, [&](const reports::ReportCampaign& one) {
         const auto shown = reports::shownMethod(one.identification);
         if (!shown) {
           html.paragraph("No method is available, so there is no spread to show.");
@@ -466,8 +459,7 @@ void writeSubsets(Html& html, const reports::ReportContent& content) {
             "subsets, the mean of the stiffness is carried off by a few of them, and the median is the "
             "number to read.",
             "faint");
-      },
-      isLoaded);
+      });
 }
 
 }  // namespace stiffscope::page

@@ -114,17 +114,17 @@ void writeStation(Html& html, const reports::ReportContent& content) {
     }
     if (isCalibrated(one)) writeTable(html, quartersTable(one.accuracy->calibration));
   };
-  writeForEach(html, content, "station", "The station over the day", write, hasStation);
+  writeForEach(html, content, "station", "The station over the day", hasStation, write);
 }
 
 void writeAccuracyGap(Html& html, const reports::ReportContent& content) {
   const auto write = [&](const reports::ReportCampaign& one) { writeCause(html, *one.accuracy); };
-  writeForEach(html, content, "accuracy-gap", "What the geometry misses", write, isCalibrated);
+  writeForEach(html, content, "accuracy-gap", "What the geometry misses", isCalibrated, write);
 }
 
 void writeNextSteps(Html& html, const reports::ReportContent& content) {
   const auto write = [&](const reports::ReportCampaign& one) { html.list(reports::accuracyActions(*one.accuracy)); };
-  writeForEach(html, content, "next", "What to do next", write, hasActions);
+  writeForEach(html, content, "next", "What to do next", hasActions, write);
 }
 
 bool hasActions(const reports::ReportCampaign& one) {

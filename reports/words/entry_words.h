@@ -6,19 +6,16 @@
 #include <string_view>
 #include <vector>
 
-#include "reports/words/effect_words.h"
-
 // What verdicts of loaded and of unloaded days have in common: entries of effects with a detail. The effects' own
 // names (effectName) are those of their vocabulary.
 
 namespace stiffscope::reports {
 
 /// "bearing tilt" of the id bearing_tilt.
-inline std::string nameOfId(std::string_view id) {
-  std::string name(id);
-  std::replace(name.begin(), name.end(), '_', ' ');
-  return name;
-}
+std::string nameOfId(std::string_view id);
+
+/// "joints 1, 2 and 4" for "joint 1, joint 2, joint 4", "joints 1 to 6" for all; other details as they are.
+std::string shortDetail(const std::string& detail);
 
 template <class Effect>
 std::string namesJoined(const std::vector<Effect>& effects, const char* between) {

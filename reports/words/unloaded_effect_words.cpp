@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 
-#include "reports/words/effect_words.h"
 #include "reports/words/entry_words.h"
 
 namespace stiffscope::reports {
