@@ -61,7 +61,9 @@ validation::BlindCase drawMachine(const std::string& family, int i, std::uint64_
                                   const std::filesystem::path& urdf) {
   using validation::CaseKind;
   validation::CasePlan plan;
-  const auto effect = [](int k) { return static_cast<effects::Effect>(k % static_cast<int>(effects::kEffectCount)); };
+  const auto effect = [](int k) {
+    return std::string(effects::kEffectIds[static_cast<std::size_t>(k) % effects::kEffectCount]);
+  };
   if (family == "single") {
     plan = {CaseKind::single, {effect(i)}, {}};
   } else if (family == "double") {

@@ -2,9 +2,11 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>
+#include <stdexcept>
 
 #include "app/command_line.h"
 #include "app/output.h"
+#include "core/accuracy/diagnose_accuracy.h"
 #include "core/diagnosis/diagnose.h"
 #include "core/diagnosis/effect_distance.h"
 #include "core/io/write_file.h"
@@ -13,6 +15,7 @@
 #include "reports/json/json_document.h"
 #include "reports/page/validation_page.h"
 #include "reports/text/text.h"
+#include "reports/words/remark_words.h"
 
 namespace stiffscope::app {
 
@@ -30,9 +33,15 @@ validation::BlindEvents eventsOnStderr() {
   return events;
 }
 
-validation::DiagnosisAnswer diagnosed(const campaign::Campaign& campaign) {
+validation::Answer diagnosed(const campaign::Campaign& campaign) {
   const diagnosis::Diagnosis diagnosis = diagnosis::diagnose(campaign);
-  return {diagnosis.verdict, diagnosis.classes};
+  return validation::answerOf(diagnosis.verdict, diagnosis.classes);
+}
+
+validation::Answer diagnosedUnloaded(const campaign::Campaign& campaign) {
+  const accuracy::AccuracyDiagnosis diagnosis = accuracy::diagnoseAccuracy(campaign);
+  if (!diagnosis.usable) throw std::runtime_error(reports::words(diagnosis.unusable_reason));
+  return validation::answerOf(diagnosis);
 }
 
 }  // namespace
@@ -50,12 +59,15 @@ void addBlind(CLI::App& app, Run& run) {
   command->add_option("--seed", arguments->options.seed, "another seed, other machines")->capture_default_str();
   command->add_option("--out", arguments->out, "folder for campaigns, labels, answers, results.json, blind.html")
       ->required();
+  CLI::Option* unloaded = command->add_flag("--unloaded", arguments->options.unloaded,
+                                            "days without a load: postures alone, by own weight");
   command->add_flag("--discard", arguments->options.discard, "remove the campaigns when done");
   command
       ->add_option("--as-is", arguments->options.as_is_share,
                    "share of the cases that are machines as they are: several effects at half their usual size")
       ->check(CLI::Range(0.0, 0.5))
-      ->capture_default_str();
+      ->capture_default_str()
+      ->excludes(unloaded);
   command->add_option("--threads", arguments->options.threads, "at work at a time; the result is the same")
       ->check(CLI::Range(1, 64))
       ->capture_default_str();
@@ -63,8 +75,11 @@ void addBlind(CLI::App& app, Run& run) {
   command->callback([arguments, &run] {
     run = [arguments] {
       arguments->options.out = arguments->out;
+      if (arguments->options.unloaded) arguments->options.as_is_share = 0.0;
       const validation::BlindResult result =
-          validation::runBlind(arguments->options, diagnosed, eventsOnStderr(), diagnosis::distanceFromVocabulary);
+          arguments->options.unloaded ? validation::runBlind(arguments->options, diagnosedUnloaded, eventsOnStderr())
+                                      : validation::runBlind(arguments->options, diagnosed, eventsOnStderr(),
+                                                             diagnosis::distanceFromVocabulary);
       const reports::Json json = reports::blindJson(arguments->options, result);
       io::writeFileWhole(arguments->options.out / "results.json", json.dump(1) + '\n');
       io::writeFileWhole(arguments->options.out / "blind.html", page::blindPage(arguments->options, result));

@@ -12,6 +12,7 @@
 #include "app/model.h"
 #include "app/output.h"
 #include "app/prepared.h"
+#include "core/accuracy/diagnose_accuracy.h"
 #include "core/campaign/campaign.h"
 #include "core/diagnosis/diagnose.h"
 #include "core/diagnosis/diagnosis.h"
@@ -93,9 +94,18 @@ int diagnoseWithSpikes(DiagnoseArguments& arguments) {
   return diagnosis.usable ? kDone : kNotUsable;
 }
 
+int diagnoseAccuracyOf(campaign::Campaign campaign, const DiagnoseArguments& arguments) {
+  const campaign::Campaign words = described(campaign);
+  const accuracy::AccuracyDiagnosis diagnosis =
+      accuracy::diagnoseAccuracy(preparation::prepareCampaign(std::move(campaign)));
+  deliver([&] { return reports::accuracyJson(words, diagnosis); },
+          [&] { return reports::accuracyText(words, diagnosis); }, arguments.json);
+  return diagnosis.usable ? kDone : kNotUsable;
+}
+
 int diagnoseCampaign(const DiagnoseArguments& arguments) {
   campaign::Campaign campaign = openCampaign(arguments.campaign);
-  requireLoad(campaign);
+  if (isUnloadedDay(campaign)) return diagnoseAccuracyOf(std::move(campaign), arguments);
   const campaign::Campaign words = described(campaign);
   const diagnosis::Diagnosis diagnosis = diagnosed(preparation::prepareCampaign(std::move(campaign)));
   deliver([&] { return reports::diagnosisJson(words, diagnosis); },

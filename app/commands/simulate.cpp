@@ -32,7 +32,8 @@ void addSimulate(CLI::App& app, Run& run) {
       if (!arguments->replace)
         requireNoCampaign(arguments->out, "expected another folder, or --replace to write over it");
       const std::vector<int> rigid = simulation::rigidJoints(spec);
-      if (!rigid.empty()) {
+      // On a day without a load rigid joints are what most have.
+      if (!rigid.empty() && spec.loading) {
         printWarnings({fmt::format("{}: joints: no stiffness_nm_per_rad for joint{} {}: taken as rigid",
                                    arguments->spec, rigid.size() == 1 ? "" : "s", fmt::join(rigid, ", "))});
       }

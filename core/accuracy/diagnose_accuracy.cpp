@@ -2,34 +2,285 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <random>
+#include <utility>
+
+#include "core/accuracy/next_measurements.h"
+#include "core/accuracy/where.h"
+#include "core/numerics/resampling.h"
 
 namespace stiffscope::accuracy {
 
-AccuracyDiagnosis diagnoseAccuracy(const campaign::Campaign& campaign, const calibration::CalibrationOptions& options) {
+namespace {
+
+using calibration::Calibration;
+using calibration::SelectedEffect;
+
+constexpr double kNominalLimit = 1e-3;  ///< m rms per coordinate: what arms are delivered with
+
+/// An effect that moves the reflectors by less than this share of the readings' noise does not matter.
+constexpr double kLeastSize = 0.4;
+
+/// Evidence of which half is still enough: the effect has to be in what each fold leaves of the day.
+constexpr double kEnoughForHalf = 60.0;
+
+/// Beside `unknown` an effect is named where no more than this share of the gap's squares beyond noise stays.
+constexpr double kMostLeft = 0.25;
+
+campaign::Campaign asRead(const preparation::PreparedCampaign& prepared) {
+  campaign::Campaign campaign =
+      prepared.preparation.drift.taken_off ? preparation::asMeasured(prepared).campaign : prepared.campaign;
+  if (prepared.preparation.declared && prepared.noise.known && prepared.noise.degrees > 0.0) {
+    campaign.tracker = preparation::asNoisyAs(*prepared.preparation.declared,
+                                              {prepared.noise.along_factor, prepared.noise.across_factor});
+  }
+  return campaign;
+}
+
+double rmsOf(const std::vector<double>& squares) {
+  return std::sqrt(std::accumulate(squares.begin(), squares.end(), 0.0));
+}
+
+/// 1 - after / before of held-out squares by posture, with the interval by resampling postures.
+diagnosis::Shrink shrinkOf(const std::vector<double>& before, const std::vector<double>& after) {
+  diagnosis::Shrink shrink;
+  if (before.empty()) return shrink;
+  const auto of = [](double was, double is) { return was > 0.0 ? 1.0 - std::sqrt(is / was) : 0.0; };
+  shrink.value = of(rmsOf(before) * rmsOf(before), rmsOf(after) * rmsOf(after));
+  constexpr int kSamples = 1000;
+  constexpr std::uint64_t kSeed = 1;
+  std::mt19937_64 random(kSeed);
+  std::vector<double> values;
+  for (int sample = 0; sample < kSamples; ++sample) {
+    double was = 0.0, is = 0.0;
+    numerics::drawWithReplacement(random, before.size(), [&](std::size_t k) { was += before[k], is += after[k]; });
+    values.push_back(of(was, is));
+  }
+  std::sort(values.begin(), values.end());
+  constexpr double kTail = 0.025;
+  shrink.low = numerics::quantile(values, kTail);
+  shrink.high = numerics::quantile(values, 1.0 - kTail);
+  return shrink;
+}
+
+/// The same in variance, less noise: shares of the gap's squares beyond noise.
+double explainedOf(double before, double after, double noise) {
+  const double gap = before * before - noise * noise;
+  return gap > 0.0 ? std::clamp((before * before - after * after) / gap, 0.0, 1.0) : 0.0;
+}
+
+class Decider {
+ public:
+  Decider(const preparation::PreparedCampaign& prepared, AccuracyDiagnosis& result)
+      : prepared_(prepared), calibration_(result.calibration), result_(result) {}
+
+  void run() {
+    measureGap();
+    for (const SelectedEffect& one : calibration_.selected.effects) judge(one);
+    nameGeometry();
+    nameUnknown();
+    explain();
+    sortClasses();
+  }
+
+ private:
+  static double whole(const calibration::ArmFit& fit, double noise) { return std::hypot(noise, fit.model_sd); }
+
+  void measureGap() {
+    const double per_coordinate = std::sqrt(1.0 / 3.0);
+    AccuracyGap& gap = result_.gap;
+    gap.noise = calibration_.noise;
+    gap.nominal = per_coordinate * calibration_.of(calibration::CalibratedModel::nominal).held_out.rms;
+    gap.before = per_coordinate * calibration_.geometry().held_out.rms;
+    gap.after = per_coordinate * calibration_.best().held_out.rms;
+    before_ = whole(calibration_.geometry().fit, gap.noise);
+    after_ = whole(calibration_.best().fit, gap.noise);
+    result_.size_limit = kLeastSize * gap.noise;
+    // Degrees of freedom: of the readings with the effects, and of what the noise was found from.
+    const double rows = 3.0 * static_cast<double>(calibration_.best().fitted.readings);
+    const double free = std::max(1.0, rows - calibration_.best().fit.parameters);
+    const double degrees = prepared_.noise.degrees;
+    constexpr double kSigmas = 3.0, kAsDeclared = 1.6;  // declared noise is right to a quarter
+    result_.left_over = gap.noise > 0.0 ? after_ * after_ / (gap.noise * gap.noise) : 0.0;
+    result_.left_over_limit = degrees > 0.0 ? 1.0 + kSigmas * std::sqrt(2.0 / free + 2.0 / degrees)
+                                            : kAsDeclared + kSigmas * std::sqrt(2.0 / free);
+  }
+
+  bool inEveryFold(const SelectedEffect& one) const {
+    return std::all_of(calibration_.selected_by_others.begin(), calibration_.selected_by_others.end(),
+                       [&](const std::vector<SelectedEffect>& others) {
+                         return std::any_of(others.begin(), others.end(), [&](const SelectedEffect& other) {
+                           if (other.effect == one.effect) return true;
+                           const auto is = [&](const calibration::Rival& rival) { return rival.effect == one.effect; };
+                           const auto its = [&](const calibration::Rival& rival) {
+                             return rival.effect == other.effect;
+                           };
+                           return std::any_of(other.rivals.begin(), other.rivals.end(), is) ||
+                                  std::any_of(one.rivals.begin(), one.rivals.end(), its);
+                         });
+                       });
+  }
+
+  void judge(const SelectedEffect& one) {
+    AccuracyClass found;
+    found.effects.push_back(one.effect);
+    for (const calibration::Rival& rival : one.rivals) found.effects.push_back(rival.effect);
+    found.detail = one.detail;
+    found.score = one.score;
+    found.shrink = shrinkOf(calibration_.selected.before, one.held_out);
+    found.explained =
+        explainedOf(result_.gap.before, (1.0 - found.shrink.value) * result_.gap.before, result_.gap.noise);
+    addFitted(one.effect, found);
+    const std::string id(idOf(one.effect));
+    const double size = one.size * before_;
+    found.in_verdict = true;
+    if (size < result_.size_limit) {
+      found.in_verdict = false;
+      result_.reasons.emplace_back(RemarkId::too_small, id, size, result_.size_limit);
+    } else if (one.score > kEnoughForHalf && !inEveryFold(one)) {
+      found.in_verdict = false;
+      result_.reasons.emplace_back(RemarkId::not_in_every_fold, id);
+    }
+    result_.classes.push_back(std::move(found));
+  }
+
+  void addFitted(UnloadedEffect effect, AccuracyClass& found) const {
+    const calibration::ArmFit& fit = calibration_.best().fit;
+    Eigen::Index k = 0;
+    for (const calibration::EffectPart& part : fit.parts) {
+      if (part.effect == effect) found.parts.push_back(part);
+      for (std::size_t term = 0; term < part.terms.size(); ++term, ++k) {
+        if (part.effect != effect) continue;
+        found.sizes.push_back(fit.sizes[k]);
+        found.sds.push_back(fit.sd(static_cast<int>(fit.steps.size() + k)));
+      }
+    }
+  }
+
+  void nameGeometry() {
+    result_.geometry_limit = kNominalLimit;
+    const double off = result_.gap.nominal;
+    if (off <= kNominalLimit) return;
+    result_.geometry_off_nominal = true;
+    AccuracyClass one;
+    one.effects = {UnloadedEffect::kinematic_error};
+    one.score = off * off / (kNominalLimit * kNominalLimit) * 3.0 * static_cast<double>(calibration_.day.readings());
+    one.shrink.value = one.shrink.low = one.shrink.high = 1.0 - result_.gap.before / off;
+    one.explained = explainedOf(off, result_.gap.before, result_.gap.noise);
+    one.in_verdict = true;
+    result_.classes.push_back(std::move(one));
+    result_.reasons.emplace_back(RemarkId::geometry_off_nominal, off, kNominalLimit);
+  }
+
+  /// What stays is `unknown` where noise does not explain it and it matters: against the noise, and against what was
+  /// removed, since no effect of the vocabulary is exactly what a machine does.
+  void nameUnknown() {
+    const double noise = result_.gap.noise;
+    const double left = calibration_.best().fit.model_sd;
+    const double removed = std::sqrt(std::max(0.0, before_ * before_ - after_ * after_));
+    constexpr double kShareOfRemoved = 0.2;
+    const double limit = std::max(result_.size_limit, kShareOfRemoved * removed);
+    if (result_.left_over <= result_.left_over_limit || left <= limit) return;
+    unknown_ = true;
+    result_.reasons.emplace_back(RemarkId::not_explained, left, limit);
+    const double stays = 1.0 - explainedOf(before_, after_, noise);
+    if (stays <= kMostLeft) return;
+    std::vector<std::string> candidates;
+    for (AccuracyClass& one : result_.classes) {
+      if (!one.in_verdict || one.effects.front() == UnloadedEffect::kinematic_error) continue;
+      one.in_verdict = false;
+      candidates.emplace_back(idOf(one.effects.front()));
+    }
+    if (!candidates.empty()) result_.reasons.emplace_back(RemarkId::candidates_only, candidates, stays, kMostLeft);
+  }
+
+  void explain() {
+    std::vector<Remark> first{Remark(RemarkId::left_by_geometry, before_, result_.gap.noise)};
+    if (calibration_.selected.effects.empty()) first.emplace_back(RemarkId::no_effect_passes, result_.size_limit);
+    const preparation::DriftModel& nests = prepared_.drift;
+    if (nests.moved()) {
+      first.emplace_back(RemarkId::nests_show_station, nests.course == preparation::StationCourse::jumped,
+                         nests.moved_by);
+    } else if (nests.course == preparation::StationCourse::still) {
+      first.emplace_back(RemarkId::nests_stand);
+    }
+    first.insert(first.end(), result_.reasons.begin(), result_.reasons.end());
+    result_.reasons = std::move(first);
+  }
+
+  /// What the verdict names before what it does not, each by score; the verdict is made of the former.
+  void sortClasses() {
+    std::stable_sort(result_.classes.begin(), result_.classes.end(),
+                     [](const AccuracyClass& a, const AccuracyClass& b) {
+                       return std::pair(a.in_verdict, a.score) > std::pair(b.in_verdict, b.score);
+                     });
+    for (const AccuracyClass& one : result_.classes) {
+      if (!one.in_verdict) continue;
+      AccuracyEntry entry{one.effects, one.detail};
+      if (one.effects.front() == UnloadedEffect::frame_error) {
+        if (prepared_.drift.moved()) entry.detail = "station";
+        if (prepared_.drift.course == preparation::StationCourse::still) entry.detail = "robot";
+      }
+      result_.verdict.push_back(std::move(entry));
+    }
+    if (unknown_) result_.verdict.push_back({{}, ""});
+  }
+
+  const preparation::PreparedCampaign& prepared_;
+  const Calibration& calibration_;
+  AccuracyDiagnosis& result_;
+  double before_ = 0.0, after_ = 0.0;  ///< rms per coordinate by the fits to the whole day, noise included
+  bool unknown_ = false;
+};
+
+/// Effects of the vocabulary that this day cannot be asked for.
+void addUntestable(const calibration::UnloadedDay& day, AccuracyDiagnosis& result) {
+  const auto missing = [&](UnloadedEffect effect, RemarkId what) {
+    result.not_testable.push_back({effect, Remark(what)});
+  };
+  if (!day.masses_known) {
+    for (const UnloadedEffect effect :
+         {UnloadedEffect::joint_compliance, UnloadedEffect::link_compliance, UnloadedEffect::bearing_tilt,
+          UnloadedEffect::base_compliance, UnloadedEffect::gravity_compensator})
+      missing(effect, RemarkId::needs_masses);
+  }
+  if (day.targets.size() < 2) missing(UnloadedEffect::target_motion, RemarkId::needs_reflectors);
+}
+
+}  // namespace
+
+AccuracyDiagnosis diagnoseAccuracy(const preparation::PreparedCampaign& prepared,
+                                   const calibration::CalibrationOptions& options) {
   AccuracyDiagnosis result;
-  result.calibration = calibration::calibrate(campaign, options);
-  const calibration::Calibration& calibration = result.calibration;
+  result.calibration = calibration::calibrate(asRead(prepared), options);
+  const Calibration& calibration = result.calibration;
   result.unusable_reason = calibration.reason;
   result.usable = calibration.reason.empty();
   if (!result.usable) return result;
-  const double per_coordinate = std::sqrt(1.0 / 3.0);
-  result.gap.nominal = per_coordinate * calibration.of(calibration::CalibratedModel::nominal).held_out.rms;
-  result.gap.before = per_coordinate * calibration.geometry().held_out.rms;
-  result.gap.after = per_coordinate * calibration.best().held_out.rms;
-  for (const calibration::EffectPart& part : calibration.best().fit.parts) {
-    const auto known = std::find_if(result.verdict.begin(), result.verdict.end(),
-                                    [&](const AccuracyEntry& entry) { return entry.effects.front() == part.effect; });
-    if (known != result.verdict.end()) continue;
-    result.verdict.push_back({{part.effect}, part.detail});
-    AccuracyClass one;
-    one.effects = {part.effect};
-    one.detail = part.detail;
-    one.in_verdict = true;
-    result.classes.push_back(std::move(one));
-  }
   result.postures = static_cast<int>(calibration.day.postures.size());
   result.readings = static_cast<int>(calibration.day.readings());
+  addUntestable(calibration.day, result);
+  Decider(prepared, result).run();
+  const calibration::SelectedEffects& selected = calibration.selected;
+  result.shrink_together = shrinkOf(selected.before, selected.after);
+  const auto untestable = [&](UnloadedEffect effect) {
+    return std::any_of(result.not_testable.begin(), result.not_testable.end(),
+                       [&](const UntestableEffect& one) { return one.effect == effect; });
+  };
+  for (const auto& [effect, size] : selected.detectable) {
+    if (!untestable(effect))
+      result.detectable.push_back(
+          {effect, std::max(result.size_limit, size * std::hypot(calibration.noise, calibration.best().fit.model_sd))});
+  }
+  result.where = whereLeft(calibration.day, calibration.geometry().fit);
+  result.where_after = whereLeft(calibration.day, calibration.best().fit);
+  result.next = nextMeasurements(result);
   return result;
+}
+
+AccuracyDiagnosis diagnoseAccuracy(const campaign::Campaign& campaign, const calibration::CalibrationOptions& options) {
+  return diagnoseAccuracy(preparation::prepareCampaign(campaign), options);
 }
 
 }  // namespace stiffscope::accuracy

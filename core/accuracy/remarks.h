@@ -4,11 +4,27 @@ namespace stiffscope::accuracy {
 
 /// Why a verdict of an unloaded day is what it is, and what to measure next; reports/words has the sentences.
 enum class RemarkId {
+  // why
   left_by_geometry,      ///< rms per coordinate m, of noise alone m
   no_effect_passes,      ///< least size m
-  geometry_off_nominal,  ///< rms m, limit m
-  not_explained,         ///< rms per coordinate m, of noise alone m
-  held_out_by_effects,   ///< rms m before, after
+  geometry_off_nominal,  ///< rms per coordinate m, limit m
+  not_explained,         ///< rms per coordinate m beyond noise, limit m
+  candidates_only,       ///< ids of effects; share of the gap's squares beyond noise that stays, share that may
+  not_in_every_fold,     ///< id of the effect
+  too_small,             ///< id of the effect; rms per coordinate m, limit m
+  nests_show_station,    ///< whether it jumped; largest displacement m
+  nests_stand,
+  // what an effect would need
+  needs_masses,
+  needs_reflectors,
+  // what to measure next
+  measure_under_load,     ///< ids: hang weights, the same postures
+  measure_nests,          ///< ids: floor nests between postures
+  measure_moves,          ///< ids: postures approached from either side, by short and long moves
+  measure_repeats,        ///< ids: some postures again and again over the day
+  measure_scale_bar,      ///< ids: a known length
+  measure_more_postures,  ///< ids: more shapes of the arm
+  measure_temperature,    ///< ids: temperatures beside the postures
 };
 
 }  // namespace stiffscope::accuracy

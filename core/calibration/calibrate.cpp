@@ -17,12 +17,23 @@ namespace {
 struct ModelFits {
   bool placed = false;
   std::vector<std::pair<CalibratedModel, ArmFit>> fits;
+  SelectedEffects selected;
 };
 
 std::function<int(int)> innerFolds(const CalibrationOptions& options, int inner) {
   // Blocks that hold one piece of every fold: of each fold's others every inner fold has its share.
   const int block = std::max(1, options.folds * options.fold_size);
   return [block, inner](int pose) { return (pose / block) % inner; };
+}
+
+/// Whether the scatter fell so far that a small effect or a wrong reading may have hidden in it. On long days there are
+/// so many readings that none does.
+bool worthAnotherLook(const ArmFit& geometry, const ArmFit& effects, const SelectionOptions& options) {
+  constexpr double kMuchLess = 0.7;
+  const std::size_t postures =
+      geometry.weights.size() / std::max<std::size_t>(1, geometry.place.targets_at_zero.size());
+  return !effects.parts.empty() && postures <= options.search_postures &&
+         effects.model_sd < kMuchLess * geometry.model_sd;
 }
 
 ModelFits fitModels(const UnloadedDay& day, const std::vector<double>& weights, const CalibrationOptions& options) {
@@ -33,7 +44,16 @@ ModelFits fitModels(const UnloadedDay& day, const std::vector<double>& weights, 
   const ArmFit first = fitArm(day, *place, {}, {.weights = weights, .gross = kGrossOfGeometry});
   SelectionOptions selection;
   selection.inner_fold = innerFolds(options, selection.inner_folds);
-  ArmFit effects = fitArm(day, *place, selectEffects(day, first, selection), {.weights = weights}, &first);
+  SelectedEffects selected = selectEffects(day, first, selection);
+  ArmFit effects = fitArm(day, *place, selected.parts, {.weights = weights}, &first);
+  if (worthAnotherLook(first, effects, selection)) {
+    // What hid in the scatter that those effects made: the geometry with their fit's noise and right readings.
+    ArmFit again = fitArm(day, *place, {}, {.robust = false, .weights = effects.weights}, &first);
+    again.model_sd = effects.model_sd;
+    selected = selectEffects(day, again, selection);
+    effects = fitArm(day, *place, selected.parts, {.weights = weights}, &first);
+  }
+  models.selected = std::move(selected);
   const FitOptions right{.robust = false, .weights = effects.weights};
   const FitOptions without_axes{.axes = false, .robust = false, .weights = effects.weights};
   ArmFit geometry = fitArm(day, *place, {}, right, &first);
@@ -70,6 +90,18 @@ std::vector<double> weightsWhere(const UnloadedDay& day, const Uses& uses) {
     for (std::size_t k = 0; k < posture.readings.size(); ++k) weights.push_back(uses(posture.pose) ? 1.0 : 0.0);
   }
   return weights;
+}
+
+/// Of the declared tracker, rms per coordinate.
+double noiseOf(const UnloadedDay& day, const std::vector<double>& weights) {
+  double sum = 0.0, used = 0.0;
+  std::size_t at = 0;
+  for (const Posture& posture : day.postures) {
+    for (const Reading& reading : posture.readings) {
+      if (weights[at++] > 0.0) sum += reading.covariance.trace() / 3.0, ++used;
+    }
+  }
+  return std::sqrt(sum / std::max(1.0, used));
 }
 
 std::vector<preparation::RejectedReading> rejectedOf(const campaign::Campaign& campaign, const UnloadedDay& day,
@@ -153,6 +185,10 @@ Calibration calibrate(const campaign::Campaign& campaign, const CalibrationOptio
     return result;
   }
   const std::vector<double> right = fits.front().fits.back().second.weights;
+  result.selected = std::move(fits.front().selected);
+  for (std::size_t k = 1; k < fits.size(); ++k)
+    result.selected_by_others.push_back(std::move(fits[k].selected.effects));
+  result.noise = noiseOf(day, right);
   for (std::size_t m = 0; m < fits.front().fits.size(); ++m) {
     ModelResult model;
     model.model = fits.front().fits[m].first;

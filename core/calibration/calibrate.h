@@ -43,9 +43,12 @@ struct ModelResult {
 struct Calibration {
   Remark reason;  ///< why there is none; then nothing else is filled
   UnloadedDay day;
-  std::vector<ModelResult> models;                     ///< gravity is absent where the URDF has no masses
-  std::vector<preparation::RejectedReading> rejected;  ///< by the fullest model
-  std::vector<Remark> not_identifiable;                ///< axis parameters of the geometry
+  std::vector<ModelResult> models;                              ///< gravity is absent where the URDF has no masses
+  std::vector<preparation::RejectedReading> rejected;           ///< by the fullest model
+  SelectedEffects selected;                                     ///< what the whole day asks for
+  std::vector<std::vector<SelectedEffect>> selected_by_others;  ///< what all but one fold ask for, a list a fold
+  double noise = 0.0;                    ///< the tracker's, rms per coordinate over the readings used, m
+  std::vector<Remark> not_identifiable;  ///< axis parameters of the geometry
   std::vector<Remark> notes;
 
   const ModelResult& of(CalibratedModel model) const;

@@ -36,12 +36,12 @@ constexpr double kMostTurn = 0.1, kMostShift = 0.1;  // rad, m: more is no error
 
 /// Six terms of a small motion of all reflectors, scaled by a number of the posture.
 template <class Of>
-std::vector<EffectTerm> rigidMotion(Of of) {
+std::vector<EffectTerm> rigidMotion(Of of, const std::string& when) {
   static constexpr std::array<const char*, 3> kAxes{"x", "y", "z"};
   std::vector<EffectTerm> terms;
   for (int k = 0; k < 3; ++k) {
     const Eigen::Vector3d axis = Eigen::Vector3d::Unit(k);
-    terms.push_back(moving(fmt::format("turn about {}", kAxes[static_cast<std::size_t>(k)]), "rad", kMostTurn,
+    terms.push_back(moving(fmt::format("turn about {}{}", kAxes[static_cast<std::size_t>(k)], when), "rad", kMostTurn,
                            [axis, of](const Posture& posture, const ReflectorAt& at) -> Eigen::Vector3d {
                              return of(posture) * axis.cross(at.position);
                            }));
@@ -49,7 +49,7 @@ std::vector<EffectTerm> rigidMotion(Of of) {
   for (int k = 0; k < 3; ++k) {
     const Eigen::Vector3d axis = Eigen::Vector3d::Unit(k);
     terms.push_back(moving(
-        fmt::format("shift along {}", kAxes[static_cast<std::size_t>(k)]), "m", kMostShift,
+        fmt::format("shift along {}{}", kAxes[static_cast<std::size_t>(k)], when), "m", kMostShift,
         [axis, of](const Posture& posture, const ReflectorAt&) -> Eigen::Vector3d { return of(posture) * axis; }));
   }
   return terms;
@@ -66,25 +66,8 @@ std::vector<EffectPart> jointCompliances(const UnloadedDay& day) {
     EffectTerm term = turning(jointName(j), "rad/Nm", kMostCompliance,
                               onJoint(j, [j](const Posture& posture) { return posture.torque[j]; }));
     term.positive = true;
+    term.compliance_of = j;
     parts.push_back({UnloadedEffect::joint_compliance, jointName(j), {std::move(term)}});
-  }
-  return parts;
-}
-
-std::vector<EffectPart> bendingCompliances(const UnloadedDay& day) {
-  std::vector<EffectPart> parts;
-  for (std::size_t k = 0; k < day.bending.size(); ++k) {
-    const BendingTerm& of = day.bending[k];
-    EffectTerm term =
-        moving(of.name, of.unit, of.most, [k](const Posture& posture, const ReflectorAt& at) -> Eigen::Vector3d {
-          return posture.bends[k].at(at.position);
-        });
-    term.positive = true;
-    const UnloadedEffect effect =
-        of.effect == static_cast<std::size_t>(effects::Effect::link_compliance) ? UnloadedEffect::link_compliance
-        : of.effect == static_cast<std::size_t>(effects::Effect::bearing_tilt)  ? UnloadedEffect::bearing_tilt
-                                                                                : UnloadedEffect::base_compliance;
-    parts.push_back({effect, of.detail, {std::move(term)}});
   }
   return parts;
 }
@@ -101,6 +84,117 @@ EffectPart transmissionError(int joint, double order) {
   part.terms.push_back(term("cos", [](double angle) { return std::cos(angle); }));
   part.order = order;
   return part;
+}
+
+namespace {
+
+UnloadedEffect effectOf(const BendingTerm& of) {
+  switch (static_cast<effects::Effect>(of.effect)) {
+    case effects::Effect::link_compliance:
+      return UnloadedEffect::link_compliance;
+    case effects::Effect::bearing_tilt:
+      return UnloadedEffect::bearing_tilt;
+    default:
+      return UnloadedEffect::base_compliance;
+  }
+}
+
+/// Links, bearings and base, as the loaded days have them.
+std::vector<EffectPart> bendingCompliances(const UnloadedDay& day, UnloadedEffect effect) {
+  std::vector<EffectPart> parts;
+  for (std::size_t k = 0; k < day.bending.size(); ++k) {
+    const BendingTerm& of = day.bending[k];
+    if (effectOf(of) != effect) continue;
+    EffectTerm term =
+        moving(of.name, of.unit, of.most, [k](const Posture& posture, const ReflectorAt& at) -> Eigen::Vector3d {
+          return posture.bends[k].at(at.position);
+        });
+    term.positive = true;
+    parts.push_back({effect, of.detail, {std::move(term)}});
+  }
+  return parts;
+}
+
+/// The terms of all parts at once.
+EffectPart wholeOf(UnloadedEffect effect, const std::vector<EffectPart>& parts) {
+  EffectPart whole{effect, "", {}};
+  for (const EffectPart& part : parts) whole.terms.insert(whole.terms.end(), part.terms.begin(), part.terms.end());
+  return whole;
+}
+
+EffectFamily compliances(UnloadedEffect effect, std::vector<EffectPart> parts) {
+  EffectFamily family{effect, std::move(parts), {}};
+  if (family.parts.size() > 1) family.wholes.push_back(wholeOf(effect, family.parts));
+  return family;
+}
+
+/// A spring or cylinder on axis 2 beside the own weight on all joints: its torque is a function of the angle of joint
+/// 2, of which the first two harmonics are taken.
+EffectFamily gravityCompensator(const std::vector<EffectPart>& compliances) {
+  EffectFamily family{UnloadedEffect::gravity_compensator};
+  EffectPart whole = wholeOf(family.effect, compliances);
+  whole.needs_compliance_of = 1;
+  for (const double harmonic : {1.0, 2.0}) {
+    const EffectPart wave = transmissionError(1, harmonic);
+    whole.terms.insert(whole.terms.end(), wave.terms.begin(), wave.terms.end());
+    family.wholes.push_back(whole);
+  }
+  return family;
+}
+
+/// Legendre's polynomials of the time of the day, from -1 to 1.
+double legendre(int degree, const Posture& posture) {
+  const double x = 2.0 * posture.time - 1.0;
+  if (degree == 1) return x;
+  if (degree == 2) return (3.0 * x * x - 1.0) / 2.0;
+  return (5.0 * x * x * x - 3.0 * x) / 2.0;
+}
+
+/// Forms of what goes on over the day: polynomials up to the first, second and third degree. `terms_of(f)`: of what
+/// follows a function of the posture.
+template <class TermsOf>
+std::vector<EffectPart> overTime(UnloadedEffect effect, const TermsOf& terms_of) {
+  constexpr int kDegrees = 3;
+  std::vector<EffectPart> wholes;
+  EffectPart whole{effect, "", {}};
+  for (int degree = 1; degree <= kDegrees; ++degree) {
+    const auto more = terms_of([degree](const Posture& posture) { return legendre(degree, posture); },
+                               fmt::format(" over the day, degree {}", degree));
+    whole.terms.insert(whole.terms.end(), more.begin(), more.end());
+    wholes.push_back(whole);
+  }
+  return wholes;
+}
+
+constexpr double kMostGrowth = 1e-2;
+
+template <class Of>
+std::vector<EffectTerm> growth(Of of, const std::string& when) {
+  return {moving(
+      "growth" + when, "m/m", kMostGrowth,
+      [of](const Posture& posture, const ReflectorAt& at) -> Eigen::Vector3d { return of(posture) * at.position; })};
+}
+
+template <class Of>
+std::vector<EffectTerm> scaling(Of of, const std::string& when) {
+  return {moving("scale" + when, "m/m", kMostGrowth,
+                 [of](const Posture& posture, const ReflectorAt& at) -> Eigen::Vector3d {
+                   return of(posture) * (at.position - at.station);
+                 })};
+}
+
+EffectFamily thermalGrowth(const UnloadedDay& day) {
+  EffectFamily family{
+      UnloadedEffect::thermal_growth,
+      {},
+      overTime(UnloadedEffect::thermal_growth, [](auto of, const std::string& when) { return growth(of, when); })};
+  if (day.temperature_known) {
+    EffectPart by_temperature{family.effect, "", growth([](const Posture& posture) { return posture.warmth; }, "")};
+    by_temperature.terms.front().name = "growth by temperature";
+    by_temperature.terms.front().unit = "1/K";
+    family.wholes.insert(family.wholes.begin(), std::move(by_temperature));
+  }
+  return family;
 }
 
 std::vector<EffectPart> ratioErrors() {
@@ -121,46 +215,55 @@ std::vector<EffectPart> ratioErrors() {
   return parts;
 }
 
-std::vector<EffectPart> backlashes() {
-  std::vector<EffectPart> parts;
+EffectFamily backlash(const UnloadedDay& day) {
+  EffectFamily family{UnloadedEffect::backlash};
   for (int j = 0; j < 6; ++j) {
-    parts.push_back({UnloadedEffect::backlash,
-                     jointName(j),
-                     {turning(jointName(j), "rad", kMostTurn,
-                              onJoint(j, [j](const Posture& posture) { return posture.side[j]; }))}});
+    family.parts.push_back(
+        {family.effect, jointName(j), {turning(jointName(j), "rad", kMostTurn, onJoint(j, [j](const Posture& posture) {
+                                                 return posture.side[j];
+                                               }))}});
   }
-  return parts;
+  family.wholes.push_back(wholeOf(family.effect, family.parts));
+  // A joint that weight presses against one side of its gear stays there wherever it came from.
+  for (int j = 0; day.masses_known && j < 6; ++j) {
+    const auto pressed = [j](const Posture& posture) {
+      return posture.torque[j] > 0.0 ? 1.0 : posture.torque[j] < 0.0 ? -1.0 : 0.0;
+    };
+    family.parts.push_back(
+        {family.effect,
+         jointName(j),
+         {turning(jointName(j) + " by the side its weight presses on", "rad", kMostTurn, onJoint(j, pressed))}});
+  }
+  return family;
 }
 
-std::vector<EffectPart> readBackErrors() {
-  return {
-      {UnloadedEffect::read_back_error,
-       "",
-       {turning("share of the last move", "rad/rad", kMostTurn, [](const Posture& posture) { return posture.move; })}}};
+EffectFamily readBackError() {
+  EffectFamily family{UnloadedEffect::read_back_error};
+  family.wholes.push_back(
+      {family.effect, "", {turning("share of the last move", "rad/rad", kMostTurn, [](const Posture& posture) {
+         return posture.move;
+       })}});
+  EffectPart by_joint{family.effect, "", {}};
+  for (int j = 0; j < 6; ++j) {
+    by_joint.terms.push_back(turning("share of the last move of " + jointName(j), "rad/rad", kMostTurn,
+                                     onJoint(j, [j](const Posture& posture) { return posture.move[j]; })));
+  }
+  family.wholes.push_back(std::move(by_joint));
+  return family;
 }
 
-std::vector<EffectPart> driftsOverTime(const UnloadedDay&) {
-  const auto time = [](const Posture& posture) { return posture.time - 0.5; };
-  constexpr double kMostGrowth = 1e-2;
-  EffectPart drift{UnloadedEffect::tracker_drift, "", rigidMotion(time)};
-  EffectPart growth{UnloadedEffect::thermal_growth,
-                    "",
-                    {moving("growth over the day", "m/m", kMostGrowth,
-                            [time](const Posture& posture, const ReflectorAt& at) -> Eigen::Vector3d {
-                              return time(posture) * at.position;
-                            })}};
-  EffectPart scale{UnloadedEffect::scale_error,
-                   "",
-                   {moving("scale over the day", "m/m", kMostGrowth,
-                           [time](const Posture& posture, const ReflectorAt& at) -> Eigen::Vector3d {
-                             return time(posture) * (at.position - at.station);
-                           })}};
-  return {drift, growth, scale};
-}
+}  // namespace
 
 EffectPart frameError(double from) {
   EffectPart part{UnloadedEffect::frame_error, "",
-                  rigidMotion([from](const Posture& posture) { return posture.time >= from ? 1.0 : 0.0; })};
+                  rigidMotion([from](const Posture& posture) { return posture.time >= from ? 1.0 : 0.0; }, "")};
+  part.from = from;
+  return part;
+}
+
+EffectPart scaleError(double from) {
+  EffectPart part{UnloadedEffect::scale_error, "",
+                  scaling([from](const Posture& posture) { return posture.time >= from ? 1.0 : 0.0; }, "")};
   part.from = from;
   return part;
 }
@@ -178,13 +281,34 @@ EffectPart targetMotion(const UnloadedDay& day, int target, double from) {
   return part;
 }
 
-std::vector<EffectPart> fixedParts(const UnloadedDay& day) {
-  std::vector<EffectPart> all;
-  for (auto parts : {jointCompliances(day), bendingCompliances(day), ratioErrors(), backlashes(), readBackErrors(),
-                     driftsOverTime(day)}) {
-    all.insert(all.end(), parts.begin(), parts.end());
-  }
-  return all;
+std::vector<EffectFamily> effectFamilies(const UnloadedDay& day) {
+  const std::vector<EffectPart> twists = jointCompliances(day);
+  std::vector<EffectFamily> families{compliances(UnloadedEffect::joint_compliance, twists)};
+  for (const UnloadedEffect effect :
+       {UnloadedEffect::link_compliance, UnloadedEffect::bearing_tilt, UnloadedEffect::base_compliance})
+    families.push_back(compliances(effect, bendingCompliances(day, effect)));
+  if (!twists.empty()) families.push_back(gravityCompensator(twists));
+  families.push_back({UnloadedEffect::transmission_error});
+  families.push_back({UnloadedEffect::ratio_error, ratioErrors(), {}});
+  families.push_back(backlash(day));
+  families.push_back(readBackError());
+  families.push_back(
+      {UnloadedEffect::tracker_drift, {}, overTime(UnloadedEffect::tracker_drift, [](auto of, const std::string& when) {
+         return rigidMotion(of, when);
+       })});
+  families.push_back({UnloadedEffect::frame_error});
+  families.push_back({UnloadedEffect::target_motion});
+  families.push_back(thermalGrowth(day));
+  families.push_back(
+      {UnloadedEffect::scale_error, {}, overTime(UnloadedEffect::scale_error, [](auto of, const std::string& when) {
+         return scaling(of, when);
+       })});
+  std::erase_if(families, [](const EffectFamily& family) {
+    const bool scanned = family.effect == UnloadedEffect::transmission_error ||
+                         family.effect == UnloadedEffect::frame_error || family.effect == UnloadedEffect::target_motion;
+    return !scanned && family.parts.empty() && family.wholes.empty();
+  });
+  return families;
 }
 
 }  // namespace stiffscope::calibration

@@ -15,10 +15,12 @@ namespace stiffscope::calibration {
 /// The vocabulary of unloaded days: what a machine or a measurement does that the rigid calibrated arm does not. The
 /// names are ids that other programs use.
 #define STIFFSCOPE_UNLOADED_EFFECTS(EFFECT) \
+  EFFECT(kinematic_error)                   \
   EFFECT(joint_compliance)                  \
   EFFECT(link_compliance)                   \
   EFFECT(bearing_tilt)                      \
   EFFECT(base_compliance)                   \
+  EFFECT(gravity_compensator)               \
   EFFECT(transmission_error)                \
   EFFECT(ratio_error)                       \
   EFFECT(backlash)                          \
@@ -52,8 +54,9 @@ struct ReflectorAt {
 /// m, in base_link); exactly one of the two is set.
 struct EffectTerm {
   std::string name, unit;
-  double most = 0.0;      ///< physical bound of its magnitude
-  bool positive = false;  ///< a compliance: never negative
+  double most = 0.0;       ///< physical bound of its magnitude
+  bool positive = false;   ///< a compliance: never negative
+  int compliance_of = -1;  ///< the joint (0..5) whose compliance about its axis this is; -1: of none
   std::function<Vector6d(const Posture&)> angles;
   std::function<Eigen::Vector3d(const Posture&, const ReflectorAt&)> offset;
 };
@@ -67,16 +70,25 @@ struct EffectPart {
   std::optional<double> from = {};   ///< of what starts at a time: share of the day (Posture::time)
   std::optional<double> chance =
       {};  ///< of a part as large by noise alone, over all that were tried (false-alarm probability)
+  int needs_compliance_of = -1;  ///< a joint without whose compliance among the terms this is another effect; -1: none
+  double penalty = 0.0;          ///< in BIC: its terms, and the alternatives that were tried
 };
 
-// One function an effect, in the file that bears its name: the parts of it that this day can be asked for.
-std::vector<EffectPart> jointCompliances(const UnloadedDay& day);  ///< c_j times the own weight's torque on joint j
-std::vector<EffectPart> bendingCompliances(
-    const UnloadedDay& day);               ///< links, bearings, base, as the loaded days have them
-std::vector<EffectPart> ratioErrors();     ///< a share of a joint's own angle, or of another's
-std::vector<EffectPart> backlashes();      ///< by the side from which the joint came
-std::vector<EffectPart> readBackErrors();  ///< a share of the move from the posture before
-std::vector<EffectPart> driftsOverTime(const UnloadedDay& day);  ///< tracker_drift, thermal_growth, scale_error
+/// What may be asked of one effect. Of `parts` any number may be present, found one by one; `wholes` are other forms of
+/// the effect, each complete, of which one may be present instead: all joints twist at once, a drift is a polynomial.
+struct EffectFamily {
+  UnloadedEffect effect = {};
+  std::vector<EffectPart> parts = {}, wholes = {};
+};
+
+/// The vocabulary as this day can be asked for it: own weight only where masses or free moments stand for it, growth by
+/// temperature where there is one. Periodic errors (transmission_error) and what starts at a time (frame_error,
+/// target_motion, scale_error from a time on), of which there are continua, have no parts here: the selection makes
+/// them with the functions below. kinematic_error is the geometry, which is always fitted.
+std::vector<EffectFamily> effectFamilies(const UnloadedDay& day);
+
+/// c_j times the own weight's torque on joint j, a part a joint.
+std::vector<EffectPart> jointCompliances(const UnloadedDay& day);
 
 /// a sin(k q_j) + b cos(k q_j) on joint j (0..5): an eccentric gear or encoder ring (k 1, 2), a gear's own order.
 EffectPart transmissionError(int joint, double order);
@@ -84,9 +96,6 @@ EffectPart transmissionError(int joint, double order);
 /// From `from` (Posture::time) on: station or robot elsewhere, a reflector elsewhere on the flange, another scale.
 EffectPart frameError(double from);
 EffectPart targetMotion(const UnloadedDay& day, int target, double from);
-
-/// What of the list the day can hold: own weight only where masses are known. Periodic errors and jumps, of which there
-/// are continua, are tried by the selection itself.
-std::vector<EffectPart> fixedParts(const UnloadedDay& day);
+EffectPart scaleError(double from);
 
 }  // namespace stiffscope::calibration

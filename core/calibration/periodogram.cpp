@@ -30,18 +30,19 @@ void wavesAt(double angle, Eigen::MatrixXd& waves, Eigen::Index row) {
 
 Periodogram::Periodogram(const std::vector<PostureEquations>& equations, const std::vector<std::size_t>& postures,
                          const UnloadedDay& day, const Eigen::MatrixXd& basis, const Eigen::VectorXd& residual)
-    : equations_(equations) {
+    : equations_(&equations) {
   const auto count = static_cast<Eigen::Index>(postures.size());
   for (std::size_t j = 0; j < joints_.size(); ++j) {
     OfJoint& joint = joints_[j];
-    joint.waves.resize(count, 2 * kOrders);
+    const auto waves = std::make_shared<Eigen::MatrixXd>(count, 2 * kOrders);
+    joint.waves = waves;
     Eigen::VectorXd squares(count);
     for (Eigen::Index i = 0; i < count; ++i) {
       const auto at = static_cast<std::size_t>(i);
-      wavesAt(day.postures[postures[at]].q[static_cast<Eigen::Index>(j)], joint.waves, i);
+      wavesAt(day.postures[postures[at]].q[static_cast<Eigen::Index>(j)], *waves, i);
       squares[i] = equations[at].by_angles.col(static_cast<Eigen::Index>(j)).squaredNorm();
     }
-    const auto sines = joint.waves.leftCols(kOrders).array(), cosines = joint.waves.rightCols(kOrders).array();
+    const auto sines = waves->leftCols(kOrders).array(), cosines = waves->rightCols(kOrders).array();
     const Eigen::ArrayXd weight = squares.array();
     joint.ss = joint.ss_all = (sines.square().colwise() * weight).colwise().sum().transpose();
     joint.cc = joint.cc_all = (cosines.square().colwise() * weight).colwise().sum().transpose();
@@ -52,14 +53,14 @@ Periodogram::Periodogram(const std::vector<PostureEquations>& equations, const s
 }
 
 Eigen::MatrixXd Periodogram::productsOf(std::size_t joint, const Eigen::MatrixXd& columns) const {
-  Eigen::MatrixXd by_posture(static_cast<Eigen::Index>(equations_.size()), columns.cols());
+  Eigen::MatrixXd by_posture(static_cast<Eigen::Index>(equations_->size()), columns.cols());
   Eigen::Index row = 0;
-  for (std::size_t i = 0; i < equations_.size(); ++i) {
-    const auto own = equations_[i].by_angles.col(static_cast<Eigen::Index>(joint));
+  for (std::size_t i = 0; i < equations_->size(); ++i) {
+    const auto own = (*equations_)[i].by_angles.col(static_cast<Eigen::Index>(joint));
     by_posture.row(static_cast<Eigen::Index>(i)).noalias() = own.transpose() * columns.middleRows(row, own.size());
     row += own.size();
   }
-  return joints_[joint].waves.transpose() * by_posture;
+  return joints_[joint].waves->transpose() * by_posture;
 }
 
 void Periodogram::takeOff(std::size_t j, const Eigen::MatrixXd& products) {
@@ -71,6 +72,7 @@ void Periodogram::takeOff(std::size_t j, const Eigen::MatrixXd& products) {
 }
 
 void Periodogram::projectOff(const Eigen::MatrixXd& directions, const Eigen::VectorXd& coefficients) {
+  if (directions.cols() == 0) return;
   for (std::size_t j = 0; j < joints_.size(); ++j) {
     const Eigen::MatrixXd products = productsOf(j, directions);
     joints_[j].right -= products * coefficients;

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <memory>
 #include <vector>
 
 #include "core/calibration/fitted_day.h"
@@ -37,17 +38,17 @@ class Periodogram {
 
  private:
   struct OfJoint {
-    Eigen::MatrixXd waves;          ///< postures x 2 orders: sines, then cosines
-    Eigen::VectorXd right;          ///< of each wave with the residual
-    Eigen::ArrayXd ss, cc, sc;      ///< products of sine and cosine of an order, across the basis
-    Eigen::ArrayXd ss_all, cc_all;  ///< before anything was projected off
+    std::shared_ptr<const Eigen::MatrixXd> waves;  ///< postures x 2 orders: sines, then cosines; copies share them
+    Eigen::VectorXd right;                         ///< of each wave with the residual
+    Eigen::ArrayXd ss, cc, sc;                     ///< products of sine and cosine of an order, across the basis
+    Eigen::ArrayXd ss_all, cc_all;                 ///< before anything was projected off
   };
 
   /// Products of each wave with columns of rows, by the joint's own columns.
   Eigen::MatrixXd productsOf(std::size_t joint, const Eigen::MatrixXd& columns) const;
   void takeOff(std::size_t joint, const Eigen::MatrixXd& products);
 
-  const std::vector<PostureEquations>& equations_;
+  const std::vector<PostureEquations>* equations_;
   std::array<OfJoint, 6> joints_;
 };
 

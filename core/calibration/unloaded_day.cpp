@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <optional>
 
 #include "core/campaign/state_points.h"
@@ -69,6 +70,19 @@ void setTimes(const std::vector<double>& times, UnloadedDay& day) {
     day.postures[i].time = count > 1 ? static_cast<double>(i) / static_cast<double>(count - 1) : 0.0;
 }
 
+void setWarmth(std::vector<double> temperatures, UnloadedDay& day) {
+  constexpr double kAlike = 0.1;  // K: thermometers of machines read no better
+  if (temperatures.empty() ||
+      !std::all_of(temperatures.begin(), temperatures.end(), [](double t) { return std::isfinite(t); }))
+    return;
+  const auto [least, most] = std::minmax_element(temperatures.begin(), temperatures.end());
+  day.temperature_known = *most - *least >= kAlike;
+  if (!day.temperature_known) return;
+  const double mean =
+      std::accumulate(temperatures.begin(), temperatures.end(), 0.0) / static_cast<double>(temperatures.size());
+  for (std::size_t i = 0; i < temperatures.size(); ++i) day.postures[i].warmth = temperatures[i] - mean;
+}
+
 /// Moves from posture to posture in the order of `states`, those that were not read among them: the arm went there.
 void setMoves(const campaign::States& states, UnloadedDay& day) {
   constexpr double kStill = 1e-5;  // rad: below the last digit of most logs
@@ -120,7 +134,7 @@ UnloadedDay unloadedDay(const campaign::Campaign& campaign) {
   }
   const Bending bending(day);
   if (day.masses_known) day.bending = bending.terms();
-  std::vector<double> times;
+  std::vector<double> times, temperatures;
   for (const campaign::StatePoints& points : campaign::statePoints(campaign)) {
     if (points.source != campaign::StatePoints::Source::loading || points.step != 0) continue;
     const campaign::State* state = states[static_cast<std::size_t>(points.pose)];
@@ -137,9 +151,11 @@ UnloadedDay unloadedDay(const campaign::Campaign& campaign) {
                                   noise ? mean.covariance(*noise) : Eigen::Matrix3d(Eigen::Matrix3d::Zero())});
     }
     times.push_back(state->time_s);
+    temperatures.push_back(state->temperature_c);
     day.postures.push_back(std::move(posture));
   }
   setTimes(times, day);
+  setWarmth(std::move(temperatures), day);
   setMoves(*campaign.states, day);
   return day;
 }

@@ -24,6 +24,7 @@ struct Posture {
   Vector6d move = Vector6d::Zero();    ///< q less that of the state before in `states`; zero for the first
   Vector6d side = Vector6d::Zero();    ///< -1 or +1: sign of the joint's last move; 0 where it has not moved yet
   Vector6d torque = Vector6d::Zero();  ///< of the own weight on the joints of the nominal arm, Nm; zero: no masses
+  double warmth = 0.0;                 ///< temperature less the day's mean, K; 0 where it is not given
   double time = 0.0;                   ///< 0 at the first posture, 1 at the last: by time_s, else by the order
   /// What bearings, links and base do by the own weight, by a unit of each of the day's elastic terms, in base_link.
   std::vector<frames::SmallMotion> bends;
@@ -42,8 +43,9 @@ struct BendingTerm {
 struct UnloadedDay {
   robot::Robot arm;
   robot::GravityLoad weight;
-  bool masses_known = false;  ///< of every body beyond joint 2
-  bool times_known = false;   ///< every posture has one; else their order stands for time
+  bool masses_known = false;       ///< of every body beyond joint 2
+  bool times_known = false;        ///< every posture has one; else their order stands for time
+  bool temperature_known = false;  ///< of every posture, and it changes
   double first_time_s = 0.0, time_span_s = 0.0;
   std::vector<std::string> targets;
   std::vector<std::string> pose_ids;

@@ -58,9 +58,12 @@ Eigen::Isometry3d motionOf(const Vector6d& shift_and_turn) {
 }  // namespace
 
 Station::Station(const SimulationSpec& spec)
-    : spec_(spec.station), tracker_from_base_(spec.tracker.base_from_tracker.inverse()) {
-  still_ = spec_.ramp.isZero(0.0) && spec_.walk.isZero(0.0) && !spec_.tracker_moved && !spec_.robot_moved &&
-           spec_.scale == 0.0 && spec_.scale_per_second == 0.0;
+    : spec_(spec.station),
+      tracker_from_base_(spec.tracker.base_from_tracker.inverse()),
+      station_(spec.tracker.declared.station) {
+  still_ = spec_.ramp.isZero(0.0) && spec_.walk.isZero(0.0) && spec_.limit.isZero(0.0) && !spec_.tracker_moved &&
+           spec_.scale == 0.0 && spec_.scale_per_second == 0.0 && spec_.scale_step == 0.0 && spec_.bending == 0.0 &&
+           spec_.bending_per_m == 0.0;
   if (spec_.walk.isZero(0.0)) return;
   numerics::RandomStream random(noiseSeed(spec), "station walk");
   const int count = static_cast<int>(kLongestDay / spec_.knot_s) + 2;
@@ -73,32 +76,64 @@ Station::Station(const SimulationSpec& spec)
 }
 
 Vector6d Station::wandered(double time_s) const {
-  Vector6d way = time_s * spec_.ramp;
-  if (knots_.empty()) return way;
+  return time_s * spec_.ramp - std::expm1(-time_s / spec_.limit_time) * spec_.limit + walked(time_s);
+}
+
+Vector6d Station::walked(double time_s) const {
+  if (knots_.empty()) return Vector6d::Zero();
   const double at = std::clamp(time_s / spec_.knot_s, 0.0, static_cast<double>(knots_.size()) - 1.0);
   const std::size_t before = std::min(static_cast<std::size_t>(at), knots_.size() - 2);
-  const double share = at - static_cast<double>(before);
-  return way + (1.0 - share) * knots_[before] + share * knots_[before + 1];
+  const double s = at - static_cast<double>(before);
+  const Vector6d &from = knots_[before], &to = knots_[before + 1];
+  if (!spec_.smooth) return (1.0 - s) * from + s * to;
+  // A cubic whose slope at a knot is that between its neighbours.
+  const Vector6d out = 0.5 * (to - knots_[before > 0 ? before - 1 : 0]);
+  const Vector6d in = 0.5 * (knots_[std::min(before + 2, knots_.size() - 1)] - from);
+  const double hold = s * s * (3.0 - 2.0 * s);
+  return from + hold * (to - from) + s * (1.0 - s) * ((1.0 - s) * out - s * in);
+}
+
+bool Station::moved(const std::optional<double>& at_s, double time_s) const {
+  return at_s ? time_s >= *at_s : loading_;
+}
+
+Eigen::Vector3d Station::bentUp(const Eigen::Vector3d& point) const {
+  const Eigen::Vector3d up = tracker_from_base_.linear().col(2), sight = point - station_;
+  const double height = up.dot(sight), level = (sight - height * up).norm();
+  return 0.5 * level * level * (spec_.bending + spec_.bending_per_m * height) * up;
 }
 
 Eigen::Vector3d Station::readFloor(const Eigen::Vector3d& point_in_base, double time_s) const {
   const Eigen::Vector3d point = tracker_from_base_ * point_in_base;
   if (still_) return point;
   Eigen::Isometry3d first_from_now = motionOf(wandered(time_s));
-  if (loading_ && spec_.tracker_moved) first_from_now = *spec_.tracker_moved * first_from_now;
-  const double scale = 1.0 + spec_.scale + spec_.scale_per_second * time_s;
-  return scale * (first_from_now.inverse() * point);
+  if (spec_.tracker_moved && moved(spec_.tracker_moved_s, time_s))
+    first_from_now = *spec_.tracker_moved * first_from_now;
+  double scale = 1.0 + spec_.scale + spec_.scale_per_second * time_s;
+  if (time_s >= spec_.scale_step_s) scale += spec_.scale_step;
+  const Eigen::Vector3d seen = first_from_now.inverse() * point;
+  return scale * (seen + bentUp(seen));
 }
 
 Eigen::Vector3d Station::readRobot(const Eigen::Vector3d& point_in_base, double time_s) const {
-  if (loading_ && spec_.robot_moved) return readFloor(*spec_.robot_moved * point_in_base, time_s);
+  if (spec_.robot_moved && moved(spec_.robot_moved_s, time_s))
+    return readFloor(*spec_.robot_moved * point_in_base, time_s);
   return readFloor(point_in_base, time_s);
 }
 
-ReflectorSeats::ReflectorSeats(const std::vector<TrueTarget>& targets)
-    : targets_(targets), slipped_(targets.size(), false), shifts_(targets.size(), Eigen::Vector3d::Zero()) {}
+ReflectorSeats::ReflectorSeats(const SimulationSpec& spec, int posture)
+    : targets_(spec.targets),
+      slipped_(targets_.size(), false),
+      rattled_(targets_.size(), false),
+      shifts_(targets_.size(), Eigen::Vector3d::Zero()) {
+  for (std::size_t t = 0; t < targets_.size(); ++t) {
+    if (!targets_[t].motion || targets_[t].motion->kind != TargetMotion::Kind::rattling) continue;
+    numerics::RandomStream random(noiseSeed(spec), "seat of " + targets_[t].id + " in " + std::to_string(posture));
+    rattled_[t] = random.uniform() < 0.5;
+  }
+}
 
-const std::vector<Eigen::Vector3d>& ReflectorSeats::under(const Eigen::Vector3d& force_in_flange) {
+const std::vector<Eigen::Vector3d>& ReflectorSeats::under(const Eigen::Vector3d& force_in_flange, double time_s) {
   const double size = force_in_flange.norm();
   for (std::size_t t = 0; t < targets_.size(); ++t) {
     if (!targets_[t].motion) continue;
@@ -113,6 +148,12 @@ const std::vector<Eigen::Vector3d>& ReflectorSeats::under(const Eigen::Vector3d&
       case TargetMotion::Kind::slip:
         if (size >= motion.at_force) slipped_[t] = true;
         if (slipped_[t]) shifts_[t] = motion.shift;
+        break;
+      case TargetMotion::Kind::reseated:
+        if (time_s >= motion.from_s) shifts_[t] = motion.shift;
+        break;
+      case TargetMotion::Kind::rattling:
+        if (rattled_[t]) shifts_[t] = motion.shift;
         break;
     }
   }

@@ -46,23 +46,31 @@ class Station {
   Vector6d wandered(double time_s) const;
 
  private:
+  Vector6d walked(double time_s) const;
+  bool moved(const std::optional<double>& at_s, double time_s) const;
+  Eigen::Vector3d bentUp(const Eigen::Vector3d& point) const;  ///< how much higher air in layers shows it
+
   StationSpec spec_;
   Eigen::Isometry3d tracker_from_base_;
+  Eigen::Vector3d station_;
   std::vector<Vector6d> knots_;  ///< the walk at knot_s * index
   bool still_ = true, loading_ = false;
 };
 
-/// How far the reflectors have left their nests, through one posture's loads in their order.
+/// How far the reflectors have left their nests, in one posture, through its loads in their order.
 class ReflectorSeats {
  public:
-  explicit ReflectorSeats(const std::vector<TrueTarget>& targets);
+  /// `posture`: its number in the day, by which rattling reflectors fall into one seat or the other (stream of the
+  /// measurement, one a reflector).
+  ReflectorSeats(const SimulationSpec& spec, int posture);
 
-  /// Shifts of the targets (flange axes, m) once this force of the load on the tool (flange axes, N) is on.
-  const std::vector<Eigen::Vector3d>& under(const Eigen::Vector3d& force_in_flange);
+  /// Shifts of the targets (flange axes, m) once this force of the load on the tool (flange axes, N) is on, at a time
+  /// of the day.
+  const std::vector<Eigen::Vector3d>& under(const Eigen::Vector3d& force_in_flange, double time_s);
 
  private:
   const std::vector<TrueTarget>& targets_;
-  std::vector<bool> slipped_;
+  std::vector<bool> slipped_, rattled_;
   std::vector<Eigen::Vector3d> shifts_;
 };
 

@@ -227,6 +227,7 @@ ElasticMachine buildMachine(const SimulationSpec& spec) {
   machine.truth = spec.machine;
   machine.tool = spec.machine.tool;
   machine.targets = spec.targets;
+  machine.temperature = spec.temperature;
   machine.elements = elasticElements(spec);
   addCurves(spec.machine, machine);
 
@@ -296,57 +297,6 @@ TorqueCurve contactCurve(const OneSidedContact& contact) {
   TorqueCurve curve;
   (contact.positive ? curve.positive : curve.negative) = {{0.0, contact.gap}, {contact.stiffness}};
   return curve;
-}
-
-namespace {
-
-double waveAt(const JointWave& wave, double q) { return wave.amplitude * std::sin(wave.cycles * q + wave.phase); }
-
-/// 1 - exp(-t / tau): how far a slow change has come.
-double comeSoFar(double time_s, double time_constant) { return -std::expm1(-time_s / time_constant); }
-
-void scaleTorsion(ElasticMachine& machine, int joint, double factor) {
-  for (ElasticElement& element : machine.elements) {
-    if (element.joint == joint && !element.is_link) element.stiffness(5, 5) *= factor;
-  }
-  for (CoordinateCurve& one : machine.curves) {
-    if (one.joint != joint) continue;
-    one.curve.cubic *= factor;
-    for (auto* side : {&one.curve.positive, &one.curve.negative}) {
-      for (TorqueCurve::Stage& stage : *side) stage.rate *= factor;
-    }
-  }
-}
-
-}  // namespace
-
-bool ElasticMachine::changes() const {
-  return !truth.growths.empty() || std::any_of(truth.joints.begin(), truth.joints.end(), [](const auto& one) {
-    return one.rate_wave || one.angle_wave || one.softening;
-  });
-}
-
-ElasticMachine machineAt(const ElasticMachine& machine, const Vector6d& q, double time_s) {
-  using namespace simulation;
-  ElasticMachine now = machine;
-  for (int i = 0; i < 6; ++i) {
-    const JointStiffness& joint = machine.truth.joints[static_cast<std::size_t>(i)];
-    if (joint.angle_wave) now.zeros[static_cast<std::size_t>(i)] += waveAt(*joint.angle_wave, q[i]);
-    double factor = 1.0;
-    if (joint.rate_wave) factor *= 1.0 + waveAt(*joint.rate_wave, q[i]);
-    if (joint.softening) {
-      factor *= 1.0 - joint.softening->share * comeSoFar(time_s, joint.softening->time_constant);
-    }
-    if (factor != 1.0) scaleTorsion(now, i, factor);
-  }
-  for (const ThermalGrowth& growth : machine.truth.growths) {
-    const std::size_t joint = static_cast<std::size_t>(growth.joint);
-    const auto& axes = machine.nominal.axes_in_base_at_zero;
-    const Eigen::Vector3d along = (axes[joint + 1].point - axes[joint].point).normalized();
-    now.axis_errors[joint + 1] = Eigen::Translation3d(growth.growth * comeSoFar(time_s, growth.time_constant) * along) *
-                                 now.axis_errors[joint + 1];
-  }
-  return now;
 }
 
 namespace {

@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <array>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -98,7 +99,8 @@ struct ElasticMachine {
   robot::Tool tool;
   Eigen::Vector3d gravity_in_base{0.0, 0.0, -9.80665};  ///< the true one
   std::vector<TrueTarget> targets;
-  MachineSpec truth;  ///< what it was built from: the true stiffness values are here
+  MachineSpec truth;                             ///< what it was built from: the true stiffness values are here
+  std::optional<TemperatureCourse> temperature;  ///< of the day
   std::array<Eigen::Index, 6> torsion_coordinates{-1, -1, -1, -1, -1, -1};  ///< of each joint; -1: rigid
   std::vector<CoordinateCurve> curves;
 
@@ -107,8 +109,8 @@ struct ElasticMachine {
   bool changes() const;              ///< with posture or time: see machineAt
 };
 
-/// The machine at a posture and a time of the day (s): thermal growth, warming drives, ripple of stiffness
-/// and of the motor's angle put in, so that what is left does not change.
+/// The machine at a posture and a time of the day (s): thermal growth, warming drives, ripple of stiffness and all that
+/// turns a motor away from the angle reported put in, so that what is left does not change.
 ElasticMachine machineAt(const ElasticMachine& machine, const Vector6d& q, double time_s);
 
 /// Builds the machine of a specification, drawing what it leaves to chance from its seed (streams "geometry",

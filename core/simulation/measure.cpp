@@ -9,11 +9,13 @@
 #include "core/io/input_error.h"
 #include "core/io/units.h"
 #include "core/numerics/random.h"
+#include "core/simulation/arrival.h"
 #include "core/simulation/equilibrium.h"
 #include "core/simulation/gears.h"
 #include "core/simulation/instruments.h"
 #include "core/simulation/machine.h"
 #include "core/simulation/postures.h"
+#include "core/simulation/rotation.h"
 #include "core/simulation/spec.h"
 
 namespace stiffscope::simulation {
@@ -26,10 +28,17 @@ struct Session {
   Station station;
   double now_s = 0.0;
   double last_nests_s = 0.0;
+  Arrival arrival{};
 
+  /// The clock and the arm move on to the next posture.
+  void moveTo(const Vector6d& q);
+  /// As it is now at q, with its links where their play leaves them.
+  ElasticMachine machineNow(const Vector6d& q, const Vector6d& ahead) const;
   /// The machine at rest, now, its controller holding q. Throws InputError where it is not stable or collapses.
   MachineState rest(const Vector6d& q, const AppliedLoad& load = {}, const Eigen::VectorXd* anchors = nullptr) const;
   Vector6d reported(const Vector6d& q) const;  ///< rounded to the read-back resolution
+  /// What the controller logs of this state: where it stands still, or a little before.
+  Vector6d logged(const MachineState& state) const;
   /// The time a reading is finished; the clock moves on to it.
   double takeReading();
 };
@@ -52,6 +61,23 @@ const robot::LinkFrame& cellParent(const SimulationSpec& spec) {
   return *found;
 }
 
+/// Where a reflector is in base_link: on its seat, on a plate that may hang loose, on the arm as it stands.
+Eigen::Vector3d reflectorPlace(const Session& session, const MachineState& state, ReflectorSeats& seats,
+                               std::size_t target) {
+  const TrueTarget& reflector = session.spec.targets[target];
+  const std::optional<LoosePlate>& plate = session.spec.machine.loose_plate;
+  if (!plate && !reflector.motion) return state.targets_in_base[target];
+  const Eigen::Matrix3d flange = state.base_from_flange.linear();
+  const Eigen::Vector3d force_in_flange = flange.transpose() * state.load_force_in_base;
+  Eigen::Vector3d moved = seats.under(force_in_flange, session.now_s)[target];
+  const Eigen::Vector3d gravity_in_flange = flange.transpose() * session.machine.gravity_in_base;
+  if (plate && plate->direction.dot(gravity_in_flange) > 0.0) {
+    const Eigen::Vector3d place = reflector.position_in_flange + moved;
+    moved += rotationExp(plate->turn) * place + plate->shift - place;
+  }
+  return state.targets_in_base[target] + flange * moved;
+}
+
 /// What one posture carries from load to load.
 struct PostureRun {
   const Posture& posture;
@@ -65,15 +91,13 @@ struct PostureRun {
 MachineState stateNow(const Session& session, const PostureRun& run, const AppliedLoad& load, const MachineState& rest,
                       const Eigen::VectorXd& late, double since_s) {
   const SimulationSpec& spec = session.spec;
-  const AppliedLoad swung = swungLoad(*spec.loading, load, session.now_s);
-  const bool swings = spec.loading->swing != 0.0 && std::holds_alternative<DeadForce>(load);
+  const AppliedLoad swung = spec.loading ? swungLoad(*spec.loading, load, session.now_s) : load;
+  const bool swings = spec.loading && spec.loading->swing != 0.0 && std::holds_alternative<DeadForce>(load);
   if (!swings && late.size() == 0) return rest;
   MachineState state = swings ? session.rest(rest.held, swung, &run.anchors) : rest;
   if (late.size() == 0) return state;
   const Eigen::VectorXd x = state.deformation - std::exp(-since_s / spec.machine.creep->time_constant) * late;
-  const ElasticMachine& machine = session.machine;
-  return machine.changes() ? stateAt(machineAt(machine, rest.q, session.now_s), rest.q, swung, x)
-                           : stateAt(machine, rest.q, swung, x);
+  return stateAt(session.machineNow(rest.q, rest.ahead), rest.q, swung, x);
 }
 
 void readTargets(Session& session, PostureRun& run, const AppliedLoad& load, const MachineState& rest, int step) {
@@ -83,10 +107,9 @@ void readTargets(Session& session, PostureRun& run, const AppliedLoad& load, con
   if (spec.machine.creep && step > 0) {
     late = spec.machine.creep->share * (rest.deformation - run.deformation);
   }
-  const std::vector<Eigen::Vector3d>& shifts =
-      run.seats.under(rest.base_from_flange.linear().transpose() * rest.load_force_in_base);
   MachineState state = rest;
-  for (int repeat = 1; repeat <= spec.loading->repeats; ++repeat) {
+  const int repeats = spec.loading ? spec.loading->repeats : spec.unloaded_repeats;
+  for (int repeat = 1; repeat <= repeats; ++repeat) {
     for (std::size_t t = 0; t < spec.targets.size(); ++t) {
       campaign::LoadingReading reading;
       reading.pose = run.pose;
@@ -95,11 +118,7 @@ void readTargets(Session& session, PostureRun& run, const AppliedLoad& load, con
       reading.target = static_cast<int>(t);
       reading.time_s = session.takeReading();
       state = stateNow(session, run, load, rest, late, session.now_s - changed_s);
-      const Eigen::Vector3d place =
-          spec.targets[t].motion
-              ? Eigen::Vector3d(state.targets_in_base[t] + state.base_from_flange.linear() * shifts[t])
-              : state.targets_in_base[t];
-      reading.point = session.station.readRobot(place, session.now_s);
+      reading.point = session.station.readRobot(reflectorPlace(session, state, run.seats, t), session.now_s);
       session.campaign.loading->rows.push_back(reading);
     }
   }
@@ -110,8 +129,10 @@ void measureState(Session& session, PostureRun& run, int step) {
   const SimulationSpec& spec = session.spec;
   const Eigen::Vector3d unread =
       spec.load_cell ? spec.load_cell->unread_force : Eigen::Vector3d(Eigen::Vector3d::Zero());
-  const AppliedLoad load =
-      loadAtStep(*spec.loading, step, session.machine.gravity_in_base, run.posture.pull_direction, unread);
+  AppliedLoad load;
+  if (spec.loading) {
+    load = loadAtStep(*spec.loading, step, session.machine.gravity_in_base, run.posture.pull_direction, unread);
+  }
   const MachineState rest = session.rest(run.posture.q, load, step > 0 ? &run.anchors : nullptr);
   run.anchors =
       step > 0 ? slippedAnchors(session.machine, rest, std::move(run.anchors)) : arrivedAnchors(session.machine, rest);
@@ -119,7 +140,8 @@ void measureState(Session& session, PostureRun& run, int step) {
   row.pose = run.pose;
   row.step = step;
   row.time_s = session.now_s;
-  row.q = session.reported(rest.q);
+  row.q = session.logged(rest);
+  if (spec.temperature) row.temperature_c = spec.temperature->at(session.now_s);
   for (int i = 0; i < 6; ++i) {
     if (spec.machine.joints[static_cast<std::size_t>(i)].gear) row.motor_side[i] = rest.motor_side[i];
   }
@@ -135,15 +157,16 @@ void measureState(Session& session, PostureRun& run, int step) {
 
 void measureLoading(Session& session) {
   const SimulationSpec& spec = session.spec;
-  if (!spec.loading) return;
+  if (!spec.loading && spec.postures.empty() && !spec.posture_draw) return;
+  const int later_steps = spec.loading ? loadSteps(*spec.loading) : 0;
   session.campaign.loading = campaign::Loading{"loading.csv", campaign::PointFrame::tracker, {}};
   session.campaign.states = campaign::States{"states.csv", campaign::PointFrame::tracker, {}};
   const std::vector<Posture> postures = loadingPostures(spec);
   for (std::size_t p = 0; p < postures.size(); ++p) {
     session.campaign.pose_ids.push_back(std::to_string(p + 1));
-    session.now_s += spec.timing.move_s;
-    PostureRun run{postures[p], static_cast<int>(p), ReflectorSeats(spec.targets)};
-    for (int step = 0; step <= loadSteps(*spec.loading); ++step) {
+    session.moveTo(postures[p].q);
+    PostureRun run{postures[p], static_cast<int>(p), ReflectorSeats(spec, static_cast<int>(p))};
+    for (int step = 0; step <= later_steps; ++step) {
       if (step > 0) session.now_s += spec.timing.load_change_s;
       measureState(session, run, step);
     }
@@ -155,13 +178,14 @@ namespace {
 
 /// One target at a true state, read now.
 template <class Row>
-Row reading(Session& session, const MachineState& state, int index, int target) {
+Row reading(Session& session, const MachineState& state, ReflectorSeats& seats, int index, int target) {
   Row row;
   row.index = std::to_string(index);
   row.target = target;
-  row.q = session.reported(state.q);
+  row.q = session.logged(state);
   row.time_s = session.takeReading();
-  row.point = session.station.readRobot(state.targets_in_base[static_cast<std::size_t>(target)], session.now_s);
+  row.point =
+      session.station.readRobot(reflectorPlace(session, state, seats, static_cast<std::size_t>(target)), session.now_s);
   return row;
 }
 
@@ -175,10 +199,11 @@ void measureCircleSweeps(Session& session) {
     for (int stop = 0; stop < sweep.count; ++stop) {
       Vector6d q = sweep.others;
       q[sweep.axis] = sweep.start + (sweep.stop - sweep.start) * stop / (sweep.count - 1);
-      session.now_s += spec.timing.move_s;
+      session.moveTo(q);
       const MachineState state = session.rest(q);
+      ReflectorSeats seats(spec, stop);
       for (std::size_t t = 0; t < spec.targets.size(); ++t) {
-        table.rows.push_back(reading<campaign::CircleReading>(session, state, stop, static_cast<int>(t)));
+        table.rows.push_back(reading<campaign::CircleReading>(session, state, seats, stop, static_cast<int>(t)));
         table.rows.back().axis = sweep.axis;
       }
       measureNestsIfDue(session);
@@ -200,15 +225,16 @@ void measureWristSweep(Session& session) {
     Vector6d q;
     q.head<3>() = sweep.arm;
     for (int k = 0; k < 3; ++k) q[3 + k] = random.uniform(sweep.low[k], sweep.high[k]);
-    session.now_s += spec.timing.move_s;
+    session.moveTo(q);
     const MachineState state = session.rest(q);
+    ReflectorSeats seats(spec, stop);
     // One target after the other: the first `readings % targets` of them get one reading more.
     const int share = sweep.readings / targets, longer = sweep.readings % targets;
     const int first = !one                          ? 0
                       : stop < longer * (share + 1) ? stop / (share + 1)
                                                     : longer + (stop - longer * (share + 1)) / share;
     for (int t = first; t < (one ? first + 1 : targets); ++t) {
-      table.rows.push_back(reading<campaign::WristReading>(session, state, stop, t));
+      table.rows.push_back(reading<campaign::WristReading>(session, state, seats, stop, t));
     }
     measureNestsIfDue(session);
   }
@@ -221,11 +247,32 @@ constexpr double kLargest = 0.1;  ///< m and rad: what gives more has collapsed,
 
 }  // namespace
 
+void Session::moveTo(const Vector6d& q) {
+  now_s += spec.timing.move_s;
+  arrival.moveTo(q);
+}
+
+ElasticMachine Session::machineNow(const Vector6d& q, const Vector6d& ahead) const {
+  ElasticMachine now = machine.changes() ? machineAt(machine, q, now_s) : machine;
+  for (int i = 0; i < 6; ++i) now.zeros[static_cast<std::size_t>(i)] += ahead[i];
+  return now;
+}
+
 MachineState Session::rest(const Vector6d& q, const AppliedLoad& load, const Eigen::VectorXd* anchors) const {
   const bool link_side_held = spec.double_encoder == campaign::DoubleEncoder::active;
-  MachineState state = machine.changes()
-                           ? equilibriumOnGears(machineAt(machine, q, now_s), q, link_side_held, load, anchors)
-                           : equilibriumOnGears(machine, q, link_side_held, load, anchors);
+  const auto restsWith = [&](const Vector6d& ahead) {
+    const bool as_built = !machine.changes() && ahead.isZero(0.0);
+    MachineState at = as_built ? equilibriumOnGears(machine, q, link_side_held, load, anchors)
+                               : equilibriumOnGears(machineNow(q, ahead), q, link_side_held, load, anchors);
+    at.ahead = ahead;
+    return at;
+  };
+  MachineState state = restsWith(Vector6d::Zero());
+  // Play turns the torque by nothing that would change its side.
+  if (state.converged && hasLostMotion(machine.truth)) {
+    const Vector6d torques = driveTorques(machineNow(q, Vector6d::Zero()), state, load, anchors);
+    state = restsWith(lostMotions(machine.truth, arrival, torques));
+  }
   const bool small = state.deformation.size() == 0 || state.deformation.cwiseAbs().maxCoeff() < kLargest;
   if (!state.converged || !small) {
     const Vector6d deg = q / io::kDegree;
@@ -243,6 +290,11 @@ Vector6d Session::reported(const Vector6d& q) const {
   const double step = spec.read_back_resolution;
   if (step <= 0.0) return q;
   return (q / step).array().round().matrix() * step;
+}
+
+Vector6d Session::logged(const MachineState& state) const {
+  // What gears hold elsewhere than the controller's target they hold from the arrival on.
+  return reported(loggedAngles(spec.early_log, arrival) + (state.q - arrival.at));
 }
 
 double Session::takeReading() {

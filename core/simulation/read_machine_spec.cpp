@@ -57,6 +57,30 @@ JointGear readGear(const io::XmlNode& node) {
           numberOr(node, "encoder_offset_deg", io::kDegree, 0.0)};
 }
 
+JointRatio readRatio(const io::XmlNode& node, int joint) {
+  refuseUnknown(node, {"share", "of_joint"});
+  return {node.number("share"), integer(node, "of_joint", 1, 6, joint + 1) - 1};
+}
+
+LostMotion readLostMotion(const io::XmlNode& node) {
+  refuseUnknown(node, {"width_deg", "friction_nm"});
+  LostMotion play{positive(node, "width_deg", io::kDegree), {}};
+  if (node.has("friction_nm")) play.friction = nonNegativeOr(node, "friction_nm", 1.0, 0.0);
+  return play;
+}
+
+/// What follows the temperature of the day needs one.
+void requireTemperature(const io::XmlNode& root, const io::XmlNode& node, const char* attribute) {
+  if (!root.child("temperature")) {
+    node.refuse(attribute, node.requiredAttribute(attribute), "expected the element temperature beside it");
+  }
+}
+
+ZeroWarming readZeroWarming(const io::XmlNode& node) {
+  refuseUnknown(node, {"deg_per_k", "lag_s"});
+  return {node.number("deg_per_k") * io::kDegree, nonNegativeOr(node, "lag_s", 1.0, 0.0)};
+}
+
 double shareBelowOne(const io::XmlNode& node) {
   const double share = node.number("share");
   if (!(std::abs(share) < 1.0)) {
@@ -67,9 +91,10 @@ double shareBelowOne(const io::XmlNode& node) {
 
 }  // namespace
 
-JointStiffness readJoint(const io::XmlNode& node) {
+JointStiffness readJoint(const io::XmlNode& node, int index) {
   refuseUnknown(node, {"index", "stiffness_nm_per_rad", "bearing_nm_per_rad", "cubic_nm_per_rad3"},
-                {"stages", "backlash", "friction", "stiffness_ripple", "angle_error", "softening", "gear"});
+                {"stages", "backlash", "friction", "stiffness_ripple", "angle_error", "softening", "gear", "ratio",
+                 "lost_motion", "zero_jump", "zero_warming"});
   JointStiffness joint;
   joint.torsion = optionalPositive(node, "stiffness_nm_per_rad", 1.0);
   joint.bearing = optionalPositive(node, "bearing_nm_per_rad", 1.0);
@@ -89,6 +114,13 @@ JointStiffness readJoint(const io::XmlNode& node) {
     joint.softening = JointSoftening{shareBelowOne(*child), positive(*child, "time_constant_s", 1.0)};
   }
   if (const auto child = node.child("gear")) joint.gear = readGear(*child);
+  if (const auto child = node.child("ratio")) joint.ratio = readRatio(*child, index);
+  if (const auto child = node.child("lost_motion")) joint.lost_motion = readLostMotion(*child);
+  if (const auto child = node.child("zero_jump")) {
+    refuseUnknown(*child, {"angle_deg", "at_s"});
+    joint.zero_jump = ZeroJump{child->number("angle_deg") * io::kDegree, child->number("at_s")};
+  }
+  if (const auto child = node.child("zero_warming")) joint.zero_warming = readZeroWarming(*child);
   const bool needs_torsion =
       joint.cubic > 0.0 || joint.stages || joint.backlash || joint.friction || joint.rate_wave || joint.softening;
   if (needs_torsion && !joint.torsion) {
@@ -109,7 +141,8 @@ void readJoints(const io::XmlNode& root, MachineSpec& machine) {
     const int joint = integer(node, "index", 1, 6) - 1;
     if (seen[joint]) node.refuse("index", node.requiredAttribute("index"), "expected every joint at most once");
     seen[joint] = true;
-    machine.joints[joint] = readJoint(node);
+    machine.joints[joint] = readJoint(node, joint);
+    if (machine.joints[joint].zero_warming) requireTemperature(root, *node.child("zero_warming"), "deg_per_k");
   }
 }
 
@@ -196,6 +229,7 @@ MachineSpec readMachine(const io::XmlNode& root) {
     machine.tool.com_in_flange = vectorOr(*tool, "com_mm", io::kMillimetre, Eigen::Vector3d::Zero());
   }
   if (const auto plate = root.child("tool_plate")) machine.tool_plate = readToolPlate(*plate);
+  if (const auto plate = root.child("loose_plate")) machine.loose_plate = readLoosePlate(*plate);
   readSprings(root, machine);
   readSlowChanges(root, machine);
   return machine;
@@ -280,12 +314,33 @@ ToolPlate readToolPlate(const io::XmlNode& node) {
   return plate;
 }
 
-void readSlowChanges(const io::XmlNode& root, MachineSpec& machine) {
-  for (const io::XmlNode& node : root.children("growth")) {
-    refuseUnknown(node, {"after_joint", "growth_mm", "time_constant_s"});
-    machine.growths.push_back({integer(node, "after_joint", 1, 5) - 1, node.number("growth_mm") * io::kMillimetre,
-                               positive(node, "time_constant_s", 1.0)});
+LoosePlate readLoosePlate(const io::XmlNode& node) {
+  refuseUnknown(node, {"direction", "shift_um", "turn_deg"});
+  node.requiredAttribute("direction");
+  return {*optionalDirection(node, "direction"), vectorOr(node, "shift_um", io::kMicrometre, Eigen::Vector3d::Zero()),
+          vectorOr(node, "turn_deg", io::kDegree, Eigen::Vector3d::Zero())};
+}
+
+namespace {
+
+ThermalGrowth readGrowth(const io::XmlNode& root, const io::XmlNode& node) {
+  refuseUnknown(node, {"after_joint", "growth_mm", "time_constant_s", "growth_mm_per_k"});
+  ThermalGrowth growth;
+  growth.joint = integer(node, "after_joint", 1, 5) - 1;
+  if (node.has("growth_mm_per_k")) {
+    growth.per_kelvin = node.number("growth_mm_per_k") * io::kMillimetre;
+    requireTemperature(root, node, "growth_mm_per_k");
+    if (!node.has("growth_mm")) return growth;
   }
+  growth.growth = node.number("growth_mm") * io::kMillimetre;
+  growth.time_constant = positive(node, "time_constant_s", 1.0);
+  return growth;
+}
+
+}  // namespace
+
+void readSlowChanges(const io::XmlNode& root, MachineSpec& machine) {
+  for (const io::XmlNode& node : root.children("growth")) machine.growths.push_back(readGrowth(root, node));
   if (const auto node = root.child("creep")) {
     refuseUnknown(*node, {"share", "time_constant_s"});
     const double share = positive(*node, "share", 1.0);

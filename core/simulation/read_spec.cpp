@@ -179,78 +179,17 @@ void readPostures(const io::XmlNode& root, SimulationSpec& spec) {
     if (spec.loading) root.refuse("postures", "", "expected postures where the load is hung");
     return;
   }
-  refuseUnknown(*postures, {}, {"posture", "draw"});
+  refuseUnknown(*postures, {"repeats"}, {"posture", "draw"});
+  if (spec.loading && postures->has("repeats")) {
+    postures->refuse("repeats", postures->requiredAttribute("repeats"), "expected none: the load has its repeats");
+  }
+  spec.unloaded_repeats = integer(*postures, "repeats", 1, 1000, spec.unloaded_repeats);
   for (const io::XmlNode& node : postures->children("posture")) readListed(node, spec);
   if (const auto node = postures->child("draw")) spec.posture_draw = readDraw(*node);
-  if (!spec.loading) postures->refuse("postures", "", "expected hanging_load or cable_load beside it");
   if (spec.postures.empty() && !spec.posture_draw) {
     postures->refuse("postures", "", "expected posture or draw in it");
   }
   requirePullDirections(*postures, spec);
-}
-
-namespace {
-
-constexpr double kHour = 3600.0;  ///< s
-
-Vector6d shiftAndTurn(const io::XmlNode& node, const std::string& shift_mm, const std::string& turn_deg, double unit) {
-  const Eigen::Vector3d zero = Eigen::Vector3d::Zero();
-  return (Vector6d() << vectorOr(node, shift_mm, io::kMillimetre * unit, zero),
-          vectorOr(node, turn_deg, io::kDegree * unit, zero))
-      .finished();
-}
-
-std::optional<Eigen::Isometry3d> readMoved(const io::XmlNode& station, const char* name) {
-  const auto node = station.child(name);
-  if (!node) return std::nullopt;
-  refuseUnknown(*node, {"xyz_mm", "rpy_deg"});
-  if (!node->has("xyz_mm") && !node->has("rpy_deg")) node->refuse(name, "", "expected xyz_mm or rpy_deg");
-  return placement(*node, "xyz_mm", "rpy_deg");
-}
-
-}  // namespace
-
-StationSpec readStation(const io::XmlNode& root) {
-  StationSpec station;
-  const auto node = root.child("station");
-  if (!node) return station;
-  refuseUnknown(*node, {}, {"drift", "tracker_moved", "robot_moved", "refraction"});
-  if (const auto drift = node->child("drift")) {
-    refuseUnknown(*drift, {"ramp_mm_per_h", "ramp_deg_per_h", "walk_mm_per_sqrt_h", "walk_deg_per_sqrt_h", "knot_s"});
-    station.ramp = shiftAndTurn(*drift, "ramp_mm_per_h", "ramp_deg_per_h", 1.0 / kHour);
-    station.walk = shiftAndTurn(*drift, "walk_mm_per_sqrt_h", "walk_deg_per_sqrt_h", 1.0 / std::sqrt(kHour));
-    for (const char* name : {"walk_mm_per_sqrt_h", "walk_deg_per_sqrt_h"}) {
-      if (drift->has(name) && drift->vector(name).minCoeff() < 0.0) {
-        drift->refuse(name, drift->requiredAttribute(name), "expected three numbers not below 0");
-      }
-    }
-    station.knot_s = optionalPositive(*drift, "knot_s", 1.0).value_or(station.knot_s);
-    if (station.knot_s < 1.0) drift->refuse("knot_s", drift->requiredAttribute("knot_s"), "expected at least 1");
-  }
-  station.tracker_moved = readMoved(*node, "tracker_moved");
-  station.robot_moved = readMoved(*node, "robot_moved");
-  if (const auto refraction = node->child("refraction")) {
-    refuseUnknown(*refraction, {"scale_ppm", "scale_ppm_per_h"});
-    station.scale = numberOr(*refraction, "scale_ppm", 1e-6, 0.0);
-    station.scale_per_second = numberOr(*refraction, "scale_ppm_per_h", 1e-6 / kHour, 0.0);
-  }
-  return station;
-}
-
-TargetMotion readTargetMotion(const io::XmlNode& node) {
-  using Kind = TargetMotion::Kind;
-  TargetMotion motion;
-  motion.kind = choice<Kind>(
-      node, "kind", {{"proportional", Kind::proportional}, {"slip", Kind::slip}, {"compliant", Kind::compliant}});
-  if (motion.kind == Kind::compliant) {
-    refuseUnknown(node, {"kind", "compliance_um_per_kn"});
-    motion.compliance = node.number("compliance_um_per_kn") * io::kMicrometre / 1000.0;
-    return motion;
-  }
-  refuseUnknown(node, {"kind", "shift_um", "at_n"});
-  motion.shift = node.vector("shift_um") * io::kMicrometre;
-  motion.at_force = positive(node, "at_n", 1.0);
-  return motion;
 }
 
 void readSwing(const io::XmlNode& load, LoadingSpec& loading) {
@@ -335,7 +274,9 @@ namespace {
 void readRobot(const io::XmlNode& root, const std::filesystem::path& folder, SimulationSpec& spec) {
   using namespace simulation;
   const io::XmlNode node = root.requiredChild("robot");
-  refuseUnknown(node, {"urdf", "base_link", "flange_link", "double_encoder", "read_back_resolution_deg"});
+  refuseUnknown(node, {"urdf", "base_link", "flange_link", "double_encoder", "read_back_resolution_deg"},
+                {"early_log"});
+  spec.early_log = readEarlyLog(node);
   spec.urdf_file = folder / node.requiredName("urdf");
   spec.base_link = node.requiredName("base_link");
   spec.flange_link = node.requiredName("flange_link");
@@ -360,11 +301,11 @@ SimulationSpec parseSimulationSpec(std::string_view bytes, const std::filesystem
   const io::XmlFile xml(file.string(), bytes);
   const io::XmlNode root = xml.root();
   if (root.name() != "simulation") root.refuse(root.name(), "", "expected the root element 'simulation'");
-  refuseUnknown(
-      root, {"format", "name", "date", "seed", "measurement"},
-      {"robot",      "joints",   "base",         "link",        "geometry", "tool",    "tool_plate", "coupling",
-       "spring",     "growth",   "creep",        "targets",     "tracker",  "station", "load_cell",  "hanging_load",
-       "cable_load", "postures", "circle_sweep", "wrist_sweep", "nests",    "times"});
+  refuseUnknown(root, {"format", "name", "date", "seed", "measurement"},
+                {"robot",       "joints",      "base",         "link",        "geometry",  "tool",
+                 "tool_plate",  "loose_plate", "coupling",     "spring",      "growth",    "creep",
+                 "temperature", "targets",     "tracker",      "station",     "load_cell", "hanging_load",
+                 "cable_load",  "postures",    "circle_sweep", "wrist_sweep", "nests",     "times"});
   integer(root, "format", 1, 1);
 
   SimulationSpec spec;
@@ -374,6 +315,7 @@ SimulationSpec parseSimulationSpec(std::string_view bytes, const std::filesystem
   spec.seed = integer64(root, "seed");
   spec.measurement = integer64(root, "measurement", 1);
   readRobot(root, file.parent_path(), spec);
+  spec.temperature = readTemperature(root);
   spec.machine = readMachine(root);
   spec.targets = readTargets(root);
   spec.tracker = readTracker(root);

@@ -12,6 +12,7 @@
 
 #include "core/campaign/campaign.h"
 #include "core/robot/robot.h"
+#include "core/simulation/temperature.h"
 
 // How one joint gives and turns. SI and radians.
 
@@ -68,7 +69,34 @@ struct JointGear {
   double encoder_offset = 0.0;  ///< rad, always
 };
 
-/// How one joint gives. Absent: it does not. What follows `bearing` needs `torsion`, but for the gear.
+/// A gear of another ratio than the controller believes, or one that another joint's motor turns as well (wrist,
+/// parallelogram): true motor angle less reported = share times the reported angle of joint `of`.
+struct JointRatio {
+  double share = 0.0;
+  int of = 0;  ///< 0..5
+};
+
+/// Play between motor and link, `width` (rad) in all. What friction holds, `friction` (Nm, absent: whatever pulls),
+/// stays at the side from which the motor came: the link lags behind it by half the width. A larger torque pulls it to
+/// the side that the torque says.
+struct LostMotion {
+  double width = 0.0;
+  std::optional<double> friction;
+};
+
+/// A belt that slips: from a time of the day on the motor stands elsewhere than reported.
+struct ZeroJump {
+  double angle = 0.0, from_s = 0.0;  ///< rad, s
+};
+
+/// A joint's zero that follows the temperature of the day, less that of its beginning, late by `lag` (s, of first
+/// order): warming and cooling have different zeros at one temperature.
+struct ZeroWarming {
+  double per_kelvin = 0.0, lag = 0.0;  ///< rad/K, s
+};
+
+/// How one joint gives and turns. Absent: it does not. What follows `bearing` needs `torsion`, but for the gear and
+/// what follows that.
 struct JointStiffness {
   std::optional<double> torsion;  ///< about its axis, Nm/rad; with a gear, of what lies beyond the second encoder
   std::optional<double> bearing;  ///< about each direction across its axis, at the axis's point, Nm/rad
@@ -80,6 +108,10 @@ struct JointStiffness {
   std::optional<JointWave> angle_wave = std::nullopt;  ///< true motor angle less reported, rad
   std::optional<JointSoftening> softening = std::nullopt;
   std::optional<JointGear> gear = std::nullopt;
+  std::optional<JointRatio> ratio = std::nullopt;
+  std::optional<LostMotion> lost_motion = std::nullopt;
+  std::optional<ZeroJump> zero_jump = std::nullopt;
+  std::optional<ZeroWarming> zero_warming = std::nullopt;  ///< needs SimulationSpec::temperature
 };
 
 /// A straight spring between two bodies of the arm (0: the base, i: the body beyond joint i): from carousel
@@ -149,6 +181,14 @@ struct ToolPlate {
   Eigen::Vector3d rotation = Eigen::Vector3d::Zero();     ///< about them; Nm/rad
 };
 
+/// A plate between flange and reflectors whose screws are loose: it lies in one of two seats, by whether its weight
+/// pulls along `direction` or against it. In the second seat it stands `shift` and `turn` away from the first.
+struct LoosePlate {
+  Eigen::Vector3d direction = Eigen::Vector3d::UnitX();  ///< flange axes, unit; gravity along it: the second seat
+  Eigen::Vector3d shift = Eigen::Vector3d::Zero();       ///< flange axes, m
+  Eigen::Vector3d turn = Eigen::Vector3d::Zero();        ///< rotation vector about the flange's origin, rad
+};
+
 /// Two transmissions that share a spring: it stretches by arms[0] t_a + arms[1] t_b, t the elastic twists of
 /// the joints (the motors set its zero), and pulls back with `rate`. A rod of a parallelogram: N/m and crank
 /// radii in m. A shaft of a differential wrist: Nm/rad and ratios. Its energy is 1/2 rate stretch^2, so what
@@ -159,11 +199,13 @@ struct SharedSpring {
   double rate = 0.0;
 };
 
-/// A link that grows as the day goes on: `growth` (m) along it, from the point of joint `joint` to that of
-/// the next one, approached as growth (1 - exp(-t / time_constant)) from the first reading.
+/// A link that grows along itself, from the point of joint `joint` to that of the next one: as the day goes on by
+/// growth (1 - exp(-t / time_constant)) from the first reading, and by `per_kelvin` times what the temperature of the
+/// day has risen since then.
 struct ThermalGrowth {
-  int joint = 0;  ///< 0..4
-  double growth = 0.0, time_constant = 0.0;
+  int joint = 0;                             ///< 0..4
+  double growth = 0.0, time_constant = 1.0;  ///< m, s
+  double per_kelvin = 0.0;                   ///< m/K; needs SimulationSpec::temperature
 };
 
 /// Material that gives at once only in part: of every change of the elastic coordinates the share `share`
@@ -179,6 +221,7 @@ struct MachineSpec {
   std::vector<OneSidedContact> base_contacts;       ///< about axes that base_rotation lets turn
   std::vector<LinkBeam> links;                      ///< in order of joint
   std::optional<ToolPlate> tool_plate;
+  std::optional<LoosePlate> loose_plate;
   std::vector<SharedSpring> shared_springs;  ///< between joints whose torsion gives
   std::vector<LinkSpring> link_springs;
   std::vector<ThermalGrowth> growths;
@@ -191,17 +234,20 @@ struct MachineSpec {
   bool base_tilt_declared = false;
 };
 
-/// A reflector that does not stay in its nest when the load (N, its size F) comes on.
+/// A reflector that does not stay in its nest: when the load (N, its size F) comes on, or by itself.
 struct TargetMotion {
   enum class Kind {
     proportional,  ///< moves by shift F / at_force
     slip,          ///< sits until F reaches at_force, then has moved by shift until the next posture
     compliant,     ///< moves along the force, by compliance F
+    reseated,      ///< sits elsewhere, by shift, from a time of the day on
+    rattling,      ///< in every posture sits in one of two places, shift apart, by chance
   };
   Kind kind = Kind::proportional;
   Eigen::Vector3d shift = Eigen::Vector3d::Zero();  ///< flange axes, m
   double at_force = 1.0;                            ///< N
   double compliance = 0.0;                          ///< m/N
+  double from_s = 0.0;                              ///< of the day
 };
 
 struct TrueTarget {
@@ -214,15 +260,23 @@ struct TrueTarget {
 /// share with the floor is in every reading, the nests' included; the frame at the first reading is the
 /// file's.
 struct StationSpec {
-  Vector6d ramp = Vector6d::Zero();  ///< shift (m/s) and turn (rad/s), steady
-  Vector6d walk = Vector6d::Zero();  ///< the same as a random walk: sigma after one second (m, rad)
-  double knot_s = 600.0;             ///< the walk is drawn this often and joined by straight lines
-  /// Somebody pushed it, or the robot, after the wrist sweep and before the loading.
+  Vector6d ramp = Vector6d::Zero();   ///< shift (m/s) and turn (rad/s), steady
+  Vector6d limit = Vector6d::Zero();  ///< the same towards a limit (m, rad): limit (1 - exp(-t / limit_time))
+  double limit_time = 3600.0;         ///< s
+  Vector6d walk = Vector6d::Zero();   ///< the same as a random walk: sigma after one second (m, rad)
+  double knot_s = 600.0;              ///< the walk is drawn this often and joined by straight lines
+  bool smooth = false;                ///< joined by a curve without corners instead (Catmull and Rom)
+  /// Somebody pushed it, or the robot, at a time of the day; without one after the wrist sweep and before the postures.
   std::optional<Eigen::Isometry3d> tracker_moved;  ///< place before -> place after, tracker axes
   std::optional<Eigen::Isometry3d> robot_moved;    ///< the same, base_link axes; the direction of gravity in
                                                    ///< the robot is kept, nests do not see it
-  double scale = 0.0;                              ///< distances read / true - 1, from a wrong index of the air
-  double scale_per_second = 0.0;                   ///< as the hall gets warm
+  std::optional<double> tracker_moved_s, robot_moved_s;
+  double scale = 0.0;                           ///< distances read / true - 1, from a wrong index of the air
+  double scale_per_second = 0.0;                ///< as the hall gets warm
+  double scale_step = 0.0, scale_step_s = 0.0;  ///< besides, from a time of the day on: wrong weather
+  /// Air in layers bends the beam: a point at a level distance d and a height h above the station is seen higher by
+  /// d^2 / 2 (bending + bending_per_m h). 1/m and 1/m^2; a kelvin a metre bends by 1e-6 / m.
+  double bending = 0.0, bending_per_m = 0.0;
 };
 
 struct TrackerSpec {
@@ -313,6 +367,14 @@ struct Timing {
   double nest_interval_s = 3600.0;
 };
 
+/// A controller that logs the joint angles before the arm stands still: `after` (s) from when it should have arrived,
+/// joint i still lacks exp(-after / time_constants[i]) of the move from the posture before. Reflectors are read later,
+/// at rest.
+struct EarlyLog {
+  double after = 0.0;
+  Vector6d time_constants = Vector6d::Constant(0.05);  ///< s
+};
+
 /// A machine and its measurement. Empty tables: that part of the day did not happen.
 struct SimulationSpec {
   std::filesystem::path file;  ///< as read; empty when made in memory
@@ -328,12 +390,16 @@ struct SimulationSpec {
   campaign::DoubleEncoder double_encoder = campaign::DoubleEncoder::unspecified;
   double read_back_resolution = 0.0;  ///< of reported joint angles, rad; 0: as exact as a double
 
+  std::optional<EarlyLog> early_log;
+  std::optional<TemperatureCourse> temperature;  ///< of the hall; `states` then has it
+
   MachineSpec machine;
   std::vector<TrueTarget> targets;
   TrackerSpec tracker;
   StationSpec station;
   std::optional<LoadCellSpec> load_cell;
   std::optional<LoadingSpec> loading;
+  int unloaded_repeats = 3;             ///< readings of every target in a posture, on a day without a load
   std::vector<ListedPosture> postures;  ///< before the drawn ones
   std::optional<PostureDraw> posture_draw;
   std::vector<CircleSweepSpec> circle_sweeps;

@@ -17,16 +17,19 @@
 namespace stiffscope::simulation {
 
 MachineSpec readMachine(const io::XmlNode& root);
-JointStiffness readJoint(const io::XmlNode& node);
+JointStiffness readJoint(const io::XmlNode& node, int index);     ///< 0..5
 void readSprings(const io::XmlNode& root, MachineSpec& machine);  ///< after the joints
 void readBaseContacts(const io::XmlNode& base, MachineSpec& machine);
 ToolPlate readToolPlate(const io::XmlNode& node);
+LoosePlate readLoosePlate(const io::XmlNode& node);
 void readSlowChanges(const io::XmlNode& root, MachineSpec& machine);
 
 std::vector<TrueTarget> readTargets(const io::XmlNode& root);
 TargetMotion readTargetMotion(const io::XmlNode& node);
 TrackerSpec readTracker(const io::XmlNode& root);
 StationSpec readStation(const io::XmlNode& root);
+std::optional<TemperatureCourse> readTemperature(const io::XmlNode& root);
+std::optional<EarlyLog> readEarlyLog(const io::XmlNode& robot);
 std::optional<LoadCellSpec> readLoadCell(const io::XmlNode& root, const robot::Robot& robot);
 
 std::optional<LoadingSpec> readLoading(const io::XmlNode& root);

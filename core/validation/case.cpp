@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "core/io/input_error.h"
-#include "core/validation/draw.h"
 
 namespace stiffscope::validation {
 
@@ -40,15 +39,15 @@ class Rounds {
 };
 
 EffectSize tried(const EffectDraw& draw, double strength, const simulation::SimulationSpec& clean,
-                 const EffectSizer& sizer) {
+                 const Sizing& sizing) {
   simulation::SimulationSpec spec = clean;
   draw.apply(strength, spec);
-  return sizer.measure(spec);
+  return sizing.measure(spec);
 }
 
 /// Draws until the effect can show on this machine: friction in an axis that no load turns cannot.
 PlacedEffect place(const std::function<EffectDraw()>& draw, double size, simulation::SimulationSpec& spec,
-                   const simulation::SimulationSpec& clean, const EffectSizer& sizer) {
+                   const simulation::SimulationSpec& clean, const Sizing& sizing) {
   constexpr int kMostDraws = 8;
   constexpr double kEnough = 0.8;  // of the size sought
   std::optional<EffectDraw> best;
@@ -57,7 +56,7 @@ PlacedEffect place(const std::function<EffectDraw()>& draw, double size, simulat
   for (int attempt = 0; attempt < kMostDraws; ++attempt) {
     EffectDraw drawn = draw();
     PlacedEffect now{drawn.effect, drawn.detail, drawn.shows, {}};
-    const double found = strengthFor(drawn, clean, sizer, size, now.sizes);
+    const double found = strengthFor(drawn, clean, sizing, size, now.sizes);
     if (best && now.size() <= placed.size()) continue;
     best = std::move(drawn);
     placed = std::move(now);
@@ -94,17 +93,22 @@ double sizeOf(const EffectSize& sizes, Shows shows) {
       return sizes.nests;
     case Shows::positions:
       return sizes.positions;
+    case Shows::geometry:
+      return sizes.geometry;
   }
   return 0.0;
 }
 
 double PlacedEffect::size() const { return sizeOf(sizes, shows); }
 
-std::vector<CasePlan> planCases(int count, std::uint64_t seed, double as_is_share) {
+std::vector<CasePlan> planCases(int count, std::uint64_t seed, double as_is_share, const DayKind& days) {
+  const Vocabulary& known = days.vocabulary;
   numerics::RandomStream random(seed, "plan");
   const int none = (count + 2) / 5, pairs = count / 8, outside = count / 8;
+  if (days.as_is.empty()) as_is_share = 0.0;
   const int as_is = std::min(static_cast<int>(count * as_is_share), count - none - pairs - outside);
-  Rounds effects(static_cast<int>(effects::kEffectCount)), kinds(static_cast<int>(outsideKinds().size()));
+  Rounds effects(static_cast<int>(known.effects.size())), kinds(static_cast<int>(known.outside.size()));
+  const auto effect = [&](int index) { return known.effects[static_cast<std::size_t>(index)]; };
   std::vector<CasePlan> plans;
   for (int c = 0; c < count; ++c) {
     CasePlan plan;
@@ -115,18 +119,16 @@ std::vector<CasePlan> planCases(int count, std::uint64_t seed, double as_is_shar
       const int first = effects.next(random);
       int second = effects.next(random);
       while (second == first) second = effects.next(random);
-      plan.effects = {static_cast<effects::Effect>(first), static_cast<effects::Effect>(second)};
+      plan.effects = {effect(first), effect(second)};
     } else if (c < none + pairs + outside) {
       plan.kind = CaseKind::outside;
-      plan.outside = outsideKinds()[static_cast<std::size_t>(kinds.next(random))];
+      plan.outside = known.outside[static_cast<std::size_t>(kinds.next(random))];
     } else if (c < none + pairs + outside + as_is) {
-      using enum effects::Effect;
       plan.kind = CaseKind::as_is;
-      plan.effects = {bearing_tilt, link_compliance};
-      if (c % 2 == 0) plan.effects.insert(plan.effects.end(), {base_compliance, hysteresis});
+      plan.effects = days.as_is[static_cast<std::size_t>(c) % days.as_is.size()];
     } else {
       plan.kind = CaseKind::single;
-      plan.effects = {static_cast<effects::Effect>(effects.next(random))};
+      plan.effects = {effect(effects.next(random))};
     }
     plans.push_back(plan);
   }
@@ -134,8 +136,8 @@ std::vector<CasePlan> planCases(int count, std::uint64_t seed, double as_is_shar
   return plans;
 }
 
-double strengthFor(const EffectDraw& draw, const simulation::SimulationSpec& clean, const EffectSizer& sizer,
-                   double size, EffectSize& sizes) {
+double strengthFor(const EffectDraw& draw, const simulation::SimulationSpec& clean, const Sizing& sizing, double size,
+                   EffectSize& sizes) {
   constexpr int kMostTries = 14;
   constexpr double kNear = 0.1;
   double strength = 1e-3 * draw.most;
@@ -147,7 +149,7 @@ double strengthFor(const EffectDraw& draw, const simulation::SimulationSpec& cle
     EffectSize now;
     bool stands = true;
     try {
-      now = tried(draw, strength, clean, sizer);
+      now = tried(draw, strength, clean, sizing);
       found = sizeOf(now, draw.shows);
     } catch (const io::InputError&) {  // so strong that the machine does not carry its load
       stands = false;
@@ -176,8 +178,8 @@ double strengthFor(const EffectDraw& draw, const simulation::SimulationSpec& cle
 }
 
 BlindCase drawCase(const CasePlan& plan, std::uint64_t seed, const std::string& name,
-                   const std::filesystem::path& urdf_file) {
-  MachineDraw machine = drawMachine(seed, name, urdf_file);
+                   const std::filesystem::path& urdf_file, const DayKind& days) {
+  MachineDraw machine = days.machine(seed, name, urdf_file);
   numerics::RandomStream random(seed, "effects");
   if (random.uniform() < 0.3) machine.spec.tracker.true_noise_factor = random.uniform(0.75, 1.25);
 
@@ -186,29 +188,29 @@ BlindCase drawCase(const CasePlan& plan, std::uint64_t seed, const std::string& 
   one.loading = machine.loading;
   one.kind = plan.kind;
   const simulation::SimulationSpec clean = machine.spec;
-  const EffectSizer sizer(clean);
-  one.background = sizer.background();
+  const Sizing sizing = days.sizing(clean);
+  one.background = sizing.background;
   const double least = plan.kind == CaseKind::pair ? 2.0 : 0.5;
   const auto drawSize = [&] {
     const double size = least * std::pow(10.0 / least, random.uniform());
     return plan.size.value_or(size);
   };
-  for (const effects::Effect effect : plan.effects) {
+  for (const std::string& effect : plan.effects) {
     if (plan.kind == CaseKind::as_is) {
-      const EffectDraw draw = drawAsIs(effect, clean, random);
-      one.effects.push_back({effect, draw.detail, draw.shows, tried(draw, 1.0, clean, sizer)});
+      const EffectDraw draw = days.as_is_effect(effect, clean, random);
+      one.effects.push_back({effect, draw.detail, draw.shows, tried(draw, 1.0, clean, sizing)});
       draw.apply(1.0, machine.spec);
       continue;
     }
     const double size = drawSize();
-    one.effects.push_back(place([&] { return drawEffect(effect, clean, random); }, size, machine.spec, clean, sizer));
+    one.effects.push_back(place([&] { return days.effect(effect, clean, random); }, size, machine.spec, clean, sizing));
   }
   if (plan.kind == CaseKind::outside) {
     const double size = drawSize();
     one.effects.push_back(
-        place([&] { return drawOutside(plan.outside, clean, random); }, size, machine.spec, clean, sizer));
+        place([&] { return days.outside(plan.outside, clean, random); }, size, machine.spec, clean, sizing));
   }
-  if (!one.effects.empty()) one.together = sizer.measure(machine.spec);
+  if (!one.effects.empty()) one.together = sizing.measure(machine.spec);
   one.spec = std::move(machine.spec);
   return one;
 }

@@ -7,8 +7,7 @@
 #include <vector>
 
 #include "core/simulation/spec.h"
-#include "core/validation/effect_draw.h"
-#include "core/validation/effect_size.h"
+#include "core/validation/day_kind.h"
 
 namespace stiffscope::validation {
 
@@ -26,19 +25,20 @@ const char* nameOf(CaseKind kind);  ///< none, single, double, outside, as_is
 constexpr double kAsIsShare = 0.125;
 
 /// What every case is to be, in an order mixed from the seed: a fifth none, an eighth doubles, an eighth
-/// outside the vocabulary, `as_is_share` machines as they are (bearings and links, or these with base and friction,
-/// as often), the rest singles, each effect (and each outside kind) as often as any other.
+/// outside the vocabulary, `as_is_share` machines as they are (where the kind of day has such), the rest singles, each
+/// effect (and each outside kind) as often as any other.
 struct CasePlan {
   CaseKind kind = CaseKind::none;
-  std::vector<effects::Effect> effects;  ///< one for a single, two for a double, all of a machine as it is
-  std::string outside;                   ///< id, for one outside the vocabulary
-  std::optional<double> size = {};       ///< to seek, of each effect, in noises; empty: drawn
+  std::vector<std::string> effects;  ///< ids: one for a single, two for a double, all of a machine as it is
+  std::string outside;               ///< id, for one outside the vocabulary
+  std::optional<double> size = {};   ///< to seek, of each effect, in noises; empty: drawn
 };
-std::vector<CasePlan> planCases(int count, std::uint64_t seed, double as_is_share = kAsIsShare);
+std::vector<CasePlan> planCases(int count, std::uint64_t seed, double as_is_share = kAsIsShare,
+                                const DayKind& days = loadedDays());
 
 /// An effect in a case, with its size as the machine shows it.
 struct PlacedEffect {
-  std::optional<effects::Effect> effect;
+  std::string effect;  ///< its id; empty: outside the vocabulary
   std::string detail;
   Shows shows = Shows::deflection;
   EffectSize sizes;
@@ -52,7 +52,7 @@ struct BlindCase {
   CaseKind kind = CaseKind::none;
   std::vector<PlacedEffect> effects;  ///< each sized alone
   EffectSize together;                ///< of all of them
-  double background = 0.0;            ///< EffectSizer::background
+  double background = 0.0;            ///< Sizing::background
 };
 
 /// Machine, effects and strengths. Sizes are drawn evenly in their logarithm from 0.5 to 10 (doubles from 2),
@@ -62,11 +62,11 @@ struct BlindCase {
 /// the size of drawAsIs, whatever that shows. In three cases of ten the tracker's true
 /// noise is 0.75 to 1.25 times the declared.
 BlindCase drawCase(const CasePlan& plan, std::uint64_t seed, const std::string& name,
-                   const std::filesystem::path& urdf_file);
+                   const std::filesystem::path& urdf_file, const DayKind& days = loadedDays());
 
-/// Strength at which `sizer` finds this size, sought from below; `sizes` is what was found there.
-double strengthFor(const EffectDraw& draw, const simulation::SimulationSpec& clean, const EffectSizer& sizer,
-                   double size, EffectSize& sizes);
+/// Strength at which `sizing` finds this size, sought from below; `sizes` is what was found there.
+double strengthFor(const EffectDraw& draw, const simulation::SimulationSpec& clean, const Sizing& sizing, double size,
+                   EffectSize& sizes);
 
 double sizeOf(const EffectSize& sizes, Shows shows);
 

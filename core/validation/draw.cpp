@@ -11,6 +11,7 @@
 #include "core/numerics/random.h"
 #include "core/robot/read_urdf.h"
 #include "core/simulation/postures.h"
+#include "core/validation/effect_draw.h"
 
 namespace stiffscope::validation {
 
@@ -217,30 +218,41 @@ std::string addLoad(const ArmModel& model, numerics::RandomStream& random, simul
   return hanging ? "hanging" : "cable";
 }
 
-/// Postures as a person would choose them: spread out, clear of the wrist's singularity, the flange level or
-/// down, in the tracker's reach, for a hanging load the chain clear of the arm.
-void addPostures(const ArmModel& model, bool hanging, simulation::SimulationSpec& spec) {
+/// A box of joint angles, deg, stated for positive senses.
+simulation::PostureDraw postureBox(const ArmModel& model, const std::array<double, 6>& low,
+                                   const std::array<double, 6>& high) {
   simulation::PostureDraw draw;
-  draw.count = kPostures;
-  draw.candidates = 8;
-  const std::array<double, 6> low{-50, -40, -60, -120, -100, -150}, high{50, 55, 35, 120, 100, 150};
   for (int i = 0; i < 6; ++i) {
     const std::size_t k = static_cast<std::size_t>(i);
     const bool same = model.sense[k] > 0;
     draw.low[i] = io::kDegree * (same ? low[k] : -high[k]);
     draw.high[i] = io::kDegree * (same ? high[k] : -low[k]);
   }
+  return draw;
+}
+
+/// Draws the postures now, so that what an effect draws leaves them alone.
+void listPostures(simulation::SimulationSpec& spec) {
+  const std::vector<simulation::Posture> postures = simulation::loadingPostures(spec);
+  spec.posture_draw.reset();
+  for (const simulation::Posture& posture : postures) spec.postures.push_back({posture.q, {}});
+}
+
+/// Postures as a person would choose them: spread out, clear of the wrist's singularity, the flange level or
+/// down, in the tracker's reach, for a hanging load the chain clear of the arm.
+void addPostures(const ArmModel& model, bool hanging, simulation::SimulationSpec& spec) {
+  simulation::PostureDraw draw = postureBox(model, {-50, -40, -60, -120, -100, -150}, {50, 55, 35, 120, 100, 150});
+  draw.count = kPostures;
+  draw.candidates = 8;
   draw.min_abs_sin_q5 = 0.4;
   draw.max_flange_up = 25.0 * io::kDegree;
   draw.min_height = 0.25 * reach(model);
   if (hanging) draw.min_hang_clearance = 0.06 * reach(model);
   spec.posture_draw = draw;
-  const std::vector<simulation::Posture> postures = simulation::loadingPostures(spec);
-  spec.posture_draw.reset();
-  for (std::size_t p = 0; p < postures.size(); ++p) {
-    simulation::ListedPosture listed{postures[p].q, {}};
-    if (!hanging) listed.pull_direction = pullDirection(static_cast<int>(p));
-    spec.postures.push_back(listed);
+  listPostures(spec);
+  if (hanging) return;
+  for (std::size_t p = 0; p < spec.postures.size(); ++p) {
+    spec.postures[p].pull_direction = pullDirection(static_cast<int>(p));
   }
 }
 
@@ -262,12 +274,13 @@ void addSweeps(const ArmModel& model, simulation::SimulationSpec& spec) {
 
 }  // namespace
 
-MachineDraw drawMachine(std::uint64_t seed, const std::string& name, const std::filesystem::path& urdf_file) {
-  numerics::RandomStream random(seed, "machine");
-  const ArmModel model = drawArm(random);
+namespace {
+
+/// An arm of the catalogue and what all its days have: URDF, name, seed.
+MachineDraw beginDraw(const ArmModel& model, std::uint64_t seed, const std::string& name,
+                      const std::filesystem::path& urdf_file) {
   io::makeFolder(urdf_file.parent_path());
   io::writeFileWhole(urdf_file, armUrdf(model));
-
   MachineDraw draw;
   draw.arm = std::string(model.name);
   simulation::SimulationSpec& spec = draw.spec;
@@ -279,11 +292,53 @@ MachineDraw drawMachine(std::uint64_t seed, const std::string& name, const std::
   spec.flange_link = "tool0";
   spec.nominal = robot::readUrdf(urdf_file, spec.base_link, spec.flange_link);
   spec.read_back_resolution = 1e-5 * io::kDegree;
-  addSprings(model, random, spec);
+  return draw;
+}
+
+}  // namespace
+
+MachineDraw drawMachine(std::uint64_t seed, const std::string& name, const std::filesystem::path& urdf_file) {
+  numerics::RandomStream random(seed, "machine");
+  const ArmModel model = drawArm(random);
+  MachineDraw draw = beginDraw(model, seed, name, urdf_file);
+  addSprings(model, random, draw.spec);
+  addInstruments(model, random, draw.spec);
+  draw.loading = addLoad(model, random, draw.spec);
+  addPostures(model, draw.loading == "hanging", draw.spec);
+  addSweeps(model, draw.spec);
+  return draw;
+}
+
+MachineDraw drawUnloadedMachine(std::uint64_t seed, const std::string& name, const std::filesystem::path& urdf_file) {
+  numerics::RandomStream random(seed, "machine");
+  const ArmModel model = drawArm(random);
+  MachineDraw draw = beginDraw(model, seed, name, urdf_file);
+  draw.loading = "unloaded";
+  simulation::SimulationSpec& spec = draw.spec;
+  spec.machine.geometry.position_sigma = 2e-4 * random.uniform(0.6, 1.4);
+  spec.machine.geometry.direction_sigma = spec.machine.geometry.zero_sigma =
+      0.008 * io::kDegree * random.uniform(0.6, 1.4);
+  spec.machine.mass_relative_sigma = 0.02;
   addInstruments(model, random, spec);
-  draw.loading = addLoad(model, random, spec);
-  addPostures(model, draw.loading == "hanging", spec);
-  addSweeps(model, spec);
+  if (random.uniform() < 1.0 / 7.0) spec.targets.resize(1);
+  if (random.uniform() < 0.2) spec.nests.clear();
+  spec.nests_after_sweeps = false;
+  spec.unloaded_repeats = 2 + pick(random, 2);
+  spec.timing = {2.0, random.uniform(6.0, 20.0), 0.0, random.uniform(400.0, 900.0)};
+
+  simulation::PostureDraw postures =
+      postureBox(model, {-130, -50, -70, -170, -110, -170}, {130, 70, 50, 170, 110, 170});
+  postures.count = 60 + pick(random, 141);
+  postures.min_height = 0.1 * reach(model);
+  postures.min_tracker_distance = 0.6;
+  spec.posture_draw = postures;
+  listPostures(spec);
+
+  const bool read = random.uniform() < 0.5;
+  const double warmer = random.uniform(1.0, 6.0) * (random.uniform() < 0.75 ? 1.0 : -1.0);
+  const double begin = random.uniform(17.0, 25.0), knee = random.uniform(0.3, 0.7) * dayLength(spec);
+  const double after_knee = random.uniform(-0.5, 0.5) * warmer;
+  if (read) spec.temperature = {{0.0, knee, dayLength(spec)}, {begin, begin + warmer, begin + warmer + after_knee}};
   return draw;
 }
 

@@ -44,6 +44,12 @@ struct MachineDraw {
   std::string loading;  ///< hanging or cable
 };
 
+/// A machine for a day without a load, rigid: the same arms, axes some tenths of a mm and hundredths of a degree from
+/// nominal, as they leave the works. The day: 60 to 200 postures all over the workspace in no order, three reflectors
+/// (one on every seventh), two or three repeats, four nests on four of five; temperatures of the hall are in `states`
+/// on every second. All from `seed`, as below.
+MachineDraw drawUnloadedMachine(std::uint64_t seed, const std::string& name, const std::filesystem::path& urdf_file);
+
 /// `urdf_file` is written. All from `seed`; `name` is the campaign's.
 MachineDraw drawMachine(std::uint64_t seed, const std::string& name, const std::filesystem::path& urdf_file);
 

@@ -427,14 +427,14 @@ EffectDraw drawAsIs(effects::Effect effect, const simulation::SimulationSpec& ma
   } else {
     throw std::invalid_argument("no arm is known to have " + std::string(effects::idOf(effect)) + " as it is");
   }
-  draw.effect = effect;
+  draw.effect = effects::idOf(effect);
   return draw;
 }
 
 EffectDraw drawEffect(effects::Effect effect, const simulation::SimulationSpec& machine,
                       numerics::RandomStream& random) {
   EffectDraw draw = drawOf(effect, machine, random);
-  draw.effect = effect;
+  draw.effect = effects::idOf(effect);
   return draw;
 }
 

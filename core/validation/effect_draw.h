@@ -16,12 +16,13 @@ enum class Shows {
   deflection,  ///< in loaded minus unloaded
   nests,       ///< in absolute positions, and the nests see it
   positions,   ///< in absolute positions only
+  geometry,    ///< in what the URDF misses, which a calibration takes in
 };
 
 /// An effect as it was drawn, all but its strength: which joint, which way, which mechanism.
 struct EffectDraw {
-  std::optional<effects::Effect> effect;  ///< empty: outside the vocabulary
-  std::string detail;                     ///< the pair, the reflector, the joint; outside the vocabulary: what it is
+  std::string effect;  ///< its id; empty: outside the vocabulary
+  std::string detail;  ///< the pair, the reflector, the joint; outside the vocabulary: what it is
   Shows shows = Shows::deflection;
   double most = 1.0;  ///< greatest strength that a real machine might have
   std::function<void(double strength, simulation::SimulationSpec& spec)> apply;  ///< strength 0: nothing
@@ -47,6 +48,25 @@ const std::vector<std::string>& outsideKinds();
 /// One of them. Throws std::invalid_argument for an id that is not listed.
 EffectDraw drawOutside(const std::string& kind, const simulation::SimulationSpec& machine,
                        numerics::RandomStream& random);
+
+/// The ids of effects of days without a load, and of kinds outside that vocabulary: pulling_cable, zero_by_temperature,
+/// loose_plate, layered_air, rattling_reflector, slipped_belt, cracked_floor.
+const std::vector<std::string>& unloadedEffects();
+const std::vector<std::string>& unloadedOutsideKinds();
+
+/// One of them on a rigid machine without a load, mechanism and place drawn. Throws std::invalid_argument for an id
+/// that is not listed.
+EffectDraw drawUnloadedEffect(const std::string& id, const simulation::SimulationSpec& machine,
+                              numerics::RandomStream& random);
+EffectDraw drawUnloadedOutside(const std::string& kind, const simulation::SimulationSpec& machine,
+                               numerics::RandomStream& random);
+
+/// Stiffness (Nm/rad) at which the weight beyond a joint's axis, at all joints zero and as if it stood out level, turns
+/// by a milliradian: what an unloaded arm's compliances are drawn by.
+double milliradianStiffness(const simulation::SimulationSpec& spec, int joint);
+
+/// How long (s) the postures of a day without a load take, nests aside.
+double dayLength(const simulation::SimulationSpec& spec);
 
 /// A unit vector, all directions alike.
 Eigen::Vector3d drawDirection(numerics::RandomStream& random);

@@ -5,9 +5,8 @@
 #include <map>
 #include <utility>
 
-#include "core/simulation/instruments.h"
-#include "core/simulation/measure.h"
 #include "core/simulation/rotation.h"
+#include "core/validation/noise_free.h"
 
 namespace stiffscope::validation {
 
@@ -16,55 +15,6 @@ namespace {
 using Eigen::Index;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
-
-struct ArmNow {
-  std::array<metrology::Line, 6> axes;
-  Eigen::Isometry3d flange;
-};
-
-ArmNow armAt(const robot::Robot& robot, const Vector6d& q) {
-  ArmNow now;
-  Eigen::Isometry3d motion = Eigen::Isometry3d::Identity();
-  for (std::size_t i = 0; i < 6; ++i) {
-    const metrology::Line& axis = robot.axes_in_base_at_zero[i];
-    now.axes[i] = {motion * axis.point, motion.linear() * axis.direction};
-    motion = motion * simulation::turnAbout(axis, q[static_cast<Index>(i)]);
-  }
-  now.flange = motion * robot.base_from_flange_at_zero;
-  return now;
-}
-
-/// Along the line of sight (third) and across it: sigma of one reading.
-Vector3d sigmaAt(const campaign::Tracker& tracker, const Vector3d& point) {
-  const double distance = (point - tracker.station).norm();
-  const double across = tracker.angle_fixed + tracker.angle_per_m * distance;
-  return {across, across, tracker.range_fixed + tracker.range_per_m * distance};
-}
-
-Eigen::Matrix3d sightAxes(const campaign::Tracker& tracker, const Vector3d& point) {
-  return simulation::frameAlong(tracker.station, point - tracker.station).linear();
-}
-
-double rms(const VectorXd& values) {
-  return values.size() == 0 ? 0.0 : std::sqrt(values.squaredNorm() / static_cast<double>(values.size()));
-}
-
-struct Mean {
-  Vector3d sum = Vector3d::Zero();
-  int count = 0;
-  Vector3d value() const { return sum / count; }
-};
-
-/// Means of the repeats, by (pose, step, target).
-std::map<std::array<int, 3>, Mean> stateMeans(const campaign::Campaign& campaign) {
-  std::map<std::array<int, 3>, Mean> means;
-  for (const campaign::LoadingReading& reading : campaign.loading->rows) {
-    Mean& mean = means[{reading.pose, reading.step, reading.target}];
-    mean.sum += reading.point;
-    ++mean.count;
-  }
-  return means;
-}
 
 /// Calls use(q, target, point, readings averaged) for every unloaded reading: sweeps, wrist sweep, then step
 /// 0.
@@ -99,16 +49,6 @@ VectorXd unloadedPoints(const campaign::Campaign& campaign) {
 
 }  // namespace
 
-campaign::Campaign withoutScatter(const simulation::SimulationSpec& spec) {
-  campaign::Campaign campaign = simulation::measureWithoutNoise(simulation::buildMachine(spec), spec);
-  if (spec.load_cell && campaign.states) {
-    simulation::LoadCellSpec cell = *spec.load_cell;
-    cell.declared.force_sigma = cell.declared.moment_sigma = 0.0;
-    simulation::addLoadCellErrors(cell, 0, *campaign.states);
-  }
-  return campaign;
-}
-
 EffectSizer::EffectSizer(const simulation::SimulationSpec& clean)
     : base_from_tracker_(clean.tracker.base_from_tracker.linear()),
       station_in_base_(clean.tracker.base_from_tracker * clean.tracker.declared.station),
@@ -125,7 +65,7 @@ EffectSizer::EffectSizer(const simulation::SimulationSpec& clean)
   int pose = -1;
   for (const auto& [key, mean] : means) {
     if (key[1] == 0) continue;
-    const Mean& zero = means.at({key[0], 0, key[2]});
+    const MeanPoint& zero = means.at({key[0], 0, key[2]});
     displacement_sigma_.segment<3>(row) =
         std::sqrt(1.0 / mean.count + 1.0 / zero.count) * sigmaAt(*reference_.tracker, zero.value());
     row += 3;

@@ -28,6 +28,8 @@ struct EffectSize {
   double deflection = 0.0;
   double positions = 0.0;
   double nests = 0.0;  ///< positions over tracker noise alone
+  /// Of a day without a load (geometry_sizer.h): what the URDF misses the more, over what it misses of every machine.
+  double geometry = 0.0;
   /// 1 - rms after / rms before of the displacements' residuals (plain, m) when the effect is known and taken
   /// out, six compliances fitted both times to the other postures than the one judged, as a promise for
   /// postures that took no part is: without noise, and as it can be seen with the tracker's true noise in
@@ -76,8 +78,5 @@ class EffectSizer {
   Eigen::HouseholderQR<Eigen::MatrixXd> nuisances_;  ///< whitened
   double position_noise_ = 0.0, geometry_background_ = 0.0, background_ = 0.0;
 };
-
-/// A campaign without noise: everything that is wrong with it but scatter, the load cell's errors included.
-campaign::Campaign withoutScatter(const simulation::SimulationSpec& spec);
 
 }  // namespace stiffscope::validation

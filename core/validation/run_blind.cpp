@@ -42,7 +42,9 @@ void forAll(int count, int threads, const char* stage, const BlindEvents& events
 
 Answer answerTo(const std::string& name, const std::filesystem::path& folder, const Diagnose& diagnose) {
   try {
-    return answerOf(name, diagnose(campaign::readCampaign(folder).campaign));
+    Answer answer = diagnose(campaign::readCampaign(folder).campaign);
+    answer.name = name;
+    return answer;
   } catch (const std::exception& error) {
     Answer answer;
     answer.name = name;
@@ -94,7 +96,8 @@ BlindResult runBlind(const BlindOptions& options, const Diagnose& diagnose, cons
   }
   fs::remove_all(folder);
   io::makeFolder(folder);
-  const std::vector<CasePlan> plans = planCases(options.cases, options.seed, options.as_is_share);
+  const DayKind& days = options.unloaded ? unloadedDays() : loadedDays();
+  const std::vector<CasePlan> plans = planCases(options.cases, options.seed, options.as_is_share, days);
   const std::size_t count = plans.size();
 
   BlindResult result;
@@ -103,7 +106,7 @@ BlindResult runBlind(const BlindOptions& options, const Diagnose& diagnose, cons
     forAll(options.cases, options.threads, "simulated", events, [&](int index) {
       const std::size_t at = static_cast<std::size_t>(index);
       const fs::path urdf = folder / nameOf(index) / "robot.urdf";
-      const BlindCase one = drawCase(plans[at], caseSeed(options.seed, index), "case " + nameOf(index), urdf);
+      const BlindCase one = drawCase(plans[at], caseSeed(options.seed, index), "case " + nameOf(index), urdf, days);
       campaign::writeCampaign(simulation::simulate(one.spec), urdf, folder / nameOf(index));
       labels[at] = labelOf(nameOf(index), one);
     });
@@ -136,7 +139,7 @@ BlindResult runBlind(const BlindOptions& options, const Diagnose& diagnose, cons
     distances = distancesOf(truths, folder, options, events, distance);
     io::writeFileWhole(options.out / "distances.csv", distancesCsv(distances));
   }
-  result.score = score(truths, readAnswers("answers.csv", answers), distances);
+  result.score = score(truths, readAnswers("answers.csv", answers), distances, days.vocabulary);
   if (options.discard) fs::remove_all(folder);
   return result;
 }

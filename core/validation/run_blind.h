@@ -17,6 +17,7 @@ struct BlindOptions {
   bool discard = false;             ///< remove the campaigns when done
   int threads = 2;                  ///< the result does not depend on it
   double as_is_share = kAsIsShare;  ///< see planCases
+  bool unloaded = false;            ///< days without a load
 };
 
 /// Told of what goes on; any may be empty. Called from one thread at a time.

@@ -25,10 +25,33 @@ bool saysUnknown(const Answer& answer) {
                      [](const Answer::Entry& entry) { return entry.effects.empty(); });
 }
 
+/// Whether one of the true effects is a member of the entry.
+bool namesTrue(const Label& label, const Answer::Entry& entry) {
+  return std::any_of(label.effects.begin(), label.effects.end(),
+                     [&](const LabelledEffect& e) { return has(entry.effects, e.id); });
+}
+
+/// Whether the entry is of what the mechanism of a true effect brings along.
+bool namesBrought(const Vocabulary& vocabulary, const Label& label, const Answer::Entry& entry) {
+  return std::any_of(label.effects.begin(), label.effects.end(), [&](const LabelledEffect& e) {
+    const auto along = vocabulary.brings.find(e.id);
+    return along != vocabulary.brings.end() &&
+           std::any_of(along->second.begin(), along->second.end(),
+                       [&](const std::string& id) { return has(entry.effects, id); });
+  });
+}
+
+/// The answer without the entries that are of what a true effect brings along, where they name no true one themselves.
+Answer withoutBrought(const Vocabulary& vocabulary, const Label& label, Answer answer) {
+  std::erase_if(answer.entries, [&](const Answer::Entry& entry) {
+    return !namesTrue(label, entry) && namesBrought(vocabulary, label, entry);
+  });
+  return answer;
+}
+
 /// Whether the entry names effects none of which is there.
 bool namesWrong(const Label& label, const Answer::Entry& entry) {
-  return !entry.effects.empty() && std::none_of(label.effects.begin(), label.effects.end(),
-                                                [&](const LabelledEffect& e) { return has(entry.effects, e.id); });
+  return !entry.effects.empty() && !namesTrue(label, entry);
 }
 
 bool namesWrong(const Label& label, const Answer& answer) {
@@ -47,8 +70,9 @@ std::string columnOf(const Label& label, const Answer& answer) {
   return only.effects.front();
 }
 
-ScoredCase scoreCase(const Label& label, const Answer& answer) {
-  ScoredCase one{label, answer, false, false, false, 0, columnOf(label, answer), {}};
+ScoredCase scoreCase(const Label& label, const Answer& given, const Vocabulary& vocabulary) {
+  const Answer answer = withoutBrought(vocabulary, label, given);
+  ScoredCase one{label, given, false, false, false, 0, columnOf(label, answer), {}};
   if (!answer.failure.empty()) return one;
   switch (label.kind) {
     case CaseKind::none:
@@ -106,7 +130,7 @@ Choose kind(CaseKind wanted, double least = 0.0) {
 
 bool noiseDeclaredRight(const ScoredCase& one) { return one.label.noise_factor == 1.0; }
 
-/// The pair of a coupling or the reflector that moved, named as it is.
+/// The joint, pair or reflector, named as it is.
 bool namesDetail(const ScoredCase& one) {
   const LabelledEffect& truth = one.label.effects.front();
   const Answer::Entry* entry = entryWith(one.answer, truth.id);
@@ -127,7 +151,7 @@ numerics::Rate effectsNamed(const std::vector<ScoredCase>& cases, double least, 
   return numerics::binomialRate(named, trials);
 }
 
-std::vector<NamedRate> allRates(const std::vector<ScoredCase>& cases) {
+std::vector<NamedRate> allRates(const std::vector<ScoredCase>& cases, const Vocabulary& vocabulary) {
   const auto clean = [](bool declared_right) {
     return Choose([=](const ScoredCase& one) {
       return one.label.kind == CaseKind::none && noiseDeclaredRight(one) == declared_right;
@@ -145,10 +169,8 @@ std::vector<NamedRate> allRates(const std::vector<ScoredCase>& cases) {
     return std::any_of(one.label.effects.begin(), one.label.effects.end(),
                        [&](const LabelledEffect& e) { return entryWith(one.answer, e.id) != nullptr; });
   };
-  const Choose named = [](const ScoredCase& one) {
-    const bool names = one.label.kind == CaseKind::single && one.right;
-    return names &&
-           (one.label.effects.front().id == "joint_coupling" || one.label.effects.front().id == "target_motion");
+  const Choose named = [&](const ScoredCase& one) {
+    return one.label.kind == CaseKind::single && one.right && has(vocabulary.placed, one.label.effects.front().id);
   };
   const Choose first = [](const ScoredCase& one) { return one.first; };
   const Choose apart = [](const ScoredCase& one) {
@@ -210,10 +232,9 @@ EffectScore effectScore(const std::vector<ScoredCase>& cases, const std::string&
 }
 
 /// How often each effect of a machine as it is was named, and in a class of how many.
-std::vector<EffectScore> asIsScores(const std::vector<ScoredCase>& cases) {
+std::vector<EffectScore> asIsScores(const std::vector<ScoredCase>& cases, const Vocabulary& vocabulary) {
   std::vector<EffectScore> scores;
-  for (const std::string_view name : effects::kEffectIds) {
-    const std::string id(name);
+  for (const std::string& id : vocabulary.effects) {
     EffectScore effect{id, effectsNamed(cases, 0.0, id), effectsNamed(cases, 2.0, id), effectsNamed(cases, 5.0, id), 0,
                        0.0};
     if (effect.all.trials == 0) continue;
@@ -232,10 +253,10 @@ std::vector<EffectScore> asIsScores(const std::vector<ScoredCase>& cases) {
   return scores;
 }
 
-Confusion confusionOf(const std::vector<ScoredCase>& cases) {
+Confusion confusionOf(const std::vector<ScoredCase>& cases, const Vocabulary& vocabulary) {
   Confusion table;
   table.truths.emplace_back("none");
-  for (const std::string_view id : effects::kEffectIds) table.truths.emplace_back(id);
+  table.truths.insert(table.truths.end(), vocabulary.effects.begin(), vocabulary.effects.end());
   table.answers = table.truths;
   table.truths.emplace_back("outside");
   for (const char* other : {"unknown", "several", "failed"}) table.answers.emplace_back(other);
@@ -252,12 +273,12 @@ Confusion confusionOf(const std::vector<ScoredCase>& cases) {
   return table;
 }
 
-std::vector<ShrinkPair> shrinksOf(const std::vector<ScoredCase>& cases) {
+std::vector<ShrinkPair> shrinksOf(const std::vector<ScoredCase>& cases, const Vocabulary& vocabulary) {
   std::vector<ShrinkPair> pairs;
   for (const ScoredCase& one : cases) {
     if (one.label.kind != CaseKind::single || !one.right) continue;
     const LabelledEffect& truth = one.label.effects.front();
-    if (truth.shows != "deflection") continue;
+    if (truth.shows != vocabulary.shrinks) continue;
     for (const Answer::Promise& promise : one.answer.promises) {
       if (!has(promise.effects, truth.id)) continue;
       pairs.push_back({one.label.name, truth.id, promise.value, promise.low, promise.high, one.label.shrink,
@@ -284,25 +305,25 @@ const numerics::Rate& Score::rate(const std::string& id) const {
 }
 
 Score score(const std::vector<Label>& labels, const std::vector<Answer>& answers,
-            const std::map<std::string, double>& distances) {
+            const std::map<std::string, double>& distances, const Vocabulary& vocabulary) {
   std::map<std::string, const Answer*> given;
   for (const Answer& answer : answers) given[answer.name] = &answer;
   Score result;
   for (const Label& label : labels) {
     const auto answer = given.find(label.name);
     if (answer == given.end()) throw std::invalid_argument("case " + label.name + " has no answer");
-    result.cases.push_back(scoreCase(label, *answer->second));
+    result.cases.push_back(scoreCase(label, *answer->second, vocabulary));
     const auto distance = distances.find(label.name);
     if (distance != distances.end()) result.cases.back().distance = distance->second;
   }
-  result.rates = allRates(result.cases);
-  for (const std::string_view id : effects::kEffectIds) {
-    result.effects.push_back(effectScore(result.cases, std::string(id), CaseKind::single));
+  result.rates = allRates(result.cases, vocabulary);
+  for (const std::string& id : vocabulary.effects) {
+    result.effects.push_back(effectScore(result.cases, id, CaseKind::single));
   }
-  for (const std::string& id : outsideKinds()) {
+  for (const std::string& id : vocabulary.outside) {
     result.outside.push_back(effectScore(result.cases, id, CaseKind::outside));
   }
-  result.as_is = asIsScores(result.cases);
+  result.as_is = asIsScores(result.cases, vocabulary);
   result.by_size = {{0.0, 1.0}, {1.0, 2.0}, {2.0, 5.0}, {5.0}};
   for (SizeClass& sizes : result.by_size) {
     const Choose in = [&sizes](const ScoredCase& one) {
@@ -310,12 +331,12 @@ Score score(const std::vector<Label>& labels, const std::vector<Answer>& answers
     };
     sizes.rate = rateOf(result.cases, in, right);
   }
-  result.shrinks = shrinksOf(result.cases);
+  result.shrinks = shrinksOf(result.cases, vocabulary);
   result.rates.push_back(
       coverage("shrink_covered", RemarkId::shrinks_seen_covered, result.shrinks, &ShrinkPair::truth_seen));
   result.rates.push_back(
       coverage("shrink_covered_noise_free", RemarkId::shrinks_noise_free_covered, result.shrinks, &ShrinkPair::truth));
-  result.confusion = confusionOf(result.cases);
+  result.confusion = confusionOf(result.cases, vocabulary);
   return result;
 }
 

@@ -53,7 +53,7 @@ struct EffectScore {
   double mean_class_size = 0.0;  ///< of those found
 };
 
-/// A promised shrink beside the true one, of a single answered right that shows in deflection.
+/// A promised shrink beside the true one, of a single answered right that shows where shrinks are promised.
 struct ShrinkPair {
   std::string name, effect;
   double promised = 0.0, low = 0.0, high = 0.0, truth = 0.0, truth_seen = 0.0;
@@ -80,8 +80,10 @@ struct Score {
 /// Answers against labels, case by case in the labels' order. A class of effects that cannot be told apart
 /// counts as right when the true one is among them; how many it had is reported beside it. Unknown says that nothing of
 /// the vocabulary explains what is left: beside the name of an effect that is not there it is wrong as well. Throws
-/// std::invalid_argument where a label has no answer. `distances`: by case, see ScoredCase.
+/// std::invalid_argument where a label has no answer. `distances`: by case, see ScoredCase. Tables are of
+/// `vocabulary`'s effects and kinds.
 Score score(const std::vector<Label>& labels, const std::vector<Answer>& answers,
-            const std::map<std::string, double>& distances = {});
+            const std::map<std::string, double>& distances = {},
+            const Vocabulary& vocabulary = loadedDays().vocabulary);
 
 }  // namespace stiffscope::validation

@@ -42,9 +42,10 @@ namespace {
 
 const std::vector<std::string> kAnswerColumns{"case", "verdict", "details", "classes", "failure"};
 
-std::vector<std::string> ids(const std::vector<effects::Effect>& effects) {
+template <class Effect>
+std::vector<std::string> ids(const std::vector<Effect>& effects) {
   std::vector<std::string> names;
-  for (const effects::Effect effect : effects) names.emplace_back(effects::idOf(effect));
+  for (const Effect effect : effects) names.emplace_back(idOf(effect));
   return names;
 }
 
@@ -74,18 +75,30 @@ Answer::Promise promiseOf(const TableRow& row, const std::string& text) {
 /// A shrink that was not given is not a number; it covers nothing.
 double finite(double value) { return std::isfinite(value) ? value : -999.0; }
 
-}  // namespace
-
-Answer answerOf(const std::string& name, const DiagnosisAnswer& given) {
+template <class Entries, class Classes>
+Answer answerWith(const Entries& entries, const Classes& classes) {
   Answer answer;
-  answer.name = name;
-  for (const diagnosis::VerdictEntry& entry : given.verdict.entries) {
-    answer.entries.push_back({ids(entry.effects), plain(entry.detail)});
-  }
-  for (const diagnosis::EffectClass& one : given.classes) {
+  for (const auto& entry : entries) answer.entries.push_back({ids(entry.effects), plain(entry.detail)});
+  for (const auto& one : classes) {
     answer.promises.push_back({ids(one.effects), finite(one.shrink.value), finite(one.shrink.low),
                                finite(one.shrink.high), finite(one.explained)});
   }
+  return answer;
+}
+
+}  // namespace
+
+Answer answerOf(const diagnosis::Verdict& verdict, const std::vector<diagnosis::EffectClass>& classes) {
+  return answerWith(verdict.entries, classes);
+}
+
+Answer answerOf(const accuracy::AccuracyDiagnosis& given) {
+  Answer answer = answerWith(given.verdict, given.classes);
+  const std::string geometry = "kinematic_error";
+  const bool said = std::any_of(answer.entries.begin(), answer.entries.end(), [&](const Answer::Entry& entry) {
+    return std::find(entry.effects.begin(), entry.effects.end(), geometry) != entry.effects.end();
+  });
+  if (given.geometry_off_nominal && !said) answer.entries.push_back({{geometry}, ""});
   return answer;
 }
 
@@ -145,6 +158,8 @@ const char* nameOf(Shows shows) {
       return "nests";
     case Shows::positions:
       return "positions";
+    case Shows::geometry:
+      return "geometry";
   }
   return "";
 }
@@ -181,7 +196,7 @@ Label labelOf(const std::string& name, const BlindCase& one) {
               {}};
   for (std::size_t i = 0; i < 6; ++i) label.stiffness[i] = one.spec.machine.joints[i].torsion.value_or(0.0);
   for (const PlacedEffect& placed : one.effects) {
-    label.effects.push_back({placed.effect ? std::string(effects::idOf(*placed.effect)) : placed.detail, placed.detail,
+    label.effects.push_back({placed.effect.empty() ? plain(placed.detail) : placed.effect, plain(placed.detail),
                              nameOf(placed.shows), placed.size(), placed.sizes.deflection, placed.sizes.positions});
   }
   return label;

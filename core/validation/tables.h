@@ -5,18 +5,12 @@
 #include <string>
 #include <vector>
 
+#include "core/accuracy/accuracy_diagnosis.h"
 #include "core/campaign/campaign.h"
 #include "core/diagnosis/diagnosis.h"
 #include "core/validation/case.h"
 
 namespace stiffscope::validation {
-
-/// What a diagnosis gives back of one campaign.
-struct DiagnosisAnswer {
-  diagnosis::Verdict verdict;
-  std::vector<diagnosis::EffectClass> classes;
-};
-using Diagnose = std::function<DiagnosisAnswer(const campaign::Campaign&)>;
 
 /// An answer as it is frozen: names only.
 struct Answer {
@@ -34,7 +28,13 @@ struct Answer {
   std::string failure;            ///< why there is no answer
 };
 
-Answer answerOf(const std::string& name, const DiagnosisAnswer& given);
+/// What a diagnosis said, the name of the case aside. Of a day without a load a URDF that misses by more than the
+/// stated limit is an entry, kinematic_error.
+Answer answerOf(const diagnosis::Verdict& verdict, const std::vector<diagnosis::EffectClass>& classes = {});
+Answer answerOf(const accuracy::AccuracyDiagnosis& given);
+
+/// A diagnosis of one campaign. One that cannot answer throws.
+using Diagnose = std::function<Answer(const campaign::Campaign&)>;
 
 /// One line a case: case,verdict,details,classes,failure. Verdict: "none", or entries joined by '+', each the
 /// members of one joined by '|', or "unknown". Details joined by '+', classes by ';':
@@ -48,7 +48,7 @@ std::vector<Answer> readAnswers(const std::string& file, const std::string& byte
 struct LabelledEffect {
   std::string id;  ///< of the vocabulary, or the kind of one outside it
   std::string detail;
-  std::string shows;  ///< deflection, positions or nests
+  std::string shows;  ///< deflection, positions, nests or geometry
   double size = 0.0;  ///< in noises, measured by what `shows` names
   double deflection = 0.0, positions = 0.0;
 };

@@ -1,11 +1,11 @@
 #include "core/diagnosis/diagnosis.h"
 #include "core/diagnosis/spike_study.h"
 #include "reports/json/campaign_json.h"
+#include "reports/json/gap_json.h"
 #include "reports/json/json.h"
 #include "reports/json/json_document.h"
 
 #include "core/io/units.h"
-#include "core/numerics/distributions.h"
 #include "reports/words/effect_words.h"
 #include "reports/words/names.h"
 #include "reports/words/remark_words.h"
@@ -13,8 +13,6 @@
 namespace stiffscope::reports {
 
 namespace {
-
-Json micrometres(double metres) { return number(metres / io::kMicrometre); }
 
 Json idsOf(const std::vector<effects::Effect>& effects) {
   Json ids = Json::array();
@@ -31,10 +29,6 @@ Json verdictJson(const diagnosis::Verdict& verdict) {
   return entries;
 }
 
-Json shrinkJson(const diagnosis::Shrink& shrink) {
-  return {{"value", number(shrink.value)}, {"low", number(shrink.low)}, {"high", number(shrink.high)}};
-}
-
 Json classJson(const diagnosis::EffectClass& one, bool positions) {
   Json json{{"effects", idsOf(one.effects)},    {"detail", one.detail},
             {"score", number(one.score)},       {"in_verdict", one.in_verdict},
@@ -49,23 +43,6 @@ Json gapJson(const diagnosis::Gap& gap) {
           {"before_um", micrometres(gap.before)},
           {"noise_um", micrometres(gap.noise)},
           {"after_um", micrometres(gap.after)}};
-}
-
-Json tablesJson(const std::vector<diagnosis::WhereTable>& tables) {
-  Json json = Json::object();
-  for (const diagnosis::WhereTable& table : tables) {
-    Json rows = Json::array();
-    for (const diagnosis::WhereRow& row : table.rows) {
-      rows.push_back({{"name", row.name},
-                      {"rms_um", micrometres(row.rms)},
-                      {"noise_um", micrometres(row.noise)},
-                      {"share", number(row.share)},
-                      {"significance", number(row.significance)},
-                      {"significance_at_limit", std::abs(row.significance) >= numerics::kLargestDeviate}});
-    }
-    json[table.by] = rows;
-  }
-  return json;
 }
 
 Json stiffnessJson(const diagnosis::Diagnosis& diagnosis, const Vector6d& values) {
@@ -146,9 +123,8 @@ Json diagnosisJson(const campaign::Campaign& campaign, const diagnosis::Diagnosi
   }
   json["where"] = tablesJson(diagnosis.where);
   json["where_after"] = tablesJson(diagnosis.where_after);
-  for (const diagnosis::WhereTable& table : diagnosis.where) {
-    if (table.overlaps) json["where_overlapping"][table.by] = {{"share_together", number(table.explained)}};
-  }
+  if (Json overlaps = overlapsJson(diagnosis.where); !overlaps.is_null())
+    json["where_overlapping"] = std::move(overlaps);
   if (diagnosis.positions_tested) json["where_positions"] = tablesJson(diagnosis.where_positions);
   return withNext(std::move(json), diagnosis.next);
 }

@@ -6,6 +6,9 @@
 
 // Results as JSON, a function a command.
 
+namespace stiffscope::accuracy {
+struct AccuracyDiagnosis;
+}
 namespace stiffscope::audit {
 struct AuditReport;
 }
@@ -80,6 +83,11 @@ Json compensationJson(const campaign::Campaign& campaign, identification::Method
 /// The result of `diagnose`. `verdict` is a list of lists of effect ids: the outer names all that is present,
 /// an inner one what this data cannot tell apart; [["none"]], or ["unknown"] among them.
 Json diagnosisJson(const campaign::Campaign& campaign, const diagnosis::Diagnosis& diagnosis);
+
+/// The result of `diagnose` on a day without a load, under the same keys: the gap is of the unloaded positions,
+/// `before` with the geometry calibrated (held out), with `nominal_um` beside it; `parameters` of a class are lists of
+/// terms with value and standard uncertainty in SI units.
+Json accuracyJson(const campaign::Campaign& campaign, const accuracy::AccuracyDiagnosis& accuracy);
 
 /// Adds `next`: measurements that would tell effects apart, or make one testable.
 Json withNext(Json json, const std::vector<diagnosis::NextMeasurement>& measurements);

@@ -20,8 +20,8 @@ std::string jointName(std::size_t joint) { return "joint " + std::to_string(join
 Json rate(const std::optional<double>& value) { return value ? number(*value) : Json(nullptr); }
 Json compliance(const std::optional<double>& value) { return value ? number(1.0 / *value) : Json(0.0); }
 
-/// What one joint has.
-Json effectsOfJoint(const simulation::JointStiffness& joint) {
+/// What one joint has. Periodic errors of its angle are in the vocabulary of days without a load alone.
+Json effectsOfJoint(const simulation::JointStiffness& joint, bool loaded) {
   Json list = Json::array();
   if (joint.bearing) {
     list.push_back({{"effect", "bearing_tilt"},
@@ -50,7 +50,24 @@ Json effectsOfJoint(const simulation::JointStiffness& joint) {
         {{"effect", effect}, {amplitude, one->amplitude}, {"cycles_per_turn", one->cycles}, {"phase_rad", one->phase}});
   };
   wave("stiffness_ripple", "share", joint.rate_wave);
-  wave("eccentric_encoder", "amplitude_rad", joint.angle_wave);
+  wave(loaded ? "eccentric_encoder" : "transmission_error", "amplitude_rad", joint.angle_wave);
+  if (joint.ratio)
+    list.push_back({{"effect", "ratio_error"}, {"share", joint.ratio->share}, {"of_joint", joint.ratio->of + 1}});
+  if (joint.lost_motion) {
+    list.push_back(
+        {{"effect", "backlash"},
+         {"width_rad", joint.lost_motion->width},
+         {"friction_nm", joint.lost_motion->friction ? number(*joint.lost_motion->friction) : Json(nullptr)}});
+  }
+  if (joint.zero_jump) {
+    list.push_back(
+        {{"effect", "slipped_belt"}, {"angle_rad", joint.zero_jump->angle}, {"from_s", joint.zero_jump->from_s}});
+  }
+  if (joint.zero_warming) {
+    list.push_back({{"effect", "zero_by_temperature"},
+                    {"rad_per_k", joint.zero_warming->per_kelvin},
+                    {"lag_s", joint.zero_warming->lag}});
+  }
   if (joint.softening) {
     list.push_back({{"effect", "warming_drives"},
                     {"share", joint.softening->share},
@@ -103,6 +120,13 @@ void addStructure(const simulation::SimulationSpec& spec, Json& list) {
                     {"translation_n_per_m", array(machine.tool_plate->translation)},
                     {"rotation_nm_per_rad", array(machine.tool_plate->rotation)}});
   }
+  if (const auto& plate = machine.loose_plate) {
+    list.push_back({{"effect", "loose_plate"},
+                    {"frame", "flange"},
+                    {"direction", array(plate->direction)},
+                    {"shift_m", array(plate->shift)},
+                    {"turn_rad", array(plate->turn)}});
+  }
   for (const simulation::SharedSpring& shared : machine.shared_springs) {
     list.push_back(
         {{"effect", "joint_coupling"},
@@ -126,7 +150,8 @@ void addStructure(const simulation::SimulationSpec& spec, Json& list) {
     list.push_back({{"effect", "thermal_growth"},
                     {"part", "link " + std::to_string(growth.joint + 1)},
                     {"growth_m", growth.growth},
-                    {"time_constant_s", growth.time_constant}});
+                    {"time_constant_s", growth.time_constant},
+                    {"growth_m_per_k", growth.per_kelvin}});
   }
   if (machine.creep) {
     list.push_back(
@@ -164,9 +189,11 @@ void addLoad(const simulation::SimulationSpec& spec, Json& list) {
   if (cell.gain_error != 0.0) list.push_back({{"effect", "load_cell_gain"}, {"gain_error", cell.gain_error}});
 }
 
-Json movedJson(const char* what, const Eigen::Isometry3d& moved, const char* frame) {
+Json movedJson(const char* what, const Eigen::Isometry3d& moved, const char* frame,
+               const std::optional<double>& from_s) {
   const Eigen::AngleAxisd turn(moved.linear());
-  return {{"effect", "frame_error"},
+  return {{"from_s", from_s ? number(*from_s) : Json(nullptr)},
+          {"effect", "frame_error"},
           {"part", what},
           {"frame", frame},
           {"shift_m", array(Eigen::Vector3d(moved.translation()))},
@@ -175,30 +202,55 @@ Json movedJson(const char* what, const Eigen::Isometry3d& moved, const char* fra
 
 void addStation(const simulation::SimulationSpec& spec, Json& list) {
   const simulation::StationSpec& station = spec.station;
-  if (!station.ramp.isZero(0.0) || !station.walk.isZero(0.0)) {
+  if (!station.ramp.isZero(0.0) || !station.walk.isZero(0.0) || !station.limit.isZero(0.0)) {
     list.push_back({{"effect", "tracker_drift"},
                     {"frame", "tracker"},
                     {"ramp_m_per_s", array(Eigen::Vector3d(station.ramp.head<3>()))},
                     {"ramp_rad_per_s", array(Eigen::Vector3d(station.ramp.tail<3>()))},
+                    {"limit_m", array(Eigen::Vector3d(station.limit.head<3>()))},
+                    {"limit_rad", array(Eigen::Vector3d(station.limit.tail<3>()))},
+                    {"limit_time_constant_s", station.limit_time},
                     {"walk_m_per_sqrt_s", array(Eigen::Vector3d(station.walk.head<3>()))},
                     {"walk_rad_per_sqrt_s", array(Eigen::Vector3d(station.walk.tail<3>()))}});
   }
-  if (station.tracker_moved) list.push_back(movedJson("tracker", *station.tracker_moved, "tracker"));
-  if (station.robot_moved) list.push_back(movedJson("robot", *station.robot_moved, "base_link"));
-  if (station.scale != 0.0 || station.scale_per_second != 0.0) {
-    list.push_back({{"effect", "refraction"}, {"scale", station.scale}, {"scale_per_s", station.scale_per_second}});
+  if (station.tracker_moved)
+    list.push_back(movedJson("tracker", *station.tracker_moved, "tracker", station.tracker_moved_s));
+  if (station.robot_moved) list.push_back(movedJson("robot", *station.robot_moved, "base_link", station.robot_moved_s));
+  if (station.scale != 0.0 || station.scale_per_second != 0.0 || station.scale_step != 0.0) {
+    list.push_back({{"effect", spec.loading ? "refraction" : "scale_error"},
+                    {"scale", station.scale},
+                    {"scale_per_s", station.scale_per_second},
+                    {"scale_step", station.scale_step},
+                    {"step_from_s", station.scale_step_s}});
+  }
+  if (station.bending != 0.0 || station.bending_per_m != 0.0) {
+    list.push_back(
+        {{"effect", "layered_air"}, {"bending_per_m", station.bending}, {"bending_per_m2", station.bending_per_m}});
+  }
+  if (spec.early_log) {
+    list.push_back({{"effect", "read_back_error"},
+                    {"after_s", spec.early_log->after},
+                    {"time_constants_s", array(spec.early_log->time_constants)}});
   }
   for (const simulation::TrueTarget& target : spec.targets) {
     if (!target.motion) continue;
     const simulation::TargetMotion& motion = *target.motion;
     Json one{{"effect", "target_motion"}, {"part", target.id}};
-    if (motion.kind == simulation::TargetMotion::Kind::compliant) {
+    using Kind = simulation::TargetMotion::Kind;
+    if (motion.kind == Kind::compliant) {
       one["kind"] = "compliant";
       one["compliance_m_per_n"] = motion.compliance;
-    } else {
-      one["kind"] = motion.kind == simulation::TargetMotion::Kind::slip ? "slip" : "proportional";
+    } else if (motion.kind == Kind::rattling) {
+      one["effect"] = "rattling_reflector";
       one["shift_m"] = array(motion.shift);
-      one["at_n"] = motion.at_force;
+    } else {
+      one["kind"] = motion.kind == Kind::slip ? "slip" : motion.kind == Kind::reseated ? "reseated" : "proportional";
+      one["shift_m"] = array(motion.shift);
+      if (motion.kind == Kind::reseated) {
+        one["from_s"] = motion.from_s;
+      } else {
+        one["at_n"] = motion.at_force;
+      }
     }
     list.push_back(one);
   }
@@ -267,7 +319,7 @@ Json noiseJson(const simulation::SimulationSpec& spec) {
 Json trueEffectsJson(const simulation::SimulationSpec& spec) {
   Json list = Json::array();
   for (std::size_t i = 0; i < 6; ++i) {
-    for (Json& one : effectsOfJoint(spec.machine.joints[i])) {
+    for (Json& one : effectsOfJoint(spec.machine.joints[i], spec.loading.has_value())) {
       Json named{{"effect", one["effect"]}, {"part", jointName(i)}};
       named.update(one);
       list.push_back(std::move(named));

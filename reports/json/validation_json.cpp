@@ -84,6 +84,7 @@ Json blindJson(const validation::BlindOptions& options, const validation::BlindR
             {"answers_sha256", result.answers_hash},
             {"seed", options.seed},
             {"as_is_share", options.as_is_share}};
+  if (options.unloaded) json["unloaded"] = true;
   json["cases"] = Json::array();
   for (const validation::ScoredCase& one : score.cases) json["cases"].push_back(caseJson(one));
   json["confusion"] = {

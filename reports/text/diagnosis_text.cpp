@@ -13,6 +13,7 @@
 #include "core/diagnosis/diagnosis.h"
 #include "core/diagnosis/spike_study.h"
 #include "core/io/units.h"
+#include "reports/text/gap_text.h"
 #include "reports/words/effect_words.h"
 #include "reports/words/names.h"
 #include "reports/words/numbers.h"
@@ -48,12 +49,6 @@ namespace {
 
 using Out = std::back_insert_iterator<std::string>;
 
-double um(double metres) { return metres / io::kMicrometre; }
-
-std::string interval(const diagnosis::Shrink& shrink) {
-  return fmt::format("{:.3f} to {:.3f}", unsignedZero(shrink.low, 3), unsignedZero(shrink.high, 3));
-}
-
 void writeClasses(const diagnosis::Diagnosis& diagnosis, Out out) {
   if (diagnosis.classes.empty()) return;
   fmt::format_to(out, "\nWhich: candidates, and what each takes off the deflection's gap on postures held out\n");
@@ -61,28 +56,13 @@ void writeClasses(const diagnosis::Diagnosis& diagnosis, Out out) {
   for (const diagnosis::EffectClass& one : diagnosis.classes) {
     fmt::format_to(out, "  {:<2}{:<44}{:>12.0f}{:>9.3f}  {:<17}{:>10.3f}\n", one.in_verdict ? "*" : "",
                    effectIds(one.effects), unsignedZero(one.score, 0), unsignedZero(one.shrink.value, 3),
-                   interval(one.shrink), unsignedZero(one.explained, 3));
+                   shrinkInterval(one.shrink), unsignedZero(one.explained, 3));
     if (!one.in_verdict) continue;
     if (!one.detail.empty()) fmt::format_to(out, "    {}\n", wrapped(one.detail, 4));
     if (!one.parameters.empty()) fmt::format_to(out, "    {}\n", wrapped(words(one.parameters), 4));
     if (diagnosis.positions_tested)
       fmt::format_to(out, "    absolute positions: shrink {:.3f} ({})\n",
-                     unsignedZero(one.shrink_of_positions.value, 3), interval(one.shrink_of_positions));
-  }
-}
-
-void writeTables(const std::vector<diagnosis::WhereTable>& tables, const char* title, Out out) {
-  if (tables.empty()) return;
-  fmt::format_to(out, "\n{}\n", title);
-  constexpr std::size_t kMostRows = 8;
-  for (const diagnosis::WhereTable& table : tables) {
-    if (table.rows.size() > kMostRows) continue;  // postures: in the JSON
-    fmt::format_to(out, "  {:<24}{:>10}{:>10}{:>9}{:>14}\n", "by " + table.by, "rms, um", "noise", "share", "sd above");
-    for (const diagnosis::WhereRow& row : table.rows) {
-      fmt::format_to(out, "    {:<22}{:>10.1f}{:>10.1f}{:>8.0f}%{:>14}\n", row.name, um(row.rms), um(row.noise),
-                     100.0 * row.share, deviateWords(row.significance));
-    }
-    if (table.overlaps) fmt::format_to(out, "    {}\n", wrapped(overlapWords(table), 4));
+                     unsignedZero(one.shrink_of_positions.value, 3), shrinkInterval(one.shrink_of_positions));
   }
 }
 
@@ -154,8 +134,8 @@ std::string diagnosisText(const campaign::Campaign& campaign, const diagnosis::D
   writeClasses(diagnosis, out);
   for (const auto& group : diagnosis.aliases)
     fmt::format_to(out, "  These postures and loads cannot always separate: {}\n", wrapped(effectIds(group), 4));
-  writeTables(diagnosis.where, "Where the deflection's gap lies", out);
-  writeTables(diagnosis.where_positions, "Where the gap of unloaded positions lies", out);
+  text += whereText(diagnosis.where, "Where the deflection's gap lies");
+  text += whereText(diagnosis.where_positions, "Where the gap of unloaded positions lies");
   writeStiffnesses(diagnosis, out);
   writeLimits(diagnosis, out);
   return text + nextText(diagnosis.next);

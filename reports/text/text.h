@@ -5,6 +5,9 @@
 
 // Results for a terminal: plain text, no line over 100 columns but for names from the campaign.
 
+namespace stiffscope::accuracy {
+struct AccuracyDiagnosis;
+}
 namespace stiffscope::audit {
 struct AuditReport;
 }
@@ -54,6 +57,9 @@ struct ShapeFit;
 /// The audit for people: a table of the checks, then what those that did not pass say, then the rejected
 /// readings.
 std::string auditText(const campaign::Campaign& campaign, const audit::AuditReport& report);
+
+/// The result of `diagnose` on a day without a load.
+std::string accuracyText(const campaign::Campaign& campaign, const accuracy::AccuracyDiagnosis& accuracy);
 
 /// The result of `calibrate` for a terminal.
 std::string calibrationText(const campaign::Campaign& campaign, const calibration::Calibration& calibration,

@@ -58,15 +58,15 @@ std::vector<JointStiffness> stiffnessOf(const calibration::ArmFit& fit) {
   std::vector<JointStiffness> joints(6);
   Eigen::Index k = 0;
   for (const calibration::EffectPart& part : fit.parts) {
-    const bool joint = part.effect == calibration::UnloadedEffect::joint_compliance;
-    const double compliance = fit.sizes[k];
-    if (joint && compliance > 0.0) {
-      // The detail is "joint 1".."joint 6".
-      JointStiffness& of = joints.at(static_cast<std::size_t>(part.detail.back() - '1'));
-      of.value = 1.0 / compliance;
-      of.sd = fit.sd(static_cast<int>(fit.steps.size() + k)) / (compliance * compliance);
+    for (const calibration::EffectTerm& term : part.terms) {
+      const double compliance = fit.sizes[k];
+      if (term.compliance_of >= 0 && part.effect == calibration::UnloadedEffect::joint_compliance && compliance > 0.0) {
+        JointStiffness& of = joints.at(static_cast<std::size_t>(term.compliance_of));
+        of.value = 1.0 / compliance;
+        of.sd = fit.sd(static_cast<int>(fit.steps.size() + k)) / (compliance * compliance);
+      }
+      ++k;
     }
-    k += static_cast<Eigen::Index>(part.terms.size());
   }
   return joints;
 }

@@ -12,6 +12,8 @@
 #include "core/identification/estimate.h"
 #include "core/numerics/distributions.h"
 
+#include "core/io/units.h"
+
 namespace stiffscope::reports {
 
 Coverage coverageOf(const identification::StiffnessEstimate& estimate, int joint) {
@@ -124,5 +126,7 @@ std::string wrapped(const std::string& text, std::size_t indent) {
   }
   return result;
 }
+
+double um(double metres) { return metres / io::kMicrometre; }
 
 }  // namespace stiffscope::reports

@@ -58,4 +58,6 @@ inline double unsignedZero(double value, int decimals) {
 /// Text broken at blanks to lines of at most 98 columns, those after the first indented by `indent` blanks.
 std::string wrapped(const std::string& text, std::size_t indent);
 
+double um(double metres);  ///< in micrometres
+
 }  // namespace stiffscope::reports

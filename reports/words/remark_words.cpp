@@ -21,6 +21,7 @@ std::pair<const std::type_index, FamilyWords> of() {
 
 const std::unordered_map<std::type_index, FamilyWords>& families() {
   static const std::unordered_map<std::type_index, FamilyWords> all{
+      of<accuracy::RemarkId, &accuracyWords>(),
       of<audit::RemarkId, &auditWords>(),
       of<calibration::RemarkId, &calibrationWords>(),
       of<comparison::RemarkId, &comparisonWords>(),

@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "core/accuracy/remarks.h"
 #include "core/audit/remarks.h"
 #include "core/calibration/remarks.h"
 #include "core/comparison/remarks.h"
@@ -21,6 +22,7 @@ namespace stiffscope::reports {
 
 // One function a library: the sentence for each of its remarks, by a switch without a default, so that the compiler
 // warns of a remark without words. Defined in the file that bears the library's name (audit_remarks.cpp).
+std::string accuracyWords(accuracy::RemarkId id, const RemarkValues& values);
 std::string auditWords(audit::RemarkId id, const RemarkValues& values);
 std::string calibrationWords(calibration::RemarkId id, const RemarkValues& values);
 std::string comparisonWords(comparison::RemarkId id, const RemarkValues& values);

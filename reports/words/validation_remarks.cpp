@@ -55,7 +55,7 @@ std::string validationWords(validation::RemarkId id, const RemarkValues&) {
     case doubles_one_found:
       return "doubles: at least one";
     case details_right:
-      return "pair or reflector named as it is, where the effect is right";
+      return "joint, pair or reflector named as it is, where the effect is right";
     case cases_failed:
       return "no answer at all";
     case shrinks_seen_covered:

@@ -37,6 +37,18 @@ TEST(BlindReport, pageIsWellFormedAndSelfContained) {
   EXPECT_EQ(page.find("<script"), std::string::npos);
 }
 
+TEST(BlindReport, pageOfDaysWithoutALoadSaysSo) {
+  validation::BlindOptions options;
+  options.unloaded = true;
+  const std::string page = page::blindPage(options, smallResult());
+  tinyxml2::XMLDocument document;
+  ASSERT_EQ(document.Parse(page.c_str()), tinyxml2::XML_SUCCESS) << document.ErrorStr();
+  EXPECT_NE(page.find("2 simulated machines on days without a load"), std::string::npos);
+  EXPECT_EQ(page.find("wrist sweep"), std::string::npos);
+  EXPECT_EQ(reports::blindJson(options, smallResult())["unloaded"], true);
+  EXPECT_FALSE(reports::blindJson({}, smallResult()).contains("unloaded"));
+}
+
 TEST(BlindReport, jsonHasWhatTheContractAsks) {
   const reports::Json json = reports::blindJson({}, smallResult());
   EXPECT_EQ(json["seal"], std::string(64, 'a'));

@@ -67,6 +67,43 @@ TEST(TruthJson, NamesEachEffectWithItsParameters) {
   EXPECT_EQ(effectsCalled(truth, "target_motion").at(0)["part"], "P12");
 }
 
+// samples/unloaded.xml: joints 2 and 3 give, the gear of joint 2 is uneven 17.25 times a turn.
+TEST(TruthJson, NamesEffectsOfADayWithoutALoadByItsVocabulary) {
+  simulation::SimulationSpec spec = simulation::readSimulationSpec(STIFFSCOPE_SOURCE_DIR "/samples/unloaded.xml");
+  const reports::Json sample = reports::truthJson(spec);
+  ASSERT_EQ(sample["effects"].size(), 1u);
+  EXPECT_EQ(effectsCalled(sample, "transmission_error").at(0)["part"], "joint 2");
+  EXPECT_EQ(effectsCalled(sample, "transmission_error").at(0)["cycles_per_turn"], 17.25);
+  spec.machine.joints[1].angle_wave.reset();
+  spec.machine.joints[4].ratio = simulation::JointRatio{1e-4, 3};
+  spec.machine.joints[0].lost_motion = simulation::LostMotion{2e-4, {}};
+  spec.machine.joints[2].zero_jump = simulation::ZeroJump{1e-4, 60.0};
+  spec.machine.joints[3].zero_warming = simulation::ZeroWarming{1e-5, 300.0};
+  spec.early_log = simulation::EarlyLog{0.3};
+  spec.machine.loose_plate = simulation::LoosePlate{};
+  spec.machine.growths = {{1, 0.0, 1.0, 1e-5}};
+  spec.station.scale_step = 1e-5;
+  spec.station.bending = 1e-6;
+  spec.station.tracker_moved = Eigen::Isometry3d(Eigen::Translation3d(1e-4, 0, 0));
+  spec.station.tracker_moved_s = 500.0;
+  spec.targets[0].motion = simulation::TargetMotion{simulation::TargetMotion::Kind::reseated, {1e-5, 0, 0}};
+  spec.targets[1].motion = simulation::TargetMotion{simulation::TargetMotion::Kind::rattling, {0, 1e-5, 0}};
+  const reports::Json truth = reports::truthJson(spec);
+  EXPECT_EQ(truth["effects"].size(), 12u);
+  EXPECT_EQ(effectsCalled(truth, "ratio_error").at(0)["of_joint"], 4);
+  EXPECT_TRUE(effectsCalled(truth, "backlash").at(0)["friction_nm"].is_null());
+  EXPECT_EQ(effectsCalled(truth, "slipped_belt").at(0)["from_s"], 60.0);
+  EXPECT_EQ(effectsCalled(truth, "zero_by_temperature").at(0)["part"], "joint 4");
+  EXPECT_EQ(effectsCalled(truth, "read_back_error").at(0)["after_s"], 0.3);
+  EXPECT_EQ(effectsCalled(truth, "loose_plate").size(), 1u);
+  EXPECT_EQ(effectsCalled(truth, "thermal_growth").at(0)["growth_m_per_k"], 1e-5);
+  EXPECT_EQ(effectsCalled(truth, "scale_error").at(0)["scale_step"], 1e-5);
+  EXPECT_EQ(effectsCalled(truth, "layered_air").size(), 1u);
+  EXPECT_EQ(effectsCalled(truth, "frame_error").at(0)["from_s"], 500.0);
+  EXPECT_EQ(effectsCalled(truth, "target_motion").at(0)["kind"], "reseated");
+  EXPECT_EQ(effectsCalled(truth, "rattling_reflector").at(0)["part"], "P11");
+}
+
 // Axis 3 of the true arm is moved out by 2 mm along the upper arm and nothing else is off: that link is 2 mm longer,
 // the others and R0 are the nominal ones.
 TEST(TruthJson, GeometryIsTheTrueOneInR0) {

@@ -10,7 +10,8 @@ namespace diagnose_accuracy_test {
 TEST(DiagnoseAccuracy, ACleanDayIsNone) {
   Noise noise(11);
   const UnloadedSpec spec = builtOtherwise(noise);
-  const accuracy::AccuracyDiagnosis result = accuracy::diagnoseAccuracy(unloadedCampaign(spec, noise));
+  const accuracy::AccuracyDiagnosis result =
+      accuracy::diagnoseAccuracy(preparation::prepareCampaign(unloadedCampaign(spec, noise)));
   ASSERT_TRUE(result.usable);
   EXPECT_TRUE(result.verdict.empty());
   EXPECT_GT(result.gap.nominal, 5.0 * result.gap.before);

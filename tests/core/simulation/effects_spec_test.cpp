@@ -175,7 +175,7 @@ TEST_F(SimulationEffectsSpec, refusesWhatADayCannotHave) {
             "walk_mm_per_sqrt_h: '0 -1 0': expected three numbers not below 0");
   EXPECT_EQ(complaint("<station><tracker_moved/></station>"), "tracker_moved: expected xyz_mm or rpy_deg");
   EXPECT_EQ(complaint("", "", "stiffness_nm_per_rad='3e6'", "<motion kind='slips' shift_um='1 0 0' at_n='1'/>"),
-            "kind: 'slips': expected one of proportional, slip, compliant (did you mean 'slip'?)");
+            "kind: 'slips': expected one of proportional, slip, compliant, reseated, rattling (did you mean 'slip'?)");
   EXPECT_EQ(complaint("", "", "stiffness_nm_per_rad='3e6'", "<motion kind='slip' shift_um='1 0 0' at_n='0'/>"),
             "at_n: '0': expected a number above 0");
   EXPECT_EQ(complaint("", "", "stiffness_nm_per_rad='3e6'", "", "<swing angle_deg='1' period_s='0'/>"),

@@ -19,10 +19,10 @@ namespace floor_test {
 namespace fs = std::filesystem;
 
 /// The verdict without its intervals, which cost most and are not judged here.
-validation::DiagnosisAnswer verdictAlone(const campaign::Campaign& campaign) {
+diagnosis::Verdict verdictAlone(const campaign::Campaign& campaign) {
   diagnosis::DiagnoseOptions options;
   options.verdict_only = true;
-  return {diagnosis::diagnose(campaign, options).verdict, {}};
+  return diagnosis::diagnose(campaign, options).verdict;
 }
 
 /// Fewest hits that chance leaves at a true rate `p`, but for one run in two hundred: the least h with
@@ -66,7 +66,9 @@ TEST(BlindFloor, fortyMachines) {
   options.seed = 20261123;
   options.out = folder;
   options.discard = true;
-  const validation::Score score = validation::runBlind(options, verdictAlone).score;
+  const validation::Score score = validation::runBlind(options, [](const auto& campaign) {
+                                    return validation::answerOf(verdictAlone(campaign));
+                                  }).score;
   fs::remove_all(folder);
   EXPECT_EQ(score.rate("failed").hits, 0);
   expectFloor(score, "singles_first_from_2", 0.95);
@@ -88,10 +90,10 @@ TEST(BlindFloor, everyEffectIsNamedWhereItIsLarge) {
   numerics::onAllCores(effects::kEffectCount, [&](std::size_t e) {
     const auto effect = static_cast<effects::Effect>(e);
     const double size = effect == effects::Effect::kinematic_error ? kGeometry : kLarge;
-    const validation::CasePlan plan{validation::CaseKind::single, {effect}, "", size};
+    const validation::CasePlan plan{validation::CaseKind::single, {std::string(effects::idOf(effect))}, "", size};
     const validation::BlindCase one =
         validation::drawCase(plan, 100 + e, "case", folder / std::to_string(e) / "robot.urdf");
-    const diagnosis::Verdict verdict = verdictAlone(simulation::simulate(one.spec)).verdict;
+    const diagnosis::Verdict verdict = verdictAlone(simulation::simulate(one.spec));
     for (const diagnosis::VerdictEntry& entry : verdict.entries) {
       for (const effects::Effect member : entry.effects) said[e] += std::string(effects::idOf(member)) + " ";
       said[e] += "(" + entry.detail + "); ";

@@ -227,8 +227,9 @@ TEST(BlindTables, labelsAndAnswersSurviveWriting) {
   best.effects = {effects::Effect::hysteresis, effects::Effect::backlash};
   best.shrink = {0.5, 0.25, 0.75};
   const std::vector<diagnosis::EffectClass> classes{best};
-  const std::vector<validation::Answer> given{validation::answerOf("0001", {verdict, classes}),
-                                              validation::answerOf("0002", {})};
+  std::vector<validation::Answer> given{validation::answerOf(verdict, classes), {}};
+  given[0].name = "0001";
+  given[1].name = "0002";
   const std::vector<validation::Answer> frozen = validation::readAnswers("answers.csv", validation::answersCsv(given));
   ASSERT_EQ(frozen.size(), 2u);
   EXPECT_EQ(frozen[0].entries.at(0).effects, (std::vector<std::string>{"hysteresis", "backlash"}));

@@ -1,0 +1,166 @@
+#include "core/calibration/linearised_day.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+#include "metrology/linear_algebra.h"
+
+namespace stiffscope::calibration {
+
+LinearisedDay::LinearisedDay(const UnloadedDay& day, const ArmFit& geometry, LinearisationOptions options)
+    : day_(day), fit_(geometry), options_(std::move(options)) {
+  choosePostures(geometry);
+  gather(geometry);
+}
+
+void LinearisedDay::choosePostures(const ArmFit& geometry) {
+  std::vector<std::size_t> usable;
+  std::size_t reading = 0;
+  for (std::size_t i = 0; i < day_.postures.size(); ++i) {
+    first_reading_.push_back(reading);
+    bool any = false;
+    for (std::size_t k = 0; k < day_.postures[i].readings.size(); ++k, ++reading)
+      any = any || geometry.weights[reading] > 0.0;
+    if (any) usable.push_back(i);
+  }
+  constexpr std::size_t kTogether = 4;
+  const std::size_t most = std::max<std::size_t>(1, options_.most_postures);
+  const std::size_t every = std::max<std::size_t>(1, (usable.size() + most - 1) / most);
+  for (std::size_t k = 0; k < usable.size(); ++k) {
+    if ((k / kTogether) % every == 0) postures_.push_back(usable[k]);
+  }
+}
+
+void LinearisedDay::gather(const ArmFit& geometry) {
+  Eigen::Index rows = 0;
+  for (const std::size_t i : postures_) {
+    equations_.push_back(equationsOf(day_, geometry, i, first_reading_[i]));
+    first_row_.push_back(rows);
+    rows += equations_.back().residual.size();
+    fold_.push_back(options_.inner_fold(day_.postures[i].pose));
+  }
+  const auto parameters = static_cast<Eigen::Index>(geometry.free.size());
+  Eigen::MatrixXd jacobian(rows, parameters);
+  residual_.resize(rows);
+  for (std::size_t k = 0; k < postures_.size(); ++k) {
+    jacobian.middleRows(first_row_[k], equations_[k].residual.size()) = equations_[k].by_parameters;
+    residual_.segment(first_row_[k], equations_[k].residual.size()) = equations_[k].residual;
+  }
+  // Orthonormal basis of what geometry can do, by way of the normal matrix of columns of length one.
+  const Eigen::VectorXd length = jacobian.colwise().norm();
+  for (Eigen::Index k = 0; k < parameters; ++k) jacobian.col(k) /= std::max(1e-300, length[k]);
+  const SymmetricEigen eigen = symmetricEigen(jacobian.transpose() * jacobian);
+  constexpr double kNothing = 1e-9;
+  Eigen::Index rank = 0;
+  for (Eigen::Index k = 0; k < parameters; ++k) rank += eigen.values[k] > kNothing ? 1 : 0;
+  basis_ = jacobian * eigen.vectors.rightCols(rank) * eigen.values.tail(rank).cwiseSqrt().cwiseInverse().asDiagonal();
+  residual_ -= basis_ * (basis_.transpose() * residual_);
+}
+
+double LinearisedDay::timeBefore(std::size_t k) const {
+  return (day_.postures[postures_[k]].time + day_.postures[postures_[k - 1]].time) / 2.0;
+}
+
+LinearModel LinearisedDay::geometryAlone() const {
+  LinearModel model;
+  model.directions.resize(residual_.size(), 0);
+  model.residual = residual_;
+  return model;
+}
+
+Eigen::MatrixXd LinearisedDay::columnsOf(const std::vector<EffectTerm>& terms) const {
+  Eigen::MatrixXd columns(residual_.size(), static_cast<Eigen::Index>(terms.size()));
+  for (std::size_t k = 0; k < postures_.size(); ++k) {
+    columns.middleRows(first_row_[k], equations_[k].residual.size()) =
+        calibration::columnsOf(day_, fit_, postures_[k], equations_[k], terms);
+  }
+  return columns;
+}
+
+Eigen::MatrixXd LinearisedDay::acrossGeometry(const Eigen::MatrixXd& columns) const {
+  return columns - basis_ * (basis_.transpose() * columns);
+}
+
+void LinearisedDay::add(EffectPart part, const Eigen::MatrixXd& columns, const Eigen::VectorXd& lengths, double penalty,
+                        LinearModel& model) const {
+  for (Eigen::Index k = 0; k < columns.cols(); ++k) {
+    Eigen::VectorXd direction = columns.col(k);
+    // Twice is enough (Kahan, Parlett).
+    for (int turn = 0; turn < 2; ++turn) direction -= model.directions * (model.directions.transpose() * direction);
+    const double length = direction.norm();
+    if (!(length > kAliased * lengths[k])) continue;
+    direction /= length;
+    model.directions.conservativeResize(Eigen::NoChange, model.directions.cols() + 1);
+    model.directions.rightCols<1>() = direction;
+    model.residual -= direction * direction.dot(model.residual);
+  }
+  model.penalty += penalty;
+  model.parts.push_back(std::move(part));
+}
+
+double LinearisedDay::designEffect(const Eigen::VectorXd& residual) const {
+  double together = 0.0, apart = 0.0;
+  for (std::size_t k = 0; k < postures_.size(); ++k) {
+    const auto own = residual.segment(first_row_[k], equations_[k].residual.size());
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    for (Eigen::Index row = 0; row < own.size(); row += 3) sum += own.segment<3>(row);
+    together += sum.squaredNorm();
+    apart += own.squaredNorm();
+  }
+  return apart > 0.0 ? std::max(1.0, together / apart) : 1.0;
+}
+
+std::vector<double> LinearisedDay::heldOutByPosture(const LinearModel& model) const {
+  const Eigen::Index of_geometry = basis_.cols(), width = of_geometry + model.directions.cols();
+  struct Normal {
+    Eigen::MatrixXd matrix;
+    Eigen::VectorXd right;
+  };
+  const auto folds = static_cast<std::size_t>(options_.inner_folds);
+  std::vector<Normal> normals(folds, {Eigen::MatrixXd::Zero(width, width), Eigen::VectorXd::Zero(width)});
+  Eigen::MatrixXd columns;
+  // Calls with the columns of postures in a row that are of one fold.
+  const auto forEachRun = [&](const auto& work) {
+    for (std::size_t k = 0; k < postures_.size();) {
+      std::size_t end = k + 1;
+      while (end < postures_.size() && fold_[end] == fold_[k]) ++end;
+      const Eigen::Index from = first_row_[k], rows = first_row_[end - 1] + equations_[end - 1].residual.size() - from;
+      columns.resize(rows, width);
+      columns.leftCols(of_geometry) = basis_.middleRows(from, rows);
+      columns.rightCols(width - of_geometry) = model.directions.middleRows(from, rows);
+      work(k, end, from, rows);
+      k = end;
+    }
+  };
+  forEachRun([&](std::size_t k, std::size_t, Eigen::Index from, Eigen::Index rows) {
+    Normal& normal = normals[static_cast<std::size_t>(fold_[k])];
+    normal.matrix.noalias() += columns.transpose() * columns;
+    normal.right.noalias() += columns.transpose() * model.residual.segment(from, rows);
+  });
+  Normal all = normals.front();
+  for (std::size_t f = 1; f < folds; ++f) all.matrix += normals[f].matrix, all.right += normals[f].right;
+  constexpr double kDamping = 1e-9;  // of what the whole day sees: a fold that cannot see a direction leaves it
+  std::vector<Eigen::VectorXd> sizes;
+  for (const Normal& normal : normals) {
+    Eigen::MatrixXd others = all.matrix - normal.matrix;
+    others.diagonal() += kDamping * all.matrix.diagonal();
+    sizes.push_back(solveSymmetric(others, Eigen::VectorXd(all.right - normal.right)));
+  }
+  std::vector<double> squares;
+  forEachRun([&](std::size_t k, std::size_t end, Eigen::Index from, Eigen::Index rows) {
+    const Eigen::VectorXd left =
+        model.residual.segment(from, rows) - columns * sizes[static_cast<std::size_t>(fold_[k])];
+    for (std::size_t p = k; p < end; ++p)
+      squares.push_back(left.segment(first_row_[p] - from, equations_[p].residual.size()).squaredNorm());
+  });
+  return squares;
+}
+
+double LinearisedDay::heldOut(const LinearModel& model) const {
+  const std::vector<double> squares = heldOutByPosture(model);
+  return std::accumulate(squares.begin(), squares.end(), 0.0);
+}
+
+}  // namespace stiffscope::calibration

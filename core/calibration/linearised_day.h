@@ -1,0 +1,80 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <functional>
+#include <vector>
+
+#include "core/calibration/fitted_day.h"
+
+namespace stiffscope::calibration {
+
+/// Effects beside the geometry, as far as they are linear about it: what is left and what was spent on it.
+struct LinearModel {
+  std::vector<EffectPart> parts = {};
+  Eigen::MatrixXd directions;  ///< orthonormal, across the geometry: what the parts can do
+  Eigen::VectorXd residual;    ///< whitened
+  double penalty = 0.0;        ///< of BIC, and of the alternatives that were tried
+
+  double squares() const { return residual.squaredNorm(); }
+};
+
+/// How the postures that take part are chosen and divided.
+struct LinearisationOptions {
+  std::size_t most_postures = 2000;  ///< evenly chosen, neighbours by fours: what comes in pairs is not split
+  int inner_folds = 5;
+  std::function<int(int pose)> inner_fold;  ///< of each posture, by its place in the campaign
+};
+
+/// A day's readings as linear equations about a fit of the geometry, whitened by the noise of that fit, with what the
+/// geometry can do projected off. Readings of weight 0 in the fit take no part.
+class LinearisedDay {
+ public:
+  /// Keeps references to both.
+  LinearisedDay(const UnloadedDay& day, const ArmFit& geometry, LinearisationOptions options);
+
+  const UnloadedDay& day() const { return day_; }
+  const std::vector<std::size_t>& postures() const { return postures_; }  ///< places in the day's
+  const std::vector<PostureEquations>& equations() const { return equations_; }
+  Eigen::Index firstRow(std::size_t k) const { return first_row_[k]; }
+  Eigen::Index rows() const { return residual_.size(); }
+  const Eigen::MatrixXd& geometry() const { return basis_; }  ///< orthonormal
+  double timeBefore(std::size_t k) const;                     ///< between that posture and the one before
+
+  LinearModel geometryAlone() const;
+
+  /// Whitened columns of terms, the geometry not yet projected off.
+  Eigen::MatrixXd columnsOf(const std::vector<EffectTerm>& terms) const;
+  Eigen::MatrixXd acrossGeometry(const Eigen::MatrixXd& columns) const;
+
+  /// Adds a part's columns (across the geometry; `lengths` before that was projected off) to a model. Columns that the
+  /// geometry and the model can do themselves add nothing.
+  void add(EffectPart part, const Eigen::MatrixXd& columns, const Eigen::VectorXd& lengths, double penalty,
+           LinearModel& model) const;
+
+  /// By how much reflectors of one posture err together in a residual, one at least: variance of their sum.
+  double designEffect(const Eigen::VectorXd& residual) const;
+
+  /// Squared residuals of each posture, each inner fold by what the others fit, geometry included; and their sum.
+  std::vector<double> heldOutByPosture(const LinearModel& model) const;
+  double heldOut(const LinearModel& model) const;
+
+  static constexpr double kAliased = 1e-3;  ///< of a column's length: what is left of it is nothing of its own
+
+ private:
+  void choosePostures(const ArmFit& geometry);
+  void gather(const ArmFit& geometry);
+
+  const UnloadedDay& day_;
+  const ArmFit& fit_;
+  LinearisationOptions options_;
+  std::vector<std::size_t> first_reading_;  ///< of each posture of the day
+  std::vector<std::size_t> postures_;
+  std::vector<PostureEquations> equations_;
+  std::vector<Eigen::Index> first_row_;
+  std::vector<int> fold_;
+  Eigen::MatrixXd basis_;
+  Eigen::VectorXd residual_;
+};
+
+}  // namespace stiffscope::calibration

@@ -1,0 +1,67 @@
+#include "core/validation/day_kind.h"
+
+#include <memory>
+#include <stdexcept>
+
+#include "core/effects/effect.h"
+#include "core/validation/geometry_sizer.h"
+
+namespace stiffscope::validation {
+
+namespace {
+
+effects::Effect knownEffect(const std::string& id) {
+  const std::optional<effects::Effect> effect = effects::effectOf(id);
+  if (!effect) throw std::invalid_argument("no effect is called '" + id + "'");
+  return *effect;
+}
+
+template <class Sizer>
+Sizing sizingBy(const simulation::SimulationSpec& clean) {
+  const auto sizer = std::make_shared<const Sizer>(clean);
+  return {[sizer](const simulation::SimulationSpec& with) { return sizer->measure(with); }, sizer->background()};
+}
+
+}  // namespace
+
+const DayKind& loadedDays() {
+  static const DayKind days = [] {
+    DayKind kind;
+    kind.vocabulary.effects.assign(effects::kEffectIds.begin(), effects::kEffectIds.end());
+    kind.vocabulary.outside = outsideKinds();
+    kind.vocabulary.placed = {"joint_coupling", "target_motion"};
+    kind.vocabulary.shrinks = "deflection";
+    kind.as_is = {{"bearing_tilt", "link_compliance", "base_compliance", "hysteresis"},
+                  {"bearing_tilt", "link_compliance"}};
+    kind.machine = drawMachine;
+    kind.effect = [](const std::string& id, const auto& machine, auto& random) {
+      return drawEffect(knownEffect(id), machine, random);
+    };
+    kind.outside = drawOutside;
+    kind.as_is_effect = [](const std::string& id, const auto& machine, auto& random) {
+      return drawAsIs(knownEffect(id), machine, random);
+    };
+    kind.sizing = sizingBy<EffectSizer>;
+    return kind;
+  }();
+  return days;
+}
+
+const DayKind& unloadedDays() {
+  static const DayKind days = [] {
+    DayKind kind;
+    kind.vocabulary.effects = unloadedEffects();
+    kind.vocabulary.outside = unloadedOutsideKinds();
+    kind.vocabulary.placed = {"transmission_error", "ratio_error", "target_motion"};
+    kind.vocabulary.brings = {{"gravity_compensator", {"joint_compliance"}}};
+    kind.vocabulary.shrinks = "positions";
+    kind.machine = drawUnloadedMachine;
+    kind.effect = drawUnloadedEffect;
+    kind.outside = drawUnloadedOutside;
+    kind.sizing = sizingBy<GeometrySizer>;
+    return kind;
+  }();
+  return days;
+}
+
+}  // namespace stiffscope::validation
