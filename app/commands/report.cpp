@@ -158,7 +158,7 @@ struct Result {
     prepared = arguments.raw ? preparation::leaveRaw(std::move(read)) : preparation::prepareCampaign(std::move(read));
     loaded = identification::whatLoadsLack(prepared.campaign).empty();
     if (!loaded && isUnloadedDay(prepared.campaign))
-      accuracy = accuracy::diagnoseAccuracy(prepared.campaign, calibration::CalibrationOptions());
+      accuracy = accuracy::diagnoseAccuracy(prepared, calibration::CalibrationOptions());
     if (loaded) improved = modelOf(prepared, arguments.model, options);
     if (loaded) diagnosis = diagnosisOf(prepared, improved);
     if (!improved) {

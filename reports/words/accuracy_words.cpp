@@ -167,7 +167,10 @@ std::vector<std::string> accuracyActions(const accuracy::AccuracyDiagnosis& accu
       add(fmt::format("{}{}: {}.", doubt, *doubt ? name : capitalised(name), effectRemedy(effect)));
     }
   }
-  for (const Remark& one : accuracy.next) add(capitalised(withMicro(words(one))) + ".");
+  for (const Remark& one : accuracy.next) {
+    const std::string sentence = capitalised(withMicro(words(one)));
+    add(sentence.ends_with('.') ? sentence : sentence + ".");
+  }
   const calibration::Calibration& calibration = accuracy.calibration;
   if (calibration.reason.empty() && !calibration.models.empty()) {
     const double nominal = calibration.of(CalibratedModel::nominal).held_out.rms;

@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
-// What verdicts of loaded and of unloaded days have in common: entries of effects with a detail. The effects' own
-// names (effectName) are those of their vocabulary.
+// What verdicts of loaded and of unloaded days have in common: entries of effects with a detail. The effects'
+// ids (idOf) are those of their vocabulary.
 
 namespace stiffscope::reports {
 
@@ -20,7 +20,7 @@ std::string shortDetail(const std::string& detail);
 template <class Effect>
 std::string namesJoined(const std::vector<Effect>& effects, const char* between) {
   std::string names;
-  for (const Effect effect : effects) names += (names.empty() ? "" : between) + effectName(effect);
+  for (const Effect effect : effects) names += (names.empty() ? "" : between) + nameOfId(idOf(effect));
   return names;
 }
 

@@ -23,12 +23,16 @@ constexpr const char* kByOwnWeight =
 
 /// In the order of UnloadedEffect.
 constexpr std::array kUnloadedWords{
+    UnloadedWords{UnloadedEffect::kinematic_error, "lengths, directions or joint zeros differ from the URDF",
+                  "use the calibrated geometry instead of the URDF's"},
     UnloadedWords{UnloadedEffect::joint_compliance, "joints twist under the weight of arm and tool", kByOwnWeight},
     UnloadedWords{UnloadedEffect::link_compliance, "a link bends and twists under its own weight", kByOwnWeight},
     UnloadedWords{UnloadedEffect::bearing_tilt, "a joint also gives about the two directions across its axis",
                   kByOwnWeight},
     UnloadedWords{UnloadedEffect::base_compliance, "pedestal or floor gives under the arm's weight",
                   "check the anchors, with one reflector on the pedestal and one on the floor beside it"},
+    UnloadedWords{UnloadedEffect::gravity_compensator, "a spring on axis 2 carries a share that depends on the posture",
+                  "have the compensator's spring stated or set, and keep it in the model"},
     UnloadedWords{
         UnloadedEffect::transmission_error,
         "a joint's angle is off by something periodic in that angle, as an eccentric gear or encoder ring or "

@@ -79,7 +79,7 @@ TEST(UnloadedReport, SpeaksOfAccuracy) {
     expectDrawn(out / (std::string(name) + ".png"));
   const json results = json::parse(contentsOf(out / "results.json"));
   const json& campaign = results["campaigns"][0];
-  for (const char* key : {"preparation", "audit", "frames", "identify", "calibration"})
+  for (const char* key : {"preparation", "audit", "frames", "identify", "calibration", "diagnosis"})
     EXPECT_TRUE(campaign.contains(key)) << key;
   EXPECT_EQ(campaign["calibration"]["postures"], 19);
   for (const json& name : results["files"]) EXPECT_TRUE(fs::exists(out / name.get<std::string>())) << name;

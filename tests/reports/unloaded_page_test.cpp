@@ -138,6 +138,7 @@ TEST(UnloadedPage, ResultsHaveTheCalibration) {
   const reports::JsonDocument results = reports::resultsJson(content);
   const reports::Json& campaign = results.json["campaigns"][0];
   ASSERT_TRUE(campaign.contains("calibration"));
+  EXPECT_EQ(campaign["diagnosis"]["verdict"][0][0], "transmission_error");
   EXPECT_EQ(campaign["calibration"]["folds"], 2);
   EXPECT_EQ(campaign["calibration"]["models"].back()["effects"][0], "transmission_error");
 }
