@@ -34,24 +34,21 @@ const diagnosis::WhereRow* rowOf(const std::vector<diagnosis::WhereTable>& table
 }  // namespace
 
 reports::Table whereTable(const std::string& caption, const std::string& heading,
-                          const std::vector<diagnosis::WhereTable>& where,
-                          const std::vector<diagnosis::WhereTable>& beside, const std::string& beside_heading) {
+                          const std::vector<diagnosis::WhereTable>& where, const WhereBeside& beside) {
   reports::Table table{
       caption, {"By", "Part", heading, "Noise (µm)", "Share (%)", "Above noise (sd)"}, {}, false, "gap"};
-  if (!beside.empty()) {
-    for (const std::string& column : {beside_heading, std::string("Noise (µm)")}) table.columns.push_back(column);
-  }
+  const bool more = !beside.tables.empty();
+  if (more) table.columns.push_back(beside.heading);
+  if (more && beside.noise) table.columns.emplace_back("Noise (µm)");
   for (const diagnosis::WhereTable& one : where) {
     if (one.by == "posture") continue;  // a figure, and results.json
     reports::RowGroup group{one.by, {}};
     for (const diagnosis::WhereRow& row : one.rows) {
       reports::Row cells{reports::asIs(row.name), inUm(row.rms), inUm(row.noise), reports::fixed(100.0 * row.share, 0),
                          reports::asIs(reports::deviateWords(row.significance))};
-      if (!beside.empty()) {
-        const diagnosis::WhereRow* other = rowOf(beside, one.by, row.name);
-        cells.emplace_back(other ? inUm(other->rms) : "–");
-        cells.emplace_back(other ? inUm(other->noise) : "–");
-      }
+      const diagnosis::WhereRow* other = more ? rowOf(beside.tables, one.by, row.name) : nullptr;
+      if (more) cells.emplace_back(other ? inUm(other->rms) : "–");
+      if (more && beside.noise) cells.emplace_back(other ? inUm(other->noise) : "–");
       group.rows.push_back(std::move(cells));
     }
     table.groups.push_back(std::move(group));

@@ -38,12 +38,16 @@ reports::Table classesTable(const std::vector<Class>& classes, std::string (*fal
   return table;
 }
 
-/// By joint, reflector, part of the day and so on; postures have a figure. `beside`: the same parts of another
-/// quantity, with the heading of its column.
+/// The same parts of another quantity, or after a change.
+struct WhereBeside {
+  const std::vector<diagnosis::WhereTable>& tables;
+  std::string heading;
+  bool noise = true;  ///< has a noise of its own
+};
+
+/// By joint, reflector, part of the day and so on; postures have a figure.
 reports::Table whereTable(const std::string& caption, const std::string& heading,
-                          const std::vector<diagnosis::WhereTable>& where,
-                          const std::vector<diagnosis::WhereTable>& beside = {},
-                          const std::string& beside_heading = {});
+                          const std::vector<diagnosis::WhereTable>& where, const WhereBeside& beside);
 
 /// What tables whose parts overlap add up to.
 void writeOverlaps(Html& html, const std::vector<diagnosis::WhereTable>& where);

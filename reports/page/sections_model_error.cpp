@@ -98,7 +98,7 @@ std::string fallOf(const diagnosis::EffectClass& one) {
 reports::Table gapTable(const diagnosis::Diagnosis& diagnosis) {
   std::string caption = "Where the gap lies that joint stiffnesses leave, rms per coordinate";
   if (!diagnosis.as_measured.rows.empty()) caption += ", the station's motion taken off";
-  return whereTable(caption, "Deflection (µm)", diagnosis.where, diagnosis.where_positions, "Unloaded (µm)");
+  return whereTable(caption, "Deflection (µm)", diagnosis.where, {diagnosis.where_positions, "Unloaded (µm)"});
 }
 
 reports::Table stiffnessTable(const diagnosis::Diagnosis& diagnosis) {

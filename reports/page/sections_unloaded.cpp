@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/calibration/position_errors.h"
 #include "reports/page/diagnosis_tables.h"
 #include "reports/page/html.h"
 #include "reports/page/sections.h"
@@ -16,39 +15,6 @@ namespace stiffscope::page {
 
 namespace {
 
-using calibration::CalibratedModel;
-
-/// What the models leave in each quarter of the day, rms per coordinate.
-reports::Table quartersTable(const calibration::Calibration& calibration) {
-  const std::vector<calibration::ReadingError> errors = calibration::readingErrors(calibration);
-  const bool effects = !calibration.best().fit.parts.empty();
-  reports::Table table{fmt::format("Left over the day, by {}, rms per coordinate",
-                                   calibration.day.times_known ? "time" : "the order of the postures"),
-                       {"Quarter of the day", "Readings", "Calibrated (µm)"},
-                       {{}},
-                       false,
-                       "over-the-day"};
-  if (effects) table.columns.emplace_back("With effects (µm)");
-  constexpr int kQuarters = 4;
-  for (int quarter = 0; quarter < kQuarters; ++quarter) {
-    double geometry = 0.0, best = 0.0;
-    int readings = 0;
-    for (const calibration::ReadingError& error : errors) {
-      const double time = calibration.day.postures[error.posture].time;
-      if (std::min(kQuarters - 1, static_cast<int>(kQuarters * time)) != quarter) continue;
-      geometry += error.of(CalibratedModel::geometry).squaredNorm();
-      best += error.of(CalibratedModel::effects).squaredNorm();
-      ++readings;
-    }
-    if (readings == 0) continue;
-    const auto rms = [readings](double sum) { return inUm(std::sqrt(sum / (3.0 * readings))); };
-    reports::Row row{fmt::format("{}", quarter + 1), fmt::format("{}", readings), rms(geometry)};
-    if (effects) row.emplace_back(rms(best));
-    table.groups.front().rows.push_back(std::move(row));
-  }
-  return table;
-}
-
 /// Angles and lengths in millionths, as the page has them elsewhere.
 extended_model::EffectParameter inMillionths(const calibration::EffectTerm& term, double value, double sd) {
   constexpr double kMillionth = 1e-6;
@@ -57,6 +23,8 @@ extended_model::EffectParameter inMillionths(const calibration::EffectTerm& term
   }
   return {term.name, term.unit, value, sd};
 }
+
+constexpr std::size_t kMostParts = 12;  // of a gear's orders there can be dozens
 
 reports::Table effectsTable(const calibration::ArmFit& fit) {
   reports::Table table = effectParametersTable("Effects beside the geometry, in the order in which they were found");
@@ -69,7 +37,8 @@ reports::Table effectsTable(const calibration::ArmFit& fit) {
         parameters.push_back(inMillionths(term, fit.sizes[static_cast<Eigen::Index>(k)], fit.sd(at)));
       ++k;
     }
-    if (!parameters.empty()) table.groups.push_back(parameterGroup(reports::partName(part), parameters));
+    if (!parameters.empty() && table.groups.size() < kMostParts)
+      table.groups.push_back(parameterGroup(reports::partName(part), parameters));
   }
   return table;
 }
@@ -93,9 +62,11 @@ void writeCause(Html& html, const accuracy::AccuracyDiagnosis& accuracy) {
   const bool weighed = std::any_of(accuracy.classes.begin(), accuracy.classes.end(),
                                    [](const auto& one) { return one.score != 0.0 || one.shrink.value != 0.0; });
   if (weighed) writeTable(html, classesTable(accuracy.classes, &fallOf));
-  writeTable(html, effectsTable(accuracy.calibration.best().fit));
+  const calibration::ArmFit& fit = accuracy.calibration.best().fit;
+  writeTable(html, effectsTable(fit));
+  if (fit.parts.size() > kMostParts) html.paragraph(reports::morePartsWords(fit.parts.size() - kMostParts), "faint");
   writeTable(html, whereTable("Where the gap lies that the calibrated geometry leaves, rms per coordinate",
-                              "Position (µm)", accuracy.where, accuracy.where_after, "With the verdict (µm)"));
+                              "Position (µm)", accuracy.where, {accuracy.where_after, "With the verdict (µm)", false}));
   writeOverlaps(html, accuracy.where);
   writeNotTestable(html, accuracy.not_testable);
   writeDetectable(html, accuracy.detectable);
@@ -103,16 +74,11 @@ void writeCause(Html& html, const accuracy::AccuracyDiagnosis& accuracy) {
 
 }  // namespace
 
-bool hasStation(const reports::ReportCampaign& one) {
-  return one.accuracy != nullptr && (one.preparation != nullptr || isCalibrated(one));
-}
+bool hasStation(const reports::ReportCampaign& one) { return one.accuracy != nullptr && one.preparation != nullptr; }
 
 void writeStation(Html& html, const reports::ReportContent& content) {
   const auto write = [&](const reports::ReportCampaign& one) {
-    if (one.preparation != nullptr) {
-      html.paragraph(fmt::format("Readings: {}.", reports::withMicro(reports::preparationWords(*one.preparation))));
-    }
-    if (isCalibrated(one)) writeTable(html, quartersTable(one.accuracy->calibration));
+    html.paragraph(fmt::format("Readings: {}.", reports::withMicro(reports::preparationWords(*one.preparation))));
   };
   writeForEach(html, content, "station", "The station over the day", hasStation, write);
 }

@@ -7,6 +7,7 @@
 
 #include "core/io/units.h"
 #include "reports/words/day_words.h"
+#include "reports/words/listed.h"
 #include "reports/words/names.h"
 #include "reports/words/numbers.h"
 #include "reports/words/remark_words.h"
@@ -182,6 +183,10 @@ std::vector<std::string> accuracyActions(const accuracy::AccuracyDiagnosis& accu
     }
   }
   return actions;
+}
+
+std::string morePartsWords(std::size_t count) {
+  return fmt::format("And {} more; all of them in {}.", count, kListedInResults);
 }
 
 std::vector<std::string> notIdentifiableWords(const calibration::Calibration& calibration) {

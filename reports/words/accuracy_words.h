@@ -34,6 +34,9 @@ std::string accuracyFigures(const accuracy::AccuracyDiagnosis& accuracy);
 /// What a laboratory can do: remedies, each once, measurements, and how to use the calibration.
 std::vector<std::string> accuracyActions(const accuracy::AccuracyDiagnosis& accuracy);
 
+/// Where the parts of the effects are that a table leaves out.
+std::string morePartsWords(std::size_t count);
+
 /// Parameters that are not known, those with one reason in one sentence.
 std::vector<std::string> notIdentifiableWords(const calibration::Calibration& calibration);
 

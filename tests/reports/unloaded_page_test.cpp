@@ -20,6 +20,7 @@ struct Day {
   campaign::Campaign campaign;
   identification::Identification identification;
   accuracy::AccuracyDiagnosis accuracy;
+  preparation::Preparation preparation;
 
   explicit Day(double wave = 0.5e-3) {
     Noise noise(51);
@@ -33,11 +34,13 @@ struct Day {
     campaign = unloadedCampaign(spec, noise);
     identification = identification::framesAlone(campaign);
     accuracy = accuracy::diagnoseAccuracy(campaign);
+    preparation.raw = true;
   }
 
   reports::ReportContent content() const {
     reports::ReportContent content;
-    content.campaigns.push_back({campaign, identification, nullptr, nullptr, nullptr, nullptr, nullptr, &accuracy, {}});
+    content.campaigns.push_back(
+        {campaign, identification, nullptr, &preparation, nullptr, nullptr, nullptr, &accuracy, {}});
     content.title = reports::reportTitle(content.campaigns);
     content.verdict = reports::verdictOf(content.campaigns, content.avoided);
     return content;
@@ -83,8 +86,7 @@ TEST(UnloadedPage, TablesAreFilesOfTheirNames) {
   const page::ReportPage page = page::makeReportPage(Day().content());
   std::vector<std::string> names;
   for (const reports::TableFile& table : page.tables) names.push_back(table.name);
-  for (const char* name :
-       {"accuracy", "worst-postures", "calibrated-axes", "denavit-hartenberg", "places", "over-the-day", "effects"})
+  for (const char* name : {"accuracy", "worst-postures", "calibrated-axes", "denavit-hartenberg", "places", "effects"})
     EXPECT_NE(std::find(names.begin(), names.end(), name), names.end()) << name;
 }
 
@@ -94,7 +96,7 @@ TEST(UnloadedPage, ACleanDayNamesNothing) {
   EXPECT_TRUE(has(content.verdict, "What the calibrated geometry leaves is noise, or too small to matter."));
   const std::string page = page::reportPage(content);
   sectionsOf(page);
-  EXPECT_FALSE(has(page, "With effects (µm)"));
+  EXPECT_FALSE(has(page, "Effects beside the geometry"));
   EXPECT_TRUE(has(page, "no effect predicts postures that were held out better"));
 }
 
