@@ -43,6 +43,27 @@ void addJoints(const ReportCampaign& inactive, const ReportCampaign& active, con
 
 }  // namespace
 
+DayKind kindOf(const ReportCampaign& one) {
+  if (one.accuracy != nullptr) return DayKind::unloaded;
+  const campaign::Campaign& campaign = one.campaign;
+  const bool states = campaign.loading || campaign.displacements || campaign.states || campaign.load_cell;
+  const bool sweeps = campaign.circle_sweeps || campaign.wrist_sweep;
+  return one.identification.cases.empty() && sweeps && !states ? DayKind::sweeps : DayKind::loaded;
+}
+
+bool anyOfKind(const std::vector<ReportCampaign>& campaigns, DayKind kind) {
+  return std::any_of(campaigns.begin(), campaigns.end(),
+                     [kind](const ReportCampaign& one) { return kindOf(one) == kind; });
+}
+
+std::vector<ReportCampaign> ofKind(const std::vector<ReportCampaign>& campaigns, DayKind kind) {
+  std::vector<ReportCampaign> some;
+  for (const ReportCampaign& one : campaigns) {
+    if (kindOf(one) == kind) some.push_back(one);
+  }
+  return some;
+}
+
 comparison::SupportedModels supportedModels(const extended_model::ExtendedModel* before,
                                             const extended_model::ExtendedModel* after) {
   if (before == nullptr || after == nullptr) return {};

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/accuracy/accuracy_diagnosis.h"
 #include "core/audit/audit.h"
 #include "core/campaign/campaign.h"
 #include "core/comparison/compare.h"
@@ -29,7 +30,15 @@ struct ReportCampaign {
   const diagnosis::Diagnosis* diagnosis = nullptr;
   const extended_model::ExtendedModel* improved =
       nullptr;  ///< effects were asked for: `campaign` and `identification` are of it
+  const accuracy::AccuracyDiagnosis* accuracy = nullptr;  ///< of a day without a load; the calibration is in it
+  calibration::CalibrationOptions calibrated_by = {};     ///< how that was held out
 };
+
+/// What a day can say: stiffness under loads, accuracy in unloaded postures, or the geometry by sweeps alone.
+enum class DayKind { loaded, unloaded, sweeps };
+DayKind kindOf(const ReportCampaign& one);
+bool anyOfKind(const std::vector<ReportCampaign>& campaigns, DayKind kind);
+std::vector<ReportCampaign> ofKind(const std::vector<ReportCampaign>& campaigns, DayKind kind);
 
 /// The two days' models for a comparison; none where a day has none.
 comparison::SupportedModels supportedModels(const extended_model::ExtendedModel* before,
@@ -68,8 +77,8 @@ struct Figure {
 };
 
 /// The sections that have figures, in the order of the page: figures are counted in it.
-inline constexpr std::array kFigureSections{"wrist",        "links", "stiffness", "subsets",
-                                            "compensation", "gap",   "figures",   "audit"};
+inline constexpr std::array kFigureSections{"accuracy", "station",      "accuracy-gap", "wrist",   "links", "stiffness",
+                                            "subsets",  "compensation", "gap",          "figures", "audit"};
 
 /// The name of its file in a report's folder.
 inline std::string pictureFile(const Figure& figure) { return figure.id + ".png"; }

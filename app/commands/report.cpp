@@ -22,6 +22,7 @@
 #include "app/options.h"
 #include "app/output.h"
 #include "app/prepared.h"
+#include "core/accuracy/diagnose_accuracy.h"
 #include "core/audit/audit.h"
 #include "core/audit/check_design.h"
 #include "core/identification/load_case.h"
@@ -32,6 +33,8 @@
 #include "reports/page/html.h"
 #include "reports/page/report_page.h"
 #include "reports/report_content.h"
+#include "reports/words/calibration_words.h"
+#include "reports/words/day_words.h"
 #include "reports/words/extended_model_words.h"
 #include "reports/words/verdict.h"
 
@@ -143,6 +146,7 @@ struct Result {
   audit::AuditReport audited;
   std::optional<diagnosis::Diagnosis> diagnosis;
   std::optional<extended_model::ExtendedModel> improved;  ///< effects were asked for
+  std::optional<accuracy::AccuracyDiagnosis> accuracy;    ///< of a day without a load
   identification::Identification own;                     ///< without any
   bool loaded = false;
 
@@ -153,6 +157,8 @@ struct Result {
     campaign::Campaign read = openCampaign(folder);
     prepared = arguments.raw ? preparation::leaveRaw(std::move(read)) : preparation::prepareCampaign(std::move(read));
     loaded = identification::whatLoadsLack(prepared.campaign).empty();
+    if (!loaded && isUnloadedDay(prepared.campaign))
+      accuracy = accuracy::diagnoseAccuracy(prepared, calibration::CalibrationOptions());
     if (loaded) improved = modelOf(prepared, arguments.model, options);
     if (loaded) diagnosis = diagnosisOf(prepared, improved);
     if (!improved) {
@@ -165,8 +171,9 @@ struct Result {
     if (improved) withoutLoadReadings(improved->campaign);
   }
 
-  /// Of loads, stiffnesses are the purpose; of a day of sweeps alone, the frames.
+  /// Of loads, stiffnesses are the purpose; without, accuracy; of a day of sweeps alone, the frames.
   bool usable() const {
+    if (accuracy) return accuracy->calibration.reason.empty();
     return loaded ? identification::anyUsable(identification(),
                                               {identification::kMethods.begin(), identification::kMethods.end()})
                   : identification().frames.arm.points_placed;
@@ -186,16 +193,24 @@ std::string subsetSizes(const std::list<Result>& results) {
   return sizes.empty() ? "too few" : sizes;
 }
 
+/// Of loaded days how they are identified, of unloaded ones how they are held out.
 std::vector<reports::NamedText> settingsOf(const identification::IdentifyOptions& options,
-                                           const std::list<Result>& results) {
-  return {{"load step", options.step ? std::to_string(*options.step) : "the one with the largest mean force"},
-          {"geometric stiffness K_{c}", options.finite_deflection ? "included" : "neglected"},
-          {"postures in a subset", subsetSizes(results)},
-          {"subsets", "all up to 250 000, else a sample with seed 1"}};
+                                           const std::list<Result>& results, const reports::ReportContent& content) {
+  std::vector<reports::NamedText> settings;
+  if (reports::anyOfKind(content.campaigns, reports::DayKind::loaded)) {
+    settings = {{"load step", options.step ? std::to_string(*options.step) : "the one with the largest mean force"},
+                {"geometric stiffness K_{c}", options.finite_deflection ? "included" : "neglected"},
+                {"postures in a subset", subsetSizes(results)},
+                {"subsets", "all up to 250 000, else a sample with seed 1"}};
+  }
+  if (reports::anyOfKind(content.campaigns, reports::DayKind::unloaded))
+    settings.push_back({"calibration", reports::foldWords(calibration::CalibrationOptions())});
+  return settings;
 }
 
 /// What the page says first of the effects in the model, campaign by campaign.
 void addExtendedModel(const ModelChoice& choice, const std::list<Result>& results, reports::ReportContent& content) {
+  if (!reports::anyOfKind(content.campaigns, reports::DayKind::loaded)) return;
   if (choice.springs_only) {
     content.settings.push_back({"effects in the model", "none: joint springs only"});
     return;
@@ -221,13 +236,13 @@ int writeReport(const ReportArguments& arguments) {
     const Result& one = results.emplace_back(folder, arguments, options);
     content.campaigns.push_back({one.campaign(), one.identification(), &one.audited, &one.prepared.preparation,
                                  &one.prepared.drift.rounds, one.diagnosis ? &*one.diagnosis : nullptr,
-                                 one.improved ? &*one.improved : nullptr});
+                                 one.improved ? &*one.improved : nullptr, one.accuracy ? &*one.accuracy : nullptr});
   }
   content.avoided = reports::avoidedByEncoders(content.campaigns);
   content.compare_with_paper = arguments.paper;
   content.versions = versions();
-  content.settings = settingsOf(options, results);
-  content.title = "Joint stiffness";
+  content.settings = settingsOf(options, results, content);
+  content.title = reports::reportTitle(content.campaigns);
   content.verdict = reports::verdictOf(content.campaigns, content.avoided);
   addExtendedModel(arguments.model, results, content);
   content.figures = makeFigures(content.campaigns, {arguments.paper});

@@ -216,8 +216,6 @@ reports::Figure describeAllPostures(const reports::ReportCampaign& one, double m
 
 namespace {
 
-constexpr std::size_t kMostArrows = 90;  // more in one picture hide each other
-
 const diagnosis::PointGap* gapOf(const diagnosis::Diagnosis& diagnosis, int pose, int target) {
   const auto found =
       std::find_if(diagnosis.at_points.begin(), diagnosis.at_points.end(),
@@ -272,24 +270,27 @@ std::string largestWords(const reports::ReportCampaign& one, Eigen::Vector3d dia
 
 }  // namespace
 
+void seeAlike(GapScenes& scenes) {
+  scenes.before.magnification = render::automaticMagnification(scenes.before);
+  scenes.after.magnification = scenes.before.magnification;
+  scenes.before.also_fitted = render::pointsOf(scenes.after, *scenes.after.magnification);
+  scenes.after.also_fitted = render::pointsOf(scenes.before, *scenes.before.magnification);
+  for (render::ArmScene* scene : {&scenes.before, &scenes.after}) scene->residual_name = "measured less model";
+}
+
 std::optional<GapScenes> gapScenes(const reports::ReportCampaign& one) {
   if (one.diagnosis == nullptr || one.diagnosis->verdict.entries.empty() || one.diagnosis->at_points.empty()) {
     return std::nullopt;
   }
   GapScenes scenes{sceneOf(one, &diagnosis::PointGap::before), sceneOf(one, &diagnosis::PointGap::after)};
   if (scenes.before.poses.empty()) return std::nullopt;
-  scenes.before.magnification = render::automaticMagnification(scenes.before);
-  scenes.after.magnification = scenes.before.magnification;
-  // Both fit both, so that they are seen alike.
-  scenes.before.also_fitted = render::pointsOf(scenes.after, *scenes.after.magnification);
-  scenes.after.also_fitted = render::pointsOf(scenes.before, *scenes.before.magnification);
+  seeAlike(scenes);
   scenes.before.title = "Left by joint stiffnesses alone, at the reflectors";
   scenes.after.title = "Left with the verdict's effects in the model, to the same scale";
   scenes.before.subtitle = reports::asIs(one.campaign.name);
   scenes.after.subtitle = fmt::format("{}; in the model: {}", reports::asIs(one.campaign.name),
                                       reports::asIs(reports::namedWords(one.diagnosis->verdict)));
   if (!one.diagnosis->as_measured.rows.empty()) scenes.before.subtitle += "; readings as they were";
-  for (render::ArmScene* scene : {&scenes.before, &scenes.after}) scene->residual_name = "measured less model";
   return scenes;
 }
 

@@ -50,9 +50,21 @@ struct GapScenes {
   render::ArmScene before, after;
 };
 
+inline constexpr std::size_t kMostArrows = 90;  ///< of a scene; more in one picture hide each other
+
+/// To one scale; both fit both, so that they are seen alike.
+void seeAlike(GapScenes& scenes);
+
 /// Empty where nothing was diagnosed or nothing found. Of very many arrows only every so many postures' are
 /// drawn.
 std::optional<GapScenes> gapScenes(const reports::ReportCampaign& one);
+
+/// The same of a day without a load: what the calibrated geometry leaves at each reflector, and what is left with the
+/// effects in the model. Of a day that could be calibrated; empty where nothing is left.
+std::optional<GapScenes> accuracyScenes(const reports::ReportCampaign& one);
+
+reports::Figure describeAccuracyBefore(const reports::ReportCampaign& one, const GapScenes& scenes);
+reports::Figure describeAccuracyAfter(const reports::ReportCampaign& one, const GapScenes& scenes);
 
 reports::Figure describeGapBefore(const reports::ReportCampaign& one, const GapScenes& scenes);
 reports::Figure describeGapAfter(const reports::ReportCampaign& one, const GapScenes& scenes);

@@ -9,38 +9,54 @@
 #include "reports/words/effect_words.h"
 #include "reports/words/numbers.h"
 #include "reports/words/remark_words.h"
+#include "reports/words/unloaded_effect_words.h"
 
 namespace stiffscope::app {
 
 namespace {
 
-bool present(const diagnosis::Verdict& verdict, effects::Effect effect) {
-  return std::any_of(verdict.entries.begin(), verdict.entries.end(), [effect](const diagnosis::VerdictEntry& entry) {
+const std::vector<diagnosis::VerdictEntry>& entriesOf(const diagnosis::Diagnosis& diagnosis) {
+  return diagnosis.verdict.entries;
+}
+const std::vector<accuracy::AccuracyEntry>& entriesOf(const accuracy::AccuracyDiagnosis& accuracy) {
+  return accuracy.verdict;
+}
+
+/// Why an effect that can be tested has no size.
+const char* hiddenWords(effects::Effect effect) {
+  return effect == effects::Effect::tracker_drift ? "judged by the floor nests themselves"
+                                                  : "hidden behind joint springs and geometry in these postures";
+}
+const char* hiddenWords(calibration::UnloadedEffect) { return "hidden behind the geometry in these postures"; }
+
+template <class Answer, class Effect>
+bool present(const Answer& answer, Effect effect) {
+  const auto& entries = entriesOf(answer);
+  return std::any_of(entries.begin(), entries.end(), [effect](const auto& entry) {
     return std::find(entry.effects.begin(), entry.effects.end(), effect) != entry.effects.end();
   });
 }
 
 /// Why an effect has no size.
-std::string withoutSize(const diagnosis::Diagnosis& diagnosis, effects::Effect effect) {
-  const auto missing = std::find_if(diagnosis.not_testable.begin(), diagnosis.not_testable.end(),
-                                    [effect](const diagnosis::NotTestable& one) { return one.effect == effect; });
+template <class Answer, class Effect>
+std::string withoutSize(const Answer& answer, Effect effect) {
+  const auto missing = std::find_if(answer.not_testable.begin(), answer.not_testable.end(),
+                                    [effect](const auto& one) { return one.effect == effect; });
+  if (missing == answer.not_testable.end()) return hiddenWords(effect);
   // What would make it testable is said in full beside the picture.
-  if (missing != diagnosis.not_testable.end()) {
-    const std::string in_full = reports::words(missing->missing);
-    return "not testable: " + reports::asIs(in_full.substr(0, in_full.find(':')));
-  }
-  return effect == effects::Effect::tracker_drift ? "judged by the floor nests themselves"
-                                                  : "hidden behind joint springs and geometry in these postures";
+  const std::string in_full = reports::words(missing->missing);
+  return "not testable: " + reports::asIs(in_full.substr(0, in_full.find(':')));
 }
 
 /// Classes of two or more, each once.
-std::vector<std::vector<std::size_t>> groupsOf(const diagnosis::Diagnosis& diagnosis) {
+template <class Answer>
+std::vector<std::vector<std::size_t>> groupsOf(const Answer& answer) {
   std::vector<std::vector<std::size_t>> groups;
-  for (const std::vector<effects::Effect>& alias : diagnosis.aliases) {
+  for (const auto& alias : answer.aliases) {
     std::vector<std::size_t> rows;
-    for (const effects::Effect effect : alias) {
-      for (std::size_t i = 0; i < diagnosis.detectable.size(); ++i) {
-        if (diagnosis.detectable[i].effect == effect) rows.push_back(i);
+    for (const auto effect : alias) {
+      for (std::size_t i = 0; i < answer.detectable.size(); ++i) {
+        if (answer.detectable[i].effect == effect) rows.push_back(i);
       }
     }
     if (rows.size() > 1) groups.push_back(std::move(rows));
@@ -48,59 +64,101 @@ std::vector<std::vector<std::size_t>> groupsOf(const diagnosis::Diagnosis& diagn
   return groups;
 }
 
-}  // namespace
-
-std::optional<render::DotRowChart> effectClasses(const reports::ReportCampaign& one) {
-  if (one.diagnosis == nullptr || !one.diagnosis->usable || one.diagnosis->detectable.empty()) return std::nullopt;
-  const diagnosis::Diagnosis& diagnosis = *one.diagnosis;
+template <class Answer>
+render::DotRowChart classesChart(const Answer& answer) {
   render::DotRowChart chart;
   chart.title = "Which effects this data can tell apart, and from what size on";
-  chart.subtitle =
-      fmt::format("{}; {} postures, {} states", reports::asIs(one.campaign.name), diagnosis.postures, diagnosis.states);
   chart.x_title = "Smallest size that would have been seen, rms per coordinate (µm)";
-  for (const diagnosis::DetectableSize& size : diagnosis.detectable) {
-    render::DotRow row{reports::effectName(size.effect), NAN, {}, present(diagnosis.verdict, size.effect)};
+  for (const auto& size : answer.detectable) {
+    render::DotRow row{reports::effectName(size.effect), NAN, {}, present(answer, size.effect)};
     if (size.size)
       row.size = *size.size / io::kMicrometre;
     else
-      row.words = withoutSize(diagnosis, size.effect);
+      row.words = withoutSize(answer, size.effect);
     chart.rows.push_back(std::move(row));
   }
-  chart.groups = groupsOf(diagnosis);
+  chart.groups = groupsOf(answer);
   chart.group_title = "not told apart";
   chart.dot_name = "smallest size seen";
   chart.marked_name = "of what the verdict names";
-  chart.reference = diagnosis.size_limit / io::kMicrometre;
-  chart.reference_name = "too small to matter, left of it";
+  if (answer.size_limit > 0.0) {
+    chart.reference = answer.size_limit / io::kMicrometre;
+    chart.reference_name = "too small to matter, left of it";
+  }
   return chart;
 }
 
-reports::Figure describeEffectClasses(const reports::ReportCampaign& one) {
-  const diagnosis::Diagnosis& diagnosis = *one.diagnosis;
-  reports::Figure figure;
-  figure.id = "effect-classes";
-  figure.title = "Which effects this data can tell apart";
+}  // namespace
+
+std::optional<render::DotRowChart> effectClasses(const reports::ReportCampaign& one) {
+  render::DotRowChart chart;
+  if (one.diagnosis != nullptr && one.diagnosis->usable && !one.diagnosis->detectable.empty()) {
+    chart = classesChart(*one.diagnosis);
+    chart.subtitle = fmt::format("{}; {} postures, {} states", reports::asIs(one.campaign.name),
+                                 one.diagnosis->postures, one.diagnosis->states);
+  } else if (one.accuracy != nullptr && one.accuracy->usable && !one.accuracy->detectable.empty()) {
+    chart = classesChart(*one.accuracy);
+    chart.subtitle = fmt::format("{}; {} postures, {} readings", reports::asIs(one.campaign.name),
+                                 one.accuracy->postures, one.accuracy->readings);
+  } else {
+    return std::nullopt;
+  }
+  return chart;
+}
+
+namespace {
+
+/// "A line joins effects that can look alike here, ..."; each class of aliases of two or more.
+template <class Answer>
+std::string aliasWords(const Answer& answer, const char* how_large) {
   std::vector<std::string> classes;
-  for (const auto& alias : diagnosis.aliases) {
+  for (const auto& alias : answer.aliases) {
     if (alias.size() > 1) classes.push_back(reports::effectNames(alias));
   }
-  figure.caption = "Found from the postures and loads alone, before any residual was looked at. ";
-  figure.caption += classes.empty() ? "No two effects look alike here: whatever is large enough is named alone."
-                                    : fmt::format(
-                                          "A line joins effects that can look alike here, at twice the noise of one "
-                                          "state: {}. The others are told apart.",
-                                          fmt::join(classes, "; "));
-  figure.caption += fmt::format(
-      " An effect smaller than its dot would have passed unseen; one below {}\u00a0µm (dashed) is too small "
-      "to matter.",
-      reports::fixed(diagnosis.size_limit / io::kMicrometre, 1));
+  if (classes.empty()) return "No two effects look alike here: whatever is large enough is named alone.";
+  return fmt::format("A line joins effects that can look alike here{}: {}. The others are told apart.", how_large,
+                     fmt::join(classes, "; "));
+}
+
+template <class Answer>
+std::string sizeWords(const Answer& answer) {
+  std::string text = " An effect smaller than its dot would have passed unseen";
+  if (answer.size_limit > 0.0) {
+    text += fmt::format("; one below {}\u00a0µm (dashed) is too small to matter",
+                        reports::fixed(answer.size_limit / io::kMicrometre, 1));
+  }
+  return text + ".";
+}
+
+template <class Answer>
+std::string untestedWords(const Answer& answer) {
+  if (answer.not_testable.empty()) return {};
+  return fmt::format(" Not testable with this data: {} of {} effects.", answer.not_testable.size(),
+                     answer.detectable.size());
+}
+
+std::string captionOf(const diagnosis::Diagnosis& diagnosis) {
+  std::string caption = "Found from the postures and loads alone, before any residual was looked at. ";
+  caption += aliasWords(diagnosis, ", at twice the noise of one state") + sizeWords(diagnosis);
   const bool geometry = std::any_of(diagnosis.detectable.begin(), diagnosis.detectable.end(), [](const auto& size) {
     return size.effect == effects::Effect::kinematic_error && size.size;
   });
-  if (geometry) figure.caption += " That of the kinematic error is a tolerance of unloaded positions.";
-  if (!diagnosis.not_testable.empty())
-    figure.caption += fmt::format(" Not testable with this data: {} of {} effects.", diagnosis.not_testable.size(),
-                                  diagnosis.detectable.size());
+  if (geometry) caption += " That of the kinematic error is a tolerance of unloaded positions.";
+  return caption + untestedWords(diagnosis);
+}
+
+std::string captionOf(const accuracy::AccuracyDiagnosis& accuracy) {
+  return "Found from the postures alone, before any residual was looked at. " + aliasWords(accuracy, "") +
+         sizeWords(accuracy) + untestedWords(accuracy);
+}
+
+}  // namespace
+
+reports::Figure describeEffectClasses(const reports::ReportCampaign& one) {
+  reports::Figure figure;
+  figure.id = "effect-classes";
+  figure.title = "Which effects this data can tell apart";
+  figure.caption = one.diagnosis != nullptr ? captionOf(*one.diagnosis) : captionOf(*one.accuracy);
   figure.alt = "A row an effect: the smallest size that would have been seen, and which effects look alike.";
   return figure;
 }

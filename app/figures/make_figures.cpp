@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "app/figures/accuracy_figures.h"
 #include "app/figures/arm_scenes.h"
 #include "render/image.h"
 #include "reports/page/html.h"
@@ -45,8 +46,8 @@ class FigureList {
     if (const auto circles = sweepCircles(one_, points)) add("links", describeSweepCircles(one_), *circles, kScene);
     if (const auto sphere = wristSphere(one_, points)) add("wrist", describeWristSphere(one_), *sphere);
     const preparation::StationMotion station = one_.station != nullptr ? *one_.station : stationMotionOf(one_.campaign);
-    if (const auto drift = stationDrift(one_, station))
-      add(one_.audit != nullptr ? "audit" : "figures", describeStationDrift(station), *drift);
+    const char* place = one_.accuracy != nullptr ? "station" : one_.audit != nullptr ? "audit" : "figures";
+    if (const auto drift = stationDrift(one_, station)) add(place, describeStationDrift(station), *drift);
   }
 
   void addDeflection() {
@@ -66,6 +67,20 @@ class FigureList {
     if (!spreads.panels.empty()) add("subsets", describeSubsetSpreads(one_), spreads);
     const render::IntervalChart intervals = stiffnessIntervals(one_);
     if (!intervals.series.empty()) add("stiffness", describeStiffnessIntervals(one_), intervals);
+  }
+
+  /// Of a day without a load: before and after, over the workspace and over the day.
+  void addAccuracy() {
+    if (!one_.accuracy->calibration.reason.empty()) return;
+    add("accuracy", describeAccuracyCurves(one_), accuracyCurves(one_));
+    add("accuracy", describeAccuracyMap(one_), accuracyMap(one_), kScene);
+    if (const auto scenes = accuracyScenes(one_)) {
+      add("accuracy-gap", describeAccuracyBefore(one_, *scenes), scenes->before, kScene);
+      if (!one_.accuracy->calibration.best().fit.parts.empty())
+        add("accuracy-gap", describeAccuracyAfter(one_, *scenes), scenes->after, kScene);
+    }
+    if (const auto classes = effectClasses(one_)) add("accuracy-gap", describeEffectClasses(one_), *classes);
+    add("station", describeResidualsOverDay(one_), residualsOverDay(one_), kScene);
   }
 
   /// What the model misses: beside the diagnosis' words.
@@ -91,6 +106,7 @@ std::vector<reports::Figure> figuresOf(const reports::ReportCampaign& one, const
   const bool loaded = !one.identification.cases.empty();
   if (loaded) list.addDeflection();
   if (loaded) list.addStiffness(options);
+  if (one.accuracy != nullptr) list.addAccuracy();
   list.addReadings();
   if (loaded) list.addGap();
   return list.take();

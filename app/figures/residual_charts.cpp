@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "app/figures/chart_series.h"
 #include "app/figures/chart_style.h"
 #include "core/identification/noise_share.h"
 #include "core/preparation/subsample.h"
@@ -201,12 +202,7 @@ Eigen::Matrix3d directionsAt(const reports::ReportCampaign& one, const identific
                              const Eigen::Vector3d& point) {
   if (!hasBeam(one, method)) return Eigen::Matrix3d::Identity();
   const Eigen::Vector3d station = *method.geometry.r0_from_loading * one.campaign.tracker->station;
-  const Eigen::Vector3d beam = (point - station).normalized();
-  Eigen::Vector3d level = Eigen::Vector3d::UnitZ().cross(beam);
-  level = level.norm() > 1e-9 ? level.normalized() : Eigen::Vector3d(Eigen::Vector3d::UnitX());
-  Eigen::Matrix3d directions;
-  directions << beam, level, beam.cross(level);
-  return directions;
+  return beamDirections(station, point);
 }
 
 std::vector<ResidualVector> residualsOf(const reports::ReportCampaign& one,

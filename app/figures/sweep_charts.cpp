@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "app/figures/chart_series.h"
 #include "app/figures/chart_style.h"
 #include "core/io/units.h"
 #include "core/preparation/subsample.h"
@@ -137,7 +138,6 @@ reports::Figure describeSweepCircles(const reports::ReportCampaign& one) {
 
 namespace {
 
-constexpr std::size_t kLeastInSector = 5;    // a mean of fewer readings says little
 constexpr std::size_t kMostReadings = 1000;  // of a reflector
 
 struct SphereResidual {
@@ -165,23 +165,10 @@ std::vector<SphereResidual> residualsOf(const reports::ReportCampaign& one, cons
 /// Means over equal sectors of [lower, upper], joined.
 render::PointSeries sectorMeans(const std::vector<SphereResidual>& residuals, double SphereResidual::*angle,
                                 double lower, double upper, std::size_t sectors) {
-  std::vector<double> sum(sectors, 0.0);
-  std::vector<std::size_t> count(sectors, 0);
-  const double width = (upper - lower) / static_cast<double>(sectors);
-  for (const SphereResidual& one : residuals) {
-    const auto at = std::min(sectors - 1, static_cast<std::size_t>((one.*angle - lower) / width));
-    sum[at] += one.residual_um;
-    ++count[at];
-  }
-  render::PointSeries means;
+  std::vector<render::PlotPoint> points;
+  for (const SphereResidual& one : residuals) points.push_back({one.*angle, one.residual_um});
+  render::PointSeries means = meansOver(points, lower, upper, sectors);
   means.name = "mean in sectors";
-  means.colour = render::colours::kInk;
-  means.mark = render::PointMark::none;
-  means.joined = true;
-  for (std::size_t i = 0; i < sectors; ++i) {
-    if (count[i] >= kLeastInSector)
-      means.points.push_back({lower + (static_cast<double>(i) + 0.5) * width, sum[i] / static_cast<double>(count[i])});
-  }
   return means;
 }
 

@@ -229,7 +229,7 @@ Json identifiabilityJson(const identification::Identifiability& judged) {
           {"joints", joints}};
 }
 
-Json calibrationJson(const frames::GeometryCalibration& calibration) {
+Json geometryCalibrationJson(const frames::GeometryCalibration& calibration) {
   if (!calibration.done) return {{"unavailable", words(calibration.reason)}};
   return {{"positions", calibration.positions},
           {"parameters", calibration.parameters},
@@ -327,7 +327,7 @@ JsonDocument identificationJson(const campaign::Campaign& campaign, const identi
   json["geometric_stiffness"] = {{"included", result.finite_deflection},
                                  {"torque_change_share", result.geometric_stiffness_share}};
   json["servo_change_deg"] = result.servo_change / io::kDegree;
-  json["calibration"] = calibrationJson(result.calibration);
+  json["calibration"] = geometryCalibrationJson(result.calibration);
   if (result.transmission) json["transmission"] = transmissionJson(result, methods);
   json["own_weight"] = {{"removed", result.frames.sag_removed}, {"note", words(result.frames.sag_note)}};
   if (!result.length_sensitivity.empty()) {

@@ -52,6 +52,10 @@ JsonDocument campaignResults(const ReportCampaign& one) {
     json["identify"] = withSupport(std::move(json["identify"]), *one.improved, methods);
   }
   if (one.diagnosis != nullptr) json["diagnose"] = diagnosisJson(one.campaign, *one.diagnosis);
+  if (one.accuracy != nullptr) {
+    json["calibration"] = calibrationJson(one.campaign, one.accuracy->calibration, one.calibrated_by);
+    json["diagnosis"] = accuracyJson(one.campaign, *one.accuracy);
+  }
   return document;
 }
 

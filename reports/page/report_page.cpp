@@ -21,39 +21,53 @@ void writeHead(Html& html, const reports::ReportContent& content) {
   html.leaf("style", pageStyle(reports::reportId(content)));
 }
 
-/// Without a load case there is no spread and nothing to compensate; the stiffnesses' section says why.
-bool anyLoads(const reports::ReportContent& content) {
-  return std::any_of(content.campaigns.begin(), content.campaigns.end(),
-                     [](const reports::ReportCampaign& one) { return !one.identification.cases.empty(); });
+/// A section of the page with its entry in the contents.
+struct Section {
+  const char* id;
+  const char* entry;
+  void (*write)(Html& html, const reports::ReportContent& content);
+  bool shown;
+};
+
+/// In the order of the page; what a report's days do not have is not shown.
+std::vector<Section> sectionsOf(const reports::ReportContent& content) {
+  const auto any = [&content](const auto& about) {
+    return std::any_of(content.campaigns.begin(), content.campaigns.end(), about);
+  };
+  // Without a load case there is no spread and nothing to compensate; the stiffnesses' section says why.
+  const bool loads = any([](const reports::ReportCampaign& one) { return !one.identification.cases.empty(); });
+  const bool improved = any([](const reports::ReportCampaign& one) { return one.improved != nullptr; });
+  const bool diagnosed = any([](const reports::ReportCampaign& one) { return one.diagnosis != nullptr; });
+  const bool calibrated = any(isCalibrated);
+  return {{"conditions", "Conditions", writeConditions, true},
+          {"accuracy", "Accuracy", writeAccuracy, calibrated},
+          {"parameters", "Parameters", writeParameters, calibrated},
+          {"station", "Station", writeStation, any(hasStation)},
+          {"accuracy-gap", "What the geometry misses", writeAccuracyGap, calibrated},
+          {"next", "What to do next", writeNextSteps, any(hasActions)},
+          {"wrist", "Wrist centre", writeWrist, any(hasWrist)},
+          {"links", "Links", writeLinks, any(hasAxes)},
+          {"stiffness", "Stiffness", writeStiffness, any(isLoaded)},
+          {"transmission", "Gears", writeTransmission, anySecondEncoders(content)},
+          {"subsets", "Spread", writeSubsets, loads},
+          {"compensation", "Compensation", writeCompensation, loads},
+          {"effects", "Effects in the model", writeExtendedModel, improved},
+          {"gap", "What the model misses", writeGap, diagnosed},
+          {"figures", "Figures", writeFigures, hasFigures(content, "figures")},
+          {"audit", "Audit", writeAudit, any(isAudited)},
+          {"left-out", "Left out", writeLeftOut, any(hasLeftOut)},
+          {"scope", "Uncertainty and scope", writeScope, true},
+          {"provenance", "Inputs", writeProvenance, true}};
 }
 
-void writeContents(Html& html, const reports::ReportContent& content) {
+void writeContents(Html& html, const std::vector<Section>& sections) {
   const auto nav = html.element("nav", {{"aria-label", "Contents"}});
   const auto list = html.element("ul");
-  const auto entry = [&html](const char* id, const char* name) {
+  for (const Section& section : sections) {
+    if (!section.shown) continue;
     const auto item = html.element("li");
-    html.leaf("a", name, {{"href", std::string("#") + id}});
-  };
-  entry("conditions", "Conditions");
-  entry("wrist", "Wrist centre");
-  entry("links", "Links");
-  entry("stiffness", "Stiffness");
-  if (anySecondEncoders(content)) entry("transmission", "Gears");
-  if (anyLoads(content)) entry("subsets", "Spread");
-  if (anyLoads(content)) entry("compensation", "Compensation");
-  const bool improved = std::any_of(content.campaigns.begin(), content.campaigns.end(),
-                                    [](const reports::ReportCampaign& one) { return one.improved != nullptr; });
-  if (improved) entry("effects", "Effects in the model");
-  const bool diagnosed = std::any_of(content.campaigns.begin(), content.campaigns.end(),
-                                     [](const reports::ReportCampaign& one) { return one.diagnosis != nullptr; });
-  if (diagnosed) entry("gap", "What the model misses");
-  if (hasFigures(content, "figures")) entry("figures", "Figures");
-  const bool audited = std::any_of(content.campaigns.begin(), content.campaigns.end(),
-                                   [](const reports::ReportCampaign& one) { return one.audit != nullptr; });
-  if (audited) entry("audit", "Audit");
-  entry("left-out", "Left out");
-  entry("scope", "Uncertainty and scope");
-  entry("provenance", "Inputs");
+    html.leaf("a", section.entry, {{"href", std::string("#") + section.id}});
+  }
 }
 
 void writeEnd(Html& html, const reports::ReportContent& content) {
@@ -71,22 +85,12 @@ ReportPage makeReportPage(const reports::ReportContent& content) {
     const auto body = html.element("body");
     html.leaf("a", "To the results", {{"class", "skip"}, {"href", "#results"}});
     writeOpening(html, content);
-    writeContents(html, content);
+    const std::vector<Section> sections = sectionsOf(content);
+    writeContents(html, sections);
     const auto main = html.element("main", {{"id", "results"}, {"tabindex", "-1"}});
-    writeConditions(html, content);
-    writeWrist(html, content);
-    writeLinks(html, content);
-    writeStiffness(html, content);
-    writeTransmission(html, content);
-    if (anyLoads(content)) writeSubsets(html, content);
-    if (anyLoads(content)) writeCompensation(html, content);
-    writeExtendedModel(html, content);
-    writeGap(html, content);
-    writeFigures(html, content);
-    writeAudit(html, content);
-    writeLeftOut(html, content);
-    writeScope(html, content);
-    writeProvenance(html, content);
+    for (const Section& section : sections) {
+      if (section.shown) section.write(html, content);
+    }
     writeEnd(html, content);
     html.leaf("script", kSortScript);
   }

@@ -78,27 +78,32 @@ bool anySecondEncoders(const reports::ReportContent& content) {
 
 void writeTransmission(Html& html, const reports::ReportContent& content) {
   if (!anySecondEncoders(content)) return;
-  writeForEach(html, content, "transmission", "Gears by two encoders", [&](const reports::ReportCampaign& one) {
-    const auto& transmission = one.identification.transmission;
-    if (!transmission) {
-      html.paragraph("No angles of the motors' side beside those of the joints.");
-      return;
-    }
-    html.paragraph(
-        "Under load the link runs ahead of its motor by the load's torque over the stiffness of the gear: the two "
-        "encoders measure the gear alone, and the tracker takes no part. Where the controller holds the link side the "
-        "tracker sees what lies beyond the gear (bearings, link); where it holds the motor, both in series, and the "
-        "structure is the difference of the compliances.");
-    if (transmission->measured()) {
-      writeTable(html, gearTable(one.identification));
-      html.keepTable("transmission-points", pointsCsv(one.campaign, *transmission));
-      html.paragraph(
-          "± is the expanded uncertainty U, coverage 95\u00a0%, from the scatter between postures, the measured axes, "
-          "and the declared scale of the load cell. Gear's share: of the compliance of gear and structure in series.",
-          "faint");
-    }
-    for (const std::string& note : reports::transmissionNotes(*transmission)) html.paragraph(reports::asIs(note));
-  });
+  writeForEach(
+      html, content, "transmission", "Gears by two encoders", isLoaded, [&](const reports::ReportCampaign& one) {
+        const auto& transmission = one.identification.transmission;
+        if (!transmission) {
+          html.paragraph("No angles of the motors' side beside those of the joints.");
+          return;
+        }
+        html.paragraph(
+            "Under load the link runs ahead of its motor by the load's torque over the stiffness of the gear: the two "
+            "encoders measure the gear alone, and the tracker takes no part. Where the controller holds the link side "
+            "the "
+            "tracker sees what lies beyond the gear (bearings, link); where it holds the motor, both in series, and "
+            "the "
+            "structure is the difference of the compliances.");
+        if (transmission->measured()) {
+          writeTable(html, gearTable(one.identification));
+          html.keepTable("transmission-points", pointsCsv(one.campaign, *transmission));
+          html.paragraph(
+              "± is the expanded uncertainty U, coverage 95\u00a0%, from the scatter between postures, the measured "
+              "axes, "
+              "and the declared scale of the load cell. Gear's share: of the compliance of gear and structure in "
+              "series.",
+              "faint");
+        }
+        for (const std::string& note : reports::transmissionNotes(*transmission)) html.paragraph(reports::asIs(note));
+      });
 }
 
 }  // namespace stiffscope::page

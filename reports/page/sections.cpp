@@ -6,6 +6,8 @@
 
 #include "reports/page/html.h"
 #include "reports/report_content.h"
+#include "reports/words/accuracy_words.h"
+#include "reports/words/day_words.h"
 #include "reports/words/names.h"
 #include "reports/words/numbers.h"
 #include "reports/words/preparation_words.h"
@@ -74,14 +76,17 @@ std::string campaignLine(const campaign::Campaign& campaign) {
   return fmt::format("{}", fmt::join(parts, " · "));
 }
 
-/// The campaign the first numbers are of: the one with active double encoders where there are several, as in
-/// the paper.
+/// The campaign the first numbers are of: a loaded one before others, and of these the one with active double encoders
+/// where there are several, as in the paper.
 const reports::ReportCampaign& leading(const reports::ReportContent& content) {
-  const auto active =
-      std::find_if(content.campaigns.begin(), content.campaigns.end(), [](const reports::ReportCampaign& one) {
-        return one.campaign.double_encoder == campaign::DoubleEncoder::active;
-      });
-  return active == content.campaigns.end() ? content.campaigns.front() : *active;
+  const auto& campaigns = content.campaigns;
+  const bool loaded = reports::anyOfKind(campaigns, reports::DayKind::loaded);
+  const auto first = std::find_if(campaigns.begin(), campaigns.end(),
+                                  [loaded](const reports::ReportCampaign& one) { return !loaded || isLoaded(one); });
+  const auto active = std::find_if(first, campaigns.end(), [loaded](const reports::ReportCampaign& one) {
+    return (!loaded || isLoaded(one)) && one.campaign.double_encoder == campaign::DoubleEncoder::active;
+  });
+  return active == campaigns.end() ? *first : *active;
 }
 
 /// ", double encoders active", where that is declared.
@@ -154,11 +159,9 @@ KeyNumber third(const reports::ReportContent& content, const reports::ReportCamp
 std::vector<KeyNumber> sweepNumbers(const frames::Frames& frames) {
   const auto measured =
       std::count_if(frames.axes.begin(), frames.axes.end(), [](const auto& axis) { return axis.measured; });
-  double rms = 0.0, off = 0.0;
+  double rms = 0.0;
   for (const frames::MeasuredAxis& axis : frames.axes) rms = std::max(rms, axis.measured ? axis.fit.rms : 0.0);
-  for (const frames::LinkGeometry& link : frames.links) {
-    if (link.distance_sd) off = std::max(off, std::abs(link.distance - link.nominal_distance));
-  }
+  const double off = reports::largestLinkDifference(frames);
   return {{fmt::format("{} of 6", measured), "joint axes found from their sweeps"},
           {fmt::format("{}\u00a0mm", reports::significant(reports::kMmPerM * off, 2)),
            "largest difference of a distance between axes from the nominal one"},
@@ -166,8 +169,25 @@ std::vector<KeyNumber> sweepNumbers(const frames::Frames& frames) {
            "rms by which readings leave their circles, of the worst axis"}};
 }
 
+/// What a day without a load gives: position errors by model.
+std::vector<KeyNumber> accuracyNumbers(const reports::ReportCampaign& one) {
+  using calibration::CalibratedModel;
+  std::vector<KeyNumber> numbers;
+  for (const calibration::ModelResult& model : one.accuracy->calibration.models) {
+    if (model.model == CalibratedModel::gravity) continue;
+    if (model.model == CalibratedModel::effects && model.fit.parts.empty()) continue;
+    const bool held_out = model.held_out.readings > 0;
+    const calibration::PositionErrors& errors = held_out ? model.held_out : model.fitted;
+    numbers.push_back({reports::millimetres(errors.rms),
+                       fmt::format("rms position error, {}, {}; largest {}", reports::modelWords(model.model),
+                                   held_out ? "held out" : "fitted", reports::millimetres(errors.largest))});
+  }
+  return numbers;
+}
+
 std::vector<KeyNumber> keyNumbers(const reports::ReportContent& content) {
   const reports::ReportCampaign& one = leading(content);
+  if (one.accuracy != nullptr) return accuracyNumbers(one);
   const reports::JudgedPoint point = reports::judgedPoint(one);
   const bool sweeps_alone = one.identification.cases.empty() && one.identification.frames.axes.front().measured;
   if (sweeps_alone) return sweepNumbers(one.identification.frames);
@@ -190,19 +210,12 @@ void addAuditWarnings(const audit::AuditReport& audit, std::vector<std::string>&
   }
 }
 
-/// That the audit could not be made far enough to say that the readings are fit.
-void addUntested(const audit::AuditReport& audit, std::vector<std::string>& items) {
-  if (audit.verdict != preparation::AuditVerdict::not_testable) return;
-  items.push_back(
-      fmt::format("The audit could make {} of {} checks, too few to say that the readings are fit to identify from.",
-                  audit.made, audit.of));
-}
-
 /// What a reader must know before believing the numbers of a campaign.
 std::vector<std::string> warningsOf(const reports::ReportCampaign& one) {
   std::vector<std::string> items;
   if (one.audit != nullptr) {
-    addUntested(*one.audit, items);
+    const std::string untested = reports::untestedWords(*one.audit, kindOf(one));
+    if (!untested.empty()) items.push_back(untested);
     addAuditWarnings(*one.audit, items);
   }
   if (one.preparation != nullptr && (one.preparation->drift.taken_off || !one.preparation->rejected.empty())) {
@@ -240,9 +253,9 @@ void writeOpening(Html& html, const reports::ReportContent& content) {
     html.leaf("p", campaignLine(one.campaign), {{"class", "faint"}});
   html.paragraph(content.verdict, "verdict");
   if (content.campaigns.empty()) return;
-  {
+  if (const std::vector<KeyNumber> numbers = keyNumbers(content); !numbers.empty()) {
     const auto list = html.element("ul", {{"class", "numbers"}});
-    for (const KeyNumber& number : keyNumbers(content)) {
+    for (const KeyNumber& number : numbers) {
       const auto item = html.element("li");
       html.leaf("b", number.value);
       html.leaf("span", number.words);
@@ -251,21 +264,45 @@ void writeOpening(Html& html, const reports::ReportContent& content) {
   writeWarnings(html, content);
 }
 
-void writeForEach(Html& html, const reports::ReportContent& content, const char* id, const char* heading,
-                  const std::function<void(const reports::ReportCampaign&)>& write) {
-  const auto section = html.element("section", {{"id", id}});
-  html.leaf("h2", heading);
-  writeEach(html, content, id, write);
+bool isAny(const reports::ReportCampaign&) { return true; }
+
+bool isLoaded(const reports::ReportCampaign& one) { return kindOf(one) == reports::DayKind::loaded; }
+
+bool isCalibrated(const reports::ReportCampaign& one) {
+  return one.accuracy != nullptr && one.accuracy->calibration.reason.empty() &&
+         !one.accuracy->calibration.models.empty();
 }
 
-void writeEach(Html& html, const reports::ReportContent& content, const char* id,
+bool hasAxes(const reports::ReportCampaign& one) { return isLoaded(one) || one.campaign.circle_sweeps.has_value(); }
+
+bool hasWrist(const reports::ReportCampaign& one) { return isLoaded(one) || one.campaign.wrist_sweep.has_value(); }
+
+namespace {
+
+std::size_t countOf(const reports::ReportContent& content, const About& about) {
+  return static_cast<std::size_t>(std::count_if(content.campaigns.begin(), content.campaigns.end(), about));
+}
+
+}  // namespace
+
+void writeForEach(Html& html, const reports::ReportContent& content, const char* id, const char* heading,
+                  const About& about, const std::function<void(const reports::ReportCampaign&)>& write) {
+  // A report of no campaign keeps its headings.
+  if (!content.campaigns.empty() && countOf(content, about) == 0) return;
+  const auto section = html.element("section", {{"id", id}});
+  html.leaf("h2", heading);
+  writeEach(html, content, id, about, write);
+}
+
+void writeEach(Html& html, const reports::ReportContent& content, const char* id, const About& about,
                const std::function<void(const reports::ReportCampaign&)>& write) {
-  const bool several = content.campaigns.size() > 1;
+  const bool several = countOf(content, about) > 1;
   {
     const auto row = html.element("div", {{"class", several ? "several" : "one"}});
     for (std::size_t i = 0; i < content.campaigns.size(); ++i) {
+      if (!about(content.campaigns[i])) continue;
       const auto column = html.element("div", {{"class", "each"}});
-      if (several) {
+      if (content.campaigns.size() > 1) {
         html.leaf("h3", reports::asIs(content.campaigns[i].campaign.name));
         html.setTableSuffix(fmt::format("-{}", i + 1));
       }

@@ -21,6 +21,14 @@ void writeCompensation(Html& html, const reports::ReportContent& content);  ///<
 void writeExtendedModel(Html& html,
                         const reports::ReportContent& content);    ///< effects in the model: without and with them
 void writeGap(Html& html, const reports::ReportContent& content);  ///< the diagnosis: where, which, how far, what next
+
+// Days without a load; nothing where there is none.
+void writeAccuracy(Html& html, const reports::ReportContent& content);     ///< before and after, worst postures
+void writeParameters(Html& html, const reports::ReportContent& content);   ///< axes, base, reflectors, uncertainties
+void writeStation(Html& html, const reports::ReportContent& content);      ///< residuals and nests over the day
+void writeAccuracyGap(Html& html, const reports::ReportContent& content);  ///< which effect, where, how far
+void writeNextSteps(Html& html, const reports::ReportContent& content);    ///< what to do about it
+
 void writeFigures(Html& html, const reports::ReportContent& content);
 bool hasFigures(const reports::ReportContent& content, const std::string& section);
 /// The figures of a section; nothing where there is none.
@@ -31,14 +39,26 @@ void writeScope(Html& html,
 void writeLeftOut(Html& html, const reports::ReportContent& content);     ///< what was not used or not found, and why
 void writeProvenance(Html& html, const reports::ReportContent& content);  ///< inputs, versions, settings
 
-/// A section with its heading; `write` is called for each campaign, under an h3 with its name where there are
-/// several.
+/// Which campaigns a section is about.
+using About = bool (*)(const reports::ReportCampaign&);
+bool isAny(const reports::ReportCampaign& one);
+bool isLoaded(const reports::ReportCampaign& one);
+bool isCalibrated(const reports::ReportCampaign& one);  ///< a day without a load that could be
+bool hasActions(const reports::ReportCampaign& one);    ///< calibrated, with something to do
+bool hasStation(const reports::ReportCampaign& one);    ///< without a load, with something to say of its course
+bool hasAxes(const reports::ReportCampaign& one);       ///< loaded, or with circle sweeps
+bool isAudited(const reports::ReportCampaign& one);
+bool hasLeftOut(const reports::ReportCampaign& one);  ///< loaded, or with something left out
+bool hasWrist(const reports::ReportCampaign& one);    ///< loaded, or with a wrist sweep
+
+/// A section with its heading; `write` is called for each campaign that it is `about`, under an h3 with its name where
+/// there are several. Nothing where it is about none.
 void writeForEach(Html& html, const reports::ReportContent& content, const char* id, const char* heading,
-                  const std::function<void(const reports::ReportCampaign&)>& write);
+                  const About& about, const std::function<void(const reports::ReportCampaign&)>& write);
 
 /// The same without a section of its own; then the figures of the section `id`: of a single campaign in its columns, of
 /// several below them.
-void writeEach(Html& html, const reports::ReportContent& content, const char* id,
+void writeEach(Html& html, const reports::ReportContent& content, const char* id, const About& about,
                const std::function<void(const reports::ReportCampaign&)>& write);
 
 }  // namespace stiffscope::page

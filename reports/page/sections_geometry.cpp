@@ -5,6 +5,7 @@
 #include "core/io/units.h"
 #include "reports/page/html.h"
 #include "reports/page/sections.h"
+#include "reports/words/day_words.h"
 #include "reports/words/names.h"
 #include "reports/words/numbers.h"
 #include "reports/words/paper_values.h"
@@ -55,6 +56,14 @@ std::string calibrationWords(const frames::GeometryCalibration& calibration) {
                      reports::significant(calibration.rms_after / io::kMillimetre, 3));
 }
 
+void addUnloaded(reports::RowGroup& group, const calibration::Calibration& calibration) {
+  const calibration::UnloadedDay& day = calibration.day;
+  add(group, "Postures",
+      fmt::format("{} unloaded, {} readings of {} reflector{}; {} left out", day.postures.size(), day.readings(),
+                  day.targets.size(), day.targets.size() == 1 ? "" : "s", calibration.rejected.size()));
+  add(group, "Own weight", day.masses_known ? "the URDF states the masses" : "the URDF states no link masses");
+}
+
 reports::RowGroup conditions(const reports::ReportCampaign& one) {
   const campaign::Campaign& campaign = one.campaign;
   const identification::Identification& result = one.identification;
@@ -72,6 +81,8 @@ reports::RowGroup conditions(const reports::ReportCampaign& one) {
   add(group, "Tracker", tracker ? trackerWords(*tracker) : "not declared: no noise is known");
   if (one.preparation != nullptr)
     add(group, "Readings", reports::withMicro(reports::preparationWords(*one.preparation)));
+  if (one.accuracy != nullptr) addUnloaded(group, one.accuracy->calibration);
+  if (!isLoaded(one)) return group;
   add(group, "Postures", fmt::format("{} used, {} left out", result.cases.size(), result.left_out.size()));
   add(group, "Load", result.cases.empty() ? "none was measured that could be used" : loadWords(result));
   add(group, "Own weight", reports::words(result.frames.sag_note));
@@ -96,14 +107,11 @@ reports::RowGroup conditions(const reports::ReportCampaign& one) {
 void writeConditions(Html& html, const reports::ReportContent& content) {
   const auto section = html.element("section", {{"id", "conditions"}});
   html.leaf("h2", "Method and conditions");
-  html.paragraph(
-      "Displacements of the reflectors under a known load, read by a laser tracker, give the "
-      "compliance of each joint by least squares. Complete Pose (CP) uses position and rotation of "
-      "P_{TCP}; Partial Pose (PP) the reflectors' positions on a calibrated geometry; Decoupled "
-      "Partial Pose (DPP) first joints 1 to 3 from P_{wrist}, which joints 4 to 6 do not move, "
-      "then joints 4 to 6 from what is left. Stiffness is that of the closed loop, at the joint "
-      "angles which the controller reports.");
-  writeEach(html, content, "conditions", [&](const reports::ReportCampaign& one) {
+  using reports::DayKind;
+  for (const DayKind kind : {DayKind::unloaded, DayKind::loaded, DayKind::sweeps}) {
+    if (reports::anyOfKind(content.campaigns, kind)) html.paragraph(reports::methodWords(kind));
+  }
+  writeEach(html, content, "conditions", isAny, [&](const reports::ReportCampaign& one) {
     writeTable(html, {"Conditions of the measurement", {"What", "As measured"}, {conditions(one)}, true, "conditions"});
   });
 }
@@ -154,7 +162,7 @@ reports::Table axisTable(const frames::Frames& frames) {
 }  // namespace
 
 void writeLinks(Html& html, const reports::ReportContent& content) {
-  writeForEach(html, content, "links", "Link lengths and angles", [&](const reports::ReportCampaign& one) {
+  writeForEach(html, content, "links", "Link lengths and angles", hasAxes, [&](const reports::ReportCampaign& one) {
     const frames::Frames& frames = one.identification.frames;
     std::vector<std::string> unmeasured;
     for (std::size_t i = 0; i < frames.axes.size(); ++i) {
@@ -256,7 +264,7 @@ void writeMeasured(Html& html, const reports::ReportContent& content, const repo
 }  // namespace
 
 void writeWrist(Html& html, const reports::ReportContent& content) {
-  writeForEach(html, content, "wrist", "Wrist centre", [&](const reports::ReportCampaign& one) {
+  writeForEach(html, content, "wrist", "Wrist centre", hasWrist, [&](const reports::ReportCampaign& one) {
     const frames::WristCentre& wrist = one.identification.frames.wrist;
     if (wrist.measured) {
       writeMeasured(html, content, one, wrist);

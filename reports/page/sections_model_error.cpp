@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/io/units.h"
+#include "reports/page/diagnosis_tables.h"
 #include "reports/page/html.h"
 #include "reports/page/sections.h"
 #include "reports/words/effect_words.h"
@@ -17,18 +18,6 @@ namespace stiffscope::page {
 namespace {
 
 constexpr double kPerMega = 1e-6;  // to 10^6 Nm/rad
-
-std::string inUm(double metres) { return reports::fixed(metres / io::kMicrometre, 1); }
-
-/// In percent; a gap that more than doubles has no size worth reading.
-std::string shareOf(double shrink, int decimals) {
-  return shrink < -1.0 ? "below −100" : reports::fixed(100.0 * shrink, decimals);
-}
-
-std::string interval(const diagnosis::Shrink& shrink) {
-  if (shrink.high < -1.0) return "–";
-  return fmt::format("{} to {}", shareOf(shrink.low, 0), shareOf(shrink.high, 0));
-}
 
 /// What is present, with what it means.
 std::string findingOf(const diagnosis::Diagnosis& diagnosis) {
@@ -106,62 +95,10 @@ std::string fallOf(const diagnosis::EffectClass& one) {
   return one.effects.front() == effects::Effect::kinematic_error ? "–" : reports::significant(one.score, 3);
 }
 
-reports::Table classesTable(const diagnosis::Diagnosis& diagnosis) {
-  reports::Table table{"Which effect: the verdict's first, then the other candidates, best first",
-                       {"Effect", "In the verdict", "Fall of BIC", "Shrink held out (%)", "95 % (%)", "Explained (%)"},
-                       {},
-                       false,
-                       "diagnosis"};
-  reports::RowGroup group;
-  for (const diagnosis::EffectClass& one : diagnosis.classes) {
-    group.rows.push_back(
-        {reports::Cell(reports::effectNames(one.effects), reports::asIs(reports::shortDetail(one.detail))),
-         one.in_verdict ? "yes" : "no", fallOf(one), shareOf(one.shrink.value, 1), interval(one.shrink),
-         reports::fixed(100.0 * one.explained, 0)});
-  }
-  table.groups.push_back(std::move(group));
-  return table;
-}
-
-const diagnosis::WhereRow* rowOf(const std::vector<diagnosis::WhereTable>& tables, const std::string& by,
-                                 const std::string& name) {
-  for (const diagnosis::WhereTable& table : tables) {
-    if (table.by != by) continue;
-    for (const diagnosis::WhereRow& row : table.rows) {
-      if (row.name == name) return &row;
-    }
-  }
-  return nullptr;
-}
-
-/// The deflection's gap, and beside it that of unloaded positions where these were tested.
-reports::Table whereTable(const diagnosis::Diagnosis& diagnosis) {
-  const bool positions = !diagnosis.where_positions.empty();
-  reports::Table table{"Where the gap lies that joint stiffnesses leave, rms per coordinate",
-                       {"By", "Part", "Deflection (µm)", "Noise (µm)", "Share (%)", "Above noise (sd)"},
-                       {},
-                       false,
-                       "gap"};
-  if (positions) {
-    for (const char* column : {"Unloaded (µm)", "Noise (µm)"}) table.columns.emplace_back(column);
-  }
-  if (!diagnosis.as_measured.rows.empty()) table.caption += ", the station's motion taken off";
-  for (const diagnosis::WhereTable& one : diagnosis.where) {
-    if (one.by == "posture") continue;  // a figure, and results.json
-    reports::RowGroup group{one.by, {}};
-    for (const diagnosis::WhereRow& row : one.rows) {
-      reports::Row cells{reports::asIs(row.name), inUm(row.rms), inUm(row.noise), reports::fixed(100.0 * row.share, 0),
-                         reports::asIs(reports::deviateWords(row.significance))};
-      if (positions) {
-        const diagnosis::WhereRow* at_rest = rowOf(diagnosis.where_positions, one.by, row.name);
-        cells.emplace_back(at_rest ? inUm(at_rest->rms) : "–");
-        cells.emplace_back(at_rest ? inUm(at_rest->noise) : "–");
-      }
-      group.rows.push_back(std::move(cells));
-    }
-    table.groups.push_back(std::move(group));
-  }
-  return table;
+reports::Table gapTable(const diagnosis::Diagnosis& diagnosis) {
+  std::string caption = "Where the gap lies that joint stiffnesses leave, rms per coordinate";
+  if (!diagnosis.as_measured.rows.empty()) caption += ", the station's motion taken off";
+  return whereTable(caption, "Deflection (µm)", diagnosis.where, {diagnosis.where_positions, "Unloaded (µm)"});
 }
 
 reports::Table stiffnessTable(const diagnosis::Diagnosis& diagnosis) {
@@ -188,30 +125,6 @@ reports::Table stiffnessTable(const diagnosis::Diagnosis& diagnosis) {
   return table;
 }
 
-reports::Table detectableTable(const diagnosis::Diagnosis& diagnosis) {
-  reports::Table table{"Smallest size that would have been seen, rms per coordinate",
-                       {"Effect", "Size (µm)"},
-                       {},
-                       false,
-                       "diagnosis-detectable"};
-  reports::RowGroup group;
-  for (const diagnosis::DetectableSize& one : diagnosis.detectable) {
-    if (one.size) group.rows.push_back({reports::effectName(one.effect), inUm(*one.size)});
-  }
-  table.groups.push_back(std::move(group));
-  return table;
-}
-
-void writeNotTestable(Html& html, const diagnosis::Diagnosis& diagnosis) {
-  if (diagnosis.not_testable.empty()) return;
-  html.paragraph("Not testable with this data:");
-  std::vector<std::string> missing;
-  for (const diagnosis::NotTestable& one : diagnosis.not_testable)
-    missing.push_back(
-        fmt::format("{}: {}.", reports::effectName(one.effect), reports::withMicro(reports::words(one.missing))));
-  html.list(missing);
-}
-
 void writeDiagnosis(Html& html, const diagnosis::Diagnosis& diagnosis) {
   if (!diagnosis.usable) {
     html.paragraph(fmt::format("No diagnosis: {}.", reports::asIs(reports::words(diagnosis.unusable_reason))));
@@ -223,7 +136,7 @@ void writeDiagnosis(Html& html, const diagnosis::Diagnosis& diagnosis) {
   if (!actions.empty()) html.paragraph("What to do:");
   html.list(actions);
   html.paragraph(reports::withMicro(reports::reasonWords(diagnosis.verdict)), "faint");
-  writeTable(html, classesTable(diagnosis));
+  writeTable(html, classesTable(diagnosis.classes, &fallOf));
   if (!reports::namedWords(diagnosis.verdict).empty()) {
     writeTable(html, stiffnessTable(diagnosis));
     if (!diagnosis.stated) {
@@ -233,14 +146,10 @@ void writeDiagnosis(Html& html, const diagnosis::Diagnosis& diagnosis) {
           "faint");
     }
   }
-  writeTable(html, whereTable(diagnosis));
-  for (const diagnosis::WhereTable& table : diagnosis.where) {
-    if (table.overlaps) html.paragraph("By " + table.by + ": " + reports::overlapWords(table), "faint");
-  }
-  writeNotTestable(html, diagnosis);
-  const auto fold = html.element("details");  // the figure has these numbers, too
-  html.leaf("summary", "The smallest sizes as a table");
-  writeTable(html, detectableTable(diagnosis));
+  writeTable(html, gapTable(diagnosis));
+  writeOverlaps(html, diagnosis.where);
+  writeNotTestable(html, diagnosis.not_testable);
+  writeDetectable(html, diagnosis.detectable);
 }
 
 }  // namespace
@@ -249,55 +158,17 @@ void writeGap(Html& html, const reports::ReportContent& content) {
   const bool any = std::any_of(content.campaigns.begin(), content.campaigns.end(),
                                [](const reports::ReportCampaign& one) { return one.diagnosis != nullptr; });
   if (!any) return;
-  writeForEach(html, content, "gap", "What the model misses", [&](const reports::ReportCampaign& one) {
+  writeForEach(html, content, "gap", "What the model misses", isLoaded, [&](const reports::ReportCampaign& one) {
     if (one.diagnosis != nullptr) writeDiagnosis(html, *one.diagnosis);
   });
 }
 
 namespace {
 
-/// The power of ten, a multiple of three, that brings a size near one; 0 where it is near enough.
-int powerFor(double size) {
-  constexpr double kLargest = 1e6, kSmallest = 1e-3;
-  if (!(size > 0.0) || !std::isfinite(size) || (size < kLargest && size >= kSmallest)) return 0;
-  return 3 * static_cast<int>(std::floor(std::log10(size) / 3.0));
-}
-
-/// "10⁻⁶".
-std::string powerOfTen(int power) {
-  static constexpr std::array<const char*, 10> kDigits{"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
-  std::string text = power < 0 ? "10⁻" : "10";
-  for (const char digit : std::to_string(std::abs(power))) text += kDigits[static_cast<std::size_t>(digit - '0')];
-  return text;
-}
-
-/// Of all parameters of one unit, so that they can be compared.
-int powerFor(const std::vector<extended_model::EffectParameter>& parameters, const std::string& unit) {
-  double largest = 0.0;
-  for (const extended_model::EffectParameter& one : parameters) {
-    if (one.unit == unit) largest = std::max({largest, std::abs(one.value), one.sd});
-  }
-  return powerFor(largest);
-}
-
-reports::Row parameterRow(const extended_model::EffectParameter& parameter, int power) {
-  const double unit = std::pow(10.0, power);
-  return {reports::asIs(parameter.name.empty() ? "size" : parameter.name),
-          reports::withUncertainty(parameter.value / unit, reports::expanded(parameter.sd) / unit),
-          power == 0 ? parameter.unit : fmt::format("{}\u00a0{}", powerOfTen(power), parameter.unit)};
-}
-
 reports::Table parametersTable(const extended_model::EffectFit& effects) {
-  reports::Table table{
-      "Effects in the model, fitted jointly with the stiffnesses", {"Effect", "Parameter", "Value ± U", "Unit"}, {}};
-  table.id = "effects";
-  for (const extended_model::AddedEffect& one : effects.added) {
-    reports::RowGroup group{reports::effectName(one.effect), {}};
-    for (const extended_model::EffectParameter& parameter : one.parameters) {
-      group.rows.push_back(parameterRow(parameter, powerFor(one.parameters, parameter.unit)));
-    }
-    table.groups.push_back(std::move(group));
-  }
+  reports::Table table = effectParametersTable("Effects in the model, fitted jointly with the stiffnesses");
+  for (const extended_model::AddedEffect& one : effects.added)
+    table.groups.push_back(parameterGroup(reports::effectName(one.effect), one.parameters));
   return table;
 }
 
@@ -432,7 +303,7 @@ void writeExtendedModel(Html& html, const reports::ReportContent& content) {
   const bool any = std::any_of(content.campaigns.begin(), content.campaigns.end(),
                                [](const reports::ReportCampaign& one) { return one.improved != nullptr; });
   if (!any) return;
-  writeForEach(html, content, "effects", "Effects in the model", [&](const reports::ReportCampaign& one) {
+  writeForEach(html, content, "effects", "Effects in the model", isLoaded, [&](const reports::ReportCampaign& one) {
     if (one.improved != nullptr) writeModel(html, *one.improved);
   });
 }

@@ -8,6 +8,7 @@
 #include "reports/page/html.h"
 #include "reports/page/sections.h"
 #include "reports/words/audit_figures.h"
+#include "reports/words/day_words.h"
 #include "reports/words/listed.h"
 #include "reports/words/names.h"
 #include "reports/words/numbers.h"
@@ -17,20 +18,6 @@
 namespace stiffscope::page {
 
 namespace {
-
-const char* meaningOf(preparation::AuditVerdict verdict) {
-  switch (verdict) {
-    case preparation::AuditVerdict::pass:
-      return "The audit passes: the readings are fit to identify from.";
-    case preparation::AuditVerdict::warn:
-      return "The audit warns: the readings are fit to identify from, with what is said below.";
-    case preparation::AuditVerdict::not_testable:
-      return "The audit cannot tell: too little was measured to say whether the readings are fit to identify from.";
-    case preparation::AuditVerdict::fail:
-      break;
-  }
-  return "The audit fails: as they were read, the readings are not fit to identify from.";
-}
 
 std::string withUnit(const std::optional<double>& value, const std::string& unit) {
   if (!value) return "–";
@@ -139,6 +126,16 @@ std::vector<std::string> furtherWords(const audit::AuditReport& report, bool dia
   return items;
 }
 
+/// Of a day without a load most of it is what only a load would tell: folded.
+void writeFurther(Html& html, const reports::ReportCampaign& one) {
+  const std::vector<std::string> items = furtherWords(*one.audit, one.diagnosis != nullptr && one.diagnosis->usable);
+  if (isLoaded(one)) return html.list(items);
+  if (items.empty()) return;
+  const auto fold = html.element("details");
+  html.leaf("summary", "What could not be checked on such a day, and why");
+  html.list(items);
+}
+
 /// What nothing tells, where a pass needs it.
 void writeUnanswered(Html& html, const audit::AuditReport& report) {
   if (report.unanswered.empty()) return;
@@ -177,19 +174,17 @@ void writeRejected(Html& html, const reports::ReportCampaign& one) {
 
 }  // namespace
 
+bool isAudited(const reports::ReportCampaign& one) { return one.audit != nullptr; }
+
 void writeAudit(Html& html, const reports::ReportContent& content) {
-  const bool any = std::any_of(content.campaigns.begin(), content.campaigns.end(),
-                               [](const reports::ReportCampaign& one) { return one.audit != nullptr; });
-  if (!any) return;
-  writeForEach(html, content, "audit", "Audit of the readings", [&](const reports::ReportCampaign& one) {
-    if (one.audit == nullptr) return;
-    html.paragraph(fmt::format("{} {} of {} checks could be made.", meaningOf(one.audit->verdict), one.audit->made,
-                               one.audit->of));
-    writeUnanswered(html, *one.audit);
+  const auto write = [&](const reports::ReportCampaign& one) {
+    html.paragraph(fmt::format("{} {} of {} checks could be made.", reports::auditMeaning(*one.audit, kindOf(one)),
+                               one.audit->made, one.audit->of));
+    if (isLoaded(one)) writeUnanswered(html, *one.audit);
     writeTable(html, findingsTable(*one.audit));
     writeSuspected(html, *one.audit);
     writeTable(html, passedTable(*one.audit));
-    html.list(furtherWords(*one.audit, one.diagnosis != nullptr && one.diagnosis->usable));
+    writeFurther(html, one);
     if (anyByChance(*one.audit)) {
       html.paragraph(
           "Limits by chi-square, normal deviates or Student's t share 1\u00a0% of false findings over the "
@@ -197,13 +192,22 @@ void writeAudit(Html& html, const reports::ReportContent& content) {
           "faint");
     }
     writeRejected(html, one);
-  });
+  };
+  writeForEach(html, content, "audit", "Audit of the readings", isAudited, write);
 }
 
 namespace {
 
 /// Postures and parameters; joints, methods and the wrist centre say so where their numbers would stand.
-std::vector<std::string> leftOut(const identification::Identification& result) {
+std::vector<std::string> leftOut(const reports::ReportCampaign& one) {
+  if (one.accuracy != nullptr) {
+    const auto words = [](const preparation::RejectedReading& reading) {
+      return reports::withMicro(reports::rejectedWords(reading)) + ".";
+    };
+    return reports::listed(one.accuracy->calibration.rejected, words, reports::kListedInResults);
+  }
+  if (!isLoaded(one)) return {};
+  const identification::Identification& result = one.identification;
   std::vector<std::string> items = reports::listed(result.left_out, reports::leftOutWords, reports::kListedInResults);
   if (!result.calibration.fixed.empty()) {
     items.push_back(fmt::format("PP's geometry, kept at its start because the positions do not see it: {}.",
@@ -214,12 +218,15 @@ std::vector<std::string> leftOut(const identification::Identification& result) {
 
 }  // namespace
 
+bool hasLeftOut(const reports::ReportCampaign& one) { return isLoaded(one) || !leftOut(one).empty(); }
+
 void writeLeftOut(Html& html, const reports::ReportContent& content) {
-  writeForEach(html, content, "left-out", "What was left out, and why", [&](const reports::ReportCampaign& one) {
-    const std::vector<std::string> items = leftOut(one.identification);
-    if (one.identification.left_out.empty()) html.paragraph("No posture was left out.");
+  const auto write = [&](const reports::ReportCampaign& one) {
+    const std::vector<std::string> items = leftOut(one);
+    if (isLoaded(one) && one.identification.left_out.empty()) html.paragraph("No posture was left out.");
     html.list(items);
-  });
+  };
+  writeForEach(html, content, "left-out", "What was left out, and why", hasLeftOut, write);
 }
 
 namespace {
@@ -234,7 +241,7 @@ reports::Table namedTable(const char* id, const char* caption, const char* name,
 }  // namespace
 
 void writeProvenance(Html& html, const reports::ReportContent& content) {
-  writeForEach(html, content, "provenance", "Inputs", [&](const reports::ReportCampaign& one) {
+  writeForEach(html, content, "provenance", "Inputs", isAny, [&](const reports::ReportCampaign& one) {
     if (one.campaign.inputs.empty()) html.paragraph("No file was read: the campaign comes from memory.");
     reports::Table table{"Files read", {"File", "SHA-256 of its bytes"}, {{}}, true, "inputs"};
     for (const campaign::InputFile& file : one.campaign.inputs)
@@ -255,22 +262,22 @@ void writeProvenance(Html& html, const reports::ReportContent& content) {
   writeTable(html, namedTable("settings", "Settings", "Setting", "Value", content.settings));
 }
 
-void writeScope(Html& html, const reports::ReportContent&) {
+void writeScope(Html& html, const reports::ReportContent& content) {
   const auto section = html.element("section", {{"id", "scope"}});
   html.leaf("h2", "Uncertainty, decision rule and scope");
-  html.list(
-      {"Uncertainty: the standard uncertainty u of a compliance is from the scatter between postures (sandwich "
-       "estimate, CR2) and from what they all share and the campaign tells of: frames, wrist radii, geometry; that of "
-       "a "
-       "stiffness is u(c)/c², to first order. U = k u with Student's t for about 95\u00a0%. The scales of the load "
-       "cell "
-       "and of the tracker, of which no reading tells, are not in it.",
-       "Decision rule: no statement of conformity to a specification is made. A joint counts as seen where the load "
-       "turns it by more than three times what wrench, frame and angle uncertainty alone would. A stiffness is "
-       "imprecise where u exceeds the value, and negative ones are shown as found; uncertainty is not used to move a "
-       "limit.",
-       "The results relate only to the items measured, in the state and under the conditions stated here.",
-       "Number and date of this report are those of its input: the same files and settings give the same report."});
+  std::vector<std::string> items;
+  using reports::DayKind;
+  for (const DayKind kind : {DayKind::unloaded, DayKind::loaded, DayKind::sweeps}) {
+    if (!reports::anyOfKind(content.campaigns, kind)) continue;
+    for (const std::string& item : reports::scopeWords(kind)) {
+      if (std::find(items.begin(), items.end(), item) == items.end()) items.push_back(item);
+    }
+  }
+  items.emplace_back(
+      "The results relate only to the items measured, in the state and under the conditions stated here.");
+  items.emplace_back(
+      "Number and date of this report are those of its input: the same files and settings give the same report.");
+  html.list(items);
 }
 
 }  // namespace stiffscope::page

@@ -171,7 +171,7 @@ void writeCompensation(Html& html, const reports::ReportContent& content) {
       "the mean: on the postures a subset used, on those it held out, and on all. P_{wrist} sees "
       "joints 1 to 3 only, the reflectors all six.");
   writeAvoided(html, content);
-  writeEach(html, content, "compensation", [&](const reports::ReportCampaign& one) {
+  writeEach(html, content, "compensation", isLoaded, [&](const reports::ReportCampaign& one) {
     if (!reports::shownMethod(one.identification)) {
       html.paragraph("No method is available, so nothing is compensated.");
       return;
@@ -380,7 +380,7 @@ std::string wideIntervals(const identification::Identification& result) {
 }  // namespace
 
 void writeStiffness(Html& html, const reports::ReportContent& content) {
-  writeForEach(html, content, "stiffness", "Joint stiffness", [&](const reports::ReportCampaign& one) {
+  writeForEach(html, content, "stiffness", "Joint stiffness", isLoaded, [&](const reports::ReportCampaign& one) {
     Notes notes;
     writeTable(html, stiffnessTable(one.identification, notes));
     html.paragraph(uncertaintyWords(one.identification), "faint");
@@ -441,24 +441,25 @@ reports::Table tableTwo(const reports::ReportContent& content, const reports::Re
 }  // namespace
 
 void writeSubsets(Html& html, const reports::ReportContent& content) {
-  writeForEach(html, content, "subsets", "Spread over subsets of postures", [&](const reports::ReportCampaign& one) {
-    const auto shown = reports::shownMethod(one.identification);
-    if (!shown) {
-      html.paragraph("No method is available, so there is no spread to show.");
-      return;
-    }
-    const identification::SubsetStudy& study = one.identification.of(*shown).subsets;
-    if (study.compliances.empty()) {
-      html.paragraph(fmt::format("{} postures are too few to draw subsets from.", one.identification.cases.size()));
-      return;
-    }
-    writeTable(html, tableTwo(content, one, study));
-    html.paragraph(
-        "A stiffness is one over a compliance: where the compliance comes near zero in some "
-        "subsets, the mean of the stiffness is carried off by a few of them, and the median is the "
-        "number to read.",
-        "faint");
-  });
+  writeForEach(
+      html, content, "subsets", "Spread over subsets of postures", isLoaded, [&](const reports::ReportCampaign& one) {
+        const auto shown = reports::shownMethod(one.identification);
+        if (!shown) {
+          html.paragraph("No method is available, so there is no spread to show.");
+          return;
+        }
+        const identification::SubsetStudy& study = one.identification.of(*shown).subsets;
+        if (study.compliances.empty()) {
+          html.paragraph(fmt::format("{} postures are too few to draw subsets from.", one.identification.cases.size()));
+          return;
+        }
+        writeTable(html, tableTwo(content, one, study));
+        html.paragraph(
+            "A stiffness is one over a compliance: where the compliance comes near zero in some "
+            "subsets, the mean of the stiffness is carried off by a few of them, and the median is the "
+            "number to read.",
+            "faint");
+      });
 }
 
 }  // namespace stiffscope::page

@@ -25,10 +25,7 @@ void writeModels(const calibration::Calibration& calibration, const calibration:
                    model.fitted.rms / io::kMillimetre, model.held_out.rms / io::kMillimetre,
                    model.held_out.largest / io::kMillimetre, model.fit.parameters);
   }
-  fmt::format_to(out,
-                 "  held out: each of {} folds predicted by what the others fit; posture i is in fold "
-                 "(i / {}) mod {}\n",
-                 options.folds, options.fold_size, options.folds);
+  fmt::format_to(out, "  {}\n", foldWords(options));
 }
 
 void writeEffects(const calibration::Calibration& calibration, Out out) {
@@ -43,10 +40,7 @@ void writeEffects(const calibration::Calibration& calibration, Out out) {
       ++k;
     }
   }
-  for (const calibration::ModelResult& model : calibration.models) {
-    for (const Remark& note : model.notes)
-      fmt::format_to(out, "  {}\n", wrapped(fmt::format("{}: {}", nameOf(model.model), words(note)), 4));
-  }
+  for (const std::string& note : modelNotes(calibration)) fmt::format_to(out, "  {}\n", wrapped(note, 4));
 }
 
 void writeAxes(const calibration::Calibration& calibration, Out out) {

@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 #include <algorithm>
 
+#include "reports/words/entry_words.h"
+#include "reports/words/remark_words.h"
+
 namespace stiffscope::reports {
 
 const char* nameOf(calibration::CalibratedModel model) {
@@ -31,9 +34,22 @@ std::vector<std::string> effectIdsOf(const calibration::ArmFit& fit) {
   return ids;
 }
 
+std::string foldWords(const calibration::CalibrationOptions& options) {
+  return fmt::format(
+      "held out: each of {} folds predicted by what the others fit; posture i is in fold (i / {}) mod {}",
+      options.folds, options.fold_size, options.folds);
+}
+
+std::vector<std::string> modelNotes(const calibration::Calibration& calibration) {
+  std::vector<std::string> notes;
+  for (const calibration::ModelResult& model : calibration.models) {
+    for (const Remark& note : model.notes) notes.push_back(fmt::format("{}: {}", nameOf(model.model), words(note)));
+  }
+  return notes;
+}
+
 std::string partName(const calibration::EffectPart& part) {
-  std::string name(idOf(part.effect));
-  std::replace(name.begin(), name.end(), '_', ' ');
+  const std::string name = nameOfId(idOf(part.effect));
   if (part.order) return fmt::format("{} ({}, order {:g})", name, part.detail, *part.order);
   return part.detail.empty() ? name : fmt::format("{} ({})", name, part.detail);
 }

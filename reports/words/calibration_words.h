@@ -14,6 +14,12 @@ const char* nameOf(calibration::CalibratedModel model);  ///< "nominal", "geomet
 /// Ids of the effects in a fit, each once, in the order in which they were found; refused terms are not in it.
 std::vector<std::string> effectIdsOf(const calibration::ArmFit& fit);
 
+/// "held out: each of 2 folds predicted by what the others fit; posture i is in fold (i / 1) mod 2"
+std::string foldWords(const calibration::CalibrationOptions& options);
+
+/// What is to be said of the models: refused compliances, no effect.
+std::vector<std::string> modelNotes(const calibration::Calibration& calibration);
+
 /// "transmission error (joint 2, order 17.25)"
 std::string partName(const calibration::EffectPart& part);
 

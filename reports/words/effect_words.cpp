@@ -87,16 +87,10 @@ const Words& wordsOf(effects::Effect effect) { return kWords[static_cast<std::si
 
 }  // namespace
 
-std::string effectName(effects::Effect effect) {
-  std::string name(effects::idOf(effect));
-  std::replace(name.begin(), name.end(), '_', ' ');
-  return name;
-}
+std::string effectName(effects::Effect effect) { return nameOfId(effects::idOf(effect)); }
 
 std::string effectNames(const std::vector<effects::Effect>& effects, const char* between) {
-  std::string names;
-  for (const effects::Effect effect : effects) names += (names.empty() ? "" : between) + effectName(effect);
-  return names;
+  return namesJoined(effects, between);
 }
 
 std::string effectMeaning(effects::Effect effect) { return wordsOf(effect).meaning; }
@@ -104,25 +98,6 @@ std::string effectMeaning(effects::Effect effect) { return wordsOf(effect).meani
 std::string effectRemedy(effects::Effect effect) { return wordsOf(effect).remedy; }
 
 std::string effectUse(effects::Effect effect) { return wordsOf(effect).use; }
-
-std::string shortDetail(const std::string& detail) {
-  constexpr std::string_view kJoint = "joint ";
-  std::vector<std::string> joints;
-  for (std::size_t at = 0; at < detail.size();) {
-    const std::size_t end = std::min(detail.find(", ", at), detail.size());
-    const std::string one = detail.substr(at, end - at);
-    if (one.size() != kJoint.size() + 1 || one.rfind(kJoint, 0) != 0) return detail;
-    joints.push_back(one.substr(kJoint.size()));
-    at = end + 2;
-  }
-  if (joints.size() < 2) return detail;
-  bool in_a_row = joints.size() > 2;
-  for (std::size_t i = 1; i < joints.size(); ++i) in_a_row = in_a_row && joints[i][0] == joints[i - 1][0] + 1;
-  if (in_a_row) return fmt::format("joints {} to {}", joints.front(), joints.back());
-  const std::string last = joints.back();
-  joints.pop_back();
-  return fmt::format("joints {} and {}", fmt::join(joints, ", "), last);
-}
 
 std::string deviateWords(double deviate) {
   if (std::abs(deviate) < numerics::kLargestDeviate) return fmt::format("{:.1f}", unsignedZero(deviate, 1));
@@ -137,23 +112,9 @@ std::string overlapWords(const diagnosis::WhereTable& table) {
       100.0 * table.explained);
 }
 
-std::string namedWords(const diagnosis::Verdict& verdict) {
-  std::string words;
-  for (const diagnosis::VerdictEntry& entry : verdict.entries) {
-    if (entry.effects.empty()) continue;
-    words += (words.empty() ? "" : ", and ") + effectNames(entry.effects);
-    if (!entry.detail.empty()) words += fmt::format(" ({})", shortDetail(entry.detail));
-  }
-  return words;
-}
+std::string namedWords(const diagnosis::Verdict& verdict) { return namedOf(verdict.entries); }
 
-std::string presentWords(const diagnosis::Verdict& verdict) {
-  const bool unknown = std::any_of(verdict.entries.begin(), verdict.entries.end(),
-                                   [](const diagnosis::VerdictEntry& entry) { return entry.effects.empty(); });
-  std::string words = namedWords(verdict);
-  if (unknown) words += std::string(words.empty() ? "" : ", and ") + "something that no known effect explains";
-  return words.empty() ? "nothing" : words;
-}
+std::string presentWords(const diagnosis::Verdict& verdict) { return presentOf(verdict.entries); }
 
 std::string reasonWords(const diagnosis::Verdict& verdict) {
   return fmt::format("{}", fmt::join(words(verdict.reasons), " "));

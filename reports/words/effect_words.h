@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/diagnosis/diagnosis.h"
+#include "reports/words/entry_words.h"
 
 // Effects in the words of the page and its pictures. Plain texts, not rich ones: details name reflectors.
 
@@ -15,9 +16,6 @@ std::string effectNames(const std::vector<effects::Effect>& effects, const char*
 std::string effectMeaning(effects::Effect effect);  ///< what the machine then does
 std::string effectRemedy(effects::Effect effect);   ///< rich text: what a laboratory can do about it, one sentence
 std::string effectUse(effects::Effect effect);      ///< what is done with it in the extended model, and why
-
-/// "joints 1, 2 and 4" for "joint 1, joint 2, joint 4", "joints 1 to 6" for all; other details as they are.
-std::string shortDetail(const std::string& detail);
 
 /// "bearing tilt (joints 1 and 2), and hysteresis": those that can be in a model; empty where there is none.
 std::string namedWords(const diagnosis::Verdict& verdict);

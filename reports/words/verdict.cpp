@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "core/comparison/matched_postures.h"
+#include "reports/words/accuracy_words.h"
 #include "reports/words/effect_words.h"
 #include "reports/words/names.h"
 #include "reports/words/numbers.h"
@@ -128,7 +129,11 @@ std::string gapSentences(const std::vector<ReportCampaign>& campaigns) {
 
 }  // namespace
 
-std::string verdictOf(const std::vector<ReportCampaign>& campaigns, const std::optional<AvoidedByEncoders>& avoided) {
+namespace {
+
+/// Of the days with a load.
+std::string stiffnessVerdict(const std::vector<ReportCampaign>& campaigns,
+                             const std::optional<AvoidedByEncoders>& avoided) {
   if (campaigns.empty()) return {};
   std::string text = sameJoints(campaigns) ? together(campaigns) : oneByOne(campaigns);
   if (avoided && avoided->available) {
@@ -136,6 +141,24 @@ std::string verdictOf(const std::vector<ReportCampaign>& campaigns, const std::o
                         pointOf(*avoided));
   }
   text += gapSentences(campaigns);
+  return text;
+}
+
+}  // namespace
+
+std::string verdictOf(const std::vector<ReportCampaign>& campaigns, const std::optional<AvoidedByEncoders>& avoided) {
+  std::string text;
+  const auto add = [&](const ReportCampaign& one, const std::string& words) {
+    const std::string name = campaigns.size() > 1 ? asIs(one.campaign.name) + ": " : std::string();
+    text += (text.empty() ? "" : " ") + name + words;
+  };
+  for (const ReportCampaign& one : ofKind(campaigns, DayKind::unloaded)) add(one, accuracyVerdict(one));
+  const std::vector<ReportCampaign> loaded = ofKind(campaigns, DayKind::loaded);
+  if (loaded.size() == 1)
+    add(loaded.front(), stiffnessVerdict(loaded, avoided));
+  else if (!loaded.empty())
+    text += (text.empty() ? "" : " ") + stiffnessVerdict(loaded, avoided);
+  for (const ReportCampaign& one : ofKind(campaigns, DayKind::sweeps)) add(one, sweepsVerdict(one));
   return text;
 }
 

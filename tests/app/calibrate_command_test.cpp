@@ -53,14 +53,12 @@ TEST(CalibrateCommand, RefusesFoldsThatAreNone) {
   EXPECT_NE(ran.err.find("--folds: '1': expected 2 to 100"), std::string::npos) << ran.err;
 }
 
-TEST(CalibrateCommand, OtherCommandsNameIt) {
+TEST(CalibrateCommand, IdentifyNamesIt) {
   if (!dayIsHere()) GTEST_SKIP() << "the practice days are not here";
   const ScratchFolder scratch;
-  for (const std::string command : {"identify", "diagnose"}) {
-    const Ran ran = runProgram(command + " '" + kDay + "'", scratch.path());
-    EXPECT_EQ(ran.status, 2) << command;
-    EXPECT_NE(ran.err.find("calibrate"), std::string::npos) << command << ": " << ran.err;
-  }
+  const Ran ran = runProgram("identify '" + kDay + "'", scratch.path());
+  EXPECT_EQ(ran.status, 2);
+  EXPECT_NE(ran.err.find("calibrate"), std::string::npos) << ran.err;
 }
 
 }  // namespace calibrate_command_test

@@ -72,7 +72,10 @@ TEST(Report, SweepsAloneGiveFramesAuditAndReasons) {
     EXPECT_NE(reason.find("no 'states'"), std::string::npos) << reason;
   }
   const std::string page = contentsOf(out / "report.html");
-  EXPECT_NE(page.find("no 'states': joint angles and load-cell readings are needed to identify"), std::string::npos);
+  EXPECT_NE(page.find("<h1>Geometry by circle sweeps</h1>"), std::string::npos);
+  EXPECT_EQ(page.substr(0, page.find("<main")).find("tiffness"), std::string::npos);
+  for (const char* id : {"stiffness", "left-out", "subsets"})
+    EXPECT_EQ(page.find("<section id=\"" + std::string(id) + "\">"), std::string::npos) << id;
   EXPECT_NE(page.find("<section id=\"audit\">"), std::string::npos);
   EXPECT_EQ(page.find(">nan"), std::string::npos);
   EXPECT_EQ(picturesIn(out), (std::vector<std::string>{"circles.png", "station.png", "wrist-sphere.png"}));

@@ -1,0 +1,114 @@
+#include "reports/page/diagnosis_tables.h"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace stiffscope::page {
+
+std::string inUm(double metres) { return reports::fixed(metres / io::kMicrometre, 1); }
+
+std::string shareOf(double shrink, int decimals) {
+  return shrink < -1.0 ? "below −100" : reports::fixed(100.0 * shrink, decimals);
+}
+
+std::string interval(const diagnosis::Shrink& shrink) {
+  if (shrink.high < -1.0) return "–";
+  return fmt::format("{} to {}", shareOf(shrink.low, 0), shareOf(shrink.high, 0));
+}
+
+namespace {
+
+const diagnosis::WhereRow* rowOf(const std::vector<diagnosis::WhereTable>& tables, const std::string& by,
+                                 const std::string& name) {
+  for (const diagnosis::WhereTable& table : tables) {
+    if (table.by != by) continue;
+    for (const diagnosis::WhereRow& row : table.rows) {
+      if (row.name == name) return &row;
+    }
+  }
+  return nullptr;
+}
+
+}  // namespace
+
+reports::Table whereTable(const std::string& caption, const std::string& heading,
+                          const std::vector<diagnosis::WhereTable>& where, const WhereBeside& beside) {
+  reports::Table table{
+      caption, {"By", "Part", heading, "Noise (µm)", "Share (%)", "Above noise (sd)"}, {}, false, "gap"};
+  const bool more = !beside.tables.empty();
+  if (more) table.columns.push_back(beside.heading);
+  if (more && beside.noise) table.columns.emplace_back("Noise (µm)");
+  for (const diagnosis::WhereTable& one : where) {
+    if (one.by == "posture") continue;  // a figure, and results.json
+    reports::RowGroup group{one.by, {}};
+    for (const diagnosis::WhereRow& row : one.rows) {
+      reports::Row cells{reports::asIs(row.name), inUm(row.rms), inUm(row.noise), reports::fixed(100.0 * row.share, 0),
+                         reports::asIs(reports::deviateWords(row.significance))};
+      const diagnosis::WhereRow* other = more ? rowOf(beside.tables, one.by, row.name) : nullptr;
+      if (more) cells.emplace_back(other ? inUm(other->rms) : "–");
+      if (more && beside.noise) cells.emplace_back(other ? inUm(other->noise) : "–");
+      group.rows.push_back(std::move(cells));
+    }
+    table.groups.push_back(std::move(group));
+  }
+  return table;
+}
+
+void writeOverlaps(Html& html, const std::vector<diagnosis::WhereTable>& where) {
+  for (const diagnosis::WhereTable& table : where) {
+    if (table.overlaps) html.paragraph("By " + table.by + ": " + reports::overlapWords(table), "faint");
+  }
+}
+
+namespace {
+
+/// The power of ten, a multiple of three, that brings a size near one; 0 where it is near enough.
+int powerFor(double size) {
+  constexpr double kLargest = 1e6, kSmallest = 1e-3;
+  if (!(size > 0.0) || !std::isfinite(size) || (size < kLargest && size >= kSmallest)) return 0;
+  return 3 * static_cast<int>(std::floor(std::log10(size) / 3.0));
+}
+
+/// "10⁻⁶".
+std::string powerOfTen(int power) {
+  static constexpr std::array<const char*, 10> kDigits{"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
+  std::string text = power < 0 ? "10⁻" : "10";
+  for (const char digit : std::to_string(std::abs(power))) text += kDigits[static_cast<std::size_t>(digit - '0')];
+  return text;
+}
+
+/// Of all parameters of one unit, so that they can be compared.
+int powerFor(const std::vector<extended_model::EffectParameter>& parameters, const std::string& unit) {
+  double largest = 0.0;
+  for (const extended_model::EffectParameter& one : parameters) {
+    if (one.unit == unit) largest = std::max({largest, std::abs(one.value), one.sd});
+  }
+  return powerFor(largest);
+}
+
+reports::Row parameterRow(const extended_model::EffectParameter& parameter, int power) {
+  const double unit = std::pow(10.0, power);
+  return {reports::asIs(parameter.name.empty() ? "size" : parameter.name),
+          reports::withUncertainty(parameter.value / unit, reports::expanded(parameter.sd) / unit),
+          power == 0 ? parameter.unit : fmt::format("{}\u00a0{}", powerOfTen(power), parameter.unit)};
+}
+
+}  // namespace
+
+reports::Table effectParametersTable(const std::string& caption) {
+  reports::Table table{caption, {"Effect", "Parameter", "Value ± U", "Unit"}, {}};
+  table.id = "effects";
+  return table;
+}
+
+reports::RowGroup parameterGroup(const std::string& effect,
+                                 const std::vector<extended_model::EffectParameter>& parameters) {
+  reports::RowGroup group{effect, {}};
+  for (const extended_model::EffectParameter& parameter : parameters)
+    group.rows.push_back(parameterRow(parameter, powerFor(parameters, parameter.unit)));
+  return group;
+}
+
+}  // namespace stiffscope::page

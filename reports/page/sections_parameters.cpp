@@ -1,0 +1,149 @@
+#include <fmt/format.h>
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "core/calibration/denavit_hartenberg.h"
+#include "core/calibration/frame_uncertainty.h"
+#include "core/io/units.h"
+#include "reports/page/html.h"
+#include "reports/page/sections.h"
+#include "reports/words/accuracy_words.h"
+#include "reports/words/calibration_words.h"
+#include "reports/words/names.h"
+#include "reports/words/numbers.h"
+
+namespace stiffscope::page {
+
+namespace {
+
+constexpr double kMillidegree = 1e-3 * io::kDegree;
+
+/// "y", "−z", or its coordinates.
+std::string directionWords(const Eigen::Vector3d& direction) {
+  constexpr std::array<const char*, 3> kNames{"x", "y", "z"};
+  constexpr double kAlong = 1.0 - 1e-6;
+  for (int k = 0; k < 3; ++k) {
+    if (std::abs(direction[k]) > kAlong)
+      return std::string(direction[k] < 0.0 ? "−" : "") + kNames[static_cast<std::size_t>(k)];
+  }
+  return fmt::format("({}, {}, {})", reports::fixed(direction.x(), 2), reports::fixed(direction.y(), 2),
+                     reports::fixed(direction.z(), 2));
+}
+
+/// Against the URDF's axes.
+reports::Table axesTable(const calibration::Calibration& calibration) {
+  const calibration::ArmFit& fit = calibration.geometry().fit;
+  reports::Table table{
+      "Axes against the URDF's, in base_link with all joints at zero: value ± standard uncertainty u, across the axis",
+      {"Axis", "u along", "v along", "Moved along u (mm)", "Moved along v (mm)", "Tilted towards u (mdeg)",
+       "Tilted towards v (mdeg)"},
+      {{}},
+      false,
+      "calibrated-axes"};
+  for (int j = 0; j < 6; ++j) {
+    const metrology::MeasuredLine& start = fit.start[static_cast<std::size_t>(j)];
+    reports::Row row{fmt::format("{}", j + 1), directionWords(start.across_u), directionWords(start.across_v)};
+    for (int k = 0; k < 4; ++k) {
+      const int at = 4 * j + k;
+      const double unit = k < 2 ? io::kMillimetre : kMillidegree, sd = fit.sd(at);
+      row.emplace_back(sd > 0.0 ? reports::withUncertainty(fit.steps[at] / unit, sd / unit) : "–");
+    }
+    table.groups.front().rows.push_back(std::move(row));
+  }
+  return table;
+}
+
+reports::Table linksTable(const calibration::Calibration& calibration) {
+  const robot::Robot& nominal = calibration.day.arm;
+  const calibration::DenavitHartenberg now =
+      calibration::denavitHartenberg(calibration.geometry().fit.arm(nominal), nominal);
+  const calibration::DenavitHartenberg built = calibration::denavitHartenberg(nominal, nominal);
+  reports::Table table{"Denavit and Hartenberg's parameters, calibrated, and the URDF's in small type",
+                       {"Axes", "θ (°)", "d (mm), or β (°)", "a (mm)", "α (°)"},
+                       {{}},
+                       false,
+                       "denavit-hartenberg"};
+  const auto both = [](double value, double urdf) {
+    constexpr int kPlaces = 4, kOfUrdf = 3;
+    return reports::Cell(reports::fixed(reports::unsignedZero(value, kPlaces), kPlaces),
+                         reports::fixed(reports::unsignedZero(urdf, kOfUrdf), kOfUrdf));
+  };
+  for (std::size_t i = 0; i < now.links.size(); ++i) {
+    const calibration::LinkParameters &link = now.links[i], &as_built = built.links[i];
+    table.groups.front().rows.push_back(
+        {reports::Cell(fmt::format("{} and {}", i + 1, i + 2), link.hayati ? "β: Hayati" : ""),
+         both(link.theta / io::kDegree, as_built.theta / io::kDegree),
+         link.hayati ? both(link.beta / io::kDegree, as_built.beta / io::kDegree)
+                     : both(link.d / io::kMillimetre, as_built.d / io::kMillimetre),
+         both(link.a / io::kMillimetre, as_built.a / io::kMillimetre),
+         both(link.alpha / io::kDegree, as_built.alpha / io::kDegree)});
+  }
+  return table;
+}
+
+reports::Row pointRow(const std::string& name, const calibration::UncertainPoint& point, double unit) {
+  reports::Row row{name};
+  for (int k = 0; k < 3; ++k) {
+    const double sd = point.sd[k];
+    row.emplace_back(sd > 0.0 ? reports::withUncertainty(point.value[k] / unit, sd / unit)
+                              : reports::fixed(point.value[k] / unit, 3));
+  }
+  return row;
+}
+
+/// The tracker against the base, and the reflectors on the flange.
+reports::Table placesTable(const calibration::Calibration& calibration) {
+  const calibration::ArmFit& fit = calibration.geometry().fit;
+  reports::Table table{"Base and reflectors by the calibrated geometry: value ± standard uncertainty u",
+                       {"What", "x", "y", "z"},
+                       {{}},
+                       false,
+                       "places"};
+  reports::RowGroup& group = table.groups.front();
+  group.rows.push_back(
+      pointRow("Tracker in base_link (mm)", calibration::stationInBase(calibration.day, fit), io::kMillimetre));
+  group.rows.push_back(pointRow("Turn of its axes, rotation vector (°)", calibration::turnOfStation(fit), io::kDegree));
+  const std::vector<calibration::UncertainPoint> targets = calibration::targetsInFlange(calibration.day, fit);
+  for (std::size_t t = 0; t < targets.size(); ++t) {
+    group.rows.push_back(pointRow(fmt::format("{} in the flange (mm)", reports::pointName(calibration.day.targets[t])),
+                                  targets[t], io::kMillimetre));
+  }
+  return table;
+}
+
+/// By the own weight's torques; none where the URDF states no masses.
+reports::Table stiffnessTable(const calibration::Calibration& calibration) {
+  reports::Table table{"Joint stiffness by the arm's own weight, k ± standard uncertainty u, 10⁶\u00a0Nm/rad",
+                       {"Joint", "k"},
+                       {{}},
+                       false,
+                       "own-weight-stiffness"};
+  if (!calibration.day.masses_known) return table;
+  const std::vector<reports::JointStiffness> joints = reports::stiffnessOf(calibration.best().fit);
+  for (std::size_t j = 0; j < joints.size(); ++j) {
+    if (joints[j].value > 0.0)
+      table.groups.front().rows.push_back(
+          {reports::jointName(static_cast<int>(j)),
+           reports::withUncertainty(joints[j].value / reports::kMega, joints[j].sd / reports::kMega)});
+  }
+  return table;
+}
+
+}  // namespace
+
+void writeParameters(Html& html, const reports::ReportContent& content) {
+  const auto write = [&](const reports::ReportCampaign& one) {
+    const calibration::Calibration& calibration = one.accuracy->calibration;
+    writeTable(html, axesTable(calibration));
+    const std::vector<std::string> unknown = reports::notIdentifiableWords(calibration);
+    if (!unknown.empty()) html.paragraph("Not identifiable, or hardly:");
+    html.list(unknown);
+    writeTable(html, linksTable(calibration));
+    writeTable(html, placesTable(calibration));
+    writeTable(html, stiffnessTable(calibration));
+  };
+  writeForEach(html, content, "parameters", "Parameters of the calibrated geometry", isCalibrated, write);
+}
+
+}  // namespace stiffscope::page

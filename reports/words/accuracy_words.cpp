@@ -1,0 +1,210 @@
+#include "reports/words/accuracy_words.h"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/io/units.h"
+#include "reports/words/day_words.h"
+#include "reports/words/listed.h"
+#include "reports/words/names.h"
+#include "reports/words/numbers.h"
+#include "reports/words/remark_words.h"
+#include "reports/words/rich_text.h"
+#include "reports/words/unloaded_effect_words.h"
+
+namespace stiffscope::reports {
+
+using calibration::CalibratedModel;
+
+const char* modelWords(CalibratedModel model) {
+  switch (model) {
+    case CalibratedModel::nominal:
+      return "nominal (URDF)";
+    case CalibratedModel::geometry:
+      return "geometry calibrated";
+    case CalibratedModel::gravity:
+      return "geometry and own weight";
+    case CalibratedModel::effects:
+      break;
+  }
+  return "geometry and effects";
+}
+
+const char* shortModelWords(CalibratedModel model) {
+  switch (model) {
+    case CalibratedModel::nominal:
+      return "nominal";
+    case CalibratedModel::geometry:
+      return "calibrated";
+    case CalibratedModel::gravity:
+      return "with own weight";
+    case CalibratedModel::effects:
+      break;
+  }
+  return "with effects";
+}
+
+std::string millimetres(double metres) { return significant(metres / io::kMillimetre, 3) + "\u00a0mm"; }
+
+namespace {
+
+/// "0.158 mm rms (0.283 mm at most)"
+std::string errorWords(const calibration::ModelResult& model) {
+  const bool held_out = model.held_out.readings > 0;
+  const calibration::PositionErrors& errors = held_out ? model.held_out : model.fitted;
+  return fmt::format("{} rms ({} at most)", millimetres(errors.rms), millimetres(errors.largest));
+}
+
+std::string auditSentence(const ReportCampaign& one) {
+  return one.audit == nullptr ? std::string() : " " + auditMeaning(*one.audit, kindOf(one));
+}
+
+std::string causeSentence(const accuracy::AccuracyDiagnosis& accuracy) {
+  if (!accuracy.usable) return fmt::format("No cause can be given: {}.", asIs(words(accuracy.unusable_reason)));
+  if (accuracy.verdict.empty()) return "What the calibrated geometry leaves is noise, or too small to matter.";
+  return asIs(fmt::format("Besides the geometry the readings show {} (see What the geometry misses).",
+                          presentWords(accuracy.verdict)));
+}
+
+}  // namespace
+
+std::string accuracyVerdict(const ReportCampaign& one) {
+  const calibration::Calibration& calibration = one.accuracy->calibration;
+  if (!calibration.reason.empty()) {
+    return fmt::format("The day could not be calibrated: {}.{}", asIs(words(calibration.reason)), auditSentence(one));
+  }
+  const bool held_out = calibration.geometry().held_out.readings > 0;
+  std::string text = fmt::format("In postures {} the nominal arm of the URDF misses the tracker by {}, ",
+                                 held_out ? "that took no part" : "it was fitted to",
+                                 errorWords(calibration.of(CalibratedModel::nominal)));
+  text += fmt::format("the calibrated geometry by {}", errorWords(calibration.geometry()));
+  if (!calibration.best().fit.parts.empty()) text += fmt::format(", with effects {}", errorWords(calibration.best()));
+  return text + ". " + causeSentence(*one.accuracy) + auditSentence(one);
+}
+
+double largestLinkDifference(const frames::Frames& frames) {
+  double off = 0.0;
+  for (const frames::LinkGeometry& link : frames.links) {
+    if (link.distance_sd) off = std::max(off, std::abs(link.distance - link.nominal_distance));
+  }
+  return off;
+}
+
+std::string sweepsVerdict(const ReportCampaign& one) {
+  const frames::Frames& frames = one.identification.frames;
+  const auto measured =
+      std::count_if(frames.axes.begin(), frames.axes.end(), [](const auto& axis) { return axis.measured; });
+  std::string text;
+  if (one.campaign.circle_sweeps) {
+    text = fmt::format("{} of 6 joint axes are found from their circle sweeps", measured);
+    const double off = largestLinkDifference(frames);
+    if (off > 0.0) text += fmt::format("; distances between neighbours are up to {} off the URDF's", millimetres(off));
+    text += ".";
+  }
+  if (one.campaign.wrist_sweep) {
+    if (!text.empty()) text += " ";
+    text += frames.wrist.measured ? "The wrist centre is found from its sweep."
+                                  : fmt::format("The wrist centre is not found: {}.", words(frames.wrist.reason));
+  }
+  return text + auditSentence(one);
+}
+
+std::string accuracyFinding(const accuracy::AccuracyDiagnosis& accuracy) {
+  if (accuracy.verdict.empty()) {
+    const std::string small = accuracy.size_limit > 0.0 ? fmt::format(" (below {}\u00a0µm rms)",
+                                                                      fixed(accuracy.size_limit / io::kMicrometre, 1))
+                                                        : std::string();
+    return fmt::format(
+        "The calibrated geometry is enough for this machine on this day: what it leaves is noise, or too small to "
+        "matter{}.",
+        small);
+  }
+  return fmt::format("Besides the geometry the readings show {}.", presentWords(accuracy.verdict));
+}
+
+std::vector<std::string> accuracyMeanings(const accuracy::AccuracyDiagnosis& accuracy) {
+  std::vector<std::string> meanings;
+  for (const accuracy::AccuracyEntry& entry : accuracy.verdict) {
+    for (const calibration::UnloadedEffect effect : entry.effects) {
+      const std::string meaning = fmt::format("{}: {}.", capitalised(effectName(effect)), effectMeaning(effect));
+      if (std::find(meanings.begin(), meanings.end(), meaning) == meanings.end()) meanings.push_back(meaning);
+    }
+  }
+  return meanings;
+}
+
+std::string accuracyFigures(const accuracy::AccuracyDiagnosis& accuracy) {
+  const accuracy::AccuracyGap& gap = accuracy.gap;
+  if (!(gap.before > 0.0)) return {};
+  const auto um = [](double metres) { return fixed(metres / io::kMicrometre, 1) + "\u00a0µm"; };
+  std::string text = fmt::format("Held out, the calibrated geometry leaves {} rms per coordinate", um(gap.before));
+  if (gap.nominal > 0.0) text += fmt::format(" of the nominal arm's {}", um(gap.nominal));
+  if (gap.noise > 0.0) text += fmt::format("; noise alone is {}", um(gap.noise));
+  if (namedWords(accuracy.verdict).empty() || !(gap.after > 0.0)) return text + ".";
+  text += fmt::format(". With the verdict's effects in the model {} are left", um(gap.after));
+  const diagnosis::Shrink& shrink = accuracy.shrink_together;
+  if (shrink.high > shrink.low) {
+    text += fmt::format(": it shrinks by {} (95\u00a0%: {} to {})", percent(shrink.value, 0),
+                        fixed(100.0 * shrink.low, 0), percent(shrink.high, 0));
+  }
+  return text + ".";
+}
+
+std::vector<std::string> accuracyActions(const accuracy::AccuracyDiagnosis& accuracy) {
+  std::vector<std::string> actions;
+  const auto add = [&actions](const std::string& action) {
+    if (std::find(actions.begin(), actions.end(), action) == actions.end()) actions.push_back(action);
+  };
+  for (const accuracy::AccuracyEntry& entry : accuracy.verdict) {
+    if (entry.effects.empty()) {
+      add("Look for what is not in the list of effects (the figures above show where and when) before the arm is "
+          "trusted to less than what is left.");
+    }
+    for (const calibration::UnloadedEffect effect : entry.effects) {
+      const char* doubt = entry.effects.size() > 1 ? "If it is " : "";
+      const std::string name = effectName(effect);
+      add(fmt::format("{}{}: {}.", doubt, *doubt ? name : capitalised(name), effectRemedy(effect)));
+    }
+  }
+  for (const Remark& one : accuracy.next) {
+    const std::string sentence = capitalised(withMicro(words(one)));
+    add(sentence.ends_with('.') ? sentence : sentence + ".");
+  }
+  const calibration::Calibration& calibration = accuracy.calibration;
+  if (calibration.reason.empty() && !calibration.models.empty()) {
+    const double nominal = calibration.of(CalibratedModel::nominal).held_out.rms;
+    const double geometry = calibration.geometry().held_out.rms;
+    if (geometry < nominal) {
+      add("Put the calibrated geometry into the controller or the off-line program: `stiffscope calibrate` writes it "
+          "as "
+          "a URDF (`--urdf`) and as a table of axes (`--csv`).");
+    }
+  }
+  return actions;
+}
+
+std::string morePartsWords(std::size_t count) {
+  return fmt::format("And {} more; all of them in {}.", count, kListedInResults);
+}
+
+std::vector<std::string> notIdentifiableWords(const calibration::Calibration& calibration) {
+  // Remarks read "axis 1 place (u): why"; many have one why.
+  std::vector<std::pair<std::string, std::string>> by_reason;
+  for (const std::string& remark : words(calibration.not_identifiable)) {
+    const std::size_t colon = std::min(remark.find(": "), remark.size());
+    const std::string what = remark.substr(0, colon), why = remark.substr(colon);
+    const auto known =
+        std::find_if(by_reason.begin(), by_reason.end(), [&](const auto& one) { return one.first == why; });
+    if (known == by_reason.end())
+      by_reason.emplace_back(why, what);
+    else
+      known->second += ", " + what;
+  }
+  std::vector<std::string> items;
+  for (const auto& [why, what] : by_reason) items.push_back(capitalised(what) + why + ".");
+  return items;
+}
+
+}  // namespace stiffscope::reports

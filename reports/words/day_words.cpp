@@ -1,0 +1,130 @@
+#include "reports/words/day_words.h"
+
+#include <fmt/format.h>
+#include <algorithm>
+
+namespace stiffscope::reports {
+
+namespace {
+
+const char* topicOf(const ReportCampaign& one) {
+  switch (kindOf(one)) {
+    case DayKind::unloaded:
+      return "absolute accuracy";
+    case DayKind::sweeps:
+      return one.campaign.circle_sweeps ? "geometry by circle sweeps" : "wrist centre by its sweep";
+    case DayKind::loaded:
+      break;
+  }
+  return "joint stiffness";
+}
+
+/// What the readings of such a day are for.
+const char* purposeOf(DayKind kind) {
+  switch (kind) {
+    case DayKind::unloaded:
+      return "calibrate from";
+    case DayKind::sweeps:
+      return "find axes from";
+    case DayKind::loaded:
+      break;
+  }
+  return "identify from";
+}
+
+}  // namespace
+
+std::string reportTitle(const std::vector<ReportCampaign>& campaigns) {
+  std::vector<std::string> topics;
+  for (const DayKind kind : {DayKind::unloaded, DayKind::loaded, DayKind::sweeps}) {
+    for (const ReportCampaign& one : ofKind(campaigns, kind)) {
+      if (std::find(topics.begin(), topics.end(), topicOf(one)) == topics.end()) topics.emplace_back(topicOf(one));
+    }
+  }
+  if (topics.empty()) topics.emplace_back("joint stiffness");
+  std::string title = topics.front();
+  for (std::size_t i = 1; i < topics.size(); ++i) title += (i + 1 == topics.size() ? " and " : ", ") + topics[i];
+  title.front() = static_cast<char>(title.front() - 'a' + 'A');
+  return title;
+}
+
+std::string methodWords(DayKind kind) {
+  switch (kind) {
+    case DayKind::unloaded:
+      return "Positions of the reflectors in unloaded postures, read by a laser tracker, are held against what the "
+             "arm's geometry makes of the joint angles that the controller reports. Nominal: the URDF's arm, its base "
+             "and the reflectors fitted. Geometry: axes, base and reflectors calibrated (zero-reference model, least "
+             "squares, outliers by the fullest model). With effects: also the own weight and what else the machine or "
+             "the measurement does, where it predicts postures that took no part. Errors are 3-D distances; held "
+             "out: each fold of postures by what the other folds fit, selection of effects included.";
+    case DayKind::sweeps:
+      return "Each joint is turned by itself while a laser tracker reads the reflectors: their circles give its axis "
+             "(circle-point method), neighbouring axes the distances and angles between them. No load and no load "
+             "cell take part.";
+    case DayKind::loaded:
+      break;
+  }
+  return "Displacements of the reflectors under a known load, read by a laser tracker, give the "
+         "compliance of each joint by least squares. Complete Pose (CP) uses position and rotation of "
+         "P_{TCP}; Partial Pose (PP) the reflectors' positions on a calibrated geometry; Decoupled "
+         "Partial Pose (DPP) first joints 1 to 3 from P_{wrist}, which joints 4 to 6 do not move, "
+         "then joints 4 to 6 from what is left. Stiffness is that of the closed loop, at the joint "
+         "angles which the controller reports.";
+}
+
+std::string auditMeaning(const audit::AuditReport& audit, DayKind kind) {
+  switch (audit.verdict) {
+    case preparation::AuditVerdict::pass:
+      return fmt::format("The audit passes: the readings are fit to {}.", purposeOf(kind));
+    case preparation::AuditVerdict::warn:
+      return fmt::format("The audit warns: the readings are fit to {}, with what is said below.", purposeOf(kind));
+    case preparation::AuditVerdict::not_testable:
+      // A day that is not meant for loads does not fail by what only a load would tell.
+      if (kind != DayKind::loaded) return "No check of the audit fails; some need what such a day does not measure.";
+      return "The audit cannot tell: too little was measured to say whether the readings are fit to identify from.";
+    case preparation::AuditVerdict::fail:
+      break;
+  }
+  return fmt::format("The audit fails: as they were read, the readings are not fit to {}.", purposeOf(kind));
+}
+
+std::string untestedWords(const audit::AuditReport& audit, DayKind kind) {
+  if (audit.verdict != preparation::AuditVerdict::not_testable || kind != DayKind::loaded) return {};
+  return fmt::format("The audit could make {} of {} checks, too few to say that the readings are fit to {}.",
+                     audit.made, audit.of, purposeOf(kind));
+}
+
+std::vector<std::string> scopeWords(DayKind kind) {
+  switch (kind) {
+    case DayKind::unloaded:
+      return {
+          "Uncertainty: u of a parameter is its standard uncertainty by least squares, from the tracker's declared "
+          "noise and what the model leaves beyond it, readings of one posture erring together. The tracker's own "
+          "scale, of which no reading tells, is not in it.",
+          "Decision rule: no statement of conformity to a specification is made. An effect is in the model where it "
+          "predicts postures that took no part better than the model without it; errors that are named held out are "
+          "of postures by which nothing was fitted or chosen. The errors are of these postures and reflectors: "
+          "elsewhere in the workspace they can be larger."};
+    case DayKind::sweeps:
+      return {
+          "Uncertainty: that of an axis is from the scatter of its reflectors about their circles, and where they "
+          "leave them by more than the declared noise widened by that. The tracker's own scale, of which no reading "
+          "tells, is not in it.",
+          "Decision rule: no statement of conformity to a specification is made."};
+    case DayKind::loaded:
+      break;
+  }
+  return {
+      "Uncertainty: the standard uncertainty u of a compliance is from the scatter between postures (sandwich "
+      "estimate, CR2) and from what they all share and the campaign tells of: frames, wrist radii, geometry; that of "
+      "a "
+      "stiffness is u(c)/c², to first order. U = k u with Student's t for about 95\u00a0%. The scales of the load "
+      "cell "
+      "and of the tracker, of which no reading tells, are not in it.",
+      "Decision rule: no statement of conformity to a specification is made. A joint counts as seen where the load "
+      "turns it by more than three times what wrench, frame and angle uncertainty alone would. A stiffness is "
+      "imprecise where u exceeds the value, and negative ones are shown as found; uncertainty is not used to move a "
+      "limit."};
+}
+
+}  // namespace stiffscope::reports

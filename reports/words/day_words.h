@@ -1,0 +1,27 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "reports/report_content.h"
+
+// What a report says by the kind of its days: with a load, without one, of sweeps alone. Rich texts.
+
+namespace stiffscope::reports {
+
+/// "Joint stiffness", "Absolute accuracy", "Geometry by circle sweeps"; of days of several kinds all of theirs.
+std::string reportTitle(const std::vector<ReportCampaign>& campaigns);
+
+/// How such a day becomes results, a paragraph.
+std::string methodWords(DayKind kind);
+
+/// What the audit's verdict means for such a day, a sentence.
+std::string auditMeaning(const audit::AuditReport& audit, DayKind kind);
+
+/// That too few checks could be made to trust the readings for what such a day is for.
+std::string untestedWords(const audit::AuditReport& audit, DayKind kind);
+
+/// Uncertainty and decision rule, an item each.
+std::vector<std::string> scopeWords(DayKind kind);
+
+}  // namespace stiffscope::reports

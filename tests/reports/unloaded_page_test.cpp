@@ -1,0 +1,180 @@
+// The page of days without a load, and of days of sweeps alone.
+#include <gtest/gtest.h>
+#include <tinyxml2.h>
+
+#include "core/accuracy/diagnose_accuracy.h"
+#include "core/calibration/remarks.h"
+#include "reports/json/json.h"
+#include "reports/page/report_page.h"
+#include "reports/words/accuracy_words.h"
+#include "reports/words/day_words.h"
+#include "reports/words/verdict.h"
+#include "tests/fixtures/unloaded_day.h"
+#include "tests/reports/small_result.h"
+
+namespace stiffscope {
+namespace unloaded_page_test {
+
+/// A day whose joint 2 has a wave once a turn, of 0.5 mrad.
+struct Day {
+  campaign::Campaign campaign;
+  identification::Identification identification;
+  accuracy::AccuracyDiagnosis accuracy;
+  preparation::Preparation preparation;
+
+  explicit Day(double wave = 0.5e-3) {
+    Noise noise(51);
+    UnloadedSpec spec = builtOtherwise(noise);
+    spec.postures = 120;
+    spec.joint_errors = [wave](const Vector6d& q) {
+      Vector6d errors = Vector6d::Zero();
+      errors[4] = wave * std::sin(2.0 * q[4]);
+      return errors;
+    };
+    campaign = unloadedCampaign(spec, noise);
+    identification = identification::framesAlone(campaign);
+    accuracy = accuracy::diagnoseAccuracy(campaign);
+    preparation.raw = true;
+  }
+
+  reports::ReportContent content() const {
+    reports::ReportContent content;
+    content.campaigns.push_back(
+        {campaign, identification, nullptr, &preparation, nullptr, nullptr, nullptr, &accuracy, {}});
+    content.title = reports::reportTitle(content.campaigns);
+    content.verdict = reports::verdictOf(content.campaigns, content.avoided);
+    return content;
+  }
+};
+
+bool has(const std::string& page, const std::string& text) { return page.find(text) != std::string::npos; }
+
+/// Sections in their order; each has something beside its heading.
+std::vector<std::string> sectionsOf(const std::string& page) {
+  std::vector<std::string> ids;
+  tinyxml2::XMLDocument document;
+  EXPECT_EQ(document.Parse(page.c_str(), page.size()), tinyxml2::XML_SUCCESS) << document.ErrorStr();
+  const auto* main = document.RootElement()->FirstChildElement("body")->FirstChildElement("main");
+  for (const auto* section = main->FirstChildElement("section"); section != nullptr;
+       section = section->NextSiblingElement("section")) {
+    ids.emplace_back(section->Attribute("id"));
+    tinyxml2::XMLPrinter printed;
+    section->Accept(&printed);
+    const std::string inside = printed.CStr();
+    const bool filled = has(inside, "<p") || has(inside, "<td") || has(inside, "<li") || has(inside, "<figure");
+    EXPECT_TRUE(filled) << ids.back() << " is empty";
+  }
+  return ids;
+}
+
+TEST(UnloadedPage, HasATitleAndAnOrderOfItsOwn) {
+  const Day day;
+  const reports::ReportContent content = day.content();
+  EXPECT_EQ(content.title, "Absolute accuracy");
+  const std::string page = page::reportPage(content);
+  EXPECT_EQ(sectionsOf(page), (std::vector<std::string>{"conditions", "accuracy", "parameters", "station",
+                                                        "accuracy-gap", "next", "scope", "provenance"}));
+  const std::string opening = page.substr(0, page.find("<main"));
+  EXPECT_FALSE(has(opening, "tiffness"));
+  EXPECT_TRUE(has(opening, "transmission error (joint 5)"));
+  EXPECT_TRUE(has(opening, "rms position error, nominal (URDF), held out"));
+  EXPECT_FALSE(has(page, ">nan"));
+  EXPECT_FALSE(has(page, "not available"));
+}
+
+TEST(UnloadedPage, TablesAreFilesOfTheirNames) {
+  const page::ReportPage page = page::makeReportPage(Day().content());
+  std::vector<std::string> names;
+  for (const reports::TableFile& table : page.tables) names.push_back(table.name);
+  for (const char* name : {"accuracy", "worst-postures", "calibrated-axes", "denavit-hartenberg", "places", "effects"})
+    EXPECT_NE(std::find(names.begin(), names.end(), name), names.end()) << name;
+}
+
+TEST(UnloadedPage, ACleanDayNamesNothing) {
+  const Day day(0.0);
+  const reports::ReportContent content = day.content();
+  EXPECT_TRUE(has(content.verdict, "What the calibrated geometry leaves is noise, or too small to matter."));
+  const std::string page = page::reportPage(content);
+  sectionsOf(page);
+  EXPECT_FALSE(has(page, "Effects beside the geometry"));
+  EXPECT_TRUE(has(page, "no effect predicts postures that were held out better"));
+}
+
+/// Whatever the diagnosis fills in is shown, and what it leaves empty is not.
+TEST(UnloadedPage, ShowsClassesWhereTablesAndWhatIsNotTestable) {
+  using calibration::UnloadedEffect;
+  Day day;
+  day.accuracy.verdict = {{{UnloadedEffect::tracker_drift, UnloadedEffect::thermal_growth}, ""}, {{}, ""}};
+  accuracy::AccuracyClass one;
+  one.effects = day.accuracy.verdict.front().effects;
+  one.score = 31.0;
+  one.shrink = {0.42, 0.35, 0.48};
+  one.in_verdict = true;
+  day.accuracy.classes = {one};
+  day.accuracy.where = {{"joint", {{"joint 5", 20e-6, 5e-6, 0.8, 6.0}}, false, 0.0}};
+  day.accuracy.detectable = {{UnloadedEffect::backlash, 3e-6}};
+  day.accuracy.not_testable = {{UnloadedEffect::target_motion, Remark(calibration::RemarkId::no_masses)}};
+  day.accuracy.next = {Remark(calibration::RemarkId::no_unloaded_readings)};
+  const std::string page = page::reportPage(day.content());
+  for (const char* words : {"tracker drift or thermal growth, and something that no known effect explains", "35 to 48",
+                            "joint 5", "Not testable with this data:", "target motion: the URDF states no link masses",
+                            "If it is tracker drift: let the tracker warm up",
+                            "Look for what is not in the list of effects", "There are no unloaded postures"})
+    EXPECT_TRUE(has(page, words)) << words;
+  EXPECT_TRUE(has(page, "The smallest sizes as a table"));
+}
+
+TEST(UnloadedPage, ADayThatCannotBeCalibratedSaysWhy) {
+  Day day;
+  day.campaign.loading->rows.resize(3);
+  day.accuracy = accuracy::diagnoseAccuracy(day.campaign);
+  const reports::ReportContent content = day.content();
+  EXPECT_TRUE(has(content.verdict, "The day could not be calibrated: 3 readings do not determine"));
+  const std::vector<std::string> sections = sectionsOf(page::reportPage(content));
+  EXPECT_EQ(std::count(sections.begin(), sections.end(), "accuracy"), 0);
+}
+
+TEST(UnloadedPage, ResultsHaveTheCalibration) {
+  const Day day;
+  const reports::ReportContent content = day.content();
+  const reports::JsonDocument results = reports::resultsJson(content);
+  const reports::Json& campaign = results.json["campaigns"][0];
+  ASSERT_TRUE(campaign.contains("calibration"));
+  EXPECT_EQ(campaign["diagnosis"]["verdict"][0][0], "transmission_error");
+  EXPECT_EQ(campaign["calibration"]["folds"], 2);
+  EXPECT_EQ(campaign["calibration"]["models"].back()["effects"][0], "transmission_error");
+}
+
+TEST(ReportTitle, IsOfTheKindsOfDays) {
+  const Day day;
+  const SmallResult loaded;
+  campaign::Campaign swept;
+  swept.circle_sweeps.emplace();
+  const identification::Identification none;
+  const reports::ReportCampaign unloaded_day = day.content().campaigns.front(),
+                                loaded_day{loaded.campaign, loaded.identification}, swept_day{swept, none};
+  EXPECT_EQ(reports::reportTitle({loaded_day}), "Joint stiffness");
+  EXPECT_EQ(reports::reportTitle({swept_day}), "Geometry by circle sweeps");
+  EXPECT_EQ(reports::reportTitle({loaded_day, unloaded_day}), "Absolute accuracy and joint stiffness");
+  EXPECT_EQ(reports::reportTitle({swept_day, unloaded_day, loaded_day}),
+            "Absolute accuracy, joint stiffness and geometry by circle sweeps");
+}
+
+/// Each section is about the days that have what it shows.
+TEST(MixedPage, HasTheSectionsOfBothDays) {
+  const Day day;
+  const SmallResult loaded;
+  reports::ReportContent content = day.content();
+  content.campaigns.push_back({loaded.campaign, loaded.identification});
+  const std::string page = page::reportPage(content);
+  const std::vector<std::string> sections = sectionsOf(page);
+  for (const char* id : {"accuracy", "next", "stiffness", "compensation"})
+    EXPECT_EQ(std::count(sections.begin(), sections.end(), id), 1) << id;
+  const std::size_t stiffness = page.find("<section id=\"stiffness\">");
+  const std::string section = page.substr(stiffness, page.find("</section>", stiffness) - stiffness);
+  EXPECT_TRUE(has(section, "<h3>small</h3>"));
+  EXPECT_FALSE(has(section, "<h3>unloaded</h3>"));
+}
+
+}  // namespace unloaded_page_test
+}  // namespace stiffscope
