@@ -26,12 +26,15 @@ void addRawOption(CLI::App& command, bool& raw) {
                    "that the floor nests show");
 }
 
-void requireLoad(const campaign::Campaign& campaign) {
-  if (!campaign.states || !campaign.loading || campaign.load_cell) return;
+bool isUnloaded(const campaign::Campaign& campaign) {
+  if (!campaign.states || !campaign.loading || campaign.load_cell) return false;
   const std::vector<campaign::State>& states = campaign.states->rows;
-  const bool pulled = std::any_of(states.begin(), states.end(),
-                                  [](const campaign::State& state) { return !state.wrench_in_cell.isZero(); });
-  if (pulled) return;
+  return std::all_of(states.begin(), states.end(),
+                     [](const campaign::State& state) { return state.wrench_in_cell.isZero(); });
+}
+
+void requireLoad(const campaign::Campaign& campaign) {
+  if (!isUnloaded(campaign)) return;
   throw io::InputError({(campaign.folder / "campaign.xml").string(), 0, ""}, "",
                        "no load: stiffness and its gap need one; `stiffscope calibrate` fits unloaded postures");
 }

@@ -18,6 +18,9 @@ campaign::Campaign described(const campaign::Campaign& campaign);
 /// Adds --raw to a command.
 void addRawOption(CLI::App& command, bool& raw);
 
+/// A day of unloaded postures: no load cell, and no wrench that is not zero.
+bool isUnloaded(const campaign::Campaign& campaign);
+
 /// Throws InputError for a day of unloaded postures: no load cell, and no wrench that is not zero. `calibrate` is for
 /// it.
 void requireLoad(const campaign::Campaign& campaign);

@@ -18,7 +18,8 @@ struct KnownStiffness;
 }  // namespace stiffscope::campaign
 namespace stiffscope::comparison {
 struct Comparison;
-}
+struct GeometryChange;
+}  // namespace stiffscope::comparison
 namespace stiffscope::compensation {
 struct CompensatedPosture;
 }
@@ -67,6 +68,10 @@ std::string calibrationCsv(const calibration::Calibration& calibration);
 /// The result of `compare` for a terminal.
 std::string comparisonText(const campaign::Campaign& before, const campaign::Campaign& after,
                            const comparison::Comparison& comparison);
+
+/// The same of two days without a load: what moved in the geometry.
+std::string geometryChangeText(const campaign::Campaign& before, const campaign::Campaign& after,
+                               const comparison::GeometryChange& change);
 
 /// The result of `compensate` for a terminal, and under it what a reader must know, a sentence each.
 std::string compensationText(const campaign::Campaign& campaign, identification::Method method,
