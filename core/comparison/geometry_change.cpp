@@ -9,6 +9,7 @@
 
 #include "core/calibration/fitted_day.h"
 #include "core/comparison/change_causes.h"
+#include "core/comparison/error_components.h"
 #include "core/comparison/matched_postures.h"
 #include "metrology/linear_algebra.h"
 #include "metrology/tail_probability.h"
@@ -87,6 +88,7 @@ class Comparing {
     result_.postures_before = days_[0].day.postures.size(), result_.postures_after = days_[1].day.postures.size();
     matchReadings();
     fit();
+    setCovariances();
     differ();
     testNumbers();
     testReflectors();
@@ -108,8 +110,7 @@ class Comparing {
       if (other == targets.end()) continue;
       targets_[0].push_back(static_cast<int>(t)), targets_[1].push_back(static_cast<int>(other->second));
     }
-    for (std::size_t k = 0; k < 2; ++k) first_readings_[k] = firstReadings(day(k));
-    const auto& first = first_readings_;
+    const std::array<std::vector<std::size_t>, 2> first{firstReadings(day(0)), firstReadings(day(1))};
     for (std::size_t i = 0; i < day(0).postures.size(); ++i) {
       const calibration::Posture& own = day(0).postures[i];
       const auto found = postures.find(day(0).pose_ids[static_cast<std::size_t>(own.pose)]);
@@ -153,23 +154,26 @@ class Comparing {
     return parts;
   }
 
+  /// A compliance that either day refuses is in neither: two models would differ by more than the days do.
   void fit() {
-    for (std::size_t k = 0; k < 2; ++k) {
-      const ArmFit& best = days_[k].best().fit;
-      std::vector<double> weights = best.weights;
-      if (result_.same_postures) {
-        std::fill(weights.begin(), weights.end(), 0.0);
-        for (const CommonReading& one : common_) weights[(k == 0 ? one.before : one.after).reading] = 1.0;
+    std::array<std::vector<EffectPart>, 2> parts{partsOf(0), partsOf(1)};
+    constexpr int kTurns = 4;
+    for (int turn = 0; turn < kTurns; ++turn) {
+      for (std::size_t k = 0; k < 2; ++k) fitDay(k, parts[k]);
+      std::vector<EffectPart> refused;
+      for (const ArmFit& fit : fits_) {
+        std::size_t term = 0;
+        for (const EffectPart& part : fit.parts) {
+          if (fit.refused[term]) refused.push_back(part);
+          term += part.terms.size();
+        }
       }
-      fits_[k] = calibration::fitArm(day(k), best.place, partsOf(k), {.robust = false, .weights = weights},
-                                     &days_[k].geometry().fit);
-      residuals_[k] = calibration::residualsOf(day(k), fits_[k]);
-      double sum = 0.0, count = 0.0;
-      for (std::size_t i = 0; i < weights.size(); ++i) {
-        if (weights[i] > 0.0) sum += residuals_[k][i].squaredNorm(), ++count;
+      if (refused.empty()) break;
+      for (std::vector<EffectPart>& of : parts) {
+        std::erase_if(of, [&](const EffectPart& part) {
+          return std::any_of(refused.begin(), refused.end(), [&](const EffectPart& one) { return same(one, part); });
+        });
       }
-      (k == 0 ? result_.left_before : result_.left_after) = std::sqrt(sum / std::max(1.0, count));
-      rows_[k] = 3.0 * count;
     }
     for (const EffectPart& part : fits_[0].parts) {
       const std::string id(idOf(part.effect));
@@ -178,38 +182,117 @@ class Comparing {
     }
   }
 
-  /// By the declared tracker, m^2.
-  const Eigen::Matrix3d& covarianceOf(std::size_t k, const Place& place) const {
-    const std::vector<calibration::Reading>& readings = day(k).postures[place.posture].readings;
-    return readings[place.reading - first_readings_[k][place.posture]].covariance;
+  void fitDay(std::size_t k, const std::vector<EffectPart>& parts) {
+    const ArmFit& best = days_[k].best().fit;
+    std::vector<double> weights = best.weights;
+    if (result_.same_postures) {
+      std::fill(weights.begin(), weights.end(), 0.0);
+      for (const CommonReading& one : common_) weights[(k == 0 ? one.before : one.after).reading] = 1.0;
+    }
+    fits_[k] =
+        calibration::fitArm(day(k), best.place, parts, {.robust = false, .weights = weights}, &days_[k].geometry().fit);
+    residuals_[k] = calibration::residualsOf(day(k), fits_[k]);
+    double sum = 0.0, count = 0.0;
+    for (std::size_t i = 0; i < weights.size(); ++i) {
+      if (weights[i] > 0.0) sum += residuals_[k][i].squaredNorm(), ++count;
+    }
+    (k == 0 ? result_.left_before : result_.left_after) = std::sqrt(sum / std::max(1.0, count));
+    rows_[k] = 3.0 * count;
   }
 
-  /// By how much the covariance of a difference on the same postures is less than the sum of both: what the model
-  /// misses in both is no error of it. Variance of residuals' differences, reflectors of a posture together.
-  double pairedFactor() const {
-    double apart = 0.0, of_difference = 0.0, together = 0.0, declared = 0.0;
-    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-    for (std::size_t i = 0; i < common_.size(); ++i) {
-      const Eigen::Vector3d &before = residuals_[0][common_[i].before.reading],
-                            &after = residuals_[1][common_[i].after.reading];
-      apart += before.squaredNorm() + after.squaredNorm();
-      of_difference += (after - before).squaredNorm();
-      declared += covarianceOf(0, common_[i].before).trace() + covarianceOf(1, common_[i].after).trace();
-      sum += after - before;
-      if (i + 1 < common_.size() && common_[i + 1].before.posture == common_[i].before.posture) continue;
-      together += sum.squaredNorm();
-      sum.setZero();
+  /// Covariance of each fit's unknowns: by what it leaves, or on the same postures by what the difference of both
+  /// leaves, where what the model misses cancels; then each has half of it.
+  void setCovariances() {
+    const std::array<FitEquations, 2> equations{FitEquations(day(0), fits_[0]), FitEquations(day(1), fits_[1])};
+    for (std::size_t k = 0; k < 2; ++k) {
+      std::vector<Eigen::VectorXd> residuals;
+      for (const calibration::PostureEquations& of : equations[k].equations) residuals.push_back(of.residual);
+      ErrorComponents errors;
+      if (result_.same_postures) {
+        residuals = differences(k, equations[k]);
+        errors = errorComponents(equations[k], residuals);
+        errors.coordinate *= 0.5, errors.angle *= 0.5;
+        constexpr double kLeast = 1e-6;  // readings to the same digits are no evidence of no noise
+        errors.coordinate = std::max(errors.coordinate, std::max(kLeast, noiseShare(k)));
+      } else {
+        errors = errorComponents(equations[k], residuals);
+      }
+      covariances_[k] = covarianceBy(equations[k], errors);
     }
-    const double design_effect = of_difference > 0.0 ? std::max(1.0, together / of_difference) : 1.0;
-    const double assumed = 0.5 * (designEffectOf(0) + designEffectOf(1));
-    if (!(apart > 0.0)) return 1.0;
-    // The tracker's noise at least: readings that agree better are no evidence of a better one.
-    const double noise = std::max(1e-6 * apart, declared);
-    return std::max(noise, of_difference * design_effect) / (apart * assumed);
+  }
+
+  /// Of the covariance that whitens a day's residuals what the tracker declares.
+  double noiseShare(std::size_t k) const {
+    double declared = 0.0, count = 0.0;
+    for (const calibration::Posture& posture : day(k).postures) {
+      for (const calibration::Reading& reading : posture.readings)
+        declared += reading.covariance.trace() / 3.0, ++count;
+    }
+    declared /= std::max(1.0, count);
+    const double all = declared + fits_[k].model_sd * fits_[k].model_sd;
+    return all > 0.0 ? declared / all : 0.0;
+  }
+
+  /// What the residuals of the two days differ by in each posture of day k, in parts of that day's covariance.
+  std::vector<Eigen::VectorXd> differences(std::size_t k, const FitEquations& equations) const {
+    // Readings of a posture stand in `common_` in the order of the day before; in the equations in that of day k.
+    std::unordered_map<std::size_t, std::vector<CommonReading>> by_posture;
+    for (const CommonReading& one : common_) by_posture[(k == 0 ? one.before : one.after).posture].push_back(one);
+    std::vector<Eigen::VectorXd> all;
+    for (std::size_t p = 0; p < equations.postures.size(); ++p) {
+      std::vector<CommonReading>& readings = by_posture[equations.postures[p]];
+      std::sort(readings.begin(), readings.end(), [k](const CommonReading& a, const CommonReading& b) {
+        return k == 0 ? a.before.reading < b.before.reading : a.after.reading < b.after.reading;
+      });
+      Eigen::VectorXd apart(equations.equations[p].residual.size());
+      for (std::size_t r = 0; r < readings.size(); ++r) {
+        apart.segment<3>(3 * static_cast<Eigen::Index>(r)) =
+            equations.equations[p].whitening[r] *
+            (residuals_[1][readings[r].after.reading] - residuals_[0][readings[r].before.reading]);
+      }
+      all.push_back(std::move(apart));
+    }
+    return all;
   }
 
   /// As far as the fit's covariance has it.
   double designEffectOf(std::size_t k) const { return fits_[k].model_sd > 0.0 ? fits_[k].design_effect : 1.0; }
+
+  /// Sizes of the machine's effects that both fits have, and which of each fit's unknowns they are.
+  void takeSizes() {
+    std::array<std::vector<Eigen::Index>, 2> places;  // in sizes
+    for (std::size_t k = 0; k < 2; ++k) {
+      Eigen::Index term = 0;
+      for (const EffectPart& part : fits_[k].parts) {
+        for (std::size_t t = 0; t < part.terms.size(); ++t, ++term) {
+          if (ofMachine(part)) places[k].push_back(term);
+        }
+      }
+    }
+    std::vector<std::array<Eigen::Index, 2>> both;  // in `free`
+    for (std::size_t i = 0; i < places[0].size(); ++i) {
+      std::array<Eigen::Index, 2> at{};
+      bool free = true;
+      for (std::size_t k = 0; k < 2; ++k) {
+        const std::vector<int>& unknowns = fits_[k].free;
+        const auto found =
+            std::find(unknowns.begin(), unknowns.end(), static_cast<int>(fits_[k].steps.size() + places[k][i]));
+        free = free && found != unknowns.end();
+        at[k] = found - unknowns.begin();
+      }
+      if (free) both.push_back(at);
+    }
+    for (std::size_t k = 0; k < 2; ++k) {
+      const auto count = static_cast<Eigen::Index>(both.size());
+      by_effects_[k] = Eigen::MatrixXd::Zero(count, static_cast<Eigen::Index>(fits_[k].free.size()));
+      sizes_[k].resize(count);
+      for (Eigen::Index i = 0; i < count; ++i) {
+        const Eigen::Index at = both[static_cast<std::size_t>(i)][k];
+        by_effects_[k](i, at) = 1.0;
+        sizes_[k][i] = fits_[k].sizes[fits_[k].free[static_cast<std::size_t>(at)] - fits_[k].steps.size()];
+      }
+    }
+  }
 
   /// Difference of everything, its covariance, and degrees of freedom of that.
   void differ() {
@@ -235,18 +318,49 @@ class Comparing {
             numbers_->difference(of(lower).head(numbers_->count()), of(upper).head(numbers_->count()));
         by.col(static_cast<Eigen::Index>(f)) = change / (2.0 * kStep);
       }
-      const Eigen::MatrixXd own = by * fits_[k].covariance * by.transpose();
-      sd_of_day_[k] = own.diagonal().cwiseMax(0.0).cwiseSqrt();
+      const Eigen::MatrixXd own = by * covariances_[k] * by.transpose();
       covariance_ = k == 0 ? own : Eigen::MatrixXd(covariance_ + own);
+      by_free_[k] = std::move(by);
     }
-    if (result_.same_postures) covariance_ *= pairedFactor();
+    takeSizes();
     difference_ = all[1] - all[0];
     difference_.head(numbers_->count()) =
         numbers_->difference(all[0].head(numbers_->count()), all[1].head(numbers_->count()));
+    setDof();
+    holdEffects();
     result_.base.turn = difference_.segment<3>(difference_.size() - 6), result_.base.shift = difference_.tail<3>();
-    // Readings of one posture that err together count as one.
+  }
+
+  /// Readings of one posture that err together count as one.
+  void setDof() {
     const auto dofOf = [&](std::size_t k) { return (rows_[k] - fits_[k].parameters) / designEffectOf(k); };
     dof_ = std::max(1.0, result_.same_postures ? std::min(dofOf(0), dofOf(1)) : dofOf(0) + dofOf(1));
+  }
+
+  /// Effects of the machine are one in both days, as far as their sizes do not say otherwise: with e = s_after -
+  /// s_before held at zero the geometry's difference is d - C_de C_ee^-1 e, its covariance C_dd - C_de C_ee^-1 C_ed. An
+  /// effect that looks like a joint's zero in a day's postures then takes nothing from the zero's difference.
+  void holdEffects() {
+    const Eigen::Index sizes = by_effects_[0].rows();
+    if (sizes == 0) return;
+    Eigen::VectorXd change = sizes_[1] - sizes_[0];
+    Eigen::MatrixXd own = Eigen::MatrixXd::Zero(sizes, sizes),
+                    across = Eigen::MatrixXd::Zero(difference_.size(), sizes);
+    for (std::size_t k = 0; k < 2; ++k) {
+      own += by_effects_[k] * covariances_[k] * by_effects_[k].transpose();
+      across += by_free_[k] * covariances_[k] * by_effects_[k].transpose();
+    }
+    const int count = static_cast<int>(sizes);
+    result_.effects_p = metrology::fTail(mahalanobisSquared(change, own) / count, count, dof_);
+    result_.effects_changed = result_.effects_p < kChangeLevel;
+    if (result_.effects_changed) return;
+    difference_ -= across * solveSymmetric(own, change);
+    covariance_ -= across * solveSymmetric(own, across.transpose());
+  }
+
+  /// Whether some unknown of both fits moves the number.
+  bool movesWith(Eigen::Index number) const {
+    return !by_free_[0].row(number).isZero() && !by_free_[1].row(number).isZero();
   }
 
   void testNumbers() {
@@ -261,8 +375,7 @@ class Comparing {
       one.at_targets = std::abs(difference_[k]) * std::sqrt(std::max(0.0, moves(k, k)));
       const double prior = one.number.isLength() ? calibration::kAxisShiftPrior : calibration::kAxisTiltPrior;
       constexpr double kOfPrior = 0.5;
-      one.identified = one.difference.sd > 0.0 && sd_of_day_[0][k] < kOfPrior * prior &&
-                       sd_of_day_[1][k] < kOfPrior * prior && sd_of_day_[0][k] > 0.0 && sd_of_day_[1][k] > 0.0;
+      one.identified = one.difference.sd > 0.0 && one.difference.sd < kOfPrior * prior && movesWith(k);
       one.p_value = one.identified ? twoSidedP(one.difference.value / one.difference.sd, dof_)
                                    : std::numeric_limits<double>::quiet_NaN();
       if (one.identified) seen_.push_back(k);
@@ -345,6 +458,7 @@ class Comparing {
   void addCautions() {
     if (!result_.same_postures)
       result_.cautions.emplace_back(RemarkId::geometry_of_other_postures, result_.postures_common);
+    if (result_.effects_changed) result_.cautions.emplace_back(RemarkId::effects_changed, result_.effects_p);
     if (targets_[0].empty()) result_.cautions.emplace_back(RemarkId::no_common_reflector);
     result_.cautions.emplace_back(RemarkId::zero_1_with_base);
     result_.cautions.emplace_back(RemarkId::zero_6_with_reflectors);
@@ -352,16 +466,17 @@ class Comparing {
 
   const campaign::Campaign &before_, &after_;
   std::array<calibration::Calibration, 2> days_;
-  std::array<std::vector<int>, 2> targets_;                 ///< of both days, in each one's numbers
-  std::array<std::vector<std::size_t>, 2> first_readings_;  ///< of each posture
+  std::array<std::vector<int>, 2> targets_;  ///< of both days, in each one's numbers
   std::vector<CommonReading> common_;
   std::array<ArmFit, 2> fits_;
+  std::array<Eigen::MatrixXd, 2> covariances_;  ///< of their unknowns
   std::array<std::vector<Eigen::Vector3d>, 2> residuals_;
   std::array<double, 2> rows_{};
   std::unique_ptr<GeometryNumbers> numbers_;
   Eigen::VectorXd difference_, reflectors_shift_;
   Eigen::MatrixXd covariance_, reflectors_covariance_, moves_;
-  std::array<Eigen::VectorXd, 2> sd_of_day_;
+  std::array<Eigen::MatrixXd, 2> by_free_, by_effects_;  ///< of all numbers, of effects' sizes, by a fit's unknowns
+  std::array<Eigen::VectorXd, 2> sizes_;
   std::vector<Eigen::Index> seen_;  ///< numbers that both days identify
   double dof_ = 1.0;
   GeometryChange result_;

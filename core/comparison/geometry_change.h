@@ -57,6 +57,8 @@ struct GeometryChange {
   bool same_postures = false;                  ///< compared on those of both alone: what the model misses cancels
   double left_before = 0.0, left_after = 0.0;  ///< rms of the 3-D position by the models compared, m
   std::vector<std::string> effects;            ///< ids of effects fitted beside the geometry in both
+  double effects_p = 1.0;                      ///< of sizes of these effects that are the same in both days
+  bool effects_changed = false;                ///< they are not, and each day has its own
   std::vector<NumberChange> numbers;
   std::vector<ReflectorChange> reflectors;  ///< those of both days
   BaseChange base;
@@ -75,10 +77,10 @@ struct GeometryChange {
 
 /// Fits both days, each by the geometry with its base and reflectors, and tests the difference of what a machine keeps
 /// (GeometryNumbers): d = n_after - n_before, covariance C from both fits; chi2 = d^T C^-1 d against F. Where half of
-/// the postures or more are in both days, these alone are fitted, without effects, and C is scaled by what the
+/// the postures or more are in both days, these alone are fitted, without effects, and C is by what the
 /// difference of the two residuals leaves, in which what the model misses cancels; else effects of either day that are
-/// the machine's are fitted in both. Effects of time (drift, jumps, growth) are each day's own.
-/// Causes: d = G s, s by generalised least squares, each alone.
+/// the machine's are fitted in both, with the same sizes unless these differ. Effects of time (drift, jumps, growth)
+/// are each day's own. Causes: d = G s, s by generalised least squares, each alone.
 GeometryChange compareGeometry(const campaign::Campaign& before, const campaign::Campaign& after);
 
 }  // namespace stiffscope::comparison

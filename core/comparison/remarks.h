@@ -20,6 +20,7 @@ enum class RemarkId {
   difference_above_noise,  ///< residual of the difference per coordinate m, noise in it m
   // What to know before believing the change of a geometry.
   geometry_of_other_postures,  ///< postures that correspond
+  effects_changed,             ///< probability of unchanged ones
   no_common_reflector,
   zero_1_with_base,
   zero_6_with_reflectors,

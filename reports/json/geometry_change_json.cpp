@@ -73,6 +73,7 @@ Json geometryChangeJson(const campaign::Campaign& before, const campaign::Campai
       {"before", change.postures_before}, {"after", change.postures_after}, {"common", change.postures_common}};
   json["same_postures"] = change.same_postures;
   json["effects"] = change.effects;
+  json["effects_p_value"] = change.effects.empty() ? Json(nullptr) : number(change.effects_p);
   json["left_mm"] = {{"before", change.left_before / io::kMillimetre}, {"after", change.left_after / io::kMillimetre}};
   json["machine"] = {{"changed", change.machine_changed},
                      {"chi2", number(change.chi2)},

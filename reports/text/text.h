@@ -43,7 +43,8 @@ enum class Method;
 }  // namespace stiffscope::identification
 namespace stiffscope::planning {
 struct Plan;
-}
+struct UnloadedPlan;
+}  // namespace stiffscope::planning
 namespace stiffscope::validation {
 struct BlindResult;
 }
@@ -139,6 +140,11 @@ std::string planCsv(const planning::Plan& plan);
 
 /// The same as the `postures` element of a simulation's specification.
 std::string planXml(const planning::Plan& plan);
+
+/// The same of a day without a load: pose, q1_deg..q6_deg, in the order of the day.
+std::string unloadedPlanText(const campaign::Campaign& campaign, const planning::UnloadedPlan& plan);
+std::string unloadedPlanCsv(const planning::UnloadedPlan& plan);
+std::string unloadedPlanXml(const planning::UnloadedPlan& plan);
 
 /// The rates and, effect by effect, how many were answered right, for a terminal.
 std::string blindText(const validation::BlindResult& result);

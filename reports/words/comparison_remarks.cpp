@@ -66,6 +66,11 @@ std::string comparisonWords(comparison::RemarkId id, const RemarkValues& values)
           "counts "
           "as scatter between postures in the uncertainties",
           values.count(0));
+    case effects_changed:
+      return fmt::format(
+          "the effects beside the geometry (gears, own weight) are not the same in both days (p {:.4f} of unchanged "
+          "ones): each day is fitted with its own, and what looks like a joint's zero may be one of them",
+          values.number(0));
     case no_common_reflector:
       return "no reflector has the same id in both campaigns: whether reflectors moved is not asked";
     case zero_1_with_base:
