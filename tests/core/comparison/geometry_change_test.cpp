@@ -13,19 +13,6 @@ namespace geometry_change_test {
 using comparison::ChangeCause;
 using comparison::GeometryChange;
 
-/// The postures of a day once more, by the machine and the laboratory of `spec`.
-campaign::Campaign measuredAgain(campaign::Campaign day, const UnloadedSpec& spec, Noise& noise) {
-  std::vector<Eigen::Isometry3d> flanges;
-  for (const campaign::State& state : day.states->rows)
-    flanges.push_back(spec.built.flangeAt(state.q + spec.joint_errors(state.q)));
-  for (campaign::LoadingReading& reading : day.loading->rows) {
-    reading.point = spec.tracker_from_base * (flanges[static_cast<std::size_t>(reading.pose)] *
-                                              spec.on_flange[static_cast<std::size_t>(reading.target)]) +
-                    spec.noise * noise.normal3();
-  }
-  return day;
-}
-
 /// Two days of other postures and another station; `change` is what happens to the machine between them.
 template <class Change>
 GeometryChange comparedApart(std::uint64_t seed, const Change& change) {
