@@ -110,9 +110,13 @@ Cause drawTargetMotion(const NominalDay& day, numerics::RandomStream& random, do
 std::optional<Cause> drawOwnWeight(UnloadedEffect effect, const NominalDay& day, numerics::RandomStream& random) {
   if (!day.masses_known) return std::nullopt;
   if (effect == UnloadedEffect::base_compliance) {
-    return Cause{effect, "", "", [&day](const NominalPosture& posture, int, const Vector3d& point, double size) {
+    // A floor softer about one level axis than about the other.
+    const double heading = random.uniform(0.0, std::numbers::pi);
+    const Vector3d soft(std::cos(heading), std::sin(heading), 0.0);
+    return Cause{effect, "", fmt::format("rocking about {:.0f} deg", heading * 180.0 / std::numbers::pi),
+                 [&day, soft](const NominalPosture& posture, int, const Vector3d& point, double size) {
                    const Vector3d moment = momentBeyond(day, posture, 0, Vector3d::Zero());
-                   return turned(point, Vector3d::Zero(), size * across(moment, Vector3d::UnitZ()));
+                   return turned(point, Vector3d::Zero(), size * soft.dot(moment) * soft);
                  }};
   }
   if (effect == UnloadedEffect::link_compliance) {
@@ -211,10 +215,16 @@ std::optional<Cause> drawCause(UnloadedEffect effect, const NominalDay& day, num
                      return posture.side[static_cast<Eigen::Index>(j)];
                    })};
     }
-    case UnloadedEffect::read_back_error:
-      return Cause{effect, "", "", [](const NominalPosture& posture, int, const Vector3d& point, double size) {
-                     return turnedByJoints(posture, point, size * posture.move);
+    case UnloadedEffect::read_back_error: {
+      // Behind the move or before it, no joint as much as the other.
+      Vector6d share;
+      const double sign = random.uniform() < 0.5 ? -1.0 : 1.0;
+      for (double& one : share) one = sign * random.uniform(0.5, 1.5);
+      return Cause{effect, "", sign < 0.0 ? "behind" : "before",
+                   [share](const NominalPosture& posture, int, const Vector3d& point, double size) {
+                     return turnedByJoints(posture, point, size * share.cwiseProduct(posture.move));
                    }};
+    }
     case UnloadedEffect::tracker_drift:
       return stationCause(effect, day, random, [](const NominalPosture& posture) { return posture.time; });
     case UnloadedEffect::frame_error: {
@@ -224,11 +234,15 @@ std::optional<Cause> drawCause(UnloadedEffect effect, const NominalDay& day, num
     }
     case UnloadedEffect::target_motion:
       return drawTargetMotion(day, random, from);
-    case UnloadedEffect::thermal_growth:
-      // The arm's lengths, not the tool's.
-      return Cause{effect, "", "", [&day](const NominalPosture& posture, int, const Vector3d& point, double size) {
-                     return Vector3d(point + size * posture.time * (posture.motion[6] * day.flange_at_zero));
+    case UnloadedEffect::thermal_growth: {
+      // The arm's lengths, not the tool's, as a body warms up: quickly at first.
+      const double constant = random.uniform(0.2, 2.0);
+      return Cause{effect, "", fmt::format("time constant {:.2f} of the day", constant),
+                   [&day, constant](const NominalPosture& posture, int, const Vector3d& point, double size) {
+                     const double warm = 1.0 - std::exp(-posture.time / constant);
+                     return Vector3d(point + size * warm * (posture.motion[6] * day.flange_at_zero));
                    }};
+    }
     case UnloadedEffect::scale_error:
       return Cause{effect, "", when,
                    [later, &day](const NominalPosture& posture, int, const Vector3d& point, double size) {

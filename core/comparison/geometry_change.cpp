@@ -9,6 +9,7 @@
 
 #include "core/calibration/fitted_day.h"
 #include "core/comparison/change_causes.h"
+#include "core/comparison/common_readings.h"
 #include "core/comparison/error_components.h"
 #include "core/comparison/matched_postures.h"
 #include "metrology/linear_algebra.h"
@@ -50,25 +51,6 @@ bool same(const EffectPart& a, const EffectPart& b) {
          a.terms.front().name == b.terms.front().name;
 }
 
-/// One reading of a day: its place in the day's order of readings.
-struct Place {
-  std::size_t posture = 0, reading = 0;
-};
-
-struct CommonReading {
-  Place before, after;
-};
-
-std::vector<std::size_t> firstReadings(const UnloadedDay& day) {
-  std::vector<std::size_t> first;
-  std::size_t at = 0;
-  for (const calibration::Posture& posture : day.postures) {
-    first.push_back(at);
-    at += posture.readings.size();
-  }
-  return first;
-}
-
 double twoSidedP(double t, double dof) { return metrology::fTail(t * t, 1, dof); }
 
 class Comparing {
@@ -101,33 +83,13 @@ class Comparing {
   const UnloadedDay& day(std::size_t k) const { return days_[k].day; }
 
   void matchReadings() {
-    std::unordered_map<std::string, std::size_t> postures, targets;
-    for (std::size_t i = 0; i < day(1).postures.size(); ++i)
-      postures[day(1).pose_ids[static_cast<std::size_t>(day(1).postures[i].pose)]] = i;
-    for (std::size_t t = 0; t < day(1).targets.size(); ++t) targets[day(1).targets[t]] = t;
-    for (std::size_t t = 0; t < day(0).targets.size(); ++t) {
-      const auto other = targets.find(day(0).targets[t]);
-      if (other == targets.end()) continue;
-      targets_[0].push_back(static_cast<int>(t)), targets_[1].push_back(static_cast<int>(other->second));
-    }
-    const std::array<std::vector<std::size_t>, 2> first{firstReadings(day(0)), firstReadings(day(1))};
-    for (std::size_t i = 0; i < day(0).postures.size(); ++i) {
-      const calibration::Posture& own = day(0).postures[i];
-      const auto found = postures.find(day(0).pose_ids[static_cast<std::size_t>(own.pose)]);
-      if (found == postures.end()) continue;
-      const calibration::Posture& other = day(1).postures[found->second];
-      if ((own.q - other.q).cwiseAbs().maxCoeff() > MatchLimits().angle) continue;
-      ++result_.postures_common;
-      for (std::size_t r = 0; r < own.readings.size(); ++r) {
-        for (std::size_t s = 0; s < other.readings.size(); ++s) {
-          if (day(0).targets[static_cast<std::size_t>(own.readings[r].target)] !=
-              day(1).targets[static_cast<std::size_t>(other.readings[s].target)])
-            continue;
-          const CommonReading one{{i, first[0][i] + r}, {found->second, first[1][found->second] + s}};
-          if (weightOf(0, one.before) > 0.0 && weightOf(1, one.after) > 0.0) common_.push_back(one);
-        }
-      }
-    }
+    const auto used = [&](std::size_t k, const Place& place) { return weightOf(k, place) > 0.0; };
+    CommonReadings found = commonReadings(day(0), day(1));
+    std::erase_if(found.readings,
+                  [&](const CommonReading& one) { return !used(0, one.before) || !used(1, one.after); });
+    targets_ = std::move(found.targets);
+    common_ = std::move(found.readings);
+    result_.postures_common = found.postures;
     const std::size_t fewer = std::min(result_.postures_before, result_.postures_after);
     const double readings = 3.0 * static_cast<double>(common_.size());
     constexpr double kEnough = 2.0;  // coordinates a parameter
