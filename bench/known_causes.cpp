@@ -14,6 +14,8 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <array>
+#include <cstdint>
+#include <cstdio>
 #include <exception>
 #include <iostream>
 #include <map>

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/calibration/calibrate.h"
+#include "core/comparison/change_causes.h"
 #include "core/comparison/geometry_numbers.h"
 #include "core/comparison/paired_fit.h"
 #include "core/comparison/remarks.h"
@@ -33,20 +34,6 @@ struct ReflectorChange {
 /// How the base stands against the tracker, after against before, in base_link: no change of the machine.
 struct BaseChange {
   Eigen::Vector3d turn = Eigen::Vector3d::Zero(), shift = Eigen::Vector3d::Zero();  ///< rad, m
-};
-
-enum class ChangeCause { joint_zero, link, axis, growth, reflectors, turn_about_6 };
-
-/// One cause that could have made all of the change, fitted alone by its own unknowns.
-struct CauseEvidence {
-  ChangeCause cause = {};
-  int axis = 0;         ///< joint of joint_zero, axis; link `axis` is the body between axes `axis` and axis + 1
-  int unknowns = 0;     ///< directions of it that the days see
-  double chi2 = 0.0;    ///< of the change that it explains
-  double left_p = 0.0;  ///< probability that chance leaves as much as is left
-  double bic = 0.0;     ///< chi2 left + unknowns ln(postures): the lowest is the best
-  std::optional<Uncertain> size;  ///< of a cause with one unknown: rad; of growth m/m
-  double at_targets = 0.0;        ///< rms of the 3-D position by it, m; 0 of reflectors
 };
 
 /// Two days without a load of one machine.
