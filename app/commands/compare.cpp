@@ -8,6 +8,7 @@
 #include "app/output.h"
 #include "app/prepared.h"
 #include "core/comparison/compare.h"
+#include "core/comparison/geometry_change.h"
 #include "reports/json/campaign_json.h"
 #include "reports/json/json.h"
 #include "reports/report_content.h"
@@ -41,6 +42,35 @@ Day dayOf(const preparation::PreparedCampaign& prepared, const ModelChoice& choi
   return day;
 }
 
+/// What was done to the readings of both.
+reports::Json preparations(const preparation::PreparedCampaign& before, const preparation::PreparedCampaign& after) {
+  return {reports::preparationJson(before.preparation), reports::preparationJson(after.preparation)};
+}
+
+std::string preparationsText(const preparation::PreparedCampaign& before, const preparation::PreparedCampaign& after) {
+  std::string text;
+  for (const preparation::PreparedCampaign* one : {&before, &after})
+    text += one->campaign.name + ". " + reports::preparationText(one->preparation);
+  return text;
+}
+
+/// Two days without a load: what moved in the arm itself.
+int compareUnloaded(const CompareArguments& arguments, const preparation::PreparedCampaign& before,
+                    const preparation::PreparedCampaign& after) {
+  const comparison::GeometryChange change = comparison::compareGeometry(before.campaign, after.campaign);
+  deliver(
+      [&] {
+        reports::Json json = reports::geometryChangeJson(before.campaign, after.campaign, change);
+        json["preparation"] = preparations(before, after);
+        return json;
+      },
+      [&] {
+        return reports::geometryChangeText(before.campaign, after.campaign, change) + preparationsText(before, after);
+      },
+      arguments.json);
+  return change.reason.empty() ? kDone : kNotUsable;
+}
+
 int compareTwo(const CompareArguments& arguments) {
   identification::IdentifyOptions options;
   options.step = loadStepNamed(arguments.step);
@@ -48,6 +78,7 @@ int compareTwo(const CompareArguments& arguments) {
   const preparation::PreparedCampaign prepared_before = openPrepared(arguments.before, arguments.raw);
   const preparation::PreparedCampaign prepared_after = openPrepared(arguments.after, arguments.raw);
   const campaign::Campaign &before = prepared_before.campaign, &after = prepared_after.campaign;
+  if (isUnloadedDay(before) && isUnloadedDay(after)) return compareUnloaded(arguments, prepared_before, prepared_after);
   const Day first = dayOf(prepared_before, arguments.model, options);
   const Day second = dayOf(prepared_after, arguments.model, options);
   const comparison::Comparison comparison = comparison::compareCampaigns(
@@ -57,14 +88,11 @@ int compareTwo(const CompareArguments& arguments) {
   deliver(
       [&] {
         reports::Json json = reports::comparisonJson(before, after, comparison);
-        json["preparation"] = {reports::preparationJson(prepared_before.preparation),
-                               reports::preparationJson(prepared_after.preparation)};
+        json["preparation"] = preparations(prepared_before, prepared_after);
         return json;
       },
       [&] {
-        return reports::comparisonText(before, after, comparison) + before.name + ". " +
-               reports::preparationText(prepared_before.preparation) + after.name + ". " +
-               reports::preparationText(prepared_after.preparation);
+        return reports::comparisonText(before, after, comparison) + preparationsText(prepared_before, prepared_after);
       },
       arguments.json);
   return comparison.comparable ? kDone : kNotUsable;
@@ -83,7 +111,9 @@ void addCompare(CLI::App& app, Run& run) {
       "p-value of each joint and the same corrected for the joints tested (Holm), what is taken away of each "
       "compliance\n"
       "and what that avoids of the deflection at the reflectors. Stiffnesses before and after are those of identify;\n"
-      "where no postures correspond, the differences too. docs/method.md has the formulas.");
+      "where no postures correspond, the differences too. Two days without a load: what moved in the arm's geometry\n"
+      "(joint zeros, lengths, angles of axes), how significant it is, and which single cause explains it.\n"
+      "docs/method.md has the formulas.");
   command->add_option("BEFORE", arguments->before, "campaign before, or with the double encoders inactive")->required();
   command->add_option("AFTER", arguments->after, "campaign after, or with the double encoders active")->required();
   command->add_option("--step", arguments->step, "load step of both to identify from");

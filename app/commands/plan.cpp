@@ -14,6 +14,7 @@
 #include "core/io/units.h"
 #include "core/io/write_file.h"
 #include "core/planning/plan.h"
+#include "core/planning/unloaded_plan.h"
 #include "core/preparation/prepare.h"
 #include "reports/json/campaign_json.h"
 #include "reports/json/json.h"
@@ -27,6 +28,7 @@ struct PlanArguments {
   std::string campaign, json, out, criterion = "balanced";
   double load = 0.0, pull = 0.0;
   int add = 0;
+  bool unloaded = false;
   ModelChoice model;
   std::vector<double> hook_mm, tracker_mm, min_deg, max_deg;
   planning::PlanOptions options;
@@ -34,7 +36,7 @@ struct PlanArguments {
 
 /// Which options were given.
 struct Given {
-  const CLI::Option *load, *pull, *add, *postures;
+  const CLI::Option *load, *pull, *add, *postures, *candidates;
 };
 
 std::optional<Eigen::Vector3d> millimetres(const std::vector<double>& values) {
@@ -117,19 +119,40 @@ void requireTwoFiles(const PlanArguments& arguments) {
   throw std::runtime_error(arguments.json + ": expected another file for --json than for --out");
 }
 
+/// Writes what `--out` asks for.
+void writeOut(const PlanArguments& arguments, const std::function<std::string(bool xml)>& content) {
+  if (arguments.out.empty()) return;
+  io::requireNotRead(arguments.out);
+  io::writeFileWhole(arguments.out, content(std::filesystem::path(arguments.out).extension() == ".xml"));
+}
+
+/// A day without a load: postures that calibrate, in an order that tells effects apart.
+int planUnloadedDay(const PlanArguments& arguments, const Given& given, const planning::PlanOptions& loaded) {
+  planning::UnloadedPlanOptions options;
+  if (given.postures->count() > 0) options.postures = loaded.postures;
+  if (given.candidates->count() > 0) options.candidates = loaded.candidates;
+  options.seed = loaded.seed;
+  options.inputs = loaded.inputs;
+  options.rules = loaded.rules;
+  const preparation::PreparedCampaign prepared = preparation::prepareCampaign(openCampaign(arguments.campaign));
+  const campaign::Campaign& campaign = prepared.campaign;
+  const planning::UnloadedPlan plan = planning::planUnloaded(campaign, options);
+  writeOut(arguments, [&](bool xml) { return xml ? reports::unloadedPlanXml(plan) : reports::unloadedPlanCsv(plan); });
+  deliver([&] { return reports::unloadedPlanJson(campaign, plan); },
+          [&] { return reports::unloadedPlanText(campaign, plan); }, arguments.json);
+  return plan.postures.empty() ? kNotUsable : kDone;
+}
+
 int planDay(const PlanArguments& arguments, const Given& given) {
   requireTwoFiles(arguments);
   planning::PlanOptions options = optionsOf(arguments, given);
+  if (arguments.unloaded) return planUnloadedDay(arguments, given, options);
   const preparation::PreparedCampaign prepared = preparation::prepareCampaign(openCampaign(arguments.campaign));
   const Measured measured = measuredBy(prepared, arguments.model);
   const campaign::Campaign& campaign = measured.campaign(prepared.campaign);
   options.inputs.effects = doubtOf(measured.model);
   const planning::Plan plan = planning::planCampaign(campaign, measured.identification(), options);
-  if (!arguments.out.empty()) {
-    io::requireNotRead(arguments.out);
-    const bool xml = std::filesystem::path(arguments.out).extension() == ".xml";
-    io::writeFileWhole(arguments.out, xml ? reports::planXml(plan) : reports::planCsv(plan));
-  }
+  writeOut(arguments, [&](bool xml) { return xml ? reports::planXml(plan) : reports::planCsv(plan); });
   const auto json = [&] {
     reports::Json result = reports::planJson(campaign, plan);
     return measured.model
@@ -174,11 +197,18 @@ void addPlan(CLI::App& app, Run& run) {
   command->add_option("--max-deg", arguments->max_deg, "largest joint angles, six")->delimiter(',')->expected(6);
   command->add_option("--repeats", options.inputs.repeats, "readings of each reflector in a state")
       ->capture_default_str();
+  const auto unloaded =
+      command->add_flag("--unloaded", arguments->unloaded,
+                        "a day without a load: postures that calibrate the geometry, in an order that tells effects of "
+                        "the order apart; 40 of 400 unless said otherwise");
+  for (const CLI::Option* option : {given.add, given.load, given.pull})
+    unloaded->excludes(const_cast<CLI::Option*>(option));
   command
       ->add_option("--criterion", arguments->criterion,
                    "balanced (no joint pays for another) or determinant (D-optimal)")
       ->capture_default_str();
-  command->add_option("--candidates", options.candidates, "random postures to choose from")->capture_default_str();
+  given.candidates =
+      command->add_option("--candidates", options.candidates, "random postures to choose from")->capture_default_str();
   command->add_option("--seed", options.seed, "of the random postures")->capture_default_str();
   command->add_option(
       "--out", arguments->out,

@@ -14,9 +14,6 @@ inline constexpr double kAxisShiftPrior = 0.01, kAxisTiltPrior = 0.01;
 /// under a normal distribution one of 10^10 is.
 inline constexpr double kGross = 7.0;
 
-/// The same while effects are not in the model yet: the postures that show them best are the worst of geometry alone.
-inline constexpr double kGrossOfGeometry = 15.0;
-
 struct FitOptions {
   bool axes = true;             ///< false: base and reflectors alone are fitted to the nominal arm
   bool robust = true;           ///< false: `weights` say which readings are right

@@ -43,7 +43,7 @@ ModelFits fitModels(const UnloadedDay& day, const std::vector<double>& weights, 
   const auto place = placeArm(day, weights);
   if (!place) return models;
   models.placed = true;
-  const ArmFit first = fitArm(day, *place, {}, {.weights = weights, .gross = kGrossOfGeometry});
+  const ArmFit first = fitArm(day, *place, {}, {.weights = weights});
   SelectionOptions selection;
   selection.inner_fold = innerFolds(options, selection.inner_folds);
   selection.outer_folds = options.folds;

@@ -18,6 +18,12 @@ enum class RemarkId {
   few_correspond,          ///< postures that correspond, postures
   other_postures,          ///< postures that correspond: differences are of all postures of each
   difference_above_noise,  ///< residual of the difference per coordinate m, noise in it m
+  // What to know before believing the change of a geometry.
+  geometry_of_other_postures,  ///< postures that correspond
+  effects_changed,             ///< probability of unchanged ones
+  no_common_reflector,
+  zero_1_with_base,
+  zero_6_with_reflectors,
   // Why something cannot be compared.
   nothing_comparable,  ///< why no deflection, why no stiffness
   of_one_campaign,     ///< When, what its identification says

@@ -178,6 +178,22 @@ PlanningArm planningArm(const campaign::Campaign& campaign, const identification
   return arm;
 }
 
+PlanningArm unloadedPlanningArm(const campaign::Campaign& campaign, const PlanningInputs& inputs) {
+  if (inputs.repeats < 1)
+    throw io::InputError({"--repeats"}, std::to_string(inputs.repeats), "expected 1 or more readings");
+  PlanningArm arm;
+  arm.geometry.arm = campaign.robot;
+  arm.repeats = inputs.repeats;
+  arm.pull = true;
+  arm.outward_in_flange = outwardInFlange(campaign.robot);
+  placeTargets(campaign, arm);
+  arm.station = inputs.tracker_in_base;
+  if (!arm.station) arm.assumed.emplace_back(RemarkId::tracker_not_placed);
+  arm.sigma = inputs.tracker_sigma;
+  if (!campaign.tracker) arm.assumed.emplace_back(RemarkId::noise_not_declared, arm.sigma);
+  return arm;
+}
+
 namespace {
 
 struct Skeleton {
@@ -286,8 +302,10 @@ PostureRule brokenRule(const PlanningArm& arm, const PostureRules& rules, const 
     return PostureRule::hanging;
   }
   constexpr double kLine = 3.0;  // m of cable or chain
-  if (clearanceOfLine(skeleton.points, hook, direction, kLine) < rules.line_clearance) return PostureRule::load_line;
-  if (nearBody(skeleton, hook, rules.body_clearance)) return PostureRule::body;
+  const bool loaded = arm.load > 0.0;
+  if (loaded && clearanceOfLine(skeleton.points, hook, direction, kLine) < rules.line_clearance)
+    return PostureRule::load_line;
+  if (loaded && nearBody(skeleton, hook, rules.body_clearance)) return PostureRule::body;
   for (const Eigen::Vector3d& target : targets) {
     if (nearBody(skeleton, target, rules.body_clearance)) return PostureRule::body;
   }

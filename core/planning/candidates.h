@@ -45,7 +45,7 @@ struct PlanningArm {
   std::vector<Eigen::Vector3d> targets_in_flange;                ///< m
   Eigen::Vector3d outward_in_flange = Eigen::Vector3d::UnitZ();  ///< along axis 6, away from the arm
   Eigen::Vector3d hook_in_flange = Eigen::Vector3d::Zero();
-  double load = 0.0;  ///< N
+  double load = 0.0;  ///< N; 0: a day without a load, whose postures keep no rules of one
   bool pull = false;
   std::optional<Eigen::Vector3d> station;        ///< in R0, m
   std::optional<metrology::TrackerNoise> noise;  ///< about `station`; empty: isotropic `sigma`
@@ -66,6 +66,10 @@ struct PlanningArm {
 /// where the load is neither given nor measured, or no force.
 PlanningArm planningArm(const campaign::Campaign& campaign, const identification::Identification* identified,
                         const PlanningInputs& inputs);
+
+/// The same of a day without a load, in base_link: R0 is base_link, nothing hangs, and of `inputs` only tracker, its
+/// noise and repeats count.
+PlanningArm unloadedPlanningArm(const campaign::Campaign& campaign, const PlanningInputs& inputs);
 
 /// What a person at the robot would keep to. Lengths m, angles rad.
 struct PostureRules {

@@ -12,6 +12,8 @@ enum class RemarkId {
   tracker_not_placed,
   effects_as_known_now,
   noise_not_declared,  ///< standard deviation per coordinate m
+  usual_effects,       ///< how far an effect usually moves the reflectors, rms m
+  calibrated_before,   ///< postures that calibrated the arm, what the model left per coordinate m
   // Why there is no plan.
   no_joint_seen,
 };

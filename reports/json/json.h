@@ -22,6 +22,7 @@ struct KnownStiffness;
 }  // namespace stiffscope::campaign
 namespace stiffscope::comparison {
 struct Comparison;
+struct GeometryChange;
 struct StiffnessChange;
 }  // namespace stiffscope::comparison
 namespace stiffscope::compensation {
@@ -43,7 +44,8 @@ enum class Method;
 }
 namespace stiffscope::planning {
 struct Plan;
-}
+struct UnloadedPlan;
+}  // namespace stiffscope::planning
 namespace stiffscope::preparation {
 enum class AuditVerdict;
 }
@@ -73,6 +75,17 @@ Json changeJson(const comparison::StiffnessChange& change, bool ratios_hold);
 /// them stand under `methods`.
 Json comparisonJson(const campaign::Campaign& before, const campaign::Campaign& after,
                     const comparison::Comparison& comparison);
+
+/// The result of `compare` of two days without a load: comparable, postures (before, after, common), same_postures,
+/// effects (ids fitted beside both geometries), effects_p_value (of unchanged ones), left_mm, machine (changed, chi2,
+/// numbers, p_value, at_targets_mm, sd_at_targets_mm), numbers (each: number "joint_zero", "along", "distance", "twist"
+/// or "tilt", joint or axes, difference, sd_difference, u_difference, unit, p_value, p_value_holm, at_targets_mm; null
+/// and reason where a day does not see it), reflectors (moved, p_value, targets with shift_in_flange_mm), base
+/// (machine_change false, shift_mm, turn_deg), cause (the best of causes where it leaves chance alone, else null),
+/// causes (each: cause "joint_zero", "link", "axis", "growth", "reflectors" or "turn_about_6", joint, link or axis,
+/// unknowns, chi2, left_p_value, bic, size with sd and unit where it has one number, at_targets_mm), cautions.
+Json geometryChangeJson(const campaign::Campaign& before, const campaign::Campaign& after,
+                        const comparison::GeometryChange& change);
 
 /// The result of `compensate`: a row a posture, and the summary. `known`: stiffnesses from elsewhere that stand in for
 /// joints which the day cannot see.
@@ -105,6 +118,12 @@ Json framesJson(const campaign::Campaign& campaign, const frames::Frames& frames
 
 /// The result of `plan`: a row a posture, and what random postures would give.
 Json planJson(const campaign::Campaign& campaign, const planning::Plan& plan);
+
+/// The result of `plan --unloaded`: rows (a posture each, in the order of the day: predicted_mm with it and all before,
+/// gain: by how much the variance grows without it, a share), predicted_mm and predicted_geometry_mm (rms uncertainty
+/// of a 3-D position over the workspace, effects free and not), effects (effect, detail, detectable_mm, inflation; null
+/// where they are not seen), random and random_twice (the same, medians).
+Json unloadedPlanJson(const campaign::Campaign& campaign, const planning::UnloadedPlan& plan);
 
 /// `results.json` of a report: the names of the files it wrote, per campaign what was done to the readings and the
 /// results of `audit`, `frames` and `identify`, and what the double encoders avoid. The content has to live as long.

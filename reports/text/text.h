@@ -21,7 +21,8 @@ struct KnownStiffness;
 }  // namespace stiffscope::campaign
 namespace stiffscope::comparison {
 struct Comparison;
-}
+struct GeometryChange;
+}  // namespace stiffscope::comparison
 namespace stiffscope::compensation {
 struct CompensatedPosture;
 }
@@ -45,7 +46,8 @@ enum class Method;
 }  // namespace stiffscope::identification
 namespace stiffscope::planning {
 struct Plan;
-}
+struct UnloadedPlan;
+}  // namespace stiffscope::planning
 namespace stiffscope::validation {
 struct BlindResult;
 }
@@ -73,6 +75,10 @@ std::string calibrationCsv(const calibration::Calibration& calibration);
 /// The result of `compare` for a terminal.
 std::string comparisonText(const campaign::Campaign& before, const campaign::Campaign& after,
                            const comparison::Comparison& comparison);
+
+/// The same of two days without a load: what moved in the geometry.
+std::string geometryChangeText(const campaign::Campaign& before, const campaign::Campaign& after,
+                               const comparison::GeometryChange& change);
 
 /// The result of `compensate` for a terminal, and under it what a reader must know, a sentence each.
 std::string compensationText(const campaign::Campaign& campaign, identification::Method method,
@@ -140,6 +146,11 @@ std::string planCsv(const planning::Plan& plan);
 
 /// The same as the `postures` element of a simulation's specification.
 std::string planXml(const planning::Plan& plan);
+
+/// The same of a day without a load: pose, q1_deg..q6_deg, in the order of the day.
+std::string unloadedPlanText(const campaign::Campaign& campaign, const planning::UnloadedPlan& plan);
+std::string unloadedPlanCsv(const planning::UnloadedPlan& plan);
+std::string unloadedPlanXml(const planning::UnloadedPlan& plan);
 
 /// The rates and, effect by effect, how many were answered right, for a terminal.
 std::string blindText(const validation::BlindResult& result);

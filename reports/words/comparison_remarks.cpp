@@ -60,6 +60,23 @@ std::string comparisonWords(comparison::RemarkId id, const RemarkValues& values)
           "times "
           "the tracker's noise: something else changed too, and does not cancel",
           values.number(0) / io::kMicrometre, values.number(0) / values.number(1));
+    case geometry_of_other_postures:
+      return fmt::format(
+          "{} postures correspond, too few to compare on these alone: what the model misses does not cancel, and "
+          "counts "
+          "as scatter between postures in the uncertainties",
+          values.count(0));
+    case effects_changed:
+      return fmt::format(
+          "the effects beside the geometry (gears, own weight) are not the same in both days (p {:.4f} of unchanged "
+          "ones): each day is fitted with its own, and what looks like a joint's zero may be one of them",
+          values.number(0));
+    case no_common_reflector:
+      return "no reflector has the same id in both campaigns: whether reflectors moved is not asked";
+    case zero_1_with_base:
+      return "joint 1's zero is not compared: a base that turned about axis 1 looks the same";
+    case zero_6_with_reflectors:
+      return "joint 6's zero is not compared: reflectors that all turned about axis 6 look the same";
     case nothing_comparable:
       return fmt::format("{}; {}", words(values.remark(0)), words(values.remark(1)));
     case of_one_campaign:

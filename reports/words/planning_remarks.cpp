@@ -37,6 +37,14 @@ std::string planningWords(planning::RemarkId id, const RemarkValues& values) {
     case noise_not_declared:
       return fmt::format("{:.0f} um of noise in each coordinate of a reading: no tracker is declared",
                          1e6 * values.number(0));
+    case usual_effects:
+      return fmt::format("effects of a size that moves the reflectors by {:.2f} mm (rms), each unknown by that much",
+                         values.number(0) / io::kMillimetre);
+    case calibrated_before:
+      return fmt::format(
+          "arm, reflectors and tracker as the {} measured postures calibrate them; the model leaves {:.3f} mm in a "
+          "coordinate, and will again",
+          values.count(0), values.number(1) / io::kMillimetre);
     case no_joint_seen:
       return "this load turns no joint enough to see its stiffness";
   }

@@ -156,5 +156,48 @@ TEST(PlanCommand, PlansBeforeTheDayForCompensateAndTheSimulator) {
   EXPECT_NE(written.find("pull=\""), std::string::npos);
 }
 
+const std::string kUnloaded = STIFFSCOPE_SHARED_DIR "/practice-unloaded/01";
+
+TEST(CompareCommand, TwoDaysWithoutALoadAreComparedByGeometry) {
+  if (!std::filesystem::is_directory(kUnloaded)) GTEST_SKIP() << "the practice days are not here";
+  const ScratchFolder scratch;
+  const std::string words = "compare '" + kUnloaded + "' '" + kUnloaded + "'";
+  const Ran ran = runProgram(words + " --json -", scratch.path());
+  ASSERT_EQ(ran.status, 0) << ran.err;
+  const auto json = nlohmann::json::parse(ran.out);
+  EXPECT_TRUE(json["comparable"].get<bool>());
+  EXPECT_TRUE(json["same_postures"].get<bool>());
+  EXPECT_FALSE(json["machine"]["changed"].get<bool>());
+  EXPECT_FALSE(json["reflectors"]["moved"].get<bool>());
+  EXPECT_FALSE(json["base"]["machine_change"].get<bool>());
+  EXPECT_TRUE(json["cause"].is_null());
+  EXPECT_GE(json["numbers"].size(), 16u);
+  EXPECT_EQ(json["preparation"].size(), 2u);
+  const Ran text = runProgram(words, scratch.path());
+  EXPECT_NE(text.out.find("Nothing of the machine changed beyond chance"), std::string::npos) << text.out;
+}
+
+TEST(PlanCommand, PlansADayWithoutALoad) {
+  const ScratchFolder scratch;
+  const std::filesystem::path day = scratch.path() / "day", csv = scratch.path() / "postures.csv";
+  std::filesystem::create_directory(day);
+  std::filesystem::copy(kActive + "/robot.urdf", day / "robot.urdf");
+  std::ofstream(day / "campaign.xml")
+      << R"(<campaign format="1" name="before" date="2026-11-20"><robot urdf="robot.urdf" base_link="base_link" )"
+      << R"(flange_link="tool0" double_encoder="active"/><targets/></campaign>)";
+  const std::string words = "plan --unloaded '" + day.string() + "' --postures 12 --candidates 60 ";
+  const Ran ran = runProgram(words + "--out '" + csv.string() + "' --json -", scratch.path());
+  ASSERT_EQ(ran.status, 0) << ran.err;
+  const auto json = nlohmann::json::parse(ran.out);
+  ASSERT_EQ(json["rows"].size(), 12u);
+  EXPECT_LT(json["predicted_mm"].get<double>(), json["random"]["predicted_mm"].get<double>());
+  EXPECT_GT(json["effects"].size(), 20u);
+  const std::string table = contentsOf(csv);
+  EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 13);
+  EXPECT_EQ(table.rfind("pose,q1_deg,", 0), 0u);
+  EXPECT_EQ(runProgram(words + "--json -", scratch.path()).out, ran.out);
+  EXPECT_EQ(runProgram(words + "--load 100", scratch.path()).status, 2);
+}
+
 }  // namespace compare_and_plan_test
 }  // namespace stiffscope

@@ -1,0 +1,85 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <array>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/calibration/calibrate.h"
+#include "core/campaign/campaign.h"
+#include "core/numerics/random.h"
+
+// Known causes for readings of a day without a load, by rigid kinematics of the nominal arm: formulas of their own, so
+// that the diagnosis is not judged by its own.
+
+namespace stiffscope::bench {
+
+/// One posture of the nominal arm; base_link, m and rad.
+struct NominalPosture {
+  Vector6d q = Vector6d::Zero();
+  Vector6d move = Vector6d::Zero(), side = Vector6d::Zero();  ///< as reported: since the state before; where from
+  double time = 0.0;                                          ///< share of the day
+  std::array<Eigen::Vector3d, 6> on_axis, axis;               ///< a point and the direction of each
+  std::array<Eigen::Isometry3d, 7> motion;                    ///< of each body from its place at zero
+  std::array<Eigen::Vector3d, 7> weight_at{};                 ///< where what stands beyond joint b weighs, b = 0..5
+};
+
+/// A day by the nominal arm, placed where its calibration's registration has it.
+struct NominalDay {
+  Eigen::Isometry3d base_from_points = Eigen::Isometry3d::Identity();
+  Eigen::Vector3d station = Eigen::Vector3d::Zero(), flange_at_zero = Eigen::Vector3d::Zero();
+  Eigen::Vector3d gravity = Eigen::Vector3d::Zero();
+  std::array<double, 6> mass_beyond{};  ///< of everything that joint j carries, kg
+  bool masses_known = false;
+  std::vector<NominalPosture> postures;  ///< by Campaign::pose_ids
+  std::vector<std::string> targets;
+};
+
+NominalDay nominalDay(const campaign::Campaign& campaign, const calibration::Calibration& calibration);
+
+/// What a cause of a size does to a reading at `point` (base_link): where it is then read.
+using Moved = std::function<Eigen::Vector3d(const NominalPosture& posture, int target, const Eigen::Vector3d& point,
+                                            double size)>;
+
+struct Cause {
+  calibration::UnloadedEffect effect = {};
+  std::string detail;  ///< as the diagnosis names the part; empty where it names none
+  std::string drawn;   ///< for people: order, time
+  Moved moved;
+};
+
+/// A random member of an effect: joint, order, time, direction. Empty where the day has none (no masses).
+std::optional<Cause> drawCause(calibration::UnloadedEffect effect, const NominalDay& day,
+                               numerics::RandomStream& random);
+
+/// What a rigid arm can do to the readings: a small motion of every body in its own axes, and every reflector elsewhere
+/// on the last.
+class RigidGeometry {
+ public:
+  /// Readings used: pose, target and point (base_link) of each.
+  struct At {
+    std::size_t pose = 0;
+    int target = 0;
+    Eigen::Vector3d point = Eigen::Vector3d::Zero();
+  };
+  RigidGeometry(const NominalDay& day, std::vector<At> readings);
+
+  /// Rms of the 3-D position that a cause moves, in all and beyond the rigid geometry, by a small size, m a unit.
+  struct Moves {
+    double all = 0.0, beyond = 0.0;
+  };
+  Moves movesOf(const Cause& cause) const;
+
+ private:
+  const NominalDay& day_;
+  std::vector<At> readings_;
+  Eigen::MatrixXd basis_;  ///< orthonormal columns
+};
+
+/// The readings with a cause in them, everything else (order, times, states) as it was.
+campaign::Campaign withCause(const campaign::Campaign& campaign, const NominalDay& day, const Cause& cause,
+                             double size);
+
+}  // namespace stiffscope::bench

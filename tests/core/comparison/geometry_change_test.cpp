@@ -1,0 +1,182 @@
+#include "core/comparison/geometry_change.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "reports/words/remark_words.h"
+#include "tests/fixtures/unloaded_day.h"
+
+namespace stiffscope {
+namespace geometry_change_test {
+
+using comparison::ChangeCause;
+using comparison::GeometryChange;
+
+/// Two days of other postures and another station; `change` is what happens to the machine between them.
+template <class Change>
+GeometryChange comparedApart(std::uint64_t seed, const Change& change) {
+  Noise noise(seed);
+  UnloadedSpec spec = builtOtherwise(noise);
+  const campaign::Campaign before = unloadedCampaign(spec, noise);
+  change(spec);
+  spec.tracker_from_base =
+      spec.tracker_from_base * Eigen::Translation3d(0.3, 0.2, 0.0) * Eigen::AngleAxisd(0.4, Eigen::Vector3d::UnitZ());
+  return comparison::compareGeometry(before, unloadedCampaign(spec, noise));
+}
+
+/// The same postures twice by a machine with something that no geometry is.
+template <class Change>
+GeometryChange comparedOnTheSame(std::uint64_t seed, const Change& change) {
+  Noise noise(seed);
+  UnloadedSpec spec = builtOtherwise(noise);
+  spec.joint_errors = [](const Vector6d& q) {
+    Vector6d errors = Vector6d::Zero();
+    for (Eigen::Index j = 0; j < 6; ++j)
+      errors[j] = 100e-6 * std::sin((3.3 + static_cast<double>(j)) * q[j]) * std::cos(2.1 * q[(j + 1) % 6]);
+    return errors;
+  };
+  const campaign::Campaign before = unloadedCampaign(spec, noise);
+  change(spec);
+  return comparison::compareGeometry(before, measuredAgain(before, spec, noise));
+}
+
+void nothing(UnloadedSpec&) {}
+
+// Of 30 pairs at 1 % three or more are said to have changed in 0.3 % of all runs.
+TEST(GeometryChange, OfAnUnchangedMachineNothingIsSaid) {
+  int apart = 0, same = 0;
+  for (std::uint64_t seed = 1; seed <= 15; ++seed) {
+    const GeometryChange other = comparedApart(seed, nothing), paired = comparedOnTheSame(100 + seed, nothing);
+    ASSERT_TRUE(other.reason.empty()) << reports::words(other.reason);
+    ASSERT_TRUE(paired.reason.empty()) << reports::words(paired.reason);
+    EXPECT_FALSE(other.same_postures);
+    EXPECT_TRUE(paired.same_postures);
+    EXPECT_EQ(other.numbers.size(), 18u);
+    apart += other.machine_changed || other.reflectors_moved;
+    same += paired.machine_changed || paired.reflectors_moved;
+    EXPECT_GT(paired.left_before, 2.0 * std::sqrt(3.0) * 20e-6);  // the misfit is there, and cancels
+  }
+  EXPECT_LE(apart + same, 2) << apart << " apart, " << same << " on the same postures";
+}
+
+// Effects that each day chooses for itself are the same machine in both.
+TEST(GeometryChange, EffectsOfTheMachineAreNoChange) {
+  int changed = 0;
+  for (std::uint64_t seed = 6020; seed < 6032; ++seed) {
+    Noise noise(seed);
+    UnloadedSpec spec = builtOtherwise(noise);
+    spec.joint_errors = [](const Vector6d& q) {
+      Vector6d errors = Vector6d::Zero();
+      errors[1] = 60e-6 * std::sin(2.0 * q[1]) + 50e-6 * std::cos(17.0 * q[1]);
+      errors[2] = 80e-6 * std::sin(q[2]);
+      errors[4] = 2e-4 * q[4];
+      return errors;
+    };
+    const campaign::Campaign before = unloadedCampaign(spec, noise);
+    const GeometryChange found = comparison::compareGeometry(before, unloadedCampaign(spec, noise));
+    EXPECT_FALSE(found.effects.empty());
+    changed += found.machine_changed;
+  }
+  EXPECT_LE(changed, 1);
+}
+
+TEST(GeometryChange, OneJointsZeroIsFoundAndNamed) {
+  int not_explained = 0;
+  for (const std::size_t joint : {1u, 2u, 3u, 4u}) {
+    const double moved = 0.2e-3;
+    const auto change = [&](UnloadedSpec& spec) {
+      spec.built.to_joint[joint].rotate(Eigen::AngleAxisd(moved, spec.built.axis[joint]));
+    };
+    for (const GeometryChange& found : {comparedApart(20 + joint, change), comparedOnTheSame(30 + joint, change)}) {
+      EXPECT_TRUE(found.machine_changed);
+      ASSERT_FALSE(found.causes.empty());
+      const comparison::CauseEvidence& best = found.causes.front();
+      EXPECT_EQ(best.cause, ChangeCause::joint_zero) << joint;
+      EXPECT_EQ(best.axis, static_cast<int>(joint) + 1);
+      ASSERT_TRUE(best.size);
+      EXPECT_NEAR(std::abs(best.size->value), moved, 4.0 * best.size->sd) << joint;
+      EXPECT_LT(best.size->sd, 0.1 * moved);
+      not_explained += !found.explained();
+      EXPECT_FALSE(found.reflectors_moved);
+      for (const comparison::NumberChange& one : found.numbers) {
+        if (one.number.kind == comparison::NumberKind::joint_zero && one.number.axis == best.axis) {
+          EXPECT_LT(one.p_holm, 0.01);
+        }
+      }
+    }
+  }
+  EXPECT_LE(not_explained, 1);  // two of eight by chance at 1 %: 0.3 %
+}
+
+TEST(GeometryChange, ATiltedAxisIsABentLink) {
+  const auto change = [](UnloadedSpec& spec) {
+    spec.built.to_joint[3].rotate(Eigen::AngleAxisd(0.3e-3, Eigen::Vector3d::UnitZ()));  // axis 4 is along x
+  };
+  const GeometryChange found = comparedApart(41, change);
+  EXPECT_TRUE(found.machine_changed);
+  ASSERT_FALSE(found.causes.empty());
+  EXPECT_EQ(found.causes.front().cause, ChangeCause::link);
+  EXPECT_EQ(found.causes.front().axis, 3);
+  EXPECT_GT(found.at_targets, 5.0 * found.at_targets_sd);
+}
+
+TEST(GeometryChange, WarmUpIsGrowthOfAllLengths) {
+  const double growth = 60e-6;  // five kelvin of steel
+  const auto change = [&](UnloadedSpec& spec) {
+    for (Eigen::Isometry3d& link : spec.built.to_joint) link.translation() *= 1.0 + growth;
+  };
+  for (const GeometryChange& found : {comparedApart(51, change), comparedOnTheSame(52, change)}) {
+    EXPECT_TRUE(found.machine_changed);
+    ASSERT_FALSE(found.causes.empty());
+    EXPECT_EQ(found.causes.front().cause, ChangeCause::growth);
+    ASSERT_TRUE(found.causes.front().size);
+    EXPECT_NEAR(found.causes.front().size->value, growth, 4.0 * found.causes.front().size->sd);
+  }
+}
+
+TEST(GeometryChange, ReflectorsSetAgainAreNoChangeOfTheMachine) {
+  const auto change = [](UnloadedSpec& spec) {
+    spec.on_flange[0] += Eigen::Vector3d(0.1e-3, 0.0, -0.05e-3);
+    spec.on_flange[2] += Eigen::Vector3d(-0.06e-3, 0.12e-3, 0.0);
+  };
+  const GeometryChange found = comparedApart(61, change);
+  EXPECT_FALSE(found.machine_changed);
+  EXPECT_TRUE(found.reflectors_moved);
+  ASSERT_FALSE(found.causes.empty());
+  EXPECT_EQ(found.causes.front().cause, ChangeCause::reflectors);
+  ASSERT_EQ(found.reflectors.size(), 3u);
+  EXPECT_NEAR(found.reflectors[0].shift.x(), 0.1e-3, 4.0 * found.reflectors[0].sd.x());
+  EXPECT_LT(found.reflectors[0].p_holm, 0.01);
+  EXPECT_LT(found.reflectors[2].p_holm, 0.01);
+  EXPECT_GT(found.reflectors[1].p_holm, 0.001);
+}
+
+TEST(GeometryChange, JointSixIsSaidWithTheReflectors) {
+  const auto change = [](UnloadedSpec& spec) {
+    spec.built.to_joint[5].rotate(Eigen::AngleAxisd(0.5e-3, spec.built.axis[5]));
+  };
+  const GeometryChange found = comparedApart(71, change);
+  EXPECT_FALSE(found.machine_changed);
+  EXPECT_TRUE(found.reflectors_moved);
+  ASSERT_FALSE(found.causes.empty());
+  EXPECT_EQ(found.causes.front().cause, ChangeCause::turn_about_6);
+  ASSERT_TRUE(found.causes.front().size);
+  EXPECT_NEAR(found.causes.front().size->value, 0.5e-3, 4.0 * found.causes.front().size->sd);
+}
+
+TEST(GeometryChange, RefusesAnotherMachineAndADayWithoutReadings) {
+  Noise noise(81);
+  const UnloadedSpec spec;
+  const campaign::Campaign day = unloadedCampaign(spec, noise);
+  campaign::Campaign other = day, empty = day;
+  other.robot.axes_in_base_at_zero[2].point.x() += 0.05;
+  EXPECT_TRUE(comparison::compareGeometry(day, other).reason.is(comparison::RemarkId::axis_elsewhere));
+  empty.loading->rows.clear();
+  const Remark reason = comparison::compareGeometry(day, empty).reason;
+  EXPECT_TRUE(reason.is(comparison::RemarkId::of_one_campaign));
+  EXPECT_EQ(reports::words(reason).rfind("after: ", 0), 0u) << reports::words(reason);
+}
+
+}  // namespace geometry_change_test
+}  // namespace stiffscope
