@@ -28,7 +28,9 @@ namespace {
 /// Effects of the machine; the others are of one day's time.
 bool ofMachine(const EffectPart& part) {
   switch (part.effect) {
+    case UnloadedEffect::kinematic_error:
     case UnloadedEffect::joint_compliance:
+    case UnloadedEffect::gravity_compensator:
     case UnloadedEffect::link_compliance:
     case UnloadedEffect::bearing_tilt:
     case UnloadedEffect::base_compliance:

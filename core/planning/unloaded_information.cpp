@@ -12,6 +12,7 @@
 namespace stiffscope::planning {
 
 using calibration::EffectPart;
+using calibration::UnloadedEffect;
 using frames::ArmParameters;
 
 namespace {
@@ -23,17 +24,34 @@ std::vector<EffectPart> steadyParts(const calibration::UnloadedDay& day) {
   for (int joint = 0; joint < 6; ++joint) {
     for (const double order : {1.0, 2.0}) parts.push_back(calibration::transmissionError(joint, order));
   }
-  for (const EffectPart& part : calibration::ratioErrors()) {
-    if (part.detail.rfind("joints", 0) != 0) parts.push_back(part);  // of a joint's own angle
+  for (const calibration::EffectFamily& family : calibration::effectFamilies(day)) {
+    if (family.effect != UnloadedEffect::ratio_error) continue;
+    for (const EffectPart& part : family.parts) {
+      if (part.detail.rfind("joints", 0) != 0) parts.push_back(part);  // of a joint's own angle
+    }
   }
   return parts;
 }
 
-/// Effects of where the joint came from and of when.
+/// Effects of where the joint came from and of when: each in the form with the fewest terms.
 std::vector<EffectPart> orderedParts(const calibration::UnloadedDay& day) {
-  std::vector<EffectPart> parts = calibration::backlashes();
-  for (auto more : {calibration::readBackErrors(), calibration::driftsOverTime(day)})
-    parts.insert(parts.end(), more.begin(), more.end());
+  std::vector<EffectPart> parts;
+  for (const calibration::EffectFamily& family : calibration::effectFamilies(day)) {
+    switch (family.effect) {
+      case UnloadedEffect::backlash:
+        // By the side that each joint came from.
+        parts.insert(parts.end(), family.parts.begin(), family.parts.begin() + 6);
+        break;
+      case UnloadedEffect::read_back_error:
+      case UnloadedEffect::tracker_drift:
+      case UnloadedEffect::thermal_growth:
+      case UnloadedEffect::scale_error:
+        parts.push_back(family.wholes.front());
+        break;
+      default:
+        break;
+    }
+  }
   return parts;
 }
 
