@@ -177,18 +177,20 @@ Calibration calibrate(const campaign::Campaign& campaign, const CalibrationOptio
     return result;
   }
 
-  // The whole day first, then each fold's others.
+  // The whole day first, then each fold's others, without the readings that the whole day rejects.
   std::vector<ModelFits> fits(static_cast<std::size_t>(options.folds) + 1);
-  numerics::onAllCores(fits.size(), [&](std::size_t k) {
-    const int fold = static_cast<int>(k) - 1;
-    fits[k] =
-        fitModels(day, weightsWhere(day, [&](int pose) { return fold < 0 || foldOf(pose, options) != fold; }), options);
-  });
+  fits.front() = fitModels(day, weightsWhere(day, [](int) { return true; }), options);
   if (!fits.front().placed) {
     result.reason = Remark(RemarkId::not_placed);
     return result;
   }
   const std::vector<double> right = fits.front().fits.back().second.weights;
+  numerics::onAllCores(static_cast<std::size_t>(options.folds), [&](std::size_t fold) {
+    std::vector<double> others =
+        weightsWhere(day, [&](int pose) { return foldOf(pose, options) != static_cast<int>(fold); });
+    for (std::size_t i = 0; i < others.size(); ++i) others[i] *= right[i];
+    fits[fold + 1] = fitModels(day, others, options);
+  });
   result.selected = std::move(fits.front().selected);
   for (std::size_t k = 1; k < fits.size(); ++k)
     result.selected_by_others.push_back(std::move(fits[k].selected.effects));
