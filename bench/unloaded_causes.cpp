@@ -200,6 +200,9 @@ std::optional<Cause> drawCause(UnloadedEffect effect, const NominalDay& day, num
   const std::string when = fmt::format("from {:.2f} of the day", from);
   const auto later = [from](const NominalPosture& posture) { return posture.time >= from ? 1.0 : 0.0; };
   switch (effect) {
+    case UnloadedEffect::kinematic_error:      // the rigid calibration takes it in
+    case UnloadedEffect::gravity_compensator:  // these machines have none that could be wrong
+      return std::nullopt;
     case UnloadedEffect::joint_compliance:
     case UnloadedEffect::link_compliance:
     case UnloadedEffect::bearing_tilt:
