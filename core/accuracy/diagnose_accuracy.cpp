@@ -161,7 +161,7 @@ class Decider {
 
   void nameGeometry() {
     result_.geometry_limit = kNominalLimit;
-    const double off = std::sqrt(1.0 / 3.0) * calibration_.of(calibration::CalibratedModel::nominal).fitted.rms;
+    const double off = calibration_.nominal_misses;
     if (off <= kNominalLimit) return;
     result_.geometry_off_nominal = true;
     AccuracyClass one;
@@ -252,7 +252,6 @@ void addUntestable(const calibration::UnloadedDay& day, AccuracyDiagnosis& resul
           UnloadedEffect::base_compliance, UnloadedEffect::gravity_compensator})
       missing(effect, RemarkId::needs_masses);
   }
-  if (day.targets.size() < 2) missing(UnloadedEffect::target_motion, RemarkId::needs_reflectors);
 }
 
 }  // namespace

@@ -17,7 +17,6 @@ enum class RemarkId {
   nests_stand,
   // what an effect would need
   needs_masses,
-  needs_reflectors,
   // what to measure next
   measure_under_load,     ///< ids: hang weights, the same postures
   measure_nests,          ///< ids: floor nests between postures

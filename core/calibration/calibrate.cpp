@@ -38,6 +38,43 @@ bool worthAnotherLook(const ArmFit& geometry, const ArmFit& effects, const Selec
          effects.model_sd < kMuchLess * geometry.model_sd;
 }
 
+void addErrors(const std::vector<Eigen::Vector3d>& residuals, const std::vector<double>& weights,
+               PositionErrors& errors) {
+  double sum = errors.rms * errors.rms * static_cast<double>(errors.readings);
+  for (std::size_t i = 0; i < residuals.size(); ++i) {
+    if (weights[i] <= 0.0) continue;
+    sum += residuals[i].squaredNorm();
+    errors.largest = std::max(errors.largest, residuals[i].norm());
+    ++errors.readings;
+  }
+  errors.rms = std::sqrt(sum / static_cast<double>(std::max<std::size_t>(1, errors.readings)));
+}
+
+/// Readings as an arm would show them that has the axes, base and reflectors of a fit and no effects.
+UnloadedDay asRigid(UnloadedDay day, ArmFit fit) {
+  fit.parts.clear();
+  fit.sizes.resize(0);
+  const Eigen::Isometry3d points_from_base = fit.place.base_from_points.inverse();
+  const FittedDay fitted(day, fit);
+  UnloadedDay rigid = day;
+  for (Posture& posture : rigid.postures) {
+    const frames::PlacedPosture placed(fitted.arm(), posture.q);
+    for (Reading& reading : posture.readings)
+      reading.point = points_from_base * fitted.reflector(placed, reading).position;
+  }
+  return rigid;
+}
+
+/// See Calibration::nominal_misses.
+double nominalMisses(const UnloadedDay& day, const ArmFit& found) {
+  const UnloadedDay rigid = asRigid(day, found);
+  const FitOptions options{.axes = false, .robust = false, .weights = found.weights};
+  const ArmFit nominal = fitArm(rigid, found.place, {}, options);
+  PositionErrors errors;
+  addErrors(residualsOf(rigid, nominal), found.weights, errors);
+  return errors.rms / std::sqrt(3.0);
+}
+
 ModelFits fitModels(const UnloadedDay& day, const std::vector<double>& weights, const CalibrationOptions& options) {
   ModelFits models;
   const auto place = placeArm(day, weights);
@@ -71,18 +108,6 @@ ModelFits fitModels(const UnloadedDay& day, const std::vector<double>& weights, 
   }
   models.fits.emplace_back(CalibratedModel::effects, std::move(effects));
   return models;
-}
-
-void addErrors(const std::vector<Eigen::Vector3d>& residuals, const std::vector<double>& weights,
-               PositionErrors& errors) {
-  double sum = errors.rms * errors.rms * static_cast<double>(errors.readings);
-  for (std::size_t i = 0; i < residuals.size(); ++i) {
-    if (weights[i] <= 0.0) continue;
-    sum += residuals[i].squaredNorm();
-    errors.largest = std::max(errors.largest, residuals[i].norm());
-    ++errors.readings;
-  }
-  errors.rms = std::sqrt(sum / static_cast<double>(std::max<std::size_t>(1, errors.readings)));
 }
 
 /// Weight 1 of the readings of postures that `uses` asks for.
@@ -220,6 +245,7 @@ Calibration calibrate(const campaign::Campaign& campaign, const CalibrationOptio
     result.models.push_back(std::move(model));
   }
   result.rejected = rejectedOf(campaign, day, result.best().fit);
+  result.nominal_misses = nominalMisses(day, result.best().fit);
   result.not_identifiable = notIdentifiable(result.geometry().fit);
   if (!day.masses_known) result.notes.push_back(Remark(RemarkId::no_masses));
   return result;

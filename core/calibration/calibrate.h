@@ -47,6 +47,9 @@ struct Calibration {
   std::vector<preparation::RejectedReading> rejected;           ///< by the fullest model
   SelectedEffects selected;                                     ///< what the whole day asks for
   std::vector<std::vector<SelectedEffect>> selected_by_others;  ///< what all but one fold ask for, a list a fold
+  /// By how much the URDF's arm misses the one that was found with the effects beside it, rms per coordinate at the
+  /// reflectors in these postures, base and reflectors placed as well as can be, m.
+  double nominal_misses = 0.0;
   double noise = 0.0;                    ///< the tracker's, rms per coordinate over the readings used, m
   std::vector<Remark> not_identifiable;  ///< axis parameters of the geometry
   std::vector<Remark> notes;

@@ -149,21 +149,33 @@ double legendre(int degree, const Posture& posture) {
   return std::legendre(static_cast<unsigned>(degree), 2.0 * posture.time - 1.0);
 }
 
-constexpr int kFewDegrees = 3, kManyDegrees = 6;
-
-/// Forms of what goes on over the day: polynomials up to the first, the second .. degree. `terms_of(f)`: of what
+/// Forms of what wanders over the day: polynomials up to the first, the second .. sixth degree. `terms_of(f)`: of what
 /// follows a function of the posture.
 template <class TermsOf>
-std::vector<EffectPart> overTime(UnloadedEffect effect, int degrees, const TermsOf& terms_of) {
+std::vector<EffectPart> wandering(UnloadedEffect effect, const TermsOf& terms_of) {
+  constexpr int kDegrees = 6;
   std::vector<EffectPart> wholes;
   EffectPart whole{effect, "", {}};
-  for (int degree = 1; degree <= degrees; ++degree) {
+  for (int degree = 1; degree <= kDegrees; ++degree) {
     const auto more = terms_of([degree](const Posture& posture) { return legendre(degree, posture); },
                                fmt::format(" over the day, degree {}", degree));
     whole.terms.insert(whole.terms.end(), more.begin(), more.end());
     wholes.push_back(whole);
   }
   return wholes;
+}
+
+/// Forms of what grows over the day, in one way only: steadily, or towards a limit.
+template <class TermsOf>
+std::vector<EffectPart> growing(UnloadedEffect effect, const TermsOf& terms_of) {
+  std::vector<EffectPart> forms;
+  forms.push_back({effect, "", terms_of([](const Posture& posture) { return posture.time; }, " over the day")});
+  for (const double constant : {0.5, 0.25, 0.12}) {
+    const auto towards = [constant](const Posture& posture) { return 1.0 - std::exp(-posture.time / constant); };
+    forms.push_back(
+        {effect, "", terms_of(towards, fmt::format(" towards a limit, time constant {:g} of the day", constant))});
+  }
+  return forms;
 }
 
 constexpr double kMostGrowth = 1e-2;
@@ -213,8 +225,7 @@ EffectFamily thermalGrowth(const UnloadedDay& day) {
   };
   const auto warmth = [](const Posture& posture) { return posture.warmth; };
   if (day.temperature_known) family.wholes.push_back({effect, "", growth(warmth, " by temperature, a kelvin")});
-  addAll(overTime(effect, kFewDegrees, [](auto of, const std::string& when) { return growth(of, when); }),
-         family.wholes);
+  addAll(growing(effect, [](auto of, const std::string& when) { return growth(of, when); }), family.wholes);
   const auto links = linksAtZero(day);
   std::vector<std::size_t> all;
   constexpr double kShort = 1e-3;  // m: two axes at one place are no link
@@ -343,15 +354,15 @@ std::vector<EffectFamily> effectFamilies(const UnloadedDay& day) {
   families.push_back(readBackError());
   families.push_back({UnloadedEffect::tracker_drift,
                       {},
-                      overTime(UnloadedEffect::tracker_drift, kManyDegrees,
-                               [](auto of, const std::string& when) { return rigidMotion(of, when); })});
+                      wandering(UnloadedEffect::tracker_drift,
+                                [](auto of, const std::string& when) { return rigidMotion(of, when); })});
   families.push_back({UnloadedEffect::frame_error});
   families.push_back({UnloadedEffect::target_motion});
   families.push_back(thermalGrowth(day));
-  families.push_back({UnloadedEffect::scale_error,
-                      {},
-                      overTime(UnloadedEffect::scale_error, kFewDegrees,
-                               [](auto of, const std::string& when) { return scaling(of, when); })});
+  families.push_back(
+      {UnloadedEffect::scale_error, {}, growing(UnloadedEffect::scale_error, [](auto of, const std::string& when) {
+         return scaling(of, when);
+       })});
   std::erase_if(families, [](const EffectFamily& family) {
     const bool scanned = family.effect == UnloadedEffect::transmission_error ||
                          family.effect == UnloadedEffect::frame_error || family.effect == UnloadedEffect::target_motion;

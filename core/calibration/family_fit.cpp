@@ -28,9 +28,7 @@ FamilyFit::FamilyFit(const LinearisedDay& day, double chance, int most_parts)
     : day_(day), most_parts_(most_parts), families_(effectFamilies(day.day())) {
   log_chance_ = std::log(chance / static_cast<double>(families_.size()));
   prepareColumns();
-  // The only reflector's motion would be the flange's: it has no columns.
-  const std::size_t targets = day.day().targets.size() > 1 ? day.day().targets.size() : 0;
-  for (std::size_t target = 0; target < targets; ++target)
+  for (std::size_t target = 0; target < day.day().targets.size(); ++target)
     target_columns_.push_back(day.columnsOf(targetMotion(day.day(), static_cast<int>(target), -1.0).terms));
   periodogram_.emplace(day.equations(), day.postures(), day.day(), day.geometry(), day.geometryAlone().residual);
 }
@@ -276,7 +274,8 @@ bool FamilyFit::apart(const LinearModel& model) {
     return std::any_of(model.parts.begin(), model.parts.end(),
                        [&](const EffectPart& part) { return part.effect == effect && part.detail == detail; });
   };
-  return !(any(UnloadedEffect::gravity_compensator, "") && any(UnloadedEffect::transmission_error, "joint 2"));
+  return !(any(UnloadedEffect::gravity_compensator, "") && any(UnloadedEffect::transmission_error, "joint 2")) &&
+         !(any(UnloadedEffect::tracker_drift, "") && any(UnloadedEffect::frame_error, ""));
 }
 
 std::optional<LinearModel> FamilyFit::fitAlone(std::size_t family, const LinearModel& others, double equations) const {
@@ -311,7 +310,13 @@ std::optional<LinearModel> FamilyFit::fitAlone(std::size_t family, const LinearM
     if (auto model = with(others, candidateOf(*prepared))) consider(std::move(*model));
   }
   LinearModel by_parts = others;
-  for (int k = 0; k < most_parts_; ++k) {
+  // Much that starts at times, one after the other, is no jump.
+  constexpr int kMostStarts = 2;
+  const UnloadedEffect effect = families_[family].effect;
+  const bool starts = effect == UnloadedEffect::frame_error || effect == UnloadedEffect::target_motion ||
+                      effect == UnloadedEffect::scale_error;
+  const int most = starts ? std::min(kMostStarts, most_parts_) : most_parts_;
+  for (int k = 0; k < most; ++k) {
     const auto candidate = periodogram ? bestPeriodic(*periodogram) : bestPart(family, by_parts, beside, equations);
     if (!candidate) break;
     auto more = with(by_parts, *candidate);

@@ -56,8 +56,6 @@ std::string accuracyWords(accuracy::RemarkId id, const RemarkValues& values) {
       return "The floor nests stand still: the station did not move.";
     case RemarkId::needs_masses:
       return "the URDF states no masses: what the own weight does has no size";
-    case RemarkId::needs_reflectors:
-      return "one reflector alone: its motion is the flange's";
     case RemarkId::measure_under_load:
       return fmt::format(
           "Hang known weights on the flange and read the same postures with and without them ({}): only "
