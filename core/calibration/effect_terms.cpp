@@ -236,10 +236,10 @@ EffectFamily thermalGrowth(const UnloadedDay& day) {
                             std::vector<EffectPart>& to) {
     if (day.temperature_known)
       to.push_back({effect, "", linksGrow(day, which, warmth, "growth of " + name + " by temperature, a kelvin")});
-    addAll(overTime(
-               effect, kFewDegrees,
-               [&](auto of, const std::string& when) { return linksGrow(day, which, of, "growth of " + name + when); }),
-           to);
+    addAll(
+        growing(effect, [&](auto of,
+                            const std::string& when) { return linksGrow(day, which, of, "growth of " + name + when); }),
+        to);
   };
   addLinks(all, "the links", family.wholes);
   for (const std::size_t i : all) addLinks({i}, fmt::format("link {}", i + 1), family.parts);
