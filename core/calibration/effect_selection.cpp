@@ -96,8 +96,9 @@ class Search {
   }
 
  private:
-  /// Besides its parameters each effect has to be worth this: what one of a dozen reaches by chance.
-  static constexpr double kLeastFall = 10.0;
+  /// Besides its parameters each effect has to be worth this: twice what one of a dozen reaches by chance, since what
+  /// another effect leaves of itself looks like a third one.
+  static constexpr double kLeastFall = 16.0;
 
   SelectedEffect describedOne(const EffectSet& set, std::size_t family) const {
     const EffectSet others = without(set, family);

@@ -25,12 +25,14 @@ class Bending {
   }
 
   std::vector<BendingTerm> terms() const {
+    // Small arms turn softer than those that are loaded, and the own weight is a small load.
+    constexpr double kFurther = 10.0;
     std::vector<BendingTerm> terms;
     for (const effects::EffectModel& model : models_) {
       for (const effects::EffectPart& part : model.parts) {
         for (std::size_t k = 0; k < part.most.size(); ++k) {
           terms.push_back({static_cast<std::size_t>(model.effect), part.detail, effects::parameterName(part, k),
-                           effects::parameterUnit(part, k), part.most[k]});
+                           effects::parameterUnit(part, k), kFurther * part.most[k]});
         }
       }
     }
