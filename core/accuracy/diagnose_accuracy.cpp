@@ -182,15 +182,16 @@ class Decider {
     const double removed = std::sqrt(std::max(0.0, before_ * before_ - after_ * after_));
     constexpr double kShareOfRemoved = 0.2;
     const double limit = std::max(result_.size_limit, kShareOfRemoved * removed);
-    if (result_.left_over <= result_.left_over_limit || left <= limit) return;
-    unknown_ = true;
-    result_.reasons.emplace_back(RemarkId::not_explained, left, limit);
+    if (result_.left_over <= result_.left_over_limit) return;
     // What is smaller than what nothing explains may be a part of that.
     for (AccuracyClass& one : result_.classes) {
       if (!one.in_verdict || one.effects.front() == UnloadedEffect::kinematic_error || one.size >= left) continue;
       one.in_verdict = false;
       result_.reasons.emplace_back(RemarkId::less_than_unknown, std::string(idOf(one.effects.front())), one.size, left);
     }
+    if (left <= limit) return;
+    unknown_ = true;
+    result_.reasons.emplace_back(RemarkId::not_explained, left, limit);
     const double stays = 1.0 - explainedOf(before_, after_, noise);
     if (stays <= kMostLeft) return;
     std::vector<std::string> candidates;
