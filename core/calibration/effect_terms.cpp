@@ -34,7 +34,9 @@ Angles onJoint(int joint, Of of) {
   };
 }
 
-constexpr double kMostTurn = 0.1, kMostShift = 0.1;  // rad, m: more is no error but another machine
+// More is no error but another machine.
+constexpr double kMostJointError = 0.01, kMostTurn = 0.1, kMostShift = 0.1;  // rad, rad, m
+constexpr double kMostLag = 0.1;                                             // of a move
 
 /// Six terms of a small motion of all reflectors, scaled by a number of the posture.
 template <class Of>
@@ -76,7 +78,7 @@ std::vector<EffectPart> jointCompliances(const UnloadedDay& day) {
 
 EffectPart transmissionError(int joint, double order) {
   const auto term = [&](const char* name, auto function) {
-    return turning(fmt::format("{} of {:g} q{}", name, order, joint + 1), "rad", kMostTurn,
+    return turning(fmt::format("{} of {:g} q{}", name, order, joint + 1), "rad", kMostJointError,
                    onJoint(joint, [joint, order, function](const Posture& posture) {
                      return function(order * posture.q[joint]);
                    }));
@@ -268,10 +270,10 @@ std::vector<EffectPart> ratioErrors() {
 EffectFamily backlash(const UnloadedDay& day) {
   EffectFamily family{UnloadedEffect::backlash};
   for (int j = 0; j < 6; ++j) {
-    family.parts.push_back(
-        {family.effect, jointName(j), {turning(jointName(j), "rad", kMostTurn, onJoint(j, [j](const Posture& posture) {
-                                                 return posture.side[j];
-                                               }))}});
+    family.parts.push_back({family.effect,
+                            jointName(j),
+                            {turning(jointName(j), "rad", kMostJointError,
+                                     onJoint(j, [j](const Posture& posture) { return posture.side[j]; }))}});
   }
   for (EffectPart& part : family.parts) part.tried = 6;
   family.wholes.push_back(wholeOf(family.effect, family.parts));
@@ -289,7 +291,7 @@ EffectFamily backlash(const UnloadedDay& day) {
         return std::abs(pull) > friction ? (pull > 0.0 ? 1.0 : -1.0) : -posture.side[j];
       };
       EffectTerm term = turning(fmt::format("{}, weight of more than {:.3g} Nm pulling", jointName(j), friction), "rad",
-                                kMostTurn, onJoint(j, stands));
+                                kMostJointError, onJoint(j, stands));
       term.positive = true;
       family.parts.push_back({family.effect, jointName(j), {std::move(term)}});
     }
@@ -300,12 +302,12 @@ EffectFamily backlash(const UnloadedDay& day) {
 EffectFamily readBackError() {
   EffectFamily family{UnloadedEffect::read_back_error};
   family.wholes.push_back(
-      {family.effect, "", {turning("share of the last move", "rad/rad", kMostTurn, [](const Posture& posture) {
+      {family.effect, "", {turning("share of the last move", "rad/rad", kMostLag, [](const Posture& posture) {
          return posture.move;
        })}});
   EffectPart by_joint{family.effect, "", {}};
   for (int j = 0; j < 6; ++j) {
-    by_joint.terms.push_back(turning("share of the last move of " + jointName(j), "rad/rad", kMostTurn,
+    by_joint.terms.push_back(turning("share of the last move of " + jointName(j), "rad/rad", kMostLag,
                                      onJoint(j, [j](const Posture& posture) { return posture.move[j]; })));
   }
   family.wholes.push_back(std::move(by_joint));
