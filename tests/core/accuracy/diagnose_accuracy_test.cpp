@@ -10,8 +10,8 @@ namespace diagnose_accuracy_test {
 using accuracy::AccuracyDiagnosis;
 using calibration::UnloadedEffect;
 
-/// A machine of its own for each seed, near enough to its URDF that this is no finding. Effects are some times the 20 um
-/// of noise: what is named of smaller ones is a matter of luck, which `known_causes` counts.
+/// A machine of its own for each seed, near enough to its URDF that this is no finding. Effects are some times the 20
+/// um of noise: what is named of smaller ones is a matter of luck, which `known_causes` counts.
 UnloadedSpec machine(Noise& noise, int postures) {
   UnloadedSpec spec;
   spec.built = spec.nominal.disturbed(noise, 0.2e-3, 0.1e-3);
