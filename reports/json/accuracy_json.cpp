@@ -34,10 +34,9 @@ Json classJson(const accuracy::AccuracyClass& one) {
     json["terms"] = std::move(terms);
     parts.push_back(std::move(json));
   }
-  return {{"effects", idsOf(one.effects)},    {"detail", one.detail},
-          {"score", number(one.score)},       {"in_verdict", one.in_verdict},
-          {"shrink", shrinkJson(one.shrink)}, {"explained", number(one.explained)},
-          {"parameters", std::move(parts)}};
+  return {{"effects", idsOf(one.effects)},      {"detail", one.detail},          {"score", number(one.score)},
+          {"size_um", micrometres(one.size)},   {"in_verdict", one.in_verdict},  {"shrink", shrinkJson(one.shrink)},
+          {"explained", number(one.explained)}, {"parameters", std::move(parts)}};
 }
 
 }  // namespace

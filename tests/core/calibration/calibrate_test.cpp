@@ -113,25 +113,28 @@ TEST(Calibrate, SaysWhyNot) {
   EXPECT_TRUE(calibration::calibrate(none, {}).reason.is(calibration::RemarkId::no_unloaded_readings));
 }
 
-/// Held-out errors of an independent calibration, mm, as the days' own README.md states them.
+/// Held-out errors of an independent calibration, mm, as the days' own README.md states them, and what the effects by
+/// families have to reach on the same folds: a tenth above what they reached when this was written (0.057 and 0.128).
 struct Reference {
   const char* day;
   int fold_size;
-  double geometry, best;
+  double geometry, best, reached;
 };
 
 TEST(Calibrate, RealDaysAreBelowTheReference) {
   for (const Reference& reference :
-       {Reference{"ur5-unloaded", 1, 0.1123, 0.0726}, Reference{"ur10-unloaded", 2, 0.439, 0.309}}) {
+       {Reference{"ur5-unloaded", 1, 0.1123, 0.0726, 0.063}, Reference{"ur10-unloaded", 2, 0.439, 0.309, 0.142}}) {
     const fs::path folder = fs::path(STIFFSCOPE_SHARED_DIR) / "real" / reference.day;
     if (!fs::is_directory(folder)) GTEST_SKIP() << "the real days are not here";
     SCOPED_TRACE(reference.day);
     const preparation::PreparedCampaign day = preparation::prepareCampaign(campaign::readCampaign(folder).campaign);
     const auto result = calibration::calibrate(day.campaign, {.folds = 2, .fold_size = reference.fold_size});
     ASSERT_TRUE(result.reason.empty());
-    // Which readings count differs in a few, by the duplicates and by single readings of a posture: half a per cent.
-    EXPECT_LE(result.of(CalibratedModel::geometry).held_out.rms, 1.005 * reference.geometry * 1e-3);
+    // Which readings count differs in a few, by the duplicates and by single readings of a posture: half a per cent
+    // on the UR10, and as much again for margin.
+    EXPECT_LE(result.of(CalibratedModel::geometry).held_out.rms, 1.01 * reference.geometry * 1e-3);
     EXPECT_LT(result.of(CalibratedModel::effects).held_out.rms, reference.best * 1e-3);
+    EXPECT_LT(result.of(CalibratedModel::effects).held_out.rms, reference.reached * 1e-3);
   }
 }
 

@@ -1,0 +1,103 @@
+// JSON and text of the diagnosis of a day without a load.
+#include <gtest/gtest.h>
+
+#include "core/accuracy/diagnose_accuracy.h"
+#include "reports/json/json.h"
+#include "reports/text/text.h"
+#include "tests/fixtures/unloaded_day.h"
+
+namespace stiffscope {
+namespace accuracy_report_test {
+
+/// A day whose joint 5 has a wave twice a turn.
+struct DiagnosedDay {
+  campaign::Campaign campaign;
+  accuracy::AccuracyDiagnosis accuracy;
+
+  explicit DiagnosedDay(double wave = 0.5e-3) {
+    Noise noise(51);
+    UnloadedSpec spec;
+    spec.built = spec.nominal.disturbed(noise, 0.2e-3, 0.1e-3);
+    spec.postures = 80;
+    spec.joint_errors = [wave](const Vector6d& q) { return Vector6d(wave * std::sin(2.0 * q[4]) * Vector6d::Unit(4)); };
+    campaign = unloadedCampaign(spec, noise);
+    accuracy = accuracy::diagnoseAccuracy(campaign);
+  }
+
+  reports::Json json() const { return reports::accuracyJson(campaign, accuracy); }
+  std::string text() const { return reports::accuracyText(campaign, accuracy); }
+};
+
+bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+TEST(AccuracyJson, HasWhatOtherProgramsRead) {
+  const reports::Json json = DiagnosedDay().json();
+  EXPECT_EQ(json["usable"], true);
+  EXPECT_EQ(json["verdict"], reports::Json::parse(R"([["transmission_error"]])"));
+  EXPECT_EQ(json["verdict_details"], reports::Json::parse(R"(["joint 5"])"));
+  for (const char* key : {"reason", "classes", "gap", "detectable_um", "not_testable", "where", "next"})
+    EXPECT_TRUE(json.contains(key)) << key;
+  ASSERT_FALSE(json["classes"].empty());
+  const reports::Json& one = json["classes"][0];
+  for (const char* key : {"effects", "detail", "score", "size_um", "shrink", "explained", "in_verdict", "parameters"})
+    EXPECT_TRUE(one.contains(key)) << key;
+  for (const char* key : {"value", "low", "high"}) EXPECT_TRUE(one["shrink"][key].is_number()) << key;
+  for (const char* key : {"nominal_um", "before_um", "noise_um", "after_um"})
+    EXPECT_GT(json["gap"][key].get<double>(), 0.0) << key;
+  EXPECT_TRUE(json["where"].contains("reflector"));
+  EXPECT_TRUE(json["where"]["joint"].is_array());
+  EXPECT_GT(json["detectable_um"]["target_motion"].get<double>(), 0.0);
+}
+
+TEST(AccuracyJson, TermsHaveSizesAndUnits) {
+  const reports::Json json = DiagnosedDay().json();
+  const reports::Json& part = json["classes"][0]["parameters"][0];
+  EXPECT_EQ(part["detail"], "joint 5");
+  EXPECT_TRUE(part["order"].is_number());
+  ASSERT_EQ(part["terms"].size(), 2u);
+  for (const reports::Json& term : part["terms"]) {
+    EXPECT_EQ(term["unit"], "rad");
+    EXPECT_GT(term["sd"].get<double>(), 0.0);
+  }
+}
+
+/// An effect of the own weight that has no masses to hang on is not among the detectable ones.
+TEST(AccuracyJson, WhatCannotBeTestedHasItsReason) {
+  DiagnosedDay day;
+  for (robot::BodyMass& body : day.campaign.robot.bodies) body = {};
+  day.accuracy = accuracy::diagnoseAccuracy(day.campaign);
+  const reports::Json json = day.json();
+  EXPECT_FALSE(json["detectable_um"].contains("joint_compliance"));
+  ASSERT_TRUE(json["not_testable"].contains("joint_compliance"));
+  EXPECT_TRUE(has(json["not_testable"]["joint_compliance"].get<std::string>(), "masses"));
+}
+
+TEST(AccuracyJson, ACleanDaySaysNoneAndADayThatIsNoneSaysWhy) {
+  DiagnosedDay day(0.0);
+  EXPECT_EQ(day.json()["verdict"], reports::Json::parse(R"([["none"]])"));
+  day.campaign.loading.reset();
+  day.accuracy = accuracy::diagnoseAccuracy(day.campaign);
+  const reports::Json json = day.json();
+  EXPECT_EQ(json["usable"], false);
+  EXPECT_FALSE(json["reason"].get<std::string>().empty());
+  EXPECT_FALSE(json.contains("verdict"));
+}
+
+TEST(AccuracyText, AnswersWhichHowFarAndWhere) {
+  const std::string text = DiagnosedDay().text();
+  for (const char* words :
+       {"Verdict: transmission_error (joint 5)", "How far: gap of the positions", "geometry calibrated",
+        "noise of the readings", "Which: candidates", "Where the gap lies", "Smallest size that would have been seen"})
+    EXPECT_TRUE(has(text, words)) << words;
+  EXPECT_FALSE(has(text, "nan"));
+}
+
+TEST(AccuracyText, ACleanDayHasNoCandidates) {
+  const std::string text = DiagnosedDay(0.0).text();
+  EXPECT_TRUE(has(text, "Verdict: none"));
+  EXPECT_TRUE(has(text, "gap of the positions"));
+  EXPECT_FALSE(has(text, "Which: candidates"));
+}
+
+}  // namespace accuracy_report_test
+}  // namespace stiffscope
