@@ -199,6 +199,27 @@ TEST(DiagnoseAccuracy, DISABLED_AnEffectIsNoLargerThanTheGap) {
   EXPECT_LT(result.classes.front().size, result.gap.before);
 }
 
+/// Disabled: a millimetre from the posture 48 of 60 on. What each fold leaves of it is too little to be found there, so
+/// the effect is withdrawn, but what it explained then counts as explained all the same.
+TEST(DiagnoseAccuracy, DISABLED_WhatIsWithdrawnIsNotExplained) {
+  Noise noise(100);
+  UnloadedSpec spec = machine(noise, 60);
+  spec.target_moved = [](int posture, std::size_t target) {
+    return target == 1 && posture >= 48 ? Eigen::Vector3d(0.8e-3, 0.0, -0.6e-3) : Eigen::Vector3d(0.0, 0.0, 0.0);
+  };
+  EXPECT_NE(inWords(diagnosed(spec, noise)), "none");
+}
+
+/// Disabled: all seven readings since then are rejected as wrong ones, and nothing says that they are of one reflector.
+TEST(DiagnoseAccuracy, DISABLED_AReflectorThatMovedLateIsNoSetOfWrongReadings) {
+  Noise noise(100);
+  UnloadedSpec spec = machine(noise, 60);
+  spec.target_moved = [](int posture, std::size_t target) {
+    return target == 1 && posture >= 53 ? Eigen::Vector3d(0.2e-3, 0.0, -0.15e-3) : Eigen::Vector3d(0.0, 0.0, 0.0);
+  };
+  EXPECT_EQ(inWords(diagnosed(spec, noise)), "target_motion (P11)");
+}
+
 TEST(DiagnoseAccuracy, SharesOfPartsOfTheGapAreAllOfIt) {
   Noise noise(33);
   UnloadedSpec spec = machine(noise, 60);
