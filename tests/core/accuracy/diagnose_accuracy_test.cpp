@@ -123,6 +123,39 @@ TEST(DiagnoseAccuracy, AStationThatJumped) {
   EXPECT_EQ(inWords(diagnosed(spec, noise)), "frame_error");
 }
 
+TEST(DiagnoseAccuracy, AStationThatWanders) {
+  Noise noise(36);
+  UnloadedSpec spec = machine(noise, 80);
+  spec.station_moved = [](int posture) {
+    const double time = posture / 79.0;
+    Eigen::Isometry3d moved = Eigen::Isometry3d::Identity();
+    moved.translation() = time * time * Eigen::Vector3d(0.3e-3, -0.2e-3, 0.1e-3);
+    moved.rotate(Eigen::AngleAxisd(50e-6 * std::sin(4.0 * time), Eigen::Vector3d::UnitZ()));
+    return moved;
+  };
+  EXPECT_EQ(inWords(diagnosed(spec, noise)), "tracker_drift");
+}
+
+TEST(DiagnoseAccuracy, AWristThatTurnsAlong) {
+  Noise noise(37);
+  UnloadedSpec spec = machine(noise, 80);
+  spec.joint_errors = [](const Vector6d& q) { return Vector6d(3e-4 * q[3] * Vector6d::Unit(4)); };
+  EXPECT_EQ(inWords(diagnosed(spec, noise)), "ratio_error (joints 4 and 5)");
+}
+
+/// All joints twist under the own weight, as a spring on axis 2 beside that could look like.
+TEST(DiagnoseAccuracy, JointsThatTwistUnderTheOwnWeight) {
+  Noise noise(38);
+  UnloadedSpec spec = machine(noise, 80);
+  spec.joint_errors = [arm = spec.nominal](const Vector6d& q) {
+    return Vector6d(exampleCompliance().cwiseProduct(arm.weightTorque(q)));
+  };
+  const AccuracyDiagnosis result = diagnosed(spec, noise);
+  ASSERT_EQ(result.verdict.size(), 1u) << inWords(result);
+  ASSERT_FALSE(result.verdict.front().effects.empty());
+  EXPECT_EQ(result.verdict.front().effects.front(), UnloadedEffect::joint_compliance) << inWords(result);
+}
+
 TEST(DiagnoseAccuracy, TwoAtOnceAreBothNamed) {
   Noise noise(27);
   UnloadedSpec spec = machine(noise, 100);
