@@ -123,6 +123,39 @@ TEST(DiagnoseAccuracy, AStationThatJumped) {
   EXPECT_EQ(inWords(diagnosed(spec, noise)), "frame_error");
 }
 
+TEST(DiagnoseAccuracy, AStationThatWanders) {
+  Noise noise(36);
+  UnloadedSpec spec = machine(noise, 80);
+  spec.station_moved = [](int posture) {
+    const double time = posture / 79.0;
+    Eigen::Isometry3d moved = Eigen::Isometry3d::Identity();
+    moved.translation() = time * time * Eigen::Vector3d(0.3e-3, -0.2e-3, 0.1e-3);
+    moved.rotate(Eigen::AngleAxisd(50e-6 * std::sin(4.0 * time), Eigen::Vector3d::UnitZ()));
+    return moved;
+  };
+  EXPECT_EQ(inWords(diagnosed(spec, noise)), "tracker_drift");
+}
+
+TEST(DiagnoseAccuracy, AWristThatTurnsAlong) {
+  Noise noise(37);
+  UnloadedSpec spec = machine(noise, 80);
+  spec.joint_errors = [](const Vector6d& q) { return Vector6d(3e-4 * q[3] * Vector6d::Unit(4)); };
+  EXPECT_EQ(inWords(diagnosed(spec, noise)), "ratio_error (joints 4 and 5)");
+}
+
+/// All joints twist under the own weight, as a spring on axis 2 beside that could look like.
+TEST(DiagnoseAccuracy, JointsThatTwistUnderTheOwnWeight) {
+  Noise noise(38);
+  UnloadedSpec spec = machine(noise, 80);
+  spec.joint_errors = [arm = spec.nominal](const Vector6d& q) {
+    return Vector6d(exampleCompliance().cwiseProduct(arm.weightTorque(q)));
+  };
+  const AccuracyDiagnosis result = diagnosed(spec, noise);
+  ASSERT_EQ(result.verdict.size(), 1u) << inWords(result);
+  ASSERT_FALSE(result.verdict.front().effects.empty());
+  EXPECT_EQ(result.verdict.front().effects.front(), UnloadedEffect::joint_compliance) << inWords(result);
+}
+
 TEST(DiagnoseAccuracy, TwoAtOnceAreBothNamed) {
   Noise noise(27);
   UnloadedSpec spec = machine(noise, 100);
@@ -197,6 +230,27 @@ TEST(DiagnoseAccuracy, DISABLED_AnEffectIsNoLargerThanTheGap) {
   const AccuracyDiagnosis result = diagnosed(spec, noise);
   ASSERT_FALSE(result.classes.empty());
   EXPECT_LT(result.classes.front().size, result.gap.before);
+}
+
+/// Disabled: a millimetre from the posture 48 of 60 on. What each fold leaves of it is too little to be found there, so
+/// the effect is withdrawn, but what it explained then counts as explained all the same.
+TEST(DiagnoseAccuracy, DISABLED_WhatIsWithdrawnIsNotExplained) {
+  Noise noise(100);
+  UnloadedSpec spec = machine(noise, 60);
+  spec.target_moved = [](int posture, std::size_t target) {
+    return target == 1 && posture >= 48 ? Eigen::Vector3d(0.8e-3, 0.0, -0.6e-3) : Eigen::Vector3d(0.0, 0.0, 0.0);
+  };
+  EXPECT_NE(inWords(diagnosed(spec, noise)), "none");
+}
+
+/// Disabled: all seven readings since then are rejected as wrong ones, and nothing says that they are of one reflector.
+TEST(DiagnoseAccuracy, DISABLED_AReflectorThatMovedLateIsNoSetOfWrongReadings) {
+  Noise noise(100);
+  UnloadedSpec spec = machine(noise, 60);
+  spec.target_moved = [](int posture, std::size_t target) {
+    return target == 1 && posture >= 53 ? Eigen::Vector3d(0.2e-3, 0.0, -0.15e-3) : Eigen::Vector3d(0.0, 0.0, 0.0);
+  };
+  EXPECT_EQ(inWords(diagnosed(spec, noise)), "target_motion (P11)");
 }
 
 TEST(DiagnoseAccuracy, SharesOfPartsOfTheGapAreAllOfIt) {
