@@ -65,6 +65,21 @@ diagnosis::Shrink shrinkOf(const std::vector<double>& before, const std::vector<
   return shrink;
 }
 
+/// Squares of a model's held-out residuals by posture, readings that were rejected left out.
+std::vector<double> heldOutSquares(const Calibration& calibration, const calibration::ModelResult& model) {
+  std::vector<double> squares;
+  std::size_t at = 0;
+  for (const calibration::Posture& posture : calibration.day.postures) {
+    double sum = 0.0;
+    for (std::size_t k = 0; k < posture.readings.size(); ++k, ++at) {
+      if (calibration.best().fit.weights[at] > 0.0 && model.held_out_residuals[at].allFinite())
+        sum += model.held_out_residuals[at].squaredNorm();
+    }
+    squares.push_back(sum);
+  }
+  return squares;
+}
+
 /// The same in variance, less noise: shares of the gap's squares beyond noise.
 double explainedOf(double before, double after, double noise) {
   const double gap = before * before - noise * noise;
@@ -123,6 +138,18 @@ class Decider {
                        });
   }
 
+  /// What starts where too few postures stand on one side for the others of a fold to find it.
+  bool startsAside(UnloadedEffect effect) const {
+    constexpr std::ptrdiff_t kEnough = 20;
+    const auto& postures = calibration_.day.postures;
+    return std::any_of(calibration_.selected.parts.begin(), calibration_.selected.parts.end(), [&](const auto& part) {
+      if (part.effect != effect || !part.from) return false;
+      const auto later = std::count_if(postures.begin(), postures.end(),
+                                       [&](const calibration::Posture& posture) { return posture.time >= *part.from; });
+      return std::min(later, static_cast<std::ptrdiff_t>(postures.size()) - later) < kEnough;
+    });
+  }
+
   void judge(const SelectedEffect& one) {
     AccuracyClass found;
     found.effects.push_back(one.effect);
@@ -134,13 +161,14 @@ class Decider {
         explainedOf(result_.gap.before, (1.0 - found.shrink.value) * result_.gap.before, result_.gap.noise);
     addFitted(one.effect, found);
     const std::string id(idOf(one.effect));
-    found.size = one.size * before_;
+    found.size = one.size;
     found.in_verdict = true;
     if (found.size < result_.size_limit) {
       found.in_verdict = false;
       result_.reasons.emplace_back(RemarkId::too_small, id, found.size, result_.size_limit);
-    } else if (one.score > kEnoughForHalf && !inEveryFold(one)) {
+    } else if (one.score > kEnoughForHalf && !startsAside(one.effect) && !inEveryFold(one)) {
       found.in_verdict = false;
+      withdrawn_ = std::hypot(withdrawn_, found.size);
       result_.reasons.emplace_back(RemarkId::not_in_every_fold, id);
     }
     result_.classes.push_back(std::move(found));
@@ -167,7 +195,9 @@ class Decider {
     AccuracyClass one;
     one.effects = {UnloadedEffect::kinematic_error};
     one.score = off * off / (kNominalLimit * kNominalLimit) * 3.0 * static_cast<double>(calibration_.day.readings());
-    one.shrink.value = one.shrink.low = one.shrink.high = 1.0 - result_.gap.before / off;
+    one.size = off;
+    const double remains = std::min(1.0, result_.gap.before / result_.gap.nominal);
+    one.shrink.value = one.shrink.low = one.shrink.high = 1.0 - remains;
     one.explained = explainedOf(off, result_.gap.before, result_.gap.noise);
     one.in_verdict = true;
     result_.classes.push_back(std::move(one));
@@ -178,11 +208,12 @@ class Decider {
   /// removed, since no effect of the vocabulary is exactly what a machine does.
   void nameUnknown() {
     const double noise = result_.gap.noise;
-    const double left = calibration_.best().fit.model_sd;
-    const double removed = std::sqrt(std::max(0.0, before_ * before_ - after_ * after_));
+    // What was withdrawn explains nothing.
+    const double left = std::hypot(calibration_.best().fit.model_sd, withdrawn_);
+    const double removed = std::sqrt(std::max(0.0, before_ * before_ - after_ * after_ - withdrawn_ * withdrawn_));
     constexpr double kShareOfRemoved = 0.2;
     const double limit = std::max(result_.size_limit, kShareOfRemoved * removed);
-    if (result_.left_over <= result_.left_over_limit) return;
+    if (result_.left_over <= result_.left_over_limit && withdrawn_ == 0.0) return;
     // What is smaller than what nothing explains may be a part of that.
     for (AccuracyClass& one : result_.classes) {
       if (!one.in_verdict || one.effects.front() == UnloadedEffect::kinematic_error || one.size >= left) continue;
@@ -192,7 +223,7 @@ class Decider {
     if (left <= limit) return;
     unknown_ = true;
     result_.reasons.emplace_back(RemarkId::not_explained, left, limit);
-    const double stays = 1.0 - explainedOf(before_, after_, noise);
+    const double stays = 1.0 - explainedOf(before_, std::min(before_, std::hypot(after_, withdrawn_)), noise);
     if (stays <= kMostLeft) return;
     std::vector<std::string> candidates;
     for (AccuracyClass& one : result_.classes) {
@@ -239,6 +270,7 @@ class Decider {
   const Calibration& calibration_;
   AccuracyDiagnosis& result_;
   double before_ = 0.0, after_ = 0.0;  ///< rms per coordinate by the fits to the whole day, noise included
+  double withdrawn_ = 0.0;             ///< of effects that not every fold confirms
   bool unknown_ = false;
 };
 
@@ -270,7 +302,8 @@ AccuracyDiagnosis diagnoseAccuracy(const preparation::PreparedCampaign& prepared
   addUntestable(calibration.day, result);
   Decider(prepared, result).run();
   const calibration::SelectedEffects& selected = calibration.selected;
-  result.shrink_together = shrinkOf(selected.before, selected.after);
+  result.shrink_together =
+      shrinkOf(heldOutSquares(calibration, calibration.geometry()), heldOutSquares(calibration, calibration.best()));
   const auto untestable = [&](UnloadedEffect effect) {
     return std::any_of(result.not_testable.begin(), result.not_testable.end(),
                        [&](const UntestableEffect& one) { return one.effect == effect; });

@@ -38,7 +38,7 @@ struct Left {
 
 std::vector<Left> leftOver(const UnloadedDay& day, const ArmFit& fit) {
   const std::vector<Eigen::Vector3d> residuals = calibration::residualsOf(day, fit);
-  const Eigen::Isometry3d base_from_points = fit.basePointsMotion();
+  const Eigen::Isometry3d& base_from_points = fit.place.base_from_points;
   const Eigen::Vector3d station = base_from_points * day.station;
   std::vector<Left> left;
   std::size_t at = 0;

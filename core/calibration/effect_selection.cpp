@@ -110,7 +110,7 @@ class Search {
     }
     one.score = cost(others) - cost(set);
     const double rows = static_cast<double>(day_.rows());
-    one.size = std::sqrt(std::max(0.0, others.model.squares() - set.model.squares()) / rows);
+    one.size = day_.noise() * std::sqrt(std::max(0.0, others.model.squares() - set.model.squares()) / rows);
     for (std::size_t other = 0; other < fits_.families().size(); ++other) {
       if (has(set, other)) continue;
       const auto instead = with(others, other);

@@ -39,7 +39,7 @@ struct SelectedEffect {
   UnloadedEffect effect = {};
   std::string detail;            ///< of its parts, each once; empty where they name nothing
   double score = 0.0;            ///< fall of BIC against the others without it
-  double size = 0.0;             ///< rms per coordinate of what it explains beside them, in parts of the fit's noise
+  double size = 0.0;             ///< rms per coordinate of what it explains beside them, m
   std::vector<Rival> rivals;     ///< within kAsGood, best first
   std::vector<double> held_out;  ///< as SelectedEffects::before, with this effect alone beside the geometry
 };
@@ -52,7 +52,8 @@ struct SelectedEffects {
   std::vector<SelectedEffect> effects;  ///< the one that explains most first
   /// Squared residuals of postures, m^2, each outer fold by what the others fit: of the geometry, and with all effects.
   std::vector<double> before, after;
-  /// Of each effect that the day can be asked for: what it would have to explain to be named, as SelectedEffect::size.
+  /// Of each effect that the day can be asked for: what it would have to explain to be named, in parts of what is then
+  /// left.
   std::vector<std::pair<UnloadedEffect, double>> detectable;
 };
 

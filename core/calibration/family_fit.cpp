@@ -173,8 +173,11 @@ std::optional<FamilyFit::Candidate> FamilyFit::bestPeriodic(const Periodogram& p
 
 std::optional<FamilyFit::Candidate> FamilyFit::bestPart(std::size_t family, const LinearModel& model,
                                                         const Products& beside, double equations) const {
-  if (auto start = bestStart(families_[family].effect, model))
-    return candidateOf(std::move(*start), static_cast<int>(day_.postures().size()));
+  if (auto start = bestStart(families_[family].effect, model)) {
+    const bool any_target = start->effect == UnloadedEffect::target_motion;
+    return candidateOf(std::move(*start),
+                       static_cast<int>(day_.postures().size() * (any_target ? target_columns_.size() : 1)));
+  }
   std::optional<Prepared> best;
   double most = -std::numeric_limits<double>::infinity();
   const double squares = model.squares();

@@ -60,6 +60,14 @@ void LinearisedDay::gather(const ArmFit& geometry) {
   residual_ -= basis_ * (basis_.transpose() * residual_);
 }
 
+double LinearisedDay::noise() const {
+  double declared = 0.0, count = 0.0;
+  for (const std::size_t i : postures_) {
+    for (const Reading& reading : day_.postures[i].readings) declared += reading.covariance.trace() / 3.0, ++count;
+  }
+  return std::sqrt(declared / std::max(1.0, count) + fit_.model_sd * fit_.model_sd);
+}
+
 double LinearisedDay::timeBefore(std::size_t k) const {
   return (day_.postures[postures_[k]].time + day_.postures[postures_[k - 1]].time) / 2.0;
 }
@@ -140,7 +148,7 @@ void LinearisedDay::holdOut(const LinearModel& model, int fold_count, const std:
   forEachRun([&](std::size_t k, std::size_t, Eigen::Index from, Eigen::Index rows) {
     Normal& normal = normals[static_cast<std::size_t>(fold[k])];
     normal.matrix.noalias() += columns.transpose() * columns;
-    normal.right.noalias() += columns.transpose() * model.residual.segment(from, rows);
+    normal.right.noalias() += columns.transpose() * residual_.segment(from, rows);
   });
   Normal all = normals.front();
   for (std::size_t f = 1; f < folds; ++f) all.matrix += normals[f].matrix, all.right += normals[f].right;
@@ -152,8 +160,7 @@ void LinearisedDay::holdOut(const LinearModel& model, int fold_count, const std:
     sizes.push_back(solveSymmetric(others, Eigen::VectorXd(all.right - normal.right)));
   }
   forEachRun([&](std::size_t k, std::size_t end, Eigen::Index from, Eigen::Index rows) {
-    const Eigen::VectorXd left =
-        model.residual.segment(from, rows) - columns * sizes[static_cast<std::size_t>(fold[k])];
+    const Eigen::VectorXd left = residual_.segment(from, rows) - columns * sizes[static_cast<std::size_t>(fold[k])];
     for (std::size_t p = k; p < end; ++p) use(p, left.segment(first_row_[p] - from, equations_[p].residual.size()));
   });
 }

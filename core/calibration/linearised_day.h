@@ -45,6 +45,9 @@ class LinearisedDay {
 
   LinearModel geometryAlone() const;
 
+  /// Of a residual of one coordinate by which the rows are whitened, rms, m.
+  double noise() const;
+
   /// Whitened columns of terms, the geometry not yet projected off.
   Eigen::MatrixXd columnsOf(const std::vector<EffectTerm>& terms) const;
   Eigen::MatrixXd acrossGeometry(const Eigen::MatrixXd& columns) const;
@@ -67,7 +70,8 @@ class LinearisedDay {
  private:
   void choosePostures(const ArmFit& geometry);
   void gather(const ArmFit& geometry);
-  /// Calls with each posture's whitened residual, its fold predicted by the others.
+  /// Calls with each posture's whitened residual, its fold predicted by the others: a direction that these do not see
+  /// is left alone.
   template <class Use>
   void holdOut(const LinearModel& model, int folds, const std::vector<int>& fold, const Use& use) const;
 
