@@ -8,6 +8,7 @@
 #include "core/calibration/fitted_day.h"
 #include "core/numerics/distributions.h"
 #include "core/numerics/resampling.h"
+#include "metrology/linear_algebra.h"
 
 namespace stiffscope::accuracy {
 
@@ -91,34 +92,46 @@ std::vector<Part> quarters(const std::vector<Left>& left, const char* format, do
   return parts;
 }
 
-/// What a turn of each joint explains of a posture's residuals, alone.
+/// What a turn of each joint alone explains of a posture's residuals. Several can explain the same: their shares are
+/// those of what all six together explain, in proportion to what each does alone.
 diagnosis::WhereTable byJoint(const UnloadedDay& day, const ArmFit& fit, const std::vector<Left>& left,
                               double all_squares) {
   const calibration::FittedDay fitted(day, fit);
   std::array<Part, 6> parts;
+  double together = 0.0;
   for (std::size_t from = 0; from < left.size();) {
     std::size_t end = from;
     while (end < left.size() && left[end].posture == left[from].posture) ++end;
     const calibration::Posture& posture = day.postures[left[from].posture];
     const frames::PlacedPosture placed(fitted.arm(), fitted.anglesOf(posture));
-    Eigen::Matrix<double, 6, 1> product = Eigen::Matrix<double, 6, 1>::Zero(), square = product, noise = product;
+    const auto rows = 3 * static_cast<Eigen::Index>(end - from);
+    Eigen::MatrixXd by_angles(rows, 6);
+    Eigen::VectorXd residual(rows), noise = Eigen::VectorXd::Zero(6);
     for (std::size_t k = from; k < end; ++k) {
-      const Matrix36d by_angles = placed.byAngles(left[k].at);
-      product += by_angles.transpose() * left[k].residual;
-      square += by_angles.colwise().squaredNorm().transpose();
-      noise += (by_angles.transpose() * left[k].covariance * by_angles).diagonal();
+      const auto row = 3 * static_cast<Eigen::Index>(k - from);
+      const Matrix36d own = placed.byAngles(left[k].at);
+      by_angles.middleRows<3>(row) = own;
+      residual.segment<3>(row) = left[k].residual;
+      noise += (own.transpose() * left[k].covariance * own).diagonal();
     }
+    const Eigen::VectorXd product = by_angles.transpose() * residual, square = by_angles.colwise().squaredNorm();
     for (std::size_t j = 0; j < 6; ++j) {
       const auto at = static_cast<Eigen::Index>(j);
       if (square[at] > 0.0) parts[j].add(product[at] * product[at] / square[at], noise[at] / square[at], 1.0);
     }
+    together += residual.dot(Eigen::VectorXd(by_angles * leastSquaresSolution(by_angles, residual)));
     from = end;
   }
   std::vector<Part> named(parts.begin(), parts.end());
-  for (std::size_t j = 0; j < named.size(); ++j) named[j].name = fmt::format("joint {}", j + 1);
+  double alone = 0.0;
+  for (std::size_t j = 0; j < named.size(); ++j) {
+    named[j].name = fmt::format("joint {}", j + 1);
+    alone += named[j].squares;
+  }
   diagnosis::WhereTable table = tableOf("joint", named, all_squares);
   table.overlaps = true;
-  for (const diagnosis::WhereRow& row : table.rows) table.explained = std::max(table.explained, row.share);
+  table.explained = all_squares > 0.0 ? together / all_squares : 0.0;
+  for (diagnosis::WhereRow& row : table.rows) row.share *= alone > 0.0 ? together / alone : 0.0;
   return table;
 }
 
