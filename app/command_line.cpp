@@ -13,6 +13,8 @@ int runCommandLine(int count, char** words) {
   app.set_version_flag("--version", "stiffscope " STIFFSCOPE_VERSION);
   app.require_subcommand(0, 1);
   Run run;
+  addInit(app, run);
+  addImport(app, run);
   addAudit(app, run);
   addFit(app, run);
   addFrames(app, run);

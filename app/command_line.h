@@ -15,6 +15,8 @@ using Run = std::function<int()>;
 /// Each adds its command to the command line and puts what it does into `run` when it is chosen.
 void addAudit(CLI::App& app, Run& run);
 void addFit(CLI::App& app, Run& run);
+void addInit(CLI::App& app, Run& run);
+void addImport(CLI::App& app, Run& run);
 void addFrames(CLI::App& app, Run& run);
 void addIdentify(CLI::App& app, Run& run);
 void addCompensate(CLI::App& app, Run& run);

@@ -27,6 +27,13 @@ std::vector<identification::Method> methodsNamed(const std::string& name) {
                        "expected cp, pp, dpp or all" + io::nearestNameHint(name, {"cp", "pp", "dpp", "all"}));
 }
 
+calibration::JointAngles jointAnglesNamed(const std::string& name) {
+  if (name == "reported") return calibration::JointAngles::reported;
+  if (name == "commanded") return calibration::JointAngles::commanded;
+  throw io::InputError({"--angles"}, name,
+                       "expected reported or commanded" + io::nearestNameHint(name, {"reported", "commanded"}));
+}
+
 void requireNoCampaign(const std::filesystem::path& folder, const std::string& expectation) {
   std::error_code none;
   if (!std::filesystem::exists(folder / "campaign.xml", none)) return;
@@ -54,6 +61,7 @@ std::string whyNotUnsigned(const std::string& value) {
 
 void checkOptionValues(CLI::App& app) {
   for (CLI::App* command : app.get_subcommands(nullptr)) {
+    checkOptionValues(*command);  // `import` has commands of its own
     for (CLI::Option* option : command->get_options()) {
       const std::string type = option->get_type_name();
       if (option->get_type_size() == 0) continue;  // a flag
@@ -77,10 +85,16 @@ std::optional<int> loadStepNamed(const std::string& step, const std::string& als
 
 namespace {
 
-/// The command that was named, or the program itself.
+/// The command that was named, the innermost of `import campaign`, or the program itself.
 const CLI::App& chosen(const CLI::App& app) {
   const auto commands = app.get_subcommands();
-  return commands.empty() ? app : *commands.front();
+  return commands.empty() ? app : chosen(*commands.front());
+}
+
+/// "import campaign "; nothing where no command was named.
+std::string commandWords(const CLI::App& app) {
+  const auto commands = app.get_subcommands();
+  return commands.empty() ? "" : commands.front()->get_name() + " " + commandWords(*commands.front());
 }
 
 std::string hintFor(const CLI::App& app, const std::string& word) {
@@ -113,9 +127,8 @@ int explainUsageError(const CLI::App& app, const CLI::ParseError& error) {
                   : "'" + unknown.front() + "' is not known" + hintFor(chosen(app), unknown.front());
   }
   const std::string program = app.get_name();
-  std::fprintf(stderr, "%s: %s; see %s %s%s--help\n", program.c_str(), message.c_str(), program.c_str(),
-               app.get_subcommands().empty() ? "" : chosen(app).get_name().c_str(),
-               app.get_subcommands().empty() ? "" : " ");
+  std::fprintf(stderr, "%s: %s; see %s %s--help\n", program.c_str(), message.c_str(), program.c_str(),
+               commandWords(app).c_str());
   return kBadInput;
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/calibration/unloaded_day.h"
 #include "core/identification/identify.h"
 
 namespace CLI {
@@ -20,6 +21,9 @@ std::vector<identification::Method> methodsNamed(const std::string& name);
 /// Throws std::runtime_error where `folder` holds a campaign.xml, for what is not to be written among a day's tables;
 /// ends in `expectation`.
 void requireNoCampaign(const std::filesystem::path& folder, const std::string& expectation);
+
+/// The joint angles that `--angles` names: reported or commanded. Throws InputError with the nearest known name.
+calibration::JointAngles jointAnglesNamed(const std::string& name);
 
 /// Refuses, for every option of every command, what its type would take and nobody means: an empty value, a number that
 /// is not finite, and of a whole number one that is negative or does not fit.

@@ -39,6 +39,14 @@ void requireLoad(const campaign::Campaign& campaign) {
                        "no load: stiffness and its gap need one; `stiffscope calibrate` fits unloaded postures");
 }
 
+void requireCommanded(const campaign::Campaign& campaign, calibration::JointAngles angles) {
+  if (angles == calibration::JointAngles::reported) return;
+  const std::array<bool, 6> given = calibration::commandedJoints(campaign);
+  if (std::any_of(given.begin(), given.end(), [](bool one) { return one; })) return;
+  throw io::InputError({"--angles"}, "commanded",
+                       "no joint has a commanded angle (c1_deg to c6_deg of `states`) in every unloaded posture");
+}
+
 preparation::PreparedCampaign openPrepared(const std::string& folder_or_xml, bool raw, campaign::Hashes hashes) {
   campaign::Campaign campaign = openCampaign(folder_or_xml, hashes);
   return raw ? preparation::leaveRaw(std::move(campaign)) : preparation::prepareCampaign(std::move(campaign));

@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "core/calibration/unloaded_day.h"
 #include "core/campaign/campaign.h"
 #include "core/campaign/read_campaign.h"
 #include "core/preparation/prepare.h"
@@ -23,6 +24,9 @@ bool isUnloadedDay(const campaign::Campaign& campaign);
 
 /// Throws InputError for such a day. `calibrate` is for it.
 void requireLoad(const campaign::Campaign& campaign);
+
+/// Throws InputError where commanded angles are wanted and no joint has them in every unloaded posture.
+void requireCommanded(const campaign::Campaign& campaign, calibration::JointAngles angles);
 
 /// A campaign as the commands compute from it: without rejected readings and referred to where the station
 /// first stood, as the audit finds them; with `raw` as it was read. Warnings go to standard error.

@@ -1,4 +1,4 @@
-"""Campaigns of three sizes for the benchmark of whole commands, by `stiffscope simulate` from samples/active.xml."""
+"""Campaigns of three sizes for the benchmark of whole commands, by `stiffscope simulate` from the samples' specifications."""
 import pathlib, re, shutil, subprocess, sys
 
 HERE = pathlib.Path(__file__).resolve().parent
@@ -9,13 +9,13 @@ def run(*command):
     subprocess.run([str(word) for word in command], check=True, stdout=subprocess.DEVNULL)
 
 
-def made(folder, changes, make):
-    """`folder`, unless it is there; changes: of samples/active.xml, old and new. `make(spec, part)` makes it under another
-    name, so that what an interrupted run leaves is not taken for whole."""
+def made(folder, changes, make, sample="active.xml"):
+    """`folder`, unless it is there; changes: of the sample's specification, old and new. `make(spec, part)` makes it under
+    another name, so that what an interrupted run leaves is not taken for whole."""
     if folder.exists():
         return folder
     folder.parent.mkdir(parents=True, exist_ok=True)
-    spec = (SAMPLES / "active.xml").read_text()
+    spec = (SAMPLES / sample).read_text()
     for old, new in [('urdf="', f'urdf="{SAMPLES}/'), *changes]:
         assert old in spec, old
         spec = spec.replace(old, new)
@@ -49,6 +49,13 @@ def day(binary, work, postures):
     folder = work / f"day{postures}"
     return made(folder, [('count="19" candidates="20"', f'count="{postures}" candidates="1"')],
                 lambda spec, part: run(binary, "simulate", spec, "--out", part))
+
+
+def unloaded(binary, work, postures):
+    """The sample's day without a load with more postures."""
+    folder = work / f"unloaded{postures}"
+    return made(folder, [('count="100"', f'count="{postures}"')],
+                lambda spec, part: run(binary, "simulate", spec, "--out", part), "unloaded.xml")
 
 
 def sweeps(binary, work, per_circle):

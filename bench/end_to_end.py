@@ -10,6 +10,8 @@ from same_result import compared
 ESTIMATE = 1e-6
 # Of a standard uncertainty: both weigh by the tracker's noise, along directions that differ by the noise.
 FRAMES = 0.5
+# Ours weighs by the tracker's noise beside what the model leaves, the script's readings all weigh alike.
+HELD_OUT = 0.01
 binary, work, out = map(pathlib.Path, sys.argv[1:4])
 IDENTIFY = campaigns.HERE / "by_pandas/identify.py"
 
@@ -95,6 +97,19 @@ def frames(folder, row):
         sys.exit(f"{folder}: radii or lengths {max(apart):.2g} standard uncertainties apart")
 
 
+def calibrate(folder, row):
+    """Ours with own weight, effects and outliers; the script the geometry alone, held out by the same halves."""
+    result, theirs = work / "calibrate.json", work / "by-script.json"
+    ours, script = in_turns((binary, "calibrate", folder, "--json", result),
+                            (sys.executable, campaigns.HERE / "calibrate_by_scipy.py", folder, theirs))
+    row["ours"].append(ours)
+    row["against"].setdefault("pandas and scipy, geometry alone", []).append(script)
+    geometry = next(model for model in loaded(result)["models"] if model["model"] == "geometry")
+    for key, value in ((key, loaded(theirs)[key]) for key in ("fitted_mm", "held_out_mm")):
+        if not abs(value / geometry[key] - 1.0) < HELD_OUT:
+            sys.exit(f"{folder}: {key} {value}, ours {geometry[key]}")
+
+
 def report(folder, row):
     row["ours"].append(timed(binary, "report", folder, "--out", work / "report")[1])
 
@@ -102,6 +117,7 @@ def report(folder, row):
 rows = []
 for what, sizes, make, measure in (
         ("`frames`", (20, 200, 2000), campaigns.sweeps, frames), ("`report`", (19, 190, 1900), campaigns.day, report),
+        ("`calibrate`, beside a script of the geometry alone", (100, 1000, 10000), campaigns.unloaded, calibrate),
         ("`identify --neglect-kc`, beside scripts of the stiffnesses alone", (100, 1000, 10000), campaigns.differences, estimate_only),
         ("`identify`", (100, 1000, 10000), campaigns.differences, printed),
         ("`identify --json`", (100, 1000, 10000), campaigns.differences, identify)):

@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "app/command_line.h"
+#include "app/options.h"
 #include "app/output.h"
 #include "app/prepared.h"
 #include "core/calibration/calibrate.h"
@@ -22,7 +23,7 @@ namespace stiffscope::app {
 namespace {
 
 struct CalibrateArguments {
-  std::string campaign, json, urdf, csv;
+  std::string campaign, json, urdf, csv, angles = "reported";
   calibration::CalibrationOptions options;
   bool raw = false;
 };
@@ -49,11 +50,13 @@ void writeUrdf(const campaign::Campaign& campaign, const calibration::Calibratio
                                                        campaign.robot, calibration.geometry().fit.arm(campaign.robot)));
 }
 
-int calibrateCampaign(const CalibrateArguments& arguments) {
+int calibrateCampaign(CalibrateArguments& arguments) {
   checkFolds(arguments.options);
+  arguments.options.angles = jointAnglesNamed(arguments.angles);
   const preparation::PreparedCampaign prepared =
       openPrepared(arguments.campaign, arguments.raw, hashesFor(arguments.json));
   const campaign::Campaign& campaign = prepared.campaign;
+  requireCommanded(campaign, arguments.options.angles);
   const calibration::Calibration calibration = calibration::calibrate(campaign, arguments.options);
   const bool done = calibration.reason.empty();
   deliver(
@@ -90,6 +93,7 @@ void addCalibrate(CLI::App& app, Run& run) {
       ->capture_default_str();
   command->add_option("--fold-size", arguments->options.fold_size, "postures in a row that stay in one part")
       ->capture_default_str();
+  command->add_option("--angles", arguments->angles, "reported or commanded joint angles")->capture_default_str();
   command->add_option("--urdf", arguments->urdf, "write the URDF with calibrated origins to this file");
   command->add_option("--csv", arguments->csv, "write axes and Denavit and Hartenberg's parameters to this file");
   addRawOption(*command, arguments->raw);

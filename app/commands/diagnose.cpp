@@ -10,6 +10,7 @@
 #include "app/command_line.h"
 #include "app/figures/figures.h"
 #include "app/model.h"
+#include "app/options.h"
 #include "app/output.h"
 #include "app/prepared.h"
 #include "core/accuracy/diagnose_accuracy.h"
@@ -30,7 +31,7 @@ namespace stiffscope::app {
 namespace {
 
 struct DiagnoseArguments {
-  std::string campaign, json, picture;
+  std::string campaign, json, picture, angles = "reported";
   std::vector<std::string> spike;
   diagnosis::SpikeOptions options;
 };
@@ -95,9 +96,12 @@ int diagnoseWithSpikes(DiagnoseArguments& arguments) {
 }
 
 int diagnoseAccuracyOf(campaign::Campaign campaign, const DiagnoseArguments& arguments) {
+  calibration::CalibrationOptions options = accuracy::kDiagnosisFolds;
+  options.angles = jointAnglesNamed(arguments.angles);
+  requireCommanded(campaign, options.angles);
   const campaign::Campaign words = described(campaign);
   const accuracy::AccuracyDiagnosis diagnosis =
-      accuracy::diagnoseAccuracy(preparation::prepareCampaign(std::move(campaign)));
+      accuracy::diagnoseAccuracy(preparation::prepareCampaign(std::move(campaign)), options);
   deliver([&] { return reports::accuracyJson(words, diagnosis); },
           [&] { return reports::accuracyText(words, diagnosis); }, arguments.json);
   return diagnosis.usable ? kDone : kNotUsable;
@@ -106,6 +110,8 @@ int diagnoseAccuracyOf(campaign::Campaign campaign, const DiagnoseArguments& arg
 int diagnoseCampaign(const DiagnoseArguments& arguments) {
   campaign::Campaign campaign = openCampaign(arguments.campaign);
   if (isUnloadedDay(campaign)) return diagnoseAccuracyOf(std::move(campaign), arguments);
+  if (jointAnglesNamed(arguments.angles) != calibration::JointAngles::reported)
+    throw io::InputError({"--angles"}, arguments.angles, "expected a day without a load");
   const campaign::Campaign words = described(campaign);
   const diagnosis::Diagnosis diagnosis = diagnosed(preparation::prepareCampaign(std::move(campaign)));
   deliver([&] { return reports::diagnosisJson(words, diagnosis); },
@@ -147,6 +153,9 @@ void addDiagnose(CLI::App& app, Run& run) {
       ->needs(spike);
   command->add_option("--picture", arguments->picture, "draw the counts over the sizes into this PNG file")
       ->needs(spike);
+  command->add_option("--angles", arguments->angles, "of a day without a load: reported or commanded joint angles")
+      ->capture_default_str()
+      ->excludes(spike);
   command->add_option("--json", arguments->json, "write the result to this file, - for standard output");
   command->callback([arguments, spike, &run] {
     run = [arguments, spiked = spike->count() > 0] {

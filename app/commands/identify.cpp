@@ -16,6 +16,7 @@
 #include "core/identification/remarks.h"
 #include "core/identification/warnings.h"
 #include "core/io/input_error.h"
+#include "core/mistakes/find_mistakes.h"
 #include "reports/json/campaign_json.h"
 #include "reports/json/identification_json.h"
 #include "reports/json/json.h"
@@ -81,6 +82,7 @@ int identifyCampaign(const IdentifyArguments& arguments, bool subset_given) {
       openPrepared(arguments.campaign, arguments.raw, hashesFor(arguments.json));
   if (encodersAlone(prepared.campaign)) return identifyEncodersAlone(prepared, arguments);
   requireLoad(prepared.campaign);
+  const mistakes::ModelAgreement agreement = mistakes::findMistakes(prepared.campaign);
   const std::optional<extended_model::ExtendedModel> improved = modelOf(prepared, arguments.model, options);
   const campaign::Campaign& campaign = improved ? improved->campaign : prepared.campaign;
   const identification::Identification result = improved ? improved->with : identification::identify(campaign, options);
@@ -104,7 +106,7 @@ int identifyCampaign(const IdentifyArguments& arguments, bool subset_given) {
     if (const auto best = identification::bestMethodOf(result, methods); best && arguments.postures)
       all += reports::posturesText(campaign, result, *best);
     if (improved) all += reports::extendedModelText(*improved, methods);
-    return all + reports::preparationText(prepared.preparation);
+    return all + reports::agreementText(agreement) + reports::preparationText(prepared.preparation);
   };
   deliver(
       [&] {
@@ -115,11 +117,12 @@ int identifyCampaign(const IdentifyArguments& arguments, bool subset_given) {
           document.json = reports::withEffects(std::move(document.json), *improved, methods);
           document.json = reports::withSupport(std::move(document.json), *improved, methods);
         }
+        document.json = reports::withAgreement(std::move(document.json), agreement);
         document.json = reports::withPreparation(std::move(document.json), prepared.preparation);
         return document;
       },
       text, arguments.json);
-  return identification::anyUsable(result, methods) ? kDone : kNotUsable;
+  return identification::anyUsable(result, methods) && !agreement.contradicted() ? kDone : kNotUsable;
 }
 
 }  // namespace
@@ -127,6 +130,9 @@ int identifyCampaign(const IdentifyArguments& arguments, bool subset_given) {
 void addIdentify(CLI::App& app, Run& run) {
   const auto arguments = std::make_shared<IdentifyArguments>();
   CLI::App* command = app.add_subcommand("identify", "Joint stiffness by Complete, Partial and Decoupled Partial Pose");
+  command->footer(
+      "Status 1 where no method gives a positive stiffness, or where the day contradicts the model so far that no "
+      "number\nserves: what would mend it is named, as audit has it.");
   command->add_option("CAMPAIGN", arguments->campaign, "campaign folder or its campaign.xml")->required();
   command->add_option("--method", arguments->method, "cp, pp, dpp or all")->capture_default_str();
   command->add_option(

@@ -201,8 +201,6 @@ void addPlan(CLI::App& app, Run& run) {
       command->add_flag("--unloaded", arguments->unloaded,
                         "a day without a load: postures that calibrate the geometry, in an order that tells effects of "
                         "the order apart; 40 of 400 unless said otherwise");
-  for (const CLI::Option* option : {given.add, given.load, given.pull})
-    unloaded->excludes(const_cast<CLI::Option*>(option));
   command
       ->add_option("--criterion", arguments->criterion,
                    "balanced (no joint pays for another) or determinant (D-optimal)")
@@ -214,6 +212,9 @@ void addPlan(CLI::App& app, Run& run) {
       "--out", arguments->out,
       "write the postures to this file: CSV, or where its name ends in .xml the <postures> of a simulation");
   command->add_option("--json", arguments->json, "write the result to this file, - for standard output");
+  // What only a load has is refused, not ignored.
+  for (const char* loaded : {"--add", "--load", "--pull", "--hook", "--criterion", "--with", "--springs-only"})
+    unloaded->excludes(command->get_option(loaded));
   command->callback([arguments, given, &run] { run = [arguments, given] { return planDay(*arguments, given); }; });
 }
 

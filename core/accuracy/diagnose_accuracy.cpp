@@ -280,9 +280,8 @@ void addUntestable(const calibration::UnloadedDay& day, AccuracyDiagnosis& resul
     result.not_testable.push_back({effect, Remark(what)});
   };
   if (!day.masses_known) {
-    for (const UnloadedEffect effect :
-         {UnloadedEffect::joint_compliance, UnloadedEffect::link_compliance, UnloadedEffect::bearing_tilt,
-          UnloadedEffect::base_compliance, UnloadedEffect::gravity_compensator})
+    for (const UnloadedEffect effect : {UnloadedEffect::link_compliance, UnloadedEffect::bearing_tilt,
+                                        UnloadedEffect::base_compliance, UnloadedEffect::gravity_compensator})
       missing(effect, RemarkId::needs_masses);
   }
 }

@@ -21,7 +21,7 @@ struct Check {
 };
 
 /// In the order in which the day goes, which is that of the report.
-constexpr std::array<Check, 18> kAllChecks{{
+constexpr std::array<Check, 19> kAllChecks{{
     {checkTimeOrder, {"time_order"}},
     {checkCompleteness, {"completeness"}},
     {checkRepeatability, {"repeatability_along", "repeatability_across"}},
@@ -40,6 +40,7 @@ constexpr std::array<Check, 18> kAllChecks{{
     {checkLoadCell, {"tare", "gravity_direction", "moment_lever"}},
     {checkLoadSize, {"load_size"}},
     {checkPostureSet, {"posture_set"}},
+    {checkModel, {"arm_model", "load_model"}},
 }};
 
 /// Whether the functions give the very checks among which the chance of a false finding is shared.
@@ -117,6 +118,8 @@ AuditReport audit(const preparation::PreparedCampaign& prepared) {
   report.of = static_cast<int>(preparation::kAuditCheckIds.size());
   report.unanswered = unansweredBy(made);
   report.suspected = suspectedNoise(input);
+  for (const auto* found : {&input.model.arm, &input.model.loads})
+    report.suspected.insert(report.suspected.end(), found->begin(), found->end());
   report.verdict = verdictOf(report);
   return report;
 }

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "core/audit/suspected.h"
+#include "core/mistakes/suspected.h"
 #include "core/preparation/finding.h"
 #include "core/preparation/prepare.h"
 
@@ -28,7 +28,7 @@ struct AuditReport {
   int made = 0;                    ///< checks, by their ids, that could be made
   int of = 0;                      ///< checks there are
   std::vector<Remark> unanswered;  ///< of what a pass needs, with the measurement that would tell
-  std::vector<Suspected> suspected;
+  std::vector<mistakes::Suspected> suspected;
   std::vector<preparation::RejectedReading> rejected;
 };
 

@@ -29,6 +29,7 @@ AuditInput auditInput(const preparation::PreparedCampaign& prepared) {
   input.arm = std::move(day.arm);
   input.rigid = frames::rigidPoints(input.campaign, sagOf(input));
   input.absolute = fitAbsolutePositions(input.campaign, input.frames, input.arm.geometry, input.states, input.noise);
+  input.model = mistakes::findMistakes(input.campaign);
   return input;
 }
 

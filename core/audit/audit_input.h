@@ -8,6 +8,7 @@
 #include "core/frames/arm_geometry.h"
 #include "core/frames/frames.h"
 #include "core/identification/loaded_arm.h"
+#include "core/mistakes/find_mistakes.h"
 #include "core/preparation/prepare.h"
 #include "metrology/remark.h"
 
@@ -69,8 +70,9 @@ struct AuditInput {
   std::optional<int> step = {};                    ///< heaviest load step
   frames::Frames frames = {};                      ///< sag taken off where it can be
   frames::RigidPoints rigid = {};                  ///< the sweeps' readings, sag taken off where it can be
-  identification::LoadedArm arm = {};  ///< in the swept geometry, under `step`; no cases where there are none
-  AbsoluteFit absolute = {};           ///< unloaded positions against forward kinematics
+  identification::LoadedArm arm = {};   ///< in the swept geometry, under `step`; no cases where there are none
+  AbsoluteFit absolute = {};            ///< unloaded positions against forward kinematics
+  mistakes::ModelAgreement model = {};  ///< of the day as a whole, and what would mend it
 };
 
 /// `prepared` must outlive the result.

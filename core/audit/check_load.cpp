@@ -15,6 +15,7 @@
 #include "core/identification/identifiability.h"
 #include "core/identification/load_point.h"
 #include "core/identification/warnings.h"
+#include "core/mistakes/load_search.h"
 #include "core/numerics/distributions.h"
 #include "core/preparation/finding.h"
 #include "core/preparation/remarks.h"
@@ -114,7 +115,7 @@ preparation::AuditCheck leverCheck(const AuditInput& input) {
                   std::move(more));
   };
   check.message = says({});
-  if (fit.lever.norm() > kLongestLever && forcesStandOut(input.campaign)) {
+  if (fit.lever.norm() > kLongestLever && mistakes::forcesStandOut(input.campaign)) {
     check.verdict = preparation::AuditVerdict::fail;
     check.impossible = true;
     check.message = says({Remark(RemarkId::lever_too_long)});
@@ -164,29 +165,9 @@ Findings checkLoadSize(const AuditInput& input) {
   check.message = found.empty() ? Remark(RemarkId::load_moves, apparent->force, apparent->displacement) : found;
   if (found.empty()) return {check};
   check.impossible = (value < identification::kSofterThanAnyArm || value > identification::kStifferThanAnyArm) &&
-                     forcesStandOut(input.campaign);
+                     mistakes::forcesStandOut(input.campaign);
   check.verdict = check.impossible ? preparation::AuditVerdict::fail : preparation::AuditVerdict::warn;
   return {check};
-}
-
-bool forcesStandOut(const campaign::Campaign& campaign) {
-  if (!campaign.states) return false;
-  struct Sum {
-    double squares = 0.0, count = 0.0;
-  };
-  std::map<int, Sum> by_step;
-  for (const campaign::State& row : campaign.states->rows) {
-    Sum& sum = by_step[row.step];
-    sum.squares += row.wrench_in_cell.head<3>().squaredNorm();
-    sum.count += 1.0;
-  }
-  double least = std::numeric_limits<double>::infinity(), most = 0.0;  // N^2
-  for (const auto& [step, sum] : by_step) {
-    least = std::min(least, sum.squares / sum.count);
-    most = std::max(most, sum.squares / sum.count);
-  }
-  constexpr double kStandsOut = 3.0;
-  return by_step.size() == 1 || most > kStandsOut * kStandsOut * least;
 }
 
 namespace {

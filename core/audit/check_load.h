@@ -8,11 +8,6 @@
 
 namespace stiffscope::audit {
 
-/// Whether the forces of some load step are three times those of another (rms): a load of couples alone leaves the
-/// same noise in all of them, loaded or not, of which no lever and no stiffness follows. The ratio does not ask for
-/// units. True of a single step.
-bool forcesStandOut(const campaign::Campaign& campaign);
-
 /// A load that hangs or pulls at one point of the tool: M = lever x F with one lever, in the load cell's
 /// axes.
 struct LoadPointFit {

@@ -8,6 +8,7 @@
 #include "core/audit/checks.h"
 #include "core/audit/limits.h"
 #include "core/audit/remarks.h"
+#include "core/mistakes/remarks.h"
 #include "core/numerics/distributions.h"
 #include "core/preparation/remarks.h"
 #include "core/preparation/repeatability.h"
@@ -244,13 +245,15 @@ Findings checkDeclaredNoise(const AuditInput& input) {
   return findings;
 }
 
-std::vector<Suspected> suspectedNoise(const AuditInput& input) {
-  std::vector<Suspected> found;
+std::vector<mistakes::Suspected> suspectedNoise(const AuditInput& input) {
+  std::vector<mistakes::Suspected> found;
   for (const DeclaredNoise& judged : judgeDeclaredNoise(input)) {
     if (!judged.too_large && !judged.too_small) continue;
     const RemarkId remedy =
         judged.factors.size() == 2 ? RemarkId::declare_tracker_noise : RemarkId::declare_load_cell_noise;
-    found.push_back({"noise_declared", judged.where, Remark(remedy, judged.factors), judged.before, judged.after});
+    found.push_back({"noise_declared", judged.where, Remark(remedy, judged.factors),
+                     Remark(mistakes::RemarkId::day_scatters, judged.before, judged.after), judged.before,
+                     judged.after});
   }
   return found;
 }

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "core/audit/audit_input.h"
-#include "core/audit/suspected.h"
+#include "core/mistakes/suspected.h"
 
 namespace stiffscope::audit {
 
@@ -41,7 +41,7 @@ struct DeclaredNoise {
 std::vector<DeclaredNoise> judgeDeclaredNoise(const AuditInput& input);
 
 /// Those of the instruments whose figures are wrong, with the figures that the readings show.
-std::vector<Suspected> suspectedNoise(const AuditInput& input);
+std::vector<mistakes::Suspected> suspectedNoise(const AuditInput& input);
 
 /// How far reflectors of postures unloaded again stand from step 0, of all postures together; core/audit/checks.h:
 /// return_to_zero. None where nothing was unloaded again.

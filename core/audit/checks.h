@@ -97,4 +97,8 @@ Findings checkLoadSize(const AuditInput& input);
 /// posture_set: condition number, and joint by joint whether it can be identified or why not.
 Findings checkPostureSet(const AuditInput& input);
 
+/// arm_model, load_model: unloaded readings against the URDF's arm, loads against joint springs that give way
+/// (core/mistakes/find_mistakes.h). Fail where they contradict it by more than machines do; both then are impossible.
+Findings checkModel(const AuditInput& input);
+
 }  // namespace stiffscope::audit

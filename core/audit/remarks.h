@@ -204,6 +204,16 @@ enum class RemarkId {
   effects_apart,           ///< ids of effects
   effects_alike,           ///< ids of effects
   effects_not_testable,    ///< ids of effects
+
+  // arm_model, load_model.
+  no_readings_of_arm,
+  few_loads_of_model,
+  machines_off_drawing,
+  machines_leave,       ///< share that every simulated effect leaves at most
+  readings_agree,       ///< median distance m
+  readings_contradict,  ///< median distance m, how many mistakes would mend it
+  springs_agree,        ///< share left
+  springs_contradict,   ///< share left, how many mistakes would mend it
 };
 
 }  // namespace stiffscope::audit

@@ -4,10 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/calibration/fitted_day.h"
-#include "core/numerics/parallel.h"
+#include "core/calibration/fit_sums.h"
 #include "core/numerics/resampling.h"
-#include "core/robot/kinematics.h"
 #include "metrology/linear_algebra.h"
 
 namespace stiffscope::calibration {
@@ -18,40 +16,18 @@ namespace {
 
 constexpr double kMedianChi2Of3 = 2.365974;  // of a chi-square variable with three degrees of freedom
 
-/// Sums over postures: normal equations of (steps, sizes), the residual as their last row and column.
-struct NormalSum {
-  Eigen::MatrixXd normal;
-  double weighted_chi2 = 0.0, weight = 0.0;
-  double squares_together = 0.0, squares_apart = 0.0;  ///< of the whitened residuals of a posture's reflectors
-
-  NormalSum& operator+=(const NormalSum& other) {
-    if (normal.size() == 0) {
-      *this = other;
-      return *this;
-    }
-    if (other.normal.size() > 0) normal += other.normal;
-    weighted_chi2 += other.weighted_chi2;
-    weight += other.weight;
-    squares_together += other.squares_together;
-    squares_apart += other.squares_apart;
-    return *this;
-  }
-};
-
 class Fitting {
  public:
-  Fitting(const UnloadedDay& day, const FitOptions& options, ArmFit& fit) : day_(day), options_(options), fit_(fit) {
-    std::size_t at = 0;
-    for (const Posture& posture : day.postures) {
-      first_.push_back(at);
-      at += posture.readings.size();
-    }
+  Fitting(const UnloadedDay& day, const FitOptions& options, ArmFit& fit)
+      : day_(day), options_(options), fit_(fit), sums_(day, fit) {
+    const std::size_t at = day.readings();
     used_ = options.weights.empty() ? std::vector<double>(at, 1.0) : options.weights;
     distances_.assign(at, 0.0);
     fit_.weights = used_;
-    for (std::size_t i = 0; i < first_.size(); ++i) {
+    for (std::size_t i = 0; i < day.postures.size(); ++i) {
       bool any = false;
-      for (std::size_t k = 0; k < day.postures[i].readings.size(); ++k) any = any || used_[first_[i] + k] > 0.0;
+      for (std::size_t k = 0; k < day.postures[i].readings.size(); ++k)
+        any = any || used_[sums_.firstReading(i) + k] > 0.0;
       if (any) all_.push_back(i);
     }
     visited_ = all_;
@@ -104,7 +80,7 @@ class Fitting {
   template <class Use>
   void forEachUsed(const Use& use) const {
     for (const std::size_t i : visited_) {
-      for (std::size_t k = first_[i]; k < first_[i] + day_.postures[i].readings.size(); ++k) {
+      for (std::size_t k = sums_.firstReading(i); k < sums_.firstReading(i) + day_.postures[i].readings.size(); ++k) {
         if (used_[k] > 0.0) use(k);
       }
     }
@@ -131,53 +107,12 @@ class Fitting {
     fit_.model_sd = std::sqrt(numerics::upperMedian(std::move(squares)) / kMedianChi2Of3);
   }
 
-  NormalSum sums() {
-    const FittedDay fitted(day_, fit_);
-    // Some postures together: their rows make a product of matrices that is worth its name.
-    constexpr std::size_t kTogether = 16;
-    const std::size_t groups = (visited_.size() + kTogether - 1) / kTogether;
-    return numerics::sumInBlocks<NormalSum>(groups, [&](std::size_t group, NormalSum& sum) {
-      const std::size_t from = group * kTogether, end = std::min(visited_.size(), from + kTogether);
-      Eigen::Index rows = 0;
-      for (std::size_t v = from; v < end; ++v)
-        rows += 3 * static_cast<Eigen::Index>(day_.postures[visited_[v]].readings.size());
-      if (sum.normal.size() == 0) sum.normal = Eigen::MatrixXd::Zero(count() + 1, count() + 1);
-      Eigen::MatrixXd equations(count() + 1, rows);
-      Eigen::Index row = 0;
-      for (std::size_t v = from; v < end; ++v) row += addPosture(fitted, visited_[v], equations, row, sum);
-      // Where every reading of a group has lost its weight Eigen would divide by the number of its rows.
-      if (row > 0) sum.normal.selfadjointView<Eigen::Lower>().rankUpdate(equations.leftCols(row));
-    });
-  }
-
-  /// Writes the weighted equations of a posture's readings, a column each, from `at` on; how many there are.
-  Eigen::Index addPosture(const FittedDay& fitted, std::size_t i, Eigen::MatrixXd& equations, Eigen::Index at,
-                          NormalSum& sum) {
-    const Posture& posture = day_.postures[i];
-    const frames::PlacedPosture placed(fitted.arm(), fitted.anglesOf(posture));
-    Eigen::MatrixXd columns(3, count());
-    Eigen::Vector3d together = Eigen::Vector3d::Zero();
-    Eigen::Index written = 0;
-    for (std::size_t k = 0; k < posture.readings.size(); ++k) {
-      const Reading& reading = posture.readings[k];
-      const double weight = fit_.weights[first_[i] + k];
-      const ReflectorAt reflector = fitted.reflector(placed, reading);
-      const Eigen::Matrix3d white = fitted.whitening(reading);
-      const Eigen::Vector3d residual = white * fitted.residual(posture, reading, reflector);
-      distances_[first_[i] + k] = residual.squaredNorm();
-      if (weight <= 0.0) continue;
-      fitted.derivatives(posture, placed, reflector, options_.axes, columns);
-      const double root = std::sqrt(weight);
-      equations.block(0, at + written, count(), 3).noalias() = columns.transpose() * (root * white).transpose();
-      equations.block(count(), at + written, 1, 3) = root * residual.transpose();
-      written += 3;
-      sum.weighted_chi2 += weight * residual.squaredNorm();
-      sum.weight += weight;
-      together += residual;
-      sum.squares_apart += residual.squaredNorm();
-    }
-    sum.squares_together += together.squaredNorm();
-    return written;
+  /// By what is free; before that is known by all that may be.
+  FitSum sums() {
+    if (!fit_.free.empty()) return sums_.over(fit_, visited_, fit_.free, distances_);
+    std::vector<int> all;
+    for (int k = options_.axes ? 0 : ArmParameters::kBaseAt; k < static_cast<int>(count()); ++k) all.push_back(k);
+    return sums_.over(fit_, visited_, all, distances_);
   }
 
   /// What is a choice of frame, and what the postures do not see: base and reflectors come first, then the axes from
@@ -244,10 +179,11 @@ class Fitting {
 
   /// Gauss-Newton until the step is small against its uncertainty and the scale stands.
   void iterate(bool robust) {
-    constexpr int kMost = 30;
-    constexpr double kSmallStep = 1e-4;  // mean square, in parts of the uncertainty: a hundredth of it
-    for (int turn = 0; turn < kMost; ++turn) {
-      NormalSum sum = sums();
+    constexpr std::size_t kMost = 30;
+    constexpr double kSmallStep = 1e-4;             // mean square, in parts of the uncertainty: a hundredth of it
+    std::vector<std::pair<double, double>> passed;  // step length and change of the scale, of each turn
+    for (std::size_t turn = 0; turn < kMost; ++turn) {
+      FitSum sum = sums();
       if (fit_.free.empty()) chooseFree(sum.normal);
       Eigen::MatrixXd matrix;
       Eigen::VectorXd right, step;
@@ -266,7 +202,25 @@ class Fitting {
       fit_.chi2_per_dof = sum.weighted_chi2 / std::max(1e-300, 3.0 * sum.weight * dofShare());
       constexpr double kSameScale = 3e-3;
       if (turn > 0 && length < kSmallStep && std::abs(scale - 1.0) < kSameScale) return;
+      passed.emplace_back(length, scale);
+      if (!robust && swings(passed) && (kMost - passed.size()) % 2 == 0) return;
     }
+  }
+
+  /// Whether the last two turns were those before them over again. Where a tracker sees range better than angles and
+  /// the model leaves hardly more than its noise, the step of the scale is too long by as much as it is, and it swings
+  /// between two values for good. Any number of pairs of turns more ends in the same place.
+  static bool swings(const std::vector<std::pair<double, double>>& passed) {
+    constexpr double kSameStep = 1e-6, kSame = 1e-10;
+    const std::size_t turns = passed.size();
+    if (turns < 4) return false;
+    for (const std::size_t last : {turns - 1, turns - 2}) {
+      const auto& [length, scale] = passed[last];
+      const auto& [length_before, scale_before] = passed[last - 2];
+      if (!(std::abs(length - length_before) <= kSameStep * length && std::abs(scale - scale_before) <= kSame))
+        return false;
+    }
+    return true;
   }
 
   /// Median of the squared distances against that of chi-square with three degrees of freedom.
@@ -309,7 +263,7 @@ class Fitting {
   /// effect that is not in the model yet (a reflector that slipped at half the day): then the limit is taken further
   /// out.
   void reject() {
-    sums();
+    sums_.distancesOf(fit_, visited_, distances_);
     constexpr double kMostGross = 0.05, kFurther = 4.0;
     double limit = options_.gross * std::sqrt(std::max(1.0, medianScale()));
     const auto beyond = [&] {
@@ -354,7 +308,7 @@ class Fitting {
   }
 
   void conclude() {
-    const NormalSum sum = sums();
+    const FitSum sum = sums();
     Eigen::MatrixXd matrix;
     Eigen::VectorXd right;
     freeSystem(sum.normal, matrix, right);
@@ -369,7 +323,7 @@ class Fitting {
   const UnloadedDay& day_;
   const FitOptions& options_;
   ArmFit& fit_;
-  std::vector<std::size_t> first_;          ///< reading of each posture
+  FitSums sums_;
   std::vector<std::size_t> all_, visited_;  ///< postures with readings that may be used; those that sums go over
   std::vector<double> used_;
   std::vector<double> distances_;  ///< squared, of each reading in parts of its covariance

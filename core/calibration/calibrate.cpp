@@ -20,8 +20,6 @@ struct ModelFits {
   SelectedEffects selected;
 };
 
-int foldOf(int pose, const CalibrationOptions& options) { return (pose / options.fold_size) % options.folds; }
-
 std::function<int(int)> innerFolds(const CalibrationOptions& options, int inner) {
   // Blocks that hold one piece of every fold: of each fold's others every inner fold has its share.
   const int block = std::max(1, options.folds * options.fold_size);
@@ -38,30 +36,19 @@ bool worthAnotherLook(const ArmFit& geometry, const ArmFit& effects, const Selec
          effects.model_sd < kMuchLess * geometry.model_sd;
 }
 
-void addErrors(const std::vector<Eigen::Vector3d>& residuals, const std::vector<double>& weights,
-               PositionErrors& errors) {
-  double sum = errors.rms * errors.rms * static_cast<double>(errors.readings);
-  for (std::size_t i = 0; i < residuals.size(); ++i) {
-    if (weights[i] <= 0.0) continue;
-    sum += residuals[i].squaredNorm();
-    errors.largest = std::max(errors.largest, residuals[i].norm());
-    ++errors.readings;
-  }
-  errors.rms = std::sqrt(sum / static_cast<double>(std::max<std::size_t>(1, errors.readings)));
-}
-
 /// Readings as an arm would show them that has the axes, base and reflectors of a fit and no effects.
-UnloadedDay asRigid(UnloadedDay day, ArmFit fit) {
+UnloadedDay asRigid(const UnloadedDay& day, ArmFit fit) {
   fit.parts.clear();
   fit.sizes.resize(0);
   const Eigen::Isometry3d points_from_base = fit.place.base_from_points.inverse();
   const FittedDay fitted(day, fit);
   UnloadedDay rigid = day;
-  for (Posture& posture : rigid.postures) {
+  numerics::smallWorkOnAllCores(rigid.postures.size(), [&](std::size_t i) {
+    Posture& posture = rigid.postures[i];
     const frames::PlacedPosture placed(fitted.arm(), posture.q);
     for (Reading& reading : posture.readings)
       reading.point = points_from_base * fitted.reflector(placed, reading).position;
-  }
+  });
   return rigid;
 }
 
@@ -108,17 +95,6 @@ ModelFits fitModels(const UnloadedDay& day, const std::vector<double>& weights, 
   }
   models.fits.emplace_back(CalibratedModel::effects, std::move(effects));
   return models;
-}
-
-/// Weight 1 of the readings of postures that `uses` asks for.
-template <class Uses>
-std::vector<double> weightsWhere(const UnloadedDay& day, const Uses& uses) {
-  std::vector<double> weights;
-  weights.reserve(day.readings());
-  for (const Posture& posture : day.postures) {
-    for (std::size_t k = 0; k < posture.readings.size(); ++k) weights.push_back(uses(posture.pose) ? 1.0 : 0.0);
-  }
-  return weights;
 }
 
 /// Of the declared tracker, rms per coordinate.
@@ -187,9 +163,11 @@ const ModelResult& Calibration::of(CalibratedModel model) const {
   throw std::out_of_range("no such model in this calibration");
 }
 
-Calibration calibrate(const campaign::Campaign& campaign, const CalibrationOptions& options) {
+namespace {
+
+Calibration calibrateBy(const campaign::Campaign& campaign, const CalibrationOptions& options) {
   Calibration result;
-  result.day = unloadedDay(campaign);
+  result.day = unloadedDay(campaign, options.angles);
   const UnloadedDay& day = result.day;
   const std::size_t readings = day.readings();
   if (readings == 0) {
@@ -234,7 +212,7 @@ Calibration calibrate(const campaign::Campaign& campaign, const CalibrationOptio
       const ModelFits& others = fits[static_cast<std::size_t>(fold) + 1];
       if (!others.placed) continue;
       std::vector<double> of_fold = weightsWhere(day, [&](int pose) { return foldOf(pose, options) == fold; });
-      const std::vector<Eigen::Vector3d> residuals = residualsOf(day, others.fits[m].second);
+      const std::vector<Eigen::Vector3d> residuals = residualsOf(day, others.fits[m].second, of_fold);
       for (std::size_t i = 0; i < of_fold.size(); ++i) {
         if (of_fold[i] > 0.0) model.held_out_residuals[i] = residuals[i];
         of_fold[i] *= right[i];
@@ -248,6 +226,25 @@ Calibration calibrate(const campaign::Campaign& campaign, const CalibrationOptio
   result.nominal_misses = nominalMisses(day, result.best().fit);
   result.not_identifiable = notIdentifiable(result.geometry().fit);
   if (!day.masses_known) result.notes.push_back(Remark(RemarkId::no_masses));
+  return result;
+}
+
+}  // namespace
+
+Calibration calibrate(const campaign::Campaign& campaign, const CalibrationOptions& options) {
+  Calibration result = calibrateBy(campaign, options);
+  const double largest = largestDifference(campaign);
+  if (!result.reason.empty() || largest == 0.0) return result;
+  CalibrationOptions otherwise = options;
+  const bool by_report = options.angles == JointAngles::reported;
+  otherwise.angles = by_report ? JointAngles::commanded : JointAngles::reported;
+  const Calibration other = calibrateBy(campaign, otherwise);
+  if (!other.reason.empty()) return result;
+  const Calibration &reported = by_report ? result : other, &commanded = by_report ? other : result;
+  result.angles = compareAngles(result.day, {reported.best().fit.weights, reported.best().held_out_residuals},
+                                {commanded.best().fit.weights, commanded.best().held_out_residuals});
+  result.angles->joints = commandedJoints(campaign);
+  result.angles->largest = largest;
   return result;
 }
 

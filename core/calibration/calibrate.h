@@ -1,10 +1,13 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/calibration/arm_fit.h"
+#include "core/calibration/compare_angles.h"
 #include "core/calibration/effect_selection.h"
+#include "core/calibration/held_out.h"
 #include "core/calibration/remarks.h"
 #include "core/calibration/unloaded_day.h"
 #include "core/preparation/finding.h"
@@ -12,21 +15,9 @@
 
 namespace stiffscope::calibration {
 
-struct CalibrationOptions {
-  int folds = 2;  ///< at least 2
-  int fold_size =
-      1;  ///< posture i (from 0, in the order of the campaign) belongs to fold floor(i / fold_size) mod folds
-};
-
 /// In the order in which they are fitted; each has what the one before it has, but for `effects`, which keeps of the
 /// own weight what the selection asks for.
 enum class CalibratedModel { nominal, geometry, gravity, effects };
-
-/// Plain 3-D position errors over postures and reflectors, rejected readings left out, m.
-struct PositionErrors {
-  double rms = 0.0, largest = 0.0;
-  std::size_t readings = 0;
-};
 
 struct ModelResult {
   CalibratedModel model = {};
@@ -50,8 +41,9 @@ struct Calibration {
   /// By how much the URDF's arm misses the one that was found with the effects beside it, rms per coordinate at the
   /// reflectors in these postures, base and reflectors placed as well as can be, m.
   double nominal_misses = 0.0;
-  double noise = 0.0;                    ///< the tracker's, rms per coordinate over the readings used, m
-  std::vector<Remark> not_identifiable;  ///< axis parameters of the geometry
+  double noise = 0.0;                     ///< the tracker's, rms per coordinate over the readings used, m
+  std::optional<AngleComparison> angles;  ///< where the log has commanded angles beside the reported
+  std::vector<Remark> not_identifiable;   ///< axis parameters of the geometry
   std::vector<Remark> notes;
 
   const ModelResult& of(CalibratedModel model) const;

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/calibration/family_fit.h"
+#include "core/numerics/parallel.h"
 
 namespace stiffscope::calibration {
 
@@ -32,8 +33,8 @@ class Search {
     const EffectSet nothing{{}, day_.geometryAlone()};
     setEquations(nothing.model);
     std::vector<EffectSet> singles;
-    for (std::size_t f = 0; f < fits_.families().size(); ++f) {
-      if (auto one = with(nothing, f)) singles.push_back(std::move(*one));
+    for (auto& one : withEach(nothing, others(nothing))) {
+      if (one) singles.push_back(std::move(*one));
     }
     std::sort(singles.begin(), singles.end(),
               [&](const EffectSet& a, const EffectSet& b) { return cost(a) < cost(b); });
@@ -59,19 +60,21 @@ class Search {
       const std::vector<std::size_t> families = set.families.empty() ? found.families : set.families;
       for (const std::size_t family : families) {
         const EffectSet others = without(set, family);
-        auto anew = with(others, family);
+        auto anew = with(others, family, fits_.productsOf(others.model));
         set = anew ? std::move(*anew) : others;
         setEquations(set.model);
       }
     };
     fitAll();
     const std::size_t at_first = set.families.size();
+    FamilyFit::Products beside = fits_.productsOf(set.model);
     for (std::size_t f = 0; f < fits_.families().size(); ++f) {
       if (has(set, f)) continue;
-      auto more = with(set, f);
+      auto more = with(set, f, beside);
       if (!more || cost(*more) >= cost(set) || !predicts(set, *more)) continue;
       set = std::move(*more);
       setEquations(set.model);
+      beside = fits_.productsOf(set.model);
     }
     if (set.families.size() > at_first) fitAll();
     return set;
@@ -111,19 +114,14 @@ class Search {
     one.score = cost(others) - cost(set);
     const double rows = static_cast<double>(day_.rows());
     one.size = day_.noise() * std::sqrt(std::max(0.0, others.model.squares() - set.model.squares()) / rows);
-    for (std::size_t other = 0; other < fits_.families().size(); ++other) {
-      if (has(set, other)) continue;
-      const auto instead = with(others, other);
+    for (const auto& instead : withEach(others, this->others(set))) {
       if (!instead || cost(*instead) - cost(set) > kAsGood) continue;
-      one.rivals.push_back(
-          {fits_.families()[other].effect, instead->model.parts.back().detail, cost(*instead) - cost(set)});
+      one.rivals.push_back({fits_.families()[instead->families.back()].effect, instead->model.parts.back().detail,
+                            cost(*instead) - cost(set)});
     }
     std::sort(one.rivals.begin(), one.rivals.end(), [](const Rival& a, const Rival& b) { return a.cost < b.cost; });
-    std::vector<EffectPart> own;
-    for (const EffectPart& part : set.model.parts) {
-      if (part.effect == one.effect) own.push_back(part);
-    }
-    one.held_out = day_.heldOutByPosture(fits_.withParts(day_.geometryAlone(), own, UnloadedEffect::kinematic_error));
+    one.held_out =
+        day_.heldOutByPosture(day_.keeping(set.model, [&](UnloadedEffect effect) { return effect == one.effect; }));
     return one;
   }
 
@@ -141,12 +139,29 @@ class Search {
     return std::find(set.families.begin(), set.families.end(), family) != set.families.end();
   }
 
-  std::optional<EffectSet> with(const EffectSet& set, std::size_t family) const {
-    auto model = fits_.fit(family, set.model, equations_);
+  /// Families that a set does not have.
+  std::vector<std::size_t> others(const EffectSet& set) const {
+    std::vector<std::size_t> families;
+    for (std::size_t f = 0; f < fits_.families().size(); ++f) {
+      if (!has(set, f)) families.push_back(f);
+    }
+    return families;
+  }
+
+  std::optional<EffectSet> with(const EffectSet& set, std::size_t family, const FamilyFit::Products& beside) const {
+    auto model = fits_.fit(family, set.model, beside, equations_);
     if (!model) return std::nullopt;
     EffectSet more{set.families, std::move(*model)};
     more.families.push_back(family);
     return more;
+  }
+
+  /// The set with each of some families, one by one.
+  std::vector<std::optional<EffectSet>> withEach(const EffectSet& set, const std::vector<std::size_t>& families) const {
+    const FamilyFit::Products beside = fits_.productsOf(set.model);
+    std::vector<std::optional<EffectSet>> sets(families.size());
+    numerics::onAllCores(families.size(), [&](std::size_t k) { sets[k] = with(set, families[k], beside); });
+    return sets;
   }
 
   /// The others with the parts that they have.
@@ -155,7 +170,8 @@ class Search {
     for (const std::size_t other : set.families) {
       if (other != family) others.families.push_back(other);
     }
-    others.model = fits_.withParts(others.model, set.model.parts, fits_.families()[family].effect);
+    const UnloadedEffect gone = fits_.families()[family].effect;
+    others.model = day_.keeping(set.model, [gone](UnloadedEffect effect) { return effect != gone; });
     return others;
   }
 
@@ -176,15 +192,11 @@ class Search {
         if (adds && !predicts(set, *candidate)) return;
         best = std::move(candidate);
       };
-      for (std::size_t f = 0; f < fits_.families().size(); ++f) {
-        if (!has(set, f)) consider(with(set, f), true);
-      }
+      for (auto& more : withEach(set, others(set))) consider(std::move(more), true);
       for (const std::size_t family : set.families) {
-        EffectSet others = without(set, family);
-        for (std::size_t f = 0; f < fits_.families().size(); ++f) {
-          if (f == family || !has(set, f)) consider(with(others, f), false);
-        }
-        consider(std::move(others), false);
+        EffectSet fewer = without(set, family);
+        for (auto& instead : withEach(fewer, others(fewer))) consider(std::move(instead), false);
+        consider(std::move(fewer), false);
       }
       if (!best) break;
       set = std::move(*best);

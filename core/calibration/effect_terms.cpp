@@ -126,6 +126,26 @@ EffectPart wholeOf(UnloadedEffect effect, const std::vector<EffectPart>& parts) 
   return whole;
 }
 
+/// Joints that twist under weights that nobody states: compliance times moment, a part a joint.
+std::vector<EffectPart> freeMomentTwists(const UnloadedDay& day) {
+  constexpr double kMost = 1e-3;  // rad/(m/s^2): a hundredth of a radian by gravity
+  std::vector<EffectPart> parts;
+  for (int j = 0; j < 6; ++j) {
+    EffectPart part{UnloadedEffect::joint_compliance, jointName(j), {}};
+    for (std::size_t k = 0; k < day.free_moments.size(); ++k) {
+      const FreeMoment& of = day.free_moments[k];
+      if (of.joint != j) continue;
+      Eigen::Index axis = 0;
+      of.along.maxCoeff(&axis);
+      part.terms.push_back(turning(fmt::format("{} times moment {} of body {}", jointName(j), "xyz"[axis], of.body + 1),
+                                   "rad/(m/s^2)", kMost,
+                                   onJoint(j, [k](const Posture& posture) { return posture.pulls[k]; })));
+    }
+    if (!part.terms.empty()) parts.push_back(std::move(part));
+  }
+  return parts;
+}
+
 EffectFamily compliances(UnloadedEffect effect, std::vector<EffectPart> parts) {
   EffectFamily family{effect, std::move(parts), {}};
   if (family.parts.size() > 1) family.wholes.push_back(wholeOf(effect, family.parts));
@@ -345,7 +365,8 @@ EffectPart targetMotion(const UnloadedDay& day, int target, double from) {
 
 std::vector<EffectFamily> effectFamilies(const UnloadedDay& day) {
   const std::vector<EffectPart> twists = jointCompliances(day);
-  std::vector<EffectFamily> families{compliances(UnloadedEffect::joint_compliance, twists)};
+  std::vector<EffectFamily> families{
+      compliances(UnloadedEffect::joint_compliance, day.masses_known ? twists : freeMomentTwists(day))};
   for (const UnloadedEffect effect :
        {UnloadedEffect::link_compliance, UnloadedEffect::bearing_tilt, UnloadedEffect::base_compliance})
     families.push_back(compliances(effect, bendingCompliances(day, effect)));

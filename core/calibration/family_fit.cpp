@@ -1,10 +1,12 @@
 #include "core/calibration/family_fit.h"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
 
+#include "core/numerics/parallel.h"
 #include "metrology/linear_algebra.h"
 
 namespace stiffscope::calibration {
@@ -28,8 +30,7 @@ FamilyFit::FamilyFit(const LinearisedDay& day, double chance, int most_parts)
     : day_(day), most_parts_(most_parts), families_(effectFamilies(day.day())) {
   log_chance_ = std::log(chance / static_cast<double>(families_.size()));
   prepareColumns();
-  for (std::size_t target = 0; target < day.day().targets.size(); ++target)
-    target_columns_.push_back(day.columnsOf(targetMotion(day.day(), static_cast<int>(target), -1.0).terms));
+  prepareStarts();
   periodogram_.emplace(day.equations(), day.postures(), day.day(), day.geometry(), day.geometryAlone().residual);
 }
 
@@ -45,6 +46,7 @@ void FamilyFit::prepareColumns() {
   };
   for (const EffectFamily& family : families_) {
     const std::size_t since = terms.size();
+    first_column_.push_back(static_cast<Eigen::Index>(since));
     const auto prepare = [&](const std::vector<EffectPart>& parts, std::vector<Prepared>& prepared) {
       for (const EffectPart& part : parts) {
         Prepared& one = prepared.emplace_back();
@@ -60,9 +62,52 @@ void FamilyFit::prepareColumns() {
   columns_ = day_.columnsOf(terms);
   lengths_ = columns_.colwise().norm();
   columns_ = day_.acrossGeometry(columns_);
-  squares_ = Eigen::MatrixXd::Zero(columns_.cols(), columns_.cols());
-  squares_.selfadjointView<Eigen::Lower>().rankUpdate(columns_.transpose());
+  const Eigen::Index count = columns_.cols();
+  first_column_.push_back(count);
+  squares_ = Eigen::MatrixXd::Zero(count, count);
+  constexpr Eigen::Index kTogether = 32, kWorthSharing = 100'000;  // columns; numbers
+  numerics::onAllCores(
+      static_cast<std::size_t>((count + kTogether - 1) / kTogether),
+      [&](std::size_t block) {
+        const auto from = static_cast<Eigen::Index>(block) * kTogether, own = std::min(kTogether, count - from);
+        squares_.block(from, from, count - from, own).noalias() =
+            columns_.rightCols(count - from).transpose() * columns_.middleCols(from, own);
+      },
+      columns_.size() > kWorthSharing);
   squares_.triangularView<Eigen::StrictlyUpper>() = squares_.transpose();
+}
+
+void FamilyFit::prepareStarts() {
+  const std::vector<PostureEquations>& equations = day_.equations();
+  Eigen::MatrixXd motions(day_.rows(), 6);
+  for (std::size_t k = 0; k < equations.size(); ++k)
+    motions.middleRows(day_.firstRow(k), equations[k].residual.size()) = equations[k].by_motion;
+  frame_start_ = startOf<6>(std::move(motions));
+  scale_start_ = startOf<1>(day_.columnsOf(scaleError(-1.0).terms));
+  for (std::size_t target = 0; target < day_.day().targets.size(); ++target)
+    target_starts_.push_back(
+        startOf<3>(day_.columnsOf(targetMotion(day_.day(), static_cast<int>(target), -1.0).terms)));
+}
+
+template <int kWidth>
+FamilyFit::Start FamilyFit::startOf(Eigen::MatrixXd columns) const {
+  Start start{std::move(columns), {}, {}};
+  const std::size_t postures = day_.postures().size();
+  if (postures < 2 * kFewestAside) return start;
+  start.across.resize(postures - 2 * kFewestAside + 1);
+  start.own.resize(start.across.size());
+  Eigen::Matrix<double, Eigen::Dynamic, kWidth> by_geometry = Eigen::MatrixXd::Zero(day_.geometry().cols(), kWidth);
+  Eigen::Matrix<double, kWidth, kWidth> own = Eigen::Matrix<double, kWidth, kWidth>::Zero();
+  for (std::size_t k = postures; k-- > kFewestAside;) {
+    const Eigen::Index rows = day_.equations()[k].residual.size(), from = day_.firstRow(k);
+    const Eigen::Matrix<double, Eigen::Dynamic, kWidth> of_posture = start.columns.middleRows(from, rows);
+    by_geometry.noalias() += day_.geometry().middleRows(from, rows).transpose() * of_posture;
+    own.noalias() += of_posture.transpose() * of_posture;
+    if (k + kFewestAside > postures) continue;
+    start.across[k - kFewestAside] = own - by_geometry.transpose() * by_geometry;
+    start.own[k - kFewestAside] = own.diagonal();
+  }
+  return start;
 }
 
 FamilyFit::Products FamilyFit::productsOf(const LinearModel& model) const {
@@ -71,21 +116,23 @@ FamilyFit::Products FamilyFit::productsOf(const LinearModel& model) const {
   return products;
 }
 
-void FamilyFit::extend(const LinearModel& model, Eigen::Index from, Products& products) const {
-  const Eigen::Index more = model.directions.cols() - from;
-  products.residual = columns_.transpose() * model.residual;
+void FamilyFit::extend(const LinearModel& model, std::size_t family, Eigen::Index from, Products& products) const {
+  const Eigen::Index more = model.directions.cols() - from, first = first_column_[family],
+                     count = first_column_[family + 1] - first;
+  const auto own = columns_.middleCols(first, count);
+  products.residual.segment(first, count).noalias() = own.transpose() * model.residual;
   if (more == 0) return;
   products.directions.conservativeResize(from + more, Eigen::NoChange);
-  products.directions.bottomRows(more).noalias() = model.directions.rightCols(more).transpose() * columns_;
+  products.directions.block(from, first, more, count).noalias() = model.directions.rightCols(more).transpose() * own;
 }
 
 FamilyFit::Candidate FamilyFit::candidateOf(EffectPart part, int tried) const {
   const Eigen::MatrixXd raw = day_.columnsOf(part.terms);
-  return {std::move(part), day_.acrossGeometry(raw), raw.colwise().norm(), tried};
+  return {std::move(part), {day_.acrossGeometry(raw), raw.colwise().norm()}, tried};
 }
 
 FamilyFit::Candidate FamilyFit::candidateOf(const Prepared& prepared) const {
-  return {prepared.part, columns_(Eigen::all, prepared.columns), lengths_(prepared.columns), prepared.tried};
+  return {prepared.part, {columns_(Eigen::all, prepared.columns), lengths_(prepared.columns)}, prepared.tried};
 }
 
 double FamilyFit::fall(double before, double after, double equations) {
@@ -176,7 +223,7 @@ std::optional<FamilyFit::Candidate> FamilyFit::bestPart(std::size_t family, cons
   if (auto start = bestStart(families_[family].effect, model)) {
     const bool any_target = start->effect == UnloadedEffect::target_motion;
     return candidateOf(std::move(*start),
-                       static_cast<int>(day_.postures().size() * (any_target ? target_columns_.size() : 1)));
+                       static_cast<int>(day_.postures().size() * (any_target ? target_starts_.size() : 1)));
   }
   std::optional<Prepared> best;
   double most = -std::numeric_limits<double>::infinity();
@@ -193,81 +240,63 @@ std::optional<FamilyFit::Candidate> FamilyFit::bestPart(std::size_t family, cons
   return candidateOf(*best);
 }
 
-/// What starts at a posture and stays: sums over the postures from there on, for all starts in one pass.
-std::optional<EffectPart> FamilyFit::bestStart(UnloadedEffect effect, const LinearModel& model) const {
+/// Sums over the postures from there on, for all starts in one pass.
+template <int kWidth>
+std::pair<double, double> FamilyFit::bestOf(const Start& start, const LinearModel& model) const {
+  using Square = Eigen::Matrix<double, kWidth, kWidth>;
+  std::pair<double, double> best{0.0, 0.0};
   const std::size_t postures = day_.postures().size();
-  const auto search = [&](const auto& columns_of, Eigen::Index width) {
-    Eigen::MatrixXd by_geometry = Eigen::MatrixXd::Zero(day_.geometry().cols(), width),
-                    by_model = Eigen::MatrixXd::Zero(model.directions.cols(), width),
-                    own = Eigen::MatrixXd::Zero(width, width);
-    Eigen::VectorXd right = Eigen::VectorXd::Zero(width);
-    std::pair<double, double> best{0.0, 0.0};  // gain, time
-    for (std::size_t k = postures; k-- > kFewestAside;) {
-      const Eigen::MatrixXd columns = columns_of(k);
-      const Eigen::Index rows = columns.rows(), from = day_.firstRow(k);
-      by_geometry.noalias() += day_.geometry().middleRows(from, rows).transpose() * columns;
-      if (by_model.rows() > 0) by_model.noalias() += model.directions.middleRows(from, rows).transpose() * columns;
-      own.noalias() += columns.transpose() * columns;
-      right.noalias() += columns.transpose() * model.residual.segment(from, rows);
-      if (k + kFewestAside > postures) continue;
-      const Eigen::MatrixXd across = own - by_geometry.transpose() * by_geometry - by_model.transpose() * by_model;
-      constexpr double kSquares = LinearisedDay::kAliased * LinearisedDay::kAliased;
-      if ((across.diagonal().array() <= kSquares * own.diagonal().array()).any()) continue;
-      const double gain = right.dot(Eigen::VectorXd(solveSymmetric(across, right)));
-      if (gain > best.first) best = {gain, day_.timeBefore(k)};
-    }
-    return best;
-  };
-  const auto& equations = day_.equations();
+  Eigen::Matrix<double, Eigen::Dynamic, kWidth> by_model = Eigen::MatrixXd::Zero(model.directions.cols(), kWidth);
+  Eigen::Matrix<double, kWidth, 1> right = Eigen::Matrix<double, kWidth, 1>::Zero();
+  for (std::size_t k = postures; k-- > kFewestAside;) {
+    const Eigen::Index rows = day_.equations()[k].residual.size(), from = day_.firstRow(k);
+    const Eigen::Matrix<double, Eigen::Dynamic, kWidth> columns = start.columns.middleRows(from, rows);
+    if (by_model.rows() > 0) by_model.noalias() += model.directions.middleRows(from, rows).transpose() * columns;
+    right.noalias() += columns.transpose() * model.residual.segment(from, rows);
+    if (k + kFewestAside > postures) continue;
+    Square across = start.across[k - kFewestAside];
+    if (by_model.rows() > 0) across.noalias() -= by_model.transpose() * by_model;
+    constexpr double kSquares = LinearisedDay::kAliased * LinearisedDay::kAliased;
+    if ((across.diagonal().array() <= kSquares * start.own[k - kFewestAside].array()).any()) continue;
+    const double gain = right.dot(Eigen::LDLT<Square>(across).solve(right));
+    if (gain > best.first) best = {gain, day_.timeBefore(k)};
+  }
+  return best;
+}
+
+/// What starts at a posture and stays.
+std::optional<EffectPart> FamilyFit::bestStart(UnloadedEffect effect, const LinearModel& model) const {
   if (effect == UnloadedEffect::frame_error) {
-    const auto best = search([&](std::size_t k) -> const Eigen::MatrixXd& { return equations[k].by_motion; }, 6);
+    const auto best = bestOf<6>(frame_start_, model);
     if (best.first > 0.0) return frameError(best.second);
   }
   if (effect == UnloadedEffect::scale_error) {
-    const Eigen::MatrixXd always = day_.columnsOf(scaleError(-1.0).terms);
-    const auto best = search(
-        [&](std::size_t k) -> Eigen::MatrixXd {
-          return always.middleRows(day_.firstRow(k), equations[k].residual.size());
-        },
-        1);
+    const auto best = bestOf<1>(scale_start_, model);
     if (best.first > 0.0) return scaleError(best.second);
   }
   if (effect != UnloadedEffect::target_motion) return std::nullopt;
   std::pair<double, double> best{0.0, 0.0};
   int moved = -1;
-  for (std::size_t target = 0; target < target_columns_.size(); ++target) {
-    const auto own = search(
-        [&](std::size_t k) -> Eigen::MatrixXd {
-          return target_columns_[target].middleRows(day_.firstRow(k), equations[k].residual.size());
-        },
-        3);
+  for (std::size_t target = 0; target < target_starts_.size(); ++target) {
+    const auto own = bestOf<3>(target_starts_[target], model);
     if (own.first > best.first) best = own, moved = static_cast<int>(target);
   }
   if (moved < 0) return std::nullopt;
   return targetMotion(day_.day(), moved, best.second);
 }
 
-bool FamilyFit::holds(const LinearModel& before, LinearModel& after, const Candidate& candidate,
+bool FamilyFit::holds(const LinearModel& before, LinearModel& after, std::size_t terms, int tried,
                       double equations) const {
   const double chi2 = fall(before.squares(), after.squares(), equations);
-  const double log_chance =
-      logTail(chi2, static_cast<int>(candidate.part.terms.size())) + std::log(static_cast<double>(candidate.tried));
+  const double log_chance = logTail(chi2, static_cast<int>(terms)) + std::log(static_cast<double>(tried));
   after.parts.back().chance = std::exp(log_chance);
   after.parts.back().penalty = after.penalty - before.penalty;
   return log_chance < log_chance_ && chi2 > after.penalty - before.penalty;
 }
 
-LinearModel FamilyFit::withParts(LinearModel model, const std::vector<EffectPart>& parts, UnloadedEffect but) const {
-  for (const EffectPart& part : parts) {
-    if (part.effect == but) continue;
-    const Candidate candidate = candidateOf(part, 1);
-    day_.add(part, candidate.columns, candidate.lengths, part.penalty, model);
-  }
-  return model;
-}
-
-std::optional<LinearModel> FamilyFit::fit(std::size_t family, const LinearModel& others, double equations) const {
-  auto fitted = fitAlone(family, others, equations);
+std::optional<LinearModel> FamilyFit::fit(std::size_t family, const LinearModel& others, const Products& beside,
+                                          double equations) const {
+  auto fitted = fitAlone(family, others, beside, equations);
   if (fitted && !apart(*fitted)) return std::nullopt;
   return fitted;
 }
@@ -281,21 +310,19 @@ bool FamilyFit::apart(const LinearModel& model) {
          !(any(UnloadedEffect::tracker_drift, "") && any(UnloadedEffect::frame_error, ""));
 }
 
-std::optional<LinearModel> FamilyFit::fitAlone(std::size_t family, const LinearModel& others, double equations) const {
-  const auto with = [&](const LinearModel& before, const Candidate& candidate) -> std::optional<LinearModel> {
+std::optional<LinearModel> FamilyFit::fitAlone(std::size_t family, const LinearModel& others, Products beside,
+                                               double equations) const {
+  const auto with = [&](const LinearModel& before, Candidate candidate) -> std::optional<LinearModel> {
     LinearModel after = before;
-    day_.add(candidate.part, candidate.columns, candidate.lengths,
-             penaltyOf(candidate.part.terms.size(), candidate.tried), after);
-    if (!holds(before, after, candidate, equations)) return std::nullopt;
+    const std::size_t terms = candidate.part.terms.size();
+    day_.add(std::move(candidate.part), std::move(candidate.columns), penaltyOf(terms, candidate.tried), after);
+    if (!holds(before, after, terms, candidate.tried, equations)) return std::nullopt;
     return after;
   };
   std::optional<Periodogram> periodogram;
-  Products beside;
   if (families_[family].effect == UnloadedEffect::transmission_error) {
     periodogram = periodogram_;
     periodogram->projectOff(others.directions, others.directions.transpose() * day_.geometryAlone().residual);
-  } else {
-    beside = productsOf(others);
   }
   std::optional<LinearModel> best;
   double cost = 0.0;
@@ -320,16 +347,16 @@ std::optional<LinearModel> FamilyFit::fitAlone(std::size_t family, const LinearM
                       effect == UnloadedEffect::scale_error;
   const int most = starts ? std::min(kMostStarts, most_parts_) : most_parts_;
   for (int k = 0; k < most; ++k) {
-    const auto candidate = periodogram ? bestPeriodic(*periodogram) : bestPart(family, by_parts, beside, equations);
+    auto candidate = periodogram ? bestPeriodic(*periodogram) : bestPart(family, by_parts, beside, equations);
     if (!candidate) break;
-    auto more = with(by_parts, *candidate);
+    auto more = with(by_parts, std::move(*candidate));
     if (!more) break;
     const Eigen::Index before = by_parts.directions.cols(), added = more->directions.cols() - before;
     if (periodogram) {
       periodogram->projectOff(more->directions.rightCols(added),
                               more->directions.rightCols(added).transpose() * by_parts.residual);
     } else {
-      extend(*more, before, beside);
+      extend(*more, family, before, beside);
     }
     by_parts = std::move(*more);
   }

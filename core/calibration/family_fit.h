@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "core/calibration/linearised_day.h"
@@ -16,15 +17,20 @@ class FamilyFit {
 
   const std::vector<EffectFamily>& families() const { return families_; }
 
-  /// The model with this family's parts in it; empty where none holds against chance. `equations`: how many the rows
-  /// are worth.
-  std::optional<LinearModel> fit(std::size_t family, const LinearModel& others, double equations) const;
+  /// All known columns beside a model: their products with its directions and with its residual.
+  struct Products {
+    Eigen::MatrixXd directions;
+    Eigen::VectorXd residual;
+  };
+  Products productsOf(const LinearModel& model) const;
+
+  /// `others` with this family's parts in it; empty where none holds against chance. `beside`: the products of
+  /// `others`, the same for all families. `equations`: how many the rows are worth.
+  std::optional<LinearModel> fit(std::size_t family, const LinearModel& others, const Products& beside,
+                                 double equations) const;
 
   /// Of the family's form with the fewest terms.
   double leastPenalty(std::size_t family) const;
-
-  /// `model` with those of `parts` that are not of `but`, with their penalties.
-  LinearModel withParts(LinearModel model, const std::vector<EffectPart>& parts, UnloadedEffect but) const;
 
   /// Fall of -2 log likelihood of `equations` normal residuals when their squares fall from one to the other.
   static double fall(double before, double after, double equations);
@@ -36,27 +42,34 @@ class FamilyFit {
     std::vector<Eigen::Index> columns;
     int tried = 1;
   };
-  /// A part to be added, with its columns across the geometry, their lengths before, and its penalty.
+  /// A part to be added.
   struct Candidate {
     EffectPart part;
-    Eigen::MatrixXd columns;
-    Eigen::VectorXd lengths;
+    PartColumns columns;
     int tried = 1;
   };
-  /// The columns beside a model: their products with its directions and with its residual.
-  struct Products {
-    Eigen::MatrixXd directions;
-    Eigen::VectorXd residual;
+  /// What may start at any posture and stays, without times: `across[k]` are products of its columns from posture
+  /// kFewestAside + k on, the geometry projected off, and `own[k]` their squares before.
+  struct Start {
+    Eigen::MatrixXd columns;  ///< from the first posture on
+    std::vector<Eigen::MatrixXd> across;
+    std::vector<Eigen::VectorXd> own;
   };
 
-  std::optional<LinearModel> fitAlone(std::size_t family, const LinearModel& others, double equations) const;
+  std::optional<LinearModel> fitAlone(std::size_t family, const LinearModel& others, Products beside,
+                                      double equations) const;
   /// False where two effects are in a model that would share one joint's angle out between them: a compensator on axis
   /// 2 is its first harmonics, and joint 2's periodic errors have them too.
   static bool apart(const LinearModel& model);
   void prepareColumns();
-  Products productsOf(const LinearModel& model) const;
-  /// For directions that were added to the model last.
-  void extend(const LinearModel& model, Eigen::Index from, Products& products) const;
+  void prepareStarts();
+  template <int kWidth>
+  Start startOf(Eigen::MatrixXd columns) const;
+  /// The best gain of one kind of start, and its time.
+  template <int kWidth>
+  std::pair<double, double> bestOf(const Start& start, const LinearModel& model) const;
+  /// For directions that were added to the model last; of this family's columns.
+  void extend(const LinearModel& model, std::size_t family, Eigen::Index from, Products& products) const;
   Candidate candidateOf(EffectPart part, int tried) const;
   Candidate candidateOf(const Prepared& prepared) const;
   /// Without terms that the day does not tell beside the model, and without those that would be of the wrong sign, the
@@ -67,18 +80,20 @@ class FamilyFit {
   std::optional<Candidate> bestPeriodic(const Periodogram& periodogram) const;
   std::optional<EffectPart> bestStart(UnloadedEffect effect, const LinearModel& model) const;
   double penaltyOf(std::size_t terms, int tried) const;
-  bool holds(const LinearModel& before, LinearModel& after, const Candidate& candidate, double equations) const;
+  bool holds(const LinearModel& before, LinearModel& after, std::size_t terms, int tried, double equations) const;
 
   const LinearisedDay& day_;
   double log_chance_;
   int most_parts_;
   std::vector<EffectFamily> families_;
   std::vector<std::vector<Prepared>> parts_, wholes_;  ///< of each family
+  std::vector<Eigen::Index> first_column_;             ///< of each family's, and their number
   Eigen::MatrixXd columns_;                            ///< of all of these, across the geometry
   Eigen::VectorXd lengths_;                            ///< before that
   Eigen::MatrixXd squares_;                            ///< products of the columns with each other
-  std::vector<Eigen::MatrixXd> target_columns_;        ///< of each reflector's motion, raw
-  std::optional<Periodogram> periodogram_;             ///< across the geometry alone
+  Start frame_start_, scale_start_;
+  std::vector<Start> target_starts_;        ///< of each reflector
+  std::optional<Periodogram> periodogram_;  ///< across the geometry alone
 };
 
 }  // namespace stiffscope::calibration

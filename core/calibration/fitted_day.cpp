@@ -1,7 +1,11 @@
 #include "core/calibration/fitted_day.h"
 
 #include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <optional>
 
+#include "core/numerics/parallel.h"
 #include "core/robot/kinematics.h"
 #include "metrology/rigid_motion.h"
 
@@ -19,12 +23,12 @@ FittedDay::FittedDay(const UnloadedDay& day, const ArmFit& fit)
   }
 }
 
-Vector6d FittedDay::anglesOf(const Posture& posture) const {
-  Vector6d q = posture.q;
+AnglesByTerms FittedDay::anglesByTerms(const Posture& posture) const {
+  AnglesByTerms angles = AnglesByTerms::Zero(6, static_cast<Eigen::Index>(terms_.size()));
   for (std::size_t k = 0; k < terms_.size(); ++k) {
-    if (terms_[k]->angles) q += fit_.sizes[static_cast<Eigen::Index>(k)] * terms_[k]->angles(posture);
+    if (terms_[k]->angles) angles.col(static_cast<Eigen::Index>(k)) = terms_[k]->angles(posture);
   }
-  return q;
+  return angles;
 }
 
 ReflectorAt FittedDay::reflector(const frames::PlacedPosture& placed, const Reading& reading) const {
@@ -47,57 +51,144 @@ Eigen::Matrix3d FittedDay::whitening(const Reading& reading) const {
   const Eigen::Matrix3d& turn = fit_.place.base_from_points.linear();
   const Eigen::Matrix3d covariance =
       turn * reading.covariance * turn.transpose() + fit_.model_sd * fit_.model_sd * Eigen::Matrix3d::Identity();
-  const Eigen::Matrix3d lower = covariance.llt().matrixL();
-  return lower.triangularView<Eigen::Lower>().solve(Eigen::Matrix3d::Identity());
+  // Cholesky's factor of three rows and its inverse, written out: this is done for every reading in every turn of a
+  // fit.
+  const double l00 = std::sqrt(covariance(0, 0));
+  const double l10 = covariance(1, 0) / l00, l20 = covariance(2, 0) / l00;
+  const double l11 = std::sqrt(covariance(1, 1) - l10 * l10);
+  const double l21 = (covariance(2, 1) - l20 * l10) / l11;
+  const double l22 = std::sqrt(covariance(2, 2) - l20 * l20 - l21 * l21);
+  Eigen::Matrix3d inverse = Eigen::Matrix3d::Zero();
+  inverse(0, 0) = 1.0 / l00;
+  inverse(1, 1) = 1.0 / l11;
+  inverse(2, 2) = 1.0 / l22;
+  inverse(1, 0) = -l10 * inverse(0, 0) * inverse(1, 1);
+  inverse(2, 1) = -l21 * inverse(1, 1) * inverse(2, 2);
+  inverse(2, 0) = -(l20 * inverse(0, 0) + l21 * inverse(1, 0)) * inverse(2, 2);
+  return inverse;
 }
 
-void FittedDay::derivatives(const Posture& posture, const frames::PlacedPosture& placed, const ReflectorAt& at,
-                            bool axes, Eigen::Ref<Eigen::MatrixXd> columns) const {
-  columns.setZero();
-  if (axes) columns.leftCols<ArmParameters::kAxes>() = placed.byAxes(at.position);
-  columns.middleCols<ArmParameters::kBase>(ArmParameters::kBaseAt) = placed.byBase(at.position);
-  columns.middleCols<3>(ArmParameters::targetAt(static_cast<std::size_t>(at.target))) = placed.byTarget();
-  if (terms_.empty()) return;
-  const Matrix36d by_angles = placed.byAngles(at.position);
-  for (std::size_t k = 0; k < terms_.size(); ++k) {
-    const Eigen::Index column = fit_.steps.size() + static_cast<Eigen::Index>(k);
-    columns.col(column) =
-        terms_[k]->angles ? Eigen::Vector3d(by_angles * terms_[k]->angles(posture)) : terms_[k]->offset(posture, at);
+ReadingDerivatives::ReadingDerivatives(const FittedDay& fitted, const std::vector<int>& places)
+    : fitted_(fitted), motions_(6, places.size()), rows_(3, places.size()) {
+  motions_.setZero();
+  const auto steps = static_cast<std::size_t>(fitted.fit().steps.size());
+  for (std::size_t k = 0; k < places.size(); ++k) {
+    const auto column = static_cast<Eigen::Index>(k);
+    if (places[k] < 0) {
+      read_.push_back({column, static_cast<std::size_t>(-1 - places[k])});
+      continue;
+    }
+    const auto place = static_cast<std::size_t>(places[k]);
+    if (place < ArmParameters::kBaseAt) {
+      axes_.push_back({column, place});
+    } else if (place < ArmParameters::kTargetsAt) {
+      const frames::SmallMotion motion = fitted.arm().byBase(place - ArmParameters::kBaseAt);
+      motions_.col(column) << motion.rotation, motion.shift;
+    } else if (place < steps) {
+      targets_.push_back({column, place - ArmParameters::kTargetsAt});
+    } else {
+      (fitted.terms()[place - steps]->angles ? angles_ : offsets_).push_back({column, place - steps});
+    }
   }
+}
+
+void ReadingDerivatives::enter(const frames::PlacedPosture& placed, const Eigen::Ref<const AnglesByTerms>& by_terms) {
+  for (const Place& axis : axes_) {
+    const frames::SmallMotion& motion = placed.beyondAxis(axis.of);
+    motions_.col(axis.column) << motion.rotation, motion.shift;
+  }
+  if (angles_.empty()) return;
+  Matrix6d by_joints;
+  for (std::size_t j = 0; j < 6; ++j) {
+    const frames::SmallMotion motion = placed.byJoint(j);
+    by_joints.col(static_cast<Eigen::Index>(j)) << motion.rotation, motion.shift;
+  }
+  for (const Place& term : angles_)
+    motions_.col(term.column) = (by_joints * by_terms.col(static_cast<Eigen::Index>(term.of))).array();
+}
+
+const ReadingDerivatives::Rows& ReadingDerivatives::of(const Posture& posture, const ReflectorAt& at,
+                                                       const Eigen::Matrix3d& whitening) {
+  const double x = at.position.x(), y = at.position.y(), z = at.position.z();
+  // The whitening is lower triangular.
+  const double w00 = whitening(0, 0), w10 = whitening(1, 0), w11 = whitening(1, 1), w20 = whitening(2, 0),
+               w21 = whitening(2, 1), w22 = whitening(2, 2);
+  const Eigen::Index count = rows_.cols();
+  const double* motions = motions_.data();
+  double* rows = rows_.data();
+  // Of all parameters at once, and all of a parameter at once: most of a fit's time would go into writing and reading.
+  for (Eigen::Index k = 0; k < count; ++k) {
+    const double turn_x = motions[k], turn_y = motions[count + k], turn_z = motions[2 * count + k];
+    const double by_x = turn_y * z - turn_z * y + motions[3 * count + k];
+    const double by_y = turn_z * x - turn_x * z + motions[4 * count + k];
+    const double by_z = turn_x * y - turn_y * x + motions[5 * count + k];
+    rows[k] = w00 * by_x;
+    rows[count + k] = w10 * by_x + w11 * by_y;
+    rows[2 * count + k] = w20 * by_x + w21 * by_y + w22 * by_z;
+  }
+  const Eigen::Matrix3d by_target = whitening * at.arm.byTarget();
+  for (const Place& target : targets_) {
+    if (target.of / 3 == static_cast<std::size_t>(at.target))
+      rows_.col(target.column) = by_target.col(static_cast<Eigen::Index>(target.of % 3));
+  }
+  for (const Place& target : read_) rows_.col(target.column) = by_target.col(static_cast<Eigen::Index>(target.of));
+  for (const Place& term : offsets_)
+    rows_.col(term.column).noalias() = whitening * fitted_.terms()[term.of]->offset(posture, at);
+  return rows_;
 }
 
 std::vector<Eigen::Vector3d> residualsOf(const UnloadedDay& day, const ArmFit& fit) {
+  return residualsOf(day, fit, std::vector<double>(day.readings(), 1.0));
+}
+
+std::vector<Eigen::Vector3d> residualsOf(const UnloadedDay& day, const ArmFit& fit,
+                                         const std::vector<double>& weights) {
   const FittedDay fitted(day, fit);
-  std::vector<Eigen::Vector3d> residuals;
-  residuals.reserve(day.readings());
+  std::vector<std::size_t> first;
+  first.reserve(day.postures.size());
+  std::size_t readings = 0;
   for (const Posture& posture : day.postures) {
-    const frames::PlacedPosture placed(fitted.arm(), fitted.anglesOf(posture));
-    for (const Reading& reading : posture.readings)
-      residuals.push_back(fitted.residual(posture, reading, fitted.reflector(placed, reading)));
+    first.push_back(readings);
+    readings += posture.readings.size();
   }
+  std::vector<Eigen::Vector3d> residuals(readings, Eigen::Vector3d::Zero());
+  numerics::smallWorkOnAllCores(day.postures.size(), [&](std::size_t i) {
+    const Posture& posture = day.postures[i];
+    const auto own = weights.begin() + static_cast<std::ptrdiff_t>(first[i]);
+    if (std::all_of(own, own + static_cast<std::ptrdiff_t>(posture.readings.size()), [](double w) { return w == 0.0; }))
+      return;
+    const frames::PlacedPosture placed(fitted.arm(), fitted.anglesOf(posture));
+    for (std::size_t k = 0; k < posture.readings.size(); ++k) {
+      const Reading& reading = posture.readings[k];
+      residuals[first[i] + k] = fitted.residual(posture, reading, fitted.reflector(placed, reading));
+    }
+  });
   return residuals;
 }
 
 PostureEquations equationsOf(const UnloadedDay& day, const ArmFit& fit, std::size_t i, std::size_t first_reading) {
-  const FittedDay fitted(day, fit);
-  const Posture& posture = day.postures[i];
-  const frames::PlacedPosture placed(fitted.arm(), fitted.anglesOf(posture));
+  return equationsOf(FittedDay(day, fit), day.postures[i], first_reading);
+}
+
+PostureEquations equationsOf(const FittedDay& fitted, const Posture& posture, std::size_t first_reading) {
+  const ArmFit& fit = fitted.fit();
+  const AnglesByTerms by_terms = fitted.anglesByTerms(posture);
+  const frames::PlacedPosture placed(fitted.arm(), fitted.anglesOf(posture, by_terms));
+  ReadingDerivatives derivatives(fitted, fit.free);
+  derivatives.enter(placed, by_terms);
   PostureEquations equations;
   const auto rows = 3 * static_cast<Eigen::Index>(posture.readings.size());
-  const Eigen::Index all = fit.steps.size() + fit.sizes.size();
   equations.by_parameters.resize(rows, static_cast<Eigen::Index>(fit.free.size()));
   equations.by_angles.resize(rows, 6);
   equations.by_motion.resize(rows, 6);
   equations.residual.resize(rows);
-  Eigen::MatrixXd columns(3, all);
   Eigen::Index row = 0;
   for (std::size_t k = 0; k < posture.readings.size(); ++k) {
     if (fit.weights[first_reading + k] <= 0.0) continue;
     const Reading& reading = posture.readings[k];
     const ReflectorAt at = fitted.reflector(placed, reading);
     const Eigen::Matrix3d white = fitted.whitening(reading);
-    fitted.derivatives(posture, placed, at, true, columns);
-    equations.by_parameters.middleRows<3>(row) = white * columns(Eigen::all, fit.free);
+    equations.by_parameters.middleRows<3>(row) = derivatives.of(posture, at, white);
     equations.by_angles.middleRows<3>(row) = white * placed.byAngles(at.position);
     equations.by_motion.block<3, 3>(row, 0) = -white * metrology::crossMatrix(at.position);
     equations.by_motion.block<3, 3>(row, 3) = white;
@@ -114,21 +205,20 @@ PostureEquations equationsOf(const UnloadedDay& day, const ArmFit& fit, std::siz
   return equations;
 }
 
-Eigen::MatrixXd columnsOf(const UnloadedDay& day, const ArmFit& fit, std::size_t i, const PostureEquations& equations,
+Eigen::MatrixXd columnsOf(const FittedDay& fitted, const Posture& posture, const PostureEquations& equations,
                           const std::vector<EffectTerm>& terms) {
-  const FittedDay fitted(day, fit);
-  const Posture& posture = day.postures[i];
-  const frames::PlacedPosture placed(fitted.arm(), fitted.anglesOf(posture));
   Eigen::MatrixXd columns(equations.residual.size(), static_cast<Eigen::Index>(terms.size()));
+  std::optional<frames::PlacedPosture> placed;  // only what moves reflectors asks for it
   for (std::size_t k = 0; k < terms.size(); ++k) {
     const auto column = static_cast<Eigen::Index>(k);
     if (terms[k].angles) {
-      columns.col(column) = equations.by_angles * terms[k].angles(posture);
+      columns.col(column).noalias() = equations.by_angles * terms[k].angles(posture);
       continue;
     }
+    if (!placed) placed.emplace(fitted.arm(), fitted.anglesOf(posture));
     for (std::size_t r = 0; r < equations.targets.size(); ++r) {
-      const ReflectorAt at{placed, equations.targets[r], equations.positions[r], fitted.station()};
-      columns.col(column).segment<3>(3 * static_cast<Eigen::Index>(r)) =
+      const ReflectorAt at{*placed, equations.targets[r], equations.positions[r], fitted.station()};
+      columns.col(column).segment<3>(3 * static_cast<Eigen::Index>(r)).noalias() =
           equations.whitening[r] * terms[k].offset(posture, at);
     }
   }

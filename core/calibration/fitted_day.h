@@ -7,25 +7,31 @@
 
 namespace stiffscope::calibration {
 
+using AnglesByTerms = Eigen::Matrix<double, 6, Eigen::Dynamic>;
+
 /// The arm and its readings at some values of all parameters.
 class FittedDay {
  public:
   /// Keeps references to both.
   FittedDay(const UnloadedDay& day, const ArmFit& fit);
 
+  const ArmFit& fit() const { return fit_; }
   const frames::PlacedArm& arm() const { return arm_; }
   const Eigen::Vector3d& station() const { return station_; }
+  const std::vector<const EffectTerm*>& terms() const { return terms_; }
 
+  /// What a unit of each term turns the joints by, whatever the fit; zero of terms that move reflectors instead.
+  AnglesByTerms anglesByTerms(const Posture& posture) const;
   /// As reported, and what the effects turn the joints besides, rad.
-  Vector6d anglesOf(const Posture& posture) const;
+  Vector6d anglesOf(const Posture& posture) const { return anglesOf(posture, anglesByTerms(posture)); }
+  Vector6d anglesOf(const Posture& posture, const Eigen::Ref<const AnglesByTerms>& by_terms) const {
+    return posture.q + by_terms * fit_.sizes;
+  }
   ReflectorAt reflector(const frames::PlacedPosture& placed, const Reading& reading) const;
   /// Measured less modelled, in base_link, m.
   Eigen::Vector3d residual(const Posture& posture, const Reading& reading, const ReflectorAt& at) const;
   /// L^-1 of the residual's covariance L L^T: the tracker's, and what the model leaves beyond it.
   Eigen::Matrix3d whitening(const Reading& reading) const;
-  /// Of where a reading is modelled by (steps, sizes): 3 rows; those of the axes are zero without `axes`.
-  void derivatives(const Posture& posture, const frames::PlacedPosture& placed, const ReflectorAt& at, bool axes,
-                   Eigen::Ref<Eigen::MatrixXd> columns) const;
 
  private:
   const ArmFit& fit_;
@@ -34,8 +40,39 @@ class FittedDay {
   std::vector<const EffectTerm*> terms_;
 };
 
-/// Measured less modelled of every reading of a day, in the order of the day, in base_link, m.
+/// Of where readings are modelled, by some of (steps, sizes), whitened. Whatever moves all that a posture shows is a
+/// small motion, found once for all of its reflectors.
+class ReadingDerivatives {
+ public:
+  using Rows = Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::RowMajor>;
+
+  /// Where a place would be that of a coordinate 0..2 of whichever reflector is read.
+  static constexpr int ofReadReflector(int coordinate) { return -1 - coordinate; }
+
+  /// `places` of the parameters in (steps, sizes), a column each. Keeps a reference to the day.
+  ReadingDerivatives(const FittedDay& fitted, const std::vector<int>& places);
+
+  /// The posture of the readings that follow.
+  void enter(const frames::PlacedPosture& placed, const Eigen::Ref<const AnglesByTerms>& by_terms);
+  /// Of a reading of it. Valid until the next call.
+  const Rows& of(const Posture& posture, const ReflectorAt& at, const Eigen::Matrix3d& whitening);
+
+ private:
+  struct Place {
+    Eigen::Index column = 0;
+    std::size_t of = 0;  ///< axis parameter, coordinate of all reflectors or of the one read, term
+  };
+
+  const FittedDay& fitted_;
+  std::vector<Place> axes_, targets_, read_, angles_, offsets_;
+  Eigen::Array<double, 6, Eigen::Dynamic, Eigen::RowMajor> motions_;  ///< rotations, then shifts
+  Rows rows_;
+};
+
+/// Measured less modelled of every reading of a day, in the order of the day, in base_link, m. `weights`, one a
+/// reading: zero in postures where all are zero.
 std::vector<Eigen::Vector3d> residualsOf(const UnloadedDay& day, const ArmFit& fit);
+std::vector<Eigen::Vector3d> residualsOf(const UnloadedDay& day, const ArmFit& fit, const std::vector<double>& weights);
 
 /// Equations of the readings about a fit: whitened residuals and their derivatives by (steps, sizes of `fit`), a block
 /// of rows a posture; only readings of weight above 0.
@@ -49,9 +86,10 @@ struct PostureEquations {
   std::vector<Eigen::Vector3d> positions;  ///< of each reading, as modelled
 };
 PostureEquations equationsOf(const UnloadedDay& day, const ArmFit& fit, std::size_t posture, std::size_t first_reading);
+PostureEquations equationsOf(const FittedDay& fitted, const Posture& posture, std::size_t first_reading);
 
 /// Whitened columns of terms in a posture, a column a term.
-Eigen::MatrixXd columnsOf(const UnloadedDay& day, const ArmFit& fit, std::size_t posture,
-                          const PostureEquations& equations, const std::vector<EffectTerm>& terms);
+Eigen::MatrixXd columnsOf(const FittedDay& fitted, const Posture& posture, const PostureEquations& equations,
+                          const std::vector<EffectTerm>& terms);
 
 }  // namespace stiffscope::calibration

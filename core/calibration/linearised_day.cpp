@@ -5,6 +5,7 @@
 #include <numeric>
 #include <utility>
 
+#include "core/numerics/parallel.h"
 #include "metrology/linear_algebra.h"
 
 namespace stiffscope::calibration {
@@ -35,12 +36,16 @@ void LinearisedDay::choosePostures(const ArmFit& geometry) {
 
 void LinearisedDay::gather(const ArmFit& geometry) {
   Eigen::Index rows = 0;
-  for (const std::size_t i : postures_) {
-    equations_.push_back(equationsOf(day_, geometry, i, first_reading_[i]));
+  const FittedDay fitted(day_, geometry);
+  equations_.resize(postures_.size());
+  numerics::smallWorkOnAllCores(postures_.size(), [&](std::size_t k) {
+    equations_[k] = equationsOf(fitted, day_.postures[postures_[k]], first_reading_[postures_[k]]);
+  });
+  for (std::size_t k = 0; k < postures_.size(); ++k) {
     first_row_.push_back(rows);
-    rows += equations_.back().residual.size();
-    inner_fold_.push_back(options_.inner_fold(day_.postures[i].pose));
-    outer_fold_.push_back(options_.outer_fold(day_.postures[i].pose));
+    rows += equations_[k].residual.size();
+    inner_fold_.push_back(options_.inner_fold(day_.postures[postures_[k]].pose));
+    outer_fold_.push_back(options_.outer_fold(day_.postures[postures_[k]].pose));
   }
   const auto parameters = static_cast<Eigen::Index>(geometry.free.size());
   Eigen::MatrixXd jacobian(rows, parameters);
@@ -81,32 +86,63 @@ LinearModel LinearisedDay::geometryAlone() const {
 
 Eigen::MatrixXd LinearisedDay::columnsOf(const std::vector<EffectTerm>& terms) const {
   Eigen::MatrixXd columns(residual_.size(), static_cast<Eigen::Index>(terms.size()));
-  for (std::size_t k = 0; k < postures_.size(); ++k) {
+  const FittedDay fitted(day_, fit_);
+  numerics::smallWorkOnAllCores(postures_.size(), [&](std::size_t k) {
     columns.middleRows(first_row_[k], equations_[k].residual.size()) =
-        calibration::columnsOf(day_, fit_, postures_[k], equations_[k], terms);
-  }
+        calibration::columnsOf(fitted, day_.postures[postures_[k]], equations_[k], terms);
+  });
   return columns;
 }
 
 Eigen::MatrixXd LinearisedDay::acrossGeometry(const Eigen::MatrixXd& columns) const {
-  return columns - basis_ * (basis_.transpose() * columns);
+  constexpr Eigen::Index kTogether = 32, kWorthSharing = 100'000;  // columns; numbers
+  Eigen::MatrixXd across(columns.rows(), columns.cols());
+  numerics::onAllCores(
+      static_cast<std::size_t>((columns.cols() + kTogether - 1) / kTogether),
+      [&](std::size_t block) {
+        const auto from = static_cast<Eigen::Index>(block) * kTogether;
+        const auto own = columns.middleCols(from, std::min(kTogether, columns.cols() - from));
+        across.middleCols(from, own.cols()) = own - basis_ * (basis_.transpose() * own);
+      },
+      columns.size() > kWorthSharing);
+  return across;
 }
 
-void LinearisedDay::add(EffectPart part, const Eigen::MatrixXd& columns, const Eigen::VectorXd& lengths, double penalty,
-                        LinearModel& model) const {
-  for (Eigen::Index k = 0; k < columns.cols(); ++k) {
-    Eigen::VectorXd direction = columns.col(k);
+void LinearisedDay::addDirections(const PartColumns& columns, LinearModel& model) const {
+  const Eigen::Index before = model.directions.cols();
+  Eigen::Index count = before;
+  model.directions.conservativeResize(Eigen::NoChange, before + columns.across.cols());
+  for (Eigen::Index k = 0; k < columns.across.cols(); ++k) {
+    Eigen::VectorXd direction = columns.across.col(k);
+    const auto others = model.directions.leftCols(count);
     // Twice is enough (Kahan, Parlett).
-    for (int turn = 0; turn < 2; ++turn) direction -= model.directions * (model.directions.transpose() * direction);
+    for (int turn = 0; turn < 2; ++turn) direction -= others * (others.transpose() * direction);
     const double length = direction.norm();
-    if (!(length > kAliased * lengths[k])) continue;
+    if (!(length > kAliased * columns.lengths[k])) continue;
     direction /= length;
-    model.directions.conservativeResize(Eigen::NoChange, model.directions.cols() + 1);
-    model.directions.rightCols<1>() = direction;
+    model.directions.col(count++) = direction;
     model.residual -= direction * direction.dot(model.residual);
   }
+  model.directions.conservativeResize(Eigen::NoChange, count);
+}
+
+void LinearisedDay::add(EffectPart part, PartColumns columns, double penalty, LinearModel& model) const {
+  addDirections(columns, model);
   model.penalty += penalty;
   model.parts.push_back(std::move(part));
+  model.columns.push_back(std::make_shared<const PartColumns>(std::move(columns)));
+}
+
+LinearModel LinearisedDay::keeping(const LinearModel& model, const std::function<bool(UnloadedEffect)>& stays) const {
+  LinearModel fewer = geometryAlone();
+  for (std::size_t k = 0; k < model.parts.size(); ++k) {
+    if (!stays(model.parts[k].effect)) continue;
+    addDirections(*model.columns[k], fewer);
+    fewer.penalty += model.parts[k].penalty;
+    fewer.parts.push_back(model.parts[k]);
+    fewer.columns.push_back(model.columns[k]);
+  }
+  return fewer;
 }
 
 double LinearisedDay::designEffect(const Eigen::VectorXd& residual) const {

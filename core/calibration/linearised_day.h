@@ -3,15 +3,23 @@
 #include <Eigen/Core>
 #include <cstddef>
 #include <functional>
+#include <memory>
 #include <vector>
 
 #include "core/calibration/fitted_day.h"
 
 namespace stiffscope::calibration {
 
+/// Whitened columns of a part's terms across the geometry, and their lengths before that was projected off.
+struct PartColumns {
+  Eigen::MatrixXd across;
+  Eigen::VectorXd lengths;
+};
+
 /// Effects beside the geometry, as far as they are linear about it: what is left and what was spent on it.
 struct LinearModel {
   std::vector<EffectPart> parts = {};
+  std::vector<std::shared_ptr<const PartColumns>> columns = {};  ///< of each part
   Eigen::MatrixXd directions;  ///< orthonormal, across the geometry: what the parts can do
   Eigen::VectorXd residual;    ///< whitened
   double penalty = 0.0;        ///< of BIC, and of the alternatives that were tried
@@ -52,10 +60,11 @@ class LinearisedDay {
   Eigen::MatrixXd columnsOf(const std::vector<EffectTerm>& terms) const;
   Eigen::MatrixXd acrossGeometry(const Eigen::MatrixXd& columns) const;
 
-  /// Adds a part's columns (across the geometry; `lengths` before that was projected off) to a model. Columns that the
-  /// geometry and the model can do themselves add nothing.
-  void add(EffectPart part, const Eigen::MatrixXd& columns, const Eigen::VectorXd& lengths, double penalty,
-           LinearModel& model) const;
+  /// Adds a part to a model. Columns that the geometry and the model can do themselves add nothing.
+  void add(EffectPart part, PartColumns columns, double penalty, LinearModel& model) const;
+
+  /// The model with those parts alone, in their order, whose effect is to stay.
+  LinearModel keeping(const LinearModel& model, const std::function<bool(UnloadedEffect)>& stays) const;
 
   /// By how much reflectors of one posture err together in a residual, one at least: variance of their sum.
   double designEffect(const Eigen::VectorXd& residual) const;
@@ -68,6 +77,7 @@ class LinearisedDay {
   static constexpr double kAliased = 1e-3;  ///< of a column's length: what is left of it is nothing of its own
 
  private:
+  void addDirections(const PartColumns& columns, LinearModel& model) const;
   void choosePostures(const ArmFit& geometry);
   void gather(const ArmFit& geometry);
   /// Calls with each posture's whitened residual, its fold predicted by the others: a direction that these do not see

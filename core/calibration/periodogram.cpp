@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "core/numerics/parallel.h"
+
 namespace stiffscope::calibration {
 
 namespace {
@@ -32,7 +34,7 @@ Periodogram::Periodogram(const std::vector<PostureEquations>& equations, const s
                          const UnloadedDay& day, const Eigen::MatrixXd& basis, const Eigen::VectorXd& residual)
     : equations_(&equations) {
   const auto count = static_cast<Eigen::Index>(postures.size());
-  for (std::size_t j = 0; j < joints_.size(); ++j) {
+  numerics::onAllCores(joints_.size(), [&](std::size_t j) {
     OfJoint& joint = joints_[j];
     const auto waves = std::make_shared<Eigen::MatrixXd>(count, 2 * kOrders);
     joint.waves = waves;
@@ -49,7 +51,7 @@ Periodogram::Periodogram(const std::vector<PostureEquations>& equations, const s
     joint.sc = ((sines * cosines).colwise() * weight).colwise().sum().transpose();
     joint.right = productsOf(j, residual).col(0);
     takeOff(j, productsOf(j, basis));
-  }
+  });
 }
 
 Eigen::MatrixXd Periodogram::productsOf(std::size_t joint, const Eigen::MatrixXd& columns) const {
@@ -60,7 +62,13 @@ Eigen::MatrixXd Periodogram::productsOf(std::size_t joint, const Eigen::MatrixXd
     by_posture.row(static_cast<Eigen::Index>(i)).noalias() = own.transpose() * columns.middleRows(row, own.size());
     row += own.size();
   }
-  return joints_[joint].waves->transpose() * by_posture;
+  const Eigen::MatrixXd& waves = *joints_[joint].waves;
+  constexpr Eigen::Index kFew = 4;
+  if (columns.cols() > kFew) return waves.transpose() * by_posture;
+  // A product of matrices would copy all waves into another order first.
+  Eigen::MatrixXd products(waves.cols(), columns.cols());
+  for (Eigen::Index k = 0; k < columns.cols(); ++k) products.col(k).noalias() = waves.transpose() * by_posture.col(k);
+  return products;
 }
 
 void Periodogram::takeOff(std::size_t j, const Eigen::MatrixXd& products) {
@@ -73,11 +81,15 @@ void Periodogram::takeOff(std::size_t j, const Eigen::MatrixXd& products) {
 
 void Periodogram::projectOff(const Eigen::MatrixXd& directions, const Eigen::VectorXd& coefficients) {
   if (directions.cols() == 0) return;
-  for (std::size_t j = 0; j < joints_.size(); ++j) {
-    const Eigen::MatrixXd products = productsOf(j, directions);
-    joints_[j].right -= products * coefficients;
-    takeOff(j, products);
-  }
+  constexpr Eigen::Index kWorthSharing = 1000;  // numbers: each is multiplied with all waves
+  numerics::onAllCores(
+      joints_.size(),
+      [&](std::size_t j) {
+        const Eigen::MatrixXd products = productsOf(j, directions);
+        joints_[j].right -= products * coefficients;
+        takeOff(j, products);
+      },
+      directions.size() > kWorthSharing);
 }
 
 std::vector<PeriodicPeak> Periodogram::peaks() const {

@@ -56,6 +56,29 @@ class Bending {
   std::vector<effects::EffectModel> models_;
 };
 
+/// Of the bodies beyond joints 2 to 6 on the joints that carry them; of joint 2 the next body's too, since the forearm
+/// is as heavy. Axis 1 is upright. Moments along a joint's own axis pull on nothing.
+std::vector<FreeMoment> freeMoments() {
+  std::vector<FreeMoment> moments;
+  const auto add = [&](int joint, int body) {
+    for (int k = 0; k < 3; ++k) moments.push_back({joint, body, Eigen::Vector3d::Unit(k)});
+  };
+  for (int joint = 1; joint < 6; ++joint) add(joint, joint);
+  add(1, 2);
+  return moments;
+}
+
+std::vector<double> pullsOf(const UnloadedDay& day, const Vector6d& q, const Eigen::Vector3d& gravity) {
+  const robot::ArmPosture posture = robot::postureAt(day.arm, q);
+  std::vector<double> pulls;
+  for (const FreeMoment& moment : day.free_moments) {
+    const Eigen::Vector3d axis = robot::axisAt(day.arm, posture, moment.joint).direction;
+    const Eigen::Vector3d arm = posture.motion[static_cast<std::size_t>(moment.body) + 1].linear() * moment.along;
+    pulls.push_back(axis.dot(arm.cross(gravity)));
+  }
+  return pulls;
+}
+
 void setTimes(const std::vector<double>& times, UnloadedDay& day) {
   const std::size_t count = day.postures.size();
   day.times_known = std::all_of(times.begin(), times.end(), [](double t) { return std::isfinite(t); });
@@ -85,22 +108,43 @@ void setWarmth(std::vector<double> temperatures, UnloadedDay& day) {
   for (std::size_t i = 0; i < temperatures.size(); ++i) day.postures[i].warmth = temperatures[i] - mean;
 }
 
+/// A row of `states` and the angles that the arm is taken to have stood at.
+struct LoggedPosture {
+  const campaign::State* state = nullptr;
+  Vector6d q = Vector6d::Zero();
+};
+
+std::vector<LoggedPosture> loggedPostures(const campaign::Campaign& campaign, JointAngles angles) {
+  std::vector<LoggedPosture> log;
+  if (!campaign.states) return log;
+  const std::array<bool, 6> commanded = commandedJoints(campaign);
+  for (const campaign::State& state : campaign.states->rows) {
+    log.push_back({&state, state.q});
+    for (Eigen::Index j = 0; j < 6 && angles == JointAngles::commanded; ++j) {
+      // Rows under load need none.
+      if (commanded[static_cast<std::size_t>(j)] && !std::isnan(state.commanded[j]))
+        log.back().q[j] = state.commanded[j];
+    }
+  }
+  return log;
+}
+
 /// Moves from posture to posture in the order of `states`, those that were not read among them: the arm went there.
-void setMoves(const campaign::States& states, UnloadedDay& day) {
+void setMoves(const std::vector<LoggedPosture>& log, UnloadedDay& day) {
   constexpr double kStill = 1e-5;  // rad: below the last digit of most logs
   struct Move {
     Vector6d by = Vector6d::Zero(), side = Vector6d::Zero();
   };
   std::vector<Move> moves(day.pose_ids.size());
-  const campaign::State* before = nullptr;
+  const LoggedPosture* before = nullptr;
   Vector6d side = Vector6d::Zero();
-  for (const campaign::State& state : states.rows) {
-    const Vector6d by = before != nullptr ? Vector6d(state.q - before->q) : Vector6d(Vector6d::Zero());
+  for (const LoggedPosture& at : log) {
+    const Vector6d by = before != nullptr ? Vector6d(at.q - before->q) : Vector6d(Vector6d::Zero());
     for (Eigen::Index j = 0; j < 6; ++j) {
       if (std::abs(by[j]) >= kStill) side[j] = by[j] > 0.0 ? 1.0 : -1.0;
     }
-    if (state.step == 0) moves[static_cast<std::size_t>(state.pose)] = {by, side};
-    before = &state;
+    if (at.state->step == 0) moves[static_cast<std::size_t>(at.state->pose)] = {by, side};
+    before = &at;
   }
   for (Posture& posture : day.postures) {
     posture.move = moves[static_cast<std::size_t>(posture.pose)].by;
@@ -116,9 +160,22 @@ std::size_t UnloadedDay::readings() const {
   return sum;
 }
 
-UnloadedDay unloadedDay(const campaign::Campaign& campaign) {
+std::array<bool, 6> commandedJoints(const campaign::Campaign& campaign) {
+  std::array<bool, 6> given{};
+  if (!campaign.states) return given;
+  given.fill(true);
+  for (const campaign::State& state : campaign.states->rows) {
+    for (std::size_t j = 0; j < given.size(); ++j) {
+      if (state.step == 0 && std::isnan(state.commanded[static_cast<Eigen::Index>(j)])) given[j] = false;
+    }
+  }
+  return given;
+}
+
+UnloadedDay unloadedDay(const campaign::Campaign& campaign, JointAngles angles) {
   UnloadedDay day;
   day.arm = campaign.robot;
+  day.angles = angles;
   day.weight = robot::gravityLoad(campaign.robot, campaign.tool, campaign.gravity_in_base, campaign.robot,
                                   Eigen::Isometry3d::Identity());
   day.masses_known = day.weight.links_known && day.weight.any();
@@ -130,35 +187,41 @@ UnloadedDay unloadedDay(const campaign::Campaign& campaign) {
     noise = frames::trackerNoise(*campaign.tracker);
     day.station = campaign.tracker->station;
   }
-  std::vector<const campaign::State*> states(campaign.pose_ids.size(), nullptr);
-  for (const campaign::State& state : campaign.states->rows) {
-    if (state.step == 0) states[static_cast<std::size_t>(state.pose)] = &state;
+  const std::vector<LoggedPosture> log = loggedPostures(campaign, angles);
+  std::vector<const LoggedPosture*> at_pose(campaign.pose_ids.size(), nullptr);
+  for (const LoggedPosture& at : log) {
+    if (at.state->step == 0) at_pose[static_cast<std::size_t>(at.state->pose)] = &at;
   }
   const Bending bending(day);
-  if (day.masses_known) day.bending = bending.terms();
+  if (day.masses_known) {
+    day.bending = bending.terms();
+  } else {
+    day.free_moments = freeMoments();
+  }
   std::vector<double> times, temperatures;
   for (const campaign::StatePoints& points : campaign::statePoints(campaign)) {
     if (points.source != campaign::StatePoints::Source::loading || points.step != 0) continue;
-    const campaign::State* state = states[static_cast<std::size_t>(points.pose)];
-    if (state == nullptr) continue;
+    const LoggedPosture* at = at_pose[static_cast<std::size_t>(points.pose)];
+    if (at == nullptr) continue;
     Posture posture;
     posture.pose = points.pose;
-    posture.q = state->q;
+    posture.q = at->q;
     if (day.masses_known) {
       posture.torque = robot::weightTorque(day.arm, robot::postureAt(day.arm, posture.q), day.weight);
       posture.bends = bending.at(posture.q);
     }
+    posture.pulls = pullsOf(day, posture.q, campaign.gravity_in_base);
     for (const campaign::ReflectorMean& mean : points.reflectors) {
       posture.readings.push_back({mean.target, mean.line, mean.point,
                                   noise ? mean.covariance(*noise) : Eigen::Matrix3d(Eigen::Matrix3d::Zero())});
     }
-    times.push_back(state->time_s);
-    temperatures.push_back(state->temperature_c);
+    times.push_back(at->state->time_s);
+    temperatures.push_back(at->state->temperature_c);
     day.postures.push_back(std::move(posture));
   }
   setTimes(times, day);
   setWarmth(std::move(temperatures), day);
-  setMoves(*campaign.states, day);
+  setMoves(log, day);
   return day;
 }
 

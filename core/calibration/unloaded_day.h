@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cstddef>
 #include <vector>
 
@@ -9,6 +10,12 @@
 #include "core/frames/arm_parameters.h"
 
 namespace stiffscope::calibration {
+
+/// Which angles of the log the arm is taken to have stood at.
+enum class JointAngles {
+  reported,
+  commanded,  ///< of joints that have them in every unloaded posture; of the others the reported
+};
 
 /// One reflector in one unloaded posture: the mean of its readings.
 struct Reading {
@@ -28,6 +35,8 @@ struct Posture {
   double time = 0.0;                   ///< 0 at the first posture, 1 at the last: by time_s, else by the order
   /// What bearings, links and base do by the own weight, by a unit of each of the day's elastic terms, in base_link.
   std::vector<frames::SmallMotion> bends;
+  /// Where masses are not known: the torque of a unit of each of the day's free moments on its joint, m/s^2.
+  std::vector<double> pulls;
   std::vector<Reading> readings;
 };
 
@@ -38,10 +47,18 @@ struct BendingTerm {
   double most = 0.0;  ///< physical bound; never negative
 };
 
+/// Where masses are not known: the moment (mass times centre, kg m) along one axis of base_link, with all joints at
+/// zero, of a body that one joint carries. Only its product with that joint's compliance is seen.
+struct FreeMoment {
+  int joint = 0, body = 0;  ///< 0..5: the joint, and the one that moves the body
+  Eigen::Vector3d along = Eigen::Vector3d::Zero();
+};
+
 /// A day's unloaded postures (step 0) in the order of the campaign, with what effects of them are made of. Lengths m,
 /// angles rad. `arm` is the URDF's in base_link.
 struct UnloadedDay {
   robot::Robot arm;
+  JointAngles angles = JointAngles::reported;
   robot::GravityLoad weight;
   bool masses_known = false;       ///< of every body beyond joint 2
   bool times_known = false;        ///< every posture has one; else their order stands for time
@@ -50,6 +67,7 @@ struct UnloadedDay {
   std::vector<std::string> targets;
   std::vector<std::string> pose_ids;
   std::vector<BendingTerm> bending;
+  std::vector<FreeMoment> free_moments;
   Eigen::Vector3d station = Eigen::Vector3d::Zero();  ///< of the tracker, in the frame of the table
   std::vector<Posture> postures;
 
@@ -57,6 +75,9 @@ struct UnloadedDay {
 };
 
 /// Postures of `loading` at step 0 that `states` has joint angles for. Empty `postures` without either table.
-UnloadedDay unloadedDay(const campaign::Campaign& campaign);
+UnloadedDay unloadedDay(const campaign::Campaign& campaign, JointAngles angles = JointAngles::reported);
+
+/// Joints with a commanded angle in every unloaded row of `states`.
+std::array<bool, 6> commandedJoints(const campaign::Campaign& campaign);
 
 }  // namespace stiffscope::calibration

@@ -140,6 +140,19 @@ struct KnownStiffness {
   std::string source;
 };
 
+/// How a controller's figure of a joint becomes the URDF's angle: q = sign * figure + offset (+ figure of another
+/// joint). FANUC's third figure is against the horizontal: plus = 1 there.
+struct JointReading {
+  int joint = 0;        ///< 0..5 for axes 1..6
+  double sign = 1.0;    ///< 1 or -1
+  double offset = 0.0;  ///< rad
+  int plus = -1;        ///< 0..5: the joint whose figure is added; -1: none
+};
+
+/// What the controller's kinematics are: nominal, or identified by its maker. Such a controller bends its commands
+/// under load already, and the arm looks stiffer.
+enum class ControllerModel { unspecified, nominal, absolute_accuracy };
+
 /// A file that was read, as the report lists it.
 struct InputFile {
   std::string name;    ///< as campaign.xml names it, relative to the folder
@@ -170,6 +183,8 @@ struct Campaign {
   std::optional<LoadCell> load_cell;
   std::optional<robot::Tool> tool;
   std::vector<KnownStiffness> known_stiffness;  ///< at most one a joint
+  std::vector<JointReading> joint_readings;     ///< at most one a joint; angles in the rows are the URDF's already
+  ControllerModel controller_model = ControllerModel::unspecified;
 
   std::optional<CircleSweeps> circle_sweeps;
   std::optional<WristSweep> wrist_sweep;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/campaign/columns.h"
+#include "core/campaign/joint_reading.h"
 #include "core/io/input_error.h"
 #include "core/io/units.h"
 #include "core/io/xml.h"
@@ -161,13 +162,42 @@ robot::Tool readTool(const io::XmlNode& node, std::vector<std::string>& warnings
   return {atMost(node, "mass_kg", kMostMass), millimetres(node, "com_mm")};
 }
 
+namespace {
+
+/// 0..5 of an attribute that counts joints from 1.
+int jointNumbered(const io::XmlNode& node, const std::string& attribute) {
+  const double joint = node.number(attribute);
+  if (joint != std::floor(joint) || joint < 1.0 || joint > 6.0)
+    node.refuse(attribute, node.requiredAttribute(attribute), "expected a joint's number, 1 to 6");
+  return static_cast<int>(joint) - 1;
+}
+
+}  // namespace
+
+JointReading readJointReading(const io::XmlNode& node, std::vector<std::string>& warnings) {
+  io::warnOfUnknown(node, {"joint", "sign", "offset_deg", "plus"}, {}, warnings);
+  JointReading reading;
+  reading.joint = jointNumbered(node, "joint");
+  if (node.has("sign")) {
+    reading.sign = node.number("sign");
+    if (std::abs(reading.sign) != 1.0) node.refuse("sign", node.requiredAttribute("sign"), "expected 1 or -1");
+  }
+  if (node.has("offset_deg")) {
+    const double offset = node.number("offset_deg");
+    requirePlausible(node, "offset_deg", CellKind::degree, std::abs(offset));
+    reading.offset = offset * io::kDegree;
+  }
+  if (!node.has("plus")) return reading;
+  reading.plus = jointNumbered(node, "plus");
+  if (reading.plus == reading.joint)
+    node.refuse("plus", node.requiredAttribute("plus"), "expected another joint than this one");
+  return reading;
+}
+
 KnownStiffness readKnownStiffness(const io::XmlNode& node, std::vector<std::string>& warnings) {
   io::warnOfUnknown(node, {"joint", "nm_per_rad", "sd_nm_per_rad", "source"}, {}, warnings);
   KnownStiffness known;
-  const double joint = node.number("joint");
-  if (joint != std::floor(joint) || joint < 1.0 || joint > 6.0)
-    node.refuse("joint", node.requiredAttribute("joint"), "expected a joint's number, 1 to 6");
-  known.joint = static_cast<int>(joint) - 1;
+  known.joint = jointNumbered(node, "joint");
   // From a toy's joint to a hundred times the stiffest drive.
   constexpr double kLeast = 1.0, kMost = 1e10;
   known.stiffness = node.number("nm_per_rad");
@@ -207,9 +237,10 @@ const std::vector<std::pair<std::string, std::string CampaignTexts::*>>& textEle
   return elements;
 }
 
-std::vector<std::string> knownElements() {
-  std::vector<std::string> known{"robot", "tracker", "targets", "load_cell", "tool", "known_stiffness"};
-  known.insert(known.end(), tableElements().begin(), tableElements().end());
+std::vector<std::string> knownElements(const std::vector<std::string>& also) {
+  std::vector<std::string> known{"robot", "tracker",         "targets",      "load_cell",
+                                 "tool",  "known_stiffness", "joint_reading"};
+  known.insert(known.end(), also.begin(), also.end());
   for (const auto& [name, member] : textElements()) known.push_back(name);
   return known;
 }
@@ -232,13 +263,39 @@ DoubleEncoder readDoubleEncoder(const io::XmlNode& node) {
       "expected active, inactive or unspecified" + io::nearestNameHint(value, {"active", "inactive", "unspecified"}));
 }
 
+ControllerModel readControllerModel(const io::XmlNode& node) {
+  const std::string value = node.attribute("controller_model").value_or("unspecified");
+  if (value == "unspecified") return ControllerModel::unspecified;
+  if (value == "nominal") return ControllerModel::nominal;
+  if (value == "absolute_accuracy") return ControllerModel::absolute_accuracy;
+  node.refuse("controller_model", value,
+              "expected nominal, absolute_accuracy or unspecified" +
+                  io::nearestNameHint(value, {"nominal", "absolute_accuracy", "unspecified"}));
+}
+
+/// Joints that report something else than the URDF's angle, each once and none in a circle.
+void readJointReadings(const io::XmlNode& root, Campaign& campaign, std::vector<std::string>& warnings) {
+  for (const io::XmlNode& node : root.children("joint_reading")) {
+    const JointReading reading = readJointReading(node, warnings);
+    if (std::any_of(campaign.joint_readings.begin(), campaign.joint_readings.end(),
+                    [&](const JointReading& one) { return one.joint == reading.joint; }))
+      node.refuse("joint", node.requiredAttribute("joint"), "expected a joint that does not repeat");
+    campaign.joint_readings.push_back(reading);
+    if (JointConvention(campaign.joint_readings).invertible()) continue;
+    node.refuse("plus", node.requiredAttribute("plus"), "expected joints that are not added to each other in a circle");
+  }
+}
+
 void readRobotElement(const io::XmlNode& node, CampaignXml& xml, std::vector<std::string>& warnings) {
-  io::warnOfUnknown(node, {"urdf", "base_link", "flange_link", "double_encoder", "gravity_m_s2", "mass_sigma_percent"},
-                    {}, warnings);
+  io::warnOfUnknown(
+      node,
+      {"urdf", "base_link", "flange_link", "double_encoder", "gravity_m_s2", "mass_sigma_percent", "controller_model"},
+      {}, warnings);
   xml.urdf = {node.requiredName("urdf"), "urdf", node.line()};
   xml.campaign.base_link = node.requiredName("base_link");
   xml.campaign.flange_link = node.requiredName("flange_link");
   xml.campaign.double_encoder = readDoubleEncoder(node);
+  xml.campaign.controller_model = readControllerModel(node);
   constexpr double kMostMassPercent = 50.0;
   xml.campaign.mass_sigma = declaredSigma(node, "mass_sigma_percent", kMostMassPercent, 0.01);
   if (!node.has("gravity_m_s2")) return;
@@ -266,9 +323,7 @@ void readSections(const io::XmlNode& root, CampaignXml& xml, std::vector<std::st
                       [&](const KnownStiffness& one) { return one.joint == joint; }) > 1)
       node.refuse("joint", node.requiredAttribute("joint"), "expected a joint that does not repeat");
   }
-  for (const std::string& element : tableElements()) {
-    if (const auto node = root.child(element)) xml.tables[element] = readTableReference(*node, warnings);
-  }
+  readJointReadings(root, campaign, warnings);
   for (const auto& [name, member] : textElements()) {
     if (const auto node = root.child(name)) campaign.texts.*member = node->text();
   }
@@ -282,15 +337,24 @@ const std::vector<std::string>& tableElements() {
   return elements;
 }
 
-CampaignXml readCampaignXml(const std::string& file, std::string_view bytes, std::vector<std::string>& warnings) {
-  const io::XmlFile xml_file(file, bytes);
-  const io::XmlNode root = xml_file.root();
-  requireFormatOne(root);
-  io::warnOfUnknown(root, {"format", "name", "date"}, knownElements(), warnings);
+CampaignXml readCampaignElements(const io::XmlNode& root, const std::vector<std::string>& also,
+                                 std::vector<std::string>& warnings) {
+  io::warnOfUnknown(root, {"format", "name", "date"}, knownElements(also), warnings);
   CampaignXml xml;
   xml.campaign.name = root.requiredAttribute("name");
   xml.campaign.date = root.requiredAttribute("date");
   readSections(root, xml, warnings);
+  return xml;
+}
+
+CampaignXml readCampaignXml(const std::string& file, std::string_view bytes, std::vector<std::string>& warnings) {
+  const io::XmlFile xml_file(file, bytes);
+  const io::XmlNode root = xml_file.root();
+  requireFormatOne(root);
+  CampaignXml xml = readCampaignElements(root, tableElements(), warnings);
+  for (const std::string& element : tableElements()) {
+    if (const auto node = root.child(element)) xml.tables[element] = readTableReference(*node, warnings);
+  }
   return xml;
 }
 

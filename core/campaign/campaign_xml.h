@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/campaign/campaign.h"
+#include "core/io/xml.h"
 
 namespace stiffscope::campaign {
 
@@ -36,5 +37,10 @@ const std::vector<std::string>& tableElements();
 /// know is ignored with a warning. Throws InputError with line and attribute for everything the format does
 /// not allow; whether links and files exist is not looked at here.
 CampaignXml readCampaignXml(const std::string& file, std::string_view bytes, std::vector<std::string>& warnings);
+
+/// The same elements under another root, for files that describe a day before it is a campaign: name, date and all
+/// sections but the tables. Elements and attributes of the root in `also` are the caller's to read.
+CampaignXml readCampaignElements(const io::XmlNode& root, const std::vector<std::string>& also,
+                                 std::vector<std::string>& warnings);
 
 }  // namespace stiffscope::campaign

@@ -7,6 +7,7 @@
 #include "core/campaign/campaign_xml.h"
 #include "core/campaign/check_campaign.h"
 #include "core/campaign/columns.h"
+#include "core/campaign/joint_reading.h"
 #include "core/campaign/read_table.h"
 #include "core/campaign/table_layouts.h"
 #include "core/io/input_error.h"
@@ -172,6 +173,7 @@ CampaignReading readCampaign(const std::filesystem::path& folder_or_xml, Hashes 
   files.requireUnchanged();
   campaign.inputs = files.takeInputs();
 
+  figuresToAngles(campaign);
   checkCampaign(campaign, reading.warnings);
   return reading;
 }

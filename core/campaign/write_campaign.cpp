@@ -11,6 +11,7 @@
 #include "core/campaign/campaign.h"
 #include "core/campaign/campaign_xml.h"
 #include "core/campaign/columns.h"
+#include "core/campaign/joint_reading.h"
 #include "core/campaign/table_layouts.h"
 #include "core/io/read_file.h"
 #include "core/io/units.h"
@@ -140,6 +141,9 @@ void writeRobot(tinyxml2::XMLPrinter& printer, const Campaign& campaign) {
     robot.set("gravity_m_s2", campaign.gravity_in_base);
   }
   if (campaign.mass_sigma > 0.0) robot.set("mass_sigma_percent", 100.0 * campaign.mass_sigma);
+  if (campaign.controller_model == ControllerModel::nominal) robot.set("controller_model", "nominal");
+  if (campaign.controller_model == ControllerModel::absolute_accuracy)
+    robot.set("controller_model", "absolute_accuracy");
 }
 
 void writeTracker(tinyxml2::XMLPrinter& printer, const Tracker& tracker) {
@@ -176,6 +180,15 @@ void writeLoadCell(tinyxml2::XMLPrinter& printer, const LoadCell& cell) {
   if (cell.point_sigma > 0.0) element.set("xyz_sigma_mm", cell.point_sigma / io::kMillimetre);
 }
 
+void writeJointReadings(tinyxml2::XMLPrinter& printer, const std::vector<JointReading>& readings) {
+  for (const JointReading& reading : readings) {
+    Element element(printer, "joint_reading");
+    element.set("joint", std::to_string(reading.joint + 1)).set("sign", reading.sign);
+    if (reading.offset != 0.0) element.set("offset_deg", reading.offset / io::kDegree);
+    if (reading.plus >= 0) element.set("plus", std::to_string(reading.plus + 1));
+  }
+}
+
 template <class Row>
 void writeTableReference(tinyxml2::XMLPrinter& printer, const std::string& element,
                          const std::optional<Table<Row>>& table) {
@@ -210,6 +223,7 @@ std::string writtenCampaignXml(const Campaign& campaign) {
           .set("sd_nm_per_rad", known.sd)
           .set("source", known.source);
     }
+    writeJointReadings(printer, campaign.joint_readings);
     writeTableReference(printer, "circle_sweeps", campaign.circle_sweeps);
     writeTableReference(printer, "wrist_sweep", campaign.wrist_sweep);
     writeTableReference(printer, "loading", campaign.loading);
@@ -277,8 +291,10 @@ CampaignNames namesOf(const Campaign& campaign) {
 
 }  // namespace
 
-void writeCampaign(const Campaign& campaign, const std::filesystem::path& urdf_file,
-                   const std::filesystem::path& folder, const std::vector<io::FileToWrite>& beside) {
+namespace {
+
+void writeFigures(const Campaign& campaign, const std::filesystem::path& urdf_file, const std::filesystem::path& folder,
+                  const std::vector<io::FileToWrite>& beside) {
   const std::string urdf = io::readTextFile(urdf_file, io::kLargestXml);
   const CampaignNames names = namesOf(campaign);
   std::vector<io::FileToWrite> files{{"robot.urdf", urdf}};
@@ -292,6 +308,16 @@ void writeCampaign(const Campaign& campaign, const std::filesystem::path& urdf_f
   // Last, because a folder with a campaign.xml passes for a campaign.
   files.push_back({"campaign.xml", writtenCampaignXml(campaign)});
   io::writeFolderWhole(folder, files);
+}
+
+}  // namespace
+
+void writeCampaign(const Campaign& campaign, const std::filesystem::path& urdf_file,
+                   const std::filesystem::path& folder, const std::vector<io::FileToWrite>& beside) {
+  if (campaign.joint_readings.empty()) return writeFigures(campaign, urdf_file, folder, beside);
+  Campaign figures = campaign;
+  anglesToFigures(figures);
+  writeFigures(figures, urdf_file, folder, beside);
 }
 
 }  // namespace stiffscope::campaign

@@ -12,7 +12,8 @@ namespace stiffscope::campaign {
 /// format, with the same bytes for the same campaign: mm with 4 decimals, deg with 5, N with 3, Nm with 4,
 /// s with 1. Tables are named after their element (circle_sweeps.csv, whatever Table::file says), and
 /// `urdf_file` is copied beside them as robot.urdf. A time that is NaN leaves an optional column out; of
-/// angles of a second encoder, commanded angles and temperatures it leaves a cell blank.
+/// angles of a second encoder, commanded angles and temperatures it leaves a cell blank. With joint readings the tables
+/// hold the controller's figures again.
 /// `beside`: further files that come with it. Throws InputError where the URDF cannot be read,
 /// std::filesystem::filesystem_error or std::runtime_error where the folder cannot be written (it is then as it was) or
 /// a value cannot be (not finite, an index without a name).

@@ -90,10 +90,22 @@ PlacedArm::PlacedArm(const AxesAtStart& start, const Eigen::Vector3d& about, con
   turn_by_rotation = leftJacobian(-base_by.head<3>());
 }
 
+SmallMotion PlacedArm::byBase(std::size_t k) const {
+  if (k >= 3) return {Eigen::Vector3d::Zero(), -base.linear().col(static_cast<Eigen::Index>(k) - 3)};
+  const Eigen::Vector3d rotation = turn_by_rotation.col(static_cast<Eigen::Index>(k));
+  return {-rotation, rotation.cross(centre)};
+}
+
 PlacedPosture::PlacedPosture(const PlacedArm& arm, const robot::ArmPosture& posture) : arm_(arm), posture_(posture) {
   for (std::size_t k = 0; k < of_axis_.size(); ++k) {
-    of_axis_[k] = carriedBy(posture.motion[k / 4], arm.steps[k]);
-    const SmallMotion back = carriedBy(posture.motion[k / 4 + 1], arm.steps[k]);
+    const Eigen::Isometry3d &before = posture.motion[k / 4], &after = posture.motion[k / 4 + 1];
+    if (k % 4 < 2) {  // an axis that shifts turns nothing
+      of_axis_[k].shift = before.linear() * arm.steps[k].shift;
+      beyond_[k].shift = of_axis_[k].shift - after.linear() * arm.steps[k].shift;
+      continue;
+    }
+    of_axis_[k] = carriedBy(before, arm.steps[k]);
+    const SmallMotion back = carriedBy(after, arm.steps[k]);
     beyond_[k] = {of_axis_[k].rotation - back.rotation, of_axis_[k].shift - back.shift};
   }
 }
@@ -106,9 +118,13 @@ Eigen::Matrix<double, 3, ArmParameters::kAxes> PlacedPosture::byAxes(const Eigen
 
 Eigen::Matrix<double, 3, ArmParameters::kBase> PlacedPosture::byBase(const Eigen::Vector3d& position) const {
   Eigen::Matrix<double, 3, ArmParameters::kBase> columns;
-  columns.leftCols<3>() = metrology::vectorByFrameError(position - arm_.centre).leftCols<3>() * arm_.turn_by_rotation;
-  columns.rightCols<3>() = -arm_.base.linear();
+  for (std::size_t k = 0; k < 6; ++k) columns.col(static_cast<Eigen::Index>(k)) = arm_.byBase(k).at(position);
   return columns;
+}
+
+SmallMotion PlacedPosture::byJoint(std::size_t j) const {
+  const Eigen::Vector3d direction = posture_.motion[j].linear() * arm_.axes[j].direction;
+  return {direction, (posture_.motion[j] * arm_.axes[j].point).cross(direction)};
 }
 
 Matrix36d PlacedPosture::byAngles(const Eigen::Vector3d& position) const {

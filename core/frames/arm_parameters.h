@@ -58,6 +58,9 @@ struct PlacedArm {
   /// With all parameters zero.
   explicit PlacedArm(const AxesAtStart& start, const Eigen::Vector3d& centre = Eigen::Vector3d::Zero());
   PlacedArm(const AxesAtStart& start, const Eigen::Vector3d& centre, const AxesSteps& axes_by, const Vector6d& base_by);
+
+  /// Of everything that is seen, by a small change of base parameter k: turns of the readings move it the other way.
+  SmallMotion byBase(std::size_t k) const;
 };
 
 /// One posture of it, computed once for all of its reflectors. Exact derivatives: in a product of exponentials, moving
@@ -77,6 +80,8 @@ class PlacedPosture {
   Eigen::Matrix<double, 3, ArmParameters::kBase> byBase(const Eigen::Vector3d& position) const;
   Eigen::Matrix3d byTarget() const { return posture_.motion[6].linear(); }
   Matrix36d byAngles(const Eigen::Vector3d& position) const;
+  /// Of the flange by a small turn of joint j.
+  SmallMotion byJoint(std::size_t j) const;
   /// How body b (0: the base, 6: the flange) stands turned from where it is at zero.
   Eigen::Matrix3d turnOf(std::size_t body) const { return posture_.motion[body].linear(); }
 

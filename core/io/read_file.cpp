@@ -182,9 +182,12 @@ Bytes readBlocks(const OpenFile& file, std::size_t size) {
   return all;
 }
 
-}  // namespace
+struct BytesRead {
+  TextFile file;
+  bool plain = true;
+};
 
-TextFile readTextFileWithStamp(const fs::path& path, std::size_t largest) {
+BytesRead readAll(const fs::path& path, std::size_t largest) {
   const OpenFile file(path);
   const struct ::stat status = file.status();
   requireOrdinary(path, status, largest);
@@ -196,9 +199,18 @@ TextFile readTextFileWithStamp(const fs::path& path, std::size_t largest) {
     refuse(path, "expected a file that stays as it is; it changed while it was read");
   }
   if (size == 0) refuse(path, "expected a file that is not empty");
-  if (!read.plain) requireUtf8(path, text.text());
-  return text;
+  return {text, read.plain};
 }
+
+}  // namespace
+
+TextFile readTextFileWithStamp(const fs::path& path, std::size_t largest) {
+  const BytesRead read = readAll(path, largest);
+  if (!read.plain) requireUtf8(path, read.file.text());
+  return read.file;
+}
+
+TextFile readBytesWithStamp(const fs::path& path, std::size_t largest) { return readAll(path, largest).file; }
 
 std::string readTextFile(const fs::path& path, std::size_t largest) {
   return std::string(readTextFileWithStamp(path, largest).text());

@@ -58,6 +58,9 @@ struct TextFile {
 /// files are read on all cores.
 TextFile readTextFileWithStamp(const std::filesystem::path& path, std::size_t largest = kLargestTable);
 
+/// The same of a file in any encoding: nothing is asked of its bytes.
+TextFile readBytesWithStamp(const std::filesystem::path& path, std::size_t largest = kLargestTable);
+
 /// The bytes alone.
 std::string readTextFile(const std::filesystem::path& path, std::size_t largest = kLargestTable);
 

@@ -6,6 +6,7 @@
 #include <mutex>
 #include <system_error>
 #include <thread>
+#include <utility>
 #include <vector>
 
 namespace stiffscope::numerics {
@@ -13,6 +14,12 @@ namespace stiffscope::numerics {
 namespace {
 
 thread_local bool shares_already = false;
+std::atomic<std::size_t> at_work{0};  // threads that take part in something
+
+std::size_t idleCores() {
+  const std::size_t cores = std::thread::hardware_concurrency(), busy = at_work;
+  return cores > busy ? cores - busy : 0;
+}
 
 class Sharing {
  public:
@@ -20,7 +27,8 @@ class Sharing {
 
   /// What each thread does: takes the next index until there is none.
   void takePart() {
-    shares_already = true;
+    const bool within = std::exchange(shares_already, true);
+    if (!within) ++at_work;
     for (std::size_t i = next_++; i < count_; i = next_++) {
       try {
         work_(i);
@@ -28,7 +36,8 @@ class Sharing {
         keep(i, std::current_exception());
       }
     }
-    shares_already = false;
+    if (!within) --at_work;
+    shares_already = within;
   }
 
   void throwWhatWasThrown() const {
@@ -54,12 +63,13 @@ class Sharing {
 }  // namespace
 
 void onAllCores(std::size_t count, const std::function<void(std::size_t)>& work, bool worth_it) {
-  onThreads(worth_it ? std::thread::hardware_concurrency() : 1, count, work);
+  if (!worth_it) return onThreads(1, count, work);
+  onThreads(shares_already ? 1 + idleCores() : std::thread::hardware_concurrency(), count, work);
 }
 
 void onThreads(std::size_t threads, std::size_t count, const std::function<void(std::size_t)>& work) {
   threads = std::min(count, threads);
-  if (threads < 2 || shares_already) {
+  if (threads < 2) {
     for (std::size_t i = 0; i < count; ++i) work(i);
     return;
   }

@@ -89,6 +89,7 @@ Json accuracyJson(const campaign::Campaign& campaign, const accuracy::AccuracyDi
   Json next = Json::array();
   for (const Remark& one : accuracy.next) next.push_back({{"measure", words(one)}});
   json["next"] = std::move(next);
+  json["joint_angles"] = anglesJson(accuracy.calibration);
   return json;
 }
 

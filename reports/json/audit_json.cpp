@@ -1,4 +1,5 @@
 #include "core/audit/audit.h"
+#include "core/mistakes/find_mistakes.h"
 #include "reports/json/json.h"
 #include "reports/json/json_document.h"
 
@@ -12,7 +13,33 @@ namespace {
 
 Json figure(const std::optional<double>& value) { return value ? number(*value) : Json(nullptr); }
 
+void addSuspected(const std::vector<mistakes::Suspected>& some, Json& all) {
+  for (const mistakes::Suspected& one : some) {
+    all.push_back({{"mistake", one.mistake},
+                   {"where", words(one.where)},
+                   {"remedy", words(one.remedy)},
+                   {"before", number(one.before)},
+                   {"after", number(one.after)}});
+  }
+}
+
+Json suspectedJson(const std::vector<mistakes::Suspected>& some) {
+  Json all = Json::array();
+  addSuspected(some, all);
+  return all;
+}
+
 }  // namespace
+
+Json withAgreement(Json result, const mistakes::ModelAgreement& agreement) {
+  if (!agreement.contradicted()) return result;
+  Json all = Json::array();
+  addSuspected(agreement.arm, all);
+  addSuspected(agreement.loads, all);
+  result["contradicts_model"] = {
+      {"arm", agreement.arm_contradicted}, {"loads", agreement.loads_contradicted}, {"suspected", all}};
+  return result;
+}
 
 const char* nameOf(preparation::AuditVerdict verdict) {
   switch (verdict) {
@@ -42,21 +69,13 @@ Json auditJson(const campaign::Campaign& campaign, const audit::AuditReport& rep
                       {"limit_source", words(check.limit_source)}});
     if (!check.details.empty()) checks.back()["details"] = words(check.details);
   }
-  Json suspected = Json::array();
-  for (const audit::Suspected& one : report.suspected) {
-    suspected.push_back({{"mistake", one.mistake},
-                         {"where", words(one.where)},
-                         {"remedy", words(one.remedy)},
-                         {"before", number(one.before)},
-                         {"after", number(one.after)}});
-  }
   return {{"campaign", campaignJson(campaign)},
           {"verdict", nameOf(report.verdict)},
           {"made", report.made},
           {"of", report.of},
           {"unanswered", words(report.unanswered)},
           {"checks", checks},
-          {"suspected", suspected},
+          {"suspected", suspectedJson(report.suspected)},
           {"rejected", rejectedJson(report.rejected)}};
 }
 

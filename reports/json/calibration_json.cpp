@@ -108,7 +108,29 @@ Json stiffnessJson(const ArmFit& fit) {
   return joints;
 }
 
+Json errorsJson(const calibration::PositionErrors& errors) {
+  return {{"held_out_mm", number(errors.rms / io::kMillimetre)},
+          {"held_out_max_mm", number(errors.largest / io::kMillimetre)}};
+}
+
 }  // namespace
+
+Json anglesJson(const calibration::Calibration& calibration) {
+  Json json{{"used", nameOf(calibration.day.angles)}};
+  if (!calibration.angles) return json;
+  const calibration::AngleComparison& angles = *calibration.angles;
+  Json joints = Json::array();
+  for (std::size_t j = 0; j < angles.joints.size(); ++j) {
+    if (angles.joints[j]) joints.push_back(j + 1);
+  }
+  json["commanded_joints"] = std::move(joints);
+  json["largest_difference_deg"] = number(angles.largest / io::kDegree);
+  json["reported"] = errorsJson(angles.reported);
+  json["commanded"] = errorsJson(angles.commanded);
+  json["significance"] = number(angles.significance);
+  json["better"] = angles.better ? Json(nameOf(*angles.better)) : Json(nullptr);
+  return json;
+}
 
 Json calibrationJson(const campaign::Campaign& campaign, const calibration::Calibration& calibration,
                      const calibration::CalibrationOptions& options) {
@@ -148,6 +170,7 @@ Json calibrationJson(const campaign::Campaign& campaign, const calibration::Cali
                              {"nominal", parametersJson(calibration::denavitHartenberg(day.arm, day.arm))}};
   json["masses_known"] = day.masses_known;
   json["stiffness_by_own_weight"] = day.masses_known ? stiffnessJson(best) : Json(nullptr);
+  json["joint_angles"] = anglesJson(calibration);
   json["notes"] = words(calibration.notes);
   return json;
 }

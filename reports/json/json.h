@@ -36,6 +36,9 @@ struct SpikeStudy;
 namespace stiffscope::extended_model {
 struct ExtendedModel;
 }
+namespace stiffscope::mistakes {
+struct ModelAgreement;
+}
 namespace stiffscope::frames {
 struct Frames;
 }
@@ -60,6 +63,9 @@ struct BlindResult;
 namespace stiffscope::reports {
 
 struct ReportContent;
+
+/// Which joint angles a calibration stands on, and, where the log has both kinds, how well either predicts.
+Json anglesJson(const calibration::Calibration& calibration);
 
 /// The result of `calibrate`: folds, postures, models (each: effects by id, parts with their sizes, fitted and held-out
 /// errors in mm), rejected readings, axes of the geometry in base_link with their standard uncertainties,
@@ -141,6 +147,8 @@ Json truthJson(const simulation::SimulationSpec& spec);
 
 /// The result of `audit`: verdict, checks with figure and limit (null where not testable), rejected readings.
 Json auditJson(const campaign::Campaign& campaign, const audit::AuditReport& report);
+/// Adds that the day contradicts the model, with what would mend it; nothing where it does not.
+Json withAgreement(Json result, const mistakes::ModelAgreement& agreement);
 
 /// `pass`, `warn`, `fail` or `not_testable`.
 const char* nameOf(preparation::AuditVerdict verdict);

@@ -89,6 +89,7 @@ void writeAccuracy(Html& html, const reports::ReportContent& content) {
     html.paragraph(reports::capitalised(reports::foldWords(one.calibrated_by)) + ".", "faint");
     std::vector<std::string> notes = reports::modelNotes(calibration);
     for (const Remark& note : calibration.notes) notes.push_back(reports::words(note));
+    if (calibration.angles) notes.push_back(reports::angleWords(*calibration.angles, calibration.day.angles));
     for (std::string& note : notes) note = reports::asIs(reports::capitalised(note)) + ".";
     html.list(notes);
     writeTable(html, worstTable(calibration, errors));

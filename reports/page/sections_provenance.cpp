@@ -147,11 +147,10 @@ void writeUnanswered(Html& html, const audit::AuditReport& report) {
 
 void writeSuspected(Html& html, const audit::AuditReport& report) {
   std::vector<std::string> items;
-  for (const audit::Suspected& one : report.suspected) {
-    items.push_back(fmt::format(
-        "Suspected: {} of the {}; {}; readings over the day then scatter by {:.2f} of it instead "
-        "of {:.2f}.",
-        reports::auditName(one.mistake), reports::words(one.where), reports::words(one.remedy), one.after, one.before));
+  for (const mistakes::Suspected& one : report.suspected) {
+    items.push_back(fmt::format("Suspected: {} of the {}; {}{}{}.", reports::auditName(one.mistake),
+                                reports::words(one.where), reports::words(one.remedy), one.shown.empty() ? "" : "; ",
+                                reports::words(one.shown)));
   }
   html.list(items);
 }

@@ -9,6 +9,7 @@
 #include "core/io/units.h"
 #include "reports/text/gap_text.h"
 #include "reports/text/text.h"
+#include "reports/words/calibration_words.h"
 #include "reports/words/numbers.h"
 #include "reports/words/remark_words.h"
 
@@ -95,6 +96,9 @@ std::string accuracyText(const campaign::Campaign& campaign, const AccuracyDiagn
       um(accuracy.gap.nominal), um(accuracy.gap.before), um(accuracy.gap.after),
       unsignedZero(accuracy.shrink_together.value, 3), shrinkInterval(accuracy.shrink_together),
       um(accuracy.gap.noise));
+  if (accuracy.calibration.angles)
+    fmt::format_to(out, "  {}\n",
+                   wrapped(angleWords(*accuracy.calibration.angles, accuracy.calibration.day.angles), 4));
   writeClasses(accuracy, out);
   text += whereText(accuracy.where, "Where the gap lies that the calibrated geometry leaves");
   writeLimits(accuracy, out);

@@ -1,4 +1,5 @@
 #include "core/audit/audit.h"
+#include "core/mistakes/find_mistakes.h"
 #include "reports/text/text.h"
 
 #include <fmt/format.h>
@@ -57,16 +58,14 @@ void writeUnanswered(const audit::AuditReport& report, Out out) {
   for (const Remark& one : report.unanswered) fmt::format_to(out, "  {}\n", wrapped(words(one), 4));
 }
 
-void writeSuspected(const audit::AuditReport& report, Out out) {
-  if (report.suspected.empty()) return;
+void writeSuspected(const std::vector<mistakes::Suspected>& suspected, Out out) {
+  if (suspected.empty()) return;
   fmt::format_to(out, "\nSuspected\n");
-  for (const audit::Suspected& one : report.suspected) {
-    fmt::format_to(
-        out, "  {}\n",
-        wrapped(fmt::format("{} of the {}: {}; readings over the day then scatter by {:.2f} of it instead of "
-                            "{:.2f}",
-                            one.mistake, words(one.where), words(one.remedy), one.after, one.before),
-                4));
+  for (const mistakes::Suspected& one : suspected) {
+    fmt::format_to(out, "  {}\n",
+                   wrapped(fmt::format("{} of the {}: {}{}{}", one.mistake, words(one.where), words(one.remedy),
+                                       one.shown.empty() ? "" : "; ", words(one.shown)),
+                           4));
   }
 }
 
@@ -105,6 +104,20 @@ void writeMessages(const audit::AuditReport& report, preparation::AuditVerdict v
 
 }  // namespace
 
+std::string agreementText(const mistakes::ModelAgreement& agreement) {
+  if (!agreement.contradicted()) return {};
+  std::string text;
+  Out out(text);
+  fmt::format_to(out, "\n{}\n",
+                 wrapped("The day contradicts the model so far that no number above serves" +
+                             std::string(agreement.arm.empty() && agreement.loads.empty()
+                                             ? ": none of the usual mistakes explains it. See audit."
+                                             : ": a mistake is in the files."),
+                         0));
+  for (const auto* cures : {&agreement.arm, &agreement.loads}) writeSuspected(*cures, out);
+  return text;
+}
+
 std::string auditText(const campaign::Campaign& campaign, const audit::AuditReport& report) {
   std::string text;
   Out out(text);
@@ -113,7 +126,7 @@ std::string auditText(const campaign::Campaign& campaign, const audit::AuditRepo
   writeUnanswered(report, out);
   fmt::format_to(out, "\n");
   writeChecks(report, out);
-  writeSuspected(report, out);
+  writeSuspected(report.suspected, out);
   writeMessages(report, preparation::AuditVerdict::fail, "Fails", out);
   writeMessages(report, preparation::AuditVerdict::warn, "Warns", out);
   writeMessages(report, preparation::AuditVerdict::not_testable, "Not testable", out);

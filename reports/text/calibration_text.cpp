@@ -26,6 +26,8 @@ void writeModels(const calibration::Calibration& calibration, const calibration:
                    model.held_out.largest / io::kMillimetre, model.fit.parameters);
   }
   fmt::format_to(out, "  {}\n", foldWords(options));
+  if (calibration.angles)
+    fmt::format_to(out, "  {}\n", wrapped(angleWords(*calibration.angles, calibration.day.angles), 4));
 }
 
 void writeEffects(const calibration::Calibration& calibration, Out out) {

@@ -38,6 +38,9 @@ struct ExtendedModel;
 namespace stiffscope::frames {
 struct Frames;
 }
+namespace stiffscope::mistakes {
+struct ModelAgreement;
+}
 namespace stiffscope::identification {
 struct HeldOutLoads;
 struct Identification;
@@ -59,6 +62,8 @@ struct ShapeFit;
 /// The audit for people: a table of the checks, then what those that did not pass say, then the rejected
 /// readings.
 std::string auditText(const campaign::Campaign& campaign, const audit::AuditReport& report);
+/// That the day contradicts the model, and what would mend it; empty where it does not.
+std::string agreementText(const mistakes::ModelAgreement& agreement);
 
 /// The result of `diagnose` on a day without a load.
 std::string accuracyText(const campaign::Campaign& campaign, const accuracy::AccuracyDiagnosis& accuracy);

@@ -51,6 +51,8 @@ constexpr std::array kPrinted{
     PrintedUnit{"moment_lever", "of its sd"},
     PrintedUnit{"load_size", "N/mm", io::kMillimetre},
     PrintedUnit{"posture_set", "condition number"},
+    PrintedUnit{"arm_model", "mm", 1.0, io::kMillimetre},
+    PrintedUnit{"load_model", "% left", 100.0},
 };
 
 consteval bool printsAllChecks() {

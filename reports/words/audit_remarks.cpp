@@ -56,6 +56,12 @@ std::string wristAxesMiss(const RemarkValues& values) {
                      more(values, 1));
 }
 
+std::string mending(std::int64_t cures) {
+  if (cures == 0) return "the readings contradict the model, and none of the usual mistakes explains it";
+  return cures == 1 ? "one of the usual mistakes explains it (suspected)"
+                    : fmt::format("{} mistakes would each explain it (suspected), or are several", cures);
+}
+
 std::string unloadedReading(const RemarkValues& values) {
   const std::vector<double>& mean = values.numbers(0);
   return fmt::format(
@@ -525,6 +531,27 @@ std::string auditWords(audit::RemarkId id, const RemarkValues& values) {
       return fmt::format("effects that could be told apart: {}", fmt::join(values.names(0), ", "));
     case audit::RemarkId::effects_alike:
       return fmt::format("effects that could not always be told apart: {}", fmt::join(values.names(0), " or "));
+    case audit::RemarkId::no_readings_of_arm:
+      return "too few readings of the unloaded arm in several postures to hold it against the URDF";
+    case audit::RemarkId::few_loads_of_model:
+      return "fewer than six loaded states with a wrench and readings of reflectors in postures that fit the URDF";
+    case audit::RemarkId::machines_off_drawing:
+      return "no machine is built that far off its drawing";
+    case audit::RemarkId::machines_leave:
+      return fmt::format("half of the displacements; simulated machines with every effect leave {:.0f} % at most",
+                         100.0 * values.number(0));
+    case audit::RemarkId::readings_agree:
+      return fmt::format("postures and sweeps miss the URDF's arm, sag taken off, by {:.3g} mm (median)",
+                         values.number(0) / io::kMillimetre);
+    case audit::RemarkId::readings_contradict:
+      return fmt::format("postures and sweeps miss the URDF's arm, sag taken off, by {:.4g} mm (median): {}",
+                         values.number(0) / io::kMillimetre, mending(values.count(1)));
+    case audit::RemarkId::springs_agree:
+      return fmt::format("joint springs on the URDF's arm leave {:.1f} % of the displacements",
+                         100.0 * values.number(0));
+    case audit::RemarkId::springs_contradict:
+      return fmt::format("joint springs on the URDF's arm leave {:.1f} % of the displacements: {}",
+                         100.0 * values.number(0), mending(values.count(1)));
     case audit::RemarkId::effects_not_testable:
       return fmt::format("effects that cannot be tested here (diagnose says what is missing): {}",
                          fmt::join(values.names(0), ", "));

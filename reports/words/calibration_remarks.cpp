@@ -41,7 +41,9 @@ std::string calibrationWords(calibration::RemarkId id, const RemarkValues& value
                                  : fmt::format("{}: known to {:.2f} deg only by these postures", axisParameter(values),
                                                values.number(2) / io::kDegree);
     case RemarkId::no_masses:
-      return "the URDF states no link masses: own weight is not fitted, and no stiffness can be given";
+      return "the URDF states no link masses: of the own weight only products of a joint's compliance with a moment "
+             "are "
+             "seen, and no stiffness can be given";
     case RemarkId::negative_compliance:
       return fmt::format("{} of {} would be negative, which no spring is: left at zero", values.name(0),
                          values.name(1));

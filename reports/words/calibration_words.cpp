@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 #include <algorithm>
+#include <cmath>
 
+#include "core/io/units.h"
 #include "reports/words/entry_words.h"
 #include "reports/words/remark_words.h"
 
@@ -46,6 +48,22 @@ std::vector<std::string> modelNotes(const calibration::Calibration& calibration)
     for (const Remark& note : model.notes) notes.push_back(fmt::format("{}: {}", nameOf(model.model), words(note)));
   }
   return notes;
+}
+
+const char* nameOf(calibration::JointAngles angles) {
+  return angles == calibration::JointAngles::reported ? "reported" : "commanded";
+}
+
+std::string angleWords(const calibration::AngleComparison& angles, calibration::JointAngles used) {
+  std::string text = fmt::format(
+      "joint angles: the fullest model predicts held-out postures to {:.4f} mm from the reported angles and to {:.4f} "
+      "mm from the commanded ones, which differ by up to {:.4f} deg: ",
+      angles.reported.rms / io::kMillimetre, angles.commanded.rms / io::kMillimetre, angles.largest / io::kDegree);
+  if (!angles.better) return text + "neither fits significantly better";
+  text += fmt::format("the {} fit better ({:.1f} standard uncertainties)", nameOf(*angles.better),
+                      std::abs(angles.significance));
+  if (*angles.better != used) text += fmt::format("; `--angles {}` uses them", nameOf(*angles.better));
+  return text;
 }
 
 std::string partName(const calibration::EffectPart& part) {

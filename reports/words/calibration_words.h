@@ -20,6 +20,11 @@ std::string foldWords(const calibration::CalibrationOptions& options);
 /// What is to be said of the models: refused compliances, no effect.
 std::vector<std::string> modelNotes(const calibration::Calibration& calibration);
 
+const char* nameOf(calibration::JointAngles angles);  ///< "reported", "commanded"
+
+/// How well either kind of joint angles predicts, and which fits; `used`: those that the calibration stands on.
+std::string angleWords(const calibration::AngleComparison& angles, calibration::JointAngles used);
+
 /// "transmission error (joint 2, order 17.25)"
 std::string partName(const calibration::EffectPart& part);
 

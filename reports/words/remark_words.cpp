@@ -32,6 +32,7 @@ const std::unordered_map<std::type_index, FamilyWords>& families() {
       of<frames::RemarkId, &framesWords>(),
       of<identification::RemarkId, &identificationWords>(),
       of<metrology::RemarkId, &metrologyWords>(),
+      of<mistakes::RemarkId, &mistakesWords>(),
       of<planning::RemarkId, &planningWords>(),
       of<preparation::RemarkId, &preparationWords>(),
       of<validation::RemarkId, &validationWords>(),

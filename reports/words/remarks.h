@@ -12,6 +12,7 @@
 #include "core/extended_model/remarks.h"
 #include "core/frames/remarks.h"
 #include "core/identification/remarks.h"
+#include "core/mistakes/remarks.h"
 #include "core/planning/remarks.h"
 #include "core/preparation/remarks.h"
 #include "core/validation/remarks.h"
@@ -33,6 +34,7 @@ std::string extendedModelWords(extended_model::RemarkId id, const RemarkValues& 
 std::string framesWords(frames::RemarkId id, const RemarkValues& values);
 std::string identificationWords(identification::RemarkId id, const RemarkValues& values);
 std::string metrologyWords(metrology::RemarkId id, const RemarkValues& values);
+std::string mistakesWords(mistakes::RemarkId id, const RemarkValues& values);
 std::string planningWords(planning::RemarkId id, const RemarkValues& values);
 std::string preparationWords(preparation::RemarkId id, const RemarkValues& values);
 std::string validationWords(validation::RemarkId id, const RemarkValues& values);

@@ -61,5 +61,18 @@ TEST(CalibrateCommand, IdentifyNamesIt) {
   EXPECT_NE(ran.err.find("calibrate"), std::string::npos) << ran.err;
 }
 
+TEST(CalibrateCommand, CommandedAnglesMustBeThere) {
+  const ScratchFolder scratch;
+  const std::string day = "'" STIFFSCOPE_SOURCE_DIR "/samples/unloaded'";
+  for (const std::string command : {"calibrate ", "diagnose "}) {
+    const Ran none = runProgram(command + day + " --angles commanded", scratch.path());
+    EXPECT_EQ(none.status, 2);
+    EXPECT_NE(none.err.find("no joint has a commanded angle (c1_deg to c6_deg"), std::string::npos) << none.err;
+    const Ran unknown = runProgram(command + day + " --angles comanded", scratch.path());
+    EXPECT_EQ(unknown.status, 2);
+    EXPECT_NE(unknown.err.find("did you mean 'commanded'?"), std::string::npos) << unknown.err;
+  }
+}
+
 }  // namespace calibrate_command_test
 }  // namespace stiffscope

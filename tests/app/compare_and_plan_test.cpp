@@ -196,7 +196,11 @@ TEST(PlanCommand, PlansADayWithoutALoad) {
   EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 13);
   EXPECT_EQ(table.rfind("pose,q1_deg,", 0), 0u);
   EXPECT_EQ(runProgram(words + "--json -", scratch.path()).out, ran.out);
-  EXPECT_EQ(runProgram(words + "--load 100", scratch.path()).status, 2);
+  for (const std::string loaded : {"--load 100", "--hook 0,0,100", "--criterion determinant", "--springs-only"}) {
+    const Ran refused = runProgram(words + loaded, scratch.path());
+    EXPECT_EQ(refused.status, 2) << loaded;
+    EXPECT_NE(refused.err.find(loaded.substr(0, loaded.find(' '))), std::string::npos) << refused.err;
+  }
 }
 
 }  // namespace compare_and_plan_test

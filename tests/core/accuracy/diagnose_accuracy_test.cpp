@@ -156,6 +156,24 @@ TEST(DiagnoseAccuracy, JointsThatTwistUnderTheOwnWeight) {
   EXPECT_EQ(result.verdict.front().effects.front(), UnloadedEffect::joint_compliance) << inWords(result);
 }
 
+// The same machine, whose URDF states no masses: products of compliances and moments explain it.
+TEST(DiagnoseAccuracy, WeightsThatNobodyStatesAreSeenAsProducts) {
+  Noise noise(38);
+  UnloadedSpec spec = machine(noise, 120);
+  spec.joint_errors = [arm = spec.nominal](const Vector6d& q) {
+    return Vector6d(exampleCompliance().cwiseProduct(arm.weightTorque(q)));
+  };
+  spec.nominal.mass = {};
+  const AccuracyDiagnosis result = diagnosed(spec, noise);
+  ASSERT_FALSE(result.calibration.day.masses_known);
+  ASSERT_FALSE(result.verdict.empty());
+  const auto& effects = result.verdict.front().effects;
+  EXPECT_NE(std::find(effects.begin(), effects.end(), UnloadedEffect::joint_compliance), effects.end())
+      << inWords(result);
+  EXPECT_GT(result.gap.before, 3.0 * result.gap.noise);
+  EXPECT_LT(result.gap.after, 1.5 * result.gap.noise);
+}
+
 TEST(DiagnoseAccuracy, TwoAtOnceAreBothNamed) {
   Noise noise(27);
   UnloadedSpec spec = machine(noise, 100);

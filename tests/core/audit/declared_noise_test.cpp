@@ -131,7 +131,7 @@ TEST(DeclaredNoise, SaysWhatToDeclareInstead) {
   const audit::AuditReport report = audit::audit(dayOf(1, {kTrackerTimes}));
   EXPECT_EQ(report.verdict, preparation::AuditVerdict::warn);
   ASSERT_EQ(report.suspected.size(), 1u);
-  const audit::Suspected& one = report.suspected[0];
+  const mistakes::Suspected& one = report.suspected[0];
   EXPECT_EQ(one.mistake, "noise_declared");
   EXPECT_TRUE(one.where.is(audit::RemarkId::at_tracker));
   ASSERT_TRUE(one.remedy.is(audit::RemarkId::declare_tracker_noise));

@@ -83,7 +83,7 @@ TEST(Evidence, AnEmptyCampaignIsNotTestable) {
   const audit::AuditReport report = audit::audit(SimulatedLab().empty());
   EXPECT_EQ(report.verdict, preparation::AuditVerdict::not_testable);
   EXPECT_EQ(report.made, 0);
-  EXPECT_EQ(report.of, 31);
+  EXPECT_EQ(report.of, 33);
   EXPECT_EQ(report.unanswered.size(), 4u);
   for (const preparation::AuditCheck& check : report.checks)
     EXPECT_EQ(check.verdict, preparation::AuditVerdict::not_testable) << check.id;
@@ -91,14 +91,14 @@ TEST(Evidence, AnEmptyCampaignIsNotTestable) {
 }
 
 // One reflector, one load step, forces alone: the day could be identified from, and nothing says that it is right.
-TEST(Evidence, FiveChecksAreNotEnough) {
+TEST(Evidence, SixChecksAreNotEnough) {
   const audit::AuditReport report = audit::audit(displacementDay({}));
   EXPECT_EQ(report.verdict, preparation::AuditVerdict::not_testable);
-  EXPECT_EQ(report.made, 5);
+  EXPECT_EQ(report.made, 6);
   ASSERT_EQ(report.unanswered.size(), 2u);
   EXPECT_TRUE(unanswered(report, audit::RemarkId::unknown_worth_of_readings));
   EXPECT_TRUE(unanswered(report, audit::RemarkId::unknown_load_cell));
-  for (const char* id : {"time_order", "completeness", "servo_change", "load_size", "posture_set"})
+  for (const char* id : {"time_order", "completeness", "servo_change", "load_size", "posture_set", "load_model"})
     EXPECT_NE(checkOf(report, id).verdict, preparation::AuditVerdict::not_testable) << id;
 }
 

@@ -138,5 +138,52 @@ TEST(Calibrate, RealDaysAreBelowTheReference) {
   }
 }
 
+/// A day whose log has both kinds of angles; the kind that is not right is off by a random 0.01 deg.
+campaign::Campaign dayWithBothAngles(calibration::JointAngles right) {
+  Noise noise(23);
+  UnloadedSpec spec = builtOtherwise(noise);
+  spec.postures = 80;
+  campaign::Campaign campaign = unloadedCampaign(spec, noise);
+  Noise off(24);
+  for (campaign::State& state : campaign.states->rows) {
+    state.commanded = state.q;
+    Vector6d& wrong = right == calibration::JointAngles::commanded ? state.q : state.commanded;
+    for (int j = 0; j < 6; ++j) wrong[j] += 1.75e-4 * off.normal();
+  }
+  return campaign;
+}
+
+TEST(Calibrate, SaysWhichAnglesFit) {
+  for (const auto right : {calibration::JointAngles::reported, calibration::JointAngles::commanded}) {
+    const campaign::Campaign campaign = dayWithBothAngles(right);
+    const calibration::Calibration by_report = calibration::calibrate(campaign, {});
+    ASSERT_TRUE(by_report.angles);
+    ASSERT_TRUE(by_report.angles->better);
+    EXPECT_EQ(*by_report.angles->better, right);
+    const calibration::Calibration by_command =
+        calibration::calibrate(campaign, {.angles = calibration::JointAngles::commanded});
+    // What is chosen is used, and either way the same comparison is stated.
+    EXPECT_DOUBLE_EQ(by_report.best().held_out.rms, by_report.angles->reported.rms);
+    EXPECT_DOUBLE_EQ(by_command.best().held_out.rms, by_report.angles->commanded.rms);
+    EXPECT_DOUBLE_EQ(by_command.angles->significance, by_report.angles->significance);
+    const double good =
+        right == calibration::JointAngles::reported ? by_report.best().held_out.rms : by_command.best().held_out.rms;
+    EXPECT_LT(good, 1.6 * std::sqrt(3.0) * 20e-6);
+  }
+}
+
+TEST(Calibrate, AnglesThatDifferByRoundingAreNotJudged) {
+  campaign::Campaign campaign = dayWithBothAngles(calibration::JointAngles::reported);
+  for (campaign::State& state : campaign.states->rows) {
+    for (int j = 0; j < 6; ++j) state.commanded[j] = std::round(state.q[j] / 1e-6) * 1e-6;
+  }
+  const calibration::Calibration result = calibration::calibrate(campaign, {});
+  ASSERT_TRUE(result.angles);
+  EXPECT_FALSE(result.angles->better);
+  // A posture without its commanded angle: that joint has none.
+  campaign.states->rows[7].commanded[2] = std::nan("");
+  EXPECT_EQ(calibration::commandedJoints(campaign), (std::array<bool, 6>{true, true, false, true, true, true}));
+}
+
 }  // namespace calibrate_test
 }  // namespace stiffscope

@@ -69,7 +69,7 @@ struct CleanDay {
 LinearModel added(const LinearisedDay& day, const EffectPart& part) {
   LinearModel model = day.geometryAlone();
   const Eigen::MatrixXd columns = day.columnsOf(part.terms);
-  day.add(part, day.acrossGeometry(columns), columns.colwise().norm(), 0.0, model);
+  day.add(part, {day.acrossGeometry(columns), columns.colwise().norm()}, 0.0, model);
   return model;
 }
 
@@ -181,7 +181,9 @@ TEST(FamilyFit, AnEffectIsFoundByItsOwnFamily) {
     const UnloadedDay moved = clean.with(one.part, one.sizes);
     const LinearisedDay before(clean.day, clean.geometry, folds()), day(moved, clean.geometry, folds());
     const FamilyFit fits(day, 1e-3, 6);
-    const auto model = fits.fit(familyOf(fits, one.part.effect), day.geometryAlone(), static_cast<double>(day.rows()));
+    const LinearModel nothing = day.geometryAlone();
+    const auto model =
+        fits.fit(familyOf(fits, one.part.effect), nothing, fits.productsOf(nothing), static_cast<double>(day.rows()));
     ASSERT_TRUE(model.has_value());
     ASSERT_FALSE(model->parts.empty());
     EXPECT_EQ(model->parts.front().detail, one.part.detail);
@@ -195,8 +197,10 @@ TEST(FamilyFit, ACleanDayHasNoneOfThem) {
   const CleanDay clean(72);
   const LinearisedDay day(clean.day, clean.geometry, folds());
   const FamilyFit fits(day, 1e-3, 6);
+  const LinearModel nothing = day.geometryAlone();
+  const FamilyFit::Products beside = fits.productsOf(nothing);
   for (std::size_t family = 0; family < fits.families().size(); ++family) {
-    EXPECT_FALSE(fits.fit(family, day.geometryAlone(), static_cast<double>(day.rows())).has_value())
+    EXPECT_FALSE(fits.fit(family, nothing, beside, static_cast<double>(day.rows())).has_value())
         << idOf(fits.families()[family].effect);
   }
 }
@@ -206,14 +210,18 @@ TEST(FamilyFit, FallIsOfTheLogarithmOfSquares) {
   EXPECT_EQ(FamilyFit::fall(2.0, 2.0, 100.0), 0.0);
 }
 
-TEST(FamilyFit, TakesPartsOverButThoseOfOneEffect) {
+TEST(LinearisedDay, KeepsThePartsOfTheEffectsThatStay) {
   const CleanDay clean(73);
   const LinearisedDay day(clean.day, clean.geometry, folds());
-  const FamilyFit fits(day, 1e-3, 6);
   EffectPart wave = calibration::transmissionError(1, 3.0), scale = calibration::scaleError(0.5);
   wave.penalty = 5.0, scale.penalty = 3.0;
-  const LinearModel both = fits.withParts(day.geometryAlone(), {wave, scale}, UnloadedEffect::kinematic_error);
-  const LinearModel one = fits.withParts(day.geometryAlone(), {wave, scale}, UnloadedEffect::scale_error);
+  LinearModel both = day.geometryAlone();
+  for (const EffectPart& part : {wave, scale}) {
+    const Eigen::MatrixXd columns = day.columnsOf(part.terms);
+    day.add(part, {day.acrossGeometry(columns), columns.colwise().norm()}, part.penalty, both);
+  }
+  const LinearModel one =
+      day.keeping(both, [](UnloadedEffect effect) { return effect != UnloadedEffect::scale_error; });
   EXPECT_EQ(both.directions.cols(), 3);
   EXPECT_EQ(both.penalty, 8.0);
   ASSERT_EQ(one.parts.size(), 1u);

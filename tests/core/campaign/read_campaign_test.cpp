@@ -8,6 +8,7 @@
 #include <sstream>
 #include "core/io/input_error.h"
 #include "core/io/read_file.h"
+#include "core/io/units.h"
 #include "tests/fixtures/small_campaign.h"
 
 namespace stiffscope {
@@ -219,6 +220,50 @@ TEST(ReadCampaign, RefusesStiffnessesThatCannotBeKnown) {
   for (const auto& [attributes, message] : cases) {
     const SmallCampaign files;
     files.alter("campaign.xml", "<tool mass_kg", std::string("<known_stiffness ") + attributes + "/><tool mass_kg");
+    try {
+      campaign::readCampaign(files.folder());
+      ADD_FAILURE() << "read on instead of: " << message;
+    } catch (const io::InputError& error) {
+      EXPECT_NE(std::string(error.what()).find(message), std::string::npos) << error.what();
+    }
+  }
+}
+
+TEST(ReadCampaign, TurnsTheControllersFiguresIntoAngles) {
+  const SmallCampaign plain, files;
+  files.alter("campaign.xml", "<tool mass_kg",
+              "<joint_reading joint=\"3\" sign=\"-1\" offset_deg=\"90\" plus=\"2\"/>"
+              "<joint_reading joint=\"6\" offset_deg=\"-180\"/><tool mass_kg");
+  files.alter("campaign.xml", "<robot ", "<robot controller_model=\"absolute_accuracy\" ");
+  const campaign::CampaignReading raw = campaign::readCampaign(plain.folder());
+  const campaign::CampaignReading reading = campaign::readCampaign(files.folder());
+  EXPECT_EQ(reading.campaign.controller_model, campaign::ControllerModel::absolute_accuracy);
+  const auto check = [](const auto& figures, const auto& angles) {
+    ASSERT_FALSE(figures.rows.empty());
+    for (std::size_t i = 0; i < figures.rows.size(); ++i) {
+      Vector6d q = figures.rows[i].q;
+      q[2] = -q[2] + 90.0 * io::kDegree + q[1];
+      q[5] -= 180.0 * io::kDegree;
+      EXPECT_LT((angles.rows[i].q - q).norm(), 1e-11);  // the ninth decimal of a degree
+    }
+  };
+  check(*raw.campaign.states, *reading.campaign.states);
+  check(*raw.campaign.circle_sweeps, *reading.campaign.circle_sweeps);
+  check(*raw.campaign.wrist_sweep, *reading.campaign.wrist_sweep);
+}
+
+TEST(ReadCampaign, RefusesFiguresThatGiveNoAngles) {
+  const std::pair<const char*, const char*> cases[] = {
+      {"joint=\"7\"", "joint: '7': expected a joint's number, 1 to 6"},
+      {"joint=\"3\" sign=\"2\"", "sign: '2': expected 1 or -1"},
+      {"joint=\"3\" offset_deg=\"9000\"", "offset_deg: '9000'"},
+      {"joint=\"3\" plus=\"3\"", "plus: '3': expected another joint than this one"},
+      {"joint=\"3\"/><joint_reading joint=\"3\"", "joint: '3': expected a joint that does not repeat"},
+      {"joint=\"3\" plus=\"2\"/><joint_reading joint=\"2\" plus=\"3\"",
+       "plus: '3': expected joints that are not added to each other in a circle"}};
+  for (const auto& [attributes, message] : cases) {
+    const SmallCampaign files;
+    files.alter("campaign.xml", "<tool mass_kg", std::string("<joint_reading ") + attributes + "/><tool mass_kg");
     try {
       campaign::readCampaign(files.folder());
       ADD_FAILURE() << "read on instead of: " << message;

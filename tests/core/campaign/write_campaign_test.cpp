@@ -145,6 +145,22 @@ TEST(WriteCampaign, WritesNamesAndTextsThatNeedCare) {
   expectRoundTrip(campaign, files.folder() / "robot.urdf");
 }
 
+TEST(WriteCampaign, WritesTheControllersFiguresAgain) {
+  const SmallCampaign files;
+  campaign::Campaign campaign = campaign::readCampaign(files.folder()).campaign;
+  campaign.joint_readings = {{2, -1.0, 1.5, 1}, {4, 1.0, -0.5, -1}};
+  campaign.controller_model = campaign::ControllerModel::nominal;
+  campaign.states->rows[0].commanded = campaign.states->rows[0].q;
+  expectRoundTrip(campaign, files.folder() / "robot.urdf");
+  const TemporaryFolder folder;
+  campaign::writeCampaign(campaign, files.folder() / "robot.urdf", folder.path() / "new");
+  const campaign::Campaign read = campaign::readCampaign(folder.path() / "new").campaign;
+  ASSERT_EQ(read.joint_readings.size(), 2u);
+  EXPECT_EQ(read.joint_readings[0].plus, 1);
+  EXPECT_EQ(read.controller_model, campaign::ControllerModel::nominal);
+  expectClose(read.states->rows[0].commanded, campaign.states->rows[0].q, kAngle * 3);  // three figures are rounded
+}
+
 TEST(WriteCampaign, SecondEncodersAreWrittenWhereTheyAreAndBlankWhereNot) {
   const SmallCampaign files;
   campaign::Campaign campaign = campaign::readCampaign(files.folder()).campaign;

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
+#include "core/accuracy/diagnose_accuracy.h"
 #include "core/diagnosis/diagnose.h"
 #include "core/numerics/parallel.h"
 #include "core/simulation/measure.h"
@@ -76,6 +77,28 @@ TEST(BlindFloor, fortyMachines) {
   expectFloor(score, "doubles_both_found", 0.89);
   expectFloor(score, "as_is", 0.9);
   expectFloor(score, "as_is_effects_from_2", 0.85);
+  expectCeiling(score, "false_alarms", 0.02);
+}
+
+// The same of days without a load.
+TEST(BlindFloor, fortyUnloadedMachines) {
+  const fs::path folder = fs::temp_directory_path() / "stiffscope_blind_unloaded_floor";
+  fs::remove_all(folder);
+  validation::BlindOptions options;
+  options.cases = 40;
+  options.seed = 20261124;
+  options.out = folder;
+  options.discard = true;
+  options.unloaded = true;
+  const validation::Score score = validation::runBlind(options, [](const auto& campaign) {
+                                    return validation::answerOf(accuracy::diagnoseAccuracy(campaign));
+                                  }).score;
+  fs::remove_all(folder);
+  EXPECT_EQ(score.rate("failed").hits, 0);
+  expectFloor(score, "singles_first_from_2", 0.95);
+  expectFloor(score, "singles_found_from_2", 0.95);
+  expectFloor(score, "doubles_both_found", 0.92);
+  expectFloor(score, "unknown", 0.75);
   expectCeiling(score, "false_alarms", 0.02);
 }
 

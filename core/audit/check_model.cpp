@@ -1,0 +1,48 @@
+#include "core/audit/checks.h"
+#include "core/audit/remarks.h"
+#include "core/identification/warnings.h"
+#include "core/mistakes/load_search.h"
+#include "core/preparation/finding.h"
+
+namespace stiffscope::audit {
+
+namespace {
+
+preparation::AuditCheck armCheck(const mistakes::ModelAgreement& model) {
+  if (!model.arm_miss) return preparation::notTestable("arm_model", Remark(RemarkId::no_readings_of_arm));
+  preparation::AuditCheck check;
+  check.id = "arm_model";
+  check.value = *model.arm_miss;
+  check.limit = identification::kMissedGeometry;
+  check.limit_source = Remark(RemarkId::machines_off_drawing);
+  check.message = Remark(RemarkId::readings_agree, *model.arm_miss);
+  if (!model.arm_contradicted) return check;
+  check.verdict = preparation::AuditVerdict::fail;
+  check.impossible = true;
+  if (model.arm.size() == 1) check.where = model.arm.front().where;
+  check.message = Remark(RemarkId::readings_contradict, *model.arm_miss, model.arm.size());
+  return check;
+}
+
+preparation::AuditCheck loadCheck(const mistakes::ModelAgreement& model) {
+  if (!model.loads_left) return preparation::notTestable("load_model", Remark(RemarkId::few_loads_of_model));
+  constexpr double kSimulated = 0.15;  // largest share of 116 simulated machines with every effect
+  preparation::AuditCheck check;
+  check.id = "load_model";
+  check.value = *model.loads_left;
+  check.limit = mistakes::kContradicts;
+  check.limit_source = Remark(RemarkId::machines_leave, kSimulated);
+  check.message = Remark(RemarkId::springs_agree, *model.loads_left);
+  if (!model.loads_contradicted) return check;
+  check.verdict = preparation::AuditVerdict::fail;
+  check.impossible = true;
+  if (model.loads.size() == 1) check.where = model.loads.front().where;
+  check.message = Remark(RemarkId::springs_contradict, *model.loads_left, model.loads.size());
+  return check;
+}
+
+}  // namespace
+
+Findings checkModel(const AuditInput& input) { return {armCheck(input.model), loadCheck(input.model)}; }
+
+}  // namespace stiffscope::audit

@@ -1,0 +1,247 @@
+#include "core/interchange/column_table.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <set>
+
+#include "core/io/input_error.h"
+#include "core/io/units.h"
+
+namespace stiffscope::interchange {
+
+namespace {
+
+struct ColumnUnit {
+  const char* suffix;
+  double si_per_unit;
+};
+
+constexpr std::array kLengthUnits{ColumnUnit{"_mm", 1e-3}, ColumnUnit{"_m", 1.0}, ColumnUnit{"_um", 1e-6},
+                                  ColumnUnit{"_in", 0.0254}};
+constexpr std::array kAngleUnits{ColumnUnit{"_deg", io::kDegree}, ColumnUnit{"_rad", 1.0}};
+constexpr std::array kTimeUnits{ColumnUnit{"_s", 1.0}, ColumnUnit{"_ms", 1e-3}};
+constexpr std::array kForceUnits{ColumnUnit{"_n", 1.0}, ColumnUnit{"_kn", 1e3}};
+constexpr std::array kMomentUnits{ColumnUnit{"_nm", 1.0}};
+constexpr std::array kTemperatureUnits{ColumnUnit{"_c", 1.0}};
+
+/// Names of columns of text.
+const std::set<std::string>& textColumns() {
+  static const std::set<std::string> names{"target", "group",  "collection", "name",  "time", "pose",
+                                           "step",   "repeat", "axis",       "index", "nest"};
+  return names;
+}
+
+struct Quantity {
+  std::string name;
+  double si_per_unit = 1.0;
+};
+
+/// All names of columns of numbers, with what they hold.
+const std::map<std::string, Quantity>& numberColumns() {
+  static const std::map<std::string, Quantity> all = [] {
+    std::map<std::string, Quantity> columns;
+    const auto add = [&](const std::string& quantity, const auto& units) {
+      for (const ColumnUnit& unit : units) columns[quantity + unit.suffix] = {quantity, unit.si_per_unit};
+    };
+    for (const char* axis : {"x", "y", "z"}) {
+      add(axis, kLengthUnits);
+      add(std::string("u") + axis, kLengthUnits);
+      add(std::string("f") + axis, kForceUnits);
+      add(std::string("m") + axis, kMomentUnits);
+    }
+    for (const char kind : {'q', 'c', 'm'}) {
+      for (char joint = '1'; joint <= '6'; ++joint) add({kind, joint}, kAngleUnits);
+    }
+    add("time", kTimeUnits);
+    add("temperature", kTemperatureUnits);
+    return columns;
+  }();
+  return all;
+}
+
+std::vector<std::string> knownColumns() {
+  std::vector<std::string> known(textColumns().begin(), textColumns().end());
+  for (const auto& [name, quantity] : numberColumns()) known.push_back(name);
+  return known;
+}
+
+bool isKnownColumn(const std::string& name) { return textColumns().contains(name) || numberColumns().contains(name); }
+
+std::vector<std::string> wordsBetweenBlanks(std::string_view text) {
+  std::vector<std::string> words;
+  for (const std::string_view word : cellsBetweenBlanks(text, 1)) words.emplace_back(word);
+  return words;
+}
+
+constexpr char kBlanks = ' ';
+
+/// The separator the user named, or the one that most lines have as often as the columns need.
+char separatorOf(const FileText& text, const std::vector<TextLine>& lines, std::size_t columns) {
+  const std::string& named = text.options.separator;
+  if (named == "tab") return '\t';
+  if (named == "blank") return kBlanks;
+  if (named.size() == 1) return named[0];
+  if (!named.empty()) throw io::InputError({"separator"}, named, "expected one character, tab or blank");
+  std::vector<char> fitting;
+  for (const char one : {';', '\t', ',', kBlanks}) {
+    if (one == ',' && text.options.decimal_comma) continue;
+    const auto count = [one](const TextLine& line) {
+      return one == kBlanks ? cellsBetweenBlanks(line.text, 1).size() : cellsBetween(line.text, one).size();
+    };
+    const bool fits = std::all_of(lines.begin(), lines.end(), [&](const TextLine& line) {
+      return columns == 0 ? count(line) > 1 : count(line) >= columns && (one != kBlanks || count(line) == columns);
+    });
+    if (fits) fitting.push_back(one);
+  }
+  return fitting.empty() ? ',' : fitting.front();
+}
+
+}  // namespace
+
+ColumnTable::ColumnTable(const FileText& text) : text_(text) {
+  std::vector<TextLine> lines;
+  for (const TextLine& line : linesOf(text.text)) {
+    if (line.number > text.options.skip && !trimmed(line.text).empty()) lines.push_back(line);
+  }
+  if (lines.empty()) throw io::InputError({text.file, 0, ""}, "", "expected rows; there are none");
+  constexpr std::size_t kLook = 20;
+  const std::vector<TextLine> first(lines.begin(),
+                                    lines.begin() + static_cast<std::ptrdiff_t>(std::min(kLook, lines.size())));
+  std::size_t from = 0;
+  if (!text.options.columns.empty()) {
+    const std::vector<std::string> names = wordsBetweenBlanks(text.options.columns);
+    separator_ = separatorOf(text, first, names.size());
+    setColumns(names, 0);
+  } else {
+    separator_ = separatorOf(text, {first.front()}, 0);
+    std::vector<std::string> names;
+    for (const std::string_view cell : cellsOf(first.front().text))
+      names.push_back(isKnownColumn(std::string(cell)) ? std::string(cell) : "-");
+    setColumns(names, first.front().number);
+    from = 1;
+  }
+  for (std::size_t i = from; i < lines.size(); ++i) addRow(lines[i]);
+  if (rows_.empty()) throw io::InputError({text.file, 0, ""}, "", "expected rows below the header; there are none");
+}
+
+std::vector<std::string_view> ColumnTable::cellsOf(std::string_view line) const {
+  return separator_ == kBlanks ? cellsBetweenBlanks(line, 1) : cellsBetween(line, separator_);
+}
+
+void ColumnTable::setColumns(const std::vector<std::string>& names, std::size_t line) {
+  columns_ = names.size();
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const std::string& name = names[i];
+    if (name == "-") continue;
+    if (!isKnownColumn(name))
+      throw io::InputError(
+          {text_.file, line, "columns"}, name,
+          "expected a column of the campaign's tables with its unit, time, or - for one that is not read" +
+              io::nearestNameHint(name, knownColumns()));
+    const auto number = numberColumns().find(name);
+    const std::string quantity = number == numberColumns().end() ? name : number->second.name;
+    if (numbers_.contains(quantity) || places_.contains(name))
+      throw io::InputError({text_.file, line, "columns"}, name, "expected this column once");
+    if (number == numberColumns().end()) {
+      places_[name] = i;
+    } else {
+      numbers_[quantity] = {i, number->second.si_per_unit, name};
+    }
+  }
+}
+
+void ColumnTable::addRow(const TextLine& line) {
+  Row row{cellsOf(line.text), line.number};
+  while (row.cells.size() > columns_ && row.cells.back().empty()) row.cells.pop_back();
+  if (row.cells.size() != columns_) {
+    const char* const why = !line.ended ? "; the file ends in the middle of this line"
+                            : row.cells.size() > columns_ && separator_ == ','
+                                ? "; a decimal comma splits a number in two"
+                                : "";
+    throw io::InputError({text_.file, line.number, ""}, fmt::format("{} cells", row.cells.size()),
+                         fmt::format("expected {} cells, one a column{}", columns_, why));
+  }
+  rows_.push_back(std::move(row));
+}
+
+double ColumnTable::number(const Row& row, const std::string& quantity) const {
+  const NumberColumn& column = numbers_.at(quantity);
+  return decimal(row.cells[column.place], text_.decimalSign(), text_.file, row.line, column.name) * column.si_per_unit;
+}
+
+bool ColumnTable::hasNumbers(const std::vector<std::string>& quantities) const {
+  return std::all_of(quantities.begin(), quantities.end(), [&](const std::string& one) { return hasNumber(one); });
+}
+
+std::string ColumnTable::text(const Row& row, const std::string& column) const {
+  const auto place = places_.find(column);
+  return place == places_.end() ? std::string() : std::string(row.cells[place->second]);
+}
+
+std::optional<Timestamp> ColumnTable::time(const Row& row) const {
+  if (const auto seconds = numbers_.find("time"); seconds != numbers_.end()) {
+    const std::string_view cell = row.cells[seconds->second.place];
+    if (cell.empty()) return std::nullopt;
+    const int decimals = std::max(0, decimalsOf(cell));
+    return Timestamp{number(row, "time"), false, std::pow(10.0, -decimals) * seconds->second.si_per_unit};
+  }
+  const std::string cell = text(row, "time");
+  if (cell.empty()) return std::nullopt;
+  const auto time = parseTimestamp(cell);
+  if (time) return time;
+  const bool rounded = cell.find_first_of("eE") != std::string::npos && cell.find_first_of("0123456789") == 0;
+  throw io::InputError({text_.file, row.line, "time"}, cell,
+                       rounded
+                           ? "expected a date and a time; a spreadsheet rounded this one, leave the column out with -"
+                           : "expected a date and a time");
+}
+
+bool hasColumnHeader(const FileText& text) {
+  if (!text.options.columns.empty()) return true;
+  for (const TextLine& line : linesOf(text.text)) {
+    if (line.number <= text.options.skip || trimmed(line.text).empty()) continue;
+    for (const char separator : {';', '\t', ',', kBlanks}) {
+      const auto cells = separator == kBlanks ? cellsBetweenBlanks(line.text, 1) : cellsBetween(line.text, separator);
+      const auto known = std::count_if(cells.begin(), cells.end(),
+                                       [](std::string_view cell) { return isKnownColumn(std::string(cell)); });
+      if (known >= 3) return true;
+    }
+    return false;
+  }
+  return false;
+}
+
+PointFile readPointColumns(const FileText& text) {
+  if (!hasColumnHeader(text))
+    throw io::InputError({text.file, text.options.skip + 1, "columns"}, "",
+                         "expected the names of its columns (option columns), or a header line that has them");
+  const ColumnTable table(text);
+  if (!table.hasNumbers({"x", "y", "z"}))
+    throw io::InputError({text.file, 0, "columns"}, text.options.columns,
+                         "expected x, y and z with their unit, as x_mm y_mm z_mm");
+  const bool sigmas = table.hasNumbers({"ux", "uy", "uz"});
+  PointFile points;
+  points.format = PointFormat::columns;
+  for (const ColumnTable::Row& row : table.rows()) {
+    PointReading point;
+    point.line = row.line;
+    point.collection = table.text(row, "collection");
+    point.group = table.text(row, "group");
+    point.name = table.has("target") ? table.text(row, "target") : table.text(row, table.has("nest") ? "nest" : "name");
+    point.point = {table.number(row, "x"), table.number(row, "y"), table.number(row, "z")};
+    if (sigmas)
+      point.sigma = Eigen::Vector3d(table.number(row, "ux"), table.number(row, "uy"), table.number(row, "uz"));
+    point.time = table.time(row);
+    if (isLostBeam(point.point)) {
+      points.skipped.push_back({row.line, Skip::lost_beam});
+    } else {
+      points.points.push_back(std::move(point));
+    }
+  }
+  return points;
+}
+
+}  // namespace stiffscope::interchange

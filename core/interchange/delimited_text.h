@@ -1,0 +1,51 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace stiffscope::interchange {
+
+/// A line of a text, without its end.
+struct TextLine {
+  std::string_view text;
+  std::size_t number = 0;  ///< counted from 1
+  bool ended = true;       ///< false: the file stops behind it
+};
+
+/// All lines, blank ones too; they end with LF, CRLF or CR.
+std::vector<TextLine> linesOf(std::string_view text);
+
+/// Without blanks at both ends; tabs and the no-break space are blanks.
+std::string_view trimmed(std::string_view text);
+
+/// Cells between separators, trimmed and without the double quotes around them. Nothing between two separators is a
+/// cell.
+std::vector<std::string_view> cellsBetween(std::string_view line, char separator);
+
+/// Cells between runs of at least `least` blanks; a tab counts as many as it takes.
+std::vector<std::string_view> cellsBetweenBlanks(std::string_view line, std::size_t least);
+
+/// Longest run of blanks between two other characters.
+std::size_t longestBlanks(std::string_view line);
+
+enum class DecimalSign { point, comma };
+
+/// A finite number with that decimal sign; NaN where the whole of `cell` is none.
+double decimalOrNan(std::string_view cell, DecimalSign sign);
+
+/// The same; throws InputError, with what was seen, where it is none.
+double decimal(std::string_view cell, DecimalSign sign, const std::string& file, std::size_t line,
+               const std::string& column);
+
+/// Digits behind the decimal sign; -1 where the number has an exponent.
+int decimalsOf(std::string_view cell);
+
+/// Digits, one comma, digits: a decimal comma, or two cells.
+bool looksLikeDecimalComma(std::string_view cell);
+
+/// In small letters; letters beyond ASCII stay.
+std::string lowered(std::string_view text);
+
+}  // namespace stiffscope::interchange

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/campaign/campaign.h"
+#include "core/interchange/state_join.h"
+
+namespace stiffscope::interchange {
+
+/// Lines of a file that a row of a table came from.
+struct RowOrigin {
+  std::size_t file = 0;  ///< of ImportedDay::files
+  std::size_t line = 0, last_line = 0;
+};
+
+/// A file that was read.
+struct ImportedFile {
+  std::string name;    ///< as DAY.xml has it
+  std::string role;    ///< loading, circle_sweeps, wrist_sweep, nests, log, loads, day, urdf
+  std::string format;  ///< empty: of DAY.xml and the URDF
+  std::string encoding;
+  std::string sha256;
+};
+
+struct SkippedOrigin {
+  std::size_t file = 0;
+  SkippedRow row;
+};
+
+/// A day as a campaign, and where each of its rows came from.
+struct ImportedDay {
+  campaign::Campaign campaign;
+  std::filesystem::path urdf;
+  std::vector<ImportedFile> files;
+  std::map<std::string, std::vector<RowOrigin>> rows;  ///< by table; of states: the log's lines
+  std::vector<SkippedOrigin> skipped;
+  std::vector<ClockReport> clocks;
+  std::vector<std::string> warnings;
+  std::map<std::string, double> misfit;  ///< by table, m: chord_check.h
+  std::string start;  ///< the tracker's date and time at time_s = 0, ISO 8601; empty where its times have no date
+  std::optional<double> stated_over_declared;  ///< the files' uncertainties over the declared noise, median
+};
+
+/// Reads DAY.xml and every file it names, and joins them. Nothing is written. Throws InputError for anything that
+/// cannot be read, joined, or that the campaign format does not allow.
+ImportedDay importDay(const std::filesystem::path& day_xml);
+
+}  // namespace stiffscope::interchange

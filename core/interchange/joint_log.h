@@ -1,0 +1,47 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/campaign/campaign.h"
+#include "core/interchange/point_reading.h"
+
+namespace stiffscope::interchange {
+
+/// Dialects of what robots write of their joints. `columns` is any table whose columns the user names.
+enum class LogFormat { fanuc_karel, fanuc_tp, kuka_krl, rapid, ur, columns };
+
+inline constexpr std::array<const char*, 6> kLogFormatNames{"fanuc_karel", "fanuc_tp", "kuka_krl",
+                                                            "rapid",       "ur",       "columns"};
+
+inline const char* nameOf(LogFormat format) { return kLogFormatNames[static_cast<std::size_t>(format)]; }
+
+/// The joints at one moment, or one taught target.
+struct JointSample {
+  std::string name;                     ///< of a taught target, or the row's pose; empty of a log by time
+  std::string step;                     ///< where the table names load steps
+  std::optional<double> time_s;         ///< by the robot's clock
+  Vector6d figures = Vector6d::Zero();  ///< as the controller states them, rad
+  std::optional<Vector6d> wrench;       ///< force (N), moment (Nm), where the table has them
+  double temperature_c = campaign::kNotGiven;
+  std::size_t line = 0;
+};
+
+struct RobotLog {
+  LogFormat format = LogFormat::columns;
+  Encoding encoding = Encoding::utf8;
+  std::vector<JointSample> samples;
+  std::vector<SkippedRow> skipped;
+  std::vector<std::string> warnings;
+};
+
+/// What the user says of a log beside its bytes.
+struct LogOptions {
+  std::optional<LogFormat> format;
+  FileOptions table;              ///< of `columns`, and the encoding of all
+  std::optional<double> rate_hz;  ///< of a log without times: samples a second
+};
+
+}  // namespace stiffscope::interchange

@@ -1,0 +1,158 @@
+#include <fmt/format.h>
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "core/interchange/column_table.h"
+#include "core/interchange/log_formats.h"
+#include "core/io/input_error.h"
+#include "core/io/units.h"
+
+namespace stiffscope::interchange {
+
+namespace {
+
+/// Where a table has six joints and perhaps the time.
+struct JointHeader {
+  std::size_t line = 0;  ///< 0: there is none
+  char separator = ';';
+  std::size_t cells = 0;
+  std::array<std::size_t, 6> joints{};
+  std::optional<std::size_t> time;
+  double seconds_per_unit = 1.0;
+};
+
+std::vector<std::string_view> logCells(std::string_view line, char separator) {
+  auto cells = separator == ' ' ? cellsBetweenBlanks(line, 1) : cellsBetween(line, separator);
+  if (!cells.empty() && cells.back().empty()) cells.pop_back();
+  return cells;
+}
+
+/// The six names a format's header has for joints, in several ways of writing.
+std::vector<std::array<std::string, 6>> jointNames(LogFormat format) {
+  if (format == LogFormat::fanuc_karel) return {{"j1", "j2", "j3", "j4", "j5", "j6"}};
+  std::vector<std::array<std::string, 6>> all{
+      {"shoulder_pan_joint", "shoulder_lift_joint", "elbow_joint", "wrist_1_joint", "wrist_2_joint", "wrist_3_joint"},
+      {"base", "shoulder", "elbow", "wrist1", "wrist2", "wrist3"},
+      {"base", "shoulder", "elbow", "wrist 1", "wrist 2", "wrist 3"}};
+  for (const char* pattern : {"joint{}", "joint_{}", "actual_q_{}", "actual_q{}", "actual_q[{}]", "q{}", "q_{}",
+                              "q[{}]", "joint_position_{}", "joint_positions_{}"}) {
+    for (const int first : {0, 1}) {
+      std::array<std::string, 6> names;
+      for (int j = 0; j < 6; ++j) names[static_cast<std::size_t>(j)] = fmt::format(fmt::runtime(pattern), j + first);
+      all.push_back(names);
+    }
+  }
+  return all;
+}
+
+/// Millisecond or second of a column of time; nullopt for another column. Without a unit UR's are seconds.
+std::optional<double> timeUnit(const std::string& name, LogFormat format) {
+  if (!name.starts_with("time")) return std::nullopt;
+  if (name.find("ms") != std::string::npos && name.find("timestamp") != 0) return 1e-3;
+  if (name == "timestamp [ms]" || name == "timestamp_ms") return 1e-3;
+  if (name == "time" || name == "timestamp" || name.find("[s]") != std::string::npos || name.ends_with("_s"))
+    return format == LogFormat::fanuc_karel && name == "time" ? std::nullopt : std::optional(1.0);
+  return std::nullopt;
+}
+
+JointHeader jointHeaderOf(const LogText& text, LogFormat format) {
+  const std::vector<TextLine> lines = linesOf(text.text);
+  for (std::size_t i = text.options.table.skip; i < lines.size(); ++i) {
+    if (trimmed(lines[i].text).empty()) continue;
+    for (const char separator : {';', ',', '\t', ' '}) {
+      if (format == LogFormat::fanuc_karel && separator != ';') continue;
+      JointHeader header;
+      header.line = lines[i].number;
+      header.separator = separator;
+      std::vector<std::string> cells;
+      for (const std::string_view cell : logCells(lines[i].text, separator)) cells.push_back(lowered(cell));
+      header.cells = cells.size();
+      for (std::size_t k = 0; k < cells.size() && !header.time; ++k) {
+        const auto unit = timeUnit(cells[k], format);
+        if (!unit) continue;
+        header.time = k;
+        header.seconds_per_unit = *unit;
+      }
+      for (const auto& names : jointNames(format)) {
+        bool all = true;
+        for (std::size_t j = 0; j < names.size(); ++j) {
+          const auto found = std::find(cells.begin(), cells.end(), names[j]);
+          all = all && found != cells.end();
+          header.joints[j] = static_cast<std::size_t>(found - cells.begin());
+        }
+        if (all && (format == LogFormat::ur || header.time)) return header;
+      }
+    }
+    return {};
+  }
+  return {};
+}
+
+}  // namespace
+
+bool looksLikeJointTable(const LogText& text, LogFormat format) { return jointHeaderOf(text, format).line > 0; }
+
+RobotLog readJointTable(const LogText& text, LogFormat format) {
+  const JointHeader header = jointHeaderOf(text, format);
+  if (header.line == 0) {
+    throw io::InputError({text.file, 1, ""}, std::string(text.text.substr(0, text.text.find_first_of("\r\n"))),
+                         format == LogFormat::fanuc_karel
+                             ? "expected a header line as Time [ms];...;J1;...;J6;"
+                             : "expected a header line that names six joints, as actual_q_0");
+  }
+  const DecimalSign sign = text.options.table.decimal_comma ? DecimalSign::comma : DecimalSign::point;
+  const double angle = format == LogFormat::fanuc_karel ? io::kDegree : 1.0;
+  RobotLog log;
+  log.format = format;
+  for (const TextLine& line : linesOf(text.text)) {
+    if (line.number <= header.line || trimmed(line.text).empty()) continue;
+    const std::vector<std::string_view> cells = logCells(line.text, header.separator);
+    if (cells.size() != header.cells)
+      throw io::InputError({text.file, line.number, ""}, fmt::format("{} cells", cells.size()),
+                           fmt::format("expected {} cells, as the header has{}", header.cells,
+                                       line.ended ? "" : "; the file ends in the middle of this line"));
+    JointSample sample;
+    sample.line = line.number;
+    for (std::size_t j = 0; j < 6; ++j)
+      sample.figures[static_cast<Eigen::Index>(j)] =
+          decimal(cells[header.joints[j]], sign, text.file, line.number, fmt::format("joint {}", j + 1)) * angle;
+    if (header.time)
+      sample.time_s = decimal(cells[*header.time], sign, text.file, line.number, "time") * header.seconds_per_unit;
+    log.samples.push_back(std::move(sample));
+  }
+  return log;
+}
+
+RobotLog readJointColumns(const LogText& text) {
+  const FileText file{text.file, text.text, text.options.table};
+  if (!hasColumnHeader(file))
+    throw io::InputError({text.file, text.options.table.skip + 1, "columns"}, "",
+                         "expected the names of its columns (columns), or a header line that has them");
+  const ColumnTable table(file);
+  if (!table.hasNumbers({"q1", "q2", "q3", "q4", "q5", "q6"}))
+    throw io::InputError({text.file, 0, "columns"}, text.options.table.columns,
+                         "expected q1 to q6 with their unit, as q1_deg");
+  const bool wrench = table.hasNumbers({"fx", "fy", "fz", "mx", "my", "mz"});
+  RobotLog log;
+  log.format = LogFormat::columns;
+  for (const ColumnTable::Row& row : table.rows()) {
+    JointSample sample;
+    sample.line = row.line;
+    sample.name = table.text(row, table.has("pose") ? "pose" : table.has("index") ? "index" : "name");
+    sample.step = table.text(row, "step");
+    for (int j = 0; j < 6; ++j) sample.figures[j] = table.number(row, fmt::format("q{}", j + 1));
+    if (const auto time = table.time(row)) sample.time_s = time->seconds;
+    if (table.hasNumber("temperature")) sample.temperature_c = table.number(row, "temperature");
+    if (wrench) {
+      Vector6d values;
+      values << table.number(row, "fx"), table.number(row, "fy"), table.number(row, "fz"), table.number(row, "mx"),
+          table.number(row, "my"), table.number(row, "mz");
+      sample.wrench = values;
+    }
+    log.samples.push_back(std::move(sample));
+  }
+  return log;
+}
+
+}  // namespace stiffscope::interchange

@@ -1,0 +1,140 @@
+#include "core/interchange/point_file.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <algorithm>
+#include <map>
+#include <tuple>
+
+#include "core/interchange/point_formats.h"
+#include "core/io/input_error.h"
+#include "core/io/read_file.h"
+
+namespace stiffscope::interchange {
+
+PointFormat pointFormatNamed(const std::string& name, const std::string& option) {
+  for (std::size_t i = 0; i < kPointFormatNames.size(); ++i) {
+    if (name == kPointFormatNames[i]) return static_cast<PointFormat>(i);
+  }
+  const std::vector<std::string> known(kPointFormatNames.begin(), kPointFormatNames.end());
+  throw io::InputError({option}, name,
+                       fmt::format("expected {}{}", fmt::join(known, ", "), io::nearestNameHint(name, known)));
+}
+
+namespace {
+
+/// Formats that a text can be of. A certain likeness leaves no other.
+std::vector<PointFormat> candidatesFor(const FileText& text) {
+  if (looksLikeOpenIndy(text.text)) return {PointFormat::openindy};
+  if (!text.options.columns.empty()) return {PointFormat::columns};
+  if (looksLikeLeica(text)) return {PointFormat::leica};
+  if (hasColumnHeader(text)) return {PointFormat::columns};
+  if (looksLikeSemicolonXyz(text)) return {PointFormat::xyz};
+  const SaLikeness sa = looksLikeSpatialAnalyzer(text);
+  if (sa == SaLikeness::certain) return {PointFormat::sa};
+  if (sa == SaLikeness::possible) return {PointFormat::sa, PointFormat::columns};
+  return {};
+}
+
+std::string firstLineOf(const FileText& text) {
+  for (const TextLine& line : linesOf(text.text)) {
+    if (!trimmed(line.text).empty()) return std::string(trimmed(line.text));
+  }
+  return {};
+}
+
+PointFile readAs(PointFormat format, const FileText& text) {
+  switch (format) {
+    case PointFormat::sa:
+      return readSpatialAnalyzer(text);
+    case PointFormat::leica:
+      return readLeica(text);
+    case PointFormat::openindy:
+      return readOpenIndy(text);
+    case PointFormat::xyz:
+      return readSemicolonXyz(text);
+    case PointFormat::columns:
+      break;
+  }
+  return readPointColumns(text);
+}
+
+/// The format wanted must be one the file can be of: read as another its numbers would be others.
+PointFormat formatOf(const FileText& text) {
+  const std::optional<PointFormat>& wanted = text.options.format;
+  if (wanted == PointFormat::columns && !text.options.columns.empty()) return *wanted;
+  const std::vector<PointFormat> candidates = candidatesFor(text);
+  std::vector<std::string> names;
+  for (const PointFormat one : candidates) names.emplace_back(nameOf(one));
+  if (wanted) {
+    const bool other = candidates.size() == 1 && candidates.front() != *wanted;
+    if (other)
+      throw io::InputError({text.file, 0, "format"}, nameOf(*wanted),
+                           fmt::format("expected {}, as this file is built; its first line is \"{}\"", names.front(),
+                                       io::oneLine(firstLineOf(text), 60)));
+    return *wanted;
+  }
+  if (candidates.size() == 1) return candidates.front();
+  if (candidates.empty())
+    throw io::InputError(
+        {text.file, 1, ""}, firstLineOf(text),
+        fmt::format("expected a file of points: {}; it is built like none of them (option columns reads any table)",
+                    fmt::join(kPointFormatNames, ", ")));
+  throw io::InputError(
+      {text.file, 1, ""}, firstLineOf(text),
+      fmt::format("expected a file of one format; it may be {} (option format)", fmt::join(names, " or ")));
+}
+
+void countOccurrences(PointFile& points) {
+  std::map<std::tuple<std::string, std::string, std::string>, int> seen;
+  for (PointReading& point : points.points) point.occurrence = ++seen[{point.collection, point.group, point.name}];
+}
+
+/// A name that a table could not hold again is no name.
+void requireNames(const std::string& file, const PointFile& points) {
+  constexpr std::size_t kLongest = 200;
+  for (const PointReading& point : points.points) {
+    for (const std::string* name : {&point.collection, &point.group, &point.name}) {
+      const bool control = std::any_of(name->begin(), name->end(),
+                                       [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; });
+      if (control || name->size() > kLongest)
+        throw io::InputError({file, point.line, "name"}, *name,
+                             "expected a name without control characters, of at most 200 bytes");
+    }
+  }
+}
+
+/// The campaign's own limit: farther no tracker reads.
+void requireNear(const std::string& file, const PointFile& points) {
+  constexpr double kFarthest = 200.0;
+  for (const PointReading& point : points.points) {
+    if (point.point.cwiseAbs().maxCoeff() <= kFarthest) continue;
+    throw io::InputError({file, point.line, "x y z"},
+                         fmt::format("{:.6g} {:.6g} {:.6g} m", point.point.x(), point.point.y(), point.point.z()),
+                         "expected coordinates within 200 m: another unit, or another decimal sign?");
+  }
+}
+
+}  // namespace
+
+PointFile parsePointFile(const std::string& file, std::string_view bytes, const FileOptions& options) {
+  const DecodedText decoded = decodeText(file, bytes, options.encoding);
+  const FileText text{file, decoded.text, options};
+  PointFile points = readAs(formatOf(text), text);
+  points.encoding = decoded.encoding;
+  if (points.points.empty() && points.skipped.empty())
+    throw io::InputError({file, 0, ""}, "", "expected points; there are none");
+  if (!options.target.empty()) {
+    for (PointReading& point : points.points) point.name = options.target;
+  }
+  requireNames(file, points);
+  requireNear(file, points);
+  countOccurrences(points);
+  return points;
+}
+
+PointFile readPointFile(const std::filesystem::path& path, const FileOptions& options) {
+  return parsePointFile(path.string(), io::readBytesWithStamp(path).text(), options);
+}
+
+}  // namespace stiffscope::interchange

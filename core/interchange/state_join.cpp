@@ -1,0 +1,387 @@
+#include "core/interchange/state_join.h"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <map>
+#include <tuple>
+
+#include "core/io/input_error.h"
+#include "core/io/numbers.h"
+#include "core/io/units.h"
+
+namespace stiffscope::interchange {
+
+namespace {
+
+using StateKey = std::tuple<int, std::string, int>;  ///< axis, pose, step
+
+StateKey keyOf(const DayReading& reading) { return {reading.axis, reading.pose, reading.step}; }
+
+std::string shownKey(const StateKey& key) {
+  const auto& [axis, pose, step] = key;
+  std::string text = axis < 0 ? "" : fmt::format("axis {}, ", axis + 1);
+  text += "pose " + pose;
+  return step == 0 ? text : text + fmt::format(", step {}", step);
+}
+
+/// States in the order in which they were first read.
+std::vector<JoinedState> statesInOrder(const std::vector<DayReading>& readings) {
+  std::vector<JoinedState> states;
+  std::map<StateKey, std::size_t> places;
+  for (std::size_t i = 0; i < readings.size(); ++i) {
+    const auto [place, added] = places.emplace(keyOf(readings[i]), states.size());
+    if (added) {
+      JoinedState state;
+      state.pose = readings[i].pose;
+      state.step = readings[i].step;
+      state.axis = readings[i].axis;
+      states.push_back(std::move(state));
+    }
+    states[place->second].readings.push_back(i);
+  }
+  return states;
+}
+
+int stepNamed(const JoinTask& task, const std::string& step, std::size_t line) {
+  if (step.empty()) return 0;
+  const std::optional<int> number = io::parseInteger(step);
+  if (!number || *number < 0)
+    throw io::InputError({task.file, line, "step"}, step, "expected a whole number, 0 or more");
+  return *number;
+}
+
+/// The samples by what their names say; a log without steps has those of a pose for all its steps.
+std::map<StateKey, std::size_t> samplesByName(const JoinTask& task) {
+  std::map<StateKey, std::size_t> samples;
+  const NamePattern& names = task.source.names;
+  for (std::size_t i = 0; i < task.log.samples.size(); ++i) {
+    const JointSample& sample = task.log.samples[i];
+    const auto fields = names.fieldsIn(sample.name);
+    if (!fields) continue;
+    const auto field = [&](const char* name) {
+      const auto found = fields->find(name);
+      return found == fields->end() ? std::string() : found->second;
+    };
+    const std::string step = field("step").empty() ? sample.step : field("step");
+    const std::string axis = field("axis");
+    const std::string pose = names.has("index") ? field("index") : field("pose");
+    const StateKey key{axis.empty() ? -1 : stepNamed(task, axis, sample.line) - 1, pose,
+                       stepNamed(task, step, sample.line)};
+    const auto [first, added] = samples.emplace(key, i);
+    if (!added)
+      throw io::InputError({task.file, sample.line, "pose"}, sample.name,
+                           fmt::format("expected one row of {}; line {} has it first", shownKey(key),
+                                       task.log.samples[first->second].line));
+  }
+  return samples;
+}
+
+bool isTimed(const RobotLog& log) {
+  return std::all_of(log.samples.begin(), log.samples.end(),
+                     [](const JointSample& sample) { return sample.time_s.has_value(); });
+}
+
+void setJoints(JoinedState& state, const RobotLog& log, std::size_t first, std::size_t last) {
+  state.first = first;
+  state.last = last;
+  state.figures = meanFigures(log.samples, first, last);
+}
+
+}  // namespace
+
+StateJoin joinByName(const JoinTask& task, const std::vector<DayReading>& readings) {
+  const std::map<StateKey, std::size_t> samples = samplesByName(task);
+  StateJoin join{statesInOrder(readings), {}, std::nullopt};
+  for (JoinedState& state : join.states) {
+    // By axis, pose and step, as far as the log tells them.
+    auto found = samples.end();
+    for (const StateKey& key : {StateKey{state.axis, state.pose, state.step}, StateKey{-1, state.pose, state.step},
+                                StateKey{state.axis, state.pose, 0}, StateKey{-1, state.pose, 0}}) {
+      if (found == samples.end()) found = samples.find(key);
+    }
+    if (found == samples.end()) {
+      const DayReading& reading = readings[state.readings.front()];
+      throw io::InputError({task.day.points[reading.source].file, reading.point->line, "pose"}, state.pose,
+                           fmt::format("expected a pose that {} has joints for", task.file));
+    }
+    setJoints(state, task.log, found->second, found->second);
+  }
+  return join;
+}
+
+StateJoin joinByOrder(const JoinTask& task, const std::vector<DayReading>& readings) {
+  StateJoin join{statesInOrder(readings), {}, std::nullopt};
+  const std::size_t samples = task.log.samples.size(), wanted = join.states.size();
+  if (samples == wanted) {
+    for (std::size_t i = 0; i < wanted; ++i) setJoints(join.states[i], task.log, i, i);
+    return join;
+  }
+  std::vector<Standstill> standstills;
+  if (isTimed(task.log)) standstills = standstillsOf(task.log.samples, task.day.clock.standstill);
+  if (standstills.size() != wanted) {
+    throw io::InputError(
+        {task.file, 0, "by"}, "order",
+        fmt::format("expected as many postures in the log as were read, {}; it has {} rows{}", wanted, samples,
+                    isTimed(task.log) ? fmt::format(" and {} standstills", standstills.size()) : ""));
+  }
+  for (std::size_t i = 0; i < wanted; ++i)
+    setJoints(join.states[i], task.log, standstills[i].first, standstills[i].last);
+  return join;
+}
+
+std::vector<PlacedReading> placedReadings(const std::vector<JoinedState>& states,
+                                          const std::vector<DayReading>& readings) {
+  std::map<std::pair<int, std::string>, int> lowest;
+  for (const JoinedState& state : states) {
+    const auto [place, added] = lowest.emplace(std::pair(state.axis, state.pose), state.step);
+    if (!added) place->second = std::min(place->second, state.step);
+  }
+  std::vector<PlacedReading> placed;
+  for (const JoinedState& state : states) {
+    if (lowest.at({state.axis, state.pose}) != state.step) continue;
+    std::vector<int> seen;
+    for (const std::size_t i : state.readings) {
+      const DayReading& reading = readings[i];
+      if (std::find(seen.begin(), seen.end(), reading.target) != seen.end()) continue;
+      seen.push_back(reading.target);
+      placed.push_back({state.figures, reading.target, reading.point->point});
+    }
+  }
+  return placed;
+}
+
+void requireMeaning(const JoinTask& task, const std::vector<PlacedReading>& placed, double misfit) {
+  // Arms differ from their nominal geometry, and bend, by a few millimetres; a wrong sign makes decimetres.
+  constexpr double kMisfit = 0.01, kClearly = 4.0;
+  if (misfit < kMisfit) return;
+  const auto other = bestOtherMeaning(task.robot, task.day.xml.campaign.joint_readings, placed);
+  if (!other || other->misfit * kClearly > misfit) return;
+  using Kind = OtherMeaning::Kind;
+  std::string meaning;
+  if (other->kind == Kind::unit) meaning = fmt::format("points times {:g}", other->value);
+  if (other->kind == Kind::sign)
+    meaning = fmt::format("joint_reading joint=\"{}\" sign=\"{:g}\"", other->joint + 1, other->value);
+  if (other->kind == Kind::offset)
+    meaning =
+        fmt::format("joint_reading joint=\"{}\" offset_deg=\"{:g}\"", other->joint + 1, other->value / io::kDegree);
+  if (other->kind == Kind::coupling)
+    meaning = other->plus < 0
+                  ? fmt::format("joint_reading joint=\"{}\" without plus", other->joint + 1)
+                  : fmt::format("joint_reading joint=\"{}\" plus=\"{}\"", other->joint + 1, other->plus + 1);
+  throw io::InputError(
+      {task.day.file, task.source.line, "log"}, task.source.file,
+      fmt::format("expected joints that move the reflectors as they were read; distances between their places are "
+                  "off by {:.1f} mm, with {} by {:.1f} mm",
+                  misfit * 1e3, meaning, other->misfit * 1e3));
+}
+
+namespace {
+
+/// The standstill that a time of the robot's clock falls into, by the last digit of the reading's time; npos for none.
+constexpr std::size_t kNowhere = static_cast<std::size_t>(-1);
+
+std::size_t standstillAt(const std::vector<Standstill>& standstills, double time, double resolution) {
+  const auto next = std::lower_bound(standstills.begin(), standstills.end(), time,
+                                     [](const Standstill& still, double at) { return still.to_s < at; });
+  // The one it is in, else the nearer of the two beside it.
+  std::size_t nearest = kNowhere;
+  double distance = resolution;
+  for (auto one = next == standstills.begin() ? next : next - 1; one != standstills.end() && one <= next; ++one) {
+    const double apart = std::max({one->from_s - time, time - one->to_s, 0.0});
+    if (apart > distance || (nearest != kNowhere && apart == distance)) continue;
+    nearest = static_cast<std::size_t>(one - standstills.begin());
+    distance = apart;
+  }
+  return nearest;
+}
+
+/// Readings that name their pose keep it; others take the number of their standstill among those with readings.
+struct ClockJoin {
+  std::vector<std::size_t> standstill_of;  ///< of each reading
+  std::vector<JoinedState> states;
+};
+
+ClockJoin joinedAt(const JoinTask& task, const std::vector<DayReading>& readings,
+                   const std::vector<Standstill>& standstills, double offset) {
+  ClockJoin join;
+  std::vector<std::size_t> order;
+  std::map<std::size_t, std::string> numbers;
+  for (const DayReading& reading : readings) {
+    const std::size_t still =
+        standstillAt(standstills, reading.point->time->seconds + offset, reading.point->time->resolution);
+    join.standstill_of.push_back(still);
+    if (still != kNowhere) numbers.emplace(still, "");
+  }
+  std::size_t number = 0;
+  for (auto& [still, name] : numbers) name = std::to_string(++number);
+  std::map<std::tuple<std::size_t, int, std::string, int>, std::size_t> places;
+  for (std::size_t i = 0; i < readings.size(); ++i) {
+    const std::size_t still = join.standstill_of[i];
+    if (still == kNowhere) continue;
+    const DayReading& reading = readings[i];
+    const std::string pose = reading.pose.empty() ? numbers.at(still) : reading.pose;
+    const auto [place, added] = places.emplace(std::tuple(still, reading.axis, pose, reading.step), join.states.size());
+    if (added) {
+      JoinedState state;
+      state.pose = pose;
+      state.step = reading.step;
+      state.axis = reading.axis;
+      setJoints(state, task.log, standstills[still].first, standstills[still].last);
+      join.states.push_back(std::move(state));
+    }
+    join.states[place->second].readings.push_back(i);
+  }
+  return join;
+}
+
+/// Where several load steps share a standstill each has the samples of its own readings' times, as far as there are
+/// any: a servo gives way under load by more than its encoder's digits.
+void narrowToReadings(const JoinTask& task, const std::vector<DayReading>& readings, double offset,
+                      std::vector<JoinedState>& states) {
+  std::map<std::size_t, int> sharing;
+  for (const JoinedState& state : states) ++sharing[state.first];
+  for (JoinedState& state : states) {
+    if (sharing.at(state.first) < 2) continue;
+    double from = std::numeric_limits<double>::infinity(), to = -from;
+    for (const std::size_t i : state.readings) {
+      from = std::min(from, readings[i].point->time->seconds + offset);
+      to = std::max(to, readings[i].point->time->seconds + offset);
+    }
+    std::size_t first = state.first, last = state.last;
+    while (first < last && *task.log.samples[first].time_s < from) ++first;
+    while (last > first && *task.log.samples[last].time_s > to) --last;
+    setJoints(state, task.log, first, last);
+  }
+}
+
+/// A pose is one posture: its readings of one step in two standstills are two poses, or two clocks.
+void requireOnePlaceAPose(const JoinTask& task, const std::vector<DayReading>& readings,
+                          const std::vector<JoinedState>& states) {
+  std::map<StateKey, const JoinedState*> seen;
+  for (const JoinedState& state : states) {
+    const auto [first, added] = seen.emplace(StateKey{state.axis, state.pose, state.step}, &state);
+    if (added) continue;
+    const DayReading& reading = readings[state.readings.front()];
+    throw io::InputError({task.day.points[reading.source].file, reading.point->line, "pose"}, state.pose,
+                         fmt::format("expected the readings of a pose in one standstill; line {} is of another",
+                                     readings[first->second->readings.front()].point->line));
+  }
+}
+
+std::vector<ReadingTime> timesOf(const JoinTask& task, const std::vector<DayReading>& readings) {
+  std::vector<ReadingTime> times;
+  for (const DayReading& reading : readings) {
+    if (!reading.point->time)
+      throw io::InputError({task.day.points[reading.source].file, reading.point->line, "time"}, "",
+                           "expected a time; without one the clock cannot say where the joints were");
+    times.push_back({reading.point->time->seconds, reading.point->time->resolution});
+  }
+  return times;
+}
+
+std::optional<double> misfitAt(const JoinTask& task, const std::vector<DayReading>& readings,
+                               const std::vector<Standstill>& standstills, double offset) {
+  const ClockJoin join = joinedAt(task, readings, standstills, offset);
+  return chordMisfit(task.robot, task.day.xml.campaign.joint_readings, placedReadings(join.states, readings));
+}
+
+std::string shownOffset(const ClockOffset& offset) {
+  return fmt::format("{:.3f} +- {:.3f} s", offset.offset_s, offset.uncertainty_s);
+}
+
+/// Of several offsets the one by which distances agree.
+ClockOffset chosenOffset(const JoinTask& task, const std::vector<DayReading>& readings,
+                         const std::vector<Standstill>& standstills, const std::vector<ClockOffset>& offsets,
+                         std::optional<double>& misfit) {
+  const auto refuse = [&](const std::string& why) {
+    throw io::InputError({task.day.file, task.source.line, "by"}, "clock",
+                         "expected one offset of the two clocks; " + why);
+  };
+  if (offsets.empty() || 2 * offsets.front().inside < readings.size()) {
+    refuse(fmt::format("none puts half of the {} readings into the {} standstills of {}", readings.size(),
+                       standstills.size(), task.source.file));
+  }
+  std::vector<std::pair<double, std::size_t>> fits;
+  for (std::size_t i = 0; i < offsets.size(); ++i) {
+    const auto fit = misfitAt(task, readings, standstills, offsets[i].offset_s);
+    if (fit) fits.emplace_back(*fit, i);
+  }
+  std::sort(fits.begin(), fits.end());
+  if (offsets.size() == 1) {
+    if (!fits.empty()) misfit = fits.front().first;
+    return offsets.front();
+  }
+  if (fits.size() < 2)
+    refuse(fmt::format("{} and {} serve alike: state it (offset_s)", shownOffset(offsets[0]), shownOffset(offsets[1])));
+  constexpr double kClearly = 2.0;
+  if (fits[1].first < kClearly * fits[0].first) {
+    const ClockJoin join = joinedAt(task, readings, standstills, offsets.front().offset_s);
+    requireMeaning(task, placedReadings(join.states, readings), fits[0].first);
+    refuse(
+        fmt::format("{} and {} serve alike, and distances between the reflectors' places are off by {:.1f} mm and "
+                    "{:.1f} mm: state it (offset_s)",
+                    shownOffset(offsets[fits[0].second]), shownOffset(offsets[fits[1].second]), 1e3 * fits[0].first,
+                    1e3 * fits[1].first));
+  }
+  misfit = fits.front().first;
+  return offsets[fits.front().second];
+}
+
+std::size_t insideBy(const std::vector<ReadingTime>& times, const std::vector<Standstill>& standstills, double offset) {
+  return static_cast<std::size_t>(std::count_if(times.begin(), times.end(), [&](const ReadingTime& time) {
+    return standstillAt(standstills, time.seconds + offset, time.resolution) != kNowhere;
+  }));
+}
+
+/// An offset that was stated must put nearly as many readings into standstills as the best does.
+void requireStatedServes(const JoinTask& task, const std::vector<ReadingTime>& times,
+                         const std::vector<Standstill>& standstills, const std::vector<ClockOffset>& offsets) {
+  constexpr double kNearly = 0.9;
+  const std::size_t inside = insideBy(times, standstills, *task.day.clock.offset_s);
+  if (offsets.empty() || static_cast<double>(inside) >= kNearly * static_cast<double>(offsets.front().inside)) return;
+  throw io::InputError(
+      {task.day.file, task.source.line, "offset_s"}, fmt::format("{:g}", *task.day.clock.offset_s),
+      fmt::format(
+          "expected an offset that puts the readings into standstills of the joints; this one does of {} of {}, "
+          "{} of {}",
+          inside, times.size(), shownOffset(offsets.front()), offsets.front().inside));
+}
+
+}  // namespace
+
+StateJoin joinByClock(const JoinTask& task, const std::vector<DayReading>& readings) {
+  if (!isTimed(task.log))
+    throw io::InputError({task.file, 0, "time"}, "", "expected a log with times, or its rate (rate_hz)");
+  const std::vector<ReadingTime> times = timesOf(task, readings);
+  const std::vector<Standstill> standstills = standstillsOf(task.log.samples, task.day.clock.standstill);
+  constexpr double kShare = 0.8;
+  const std::vector<ClockOffset> offsets = possibleOffsets(times, standstills, kShare);
+  ClockReport report;
+  report.log = task.source.file;
+  report.readings = readings.size();
+  report.standstills = standstills.size();
+  if (task.day.clock.offset_s) {
+    requireStatedServes(task, times, standstills, offsets);
+    report.stated = true;
+    report.offset_s = *task.day.clock.offset_s;
+    report.misfit = misfitAt(task, readings, standstills, report.offset_s);
+  } else {
+    const ClockOffset chosen = chosenOffset(task, readings, standstills, offsets, report.misfit);
+    report.offset_s = chosen.offset_s;
+    report.uncertainty_s = chosen.uncertainty_s;
+  }
+  report.inside = insideBy(times, standstills, report.offset_s);
+  ClockJoin join = joinedAt(task, readings, standstills, report.offset_s);
+  StateJoin joined{std::move(join.states), {}, report};
+  narrowToReadings(task, readings, report.offset_s, joined.states);
+  requireOnePlaceAPose(task, readings, joined.states);
+  const double begin = *task.log.samples.front().time_s, end = *task.log.samples.back().time_s;
+  for (std::size_t i = 0; i < readings.size(); ++i) {
+    if (join.standstill_of[i] != kNowhere) continue;
+    const double time = times[i].seconds + report.offset_s;
+    joined.left_out.emplace_back(i, time < begin || time > end ? Skip::outside_log : Skip::in_motion);
+  }
+  return joined;
+}
+
+}  // namespace stiffscope::interchange

@@ -1,0 +1,81 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/interchange/chord_check.h"
+#include "core/interchange/day_description.h"
+#include "core/interchange/joint_log.h"
+#include "core/interchange/point_reading.h"
+
+namespace stiffscope::interchange {
+
+/// A reading with what its file and name say of it.
+struct DayReading {
+  std::size_t source = 0;  ///< of the day's files of points
+  const PointReading* point = nullptr;
+  int target = 0;
+  std::string pose;  ///< empty: to be found by the clock
+  int step = 0;
+  std::string repeat;
+  int axis = -1;
+};
+
+/// The joints of a pose, or of a load step of it, and the readings taken there.
+struct JoinedState {
+  std::string pose;
+  int step = 0;
+  int axis = -1;
+  std::size_t first = 0, last = 0;  ///< samples of the log that its figures are the mean of
+  Vector6d figures = Vector6d::Zero();
+  std::vector<std::size_t> readings;
+};
+
+/// The two clocks, as they were found or stated.
+struct ClockReport {
+  std::string log;
+  double offset_s = 0.0;       ///< robot's clock less time_s of the campaign
+  double uncertainty_s = 0.0;  ///< the offset lies within it; 0 where it was stated
+  bool stated = false;
+  std::size_t readings = 0, inside = 0, standstills = 0;
+  std::optional<double> misfit;  ///< m, of distances by it (chord_check.h)
+};
+
+struct StateJoin {
+  std::vector<JoinedState> states;
+  std::vector<std::pair<std::size_t, Skip>> left_out;  ///< readings, and why
+  std::optional<ClockReport> clock;
+};
+
+/// What the joining needs to know beside readings and log.
+struct JoinTask {
+  const DayDescription& day;
+  const robot::Robot& robot;
+  const LogSource& source;
+  const RobotLog& log;
+  std::string file;  ///< the log's, for messages
+};
+
+/// The joints of every pose that readings name, by the names of the log's rows or targets. Throws InputError for a pose
+/// without joints, and for two rows of one pose.
+StateJoin joinByName(const JoinTask& task, const std::vector<DayReading>& readings);
+
+/// Poses in the order in which they were first read, and the log's targets, or the standstills of a log by time, in
+/// theirs. Throws InputError where they are not as many.
+StateJoin joinByOrder(const JoinTask& task, const std::vector<DayReading>& readings);
+
+/// Readings by the standstill that they fall into, with the offset of the clocks that puts most of them into one. Where
+/// several offsets put nearly as many there, distances between the reflectors' places decide (chord_check.h). Throws
+/// InputError where a time is missing, no offset serves, several do alike, or the one stated does not.
+StateJoin joinByClock(const JoinTask& task, const std::vector<DayReading>& readings);
+
+/// One reading of each reflector and state, for the check of distances: of the lowest step of each pose.
+std::vector<PlacedReading> placedReadings(const std::vector<JoinedState>& states,
+                                          const std::vector<DayReading>& readings);
+
+/// Throws InputError where distances between the reflectors' places contradict the figures, and another sign, coupling,
+/// offset or unit would make them agree; that is named.
+void requireMeaning(const JoinTask& task, const std::vector<PlacedReading>& placed, double misfit);
+
+}  // namespace stiffscope::interchange

@@ -1,0 +1,260 @@
+#include <fmt/format.h>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/interchange/log_formats.h"
+#include "core/io/input_error.h"
+#include "core/io/units.h"
+#include "core/io/xml.h"
+
+// Programs of FANUC, KUKA and ABB name the postures that were taught. Letter case does not count in any of them.
+
+namespace stiffscope::interchange {
+
+namespace {
+
+bool isWordCharacter(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '$';
+}
+
+/// Goes through a program from token to token, and knows the line of each.
+class ProgramText {
+ public:
+  ProgramText(const std::string& file, std::string_view text, std::size_t from = 0)
+      : file_(file), text_(text), at_(from) {}
+
+  bool atEnd() {
+    skipBlanks();
+    return at_ >= text_.size();
+  }
+  std::size_t line() const { return io::lineOf(text_, at_); }
+  std::size_t place() const { return at_; }
+
+  /// A word, a number with its sign and unit left out, or one other character.
+  std::string_view next() {
+    skipBlanks();
+    const std::size_t from = at_;
+    if (at_ >= text_.size()) return {};
+    const auto part = [&](char c) { return isWordCharacter(c) || c == '.'; };
+    const bool sign = (text_[at_] == '-' || text_[at_] == '+') && at_ + 1 < text_.size() && part(text_[at_ + 1]);
+    if (!sign && !part(text_[at_])) return text_.substr(at_++, 1);
+    at_ += sign ? 1 : 0;
+    while (at_ < text_.size() && (part(text_[at_]) || isExponentSign(from))) ++at_;
+    return text_.substr(from, at_ - from);
+  }
+
+  void require(std::string_view wanted, const char* where) {
+    const std::string_view found = next();
+    if (lowered(found) != lowered(wanted)) refuse(found, fmt::format("expected '{}' {}", wanted, where));
+  }
+
+  double number(const char* what) {
+    const std::string_view found = next();
+    const double value = decimalOrNan(found, DecimalSign::point);
+    if (std::isnan(value)) refuse(found, fmt::format("expected a number, {}", what));
+    return value;
+  }
+
+  [[noreturn]] void refuse(std::string_view found, const std::string& expectation) const {
+    throw io::InputError({file_, line(), ""}, std::string(found),
+                         expectation + (at_ >= text_.size() ? "; the file ends here" : ""));
+  }
+
+ private:
+  void skipBlanks() {
+    while (at_ < text_.size() && std::string_view(" \t\r\n").find(text_[at_]) != std::string_view::npos) ++at_;
+  }
+  /// The sign in 1.5E-3.
+  bool isExponentSign(std::size_t from) const {
+    const char c = text_[at_], before = text_[at_ - 1];
+    return (c == '-' || c == '+') && at_ > from && (before == 'e' || before == 'E') &&
+           std::isdigit(static_cast<unsigned char>(
+               text_[from == at_ ? from : from + (text_[from] == '-' || text_[from] == '+')])) != 0;
+  }
+
+  const std::string& file_;
+  std::string_view text_;
+  std::size_t at_;
+};
+
+/// The same text in small letters, for searches; places stay.
+std::size_t findWord(const std::string& small, std::string_view word, std::size_t from) {
+  while (true) {
+    const std::size_t at = small.find(word, from);
+    if (at == std::string::npos) return at;
+    const bool starts = at == 0 || !isWordCharacter(small[at - 1]);
+    const bool ends = at + word.size() >= small.size() || !isWordCharacter(small[at + word.size()]);
+    if (starts && ends) return at;
+    from = at + 1;
+  }
+}
+
+/// Text behind `mark` in each line becomes blanks, so that no target is read out of a comment.
+std::string withoutComments(std::string_view text, char mark) {
+  std::string code(text);
+  bool comment = false, quoted = false;
+  for (char& c : code) {
+    if (c == '\n' || c == '\r') comment = quoted = false;
+    if (c == '"' && !comment) quoted = !quoted;
+    comment = comment || (c == mark && !quoted);
+    if (comment && c != '\n' && c != '\r') c = ' ';
+  }
+  return code;
+}
+
+void requireUniqueNames(const LogText& text, const RobotLog& log) {
+  std::vector<std::string> names;
+  for (const JointSample& sample : log.samples) names.push_back(lowered(sample.name));
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const auto first = std::find(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(i), names[i]);
+    if (first == names.begin() + static_cast<std::ptrdiff_t>(i)) continue;
+    throw io::InputError({text.file, log.samples[i].line, ""}, log.samples[i].name,
+                         fmt::format("expected a target that does not repeat; line {} has it first",
+                                     log.samples[static_cast<std::size_t>(first - names.begin())].line));
+  }
+}
+
+}  // namespace
+
+bool looksLikeFanucProgram(std::string_view text) {
+  const std::string small = lowered(text);
+  return small.find("/prog") != std::string::npos && small.find("/pos") != std::string::npos;
+}
+
+RobotLog readFanucProgram(const LogText& text) {
+  const std::string small = lowered(text.text);
+  const std::size_t section = small.find("/pos");
+  if (section == std::string::npos) throw io::InputError({text.file, 0, ""}, "", "expected a section /POS");
+  RobotLog log;
+  log.format = LogFormat::fanuc_tp;
+  ProgramText program(text.file, text.text, section + 4);
+  while (!program.atEnd()) {
+    const std::string_view start = program.next();
+    if (start == "/") return requireUniqueNames(text, log), log;  // /END
+    if (lowered(start) != "p") program.refuse(start, "expected P[NUMBER]{ or /END");
+    JointSample sample;
+    sample.line = program.line();
+    program.require("[", "behind P");
+    sample.name = fmt::format("P[{}]", program.next());
+    // P[3:"home"] has a comment in it.
+    for (std::string_view token = program.next(); token != "{"; token = program.next()) {
+      if (token.empty()) program.refuse(token, "expected '{' behind P[NUMBER]");
+    }
+    std::array<bool, 6> given{};
+    int group = 1;
+    for (std::string_view token = program.next(); token != "}"; token = program.next()) {
+      if (token.empty()) program.refuse(token, "expected '}' at the end of this target");
+      const std::string word = lowered(token);
+      if (word.size() == 3 && word.starts_with("gp")) group = word[2] - '0';
+      if (group != 1 || word.size() != 2 || word[0] != 'j' || word[1] < '1' || word[1] > '6') continue;
+      const auto joint = static_cast<std::size_t>(word[1] - '1');
+      program.require("=", "behind a joint");
+      sample.figures[static_cast<Eigen::Index>(joint)] = program.number("a joint's angle") * io::kDegree;
+      if (lowered(program.next()) != "deg") program.refuse("", "expected deg behind a joint's angle");
+      given[joint] = true;
+    }
+    program.require(";", "behind a target");
+    const auto joints = std::count(given.begin(), given.end(), true);
+    if (joints == 0) {
+      log.skipped.push_back({sample.line, Skip::joints_not_given});
+    } else if (joints != 6) {
+      throw io::InputError({text.file, sample.line, ""}, sample.name,
+                           "expected all six joints of group 1, or a target in space");
+    } else {
+      log.samples.push_back(std::move(sample));
+    }
+  }
+  throw io::InputError({text.file, program.line(), ""}, "", "expected /END; the file ends before it");
+}
+
+bool looksLikeKukaData(std::string_view text) {
+  const std::string small = lowered(text);
+  return findWord(small, "defdat", 0) != std::string::npos ||
+         (findWord(small, "decl", 0) != std::string::npos &&
+          (findWord(small, "axis", 0) != std::string::npos || findWord(small, "e6axis", 0) != std::string::npos));
+}
+
+RobotLog readKukaData(const LogText& text) {
+  const std::string code = withoutComments(text.text, ';'), small = lowered(code);
+  RobotLog log;
+  log.format = LogFormat::kuka_krl;
+  for (std::size_t at = findWord(small, "decl", 0); at != std::string::npos; at = findWord(small, "decl", at + 1)) {
+    ProgramText program(text.file, code, at);
+    program.next();
+    std::string type = lowered(program.next());
+    if (type == "global" || type == "const") type = lowered(program.next());
+    JointSample sample;
+    sample.line = program.line();
+    if (type == "e6pos" || type == "pos" || type == "frame")
+      log.skipped.push_back({sample.line, Skip::joints_not_given});
+    if (type != "axis" && type != "e6axis") continue;
+    sample.name = program.next();
+    std::string_view token = program.next();
+    if (token != "=") continue;  // declared without a value
+    program.require("{", "behind the name of a target");
+    std::array<bool, 6> given{};
+    for (token = program.next(); token != "}"; token = program.next()) {
+      if (token.empty()) program.refuse(token, "expected '}' at the end of this target");
+      if (token == ",") continue;
+      const std::string word = lowered(token);
+      if (word == ":") continue;
+      const bool axis = word.size() == 2 && word[0] == 'a' && word[1] >= '1' && word[1] <= '6';
+      const bool external = word.size() == 2 && word[0] == 'e' && word[1] >= '1' && word[1] <= '6';
+      if (word == "axis" || word == "e6axis") continue;  // {E6AXIS: A1 ...}
+      if (!axis && !external) program.refuse(token, "expected A1 to A6 or E1 to E6");
+      const double value = program.number("an axis's angle");
+      if (!axis) continue;
+      given[static_cast<std::size_t>(word[1] - '1')] = true;
+      sample.figures[word[1] - '1'] = value * io::kDegree;
+    }
+    if (std::count(given.begin(), given.end(), true) != 6)
+      throw io::InputError({text.file, sample.line, ""}, sample.name, "expected A1 to A6");
+    log.samples.push_back(std::move(sample));
+  }
+  requireUniqueNames(text, log);
+  return log;
+}
+
+bool looksLikeRapid(std::string_view text) { return findWord(lowered(text), "jointtarget", 0) != std::string::npos; }
+
+RobotLog readRapid(const LogText& text) {
+  const std::string code = withoutComments(text.text, '!'), small = lowered(code);
+  RobotLog log;
+  log.format = LogFormat::rapid;
+  for (std::size_t at = findWord(small, "robtarget", 0); at != std::string::npos;
+       at = findWord(small, "robtarget", at + 1))
+    log.skipped.push_back({io::lineOf(code, at), Skip::joints_not_given});
+  for (std::size_t at = findWord(small, "jointtarget", 0); at != std::string::npos;
+       at = findWord(small, "jointtarget", at + 1)) {
+    ProgramText program(text.file, code, at);
+    program.next();
+    JointSample sample;
+    sample.line = program.line();
+    sample.name = program.next();
+    std::string_view token = program.next();
+    if (token == ":") token = program.next();
+    if (token != "=") continue;  // a parameter, or declared without a value
+    // ABB: [[q1,...,q6],[...]]; Rokae: j:{q1,...,q6,...}{EJ ...}
+    token = program.next();
+    if (lowered(token) == "j") {
+      program.require(":", "behind j");
+      program.require("{", "behind j:");
+    } else {
+      if (token != "[") program.refuse(token, "expected [[q1, ..., q6], [...]]");
+      program.require("[", "before six angles");
+    }
+    for (int j = 0; j < 6; ++j) {
+      if (j > 0) program.require(",", "between angles");
+      sample.figures[j] = program.number("a joint's angle") * io::kDegree;
+    }
+    log.samples.push_back(std::move(sample));
+  }
+  requireUniqueNames(text, log);
+  return log;
+}
+
+}  // namespace stiffscope::interchange

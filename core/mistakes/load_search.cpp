@@ -1,0 +1,428 @@
+#include "core/mistakes/load_search.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <utility>
+
+#include "core/campaign/row_names.h"
+#include "core/io/units.h"
+#include "core/mistakes/load_mistakes.h"
+#include "core/mistakes/remarks.h"
+#include "core/numerics/parallel.h"
+#include "core/numerics/resampling.h"
+#include "core/robot/kinematics.h"
+
+namespace stiffscope::mistakes {
+
+namespace {
+
+constexpr double kHangs = 0.06;       // rad, rms: a load that hangs, with a cell that is turned by 3 deg in its mount
+constexpr double kDoesNot = 0.25;     // rad: 15 deg, more than a cell is ever turned by in its mount
+constexpr double kLeavesMuch = 0.04;  // share that springs leave: more than noise and geometry alone
+constexpr double kOnePoint = 0.03, kNoPoint = 0.1;  // share of the moments that one point of the tool leaves
+constexpr double kWorse = 1.1;                      // as chance makes of two that are alike
+constexpr double kLoadsAsWell = 1.15;
+
+struct LoadTrial {
+  LoadMistake mistake;
+  SpringFit fit;
+};
+
+class LoadSearcher {
+ public:
+  LoadSearcher(const campaign::Campaign& campaign, const ReadingsOfDay& day, const NominalFit& arm)
+      : campaign_(campaign), day_(day), loads_(day, arm), declared_(asDeclared(*campaign.load_cell)) {}
+
+  LoadSearch run() {
+    if (!loads_.enough()) return std::move(found_);
+    if (!forcesStandOut(campaign_)) {
+      if (searchTare()) found_.done = true;
+      return std::move(found_);
+    }
+    found_.done = true;
+    found_.fit = loads_.fit(declared_);
+    found_.contradicts = found_.fit.left > kContradicts;
+    const std::vector<LoadMistake> table = loadMistakes(campaign_);
+    std::vector<LoadTrial> trials = tried(table);
+    addGravityTurn(trials);
+    keepMending(trials);
+    if (trials.empty()) {
+      if (searchTare()) return std::move(found_);
+      trials = triedPoint();
+      keepMending(trials);
+    }
+    if (!trials.empty()) point_leaves_ = trials.front().fit.left;
+    if (trials.empty() || trials.front().mistake.id == "cell_point") {
+      searchPostures(table);
+      if (found_.cures.empty()) searchSteps();
+      if (!found_.cures.empty()) return std::move(found_);
+    }
+    if (trials.empty() && isSuspicious()) {
+      trials = tried(pairsOf(table));
+      keepMending(trials);
+    }
+    if (trials.empty()) return searchUnits(table), std::move(found_);
+    report(trials);
+    return std::move(found_);
+  }
+
+ private:
+  std::vector<LoadTrial> tried(const std::vector<LoadMistake>& table) const {
+    std::vector<LoadTrial> trials(table.size());
+    numerics::onAllCores(table.size(), [&](std::size_t i) { trials[i] = {table[i], loads_.fit(table[i].meant)}; });
+    return trials;
+  }
+
+  bool isSuspicious() const { return found_.fit.left > 0.3 || found_.fit.along_lever > kNoPoint; }
+
+  /// The turn that makes forces pull down, where none of the right angles does.
+  void addGravityTurn(std::vector<LoadTrial>& trials) const {
+    const std::optional<Eigen::Matrix3d> turn = loads_.turnToGravity(declared_);
+    if (!turn || found_.fit.off_gravity < kDoesNot) return;
+    constexpr double kAlike = 3.0 * io::kDegree;
+    for (const LoadTrial& trial : trials) {
+      const Eigen::Matrix3d apart = trial.mistake.meant.on_force.transpose() * *turn;
+      if (trial.mistake.id == "cell_axes" && trial.mistake.meant.on_force.determinant() > 0.0 &&
+          Eigen::AngleAxisd(apart).angle() < kAlike)
+        return;
+    }
+    LoadMistake mistake = turnedCell(campaign_, *turn);
+    mistake.things = 2;
+    trials.push_back({mistake, loads_.fit(mistake.meant)});
+  }
+
+  std::vector<LoadTrial> triedPoint() const {
+    constexpr double kLeastMove = 0.25;  // m: nearer, it may be a mount that was measured badly (load_point_error)
+    constexpr double kLeast = 0.15;
+    if (found_.fit.left < kLeast) return {};
+    const Eigen::Vector3d at = loads_.bestPoint(declared_);
+    if ((at - declared_.parent_from_cell.translation()).norm() < kLeastMove) return {};
+    return tried({movedCell(campaign_, at)});
+  }
+
+  /// Signs or turns with a unit, an order or another turn.
+  static std::vector<LoadMistake> pairsOf(const std::vector<LoadMistake>& table) {
+    std::vector<LoadMistake> pairs;
+    for (const LoadMistake& first : table) {
+      if (first.id != "wrench_sign" || first.things > 2) continue;
+      for (const LoadMistake& second : table) {
+        if (second.id == "wrench_sign" || second.things > 2) continue;
+        LoadMistake both = second;
+        both.things += first.things;
+        both.meant.on_force = second.meant.on_force * first.meant.on_force;
+        both.meant.on_moment = second.meant.on_moment * first.meant.on_moment;
+        both.remedy = Remark(RemarkId::both, std::vector<Remark>{second.remedy, first.remedy, first.where});
+        pairs.push_back(std::move(both));
+      }
+    }
+    return pairs;
+  }
+
+  bool getsWorse(const SpringFit& fit) const {
+    const SpringFit& as_read = found_.fit;
+    return fit.left > kWorse * as_read.left + 0.01 || fit.along_lever > std::max(kNoPoint, 1.5 * as_read.along_lever) ||
+           (as_read.off_gravity < kHangs && fit.off_gravity > kHangs);
+  }
+
+  bool mends(const LoadTrial& trial) const {
+    const SpringFit &as_read = found_.fit, &fit = trial.fit;
+    if (getsWorse(fit)) return false;
+    return (as_read.off_gravity > kDoesNot && fit.off_gravity < kHangs) ||
+           (as_read.left > (trial.mistake.mends > 0.9 ? 0.0 : kLeavesMuch) &&
+            fit.left < trial.mistake.mends * as_read.left) ||
+           (as_read.along_lever > kNoPoint && fit.along_lever < kOnePoint);
+  }
+
+  void keepMending(std::vector<LoadTrial>& trials) const {
+    std::erase_if(trials, [&](const LoadTrial& trial) { return !mends(trial); });
+    if (trials.empty()) return;
+    // A load that hangs in all states does not by chance.
+    const auto hangs = [](const LoadTrial& trial) { return trial.fit.off_gravity < kHangs; };
+    if (std::any_of(trials.begin(), trials.end(), hangs))
+      std::erase_if(trials, [&](const LoadTrial& trial) { return !hangs(trial); });
+    const auto onePoint = [](const LoadTrial& trial) { return trial.fit.along_lever < kOnePoint; };
+    if (std::any_of(trials.begin(), trials.end(), onePoint))
+      std::erase_if(trials, [&](const LoadTrial& trial) { return !onePoint(trial); });
+    double best = INFINITY;
+    for (const LoadTrial& trial : trials) best = std::min(best, trial.fit.left);
+    std::erase_if(trials, [&](const LoadTrial& trial) { return trial.fit.left > kLoadsAsWell * best + 0.005; });
+    std::stable_sort(trials.begin(), trials.end(), [](const LoadTrial& a, const LoadTrial& b) {
+      return std::pair(a.mistake.things, a.fit.left) < std::pair(b.mistake.things, b.fit.left);
+    });
+    std::erase_if(trials, [&](const LoadTrial& trial) { return trial.mistake.things > trials.front().mistake.things; });
+  }
+
+  void report(const std::vector<LoadTrial>& trials) {
+    for (const LoadTrial& trial : trials) {
+      const bool by_gravity = found_.fit.off_gravity > kDoesNot && trial.fit.off_gravity < kHangs;
+      const double before = by_gravity ? found_.fit.off_gravity : found_.fit.left,
+                   after = by_gravity ? trial.fit.off_gravity : trial.fit.left;
+      found_.cures.push_back({trial.mistake.id, trial.mistake.where, trial.mistake.remedy,
+                              Remark(by_gravity ? RemarkId::off_gravity : RemarkId::loads_left, before, after), before,
+                              after});
+    }
+  }
+
+  // One posture apart from the others, or two.
+
+  void searchPostures(const std::vector<LoadMistake>& table) {
+    const std::vector<double>& left = found_.fit.pose_left;
+    const double usual = numerics::upperMedian(left);
+    const bool hangs = numerics::upperMedian(found_.fit.pose_off_gravity) < kHangs;
+    constexpr double kApart = 4.0, kLeast = 0.5;
+    std::vector<std::size_t> apart;
+    for (std::size_t k = 0; k < left.size(); ++k) {
+      if (left[k] > std::max(kLeast, kApart * usual) || (hangs && found_.fit.pose_off_gravity[k] > kDoesNot))
+        apart.push_back(k);
+    }
+    constexpr std::size_t kMost = 4;
+    if (apart.empty() || apart.size() > kMost) return;
+    for (std::size_t a = 0; a < apart.size(); ++a) {
+      for (std::size_t b = a + 1; b < apart.size(); ++b) {
+        const int pose = loads_.poses()[apart[a]], other = loads_.poses()[apart[b]];
+        const SpringFit fit = loads_.fitExchanged(declared_, pose, other);
+        if (!mendsPosture(fit, apart[a]) || !mendsPosture(fit, apart[b])) continue;
+        found_.cures.push_back({"row_order", whereOf(pose),
+                                Remark(RemarkId::wrenches_exchanged, nameOf(pose), nameOf(other)),
+                                Remark(RemarkId::loads_left, left[apart[a]], fit.pose_left[apart[a]]), left[apart[a]],
+                                fit.pose_left[apart[a]]});
+        return;
+      }
+    }
+    for (const std::size_t at : apart) searchPosture(table, at);
+  }
+
+  bool mendsPosture(const SpringFit& fit, std::size_t at) const {
+    constexpr double kLeft = 0.3;
+    const double before = found_.fit.pose_off_gravity[at], after = fit.pose_off_gravity[at];
+    const bool by_gravity = before > kDoesNot && after < kHangs;
+    if (before < kHangs && after > kHangs) return false;
+    if (fit.left > point_leaves_) return false;
+    // A posture of a small load moves by what springs are not; a moment that then has another lever was right before.
+    const SpringFit& as_read = found_.fit;
+    if (fit.along_lever > std::max(kNoPoint, kWorse * as_read.along_lever) ||
+        fit.pose_along_lever[at] > std::max(kNoPoint, kWorse * as_read.pose_along_lever[at]))
+      return false;
+    return fit.pose_left[at] < (by_gravity ? kWorse : kLeft) * found_.fit.pose_left[at];
+  }
+
+  std::string nameOf(int pose) const { return campaign::poseName(campaign_, pose); }
+
+  Remark whereOf(int pose) const {
+    for (const campaign::State& row : campaign_.states->rows) {
+      if (row.pose == pose && row.step != 0)
+        return Remark(RemarkId::at_pose_in, nameOf(pose), std::string("fx_n to mz_nm"),
+                      campaign::rowName(campaign_.states->file, row.line));
+    }
+    return Remark(RemarkId::in_files, std::vector<std::string>{campaign_.states->file});
+  }
+
+  void searchPosture(const std::vector<LoadMistake>& table, std::size_t at) {
+    const int pose = loads_.poses()[at];
+    struct AtPosture {
+      const LoadMistake* mistake;
+      double left, off_gravity, along_lever;
+    };
+    std::vector<AtPosture> mending;
+    for (const LoadMistake& mistake : table) {
+      if (!mistake.of_one_posture) continue;
+      const SpringFit fit = loads_.fitAtPose(declared_, pose, mistake.meant);
+      if (mendsPosture(fit, at))
+        mending.push_back({&mistake, fit.pose_left[at], fit.pose_off_gravity[at], fit.pose_along_lever[at]});
+    }
+    if (mending.empty()) return;
+    const auto only = [&](const auto& good) {
+      if (std::any_of(mending.begin(), mending.end(), good))
+        std::erase_if(mending, [&](const AtPosture& one) { return !good(one); });
+    };
+    if (numerics::upperMedian(found_.fit.pose_off_gravity) < kHangs)
+      only([](const AtPosture& one) { return one.off_gravity < kHangs; });
+    only([](const AtPosture& one) { return one.along_lever < kNoPoint; });
+    double best = INFINITY;
+    for (const AtPosture& one : mending) best = std::min(best, one.left);
+    std::erase_if(mending, [&](const AtPosture& one) { return one.left > kLoadsAsWell * best + 0.005; });
+    int least = mending.front().mistake->things;
+    for (const AtPosture& one : mending) least = std::min(least, one.mistake->things);
+    for (const AtPosture& one : mending) {
+      if (one.mistake->things > least) continue;
+      found_.cures.push_back({one.mistake->id, whereOf(pose), one.mistake->remedy,
+                              Remark(RemarkId::loads_left, found_.fit.pose_left[at], one.left),
+                              found_.fit.pose_left[at], one.left});
+    }
+  }
+
+  // One load step apart from the others.
+
+  /// Displacements grow as the load does: a step whose load is written too large moves too little for it.
+  void searchSteps() {
+    const std::map<int, double>& moves = found_.fit.step_moves;
+    constexpr std::size_t kSteps = 3;
+    constexpr double kAlike = 1.1, kApart = 1.5, kLeast = 0.1, kMends = 0.5;
+    if (moves.size() < kSteps || found_.fit.left < kLeast) return;
+    for (const auto& [step, share] : moves) {
+      double least = INFINITY, most = 0.0;
+      for (const auto& [other, its] : moves) {
+        if (other != step) least = std::min(least, its), most = std::max(most, its);
+      }
+      if (!(least > 0.0) || !(share > 0.0) || most > kAlike * kAlike * least) continue;
+      const double factor = std::sqrt(least * most) / share;  // by which its load is too large
+      if (std::max(factor, 1.0 / factor) < kApart) continue;
+      const SpringFit fit = loads_.fitScaled(declared_, step, 1.0 / factor);
+      if (fit.left > std::min(kMends * found_.fit.left, point_leaves_)) continue;
+      found_.cures.push_back(
+          {"step_scale",
+           Remark(RemarkId::in_columns, std::string("fx_n to mz_nm"), std::vector<std::string>{campaign_.states->file}),
+           Remark(RemarkId::step_scale_off, step, factor), Remark(RemarkId::loads_left, found_.fit.left, fit.left),
+           found_.fit.left, fit.left});
+      return;
+    }
+  }
+
+  // The cell unloaded.
+
+  /// A weight that turns with the postures in rows without load: F = m g in the cell's axes, and a constant.
+  bool searchTare() {
+    const double sigma = campaign_.load_cell->force_sigma;
+    std::vector<std::pair<Eigen::Vector3d, Eigen::Vector3d>> rows;  // gravity in the cell's axes, force
+    double squares = 0.0;
+    for (const campaign::State& row : campaign_.states->rows) {
+      if (row.step != 0) continue;
+      rows.emplace_back(gravityInCell(row.q), row.wrench_in_cell.head<3>());
+      squares += rows.back().second.squaredNorm();
+    }
+    constexpr std::size_t kEnough = 6;
+    if (rows.size() < kEnough) return false;
+    Eigen::Matrix4d normal = Eigen::Matrix4d::Zero();
+    Eigen::Vector4d right = Eigen::Vector4d::Zero();
+    for (const auto& [gravity, force] : rows) {
+      Eigen::Matrix<double, 3, 4> design;
+      design << gravity, Eigen::Matrix3d::Identity();
+      normal += design.transpose() * design;
+      right += design.transpose() * force;
+    }
+    normal.diagonal().array() += 1e-9;
+    const Eigen::Vector4d found = normal.ldlt().solve(right);
+    double left = 0.0;
+    for (const auto& [gravity, force] : rows) left += (force - gravity * found[0] - found.tail<3>()).squaredNorm();
+    const double count = static_cast<double>(rows.size()), mean = std::sqrt(squares / count),
+                 rest = std::sqrt(left / count), weight = std::abs(found[0]) * day_.weight.gravity_in_base.norm();
+    constexpr double kShare = 0.1, kSigmas = 10.0;
+    const bool is_weight =
+        weight > 5.0 * rest && rest < kShare * mean && weight > kSigmas * sigma && weight > 0.5 * mean;
+    if (!is_weight) return false;
+    found_.cures.push_back(
+        {"not_tared",
+         Remark(RemarkId::in_columns, std::string("fx_n to mz_nm"), std::vector<std::string>{campaign_.states->file}),
+         Remark(RemarkId::weight_not_tared, found[0], mean, rest), Remark(), mean, rest});
+    return true;
+  }
+
+  Eigen::Vector3d gravityInCell(const Vector6d& q) const {
+    const robot::ArmPosture posture = robot::postureAt(day_.robot, q);
+    const std::string& link = declared_.axes_link ? *declared_.axes_link : declared_.parent;
+    Eigen::Matrix3d axes = robot::flangeAt(day_.robot, posture).linear();
+    for (const robot::LinkFrame& frame : day_.robot.links) {
+      if (frame.name == link)
+        axes = posture.motion[static_cast<std::size_t>(frame.body)].linear() * frame.base_from_link_at_zero.linear();
+    }
+    if (!declared_.axes_link) axes = axes * declared_.parent_from_cell.linear();
+    return axes.transpose() * day_.weight.gravity_in_base;
+  }
+
+  // Units that leave the loads explained nearly as well: all in one other unit makes springs as much softer. The cell's
+  // unloaded scatter against what is declared shows them, and the own weight's sag by these springs.
+
+  struct Scatter {
+    double force = 0.0, moment = 0.0;  ///< standard deviation over the declared; 0 where nothing says
+  };
+
+  Scatter unloadedScatter() const {
+    const campaign::LoadCell& cell = *campaign_.load_cell;
+    if (cell.force_sigma <= 0.0 || cell.moment_sigma <= 0.0) return {};
+    Vector6d sum = Vector6d::Zero(), squares = Vector6d::Zero();
+    double count = 0.0;
+    for (const campaign::State& row : campaign_.states->rows) {
+      if (row.step != 0) continue;
+      sum += row.wrench_in_cell;
+      squares += row.wrench_in_cell.cwiseAbs2();
+      count += 1.0;
+    }
+    constexpr double kEnough = 6.0;
+    if (count < kEnough) return {};
+    const Vector6d variance = (squares - sum.cwiseAbs2() / count) / (count - 1.0);
+    return {std::sqrt(std::max(0.0, variance.head<3>().mean())) / cell.force_sigma,
+            std::sqrt(std::max(0.0, variance.tail<3>().mean())) / cell.moment_sigma};
+  }
+
+  /// Sag of the own weight in parts of what these springs make of it; 0 where no masses are known.
+  double sagBy(const SpringFit& springs) const {
+    if (!day_.weight.links_known || day_.unloaded.empty()) return 0.0;
+    NominalFitOptions options;
+    options.springs = springs.compliance;
+    return std::max(0.0, fitNominal(day_, options).sag_factor);
+  }
+
+  void searchUnits(const std::vector<LoadMistake>& table) {
+    const Scatter scatter = unloadedScatter();
+    if (scatter.force <= 0.0 || scatter.moment <= 0.0) return;
+    constexpr double kOff = 1.0, kRight = 0.4, kSagRight = 0.5, kSagOff = 0.7;  // logarithms of factors
+    const auto off = [](double factor) { return std::abs(std::log(factor)); };
+    if (std::max(off(scatter.force), off(scatter.moment)) < kOff) return;
+    const double sag = sagBy(found_.fit);
+    for (const LoadMistake& mistake : table) {
+      if (mistake.id != "wrench_unit") continue;
+      const double forces = mistake.meant.on_force(0, 0), moments = mistake.meant.on_moment(0, 0);
+      if (off(scatter.force * forces) > kRight || off(scatter.moment * moments) > kRight) continue;
+      const SpringFit fit = loads_.fit(mistake.meant);
+      const double after = sagBy(fit);
+      const bool by_sag = sag > 0.0 && off(sag) > kSagOff && after > 0.0 && off(after) < kSagRight;
+      constexpr double kBetter = 0.93;
+      const bool by_springs = fit.left < kBetter * found_.fit.left;
+      if (!by_sag && !by_springs) continue;
+      found_.cures.push_back({mistake.id, mistake.where, mistake.remedy,
+                              by_sag ? Remark(RemarkId::sag_against_load, 1.0 / sag, 1.0 / after)
+                                     : Remark(RemarkId::loads_left, found_.fit.left, fit.left),
+                              by_sag ? 1.0 / sag : found_.fit.left, by_sag ? 1.0 / after : fit.left});
+    }
+  }
+
+  const campaign::Campaign& campaign_;
+  const ReadingsOfDay& day_;
+  LoadsOfDay loads_;
+  CellReading declared_;
+  double point_leaves_ = INFINITY;  ///< of the displacements, where moving the cell's point mends
+  LoadSearch found_;
+};
+
+}  // namespace
+
+bool forcesStandOut(const campaign::Campaign& campaign) {
+  if (!campaign.states) return false;
+  struct Sum {
+    double squares = 0.0, count = 0.0;
+  };
+  std::map<int, Sum> by_step;
+  for (const campaign::State& row : campaign.states->rows) {
+    Sum& sum = by_step[row.step];
+    sum.squares += row.wrench_in_cell.head<3>().squaredNorm();
+    sum.count += 1.0;
+  }
+  double least = std::numeric_limits<double>::infinity(), most = 0.0;  // N^2
+  for (const auto& [step, sum] : by_step) {
+    least = std::min(least, sum.squares / sum.count);
+    most = std::max(most, sum.squares / sum.count);
+  }
+  constexpr double kStandsOut = 3.0;
+  return by_step.size() == 1 || most > kStandsOut * kStandsOut * least;
+}
+
+LoadSearch searchLoads(const campaign::Campaign& campaign, const ReadingsOfDay& day, const NominalFit& arm) {
+  if (!campaign.load_cell || !campaign.states || !arm.done) return {};
+  return LoadSearcher(campaign, day, arm).run();
+}
+
+}  // namespace stiffscope::mistakes

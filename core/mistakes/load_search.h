@@ -1,0 +1,39 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/campaign/campaign.h"
+#include "core/mistakes/nominal_fit.h"
+#include "core/mistakes/readings_of_day.h"
+#include "core/mistakes/spring_fit.h"
+#include "core/mistakes/suspected.h"
+
+namespace stiffscope::mistakes {
+
+/// Whether the forces of some load step are three times those of another (rms): a load of couples alone leaves the
+/// same noise in all of them, loaded or not, of which no lever and no stiffness follows. The ratio does not ask for
+/// units. True of a single step.
+bool forcesStandOut(const campaign::Campaign& campaign);
+
+/// What the loads say of joint springs on the URDF's arm, and what would mend them where they contradict it.
+struct LoadSearch {
+  bool done = false;         ///< a load cell and six loaded states or more
+  SpringFit fit;             ///< as read
+  bool contradicts = false;  ///< springs that give way explain less than half of the displacements
+  std::vector<Suspected> cures;
+};
+
+/// Tries the table of mistakes (load_mistakes.h), always where forces stand out: a fit takes a fraction of a
+/// millisecond. One is believed where, with it, one of these holds and none of them gets worse:
+///
+/// - the forces of all states pull down, and as declared they do not: a load that hangs;
+/// - springs leave half of what they leave as declared, which is more than unmodelled effects make;
+/// - one point of the tool carries the load, and as declared none does.
+LoadSearch searchLoads(const campaign::Campaign& campaign, const ReadingsOfDay& day, const NominalFit& arm);
+
+/// Share of the displacements that joint springs leave beyond which the loads contradict the model. Simulated machines
+/// with every effect of the vocabulary, and with what none of them is, leave 0.15 at most.
+inline constexpr double kContradicts = 0.5;
+
+}  // namespace stiffscope::mistakes

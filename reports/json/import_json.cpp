@@ -1,0 +1,65 @@
+#include <cmath>
+
+#include "reports/json/interchange_json.h"
+#include "reports/words/interchange_words.h"
+
+namespace stiffscope::reports {
+
+namespace {
+
+constexpr double kMillimetres = 1e3;
+
+Json statedNumber(const std::optional<double>& value, double factor = 1.0) {
+  return value ? number(*value * factor) : Json(nullptr);
+}
+
+Json fileJson(const interchange::ImportedFile& file) {
+  Json json{{"name", file.name}, {"role", file.role}};
+  if (!file.format.empty()) json["format"] = file.format;
+  if (!file.encoding.empty()) json["encoding"] = file.encoding;
+  json["sha256"] = file.sha256;
+  return json;
+}
+
+Json clockJson(const interchange::ClockReport& clock) {
+  return {{"log", clock.log},
+          {"offset_s", number(clock.offset_s)},
+          {"uncertainty_s", clock.stated ? Json(nullptr) : number(clock.uncertainty_s)},
+          {"stated", clock.stated},
+          {"readings", clock.readings},
+          {"inside", clock.inside},
+          {"standstills", clock.standstills},
+          {"misfit_mm", statedNumber(clock.misfit, kMillimetres)}};
+}
+
+}  // namespace
+
+Json importJson(const interchange::ImportedDay& day) {
+  Json json{{"import", 1},
+            {"start", day.start.empty() ? Json(nullptr) : Json(day.start)},
+            {"files", Json::array()},
+            {"clocks", Json::array()},
+            {"misfit_mm", Json::object()}};
+  for (const auto& file : day.files) json["files"].push_back(fileJson(file));
+  for (const auto& clock : day.clocks) json["clocks"].push_back(clockJson(clock));
+  for (const auto& [table, misfit] : day.misfit) json["misfit_mm"][table] = number(kMillimetres * misfit);
+  json["stated_over_declared"] = statedNumber(day.stated_over_declared);
+  json["rows"] = Json::object();
+  for (const auto& [table, rows] : day.rows) {
+    Json list = Json::array();
+    for (const interchange::RowOrigin& row : rows) {
+      Json origin{{"file", row.file}, {"line", row.line}};
+      if (row.last_line != row.line) origin["last_line"] = row.last_line;
+      list.push_back(std::move(origin));
+    }
+    json["rows"][table] = std::move(list);
+  }
+  json["skipped"] = Json::array();
+  for (const interchange::SkippedOrigin& skipped : day.skipped)
+    json["skipped"].push_back(
+        {{"file", skipped.file}, {"line", skipped.row.line}, {"reason", skipWords(skipped.row.reason)}});
+  json["warnings"] = day.warnings;
+  return json;
+}
+
+}  // namespace stiffscope::reports
