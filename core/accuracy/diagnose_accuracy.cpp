@@ -43,8 +43,11 @@ double rmsOf(const std::vector<double>& squares) {
   return std::sqrt(std::accumulate(squares.begin(), squares.end(), 0.0));
 }
 
-/// 1 - after / before of held-out squares by posture, with the interval by resampling postures.
-diagnosis::Shrink shrinkOf(const std::vector<double>& before, const std::vector<double>& after) {
+/// 1 - after / before of held-out squares by posture. The interval has what resampling the postures does to it, and
+/// what other divisions into folds do, whose sums are `before_by` and `after_by`, that of these squares first: the
+/// postures say nothing of what the fits to the other folds have in common.
+diagnosis::Shrink shrinkOf(const std::vector<double>& before, const std::vector<double>& after,
+                           const std::vector<double>& before_by, const std::vector<double>& after_by) {
   diagnosis::Shrink shrink;
   if (before.empty()) return shrink;
   const auto of = [](double was, double is) { return was > 0.0 ? 1.0 - std::sqrt(is / was) : 0.0; };
@@ -54,9 +57,10 @@ diagnosis::Shrink shrinkOf(const std::vector<double>& before, const std::vector<
   std::mt19937_64 random(kSeed);
   std::vector<double> values;
   for (int sample = 0; sample < kSamples; ++sample) {
+    const std::size_t division = static_cast<std::size_t>(sample) % before_by.size();
     double was = 0.0, is = 0.0;
     numerics::drawWithReplacement(random, before.size(), [&](std::size_t k) { was += before[k], is += after[k]; });
-    values.push_back(of(was, is));
+    values.push_back(of(was * before_by[division] / before_by.front(), is * after_by[division] / after_by.front()));
   }
   std::sort(values.begin(), values.end());
   constexpr double kTail = 0.025;
@@ -156,7 +160,8 @@ class Decider {
     for (const calibration::Rival& rival : one.rivals) found.effects.push_back(rival.effect);
     found.detail = one.detail;
     found.score = one.score;
-    found.shrink = shrinkOf(calibration_.selected.before, one.held_out);
+    found.shrink =
+        shrinkOf(calibration_.selected.before, one.held_out, calibration_.selected.before_by_division, one.by_division);
     found.explained =
         explainedOf(result_.gap.before, (1.0 - found.shrink.value) * result_.gap.before, result_.gap.noise);
     addFitted(one.effect, found);
@@ -302,7 +307,8 @@ AccuracyDiagnosis diagnoseAccuracy(const preparation::PreparedCampaign& prepared
   Decider(prepared, result).run();
   const calibration::SelectedEffects& selected = calibration.selected;
   result.shrink_together =
-      shrinkOf(heldOutSquares(calibration, calibration.geometry()), heldOutSquares(calibration, calibration.best()));
+      shrinkOf(heldOutSquares(calibration, calibration.geometry()), heldOutSquares(calibration, calibration.best()),
+               selected.before_by_division, selected.after_by_division);
   const auto untestable = [&](UnloadedEffect effect) {
     return std::any_of(result.not_testable.begin(), result.not_testable.end(),
                        [&](const UntestableEffect& one) { return one.effect == effect; });

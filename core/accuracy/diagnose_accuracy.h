@@ -7,7 +7,7 @@ namespace stiffscope::accuracy {
 
 /// Folds of a diagnosis: neighbours by fours stay together, since consecutive postures often come in pairs of two
 /// shapes of the arm, and a fold of one shape would be judged by the other.
-inline constexpr calibration::CalibrationOptions kDiagnosisFolds{.folds = 2, .fold_size = 4};
+inline constexpr calibration::CalibrationOptions kDiagnosisFolds{.folds = 2, .fold_size = 4, .divisions = 24};
 
 /// Where the calibrated geometry and the tracker disagree, which effect of the vocabulary of unloaded days makes it,
 /// and how far it shrinks with that effect in the model.

@@ -62,7 +62,8 @@ double nominalMisses(const UnloadedDay& day, const ArmFit& found) {
   return errors.rms / std::sqrt(3.0);
 }
 
-ModelFits fitModels(const UnloadedDay& day, const std::vector<double>& weights, const CalibrationOptions& options) {
+ModelFits fitModels(const UnloadedDay& day, const std::vector<double>& weights, const CalibrationOptions& options,
+                    int divisions = 0) {
   ModelFits models;
   const auto place = placeArm(day, weights);
   if (!place) return models;
@@ -72,6 +73,7 @@ ModelFits fitModels(const UnloadedDay& day, const std::vector<double>& weights, 
   selection.inner_fold = innerFolds(options, selection.inner_folds);
   selection.outer_folds = options.folds;
   selection.outer_fold = [&](int pose) { return foldOf(pose, options); };
+  selection.divisions = divisions;
   SelectedEffects selected = selectEffects(day, first, selection);
   ArmFit effects = fitArm(day, *place, selected.parts, {.weights = weights}, &first);
   if (worthAnotherLook(first, effects, selection)) {
@@ -182,7 +184,7 @@ Calibration calibrateBy(const campaign::Campaign& campaign, const CalibrationOpt
 
   // The whole day first, then each fold's others, without the readings that the whole day rejects.
   std::vector<ModelFits> fits(static_cast<std::size_t>(options.folds) + 1);
-  fits.front() = fitModels(day, weightsWhere(day, [](int) { return true; }), options);
+  fits.front() = fitModels(day, weightsWhere(day, [](int) { return true; }), options, options.divisions);
   if (!fits.front().placed) {
     result.reason = Remark(RemarkId::not_placed);
     return result;

@@ -86,7 +86,8 @@ class Search {
     selected.parts = set.model.parts;
     const LinearModel nothing = day_.geometryAlone();
     selected.before = day_.heldOutByPosture(nothing);
-    selected.after = day_.heldOutByPosture(set.model);
+    selected.before_by_division = day_.heldOutByDivision(nothing, options_.divisions);
+    selected.after_by_division = day_.heldOutByDivision(set.model, options_.divisions);
     for (const std::size_t family : set.families) selected.effects.push_back(describedOne(set, family));
     std::stable_sort(selected.effects.begin(), selected.effects.end(),
                      [](const SelectedEffect& a, const SelectedEffect& b) { return a.score > b.score; });
@@ -120,8 +121,9 @@ class Search {
                             cost(*instead) - cost(set)});
     }
     std::sort(one.rivals.begin(), one.rivals.end(), [](const Rival& a, const Rival& b) { return a.cost < b.cost; });
-    one.held_out =
-        day_.heldOutByPosture(day_.keeping(set.model, [&](UnloadedEffect effect) { return effect == one.effect; }));
+    const LinearModel alone = day_.keeping(set.model, [&](UnloadedEffect effect) { return effect == one.effect; });
+    one.held_out = day_.heldOutByPosture(alone);
+    one.by_division = day_.heldOutByDivision(alone, options_.divisions);
     return one;
   }
 

@@ -26,6 +26,7 @@ struct SelectionOptions {
   std::function<int(int pose)> inner_fold;
   int outer_folds = 2;  ///< those that held-out figures are stated for
   std::function<int(int pose)> outer_fold;
+  int divisions = 0;  ///< beside the outer folds, see LinearisedDay::heldOutByDivision
 };
 
 /// An effect that does nearly as well in the place of one that was selected.
@@ -37,11 +38,12 @@ struct Rival {
 
 struct SelectedEffect {
   UnloadedEffect effect = {};
-  std::string detail;            ///< of its parts, each once; empty where they name nothing
-  double score = 0.0;            ///< fall of BIC against the others without it
-  double size = 0.0;             ///< rms per coordinate of what it explains beside them, m
-  std::vector<Rival> rivals;     ///< within kAsGood, best first
-  std::vector<double> held_out;  ///< as SelectedEffects::before, with this effect alone beside the geometry
+  std::string detail;               ///< of its parts, each once; empty where they name nothing
+  double score = 0.0;               ///< fall of BIC against the others without it
+  double size = 0.0;                ///< rms per coordinate of what it explains beside them, m
+  std::vector<Rival> rivals;        ///< within kAsGood, best first
+  std::vector<double> held_out;     ///< as SelectedEffects::before, with this effect alone beside the geometry
+  std::vector<double> by_division;  ///< sums of that
 };
 
 /// BIC tells models apart that differ by this much: odds of 90 to 1.
@@ -50,8 +52,10 @@ inline constexpr double kAsGood = 9.0;
 struct SelectedEffects {
   std::vector<EffectPart> parts;        ///< those of an effect stand together
   std::vector<SelectedEffect> effects;  ///< the one that explains most first
-  /// Squared residuals of postures, m^2, each outer fold by what the others fit: of the geometry, and with all effects.
-  std::vector<double> before, after;
+  /// Squared residuals of postures, m^2, each outer fold by what the others fit: of the geometry.
+  std::vector<double> before;
+  /// Sums of that by each division into folds, the outer folds first: of the geometry, and with all effects.
+  std::vector<double> before_by_division, after_by_division;
   /// Of each effect that the day can be asked for: what it would have to explain to be named, in parts of what is then
   /// left.
   std::vector<std::pair<UnloadedEffect, double>> detectable;

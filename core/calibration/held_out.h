@@ -13,6 +13,7 @@ struct CalibrationOptions {
   int fold_size =
       1;  ///< posture i (from 0, in the order of the campaign) belongs to fold floor(i / fold_size) mod folds
   JointAngles angles = JointAngles::reported;
+  int divisions = 0;  ///< other divisions into as many folds, drawn, for what the division does to held-out figures
 };
 
 int foldOf(int pose, const CalibrationOptions& options);

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/numerics/parallel.h"
+#include "core/numerics/resampling.h"
 #include "metrology/linear_algebra.h"
 
 namespace stiffscope::calibration {
@@ -157,48 +158,74 @@ double LinearisedDay::designEffect(const Eigen::VectorXd& residual) const {
   return apart > 0.0 ? std::max(1.0, together / apart) : 1.0;
 }
 
-template <class Use>
-void LinearisedDay::holdOut(const LinearModel& model, int fold_count, const std::vector<int>& fold,
-                            const Use& use) const {
-  const Eigen::Index of_geometry = basis_.cols(), width = of_geometry + model.directions.cols();
-  struct Normal {
-    Eigen::MatrixXd matrix;
-    Eigen::VectorXd right;
-  };
-  const auto folds = static_cast<std::size_t>(fold_count);
-  std::vector<Normal> normals(folds, {Eigen::MatrixXd::Zero(width, width), Eigen::VectorXd::Zero(width)});
-  Eigen::MatrixXd columns;
-  // Calls with the columns of postures in a row that are of one fold.
-  const auto forEachRun = [&](const auto& work) {
-    for (std::size_t k = 0; k < postures_.size();) {
-      std::size_t end = k + 1;
-      while (end < postures_.size() && fold[end] == fold[k]) ++end;
-      const Eigen::Index from = first_row_[k], rows = first_row_[end - 1] + equations_[end - 1].residual.size() - from;
-      columns.resize(rows, width);
-      columns.leftCols(of_geometry) = basis_.middleRows(from, rows);
-      columns.rightCols(width - of_geometry) = model.directions.middleRows(from, rows);
-      work(k, end, from, rows);
-      k = end;
-    }
-  };
-  forEachRun([&](std::size_t k, std::size_t, Eigen::Index from, Eigen::Index rows) {
-    Normal& normal = normals[static_cast<std::size_t>(fold[k])];
-    normal.matrix.noalias() += columns.transpose() * columns;
-    normal.right.noalias() += columns.transpose() * residual_.segment(from, rows);
-  });
+namespace {
+
+/// Normal equations of some rows.
+struct Normal {
+  Eigen::MatrixXd matrix;
+  Eigen::VectorXd right;
+
+  void operator+=(const Normal& other) { matrix += other.matrix, right += other.right; }
+};
+
+Normal sumOf(const std::vector<Normal>& normals) {
   Normal all = normals.front();
-  for (std::size_t f = 1; f < folds; ++f) all.matrix += normals[f].matrix, all.right += normals[f].right;
+  for (std::size_t k = 1; k < normals.size(); ++k) all += normals[k];
+  return all;
+}
+
+/// What the others of each fold find.
+std::vector<Eigen::VectorXd> solvedByOthers(const std::vector<Normal>& folds, const Normal& all) {
   constexpr double kDamping = 1e-9;  // of what the whole day sees: a fold that cannot see a direction leaves it
   std::vector<Eigen::VectorXd> sizes;
-  for (const Normal& normal : normals) {
-    Eigen::MatrixXd others = all.matrix - normal.matrix;
+  for (const Normal& fold : folds) {
+    Eigen::MatrixXd others = all.matrix - fold.matrix;
     others.diagonal() += kDamping * all.matrix.diagonal();
-    sizes.push_back(solveSymmetric(others, Eigen::VectorXd(all.right - normal.right)));
+    sizes.push_back(solveSymmetric(others, Eigen::VectorXd(all.right - fold.right)));
   }
-  forEachRun([&](std::size_t k, std::size_t end, Eigen::Index from, Eigen::Index rows) {
-    const Eigen::VectorXd left = residual_.segment(from, rows) - columns * sizes[static_cast<std::size_t>(fold[k])];
-    for (std::size_t p = k; p < end; ++p) use(p, left.segment(first_row_[p] - from, equations_[p].residual.size()));
-  });
+  return sizes;
+}
+
+}  // namespace
+
+Eigen::MatrixXd LinearisedDay::allColumns(const LinearModel& model, Eigen::Index from, Eigen::Index rows) const {
+  Eigen::MatrixXd columns(rows, basis_.cols() + model.directions.cols());
+  columns.leftCols(basis_.cols()) = basis_.middleRows(from, rows);
+  columns.rightCols(model.directions.cols()) = model.directions.middleRows(from, rows);
+  return columns;
+}
+
+std::vector<LinearisedDay::Run> LinearisedDay::runsOf(const std::vector<int>& fold) const {
+  std::vector<Run> runs;
+  for (std::size_t k = 0; k < postures_.size();) {
+    std::size_t end = k + 1;
+    while (end < postures_.size() && fold[end] == fold[k]) ++end;
+    const Eigen::Index from = first_row_[k];
+    runs.push_back({k, end, from, first_row_[end - 1] + equations_[end - 1].residual.size() - from, fold[k]});
+    k = end;
+  }
+  return runs;
+}
+
+template <class Use>
+void LinearisedDay::holdOut(const LinearModel& model, int folds, const std::vector<int>& fold, const Use& use) const {
+  const Eigen::Index width = basis_.cols() + model.directions.cols();
+  std::vector<Normal> normals(static_cast<std::size_t>(folds),
+                              {Eigen::MatrixXd::Zero(width, width), Eigen::VectorXd::Zero(width)});
+  const std::vector<Run> runs = runsOf(fold);
+  for (const Run& run : runs) {
+    const Eigen::MatrixXd columns = allColumns(model, run.row, run.rows);
+    Normal& normal = normals[static_cast<std::size_t>(run.fold)];
+    normal.matrix.noalias() += columns.transpose() * columns;
+    normal.right.noalias() += columns.transpose() * residual_.segment(run.row, run.rows);
+  }
+  const std::vector<Eigen::VectorXd> sizes = solvedByOthers(normals, sumOf(normals));
+  for (const Run& run : runs) {
+    const Eigen::VectorXd left = residual_.segment(run.row, run.rows) -
+                                 allColumns(model, run.row, run.rows) * sizes[static_cast<std::size_t>(run.fold)];
+    for (std::size_t p = run.first; p < run.end; ++p)
+      use(p, left.segment(first_row_[p] - run.row, equations_[p].residual.size()));
+  }
 }
 
 double LinearisedDay::heldOut(const LinearModel& model) const {
@@ -208,19 +235,58 @@ double LinearisedDay::heldOut(const LinearModel& model) const {
   return sum;
 }
 
+double LinearisedDay::plainSquares(std::size_t p, const Eigen::Ref<const Eigen::VectorXd>& residual) const {
+  double square = 0.0;
+  for (std::size_t r = 0; r < equations_[p].whitening.size(); ++r) {
+    // The whitening is lower triangular.
+    const Eigen::Vector3d plain = equations_[p].whitening[r].triangularView<Eigen::Lower>().solve(
+        Eigen::Vector3d(residual.segment<3>(3 * static_cast<Eigen::Index>(r))));
+    square += plain.squaredNorm();
+  }
+  return square;
+}
+
 std::vector<double> LinearisedDay::heldOutByPosture(const LinearModel& model) const {
   std::vector<double> squares;
-  holdOut(model, options_.outer_folds, outer_fold_, [&](std::size_t p, const auto& residual) {
-    double square = 0.0;
-    for (std::size_t r = 0; r < equations_[p].whitening.size(); ++r) {
-      // The whitening is lower triangular.
-      const Eigen::Vector3d plain = equations_[p].whitening[r].template triangularView<Eigen::Lower>().solve(
-          Eigen::Vector3d(residual.template segment<3>(3 * static_cast<Eigen::Index>(r))));
-      square += plain.squaredNorm();
-    }
-    squares.push_back(square);
-  });
+  holdOut(model, options_.outer_folds, outer_fold_,
+          [&](std::size_t p, const auto& residual) { squares.push_back(plainSquares(p, residual)); });
   return squares;
+}
+
+std::vector<double> LinearisedDay::heldOutByDivision(const LinearModel& model, int others) const {
+  std::vector<Run> runs = runsOf(outer_fold_);
+  std::vector<Normal> normals;
+  for (const Run& run : runs) {
+    const Eigen::MatrixXd columns = allColumns(model, run.row, run.rows);
+    normals.push_back({columns.transpose() * columns, columns.transpose() * residual_.segment(run.row, run.rows)});
+  }
+  const Normal all = sumOf(normals);
+  const auto folds = static_cast<std::size_t>(options_.outer_folds);
+  const Normal none{Eigen::MatrixXd::Zero(all.matrix.rows(), all.matrix.cols()),
+                    Eigen::VectorXd::Zero(all.right.size())};
+  std::vector<double> sums;
+  constexpr std::uint64_t kSeed = 1;
+  numerics::SubsetDraws draws(runs.size(), runs.size(), kSeed);
+  for (int division = 0; division <= others; ++division) {
+    if (division > 0) {
+      const std::span<const std::uint32_t> order = draws.next();
+      for (std::size_t k = 0; k < runs.size(); ++k) runs[order[k]].fold = static_cast<int>(k % folds);
+    }
+    std::vector<Normal> by_fold(folds, none);
+    for (std::size_t k = 0; k < runs.size(); ++k) by_fold[static_cast<std::size_t>(runs[k].fold)] += normals[k];
+    const std::vector<Eigen::VectorXd> sizes = solvedByOthers(by_fold, all);
+    double sum = 0.0;
+    for (const Run& run : runs) {
+      const Eigen::VectorXd& found = sizes[static_cast<std::size_t>(run.fold)];
+      const Eigen::VectorXd left = residual_.segment(run.row, run.rows) -
+                                   basis_.middleRows(run.row, run.rows) * found.head(basis_.cols()) -
+                                   model.directions.middleRows(run.row, run.rows) * found.tail(model.directions.cols());
+      for (std::size_t p = run.first; p < run.end; ++p)
+        sum += plainSquares(p, left.segment(first_row_[p] - run.row, equations_[p].residual.size()));
+    }
+    sums.push_back(sum);
+  }
+  return sums;
 }
 
 }  // namespace stiffscope::calibration

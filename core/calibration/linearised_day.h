@@ -73,6 +73,9 @@ class LinearisedDay {
   double heldOut(const LinearModel& model) const;
   /// Squared residuals of each posture, m^2, each outer fold by what the others fit.
   std::vector<double> heldOutByPosture(const LinearModel& model) const;
+  /// Sums of these, first of the outer folds, then of other divisions into as many: pieces of postures in a row that
+  /// were of one fold stay whole, and which fold a piece is of is drawn, by the same draws for every model.
+  std::vector<double> heldOutByDivision(const LinearModel& model, int others) const;
 
   static constexpr double kAliased = 1e-3;  ///< of a column's length: what is left of it is nothing of its own
 
@@ -80,6 +83,15 @@ class LinearisedDay {
   void addDirections(const PartColumns& columns, LinearModel& model) const;
   void choosePostures(const ArmFit& geometry);
   void gather(const ArmFit& geometry);
+  /// Postures in a row that are of one fold.
+  struct Run {
+    std::size_t first, end;  ///< places in postures_
+    Eigen::Index row, rows;
+    int fold;
+  };
+  std::vector<Run> runsOf(const std::vector<int>& fold) const;
+  Eigen::MatrixXd allColumns(const LinearModel& model, Eigen::Index from, Eigen::Index rows) const;
+  double plainSquares(std::size_t p, const Eigen::Ref<const Eigen::VectorXd>& residual) const;  ///< m^2
   /// Calls with each posture's whitened residual, its fold predicted by the others: a direction that these do not see
   /// is left alone.
   template <class Use>
