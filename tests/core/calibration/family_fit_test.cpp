@@ -132,6 +132,25 @@ TEST(LinearisedDay, ATruePartPredictsPosturesThatWereLeftOut) {
   EXPECT_GT(day.heldOut(with), with.squares());
 }
 
+/// With p parameters fitted to all but the rows that are judged, of n rows in all, these miss by 1 + p / (n - n / folds)
+/// of the noise on the average over divisions, where the rows see all parameters alike.
+TEST(LinearisedDay, OtherDivisionsIntoFoldsScatterAboutWhatFittingCosts) {
+  const CleanDay clean(66);
+  const LinearisedDay day(clean.day, clean.geometry, folds());
+  const LinearModel nothing = day.geometryAlone();
+  EXPECT_EQ(day.heldOutByDivision(nothing, 0).size(), 1u);
+  const std::vector<double> sums = day.heldOutByDivision(nothing, 40);
+  ASSERT_EQ(sums.size(), 41u);
+  EXPECT_NEAR(sums.front(), sumOf(day.heldOutByPosture(nothing)), kRounding * sums.front());
+  const double rows = static_cast<double>(day.rows()), parameters = static_cast<double>(day.geometry().cols());
+  const double squares = nothing.squares() / (rows - parameters) * day.noise() * day.noise();
+  const double expected = rows * squares * (1.0 + parameters / (rows / 2.0));
+  EXPECT_NEAR(sumOf(sums) / 41.0, expected, 0.05 * expected);
+  const auto [least, most] = std::minmax_element(sums.begin(), sums.end());
+  EXPECT_GT(*most - *least, 0.005 * expected);
+  EXPECT_LT(*most - *least, 0.2 * expected);
+}
+
 /// Two parameters of 720 equations: noise fitted by them is as much again wrong where it was not fitted.
 TEST(LinearisedDay, APartThatIsNotThereDoesNotPredict) {
   const CleanDay clean(65);
