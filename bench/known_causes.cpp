@@ -4,8 +4,10 @@
 // known_causes CAMPAIGN [EFFECT...] [--draws N] [--seed S] [--every K] [--folds N] [--fold-size M] [--each]
 //
 // A cause is as large as makes it move 2 or 5 times what the calibrated geometry leaves (rms of the 3-D position)
-// beyond what a rigid calibration takes up. Joint, order, time and direction are drawn. --every K: readings of each
-// K-th pair of postures only; the arm's states, and so its moves, are all there. --each: a line a draw.
+// beyond what a rigid calibration takes up. Joint, order, time and direction are drawn, again where an arm would have
+// to be softer, longer or looser for that than any that works; where none of 200 will do, that is said. --every K:
+// readings of each K-th pair of postures only; the arm's states, and so its moves, are all there. --each: a line a
+// draw.
 //
 // named: the effect is in the verdict. first: before everything that the untouched day's verdict has not. class <= 3:
 // named with at most two others. part: the joint, link or reflector too. other: something named that the untouched day
@@ -169,21 +171,32 @@ class Bench {
     for (std::size_t e = 0; e < calibration::kUnloadedEffectIds.size(); ++e) {
       const std::string id(calibration::kUnloadedEffectIds[e]);
       if (!options_.effects.empty() && options_.effects.count(id) == 0) continue;
-      numerics::RandomStream random(options_.seed, id);
-      int got = 0;
-      constexpr int kTries = 200;
-      for (int tries = 0; got < options_.draws && tries < kTries; ++tries) {
-        const auto cause = bench::drawCause(static_cast<UnloadedEffect>(e), day_, random);
-        if (!cause) break;
-        const bench::RigidGeometry::Moves moves = geometry.movesOf(*cause);
-        if (!(moves.beyond > kSeenShare * moves.all)) continue;
-        for (const double times : kTimes) {
+      const auto effect = static_cast<UnloadedEffect>(e);
+      for (const double times : kTimes) {
+        numerics::RandomStream random(options_.seed, id);
+        int got = 0, tries = 0;
+        double least = 0.0;
+        constexpr int kTries = 200;
+        for (; got < options_.draws && tries < kTries; ++tries) {
+          const auto cause = bench::drawCause(effect, day_, random);
+          if (!cause) break;
+          const bench::RigidGeometry::Moves moves = geometry.movesOf(*cause);
+          if (!(moves.beyond > kSeenShare * moves.all)) continue;
           const double size = times * left / moves.beyond;
+          if (least == 0.0 || size < least) least = size;
+          if (size > bench::mostPlausible(effect)) continue;
           draws.push_back({*cause, times, size, size * moves.all});
+          ++got;
         }
-        ++got;
+        if (got > 0) continue;
+        if (least > 0.0) {
+          fmt::print("{} x {:g}: the least of {} draws has size {:.2g}, above the {:g} that an arm may have\n", id,
+                     times, tries, least, bench::mostPlausible(effect));
+        } else {
+          fmt::print("{}: this day has none, or none beyond the geometry\n", id);
+          break;
+        }
       }
-      if (got == 0) fmt::print("{}: this day has none, or none beyond the geometry\n", id);
     }
     return draws;
   }

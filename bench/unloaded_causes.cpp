@@ -195,6 +195,30 @@ NominalDay nominalDay(const campaign::Campaign& campaign, const calibration::Cal
   return day;
 }
 
+double mostPlausible(UnloadedEffect effect) {
+  switch (effect) {
+    case UnloadedEffect::joint_compliance:
+    case UnloadedEffect::link_compliance:
+    case UnloadedEffect::bearing_tilt:
+    case UnloadedEffect::base_compliance:
+    case UnloadedEffect::gravity_compensator:
+      return 1e-3;
+    case UnloadedEffect::transmission_error:
+    case UnloadedEffect::backlash:
+    case UnloadedEffect::thermal_growth:
+    case UnloadedEffect::scale_error:
+      return 1e-2;
+    case UnloadedEffect::kinematic_error:
+    case UnloadedEffect::ratio_error:
+    case UnloadedEffect::read_back_error:
+    case UnloadedEffect::tracker_drift:
+    case UnloadedEffect::frame_error:
+    case UnloadedEffect::target_motion:
+      return 0.1;
+  }
+  return 0.0;
+}
+
 std::optional<Cause> drawCause(UnloadedEffect effect, const NominalDay& day, numerics::RandomStream& random) {
   const double from = random.uniform(0.25, 0.75);
   const std::string when = fmt::format("from {:.2f} of the day", from);

@@ -334,8 +334,10 @@ Score score(const std::vector<Label>& labels, const std::vector<Answer>& answers
   result.shrinks = shrinksOf(result.cases, vocabulary);
   result.rates.push_back(
       coverage("shrink_covered", RemarkId::shrinks_seen_covered, result.shrinks, &ShrinkPair::truth_seen));
-  result.rates.push_back(
-      coverage("shrink_covered_noise_free", RemarkId::shrinks_noise_free_covered, result.shrinks, &ShrinkPair::truth));
+  // Of positions without noise nothing is left beside the right effect: whatever was promised, that is not inside.
+  if (vocabulary.shrinks == "deflection")
+    result.rates.push_back(coverage("shrink_covered_noise_free", RemarkId::shrinks_noise_free_covered, result.shrinks,
+                                    &ShrinkPair::truth));
   result.confusion = confusionOf(result.cases, vocabulary);
   return result;
 }
