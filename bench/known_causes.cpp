@@ -11,7 +11,7 @@
 //
 // named: the effect is in the verdict. first: before everything that the untouched day's verdict has not. class <= 3:
 // named with at most two others. part: the joint, link or reflector too. other: something named that the untouched day
-// has not, and which: with how many draws.
+// has not, and which: with how many draws. In brackets what was found and not named.
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -240,6 +240,10 @@ class Bench {
         fmt::print(" [");
         for (const UnloadedEffect one : entry.effects) fmt::print("{} ", idOf(one));
         fmt::print("{}]", entry.effects.empty() ? "unknown" : entry.detail);
+      }
+      for (const accuracy::AccuracyClass& one : found.classes) {
+        if (!one.in_verdict)
+          fmt::print(" ({} {}, {:.0f} um, not named)", idOf(one.effects.front()), one.detail, 1e6 * one.size);
       }
       fmt::print("\n");
       std::fflush(stdout);

@@ -113,7 +113,7 @@ std::vector<EffectPart> bendingCompliances(const UnloadedDay& day, UnloadedEffec
         moving(of.name, of.unit, of.most, [k](const Posture& posture, const ReflectorAt& at) -> Eigen::Vector3d {
           return posture.bends[k].at(at.position);
         });
-    term.positive = true;
+    term.positive = !of.coupling;
     parts.push_back({effect, of.detail, {std::move(term)}});
   }
   return parts;
@@ -149,6 +149,20 @@ std::vector<EffectPart> freeMomentTwists(const UnloadedDay& day) {
 EffectFamily compliances(UnloadedEffect effect, std::vector<EffectPart> parts) {
   EffectFamily family{effect, std::move(parts), {}};
   if (family.parts.size() > 1) family.wholes.push_back(wholeOf(effect, family.parts));
+  return family;
+}
+
+/// A coupling alone is no compliance: it stands in wholes, with the two that it couples and with all.
+EffectFamily bendingFamily(const UnloadedDay& day, UnloadedEffect effect) {
+  EffectFamily family = compliances(effect, bendingCompliances(day, effect));
+  const auto couples = [](const EffectPart& part) { return !part.terms.front().positive; };
+  std::vector<EffectPart> turns;
+  for (const EffectPart& part : family.parts) {
+    if (part.terms.front().unit == "rad/Nm") turns.push_back(part);
+  }
+  const bool coupled = std::any_of(turns.begin(), turns.end(), couples);
+  if (coupled) family.wholes.push_back(wholeOf(effect, turns));
+  std::erase_if(family.parts, couples);
   return family;
 }
 
@@ -369,7 +383,7 @@ std::vector<EffectFamily> effectFamilies(const UnloadedDay& day) {
       compliances(UnloadedEffect::joint_compliance, day.masses_known ? twists : freeMomentTwists(day))};
   for (const UnloadedEffect effect :
        {UnloadedEffect::link_compliance, UnloadedEffect::bearing_tilt, UnloadedEffect::base_compliance})
-    families.push_back(compliances(effect, bendingCompliances(day, effect)));
+    families.push_back(bendingFamily(day, effect));
   if (!twists.empty()) families.push_back(gravityCompensator(twists));
   families.push_back({UnloadedEffect::transmission_error});
   families.push_back({UnloadedEffect::ratio_error, ratioErrors(), {}});

@@ -36,6 +36,10 @@ class Bending {
         }
       }
     }
+    // A floor whose soft direction is not an axis of base_link: C of the turn C M is symmetric and full.
+    terms.push_back({static_cast<std::size_t>(effects::Effect::base_compliance), "rocking",
+                     "rocking about x by the moment about y and about y by that about x", "rad/Nm", kFurther * 1e-5,
+                     true});
     return terms;
   }
 
@@ -48,6 +52,8 @@ class Bending {
         motions.push_back({twist.rotation, twist.shift - twist.rotation.cross(twist.pivot)});
       }
     }
+    const robot::Wrench carried = effects::carried(states[0], 1, Eigen::Vector3d::Zero());
+    motions.push_back({{carried.moment.y(), carried.moment.x(), 0.0}, Eigen::Vector3d::Zero()});
     return motions;
   }
 

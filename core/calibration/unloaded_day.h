@@ -44,7 +44,8 @@ struct Posture {
 struct BendingTerm {
   std::size_t effect = 0;  ///< index in effects::kEffectIds
   std::string detail, name, unit;
-  double most = 0.0;  ///< physical bound; never negative
+  double most = 0.0;      ///< physical bound of its magnitude
+  bool coupling = false;  ///< of two compliances of `detail`, of either sign; else never negative
 };
 
 /// Where masses are not known: the moment (mass times centre, kg m) along one axis of base_link, with all joints at
