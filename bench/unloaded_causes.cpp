@@ -199,10 +199,11 @@ double mostPlausible(UnloadedEffect effect) {
   switch (effect) {
     case UnloadedEffect::joint_compliance:
     case UnloadedEffect::link_compliance:
-    case UnloadedEffect::bearing_tilt:
-    case UnloadedEffect::base_compliance:
     case UnloadedEffect::gravity_compensator:
       return 1e-3;
+    case UnloadedEffect::bearing_tilt:
+    case UnloadedEffect::base_compliance:
+      return 1e-4;
     case UnloadedEffect::transmission_error:
     case UnloadedEffect::backlash:
     case UnloadedEffect::thermal_growth:
