@@ -50,8 +50,8 @@ struct Cause {
   Moved moved;
 };
 
-/// Above this no arm that works is, in a cause's own unit: 1000 Nm/rad of a joint or link, 10,000 of a bearing or floor,
-/// 1 % of length or scale, 10 mrad of a joint, a tenth of a move or of another joint's angle, 100 mm, 100 mrad.
+/// Above this no arm that works is, in a cause's own unit: 1000 Nm/rad of a joint or link, 10,000 of a bearing or
+/// floor, 1 % of length or scale, 10 mrad of a joint, a tenth of a move or of another joint's angle, 100 mm, 100 mrad.
 double mostPlausible(calibration::UnloadedEffect effect);
 
 /// A random member of an effect: joint, order, time, direction. Empty where the day has none (no masses).
