@@ -166,6 +166,46 @@ TEST(ArmFit, OwnWeightBringsTheJointsCompliance) {
   EXPECT_NEAR(fit.sizes[0], 0.0, 1e-12);
 }
 
+/// A floor softer about one level axis than about the other, which is no axis of base_link: the turn is s (s . M) c
+/// with M the moment of all weights about the foot, by the chain's own frames.
+TEST(ArmFit, AFloorThatIsSoftAskewNeedsTheCoupling) {
+  Noise noise(8);
+  UnloadedSpec spec = builtOtherwise(noise);
+  spec.postures = 150;
+  const double compliance = 20e-9, heading = 1.0;
+  const Eigen::Vector3d soft(std::cos(heading), std::sin(heading), 0.0);
+  campaign::Campaign campaign = unloadedCampaign(spec, noise);
+  for (campaign::LoadingReading& reading : campaign.loading->rows) {
+    const auto frames = spec.built.framesAt(campaign.states->rows[static_cast<std::size_t>(reading.pose)].q);
+    Eigen::Vector3d moment = Eigen::Vector3d::Zero();
+    for (std::size_t b = 0; b < 6; ++b)
+      moment += (frames[b] * spec.built.centre[b]).cross(Eigen::Vector3d(0, 0, -9.80665 * spec.built.mass[b]));
+    const Eigen::AngleAxisd turn(compliance * soft.dot(moment), soft);
+    reading.point = spec.tracker_from_base * (turn * (spec.tracker_from_base.inverse() * reading.point));
+  }
+  const calibration::UnloadedDay day = calibration::unloadedDay(campaign);
+  const auto place = calibration::placeArm(day, std::vector<double>(day.readings(), 1.0));
+  int coupled = 0;
+  for (const calibration::EffectFamily& family : calibration::effectFamilies(day)) {
+    if (family.effect != calibration::UnloadedEffect::base_compliance) continue;
+    for (const calibration::EffectPart& part : family.parts) EXPECT_TRUE(part.terms.front().positive) << part.detail;
+    for (const calibration::EffectPart& whole : family.wholes) {
+      if (whole.terms.size() != 3) continue;
+      ++coupled;
+      ASSERT_FALSE(whole.terms[2].positive);
+      const calibration::ArmFit fit = calibration::fitArm(day, *place, {whole}, {});
+      const Eigen::Matrix3d full = compliance * soft * soft.transpose();
+      const std::array<double, 3> truth{full(0, 0), full(1, 1), full(0, 1)};
+      for (int k = 0; k < 3; ++k) {
+        const double sd = fit.sd(static_cast<int>(fit.steps.size()) + k);
+        EXPECT_NEAR(fit.sizes[k], truth[static_cast<std::size_t>(k)], 4.0 * sd + 0.005 * compliance) << k;
+        EXPECT_LT(sd, 0.2 * compliance) << k;
+      }
+    }
+  }
+  EXPECT_EQ(coupled, 1);
+}
+
 TEST(ArmFit, ANegativeComplianceIsRefused) {
   Noise noise(7);
   UnloadedSpec spec = builtOtherwise(noise);
