@@ -26,15 +26,8 @@ void addRawOption(CLI::App& command, bool& raw) {
                    "that the floor nests show");
 }
 
-bool isUnloadedDay(const campaign::Campaign& campaign) {
-  if (!campaign.states || !campaign.loading || campaign.load_cell) return false;
-  const std::vector<campaign::State>& states = campaign.states->rows;
-  return std::all_of(states.begin(), states.end(),
-                     [](const campaign::State& state) { return state.wrench_in_cell.isZero(); });
-}
-
 void requireLoad(const campaign::Campaign& campaign) {
-  if (!isUnloadedDay(campaign)) return;
+  if (!campaign::isUnloadedDay(campaign)) return;
   throw io::InputError({(campaign.folder / "campaign.xml").string(), 0, ""}, "",
                        "no load: stiffness and its gap need one; `stiffscope calibrate` fits unloaded postures");
 }

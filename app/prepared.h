@@ -19,10 +19,7 @@ campaign::Campaign described(const campaign::Campaign& campaign);
 /// Adds --raw to a command.
 void addRawOption(CLI::App& command, bool& raw);
 
-/// A day of unloaded postures: readings of them, no load cell, and no wrench that is not zero.
-bool isUnloadedDay(const campaign::Campaign& campaign);
-
-/// Throws InputError for such a day. `calibrate` is for it.
+/// Throws InputError for a day without a load. `calibrate` is for it.
 void requireLoad(const campaign::Campaign& campaign);
 
 /// Throws InputError where commanded angles are wanted and no joint has them in every unloaded posture.

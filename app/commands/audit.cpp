@@ -47,12 +47,14 @@ void addAudit(CLI::App& app, Run& run) {
     std::string campaign, json;
   };
   const auto arguments = std::make_shared<AuditArguments>();
-  CLI::App* command = app.add_subcommand("audit", "Is this data fit to identify from?");
+  CLI::App* command = app.add_subcommand("audit", "Is this data fit to identify or calibrate from?");
   command->footer(
       "Verdict: fail where a check fails; not_testable where too few could be made to tell: a pass needs to know that\n"
       "postures and loads identify joints, that force and displacement are those of an arm, what a reading under load "
       "is\n"
-      "worth, and that the load cell shows the load; else warn or pass. Status 0 for pass and warn, else 1.");
+      "worth, and that the load cell shows the load; of a day without a load that the readings are of the URDF's arm "
+      "and\n"
+      "what one is worth; else warn or pass. Status 0 for pass and warn, else 1.");
   command->add_option("CAMPAIGN", arguments->campaign, "campaign folder or its campaign.xml")->required();
   command->add_option("--json", arguments->json, "write the result to this file, - for standard output");
   command->callback(

@@ -7,6 +7,7 @@
 #include "app/options.h"
 #include "app/output.h"
 #include "app/prepared.h"
+#include "core/campaign/state_points.h"
 #include "core/comparison/compare.h"
 #include "core/comparison/geometry_change.h"
 #include "reports/json/campaign_json.h"
@@ -78,7 +79,8 @@ int compareTwo(const CompareArguments& arguments) {
   const preparation::PreparedCampaign prepared_before = openPrepared(arguments.before, arguments.raw);
   const preparation::PreparedCampaign prepared_after = openPrepared(arguments.after, arguments.raw);
   const campaign::Campaign &before = prepared_before.campaign, &after = prepared_after.campaign;
-  if (isUnloadedDay(before) && isUnloadedDay(after)) return compareUnloaded(arguments, prepared_before, prepared_after);
+  if (campaign::isUnloadedDay(before) && campaign::isUnloadedDay(after))
+    return compareUnloaded(arguments, prepared_before, prepared_after);
   const Day first = dayOf(prepared_before, arguments.model, options);
   const Day second = dayOf(prepared_after, arguments.model, options);
   const comparison::Comparison comparison = comparison::compareCampaigns(

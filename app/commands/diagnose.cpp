@@ -15,6 +15,7 @@
 #include "app/prepared.h"
 #include "core/accuracy/diagnose_accuracy.h"
 #include "core/campaign/campaign.h"
+#include "core/campaign/state_points.h"
 #include "core/diagnosis/diagnose.h"
 #include "core/diagnosis/diagnosis.h"
 #include "core/diagnosis/spike_study.h"
@@ -109,7 +110,7 @@ int diagnoseAccuracyOf(campaign::Campaign campaign, const DiagnoseArguments& arg
 
 int diagnoseCampaign(const DiagnoseArguments& arguments) {
   campaign::Campaign campaign = openCampaign(arguments.campaign);
-  if (isUnloadedDay(campaign)) return diagnoseAccuracyOf(std::move(campaign), arguments);
+  if (campaign::isUnloadedDay(campaign)) return diagnoseAccuracyOf(std::move(campaign), arguments);
   if (jointAnglesNamed(arguments.angles) != calibration::JointAngles::reported)
     throw io::InputError({"--angles"}, arguments.angles, "expected a day without a load");
   const campaign::Campaign words = described(campaign);

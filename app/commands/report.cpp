@@ -25,6 +25,7 @@
 #include "core/accuracy/diagnose_accuracy.h"
 #include "core/audit/audit.h"
 #include "core/audit/check_design.h"
+#include "core/campaign/state_points.h"
 #include "core/identification/load_case.h"
 #include "core/identification/warnings.h"
 #include "core/io/write_folder.h"
@@ -157,7 +158,7 @@ struct Result {
     campaign::Campaign read = openCampaign(folder);
     prepared = arguments.raw ? preparation::leaveRaw(std::move(read)) : preparation::prepareCampaign(std::move(read));
     loaded = identification::whatLoadsLack(prepared.campaign).empty();
-    if (!loaded && isUnloadedDay(prepared.campaign))
+    if (!loaded && campaign::isUnloadedDay(prepared.campaign))
       accuracy = accuracy::diagnoseAccuracy(prepared, calibration::CalibrationOptions());
     if (loaded) improved = modelOf(prepared, arguments.model, options);
     if (loaded) diagnosis = diagnosisOf(prepared, improved);

@@ -3,12 +3,15 @@
 #include <algorithm>
 #include <array>
 #include <iterator>
+#include <optional>
 #include <set>
+#include <span>
 #include <utility>
 
 #include "core/audit/check_noise.h"
 #include "core/audit/checks.h"
 #include "core/audit/remarks.h"
+#include "core/campaign/state_points.h"
 
 namespace stiffscope::audit {
 
@@ -63,12 +66,18 @@ struct Question {
   std::array<const char*, 5> ids;
 };
 
-constexpr std::array kQuestions{
+constexpr std::array kToIdentify{
     Question{RemarkId::unknown_if_it_identifies, {"posture_set"}},
     Question{RemarkId::unknown_size, {"load_size"}},
     Question{RemarkId::unknown_worth_of_readings,
              {"repeatability_along", "repeatability_across", "rigid_tool", "unloaded_positions", "return_to_zero"}},
     Question{RemarkId::unknown_load_cell, {"tare", "gravity_direction", "moment_lever"}},
+};
+
+constexpr std::array kToCalibrate{
+    Question{RemarkId::unknown_arm, {"arm_model"}},
+    Question{RemarkId::unknown_worth_unloaded,
+             {"repeatability_along", "repeatability_across", "rigid_tool", "return_to_zero"}},
 };
 
 /// Ids of the checks that could be made, of one of several places at least.
@@ -80,14 +89,25 @@ std::set<std::string> madeChecks(const std::vector<preparation::AuditCheck>& che
   return made;
 }
 
-std::vector<Remark> unansweredBy(const std::set<std::string>& made) {
+std::vector<Remark> unansweredBy(const std::set<std::string>& made, std::span<const Question> questions) {
   std::vector<Remark> unanswered;
-  for (const Question& question : kQuestions) {
+  for (const Question& question : questions) {
     const bool told = std::any_of(question.ids.begin(), question.ids.end(),
                                   [&](const char* id) { return id != nullptr && made.contains(id); });
     if (!told) unanswered.push_back(Remark(question.unanswered));
   }
   return unanswered;
+}
+
+/// Of days without a load: base, reflectors and axes, less what is a choice of frame, of what was read.
+std::optional<Remark> tooFewToCalibrate(const AuditInput& input) {
+  std::size_t readings = 0;
+  for (const campaign::StatePoints& state : input.states) {
+    if (state.source == campaign::StatePoints::Source::loading) readings += state.reflectors.size();
+  }
+  const std::size_t coordinates = 3 * readings, parameters = 24 + 3 * input.campaign.targets.size();
+  if (coordinates > parameters) return std::nullopt;
+  return Remark(RemarkId::too_few_to_calibrate, coordinates, parameters);
 }
 
 preparation::AuditVerdict verdictOf(const AuditReport& report) {
@@ -116,7 +136,13 @@ AuditReport audit(const preparation::PreparedCampaign& prepared) {
   const std::set<std::string> made = madeChecks(report.checks);
   report.made = static_cast<int>(made.size());
   report.of = static_cast<int>(preparation::kAuditCheckIds.size());
-  report.unanswered = unansweredBy(made);
+  if (campaign::isUnloadedDay(prepared.campaign)) report.purpose = Purpose::calibrate;
+  if (report.purpose == Purpose::calibrate) {
+    report.unanswered = unansweredBy(made, kToCalibrate);
+    if (auto few = tooFewToCalibrate(input)) report.unanswered.push_back(std::move(*few));
+  } else {
+    report.unanswered = unansweredBy(made, kToIdentify);
+  }
   report.suspected = suspectedNoise(input);
   for (const auto* found : {&input.model.arm, &input.model.loads})
     report.suspected.insert(report.suspected.end(), found->begin(), found->end());

@@ -10,7 +10,10 @@
 
 namespace stiffscope::audit {
 
-/// Is this data fit to identify from?
+/// What a day's readings are for: stiffness, or of a day without a load the geometry.
+enum class Purpose { identify, calibrate };
+
+/// Is this data fit for its purpose?
 ///
 /// Fail: a check fails. Not testable: none does, but checks could not be made without which nothing says that the data
 /// are fit. Warn, pass: by the worst check. What a pass needs, each by one check at least that could be made:
@@ -21,8 +24,15 @@ namespace stiffscope::audit {
 ///   unloaded_positions or return_to_zero;
 /// - the load cell shows the load: tare, gravity_direction or moment_lever.
 ///
+/// Of a day without a load:
+///
+/// - the readings are of the URDF's arm: arm_model;
+/// - a reading is worth what is declared: repeatability_along, repeatability_across, rigid_tool or return_to_zero;
+/// - there are more coordinates than a calibration has parameters.
+///
 /// Nothing that only sharpens the result is needed: a day of displacements without sweeps can pass.
 struct AuditReport {
+  Purpose purpose = Purpose::identify;
   preparation::AuditVerdict verdict = preparation::AuditVerdict::pass;
   std::vector<preparation::AuditCheck> checks;
   int made = 0;                    ///< checks, by their ids, that could be made

@@ -30,6 +30,9 @@ enum class RemarkId {
   unknown_size,
   unknown_worth_of_readings,
   unknown_load_cell,
+  unknown_arm,
+  unknown_worth_unloaded,
+  too_few_to_calibrate,  ///< coordinates read, parameters of the geometry
 
   // Where a limit comes from.
   chi_square,               ///< degrees of freedom

@@ -1,5 +1,7 @@
 #include "core/campaign/state_points.h"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "core/campaign/read_table.h"
@@ -105,6 +107,12 @@ std::vector<StatePoints> statePoints(const Campaign& campaign) {
     }
   }
   return gatherer.finish();
+}
+
+bool isUnloadedDay(const Campaign& campaign) {
+  if (!campaign.states || !campaign.loading || campaign.load_cell) return false;
+  const std::vector<State>& states = campaign.states->rows;
+  return std::all_of(states.begin(), states.end(), [](const State& state) { return state.wrench_in_cell.isZero(); });
 }
 
 }  // namespace stiffscope::campaign

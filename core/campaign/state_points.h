@@ -42,4 +42,7 @@ std::string nameOf(const Campaign& campaign, const StatePoints& state);
 /// rows.
 std::vector<StatePoints> statePoints(const Campaign& campaign);
 
+/// A day of unloaded postures: readings of them, no load cell, and no wrench that is not zero.
+bool isUnloadedDay(const Campaign& campaign);
+
 }  // namespace stiffscope::campaign

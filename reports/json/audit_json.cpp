@@ -70,6 +70,7 @@ Json auditJson(const campaign::Campaign& campaign, const audit::AuditReport& rep
     if (!check.details.empty()) checks.back()["details"] = words(check.details);
   }
   return {{"campaign", campaignJson(campaign)},
+          {"purpose", report.purpose == audit::Purpose::calibrate ? "calibrate" : "identify"},
           {"verdict", nameOf(report.verdict)},
           {"made", report.made},
           {"of", report.of},

@@ -37,18 +37,19 @@ void writeChecks(const audit::AuditReport& report, Out out) {
   }
 }
 
-const char* meaningOf(preparation::AuditVerdict verdict) {
-  switch (verdict) {
+std::string meaningOf(const audit::AuditReport& report) {
+  const char* const purpose = report.purpose == audit::Purpose::calibrate ? "calibrate" : "identify";
+  switch (report.verdict) {
     case preparation::AuditVerdict::pass:
-      return "pass: fit to identify from";
+      return fmt::format("pass: fit to {} from", purpose);
     case preparation::AuditVerdict::warn:
-      return "warn: fit to identify from with what is said below";
+      return fmt::format("warn: fit to {} from with what is said below", purpose);
     case preparation::AuditVerdict::not_testable:
-      return "not testable: too little was measured to say whether it is fit to identify from";
+      return fmt::format("not testable: too little was measured to say whether it is fit to {} from", purpose);
     case preparation::AuditVerdict::fail:
       break;
   }
-  return "fail: not fit to identify from";
+  return fmt::format("fail: not fit to {} from", purpose);
 }
 
 /// What nothing tells, where a pass needs it.
@@ -121,7 +122,7 @@ std::string agreementText(const mistakes::ModelAgreement& agreement) {
 std::string auditText(const campaign::Campaign& campaign, const audit::AuditReport& report) {
   std::string text;
   Out out(text);
-  fmt::format_to(out, "{}: {}\n{} of {} checks could be made\n", campaign.name, meaningOf(report.verdict), report.made,
+  fmt::format_to(out, "{}: {}\n{} of {} checks could be made\n", campaign.name, meaningOf(report), report.made,
                  report.of);
   writeUnanswered(report, out);
   fmt::format_to(out, "\n");
@@ -129,7 +130,14 @@ std::string auditText(const campaign::Campaign& campaign, const audit::AuditRepo
   writeSuspected(report.suspected, out);
   writeMessages(report, preparation::AuditVerdict::fail, "Fails", out);
   writeMessages(report, preparation::AuditVerdict::warn, "Warns", out);
-  writeMessages(report, preparation::AuditVerdict::not_testable, "Not testable", out);
+  if (report.purpose == audit::Purpose::identify) {
+    writeMessages(report, preparation::AuditVerdict::not_testable, "Not testable", out);
+  } else if (report.made < report.of) {
+    fmt::format_to(out, "\n{}\n",
+                   wrapped("The other checks need sweeps, loads or a load cell, which this day does not have "
+                           "(reasons in the JSON).",
+                           0));
+  }
   writeShortArcs(report, out);
   writeDetails(report, out);
   if (!report.rejected.empty())

@@ -114,6 +114,15 @@ std::string auditWords(audit::RemarkId id, const RemarkValues& values) {
       return "whether the load cell shows the load (one of tare, gravity_direction, moment_lever): state "
              "force_sigma_n and moment_sigma_nm, and write what the cell shows unloaded and its moments as they were "
              "read; or let the load hang";
+    case audit::RemarkId::unknown_arm:
+      return "whether the readings are those of the URDF's arm (arm_model): read one reflector or more in postures in "
+             "which every joint stands at several angles";
+    case audit::RemarkId::unknown_worth_unloaded:
+      return "what a reading is worth (one of repeatability, rigid_tool, return_to_zero): read postures twice or more, "
+             "or three reflectors in each";
+    case audit::RemarkId::too_few_to_calibrate:
+      return fmt::format("whether the geometry is right: {} coordinates were read, and it has {} numbers",
+                         values.count(0), values.count(1));
     case audit::RemarkId::chi_square:
       return fmt::format("chi-square of {} degrees of freedom", values.count(0));
     case audit::RemarkId::chi_square_and_states:

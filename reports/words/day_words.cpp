@@ -80,8 +80,9 @@ std::string auditMeaning(const audit::AuditReport& audit, DayKind kind) {
       return fmt::format("The audit warns: the readings are fit to {}, with what is said below.", purposeOf(kind));
     case preparation::AuditVerdict::not_testable:
       // A day that is not meant for loads does not fail by what only a load would tell.
-      if (kind != DayKind::loaded) return "No check of the audit fails; some need what such a day does not measure.";
-      return "The audit cannot tell: too little was measured to say whether the readings are fit to identify from.";
+      if (kind == DayKind::sweeps) return "No check of the audit fails; some need what such a day does not measure.";
+      return "The audit cannot tell: too little was measured to say whether the readings are fit to " +
+             std::string(purposeOf(kind)) + ".";
     case preparation::AuditVerdict::fail:
       break;
   }
@@ -89,7 +90,7 @@ std::string auditMeaning(const audit::AuditReport& audit, DayKind kind) {
 }
 
 std::string untestedWords(const audit::AuditReport& audit, DayKind kind) {
-  if (audit.verdict != preparation::AuditVerdict::not_testable || kind != DayKind::loaded) return {};
+  if (audit.verdict != preparation::AuditVerdict::not_testable || kind == DayKind::sweeps) return {};
   return fmt::format("The audit could make {} of {} checks, too few to say that the readings are fit to {}.",
                      audit.made, audit.of, purposeOf(kind));
 }

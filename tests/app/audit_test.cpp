@@ -60,6 +60,53 @@ TEST(AuditCommand, AFailedAuditExitsWithOneAndNamesTheRow) {
   EXPECT_NE(ran.out.find("loading.csv:100: lost beam"), std::string::npos) << ran.out;
 }
 
+/// The unloaded sample with the lines of its loading that stay.
+fs::path partOfUnloaded(const ScratchFolder& scratch, const std::function<bool(const std::string& line)>& stays) {
+  const fs::path part = scratch.path() / "part";
+  fs::copy(fs::path(STIFFSCOPE_SOURCE_DIR) / "samples" / "unloaded", part);
+  std::istringstream lines(contentsOf(part / "loading.csv"));
+  std::ofstream out(part / "loading.csv", std::ios::binary);
+  std::string line;
+  for (bool header = true; std::getline(lines, line); header = false) {
+    if (header || stays(line)) out << line << '\n';
+  }
+  return part;
+}
+
+TEST(AuditCommand, ADayWithoutALoadIsAskedWhetherItCalibrates) {
+  const ScratchFolder scratch;
+  const fs::path sample = fs::path(STIFFSCOPE_SOURCE_DIR) / "samples" / "unloaded";
+  const Ran ran = runProgram("audit '" + sample.string() + "'", scratch.path());
+  EXPECT_EQ(ran.status, 0) << ran.err;
+  EXPECT_NE(ran.out.find("pass: fit to calibrate from"), std::string::npos) << ran.out;
+  const auto json = nlohmann::json::parse(runProgram("audit '" + sample.string() + "' --json -", scratch.path()).out);
+  EXPECT_EQ(json["purpose"], "calibrate");
+  EXPECT_TRUE(json["unanswered"].empty());
+  const auto loaded =
+      nlohmann::json::parse(runProgram("audit '" + kSample.string() + "' --json -", scratch.path()).out);
+  EXPECT_EQ(loaded["purpose"], "identify");
+}
+
+TEST(AuditCommand, TooFewUnloadedReadingsDoNotPass) {
+  const ScratchFolder scratch;
+  int postures = 0;
+  std::string last;
+  // Ten readings of one reflector once: 30 coordinates, which calibrate 24 numbers and three reflectors' places not.
+  const fs::path few = partOfUnloaded(scratch, [&](const std::string& line) {
+    const std::string pose = line.substr(0, line.find(','));
+    if (pose == last) return false;
+    last = pose;
+    return ++postures <= 10;
+  });
+  const Ran ran = runProgram("audit '" + few.string() + "' --json -", scratch.path());
+  EXPECT_EQ(ran.status, 1) << ran.err;
+  const auto json = nlohmann::json::parse(ran.out);
+  EXPECT_EQ(json["verdict"], "not_testable");
+  EXPECT_NE(json["unanswered"].dump().find("30 coordinates were read, and it has 33 numbers"), std::string::npos)
+      << json["unanswered"];
+  EXPECT_NE(json["unanswered"].dump().find("what a reading is worth"), std::string::npos) << json["unanswered"];
+}
+
 TEST(AuditCommand, ADayWithNothingToTestExitsWithOne) {
   const ScratchFolder scratch;
   const fs::path empty = scratch.path() / "empty";
