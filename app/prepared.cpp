@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "app/output.h"
+#include "core/campaign/state_points.h"
 #include "core/io/input_error.h"
 
 namespace stiffscope::app {
