@@ -133,9 +133,10 @@ RobotLog readJointColumns(const LogText& text) {
   if (!table.hasNumbers({"q1", "q2", "q3", "q4", "q5", "q6"}))
     throw io::InputError({text.file, 0, "columns"}, text.options.table.columns,
                          "expected q1 to q6 with their unit, as q1_deg");
-  const bool wrench = table.hasNumbers({"fx", "fy", "fz", "mx", "my", "mz"});
+  const bool wrench = table.hasAllOrNone({"fx", "fy", "fz", "mx", "my", "mz"});
   RobotLog log;
   log.format = LogFormat::columns;
+  log.warnings = table.warnings();
   for (const ColumnTable::Row& row : table.rows()) {
     JointSample sample;
     sample.line = row.line;

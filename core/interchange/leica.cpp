@@ -236,12 +236,7 @@ PointFile readLeica(const FileText& text) {
       throw io::InputError({text.file, line.number, ""}, fmt::format("{} cells", cells.size()),
                            fmt::format("expected {} cells, as the header has{}", header.columns.size(), why));
     }
-    const PointReading point = leicaPoint(text, header, cells, line.number);
-    if (isLostBeam(point.point)) {
-      points.skipped.push_back({line.number, Skip::lost_beam});
-    } else {
-      points.points.push_back(point);
-    }
+    points.points.push_back(leicaPoint(text, header, cells, line.number));
   }
   return points;
 }

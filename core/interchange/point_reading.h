@@ -36,7 +36,7 @@ enum class Skip {
   another_point,     ///< its name is none of the day's
   in_motion,         ///< the joints moved
   outside_log,       ///< before the log's first or behind its last sample
-  no_readings,       ///< a standstill in which nothing was read
+  no_readings,       ///< a standstill, a target or a load for which nothing was read
   joints_not_given,  ///< a target in space, without angles
 };
 
@@ -51,6 +51,7 @@ struct PointFile {
   Encoding encoding = Encoding::utf8;
   std::string frame;  ///< as the file names it; empty where it does not
   std::vector<PointReading> points;
+  std::vector<PointReading> lost;  ///< rows of lost beams, in `skipped` too: their names count as occurrences
   std::vector<SkippedRow> skipped;
   std::vector<std::string> warnings;  ///< what had to be taken for granted, one line each
 };

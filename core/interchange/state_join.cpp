@@ -5,8 +5,8 @@
 #include <map>
 #include <tuple>
 
+#include "core/interchange/day_files.h"
 #include "core/io/input_error.h"
-#include "core/io/numbers.h"
 #include "core/io/units.h"
 
 namespace stiffscope::interchange {
@@ -42,14 +42,6 @@ std::vector<JoinedState> statesInOrder(const std::vector<DayReading>& readings) 
   return states;
 }
 
-int stepNamed(const JoinTask& task, const std::string& step, std::size_t line) {
-  if (step.empty()) return 0;
-  const std::optional<int> number = io::parseInteger(step);
-  if (!number || *number < 0)
-    throw io::InputError({task.file, line, "step"}, step, "expected a whole number, 0 or more");
-  return *number;
-}
-
 /// The samples by what their names say; a log without steps has those of a pose for all its steps.
 std::map<StateKey, std::size_t> samplesByName(const JoinTask& task) {
   std::map<StateKey, std::size_t> samples;
@@ -65,8 +57,8 @@ std::map<StateKey, std::size_t> samplesByName(const JoinTask& task) {
     const std::string step = field("step").empty() ? sample.step : field("step");
     const std::string axis = field("axis");
     const std::string pose = names.has("index") ? field("index") : field("pose");
-    const StateKey key{axis.empty() ? -1 : stepNamed(task, axis, sample.line) - 1, pose,
-                       stepNamed(task, step, sample.line)};
+    const StateKey key{axis.empty() ? -1 : wholeStep(task.file, sample.line, axis) - 1, pose,
+                       wholeStep(task.file, sample.line, step)};
     const auto [first, added] = samples.emplace(key, i);
     if (!added)
       throw io::InputError({task.file, sample.line, "pose"}, sample.name,
@@ -91,7 +83,8 @@ void setJoints(JoinedState& state, const RobotLog& log, std::size_t first, std::
 
 StateJoin joinByName(const JoinTask& task, const std::vector<DayReading>& readings) {
   const std::map<StateKey, std::size_t> samples = samplesByName(task);
-  StateJoin join{statesInOrder(readings), {}, std::nullopt};
+  StateJoin join{statesInOrder(readings), {}, {}, std::nullopt};
+  for (const auto& [key, sample] : samples) join.stretches.emplace_back(sample, sample);
   for (JoinedState& state : join.states) {
     // By axis, pose and step, as far as the log tells them.
     auto found = samples.end();
@@ -101,7 +94,7 @@ StateJoin joinByName(const JoinTask& task, const std::vector<DayReading>& readin
     }
     if (found == samples.end()) {
       const DayReading& reading = readings[state.readings.front()];
-      throw io::InputError({task.day.points[reading.source].file, reading.point->line, "pose"}, state.pose,
+      throw io::InputError({task.day.pathOf(task.day.points[reading.source].file), reading.point->line, "pose"}, state.pose,
                            fmt::format("expected a pose that {} has joints for", task.file));
     }
     setJoints(state, task.log, found->second, found->second);
@@ -110,7 +103,7 @@ StateJoin joinByName(const JoinTask& task, const std::vector<DayReading>& readin
 }
 
 StateJoin joinByOrder(const JoinTask& task, const std::vector<DayReading>& readings) {
-  StateJoin join{statesInOrder(readings), {}, std::nullopt};
+  StateJoin join{statesInOrder(readings), {}, {}, std::nullopt};
   const std::size_t samples = task.log.samples.size(), wanted = join.states.size();
   if (samples == wanted) {
     for (std::size_t i = 0; i < wanted; ++i) setJoints(join.states[i], task.log, i, i);
@@ -262,7 +255,7 @@ void requireOnePlaceAPose(const JoinTask& task, const std::vector<DayReading>& r
     const auto [first, added] = seen.emplace(StateKey{state.axis, state.pose, state.step}, &state);
     if (added) continue;
     const DayReading& reading = readings[state.readings.front()];
-    throw io::InputError({task.day.points[reading.source].file, reading.point->line, "pose"}, state.pose,
+    throw io::InputError({task.day.pathOf(task.day.points[reading.source].file), reading.point->line, "pose"}, state.pose,
                          fmt::format("expected the readings of a pose in one standstill; line {} is of another",
                                      readings[first->second->readings.front()].point->line));
   }
@@ -272,7 +265,7 @@ std::vector<ReadingTime> timesOf(const JoinTask& task, const std::vector<DayRead
   std::vector<ReadingTime> times;
   for (const DayReading& reading : readings) {
     if (!reading.point->time)
-      throw io::InputError({task.day.points[reading.source].file, reading.point->line, "time"}, "",
+      throw io::InputError({task.day.pathOf(task.day.points[reading.source].file), reading.point->line, "time"}, "",
                            "expected a time; without one the clock cannot say where the joints were");
     times.push_back({reading.point->time->seconds, reading.point->time->resolution});
   }
@@ -372,7 +365,8 @@ StateJoin joinByClock(const JoinTask& task, const std::vector<DayReading>& readi
   }
   report.inside = insideBy(times, standstills, report.offset_s);
   ClockJoin join = joinedAt(task, readings, standstills, report.offset_s);
-  StateJoin joined{std::move(join.states), {}, report};
+  StateJoin joined{std::move(join.states), {}, {}, report};
+  for (const Standstill& still : standstills) joined.stretches.emplace_back(still.first, still.last);
   narrowToReadings(task, readings, report.offset_s, joined.states);
   requireOnePlaceAPose(task, readings, joined.states);
   const double begin = *task.log.samples.front().time_s, end = *task.log.samples.back().time_s;

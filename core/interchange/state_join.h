@@ -44,7 +44,8 @@ struct ClockReport {
 
 struct StateJoin {
   std::vector<JoinedState> states;
-  std::vector<std::pair<std::size_t, Skip>> left_out;  ///< readings, and why
+  std::vector<std::pair<std::size_t, Skip>> left_out;          ///< readings, and why
+  std::vector<std::pair<std::size_t, std::size_t>> stretches;  ///< first and last sample of all that could be joined
   std::optional<ClockReport> clock;
 };
 
