@@ -262,6 +262,9 @@ PointFile readPointColumns(const FileText& text) {
       if (!sigma.isZero(0.0)) point.sigma = sigma;
     }
     point.time = table.time(row);
+    for (const char* column : {"pose", "step", "repeat", "axis", "index"}) {
+      if (table.has(column)) point.columns[column] = table.text(row, column);
+    }
     points.points.push_back(std::move(point));
   }
   return points;

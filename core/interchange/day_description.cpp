@@ -103,8 +103,6 @@ PointsSource readPointsSource(const io::XmlNode& node, JoinBy by, std::vector<st
     if (axis < 1 || axis > 6) node.refuse("axis", node.requiredAttribute("axis"), "expected an axis, 1 to 6");
     source.axis = static_cast<int>(axis) - 1;
   }
-  if (source.role == Role::circle_sweeps && source.axis < 0 && !source.names.has("axis"))
-    node.refuse("axis", "", "expected the axis that turns, or {axis} in the attribute names");
   for (const std::string_view one : cellsBetweenBlanks(node.attribute("only").value_or(""), 1))
     source.only.emplace_back(one);
   constexpr std::array<const char*, 2> kFrames{"tracker", "base_link"};

@@ -35,8 +35,9 @@ std::optional<DayReading> DayNames::readingOf(std::size_t source_index, const Po
   const auto fields = source.names.fieldsIn(point);
   if (!fields) return std::nullopt;
   const auto field = [&](const char* name) {
-    const auto found = fields->find(name);
-    return found == fields->end() ? std::string() : found->second;
+    if (const auto found = fields->find(name); found != fields->end()) return found->second;
+    const auto column = point.columns.find(name);
+    return column == point.columns.end() ? std::string() : column->second;
   };
   const std::string name = source.target.empty() ? mapped(field("target")) : source.target;
   if (!source.only.empty() && !isAmong(source.only, name)) return std::nullopt;
@@ -45,7 +46,7 @@ std::optional<DayReading> DayNames::readingOf(std::size_t source_index, const Po
   reading.point = &point;
   reading.target = targetNamed(name);
   if (reading.target < 0) return std::nullopt;
-  reading.pose = !source.pose.empty() ? source.pose : source.names.has("index") ? field("index") : field("pose");
+  reading.pose = !source.pose.empty() ? source.pose : !field("index").empty() ? field("index") : field("pose");
   if (reading.pose.empty() && source.by != JoinBy::clock) reading.pose = std::to_string(point.occurrence);
   const std::string step = source.step.empty() ? field("step") : source.step;
   reading.step = source.role == Role::loading ? wholeStep(day_.pathOf(source.file), point.line, step) : 0;
@@ -55,7 +56,8 @@ std::optional<DayReading> DayNames::readingOf(std::size_t source_index, const Po
   if (source.axis >= 0) return reading;
   const std::optional<int> axis = io::parseInteger(field("axis"));
   if (!axis || *axis < 1 || *axis > 6)
-    throw io::InputError({day_.pathOf(source.file), point.line, "axis"}, field("axis"), "expected an axis, 1 to 6");
+    throw io::InputError({day_.pathOf(source.file), point.line, "axis"}, field("axis"),
+                         "expected an axis, 1 to 6, by the attribute axis, {axis} in names, or a column axis");
   reading.axis = *axis - 1;
   return reading;
 }
@@ -72,7 +74,10 @@ std::string DayNames::nestOf(const PointsSource& source, const PointReading& poi
 
 void DayNames::requireEqualOccurrences(std::size_t source_index, const PointFile& points) const {
   const PointsSource& source = day_.points[source_index];
-  const bool posed = !source.pose.empty() || source.names.has("pose") || source.names.has("index");
+  const bool posed =
+      !source.pose.empty() || source.names.has("pose") || source.names.has("index") ||
+      (!points.points.empty() &&
+       (points.points.front().columns.contains("pose") || points.points.front().columns.contains("index")));
   if (posed || source.by == JoinBy::clock || source.role == Role::nests) return;
   using Name = std::tuple<std::string, std::string, std::string>;
   std::map<Name, const PointReading*> last;

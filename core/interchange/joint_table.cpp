@@ -142,6 +142,7 @@ RobotLog readJointColumns(const LogText& text) {
     sample.line = row.line;
     sample.name = table.text(row, table.has("pose") ? "pose" : table.has("index") ? "index" : "name");
     sample.step = table.text(row, "step");
+    sample.axis = table.text(row, "axis");
     for (int j = 0; j < 6; ++j) sample.figures[j] = table.number(row, fmt::format("q{}", j + 1));
     if (const auto time = table.time(row)) sample.time_s = time->seconds;
     if (table.hasNumber("temperature")) sample.temperature_c = table.number(row, "temperature");

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -25,6 +26,7 @@ struct PointReading {
   Eigen::Vector3d point = Eigen::Vector3d::Zero();  ///< m, in the file's frame
   std::optional<Eigen::Vector3d> sigma;             ///< standard uncertainty of each coordinate, m
   std::optional<Timestamp> time;
+  std::map<std::string, std::string> columns;  ///< pose, step, repeat, axis, index, where a table has such columns
   std::size_t line = 0;
 };
 

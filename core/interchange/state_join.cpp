@@ -55,14 +55,15 @@ std::map<StateKey, std::size_t> samplesByName(const JoinTask& task) {
       return found == fields->end() ? std::string() : found->second;
     };
     const std::string step = field("step").empty() ? sample.step : field("step");
-    const std::string axis = field("axis");
+    const std::string axis = field("axis").empty() ? sample.axis : field("axis");
     const std::string pose = names.has("index") ? field("index") : field("pose");
     const StateKey key{axis.empty() ? -1 : wholeStep(task.file, sample.line, axis) - 1, pose,
                        wholeStep(task.file, sample.line, step)};
     const auto [first, added] = samples.emplace(key, i);
-    if (!added)
+    // A table with a row for each reflector states the joints again.
+    if (!added && sample.figures != task.log.samples[first->second].figures)
       throw io::InputError({task.file, sample.line, "pose"}, sample.name,
-                           fmt::format("expected one row of {}; line {} has it first", shownKey(key),
+                           fmt::format("expected the same joints in all rows of {}; line {} has others", shownKey(key),
                                        task.log.samples[first->second].line));
   }
   return samples;

@@ -59,7 +59,7 @@ struct JoinTask {
 };
 
 /// The joints of every pose that readings name, by the names of the log's rows or targets. Throws InputError for a pose
-/// without joints, and for two rows of one pose.
+/// without joints, and for two rows of one pose with different joints.
 StateJoin joinByName(const JoinTask& task, const std::vector<DayReading>& readings);
 
 /// Poses in the order in which they were first read, and the log's targets, or the standstills of a log by time, in
