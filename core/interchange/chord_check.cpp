@@ -163,19 +163,23 @@ std::optional<double> chordMisfit(const robot::Robot& robot, const std::vector<c
   return misfitOf(places, scale);
 }
 
-std::optional<OtherMeaning> bestOtherMeaning(const robot::Robot& robot,
-                                             const std::vector<campaign::JointReading>& convention,
-                                             const std::vector<PlacedReading>& readings) {
-  std::optional<OtherMeaning> best;
+std::vector<OtherMeaning> otherMeanings(const robot::Robot& robot,
+                                        const std::vector<campaign::JointReading>& convention,
+                                        const std::vector<PlacedReading>& readings) {
+  std::vector<OtherMeaning> meanings;
   for (const Trial& trial : trialsOf(convention)) {
-    auto misfit = chordMisfit(robot, trial.convention, readings, trial.scale);
-    if (!misfit) continue;
-    // Of points too long by a factor the misfit would be too.
-    if (best && best->misfit <= *misfit) continue;
-    best = trial.meaning;
-    best->misfit = *misfit;
+    const auto misfit = chordMisfit(robot, trial.convention, readings, trial.scale);
+    if (!misfit) return {};
+    meanings.push_back(trial.meaning);
+    meanings.back().misfit = *misfit;
   }
-  return best;
+  std::stable_sort(meanings.begin(), meanings.end(),
+                   [](const OtherMeaning& a, const OtherMeaning& b) { return a.misfit < b.misfit; });
+  // What is a micrometre off is right, whatever the fit of the reflector leaves.
+  constexpr double kAsWell = 2.0, kRight = 1e-6;
+  const double most = std::max(kAsWell * meanings.front().misfit, kRight);
+  std::erase_if(meanings, [most](const OtherMeaning& one) { return one.misfit > most; });
+  return meanings;
 }
 
 }  // namespace stiffscope::interchange

@@ -85,18 +85,23 @@ char separatorOf(const FileText& text, const std::vector<TextLine>& lines, std::
   if (named == "blank") return kBlanks;
   if (named.size() == 1) return named[0];
   if (!named.empty()) throw io::InputError({"separator"}, named, "expected one character, tab or blank");
-  std::vector<char> fitting;
+  // A torn row among the first must not choose another separator.
+  char best = ',';
+  std::ptrdiff_t most = 0;
   for (const char one : {';', '\t', ',', kBlanks}) {
     if (one == ',' && text.options.decimal_comma) continue;
     const auto count = [one](const TextLine& line) {
       return one == kBlanks ? cellsBetweenBlanks(line.text, 1).size() : cellsBetween(line.text, one).size();
     };
-    const bool fits = std::all_of(lines.begin(), lines.end(), [&](const TextLine& line) {
+    const auto fitting = std::count_if(lines.begin(), lines.end(), [&](const TextLine& line) {
       return columns == 0 ? count(line) > 1 : count(line) >= columns && (one != kBlanks || count(line) == columns);
     });
-    if (fits) fitting.push_back(one);
+    if (fitting > most) {
+      best = one;
+      most = fitting;
+    }
   }
-  return fitting.empty() ? ',' : fitting.front();
+  return best;
 }
 
 }  // namespace

@@ -58,7 +58,7 @@ class ColumnTable {
   void addRow(const TextLine& line);
   std::vector<std::string_view> cellsOf(std::string_view line) const;
 
-  const FileText& text_;
+  const FileText text_;
   char separator_ = ',';
   std::size_t columns_ = 0;
   std::map<std::string, std::size_t> places_;    ///< of columns of names, and all by their full name

@@ -1,6 +1,7 @@
 #include "core/interchange/state_join.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <algorithm>
 #include <map>
 #include <tuple>
@@ -144,29 +145,41 @@ std::vector<PlacedReading> placedReadings(const std::vector<JoinedState>& states
   return placed;
 }
 
+namespace {
+
+/// What would have to be written in DAY.xml.
+std::string shownMeaning(const OtherMeaning& meaning) {
+  using Kind = OtherMeaning::Kind;
+  const int joint = meaning.joint + 1;
+  switch (meaning.kind) {
+    case Kind::unit:
+      return fmt::format("points times {:g}", meaning.value);
+    case Kind::sign:
+      return fmt::format("joint_reading joint=\"{}\" sign=\"{:g}\"", joint, meaning.value);
+    case Kind::offset:
+      return fmt::format("joint_reading joint=\"{}\" offset_deg=\"{:g}\"", joint, meaning.value / io::kDegree);
+    case Kind::coupling:
+      break;
+  }
+  return meaning.plus < 0 ? fmt::format("joint_reading joint=\"{}\" without plus", joint)
+                          : fmt::format("joint_reading joint=\"{}\" plus=\"{}\"", joint, meaning.plus + 1);
+}
+
+}  // namespace
+
 void requireMeaning(const JoinTask& task, const std::vector<PlacedReading>& placed, double misfit) {
   // Arms differ from their nominal geometry, and bend, by a few millimetres; a wrong sign makes decimetres.
   constexpr double kMisfit = 0.01, kClearly = 4.0;
   if (misfit < kMisfit) return;
-  const auto other = bestOtherMeaning(task.robot, task.day.xml.campaign.joint_readings, placed);
-  if (!other || other->misfit * kClearly > misfit) return;
-  using Kind = OtherMeaning::Kind;
-  std::string meaning;
-  if (other->kind == Kind::unit) meaning = fmt::format("points times {:g}", other->value);
-  if (other->kind == Kind::sign)
-    meaning = fmt::format("joint_reading joint=\"{}\" sign=\"{:g}\"", other->joint + 1, other->value);
-  if (other->kind == Kind::offset)
-    meaning =
-        fmt::format("joint_reading joint=\"{}\" offset_deg=\"{:g}\"", other->joint + 1, other->value / io::kDegree);
-  if (other->kind == Kind::coupling)
-    meaning = other->plus < 0
-                  ? fmt::format("joint_reading joint=\"{}\" without plus", other->joint + 1)
-                  : fmt::format("joint_reading joint=\"{}\" plus=\"{}\"", other->joint + 1, other->plus + 1);
+  const auto others = otherMeanings(task.robot, task.day.xml.campaign.joint_readings, placed);
+  if (others.empty() || others.front().misfit * kClearly > misfit) return;
+  std::vector<std::string> shown;
+  for (const OtherMeaning& other : others) shown.push_back(shownMeaning(other));
   throw io::InputError(
       {task.day.file, task.source.line, "log"}, task.source.file,
       fmt::format("expected joints that move the reflectors as they were read; distances between their places are "
                   "off by {:.1f} mm, with {} by {:.1f} mm",
-                  misfit * 1e3, meaning, other->misfit * 1e3));
+                  misfit * 1e3, fmt::join(shown, " or "), others.front().misfit * 1e3));
 }
 
 namespace {
@@ -306,7 +319,10 @@ ClockOffset chosenOffset(const JoinTask& task, const std::vector<DayReading>& re
     return offsets.front();
   }
   if (fits.size() < 2)
-    refuse(fmt::format("{} and {} serve alike: state it (offset_s)", shownOffset(offsets[0]), shownOffset(offsets[1])));
+    refuse(fmt::format("{} puts {} of {} readings into standstills, {} {}, and too few postures are there to tell by "
+                       "distances: state it (offset_s)",
+                       shownOffset(offsets[0]), offsets[0].inside, readings.size(), shownOffset(offsets[1]),
+                       offsets[1].inside));
   constexpr double kClearly = 2.0;
   if (fits[1].first < kClearly * fits[0].first) {
     const ClockJoin join = joinedAt(task, readings, standstills, offsets.front().offset_s);
