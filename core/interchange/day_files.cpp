@@ -55,8 +55,7 @@ class DayReader {
     const io::TextFile bytes = bytesOf(urdf.name, urdf.line, "urdf");
     const campaign::Campaign& campaign = day_.xml.campaign;
     result_.urdf = day_.folder / urdf.name;
-    result_.robot =
-        robot::parseUrdf(bytes.text(), day_.pathOf(urdf.name), campaign.base_link, campaign.flange_link);
+    result_.robot = robot::parseUrdf(bytes.text(), day_.pathOf(urdf.name), campaign.base_link, campaign.flange_link);
   }
 
   void readPoints(const PointsSource& source) {

@@ -74,10 +74,9 @@ std::string DayNames::nestOf(const PointsSource& source, const PointReading& poi
 
 void DayNames::requireEqualOccurrences(std::size_t source_index, const PointFile& points) const {
   const PointsSource& source = day_.points[source_index];
-  const bool posed =
-      !source.pose.empty() || source.names.has("pose") || source.names.has("index") ||
-      (!points.points.empty() &&
-       (points.points.front().columns.contains("pose") || points.points.front().columns.contains("index")));
+  const bool posed = !source.pose.empty() || source.names.has("pose") || source.names.has("index") ||
+                     (!points.points.empty() && (points.points.front().columns.contains("pose") ||
+                                                 points.points.front().columns.contains("index")));
   if (posed || source.by == JoinBy::clock || source.role == Role::nests) return;
   using Name = std::tuple<std::string, std::string, std::string>;
   std::map<Name, const PointReading*> last;

@@ -105,7 +105,8 @@ class DayImport {
     }
     for (const auto& [by, log] : joins) {
       const std::vector<DayReading> readings = readingsOf(role, by, log);
-      const JoinTask task{day_, result_.campaign.robot, day_.logs[log], files_.logs[log].content, day_.pathOf(day_.logs[log].file)};
+      const JoinTask task{day_, result_.campaign.robot, day_.logs[log], files_.logs[log].content,
+                          day_.pathOf(day_.logs[log].file)};
       const StateJoin join = by == JoinBy::name    ? joinByName(task, readings)
                              : by == JoinBy::order ? joinByOrder(task, readings)
                                                    : joinByClock(task, readings);
@@ -134,7 +135,8 @@ class DayImport {
       result_.warnings.push_back(io::inputMessage(
           {day_.file, task.source.line, "log"}, task.source.file,
           fmt::format("distances between the reflectors' places are off by {:.1f} mm from the nominal arm's, and no "
-                      "other sign, offset, coupling or unit explains it: do readings and joints belong together, is it this robot?",
+                      "other sign, offset, coupling or unit explains it: do readings and joints belong together, is it "
+                      "this robot?",
                       *misfit * 1e3)));
   }
 
@@ -154,7 +156,8 @@ class DayImport {
   }
 
   void addOrigin(Role role, const DayReading& reading) {
-    result_.rows[nameOf(role)].push_back({files_.points[reading.source].file, reading.point->line, reading.point->line});
+    result_.rows[nameOf(role)].push_back(
+        {files_.points[reading.source].file, reading.point->line, reading.point->line});
   }
 
   void addRows(Role role, std::size_t log, const StateJoin& join, const std::vector<DayReading>& readings) {
@@ -197,14 +200,16 @@ class DayImport {
     if (!files_.loads.empty()) {
       const auto load = files_.loads.find({state.pose, state.step});
       if (load == files_.loads.end())
-        throw io::InputError({day_.pathOf(day_.loads.front().file), 0, "pose"}, fmt::format("{}, {}", state.pose, state.step),
+        throw io::InputError({day_.pathOf(day_.loads.front().file), 0, "pose"},
+                             fmt::format("{}, {}", state.pose, state.step),
                              "expected a load of every pose and step that was read");
       row.wrench_in_cell = load->second.wrench;
       used_loads_.insert(load->first);
       result_.wrenches.push_back({load->second.file, load->second.line, load->second.line});
     }
     table->rows.push_back(row);
-    result_.rows["states"].push_back({files_.logs[log].file, sample.line, files_.logs[log].content.samples[state.last].line});
+    result_.rows["states"].push_back(
+        {files_.logs[log].file, sample.line, files_.logs[log].content.samples[state.last].line});
   }
 
   void addLoading(const JoinedState& state, const DayReading& reading, int count) {
@@ -270,7 +275,8 @@ class DayImport {
           continue;
         }
         if (!point.time)
-          throw io::InputError({day_.pathOf(source.file), point.line, "time"}, "", "expected a time of a reading of a nest");
+          throw io::InputError({day_.pathOf(source.file), point.line, "time"}, "",
+                               "expected a time of a reading of a nest");
         used_.insert(placeOf(files_.points[s].file, point.line));
         const auto [nest, added] = nests.emplace(name, static_cast<int>(result_.campaign.nest_ids.size()));
         if (added) result_.campaign.nest_ids.push_back(name);
@@ -337,8 +343,8 @@ class DayImport {
   DayFiles files_;
   std::map<std::string, int> poses_;
   std::map<std::string, std::size_t> keys_;
-  std::vector<std::set<std::size_t>> used_samples_;                          ///< by log, the first of each state
-  std::vector<std::set<std::pair<std::size_t, std::size_t>>> stretches_;     ///< by log, what could be joined
+  std::vector<std::set<std::size_t>> used_samples_;                       ///< by log, the first of each state
+  std::vector<std::set<std::pair<std::size_t, std::size_t>>> stretches_;  ///< by log, what could be joined
   std::set<std::pair<std::string, int>> used_loads_;
   std::vector<std::pair<std::size_t, SkippedRow>> skipped_;
   std::set<std::pair<std::string, std::size_t>> used_;  ///< file and line

@@ -334,8 +334,8 @@ std::size_t namesOf(const FileText& text, const std::vector<SaRow>& rows, const 
   return possible.front();
 }
 
-/// Metres in the unit of the axes. A unit that the comments name elsewhere, or another than the user's, is no unit to be
-/// taken for granted.
+/// Metres in the unit of the axes. A unit that the comments name elsewhere, or another than the user's, is no unit to
+/// be taken for granted.
 double saUnitOf(const FileText& text, const SaHeader& header, std::vector<std::string>& warnings) {
   const std::string& stated = text.options.unit;
   if (!header.unit) {

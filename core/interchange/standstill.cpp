@@ -125,9 +125,9 @@ std::vector<OffsetRange> countedOffsets(const std::vector<TimeGroup>& groups,
                                         const OffsetRange& window) {
   std::vector<CountChange> changes;
   for (const TimeGroup& group : groups) {
-    auto still = std::lower_bound(
-        standstills.begin(), standstills.end(), group.seconds + window.from,
-        [resolution](const Standstill& one, double time) { return one.to_s + resolution < time; });
+    auto still =
+        std::lower_bound(standstills.begin(), standstills.end(), group.seconds + window.from,
+                         [resolution](const Standstill& one, double time) { return one.to_s + resolution < time; });
     for (; still != standstills.end() && still->from_s - resolution <= group.seconds + window.to; ++still) {
       const auto count = static_cast<std::ptrdiff_t>(group.count);
       changes.push_back({std::max(still->from_s - resolution - group.seconds, window.from), count});
@@ -151,9 +151,9 @@ std::vector<OffsetRange> countedOffsets(const std::vector<TimeGroup>& groups,
 std::size_t bestRange(const std::vector<OffsetRange>& ranges, const std::vector<bool>& taken) {
   std::size_t best = ranges.size();
   for (std::size_t i = 0; i < ranges.size(); ++i) {
-    const bool better =
-        best == ranges.size() || ranges[i].inside > ranges[best].inside ||
-        (ranges[i].inside == ranges[best].inside && ranges[i].to - ranges[i].from > ranges[best].to - ranges[best].from);
+    const bool better = best == ranges.size() || ranges[i].inside > ranges[best].inside ||
+                        (ranges[i].inside == ranges[best].inside &&
+                         ranges[i].to - ranges[i].from > ranges[best].to - ranges[best].from);
     if (!taken[i] && better) best = i;
   }
   return best;

@@ -96,8 +96,8 @@ StateJoin joinByName(const JoinTask& task, const std::vector<DayReading>& readin
     }
     if (found == samples.end()) {
       const DayReading& reading = readings[state.readings.front()];
-      throw io::InputError({task.day.pathOf(task.day.points[reading.source].file), reading.point->line, "pose"}, state.pose,
-                           fmt::format("expected a pose that {} has joints for", task.file));
+      throw io::InputError({task.day.pathOf(task.day.points[reading.source].file), reading.point->line, "pose"},
+                           state.pose, fmt::format("expected a pose that {} has joints for", task.file));
     }
     setJoints(state, task.log, found->second, found->second);
   }
@@ -269,7 +269,8 @@ void requireOnePlaceAPose(const JoinTask& task, const std::vector<DayReading>& r
     const auto [first, added] = seen.emplace(StateKey{state.axis, state.pose, state.step}, &state);
     if (added) continue;
     const DayReading& reading = readings[state.readings.front()];
-    throw io::InputError({task.day.pathOf(task.day.points[reading.source].file), reading.point->line, "pose"}, state.pose,
+    throw io::InputError({task.day.pathOf(task.day.points[reading.source].file), reading.point->line, "pose"},
+                         state.pose,
                          fmt::format("expected the readings of a pose in one standstill; line {} is of another",
                                      readings[first->second->readings.front()].point->line));
   }
@@ -319,10 +320,10 @@ ClockOffset chosenOffset(const JoinTask& task, const std::vector<DayReading>& re
     return offsets.front();
   }
   if (fits.size() < 2)
-    refuse(fmt::format("{} puts {} of {} readings into standstills, {} {}, and too few postures are there to tell by "
-                       "distances: state it (offset_s)",
-                       shownOffset(offsets[0]), offsets[0].inside, readings.size(), shownOffset(offsets[1]),
-                       offsets[1].inside));
+    refuse(fmt::format(
+        "{} puts {} of {} readings into standstills, {} {}, and too few postures are there to tell by "
+        "distances: state it (offset_s)",
+        shownOffset(offsets[0]), offsets[0].inside, readings.size(), shownOffset(offsets[1]), offsets[1].inside));
   constexpr double kClearly = 2.0;
   if (fits[1].first < kClearly * fits[0].first) {
     const ClockJoin join = joinedAt(task, readings, standstills, offsets.front().offset_s);
@@ -341,6 +342,26 @@ std::size_t insideBy(const std::vector<ReadingTime>& times, const std::vector<St
   return static_cast<std::size_t>(std::count_if(times.begin(), times.end(), [&](const ReadingTime& time) {
     return standstillAt(standstills, time.seconds + offset, time.resolution) != kNowhere;
   }));
+}
+
+/// Offsets without those by which clearly more readings were taken in motion than by the first. Nobody reads a moving
+/// reflector often; readings before or behind the log contradict nothing.
+std::vector<ClockOffset> notInMotion(const JoinTask& task, const std::vector<ReadingTime>& times,
+                                     const std::vector<Standstill>& standstills, std::vector<ClockOffset> offsets) {
+  if (offsets.empty()) return offsets;
+  constexpr double kShare = 0.02;
+  constexpr std::size_t kFew = 3;
+  const double begin = *task.log.samples.front().time_s, end = *task.log.samples.back().time_s;
+  const auto inMotion = [&](const ClockOffset& offset) {
+    return static_cast<std::size_t>(std::count_if(times.begin(), times.end(), [&](const ReadingTime& time) {
+      const double at = time.seconds + offset.offset_s;
+      return at >= begin && at <= end && standstillAt(standstills, at, time.resolution) == kNowhere;
+    }));
+  };
+  const std::size_t allowed =
+      inMotion(offsets.front()) + std::max(kFew, static_cast<std::size_t>(kShare * static_cast<double>(times.size())));
+  std::erase_if(offsets, [&](const ClockOffset& offset) { return inMotion(offset) > allowed; });
+  return offsets;
 }
 
 /// An offset that was stated must put nearly as many readings into standstills as the best does.
@@ -365,7 +386,8 @@ StateJoin joinByClock(const JoinTask& task, const std::vector<DayReading>& readi
   const std::vector<ReadingTime> times = timesOf(task, readings);
   const std::vector<Standstill> standstills = standstillsOf(task.log.samples, task.day.clock.standstill);
   constexpr double kShare = 0.8;
-  const std::vector<ClockOffset> offsets = possibleOffsets(times, standstills, kShare);
+  const std::vector<ClockOffset> offsets =
+      notInMotion(task, times, standstills, possibleOffsets(times, standstills, kShare));
   ClockReport report;
   report.log = task.source.file;
   report.readings = readings.size();

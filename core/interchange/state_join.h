@@ -67,7 +67,8 @@ StateJoin joinByName(const JoinTask& task, const std::vector<DayReading>& readin
 StateJoin joinByOrder(const JoinTask& task, const std::vector<DayReading>& readings);
 
 /// Readings by the standstill that they fall into, with the offset of the clocks that puts most of them into one. Where
-/// several offsets put nearly as many there, distances between the reflectors' places decide (chord_check.h). Throws
+/// several offsets put nearly as many there, and leave hardly more in motion, distances between the reflectors' places
+/// decide (chord_check.h). Throws
 /// InputError where a time is missing, no offset serves, several do alike, or the one stated does not.
 StateJoin joinByClock(const JoinTask& task, const std::vector<DayReading>& readings);
 

@@ -99,7 +99,8 @@ TEST(DayDescription, RefusesWithLineAttributeAndValue) {
   expectSays(refusal(kJoin + "<points role=\"loading\" file=\"a\" step=\"two\"/>"), {"step", "'two'"});
   expectSays(refusal(kJoin + "<points role=\"loading\" file=\"a\" skip=\"-1\"/>"), {"skip", "'-1'"});
   expectSays(refusal(kJoin + "<points role=\"loading\" file=\"a\" unit=\"ell\"/>"), {"unit", "'ell'"});
-  expectSays(refusal(kJoin + "<points role=\"loading\" file=\"a\" decimal_comma=\"1\"/>"), {"decimal_comma", "yes or no"});
+  expectSays(refusal(kJoin + "<points role=\"loading\" file=\"a\" decimal_comma=\"1\"/>"),
+             {"decimal_comma", "yes or no"});
   expectSays(refusal(kJoin + kPoints + "<log file=\"b\" rate_hz=\"0\"/>"), {"rate_hz", "'0'"});
   expectSays(refusal("<join by=\"clock\" still_deg=\"90\"/>" + kPoints), {"still_deg", "'90'"});
   expectSays(refusal(kJoin + kPoints + "<target_name from=\"1\" to=\"P10\"/><target_name from=\"1\" to=\"P11\"/>"),

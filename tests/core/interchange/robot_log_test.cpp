@@ -58,13 +58,13 @@ TEST(KarelLog, RefusesTornRowsWrongNumbersAndTimesThatRunBack) {
 TEST(UrLog, RadiansByNameAndRate) {
   LogOptions rate;
   rate.rate_hz = 125.0;
-  const RobotLog log = read(
-      "Joint0 Joint1 Joint2 Joint3 Joint4 Joint5\n0.1 -0.2 0.3 0.4 0.5 0.6\n0.1 -0.2 0.3 0.4 0.5 0.7\n", rate);
+  const RobotLog log =
+      read("Joint0 Joint1 Joint2 Joint3 Joint4 Joint5\n0.1 -0.2 0.3 0.4 0.5 0.6\n0.1 -0.2 0.3 0.4 0.5 0.7\n", rate);
   EXPECT_EQ(log.format, LogFormat::ur);
   EXPECT_DOUBLE_EQ(log.samples[1].figures[5], 0.7);
   EXPECT_DOUBLE_EQ(*log.samples[1].time_s, 0.008);
-  const RobotLog named = read(
-      "timestamp,actual_q_5,actual_q_4,actual_q_3,actual_q_2,actual_q_1,actual_q_0\n12.5,6,5,4,3,2,1\n");
+  const RobotLog named =
+      read("timestamp,actual_q_5,actual_q_4,actual_q_3,actual_q_2,actual_q_1,actual_q_0\n12.5,6,5,4,3,2,1\n");
   EXPECT_DOUBLE_EQ(named.samples[0].figures[0], 1.0);
   EXPECT_DOUBLE_EQ(*named.samples[0].time_s, 12.5);
 }
@@ -157,7 +157,8 @@ TEST(Rapid, JointtargetsOfModulesAndRokae) {
       "MODULE Work\n! CONST jointtarget j9:=[[9,9,9,9,9,9],[9E9,9E9,9E9,9E9,9E9,9E9]];\n"
       "  CONST jointtarget j1:=[[10,-20.5,30,40,50,60],[9E9,9E9,9E9,9E9,9E9,9E9]];\n"
       "  CONST robtarget p1:=[[1,2,3],[1,0,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];\n"
-      "  jointtarget j2 := [ [1, 2, 3,\n 4, 5, 6], [0,0,0,0,0,0] ];\n  PROC move(jointtarget at)\n  ENDPROC\nENDMODULE\n");
+      "  jointtarget j2 := [ [1, 2, 3,\n 4, 5, 6], [0,0,0,0,0,0] ];\n  PROC move(jointtarget at)\n  "
+      "ENDPROC\nENDMODULE\n");
   EXPECT_EQ(log.format, LogFormat::rapid);
   ASSERT_EQ(log.samples.size(), 2u);
   EXPECT_EQ(log.samples[0].name, "j1");
@@ -180,8 +181,7 @@ TEST(RobotLog, RefusesWhatIsNone) {
 
 TEST(RobotLog, AProgramOfAHundredThousandTargetsIsRead) {
   std::string text = "DEFDAT X\n";
-  for (int i = 0; i < 100'000; ++i)
-    text += "DECL AXIS X" + std::to_string(i) + "={A1 1,A2 2,A3 3,A4 4,A5 5,A6 6}\n";
+  for (int i = 0; i < 100'000; ++i) text += "DECL AXIS X" + std::to_string(i) + "={A1 1,A2 2,A3 3,A4 4,A5 5,A6 6}\n";
   const RobotLog log = read(text);
   ASSERT_EQ(log.samples.size(), 100'000u);
   EXPECT_EQ(log.samples.back().line, 100'001u);
