@@ -126,14 +126,8 @@ StateJoin joinByOrder(const JoinTask& task, const std::vector<DayReading>& readi
 
 std::vector<PlacedReading> placedReadings(const std::vector<JoinedState>& states,
                                           const std::vector<DayReading>& readings) {
-  std::map<std::pair<int, std::string>, int> lowest;
-  for (const JoinedState& state : states) {
-    const auto [place, added] = lowest.emplace(std::pair(state.axis, state.pose), state.step);
-    if (!added) place->second = std::min(place->second, state.step);
-  }
   std::vector<PlacedReading> placed;
   for (const JoinedState& state : states) {
-    if (lowest.at({state.axis, state.pose}) != state.step) continue;
     std::vector<int> seen;
     for (const std::size_t i : state.readings) {
       const DayReading& reading = readings[i];

@@ -72,7 +72,8 @@ StateJoin joinByOrder(const JoinTask& task, const std::vector<DayReading>& readi
 /// InputError where a time is missing, no offset serves, several do alike, or the one stated does not.
 StateJoin joinByClock(const JoinTask& task, const std::vector<DayReading>& readings);
 
-/// One reading of each reflector and state, for the check of distances: of the lowest step of each pose.
+/// One reading of each reflector and state, for the check of distances. Loads move reflectors by millimetres; readings
+/// of another pose are off by decimetres, and often it is those of the last step.
 std::vector<PlacedReading> placedReadings(const std::vector<JoinedState>& states,
                                           const std::vector<DayReading>& readings);
 
