@@ -57,16 +57,15 @@ std::optional<double> timeUnit(const std::string& name, LogFormat format) {
 }
 
 JointHeader jointHeaderOf(const LogText& text, LogFormat format) {
-  const std::vector<TextLine> lines = linesOf(text.text);
-  for (std::size_t i = text.options.table.skip; i < lines.size(); ++i) {
-    if (trimmed(lines[i].text).empty()) continue;
+  for (const TextLine& line : linesOf(text.text)) {
+    if (line.number <= text.options.table.skip || trimmed(line.text).empty()) continue;
     for (const char separator : {';', ',', '\t', ' '}) {
       if (format == LogFormat::fanuc_karel && separator != ';') continue;
       JointHeader header;
-      header.line = lines[i].number;
+      header.line = line.number;
       header.separator = separator;
       std::vector<std::string> cells;
-      for (const std::string_view cell : logCells(lines[i].text, separator)) cells.push_back(lowered(cell));
+      for (const std::string_view cell : logCells(line.text, separator)) cells.push_back(lowered(cell));
       header.cells = cells.size();
       for (std::size_t k = 0; k < cells.size() && !header.time; ++k) {
         const auto unit = timeUnit(cells[k], format);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "core/interchange/length_unit.h"
@@ -201,11 +202,12 @@ void cutTime(std::vector<std::string_view>& cells, std::optional<Timestamp>& tim
   }
 }
 
-std::vector<TextLine> rowLines(const FileText& text) {
+std::vector<TextLine> rowLines(const FileText& text, std::size_t most = std::numeric_limits<std::size_t>::max()) {
   std::vector<TextLine> rows;
   for (const TextLine& line : linesOf(text.text)) {
     const std::string_view content = trimmed(line.text);
     if (line.number <= text.options.skip || content.empty() || content.starts_with(kComment)) continue;
+    if (rows.size() == most) break;
     rows.push_back({content, line.number, line.ended});
   }
   return rows;
@@ -393,15 +395,13 @@ PointReading saPointOf(const SaRow& row, std::size_t names, double unit, double 
 }  // namespace
 
 SaLikeness looksLikeSpatialAnalyzer(const FileText& text) {
-  const std::vector<TextLine> lines = rowLines(text);
-  if (lines.empty()) return SaLikeness::none;
-  const std::string_view start = trimmed(text.text.substr(0, text.text.find_first_of("\r\n")));
-  if (start.starts_with(kComment)) return SaLikeness::certain;
   // By the first rows: what is wrong further down is wrong in this format.
   constexpr std::size_t kLook = 20;
-  std::vector<TextLine> first(lines.begin(),
-                              lines.begin() + static_cast<std::ptrdiff_t>(std::min(kLook, lines.size())));
-  if (first.size() == lines.size() && first.size() > 1 && !first.back().ended) first.pop_back();
+  std::vector<TextLine> first = rowLines(text, kLook);
+  if (first.empty()) return SaLikeness::none;
+  const std::string_view start = trimmed(text.text.substr(0, text.text.find_first_of("\r\n")));
+  if (start.starts_with(kComment)) return SaLikeness::certain;
+  if (first.size() > 1 && !first.back().ended) first.pop_back();
   const std::vector<SaRow> rows = saRowsOf(first, separatorOf(text, first));
   const std::vector<std::size_t> possible = possibleNames(rows, text.decimalSign()).counts;
   if (possible.empty() || first.front().text.find(';') != std::string_view::npos) return SaLikeness::none;
