@@ -98,10 +98,12 @@ TEST_F(ImportCommand, ALoadedDayGivesItsOwnStiffness) {
   for (const char* name : {"robot.urdf", "circle_sweeps.csv", "wrist_sweep.csv"})
     fs::copy_file(kSamples / "active" / name, at("lab") / name);
   for (const char* name : {"circle_sweeps.csv", "wrist_sweep.csv"}) {
-    // By SpatialAnalyzer's clock, as all of the tracker's times.
+    // By SpatialAnalyzer's clock, as all of the tracker's times, and joint 3 against the horizontal, as in the log.
     PlainTable table(at("lab") / name);
-    for (std::size_t i = 0; i < table.size(); ++i)
+    for (std::size_t i = 0; i < table.size(); ++i) {
       table.at(i, "time_s") = WrittenDay::dateAndTime(table.number(i, "time_s"));
+      table.at(i, "q3_deg") = fmt::format("{:.5f}", table.number(i, "q3_deg") - table.number(i, "q2_deg"));
+    }
     table.write(at("lab") / name);
     std::string text = contentsOf(at("lab") / name);
     text.replace(text.find("time_s"), 6, "time");
@@ -116,7 +118,7 @@ TEST_F(ImportCommand, ALoadedDayGivesItsOwnStiffness) {
             kTracker + kTargets +
             "<load_cell parent=\"tool0\" xyz_mm=\"0 0 110\" rpy_deg=\"0 0 0\" force_sigma_n=\"1\" "
             "moment_sigma_nm=\"0.3\"/>"
-            "<tool mass_kg=\"60\" com_mm=\"0 0 90\"/>"
+            "<tool mass_kg=\"60\" com_mm=\"0 0 90\"/><joint_reading joint=\"3\" plus=\"2\"/>"
             "<points role=\"circle_sweeps\" file=\"circle_sweeps.csv\" by=\"name\"/>"
             "<log role=\"circle_sweeps\" file=\"circle_sweeps.csv\"/>"
             "<points role=\"wrist_sweep\" file=\"wrist_sweep.csv\" by=\"name\"/>"
@@ -124,9 +126,6 @@ TEST_F(ImportCommand, ALoadedDayGivesItsOwnStiffness) {
             "<points role=\"loading\" file=\"tracker.txt\" names=\"step{step}::{target}\"/>"
             "<points role=\"nests\" file=\"tracker.txt\" names=\"Floor::{nest}\"/>"
             "<log role=\"loading\" file=\"karel.csv\"/><loads file=\"loads.csv\"/><join by=\"clock\"/></day>");
-  // The sweeps' tables state the URDF's angles: so must the log here.
-  day.against_horizontal = false;
-  day.writeKarel(at("lab/karel.csv"));
   const Ran ran = run("import campaign" + quoted(at("lab/DAY.xml")) + "--out" + quoted(at("imported")));
   ASSERT_EQ(ran.status, 0) << ran.err;
   EXPECT_NE(ran.out.find("855 of 855 readings fall into its 19 standstills"), std::string::npos) << ran.out;
