@@ -119,19 +119,31 @@ struct OffsetRange {
   std::size_t inside = 0;
 };
 
-/// Ranges of offsets within `window` with one count of readings each, in ascending order.
+/// Standstills wider by the last digit of the readings' times at both ends, but never into each other: a reading is in
+/// one of them.
+std::vector<Standstill> widened(std::vector<Standstill> standstills, double resolution) {
+  const std::vector<Standstill> own = standstills;
+  for (std::size_t i = 0; i < own.size(); ++i) {
+    standstills[i].from_s -= resolution;
+    standstills[i].to_s += resolution;
+    if (i > 0) standstills[i].from_s = std::max(standstills[i].from_s, 0.5 * (own[i - 1].to_s + own[i].from_s));
+    if (i + 1 < own.size())
+      standstills[i].to_s = std::min(standstills[i].to_s, 0.5 * (own[i].to_s + own[i + 1].from_s));
+  }
+  return standstills;
+}
+
+/// Ranges of offsets within `window` with one count of readings each, in ascending order. Standstills are widened.
 std::vector<OffsetRange> countedOffsets(const std::vector<TimeGroup>& groups,
-                                        const std::vector<Standstill>& standstills, double resolution,
-                                        const OffsetRange& window) {
+                                        const std::vector<Standstill>& standstills, const OffsetRange& window) {
   std::vector<CountChange> changes;
   for (const TimeGroup& group : groups) {
-    auto still =
-        std::lower_bound(standstills.begin(), standstills.end(), group.seconds + window.from,
-                         [resolution](const Standstill& one, double time) { return one.to_s + resolution < time; });
-    for (; still != standstills.end() && still->from_s - resolution <= group.seconds + window.to; ++still) {
+    auto still = std::lower_bound(standstills.begin(), standstills.end(), group.seconds + window.from,
+                                  [](const Standstill& one, double time) { return one.to_s < time; });
+    for (; still != standstills.end() && still->from_s <= group.seconds + window.to; ++still) {
       const auto count = static_cast<std::ptrdiff_t>(group.count);
-      changes.push_back({std::max(still->from_s - resolution - group.seconds, window.from), count});
-      changes.push_back({std::min(still->to_s + resolution - group.seconds, window.to), -count});
+      changes.push_back({std::max(still->from_s - group.seconds, window.from), count});
+      changes.push_back({std::min(still->to_s - group.seconds, window.to), -count});
     }
   }
   std::sort(changes.begin(), changes.end(), [](const CountChange& a, const CountChange& b) {
@@ -173,8 +185,8 @@ OffsetRange plateauAt(const std::vector<OffsetRange>& ranges, std::size_t best, 
 
 /// All readings bound an offset that some of them showed.
 OffsetRange boundedByAll(const OffsetRange& shown, const std::vector<TimeGroup>& groups,
-                         const std::vector<Standstill>& standstills, double resolution) {
-  const std::vector<OffsetRange> ranges = countedOffsets(groups, standstills, resolution, shown);
+                         const std::vector<Standstill>& standstills) {
+  const std::vector<OffsetRange> ranges = countedOffsets(groups, standstills, shown);
   std::size_t first = bestRange(ranges, std::vector<bool>(ranges.size())), last = first;
   return plateauAt(ranges, first, first, last);
 }
@@ -222,9 +234,10 @@ std::vector<ClockOffset> possibleOffsets(const std::vector<ReadingTime>& reading
   if (readings.empty() || standstills.empty()) return offsets;
   double resolution = 0.0;
   for (const ReadingTime& reading : readings) resolution = std::max(resolution, reading.resolution);
+  const std::vector<Standstill> wide = widened(standstills, resolution);
   const std::vector<TimeGroup> groups = groupsOf(readings), some = someOf(groups, standstills.size());
   constexpr double kEver = std::numeric_limits<double>::infinity();
-  const std::vector<OffsetRange> ranges = countedOffsets(some, standstills, resolution, {-kEver, kEver, 0});
+  const std::vector<OffsetRange> ranges = countedOffsets(some, wide, {-kEver, kEver, 0});
   std::vector<bool> taken(ranges.size());
   constexpr std::size_t kMostOffsets = 20;
   std::size_t most = 0;
@@ -234,7 +247,7 @@ std::vector<ClockOffset> possibleOffsets(const std::vector<ReadingTime>& reading
     std::size_t first = best, last = best;
     OffsetRange plateau = plateauAt(ranges, best, first, last);
     most = std::max(most, plateau.inside);
-    if (some.size() < groups.size()) plateau = boundedByAll(plateau, groups, standstills, resolution);
+    if (some.size() < groups.size()) plateau = boundedByAll(plateau, groups, wide);
     offsets.push_back({0.5 * (plateau.from + plateau.to), 0.5 * (plateau.to - plateau.from), plateau.inside});
     // Its slopes are no offsets of their own.
     const auto fallsFrom = [&](std::size_t one, std::size_t next) { return ranges[next].inside <= ranges[one].inside; };

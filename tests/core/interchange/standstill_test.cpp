@@ -133,6 +133,14 @@ TEST(ClockOffset, TwentyThousandReadingsAreAllHeard) {
   EXPECT_GE(offsets[0].inside, 23'880u);  // all but half a per cent
 }
 
+TEST(ClockOffset, BetweenTwoStandstillsAReadingCountsOnce) {
+  // Half a second lies between them, and times have whole seconds.
+  const std::vector<Standstill> stills{{0, 0, 0.0, 10.0}, {0, 0, 10.5, 20.0}, {0, 0, 20.5, 31.0}};
+  std::vector<ReadingTime> readings;
+  for (int i = 0; i < 31; ++i) readings.push_back({static_cast<double>(i), 1.0});
+  for (const ClockOffset& offset : possibleOffsets(readings, stills, 0.1)) EXPECT_LE(offset.inside, readings.size());
+}
+
 TEST(ClockOffset, NothingGivesNone) {
   const TwoClocks clocks(0.0, 3, 2, 1);
   EXPECT_TRUE(possibleOffsets({}, clocks.stills, 0.8).empty());

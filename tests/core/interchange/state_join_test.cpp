@@ -81,9 +81,9 @@ TEST_F(StateJoins, StepsThatShareAStandstillHaveTheSamplesOfTheirOwnReadings) {
   for (int i = 0; i < 30; ++i) addSamples(11.0 + i, 1);
   addSamples(50.0, 100);
   day_.clock.offset_s = 0.0;
-  for (const double time : {4.0, 6.0}) addReading("", 0, time);
-  for (const double time : {14.0, 16.0}) addReading("", 1, time);
-  addReading("", 0, 28.0);
+  for (const double time : {4.0, 5.0, 6.0}) addReading("", 0, time);
+  for (const double time : {14.0, 15.0, 16.0}) addReading("", 1, time);
+  for (const double time : {26.0, 27.0, 28.0, 29.0}) addReading("", 0, time);
   addReading("", 0, 21.5);  // in motion
   const StateJoin join = joinByClock(task(), readings());
   ASSERT_EQ(join.states.size(), 3u);
@@ -94,7 +94,7 @@ TEST_F(StateJoins, StepsThatShareAStandstillHaveTheSamplesOfTheirOwnReadings) {
   EXPECT_EQ(join.states[1].step, 1);
   EXPECT_EQ(join.states[2].pose, "2");
   ASSERT_EQ(join.left_out.size(), 1u);
-  EXPECT_EQ(join.left_out[0], (std::pair<std::size_t, Skip>(5, Skip::in_motion)));
+  EXPECT_EQ(join.left_out[0], (std::pair<std::size_t, Skip>(10, Skip::in_motion)));
 }
 
 TEST_F(StateJoins, APoseInTwoStandstillsIsRefusedWithBothLines) {
